@@ -1,0 +1,14 @@
+# `cmake --install` gives others a library: find_package(burr), target burr::burr
+include(CMakePackageConfigHelpers)
+install(TARGETS burr EXPORT burrTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+if(TARGET burr_program)
+  set_target_properties(burr_program PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+  install(TARGETS burr_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/burr DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(EXPORT burrTargets NAMESPACE burr:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/burr)
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/burrConfig.cmake.in ${CMAKE_BINARY_DIR}/burrConfig.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/burr)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/burrConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/burrConfig.cmake ${CMAKE_BINARY_DIR}/burrConfigVersion.cmake
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/burr)

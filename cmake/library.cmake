@@ -1,0 +1,38 @@
+# libburr: every room, one shared library.  A new .cpp in a room is found by itself.
+file(GLOB_RECURSE BURR_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/*.cpp)
+file(GLOB_RECURSE BURR_HEADERS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/*.h)
+
+add_library(burr SHARED ${BURR_SOURCES})
+add_library(burr::burr ALIAS burr)
+set_target_properties(burr PROPERTIES OUTPUT_NAME burr VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+target_include_directories(burr PUBLIC
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_compile_features(burr PUBLIC cxx_std_20)
+target_link_libraries(burr PUBLIC Eigen3::Eigen Threads::Threads)
+target_link_libraries(burr PRIVATE $<BUILD_INTERFACE:burr_options> fmt::fmt PkgConfig::ZSTD
+  PkgConfig::EPOXY PkgConfig::SDL2 PkgConfig::ASSIMP nlohmann_json::nlohmann_json spdlog::spdlog)
+target_compile_definitions(burr PRIVATE BURR_VERSION="${PROJECT_VERSION}" TOML_HEADER_ONLY=1)
+
+# Kernels exist once per instruction set, from one source, and are chosen at run time; the bits are the same.
+foreach(source ${BURR_SOURCES})
+  if(source MATCHES "_avx2\\.cpp$")
+    set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-mavx2;-O3")
+  elseif(source MATCHES "_avx512\\.cpp$")
+    set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS
+      "-mavx512f;-mavx512bw;-mavx512vl;-mavx512dq;-mprefer-vector-width=512;-O3")
+  elseif(source MATCHES "_scalar\\.cpp$")
+    set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-O3")
+  endif()
+endforeach()
+
+# formulas for bones: shared by the program, tests, benches and samples
+file(GLOB BURR_SCENES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenes/*.cpp)
+if(BURR_SCENES)
+  add_library(burr_scenes STATIC ${BURR_SCENES})
+  target_include_directories(burr_scenes PUBLIC ${PROJECT_SOURCE_DIR})
+  target_link_libraries(burr_scenes PUBLIC burr PRIVATE burr_options)
+else()
+  add_library(burr_scenes INTERFACE)
+  target_include_directories(burr_scenes INTERFACE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(burr_scenes INTERFACE burr)
+endif()

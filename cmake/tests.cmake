@@ -1,0 +1,36 @@
+# tests/<room>/x_test.cpp -> one test program per room
+find_package(GTest REQUIRED)
+include(GoogleTest)
+
+file(GLOB BURR_TEST_SUPPORT CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/support/*.cpp)
+add_library(burr_test_support STATIC ${BURR_TEST_SUPPORT})
+target_include_directories(burr_test_support PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
+target_link_libraries(burr_test_support PUBLIC burr burr_scenes GTest::gtest fmt::fmt ${CMAKE_DL_LIBS} PRIVATE burr_options)
+
+file(GLOB rooms CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/tests/*)
+foreach(room ${rooms})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${room}/*_test.cpp)
+  if(sources)
+    add_executable(test_${room} ${sources})
+    target_link_libraries(test_${room} PRIVATE burr_test_support burr_options GTest::gtest_main nlohmann_json::nlohmann_json
+      PkgConfig::ZSTD PkgConfig::EPOXY PkgConfig::SDL2)
+    target_compile_definitions(test_${room} PRIVATE
+      BURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" BURR_BUILD_DIR="${CMAKE_BINARY_DIR}" TOML_HEADER_ONLY=1)
+    gtest_discover_tests(test_${room} TEST_PREFIX ${room}. DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120
+      PROPERTIES TIMEOUT 900)
+  endif()
+endforeach()
+if(EXISTS ${PROJECT_SOURCE_DIR}/cmake/checks.cmake)
+  include(cmake/checks.cmake)
+endif()
+
+# bench/<room>/x_bench.cpp -> one Google Benchmark program each; never part of pass or fail
+find_package(benchmark QUIET)
+if(benchmark_FOUND)
+  file(GLOB_RECURSE benches CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/bench/*_bench.cpp)
+  foreach(bench ${benches})
+    get_filename_component(name ${bench} NAME_WE)
+    add_executable(${name} EXCLUDE_FROM_ALL ${bench})
+    target_link_libraries(${name} PRIVATE burr burr_scenes burr_options benchmark::benchmark fmt::fmt)
+  endforeach()
+endif()

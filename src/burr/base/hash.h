@@ -1,0 +1,27 @@
+// base/hash.h - a fast 64-bit hash for "are these the same bits", not for secrets.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace burr::base {
+
+// Mixes one word into a running hash (the finaliser of SplitMix64, Steele et al. 2014).
+// Allocation-free.
+constexpr std::uint64_t mix(std::uint64_t hash, std::uint64_t word) noexcept {
+  std::uint64_t z = hash + 0x9e3779b97f4a7c15ULL + word;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return z ^ (z >> 31);
+}
+inline std::uint64_t mix(std::uint64_t hash, double value) noexcept {
+  return mix(hash, std::bit_cast<std::uint64_t>(value));
+}
+inline std::uint64_t mix(std::uint64_t hash, std::span<const std::uint64_t> words) noexcept {
+  for (const std::uint64_t word : words) hash = mix(hash, word);
+  return hash;
+}
+
+}  // namespace burr::base

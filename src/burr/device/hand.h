@@ -1,0 +1,36 @@
+// device/hand.h - what a hand says and what it can bear: plain structs between devices and touch.
+//
+// Frame: world (LPS). Units: SI.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "burr/math/pose.h"
+
+namespace burr::device {
+
+// One reading of the hand. The tool's tip (centre of the burr head) is the origin of the tool
+// frame, its handle lies along +z.
+struct HandState {
+  math::Pose world_from_tool;
+  math::Vec3 velocity = math::Vec3::Zero();  // of the tip, as the device knows it [m/s]
+  double pedal = 0;                          // spindle command, 0..1 of the set speed
+  std::uint32_t buttons = 0;                 // bit i: button i is down
+  bool valid = true;                         // false: the device lost track; no force is sent
+};
+
+// What a device is and how much it may be asked for. All forces at the tip.
+struct DeviceSpec {
+  std::string name = "simulated hand";
+  double peak_force = 3.3;         // never exceeded                                             [N]
+  double continuous_force = 0.88;  // bearable for ever; the motors' heat budget starts here     [N]
+  double thermal_budget = 3.3 * 3.3 * 5;  // how long above that: integral of F^2 - F_cont^2 [N^2 s]
+  double max_stiffness = 1000;  // of a wall it can show without trembling                    [N/m]
+  double max_damping = 5;     // likewise                                                   [N s/m]
+  double native_rate = 1000;  // ticks per second it likes best                             [Hz]
+  double loss_timeout = 20e-3;  // no tick for this long: fade to zero. Real devices: 5e-3    [s]
+  bool simulated = true;
+};
+
+}  // namespace burr::device

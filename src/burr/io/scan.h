@@ -1,0 +1,39 @@
+// io/scan.h - what a file held, before it becomes bone: a grid of numbers in the world, in memory
+// as read.
+//
+// No patient name, id, date or path is kept: only what the geometry and the numbers need.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "burr/math/vec3.h"
+#include "burr/volume/tissue.h"
+
+namespace burr::io {
+
+// One label of a label map, as the file names it.
+struct Label {
+  int value = 0;
+  std::string name;
+  std::array<float, 3> colour = {0.8F, 0.8F, 0.8F};  // sRGB 0..1
+};
+
+struct Scan {
+  math::Ijk size = {0, 0, 0};
+  math::Vec3 spacing_mm = {1, 1, 1};          // may differ by axis
+  math::Mat3 axes = math::Mat3::Identity();   // columns: directions of i, j, k in LPS, unit;
+                                              // right-handed, rotation
+  math::Vec3 origin_mm = math::Vec3::Zero();  // centre of voxel (0,0,0), LPS
+  std::vector<float> values;  // (x fastest) HU, or whatever the file has; empty for a label map
+  std::vector<std::uint8_t> labels;  // (x fastest) value per voxel; empty for a grey scan
+  std::vector<Label> label_names;
+  bool hounsfield = false;  // values are HU
+  std::string format;       // "DICOM", "NRRD" ...
+  std::vector<std::string>
+      notices;  // what was found odd and what was done about it, one sentence each
+};
+
+}  // namespace burr::io

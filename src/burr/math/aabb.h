@@ -1,0 +1,26 @@
+// math/aabb.h - an axis-aligned box of real numbers, closed on both ends.
+#pragma once
+
+#include <limits>
+
+#include "burr/math/vec3.h"
+
+namespace burr::math {
+
+struct Aabb {
+  Vec3 lo = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 hi = Vec3::Constant(-std::numeric_limits<double>::infinity());
+
+  [[nodiscard]] bool empty() const { return !(lo.array() <= hi.array()).all(); }
+  void extend(const Vec3& p) {
+    lo = lo.cwiseMin(p);
+    hi = hi.cwiseMax(p);
+  }
+  [[nodiscard]] Aabb inflated(double by) const {
+    return {lo - Vec3::Constant(by), hi + Vec3::Constant(by)};
+  }
+  [[nodiscard]] Vec3 centre() const { return 0.5 * (lo + hi); }
+  [[nodiscard]] Vec3 extent() const { return hi - lo; }
+};
+
+}  // namespace burr::math

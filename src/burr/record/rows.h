@@ -1,0 +1,57 @@
+// record/rows.h - what a session writes down. Plain structs; the file holds fields with names
+// (record/schema.cpp), not these bytes.
+//
+// Frame: world (LPS). Units: SI.
+#pragma once
+
+#include <cstdint>
+
+#include "burr/device/hand.h"
+#include "burr/edit/ledger.h"
+#include "burr/haptics/contact.h"
+#include "burr/volume/bone.h"
+
+namespace burr::record {
+
+// One per tick: the inputs, the outcome, and a hash of both and of the ledger.
+struct TickRow {
+  std::uint64_t tick = 0;    // 0, 1, 2 ... of the session; time is tick / rate
+  device::HandState hand;    // as read
+  haptics::Contact contact;  // as felt
+  edit::Ledger ledger;       // as cut
+  double spindle_rad_s = 0;  // speed of the burr now
+  float took_us = 0;         // work of this tick, thread CPU time; not part of the hash
+  float late_us = 0;         // after its due time; not part of the hash
+  std::uint64_t hash = 0;
+};
+
+// Wishes of the people around: taken by the servo at the start of `tick`, in order.
+enum class WishKind : std::uint8_t {
+  spindle_speed,  // value: rad/s at full pedal
+  burr_radius,    // value: m
+  stiffness,      // value: N/m
+  user_force,     // value: N, the user's own limit
+  tool_mode,      // value: 0 cut, 1 add, 2 touch only
+  undo,           // the last stroke
+  redo,           // the last undone stroke
+  reset,          // everything back to the start
+  friction,       // value: scale of the tissues' friction
+};
+struct Wish {
+  WishKind kind = WishKind::spindle_speed;
+  double value = 0;
+};
+struct WishRow {
+  std::uint64_t tick = 0;
+  Wish wish;
+};
+
+// A brick's whole field as it is after `tick`. Every brick that changes is written again within 100
+// ms.
+struct BrickRow {
+  std::uint64_t tick = 0;
+  volume::BrickIndex brick = volume::kNoBrick;
+  volume::BrickField field;
+};
+
+}  // namespace burr::record

@@ -1,0 +1,43 @@
+// rt/changed_bits.h - which of many things changed since somebody last looked; one bit each.
+//
+// Guarantee: mark() and take() are wait-free. Marked twice before being taken is taken once.
+// Thread: any number of writers, one reader per object (one object per consumer).
+#pragma once
+
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "burr/rt/rt.h"
+
+namespace burr::rt {
+
+class ChangedBits {
+ public:
+  explicit ChangedBits(std::size_t count)
+      : words_((count + 63) / 64), bits_(std::make_unique<std::atomic<std::uint64_t>[]>(words_)) {}
+
+  // release: whoever takes the bit sees what was written before it
+  void mark(std::size_t index) BURR_RT {
+    bits_[index / 64].fetch_or(1ULL << (index % 64), std::memory_order_release);
+  }
+
+  // Calls found(index) for each marked one and clears it. Bounded by the number of words.
+  template <class Found>
+  void take_all(Found&& found) {
+    for (std::size_t w = 0; w < words_; ++w) {
+      if (bits_[w].load(std::memory_order_relaxed) == 0) continue;
+      std::uint64_t word = bits_[w].exchange(0, std::memory_order_acquire);
+      for (; word != 0; word &= word - 1)
+        found(w * 64 + static_cast<std::size_t>(std::countr_zero(word)));
+    }
+  }
+
+ private:
+  std::size_t words_;
+  std::unique_ptr<std::atomic<std::uint64_t>[]> bits_;
+};
+
+}  // namespace burr::rt

@@ -1,0 +1,155 @@
+// volume/bone.h - the bone: a sparse grid of bricks that one thread cuts while others look on.
+//
+//     per voxel    field    16 bit   how far into the material: 0 air .. 32768 surface .. 65535
+//     solid,
+//                                    a ramp of +-kRamp voxels around the true surface
+//                  tissue    8 bit   what it is made of (TissueTable)
+//                  intensity 16 bit  HU of the scan, only if the scan had them
+//     per brick    8 x 8 x 8 voxels, x fastest; a slot in one pool, or none where all is air
+//
+//     directory:  [ -1 | 17 | -1 | 4 | ... ]  one entry per brick of the grid -> slot in the pool
+//     pool:       [ used bricks .......... | reserve for deposited material ]   made before the
+//     session
+//
+// Outside the grid is air. Field below the surface may be cut or added to; tissue and intensity
+// stay, except under deposited material.
+//
+// Thread: build it with one thread; then one writer (the servo), which reads plainly, and any
+// number of readers through copy_brick(), each told by its own ChangedBits what to look at again.
+// Memory: 1 KiB field + 0.5 KiB tissue (+ 1 KiB intensity) per used or reserved brick, 4 B per
+// brick of the grid.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "burr/rt/changed_bits.h"
+#include "burr/rt/rt.h"
+#include "burr/rt/versioned.h"
+#include "burr/volume/grid.h"
+#include "burr/volume/tissue.h"
+
+namespace burr::volume {
+
+using Field = std::uint16_t;
+
+inline constexpr int kBrickEdge = 8;                                       // [voxel]
+inline constexpr int kBrickVoxels = kBrickEdge * kBrickEdge * kBrickEdge;  // 512
+inline constexpr int kBrickWords = kBrickVoxels * int{sizeof(Field)} / 8;  // 128 words of 64 bit
+inline constexpr Field kIso = 32768;  // the surface; >= is inside
+inline constexpr Field kSolid = 65535;
+inline constexpr double kRamp =
+    2.0;  // half width of the ramp; wide enough for exact central differences [voxel]
+inline constexpr double kFieldPerVoxel =
+    65536.0 / (2.0 * kRamp);  // field units a voxel of depth is worth
+
+// depth below the surface [voxel], negative in air, as a field value
+[[nodiscard]] constexpr Field field_from_depth(double depth_voxel) {
+  const double f = 32768.0 + depth_voxel * kFieldPerVoxel;
+  return f <= 0 ? Field{0} : f >= 65535.0 ? kSolid : static_cast<Field>(f + 0.5);
+}
+
+// A brick's whole content, for copies. alignas: read and written by the word.
+struct alignas(64) BrickField {
+  Field voxel[kBrickVoxels];  // (8 x 8 x 8), x fastest
+};
+
+using BrickIndex = std::int32_t;  // which brick of the grid, x fastest
+inline constexpr BrickIndex kNoBrick = -1;
+inline constexpr std::int32_t kNoSlot = -1;  // all air, or no room
+
+class Bone {
+ public:
+  // reserve_bricks: how many bricks may be added later (deposit). with_intensity: keep the scan's
+  // values too. capacity_bricks: how many bricks hold material at the start; the builder knows.
+  Bone(const Grid& grid, TissueTable tissues, std::size_t capacity_bricks,
+       std::size_t reserve_bricks, bool with_intensity);
+
+  // ---- what and where
+  [[nodiscard]] const Grid& grid() const BURR_RT { return grid_; }
+  [[nodiscard]] const TissueTable& tissues() const BURR_RT { return tissues_; }
+  [[nodiscard]] const math::Ijk& bricks() const BURR_RT {
+    return bricks_;
+  }  // bricks along each axis
+  [[nodiscard]] BrickIndex brick_count() const BURR_RT { return brick_count_; }
+  [[nodiscard]] std::size_t used_slots() const BURR_RT { return used_; }
+  [[nodiscard]] std::size_t free_slots() const BURR_RT { return capacity_ - used_; }
+  [[nodiscard]] bool has_intensity() const BURR_RT { return !intensity_.empty(); }
+  [[nodiscard]] BrickIndex brick_at(int bi, int bj, int bk) const BURR_RT {
+    return bi + bricks_.x() * (bj + bricks_.y() * bk);
+  }
+  [[nodiscard]] math::Ijk brick_ijk(BrickIndex brick) const BURR_RT {  // first voxel of the brick
+    const int bi = brick % bricks_.x(), rest = brick / bricks_.x();
+    return math::Ijk(bi, rest % bricks_.y(), rest / bricks_.y()) * kBrickEdge;
+  }
+
+  // ---- reading, on the writer's thread or before the session
+  // one voxel; outside the grid is air
+  [[nodiscard]] Field field(int i, int j, int k) const BURR_RT;
+  [[nodiscard]] TissueId tissue(int i, int j, int k) const BURR_RT;
+  [[nodiscard]] std::int16_t intensity(int i, int j, int k) const BURR_RT;
+  // (8 x 8 x 8) of a brick, or nullptr: all air
+  [[nodiscard]] const Field* brick_field(BrickIndex brick) const BURR_RT {
+    const std::int32_t slot =
+        directory_[static_cast<std::size_t>(brick)].load(std::memory_order_relaxed);
+    return slot == kNoSlot ? nullptr
+                           : field_.data() + static_cast<std::size_t>(slot) * kBrickVoxels;
+  }
+  [[nodiscard]] const TissueId* brick_tissue(BrickIndex brick) const BURR_RT;
+  [[nodiscard]] const std::int16_t* brick_intensity(BrickIndex brick) const BURR_RT;
+
+  // ---- reading, from any other thread while the servo cuts
+  // Copies a brick's field whole. Wait-free; false: the writer was at it, try again. All air gives
+  // zeros.
+  [[nodiscard]] bool copy_brick(BrickIndex brick, BrickField& out) const BURR_RT;
+  // Tissue changes only under deposited material; read by relaxed atomics, one voxel at a time.
+  [[nodiscard]] TissueId shared_tissue(int i, int j, int k) const BURR_RT;
+
+  // ---- who wants to know what changed: one each, made before the session
+  rt::ChangedBits& add_watcher();
+
+  // ---- writing, on the one writer's thread
+  // Gives the brick a slot if it has none. kNoSlot: the reserve is used up; raise reserve_bricks.
+  std::int32_t ensure_slot(BrickIndex brick) BURR_RT;
+  // Replaces a brick's field; the brick must have a slot. Marks it for all watchers.
+  void write_brick(BrickIndex brick, const BrickField& content) BURR_RT;
+  void set_tissue(int i, int j, int k,
+                  TissueId tissue) BURR_RT;  // voxel must be in a brick with a slot
+
+  // ---- building, before the session
+  Field* build_field(BrickIndex brick);  // gives it a slot; (8 x 8 x 8)
+  TissueId* build_tissue(BrickIndex brick);
+  std::int16_t* build_intensity(BrickIndex brick);
+
+  // Hash of the geometry, every field and tissue value; same bone, same number. Slow (a pass over
+  // all bricks).
+  [[nodiscard]] std::uint64_t content_hash() const;
+
+ private:
+  [[nodiscard]] std::int32_t slot_of(int i, int j, int k) const BURR_RT;
+
+  Grid grid_;
+  TissueTable tissues_;
+  math::Ijk bricks_;
+  BrickIndex brick_count_ = 0;
+  std::size_t capacity_ = 0, used_ = 0;
+  std::unique_ptr<std::atomic<std::int32_t>[]> directory_;  // (brick_count)
+  std::unique_ptr<rt::Version[]> versions_;                 // (capacity)
+  std::vector<Field> field_;                                // (capacity x 512)
+  std::vector<TissueId> tissue_;                            // (capacity x 512)
+  std::vector<std::int16_t> intensity_;                     // (capacity x 512) or empty
+  std::vector<std::unique_ptr<rt::ChangedBits>> watchers_;
+};
+
+// Builds a sparse bone from whole arrays, x fastest, (size.x * size.y * size.z) each; tissue and
+// intensity may be empty. Bricks whose field is all zero and whose tissue is all air take no room.
+[[nodiscard]] std::unique_ptr<Bone> bone_from_arrays(const Grid& grid, TissueTable tissues,
+                                                     std::span<const Field> field,
+                                                     std::span<const TissueId> tissue,
+                                                     std::span<const std::int16_t> intensity,
+                                                     std::size_t reserve_bricks);
+
+}  // namespace burr::volume

@@ -1,0 +1,31 @@
+// tests/support/data.h - the shared test data: where it is, and what to do when it is not there.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace burr::test {
+
+// ../shared/data beside the checkout
+inline std::filesystem::path data_dir() {
+  return std::filesystem::path(BURR_SOURCE_DIR).parent_path() / "shared" / "data";
+}
+inline bool data_required() {
+  const char* required = std::getenv("BURR_REQUIRE_DATA");
+  return required != nullptr && std::string(required) == "1";
+}
+
+}  // namespace burr::test
+
+// First line of a test that needs a file of the shared data: skips without it, fails where CI
+// demands it.
+#define BURR_NEEDS_DATA(relative)                                                               \
+  do {                                                                                          \
+    if (!std::filesystem::exists(burr::test::data_dir() / (relative))) {                        \
+      ASSERT_FALSE(burr::test::data_required()) << "BURR_REQUIRE_DATA=1 but no " << (relative); \
+      GTEST_SKIP() << "needs ../shared/data/" << (relative) << ", which is not here";           \
+    }                                                                                           \
+  } while (false)
