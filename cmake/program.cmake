@@ -3,7 +3,7 @@ file(GLOB_RECURSE BURR_APP CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/*.c
 if(BURR_APP)
   add_executable(burr_program ${BURR_APP})
   set_target_properties(burr_program PROPERTIES OUTPUT_NAME burr RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
-  target_include_directories(burr_program PRIVATE ${PROJECT_SOURCE_DIR}/apps)
+  target_include_directories(burr_program PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr)
   target_link_libraries(burr_program PRIVATE burr burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
     nlohmann_json::nlohmann_json PkgConfig::EPOXY PkgConfig::SDL2)
   target_compile_definitions(burr_program PRIVATE BURR_VERSION="${PROJECT_VERSION}" TOML_HEADER_ONLY=1)

@@ -1,0 +1,103 @@
+// burr - the program. Each subcommand is a file of its own; this one parses, runs and turns trouble
+// into exit codes.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include "burr/base/version.h"
+#include "command.h"
+#include "console.h"
+
+namespace burr::app {
+namespace {
+
+std::vector<std::pair<int, Command::Add>>& commands() {
+  static std::vector<std::pair<int, Command::Add>> all;
+  return all;
+}
+
+volatile std::sig_atomic_t asked_to_stop = 0;
+
+// first time: stop cleanly; second time: stop now
+void on_signal(int number) {
+  if (asked_to_stop != 0) {
+    std::signal(number, SIG_DFL);
+    std::raise(number);
+  }
+  asked_to_stop = 1;
+}
+
+constexpr const char* kExamples = R"(
+examples:
+  burr run                                        mill the built-in temporal bone in a window
+  burr info ct_folder/                            what is in it and what would be done with it
+  burr mill ct_folder/ --motion pocket --burr-mm 5 --record s.mcap --picture after.png --json
+  burr replay s.mcap --check                      simulate it again and compare every tick
+  burr export s.mcap --part bone --out bone.stl   a mesh to print
+  burr phantom temporal-bone --voxel-mm 0.25 --out bone.seg.nrrd
+)";
+
+}  // namespace
+
+Command::Command(int place, Add add) { commands().emplace_back(place, add); }
+
+bool interrupted() noexcept { return asked_to_stop != 0; }
+
+}  // namespace burr::app
+
+int main(int argc, char** argv) {
+  using namespace burr;
+  struct sigaction action = {};
+  action.sa_handler = app::on_signal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+
+  CLI::App program{"burr - cut bone by hand: touch, mill and print a patient's bone", "burr"};
+  program.set_version_flag("--version",
+                           fmt::format("burr {} ({})", base::version(), base::build()));
+  program.set_help_all_flag("--help-all", "help of every subcommand");
+  program.require_subcommand(0, 1);
+  program.footer(app::kExamples);
+  program.add_flag("--quiet", app::quiet(), "no progress lines");
+
+  app::Todo todo;
+  auto& commands = app::commands();
+  std::stable_sort(commands.begin(), commands.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [place, add] : commands) add(program, todo);
+  program.add_subcommand("help", "this text, with examples")->callback([&todo, &program] {
+    todo.work = [&program] {
+      fmt::print("{}", program.help());
+      return fine();
+    };
+  });
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    const int code = program.exit(problem);
+    return code == 0 ? 0 : static_cast<int>(Trouble::usage);
+  }
+  if (!todo.work) {
+    fmt::print("{}", program.help());
+    return 0;
+  }
+  Status status = error(Trouble::internal, "nothing was done");
+  try {
+    status = todo.work();
+  } catch (const std::bad_alloc&) {
+    status = error(Trouble::data, "not enough memory; use a larger --voxel-mm or a smaller --roi");
+  } catch (const std::exception& problem) {
+    status =
+        error(Trouble::internal, fmt::format("unexpected: {}; please report it", problem.what()));
+  }
+  std::fflush(stdout);
+  if (status.ok()) return 0;
+  fmt::print(stderr, "burr: {}\n", status.error().text);
+  return static_cast<int>(status.error().trouble);
+}
