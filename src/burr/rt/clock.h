@@ -1,0 +1,98 @@
+// rt/clock.h - when the next tick is due: by the wall, as fast as possible, or as a test says.
+//
+//     for (;;) { const TickTime time = clock.wait();  tick(...);  stats.add_lateness(...); }
+//
+// Due times lie on a grid: start + n * period. A tick that could not begin before the next was due
+// is begun at once, once; the periods in between are skipped and counted, never made up for in a
+// burst (a burst would push the hand with old forces at many times the rate). Guarantee: wait() is
+// allocation-free and lock-free; it blocks until the tick is due. Thread: one, the servo's.
+#pragma once
+
+#include <cstdint>
+
+#include "burr/rt/rt.h"
+
+namespace burr::rt {
+
+[[nodiscard]] std::int64_t monotonic_ns() BURR_RT;   // CLOCK_MONOTONIC
+[[nodiscard]] std::int64_t thread_cpu_ns() BURR_RT;  // work done by the calling thread so far
+
+// When a tick began. All since the first one, by the clock's own time.  [ns]
+struct TickTime {
+  std::int64_t due_ns = 0;         // when it should have begun
+  std::int64_t now_ns = 0;         // when it did
+  std::int64_t late_ns = 0;        // now - due, never negative
+  std::int64_t since_last_ns = 0;  // since the tick before began; one period for the first
+  std::int64_t missed = 0;         // whole periods skipped just before this tick
+};
+
+class TickClock {
+ public:
+  TickClock() = default;
+  TickClock(const TickClock&) = delete;
+  TickClock& operator=(const TickClock&) = delete;
+  virtual ~TickClock() = default;
+
+  [[nodiscard]] virtual std::int64_t period_ns() const BURR_RT = 0;
+
+  // Returns when the next tick may begin; the first call starts the clock and returns at once.
+  [[nodiscard]] virtual TickTime wait() BURR_RT = 0;
+};
+
+// Time of a grid of due times; what the clocks below share. Not a clock by itself.
+class TickGrid {
+ public:
+  explicit TickGrid(std::int64_t period_ns) : period_ns_(period_ns) {}
+
+  [[nodiscard]] std::int64_t period_ns() const BURR_RT { return period_ns_; }
+  // When the next tick is due  [ns].
+  [[nodiscard]] std::int64_t next_due_ns() const BURR_RT { return due_ns_; }
+  // The next tick begins now (not before it is due).
+  [[nodiscard]] TickTime begin(std::int64_t now_ns) BURR_RT;
+
+ private:
+  std::int64_t period_ns_;
+  std::int64_t due_ns_ = 0, last_ns_ = -1;
+};
+
+// Nearest whole number of nanoseconds; rate in Hz, above 0.
+[[nodiscard]] std::int64_t period_from_rate(double rate_hz) BURR_RT;
+
+// Paced by CLOCK_MONOTONIC, sleeping until an absolute time, so that errors do not add up.
+class WallClock final : public TickClock {
+ public:
+  explicit WallClock(double rate_hz) : grid_(period_from_rate(rate_hz)) {}
+  [[nodiscard]] std::int64_t period_ns() const BURR_RT override { return grid_.period_ns(); }
+  [[nodiscard]] TickTime wait() BURR_RT override;
+
+ private:
+  TickGrid grid_;
+  std::int64_t start_ns_ = -1;
+};
+
+// Every tick begins exactly when it is due, without waiting: simulated time.
+class NoWaitClock final : public TickClock {
+ public:
+  explicit NoWaitClock(double rate_hz) : grid_(period_from_rate(rate_hz)) {}
+  [[nodiscard]] std::int64_t period_ns() const BURR_RT override { return grid_.period_ns(); }
+  [[nodiscard]] TickTime wait() BURR_RT override { return grid_.begin(grid_.next_due_ns()); }
+
+ private:
+  TickGrid grid_;
+};
+
+// Time passes only as the test says: pass() is what a tick's work, or a stall, takes.
+class VirtualClock final : public TickClock {
+ public:
+  explicit VirtualClock(double rate_hz) : grid_(period_from_rate(rate_hz)) {}
+  void pass(std::int64_t ns) BURR_RT { now_ns_ += ns; }
+  [[nodiscard]] std::int64_t now_ns() const BURR_RT { return now_ns_; }
+  [[nodiscard]] std::int64_t period_ns() const BURR_RT override { return grid_.period_ns(); }
+  [[nodiscard]] TickTime wait() BURR_RT override;
+
+ private:
+  TickGrid grid_;
+  std::int64_t now_ns_ = 0;
+};
+
+}  // namespace burr::rt

@@ -1,0 +1,128 @@
+#include "burr/rt/thread.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <condition_variable>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace burr::rt {
+namespace {
+
+// Touch the pages the work will use, so that the first tick does not wait for them.
+__attribute__((noinline)) void touch_stack(std::size_t bytes) {
+  constexpr std::size_t kChunk = 16 * 1024, kPage = 4096;
+  volatile unsigned char chunk[kChunk];
+  for (std::size_t i = 0; i < kChunk; i += kPage) chunk[i] = 1;
+  if (bytes > kChunk) touch_stack(bytes - kChunk);
+  static_cast<void>(chunk[0]);  // read after the call: this frame stays, no tail call
+}
+
+std::string reason(int code) { return std::generic_category().message(code); }
+
+// Pages that are there stay there. ONFAULT: what nobody touches is not dragged in. With a limit set
+// and no right to ignore it, a lock on future memory would make later allocations fail: then not.
+bool lock_memory(std::string& why) {
+  rlimit limit = {};
+  getrlimit(RLIMIT_MEMLOCK, &limit);
+  if (geteuid() != 0 && limit.rlim_cur != RLIM_INFINITY) {
+    why = "the limit on locked memory is not `unlimited`";
+    return false;
+  }
+  if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0) return true;
+  why = reason(errno);
+  return false;
+}
+
+ThreadGrant ask(const ThreadWish& wish) {
+  ThreadGrant grant;
+  std::string missing;
+  const auto miss = [&missing](const std::string& text) {
+    if (!missing.empty()) missing += "; ";
+    missing += text;
+  };
+
+  if (wish.core >= 0) {
+    int code = EINVAL;
+    if (wish.core < CPU_SETSIZE) {
+      cpu_set_t cores;
+      CPU_ZERO(&cores);
+      CPU_SET(static_cast<unsigned>(wish.core), &cores);
+      code = pthread_setaffinity_np(pthread_self(), sizeof cores, &cores);
+    }
+    grant.pinned = code == 0;
+    if (code != 0) miss("not kept on core " + std::to_string(wish.core) + ": " + reason(code));
+  }
+  if (wish.realtime) {
+    sched_param param = {};
+    param.sched_priority = std::clamp(wish.priority, 1, 99);
+    const int code = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
+    grant.fifo = code == 0;
+    if (code != 0) miss("ordinary priority instead of SCHED_FIFO: " + reason(code));
+    std::string why;
+    grant.locked = lock_memory(why);
+    if (!grant.locked) miss("memory not locked: " + why);
+  }
+
+  grant.sentence = wish.name + ": ";
+  if (missing.empty()) {
+    grant.sentence += !wish.realtime
+                          ? std::string("ordinary thread")
+                          : "SCHED_FIFO " + std::to_string(wish.priority) + ", memory locked";
+    if (grant.pinned) grant.sentence += ", core " + std::to_string(wish.core);
+  } else {
+    grant.sentence += missing;
+    if (wish.realtime)
+      grant.sentence +=
+          " (ticks may come late; docs/realtime.md says how to allow it for your user)";
+  }
+  return grant;
+}
+
+}  // namespace
+
+struct Thread::Work {
+  std::mutex mutex;
+  std::condition_variable asked;
+  bool ready = false;
+  ThreadGrant grant;
+  std::thread thread;
+};
+
+Thread::Thread(const ThreadWish& wish, std::function<void()> work)
+    : work_(std::make_unique<Work>()) {
+  Work& shared = *work_;
+  shared.thread = std::thread([&shared, wish, work = std::move(work)] {
+    pthread_setname_np(pthread_self(), wish.name.substr(0, 15).c_str());
+    ThreadGrant grant = ask(wish);
+    // the default stack is 8 MiB; leave room for the work itself
+    touch_stack(std::min<std::size_t>(wish.stack_bytes, 4 * 1024 * 1024));
+    {
+      const std::lock_guard lock(shared.mutex);
+      shared.grant = std::move(grant);
+      shared.ready = true;
+    }
+    shared.asked.notify_one();
+    work();
+  });
+  std::unique_lock lock(shared.mutex);
+  shared.asked.wait(lock, [&shared] { return shared.ready; });
+}
+
+Thread::~Thread() { join(); }
+
+void Thread::join() {
+  if (work_->thread.joinable()) work_->thread.join();
+}
+
+const ThreadGrant& Thread::grant() const { return work_->grant; }
+
+}  // namespace burr::rt
