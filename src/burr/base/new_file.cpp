@@ -1,0 +1,134 @@
+#include "burr/base/new_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+namespace burr::base {
+namespace {
+
+constexpr std::size_t kBuffer = std::size_t{1} << 20;
+
+std::string reason(int number) {
+  switch (number) {
+    case ENOSPC:
+    case EDQUOT:
+      return "the disk is full; free some room or choose another folder";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "no permission to write there; choose another folder";
+    case ENOENT:
+    case ENOTDIR:
+      return "the folder does not exist; create it first";
+    default:
+      return std::strerror(number);
+  }
+}
+
+// all of it, or errno
+int write_all(int file, const char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t done = ::write(file, data, size);
+    if (done < 0 && errno == EINTR) continue;
+    if (done < 0) return errno;
+    data += done;
+    size -= static_cast<std::size_t>(done);
+  }
+  return 0;
+}
+
+}  // namespace
+
+Result<NewFile> NewFile::beside(const std::string& path) {
+  // a link is followed, so that it stays one
+  std::error_code ignored;
+  std::filesystem::path place = path;
+  if (std::filesystem::is_symlink(place, ignored))
+    place = std::filesystem::weakly_canonical(place, ignored);
+  const auto status = std::filesystem::status(place, ignored);
+  if (path.empty()) return error(Trouble::io, "cannot write a file without a name");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    return error(Trouble::io, path + ": is no plain file; give the name of a file");
+
+  std::string name = place.string() + ".part-XXXXXX";
+  const int file = ::mkostemp(name.data(), O_CLOEXEC);
+  if (file < 0) return error(Trouble::io, path + ": cannot be created: " + reason(errno));
+  // mkostemp keeps the file to its owner; give it the rights any new file here has
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  static_cast<void>(::fchmod(file, 0666 & ~mask));
+  return NewFile(place.string(), name, file);
+}
+
+NewFile::NewFile(std::string place, std::string beside, int file)
+    : place_(std::move(place)), beside_(std::move(beside)), file_(file) {
+  buffer_.reserve(kBuffer);
+}
+
+NewFile::NewFile(NewFile&& other) noexcept
+    : place_(std::move(other.place_)),
+      beside_(std::move(other.beside_)),
+      file_(std::exchange(other.file_, -1)),
+      trouble_(other.trouble_),
+      size_(other.size_),
+      buffer_(std::move(other.buffer_)) {}
+
+NewFile::~NewFile() {
+  if (file_ < 0) return;
+  ::close(file_);
+  ::unlink(beside_.c_str());
+}
+
+void NewFile::flush() {
+  if (trouble_ == 0) trouble_ = write_all(file_, buffer_.data(), buffer_.size());
+  size_ += buffer_.size();
+  buffer_.clear();
+}
+
+void NewFile::write(const void* data, std::size_t size) {
+  BURR_CHECK(file_ >= 0);
+  if (buffer_.size() + size > kBuffer) flush();
+  const char* bytes = static_cast<const char*>(data);
+  if (size > kBuffer) {
+    if (trouble_ == 0) trouble_ = write_all(file_, bytes, size);
+    size_ += size;
+    return;
+  }
+  buffer_.insert(buffer_.end(), bytes, bytes + size);
+}
+
+void NewFile::write_at(std::size_t offset, const void* data, std::size_t size) {
+  BURR_CHECK(file_ >= 0);
+  flush();
+  BURR_CHECK(offset + size <= size_);
+  if (trouble_ != 0) return;
+  const ssize_t done = ::pwrite(file_, data, size, static_cast<off_t>(offset));
+  if (done != static_cast<ssize_t>(size)) trouble_ = done < 0 ? errno : EIO;
+}
+
+Error NewFile::failed(const char* doing) const {
+  return error(Trouble::io, place_ + ": cannot be " + doing + ": " + reason(trouble_));
+}
+
+Status NewFile::put_in_place() {
+  BURR_CHECK(file_ >= 0);
+  flush();
+  // some file systems tell only now that there was no room
+  if (trouble_ == 0 && ::fsync(file_) != 0 && errno != EINVAL) trouble_ = errno;
+  if (trouble_ != 0) return failed("written");
+  if (::rename(beside_.c_str(), place_.c_str()) != 0) {
+    trouble_ = errno;
+    return failed("put in its place");
+  }
+  ::close(std::exchange(file_, -1));
+  return fine();
+}
+
+}  // namespace burr::base

@@ -1,0 +1,57 @@
+// base/new_file.h - a file that is there whole or not at all: written beside its place, then
+// renamed.
+//
+//     Result<base::NewFile> file = base::NewFile::beside(path);
+//     if (!file) return file.error();
+//     file->write(data, size);                         // trouble is remembered
+//     return file->put_in_place();                     // ... and told here
+//
+// What is not put in place vanishes with the object: a cancelled or failed export leaves nothing,
+// and an older file of that name stays as it was. Links are followed; devices, pipes and folders
+// are refused. Thread: one. Errors: Trouble::io with the path and the system's reason.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "burr/base/result.h"
+
+namespace burr::base {
+
+class NewFile {
+ public:
+  // Opens an empty file in the folder of `path`.
+  [[nodiscard]] static Result<NewFile> beside(const std::string& path);
+
+  NewFile(NewFile&& other) noexcept;
+  NewFile& operator=(NewFile&&) = delete;
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+  ~NewFile();
+
+  // Appends. After the first failure nothing more is written; ok() says whether there was one.
+  void write(const void* data, std::size_t size);
+  void write(std::string_view text) { write(text.data(), text.size()); }
+  // Overwrites bytes written before, e.g. a count in a header known only at the end.
+  void write_at(std::size_t offset, const void* data, std::size_t size);
+  [[nodiscard]] bool ok() const { return trouble_ == 0; }
+  [[nodiscard]] std::size_t size() const { return size_ + buffer_.size(); }  // so far  [byte]
+
+  // Flushes to the disk and renames. After it nothing may be written.
+  [[nodiscard]] Status put_in_place();
+
+ private:
+  NewFile(std::string place, std::string beside, int file);
+  void flush();
+  [[nodiscard]] Error failed(const char* doing) const;
+
+  std::string place_, beside_;
+  int file_ = -1;
+  int trouble_ = 0;  // errno of the first failure
+  std::size_t size_ = 0;
+  std::vector<char> buffer_;
+};
+
+}  // namespace burr::base

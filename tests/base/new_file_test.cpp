@@ -1,0 +1,109 @@
+#include "burr/base/new_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace burr::base {
+namespace {
+
+namespace fs = std::filesystem;
+
+class NewFileTest : public testing::Test {
+ protected:
+  NewFileTest() {
+    std::string name = (fs::temp_directory_path() / "burr-new-file-XXXXXX").string();
+    folder = mkdtemp(name.data());
+  }
+  ~NewFileTest() override { fs::remove_all(folder); }
+
+  [[nodiscard]] std::string path(const char* name) const { return (folder / name).string(); }
+  static std::string content(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  [[nodiscard]] std::ptrdiff_t files() const {
+    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+  }
+  fs::path folder;
+};
+
+TEST_F(NewFileTest, IsThereWholeOnceItIsPutInPlace) {
+  std::string large(5'000'000, 'x');
+  {
+    auto file = NewFile::beside(path("a"));
+    ASSERT_TRUE(file.ok());
+    file->write("head");
+    file->write(large.data(), large.size());
+    file->write_at(1, "EA", 2);
+    EXPECT_EQ(file->size(), large.size() + 4);
+    EXPECT_FALSE(fs::exists(path("a")));
+    ASSERT_TRUE(file->put_in_place().ok());
+  }
+  EXPECT_EQ(content(path("a")), "hEAd" + large);
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(NewFileTest, LeavesTheOldFileAndNothingElseWhenGivenUp) {
+  std::ofstream(path("a")) << "old";
+  {
+    auto file = NewFile::beside(path("a"));
+    ASSERT_TRUE(file.ok());
+    file->write("new");
+  }
+  EXPECT_EQ(content(path("a")), "old");
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(NewFileTest, AFullDiskIsTroubleNotHalfAFile) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{}, small{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  small = before;
+  small.rlim_cur = 100'000;
+  std::ofstream(path("a")) << "old";
+  {
+    auto file = NewFile::beside(path("a"));
+    ASSERT_TRUE(file.ok());
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const std::string large(3'000'000, 'x');
+    file->write(large.data(), large.size());
+    EXPECT_FALSE(file->ok());
+    const Status status = file->put_in_place();
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().trouble, Trouble::io);
+    EXPECT_NE(status.error().text.find(path("a")), std::string::npos) << status.error().text;
+  }
+  EXPECT_EQ(content(path("a")), "old");
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(NewFileTest, RefusesWhatIsNoPlainFileAndFollowsLinks) {
+  EXPECT_FALSE(NewFile::beside(folder.string()).ok());
+  EXPECT_FALSE(NewFile::beside("/dev/null").ok());
+  EXPECT_FALSE(NewFile::beside("").ok());
+  const auto missing = NewFile::beside(path("no/such/folder"));
+  ASSERT_FALSE(missing.ok());
+  EXPECT_EQ(missing.error().trouble, Trouble::io);
+
+  std::ofstream(path("real")) << "old";
+  fs::create_symlink("real", path("link"));
+  {
+    auto file = NewFile::beside(path("link"));
+    ASSERT_TRUE(file.ok());
+    file->write("new");
+    ASSERT_TRUE(file->put_in_place().ok());
+  }
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_EQ(content(path("real")), "new");
+}
+
+}  // namespace
+}  // namespace burr::base
