@@ -1,14 +1,15 @@
 #include "burr/base/new_file.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 namespace burr::base {
 namespace {
@@ -57,13 +58,16 @@ Result<NewFile> NewFile::beside(const std::string& path) {
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     return error(Trouble::io, path + ": is no plain file; give the name of a file");
 
-  std::string name = place.string() + ".part-XXXXXX";
-  const int file = ::mkostemp(name.data(), O_CLOEXEC);
+  // a name nobody else has: a crashed run may have left one with our number behind
+  static std::atomic<unsigned> count = 0;
+  std::string name;
+  int file = -1;
+  for (int attempt = 0; attempt < 100 && file < 0; ++attempt) {
+    name = place.string() + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(++count);
+    file = ::open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (file < 0 && errno != EEXIST) break;
+  }
   if (file < 0) return error(Trouble::io, path + ": cannot be created: " + reason(errno));
-  // mkostemp keeps the file to its owner; give it the rights any new file here has
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  static_cast<void>(::fchmod(file, 0666 & ~mask));
   return NewFile(place.string(), name, file);
 }
 
