@@ -1,0 +1,11 @@
+# burr_vtk_oracle: only where VTK 9 is installed, only to be compared with by `burr bench surface`
+option(BURR_VTK_ORACLE "build burr_vtk_oracle if VTK is there" ON)
+if(BURR_VTK_ORACLE)
+  find_package(VTK 9 QUIET COMPONENTS CommonCore CommonDataModel FiltersCore)
+  if(VTK_FOUND)
+    add_executable(burr_vtk_oracle ${PROJECT_SOURCE_DIR}/bench/surface/vtk_oracle.cpp)
+    set_target_properties(burr_vtk_oracle PROPERTIES CXX_STANDARD 17 RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+    target_include_directories(burr_vtk_oracle PRIVATE ${PROJECT_SOURCE_DIR})
+    target_link_libraries(burr_vtk_oracle PRIVATE VTK::CommonCore VTK::CommonDataModel VTK::FiltersCore)
+  endif()
+endif()
