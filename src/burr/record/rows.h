@@ -2,8 +2,12 @@
 // (record/schema.cpp), not these bytes.
 //
 // Frame: world (LPS). Units: SI.
+//
+// Order of writing, by the servo, within one tick: wishes taken, bricks changed, then the TickRow.
+// So whoever holds the row of a tick holds everything that belongs to it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "burr/device/hand.h"
@@ -47,11 +51,13 @@ struct WishRow {
 };
 
 // A brick's whole field as it is after `tick`. Every brick that changes is written again within 100
-// ms.
+// ms. Tissue comes along only where material was deposited, since nothing else changes it.
 struct BrickRow {
   std::uint64_t tick = 0;
   volume::BrickIndex brick = volume::kNoBrick;
-  volume::BrickField field;
+  bool has_tissue = false;
+  volume::BrickField field = {};
+  std::array<volume::TissueId, volume::kBrickVoxels> tissue = {};  // only if has_tissue
 };
 
 }  // namespace burr::record

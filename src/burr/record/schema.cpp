@@ -1,0 +1,555 @@
+#include "burr/record/schema.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "burr/record/crc32.h"
+
+namespace burr::record {
+namespace {
+
+using nlohmann::json;
+
+// ---- Protocol Buffers, the little of it we need (protobuf.dev/programming-guides/encoding)
+
+constexpr std::uint32_t kVarint = 0, kFixed64 = 1, kBlock = 2, kFixed32 = 5;
+
+void put_varint(BytesOut& out, std::uint64_t value) {
+  for (; value >= 0x80; value >>= 7) out.put(static_cast<std::uint8_t>(value | 0x80));
+  out.put(static_cast<std::uint8_t>(value));
+}
+void put_tag(BytesOut& out, std::uint32_t field, std::uint32_t wire) {
+  put_varint(out, (std::uint64_t{field} << 3) | wire);
+}
+void put_number(BytesOut& out, std::uint32_t field, std::uint64_t value) {
+  put_tag(out, field, kVarint);
+  put_varint(out, value);
+}
+void put_block(BytesOut& out, std::uint32_t field, ByteSpan bytes) {
+  put_tag(out, field, kBlock);
+  put_varint(out, bytes.size());
+  out.raw(bytes);
+}
+void put_block(BytesOut& out, std::uint32_t field, std::string_view text) {
+  put_block(out, field, as_bytes(text));
+}
+
+std::uint64_t get_varint(BytesIn& in) {
+  std::uint64_t value = 0;
+  for (unsigned shift = 0; shift < 64; shift += 7) {
+    const auto byte = in.get<std::uint8_t>();
+    value |= std::uint64_t{byte & 0x7FU} << shift;
+    if ((byte & 0x80U) == 0) return value;
+  }
+  in.take(std::numeric_limits<std::uint64_t>::max());  // too long: no longer ok()
+  return 0;
+}
+
+// Calls found(field, number, block) for each field; false: malformed.
+template <class Found>
+bool each_field(ByteSpan message, Found&& found) {
+  BytesIn in(message);
+  while (in.ok() && !in.empty()) {
+    const std::uint64_t tag = get_varint(in);
+    std::uint64_t number = 0;
+    ByteSpan block;
+    switch (tag & 7U) {
+      case kVarint:
+        number = get_varint(in);
+        break;
+      case kFixed64:
+        number = in.get<std::uint64_t>();
+        break;
+      case kBlock:
+        block = in.take(get_varint(in));
+        break;
+      case kFixed32:
+        number = in.get<std::uint32_t>();
+        break;
+      default:
+        return false;
+    }
+    if (!in.ok() || !found(tag >> 3, number, block)) return false;
+  }
+  return in.ok();
+}
+
+// ---- columns
+
+enum class Type : std::uint8_t { f64, f32, u64, u32, i32, flag, number, bytes };
+
+std::size_t width(Type type) {
+  switch (type) {
+    case Type::f64:
+    case Type::u64:
+      return 8;
+    case Type::f32:
+    case Type::u32:
+    case Type::i32:
+      return 4;
+    default:
+      return 1;
+  }
+}
+
+// FieldDescriptorProto.Type
+std::uint64_t proto_type(Type type) {
+  switch (type) {
+    case Type::f64:
+      return 1;  // double
+    case Type::f32:
+      return 2;  // float
+    case Type::u64:
+      return 6;  // fixed64
+    case Type::u32:
+      return 7;  // fixed32
+    case Type::i32:
+      return 15;  // sfixed32
+    case Type::flag:
+      return 8;  // bool
+    case Type::number:
+      return 4;  // uint64, once
+    case Type::bytes:
+      return 12;
+  }
+  return 12;
+}
+
+struct FieldText {
+  std::uint32_t number;
+  const char* name;
+  Type type;
+  const char* meaning;  // with the unit in brackets
+};
+
+struct TickColumn {
+  FieldText text;
+  void* (*in)(TickRow& row);  // where it lies in a row
+};
+
+#define BURR_AT(member) [](TickRow& row) -> void* { return &row.member; }
+const TickColumn kTickColumns[] = {
+    {{1, "tick", Type::u64, "0, 1, 2 ... of the session; time is tick / rate_hz [1]"},
+     BURR_AT(tick)},
+    {{2, "hand_x_m", Type::f64, "tip of the tool as read, world LPS [m]"},
+     BURR_AT(hand.world_from_tool.p.x())},
+    {{3, "hand_y_m", Type::f64, "[m]"}, BURR_AT(hand.world_from_tool.p.y())},
+    {{4, "hand_z_m", Type::f64, "[m]"}, BURR_AT(hand.world_from_tool.p.z())},
+    {{5, "hand_qx", Type::f64, "world_from_tool as a unit quaternion [1]"},
+     BURR_AT(hand.world_from_tool.q.x())},
+    {{6, "hand_qy", Type::f64, "[1]"}, BURR_AT(hand.world_from_tool.q.y())},
+    {{7, "hand_qz", Type::f64, "[1]"}, BURR_AT(hand.world_from_tool.q.z())},
+    {{8, "hand_qw", Type::f64, "[1]"}, BURR_AT(hand.world_from_tool.q.w())},
+    {{9, "hand_vx_m_per_s", Type::f64, "velocity of the tip as the device knows it [m/s]"},
+     BURR_AT(hand.velocity.x())},
+    {{10, "hand_vy_m_per_s", Type::f64, "[m/s]"}, BURR_AT(hand.velocity.y())},
+    {{11, "hand_vz_m_per_s", Type::f64, "[m/s]"}, BURR_AT(hand.velocity.z())},
+    {{12, "pedal", Type::f64, "spindle command, 0..1 of the set speed [1]"}, BURR_AT(hand.pedal)},
+    {{13, "buttons", Type::u32, "bit i: button i is down"}, BURR_AT(hand.buttons)},
+    {{14, "hand_valid", Type::flag, "false: the device lost track"}, BURR_AT(hand.valid)},
+    {{15, "proxy_x_m", Type::f64, "centre of the burr head, never inside bone, world LPS [m]"},
+     BURR_AT(contact.proxy.x())},
+    {{16, "proxy_y_m", Type::f64, "[m]"}, BURR_AT(contact.proxy.y())},
+    {{17, "proxy_z_m", Type::f64, "[m]"}, BURR_AT(contact.proxy.z())},
+    {{18, "normal_x", Type::f64, "unit, out of the bone; zero while nothing is touched [1]"},
+     BURR_AT(contact.normal.x())},
+    {{19, "normal_y", Type::f64, "[1]"}, BURR_AT(contact.normal.y())},
+    {{20, "normal_z", Type::f64, "[1]"}, BURR_AT(contact.normal.z())},
+    {{21, "force_x_n", Type::f64, "what the hand gets, after all limits, world LPS [N]"},
+     BURR_AT(contact.force.x())},
+    {{22, "force_y_n", Type::f64, "[N]"}, BURR_AT(contact.force.y())},
+    {{23, "force_z_n", Type::f64, "[N]"}, BURR_AT(contact.force.z())},
+    {{24, "depth_m", Type::f64, "how far the hand is from the proxy [m]"}, BURR_AT(contact.depth)},
+    {{25, "active", Type::i32, "constraints the proxy rests on"}, BURR_AT(contact.active)},
+    {{26, "candidates", Type::i32, "contacts looked at"}, BURR_AT(contact.candidates)},
+    {{27, "touching", Type::flag, "the burr touches bone"}, BURR_AT(contact.touching)},
+    {{28, "flags", Type::u32, "why the force is not simply the spring's; haptics/contact.h"},
+     BURR_AT(contact.flags)},
+    {{29, "asked_m3", Type::f64, "volume asked for by the removal law since the start [m^3]"},
+     BURR_AT(ledger.asked)},
+    {{30, "removed_m3", Type::f64, "really taken [m^3]"}, BURR_AT(ledger.removed)},
+    {{31, "debt_m3", Type::f64, "asked, not yet taken [m^3]"}, BURR_AT(ledger.debt)},
+    {{32, "not_cut_m3", Type::f64, "asked, given up because the burr was blocked [m^3]"},
+     BURR_AT(ledger.not_cut)},
+    {{33, "added_m3", Type::f64, "deposited [m^3]"}, BURR_AT(ledger.added)},
+    {{34, "cutting_energy_j", Type::f64, "spent on cutting since the start [J]"},
+     BURR_AT(ledger.energy)},
+    {{35, "spindle_rad_per_s", Type::f64, "speed of the burr now [rad/s]"}, BURR_AT(spindle_rad_s)},
+    {{36, "took_us", Type::f32, "work of this tick, thread CPU time; not hashed [us]"},
+     BURR_AT(took_us)},
+    {{37, "late_us", Type::f32, "start after its due time; not hashed [us]"}, BURR_AT(late_us)},
+    {{38, "hash", Type::u64, "of the tick's inputs, outcome and ledger"}, BURR_AT(hash)},
+};
+#undef BURR_AT
+
+constexpr std::uint32_t kBatch = 1, kPart = 2, kParts = 3, kTick = 4, kBrick = 5, kCrc = 6,
+                        kField = 7, kHasTissue = 8, kTissue = 9;
+const FieldText kBrickFields[] = {
+    {kBatch, "batch", Type::number,
+     "changes: number of this message, 1, 2, 3 ...; keyframe: the last batch it contains"},
+    {kPart, "part", Type::number, "keyframe: which of its messages, from 0"},
+    {kParts, "parts", Type::number, "keyframe: how many messages make it whole"},
+    {kTick, "tick", Type::u64, "per brick: it is like this after this tick"},
+    {kBrick, "brick", Type::i32,
+     "per brick: bi + nbi * (bj + nbj * bk), where nb = ceil(grid size / 8)"},
+    {kCrc, "crc", Type::u32,
+     "per brick: CRC-32 of its whole content after the change, field then tissue"},
+    {kField, "field", Type::bytes,
+     "per brick 512 little-endian uint16, x fastest: 0 air .. 32768 surface .. 65535 solid. "
+     "In /bone/changes XORed with the same brick's field before (zeros the first time)"},
+    {kHasTissue, "has_tissue", Type::flag, "per brick: its tissue was changed by deposit"},
+    {kTissue, "tissue", Type::bytes,
+     "per brick with has_tissue 512 uint8: index into the session's tissues; XORed likewise"},
+};
+
+// ---- FileDescriptorSet (google/protobuf/descriptor.proto), written by hand
+
+std::string descriptor(const char* message_name, std::span<const FieldText> fields) {
+  BytesOut type;
+  put_block(type, 1, std::string_view(message_name));
+  for (const FieldText& text : fields) {
+    const bool repeated = text.type != Type::number && text.type != Type::bytes;
+    BytesOut field;
+    put_block(field, 1, std::string_view(text.name));
+    put_number(field, 3, text.number);
+    put_number(field, 4, repeated ? 3 : 1);  // label
+    put_number(field, 5, proto_type(text.type));
+    put_block(type, 2, field.span());
+  }
+  // comments: path to the field [message_type, 0, field, i], a made-up place, and the text
+  BytesOut comments;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    BytesOut path, place, location;
+    for (const std::uint64_t step : {std::uint64_t{4}, std::uint64_t{0}, std::uint64_t{2}})
+      put_varint(path, step);
+    put_varint(path, i);
+    for (const std::uint64_t number : {i + 4, std::size_t{2}, std::size_t{40}})
+      put_varint(place, number);
+    put_block(location, 1, path.span());
+    put_block(location, 2, place.span());
+    put_block(location, 3, std::string_view(fields[i].meaning));
+    put_block(comments, 1, location.span());
+  }
+  BytesOut file;
+  put_block(file, 1, std::string("burr/") + message_name + ".proto");
+  put_block(file, 2, std::string_view("burr"));
+  put_block(file, 4, type.span());
+  put_block(file, 9, comments.span());
+  put_block(file, 12, std::string_view("proto3"));
+  BytesOut set;
+  put_block(set, 1, file.span());
+  return std::string(as_text(set.span()));
+}
+
+// ---- JSON schemas
+
+constexpr const char* kSessionSchema = R"({
+ "$schema": "https://json-schema.org/draft/2020-12/schema",
+ "title": "burr.Session",
+ "description": "What the session was; once, before the first tick.",
+ "type": "object",
+ "properties": {
+  "burr_version": {"type": "string"},
+  "build": {"type": "string", "description": "compiler and kind; replay is to the bit on the same build"},
+  "rate_hz": {"type": "number", "description": "ticks per second"},
+  "seed": {"type": "string", "description": "hexadecimal, 64 bit"},
+  "numbers": {"type": "object", "description": "settings; units are in the names", "additionalProperties": {"type": "number"}},
+  "words": {"type": "object", "description": "settings in words", "additionalProperties": {"type": "string"}},
+  "embedded": {"type": "boolean", "description": "the bone is in the attachment \"bone\""},
+  "volume": {
+   "type": "object",
+   "description": "the bone the session began with",
+   "properties": {
+    "content_hash": {"type": "string", "description": "hexadecimal, of the bone before the first tick"},
+    "source_fingerprint": {"type": "string", "description": "hexadecimal, of the file or folder it was read from; 0 if none"},
+    "grid": {
+     "type": "object",
+     "properties": {
+      "size": {"type": "array", "items": {"type": "integer"}, "description": "voxels along i, j, k"},
+      "voxel_m": {"type": "number", "description": "edge of a voxel [m]"},
+      "origin_m": {"type": "array", "items": {"type": "number"}, "description": "centre of voxel 0,0,0 in LPS [m]"},
+      "axes_xyzw": {"type": "array", "items": {"type": "number"}, "description": "world_from_grid as a unit quaternion"}
+     }
+    },
+    "tissues": {
+     "type": "array",
+     "description": "index is the tissue id of a voxel",
+     "items": {
+      "type": "object",
+      "properties": {
+       "name": {"type": "string"},
+       "kind": {"enum": ["air", "soft", "solid"]},
+       "colour_srgb": {"type": "array", "items": {"type": "number"}, "description": "0..1"},
+       "cutting_energy_j_per_m3": {"type": "number", "description": "specific cutting energy [J/m^3]"},
+       "friction": {"type": "number"},
+       "spare": {"type": "boolean", "description": "must not be cut"},
+       "label": {"type": "integer", "description": "value in the file it came from"}
+      }
+     }
+    },
+    "has_intensity": {"type": "boolean"},
+    "reserve_bricks": {"type": "integer", "description": "room for deposits"},
+    "numbers": {"type": "object", "description": "how the file was imported", "additionalProperties": {"type": "number"}},
+    "words": {"type": "object", "description": "how the file was imported, in words", "additionalProperties": {"type": "string"}}
+   }
+  }
+ }
+})";
+
+constexpr const char* kWishSchema = R"({
+ "$schema": "https://json-schema.org/draft/2020-12/schema",
+ "title": "burr.Wish",
+ "description": "A wish the servo obeyed at the start of a tick.",
+ "type": "object",
+ "properties": {
+  "tick": {"type": "integer"},
+  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction"]},
+  "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch; friction scale; \"nan\", \"inf\", \"-inf\" as strings"}
+ }
+})";
+
+constexpr const char* kEventSchema = R"({
+ "$schema": "https://json-schema.org/draft/2020-12/schema",
+ "title": "burr.Event",
+ "description": "What happened to the recording itself.",
+ "type": "object",
+ "properties": {
+  "event": {"enum": ["dropped", "finished"]},
+  "tick": {"type": "integer", "description": "last tick written"},
+  "dropped_ticks": {"type": "integer", "description": "rows lost so far because the ring was full"},
+  "dropped_wishes": {"type": "integer"},
+  "dropped_bricks": {"type": "integer"}
+ }
+})";
+
+const char* wish_name(WishKind kind) {
+  switch (kind) {
+    case WishKind::spindle_speed:
+      return "spindle_speed";
+    case WishKind::burr_radius:
+      return "burr_radius";
+    case WishKind::stiffness:
+      return "stiffness";
+    case WishKind::user_force:
+      return "user_force";
+    case WishKind::tool_mode:
+      return "tool_mode";
+    case WishKind::undo:
+      return "undo";
+    case WishKind::redo:
+      return "redo";
+    case WishKind::reset:
+      return "reset";
+    case WishKind::friction:
+      return "friction";
+  }
+  return "";
+}
+
+template <class T>
+ByteSpan bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(T)};
+}
+
+template <class T>
+bool values_of(ByteSpan bytes, std::vector<T>& values) {
+  if (bytes.size() % sizeof(T) != 0) return false;
+  values.resize(bytes.size() / sizeof(T));
+  if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+  return true;
+}
+
+}  // namespace
+
+std::string schema_data(std::string_view schema_name) {
+  if (schema_name == kSession.schema_name) return kSessionSchema;
+  if (schema_name == kWishes.schema_name) return kWishSchema;
+  if (schema_name == kEvents.schema_name) return kEventSchema;
+  if (schema_name == kChanges.schema_name) return descriptor("Bricks", kBrickFields);
+  std::vector<FieldText> fields;
+  for (const TickColumn& column : kTickColumns) fields.push_back(column.text);
+  return descriptor("Ticks", fields);
+}
+
+void encode_ticks(std::span<const TickRow> rows, BytesOut& out) {
+  BytesOut packed;
+  // the accessors want rows they could change
+  std::vector<TickRow> mine(rows.begin(), rows.end());
+  for (const TickColumn& column : kTickColumns) {
+    packed.clear();
+    for (TickRow& row : mine) {
+      if (column.text.type == Type::flag)
+        packed.put(static_cast<std::uint8_t>(*static_cast<bool*>(column.in(row)) ? 1 : 0));
+      else
+        packed.raw(column.in(row), width(column.text.type));
+    }
+    put_block(out, column.text.number, packed.span());
+  }
+}
+
+bool decode_ticks(ByteSpan message, std::vector<TickRow>& rows) {
+  constexpr std::size_t kColumns = std::size(kTickColumns);
+  std::array<ByteSpan, kColumns> columns{};
+  if (!each_field(message, [&](std::uint64_t field, std::uint64_t, ByteSpan block) {
+        for (std::size_t c = 0; c < kColumns; ++c)
+          if (kTickColumns[c].text.number == field) columns[c] = block;
+        return true;
+      }))
+    return false;
+
+  // every column has a value for each row, or is from a burr that did not know it
+  const std::size_t count = columns[0].size() / sizeof(std::uint64_t);
+  for (std::size_t c = 0; c < kColumns; ++c)
+    if (!(columns[c].empty() && c > 0) &&
+        columns[c].size() != count * width(kTickColumns[c].text.type))
+      return false;
+
+  const std::size_t before = rows.size();
+  rows.resize(before + count);
+  for (std::size_t c = 0; c < kColumns; ++c) {
+    if (columns[c].empty()) continue;
+    const std::size_t size = width(kTickColumns[c].text.type);
+    for (std::size_t r = 0; r < count; ++r) {
+      const std::uint8_t* from = columns[c].data() + r * size;
+      void* to = kTickColumns[c].in(rows[before + r]);
+      if (kTickColumns[c].text.type == Type::flag)
+        *static_cast<bool*>(to) = *from != 0;
+      else
+        std::memcpy(to, from, size);
+    }
+  }
+  return true;
+}
+
+std::size_t tick_columns_size() {
+  std::size_t size = 0;
+  for (const TickColumn& column : kTickColumns) size += width(column.text.type);
+  return size;
+}
+
+std::string to_json(const WishRow& row) {
+  json object = {{"tick", row.tick}, {"kind", wish_name(row.wish.kind)}, {"value", row.wish.value}};
+  if (std::isnan(row.wish.value)) object["value"] = "nan";
+  if (std::isinf(row.wish.value)) object["value"] = row.wish.value > 0 ? "inf" : "-inf";
+  return object.dump();
+}
+
+bool wish_from_json(std::string_view text, WishRow& row) {
+  const json object = json::parse(text, nullptr, false);
+  if (!object.is_object()) return false;
+  const auto tick = object.find("tick"), kind = object.find("kind"), value = object.find("value");
+  if (tick == object.end() || !tick->is_number_unsigned() || kind == object.end() ||
+      !kind->is_string() || value == object.end())
+    return false;
+  row.tick = tick->get<std::uint64_t>();
+  if (value->is_number()) {
+    row.wish.value = value->get<double>();
+  } else {
+    const double infinity = std::numeric_limits<double>::infinity();
+    if (*value == "nan")
+      row.wish.value = std::numeric_limits<double>::quiet_NaN();
+    else if (*value == "inf" || *value == "-inf")
+      row.wish.value = *value == "inf" ? infinity : -infinity;
+    else
+      return false;
+  }
+  for (unsigned k = 0; k < 256; ++k) {
+    const auto known = static_cast<WishKind>(k);
+    const std::string_view name = wish_name(known);
+    if (name.empty()) break;
+    if (*kind == name) {
+      row.wish.kind = known;
+      return true;
+    }
+  }
+  return false;
+}
+
+std::uint32_t BrickContent::crc() const {
+  const std::uint32_t of_field =
+      crc32({reinterpret_cast<const std::uint8_t*>(field.voxel), sizeof field.voxel});
+  return has_tissue ? crc32(of_field, tissue) : of_field;
+}
+
+void apply_xor(BrickContent& to, const BrickContent& change) {
+  for (std::size_t v = 0; v < std::size(to.field.voxel); ++v)
+    to.field.voxel[v] = static_cast<volume::Field>(to.field.voxel[v] ^ change.field.voxel[v]);
+  if (!change.has_tissue) return;
+  to.has_tissue = true;
+  for (std::size_t v = 0; v < to.tissue.size(); ++v)
+    to.tissue[v] = static_cast<volume::TissueId>(to.tissue[v] ^ change.tissue[v]);
+}
+
+void encode_bricks(const Bricks& bricks, BytesOut& out) {
+  put_number(out, kBatch, bricks.batch);
+  put_number(out, kPart, bricks.part);
+  put_number(out, kParts, bricks.parts);
+  put_block(out, kTick, bytes_of(bricks.tick));
+  put_block(out, kBrick, bytes_of(bricks.brick));
+  put_block(out, kCrc, bytes_of(bricks.crc));
+  BytesOut field, has_tissue, tissue;
+  for (const BrickContent& content : bricks.content) {
+    field.raw(content.field.voxel, sizeof content.field.voxel);
+    has_tissue.put(static_cast<std::uint8_t>(content.has_tissue ? 1 : 0));
+    if (content.has_tissue) tissue.raw(content.tissue);
+  }
+  put_block(out, kField, field.span());
+  put_block(out, kHasTissue, has_tissue.span());
+  put_block(out, kTissue, tissue.span());
+}
+
+bool decode_bricks(ByteSpan message, Bricks& bricks) {
+  bricks = {};
+  ByteSpan field, has_tissue, tissue;
+  const bool whole =
+      each_field(message, [&](std::uint64_t number, std::uint64_t value, ByteSpan block) {
+        switch (number) {
+          case kBatch:
+            bricks.batch = value;
+            return true;
+          case kPart:
+            bricks.part = static_cast<std::uint32_t>(value);
+            return true;
+          case kParts:
+            bricks.parts = static_cast<std::uint32_t>(value);
+            return true;
+          case kTick:
+            return values_of(block, bricks.tick);
+          case kBrick:
+            return values_of(block, bricks.brick);
+          case kCrc:
+            return values_of(block, bricks.crc);
+          case kField:
+            field = block;
+            return true;
+          case kHasTissue:
+            has_tissue = block;
+            return true;
+          case kTissue:
+            tissue = block;
+            return true;
+          default:
+            return true;
+        }
+      });
+  const std::size_t count = bricks.tick.size();
+  if (!whole || bricks.brick.size() != count || bricks.crc.size() != count ||
+      field.size() != count * sizeof(volume::BrickField::voxel) || has_tissue.size() != count)
+    return false;
+  bricks.content.resize(count);
+  BytesIn fields(field), tissues(tissue);
+  for (std::size_t i = 0; i < count; ++i) {
+    BrickContent& content = bricks.content[i];
+    const ByteSpan voxels = fields.take(sizeof content.field.voxel);
+    std::memcpy(content.field.voxel, voxels.data(), voxels.size());
+    content.has_tissue = has_tissue[i] != 0;
+    if (!content.has_tissue) continue;
+    const ByteSpan ids = tissues.take(content.tissue.size());
+    if (!tissues.ok()) return false;
+    std::memcpy(content.tissue.data(), ids.data(), ids.size());
+  }
+  return tissues.empty();
+}
+
+}  // namespace burr::record

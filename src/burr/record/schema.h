@@ -1,0 +1,81 @@
+// record/schema.h - the channels of a recording: their names, their schemas, and rows to bytes and
+// back.
+//
+// Ticks and bricks are Protocol Buffers (proto3), several rows in one message as packed columns;
+// their schema in the file is a FileDescriptorSet whose comments say what each field is and its
+// unit. So any MCAP or protobuf tool reads them without burr. The rest is JSON with JSON Schema.
+// Field numbers are for ever: a field that goes leaves a gap, a new one takes a new number.
+// docs/recording.md is the table for people.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "burr/record/bytes.h"
+#include "burr/record/rows.h"
+
+namespace burr::record {
+
+inline constexpr int kFormatVersion = 1;
+
+struct Topic {
+  const char* name;             // "/ticks"
+  const char* encoding;         // of messages
+  const char* schema_name;      // "burr.Ticks"
+  const char* schema_encoding;  // "protobuf" or "jsonschema"
+};
+inline constexpr Topic kSession = {"/session", "json", "burr.Session", "jsonschema"};
+inline constexpr Topic kTicks = {"/ticks", "protobuf", "burr.Ticks", "protobuf"};
+inline constexpr Topic kWishes = {"/wishes", "json", "burr.Wish", "jsonschema"};
+inline constexpr Topic kEvents = {"/events", "json", "burr.Event", "jsonschema"};
+inline constexpr Topic kChanges = {"/bone/changes", "protobuf", "burr.Bricks", "protobuf"};
+inline constexpr Topic kKeyframes = {"/bone/keyframes", "protobuf", "burr.Bricks", "protobuf"};
+inline constexpr std::array<Topic, 6> kTopics = {kSession, kTicks,   kWishes,
+                                                 kEvents,  kChanges, kKeyframes};
+inline constexpr const char* kBoneAttachment = "bone";
+inline constexpr const char* kBoneMediaType = "application/x-burr-bone";
+
+// The text or bytes of a schema as it stands in the file.
+[[nodiscard]] std::string schema_data(std::string_view schema_name);
+
+// ---- ticks
+void encode_ticks(std::span<const TickRow> rows, BytesOut& out);
+// appends; false: malformed, nothing appended
+[[nodiscard]] bool decode_ticks(ByteSpan message, std::vector<TickRow>& rows);
+// bytes of a row that are written; for the test that no field is forgotten
+[[nodiscard]] std::size_t tick_columns_size();
+
+// ---- wishes
+[[nodiscard]] std::string to_json(const WishRow& row);
+[[nodiscard]] bool wish_from_json(std::string_view text, WishRow& row);
+
+// ---- bricks
+// What a brick is like; tissue only where it differs from the bone as it was opened.
+struct BrickContent {
+  volume::BrickField field = {};
+  std::array<volume::TissueId, volume::kBrickVoxels> tissue = {};
+  bool has_tissue = false;
+  [[nodiscard]] std::uint32_t crc() const;  // of field, then tissue if there is one
+};
+
+// A message of /bone/changes (contents XORed with what they were before, zero the first time) or
+// of /bone/keyframes (contents as they are).
+struct Bricks {
+  std::uint64_t batch = 0;            // changes: 1, 2, 3 ...; keyframe: the last batch it contains
+  std::uint32_t part = 0, parts = 1;  // keyframe: several messages make one
+  std::vector<std::uint64_t> tick;    // (n) as it is after this tick
+  std::vector<std::int32_t> brick;    // (n)
+  std::vector<std::uint32_t> crc;     // (n) BrickContent::crc() after the change
+  std::vector<BrickContent> content;  // (n)
+};
+void encode_bricks(const Bricks& bricks, BytesOut& out);
+[[nodiscard]] bool decode_bricks(ByteSpan message, Bricks& bricks);
+
+// to ^= change
+void apply_xor(BrickContent& to, const BrickContent& change);
+
+}  // namespace burr::record
