@@ -310,10 +310,21 @@ struct Piece {
   std::uint32_t first = 0, mine = 0;  // its own vertices in the whole; the others are a neighbour's
 };
 
-// A vertex in a patch's low planes belongs to the neighbour there: its step to the owner's patch.
-math::Ijk owner_of(const EdgeKey& key) {
-  return {key.axis != 0 && key.x == 0 ? -1 : 0, key.axis != 1 && key.y == 0 ? -1 : 0,
-          key.axis != 2 && key.z == 0 ? -1 : 0};
+// A vertex in a patch's low planes belongs to the neighbour there. (packed key) bit 0, 1, 2: the
+// owner is one patch lower along x, y, z.
+using Owners = std::array<std::uint8_t, std::size_t{3} * kIds>;
+const Owners& owners() {
+  static const Owners table = [] {
+    Owners made{};
+    for (std::size_t packed = 0; packed < made.size(); ++packed) {
+      const EdgeKey key = EdgeKey::unpacked(static_cast<std::uint16_t>(packed));
+      made[packed] = static_cast<std::uint8_t>((key.axis != 0 && key.x == 0 ? 1 : 0) |
+                                               (key.axis != 1 && key.y == 0 ? 2 : 0) |
+                                               (key.axis != 2 && key.z == 0 ? 4 : 0));
+    }
+    return made;
+  }();
+  return table;
 }
 
 // Runs work(worker, i) for i in 0..count on all threads; the caller is worker 0 and reports.
@@ -351,6 +362,7 @@ Result<Mesh> whole_surface(const volume::Bone& bone, int threads, Progress& prog
   for (int i = 0; i < threads; ++i) meshers.push_back(std::make_unique<Mesher>(bone));
   const math::Ijk patches = meshers.front()->patches();
   const int count = patches.prod();
+  const Owners& owner = owners();
 
   // every patch by itself
   std::vector<std::unique_ptr<Piece>> pieces(static_cast<std::size_t>(count));
@@ -363,8 +375,7 @@ Result<Mesh> whole_surface(const volume::Bone& bone, int threads, Progress& prog
     piece->mesh.vertices.assign(work.vertex.begin(), work.vertex.begin() + work.vertices);
     piece->mesh.triangles.assign(work.triangle.begin(), work.triangle.begin() + work.indices);
     piece->key.assign(work.key.begin(), work.key.begin() + work.vertices);
-    for (const std::uint16_t key : piece->key)
-      if (owner_of(EdgeKey::unpacked(key)).isZero()) ++piece->mine;
+    for (const std::uint16_t key : piece->key) piece->mine += owner[key] == 0 ? 1U : 0U;
     pieces[static_cast<std::size_t>(patch)] = std::move(piece);
   });
   if (!done) return error(Trouble::interrupted, "stopped while making the surface");
@@ -398,7 +409,7 @@ Result<Mesh> whole_surface(const volume::Bone& bone, int threads, Progress& prog
     piece.index.resize(piece.key.size());
     std::uint32_t next = piece.first;
     for (std::size_t v = 0; v < piece.key.size(); ++v) {
-      if (!owner_of(EdgeKey::unpacked(piece.key[v])).isZero()) continue;
+      if (owner[piece.key[v]] != 0) continue;
       mesh.vertices[next] = piece.mesh.vertices[v];
       piece.index[v] = next++;
     }
@@ -407,17 +418,18 @@ Result<Mesh> whole_surface(const volume::Bone& bone, int threads, Progress& prog
     const int patch = full[static_cast<std::size_t>(i)];
     Piece& piece = *piece_at(patch);
     for (std::size_t v = 0; v < piece.key.size(); ++v) {
+      const int lower = owner[piece.key[v]];
+      if (lower == 0) continue;
+      const math::Ijk by(lower & 1, (lower >> 1) & 1, lower >> 2);
       EdgeKey key = EdgeKey::unpacked(piece.key[v]);
-      const math::Ijk to = owner_of(key);
-      if (to.isZero()) continue;
-      const Piece* owner = piece_at(patch + to.x() + patches.x() * (to.y() + patches.y() * to.z()));
-      key.x -= kCells * to.x();
-      key.y -= kCells * to.y();
-      key.z -= kCells * to.z();
-      BURR_CHECK(owner != nullptr);
-      const auto found = std::lower_bound(owner->key.begin(), owner->key.end(), key.packed());
-      BURR_CHECK(found != owner->key.end() && *found == key.packed());
-      piece.index[v] = owner->index[static_cast<std::size_t>(found - owner->key.begin())];
+      key.x += kCells * by.x();
+      key.y += kCells * by.y();
+      key.z += kCells * by.z();
+      const Piece* from = piece_at(patch - by.x() - patches.x() * (by.y() + patches.y() * by.z()));
+      BURR_CHECK(from != nullptr);
+      const auto found = std::lower_bound(from->key.begin(), from->key.end(), key.packed());
+      BURR_CHECK(found != from->key.end() && *found == key.packed());
+      piece.index[v] = from->index[static_cast<std::size_t>(found - from->key.begin())];
     }
     std::uint32_t* out = &mesh.triangles[first_index[static_cast<std::size_t>(i)]];
     for (const std::uint32_t v : piece.mesh.triangles) *out++ = piece.index[v];
