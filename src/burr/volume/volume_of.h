@@ -1,11 +1,18 @@
 // volume/volume_of.h - how much material a field holds: the one definition of volume for ledger,
 // metrics and export.
 //
-// The plain sum of the ramp is not volume: for a ball it is too large by about (ramp / R)^2. Two
-// narrower ramps of half width a and 2a are wrong by A and 4A, so (4 * narrow - wide) / 3 has no
-// such error left (Richardson; the smeared step's second moment is zero). Measured over random
-// places: balls of R >= 3 voxels within 0.5 %, plates of t >= 2 voxels exact along the axes.
-// tests/volume/volume_of_test.cpp
+// The plain sum of the ramp is not volume: for a ball it is too large by about (ramp / R)^2. Volume
+// is instead the sum of a step v(d) of the depth d, half width one voxel, whose derivative w has
+//
+//     no second moment          so that curvature makes no error (a ball is exact in the mean), and
+//     little weight W(f) at     so that it does not matter where the surface lies between the
+//     f = 1, sqrt 2, sqrt 3 ..  voxels: these are the lattice's own frequencies
+//
+// v(d) = 1/2 + c0 d + c1 d^3 + c2 d^5 + c3 d^7; the two coefficients left free were chosen by
+// search for the smallest worst error. Two nested straight ramps (Richardson) have the first
+// property but not the second: 1.8 % for a ball of 3.3 voxels, 5 % for slanted plates.
+// Worst errors over all places: balls of R >= 3 voxels 0.7 %; plates of t >= 2 voxels 0.8 % along
+// the axes, 1.4 % along the worst lattice diagonal. tests/scenes/build_test.cpp
 //
 // Integer arithmetic: sums are exact in any order.
 #pragma once
@@ -19,14 +26,16 @@ namespace burr::volume {
 // A full voxel counts this much; the sum of a whole 2048^3 volume fits 64 bits.
 inline constexpr std::int64_t kVoxelUnits = 3 * 65536;
 
-// Volume of one voxel from its field, in 1/kVoxelUnits of a voxel. Between the ramps it may
-// slightly exceed a voxel.
+// Volume of one voxel from its field, in 1/kVoxelUnits of a voxel. A voxel within one of the
+// surface may count a little less than nothing or more than all: -0.06 .. 1.06.
 [[nodiscard]] constexpr std::int32_t volume_units(std::int32_t field) {
-  const std::int32_t steep = 4 * field - 98304;  // half width 0.5 voxel
-  const std::int32_t wide = 2 * field - 32768;   // half width 1 voxel
-  const std::int32_t narrow_part = steep < 0 ? 0 : steep > 65536 ? 65536 : steep;
-  const std::int32_t wide_part = wide < 0 ? 0 : wide > 65536 ? 65536 : wide;
-  return 4 * narrow_part - wide_part;
+  std::int32_t d = field - 32768;  // depth, 16384 a voxel; beyond one voxel it does not matter
+  d = d < -16384 ? -16384 : d > 16384 ? 16384 : d;
+  const std::int32_t y = (d * d) >> 14;
+  std::int32_t slope = 11141 + ((-1638 * y) >> 14);  // c2, c3
+  slope = -23425 + ((slope * y) >> 14);              // c1
+  slope = 22114 + ((slope * y) >> 14);               // c0; all four sum to 1/2: full is full
+  return 98304 + ((3 * d * slope) >> 12);
 }
 
 // Of a brick (8 x 8 x 8), in 1/kVoxelUnits of a voxel.
