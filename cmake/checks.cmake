@@ -1,0 +1,79 @@
+# Everything ./test looks at besides the unit tests, as tests of ctest. Label `long`: left out by
+# ./test --quick. A test that builds takes all processors, so that it runs alone.
+find_package(Python3 COMPONENTS Interpreter)
+include(ProcessorCount)
+ProcessorCount(BURR_PROCESSORS)
+set(checks ${PROJECT_SOURCE_DIR}/scripts/checks)
+
+# ---- the house
+if(Python3_FOUND)
+  add_test(NAME house.rooms COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/rooms.py)
+  add_test(NAME house.rooms_are_watched COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/house/rooms_test.py)
+  add_test(NAME house.documents COMMAND ${Python3_EXECUTABLE} ${checks}/docs.py ${CMAKE_BINARY_DIR})
+endif()
+add_test(NAME house.format COMMAND ${checks}/format.sh)
+add_test(NAME house.words COMMAND ${checks}/words.sh)
+add_test(NAME house.tidy COMMAND ${checks}/tidy.sh ${CMAKE_BINARY_DIR})
+add_test(NAME house.refuses COMMAND ${checks}/refuses.sh ${CMAKE_BINARY_DIR})
+add_test(NAME house.install COMMAND ${checks}/install.sh ${CMAKE_BINARY_DIR})
+set_tests_properties(house.tidy PROPERTIES PROCESSORS ${BURR_PROCESSORS} TIMEOUT 1200 LABELS long)
+set_tests_properties(house.install PROPERTIES LABELS long)
+
+# ---- each header compiles alone, with the warnings of the library
+foreach(header ${BURR_HEADERS})
+  file(RELATIVE_PATH inside ${PROJECT_SOURCE_DIR}/src ${header})
+  string(REPLACE "/" "_" name ${inside})
+  set(unit ${CMAKE_BINARY_DIR}/headers/${name}.cpp)
+  file(CONFIGURE OUTPUT ${unit} CONTENT "#include \"${inside}\"\n#include \"${inside}\"  // twice: guarded\n")
+  list(APPEND header_units ${unit})
+endforeach()
+add_library(headers_alone OBJECT EXCLUDE_FROM_ALL ${header_units})
+target_link_libraries(headers_alone PRIVATE burr burr_options)
+target_compile_options(headers_alone PRIVATE -O0)
+add_test(NAME house.headers_compile_alone
+  COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR} --target headers_alone)
+set_tests_properties(house.headers_compile_alone PROPERTIES PROCESSORS ${BURR_PROCESSORS} TIMEOUT 1200 LABELS long)
+
+# ---- samples: one idea each; each checks itself
+foreach(sample ${BURR_SAMPLES})
+  get_filename_component(name ${sample} NAME_WE)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/samples)
+  add_test(NAME samples.${name} COMMAND ${name} WORKING_DIRECTORY ${CMAKE_BINARY_DIR}/samples)
+  set_tests_properties(samples.${name} PROPERTIES TIMEOUT 300)
+endforeach()
+
+# ---- other builds; only from the release build, which is the one ./test makes
+if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
+  # burr_other_build(PRESET TARGET...): configures and builds a preset as a test others may depend on
+  function(burr_other_build preset)
+    add_test(NAME ${preset}.configure COMMAND ${CMAKE_COMMAND} --preset ${preset}
+      WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    add_test(NAME ${preset}.build COMMAND ${CMAKE_COMMAND} --build ${PROJECT_SOURCE_DIR}/build/${preset} --target ${ARGN})
+    set_tests_properties(${preset}.configure PROPERTIES FIXTURES_SETUP ${preset}_tree LABELS long)
+    set_tests_properties(${preset}.build PROPERTIES FIXTURES_REQUIRED ${preset}_tree FIXTURES_SETUP ${preset}_programs
+      PROCESSORS ${BURR_PROCESSORS} TIMEOUT 3000 LABELS long)
+  endfunction()
+  # burr_other_test(PRESET ROOM FILTER): the room's tests in that build; FILTER as for gtest
+  function(burr_other_test preset room filter)
+    add_test(NAME ${preset}.${room} COMMAND ${PROJECT_SOURCE_DIR}/build/${preset}/test_${room}
+      --gtest_brief=1 --gtest_filter=${filter})
+    set_tests_properties(${preset}.${room} PROPERTIES FIXTURES_REQUIRED ${preset}_programs TIMEOUT 1800 LABELS long
+      ENVIRONMENT "UBSAN_OPTIONS=print_stacktrace=1;TSAN_OPTIONS=halt_on_error=1 second_deadlock_stack=1;ASAN_OPTIONS=detect_stack_use_after_return=1")
+  endfunction()
+
+  # the second compiler, warnings as errors: library, program, samples
+  burr_other_build(clang burr burr_program)
+
+  # AddressSanitizer and UndefinedBehaviorSanitizer: what reads files, and what moves memory
+  set(asan_rooms base rt math volume)
+  list(TRANSFORM asan_rooms PREPEND test_ OUTPUT_VARIABLE asan_targets)
+  burr_other_build(asan ${asan_targets})
+  foreach(room ${asan_rooms})
+    burr_other_test(asan ${room} "*")
+  endforeach()
+
+  # ThreadSanitizer: the doors, and bone cut by one thread while others look on
+  burr_other_build(tsan test_rt test_volume)
+  burr_other_test(tsan rt "*")
+  burr_other_test(tsan volume "Bone.*")
+endif()

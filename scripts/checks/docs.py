@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+"""What the documents name is there: links, pictures, files, and the program's commands and options.
+
+    scripts/checks/docs.py [BUILD]        BUILD: where the program lies; default build/release
+"""
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BURR = (pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build/release") / "burr"
+bad = []
+
+
+def tracked(*patterns):
+    out = subprocess.run(["git", "-c", "safe.directory=*", "ls-files", "-z", "--", *patterns], cwd=ROOT, check=True, capture_output=True, text=True)
+    return [name for name in out.stdout.split("\0") if name and (ROOT / name).is_file()]
+
+
+helps = {}
+
+
+def help_of(*command):
+    if command not in helps:
+        done = subprocess.run([BURR, *command, "--help"], capture_output=True, text=True)
+        helps[command] = done.stdout if done.returncode == 0 else None
+    return helps[command]
+
+
+def check_links(name, text):
+    for target in re.findall(r"\]\(([^)\s]+)\)", text) + re.findall(r'(?:src|href)="([^"]+)"', text):
+        if re.match(r"[a-z]+:", target) or target.startswith("#"):
+            continue
+        file, _, anchor = target.partition("#")
+        place = (ROOT / name).parent / file
+        if not place.exists():
+            bad.append(f"{name}: links to {target}, which is not there")
+        elif anchor and place.suffix == ".md":
+            heads = [re.sub(r"[^\w\- ]", "", h).strip().lower().replace(" ", "-") for h in re.findall(r"^#+ +(.*)$", place.read_text(), re.M)]
+            if anchor not in heads:
+                bad.append(f"{name}: links to {target}, but {file} has no such heading")
+
+
+def check_paths(name, text):
+    for path in re.findall(r"`((?:src|docs|scripts|tests|bench|samples|scenes|cases|apps|cmake|\.ci)/[\w./-]*)`", text):
+        if not (ROOT / path).exists() and not list(ROOT.glob(path + ".*")):
+            bad.append(f"{name}: names {path}, which is not there")
+
+
+def check_command(name, line):
+    """One line of a document that runs the program, ./run or ./test."""
+    line = line.split("  #")[0].strip()
+    line = re.sub(r"^[\w$ ]*\$ ", "", line)
+    try:
+        words = shlex.split(line.replace("|", " | ").replace("&&", " ; "), comments=True)
+    except ValueError:
+        bad.append(f"{name}: cannot be typed: {line}")
+        return
+    while words and re.fullmatch(r"[A-Z_]+=.*", words[0]):
+        words = words[1:]
+    if not words:
+        return
+    program = words[0]
+    if program in ("./run", "./test") or program.startswith("scripts/"):
+        if not (ROOT / program).exists():
+            bad.append(f"{name}: runs {program}, which is not there")
+        return
+    if program not in ("burr", "build/release/burr") or len(words) < 2:
+        return
+    command = []
+    for word in words[1:3]:
+        if re.fullmatch(r"[a-z][a-z-]*", word) and help_of(*command, word) is not None:
+            command.append(word)
+        else:
+            break
+    if not command:
+        if words[1] not in ("--version", "--help", "help"):
+            bad.append(f"{name}: `burr {words[1]}` is no command: {line}")
+        return
+    known = help_of(*command) + (help_of() or "")
+    for word in words[2:]:
+        if word in ("|", ";", ">"):
+            break
+        option = word.split("=")[0]
+        if re.fullmatch(r"--[a-z][a-z-]*", option) and not re.search(re.escape(option) + r"(?![\w-])", known):
+            bad.append(f"{name}: `burr {' '.join(command)}` has no {option}: {line}")
+
+
+documents = [n for n in tracked("*.md") if not n.startswith("tests/")]
+for name in documents:
+    text = (ROOT / name).read_text()
+    check_links(name, text)
+    check_paths(name, text)
+    inside = False
+    joined = ""
+    for line in text.splitlines():
+        if line.startswith("```"):
+            inside = not inside
+            continue
+        if inside or line.startswith("    "):
+            joined += line.strip()
+            if joined.endswith("\\"):
+                joined = joined[:-1] + " "
+                continue
+            if BURR.exists() or not joined.startswith(("burr", "build/release/burr")):
+                check_command(name, joined)
+            joined = ""
+    for code in re.findall(r"`((?:build/release/)?burr [^`]+|\./(?:run|test)[^`]*)`", text):
+        if BURR.exists():
+            check_command(name, code)
+
+for line in bad:
+    print(line)
+print(f"{len(documents)} documents, {len(bad)} complaints")
+sys.exit(bool(bad))

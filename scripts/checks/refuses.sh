@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# ./run, ./test and the program refuse what they cannot do: the right exit code, one sentence, no core.
+#
+#     scripts/checks/refuses.sh BUILD
+set -uo pipefail
+source "$(dirname "$0")/files.sh"
+burr=$(realpath "$1")/burr
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+bad=0
+
+# expect CODE WORDS COMMAND...: exits with CODE and says WORDS (a regular expression) on stderr
+expect() {
+  local code=$1 words=$2 got
+  shift 2
+  "$@" >"$place/out" 2>"$place/err" </dev/null
+  got=$?
+  if [ $got != "$code" ]; then
+    echo "exit code $got instead of $code: $*"
+    head -5 "$place/err"
+    bad=1
+  elif [ -n "$words" ] && ! cat "$place/err" "$place/out" | grep -qiE "$words"; then
+    echo "does not say '$words': $*"
+    head -5 "$place/err"
+    bad=1
+  fi
+}
+
+printf 'not a volume\n' >"$place/rubbish.nrrd"
+: >"$place/empty.nii.gz"
+
+expect 0 '^burr [0-9]+\.[0-9]+\.[0-9]+' "$burr" --version
+expect 0 'examples' "$burr" help
+expect 0 'usage' "$burr" --help
+expect 2 '' "$burr" no-such-command
+expect 2 '' "$burr" --no-such-option
+for command in info mill export replay repair phantom run; do
+  "$burr" --help | grep -qE "^  $command( |$)" || continue
+  expect 2 '' "$burr" $command --no-such-option
+  expect 0 '' "$burr" $command --help
+done
+expect 2 'usage' ./test --no-such-option
+expect 2 'usage' scripts/install_packages.sh nonsense
+expect 2 '' scripts/rooms.py --no-such-option
+
+if "$burr" --help | grep -qE '^  info'; then
+  expect 2 '' "$burr" info
+  expect 74 'no/such/file' "$burr" info "$place/no/such/file.nrrd"
+  expect 65 'rubbish' "$burr" info "$place/rubbish.nrrd"
+  expect 65 'empty' "$burr" info "$place/empty.nii.gz"
+fi
+if "$burr" --help | grep -qE '^  replay'; then
+  expect 74 'no/such' "$burr" replay "$place/no/such.mcap"
+  expect 65 'rubbish' "$burr" replay "$place/rubbish.nrrd"
+fi
+exit $bad

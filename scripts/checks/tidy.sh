@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# The short list of .clang-tidy holds in the library.
+#
+#     scripts/checks/tidy.sh [BUILD]         BUILD: has compile_commands.json; default build/release
+#
+# Left out: what includes ITK or GDCM (a minute a file), and a kernel's copies for other processors.
+set -euo pipefail
+source "$(dirname "$0")/files.sh"
+build=${1:-build/release}
+
+mapfile -d '' -t files < <(our_files 'src/burr/*.cpp')
+for file in "${files[@]}"; do
+  case $file in *_avx2.cpp | *_avx512.cpp) continue ;; esac
+  grep -qE '#include <(itk|gdcm)' "$file" || echo "$file"
+done | xargs -P "${BURR_CORES:-$(nproc)}" -n 2 clang-tidy -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option |&
+  sed -E '/^[0-9]+ warnings? /d'

@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# Installs what is missing of scripts/packages.txt, and says what and why.
+#
+#     scripts/install_packages.sh run|test        test: everything of run as well
+#
+# Does nothing, and needs no network and no rights, when all of it is there.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+
+case "${1:-}" in
+  run | test) wanted=$1 ;;
+  *) echo "usage: scripts/install_packages.sh run|test" >&2; exit 2 ;;
+esac
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "burr: this is not Debian; install the equivalents of scripts/packages.txt yourself, then" >&2
+  echo "      cmake --preset release && cmake --build build/release" >&2
+  exit 1
+fi
+
+installed=$(dpkg-query -W -f '${Package} ${db:Status-Abbrev}\n' | awk '$2 ~ /^.i/ {print $1}')
+missing=() section=
+while IFS= read -r line; do
+  case $line in
+    '[run]') section=run; continue ;;
+    '[test]') section=test; continue ;;
+    '' | '#'*) continue ;;
+  esac
+  [ "$section" = run ] || [ "$wanted" = test ] || continue
+  package=${line%%[ #]*}
+  grep -qxF "$package" <<<"$installed" && continue
+  missing+=("$package")
+  [ ${#missing[@]} -gt 1 ] || echo "burr: missing Debian packages:"
+  printf '  %-24s %s\n' "$package" "${line#*# }"
+done <"$here/packages.txt"
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+root=()
+if [ "$(id -u)" != 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "burr: no right to install them; ask somebody to run, as root:" >&2
+    echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
+    exit 1
+  fi
+  root=(sudo)
+fi
+echo "burr: installing ${#missing[@]} packages with ${root[*]:+sudo }apt-get ..."
+apt=("${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q)
+if ! "${apt[@]}" update || ! "${apt[@]}" install -y --no-install-recommends "${missing[@]}"; then
+  echo "burr: apt-get could not install them; its message above says why" >&2
+  exit 1
+fi

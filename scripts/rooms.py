@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+"""Draws who includes whom among the rooms of src/burr, and fails where the map in docs/architecture.md is broken.
+
+    scripts/rooms.py [ROOT]               ROOT: the folder that holds src/burr; default: this checkout
+
+Fails on a room that is not listed, an arrow that is not listed, two rooms in a circle, and a third-party header
+where it does not belong: graphics only in render/gl, file formats only in io, a vendor's only in its own folder.
+"""
+import collections
+import pathlib
+import re
+import sys
+
+# Besides base and math, which everyone may include. A room that is not here is an error until it is added here,
+# in docs/architecture.md and in docs/decisions.md.
+ALLOWED = {
+    "base": "",
+    "math": "",
+    "rt": "",
+    "volume": "rt",
+    "tool": "",
+    "device": "rt",
+    "edit": "volume tool rt",
+    "haptics": "volume tool rt device",
+    "surface": "volume rt",
+    "sound": "tool rt",
+    "thermal": "volume rt",
+    "io": "volume surface",
+    "render": "surface volume tool rt",
+    "record": "device haptics edit volume rt",
+    "scenario": "volume tool io",
+    "metrics": "record scenario surface volume tool",
+    "sim": "rt volume tool device edit haptics surface sound thermal io render record scenario metrics",
+}
+BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest floors know less than everyone
+
+# Of these rooms only plain structs: (who, whom) -> headers.
+ONLY = {
+    ("haptics", "device"): {"hand.h"},
+    ("record", "device"): {"hand.h"},
+    ("record", "haptics"): {"contact.h"},
+    ("record", "edit"): {"ledger.h"},
+}
+
+# Third-party headers and the folders that may include them.
+ELSEWHERE = [
+    (r"(GL|GLES\d?|EGL|epoxy|SDL2?|GLFW)/|SDL", "render/gl", "graphics"),
+    (r"itk|gdcm|assimp/|vtk", "io", "a file format's library"),
+    (r"HD/hd|HDU|openhaptics|dhdc|drdc|chai3d|haply", None, "a vendor's library"),  # device/<vendor> only
+]
+# What headers may show to others: the standard library, Eigen, ourselves.
+PUBLIC = re.compile(r"^(Eigen/|burr/|[a-z_0-9]+$|sys/|unistd|pthread|sched)")
+
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.M)
+
+
+def read(root):
+    """[(folder inside src/burr, file, [(quoted, name)])]"""
+    found = []
+    for file in sorted(root.rglob("*")):
+        if file.suffix in (".h", ".hpp", ".cpp", ".inl", ".c", ".cc"):
+            names = [(bool(q), q or a) for q, a in INCLUDE.findall(file.read_text(errors="replace"))]
+            found.append((file.relative_to(root), names))
+    return found
+
+
+def may(room, other):
+    if room in BASICS:
+        return other in BASICS[room]
+    return other in ("base", "math") or other in ALLOWED[room].split()
+
+
+def third_party(path, name):
+    """Says why this file may not include that third-party header, or nothing."""
+    folder = path.parent.as_posix()
+    for pattern, home, what in ELSEWHERE:
+        if not re.match(pattern, name):
+            continue
+        if home is None:
+            if not re.match(r"device/\w+", folder):
+                return f"{what} belongs into a folder of its own under device/"
+        elif folder != home and not folder.startswith(home + "/"):
+            return f"{what} belongs into {home}"
+    return ""
+
+
+def look(root):
+    """Returns the arrows (from, to) -> count and the list of complaints."""
+    doors, wrong = collections.Counter(), []
+    for path, names in read(root):
+        where = f"src/burr/{path}"
+        if len(path.parts) < 2:
+            wrong.append(f"{where}: lies in no room")
+            continue
+        room = path.parts[0]
+        if room not in ALLOWED:
+            wrong.append(f"{where}: room '{room}' is not listed; see docs/architecture.md, section 2")
+            continue
+        for quoted, name in names:
+            trouble = third_party(path, name)
+            if trouble:
+                wrong.append(f"{where}: includes {name}; {trouble}")
+            parts = name.split("/")
+            if parts[0] != "burr":
+                if quoted:
+                    wrong.append(f'{where}: includes "{name}"; say it from the root: "burr/<room>/<file>"')
+                continue
+            other = parts[1]
+            if len(parts) < 3 or other not in ALLOWED:
+                wrong.append(f"{where}: includes {name}; room '{other}' is not listed")
+            elif other != room:
+                doors[room, other] += 1
+                only = ONLY.get((room, other))
+                if not may(room, other):
+                    wrong.append(f"{where}: includes {name}; the arrow {room} -> {other} is not listed")
+                elif only and parts[-1] not in only:
+                    wrong.append(f"{where}: includes {name}; of {other}, {room} may know only {', '.join(sorted(only))}")
+            elif room == "device" and len(parts) > 3 and path.parts[1] != parts[2]:
+                wrong.append(f"{where}: includes {name}; a vendor's folder is known only to itself")
+        if path.suffix == ".h":
+            for quoted, name in names:
+                if not quoted and not PUBLIC.match(name):
+                    wrong.append(f"{where}: a header shows others only the standard library and Eigen, not <{name}>")
+    return doors, wrong
+
+
+def circles(doors):
+    reach = collections.defaultdict(set)
+    for a, b in doors:
+        reach[a].add(b)
+    for _ in list(reach):  # transitive closure, enough rounds for the longest chain
+        for room in list(reach):
+            reach[room] |= {far for near in list(reach[room]) for far in reach.get(near, ())}
+    return sorted(room for room in reach if room in reach[room])
+
+
+def main():
+    arguments = [a for a in sys.argv[1:] if not a.startswith("-")]
+    unknown = [a for a in sys.argv[1:] if a.startswith("-")]
+    if unknown or len(arguments) > 1:
+        print(__doc__, file=sys.stderr)
+        return 2
+    root = pathlib.Path(arguments[0]) if arguments else pathlib.Path(__file__).resolve().parent.parent
+    root = root / "src" / "burr"
+    if not root.is_dir():
+        print(f"rooms.py: {root}: no such folder", file=sys.stderr)
+        return 2
+    doors, wrong = look(root)
+    rooms = sorted({p.parts[0] for p, _ in read(root) if len(p.parts) > 1}, key=lambda r: list(ALLOWED).index(r) if r in ALLOWED else 99)
+    for room in rooms:
+        print(f"{room:9} -> " + (", ".join(f"{b} ({n})" for (a, b), n in sorted(doors.items()) if a == room) or "nobody"))
+    round_trips = circles(doors)
+    print("circles: " + (", ".join(round_trips) or "none"))
+    for complaint in wrong:
+        print("not allowed: " + complaint)
+    return 1 if wrong or round_trips else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""scripts/rooms.py must be silent on a good tree and loud on each kind of bad one."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "rooms.py"
+
+GOOD = {
+    "math/vec3.h": "#include <Eigen/Core>\n",
+    "rt/ring.h": '#include "burr/base/check.h"\n',
+    "base/check.h": "#include <vector>\n",
+    "volume/bone.h": '#include "burr/rt/ring.h"\n#include "burr/math/vec3.h"\n',
+    "device/hand.h": "",
+    "haptics/proxy.cpp": '#include "burr/volume/bone.h"\n#include "burr/device/hand.h"\n',
+    "render/gl/draw.cpp": "#include <epoxy/gl.h>\n#include <SDL.h>\n",
+    "io/dicom.cpp": "#include <itkImage.h>\n",
+}
+
+
+def run(files):
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in files.items():
+            file = pathlib.Path(folder) / "src" / "burr" / name
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text)
+        done = subprocess.run([sys.executable, SCRIPT, folder], capture_output=True, text=True)
+        return done.returncode, done.stdout
+
+
+class Rooms(unittest.TestCase):
+    def bad(self, name, text, sentence):
+        code, said = run({**GOOD, name: text})
+        self.assertEqual(code, 1, said)
+        self.assertIn(sentence, said)
+
+    def test_a_good_tree_passes(self):
+        code, said = run(GOOD)
+        self.assertEqual(code, 0, said)
+        self.assertIn("haptics   -> device (1), volume (1)", said)
+        self.assertIn("circles: none", said)
+
+    def test_an_arrow_up_fails(self):
+        self.bad("volume/cut.cpp", '#include "burr/edit/carve.h"\n', "the arrow volume -> edit is not listed")
+
+    def test_an_arrow_sideways_fails(self):
+        self.bad("surface/m.cpp", '#include "burr/haptics/proxy.h"\n', "the arrow surface -> haptics is not listed")
+
+    def test_the_lowest_floor_knows_nobody(self):
+        self.bad("base/word.h", '#include "burr/math/vec3.h"\n', "the arrow base -> math is not listed")
+        self.bad("rt/word.h", '#include "burr/math/vec3.h"\n', "the arrow rt -> math is not listed")
+
+    def test_a_circle_fails(self):
+        code, said = run({**GOOD, "volume/a.h": '#include "burr/edit/b.h"\n', "edit/b.h": '#include "burr/volume/a.h"\n'})
+        self.assertEqual(code, 1)
+        self.assertIn("circles: edit, volume", said)
+
+    def test_an_unlisted_room_fails(self):
+        self.bad("cellar/wine.h", "", "room 'cellar' is not listed")
+        self.bad("volume/a.h", '#include "burr/cellar/wine.h"\n', "room 'cellar' is not listed")
+
+    def test_a_file_in_no_room_fails(self):
+        self.bad("everything.h", "", "lies in no room")
+
+    def test_haptics_knows_only_the_hand_of_a_device(self):
+        self.bad("haptics/a.cpp", '#include "burr/device/device.h"\n', "of device, haptics may know only hand.h")
+
+    def test_graphics_stay_in_their_corner(self):
+        self.bad("render/scene.cpp", "#include <epoxy/gl.h>\n", "graphics belongs into render/gl")
+        self.bad("sim/window.cpp", "#include <SDL2/SDL.h>\n", "graphics belongs into render/gl")
+
+    def test_formats_stay_at_the_border(self):
+        self.bad("volume/load.cpp", "#include <itkImage.h>\n", "belongs into io")
+        self.bad("surface/save.cpp", "#include <assimp/scene.h>\n", "belongs into io")
+
+    def test_a_vendor_stays_in_its_own_folder(self):
+        self.bad("sim/a.cpp", "#include <HD/hd.h>\n", "a folder of its own under device/")
+        self.bad("device/a.cpp", "#include <HD/hd.h>\n", "a folder of its own under device/")
+        self.bad("device/falcon/a.cpp", '#include "burr/device/touch/b.h"\n', "known only to itself")
+
+    def test_headers_show_no_third_party(self):
+        self.bad("io/dicom.h", "#include <itkImage.h>\n", "a header shows others only")
+        self.bad("record/json.h", "#include <nlohmann/json.hpp>\n", "a header shows others only")
+
+    def test_the_library_does_not_reach_out(self):
+        self.bad("volume/a.cpp", '#include "scenes/ball.h"\n', "say it from the root")
+
+
+if __name__ == "__main__":
+    unittest.main()
