@@ -51,11 +51,26 @@ ELSEWHERE = [
 # What headers may show to others: the standard library, Eigen, ourselves.
 PUBLIC = re.compile(r"^(Eigen/|burr/|[a-z_0-9]+$|sys/|unistd|pthread|sched)")
 
+# A header whose greeting says this may show more, is not installed, and is known only to its room.
+PRIVATE = "of this room only"
+
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.M)
 
 
+def is_private(file):
+    """True: the header's greeting says that it is for its own room only."""
+    if not file.is_file():
+        return False
+    greeting = []
+    for line in file.read_text(errors="replace").splitlines():
+        if not line.startswith("//"):
+            break
+        greeting.append(line.lstrip("/ "))
+    return PRIVATE in " ".join(greeting)
+
+
 def read(root):
-    """[(folder inside src/burr, file, [(quoted, name)])]"""
+    """[(file inside src/burr, [(quoted, name)])]"""
     found = []
     for file in sorted(root.rglob("*")):
         if file.suffix in (".h", ".hpp", ".cpp", ".inl", ".c", ".cc"):
@@ -113,11 +128,13 @@ def look(root):
                 only = ONLY.get((room, other))
                 if not may(room, other):
                     wrong.append(f"{where}: includes {name}; the arrow {room} -> {other} is not listed")
+                elif is_private(root / "/".join(parts[1:])):
+                    wrong.append(f"{where}: includes {name}, which is for room {other} only")
                 elif only and parts[-1] not in only:
                     wrong.append(f"{where}: includes {name}; of {other}, {room} may know only {', '.join(sorted(only))}")
             elif room == "device" and len(parts) > 3 and path.parts[1] != parts[2]:
                 wrong.append(f"{where}: includes {name}; a vendor's folder is known only to itself")
-        if path.suffix == ".h":
+        if path.suffix == ".h" and not is_private(root / path):
             for quoted, name in names:
                 if not quoted and not PUBLIC.match(name):
                     wrong.append(f"{where}: a header shows others only the standard library and Eigen, not <{name}>")

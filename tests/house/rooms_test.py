@@ -84,6 +84,14 @@ class Rooms(unittest.TestCase):
         self.bad("io/dicom.h", "#include <itkImage.h>\n", "a header shows others only")
         self.bad("record/json.h", "#include <nlohmann/json.hpp>\n", "a header shows others only")
 
+    def test_a_private_header_may_show_more_but_only_to_its_room(self):
+        private = {**GOOD, "volume/json.h": "// volume/json.h - words; for .cpp files of\n// this room only.\n#include <nlohmann/json.hpp>\n"}
+        code, said = run({**private, "volume/a.cpp": '#include "burr/volume/json.h"\n'})
+        self.assertEqual(code, 0, said)
+        code, said = run({**private, "edit/a.cpp": '#include "burr/volume/json.h"\n'})
+        self.assertEqual(code, 1)
+        self.assertIn("is for room volume only", said)
+
     def test_the_library_does_not_reach_out(self):
         self.bad("volume/a.cpp", '#include "scenes/ball.h"\n', "say it from the root")
 

@@ -181,7 +181,7 @@ void Mesher::Work::find_solid() {
     for (int y = 1; y <= kSamples; ++y) {
       const Field* row = &field[static_cast<std::size_t>((z * kApron + y) * kRow + 1)];
       *bits++ = solid4(row) | solid4(row + 4) << 4 | solid4(row + 8) << 8 | solid4(row + 12) << 12 |
-                (row[16] >> 15U) << 16;
+                static_cast<std::uint32_t>(row[16] >> 15) << 16;
     }
 }
 
