@@ -1,0 +1,36 @@
+#include "burr/record/place_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+namespace burr::record {
+
+Status place_file(const std::string& beside, const std::string& path) {
+  if (std::rename(beside.c_str(), path.c_str()) != 0)
+    return error(Trouble::io, path + ": cannot take this name: " + std::strerror(errno));
+  std::string folder = std::filesystem::path(path).parent_path().string();
+  if (folder.empty()) folder = ".";
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file >= 0) {
+    // not every file system can; the file itself is safe either way
+    static_cast<void>(::fsync(file));
+    ::close(file);
+  }
+  return fine();
+}
+
+bool being_written(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool locked = ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(file);
+  return locked;
+}
+
+}  // namespace burr::record

@@ -1,0 +1,448 @@
+#include "burr/record/player.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "burr/record/bone_blob.h"
+
+namespace burr::record {
+namespace {
+
+using volume::BrickIndex;
+
+BrickRow row_of(std::uint64_t tick, BrickIndex brick, const BrickContent& content,
+                bool with_tissue) {
+  BrickRow row;
+  row.tick = tick;
+  row.brick = brick;
+  row.field = content.field;
+  row.has_tissue = with_tissue;
+  if (with_tissue) row.tissue = content.tissue;
+  return row;
+}
+
+}  // namespace
+
+// ---- opening
+
+Result<std::unique_ptr<Player>> Player::open(const std::string& path) {
+  auto reader = McapReader::open(path);
+  if (!reader) return reader.error();
+  std::unique_ptr<Player> player(new Player);
+  player->path_ = path;
+  player->reader_ = std::move(*reader);
+  player->notices_ = player->reader_->notices();
+  const McapReader& file = *player->reader_;
+  player->tick_channel_ = file.channel_of(kTicks.name);
+  player->wish_channel_ = file.channel_of(kWishes.name);
+  player->event_channel_ = file.channel_of(kEvents.name);
+  player->change_channel_ = file.channel_of(kChanges.name);
+  player->keyframe_channel_ = file.channel_of(kKeyframes.name);
+  if (Status read = player->read_session(); !read.ok()) return read.error();
+  player->step_chunks_ = player->chunks_with(player->tick_channel_, player->wish_channel_);
+  player->change_chunks_ = player->chunks_with(player->change_channel_);
+  player->keyframe_chunks_ = player->chunks_with(player->keyframe_channel_);
+  player->read_events();
+  player->find_ends();
+  return player;
+}
+
+std::vector<std::size_t> Player::chunks_with(std::uint16_t channel,
+                                             std::uint16_t or_channel) const {
+  std::vector<std::size_t> found;
+  for (std::size_t c = 0; c < reader_->chunks().size(); ++c) {
+    const auto& has = reader_->chunks()[c].index_offsets;
+    if ((channel != 0 && has.contains(channel)) || (or_channel != 0 && has.contains(or_channel)))
+      found.push_back(c);
+  }
+  return found;
+}
+
+void Player::notice(const std::string& sentence) {
+  if (std::find(notices_.begin(), notices_.end(), sentence) == notices_.end())
+    notices_.push_back(sentence);
+}
+
+Status Player::read_session() {
+  const std::uint16_t channel = reader_->channel_of(kSession.name);
+  for (const std::size_t c : chunks_with(channel)) {
+    const auto chunk = reader_->read_chunk(c);
+    if (!chunk) return chunk.error();
+    for (const McapMessage& message : chunk->messages) {
+      if (message.channel != channel) continue;
+      auto info = session_from_json(as_text(message.data), path_);
+      if (!info) return info.error();
+      info_ = std::move(*info);
+      return fine();
+    }
+  }
+  return error(
+      path_ +
+      ": no description of a session in it; it is not a recording of burr, or its beginning "
+      "is damaged");
+}
+
+void Player::read_events() {
+  for (const std::size_t c : chunks_with(event_channel_)) {
+    const auto chunk = reader_->read_chunk(c);
+    if (!chunk) {
+      notice(chunk.error().text);
+      continue;
+    }
+    for (const McapMessage& message : chunk->messages) {
+      if (message.channel != event_channel_) continue;
+      const auto event = nlohmann::json::parse(as_text(message.data), nullptr, false);
+      if (!event.is_object()) continue;
+      const auto count = [&](const char* name, std::uint64_t& to) {
+        const auto at = event.find(name);
+        if (at != event.end() && at->is_number_unsigned())
+          to = std::max(to, at->get<std::uint64_t>());
+      };
+      count("dropped_ticks", dropped_ticks_);
+      count("dropped_wishes", dropped_wishes_);
+      count("dropped_bricks", dropped_bricks_);
+    }
+  }
+  if (dropped_ticks_ + dropped_wishes_ + dropped_bricks_ > 0)
+    notice(
+        fmt::format("{}: the disk could not keep up while recording, {} ticks, {} wishes and {} "
+                    "changed bricks are missing",
+                    path_, dropped_ticks_, dropped_wishes_, dropped_bricks_));
+}
+
+void Player::find_ends() {
+  Step step;
+  StepCursor first = steps();
+  if (!first.next(step)) return;
+  first_tick_ = step.row.tick;
+  for (std::size_t c = step_chunks_.size(); c-- > 0;) {
+    StepCursor cursor(*this, c, 0);
+    while (cursor.fill())
+      if (!cursor.rows_.empty()) end_tick_ = std::max(end_tick_, cursor.rows_.back().tick + 1);
+    if (end_tick_ != 0) return;
+  }
+}
+
+// ---- in order
+
+bool StepCursor::fill() {
+  rows_.clear();
+  row_ = 0;
+  const Player& player = *player_;
+  while (chunk_ < player.step_chunks_.size()) {
+    const auto chunk = player.reader_->read_chunk(player.step_chunks_[chunk_++]);
+    if (!chunk) {
+      player_->notice(chunk.error().text);
+      continue;
+    }
+    for (const McapMessage& message : chunk->messages) {
+      WishRow wish;
+      if (message.channel == player.tick_channel_ && !decode_ticks(message.data, rows_))
+        player_->notice(
+            fmt::format("{}: a message of ticks near {:.3f} s is malformed and was "
+                        "left out",
+                        player.path_, static_cast<double>(message.time_ns) * 1e-9));
+      if (message.channel == player.wish_channel_) {
+        if (wish_from_json(as_text(message.data), wish))
+          wishes_.push_back(wish);
+        else
+          player_->notice(
+              fmt::format("{}: a wish near {:.3f} s is not understood and was left "
+                          "out; was it recorded by a newer burr?",
+                          player.path_, static_cast<double>(message.time_ns) * 1e-9));
+      }
+    }
+    if (!rows_.empty()) return true;
+  }
+  return false;
+}
+
+bool StepCursor::next(Step& step) {
+  for (;;) {
+    if (row_ == rows_.size() && !fill()) return false;
+    const TickRow& row = rows_[row_++];
+    if (row.tick < first_tick_ || (last_tick_ && row.tick <= *last_tick_)) continue;
+    step.row = row;
+    step.gap = row.tick != (last_tick_ ? *last_tick_ + 1 : first_tick_);
+    last_tick_ = row.tick;
+    step.wishes.clear();
+    for (; !wishes_.empty() && wishes_.front().tick <= row.tick; wishes_.pop_front())
+      if (wishes_.front().tick == row.tick) step.wishes.push_back(wishes_.front().wish);
+    return true;
+  }
+}
+
+StepCursor Player::steps(std::uint64_t first_tick) {
+  return {*this, first_tick == 0 ? 0 : step_chunk_before(first_tick), first_tick};
+}
+
+BrickCursor Player::bricks() { return BrickCursor(*this); }
+
+bool BrickCursor::next(BrickRow& row) {
+  while (row_ == rows_.size()) {
+    rows_.clear();
+    row_ = 0;
+    if (chunk_ >= player_->change_chunks_.size()) return false;
+    const auto chunk = player_->reader_->read_chunk(player_->change_chunks_[chunk_++]);
+    if (!chunk) {
+      player_->notice(chunk.error().text);
+      continue;
+    }
+    Bricks bricks;
+    for (const McapMessage& message : chunk->messages) {
+      if (message.channel != player_->change_channel_) continue;
+      if (!decode_bricks(message.data, bricks)) {
+        player_->notice(player_->path_ +
+                        ": a message of changed bricks is malformed and was left "
+                        "out");
+        continue;
+      }
+      for (std::size_t i = 0; i < bricks.tick.size(); ++i) {
+        BrickContent& content = state_[bricks.brick[i]];
+        apply_xor(content, bricks.content[i]);
+        if (content.crc() == bricks.crc[i])
+          rows_.push_back(
+              row_of(bricks.tick[i], bricks.brick[i], content, bricks.content[i].has_tissue));
+        else
+          player_->notice(player_->broken_before(bricks.tick[i]).text);
+      }
+    }
+  }
+  row = rows_[row_++];
+  return true;
+}
+
+// ---- at a moment
+
+std::uint64_t Player::tick_of(double t_s) const {
+  const double tick = std::floor(t_s * info_.rate_hz + 1e-6);
+  if (!(tick > 0)) return 0;
+  return tick >= static_cast<double>(end_tick_) ? (end_tick_ == 0 ? 0 : end_tick_ - 1)
+                                                : static_cast<std::uint64_t>(tick);
+}
+
+std::uint64_t Player::tick_of_ns(std::uint64_t time_ns) const {
+  return static_cast<std::uint64_t>(
+      std::llround(std::min(static_cast<double>(time_ns) * 1e-9 * info_.rate_hz, 9e18)));
+}
+
+std::uint64_t Player::start_tick(std::size_t chunk) const {
+  return tick_of_ns(reader_->chunks()[chunk].start_ns);
+}
+
+// Which of step_chunks_ holds the tick, or the one before.
+std::size_t Player::step_chunk_before(std::uint64_t tick) const {
+  const auto after =
+      std::partition_point(step_chunks_.begin(), step_chunks_.end(),
+                           [&](std::size_t chunk) { return start_tick(chunk) <= tick; });
+  const auto count = static_cast<std::size_t>(after - step_chunks_.begin());
+  return count == 0 ? 0 : count - 1;
+}
+
+Result<TickRow> Player::tick_at(double t_s) {
+  const std::uint64_t tick = tick_of(t_s);
+  std::optional<TickRow> found;
+  for (std::size_t start = step_chunk_before(tick);;) {
+    StepCursor cursor(*this, start, 0);
+    Step step;
+    while (cursor.next(step) && step.row.tick <= tick) found = step.row;
+    if (found) return *found;
+    // a damaged stretch lies before it: what is the last good tick?
+    if (start == 0) break;
+    start = start > 16 ? start - 16 : 0;
+  }
+  return error(fmt::format("{}: holds no tick at or before {} s", path_, t_s));
+}
+
+Error Player::broken_before(std::uint64_t tick) const {
+  std::string until = "the end";
+  for (const std::size_t c : keyframe_chunks_) {
+    if (start_tick(c) < tick) continue;
+    until = fmt::format("{:.3f} s", static_cast<double>(start_tick(c)) / info_.rate_hz);
+    break;
+  }
+  return error(
+      fmt::format("{}: the bone cannot be shown from {:.3f} s to {}, because changes "
+                  "before it are damaged; choose a moment outside, or replay",
+                  path_, static_cast<double>(tick) / info_.rate_hz, until));
+}
+
+// The newest whole keyframe at or before the tick becomes the state; false: there is none.
+bool Player::load_keyframe(std::uint64_t tick) {
+  const auto& chunks = reader_->chunks();
+  std::optional<std::uint64_t> not_after;  // keyframes found wanting, and all later
+  for (;;) {
+    // its chunks are those of one time
+    std::vector<std::size_t> parts;
+    std::optional<std::uint64_t> time;
+    for (auto c = keyframe_chunks_.rbegin(); c != keyframe_chunks_.rend(); ++c) {
+      const std::uint64_t start = chunks[*c].start_ns;
+      if (start_tick(*c) > tick || (not_after && start >= *not_after)) continue;
+      if (time && start != *time) break;
+      time = start;
+      parts.push_back(*c);
+    }
+    if (!time) return false;
+
+    State state;
+    std::uint32_t wanted = 1, seen = 0;
+    std::uint64_t batch = 0;
+    bool good = true;
+    for (const std::size_t c : parts) {
+      const auto chunk = reader_->read_chunk(c);
+      if (!chunk) {
+        notice(chunk.error().text);
+        good = false;
+        break;
+      }
+      Bricks bricks;
+      for (const McapMessage& message : chunk->messages) {
+        if (message.channel != keyframe_channel_ || message.time_ns != *time) continue;
+        good = good && decode_bricks(message.data, bricks);
+        if (!good) break;
+        wanted = bricks.parts;
+        batch = bricks.batch;
+        ++seen;
+        for (std::size_t i = 0; i < bricks.brick.size(); ++i) {
+          good = good && bricks.content[i].crc() == bricks.crc[i];
+          state[bricks.brick[i]] = bricks.content[i];
+        }
+      }
+    }
+    if (good && seen == wanted) {
+      state_ = std::move(state);
+      state_tick_ = tick_of_ns(*time);
+      // the changes after it may lie before its own chunks, which were written between them
+      place_ = {};
+      place_.next_batch = batch + 1;
+      const auto from = std::partition_point(
+          chunks.begin(), chunks.end(), [&](const auto& chunk) { return chunk.end_ns < *time; });
+      place_.chunk = static_cast<std::size_t>(from - chunks.begin());
+      state_good_ = true;
+      return true;
+    }
+    not_after = *time;
+  }
+}
+
+// Applies the changes up to and including the tick.
+Status Player::advance(std::uint64_t tick) {
+  for (; place_.chunk < change_chunks_.size(); ++place_.chunk, place_.message = 0) {
+    const auto chunk = reader_->read_chunk(change_chunks_[place_.chunk]);
+    if (!chunk) {
+      notice(chunk.error().text);
+      continue;  // the next batch will find out what is missing
+    }
+    for (; place_.message < chunk->messages.size(); ++place_.message, place_.row = 0) {
+      const McapMessage& message = chunk->messages[place_.message];
+      if (message.channel != change_channel_) continue;
+      Bricks bricks;
+      if (!decode_bricks(message.data, bricks)) {
+        notice(path_ + ": a message of changed bricks is malformed and was left out");
+        continue;
+      }
+      if (bricks.batch < place_.next_batch) continue;  // already in the keyframe
+      if (bricks.batch > place_.next_batch) return broken_before(tick);
+      for (; place_.row < bricks.tick.size(); ++place_.row) {
+        if (bricks.tick[place_.row] > tick) {
+          state_tick_ = tick;
+          return fine();
+        }
+        BrickContent& content = state_[bricks.brick[place_.row]];
+        apply_xor(content, bricks.content[place_.row]);
+        if (content.crc() != bricks.crc[place_.row]) return broken_before(tick);
+      }
+      ++place_.next_batch;
+    }
+  }
+  state_tick_ = tick;
+  return fine();
+}
+
+Status Player::show(volume::Bone& bone) {
+  const auto original = [&](BrickIndex brick) -> const BrickContent& {
+    const auto [at, fresh] = originals_.try_emplace(brick);
+    if (fresh) {
+      BrickContent& content = at->second;
+      if (const volume::Field* field = bone.brick_field(brick); field != nullptr) {
+        std::memcpy(content.field.voxel, field, sizeof content.field.voxel);
+        std::memcpy(content.tissue.data(), bone.brick_tissue(brick), content.tissue.size());
+      }
+      content.has_tissue = true;
+    }
+    return at->second;
+  };
+  const auto write = [&](BrickIndex brick, const BrickContent& content, const BrickContent& base) {
+    if (bone.ensure_slot(brick) == volume::kNoSlot) return false;
+    if (std::memcmp(bone.brick_field(brick), content.field.voxel, sizeof content.field.voxel) != 0)
+      bone.write_brick(brick, content.field);
+    // tissue the recording says nothing of is that of the bone as it was opened
+    const auto& tissue = content.has_tissue ? content.tissue : base.tissue;
+    const math::Ijk first = bone.brick_ijk(brick);
+    if (std::memcmp(bone.brick_tissue(brick), tissue.data(), tissue.size()) == 0) return true;
+    for (int v = 0; v < volume::kBrickVoxels; ++v) {
+      const math::Ijk ijk = first + math::Ijk(v & 7, (v >> 3) & 7, v >> 6);
+      if (bone.grid().contains(ijk))
+        bone.set_tissue(ijk.x(), ijk.y(), ijk.z(), tissue[static_cast<std::size_t>(v)]);
+    }
+    return true;
+  };
+  for (const auto& [brick, content] : state_) {
+    if (brick < 0 || brick >= bone.brick_count())
+      return error(fmt::format("{}: changes brick {}, which the bone has not; it is another bone",
+                               path_, brick));
+    if (!write(brick, content, original(brick)))
+      return error(
+          fmt::format("{}: the bone has no room for deposited material; open it with "
+                      "reserve_bricks {}",
+                      path_, std::max<std::uint64_t>(info_.volume.reserve_bricks, 1)));
+  }
+  // what an earlier call showed and this moment does not know yet
+  for (const auto& [brick, content] : originals_)
+    if (!state_.contains(brick) && !write(brick, content, content)) break;
+  return fine();
+}
+
+Status Player::bone_at(double t_s, volume::Bone& bone) {
+  if (bone.grid().size != info_.volume.grid.size)
+    return error(fmt::format(
+        "{}: was cut from a bone of {} x {} x {} voxels, this one has {} x {} x {}; give the right "
+        "one with --volume",
+        path_, info_.volume.grid.size.x(), info_.volume.grid.size.y(), info_.volume.grid.size.z(),
+        bone.grid().size.x(), bone.grid().size.y(), bone.grid().size.z()));
+  const std::uint64_t tick = tick_of(t_s);
+
+  // forward from where we are, unless a keyframe is nearer
+  bool restart = !state_good_ || tick < state_tick_;
+  if (!restart)
+    for (const std::size_t c : keyframe_chunks_)
+      restart = restart || (start_tick(c) <= tick && start_tick(c) > state_tick_);
+  if (restart) {
+    state_good_ = false;
+    if (!load_keyframe(tick)) {
+      state_.clear();
+      place_ = {};
+    }
+  }
+  Status reached = advance(tick);
+  state_good_ = reached.ok();
+  if (!reached.ok()) return reached;
+  return show(bone);
+}
+
+Result<std::unique_ptr<volume::Bone>> Player::embedded_bone(std::size_t reserve_bricks) const {
+  const auto& attachments = reader_->attachments();
+  for (std::size_t i = 0; i < attachments.size(); ++i) {
+    if (attachments[i].name != kBoneAttachment) continue;
+    const auto blob = reader_->read_attachment(i);
+    if (!blob) return blob.error();
+    return bone_from_blob(*blob, reserve_bricks, path_);
+  }
+  return error(path_ + ": holds no bone; give the scan it was made from with --volume");
+}
+
+}  // namespace burr::record

@@ -1,0 +1,156 @@
+// record/player.h - a recording opened again: its session, its ticks in order, and the bone and the
+// scene at any moment, without simulating anything.
+//
+//     auto player = Player::open("s.mcap");
+//     StepCursor steps = (*player)->steps();       // for a replay: row and wishes, tick by tick
+//     while (steps.next(step)) { ... }
+//     (*player)->bone_at(12.5, *bone);             // last keyframe, then the changes since
+//
+// A torn file opens like any other, shortened; notices() says by how much.
+// Thread: one at a time. Memory: indexes, one or two chunks, the changed bricks twice.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "burr/base/result.h"
+#include "burr/record/mcap_reader.h"
+#include "burr/record/rows.h"
+#include "burr/record/schema.h"
+#include "burr/record/session_info.h"
+#include "burr/volume/bone.h"
+
+namespace burr::record {
+
+// One tick as a replay needs it.
+struct Step {
+  TickRow row;               // inputs, and what came of them
+  std::vector<Wish> wishes;  // taken at the start of this tick, in order
+  bool gap = false;          // ticks before this one are missing: dropped, or in a damaged stretch
+};
+
+class Player;
+
+// Goes through the ticks in order. next() is false at the end; then notices() of the player say
+// whether damaged stretches were stepped over.
+class StepCursor {
+ public:
+  [[nodiscard]] bool next(Step& step);
+
+ private:
+  friend class Player;
+  StepCursor(Player& player, std::size_t chunk, std::uint64_t first_tick)
+      : player_(&player), chunk_(chunk), first_tick_(first_tick) {}
+  bool fill();
+  Player* player_;
+  std::size_t chunk_;  // in step_chunks_
+  std::uint64_t first_tick_;
+  std::optional<std::uint64_t> last_tick_;
+  std::vector<TickRow> rows_;
+  std::size_t row_ = 0;
+  std::deque<WishRow> wishes_;
+};
+
+// Goes through the changed bricks in order, as the servo pushed them: whole contents.
+class BrickCursor {
+ public:
+  [[nodiscard]] bool next(BrickRow& row);
+
+ private:
+  friend class Player;
+  explicit BrickCursor(Player& player) : player_(&player) {}
+  Player* player_;
+  std::size_t chunk_ = 0, row_ = 0;  // chunk_: in change_chunks_
+  std::vector<BrickRow> rows_;
+  std::unordered_map<volume::BrickIndex, BrickContent> state_;
+};
+
+class Player {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<Player>> open(const std::string& path);
+
+  [[nodiscard]] const SessionInfo& info() const { return info_; }
+  [[nodiscard]] const std::string& path() const { return path_; }
+  // false: torn (killed, power cut, still being recorded) and opened as far as it goes
+  [[nodiscard]] bool finished() const { return reader_->finished(); }
+  [[nodiscard]] std::uint64_t lost_bytes() const { return reader_->lost_bytes(); }
+  [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
+
+  // first and one past the last tick; equal when there is none
+  [[nodiscard]] std::uint64_t first_tick() const { return first_tick_; }
+  [[nodiscard]] std::uint64_t end_tick() const { return end_tick_; }
+  [[nodiscard]] double seconds() const { return static_cast<double>(end_tick_) / info_.rate_hz; }
+  // rows the recorder had to drop, as far as the file says
+  [[nodiscard]] std::uint64_t dropped_ticks() const { return dropped_ticks_; }
+  [[nodiscard]] std::uint64_t dropped_wishes() const { return dropped_wishes_; }
+  [[nodiscard]] std::uint64_t dropped_bricks() const { return dropped_bricks_; }
+
+  // ---- in order
+  [[nodiscard]] StepCursor steps(std::uint64_t first_tick = 0);
+  [[nodiscard]] BrickCursor bricks();
+
+  // ---- at a moment, t from the start of the session [s]; later than the end is the end
+  // Makes `bone` what it was: give it as it was opened, or as the last bone_at() of this player
+  // left it. Within 1 s, whatever the moment. Error: damage lies between the last keyframe and t,
+  // or the bone is another one (by size), or has no room for deposits (reserve_bricks).
+  [[nodiscard]] Status bone_at(double t_s, volume::Bone& bone);
+  // the last tick at or before t: pose, proxy, force ... for a picture
+  [[nodiscard]] Result<TickRow> tick_at(double t_s);
+
+  // The bone at the start, if the recording holds it (info().embedded).
+  [[nodiscard]] Result<std::unique_ptr<volume::Bone>> embedded_bone(
+      std::size_t reserve_bricks) const;
+
+ private:
+  friend class StepCursor;
+  friend class BrickCursor;
+  using State = std::unordered_map<volume::BrickIndex, BrickContent>;
+  // how far into the changes a state has come; chunk: in change_chunks_
+  struct Place {
+    std::size_t chunk = 0, message = 0, row = 0;
+    std::uint64_t next_batch = 1;
+  };
+
+  Player() = default;
+  [[nodiscard]] Status read_session();
+  void read_events();
+  void find_ends();
+  [[nodiscard]] std::vector<std::size_t> chunks_with(std::uint16_t channel,
+                                                     std::uint16_t or_channel = 0) const;
+  void notice(const std::string& sentence);
+  [[nodiscard]] std::uint64_t tick_of(double t_s) const;
+  [[nodiscard]] std::uint64_t start_tick(std::size_t chunk) const;
+  [[nodiscard]] std::uint64_t tick_of_ns(std::uint64_t time_ns) const;
+  [[nodiscard]] std::size_t step_chunk_before(std::uint64_t tick) const;
+  [[nodiscard]] bool load_keyframe(std::uint64_t tick);
+  [[nodiscard]] Status advance(std::uint64_t tick);
+  [[nodiscard]] Error broken_before(std::uint64_t tick) const;
+  [[nodiscard]] Status show(volume::Bone& bone);
+
+  std::string path_;
+  std::unique_ptr<McapReader> reader_;
+  SessionInfo info_;
+  std::vector<std::string> notices_;
+  std::uint16_t tick_channel_ = 0, wish_channel_ = 0, event_channel_ = 0, change_channel_ = 0,
+                keyframe_channel_ = 0;
+  // which chunks have what; by their place in the file, and so in time
+  std::vector<std::size_t> step_chunks_;  // ticks or wishes
+  std::vector<std::size_t> change_chunks_, keyframe_chunks_;
+  std::uint64_t first_tick_ = 0, end_tick_ = 0;
+  std::uint64_t dropped_ticks_ = 0, dropped_wishes_ = 0, dropped_bricks_ = 0;
+
+  // the bone as far as bone_at() has come
+  bool state_good_ = false;
+  std::uint64_t state_tick_ = 0;
+  State state_;
+  Place place_;
+  std::unordered_map<volume::BrickIndex, BrickContent> originals_;  // before our first touch
+};
+
+}  // namespace burr::record

@@ -1,0 +1,492 @@
+#include "burr/record/recorder.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include "burr/base/check.h"
+#include "burr/base/version.h"
+#include "burr/record/bone_blob.h"
+#include "burr/record/mcap_writer.h"
+#include "burr/record/place_file.h"
+#include "burr/record/schema.h"
+
+namespace burr::record {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kPause = std::chrono::milliseconds(40);      // between chunks; a kill loses this
+constexpr auto kShortPause = std::chrono::milliseconds(4);  // while parts of a keyframe wait
+constexpr double kKeyframeEvery = 10;                       // [s] of the session
+constexpr double kRingDepth = 4;                            // [s]
+constexpr double kBatch = 10e-3;                            // ticks in one message [s]
+// small enough that writing one keeps the pen from the ticks for a few milliseconds only
+constexpr std::size_t kBricksPerMessage = 1024;
+
+std::size_t ring_rows(double rate_hz) {
+  BURR_CHECK(rate_hz > 0 && rate_hz <= 1e6);
+  return static_cast<std::size_t>(std::ceil(rate_hz * kRingDepth));
+}
+
+template <class T>
+bool half_full(const rt::Ring<T>& ring) {
+  return 2 * ring.size() > ring.capacity();
+}
+
+}  // namespace
+
+// ---- the pen: what runs on the recorder's threads
+
+class Recorder::Pen {
+ public:
+  Pen(Recorder& recorder, std::unique_ptr<McapWriter> writer,
+      const std::array<std::uint16_t, 6>& ids)
+      : recorder_(recorder), writer_(std::move(writer)) {
+    for (std::size_t i = 0; i < kTopics.size(); ++i) {
+      const std::string_view name = kTopics[i].name;
+      if (name == kTicks.name) tick_channel_ = ids[i];
+      if (name == kWishes.name) wish_channel_ = ids[i];
+      if (name == kEvents.name) event_channel_ = ids[i];
+      if (name == kChanges.name) change_channel_ = ids[i];
+      if (name == kKeyframes.name) keyframe_channel_ = ids[i];
+    }
+    last_write_ = Clock::now();
+    syncer_ = std::thread([this] { sync_run(); });
+    thread_ = std::thread([this] { run(); });
+  }
+  ~Pen() { stop(); }
+  Pen(const Pen&) = delete;
+  Pen& operator=(const Pen&) = delete;
+
+  void stop() {
+    {
+      const std::lock_guard lock(mutex_);
+      stopping_ = true;
+    }
+    wake_.notify_all();
+    if (thread_.joinable()) thread_.join();
+    {
+      const std::lock_guard lock(sync_mutex_);
+      sync_stopping_ = true;
+    }
+    sync_wake_.notify_all();
+    if (syncer_.joinable()) syncer_.join();
+  }
+
+  void wait_for_room() {
+    std::unique_lock lock(mutex_);
+    while (crowded() && !stopping_) {
+      hurry_ = true;
+      wake_.notify_all();
+      room_.wait_for(lock, kPause);
+    }
+  }
+
+  [[nodiscard]] bool crowded() const {
+    return half_full(recorder_.ticks_) || half_full(recorder_.wishes_) ||
+           half_full(recorder_.bricks_);
+  }
+
+  [[nodiscard]] Status status() const {
+    const std::lock_guard lock(mutex_);
+    return trouble_ ? Status(*trouble_) : fine();
+  }
+
+  // after stop()
+  [[nodiscard]] Result<RecordingAccount> finish() {
+    const std::lock_guard lock(mutex_);
+    if (trouble_) return *trouble_;
+    account_.bytes = writer_->size();
+    return account_;
+  }
+
+ private:
+  void run() {
+    for (;;) {
+      bool last = false;
+      {
+        std::unique_lock lock(mutex_);
+        wake_.wait_for(lock, keyframe_.empty() ? kPause : kShortPause,
+                       [&] { return stopping_ || hurry_; });
+        hurry_ = false;
+        last = stopping_;
+      }
+      work(last);
+      room_.notify_all();
+      if (last) return;
+    }
+  }
+
+  void work(bool last) {
+    // out of memory is the one exception that may come up here; the session goes on without us
+    try {
+      Status done = failed_ ? fine() : drain(last);
+      if (failed_) discard();
+      if (!done.ok()) fail(done.error());
+    } catch (const std::bad_alloc&) {
+      fail(error(Trouble::io, "recording: not enough memory; the recording ends here"));
+    }
+  }
+
+  void fail(const Error& problem) {
+    failed_ = true;
+    const std::lock_guard lock(mutex_);
+    if (!trouble_) trouble_ = problem;
+  }
+
+  // after a failure: the rings must not look full for ever, wait_for_room() would not return
+  void discard() {
+    TickRow tick;
+    WishRow wish;
+    BrickRow brick;
+    while (recorder_.ticks_.pop(tick)) ++account_.dropped_ticks;
+    while (recorder_.wishes_.pop(wish)) ++account_.dropped_wishes;
+    while (recorder_.bricks_.pop(brick)) ++account_.dropped_bricks;
+  }
+
+  Status drain(bool last) {
+    // ticks first: what belongs to a tick was pushed before it, so it is found after it. What is
+    // newer waits for its tick, so that chunks follow each other in time.
+    take_ticks();
+    const std::uint64_t until = last ? std::numeric_limits<std::uint64_t>::max() : end_tick_;
+    take_wishes(until);
+    take_bricks(until);
+    note_dropped();
+    Status written = write_chunk();
+    if (!written.ok()) return written;
+
+    if (keyframe_due()) begin_keyframe();
+    do {
+      if (keyframe_.empty()) break;
+      put_keyframe_part();
+      written = write_chunk();
+    } while (last && written.ok());
+    if (!written.ok() || !last) return written;
+
+    put_event("finished");
+    const auto number = [](std::uint64_t value) { return fmt::format("{}", value); };
+    if (Status added = writer_->add_metadata("burr.account",
+                                             {{"ticks", number(account_.ticks)},
+                                              {"wishes", number(account_.wishes)},
+                                              {"brick_rows", number(account_.brick_rows)},
+                                              {"keyframes", number(account_.keyframes)},
+                                              {"dropped_ticks", number(account_.dropped_ticks)},
+                                              {"dropped_wishes", number(account_.dropped_wishes)},
+                                              {"dropped_bricks", number(account_.dropped_bricks)}});
+        !added.ok())
+      return added;
+    stop_syncing();
+    return writer_->finish();
+  }
+
+  Status write_chunk() {
+    const bool something = writer_->chunk_open();
+    Status written = writer_->close_chunk();
+    const Clock::time_point now = Clock::now();
+    if (!something) {
+      last_write_ = now;  // nothing waits, so nothing could be lost
+      return written;
+    }
+    account_.longest_pause_s = std::max(account_.longest_pause_s,
+                                        std::chrono::duration<double>(now - last_write_).count());
+    last_write_ = now;
+    {
+      const std::lock_guard lock(sync_mutex_);
+      sync_wanted_ = true;
+    }
+    sync_wake_.notify_all();
+    return written;
+  }
+
+  [[nodiscard]] std::uint64_t time_ns(std::uint64_t tick) const {
+    return static_cast<std::uint64_t>(
+        std::llround(static_cast<double>(tick) * 1e9 / recorder_.rate_hz_));
+  }
+
+  void put(std::uint16_t channel, std::uint64_t tick, ByteSpan message) {
+    writer_->add_message(channel, ++sequence_[channel], time_ns(tick), message);
+  }
+
+  void take_ticks() {
+    const auto per_message =
+        static_cast<std::size_t>(std::max(1.0, std::round(recorder_.rate_hz_ * kBatch)));
+    std::vector<TickRow> rows;
+    TickRow row;
+    // no more than there are now: a servo as fast as we are would keep us here
+    for (std::size_t left = recorder_.ticks_.size(); left > 0 && recorder_.ticks_.pop(row);
+         --left) {
+      rows.push_back(row);
+      if (rows.size() < per_message && left > 1) continue;
+      message_.clear();
+      encode_ticks(rows, message_);
+      put(tick_channel_, rows.front().tick, message_.span());
+      account_.ticks += rows.size();
+      end_tick_ = rows.back().tick + 1;
+      rows.clear();
+    }
+  }
+
+  // The next row of a tick before `until`; one that is too new is kept for the next time.
+  template <class Row>
+  static bool next_until(rt::Ring<Row>& ring, std::optional<Row>& waiting, std::uint64_t until,
+                         Row& row) {
+    if (!waiting) {
+      if (!ring.pop(row)) return false;
+      waiting = row;
+    }
+    if (waiting->tick >= until) return false;
+    row = *waiting;
+    waiting.reset();
+    return true;
+  }
+
+  void take_wishes(std::uint64_t until) {
+    WishRow row;
+    while (next_until(recorder_.wishes_, waiting_wish_, until, row)) {
+      put(wish_channel_, row.tick, as_bytes(to_json(row)));
+      ++account_.wishes;
+    }
+  }
+
+  void take_bricks(std::uint64_t until) {
+    Bricks bricks;
+    BrickRow row;
+    while (next_until(recorder_.bricks_, waiting_brick_, until, row)) {
+      // what it is now goes to the mirror, what is different to the file
+      BrickContent& mirror = mirror_[row.brick];
+      BrickContent change;
+      change.field = row.field;
+      change.tissue = row.tissue;
+      change.has_tissue = row.has_tissue;
+      apply_xor(change, mirror);
+      change.has_tissue = row.has_tissue;  // the mirror may have one, the row says nothing of it
+      apply_xor(mirror, change);
+      bricks.tick.push_back(row.tick);
+      bricks.brick.push_back(row.brick);
+      bricks.crc.push_back(mirror.crc());
+      bricks.content.push_back(change);
+      if (bricks.tick.size() == kBricksPerMessage) put_changes(bricks);
+    }
+    put_changes(bricks);
+  }
+
+  void put_changes(Bricks& bricks) {
+    if (bricks.tick.empty()) return;
+    bricks.batch = ++batch_;
+    message_.clear();
+    encode_bricks(bricks, message_);
+    put(change_channel_, bricks.tick.front(), message_.span());
+    account_.brick_rows += bricks.tick.size();
+    changed_since_keyframe_ = true;
+    bricks = {};
+  }
+
+  [[nodiscard]] std::uint64_t last_tick() const { return end_tick_ == 0 ? 0 : end_tick_ - 1; }
+
+  [[nodiscard]] bool keyframe_due() const {
+    return keyframe_.empty() && changed_since_keyframe_ &&
+           static_cast<double>(end_tick_ - keyframe_tick_) >= kKeyframeEvery * recorder_.rate_hz_;
+  }
+
+  // The bone as it is now is copied, then written part by part between the ticks.
+  void begin_keyframe() {
+    keyframe_.assign(mirror_.begin(), mirror_.end());
+    std::sort(keyframe_.begin(), keyframe_.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    keyframe_tick_ = last_tick();
+    keyframe_batch_ = batch_;
+    keyframe_done_ = 0;
+    changed_since_keyframe_ = false;
+  }
+
+  void put_keyframe_part() {
+    const std::size_t n = std::min(kBricksPerMessage, keyframe_.size() - keyframe_done_);
+    Bricks part;
+    part.batch = keyframe_batch_;
+    part.part = static_cast<std::uint32_t>(keyframe_done_ / kBricksPerMessage);
+    part.parts =
+        static_cast<std::uint32_t>((keyframe_.size() + kBricksPerMessage - 1) / kBricksPerMessage);
+    for (std::size_t i = keyframe_done_; i < keyframe_done_ + n; ++i) {
+      part.tick.push_back(keyframe_tick_);
+      part.brick.push_back(keyframe_[i].first);
+      part.crc.push_back(keyframe_[i].second.crc());
+      part.content.push_back(keyframe_[i].second);
+    }
+    message_.clear();
+    encode_bricks(part, message_);
+    put(keyframe_channel_, keyframe_tick_, message_.span());
+    keyframe_done_ += n;
+    if (keyframe_done_ < keyframe_.size()) return;
+    keyframe_.clear();
+    keyframe_.shrink_to_fit();
+    ++account_.keyframes;
+  }
+
+  void note_dropped() {
+    const auto before =
+        std::tuple(account_.dropped_ticks, account_.dropped_wishes, account_.dropped_bricks);
+    account_.dropped_ticks = recorder_.ticks_.dropped();
+    account_.dropped_wishes = recorder_.wishes_.dropped();
+    account_.dropped_bricks = recorder_.bricks_.dropped();
+    if (before !=
+        std::tuple(account_.dropped_ticks, account_.dropped_wishes, account_.dropped_bricks))
+      put_event("dropped");
+  }
+
+  void put_event(const char* event) {
+    const std::string text = fmt::format(
+        R"({{"event":"{}","tick":{},"dropped_ticks":{},"dropped_wishes":{},"dropped_bricks":{}}})",
+        event, last_tick(), account_.dropped_ticks, account_.dropped_wishes,
+        account_.dropped_bricks);
+    put(event_channel_, last_tick(), as_bytes(text));
+  }
+
+  // ---- the other thread: bringing it to the disk may take as long as the disk likes
+
+  void sync_run() {
+    std::unique_lock lock(sync_mutex_);
+    for (;;) {
+      sync_wake_.wait(lock, [&] { return sync_wanted_ || sync_stopping_; });
+      if (sync_stopping_) return;
+      sync_wanted_ = false;
+      lock.unlock();
+      if (Status synced = writer_->sync(); !synced.ok()) {
+        const std::lock_guard guard(mutex_);
+        if (!trouble_) trouble_ = synced.error();
+      }
+      lock.lock();
+    }
+  }
+
+  void stop_syncing() {
+    {
+      const std::lock_guard lock(sync_mutex_);
+      sync_stopping_ = true;
+    }
+    sync_wake_.notify_all();
+    syncer_.join();
+  }
+
+  Recorder& recorder_;
+  std::unique_ptr<McapWriter> writer_;
+  std::uint16_t tick_channel_ = 0, wish_channel_ = 0, event_channel_ = 0, change_channel_ = 0,
+                keyframe_channel_ = 0;
+  std::map<std::uint16_t, std::uint32_t> sequence_;
+
+  // the pen's own
+  BytesOut message_;
+  RecordingAccount account_;
+  bool failed_ = false;
+  Clock::time_point last_write_;
+  std::uint64_t end_tick_ = 0;  // ticks before this one are taken
+  std::optional<WishRow> waiting_wish_;
+  std::optional<BrickRow> waiting_brick_;
+  std::unordered_map<volume::BrickIndex, BrickContent> mirror_;  // what the file says of the bone
+  std::uint64_t batch_ = 0;
+  std::vector<std::pair<volume::BrickIndex, BrickContent>> keyframe_;  // being written
+  std::uint64_t keyframe_tick_ = 0, keyframe_batch_ = 0;
+  std::size_t keyframe_done_ = 0;
+  bool changed_since_keyframe_ = false;
+
+  // between threads
+  mutable std::mutex mutex_;
+  std::condition_variable wake_, room_;
+  bool stopping_ = false, hurry_ = false;
+  std::optional<Error> trouble_;
+  std::mutex sync_mutex_;
+  std::condition_variable sync_wake_;
+  bool sync_wanted_ = false, sync_stopping_ = false;
+  std::thread syncer_, thread_;
+};
+
+// ---- the recorder
+
+Recorder::Recorder(double rate_hz, std::size_t brick_rows)
+    : ticks_(ring_rows(rate_hz)), wishes_(1024), bricks_(brick_rows), rate_hz_(rate_hz) {}
+
+Recorder::~Recorder() = default;
+
+Status Recorder::start(const std::string& path, const SessionInfo& asked,
+                       const volume::Bone* embed) {
+  BURR_CHECK(pen_ == nullptr);
+  SessionInfo info = asked;
+  info.burr_version = base::version();
+  info.build = base::build();
+  info.rate_hz = rate_hz_;
+  info.embedded = embed != nullptr;
+  if (Status good = check(info); !good.ok()) return good;
+
+  if (being_written(path))
+    return error(Trouble::io, path + ": another burr is recording to it; choose another name");
+
+  // beside, until it has a beginning; an older recording of this name is safe till then
+  const std::string beside = path + ".part";
+  const auto give_up = [&](const Error& problem) {
+    ::unlink(beside.c_str());
+    return problem;
+  };
+  auto writer = std::make_unique<McapWriter>();
+  if (Status opened = writer->open(beside, path); !opened.ok()) return opened;
+  if (Status added = writer->add_metadata(
+          "burr.format", {{"version", fmt::format("{}", kFormatVersion)},
+                          {"time",
+                           "log_time is tick / rate_hz since the start, in nanoseconds; "
+                           "recordings hold no dates"},
+                          {"described_in", "docs/recording.md of burr"}});
+      !added.ok())
+    return give_up(added.error());
+
+  std::array<std::uint16_t, kTopics.size()> ids{};
+  std::map<std::string, std::uint16_t> schemas;
+  for (std::size_t i = 0; i < kTopics.size(); ++i) {
+    const Topic& topic = kTopics[i];
+    if (!schemas.contains(topic.schema_name)) {
+      const auto schema = writer->add_schema(topic.schema_name, topic.schema_encoding,
+                                             schema_data(topic.schema_name));
+      if (!schema) return give_up(schema.error());
+      schemas[topic.schema_name] = *schema;
+    }
+    const auto id = writer->add_channel(topic.name, topic.encoding, schemas[topic.schema_name]);
+    if (!id) return give_up(id.error());
+    ids[i] = *id;
+  }
+  if (embed != nullptr)
+    if (Status added =
+            writer->add_attachment(kBoneAttachment, kBoneMediaType, bone_to_blob(*embed));
+        !added.ok())
+      return give_up(added.error());
+  writer->add_message(ids[0], 1, 0, as_bytes(to_json(info)));
+  if (Status written = writer->close_chunk(); !written.ok()) return give_up(written.error());
+  if (Status synced = writer->sync(); !synced.ok()) return give_up(synced.error());
+  if (Status placed = place_file(beside, path); !placed.ok()) return give_up(placed.error());
+
+  pen_ = std::make_unique<Pen>(*this, std::move(writer), ids);
+  return fine();
+}
+
+void Recorder::wait_for_room() {
+  if (pen_ && pen_->crowded()) pen_->wait_for_room();
+}
+
+Status Recorder::status() const { return pen_ ? pen_->status() : fine(); }
+
+Result<RecordingAccount> Recorder::finish() {
+  BURR_CHECK(pen_ != nullptr);
+  pen_->stop();
+  return pen_->finish();
+}
+
+}  // namespace burr::record

@@ -1,0 +1,84 @@
+// record/recorder.h - the diary's pen: takes rows from the servo through rings and brings them to
+// disk on threads of its own.
+//
+//     Recorder recorder(rate_hz);
+//     recorder.start("s.mcap", info, embed ? &bone : nullptr);
+//       servo, each tick:  wishes().push, bricks().push ..., then ticks().push     (wait-free)
+//       not paced by a clock: between ticks, wait_for_room()
+//     recorder.finish();
+//
+//     servo --rings, 4 s deep--> pen: a chunk every 40 ms, keyframe of the bone every 10 s
+//                                 `--> syncer: fdatasync, so that a slow disk delays nobody
+//
+// A full ring drops the row and counts it; the count is written into the file. A process killed at
+// any moment loses at most the last 100 ms: the pen hands each chunk to the kernel in one write.
+//
+// Thread: start, finish, status on one thread; the rings on the servo's. Memory: rings (about 25
+// MiB at 1 kHz), a copy of the changed bricks, twice while a keyframe is written.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "burr/base/result.h"
+#include "burr/record/rows.h"
+#include "burr/record/session_info.h"
+#include "burr/rt/ring.h"
+#include "burr/volume/bone.h"
+
+namespace burr::record {
+
+// What was written, and what was not.
+struct RecordingAccount {
+  std::uint64_t ticks = 0, wishes = 0, brick_rows = 0, keyframes = 0;
+  std::uint64_t dropped_ticks = 0, dropped_wishes = 0, dropped_bricks = 0;
+  std::uint64_t bytes = 0;     // of the file
+  double longest_pause_s = 0;  // between two chunks handed to the kernel; what a kill may lose
+  [[nodiscard]] bool whole() const {
+    return dropped_ticks == 0 && dropped_wishes == 0 && dropped_bricks == 0;
+  }
+};
+
+class Recorder {
+ public:
+  // rate_hz: of ticks. brick_rows: how many changed bricks may wait; a burst of more in 40 ms is
+  // refused by the ring, keep such a brick marked and push it at a later tick.
+  explicit Recorder(double rate_hz, std::size_t brick_rows = 8192);
+  // Not finished: as finish(), but nobody hears of trouble.
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  // Begins the file at `path` under its final name; a recording that was there is replaced only
+  // once the new one has its beginning. embed: this bone goes into the file, as it is now.
+  // Fills in burr_version, build and embedded of info.
+  [[nodiscard]] Status start(const std::string& path, const SessionInfo& info,
+                             const volume::Bone* embed = nullptr);
+
+  // ---- the servo's side; within a tick: wishes, bricks, then the tick
+  [[nodiscard]] rt::Ring<TickRow>& ticks() BURR_RT { return ticks_; }
+  [[nodiscard]] rt::Ring<WishRow>& wishes() BURR_RT { return wishes_; }
+  [[nodiscard]] rt::Ring<BrickRow>& bricks() BURR_RT { return bricks_; }
+
+  // For a session as fast as possible: call between ticks, on the servo's thread; waits (not
+  // real-time!) until no ring is more than half full. Paced sessions never call it.
+  void wait_for_room();
+
+  // Trouble so far (disk full ...); the session goes on, the rows are counted as dropped.
+  [[nodiscard]] Status status() const;
+
+  // Everything pushed before this call is written, then summary and footer. The file is then
+  // complete, or the Error says what is missing.
+  [[nodiscard]] Result<RecordingAccount> finish();
+
+ private:
+  class Pen;
+  rt::Ring<TickRow> ticks_;
+  rt::Ring<WishRow> wishes_;
+  rt::Ring<BrickRow> bricks_;
+  double rate_hz_;
+  std::unique_ptr<Pen> pen_;
+};
+
+}  // namespace burr::record
