@@ -1,0 +1,25 @@
+// volume/removed_part.h - what was taken away between two states of a bone, as a bone of its own.
+//
+// With depths d below the surface, removed = before and not after:
+//
+//     d_removed = min(d_before, -d_after)                      where the field changed
+//
+// Where it did not change, d_after = d_before says only that the cut was not deeper than the old
+// surface; min(d, -d) would leave a sheet just below the iso-level all along the old surface and
+// smear the rim. There the cut is continued from the changed neighbours instead (a distance falls
+// by one voxel per voxel), never above -|d_before|. So untouched bone adds nothing, and the rim
+// stays sharp to about 0.2 voxel. Tissue and intensity are those of `before`. Deposited material is
+// not part of it. Thread: one, both bones at rest.
+#pragma once
+
+#include <memory>
+
+#include "burr/base/result.h"
+#include "burr/volume/bone.h"
+
+namespace burr::volume {
+
+// Errors: Trouble::data if the grids differ or nothing was removed.
+[[nodiscard]] Result<std::unique_ptr<Bone>> removed_part(const Bone& before, const Bone& after);
+
+}  // namespace burr::volume

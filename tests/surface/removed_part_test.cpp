@@ -1,0 +1,69 @@
+// the removed part is judged by its surface, so its test lives here
+#include "burr/volume/removed_part.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "burr/surface/mesher.h"
+#include "surface/bones.h"
+
+namespace burr::surface {
+namespace {
+
+using math::Vec3;
+using test::askew;
+using test::bone_of;
+using test::shape_of;
+
+Mesh whole(const volume::Bone& bone) {
+  NoProgress progress;
+  auto mesh = whole_surface(bone, 1, progress);
+  EXPECT_TRUE(mesh.ok());
+  return std::move(*mesh);
+}
+
+TEST(RemovedPart, OfABallMilledIntoASlabIsTheCap) {
+  // a slab up to z = 20.3, a ball of radius 9.1 whose centre lies 2.2 above: the lens below
+  const double top = 20.3, radius = 9.1;
+  const Vec3 centre(24.2, 23.7, 22.5);
+  const auto slab = [&](const Vec3& p) { return top - p.z(); };
+  const auto ball = [&](const Vec3& p) { return radius - (p - centre).norm(); };
+  const auto grid = askew({49, 48, 32});
+  const auto before = bone_of(grid, slab);
+  const auto after = bone_of(grid, [&](const Vec3& p) { return std::min(slab(p), -ball(p)); });
+  const auto removed = volume::removed_part(*before, *after);
+  ASSERT_TRUE(removed.ok());
+
+  const Mesh mesh = whole(**removed);
+  const auto shape = shape_of(mesh);
+  EXPECT_EQ(shape.trouble, "");
+  EXPECT_EQ(shape.euler(), 2) << "one piece without holes, no sheets left on the old surface";
+  const double height = radius - (centre.z() - top);
+  const double truth =
+      std::numbers::pi * height * height * (3 * radius - height) / 3 * std::pow(grid.voxel, 3);
+  EXPECT_NEAR(shape.volume / truth, 1, 0.02);
+
+  // every vertex lies on the true lens: the ball below, the slab's old top above
+  double worst = 0;
+  for (const Vertex& v : mesh.vertices) {
+    const Vec3 p = grid.grid_from_world(v.p.cast<double>());
+    worst = std::max(worst, std::abs(std::min(ball(p), slab(p))));
+  }
+  EXPECT_LT(worst, 0.35) << "voxels, at the sharp rim";
+
+  // what is left and what was taken make the whole
+  const double sum = shape_of(whole(**removed)).volume + shape_of(whole(*after)).volume;
+  EXPECT_NEAR(sum / shape_of(whole(*before)).volume, 1, 0.001);
+}
+
+TEST(RemovedPart, IsAnErrorWhenThereIsNone) {
+  const auto bone = bone_of(askew({20, 20, 20}), [](const Vec3& p) { return 9.0 - p.z(); });
+  const auto none = volume::removed_part(*bone, *bone);
+  ASSERT_FALSE(none.ok());
+  const auto other = bone_of(askew({21, 20, 20}), [](const Vec3& p) { return 9.0 - p.z(); });
+  EXPECT_FALSE(volume::removed_part(*bone, *other).ok());
+}
+
+}  // namespace
+}  // namespace burr::surface
