@@ -13,7 +13,7 @@ foreach(room ${rooms})
   if(sources)
     add_executable(test_${room} ${sources})
     target_link_libraries(test_${room} PRIVATE burr_test_support burr_options GTest::gtest_main nlohmann_json::nlohmann_json
-      PkgConfig::ZSTD PkgConfig::EPOXY PkgConfig::SDL2)
+      ZLIB::ZLIB PkgConfig::ZSTD PkgConfig::ASSIMP PkgConfig::EPOXY PkgConfig::SDL2)
     target_compile_definitions(test_${room} PRIVATE
       BURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" BURR_BUILD_DIR="${CMAKE_BINARY_DIR}" TOML_HEADER_ONLY=1)
     gtest_discover_tests(test_${room} TEST_PREFIX ${room}. DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120

@@ -1,0 +1,45 @@
+// tests/io/folder.h - a folder of its own for each test, gone afterwards.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace burr::test {
+
+class FolderTest : public testing::Test {
+ protected:
+  FolderTest() {
+    std::string name = (std::filesystem::temp_directory_path() / "burr-io-XXXXXX").string();
+    folder = mkdtemp(name.data());
+  }
+  ~FolderTest() override { std::filesystem::remove_all(folder); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder / name).string(); }
+  [[nodiscard]] std::ptrdiff_t files() const {
+    return std::distance(std::filesystem::directory_iterator(folder),
+                         std::filesystem::directory_iterator());
+  }
+  static std::string content(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  // what a command prints; "" if it cannot be run
+  static std::string output_of(const std::string& command) {
+    std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+    std::string text;
+    char part[4096];
+    for (std::size_t n = 0; pipe != nullptr && (n = std::fread(part, 1, sizeof part, pipe)) > 0;)
+      text.append(part, n);
+    if (pipe != nullptr) ::pclose(pipe);
+    return text;
+  }
+  std::filesystem::path folder;
+};
+
+}  // namespace burr::test
