@@ -21,6 +21,11 @@ struct Aabb {
   }
   [[nodiscard]] Vec3 centre() const { return 0.5 * (lo + hi); }
   [[nodiscard]] Vec3 extent() const { return hi - lo; }
+  // 0..7; bit 0 is x, 1 is y, 2 is z; set: hi
+  [[nodiscard]] Vec3 corner(int which) const {
+    return {(which & 1) != 0 ? hi.x() : lo.x(), (which & 2) != 0 ? hi.y() : lo.y(),
+            (which & 4) != 0 ? hi.z() : lo.z()};
+  }
 };
 
 }  // namespace burr::math

@@ -1,0 +1,109 @@
+#include "burr/render/gl/context.h"
+
+#include <SDL2/SDL.h>
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+namespace burr::render::gl {
+
+namespace {
+
+Error no_gl(const std::string& why) {
+  return error(Trouble::io,
+               fmt::format("no OpenGL 3.3 or OpenGL ES 3.0 here ({}): install the packages "
+                           "libgl1-mesa-dri and libegl1, or your graphics card's driver",
+                           why));
+}
+
+// SDL's video is started once and counted: a hidden context may live beside a window
+bool start_video(bool visible, std::string& why) {
+  SDL_SetMainReady();
+  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl-C belongs to the program
+  if (SDL_WasInit(SDL_INIT_VIDEO) != 0 || visible) {
+    if (SDL_InitSubSystem(SDL_INIT_VIDEO) == 0) return true;
+    why = SDL_GetError();
+    return false;
+  }
+  // no display is needed, and none is asked for; a user's own choice of driver is respected
+  if (SDL_getenv("SDL_VIDEODRIVER") == nullptr) SDL_SetHint(SDL_HINT_VIDEODRIVER, "offscreen");
+  const bool started = SDL_InitSubSystem(SDL_INIT_VIDEO) == 0;
+  if (!started) why = SDL_GetError();
+  SDL_ResetHint(SDL_HINT_VIDEODRIVER);
+  // an SDL without that driver: a hidden window will do where there is a display
+  return started || SDL_InitSubSystem(SDL_INIT_VIDEO) == 0;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Context>> Context::offscreen(Api api) {
+  std::unique_ptr<Context> context(new Context);
+  const Status made = context->create("burr", 64, 64, false, api);
+  if (!made) return made.error();
+  return context;
+}
+
+Result<std::unique_ptr<Context>> Context::window(const std::string& title, int width, int height) {
+  std::unique_ptr<Context> context(new Context);
+  const Status made = context->create(title, width, height, true, Api::any);
+  if (!made) return made.error();
+  return context;
+}
+
+Status Context::create(const std::string& title, int width, int height, bool visible, Api api) {
+  std::string why;
+  if (!start_video(visible, why)) return no_gl(why);
+  sdl_ = true;
+  visible_ = visible;
+
+  for (const bool es : {false, true}) {
+    if ((es && api == Api::core) || (!es && api == Api::es)) continue;
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, es ? 0 : 3);
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK,
+                        es ? SDL_GL_CONTEXT_PROFILE_ES : SDL_GL_CONTEXT_PROFILE_CORE);
+    SDL_GL_SetAttribute(SDL_GL_DOUBLEBUFFER, 1);
+    SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);  // drawing happens in our own framebuffers
+    const Uint32 flags =
+        SDL_WINDOW_OPENGL |
+        (visible ? Uint32{SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI | SDL_WINDOW_SHOWN}
+                 : Uint32{SDL_WINDOW_HIDDEN});
+    SDL_Window* made = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED,
+                                        SDL_WINDOWPOS_CENTERED, width, height, flags);
+    void* gl = made == nullptr ? nullptr : SDL_GL_CreateContext(made);
+    if (gl == nullptr) {
+      why = SDL_GetError();
+      if (made != nullptr) SDL_DestroyWindow(made);
+      continue;
+    }
+    window_ = made;
+    gl_ = gl;
+    es_ = es;
+    break;
+  }
+  if (gl_ == nullptr) return no_gl(why);
+
+  if (epoxy_gl_version() < (es_ ? 30 : 33))
+    return no_gl(fmt::format("the driver offers only version {}.{}", epoxy_gl_version() / 10,
+                             epoxy_gl_version() % 10));
+  // show as fast as the screen, not faster; a driver that cannot wait is fine too
+  if (visible) SDL_GL_SetSwapInterval(1);
+  if (const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER))) gpu_ = name;
+  return fine();
+}
+
+Context::~Context() {
+  if (gl_ != nullptr) SDL_GL_DeleteContext(gl_);
+  if (window_ != nullptr) SDL_DestroyWindow(static_cast<SDL_Window*>(window_));
+  if (sdl_) SDL_QuitSubSystem(SDL_INIT_VIDEO);
+}
+
+void Context::make_current() { SDL_GL_MakeCurrent(static_cast<SDL_Window*>(window_), gl_); }
+void Context::swap() { SDL_GL_SwapWindow(static_cast<SDL_Window*>(window_)); }
+void Context::title(const std::string& text) {
+  SDL_SetWindowTitle(static_cast<SDL_Window*>(window_), text.c_str());
+}
+void Context::size(int& width, int& height) const {
+  SDL_GL_GetDrawableSize(static_cast<SDL_Window*>(window_), &width, &height);
+}
+
+}  // namespace burr::render::gl

@@ -1,0 +1,116 @@
+#include "burr/render/gl/overlay.h"
+
+#include <fmt/format.h>
+#include <stb/stb_easy_font.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "burr/render/gl/shaders.h"
+
+namespace burr::render::gl {
+
+namespace {
+
+// two triangles for the box from (x0, y0) to (x1, y1)
+void add_box(std::vector<float>& xy, float x0, float y0, float x1, float y1) {
+  xy.insert(xy.end(), {x0, y0, x1, y0, x1, y1, x0, y0, x1, y1, x0, y1});
+}
+
+// The letters of stb_easy_font are boxes already.
+void add_text(std::vector<float>& xy, const std::string& text, float x, float y, float size) {
+  struct Corner {
+    float x, y, z;
+    std::array<unsigned char, 4> colour;
+  };
+  std::vector<Corner> corners(20 * text.size() + 64);
+  std::string copy = text;  // stb does not promise to leave it alone
+  const int count = stb_easy_font_print(0, 0, copy.data(), nullptr, corners.data(),
+                                        static_cast<int>(corners.size() * sizeof(Corner)));
+  for (int q = 0; q < count; ++q) {
+    const Corner& a = corners[static_cast<std::size_t>(4 * q)];
+    const Corner& c = corners[static_cast<std::size_t>(4 * q + 2)];
+    add_box(xy, x + size * a.x, y + size * a.y, x + size * c.x, y + size * c.y);
+  }
+}
+
+float text_width(const std::string& text, float size) {
+  std::string copy = text;
+  return size * static_cast<float>(stb_easy_font_width(copy.data()));
+}
+
+std::vector<float> moved(std::vector<float> xy, float by) {
+  for (float& value : xy) value += by;
+  return xy;
+}
+
+}  // namespace
+
+double bar_length(double picture_width) {
+  const double wanted = picture_width / 5;
+  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+  for (const double step : {5.0, 2.0})
+    if (step * power <= wanted) return step * power;
+  return power;
+}
+
+Status Overlay::make(bool es) {
+  Result<Program> flat = Program::link(es, kFlatVertex, kFlatFragment);
+  if (!flat) return flat.error();
+  flat_ = std::move(*flat);
+  return fine();
+}
+
+void Overlay::draw(const Scene& scene, int width, int height, int left, int top, int wide,
+                   int high) {
+  if (scene.text.empty() && !scene.scale_bar) return;
+  const float size = std::max(1.0F, std::round(static_cast<float>(height) / 480.0F));
+  std::vector<float> xy;
+  float y = 8 * size;
+  for (const std::string& line : scene.text) {
+    add_text(xy, line, 8 * size, y, size);
+    y += 12 * size;
+  }
+  if (scene.scale_bar) {
+    const double pixel = scene.camera.view_height() / height;  // at the target  [m]
+    const double length = bar_length(pixel * width);
+    const auto w = static_cast<float>(length / pixel);
+    const float x1 = static_cast<float>(width) - 12 * size, x0 = x1 - w;
+    const float bottom = static_cast<float>(height) - 12 * size;
+    add_box(xy, x0, bottom - 2 * size, x1, bottom);
+    add_box(xy, x0, bottom - 5 * size, x0 + size, bottom);
+    add_box(xy, x1 - size, bottom - 5 * size, x1, bottom);
+    const double mm = length * 1e3;
+    const std::string label =
+        mm < 1 ? fmt::format("{:.0f} um", mm * 1e3) : fmt::format("{:.0f} mm", mm);
+    add_text(xy, label, (x0 + x1 - text_width(label, size)) / 2, bottom - 14 * size, size);
+  }
+
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  flat_.use();
+  // y down in the words, y up in OpenGL
+  flat_.set("clip_from_pixel",
+            Eigen::Vector4f(2.0F / static_cast<float>(wide), -2.0F / static_cast<float>(high),
+                            -1.0F - 2.0F * static_cast<float>(left) / static_cast<float>(wide),
+                            1.0F + 2.0F * static_cast<float>(top) / static_cast<float>(high)));
+  quads(moved(xy, 0.75F * size), {0, 0, 0, 0.55F});
+  quads(xy, {1, 1, 1, 0.92F});
+  glDisable(GL_BLEND);
+}
+
+void Overlay::quads(const std::vector<float>& xy, const Eigen::Vector4f& colour) {
+  glBindVertexArray(array_.make());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_.make());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(xy.size() * sizeof(float)), xy.data(),
+               GL_STREAM_DRAW);
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+  flat_.set("colour", colour);
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(xy.size() / 2));
+}
+
+}  // namespace burr::render::gl

@@ -1,0 +1,27 @@
+// render/gl/overlay.h - words and a scale bar over the picture.
+#pragma once
+
+#include "burr/render/gl/objects.h"
+#include "burr/render/scene.h"
+
+namespace burr::render::gl {
+
+class Overlay {
+ public:
+  Status make(bool es);
+  // Into the bound framebuffer of wide x high pixels, which is the part of a picture of width x
+  // height that starts at (left, top).
+  void draw(const Scene& scene, int width, int height, int left, int top, int wide, int high);
+
+ private:
+  void quads(const std::vector<float>& xy, const Eigen::Vector4f& colour);
+
+  Program flat_;
+  Buffer vertices_;
+  VertexArray array_;
+};
+
+// A round length that takes about a fifth of the picture's width: 1, 2, 5, 10, 20 ... [m]
+[[nodiscard]] double bar_length(double picture_width);
+
+}  // namespace burr::render::gl

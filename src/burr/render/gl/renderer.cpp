@@ -1,0 +1,635 @@
+// Draws in five steps: what is there, how open it is, softened, lit, and shrunk to pixels. Each
+// step works inside a rectangle, which is the whole picture or only where something moved.
+#include "burr/render/renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "burr/render/gl/context.h"
+#include "burr/render/gl/overlay.h"
+#include "burr/render/gl/shaders.h"
+#include "burr/render/gl/shapes.h"
+#include "burr/render/gl/skin.h"
+#include "burr/render/gl/target.h"
+
+namespace burr::render {
+
+using gl::Piece;
+using gl::Program;
+using math::Aabb;
+using math::Vec3;
+
+namespace {
+
+constexpr int kMostSamples = 48;   // of the hollows, see shaders.h
+constexpr int kMostReach = 512;    // of the hollows in samples: bounds the margin of a tile
+constexpr int kMostTarget = 4096;  // samples along a side held at once
+constexpr int kMostPicture = 65536;
+
+constexpr float kBone = 1.0F, kSteel = 0.67F, kMark = 0.33F;  // kinds, as the shaders have them
+
+// samples [x0, x1) x [y0, y1), y up
+struct Rect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
+  [[nodiscard]] Rect grown(int by) const { return {x0 - by, y0 - by, x1 + by, y1 + by}; }
+  [[nodiscard]] Rect in(const Rect& o) const {
+    return {std::max(x0, o.x0), std::max(y0, o.y0), std::min(x1, o.x1), std::min(y1, o.y1)};
+  }
+  [[nodiscard]] Rect with(const Rect& o) const {
+    if (empty()) return o;
+    if (o.empty()) return *this;
+    return {std::min(x0, o.x0), std::min(y0, o.y0), std::max(x1, o.x1), std::max(y1, o.y1)};
+  }
+  [[nodiscard]] double area() const {
+    return empty() ? 0 : static_cast<double>(x1 - x0) * static_cast<double>(y1 - y0);
+  }
+};
+
+void scissor(const Rect& r) {
+  glScissor(r.x0, r.y0, std::max(0, r.x1 - r.x0), std::max(0, r.y1 - r.y0));
+}
+
+// How a part of the picture lies in the target.
+struct Frame {
+  int picture_width = 0, picture_height = 0;  // whole picture, in samples
+  int left = 0, bottom = 0;                   // of the target's first sample in it
+  int width = 0, height = 0;                  // of the target
+  double near = 0, far = 1;
+  Eigen::Matrix4d view, clip;  // view_from_world, clip_from_view (of this part)
+  [[nodiscard]] Rect all() const { return {0, 0, width, height}; }
+};
+
+float linear(float c) { return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F); }
+Eigen::Vector3f light_of(const Light& light) {
+  return static_cast<float>(light.strength) *
+         Eigen::Vector3f(linear(light.colour[0]), linear(light.colour[1]), linear(light.colour[2]));
+}
+Eigen::Vector3f vector_of(const Colour& colour) { return {colour[0], colour[1], colour[2]}; }
+
+bool same(const Light& a, const Light& b) {
+  return (a.towards.array() == b.towards.array()).all() && a.colour == b.colour &&
+         a.strength == b.strength;
+}
+bool same(const Look& a, const Look& b) {
+  return same(a.key, b.key) && same(a.fill, b.fill) && a.ambient == b.ambient &&
+         a.gloss == b.gloss && a.hollow == b.hollow && a.hollow_reach == b.hollow_reach &&
+         a.hollow_samples == b.hollow_samples && a.hollow_half == b.hollow_half &&
+         a.supersample == b.supersample && a.plain == b.plain &&
+         a.background_top == b.background_top && a.background_bottom == b.background_bottom;
+}
+bool same(const Piece& a, const Piece& b) {
+  return a.shape == b.shape && a.world_from_shape == b.world_from_shape && a.colour == b.colour &&
+         a.on_top == b.on_top && (a.box.lo.array() == b.box.lo.array()).all() &&
+         (a.box.hi.array() == b.box.hi.array()).all();
+}
+
+// Near enough for the tool before the bone, far enough for all of it; depends on the camera and the
+// bone's extent alone, so that a moving tool leaves it alone.
+void set_depths(Frame& frame, const Camera& camera, const Aabb& bone) {
+  constexpr double kRoom = 0.1;  // for what is in the hand  [m]
+  frame.near = std::max(0.02 * camera.distance, 0.5e-3);
+  double far = camera.distance;
+  for (int corner = 0; corner < 8 && !bone.empty(); ++corner) {
+    const Vec3 p = bone.corner(corner);
+    far = std::max(far, (camera.eye() - p).dot(camera.backward()));
+  }
+  frame.far = far + kRoom;
+}
+
+// where a box may appear in the target; everything if it reaches behind the eye
+Rect rect_of(const Aabb& box, const Frame& frame) {
+  if (box.empty()) return {};
+  Eigen::Vector2d lo(1e30, 1e30), hi(-1e30, -1e30);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector4d p = box.corner(corner).homogeneous();
+    const Eigen::Vector4d c = frame.clip * (frame.view * p);
+    if (c.w() < frame.near) return frame.all();
+    lo = lo.cwiseMin(c.head<2>() / c.w());
+    hi = hi.cwiseMax(c.head<2>() / c.w());
+  }
+  const auto pixel = [](double clip, int size) {
+    return static_cast<int>(std::clamp((clip * 0.5 + 0.5) * size, -1e6, 1e6));
+  };
+  const Rect r = {pixel(lo.x(), frame.width) - 2, pixel(lo.y(), frame.height) - 2,
+                  pixel(hi.x(), frame.width) + 3, pixel(hi.y(), frame.height) + 3};
+  return r.in(frame.all());
+}
+
+// the six planes of what can be seen through `r`, in the world, pointing inwards
+std::array<Eigen::Vector4d, 6> planes_of(const Rect& r, const Frame& frame) {
+  const Eigen::Matrix4d m = frame.clip * frame.view;
+  const auto clip = [](int pixel, int size) { return 2.0 * pixel / size - 1; };
+  const Eigen::Vector4d x = m.row(0).transpose(), y = m.row(1).transpose(),
+                        z = m.row(2).transpose(), w = m.row(3).transpose();
+  return {x - clip(r.x0, frame.width) * w,
+          clip(r.x1, frame.width) * w - x,
+          y - clip(r.y0, frame.height) * w,
+          clip(r.y1, frame.height) * w - y,
+          z + w,
+          w - z};
+}
+
+}  // namespace
+
+struct Renderer::Work {
+  // the context first: it is the last to go
+  std::unique_ptr<gl::Context> context;
+  gl::Skin skin;
+  gl::Shapes shapes;
+  gl::Overlay overlay;
+  gl::Target target;
+  gl::Sheet sheet;
+  gl::VertexArray nothing;  // a screen's triangle has no data, but wants an array
+  Program mesh, hollow, soften, light, shrink;
+  int most = kMostTarget;                    // samples along a side
+  int idle_width = 1280, idle_height = 720;  // of show() without a window
+  Figures figures;
+
+  // what the target holds, to draw only the difference next time
+  struct Held {
+    Camera camera;
+    Look look;
+    Aabb bone;
+    std::vector<Piece> pieces;
+    Frame frame;
+  };
+  std::optional<Held> held;
+  std::vector<Aabb> changed;  // boxes of patches sent since the target was drawn
+
+  Status start();
+  void update(const Scene& scene);
+  Status paint(const Scene& scene, const Frame& frame, const Rect& fresh,
+               const std::vector<Piece>& pieces);
+  void paint_geometry(const Scene& scene, const Frame& frame, const Rect& r,
+                      const std::vector<Piece>& pieces);
+  void paint_hollows(const Scene& scene, const Frame& frame, const Rect& r);
+  void paint_light(const Scene& scene, const Frame& frame, const Rect& r);
+  Status put_on_sheet(const Scene& scene, const Rect& from, int factor, int width, int height,
+                      int left, int top);
+  void read(Image& image, int left, int top);
+};
+
+// ---- starting
+
+Status Renderer::Work::start() {
+  const struct {
+    Program* program;
+    const char *vertex, *fragment;
+  } all[] = {{&mesh, gl::kMeshVertex, gl::kMeshFragment},
+             {&hollow, gl::kScreenVertex, gl::kHollowFragment},
+             {&soften, gl::kScreenVertex, gl::kSoftenFragment},
+             {&light, gl::kScreenVertex, gl::kLightFragment},
+             {&shrink, gl::kScreenVertex, gl::kShrinkFragment}};
+  for (const auto& one : all) {
+    Result<Program> linked = Program::link(context->es(), one.vertex, one.fragment);
+    if (!linked) return linked.error();
+    *one.program = std::move(*linked);
+  }
+  const Status made = overlay.make(context->es());
+  if (!made) return made;
+  GLint texture = 0;
+  std::array<GLint, 2> viewport{};
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+  most = std::min({kMostTarget, texture, viewport[0], viewport[1]});
+  nothing.make();
+  return fine();
+}
+
+Renderer::Renderer(std::unique_ptr<Work> work) : work_(std::move(work)) {}
+
+Renderer::~Renderer() {
+  if (work_ != nullptr) work_->context->make_current();
+}
+
+Result<std::unique_ptr<Renderer>> Renderer::offscreen(Api api) {
+  auto context = gl::Context::offscreen(api);
+  if (!context) return context.error();
+  auto work = std::make_unique<Work>();
+  work->context = std::move(*context);
+  std::unique_ptr<Renderer> renderer(new Renderer(std::move(work)));
+  const Status started = renderer->work_->start();
+  if (!started) return started.error();
+  return renderer;
+}
+
+Result<std::unique_ptr<Renderer>> Renderer::window(const std::string& title, int width,
+                                                   int height) {
+  auto context = gl::Context::window(title, width, height);
+  if (!context) return context.error();
+  auto work = std::make_unique<Work>();
+  work->context = std::move(*context);
+  std::unique_ptr<Renderer> renderer(new Renderer(std::move(work)));
+  const Status started = renderer->work_->start();
+  if (!started) return started.error();
+  return renderer;
+}
+
+// ---- the five steps
+
+void Renderer::Work::update(const Scene& scene) {
+  figures = {};
+  figures.patches_uploaded = skin.update(scene, changed);
+}
+
+Status Renderer::Work::paint(const Scene& scene, const Frame& frame, const Rect& fresh,
+                             const std::vector<Piece>& pieces) {
+  // what moved casts its hollow's shadow around it, and the softening reaches four samples further
+  const double reach = 2 * scene.look.hollow_reach * frame.picture_height;
+  const Rect touched =
+      fresh.grown(static_cast<int>(std::min<double>(reach, kMostReach)) + 12).in(frame.all());
+
+  glEnable(GL_SCISSOR_TEST);
+  glDisable(GL_BLEND);
+  paint_geometry(scene, frame, fresh, pieces);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glBindVertexArray(nothing.get());
+  if (scene.look.hollow > 0 && !scene.look.plain) paint_hollows(scene, frame, touched);
+
+  // the tool's shadow may fall anywhere: light is cheap, all of it is done again
+  paint_light(scene, frame, frame.all());
+  glDisable(GL_SCISSOR_TEST);
+  figures.redrawn = touched.area() / frame.all().area();
+  return fine();
+}
+
+void Renderer::Work::paint_geometry(const Scene& scene, const Frame& frame, const Rect& r,
+                                    const std::vector<Piece>& pieces) {
+  if (r.empty()) return;
+  glBindFramebuffer(GL_FRAMEBUFFER, target.geometry.get());
+  glViewport(0, 0, frame.width, frame.height);
+  scissor(r);
+  const std::array<float, 4> none{};
+  const std::array<GLuint, 4> no_normal{};
+  glClearBufferfv(GL_COLOR, 0, none.data());
+  glClearBufferuiv(GL_COLOR, 1, no_normal.data());
+  const float farthest = 1;
+  glDepthMask(GL_TRUE);
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glEnable(GL_CULL_FACE);
+
+  // bone
+  mesh.use();
+  const Eigen::Matrix4d clip_from_world = frame.clip * frame.view;
+  mesh.set("clip_from_model", Eigen::Matrix4f(clip_from_world.cast<float>()));
+  const Eigen::Matrix3d turn = frame.view.block<3, 3>(0, 0);
+  mesh.set("view_from_model_n", Eigen::Matrix3f(turn.cast<float>()));
+  mesh.set("tint_kind", Eigen::Vector4f(1, 1, 1, kBone));
+  const gl::Skin::Drawn drawn = skin.draw(scene.camera.eye(), planes_of(r, frame));
+  figures.patches_drawn += drawn.patches;
+  figures.triangles_drawn += drawn.triangles;
+
+  // tool and marks
+  for (const Piece& piece : pieces) {
+    Eigen::Matrix4d m = clip_from_world * piece.world_from_shape;
+    // on top: pressed into the nearest hundredth of the depth, where nothing else is
+    if (piece.on_top) m.row(2) = 0.01 * m.row(2) - 0.985 * m.row(3);
+    mesh.set("clip_from_model", Eigen::Matrix4f(m.cast<float>()));
+    const Eigen::Matrix3d n =
+        (turn * piece.world_from_shape.block<3, 3>(0, 0)).inverse().transpose();
+    // scaled, so that single precision does not run out on small tools
+    mesh.set("view_from_model_n", Eigen::Matrix3f((n / n.norm()).cast<float>()));
+    mesh.set("tint_kind", Eigen::Vector4f(piece.colour[0], piece.colour[1], piece.colour[2],
+                                          piece.steel ? kSteel : kMark));
+    piece.shape->draw();
+  }
+}
+
+namespace {
+
+// view xy per depth = uv * xy + zw, uv 0..1 over the target
+Eigen::Vector4f ray_of(const Frame& frame) {
+  const Eigen::Matrix4d& m = frame.clip;
+  return {static_cast<float>(2 / m(0, 0)), static_cast<float>(2 / m(1, 1)),
+          static_cast<float>((m(0, 2) - 1) / m(0, 0)), static_cast<float>((m(1, 2) - 1) / m(1, 1))};
+}
+
+// sample places within the unit disc, dense in the middle: a golden spiral
+std::array<float, 2 * kMostSamples> spiral(int count) {
+  std::array<float, 2 * kMostSamples> xy{};
+  for (int s = 0; s < count; ++s) {
+    const double r = (s + 0.5) / count, angle = s * std::numbers::pi * (3 - std::sqrt(5.0));
+    xy[static_cast<std::size_t>(2 * s)] = static_cast<float>(r * std::cos(angle));
+    xy[static_cast<std::size_t>(2 * s + 1)] = static_cast<float>(r * std::sin(angle));
+  }
+  return xy;
+}
+
+void bind(GLuint unit, const gl::Texture& texture) {
+  glActiveTexture(GL_TEXTURE0 + unit);
+  glBindTexture(GL_TEXTURE_2D, texture.get());
+}
+
+double reach_of(const Scene& scene) { return scene.look.hollow_reach * scene.camera.view_height(); }
+float strict_of(const Scene& scene, const Frame& frame) {
+  return static_cast<float>((frame.far - frame.near) / (0.5 * reach_of(scene)));
+}
+
+}  // namespace
+
+void Renderer::Work::paint_hollows(const Scene& scene, const Frame& frame, const Rect& r) {
+  const int stride = target.stride;
+  const int count = std::clamp(scene.look.hollow_samples, 1, kMostSamples);
+  const Rect low = Rect{r.x0 / stride, r.y0 / stride, (r.x1 + stride - 1) / stride,
+                        (r.y1 + stride - 1) / stride};
+  glViewport(0, 0, target.hollow_width, target.hollow_height);
+  scissor(low);
+  bind(0, target.depth);
+  bind(1, target.colour);
+  bind(2, target.normal);
+
+  hollow.use();
+  hollow.set("depth_map", 0);
+  hollow.set("colour_map", 1);
+  hollow.set("normal_map", 2);
+  hollow.set("ray", ray_of(frame));
+  hollow.set("planes",
+             Eigen::Vector2f(static_cast<float>(frame.near), static_cast<float>(frame.far)));
+  hollow.set("size", frame.width, frame.height);
+  hollow.set("stride", stride);
+  hollow.set("reach", static_cast<float>(reach_of(scene)));
+  const double per_m =
+      frame.picture_height / (2 * std::tan(scene.camera.field_of_view / 2));  // at 1 m
+  hollow.set("pixels_per_m", static_cast<float>(per_m));
+  hollow.set("most_pixels", static_cast<float>(std::min<double>(
+                                2 * scene.look.hollow_reach * frame.picture_height, kMostReach)));
+  hollow.set("samples", count);
+  hollow.set_pairs("spiral", count, spiral(count).data());
+  glBindFramebuffer(GL_FRAMEBUFFER, target.hollow_at.get());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+
+  bind(0, target.hollow);
+  soften.use();
+  soften.set("hollow_map", 0);
+  soften.set("size", target.hollow_width, target.hollow_height);
+  soften.set("strict", strict_of(scene, frame));
+  glBindFramebuffer(GL_FRAMEBUFFER, target.soft_at.get());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::Work::paint_light(const Scene& scene, const Frame& frame, const Rect& r) {
+  const Look& look = scene.look;
+  glBindFramebuffer(GL_FRAMEBUFFER, target.lit_at.get());
+  glViewport(0, 0, frame.width, frame.height);
+  scissor(r);
+  bind(0, target.colour);
+  bind(1, target.normal);
+  bind(2, target.depth);
+  bind(3, target.soft);
+
+  light.use();
+  light.set("colour_map", 0);
+  light.set("normal_map", 1);
+  light.set("depth_map", 2);
+  light.set("hollow_map", 3);
+  light.set("ray", ray_of(frame));
+  light.set("planes",
+            Eigen::Vector2f(static_cast<float>(frame.near), static_cast<float>(frame.far)));
+  light.set("size", frame.width, frame.height);
+  light.set("stride", target.stride);
+  light.set("hollow_size", target.hollow_width, target.hollow_height);
+  light.set("strict", strict_of(scene, frame));
+  light.set("sky", Eigen::Vector2f(1.0F / static_cast<float>(frame.picture_height),
+                                   static_cast<float>(frame.bottom) /
+                                       static_cast<float>(frame.picture_height)));
+  light.set("sky_top", vector_of(look.background_top));
+  light.set("sky_bottom", vector_of(look.background_bottom));
+  light.set("key_towards", Eigen::Vector3f(look.key.towards.normalized().cast<float>()));
+  light.set("key_light", light_of(look.key));
+  light.set("fill_towards", Eigen::Vector3f(look.fill.towards.normalized().cast<float>()));
+  light.set("fill_light", light_of(look.fill));
+  light.set("ambient", static_cast<float>(look.ambient));
+  light.set("gloss", static_cast<float>(look.gloss));
+  light.set("hollow", static_cast<float>(look.hollow));
+  light.set("plain", look.plain ? 1 : 0);
+
+  // head and shaft as the shader needs them for the shadow
+  const Burr& burr = scene.burr;
+  const bool casts = burr.visible && burr.world_from_tool.finite();
+  const Vec3 centre = (frame.view * burr.world_from_tool.p.homogeneous()).head<3>();
+  const Vec3 axis = frame.view.block<3, 3>(0, 0) * (burr.world_from_tool.q * Vec3::UnitZ());
+  Eigen::Vector4f ball = Eigen::Vector4f::Zero();
+  if (casts) ball << centre.cast<float>(), static_cast<float>(burr.radius);
+  light.set("ball", ball);
+  light.set("shaft", Eigen::Vector3f(axis.cast<float>()));
+  light.set("shaft_size",
+            Eigen::Vector2f(static_cast<float>(std::min(burr.shaft_radius, burr.radius)),
+                            static_cast<float>(burr.shaft_length)));
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+// `from` of the target, shrunk, becomes the sheet, which is the part of a picture of width x height
+// that starts at (left, top); words on top.
+Status Renderer::Work::put_on_sheet(const Scene& scene, const Rect& from, int factor, int width,
+                                    int height, int left, int top) {
+  const int wide = (from.x1 - from.x0) / factor, high = (from.y1 - from.y0) / factor;
+  const Status sized = sheet.resize(wide, high);
+  if (!sized) return sized;
+  glBindFramebuffer(GL_FRAMEBUFFER, sheet.at.get());
+  glViewport(0, 0, wide, high);
+  if (factor == 1) {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, target.lit_at.get());
+    glBlitFramebuffer(from.x0, from.y0, from.x1, from.y1, 0, 0, wide, high, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, sheet.at.get());
+  } else {
+    bind(0, target.lit);
+    shrink.use();
+    shrink.set("picture", 0);
+    shrink.set("factor", factor);
+    shrink.set("from", from.x0, from.y0);
+    glBindVertexArray(nothing.get());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  overlay.draw(scene, width, height, left, top, wide, high);
+  return fine();
+}
+
+// the sheet into its place in a picture
+void Renderer::Work::read(Image& image, int left, int top) {
+  const auto wide = static_cast<std::size_t>(sheet.width);
+  std::vector<std::uint8_t> rgba(wide * static_cast<std::size_t>(sheet.height) * 4);
+  glBindFramebuffer(GL_FRAMEBUFFER, sheet.at.get());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, sheet.width, sheet.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  for (int y = 0; y < sheet.height; ++y) {
+    const std::uint8_t* from =
+        rgba.data() + static_cast<std::size_t>(sheet.height - 1 - y) * wide * 4;
+    std::uint8_t* to = image.rgb.data() +
+                       (static_cast<std::size_t>(top + y) * static_cast<std::size_t>(image.width) +
+                        static_cast<std::size_t>(left)) *
+                           3;
+    for (std::size_t x = 0; x < wide; ++x) std::copy_n(from + 4 * x, 3, to + 3 * x);
+  }
+}
+
+// ---- pictures
+
+Result<Image> Renderer::image(const Scene& scene, int width, int height, int tile) {
+  if (width < 1 || height < 1 || width > kMostPicture || height > kMostPicture)
+    return error(Trouble::usage,
+                 fmt::format("a picture of {} x {} pixels cannot be drawn; width and height go "
+                             "from 1 to {}",
+                             width, height, kMostPicture));
+  Work& w = *work_;
+  w.context->make_current();
+  w.update(scene);
+  w.changed.clear();
+  w.held.reset();
+
+  const int factor = std::clamp(scene.look.supersample, 1, 8);
+  const int stride = scene.look.hollow_half ? 2 : 1;
+  Frame whole;
+  whole.picture_width = width * factor;
+  whole.picture_height = height * factor;
+  whole.view = view_from_world(scene.camera);
+  set_depths(whole, scene.camera, bounds(scene));
+
+  // tiles overlap by as far as hollows reach, in steps that keep their pattern in place
+  const double reach = 2 * scene.look.hollow_reach * whole.picture_height;
+  const int margin = (static_cast<int>(std::min<double>(reach, kMostReach)) + 12 + 7) / 8 * 8;
+  const auto step_for = [&](int size) {
+    if (tile > 0) return (tile * factor + 8 * factor - 1) / (8 * factor) * (8 * factor);
+    if (size <= w.most) return size;
+    return std::max(8 * factor, (w.most - 2 * margin) / (8 * factor) * (8 * factor));
+  };
+  const int step_x = step_for(whole.picture_width), step_y = step_for(whole.picture_height);
+
+  Image image{width, height, {}};
+  image.rgb.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
+  const std::vector<Piece>& pieces = w.shapes.pieces(scene);
+  for (int y = 0; y < whole.picture_height; y += step_y)
+    for (int x = 0; x < whole.picture_width; x += step_x) {
+      const Rect inner = {x, y, std::min(x + step_x, whole.picture_width),
+                          std::min(y + step_y, whole.picture_height)};
+      const Rect outer = inner.grown(margin).in({0, 0, whole.picture_width, whole.picture_height});
+      Frame frame = whole;
+      frame.left = outer.x0;
+      frame.bottom = outer.y0;
+      frame.width = outer.x1 - outer.x0;
+      frame.height = outer.y1 - outer.y0;
+      const auto part = [](int at, int size) { return 2.0 * at / size - 1; };
+      frame.clip = clip_from_view(
+          scene.camera, static_cast<double>(width) / height, frame.near, frame.far,
+          {part(outer.x0, whole.picture_width), part(outer.x1, whole.picture_width),
+           part(outer.y0, whole.picture_height), part(outer.y1, whole.picture_height)});
+      const Result<bool> sized = w.target.resize(frame.width, frame.height, stride);
+      if (!sized) return sized.error();
+      Status done = w.paint(scene, frame, frame.all(), pieces);
+      const int left = inner.x0 / factor, top = height - inner.y1 / factor;
+      if (done)
+        done = w.put_on_sheet(
+            scene,
+            {inner.x0 - outer.x0, inner.y0 - outer.y0, inner.x1 - outer.x0, inner.y1 - outer.y0},
+            factor, width, height, left, top);
+      if (!done) return done.error();
+      w.read(image, left, top);
+    }
+  w.figures.redrawn = 1;
+  if (glGetError() == GL_OUT_OF_MEMORY)
+    return error(Trouble::io, "the graphics card ran out of memory; make the picture smaller");
+  return image;
+}
+
+Status Renderer::show(const Scene& scene) {
+  Work& w = *work_;
+  w.context->make_current();
+  w.update(scene);
+
+  const int factor = std::clamp(scene.look.supersample, 1, 4);
+  Frame frame;
+  frame.picture_width = frame.width = std::max(1, width()) * factor;
+  frame.picture_height = frame.height = std::max(1, height()) * factor;
+  frame.view = view_from_world(scene.camera);
+  const std::vector<Piece>& pieces = w.shapes.pieces(scene);
+  const Result<bool> fresh =
+      w.target.resize(frame.width, frame.height, scene.look.hollow_half ? 2 : 1);
+  if (!fresh) return fresh.error();
+
+  // everything anew when the eye moved; else only where bone or tool did
+  const bool all =
+      *fresh || !w.held || !same(w.held->camera, scene.camera) || !same(w.held->look, scene.look);
+  if (all) {
+    w.held.emplace();
+    w.held->bone = bounds(scene);
+  }
+  set_depths(frame, scene.camera, w.held->bone);
+  frame.clip = clip_from_view(scene.camera, static_cast<double>(frame.width) / frame.height,
+                              frame.near, frame.far);
+  Rect where;
+  if (all) {
+    where = frame.all();
+  } else {
+    for (const Aabb& box : w.changed) where = where.with(rect_of(box, frame));
+    const std::vector<Piece>& old = w.held->pieces;
+    for (std::size_t i = 0; i < std::max(old.size(), pieces.size()); ++i) {
+      if (i < old.size() && i < pieces.size() && same(old[i], pieces[i])) continue;
+      if (i < old.size()) where = where.with(rect_of(old[i].box, frame));
+      if (i < pieces.size()) where = where.with(rect_of(pieces[i].box, frame));
+    }
+  }
+  w.changed.clear();
+  w.held->camera = scene.camera;
+  w.held->look = scene.look;
+  w.held->pieces = pieces;
+  if (!where.empty()) {
+    const Status painted = w.paint(scene, frame, where, pieces);
+    if (!painted) return painted;
+  }
+
+  const Status put =
+      w.put_on_sheet(scene, frame.all(), factor, frame.width / factor, frame.height / factor, 0, 0);
+  if (!put) return put;
+  if (w.context->visible()) {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, w.sheet.at.get());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, w.sheet.width, w.sheet.height, 0, 0, w.sheet.width, w.sheet.height,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    w.context->swap();
+  } else {
+    glFinish();
+  }
+  return fine();
+}
+
+void Renderer::title(const std::string& text) { work_->context->title(text); }
+
+int Renderer::width() const {
+  int wide = work_->idle_width, high = 0;
+  if (work_->context->visible()) work_->context->size(wide, high);
+  return wide;
+}
+int Renderer::height() const {
+  int wide = 0, high = work_->idle_height;
+  if (work_->context->visible()) work_->context->size(wide, high);
+  return high;
+}
+void Renderer::resize_offscreen(int width, int height) {
+  work_->idle_width = width;
+  work_->idle_height = height;
+}
+
+std::string Renderer::gpu() const { return work_->context->gpu(); }
+Renderer::Figures Renderer::figures() const { return work_->figures; }
+
+Image Renderer::shown() {
+  Work& w = *work_;
+  w.context->make_current();
+  Image image{w.sheet.width, w.sheet.height, {}};
+  image.rgb.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
+                   3);
+  w.read(image, 0, 0);
+  return image;
+}
+
+}  // namespace burr::render

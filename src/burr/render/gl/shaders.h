@@ -1,0 +1,295 @@
+// render/gl/shaders.h - what runs on the GPU, in the common part of GLSL 3.30 and GLSL ES 3.00.
+//
+//     mesh      triangles -> what is there: colour and kind, normal, depth        ("G-buffer")
+//     hollow    normal, depth -> how open the surface is to the light, at full or half resolution
+//     soften    the same, its noise smoothed within the surface
+//     light     all of it -> the picture
+//     shrink    n x n samples -> one pixel
+//     flat      overlay: text and bars
+//
+// Light is linear inside; colours go in and out as sRGB.
+#pragma once
+
+namespace burr::render::gl {
+
+inline constexpr const char* kMeshVertex = R"(
+layout(location = 0) in vec3 at_p;
+layout(location = 1) in vec3 at_n;
+layout(location = 2) in vec3 at_colour;
+uniform mat4 clip_from_model;
+uniform mat3 view_from_model_n;
+out vec3 n;
+out vec3 colour;
+void main() {
+  gl_Position = clip_from_model * vec4(at_p, 1.0);
+  n = view_from_model_n * at_n;
+  colour = at_colour;
+}
+)";
+
+// kind: 0 nothing, 1 bone, 2/3 tool, 1/3 mark; in the alpha of the colour. Normals are folded into
+// an octahedron (Meyer et al. 2010, "On floating-point normal vectors") at 2 x 16 bit, which both
+// APIs can write.
+inline constexpr const char* kMeshFragment = R"(
+in vec3 n;
+in vec3 colour;
+uniform vec4 tint_kind;
+layout(location = 0) out vec4 out_colour;
+layout(location = 1) out uvec2 out_n;
+void main() {
+  vec3 m = n / max(abs(n.x) + abs(n.y) + abs(n.z), 1e-20);
+  vec2 o = m.z >= 0.0 ? m.xy : (1.0 - abs(m.yx)) * vec2(m.x >= 0.0 ? 1.0 : -1.0, m.y >= 0.0 ? 1.0 : -1.0);
+  out_colour = vec4(colour * tint_kind.rgb, tint_kind.a);
+  out_n = uvec2(round((o * 0.5 + 0.5) * 65535.0));
+}
+)";
+
+// one triangle over everything
+inline constexpr const char* kScreenVertex = R"(
+void main() {
+  vec2 corner = vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID & 2) * 2 - 1);
+  gl_Position = vec4(corner, 0.0, 1.0);
+}
+)";
+
+// The "scalable ambient obscurance" estimator (McGuire, Mara, Luebke 2012) on full-resolution
+// depth, with true normals. Sample directions turn in a 4 x 4 pattern, which `soften` averages.
+inline constexpr const char* kHollowFragment = R"(
+uniform sampler2D depth_map;
+uniform sampler2D colour_map;
+uniform usampler2D normal_map;
+uniform vec4 ray;            // view xy per depth = uv * ray.xy + ray.zw
+uniform vec2 planes;         // near, far
+uniform ivec2 size;          // of the full maps
+uniform int stride;          // 1, or 2 for half resolution
+uniform float reach;         // [m]
+uniform float pixels_per_m;  // at depth 1 m
+uniform float most_pixels;
+uniform int samples;
+uniform vec2 spiral[48];
+out vec4 result;             // openness, depth in two bytes
+
+float view_depth(ivec2 at) {
+  float d = texelFetch(depth_map, at, 0).r;
+  return planes.x * planes.y / (planes.y - d * (planes.y - planes.x));
+}
+vec3 position(ivec2 at, float z) {
+  vec2 uv = (vec2(at) + 0.5) / vec2(size);
+  return vec3((uv * ray.xy + ray.zw) * z, -z);
+}
+vec3 unfold(uvec2 o) {
+  vec2 f = vec2(o) / 65535.0 * 2.0 - 1.0;
+  vec3 n = vec3(f, 1.0 - abs(f.x) - abs(f.y));
+  float t = max(-n.z, 0.0);
+  n.xy += vec2(n.x >= 0.0 ? -t : t, n.y >= 0.0 ? -t : t);
+  return normalize(n);
+}
+void main() {
+  ivec2 here = ivec2(gl_FragCoord.xy);
+  ivec2 at = min(here * stride, size - 1);
+  float kind = texelFetch(colour_map, at, 0).a;
+  if (kind < 0.4) {
+    result = vec4(1.0);
+    return;
+  }
+  float z = view_depth(at);
+  vec3 p = position(at, z);
+  vec3 n = unfold(texelFetch(normal_map, at, 0).rg);
+
+  int turn = ((here.x & 3) * 4 + (here.y & 3)) * 7 & 15;
+  float angle = float(turn) * 0.392699;
+  vec2 spin = vec2(cos(angle), sin(angle));
+  float radius = min(reach * pixels_per_m / z, most_pixels);
+
+  float sum = 0.0;
+  float r2 = reach * reach;
+  for (int s = 0; s < samples; ++s) {
+    vec2 o = spiral[s];
+    ivec2 to = at + ivec2(round(vec2(o.x * spin.x - o.y * spin.y, o.x * spin.y + o.y * spin.x) * radius));
+    to = clamp(to, ivec2(0), size - 1);
+    vec3 v = position(to, view_depth(to)) - p;
+    float vv = dot(v, v);
+    float vn = dot(v, n) - 0.02 * reach;
+    float f = max(1.0 - vv / r2, 0.0);
+    sum += f * f * f * max(vn / (reach * 0.05 + sqrt(vv)), 0.0);
+  }
+  float open = max(0.0, 1.0 - 4.5 * sum / float(samples));
+  float key = clamp((z - planes.x) / (planes.y - planes.x), 0.0, 1.0) * 255.0;
+  result = vec4(open, floor(key) / 255.0, fract(key), 1.0);
+}
+)";
+
+inline constexpr const char* kSoftenFragment = R"(
+uniform sampler2D hollow_map;
+uniform ivec2 size;    // of this map
+uniform float strict;  // 1 / (depth difference that is another surface), in depth keys
+out vec4 result;
+float key(vec4 t) { return t.g + t.b / 255.0; }
+void main() {
+  ivec2 here = ivec2(gl_FragCoord.xy);
+  vec4 mine = texelFetch(hollow_map, here, 0);
+  float z = key(mine), sum = 0.0, weights = 0.0;
+  for (int y = -1; y <= 2; ++y)
+    for (int x = -1; x <= 2; ++x) {
+      vec4 t = texelFetch(hollow_map, clamp(here + ivec2(x, y), ivec2(0), size - 1), 0);
+      float w = max(0.001, 1.0 - abs(key(t) - z) * strict);
+      sum += w * t.r;
+      weights += w;
+    }
+  result = vec4(sum / weights, mine.gba);
+}
+)";
+
+inline constexpr const char* kLightFragment = R"(
+uniform sampler2D colour_map;
+uniform usampler2D normal_map;
+uniform sampler2D depth_map;
+uniform sampler2D hollow_map;
+uniform vec4 ray;
+uniform vec2 planes;
+uniform ivec2 size;
+uniform int stride;
+uniform ivec2 hollow_size;
+uniform float strict;
+uniform vec2 sky;          // height in the whole picture = y * sky.x + sky.y
+uniform vec3 sky_top;      // sRGB
+uniform vec3 sky_bottom;
+uniform vec3 key_towards;  // unit, view
+uniform vec3 key_light;    // linear
+uniform vec3 fill_towards;
+uniform vec3 fill_light;
+uniform float ambient;
+uniform float gloss;
+uniform float hollow;
+uniform int plain;
+uniform vec4 ball;         // burr head: centre in view, radius; 0: none
+uniform vec3 shaft;        // unit, from the centre along the shaft, in view
+uniform vec2 shaft_size;   // radius, length
+out vec4 result;
+
+vec3 linear(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c)); }
+vec3 srgb(vec3 c) {
+  c = clamp(c, 0.0, 1.0);
+  return mix(c * 12.92, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+}
+vec3 unfold(uvec2 o) {
+  vec2 f = vec2(o) / 65535.0 * 2.0 - 1.0;
+  vec3 n = vec3(f, 1.0 - abs(f.x) - abs(f.y));
+  float t = max(-n.z, 0.0);
+  n.xy += vec2(n.x >= 0.0 ? -t : t, n.y >= 0.0 ? -t : t);
+  return normalize(n);
+}
+float key(vec4 t) { return t.g + t.b / 255.0; }
+
+// at half resolution: the nearest four, those of the same surface
+float openness(ivec2 at, float z) {
+  if (stride == 1) return texelFetch(hollow_map, at, 0).r;
+  float mine = clamp((z - planes.x) / (planes.y - planes.x), 0.0, 1.0);
+  ivec2 low = at / 2;
+  vec2 part = vec2(at - low * 2) * 0.5;
+  float sum = 0.0, weights = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 o = ivec2(i & 1, i >> 1);
+    vec4 t = texelFetch(hollow_map, min(low + o, hollow_size - 1), 0);
+    vec2 b = mix(1.0 - part, part, vec2(o));
+    float w = b.x * b.y * max(0.001, 1.0 - abs(key(t) - mine) * strict) + 1e-6;
+    sum += w * t.r;
+    weights += w;
+  }
+  return sum / weights;
+}
+
+// How much of the key light passes head and shaft: distance of the light's ray from ball and line,
+// softened with the distance of whatever casts the shadow.
+float passes(vec3 p, vec3 to) {
+  if (ball.w <= 0.0) return 1.0;
+  vec3 c = ball.xyz - p;
+  float along = dot(c, to);
+  float off = length(c - along * to);
+  float soft = 0.12 * max(along, 0.0) + 0.1 * ball.w;
+  float open = along > 0.0 ? smoothstep(-soft, soft, off - ball.w) : 1.0;
+
+  // nearest points of the light's ray and the shaft's axis
+  float b = dot(to, shaft), d = dot(to, -c), e = dot(shaft, -c);
+  float den = max(1.0 - b * b, 1e-4);
+  float s = clamp((e - b * d) / den, 0.0, shaft_size.y);
+  float t = dot(c + shaft * s, to);
+  float away = length(c + shaft * s - max(t, 0.0) * to);
+  soft = 0.12 * max(t, 0.0) + 0.1 * shaft_size.x;
+  float rod = t > 0.0 ? smoothstep(-soft, soft, away - shaft_size.x) : 1.0;
+  return min(open, rod);
+}
+
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec4 c = texelFetch(colour_map, at, 0);
+  if (c.a < 0.1) {
+    vec3 back = mix(sky_bottom, sky_top, clamp(gl_FragCoord.y * sky.x + sky.y, 0.0, 1.0));
+    result = vec4(back, 1.0);
+    return;
+  }
+  vec3 n = unfold(texelFetch(normal_map, at, 0).rg);
+  vec3 albedo = linear(c.rgb);
+  if (plain != 0) {
+    result = vec4(srgb(albedo * max(n.z, 0.0)), 1.0);
+    return;
+  }
+  if (c.a < 0.5) {  // marks: readable rather than real
+    result = vec4(srgb(albedo * (0.55 + 0.45 * max(n.z, 0.0))), 1.0);
+    return;
+  }
+  float d = texelFetch(depth_map, at, 0).r;
+  float z = planes.x * planes.y / (planes.y - d * (planes.y - planes.x));
+  vec2 uv = (vec2(at) + 0.5) / vec2(size);
+  vec3 p = vec3((uv * ray.xy + ray.zw) * z, -z);
+  vec3 eye = normalize(-p);
+  float open = hollow > 0.0 ? mix(1.0, openness(at, z), hollow) : 1.0;
+  bool bone = c.a > 0.8;
+
+  float lit = max(dot(n, key_towards), 0.0);
+  if (bone) lit *= passes(p, key_towards);
+  float side = max(dot(n, fill_towards), 0.0);
+  vec3 direct = key_light * lit + fill_light * side;
+  float around = ambient * (0.8 + 0.2 * n.y);
+  // hollows lose all of the light from around and some of the lamps'
+  vec3 light = direct * (0.4 + 0.6 * open) + around * open;
+
+  float shine = pow(max(dot(n, normalize(key_towards + eye)), 0.0), bone ? 28.0 : 60.0);
+  float own = bone ? gloss : 0.45;
+  vec3 colour = albedo * light + key_light * (own * shine * step(1e-4, lit) * open);
+  if (!bone) {  // steel mirrors the room: bright above, dark below
+    vec3 m = reflect(-eye, n);
+    colour += albedo * 0.35 * smoothstep(-0.2, 0.9, m.y) * open;
+  }
+  result = vec4(srgb(colour), 1.0);
+}
+)";
+
+inline constexpr const char* kShrinkFragment = R"(
+uniform sampler2D picture;
+uniform int factor;
+uniform ivec2 from;
+out vec4 result;
+vec3 linear(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c)); }
+vec3 srgb(vec3 c) { return mix(c * 12.92, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c)); }
+void main() {
+  ivec2 at = from + ivec2(gl_FragCoord.xy) * factor;
+  vec3 sum = vec3(0.0);
+  for (int y = 0; y < factor; ++y)
+    for (int x = 0; x < factor; ++x) sum += linear(texelFetch(picture, at + ivec2(x, y), 0).rgb);
+  result = vec4(srgb(sum / float(factor * factor)), 1.0);
+}
+)";
+
+inline constexpr const char* kFlatVertex = R"(
+layout(location = 0) in vec2 at_p;   // pixel of the whole picture, y down
+uniform vec4 clip_from_pixel;        // scale, offset
+void main() { gl_Position = vec4(at_p * clip_from_pixel.xy + clip_from_pixel.zw, 0.0, 1.0); }
+)";
+inline constexpr const char* kFlatFragment = R"(
+uniform vec4 colour;
+out vec4 result;
+void main() { result = colour; }
+)";
+
+}  // namespace burr::render::gl

@@ -1,0 +1,192 @@
+#include "burr/render/gl/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace burr::render::gl {
+
+using math::Vec3;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kFlutes = 8;
+constexpr Colour kSteel = {0.58F, 0.60F, 0.63F};
+
+// A surface over (u, v) in [0, 1]^2, u once around +z counter-clockwise, v along -z to +z; normals
+// by differences, so that flutes shine as they should.
+void send_round(Shape& shape, int around, int along,
+                const std::function<Vec3(double u, double v)>& point) {
+  std::vector<Eigen::Vector3f> points, normals;
+  std::vector<std::uint16_t> triangles;
+  constexpr double kStep = 1e-4;
+  for (int j = 0; j <= along; ++j)
+    for (int i = 0; i <= around; ++i) {
+      const double u = static_cast<double>(i) / around, v = static_cast<double>(j) / along;
+      const double w = std::clamp(v, 2 * kStep, 1 - 2 * kStep);  // a pole has no direction
+      const Vec3 du = point(u + kStep, w) - point(u - kStep, w);
+      const Vec3 dv = point(u, w + kStep) - point(u, w - kStep);
+      points.push_back(point(u, v).cast<float>());
+      normals.push_back(du.cross(dv).normalized().cast<float>());
+    }
+  const auto index = [&](int i, int j) { return static_cast<std::uint16_t>(j * (around + 1) + i); };
+  for (int j = 0; j < along; ++j)
+    for (int i = 0; i < around; ++i)
+      for (const auto& [a, b] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}})
+        triangles.push_back(index(i + a, j + b));
+  shape.send(points, normals, triangles);
+}
+
+Vec3 on_circle(double u, double r, double z) {
+  return {r * std::cos(2 * kPi * u), r * std::sin(2 * kPi * u), z};
+}
+
+// a lathe: r at each z along the profile
+void send_turned(Shape& shape, const std::vector<std::pair<double, double>>& z_r) {
+  std::vector<Eigen::Vector3f> points, normals;
+  std::vector<std::uint16_t> triangles;
+  constexpr int kAround = 32;
+  for (std::size_t k = 0; k + 1 < z_r.size(); ++k) {
+    const auto [z0, r0] = z_r[k];
+    const auto [z1, r1] = z_r[k + 1];
+    const auto base = static_cast<int>(points.size());
+    const double dz = z1 - z0, dr = r1 - r0, length = std::hypot(dz, dr);
+    for (int i = 0; i <= kAround; ++i) {
+      const double u = static_cast<double>(i) / kAround;
+      const Vec3 n = on_circle(u, dz / length, -dr / length);
+      points.push_back(on_circle(u, r0, z0).cast<float>());
+      points.push_back(on_circle(u, r1, z1).cast<float>());
+      normals.insert(normals.end(), 2, n.cast<float>());
+    }
+    for (int i = 0; i < kAround; ++i)
+      for (const int o : {0, 2, 3, 0, 3, 1})
+        triangles.push_back(static_cast<std::uint16_t>(base + 2 * i + o));
+  }
+  shape.send(points, normals, triangles);
+}
+
+Eigen::Matrix4d placed(const math::Pose& pose, double scale_xy, double scale_z) {
+  Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
+  m.block<3, 3>(0, 0) = pose.q.toRotationMatrix() * Vec3(scale_xy, scale_xy, scale_z).asDiagonal();
+  m.block<3, 1>(0, 3) = pose.p;
+  return m;
+}
+
+math::Aabb box_between(const Vec3& lo, const Vec3& hi) { return {lo, hi}; }
+
+}  // namespace
+
+void Shape::send(const std::vector<Eigen::Vector3f>& points,
+                 const std::vector<Eigen::Vector3f>& normals,
+                 const std::vector<std::uint16_t>& triangles) {
+  std::vector<float> packed;
+  packed.reserve(points.size() * 9);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (const float value : {points[i].x(), points[i].y(), points[i].z(), normals[i].x(),
+                              normals[i].y(), normals[i].z(), 1.0F, 1.0F, 1.0F})
+      packed.push_back(value);
+  count_ = static_cast<GLsizei>(triangles.size());
+  glBindVertexArray(array_.make());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_.make());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(packed.size() * sizeof(float)),
+               packed.data(), GL_STATIC_DRAW);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.make());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+               static_cast<GLsizeiptr>(triangles.size() * sizeof(std::uint16_t)), triangles.data(),
+               GL_STATIC_DRAW);
+  for (GLuint attribute = 0; attribute < 3; ++attribute) {
+    glEnableVertexAttribArray(attribute);
+    glVertexAttribPointer(attribute, 3, GL_FLOAT, GL_FALSE, 9 * sizeof(float),
+                          reinterpret_cast<const void*>(attribute * 3 * sizeof(float)));
+  }
+}
+
+void Shape::draw() const {
+  glBindVertexArray(array_.get());
+  glDrawElements(GL_TRIANGLES, count_, GL_UNSIGNED_SHORT, nullptr);
+}
+
+void Shapes::make() {
+  made_ = true;
+  const auto sphere = [](double u, double v) {
+    const double lat = (v - 0.5) * kPi;
+    return on_circle(u, std::cos(lat), std::sin(lat));
+  };
+  send_round(ball_, 48, 24, sphere);
+
+  // Flutes wind a little around the head, are deepest at its equator and fade towards the poles;
+  // their edges lie on the ball itself.
+  send_round(head_, 160, 64, [&](double u, double v) {
+    const double lat = (v - 0.5) * kPi, wave = u * kFlutes + 0.6 * (v - 0.5);
+    const double saw = wave - std::floor(wave);
+    const double depth = 0.16 * std::cos(lat) * std::cos(lat) * std::pow(1 - saw, 1.5);
+    return Vec3(sphere(u, v) * (1 - depth));
+  });
+  send_turned(rod_, {{0, 0}, {0, 1}, {1, 1}, {1, 0}});
+  send_turned(tip_, {{0, 0}, {0, 1}, {1, 0}});
+}
+
+void Shapes::make_shaft(const Burr& burr) {
+  const double wanted[3] = {burr.radius, burr.shaft_radius, burr.shaft_length};
+  if (std::equal(wanted, wanted + 3, shaft_of_)) return;
+  std::copy(wanted, wanted + 3, shaft_of_);
+
+  // a neck thinner than the head, so that the head can cut sideways, widening to the shaft
+  const double neck = std::min(burr.shaft_radius, 0.55 * burr.radius);
+  const double z0 = 0.8 * burr.radius, z1 = z0 + 3 * burr.radius;
+  const double z2 = z1 + 4 * (burr.shaft_radius - neck) + 1e-6;
+  const double end = std::max(burr.shaft_length, z2 + burr.radius);
+  send_turned(
+      shaft_,
+      {{z0, neck}, {z1, neck}, {z2, burr.shaft_radius}, {end, burr.shaft_radius}, {end, 0}});
+}
+
+void Shapes::add(const Shape& shape, const Eigen::Matrix4d& world_from_shape, const Colour& colour,
+                 bool steel, bool on_top, const math::Aabb& box_shape) {
+  Piece piece{&shape, world_from_shape, colour, steel, on_top, {}};
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector4d p = box_shape.corner(corner).homogeneous();
+    piece.box.extend((world_from_shape * p).head<3>());
+  }
+  pieces_.push_back(piece);
+}
+
+const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
+  if (!made_) make();
+  pieces_.clear();
+  const math::Aabb ball = box_between({-1, -1, -1}, {1, 1, 1});
+  const math::Aabb tube = box_between({-1, -1, 0}, {1, 1, 1});
+
+  const Burr& burr = scene.burr;
+  if (burr.visible && burr.world_from_tool.finite()) {
+    make_shaft(burr);
+    math::Pose turned = burr.world_from_tool;
+    turned.q = turned.q * math::Quat(Eigen::AngleAxisd(burr.turn, Vec3::UnitZ()));
+    add(head_, placed(turned, burr.radius, burr.radius), kSteel, true, false, ball);
+    const double r = std::max(burr.radius, burr.shaft_radius);
+    add(shaft_, placed(burr.world_from_tool, 1, 1), kSteel, true, false,
+        box_between({-r, -r, 0}, {r, r, std::max(burr.shaft_length, 30 * r)}));
+  }
+  for (const Marker& marker : scene.markers) {
+    if (!marker.p.allFinite()) continue;
+    add(ball_, placed({marker.p, {}}, marker.radius, marker.radius), marker.colour, false,
+        marker.on_top, ball);
+  }
+  for (const Rod& rod : scene.rods) {
+    const Vec3 d = rod.b - rod.a;
+    const double length = d.norm();
+    if (!(length > 0) || !d.allFinite()) continue;
+    const math::Quat q(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), d));
+    // an arrow's head takes its part of the length
+    const double head = rod.arrow ? std::min(6 * rod.radius, 0.6 * length) : 0;
+    add(rod_, placed({rod.a, q}, rod.radius, length - head), rod.colour, false, rod.on_top, tube);
+    if (rod.arrow)
+      add(tip_, placed({rod.b - d * (head / length), q}, 2.4 * rod.radius, head), rod.colour, false,
+          rod.on_top, tube);
+  }
+  return pieces_;
+}
+
+}  // namespace burr::render::gl

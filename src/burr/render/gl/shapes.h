@@ -1,0 +1,53 @@
+// render/gl/shapes.h - tool and marks as triangles: fluted ball, turned shaft, ball, rod, arrow
+// head.
+#pragma once
+
+#include <vector>
+
+#include "burr/render/gl/objects.h"
+#include "burr/render/scene.h"
+
+namespace burr::render::gl {
+
+// One mesh on the GPU, white; tinted when drawn.
+class Shape {
+ public:
+  // points, normals: (n); triangles: (m x 3), counter-clockwise from outside
+  void send(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
+            const std::vector<std::uint16_t>& triangles);
+  void draw() const;
+
+ private:
+  Buffer vertices_, indices_;
+  VertexArray array_;
+  GLsizei count_ = 0;
+};
+
+// What is to be drawn besides bone: a shape, stretched and placed.
+struct Piece {
+  const Shape* shape = nullptr;
+  Eigen::Matrix4d world_from_shape = Eigen::Matrix4d::Identity();
+  Colour colour = {1, 1, 1};
+  bool steel = false;  // a part of the tool, lit and shadowed; else a mark
+  bool on_top = false;
+  math::Aabb box;  // in the world
+};
+
+class Shapes {
+ public:
+  // All pieces of the scene; valid until the next call.
+  const std::vector<Piece>& pieces(const Scene& scene);
+
+ private:
+  void make();
+  void make_shaft(const Burr& burr);
+  void add(const Shape& shape, const Eigen::Matrix4d& world_from_shape, const Colour& colour,
+           bool steel, bool on_top, const math::Aabb& box_shape);
+
+  Shape ball_, head_, rod_, tip_, shaft_;
+  bool made_ = false;
+  double shaft_of_[3] = {0, 0, 0};  // radius, shaft_radius, shaft_length it was made for
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace burr::render::gl

@@ -1,0 +1,76 @@
+#include "burr/render/gl/target.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace burr::render::gl {
+
+namespace {
+
+void shape(Texture& texture, GLint inside, int width, int height, GLenum format, GLenum type) {
+  texture = Texture();
+  glBindTexture(GL_TEXTURE_2D, texture.make());
+  glTexImage2D(GL_TEXTURE_2D, 0, inside, width, height, 0, format, type, nullptr);
+  for (const GLenum way : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    glTexParameteri(GL_TEXTURE_2D, way, GL_NEAREST);
+  for (const GLenum way : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    glTexParameteri(GL_TEXTURE_2D, way, GL_CLAMP_TO_EDGE);
+}
+
+Status attach(Framebuffer& framebuffer, std::initializer_list<GLuint> colours, GLuint depth) {
+  framebuffer = Framebuffer();
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.make());
+  std::array<GLenum, 2> outputs{};
+  GLsizei count = 0;
+  for (const GLuint colour : colours) {
+    const GLenum place = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(count);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, place, GL_TEXTURE_2D, colour, 0);
+    outputs[static_cast<std::size_t>(count++)] = place;
+  }
+  glDrawBuffers(count, outputs.data());
+  if (depth != 0)
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE &&
+      glGetError() != GL_OUT_OF_MEMORY)
+    return fine();
+  return error(Trouble::io,
+               "the graphics card cannot hold a picture of this size; make it smaller");
+}
+
+}  // namespace
+
+Result<bool> Target::resize(int wide, int high, int hollow_stride) {
+  if (wide == width && high == height && hollow_stride == stride) return false;
+  width = height = stride = 0;  // in case it fails half-way
+  hollow_width = (wide + hollow_stride - 1) / hollow_stride;
+  hollow_height = (high + hollow_stride - 1) / hollow_stride;
+
+  shape(colour, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);
+  shape(normal, GL_RG16UI, wide, high, GL_RG_INTEGER, GL_UNSIGNED_SHORT);
+  shape(depth, GL_DEPTH_COMPONENT24, wide, high, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
+  shape(lit, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);
+  shape(hollow, GL_RGBA8, hollow_width, hollow_height, GL_RGBA, GL_UNSIGNED_BYTE);
+  shape(soft, GL_RGBA8, hollow_width, hollow_height, GL_RGBA, GL_UNSIGNED_BYTE);
+  for (Status made : {attach(geometry, {colour.get(), normal.get()}, depth.get()),
+                      attach(hollow_at, {hollow.get()}, 0), attach(soft_at, {soft.get()}, 0),
+                      attach(lit_at, {lit.get()}, 0)})
+    if (!made) return made.error();
+  width = wide;
+  height = high;
+  stride = hollow_stride;
+  return true;
+}
+
+Status Sheet::resize(int wide, int high) {
+  if (wide == width && high == height) return fine();
+  width = height = 0;
+  shape(colour, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);
+  const Status made = attach(at, {colour.get()}, 0);
+  if (!made) return made;
+  width = wide;
+  height = high;
+  return fine();
+}
+
+}  // namespace burr::render::gl

@@ -1,0 +1,46 @@
+// render/look.h - how a picture looks: lights, shadows in the hollows, background. Plain data.
+//
+// Colours are sRGB 0..1. Directions are in the eye's frame (x right, y up, z towards the eye): the
+// lights move with the head, as a surgeon's lamp does.
+#pragma once
+
+#include <array>
+
+#include "burr/math/vec3.h"
+
+namespace burr::render {
+
+using Colour = std::array<float, 3>;  // sRGB 0..1
+
+struct Light {
+  math::Vec3 towards = math::Vec3::UnitZ();  // from the surface to the light; any length
+  Colour colour = {1, 1, 1};
+  double strength = 1;  // of linear light
+};
+
+struct Look {
+  Light key = {{-0.50, 0.62, 0.75}, {1.0F, 0.97F, 0.92F}, 1.0};    // makes the relief
+  Light fill = {{0.85, -0.25, 0.55}, {0.80F, 0.88F, 1.0F}, 0.22};  // opens the other side
+  double ambient = 0.22;                                           // from everywhere
+  double gloss = 0.10;         // bone is a little wet; 0 is chalk
+  double hollow = 1.0;         // ambient occlusion, 0 none .. 1 full
+  double hollow_reach = 0.06;  // its radius, in heights of the picture at the target
+  int hollow_samples = 10;     // per pixel; 10 for a window without a GPU, 32 for a still
+  bool hollow_half = true;     // at half the resolution: four times cheaper, a little softer
+  int supersample = 1;         // n x n samples per pixel; 1 for a window without a GPU, 2 or 3 for
+                               // a still
+  bool plain = false;          // only Lambert from the eye, no other light: to measure by
+  Colour background_top = {0.20F, 0.23F, 0.27F};
+  Colour background_bottom = {0.09F, 0.10F, 0.12F};
+};
+
+// For stills: everything at full resolution.
+[[nodiscard]] inline Look still_look() {
+  Look look;
+  look.hollow_samples = 24;
+  look.hollow_half = false;
+  look.supersample = 2;
+  return look;
+}
+
+}  // namespace burr::render

@@ -1,0 +1,68 @@
+#include "burr/render/pick.h"
+
+#include <limits>
+
+namespace burr::render {
+
+using math::Vec3;
+
+namespace {
+
+// where the ray enters the box, or infinity; slabs (Kay & Kajiya 1986)
+double entry(const math::Aabb& box, const Ray& ray, const Vec3& inverse) {
+  double in = 0, out = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = (box.lo[axis] - ray.origin[axis]) * inverse[axis];
+    const double b = (box.hi[axis] - ray.origin[axis]) * inverse[axis];
+    // written so that 0 * inf on a face of the box leaves in and out alone
+    in = std::max(in, std::min(a, b));
+    out = std::min(out, std::max(a, b));
+  }
+  return in <= out ? in : std::numeric_limits<double>::infinity();
+}
+
+void pick_in(const surface::Patch& mesh, const Ray& ray, Hit& nearest) {
+  for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
+    const surface::Vertex& a = mesh.vertices[mesh.triangles[t]];
+    const surface::Vertex& b = mesh.vertices[mesh.triangles[t + 1]];
+    const surface::Vertex& c = mesh.vertices[mesh.triangles[t + 2]];
+
+    // Moeller & Trumbore 1997, front faces only
+    const Vec3 pa = a.p.cast<double>();
+    const Vec3 ab = b.p.cast<double>() - pa, ac = c.p.cast<double>() - pa;
+    const Vec3 across = ray.direction.cross(ac);
+    const double area = ab.dot(across);
+    if (area <= 0) continue;
+    const Vec3 from = ray.origin - pa;
+    const double u = from.dot(across);
+    if (u < 0 || u > area) continue;
+    const Vec3 over = from.cross(ab);
+    const double v = ray.direction.dot(over);
+    if (v < 0 || u + v > area) continue;
+    const double distance = ac.dot(over) / area;
+    if (distance < 0 || distance >= nearest.distance) continue;
+
+    nearest.distance = distance;
+    nearest.p = ray.origin + distance * ray.direction;
+    nearest.n =
+        ((area - u - v) * a.n.cast<double>() + u * b.n.cast<double>() + v * c.n.cast<double>())
+            .normalized();
+    nearest.tissue = a.tissue;
+  }
+}
+
+}  // namespace
+
+std::optional<Hit> pick(const Scene& scene, const Ray& ray) {
+  const Vec3 inverse = ray.direction.cwiseInverse();
+  Hit nearest;
+  nearest.distance = std::numeric_limits<double>::infinity();
+  for (const ScenePatch& patch : scene.patches) {
+    if (patch.mesh == nullptr || entry(patch.box, ray, inverse) >= nearest.distance) continue;
+    pick_in(*patch.mesh, ray, nearest);
+  }
+  if (nearest.distance == std::numeric_limits<double>::infinity()) return std::nullopt;
+  return nearest;
+}
+
+}  // namespace burr::render

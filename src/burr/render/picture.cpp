@@ -1,0 +1,92 @@
+#include "burr/render/picture.h"
+
+#include <fmt/format.h>
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#include <stb/stb_image_write.h>
+
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "burr/render/renderer.h"
+
+namespace burr::render {
+
+namespace {
+
+void append(void* to, void* bytes, int count) {
+  static_cast<std::string*>(to)->append(static_cast<const char*>(bytes),
+                                        static_cast<std::size_t>(count));
+}
+
+Error cannot_write(const std::filesystem::path& path) {
+  return error(Trouble::io,
+               fmt::format("{}: cannot write the picture; is there such a folder, may you write "
+                           "to it, and is there room on the disk?",
+                           path.string()));
+}
+
+}  // namespace
+
+Result<Image> render_image(const Scene& scene, int width, int height) {
+  auto renderer = Renderer::offscreen();
+  if (!renderer) return renderer.error();
+  return (*renderer)->image(scene, width, height);
+}
+
+Status write_png(const Image& image, const std::filesystem::path& path) {
+  BURR_CHECK(image.rgb.size() ==
+             static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3);
+  std::string bytes;
+  if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(),
+                             image.width * 3) == 0)
+    return cannot_write(path);
+
+  // beside, then renamed: nobody ever sees half a picture
+  std::filesystem::path beside = path;
+  beside += ".part";
+  std::ofstream file(beside, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  std::error_code trouble;
+  if (file) std::filesystem::rename(beside, path, trouble);
+  if (!file || trouble) {
+    std::filesystem::remove(beside, trouble);
+    return cannot_write(path);
+  }
+  return fine();
+}
+
+Status render_png(const Scene& scene, int width, int height, const std::filesystem::path& path) {
+  Result<Image> image = render_image(scene, width, height);
+  if (!image) return image.error();
+  return write_png(*image, path);
+}
+
+Result<Film> Film::in(const std::filesystem::path& folder, int width, int height) {
+  std::error_code trouble;
+  std::filesystem::create_directories(folder, trouble);
+  if (trouble)
+    return error(Trouble::io, fmt::format("{}: cannot make the film's folder: {}; choose another",
+                                          folder.string(), trouble.message()));
+  auto renderer = Renderer::offscreen();
+  if (!renderer) return renderer.error();
+  return Film(folder, width, height, std::move(*renderer));
+}
+
+Film::Film(std::filesystem::path folder, int width, int height, std::unique_ptr<Renderer> renderer)
+    : folder_(std::move(folder)), width_(width), height_(height), renderer_(std::move(renderer)) {}
+Film::Film(Film&&) noexcept = default;
+Film& Film::operator=(Film&&) noexcept = default;
+Film::~Film() = default;
+
+Status Film::frame(const Scene& scene) {
+  Result<Image> image = renderer_->image(scene, width_, height_);
+  if (!image) return image.error();
+  Status written = write_png(*image, folder_ / fmt::format("frame_{:06d}.png", frames_ + 1));
+  if (written) ++frames_;
+  return written;
+}
+
+}  // namespace burr::render

@@ -1,0 +1,64 @@
+#include "burr/render/scene.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "burr/base/check.h"
+
+namespace burr::render {
+
+using math::Vec3;
+
+std::vector<Colour> colours_of(const volume::TissueTable& tissues) {
+  std::vector<Colour> colours;
+  colours.reserve(tissues.tissues.size());
+  for (const volume::Tissue& tissue : tissues.tissues) colours.push_back(tissue.colour);
+  return colours;
+}
+
+void set_patch(Scene& scene, int index, surface::Patch&& patch) {
+  BURR_CHECK(index >= 0);
+  const auto place = static_cast<std::size_t>(index);
+  if (place >= scene.patches.size()) scene.patches.resize(place + 1);
+
+  ScenePatch& entry = scene.patches[place];
+  ++entry.version;
+  entry.box = {};
+  entry.mesh = nullptr;
+  if (patch.triangles.empty()) return;
+  for (const surface::Vertex& vertex : patch.vertices) entry.box.extend(vertex.p.cast<double>());
+  entry.mesh = std::make_shared<const surface::Patch>(std::move(patch));
+}
+
+math::Aabb bounds(const Scene& scene) {
+  math::Aabb box;
+  for (const ScenePatch& patch : scene.patches) {
+    if (patch.mesh == nullptr) continue;
+    box.extend(patch.box.lo);
+    box.extend(patch.box.hi);
+  }
+  return box;
+}
+
+Camera whole_view(const Scene& scene, double azimuth, double elevation, double aspect) {
+  std::vector<math::Aabb> boxes;
+  for (const ScenePatch& patch : scene.patches)
+    if (patch.mesh != nullptr) boxes.push_back(patch.box);
+  return fit(boxes, azimuth, elevation, aspect, scene.camera);
+}
+
+void show_contact(Scene& scene, const Vec3& hand, const Vec3& proxy, const Vec3& force,
+                  double length_per_newton) {
+  constexpr Colour kHand = {0.25F, 0.65F, 1.0F}, kForce = {1.0F, 0.45F, 0.15F};
+  scene.markers.clear();
+  scene.rods.clear();
+  const double size = std::clamp(0.2 * scene.burr.radius, 0.1e-3, 0.5e-3);
+
+  scene.markers.push_back({hand, 1.5 * size, kHand, true});
+  if ((proxy - hand).norm() > size)
+    scene.rods.push_back({hand, proxy, 0.5 * size, kHand, false, true});
+  if (force.norm() * length_per_newton < 4 * size) return;
+  scene.rods.push_back({proxy, proxy + length_per_newton * force, size, kForce, true, true});
+}
+
+}  // namespace burr::render

@@ -1,0 +1,88 @@
+// render/scene.h - what there is to see: plain data, nothing of a GPU.
+//
+//     Scene scene;
+//     scene.tissue_colours = colours_of(bone.tissues());
+//     set_patch(scene, 17, std::move(patch));            // again whenever the bone changed there
+//     scene.camera = whole_view(scene, 0, 0.3, 16.0 / 9);
+//
+// Frame: world (LPS). Units: m. Thread: one at a time; a copy is cheap, the patches are shared.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "burr/math/aabb.h"
+#include "burr/math/pose.h"
+#include "burr/render/camera.h"
+#include "burr/render/look.h"
+#include "burr/surface/patch.h"
+
+namespace burr::render {
+
+// One patch of surface. Whoever draws keeps its own copy and renews it when `version` differs.
+struct ScenePatch {
+  std::shared_ptr<const surface::Patch> mesh;  // nullptr: no surface here
+  std::uint64_t version = 0;
+  math::Aabb box;  // of its vertices
+};
+
+// The tool in the hand: a fluted ball on a shaft, which leaves along the tool's +z.
+struct Burr {
+  bool visible = false;
+  math::Pose world_from_tool;    // origin: centre of the head
+  double radius = 2.5e-3;        // of the head                                     [m]
+  double shaft_radius = 1.2e-3;  // [m]
+  double shaft_length = 70e-3;   // [m]
+  double turn = 0;               // of the spindle                                  [rad]
+};
+
+struct Marker {
+  math::Vec3 p = math::Vec3::Zero();
+  double radius = 0.4e-3;  // [m]
+  Colour colour = {1, 1, 1};
+  bool on_top = false;  // seen through everything
+};
+
+// A line as a thin rod; with a head at b if it is an arrow.
+struct Rod {
+  math::Vec3 a = math::Vec3::Zero(), b = math::Vec3::Zero();
+  double radius = 0.15e-3;  // [m]
+  Colour colour = {1, 1, 1};
+  bool arrow = false;
+  bool on_top = false;
+};
+
+struct Scene {
+  std::vector<ScenePatch> patches;     // index: number of the patch, as surface/mesher.h counts
+  std::vector<Colour> tissue_colours;  // index: TissueId
+  Burr burr;
+  std::vector<Marker> markers;
+  std::vector<Rod> rods;
+  Camera camera;
+  Look look;
+  bool scale_bar = false;         // bottom right; true at the depth of the camera's target
+  std::vector<std::string> text;  // lines, top left; ASCII
+};
+
+// tissues' own colours, one per id
+[[nodiscard]] std::vector<Colour> colours_of(const volume::TissueTable& tissues);
+
+// Puts a patch at its place (grows the list if needed) and raises its version.
+void set_patch(Scene& scene, int index, surface::Patch&& patch);
+
+// All patches; empty if there is none.
+[[nodiscard]] math::Aabb bounds(const Scene& scene);
+
+// All of the bone in the picture, as fit() in camera.h.
+[[nodiscard]] Camera whole_view(const Scene& scene, double azimuth, double elevation,
+                                double aspect);
+
+// Hand and contact made visible: where the hand really is, a line to the burr that was held back,
+// and the force as an arrow of `length_per_newton`. Replaces earlier marks of this kind, which are
+// all marks of the scene.
+void show_contact(Scene& scene, const math::Vec3& hand, const math::Vec3& proxy,
+                  const math::Vec3& force, double length_per_newton = 8e-3);
+
+}  // namespace burr::render
