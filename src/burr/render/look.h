@@ -24,7 +24,7 @@ struct Look {
   double ambient = 0.22;                                           // from everywhere
   double gloss = 0.10;         // bone is a little wet; 0 is chalk
   double hollow = 1.0;         // ambient occlusion, 0 none .. 1 full
-  double hollow_reach = 0.06;  // its radius, in heights of the picture at the target
+  double hollow_reach = 0.08;  // its radius, in heights of the picture at the target
   int hollow_samples = 10;     // per pixel; 10 for a window without a GPU, 32 for a still
   bool hollow_half = true;     // at half the resolution: four times cheaper, a little softer
   int supersample = 1;         // n x n samples per pixel; 1 for a window without a GPU, 2 or 3 for

@@ -5,10 +5,11 @@
 #define STB_IMAGE_WRITE_STATIC
 #include <stb/stb_image_write.h>
 
-#include <fstream>
+#include <string>
 #include <system_error>
 #include <utility>
 
+#include "burr/base/new_file.h"
 #include "burr/render/renderer.h"
 
 namespace burr::render {
@@ -18,13 +19,6 @@ namespace {
 void append(void* to, void* bytes, int count) {
   static_cast<std::string*>(to)->append(static_cast<const char*>(bytes),
                                         static_cast<std::size_t>(count));
-}
-
-Error cannot_write(const std::filesystem::path& path) {
-  return error(Trouble::io,
-               fmt::format("{}: cannot write the picture; is there such a folder, may you write "
-                           "to it, and is there room on the disk?",
-                           path.string()));
 }
 
 }  // namespace
@@ -41,21 +35,12 @@ Status write_png(const Image& image, const std::filesystem::path& path) {
   std::string bytes;
   if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(),
                              image.width * 3) == 0)
-    return cannot_write(path);
+    return error(Trouble::internal, "a picture could not be packed as PNG; please report it");
 
-  // beside, then renamed: nobody ever sees half a picture
-  std::filesystem::path beside = path;
-  beside += ".part";
-  std::ofstream file(beside, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  std::error_code trouble;
-  if (file) std::filesystem::rename(beside, path, trouble);
-  if (!file || trouble) {
-    std::filesystem::remove(beside, trouble);
-    return cannot_write(path);
-  }
-  return fine();
+  Result<base::NewFile> file = base::NewFile::beside(path.string());
+  if (!file) return file.error();
+  file->write(bytes);
+  return file->put_in_place();
 }
 
 Status render_png(const Scene& scene, int width, int height, const std::filesystem::path& path) {

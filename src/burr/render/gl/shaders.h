@@ -111,9 +111,9 @@ void main() {
     float vv = dot(v, v);
     float vn = dot(v, n) - 0.02 * reach;
     float f = max(1.0 - vv / r2, 0.0);
-    sum += f * f * f * max(vn / (reach * 0.05 + sqrt(vv)), 0.0);
+    sum += f * max(vn / (reach * 0.05 + sqrt(vv)), 0.0);
   }
-  float open = max(0.0, 1.0 - 4.5 * sum / float(samples));
+  float open = max(0.0, 1.0 - 6.0 * sum / float(samples));
   float key = clamp((z - planes.x) / (planes.y - planes.x), 0.0, 1.0) * 255.0;
   result = vec4(open, floor(key) / 255.0, fract(key), 1.0);
 }
