@@ -2,6 +2,7 @@
 //
 // Without a display SDL's `offscreen` driver is used (EGL); beside a window a hidden one. Thread:
 // main. Errors: Trouble::io, saying which packages bring OpenGL.
+// A header of this room only.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,7 @@
 // render/gl/objects.h - OpenGL's things with an owner: freed when they go out of scope.
 //
 // Thread: main, with the context they were made in current.
+// A header of this room only.
 #pragma once
 
 #include <epoxy/gl.h>

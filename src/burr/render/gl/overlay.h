@@ -1,4 +1,6 @@
 // render/gl/overlay.h - words and a scale bar over the picture.
+//
+// A header of this room only.
 #pragma once
 
 #include "burr/render/gl/objects.h"

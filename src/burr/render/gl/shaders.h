@@ -8,6 +8,7 @@
 //     flat      overlay: text and bars
 //
 // Light is linear inside; colours go in and out as sRGB.
+// A header of this room only.
 #pragma once
 
 namespace burr::render::gl {

@@ -171,8 +171,8 @@ const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
   }
   for (const Marker& marker : scene.markers) {
     if (!marker.p.allFinite()) continue;
-    add(ball_, placed({marker.p, math::Quat::Identity()}, marker.radius, marker.radius), marker.colour, false,
-        marker.on_top, ball);
+    add(ball_, placed({marker.p, math::Quat::Identity()}, marker.radius, marker.radius),
+        marker.colour, false, marker.on_top, ball);
   }
   for (const Rod& rod : scene.rods) {
     const Vec3 d = rod.b - rod.a;

@@ -1,5 +1,6 @@
 // render/gl/shapes.h - tool and marks as triangles: fluted ball, turned shaft, ball, rod, arrow
 // head.
+// A header of this room only.
 #pragma once
 
 #include <vector>

@@ -2,6 +2,7 @@
 //
 // Memory: 24 B a vertex, 2 B an index. A patch is sent when its version changes and skipped when it
 // is out of sight or wholly turned away.
+// A header of this room only.
 #pragma once
 
 #include <array>

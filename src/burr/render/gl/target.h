@@ -1,6 +1,7 @@
 // render/gl/target.h - the textures one picture is made of, and the framebuffers around them.
 //
 // Memory: about 22 B per sample.
+// A header of this room only.
 #pragma once
 
 #include "burr/render/gl/objects.h"
