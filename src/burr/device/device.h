@@ -31,6 +31,10 @@ class Device {
   // Pushes the hand; world, at the tip [N]. Already bounded by haptics/limit.h.
   virtual void write_force(const math::Vec3& force) BURR_RT = 0;
 
+  // The tick has died: multiply whatever is being pushed by scale, 0..1, until the next
+  // write_force(). Any thread.
+  virtual void hold(double scale) BURR_RT { static_cast<void>(scale); }
+
   // A hand that follows a script has an end; others never do.
   [[nodiscard]] virtual bool finished() const BURR_RT { return false; }
 };

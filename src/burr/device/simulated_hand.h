@@ -1,0 +1,49 @@
+// device/simulated_hand.h - a hand without a person: a mass on a spring and a damper, pulled along
+// a path, pushed by the bone.
+//
+//     target(t) o--/\/\/--[ mass ]<-- force from the bone
+//
+// Values of a stylus held in the fingers: 0.03-0.1 kg, 2-5 N s/m, 100-300 N/m (algorithms.md 4.2);
+// the default is a firm grip. stiffness = infinity is a rigid hand: it is where the path says,
+// whatever pushes. Thread: state(), write_force() servo; hold() any. Frame: world. Units: SI.
+#pragma once
+
+#include <atomic>
+
+#include "burr/device/device.h"
+#include "burr/device/hand_path.h"
+
+namespace burr::device {
+
+struct ArmSettings {
+  double mass = 0.1;       // [kg]
+  double damping = 10;     // [N s/m]
+  double stiffness = 500;  // [N/m]; infinity: rigid
+};
+
+class SimulatedHand final : public Device {
+ public:
+  SimulatedHand(HandPath path, const ArmSettings& arm, DeviceSpec spec = {});
+
+  Status open() override;
+  void close() override {}
+  [[nodiscard]] const DeviceSpec& spec() const override { return spec_; }
+  [[nodiscard]] HandState state(double dt) BURR_RT override;
+  void write_force(const math::Vec3& force) BURR_RT override;
+  void hold(double scale) BURR_RT override { scale_.store(scale, std::memory_order_relaxed); }
+  [[nodiscard]] bool finished() const BURR_RT override { return time_ > path_.duration(); }
+
+ private:
+  HandPath path_;
+  ArmSettings arm_;
+  DeviceSpec spec_;
+  std::size_t hint_ = 0;
+  double time_ = 0;
+  bool started_ = false;
+  math::Vec3 position_ = math::Vec3::Zero(), velocity_ = math::Vec3::Zero(),
+             force_ = math::Vec3::Zero();
+  math::Vec3 target_ = math::Vec3::Zero();
+  std::atomic<double> scale_ = 1.0;
+};
+
+}  // namespace burr::device

@@ -1,0 +1,301 @@
+#include "burr/edit/carve.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "burr/base/check.h"
+#include "burr/rt/simd.h"
+#include "burr/volume/volume_of.h"
+
+namespace burr::edit {
+namespace {
+
+using math::Vec3;
+using volume::BrickField;
+using volume::BrickIndex;
+using volume::kBrickEdge;
+using volume::kBrickVoxels;
+
+constexpr std::size_t kMostWork = 4096;  // bricks a burr can stand in: 7 mm at 0.1 mm takes 700
+constexpr std::uint8_t kMixed = 255;
+
+// bits of haptics/contact.h; edit may not include haptics, sim/servo.cpp asserts that they agree
+constexpr std::uint32_t kReserve = 1U << 10, kUndoFull = 1U << 11, kNotCut = 1U << 14;
+
+}  // namespace
+
+CarveKernel carve_kernel() noexcept {
+  switch (rt::simd()) {
+    case rt::Simd::avx512:
+      return {avx512::find_excess, avx512::apply_excess};
+    case rt::Simd::avx2:
+      return {avx2::find_excess, avx2::apply_excess};
+    case rt::Simd::scalar:
+      break;
+  }
+  return {scalar::find_excess, scalar::apply_excess};
+}
+
+Carver::Carver(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo,
+               ChangedQueue* changed, const CarveSettings& settings)
+    : bone_(bone),
+      surface_(surface),
+      undo_(undo),
+      changed_(changed),
+      settings_(settings),
+      kernel_(carve_kernel()),
+      highest_(static_cast<std::size_t>(bone.brick_count())),
+      uniform_(static_cast<std::size_t>(bone.brick_count()), std::uint8_t{0}),
+      energy_of_(256, 1e9),
+      scratch_(kMostWork),
+      work_(kMostWork),
+      margin_(settings.margin) {
+  const double h = bone.grid().voxel;
+  unit_m3_ = h * h * h / static_cast<double>(volume::kVoxelUnits);
+  for (std::size_t t = 0; t < bone.tissues().tissues.size(); ++t)
+    energy_of_[t] = bone.tissues().tissues[t].cutting_energy;
+  for (BrickIndex b = 0; b < bone.brick_count(); ++b) {
+    const volume::Field* field = bone.brick_field(b);
+    if (field == nullptr) continue;
+    highest_[static_cast<std::size_t>(b)] = *std::max_element(field, field + kBrickVoxels);
+    const volume::TissueId* tissue = bone.brick_tissue(b);
+    int one = -1;
+    for (int v = 0; v < kBrickVoxels; ++v)
+      if (field[v] != 0) one = one < 0 || one == tissue[v] ? tissue[v] : kMixed;
+    uniform_[static_cast<std::size_t>(b)] = static_cast<std::uint8_t>(std::max(one, 0));
+  }
+}
+
+// Finds in every brick that the ball meets what stands above it (or lacks below it).
+void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], bool deposit,
+                    std::uint32_t& flags) BURR_RT {
+  work_count_ = 0;
+  total_units_ = 0;
+  const double reach = radius + volume::kRamp;
+  math::Ijk lo, hi;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double most = bone_.bricks()[axis] - 1;
+    lo[axis] = static_cast<int>(
+        std::clamp(std::floor((centre[axis] - reach) / kBrickEdge), 0.0, most + 1));
+    hi[axis] =
+        static_cast<int>(std::clamp(std::floor((centre[axis] + reach) / kBrickEdge), -1.0, most));
+  }
+  for (int bk = lo.z(); bk <= hi.z(); ++bk)
+    for (int bj = lo.y(); bj <= hi.y(); ++bj)
+      for (int bi = lo.x(); bi <= hi.x(); ++bi) {
+        const BrickIndex brick = bone_.brick_at(bi, bj, bk);
+        if (!deposit && highest_[static_cast<std::size_t>(brick)] == 0) continue;
+        const Vec3 first(kBrickEdge * bi, kBrickEdge * bj, kBrickEdge * bk);
+        // nearest voxel of the brick to the centre
+        Vec3 nearest;
+        for (int axis = 0; axis < 3; ++axis)
+          nearest[axis] = std::clamp(centre[axis], first[axis], first[axis] + kBrickEdge - 1);
+        if ((nearest - centre).squaredNorm() > reach * reach) continue;
+        if (work_count_ == kMostWork) return;
+        const volume::Field* field = bone_.brick_field(brick);
+        if (field == nullptr) {
+          if (!deposit) continue;
+          if (bone_.ensure_slot(brick) == volume::kNoSlot) {
+            flags |= kReserve;
+            continue;
+          }
+          field = bone_.brick_field(brick);
+        }
+        const Vec3 offset = first - centre;
+        const float ball[4] = {static_cast<float>(offset.x()), static_cast<float>(offset.y()),
+                               static_cast<float>(offset.z()), static_cast<float>(radius)};
+        float outside[4] = {0, 0, 0, -1};
+        if (keep_out[3] >= 0)
+          for (int axis = 0; axis < 3; ++axis)
+            outside[axis] = static_cast<float>(first[axis]) - keep_out[axis];
+        outside[3] = keep_out[3];
+        const Excess excess =
+            kernel_.find(field, ball, outside, deposit ? 1 : 0, scratch_[work_count_].voxel);
+        if (excess.most == 0) continue;
+        work_[work_count_++] = {brick, excess};
+        total_units_ += excess.units;
+      }
+}
+
+// Specific cutting energy of what the ball stands in, weighted by volume.  [J/m^3]
+double Carver::mean_energy() const BURR_RT {
+  double energy = 0, weight = 0;
+  for (std::size_t w = 0; w < work_count_; ++w) {
+    const auto units = static_cast<double>(std::max<std::int64_t>(work_[w].excess.units, 0));
+    const std::uint8_t one = uniform_[static_cast<std::size_t>(work_[w].brick)];
+    double mean = energy_of_[one];
+    if (one == kMixed) {
+      const volume::TissueId* tissue = bone_.brick_tissue(work_[w].brick);
+      double sum = 0, all = 0;
+      for (int v = 0; v < kBrickVoxels; ++v) {
+        const auto excess = static_cast<double>(scratch_[w].voxel[v]);
+        sum += excess * energy_of_[tissue[v]];
+        all += excess;
+      }
+      if (all > 0) mean = sum / all;
+    }
+    energy += units * mean;
+    weight += units;
+  }
+  return weight > 0 ? energy / weight : last_energy_density_;
+}
+
+// Takes (puts) as much of the excess as comes nearest to `wanted_units`; returns what it really
+// was.
+std::int64_t Carver::apply(double wanted_units, bool deposit, volume::TissueId material,
+                           std::uint32_t& flags) BURR_RT {
+  if (total_units_ <= 0 || wanted_units <= 0) return 0;
+  const double share = std::min(1.0, wanted_units / static_cast<double>(total_units_));
+  const auto fixed = static_cast<std::int32_t>(share * 65536.0);
+  if (fixed == 0) return 0;
+  std::int64_t done = 0;
+  BrickField now;
+  for (std::size_t w = 0; w < work_count_; ++w) {
+    const BrickIndex brick = work_[w].brick;
+    const volume::Field* field = bone_.brick_field(brick);
+    const Applied applied =
+        kernel_.apply(field, scratch_[w].voxel, fixed, deposit ? 1 : 0, now.voxel);
+    if (applied.most == 0) continue;
+    if (undo_.keep(brick)) flags |= kUndoFull;
+    if (deposit) {
+      const math::Ijk first = bone_.brick_ijk(brick);
+      for (int v = 0; v < kBrickVoxels; ++v)
+        if (now.voxel[v] != field[v] && field[v] < volume::kIso / 2)
+          bone_.set_tissue(first.x() + (v & 7), first.y() + (v >> 3 & 7), first.z() + (v >> 6),
+                           material);
+      std::uint8_t& one = uniform_[static_cast<std::size_t>(brick)];
+      one = highest_[static_cast<std::size_t>(brick)] == 0 || one == material ? material : kMixed;
+    }
+    bone_.write_brick(brick, now);
+    if (changed_ != nullptr) changed_->push(brick);
+    highest_[static_cast<std::size_t>(brick)] = static_cast<std::uint16_t>(applied.highest);
+    surface_.changed(brick, applied.most, applied.rows, applied.columns);
+    done += applied.units;
+  }
+  return done;
+}
+
+// A debt older than patience at the present rate of asking is not going to be cut.
+void Carver::write_off(double asked_units, double dt) BURR_RT {
+  const double blend = std::min(1.0, dt / settings_.patience);
+  rate_ += (asked_units / dt - rate_) * blend;
+  const double most = settings_.patience * std::max(rate_, asked_units / dt);
+  if (debt_ > most) {
+    not_cut_ += debt_ - most;
+    debt_ = most;
+  }
+}
+
+void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
+  constexpr float kNone[4] = {0, 0, 0, -1};
+  gather(cut.centre + settings_.advance * cut.push, cut.radius + margin_, kNone, false, flags);
+  last_energy_density_ = mean_energy();
+  const double asked = cut.energy / last_energy_density_ / unit_m3_;
+  asked_ += asked;
+  debt_ += asked;
+  energy_ += cut.energy;
+  const bool blocked = static_cast<double>(total_units_) < debt_;
+  const std::int64_t removed = apply(debt_, false, 0, flags);
+  removed_ += removed;
+  debt_ -= static_cast<double>(removed);
+  margin_ =
+      std::clamp(margin_ + (blocked ? settings_.margin_rise : -settings_.margin_fall) * cut.dt,
+                 settings_.margin, settings_.margin_most);
+  const double before = not_cut_;
+  write_off(asked, cut.dt);
+  if (not_cut_ > before) flags |= kNotCut;
+}
+
+void Carver::deposit(const Cut& cut, std::uint32_t& flags) BURR_RT {
+  const double radius = settings_.deposit_share * cut.radius;
+  const float keep_out[4] = {static_cast<float>(cut.centre.x()), static_cast<float>(cut.centre.y()),
+                             static_cast<float>(cut.centre.z()),
+                             static_cast<float>(cut.radius + settings_.deposit_gap)};
+  gather(cut.centre + cut.radius * cut.push, radius, keep_out, true, flags);
+  added_debt_ = std::min(added_debt_ + cut.volume / unit_m3_,
+                         cut.volume / unit_m3_ * settings_.patience / cut.dt);
+  const std::int64_t added = apply(added_debt_, true, cut.material, flags);
+  added_ += added;
+  added_debt_ -= static_cast<double>(added);
+}
+
+void Carver::idle(double dt) BURR_RT {
+  rate_ += (0 - rate_) * std::min(1.0, dt / settings_.patience);
+  const double most = settings_.patience * rate_;
+  if (debt_ > most) {
+    not_cut_ += debt_ - most;
+    debt_ = most;
+  }
+}
+
+void Carver::note_whole(BrickIndex brick, const BrickField& before, const BrickField& now) BURR_RT {
+  int most = 0, highest = 0;
+  std::uint64_t rows = 0;
+  unsigned columns = 0;
+  for (int v = 0; v < kBrickVoxels; ++v) {
+    const int change = std::abs(int{now.voxel[v]} - int{before.voxel[v]});
+    highest = std::max(highest, int{now.voxel[v]});
+    if (change == 0) continue;
+    most = std::max(most, change);
+    rows |= 1ULL << (v >> 3);
+    columns |= 1U << (v & 7);
+  }
+  highest_[static_cast<std::size_t>(brick)] = static_cast<std::uint16_t>(highest);
+  if (most > 0) surface_.changed(brick, most, rows, columns);
+}
+
+void Carver::restore(const KeptBrick& kept) BURR_RT {
+  if (bone_.ensure_slot(kept.brick) == volume::kNoSlot)
+    return;  // cannot be: it had one when it was kept
+  BrickField before;
+  std::memcpy(&before, bone_.brick_field(kept.brick), sizeof before);
+  const math::Ijk first = bone_.brick_ijk(kept.brick);
+  const volume::TissueId* tissue = bone_.brick_tissue(kept.brick);
+  bool same_tissue = true;
+  for (int v = 0; v < kBrickVoxels; ++v)
+    if (tissue[v] != kept.tissue[v]) {
+      same_tissue = false;
+      bone_.set_tissue(first.x() + (v & 7), first.y() + (v >> 3 & 7), first.z() + (v >> 6),
+                       kept.tissue[v]);
+    }
+  if (!same_tissue) uniform_[static_cast<std::size_t>(kept.brick)] = kMixed;
+  bone_.write_brick(kept.brick, kept.field);
+  if (changed_ != nullptr) changed_->push(kept.brick);
+  note_whole(kept.brick, before, kept.field);
+}
+
+void Carver::swap(KeptBrick& kept) BURR_RT {
+  KeptBrick now;
+  now.brick = kept.brick;
+  const volume::Field* field = bone_.brick_field(kept.brick);
+  if (field == nullptr) return;
+  std::memcpy(&now.field, field, sizeof now.field);
+  std::memcpy(now.tissue, bone_.brick_tissue(kept.brick), sizeof now.tissue);
+  restore(kept);
+  kept = now;
+}
+
+bool Carver::clear_of(const KeptBrick& kept, const Vec3& centre, double radius) const BURR_RT {
+  const Vec3 first = bone_.brick_ijk(kept.brick).cast<double>();
+  for (int v = 0; v < kBrickVoxels; ++v) {
+    if (kept.field.voxel[v] < volume::kIso / 2) continue;
+    const Vec3 p = first + Vec3(v & 7, v >> 3 & 7, v >> 6);
+    if ((p - centre).squaredNorm() < (radius + 1) * (radius + 1)) return false;
+  }
+  return true;
+}
+
+Ledger Carver::ledger() const BURR_RT {
+  Ledger ledger;
+  ledger.asked = asked_ * unit_m3_;
+  ledger.removed = static_cast<double>(removed_) * unit_m3_;
+  ledger.debt = debt_ * unit_m3_;
+  ledger.not_cut = not_cut_ * unit_m3_;
+  ledger.added = static_cast<double>(added_) * unit_m3_;
+  ledger.energy = energy_;
+  return ledger;
+}
+
+}  // namespace burr::edit

@@ -1,0 +1,113 @@
+// edit/carve.h - the burr takes bone away, or puts material on, exactly as much as the ledger owes.
+//
+//     debt += asked;  share = debt / everything the ball stands in;  field -= share * excess;  debt
+//     -= really removed
+//
+// Anti-aliased (the ball's own ramp, not whole voxels), exact in volume (integers), independent of
+// order, tick rate and, to second order, of the voxel (algorithms.md 3g; volume by volume_of.h).
+// The ball is advanced a quarter voxel along the push and is larger than the burr by a small,
+// adaptive margin, without which a burr wedges in its own hole (kernel.md, flaw 3). What stays owed
+// longer than a few ticks is written off as "not cut", or a stalled burr would save up (flaw 4).
+//
+// Thread: servo, the one writer of the bone. Frame: p_grid [voxel]. Memory: none after
+// construction.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "burr/edit/carve_kernel.h"
+#include "burr/edit/changed_queue.h"
+#include "burr/edit/ledger.h"
+#include "burr/edit/undo.h"
+#include "burr/math/vec3.h"
+#include "burr/rt/rt.h"
+#include "burr/volume/bone.h"
+#include "burr/volume/iso_vertices.h"
+
+namespace burr::edit {
+
+struct CarveSettings {
+  double advance = 0.25;       // of the ball along the push [voxel]
+  double margin = 0.05;        // least surplus of the cutting radius over the burr's [voxel]
+  double margin_most = 0.5;    // when blocked [voxel]
+  double margin_rise = 20;     // while blocked [voxel/s]
+  double margin_fall = 2;      // while cutting freely [voxel/s]
+  double patience = 5e-3;      // how long a debt may wait, at the present rate of asking [s]
+  double deposit_share = 0.8;  // radius of the deposited ball over the burr's [-]
+  double deposit_gap = 0.5;    // kept between burr and deposited material [voxel]
+};
+
+// One tick of cutting.
+struct Cut {
+  math::Vec3 centre;              // of the burr, p_grid
+  math::Vec3 push;                // unit, from burr into the bone, p_grid axes
+  double radius = 0;              // of the burr [voxel]
+  double energy = 0;              // to be spent this tick [J] (carve)
+  double volume = 0;              // to be put on this tick [m^3] (deposit)
+  volume::TissueId material = 1;  // deposit: what
+  double dt = 1e-3;               // [s]
+};
+
+class Carver {
+ public:
+  // changed: every brick written is told to it; may be nullptr
+  Carver(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo, ChangedQueue* changed,
+         const CarveSettings& settings);
+
+  // Adds to `flags` (haptics/contact.h bits: not cut, reserve, undo full).
+  void carve(const Cut& cut, std::uint32_t& flags) BURR_RT;
+  void deposit(const Cut& cut, std::uint32_t& flags) BURR_RT;
+  // Nothing touched this tick: what is still owed is written off as patience runs out.
+  void idle(double dt) BURR_RT;
+
+  // Swaps a brick of the bone with a kept one (undo, redo).
+  void swap(KeptBrick& kept) BURR_RT;
+  // Puts a kept brick back (reset).
+  void restore(const KeptBrick& kept) BURR_RT;
+  // Would a ball here be free of the kept brick's material?
+  [[nodiscard]] bool clear_of(const KeptBrick& kept, const math::Vec3& centre,
+                              double radius) const BURR_RT;
+
+  [[nodiscard]] Ledger ledger() const BURR_RT;
+  [[nodiscard]] double margin() const BURR_RT { return margin_; }  // [voxel]
+
+ private:
+  struct Work {
+    volume::BrickIndex brick = volume::kNoBrick;
+    Excess excess;
+  };
+  void gather(const math::Vec3& centre, double radius, const float keep_out[4], bool deposit,
+              std::uint32_t& flags) BURR_RT;
+  [[nodiscard]] std::int64_t apply(double wanted_units, bool deposit, volume::TissueId material,
+                                   std::uint32_t& flags) BURR_RT;
+  [[nodiscard]] double mean_energy() const BURR_RT;
+  void write_off(double asked_units, double dt) BURR_RT;
+  void note_whole(volume::BrickIndex brick, const volume::BrickField& before,
+                  const volume::BrickField& now) BURR_RT;
+
+  volume::Bone& bone_;
+  volume::IsoVertices& surface_;
+  UndoStore& undo_;
+  ChangedQueue* changed_;
+  CarveSettings settings_;
+  CarveKernel kernel_;
+  double unit_m3_ = 0;                       // volume of one unit [m^3]
+  std::vector<std::uint16_t> highest_;       // (brick_count) largest field value of the brick
+  std::vector<std::uint8_t> uniform_;        // (brick_count) its one solid tissue, or 255: mixed
+  std::vector<double> energy_of_;            // (256) specific cutting energy by tissue [J/m^3]
+  std::vector<volume::BrickField> scratch_;  // excess of the bricks in work_
+  std::vector<Work> work_;
+  std::size_t work_count_ = 0;
+  std::int64_t total_units_ = 0;
+
+  double asked_ = 0, debt_ = 0, not_cut_ = 0;  // [units]
+  std::int64_t removed_ = 0, added_ = 0;       // [units]
+  double added_debt_ = 0;                      // [units]
+  double energy_ = 0;                          // [J]
+  double rate_ = 0;                            // smoothed rate of asking [units/s]
+  double last_energy_density_ = 1e9;           // [J/m^3]
+  double margin_ = 0;
+};
+
+}  // namespace burr::edit

@@ -1,0 +1,88 @@
+// edit/undo.h - old bricks are kept: by stroke for undo and redo, and as they were at the start for
+// reset.
+//
+// A brick is copied the first time a stroke touches it. Undo swaps the stroke's bricks with what is
+// in the bone now, so the same entries serve redo. When the memory is full the oldest stroke is
+// forgotten, and that is said. The start is never forgotten.
+//
+// Thread: servo. Memory: 1.5 KiB a brick, all taken (and touched) at construction.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "burr/rt/rt.h"
+#include "burr/volume/bone.h"
+
+namespace burr::edit {
+
+struct KeptBrick {
+  volume::BrickField field;
+  volume::TissueId tissue[volume::kBrickVoxels];
+  volume::BrickIndex brick = volume::kNoBrick;
+};
+
+class UndoStore {
+ public:
+  // stroke_bricks: how many bricks all remembered strokes may touch together
+  UndoStore(const volume::Bone& bone, std::size_t stroke_bricks);
+
+  // ---- while cutting
+  void begin_stroke(std::uint64_t path_mark) BURR_RT;  // forgets what could have been redone
+  void end_stroke() BURR_RT { open_ = false; }
+  [[nodiscard]] bool stroke_open() const BURR_RT { return open_; }
+  // Call before a brick is written. True: an older stroke had to be forgotten, or the stroke itself
+  // is too large.
+  bool keep(volume::BrickIndex brick) BURR_RT;
+
+  // ---- going back and forth: entries of the stroke, to be swapped by the caller
+  struct Range {
+    std::uint64_t first = 0, count = 0;  // entry numbers; entry(i) for i in [first, first + count)
+    std::uint64_t path_mark = 0;
+  };
+  [[nodiscard]] bool can_undo() const BURR_RT { return !open_ && done_ > oldest_; }
+  [[nodiscard]] bool can_redo() const BURR_RT { return !open_ && done_ < newest_; }
+  [[nodiscard]] Range undo() BURR_RT;  // the last stroke; it is then the first to be redone
+  [[nodiscard]] Range redo() BURR_RT;
+  [[nodiscard]] const KeptBrick& entry(std::uint64_t number) const BURR_RT {
+    return entries_[number % entries_.size()];
+  }
+  [[nodiscard]] KeptBrick& entry(std::uint64_t number) BURR_RT {
+    return entries_[number % entries_.size()];
+  }
+
+  // ---- the start
+  [[nodiscard]] std::size_t touched() const BURR_RT {
+    return originals_used_;
+  }  // bricks ever changed
+  [[nodiscard]] const KeptBrick& original(std::size_t number) const BURR_RT {
+    return originals_[number];
+  }
+  // nullptr: never changed
+  [[nodiscard]] const KeptBrick* original_of(volume::BrickIndex brick) const BURR_RT;
+  void forget_strokes() BURR_RT;
+
+ private:
+  struct Stroke {
+    std::uint64_t first = 0, count = 0, path_mark = 0;
+  };
+  static void copy(const volume::Bone& bone, volume::BrickIndex brick, KeptBrick& to) BURR_RT;
+  [[nodiscard]] Stroke& stroke(std::uint64_t number) BURR_RT {
+    return strokes_[number % strokes_.size()];
+  }
+
+  const volume::Bone& bone_;
+  std::vector<KeptBrick> entries_;  // a ring
+  std::uint64_t next_entry_ = 0;
+  std::vector<Stroke> strokes_;  // a ring
+  std::uint64_t oldest_ = 0, done_ = 0,
+                newest_ = 0;  // strokes [oldest, done) can be undone, [done, newest) redone
+  std::uint64_t serial_ = 0;  // of the open stroke; never used twice
+  bool open_ = false, overflowed_ = false;
+  std::vector<std::uint64_t> kept_in_;  // (brick_count) serial of the stroke that kept it last
+  std::vector<KeptBrick> originals_;
+  std::size_t originals_used_ = 0;
+  std::vector<std::int32_t> original_at_;  // (brick_count) -1: never changed
+};
+
+}  // namespace burr::edit

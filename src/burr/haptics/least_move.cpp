@@ -1,0 +1,122 @@
+#include "burr/haptics/least_move.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burr::haptics {
+namespace {
+
+using math::Vec3;
+
+constexpr double kTolerance =
+    2e-6;  // a plane overstepped by less is kept  [voxel]; the gaps are floats
+constexpr double kSlack = 1e-7;  // rounding of a corner of nearly parallel planes  [voxel]
+constexpr int kPasses = 60;
+
+struct Plane {
+  Vec3 n;
+  double b = 0;  // n . p >= b
+  int index = -1;
+};
+
+// Corrects `wanted` onto the planes of a subset (all with equality). False: singular, or one of
+// them would have to pull. Neighbouring discs are nearly parallel, so everything goes through cross
+// products, never through 1 - cos^2.
+bool project(const Plane* const* planes, int count, const Vec3& wanted, Vec3& p,
+             double* push) BURR_RT {
+  const Vec3& n0 = planes[0]->n;
+  if (count == 1) {
+    push[0] = (planes[0]->b - n0.dot(wanted)) / n0.squaredNorm();
+    p = wanted + push[0] * n0;
+  } else if (count == 2) {
+    const Vec3& n1 = planes[1]->n;
+    const double det = n0.cross(n1).squaredNorm();
+    if (det < 1e-13) return false;
+    const double c = n0.dot(n1), r0 = planes[0]->b - n0.dot(wanted),
+                 r1 = planes[1]->b - n1.dot(wanted);
+    push[0] = (r0 * n1.squaredNorm() - c * r1) / det;
+    push[1] = (r1 * n0.squaredNorm() - c * r0) / det;
+    p = wanted + push[0] * n0 + push[1] * n1;
+  } else {
+    const Vec3 &n1 = planes[1]->n, &n2 = planes[2]->n;
+    const Vec3 c0 = n1.cross(n2), c1 = n2.cross(n0), c2 = n0.cross(n1);
+    const double det = n0.dot(c0);
+    if (std::abs(det) < 1e-10) return false;
+    p = (planes[0]->b * c0 + planes[1]->b * c1 + planes[2]->b * c2) / det;
+    push[0] = (p - wanted).dot(c0) / det;
+    push[1] = (p - wanted).dot(c1) / det;
+    push[2] = (p - wanted).dot(c2) / det;
+  }
+  for (int i = 0; i < count; ++i)
+    if (!(push[i] >= -1e-12)) return false;
+  return true;
+}
+
+// The nearest point to `wanted` allowed by up to four planes; keeps the planes that press.
+bool project_all(Plane* planes, int& count, const Vec3& wanted, LeastMove& best) BURR_RT {
+  bool found = false;
+  double best_distance = 0;
+  int best_members[3] = {0, 0, 0};
+  for (int subset = 1; subset < (1 << count); ++subset) {
+    if (__builtin_popcount(static_cast<unsigned>(subset)) > 3) continue;
+    const Plane* chosen[3];
+    int members[3], size = 0;
+    for (int i = 0; i < count; ++i)
+      if ((subset >> i & 1) != 0) {
+        members[size] = i;
+        chosen[size++] = &planes[i];
+      }
+    Vec3 p;
+    double push[3] = {0, 0, 0};
+    if (!project(chosen, size, wanted, p, push)) continue;
+    bool allowed = true;
+    for (int i = 0; i < count; ++i) allowed &= planes[i].n.dot(p) >= planes[i].b - kSlack;
+    if (!allowed) continue;
+    const double distance = (p - wanted).squaredNorm();
+    if (found && distance >= best_distance) continue;
+    found = true;
+    best_distance = distance;
+    best.p = p;
+    best.active = size;
+    for (int i = 0; i < size; ++i) {
+      best_members[i] = members[i];
+      best.push[i] = push[i];
+      best.index[i] = chosen[i]->index;
+    }
+  }
+  if (!found) return false;
+  Plane kept[3];
+  for (int i = 0; i < best.active; ++i) kept[i] = planes[best_members[i]];
+  count = best.active;
+  std::copy_n(kept, count, planes);
+  return true;
+}
+
+}  // namespace
+
+LeastMove least_move(const Candidates& candidates, const Vec3& wanted,
+                     MostViolated most_violated) BURR_RT {
+  LeastMove move;
+  move.p = wanted;
+  Plane planes[4];
+  int count = 0;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const float p[3] = {static_cast<float>(move.p.x()), static_cast<float>(move.p.y()),
+                        static_cast<float>(move.p.z())};
+    float worst = 0;
+    const int j = most_violated(candidates, p, worst);
+    if (j < 0 || static_cast<double>(worst) > -kTolerance) return move;
+    for (int i = 0; i < count; ++i)
+      if (planes[i].index == j) return move;  // as good as floats can tell
+    const Vec3 n(static_cast<double>(candidates.nx[j]), static_cast<double>(candidates.ny[j]),
+                 static_cast<double>(candidates.nz[j]));
+    planes[count++] = {n, -static_cast<double>(candidates.gap[j]), j};
+    if (!project_all(planes, count, wanted, move)) break;
+  }
+  // standing still is allowed by every plane that is not overstepped
+  LeastMove still;
+  still.solved = false;
+  return still;
+}
+
+}  // namespace burr::haptics

@@ -1,0 +1,279 @@
+#include "burr/haptics/proxy.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "burr/rt/simd.h"
+#include "burr/volume/sample.h"
+
+namespace burr::haptics {
+namespace {
+
+using math::Vec3;
+using volume::BrickIndex;
+using volume::kBrickEdge;
+
+constexpr double kLargestDisc = 1.0;  // no disc is larger  [voxel]
+constexpr double kLeastGuess = 0.02;  // discs this near are always looked at  [voxel]
+
+}  // namespace
+
+ScanKernel scan_kernel() noexcept {
+  switch (rt::simd()) {
+    case rt::Simd::avx512:
+      return {avx512::scan_blocks, avx512::most_violated};
+    case rt::Simd::avx2:
+      return {avx2::scan_blocks, avx2::most_violated};
+    case rt::Simd::scalar:
+      break;
+  }
+  return {scalar::scan_blocks, scalar::most_violated};
+}
+
+Proxy::Proxy(const volume::IsoVertices& surface, const ProxySettings& settings, const Vec3& hand)
+    : surface_(surface),
+      grid_(surface.bone().grid()),
+      settings_(settings),
+      kernel_(scan_kernel()),
+      candidates_(std::make_unique<Candidates>()),
+      smooth_(std::make_unique<Candidates>()),
+      radius_(settings.radius / grid_.voxel),
+      proxy_(hand),
+      c_(grid_.grid_from_world(hand)) {}
+
+void Proxy::set_friction(double mu_static, double mu_kinetic) BURR_RT {
+  settings_.friction_static = mu_static;
+  settings_.friction_kinetic = mu_kinetic;
+}
+
+bool Proxy::set_radius(double radius) BURR_RT {
+  const double before = settings_.radius;
+  settings_.radius = radius;
+  radius_ = radius / grid_.voxel;
+  if (radius <= before || is_free(proxy_)) return true;
+  settings_.radius = before;
+  radius_ = before / grid_.voxel;
+  return false;
+}
+
+void Proxy::place(const Vec3& p) BURR_RT {
+  proxy_ = p;
+  c_ = grid_.grid_from_world(p);
+  last_move_ = 0;
+  sliding_ = false;
+}
+
+bool Proxy::is_free(const Vec3& p) BURR_RT {
+  const Vec3 centre = grid_.grid_from_world(p);
+  const math::Ijk at = (centre.array() + 0.5).floor().cast<int>();
+  if (surface_.bone().field(at.x(), at.y(), at.z()) >= volume::kIso) return false;
+  collect(centre, 0);
+  return candidates_->count == 0;
+}
+
+// Fills the candidates with every disc whose gap to a ball around `centre` is below `within`.
+void Proxy::collect(const Vec3& centre, double within) BURR_RT {
+  Candidates& out = *candidates_;
+  out.count = 0;
+  out.full = false;
+  const double reach = radius_ + within + kLargestDisc;
+  const math::Ijk& n = surface_.bone().bricks();
+  math::Ijk lo, hi;  // bricks whose discs could be that near; a brick's vertices may lie half a
+                     // voxel outside of it
+  for (int axis = 0; axis < 3; ++axis) {
+    const double from = std::floor((centre[axis] - reach - 1) / kBrickEdge),
+                 to = std::floor((centre[axis] + reach + 1) / kBrickEdge);
+    lo[axis] = static_cast<int>(std::clamp(from, 0.0, static_cast<double>(n[axis])));
+    hi[axis] = static_cast<int>(std::clamp(to, -1.0, static_cast<double>(n[axis] - 1)));
+  }
+  const auto cx = static_cast<float>(centre.x()), cy = static_cast<float>(centre.y()),
+             cz = static_cast<float>(centre.z());
+  const auto near = static_cast<float>(reach);
+  const auto radius = static_cast<float>(radius_), limit = static_cast<float>(within);
+
+  for (int bk = lo.z(); bk <= hi.z(); ++bk)
+    for (int bj = lo.y(); bj <= hi.y(); ++bj) {
+      const std::uint64_t* row = surface_.row(bj, bk);
+      for (int w = lo.x() / 64; w <= hi.x() / 64; ++w) {
+        const int first = std::max(lo.x() - 64 * w, 0), last = std::min(hi.x() - 64 * w, 63);
+        if (last < first) continue;
+        std::uint64_t word = row[w] & (~0ULL << first) & (~0ULL >> (63 - last));
+        for (; word != 0; word &= word - 1) {
+          const int bi = 64 * w + std::countr_zero(word);
+          const BrickIndex brick = surface_.bone().brick_at(bi, bj, bk);
+          const volume::BrickBall& ball = surface_.ball(brick);
+          const float dx = ball.x - cx, dy = ball.y - cy, dz = ball.z - cz,
+                      far = near + ball.radius;
+          if (dx * dx + dy * dy + dz * dz > far * far) continue;
+          // the difference in double first: the float offset then is exact enough anywhere in the
+          // grid
+          const float offset[3] = {static_cast<float>(kBrickEdge * bi - centre.x()),
+                                   static_cast<float>(kBrickEdge * bj - centre.y()),
+                                   static_cast<float>(kBrickEdge * bk - centre.z())};
+          kernel_.scan(surface_.blocks(brick).data(), surface_.count(brick), offset, radius, limit,
+                       out);
+        }
+      }
+    }
+  // what is overstepped (bone grew, or was made anew a hair higher) pushes out gently
+  const float deepest = -static_cast<float>(settings_.recovery);
+  for (int j = 0; j < out.count; ++j) out.gap[j] = std::max(out.gap[j], deepest);
+}
+
+// The best move from `from` that the discs allow, at most `longest` long. Only discs with gap <
+// |move| matter, so few are gathered, and more only if the move turns out longer than guessed.
+LeastMove Proxy::move_toward(const Vec3& from, const Vec3& wanted, double longest, double& guess,
+                             bool& cut_short) BURR_RT {
+  cut_short = false;
+  double within = std::clamp(guess, kLeastGuess, std::max(longest, kLeastGuess));
+  for (;;) {
+    collect(from, within);
+    LeastMove move = least_move(*candidates_, wanted, kernel_.most_violated);
+    if (!move.solved) {  // overstepped discs on opposite sides: hold still rather than choose
+      for (int j = 0; j < candidates_->count; ++j)
+        candidates_->gap[j] = std::max(candidates_->gap[j], 0.0F);
+      move = least_move(*candidates_, wanted, kernel_.most_violated);
+    }
+    const double length = move.p.norm();
+    if (length <= within) return move;
+    if (within >= longest) {
+      cut_short = true;
+      move.p *= within / length;
+      return move;
+    }
+    within = std::min(1.1 * length, longest);
+  }
+}
+
+// Where the proxy would rest on the smooth surface of which the discs are facets. At the foot of
+// each pressing contact the field itself says how far the surface is and which way it faces; the
+// same projection as for the discs, onto these at most three planes, gives a place that turns and
+// moves without hops. Where the field is no clean ramp (a sharp edge, noise, a thin wall) the
+// disc's own plane is kept, blended by how clean it is.
+Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand) const BURR_RT {
+  constexpr int kRounds = 6;
+  constexpr double kFarthest =
+      0.35;  // from the discs' answer; beyond, the planes do not describe the place  [voxel]
+  Candidates& few = *smooth_;
+  Vec3 normals[3];
+  for (int a = 0; a < last.active; ++a) {
+    const int j = last.index[a];
+    normals[a] =
+        Vec3(static_cast<double>(candidates_->nx[j]), static_cast<double>(candidates_->ny[j]),
+             static_cast<double>(candidates_->nz[j]));
+  }
+  Vec3 place = c_;
+  Vec3 last_change[3];
+  for (int round = 0; round < kRounds; ++round) {
+    few.count = last.active;
+    for (int a = 0; a < last.active; ++a) {
+      const int j = last.index[a];
+      const Vec3 disc(static_cast<double>(candidates_->nx[j]),
+                      static_cast<double>(candidates_->ny[j]),
+                      static_cast<double>(candidates_->nz[j]));
+      const double disc_gap =
+          static_cast<double>(candidates_->gap[j]) + disc.dot(last.p) + disc.dot(place - c_);
+      const Vec3 foot = place - radius_ * normals[a];
+      const double depth =
+          2 * volume::kRamp * (volume::sample(surface_.bone(), foot) - volume::kIsoShare);
+      const Vec3 slope = 2 * volume::kRamp * volume::gradient(surface_.bone(), foot);
+      const double steep = slope.norm();  // 1 on a clean ramp
+      const Vec3 faces = steep > 1e-6 ? Vec3(-slope / steep) : disc;
+      const double clean = std::clamp((steep - 0.85) * 10.0, 0.0, 1.0) *
+                           std::clamp((faces.dot(disc) - 0.90) * 20.0, 0.0, 1.0);
+      // A foot off by an angle finds a normal that is off by -r/R of it on a hill, +r/R in a
+      // hollow: the change seen between two rounds tells that ratio, and so where it all leads
+      // (Aitken 1926).
+      const Vec3 change = ((1 - clean) * disc + clean * faces).normalized() - normals[a];
+      double ratio = -0.3;
+      if (round > 0 && last_change[a].squaredNorm() > 1e-14)
+        ratio = std::clamp(change.dot(last_change[a]) / last_change[a].squaredNorm(), -8.0, 0.7);
+      last_change[a] = change / (1 - ratio);
+      const Vec3 n = (normals[a] + last_change[a]).normalized();
+      const double gap = (1 - clean) * disc_gap - clean * depth;
+      few.nx[a] = static_cast<float>(n.x());
+      few.ny[a] = static_cast<float>(n.y());
+      few.nz[a] = static_cast<float>(n.z());
+      few.gap[a] = static_cast<float>(gap);
+      normals[a] = n;
+    }
+    const LeastMove move = least_move(few, hand - place, kernel_.most_violated);
+    if (!move.solved) break;
+    place += move.p;
+    const Vec3 away = place - c_;
+    const double far = away.norm();
+    if (far > kFarthest) place = c_ + away * (kFarthest / far);
+  }
+  return place;
+}
+
+// Moves the proxy to the free place nearest to `target`, by short moves each of which is free.
+LeastMove Proxy::settle(const Vec3& target, double guess, int moves, Touch& touch) BURR_RT {
+  LeastMove last;
+  double stride = std::max(radius_ / 2, 2.0);  // bounded work; doubled while nothing is met
+  touch.lagging = true;
+  for (int move = 0; move < moves && touch.lagging; ++move) {
+    bool cut_short = false;
+    last = move_toward(c_, target - c_, stride, guess, cut_short);
+    if (!last.solved) break;
+    c_ += last.p;
+    const double length = last.p.norm();
+    if (move == 0) first_move_ = length;
+    guess = 1.3 * length;
+    touch.candidates = std::max(touch.candidates, candidates_->count);
+    touch.overflow |= candidates_->full;
+    touch.lagging = cut_short || (length >= settings_.close && last.active > 0);
+    if (last.active == 0) stride *= 2;
+  }
+  return last;
+}
+
+Touch Proxy::step(const Vec3& hand) BURR_RT {
+  const Vec3 x = grid_.grid_from_world(hand);
+  const Vec3 before = c_;
+  Touch touch;
+  const LeastMove last = settle(x, 1.3 * last_move_, settings_.max_moves, touch);
+  last_move_ = first_move_;
+  touch.active = last.active;
+
+  touch.touching = (last.active > 0 || !last.solved) && (c_ - x).norm() > 1e-9;
+  if (touch.touching) {
+    double pressing = 0;
+    for (int a = 0; a < last.active; ++a) pressing += last.push[a];
+    const Vec3 free_place = settings_.smooth && last.active > 0 ? on_smooth_surface(last, x) : c_;
+    const Vec3 stretch = free_place - x;
+    const double depth = stretch.norm(), press = std::max(pressing, depth);
+    const Vec3 normal = depth > 1e-12 ? Vec3(stretch / depth) : Vec3((c_ - x).normalized());
+    touch.normal = grid_.frame.q * normal;
+    touch.depth = depth * grid_.voxel;
+    touch.pressing = press * grid_.voxel;
+
+    // friction: the proxy may trail behind by no more than the cone's rim
+    if (settings_.friction_static > 0) {
+      const Vec3 behind = before - free_place;
+      const Vec3 trail = behind - behind.dot(normal) * normal;
+      const double reach = trail.norm();
+      if (!sliding_ && reach > settings_.friction_static * press) sliding_ = true;
+      if (sliding_ && std::atan2(reach, press) < 0.6 * std::atan(settings_.friction_kinetic))
+        sliding_ = false;
+      const double allowed = sliding_ ? std::min(reach, settings_.friction_kinetic * press) : reach;
+      if (allowed > 1e-9) {
+        Touch aside;
+        (void)settle(free_place + trail * (allowed / reach), allowed, 4, aside);
+        touch.candidates = std::max(touch.candidates, aside.candidates);
+        const Vec3 now = c_ - free_place;
+        touch.trail = grid_.frame.q * ((now - now.dot(normal) * normal) * grid_.voxel);
+      }
+      touch.stuck = !sliding_;
+    }
+  } else {
+    sliding_ = false;
+    if (!touch.lagging) c_ = x;
+  }
+  proxy_ = grid_.world_from_grid(c_);
+  touch.proxy = proxy_;
+  return touch;
+}
+
+}  // namespace burr::haptics

@@ -1,0 +1,93 @@
+// haptics/proxy.h - the burr head that stays outside the bone while the hand pushes into it.
+//
+//     hand  x - - - spring - - - o  proxy     the hand may sink into the bone, the proxy may not;
+//        (in the bone)      (on the surface)  force_law.h turns the stretch between them into force
+//
+// The bone is the little discs of volume/iso_vertices.h, the burr an exact ball. Per tick, a few
+// times: gather the discs that the next short move could reach, find the shortest correction of
+// that move which keeps the ball off all of them (least_move.h), move. Distance to a disc is
+// convex, so the straight move between two free places is free: nothing is fallen through at any
+// speed.           algorithms.md 3a as corrected by kernel.md; friction: 3c (Harwin & Melder 2002)
+//
+// Thread: servo. Frame: world at the door, p_grid inside. Memory: none taken after construction.
+// Cost: docs/realtime.md.
+#pragma once
+
+#include <memory>
+
+#include "burr/haptics/least_move.h"
+#include "burr/haptics/scan_kernel.h"
+#include "burr/math/vec3.h"
+#include "burr/rt/rt.h"
+#include "burr/volume/iso_vertices.h"
+
+namespace burr::haptics {
+
+struct ProxySettings {
+  double radius = 1.5e-3;  // of the burr head                                              [m]
+  double friction_static = 0.0;  // stick up to this; >= friction_kinetic [-]
+  double friction_kinetic = 0.0;
+  int max_moves = 12;      // in one tick; a hand faster than that is caught up later
+  double close = 1e-3;     // a move shorter than this ends the search                      [voxel]
+  double recovery = 5e-3;  // bone that grew under the burr pushes it out this far a tick   [voxel]
+  bool smooth = true;      // force from the smooth surface, not from the discs' facets
+};
+
+// Where the proxy came to rest this tick. World.
+struct Touch {
+  math::Vec3 proxy = math::Vec3::Zero();   // centre of the burr head, never inside bone [m]
+  math::Vec3 trail = math::Vec3::Zero();   // how friction holds it back, along the surface [m]
+  math::Vec3 normal = math::Vec3::Zero();  // unit, from the hand to its place on the smooth surface
+  double depth = 0;     // between those two                                       [m]
+  double pressing = 0;  // sum of the contacts' spring lengths; > depth in a wedge [m]
+  int active = 0;
+  int candidates = 0;
+  bool touching = false;
+  bool lagging = false;   // did not catch up with the hand within max_moves
+  bool stuck = false;     // friction holds it
+  bool overflow = false;  // more candidates than the list holds
+};
+
+class Proxy {
+ public:
+  Proxy(const volume::IsoVertices& surface, const ProxySettings& settings, const math::Vec3& hand);
+
+  // Can the burr be here without touching bone?  world [m]
+  [[nodiscard]] bool is_free(const math::Vec3& p) BURR_RT;
+
+  // Puts the burr somewhere free; only for the start, a clutch, or a device that was lost.
+  void place(const math::Vec3& p) BURR_RT;
+
+  // Moves the proxy toward the hand as far as the bone lets it.
+  [[nodiscard]] Touch step(const math::Vec3& hand) BURR_RT;
+
+  [[nodiscard]] const math::Vec3& position() const BURR_RT { return proxy_; }
+  [[nodiscard]] const ProxySettings& settings() const BURR_RT { return settings_; }
+  void set_friction(double mu_static, double mu_kinetic) BURR_RT;
+  // A larger burr may not fit where the smaller one is; false then, and nothing changed.
+  [[nodiscard]] bool set_radius(double radius) BURR_RT;
+
+ private:
+  void collect(const math::Vec3& centre, double within) BURR_RT;
+  [[nodiscard]] LeastMove move_toward(const math::Vec3& from, const math::Vec3& wanted,
+                                      double longest, double& guess, bool& cut_short) BURR_RT;
+  [[nodiscard]] LeastMove settle(const math::Vec3& target, double guess, int moves,
+                                 Touch& touch) BURR_RT;
+  [[nodiscard]] math::Vec3 on_smooth_surface(const LeastMove& last,
+                                             const math::Vec3& hand) const BURR_RT;
+
+  const volume::IsoVertices& surface_;
+  volume::Grid grid_;
+  ProxySettings settings_;
+  ScanKernel kernel_;
+  std::unique_ptr<Candidates> candidates_;
+  std::unique_ptr<Candidates> smooth_;  // the at most three planes of the smooth surface
+  double radius_ = 0;                   // [voxel]
+  math::Vec3 proxy_;                    // world [m]
+  math::Vec3 c_;                        // the same in p_grid [voxel]
+  double first_move_ = 0;               // length of the first move of the last settle() [voxel]
+  double last_move_ = 0;                // length of the last tick's first move [voxel]
+  bool sliding_ = false;
+};
+
+}  // namespace burr::haptics

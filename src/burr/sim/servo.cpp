@@ -1,0 +1,424 @@
+#include "burr/sim/servo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "burr/base/hash.h"
+
+namespace burr::sim {
+namespace {
+
+using math::Vec3;
+using record::Wish;
+using record::WishKind;
+
+constexpr int kWishesPerTick = 8;
+constexpr std::size_t kRestorePerTick = 16;  // bricks; about as many as a deep cut changes
+
+}  // namespace
+
+Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& device,
+             const ServoSettings& settings)
+    : bone_(bone),
+      surface_(surface),
+      device_(device),
+      settings_(settings),
+      dt_(1.0 / settings.rate_hz),
+      changed_(bone),
+      undo_(bone, settings.undo_bricks),
+      carver_(bone, surface, undo_, &changed_, settings.carve),
+      proxy_(surface, {.radius = settings.burr.radius}, Vec3::Zero()),
+      limit_(device.spec(), settings.limit),
+      path_(kPath),
+      recent_(FaultReport::kTicks) {
+  spindle_.full_speed = settings.spindle_rad_s;
+}
+
+const record::TickRow& Servo::tick(bool lost) BURR_RT {
+  row_ = {};
+  row_.tick = next_tick_++;
+  std::uint32_t& flags = row_.contact.flags;
+
+  // the hand
+  hand_ = device_.state(dt_);
+  row_.hand = hand_;
+  if (lost) {
+    limit_.restart();
+    flags |= haptics::kFlagWatchdog;
+    fault_waits_ = true;
+  }
+  const bool believed = limit_.believe(hand_, flags);
+  fault_waits_ |= !believed;
+
+  // wishes
+  Wish wish;
+  for (int i = 0; i < kWishesPerTick && wishes_.pop(wish); ++i) {
+    if (diary_.wishes != nullptr) diary_.wishes->push({row_.tick, wish});
+    obey(wish);
+  }
+  spindle_.step(believed ? hand_.pedal : 0, dt_);
+
+  // touch
+  if (believed) {
+    const double blend = 1 - std::exp(-2 * M_PI * settings_.velocity_filter_hz * dt_);
+    velocity_ += blend * (hand_.velocity - velocity_);
+    if (restore_ != Restore::none) {
+      step_restore();
+      flags |= haptics::kFlagRestoring;
+    } else {
+      touch_bone(hand_.world_from_tool.p);
+    }
+  } else {
+    touch_ = {};
+    touch_.proxy = proxy_.position();
+    velocity_ = Vec3::Zero();
+  }
+
+  // force, bounded, to the hand
+  const Vec3 wanted = haptics::force_law(touch_, velocity_, settings_.force);
+  const Vec3 force = limit_.apply(wanted, dt_, flags);
+  device_.write_force(force);
+
+  // then the bone
+  cut_bone(force);
+  surface_.refresh();
+  remember_path();
+
+  // and the account of it all
+  haptics::Contact& contact = row_.contact;
+  contact.proxy = touch_.proxy;
+  contact.normal = touch_.normal;
+  contact.force = force;
+  contact.depth = touch_.depth;
+  contact.active = touch_.active;
+  contact.candidates = touch_.candidates;
+  contact.touching = touch_.touching;
+  if (touch_.lagging) flags |= haptics::kFlagLagging;
+  if (touch_.overflow) flags |= haptics::kFlagCandidates;
+  if (surface_.exhausted()) flags |= haptics::kFlagReserve;
+  row_.ledger = carver_.ledger();
+  row_.spindle_rad_s = spindle_.speed;
+  hash_row();
+  keep_for_fault();
+  return row_;
+}
+
+// ---- touch
+
+void Servo::touch_bone(const Vec3& hand) BURR_RT {
+  if (!engaged_) {  // at the start, or after the hand was lost: wait until it is in free air
+    touch_ = {};
+    touch_.proxy = hand;
+    if (!proxy_.is_free(hand)) return;
+    proxy_.place(hand);
+    engaged_ = true;
+  }
+  choose_friction();
+  touch_ = proxy_.step(hand);
+}
+
+// Bone rubs as its tissue says while the spindle stands; a turning burr hardly at all.
+void Servo::choose_friction() BURR_RT {
+  double mu = settings_.friction_turning;
+  if (spindle_.speed <= 0) {
+    mu = 0;
+    if (touch_.touching) {
+      const Vec3 foot =
+          touch_.proxy - (settings_.burr.radius + 0.5 * bone_.grid().voxel) * touch_.normal;
+      const math::Ijk at = (bone_.grid().grid_from_world(foot).array() + 0.5).floor().cast<int>();
+      mu =
+          bone_.tissues()[bone_.tissue(at.x(), at.y(), at.z())].friction * settings_.friction_scale;
+    }
+  }
+  proxy_.set_friction(mu, settings_.kinetic_share * mu);
+}
+
+// ---- the bone
+
+void Servo::cut_bone(const Vec3& force) BURR_RT {
+  std::uint32_t& flags = row_.contact.flags;
+  const bool may =
+      restore_ == Restore::none && touch_.touching && settings_.mode != ToolMode::touch;
+  const double push = may ? std::max(0.0, force.dot(touch_.normal)) : 0;
+  const bool works = settings_.mode == ToolMode::cut ? spindle_.speed > 0 && push > 0
+                                                     : hand_.pedal > 0 && push > 0;
+  if (!works) {
+    carver_.idle(dt_);
+    untouched_ += dt_;
+    if (undo_.stroke_open() && untouched_ > settings_.stroke_pause) undo_.end_stroke();
+    return;
+  }
+  untouched_ = 0;
+  if (!undo_.stroke_open()) undo_.begin_stroke(path_end_);
+
+  const volume::Grid& grid = bone_.grid();
+  edit::Cut cut;
+  cut.centre = grid.grid_from_world(touch_.proxy);
+  cut.push = grid.frame.q.conjugate() * (-touch_.normal);
+  cut.radius = settings_.burr.radius / grid.voxel;
+  cut.dt = dt_;
+  if (settings_.mode == ToolMode::cut) {
+    const Vec3 axis = hand_.world_from_tool.q * Vec3::UnitZ();
+    cut.energy = dt_ * edit::cutting_power(push, spindle_.speed, settings_.burr.radius,
+                                           tool::cutting_efficiency(settings_.burr.kind),
+                                           touch_.normal, axis, settings_.removal);
+    carver_.carve(cut, flags);
+  } else {
+    cut.volume = settings_.deposit_rate * std::clamp(hand_.pedal, 0.0, 1.0) * dt_;
+    cut.material = settings_.deposit_tissue;
+    deposited_ = true;
+    carver_.deposit(cut, flags);
+  }
+}
+
+// ---- wishes
+
+void Servo::obey(const Wish& wish) BURR_RT {
+  if (!std::isfinite(wish.value)) return;
+  switch (wish.kind) {
+    case WishKind::spindle_speed:
+      spindle_.full_speed = std::max(0.0, wish.value);
+      break;
+    case WishKind::burr_radius:
+      if (wish.value >= 2 * bone_.grid().voxel && proxy_.set_radius(wish.value))
+        settings_.burr.radius = wish.value;
+      break;
+    case WishKind::stiffness:
+      settings_.force.stiffness = std::clamp(wish.value, 0.0, device_.spec().max_stiffness);
+      break;
+    case WishKind::user_force:
+      limit_.set_user_force(wish.value);
+      break;
+    case WishKind::tool_mode:
+      if (wish.value >= 0 && wish.value <= 2)
+        settings_.mode = static_cast<ToolMode>(static_cast<int>(wish.value));
+      break;
+    case WishKind::friction:
+      settings_.friction_scale = std::clamp(wish.value, 0.0, 4.0);
+      break;
+    case WishKind::undo:
+    case WishKind::redo:
+    case WishKind::reset:
+      begin_restore(wish.kind);
+      break;
+  }
+}
+
+// ---- undo, redo, reset: lift the burr back the way it came until what returns cannot touch it,
+// then put the bricks back a few at a time, then let their surface settle; only then does the burr
+// follow the hand again
+
+void Servo::begin_restore(WishKind kind) BURR_RT {
+  if (restore_ != Restore::none) return;
+  if (undo_.stroke_open()) undo_.end_stroke();
+  if (kind == WishKind::undo) {
+    if (!undo_.can_undo()) return;
+    range_ = undo_.undo();
+  } else if (kind == WishKind::redo) {
+    if (!undo_.can_redo()) return;
+    range_ = undo_.redo();
+  } else {
+    if (undo_.touched() == 0) return;
+    range_ = {0, undo_.touched(), 0};
+    undo_.forget_strokes();
+  }
+  restore_kind_ = kind;
+  restore_ = Restore::lifting;
+  restored_ = 0;
+  path_at_ = path_end_;
+  lift_since_check_ = settings_.burr.radius;  // look at once
+}
+
+bool Servo::clear_of_what_returns(const Vec3& p) const BURR_RT {
+  const Vec3 centre = bone_.grid().grid_from_world(p);
+  const double radius = settings_.burr.radius / bone_.grid().voxel;
+  const Vec3 half = Vec3::Constant(volume::kBrickEdge / 2.0);
+  for (std::uint64_t i = 0; i < range_.count; ++i) {
+    const edit::KeptBrick& kept = restore_kind_ == WishKind::reset
+                                      ? undo_.original(static_cast<std::size_t>(i))
+                                      : undo_.entry(range_.first + i);
+    const Vec3 middle = bone_.brick_ijk(kept.brick).cast<double>() + half;
+    if ((middle - centre).norm() > radius + 9) continue;
+    if (!carver_.clear_of(kept, centre, radius)) return false;
+  }
+  return true;
+}
+
+void Servo::step_restore() BURR_RT {
+  const Vec3 hand = hand_.world_from_tool.p;
+  if (restore_ == Restore::lifting) {
+    double left = settings_.lift_speed * dt_;
+    bool arrived = false;
+    Vec3 at = proxy_.position();
+    if (lift_since_check_ >= settings_.burr.radius / 4) {
+      arrived = clear_of_what_returns(at);
+      lift_since_check_ = 0;
+    }
+    const std::uint64_t oldest = path_end_ > kPath ? path_end_ - kPath : 0;
+    while (!arrived && left > 0 && path_at_ > oldest) {
+      const Vec3& goal = path_[(path_at_ - 1) % kPath];
+      const double far = (goal - at).norm();
+      const double go = std::min(far, left);
+      if (far > 0) at += (goal - at) * (go / far);
+      left -= go;
+      lift_since_check_ += go;
+      if (go >= far) --path_at_;
+    }
+    proxy_.place(at);
+    if (!arrived &&
+        path_at_ == oldest) {  // no way back is known: let go of the hand, engage again in free air
+      limit_.fault(haptics::kFlagRestoring, row_.contact.flags);
+      engaged_ = false;
+      arrived = true;
+    }
+    if (arrived) restore_ = Restore::restoring;
+  } else if (restore_ == Restore::restoring) {
+    for (std::size_t n = 0; n < kRestorePerTick && restored_ < range_.count; ++n, ++restored_) {
+      if (restore_kind_ == WishKind::reset) {
+        carver_.restore(undo_.original(static_cast<std::size_t>(restored_)));
+      } else {
+        carver_.swap(undo_.entry(range_.first + restored_));
+      }
+    }
+    if (restored_ == range_.count) restore_ = Restore::settling;
+  } else if (surface_.stale() == 0) {
+    restore_ = Restore::none;
+    if (!proxy_.is_free(proxy_.position())) engaged_ = false;  // never resume inside bone
+  }
+
+  // the hand feels the burr where it is held
+  touch_ = {};
+  touch_.proxy = proxy_.position();
+  const Vec3 stretch = touch_.proxy - hand;
+  touch_.depth = stretch.norm();
+  if (engaged_ && touch_.depth > 1e-9) {
+    touch_.normal = stretch / touch_.depth;
+    touch_.touching = true;
+  }
+}
+
+void Servo::remember_path() BURR_RT {
+  if (!engaged_ || restore_ != Restore::none || touch_.lagging) return;
+  const double step = bone_.grid().voxel / 2;
+  if (path_end_ > 0 && (path_[(path_end_ - 1) % kPath] - proxy_.position()).norm() < step) return;
+  path_[path_end_++ % kPath] = proxy_.position();
+}
+
+// ---- the diary
+
+void Servo::write_bricks(std::size_t most) BURR_RT {
+  if (diary_.bricks == nullptr) {
+    while (changed_.pop() != volume::kNoBrick) {
+    }
+    return;
+  }
+  for (std::size_t n = 0; n < most && changed_.size() > 0; ++n) {
+    if (diary_.bricks->size() == diary_.bricks->capacity())
+      return;  // it waits in the queue, nothing is lost
+    const volume::BrickIndex brick = changed_.pop();
+    record::BrickRow row;
+    row.tick = row_.tick;
+    row.brick = brick;
+    std::memcpy(&row.field, bone_.brick_field(brick), sizeof row.field);
+    row.has_tissue = deposited_;  // nothing else changes it, but its undo does too
+    if (row.has_tissue)
+      std::memcpy(row.tissue.data(), bone_.brick_tissue(brick), row.tissue.size());
+    diary_.bricks->push(row);
+  }
+}
+
+void Servo::publish() BURR_RT {
+  // each changed brick is written within 100 ms: a fiftieth of the queue per 2 ms, and at least one
+  const auto ticks = static_cast<std::size_t>(std::max(1.0, 0.05 * settings_.rate_hz));
+  write_bricks(changed_.size() / ticks + 1);
+  if (diary_.ticks != nullptr) diary_.ticks->push(row_);
+  view_.publish(row_);
+}
+
+void Servo::flush_bricks() BURR_RT { write_bricks(changed_.size()); }
+
+void Servo::note_timing(double took_us, double late_us) BURR_RT {
+  row_.took_us = static_cast<float>(took_us);
+  row_.late_us = static_cast<float>(late_us);
+  recent_[row_.tick % FaultReport::kTicks] = row_;
+}
+
+void Servo::keep_for_fault() BURR_RT {
+  recent_[row_.tick % FaultReport::kTicks] = row_;
+  report_.flags |= row_.contact.flags & (haptics::kFlagNotFinite | haptics::kFlagWatchdog |
+                                         haptics::kFlagJump | haptics::kFlagHandLost);
+  if (!fault_waits_ || row_.contact.force != Vec3::Zero()) return;  // first let the force fade
+  fault_waits_ = false;
+  report_.count = static_cast<int>(std::min<std::uint64_t>(next_tick_, FaultReport::kTicks));
+  for (int i = 0; i < report_.count; ++i)
+    report_.rows[static_cast<std::size_t>(i)] =
+        recent_[(next_tick_ - static_cast<std::uint64_t>(report_.count - i)) % FaultReport::kTicks];
+  faults_.publish(report_);
+  report_.flags = 0;
+}
+
+// Chained, so that the first tick at which two runs part is the first whose hash differs.
+void Servo::hash_row() BURR_RT {
+  std::uint64_t h = base::mix(last_hash_, row_.tick);
+  const auto vector = [&h](const Vec3& v) {
+    for (int i = 0; i < 3; ++i) h = base::mix(h, v[i]);
+  };
+  const device::HandState& hand = row_.hand;
+  vector(hand.world_from_tool.p);
+  for (int i = 0; i < 4; ++i) h = base::mix(h, hand.world_from_tool.q.coeffs()[i]);
+  vector(hand.velocity);
+  h = base::mix(h, hand.pedal);
+  h = base::mix(h, std::uint64_t{hand.buttons} << 1 | (hand.valid ? 1U : 0U));
+  const haptics::Contact& contact = row_.contact;
+  vector(contact.proxy);
+  vector(contact.normal);
+  vector(contact.force);
+  h = base::mix(h, contact.depth);
+  h = base::mix(h, std::uint64_t{contact.flags} << 32 |
+                       static_cast<std::uint64_t>(contact.active) << 1 |
+                       (contact.touching ? 1U : 0U));
+  const edit::Ledger& ledger = row_.ledger;
+  for (const double value :
+       {ledger.asked, ledger.removed, ledger.debt, ledger.not_cut, ledger.added, ledger.energy})
+    h = base::mix(h, value);
+  row_.hash = last_hash_ = base::mix(h, row_.spindle_rad_s);
+}
+
+std::vector<std::string> words(std::uint32_t flags) {
+  static_assert(haptics::kFlagReserve == 1U << 10 && haptics::kFlagUndoFull == 1U << 11 &&
+                    haptics::kFlagNotCut == 1U << 14,
+                "edit/carve.cpp sets these bits by number");
+  static const std::pair<std::uint32_t, const char*> kWords[] = {
+      {haptics::kFlagNotFinite,
+       "a hand position or a force was not a number; the force was let go and comes back by the "
+       "start ramp"},
+      {haptics::kFlagForceLimited, "the force was shortened to the device's or the user's limit"},
+      {haptics::kFlagSlewLimited, "the force grew faster than allowed and was held back"},
+      {haptics::kFlagRamp, "the start ramp was on"},
+      {haptics::kFlagWaiting, "not engaged: the hand has to be in free air once"},
+      {haptics::kFlagThermal, "the motors were warm: only the continuous force was given"},
+      {haptics::kFlagWatchdog,
+       "ticks were lost and the force was let go; close other programs or allow real-time "
+       "scheduling (docs/troubleshooting.md)"},
+      {haptics::kFlagJump,
+       "the hand leapt more than 20 mm in one tick and was not believed; check the device's cable "
+       "and calibration"},
+      {haptics::kFlagLagging, "the burr had not caught up with a very fast hand"},
+      {haptics::kFlagCandidates,
+       "more contacts than the list holds; use a larger voxel or a smaller burr"},
+      {haptics::kFlagReserve,
+       "no room was left for new material or new surface; raise --reserve-bricks"},
+      {haptics::kFlagUndoFull,
+       "undo memory was full, the oldest stroke was forgotten; raise --undo-bricks"},
+      {haptics::kFlagHandLost, "the device lost the hand; the force was let go"},
+      {haptics::kFlagRestoring, "an undo or reset was under way"},
+      {haptics::kFlagNotCut, "the burr was blocked and some of what was asked was not cut"},
+  };
+  std::vector<std::string> said;
+  for (const auto& [flag, text] : kWords)
+    if ((flags & flag) != 0) said.emplace_back(text);
+  return said;
+}
+
+}  // namespace burr::sim

@@ -1,0 +1,155 @@
+// sim/servo.h - the tick: the hand comes first, then the bone.
+//
+//     read the hand - obey wishes - step the proxy - force law - limit - write the force
+//     - then carve - then tell the others
+//
+// A pure function of (bone, hand, buttons, wishes, lost): no clock, no random number, so that a
+// recording replays to the bit. Thread: tick() on one thread, the servo's, the only writer of the
+// bone. Memory: taken at construction. Cost: docs/realtime.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "burr/device/device.h"
+#include "burr/edit/carve.h"
+#include "burr/edit/changed_queue.h"
+#include "burr/edit/removal.h"
+#include "burr/edit/undo.h"
+#include "burr/haptics/force_law.h"
+#include "burr/haptics/limit.h"
+#include "burr/haptics/proxy.h"
+#include "burr/record/rows.h"
+#include "burr/rt/latest.h"
+#include "burr/rt/ring.h"
+#include "burr/tool/burr_tool.h"
+#include "burr/volume/bone.h"
+#include "burr/volume/iso_vertices.h"
+
+namespace burr::sim {
+
+enum class ToolMode { cut = 0, add = 1, touch = 2 };
+
+struct ServoSettings {
+  double rate_hz = 1000;
+  tool::Burr burr;
+  double spindle_rad_s = 4188.79;  // at full pedal: 40 000 rpm
+  haptics::ForceSettings force;
+  haptics::LimitSettings limit;
+  edit::RemovalSettings removal;
+  edit::CarveSettings carve;
+  ToolMode mode = ToolMode::cut;
+  double friction_scale = 1;        // of the tissues' own friction
+  double friction_turning = 0.05;   // what is left of it while the spindle turns            [-]
+  double kinetic_share = 0.9;       // sliding friction over sticking friction               [-]
+  double velocity_filter_hz = 100;  // of the hand's velocity, first order
+  double deposit_rate = 5e-9;  // at full pedal                                          [m^3/s]
+  volume::TissueId deposit_tissue = 1;
+  double stroke_pause = 0.3;        // a stroke ends after so long without contact           [s]
+  double lift_speed = 50e-3;        // of the burr before an undo                             [m/s]
+  std::size_t undo_bricks = 16384;  // that all remembered strokes may touch together
+};
+
+// The diary's rings (record/recorder.h); nullptr: nobody writes.
+struct Diary {
+  rt::Ring<record::TickRow>* ticks = nullptr;
+  rt::Ring<record::WishRow>* wishes = nullptr;
+  rt::Ring<record::BrickRow>* bricks = nullptr;
+};
+
+// The last ticks before something went wrong, oldest first; copied out once the force is zero.
+struct FaultReport {
+  static constexpr int kTicks = 200;
+  std::uint32_t flags = 0;  // what happened, haptics/contact.h
+  int count = 0;
+  std::array<record::TickRow, kTicks> rows;
+};
+
+class Servo {
+ public:
+  Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& device,
+        const ServoSettings& settings);
+
+  // One tick. lost: ticks were lost just before this one and the watchdog let go of the hand.
+  const record::TickRow& tick(bool lost) BURR_RT;
+
+  // ---- doors (architecture.md 4)
+  [[nodiscard]] rt::Ring<record::Wish>& wishes() BURR_RT { return wishes_; }   // main -> servo
+  [[nodiscard]] rt::Latest<record::TickRow>& view() BURR_RT { return view_; }  // servo -> main
+  [[nodiscard]] rt::Latest<FaultReport>& faults() BURR_RT { return faults_; }  // servo -> main
+  void set_diary(const Diary& diary) { diary_ = diary; }                       // before the session
+
+  // How long the last tick took and how late it began, for the diary and the view; not part of the
+  // truth.
+  void note_timing(double took_us, double late_us) BURR_RT;
+  // Hands the finished row to the diary and the view.
+  void publish() BURR_RT;
+
+  [[nodiscard]] const ServoSettings& settings() const BURR_RT { return settings_; }
+  [[nodiscard]] const edit::UndoStore& undo_store() const BURR_RT { return undo_; }
+  [[nodiscard]] std::size_t bricks_to_write() const BURR_RT { return changed_.size(); }
+  [[nodiscard]] bool restoring() const BURR_RT { return restore_ != Restore::none; }
+  // Everything still owed to the diary, regardless of budget; after the last tick.
+  void flush_bricks() BURR_RT;
+
+ private:
+  enum class Restore { none, lifting, restoring, settling };
+
+  void obey(const record::Wish& wish) BURR_RT;
+  void begin_restore(record::WishKind kind) BURR_RT;
+  void step_restore() BURR_RT;
+  [[nodiscard]] bool clear_of_what_returns(const math::Vec3& p) const BURR_RT;
+  void touch_bone(const math::Vec3& hand) BURR_RT;
+  void choose_friction() BURR_RT;
+  void cut_bone(const math::Vec3& force) BURR_RT;
+  void remember_path() BURR_RT;
+  void write_bricks(std::size_t most) BURR_RT;
+  void keep_for_fault() BURR_RT;
+  void hash_row() BURR_RT;
+
+  volume::Bone& bone_;
+  volume::IsoVertices& surface_;
+  device::Device& device_;
+  ServoSettings settings_;
+  double dt_;
+
+  edit::ChangedQueue changed_;
+  edit::UndoStore undo_;
+  edit::Carver carver_;
+  haptics::Proxy proxy_;
+  haptics::ForceLimit limit_;
+  tool::Spindle spindle_;
+  haptics::Touch touch_;
+  device::HandState hand_;
+  math::Vec3 velocity_ = math::Vec3::Zero();
+  bool engaged_ = false;      // the proxy is somewhere free and follows the hand
+  bool fault_waits_ = false;  // a fault's ticks are to be copied out
+  bool deposited_ = false;    // material was put on in this session
+  double untouched_ = 0;      // since the last contact of the open stroke [s]
+
+  // the way the proxy came, to go back on before an undo
+  static constexpr std::size_t kPath = 1 << 16;
+  std::vector<math::Vec3> path_;
+  std::uint64_t path_end_ = 0;
+  Restore restore_ = Restore::none;
+  record::WishKind restore_kind_ = record::WishKind::undo;
+  edit::UndoStore::Range range_;
+  std::uint64_t restored_ = 0, path_at_ = 0;
+  double lift_since_check_ = 0;
+
+  rt::Ring<record::Wish> wishes_{256};
+  rt::Latest<record::TickRow> view_;
+  rt::Latest<FaultReport> faults_;
+  Diary diary_;
+  record::TickRow row_;
+  std::uint64_t next_tick_ = 0, last_hash_ = 0;
+  std::vector<record::TickRow> recent_;  // ring of FaultReport::kTicks
+  FaultReport report_;
+};
+
+// In words, one sentence a flag, with the cure where there is one.
+[[nodiscard]] std::vector<std::string> words(std::uint32_t flags);
+
+}  // namespace burr::sim

@@ -1,0 +1,213 @@
+#include "burr/sim/session.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "burr/rt/clock.h"
+
+namespace burr::sim {
+namespace {
+
+constexpr std::int64_t kFadeNs = 5'000'000;  // from detection of a loss to zero force
+constexpr std::int64_t kGuardNs = 500'000;   // between two looks of the guard
+
+}  // namespace
+
+Session::Session(std::unique_ptr<volume::Bone> bone, std::unique_ptr<device::Device> device,
+                 const SessionSettings& settings)
+    : bone_(std::move(bone)), device_(std::move(device)), settings_(settings) {}
+
+Session::~Session() {
+  stop();
+  device_->close();
+}
+
+Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bone,
+                                               std::unique_ptr<device::Device> device,
+                                               const SessionSettings& settings,
+                                               Progress& progress) {
+  const ServoSettings& servo = settings.servo;
+  const double h = bone->grid().voxel, r = servo.burr.radius;
+  if (!(servo.rate_hz >= 500 && servo.rate_hz <= 10000))
+    return error(Trouble::usage,
+                 fmt::format("--rate {} is out of range; take 500 to 10000 Hz", servo.rate_hz));
+  if (!(2 * r >= tool::kSmallestDiameter - 1e-9 && 2 * r <= tool::kLargestDiameter + 1e-9))
+    return error(
+        Trouble::usage,
+        fmt::format("--burr-mm {:.2f} is out of range; round burrs have 0.6 to 7 mm", 2e3 * r));
+  if (r < 2 * h)
+    return error(
+        Trouble::usage,
+        fmt::format(
+            "a burr of {:.2f} mm is smaller than 4 voxels of {:.3f} mm, too coarse to feel it; "
+            "take --voxel-mm {:.3f} or "
+            "finer (with --roi around the work, if memory is short), or --burr-mm {:.2f} or larger",
+            2e3 * r, 1e3 * h, std::floor(1e6 * r / 2) / 1e3, std::ceil(4e5 * h) / 100));
+  if (!(servo.force.stiffness > 0 && std::isfinite(servo.force.stiffness)))
+    return error(Trouble::usage, fmt::format("stiffness {} N/m makes no sense; take e.g. 1000",
+                                             servo.force.stiffness));
+  if (!(servo.spindle_rad_s >= 0 && servo.spindle_rad_s < 1e5))
+    return error(Trouble::usage, "--rpm is out of range; take 0 to 400000");
+
+  Status opened = device->open();
+  if (!opened) return opened.error();
+  std::unique_ptr<Session> session(new Session(std::move(bone), std::move(device), settings));
+  const device::DeviceSpec& spec = session->device_->spec();
+  ServoSettings capped = servo;
+  capped.force.stiffness = std::min(servo.force.stiffness, spec.max_stiffness);
+  capped.force.damping = std::min(servo.force.damping, spec.max_damping);
+  session->settings_.servo = capped;
+  session->surface_ = std::make_unique<volume::IsoVertices>(*session->bone_, settings.surface,
+                                                            settings.threads, progress);
+  if (progress.cancelled())
+    return error(Trouble::interrupted,
+                 "stopped while the surface was being prepared; nothing was written");
+  session->servo_ =
+      std::make_unique<Servo>(*session->bone_, *session->surface_, *session->device_, capped);
+  session->watchdog_ = std::make_unique<haptics::Watchdog>(
+      static_cast<std::int64_t>(spec.loss_timeout * 1e9), kFadeNs);
+  return session;
+}
+
+void Session::set_recorder(record::Recorder* recorder) {
+  recorder_ = recorder;
+  Diary diary;
+  if (recorder != nullptr) diary = {&recorder->ticks(), &recorder->wishes(), &recorder->bricks()};
+  servo_->set_diary(diary);
+}
+
+void Session::loop(std::uint64_t ticks) {
+  rt::WallClock wall(settings_.servo.rate_hz);
+  rt::NoWaitClock simulated(settings_.servo.rate_hz);
+  rt::TickClock& clock = settings_.realtime ? static_cast<rt::TickClock&>(wall) : simulated;
+  if (settings_.realtime) watchdog_->rearm(rt::monotonic_ns());
+
+  for (std::uint64_t n = 0;
+       n < ticks && !stop_.load(std::memory_order_relaxed) && !device_->finished(); ++n) {
+    const rt::TickTime time = clock.wait();
+    bool lost = false;
+    if (settings_.realtime) {
+      const std::int64_t now = rt::monotonic_ns();
+      static_cast<void>(watchdog_->poll(now));  // the guard may have been late as well
+      lost = watchdog_->tripped();
+      if (lost) {
+        watchdog_->rearm(now);
+      } else {
+        watchdog_->beat(now);
+      }
+    }
+    const std::int64_t before = rt::thread_cpu_ns();
+    const record::TickRow& row = servo_->tick(lost);
+    const std::int64_t took = rt::thread_cpu_ns() - before;
+    servo_->note_timing(1e-3 * static_cast<double>(took), 1e-3 * static_cast<double>(time.late_ns));
+    servo_->publish();
+
+    stats_.add(took);
+    if (settings_.realtime) stats_.add_lateness(time.late_ns, clock.period_ns(), time.missed);
+    const double force = row.contact.force.norm();
+    peak_force_ = std::max(peak_force_, force);
+    if (row.contact.touching) {
+      force_sum_ += force;
+      ++touching_;
+    }
+    flags_ |= row.contact.flags;
+    ledger_ = row.ledger;
+    done_.fetch_add(1, std::memory_order_relaxed);
+    if (!settings_.realtime && recorder_ != nullptr) recorder_->wait_for_room();
+  }
+  device_->write_force(math::Vec3::Zero());
+  while (recorder_ != nullptr && servo_->bricks_to_write() > 0) {  // what the diary is still owed
+    servo_->flush_bricks();
+    recorder_->wait_for_room();
+  }
+  running_.store(false, std::memory_order_release);
+}
+
+// Lets go of the hand when the tick has died.
+void Session::guard() {
+  while (running_.load(std::memory_order_acquire)) {
+    const double scale = watchdog_->poll(rt::monotonic_ns());
+    if (scale < 1) device_->hold(scale);
+    std::this_thread::sleep_for(std::chrono::nanoseconds(kGuardNs));
+  }
+}
+
+void Session::run(double seconds, Progress& progress) {
+  stop_ = false;
+  running_ = true;
+  const auto ticks =
+      static_cast<std::uint64_t>(std::llround(std::max(0.0, seconds) * settings_.servo.rate_hz));
+  const std::uint64_t before = done_.load();
+  thread_ =
+      std::make_unique<rt::Thread>(rt::ThreadWish{.name = "servo", .realtime = settings_.realtime},
+                                   [this, ticks] { loop(ticks); });
+  scheduling_ = thread_->grant().sentence;
+  if (settings_.realtime)
+    guard_ = std::make_unique<rt::Thread>(
+        rt::ThreadWish{.name = "guard", .realtime = true, .priority = 85}, [this] { guard(); });
+  while (running_.load(std::memory_order_acquire)) {
+    if (progress.cancelled()) stop_ = true;
+    if (ticks > 0)
+      progress.report(static_cast<double>(done_.load() - before) / static_cast<double>(ticks),
+                      "milling");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  stop();
+  progress.report(1, "milling");
+}
+
+void Session::start() {
+  if (running_.load()) return;
+  stop();
+  stop_ = false;
+  running_ = true;
+  thread_ =
+      std::make_unique<rt::Thread>(rt::ThreadWish{.name = "servo", .realtime = settings_.realtime},
+                                   [this] { loop(UINT64_MAX); });
+  scheduling_ = thread_->grant().sentence;
+  if (settings_.realtime)
+    guard_ = std::make_unique<rt::Thread>(
+        rt::ThreadWish{.name = "guard", .realtime = true, .priority = 85}, [this] { guard(); });
+}
+
+void Session::stop() {
+  stop_ = true;
+  if (thread_) thread_->join();
+  thread_.reset();
+  running_ = false;
+  if (guard_) guard_->join();
+  guard_.reset();
+}
+
+std::unique_ptr<volume::Bone> Session::bone_before() const {
+  auto before = std::make_unique<volume::Bone>(bone_->grid(), bone_->tissues(), bone_->used_slots(),
+                                               0, false);
+  for (volume::BrickIndex brick = 0; brick < bone_->brick_count(); ++brick) {
+    const volume::Field* field = bone_->brick_field(brick);
+    if (field == nullptr) continue;
+    const edit::KeptBrick* kept = servo_->undo_store().original_of(brick);
+    const volume::TissueId* tissue = kept != nullptr ? kept->tissue : bone_->brick_tissue(brick);
+    std::copy_n(kept != nullptr ? kept->field.voxel : field, volume::kBrickVoxels,
+                before->build_field(brick));
+    std::copy_n(tissue, volume::kBrickVoxels, before->build_tissue(brick));
+  }
+  return before;
+}
+
+Outcome Session::outcome() const {
+  Outcome outcome;
+  outcome.ticks = done_.load();
+  outcome.seconds = static_cast<double>(outcome.ticks) / settings_.servo.rate_hz;
+  outcome.peak_force = peak_force_;
+  outcome.mean_force = touching_ > 0 ? force_sum_ / static_cast<double>(touching_) : 0;
+  outcome.ledger = ledger_;
+  outcome.flags = flags_;
+  outcome.timing = stats_.summary();
+  outcome.scheduling = scheduling_;
+  return outcome;
+}
+
+}  // namespace burr::sim

@@ -1,0 +1,115 @@
+// sim/session.h - the hall: a bone, a hand, the servo that brings them together, and the doors for
+// everyone else.
+//
+//     Result<std::unique_ptr<Session>> session = Session::make(std::move(bone), std::move(hand),
+//     settings, progress);
+//     (*session)->run(20.0, progress);                            // headless: to the end, or
+//     (*session)->start(); ... view().take(row) ...; stop();      // in the background, beside a
+//     window
+//
+// Thread: everything on the thread that made it, except where a door says otherwise. While it runs,
+// the bone is the servo's: others read it through copy_brick() and their own watcher.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "burr/haptics/watchdog.h"
+#include "burr/record/recorder.h"
+#include "burr/rt/stats.h"
+#include "burr/rt/thread.h"
+#include "burr/sim/servo.h"
+
+namespace burr::sim {
+
+struct SessionSettings {
+  ServoSettings servo;
+  volume::IsoSettings surface;
+  bool realtime = false;  // paced by the clock, watched by a watchdog; false: as fast as possible
+  int threads = 2;        // for preparing the surface
+};
+
+// What happened, so far.
+struct Outcome {
+  std::uint64_t ticks = 0;
+  double seconds = 0;     // of simulated time
+  double peak_force = 0;  // that reached the hand  [N]
+  double mean_force = 0;  // while touching         [N]
+  edit::Ledger ledger;
+  std::uint32_t flags = 0;  // all that were ever raised
+  rt::TickSummary timing;
+  std::string scheduling;  // what the servo thread was given, one sentence
+};
+
+class Session {
+ public:
+  // Checks the settings against bone and device; errors name the option to change.
+  [[nodiscard]] static Result<std::unique_ptr<Session>> make(std::unique_ptr<volume::Bone> bone,
+                                                             std::unique_ptr<device::Device> device,
+                                                             const SessionSettings& settings,
+                                                             Progress& progress);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // Everything that happens goes to this recorder, already started; before run() or start().
+  // nullptr: nowhere.
+  void set_recorder(record::Recorder* recorder);
+
+  // Until the hand has finished, `seconds` of its time are over, or progress is cancelled; returns
+  // when the servo stands.
+  void run(double seconds, Progress& progress);
+
+  // In the background, until stop(). Several times in a row is fine.
+  void start();
+  void stop();
+  [[nodiscard]] bool running() const { return running_.load(std::memory_order_acquire); }
+
+  // ---- doors
+  void wish(const record::Wish& wish) { static_cast<void>(servo_->wishes().push(wish)); }
+  [[nodiscard]] bool view(record::TickRow& newest) { return servo_->view().take(newest); }
+  [[nodiscard]] bool fault(FaultReport& report) { return servo_->faults().take(report); }
+
+  [[nodiscard]] volume::Bone& bone() { return *bone_; }
+  [[nodiscard]] device::Device& hand() { return *device_; }
+  [[nodiscard]] const SessionSettings& settings() const { return settings_; }
+  [[nodiscard]] const volume::IsoVertices& surface() const { return *surface_; }
+  // The servo itself; only while it stands.
+  [[nodiscard]] Servo& servo() { return *servo_; }
+  // The bone as it was before the first cut; only while the servo stands.
+  [[nodiscard]] std::unique_ptr<volume::Bone> bone_before() const;
+  // Only while the servo stands.
+  [[nodiscard]] Outcome outcome() const;
+
+ private:
+  Session(std::unique_ptr<volume::Bone> bone, std::unique_ptr<device::Device> device,
+          const SessionSettings& settings);
+  void loop(std::uint64_t ticks);
+  void guard();
+
+  std::unique_ptr<volume::Bone> bone_;
+  std::unique_ptr<device::Device> device_;
+  SessionSettings settings_;
+  std::unique_ptr<volume::IsoVertices> surface_;
+  std::unique_ptr<Servo> servo_;
+  std::unique_ptr<haptics::Watchdog> watchdog_;
+  record::Recorder* recorder_ = nullptr;
+
+  std::unique_ptr<rt::Thread> thread_, guard_;
+  std::atomic<bool> running_ = false, stop_ = false;
+  std::atomic<std::uint64_t> done_ = 0;
+
+  // the servo's own account
+  rt::TickStats stats_;
+  double peak_force_ = 0, force_sum_ = 0;
+  std::uint64_t touching_ = 0;
+  std::uint32_t flags_ = 0;
+  edit::Ledger ledger_;
+  std::string scheduling_;
+};
+
+}  // namespace burr::sim

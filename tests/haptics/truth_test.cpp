@@ -1,0 +1,403 @@
+// The proxy against bones whose answer is known by heart: algorithms.md 5.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "burr/haptics/force_law.h"
+#include "burr/haptics/proxy.h"
+#include "burr/volume/iso_vertices.h"
+#include "scenes/build.h"
+#include "scenes/shapes.h"
+#include "support/rt_guard.h"
+
+namespace burr::haptics {
+namespace {
+
+using math::Vec3;
+constexpr double kMm = 1e-3;
+
+// A bone with its surface, ready to be touched.
+struct Scene {
+  Scene(const scenes::Depth& depth, double h_mm, double half_mm = 12)
+      : h(h_mm * kMm),
+        bone(scenes::bone_from_distance(
+            scenes::box_grid(Vec3::Constant(-half_mm * kMm), Vec3::Constant(half_mm * kMm), h), {},
+            depth)),
+        surface(*bone, {}, 1, quiet) {}
+  double h;
+  NoProgress quiet;
+  std::unique_ptr<volume::Bone> bone;
+  volume::IsoVertices surface;
+  // algorithms.md 5: max(0.02 mm, 0.1 h); 0.15 h at h = 0.5 mm
+  [[nodiscard]] double tolerance() const {
+    return std::max(0.02 * kMm, (h > 0.4 * kMm ? 0.15 : 0.1) * h);
+  }
+};
+
+double angle_deg(const Vec3& a, const Vec3& b) {
+  return std::acos(std::clamp(a.normalized().dot(b.normalized()), -1.0, 1.0)) * 180 / M_PI;
+}
+
+// Strokes a hand along `path` (s in 0..1) at 50 mm/s or so and checks every tick against the true
+// place of the proxy.
+struct Worst {
+  double place = 0, direction_deg = 0;
+  int touched = 0;
+};
+Worst stroke(Scene& scene, double r, const Vec3& start, const std::function<Vec3(double)>& hand,
+             const std::function<Vec3(const Vec3&)>& truth, int ticks = 2000,
+             bool check_direction = true) {
+  Proxy proxy(scene.surface, {.radius = r}, start);
+  Worst worst;
+  for (int n = 0; n < 400; ++n) (void)proxy.step(start + (hand(0) - start) * (n / 400.0));
+  for (int n = 0; n < 20; ++n) (void)proxy.step(hand(0));
+  for (int n = 0; n <= ticks; ++n) {
+    const Vec3 x = hand(static_cast<double>(n) / ticks);
+    const Touch touch = proxy.step(x);
+    if (!touch.touching) continue;
+    ++worst.touched;
+    const Vec3 c = truth(x);
+    worst.place = std::max(worst.place, (touch.proxy - c).norm());
+    if (check_direction && (c - x).norm() > 0.1 * kMm)
+      worst.direction_deg = std::max(worst.direction_deg,
+                                     angle_deg(force_law(touch, Vec3::Zero(), {1000, 0}), c - x));
+  }
+  return worst;
+}
+
+class Truth : public testing::TestWithParam<double> {};  // voxel size [mm]
+
+TEST_P(Truth, RestsOneRadiusAboveAnObliquePlane) {
+  const Vec3 n = Vec3(0.3, -0.5, 0.8).normalized();
+  Scene scene(scenes::slab(n), GetParam());
+  const double r = 1.5 * kMm, deep = 0.3 * kMm;
+  const Vec3 along = n.unitOrthogonal();
+  const Worst worst = stroke(
+      scene, r, (r + 3 * kMm) * n,
+      [&](double s) { return Vec3((r - deep) * n + (8 * s - 4) * kMm * along); },
+      [&](const Vec3& x) { return Vec3(x + (r - n.dot(x)) * n); });
+  EXPECT_GT(worst.touched, 1990);
+  EXPECT_LT(worst.place, scene.tolerance());
+  EXPECT_LT(worst.direction_deg, 0.5);
+}
+
+TEST_P(Truth, RollsOverABallWithoutTangentialError) {
+  const double R = 5 * kMm, r = 1.5 * kMm, deep = 0.3 * kMm;
+  Scene scene(scenes::ball(R), GetParam());
+  const Vec3 a(1, 0, 0), b = Vec3(0, 0.8, 0.6);
+  const auto on = [&](double s) { return Vec3(std::cos(2 * s) * a + std::sin(2 * s) * b); };
+  const Worst worst = stroke(
+      scene, r, (R + r + 2 * kMm) * on(0), [&](double s) { return Vec3((R + r - deep) * on(s)); },
+      [&](const Vec3& x) { return Vec3((R + r) * x.normalized()); });
+  EXPECT_GT(worst.touched, 1990);
+  EXPECT_LT(worst.place, scene.tolerance());
+  EXPECT_LT(worst.direction_deg, 0.5);
+}
+
+TEST_P(Truth, StaysInsideABowlAndIsPushedInward) {
+  const double R = 6 * kMm, r = 1.5 * kMm, deep = 0.3 * kMm;
+  Scene scene(scenes::bowl(R), GetParam());
+  const Vec3 a(1, 0, 0), b = Vec3(0, 0.8, 0.6);
+  const auto on = [&](double s) { return Vec3(std::cos(2 * s) * a + std::sin(2 * s) * b); };
+  const Worst worst = stroke(
+      scene, r, Vec3::Zero(), [&](double s) { return Vec3((R - r + deep) * on(s)); },
+      [&](const Vec3& x) { return Vec3((R - r) * x.normalized()); });
+  EXPECT_GT(worst.touched, 1990);
+  EXPECT_LT(worst.place, scene.tolerance());
+  EXPECT_LT(worst.direction_deg, 0.5);
+}
+
+TEST_P(Truth, ABallInACavityOfItsOwnSizeDoesNotMove) {
+  const double r = 3 * kMm;
+  Scene scene(scenes::bowl(r + 0.02 * kMm), GetParam());
+  Proxy proxy(scene.surface, {.radius = r}, Vec3::Zero());
+  std::mt19937 random(7);
+  std::normal_distribution<double> push(0, 1 * kMm);
+  for (int n = 0; n < 500; ++n) {
+    const Touch touch = proxy.step({push(random), push(random), push(random)});
+    ASSERT_LT(touch.proxy.norm(), scene.tolerance() + 0.1 * scene.h) << n;
+  }
+}
+
+// The field knows a sharp edge only where voxels lie on it: here faces go through voxel centres.
+// Between them the edge is chamfered by up to a third of a voxel, see
+// AnEdgeBetweenVoxelsIsChamferedByLessThanOne.
+TEST_P(Truth, TurnsRoundTheEdgeOfABoxContinuously) {
+  const double b = 5 * kMm + GetParam() / 2 * kMm, r = 1.5 * kMm, deep = 0.3 * kMm;
+  Scene scene(scenes::box(Vec3::Constant(b)), GetParam());
+  // from the top face over the edge x = z = b down the side, 0.3 mm inside the true rounded path
+  const double quarter = M_PI / 2 * r, total = 4 * kMm + quarter + 4 * kMm;
+  const auto way = [&](double s, double radius) {
+    const double at = s * total;
+    if (at < 4 * kMm) return Vec3(b - 4 * kMm + at, 0.4 * kMm, b + radius);
+    if (at < 4 * kMm + quarter) {
+      const double turn = (at - 4 * kMm) / r;
+      return Vec3(b + radius * std::sin(turn), 0.4 * kMm, b + radius * std::cos(turn));
+    }
+    return Vec3(b + radius, 0.4 * kMm, b - (at - 4 * kMm - quarter));
+  };
+  const auto truth = [&](const Vec3& x) {
+    const Vec3 foot(std::min(x.x(), b), x.y(), std::min(x.z(), b));
+    return Vec3(foot + r * (x - foot).normalized());
+  };
+  Proxy proxy(scene.surface, {.radius = r}, way(0, r + 2 * kMm));
+  for (int n = 0; n <= 200; ++n)
+    (void)proxy.step(way(0, r + 2 * kMm) + (way(0, r - deep) - way(0, r + 2 * kMm)) * (n / 200.0));
+  double worst_place = 0, worst_turn = 0;
+  Vec3 last(0, 0, 1);
+  for (int n = 0; n <= 4000; ++n) {
+    const Vec3 x = way(n / 4000.0, r - deep);
+    const Touch touch = proxy.step(x);
+    ASSERT_TRUE(touch.touching);
+    worst_place = std::max(worst_place, (touch.proxy - truth(x)).norm());
+    worst_turn = std::max(worst_turn, angle_deg(touch.normal, last));
+    last = touch.normal;
+  }
+  EXPECT_LT(worst_place, scene.tolerance());
+  EXPECT_LT(worst_turn, 2 * scene.h / r * 180 / M_PI)
+      << "degrees in one tick: two voxels seen from the burr's centre";
+  EXPECT_LT(angle_deg(last, {1, 0, 0}), 0.5);
+}
+
+TEST_P(Truth, AnEdgeBetweenVoxelsIsChamferedByLessThanOne) {
+  const double r = 1.5 * kMm;
+  for (const double shift : {0.0, 0.125, 0.25, 0.375}) {
+    const double b = 5 * kMm + shift * GetParam() * kMm;
+    Scene scene(scenes::box(Vec3::Constant(b)), GetParam());
+    const Vec3 u = Vec3(1, 0, 1).normalized(), edge(b, 0.3 * kMm, b);
+    Proxy proxy(scene.surface, {.radius = r}, edge + (r + 1 * kMm) * u);
+    Touch touch;
+    for (int n = 0; n < 300; ++n)
+      touch = proxy.step(edge + (r + 1 * kMm - 1.5 * kMm * std::min(1.0, n / 200.0)) * u);
+    ASSERT_TRUE(touch.touching);
+    EXPECT_LT((touch.proxy - (edge + r * u)).norm(), 0.75 * scene.h) << "shift " << shift;
+  }
+}
+
+TEST_P(Truth, RestsOnTheCornerOfABox) {
+  const double b = 5 * kMm + GetParam() / 2 * kMm, r = 1.5 * kMm;
+  Scene scene(scenes::box(Vec3::Constant(b)), GetParam());
+  const Vec3 u = Vec3(1, 1, 1).normalized(), corner = Vec3::Constant(b);
+  Proxy proxy(scene.surface, {.radius = r}, corner + (r + 1 * kMm) * u);
+  Touch touch;
+  for (int n = 0; n < 300; ++n)
+    touch = proxy.step(corner + (r + 1 * kMm - 1.5 * kMm * std::min(1.0, n / 200.0)) * u);
+  ASSERT_TRUE(touch.touching);
+  EXPECT_LT((touch.proxy - (corner + r * u)).norm(), scene.tolerance());
+}
+
+TEST_P(Truth, RestsInANinetyDegreeGroove) {
+  const double r = 1.5 * kMm;
+  Scene scene(scenes::groove(M_PI / 4), GetParam());
+  const auto truth = [&](const Vec3& x) { return Vec3(0, x.y(), r / std::sin(M_PI / 4)); };
+  const Worst worst = stroke(
+      scene, r, Vec3(0, -4 * kMm, 6 * kMm),
+      [&](double s) { return Vec3(0, (8 * s - 4) * kMm, r / std::sin(M_PI / 4) - 0.3 * kMm); },
+      truth);
+  EXPECT_GT(worst.touched, 1990);
+  EXPECT_LT(worst.place, scene.tolerance());
+  EXPECT_LT(worst.direction_deg, 0.5);
+}
+
+TEST_P(Truth, StrokesATorus) {
+  const double ring = 6 * kMm, tube = 2 * kMm, r = 1.5 * kMm, deep = 0.3 * kMm;
+  Scene scene(scenes::torus(ring, tube), GetParam());
+  const auto centre_line = [&](const Vec3& x) {
+    const Vec3 flat(x.x(), x.y(), 0);
+    return Vec3(ring * flat.normalized());
+  };
+  const auto hand = [&](double s) {
+    const double around = 1.2 * s, up = 0.5 + 1.0 * s;  // along the ring and over the tube at once
+    const Vec3 out(std::cos(around), std::sin(around), 0);
+    return Vec3(ring * out +
+                (tube + r - deep) * (std::cos(up) * out + std::sin(up) * Vec3::UnitZ()));
+  };
+  const Worst worst =
+      stroke(scene, r, hand(0) + 2 * kMm * (hand(0) - centre_line(hand(0))).normalized(), hand,
+             [&](const Vec3& x) {
+               const Vec3 q = centre_line(x);
+               return Vec3(q + (tube + r) * (x - q).normalized());
+             });
+  EXPECT_GT(worst.touched, 1990);
+  EXPECT_LT(worst.place, scene.tolerance());
+  EXPECT_LT(worst.direction_deg, 0.5);
+}
+
+TEST_P(Truth, RestsInTheHoleOfATorus) {
+  const double ring = 4 * kMm, tube = 2 * kMm, r = 3 * kMm;
+  Scene scene(scenes::torus(ring, tube), GetParam());
+  Proxy proxy(scene.surface, {.radius = r}, {0, 0, 8 * kMm});
+  Touch touch;
+  for (int n = 0; n < 600; ++n)
+    touch = proxy.step({0, 0, 8 * kMm - 6 * kMm * std::min(1.0, n / 400.0)});
+  const double z = std::sqrt((tube + r) * (tube + r) - ring * ring);
+  EXPECT_LT((touch.proxy - Vec3(0, 0, z)).norm(),
+            2 * scene.tolerance());  // flat walls: an error of the radius counts 1/sin
+}
+
+TEST_P(Truth, SitsBetweenTwoBallsSymmetrically) {
+  const double rho = 3 * kMm, D = 3.5 * kMm, r = 1.5 * kMm;
+  Scene scene(scenes::two_balls(rho, D), GetParam());
+  Proxy proxy(scene.surface, {.radius = r}, {0, 0, 8 * kMm});
+  Touch touch;
+  for (int n = 0; n < 600; ++n)
+    touch = proxy.step({0, 0, 8 * kMm - 6.5 * kMm * std::min(1.0, n / 400.0)});
+  const double z = std::sqrt((rho + r) * (rho + r) - D * D);
+  ASSERT_TRUE(touch.touching);
+  EXPECT_NEAR(touch.proxy.x(), 0, scene.tolerance());
+  EXPECT_NEAR(touch.proxy.z(), z, 2 * scene.tolerance());
+}
+
+INSTANTIATE_TEST_SUITE_P(VoxelMm, Truth, testing::Values(0.5, 0.25, 0.125), [](const auto& voxel) {
+  return std::to_string(static_cast<int>(1000 * voxel.param)) + "um";
+});
+
+// ---- never through
+
+TEST(Proxy, AMillionTicksAtUpToTenMillimetresNeverCrossAThinPlate) {
+  constexpr unsigned kSeed = 20260817;
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  const Vec3 n = Vec3(0.2, 0.3, 1).normalized();
+  Scene scene(scenes::plate(0.6 * kMm, n), 0.3);
+  std::mt19937 random(kSeed);
+  std::uniform_real_distribution<double> speed(0, 10 * kMm), side(-7 * kMm, 7 * kMm);
+  std::normal_distribution<double> turn(0, 1);
+  const double r = 0.9 * kMm;
+  Proxy proxy(scene.surface, {.radius = r}, 4 * kMm * n);
+  Vec3 hand = 4 * kMm * n;
+  int wrong = 0, touched = 0;
+  for (int tick = 0; tick < 1'000'000; ++tick) {
+    const Vec3 goal(side(random), side(random), side(random));
+    Vec3 step = goal - hand;
+    const double most = speed(random);
+    if (step.norm() > most) step *= most / step.norm();
+    hand += step;
+    const Touch touch = proxy.step(hand);
+    touched += touch.touching ? 1 : 0;
+    wrong += n.dot(touch.proxy) < 0.3 * kMm + r - 0.3 * scene.h ? 1 : 0;
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(touched, 300'000);
+}
+
+TEST(Proxy, WandersOverPorousBoneAndIsNeverInside) {
+  constexpr unsigned kSeed = 11;
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  Scene scene(scenes::gyroid(4 * kMm), 0.2, 8);
+  std::mt19937 random(kSeed);
+  std::normal_distribution<double> stray(0, 0.4 * kMm);
+  const double r = 0.6 * kMm;
+  // somewhere free to begin
+  std::unique_ptr<Proxy> proxy;
+  Vec3 hand;
+  for (int n = 0; n < 5000 && !proxy; ++n) {
+    hand = Vec3(stray(random), stray(random), stray(random)) * 10;
+    proxy = std::make_unique<Proxy>(scene.surface, ProxySettings{.radius = r}, hand);
+    if (!proxy->is_free(hand)) proxy.reset();
+  }
+  ASSERT_NE(proxy, nullptr);
+  Proxy judge(scene.surface, {.radius = r - 0.05 * scene.h},
+              hand);  // a hair smaller: allows for the last tick's tolerance
+  for (int tick = 0; tick < 50'000; ++tick) {
+    hand = hand * 0.999 + Vec3(stray(random), stray(random), stray(random));
+    const Touch touch = proxy->step(hand);
+    if (touch.proxy.cwiseAbs().maxCoeff() > 7 * kMm) continue;  // past the border of the volume
+    ASSERT_TRUE(judge.is_free(touch.proxy)) << "tick " << tick;
+  }
+}
+
+TEST(Proxy, FollowsAFastHandThroughFreeAirWithoutForce) {
+  Scene scene(scenes::slab(), 0.5);
+  Proxy proxy(scene.surface, {.radius = 1 * kMm}, {0, 0, 9 * kMm});
+  for (int n = 0; n < 100; ++n) {
+    const Vec3 hand(10 * kMm * (n % 2), 0, 9 * kMm);
+    const Touch touch = proxy.step(hand);
+    ASSERT_FALSE(touch.touching);
+    ASSERT_FALSE(touch.lagging);
+    ASSERT_LT((touch.proxy - hand).norm(), 1e-9);
+  }
+}
+
+// ---- friction (Harwin & Melder 2002): algorithms.md 3c
+
+class Friction : public testing::Test {
+ protected:
+  static constexpr double r = 1.5 * kMm, deep = 0.4 * kMm;
+  Scene scene{scenes::slab(), 0.25};
+  [[nodiscard]] Proxy pressed(double mu_s, double mu_k) {
+    Proxy proxy(scene.surface, {.radius = r, .friction_static = mu_s, .friction_kinetic = mu_k},
+                {0, 0, 3 * kMm});
+    for (int n = 0; n <= 200; ++n)
+      (void)proxy.step({0, 0, 3 * kMm + (r - deep - 3 * kMm) * (n / 200.0)});
+    return proxy;
+  }
+};
+
+TEST_F(Friction, SticksUntilTheConeIsReachedWithinOnePercent) {
+  for (const double mu : {0.1, 0.3, 0.8}) {
+    Proxy proxy = pressed(mu, 0.9 * mu);
+    double slipped_at = 0;
+    for (int n = 0; n < 4000 && slipped_at == 0; ++n) {
+      const double x = n * 0.1e-6;
+      const Touch touch = proxy.step({x, 0, r - deep});
+      if (!touch.stuck) slipped_at = x;
+    }
+    EXPECT_NEAR(slipped_at / deep, mu, 0.01 * mu + 0.001) << "mu " << mu;
+  }
+}
+
+TEST_F(Friction, SlidingLagIsMuTimesDepth) {
+  for (const double mu : {0.1, 0.3, 0.5, 0.8, 1.0}) {
+    Proxy proxy = pressed(mu, mu);
+    Touch touch;
+    double x = 0;
+    for (int n = 0; n < 4000; ++n) touch = proxy.step({x += 1e-6, 0, r - deep});
+    const Vec3 hand(x, 0, r - deep);
+    const double length = (touch.depth * touch.normal + touch.trail).norm();
+    EXPECT_NEAR(length / deep, std::sqrt(1 + mu * mu), 0.01 * std::sqrt(1 + mu * mu))
+        << "the thesis' cases, mu " << mu;
+  }
+}
+
+TEST_F(Friction, DoesNotDriftInAMinuteOfSticking) {
+  Proxy proxy = pressed(0.5, 0.45);
+  const Vec3 hand(0.1 * kMm, 0.05 * kMm, r - deep);
+  for (int n = 0; n < 100; ++n)
+    (void)proxy.step(hand * (n / 100.0) + Vec3(0, 0, (r - deep) * (1 - n / 100.0)));
+  const Vec3 before = proxy.step(hand).proxy;
+  for (int n = 0; n < 60'000; ++n) (void)proxy.step(hand);
+  EXPECT_LT((proxy.step(hand).proxy - before).norm(), 1e-9);
+}
+
+TEST_F(Friction, AGrooveHoldsHarder) {  // |F_t| <= mu sum N_i = mu F / sin A
+  Scene groove(scenes::groove(M_PI / 4), 0.25);
+  const double mu = 0.3, z = r / std::sin(M_PI / 4);
+  Proxy proxy(groove.surface, {.radius = r, .friction_static = mu, .friction_kinetic = mu},
+              {0, 0, 6 * kMm});
+  for (int n = 0; n <= 400; ++n)
+    (void)proxy.step({0, 0, 6 * kMm + (z - deep - 6 * kMm) * (n / 400.0)});
+  Touch touch;
+  double y = 0;
+  for (int n = 0; n < 4000; ++n) touch = proxy.step({0, y += 1e-6, z - deep});
+  const double lag = y - touch.proxy.y();
+  EXPECT_NEAR(lag / deep, mu / std::sin(M_PI / 4), 0.03 * mu / std::sin(M_PI / 4));
+}
+
+// ---- the tick is sacred
+
+TEST(Proxy, TakesNeitherMemoryNorLock) {
+  Scene scene(scenes::ball(5 * kMm), 0.25);
+  Proxy proxy(scene.surface,
+              {.radius = 1.5 * kMm, .friction_static = 0.3, .friction_kinetic = 0.25},
+              {0, 0, 8 * kMm});
+  const test::RtGuard guard;
+  for (int n = 0; n < 3000; ++n) (void)proxy.step({3 * kMm * std::sin(0.01 * n), 0, 5 * kMm});
+  const long allocations = guard.allocations(), locks = guard.locks();
+  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(locks, 0);
+}
+
+}  // namespace
+}  // namespace burr::haptics
