@@ -48,7 +48,7 @@ Result<std::unique_ptr<Bone>> removed_part(const Bone& before, const Bone& after
     return error("the two bones do not lie on the same grid, so nothing can be said to be removed");
 
   // bricks that were cut, and those around them for the rim
-  const math::Ijk bricks = before.bricks();
+  const math::Ijk& bricks = before.bricks();
   std::vector<bool> touched(static_cast<std::size_t>(before.brick_count()));
   for (BrickIndex brick = 0; brick < before.brick_count(); ++brick) {
     if (!lowered(before, after, brick)) continue;
