@@ -31,6 +31,8 @@ struct Scan {
   std::vector<std::uint8_t> labels;  // (x fastest) value per voxel; empty for a grey scan
   std::vector<Label> label_names;
   bool hounsfield = false;  // values are HU
+  bool k_reversed = false;  // the slices were put in reverse order to make the axes right-handed:
+                            // voxel k here is voxel size.z-1-k of the file
   std::string format;       // "DICOM", "NRRD" ...
   std::vector<std::string>
       notices;  // what was found odd and what was done about it, one sentence each

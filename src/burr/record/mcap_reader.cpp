@@ -117,8 +117,8 @@ Result<std::unique_ptr<McapReader>> McapReader::open(const std::string& path, Tr
   reader->chunks_.clear();
   reader->attachments_.clear();
   reader->metadata_.clear();
-  reader->scan(trust == Trust::nothing);
   reader->finished_ = has_summary;
+  reader->scan(trust == Trust::nothing);
   return reader;
 }
 
@@ -450,8 +450,8 @@ void McapReader::scan(bool check_chunks) {
                                      path_, size_ - offset));
     offset = resumed;
   }
-  if (!ended && lost_bytes_ == 0)
-    notices_.push_back(path_ + ": was not finished, but nothing in it is torn");
+  if (!finished_ && lost_bytes_ == 0)
+    notices_.push_back(path_ + ": was not finished, but no record in it is torn");
 
   // a power cut may leave a chunk of the right length with the wrong bytes, but only at the end
   if (!ended && !check_chunks) {

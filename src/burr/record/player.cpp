@@ -259,16 +259,16 @@ Result<TickRow> Player::tick_at(double t_s) {
 }
 
 Error Player::broken_before(std::uint64_t tick) const {
-  std::string until = "the end";
+  std::string again = "never again";
   for (const std::size_t c : keyframe_chunks_) {
-    if (start_tick(c) < tick) continue;
-    until = fmt::format("{:.3f} s", static_cast<double>(start_tick(c)) / info_.rate_hz);
+    if (start_tick(c) <= tick) continue;
+    again = fmt::format("again from {:.3f} s", static_cast<double>(start_tick(c)) / info_.rate_hz);
     break;
   }
   return error(
-      fmt::format("{}: the bone cannot be shown from {:.3f} s to {}, because changes "
-                  "before it are damaged; choose a moment outside, or replay",
-                  path_, static_cast<double>(tick) / info_.rate_hz, until));
+      fmt::format("{}: the bone at {:.3f} s cannot be shown, because changes before it are "
+                  "damaged, {}; choose another moment, or replay",
+                  path_, static_cast<double>(tick) / info_.rate_hz, again));
 }
 
 // The newest whole keyframe at or before the tick becomes the state; false: there is none.
@@ -316,12 +316,12 @@ bool Player::load_keyframe(std::uint64_t tick) {
     if (good && seen == wanted) {
       state_ = std::move(state);
       state_tick_ = tick_of_ns(*time);
-      // the changes after it may lie before its own chunks, which were written between them
       place_ = {};
       place_.next_batch = batch + 1;
-      const auto from = std::partition_point(
-          chunks.begin(), chunks.end(), [&](const auto& chunk) { return chunk.end_ns < *time; });
-      place_.chunk = static_cast<std::size_t>(from - chunks.begin());
+      const auto from =
+          std::partition_point(change_chunks_.begin(), change_chunks_.end(),
+                               [&](std::size_t c) { return chunks[c].end_ns < *time; });
+      place_.chunk = static_cast<std::size_t>(from - change_chunks_.begin());
       state_good_ = true;
       return true;
     }

@@ -1,0 +1,34 @@
+// apps/burr/volume_options.h - the words about a volume that several subcommands share: which file
+// or phantom, and what is done to it on the way to bone.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "burr/io/import.h"
+#include "burr/io/read_scan.h"
+
+namespace burr::app {
+
+// As typed. Defaults are those of io::ReadOptions and io::ImportOptions.
+struct VolumeOptions {
+  std::string path;  // a file, a DICOM folder, or phantom:NAME
+  std::string series, spacing_mm, roi, iso, tissues;
+  double voxel_mm = 0, smooth = -1, memory_mb = 0;
+  std::size_t reserve_bricks = io::ImportOptions{}.reserve_bricks;
+};
+
+// Adds --series --voxel-mm --spacing-mm --iso --roi --tissues --smooth --memory-mb; the volume
+// itself is the subcommand's own positional, because some take a CASE or a recording there.
+void add_volume_options(CLI::App& command, VolumeOptions& options);
+
+[[nodiscard]] bool is_phantom(const std::string& path);
+[[nodiscard]] Result<io::ReadOptions> read_options(const VolumeOptions& options);
+[[nodiscard]] Result<io::ImportOptions> import_options(const VolumeOptions& options);
+
+// The bone, ready to be milled, from a file, a folder or a formula.
+[[nodiscard]] Result<io::Imported> open_volume(const VolumeOptions& options, Progress& progress);
+
+}  // namespace burr::app

@@ -1,0 +1,80 @@
+#include "burr/io/export_part.h"
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <thread>
+
+#include "burr/io/write_mesh.h"
+#include "burr/io/write_volume.h"
+#include "burr/surface/mesher.h"
+#include "burr/volume/removed_part.h"
+#include "burr/volume/volume_of.h"
+
+namespace burr::io {
+namespace {
+
+bool ends_with(const std::string& path, const std::string& ending) {
+  return path.size() >= ending.size() &&
+         std::equal(ending.rbegin(), ending.rend(), path.rbegin(), [](char e, char p) {
+           return e == std::tolower(static_cast<unsigned char>(p));
+         });
+}
+
+int workers() { return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)); }
+
+}  // namespace
+
+Status check_export(const std::string& path, const ExportOptions& options) {
+  const bool labels = ends_with(path, ".seg.nrrd");
+  const bool field = !labels && ends_with(path, ".nrrd");
+  const bool mesh = is_mesh_path(path);
+  if (!labels && !field && !mesh)
+    return error(Trouble::usage,
+                 path +
+                     ": unknown ending; use .stl, .ply, .obj, .3mf or .glb for a mesh, "
+                     ".seg.nrrd for labels, .nrrd for a volume");
+  if (options.frame != Frame::lps && (!mesh || ends_with(path, ".glb")))
+    return error(Trouble::usage,
+                 path + ": a frame can be chosen for .stl, .ply, .obj and .3mf only");
+  if (options.scan && (!field || options.part != Part::bone))
+    return error(Trouble::usage,
+                 path + ": grey values are written only for the bone, into a .nrrd file");
+  return fine();
+}
+
+Result<Exported> export_part(const volume::Bone& before, const volume::Bone& now,
+                             const std::string& path, const ExportOptions& options,
+                             Progress& progress) {
+  const Status possible = check_export(path, options);
+  if (!possible) return possible.error();
+
+  std::unique_ptr<volume::Bone> removed;
+  const volume::Bone* bone = &now;
+  if (options.part == Part::removed) {
+    progress.report(0, "comparing before and after");
+    auto made = volume::removed_part(before, now);
+    if (!made) return made.error();
+    removed = std::move(*made);
+    bone = removed.get();
+  }
+
+  Exported exported{volume::volume_of(*bone), 0};
+  Status written = fine();
+  if (is_mesh_path(path)) {
+    auto mesh = surface::whole_surface(*bone, workers(), progress);
+    if (!mesh) return mesh.error();
+    exported.triangles = mesh->triangles.size() / 3;
+    written = write_mesh(*mesh, bone->tissues(), path, options.frame, progress);
+  } else if (ends_with(path, ".seg.nrrd")) {
+    written = write_labels(*bone, path, progress);
+  } else if (options.scan) {
+    written = write_scan(before, now, path, progress);
+  } else {
+    written = write_field(*bone, path, progress);
+  }
+  if (!written) return written.error();
+  return exported;
+}
+
+}  // namespace burr::io

@@ -1,0 +1,229 @@
+#include "burr/io/tissues.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wold-style-cast"
+#pragma GCC diagnostic ignored "-Wshadow"
+#endif
+#include <toml++/toml.h>
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+
+#include "burr/io/bytes.h"
+#include "burr/io/text.h"
+
+namespace burr::io {
+namespace {
+
+using volume::Tissue;
+using volume::TissueKind;
+
+// J/mm^3 = 1e9 J/m^3; algorithms.md 3e, defaults to calibrate
+constexpr double kCortical = 1.0e9, kTrabecular = 1.0e8, kEnamel = 1.0e10, kDentine = 2.0e9;
+
+bool any_of(const std::string& name, std::initializer_list<const char*> parts) {
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const char* part) { return name.find(part) != std::string::npos; });
+}
+
+bool word_of(const std::string& name, const char* word) {
+  for (const std::string& w : words(name))
+    if (w == word) return true;
+  return false;
+}
+
+std::string plain(const std::string& name) {
+  std::string out = lower(name);
+  for (char& c : out)
+    if (c == '_' || c == '-' || c == '+' || c == '.' || c == '/' || c == ',') c = ' ';
+  return out;
+}
+
+Status read_table(const std::string& path, std::vector<Tissue>& of_value,
+                  std::array<bool, 256>& known) {
+  toml::table table;
+  const std::string file = short_name(path);
+  auto bytes = first_bytes(path, std::size_t{1} << 20);
+  if (!bytes) return bytes.error();
+  try {
+    table =
+        toml::parse(std::string_view(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
+  } catch (const toml::parse_error& problem) {
+    return error(
+        fmt::format("{}: line {}: {}", file, problem.source().begin.line, problem.description()));
+  }
+  const auto* list = table["label"].as_array();
+  if (list == nullptr)
+    return error(fmt::format("{}: no [[label]] in it; see docs/labels.md", file));
+  for (const auto& node : *list) {
+    const auto* entry = node.as_table();
+    if (entry == nullptr)
+      return error(fmt::format("{}: label: tables [[label]] are expected", file));
+    const auto value = (*entry)["value"].value<std::int64_t>();
+    const auto name = (*entry)["name"].value<std::string>();
+    std::vector<std::size_t> hits;
+    if (value) {
+      if (*value < 1 || *value > 255)
+        return error(fmt::format("{}: label: value {} is not in 1..255", file, *value));
+      hits.push_back(static_cast<std::size_t>(*value));
+    } else if (name) {
+      for (std::size_t v = 1; v < 256; ++v)
+        if (known[v] && plain(of_value[v].name) == plain(*name)) hits.push_back(v);
+    } else {
+      return error(fmt::format("{}: label: \"value\" or \"name\" is missing", file));
+    }
+    for (const std::size_t v : hits) {
+      Tissue& tissue = of_value[v];
+      known[v] = true;
+      if (name) tissue.name = *name;
+      if (const auto kind = (*entry)["kind"].value<std::string>()) {
+        if (*kind == "solid")
+          tissue.kind = TissueKind::solid;
+        else if (*kind == "soft")
+          tissue.kind = TissueKind::soft;
+        else if (*kind == "air")
+          tissue.kind = TissueKind::air;
+        else
+          return error(
+              fmt::format("{}: label {}: kind \"{}\" is none of solid, soft, air", file, v, *kind));
+      }
+      if (const auto energy = (*entry)["cutting_energy_J_mm3"].value<double>()) {
+        if (!(*energy > 0 && *energy < 1e3))
+          return error(fmt::format("{}: label {}: cutting_energy_J_mm3 must be above 0", file, v));
+        tissue.cutting_energy = *energy * 1e9;
+      }
+      if (const auto friction = (*entry)["friction"].value<double>()) {
+        if (!(*friction >= 0 && *friction <= 2))
+          return error(fmt::format("{}: label {}: friction must be 0..2", file, v));
+        tissue.friction = *friction;
+      }
+      if (const auto spare = (*entry)["spare"].value<bool>()) tissue.spare = *spare;
+      if (const auto* colour = (*entry)["colour"].as_array()) {
+        if (colour->size() != 3)
+          return error(fmt::format("{}: label {}: colour needs three numbers 0..1", file, v));
+        for (std::size_t c = 0; c < 3; ++c)
+          tissue.colour[c] = std::clamp((*colour)[c].value_or(0.8F), 0.0F, 1.0F);
+      }
+    }
+  }
+  return fine();
+}
+
+}  // namespace
+
+Tissue tissue_by_name(const Label& label, bool named) {
+  Tissue tissue;
+  tissue.name = named ? label.name : fmt::format("label {}", label.value);
+  tissue.colour = label.colour;
+  tissue.label = label.value;
+  tissue.cutting_energy = kCortical;
+  if (!named) return tissue;
+  const std::string name = plain(label.name);
+
+  // spaces with nothing in them
+  if (any_of(name, {"ear canal", "auditory canal ext", "external auditory", "air cell", "airway",
+                    "trachea", "middle ear", "tympanic cavity", "background", "maxillary sinus",
+                    "frontal sinus", "ethmoid", "sphenoid sinus"}) ||
+      word_of(name, "eac") || word_of(name, "air") || name == "tympanum") {
+    tissue.kind = TissueKind::air;
+    return tissue;
+  }
+  // what a name calls hard is hard, whatever it lies beside
+  const bool hard = any_of(
+      name, {"bone",     "bony",     "ossicle",    "malleus",   "incus",   "stapes",   "tooth",
+             "teeth",    "enamel",   "dentin",     "cement",    "skull",   "mandible", "maxilla",
+             "vertebra", "cortical", "trabecular", "spongiosa", "implant", "screw",    "crown"});
+  const auto is_soft = [](const std::string& text) {
+    return any_of(text,
+                  {"canal",   "nerve", "vein",     "artery",  "arteries",  "vessel", "carotid",
+                   "jugular", "sinus", "dura",     "chorda",  "skin",      "muscle", "fat",
+                   "brain",   "pulp",  "ligament", "tendon",  "cartilage", "disc",   "membrane",
+                   "mucosa",  "gum",   "gingiva",  "soft",    "tissue",    "joint",  "bulb",
+                   "cord",    "eye",   "tongue",   "aqueduct"}) ||
+           word_of(text, "iac") || word_of(text, "tmj") || word_of(text, "ica");
+  };
+  // "vertebral artery": the last word is the thing
+  const std::vector<std::string> parts = words(name);
+  const bool soft = is_soft(name) && (!hard || (!parts.empty() && is_soft(parts.back())));
+  tissue.spare = any_of(name, {"nerve", "artery", "vein", "carotid", "jugular", "sinus", "dura",
+                               "chorda", "labyrinth", "cochlea", "vestib", "ossicle", "malleus",
+                               "incus", "stapes", "cord", "brain", "aqueduct"}) ||
+                 word_of(name, "iac") || word_of(name, "ica");
+  if (soft) tissue.kind = TissueKind::soft;
+  if (name.find("enamel") != std::string::npos) tissue.cutting_energy = kEnamel;
+  if (name.find("dentin") != std::string::npos) tissue.cutting_energy = kDentine;
+  if (any_of(name, {"trabecular", "spongiosa", "cancellous"})) tissue.cutting_energy = kTrabecular;
+  return tissue;
+}
+
+Result<LabelTissues> label_tissues(const Scan& scan, const std::array<bool, 256>& present,
+                                   const std::string& table_path) {
+  std::vector<Tissue> of_value(256);
+  std::array<bool, 256> known{};
+  int different = 0, unnamed = 0;
+  for (std::size_t v = 1; v < 256; ++v) different += present[v] ? 1 : 0;
+  for (std::size_t v = 1; v < 256; ++v) {
+    if (!present[v]) continue;
+    known[v] = true;
+    Label label;
+    label.value = static_cast<int>(v);
+    label.colour = Tissue{}.colour;
+    bool named = false;
+    for (const Label& have : scan.label_names)
+      if (have.value == label.value) {
+        label = have;
+        named = !have.name.empty();
+      }
+    std::int64_t number = 0;
+    named = named && !to_number(label.name, number);  // "1" is no name
+    if (!named) ++unnamed;
+    of_value[v] = tissue_by_name(label, named);
+    if (!named && different == 1) of_value[v].name = "bone";
+  }
+  LabelTissues out;
+  out.table.tissues.resize(1);
+  if (!table_path.empty()) {
+    if (Status status = read_table(table_path, of_value, known); !status) return status.error();
+  } else if (unnamed > 0 && different > 1) {
+    out.notices.push_back(fmt::format(
+        "{} of {} labels have no name: they are taken for solid; say which are not with --tissues.",
+        unnamed, different));
+  }
+  for (std::size_t v = 1; v < 256; ++v) {
+    if (!present[v] || of_value[v].kind == TissueKind::air) continue;
+    of_value[v].label = static_cast<int>(v);
+    if (out.table.tissues.size() > 255) return error("more than 255 labels; burr keeps 255");
+    out.of_label[v] = static_cast<volume::TissueId>(out.table.tissues.size());
+    out.table.tissues.push_back(of_value[v]);
+  }
+  for (std::size_t v = 1; v < 256; ++v)
+    if (present[v] && of_value[v].kind == TissueKind::air)
+      out.notices.push_back(fmt::format("Label {} ({}) is air.", v, of_value[v].name));
+  return out;
+}
+
+volume::TissueTable hu_tissues() {
+  volume::TissueTable table;
+  table.tissues.resize(1);
+  table.tissues.push_back({.name = "trabecular bone",
+                           .colour = {0.86F, 0.76F, 0.62F},
+                           .cutting_energy = kTrabecular,
+                           .label = 1});
+  table.tissues.push_back(
+      {.name = "cortical bone or dentine", .cutting_energy = kCortical, .label = 2});
+  table.tissues.push_back({.name = "enamel or metal",
+                           .colour = {0.96F, 0.96F, 0.93F},
+                           .cutting_energy = kEnamel,
+                           .label = 3});
+  return table;
+}
+
+volume::TissueId hu_tissue(float hu) { return hu < 700 ? 1 : hu < 2000 ? 2 : 3; }
+
+}  // namespace burr::io
