@@ -244,7 +244,7 @@ TEST(Mesher, TissueIsThatOfTheSolidSide) {
       for (int i = 0; i < 24; ++i) {
         field.push_back(
             volume::field_from_depth(ball({double(i), double(j), double(k)}, {12, 12, 12}, 8.4)));
-        tissue.push_back(field.back() == 0 ? 0 : i < 12 ? 1 : 2);
+        tissue.push_back(field.back() < volume::kIso ? 0 : i < 12 ? 1 : 2);
       }
   volume::TissueTable table;
   table.tissues.resize(3);

@@ -98,6 +98,19 @@ TEST(Worker, AfterRandomEditsIncrementalEqualsFull) {
   }
 }
 
+TEST(Worker, WhatIsCutAwayWholeDisappears) {
+  const auto bone = lumps();
+  Worker worker(*bone, 2);
+  Screen screen;
+  const auto show = [&](const Skin& skin) { screen.show(skin); };
+  worker.settle(show);
+  EXPECT_FALSE(screen.patches.empty());
+  for (volume::BrickIndex brick = 0; brick < bone->brick_count(); ++brick)
+    if (bone->brick_field(brick) != nullptr) bone->write_brick(brick, {});
+  worker.settle(show);
+  EXPECT_TRUE(screen.patches.empty());
+}
+
 TEST(Worker, KeepsUpWithAServoThatCutsAllTheTime) {
   const auto bone = lumps();
   Worker worker(*bone, 2);
@@ -130,7 +143,7 @@ TEST(Worker, WaitsForALazyMainAndLosesNothing) {
   });
   Worker worker(*bone, 1);
   std::vector<Skin> kept;
-  for (int i = 0; i < 1000 && kept.size() < kLent; ++i) {
+  for (int i = 0; i < 60000 && kept.size() < kLent; ++i) {  // a minute at most
     for (Skin skin; worker.take(skin);) kept.push_back(skin);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }

@@ -185,9 +185,9 @@ Status write_mesh(const surface::Mesh& mesh, const volume::TissueTable& tissues,
   auto file = base::NewFile::beside(path);
   if (!file) return file.error();
   const MeshOut out = placed(mesh, tissues, writer == write_glb ? Frame::lps : frame);
-  const Status written = writer(out, *file, path, progress);
+  Status written = writer(out, *file, path, progress);
   if (!written) return written;
-  const Status in_place = file->put_in_place();
+  Status in_place = file->put_in_place();
   if (in_place.ok()) progress.report(1, "writing the mesh");
   return in_place;
 }

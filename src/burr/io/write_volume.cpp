@@ -75,7 +75,7 @@ Status write_nrrd(const Bone& bone, const std::string& path, const std::string& 
     if (!file->ok()) break;  // the reason comes from put_in_place()
   }
   deflate.finish();
-  const Status in_place = file->put_in_place();
+  Status in_place = file->put_in_place();
   if (in_place.ok()) progress.report(1, "writing the volume");
   return in_place;
 }
