@@ -1,6 +1,7 @@
 // `burr export`: the bone or what was removed, as a mesh or a volume other programs open.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,13 +9,16 @@
 #include "burr/io/export_part.h"
 #include "burr/record/player.h"
 #include "command.h"
+#include "recorded_volume.h"
+#include "volume_options.h"
 
 namespace burr::app {
 namespace {
 
 struct Options {
   std::string source, out;
-  double at_s = -1;  // moment of a recording; below 0: its end
+  VolumeOptions volume;  // path: --volume, of a recording
+  double at_s = -1;      // moment of a recording; below 0: its end
   std::string part = "bone", frame = "lps";
   bool scan = false;
   bool json = false;
@@ -32,18 +36,48 @@ struct Bones {
   std::unique_ptr<volume::Bone> before, now;  // now empty: the same
 };
 
+// With room for deposits.
+std::unique_ptr<volume::Bone> copy_of(const volume::Bone& from, std::size_t reserve_bricks) {
+  auto copy = std::make_unique<volume::Bone>(from.grid(), from.tissues(), from.used_slots(),
+                                             reserve_bricks, from.has_intensity());
+  for (volume::BrickIndex brick = 0; brick < from.brick_count(); ++brick) {
+    if (from.brick_field(brick) == nullptr) continue;
+    std::copy_n(from.brick_field(brick), volume::kBrickVoxels, copy->build_field(brick));
+    std::copy_n(from.brick_tissue(brick), volume::kBrickVoxels, copy->build_tissue(brick));
+    if (from.has_intensity())
+      std::copy_n(from.brick_intensity(brick), volume::kBrickVoxels, copy->build_intensity(brick));
+  }
+  return copy;
+}
+
+bool is_recording(const std::string& path) {
+  return path.size() > 5 && path.compare(path.size() - 5, 5, ".mcap") == 0;
+}
+
+// A volume as it is opened: nothing is removed from it.
+Result<Bones> open_plain(const Options& options) {
+  if (options.part == "removed")
+    return error(Trouble::usage, "nothing is removed from a volume yet; give a recording (.mcap)");
+  VolumeOptions volume = options.volume;
+  volume.path = options.source;
+  volume.reserve_bricks = 0;
+  auto opened = open_volume(volume, progress());
+  if (!opened) return opened.error();
+  for (const std::string& notice : opened->summary.notices) fmt::print(stderr, "{}\n", notice);
+  Bones bones;
+  bones.before = std::move(opened->bone);
+  return bones;
+}
+
 // The bone a recording began with, and as it was at the wanted moment.
 Result<Bones> open_recording(const Options& options) {
   auto player = record::Player::open(options.source);
   if (!player) return player.error();
-  const record::SessionInfo& info = (*player)->info();
-  if (!info.embedded) return error(options.source + ": holds no bone; record with --embed");
   Bones bones;
-  for (auto* bone : {&bones.before, &bones.now}) {
-    auto opened = (*player)->embedded_bone(info.volume.reserve_bricks);
-    if (!opened) return opened.error();
-    *bone = std::move(*opened);
-  }
+  auto before = recorded_bone(**player, options.volume, progress());
+  if (!before) return before.error();
+  bones.before = std::move(*before);
+  bones.now = copy_of(*bones.before, (*player)->info().volume.reserve_bricks);
   const double at_s = options.at_s < 0 ? (*player)->seconds() : options.at_s;
   const Status there = (*player)->bone_at(at_s, *bones.now);
   if (!there) return there.error();
@@ -54,7 +88,7 @@ Result<Bones> open_recording(const Options& options) {
 Status run(const Options& options) {
   const Status possible = io::check_export(options.out, options.what());
   if (!possible) return possible;
-  auto bones = open_recording(options);
+  auto bones = is_recording(options.source) ? open_recording(options) : open_plain(options);
   if (!bones) return bones.error();
   const volume::Bone& before = *bones->before;
   const volume::Bone& now = bones->now ? *bones->now : before;
@@ -80,7 +114,10 @@ Status run(const Options& options) {
 void add(CLI::App& app, Todo& todo) {
   auto* command = app.add_subcommand("export", "write the bone, or what was removed, to a file");
   auto options = std::make_shared<Options>();
-  command->add_option("source", options->source, "a recording (.mcap)")->required();
+  command
+      ->add_option("source", options->source,
+                   "a recording (.mcap), or a volume as burr info takes it")
+      ->required();
   command
       ->add_option("--out", options->out,
                    "file to write; its ending says how: .stl .ply .obj .3mf .glb .seg.nrrd .nrrd")
@@ -97,6 +134,9 @@ void add(CLI::App& app, Todo& todo) {
                     "into .nrrd: the scan's grey values with the cut in them, not the field");
   command->add_option("--at", options->at_s, "moment of the recording [s]; default: its end")
       ->check(CLI::NonNegativeNumber);
+  command->add_option("--volume", options->volume.path,
+                      "of a recording: the volume it was cut from (default: search for it)");
+  add_volume_options(*command, options->volume);
   command->add_flag("--json", options->json, "one JSON object as the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

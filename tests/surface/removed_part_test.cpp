@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "burr/surface/mesher.h"
+#include "burr/volume/volume_of.h"
 #include "surface/bones.h"
 
 namespace burr::surface {
@@ -55,6 +56,9 @@ TEST(RemovedPart, OfABallMilledIntoASlabIsTheCap) {
   // what is left and what was taken make the whole
   const double sum = shape_of(whole(**removed)).volume + shape_of(whole(*after)).volume;
   EXPECT_NEAR(sum / shape_of(whole(*before)).volume, 1, 0.001);
+  EXPECT_NEAR(
+      (volume::volume_of(**removed) + volume::volume_of(*after)) / volume::volume_of(*before), 1,
+      0.001);
 }
 
 TEST(RemovedPart, IsAnErrorWhenThereIsNone) {
