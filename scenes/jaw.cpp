@@ -127,11 +127,11 @@ Phantom jaw(double voxel) {
        .kind = TissueKind::soft,
        .colour = {0.98F, 0.85F, 0.25F},
        .spare = true},
-      {.name = "nerve canal wall",
+      {.name = "nerve canal bone",
        .colour = {0.94F, 0.84F, 0.60F},
        .cutting_energy = 1.2e9,
        .spare = true},
-      {.name = "marrow", .kind = TissueKind::soft, .colour = {0.76F, 0.46F, 0.38F}},
+      {.name = "marrow (soft tissue)", .kind = TissueKind::soft, .colour = {0.76F, 0.46F, 0.38F}},
   };
   for (std::size_t id = 0; id < phantom.tissues.tissues.size(); ++id)
     phantom.tissues.tissues[id].label = static_cast<int>(id);

@@ -102,7 +102,7 @@ Phantom spine(double voxel) {
        .kind = TissueKind::soft,
        .colour = {0.98F, 0.85F, 0.25F},
        .spare = true},
-      {.name = "marrow", .kind = TissueKind::soft, .colour = {0.76F, 0.46F, 0.38F}},
+      {.name = "marrow (soft tissue)", .kind = TissueKind::soft, .colour = {0.76F, 0.46F, 0.38F}},
   };
   for (std::size_t id = 0; id < phantom.tissues.tissues.size(); ++id)
     phantom.tissues.tissues[id].label = static_cast<int>(id);

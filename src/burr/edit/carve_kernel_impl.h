@@ -15,12 +15,14 @@ constexpr int kEdge = 8, kRow = 16;  // two rows of voxels at a time
 
 // volume_of.h, on an int lane
 inline std::int32_t volume_units(std::int32_t field) noexcept {
-  std::int32_t steep = 4 * field - 98304, wide = 2 * field - 32768;
-  steep = steep < 0 ? 0 : steep;
-  steep = steep > 65536 ? 65536 : steep;
-  wide = wide < 0 ? 0 : wide;
-  wide = wide > 65536 ? 65536 : wide;
-  return 4 * steep - wide;
+  std::int32_t d = field - 32768;
+  d = d < -16384 ? -16384 : d;
+  d = d > 16384 ? 16384 : d;
+  const std::int32_t y = (d * d) >> 14;
+  std::int32_t slope = 11141 + ((-1638 * y) >> 14);
+  slope = -23425 + ((slope * y) >> 14);
+  slope = 22114 + ((slope * y) >> 14);
+  return 98304 + ((3 * d * slope) >> 12);
 }
 
 // field value a ball's own material would have at distance d from its centre

@@ -1,0 +1,44 @@
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+
+#include "burr/edit/carve_kernel.h"
+#include "burr/volume/volume_of.h"
+
+namespace burr::edit {
+namespace {
+
+// The kernels hold a copy of volume_units() of their own, for each instruction set; the ledger is
+// only exact while it is the same.
+TEST(CarveUnits, AreThoseOfVolumeOf) {
+  const std::uint64_t seed = 77;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  const CarveKernel kernel = carve_kernel();
+  const float nowhere[4] = {0, 0, 0, -1};
+  for (int round = 0; round < 200; ++round) {
+    alignas(64) volume::Field field[volume::kBrickVoxels], excess[volume::kBrickVoxels],
+        after[volume::kBrickVoxels];
+    for (volume::Field& voxel : field) voxel = static_cast<volume::Field>(random());
+    std::uniform_real_distribution<float> where(-12, 4), radius(1, 12);
+    const float ball[4] = {where(random), where(random), where(random), radius(random)};
+    const int deposit = round % 2;
+
+    const Excess found = kernel.find(field, ball, nowhere, deposit, excess);
+    std::int64_t units = 0;
+    for (int v = 0; v < volume::kBrickVoxels; ++v) {
+      const int all = deposit == 0 ? field[v] - excess[v] : field[v] + excess[v];
+      units += volume::volume_units(all) - volume::volume_units(std::int32_t{field[v]});
+    }
+    ASSERT_EQ(deposit == 0 ? -units : units, found.units);
+
+    const auto share = static_cast<std::int32_t>(random() % 65537);
+    const Applied applied = kernel.apply(field, excess, share, deposit, after);
+    const std::int64_t change = volume::volume_units(after) - volume::volume_units(field);
+    ASSERT_EQ(deposit == 0 ? -change : change, applied.units);
+  }
+}
+
+}  // namespace
+}  // namespace burr::edit
