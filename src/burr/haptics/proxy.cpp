@@ -213,6 +213,7 @@ LeastMove Proxy::settle(const Vec3& target, double guess, int moves, Touch& touc
   LeastMove last;
   double stride = std::max(radius_ / 2, 2.0);  // bounded work; doubled while nothing is met
   touch.lagging = true;
+  double left = 1.0;
   for (int move = 0; move < moves && touch.lagging; ++move) {
     bool cut_short = false;
     last = move_toward(c_, target - c_, stride, guess, cut_short);
@@ -224,8 +225,10 @@ LeastMove Proxy::settle(const Vec3& target, double guess, int moves, Touch& touc
     touch.candidates = std::max(touch.candidates, candidates_->count);
     touch.overflow |= candidates_->full;
     touch.lagging = cut_short || (length >= settings_.close && last.active > 0);
+    left = cut_short ? 1.0 : length;
     if (last.active == 0) stride *= 2;
   }
+  touch.lagging &= left > 0.1;  // creeping by less than a tenth of a voxel is rest
   return last;
 }
 

@@ -149,6 +149,11 @@ class Servo {
   FaultReport report_;
 };
 
+// Without what every good session raises: the start ramp, and waiting for it.
+[[nodiscard]] constexpr std::uint32_t worth_telling(std::uint32_t flags) {
+  return flags & ~(haptics::kFlagRamp | haptics::kFlagWaiting | haptics::kFlagSlewLimited);
+}
+
 // In words, one sentence a flag, with the cure where there is one.
 [[nodiscard]] std::vector<std::string> words(std::uint32_t flags);
 

@@ -1,0 +1,212 @@
+// burr mill - a simulated hand mills a bone from a file or a formula, and what happened is
+// measured, recorded and drawn.
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "burr/device/simulated_hand.h"
+#include "burr/render/bone_scene.h"
+#include "burr/render/pick.h"
+#include "burr/render/picture.h"
+#include "burr/sim/motion.h"
+#include "burr/sim/session.h"
+#include "command.h"
+#include "recording.h"
+#include "volume_options.h"
+
+namespace burr::app {
+namespace {
+
+using math::Vec3;
+
+struct Options {
+  VolumeOptions volume;
+  std::string path_csv, motion_name, record, picture, arm = "firm";
+  std::vector<double> at_mm, into;
+  double burr_mm = 5, rpm = 40000, rate_hz = 1000, seconds = 5, stiffness = 1000;
+  std::size_t undo_bricks = sim::ServoSettings{}.undo_bricks;
+  bool realtime = false, embed = false, json = false, diamond = false;
+};
+
+Result<device::HandPath> hand_path(const Options& options, const volume::Bone& bone,
+                                   sim::WorkPlace& place) {
+  std::optional<Vec3> at, into;
+  if (!options.at_mm.empty())
+    at = Vec3(options.at_mm[0], options.at_mm[1], options.at_mm[2]) * 1e-3;
+  if (!options.into.empty()) into = Vec3(options.into[0], options.into[1], options.into[2]);
+  auto found = sim::find_work_place(bone, 0.5e-3 * options.burr_mm, at, into);
+  if (!options.path_csv.empty()) {
+    auto path = sim::read_path(options.path_csv);
+    if (path && found) place = *found;
+    if (path && !found) place.at = path->points.front().world_from_tool.p;
+    return path;
+  }
+  if (!found) return found.error();
+  place = *found;
+  return sim::motion(options.motion_name, place, 0.5e-3 * options.burr_mm, options.seconds);
+}
+
+Status draw(const Options& options, const sim::WorkPlace& place, sim::Session& session) {
+  render::Scene scene;
+  scene.look = render::still_look();
+  scene.scale_bar = true;
+  const double height = std::clamp(20 * 0.5e-3 * options.burr_mm, 20e-3, 70e-3);
+  scene.camera = render::view_of_work(place.at, -place.into, height);
+  const Status skinned = render::skin_bone(scene, session.bone(), 2, progress());
+  if (!skinned) return skinned;
+  return render::render_png(scene, 1280, 720, options.picture);
+}
+
+void print(const Options& options, sim::Session& session) {
+  const sim::Outcome outcome = session.outcome();
+  const rt::TickSummary& t = outcome.timing;
+  if (!options.json) {
+    fmt::print(
+        "{:.2f} s, {} ticks: removed {:.3f} mm3 of {:.3f} mm3 asked; force {:.2f} N mean in "
+        "contact, {:.2f} N peak\n",
+        outcome.seconds, outcome.ticks, 1e9 * outcome.ledger.removed, 1e9 * outcome.ledger.asked,
+        outcome.mean_force, outcome.peak_force);
+    fmt::print("tick {:.1f} us median, {:.1f} p99, {:.1f} p99.9, {:.1f} worst (thread CPU){}\n",
+               t.p50_us, t.p99_us, t.p999_us, t.max_us,
+               options.realtime
+                   ? fmt::format("; {} late, {} missed; {}", t.late, t.missed, outcome.scheduling)
+                   : "");
+    for (const std::string& sentence : sim::words(sim::worth_telling(outcome.flags)))
+      fmt::print("noted: {}\n", sentence);
+    return;
+  }
+  nlohmann::json out;
+  out["ticks"] = outcome.ticks;
+  out["seconds"] = outcome.seconds;
+  out["removed_mm3"] = 1e9 * outcome.ledger.removed;
+  out["asked_mm3"] = 1e9 * outcome.ledger.asked;
+  out["not_cut_mm3"] = 1e9 * outcome.ledger.not_cut;
+  out["owed_mm3"] = 1e9 * outcome.ledger.debt;
+  out["peak_force_N"] = outcome.peak_force;
+  out["mean_force_N"] = outcome.mean_force;
+  out["tick_us"] = {{"p50", t.p50_us}, {"p99", t.p99_us}, {"p999", t.p999_us}, {"max", t.max_us}};
+  out["late"] = t.late;
+  out["missed"] = t.missed;
+  out["worst_lateness_us"] = t.worst_lateness_us;
+  out["bone_hash"] = record::hex(session.bone().content_hash());
+  out["noted"] = sim::words(sim::worth_telling(outcome.flags));
+  if (options.realtime) out["scheduling"] = outcome.scheduling;
+  fmt::print("{}\n", out.dump());
+}
+
+Status run(const Options& options) {
+  if (options.path_csv.empty() == options.motion_name.empty())
+    return error(Trouble::usage,
+                 fmt::format("give either --path FILE.csv or --motion NAME (one of {})",
+                             fmt::join(sim::motion_names(), ", ")));
+  auto opened = open_volume(options.volume, progress());
+  if (!opened) return opened.error();
+  for (const std::string& notice : opened->summary.notices) fmt::print(stderr, "{}\n", notice);
+
+  sim::WorkPlace place;
+  auto path = hand_path(options, *opened->bone, place);
+  if (!path) return path.error();
+  const double seconds = options.path_csv.empty() ? options.seconds : path->duration();
+
+  sim::SessionSettings settings;
+  settings.realtime = options.realtime;
+  settings.servo.rate_hz = options.rate_hz;
+  settings.servo.burr.radius = 0.5e-3 * options.burr_mm;
+  settings.servo.burr.kind = options.diamond ? tool::BurrKind::diamond : tool::BurrKind::cutting;
+  settings.servo.spindle_rad_s = options.rpm * 2 * std::numbers::pi / 60;
+  settings.servo.force.stiffness = options.stiffness;
+  settings.servo.undo_bricks = options.undo_bricks;
+  device::ArmSettings arm;
+  if (options.arm == "rigid") arm.stiffness = INFINITY;
+  if (options.arm == "light") arm = {.mass = 0.06, .damping = 5, .stiffness = 200};
+  auto hand = std::make_unique<device::SimulatedHand>(std::move(*path), arm);
+  auto made = sim::Session::make(std::move(opened->bone), std::move(hand), settings, progress());
+  if (!made) return made.error();
+  sim::Session& session = **made;
+
+  Recording recording;
+  if (!options.record.empty()) {
+    Status started = recording.start(session, options.record, options.volume, opened->summary,
+                                     options.path_csv.empty() ? options.motion_name : "hand path",
+                                     options.embed);
+    if (!started) return started;
+  }
+  session.run(seconds, progress());
+  if (!options.record.empty()) {
+    auto account = recording.finish(session);
+    if (!account) return account.error();
+    if (!account->whole())
+      fmt::print(
+          stderr,
+          "{}: {} ticks, {} wishes and {} bricks could not be written in time and are missing\n",
+          options.record, account->dropped_ticks, account->dropped_wishes, account->dropped_bricks);
+  }
+  if (!options.picture.empty()) {
+    Status drawn = draw(options, place, session);
+    if (!drawn) return drawn;
+  }
+  print(options, session);
+  if (interrupted())
+    return error(Trouble::interrupted, "stopped; what was done until then is kept");
+  return fine();
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("mill", "a simulated hand mills a bone");
+  command->add_option("volume", options->volume.path, "file, DICOM folder, or phantom:NAME")
+      ->required();
+  command->add_option("--path", options->path_csv,
+                      "CSV file t,x,y,z[,qw,qx,qy,qz][,spindle] of the hand (s, m; or x_mm ...)");
+  command->add_option("--motion", options->motion_name,
+                      fmt::format("built-in: {}", fmt::join(sim::motion_names(), ", ")));
+  command
+      ->add_option("--at", options->at_mm,
+                   "X,Y,Z [mm, LPS]: where to begin (default: topmost bone)")
+      ->delimiter(',')
+      ->expected(3);
+  command
+      ->add_option("--into", options->into,
+                   "DX,DY,DZ: the way into the bone (default: against the surface normal)")
+      ->delimiter(',')
+      ->expected(3);
+  command->add_option("--burr-mm", options->burr_mm, "diameter of the burr, 0.6 to 7")
+      ->capture_default_str();
+  command->add_flag("--diamond", options->diamond, "a diamond burr: cuts a quarter as fast");
+  command->add_option("--rpm", options->rpm, "of the spindle")->capture_default_str();
+  command->add_option("--rate", options->rate_hz, "ticks a second, 500 to 10000")
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds, "of a built-in motion")->capture_default_str();
+  command
+      ->add_option("--stiffness", options->stiffness,
+                   "of the spring to the hand [N/m]; capped by the device")
+      ->capture_default_str();
+  command
+      ->add_option("--arm", options->arm, "how the simulated hand holds on: firm, light or rigid")
+      ->check(CLI::IsMember({"firm", "light", "rigid"}))
+      ->capture_default_str();
+  command->add_flag("--realtime", options->realtime,
+                    "paced by the clock (default: as fast as possible)");
+  command->add_option("--record", options->record, "F.mcap: write the session down");
+  command->add_flag("--embed", options->embed, "with --record: the bone goes into the file");
+  command->add_option("--picture", options->picture, "F.png: the bone afterwards");
+  command
+      ->add_option("--undo-bricks", options->undo_bricks,
+                   "bricks of 8^3 voxels that all strokes kept for undo may touch")
+      ->capture_default_str();
+  command
+      ->add_option("--reserve-bricks", options->volume.reserve_bricks,
+                   "bricks of room for added material")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "one JSON object on the last line");
+  add_volume_options(*command, options->volume);
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{30, add};
+
+}  // namespace
+}  // namespace burr::app

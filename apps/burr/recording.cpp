@@ -1,0 +1,116 @@
+#include "recording.h"
+
+#include <fmt/format.h>
+
+#include "burr/record/find_volume.h"
+#include "burr/sim/session_words.h"
+
+namespace burr::app {
+namespace {
+
+constexpr const char* kPhantom = "phantom:";
+
+// How the bone was made, without any path or identifier.
+void describe_volume(const VolumeOptions& options, const io::ImportSummary& import,
+                     record::VolumeInfo& info) {
+  info.words["format"] = import.format;
+  if (is_phantom(options.path))
+    info.words["phantom"] = options.path.substr(std::string(kPhantom).size());
+  info.numbers["voxel_mm"] = options.voxel_mm;
+  info.numbers["smooth"] = options.smooth;
+  info.numbers["memory_mb"] = options.memory_mb;
+  if (!options.iso.empty()) info.words["iso"] = options.iso;
+  if (!options.roi.empty()) info.words["roi"] = options.roi;
+  if (!options.spacing_mm.empty()) info.words["spacing_mm"] = options.spacing_mm;
+  if (!options.series.empty())
+    info.words["series"] = options.series.front() == '#' ? options.series : "given by name";
+  if (!options.tissues.empty()) info.words["tissue_table"] = "own";
+}
+
+Result<VolumeOptions> options_of(const record::SessionInfo& session, const VolumeOptions& given,
+                                 const std::string& where) {
+  const record::VolumeInfo& info = session.volume;
+  VolumeOptions options = given;
+  const auto number = [&info](const char* name, double otherwise) {
+    const auto found = info.numbers.find(name);
+    return found == info.numbers.end() ? otherwise : found->second;
+  };
+  const auto word = [&info](const char* name) {
+    const auto found = info.words.find(name);
+    return found == info.words.end() ? std::string() : found->second;
+  };
+  options.voxel_mm = number("voxel_mm", 0);
+  options.smooth = number("smooth", -1);
+  options.memory_mb = number("memory_mb", 0);
+  options.reserve_bricks = info.reserve_bricks;
+  options.iso = word("iso");
+  options.roi = word("roi");
+  options.spacing_mm = word("spacing_mm");
+  const std::string series = word("series");
+  if (!series.empty() && series.front() == '#') options.series = series;
+  if (!series.empty() && series.front() != '#' && given.series.empty())
+    return error(Trouble::usage, fmt::format("{}: was made from a series chosen by its UID, which "
+                                             "is not kept; give it again with --series",
+                                             where));
+  if (!word("tissue_table").empty() && given.tissues.empty())
+    return error(
+        Trouble::usage,
+        fmt::format("{}: was made with an own table of tissues; give it again with --tissues",
+                    where));
+  return options;
+}
+
+}  // namespace
+
+Status Recording::start(sim::Session& session, const std::string& file, const VolumeOptions& volume,
+                        const io::ImportSummary& import, const std::string& motion, bool embed) {
+  record::SessionInfo info;
+  sim::describe(session.settings(), session.hand().spec(), info);
+  info.words["motion"] = motion;
+  const volume::Bone& bone = session.bone();
+  info.volume.content_hash = bone.content_hash();
+  if (!is_phantom(volume.path)) {
+    auto print = record::fingerprint(volume.path);
+    if (print) info.volume.source_fingerprint = *print;
+  }
+  info.volume.grid = bone.grid();
+  info.volume.tissues = bone.tissues();
+  info.volume.has_intensity = bone.has_intensity();
+  info.volume.reserve_bricks = volume.reserve_bricks;
+  describe_volume(volume, import, info.volume);
+  recorder_ = std::make_unique<record::Recorder>(info.rate_hz);
+  Status started = recorder_->start(file, info, embed ? &bone : nullptr);
+  if (started) session.set_recorder(recorder_.get());
+  return started;
+}
+
+Result<record::RecordingAccount> Recording::finish(sim::Session& session) {
+  session.set_recorder(nullptr);
+  return recorder_->finish();
+}
+
+Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,
+                                              const VolumeOptions& given, Progress& progress) {
+  const record::SessionInfo& info = player.info();
+  if (info.embedded && given.path.empty())
+    return player.embedded_bone(static_cast<std::size_t>(info.volume.reserve_bricks));
+
+  auto options = options_of(info, given, player.path());
+  if (!options) return options.error();
+  const auto phantom = info.volume.words.find("phantom");
+  if (phantom != info.volume.words.end() && given.path.empty()) {
+    options->path = kPhantom + phantom->second;
+  } else if (!is_phantom(given.path)) {
+    auto found =
+        record::find_volume(info.volume, {given.path, record::volume_search_path(), player.path()});
+    if (!found) return found.error();
+    options->path = *found;
+  }
+  auto made = open_volume(*options, progress);
+  if (!made) return made.error();
+  Status same = record::check_volume(info.volume, *made->bone, options->path);
+  if (!same) return same.error();
+  return std::move(made->bone);
+}
+
+}  // namespace burr::app

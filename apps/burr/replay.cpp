@@ -1,0 +1,125 @@
+// burr replay - a recording opened again: what happened, the bone at any moment, and whether it
+// comes out the same.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "burr/render/bone_scene.h"
+#include "burr/render/pick.h"
+#include "burr/render/picture.h"
+#include "burr/sim/replay.h"
+#include "burr/sim/session_words.h"
+#include "command.h"
+#include "recording.h"
+
+namespace burr::app {
+namespace {
+
+struct Options {
+  std::string file, picture;
+  VolumeOptions volume;
+  double at = -1;
+  bool check = false, json = false;
+};
+
+Status draw(const Options& options, record::Player& player, const sim::Recorded& recorded) {
+  auto bone = bone_of(player, options.volume, progress());
+  if (!bone) return bone.error();
+  const double t = options.at < 0 ? player.seconds() : options.at;
+  Status there = player.bone_at(t, **bone);
+  if (!there) return there;
+  auto tick = player.tick_at(t);
+  if (!tick) return tick.error();
+
+  render::Scene scene;
+  scene.look = render::still_look();
+  scene.scale_bar = true;
+  const double radius = recorded.settings.servo.burr.radius;
+  const math::Vec3 shaft = tick->hand.world_from_tool.q * math::Vec3::UnitZ();
+  scene.camera =
+      render::view_of_work(tick->contact.proxy, shaft, std::clamp(20 * radius, 20e-3, 70e-3));
+  scene.burr.visible = true;
+  scene.burr.radius = radius;
+  scene.burr.world_from_tool = {tick->contact.proxy, tick->hand.world_from_tool.q};
+  const Status skinned = render::skin_bone(scene, **bone, 2, progress());
+  if (!skinned) return skinned;
+  return render::render_png(scene, 1280, 720, options.picture);
+}
+
+Status run(const Options& options) {
+  auto opened = record::Player::open(options.file);
+  if (!opened) return opened.error();
+  record::Player& player = **opened;
+  for (const std::string& notice : player.notices()) fmt::print(stderr, "{}\n", notice);
+  auto recorded = sim::settings_of(player.info(), player.path());
+  if (!recorded) return recorded.error();
+  if (options.at > player.seconds())
+    return error(Trouble::usage, fmt::format("--at {} is after the end; {} lasts {:.3f} s",
+                                             options.at, options.file, player.seconds()));
+
+  nlohmann::json out;
+  out["ticks"] = player.end_tick() - player.first_tick();
+  out["seconds"] = player.seconds();
+  out["finished"] = player.finished();
+  if (player.end_tick() > player.first_tick()) {
+    auto last = player.tick_at(player.seconds());
+    if (!last) return last.error();
+    out["removed_mm3"] = 1e9 * last->ledger.removed;
+    out["asked_mm3"] = 1e9 * last->ledger.asked;
+  }
+  if (!options.json)
+    fmt::print("{:.3f} s, {} ticks at {} Hz, burr {:.2f} mm; removed {:.3f} mm3\n",
+               player.seconds(), player.end_tick(), player.info().rate_hz,
+               2e3 * recorded->settings.servo.burr.radius, out.value("removed_mm3", 0.0));
+
+  if (options.check) {
+    auto bone = bone_of(player, options.volume, progress());
+    if (!bone) return bone.error();
+    auto outcome = sim::replay(player, std::move(*bone), progress());
+    if (!outcome) return outcome.error();
+    out["checked_ticks"] = outcome->ticks;
+    out["checked_bricks"] = outcome->bricks;
+    out["same"] = !outcome->parted_at && outcome->gaps == 0;
+    out["bone_hash"] = record::hex(outcome->bone->content_hash());
+    if (outcome->parted_at) out["parted_at"] = *outcome->parted_at;
+    if (options.json) fmt::print("{}\n", out.dump());
+    if (outcome->parted_at)
+      return error(fmt::format(
+          "{}: comes out differently at tick {} ({:.3f} s): {}; recorded by {}", options.file,
+          *outcome->parted_at, static_cast<double>(*outcome->parted_at) / player.info().rate_hz,
+          outcome->difference, player.info().build));
+    if (outcome->gaps > 0) return error(fmt::format("{}: {}", options.file, outcome->difference));
+    if (!options.json)
+      fmt::print("the same to the bit: {} ticks and {} bricks simulated again and compared\n",
+                 outcome->ticks, outcome->bricks);
+  } else if (options.json) {
+    fmt::print("{}\n", out.dump());
+  }
+  return options.picture.empty() ? fine() : draw(options, player, *recorded);
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* command =
+      app.add_subcommand("replay", "open a recording: what happened, any moment, the same again?");
+  command->add_option("recording", options->file, "F.mcap")->required();
+  command->add_flag("--check", options->check,
+                    "simulate it again and compare every tick and brick");
+  command->add_option("--picture", options->picture, "F.png: the bone and the burr at a moment");
+  command->add_option("--at", options->at, "seconds from the start (default: the end)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--volume", options->volume.path,
+                      "the scan it was made from, if it cannot be found");
+  command->add_option("--series", options->volume.series,
+                      "of a DICOM folder, if the recording was made with one");
+  command->add_option("--tissues", options->volume.tissues,
+                      "TOML table, if the recording was made with one");
+  command->add_flag("--json", options->json, "one JSON object on the last line");
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{40, add};
+
+}  // namespace
+}  // namespace burr::app

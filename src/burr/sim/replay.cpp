@@ -1,0 +1,84 @@
+#include "burr/sim/replay.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "burr/device/replayed_hand.h"
+#include "burr/sim/session_words.h"
+
+namespace burr::sim {
+namespace {
+
+// What first differs between two rows of the same tick.
+std::string difference(const record::TickRow& was, const record::TickRow& is) {
+  if (was.contact.force != is.contact.force)
+    return fmt::format("force ({:.6g}, {:.6g}, {:.6g}) N instead of ({:.6g}, {:.6g}, {:.6g}) N",
+                       is.contact.force.x(), is.contact.force.y(), is.contact.force.z(),
+                       was.contact.force.x(), was.contact.force.y(), was.contact.force.z());
+  if (was.contact.proxy != is.contact.proxy) return "the burr is elsewhere";
+  if (was.contact.flags != is.contact.flags)
+    return fmt::format("flags {:#x} instead of {:#x}", is.contact.flags, was.contact.flags);
+  if (was.ledger.removed != is.ledger.removed)
+    return fmt::format("removed {:.9g} mm3 instead of {:.9g} mm3", 1e9 * is.ledger.removed,
+                       1e9 * was.ledger.removed);
+  return "the hash alone: an earlier part of the tick or the ledger";
+}
+
+}  // namespace
+
+Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bone> bone,
+                             Progress& progress) {
+  auto recorded = settings_of(player.info(), player.path());
+  if (!recorded) return recorded.error();
+  volume::IsoVertices surface(*bone, recorded->settings.surface, 2, progress);
+  device::ReplayedHand hand(recorded->device);
+  Servo servo(*bone, surface, hand, recorded->settings.servo);
+
+  ReplayOutcome outcome;
+  record::StepCursor steps = player.steps();
+  record::BrickCursor bricks = player.bricks();
+  record::Step step;
+  record::BrickRow brick;
+  bool has_brick = bricks.next(brick);
+  while (!outcome.parted_at && steps.next(step)) {
+    if (step.gap || step.row.tick != outcome.ticks) {
+      ++outcome.gaps;
+      outcome.difference =
+          fmt::format("ticks before {} are missing in the file; what follows cannot be compared",
+                      step.row.tick);
+      break;
+    }
+    for (const record::Wish& wish : step.wishes) servo.wishes().push(wish);
+    hand.set(step.row.hand);
+    const record::TickRow& row = servo.tick((step.row.contact.flags & haptics::kFlagWatchdog) != 0);
+    servo.publish();
+    ++outcome.ticks;
+    if (row.hash != step.row.hash) {
+      outcome.parted_at = row.tick;
+      outcome.difference = difference(step.row, row);
+    }
+    for (; has_brick && !outcome.parted_at && brick.tick <= row.tick;
+         has_brick = bricks.next(brick)) {
+      if (brick.tick != row.tick) continue;
+      const volume::Field* field = bone->brick_field(brick.brick);
+      ++outcome.bricks;
+      if (field == nullptr || std::memcmp(field, &brick.field, sizeof brick.field) != 0) {
+        outcome.parted_at = row.tick;
+        outcome.difference = fmt::format("brick {} holds other values", brick.brick);
+      }
+    }
+    if (outcome.ticks % 1024 == 0) {
+      if (progress.cancelled())
+        return error(Trouble::interrupted, "stopped while simulating again");
+      progress.report(static_cast<double>(outcome.ticks) /
+                          static_cast<double>(std::max<std::uint64_t>(player.end_tick(), 1)),
+                      "simulating again");
+    }
+  }
+  progress.report(1, "simulating again");
+  outcome.bone = std::move(bone);
+  return outcome;
+}
+
+}  // namespace burr::sim
