@@ -11,7 +11,7 @@ target_compile_features(burr PUBLIC cxx_std_20)
 target_link_libraries(burr PUBLIC Eigen3::Eigen Threads::Threads)
 target_link_libraries(burr PRIVATE $<BUILD_INTERFACE:burr_options> fmt::fmt ZLIB::ZLIB BZip2::BZip2 $<BUILD_INTERFACE:burr_gdcm>
   PkgConfig::ZSTD
-  PkgConfig::EPOXY PkgConfig::SDL2 PkgConfig::ASSIMP nlohmann_json::nlohmann_json spdlog::spdlog)
+  PkgConfig::EPOXY PkgConfig::SDL2 nlohmann_json::nlohmann_json spdlog::spdlog)
 target_compile_definitions(burr PRIVATE BURR_VERSION="${PROJECT_VERSION}" TOML_HEADER_ONLY=1)
 
 # Kernels exist once per instruction set, from one source, and are chosen at run time; the bits are the same.
