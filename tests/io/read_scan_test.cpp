@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "io/folder.h"
 #include "support/data.h"
 
 namespace burr::io {
@@ -316,6 +317,33 @@ TEST(ReadScan, ASpacingThatLiesIsOverridden) {
   ASSERT_TRUE(scan.ok());
   EXPECT_EQ(scan->spacing_mm, Vec3(0.1, 0.1, 0.1));
   EXPECT_TRUE(says(*scan, "as asked"));
+}
+
+// dcm2niix decodes and sorts by itself; what it writes must show the same numbers at the same
+// places of the world.
+using ReadScanAgainst = test::FolderTest;
+
+TEST_F(ReadScanAgainst, AnotherReaderOfDicomVoxelByVoxel) {
+  BURR_NEEDS_DATA("skull_phantom/std_5mm_jpegll");
+  if (output_of("dcm2niix -h").find("dcm2niix") == std::string::npos)
+    GTEST_SKIP() << "needs the program dcm2niix";
+  for (const char* series : {"skull_phantom/std_5mm_jpegll", "spine_lumbar/example_ct_dicom"}) {
+    const auto source = test::data_dir() / series;
+    output_of("dcm2niix -z n -b n -f other -w 1 -o '" + folder.string() + "' '" + source.string() +
+              "'");
+    NoProgress progress;
+    const auto other = read_scan(path("other.nii"), {}, progress);
+    ASSERT_TRUE(other.ok()) << series << ": " << other.error().text;
+    const auto own = read(series);
+    ASSERT_TRUE(own.ok());
+    ASSERT_EQ(own->size, other->size) << series;
+    std::size_t different = 0;
+    for (int k = 0; k < own->size.z(); ++k)
+      for (int j = 0; j < own->size.y(); ++j)
+        for (int i = 0; i < own->size.x(); ++i)
+          different += sample(*other, world_mm(*own, Vec3(i, j, k))) != at(*own, i, j, k) ? 1 : 0;
+    EXPECT_EQ(different, 0U) << series;
+  }
 }
 
 TEST(ReadScan, AHeaderNamesNoFileOutsideItsFolder) {

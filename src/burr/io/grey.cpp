@@ -202,7 +202,7 @@ bool smooth_near(Grey& grey, double iso_stored, double noise_stored, const math:
 
   struct Offset {
     std::ptrdiff_t move;
-    float weight;
+    float weight, x, y, z;  // place in finest spacings
   };
   std::vector<Offset> offsets;
   for (int dz = -kReach; dz <= kReach; ++dz)
@@ -210,14 +210,21 @@ bool smooth_near(Grey& grey, double iso_stored, double noise_stored, const math:
       for (int dx = -kReach; dx <= kReach; ++dx) {
         const math::Vec3 d = math::Vec3(dx, dy, dz).cwiseProduct(spacing_mm) / finest;
         const double weight = std::exp(-d.squaredNorm() / (2 * 1.3 * 1.3));
-        if (weight < 0.02) continue;
-        offsets.push_back(
-            {dx + std::ptrdiff_t{nx} * (dy + std::ptrdiff_t{ny} * dz), static_cast<float>(weight)});
+        if (weight < 0.01) continue;
+        offsets.push_back({dx + std::ptrdiff_t{nx} * (dy + std::ptrdiff_t{ny} * dz),
+                           static_cast<float>(weight), static_cast<float>(d.x()),
+                           static_cast<float>(d.y()), static_cast<float>(d.z())});
       }
   const float iso = static_cast<float>(iso_stored);
-  const float range = static_cast<float>(1.0 / (2.5 * 2.5 * noise_stored * noise_stored));
+  const float range = static_cast<float>(1.0 / (3.0 * 3.0 * noise_stored * noise_stored));
   const std::ptrdiff_t sx = 1, sy = nx, sz = std::ptrdiff_t{nx} * ny;
   const std::vector<std::int16_t> source = grey.voxels;
+  float moment_x = 0, moment_y = 0, moment_z = 0;
+  for (const Offset& o : offsets) {
+    moment_x += o.weight * o.x * o.x;
+    moment_y += o.weight * o.y * o.y;
+    moment_z += o.weight * o.z * o.z;
+  }
 
   return in_pieces(nz, progress, "smoothing", [&](int k) {
     if (k < kReach || k >= nz - kReach) return;
@@ -237,18 +244,38 @@ bool smooth_near(Grey& grey, double iso_stored, double noise_stored, const math:
                    (static_cast<float>(at[l - 2 * s]) >= iso) != in;
         }
         if (!near) continue;
-        float sum[8] = {}, weights[8] = {}, own[8] = {};
+        // the slope of the values around, by least squares over all of them
+        float gx[8] = {}, gy[8] = {}, gz[8] = {}, own[8] = {};
         for (int l = 0; l < lanes; ++l) own[l] = static_cast<float>(at[l]);
-        for (const Offset& offset : offsets) {
-          const std::int16_t* from = at + offset.move;
+        for (const Offset& o : offsets)
           for (int l = 0; l < lanes; ++l) {
-            const float value = static_cast<float>(from[l]), d = value - own[l];
-            const float falls = 1.0F + d * d * range;
-            const float w = offset.weight / (falls * falls);
+            const float value = o.weight * static_cast<float>(at[l + o.move]);
+            gx[l] += o.x * value;
+            gy[l] += o.y * value;
+            gz[l] += o.z * value;
+          }
+        float slope[8] = {};
+        for (int l = 0; l < lanes; ++l) {
+          gx[l] /= moment_x;
+          gy[l] /= moment_y;
+          gz[l] /= moment_z;
+          slope[l] = std::sqrt(gx[l] * gx[l] + gy[l] * gy[l] + gz[l] * gz[l]) + 1e-12F;
+          gx[l] /= slope[l];
+          gy[l] /= slope[l];
+          gz[l] /= slope[l];
+        }
+        // the mean along the surface, each value brought to this depth by the slope
+        float sum[8] = {}, weights[8] = {};
+        for (const Offset& o : offsets)
+          for (int l = 0; l < lanes; ++l) {
+            const float across = gx[l] * o.x + gy[l] * o.y + gz[l] * o.z;
+            const float value = static_cast<float>(at[l + o.move]) - slope[l] * across;
+            const float d = value - own[l];
+            const float falls = (1.0F + d * d * range) * (1.0F + 3.0F * across * across);
+            const float w = o.weight / (falls * falls);
             sum[l] += w * value;
             weights[l] += w;
           }
-        }
         for (int l = 0; l < lanes; ++l)
           grey.voxels[static_cast<std::size_t>(row + i0 + l)] = rounded(sum[l] / weights[l]);
       }

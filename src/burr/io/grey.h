@@ -32,9 +32,11 @@ struct Grey {
 // Threshold between the two classes of values, Otsu 1979.
 [[nodiscard]] double otsu(const Scan& scan, const math::Ijk& from, const math::Ijk& size);
 
-// Bilateral filter (Tomasi & Manduchi 1998) over 5^3 voxels, only within two voxels of the
-// iso-level: averages along the surface, where values are alike, and not across it. noise in stored
-// units.
+// Averages along the surface, not across it, and only within two voxels of the iso-level: over 5^3
+// voxels, each value brought to the voxel's own depth by the local slope (least squares), weighted
+// by nearness along the surface and by likeness (the range weight of Tomasi & Manduchi 1998). A
+// plain bilateral filter leaves the noise on a ramp, because every noisy value finds its like
+// across it. noise in stored units.
 [[nodiscard]] bool smooth_near(Grey& grey, double iso_stored, double noise_stored,
                                const math::Vec3& spacing_mm, Progress& progress);
 

@@ -192,12 +192,24 @@ Result<Plan> make_plan(const Scan& scan, const ImportOptions& options) {
   if (!options.tissue_table.empty())
     out.notices.emplace_back(
         "--tissues speaks of labels; this scan has grey values, the table was left out.");
-  const auto [low, high] = std::minmax_element(scan.values.begin(), scan.values.end());
-  out.low = *low;
-  out.high = *high;
+  out.low = std::numeric_limits<float>::infinity();
+  out.high = -out.low;
+  for (int k = 0; k < out.roi_size.z(); ++k)
+    for (int j = 0; j < out.roi_size.y(); ++j) {
+      const auto row =
+          scan.values.begin() +
+          static_cast<std::ptrdiff_t>(static_cast<std::size_t>(out.roi_from.x()) +
+                                      static_cast<std::size_t>(scan.size.x()) *
+                                          (static_cast<std::size_t>(out.roi_from.y() + j) +
+                                           static_cast<std::size_t>(scan.size.y()) *
+                                               static_cast<std::size_t>(out.roi_from.z() + k)));
+      const auto [low, high] = std::minmax_element(row, row + out.roi_size.x());
+      out.low = std::min(out.low, *low);
+      out.high = std::max(out.high, *high);
+    }
   if (options.iso) {
     out.iso = *options.iso;
-  } else if (scan.hounsfield && kBoneHu < double{*high}) {
+  } else if (scan.hounsfield && kBoneHu < double{out.high}) {
     out.iso = kBoneHu;
   } else {
     out.iso = otsu(scan, out.roi_from, out.roi_size);
@@ -378,6 +390,8 @@ Result<Imported> import_grey(const Scan& scan, const ImportOptions& options, Pla
   inside.size = out.size;
   inside.grey = grey.voxels.data();
   inside.iso = static_cast<float>(iso);
+  // what noise the filter leaves is averaged over neighbouring points of the surface
+  inside.soft = out.smooth > 0 ? 4.0F : 1.0F;
   const GreyTissue rule{grey.step, grey.zero, scan.hounsfield};
   Imported made;
   made.bone =

@@ -25,14 +25,12 @@ constexpr float kReach = 3.0F;  // a point speaks to voxels this near [voxel]
 
 constexpr int at(int x, int y, int z) { return x + kBlock * (y + kBlock * z); }
 
-// How the planes of many points become one distance: weight (1 / (r^2 + soft))^(2^doublings).
+// How the planes of many points become one distance: weight 1 / (r^2 + soft)^4, r in voxels. The
+// softer, the more points are averaged: noise and staircases ask for it, edges pay for it.
 struct Blend {
   float soft;
-  int doublings;
   bool by_normal;  // points that face the other way do not count (thin walls of label maps)
 };
-constexpr Blend kGreyBlend{0.05F, 3, false};
-constexpr Blend kLabelBlend{2.0F, 2, true};
 
 struct Point {
   float x, y, z;     // in the block [voxel]
@@ -40,13 +38,21 @@ struct Point {
 };
 
 // Everything one worker needs; made once, used for thousands of bricks.
+struct Sums {
+  using Brick = std::array<float, volume::kBrickVoxels>;
+  Brick weights, depths;               // of the points, of their planes' distances
+  Brick nx, ny, nz;                    // of the normals
+  Brick rx, ry, rz;                    // of the way from the points
+  Brick facing_x, facing_y, facing_z;  // label maps: which way the material lies
+};
+
 struct Desk {
   std::array<float, kBlockVoxels> level;   // >= 0 inside, with the crossing by linear interpolation
   std::array<float, kBlockVoxels> smooth;  // what gradients are taken of
   std::array<float, kBlockVoxels> work;
   std::array<std::uint8_t, kBlockVoxels> labels;
   std::vector<Point> points;
-  std::array<float, volume::kBrickVoxels> weights, depths, facing_x, facing_y, facing_z;
+  Sums sums;
 };
 
 // Reads the block around a brick; beyond the border of the grid the last voxels go on.
@@ -156,16 +162,25 @@ void find_points(const InsideGrid& grid, const math::Ijk& first, Desk& desk) {
 // Adds one point to the 8 voxels of a row of the brick. The lanes never mix, so the sums have one
 // order whatever the processor.
 template <bool ByNormal>
-inline void speak(const Point& p, float soft, int doublings, float dx0, float dy, float dz,
-                  float* weights, float* depths, const float* fx, const float* fy,
-                  const float* fz) {
-  const float rest = dy * dy + dz * dz, plane = dy * p.ny + dz * p.nz;
+inline void speak(const Point& p, float soft, float dx0, float dy, float dz, Sums& sums,
+                  std::size_t row) {
+  const float rest = dy * dy + dz * dz + soft, plane = dy * p.ny + dz * p.nz;
+  float* weights = &sums.weights[row];
+  float* depths = &sums.depths[row];
+  float* nx = &sums.nx[row];
+  float* ny = &sums.ny[row];
+  float* nz = &sums.nz[row];
+  float* rx = &sums.rx[row];
+  float* ry = &sums.ry[row];
+  float* rz = &sums.rz[row];
+  const float* fx = &sums.facing_x[row];
+  const float* fy = &sums.facing_y[row];
+  const float* fz = &sums.facing_z[row];
   for (int x = 0; x < kBrickEdge; ++x) {
     const float dx = dx0 + static_cast<float>(x);
-    float w = 1.0F / (dx * dx + rest + soft);
+    float w = 1.0F / (dx * dx + rest);
     w *= w;
     w *= w;
-    if (doublings > 2) w *= w;
     if (ByNormal) {
       const float agree =
           std::max(0.0F, 0.5F + 0.5F * (p.nx * fx[x] + p.ny * fy[x] + p.nz * fz[x]));
@@ -173,12 +188,20 @@ inline void speak(const Point& p, float soft, int doublings, float dx0, float dy
     }
     weights[x] += w;
     depths[x] += w * (dx * p.nx + plane);
+    nx[x] += w * p.nx;
+    ny[x] += w * p.ny;
+    nz[x] += w * p.nz;
+    rx[x] += w * dx;
+    ry[x] += w * dy;
+    rz[x] += w * dz;
   }
 }
 
 void measure(const Blend& blend, Desk& desk) {
-  desk.weights.fill(0);
-  desk.depths.fill(0);
+  Sums& sums = desk.sums;
+  for (auto* sum :
+       {&sums.weights, &sums.depths, &sums.nx, &sums.ny, &sums.nz, &sums.rx, &sums.ry, &sums.rz})
+    sum->fill(0);
   if (blend.by_normal) {
     // which way the material lies, and how surely: 0 in the middle of a thin wall
     for (int z = 0, v = 0; z < kBrickEdge; ++z)
@@ -191,9 +214,9 @@ void measure(const Blend& blend, Desk& desk) {
           const float length = std::sqrt(gx * gx + gy * gy + gz * gz);
           const float scale = 1.0F / std::max(length, 30.0F);
           const auto i = static_cast<std::size_t>(v);
-          desk.facing_x[i] = gx * scale;
-          desk.facing_y[i] = gy * scale;
-          desk.facing_z[i] = gz * scale;
+          sums.facing_x[i] = gx * scale;
+          sums.facing_y[i] = gy * scale;
+          sums.facing_z[i] = gz * scale;
         }
   }
   for (const Point& p : desk.points) {
@@ -209,14 +232,32 @@ void measure(const Blend& blend, Desk& desk) {
         if (dy * dy + dz * dz > kReach * kReach) continue;
         const auto row = static_cast<std::size_t>(kBrickEdge * (y + kBrickEdge * z));
         if (blend.by_normal)
-          speak<true>(p, blend.soft, blend.doublings, -px, dy, dz, &desk.weights[row],
-                      &desk.depths[row], &desk.facing_x[row], &desk.facing_y[row],
-                      &desk.facing_z[row]);
+          speak<true>(p, blend.soft, -px, dy, dz, sums, row);
         else
-          speak<false>(p, blend.soft, blend.doublings, -px, dy, dz, &desk.weights[row],
-                       &desk.depths[row], nullptr, nullptr, nullptr);
+          speak<false>(p, blend.soft, -px, dy, dz, sums, row);
       }
   }
+}
+
+// Depth of a voxel from what the points said. The mean distance to tangent planes is too small by
+// l^2 / 2R on a surface of radius R; the distance along the mean normal from the mean point is too
+// large by as much: half of both is right to second order (a chord is square to the mean of the
+// normals at its ends).
+double depth_of(const Sums& sums, std::size_t v) {
+  const double w = 1.0 / double{sums.weights[v]};
+  const double planes = double{sums.depths[v]} * w;
+  const double length =
+      std::sqrt(double{sums.nx[v]} * double{sums.nx[v]} + double{sums.ny[v]} * double{sums.ny[v]} +
+                double{sums.nz[v]} * double{sums.nz[v]});
+  // in the middle of a thin wall the normals cancel and there is no mean one
+  const double sure = length * w;
+  if (sure < 0.6) return planes;
+  const double along =
+      (double{sums.nx[v]} * double{sums.rx[v]} + double{sums.ny[v]} * double{sums.ry[v]} +
+       double{sums.nz[v]} * double{sums.rz[v]}) *
+      w / length;
+  const double share = std::min(1.0, (sure - 0.6) / 0.2);
+  return planes + 0.5 * share * (along - planes);
 }
 
 // Neighbours within 2.5 voxels, the nearest first.
@@ -317,7 +358,7 @@ void fill_brick(const InsideGrid& grid, const GreyTissue& rule, const math::Ijk&
       desk.smooth = desk.level;
     find_points(grid, first, desk);
     measured = !desk.points.empty();
-    if (measured) measure(labels ? kLabelBlend : kGreyBlend, desk);
+    if (measured) measure({grid.soft, labels}, desk);
   }
   for (int z = 0; z < room.z(); ++z)
     for (int y = 0; y < room.y(); ++y)
@@ -327,11 +368,13 @@ void fill_brick(const InsideGrid& grid, const GreyTissue& rule, const math::Ijk&
         const bool in =
             desk.level[static_cast<std::size_t>(at(x + kHalo, y + kHalo, z + kHalo))] >= 0;
         double depth = in ? 10 : -10;
-        if (measured && desk.weights[i] > 1e-12F) {
-          depth = double{desk.depths[i]} / double{desk.weights[i]};
-          // the surface stays between the voxels where the scan has it
-          constexpr double kLeast = 0.02;
-          depth = in ? std::max(depth, kLeast) : std::min(depth, -kLeast);
+        if (measured && desk.sums.weights[i] > 1e-12F) {
+          depth = depth_of(desk.sums, i);
+          // where averaging would carry the surface past a voxel by much, a thin wall or gap is
+          // meant: that one stays
+          constexpr double kLeast = 0.02, kMuch = 0.4;
+          if (in && depth < -kMuch) depth = kLeast;
+          if (!in && depth > kMuch) depth = -kLeast;
         }
         to.field[v] = volume::field_from_depth(depth);
       }

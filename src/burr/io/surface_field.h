@@ -28,6 +28,9 @@ struct InsideGrid {
   const std::uint8_t* share = nullptr;  // how much of the voxel is solid, 0..255, or null: 0 or all
   std::array<bool, 256> solid{};        // by label
   std::array<volume::TissueId, 256> tissue{};  // by label; 0 is air
+  // how many points of the surface make one distance, see surface_field.cpp; labels 8, noisy grey
+  // 4, clean grey 1
+  float soft = 8;
   [[nodiscard]] bool inside(std::size_t v) const {
     if (grey != nullptr) return static_cast<float>(grey[v]) >= iso;
     return share != nullptr ? share[v] >= 128 : solid[labels[v]];
