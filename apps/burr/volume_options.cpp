@@ -6,10 +6,7 @@
 #include <vector>
 
 #include "burr/volume/volume_of.h"
-#if __has_include("scenes/phantoms.h")
 #include "scenes/phantoms.h"
-#define BURR_HAS_PHANTOMS 1
-#endif
 
 namespace burr::app {
 namespace {
@@ -30,7 +27,6 @@ bool numbers(const std::string& text, std::vector<double>& out) {
   return true;
 }
 
-#if defined(BURR_HAS_PHANTOMS)
 Result<io::Imported> open_phantom(const VolumeOptions& options, Progress& progress) {
   const std::string name = options.path.substr(std::string(kPhantom).size());
   if (!options.series.empty() || !options.spacing_mm.empty() || !options.roi.empty() ||
@@ -54,11 +50,6 @@ Result<io::Imported> open_phantom(const VolumeOptions& options, Progress& progre
   s.solid_mm3 = volume::volume_of(*made.bone) * 1e9;
   return made;
 }
-#else
-Result<io::Imported> open_phantom(const VolumeOptions&, Progress&) {
-  return error(Trouble::usage, "this build of burr has no phantoms; give a file");
-}
-#endif
 
 }  // namespace
 

@@ -68,8 +68,8 @@ Camera fit(std::span<const math::Aabb> boxes, double azimuth, double elevation, 
 }
 
 Camera view_of_work(const Vec3& point, const Vec3& normal, double view_height) {
-  // the shaft leaves along the normal: look from 40 degrees beside it, and rather from above
-  constexpr double kTilt = 40.0 * std::numbers::pi / 180;
+  // the shaft leaves along the normal: look from 32 degrees beside it, and rather from above
+  constexpr double kTilt = 32.0 * std::numbers::pi / 180;
   const Vec3 n = normal.squaredNorm() > 0 ? normal.normalized().eval() : Vec3(0, -1, 0);
   Vec3 aside = Vec3::UnitZ() - n.z() * n;
   if (aside.norm() < 0.5) aside = -Vec3::UnitY() + n.y() * n;

@@ -19,8 +19,8 @@ struct Light {
 };
 
 struct Look {
-  Light key = {{-0.50, 0.62, 0.75}, {1.0F, 0.97F, 0.92F}, 1.0};    // makes the relief
-  Light fill = {{0.85, -0.25, 0.55}, {0.80F, 0.88F, 1.0F}, 0.22};  // opens the other side
+  Light key = {{-0.55, 0.55, 0.62}, {1.0F, 0.97F, 0.92F}, 1.15};   // makes the relief
+  Light fill = {{0.85, -0.25, 0.45}, {0.80F, 0.88F, 1.0F}, 0.20};  // opens the other side
   double ambient = 0.22;                                           // from everywhere
   double gloss = 0.10;         // bone is a little wet; 0 is chalk
   double hollow = 1.0;         // ambient occlusion, 0 none .. 1 full

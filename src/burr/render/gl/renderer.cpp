@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "burr/render/gl/context.h"
@@ -86,8 +87,17 @@ bool same(const Look& a, const Look& b) {
 }
 bool same(const Piece& a, const Piece& b) {
   return a.shape == b.shape && a.world_from_shape == b.world_from_shape && a.colour == b.colour &&
-         a.on_top == b.on_top && (a.box.lo.array() == b.box.lo.array()).all() &&
-         (a.box.hi.array() == b.box.hi.array()).all();
+         a.on_top == b.on_top;
+}
+
+// How far the hollows of one sample see, in samples: their reach at the target, a quarter more for
+// what is nearer to the eye. Bounds what one change can touch.
+double reach_of(const Scene& scene, const Frame& frame) {
+  return std::min<double>(1.25 * scene.look.hollow_reach * frame.picture_height, kMostReach);
+}
+// ... and the softening, and half resolution
+int margin_of(const Scene& scene, const Frame& frame) {
+  return static_cast<int>(reach_of(scene, frame)) + 12;
 }
 
 // Near enough for the tool before the bone, far enough for all of it; depends on the camera and the
@@ -103,13 +113,12 @@ void set_depths(Frame& frame, const Camera& camera, const Aabb& bone) {
   frame.far = far + kRoom;
 }
 
-// where a box may appear in the target; everything if it reaches behind the eye
-Rect rect_of(const Aabb& box, const Frame& frame) {
-  if (box.empty()) return {};
+// where something within the hull of these points may appear in the target; everything if a point
+// is beside or behind the eye
+Rect rect_of(std::span<const Vec3> points, const Frame& frame) {
   Eigen::Vector2d lo(1e30, 1e30), hi(-1e30, -1e30);
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector4d p = box.corner(corner).homogeneous();
-    const Eigen::Vector4d c = frame.clip * (frame.view * p);
+  for (const Vec3& point : points) {
+    const Eigen::Vector4d c = frame.clip * (frame.view * point.homogeneous());
     if (c.w() < frame.near) return frame.all();
     lo = lo.cwiseMin(c.head<2>() / c.w());
     hi = hi.cwiseMax(c.head<2>() / c.w());
@@ -120,6 +129,75 @@ Rect rect_of(const Aabb& box, const Frame& frame) {
   const Rect r = {pixel(lo.x(), frame.width) - 2, pixel(lo.y(), frame.height) - 2,
                   pixel(hi.x(), frame.width) + 3, pixel(hi.y(), frame.height) + 3};
   return r.in(frame.all());
+}
+Rect rect_of(const Aabb& box, const Frame& frame) {
+  if (box.empty()) return {};
+  std::array<Vec3, 8> corners;
+  for (int corner = 0; corner < 8; ++corner)
+    corners[static_cast<std::size_t>(corner)] = box.corner(corner);
+  return rect_of(corners, frame);
+}
+
+// Several rectangles to be drawn anew. They may overlap: each is drawn whole, so twice is only
+// slower.
+class Region {
+ public:
+  void add(const Rect& rect) {
+    if (!rect.empty()) rects_.push_back(rect);
+  }
+  void add(const Region& other) {
+    for (const Rect& rect : other.rects_) add(rect);
+  }
+  // Joins what is cheaper together than apart.
+  void join() {
+    for (std::size_t i = 0; i < rects_.size(); ++i)
+      for (std::size_t j = i + 1; j < rects_.size(); ++j) {
+        const Rect both = rects_[i].with(rects_[j]);
+        if (both.area() > 1.15 * (rects_[i].area() + rects_[j].area())) continue;
+        rects_[i] = both;
+        rects_.erase(rects_.begin() + static_cast<std::ptrdiff_t>(j));
+        j = i;  // the larger one is compared with all again
+      }
+  }
+  [[nodiscard]] Region grown(int by, const Rect& within) const {
+    Region region;
+    for (const Rect& rect : rects_) region.add(rect.grown(by).in(within));
+    region.join();
+    return region;
+  }
+  [[nodiscard]] double area() const {
+    double sum = 0;
+    for (const Rect& rect : rects_) sum += rect.area();
+    return sum;
+  }
+  [[nodiscard]] bool empty() const { return rects_.empty(); }
+  [[nodiscard]] const std::vector<Rect>& rects() const { return rects_; }
+
+ private:
+  std::vector<Rect> rects_;
+};
+
+// The tool's shadow reaches as far as a hand's breadth matters; bounded, so that it can be redrawn
+// where the tool moved and left elsewhere. gl/shaders.h, passes().
+constexpr double kShadowReach = 25e-3;  // from head and shaft along the light  [m]
+constexpr double kShadowShaft = 12e-3;  // of the shaft, from the head's centre [m]
+
+// Points around everything the shadow may touch; none without a tool.
+std::vector<Vec3> shadow_of(const Scene& scene) {
+  const Burr& burr = scene.burr;
+  if (!burr.visible || !burr.world_from_tool.finite()) return {};
+  const Vec3 light = scene.look.key.towards.normalized();
+  const Vec3 towards = light.x() * scene.camera.right() + light.y() * scene.camera.above() +
+                       light.z() * scene.camera.backward();
+  const double r = burr.radius + 0.12 * kShadowReach + 0.1 * burr.radius;  // with its soft edge
+  const Aabb box = {{-r, -r, -r}, {r, r, kShadowShaft + r}};
+  std::vector<Vec3> points;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p = burr.world_from_tool * box.corner(corner);
+    points.push_back(p);
+    points.push_back(p - (kShadowReach + r) * towards);
+  }
+  return points;
 }
 
 // the six planes of what can be seen through `r`, in the world, pointing inwards
@@ -158,15 +236,15 @@ struct Renderer::Work {
     Look look;
     Aabb bone;
     std::vector<Piece> pieces;
-    Frame frame;
+    std::vector<Vec3> shadow;
   };
   std::optional<Held> held;
   std::vector<Aabb> changed;  // boxes of patches sent since the target was drawn
 
   Status start();
   void update(const Scene& scene);
-  Status paint(const Scene& scene, const Frame& frame, const Rect& fresh,
-               const std::vector<Piece>& pieces);
+  void paint(const Scene& scene, const Frame& frame, const Region& fresh, const Region& shadow,
+             const std::vector<Piece>& pieces);
   void paint_geometry(const Scene& scene, const Frame& frame, const Rect& r,
                       const std::vector<Piece>& pieces);
   void paint_hollows(const Scene& scene, const Frame& frame, const Rect& r);
@@ -239,26 +317,26 @@ void Renderer::Work::update(const Scene& scene) {
   figures.patches_uploaded = skin.update(scene, changed);
 }
 
-Status Renderer::Work::paint(const Scene& scene, const Frame& frame, const Rect& fresh,
-                             const std::vector<Piece>& pieces) {
-  // what moved casts its hollow's shadow around it, and the softening reaches four samples further
-  const double reach = 2 * scene.look.hollow_reach * frame.picture_height;
-  const Rect touched =
-      fresh.grown(static_cast<int>(std::min<double>(reach, kMostReach)) + 12).in(frame.all());
-
+void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Region& fresh,
+                           const Region& shadow, const std::vector<Piece>& pieces) {
   glEnable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
-  paint_geometry(scene, frame, fresh, pieces);
+  for (const Rect& rect : fresh.rects()) paint_geometry(scene, frame, rect, pieces);
+
+  // what moved darkens the hollows around it
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glBindVertexArray(nothing.get());
-  if (scene.look.hollow > 0 && !scene.look.plain) paint_hollows(scene, frame, touched);
+  const Region touched = fresh.grown(margin_of(scene, frame), frame.all());
+  if (scene.look.hollow > 0 && !scene.look.plain)
+    for (const Rect& rect : touched.rects()) paint_hollows(scene, frame, rect);
 
-  // the tool's shadow may fall anywhere: light is cheap, all of it is done again
-  paint_light(scene, frame, frame.all());
+  Region lit = touched;
+  lit.add(shadow);
+  lit.join();
+  for (const Rect& rect : lit.rects()) paint_light(scene, frame, rect);
   glDisable(GL_SCISSOR_TEST);
-  figures.redrawn = touched.area() / frame.all().area();
-  return fine();
+  figures.redrawn = std::min(1.0, lit.area() / frame.all().area());
 }
 
 void Renderer::Work::paint_geometry(const Scene& scene, const Frame& frame, const Rect& r,
@@ -422,9 +500,10 @@ void Renderer::Work::paint_light(const Scene& scene, const Frame& frame, const R
   if (casts) ball << centre.cast<float>(), static_cast<float>(burr.radius);
   light.set("ball", ball);
   light.set("shaft", Eigen::Vector3f(axis.cast<float>()));
+  light.set("shadow_reach", static_cast<float>(kShadowReach));
   light.set("shaft_size",
             Eigen::Vector2f(static_cast<float>(std::min(burr.shaft_radius, burr.radius)),
-                            static_cast<float>(burr.shaft_length)));
+                            static_cast<float>(std::min(burr.shaft_length, kShadowShaft))));
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -496,8 +575,7 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
   set_depths(whole, scene.camera, bounds(scene));
 
   // tiles overlap by as far as hollows reach, in steps that keep their pattern in place
-  const double reach = 2 * scene.look.hollow_reach * whole.picture_height;
-  const int margin = (static_cast<int>(std::min<double>(reach, kMostReach)) + 12 + 7) / 8 * 8;
+  const int margin = (margin_of(scene, whole) + 7) / 8 * 8;
   const auto step_for = [&](int size) {
     if (tile > 0) return (tile * factor + 8 * factor - 1) / (8 * factor) * (8 * factor);
     if (size <= w.most) return size;
@@ -525,13 +603,14 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
            part(outer.y0, whole.picture_height), part(outer.y1, whole.picture_height)});
       const Result<bool> sized = w.target.resize(frame.width, frame.height, stride);
       if (!sized) return sized.error();
-      Status done = w.paint(scene, frame, frame.all(), pieces);
+      Region everything;
+      everything.add(frame.all());
+      w.paint(scene, frame, everything, {}, pieces);
       const int left = inner.x0 / factor, top = height - inner.y1 / factor;
-      if (done)
-        done = w.put_on_sheet(
-            scene,
-            {inner.x0 - outer.x0, inner.y0 - outer.y0, inner.x1 - outer.x0, inner.y1 - outer.y0},
-            factor, width, height, left, top);
+      const Status done = w.put_on_sheet(
+          scene,
+          {inner.x0 - outer.x0, inner.y0 - outer.y0, inner.x1 - outer.x0, inner.y1 - outer.y0},
+          factor, width, height, left, top);
       if (!done) return done.error();
       w.read(image, left, top);
     }
@@ -566,26 +645,33 @@ Status Renderer::show(const Scene& scene) {
   set_depths(frame, scene.camera, w.held->bone);
   frame.clip = clip_from_view(scene.camera, static_cast<double>(frame.width) / frame.height,
                               frame.near, frame.far);
-  Rect where;
+  Region fresh_part, shadow_part;
+  std::vector<Vec3> shadow = shadow_of(scene);
   if (all) {
-    where = frame.all();
+    fresh_part.add(frame.all());
   } else {
-    for (const Aabb& box : w.changed) where = where.with(rect_of(box, frame));
+    for (const Aabb& box : w.changed) fresh_part.add(rect_of(box, frame));
     const std::vector<Piece>& old = w.held->pieces;
+    const auto add = [&](const std::vector<Piece>& some, std::size_t i) {
+      if (i >= some.size()) return;
+      for (const auto& corners : some[i].boxes) fresh_part.add(rect_of(corners, frame));
+    };
     for (std::size_t i = 0; i < std::max(old.size(), pieces.size()); ++i) {
       if (i < old.size() && i < pieces.size() && same(old[i], pieces[i])) continue;
-      if (i < old.size()) where = where.with(rect_of(old[i].box, frame));
-      if (i < pieces.size()) where = where.with(rect_of(pieces[i].box, frame));
+      add(old, i);
+      add(pieces, i);
     }
+    fresh_part.join();
+    if (!fresh_part.empty())
+      for (const auto* points : {&std::as_const(w.held->shadow), &std::as_const(shadow)})
+        if (!points->empty()) shadow_part.add(rect_of(*points, frame));
   }
   w.changed.clear();
   w.held->camera = scene.camera;
   w.held->look = scene.look;
   w.held->pieces = pieces;
-  if (!where.empty()) {
-    const Status painted = w.paint(scene, frame, where, pieces);
-    if (!painted) return painted;
-  }
+  w.held->shadow = std::move(shadow);
+  if (!fresh_part.empty()) w.paint(scene, frame, fresh_part, shadow_part, pieces);
 
   const Status put =
       w.put_on_sheet(scene, frame.all(), factor, frame.width / factor, frame.height / factor, 0, 0);

@@ -166,6 +166,7 @@ uniform int plain;
 uniform vec4 ball;         // burr head: centre in view, radius; 0: none
 uniform vec3 shaft;        // unit, from the centre along the shaft, in view
 uniform vec2 shaft_size;   // radius, length
+uniform float shadow_reach;
 out vec4 result;
 
 vec3 linear(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c)); }
@@ -209,6 +210,7 @@ float passes(vec3 p, vec3 to) {
   float off = length(c - along * to);
   float soft = 0.12 * max(along, 0.0) + 0.1 * ball.w;
   float open = along > 0.0 ? smoothstep(-soft, soft, off - ball.w) : 1.0;
+  open = max(open, smoothstep(0.5, 1.0, along / shadow_reach));
 
   // nearest points of the light's ray and the shaft's axis
   float b = dot(to, shaft), d = dot(to, -c), e = dot(shaft, -c);
@@ -218,6 +220,7 @@ float passes(vec3 p, vec3 to) {
   float away = length(c + shaft * s - max(t, 0.0) * to);
   soft = 0.12 * max(t, 0.0) + 0.1 * shaft_size.x;
   float rod = t > 0.0 ? smoothstep(-soft, soft, away - shaft_size.x) : 1.0;
+  rod = max(rod, smoothstep(0.5, 1.0, t / shadow_reach));
   return min(open, rod);
 }
 

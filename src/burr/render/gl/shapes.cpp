@@ -74,8 +74,6 @@ Eigen::Matrix4d placed(const math::Pose& pose, double scale_xy, double scale_z) 
   return m;
 }
 
-math::Aabb box_between(const Vec3& lo, const Vec3& hi) { return {lo, hi}; }
-
 }  // namespace
 
 void Shape::send(const std::vector<Eigen::Vector3f>& points,
@@ -144,35 +142,38 @@ void Shapes::make_shaft(const Burr& burr) {
 }
 
 void Shapes::add(const Shape& shape, const Eigen::Matrix4d& world_from_shape, const Colour& colour,
-                 bool steel, bool on_top, const math::Aabb& box_shape) {
+                 bool steel, bool on_top, std::vector<math::Aabb> boxes_shape) {
   Piece piece{&shape, world_from_shape, colour, steel, on_top, {}};
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector4d p = box_shape.corner(corner).homogeneous();
-    piece.box.extend((world_from_shape * p).head<3>());
+  for (const math::Aabb& box : boxes_shape) {
+    auto& corners = piece.boxes.emplace_back();
+    for (int corner = 0; corner < 8; ++corner)
+      corners[static_cast<std::size_t>(corner)] =
+          (world_from_shape * box.corner(corner).homogeneous()).head<3>();
   }
-  pieces_.push_back(piece);
+  pieces_.push_back(std::move(piece));
 }
 
 const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
   if (!made_) make();
   pieces_.clear();
-  const math::Aabb ball = box_between({-1, -1, -1}, {1, 1, 1});
-  const math::Aabb tube = box_between({-1, -1, 0}, {1, 1, 1});
+  const math::Aabb ball = {{-1, -1, -1}, {1, 1, 1}}, tube = {{-1, -1, 0}, {1, 1, 1}};
 
   const Burr& burr = scene.burr;
   if (burr.visible && burr.world_from_tool.finite()) {
     make_shaft(burr);
     math::Pose turned = burr.world_from_tool;
     turned.q = turned.q * math::Quat(Eigen::AngleAxisd(burr.turn, Vec3::UnitZ()));
-    add(head_, placed(turned, burr.radius, burr.radius), kSteel, true, false, ball);
-    const double r = std::max(burr.radius, burr.shaft_radius);
-    add(shaft_, placed(burr.world_from_tool, 1, 1), kSteel, true, false,
-        box_between({-r, -r, 0}, {r, r, std::max(burr.shaft_length, 30 * r)}));
+    add(head_, placed(turned, burr.radius, burr.radius), kSteel, true, false, {ball});
+    const double r = burr.shaft_radius, end = std::max(burr.shaft_length, 30 * burr.radius);
+    std::vector<math::Aabb> slices;
+    for (int slice = 0; slice < 4; ++slice)
+      slices.push_back({{-r, -r, slice * end / 4}, {r, r, (slice + 1) * end / 4}});
+    add(shaft_, placed(burr.world_from_tool, 1, 1), kSteel, true, false, std::move(slices));
   }
   for (const Marker& marker : scene.markers) {
     if (!marker.p.allFinite()) continue;
     add(ball_, placed({marker.p, math::Quat::Identity()}, marker.radius, marker.radius),
-        marker.colour, false, marker.on_top, ball);
+        marker.colour, false, marker.on_top, {ball});
   }
   for (const Rod& rod : scene.rods) {
     const Vec3 d = rod.b - rod.a;
@@ -181,10 +182,10 @@ const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
     const math::Quat q(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), d));
     // an arrow's head takes its part of the length
     const double head = rod.arrow ? std::min(6 * rod.radius, 0.6 * length) : 0;
-    add(rod_, placed({rod.a, q}, rod.radius, length - head), rod.colour, false, rod.on_top, tube);
+    add(rod_, placed({rod.a, q}, rod.radius, length - head), rod.colour, false, rod.on_top, {tube});
     if (rod.arrow)
       add(tip_, placed({rod.b - d * (head / length), q}, 2.4 * rod.radius, head), rod.colour, false,
-          rod.on_top, tube);
+          rod.on_top, {tube});
   }
   return pieces_;
 }

@@ -3,6 +3,7 @@
 // A header of this room only.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "burr/render/gl/objects.h"
@@ -31,7 +32,8 @@ struct Piece {
   Colour colour = {1, 1, 1};
   bool steel = false;  // a part of the tool, lit and shadowed; else a mark
   bool on_top = false;
-  math::Aabb box;  // in the world
+  // what it fills: corners of slanted boxes in the world; several where one would be mostly empty
+  std::vector<std::array<math::Vec3, 8>> boxes;
 };
 
 class Shapes {
@@ -43,7 +45,7 @@ class Shapes {
   void make();
   void make_shaft(const Burr& burr);
   void add(const Shape& shape, const Eigen::Matrix4d& world_from_shape, const Colour& colour,
-           bool steel, bool on_top, const math::Aabb& box_shape);
+           bool steel, bool on_top, std::vector<math::Aabb> boxes_shape);
 
   Shape ball_, head_, rod_, tip_, shaft_;
   bool made_ = false;

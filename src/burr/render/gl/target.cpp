@@ -12,9 +12,9 @@ void shape(Texture& texture, GLint inside, int width, int height, GLenum format,
   texture = Texture();
   glBindTexture(GL_TEXTURE_2D, texture.make());
   glTexImage2D(GL_TEXTURE_2D, 0, inside, width, height, 0, format, type, nullptr);
-  for (const GLenum way : {GLenum{GL_TEXTURE_MIN_FILTER}, GLenum{GL_TEXTURE_MAG_FILTER}})
+  for (const GLenum way : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
     glTexParameteri(GL_TEXTURE_2D, way, GL_NEAREST);
-  for (const GLenum way : {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}})
+  for (const GLenum way : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
     glTexParameteri(GL_TEXTURE_2D, way, GL_CLAMP_TO_EDGE);
 }
 
@@ -52,9 +52,9 @@ Result<bool> Target::resize(int wide, int high, int hollow_stride) {
   shape(lit, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);
   shape(hollow, GL_RGBA8, hollow_width, hollow_height, GL_RGBA, GL_UNSIGNED_BYTE);
   shape(soft, GL_RGBA8, hollow_width, hollow_height, GL_RGBA, GL_UNSIGNED_BYTE);
-  for (const Status& made : {attach(geometry, {colour.get(), normal.get()}, depth.get()),
-                             attach(hollow_at, {hollow.get()}, 0), attach(soft_at, {soft.get()}, 0),
-                             attach(lit_at, {lit.get()}, 0)})
+  for (Status made : {attach(geometry, {colour.get(), normal.get()}, depth.get()),
+                      attach(hollow_at, {hollow.get()}, 0), attach(soft_at, {soft.get()}, 0),
+                      attach(lit_at, {lit.get()}, 0)})
     if (!made) return made.error();
   width = wide;
   height = high;

@@ -1,0 +1,327 @@
+// `burr run`: the simulator in a window; or, without a display, a session that mills by itself and
+// leaves pictures, a recording and a page of figures.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "burr/device/simulated_hand.h"
+#include "burr/render/bone_scene.h"
+#include "burr/render/pick.h"
+#include "burr/render/picture.h"
+#include "burr/render/renderer.h"
+#include "burr/sim/motion.h"
+#include "burr/sim/session.h"
+#include "burr/surface/worker.h"
+#include "command.h"
+#include "recording.h"
+#include "summary.h"
+#include "volume_options.h"
+#include "window/mouse_hand.h"
+#include "window/window.h"
+
+namespace burr::app {
+namespace {
+
+using math::Vec3;
+
+constexpr int kWidth = 1280, kHeight = 720;  // of the pictures
+constexpr double kHeadlessSeconds = 20;
+
+struct Options {
+  VolumeOptions volume;
+  std::string out;
+  double seconds = 0;
+  double burr_mm = 5, rpm = 40'000;
+  bool headless = false;
+};
+
+// What is milled and where: everything before hand and session.
+struct Work {
+  io::Imported made;
+  std::string what;      // in our words
+  VolumeOptions volume;  // with the case's name as a phantom
+  sim::WorkPlace place;
+};
+
+// A display that SDL could open a window on.
+bool display_there() {
+  for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"})
+    if (const char* value = std::getenv(name); value != nullptr && *value != '\0') return true;
+  return false;
+}
+
+Result<Work> open_work(Options options) {
+  VolumeOptions& volume = options.volume;
+  if (volume.path.empty()) volume.path = "temporal-bone";
+  // a case is named by its phantom; a file of that name comes first
+  std::error_code nobody_asks;
+  if (!is_phantom(volume.path) && volume.path.find_first_of("./") == std::string::npos &&
+      !std::filesystem::exists(volume.path, nobody_asks))
+    volume.path = "phantom:" + volume.path;
+  const bool phantom = is_phantom(volume.path);
+  auto made = open_volume(volume, progress());
+  if (!made) return made.error();
+
+  Work work;
+  work.made = std::move(*made);
+  work.volume = volume;
+  work.what =
+      phantom ? volume.path.substr(volume.path.find(':') + 1) : work.made.summary.format + " scan";
+  for (const std::string& notice : work.made.summary.notices) fmt::print(stderr, "{}\n", notice);
+  std::optional<Vec3> at, into;
+  if (volume.path == "phantom:temporal-bone") {
+    // where a mastoidectomy begins: behind and above the ear canal, from the side. The phantom's
+    // origin is the canal's opening, x leads inwards, y back, z up.
+    at = Vec3(-15e-3, 12e-3, 4e-3);
+    into = Vec3::UnitX();
+  }
+  auto place = sim::find_work_place(*work.made.bone, 0.5e-3 * options.burr_mm, at, into);
+  if (!place) return place.error();
+  work.place = *place;
+  return work;
+}
+
+sim::SessionSettings settings_of(const Options& options, bool realtime) {
+  sim::SessionSettings settings;
+  settings.servo.burr.radius = 0.5e-3 * options.burr_mm;
+  settings.servo.spindle_rad_s = options.rpm * 2 * std::numbers::pi / 60;
+  settings.realtime = realtime;
+  return settings;
+}
+
+// how much of the surroundings is seen: the pocket large, the anatomy around it still there
+double view_height(double burr_radius) { return std::clamp(20 * burr_radius, 20e-3, 70e-3); }
+
+Status make_folder(const std::filesystem::path& folder) {
+  std::error_code trouble;
+  std::filesystem::create_directories(folder, trouble);
+  if (!trouble) return fine();
+  return error(Trouble::io, fmt::format("{}: cannot make this folder ({}); choose another --out",
+                                        folder.string(), trouble.message()));
+}
+
+Summary summary_of(sim::Session& session, const std::string& what, const std::string& hand) {
+  const sim::Outcome outcome = session.outcome();
+  const sim::SessionSettings& settings = session.settings();
+  Summary summary;
+  summary.what = what;
+  summary.hand = hand;
+  summary.size = session.bone().grid().size;
+  summary.voxel = session.bone().grid().voxel;
+  summary.burr_radius = settings.servo.burr.radius;
+  summary.rpm = settings.servo.spindle_rad_s * 60 / (2 * std::numbers::pi);
+  summary.seconds = outcome.seconds;
+  summary.rate_hz = settings.servo.rate_hz;
+  summary.ticks = outcome.ticks;
+  summary.realtime = settings.realtime;
+  summary.removed = outcome.ledger.removed;
+  summary.asked = outcome.ledger.asked;
+  summary.not_cut = outcome.ledger.not_cut;
+  summary.added = outcome.ledger.added;
+  summary.peak_force = outcome.peak_force;
+  summary.mean_force = outcome.mean_force;
+  summary.p50_us = outcome.timing.p50_us;
+  summary.p99_us = outcome.timing.p99_us;
+  summary.p999_us = outcome.timing.p999_us;
+  summary.max_us = outcome.timing.max_us;
+  summary.late = outcome.timing.late;
+  summary.missed = outcome.timing.missed;
+  summary.flags = flag_words(outcome.flags);
+  summary.bone_hash = session.bone().content_hash();
+  summary.tissues = losses(*session.bone_before(), session.bone());
+  return summary;
+}
+
+// the tool as the session last had it
+void put_tool(render::Scene& scene, sim::Session& session) {
+  const tool::Burr& burr = session.settings().servo.burr;
+  record::TickRow row;
+  if (!session.view(row)) return;
+  scene.burr.visible = true;
+  scene.burr.radius = burr.radius;
+  scene.burr.shaft_radius = burr.shaft_radius;
+  scene.burr.shaft_length = burr.shaft_length;
+  scene.burr.world_from_tool = {row.contact.proxy, row.hand.world_from_tool.q};
+  render::show_contact(scene, row.hand.world_from_tool.p, row.contact.proxy, row.contact.force);
+}
+
+// Before, at half time with the burr in the bone, and after: the same view.
+Status run_headless(const Options& options) {
+  const std::filesystem::path folder = options.out.empty() ? "burr-out" : options.out;
+  const double seconds = options.seconds > 0 ? options.seconds : kHeadlessSeconds;
+  Status made = make_folder(folder);
+  if (!made) return made;
+  auto opened = open_work(options);
+  if (!opened) return opened.error();
+  Work& work = *opened;
+  const sim::SessionSettings settings = settings_of(options, false);
+  auto path = sim::motion("pocket", work.place, settings.servo.burr.radius, seconds);
+  if (!path) return path.error();
+  auto hand = std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{});
+  auto started =
+      sim::Session::make(std::move(work.made.bone), std::move(hand), settings, progress());
+  if (!started) return started.error();
+  sim::Session& session = **started;
+
+  auto renderer = render::Renderer::offscreen();
+  if (!renderer) return renderer.error();
+  render::Scene scene;
+  scene.look = render::still_look();
+  scene.scale_bar = true;
+  scene.camera = render::view_of_work(work.place.at, -work.place.into,
+                                      view_height(settings.servo.burr.radius));
+  const auto picture = [&](const char* name) -> Status {
+    const Status skinned = render::skin_bone(scene, session.bone(), settings.threads, progress());
+    if (!skinned) return skinned;
+    const auto image = (*renderer)->image(scene, kWidth, kHeight);
+    if (!image) return image.error();
+    return render::write_png(*image, folder / name);
+  };
+  const auto stopped = [] {
+    return interrupted() ? Status(error(Trouble::interrupted, "stopped")) : fine();
+  };
+
+  Status status = picture("before.png");
+  if (!status) return status;
+  Recording recording;
+  status = recording.start(session, (folder / "session.mcap").string(), work.volume,
+                           work.made.summary, "pocket", false);
+  if (!status) return status;
+  session.run(0.5 * seconds, progress());
+  put_tool(scene, session);
+  status = stopped();
+  if (status) status = picture("working.png");
+  scene.burr.visible = false;
+  scene.markers.clear();
+  scene.rods.clear();
+  if (status) {
+    session.run(0.5 * seconds, progress());
+    status = stopped();
+  }
+  const auto recorded = recording.finish(session);
+  if (!status) return status;
+  if (!recorded) return recorded.error();
+  status = picture("after.png");
+  if (!status) return status;
+
+  Summary summary = summary_of(session, work.what, "simulated hand, pocket");
+  summary.pictures = {
+      {"before.png", "before"}, {"working.png", "at half time"}, {"after.png", "after"}};
+  summary.recording = "session.mcap";
+  status = write_summary(summary, folder);
+  if (!status) return status;
+  fmt::print("{}{}: before.png working.png after.png session.mcap summary.html\n",
+             summary_text(summary), folder.string());
+  return fine();
+}
+
+// A person's session: the window, and what it leaves if a folder was named.
+Status run_in_window(const Options& options) {
+  const std::filesystem::path folder = options.out;
+  if (!folder.empty()) {
+    Status made = make_folder(folder);
+    if (!made) return made;
+  }
+  auto opened = open_work(options);
+  if (!opened) return opened.error();
+  Work& work = *opened;
+  const sim::SessionSettings settings = settings_of(options, true);
+
+  // the hand begins two centimetres above the work
+  math::Pose above;
+  above.p = work.place.at - 20e-3 * work.place.into;
+  above.q = math::Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -work.place.into));
+  auto hand = std::make_unique<MouseHand>(above);
+  MouseHand& mouse = *hand;
+  auto started =
+      sim::Session::make(std::move(work.made.bone), std::move(hand), settings, progress());
+  if (!started) return started.error();
+  sim::Session& session = **started;
+
+  render::Scene scene;
+  scene.tissue_colours = render::colours_of(session.bone().tissues());
+  surface::Worker worker(session.bone(), 1);
+  Status status =
+      worker.first(progress(), [&scene](const surface::Skin& skin) { put_skin(scene, skin); });
+  if (!status) return status;
+  scene.camera = render::view_of_work(work.place.at, -work.place.into,
+                                      2 * view_height(settings.servo.burr.radius));
+  const render::Camera first_view = scene.camera;
+  const render::Scene before = scene;
+
+  Recording recording;
+  if (!folder.empty()) {
+    status = recording.start(session, (folder / "session.mcap").string(), work.volume,
+                             work.made.summary, "mouse", false);
+    if (!status) return status;
+  }
+  status = run_window(session, mouse, worker, scene, {options.seconds, options.out});
+  if (folder.empty()) return status;
+  const auto recorded = recording.finish(session);
+  if (!status) return status;
+  if (!recorded) return recorded.error();
+
+  Summary summary = summary_of(session, work.what, "mouse");
+  scene.burr.visible = false;
+  scene.markers.clear();
+  scene.rods.clear();
+  for (const auto& [name, one] : {std::pair{"before", &before}, {"after", &std::as_const(scene)}}) {
+    render::Scene picture = *one;
+    picture.look = render::still_look();
+    picture.camera = first_view;
+    picture.scale_bar = true;
+    const std::string file = std::string(name) + ".png";
+    status = render::render_png(picture, kWidth, kHeight, folder / file);
+    if (!status) return status;
+    summary.pictures.emplace_back(file, name);
+  }
+  summary.recording = "session.mcap";
+  status = write_summary(summary, folder);
+  if (!status) return status;
+  fmt::print("{}{}: before.png after.png session.mcap summary.html\n", summary_text(summary),
+             folder.string());
+  return fine();
+}
+
+Status run(const Options& options) {
+  if (options.headless) return run_headless(options);
+  if (!display_there()) {
+    fmt::print(stderr, "no display here: milling by itself, as with --headless\n");
+    return run_headless(options);
+  }
+  return run_in_window(options);
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("run", "mill a bone in a window");
+  command->add_option("bone", options->volume.path,
+                      "a case (temporal-bone, jaw, ...), or a scan: file or DICOM folder; default: "
+                      "temporal-bone");
+  command->add_flag("--headless", options->headless,
+                    "no window: mill by itself, leave pictures, a recording and a page of figures");
+  command
+      ->add_option("--seconds", options->seconds,
+                   "close the window after so long; headless: simulated time (default: 20)")
+      ->check(CLI::Range(0.1, 36'000.0));
+  command->add_option("--out", options->out,
+                      "folder for pictures, recording and summary (headless: burr-out; window: "
+                      "nothing is kept without it)");
+  command->add_option("--burr-mm", options->burr_mm, "diameter of the burr")->capture_default_str();
+  command->add_option("--rpm", options->rpm, "of the spindle")->capture_default_str();
+  add_volume_options(*command, options->volume);
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{10, add};
+
+}  // namespace
+}  // namespace burr::app

@@ -1,0 +1,45 @@
+#include "window/mouse_hand.h"
+
+#include <algorithm>
+
+namespace burr::app {
+namespace {
+
+constexpr double kPace = 0.25;  // of the aim: a brisk hand  [m/s]
+
+}  // namespace
+
+MouseHand::MouseHand(const math::Pose& start) : gliding_(start.p), p_(start.p) {
+  aim_.world_from_tool = start;
+  spec_.name = "mouse";
+}
+
+device::HandState MouseHand::state(double dt) BURR_RT {
+  static_cast<void>(aims_.take(aim_));
+  const math::Vec3 way = aim_.world_from_tool.p - gliding_;
+  const double far = way.norm(), most = kPace * dt;
+  gliding_ += far > most ? math::Vec3(way * (most / far)) : way;
+
+  // semi-implicit Euler in four steps: stable at every rate burr allows
+  constexpr int kSteps = 4;
+  const double step = dt / kSteps;
+  const math::Vec3 push = force_ * scale_.load(std::memory_order_relaxed);
+  for (int i = 0; i < kSteps; ++i) {
+    const math::Vec3 pull = arm_.stiffness * (gliding_ - p_) - arm_.damping * velocity_;
+    velocity_ += (pull + push) * (step / arm_.mass);
+    p_ += velocity_ * step;
+  }
+
+  device::HandState hand;
+  hand.world_from_tool = {p_, aim_.world_from_tool.q};
+  hand.velocity = velocity_;
+  hand.pedal = aim_.pedal;
+  return hand;
+}
+
+void MouseHand::write_force(const math::Vec3& force) BURR_RT {
+  force_ = force;
+  scale_.store(1.0, std::memory_order_relaxed);
+}
+
+}  // namespace burr::app

@@ -1,0 +1,50 @@
+// apps/burr/window/mouse_hand.h - the hand of somebody with only a mouse: an arm that follows where
+// the mouse points.
+//
+//     main --aim(target)--> Latest --> servo: state() moves a mass on a spring and a damper
+//
+// The arm is that of device/simulated_hand.h; its aim glides no faster than a hand does, so that a
+// mouse that leaps over the picture does not throw the burr. Thread: aim() main; state() and
+// write_force() servo. Frame: world. Units: SI.
+#pragma once
+
+#include <atomic>
+
+#include "burr/device/device.h"
+#include "burr/device/simulated_hand.h"
+#include "burr/rt/latest.h"
+
+namespace burr::app {
+
+class MouseHand final : public device::Device {
+ public:
+  // Where the arm is drawn to.
+  struct Aim {
+    math::Pose world_from_tool;
+    double pedal = 0;  // 0..1
+  };
+
+  // start: where the hand is when the session begins; in the air
+  explicit MouseHand(const math::Pose& start);
+
+  void aim(const Aim& aim) { aims_.publish(aim); }
+
+  Status open() override { return fine(); }
+  void close() override {}
+  [[nodiscard]] const device::DeviceSpec& spec() const override { return spec_; }
+  [[nodiscard]] device::HandState state(double dt) BURR_RT override;
+  void write_force(const math::Vec3& force) BURR_RT override;
+  void hold(double scale) BURR_RT override { scale_.store(scale, std::memory_order_relaxed); }
+
+ private:
+  rt::Latest<Aim> aims_;
+  device::ArmSettings arm_;
+  device::DeviceSpec spec_;
+  // the servo's own
+  Aim aim_;
+  math::Vec3 gliding_ = math::Vec3::Zero();  // the aim, at a hand's pace
+  math::Vec3 p_ = math::Vec3::Zero(), velocity_ = math::Vec3::Zero(), force_ = math::Vec3::Zero();
+  std::atomic<double> scale_ = 1.0;
+};
+
+}  // namespace burr::app
