@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# `burr run`: the window opens on a screen and closes by itself;
+# without a screen it mills alone and leaves what it says, and the recording replays to the bit.
+set -euo pipefail
+burr=$(realpath "$1")/burr
+folder=$(mktemp -d)
+screen=
+trap '[ -z "$screen" ] || kill "$screen" 2>/dev/null; rm -rf "$folder"' EXIT
+fail() { echo "$*"; exit 1; }
+has() { for file in "${@:2}"; do [ -s "$1/$file" ] || fail "$1: no $file"; done; }
+
+# without a screen
+(cd "$folder" && env -u DISPLAY -u WAYLAND_DISPLAY "$burr" run block --voxel-mm 0.5 --seconds 2 --out alone >alone.txt)
+has "$folder/alone" before.png working.png after.png session.mcap summary.html
+grep -q "^removed " "$folder/alone.txt" || fail "the figures are not told"
+cmp -s "$folder/alone/before.png" "$folder/alone/after.png" && fail "nothing is seen to be removed"
+"$burr" replay "$folder/alone/session.mcap" --check || fail "the session does not replay"
+grep -q "$folder" "$folder/alone/summary.html" && fail "the summary names a folder"
+
+# with one
+if ! command -v Xvfb >/dev/null; then
+  [ "${BURR_REQUIRE_DATA:-}" != 1 ] || fail "needs xvfb"
+  echo "without xvfb the window is not tested"
+  exit 77
+fi
+Xvfb -displayfd 3 -screen 0 1300x800x24 3>"$folder/display" 2>/dev/null &
+screen=$!
+for _ in $(seq 100); do [ -s "$folder/display" ] && break; sleep 0.1; done
+[ -s "$folder/display" ] || fail "Xvfb does not start"
+DISPLAY=:$(cat "$folder/display") SDL_VIDEODRIVER=x11 "$burr" run block --voxel-mm 0.5 --seconds 2 --out "$folder/window" >/dev/null
+has "$folder/window" before.png after.png session.mcap summary.html
+DISPLAY=:$(cat "$folder/display") "$burr" run block --voxel-mm 0.5 --seconds 1 || fail "without --out"
