@@ -66,16 +66,31 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # the second compiler, warnings as errors: library, program, samples
   burr_other_build(clang burr burr_program)
 
-  # AddressSanitizer and UndefinedBehaviorSanitizer: what reads files, and what moves memory
-  set(asan_rooms base rt math volume)
-  list(TRANSFORM asan_rooms PREPEND test_ OUTPUT_VARIABLE asan_targets)
-  burr_other_build(asan ${asan_targets})
+  # AddressSanitizer and UndefinedBehaviorSanitizer: what reads files, and what moves memory.
+  # Sanitized code is some times slower, so the longest wanderings are left to the release build.
+  set(asan_rooms base rt math tool volume edit haptics device surface io record)
+  set(asan_filter_haptics "-*Million*:*Random*")
+  set(asan_targets)
   foreach(room ${asan_rooms})
-    burr_other_test(asan ${room} "*")
+    if(TARGET test_${room})
+      list(APPEND asan_targets test_${room})
+    endif()
+  endforeach()
+  burr_other_build(asan ${asan_targets})
+  foreach(target ${asan_targets})
+    string(REPLACE "test_" "" room ${target})
+    set(filter "*")
+    if(DEFINED asan_filter_${room})
+      set(filter "${asan_filter_${room}}")
+    endif()
+    burr_other_test(asan ${room} "${filter}")
   endforeach()
 
-  # ThreadSanitizer: the doors, and bone cut by one thread while others look on
-  burr_other_build(tsan test_rt test_volume)
+  # ThreadSanitizer: the doors; bone, mesh and recording while others look on; a whole session
+  burr_other_build(tsan test_rt test_volume test_surface test_record test_sim)
   burr_other_test(tsan rt "*")
   burr_other_test(tsan volume "Bone.*")
+  burr_other_test(tsan surface "*Worker*")
+  burr_other_test(tsan record "*Recorder*")
+  burr_other_test(tsan sim "WholeSession.*")
 endif()
