@@ -90,7 +90,7 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   burr_other_build(tsan test_rt test_volume test_surface test_record test_sim)
   burr_other_test(tsan rt "*")
   burr_other_test(tsan volume "Bone.*")
-  burr_other_test(tsan surface "*Worker*")
+  burr_other_test(tsan surface "Worker.Shows*:Worker.Keeps*:Mesher.Workers*")
   burr_other_test(tsan record "*Recorder*")
   burr_other_test(tsan sim "WholeSession.*")
 endif()
