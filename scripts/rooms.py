@@ -18,7 +18,7 @@ ALLOWED = {
     "math": "",
     "rt": "",
     "volume": "rt",
-    "tool": "",
+    "tool": "rt",
     "device": "rt",
     "edit": "volume tool rt",
     "haptics": "volume tool rt device",
@@ -36,6 +36,7 @@ BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest floors 
 
 # Of these rooms only plain structs: (who, whom) -> headers.
 ONLY = {
+    ("tool", "rt"): {"rt.h"},
     ("haptics", "device"): {"hand.h"},
     ("record", "device"): {"hand.h"},
     ("record", "haptics"): {"contact.h"},
@@ -49,7 +50,7 @@ ELSEWHERE = [
     (r"HD/hd|HDU|openhaptics|dhdc|drdc|chai3d|haply", None, "a vendor's library"),  # device/<vendor> only
 ]
 # What headers may show to others: the standard library, Eigen, ourselves.
-PUBLIC = re.compile(r"^(Eigen/|burr/|[a-z_0-9]+$|sys/|unistd|pthread|sched)")
+PUBLIC = re.compile(r"^(Eigen/|burr/|[a-z_0-9]+$|sys/|unistd|pthread|sched|[a-z]+intrin\.h$)")
 
 # A header whose greeting says this may show more, is not installed, and is known only to its room.
 PRIVATE = "of this room only"

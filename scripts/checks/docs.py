@@ -25,7 +25,8 @@ helps = {}
 def help_of(*command):
     if command not in helps:
         done = subprocess.run([BURR, *command, "--help"], capture_output=True, text=True)
-        helps[command] = done.stdout if done.returncode == 0 else None
+        known = f"Usage: burr {' '.join(command)}".strip() + " "
+        helps[command] = done.stdout if done.returncode == 0 and known in done.stdout else None
     return helps[command]
 
 
