@@ -21,3 +21,5 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/burrConfig.cmake.in ${
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/burrConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/burrConfig.cmake ${CMAKE_BINARY_DIR}/burrConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/burr)
+# to start one's own from; the program has them inside
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/cases/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/cases FILES_MATCHING PATTERN "*.toml")

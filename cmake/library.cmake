@@ -2,6 +2,19 @@
 file(GLOB_RECURSE BURR_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/*.cpp)
 file(GLOB_RECURSE BURR_HEADERS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/*.h)
 
+# the built-in cases become part of the library: no search for files, wherever it is installed
+file(GLOB BURR_CASES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cases/*.toml)
+set(BURR_CASE_TEXTS "")
+foreach(case ${BURR_CASES})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${case})
+  get_filename_component(name ${case} NAME_WE)
+  string(REPLACE "_" "-" name ${name})
+  file(READ ${case} text)
+  string(APPEND BURR_CASE_TEXTS "    {\"${name}\", R\"toml(${text})toml\"},\n")
+endforeach()
+configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_cases.cpp.in ${CMAKE_BINARY_DIR}/built_in_cases.cpp @ONLY)
+list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_cases.cpp)
+
 add_library(burr SHARED ${BURR_SOURCES})
 add_library(burr::burr ALIAS burr)
 set_target_properties(burr PROPERTIES OUTPUT_NAME burr VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})

@@ -1,0 +1,289 @@
+#include "burr/scenario/case.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <iterator>
+#include <numbers>
+#include <utility>
+
+#include "burr/scenario/built_in.h"
+
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wold-style-cast"
+#pragma GCC diagnostic ignored "-Wshadow"
+#endif
+#include <toml++/toml.h>
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+
+namespace burr::scenario {
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 1U << 20;  // a case is a page of text  [byte]
+constexpr double kFastest = 500'000;               // turbines reach this        [1/min]
+
+// One table of the file; the first thing that is wrong is kept, and nothing after it counts.
+class Reader {
+ public:
+  Reader(const toml::table& table, std::string file, std::string place, std::optional<Error>& wrong)
+      : table_(table), file_(std::move(file)), place_(std::move(place)), wrong_(wrong) {}
+
+  void only(std::initializer_list<std::string_view> known) {
+    for (const auto& [key, node] : table_) {
+      bool found = false;
+      std::string list;
+      for (const std::string_view name : known) {
+        found = found || key.str() == name;
+        list += (list.empty() ? "" : ", ") + std::string(name);
+      }
+      if (!found) fail(key.str(), "is not known here; there are " + list);
+    }
+  }
+
+  void text(std::string_view key, std::string& out, bool needed = false) {
+    const toml::node* node = find(key, needed, "a text");
+    if (node == nullptr) return;
+    const auto value = node->value_exact<std::string>();
+    if (!value || value->empty()) return fail(key, "must be a text in quotes");
+    out = *value;
+  }
+
+  void number(std::string_view key, double& out, double above, double most, bool needed = false) {
+    const toml::node* node = find(key, needed, "a number");
+    if (node == nullptr) return;
+    const auto value = node->is_number() ? node->value<double>() : std::nullopt;
+    if (!value || !(*value > above) || !(*value <= most))
+      return fail(key, fmt::format("must be a number above {:g} and not above {:g}", above, most));
+    out = *value;
+  }
+
+  void vector(std::string_view key, std::optional<math::Vec3>& out) {
+    const toml::node* node = find(key, false, "");
+    if (node == nullptr) return;
+    const toml::array* array = node->as_array();
+    math::Vec3 v = math::Vec3::Zero();
+    bool good = array != nullptr && array->size() == 3;
+    for (std::size_t a = 0; good && a < 3; ++a) {
+      const auto value = (*array)[a].is_number() ? (*array)[a].value<double>() : std::nullopt;
+      good = value && std::isfinite(*value) && std::abs(*value) < 1e4;
+      if (good) v[static_cast<Eigen::Index>(a)] = *value;
+    }
+    if (!good) return fail(key, "must be three numbers, [x, y, z]");
+    out = v;
+  }
+
+  // which of several words stands there
+  template <class Value>
+  void choice(std::string_view key, Value& out,
+              std::initializer_list<std::pair<std::string_view, Value>> words) {
+    std::string word;
+    text(key, word);
+    if (word.empty()) return;
+    std::string list;
+    for (const auto& [name, value] : words) {
+      if (word == name) {
+        out = value;
+        return;
+      }
+      list += (list.empty() ? "" : ", ") + std::string(name);
+    }
+    fail(key, fmt::format("\"{}\" is none of {}", word, list));
+  }
+
+  // [key], or nothing
+  template <class Do>
+  void table(std::string_view key, Do&& read) {
+    const toml::node* node = find(key, false, "");
+    if (node == nullptr) return;
+    if (const toml::table* inner = node->as_table()) {
+      Reader reader(*inner, file_, place_ + std::string(key) + ".", wrong_);
+      read(reader);
+    } else {
+      fail(key, fmt::format("must be a table, [{}]", key));
+    }
+  }
+
+  // every [[key]]
+  template <class Do>
+  void each(std::string_view key, Do&& read) {
+    const toml::node* node = find(key, false, "");
+    if (node == nullptr) return;
+    const toml::array* array = node->as_array();
+    if (array == nullptr) return fail(key, fmt::format("must be a list of tables, [[{}]]", key));
+    std::size_t n = 0;
+    for (const toml::node& entry : *array) {
+      const toml::table* inner = entry.as_table();
+      if (inner == nullptr) return fail(key, fmt::format("must be a list of tables, [[{}]]", key));
+      Reader reader(*inner, file_, fmt::format("{}{}[{}].", place_, key, ++n), wrong_);
+      read(reader);
+    }
+  }
+
+  void fail(std::string_view key, const std::string& what) {
+    if (!wrong_) wrong_ = burr::error(fmt::format("{}: {}{}: {}", file_, place_, key, what));
+  }
+
+ private:
+  const toml::node* find(std::string_view key, bool needed, std::string_view what) {
+    const toml::node* node = table_.get(key);
+    if (node == nullptr && needed) fail(key, fmt::format("is missing; give {}", what));
+    return node;
+  }
+
+  const toml::table& table_;
+  std::string file_, place_;
+  std::optional<Error>& wrong_;
+};
+
+void read_burr(Reader& reader, Case& out) {
+  reader.only({"diameter_mm", "kind", "rpm"});
+  double diameter_mm = 2e3 * out.burr.radius, rpm = 0;
+  reader.number("diameter_mm", diameter_mm, 0, 1e3 * tool::kLargestDiameter, true);
+  if (diameter_mm < 1e3 * tool::kSmallestDiameter)
+    reader.fail("diameter_mm",
+                fmt::format("there are no burrs under {:g} mm", 1e3 * tool::kSmallestDiameter));
+  out.burr.radius = 0.5e-3 * diameter_mm;
+  reader.choice<tool::BurrKind>(
+      "kind", out.burr.kind,
+      {{"cutting", tool::BurrKind::cutting}, {"diamond", tool::BurrKind::diamond}});
+  reader.number("rpm", rpm, 0, kFastest, true);
+  out.full_speed = rpm / 60 * 2 * std::numbers::pi;
+}
+
+void read_work(Reader& reader, Case& out) {
+  reader.only({"at_mm", "into"});
+  reader.vector("at_mm", out.at);
+  reader.vector("into", out.into);
+  if (out.at) *out.at *= 1e-3;
+  if (!out.into) return;
+  if (out.into->norm() < 1e-6) return reader.fail("into", "must point somewhere, not [0, 0, 0]");
+  out.into->normalize();
+}
+
+void read_all(Reader& reader, Case& out) {
+  reader.only({"title", "description", "phantom", "volume", "voxel_mm", "work", "burr", "demo",
+               "spare", "target"});
+  reader.text("title", out.title, true);
+  reader.text("description", out.description);
+  reader.text("phantom", out.phantom);
+  reader.text("volume", out.volume);
+  if (out.phantom.empty() == out.volume.empty())
+    reader.fail("phantom", "give either phantom = \"NAME\" or volume = \"FILE\"");
+  double voxel_mm = 0;
+  reader.number("voxel_mm", voxel_mm, 0, 10);
+  out.voxel = 1e-3 * voxel_mm;
+  reader.table("work", [&](Reader& inner) { read_work(inner, out); });
+  bool has_burr = false;
+  reader.table("burr", [&](Reader& inner) {
+    has_burr = true;
+    read_burr(inner, out);
+  });
+  if (!has_burr) reader.fail("burr", "is missing; give [burr] with diameter_mm and rpm");
+  reader.table("demo", [&](Reader& inner) {
+    inner.only({"motion", "seconds"});
+    inner.text("motion", out.motion);
+    inner.number("seconds", out.seconds, 0, 3600);
+  });
+  reader.each("spare", [&](Reader& inner) {
+    inner.only({"tissue"});
+    inner.text("tissue", out.spare.emplace_back(), true);
+  });
+  reader.each("target", [&](Reader& inner) {
+    Target& target = out.targets.emplace_back();
+    inner.only({"tissue", "goal", "share"});
+    inner.text("tissue", target.tissue, true);
+    inner.choice<Goal>("goal", target.goal,
+                       {{"open", Goal::open}, {"expose", Goal::expose}, {"remove", Goal::remove}});
+    inner.number("share", target.share, 0, 1);
+  });
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+}  // namespace
+
+std::vector<std::string> built_in_cases() {
+  std::vector<std::string> names;
+  for (const BuiltIn& one : built_in_texts()) names.emplace_back(one.name);
+  return names;
+}
+
+Result<Case> read_case(const std::string& name_or_path) {
+  for (const BuiltIn& one : built_in_texts())
+    if (name_or_path == one.name) return parse_case(one.toml, std::string(one.name) + ".toml");
+
+  // errors name the file, not where on the disk it lies
+  const std::filesystem::path path(name_or_path);
+  const std::string file = path.filename().string();
+  if (path.extension() != ".toml")
+    return error(Trouble::usage,
+                 fmt::format("there is no built-in case \"{}\"; there are {}, or give a .toml file",
+                             file, list_of(built_in_cases())));
+  std::error_code trouble;
+  const auto size = std::filesystem::file_size(path, trouble);
+  if (trouble)
+    return error(Trouble::io, fmt::format("{}: cannot be read: {}", file, trouble.message()));
+  if (size > kLargestFile)
+    return error(
+        fmt::format("{}: {} bytes are too many for a case; is this another file?", file, size));
+  std::ifstream stream(path, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(stream)),
+                         std::istreambuf_iterator<char>());
+  if (!stream) return error(Trouble::io, fmt::format("{}: cannot be read", file));
+
+  Result<Case> read = parse_case(text, file);
+  // a volume is named from where the case lies
+  if (read && !read->volume.empty() && std::filesystem::path(read->volume).is_relative())
+    read->volume = (path.parent_path() / read->volume).string();
+  return read;
+}
+
+Result<Case> parse_case(std::string_view text, std::string_view file) {
+  Case out;
+  out.name = std::filesystem::path(file).stem().string();
+  toml::table table;
+  try {
+    table = toml::parse(text);
+  } catch (const toml::parse_error& problem) {
+    return error(fmt::format("{}: line {}: {}", file, problem.source().begin.line,
+                             std::string_view(problem.description())));
+  }
+  std::optional<Error> wrong;
+  Reader reader(table, std::string(file), "", wrong);
+  read_all(reader, out);
+  if (wrong) return *wrong;
+  return out;
+}
+
+Status check_tissues(const Case& work, const volume::TissueTable& tissues) {
+  std::vector<std::string> names;
+  for (const volume::Tissue& tissue : tissues.tissues)
+    if (&tissue != &tissues.tissues.front()) names.push_back(tissue.name);
+  const auto missing = [&](const std::string& name) {
+    for (const std::string& have : names)
+      if (have == name) return false;
+    return true;
+  };
+  const auto problem = [&](const char* field, const std::string& name) {
+    return error(fmt::format("{}.toml: {}: the bone has no tissue \"{}\"; it has {}", work.name,
+                             field, name, list_of(names)));
+  };
+  for (const std::string& name : work.spare)
+    if (missing(name)) return problem("spare", name);
+  for (const Target& target : work.targets)
+    if (missing(target.tissue)) return problem("target", target.tissue);
+  return fine();
+}
+
+}  // namespace burr::scenario

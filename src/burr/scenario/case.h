@@ -1,0 +1,69 @@
+// scenario/case.h - a case: a bone, where to work on it, with what, what to reach and what to
+// spare.
+//
+// A TOML file, docs/cases.md. Units in the file: mm and revolutions per minute; here SI.
+// The built-in cases are part of the library, so they are there wherever it runs.
+// Thread: any. Errors: one sentence with file, field and remedy.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "burr/base/result.h"
+#include "burr/math/vec3.h"
+#include "burr/tool/burr_tool.h"
+#include "burr/volume/tissue.h"
+
+namespace burr::scenario {
+
+// What is to be done with a tissue.
+enum class Goal {
+  open,    // reach it: take the bone in front of it
+  expose,  // lay it bare without touching it
+  remove,  // take it away
+};
+
+struct Target {
+  std::string tissue;
+  Goal goal = Goal::open;
+  double share = 1;  // how much of it, 0..1
+};
+
+struct Case {
+  std::string name;   // "temporal-bone"; for a file its name without .toml
+  std::string title;  // one line
+  std::string description;
+
+  // the bone: a phantom's name, or a file (taken from where the case file lies)
+  std::string phantom, volume;
+  double voxel = 0;  // edge of a voxel; 0: what suits the bone              [m]
+
+  // where to begin: a point near the surface and the way in; none: the topmost bone
+  std::optional<math::Vec3> at;    // world, LPS                              [m]
+  std::optional<math::Vec3> into;  // unit
+
+  tool::Burr burr;
+  double full_speed = 0;  // of the spindle                                   [rad/s]
+
+  std::vector<std::string> spare;  // tissues that must not be cut, by name
+  std::vector<Target> targets;
+
+  // what the simulated hand shows when nobody is there
+  std::string motion = "pocket";
+  double seconds = 20;
+};
+
+[[nodiscard]] std::vector<std::string> built_in_cases();
+
+// A built-in case by name, or the TOML file at a path.
+[[nodiscard]] Result<Case> read_case(const std::string& name_or_path);
+
+// The text of a case; `file` is what errors call it and gives the case its name.
+[[nodiscard]] Result<Case> parse_case(std::string_view text, std::string_view file);
+
+// Does the bone have the tissues the case speaks of?
+[[nodiscard]] Status check_tissues(const Case& work, const volume::TissueTable& tissues);
+
+}  // namespace burr::scenario
