@@ -303,9 +303,12 @@ class Recorder::Pen {
 
   // The bone as it is now is copied, then written part by part between the ticks.
   void begin_keyframe() {
-    keyframe_.assign(mirror_.begin(), mirror_.end());
-    std::sort(keyframe_.begin(), keyframe_.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<volume::BrickIndex> order;
+    order.reserve(mirror_.size());
+    for (const auto& [brick, content] : mirror_) order.push_back(brick);
+    std::sort(order.begin(), order.end());  // the same session, the same file
+    keyframe_.reserve(order.size());
+    for (const volume::BrickIndex brick : order) keyframe_.emplace_back(brick, mirror_[brick]);
     keyframe_tick_ = last_tick();
     keyframe_batch_ = batch_;
     keyframe_done_ = 0;
