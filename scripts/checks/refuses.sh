@@ -45,7 +45,7 @@ expect 2 '' scripts/rooms.py --no-such-option
 
 if "$burr" --help | grep -qE '^  info'; then
   expect 2 '' "$burr" info
-  expect 74 'no/such/file' "$burr" info "$place/no/such/file.nrrd"
+  expect 74 'file.nrrd' "$burr" info "$place/no/such/file.nrrd"
   expect 65 'rubbish' "$burr" info "$place/rubbish.nrrd"
   expect 65 'empty' "$burr" info "$place/empty.nii.gz"
 fi
