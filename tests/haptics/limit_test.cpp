@@ -1,0 +1,185 @@
+// The last word before the hand, on invented ticks: nothing unbounded, nothing sudden upward, and
+// always the way back by the start ramp.
+#include "burr/haptics/limit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "burr/haptics/contact.h"
+#include "burr/haptics/watchdog.h"
+
+namespace burr::haptics {
+namespace {
+
+using math::Vec3;
+constexpr double kTick = 1e-3;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+device::DeviceSpec touch() { return {.peak_force = 3.3, .continuous_force = 0.88}; }
+
+// Engages and runs through the ramp.
+ForceLimit running(const LimitSettings& settings = {}) {
+  ForceLimit limit(touch(), settings);
+  std::uint32_t flags = 0;
+  for (int n = 0; n < 600; ++n) (void)limit.apply(Vec3::Zero(), kTick, flags);
+  return limit;
+}
+
+TEST(ForceLimit, WaitsForASmallForceAndThenRampsUp) {
+  ForceLimit limit(touch(), {});
+  std::uint32_t flags = 0;
+  for (int n = 0; n < 100; ++n) EXPECT_EQ(limit.apply({0, 0, 2}, kTick, flags), Vec3::Zero());
+  EXPECT_TRUE(flags & kFlagWaiting);
+  EXPECT_FALSE(limit.engaged());
+  EXPECT_EQ(limit.apply({0, 0, 0.04}, kTick, flags), Vec3::Zero());
+  EXPECT_TRUE(limit.engaged());
+  double last = 0;
+  for (int n = 0; n < 30; ++n) {
+    const double now = limit.apply({0, 0, 2}, kTick, flags).z();
+    EXPECT_LE(now - last, 60 * kTick + 1e-12);
+    last = now;
+  }
+  EXPECT_NEAR(last, 30 * 60 * kTick, 1e-9);
+}
+
+TEST(ForceLimit, ShortensToTheDeviceAndTheUserWithTheDirectionKept) {
+  for (const double user : {10.0, 1.5}) {
+    ForceLimit limit = running({.user_force = user});
+    std::uint32_t flags = 0;
+    Vec3 force;
+    for (int n = 0; n < 200; ++n) force = limit.apply({6, 0, 8}, kTick, flags);
+    EXPECT_NEAR(force.norm(), std::min(3.3, user), 1e-12);
+    EXPECT_NEAR(force.x() / force.z(), 0.75, 1e-12);
+    EXPECT_TRUE(flags & kFlagForceLimited);
+  }
+}
+
+TEST(ForceLimit, GrowthAndTurningAreSlewBoundLettingGoIsNot) {
+  ForceLimit limit = running();
+  std::uint32_t flags = 0;
+  Vec3 force = limit.apply({3, 0, 0}, kTick, flags);
+  EXPECT_NEAR(force.norm(), 0.3, 1e-12);
+  for (int n = 0; n < 20; ++n) force = limit.apply({3, 0, 0}, kTick, flags);
+  EXPECT_NEAR(force.x(), 3, 1e-12);
+  force = limit.apply({-3, 0, 0}, kTick, flags);
+  EXPECT_NEAR(force.x(), -0.3, 1e-12)
+      << "what was there is let go at once, the other way grows slowly";
+  for (int n = 0; n < 20; ++n) force = limit.apply({3, 0, 0}, kTick, flags);
+  force = limit.apply({1, 0, 0}, kTick, flags);
+  EXPECT_NEAR(force.x(), 1, 1e-12);
+}
+
+TEST(ForceLimit, NotANumberFadesWithinFiveMillisecondsAndTheWayBackIsTheRamp) {
+  for (const double rate : {1000.0, 4000.0}) {
+    ForceLimit limit = running();
+    std::uint32_t flags = 0;
+    for (int n = 0; n < 100; ++n) (void)limit.apply({0, 0, 3}, kTick, flags);
+    flags = 0;
+    double last = 3;
+    int ticks = 0;
+    while (last > 0) {
+      const Vec3 force = limit.apply({kNaN, 0, 1}, 1 / rate, flags);
+      ASSERT_TRUE(force.allFinite());
+      EXPECT_LE(force.norm(), last + 1e-12);
+      last = force.norm();
+      ASSERT_LE(++ticks, static_cast<int>(rate * 5e-3 + 1e-9));
+    }
+    EXPECT_TRUE(flags & kFlagNotFinite);
+    EXPECT_EQ(limit.apply({0, 0, 3}, 1 / rate, flags), Vec3::Zero());
+    (void)limit.apply(Vec3::Zero(), 1 / rate, flags);
+    EXPECT_LE(limit.apply({0, 0, 3}, 1 / rate, flags).norm(), 60 / rate + 1e-12);
+  }
+}
+
+TEST(ForceLimit, DoesNotBelieveALostHandANaNOrALeap) {
+  device::HandState hand;
+  std::uint32_t flags = 0;
+  ForceLimit limit = running();
+  EXPECT_TRUE(limit.believe(hand, flags));
+  hand.world_from_tool.p.x() = 0.019;
+  EXPECT_TRUE(limit.believe(hand, flags));
+  hand.world_from_tool.p.x() = 0.040;
+  EXPECT_FALSE(limit.believe(hand, flags));
+  EXPECT_TRUE(flags & kFlagJump);
+  EXPECT_TRUE(limit.believe(hand, flags)) << "after a fault the next reading is a beginning";
+  hand.world_from_tool.p.y() = kNaN;
+  EXPECT_FALSE(limit.believe(hand, flags));
+  hand = {};
+  hand.valid = false;
+  EXPECT_FALSE(limit.believe(hand, flags));
+  EXPECT_TRUE(flags & kFlagHandLost);
+}
+
+TEST(ForceLimit, WarmMotorsGetTheContinuousForceWithoutAStep) {
+  ForceLimit limit = running();
+  std::uint32_t flags = 0;
+  double last = limit.apply({0, 0, 3.3}, kTick, flags).norm(), biggest_drop = 0;
+  for (int n = 0; n < 60'000; ++n) {
+    const double now = limit.apply({0, 0, 3.3}, kTick, flags).norm();
+    if (n > 20) biggest_drop = std::max(biggest_drop, last - now);
+    last = now;
+  }
+  EXPECT_NEAR(last, 0.88, 0.1);
+  EXPECT_TRUE(flags & kFlagThermal);
+  EXPECT_LT(biggest_drop, 0.05);
+  EXPECT_LE(limit.heat(), touch().thermal_budget * 1.01);
+}
+
+TEST(ForceLimit, WhateverComesInTheHandIsSafe) {
+  constexpr unsigned kSeed = 4711;
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  std::mt19937 random(kSeed);
+  std::uniform_real_distribution<double> any(-1, 1);
+  ForceLimit limit(touch(), {});
+  Vec3 last = Vec3::Zero();
+  for (int n = 0; n < 200'000; ++n) {
+    std::uint32_t flags = 0;
+    Vec3 wanted = Vec3(any(random), any(random), any(random)) * std::pow(10, 3 * any(random));
+    const int odd = static_cast<int>(random() % 1000);
+    if (odd == 0) wanted.x() = kNaN;
+    if (odd == 1) wanted.y() = INFINITY;
+    if (odd < 300) wanted.setZero();
+    device::HandState hand;
+    hand.valid = odd != 2;
+    hand.world_from_tool.p = Vec3::Constant(odd == 3 ? 1.0 : 0.0);
+    (void)limit.believe(hand, flags);
+    const Vec3 force = limit.apply(wanted, kTick, flags);
+    ASSERT_TRUE(force.allFinite());
+    ASSERT_LE(force.norm(), 3.3 + 1e-9);
+    // no further than the slew from what letting go could have left
+    const double square = last.squaredNorm();
+    const Vec3 kept =
+        square > 0 ? Vec3(std::clamp(force.dot(last) / square, 0.0, 1.0) * last) : Vec3::Zero();
+    ASSERT_LE((force - kept).norm(), 300 * kTick + 1e-9);
+    last = force;
+  }
+}
+
+// ---- the watchdog, on a virtual clock  [ns]
+
+TEST(Watchdog, LetsGoWithinFiveMillisecondsOfDetectionAndStaysThere) {
+  Watchdog dog(5'000'000, 5'000'000);
+  EXPECT_EQ(dog.poll(1'000'000'000), 1.0) << "nothing has begun yet";
+  std::int64_t now = 0;
+  for (; now < 50'000'000; now += 1'000'000) {
+    dog.beat(now);
+    EXPECT_EQ(dog.poll(now + 500'000), 1.0);
+  }
+  const std::int64_t last_beat = now - 1'000'000;
+  EXPECT_EQ(dog.poll(last_beat + 4'900'000), 1.0);
+  EXPECT_FALSE(dog.tripped());
+  EXPECT_EQ(dog.poll(last_beat + 5'000'000), 1.0) << "detected: the fade begins";
+  EXPECT_TRUE(dog.tripped());
+  EXPECT_NEAR(dog.poll(last_beat + 7'500'000), 0.5, 1e-9);
+  EXPECT_EQ(dog.poll(last_beat + 10'000'000), 0.0);
+  dog.beat(last_beat + 11'000'000);
+  EXPECT_EQ(dog.poll(last_beat + 11'100'000), 0.0) << "a beat alone does not bring the force back";
+  dog.rearm(last_beat + 12'000'000);
+  EXPECT_EQ(dog.poll(last_beat + 12'500'000), 1.0);
+}
+
+}  // namespace
+}  // namespace burr::haptics
