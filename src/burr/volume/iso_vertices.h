@@ -28,7 +28,7 @@ struct BrickBall {
 };
 
 struct IsoSettings {
-  float disc = 0.5F;  // radius of the discs                                        [voxel]
+  float disc = 0.3F;  // radius of the discs                                        [voxel]
   int stale_units =
       400;  // a brick that lost less in every voxel may wait             [field units]
   int refresh_budget = 30;  // bricks made anew per call of refresh(), worst first
