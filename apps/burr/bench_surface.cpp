@@ -15,7 +15,10 @@
 
 #include "bench.h"
 #include "bench_shell.h"
+#include "burr/edit/carve.h"
+#include "burr/edit/undo.h"
 #include "burr/surface/mesher.h"
+#include "burr/volume/iso_vertices.h"
 
 namespace burr::app {
 namespace {
@@ -120,41 +123,18 @@ Status bench_surface(const Options& options) {
   return fine();
 }
 
-// A ball of air 12 voxels across, with the usual ramp; the bricks it changes are written.
-void cut(volume::Bone& bone, const math::Vec3& centre) {
-  constexpr double kRadius = 6, kReach = kRadius + volume::kRamp;
-  const math::Ijk low = ((centre.array() - kReach).floor().cast<int>() / volume::kBrickEdge).max(0);
-  const math::Ijk high = ((centre.array() + kReach).floor().cast<int>() / volume::kBrickEdge)
-                             .min(bone.bricks().array() - 1);
-  volume::BrickField content;
-  for (int bk = low.z(); bk <= high.z(); ++bk)
-    for (int bj = low.y(); bj <= high.y(); ++bj)
-      for (int bi = low.x(); bi <= high.x(); ++bi) {
-        const volume::BrickIndex brick = bone.brick_at(bi, bj, bk);
-        const volume::Field* now = bone.brick_field(brick);
-        if (now == nullptr) continue;
-        bool changed = false;
-        const math::Ijk first = bone.brick_ijk(brick);
-        for (int v = 0; v < volume::kBrickVoxels; ++v) {
-          const math::Ijk at = first + math::Ijk(v & 7, (v >> 3) & 7, v >> 6);
-          const volume::Field air =
-              volume::field_from_depth((at.cast<double>() - centre).norm() - kRadius);
-          content.voxel[v] = std::min(now[v], air);
-          changed |= air < now[v];
-        }
-        if (changed) bone.write_brick(brick, content);
-      }
-}
-
 Status bench_carve(const Options& options) {
   const auto bone = shell(options.size);
   rt::ChangedBits& changed = bone->add_watcher();
+  volume::IsoVertices vertices(*bone, {}, 2, progress());
+  edit::UndoStore undo(*bone, 4096);
+  edit::Carver carver(*bone, vertices, undo, nullptr, {});
   surface::Mesher mesher(*bone);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(-1, 1);
   std::vector<int> named;
   std::vector<surface::Patch> patches(static_cast<std::size_t>(mesher.patch_count()));
-  std::vector<double> took;
+  std::vector<double> took, carving;  // [ms] the whole, and of it the servo's work
   double patches_made = 0;
   for (int i = 0; i < options.cuts && !interrupted(); ++i) {
     // a place on the outer surface, found from outside
@@ -169,8 +149,18 @@ Status bench_carve(const Options& options) {
     };
     while (!inside() && (p - middle).norm() > 1) p -= 0.5 * way;
 
+    // a burr 12 voxels across takes away all that it stands in
+    edit::Cut cut;
+    cut.centre = p;
+    cut.push = -way;
+    cut.radius = 6;
+    cut.energy = 1e3;
+    std::uint32_t flags = 0;
+    undo.begin_stroke(static_cast<std::uint64_t>(i));
     const auto start = Clock::now();
-    cut(*bone, p);
+    carver.carve(cut, flags);
+    vertices.refresh();
+    const double carved = ms_since(start);
     named.clear();
     changed.take_all([&](std::size_t brick) {
       mesher.patches_of_brick(static_cast<volume::BrickIndex>(brick), named);
@@ -181,17 +171,22 @@ Status bench_carve(const Options& options) {
       if (!mesher.mesh_patch(patch, patches[static_cast<std::size_t>(patch)]))
         return error(Trouble::internal, "a patch could not be read though nobody writes");
     took.push_back(ms_since(start));
+    undo.end_stroke();
+    carving.push_back(carved);
     patches_made += static_cast<double>(named.size());
   }
   if (took.empty()) return error(Trouble::interrupted, "stopped before the first cut");
   patches_made /= static_cast<double>(took.size());
   std::sort(took.begin(), took.end());
+  std::sort(carving.begin(), carving.end());
   nlohmann::ordered_json row;
   row["size"] = options.size;
   row["cuts"] = took.size();
   row["p50_ms"] = quantile(took, 0.5);
   row["p99_ms"] = quantile(took, 0.99);
   row["max_ms"] = took.back();
+  row["carve_p50_ms"] = quantile(carving, 0.5);
+  row["carve_p99_ms"] = quantile(carving, 0.99);
   row["patches_mean"] = patches_made;
   if (options.json)
     fmt::print("{}\n", row.dump());
