@@ -9,7 +9,7 @@
 #include "burr/io/export_part.h"
 #include "burr/record/player.h"
 #include "command.h"
-#include "recorded_volume.h"
+#include "recording.h"
 #include "volume_options.h"
 
 namespace burr::app {
@@ -74,7 +74,7 @@ Result<Bones> open_recording(const Options& options) {
   auto player = record::Player::open(options.source);
   if (!player) return player.error();
   Bones bones;
-  auto before = recorded_bone(**player, options.volume, progress());
+  auto before = bone_of(**player, options.volume, progress());
   if (!before) return before.error();
   bones.before = std::move(*before);
   bones.now = copy_of(*bones.before, (*player)->info().volume.reserve_bricks);
