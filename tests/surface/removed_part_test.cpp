@@ -61,6 +61,46 @@ TEST(RemovedPart, OfABallMilledIntoASlabIsTheCap) {
       0.001);
 }
 
+TEST(RemovedPart, ALayerThinnerThanAVoxelIsThereOnAFinerGrid) {
+  // a slab lying askew, lowered by 0.4 voxel inside a round patch
+  const Vec3 up = Vec3(0.3, -0.2, 1).normalized();
+  const Vec3 middle(24, 24, 16);
+  const auto slab = [&](const Vec3& p) { return (middle - p).dot(up); };
+  const auto patch = [&](const Vec3& p) {  // how deep inside a round pin along `up`
+    const Vec3 d = p - middle;
+    return 14 - (d - up * d.dot(up)).norm();
+  };
+  const auto grid = askew({49, 48, 32});
+  const auto before = bone_of(grid, slab);
+  const auto after = bone_of(
+      grid, [&](const Vec3& p) { return std::min(slab(p), std::max(slab(p) - 0.4, -patch(p))); });
+  const double truth = std::numbers::pi * 14 * 14 * 0.4 * std::pow(grid.voxel, 3);
+  EXPECT_NEAR(volume::removed_volume(*before, *after) / truth, 1, 0.05);
+  const auto fine = volume::removed_part(*before, *after, 4);
+  ASSERT_TRUE(fine.ok());
+  const auto shape = shape_of(whole(**fine));
+  EXPECT_EQ(shape.trouble, "");
+  EXPECT_NEAR(shape.volume / truth, 1, 0.1);
+}
+
+TEST(RemovedPart, OnAFinerGridLiesInTheSamePlace) {
+  const auto grid = askew({30, 31, 29});
+  const auto before = bone_of(grid, [](const Vec3&) { return 5.0; });  // up to the border
+  const auto ball = [](const Vec3& p) { return 6.3 - (p - Vec3(9.2, 14, 13.3)).norm(); };
+  const auto after = bone_of(grid, [&](const Vec3& p) { return std::min(5.0, -ball(p)); });
+  for (const int finer : {1, 2, 3}) {
+    SCOPED_TRACE(finer);
+    const auto removed = volume::removed_part(*before, *after, finer);
+    ASSERT_TRUE(removed.ok());
+    const Mesh mesh = whole(**removed);
+    EXPECT_EQ(shape_of(mesh).euler(), 2);
+    for (const Vertex& v : mesh.vertices) {
+      ASSERT_NEAR(ball(grid.grid_from_world(v.p.cast<double>())), 0, 0.06);
+      ASSERT_EQ(v.tissue, 1);
+    }
+  }
+}
+
 TEST(RemovedPart, IsAnErrorWhenThereIsNone) {
   const auto bone = bone_of(askew({20, 20, 20}), [](const Vec3& p) { return 9.0 - p.z(); });
   const auto none = volume::removed_part(*bone, *bone);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <memory>
 #include <thread>
 
@@ -19,6 +20,21 @@ bool ends_with(const std::string& path, const std::string& ending) {
          std::equal(ending.rbegin(), ending.rend(), path.rbegin(), [](char e, char p) {
            return e == std::tolower(static_cast<unsigned char>(p));
          });
+}
+
+constexpr int kFinest = 6;            // times finer than the bone, at most
+constexpr double kVolumeFits = 0.02;  // of the removed mesh to the ledger's volume
+
+// the volume a closed mesh encloses  [m^3]
+double enclosed(const surface::Mesh& mesh) {
+  double sum = 0;
+  const auto corner = [&](std::size_t i) {
+    return math::Vec3(mesh.vertices[mesh.triangles[i]].p.cast<double>());
+  };
+  const math::Vec3 about = mesh.vertices.empty() ? math::Vec3(0, 0, 0) : corner(0);
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
+    sum += (corner(i) - about).dot((corner(i + 1) - about).cross(corner(i + 2) - about));
+  return sum / 6;
 }
 
 int workers() { return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)); }
@@ -54,15 +70,27 @@ Result<Exported> export_part(const volume::Bone& before, const volume::Bone& now
   if (options.part == Part::removed) {
     progress.report(0, "comparing before and after");
     auto made = volume::removed_part(before, now);
+    // on the bone's own grid there may be nothing left of a thin layer
+    if (!made && is_mesh_path(path)) made = volume::removed_part(before, now, 2);
     if (!made) return made.error();
     removed = std::move(*made);
     bone = removed.get();
   }
 
-  Exported exported{volume::volume_of(*bone), 0};
+  Exported exported{
+      removed != nullptr ? volume::removed_volume(before, now) : volume::volume_of(*bone), 0};
   Status written = fine();
   if (is_mesh_path(path)) {
     auto mesh = surface::whole_surface(*bone, workers(), progress);
+    // a thin layer falls between the voxels: finer, until the mesh holds what was removed
+    for (int finer = 2; removed != nullptr && mesh.ok() && finer <= kFinest; ++finer) {
+      if (std::abs(enclosed(*mesh) / exported.volume - 1) < kVolumeFits) break;
+      auto made = volume::removed_part(before, now, finer);
+      if (!made) break;
+      removed = std::move(*made);
+      bone = removed.get();
+      mesh = surface::whole_surface(*bone, workers(), progress);
+    }
     if (!mesh) return mesh.error();
     exported.triangles = mesh->triangles.size() / 3;
     written = write_mesh(*mesh, bone->tissues(), path, options.frame, progress);
