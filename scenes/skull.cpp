@@ -49,10 +49,8 @@ struct Skull {
     hull = blend(hull, cone(at_mm(14, -86, 3), 9, at_mm(46, -70, 2), 6), 9 * mm);       // brow
     hull = blend(hull, cone(at_mm(52, -66, -2), 5, at_mm(48, -64, -24), 8), 7 * mm);    // outer rim
     hull = blend(hull, cone(at_mm(48, -66, -26), 9, at_mm(22, -76, -34), 8), 8 * mm);   // cheek
-    hull = blend(hull, cone(at_mm(51, -60, -25), 5.5, at_mm(68, -26, -25), 3.2), 4 * mm);  // arch
-    hull = blend(hull, cone(at_mm(68, -26, -25), 3.2, at_mm(66, 2, -22), 4.2), 4 * mm);
     hull =
-        blend(hull, cone(at_mm(0, -88, -2), 4.5, at_mm(0, -98, -18), 2.6), 6 * mm);  // nose bridge
+        blend(hull, cone(at_mm(0, -88, -2), 4.5, at_mm(0, -97, -13), 2.6), 6 * mm);  // nose bridge
     hull =
         blend(hull, cone(at_mm(16, -30, -44), 4, at_mm(18, -34, -62), 2.5), 5 * mm);  // pterygoids
     // the row of teeth, on an arch
@@ -68,11 +66,13 @@ struct Skull {
     teeth = row;
     // palate, sockets, nose, and what passes through
     hull = carve_soft(hull, -cone(at_mm(0, -74, -68), 13, at_mm(0, -44, -66), 17), 4 * mm);
-    hull = carve_soft(hull, -cone(at_mm(33, -98, -12), 18.5, at_mm(18, -50, -12), 5), 4 * mm);
+    hull = carve_soft(hull, -cone(at_mm(33, -98, -12), 18.5, at_mm(17, -58, -13), 3), 4 * mm);
     hull = carve_soft(hull, -cone(at_mm(4.5, -104, -36), 8.5, at_mm(4.5, -40, -36), 8), 4 * mm);
     hull = carve_soft(hull, -cone(at_mm(3.0, -104, -24), 5, at_mm(3.0, -55, -20), 3.5), 3 * mm);
-    hull = carve_soft(hull, -cone(at_mm(60, -30, -20), 15, at_mm(52, -44, -44), 12),
-                      5 * mm);  // temple
+    hull = carve_soft(hull, -cone(at_mm(68, -30, -20), 13, at_mm(57, -44, -44), 10),
+                      5 * mm);                                                             // temple
+    hull = blend(hull, cone(at_mm(51, -60, -25), 5.5, at_mm(68, -26, -25), 3.2), 4 * mm);  // arch
+    hull = blend(hull, cone(at_mm(68, -26, -25), 3.2, at_mm(66, 2, -22), 4.2), 4 * mm);
     hull = carve_soft(hull, -cone(at_mm(0, 36, -62), 15.5, at_mm(0, 36, -28), 15.5),
                       4 * mm);  // big hole
     hull =
@@ -85,10 +85,21 @@ struct Skull {
 
     // spongy bone between the tables
     const double inside = std::min(hull - 1.9 * mm, std::min(vault, 9 * mm - vault) + 1 * mm);
-    diploe = inside > -2 * mm ? std::min(inside, foam(p, 3.4 * mm, 0.3, 44) - 0.45 * mm) : inside;
+    diploe = inside > -2 * mm ? std::min(inside, foam(p, 6.5 * mm, 0.3, 44) - 0.6 * mm) : inside;
     depth = std::max(std::min(hull, -diploe), teeth);
   }
 };
+
+// the last point is asked about twice: how deep, and what tissue
+const Skull& remembered(const Vec3& p) {
+  thread_local Vec3 at = Vec3::Zero();
+  thread_local Skull last(at);
+  if (at != p) {
+    last = Skull(p);
+    at = p;
+  }
+  return last;
+}
 
 }  // namespace
 
@@ -105,10 +116,10 @@ Phantom skull(double voxel) {
     phantom.tissues.tissues[id].label = static_cast<int>(id);
 
   phantom.formula.lipschitz = 1.7;
-  phantom.formula.depth = [](const Vec3& p) { return Skull(p).depth; };
+  phantom.formula.depth = [](const Vec3& p) { return remembered(p).depth; };
   phantom.formula.tissue = [ramp = volume::kRamp * voxel](const Vec3& p, double depth) -> TissueId {
     if (depth < -ramp) return kAir;
-    const Skull s(p);
+    const Skull& s = remembered(p);
     if (s.teeth > std::min(0.0, depth)) return kTeeth;
     if (s.diploe > -1.0 * kMm && s.hull > 1.2 * kMm) return kDiploe;
     return s.vault < 9 * kMm && p.z() > -30 * kMm ? kTables : kFace;

@@ -254,8 +254,8 @@ double TemporalBone::outer(const Vec3& p, double canal_axis) const {
   depth = blend(depth, pyramid.depth(p), 6 * mm);
 
   // root of the zygoma above the canal, running forwards as a bar; the temporal line behind it
-  const RoundCone root{at_mm(3.0, -3, 8.6), at_mm(-0.6, -15, 7.0), 4.6 * mm, 3.2 * mm};
-  const RoundCone bar{at_mm(-0.6, -15, 7.0), at_mm(-4.4, -34, 4.8), 3.2 * mm, 2.4 * mm};
+  const RoundCone root{at_mm(3.2, -3, 8.6), at_mm(-0.6, -15, 7.0), 4.4 * mm, 2.8 * mm};
+  const RoundCone bar{at_mm(-0.6, -15, 7.0), at_mm(-4.2, -34, 4.8), 2.8 * mm, 2.0 * mm};
   const RoundCone line{at_mm(3.0, -1, 9.8), at_mm(8.6, 27, 16.5), 2.8 * mm, 1.6 * mm};
   depth = blend(depth, root.depth(p), 5 * mm);
   depth = blend(depth, bar.depth(p), 3 * mm);
@@ -282,7 +282,7 @@ double TemporalBone::outer(const Vec3& p, double canal_axis) const {
   depth = blend(depth, styloid.depth(p), 2.5 * mm);
 
   // spine of Henle, behind and above the opening
-  const RoundCone spine{at_mm(1.2, 6.4, 2.2), at_mm(-0.2, 4.4, 5.4), 1.2 * mm, 1.0 * mm};
+  const RoundCone spine{at_mm(2.2, 6.4, 1.6), at_mm(1.1, 4.6, 4.8), 1.1 * mm, 0.8 * mm};
   depth = blend(depth, spine.depth(p), 1.6 * mm);
 
   // groove of the digastric muscle, inside the tip
