@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
         Expected{"headsq/headsq_hu.mha", {64, 64, 93}, {3.2, 3.2, 1.5}, false, true},
         Expected{"skull_mask/Skull.nrrd", {160, 232, 160}, {1, 0.898437, 0.898437}, true, false},
         Expected{
-            "jaw_cbct/jaw_cbct_half_0.4mm.nii.gz", {300, 300, 225}, {0.4, 0.4, 0.4}, false, false},
+            "jaw_cbct/jaw_cbct_half_0.4mm.nii.gz", {300, 300, 225}, {0.4, 0.4, 0.4}, false, true},
         Expected{"tooth_microct/tooth.nhdr", {103, 94, 161}, {1, 1, 1}, false, false},
         Expected{"spine_thorax/LIDC-IDRI-0314_spine_crop.nii.gz",
                  {210, 210, 275},

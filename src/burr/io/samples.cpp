@@ -158,7 +158,7 @@ Status VoxelSink::finish(Scan& scan, bool labels_for_sure) {
   if (!(low <= high)) return error("no voxel holds a number");
 
   // no other format says what its numbers are; CT is easily known by its air and its metal
-  if (!scan.hounsfield && low <= -900 && low >= -3100 && high >= 300 && high <= 4200) {
+  if (!scan.hounsfield && low <= -900 && low >= -3100 && high >= 300 && high <= 8000) {
     scan.hounsfield = true;
     scan.notices.push_back(
         fmt::format("The values run from {:.0f} to {:.0f}, as CT does: taken for Hounsfield units.",

@@ -165,25 +165,26 @@ template <bool ByNormal>
 inline void speak(const Point& p, float soft, float dx0, float dy, float dz, Sums& sums,
                   std::size_t row) {
   const float rest = dy * dy + dz * dz + soft, plane = dy * p.ny + dz * p.nz;
-  float* weights = &sums.weights[row];
-  float* depths = &sums.depths[row];
-  float* nx = &sums.nx[row];
-  float* ny = &sums.ny[row];
-  float* nz = &sums.nz[row];
-  float* rx = &sums.rx[row];
-  float* ry = &sums.ry[row];
-  float* rz = &sums.rz[row];
-  const float* fx = &sums.facing_x[row];
-  const float* fy = &sums.facing_y[row];
-  const float* fz = &sums.facing_z[row];
+  // rows of different sums never overlap
+  float* __restrict weights = &sums.weights[row];
+  float* __restrict depths = &sums.depths[row];
+  float* __restrict nx = &sums.nx[row];
+  float* __restrict ny = &sums.ny[row];
+  float* __restrict nz = &sums.nz[row];
+  float* __restrict rx = &sums.rx[row];
+  float* __restrict ry = &sums.ry[row];
+  float* __restrict rz = &sums.rz[row];
+  const float* __restrict fx = &sums.facing_x[row];
+  const float* __restrict fy = &sums.facing_y[row];
+  const float* __restrict fz = &sums.facing_z[row];
   for (int x = 0; x < kBrickEdge; ++x) {
     const float dx = dx0 + static_cast<float>(x);
     float w = 1.0F / (dx * dx + rest);
     w *= w;
     w *= w;
     if (ByNormal) {
-      const float agree =
-          std::max(0.0F, 0.5F + 0.5F * (p.nx * fx[x] + p.ny * fy[x] + p.nz * fz[x]));
+      const float facing = 0.5F + 0.5F * (p.nx * fx[x] + p.ny * fy[x] + p.nz * fz[x]);
+      const float agree = facing > 0.0F ? facing : 0.0F;
       w *= agree * agree;
     }
     weights[x] += w;
