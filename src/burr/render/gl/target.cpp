@@ -12,9 +12,9 @@ void shape(Texture& texture, GLint inside, int width, int height, GLenum format,
   texture = Texture();
   glBindTexture(GL_TEXTURE_2D, texture.make());
   glTexImage2D(GL_TEXTURE_2D, 0, inside, width, height, 0, format, type, nullptr);
-  for (const GLenum way : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+  for (const GLenum way : {GLenum{GL_TEXTURE_MIN_FILTER}, GLenum{GL_TEXTURE_MAG_FILTER}})
     glTexParameteri(GL_TEXTURE_2D, way, GL_NEAREST);
-  for (const GLenum way : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+  for (const GLenum way : {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}})
     glTexParameteri(GL_TEXTURE_2D, way, GL_CLAMP_TO_EDGE);
 }
 
