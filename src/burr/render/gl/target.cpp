@@ -52,9 +52,9 @@ Result<bool> Target::resize(int wide, int high, int hollow_stride) {
   shape(lit, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);
   shape(hollow, GL_RGBA8, hollow_width, hollow_height, GL_RGBA, GL_UNSIGNED_BYTE);
   shape(soft, GL_RGBA8, hollow_width, hollow_height, GL_RGBA, GL_UNSIGNED_BYTE);
-  for (Status made : {attach(geometry, {colour.get(), normal.get()}, depth.get()),
-                      attach(hollow_at, {hollow.get()}, 0), attach(soft_at, {soft.get()}, 0),
-                      attach(lit_at, {lit.get()}, 0)})
+  for (const Status& made : {attach(geometry, {colour.get(), normal.get()}, depth.get()),
+                             attach(hollow_at, {hollow.get()}, 0), attach(soft_at, {soft.get()}, 0),
+                             attach(lit_at, {lit.get()}, 0)})
     if (!made) return made.error();
   width = wide;
   height = high;
