@@ -17,6 +17,7 @@
 #include "burr/render/pick.h"
 #include "burr/render/picture.h"
 #include "burr/render/renderer.h"
+#include "burr/scenario/case.h"
 #include "burr/sim/motion.h"
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
@@ -39,7 +40,10 @@ struct Options {
   VolumeOptions volume;
   std::string out;
   double seconds = 0;
-  double burr_mm = 5, rpm = 40'000;
+  double burr_mm = 0, rpm = 0;   // 0: the case's, or 5 mm and 40 000
+  std::optional<Vec3> at, into;  // where the case begins
+  std::string motion = "pocket";
+  tool::BurrKind kind = tool::BurrKind::cutting;
   bool headless = false;
 };
 
@@ -58,10 +62,37 @@ bool display_there() {
   return false;
 }
 
-Result<Work> open_work(Options options) {
+// A built-in case or a .toml file says what is milled, where and with what; options given by hand
+// win. Anything else is left as it is.
+Status take_case(Options& options) {
   VolumeOptions& volume = options.volume;
   if (volume.path.empty()) volume.path = "temporal-bone";
-  // a case is named by its phantom; a file of that name comes first
+  const auto known = scenario::built_in_cases();
+  const bool built_in = std::find(known.begin(), known.end(), volume.path) != known.end();
+  std::error_code nobody_asks;
+  if ((built_in && !std::filesystem::exists(volume.path, nobody_asks)) ||
+      std::filesystem::path(volume.path).extension() == ".toml") {
+    const auto read = scenario::read_case(volume.path);
+    if (!read) return read.error();
+    volume.path = read->phantom.empty() ? read->volume : "phantom:" + read->phantom;
+    if (volume.voxel_mm == 0) volume.voxel_mm = 1e3 * read->voxel;
+    if (options.burr_mm == 0) options.burr_mm = 2e3 * read->burr.radius;
+    if (options.rpm == 0) options.rpm = read->full_speed * 60 / (2 * std::numbers::pi);
+    if (options.seconds == 0 && options.headless) options.seconds = read->seconds;
+    options.at = read->at;
+    options.into = read->into;
+    options.motion = read->motion;
+    options.kind = read->burr.kind;
+    fmt::print(stderr, "{}\n", read->title);
+  }
+  if (options.burr_mm == 0) options.burr_mm = 5;
+  if (options.rpm == 0) options.rpm = 40'000;
+  return fine();
+}
+
+Result<Work> open_work(Options options) {
+  VolumeOptions& volume = options.volume;
+  // a phantom's bare name; a file of that name comes first
   std::error_code nobody_asks;
   if (!is_phantom(volume.path) && volume.path.find_first_of("./") == std::string::npos &&
       !std::filesystem::exists(volume.path, nobody_asks))
@@ -76,14 +107,8 @@ Result<Work> open_work(Options options) {
   work.what =
       phantom ? volume.path.substr(volume.path.find(':') + 1) : work.made.summary.format + " scan";
   for (const std::string& notice : work.made.summary.notices) fmt::print(stderr, "{}\n", notice);
-  std::optional<Vec3> at, into;
-  if (volume.path == "phantom:temporal-bone") {
-    // where a mastoidectomy begins: behind and above the ear canal, from the side. The phantom's
-    // origin is the canal's opening, x leads inwards, y back, z up.
-    at = Vec3(-15e-3, 12e-3, 4e-3);
-    into = Vec3::UnitX();
-  }
-  auto place = sim::find_work_place(*work.made.bone, 0.5e-3 * options.burr_mm, at, into);
+  auto place =
+      sim::find_work_place(*work.made.bone, 0.5e-3 * options.burr_mm, options.at, options.into);
   if (!place) return place.error();
   work.place = *place;
   return work;
@@ -92,6 +117,7 @@ Result<Work> open_work(Options options) {
 sim::SessionSettings settings_of(const Options& options, bool realtime) {
   sim::SessionSettings settings;
   settings.servo.burr.radius = 0.5e-3 * options.burr_mm;
+  settings.servo.burr.kind = options.kind;
   settings.servo.spindle_rad_s = options.rpm * 2 * std::numbers::pi / 60;
   settings.realtime = realtime;
   return settings;
@@ -163,7 +189,7 @@ Status run_headless(const Options& options) {
   if (!opened) return opened.error();
   Work& work = *opened;
   const sim::SessionSettings settings = settings_of(options, false);
-  auto path = sim::motion("pocket", work.place, settings.servo.burr.radius, seconds);
+  auto path = sim::motion(options.motion, work.place, settings.servo.burr.radius, seconds);
   if (!path) return path.error();
   auto hand = std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{});
   auto started =
@@ -193,7 +219,7 @@ Status run_headless(const Options& options) {
   if (!status) return status;
   Recording recording;
   status = recording.start(session, (folder / "session.mcap").string(), work.volume,
-                           work.made.summary, "pocket", false);
+                           work.made.summary, options.motion, false);
   if (!status) return status;
   session.run(0.5 * seconds, progress());
   put_tool(scene, session);
@@ -212,7 +238,7 @@ Status run_headless(const Options& options) {
   status = picture("after.png");
   if (!status) return status;
 
-  Summary summary = summary_of(session, work.what, "simulated hand, pocket");
+  Summary summary = summary_of(session, work.what, "simulated hand, " + options.motion);
   summary.pictures = {
       {"before.png", "before"}, {"working.png", "at half time"}, {"after.png", "after"}};
   summary.recording = "session.mcap";
@@ -291,21 +317,23 @@ Status run_in_window(const Options& options) {
   return fine();
 }
 
-Status run(const Options& options) {
-  if (options.headless) return run_headless(options);
-  if (!display_there()) {
+Status run(Options options) {
+  if (!display_there() && !options.headless) {
     fmt::print(stderr, "no display here: milling by itself, as with --headless\n");
-    return run_headless(options);
+    options.headless = true;
   }
+  if (Status taken = take_case(options); !taken) return taken;
+  if (options.headless) return run_headless(options);
   return run_in_window(options);
 }
 
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("run", "mill a bone in a window");
-  command->add_option("bone", options->volume.path,
-                      "a case (temporal-bone, jaw, ...), or a scan: file or DICOM folder; default: "
-                      "temporal-bone");
+  command->add_option(
+      "bone", options->volume.path,
+      "a case (temporal-bone, jaw, ... or a .toml file), or a scan: file or DICOM folder; default: "
+      "temporal-bone");
   command->add_flag("--headless", options->headless,
                     "no window: mill by itself, leave pictures, a recording and a page of figures");
   command
@@ -315,8 +343,9 @@ void add(CLI::App& app, Todo& todo) {
   command->add_option("--out", options->out,
                       "folder for pictures, recording and summary (headless: burr-out; window: "
                       "nothing is kept without it)");
-  command->add_option("--burr-mm", options->burr_mm, "diameter of the burr")->capture_default_str();
-  command->add_option("--rpm", options->rpm, "of the spindle")->capture_default_str();
+  command->add_option("--burr-mm", options->burr_mm,
+                      "diameter of the burr; default: the case's, else 5");
+  command->add_option("--rpm", options->rpm, "of the spindle; default: the case's, else 40000");
   add_volume_options(*command, options->volume);
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }
