@@ -72,6 +72,7 @@ int main(int argc, char** argv) {
   for (const auto& [place, add] : commands) add(program, todo);
   program.add_subcommand("help", "this text, with examples")->callback([&todo, &program] {
     todo.work = [&program] {
+      program.clear();  // else CLI11 tells of the subcommand that was asked for, "help"
       fmt::print("{}", program.help());
       return fine();
     };
