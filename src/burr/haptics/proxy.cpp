@@ -129,6 +129,11 @@ LeastMove Proxy::move_toward(const Vec3& from, const Vec3& wanted, double longes
   double within = std::clamp(guess, kLeastGuess, std::max(longest, kLeastGuess));
   for (;;) {
     collect(from, within);
+    if (candidates_->full) {  // more than the list holds: a shorter move needs fewer
+      if (within <= kLeastGuess) return {.solved = false};
+      longest = within = std::max(within / 2, kLeastGuess);
+      continue;
+    }
     LeastMove move = least_move(*candidates_, wanted, kernel_.most_violated);
     if (!move.solved) {  // overstepped discs on opposite sides: hold still rather than choose
       for (int j = 0; j < candidates_->count; ++j)
@@ -142,7 +147,8 @@ LeastMove Proxy::move_toward(const Vec3& from, const Vec3& wanted, double longes
       move.p *= within / length;
       return move;
     }
-    within = std::min(1.1 * length, longest);
+    // planes that were not gathered make the move look longer than it is, so feel the way forward
+    within = std::min({1.1 * length, 3 * within + 0.1, longest});
   }
 }
 
