@@ -9,12 +9,12 @@
 
 #include "burr/device/simulated_hand.h"
 #include "burr/render/bone_scene.h"
-#include "burr/render/pick.h"
 #include "burr/render/picture.h"
 #include "burr/sim/motion.h"
 #include "burr/sim/session.h"
 #include "command.h"
 #include "recording.h"
+#include "still.h"
 #include "volume_options.h"
 
 namespace burr::app {
@@ -24,9 +24,10 @@ using math::Vec3;
 
 struct Options {
   VolumeOptions volume;
+  PictureSize size;
   std::string path_csv, motion_name, record, picture, arm = "firm";
   std::vector<double> at_mm, into;
-  double burr_mm = 5, rpm = 40000, rate_hz = 1000, seconds = 5, stiffness = 1000;
+  double burr_mm = 5, rpm = 40000, rate_hz = 1000, seconds = 10, stiffness = 1000;
   std::size_t undo_bricks = sim::ServoSettings{}.undo_bricks;
   bool realtime = false, embed = false, json = false, diamond = false;
 };
@@ -50,14 +51,11 @@ Result<device::HandPath> hand_path(const Options& options, const volume::Bone& b
 }
 
 Status draw(const Options& options, const sim::WorkPlace& place, sim::Session& session) {
-  render::Scene scene;
-  scene.look = render::still_look();
-  scene.scale_bar = true;
-  const double height = std::clamp(20 * 0.5e-3 * options.burr_mm, 20e-3, 70e-3);
-  scene.camera = render::view_of_work(place.at, -place.into, height);
+  render::Scene scene =
+      scene_of_work(session.bone(), 0.5e-3 * options.burr_mm, place.at, -place.into);
   const Status skinned = render::skin_bone(scene, session.bone(), 2, progress());
   if (!skinned) return skinned;
-  return render::render_png(scene, 1280, 720, options.picture);
+  return render::render_png(scene, options.size.width, options.size.height, options.picture);
 }
 
 void print(const Options& options, sim::Session& session) {
@@ -202,6 +200,7 @@ void add(CLI::App& app, Todo& todo) {
                    "bricks of room for added material")
       ->capture_default_str();
   command->add_flag("--json", options->json, "one JSON object on the last line");
+  add_picture_size(*command, options->size);
   add_volume_options(*command, options->volume);
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

@@ -6,23 +6,26 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/render/bone_scene.h"
-#include "burr/render/pick.h"
 #include "burr/render/picture.h"
 #include "burr/sim/replay.h"
 #include "burr/sim/session_words.h"
+#include "burr/surface/worker.h"
 #include "command.h"
 #include "recording.h"
+#include "still.h"
 
 namespace burr::app {
 namespace {
 
 struct Options {
-  std::string file, picture;
+  std::string file, picture, film;
   VolumeOptions volume;
-  double at = -1;
+  PictureSize size;
+  double at = -1, fps = 25;
   bool check = false, json = false;
 };
 
+// The bone and the burr at one moment.
 Status draw(const Options& options, record::Player& player, const sim::Recorded& recorded) {
   auto bone = bone_of(player, options.volume, progress());
   if (!bone) return bone.error();
@@ -32,19 +35,51 @@ Status draw(const Options& options, record::Player& player, const sim::Recorded&
   auto tick = player.tick_at(t);
   if (!tick) return tick.error();
 
-  render::Scene scene;
-  scene.look = render::still_look();
-  scene.scale_bar = true;
   const double radius = recorded.settings.servo.burr.radius;
   const math::Vec3 shaft = tick->hand.world_from_tool.q * math::Vec3::UnitZ();
-  scene.camera =
-      render::view_of_work(tick->contact.proxy, shaft, std::clamp(20 * radius, 20e-3, 70e-3));
-  scene.burr.visible = true;
-  scene.burr.radius = radius;
-  scene.burr.world_from_tool = {tick->contact.proxy, tick->hand.world_from_tool.q};
+  render::Scene scene = scene_of_work(**bone, radius, tick->contact.proxy, shaft);
+  put_tool(scene, *tick, radius, false);
   const Status skinned = render::skin_bone(scene, **bone, 2, progress());
   if (!skinned) return skinned;
-  return render::render_png(scene, 1280, 720, options.picture);
+  return render::render_png(scene, options.size.width, options.size.height, options.picture);
+}
+
+// The whole session as numbered pictures, seen from where it ended.
+Status film(const Options& options, record::Player& player, const sim::Recorded& recorded) {
+  auto bone = bone_of(player, options.volume, progress());
+  if (!bone) return bone.error();
+  auto last = player.tick_at(player.seconds());
+  if (!last) return last.error();
+  const double radius = recorded.settings.servo.burr.radius;
+  const math::Vec3 shaft = last->hand.world_from_tool.q * math::Vec3::UnitZ();
+  render::Scene scene = scene_of_work(**bone, radius, last->contact.proxy, shaft);
+  scene.tissue_colours = render::colours_of((*bone)->tissues());
+  surface::Worker worker(**bone, 1);
+  const auto show = [&scene](const surface::Skin& skin) {
+    surface::Patch copy = *skin.mesh;
+    render::set_patch(scene, skin.patch, std::move(copy));
+  };
+  const Status skinned = worker.first(progress(), show);
+  if (!skinned) return skinned;
+  auto reel = render::Film::in(options.film, options.size.width, options.size.height);
+  if (!reel) return reel.error();
+  const int frames = std::max(1, static_cast<int>(player.seconds() * options.fps));
+  for (int n = 0; n < frames; ++n) {
+    if (interrupted())
+      return error(Trouble::interrupted, "stopped; the pictures made until then are kept");
+    progress().report(static_cast<double>(n) / frames, "filming");
+    Status there = player.bone_at(n / options.fps, **bone);
+    if (!there) return there;
+    worker.settle(show);
+    auto tick = player.tick_at(n / options.fps);
+    if (!tick) return tick.error();
+    put_tool(scene, *tick, radius, true);
+    Status written = reel->frame(scene);
+    if (!written) return written;
+  }
+  progress().report(1, "filming");
+  fmt::print("{}: {} pictures, {} a second\n", options.film, reel->frames(), options.fps);
+  return fine();
 }
 
 Status run(const Options& options) {
@@ -96,7 +131,11 @@ Status run(const Options& options) {
   } else if (options.json) {
     fmt::print("{}\n", out.dump());
   }
-  return options.picture.empty() ? fine() : draw(options, player, *recorded);
+  if (!options.picture.empty()) {
+    Status drawn = draw(options, player, *recorded);
+    if (!drawn) return drawn;
+  }
+  return options.film.empty() ? fine() : film(options, player, *recorded);
 }
 
 void add(CLI::App& app, Todo& todo) {
@@ -107,6 +146,11 @@ void add(CLI::App& app, Todo& todo) {
   command->add_flag("--check", options->check,
                     "simulate it again and compare every tick and brick");
   command->add_option("--picture", options->picture, "F.png: the bone and the burr at a moment");
+  command->add_option("--film", options->film, "DIR: the whole session as numbered pictures");
+  command->add_option("--fps", options->fps, "pictures a second of the film")
+      ->check(CLI::Range(0.1, 240.0))
+      ->capture_default_str();
+  add_picture_size(*command, options->size);
   command->add_option("--at", options->at, "seconds from the start (default: the end)")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--volume", options->volume.path,

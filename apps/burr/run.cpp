@@ -23,6 +23,7 @@
 #include "burr/surface/worker.h"
 #include "command.h"
 #include "recording.h"
+#include "still.h"
 #include "summary.h"
 #include "volume_options.h"
 #include "window/mouse_hand.h"
@@ -167,16 +168,9 @@ Summary summary_of(sim::Session& session, const std::string& what, const std::st
 }
 
 // the tool as the session last had it
-void put_tool(render::Scene& scene, sim::Session& session) {
-  const tool::Burr& burr = session.settings().servo.burr;
+void put_tool_of(render::Scene& scene, sim::Session& session) {
   record::TickRow row;
-  if (!session.view(row)) return;
-  scene.burr.visible = true;
-  scene.burr.radius = burr.radius;
-  scene.burr.shaft_radius = burr.shaft_radius;
-  scene.burr.shaft_length = burr.shaft_length;
-  scene.burr.world_from_tool = {row.contact.proxy, row.hand.world_from_tool.q};
-  render::show_contact(scene, row.hand.world_from_tool.p, row.contact.proxy, row.contact.force);
+  if (session.view(row)) put_tool(scene, row, session.settings().servo.burr.radius, true);
 }
 
 // Before, at half time with the burr in the bone, and after: the same view.
@@ -199,11 +193,8 @@ Status run_headless(const Options& options) {
 
   auto renderer = render::Renderer::offscreen();
   if (!renderer) return renderer.error();
-  render::Scene scene;
-  scene.look = render::still_look();
-  scene.scale_bar = true;
-  scene.camera = render::view_of_work(work.place.at, -work.place.into,
-                                      view_height(settings.servo.burr.radius));
+  render::Scene scene =
+      scene_of_work(session.bone(), settings.servo.burr.radius, work.place.at, -work.place.into);
   const auto picture = [&](const char* name) -> Status {
     const Status skinned = render::skin_bone(scene, session.bone(), settings.threads, progress());
     if (!skinned) return skinned;
@@ -222,7 +213,7 @@ Status run_headless(const Options& options) {
                            work.made.summary, options.motion, false);
   if (!status) return status;
   session.run(0.5 * seconds, progress());
-  put_tool(scene, session);
+  put_tool_of(scene, session);
   status = stopped();
   if (status) status = picture("working.png");
   scene.burr.visible = false;
