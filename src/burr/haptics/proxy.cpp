@@ -159,6 +159,7 @@ LeastMove Proxy::move_toward(const Vec3& from, const Vec3& wanted, double longes
 // disc's own plane is kept, blended by how clean it is.
 Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand) const BURR_RT {
   constexpr int kRounds = 6;
+  constexpr double kTurn = 1e-4;  // a normal that turns by less is found                      [rad]
   constexpr double kFarthest =
       0.35;  // from the discs' answer; beyond, the planes do not describe the place  [voxel]
   Candidates& few = *smooth_;
@@ -171,8 +172,10 @@ Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand) const BUR
   }
   Vec3 place = c_;
   Vec3 last_change[3];
-  for (int round = 0; round < kRounds; ++round) {
+  bool settled = false;
+  for (int round = 0; round < kRounds && !settled; ++round) {
     few.count = last.active;
+    settled = true;
     for (int a = 0; a < last.active; ++a) {
       const int j = last.index[a];
       const Vec3 disc(static_cast<double>(candidates_->nx[j]),
@@ -196,6 +199,7 @@ Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand) const BUR
       if (round > 0 && last_change[a].squaredNorm() > 1e-14)
         ratio = std::clamp(change.dot(last_change[a]) / last_change[a].squaredNorm(), -8.0, 0.7);
       last_change[a] = change / (1 - ratio);
+      settled &= last_change[a].squaredNorm() < kTurn * kTurn;
       const Vec3 n = (normals[a] + last_change[a]).normalized();
       const double gap = (1 - clean) * disc_gap - clean * depth;
       few.nx[a] = static_cast<float>(n.x());

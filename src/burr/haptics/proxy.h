@@ -28,7 +28,7 @@ struct ProxySettings {
   double friction_static = 0.0;  // stick up to this; >= friction_kinetic [-]
   double friction_kinetic = 0.0;
   int max_moves = 12;      // in one tick; a hand faster than that is caught up later
-  double close = 1e-3;     // a move shorter than this ends the search                      [voxel]
+  double close = 0.02;     // a move shorter than this ends the search                      [voxel]
   double recovery = 5e-3;  // bone that grew under the burr pushes it out this far a tick   [voxel]
   bool smooth = true;      // force from the smooth surface, not from the discs' facets
 };
