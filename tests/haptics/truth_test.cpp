@@ -250,6 +250,27 @@ TEST_P(Truth, SitsBetweenTwoBallsSymmetrically) {
   EXPECT_NEAR(touch.proxy.z(), z, 2 * scene.tolerance());
 }
 
+// A deep push amplifies the facets on which the proxy itself rests; what the hand feels is the
+// smooth surface.
+TEST_P(Truth, TheForceOfADeepPushPullsToTheExactPlace) {
+  const double R = 5 * kMm, r = 1.5 * kMm, deep = 1 * kMm;
+  Scene scene(scenes::ball(R), GetParam());
+  Proxy proxy(scene.surface, {.radius = r}, {0, 0, 8 * kMm});
+  double worst = 0, worst_proxy = 0;
+  for (int n = 0; n <= 2000; ++n) {
+    const double sunk = std::min(deep, deep * n / 400.0);
+    const Vec3 out =
+        Vec3(std::sin(5e-4 * n), 0.2 * std::sin(7e-4 * n), std::cos(5e-4 * n)).normalized();
+    const Vec3 x = (R + r - sunk) * out;
+    const Touch touch = proxy.step(x);
+    if (n < 500) continue;
+    worst = std::max(worst, (x + touch.depth * touch.normal - (R + r) * out).norm());
+    worst_proxy = std::max(worst_proxy, (touch.proxy - (R + r) * out).norm());
+  }
+  EXPECT_LT(worst, scene.tolerance());
+  EXPECT_LT(worst_proxy, 0.5 * scene.h);  // half the distance between two vertices
+}
+
 INSTANTIATE_TEST_SUITE_P(VoxelMm, Truth, testing::Values(0.5, 0.25, 0.125), [](const auto& voxel) {
   return std::to_string(static_cast<int>(1000 * voxel.param)) + "um";
 });
