@@ -84,6 +84,7 @@ void Session::loop(std::uint64_t ticks) {
   rt::NoWaitClock simulated(settings_.servo.rate_hz);
   rt::TickClock& clock = settings_.realtime ? static_cast<rt::TickClock&>(wall) : simulated;
   if (settings_.realtime) watchdog_->rearm(rt::monotonic_ns());
+  math::Vec3 last_force = math::Vec3::Zero();
 
   for (std::uint64_t n = 0;
        n < ticks && !stop_.load(std::memory_order_relaxed) && !device_->finished(); ++n) {
@@ -107,7 +108,8 @@ void Session::loop(std::uint64_t ticks) {
 
     stats_.add(took);
     if (settings_.realtime) stats_.add_lateness(time.late_ns, clock.period_ns(), time.missed);
-    const double force = row.contact.force.norm();
+    last_force = row.contact.force;
+    const double force = last_force.norm();
     peak_force_ = std::max(peak_force_, force);
     if (row.contact.touching) {
       force_sum_ += force;
@@ -118,7 +120,12 @@ void Session::loop(std::uint64_t ticks) {
     done_.fetch_add(1, std::memory_order_relaxed);
     if (!settings_.realtime && recorder_ != nullptr) recorder_->wait_for_room();
   }
-  device_->write_force(math::Vec3::Zero());
+  // the last force is let go within five milliseconds, not dropped
+  const auto fade = static_cast<int>(std::ceil(5e-3 * settings_.servo.rate_hz));
+  for (int n = 1; n <= fade; ++n) {
+    static_cast<void>(clock.wait());
+    device_->write_force(last_force * (1 - static_cast<double>(n) / fade));
+  }
   while (recorder_ != nullptr && servo_->bricks_to_write() > 0) {  // what the diary is still owed
     servo_->flush_bricks();
     recorder_->wait_for_room();
