@@ -1,2 +1,2 @@
 #define BURR_KERNEL avx2
-#include "burr/edit/carve_kernel_impl.h"
+#include "burr/edit/carve_kernel.inc"

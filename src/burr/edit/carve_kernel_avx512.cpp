@@ -1,2 +1,2 @@
 #define BURR_KERNEL avx512
-#include "burr/edit/carve_kernel_impl.h"
+#include "burr/edit/carve_kernel.inc"

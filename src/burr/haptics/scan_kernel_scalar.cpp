@@ -1,2 +1,2 @@
 #define BURR_KERNEL scalar
-#include "burr/haptics/scan_kernel_impl.h"
+#include "burr/haptics/scan_kernel.inc"

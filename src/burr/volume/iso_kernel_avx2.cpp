@@ -1,2 +1,2 @@
 #define BURR_KERNEL avx2
-#include "burr/volume/iso_kernel_impl.h"
+#include "burr/volume/iso_kernel.inc"

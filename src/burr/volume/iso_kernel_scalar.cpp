@@ -1,2 +1,2 @@
 #define BURR_KERNEL scalar
-#include "burr/volume/iso_kernel_impl.h"
+#include "burr/volume/iso_kernel.inc"

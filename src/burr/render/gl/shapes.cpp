@@ -142,7 +142,7 @@ void Shapes::make_shaft(const Burr& burr) {
 }
 
 void Shapes::add(const Shape& shape, const Eigen::Matrix4d& world_from_shape, const Colour& colour,
-                 bool steel, bool on_top, std::vector<math::Aabb> boxes_shape) {
+                 bool steel, bool on_top, const std::vector<math::Aabb>& boxes_shape) {
   Piece piece{&shape, world_from_shape, colour, steel, on_top, {}};
   for (const math::Aabb& box : boxes_shape) {
     auto& corners = piece.boxes.emplace_back();

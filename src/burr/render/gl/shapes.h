@@ -45,7 +45,7 @@ class Shapes {
   void make();
   void make_shaft(const Burr& burr);
   void add(const Shape& shape, const Eigen::Matrix4d& world_from_shape, const Colour& colour,
-           bool steel, bool on_top, std::vector<math::Aabb> boxes_shape);
+           bool steel, bool on_top, const std::vector<math::Aabb>& boxes_shape);
 
   Shape ball_, head_, rod_, tip_, shaft_;
   bool made_ = false;
