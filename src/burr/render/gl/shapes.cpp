@@ -168,7 +168,7 @@ const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
     std::vector<math::Aabb> slices;
     for (int slice = 0; slice < 4; ++slice)
       slices.push_back({{-r, -r, slice * end / 4}, {r, r, (slice + 1) * end / 4}});
-    add(shaft_, placed(burr.world_from_tool, 1, 1), kSteel, true, false, std::move(slices));
+    add(shaft_, placed(burr.world_from_tool, 1, 1), kSteel, true, false, slices);
   }
   for (const Marker& marker : scene.markers) {
     if (!marker.p.allFinite()) continue;
