@@ -333,17 +333,18 @@ bool Player::load_keyframe(std::uint64_t tick) {
 Status Player::advance(std::uint64_t tick) {
   for (; place_.chunk < change_chunks_.size(); ++place_.chunk, place_.message = 0) {
     const auto chunk = reader_->read_chunk(change_chunks_[place_.chunk]);
-    if (!chunk) {
+    if (!chunk) {  // what it held up to this tick is unknown; what begins later is not asked for
       notice(chunk.error().text);
-      continue;  // the next batch will find out what is missing
+      if (start_tick(change_chunks_[place_.chunk]) <= tick) return broken_before(tick);
+      break;
     }
     for (; place_.message < chunk->messages.size(); ++place_.message, place_.row = 0) {
       const McapMessage& message = chunk->messages[place_.message];
       if (message.channel != change_channel_) continue;
       Bricks bricks;
       if (!decode_bricks(message.data, bricks)) {
-        notice(path_ + ": a message of changed bricks is malformed and was left out");
-        continue;
+        notice(path_ + ": a message of changed bricks is malformed");
+        return broken_before(tick);
       }
       if (bricks.batch < place_.next_batch) continue;  // already in the keyframe
       if (bricks.batch > place_.next_batch) return broken_before(tick);
