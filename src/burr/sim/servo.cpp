@@ -404,7 +404,8 @@ std::vector<std::string> words(std::uint32_t flags) {
       {haptics::kFlagJump,
        "the hand leapt more than 20 mm in one tick and was not believed; check the device's cable "
        "and calibration"},
-      {haptics::kFlagLagging, "the burr had not come to rest within the tick: a very fast hand, or a tight hole"},
+      {haptics::kFlagLagging,
+       "the burr had not come to rest within the tick: a very fast hand, or a tight hole"},
       {haptics::kFlagCandidates,
        "more contacts than the list holds; use a larger voxel or a smaller burr"},
       {haptics::kFlagReserve,
