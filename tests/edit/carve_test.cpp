@@ -32,7 +32,12 @@ struct Work {
         undo(*bone, 4096),
         changed(*bone),
         carver(*bone, surface, undo, &changed,
-               {.advance = 0, .margin = 0, .margin_most = 0, .patience = 1e3}) {
+               {.advance_m = 0,
+                .advance_least = 0,
+                .margin_m = 0,
+                .margin_least = 0,
+                .margin_most = 0,
+                .patience = 1e3}) {
     undo.begin_stroke(0);
   }
   // Everything inside a ball at c (world) goes, whatever it costs.
@@ -261,7 +266,8 @@ TEST(UndoStore, BringsBackToTheBitAndForthAgain) {
 TEST(UndoStore, ForgetsTheOldestWhenFullAndSaysSo) {
   Work work(scenes::slab(), 0.25);
   UndoStore small(*work.bone, 64);
-  Carver carver(*work.bone, work.surface, small, nullptr, {.advance = 0, .margin = 0});
+  Carver carver(*work.bone, work.surface, small, nullptr,
+                {.advance_m = 0, .advance_least = 0, .margin_m = 0, .margin_least = 0});
   const std::uint64_t start = work.bone->content_hash();
   std::uint32_t flags = 0;
   for (int n = 0; n < 12; ++n) {

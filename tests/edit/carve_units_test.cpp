@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <string>
 
@@ -26,15 +27,21 @@ TEST(CarveUnits, AreThoseOfVolumeOf) {
     const int deposit = round % 2;
 
     const Excess found = kernel.find(field, ball, nowhere, deposit, excess);
-    std::int64_t units = 0;
+    std::int64_t units = 0;  // by a straight ramp, one voxel to each side of the surface
+    std::uint32_t pairs = 0;
+    const auto straight = [](int f) {
+      return std::int64_t{volume::kVoxelUnits} * (std::clamp(f, 16384, 49152) - 16384) / 32768;
+    };
     for (int v = 0; v < volume::kBrickVoxels; ++v) {
       const int all = deposit == 0 ? field[v] - excess[v] : field[v] + excess[v];
-      units += volume::volume_units(all) - volume::volume_units(std::int32_t{field[v]});
+      units += straight(all) - straight(field[v]);
+      if (excess[v] != 0) pairs |= 1U << (v / 16);
     }
     ASSERT_EQ(deposit == 0 ? -units : units, found.units);
+    ASSERT_EQ(found.pairs, pairs);
 
     const auto share = static_cast<std::int32_t>(random() % 65537);
-    const Applied applied = kernel.apply(field, excess, share, deposit, after);
+    const Applied applied = kernel.apply(field, excess, pairs, share, deposit, after);
     const std::int64_t change = volume::volume_units(after) - volume::volume_units(field);
     ASSERT_EQ(deposit == 0 ? -change : change, applied.units);
   }

@@ -50,9 +50,10 @@ Carver::Carver(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo
       uniform_(static_cast<std::size_t>(bone.brick_count()), std::uint8_t{0}),
       energy_of_(256, 1e9),
       scratch_(kMostWork),
-      work_(kMostWork),
-      margin_(settings.margin) {
+      work_(kMostWork) {
   const double h = bone.grid().voxel;
+  advance_ = std::max(settings.advance_m / h, settings.advance_least);
+  least_margin_ = margin_ = std::max(settings.margin_m / h, settings.margin_least);
   unit_m3_ = h * h * h / static_cast<double>(volume::kVoxelUnits);
   for (std::size_t t = 0; t < bone.tissues().tissues.size(); ++t)
     energy_of_[t] = bone.tissues().tissues[t].cutting_energy;
@@ -92,7 +93,12 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
         Vec3 nearest;
         for (int axis = 0; axis < 3; ++axis)
           nearest[axis] = std::clamp(centre[axis], first[axis], first[axis] + kBrickEdge - 1);
-        if ((nearest - centre).squaredNorm() > reach * reach) continue;
+        const double far = (nearest - centre).norm();
+        if (far > reach) continue;
+        // the ball's floor is nowhere in the brick lower than what is left of it
+        if (!deposit && highest_[static_cast<std::size_t>(brick)] <=
+                            volume::kIso + (far - radius) * volume::kFieldPerVoxel)
+          continue;
         if (work_count_ == kMostWork) return;
         const volume::Field* field = bone_.brick_field(brick);
         if (field == nullptr) {
@@ -155,8 +161,8 @@ std::int64_t Carver::apply(double wanted_units, bool deposit, volume::TissueId m
   for (std::size_t w = 0; w < work_count_; ++w) {
     const BrickIndex brick = work_[w].brick;
     const volume::Field* field = bone_.brick_field(brick);
-    const Applied applied =
-        kernel_.apply(field, scratch_[w].voxel, fixed, deposit ? 1 : 0, now.voxel);
+    const Applied applied = kernel_.apply(field, scratch_[w].voxel, work_[w].excess.pairs, fixed,
+                                          deposit ? 1 : 0, now.voxel);
     if (applied.most == 0) continue;
     if (undo_.keep(brick)) flags |= kUndoFull;
     if (deposit) {
@@ -190,7 +196,7 @@ void Carver::write_off(double asked_units, double dt) BURR_RT {
 
 void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
   constexpr float kNone[4] = {0, 0, 0, -1};
-  gather(cut.centre + settings_.advance * cut.push, cut.radius + margin_, kNone, false, flags);
+  gather(cut.centre + advance_ * cut.push, cut.radius + margin_, kNone, false, flags);
   last_energy_density_ = mean_energy();
   const double asked = cut.energy / last_energy_density_ / unit_m3_;
   asked_ += asked;
@@ -202,7 +208,7 @@ void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
   debt_ -= static_cast<double>(removed);
   margin_ =
       std::clamp(margin_ + (blocked ? settings_.margin_rise : -settings_.margin_fall) * cut.dt,
-                 settings_.margin, settings_.margin_most);
+                 least_margin_, std::max(least_margin_, settings_.margin_most));
   const double before = not_cut_;
   write_off(asked, cut.dt);
   if (not_cut_ > before) flags |= kNotCut;

@@ -5,8 +5,10 @@
 //
 // Anti-aliased (the ball's own ramp, not whole voxels), exact in volume (integers), independent of
 // order, tick rate and, to second order, of the voxel (algorithms.md 3g; volume by volume_of.h).
-// The ball is advanced a quarter voxel along the push and is larger than the burr by a small,
-// adaptive margin, without which a burr wedges in its own hole (kernel.md, flaw 3). What stays owed
+// The ball is advanced a little along the push and is larger than the burr by a small, adaptive
+// margin, without which a burr wedges in its own hole (kernel.md, flaw 3). Were both a share of a
+// voxel, a coarse bone would be cut deeper under the burr than a fine one: that was the error of
+// first order in h that the prototype left open. What stays owed
 // longer than a few ticks is written off as "not cut", or a stalled burr would save up (flaw 4).
 //
 // Thread: servo, the one writer of the bone. Frame: p_grid [voxel]. Memory: none after
@@ -28,14 +30,19 @@
 namespace burr::edit {
 
 struct CarveSettings {
-  double advance = 0.25;       // of the ball along the push [voxel]
-  double margin = 0.05;        // least surplus of the cutting radius over the burr's [voxel]
-  double margin_most = 0.5;    // when blocked [voxel]
-  double margin_rise = 20;     // while blocked [voxel/s]
-  double margin_fall = 2;      // while cutting freely [voxel/s]
-  double patience = 5e-3;      // how long a debt may wait, at the present rate of asking [s]
-  double deposit_share = 0.8;  // radius of the deposited ball over the burr's [-]
-  double deposit_gap = 0.5;    // kept between burr and deposited material [voxel]
+  // How far the cutting ball reaches ahead along the push, and by how much it is larger than the
+  // burr: what its teeth do. Lengths of the tool, so that a hole does not depend on the voxel; but
+  // never less than a share of a voxel, or the burr wedges.
+  double advance_m = 50e-6;     // [m]
+  double advance_least = 0.25;  // [voxel]
+  double margin_m = 10e-6;      // [m]
+  double margin_least = 0.05;   // [voxel]
+  double margin_most = 0.5;     // when blocked [voxel]
+  double margin_rise = 20;      // while blocked [voxel/s]
+  double margin_fall = 2;       // while cutting freely [voxel/s]
+  double patience = 5e-3;       // how long a debt may wait, at the present rate of asking [s]
+  double deposit_share = 0.8;   // radius of the deposited ball over the burr's [-]
+  double deposit_gap = 0.5;     // kept between burr and deposited material [voxel]
 };
 
 // One tick of cutting.
@@ -101,13 +108,13 @@ class Carver {
   std::size_t work_count_ = 0;
   std::int64_t total_units_ = 0;
 
-  double asked_ = 0, debt_ = 0, not_cut_ = 0;  // [units]
-  std::int64_t removed_ = 0, added_ = 0;       // [units]
-  double added_debt_ = 0;                      // [units]
-  double energy_ = 0;                          // [J]
-  double rate_ = 0;                            // smoothed rate of asking [units/s]
-  double last_energy_density_ = 1e9;           // [J/m^3]
-  double margin_ = 0;
+  double asked_ = 0, debt_ = 0, not_cut_ = 0;           // [units]
+  std::int64_t removed_ = 0, added_ = 0;                // [units]
+  double added_debt_ = 0;                               // [units]
+  double energy_ = 0;                                   // [J]
+  double rate_ = 0;                                     // smoothed rate of asking [units/s]
+  double last_energy_density_ = 1e9;                    // [J/m^3]
+  double advance_ = 0, least_margin_ = 0, margin_ = 0;  // [voxel]
 };
 
 }  // namespace burr::edit

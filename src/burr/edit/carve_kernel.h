@@ -9,8 +9,9 @@ namespace burr::edit {
 // How far each voxel of a brick stands above what the ball leaves (carve), or below what it fills
 // (deposit).
 struct Excess {
-  std::int64_t units = 0;  // volume of all of it, volume_of.h units
-  std::int32_t most = 0;   // largest of a voxel  [field units]
+  std::int64_t units = 0;   // volume of all of it, volume_of.h units
+  std::int32_t most = 0;    // largest of a voxel  [field units]
+  std::uint32_t pairs = 0;  // bit y / 2 + 4 z: there is some in this pair of rows
 };
 // ball: the brick's first voxel less the ball's centre [voxel], and the ball's radius [voxel].
 // keep_out: a second ball, same frame, that deposit may not fill; radius < 0: none. out: (8 x 8 x
@@ -25,21 +26,22 @@ struct Applied {
   std::uint32_t columns = 0;  // bit x
   std::int32_t highest = 0;   // largest field value left in the brick
 };
-// field minus (plus) share/65536 of the excess, to `to`. share 0..65536.
+// field minus (plus) share/65536 of the excess, to `to`. share 0..65536. pairs: as found.
 using ApplyExcess = Applied (*)(const std::uint16_t* field, const std::uint16_t* excess,
-                                std::int32_t share, int deposit, std::uint16_t* to) noexcept;
+                                std::uint32_t pairs, std::int32_t share, int deposit,
+                                std::uint16_t* to) noexcept;
 
 struct CarveKernel {
   FindExcess find;
   ApplyExcess apply;
 };
 
-#define BURR_CARVE_KERNEL(which)                                                      \
-  namespace which {                                                                   \
-  Excess find_excess(const std::uint16_t*, const float*, const float*, int,           \
-                     std::uint16_t*) noexcept;                                        \
-  Applied apply_excess(const std::uint16_t*, const std::uint16_t*, std::int32_t, int, \
-                       std::uint16_t*) noexcept;                                      \
+#define BURR_CARVE_KERNEL(which)                                                                \
+  namespace which {                                                                             \
+  Excess find_excess(const std::uint16_t*, const float*, const float*, int,                     \
+                     std::uint16_t*) noexcept;                                                  \
+  Applied apply_excess(const std::uint16_t*, const std::uint16_t*, std::uint32_t, std::int32_t, \
+                       int, std::uint16_t*) noexcept;                                           \
   }
 BURR_CARVE_KERNEL(scalar)
 BURR_CARVE_KERNEL(avx2)

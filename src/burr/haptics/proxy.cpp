@@ -14,7 +14,8 @@ using math::Vec3;
 using volume::BrickIndex;
 using volume::kBrickEdge;
 
-constexpr double kLargestDisc = 1.0;  // no disc is larger  [voxel]
+// how much farther than asked one looks around: a tick's later moves, and a few ticks more [voxel]
+constexpr double kLookShare = 2.0, kLookLeast = 0.2, kLookMost = 1.5;
 constexpr double kLeastGuess = 0.02;  // discs this near are always looked at  [voxel]
 
 }  // namespace
@@ -22,13 +23,13 @@ constexpr double kLeastGuess = 0.02;  // discs this near are always looked at  [
 ScanKernel scan_kernel() noexcept {
   switch (rt::simd()) {
     case rt::Simd::avx512:
-      return {avx512::scan_blocks, avx512::most_violated};
+      return {avx512::find_near, avx512::scan_blocks, avx512::most_violated};
     case rt::Simd::avx2:
-      return {avx2::scan_blocks, avx2::most_violated};
+      return {avx2::find_near, avx2::scan_blocks, avx2::most_violated};
     case rt::Simd::scalar:
       break;
   }
-  return {scalar::scan_blocks, scalar::most_violated};
+  return {scalar::find_near, scalar::scan_blocks, scalar::most_violated};
 }
 
 Proxy::Proxy(const volume::IsoVertices& surface, const ProxySettings& settings, const Vec3& hand)
@@ -36,6 +37,7 @@ Proxy::Proxy(const volume::IsoVertices& surface, const ProxySettings& settings, 
       grid_(surface.bone().grid()),
       settings_(settings),
       kernel_(scan_kernel()),
+      near_(kMostNear + volume::IsoVertices::kMostBlocks),
       candidates_(std::make_unique<Candidates>()),
       smooth_(std::make_unique<Candidates>()),
       radius_(settings.radius / grid_.voxel),
@@ -72,25 +74,28 @@ bool Proxy::is_free(const Vec3& p) BURR_RT {
   return candidates_->count == 0;
 }
 
-// Fills the candidates with every disc whose gap to a ball around `centre` is below `within`.
-void Proxy::collect(const Vec3& centre, double within) BURR_RT {
-  Candidates& out = *candidates_;
-  out.count = 0;
-  out.full = false;
-  const double reach = radius_ + within + kLargestDisc;
+// Remembers the blocks with a disc whose gap to a ball around `centre` may be below `reach`. One
+// look serves all the short moves of a tick, and the next ticks too while the surface stays as it
+// is.
+void Proxy::look_around(const Vec3& centre, double reach) BURR_RT {
+  near_count_ = 0;
+  near_centre_ = centre;
+  near_reach_ = reach;
+  near_radius_ = radius_;
+  near_revision_ = surface_.revision();
+  const double far = radius_ + reach + surface_.largest_disc();
   const math::Ijk& n = surface_.bone().bricks();
   math::Ijk lo, hi;  // bricks whose discs could be that near; a brick's vertices may lie half a
                      // voxel outside of it
   for (int axis = 0; axis < 3; ++axis) {
-    const double from = std::floor((centre[axis] - reach - 1) / kBrickEdge),
-                 to = std::floor((centre[axis] + reach + 1) / kBrickEdge);
+    const double from = std::floor((centre[axis] - far - 1) / kBrickEdge),
+                 to = std::floor((centre[axis] + far + 1) / kBrickEdge);
     lo[axis] = static_cast<int>(std::clamp(from, 0.0, static_cast<double>(n[axis])));
     hi[axis] = static_cast<int>(std::clamp(to, -1.0, static_cast<double>(n[axis] - 1)));
   }
   const auto cx = static_cast<float>(centre.x()), cy = static_cast<float>(centre.y()),
              cz = static_cast<float>(centre.z());
-  const auto near = static_cast<float>(reach);
-  const auto radius = static_cast<float>(radius_), limit = static_cast<float>(within);
+  const auto near = static_cast<float>(far);
 
   for (int bk = lo.z(); bk <= hi.z(); ++bk)
     for (int bj = lo.y(); bj <= hi.y(); ++bj) {
@@ -104,18 +109,32 @@ void Proxy::collect(const Vec3& centre, double within) BURR_RT {
           const BrickIndex brick = surface_.bone().brick_at(bi, bj, bk);
           const volume::BrickBall& ball = surface_.ball(brick);
           const float dx = ball.x - cx, dy = ball.y - cy, dz = ball.z - cz,
-                      far = near + ball.radius;
-          if (dx * dx + dy * dy + dz * dz > far * far) continue;
-          // the difference in double first: the float offset then is exact enough anywhere in the
-          // grid
-          const float offset[3] = {static_cast<float>(kBrickEdge * bi - centre.x()),
-                                   static_cast<float>(kBrickEdge * bj - centre.y()),
-                                   static_cast<float>(kBrickEdge * bk - centre.z())};
-          kernel_.scan(surface_.blocks(brick).data(), surface_.count(brick), offset, radius, limit,
-                       out);
+                      touch = near + ball.radius;
+          if (dx * dx + dy * dy + dz * dz > touch * touch) continue;
+          if (near_count_ >= kMostNear) {
+            near_reach_ = -1;
+            return;
+          }
+          const std::int32_t at[3] = {kBrickEdge * bi, kBrickEdge * bj, kBrickEdge * bk};
+          near_count_ += kernel_.find_near(surface_.blocks(brick).data(), surface_.count(brick), at,
+                                           centre.data(), near, near_.data() + near_count_);
         }
       }
     }
+}
+
+// Fills the candidates with every disc whose gap to a ball around `centre` is below `within`.
+void Proxy::collect(const Vec3& centre, double within) BURR_RT {
+  Candidates& out = *candidates_;
+  out.count = 0;
+  out.full = false;
+  const bool seen = near_revision_ == surface_.revision() && near_radius_ == radius_ &&
+                    (centre - near_centre_).norm() + within <= near_reach_;
+  if (!seen) look_around(centre, within + std::min(kLookShare * within + kLookLeast, kLookMost));
+  if (near_reach_ < within) look_around(centre, within);
+  out.full = near_reach_ < within;
+  kernel_.scan(near_.data(), near_count_, centre.data(), static_cast<float>(radius_),
+               static_cast<float>(within), surface_.largest_disc(), out);
   // what is overstepped (bone grew, or was made anew a hair higher) pushes out gently
   const float deepest = -static_cast<float>(settings_.recovery);
   for (int j = 0; j < out.count; ++j) out.gap[j] = std::max(out.gap[j], deepest);
@@ -184,9 +203,9 @@ Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand) const BUR
       const double disc_gap =
           static_cast<double>(candidates_->gap[j]) + disc.dot(last.p) + disc.dot(place - c_);
       const Vec3 foot = place - radius_ * normals[a];
-      const double depth =
-          2 * volume::kRamp * (volume::sample(surface_.bone(), foot) - volume::kIsoShare);
-      const Vec3 slope = 2 * volume::kRamp * volume::gradient(surface_.bone(), foot);
+      const volume::Sample there = volume::sample_with_slope(surface_.bone(), foot);
+      const double depth = 2 * volume::kRamp * (there.value - volume::kIsoShare);
+      const Vec3 slope = 2 * volume::kRamp * there.slope;
       const double steep = slope.norm();  // 1 on a clean ramp
       const Vec3 faces = steep > 1e-6 ? Vec3(-slope / steep) : disc;
       const double clean = std::clamp((steep - 0.85) * 10.0, 0.0, 1.0) *

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "burr/haptics/least_move.h"
 #include "burr/haptics/scan_kernel.h"
@@ -68,6 +69,7 @@ class Proxy {
   [[nodiscard]] bool set_radius(double radius) BURR_RT;
 
  private:
+  void look_around(const math::Vec3& centre, double reach) BURR_RT;
   void collect(const math::Vec3& centre, double within) BURR_RT;
   [[nodiscard]] LeastMove move_toward(const math::Vec3& from, const math::Vec3& wanted,
                                       double longest, double& guess, bool& cut_short) BURR_RT;
@@ -80,6 +82,13 @@ class Proxy {
   volume::Grid grid_;
   ProxySettings settings_;
   ScanKernel kernel_;
+  static constexpr int kMostNear = 8192;  // blocks
+  std::vector<NearBlock> near_;           // what the last look around saw
+  int near_count_ = 0;
+  math::Vec3 near_centre_ = math::Vec3::Zero();  // from where  p_grid
+  double near_reach_ = -1;                       // gaps below this are all in it  [voxel]
+  double near_radius_ = 0;                       // for which burr  [voxel]
+  std::uint64_t near_revision_ = 0;              // of the surface
   std::unique_ptr<Candidates> candidates_;
   std::unique_ptr<Candidates> smooth_;  // the at most three planes of the smooth surface
   double radius_ = 0;                   // [voxel]

@@ -19,30 +19,50 @@ struct Candidates {
   bool full = false;
 };
 
-// Appends the discs of `blocks` (count vertices) with gap < within. offset: brick's first voxel
-// less the burr's centre [voxel]; radius of the burr [voxel].
-using ScanBlocks = void (*)(const volume::VertexBlock* blocks, int count, const float offset[3],
-                            float radius, float within, Candidates& out) noexcept;
+// A block of discs that lies near the burr, and the first voxel of its brick.
+struct NearBlock {
+  const volume::VertexBlock* block = nullptr;
+  std::int32_t x = 0, y = 0, z = 0;
+  std::int32_t count = 0;  // discs in it, at most volume::kLanes
+};
+
+// Which of a brick's blocks (count discs) have a disc whose middle is nearer than `reach` to the
+// burr's centre: written to `out`, which has room for all of them; returns how many. brick: its
+// first voxel. centre: p_grid.
+using FindNear = int (*)(const volume::VertexBlock* blocks, int count, const std::int32_t brick[3],
+                         const double centre[3], float reach, NearBlock* out) noexcept;
+
+// Appends the discs of `count` near blocks with gap < within. disc: no disc is larger [voxel];
+// radius of the burr [voxel].
+using ScanBlocks = void (*)(const NearBlock* near, int count, const double centre[3], float radius,
+                            float within, float disc, Candidates& out) noexcept;
 
 // Index of the candidate that move p violates most, or -1; `worst` is then n . p + gap there,
 // negative. First one on ties.
 using MostViolated = int (*)(const Candidates& all, const float p[3], float& worst) noexcept;
 
 struct ScanKernel {
+  FindNear find_near;
   ScanBlocks scan;
   MostViolated most_violated;
 };
 
 namespace scalar {
-void scan_blocks(const volume::VertexBlock*, int, const float*, float, float, Candidates&) noexcept;
+int find_near(const volume::VertexBlock*, int, const std::int32_t*, const double*, float,
+              NearBlock*) noexcept;
+void scan_blocks(const NearBlock*, int, const double*, float, float, float, Candidates&) noexcept;
 int most_violated(const Candidates&, const float*, float&) noexcept;
 }  // namespace scalar
 namespace avx2 {
-void scan_blocks(const volume::VertexBlock*, int, const float*, float, float, Candidates&) noexcept;
+int find_near(const volume::VertexBlock*, int, const std::int32_t*, const double*, float,
+              NearBlock*) noexcept;
+void scan_blocks(const NearBlock*, int, const double*, float, float, float, Candidates&) noexcept;
 int most_violated(const Candidates&, const float*, float&) noexcept;
 }  // namespace avx2
 namespace avx512 {
-void scan_blocks(const volume::VertexBlock*, int, const float*, float, float, Candidates&) noexcept;
+int find_near(const volume::VertexBlock*, int, const std::int32_t*, const double*, float,
+              NearBlock*) noexcept;
+void scan_blocks(const NearBlock*, int, const double*, float, float, float, Candidates&) noexcept;
 int most_violated(const Candidates&, const float*, float&) noexcept;
 }  // namespace avx512
 

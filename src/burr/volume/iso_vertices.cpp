@@ -13,9 +13,7 @@
 namespace burr::volume {
 namespace {
 
-// A brick can own at most this many vertices (three edges a voxel, and the incoming ones at the
-// border).
-constexpr int kMostBlocks = 108;
+constexpr int kMostBlocks = IsoVertices::kMostBlocks;
 constexpr int kClassBlocks[] = {4, 8, 16, 32, kMostBlocks};
 
 int class_of(int blocks) {
@@ -146,29 +144,25 @@ unsigned IsoVertices::low_border(BrickIndex brick) const BURR_RT {
 void IsoVertices::gather(BrickIndex brick, std::uint16_t* padded) const BURR_RT {
   const math::Ijk& n = bone_.bricks();
   const math::Ijk b = bone_.brick_ijk(brick) / kBrickEdge;
-  const Field* from[3][3][3];  // [z][y][x], nullptr: air
+  static constexpr BrickField kAir{};
+  const Field* from[3][3][3];  // [z][y][x]
   for (int dz = -1; dz <= 1; ++dz)
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         const math::Ijk at = b + math::Ijk(dx, dy, dz);
         const bool in = (at.array() >= 0).all() && (at.array() < n.array()).all();
-        from[dz + 1][dy + 1][dx + 1] =
+        const Field* field =
             in ? bone_.brick_field(bone_.brick_at(at.x(), at.y(), at.z())) : nullptr;
+        from[dz + 1][dy + 1][dx + 1] = field != nullptr ? field : kAir.voxel;
       }
   for (int z = -1; z <= 9; ++z)
     for (int y = -1; y <= 9; ++y) {
       const auto& row_of = from[(z >> 3) + 1][(y >> 3) + 1];
       const int offset = 8 * ((y & 7) + 8 * (z & 7));
       std::uint16_t* to = padded + kPadRow * ((y + 1) + kPadEdge * (z + 1));
-      to[0] = row_of[0] != nullptr ? row_of[0][offset + 7] : Field{0};
-      if (row_of[1] != nullptr) {
-        std::memcpy(to + 1, row_of[1] + offset, 16);
-      } else {
-        std::memset(to + 1, 0, 16);
-      }
-      to[9] = row_of[2] != nullptr ? row_of[2][offset] : Field{0};
-      to[10] = row_of[2] != nullptr ? row_of[2][offset + 1] : Field{0};
-      std::memset(to + 11, 0, 10);
+      to[0] = row_of[0][offset + 7];
+      std::memcpy(to + 1, row_of[1] + offset, 16);
+      std::memcpy(to + 9, row_of[2] + offset, 4);  // the rest of the row is never looked at
     }
 }
 
@@ -202,6 +196,7 @@ void IsoVertices::store(BrickIndex brick, const VertexBlock* blocks, int count) 
     exhausted_ = true;
     return;
   }
+  ++revision_;
   std::copy_n(blocks, used, pool_.begin() + place.first);
   place.count = static_cast<std::uint16_t>(count);
   const math::Ijk first = bone_.brick_ijk(brick);

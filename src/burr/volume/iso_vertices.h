@@ -44,6 +44,12 @@ class IsoVertices {
   [[nodiscard]] const Bone& bone() const BURR_RT { return bone_; }
 
   // ---- looking
+  // A brick owns at most this many blocks (three edges a voxel, and the incoming ones at the
+  // border).
+  static constexpr int kMostBlocks = 108;
+  // Changes whenever any vertex may have changed; blocks() stay as they are until then.
+  [[nodiscard]] std::uint64_t revision() const BURR_RT { return revision_; }
+  [[nodiscard]] float largest_disc() const BURR_RT { return settings_.disc; }  // [voxel]
   // 64 bricks along x a word; bit set: the brick has vertices.  words_per_row() words for each (bj,
   // bk)
   [[nodiscard]] int words_per_row() const BURR_RT { return words_per_row_; }
@@ -112,6 +118,7 @@ class IsoVertices {
   std::vector<std::uint16_t> lost_;  // (brick_count) largest change since made  [field units]
   std::vector<Stale> stale_;         // in the order they became stale
   std::uint32_t calls_ = 0;
+  std::uint64_t revision_ = 1;
   int rebuilt_last_ = 0;
   bool exhausted_ = false;
 };

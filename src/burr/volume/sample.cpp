@@ -30,27 +30,36 @@ Cell cell_of(const Bone& bone, const math::Vec3& p_grid) noexcept {
   return cell;
 }
 
-// The voxels from -1 to +2 about a cell, (4 x 4 x 4), x fastest: straight from the brick where they
-// all lie in one.
+// The voxels from -1 to +2 about a cell, (4 x 4 x 4), x fastest: row by row from the at most eight
+// bricks that hold them.
 struct Neighbourhood {
   double voxel[64];
 
   Neighbourhood(const Bone& bone, const Cell& cell) noexcept {
-    const int bi = cell.i & 7, bj = cell.j & 7, bk = cell.k & 7;
-    const bool one_brick = bone.grid().contains({cell.i, cell.j, cell.k}) && bi >= 1 && bi <= 5 &&
-                           bj >= 1 && bj <= 5 && bk >= 1 && bk <= 5;
-    const Field* brick =
-        one_brick ? bone.brick_field(bone.brick_at(cell.i >> 3, cell.j >> 3, cell.k >> 3))
-                  : nullptr;
-    for (int z = 0; z < 4; ++z)
-      for (int y = 0; y < 4; ++y)
-        for (int x = 0; x < 4; ++x) {
-          double& to = voxel[x + 4 * (y + 4 * z)];
-          if (!one_brick)
-            to = bone.field(cell.i + x - 1, cell.j + y - 1, cell.k + z - 1);
-          else
-            to = brick == nullptr ? 0 : brick[(bi + x - 1) + 8 * ((bj + y - 1) + 8 * (bk + z - 1))];
+    const math::Ijk first(cell.i - 1, cell.j - 1, cell.k - 1);
+    const math::Ijk& bricks = bone.bricks();
+    const int bi = first.x() >> 3, bj = first.y() >> 3, bk = first.z() >> 3;
+    const int split = 8 - (first.x() & 7);  // voxels of a row in its first brick
+    const Field* brick[2][2][2] = {};       // [z][y][x], nullptr: air
+    for (int z = 0; z < 2; ++z)
+      for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 2; ++x) {
+          const int i = bi + x, j = bj + y, k = bk + z;
+          const bool in =
+              i >= 0 && j >= 0 && k >= 0 && i < bricks.x() && j < bricks.y() && k < bricks.z();
+          if (in) brick[z][y][x] = bone.brick_field(bone.brick_at(i, j, k));
         }
+    for (int z = 0; z < 4; ++z)
+      for (int y = 0; y < 4; ++y) {
+        const int j = first.y() + y, k = first.z() + z;
+        const auto& pair = brick[(k >> 3) - bk][(j >> 3) - bj];
+        const int row = 8 * ((j & 7) + 8 * (k & 7));
+        double* to = voxel + 4 * (y + 4 * z);
+        for (int x = 0; x < 4; ++x) {
+          const Field* from = x < split ? pair[0] : pair[1];
+          to[x] = from == nullptr ? 0 : from[row + ((first.x() + x) & 7)];
+        }
+      }
   }
 };
 
@@ -79,20 +88,29 @@ double sample(const Bone& bone, const math::Vec3& p_grid) BURR_RT {
   return kShare * mix(y0, y1, c.w);
 }
 
-math::Vec3 gradient(const Bone& bone, const math::Vec3& p_grid) BURR_RT {
+Sample sample_with_slope(const Bone& bone, const math::Vec3& p_grid) BURR_RT {
+  Sample out;
   const Cell c = cell_of(bone, p_grid);
-  if (!c.near_grid) return math::Vec3::Zero();
+  if (!c.near_grid) return out;
   const Neighbourhood f(bone, c);
-  math::Vec3 sum = math::Vec3::Zero();
+  double value = 0;
   for (int n = 0; n < 8; ++n) {
     const int x = 1 + (n & 1), y = 1 + ((n >> 1) & 1), z = 1 + (n >> 2);
     const int at = x + 4 * (y + 4 * z);
     const double weight =
         (x == 2 ? c.u : 1 - c.u) * (y == 2 ? c.v : 1 - c.v) * (z == 2 ? c.w : 1 - c.w);
-    sum += weight * math::Vec3(f.voxel[at + 1] - f.voxel[at - 1], f.voxel[at + 4] - f.voxel[at - 4],
-                               f.voxel[at + 16] - f.voxel[at - 16]);
+    value += weight * f.voxel[at];
+    out.slope +=
+        weight * math::Vec3(f.voxel[at + 1] - f.voxel[at - 1], f.voxel[at + 4] - f.voxel[at - 4],
+                            f.voxel[at + 16] - f.voxel[at - 16]);
   }
-  return 0.5 * kShare * sum;
+  out.value = kShare * value;
+  out.slope *= 0.5 * kShare;
+  return out;
+}
+
+math::Vec3 gradient(const Bone& bone, const math::Vec3& p_grid) BURR_RT {
+  return sample_with_slope(bone, p_grid).slope;
 }
 
 math::Vec3 normal(const Bone& bone, const math::Vec3& p_grid) BURR_RT {

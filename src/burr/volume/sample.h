@@ -20,6 +20,13 @@ inline constexpr double kIsoShare = 0.5;
 // voxels about p_grid, blended trilinearly, hence continuous.
 [[nodiscard]] math::Vec3 gradient(const Bone& bone, const math::Vec3& p_grid) BURR_RT;
 
+// Both at once, for less than the two cost.
+struct Sample {
+  double value = 0;
+  math::Vec3 slope = math::Vec3::Zero();
+};
+[[nodiscard]] Sample sample_with_slope(const Bone& bone, const math::Vec3& p_grid) BURR_RT;
+
 // Unit, out of the bone, world axes; zero where the field is flat.
 [[nodiscard]] math::Vec3 normal(const Bone& bone, const math::Vec3& p_grid) BURR_RT;
 

@@ -14,7 +14,8 @@
 // Worst errors over all places: balls of R >= 3 voxels 0.7 %; plates of t >= 2 voxels 0.8 % along
 // the axes, 1.4 % along the worst lattice diagonal. tests/scenes/build_test.cpp
 //
-// Integer arithmetic: sums are exact in any order.
+// A voxel's volume is a whole number, so sums are exact in any order; it is found in floats without
+// contraction, so it is the same on every machine.
 #pragma once
 
 #include <cstdint>
@@ -29,13 +30,14 @@ inline constexpr std::int64_t kVoxelUnits = 3 * 65536;
 // Volume of one voxel from its field, in 1/kVoxelUnits of a voxel. A voxel within one of the
 // surface may count a little less than nothing or more than all: -0.06 .. 1.06.
 [[nodiscard]] constexpr std::int32_t volume_units(std::int32_t field) {
-  std::int32_t d = field - 32768;  // depth, 16384 a voxel; beyond one voxel it does not matter
-  d = d < -16384 ? -16384 : d > 16384 ? 16384 : d;
-  const std::int32_t y = (d * d) >> 14;
-  std::int32_t slope = 11141 + ((-1638 * y) >> 14);  // c2, c3
-  slope = -23425 + ((slope * y) >> 14);              // c1
-  slope = 22114 + ((slope * y) >> 14);               // c0; all four sum to 1/2: full is full
-  return 98304 + ((3 * d * slope) >> 12);
+  // depth [voxel]; beyond one voxel it does not matter
+  float d = static_cast<float>(field - 32768) * (1.0F / 16384.0F);
+  d = d < -1.0F ? -1.0F : d > 1.0F ? 1.0F : d;
+  const float y = d * d;
+  float slope = 11141.0F - 1638.0F * y;  // c2, c3, in 1/16384
+  slope = slope * y - 23425.0F;          // c1
+  slope = slope * y + 22114.0F;          // c0; all four sum to a half: full is full
+  return static_cast<std::int32_t>(98304.5F + 12.0F * (d * slope));
 }
 
 // Of a brick (8 x 8 x 8), in 1/kVoxelUnits of a voxel.
