@@ -10,14 +10,16 @@
 #include <cstdint>
 #include <memory>
 
+#include "burr/rt/atoms.h"
 #include "burr/rt/rt.h"
 
 namespace burr::rt {
 
-class ChangedBits {
+template <class Atoms>
+class ChangedBitsOf {
  public:
-  explicit ChangedBits(std::size_t count)
-      : words_((count + 63) / 64), bits_(std::make_unique<std::atomic<std::uint64_t>[]>(words_)) {}
+  explicit ChangedBitsOf(std::size_t count)
+      : words_((count + 63) / 64), bits_(std::make_unique<Word[]>(words_)) {}
 
   // release: whoever takes the bit sees what was written before it
   void mark(std::size_t index) BURR_RT {
@@ -36,8 +38,12 @@ class ChangedBits {
   }
 
  private:
+  using Word = typename Atoms::template Atomic<std::uint64_t>;
+
   std::size_t words_;
-  std::unique_ptr<std::atomic<std::uint64_t>[]> bits_;
+  std::unique_ptr<Word[]> bits_;
 };
+
+using ChangedBits = ChangedBitsOf<StdAtoms>;
 
 }  // namespace burr::rt

@@ -9,11 +9,12 @@
 #include <array>
 #include <atomic>
 
+#include "burr/rt/atoms.h"
 #include "burr/rt/rt.h"
 
 namespace burr::rt {
 
-template <class T>
+template <class T, class Atoms = StdAtoms>
 class Latest {
  public:
   // writer: hands over a copy
@@ -35,9 +36,9 @@ class Latest {
  private:
   static constexpr unsigned kIndex = 3, kFresh = 4;
   std::array<T, 3> slots_{};
-  unsigned writing_ = 0;              // the writer's own
-  std::atomic<unsigned> middle_ = 1;  // exchanged
-  unsigned reading_ = 2;              // the reader's own
+  unsigned writing_ = 0;                                  // the writer's own
+  typename Atoms::template Atomic<unsigned> middle_ = 1;  // exchanged
+  unsigned reading_ = 2;                                  // the reader's own
 };
 
 }  // namespace burr::rt

@@ -5,6 +5,7 @@
 // construction.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cstddef>
@@ -12,11 +13,12 @@
 #include <vector>
 
 #include "burr/base/check.h"
+#include "burr/rt/atoms.h"
 #include "burr/rt/rt.h"
 
 namespace burr::rt {
 
-template <class T>
+template <class T, class Atoms = StdAtoms>
 class Ring {
  public:
   // capacity: rounded up to a power of two
@@ -45,9 +47,12 @@ class Ring {
     return true;
   }
 
-  // any thread; a snapshot
+  // any thread; a snapshot, and exact on the side that asks about its own rows
   [[nodiscard]] std::size_t size() const BURR_RT {
-    return head_.load(std::memory_order_acquire) - tail_.load(std::memory_order_acquire);
+    // the tail first: it never passes a head that was read later. A third thread that is held up
+    // between the two may see a head that ran on meanwhile.
+    const std::size_t tail = tail_.load(std::memory_order_acquire);
+    return std::min(head_.load(std::memory_order_acquire) - tail, slots_.size());
   }
   [[nodiscard]] std::size_t capacity() const BURR_RT { return slots_.size(); }
   [[nodiscard]] std::uint64_t dropped() const BURR_RT {
@@ -55,11 +60,13 @@ class Ring {
   }
 
  private:
+  using Index = typename Atoms::template Atomic<std::size_t>;
+
   std::vector<T> slots_;
   std::size_t mask_;
-  alignas(64) std::atomic<std::size_t> head_ = 0;  // next to write
-  alignas(64) std::atomic<std::size_t> tail_ = 0;  // next to read
-  alignas(64) std::atomic<std::uint64_t> dropped_ = 0;
+  alignas(64) Index head_ = 0;  // next to write
+  alignas(64) Index tail_ = 0;  // next to read
+  alignas(64) typename Atoms::template Atomic<std::uint64_t> dropped_ = 0;
 };
 
 }  // namespace burr::rt

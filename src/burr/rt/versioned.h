@@ -10,34 +10,34 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "burr/rt/atoms.h"
 #include "burr/rt/rt.h"
 
 namespace burr::rt {
 
-using Version = std::atomic<std::uint32_t>;  // odd while being written
+template <class Atoms>
+using VersionOf = typename Atoms::template Atomic<std::uint32_t>;  // odd while being written
+using Version = VersionOf<StdAtoms>;
 
 // The one writer: words [0, count) of `shared` become those of `from`.
-inline void versioned_write(Version& version, std::uint64_t* shared, const std::uint64_t* from,
-                            std::size_t count) BURR_RT {
+template <class Atoms = StdAtoms>
+void versioned_write(VersionOf<Atoms>& version, std::uint64_t* shared, const std::uint64_t* from,
+                     std::size_t count) BURR_RT {
   const std::uint32_t before = version.load(std::memory_order_relaxed);
   version.store(before + 1, std::memory_order_relaxed);
-  std::atomic_thread_fence(std::memory_order_release);
-  for (std::size_t i = 0; i < count; ++i)
-    std::atomic_ref<std::uint64_t>(shared[i]).store(from[i], std::memory_order_relaxed);
+  Atoms::fence(std::memory_order_release);
+  for (std::size_t i = 0; i < count; ++i) Atoms::store(shared[i], from[i]);
   version.store(before + 2, std::memory_order_release);
 }
 
 // Any reader: false when a writer was at it, `to` is then rubbish; try again.
-inline bool versioned_read(const Version& version, const std::uint64_t* shared, std::uint64_t* to,
-                           std::size_t count) BURR_RT {
+template <class Atoms = StdAtoms>
+bool versioned_read(const VersionOf<Atoms>& version, const std::uint64_t* shared, std::uint64_t* to,
+                    std::size_t count) BURR_RT {
   const std::uint32_t before = version.load(std::memory_order_acquire);
   if ((before & 1U) != 0) return false;
-  for (std::size_t i = 0; i < count; ++i) {
-    // atomic_ref wants a non-const object; it is only read
-    std::atomic_ref<std::uint64_t> word(const_cast<std::uint64_t&>(shared[i]));
-    to[i] = word.load(std::memory_order_relaxed);
-  }
-  std::atomic_thread_fence(std::memory_order_acquire);
+  for (std::size_t i = 0; i < count; ++i) to[i] = Atoms::load(shared[i]);
+  Atoms::fence(std::memory_order_acquire);
   return version.load(std::memory_order_relaxed) == before;
 }
 
