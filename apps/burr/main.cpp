@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on files is a sentence, like a full disk
 
   CLI::App program{"burr - cut bone by hand: touch, mill and print a patient's bone", "burr"};
   program.set_version_flag("--version",

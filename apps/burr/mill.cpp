@@ -58,7 +58,7 @@ Status draw(const Options& options, const sim::WorkPlace& place, sim::Session& s
   return render::render_png(scene, options.size.width, options.size.height, options.picture);
 }
 
-void print(const Options& options, sim::Session& session) {
+void print(const Options& options, sim::Session& session, const Recording& recording) {
   const sim::Outcome outcome = session.outcome();
   const rt::TickSummary& t = outcome.timing;
   if (!options.json) {
@@ -92,6 +92,7 @@ void print(const Options& options, sim::Session& session) {
   out["bone_hash"] = record::hex(session.bone().content_hash());
   out["noted"] = sim::words(sim::worth_telling(outcome.flags));
   if (options.realtime) out["scheduling"] = outcome.scheduling;
+  if (!options.record.empty()) out["recording"] = recording.account();
   fmt::print("{}\n", out.dump());
 }
 
@@ -133,20 +134,13 @@ Status run(const Options& options) {
     if (!started) return started;
   }
   session.run(seconds, progress());
-  if (!options.record.empty()) {
-    auto account = recording.finish(session);
-    if (!account) return account.error();
-    if (!account->whole())
-      fmt::print(
-          stderr,
-          "{}: {} ticks, {} wishes and {} bricks could not be written in time and are missing\n",
-          options.record, account->dropped_ticks, account->dropped_wishes, account->dropped_bricks);
-  }
+  const Status recorded = options.record.empty() ? fine() : recording.finish(session);
   if (!options.picture.empty()) {
     Status drawn = draw(options, place, session);
     if (!drawn) return drawn;
   }
-  print(options, session);
+  print(options, session, recording);
+  if (!recorded) return recorded;
   if (interrupted())
     return error(Trouble::interrupted, "stopped; what was done until then is kept");
   return fine();

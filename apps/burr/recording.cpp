@@ -1,14 +1,21 @@
 #include "recording.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "burr/record/find_volume.h"
+#include "burr/record/place_file.h"
 #include "burr/sim/session_words.h"
 
 namespace burr::app {
 namespace {
 
 constexpr const char* kPhantom = "phantom:";
+constexpr std::size_t kBrickRows = 8192;  // changed bricks that may wait for the disk
 
 // How the bone was made, without any path or identifier.
 void describe_volume(const VolumeOptions& options, const io::ImportSummary& import,
@@ -78,15 +85,78 @@ Status Recording::start(sim::Session& session, const std::string& file, const Vo
   info.volume.has_intensity = bone.has_intensity();
   info.volume.reserve_bricks = volume.reserve_bricks;
   describe_volume(volume, import, info.volume);
-  recorder_ = std::make_unique<record::Recorder>(info.rate_hz);
-  Status started = recorder_->start(file, info, embed ? &bone : nullptr);
-  if (started) session.set_recorder(recorder_.get());
-  return started;
+  file_ = file;
+  rate_hz_ = info.rate_hz;
+  recorder_ =
+      std::make_unique<record::Recorder>(info.rate_hz, kBrickRows, session.settings().realtime);
+  Status started = recorder_->start(file, info, embed ? &bone : nullptr,
+                                    [this](const Error& problem) { tell(problem); });
+  if (started) {
+    session.set_recorder(recorder_.get());
+    return started;
+  }
+  recorder_.reset();
+  // a name that cannot be meant is refused while nothing is lost; a disk that refuses is not the
+  // session's fault
+  std::error_code nobody_asks;
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  if (started.error().trouble != Trouble::io || record::being_written(file) ||
+      std::filesystem::is_directory(file, nobody_asks) ||
+      !(folder.empty() || std::filesystem::is_directory(folder, nobody_asks)))
+    return started;
+  tell(started.error());
+  return fine();
 }
 
-Result<record::RecordingAccount> Recording::finish(sim::Session& session) {
+void Recording::tell(const Error& problem) {
+  {
+    const std::lock_guard lock(mutex_);
+    trouble_ = problem;
+  }
+  fmt::print(stderr, "{}burr: {}; the session goes on without recording\n",
+             isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "", problem.text);
+}
+
+std::string Recording::trouble() const {
+  const std::lock_guard lock(mutex_);
+  return trouble_ ? "NOT RECORDED ANY MORE: " + trouble_->text : "";
+}
+
+Status Recording::finish(sim::Session& session) {
   session.set_recorder(nullptr);
-  return recorder_->finish();
+  if (recorder_) {
+    const auto done = recorder_->finish();
+    if (done && !done->whole())
+      return error(
+          Trouble::io,
+          fmt::format("{}: {} ticks, {} wishes and {} bricks could not be written in time "
+                      "and are missing; record to a faster disk",
+                      file_, done->dropped_ticks, done->dropped_wishes, done->dropped_bricks));
+  }
+  const std::lock_guard lock(mutex_);
+  if (!trouble_) return fine();
+  std::error_code nobody_asks;
+  const bool there = std::filesystem::exists(file_, nobody_asks);
+  const double kept = recorder_ ? static_cast<double>(recorder_->safe_ticks()) / rate_hz_ : 0;
+  return error(trouble_->trouble,
+               fmt::format("{}; the session was finished, but its recording is not whole: {}",
+                           trouble_->text,
+                           there && kept > 0 ? fmt::format("it holds the first {:.3f} s", kept)
+                                             : "nothing was kept"));
+}
+
+nlohmann::json Recording::account() const {
+  const std::lock_guard lock(mutex_);
+  const record::RecordingAccount account =
+      recorder_ ? recorder_->account() : record::RecordingAccount{};
+  nlohmann::json out;
+  out["file"] = file_;
+  out["whole"] = !trouble_ && account.whole();
+  out["ticks"] = account.safe_ticks;
+  out["dropped_ticks"] = account.dropped_ticks;
+  out["bytes"] = account.bytes;
+  if (trouble_) out["trouble"] = trouble_->text;
+  return out;
 }
 
 Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "burr/base/progress.h"
@@ -15,16 +18,32 @@
 namespace burr::app {
 
 // A session being written down. Make it before the first tick, finish() after the last.
+//
+// A disk that refuses does not stop the session: it is said on stderr at once, the session goes on
+// without recording, and finish() says it again, for the exit code.
 class Recording {
  public:
   // motion: in our words, "pocket" or "hand path". embed: the bone goes into the file.
+  // Error: only what the user can put right before anything has begun (a folder that does not
+  // exist, a name that another burr is recording to).
   Status start(sim::Session& session, const std::string& file, const VolumeOptions& volume,
                const io::ImportSummary& import, const std::string& motion, bool embed);
-  // What was written; the Error says what is missing.
-  [[nodiscard]] Result<record::RecordingAccount> finish(sim::Session& session);
+  // The Error says what is missing.
+  [[nodiscard]] Status finish(sim::Session& session);
+
+  // "" while all is well, or the trouble in a few words for a window; any thread.
+  [[nodiscard]] std::string trouble() const;
+  // After finish(): the file, whether it is whole, how much of the session it holds.
+  [[nodiscard]] nlohmann::json account() const;
 
  private:
+  void tell(const Error& problem);
+
+  std::string file_;
   std::unique_ptr<record::Recorder> recorder_;
+  double rate_hz_ = 0;
+  mutable std::mutex mutex_;  // the recorder's thread tells, main asks
+  std::optional<Error> trouble_;
 };
 
 // The bone a recording began with: from inside the file, by formula, or from the user's own scan

@@ -223,17 +223,18 @@ Status run_headless(const Options& options) {
     session.run(0.5 * seconds, progress());
     status = stopped();
   }
-  const auto recorded = recording.finish(session);
+  const Status recorded = recording.finish(session);
   if (!status) return status;
-  if (!recorded) return recorded.error();
-  status = picture("after.png");
-  if (!status) return status;
-
   Summary summary = summary_of(session, work.what, "simulated hand, " + options.motion);
+  if (!recorded) fmt::print("{}", summary_text(summary));  // a disk that is full takes no picture
+  status = picture("after.png");
+  if (!status) return recorded ? status : recorded;
+
   summary.pictures = {
       {"before.png", "before"}, {"working.png", "at half time"}, {"after.png", "after"}};
-  summary.recording = "session.mcap";
+  if (recorded) summary.recording = "session.mcap";
   status = write_summary(summary, folder);
+  if (!recorded) return recorded;
   if (!status) return status;
   fmt::print("{}{}: before.png working.png after.png session.mcap summary.html\n",
              summary_text(summary), folder.string());
@@ -280,13 +281,14 @@ Status run_in_window(const Options& options) {
                              work.made.summary, "mouse", false);
     if (!status) return status;
   }
-  status = run_window(session, mouse, worker, scene, {options.seconds, options.out});
+  status = run_window(session, mouse, worker, scene,
+                      {options.seconds, options.out, [&recording] { return recording.trouble(); }});
   if (folder.empty()) return status;
-  const auto recorded = recording.finish(session);
+  const Status recorded = recording.finish(session);
   if (!status) return status;
-  if (!recorded) return recorded.error();
 
   Summary summary = summary_of(session, work.what, "mouse");
+  if (!recorded) fmt::print("{}", summary_text(summary));  // a disk that is full takes no picture
   scene.burr.visible = false;
   scene.markers.clear();
   scene.rods.clear();
@@ -297,11 +299,12 @@ Status run_in_window(const Options& options) {
     picture.scale_bar = true;
     const std::string file = std::string(name) + ".png";
     status = render::render_png(picture, kWidth, kHeight, folder / file);
-    if (!status) return status;
+    if (!status) return recorded ? status : recorded;
     summary.pictures.emplace_back(file, name);
   }
-  summary.recording = "session.mcap";
+  if (recorded) summary.recording = "session.mcap";
   status = write_summary(summary, folder);
+  if (!recorded) return recorded;
   if (!status) return status;
   fmt::print("{}{}: before.png after.png session.mcap summary.html\n", summary_text(summary),
              folder.string());

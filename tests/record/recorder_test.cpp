@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <thread>
 
@@ -231,7 +233,9 @@ TEST(Recorder, AFullDiskIsSaidAndTheSessionGoesOn) {
   small.rlim_cur = 4'000'000;
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
   Recorder recorder(1000);
-  const Status started = recorder.start(path, info_of(*bone, random));
+  std::atomic<int> told = 0;
+  const Status started =
+      recorder.start(path, info_of(*bone, random), nullptr, [&told](const Error&) { ++told; });
   for (std::uint64_t tick = 0; tick < 20'000; ++tick) {
     recorder.wait_for_room();  // must not wait for ever
     recorder.ticks().push(any_tick(tick, random));
@@ -244,12 +248,32 @@ TEST(Recorder, AFullDiskIsSaidAndTheSessionGoesOn) {
   EXPECT_EQ(account.error().trouble, Trouble::io);
   EXPECT_NE(account.error().text.find(path), std::string::npos) << account.error().text;
   EXPECT_FALSE(recorder.status().ok());
+  EXPECT_EQ(told, 1) << "at once, and once";
+  EXPECT_EQ(recorder.account().safe_ticks + recorder.account().dropped_ticks, 20'000U);
   // what was written before is there, and ends cleanly
   auto player = Player::open(path);
   ASSERT_TRUE(player.ok()) << player.error().text;
   EXPECT_FALSE((*player)->finished());
   EXPECT_EQ((*player)->lost_bytes(), 0U);
+  EXPECT_EQ((*player)->end_tick(), recorder.account().safe_ticks);
   EXPECT_GT((*player)->end_tick(), 100U);
+}
+
+TEST(Recorder, AFileThatIsRemovedOrReplacedMeanwhileIsNoticedEvenAtTheVeryEnd) {
+  BURR_SEEDED(random, 10);
+  const auto bone = any_bone(random);
+  for (const bool replaced : {false, true}) {
+    const Folder folder;
+    Recorder recorder(1000);
+    ASSERT_TRUE(recorder.start(folder / "s.mcap", info_of(*bone, random)).ok());
+    for (std::uint64_t tick = 0; tick < 100; ++tick) recorder.ticks().push(any_tick(tick, random));
+    while (recorder.safe_ticks() < 100) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::filesystem::remove(folder / "s.mcap");
+    if (replaced) write_file(folder / "s.mcap", {1, 2, 3});
+    const auto account = recorder.finish();
+    ASSERT_FALSE(account.ok()) << "said to be whole, and lies in no folder";
+    EXPECT_NE(account.error().text.find("was removed"), std::string::npos) << account.error().text;
+  }
 }
 
 TEST(Recorder, PathsUidsAndNumbersThatAreNoneAreRefused) {

@@ -1,15 +1,9 @@
 // Files that were cut off, damaged or made to lie: they open, say what is missing, and never crash.
-#include <fcntl.h>
+// What a kill leaves is in tests/sim/killed_test.cpp.
 #include <gtest/gtest.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <atomic>
 #include <chrono>
-#include <csignal>
-#include <cstdlib>
 #include <thread>
 
 #include "burr/record/player.h"
@@ -322,105 +316,6 @@ TEST(Damaged, RandomBytesNeverCrashNorMakeUsTakeWhatTheyPromise) {
 #if !defined(BURR_SANITIZED)
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 400'000) << "KiB";
 #endif
-}
-
-// ---- kill -9
-
-// What the child tells while it lives, in a file both have mapped.
-struct Told {
-  std::atomic<std::uint64_t> pushed{0};
-  std::atomic<bool> refused{false};
-};
-
-Told* shared(const std::string& path, bool make) {
-  const int file = ::open(path.c_str(), O_RDWR | (make ? O_CREAT : 0), 0600);
-  if (file < 0 || (make && ::ftruncate(file, sizeof(Told)) != 0)) return nullptr;
-  void* at = ::mmap(nullptr, sizeof(Told), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-  ::close(file);
-  return at == MAP_FAILED ? nullptr : static_cast<Told*>(at);
-}
-
-// The child: not a test by itself; records at 1 kHz until it is killed.
-TEST(DISABLED_KillChild, RecordsUntilItDies) {
-  const char* folder = std::getenv("BURR_TEST_KILL_FOLDER");
-  if (folder == nullptr) GTEST_SKIP() << "runs only as the child of Killed";
-  Told* told = shared(std::string(folder) + "/told", false);
-  ASSERT_NE(told, nullptr);
-  Random random(29);
-  const auto bone = any_bone(random);
-  Recorder recorder(1000);
-  ASSERT_TRUE(recorder.start(std::string(folder) + "/s.mcap", info_of(*bone, random)).ok());
-  auto due = std::chrono::steady_clock::now();
-  for (std::uint64_t tick = 0; tick < 20'000; ++tick) {
-    for (const BrickRow& row : nibble(*bone, tick, random)) recorder.bricks().push(row);
-    TickRow row = any_tick(tick, random);
-    row.hash = tick * 3 + 1;
-    if (!recorder.ticks().push(row)) told->refused = true;
-    told->pushed.store(tick + 1, std::memory_order_release);
-    due += std::chrono::milliseconds(1);
-    std::this_thread::sleep_until(due);
-  }
-}
-
-TEST(Killed, AtAnyMomentLosesAtMostTheLastTenthOfASecond) {
-  BURR_SEEDED(random, 30);
-  const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-  std::vector<std::uint64_t> lost;
-  for (int round = 0; round < 7; ++round) {
-    const Folder folder;
-    Told* told = shared(folder / "told", true);
-    ASSERT_NE(told, nullptr);
-    const pid_t child = ::fork();
-    if (child == 0) {
-      ::setenv("BURR_TEST_KILL_FOLDER", folder.str().c_str(), 1);
-      ::execl(self.c_str(), self.c_str(), "--gtest_filter=DISABLED_KillChild.*",
-              "--gtest_also_run_disabled_tests", "--gtest_brief=1", nullptr);
-      ::_exit(127);
-    }
-    ASSERT_GT(child, 0);
-    // at least this far, then at a moment nobody chose
-    const std::uint64_t enough = 150 + random() % 700;
-    int state = 0;
-    while (told->pushed.load(std::memory_order_acquire) < enough &&
-           ::waitpid(child, &state, WNOHANG) == 0)
-      std::this_thread::sleep_for(std::chrono::microseconds(100 + random() % 900));
-    ::kill(child, SIGKILL);
-    ::waitpid(child, &state, 0);
-    const std::uint64_t pushed = told->pushed.load(std::memory_order_acquire);
-    EXPECT_FALSE(told->refused);
-    ::munmap(told, sizeof(Told));
-    ASSERT_GE(pushed, enough);
-
-    auto player = Player::open(folder / "s.mcap");
-    ASSERT_TRUE(player.ok()) << player.error().text;
-    EXPECT_FALSE((*player)->finished());
-    StepCursor steps = (*player)->steps();
-    Step step;
-    std::uint64_t tick = 0;
-    while (steps.next(step)) {
-      EXPECT_EQ(step.row.tick, tick);
-      EXPECT_EQ(step.row.hash, tick * 3 + 1);
-      ++tick;
-    }
-    EXPECT_LE(tick, pushed + 1);
-    lost.push_back(pushed - std::min(pushed, tick));
-    Random again(29);
-    const auto bone = any_bone(again);
-    EXPECT_TRUE((*player)->bone_at(1e9, *bone).ok());
-
-    NoProgress progress;
-    const auto report = repair(folder / "s.mcap", folder / "s.mcap", progress);
-    ASSERT_TRUE(report.ok()) << report.error().text;
-    EXPECT_EQ(report->ticks, tick);
-  }
-  // The pen wakes every 40 ms. A machine that is busy elsewhere may keep it asleep for longer than
-  // that, which is no fault of ours: so the middle one of seven counts, at 1 tick a millisecond.
-  std::sort(lost.begin(), lost.end());
-  std::string all;
-  for (const std::uint64_t ms : lost) all += std::to_string(ms) + " ";
-  RecordProperty("lost_ms", all);
-  std::printf("lost at kill -9 [ms]: %s\n", all.c_str());
-  EXPECT_LE(lost[lost.size() / 2], 100U) << all;
 }
 
 }  // namespace

@@ -253,6 +253,9 @@ void Mill::say() {
   scene_.text.push_back(fmt::format("removed {:.1f} mm^3   force {:.1f} N   press {:.1f} mm   {}",
                                     1e9 * row_.ledger.removed, row_.contact.force.norm(),
                                     1e3 * press_, note_));
+  if (options_.warning)
+    if (std::string warning = options_.warning(); !warning.empty())
+      scene_.text.push_back(std::move(warning));
   if (help_) {
     scene_.text.emplace_back("left: mill   right: turn   middle: shift   wheel: zoom   + -: press");
     scene_.text.emplace_back(

@@ -4,6 +4,7 @@
 // sim/session.h, and through the mouse's hand.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "burr/render/scene.h"
@@ -16,6 +17,7 @@ namespace burr::app {
 struct WindowOptions {
   double seconds = 0;  // closes by itself after so long; 0: when the user closes it
   std::string folder;  // where P leaves pictures; empty: where the program was started
+  std::function<std::string()> warning;  // asked often; what the user must be told, "" for nothing
 };
 
 // Runs until the window is closed; then the servo stands. `scene` has the bone's surface as

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -46,11 +47,26 @@ using mcap::Kind;
 
 namespace {
 
+const char* remedy(int code) {
+  switch (code) {
+    case ENOSPC:
+    case EDQUOT:
+      return "; make room or choose another disk";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "; choose a folder you may write to";
+    case EFBIG:
+      return "; raise the limit on the size of files (ulimit -f)";
+    default:
+      return "";
+  }
+}
+
 Error trouble(const std::string& shown, const char* doing) {
   const int code = errno;
   return error(Trouble::io,
-               fmt::format("{}: cannot {}: {}{}", shown, doing, std::strerror(code),
-                           code == ENOSPC ? "; make room or choose another disk" : ""));
+               fmt::format("{}: cannot {}: {}{}", shown, doing, std::strerror(code), remedy(code)));
 }
 
 void put_schema(BytesOut& out, const mcap::Schema& schema) {
@@ -265,6 +281,15 @@ void McapWriter::count(const mcap::MessageIndexes& indexes, const mcap::ChunkAt&
 Status McapWriter::sync() {
   if (::fdatasync(file_) != 0) return trouble(shown_, "bring it to the disk");
   return fine();
+}
+
+Status McapWriter::still_there() const {
+  struct stat now = {};
+  if (::fstat(file_, &now) != 0) return trouble(shown_, "look at it");
+  if (now.st_nlink > 0) return fine();
+  return error(Trouble::io, shown_ +
+                                ": was removed while it was being recorded, and what it held is "
+                                "gone; leave a recording alone until the session has ended");
 }
 
 Status McapWriter::finish() {

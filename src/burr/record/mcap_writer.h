@@ -57,6 +57,8 @@ class McapWriter {
 
   // Everything appended so far reaches the disk, not only the kernel. Slow.
   [[nodiscard]] Status sync();
+  // Error: somebody removed the file meanwhile, what is written now is in no folder.
+  [[nodiscard]] Status still_there() const;
   // Summary, footer, sync, close.
   [[nodiscard]] Status finish();
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -22,6 +23,7 @@
 #include "burr/record/mcap_writer.h"
 #include "burr/record/place_file.h"
 #include "burr/record/schema.h"
+#include "burr/rt/thread.h"
 
 namespace burr::record {
 namespace {
@@ -35,6 +37,8 @@ constexpr double kRingDepth = 4;                            // [s]
 constexpr double kBatch = 10e-3;                            // ticks in one message [s]
 // small enough that writing one keeps the pen from the ticks for a few milliseconds only
 constexpr std::size_t kBricksPerMessage = 1024;
+// of SCHED_FIFO: after servo and guard, before everybody who would keep the pen from its 40 ms
+constexpr int kPenPriority = 10;
 
 std::size_t ring_rows(double rate_hz) {
   BURR_CHECK(rate_hz > 0 && rate_hz <= 1e6);
@@ -53,8 +57,8 @@ bool half_full(const rt::Ring<T>& ring) {
 class Recorder::Pen {
  public:
   Pen(Recorder& recorder, std::unique_ptr<McapWriter> writer,
-      const std::array<std::uint16_t, 6>& ids)
-      : recorder_(recorder), writer_(std::move(writer)) {
+      const std::array<std::uint16_t, 6>& ids, std::function<void(const Error&)> on_trouble)
+      : recorder_(recorder), writer_(std::move(writer)), on_trouble_(std::move(on_trouble)) {
     for (std::size_t i = 0; i < kTopics.size(); ++i) {
       const std::string_view name = kTopics[i].name;
       if (name == kTicks.name) tick_channel_ = ids[i];
@@ -65,7 +69,9 @@ class Recorder::Pen {
     }
     last_write_ = Clock::now();
     syncer_ = std::thread([this] { sync_run(); });
-    thread_ = std::thread([this] { run(); });
+    thread_ = std::make_unique<rt::Thread>(
+        rt::ThreadWish{.name = "pen", .realtime = recorder.realtime_, .priority = kPenPriority},
+        [this] { run(); });
   }
   ~Pen() { stop(); }
   Pen(const Pen&) = delete;
@@ -77,7 +83,7 @@ class Recorder::Pen {
       stopping_ = true;
     }
     wake_.notify_all();
-    if (thread_.joinable()) thread_.join();
+    thread_->join();
     {
       const std::lock_guard lock(sync_mutex_);
       sync_stopping_ = true;
@@ -105,12 +111,14 @@ class Recorder::Pen {
     return trouble_ ? Status(*trouble_) : fine();
   }
 
+  [[nodiscard]] std::uint64_t safe_ticks() const { return safe_ticks_.load(); }
+
   // after stop()
-  [[nodiscard]] Result<RecordingAccount> finish() {
-    const std::lock_guard lock(mutex_);
-    if (trouble_) return *trouble_;
-    account_.bytes = writer_->size();
-    return account_;
+  [[nodiscard]] RecordingAccount account() const {
+    RecordingAccount account = account_;
+    account.safe_ticks = safe_ticks_.load();
+    account.bytes = writer_->size();
+    return account;
   }
 
  private:
@@ -143,8 +151,20 @@ class Recorder::Pen {
 
   void fail(const Error& problem) {
     failed_ = true;
-    const std::lock_guard lock(mutex_);
-    if (!trouble_) trouble_ = problem;
+    // taken from the ring and not written
+    account_.dropped_ticks += account_.ticks - safe_ticks_;
+    account_.ticks = safe_ticks_;
+    tell(problem);
+  }
+
+  // pen or syncer
+  void tell(const Error& problem) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (trouble_) return;
+      trouble_ = problem;
+    }
+    if (on_trouble_) on_trouble_(problem);
   }
 
   // after a failure: the rings must not look full for ever, wait_for_room() would not return
@@ -189,12 +209,17 @@ class Recorder::Pen {
         !added.ok())
       return added;
     stop_syncing();
-    return writer_->finish();
+    Status whole = writer_->still_there();
+    return whole.ok() ? writer_->finish() : whole;
   }
 
   Status write_chunk() {
     const bool something = writer_->chunk_open();
     Status written = writer_->close_chunk();
+    // bytes that go into a file without a name are gone, whatever the kernel says
+    if (something && written.ok()) written = writer_->still_there();
+    if (!written.ok()) return written;
+    safe_ticks_.store(account_.ticks);
     const Clock::time_point now = Clock::now();
     if (!something) {
       last_write_ = now;  // nothing waits, so nothing could be lost
@@ -366,10 +391,7 @@ class Recorder::Pen {
       if (sync_stopping_) return;
       sync_wanted_ = false;
       lock.unlock();
-      if (Status synced = writer_->sync(); !synced.ok()) {
-        const std::lock_guard guard(mutex_);
-        if (!trouble_) trouble_ = synced.error();
-      }
+      if (Status synced = writer_->sync(); !synced.ok()) tell(synced.error());
       lock.lock();
     }
   }
@@ -385,6 +407,7 @@ class Recorder::Pen {
 
   Recorder& recorder_;
   std::unique_ptr<McapWriter> writer_;
+  std::function<void(const Error&)> on_trouble_;
   std::uint16_t tick_channel_ = 0, wish_channel_ = 0, event_channel_ = 0, change_channel_ = 0,
                 keyframe_channel_ = 0;
   std::map<std::uint16_t, std::uint32_t> sequence_;
@@ -408,22 +431,28 @@ class Recorder::Pen {
   mutable std::mutex mutex_;
   std::condition_variable wake_, room_;
   bool stopping_ = false, hurry_ = false;
+  std::atomic<std::uint64_t> safe_ticks_ = 0;
   std::optional<Error> trouble_;
   std::mutex sync_mutex_;
   std::condition_variable sync_wake_;
   bool sync_wanted_ = false, sync_stopping_ = false;
-  std::thread syncer_, thread_;
+  std::thread syncer_;
+  std::unique_ptr<rt::Thread> thread_;
 };
 
 // ---- the recorder
 
-Recorder::Recorder(double rate_hz, std::size_t brick_rows)
-    : ticks_(ring_rows(rate_hz)), wishes_(1024), bricks_(brick_rows), rate_hz_(rate_hz) {}
+Recorder::Recorder(double rate_hz, std::size_t brick_rows, bool realtime)
+    : ticks_(ring_rows(rate_hz)),
+      wishes_(1024),
+      bricks_(brick_rows),
+      rate_hz_(rate_hz),
+      realtime_(realtime) {}
 
 Recorder::~Recorder() = default;
 
-Status Recorder::start(const std::string& path, const SessionInfo& asked,
-                       const volume::Bone* embed) {
+Status Recorder::start(const std::string& path, const SessionInfo& asked, const volume::Bone* embed,
+                       std::function<void(const Error&)> on_trouble) {
   BURR_CHECK(pen_ == nullptr);
   SessionInfo info = asked;
   info.burr_version = base::version();
@@ -476,7 +505,7 @@ Status Recorder::start(const std::string& path, const SessionInfo& asked,
   if (Status synced = writer->sync(); !synced.ok()) return give_up(synced.error());
   if (Status placed = place_file(beside, path); !placed.ok()) return give_up(placed.error());
 
-  pen_ = std::make_unique<Pen>(*this, std::move(writer), ids);
+  pen_ = std::make_unique<Pen>(*this, std::move(writer), ids, std::move(on_trouble));
   return fine();
 }
 
@@ -489,7 +518,12 @@ Status Recorder::status() const { return pen_ ? pen_->status() : fine(); }
 Result<RecordingAccount> Recorder::finish() {
   BURR_CHECK(pen_ != nullptr);
   pen_->stop();
-  return pen_->finish();
+  if (Status done = pen_->status(); !done.ok()) return done.error();
+  return pen_->account();
 }
+
+std::uint64_t Recorder::safe_ticks() const { return pen_ ? pen_->safe_ticks() : 0; }
+
+RecordingAccount Recorder::account() const { return pen_ ? pen_->account() : RecordingAccount{}; }
 
 }  // namespace burr::record

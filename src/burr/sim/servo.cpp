@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "burr/base/hash.h"
+#include "burr/record/tick_hash.h"
 
 namespace burr::sim {
 namespace {
@@ -359,31 +359,7 @@ void Servo::keep_for_fault() BURR_RT {
 }
 
 // Chained, so that the first tick at which two runs part is the first whose hash differs.
-void Servo::hash_row() BURR_RT {
-  std::uint64_t h = base::mix(last_hash_, row_.tick);
-  const auto vector = [&h](const Vec3& v) {
-    for (int i = 0; i < 3; ++i) h = base::mix(h, v[i]);
-  };
-  const device::HandState& hand = row_.hand;
-  vector(hand.world_from_tool.p);
-  for (int i = 0; i < 4; ++i) h = base::mix(h, hand.world_from_tool.q.coeffs()[i]);
-  vector(hand.velocity);
-  h = base::mix(h, hand.pedal);
-  h = base::mix(h, std::uint64_t{hand.buttons} << 1 | (hand.valid ? 1U : 0U));
-  const haptics::Contact& contact = row_.contact;
-  vector(contact.proxy);
-  vector(contact.normal);
-  vector(contact.force);
-  h = base::mix(h, contact.depth);
-  h = base::mix(h, std::uint64_t{contact.flags} << 32 |
-                       static_cast<std::uint64_t>(contact.active) << 1 |
-                       (contact.touching ? 1U : 0U));
-  const edit::Ledger& ledger = row_.ledger;
-  for (const double value :
-       {ledger.asked, ledger.removed, ledger.debt, ledger.not_cut, ledger.added, ledger.energy})
-    h = base::mix(h, value);
-  row_.hash = last_hash_ = base::mix(h, row_.spindle_rad_s);
-}
+void Servo::hash_row() BURR_RT { row_.hash = last_hash_ = record::tick_hash(row_, last_hash_); }
 
 std::vector<std::string> words(std::uint32_t flags) {
   static_assert(haptics::kFlagReserve == 1U << 10 && haptics::kFlagUndoFull == 1U << 11 &&

@@ -1,0 +1,310 @@
+// kill -9 at any moment: a child mills and records, the parent kills it, and what lies on the disk
+// must open, lack at most the last tenth of a second, and replay to its end to the bit.
+//
+//     BURR_KILLS=1000 build/release/test_sim --gtest_filter='Killed.*'
+//
+// What a tenth of a second is measured against: the ticks that the servo had handed to the recorder
+// when the child died, counted by the hand, which is asked for its position at the start of every
+// tick. Paced children: lost ticks times the period, so that a machine that stood still as a whole
+// costs nothing. Children as fast as possible: the time in which the lost ticks were handed over.
+//
+// Every single kill is judged, on any machine. What the machine may take from it is measured, not
+// guessed: the pen asks for a processor every 40 ms; for how long the kernel let it wait is in the
+// kernel's own account (schedstat), which the child copies out while it lives, and that long, no
+// more, is added to the tenth of a second. That the file holds whatever the recorder called safe,
+// and that it replays, has no excuse.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+#include <thread>
+
+#include "burr/base/progress.h"
+#include "burr/device/simulated_hand.h"
+#include "burr/record/player.h"
+#include "burr/record/recorder.h"
+#include "burr/record/repair.h"
+#include "burr/record/tick_hash.h"
+#include "burr/rt/clock.h"
+#include "burr/sim/motion.h"
+#include "burr/sim/replay.h"
+#include "burr/sim/session.h"
+#include "burr/sim/session_words.h"
+#include "scenes/build.h"
+#include "scenes/shapes.h"
+
+namespace burr::sim {
+namespace {
+
+using Random = std::mt19937_64;
+using namespace std::chrono_literals;
+
+constexpr std::size_t kMostTicks = 1 << 18;
+constexpr double kPromised = 100;  // [ms]
+
+// What the child tells while it lives; memory of both.
+struct Told {
+  std::atomic<bool> started;            // the recording has its beginning
+  std::atomic<std::uint64_t> handed;    // ticks the servo has handed over
+  std::atomic<std::uint64_t> safe;      // of these, in the file, as the recorder says
+  std::atomic<std::uint64_t> refused;   // did not fit into a ring
+  std::atomic<std::int64_t> waited_ns;  // of the pen for a processor, in all
+  std::atomic<std::int64_t> handed_ns[kMostTicks];
+};
+
+// Forwards to a simulated hand and counts: asked for tick n + 1, tick n has been handed over.
+class CountingHand final : public device::Device {
+ public:
+  CountingHand(device::HandPath path, Told& told) : hand_(std::move(path), {}), told_(told) {}
+  Status open() override { return hand_.open(); }
+  void close() override { hand_.close(); }
+  [[nodiscard]] const device::DeviceSpec& spec() const override { return hand_.spec(); }
+  [[nodiscard]] device::HandState state(double dt) BURR_RT override {
+    if (asked_ > 0 && asked_ <= kMostTicks) {
+      told_.handed_ns[asked_ - 1].store(rt::monotonic_ns(), std::memory_order_relaxed);
+      told_.handed.store(asked_, std::memory_order_release);
+    }
+    ++asked_;
+    return hand_.state(dt);
+  }
+  void write_force(const math::Vec3& force) BURR_RT override { hand_.write_force(force); }
+  void hold(double scale) BURR_RT override { hand_.hold(scale); }
+  [[nodiscard]] bool finished() const BURR_RT override {
+    return asked_ >= kMostTicks || hand_.finished();
+  }
+
+ private:
+  device::SimulatedHand hand_;
+  Told& told_;
+  std::uint64_t asked_ = 0;
+};
+
+std::unique_ptr<volume::Bone> small_bone() {
+  return scenes::bone_from_distance(scenes::cube_grid(16e-3, 48), {}, scenes::slab(), 64, 1);
+}
+
+// How long the thread named "pen" has waited for a processor so far  [ns]; -1: nobody says.
+std::int64_t waited_by_pen() {
+  static const std::string task = [] {
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
+      std::string name;
+      std::getline(std::ifstream(entry.path() / "comm"), name);
+      if (name == "pen") return (entry.path() / "schedstat").string();
+    }
+    return std::string();
+  }();
+  std::int64_t ran = 0, waited = -1;
+  std::ifstream(task) >> ran >> waited;
+  return waited;
+}
+
+// The child: mills, is wished at, records, until it is killed.
+[[noreturn]] void mill_until_killed(const std::string& file, bool realtime, bool humble,
+                                    std::uint64_t seed, Told& told) {
+  // an ordinary user gets no priority from the kernel
+  if (humble && (::setgid(65534) != 0 || ::setuid(65534) != 0)) ::_exit(10);
+  Random random(seed);
+  const auto names = motion_names();
+  SessionSettings settings;
+  settings.servo.burr.radius = 1.5e-3;
+  settings.servo.undo_bricks = 1024;
+  settings.realtime = realtime;
+  settings.threads = 1;
+  auto bone = small_bone();
+  const auto place = find_work_place(*bone, settings.servo.burr.radius, {}, {});
+  if (!place) ::_exit(11);
+  auto path = motion(names[random() % names.size()], *place, settings.servo.burr.radius, 200.0);
+  if (!path) ::_exit(12);
+  // in the bone soon, not after the long way of a built-in motion
+  for (device::PathPoint& point : path->points) point.t *= 0.25;
+  NoProgress quiet;
+  auto made = Session::make(std::move(bone), std::make_unique<CountingHand>(std::move(*path), told),
+                            settings, quiet);
+  if (!made) ::_exit(13);
+  Session& session = **made;
+  record::SessionInfo info;
+  describe(session.settings(), session.hand().spec(), info);
+  info.volume.grid = session.bone().grid();
+  info.volume.tissues = session.bone().tissues();
+  info.volume.content_hash = session.bone().content_hash();
+  record::Recorder recorder(settings.servo.rate_hz, 8192, realtime);
+  if (!recorder.start(file, info)) ::_exit(14);
+  session.set_recorder(&recorder);
+  told.started = true;
+  session.start();
+  const record::WishKind kinds[] = {record::WishKind::undo,      record::WishKind::redo,
+                                    record::WishKind::reset,     record::WishKind::stiffness,
+                                    record::WishKind::tool_mode, record::WishKind::spindle_speed};
+  while (session.running()) {
+    told.safe = recorder.safe_ticks();
+    told.refused = recorder.ticks().dropped();
+    told.waited_ns = waited_by_pen();
+    if (random() % 16 == 0) {
+      const record::WishKind kind = kinds[random() % std::size(kinds)];
+      const double value = kind == record::WishKind::stiffness
+                               ? 300 + 100 * static_cast<double>(random() % 8)
+                           : kind == record::WishKind::tool_mode ? static_cast<double>(random() % 2)
+                                                                 : 4000;
+      session.wish({kind, value});
+    }
+    std::this_thread::sleep_for(2ms);
+  }
+  ::_exit(15);  // nobody came: kMostTicks is too small
+}
+
+struct Tally {
+  int before_the_beginning = 0, repaired = 0, excused = 0;
+  std::uint64_t ticks = 0, bricks = 0;
+  std::vector<double> lost_ms;
+};
+
+// What lies there after the kill.
+void judge(const std::string& file, const Told& told, bool realtime, bool again, Tally& tally) {
+  NoProgress quiet;
+  auto opened = record::Player::open(file);
+  ASSERT_TRUE(opened) << opened.error().text;
+  EXPECT_FALSE((*opened)->finished());
+  const std::uint64_t kept = (*opened)->end_tick(), handed = told.handed;
+  EXPECT_EQ(told.refused, 0U);
+  EXPECT_GE(kept, told.safe) << "called safe, and lost";
+  ASSERT_LE(kept, handed + 1);
+
+  double lost = 0;
+  if (kept < handed)
+    lost = realtime ? static_cast<double>(handed - kept)
+                    : 1e-6 * static_cast<double>(told.handed_ns[handed - 1] - told.handed_ns[kept]);
+  tally.lost_ms.push_back(lost);
+  const double waited = 1e-6 * static_cast<double>(std::max<std::int64_t>(0, told.waited_ns));
+  EXPECT_LE(lost, kPromised + waited) << "the pen waited " << waited << " ms for a processor";
+  if (lost > kPromised) ++tally.excused;
+
+  // anybody can check the hashes of a recording without simulating it
+  record::StepCursor steps = (*opened)->steps();
+  record::Step step;
+  std::uint64_t hash = 0;
+  while (steps.next(step)) {
+    hash = record::tick_hash(step.row, hash);
+    ASSERT_EQ(hash, step.row.hash) << "tick " << step.row.tick;
+  }
+
+  const auto replays = [&](const std::string& what) {
+    auto player = record::Player::open(file);
+    ASSERT_TRUE(player) << player.error().text;
+    auto bone = small_bone();
+    ASSERT_EQ(bone->content_hash(), (*player)->info().volume.content_hash);
+    const auto outcome = replay(**player, std::move(bone), quiet);
+    ASSERT_TRUE(outcome) << outcome.error().text;
+    EXPECT_FALSE(outcome->parted_at.has_value()) << what << ": " << outcome->difference;
+    EXPECT_EQ(outcome->gaps, 0U) << what;
+    EXPECT_EQ(outcome->ticks, kept) << what;
+    tally.ticks += outcome->ticks;
+    tally.bricks += outcome->bricks;
+  };
+  replays("as it was left");
+  if (kept > 0) {
+    auto bone = small_bone();
+    const Status there = (*opened)->bone_at((*opened)->seconds(), *bone);
+    EXPECT_TRUE(there) << there.error().text;
+  }
+  const auto report = record::repair(file, file, quiet);
+  ASSERT_TRUE(report) << report.error().text;
+  EXPECT_FALSE(report->was_whole);
+  EXPECT_EQ(report->ticks, kept);
+  ++tally.repaired;
+  if (again) replays("repaired");
+  auto player = record::Player::open(file);
+  ASSERT_TRUE(player) << player.error().text;
+  EXPECT_TRUE((*player)->finished());
+  EXPECT_EQ((*player)->end_tick(), kept);
+}
+
+TEST(Killed, AtAnyMomentItOpensLacksATenthOfASecondAtMostAndReplaysToTheBit) {
+  const char* wish = std::getenv("BURR_KILLS");
+  const int kills = wish != nullptr ? std::atoi(wish) : 40;
+  const char* given = std::getenv("BURR_SEED");
+  const std::uint64_t seed =
+      given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
+  std::printf("%d kills; again the same with BURR_SEED=%llu\n", kills,
+              static_cast<unsigned long long>(seed));
+  Random random(seed);
+  void* memory =
+      ::mmap(nullptr, sizeof(Told), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(memory, MAP_FAILED);
+
+  std::string pattern = (std::filesystem::temp_directory_path() / "burr_killed_XXXXXX").string();
+  const std::filesystem::path folder = ::mkdtemp(pattern.data());
+  std::filesystem::permissions(folder, std::filesystem::perms::all);
+  const std::string file = (folder / "s.mcap").string();
+  Tally paced, fast;
+  for (int n = 0; n < kills && !HasFailure(); ++n) {
+    Told& told = *new (memory) Told{};
+    std::filesystem::remove(file);
+    const bool realtime = n % 4 != 3, humble = ::getuid() == 0 && random() % 2 == 0;
+    const bool early = random() % 16 == 0;
+    const std::uint64_t child_seed = random();
+    const auto moment = std::chrono::microseconds(
+        early ? random() % 120'000 : random() % (realtime ? 700'000 : 250'000));
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) mill_until_killed(file, realtime, humble, child_seed, told);
+    int state = 0;
+    // an early one may die before its recording has a beginning
+    const auto patience = std::chrono::steady_clock::now() + 60s;
+    while (!early && !told.started && ::waitpid(child, &state, WNOHANG) == 0 &&
+           std::chrono::steady_clock::now() < patience)
+      std::this_thread::sleep_for(1ms);
+    std::this_thread::sleep_for(moment);
+    ::kill(child, SIGKILL);
+    ASSERT_EQ(::waitpid(child, &state, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(state) && WTERMSIG(state) == SIGKILL)
+        << "the child ended by itself, with " << WEXITSTATUS(state);
+
+    SCOPED_TRACE("kill " + std::to_string(n) + (realtime ? ", paced" : ", as fast as possible") +
+                 (humble ? ", without priority" : ""));
+    Tally& tally = realtime ? paced : fast;
+    if (!std::filesystem::exists(file)) {
+      EXPECT_FALSE(told.started) << "a recording that had begun is not there";
+      EXPECT_EQ(told.handed, 0U);
+      ++tally.before_the_beginning;
+      continue;
+    }
+    judge(file, told, realtime, n % 10 == 0, tally);
+  }
+  if (HasFailure()) {
+    std::printf("the last one is kept: %s\n", file.c_str());
+  } else {
+    std::filesystem::remove_all(folder);
+  }
+  ::munmap(memory, sizeof(Told));
+
+  for (auto [name, tally] : {std::pair{"paced", &paced}, {"as fast as possible", &fast}}) {
+    std::sort(tally->lost_ms.begin(), tally->lost_ms.end());
+    const std::size_t size = tally->lost_ms.size();
+    const auto rank = [&](double q) {
+      return size == 0 ? 0.0 : tally->lost_ms[static_cast<std::size_t>(q * double(size - 1))];
+    };
+    std::printf(
+        "%s: %zu kills in a recording, %d before it began; lost [ms] p50 %.1f, p99 %.1f, "
+        "worst %.1f; %d over 100 ms; replayed %llu ticks and %llu bricks\n",
+        name, size, tally->before_the_beginning, rank(0.5), rank(0.99), rank(1), tally->excused,
+        static_cast<unsigned long long>(tally->ticks),
+        static_cast<unsigned long long>(tally->bricks));
+  }
+  EXPECT_GT(paced.bricks + fast.bricks, 0U) << "nothing was cut: the test shows nothing";
+}
+
+}  // namespace
+}  // namespace burr::sim
