@@ -9,6 +9,8 @@ set(checks ${PROJECT_SOURCE_DIR}/scripts/checks)
 if(Python3_FOUND)
   add_test(NAME house.rooms COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/rooms.py)
   add_test(NAME house.rooms_are_watched COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/house/rooms_test.py)
+  add_test(NAME house.same_bits COMMAND ${Python3_EXECUTABLE} ${checks}/same_bits.py $<TARGET_FILE:same_bits>)
+  set_tests_properties(house.same_bits PROPERTIES TIMEOUT 600)
   add_test(NAME house.documents COMMAND ${Python3_EXECUTABLE} ${checks}/docs.py ${CMAKE_BINARY_DIR})
 endif()
 add_test(NAME house.format COMMAND ${checks}/format.sh)
@@ -17,6 +19,8 @@ add_test(NAME house.tidy COMMAND ${checks}/tidy.sh ${CMAKE_BINARY_DIR})
 add_test(NAME house.run COMMAND ${checks}/run.sh ${CMAKE_BINARY_DIR})
 set_tests_properties(house.run PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
 add_test(NAME house.refuses COMMAND ${checks}/refuses.sh ${CMAKE_BINARY_DIR})
+add_test(NAME house.recording_trouble COMMAND ${checks}/recording_trouble.sh ${CMAKE_BINARY_DIR})
+set_tests_properties(house.recording_trouble PROPERTIES TIMEOUT 300)
 add_test(NAME house.install COMMAND ${checks}/install.sh ${CMAKE_BINARY_DIR})
 set_tests_properties(house.tidy PROPERTIES PROCESSORS ${BURR_PROCESSORS} TIMEOUT 1200 LABELS long)
 set_tests_properties(house.install PROPERTIES LABELS long)
@@ -63,8 +67,19 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
       ENVIRONMENT "UBSAN_OPTIONS=print_stacktrace=1;TSAN_OPTIONS=halt_on_error=1 second_deadlock_stack=1;ASAN_OPTIONS=detect_stack_use_after_return=1")
   endfunction()
 
+  # burr_same_bits(PRESET NAME...): that build says the same numbers as this one, for these of its lines
+  function(burr_same_bits preset)
+    if(Python3_FOUND)
+      list(TRANSFORM ARGN PREPEND --only= OUTPUT_VARIABLE lines)
+      add_test(NAME ${preset}.same_bits COMMAND ${Python3_EXECUTABLE} ${checks}/same_bits.py $<TARGET_FILE:same_bits>
+        --against ${PROJECT_SOURCE_DIR}/build/${preset}/same_bits ${lines})
+      set_tests_properties(${preset}.same_bits PROPERTIES FIXTURES_REQUIRED ${preset}_programs TIMEOUT 900 LABELS long)
+    endif()
+  endfunction()
+
   # the second compiler, warnings as errors: library, program, samples
-  burr_other_build(clang burr burr_program)
+  burr_other_build(clang burr burr_program same_bits)
+  burr_same_bits(clang)
 
   # AddressSanitizer and UndefinedBehaviorSanitizer: what reads files, and what moves memory.
   # Sanitized code is some times slower, so the longest wanderings are left to the release build.
@@ -77,7 +92,8 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
       list(APPEND asan_targets test_${room})
     endif()
   endforeach()
-  burr_other_build(asan ${asan_targets})
+  burr_other_build(asan ${asan_targets} same_bits)
+  burr_same_bits(asan pocket plunge scan)
   foreach(target ${asan_targets})
     string(REPLACE "test_" "" room ${target})
     set(filter "*")
@@ -87,11 +103,15 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
     burr_other_test(asan ${room} "${filter}")
   endforeach()
 
-  # ThreadSanitizer: the doors; bone, mesh and recording while others look on; a whole session
-  burr_other_build(tsan test_rt test_volume test_surface test_record test_sim)
+  # ThreadSanitizer: the doors; bone, mesh and recording while others look on; a whole session; the
+  # whole program, for minutes with scripts/tsan_long.sh
+  burr_other_build(tsan test_rt test_volume test_surface test_record test_sim test_window)
   burr_other_test(tsan rt "*")
   burr_other_test(tsan volume "Bone.*")
   burr_other_test(tsan surface "Worker.Shows*:Worker.Keeps*:Mesher.Workers*")
   burr_other_test(tsan record "*Recorder*")
   burr_other_test(tsan sim "WholeSession.*")
+  burr_other_test(tsan window "*")
+  set_property(TEST tsan.window PROPERTY ENVIRONMENT
+    "TSAN_OPTIONS=halt_on_error=1 second_deadlock_stack=1 suppressions=${PROJECT_SOURCE_DIR}/scripts/checks/tsan_suppressions.txt;BURR_WINDOW_SECONDS=15")
 endif()

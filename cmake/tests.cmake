@@ -15,12 +15,23 @@ foreach(room ${rooms})
     add_executable(test_${room} ${sources})
     target_link_libraries(test_${room} PRIVATE burr_test_support burr_options GTest::gtest_main nlohmann_json::nlohmann_json
       ZLIB::ZLIB PkgConfig::ZSTD PkgConfig::ASSIMP PkgConfig::EPOXY PkgConfig::SDL2)
+    if(room STREQUAL window)  # of the program, not of the library
+      file(GLOB window CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp)
+      target_sources(test_${room} PRIVATE ${window})
+      target_include_directories(test_${room} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr)
+      target_link_libraries(test_${room} PRIVATE CLI11::CLI11)
+    endif()
     target_compile_definitions(test_${room} PRIVATE
       BURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" BURR_BUILD_DIR="${CMAKE_BINARY_DIR}" TOML_HEADER_ONLY=1)
     gtest_discover_tests(test_${room} TEST_PREFIX ${room}. DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120
       PROPERTIES TIMEOUT 900)
   endif()
 endforeach()
+
+# says its numbers in every kind of build, scripts/checks/same_bits.py compares them
+add_executable(same_bits ${PROJECT_SOURCE_DIR}/tests/bits/same_bits.cpp)
+target_link_libraries(same_bits PRIVATE burr burr_scenes burr_options fmt::fmt)
+
 if(EXISTS ${PROJECT_SOURCE_DIR}/cmake/checks.cmake)
   include(cmake/checks.cmake)
 endif()

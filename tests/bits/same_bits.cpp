@@ -1,0 +1,237 @@
+// Makes bones and mills them, and prints a number for each: the hash of the last tick, which stands
+// for all of them, and of the bone that is left. Built by every compiler and every kind of build;
+// scripts/checks/same_bits.py lets them say their numbers and compares.
+//
+//     same_bits [--threads N] [--realtime] [--only NAME]     (BURR_SIMD=scalar|avx2|avx512)
+//
+// A line: NAME TICKS BONE [lost]. `lost`: in real time the machine stood still for so long that the
+// watchdog let go of the hand, which is an input like any other and no longer the same session; the
+// recording of it was then simulated again without a clock, and came out the same.
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "burr/base/hash.h"
+#include "burr/base/progress.h"
+#include "burr/device/simulated_hand.h"
+#include "burr/io/import.h"
+#include "burr/record/player.h"
+#include "burr/record/recorder.h"
+#include "burr/sim/motion.h"
+#include "burr/sim/replay.h"
+#include "burr/sim/session.h"
+#include "burr/sim/session_words.h"
+#include "scenes/build.h"
+#include "scenes/phantoms.h"
+#include "scenes/shapes.h"
+
+namespace {
+
+using namespace burr;
+using math::Vec3;
+using Bone = std::unique_ptr<volume::Bone>;
+NoProgress quiet;
+
+struct Options {
+  int threads = 2;
+  bool realtime = false;
+  std::string only;
+};
+
+[[noreturn]] void give_up(const std::string& why) {
+  fmt::print(stderr, "same_bits: {}\n", why);
+  std::exit(1);
+}
+template <class T>
+T take(Result<T> result) {
+  if (!result) give_up(result.error().text);
+  return std::move(*result);
+}
+
+// A simulated hand that also wishes, each thing at its own tick.
+struct WishAt {
+  std::uint64_t tick;
+  record::Wish wish;
+};
+class WishingHand final : public device::Device {
+ public:
+  WishingHand(device::HandPath path, const device::ArmSettings& arm, std::vector<WishAt> wishes)
+      : hand_(std::move(path), arm), wishes_(std::move(wishes)) {}
+  void tell(sim::Servo& servo) { servo_ = &servo; }
+  Status open() override { return hand_.open(); }
+  void close() override { hand_.close(); }
+  [[nodiscard]] const device::DeviceSpec& spec() const override { return hand_.spec(); }
+  [[nodiscard]] device::HandState state(double dt) BURR_RT override {
+    for (const WishAt& at : wishes_)
+      if (at.tick == tick_ && servo_ != nullptr) static_cast<void>(servo_->wishes().push(at.wish));
+    ++tick_;
+    return hand_.state(dt);
+  }
+  void write_force(const Vec3& force) BURR_RT override { hand_.write_force(force); }
+  void hold(double scale) BURR_RT override { hand_.hold(scale); }
+  [[nodiscard]] bool finished() const BURR_RT override { return hand_.finished(); }
+
+ private:
+  device::SimulatedHand hand_;
+  std::vector<WishAt> wishes_;
+  sim::Servo* servo_ = nullptr;
+  std::uint64_t tick_ = 0;
+};
+
+struct Plan {
+  const char* motion;
+  double seconds, burr_mm;
+  tool::BurrKind kind = tool::BurrKind::cutting;
+  device::ArmSettings arm = {};
+  std::vector<WishAt> wishes = {};
+};
+
+void mill(const char* name, const Plan& plan, const std::function<Bone()>& make,
+          const Options& options) {
+  const std::string file =
+      (std::filesystem::temp_directory_path() / fmt::format("same_bits_{}.mcap", ::getpid()))
+          .string();
+  sim::SessionSettings settings;
+  settings.servo.burr.radius = 0.5e-3 * plan.burr_mm;
+  settings.servo.burr.kind = plan.kind;
+  settings.servo.undo_bricks = 2048;
+  settings.realtime = options.realtime;
+  settings.threads = options.threads;
+  Bone bone = make();
+  const auto place = take(sim::find_work_place(*bone, settings.servo.burr.radius, {}, {}));
+  auto path = take(sim::motion(plan.motion, place, settings.servo.burr.radius, plan.seconds));
+  auto hand = std::make_unique<WishingHand>(std::move(path), plan.arm, plan.wishes);
+  WishingHand& wishing = *hand;
+  auto session = take(sim::Session::make(std::move(bone), std::move(hand), settings, quiet));
+  wishing.tell(session->servo());
+
+  record::SessionInfo info;
+  sim::describe(session->settings(), session->hand().spec(), info);
+  info.volume.grid = session->bone().grid();
+  info.volume.tissues = session->bone().tissues();
+  info.volume.content_hash = session->bone().content_hash();
+  record::Recorder recorder(settings.servo.rate_hz, 8192, options.realtime);
+  if (Status started = recorder.start(file, info); !started) give_up(started.error().text);
+  session->set_recorder(&recorder);
+  session->run(plan.seconds, quiet);
+  session->set_recorder(nullptr);
+  static_cast<void>(take(recorder.finish()));
+  record::TickRow row;
+  if (!session->view(row)) give_up("not one tick");
+
+  // whatever happened, it happens again
+  auto player = take(record::Player::open(file));
+  const auto again = take(sim::replay(*player, make(), quiet));
+  std::filesystem::remove(file);
+  if (again.parted_at || again.gaps > 0 || again.ticks != row.tick + 1 ||
+      again.bone->content_hash() != session->bone().content_hash())
+    give_up(fmt::format("{}: does not replay: {}", name, again.difference));
+  const bool lost = (session->outcome().flags & haptics::kFlagWatchdog) != 0;
+  fmt::print("{} {:016x} {:016x}{}\n", name, row.hash, session->bone().content_hash(),
+             lost ? " lost" : "");
+}
+
+// A scan with noise, made of whole numbers: no two machines disagree about it.
+io::Scan noisy_scan() {
+  io::Scan scan;
+  scan.size = {48, 44, 30};
+  scan.spacing_mm = {0.5, 0.5, 0.8};
+  scan.axes = Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  scan.hounsfield = true;
+  scan.format = "made up";
+  std::uint64_t noise = 1;
+  for (int k = 0; k < scan.size.z(); ++k)
+    for (int j = 0; j < scan.size.y(); ++j)
+      for (int i = 0; i < scan.size.x(); ++i) {
+        noise = base::mix(noise, std::uint64_t{1});
+        const int x = i - 24, y = j - 22, z = 2 * (k - 15);
+        const bool solid = x * x + y * y + z * z < 340 && !(x * x + (y - 8) * (y - 8) < 20);
+        scan.values.push_back(
+            static_cast<float>((solid ? 1100 : -200) + static_cast<int>(noise >> 40 & 127) - 64));
+      }
+  return scan;
+}
+
+void all(const Options& options) {
+  const auto wanted = [&](const char* name) {
+    return options.only.empty() || options.only == name;
+  };
+  const auto bone_only = [&](const char* name, const Bone& bone) {
+    fmt::print("{} {:016x} {:016x}\n", name, 0, bone->content_hash());
+  };
+  const auto wish = [](std::uint64_t tick, record::WishKind kind, double value = 0) {
+    return WishAt{tick, {kind, value}};
+  };
+  using Kind = record::WishKind;
+  if (wanted("pocket"))
+    mill(
+        "pocket",
+        {.motion = "pocket",
+         .seconds = 3,
+         .burr_mm = 4,
+         .wishes = {wish(900, Kind::undo), wish(1300, Kind::redo), wish(1400, Kind::stiffness, 600),
+                    wish(1500, Kind::burr_radius, 1.7e-3), wish(1700, Kind::tool_mode, 1),
+                    wish(2100, Kind::tool_mode, 0), wish(2500, Kind::reset)}},
+        [&] {
+          return scenes::bone_from_distance(
+              scenes::box_grid(Vec3::Constant(-8e-3), Vec3::Constant(8e-3), 0.25e-3), {},
+              scenes::slab(), 256, options.threads);
+        },
+        options);
+  if (wanted("plunge"))
+    mill(
+        "plunge",
+        {.motion = "plunge",
+         .seconds = 2,
+         .burr_mm = 3,
+         .kind = tool::BurrKind::diamond,
+         .arm = {.mass = 0.06, .damping = 5, .stiffness = 200}},
+        [&] {
+          return scenes::bone_from_distance(scenes::cube_grid(16e-3, 50, {1e-3, 2e-3, 3e-3}), {},
+                                            scenes::gyroid(5e-3, 0.6), 256, options.threads,
+                                            scenes::kGyroidSteepness);
+        },
+        options);
+  if (wanted("slot"))
+    mill(
+        "slot", {.motion = "slot", .seconds = 2, .burr_mm = 5},
+        [&] { return take(scenes::phantom("temporal-bone", 0.9, quiet, 256, options.threads)); },
+        options);
+  if (wanted("touch"))
+    mill(
+        "touch", {.motion = "touch", .seconds = 2, .burr_mm = 4, .arm = {.stiffness = INFINITY}},
+        [&] { return scenes::peers_bone(64, 64, options.threads); }, options);
+  for (const auto phantom : scenes::phantom_names()) {
+    const std::string name(phantom);
+    if (wanted(name.c_str()))
+      bone_only(name.c_str(), take(scenes::phantom(phantom, 2 * scenes::default_voxel_mm(phantom),
+                                                   quiet, 64, options.threads)));
+  }
+  if (wanted("scan")) bone_only("scan", take(io::import_bone(noisy_scan(), {}, quiet)).bone);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word == "--realtime") {
+      options.realtime = true;
+    } else if (word == "--threads" && i + 1 < argc) {
+      options.threads = std::atoi(argv[++i]);
+    } else if (word == "--only" && i + 1 < argc) {
+      options.only = argv[++i];
+    } else {
+      give_up("usage: same_bits [--threads N] [--realtime] [--only NAME]");
+    }
+  }
+  all(options);
+}

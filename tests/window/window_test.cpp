@@ -1,0 +1,204 @@
+// The whole program at once, without a screen: the window's own loop draws, the servo mills, the
+// workers mesh, the recorder writes, and a restless user moves the mouse, presses keys, undoes,
+// redoes and resets. Run under ThreadSanitizer too, where silence is the test (scripts/tsan_long.sh
+// for minutes).
+#include "window/window.h"
+
+#include <gtest/gtest.h>
+
+#include <SDL2/SDL.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <random>
+#include <string>
+#include <thread>
+
+#include "burr/base/progress.h"
+#include "burr/record/player.h"
+#include "burr/record/recorder.h"
+#include "burr/render/bone_scene.h"
+#include "burr/render/renderer.h"
+#include "burr/sim/motion.h"
+#include "burr/sim/replay.h"
+#include "burr/sim/session.h"
+#include "burr/sim/session_words.h"
+#include "burr/surface/worker.h"
+#include "command.h"
+#include "scenes/build.h"
+#include "scenes/shapes.h"
+#include "support/data.h"
+
+namespace burr::app {
+
+bool interrupted() noexcept { return false; }  // of apps/burr/main.cpp: nobody presses Ctrl-C here
+
+namespace {
+
+using namespace std::chrono_literals;
+
+// Somebody who never sits still. Any thread: SDL takes events from all.
+class User {
+ public:
+  explicit User(std::uint64_t seed) : random_(seed), thread_([this] { run(); }) {}
+
+ private:
+  void run() {
+    while (!done_ && SDL_WasInit(SDL_INIT_VIDEO) == 0) std::this_thread::sleep_for(10ms);
+    while (!done_) {
+      move();
+      if (random_() % 8 == 0) press(random_() % 4 != 0);
+      if (random_() % 40 == 0) wheel();
+      if (random_() % 16 == 0) key();
+      std::this_thread::sleep_for(8ms);
+    }
+  }
+
+  void move() {
+    // wanders over the middle, where the bone is
+    x_ = std::clamp(x_ + static_cast<int>(random_() % 21) - 10, 480, 800);
+    y_ = std::clamp(y_ + static_cast<int>(random_() % 21) - 10, 240, 480);
+    SDL_Event event = {};
+    event.type = SDL_MOUSEMOTION;
+    event.motion.x = x_;
+    event.motion.y = y_;
+    event.motion.xrel = static_cast<int>(random_() % 3) - 1;
+    event.motion.yrel = static_cast<int>(random_() % 3) - 1;
+    event.motion.state = random_() % 50 == 0 ? SDL_BUTTON_RMASK : 0;
+    SDL_PushEvent(&event);
+  }
+  static void press(bool down) {
+    SDL_Event event = {};
+    event.type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP;
+    event.button.button = SDL_BUTTON_LEFT;
+    SDL_PushEvent(&event);
+  }
+  void wheel() {
+    SDL_Event event = {};
+    event.type = SDL_MOUSEWHEEL;
+    event.wheel.y = random_() % 2 == 0 ? 1 : -1;
+    SDL_PushEvent(&event);
+  }
+  void key() {
+    constexpr SDL_Keycode kKeys[] = {SDLK_u, SDLK_u, SDLK_y, SDLK_r,    SDLK_1,     SDLK_1,
+                                     SDLK_2, SDLK_3, SDLK_h, SDLK_PLUS, SDLK_MINUS, SDLK_f};
+    SDL_Event event = {};
+    event.type = SDL_KEYDOWN;
+    event.key.keysym.sym = kKeys[random_() % std::size(kKeys)];
+    SDL_PushEvent(&event);
+  }
+
+  std::mt19937_64 random_;
+  int x_ = 640, y_ = 360;
+  std::atomic<bool> done_ = false;
+
+ public:
+  ~User() { done_ = true; }
+
+ private:
+  std::jthread thread_;  // last: begins when all else is there, ends before it
+};
+
+TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
+  ::setenv("SDL_VIDEODRIVER", "offscreen", 1);
+  {
+    const auto gpu = render::Renderer::offscreen();
+    if (!gpu) {
+      ASSERT_FALSE(test::data_required()) << gpu.error().text;
+      GTEST_SKIP() << gpu.error().text;
+    }
+  }
+  const char* wish = std::getenv("BURR_WINDOW_SECONDS");
+  const double seconds = wish != nullptr ? std::atof(wish) : 3;
+  const char* given = std::getenv("BURR_SEED");
+  const std::uint64_t seed =
+      given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
+  std::printf("%.0f s, BURR_SEED=%llu\n", seconds, static_cast<unsigned long long>(seed));
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("burr_window_" + std::to_string(getpid())))
+          .string() +
+      ".mcap";
+  const auto make = [] {
+    return scenes::bone_from_distance(scenes::cube_grid(20e-3, 64), {}, scenes::ball(8e-3), 512);
+  };
+  sim::SessionSettings settings;
+  settings.servo.burr.radius = 1.5e-3;
+  settings.realtime = true;
+  auto bone = make();
+  const auto place = sim::find_work_place(*bone, settings.servo.burr.radius, {}, {});
+  ASSERT_TRUE(place) << place.error().text;
+  math::Pose above;
+  above.p = place->at - 10e-3 * place->into;
+  auto owned = std::make_unique<MouseHand>(above);
+  MouseHand& hand = *owned;
+  NoProgress quiet;
+  auto made = sim::Session::make(std::move(bone), std::move(owned), settings, quiet);
+  ASSERT_TRUE(made) << made.error().text;
+  sim::Session& session = **made;
+
+  render::Scene scene;
+  scene.tissue_colours = render::colours_of(session.bone().tissues());
+  surface::Worker worker(session.bone(), 2);
+  ASSERT_TRUE(worker.first(quiet, [&](const surface::Skin& skin) { put_skin(scene, skin); }));
+  scene.camera = render::view_of_work(place->at, -place->into, 30e-3);
+
+  record::SessionInfo info;
+  sim::describe(session.settings(), session.hand().spec(), info);
+  info.volume.grid = session.bone().grid();
+  info.volume.tissues = session.bone().tissues();
+  info.volume.content_hash = session.bone().content_hash();
+  record::Recorder recorder(settings.servo.rate_hz, 8192, true);
+  const Status started = recorder.start(file, info);
+  ASSERT_TRUE(started) << started.error().text;
+  session.set_recorder(&recorder);
+
+  std::atomic<int> asked = 0;
+  {
+    const User user(seed);
+    const Status shown =
+        run_window(session, hand, worker, scene, {seconds, {}, [&asked]() -> std::string {
+                                                    ++asked;
+                                                    return {};
+                                                  }});
+    ASSERT_TRUE(shown) << shown.error().text;
+  }
+  session.set_recorder(nullptr);
+  const auto account = recorder.finish();
+  ASSERT_TRUE(account) << account.error().text;
+  const sim::Outcome outcome = session.outcome();
+  std::printf("%llu ticks (%llu missed), %llu wishes, %llu changed bricks, %.1f mm3 removed\n",
+              static_cast<unsigned long long>(outcome.ticks),
+              static_cast<unsigned long long>(outcome.timing.missed),
+              static_cast<unsigned long long>(account->wishes),
+              static_cast<unsigned long long>(account->brick_rows), 1e9 * outcome.ledger.removed);
+  EXPECT_TRUE(account->whole());
+  EXPECT_EQ(account->ticks, outcome.ticks);
+  EXPECT_EQ(account->safe_ticks, outcome.ticks);
+  EXPECT_GT(account->wishes, 0U) << "nobody wished for anything: the test shows nothing";
+  EXPECT_GT(account->brick_rows, 0U) << "nothing was cut: the test shows nothing";
+  EXPECT_GT(asked, 0);
+
+  // what was recorded is what is there
+  auto player = record::Player::open(file);
+  ASSERT_TRUE(player) << player.error().text;
+  auto again = make();
+  const Status there = (*player)->bone_at(1e9, *again);
+  ASSERT_TRUE(there) << there.error().text;
+  EXPECT_EQ(again->content_hash(), session.bone().content_hash());
+  if (seconds <= 30) {
+    const auto replayed = sim::replay(**player, make(), quiet);
+    ASSERT_TRUE(replayed) << replayed.error().text;
+    EXPECT_FALSE(replayed->parted_at.has_value())
+        << *replayed->parted_at << ": " << replayed->difference;
+    EXPECT_EQ(replayed->ticks, outcome.ticks);
+  }
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace burr::app
