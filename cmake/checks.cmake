@@ -114,4 +114,15 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   burr_other_test(tsan window "*")
   set_property(TEST tsan.window PROPERTY ENVIRONMENT
     "TSAN_OPTIONS=halt_on_error=1 second_deadlock_stack=1 suppressions=${PROJECT_SOURCE_DIR}/scripts/checks/tsan_suppressions.txt;BURR_WINDOW_SECONDS=15")
+
+  # libFuzzer: 20 s for every reader; scripts/fuzz_night.sh gives them longer
+  burr_other_build(fuzz fuzzers)
+  add_test(NAME fuzz.seeds COMMAND ${checks}/fuzz.sh seeds)
+  set_tests_properties(fuzz.seeds PROPERTIES FIXTURES_REQUIRED fuzz_programs FIXTURES_SETUP fuzz_seeds LABELS long)
+  file(GLOB fuzz_targets CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/fuzz ${PROJECT_SOURCE_DIR}/fuzz/*_fuzz.cpp)
+  foreach(file ${fuzz_targets})
+    string(REGEX REPLACE "_fuzz\\.cpp$" "" name ${file})
+    add_test(NAME fuzz.${name} COMMAND ${checks}/fuzz.sh ${name} 20)
+    set_tests_properties(fuzz.${name} PROPERTIES FIXTURES_REQUIRED "fuzz_programs;fuzz_seeds" TIMEOUT 300 LABELS long)
+  endforeach()
 endif()

@@ -45,7 +45,7 @@ def check_links(name, text):
 
 
 def check_paths(name, text):
-    for path in re.findall(r"`((?:src|docs|scripts|tests|bench|samples|scenes|cases|apps|cmake|\.ci)/[\w./-]*)`", text):
+    for path in re.findall(r"`((?:src|docs|scripts|tests|bench|samples|scenes|cases|apps|cmake|fuzz|\.ci)/[\w./-]*)`", text):
         if not (ROOT / path).exists() and not list(ROOT.glob(path + ".*")):
             bad.append(f"{name}: names {path}, which is not there")
 

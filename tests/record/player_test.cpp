@@ -2,11 +2,17 @@
 #include "burr/record/player.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <chrono>
+#include <nlohmann/json.hpp>
 
 #include "burr/record/bone_blob.h"
+#include "burr/record/crc32.h"
 #include "burr/record/find_volume.h"
+#include "burr/record/grid_json.h"
+#include "burr/record/mcap_writer.h"
+#include "burr/record/packed.h"
 #include "burr/record/schema.h"
 #include "record/made_up.h"
 
@@ -229,6 +235,79 @@ TEST(BoneBlob, DamageIsFoundNotShown) {
       EXPECT_EQ((*back)->content_hash(), bone->content_hash()) << "only harmless bits may pass";
     }
   }
+}
+
+TEST(BoneBlob, PromisesOfMoreBricksThanThereAreCostNothing) {
+  volume::Grid grid;
+  grid.size = {2048, 2048, 2048};
+  const std::string head = nlohmann::json{
+      {"grid", json_from_grid(grid)},
+      {"tissues", json_from_tissues({})},
+      {"has_intensity", false}}.dump();
+  BytesOut blob, block;
+  blob.raw(as_bytes("BURRBON1"));
+  blob.text(head);
+  blob.put(crc32(as_bytes(head)));
+  // bricks 0 to 4095, all air, pack to almost nothing; here they come 200 times
+  constexpr std::uint32_t kBricks = 4096;
+  for (std::uint32_t b = 0; b < kBricks; ++b) block.put(b);
+  block.bytes().resize(block.size() + std::size_t{kBricks} * 512 * 3);
+  std::vector<std::uint8_t> packed;
+  Packer().pack(block.span(), packed);
+  for (int n = 0; n < 200; ++n) {
+    blob.put(kBricks);
+    blob.put(std::uint64_t{packed.size()});
+    blob.raw(packed);
+    blob.put(crc32(block.span()));
+  }
+  blob.put(std::uint32_t{0});
+  rusage before{};
+  ::getrusage(RUSAGE_SELF, &before);
+  EXPECT_FALSE(bone_from_blob(blob.span(), 10, "x.mcap").ok());
+
+  // nor does the room for deposits that a session's description asks for
+  blob.bytes().resize(8 + 4 + head.size() + 4);
+  blob.put(std::uint32_t{0});
+  EXPECT_TRUE(bone_from_blob(blob.span(), ~std::size_t{0}, "x.mcap").ok());
+  rusage after{};
+  ::getrusage(RUSAGE_SELF, &after);
+#if !defined(BURR_SANITIZED)
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 500'000) << "KiB";
+#endif
+}
+
+TEST(Player, OpensARecordingOfNothingButWishesAtOnce) {
+  // made up: a session, one tick, and then wishes, each in a chunk of its own
+  BURR_SEEDED(random, 55);
+  const Folder folder;
+  const std::string path = folder / "s.mcap";
+  McapWriter writer;
+  ASSERT_TRUE(writer.open(path, path).ok());
+  const auto session = writer.add_channel(kSession.name, "json", 0);
+  const auto ticks = writer.add_channel(kTicks.name, "protobuf", 0);
+  const auto wishes = writer.add_channel(kWishes.name, "json", 0);
+  writer.add_message(*session, 0, 0, as_bytes(to_json(info_of(*any_bone(random), random))));
+  BytesOut rows;
+  const TickRow row = any_tick(3, random);
+  encode_ticks({&row, 1}, rows);
+  writer.add_message(*ticks, 0, 0, rows.span());
+  ASSERT_TRUE(writer.close_chunk().ok());
+  constexpr std::uint64_t kWishChunks = 15'000;
+  for (std::uint64_t n = 0; n < kWishChunks; ++n) {
+    const std::string wish = to_json(WishRow{n, {WishKind::undo, 0}});
+    writer.add_message(*wishes, 0, 1'000'000 * n, as_bytes(wish));
+    ASSERT_TRUE(writer.close_chunk().ok());
+  }
+  ASSERT_TRUE(writer.finish().ok());
+
+  // reading every later chunk again for each would be a hundred million chunks
+  const auto start = std::chrono::steady_clock::now();
+  const auto player = Player::open(path);
+  ASSERT_TRUE(player.ok()) << player.error().text;
+  EXPECT_EQ((*player)->end_tick(), 4U);
+  expect_same(*(*player)->tick_at(1e6), row);
+  EXPECT_FALSE((*player)->tick_at(0).ok()) << "before the first tick there is none";
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::minutes(2));
 }
 
 TEST(Player, FindsTheEmbeddedBone) {

@@ -94,6 +94,21 @@ TEST(Case, MistakesAreNamedByFileAndField) {
   }
 }
 
+TEST(Case, WhatTheLibraryTakesForGrantedIsRefusedToo) {
+  // three brackets end a debug build inside toml++ itself
+  const auto read = parse_case("[[[", "a.toml");
+  ASSERT_FALSE(read.ok());
+  EXPECT_NE(read.error().text.find("a.toml: line 1"), std::string::npos) << read.error().text;
+}
+
+TEST(Case, AWordOutOfTheFileCannotMoveTheCursor) {
+  const auto read =
+      parse_case(with(kGood, "\"diamond\"", "\"\\u001B[2J" + std::string(9999, 'x') + "\""), "a");
+  ASSERT_FALSE(read.ok());
+  EXPECT_EQ(read.error().text.find('\x1B'), std::string::npos);
+  EXPECT_LT(read.error().text.size(), 300U);
+}
+
 TEST(Case, NoTextHoweverBrokenDoesHarm) {
   const std::uint64_t seed = 91;
   SCOPED_TRACE("seed " + std::to_string(seed));

@@ -13,6 +13,8 @@
 #include <cstring>
 #include <utility>
 
+#include "burr/base/shown.h"
+
 namespace burr::io {
 namespace {
 
@@ -263,10 +265,11 @@ Result<std::filesystem::path> beside(const std::filesystem::path& header, const 
 }
 
 std::string short_name(const std::filesystem::path& path) {
+  constexpr std::size_t kLongestName = 255;  // of a file, on every system  [byte]
   const auto name = path.filename().string();
-  if (!name.empty() && name != ".") return name;
+  if (!name.empty() && name != ".") return base::shown(name, kLongestName);
   const auto parent = path.parent_path().filename().string();
-  return parent.empty() ? path.string() : parent;
+  return base::shown(parent.empty() ? path.string() : parent, kLongestName);
 }
 
 }  // namespace burr::io

@@ -24,6 +24,7 @@
 #pragma GCC diagnostic pop
 #endif
 
+#include "burr/base/shown.h"
 #include "burr/io/bytes.h"
 #include "burr/io/dicom_header.h"
 
@@ -190,7 +191,7 @@ Result<std::vector<std::int32_t>> unpack(const DicomHeader& h, std::vector<std::
     int columns = 0, rows = 0, colours = 0;
     if (!picture_size(head.data(), head.size(), columns, rows, colours))
       return error(fmt::format("{}: its packed pixels are not what the transfer syntax says ({})",
-                               file, h.transfer_syntax));
+                               file, base::shown(h.transfer_syntax)));
     if (columns != h.columns || rows != h.rows || colours != 1)
       return error(
           fmt::format("{}: its packed picture is {} x {} with {} parts, the header says {} x {}",
@@ -222,7 +223,7 @@ Result<std::vector<std::int32_t>> unpack(const DicomHeader& h, std::vector<std::
     return error(
         fmt::format("{}: its packed pixels (transfer syntax {}) cannot be unpacked; they are "
                     "damaged or of a kind burr does not know",
-                    file, h.transfer_syntax));
+                    file, base::shown(h.transfer_syntax)));
   };
   if (!reader.Read()) return failed();
   const gdcm::Image& image = reader.GetImage();

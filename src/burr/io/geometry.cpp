@@ -64,6 +64,8 @@ void shift_line(const float* from, int n, std::ptrdiff_t from_stride, float* to,
 
 bool usable(const Affine& affine) {
   if (!affine.step.allFinite() || !affine.origin.allFinite()) return false;
+  constexpr double kFarthest = 1e6;  // a kilometre; positions beyond it are no patient's    [mm]
+  if (affine.origin.cwiseAbs().maxCoeff() > kFarthest) return false;
   const Vec3 length(affine.step.col(0).norm(), affine.step.col(1).norm(),
                     affine.step.col(2).norm());
   if (!(length.minCoeff() > 1e-6) || !(length.maxCoeff() < 1e4)) return false;
@@ -83,6 +85,10 @@ Status straighten(Scan& scan, const std::vector<SlicePlace>& places, double gap_
     lo_y = std::min(lo_y, place.y_mm);
     hi_y = std::max(hi_y, place.y_mm);
   }
+  // before they are whole numbers: a lying header may shift a slice by anything
+  if (!((hi_x - lo_x) / dx <= 4.0 * nx) || !((hi_y - lo_y) / dy <= 4.0 * ny) ||
+      !(places.back().z_mm / gap_mm <= 16.0 * nz))
+    return error("the slices lie too far apart to be one volume; pick another series");
   const int more_x = static_cast<int>(std::ceil(hi_x / dx - 1e-6) - std::floor(lo_x / dx + 1e-6));
   const int more_y = static_cast<int>(std::ceil(hi_y / dy - 1e-6) - std::floor(lo_y / dy + 1e-6));
   const double start_x = std::floor(lo_x / dx + 1e-6) * dx,
@@ -90,8 +96,6 @@ Status straighten(Scan& scan, const std::vector<SlicePlace>& places, double gap_
   const int to_x = nx + more_x, to_y = ny + more_y;
   const double depth = places.back().z_mm;
   const int to_z = nz == 1 ? 1 : static_cast<int>(std::lround(depth / gap_mm)) + 1;
-  if (more_x > 4 * nx || more_y > 4 * ny || to_z > 16 * nz)
-    return error("the slices lie too far apart to be one volume; pick another series");
   if (auto count = voxel_count("the straightened volume", to_x, to_y, to_z); !count)
     return count.error();
 
@@ -177,7 +181,7 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
              Progress& progress) {
   if (!usable(affine))
     return error(
-        fmt::format("{}: its voxel spacing or directions cannot be used; correct the header "
+        fmt::format("{}: its voxel spacing, directions or place cannot be used; correct the header "
                     "or give --spacing-mm",
                     file));
   Vec3 length;

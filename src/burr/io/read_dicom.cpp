@@ -10,6 +10,7 @@
 #include <system_error>
 #include <thread>
 
+#include "burr/base/shown.h"
 #include "burr/io/bytes.h"
 #include "burr/io/dicom_header.h"
 #include "burr/io/geometry.h"
@@ -77,6 +78,10 @@ std::string not_a_slice(const DicomHeader& h) {
   if (!h.encapsulated && bytes > h.pixels_length)
     return fmt::format("Pixel Data has {} bytes, {} are needed; the file is cut off",
                        h.pixels_length, bytes);
+  for (const DicomFrame& frame : h.frames)
+    if (!(std::abs(frame.slope) < 1e6 && std::abs(frame.intercept) < 1e9))
+      return fmt::format("a Rescale Slope of {:g} and an Intercept of {:g} cannot be", frame.slope,
+                         frame.intercept);
   // JPEG 2000 of an empty picture is tiny, but not that tiny
   if (h.encapsulated && (bytes > h.pixels_length * 20000 || bytes > (std::uint64_t{1} << 33)))
     return fmt::format("{} bytes of packed pixels cannot hold {} pixels", h.pixels_length, pixels);
@@ -192,9 +197,9 @@ double worth(const Series& series) {
 std::string one_line(const Series& series, std::size_t place) {
   const DicomHeader& h = series.first();
   return fmt::format("#{}: {} {} pictures {} x {}, {:.3g} mm{}{}", place + 1,
-                     h.modality.empty() ? "unknown kind," : h.modality + ",", series.pictures(),
-                     h.columns, h.rows, thickness_mm(series), scout(h) ? ", scout" : "",
-                     bone_kernel(h) ? ", bone kernel" : "");
+                     h.modality.empty() ? "unknown kind," : base::shown(h.modality, 16) + ",",
+                     series.pictures(), h.columns, h.rows, thickness_mm(series),
+                     scout(h) ? ", scout" : "", bone_kernel(h) ? ", bone kernel" : "");
 }
 
 Result<std::size_t> choose(const Found& found, const ReadOptions& options, const std::string& file,
@@ -515,9 +520,10 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
   if (!slices) return slices.error();
   if (Status status = order(series, *slices, file, scan); !status) return status.error();
   const DicomFrame& first = frame_of(series, slices->front());
-  auto count = voxel_count(file, h.columns, h.rows, static_cast<std::int64_t>(slices->size()));
-  if (!count) return count.error();
   const DicomHeader& shape = series.files[slices->front().file];
+  auto count =
+      voxel_count(file, shape.columns, shape.rows, static_cast<std::int64_t>(slices->size()));
+  if (!count) return count.error();
   scan.size = {shape.columns, shape.rows, static_cast<int>(slices->size())};
   scan.hounsfield = (h.modality == "CT" || h.modality.empty()) && !h.has_modality_lut &&
                     (first.has_rescale || h.rescale_type == "HU") &&

@@ -5,6 +5,7 @@
 #include <map>
 #include <system_error>
 
+#include "burr/base/shown.h"
 #include "burr/io/bytes.h"
 #include "burr/io/geometry.h"
 #include "burr/io/readers.h"
@@ -97,7 +98,7 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
   SampleFormat format;
   const std::string type = get({"ElementType"});
   if (!sample_type(type, format.type))
-    return bad("ElementType", fmt::format("\"{}\" is not read", type));
+    return bad("ElementType", fmt::format("\"{}\" is not read", base::shown(type)));
   format.big_endian = is_true(get({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"}));
   const std::string binary = get({"BinaryData"});
   if (!binary.empty() && !is_true(binary))

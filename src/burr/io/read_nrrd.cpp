@@ -7,6 +7,7 @@
 #include <map>
 #include <system_error>
 
+#include "burr/base/shown.h"
 #include "burr/io/bytes.h"
 #include "burr/io/geometry.h"
 #include "burr/io/readers.h"
@@ -148,7 +149,10 @@ Result<std::vector<std::filesystem::path>> data_files(const Header& header,
     names = header.file_list;
   } else if (parts.size() >= 4 && parts[0].find('%') != std::string::npos &&
              to_number(parts[1], from) && to_number(parts[2], to) && to_number(parts[3], step)) {
-    if (step == 0 || std::abs(to - from) / std::abs(step) > 100000)
+    constexpr std::int64_t kLargest = 1'000'000'000;
+    const auto small = [](std::int64_t n) { return n >= -kLargest && n <= kLargest; };
+    if (step == 0 || !small(from) || !small(to) || !small(step) ||
+        std::abs(to - from) / std::abs(step) > 100000)
       return error(fmt::format("{}: data file: the range of numbers is wrong", short_name(path)));
     for (std::int64_t n = from; step > 0 ? n <= to : n >= to; n += step) {
       std::string name;
@@ -199,7 +203,8 @@ std::vector<Label> segments(const Header& header) {
     const std::vector<double> colour = numbers(get("Color"));
     if (colour.size() == 3)
       for (std::size_t c = 0; c < 3; ++c)
-        label.colour[c] = static_cast<float>(std::clamp(colour[c], 0.0, 1.0));
+        if (std::isfinite(colour[c]))
+          label.colour[c] = static_cast<float>(std::clamp(colour[c], 0.0, 1.0));
     labels.push_back(label);
   }
   return labels;
@@ -219,7 +224,7 @@ Result<Shape> shape_of(const Header& header, const std::string& file, bool segme
   for (const std::string& word : words(text->second)) {
     std::int64_t n = 0;
     if (!to_number(word, n) || n < 1)
-      return error(fmt::format("{}: sizes: \"{}\" is no size of an axis", file, word));
+      return error(fmt::format("{}: sizes: \"{}\" is no size of an axis", file, base::shown(word)));
     all.push_back(n);
   }
   std::int64_t dimension = 0;
@@ -245,7 +250,7 @@ Result<Shape> shape_of(const Header& header, const std::string& file, bool segme
       return error(
           fmt::format("{}: axis {} is \"{}\" with {} entries, not space; burr reads one value "
                       "a voxel",
-                      file, a, kind, all[a]));
+                      file, a, base::shown(kind), all[a]));
     shape.sizes.push_back(all[a]);
     shape.axes.push_back(a);
   }
@@ -346,8 +351,8 @@ Result<std::int64_t> skip_field(const Header& header, const char* name, const st
   const auto found = header.fields.find(name);
   std::int64_t n = 0;
   if (found != header.fields.end() && (!to_number(found->second, n) || n < lowest))
-    return error(
-        fmt::format("{}: {}: \"{}\" is no number of bytes or lines", file, name, found->second));
+    return error(fmt::format("{}: {}: \"{}\" is no number of bytes or lines", file, name,
+                             base::shown(found->second)));
   return n;
 }
 
@@ -508,15 +513,15 @@ Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& opt
   SampleFormat format;
   const std::string type = lower(header->fields["type"]);
   if (!sample_type(type, format.type))
-    return error(fmt::format("{}: type: \"{}\" is no number burr reads", file, type));
+    return error(fmt::format("{}: type: \"{}\" is no number burr reads", file, base::shown(type)));
   const std::string endian = lower(header->fields["endian"]);
   format.big_endian = endian == "big";
   const std::string encoding = lower(header->fields["encoding"]);
   const bool text = encoding == "text" || encoding == "txt" || encoding == "ascii";
   if (!text && encoding != "raw" && encoding != "gzip" && encoding != "gz" && encoding != "bzip2" &&
       encoding != "bz2")
-    return error(
-        fmt::format("{}: encoding: \"{}\" is not read; save it as raw or gzip", file, encoding));
+    return error(fmt::format("{}: encoding: \"{}\" is not read; save it as raw or gzip", file,
+                             base::shown(encoding)));
   if (encoding == "raw" && endian.empty() && bytes_of(format.type) > 1)
     scan.notices.emplace_back("The file does not state its byte order: taken for little endian.");
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
@@ -10,11 +11,18 @@
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 #pragma GCC diagnostic ignored "-Wshadow"
 #endif
+// What toml++ asserts, a file can break ("[[["): a debug build would end there, and clang's release
+// build would believe it all the same. It checks each of these once more itself.
+#pragma push_macro("NDEBUG")
+#undef NDEBUG
+#define TOML_ASSERT(condition) static_assert(true)
 #include <toml++/toml.h>
+#pragma pop_macro("NDEBUG")
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif
 
+#include "burr/base/shown.h"
 #include "burr/io/bytes.h"
 #include "burr/io/text.h"
 
@@ -55,8 +63,8 @@ Status read_table(const std::string& path, std::vector<Tissue>& of_value,
     table =
         toml::parse(std::string_view(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
   } catch (const toml::parse_error& problem) {
-    return error(
-        fmt::format("{}: line {}: {}", file, problem.source().begin.line, problem.description()));
+    return error(fmt::format("{}: line {}: {}", file, problem.source().begin.line,
+                             base::shown(problem.description(), 300)));
   }
   const auto* list = table["label"].as_array();
   if (list == nullptr)
@@ -90,8 +98,8 @@ Status read_table(const std::string& path, std::vector<Tissue>& of_value,
         else if (*kind == "air")
           tissue.kind = TissueKind::air;
         else
-          return error(
-              fmt::format("{}: label {}: kind \"{}\" is none of solid, soft, air", file, v, *kind));
+          return error(fmt::format("{}: label {}: kind \"{}\" is none of solid, soft, air", file, v,
+                                   base::shown(*kind)));
       }
       if (const auto energy = (*entry)["cutting_energy_J_mm3"].value<double>()) {
         if (!(*energy > 0 && *energy < 1e3))
@@ -107,8 +115,12 @@ Status read_table(const std::string& path, std::vector<Tissue>& of_value,
       if (const auto* colour = (*entry)["colour"].as_array()) {
         if (colour->size() != 3)
           return error(fmt::format("{}: label {}: colour needs three numbers 0..1", file, v));
-        for (std::size_t c = 0; c < 3; ++c)
-          tissue.colour[c] = std::clamp((*colour)[c].value_or(0.8F), 0.0F, 1.0F);
+        for (std::size_t c = 0; c < 3; ++c) {
+          const double part = (*colour)[c].value_or(0.8);
+          if (!std::isfinite(part))
+            return error(fmt::format("{}: label {}: colour needs three numbers 0..1", file, v));
+          tissue.colour[c] = static_cast<float>(std::clamp(part, 0.0, 1.0));
+        }
       }
     }
   }
@@ -204,7 +216,7 @@ Result<LabelTissues> label_tissues(const Scan& scan, const std::array<bool, 256>
   }
   for (std::size_t v = 1; v < 256; ++v)
     if (present[v] && of_value[v].kind == TissueKind::air)
-      out.notices.push_back(fmt::format("Label {} ({}) is air.", v, of_value[v].name));
+      out.notices.push_back(fmt::format("Label {} ({}) is air.", v, base::shown(of_value[v].name)));
   return out;
 }
 

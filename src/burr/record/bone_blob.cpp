@@ -19,7 +19,7 @@ using volume::kBrickVoxels;
 constexpr std::string_view kMagic = "BURRBON1";
 constexpr std::size_t kBricksPerBlock = 4096;
 // a lying header shall not make us take gigabytes; deposits never fill more
-constexpr std::size_t kMostReserve = std::size_t{1} << 22;
+constexpr std::size_t kMostReserve = std::size_t{1} << 17;
 
 std::size_t bytes_per_brick(bool with_intensity) {
   return sizeof(BrickIndex) +
@@ -93,7 +93,9 @@ Result<std::unique_ptr<volume::Bone>> bone_from_blob(ByteSpan blob, std::size_t 
   if (!read_head(in, head)) return damaged;
   const std::size_t per_brick = bytes_per_brick(head.with_intensity);
 
-  // first unpack every block once to see that the bricks it promises are really there
+  // first unpack every block once to see that the bricks it promises are really there, each once
+  const math::Ijk edges = (head.grid.size.array() + volume::kBrickEdge - 1) / volume::kBrickEdge;
+  BrickIndex last = volume::kNoBrick;
   std::size_t total = 0;
   std::vector<std::uint8_t> block;
   BytesIn look = in;
@@ -104,6 +106,11 @@ Result<std::unique_ptr<volume::Bone>> bone_from_blob(ByteSpan blob, std::size_t 
     const ByteSpan packed = look.take(look.get<std::uint64_t>());
     const auto crc = look.get<std::uint32_t>();
     if (!look.ok() || !unpack(packed, n * per_brick, block) || crc32(block) != crc) return damaged;
+    for (std::size_t i = 0; i < n; ++i) {
+      const BrickIndex before = last;
+      std::memcpy(&last, block.data() + i * sizeof last, sizeof last);
+      if (last <= before || last >= edges.prod()) return damaged;
+    }
     total += n;
   }
   if (!look.empty()) return damaged;
@@ -111,7 +118,6 @@ Result<std::unique_ptr<volume::Bone>> bone_from_blob(ByteSpan blob, std::size_t 
   auto bone =
       std::make_unique<volume::Bone>(head.grid, std::move(head.tissues), total,
                                      std::min(reserve_bricks, kMostReserve), head.with_intensity);
-  BrickIndex last = volume::kNoBrick;
   for (;;) {
     const std::size_t n = in.get<std::uint32_t>();
     if (n == 0) return bone;
@@ -124,8 +130,6 @@ Result<std::unique_ptr<volume::Bone>> bone_from_blob(ByteSpan blob, std::size_t 
     for (std::size_t i = 0; i < n; ++i) {
       BrickIndex brick = volume::kNoBrick;
       std::memcpy(&brick, indexes + i * sizeof brick, sizeof brick);
-      if (brick <= last || brick >= bone->brick_count()) return damaged;
-      last = brick;
       std::memcpy(bone->build_field(brick), fields + i * kBrickVoxels * 2, kBrickVoxels * 2);
       std::memcpy(bone->build_tissue(brick), tissues + i * kBrickVoxels, kBrickVoxels);
       if (head.with_intensity)

@@ -1,5 +1,6 @@
 #include "burr/record/grid_json.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -110,7 +111,9 @@ bool tissues_from_json(const json& list, volume::TissueTable& tissues) {
     tissue.name = name->get<std::string>();
     tissue.spare = spare->get<bool>();
     tissue.label = label->get<int>();
-    for (std::size_t i = 0; i < 3; ++i) tissue.colour[i] = static_cast<float>(colour[i]);
+    if (!(tissue.cutting_energy > 0) || !(tissue.friction >= 0)) return false;
+    for (std::size_t i = 0; i < 3; ++i)
+      tissue.colour[i] = static_cast<float>(std::clamp(colour[i], 0.0, 1.0));
     tissues.tissues.push_back(std::move(tissue));
   }
   return tissues.tissues[0].kind == volume::TissueKind::air;

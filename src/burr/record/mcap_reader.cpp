@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "burr/base/shown.h"
 #include "burr/record/crc32.h"
 #include "burr/record/packed.h"
 
@@ -278,7 +279,7 @@ Result<McapChunk> McapReader::read_chunk(std::size_t index) const {
     return error(
         fmt::format("{}: chunk compression \"{}\" is not known here, only zstd; it was not "
                     "written by burr",
-                    path_, at.compression));
+                    path_, base::shown(at.compression)));
   McapChunk chunk;
   if (!unpack_chunk(at.offset, chunk))
     return error(fmt::format("{}: the chunk at byte {} is damaged; `burr repair` keeps the rest",
@@ -300,8 +301,9 @@ Result<std::vector<std::uint8_t>> McapReader::read_packed(std::size_t index) con
 
 Result<std::vector<std::uint8_t>> McapReader::read_attachment(std::size_t index) const {
   const mcap::AttachmentAt& at = attachments_.at(index);
-  const Error damaged = error(fmt::format(
-      "{}: the attachment \"{}\" is damaged; give the bone with --volume", path_, at.name));
+  const Error damaged =
+      error(fmt::format("{}: the attachment \"{}\" is damaged; give the bone with --volume", path_,
+                        base::shown(at.name)));
   std::vector<std::uint8_t> content;
   if (!read_content(at.offset, Kind::attachment, content)) return damaged;
   BytesIn in(content);
@@ -326,7 +328,7 @@ Result<mcap::Pairs> McapReader::read_metadata(std::size_t index) const {
     in.text();
     if (mcap::get_pairs(in, pairs)) return pairs;
   }
-  return error(fmt::format("{}: the metadata \"{}\" is damaged", path_, at.name));
+  return error(fmt::format("{}: the metadata \"{}\" is damaged", path_, base::shown(at.name)));
 }
 
 // Which channels a chunk has, from its messages; for chunks whose indexes are missing.
@@ -410,7 +412,9 @@ std::uint64_t McapReader::find_chunk_after(std::uint64_t offset) const {
   constexpr std::array<std::uint8_t, 8> kMark = {4, 0, 0, 0, 'z', 's', 't', 'd'};
   constexpr std::uint64_t kMarkAt = kRecordHead + kChunkFixed - 4;
   constexpr std::size_t kBlock = std::size_t{1} << 20;
-  std::vector<std::uint8_t> block(kBlock + kMark.size() - 1);
+  if (offset + kMarkAt >= size_) return size_;
+  std::vector<std::uint8_t> block(static_cast<std::size_t>(
+      std::min<std::uint64_t>(kBlock + kMark.size() - 1, size_ - offset - kMarkAt)));
   for (std::uint64_t base = offset + kMarkAt; base < size_; base += kBlock) {
     const auto there =
         static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), size_ - base));

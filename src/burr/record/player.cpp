@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "burr/record/bone_blob.h"
@@ -119,12 +120,21 @@ void Player::find_ends() {
   StepCursor first = steps();
   if (!first.next(step)) return;
   first_tick_ = step.row.tick;
-  for (std::size_t c = step_chunks_.size(); c-- > 0;) {
-    StepCursor cursor(*this, c, 0);
-    while (cursor.fill())
-      if (!cursor.rows_.empty()) end_tick_ = std::max(end_tick_, cursor.rows_.back().tick + 1);
-    if (end_tick_ != 0) return;
+  // each chunk is read once: there may be many with wishes alone
+  std::vector<TickRow> rows;
+  for (std::size_t c = step_chunks_.size(); c-- > 0 && rows.empty();) {
+    const auto chunk = reader_->read_chunk(step_chunks_[c]);
+    if (!chunk) {
+      notice(chunk.error().text);
+      continue;
+    }
+    for (const McapMessage& message : chunk->messages)
+      if (message.channel == tick_channel_) static_cast<void>(decode_ticks(message.data, rows));
   }
+  // a damaged number may be the largest there is, or smaller than the first
+  constexpr std::uint64_t kLargest = std::numeric_limits<std::uint64_t>::max() - 1;
+  first_tick_ = std::min(first_tick_, kLargest);
+  end_tick_ = std::max(first_tick_, rows.empty() ? 0 : std::min(rows.back().tick, kLargest)) + 1;
 }
 
 // ---- in order
@@ -246,14 +256,14 @@ std::size_t Player::step_chunk_before(std::uint64_t tick) const {
 Result<TickRow> Player::tick_at(double t_s) {
   const std::uint64_t tick = tick_of(t_s);
   std::optional<TickRow> found;
-  for (std::size_t start = step_chunk_before(tick);;) {
+  for (std::size_t start = step_chunk_before(tick), back = 16;; back *= 2) {
     StepCursor cursor(*this, start, 0);
     Step step;
     while (cursor.next(step) && step.row.tick <= tick) found = step.row;
     if (found) return *found;
     // a damaged stretch lies before it: what is the last good tick?
     if (start == 0) break;
-    start = start > 16 ? start - 16 : 0;
+    start = start > back ? start - back : 0;  // ever further, so that no chunk is read often
   }
   return error(fmt::format("{}: holds no tick at or before {} s", path_, t_s));
 }

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "burr/base/shown.h"
 #include "burr/scenario/built_in.h"
 
 #if defined(__GNUC__)
@@ -18,7 +19,13 @@
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 #pragma GCC diagnostic ignored "-Wshadow"
 #endif
+// What toml++ asserts, a file can break ("[[["): a debug build would end there, and clang's release
+// build would believe it all the same. It checks each of these once more itself.
+#pragma push_macro("NDEBUG")
+#undef NDEBUG
+#define TOML_ASSERT(condition) static_assert(true)
 #include <toml++/toml.h>
+#pragma pop_macro("NDEBUG")
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif
@@ -94,7 +101,7 @@ class Reader {
       }
       list += (list.empty() ? "" : ", ") + std::string(name);
     }
-    fail(key, fmt::format("\"{}\" is none of {}", word, list));
+    fail(key, fmt::format("\"{}\" is none of {}", base::shown(word), list));
   }
 
   // [key], or nothing
@@ -127,7 +134,8 @@ class Reader {
   }
 
   void fail(std::string_view key, const std::string& what) {
-    if (!wrong_) wrong_ = burr::error(fmt::format("{}: {}{}: {}", file_, place_, key, what));
+    if (!wrong_)
+      wrong_ = burr::error(fmt::format("{}: {}{}: {}", file_, place_, base::shown(key), what));
   }
 
  private:
@@ -257,7 +265,7 @@ Result<Case> parse_case(std::string_view text, std::string_view file) {
     table = toml::parse(text);
   } catch (const toml::parse_error& problem) {
     return error(fmt::format("{}: line {}: {}", file, problem.source().begin.line,
-                             std::string_view(problem.description())));
+                             base::shown(problem.description(), 300)));
   }
   std::optional<Error> wrong;
   Reader reader(table, std::string(file), "", wrong);
@@ -277,7 +285,7 @@ Status check_tissues(const Case& work, const volume::TissueTable& tissues) {
   };
   const auto problem = [&](const char* field, const std::string& name) {
     return error(fmt::format("{}.toml: {}: the bone has no tissue \"{}\"; it has {}", work.name,
-                             field, name, list_of(names)));
+                             field, base::shown(name), list_of(names)));
   };
   for (const std::string& name : work.spare)
     if (missing(name)) return problem("spare", name);

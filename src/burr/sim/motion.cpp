@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <system_error>
+
+#include "burr/base/shown.h"
 
 namespace burr::sim {
 namespace {
@@ -176,8 +180,12 @@ Result<HandPath> motion(std::string_view name, const WorkPlace& place, double bu
 }
 
 Result<HandPath> read_path(const std::string& file) {
+  std::error_code ignored;
+  const auto kind = std::filesystem::status(file, ignored).type();
   std::ifstream in(file);
-  if (!in) return error(Trouble::io, fmt::format("{}: cannot be read; is the name right?", file));
+  if (!in ||
+      (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::fifo))
+    return error(Trouble::io, fmt::format("{}: cannot be read; is the name right?", file));
   std::string line;
   if (!std::getline(in, line))
     return error(fmt::format("{}: is empty; the first line must be t,x,y,z", file));
@@ -208,7 +216,7 @@ Result<HandPath> read_path(const std::string& file) {
     return error(
         fmt::format("{}: the first line must name the columns t,x,y,z (metres) or "
                     "t,x_mm,y_mm,z_mm; it says \"{}\"",
-                    file, line));
+                    file, base::shown(line)));
   const int q_at[4] = {column("qw"), column("qx"), column("qy"), column("qz")};
   const bool turned = q_at[0] >= 0;
   if (turned && (q_at[1] < 0 || q_at[2] < 0 || q_at[3] < 0))
@@ -234,7 +242,7 @@ Result<HandPath> read_path(const std::string& file) {
       point.world_from_tool.p = Vec3(cell(x_at), cell(y_at), cell(z_at)) * (mm ? 1e-3 : 1.0);
       if (turned) {
         Eigen::Vector4d q(cell(q_at[1]), cell(q_at[2]), cell(q_at[3]), cell(q_at[0]));
-        good = good && q.norm() > 1e-6;
+        good = good && q.norm() > 1e-6 && q.norm() < 1e6;
         if (good) point.world_from_tool.q.coeffs() = q.normalized();
       }
       if (pedal_at >= 0) point.pedal = std::clamp(cell(pedal_at), 0.0, 1.0);
@@ -242,6 +250,12 @@ Result<HandPath> read_path(const std::string& file) {
     if (!good)
       return error(fmt::format("{}: line {} does not hold {} finite numbers; mend or remove it",
                                file, number, header.size()));
+    constexpr double kFarthest = 1e3, kLongest = 1e6;  // [m] [s]
+    if (std::abs(point.t) > kLongest || point.world_from_tool.p.cwiseAbs().maxCoeff() > kFarthest)
+      return error(
+          fmt::format("{}: line {}: a time beyond {:g} s or a place beyond {:g} m cannot be meant; "
+                      "are the units right?",
+                      file, number, kLongest, kFarthest));
     if (!path.points.empty() && point.t <= path.points.back().t)
       return error(fmt::format("{}: line {}: t must rise from line to line; it is {} after {}",
                                file, number, point.t, path.points.back().t));

@@ -61,6 +61,9 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
     for (; has_brick && !outcome.parted_at && brick.tick <= row.tick;
          has_brick = bricks.next(brick)) {
       if (brick.tick != row.tick) continue;
+      if (brick.brick < 0 || brick.brick >= bone->brick_count())
+        return error(fmt::format("{}: changes brick {}, which the bone has not; it is another bone",
+                                 player.path(), brick.brick));
       const volume::Field* field = bone->brick_field(brick.brick);
       ++outcome.bricks;
       if (field == nullptr || std::memcmp(field, &brick.field, sizeof brick.field) != 0) {

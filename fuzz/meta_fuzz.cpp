@@ -1,0 +1,8 @@
+// MetaImage: header, data after it or "beside" it (the file itself may be named as its data).
+#include "support.h"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace burr;
+  static_cast<void>(fuzz::read_scan_bytes(io::read_meta, "a.mhd", {data, size}));
+  return 0;
+}

@@ -1,0 +1,522 @@
+// fuzz_seeds DIR [CORPUS]: something small and right of every kind for the fuzzers to begin with,
+// made by our own writers where we have one, in DIR/NAME/. Small files of a collection of test data
+// (CORPUS) are linked beside them, if it is there.
+#include <bzlib.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "burr/io/write_volume.h"
+#include "burr/record/bone_blob.h"
+#include "burr/record/crc32.h"
+#include "burr/record/mcap_writer.h"
+#include "burr/record/packed.h"
+#include "burr/record/recorder.h"
+#include "burr/record/schema.h"
+#include "burr/record/session_info.h"
+#include "burr/scenario/case.h"
+#include "burr/sim/session_words.h"
+#include "burr/volume/bone.h"
+#include "support.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace burr;
+using record::BytesOut;
+using std::string;
+
+fs::path seeds;
+
+void seed(const string& target, const string& name, const string& bytes) {
+  fs::create_directories(seeds / target);
+  std::ofstream file(seeds / target / name, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  fuzz::must(file.good(), "a seed can be written");
+}
+
+string text(const BytesOut& out) { return string(record::as_text(out.span())); }
+
+string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// window 31: gzip, 15: zlib, -15: bare
+string deflated(const string& bytes, int window) {
+  z_stream stream{};
+  fuzz::must(deflateInit2(&stream, 9, Z_DEFLATED, window, 8, Z_DEFAULT_STRATEGY) == Z_OK, "zlib");
+  string out(deflateBound(&stream, bytes.size()) + 64, '\0');
+  std::vector<Bytef> in(bytes.begin(), bytes.end());
+  stream.next_in = in.data();
+  stream.avail_in = static_cast<uInt>(in.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  fuzz::must(deflate(&stream, Z_FINISH) == Z_STREAM_END, "zlib packs");
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+string bzipped(string bytes) {
+  string out(bytes.size() + 700, '\0');
+  auto size = static_cast<unsigned>(out.size());
+  fuzz::must(BZ2_bzBuffToBuffCompress(out.data(), &size, bytes.data(),
+                                      static_cast<unsigned>(bytes.size()), 9, 0, 0) == BZ_OK,
+             "bzip2 packs");
+  out.resize(size);
+  return out;
+}
+
+string voxels(int count) {
+  BytesOut out;
+  for (int n = 0; n < count; ++n) out.put(static_cast<std::int16_t>(n * 37 - 1024));
+  return text(out);
+}
+
+// ---- scans
+
+void nrrd() {
+  const string head =
+      "NRRD0005\n# a comment\ntype: short\ndimension: 3\nspace: left-posterior-superior\n"
+      "sizes: 4 4 4\nspace directions: (0.5,0,0) (0,0.5,0) (0,0,0.6)\nkinds: domain domain domain\n"
+      "endian: little\nspace origin: (-1,2,3)\n";
+  seed("nrrd", "raw", head + "encoding: raw\n\n" + voxels(64));
+  seed("nrrd", "gzip", head + "encoding: gzip\n\n" + deflated(voxels(64), 31));
+  seed("nrrd", "bzip2", head + "encoding: bzip2\n\n" + bzipped(voxels(64)));
+  string numbers;
+  for (int n = 0; n < 64; ++n) numbers += std::to_string(n * 1.5) + (n % 8 == 7 ? "\n" : ", ");
+  seed("nrrd", "text", head + "encoding: text\n\n" + numbers);
+  seed("nrrd", "skip", head + "encoding: raw\nbyte skip: -1\nline skip: 1\n\nx\n" + voxels(64));
+  seed("nrrd", "skip_gzip",
+       head + "encoding: gzip\nbyte skip: -1\n\n" + deflated("xyz" + voxels(64), 31));
+  seed("nrrd", "own_data",
+       head + "encoding: raw\nbyte skip: -1\ndata file: a.nrrd\n\n" + voxels(64));
+  seed("nrrd", "list",
+       head + "encoding: raw\nbyte skip: 9\ndata file: LIST\na.nrrd\na.nrrd\n\n" + voxels(64));
+  seed("nrrd", "numbered", head + "encoding: raw\ndata file: a%01d.nrrd 1 4 1\n\n");
+  seed("nrrd", "bare",
+       "NRRD0001\ntype: float\ndimension: 4\nsizes: 1 4 4 4\nspacings: 1 0.5 0.5 2\nencoding: "
+       "raw\nendian: big\nspace: right-anterior-superior\nspace units: \"cm\" \"cm\" \"cm\"\n\n" +
+           voxels(128));
+  seed("nrrd", "sheared",
+       "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 4 4 4\nspace: 3D-left-handed\nspace "
+       "directions: none (1,0,0) (0,1,0) (0,0.3,1)\nencoding: raw\n\n" +
+           voxels(64));
+  const string segments =
+      "Segment0_ID:=S1\nSegment0_Name:=Facial nerve\nSegment0_Color:=1 0.85 0\n"
+      "Segment0_LabelValue:=1\nSegment0_Layer:=0\nSegment0_Extent:=0 7 0 7 0 7\n"
+      "Segment1_Name:=Mandible\nSegment1_Color:=0.5 0.5 0.5\nSegment1_LabelValue:=2\n";
+  string labels(512, '\0');
+  for (std::size_t v = 0; v < labels.size(); ++v)
+    labels[v] = static_cast<char>(v % 8 > 5 ? 0 : v > 256 ? 1 : 2);
+  const string small =
+      "NRRD0004\ntype: unsigned char\ndimension: 3\nspace: left-posterior-superior\nsizes: 8 8 8\n"
+      "space directions: (1,0,0) (0,1,0) (0,0,1)\n";
+  seed("seg_nrrd", "raw", small + "encoding: raw\n" + segments + "\n" + labels);
+  seed("seg_nrrd", "gzip", small + "encoding: gzip\n" + segments + "\n" + deflated(labels, 31));
+  seed("seg_nrrd", "layers",
+       "NRRD0004\ntype: unsigned char\ndimension: 4\nsizes: 2 8 8 4\nkinds: list domain domain "
+       "domain\nspace: left-posterior-superior\nspace directions: none (1,0,0) (0,1,0) "
+       "(0,0,1)\nencoding: raw\n" +
+           segments + "\n" + labels);
+}
+
+template <class T>
+void put(string& bytes, std::size_t at, T value, bool big) {
+  std::array<char, sizeof(T)> raw{};
+  std::memcpy(raw.data(), &value, sizeof(T));
+  if (big) std::reverse(raw.begin(), raw.end());
+  std::copy(raw.begin(), raw.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
+string nifti1(bool big, bool pair) {
+  string head(352, '\0');
+  put(head, 0, std::int32_t{348}, big);
+  for (std::size_t a = 0; a < 8; ++a)
+    put(head, 40 + 2 * a, static_cast<std::int16_t>(a == 0 ? 3 : a < 4 ? 4 : 1), big);
+  put(head, 70, std::int16_t{4}, big);
+  put(head, 72, std::int16_t{16}, big);
+  for (std::size_t a = 0; a < 4; ++a) put(head, 76 + 4 * a, 1.0F, big);
+  put(head, 108, pair ? 0.0F : 352.0F, big);
+  put(head, 112, 2.0F, big);
+  put(head, 116, -5.0F, big);
+  head[123] = 2;
+  put(head, 252, std::int16_t{1}, big);
+  put(head, 254, std::int16_t{1}, big);
+  put(head, 264, 0.3F, big);
+  for (std::size_t a = 0; a < 3; ++a) put(head, 280 + 20 * a, 0.5F, big);
+  head.replace(344, 4, pair ? string("ni1\0", 4) : string("n+1\0", 4));
+  return head + voxels(64);
+}
+
+string nifti2(bool big) {
+  string head(544, '\0');
+  put(head, 0, std::int32_t{540}, big);
+  head.replace(4, 8, string("n+2\0\r\n\032\n", 8));
+  put(head, 12, std::int16_t{4}, big);
+  for (std::size_t a = 0; a < 8; ++a)
+    put(head, 16 + 8 * a, std::int64_t{a == 0 ? 3 : a < 4 ? 4 : 1}, big);
+  for (std::size_t a = 0; a < 4; ++a) put(head, 104 + 8 * a, 1.0, big);
+  put(head, 168, std::int64_t{544}, big);
+  put(head, 344, std::int32_t{1}, big);
+  put(head, 500, std::int32_t{2}, big);
+  return head + voxels(64);
+}
+
+void nifti() {
+  seed("nifti", "one", nifti1(false, false));
+  seed("nifti", "big_endian", nifti1(true, false));
+  seed("nifti", "pair", nifti1(false, true));
+  seed("nifti", "two", nifti2(false));
+  seed("nifti", "two_big_endian", nifti2(true));
+  seed("nifti", "packed", deflated(nifti1(false, false), 31));
+}
+
+void meta() {
+  const string head =
+      "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+      "TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = -10 5.5 0\nCenterOfRotation = 0 0 0\n"
+      "ElementSpacing = 0.5 0.5 0.6\nDimSize = 4 4 4\nElementType = MET_SHORT\n";
+  seed("meta", "local", head + "ElementDataFile = LOCAL\n" + voxels(64));
+  seed("meta", "packed",
+       head + "CompressedData = True\nElementDataFile = LOCAL\n" + deflated(voxels(64), 15));
+  seed("meta", "own_data", head + "HeaderSize = -1\nElementDataFile = a.mhd\n" + voxels(64));
+  seed("meta", "scaled",
+       head +
+           "ElementNumberOfChannels = 1\nElementToIntensityFunctionSlope = 2.5\n"
+           "ElementToIntensityFunctionOffset = -100\nHeaderSize = 3\nElementDataFile = LOCAL\nxyz" +
+           voxels(64));
+}
+
+// Writes elements of a DICOM data set.
+class Dicom {
+ public:
+  bool explicit_vr = true, big = false;
+  BytesOut out;
+
+  void put16(std::uint32_t v) {
+    const auto value = static_cast<std::uint16_t>(v);
+    out.put(big ? static_cast<std::uint16_t>(value << 8 | value >> 8) : value);
+  }
+  void put32(std::uint32_t v) {
+    put16(big ? v >> 16 : v);
+    put16(big ? v : v >> 16);
+  }
+  void element(std::uint32_t tag, const char* vr, string value) {
+    if (value.size() % 2 != 0) value += string(vr) == "UI" ? '\0' : ' ';
+    head(tag, vr, static_cast<std::uint32_t>(value.size()));
+    out.raw(record::as_bytes(value));
+  }
+  void number(std::uint32_t tag, std::uint32_t value) {
+    head(tag, "US", 2);
+    put16(value);
+  }
+  void head(std::uint32_t tag, const char* vr, std::uint32_t length) {
+    put16(tag >> 16);
+    put16(tag);
+    const bool wide =
+        string(vr) == "SQ" || string(vr) == "OW" || string(vr) == "OB" || string(vr) == "UN";
+    if (explicit_vr) {
+      out.raw(vr, 2);
+      if (!wide) return put16(length);
+      put16(0);
+    }
+    put32(length);
+  }
+  void mark(std::uint32_t tag, std::uint32_t length) {  // item, end of item, end of sequence
+    put16(tag >> 16);
+    put16(tag);
+    put32(length);
+  }
+};
+
+string dicom_set(bool explicit_vr, bool big, bool packed, bool enhanced) {
+  Dicom d;
+  d.explicit_vr = explicit_vr;
+  d.big = big;
+  d.element(0x00080008, "CS", "ORIGINAL\\PRIMARY\\AXIAL");
+  d.element(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.2");
+  d.element(0x00080060, "CS", "CT");
+  d.head(0x00081140, "SQ", 0xFFFFFFFF);  // a sequence without length, in it an item with one
+  d.mark(0xFFFEE000, 0xFFFFFFFF);
+  d.element(0x00081150, "UI", "1.2.3");
+  d.mark(0xFFFEE00D, 0);
+  d.mark(0xFFFEE0DD, 0);
+  d.element(0x00180050, "DS", "1.5");
+  d.element(0x0020000E, "UI", "1.2.3.4");
+  d.element(0x00200013, "IS", "7");
+  d.element(0x00200032, "DS", "-10\\-20.5\\3");
+  d.element(0x00200037, "DS", "1\\0\\0\\0\\1\\0");
+  d.number(0x00280002, 1);
+  d.element(0x00280004, "CS", "MONOCHROME2");
+  if (enhanced) d.element(0x00280008, "IS", "2");
+  d.number(0x00280010, 2);
+  d.number(0x00280011, 3);
+  d.element(0x00280030, "DS", "0.5\\0.5");
+  d.number(0x00280100, 16);
+  d.number(0x00280101, 12);
+  d.number(0x00280102, 11);
+  d.number(0x00280103, 0);
+  d.number(0x00280120, 2000);
+  d.element(0x00281052, "DS", "-1024");
+  d.element(0x00281053, "DS", "1");
+  if (enhanced) {
+    for (const std::uint32_t sequence : {0x52009229U, 0x52009230U}) {
+      d.head(sequence, "SQ", 0xFFFFFFFF);
+      for (int frame = 0; frame < (sequence == 0x52009230U ? 2 : 1); ++frame) {
+        d.mark(0xFFFEE000, 0xFFFFFFFF);
+        d.head(0x00209113, "SQ", 0xFFFFFFFF);
+        d.mark(0xFFFEE000, 0xFFFFFFFF);
+        d.element(0x00200032, "DS", "0\\0\\" + std::to_string(frame * 2));
+        d.mark(0xFFFEE00D, 0);
+        d.mark(0xFFFEE0DD, 0);
+        d.mark(0xFFFEE00D, 0);
+      }
+      d.mark(0xFFFEE0DD, 0);
+    }
+  }
+  if (packed) {
+    d.head(0x7FE00010, "OB", 0xFFFFFFFF);
+    d.mark(0xFFFEE000, 0);
+    d.mark(0xFFFEE000, 4);
+    d.put32(0);
+    d.mark(0xFFFEE0DD, 0);
+  } else {
+    d.head(0x7FE00010, "OW", enhanced ? 24 : 12);
+    for (std::uint32_t n = 0; n < (enhanced ? 12U : 6U); ++n) d.put16(n * 300);
+  }
+  return text(d.out);
+}
+
+string dicom_file(const string& syntax, const string& set) {
+  Dicom d;
+  d.out.raw(record::as_bytes(string(128, '\0') + "DICM"));
+  d.element(0x00020010, "UI", syntax);
+  return text(d.out) + set;
+}
+
+void dicom() {
+  const string uid = "1.2.840.10008.1.2";
+  seed("dicom", "explicit", dicom_file(uid + ".1", dicom_set(true, false, false, false)));
+  seed("dicom", "implicit", dicom_file(uid, dicom_set(false, false, false, false)));
+  seed("dicom", "big_endian", dicom_file(uid + ".2", dicom_set(true, true, false, false)));
+  seed("dicom", "deflated",
+       dicom_file(uid + ".1.99", deflated(dicom_set(true, false, false, false), -15)));
+  seed("dicom", "packed", dicom_file(uid + ".5", dicom_set(true, false, true, false)));
+  seed("dicom", "enhanced", dicom_file(uid + ".1", dicom_set(true, false, false, true)));
+  seed("dicom", "no_preamble", dicom_set(false, false, false, false));
+  seed("dicom_series", "even", "p=0\\0\\0\nx\np=0\\0\\1.5\ni=2\nx\np=0\\0\\3\ni=3\n");
+  seed("dicom_series", "tilted", "p=0\\0\\0\nx\np=0\\0.4\\1.5\nx\np=0\\0.8\\3\nx\np=0\\1.2\\4.5\n");
+  seed("dicom_series", "uneven",
+       "p=0\\0\\0\nx\np=0\\0\\1\nx\np=0\\0\\2\nx\np=0\\0\\3.3\nx\np=0\\0\\4\n");
+  seed("dicom_series", "numbered", "p=\ni=1\nx\ni=3\nx\ni=2\nb=0.7\n");
+  seed("dicom_series", "frames", "f=3\np=1\\2\\3\n");
+  seed("dicom_series", "two", "u=1\ny=LOCALIZER\nx\nu=2\nk=B60\nx\np=0\\0\\2\nh=MONOCHROME1\n");
+  seed("dicom_series", "oblique",
+       "o=0.8\\0.6\\0\\-0.6\\0.8\\0\ns=0.3\\0.4\nx\np=0\\0\\2\nx\np=0\\0\\4\n");
+}
+
+void unpacking() {
+  const string bytes = voxels(300);
+  seed("unpack", "gzip", '\x50' + deflated(bytes, 31));
+  seed("unpack", "gzip_twice", '\x50' + deflated(bytes, 31) + deflated(bytes, 31) + "junk");
+  seed("unpack", "zlib", '\x51' + deflated(bytes, 15));
+  seed("unpack", "bare", '\x52' + deflated(bytes, -15));
+  seed("unpack", "bzip2", '\x53' + bzipped(bytes));
+  record::Packer packer;
+  std::vector<std::uint8_t> packed;
+  packer.pack(record::as_bytes(bytes), packed);
+  seed("unpack", "zstd", string("\x04\x58\x02") + string(packed.begin(), packed.end()));
+}
+
+// ---- texts
+
+void texts() {
+  seed("tissues", "all",
+       "[[label]]\nvalue = 1\nname = \"facial nerve\"\nkind = \"soft\"\nspare = true\ncolour = [1, "
+       "0.9, 0.1]\n\n[[label]]\nname = \"bone\"\nkind = \"solid\"\ncutting_energy_J_mm3 = "
+       "1.5\nfriction = 0.3\n\n[[label]]\nvalue = 3\nkind = \"air\"\n");
+  seed("tissues", "inline", "label = [ { value = 2, name = 'x' }, { value = 0x03 } ]\n");
+  seed("case", "file",
+       "title = \"A\"\ndescription = \"\"\"\ntwo\nlines\"\"\"\nvolume = \"bone.nrrd\"\nvoxel_mm = "
+       "0.5\n[work]\nat_mm = [1, 2.5, -3]\ninto = [0, 0, -1]\n[burr]\ndiameter_mm = 4\nkind = "
+       "\"diamond\"\nrpm = 40_000\n[demo]\nmotion = \"pocket\"\nseconds = 20\n[[spare]]\ntissue = "
+       "\"bone\"\n[[target]]\ntissue = \"bone\"\ngoal = \"open\"\nshare = 0.5\n");
+  for (const fs::directory_entry& entry : fs::directory_iterator(BURR_SOURCE_DIR "/cases"))
+    seed("case", entry.path().filename().string(), content(entry.path()));
+  seed("hand_path", "metres", "t,x,y,z\n0,0,0,0.01\n0.5,0,0,0\n1,1e-3,-2e-3,0\n");
+  seed("hand_path", "all",
+       "t,x_mm,y_mm,z_mm,qw,qx,qy,qz,spindle\r\n0,0,0,1,1,0,0,0,1\r\n0.1,0,0,.5,0,1,0,0,0\r\n");
+}
+
+// ---- recordings
+
+std::unique_ptr<volume::Bone> block(int edge) {
+  volume::Grid grid;
+  grid.size = {edge, edge, edge};
+  grid.voxel = 0.5e-3;
+  const auto count = static_cast<std::size_t>(edge * edge * edge);
+  std::vector<volume::Field> field(count);
+  const std::vector<volume::TissueId> tissue(count, 1);
+  for (std::size_t v = 0; v < count; ++v)
+    field[v] = volume::field_from_depth(0.4 * edge - static_cast<double>(v) / (edge * edge));
+  return volume::bone_from_arrays(grid, {}, field, tissue, {}, 4);
+}
+
+record::SessionInfo session_of(const volume::Bone& bone) {
+  record::SessionInfo info;
+  sim::describe({}, {}, info);
+  info.words["motion"] = "pocket";
+  info.volume.content_hash = bone.content_hash();
+  info.volume.source_fingerprint = 0x123456789ABCDEF0;
+  info.volume.grid = bone.grid();
+  info.volume.tissues = bone.tissues();
+  info.volume.reserve_bricks = 4;
+  info.volume.numbers = {{"voxel_mm", 0.5}};
+  info.volume.words = {{"format", "NRRD"}};
+  return info;
+}
+
+// a container with one of everything; packed chunks or plain ones
+string container(bool packed, bool finished) {
+  const string path = fuzz::folder() + "/seed.mcap";
+  record::McapWriter writer;
+  const auto good = [](bool holds) { fuzz::must(holds, "a container can be written"); };
+  good(writer.open(path, path).ok());
+  const auto schema = writer.add_schema("burr.Session", "jsonschema", "{}");
+  const auto ticks = writer.add_channel("/ticks", "protobuf", *schema);
+  const auto session = writer.add_channel("/session", "json", *schema);
+  good(writer.add_metadata("burr", {{"format", "1"}}).ok());
+  good(writer.add_attachment("bone", "application/x-burr-bone", record::as_bytes("BURRBON1")).ok());
+  const string info = record::to_json(session_of(*block(8)));
+  std::vector<record::TickRow> rows(2);
+  BytesOut columns;
+  record::encode_ticks(rows, columns);
+  if (packed) {
+    writer.add_message(*session, 0, 0, record::as_bytes(info));
+    writer.add_message(*ticks, 0, 1'000'000, columns.span());
+    good(writer.close_chunk().ok());
+    writer.add_message(*ticks, 1, 2'000'000, columns.span());
+    good(writer.close_chunk().ok());
+  } else {
+    BytesOut chunk, message;
+    record::mcap::MessageIndexes indexes;
+    for (const auto& [channel, data] :
+         {std::pair{*session, record::as_bytes(info)}, std::pair{*ticks, columns.span()}}) {
+      message.clear();
+      message.put(channel);
+      message.put(std::uint32_t{0});
+      message.put(std::uint64_t{0});
+      message.put(std::uint64_t{0});
+      message.raw(data);
+      indexes[channel].emplace_back(0, chunk.size());
+      record::mcap::put_record(chunk, record::mcap::Kind::message, message.span());
+    }
+    record::mcap::ChunkAt at;
+    at.packed_size = at.unpacked_size = chunk.size();
+    good(writer.add_chunk(at, record::crc32(chunk.span()), chunk.span(), indexes).ok());
+  }
+  if (finished) good(writer.finish().ok());
+  return content(path);
+}
+
+string recorded() {
+  const string path = fuzz::folder() + "/seed.mcap";
+  const auto bone = block(8);
+  record::Recorder recorder(1000);
+  fuzz::must(recorder.start(path, session_of(*bone), bone.get()).ok(), "a session is recorded");
+  for (std::uint64_t tick = 0; tick < 3; ++tick) {
+    record::TickRow row;
+    row.tick = tick;
+    fuzz::must(recorder.ticks().push(row), "a tick is taken");
+  }
+  fuzz::must(recorder.finish().ok(), "a recording is finished");
+  return content(path);
+}
+
+void recordings() {
+  const auto bone = block(8);
+  seed("session", "usual", record::to_json(session_of(*bone)));
+  const auto blob = record::bone_to_blob(*block(16));
+  seed("bone_blob", "as_it_is", '\x10' + string(blob.begin(), blob.end()));
+  const std::uint8_t* length = blob.data() + 8;
+  std::uint32_t head = 0;
+  std::memcpy(&head, length, sizeof head);
+  const string json(blob.begin() + 12, blob.begin() + 12 + head);
+  string bricks = "\x02";
+  bricks += string("\x00\x00\x07\x00", 4) + string(2048, '\x55') + "\x01";
+  seed("bone_blob", "made", '\x11' + json + "\n" + bricks);
+  const string whole = container(true, true);
+  seed("mcap", "packed", whole);
+  seed("mcap", "plain", container(false, true));
+  seed("mcap", "not_finished", container(false, false));
+  seed("mcap", "torn", whole.substr(0, whole.size() / 2));
+  seed("mcap", "recorded", recorded());
+  // bytes as player_fuzz.cpp takes them: a session, ticks, wishes, bricks, chunks
+  seed("player", "usual",
+       string("\x00\x00\x06\x01\x04\x00\x00\x00\x00\x06\x01\x02\x00\x00\x06", 15));
+  seed(
+      "player", "moves",
+      string("\x00\x01\x05\x03\x06\x01\x03\x01\xBF\x10\x00\xBF\x20\x00\xBF\x40\x00\x08\x01\x00\x06",
+             21));
+  seed("player", "bricks",
+       string("\x00\x00\x06\x04\x01\x00\x01\x01\x00\x01\x00\xFF\x80\x01\x01\x06\x05\x01\x00\x01\x00"
+              "\x06",
+              22));
+  seed("player", "wishes",
+       string("\x00\x00\x02\x00\x00\x01\x02\x05\x01\x00\x07\x01\x03\x00\x00\x00\x03\x01\x06", 19));
+}
+
+void link_small(const fs::path& corpus, const string& target, const std::vector<string>& folders) {
+  constexpr std::uintmax_t kSmall = 16384;
+  for (const string& folder : folders) {
+    std::error_code trouble;
+    for (fs::recursive_directory_iterator at(corpus / folder, trouble), end; !trouble && at != end;
+         at.increment(trouble)) {
+      if (!at->is_regular_file(trouble) || at->file_size(trouble) > kSmall) continue;
+      string name = fs::relative(at->path(), corpus).string();
+      std::replace(name.begin(), name.end(), '/', '_');
+      fs::create_symlink(fs::absolute(at->path()), seeds / target / name, trouble);
+      trouble.clear();
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2 || argc > 3) {
+    std::fprintf(stderr, "usage: fuzz_seeds DIR [CORPUS]\n");
+    return 2;
+  }
+  seeds = argv[1];
+  fs::remove_all(seeds);
+  nrrd();
+  nifti();
+  meta();
+  dicom();
+  unpacking();
+  texts();
+  recordings();
+  if (argc == 3) {
+    const fs::path corpus = argv[2];
+    link_small(corpus, "nrrd", {"nrrd", "derived/nrrd"});
+    link_small(corpus, "seg_nrrd", {"nrrd"});
+    link_small(corpus, "nifti", {"nifti", "derived/nifti"});
+    link_small(corpus, "meta", {"metaimage", "derived/metaimage"});
+    link_small(corpus, "dicom", {"dicom", "derived/dicom"});
+  }
+  for (const fs::directory_entry& target : fs::directory_iterator(seeds))
+    std::printf("%s: %zu\n", target.path().filename().c_str(),
+                static_cast<std::size_t>(std::distance(fs::directory_iterator(target), {})));
+  return 0;
+}

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Looks for inputs that one reader cannot bear. Needs what `cmake --preset fuzz` builds.
+#
+#     scripts/checks/fuzz.sh NAME [SECONDS [CORPUS]]      NAME: of a target, as in fuzz/NAME_fuzz.cpp
+#     scripts/checks/fuzz.sh seeds                        makes inputs to begin with
+#
+# CORPUS keeps what was learnt; without it each run begins with the seeds alone, and BURR_FUZZ_SEED
+# (default 1) chooses its way. What is found lies in build/fuzz/found/.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+name=${1:?which target?}
+seconds=${2:-20}
+build=build/fuzz
+
+if [ "$name" = seeds ]; then
+  collection=()
+  if [ -d ../shared/data/corpus ]; then collection=(../shared/data/corpus); fi
+  exec "$build/fuzz_seeds" "$build/seeds" "${collection[@]}"
+fi
+
+[ -x "$build/fuzz_$name" ] || { echo "fuzz.sh: there is no fuzz_$name; build it: cmake --build --preset fuzz --target fuzzers" >&2; exit 2; }
+corpus=${3:-}
+if [ -z "$corpus" ]; then
+  corpus=$(mktemp -d)
+  trap 'rm -rf "$corpus"' EXIT
+fi
+mkdir -p "$corpus" "$build/found"
+words=()
+if [ -f "fuzz/${name#seg_}.dict" ]; then words=("-dict=fuzz/${name#seg_}.dict"); fi
+
+export UBSAN_OPTIONS=print_stacktrace=1
+code=0
+"$build/fuzz_$name" "-seed=${BURR_FUZZ_SEED:-1}" "-max_total_time=$seconds" -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=1024 \
+  -max_len=16384 -print_final_stats=1 "-artifact_prefix=$build/found/$name-" "${words[@]}" "$corpus" "$build/seeds/$name" || code=$?
+if [ "$code" -ne 0 ]; then
+  echo "fuzz.sh: $name cannot bear an input; see docs/fuzzing.md, \"Something was found\"" >&2
+fi
+exit "$code"

@@ -1,0 +1,123 @@
+// Recordings and hand paths that cannot be: refused in a sentence, never obeyed.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "burr/device/replayed_hand.h"
+#include "burr/record/player.h"
+#include "burr/record/recorder.h"
+#include "burr/sim/motion.h"
+#include "burr/sim/replay.h"
+#include "burr/sim/session_words.h"
+#include "scenes/build.h"
+#include "scenes/shapes.h"
+
+namespace burr::sim {
+namespace {
+
+using math::Vec3;
+
+class Odd : public testing::Test {
+ protected:
+  Odd() {
+    std::string name = (std::filesystem::temp_directory_path() / "burr-odd-XXXXXX").string();
+    folder = mkdtemp(name.data());
+  }
+  ~Odd() override { std::filesystem::remove_all(folder); }
+  std::filesystem::path folder;
+};
+
+std::unique_ptr<volume::Bone> slab() {
+  return scenes::bone_from_distance(
+      scenes::box_grid(Vec3::Constant(-4e-3), Vec3::Constant(4e-3), 0.5e-3), {}, scenes::slab(), 8);
+}
+
+record::SessionInfo usual(const volume::Bone& bone) {
+  record::SessionInfo info;
+  SessionSettings settings;
+  settings.servo.undo_bricks = 16;
+  settings.surface.reserve_blocks = 64;
+  describe(settings, {}, info);
+  info.volume.content_hash = bone.content_hash();
+  info.volume.grid = bone.grid();
+  info.volume.tissues = bone.tissues();
+  info.volume.reserve_bricks = 8;
+  return info;
+}
+
+TEST_F(Odd, EverySettingThatNoSessionCanHaveHadIsNamed) {
+  const record::SessionInfo info = usual(*slab());
+  ASSERT_TRUE(settings_of(info, "s.mcap").ok());
+  for (const auto& [name, value] : info.numbers) {
+    // what is written into whole numbers, counts and memory must not come from these
+    for (const double odd : {1e300, -1e300, -1.0, std::numeric_limits<double>::quiet_NaN(),
+                             std::numeric_limits<double>::infinity()}) {
+      record::SessionInfo wrong = info;
+      wrong.numbers[name] = odd;
+      const auto settings = settings_of(wrong, "s.mcap");
+      ASSERT_FALSE(settings.ok()) << name << " " << odd;
+      EXPECT_NE(settings.error().text.find("s.mcap: the session's setting " + name),
+                std::string::npos)
+          << settings.error().text;
+    }
+  }
+}
+
+TEST_F(Odd, AReplayAsksForNoBrickThatIsNotThere) {
+  for (const volume::BrickIndex brick : {-7, 1'000'000}) {
+    const auto bone = slab();
+    const std::string file = (folder / "s.mcap").string();
+    record::Recorder recorder(1000);
+    ASSERT_TRUE(recorder.start(file, usual(*bone), nullptr).ok());
+    // one tick as it really was, so that the replay comes as far as the brick
+    NoProgress quiet;
+    const auto recorded = settings_of(usual(*bone), "");
+    ASSERT_TRUE(recorded.ok());
+    device::ReplayedHand hand(recorded->device);
+    device::HandState state;
+    state.world_from_tool.p = {0, 0, 3e-3};
+    hand.set(state);
+    volume::IsoVertices surface(*bone, recorded->settings.surface, 1, quiet);
+    Servo servo(*bone, surface, hand, recorded->settings.servo);
+    record::BrickRow row;
+    row.brick = brick;
+    ASSERT_TRUE(recorder.bricks().push(row));
+    ASSERT_TRUE(recorder.ticks().push(servo.tick(false)));
+    ASSERT_TRUE(recorder.finish().ok());
+
+    auto player = record::Player::open(file);
+    ASSERT_TRUE(player.ok()) << player.error().text;
+    const auto outcome = replay(**player, slab(), quiet);
+    ASSERT_FALSE(outcome.ok());
+    EXPECT_NE(outcome.error().text.find("which the bone has not"), std::string::npos)
+        << outcome.error().text;
+  }
+}
+
+TEST_F(Odd, APathThatCannotBeMeantIsRefusedWithItsLine) {
+  const auto refusal = [&](const std::string& text) {
+    const std::string file = (folder / "p.csv").string();
+    std::ofstream(file, std::ios::binary) << text;
+    const auto path = read_path(file);
+    EXPECT_FALSE(path.ok()) << text;
+    return path ? std::string() : path.error().text;
+  };
+  for (const char* line : {"-1e308,0,0,0\n1e308,0,0,0\n", "0,1e300,0,0\n", "0,0,0,-5000\n"})
+    EXPECT_NE(refusal(std::string("t,x,y,z\n") + line).find("line 2: a time beyond"),
+              std::string::npos);
+  // a turn this long has no length that fits into a number
+  EXPECT_NE(refusal("t,x,y,z,qw,qx,qy,qz\n0,0,0,0,1e200,1e200,0,0\n").find("line 2"),
+            std::string::npos);
+  const std::string head = refusal("a\x1B[2J" + std::string(100'000, 'x') + "\n");
+  EXPECT_LT(head.size(), 400U);
+  EXPECT_EQ(head.find('\x1B'), std::string::npos);
+  EXPECT_FALSE(read_path("/dev/zero").ok()) << "a device never ends";
+}
+
+}  // namespace
+}  // namespace burr::sim
