@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "burr/haptics/thin.h"
 #include "burr/rt/simd.h"
 #include "burr/volume/sample.h"
 
@@ -73,7 +74,8 @@ bool Proxy::is_free(const Vec3& p) BURR_RT {
 }
 
 // Fills the candidates with every disc whose gap to a ball around `centre` is below `within`.
-void Proxy::collect(const Vec3& centre, double within) BURR_RT {
+// crowded: they are known to be too many, so of those that face the same way the nearest is kept.
+void Proxy::collect(const Vec3& centre, double within, bool crowded) BURR_RT {
   Candidates& out = *candidates_;
   out.count = 0;
   out.full = false;
@@ -113,6 +115,7 @@ void Proxy::collect(const Vec3& centre, double within) BURR_RT {
                                    static_cast<float>(kBrickEdge * bk - centre.z())};
           kernel_.scan(surface_.blocks(brick).data(), surface_.count(brick), offset, radius, limit,
                        out);
+          if (crowded && out.count > Candidates::kMost / 2) thin(out);
         }
       }
     }
@@ -130,9 +133,13 @@ LeastMove Proxy::move_toward(const Vec3& from, const Vec3& wanted, double longes
   for (;;) {
     collect(from, within);
     if (candidates_->full) {  // more than the list holds: a shorter move needs fewer
-      if (within <= kLeastGuess) return {.solved = false};
-      longest = within = std::max(within / 2, kLeastGuess);
-      continue;
+      if (within > kLeastGuess) {
+        longest = within = std::max(within / 2, kLeastGuess);
+        continue;
+      }
+      collect(from, within, true);  // not even that: keep the nearest of each direction
+      candidates_->full = true;     // and say so
+      longest = within;
     }
     LeastMove move = least_move(*candidates_, wanted, kernel_.most_violated);
     if (!move.solved) {  // overstepped discs on opposite sides: hold still rather than choose
