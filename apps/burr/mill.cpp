@@ -72,6 +72,9 @@ void print(const Options& options, sim::Session& session, const Recording& recor
                options.realtime
                    ? fmt::format("; {} late, {} missed; {}", t.late, t.missed, outcome.scheduling)
                    : "");
+    if (outcome.most_load != sim::Load::none)
+      fmt::print("put off at times, because the machine could not keep up: {}\n",
+                 sim::name(outcome.most_load));
     for (const std::string& sentence : sim::words(sim::worth_telling(outcome.flags)))
       fmt::print("noted: {}\n", sentence);
     return;
@@ -86,11 +89,18 @@ void print(const Options& options, sim::Session& session, const Recording& recor
   out["peak_force_N"] = outcome.peak_force;
   out["mean_force_N"] = outcome.mean_force;
   out["tick_us"] = {{"p50", t.p50_us}, {"p99", t.p99_us}, {"p999", t.p999_us}, {"max", t.max_us}};
+  out["rate_hz"] = options.rate_hz;
+  out["realtime"] = options.realtime;
+  out["late_us"] = {{"p50", t.late_p50_us},
+                    {"p99", t.late_p99_us},
+                    {"p999", t.late_p999_us},
+                    {"max", t.worst_lateness_us}};
   out["late"] = t.late;
   out["missed"] = t.missed;
   out["worst_lateness_us"] = t.worst_lateness_us;
   out["bone_hash"] = record::hex(session.bone().content_hash());
   out["noted"] = sim::words(sim::worth_telling(outcome.flags));
+  out["load_ticks"] = outcome.load_ticks;
   if (options.realtime) out["scheduling"] = outcome.scheduling;
   if (!options.record.empty()) out["recording"] = recording.account();
   fmt::print("{}\n", out.dump());

@@ -93,6 +93,19 @@ TEST(TickStats, CountsLateAndMissedTicks) {
   EXPECT_EQ(s.worst_lateness_us, 3200);
 }
 
+TEST(TickStats, TellsHowLateTicksBeganByTheSameQuantiles) {
+  TickStats stats;
+  for (std::int64_t i = 1; i <= 1000; ++i) {
+    stats.add(1);  // the work is another thing
+    stats.add_lateness(i * 1000, 1'000'000, 0);
+  }
+  const TickSummary s = stats.summary();
+  EXPECT_NEAR(s.late_p50_us, 500, 4);
+  EXPECT_NEAR(s.late_p99_us, 990, 8);
+  EXPECT_NEAR(s.late_p999_us, 999, 8);
+  EXPECT_EQ(s.p999_us, 1e-3);
+}
+
 TEST(TickStats, CountsTicksOverOneMillisecondAndTheMean) {
   TickStats stats;
   for (const std::int64_t ns : {1'000'000, 1'000'001, 2'000'000, 3'000}) stats.add(ns);

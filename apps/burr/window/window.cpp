@@ -92,8 +92,12 @@ Status Mill::run() {
     shown = renderer_->show(scene_);
     if (picture_) leave_picture();
 
-    // where the driver does not wait for the screen: 60 pictures a second are enough
-    frame = std::max(frame + std::chrono::microseconds(16'667), Clock::now());
+    // where the driver does not wait for the screen: 60 pictures a second are enough; and fewer
+    // where the machine does not keep up with the hand
+    worker_.hold_back(session_.load() >= sim::Load::mesh);
+    const auto pause =
+        std::chrono::microseconds(session_.load() >= sim::Load::picture ? 100'000 : 16'667);
+    frame = std::max(frame + pause, Clock::now());
     const auto wait = std::chrono::duration_cast<std::chrono::milliseconds>(frame - Clock::now());
     if (wait.count() > 0) SDL_Delay(static_cast<Uint32>(wait.count()));
     if (options_.seconds > 0 &&
@@ -102,6 +106,7 @@ Status Mill::run() {
   }
   session_.stop();
   renderer_.reset();
+  worker_.hold_back(false);
   worker_.settle([this](const surface::Skin& skin) { put_skin(scene_, skin); });
   scene_.text.clear();
   return shown;
@@ -280,7 +285,7 @@ std::string flag_words(std::uint32_t flags) {
       {haptics::kFlagForceLimited, "force limited"},   {haptics::kFlagThermal, "motors warm"},
       {haptics::kFlagCandidates, "too many contacts"}, {haptics::kFlagReserve, "no room to add"},
       {haptics::kFlagUndoFull, "undo full"},           {haptics::kFlagRestoring, "restoring"},
-      {haptics::kFlagNotCut, "not all cut"},
+      {haptics::kFlagNotCut, "not all cut"},           {haptics::kFlagPutOff, "cutting in turns"},
   };
   std::string text;
   for (const auto& [flag, word] : words)

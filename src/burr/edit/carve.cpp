@@ -18,11 +18,13 @@ using volume::BrickIndex;
 using volume::kBrickEdge;
 using volume::kBrickVoxels;
 
-constexpr std::size_t kMostWork = 4096;  // bricks a burr can stand in: 7 mm at 0.1 mm takes 700
+constexpr std::size_t kMostWork = 1024;  // bricks in one tick: 7 mm at 0.1 mm takes 400
+constexpr int kMostTurns = 64;           // more than the largest burr on the finest voxel needs
 constexpr std::uint8_t kMixed = 255;
 
 // bits of haptics/contact.h; edit may not include haptics, sim/servo.cpp asserts that they agree
-constexpr std::uint32_t kReserve = 1U << 10, kUndoFull = 1U << 11, kNotCut = 1U << 14;
+constexpr std::uint32_t kReserve = 1U << 10, kUndoFull = 1U << 11, kNotCut = 1U << 14,
+                        kPutOff = 1U << 15;
 
 }  // namespace
 
@@ -71,8 +73,10 @@ Carver::Carver(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo
 
 // Finds in every brick that the ball meets what stands above it (or lacks below it).
 void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], bool deposit,
-                    std::uint32_t& flags) BURR_RT {
+                    int turns, std::uint32_t& flags) BURR_RT {
   work_count_ = 0;
+  crowded_ = false;
+  const unsigned turn = turn_++ % static_cast<unsigned>(turns);
   total_units_ = 0;
   const double reach = radius + volume::kRamp;
   math::Ijk lo, hi;
@@ -86,6 +90,10 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
   for (int bk = lo.z(); bk <= hi.z(); ++bk)
     for (int bj = lo.y(); bj <= hi.y(); ++bj)
       for (int bi = lo.x(); bi <= hi.x(); ++bi) {
+        // odd steps: along every axis the next brick is another turn's
+        if (turns > 1 &&
+            static_cast<unsigned>(bi + 3 * bj + 5 * bk) % static_cast<unsigned>(turns) != turn)
+          continue;
         const BrickIndex brick = bone_.brick_at(bi, bj, bk);
         if (!deposit && highest_[static_cast<std::size_t>(brick)] == 0) continue;
         const Vec3 first(kBrickEdge * bi, kBrickEdge * bj, kBrickEdge * bk);
@@ -99,7 +107,10 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
         if (!deposit && highest_[static_cast<std::size_t>(brick)] <=
                             volume::kIso + (far - radius) * volume::kFieldPerVoxel)
           continue;
-        if (work_count_ == kMostWork) return;
+        if (work_count_ == kMostWork) {
+          crowded_ = true;
+          return;
+        }
         const volume::Field* field = bone_.brick_field(brick);
         if (field == nullptr) {
           if (!deposit) continue;
@@ -183,11 +194,24 @@ std::int64_t Carver::apply(double wanted_units, bool deposit, volume::TissueId m
   return done;
 }
 
+// As many as wished, or as it takes for the bricks to fit into the list: no tick may take forever.
+int Carver::choose_turns(int wanted, std::uint32_t& flags) BURR_RT {
+  if (crowded_) {
+    crowd_turns_ = std::min(2 * crowd_turns_, kMostTurns);
+  } else if (crowd_turns_ > 1 && work_count_ < kMostWork / 4) {
+    crowd_turns_ /= 2;
+  }
+  const int turns = std::max(wanted, crowd_turns_);
+  if (turns > 1) flags |= kPutOff;
+  return turns;
+}
+
 // A debt older than patience at the present rate of asking is not going to be cut.
-void Carver::write_off(double asked_units, double dt) BURR_RT {
+void Carver::write_off(double asked_units, double dt, int turns) BURR_RT {
   const double blend = std::min(1.0, dt / settings_.patience);
   rate_ += (asked_units / dt - rate_) * blend;
-  const double most = settings_.patience * std::max(rate_, asked_units / dt);
+  const double patience = settings_.patience + (turns - 1) * dt;  // until it is every brick's turn
+  const double most = patience * std::max(rate_, asked_units / dt);
   if (debt_ > most) {
     not_cut_ += debt_ - most;
     debt_ = most;
@@ -196,13 +220,14 @@ void Carver::write_off(double asked_units, double dt) BURR_RT {
 
 void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
   constexpr float kNone[4] = {0, 0, 0, -1};
-  gather(cut.centre + advance_ * cut.push, cut.radius + margin_, kNone, false, flags);
+  const int turns = choose_turns(cut.turns, flags);
+  gather(cut.centre + advance_ * cut.push, cut.radius + margin_, kNone, false, turns, flags);
   last_energy_density_ = mean_energy();
   const double asked = cut.energy / last_energy_density_ / unit_m3_;
   asked_ += asked;
   debt_ += asked;
   energy_ += cut.energy;
-  const bool blocked = static_cast<double>(total_units_) < debt_;
+  const bool blocked = turns * static_cast<double>(total_units_) < debt_;
   const std::int64_t removed = apply(debt_, false, 0, flags);
   removed_ += removed;
   debt_ -= static_cast<double>(removed);
@@ -210,7 +235,7 @@ void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
       std::clamp(margin_ + (blocked ? settings_.margin_rise : -settings_.margin_fall) * cut.dt,
                  least_margin_, std::max(least_margin_, settings_.margin_most));
   const double before = not_cut_;
-  write_off(asked, cut.dt);
+  write_off(asked, cut.dt, turns);
   if (not_cut_ > before) flags |= kNotCut;
 }
 
@@ -219,15 +244,19 @@ void Carver::deposit(const Cut& cut, std::uint32_t& flags) BURR_RT {
   const float keep_out[4] = {static_cast<float>(cut.centre.x()), static_cast<float>(cut.centre.y()),
                              static_cast<float>(cut.centre.z()),
                              static_cast<float>(cut.radius + settings_.deposit_gap)};
-  gather(cut.centre + cut.radius * cut.push, radius, keep_out, true, flags);
-  added_debt_ = std::min(added_debt_ + cut.volume / unit_m3_,
-                         cut.volume / unit_m3_ * settings_.patience / cut.dt);
+  const int turns = choose_turns(cut.turns, flags);
+  gather(cut.centre + cut.radius * cut.push, radius, keep_out, true, turns, flags);
+  const double patience = settings_.patience + (turns - 1) * cut.dt;
+  added_debt_ =
+      std::min(added_debt_ + cut.volume / unit_m3_, cut.volume / unit_m3_ * patience / cut.dt);
   const std::int64_t added = apply(added_debt_, true, cut.material, flags);
   added_ += added;
   added_debt_ -= static_cast<double>(added);
 }
 
 void Carver::idle(double dt) BURR_RT {
+  work_count_ = 0;
+  crowded_ = false;
   rate_ += (0 - rate_) * std::min(1.0, dt / settings_.patience);
   const double most = settings_.patience * rate_;
   if (debt_ > most) {

@@ -54,6 +54,7 @@ struct Cut {
   double volume = 0;              // to be put on this tick [m^3] (deposit)
   volume::TissueId material = 1;  // deposit: what
   double dt = 1e-3;               // [s]
+  int turns = 1;                  // the bricks are cut in so many ticks, in turn; a power of two
 };
 
 class Carver {
@@ -62,7 +63,7 @@ class Carver {
   Carver(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo, ChangedQueue* changed,
          const CarveSettings& settings);
 
-  // Adds to `flags` (haptics/contact.h bits: not cut, reserve, undo full).
+  // Adds to `flags` (haptics/contact.h bits: not cut, reserve, undo full, put off).
   void carve(const Cut& cut, std::uint32_t& flags) BURR_RT;
   void deposit(const Cut& cut, std::uint32_t& flags) BURR_RT;
   // Nothing touched this tick: what is still owed is written off as patience runs out.
@@ -78,6 +79,8 @@ class Carver {
 
   [[nodiscard]] Ledger ledger() const BURR_RT;
   [[nodiscard]] double margin() const BURR_RT { return margin_; }  // [voxel]
+  // Bricks that the burr stood in in the last tick; 0 while idle.
+  [[nodiscard]] int bricks_last() const BURR_RT { return static_cast<int>(work_count_); }
 
  private:
   struct Work {
@@ -85,11 +88,12 @@ class Carver {
     Excess excess;
   };
   void gather(const math::Vec3& centre, double radius, const float keep_out[4], bool deposit,
-              std::uint32_t& flags) BURR_RT;
+              int turns, std::uint32_t& flags) BURR_RT;
+  [[nodiscard]] int choose_turns(int wanted, std::uint32_t& flags) BURR_RT;
   [[nodiscard]] std::int64_t apply(double wanted_units, bool deposit, volume::TissueId material,
                                    std::uint32_t& flags) BURR_RT;
   [[nodiscard]] double mean_energy() const BURR_RT;
-  void write_off(double asked_units, double dt) BURR_RT;
+  void write_off(double asked_units, double dt, int turns) BURR_RT;
   void note_whole(volume::BrickIndex brick, const volume::BrickField& before,
                   const volume::BrickField& now) BURR_RT;
 
@@ -106,6 +110,9 @@ class Carver {
   std::vector<volume::BrickField> scratch_;  // excess of the bricks in work_
   std::vector<Work> work_;
   std::size_t work_count_ = 0;
+  bool crowded_ = false;  // more bricks than work_ holds
+  int crowd_turns_ = 1;   // in how many turns they fit
+  unsigned turn_ = 0;
   std::int64_t total_units_ = 0;
 
   double asked_ = 0, debt_ = 0, not_cut_ = 0;           // [units]

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "burr/haptics/thin.h"
 #include "burr/rt/simd.h"
 #include "burr/volume/sample.h"
 
@@ -77,7 +78,7 @@ bool Proxy::is_free(const Vec3& p) BURR_RT {
 // Remembers the blocks with a disc whose gap to a ball around `centre` may be below `reach`. One
 // look serves all the short moves of a tick, and the next ticks too while the surface stays as it
 // is.
-void Proxy::look_around(const Vec3& centre, double reach) BURR_RT {
+void Proxy::look_around(const Vec3& centre, double reach, bool crowded) BURR_RT {
   near_count_ = 0;
   near_centre_ = centre;
   near_reach_ = reach;
@@ -111,9 +112,11 @@ void Proxy::look_around(const Vec3& centre, double reach) BURR_RT {
           const float dx = ball.x - cx, dy = ball.y - cy, dz = ball.z - cz,
                       touch = near + ball.radius;
           if (dx * dx + dy * dy + dz * dz > touch * touch) continue;
-          if (near_count_ >= kMostNear) {
+          if (near_count_ >= kMostNear) {  // more than can be remembered
             near_reach_ = -1;
-            return;
+            if (!crowded) return;
+            scan_near(centre, reach, true);
+            near_count_ = 0;
           }
           const std::int32_t at[3] = {kBrickEdge * bi, kBrickEdge * bj, kBrickEdge * bk};
           near_count_ += kernel_.find_near(surface_.blocks(brick).data(), surface_.count(brick), at,
@@ -123,18 +126,36 @@ void Proxy::look_around(const Vec3& centre, double reach) BURR_RT {
     }
 }
 
+// Adds the near discs whose gap is below `within` to the candidates.
+void Proxy::scan_near(const Vec3& centre, double within, bool crowded) BURR_RT {
+  constexpr int kChunk = 256;  // blocks; fewer discs than thinning leaves room for
+  Candidates& out = *candidates_;
+  const int chunk = crowded ? kChunk : near_count_;
+  for (int first = 0; first < near_count_; first += chunk) {
+    kernel_.scan(near_.data() + first, std::min(chunk, near_count_ - first), centre.data(),
+                 static_cast<float>(radius_), static_cast<float>(within), surface_.largest_disc(),
+                 out);
+    if (crowded && out.count > Candidates::kMost / 2) thin(out);
+  }
+}
+
 // Fills the candidates with every disc whose gap to a ball around `centre` is below `within`.
-void Proxy::collect(const Vec3& centre, double within) BURR_RT {
+// crowded: they are known to be too many, so of those that face the same way the nearest is kept.
+void Proxy::collect(const Vec3& centre, double within, bool crowded) BURR_RT {
   Candidates& out = *candidates_;
   out.count = 0;
   out.full = false;
-  const bool seen = near_revision_ == surface_.revision() && near_radius_ == radius_ &&
-                    (centre - near_centre_).norm() + within <= near_reach_;
-  if (!seen) look_around(centre, within + std::min(kLookShare * within + kLookLeast, kLookMost));
-  if (near_reach_ < within) look_around(centre, within);
-  out.full = near_reach_ < within;
-  kernel_.scan(near_.data(), near_count_, centre.data(), static_cast<float>(radius_),
-               static_cast<float>(within), surface_.largest_disc(), out);
+  if (crowded) {
+    look_around(centre, within, true);
+  } else {
+    const bool seen = near_revision_ == surface_.revision() && near_radius_ == radius_ &&
+                      (centre - near_centre_).norm() + within <= near_reach_;
+    const double beyond = std::min(kLookShare * within + kLookLeast, kLookMost);
+    if (!seen) look_around(centre, within + beyond, false);
+    if (near_reach_ < within) look_around(centre, within, false);
+    out.full = near_reach_ < within;
+  }
+  if (!out.full) scan_near(centre, within, crowded);
   // what is overstepped (bone grew, or was made anew a hair higher) pushes out gently
   const float deepest = -static_cast<float>(settings_.recovery);
   for (int j = 0; j < out.count; ++j) out.gap[j] = std::max(out.gap[j], deepest);
@@ -149,9 +170,13 @@ LeastMove Proxy::move_toward(const Vec3& from, const Vec3& wanted, double longes
   for (;;) {
     collect(from, within);
     if (candidates_->full) {  // more than the list holds: a shorter move needs fewer
-      if (within <= kLeastGuess) return {.solved = false};
-      longest = within = std::max(within / 2, kLeastGuess);
-      continue;
+      if (within > kLeastGuess) {
+        longest = within = std::max(within / 2, kLeastGuess);
+        continue;
+      }
+      collect(from, within, true);  // not even that: keep the nearest of each direction
+      candidates_->full = true;     // and say so
+      longest = within;
     }
     LeastMove move = least_move(*candidates_, wanted, kernel_.most_violated);
     if (!move.solved) {  // overstepped discs on opposite sides: hold still rather than choose

@@ -65,12 +65,15 @@ class Proxy {
   [[nodiscard]] const math::Vec3& position() const BURR_RT { return proxy_; }
   [[nodiscard]] const ProxySettings& settings() const BURR_RT { return settings_; }
   void set_friction(double mu_static, double mu_kinetic) BURR_RT;
+  // Fewer moves a tick cost less; the burr then lags behind a fast hand, and is never in bone.
+  void set_max_moves(int moves) BURR_RT { settings_.max_moves = moves; }
   // A larger burr may not fit where the smaller one is; false then, and nothing changed.
   [[nodiscard]] bool set_radius(double radius) BURR_RT;
 
  private:
-  void look_around(const math::Vec3& centre, double reach) BURR_RT;
-  void collect(const math::Vec3& centre, double within) BURR_RT;
+  void look_around(const math::Vec3& centre, double reach, bool crowded) BURR_RT;
+  void scan_near(const math::Vec3& centre, double within, bool crowded) BURR_RT;
+  void collect(const math::Vec3& centre, double within, bool crowded = false) BURR_RT;
   [[nodiscard]] LeastMove move_toward(const math::Vec3& from, const math::Vec3& wanted,
                                       double longest, double& guess, bool& cut_short) BURR_RT;
   [[nodiscard]] LeastMove settle(const math::Vec3& target, double guess, int moves,

@@ -40,6 +40,7 @@ enum class WishKind : std::uint8_t {
   redo,           // the last undone stroke
   reset,          // everything back to the start
   friction,       // value: scale of the tissues' friction
+  load,           // value: sim/load.h, what the servo puts off; its own wish, first of its tick
 };
 struct Wish {
   WishKind kind = WishKind::spindle_speed;

@@ -304,7 +304,7 @@ constexpr const char* kWishSchema = R"({
  "type": "object",
  "properties": {
   "tick": {"type": "integer"},
-  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction"]},
+  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load"]},
   "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch; friction scale; \"nan\", \"inf\", \"-inf\" as strings"}
  }
 })";
@@ -343,6 +343,8 @@ const char* wish_name(WishKind kind) {
       return "reset";
     case WishKind::friction:
       return "friction";
+    case WishKind::load:
+      return "load";
   }
   return "";
 }

@@ -14,7 +14,11 @@ using record::Wish;
 using record::WishKind;
 
 constexpr int kWishesPerTick = 8;
-constexpr std::size_t kRestorePerTick = 16;  // bricks; about as many as a deep cut changes
+constexpr double kRestorePerSecond = 16e3;  // bricks; about as many as a deep cut changes
+constexpr double kRecovery = 5;  // of bone that grew under the burr pushes it out  [voxel/s]
+constexpr double kRefreshRate =
+    1e3;                      // of the budgets of IsoSettings: they are those of a millisecond
+constexpr int kFewMoves = 4;  // of the proxy, when even touch must do with less
 
 }  // namespace
 
@@ -28,7 +32,8 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       changed_(bone),
       undo_(bone, settings.undo_bricks),
       carver_(bone, surface, undo_, &changed_, settings.carve),
-      proxy_(surface, {.radius = settings.burr.radius}, Vec3::Zero()),
+      proxy_(surface, {.radius = settings.burr.radius, .recovery = kRecovery / settings.rate_hz},
+             Vec3::Zero()),
       limit_(device.spec(), settings.limit),
       path_(kPath),
       recent_(FaultReport::kTicks) {
@@ -51,12 +56,7 @@ const record::TickRow& Servo::tick(bool lost) BURR_RT {
   const bool believed = limit_.believe(hand_, flags);
   fault_waits_ |= !believed;
 
-  // wishes
-  Wish wish;
-  for (int i = 0; i < kWishesPerTick && wishes_.pop(wish); ++i) {
-    if (diary_.wishes != nullptr) diary_.wishes->push({row_.tick, wish});
-    obey(wish);
-  }
+  take_wishes();
   spindle_.step(believed ? hand_.pedal : 0, dt_);
 
   // touch
@@ -82,7 +82,7 @@ const record::TickRow& Servo::tick(bool lost) BURR_RT {
 
   // then the bone
   cut_bone(force);
-  surface_.refresh();
+  surface_.refresh(kRefreshRate * dt_ / turns_of(load_));
   remember_path();
 
   // and the account of it all
@@ -97,6 +97,7 @@ const record::TickRow& Servo::tick(bool lost) BURR_RT {
   if (touch_.lagging) flags |= haptics::kFlagLagging;
   if (touch_.overflow) flags |= haptics::kFlagCandidates;
   if (surface_.exhausted()) flags |= haptics::kFlagReserve;
+  if (load_ >= Load::removal_2) flags |= haptics::kFlagPutOff;
   row_.ledger = carver_.ledger();
   row_.spindle_rad_s = spindle_.speed;
   hash_row();
@@ -158,6 +159,7 @@ void Servo::cut_bone(const Vec3& force) BURR_RT {
   cut.push = grid.frame.q.conjugate() * (-touch_.normal);
   cut.radius = settings_.burr.radius / grid.voxel;
   cut.dt = dt_;
+  cut.turns = turns_of(load_);
   if (settings_.mode == ToolMode::cut) {
     const Vec3 axis = hand_.world_from_tool.q * Vec3::UnitZ();
     cut.energy = dt_ * edit::cutting_power(push, spindle_.speed, settings_.burr.radius,
@@ -174,6 +176,20 @@ void Servo::cut_bone(const Vec3& force) BURR_RT {
 
 // ---- wishes
 
+void Servo::take_wishes() BURR_RT {
+  const auto take = [this](const Wish& wish) {
+    if (diary_.wishes != nullptr) diary_.wishes->push({row_.tick, wish});
+    obey(wish);
+  };
+  if (load_wished_ != load_) take({WishKind::load, static_cast<double>(load_wished_)});
+  Wish wish;
+  for (int taken = 0; taken < kWishesPerTick && wishes_.pop(wish);) {
+    take(wish);
+    if (wish.kind != WishKind::load)
+      ++taken;  // the servo's own, from a recording: beside the eight
+  }
+}
+
 void Servo::obey(const Wish& wish) BURR_RT {
   if (!std::isfinite(wish.value)) return;
   switch (wish.kind) {
@@ -181,7 +197,8 @@ void Servo::obey(const Wish& wish) BURR_RT {
       spindle_.full_speed = std::max(0.0, wish.value);
       break;
     case WishKind::burr_radius:
-      if (wish.value >= 2 * bone_.grid().voxel && proxy_.set_radius(wish.value))
+      if (wish.value >= 2 * bone_.grid().voxel &&
+          wish.value <= 0.5 * tool::kLargestDiameter + 1e-12 && proxy_.set_radius(wish.value))
         settings_.burr.radius = wish.value;
       break;
     case WishKind::stiffness:
@@ -196,6 +213,11 @@ void Servo::obey(const Wish& wish) BURR_RT {
       break;
     case WishKind::friction:
       settings_.friction_scale = std::clamp(wish.value, 0.0, 4.0);
+      break;
+    case WishKind::load:
+      if (wish.value < 0 || wish.value >= kLoads) break;
+      load_ = load_wished_ = static_cast<Load>(static_cast<int>(wish.value));
+      proxy_.set_max_moves(load_ == Load::touch ? kFewMoves : haptics::ProxySettings{}.max_moves);
       break;
     case WishKind::undo:
     case WishKind::redo:
@@ -274,7 +296,8 @@ void Servo::step_restore() BURR_RT {
     }
     if (arrived) restore_ = Restore::restoring;
   } else if (restore_ == Restore::restoring) {
-    for (std::size_t n = 0; n < kRestorePerTick && restored_ < range_.count; ++n, ++restored_) {
+    const auto most = static_cast<std::size_t>(std::max(1.0, std::ceil(kRestorePerSecond * dt_)));
+    for (std::size_t n = 0; n < most && restored_ < range_.count; ++n, ++restored_) {
       if (restore_kind_ == WishKind::reset) {
         carver_.restore(undo_.original(static_cast<std::size_t>(restored_)));
       } else {
@@ -363,7 +386,7 @@ void Servo::hash_row() BURR_RT { row_.hash = last_hash_ = record::tick_hash(row_
 
 std::vector<std::string> words(std::uint32_t flags) {
   static_assert(haptics::kFlagReserve == 1U << 10 && haptics::kFlagUndoFull == 1U << 11 &&
-                    haptics::kFlagNotCut == 1U << 14,
+                    haptics::kFlagNotCut == 1U << 14 && haptics::kFlagPutOff == 1U << 15,
                 "edit/carve.cpp sets these bits by number");
   static const std::pair<std::uint32_t, const char*> kWords[] = {
       {haptics::kFlagNotFinite,
@@ -384,6 +407,9 @@ std::vector<std::string> words(std::uint32_t flags) {
        "the burr had not come to rest within the tick: a very fast hand, or a tight hole"},
       {haptics::kFlagCandidates,
        "more contacts than the list holds; use a larger voxel or a smaller burr"},
+      {haptics::kFlagPutOff,
+       "the machine was too slow, or the burr too big, to cut every brick in every tick; they were "
+       "cut in turn (docs/realtime.md, \"Too much at once\")"},
       {haptics::kFlagReserve,
        "no room was left for new material or new surface; raise --reserve-bricks"},
       {haptics::kFlagUndoFull,

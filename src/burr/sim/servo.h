@@ -24,6 +24,7 @@
 #include "burr/record/rows.h"
 #include "burr/rt/latest.h"
 #include "burr/rt/ring.h"
+#include "burr/sim/load.h"
 #include "burr/tool/burr_tool.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/iso_vertices.h"
@@ -75,6 +76,11 @@ class Servo {
   // One tick. lost: ticks were lost just before this one and the watchdog let go of the hand.
   const record::TickRow& tick(bool lost) BURR_RT;
 
+  // What to put off from the next tick on; recorded as a wish when it changes. Between ticks, on
+  // the servo's thread.
+  void set_load(Load load) BURR_RT { load_wished_ = load; }
+  [[nodiscard]] Load load() const BURR_RT { return load_; }
+
   // ---- doors (architecture.md 4)
   [[nodiscard]] rt::Ring<record::Wish>& wishes() BURR_RT { return wishes_; }   // main -> servo
   [[nodiscard]] rt::Latest<record::TickRow>& view() BURR_RT { return view_; }  // servo -> main
@@ -87,6 +93,16 @@ class Servo {
   // Hands the finished row to the diary and the view.
   void publish() BURR_RT;
 
+  // What the last tick had to do, in counts that are the same on every machine.
+  struct Work {
+    int candidates = 0;  // contacts looked at
+    int bricks = 0;      // that the burr stood in while cutting
+    int rebuilt = 0;     // bricks whose surface was made anew
+  };
+  [[nodiscard]] Work work() const BURR_RT {
+    return {row_.contact.candidates, carver_.bricks_last(), surface_.rebuilt_last()};
+  }
+
   [[nodiscard]] const ServoSettings& settings() const BURR_RT { return settings_; }
   [[nodiscard]] const edit::UndoStore& undo_store() const BURR_RT { return undo_; }
   [[nodiscard]] std::size_t bricks_to_write() const BURR_RT { return changed_.size(); }
@@ -98,6 +114,7 @@ class Servo {
   enum class Restore { none, lifting, restoring, settling };
 
   void obey(const record::Wish& wish) BURR_RT;
+  void take_wishes() BURR_RT;
   void begin_restore(record::WishKind kind) BURR_RT;
   void step_restore() BURR_RT;
   [[nodiscard]] bool clear_of_what_returns(const math::Vec3& p) const BURR_RT;
@@ -124,6 +141,7 @@ class Servo {
   haptics::Touch touch_;
   device::HandState hand_;
   math::Vec3 velocity_ = math::Vec3::Zero();
+  Load load_ = Load::none, load_wished_ = Load::none;
   bool engaged_ = false;      // the proxy is somewhere free and follows the hand
   bool fault_waits_ = false;  // a fault's ticks are to be copied out
   bool deposited_ = false;    // material was put on in this session

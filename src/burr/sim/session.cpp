@@ -84,6 +84,7 @@ void Session::loop(std::uint64_t ticks) {
   rt::NoWaitClock simulated(settings_.servo.rate_hz);
   rt::TickClock& clock = settings_.realtime ? static_cast<rt::TickClock&>(wall) : simulated;
   if (settings_.realtime) watchdog_->rearm(rt::monotonic_ns());
+  LoadGovernor governor(clock.period_ns(), settings_.load);
   math::Vec3 last_force = math::Vec3::Zero();
 
   for (std::uint64_t n = 0;
@@ -100,14 +101,20 @@ void Session::loop(std::uint64_t ticks) {
         watchdog_->beat(now);
       }
     }
-    const std::int64_t before = rt::thread_cpu_ns();
+    const std::int64_t began = rt::monotonic_ns(), before = rt::thread_cpu_ns();
     const record::TickRow& row = servo_->tick(lost);
     const std::int64_t took = rt::thread_cpu_ns() - before;
     servo_->note_timing(1e-3 * static_cast<double>(took), 1e-3 * static_cast<double>(time.late_ns));
     servo_->publish();
 
     stats_.add(took);
-    if (settings_.realtime) stats_.add_lateness(time.late_ns, clock.period_ns(), time.missed);
+    ++load_ticks_[static_cast<std::size_t>(servo_->load())];
+    if (settings_.realtime) {
+      stats_.add_lateness(time.late_ns, clock.period_ns(), time.missed);
+      governor.note(rt::monotonic_ns() - began, time.late_ns, time.missed);
+      servo_->set_load(governor.load());
+      load_.store(governor.load(), std::memory_order_relaxed);
+    }
     last_force = row.contact.force;
     const double force = last_force.norm();
     peak_force_ = std::max(peak_force_, force);
@@ -151,7 +158,7 @@ void Session::run(double seconds, Progress& progress) {
   thread_ =
       std::make_unique<rt::Thread>(rt::ThreadWish{.name = "servo", .realtime = settings_.realtime},
                                    [this, ticks] { loop(ticks); });
-  scheduling_ = thread_->grant().sentence;
+  grant_ = thread_->grant();
   if (settings_.realtime)
     guard_ = std::make_unique<rt::Thread>(
         rt::ThreadWish{.name = "guard", .realtime = true, .priority = 85}, [this] { guard(); });
@@ -174,7 +181,7 @@ void Session::start() {
   thread_ =
       std::make_unique<rt::Thread>(rt::ThreadWish{.name = "servo", .realtime = settings_.realtime},
                                    [this] { loop(UINT64_MAX); });
-  scheduling_ = thread_->grant().sentence;
+  grant_ = thread_->grant();
   if (settings_.realtime)
     guard_ = std::make_unique<rt::Thread>(
         rt::ThreadWish{.name = "guard", .realtime = true, .priority = 85}, [this] { guard(); });
@@ -213,7 +220,11 @@ Outcome Session::outcome() const {
   outcome.ledger = ledger_;
   outcome.flags = flags_;
   outcome.timing = stats_.summary();
-  outcome.scheduling = scheduling_;
+  outcome.scheduling = grant_.sentence;
+  outcome.load_ticks = load_ticks_;
+  for (int step = 0; step < kLoads; ++step)
+    if (load_ticks_[static_cast<std::size_t>(step)] > 0)
+      outcome.most_load = static_cast<Load>(step);
   return outcome;
 }
 

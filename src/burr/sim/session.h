@@ -11,6 +11,7 @@
 // the bone is the servo's: others read it through copy_brick() and their own watcher.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <memory>
 #include <string>
@@ -22,6 +23,7 @@
 #include "burr/record/recorder.h"
 #include "burr/rt/stats.h"
 #include "burr/rt/thread.h"
+#include "burr/sim/load.h"
 #include "burr/sim/servo.h"
 
 namespace burr::sim {
@@ -29,6 +31,7 @@ namespace burr::sim {
 struct SessionSettings {
   ServoSettings servo;
   volume::IsoSettings surface;
+  LoadSettings load;      // by the clock only: what is too much for this machine
   bool realtime = false;  // paced by the clock, watched by a watchdog; false: as fast as possible
   int threads = 2;        // for preparing the surface
 };
@@ -43,6 +46,8 @@ struct Outcome {
   std::uint32_t flags = 0;  // all that were ever raised
   rt::TickSummary timing;
   std::string scheduling;  // what the servo thread was given, one sentence
+  std::array<std::uint64_t, kLoads> load_ticks = {};  // ticks at each step of sim/load.h
+  Load most_load = Load::none;                        // the highest step ever taken
 };
 
 class Session {
@@ -73,6 +78,9 @@ class Session {
   void wish(const record::Wish& wish) { static_cast<void>(servo_->wishes().push(wish)); }
   [[nodiscard]] bool view(record::TickRow& newest) { return servo_->view().take(newest); }
   [[nodiscard]] bool fault(FaultReport& report) { return servo_->faults().take(report); }
+  // What the machine cannot keep up with just now: pictures and surface are to be made less often
+  // from Load::picture and Load::mesh on. Any thread.
+  [[nodiscard]] Load load() const { return load_.load(std::memory_order_relaxed); }
 
   [[nodiscard]] volume::Bone& bone() { return *bone_; }
   [[nodiscard]] device::Device& hand() { return *device_; }
@@ -84,6 +92,8 @@ class Session {
   [[nodiscard]] std::unique_ptr<volume::Bone> bone_before() const;
   // Only while the servo stands.
   [[nodiscard]] Outcome outcome() const;
+  // What the servo's thread was last given by the scheduler.
+  [[nodiscard]] const rt::ThreadGrant& grant() const { return grant_; }
 
  private:
   Session(std::unique_ptr<volume::Bone> bone, std::unique_ptr<device::Device> device,
@@ -102,14 +112,16 @@ class Session {
   std::unique_ptr<rt::Thread> thread_, guard_;
   std::atomic<bool> running_ = false, stop_ = false;
   std::atomic<std::uint64_t> done_ = 0;
+  std::atomic<Load> load_ = Load::none;
 
   // the servo's own account
   rt::TickStats stats_;
+  std::array<std::uint64_t, kLoads> load_ticks_ = {};
   double peak_force_ = 0, force_sum_ = 0;
   std::uint64_t touching_ = 0;
   std::uint32_t flags_ = 0;
   edit::Ledger ledger_;
-  std::string scheduling_;
+  rt::ThreadGrant grant_;
 };
 
 }  // namespace burr::sim

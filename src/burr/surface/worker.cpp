@@ -12,12 +12,14 @@ namespace burr::surface {
 namespace {
 
 constexpr auto kLook = std::chrono::milliseconds(5);  // well under a frame, and nearly no load
+constexpr auto kHeld =
+    std::chrono::milliseconds(10);  // after each patch, when others are more urgent
 
 }  // namespace
 
 struct Worker::Lane {
-  Lane(volume::Bone& bone, int index, int lanes)
-      : mesher(bone), changed(bone.add_watcher()), mine(index), of(lanes) {
+  Lane(volume::Bone& bone, int index, int lanes, const std::atomic<bool>& held_back)
+      : mesher(bone), changed(bone.add_watcher()), held(held_back), mine(index), of(lanes) {
     const auto count = static_cast<std::size_t>(mesher.patch_count());
     queued.resize(count);
     shown.resize(count);
@@ -39,6 +41,7 @@ struct Worker::Lane {
         continue;
       }
       make(due.front());
+      if (held.load(std::memory_order_relaxed)) std::this_thread::sleep_for(kHeld);
     }
   }
 
@@ -81,6 +84,7 @@ struct Worker::Lane {
   // this lane's thread only
   Mesher mesher;
   rt::ChangedBits& changed;
+  const std::atomic<bool>& held;
   int mine = 0, of = 1;
   std::deque<int> due;              // patches to make, oldest wish first
   std::vector<bool> queued, shown;  // (patches) in due; taken last time with triangles
@@ -100,7 +104,8 @@ struct Worker::Lane {
 
 Worker::Worker(volume::Bone& bone, int threads) {
   BURR_CHECK(threads >= 1);
-  for (int i = 0; i < threads; ++i) lanes_.push_back(std::make_unique<Lane>(bone, i, threads));
+  for (int i = 0; i < threads; ++i)
+    lanes_.push_back(std::make_unique<Lane>(bone, i, threads, held_));
   // all watchers are there before the first thread runs
   for (auto& lane : lanes_) lane->thread = std::thread(&Lane::run, lane.get());
 }

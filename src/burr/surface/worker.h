@@ -17,6 +17,7 @@
 // Memory: 0.9 MiB per lane and the patches under way, at most kLent per lane.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -58,12 +59,17 @@ class Worker {
   [[nodiscard]] Status first(Progress& progress, const Show& show);
   void settle(const Show& show);
 
+  // The machine has more urgent work: make the surface more slowly until told otherwise. Any
+  // thread.
+  void hold_back(bool held) { held_.store(held, std::memory_order_relaxed); }
+
   [[nodiscard]] int waiting() const;  // patches not made yet, a snapshot; any thread
 
  private:
   struct Lane;
   [[nodiscard]] bool idle_since(const std::vector<unsigned>& rounds) const;
   [[nodiscard]] std::vector<unsigned> idle_rounds() const;
+  std::atomic<bool> held_ = false;
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::size_t next_lane_ = 0;  // taken from in turn
 };

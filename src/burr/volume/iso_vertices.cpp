@@ -22,6 +22,11 @@ int class_of(int blocks) {
   return which;
 }
 
+// At least one, or a stale brick would stay so for ever.
+int part_of(int budget, double share) {
+  return budget <= 0 ? 0 : std::max(1, static_cast<int>(std::ceil(share * budget)));
+}
+
 BrickBall ball_around(const VertexBlock* blocks, int count, const math::Ijk& first) {
   std::uint16_t lo[3] = {65535, 65535, 65535}, hi[3] = {0, 0, 0};
   const int full = (count + kLanes - 1) / kLanes;
@@ -255,10 +260,10 @@ void IsoVertices::changed(BrickIndex brick, int units, std::uint64_t rows,
       }
 }
 
-void IsoVertices::refresh() BURR_RT {
+void IsoVertices::refresh(double share) BURR_RT {
   // bring the worst to the front, ties by age and index so that every machine agrees
   const std::size_t budget =
-      std::min(stale_.size(), static_cast<std::size_t>(settings_.refresh_budget));
+      std::min(stale_.size(), static_cast<std::size_t>(part_of(settings_.refresh_budget, share)));
   if (budget == 0) {
     rebuilt_last_ = 0;
     return;
@@ -278,7 +283,7 @@ void IsoVertices::refresh() BURR_RT {
             [](const Stale& a, const Stale& b) {
               return a.since != b.since ? a.since < b.since : a.brick < b.brick;
             });
-  int by_age = settings_.refresh_oldest;
+  int by_age = part_of(settings_.refresh_oldest, share);
   std::size_t kept = 0;
   rebuilt_last_ = 0;
   for (std::size_t s = 0; s < budget; ++s) {

@@ -73,9 +73,9 @@ class IsoVertices {
   // The field of `brick` changed by at most `units` in the voxels named: bit (y + 8 z) of rows, bit
   // x of columns. Remembers which bricks' vertices that makes stale.
   void changed(BrickIndex brick, int units, std::uint64_t rows, unsigned columns) BURR_RT;
-  // Makes stale bricks anew: those beyond stale_units worst first, then the oldest, within the
-  // budget. Deterministic.
-  void refresh() BURR_RT;
+  // Makes stale bricks anew: those beyond stale_units worst first, then the oldest, within `share`
+  // of the budgets (at least one brick). Deterministic.
+  void refresh(double share = 1) BURR_RT;
   // All stale bricks at once; unbounded by the budget, so not while a hand is waiting.
   void refresh_all() BURR_RT;
   [[nodiscard]] std::size_t stale() const BURR_RT { return stale_.size(); }

@@ -1,0 +1,232 @@
+// burr check - is this computer good enough? A thousand ticks a second, alone and with everything
+// else at work, beside a loop that only waits.
+//
+// Ends with 0 when it could measure, whatever the verdict: scripts read "verdict" from --json.
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "burr/device/simulated_hand.h"
+#include "burr/rt/idle_loop.h"
+#include "burr/sim/machine_check.h"
+#include "burr/sim/motion.h"
+#include "burr/sim/session.h"
+#include "command.h"
+#include "volume_options.h"
+#include "whole_session.h"
+
+namespace burr::app {
+namespace {
+
+constexpr double kRate = 1000;    // [Hz]
+constexpr double kBurr = 2.5e-3;  // radius  [m]
+
+struct Options {
+  double seconds = 12, voxel_mm = 0.2;
+  bool json = false, picture = true;
+};
+
+// A file that is gone when this is.
+struct Scratch {
+  std::string file;
+  Scratch() {
+    std::error_code trouble;
+    const auto folder = std::filesystem::temp_directory_path(trouble);
+    file = (folder / fmt::format("burr_check_{}.mcap", getpid())).string();
+  }
+  ~Scratch() {
+    std::error_code nobody_asks;
+    std::filesystem::remove(file, nobody_asks);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+};
+
+// A session on the built-in bone, milling pockets.
+struct Bench {
+  std::unique_ptr<sim::Session> session;
+  sim::WorkPlace place;
+  io::ImportSummary import;
+  VolumeOptions volume;
+};
+
+Result<Bench> make_bench(const Options& options, double seconds) {
+  Bench bench;
+  bench.volume.path = "phantom:temporal-bone";
+  bench.volume.voxel_mm = options.voxel_mm;
+  auto opened = open_volume(bench.volume, progress());
+  if (!opened) return opened.error();
+  bench.import = opened->summary;
+  auto place = sim::find_work_place(*opened->bone, kBurr, {}, {});
+  if (!place) return place.error();
+  bench.place = *place;
+  auto path = sim::motion("pocket", *place, kBurr, std::max(2.0, seconds + 1));
+  if (!path) return path.error();
+  sim::SessionSettings settings;
+  settings.realtime = true;
+  settings.servo.rate_hz = kRate;
+  settings.servo.burr.radius = kBurr;
+  auto made = sim::Session::make(
+      std::move(opened->bone),
+      std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{}), settings,
+      progress());
+  if (!made) return made.error();
+  bench.session = std::move(*made);
+  return bench;
+}
+
+rt::TickSummary wait_only(double seconds) {
+  rt::IdleLoop loop(kRate, {.name = "waiting", .realtime = true});
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (std::chrono::steady_clock::now() < end && !interrupted())
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  return loop.stop();
+}
+
+nlohmann::json json_of(const rt::TickSummary& t) {
+  return {
+      {"ticks", t.ticks},
+      {"missed", t.missed},
+      {"work_us", {{"p50", t.p50_us}, {"p99", t.p99_us}, {"p999", t.p999_us}, {"max", t.max_us}}},
+      {"late_us",
+       {{"p50", t.late_p50_us},
+        {"p99", t.late_p99_us},
+        {"p999", t.late_p999_us},
+        {"max", t.worst_lateness_us}}}};
+}
+
+void print_row(const char* what, const rt::TickSummary& t, bool works) {
+  const std::string work = works ? fmt::format("{:7.0f} {:7.0f} {:7.0f} {:7.0f}", t.p50_us,
+                                               t.p99_us, t.p999_us, t.max_us)
+                                 : fmt::format("{:>7} {:>7} {:>7} {:>7}", "-", "-", "-", "-");
+  fmt::print("{:<26} {}  {:7.0f} {:7.0f} {:7.0f} {:7.0f} {:8}\n", what, work, t.late_p50_us,
+             t.late_p99_us, t.late_p999_us, t.worst_lateness_us, t.missed);
+}
+
+void print(const sim::MachineSeen& seen, const sim::MachineJudged& judged,
+           const std::vector<std::string>& left_out) {
+  for (const sim::CheckLine& line : judged.lines) {
+    fmt::print("{:<16} {}\n", line.what, line.is);
+    if (!line.change.empty()) fmt::print("{:<16}   change: {}\n", "", line.change);
+  }
+  fmt::print("\n{:<26} {:^31}  {:^31} {:>8}\n", "1000 ticks a second, in us", "work of a tick",
+             "begins late by", "left out");
+  fmt::print("{:<26} {:>7} {:>7} {:>7} {:>7}  {:>7} {:>7} {:>7} {:>7}\n", "", "p50", "p99", "p99.9",
+             "worst", "p50", "p99", "p99.9", "worst");
+  print_row("a loop that only waits", seen.waiting, false);
+  print_row("milling", seen.milling, true);
+  print_row("waiting, all else at work", seen.waiting_loaded, false);
+  print_row("milling, all else at work", seen.milling_loaded, true);
+  for (const std::string& sentence : left_out) fmt::print("{}\n", sentence);
+  fmt::print("\n{}\n", judged.sentence);
+}
+
+void print_json(const sim::MachineSeen& seen, const sim::MachineJudged& judged,
+                const std::vector<std::string>& left_out) {
+  const rt::Machine& m = seen.machine;
+  nlohmann::json out;
+  out["verdict"] = sim::name(judged.verdict);
+  out["sentence"] = judged.sentence;
+  out["reasons"] = judged.reasons;
+  out["machine"] = {
+      {"processor", m.processor},
+      {"cores", m.cores},
+      {"core_quota", m.core_quota},
+      {"simd", m.simd},
+      {"kernel", m.kernel},
+      {"preemption", m.preemption},
+      {"preempt_rt", m.preempt_rt()},
+      {"clock_source", m.clock_source},
+      {"governor", m.governor},
+      {"virtual_machine", m.virtual_machine},
+      {"fifo_limit", m.fifo_limit},
+      {"locked_bytes", m.locked_bytes == rt::kNoLimit ? nlohmann::json("unlimited")
+                                                      : nlohmann::json(m.locked_bytes)}};
+  out["fifo"] = seen.grant.fifo;
+  out["memory_locked"] = seen.grant.locked;
+  out["waiting"] = json_of(seen.waiting);
+  out["milling"] = json_of(seen.milling);
+  out["waiting_loaded"] = json_of(seen.waiting_loaded);
+  out["milling_loaded"] = json_of(seen.milling_loaded);
+  for (const sim::CheckLine& line : judged.lines)
+    out["lines"].push_back({{"what", line.what}, {"is", line.is}, {"change", line.change}});
+  out["left_out"] = left_out;
+  fmt::print("{}\n", out.dump());
+}
+
+Status run(const Options& options) {
+  const double each = options.seconds / 3;
+  sim::MachineSeen seen;
+  seen.machine = rt::read_machine();
+
+  progress().report(0, "a loop that only waits");
+  seen.waiting = wait_only(each);
+  std::vector<std::string> left_out;
+  {
+    auto bench = make_bench(options, each);
+    if (!bench) return bench.error();
+    progress().report(0, "milling");
+    WholeOptions alone;
+    alone.seconds = each;
+    alone.picture = false;
+    auto milled =
+        run_whole(*bench->session, bench->place, bench->volume, bench->import, alone, progress());
+    if (!milled) return milled.error();
+    seen.milling = milled->session.timing;
+  }
+  {
+    auto bench = make_bench(options, each);
+    if (!bench) return bench.error();
+    const Scratch scratch;
+    WholeOptions all;
+    all.seconds = each;
+    all.picture = options.picture;
+    all.record = scratch.file;
+    all.busy = std::max(1, seen.machine.cores - 1);
+    all.waiting_beside = true;
+    auto milled =
+        run_whole(*bench->session, bench->place, bench->volume, bench->import, all, progress());
+    if (!milled) return milled.error();
+    seen.milling_loaded = milled->session.timing;
+    seen.waiting_loaded = milled->waiting;
+    seen.grant = bench->session->grant();
+    left_out = milled->left_out;
+  }
+  if (seen.milling_loaded.ticks < 100 || seen.waiting_loaded.ticks < 100)
+    return error(
+        Trouble::internal,
+        fmt::format("only {} ticks could be measured in {:.1f} s: no verdict; try a larger "
+                    "--seconds",
+                    seen.milling_loaded.ticks, each));
+  const sim::MachineJudged judged = sim::judge(seen);
+  if (options.json) {
+    print_json(seen, judged, left_out);
+  } else {
+    print(seen, judged, left_out);
+  }
+  return fine();
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("check", "is this computer good enough for a haptic device?");
+  command->add_option("--seconds", options->seconds, "of measuring, in three equal parts")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->capture_default_str();
+  command->add_option("--voxel-mm", options->voxel_mm, "of the built-in bone that is milled")
+      ->check(CLI::Range(0.1, 1.0))
+      ->capture_default_str();
+  command->add_flag("!--no-picture", options->picture, "draw nothing meanwhile");
+  command->add_flag("--json", options->json, "one JSON object on the last line");
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{75, add};
+
+}  // namespace
+}  // namespace burr::app
