@@ -112,9 +112,13 @@ Result<std::unique_ptr<volume::Bone>> bone_from_blob(ByteSpan blob, std::size_t 
       std::make_unique<volume::Bone>(head.grid, std::move(head.tissues), total,
                                      std::min(reserve_bricks, kMostReserve), head.with_intensity);
   BrickIndex last = volume::kNoBrick;
+  volume::BrickField field;
   for (;;) {
     const std::size_t n = in.get<std::uint32_t>();
-    if (n == 0) return bone;
+    if (n == 0) {
+      bone->pack();
+      return bone;
+    }
     static_cast<void>(unpack(in.take(in.get<std::uint64_t>()), n * per_brick, block));
     in.get<std::uint32_t>();
     const std::uint8_t* indexes = block.data();
@@ -126,8 +130,8 @@ Result<std::unique_ptr<volume::Bone>> bone_from_blob(ByteSpan blob, std::size_t 
       std::memcpy(&brick, indexes + i * sizeof brick, sizeof brick);
       if (brick <= last || brick >= bone->brick_count()) return damaged;
       last = brick;
-      std::memcpy(bone->build_field(brick), fields + i * kBrickVoxels * 2, kBrickVoxels * 2);
-      std::memcpy(bone->build_tissue(brick), tissues + i * kBrickVoxels, kBrickVoxels);
+      std::memcpy(field.voxel, fields + i * kBrickVoxels * 2, sizeof field.voxel);
+      bone->build_brick(brick, field.voxel, tissues + i * kBrickVoxels);
       if (head.with_intensity)
         std::memcpy(bone->build_intensity(brick), intensities + i * kBrickVoxels * 2,
                     kBrickVoxels * 2);
