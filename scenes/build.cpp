@@ -203,8 +203,7 @@ Result<std::unique_ptr<Bone>> bone_from_formula(const volume::Grid& grid,
   // every brick has its place, so workers may fill them at once
   for (std::vector<Sampled>& block : found) {
     for (const Sampled& from : block) {
-      std::copy_n(from.field, kBrickVoxels, bone->build_field(from.brick));
-      std::copy_n(from.tissue, kBrickVoxels, bone->build_tissue(from.brick));
+      bone->build_brick(from.brick, from.field, from.tissue);
     }
     block = {};
   }
@@ -212,11 +211,15 @@ Result<std::unique_ptr<Bone>> bone_from_formula(const volume::Grid& grid,
   const int parts = (static_cast<int>(solid.size()) + kAtOnce - 1) / kAtOnce;
   share(parts, threads, progress, "filling bone", [&](int n) {
     const std::size_t first = static_cast<std::size_t>(n) * kAtOnce;
+    volume::BrickField field;
+    TissueId tissue[kBrickVoxels];
     for (std::size_t s = first; s < std::min(first + kAtOnce, solid.size()); ++s) {
-      sampler.fill_solid(solid[s], bone->build_field(solid[s]), bone->build_tissue(solid[s]));
+      sampler.fill_solid(solid[s], field.voxel, tissue);
+      bone->build_brick(solid[s], field.voxel, tissue);
     }
   });
   if (progress.cancelled()) return error(Trouble::interrupted, "stopped while shaping the bone");
+  bone->pack();
   progress.report(1, "filling bone");
   return bone;
 }

@@ -1,14 +1,18 @@
 // burr bench load / memory - from a file on disk to the first whole surface: how long, and how much
 // memory.
 #include <fmt/core.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "bench.h"
 #include "burr/device/simulated_hand.h"
+#include "burr/render/scene.h"
 #include "burr/sim/motion.h"
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
@@ -28,7 +32,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// VmHWM (the most ever) or VmRSS (now) of this process  [MB]; 0 where the system does not say
+// VmHWM (the most ever) or VmRSS (now) of this process, memory shared with others included  [MB];
+// 0 where the system does not say
 double memory_mb(const std::string& field) {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -63,40 +68,97 @@ Status load(const Options& options) {
   return fine();
 }
 
-// As a session has it: bone, surface for touch, undo memory, visible surface; a second of milling.
+// Passes progress on and notes how much memory there was when each stage ended.
+class Stages final : public Progress {
+ public:
+  struct Stage {
+    std::string name;
+    double now_mb = 0, most_mb = 0;  // at its end; most_mb since the program began
+  };
+  void report(double fraction, std::string_view stage) override {
+    app::progress().report(fraction, stage);
+    if (meanwhile) meanwhile();
+    if (stage == stage_) return;
+    end();
+    stage_ = stage;
+  }
+  [[nodiscard]] bool cancelled() const override { return app::progress().cancelled(); }
+  void end() {
+    if (!stage_.empty()) all_.push_back({stage_, memory_mb("VmRSS"), memory_mb("VmHWM")});
+    stage_.clear();
+  }
+  [[nodiscard]] const std::vector<Stage>& all() const { return all_; }
+
+  std::function<void()> meanwhile;  // what the caller's thread does besides
+
+ private:
+  std::string stage_;
+  std::vector<Stage> all_;
+};
+
+// As a session with a picture has it: bone, surface for touch, undo memory, visible surface; a
+// second of milling. What a graphics card or its stand-in keeps comes on top.
 Status memory(const Options& options) {
-  auto opened = app::open_volume(options.volume, app::progress());
+  Stages stages;
+  stages.report(0, "the program");
+  auto opened = app::open_volume(options.volume, stages);
   if (!opened) return opened.error();
   const double radius = 0.5e-3 * options.burr_mm;
+  stages.report(0, "preparing the session");
   auto place = sim::find_work_place(*opened->bone, radius, {}, {});
   if (!place) return place.error();
   auto path = sim::motion("pocket", *place, radius, 2);
   if (!path) return path.error();
   sim::SessionSettings settings;
   settings.servo.burr.radius = radius;
-  auto session =
-      sim::Session::make(std::move(opened->bone),
-                         std::make_unique<device::SimulatedHand>(*path, device::ArmSettings{}),
-                         settings, app::progress());
+  auto session = sim::Session::make(
+      std::move(opened->bone),
+      std::make_unique<device::SimulatedHand>(*path, device::ArmSettings{}), settings, stages);
   if (!session) return session.error();
   surface::Worker worker((*session)->bone(), 2);
-  std::vector<surface::Patch> patches;  // kept, as a picture would
-  const Status skinned = worker.first(
-      app::progress(), [&patches](const surface::Skin& skin) { patches.push_back(*skin.mesh); });
+  render::Scene scene;
+  std::size_t triangles = 0;
+  const auto show = [&scene](const surface::Skin& skin) {
+    render::set_patch(scene, skin.patch, *skin.mesh);
+  };
+  const Status skinned = worker.first(stages, [&](const surface::Skin& skin) {
+    triangles += skin.mesh->triangles.size() / 3;
+    show(skin);
+  });
   if (!skinned) return skinned;
-  (*session)->run(1, app::progress());
+  stages.meanwhile = [&] {
+    for (surface::Skin skin; worker.take(skin); worker.give_back(skin)) show(skin);
+  };
+  (*session)->run(1, stages);
+  stages.end();
   const double peak = memory_mb("VmHWM"), steady = memory_mb("VmRSS");
+  rusage children = {};  // a reader in a process of its own, gone by now
+  getrusage(RUSAGE_CHILDREN, &children);
+  const double reader = static_cast<double>(children.ru_maxrss) / 1024;
+  const double touch = 1e-6 * static_cast<double>((*session)->surface().memory_bytes());
   if (options.json) {
-    fmt::print("{}\n",
-               nlohmann::json{
-                   {"peak_MB", peak},
-                   {"steady_MB", steady},
-                   {"bone_MB", 1e-6 * 1536 * static_cast<double>((*session)->bone().used_slots())},
-                   {"touch_MB", 1e-6 * static_cast<double>((*session)->surface().memory_bytes())}}
-                   .dump());
+    nlohmann::json table = nlohmann::json::array();
+    for (const Stages::Stage& stage : stages.all())
+      table.push_back(
+          {{"stage", stage.name}, {"now_MB", stage.now_mb}, {"most_MB", stage.most_mb}});
+    fmt::print(
+        "{}\n",
+        nlohmann::json{{"peak_MB", peak},
+                       {"steady_MB", steady},
+                       {"reader_peak_MB", reader},
+                       {"bone_MB", 1e-6 * static_cast<double>((*session)->bone().memory_bytes())},
+                       {"touch_MB", touch},
+                       {"triangles", triangles},
+                       {"stages", table}}
+            .dump());
   } else {
-    fmt::print("{:.0f} MB at most, {:.0f} MB now, of which the surface for touch {:.0f} MB\n", peak,
-               steady, 1e-6 * static_cast<double>((*session)->surface().memory_bytes()));
+    for (const Stages::Stage& stage : stages.all())
+      fmt::print("{:24} {:5.0f} MB, at most {:5.0f} MB so far\n", stage.name, stage.now_mb,
+                 stage.most_mb);
+    fmt::print(
+        "{:.0f} MB at most, {:.0f} MB now, of which the surface for touch {:.0f} MB; {} "
+        "triangles\n",
+        peak, steady, touch, triangles);
   }
   return fine();
 }

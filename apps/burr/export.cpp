@@ -42,11 +42,11 @@ std::unique_ptr<volume::Bone> copy_of(const volume::Bone& from, std::size_t rese
                                              reserve_bricks, from.has_intensity());
   for (volume::BrickIndex brick = 0; brick < from.brick_count(); ++brick) {
     if (from.brick_field(brick) == nullptr) continue;
-    std::copy_n(from.brick_field(brick), volume::kBrickVoxels, copy->build_field(brick));
-    std::copy_n(from.brick_tissue(brick), volume::kBrickVoxels, copy->build_tissue(brick));
+    copy->build_brick(brick, from.brick_field(brick), from.brick_tissue(brick));
     if (from.has_intensity())
       std::copy_n(from.brick_intensity(brick), volume::kBrickVoxels, copy->build_intensity(brick));
   }
+  copy->pack();
   return copy;
 }
 

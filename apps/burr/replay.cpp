@@ -56,8 +56,7 @@ Status film(const Options& options, record::Player& player, const sim::Recorded&
   scene.tissue_colours = render::colours_of((*bone)->tissues());
   surface::Worker worker(**bone, 1);
   const auto show = [&scene](const surface::Skin& skin) {
-    surface::Patch copy = *skin.mesh;
-    render::set_patch(scene, skin.patch, std::move(copy));
+    render::set_patch(scene, skin.patch, *skin.mesh);
   };
   const Status skinned = worker.first(progress(), show);
   if (!skinned) return skinned;

@@ -52,8 +52,7 @@ Scene bumpy_scene(int n = 5, int steps = 160) {
   Scene scene;
   scene.tissue_colours = {{0, 0, 0}, {0.89F, 0.85F, 0.76F}, {0.9F, 0.75F, 0.35F}};
   auto parts = test::cut(test::bumpy(0.05, steps), n);
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    set_patch(scene, static_cast<int>(i), std::move(parts[i]));
+  for (std::size_t i = 0; i < parts.size(); ++i) set_patch(scene, static_cast<int>(i), parts[i]);
   scene.camera = whole_view(scene, 0.4, 0.3, 1.5);
   return scene;
 }
@@ -316,10 +315,10 @@ TEST(Picture, OnlyChangedPatchesAreSentAndNoDifferenceIsSeen) {
                  Vec3(0, -1, uniform(random)));
     const auto which = static_cast<std::size_t>(random() % scene.patches.size());
     if (scene.patches[which].mesh != nullptr) {
-      surface::Patch sunk = *scene.patches[which].mesh;
+      surface::Patch sunk = test::unpacked(*scene.patches[which].mesh);
       for (auto& v : sunk.vertices) v.p -= 1e-3F * v.n;
       if (step % 5 == 4) sunk = {};
-      set_patch(scene, static_cast<int>(which), std::move(sunk));
+      set_patch(scene, static_cast<int>(which), sunk);
     }
     ASSERT_TRUE(gpu.show(scene).ok());
     EXPECT_LE(gpu.figures().patches_uploaded, 1);
@@ -338,9 +337,8 @@ TEST(Picture, OnlyChangedPatchesAreSentAndNoDifferenceIsSeen) {
 TEST(Picture, PatchesOutOfSightOrTurnedAwayAreNotDrawn) {
   BURR_NEEDS_GPU(gpu);
   Scene scene = ball_scene(Vec3::Zero(), 0.03, 100);
-  auto parts = test::cut(*scene.patches[0].mesh, 8);
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    set_patch(scene, static_cast<int>(i), std::move(parts[i]));
+  auto parts = test::cut(test::unpacked(*scene.patches[0].mesh), 8);
+  for (std::size_t i = 0; i < parts.size(); ++i) set_patch(scene, static_cast<int>(i), parts[i]);
   ASSERT_TRUE(gpu.image(scene, 300, 200).ok());
   const long whole = gpu.figures().triangles_drawn;
   int all = 0;
@@ -422,8 +420,7 @@ TEST(Picture, TheMouseFindsTheBallToATenthOfAMillimetre) {
   std::uniform_real_distribution<double> uniform(0, 1);
   Scene scene;
   auto parts = test::cut(test::ball({0.01, 0, 0.02}, 0.03, 150), 4);
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    set_patch(scene, static_cast<int>(i), std::move(parts[i]));
+  for (std::size_t i = 0; i < parts.size(); ++i) set_patch(scene, static_cast<int>(i), parts[i]);
   scene.camera = whole_view(scene, 0, 0, 1);
   int hits = 0;
   for (int i = 0; i < 500; ++i) {

@@ -36,6 +36,15 @@ inline surface::Patch ball(const math::Vec3& centre, double radius, int steps,
   return patch;
 }
 
+// A patch again from what a scene keeps of it.
+inline surface::Patch unpacked(const render::SkinMesh& mesh) {
+  surface::Patch patch;
+  for (const render::SkinVertex& v : mesh.vertices())
+    patch.vertices.push_back({v.p, render::normal_of(v), render::tissue_of(v)});
+  for (std::size_t n = 0; n < mesh.index_count(); ++n) patch.triangles.push_back(mesh.index(n));
+  return patch;
+}
+
 // The same surface in n x n x n patches, as a mesher would cut it: each triangle where its middle
 // lies.
 inline std::vector<surface::Patch> cut(const surface::Patch& whole, int n) {

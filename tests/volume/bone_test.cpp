@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <thread>
 #include <vector>
+
+#include "support/rt_guard.h"
 
 namespace burr::volume {
 namespace {
@@ -63,6 +67,109 @@ TEST(Bone, HashSeesTheFieldAndForgetsEmptyBricks) {
   content.voxel[0] = 1;
   two->write_brick(4, content);
   EXPECT_NE(one->content_hash(), two->content_hash());
+}
+
+// 4 x 4 x 4 bricks: solid but for two voxels, of tissue 2 with one voxel of 3, none to spare.
+std::unique_ptr<Bone> mostly_solid(std::size_t reserve) {
+  Grid grid;
+  grid.size = {32, 32, 32};
+  TissueTable table;
+  table.tissues.resize(4);
+  std::vector<Field> field(32 * 32 * 32, kSolid);
+  std::vector<TissueId> tissue(field.size(), 2);
+  field[0] = 1000;
+  field[31 + 32 * (31 + 32 * 31)] = 0;
+  tissue[9] = 3;
+  return bone_from_arrays(grid, table, field, tissue, {}, reserve);
+}
+
+TEST(Bone, UniformBricksShareOneSlotUntilTheyAreWritten) {
+  const auto bone = mostly_solid(0);
+  EXPECT_EQ(bone->used_slots(), 64U);
+  EXPECT_FALSE(bone->is_uniform(0));
+  EXPECT_TRUE(bone->is_uniform(1));
+  EXPECT_FALSE(bone->is_uniform(63));
+  EXPECT_EQ(bone->brick_field(1), bone->brick_field(2));
+  EXPECT_EQ(bone->brick_tissue(0), bone->brick_tissue(2)) << "all of tissue 2";
+  EXPECT_NE(bone->brick_tissue(1), bone->brick_tissue(2)) << "one voxel of 3";
+  EXPECT_LT(bone->memory_bytes(), 64 * 1024U) << "64 bricks would take 96 KiB";
+
+  const std::size_t before = bone->memory_bytes();
+  const std::uint64_t hash = bone->content_hash();
+  BrickField content{};
+  content.voxel[511] = 40000;
+  const test::RtGuard guard;
+  bone->write_brick(5, content);
+  bone->set_tissue(16, 0, 0, 3);
+  EXPECT_EQ(guard.allocations(), 0);
+  EXPECT_EQ(guard.locks(), 0);
+  EXPECT_EQ(bone->field(15, 15, 7), 40000);
+  EXPECT_EQ(bone->field(8, 8, 0), 0);
+  EXPECT_EQ(bone->field(16, 8, 0), kSolid) << "the next brick shares on";
+  EXPECT_EQ(bone->tissue(16, 0, 0), 3);
+  EXPECT_EQ(bone->tissue(17, 0, 0), 2);
+  EXPECT_EQ(bone->tissue(24, 0, 0), 2);
+  EXPECT_EQ(bone->shared_tissue(16, 0, 0), 3);
+  EXPECT_EQ(bone->memory_bytes() - before, sizeof(BrickField) + sizeof(rt::Version) + kBrickVoxels);
+
+  // and back: the same bone, whatever is shared
+  std::fill_n(content.voxel, kBrickVoxels, kSolid);
+  bone->write_brick(5, content);
+  bone->set_tissue(16, 0, 0, 2);
+  EXPECT_EQ(bone->content_hash(), hash);
+  bone->pack();
+  EXPECT_EQ(bone->content_hash(), hash);
+  EXPECT_EQ(bone->memory_bytes(), before);
+}
+
+TEST(Bone, EveryBrickThatSharesMayBeWrittenWhateverTheReserve) {
+  const auto bone = mostly_solid(0);
+  BrickField content;
+  for (BrickIndex b = 0; b < bone->brick_count(); ++b) {
+    std::fill_n(content.voxel, kBrickVoxels, static_cast<Field>(b + 1));
+    bone->write_brick(b, content);
+    const math::Ijk first = bone->brick_ijk(b);
+    bone->set_tissue(first.x(), first.y(), first.z(), 1);
+  }
+  for (BrickIndex b = 0; b < bone->brick_count(); ++b) {
+    const math::Ijk first = bone->brick_ijk(b);
+    for (int v = 0; v < kBrickVoxels; ++v)
+      ASSERT_EQ(bone->brick_field(b)[v], b + 1) << "brick " << b << " voxel " << v;
+    ASSERT_EQ(bone->tissue(first.x(), first.y(), first.z()), 1);
+    ASSERT_EQ(bone->tissue(first.x() + 7, first.y(), first.z()), 2);
+  }
+}
+
+TEST(Bone, AReaderOfASharedBrickSeesItBeforeOrAfterItsFirstWrite) {
+  for (int round = 0; round < 20; ++round) {
+    const auto bone = mostly_solid(0);
+    std::atomic<bool> done = false;
+    std::thread writer([&] {
+      BrickField content;
+      std::fill_n(content.voxel, kBrickVoxels, Field{1234});
+      for (BrickIndex b = 1; b < 63; ++b) {
+        const math::Ijk first = bone->brick_ijk(b);
+        bone->set_tissue(first.x() + 3, first.y(), first.z(), 3);
+        bone->write_brick(b, content);
+      }
+      done = true;
+    });
+    BrickField seen;
+    for (bool last = false; !last;) {
+      last = done;
+      for (BrickIndex b = 1; b < 63; ++b) {
+        if (!bone->copy_brick(b, seen)) continue;
+        ASSERT_TRUE(seen.voxel[0] == kSolid || seen.voxel[0] == 1234);
+        for (const Field voxel : seen.voxel) ASSERT_EQ(voxel, seen.voxel[0]);
+        const math::Ijk first = bone->brick_ijk(b);
+        if (seen.voxel[0] == 1234) {
+          ASSERT_EQ(bone->shared_tissue(first.x() + 3, first.y(), first.z()), 3);
+        }
+        ASSERT_EQ(bone->shared_tissue(first.x() + 4, first.y(), first.z()), 2);
+      }
+    }
+    writer.join();
+  }
 }
 
 TEST(Bone, AReaderNeverSeesHalfAWrite) {

@@ -295,7 +295,7 @@ std::string flag_words(std::uint32_t flags) {
 
 void put_skin(render::Scene& scene, const surface::Skin& skin) {
   if (skin.mesh == nullptr) return;
-  render::set_patch(scene, skin.patch, surface::Patch(*skin.mesh));
+  render::set_patch(scene, skin.patch, *skin.mesh);
 }
 
 Status run_window(sim::Session& session, MouseHand& hand, surface::Worker& worker,

@@ -10,13 +10,27 @@ namespace burr::edit {
 using volume::BrickIndex;
 using volume::kBrickVoxels;
 
+namespace {
+
+// Bricks: several ticks of the widest burr, and 3 MiB.
+constexpr std::uint64_t kAhead = 2048;
+
+}  // namespace
+
 UndoStore::UndoStore(const volume::Bone& bone, std::size_t stroke_bricks)
     : bone_(bone),
       entries_(std::max<std::size_t>(stroke_bricks, 64)),
       strokes_(4096),
       kept_in_(static_cast<std::size_t>(bone.brick_count())),
       originals_(bone.used_slots() + bone.free_slots()),
-      original_at_(static_cast<std::size_t>(bone.brick_count()), -1) {}
+      original_at_(static_cast<std::size_t>(bone.brick_count()), -1) {
+  take_ahead();
+}
+
+void UndoStore::take_ahead() {
+  entries_.have(entries_told_.load(std::memory_order_relaxed) + kAhead);
+  originals_.have(originals_told_.load(std::memory_order_relaxed) + kAhead);
+}
 
 void UndoStore::copy(const volume::Bone& bone, BrickIndex brick, KeptBrick& to) BURR_RT {
   to.brick = brick;
@@ -48,6 +62,7 @@ bool UndoStore::keep(BrickIndex brick) BURR_RT {
     BURR_CHECK(originals_used_ < originals_.size());  // one for every brick that can hold anything
     original_at_[at] = static_cast<std::int32_t>(originals_used_);
     copy(bone_, brick, originals_[originals_used_++]);
+    originals_told_.store(originals_used_, std::memory_order_relaxed);
   }
   Stroke& now = stroke(done_ - 1);
   if (kept_in_[at] == serial_ || overflowed_) return overflowed_;
@@ -65,6 +80,7 @@ bool UndoStore::keep(BrickIndex brick) BURR_RT {
   kept_in_[at] = serial_;
   copy(bone_, brick, entry(next_entry_));
   ++next_entry_;
+  entries_told_.store(next_entry_, std::memory_order_relaxed);
   ++now.count;
   return forgot;
 }

@@ -5,12 +5,16 @@
 // in the bone now, so the same entries serve redo. When the memory is full the oldest stroke is
 // forgotten, and that is said. The start is never forgotten.
 //
-// Thread: servo. Memory: 1.5 KiB a brick, all taken (and touched) at construction.
+// Thread: servo; take_ahead() on any one other. Memory: 1.5 KiB for each brick ever changed and
+// each that a stroke remembers, taken a little ahead of use; addresses for all of them at
+// construction.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
+#include "burr/rt/promised.h"
 #include "burr/rt/rt.h"
 #include "burr/volume/bone.h"
 
@@ -26,6 +30,10 @@ class UndoStore {
  public:
   // stroke_bricks: how many bricks all remembered strokes may touch together
   UndoStore(const volume::Bone& bone, std::size_t stroke_bricks);
+
+  // Takes the memory the next strokes will need; call it every few milliseconds while the servo
+  // cuts, from another thread.
+  void take_ahead();
 
   // ---- while cutting
   void begin_stroke(std::uint64_t path_mark) BURR_RT;  // forgets what could have been redone
@@ -72,7 +80,7 @@ class UndoStore {
   }
 
   const volume::Bone& bone_;
-  std::vector<KeptBrick> entries_;  // a ring
+  rt::Promised<KeptBrick> entries_;  // a ring
   std::uint64_t next_entry_ = 0;
   std::vector<Stroke> strokes_;  // a ring
   std::uint64_t oldest_ = 0, done_ = 0,
@@ -80,9 +88,12 @@ class UndoStore {
   std::uint64_t serial_ = 0;  // of the open stroke; never used twice
   bool open_ = false, overflowed_ = false;
   std::vector<std::uint64_t> kept_in_;  // (brick_count) serial of the stroke that kept it last
-  std::vector<KeptBrick> originals_;
+  rt::Promised<KeptBrick> originals_;
   std::size_t originals_used_ = 0;
   std::vector<std::int32_t> original_at_;  // (brick_count) -1: never changed
+
+  // how far the memory is used, told to whoever takes it ahead
+  std::atomic<std::uint64_t> entries_told_ = 0, originals_told_ = 0;
 };
 
 }  // namespace burr::edit

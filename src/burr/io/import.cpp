@@ -419,10 +419,7 @@ Result<Imported> import_bone(const Scan& scan, const ImportOptions& options, Pro
     if (!made) return made;
     const volume::Bone& bone = *made->bone;
     made->summary.solid_mm3 = volume::volume_of(bone) * 1e9;
-    const auto slots = static_cast<double>(bone.used_slots() + bone.free_slots());
-    made->summary.memory_mb = (slots * volume::kBrickVoxels * (bone.has_intensity() ? 5.0 : 3.0) +
-                               static_cast<double>(bone.brick_count()) * 4) /
-                              1048576.0;
+    made->summary.memory_mb = static_cast<double>(bone.memory_bytes()) / 1048576.0;
     if (made->summary.solid_mm3 <= 0)
       return error("no bone is left at this surface level; choose another with --iso");
     return made;

@@ -53,6 +53,8 @@ struct Desk {
   std::array<std::uint8_t, kBlockVoxels> labels;
   std::vector<Point> points;
   Sums sums;
+  std::array<Field, volume::kBrickVoxels> field;  // the brick being made
+  std::array<TissueId, volume::kBrickVoxels> tissue;
 };
 
 // Reads the block around a brick; beyond the border of the grid the last voxels go on.
@@ -458,24 +460,30 @@ std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueT
 
   // slots first and in order, so that the same scan gives the same bone whoever fills it
   std::vector<BrickIndex> list;
-  std::vector<Target> targets;
   list.reserve(used);
-  targets.reserve(used);
   for (BrickIndex b = 0; b < bone->brick_count(); ++b) {
     if (needed[static_cast<std::size_t>(b)] == 0) continue;
     list.push_back(b);
-    targets.push_back({bone->build_field(b), bone->build_tissue(b),
-                       bone->has_intensity() ? bone->build_intensity(b) : nullptr});
+    bone->ensure_slot(b);
   }
   constexpr std::size_t kPortion = 64;
   const int portions = static_cast<int>((list.size() + kPortion - 1) / kPortion);
   const bool done = in_pieces(portions, progress, "finding the surface", [&](int portion) {
     thread_local std::unique_ptr<Desk> desk = std::make_unique<Desk>();
     const std::size_t from = static_cast<std::size_t>(portion) * kPortion;
-    for (std::size_t n = from; n < std::min(list.size(), from + kPortion); ++n)
-      fill_brick(inside, grey_tissue, bone->brick_ijk(list[n]), *desk, targets[n]);
+    for (std::size_t n = from; n < std::min(list.size(), from + kPortion); ++n) {
+      const Target made = {desk->field.data(), desk->tissue.data(),
+                           bone->has_intensity() ? bone->build_intensity(list[n]) : nullptr};
+      desk->field.fill(0);  // of voxels beyond the grid
+      desk->tissue.fill(0);
+      fill_brick(inside, grey_tissue, bone->brick_ijk(list[n]), *desk, made);
+      // here, so that what is the same throughout never touches the room it was promised
+      bone->build_brick(list[n], made.field, made.tissue);
+    }
   });
-  return done ? std::move(bone) : nullptr;
+  if (!done) return nullptr;
+  bone->pack();
+  return bone;
 }
 
 std::vector<double> keep_volumes(Bone& bone, const std::vector<double>& wanted_voxels) {
@@ -525,7 +533,7 @@ std::vector<double> keep_volumes(Bone& bone, const std::vector<double>& wanted_v
     if (bone.tissues()[static_cast<TissueId>(t)].kind == volume::TissueKind::soft)
       shifts[t] = shifts[largest];
   for (BrickIndex b = 0; b < bone.brick_count(); ++b) {
-    if (bone.brick_field(b) == nullptr) continue;
+    if (bone.brick_field(b) == nullptr || bone.is_uniform(b)) continue;
     Field* field = bone.build_field(b);
     const TissueId* tissue = bone.brick_tissue(b);
     for (int v = 0; v < volume::kBrickVoxels; ++v)

@@ -118,9 +118,13 @@ Result<std::unique_ptr<volume::Bone>> bone_from_blob(ByteSpan blob, std::size_t 
   auto bone =
       std::make_unique<volume::Bone>(head.grid, std::move(head.tissues), total,
                                      std::min(reserve_bricks, kMostReserve), head.with_intensity);
+  volume::BrickField field;
   for (;;) {
     const std::size_t n = in.get<std::uint32_t>();
-    if (n == 0) return bone;
+    if (n == 0) {
+      bone->pack();
+      return bone;
+    }
     static_cast<void>(unpack(in.take(in.get<std::uint64_t>()), n * per_brick, block));
     in.get<std::uint32_t>();
     const std::uint8_t* indexes = block.data();
@@ -130,8 +134,8 @@ Result<std::unique_ptr<volume::Bone>> bone_from_blob(ByteSpan blob, std::size_t 
     for (std::size_t i = 0; i < n; ++i) {
       BrickIndex brick = volume::kNoBrick;
       std::memcpy(&brick, indexes + i * sizeof brick, sizeof brick);
-      std::memcpy(bone->build_field(brick), fields + i * kBrickVoxels * 2, kBrickVoxels * 2);
-      std::memcpy(bone->build_tissue(brick), tissues + i * kBrickVoxels, kBrickVoxels);
+      std::memcpy(field.voxel, fields + i * kBrickVoxels * 2, sizeof field.voxel);
+      bone->build_brick(brick, field.voxel, tissues + i * kBrickVoxels);
       if (head.with_intensity)
         std::memcpy(bone->build_intensity(brick), intensities + i * kBrickVoxels * 2,
                     kBrickVoxels * 2);

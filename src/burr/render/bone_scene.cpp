@@ -11,7 +11,7 @@ namespace burr::render {
 
 Status skin_bone(Scene& scene, const volume::Bone& bone, int threads, Progress& progress) {
   const int count = surface::Mesher(bone).patch_count();
-  std::vector<surface::Patch> patches(static_cast<std::size_t>(count));
+  std::vector<ScenePatch> patches(static_cast<std::size_t>(count));
 
   // workers take patches in handfuls; the first one, this thread, reports
   constexpr int kHandful = 64;
@@ -19,13 +19,16 @@ Status skin_bone(Scene& scene, const volume::Bone& bone, int threads, Progress& 
   std::atomic<bool> stop = false;
   const auto work = [&](bool reports) {
     surface::Mesher mesher(bone);
+    surface::Patch mesh;
     while (!stop) {
       const int first = next.fetch_add(kHandful);
       if (first >= count) return;
-      for (int patch = first; patch < std::min(first + kHandful, count); ++patch)
+      for (int patch = first; patch < std::min(first + kHandful, count); ++patch) {
         // at rest nobody writes: this succeeds at once
-        while (!mesher.mesh_patch(patch, patches[static_cast<std::size_t>(patch)])) {
+        while (!mesher.mesh_patch(patch, mesh)) {
         }
+        patches[static_cast<std::size_t>(patch)] = packed(mesh);
+      }
       if (!reports) continue;
       progress.report(static_cast<double>(first) / count, "finding the surface");
       if (progress.cancelled()) stop = true;

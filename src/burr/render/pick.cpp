@@ -21,11 +21,11 @@ double entry(const math::Aabb& box, const Ray& ray, const Vec3& inverse) {
   return in <= out ? in : std::numeric_limits<double>::infinity();
 }
 
-void pick_in(const surface::Patch& mesh, const Ray& ray, Hit& nearest) {
-  for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
-    const surface::Vertex& a = mesh.vertices[mesh.triangles[t]];
-    const surface::Vertex& b = mesh.vertices[mesh.triangles[t + 1]];
-    const surface::Vertex& c = mesh.vertices[mesh.triangles[t + 2]];
+void pick_in(const SkinMesh& mesh, const Ray& ray, Hit& nearest) {
+  for (std::size_t t = 0; t + 2 < mesh.index_count(); t += 3) {
+    const SkinVertex& a = mesh.vertices()[mesh.index(t)];
+    const SkinVertex& b = mesh.vertices()[mesh.index(t + 1)];
+    const SkinVertex& c = mesh.vertices()[mesh.index(t + 2)];
 
     // Moeller & Trumbore 1997, front faces only
     const Vec3 pa = a.p.cast<double>();
@@ -44,10 +44,10 @@ void pick_in(const surface::Patch& mesh, const Ray& ray, Hit& nearest) {
 
     nearest.distance = distance;
     nearest.p = ray.origin + distance * ray.direction;
-    nearest.n =
-        ((area - u - v) * a.n.cast<double>() + u * b.n.cast<double>() + v * c.n.cast<double>())
-            .normalized();
-    nearest.tissue = a.tissue;
+    nearest.n = ((area - u - v) * normal_of(a).cast<double>() + u * normal_of(b).cast<double>() +
+                 v * normal_of(c).cast<double>())
+                    .normalized();
+    nearest.tissue = tissue_of(a);
   }
 }
 

@@ -16,18 +16,25 @@ std::vector<Colour> colours_of(const volume::TissueTable& tissues) {
   return colours;
 }
 
-void set_patch(Scene& scene, int index, surface::Patch&& patch) {
+ScenePatch packed(const surface::Patch& patch) {
+  ScenePatch made;
+  if (patch.triangles.empty()) return made;
+  for (const surface::Vertex& vertex : patch.vertices) made.box.extend(vertex.p.cast<double>());
+  made.mesh = std::make_shared<const SkinMesh>(patch);
+  return made;
+}
+
+void set_patch(Scene& scene, int index, ScenePatch&& patch) {
   BURR_CHECK(index >= 0);
   const auto place = static_cast<std::size_t>(index);
   if (place >= scene.patches.size()) scene.patches.resize(place + 1);
-
   ScenePatch& entry = scene.patches[place];
-  ++entry.version;
-  entry.box = {};
-  entry.mesh = nullptr;
-  if (patch.triangles.empty()) return;
-  for (const surface::Vertex& vertex : patch.vertices) entry.box.extend(vertex.p.cast<double>());
-  entry.mesh = std::make_shared<const surface::Patch>(std::move(patch));
+  patch.version = entry.version + 1;
+  entry = std::move(patch);
+}
+
+void set_patch(Scene& scene, int index, const surface::Patch& patch) {
+  set_patch(scene, index, packed(patch));
 }
 
 math::Aabb bounds(const Scene& scene) {

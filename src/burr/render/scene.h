@@ -2,7 +2,7 @@
 //
 //     Scene scene;
 //     scene.tissue_colours = colours_of(bone.tissues());
-//     set_patch(scene, 17, std::move(patch));            // again whenever the bone changed there
+//     set_patch(scene, 17, patch);                       // again whenever the bone changed there
 //     scene.camera = whole_view(scene, 0, 0.3, 16.0 / 9);
 //
 // Frame: world (LPS). Units: m. Thread: one at a time; a copy is cheap, the patches are shared.
@@ -17,13 +17,14 @@
 #include "burr/math/pose.h"
 #include "burr/render/camera.h"
 #include "burr/render/look.h"
+#include "burr/render/skin_mesh.h"
 #include "burr/surface/patch.h"
 
 namespace burr::render {
 
 // One patch of surface. Whoever draws keeps its own copy and renews it when `version` differs.
 struct ScenePatch {
-  std::shared_ptr<const surface::Patch> mesh;  // nullptr: no surface here
+  std::shared_ptr<const SkinMesh> mesh;  // nullptr: no surface here
   std::uint64_t version = 0;
   math::Aabb box;  // of its vertices
 };
@@ -70,7 +71,10 @@ struct Scene {
 [[nodiscard]] std::vector<Colour> colours_of(const volume::TissueTable& tissues);
 
 // Puts a patch at its place (grows the list if needed) and raises its version.
-void set_patch(Scene& scene, int index, surface::Patch&& patch);
+void set_patch(Scene& scene, int index, const surface::Patch& patch);
+// The same in two steps, the first of them on any thread.
+[[nodiscard]] ScenePatch packed(const surface::Patch& patch);
+void set_patch(Scene& scene, int index, ScenePatch&& patch);
 
 // All patches; empty if there is none.
 [[nodiscard]] math::Aabb bounds(const Scene& scene);

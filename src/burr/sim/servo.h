@@ -109,6 +109,9 @@ class Servo {
   [[nodiscard]] bool restoring() const BURR_RT { return restore_ != Restore::none; }
   // Everything still owed to the diary, regardless of budget; after the last tick.
   void flush_bricks() BURR_RT;
+  // Takes the memory that undo will need next; every few milliseconds while it ticks, from one
+  // other thread.
+  void take_ahead() { undo_.take_ahead(); }
 
  private:
   enum class Restore { none, lifting, restoring, settling };

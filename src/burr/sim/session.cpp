@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::int64_t kFadeNs = 5'000'000;  // from detection of a loss to zero force
 constexpr std::int64_t kGuardNs = 500'000;   // between two looks of the guard
+constexpr auto kAheadPause = std::chrono::milliseconds(5);  // between two of taking memory ahead
 
 }  // namespace
 
@@ -149,12 +150,19 @@ void Session::guard() {
   }
 }
 
-void Session::run(double seconds, Progress& progress) {
+// The memory that cutting will need is there before the servo comes to it.
+void Session::take_ahead() {
+  while (running_.load(std::memory_order_acquire)) {
+    bone_->take_ahead();
+    surface_->take_ahead();
+    servo_->take_ahead();
+    std::this_thread::sleep_for(kAheadPause);
+  }
+}
+
+void Session::begin(std::uint64_t ticks) {
   stop_ = false;
   running_ = true;
-  const auto ticks =
-      static_cast<std::uint64_t>(std::llround(std::max(0.0, seconds) * settings_.servo.rate_hz));
-  const std::uint64_t before = done_.load();
   thread_ =
       std::make_unique<rt::Thread>(rt::ThreadWish{.name = "servo", .realtime = settings_.realtime},
                                    [this, ticks] { loop(ticks); });
@@ -162,6 +170,15 @@ void Session::run(double seconds, Progress& progress) {
   if (settings_.realtime)
     guard_ = std::make_unique<rt::Thread>(
         rt::ThreadWish{.name = "guard", .realtime = true, .priority = 85}, [this] { guard(); });
+  ahead_ = std::make_unique<rt::Thread>(rt::ThreadWish{.name = "ahead", .stack_bytes = 0},
+                                        [this] { take_ahead(); });
+}
+
+void Session::run(double seconds, Progress& progress) {
+  const auto ticks =
+      static_cast<std::uint64_t>(std::llround(std::max(0.0, seconds) * settings_.servo.rate_hz));
+  const std::uint64_t before = done_.load();
+  begin(ticks);
   while (running_.load(std::memory_order_acquire)) {
     if (progress.cancelled()) stop_ = true;
     if (ticks > 0)
@@ -176,15 +193,7 @@ void Session::run(double seconds, Progress& progress) {
 void Session::start() {
   if (running_.load()) return;
   stop();
-  stop_ = false;
-  running_ = true;
-  thread_ =
-      std::make_unique<rt::Thread>(rt::ThreadWish{.name = "servo", .realtime = settings_.realtime},
-                                   [this] { loop(UINT64_MAX); });
-  grant_ = thread_->grant();
-  if (settings_.realtime)
-    guard_ = std::make_unique<rt::Thread>(
-        rt::ThreadWish{.name = "guard", .realtime = true, .priority = 85}, [this] { guard(); });
+  begin(UINT64_MAX);
 }
 
 void Session::stop() {
@@ -194,6 +203,8 @@ void Session::stop() {
   running_ = false;
   if (guard_) guard_->join();
   guard_.reset();
+  if (ahead_) ahead_->join();
+  ahead_.reset();
 }
 
 std::unique_ptr<volume::Bone> Session::bone_before() const {
@@ -204,10 +215,9 @@ std::unique_ptr<volume::Bone> Session::bone_before() const {
     if (field == nullptr) continue;
     const edit::KeptBrick* kept = servo_->undo_store().original_of(brick);
     const volume::TissueId* tissue = kept != nullptr ? kept->tissue : bone_->brick_tissue(brick);
-    std::copy_n(kept != nullptr ? kept->field.voxel : field, volume::kBrickVoxels,
-                before->build_field(brick));
-    std::copy_n(tissue, volume::kBrickVoxels, before->build_tissue(brick));
+    before->build_brick(brick, kept != nullptr ? kept->field.voxel : field, tissue);
   }
+  before->pack();
   return before;
 }
 

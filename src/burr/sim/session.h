@@ -98,8 +98,10 @@ class Session {
  private:
   Session(std::unique_ptr<volume::Bone> bone, std::unique_ptr<device::Device> device,
           const SessionSettings& settings);
+  void begin(std::uint64_t ticks);
   void loop(std::uint64_t ticks);
   void guard();
+  void take_ahead();
 
   std::unique_ptr<volume::Bone> bone_;
   std::unique_ptr<device::Device> device_;
@@ -109,7 +111,7 @@ class Session {
   std::unique_ptr<haptics::Watchdog> watchdog_;
   record::Recorder* recorder_ = nullptr;
 
-  std::unique_ptr<rt::Thread> thread_, guard_;
+  std::unique_ptr<rt::Thread> thread_, guard_, ahead_;
   std::atomic<bool> running_ = false, stop_ = false;
   std::atomic<std::uint64_t> done_ = 0;
   std::atomic<Load> load_ = Load::none;

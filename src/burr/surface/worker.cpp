@@ -11,6 +11,7 @@
 namespace burr::surface {
 namespace {
 
+constexpr std::size_t kSpare = 16;                    // patches a resting lane keeps room for
 constexpr auto kLook = std::chrono::milliseconds(5);  // well under a frame, and nearly no load
 constexpr auto kHeld =
     std::chrono::milliseconds(10);  // after each patch, when others are more urgent
@@ -36,7 +37,10 @@ struct Worker::Lane {
     while (!stop.load(std::memory_order_relaxed)) {
       look();
       if (due.empty() || lent == kLent) {
-        if (due.empty()) idle.fetch_add(1, std::memory_order_release);
+        if (due.empty()) {
+          shed();
+          idle.fetch_add(1, std::memory_order_release);
+        }
         std::this_thread::sleep_for(kLook);
         continue;
       }
@@ -57,6 +61,14 @@ struct Worker::Lane {
       --lent;
     }
     waiting.store(static_cast<int>(due.size()), std::memory_order_relaxed);
+  }
+
+  // The first surface has many under way at once, milling few.
+  void shed() {
+    for (std::size_t n = 0; n + kSpare < free.size(); ++n) {
+      if (free[n]->vertices.capacity() == 0) continue;
+      *free[n] = Patch{};
+    }
   }
 
   void make(int patch) {

@@ -15,6 +15,42 @@ std::size_t inside_brick(int i, int j, int k) {
   return static_cast<std::size_t>((i & 7) + 8 * ((j & 7) + 8 * (k & 7)));
 }
 
+std::unique_ptr<std::atomic<std::int32_t>[]> no_slots(BrickIndex bricks) {
+  auto made = std::make_unique<std::atomic<std::int32_t>[]>(static_cast<std::size_t>(bricks));
+  for (BrickIndex b = 0; b < bricks; ++b)
+    made[static_cast<std::size_t>(b)].store(kNoSlot, std::memory_order_relaxed);
+  return made;
+}
+
+// Bricks that can be written for the first time before take_ahead() is called again.
+constexpr std::size_t kAhead = 1024;
+
+template <class T>
+bool same_throughout(const T* brick) {
+  return std::memcmp(brick, brick + 1, (kBrickVoxels - 1) * sizeof(T)) == 0;
+}
+
+// Moves the slots that bricks point to down over those that none does, in the order they lie, and
+// gives the rest back. Returns how many there are then.
+template <class T>
+std::size_t close_gaps(std::atomic<std::int32_t>* slot_of, BrickIndex bricks, std::int32_t first,
+                       std::size_t used, rt::Promised<T>& pool) {
+  std::vector<BrickIndex> owner(used, kNoBrick);
+  for (BrickIndex b = 0; b < bricks; ++b)
+    if (const std::int32_t slot = slot_of[b]; slot >= first)
+      owner[static_cast<std::size_t>(slot)] = b;
+  auto next = static_cast<std::size_t>(first);
+  for (std::size_t slot = next; slot < used; ++slot) {
+    if (owner[slot] == kNoBrick) continue;
+    if (next != slot)
+      std::memcpy(pool.data() + next * kBrickVoxels, pool.data() + slot * kBrickVoxels,
+                  kBrickVoxels * sizeof(T));
+    slot_of[owner[slot]].store(static_cast<std::int32_t>(next++), std::memory_order_relaxed);
+  }
+  pool.give_back(next * kBrickVoxels);
+  return next;
+}
+
 }  // namespace
 
 Bone::Bone(const Grid& grid, TissueTable tissues, std::size_t capacity_bricks,
@@ -24,48 +60,53 @@ Bone::Bone(const Grid& grid, TissueTable tissues, std::size_t capacity_bricks,
       bricks_((grid.size.array() + kBrickEdge - 1) / kBrickEdge),
       brick_count_(bricks_.prod()),
       capacity_(std::min(capacity_bricks + reserve_bricks, static_cast<std::size_t>(brick_count_))),
-      directory_(
-          std::make_unique<std::atomic<std::int32_t>[]>(static_cast<std::size_t>(brick_count_))),
-      versions_(std::make_unique<rt::Version[]>(capacity_)),
-      field_(capacity_ * kBrickVoxels),  // zeroed, so the pages are there before the first tick
-      tissue_(capacity_ * kBrickVoxels),
+      fields_(kFirstField),
+      tissues_used_(kFirstTissue),
+      directory_(no_slots(brick_count_)),
+      tissue_at_(no_slots(brick_count_)),
+      intensity_at_(with_intensity ? no_slots(brick_count_) : nullptr),
+      versions_(std::make_unique<rt::Version[]>(kFirstField + capacity_)),
+      field_((kFirstField + capacity_) * kBrickVoxels),
+      tissue_((kFirstTissue + capacity_) * kBrickVoxels),
       intensity_(with_intensity ? capacity_ * kBrickVoxels : 0) {
   BURR_CHECK(grid.size.minCoeff() > 0 && grid.voxel > 0);
-  for (BrickIndex b = 0; b < brick_count_; ++b) directory_[static_cast<std::size_t>(b)] = kNoSlot;
+  std::fill_n(field_.data() + at(kSolidSlot), kBrickVoxels, kSolid);
+  for (std::size_t id = 1; id < std::min<std::size_t>(tissues_.tissues.size(), kFirstTissue); ++id)
+    std::fill_n(tissue_.data() + id * kBrickVoxels, kBrickVoxels, static_cast<TissueId>(id));
 }
 
-std::int32_t Bone::slot_of(int i, int j, int k) const BURR_RT {
+std::int32_t Bone::slot_of(int i, int j, int k, const Directory& slots) const BURR_RT {
   if (!grid_.contains({i, j, k})) return kNoSlot;
   const BrickIndex brick = brick_at(i >> 3, j >> 3, k >> 3);
-  return directory_[static_cast<std::size_t>(brick)].load(std::memory_order_relaxed);
+  return slots[static_cast<std::size_t>(brick)].load(std::memory_order_relaxed);
 }
 
 Field Bone::field(int i, int j, int k) const BURR_RT {
-  const std::int32_t slot = slot_of(i, j, k);
+  const std::int32_t slot = slot_of(i, j, k, directory_);
   return slot == kNoSlot ? Field{0} : field_[at(slot) + inside_brick(i, j, k)];
 }
 
 TissueId Bone::tissue(int i, int j, int k) const BURR_RT {
-  const std::int32_t slot = slot_of(i, j, k);
+  const std::int32_t slot = slot_of(i, j, k, tissue_at_);
   return slot == kNoSlot ? TissueId{0} : tissue_[at(slot) + inside_brick(i, j, k)];
 }
 
 std::int16_t Bone::intensity(int i, int j, int k) const BURR_RT {
-  const std::int32_t slot = slot_of(i, j, k);
-  return slot == kNoSlot || intensity_.empty() ? std::int16_t{-1024}
-                                               : intensity_[at(slot) + inside_brick(i, j, k)];
+  const std::int32_t slot = intensity_.empty() ? kNoSlot : slot_of(i, j, k, intensity_at_);
+  return slot == kNoSlot ? std::int16_t{-1024} : intensity_[at(slot) + inside_brick(i, j, k)];
 }
 
 const TissueId* Bone::brick_tissue(BrickIndex brick) const BURR_RT {
   const std::int32_t slot =
-      directory_[static_cast<std::size_t>(brick)].load(std::memory_order_relaxed);
+      tissue_at_[static_cast<std::size_t>(brick)].load(std::memory_order_relaxed);
   return slot == kNoSlot ? nullptr : tissue_.data() + at(slot);
 }
 
 const std::int16_t* Bone::brick_intensity(BrickIndex brick) const BURR_RT {
+  if (intensity_.empty()) return nullptr;
   const std::int32_t slot =
-      directory_[static_cast<std::size_t>(brick)].load(std::memory_order_relaxed);
-  return slot == kNoSlot || intensity_.empty() ? nullptr : intensity_.data() + at(slot);
+      intensity_at_[static_cast<std::size_t>(brick)].load(std::memory_order_relaxed);
+  return slot == kNoSlot ? nullptr : intensity_.data() + at(slot);
 }
 
 bool Bone::copy_brick(BrickIndex brick, BrickField& out) const BURR_RT {
@@ -84,11 +125,20 @@ TissueId Bone::shared_tissue(int i, int j, int k) const BURR_RT {
   if (!grid_.contains({i, j, k})) return 0;
   const BrickIndex brick = brick_at(i >> 3, j >> 3, k >> 3);
   const std::int32_t slot =
-      directory_[static_cast<std::size_t>(brick)].load(std::memory_order_acquire);
+      tissue_at_[static_cast<std::size_t>(brick)].load(std::memory_order_acquire);
   if (slot == kNoSlot) return 0;
   // atomic_ref wants a non-const object; it is only read
   auto& voxel = const_cast<TissueId&>(tissue_[at(slot) + inside_brick(i, j, k)]);
   return std::atomic_ref<TissueId>(voxel).load(std::memory_order_relaxed);
+}
+
+std::size_t Bone::memory_bytes() const {
+  // of the shared tissues only those of the table were ever written
+  const std::size_t tissues = tissues_used_ - kFirstTissue + tissues_.tissues.size();
+  return fields_ * (sizeof(BrickField) + sizeof(rt::Version)) + tissues * kBrickVoxels +
+         (intensity_.empty() ? 0 : used_ * kBrickVoxels * sizeof(std::int16_t)) +
+         static_cast<std::size_t>(brick_count_) * sizeof(std::int32_t) *
+             (intensity_.empty() ? 2 : 3);
 }
 
 rt::ChangedBits& Bone::add_watcher() {
@@ -97,48 +147,127 @@ rt::ChangedBits& Bone::add_watcher() {
 }
 
 std::int32_t Bone::ensure_slot(BrickIndex brick) BURR_RT {
-  std::atomic<std::int32_t>& entry = directory_[static_cast<std::size_t>(brick)];
-  const std::int32_t slot = entry.load(std::memory_order_relaxed);
+  const auto b = static_cast<std::size_t>(brick);
+  const std::int32_t slot = directory_[b].load(std::memory_order_relaxed);
   if (slot != kNoSlot) return slot;
   if (used_ == capacity_) return kNoSlot;
-  const auto fresh = static_cast<std::int32_t>(used_++);
-  entry.store(fresh, std::memory_order_release);  // readers that see the slot see its zeros
+  const auto fresh = static_cast<std::int32_t>(fields_++);
+  if (!intensity_.empty())
+    intensity_at_[b].store(static_cast<std::int32_t>(used_), std::memory_order_relaxed);
+  ++used_;
+  // readers that see a slot see its zeros
+  tissue_at_[b].store(static_cast<std::int32_t>(tissues_used_++), std::memory_order_release);
+  directory_[b].store(fresh, std::memory_order_release);
+  fields_told_.store(fields_, std::memory_order_relaxed);
+  tissues_told_.store(tissues_used_, std::memory_order_relaxed);
+  return fresh;
+}
+
+// A slot of the brick's own. There is one for each: every brick that counts as used shares, or has,
+// at most one. keep: with the same content; otherwise the caller fills and publishes it.
+std::int32_t Bone::own_field(BrickIndex brick, bool keep) BURR_RT {
+  std::atomic<std::int32_t>& entry = directory_[static_cast<std::size_t>(brick)];
+  const std::int32_t slot = entry.load(std::memory_order_relaxed);
+  BURR_CHECK(slot != kNoSlot);
+  if (slot >= kFirstField) return slot;
+  BURR_CHECK(fields_ < kFirstField + capacity_);
+  const auto fresh = static_cast<std::int32_t>(fields_++);
+  fields_told_.store(fields_, std::memory_order_relaxed);
+  if (!keep) return fresh;
+  std::memcpy(field_.data() + at(fresh), field_.data() + at(slot), sizeof(BrickField));
+  entry.store(fresh, std::memory_order_release);
+  return fresh;
+}
+
+std::int32_t Bone::own_tissue(BrickIndex brick) BURR_RT {
+  std::atomic<std::int32_t>& entry = tissue_at_[static_cast<std::size_t>(brick)];
+  const std::int32_t slot = entry.load(std::memory_order_relaxed);
+  BURR_CHECK(slot != kNoSlot);
+  if (slot >= kFirstTissue) return slot;
+  BURR_CHECK(tissues_used_ < kFirstTissue + capacity_);
+  const auto fresh = static_cast<std::int32_t>(tissues_used_++);
+  tissues_told_.store(tissues_used_, std::memory_order_relaxed);
+  std::memcpy(tissue_.data() + at(fresh), tissue_.data() + at(slot), kBrickVoxels);
+  entry.store(fresh, std::memory_order_release);  // readers that see the slot see its tissue
   return fresh;
 }
 
 void Bone::write_brick(BrickIndex brick, const BrickField& content) BURR_RT {
-  const std::int32_t slot =
-      directory_[static_cast<std::size_t>(brick)].load(std::memory_order_relaxed);
-  BURR_CHECK(slot != kNoSlot);
+  const std::int32_t slot = own_field(brick, false);
   rt::versioned_write(versions_[static_cast<std::size_t>(slot)],
                       reinterpret_cast<std::uint64_t*>(field_.data() + at(slot)),
                       reinterpret_cast<const std::uint64_t*>(&content), kBrickWords);
+  directory_[static_cast<std::size_t>(brick)].store(slot, std::memory_order_release);
   for (const auto& watcher : watchers_) watcher->mark(static_cast<std::size_t>(brick));
 }
 
 void Bone::set_tissue(int i, int j, int k, TissueId tissue) BURR_RT {
-  const std::int32_t slot = slot_of(i, j, k);
-  BURR_CHECK(slot != kNoSlot);
+  BURR_CHECK(grid_.contains({i, j, k}));
+  const std::int32_t slot = own_tissue(brick_at(i >> 3, j >> 3, k >> 3));
   std::atomic_ref<TissueId>(tissue_[at(slot) + inside_brick(i, j, k)])
       .store(tissue, std::memory_order_relaxed);
 }
 
+void Bone::take_ahead() {
+  field_.have((fields_told_.load(std::memory_order_relaxed) + kAhead) * kBrickVoxels);
+  tissue_.have((tissues_told_.load(std::memory_order_relaxed) + kAhead) * kBrickVoxels);
+}
+
 Field* Bone::build_field(BrickIndex brick) {
-  const std::int32_t slot = ensure_slot(brick);
-  BURR_CHECK(slot != kNoSlot);
-  return field_.data() + at(slot);
+  BURR_CHECK(ensure_slot(brick) != kNoSlot);
+  return field_.data() + at(own_field(brick, true));
 }
 
 TissueId* Bone::build_tissue(BrickIndex brick) {
-  const std::int32_t slot = ensure_slot(brick);
-  BURR_CHECK(slot != kNoSlot);
-  return tissue_.data() + at(slot);
+  BURR_CHECK(ensure_slot(brick) != kNoSlot);
+  return tissue_.data() + at(own_tissue(brick));
 }
 
 std::int16_t* Bone::build_intensity(BrickIndex brick) {
-  const std::int32_t slot = ensure_slot(brick);
-  BURR_CHECK(slot != kNoSlot && !intensity_.empty());
-  return intensity_.data() + at(slot);
+  BURR_CHECK(ensure_slot(brick) != kNoSlot && !intensity_.empty());
+  return intensity_.data() +
+         at(intensity_at_[static_cast<std::size_t>(brick)].load(std::memory_order_relaxed));
+}
+
+bool Bone::can_share(const Field* field) const {
+  return (field[0] == 0 || field[0] == kSolid) && same_throughout(field);
+}
+
+bool Bone::can_share(const TissueId* tissue) const {
+  return (tissue[0] == 0 || tissue[0] < tissues_.tissues.size()) && same_throughout(tissue);
+}
+
+void Bone::build_brick(BrickIndex brick, const Field* field, const TissueId* tissue) {
+  BURR_CHECK(ensure_slot(brick) != kNoSlot);
+  const auto b = static_cast<std::size_t>(brick);
+  if (can_share(field))
+    directory_[b].store(field[0] == 0 ? kZeroSlot : kSolidSlot, std::memory_order_relaxed);
+  else
+    std::copy_n(field, kBrickVoxels, build_field(brick));
+  if (can_share(tissue))
+    tissue_at_[b].store(tissue[0], std::memory_order_relaxed);
+  else
+    std::copy_n(tissue, kBrickVoxels, build_tissue(brick));
+}
+
+void Bone::pack() {
+  // share what can be shared
+  for (std::size_t b = 0; b < static_cast<std::size_t>(brick_count_); ++b) {
+    if (const std::int32_t slot = directory_[b]; slot >= kFirstField)
+      if (const Field* field = field_.data() + at(slot); can_share(field))
+        directory_[b] = field[0] == 0 ? kZeroSlot : kSolidSlot;
+    if (const std::int32_t slot = tissue_at_[b]; slot >= kFirstTissue)
+      if (const TissueId* tissue = tissue_.data() + at(slot); can_share(tissue))
+        tissue_at_[b] = tissue[0];
+  }
+  // and close the gaps
+  fields_ = close_gaps(directory_.get(), brick_count_, kFirstField, fields_, field_);
+  tissues_used_ = close_gaps(tissue_at_.get(), brick_count_, kFirstTissue, tissues_used_, tissue_);
+  for (std::size_t slot = 0; slot < kFirstField + capacity_; ++slot)
+    versions_[slot].store(0, std::memory_order_relaxed);
+  fields_told_ = fields_;
+  tissues_told_ = tissues_used_;
+  take_ahead();
 }
 
 std::uint64_t Bone::content_hash() const {
@@ -213,6 +342,7 @@ std::unique_ptr<Bone> bone_from_arrays(const Grid& grid, TissueTable tissues,
         if (to_intensity != nullptr) std::copy_n(&intensity[from], n, to_intensity + to);
       }
   }
+  bone->pack();
   return bone;
 }
 

@@ -7,17 +7,22 @@
 //                  intensity 16 bit  HU of the scan, only if the scan had them
 //     per brick    8 x 8 x 8 voxels, x fastest; a slot in one pool, or none where all is air
 //
-//     directory:  [ -1 | 17 | -1 | 4 | ... ]  one entry per brick of the grid -> slot in the pool
-//     pool:       [ used bricks .......... | reserve for deposited material ]   made before the
-//     session
+//     directory:  [ -1 | 17 | -1 | 1 | ... ]  one entry per brick of the grid -> slot in the pool
+//     pool:       [ all 0 | all solid | bricks of their own ... | promised ]
+//     tissue:     the same again, with a shared slot for each tissue that fills whole bricks
+//
+// After pack() all bricks that are the same throughout share one slot; the first write of such a
+// brick gives it one of its own, whose addresses were promised before the session. Half of a real
+// temporal bone is like that.
 //
 // Outside the grid is air. Field below the surface may be cut or added to; tissue and intensity
 // stay, except under deposited material.
 //
 // Thread: build it with one thread; then one writer (the servo), which reads plainly, and any
 // number of readers through copy_brick(), each told by its own ChangedBits what to look at again.
-// Memory: 1 KiB field + 0.5 KiB tissue (+ 1 KiB intensity) per used or reserved brick, 4 B per
-// brick of the grid.
+// Memory: 1 KiB per brick of its own field, 0.5 KiB per brick of mixed tissue, 1 KiB per used brick
+// where intensity is kept; 8 B per brick of the grid. What deposits and first writes may need
+// beyond that is promised, and taken a little ahead of use (rt/promised.h).
 #pragma once
 
 #include <atomic>
@@ -27,6 +32,7 @@
 #include <vector>
 
 #include "burr/rt/changed_bits.h"
+#include "burr/rt/promised.h"
 #include "burr/rt/rt.h"
 #include "burr/rt/versioned.h"
 #include "burr/volume/grid.h"
@@ -75,9 +81,12 @@ class Bone {
     return bricks_;
   }  // bricks along each axis
   [[nodiscard]] BrickIndex brick_count() const BURR_RT { return brick_count_; }
+  // bricks that hold material, and how many more may
   [[nodiscard]] std::size_t used_slots() const BURR_RT { return used_; }
   [[nodiscard]] std::size_t free_slots() const BURR_RT { return capacity_ - used_; }
   [[nodiscard]] bool has_intensity() const BURR_RT { return !intensity_.empty(); }
+  // of what is in use now, without what is promised; before the session or on the writer's thread
+  [[nodiscard]] std::size_t memory_bytes() const;
   [[nodiscard]] BrickIndex brick_at(int bi, int bj, int bk) const BURR_RT {
     return bi + bricks_.x() * (bj + bricks_.y() * bk);
   }
@@ -97,6 +106,12 @@ class Bone {
         directory_[static_cast<std::size_t>(brick)].load(std::memory_order_relaxed);
     return slot == kNoSlot ? nullptr
                            : field_.data() + static_cast<std::size_t>(slot) * kBrickVoxels;
+  }  // good until the brick is written
+  // known to be all 0 or all kSolid; false may still be
+  [[nodiscard]] bool is_uniform(BrickIndex brick) const BURR_RT {
+    const std::int32_t slot =
+        directory_[static_cast<std::size_t>(brick)].load(std::memory_order_relaxed);
+    return slot == kZeroSlot || slot == kSolidSlot;
   }
   [[nodiscard]] const TissueId* brick_tissue(BrickIndex brick) const BURR_RT;
   [[nodiscard]] const std::int16_t* brick_intensity(BrickIndex brick) const BURR_RT;
@@ -119,28 +134,46 @@ class Bone {
   void set_tissue(int i, int j, int k,
                   TissueId tissue) BURR_RT;  // voxel must be in a brick with a slot
 
-  // ---- building, before the session
+  // Takes the memory that writing will need next; call it every few milliseconds while the servo
+  // cuts, from one other thread.
+  void take_ahead();
+
+  // ---- building, before the session; different bricks that have a slot on different threads
   Field* build_field(BrickIndex brick);  // gives it a slot; (8 x 8 x 8)
   TissueId* build_tissue(BrickIndex brick);
   std::int16_t* build_intensity(BrickIndex brick);
+  // Gives the brick a slot and this content, (8 x 8 x 8) each; what is the same throughout takes no
+  // room. Not to be built again before pack().
+  void build_brick(BrickIndex brick, const Field* field, const TissueId* tissue);
+  // Afterwards, on one thread: uniform bricks share a slot, and the others move together.
+  void pack();
 
   // Hash of the geometry, every field and tissue value; same bone, same number. Slow (a pass over
   // all bricks).
   [[nodiscard]] std::uint64_t content_hash() const;
 
  private:
-  [[nodiscard]] std::int32_t slot_of(int i, int j, int k) const BURR_RT;
+  using Directory = std::unique_ptr<std::atomic<std::int32_t>[]>;  // (brick_count) slot or -1
+  [[nodiscard]] std::int32_t slot_of(int i, int j, int k, const Directory& slots) const BURR_RT;
+  std::int32_t own_field(BrickIndex brick, bool keep) BURR_RT;
+  std::int32_t own_tissue(BrickIndex brick) BURR_RT;
+  [[nodiscard]] bool can_share(const Field* field) const;
+  [[nodiscard]] bool can_share(const TissueId* tissue) const;
+
+  static constexpr std::int32_t kZeroSlot = 0, kSolidSlot = 1, kFirstField = 2, kFirstTissue = 256;
 
   Grid grid_;
   TissueTable tissues_;
   math::Ijk bricks_;
   BrickIndex brick_count_ = 0;
-  std::size_t capacity_ = 0, used_ = 0;
-  std::unique_ptr<std::atomic<std::int32_t>[]> directory_;  // (brick_count)
-  std::unique_ptr<rt::Version[]> versions_;                 // (capacity)
-  std::vector<Field> field_;                                // (capacity x 512)
-  std::vector<TissueId> tissue_;                            // (capacity x 512)
-  std::vector<std::int16_t> intensity_;                     // (capacity x 512) or empty
+  std::size_t capacity_ = 0, used_ = 0;             // bricks
+  std::size_t fields_ = 0, tissues_used_ = 0;       // slots in use, the shared ones included
+  Directory directory_, tissue_at_, intensity_at_;  // the last only with intensity
+  std::unique_ptr<rt::Version[]> versions_;         // (2 + capacity)
+  rt::Promised<Field> field_;                       // (2 + capacity) x 512
+  rt::Promised<TissueId> tissue_;                   // (256 + capacity) x 512
+  rt::Promised<std::int16_t> intensity_;            // (capacity x 512) or empty
+  std::atomic<std::size_t> fields_told_ = 0, tissues_told_ = 0;  // for take_ahead()
   std::vector<std::unique_ptr<rt::ChangedBits>> watchers_;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <mutex>
 #include <thread>
 
 #include "burr/base/check.h"
@@ -26,6 +27,9 @@ int class_of(int blocks) {
 int part_of(int budget, double share) {
   return budget <= 0 ? 0 : std::max(1, static_cast<int>(std::ceil(share * budget)));
 }
+// Blocks that are there before the tick comes to them: a hundred milliseconds of the fastest
+// milling, and 1 MiB.
+constexpr std::size_t kAhead = 4096;
 
 BrickBall ball_around(const VertexBlock* blocks, int count, const math::Ijk& first) {
   std::uint16_t lo[3] = {65535, 65535, 65535}, hi[3] = {0, 0, 0};
@@ -80,21 +84,40 @@ IsoVertices::IsoVertices(const Bone& bone, const IsoSettings& settings, int thre
       balls_(static_cast<std::size_t>(bone.brick_count())),
       places_(balls_.size()),
       lost_(balls_.size()) {
-  // Workers take slabs of bricks and keep what they find apart; then everything is laid into one
-  // pool, in order.
+  // Workers take slabs of bricks; what they find is laid into one pool, slab after slab in order.
   const int slabs = bone.bricks().z();
   struct Found {
     std::vector<VertexBlock> blocks;
     std::vector<std::pair<BrickIndex, int>> counts;
+    bool ready = false;
   };
   std::vector<Found> found(static_cast<std::size_t>(slabs));
+  std::mutex laying;
+  std::size_t laid = 0;  // slabs in the pool
+  std::size_t regrown = 0, bricks = 0;
+  const auto lay = [&](const Found& slab) {
+    if (pool_.size() < pool_used_ + slab.blocks.size())
+      pool_.grow(std::max(2 * pool_.size(), pool_used_ + slab.blocks.size()));
+    const VertexBlock* from = slab.blocks.data();
+    for (const auto& [brick, count] : slab.counts) {
+      // exactly what it needs; a brick that grows moves into the reserve
+      const int blocks = (count + kLanes - 1) / kLanes;
+      places_[static_cast<std::size_t>(brick)] = {static_cast<std::uint32_t>(pool_used_), 0,
+                                                  static_cast<std::uint16_t>(blocks)};
+      pool_used_ += static_cast<std::size_t>(blocks);
+      store(brick, from, count);
+      from += blocks;
+      regrown += static_cast<std::size_t>(kClassBlocks[class_of(blocks)]);
+      ++bricks;
+    }
+  };
   std::atomic<int> next = 0;
   const auto work = [&](bool tells) {
     std::vector<std::uint16_t> padded(kPadVoxels);
     std::vector<VertexBlock> out(kMostBlocks);
     for (int slab = next++; slab < slabs; slab = next++) {
       if (tells) progress.report(static_cast<double>(slab) / slabs, "finding the surface");
-      Found& mine = found[static_cast<std::size_t>(slab)];
+      Found mine;
       for (int bj = 0; bj < bone_.bricks().y(); ++bj)
         for (int bi = 0; bi < bone_.bricks().x(); ++bi) {
           const BrickIndex brick = bone_.brick_at(bi, bj, slab);
@@ -114,6 +137,13 @@ IsoVertices::IsoVertices(const Bone& bone, const IsoSettings& settings, int thre
                              out.begin() + (count + kLanes - 1) / kLanes);
           mine.counts.emplace_back(brick, count);
         }
+      mine.ready = true;
+      const std::lock_guard lock(laying);
+      found[static_cast<std::size_t>(slab)] = std::move(mine);
+      for (; laid < found.size() && found[laid].ready; ++laid) {
+        lay(found[laid]);
+        found[laid] = {};
+      }
     }
   };
   std::vector<std::thread> helpers;
@@ -121,25 +151,16 @@ IsoVertices::IsoVertices(const Bone& bone, const IsoSettings& settings, int thre
   work(true);
   for (std::thread& helper : helpers) helper.join();
 
-  std::size_t blocks = settings_.reserve_blocks, bricks = 0;
-  for (const Found& slab : found)
-    for (const auto& [brick, count] : slab.counts) {
-      blocks += static_cast<std::size_t>(kClassBlocks[class_of((count + kLanes - 1) / kLanes)]);
-      ++bricks;
-    }
-  pool_.resize(blocks);
+  // so that every brick may grow once, and more
+  pool_.grow(pool_used_ + regrown + settings_.reserve_blocks);
   stale_.reserve(balls_.size());
   for (auto& list : free_) list.reserve(bricks + settings_.reserve_blocks / 4);
-  for (Found& slab : found) {
-    const VertexBlock* from = slab.blocks.data();
-    for (const auto& [brick, count] : slab.counts) {
-      store(brick, from, count);
-      from += (count + kLanes - 1) / kLanes;
-    }
-    slab = {};
-  }
+  pool_told_ = pool_used_;
+  take_ahead();
   progress.report(1, "finding the surface");
 }
+
+void IsoVertices::take_ahead() { pool_.have(pool_told_.load(std::memory_order_relaxed) + kAhead); }
 
 unsigned IsoVertices::low_border(BrickIndex brick) const BURR_RT {
   const math::Ijk first = bone_.brick_ijk(brick);
@@ -181,11 +202,15 @@ bool IsoVertices::take_room(Place& place, int blocks) BURR_RT {
   } else if (pool_used_ + static_cast<std::size_t>(kClassBlocks[wanted]) <= pool_.size()) {
     first = static_cast<std::uint32_t>(pool_used_);
     pool_used_ += static_cast<std::size_t>(kClassBlocks[wanted]);
+    pool_told_.store(pool_used_, std::memory_order_relaxed);
   } else {
     return false;
   }
-  if (place.room > 0) {
-    auto& list = free_[class_of(place.room)];
+  // the first room of a brick may lie between two classes: it serves the lower one
+  if (place.room >= kClassBlocks[0]) {
+    int given = class_of(place.room);
+    if (kClassBlocks[given] > place.room) --given;
+    auto& list = free_[given];
     if (list.size() < list.capacity()) list.push_back(place.first);
   }
   place.first = first;
@@ -316,7 +341,7 @@ int IsoVertices::worst_staleness() const BURR_RT {
 }
 
 std::size_t IsoVertices::memory_bytes() const {
-  return pool_.size() * sizeof(VertexBlock) +
+  return pool_used_ * sizeof(VertexBlock) +
          balls_.size() * (sizeof(BrickBall) + sizeof(Place) + 2) +
          stale_.capacity() * sizeof(Stale);
 }

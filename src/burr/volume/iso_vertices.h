@@ -7,15 +7,18 @@
 // anew. While milling that may be put off: the error of a stale brick is then on the safe side (the
 // bone only recedes) and bounded by what its field lost meanwhile.
 //
-// Thread: the servo's (or one thread before the session). Frame: p_grid [voxel]. Memory: 14 B a
-// vertex, 20 B a brick of the grid; all taken at construction. Cost: see bench/volume.
+// Thread: the servo's (or one thread before the session); take_ahead() on any one other. Frame:
+// p_grid [voxel]. Memory: 14 B a vertex, 26 B a brick of the grid; more is taken a little ahead of
+// use where milling lays surface bare, its addresses at construction. Cost: see bench/volume.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "burr/base/progress.h"
+#include "burr/rt/promised.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/iso_kernel.h"
 
@@ -34,7 +37,7 @@ struct IsoSettings {
   int refresh_budget = 30;  // bricks made anew per call of refresh(), worst first
   int refresh_oldest = 10;  // of these, how many are taken by age even if they lost little
   std::size_t reserve_blocks =
-      1 << 16;  // of 16 vertices: room for the surface that milling lays bare
+      1 << 16;  // of 16 vertices: room for the surface that milling lays bare, promised, not taken
 };
 
 class IsoVertices {
@@ -84,6 +87,9 @@ class IsoVertices {
   // true once: the pool was full and a brick kept its old vertices; raise reserve_blocks
   [[nodiscard]] bool exhausted() const BURR_RT { return exhausted_; }
   [[nodiscard]] std::size_t memory_bytes() const;
+  // Takes the memory that milling will need next; call it every few milliseconds while the servo
+  // cuts, from another thread.
+  void take_ahead();
   [[nodiscard]] int rebuilt_last() const BURR_RT { return rebuilt_last_; }
 
  private:
@@ -110,8 +116,9 @@ class IsoVertices {
   std::vector<std::uint64_t> occupied_;  // (bricks.z x bricks.y x words_per_row)
   std::vector<BrickBall> balls_;         // (brick_count)
   std::vector<Place> places_;            // (brick_count)
-  std::vector<VertexBlock> pool_;
+  rt::Promised<VertexBlock> pool_;
   std::size_t pool_used_ = 0;
+  std::atomic<std::size_t> pool_told_ = 0;  // pool_used_, for take_ahead()
   static constexpr int kClasses = 5;
   std::vector<std::uint32_t>
       free_[kClasses];               // given-back runs by size class, reserved at construction

@@ -225,7 +225,7 @@ struct Renderer::Work {
   gl::Target target;
   gl::Sheet sheet;
   gl::VertexArray nothing;  // a screen's triangle has no data, but wants an array
-  Program mesh, hollow, soften, light, shrink;
+  Program skin_mesh, mesh, hollow, soften, light, shrink;
   int most = kMostTarget;                    // samples along a side
   int idle_width = 1280, idle_height = 720;  // of show() without a window
   Figures figures;
@@ -260,7 +260,8 @@ Status Renderer::Work::start() {
   const struct {
     Program* program;
     const char *vertex, *fragment;
-  } all[] = {{&mesh, gl::kMeshVertex, gl::kMeshFragment},
+  } all[] = {{&skin_mesh, gl::kSkinVertex, gl::kMeshFragment},
+             {&mesh, gl::kMeshVertex, gl::kMeshFragment},
              {&hollow, gl::kScreenVertex, gl::kHollowFragment},
              {&soften, gl::kScreenVertex, gl::kSoftenFragment},
              {&light, gl::kScreenVertex, gl::kLightFragment},
@@ -357,17 +358,21 @@ void Renderer::Work::paint_geometry(const Scene& scene, const Frame& frame, cons
   glEnable(GL_CULL_FACE);
 
   // bone
-  mesh.use();
+  skin_mesh.use();
   const Eigen::Matrix4d clip_from_world = frame.clip * frame.view;
-  mesh.set("clip_from_model", Eigen::Matrix4f(clip_from_world.cast<float>()));
+  skin_mesh.set("clip_from_model", Eigen::Matrix4f(clip_from_world.cast<float>()));
   const Eigen::Matrix3d turn = frame.view.block<3, 3>(0, 0);
-  mesh.set("view_from_model_n", Eigen::Matrix3f(turn.cast<float>()));
-  mesh.set("tint_kind", Eigen::Vector4f(1, 1, 1, kBone));
+  skin_mesh.set("view_from_model_n", Eigen::Matrix3f(turn.cast<float>()));
+  skin_mesh.set("tint_kind", Eigen::Vector4f(1, 1, 1, kBone));
+  skin_mesh.set("tissue_colours", 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, skin.colours());
   const gl::Skin::Drawn drawn = skin.draw(scene.camera.eye(), planes_of(r, frame));
   figures.patches_drawn += drawn.patches;
   figures.triangles_drawn += drawn.triangles;
 
   // tool and marks
+  mesh.use();
   for (const Piece& piece : pieces) {
     Eigen::Matrix4d m = clip_from_world * piece.world_from_shape;
     // on top: pressed into the nearest hundredth of the depth, where nothing else is

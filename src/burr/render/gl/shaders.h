@@ -1,5 +1,6 @@
 // render/gl/shaders.h - what runs on the GPU, in the common part of GLSL 3.30 and GLSL ES 3.00.
 //
+//     skin,     bone's triangles, folded normals and tissues
 //     mesh      triangles -> what is there: colour and kind, normal, depth        ("G-buffer")
 //     hollow    normal, depth -> how open the surface is to the light, at full or half resolution
 //     soften    the same, its noise smoothed within the surface
@@ -25,6 +26,26 @@ void main() {
   gl_Position = clip_from_model * vec4(at_p, 1.0);
   n = view_from_model_n * at_n;
   colour = at_colour;
+}
+)";
+
+// The bone's: normal and tissue in 32 bits (render/skin_mesh.h).
+inline constexpr const char* kSkinVertex = R"(
+layout(location = 0) in vec3 at_p;
+layout(location = 1) in uint at_rest;
+uniform mat4 clip_from_model;
+uniform mat3 view_from_model_n;
+uniform sampler2D tissue_colours;
+out vec3 n;
+out vec3 colour;
+void main() {
+  gl_Position = clip_from_model * vec4(at_p, 1.0);
+  vec2 f = vec2(float(at_rest >> 8u & 4095u), float(at_rest >> 20u)) / 2047.0 - 1.0;
+  vec3 m = vec3(f, 1.0 - abs(f.x) - abs(f.y));
+  float t = max(-m.z, 0.0);
+  m.xy += vec2(m.x >= 0.0 ? -t : t, m.y >= 0.0 ? -t : t);
+  n = view_from_model_n * normalize(m);
+  colour = texelFetch(tissue_colours, ivec2(int(at_rest & 255u), 0), 0).rgb;
 }
 )";
 

@@ -1,8 +1,8 @@
 #include "burr/render/gl/skin.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 namespace burr::render::gl {
@@ -11,30 +11,19 @@ using math::Vec3;
 
 namespace {
 
-struct Packed {
-  float p[3];
-  std::int16_t n[3];
-  std::uint8_t colour[4];
-  std::int16_t unused;
-};
-static_assert(sizeof(Packed) == 24);
-
-std::int16_t snorm(float v) {
-  return static_cast<std::int16_t>(std::lround(std::clamp(v, -1.0F, 1.0F) * 32767.0F));
-}
 std::uint8_t unorm(float v) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0F, 1.0F) * 255.0F));
 }
 
 // the narrowest cone we easily find around all triangles' own normals
-void find_cone(const surface::Patch& mesh, Vec3& facing, double& spread) {
+void find_cone(const SkinMesh& mesh, Vec3& facing, double& spread) {
   std::vector<Vec3> normals;
-  normals.reserve(mesh.triangles.size() / 3);
+  normals.reserve(mesh.index_count() / 3);
   Vec3 sum = Vec3::Zero();
-  for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
-    const Vec3 a = mesh.vertices[mesh.triangles[t]].p.cast<double>();
-    const Vec3 b = mesh.vertices[mesh.triangles[t + 1]].p.cast<double>();
-    const Vec3 c = mesh.vertices[mesh.triangles[t + 2]].p.cast<double>();
+  for (std::size_t t = 0; t + 2 < mesh.index_count(); t += 3) {
+    const Vec3 a = mesh.vertices()[mesh.index(t)].p.cast<double>();
+    const Vec3 b = mesh.vertices()[mesh.index(t + 1)].p.cast<double>();
+    const Vec3 c = mesh.vertices()[mesh.index(t + 2)].p.cast<double>();
     const Vec3 n = (b - a).cross(c - a);
     const double length = n.norm();
     if (length == 0) continue;
@@ -67,9 +56,11 @@ bool outside(const math::Aabb& box, const std::array<Eigen::Vector4d, 6>& planes
 }  // namespace
 
 int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
-  // other colours: everything again
-  const bool recolour = scene.tissue_colours != colours_;
-  if (recolour) colours_ = scene.tissue_colours;
+  const bool recolour = colour_row_.get() == 0 || scene.tissue_colours != colours_;
+  if (recolour) {
+    colours_ = scene.tissue_colours;
+    send_colours();
+  }
   if (parts_.size() > scene.patches.size()) {
     for (std::size_t i = scene.patches.size(); i < parts_.size(); ++i)
       if (parts_[i].count > 0) changed.push_back(parts_[i].box);
@@ -80,68 +71,68 @@ int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const ScenePatch& patch = scene.patches[i];
     Part& part = parts_[i];
-    if (part.version == patch.version && !(recolour && patch.mesh != nullptr)) continue;
+    if (part.version == patch.version) {
+      if (recolour && part.count > 0) changed.push_back(part.box);
+      continue;
+    }
     if (part.count > 0) changed.push_back(part.box);
-    send(part, patch, scene.tissue_colours);
+    send(part, patch);
     if (part.count > 0) changed.push_back(part.box);
     ++sent;
   }
   return sent;
 }
 
-void Skin::send(Part& part, const ScenePatch& patch, const std::vector<Colour>& colours) {
+void Skin::send_colours() {
+  constexpr std::size_t kRow = 256;
+  std::array<std::array<std::uint8_t, 4>, kRow> row{};
+  for (std::size_t t = 0; t < kRow; ++t) {
+    const Colour colour = t < colours_.size() ? colours_[t] : Colour{1, 1, 1};
+    row[t] = {unorm(colour[0]), unorm(colour[1]), unorm(colour[2]), 255};
+  }
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, colour_row_.make());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, static_cast<GLsizei>(kRow), 1, 0, GL_RGBA,
+               GL_UNSIGNED_BYTE, row.data());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+void Skin::send(Part& part, const ScenePatch& patch) {
   if (patch.mesh == nullptr) {
     part = Part{};
     part.version = patch.version;
     return;
   }
-  const surface::Patch& mesh = *patch.mesh;
+  const SkinMesh& mesh = *patch.mesh;
   part.version = patch.version;
   part.box = patch.box;
   find_cone(mesh, part.facing, part.spread);
 
-  std::vector<Packed> packed(mesh.vertices.size());
-  for (std::size_t v = 0; v < packed.size(); ++v) {
-    const surface::Vertex& from = mesh.vertices[v];
-    const Colour colour = from.tissue < colours.size() ? colours[from.tissue] : Colour{1, 1, 1};
-    Packed& to = packed[v];
-    for (int axis = 0; axis < 3; ++axis) {
-      to.p[axis] = from.p[axis];
-      to.n[axis] = snorm(from.n[axis]);
-      to.colour[axis] = unorm(colour[static_cast<std::size_t>(axis)]);
-    }
-    to.colour[3] = 255;
-    to.unused = 0;
-  }
-
+  const auto fill = [](GLenum target, const auto& values) {
+    glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(values[0])), values.data(),
+                 GL_DYNAMIC_DRAW);
+  };
   const bool fresh = part.array.get() == 0;
   glBindVertexArray(part.array.make());
   glBindBuffer(GL_ARRAY_BUFFER, part.vertices.make());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(packed.size() * sizeof(Packed)),
-               packed.data(), GL_DYNAMIC_DRAW);
+  fill(GL_ARRAY_BUFFER, mesh.vertices());
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.make());
-  part.count = static_cast<GLsizei>(mesh.triangles.size());
-  if (mesh.vertices.size() <= 65535) {
+  part.count = static_cast<GLsizei>(mesh.index_count());
+  if (mesh.large_indices().empty()) {
     part.type = GL_UNSIGNED_SHORT;
-    std::vector<std::uint16_t> small(mesh.triangles.size());
-    std::transform(mesh.triangles.begin(), mesh.triangles.end(), small.begin(),
-                   [](std::uint32_t index) { return static_cast<std::uint16_t>(index); });
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(small.size() * 2), small.data(),
-                 GL_DYNAMIC_DRAW);
+    fill(GL_ELEMENT_ARRAY_BUFFER, mesh.small_indices());
   } else {
     part.type = GL_UNSIGNED_INT;
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.triangles.size() * 4),
-                 mesh.triangles.data(), GL_DYNAMIC_DRAW);
+    fill(GL_ELEMENT_ARRAY_BUFFER, mesh.large_indices());
   }
   if (!fresh) return;
-  const auto at = [](std::size_t offset) { return reinterpret_cast<const void*>(offset); };
+  constexpr GLsizei kStride = sizeof(SkinVertex);
+  const auto* behind_p = reinterpret_cast<const void*>(sizeof(math::Vec3f));
   glEnableVertexAttribArray(0);
-  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Packed), at(offsetof(Packed, p)));
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride, nullptr);
   glEnableVertexAttribArray(1);
-  glVertexAttribPointer(1, 3, GL_SHORT, GL_TRUE, sizeof(Packed), at(offsetof(Packed, n)));
-  glEnableVertexAttribArray(2);
-  glVertexAttribPointer(2, 3, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Packed),
-                        at(offsetof(Packed, colour)));
+  glVertexAttribIPointer(1, 1, GL_UNSIGNED_INT, kStride, behind_p);
 }
 
 Skin::Drawn Skin::draw(const Vec3& eye, const std::array<Eigen::Vector4d, 6>& planes) const {

@@ -1,8 +1,7 @@
 // render/gl/skin.h - the bone's surface on the GPU: one vertex and index buffer per patch.
 //
-// Memory: 24 B a vertex, 2 B an index. A patch is sent when its version changes and skipped when it
-// is out of sight or wholly turned away.
-// A header of this room only.
+// Memory: 16 B a vertex, 2 B an index, as they are in the scene. A patch is sent when its version
+// changes and skipped when it is out of sight or wholly turned away. A header of this room only.
 #pragma once
 
 #include <array>
@@ -18,6 +17,8 @@ class Skin {
   // Sends what changed since the last call; appends the boxes, before and after, of those patches.
   // Returns how many were sent.
   int update(const Scene& scene, std::vector<math::Aabb>& changed);
+  // One row of 256 colours, by tissue.
+  [[nodiscard]] GLuint colours() const { return colour_row_.get(); }
 
   struct Drawn {
     int patches = 0;
@@ -38,10 +39,12 @@ class Skin {
     math::Vec3 facing = math::Vec3::Zero();  // middle of the cone of the triangles' normals
     double spread = 0;                       // its half angle; pi: every way         [rad]
   };
-  void send(Part& part, const ScenePatch& patch, const std::vector<Colour>& colours);
+  void send(Part& part, const ScenePatch& patch);
+  void send_colours();
 
   std::vector<Part> parts_;
   std::vector<Colour> colours_;
+  Texture colour_row_;
 };
 
 }  // namespace burr::render::gl

@@ -1,0 +1,51 @@
+#include "burr/render/skin_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burr::render {
+namespace {
+
+// 4095 values, of which one is 0: what looks along an axis does so exactly
+constexpr float kHalf = 2047.0F;
+
+float sign(float v) { return v >= 0 ? 1.0F : -1.0F; }
+
+std::uint32_t step(float v) {
+  return static_cast<std::uint32_t>(std::lround((std::clamp(v, -1.0F, 1.0F) + 1.0F) * kHalf));
+}
+
+}  // namespace
+
+std::uint32_t folded(const math::Vec3f& n, volume::TissueId tissue) {
+  const float sum = std::abs(n.x()) + std::abs(n.y()) + std::abs(n.z());
+  float x = sum > 0 ? n.x() / sum : 0, y = sum > 0 ? n.y() / sum : 0;
+  if (n.z() < 0) {
+    const float flat = x;
+    x = (1 - std::abs(y)) * sign(flat);
+    y = (1 - std::abs(flat)) * sign(y);
+  }
+  return std::uint32_t{tissue} | step(x) << 8 | step(y) << 20;
+}
+
+math::Vec3f normal_of(const SkinVertex& vertex) {
+  float x = static_cast<float>(vertex.rest >> 8 & 0xFFFU) / kHalf - 1.0F,
+        y = static_cast<float>(vertex.rest >> 20) / kHalf - 1.0F;
+  const float z = 1 - std::abs(x) - std::abs(y), fold = std::max(-z, 0.0F);
+  x -= fold * sign(x);
+  y -= fold * sign(y);
+  return math::Vec3f(x, y, z).normalized();
+}
+
+SkinMesh::SkinMesh(const surface::Patch& patch) {
+  vertices_.reserve(patch.vertices.size());
+  for (const surface::Vertex& v : patch.vertices) vertices_.push_back({v.p, folded(v.n, v.tissue)});
+  if (patch.vertices.size() > 65535) {
+    large_ = patch.triangles;
+    return;
+  }
+  small_.reserve(patch.triangles.size());
+  for (const std::uint32_t v : patch.triangles) small_.push_back(static_cast<std::uint16_t>(v));
+}
+
+}  // namespace burr::render

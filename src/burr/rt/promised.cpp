@@ -1,0 +1,97 @@
+#include "burr/rt/promised.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+
+namespace burr::rt {
+namespace {
+
+#ifndef MADV_POPULATE_WRITE
+constexpr int kPopulateWrite = 23;  // of newer headers
+#else
+constexpr int kPopulateWrite = MADV_POPULATE_WRITE;
+#endif
+// Taken at a time: seldom enough to cost nothing, little enough to waste nothing.
+constexpr std::size_t kStep = 256 * 1024;
+
+std::size_t up(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
+
+std::size_t page() {
+  static const auto size = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  return size;
+}
+
+std::byte* addresses(std::size_t bytes) {
+  void* made = mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
+                    MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (made == MAP_FAILED) throw std::bad_alloc();
+  return static_cast<std::byte*>(made);
+}
+
+bool kernel_can() {
+  static const bool can = [] {
+    std::byte* one = addresses(page());
+    const bool taken = madvise(one, page(), kPopulateWrite) == 0;
+    munmap(one, page());
+    return taken;
+  }();
+  return can;
+}
+
+}  // namespace
+
+PromisedBytes::PromisedBytes(std::size_t bytes) {
+  if (bytes == 0) return;
+  bytes_ = up(bytes, page());
+  data_ = addresses(bytes_);
+  if (!kernel_can()) {
+    std::memset(data_, 0, bytes_);
+    had_ = bytes_;
+  }
+}
+
+PromisedBytes::~PromisedBytes() {
+  if (data_ != nullptr) munmap(data_, bytes_);
+}
+
+void PromisedBytes::have(std::size_t bytes) {
+  const std::size_t wanted = std::min(up(bytes, kStep), bytes_);
+  if (wanted <= had_) return;
+  // without memory left this does nothing, and the first use decides
+  if (madvise(data_ + had_, wanted - had_, kPopulateWrite) == 0) had_ = wanted;
+}
+
+void PromisedBytes::grow(std::size_t bytes) {
+  const std::size_t wanted = up(bytes, page());
+  if (wanted <= bytes_) return;
+  if (data_ == nullptr) {
+    data_ = addresses(wanted);
+  } else {
+    void* moved = mremap(data_, bytes_, wanted, MREMAP_MAYMOVE);
+    if (moved == MAP_FAILED) throw std::bad_alloc();
+    data_ = static_cast<std::byte*>(moved);
+  }
+  if (!kernel_can()) {
+    std::memset(data_ + bytes_, 0, wanted - bytes_);
+    had_ = wanted;
+  }
+  bytes_ = wanted;
+}
+
+void PromisedBytes::give_back(std::size_t from) {
+  if (from >= bytes_) return;
+  const std::size_t whole = up(from, page());
+  std::memset(data_ + from, 0, std::min(whole, bytes_) - from);
+  if (whole >= bytes_ || !kernel_can()) {
+    if (whole < bytes_) std::memset(data_ + whole, 0, bytes_ - whole);
+    return;
+  }
+  madvise(data_ + whole, bytes_ - whole, MADV_DONTNEED);
+  had_ = std::min(had_, whole);
+}
+
+}  // namespace burr::rt

@@ -1,0 +1,99 @@
+#include "burr/rt/promised.h"
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+namespace burr::rt {
+namespace {
+
+constexpr std::size_t kMany = 16 * 1024 * 1024;  // elements of 8 bytes
+
+// Of the array's pages, how many the kernel says are in memory.
+template <class T>
+std::size_t resident_bytes(const Promised<T>& array) {
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const std::size_t pages = (array.size() * sizeof(T) + page - 1) / page;
+  std::vector<unsigned char> there(pages);
+  if (mincore(const_cast<T*>(array.data()), pages * page, there.data()) != 0) return 0;
+  std::size_t count = 0;
+  for (const unsigned char one : there) count += one & 1U;
+  return count * page;
+}
+
+// Kernels before 5.14 cannot take pages ahead; then everything is there from the start.
+bool takes_ahead() { return resident_bytes(Promised<std::uint64_t>(kMany)) < 8 * kMany; }
+
+TEST(Promised, IsZeroAndTakesOnlyWhatItWasAskedToHave) {
+  if (!takes_ahead()) GTEST_SKIP() << "this kernel takes everything at once";
+  Promised<std::uint64_t> array(kMany);
+  EXPECT_EQ(resident_bytes(array), 0U);
+  array.have(100'000);
+  EXPECT_GE(resident_bytes(array), 800'000U);
+  EXPECT_LE(resident_bytes(array), 2'000'000U);
+  const std::uint64_t* before = array.data();
+  array.have(kMany / 2);
+  EXPECT_EQ(array.data(), before) << "the tick holds on to addresses";
+  EXPECT_EQ(array[99'999], 0U);
+  EXPECT_EQ(array[kMany - 1], 0U) << "what nobody asked for is there all the same";
+}
+
+TEST(Promised, WhatIsHadIsWrittenWithoutTheKernel) {
+  if (!takes_ahead()) GTEST_SKIP() << "this kernel takes everything at once";
+  Promised<std::uint64_t> array(kMany);
+  const auto faults = [] {
+    rusage usage = {};
+    getrusage(RUSAGE_THREAD, &usage);
+    return usage.ru_minflt;
+  };
+  array.have(kMany / 4);
+  long before = faults();
+  for (std::size_t n = 0; n < kMany / 4; n += 64) array[n] = n;
+  const long had = faults() - before;
+  before = faults();
+  for (std::size_t n = kMany / 4 + 65536; n < kMany / 2; n += 64) array[n] = n;
+  const long not_had = faults() - before;
+  if (not_had == 0) GTEST_SKIP() << "this kernel does not count faults";
+  EXPECT_LE(had, not_had / 100);
+}
+
+TEST(Promised, GrowsAndGivesBackWithoutLosingAnything) {
+  Promised<std::uint64_t> array(1000);
+  for (std::size_t n = 0; n < array.size(); ++n) array[n] = n + 1;
+  array.grow(kMany);
+  EXPECT_EQ(array.size(), kMany);
+  for (std::size_t n = 0; n < 1000; ++n) ASSERT_EQ(array[n], n + 1);
+  array[kMany - 1] = 7;
+  array.give_back(500);
+  for (std::size_t n = 0; n < 500; ++n) ASSERT_EQ(array[n], n + 1);
+  for (std::size_t n = 500; n < 2000; ++n) ASSERT_EQ(array[n], 0U);
+  EXPECT_EQ(array[kMany - 1], 0U);
+  array[kMany - 1] = 8;
+  EXPECT_EQ(array[kMany - 1], 8U);
+}
+
+TEST(Promised, AHelperTakesAheadWhileTheOwnerWrites) {
+  Promised<std::uint64_t> array(1'000'000);
+  std::atomic<std::size_t> used = 0;
+  std::thread helper([&] {
+    for (std::size_t seen = 0; seen < array.size();) {
+      seen = used.load(std::memory_order_relaxed);
+      array.have(seen + 4096);
+    }
+  });
+  for (std::size_t n = 0; n < array.size(); ++n) {
+    array[n] += n;
+    used.store(n + 1, std::memory_order_relaxed);
+  }
+  helper.join();
+  for (std::size_t n = 0; n < array.size(); ++n) ASSERT_EQ(array[n], n);
+}
+
+}  // namespace
+}  // namespace burr::rt
