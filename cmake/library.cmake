@@ -15,17 +15,21 @@ endforeach()
 configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_cases.cpp.in ${CMAKE_BINARY_DIR}/built_in_cases.cpp @ONLY)
 list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_cases.cpp)
 
+list(REMOVE_ITEM BURR_SOURCES ${BURR_READERS})
 add_library(burr SHARED ${BURR_SOURCES})
+add_dependencies(burr burr_read)  # without it no scan can be read
 add_library(burr::burr ALIAS burr)
 set_target_properties(burr PROPERTIES OUTPUT_NAME burr VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
 target_include_directories(burr PUBLIC
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_compile_features(burr PUBLIC cxx_std_20)
 target_link_libraries(burr PUBLIC Eigen3::Eigen Threads::Threads)
-target_link_libraries(burr PRIVATE $<BUILD_INTERFACE:burr_options> fmt::fmt ZLIB::ZLIB BZip2::BZip2 $<BUILD_INTERFACE:burr_gdcm>
+target_link_libraries(burr PRIVATE $<BUILD_INTERFACE:burr_options> fmt::fmt ZLIB::ZLIB BZip2::BZip2
   PkgConfig::ZSTD
   PkgConfig::EPOXY PkgConfig::SDL2 nlohmann_json::nlohmann_json spdlog::spdlog)
-target_compile_definitions(burr PRIVATE BURR_VERSION="${PROJECT_VERSION}" TOML_HEADER_ONLY=1)
+target_compile_definitions(burr PRIVATE BURR_VERSION="${PROJECT_VERSION}" TOML_HEADER_ONLY=1
+  BURR_LIBEXEC_FROM_LIB="${BURR_LIBEXEC_FROM_LIB}")
+target_link_libraries(burr PRIVATE ${CMAKE_DL_LIBS})
 
 # Kernels exist once per instruction set, from one source, and are chosen at run time; the bits are the same.
 foreach(source ${BURR_SOURCES})

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "burr/io/fence.h"
 #include "command.h"
 #include "volume_options.h"
 
@@ -103,6 +104,16 @@ nlohmann::json to_json(const io::ImportSummary& s) {
   return out;
 }
 
+// How well this computer shuts a damaged file in (burr/io/fence.h).
+nlohmann::json with_fence(nlohmann::json out) {
+  const io::FenceState fence = io::fence_state();
+  out["fence"] = {{"process", !fence.reader.empty()},
+                  {"memory_limit", fence.memory_limit},
+                  {"landlock", fence.landlock},
+                  {"seccomp", fence.seccomp}};
+  return out;
+}
+
 // What is in it; and, if it can be milled, what would become of it.
 Result<io::ImportSummary> look(const VolumeOptions& options) {
   if (is_phantom(options.path)) {
@@ -143,8 +154,9 @@ Status run(const Options& options) {
   print(*found);
   for (const std::string& notice : found->notices) fmt::print("  note: {}\n", notice);
   if (options.json)
-    fmt::print("{}\n",
-               to_json(*found).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print(
+        "{}\n",
+        with_fence(to_json(*found)).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   return fine();
 }
 

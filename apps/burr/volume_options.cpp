@@ -30,7 +30,8 @@ bool numbers(const std::string& text, std::vector<double>& out) {
 Result<io::Imported> open_phantom(const VolumeOptions& options, Progress& progress) {
   const std::string name = options.path.substr(std::string(kPhantom).size());
   if (!options.series.empty() || !options.spacing_mm.empty() || !options.roi.empty() ||
-      !options.iso.empty() || !options.tissues.empty())
+      !options.iso.empty() || !options.tissues.empty() || options.read_seconds != 0 ||
+      options.read_memory_mb != 0)
     return error(Trouble::usage, "a phantom is a formula: only --voxel-mm changes it");
   auto bone = scenes::phantom(name, options.voxel_mm, progress, options.reserve_bricks);
   if (!bone) return bone.error();
@@ -71,6 +72,10 @@ void add_volume_options(CLI::App& command, VolumeOptions& options) {
                      "noise to smooth, in HU or the file's unit; 0: none (default: as measured)");
   command.add_option("--memory-mb", options.memory_mb,
                      "memory budget of the import (default: 2048)");
+  command.add_option("--read-seconds", options.read_seconds,
+                     "processor time that reading may take (default: by the size of the files)");
+  command.add_option("--read-memory-mb", options.read_memory_mb,
+                     "memory that reading may take (default: by the size of the files)");
 }
 
 bool is_phantom(const std::string& path) { return path.rfind(kPhantom, 0) == 0; }
@@ -78,6 +83,10 @@ bool is_phantom(const std::string& path) { return path.rfind(kPhantom, 0) == 0; 
 Result<io::ReadOptions> read_options(const VolumeOptions& options) {
   io::ReadOptions out;
   out.series = options.series;
+  if (!(options.read_seconds >= 0) || !(options.read_memory_mb >= 0))
+    return error(Trouble::usage, "--read-seconds and --read-memory-mb: numbers above 0 are needed");
+  out.seconds = options.read_seconds;
+  out.memory_mb = options.read_memory_mb;
   if (options.spacing_mm.empty()) return out;
   std::vector<double> spacing;
   if (!numbers(options.spacing_mm, spacing) || spacing.size() != 3 || !(spacing[0] > 0) ||

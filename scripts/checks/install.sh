@@ -16,6 +16,16 @@ cmake -S "$place/sample" -B "$place/build" -DCMAKE_PREFIX_PATH="$place/prefix" -
 cmake --build "$place/build"
 "$place/build/touch"
 "$place/prefix/bin/burr" --version
+# a scan is read by the helper of the installation
+"$place/prefix/bin/burr" --quiet phantom ball --voxel-mm 1 --out "$place/ball.nrrd" >"$place/log"
+"$place/prefix/bin/burr" --quiet info "$place/ball.nrrd"
+mv "$place/prefix/libexec/burr/burr-read" "$place/burr-read"
+if "$place/prefix/bin/burr" --quiet info "$place/ball.nrrd" 2>"$place/log"; then
+  echo "the installed burr reads scans with a helper that is not its own"
+  exit 1
+fi
+grep -q "install burr again" "$place/log"
+BURR_READ="$place/burr-read" "$place/prefix/bin/burr" --quiet info "$place/ball.nrrd"
 if grep -rlE '#include <(itk|gdcm|nlohmann|fmt|spdlog|SDL|epoxy|zstd)' "$place/prefix/include"; then
   echo "the installed headers above need more than Eigen"
   exit 1

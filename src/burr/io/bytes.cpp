@@ -195,18 +195,22 @@ Status skip(ByteSource& source, std::uint64_t n) {
 
 Result<OpenFile> open_file(const std::filesystem::path& path, std::uint64_t offset,
                            bool follow_links) {
-  // O_NONBLOCK: opening a pipe must not wait for its writer
-  const int handle =
-      ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | (follow_links ? 0 : O_NOFOLLOW));
-  if (handle < 0)
-    return error(Trouble::io,
-                 fmt::format("{}: cannot be opened: {}", short_name(path),
-                             errno == ELOOP && !follow_links ? "a link is not followed here"
-                                                             : std::strerror(errno)));
-  auto source = std::make_unique<FileSource>(handle);
+  const auto refused = [&](const char* why) {
+    return error(Trouble::io, fmt::format("{}: {}", short_name(path), why));
+  };
+  // looked at before it is opened: merely opening a device can do something
   struct stat facts = {};
+  if (::fstatat(AT_FDCWD, path.c_str(), &facts, follow_links ? 0 : AT_SYMLINK_NOFOLLOW) != 0)
+    return refused(fmt::format("cannot be opened: {}", std::strerror(errno)).c_str());
+  if (S_ISLNK(facts.st_mode)) return refused("cannot be opened: a link is not followed here");
+  if (!S_ISREG(facts.st_mode)) return refused("is not a regular file");
+  // O_NONBLOCK: should it have become a pipe since, opening must not wait for its writer
+  const int handle = ::open(
+      path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (follow_links ? 0 : O_NOFOLLOW));
+  if (handle < 0) return refused(fmt::format("cannot be opened: {}", std::strerror(errno)).c_str());
+  auto source = std::make_unique<FileSource>(handle);
   if (::fstat(handle, &facts) != 0 || !S_ISREG(facts.st_mode))
-    return error(Trouble::io, fmt::format("{}: is not a regular file", short_name(path)));
+    return refused("is not a regular file");
   if (offset > 0 && ::lseek(handle, static_cast<off_t>(offset), SEEK_SET) < 0)
     return error(Trouble::io,
                  fmt::format("{}: cannot be read: {}", short_name(path), std::strerror(errno)));
@@ -233,8 +237,9 @@ std::unique_ptr<ByteSource> files_in_a_row(std::vector<std::filesystem::path> pa
   return std::make_unique<FilesSource>(std::move(paths), skip_each);
 }
 
-Result<std::vector<std::uint8_t>> first_bytes(const std::filesystem::path& path, std::size_t n) {
-  auto file = open_file(path);
+Result<std::vector<std::uint8_t>> first_bytes(const std::filesystem::path& path, std::size_t n,
+                                              bool follow_links) {
+  auto file = open_file(path, 0, follow_links);
   if (!file) return file.error();
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(std::min<std::uint64_t>(n, file->size)));
   std::size_t have = 0;

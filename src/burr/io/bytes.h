@@ -54,7 +54,8 @@ struct OpenFile {
 
 // The first n bytes of a file, or all of them if it is shorter.
 [[nodiscard]] Result<std::vector<std::uint8_t>> first_bytes(const std::filesystem::path& path,
-                                                            std::size_t n);
+                                                            std::size_t n,
+                                                            bool follow_links = true);
 
 // A name that a header gave for its data file, beside the header: refused when it is absolute,
 // climbs or names another folder. `named_in` is the header's own name, for the sentence.

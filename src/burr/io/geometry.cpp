@@ -17,7 +17,7 @@ using math::Mat3;
 using math::Vec3;
 
 template <class T>
-void reverse_slices(std::vector<T>& voxels, std::size_t slice) {
+void reverse_slices(Voxels<T>& voxels, std::size_t slice) {
   if (voxels.empty()) return;
   const std::size_t n = voxels.size() / slice;
   for (std::size_t k = 0; k < n / 2; ++k)
@@ -103,8 +103,8 @@ Status straighten(Scan& scan, const std::vector<SlicePlace>& places, double gap_
   const float air = air_of(scan);
   const std::size_t from_slice = slice_voxels(scan),
                     to_slice = static_cast<std::size_t>(to_x) * static_cast<std::size_t>(to_y);
-  std::vector<float> even(labels ? 0 : to_slice * static_cast<std::size_t>(to_z), air);
-  std::vector<std::uint8_t> even_labels(labels ? to_slice * static_cast<std::size_t>(to_z) : 0);
+  Voxels<float> even(labels ? 0 : to_slice * static_cast<std::size_t>(to_z), air);
+  Voxels<std::uint8_t> even_labels(labels ? to_slice * static_cast<std::size_t>(to_z) : 0);
 
   // a slice moved into the larger plane
   std::vector<float> line_buffer(static_cast<std::size_t>(to_x) * static_cast<std::size_t>(ny),

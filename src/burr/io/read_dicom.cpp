@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <new>
 #include <numeric>
 #include <system_error>
 #include <thread>
@@ -90,8 +91,9 @@ std::string not_a_slice(const DicomHeader& h) {
 
 struct Found {
   std::vector<Series> series;
-  std::size_t others = 0;   // files that are no slices
-  std::string last_reason;  // why the last one was none
+  std::size_t others = 0;       // files that are no slices
+  std::size_t leading_out = 0;  // links to files outside the folder
+  std::string last_reason;      // why the last one was none
   Trouble last_trouble = Trouble::data;
 };
 
@@ -114,17 +116,30 @@ void sort_in(Found& found, DicomHeader header) {
   found.series.push_back(std::move(fresh));
 }
 
+bool lies_in(const std::filesystem::path& root, const std::filesystem::path& link) {
+  std::error_code trouble;
+  const auto target = std::filesystem::canonical(link, trouble);
+  if (trouble) return true;  // leads nowhere
+  const auto rest = target.lexically_relative(root);
+  return !rest.empty() && *rest.begin() != "..";
+}
+
 Result<Found> search(const std::filesystem::path& path, Progress& progress) {
   Found found;
   std::error_code trouble;
   std::vector<std::filesystem::path> paths;
   if (std::filesystem::is_directory(path, trouble)) {
+    const auto root = std::filesystem::canonical(path, trouble);
     auto walk = std::filesystem::recursive_directory_iterator(
         path, std::filesystem::directory_options::skip_permission_denied, trouble);
     for (; !trouble && walk != std::filesystem::recursive_directory_iterator();
          walk.increment(trouble)) {
       if (walk.depth() >= kDeepestFolder) walk.disable_recursion_pending();
       std::error_code kind;
+      if (walk->is_symlink(kind)) {  // a slice under two names is one; others are not ours to open
+        if (!lies_in(root, walk->path())) ++found.leading_out;
+        continue;
+      }
       if (!walk->is_regular_file(kind)) continue;
       paths.push_back(walk->path());
       if (paths.size() > kMostFiles)
@@ -132,6 +147,11 @@ Result<Found> search(const std::filesystem::path& path, Progress& progress) {
                                  short_name(path), kMostFiles));
     }
     std::sort(paths.begin(), paths.end());  // the order of the disk is no order
+    if (paths.empty() && found.leading_out > 0)
+      return error(
+          fmt::format("{}: holds only links that lead out of it; give the folder where the "
+                      "files are, or copy them",
+                      short_name(path)));
     if (paths.empty()) return error(fmt::format("{}: the folder holds no file", short_name(path)));
   } else {
     paths.push_back(path);
@@ -391,6 +411,11 @@ Status read_slices(const Series& series, const std::vector<Slice>& slices, Scan&
       Status status = fine();
       try {
         status = one_file(index);
+      } catch (const std::bad_alloc&) {
+        status = error(
+            fmt::format("{}: reading it needs more memory than it may take; if you trust it, allow "
+                        "more with --read-memory-mb",
+                        short_name(series.files[work[index].first].path)));
       } catch (const std::exception& problem) {
         status =
             error(fmt::format("{}: cannot be unpacked: {}",
@@ -511,6 +536,9 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
   }
   Scan scan;
   scan.format = "DICOM";
+  if (found->leading_out > 0)
+    scan.notices.push_back(
+        fmt::format("{} links lead out of the folder and were not followed.", found->leading_out));
   auto chosen = choose(*found, options, file, scan);
   if (!chosen) return chosen.error();
   const Series& series = found->series[*chosen];

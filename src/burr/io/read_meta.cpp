@@ -127,7 +127,10 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
     data = *other;
   }
   auto opened = open_file(data, own ? header.end : 0, own);
-  if (!opened) return opened.error();
+  if (!opened && own) return opened.error();
+  if (!opened)  // the header is wrong, or half of the pair was left behind
+    return error(
+        fmt::format("{}: its data file: {}; put it in the same folder", file, opened.error().text));
   const std::uint64_t needed = *count * bytes_of(format.type);
   std::uint64_t there = opened->size - std::min<std::uint64_t>(opened->size, own ? header.end : 0);
   const bool packed = is_true(get({"CompressedData"}));

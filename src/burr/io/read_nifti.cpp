@@ -225,11 +225,11 @@ struct Opened {
   std::uint64_t most = 0;  // bytes it can possibly give
 };
 
-// packed or not, as the bytes say and not the name
-Result<Opened> open_maybe_packed(const std::filesystem::path& path) {
-  auto head = first_bytes(path, 2);
+// packed or not, as the bytes say and not the name; the other half of a pair is no link
+Result<Opened> open_maybe_packed(const std::filesystem::path& path, bool follow_links) {
+  auto head = first_bytes(path, 2, follow_links);
   if (!head) return head.error();
-  auto file = open_file(path);
+  auto file = open_file(path, 0, follow_links);
   if (!file) return file.error();
   Opened opened;
   const bool packed = head->size() == 2 && (*head)[0] == 0x1F && (*head)[1] == 0x8B;
@@ -248,12 +248,10 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
   if (lower(file).find(".img") != std::string::npos) {
     path = partner(given, ".img", ".hdr");
     if (path.empty())
-      return error(Trouble::io,
-                   fmt::format("{}: its header (.hdr) is not there; put it in the same "
-                               "folder",
-                               file));
+      return error(
+          fmt::format("{}: its header (.hdr) is not there; put it in the same folder", file));
   }
-  auto opened = open_maybe_packed(path);
+  auto opened = open_maybe_packed(path, path == given);
   if (!opened) return opened.error();
   std::vector<std::uint8_t> head(540);
   std::size_t have = 0;
@@ -303,13 +301,11 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
   if (header->pair) {
     const auto image = partner(path, ".hdr", ".img");
     if (image.empty())
-      return error(Trouble::io,
-                   fmt::format("{}: its data file (.img) is not there; put it in the same "
-                               "folder",
-                               file));
-    opened = open_maybe_packed(image);
+      return error(
+          fmt::format("{}: its data file (.img) is not there; put it in the same folder", file));
+    opened = open_maybe_packed(image, image == given);
   } else {
-    opened = open_maybe_packed(path);
+    opened = open_maybe_packed(path, path == given);
   }
   if (!opened) return opened.error();
   const std::uint64_t needed = *count * bytes_of(format.type);

@@ -170,9 +170,9 @@ Result<std::vector<std::filesystem::path>> data_files(const Header& header,
     std::error_code trouble;
     const auto kind = std::filesystem::symlink_status(*file, trouble).type();
     if (kind != std::filesystem::file_type::regular)
-      return error(Trouble::io, fmt::format("{}: its data file {} is not there; put it in the same "
-                                            "folder",
-                                            short_name(path), short_name(*file)));
+      return error(fmt::format(
+          "{}: its data file {} is not there or no plain file; put it in the same folder",
+          short_name(path), short_name(*file)));
     files.push_back(*file);
   }
   return files;
@@ -186,7 +186,7 @@ std::map<std::string, double> unit_mm() {
 // Segment0_Name:=... of a .seg.nrrd
 std::vector<Label> segments(const Header& header) {
   std::vector<Label> labels;
-  for (int n = 0; n < 100000; ++n) {
+  for (int n = 0; n < 4096; ++n) {
     const std::string prefix = fmt::format("Segment{}_", n);
     const auto get = [&](const char* what) {
       const auto found = header.keys.find(prefix + what);

@@ -1,4 +1,5 @@
-// io/readers.h - one reader per format; read_scan.cpp picks. Private to io.
+// io/readers.h - one reader per format; read_unfenced.cpp picks. They are in `burr-read`, behind
+// the fence, and not in libburr: a header of this room only.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +9,11 @@
 #include "burr/io/read_scan.h"
 
 namespace burr::io {
+
+// Without the fence, in this process: what burr-read calls, and what fuzzers look at. A crash of a
+// library under us is a crash.
+[[nodiscard]] Result<Scan> read_unfenced(const std::filesystem::path& path,
+                                         const ReadOptions& options, Progress& progress);
 
 // Each knows its own files by their first bytes or their name.
 [[nodiscard]] Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& options,

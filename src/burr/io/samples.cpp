@@ -61,7 +61,7 @@ void convert(const std::uint8_t* bytes, std::size_t n, const SampleFormat& forma
 
 // Labels are flat: few different numbers, and most voxels have the same number as their neighbour.
 // Grey values, even of 8 bit, change from voxel to voxel inside the body.
-bool looks_like_labels(const std::vector<std::uint8_t>& bytes) {
+bool looks_like_labels(const Voxels<std::uint8_t>& bytes) {
   std::array<std::size_t, 256> count{};
   for (const std::uint8_t b : bytes) ++count[b];
   const auto different =
@@ -102,7 +102,7 @@ std::size_t bytes_of(SampleType type) {
 void VoxelSink::widen() {
   values_.reserve(count_);
   values_.assign(bytes_.begin(), bytes_.end());
-  std::vector<std::uint8_t>().swap(bytes_);
+  Voxels<std::uint8_t>().swap(bytes_);
   wide_ = true;
 }
 

@@ -41,8 +41,8 @@ class VoxelSink {
   void widen();
 
   std::size_t count_;
-  std::vector<std::uint8_t> bytes_;
-  std::vector<float> values_;
+  Voxels<std::uint8_t> bytes_;
+  Voxels<float> values_;
   bool wide_ = false;
   std::size_t broken_ = 0;  // not a number, or infinite
 };

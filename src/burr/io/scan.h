@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "burr/io/voxels.h"
 #include "burr/math/vec3.h"
 #include "burr/volume/tissue.h"
 
@@ -27,8 +28,8 @@ struct Scan {
   math::Mat3 axes = math::Mat3::Identity();   // columns: directions of i, j, k in LPS, unit;
                                               // right-handed, rotation
   math::Vec3 origin_mm = math::Vec3::Zero();  // centre of voxel (0,0,0), LPS
-  std::vector<float> values;  // (x fastest) HU, or whatever the file has; empty for a label map
-  std::vector<std::uint8_t> labels;  // (x fastest) value per voxel; empty for a grey scan
+  Voxels<float> values;         // (x fastest) HU, or whatever the file has; empty for a label map
+  Voxels<std::uint8_t> labels;  // (x fastest) value per voxel; empty for a grey scan
   std::vector<Label> label_names;
   bool hounsfield = false;  // values are HU
   bool k_reversed = false;  // the slices were put in reverse order to make the axes right-handed:

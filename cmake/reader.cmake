@@ -1,0 +1,21 @@
+# burr-read: reads one scan in a process of its own (src/burr/io/fence.h). It holds the readers and what they
+# stand on, so it starts in milliseconds; libburr holds only what both sides need, and no codec at all.
+set(BURR_BOTH_SIDES base/check.cpp base/version.cpp
+  io/bytes.cpp io/fence_letter.cpp io/fence_walls.cpp io/samples.cpp io/text.cpp io/voxels.cpp)
+set(BURR_READERS io/dicom_header.cpp io/dicom_pixels.cpp io/fence_child.cpp io/geometry.cpp
+  io/read_dicom.cpp io/read_meta.cpp io/read_nifti.cpp io/read_nrrd.cpp io/read_unfenced.cpp)
+list(TRANSFORM BURR_BOTH_SIDES PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)
+list(TRANSFORM BURR_READERS PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)
+
+add_library(burr_readers STATIC ${BURR_READERS} ${BURR_BOTH_SIDES})
+target_include_directories(burr_readers PUBLIC ${PROJECT_SOURCE_DIR}/src)
+target_link_libraries(burr_readers PUBLIC Eigen3::Eigen Threads::Threads fmt::fmt ZLIB::ZLIB BZip2::BZip2 burr_gdcm
+  PRIVATE burr_options)
+target_compile_definitions(burr_readers PRIVATE BURR_VERSION="${PROJECT_VERSION}")
+
+add_executable(burr_read ${PROJECT_SOURCE_DIR}/apps/burr-read/main.cpp)
+set_target_properties(burr_read PROPERTIES OUTPUT_NAME burr-read RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+target_link_libraries(burr_read PRIVATE burr_readers burr_options)
+
+# where an installation keeps it, seen from libburr.so
+file(RELATIVE_PATH BURR_LIBEXEC_FROM_LIB ${CMAKE_INSTALL_FULL_LIBDIR} ${CMAKE_INSTALL_FULL_LIBEXECDIR}/burr)
