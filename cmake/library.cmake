@@ -15,8 +15,9 @@ endforeach()
 configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_cases.cpp.in ${CMAKE_BINARY_DIR}/built_in_cases.cpp @ONLY)
 list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_cases.cpp)
 
-list(REMOVE_ITEM BURR_SOURCES ${BURR_READERS})
-add_library(burr SHARED ${BURR_SOURCES})
+set(library_sources ${BURR_SOURCES})
+list(REMOVE_ITEM library_sources ${BURR_READERS})
+add_library(burr SHARED ${library_sources})
 add_dependencies(burr burr_read)  # without it no scan can be read
 add_library(burr::burr ALIAS burr)
 set_target_properties(burr PROPERTIES OUTPUT_NAME burr VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})

@@ -1,13 +1,14 @@
 # burr-read: reads one scan in a process of its own (src/burr/io/fence.h). It holds the readers and what they
 # stand on, so it starts in milliseconds; libburr holds only what both sides need, and no codec at all.
-set(BURR_BOTH_SIDES base/check.cpp base/version.cpp
+file(GLOB base CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/base/*.cpp)
+set(BURR_BOTH_SIDES
   io/bytes.cpp io/fence_letter.cpp io/fence_walls.cpp io/samples.cpp io/text.cpp io/voxels.cpp)
 set(BURR_READERS io/dicom_header.cpp io/dicom_pixels.cpp io/fence_child.cpp io/geometry.cpp
   io/read_dicom.cpp io/read_meta.cpp io/read_nifti.cpp io/read_nrrd.cpp io/read_unfenced.cpp)
 list(TRANSFORM BURR_BOTH_SIDES PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)
 list(TRANSFORM BURR_READERS PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)
 
-add_library(burr_readers STATIC ${BURR_READERS} ${BURR_BOTH_SIDES})
+add_library(burr_readers STATIC ${BURR_READERS} ${BURR_BOTH_SIDES} ${base})
 target_include_directories(burr_readers PUBLIC ${PROJECT_SOURCE_DIR}/src)
 target_link_libraries(burr_readers PUBLIC Eigen3::Eigen Threads::Threads fmt::fmt ZLIB::ZLIB BZip2::BZip2 burr_gdcm
   PRIVATE burr_options)

@@ -37,6 +37,7 @@ add_executable(naughty_reader ${PROJECT_SOURCE_DIR}/tests/io/naughty/naughty_rea
 set_target_properties(naughty_reader PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 target_link_libraries(naughty_reader PRIVATE burr_readers burr_options)
 add_dependencies(test_io naughty_reader)
+target_link_libraries(test_io PRIVATE burr_readers)  # what burr-read calls, without the fence
 if(EXISTS ${PROJECT_SOURCE_DIR}/cmake/checks.cmake)
   include(cmake/checks.cmake)
 endif()

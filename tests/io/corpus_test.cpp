@@ -256,7 +256,11 @@ Seen seen(const nlohmann::json& found) {
 
 // Empty: the same.
 std::string difference(const Scan& scan, const nlohmann::json& found) {
-  const Seen own = seen(scan), other = seen(found);
+  Seen own = seen(scan), other = seen(found);
+  if (found["reader"] == "dcm2niix") {  // turns a stack into its own order of axes; see the corners
+    std::sort(own.size.begin(), own.size.end());
+    std::sort(other.size.begin(), other.size.end());
+  }
   std::ostringstream text;
   if (own.size != other.size)
     text << " size " << own.size[0] << " " << own.size[1] << " " << own.size[2] << " against "
@@ -269,8 +273,8 @@ std::string difference(const Scan& scan, const nlohmann::json& found) {
   // the other ones print six digits
   if (!(farthest < 2e-3 + 2e-5 * longest)) text << " a corner lies " << farthest << " mm apart";
   // outside the scanner's view, and beyond, is air for us
-  const double low = scan.hounsfield ? std::max(other.low, -1024.0) : other.low,
-               high = scan.hounsfield ? std::max(other.high, -1024.0) : other.high;
+  const double floor = scan.format == "DICOM" && scan.hounsfield ? -1024.0 : other.low;
+  const double low = std::max(other.low, floor), high = std::max(other.high, floor);
   const double close = 1e-5 * std::max({1.0, std::abs(low), std::abs(high)});
   if (!(std::abs(own.low - low) <= close)) text << " lowest " << own.low << " against " << low;
   if (!(std::abs(own.high - high) <= close)) text << " highest " << own.high << " against " << high;

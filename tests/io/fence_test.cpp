@@ -64,11 +64,11 @@ class Fence : public test::FolderTest {
   }
 };
 
-#define EXPECT_SAYS(sentence, words)                                           \
-  do {                                                                         \
-    const std::string text = (sentence);                                       \
-    EXPECT_NE(text.find(words), std::string::npos) << text << "\n" << (words); \
-  } while (false)
+testing::AssertionResult has(const std::string& text, const std::string& words) {
+  if (text.find(words) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "\"" << words << "\" is not in \"" << text << "\"";
+}
+#define EXPECT_SAYS(sentence, words) EXPECT_TRUE(has(sentence, words))
 
 TEST_F(Fence, LetsThroughWhatIsRead) {
   const auto scan = ask("behave");

@@ -226,6 +226,32 @@ TEST(ReadScan, OneSliceEveryTransferSyntaxOneTruth) {
     ASSERT_TRUE(scan.ok()) << scan.error().text;
     EXPECT_EQ(scan->values, truth->values) << lossless;
   }
+  // what each of the others loses, in steps of its own numbers; 8 bit leave 256 of them
+  struct Lossy {
+    const char* name;
+    double step, mean, most;
+  };
+  for (const Lossy& lossy :
+       {Lossy{"JPEGLSLossyTransferSyntax_1.2.840.10008.1.2.4.81.dcm", 1, 1, 1},
+        {"JPEG2000TransferSyntax_1.2.840.10008.1.2.4.91.dcm", 1, 1, 8},
+        {"JPEGProcess2_4TransferSyntax_1.2.840.10008.1.2.4.51.dcm", 2, 2, 20},
+        {"JPEGProcess6_8TransferSyntax_1.2.840.10008.1.2.4.53.dcm", 2, 2, 20},
+        {"JPEGProcess10_12TransferSyntax_1.2.840.10008.1.2.4.55.dcm", 2, 2, 20},
+        {"JPEGProcess1TransferSyntax_1.2.840.10008.1.2.4.50.dcm", 32.2, 0.5, 2}}) {
+    const auto scan = read(folder + lossy.name);
+    ASSERT_TRUE(scan.ok()) << scan.error().text;
+    ASSERT_EQ(scan->values.size(), truth->values.size());
+    EXPECT_TRUE(scan->hounsfield);
+    double sum = 0, most = 0;
+    for (std::size_t v = 0; v < scan->values.size(); ++v) {
+      const double off = std::abs(scan->values[v] - truth->values[v]);
+      sum += off;
+      most = std::max(most, off);
+    }
+    EXPECT_LE(sum / static_cast<double>(scan->values.size()), lossy.mean * lossy.step)
+        << lossy.name;
+    EXPECT_LE(most, lossy.most * lossy.step) << lossy.name;
+  }
   EXPECT_EQ(*std::min_element(truth->values.begin(), truth->values.end()), -1024)
       << "-3024 around the circle is air";
   EXPECT_TRUE(says(*truth, "-1024 HU"));

@@ -12,7 +12,6 @@ read_meta below, written from its page and not from burr.
 """
 import array
 import concurrent.futures
-import gzip
 import json
 import pathlib
 import re
@@ -96,7 +95,15 @@ NIFTI_CODES = {2: "B", 4: "h", 8: "i", 16: "f", 64: "d", 256: "b", 512: "H", 768
 
 def unpacked(path):
     raw = pathlib.Path(path).read_bytes()
-    return gzip.decompress(raw) if raw[:2] == b"\x1f\x8b" else raw
+    return zlib.decompressobj(31).decompress(raw) if raw[:2] == b"\x1f\x8b" else raw
+
+
+def other_half(path):
+    """Of a pair the file with the voxels."""
+    for name in (re.sub(r"\.hdr(\.gz)?$", ".img", path.name), re.sub(r"\.hdr(\.gz)?$", ".img.gz", path.name)):
+        if name != path.name and (path.parent / name).exists():
+            return path.parent / name
+    return path
 
 
 def read_nifti(path):
@@ -120,7 +127,7 @@ def read_nifti(path):
         m = [number("dx") * scale, 0, 0, 0, 0, number("dy") * scale, 0, 0, 0, 0, number("dz") * scale, 0]
     flip = [-1, -1, 1]
     code = NIFTI_CODES[int(number("datatype"))]
-    data = unpacked(fields["iname"][0].strip("'"))
+    data = unpacked(other_half(path))
     at = int(number("iname_offset"))
     count = sizes[0] * sizes[1] * sizes[2] * int(number("nbyper"))
     big = number("byteorder") == 2
@@ -225,6 +232,8 @@ def read_dicom_folder(path):
     with tempfile.TemporaryDirectory() as folder:
         output_of("dcm2niix", "-z", "n", "-b", "n", "-f", "other%s_%d", "-w", "1", "-o", folder, path)
         made = sorted(pathlib.Path(folder).glob("*.nii"))
+        # of a leaning or uneven stack it keeps the raw one besides
+        made = [one for one in made if "Tilt" in one.name or "_Eq" in one.name] or made
         if not made:
             raise Refuses("no volume")
         if len(made) > 1:

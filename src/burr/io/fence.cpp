@@ -9,6 +9,10 @@
 
 #include "burr/io/fence_walls.h"
 
+#if !defined(BURR_LIBEXEC_FROM_LIB)
+#define BURR_LIBEXEC_FROM_LIB "../libexec/burr"
+#endif
+
 namespace burr::io {
 namespace {
 

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <new>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace burr::io {
@@ -51,12 +50,9 @@ class VoxelMemory {
       delete_voxels(at, n * sizeof(T));
   }
   // What lies in a mapping stays as it is; elsewhere a voxel begins as 0.
-  template <class U, class... Arguments>
-  void construct(U* at, Arguments&&... arguments) {
-    if constexpr (sizeof...(Arguments) == 0) {
-      if (filled_) return;
-    }
-    ::new (static_cast<void*>(at)) U(std::forward<Arguments>(arguments)...);
+  template <class U>
+  void construct(U* at) {
+    if (!filled_) ::new (static_cast<void*>(at)) U();
   }
   [[nodiscard]] VoxelMemory select_on_container_copy_construction() const { return {}; }
 
