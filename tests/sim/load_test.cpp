@@ -69,6 +69,16 @@ TEST(LoadGovernor, LooksAtWorkAtLatenessAndAtWhatWasLeftOut) {
   EXPECT_GT(after(0, 0, 1), Load::none);
 }
 
+TEST(LoadGovernor, TouchesLessWellOnlyWhereTheTickItselfIsTooHeavy) {
+  LoadGovernor late(kMs), heavy(kMs);
+  for (int n = 0; n < 5000; ++n) {
+    late.note(kMs / 10, 2 * kMs, 2);
+    heavy.note(kMs * 7 / 10, 0, 0);
+  }
+  EXPECT_EQ(late.load(), Load::removal_8);
+  EXPECT_EQ(heavy.load(), Load::touch);
+}
+
 TEST(LoadGovernor, AMishapIsNoOverload) {
   LoadGovernor governor(kMs);
   for (int n = 0; n < 10'000; ++n) {

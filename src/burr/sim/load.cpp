@@ -32,16 +32,20 @@ LoadGovernor::LoadGovernor(std::int64_t period_ns, const LoadSettings& settings)
 void LoadGovernor::note(std::int64_t wall_ns, std::int64_t late_ns, std::int64_t missed) BURR_RT {
   const double work = 1e-9 * static_cast<double>(wall_ns),
                late = 1e-9 * static_cast<double>(late_ns);
-  const bool over = missed > 0 || work > settings_.work_share * period_s_ ||
-                    late > settings_.late_share * period_s_;
+  const bool heavy = work > settings_.work_share * period_s_;
+  const bool over = heavy || missed > 0 || late > settings_.late_share * period_s_;
   // time goes on in the periods that were left out, too
   const double passed = period_s_ * static_cast<double>(1 + std::max<std::int64_t>(missed, 0));
   // ... but one long pause is one mishap, however many it took along
-  share_ += ((over ? 1.0 : 0.0) - share_) * std::min(0.2, passed / settings_.memory);
+  const double blend = std::min(0.2, passed / settings_.memory);
+  share_ += ((over ? 1.0 : 0.0) - share_) * blend;
+  heavy_ += ((heavy ? 1.0 : 0.0) - heavy_) * blend;
   since_step_ += passed;
   calm_for_ = share_ > settings_.seldom ? 0 : calm_for_ + passed;
 
-  if (share_ > settings_.often && since_step_ >= settings_.memory && load_ != Load::touch) {
+  // a tick that comes late although it is light is not mended by touching less well
+  const Load last = heavy_ > settings_.often ? Load::touch : Load::removal_8;
+  if (share_ > settings_.often && since_step_ >= settings_.memory && load_ < last) {
     // a step down that did not last: wait longer before the next one
     if (stepped_down_ && since_step_ < 2 * calm_wanted_)
       calm_wanted_ = std::min(2 * calm_wanted_, settings_.calm_most);

@@ -68,6 +68,7 @@ class LoadGovernor {
   double period_s_;
   Load load_ = Load::none, most_ = Load::none;
   double share_ = 0;       // of ticks that were over, smoothed
+  double heavy_ = 0;       // ... by their own work
   double since_step_ = 0;  // since the last step up or down                         [s]
   double calm_for_ = 0;    // [s]
   double calm_wanted_;     // [s]
