@@ -145,10 +145,13 @@ Status Recording::finish(sim::Session& session) {
                                              : "nothing was kept"));
 }
 
+record::RecordingAccount Recording::written() const {
+  return recorder_ ? recorder_->account() : record::RecordingAccount{};
+}
+
 nlohmann::json Recording::account() const {
   const std::lock_guard lock(mutex_);
-  const record::RecordingAccount account =
-      recorder_ ? recorder_->account() : record::RecordingAccount{};
+  const record::RecordingAccount account = written();
   nlohmann::json out;
   out["file"] = file_;
   out["whole"] = !trouble_ && account.whole();

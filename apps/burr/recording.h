@@ -35,6 +35,7 @@ class Recording {
   [[nodiscard]] std::string trouble() const;
   // After finish(): the file, whether it is whole, how much of the session it holds.
   [[nodiscard]] nlohmann::json account() const;
+  [[nodiscard]] record::RecordingAccount written() const;
 
  private:
   void tell(const Error& problem);

@@ -213,9 +213,9 @@ Result<WholeOutcome> run_whole(sim::Session& session, const sim::WorkPlace& plac
   busy.reset();
   if (waiting != nullptr) out.waiting = waiting->stop();
   if (records) {
-    auto account = recording.finish(session);
-    if (!account) return account.error();
-    out.recorded = *account;
+    const Status recorded = recording.finish(session);
+    if (!recorded) return recorded.error();
+    out.recorded = recording.written();
   }
   out.session = session.outcome();
   if (interrupted()) return error(Trouble::interrupted, "stopped before the time was over");

@@ -24,7 +24,12 @@ struct Crowd {
             scenes::slab({0, 0, 1}, {0, 0, 20 * kMm}))),
         surface(*bone, {}, 1, quiet),
         undo(*bone, 8192),
-        carver(*bone, surface, undo, nullptr, {.advance = 0, .margin = 0, .margin_most = 0}) {
+        carver(*bone, surface, undo, nullptr,
+               {.advance_m = 0,
+                .advance_least = 0,
+                .margin_m = 0,
+                .margin_least = 0,
+                .margin_most = 0}) {
     undo.begin_stroke(0);
     cut.centre = bone->grid().grid_from_world({0.03 * kMm, -0.02 * kMm, 0.01 * kMm});
     cut.push = Vec3(0, 0, -1);
