@@ -58,7 +58,7 @@ replays() {
 }
 
 # ---- the disk is full
-if [ "$(id -u)" = 0 ] && mkdir "$place/small" && mount -t tmpfs -o size=256k tmpfs "$place/small" 2>/dev/null; then
+if [ "$(id -u)" = 0 ] && mkdir "$place/small" && mount -t tmpfs -o size=1m tmpfs "$place/small" 2>/dev/null; then
   mounted+=("$place/small")
   "$burr" --quiet mill "${block[@]}" --seconds 12 --record "$place/small/s.mcap" --json >"$place/full.out" 2>"$place/full.err"
   check full $? 'No space left on device; make room'
@@ -66,7 +66,7 @@ if [ "$(id -u)" = 0 ] && mkdir "$place/small" && mount -t tmpfs -o size=256k tmp
   replays full "$place/small/s.mcap"
 fi
 (
-  ulimit -f 200 # KiB
+  ulimit -f 900 # KiB
   exec "$burr" --quiet mill "${block[@]}" --seconds 12 --record "$place/limit.mcap" --json >"$place/limit.out" 2>"$place/limit.err"
 )
 check limit $? 'limit.mcap: cannot write on: File too large; raise the limit'

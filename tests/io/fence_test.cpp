@@ -123,9 +123,9 @@ TEST_F(Fence, OpensNothingOutsideItsFile) {
   EXPECT_SAYS(said("list /"), "refused");
   // a header may name what lies beside it, and no more
   const auto header = [&](const std::string& other) {
-    std::ofstream(path("x.nhdr")) << "open " << other;
+    std::ofstream(path("x.mhd")) << "open " << other;
     NoProgress progress;
-    return read_scan(path("x.nhdr"), {}, progress).error().text;
+    return read_scan(path("x.mhd"), {}, progress).error().text;
   };
   EXPECT_SAYS(header(path("beside.txt")), "it worked");
   EXPECT_SAYS(header(outside), "refused");
