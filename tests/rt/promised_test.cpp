@@ -78,6 +78,18 @@ TEST(Promised, GrowsAndGivesBackWithoutLosingAnything) {
   EXPECT_EQ(array[kMany - 1], 8U);
 }
 
+// A real-time session locks all memory of the program; the kernel gives none of that back, so what
+// is handed in must be wiped, or the next session's deposited bricks begin with old bone.
+TEST(Promised, WhatIsGivenBackIsZeroThoughItIsLocked) {
+  Promised<std::uint64_t> array(4096);
+  if (mlock(array.data(), 8 * array.size()) != 0) GTEST_SKIP() << "may not lock memory";
+  for (std::size_t n = 0; n < array.size(); ++n) array[n] = n + 1;
+  array.give_back(100);
+  EXPECT_EQ(array[99], 100U);
+  for (std::size_t n = 100; n < array.size(); ++n) ASSERT_EQ(array[n], 0U) << n;
+  munlock(array.data(), 8 * array.size());
+}
+
 TEST(Promised, AHelperTakesAheadWhileTheOwnerWrites) {
   Promised<std::uint64_t> array(1'000'000);
   std::atomic<std::size_t> used = 0;

@@ -214,7 +214,10 @@ TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
         << *replayed->parted_at << ": " << replayed->difference;
     EXPECT_EQ(replayed->ticks, outcome.ticks);
   }
-  std::filesystem::remove(file);
+  if (HasFailure())
+    std::printf("kept for a look: %s\n", file.c_str());
+  else
+    std::filesystem::remove(file);
 }
 
 }  // namespace

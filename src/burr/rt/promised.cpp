@@ -86,12 +86,13 @@ void PromisedBytes::give_back(std::size_t from) {
   if (from >= bytes_) return;
   const std::size_t whole = up(from, page());
   std::memset(data_ + from, 0, std::min(whole, bytes_) - from);
-  if (whole >= bytes_ || !kernel_can()) {
-    if (whole < bytes_) std::memset(data_ + whole, 0, bytes_ - whole);
-    return;
+  if (whole >= bytes_) return;
+  // memory that is locked (mlockall, a real-time session in this process) is not given back
+  if (kernel_can() && madvise(data_ + whole, bytes_ - whole, MADV_DONTNEED) == 0) {
+    had_ = std::min(had_, whole);
+  } else {
+    std::memset(data_ + whole, 0, bytes_ - whole);
   }
-  madvise(data_ + whole, bytes_ - whole, MADV_DONTNEED);
-  had_ = std::min(had_, whole);
 }
 
 }  // namespace burr::rt
