@@ -9,7 +9,7 @@ namespace burr::edit {
 // How far each voxel of a brick stands above what the ball leaves (carve), or below what it fills
 // (deposit).
 struct Excess {
-  std::int64_t units = 0;   // volume of all of it, volume_of.h units
+  std::int64_t units = 0;   // volume of all of it, roughly, volume_of.h units
   std::int32_t most = 0;    // largest of a voxel  [field units]
   std::uint32_t pairs = 0;  // bit y / 2 + 4 z: there is some in this pair of rows
 };
