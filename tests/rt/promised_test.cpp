@@ -45,6 +45,9 @@ TEST(Promised, IsZeroAndTakesOnlyWhatItWasAskedToHave) {
 }
 
 TEST(Promised, WhatIsHadIsWrittenWithoutTheKernel) {
+#if defined(BURR_SANITIZED)
+  GTEST_SKIP() << "a sanitizer's own books beside the array are written too, and counted";
+#endif
   if (!takes_ahead()) GTEST_SKIP() << "this kernel takes everything at once";
   Promised<std::uint64_t> array(kMany);
   const auto faults = [] {
