@@ -26,13 +26,14 @@ using math::Vec3;
 struct Options {
   int size = 512;
   std::string shape = "ball", mill;
-  double burr_mm = 6, depth_mm = 0.5, speed_mm_s = 20;
+  double burr_mm = 6, depth_mm = 0.5, speed_mm_s = 20, sink_mm = 3;
   int ticks = 3000;
   double rate_hz = 1000;
   bool evict = false, json = false;
 };
 
 constexpr int kWarmUp = 400;           // ticks from the air into contact, not counted
+constexpr double kGathers = 0.1;       // [s]
 constexpr double kSurfaceSpeed = 8.4;  // of the burr; 3.4 mm^3/s per N in cortical bone  [m/s]
 
 double quantile(std::vector<double> values, double q) {
@@ -52,10 +53,12 @@ device::HandPath hand_path(const Options& options) {
   for (int n = 0; n < kWarmUp + options.ticks; ++n) {
     const int counted = std::max(0, n - kWarmUp);
     double sunk = depth, above = n < kWarmUp ? 3e-3 * (1 - static_cast<double>(n) / kWarmUp) : 0;
-    if (options.mill == "plunge") sunk = std::min(3e-3, 3e-3 * counted * dt);
-    if (options.mill == "slot") sunk = std::min(3e-3, 6e-3 * counted * dt);
-    const bool moves = options.mill != "plunge" && (options.mill != "slot" || counted * dt > 0.5);
-    if (n > kWarmUp && moves) angle += speed * dt / (ball + r - sunk);
+    if (options.mill == "plunge") sunk = std::min(options.sink_mm * 1e-3, 3e-3 * counted * dt);
+    if (options.mill == "slot") sunk = std::min(options.sink_mm * 1e-3, 6e-3 * counted * dt);
+    // a hand gathers speed: from rest to all of it in a tenth of a second
+    const double begins = options.mill == "slot" ? 0.5 : 0;
+    const double gathered = std::clamp((counted * dt - begins) / kGathers, 0.0, 1.0);
+    if (options.mill != "plunge") angle += gathered * speed * dt / (ball + r - sunk);
     Vec3 at = (ball + r - sunk + above) * (std::cos(angle) * a + std::sin(angle) * b);
     if (options.shape == "box") {  // along the top face of a box, through its edge region and back
       const double half = 15e-3, way = std::fmod(speed * dt * counted, 4 * 0.8 * half);

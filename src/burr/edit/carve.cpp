@@ -19,7 +19,11 @@ using volume::kBrickEdge;
 using volume::kBrickVoxels;
 
 constexpr std::size_t kMostWork = 1024;  // bricks in one tick: 7 mm at 0.1 mm takes 400
-constexpr int kMostTurns = 64;           // more than the largest burr on the finest voxel needs
+constexpr int kMostTurns = Carver::kMostTurns;
+// Bricks in one tick from which on they are cut in turns though nobody is in a hurry: each of so
+// many loses a hair a tick, and costs as much as if it lost four.
+constexpr double kManyBricks = 72;
+constexpr int kUsualTurns = 4;  // at most
 constexpr std::uint8_t kMixed = 255;
 
 // bits of haptics/contact.h; edit may not include haptics, sim/servo.cpp asserts that they agree
@@ -76,7 +80,7 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
                     int turns, std::uint32_t& flags) BURR_RT {
   work_count_ = 0;
   crowded_ = false;
-  const unsigned turn = turn_++ % static_cast<unsigned>(turns);
+  const auto turn = static_cast<unsigned>(turn_);
   total_units_ = 0;
   const double reach = radius + volume::kRamp;
   math::Ijk lo, hi;
@@ -159,13 +163,10 @@ double Carver::mean_energy() const BURR_RT {
   return weight > 0 ? energy / weight : last_energy_density_;
 }
 
-// Takes (puts) as much of the excess as comes nearest to `wanted_units`; returns what it really
-// was.
-std::int64_t Carver::apply(double wanted_units, bool deposit, volume::TissueId material,
+// Takes (puts) `share` of the excess; returns how much that really was.
+std::int64_t Carver::apply(double share, bool deposit, volume::TissueId material,
                            std::uint32_t& flags) BURR_RT {
-  if (total_units_ <= 0 || wanted_units <= 0) return 0;
-  const double share = std::min(1.0, wanted_units / static_cast<double>(total_units_));
-  const auto fixed = static_cast<std::int32_t>(share * 65536.0);
+  const auto fixed = static_cast<std::int32_t>(std::clamp(share, 0.0, 1.0) * 65536.0);
   if (fixed == 0) return 0;
   std::int64_t done = 0;
   BrickField now;
@@ -201,9 +202,33 @@ int Carver::choose_turns(int wanted, std::uint32_t& flags) BURR_RT {
   } else if (crowd_turns_ > 1 && work_count_ < kMostWork / 4) {
     crowd_turns_ /= 2;
   }
-  const int turns = std::max(wanted, crowd_turns_);
-  if (turns > 1) flags |= kPutOff;
+  double bricks = 0;
+  for (int t = 0; t < turns_; ++t) bricks += parts_[t].bricks;
+  if (bricks > kManyBricks * usual_turns_ && usual_turns_ < kUsualTurns) usual_turns_ *= 2;
+  if (bricks < 0.4 * kManyBricks * usual_turns_ && usual_turns_ > 1) usual_turns_ /= 2;
+  const int late = std::max(wanted, crowd_turns_);
+  if (late > 1) flags |= kPutOff;
+  const int turns = std::min(late * usual_turns_, kMostTurns);
+  if (turns != turns_) {
+    turns_ = turns;
+    turn_ = 0;
+    // nothing is known yet of the others' parts; the first is taken for the mean of all
+    std::fill_n(parts_, turns, Part{});
+  }
   return turns;
+}
+
+// What all turns together have to give, from what each found when it last came.  [units]
+double Carver::excess_of_all_turns() BURR_RT {
+  parts_[turn_] = {total_units_, static_cast<int>(work_count_), true};
+  turn_ = (turn_ + 1) % turns_;
+  double sum = 0;
+  int known = 0;
+  for (int t = 0; t < turns_; ++t) {
+    sum += static_cast<double>(parts_[t].units);
+    known += parts_[t].known ? 1 : 0;
+  }
+  return sum * turns_ / known;
 }
 
 // A debt older than patience at the present rate of asking is not going to be cut.
@@ -227,8 +252,11 @@ void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
   asked_ += asked;
   debt_ += asked;
   energy_ += cut.energy;
-  const bool blocked = turns * static_cast<double>(total_units_) < debt_;
-  const std::int64_t removed = apply(debt_, false, 0, flags);
+  // every brick gives the same share of its excess, whichever turn is its own: what is asked until
+  // the turn comes round again, and what is still owed
+  const double all = excess_of_all_turns(), owed = debt_ + (turns - 1) * asked;
+  const bool blocked = all < owed;
+  const std::int64_t removed = all > 0 ? apply(owed / all, false, 0, flags) : 0;
   removed_ += removed;
   debt_ -= static_cast<double>(removed);
   margin_ =
@@ -247,9 +275,10 @@ void Carver::deposit(const Cut& cut, std::uint32_t& flags) BURR_RT {
   const int turns = choose_turns(cut.turns, flags);
   gather(cut.centre + cut.radius * cut.push, radius, keep_out, true, turns, flags);
   const double patience = settings_.patience + (turns - 1) * cut.dt;
-  added_debt_ =
-      std::min(added_debt_ + cut.volume / unit_m3_, cut.volume / unit_m3_ * patience / cut.dt);
-  const std::int64_t added = apply(added_debt_, true, cut.material, flags);
+  const double asked = cut.volume / unit_m3_;
+  added_debt_ = std::min(added_debt_ + asked, asked * patience / cut.dt);
+  const double all = excess_of_all_turns(), owed = added_debt_ + (turns - 1) * asked;
+  const std::int64_t added = all > 0 ? apply(owed / all, true, cut.material, flags) : 0;
   added_ += added;
   added_debt_ -= static_cast<double>(added);
 }

@@ -59,6 +59,7 @@ struct Cut {
 
 class Carver {
  public:
+  static constexpr int kMostTurns = 64;  // more than the largest burr on the finest voxel needs
   // changed: every brick written is told to it; may be nullptr
   Carver(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo, ChangedQueue* changed,
          const CarveSettings& settings);
@@ -90,7 +91,8 @@ class Carver {
   void gather(const math::Vec3& centre, double radius, const float keep_out[4], bool deposit,
               int turns, std::uint32_t& flags) BURR_RT;
   [[nodiscard]] int choose_turns(int wanted, std::uint32_t& flags) BURR_RT;
-  [[nodiscard]] std::int64_t apply(double wanted_units, bool deposit, volume::TissueId material,
+  [[nodiscard]] double excess_of_all_turns() BURR_RT;
+  [[nodiscard]] std::int64_t apply(double share, bool deposit, volume::TissueId material,
                                    std::uint32_t& flags) BURR_RT;
   [[nodiscard]] double mean_energy() const BURR_RT;
   void write_off(double asked_units, double dt, int turns) BURR_RT;
@@ -112,7 +114,14 @@ class Carver {
   std::size_t work_count_ = 0;
   bool crowded_ = false;  // more bricks than work_ holds
   int crowd_turns_ = 1;   // in how many turns they fit
-  unsigned turn_ = 0;
+  int usual_turns_ = 1;   // in how many it is worth the while
+  struct Part {
+    std::int64_t units = 0;  // excess of the turn's bricks
+    int bricks = 0;
+    bool known = false;
+  };
+  Part parts_[kMostTurns] = {};  // of each turn, when it last came
+  int turns_ = 1, turn_ = 0;     // this many; the next
   std::int64_t total_units_ = 0;
 
   double asked_ = 0, debt_ = 0, not_cut_ = 0;           // [units]

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "burr/haptics/soft_contact.h"
 #include "burr/haptics/thin.h"
 #include "burr/rt/simd.h"
 #include "burr/volume/sample.h"
@@ -19,18 +20,24 @@ using volume::kBrickEdge;
 constexpr double kLookShare = 2.0, kLookLeast = 0.2, kLookMost = 1.5;
 constexpr double kLeastGuess = 0.02;  // discs this near are always looked at  [voxel]
 
+// the soft layer that is felt while bone is cut
+constexpr double kLayer = 0.15;          // its thickness: as deep as the surface hops  [voxel]
+constexpr double kFollow = 0.03;         // of its support's change is followed in a tick [-]
+constexpr double kSoftening = 0.0625;    // it comes and goes in so many parts, one a tick [-]
+constexpr double kFarthestShare = 0.25;  // of the radius: from the proxy to the place on it [-]
+
 }  // namespace
 
 ScanKernel scan_kernel() noexcept {
   switch (rt::simd()) {
     case rt::Simd::avx512:
-      return {avx512::find_near, avx512::scan_blocks, avx512::most_violated};
+      return {avx512::find_near, avx512::scan_blocks, avx512::most_violated, avx512::soft_push};
     case rt::Simd::avx2:
-      return {avx2::find_near, avx2::scan_blocks, avx2::most_violated};
+      return {avx2::find_near, avx2::scan_blocks, avx2::most_violated, avx2::soft_push};
     case rt::Simd::scalar:
       break;
   }
-  return {scalar::find_near, scalar::scan_blocks, scalar::most_violated};
+  return {scalar::find_near, scalar::scan_blocks, scalar::most_violated, scalar::soft_push};
 }
 
 Proxy::Proxy(const volume::IsoVertices& surface, const ProxySettings& settings, const Vec3& hand)
@@ -65,6 +72,7 @@ void Proxy::place(const Vec3& p) BURR_RT {
   c_ = grid_.grid_from_world(p);
   last_move_ = 0;
   sliding_ = false;
+  soft_ = {};
 }
 
 bool Proxy::is_free(const Vec3& p) BURR_RT {
@@ -156,9 +164,13 @@ void Proxy::collect(const Vec3& centre, double within, bool crowded) BURR_RT {
     out.full = near_reach_ < within;
   }
   if (!out.full) scan_near(centre, within, crowded);
-  // what is overstepped (bone grew, or was made anew a hair higher) pushes out gently
+}
+
+// What is overstepped (bone grew, or was made anew a hair higher) pushes out gently.
+void Proxy::be_gentle() BURR_RT {
   const float deepest = -static_cast<float>(settings_.recovery);
-  for (int j = 0; j < out.count; ++j) out.gap[j] = std::max(out.gap[j], deepest);
+  Candidates& all = *candidates_;
+  for (int j = 0; j < all.count; ++j) all.gap[j] = std::max(all.gap[j], deepest);
 }
 
 // The best move from `from` that the discs allow, at most `longest` long. Only discs with gap <
@@ -178,6 +190,7 @@ LeastMove Proxy::move_toward(const Vec3& from, const Vec3& wanted, double longes
       candidates_->full = true;     // and say so
       longest = within;
     }
+    be_gentle();
     LeastMove move = least_move(*candidates_, wanted, kernel_.most_violated);
     if (!move.solved) {  // overstepped discs on opposite sides: hold still rather than choose
       for (int j = 0; j < candidates_->count; ++j)
@@ -262,6 +275,65 @@ Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand) const BUR
   return place;
 }
 
+// Where the burr rests on the soft layer (soft_contact.h): searched from where it rested a tick
+// ago, not from the proxy, which may hang on a rough place of the bone far from where it would like
+// to be. False: too many discs; soft_ is as it was, moved along with the proxy.
+bool Proxy::rest_softly(const Vec3& hand) BURR_RT {
+  constexpr int kRounds = 4;
+  if (!soft_.known) soft_ = {c_, c_, 0, 0, soft_.share, true};
+  Vec3 at = soft_.place;
+  // about what the last tick needed, and twice as much if that was too little  [voxel]
+  double beyond = std::clamp(1.5 * soft_.move + 0.1, 0.2, 1.0);
+  for (int round = 0; round < kRounds; ++round) {
+    collect(at, kLayer + beyond);
+    if (candidates_->full) {
+      soft_.place += c_ - soft_.proxy;
+      soft_.proxy = c_;
+      return false;
+    }
+    if (round == 0) {
+      // a burr rests on at least one disc; no layer may be twice too soft, or too stiff, for long
+      const double now =
+          std::max(kLayer, soft_support(*candidates_, c_ - at, kLayer, kernel_.soft_push));
+      soft_.support =
+          soft_.support > 0
+              ? std::clamp(soft_.support + kFollow * (now - soft_.support), 0.5 * now, 2 * now)
+              : now;
+    }
+    const SoftRest rest =
+        soft_rest(*candidates_, hand - at, kLayer, soft_.support, kernel_.soft_push);
+    soft_.pressing = rest.pressing;
+    const double length = rest.place.norm();
+    at += rest.place * std::min(1.0, beyond / std::max(length, 1e-9));
+    if (length <= beyond) break;
+    beyond *= 2;
+  }
+  soft_.move = (at - soft_.place).norm();
+  const Vec3 away = at - c_;
+  const double farthest = kFarthestShare * radius_, far = away.norm();
+  soft_.place = far > farthest ? Vec3(c_ + away * (farthest / far)) : at;
+  soft_.proxy = c_;
+  return true;
+}
+
+// The place whose stretch from the hand is felt. `pressing`: sum of the contacts' spring lengths
+// there.
+Vec3 Proxy::force_place(const LeastMove& last, const Vec3& hand, double& pressing) BURR_RT {
+  if (!settings_.smooth || last.active == 0) {
+    soft_.known = false;
+    return c_;
+  }
+  const Vec3 smooth = soft_.share < 1 ? on_smooth_surface(last, hand) : c_;
+  if (soft_.share == 0) {
+    soft_.known = false;
+    return smooth;
+  }
+  // too many discs to look at: what is known of the soft layer fades into what is known without it
+  if (!rest_softly(hand)) soft_.share = std::max(0.0, soft_.share - 2 * kSoftening);
+  pressing = soft_.share * soft_.pressing + (1 - soft_.share) * pressing;
+  return soft_.share * soft_.place + (1 - soft_.share) * smooth;
+}
+
 // Moves the proxy to the free place nearest to `target`, by short moves each of which is free.
 LeastMove Proxy::settle(const Vec3& target, double guess, int moves, Touch& touch) BURR_RT {
   LeastMove last;
@@ -290,6 +362,9 @@ Touch Proxy::step(const Vec3& hand) BURR_RT {
   const Vec3 x = grid_.grid_from_world(hand);
   const Vec3 before = c_;
   Touch touch;
+  const bool cut = revision_ != surface_.revision();
+  revision_ = surface_.revision();
+  soft_.share = std::clamp(soft_.share + (cut ? kSoftening : -kSoftening), 0.0, 1.0);
   const LeastMove last = settle(x, 1.3 * last_move_, settings_.max_moves, touch);
   last_move_ = first_move_;
   touch.active = last.active;
@@ -298,7 +373,7 @@ Touch Proxy::step(const Vec3& hand) BURR_RT {
   if (touch.touching) {
     double pressing = 0;
     for (int a = 0; a < last.active; ++a) pressing += last.push[a];
-    const Vec3 free_place = settings_.smooth && last.active > 0 ? on_smooth_surface(last, x) : c_;
+    const Vec3 free_place = force_place(last, x, pressing);
     const Vec3 stretch = free_place - x;
     const double depth = stretch.norm(), press = std::max(pressing, depth);
     const Vec3 normal = depth > 1e-12 ? Vec3(stretch / depth) : Vec3((c_ - x).normalized());
@@ -326,6 +401,7 @@ Touch Proxy::step(const Vec3& hand) BURR_RT {
     }
   } else {
     sliding_ = false;
+    soft_.known = false;
     if (!touch.lagging) c_ = x;
   }
   proxy_ = grid_.world_from_grid(c_);

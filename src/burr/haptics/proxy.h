@@ -31,7 +31,8 @@ struct ProxySettings {
   int max_moves = 12;      // in one tick; a hand faster than that is caught up later
   double close = 0.02;     // a move shorter than this ends the search                      [voxel]
   double recovery = 5e-3;  // bone that grew under the burr pushes it out this far a tick   [voxel]
-  bool smooth = true;      // force from the smooth surface, not from the discs' facets
+  bool smooth = true;      // force from the smooth surface (while cutting: from a soft layer), not
+                           // from the discs' facets
 };
 
 // Where the proxy came to rest this tick. World.
@@ -74,12 +75,16 @@ class Proxy {
   void look_around(const math::Vec3& centre, double reach, bool crowded) BURR_RT;
   void scan_near(const math::Vec3& centre, double within, bool crowded) BURR_RT;
   void collect(const math::Vec3& centre, double within, bool crowded = false) BURR_RT;
+  void be_gentle() BURR_RT;
   [[nodiscard]] LeastMove move_toward(const math::Vec3& from, const math::Vec3& wanted,
                                       double longest, double& guess, bool& cut_short) BURR_RT;
   [[nodiscard]] LeastMove settle(const math::Vec3& target, double guess, int moves,
                                  Touch& touch) BURR_RT;
   [[nodiscard]] math::Vec3 on_smooth_surface(const LeastMove& last,
                                              const math::Vec3& hand) const BURR_RT;
+  [[nodiscard]] bool rest_softly(const math::Vec3& hand) BURR_RT;
+  [[nodiscard]] math::Vec3 force_place(const LeastMove& last, const math::Vec3& hand,
+                                       double& pressing) BURR_RT;
 
   const volume::IsoVertices& surface_;
   volume::Grid grid_;
@@ -100,6 +105,16 @@ class Proxy {
   double first_move_ = 0;               // length of the first move of the last settle() [voxel]
   double last_move_ = 0;                // length of the last tick's first move [voxel]
   bool sliding_ = false;
+  std::uint64_t revision_ = 0;  // of the surface, in the last tick
+  struct {
+    math::Vec3 place = math::Vec3::Zero();  // where the burr rests on the soft layer    p_grid
+    math::Vec3 proxy = math::Vec3::Zero();  // where the proxy was then                  p_grid
+    double pressing = 0;                    // sum of what the discs bear there         [voxel]
+    double support = 0;                     // soft_support(), its mean                 [voxel]
+    double share = 0;                       // of it in what is felt; 1 while bone is cut  [-]
+    bool known = false;                     // the above are of the last tick
+    double move = 0;                        // how far it went in the last tick         [voxel]
+  } soft_;
 };
 
 }  // namespace burr::haptics

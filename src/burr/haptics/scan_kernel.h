@@ -41,10 +41,22 @@ using ScanBlocks = void (*)(const NearBlock* near, int count, const double centr
 // negative. First one on ties.
 using MostViolated = int (*)(const Candidates& all, const float p[3], float& worst) noexcept;
 
+// What a soft layer on the discs does to a burr moved by p: with s_j = layer - gap_j - n_j . p,
+// over the candidates with s_j > 0.
+struct SoftSums {
+  double squares = 0;    // sum s^2                                          [voxel^2]
+  double total = 0;      // sum s                                            [voxel]
+  double push[3] = {};   // sum s n                                          [voxel]
+  double stiff[6] = {};  // sum n n^T: xx xy xz yy yz zz                     [-]
+};
+using SoftPush = void (*)(const Candidates& all, const float p[3], float layer,
+                          SoftSums& sums) noexcept;
+
 struct ScanKernel {
   FindNear find_near;
   ScanBlocks scan;
   MostViolated most_violated;
+  SoftPush soft_push;
 };
 
 namespace scalar {
@@ -52,18 +64,21 @@ int find_near(const volume::VertexBlock*, int, const std::int32_t*, const double
               NearBlock*) noexcept;
 void scan_blocks(const NearBlock*, int, const double*, float, float, float, Candidates&) noexcept;
 int most_violated(const Candidates&, const float*, float&) noexcept;
+void soft_push(const Candidates&, const float*, float, SoftSums&) noexcept;
 }  // namespace scalar
 namespace avx2 {
 int find_near(const volume::VertexBlock*, int, const std::int32_t*, const double*, float,
               NearBlock*) noexcept;
 void scan_blocks(const NearBlock*, int, const double*, float, float, float, Candidates&) noexcept;
 int most_violated(const Candidates&, const float*, float&) noexcept;
+void soft_push(const Candidates&, const float*, float, SoftSums&) noexcept;
 }  // namespace avx2
 namespace avx512 {
 int find_near(const volume::VertexBlock*, int, const std::int32_t*, const double*, float,
               NearBlock*) noexcept;
 void scan_blocks(const NearBlock*, int, const double*, float, float, float, Candidates&) noexcept;
 int most_violated(const Candidates&, const float*, float&) noexcept;
+void soft_push(const Candidates&, const float*, float, SoftSums&) noexcept;
 }  // namespace avx512
 
 [[nodiscard]] ScanKernel scan_kernel() noexcept;
