@@ -260,9 +260,9 @@ TEST(Overload, AMachineTooSlowPutsOffPictureMeshAndRemovalAndTheTouchLast) {
 }
 
 // Not the same to the last: bricks that wait stand out a little, which turns the contact's normal
-// and with it how well the burr cuts. Seen: up to a tenth more in quarters; the account holds all
+// and with it how well the burr cuts. Seen: 4.5 % more in quarters, 2.4 % less in eighths; the account holds all
 // along.
-TEST(Overload, WhatIsCutInTurnIsCutWithinAnEighthOfTheSame) {
+TEST(Overload, WhatIsCutInTurnIsCutWithinASixteenthOfTheSame) {
   struct Seen {
     double removed = 0, depth = 0, mean_force = 0;
     int bricks = 0;
@@ -287,7 +287,7 @@ TEST(Overload, WhatIsCutInTurnIsCutWithinAnEighthOfTheSame) {
   const Seen at_once = cut_at(Load::none);
   for (const Load load : {Load::removal_2, Load::removal_4, Load::removal_8}) {
     const Seen in_turn = cut_at(load);
-    EXPECT_NEAR(in_turn.removed, at_once.removed, 0.125 * at_once.removed) << name(load);
+    EXPECT_NEAR(in_turn.removed, at_once.removed, 0.0625 * at_once.removed) << name(load);
     EXPECT_NEAR(in_turn.mean_force, at_once.mean_force, 0.05 * at_once.mean_force) << name(load);
     EXPECT_LT(in_turn.bricks, 1.5 * at_once.bricks / turns_of(load) + 4) << name(load);
   }

@@ -17,10 +17,12 @@ struct alignas(32) VertexBlock {
 inline constexpr int kLanes = 16;
 inline constexpr float kVertexScale = 7168.0F;
 
-// A brick with its surroundings: voxels -1..9 along each axis, rows of 16 (x fastest, 11 used).
-inline constexpr int kPadRow = 16, kPadEdge = 11, kPadVoxels = kPadRow * kPadEdge * kPadEdge;
+// A brick with its surroundings: voxels -1..9 along each axis, x fastest; rows and columns of 16,
+// so that an index is its coordinates side by side (11 of each are used).
+inline constexpr int kPadRow = 16, kPadSlice = 16 * kPadRow, kPadEdge = 11,
+                     kPadVoxels = kPadSlice * kPadEdge;
 
-// padded: (11 x 11 x 16). low_border: bit 0/1/2 set where the brick lies at the grid's x/y/z = 0
+// padded: (11 x 16 x 16). low_border: bit 0/1/2 set where the brick lies at the grid's x/y/z = 0
 // face: the edges that come in from outside then belong to it too. disc: largest disc radius
 // [voxel]. Returns how many vertices were found; at most capacity (a multiple of 16) are written;
 // the last block is padded with copies of its last vertex.

@@ -185,7 +185,7 @@ void IsoVertices::gather(BrickIndex brick, std::uint16_t* padded) const BURR_RT 
     for (int y = -1; y <= 9; ++y) {
       const auto& row_of = from[(z >> 3) + 1][(y >> 3) + 1];
       const int offset = 8 * ((y & 7) + 8 * (z & 7));
-      std::uint16_t* to = padded + kPadRow * ((y + 1) + kPadEdge * (z + 1));
+      std::uint16_t* to = padded + kPadRow * (y + 1) + kPadSlice * (z + 1);
       to[0] = row_of[0][offset + 7];
       std::memcpy(to + 1, row_of[1] + offset, 16);
       std::memcpy(to + 9, row_of[2] + offset, 4);  // the rest of the row is never looked at
