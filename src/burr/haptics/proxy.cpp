@@ -31,13 +31,16 @@ constexpr double kFarthestShare = 0.25;  // of the radius: from the proxy to the
 ScanKernel scan_kernel() noexcept {
   switch (rt::simd()) {
     case rt::Simd::avx512:
-      return {avx512::find_near, avx512::scan_blocks, avx512::most_violated, avx512::soft_push};
+      return {avx512::find_near,  avx512::scan_blocks,   avx512::take_discs,
+              avx512::scan_discs, avx512::most_violated, avx512::soft_push};
     case rt::Simd::avx2:
-      return {avx2::find_near, avx2::scan_blocks, avx2::most_violated, avx2::soft_push};
+      return {avx2::find_near,  avx2::scan_blocks,   avx2::take_discs,
+              avx2::scan_discs, avx2::most_violated, avx2::soft_push};
     case rt::Simd::scalar:
       break;
   }
-  return {scalar::find_near, scalar::scan_blocks, scalar::most_violated, scalar::soft_push};
+  return {scalar::find_near,  scalar::scan_blocks,   scalar::take_discs,
+          scalar::scan_discs, scalar::most_violated, scalar::soft_push};
 }
 
 Proxy::Proxy(const volume::IsoVertices& surface, const ProxySettings& settings, const Vec3& hand)
@@ -46,6 +49,7 @@ Proxy::Proxy(const volume::IsoVertices& surface, const ProxySettings& settings, 
       settings_(settings),
       kernel_(scan_kernel()),
       near_(kMostNear + volume::IsoVertices::kMostBlocks),
+      discs_(std::make_unique<NearDiscs>()),
       candidates_(std::make_unique<Candidates>()),
       smooth_(std::make_unique<Candidates>()),
       radius_(settings.radius / grid_.voxel),
@@ -94,50 +98,108 @@ void Proxy::look_around(const Vec3& centre, double reach, bool crowded) BURR_RT 
   near_revision_ = surface_.revision();
   const double far = radius_ + reach + surface_.largest_disc();
   const math::Ijk& n = surface_.bone().bricks();
-  math::Ijk lo, hi;  // bricks whose discs could be that near; a brick's vertices may lie half a
-                     // voxel outside of it
-  for (int axis = 0; axis < 3; ++axis) {
-    const double from = std::floor((centre[axis] - far - 1) / kBrickEdge),
-                 to = std::floor((centre[axis] + far + 1) / kBrickEdge);
-    lo[axis] = static_cast<int>(std::clamp(from, 0.0, static_cast<double>(n[axis])));
-    hi[axis] = static_cast<int>(std::clamp(to, -1.0, static_cast<double>(n[axis] - 1)));
-  }
+  // bricks whose vertices, which lie in [first - 1, first + 8], could be that near
+  const auto first_brick = [](double from) {
+    return static_cast<int>(std::max(std::ceil((from - kBrickEdge) / kBrickEdge), 0.0));
+  };
+  const auto last_brick = [](double to, int count) {
+    return static_cast<int>(std::clamp(std::floor((to + 1) / kBrickEdge), -1.0, count - 1.0));
+  };
+  const auto beside = [](double at, int brick) {
+    const double low = kBrickEdge * brick - 1.0, high = low + kBrickEdge + 1.0;
+    return at < low ? low - at : at > high ? at - high : 0.0;
+  };
   const auto cx = static_cast<float>(centre.x()), cy = static_cast<float>(centre.y()),
              cz = static_cast<float>(centre.z());
   const auto near = static_cast<float>(far);
 
-  for (int bk = lo.z(); bk <= hi.z(); ++bk)
-    for (int bj = lo.y(); bj <= hi.y(); ++bj) {
+  // Some are chosen, and what they hold is on its way, before the first is looked into: with cold
+  // caches that is most of the time.
+  constexpr int kAtOnce = 64;
+  struct Chosen {
+    BrickIndex brick;
+    std::int32_t at[3];
+  } chosen[kAtOnce];
+  int count = 0;
+  bool full = false;
+  const auto look_into = [&]() {
+    int kept = 0;
+    for (int b = 0; b < count; ++b) {
+      const volume::BrickBall& ball = surface_.ball(chosen[b].brick);
+      const float dx = ball.x - cx, dy = ball.y - cy, dz = ball.z - cz, touch = near + ball.radius;
+      if (dx * dx + dy * dy + dz * dz > touch * touch) continue;
+      chosen[kept++] = chosen[b];
+      for (const volume::VertexBlock& block : surface_.blocks(chosen[b].brick)) {
+        const auto* line = reinterpret_cast<const char*>(&block);
+        for (std::size_t at = 0; at < sizeof block; at += 64) __builtin_prefetch(line + at);
+      }
+    }
+    for (int b = 0; b < kept; ++b) {
+      if (near_count_ >= kMostNear) {  // more than can be remembered
+        near_reach_ = -1;
+        full = !crowded;
+        if (full) return;
+        scan_near(centre, reach, true);
+        near_count_ = 0;
+      }
+      const Chosen& one = chosen[b];
+      near_count_ += kernel_.find_near(surface_.blocks(one.brick).data(), surface_.count(one.brick),
+                                       one.at, centre.data(), near, near_.data() + near_count_);
+    }
+    count = 0;
+  };
+
+  for (int bk = first_brick(centre.z() - far), bks = last_brick(centre.z() + far, n.z()); bk <= bks;
+       ++bk) {
+    const double aside_z = beside(centre.z(), bk), left_z = far * far - aside_z * aside_z;
+    if (left_z < 0) continue;
+    for (int bj = first_brick(centre.y() - far), bjs = last_brick(centre.y() + far, n.y());
+         bj <= bjs; ++bj) {
+      const double aside_y = beside(centre.y(), bj), left = left_z - aside_y * aside_y;
+      if (left < 0) continue;
+      const double half = std::sqrt(left);
+      const int low = first_brick(centre.x() - half), high = last_brick(centre.x() + half, n.x());
       const std::uint64_t* row = surface_.row(bj, bk);
-      for (int w = lo.x() / 64; w <= hi.x() / 64; ++w) {
-        const int first = std::max(lo.x() - 64 * w, 0), last = std::min(hi.x() - 64 * w, 63);
+      for (int w = low / 64; w <= high / 64; ++w) {
+        const int first = std::max(low - 64 * w, 0), last = std::min(high - 64 * w, 63);
         if (last < first) continue;
         std::uint64_t word = row[w] & (~0ULL << first) & (~0ULL >> (63 - last));
         for (; word != 0; word &= word - 1) {
           const int bi = 64 * w + std::countr_zero(word);
           const BrickIndex brick = surface_.bone().brick_at(bi, bj, bk);
-          const volume::BrickBall& ball = surface_.ball(brick);
-          const float dx = ball.x - cx, dy = ball.y - cy, dz = ball.z - cz,
-                      touch = near + ball.radius;
-          if (dx * dx + dy * dy + dz * dz > touch * touch) continue;
-          if (near_count_ >= kMostNear) {  // more than can be remembered
-            near_reach_ = -1;
-            if (!crowded) return;
-            scan_near(centre, reach, true);
-            near_count_ = 0;
-          }
-          const std::int32_t at[3] = {kBrickEdge * bi, kBrickEdge * bj, kBrickEdge * bk};
-          near_count_ += kernel_.find_near(surface_.blocks(brick).data(), surface_.count(brick), at,
-                                           centre.data(), near, near_.data() + near_count_);
+          surface_.prefetch(brick);
+          chosen[count++] = {brick, {kBrickEdge * bi, kBrickEdge * bj, kBrickEdge * bk}};
+          if (count == kAtOnce) look_into();
+          if (full) return;
         }
       }
     }
+  }
+  look_into();
+}
+
+// Takes the discs of the blocks just found out of them, where they are few: the moves of this tick
+// and of the next then look at these alone.
+void Proxy::take_discs() BURR_RT {
+  constexpr int kFew = NearDiscs::kMost / volume::kLanes;
+  taken_ =
+      near_reach_ >= 0 && near_count_ <= kFew &&
+      kernel_.take(near_.data(), near_count_, near_centre_.data(),
+                   static_cast<float>(radius_ + near_reach_ + surface_.largest_disc()), *discs_);
 }
 
 // Adds the near discs whose gap is below `within` to the candidates.
 void Proxy::scan_near(const Vec3& centre, double within, bool crowded) BURR_RT {
   constexpr int kChunk = 256;  // blocks; fewer discs than thinning leaves room for
   Candidates& out = *candidates_;
+  if (taken_ && !crowded) {
+    const Vec3 offset = centre - near_centre_;
+    const float from[3] = {static_cast<float>(offset.x()), static_cast<float>(offset.y()),
+                           static_cast<float>(offset.z())};
+    kernel_.scan_discs(*discs_, from, static_cast<float>(radius_), static_cast<float>(within),
+                       surface_.largest_disc(), out);
+    return;
+  }
   const int chunk = crowded ? kChunk : near_count_;
   for (int first = 0; first < near_count_; first += chunk) {
     kernel_.scan(near_.data() + first, std::min(chunk, near_count_ - first), centre.data(),
@@ -159,8 +221,11 @@ void Proxy::collect(const Vec3& centre, double within, bool crowded) BURR_RT {
     const bool seen = near_revision_ == surface_.revision() && near_radius_ == radius_ &&
                       (centre - near_centre_).norm() + within <= near_reach_;
     const double beyond = std::min(kLookShare * within + kLookLeast, kLookMost);
-    if (!seen) look_around(centre, within + beyond, false);
-    if (near_reach_ < within) look_around(centre, within, false);
+    if (!seen) {
+      look_around(centre, within + beyond, false);
+      if (near_reach_ < within) look_around(centre, within, false);
+      take_discs();
+    }
     out.full = near_reach_ < within;
   }
   if (!out.full) scan_near(centre, within, crowded);

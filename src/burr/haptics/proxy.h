@@ -73,6 +73,7 @@ class Proxy {
 
  private:
   void look_around(const math::Vec3& centre, double reach, bool crowded) BURR_RT;
+  void take_discs() BURR_RT;
   void scan_near(const math::Vec3& centre, double within, bool crowded) BURR_RT;
   void collect(const math::Vec3& centre, double within, bool crowded = false) BURR_RT;
   void be_gentle() BURR_RT;
@@ -93,6 +94,8 @@ class Proxy {
   static constexpr int kMostNear = 8192;  // blocks
   std::vector<NearBlock> near_;           // what the last look around saw
   int near_count_ = 0;
+  std::unique_ptr<NearDiscs> discs_;             // the discs of these, if they are few
+  bool taken_ = false;                           // are they there?
   math::Vec3 near_centre_ = math::Vec3::Zero();  // from where  p_grid
   double near_reach_ = -1;                       // gaps below this are all in it  [voxel]
   double near_radius_ = 0;                       // for which burr  [voxel]

@@ -26,11 +26,30 @@ struct NearBlock {
   std::int32_t count = 0;  // discs in it, at most volume::kLanes
 };
 
+// Discs near the burr, taken out of their blocks: seen from where one looked around. [voxel]
+struct NearDiscs {
+  static constexpr int kMost = 4096;
+  alignas(64) float x[kMost + 16], y[kMost + 16], z[kMost + 16];     // the disc's middle
+  alignas(64) float mx[kMost + 16], my[kMost + 16], mz[kMost + 16];  // its normal, unit
+  alignas(64) float rd[kMost + 16];                                  // its radius
+  int count = 0;
+};
+
 // Which of a brick's blocks (count discs) have a disc whose middle is nearer than `reach` to the
 // burr's centre: written to `out`, which has room for all of them; returns how many. brick: its
 // first voxel. centre: p_grid.
 using FindNear = int (*)(const volume::VertexBlock* blocks, int count, const std::int32_t brick[3],
                          const double centre[3], float reach, NearBlock* out) noexcept;
+
+// The discs of `count` near blocks whose middle is nearer than `reach` to `centre`; false: they are
+// more than fit.
+using TakeDiscs = bool (*)(const NearBlock* near, int count, const double centre[3], float reach,
+                           NearDiscs& out) noexcept;
+
+// As ScanBlocks, over discs that were taken; offset: of the burr's centre from where they were
+// taken.
+using ScanDiscs = void (*)(const NearDiscs& near, const float offset[3], float radius, float within,
+                           float disc, Candidates& out) noexcept;
 
 // Appends the discs of `count` near blocks with gap < within. disc: no disc is larger [voxel];
 // radius of the burr [voxel].
@@ -55,31 +74,27 @@ using SoftPush = void (*)(const Candidates& all, const float p[3], float layer,
 struct ScanKernel {
   FindNear find_near;
   ScanBlocks scan;
+  TakeDiscs take;
+  ScanDiscs scan_discs;
   MostViolated most_violated;
   SoftPush soft_push;
 };
 
-namespace scalar {
-int find_near(const volume::VertexBlock*, int, const std::int32_t*, const double*, float,
-              NearBlock*) noexcept;
-void scan_blocks(const NearBlock*, int, const double*, float, float, float, Candidates&) noexcept;
-int most_violated(const Candidates&, const float*, float&) noexcept;
-void soft_push(const Candidates&, const float*, float, SoftSums&) noexcept;
-}  // namespace scalar
-namespace avx2 {
-int find_near(const volume::VertexBlock*, int, const std::int32_t*, const double*, float,
-              NearBlock*) noexcept;
-void scan_blocks(const NearBlock*, int, const double*, float, float, float, Candidates&) noexcept;
-int most_violated(const Candidates&, const float*, float&) noexcept;
-void soft_push(const Candidates&, const float*, float, SoftSums&) noexcept;
-}  // namespace avx2
-namespace avx512 {
-int find_near(const volume::VertexBlock*, int, const std::int32_t*, const double*, float,
-              NearBlock*) noexcept;
-void scan_blocks(const NearBlock*, int, const double*, float, float, float, Candidates&) noexcept;
-int most_violated(const Candidates&, const float*, float&) noexcept;
-void soft_push(const Candidates&, const float*, float, SoftSums&) noexcept;
-}  // namespace avx512
+#define BURR_SCAN_KERNEL(which)                                                               \
+  namespace which {                                                                           \
+  int find_near(const volume::VertexBlock*, int, const std::int32_t*, const double*, float,   \
+                NearBlock*) noexcept;                                                         \
+  void scan_blocks(const NearBlock*, int, const double*, float, float, float,                 \
+                   Candidates&) noexcept;                                                     \
+  bool take_discs(const NearBlock*, int, const double*, float, NearDiscs&) noexcept;          \
+  void scan_discs(const NearDiscs&, const float*, float, float, float, Candidates&) noexcept; \
+  int most_violated(const Candidates&, const float*, float&) noexcept;                        \
+  void soft_push(const Candidates&, const float*, float, SoftSums&) noexcept;                 \
+  }
+BURR_SCAN_KERNEL(scalar)
+BURR_SCAN_KERNEL(avx2)
+BURR_SCAN_KERNEL(avx512)
+#undef BURR_SCAN_KERNEL
 
 [[nodiscard]] ScanKernel scan_kernel() noexcept;
 

@@ -63,6 +63,11 @@ class IsoVertices {
   [[nodiscard]] const BrickBall& ball(BrickIndex brick) const BURR_RT {
     return balls_[static_cast<std::size_t>(brick)];
   }
+  // ball(), blocks() and count() of this brick will be asked for soon
+  void prefetch(BrickIndex brick) const BURR_RT {
+    __builtin_prefetch(&balls_[static_cast<std::size_t>(brick)]);
+    __builtin_prefetch(&places_[static_cast<std::size_t>(brick)]);
+  }
   [[nodiscard]] std::span<const VertexBlock> blocks(BrickIndex brick) const BURR_RT {
     const Place& place = places_[static_cast<std::size_t>(brick)];
     return {pool_.data() + place.first,
