@@ -31,9 +31,13 @@ target_link_libraries(burr PRIVATE $<BUILD_INTERFACE:burr_options> fmt::fmt ZLIB
 target_compile_definitions(burr PRIVATE BURR_VERSION="${PROJECT_VERSION}" TOML_HEADER_ONLY=1
   BURR_LIBEXEC_FROM_LIB="${BURR_LIBEXEC_FROM_LIB}")
 target_link_libraries(burr PRIVATE ${CMAKE_DL_LIBS})
+burr_common_headers(burr <fmt/format.h>)
 
 # Kernels exist once per instruction set, from one source, and are chosen at run time; the bits are the same.
 foreach(source ${BURR_SOURCES})
+  if(source MATCHES "_(avx2|avx512|scalar)\\.cpp$")
+    set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)  # other options, other headers
+  endif()
   if(source MATCHES "_avx2\\.cpp$")
     set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-mavx2;-O3")
   elseif(source MATCHES "_avx512\\.cpp$")
@@ -50,6 +54,7 @@ if(BURR_SCENES)
   add_library(burr_scenes STATIC ${BURR_SCENES})
   target_include_directories(burr_scenes PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(burr_scenes PUBLIC burr PRIVATE burr_options)
+  burr_common_headers(burr_scenes)
 else()
   add_library(burr_scenes INTERFACE)
   target_include_directories(burr_scenes INTERFACE ${PROJECT_SOURCE_DIR})

@@ -7,6 +7,7 @@ if(BURR_APP)
   target_link_libraries(burr_program PRIVATE burr burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
     nlohmann_json::nlohmann_json PkgConfig::EPOXY PkgConfig::SDL2)
   target_compile_definitions(burr_program PRIVATE BURR_VERSION="${PROJECT_VERSION}" TOML_HEADER_ONLY=1)
+  burr_common_headers(burr_program <fmt/format.h> <nlohmann/json.hpp>)
 endif()
 
 file(GLOB BURR_SAMPLES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/samples/s[0-9]*.cpp)

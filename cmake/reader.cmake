@@ -13,6 +13,7 @@ target_include_directories(burr_readers PUBLIC ${PROJECT_SOURCE_DIR}/src)
 target_link_libraries(burr_readers PUBLIC Eigen3::Eigen Threads::Threads fmt::fmt ZLIB::ZLIB BZip2::BZip2 burr_gdcm
   PRIVATE burr_options)
 target_compile_definitions(burr_readers PRIVATE BURR_VERSION="${PROJECT_VERSION}")
+burr_common_headers(burr_readers <fmt/format.h>)
 
 add_executable(burr_read ${PROJECT_SOURCE_DIR}/apps/burr-read/main.cpp)
 set_target_properties(burr_read PROPERTIES OUTPUT_NAME burr-read RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})

@@ -23,6 +23,12 @@ foreach(room ${rooms})
     endif()
     target_compile_definitions(test_${room} PRIVATE
       BURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" BURR_BUILD_DIR="${CMAKE_BINARY_DIR}" TOML_HEADER_ONLY=1)
+    if(first_room)  # the same options: one set of headers for all
+      burr_common_headers(test_${room} REUSE_FROM test_${first_room})
+    else()
+      set(first_room ${room})
+      burr_common_headers(test_${room} <gtest/gtest.h>)
+    endif()
     gtest_discover_tests(test_${room} TEST_PREFIX ${room}. DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120
       PROPERTIES TIMEOUT 900)
   endif()

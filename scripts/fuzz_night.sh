@@ -3,7 +3,7 @@
 #
 #     scripts/fuzz_night.sh [--minutes N] [NAME ...]      default: 10 minutes each of all targets
 #
-# What was learnt is kept in build/fuzz/corpus/, what was found in build/fuzz/found/.
+# What was learnt is kept in build/asan/fuzz/corpus/, what was found in build/asan/fuzz/found/.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 minutes=10
@@ -25,19 +25,19 @@ if [ ${#names[@]} -eq 0 ]; then
   done
 fi
 
-cmake --preset fuzz >/dev/null && cmake --build --preset fuzz --target fuzzers && scripts/checks/fuzz.sh seeds || exit 1
+cmake --preset asan >/dev/null && cmake --build --preset asan --target fuzzers && scripts/checks/fuzz.sh seeds || exit 1
 export BURR_FUZZ_SEED=${BURR_FUZZ_SEED:-$(date +%j%H%M)}
 
 bad=()
 for name in "${names[@]}"; do
-  corpus=build/fuzz/corpus/$name
-  log=build/fuzz/$name.log
-  touch build/fuzz/began
+  corpus=build/asan/fuzz/corpus/$name
+  log=build/asan/fuzz/$name.log
+  touch build/asan/fuzz/began
   echo "== $name: $minutes minutes, seed $BURR_FUZZ_SEED"
   if scripts/checks/fuzz.sh "$name" $((minutes * 60)) "$corpus" >"$log" 2>&1; then
     # of inputs that reach the same places the smallest stay
     mkdir -p "$corpus.small"
-    if "build/fuzz/fuzz_$name" -merge=1 "$corpus.small" "$corpus" "build/fuzz/seeds/$name" >/dev/null 2>&1; then
+    if "build/asan/fuzz/fuzz_$name" -merge=1 "$corpus.small" "$corpus" "build/asan/fuzz/seeds/$name" >/dev/null 2>&1; then
       rm -rf "$corpus" && mv "$corpus.small" "$corpus"
     fi
     grep -E '^stat::(number_of_executed_units|average_exec_per_sec|peak_rss_mb)' "$log"
@@ -48,10 +48,10 @@ for name in "${names[@]}"; do
   tail -40 "$log"
   while IFS= read -r -d '' found; do
     echo "-- making $found smaller"
-    "build/fuzz/fuzz_$name" -minimize_crash=1 -max_total_time=120 "-exact_artifact_path=$found.small" "$found" >/dev/null 2>&1
+    "build/asan/fuzz/fuzz_$name" -minimize_crash=1 -max_total_time=120 "-exact_artifact_path=$found.small" "$found" >/dev/null 2>&1
     [ -s "$found.small" ] || cp "$found" "$found.small"
-    echo "   see it again:  build/fuzz/fuzz_$name $found.small"
-  done < <(find build/fuzz/found -name "$name-*" ! -name '*.small' -newer build/fuzz/began -print0)
+    echo "   see it again:  build/asan/fuzz/fuzz_$name $found.small"
+  done < <(find build/asan/fuzz/found -name "$name-*" ! -name '*.small' -newer build/asan/fuzz/began -print0)
 done
 
 [ ${#bad[@]} -gt 0 ] || exit 0

@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
-# Looks for inputs that one reader cannot bear. Needs what `cmake --preset fuzz` builds.
+# Looks for inputs that one reader cannot bear. Needs what `cmake --preset asan` builds.
 #
 #     scripts/checks/fuzz.sh NAME [SECONDS [CORPUS]]      NAME: of a target, as in fuzz/NAME_fuzz.cpp
 #     scripts/checks/fuzz.sh seeds                        makes inputs to begin with
 #
 # CORPUS keeps what was learnt; without it each run begins with the seeds alone, and BURR_FUZZ_SEED
-# (default 1) chooses its way. What is found lies in build/fuzz/found/.
+# (default 1) chooses its way. What is found lies in build/asan/fuzz/found/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 name=${1:?which target?}
 seconds=${2:-20}
-build=build/fuzz
+build=build/asan/fuzz
 
 if [ "$name" = seeds ]; then
   collection=()
@@ -18,7 +18,7 @@ if [ "$name" = seeds ]; then
   exec "$build/fuzz_seeds" "$build/seeds" "${collection[@]}"
 fi
 
-[ -x "$build/fuzz_$name" ] || { echo "fuzz.sh: there is no fuzz_$name; build it: cmake --build --preset fuzz --target fuzzers" >&2; exit 2; }
+[ -x "$build/fuzz_$name" ] || { echo "fuzz.sh: there is no fuzz_$name; build it: cmake --build --preset asan --target fuzzers" >&2; exit 2; }
 corpus=${3:-}
 if [ -z "$corpus" ]; then
   corpus=$(mktemp -d)

@@ -11,6 +11,7 @@ build=${1:-build/release}
 mapfile -d '' -t files < <(our_files 'src/burr/*.cpp')
 for file in "${files[@]}"; do
   case $file in *_avx2.cpp | *_avx512.cpp) continue ;; esac
-  grep -qE '#include <(itk|gdcm)' "$file" || echo "$file"
-done | xargs -P "${BURR_CORES:-$(nproc)}" -n 2 clang-tidy -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option |&
+  # the longest first, so that no core waits at the end for the other
+  grep -qE '#include <(itk|gdcm)' "$file" || echo "$(stat -c %s "$file") $file"
+done | sort -rn | cut -d' ' -f2 | xargs -P "${BURR_CORES:-$(nproc)}" -n 1 clang-tidy -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option |&
   sed -E '/^[0-9]+ warnings? /d'

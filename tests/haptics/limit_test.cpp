@@ -107,6 +107,14 @@ TEST(ForceLimit, DoesNotBelieveALostHandANaNOrALeap) {
   EXPECT_TRUE(limit.believe(hand, flags)) << "after a fault the next reading is a beginning";
   hand.world_from_tool.p.y() = kNaN;
   EXPECT_FALSE(limit.believe(hand, flags));
+  // a place may be finite and still be none: further out than any count of voxels reaches
+  for (const double far : {1.1e3, -2e303}) {
+    hand = {};
+    hand.world_from_tool.p.z() = far;
+    flags = 0;
+    EXPECT_FALSE(limit.believe(hand, flags)) << far;
+    EXPECT_TRUE(flags & kFlagNotFinite) << far;
+  }
   hand = {};
   hand.valid = false;
   EXPECT_FALSE(limit.believe(hand, flags));

@@ -22,6 +22,9 @@ Vec3 slew_bound(const Vec3& wanted, const Vec3& sent, double step, bool& bounded
   return bounded ? Vec3(base + growth * (step / size)) : wanted;
 }
 
+// no bone lies beyond it, nor may a path of a hand; places further out fit no count of voxels  [m]
+constexpr double kFarthestHand = 1e3;
+
 }  // namespace
 
 ForceLimit::ForceLimit(const device::DeviceSpec& device, const LimitSettings& settings)
@@ -36,7 +39,8 @@ bool ForceLimit::believe(const device::HandState& hand, std::uint32_t& flags) BU
   if (!hand.valid) {
     trouble = kFlagHandLost;
   } else if (!hand.world_from_tool.finite() || !hand.velocity.allFinite() ||
-             !std::isfinite(hand.pedal)) {
+             !std::isfinite(hand.pedal) ||
+             hand.world_from_tool.p.cwiseAbs().maxCoeff() > kFarthestHand) {
     trouble = kFlagNotFinite;
   } else if (has_last_hand_ &&
              (hand.world_from_tool.p - last_hand_).norm() > settings_.longest_leap) {

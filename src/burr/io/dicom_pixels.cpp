@@ -199,7 +199,9 @@ Result<std::vector<std::int32_t>> unpack(const DicomHeader& h, std::vector<std::
   }
 
   Writer w;
-  w.raw(std::string(128, '\0') + "DICM");
+  std::string preamble(128, '\0');
+  preamble += "DICM";
+  w.raw(preamble);
   w.text(0x00020010, "UI", h.transfer_syntax);
   w.text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.2");
   w.text(0x00080060, "CS", "CT");
