@@ -10,7 +10,8 @@ namespace burr::haptics {
 // Why the force is not simply the spring's; several may hold at once.
 enum Flag : std::uint32_t {
   kFlagNotFinite =
-      1U << 0,  // a hand or force was NaN or infinite: zero, and the fault latches until the ramp
+      1U
+      << 0,  // a hand or force was NaN, infinite or a kilometre away: zero, latched until the ramp
   kFlagForceLimited = 1U << 1,  // shortened to the device's or the user's limit, direction kept
   kFlagSlewLimited = 1U << 2,   // grew too fast, was held back
   kFlagRamp = 1U << 3,          // start ramp
