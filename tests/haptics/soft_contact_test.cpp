@@ -100,22 +100,22 @@ TEST(SoftContact, IsTheLeastOfItsFunctionWhereverThatLies) {
       }
       return sum;
     };
-    Vec3 best = Vec3::Zero();  // by trying, ever nearer
-    for (double step = 2; step > 1e-5;) {
+    // by trying all around, ever nearer
+    Vec3 best = Vec3::Zero();
+    for (double step = 2; step > 1e-6;) {
       bool better = false;
-      for (int axis = 0; axis < 3; ++axis)
-        for (const double way : {-step, step}) {
-          Vec3 next = best;
-          next[axis] += way;
-          if (value(next) < value(best)) {
-            best = next;
-            better = true;
-          }
+      for (int way = 0; way < 40; ++way) {
+        const Vec3 next = best + step * somewhere(random).normalized();
+        if (value(next) < value(best)) {
+          best = next;
+          better = true;
         }
+      }
       if (!better) step /= 2;
     }
     const Vec3 found = soft_rest(*all, wanted, kLayer, support, push).place;
-    EXPECT_LT((found - best).norm(), 3e-3)
+    // sums of floats: to six digits
+    EXPECT_LT(value(found), value(best) * (1 + 1e-5) + 1e-5)
         << scene << ": " << found.transpose() << " or " << best.transpose();
   }
 }

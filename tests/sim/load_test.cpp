@@ -260,8 +260,8 @@ TEST(Overload, AMachineTooSlowPutsOffPictureMeshAndRemovalAndTheTouchLast) {
 }
 
 // Not the same to the last: bricks that wait stand out a little, which turns the contact's normal
-// and with it how well the burr cuts. Seen: 4.5 % more in quarters, 2.4 % less in eighths; the account holds all
-// along.
+// and with it how well the burr cuts. Seen: 4.5 % more in quarters, 2.4 % less in eighths; the
+// account holds all along.
 TEST(Overload, WhatIsCutInTurnIsCutWithinASixteenthOfTheSame) {
   struct Seen {
     double removed = 0, depth = 0, mean_force = 0;

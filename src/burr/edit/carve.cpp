@@ -19,7 +19,6 @@ using volume::kBrickEdge;
 using volume::kBrickVoxels;
 
 constexpr std::size_t kMostWork = 1024;  // bricks in one tick: 7 mm at 0.1 mm takes 400
-constexpr int kMostTurns = Carver::kMostTurns;
 // Bricks in one tick from which on they are cut in turns though nobody is in a hurry: each of so
 // many loses a hair a tick, and costs as much as if it lost four.
 constexpr double kManyBricks = 72;

@@ -7,7 +7,7 @@ namespace {
 
 using math::Vec3;
 
-constexpr int kRounds = 8;
+constexpr int kRounds = 16;
 constexpr double kClose = 1e-4;  // a step shorter than this ends the search  [voxel]
 
 SoftSums sums_at(const Candidates& candidates, const Vec3& q, double layer, SoftPush push) BURR_RT {
