@@ -158,6 +158,7 @@ Status run(const Options& options) {
   out["burr_mm"] = options.burr_mm;
   out["speed_mm_s"] = options.speed_mm_s;
   out["mill"] = options.mill;
+  out["sink_mm"] = options.sink_mm;
   out["evict"] = options.evict;
   out["simd"] = rt::name(rt::simd());
   out["p50_us"] = p50;
@@ -206,6 +207,9 @@ void add(CLI::App& bench, app::Todo& todo) {
       ->capture_default_str();
   command->add_option("--mill", options->mill, "cut while moving")
       ->check(CLI::IsMember({"slide", "slot", "plunge"}));
+  command->add_option("--sink-mm", options->sink_mm, "how deep slot and plunge are pressed")
+      ->check(CLI::Range(0.01, 10.0))
+      ->capture_default_str();
   command->add_option("--burr-mm", options->burr_mm, "diameter of the burr")
       ->check(CLI::Range(0.6, 20.0))
       ->capture_default_str();
