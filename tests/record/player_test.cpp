@@ -136,7 +136,12 @@ TEST(Player, NeverShowsABoneThatDamageMadeWrong) {
         continue;
       }
       ++shown_right;
-      EXPECT_EQ(shown->content_hash(), hash_after(truth, tick, *want)) << tick;
+      // where the last chunk is the damaged one the recording ends before it, and says so
+      const std::uint64_t end = (*fresh)->end_tick();
+      if (end < 15'500) {
+        EXPECT_FALSE((*fresh)->notices().empty());
+      }
+      EXPECT_EQ(shown->content_hash(), hash_after(truth, std::min(tick, end - 1), *want)) << tick;
     }
     EXPECT_GT(shown_right, 0);
     if (i + 1 < offsets.size()) {

@@ -280,7 +280,8 @@ TEST(Mesher, WorkersMayLookOnWhileTheServoCuts) {
       if (bone->ensure_slot(brick) == volume::kNoSlot) continue;
       volume::BrickField content;
       for (int v = 0; v < volume::kBrickVoxels; ++v)
-        content.voxel[v] = static_cast<Field>(round * 7919 + v * 131);
+        content.voxel[v] = static_cast<Field>(static_cast<unsigned>(round) * 7919U +
+                                              static_cast<unsigned>(v) * 131U);
       bone->write_brick(brick, content);
       std::this_thread::yield();
     }
