@@ -115,9 +115,13 @@ TEST(Worker, KeepsUpWithAServoThatCutsAllTheTime) {
   const auto bone = lumps();
   Worker worker(*bone, 2);
   std::atomic<bool> stop = false;
+  std::atomic<int> taken = 0;
   std::thread servo([&] {
     std::mt19937 random(17);
-    for (int tick = 0; tick < 3000; ++tick) {
+    // until something was seen meanwhile, however slow the machine or the build; a minute at most
+    const auto late = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    for (int tick = 0; tick < 3000 || (taken <= 10 && std::chrono::steady_clock::now() < late);
+         ++tick) {
       edit(*bone, random);
       if (tick % 16 == 0) std::this_thread::sleep_for(std::chrono::microseconds(300));
     }
@@ -125,7 +129,6 @@ TEST(Worker, KeepsUpWithAServoThatCutsAllTheTime) {
   });
   Screen screen;
   const auto show = [&](const Skin& skin) { screen.show(skin); };
-  int taken = 0;
   while (!stop) {
     for (Skin skin; worker.take(skin); worker.give_back(skin), ++taken) show(skin);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
