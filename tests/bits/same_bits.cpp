@@ -5,8 +5,9 @@
 //     same_bits [--threads N] [--realtime] [--only NAME]     (BURR_SIMD=scalar|avx2|avx512)
 //
 // A line: NAME TICKS BONE [lost]. `lost`: in real time the machine stood still for so long that the
-// watchdog let go of the hand, which is an input like any other and no longer the same session; the
-// recording of it was then simulated again without a clock, and came out the same.
+// watchdog let go of the hand, or was so busy that something was put off; both are inputs like any
+// other, and no longer the same session; the recording of it was then simulated again without a
+// clock, and came out the same.
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -133,7 +134,9 @@ void mill(const char* name, const Plan& plan, const std::function<Bone()>& make,
   if (again.parted_at || again.gaps > 0 || again.ticks != row.tick + 1 ||
       again.bone->content_hash() != session->bone().content_hash())
     give_up(fmt::format("{}: does not replay: {}", name, again.difference));
-  const bool lost = (session->outcome().flags & haptics::kFlagWatchdog) != 0;
+  const sim::Outcome outcome = session->outcome();
+  const bool lost =
+      (outcome.flags & haptics::kFlagWatchdog) != 0 || outcome.most_load != sim::Load::none;
   fmt::print("{} {:016x} {:016x}{}\n", name, row.hash, session->bone().content_hash(),
              lost ? " lost" : "");
 }
