@@ -33,7 +33,7 @@ struct Options {
 };
 
 constexpr int kWarmUp = 400;           // ticks from the air into contact, not counted
-constexpr double kGathers = 0.1;       // [s]
+constexpr double kGathers = 0.1;       // until the hand has all its speed  [s]
 constexpr double kSurfaceSpeed = 8.4;  // of the burr; 3.4 mm^3/s per N in cortical bone  [m/s]
 
 double quantile(std::vector<double> values, double q) {

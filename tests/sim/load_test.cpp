@@ -209,11 +209,9 @@ TEST(Overload, AMachineTooSlowPutsOffPictureMeshAndRemovalAndTheTouchLast) {
     hands.push_back(row.hand);
     hashes.push_back(row.hash);
     watch.see(row);
-    // from now on a cutting tick takes more than a period and a half; what cannot be given up takes
-    // over half of that, so a machine twice too slow would miss ticks whatever one did
-    if (n == 1000) {
+    if (n == 1000) {  // from now on a cutting tick takes two periods
       ASSERT_GT(cutting_ns, 0);
-      machine.slowness = 1.6 * kMs * 500 / static_cast<double>(cutting_ns);
+      machine.slowness = 2.0 * kMs * 500 / static_cast<double>(cutting_ns);
     }
     const std::int64_t took = machine.takes(servo.work());
     if (n >= 500 && n < 1000) cutting_ns += took;

@@ -21,7 +21,7 @@ struct SoftRest {
   double pressing = 0;                    // sum of what the discs bear           [voxel]
 };
 
-// What the discs within `layer` offer to a burr that has not moved: |sum s n|.  [voxel]
+// What the discs within `layer` offer to a burr that moved by `at`: |sum s n|.  [voxel]
 [[nodiscard]] double soft_support(const Candidates& candidates, const math::Vec3& at, double layer,
                                   SoftPush push) BURR_RT;
 
