@@ -30,9 +30,18 @@ if [ -f "fuzz/${name#seg_}.dict" ]; then words=("-dict=fuzz/${name#seg_}.dict");
 
 export UBSAN_OPTIONS=print_stacktrace=1
 code=0
+log=$(mktemp)
+touch "$log.began"
 "$build/fuzz_$name" "-seed=${BURR_FUZZ_SEED:-1}" "-max_total_time=$seconds" -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=1024 \
-  -max_len=16384 -print_final_stats=1 "-artifact_prefix=$build/found/$name-" "${words[@]}" "$corpus" "$build/seeds/$name" || code=$?
-if [ "$code" -ne 0 ]; then
+  -max_len=16384 -print_final_stats=1 "-artifact_prefix=$build/found/$name-" "${words[@]}" "$corpus" "$build/seeds/$name" >"$log" 2>&1 || code=$?
+if [ "$code" -eq 0 ]; then
+  grep -E '^#[0-9]+' "$log" | tail -n 1
+  grep -E '^(Done|stat::)' "$log"
+else
+  # not the thousand lines of what was learnt: what went wrong, and the input itself
+  grep -vE '^(#[0-9]+|INFO:)' "$log" | cut -c1-400 | tail -n 120
+  find "$build/found" -name "$name-*" -newer "$log.began" -size -16k -exec sh -c 'echo "-- $1 in base64:"; base64 "$1"' sh {} \;
   echo "fuzz.sh: $name cannot bear an input; see docs/fuzzing.md, \"Something was found\"" >&2
 fi
+rm -f "$log" "$log.began"
 exit "$code"

@@ -2,6 +2,7 @@
 // made here by hand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -150,6 +151,26 @@ TEST_F(OddHeader, ARescaleThatMakesNoNumberIsRefused) {
   EXPECT_TRUE(has(refusal(file("a.dcm", slice.bytes())), "Intercept of -1e+39"));
   slice.intercept = "-1024";
   EXPECT_TRUE(read(file("a.dcm", slice.bytes())).ok());
+}
+
+// Moving leaning slices upright adds up weighted values: near a float's end the sum left it.
+TEST_F(OddHeader, ValuesNoScannerMakesAreAirAndStayFinite) {
+  const std::vector<float> values = {3e38F, -3e38F, 3e38F, -3e38F, 7, -3e38F, 3e38F, 5};
+  const std::string data(reinterpret_cast<const char*>(values.data()),
+                         values.size() * sizeof(float));
+  const auto scan = read(file("far.nrrd",
+                              "NRRD0004\ntype: float\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n"
+                              "endian: little\nspace: left-posterior-superior\n"
+                              "space directions: (1,0,0) (0,1,0) (0,0.5,1)\n\n" +
+                                  data));
+  ASSERT_TRUE(scan.ok()) << scan.error().text;
+  for (const float v : scan->values) {
+    ASSERT_TRUE(std::isfinite(v));
+    EXPECT_LE(std::abs(v), 10);
+  }
+  EXPECT_TRUE(std::any_of(scan->notices.begin(), scan->notices.end(), [](const std::string& n) {
+    return has(n, "6 voxels hold no finite number");
+  }));
 }
 
 }  // namespace

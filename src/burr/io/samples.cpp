@@ -12,6 +12,10 @@
 namespace burr::io {
 namespace {
 
+// No scanner's number is beyond it, and what is reckoned from values up to it (weights of a cubic,
+// squares summed over a volume) stays finite in a float.
+constexpr float kLargestValue = 1e12F;
+
 template <class T>
 T load(const std::uint8_t* bytes, bool swap) {
   std::array<std::uint8_t, sizeof(T)> raw;
@@ -123,7 +127,7 @@ void VoxelSink::add(const float* values, std::size_t n) {
     widen();
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const bool good = std::isfinite(values[i]);
+    const bool good = std::abs(values[i]) <= kLargestValue;  // false for what is not a number
     broken_ += good ? 0 : 1;
     values_.push_back(good ? values[i] : std::numeric_limits<float>::quiet_NaN());
   }
@@ -168,8 +172,9 @@ Status VoxelSink::finish(Scan& scan, bool labels_for_sure) {
     const float air = scan.hounsfield ? -1024.0F : low;
     for (float& value : values_)
       if (std::isnan(value)) value = air;
-    scan.notices.push_back(
-        fmt::format("{} voxels hold no finite number; they are air ({:.0f}) now.", broken_, air));
+    scan.notices.push_back(fmt::format(
+        "{} voxels hold no finite number, or one beyond {:.0e}; they are air ({:.0f}) now.",
+        broken_, kLargestValue, air));
   }
   scan.values = std::move(values_);
   return fine();
