@@ -21,6 +21,7 @@ TEST(CarveUnits, AreThoseOfVolumeOf) {
   for (int round = 0; round < 200; ++round) {
     alignas(64) volume::Field field[volume::kBrickVoxels], excess[volume::kBrickVoxels],
         after[volume::kBrickVoxels];
+    std::fill_n(excess, volume::kBrickVoxels, volume::Field{0});  // only pairs are written
     for (volume::Field& voxel : field) voxel = static_cast<volume::Field>(random());
     std::uniform_real_distribution<float> where(-12, 4), radius(1, 12);
     const float ball[4] = {where(random), where(random), where(random), radius(random)};

@@ -149,10 +149,13 @@ double Carver::mean_energy() const BURR_RT {
     if (one == kMixed) {
       const volume::TissueId* tissue = bone_.brick_tissue(work_[w].brick);
       double sum = 0, all = 0;
-      for (int v = 0; v < kBrickVoxels; ++v) {
-        const auto excess = static_cast<double>(scratch_[w].voxel[v]);
-        sum += excess * energy_of_[tissue[v]];
-        all += excess;
+      for (std::uint32_t pairs = work_[w].excess.pairs; pairs != 0; pairs &= pairs - 1) {
+        const int first = 2 * kBrickEdge * std::countr_zero(pairs);
+        for (int v = first; v < first + 2 * kBrickEdge; ++v) {
+          const auto excess = static_cast<double>(scratch_[w].voxel[v]);
+          sum += excess * energy_of_[tissue[v]];
+          all += excess;
+        }
       }
       if (all > 0) mean = sum / all;
     }

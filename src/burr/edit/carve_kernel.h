@@ -15,7 +15,7 @@ struct Excess {
 };
 // ball: the brick's first voxel less the ball's centre [voxel], and the ball's radius [voxel].
 // keep_out: a second ball, same frame, that deposit may not fill; radius < 0: none. out: (8 x 8 x
-// 8) excess. deposit: 0 carve, 1 fill.
+// 8) excess, of the pairs alone. deposit: 0 carve, 1 fill.
 using FindExcess = Excess (*)(const std::uint16_t* field, const float ball[4],
                               const float keep_out[4], int deposit, std::uint16_t* out) noexcept;
 

@@ -28,7 +28,7 @@ struct NearBlock {
 
 // Discs near the burr, taken out of their blocks: seen from where one looked around. [voxel]
 struct NearDiscs {
-  static constexpr int kMost = 4096;
+  static constexpr int kMost = 8192;
   alignas(64) float x[kMost + 16], y[kMost + 16], z[kMost + 16];     // the disc's middle
   alignas(64) float mx[kMost + 16], my[kMost + 16], mz[kMost + 16];  // its normal, unit
   alignas(64) float rd[kMost + 16];                                  // its radius

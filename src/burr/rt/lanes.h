@@ -9,13 +9,21 @@
 // instruction set.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
+#ifdef __x86_64__
+#include <immintrin.h>
+#endif
+
 namespace burr::rt::lanes {
 
 inline constexpr int kCount = 16;
+#ifdef __AVX512F__
+inline constexpr __mmask16 kAll = 0xFFFF;
+#endif
 
 typedef float Floats __attribute__((vector_size(64), may_alias));
 typedef std::int32_t Ints __attribute__((vector_size(64), may_alias));
@@ -42,7 +50,31 @@ template <class Vector, class Number>
   load(each, v);
 }
 
-// Is any bit of any lane set?
+// Of lanes that are 0 or -1: a bit for each that is -1, the first lane the lowest bit.
+[[maybe_unused]] inline unsigned bits_of(const Ints& lanes) noexcept {
+#if defined __AVX512F__
+  __m512i v;
+  std::memcpy(&v, &lanes, sizeof v);
+  return _mm512_test_epi32_mask(v, v);
+#elif defined __AVX__
+  __m256 v[2];
+  std::memcpy(v, &lanes, sizeof v);
+  return static_cast<unsigned>(_mm256_movemask_ps(v[0])) |
+         static_cast<unsigned>(_mm256_movemask_ps(v[1])) << 8;
+#elif defined __SSE2__
+  __m128 v[4];
+  std::memcpy(v, &lanes, sizeof v);
+  unsigned bits = 0;
+  for (int n = 0; n < 4; ++n) bits |= static_cast<unsigned>(_mm_movemask_ps(v[n])) << 4 * n;
+  return bits;
+#else
+  unsigned bits = 0;
+  for (int l = 0; l < kCount; ++l) bits |= (static_cast<unsigned>(lanes[l]) & 1U) << l;
+  return bits;
+#endif
+}
+
+// Is any bit of any lane set? Of Ints: is any lane -1?
 template <class Vector>
 [[maybe_unused]] inline bool any(const Vector& v) noexcept {
   std::uint64_t words[sizeof(Vector) / 8];
@@ -50,6 +82,67 @@ template <class Vector>
   std::uint64_t all = 0;
   for (const std::uint64_t word : words) all |= word;
   return all != 0;
+}
+[[maybe_unused]] inline bool any(const Ints& lanes) noexcept { return bits_of(lanes) != 0; }
+
+[[maybe_unused]] inline bool any(const Shorts& lanes) noexcept {
+#ifdef __AVX__
+  __m256i v;
+  std::memcpy(&v, &lanes, sizeof v);
+  return _mm256_testz_si256(v, v) == 0;
+#else
+  return any<Shorts>(lanes);
+#endif
+}
+
+// Whole numbers of 16 bits as such of 32, and back, where only their low half is kept: what the
+// language's conversion does too, but compilers take a detour. (Masked, as g++ 12 takes the others'
+// undefined lanes for a mistake.)
+[[maybe_unused]] inline void widen(const Shorts& from, Ints& to) noexcept {
+#ifdef __AVX512F__
+  __m256i v;
+  std::memcpy(&v, &from, sizeof v);
+  const __m512i wide = _mm512_maskz_cvtepu16_epi32(kAll, v);
+  std::memcpy(&to, &wide, sizeof to);
+#else
+  to = __builtin_convertvector(from, Ints);
+#endif
+}
+[[maybe_unused]] inline void widen(const SignedShorts& from, Ints& to) noexcept {
+#ifdef __AVX512F__
+  __m256i v;
+  std::memcpy(&v, &from, sizeof v);
+  const __m512i wide = _mm512_maskz_cvtepi16_epi32(kAll, v);
+  std::memcpy(&to, &wide, sizeof to);
+#else
+  to = __builtin_convertvector(from, Ints);
+#endif
+}
+template <class Narrow>
+[[maybe_unused]] inline void narrow(const Ints& from, Narrow& to) noexcept {
+#ifdef __AVX512F__
+  __m512i v;
+  std::memcpy(&v, &from, sizeof v);
+  const __m256i half = _mm512_maskz_cvtepi32_epi16(kAll, v);
+  std::memcpy(&to, &half, sizeof to);
+#else
+  to = __builtin_convertvector(from, Narrow);
+#endif
+}
+
+// Writes the lanes that `which` names, in their order and without gaps, to `to`, which has room for
+// sixteen: what follows them is undefined.
+[[maybe_unused]] inline void pack(const Floats& from, unsigned which, float* to) noexcept {
+#if defined __AVX512F__
+  __m512 v;
+  std::memcpy(&v, &from, sizeof v);
+  // by way of a register: some processors take a hundred times as long to do it in memory
+  _mm512_storeu_ps(to, _mm512_maskz_compress_ps(static_cast<__mmask16>(which), v));
+#else
+  alignas(64) float each[kCount];
+  store(from, each);
+  for (; which != 0; which &= which - 1) *to++ = each[std::countr_zero(which)];
+#endif
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ Cell cell_of(const Bone& bone, const math::Vec3& p_grid) noexcept {
   return cell;
 }
 
-// The voxels from -1 to +2 about a cell, (4 x 4 x 4), x fastest: row by row from the at most eight
-// bricks that hold them.
+// The voxels from -1 to +2 about a cell, (4 x 4 x 4), x fastest, but for its outermost corners and
+// edges, which no central difference asks for: row by row from the at most eight bricks.
 struct Neighbourhood {
   double voxel[64];
 
@@ -39,25 +39,34 @@ struct Neighbourhood {
     const math::Ijk first(cell.i - 1, cell.j - 1, cell.k - 1);
     const math::Ijk& bricks = bone.bricks();
     const int bi = first.x() >> 3, bj = first.y() >> 3, bk = first.z() >> 3;
-    const int split = 8 - (first.x() & 7);  // voxels of a row in its first brick
-    const Field* brick[2][2][2] = {};       // [z][y][x], nullptr: air
-    for (int z = 0; z < 2; ++z)
-      for (int y = 0; y < 2; ++y)
-        for (int x = 0; x < 2; ++x) {
-          const int i = bi + x, j = bj + y, k = bk + z;
-          const bool in =
-              i >= 0 && j >= 0 && k >= 0 && i < bricks.x() && j < bricks.y() && k < bricks.z();
-          if (in) brick[z][y][x] = bone.brick_field(bone.brick_at(i, j, k));
-        }
+    const int in_x = first.x() & 7, split = 8 - in_x;  // voxels of a row in its first brick
+    const auto brick_of = [&](int i, int j, int k) -> const Field* {
+      const bool in =
+          i >= 0 && j >= 0 && k >= 0 && i < bricks.x() && j < bricks.y() && k < bricks.z();
+      return in ? bone.brick_field(bone.brick_at(i, j, k)) : nullptr;  // nullptr: air
+    };
+    const Field* brick[2][2][2] = {};  // [z][y][x]
+    const int more_x = split < 4 ? 1 : 0, more_y = (first.y() & 7) > 4 ? 1 : 0,
+              more_z = (first.z() & 7) > 4 ? 1 : 0;
+    for (int z = 0; z <= more_z; ++z)
+      for (int y = 0; y <= more_y; ++y)
+        for (int x = 0; x <= more_x; ++x) brick[z][y][x] = brick_of(bi + x, bj + y, bk + z);
     for (int z = 0; z < 4; ++z)
       for (int y = 0; y < 4; ++y) {
+        const bool outer_y = y == 0 || y == 3, outer_z = z == 0 || z == 3;
+        if (outer_y && outer_z) continue;
         const int j = first.y() + y, k = first.z() + z;
         const auto& pair = brick[(k >> 3) - bk][(j >> 3) - bj];
         const int row = 8 * ((j & 7) + 8 * (k & 7));
         double* to = voxel + 4 * (y + 4 * z);
-        for (int x = 0; x < 4; ++x) {
-          const Field* from = x < split ? pair[0] : pair[1];
-          to[x] = from == nullptr ? 0 : from[row + ((first.x() + x) & 7)];
+        if (more_x == 0) {
+          const Field* from = pair[0];
+          for (int x = 0; x < 4; ++x) to[x] = from == nullptr ? 0 : from[row + in_x + x];
+        } else {
+          for (int x = 0; x < 4; ++x) {
+            const Field* from = x < split ? pair[0] : pair[1];
+            to[x] = from == nullptr ? 0 : from[row + ((in_x + x) & 7)];
+          }
         }
       }
   }
@@ -93,19 +102,19 @@ Sample sample_with_slope(const Bone& bone, const math::Vec3& p_grid) BURR_RT {
   const Cell c = cell_of(bone, p_grid);
   if (!c.near_grid) return out;
   const Neighbourhood f(bone, c);
-  double value = 0;
-  for (int n = 0; n < 8; ++n) {
-    const int x = 1 + (n & 1), y = 1 + ((n >> 1) & 1), z = 1 + (n >> 2);
-    const int at = x + 4 * (y + 4 * z);
-    const double weight =
-        (x == 2 ? c.u : 1 - c.u) * (y == 2 ? c.v : 1 - c.v) * (z == 2 ? c.w : 1 - c.w);
-    value += weight * f.voxel[at];
-    out.slope +=
-        weight * math::Vec3(f.voxel[at + 1] - f.voxel[at - 1], f.voxel[at + 4] - f.voxel[at - 4],
-                            f.voxel[at + 16] - f.voxel[at - 16]);
-  }
+  double value = 0, slope_x = 0, slope_y = 0, slope_z = 0;
+  for (int z = 1; z <= 2; ++z)
+    for (int y = 1; y <= 2; ++y) {
+      const double across = (y == 2 ? c.v : 1 - c.v) * (z == 2 ? c.w : 1 - c.w);
+      const double* at = f.voxel + 1 + 4 * (y + 4 * z);
+      const double near = across * (1 - c.u), far = across * c.u;
+      value += near * at[0] + far * at[1];
+      slope_x += near * (at[1] - at[-1]) + far * (at[2] - at[0]);
+      slope_y += near * (at[4] - at[-4]) + far * (at[5] - at[-3]);
+      slope_z += near * (at[16] - at[-16]) + far * (at[17] - at[-15]);
+    }
   out.value = kShare * value;
-  out.slope *= 0.5 * kShare;
+  out.slope = 0.5 * kShare * math::Vec3(slope_x, slope_y, slope_z);
   return out;
 }
 
