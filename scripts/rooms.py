@@ -25,7 +25,7 @@ ALLOWED = {
     "surface": "volume rt",
     "sound": "tool rt",
     "thermal": "volume rt",
-    "io": "volume surface",
+    "io": "volume surface rt",
     "render": "surface volume tool rt",
     "record": "device haptics edit volume rt",
     "scenario": "volume tool io",
@@ -37,6 +37,7 @@ BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest floors 
 # Of these rooms only plain structs: (who, whom) -> headers.
 ONLY = {
     ("tool", "rt"): {"rt.h"},
+    ("io", "rt"): {"lanes.h", "simd.h"},
     ("haptics", "device"): {"hand.h"},
     ("record", "device"): {"hand.h"},
     ("record", "haptics"): {"contact.h"},

@@ -77,30 +77,38 @@ Grey take_grey(const Scan& scan, const math::Ijk& from, const math::Ijk& size) {
   Grey grey;
   grey.size = size;
   grey.voxels.resize(count(size));
+  const auto for_each_row = [&](const auto& work) {
+    std::size_t v = 0;
+    for (int k = 0; k < size.z(); ++k)
+      for (int j = 0; j < size.y(); ++j, v += static_cast<std::size_t>(size.x()))
+        work(row_of(scan, from.x(), from.y() + j, from.z() + k), grey.voxels.data() + v);
+  };
   float low = std::numeric_limits<float>::infinity(), high = -low;
-  bool is_whole = true;
-  for (int k = 0; k < size.z(); ++k)
-    for (int j = 0; j < size.y(); ++j) {
-      const float* row = row_of(scan, from.x(), from.y() + j, from.z() + k);
+  for_each_row([&](const float* row, std::int16_t*) {
+    for (int i = 0; i < size.x(); ++i) {
+      low = row[i] < low ? row[i] : low;
+      high = row[i] > high ? row[i] : high;
+    }
+  });
+  bool is_whole = low >= -30000 && high <= 30000;
+  if (is_whole)
+    for_each_row([&](const float* row, std::int16_t* to) {
+      int broken = 0;
       for (int i = 0; i < size.x(); ++i) {
-        low = std::min(low, row[i]);
-        high = std::max(high, row[i]);
-        is_whole = is_whole && row[i] == std::nearbyint(row[i]);
+        const int number = static_cast<int>(row[i]);
+        broken |= static_cast<int>(static_cast<float>(number) != row[i]);
+        to[i] = static_cast<std::int16_t>(number);
       }
-    }
-  if (!(is_whole && low >= -30000 && high <= 30000)) {
-    grey.zero = 0.5 * (double{low} + double{high});
-    grey.step =
-        std::max((double{high} - double{low}) / 40000.0, 1e-30);  // room for cubic overshoot
-  }
+      is_whole = is_whole && broken == 0;
+    });
+  if (is_whole) return grey;
+  grey.zero = 0.5 * (double{low} + double{high});
+  grey.step = std::max((double{high} - double{low}) / 40000.0, 1e-30);  // room for cubic overshoot
   const double inverse = 1 / grey.step;
-  std::size_t v = 0;
-  for (int k = 0; k < size.z(); ++k)
-    for (int j = 0; j < size.y(); ++j) {
-      const float* row = row_of(scan, from.x(), from.y() + j, from.z() + k);
-      for (int i = 0; i < size.x(); ++i)
-        grey.voxels[v++] = rounded(static_cast<float>((double{row[i]} - grey.zero) * inverse));
-    }
+  for_each_row([&](const float* row, std::int16_t* to) {
+    for (int i = 0; i < size.x(); ++i)
+      to[i] = rounded(static_cast<float>((double{row[i]} - grey.zero) * inverse));
+  });
   return grey;
 }
 

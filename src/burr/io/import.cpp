@@ -203,9 +203,13 @@ Result<Plan> make_plan(const Scan& scan, const ImportOptions& options) {
                                           (static_cast<std::size_t>(out.roi_from.y() + j) +
                                            static_cast<std::size_t>(scan.size.y()) *
                                                static_cast<std::size_t>(out.roi_from.z() + k)));
-      const auto [low, high] = std::minmax_element(row, row + out.roi_size.x());
-      out.low = std::min(out.low, *low);
-      out.high = std::max(out.high, *high);
+      float low = *row, high = low;
+      for (int i = 0; i < out.roi_size.x(); ++i) {
+        low = row[i] < low ? row[i] : low;
+        high = row[i] > high ? row[i] : high;
+      }
+      out.low = std::min(out.low, low);
+      out.high = std::max(out.high, high);
     }
   if (options.iso) {
     out.iso = *options.iso;

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
+#include "burr/io/planes_kernel.h"
 #include "burr/io/workers.h"
+#include "burr/rt/lanes.h"
+#include "burr/rt/simd.h"
 #include "burr/volume/volume_of.h"
 
 namespace burr::io {
@@ -21,77 +25,82 @@ using volume::TissueId;
 // blur, 1 the gradient, and 3 may hold points that reach into the brick.
 constexpr int kHalo = 6, kBlock = kBrickEdge + 2 * kHalo, kPlane = kBlock * kBlock,
               kBlockVoxels = kPlane * kBlock;
+constexpr int kNoBlur = 2;  // grey is not blurred, so so much of the block's border is not needed
 constexpr float kReach = 3.0F;  // a point speaks to voxels this near [voxel]
 
 constexpr int at(int x, int y, int z) { return x + kBlock * (y + kBlock * z); }
 
-// How the planes of many points become one distance: weight 1 / (r^2 + soft)^4, r in voxels. The
-// softer, the more points are averaged: noise and staircases ask for it, edges pay for it.
-struct Blend {
-  float soft;
-  bool by_normal;  // points that face the other way do not count (thin walls of label maps)
-};
-
-struct Point {
-  float x, y, z;     // in the block [voxel]
-  float nx, ny, nz;  // unit, into the material
-};
-
 // Everything one worker needs; made once, used for thousands of bricks.
-struct Sums {
-  using Brick = std::array<float, volume::kBrickVoxels>;
-  Brick weights, depths;               // of the points, of their planes' distances
-  Brick nx, ny, nz;                    // of the normals
-  Brick rx, ry, rz;                    // of the way from the points
-  Brick facing_x, facing_y, facing_z;  // label maps: which way the material lies
-};
-
 struct Desk {
   std::array<float, kBlockVoxels> level;   // >= 0 inside, with the crossing by linear interpolation
-  std::array<float, kBlockVoxels> smooth;  // what gradients are taken of
+  std::array<float, kBlockVoxels> smooth;  // what gradients are taken of, in label maps
   std::array<float, kBlockVoxels> work;
   std::array<std::uint8_t, kBlockVoxels> labels;
-  std::vector<Point> points;
-  Sums sums;
+  // bit x: voxel x of the row is inside; [z][y]
+  std::array<std::array<std::uint32_t, kBlock>, kBlock> inside;
+  std::vector<SurfacePoint> points;
+  std::vector<std::uint64_t> rows;  // that each point speaks to
+  // the points that speak to each row of the brick: which[starts[row]] and on
+  std::array<std::uint32_t, kBrickEdge * kBrickEdge + 1> starts;
+  std::vector<std::uint16_t> which;
+  PlaneSums sums;
+  Facing facing;
   std::array<Field, volume::kBrickVoxels> field;  // the brick being made
   std::array<TissueId, volume::kBrickVoxels> tissue;
 };
 
-// Reads the block around a brick; beyond the border of the grid the last voxels go on.
-// Returns: does it hold inside, outside voxels?
-void fetch(const InsideGrid& grid, const math::Ijk& first, Desk& desk, bool& any_inside,
+// Bit x: number x of a row of the block is not below 0.
+std::uint32_t not_below_zero(const float* row) {
+  static_assert(kBlock >= 16 && kBlock <= 32);
+  rt::lanes::Floats low, high;
+  rt::lanes::load(row, low);
+  rt::lanes::load(row + kBlock - 16, high);
+  return rt::lanes::bits_of(low >= 0.0F) | rt::lanes::bits_of(high >= 0.0F) << (kBlock - 16);
+}
+
+// Reads the block around a brick, but for its outermost `skip` voxels; beyond the border of the
+// grid the last voxels go on. Returns: does it hold inside, outside voxels?
+void fetch(const InsideGrid& grid, const math::Ijk& first, int skip, Desk& desk, bool& any_inside,
            bool& any_outside) {
   const auto nx = static_cast<std::size_t>(grid.size.x()),
              ny = static_cast<std::size_t>(grid.size.y());
-  std::array<int, kBlock> xs{};
+  std::array<std::int16_t, kBlock> grey{};
+  const bool whole = first.x() >= kHalo && first.x() - kHalo + kBlock <= grid.size.x();
+  std::array<std::size_t, kBlock> xs{};
   for (int x = 0; x < kBlock; ++x)
-    xs[static_cast<std::size_t>(x)] = std::clamp(first.x() + x - kHalo, 0, grid.size.x() - 1);
+    xs[static_cast<std::size_t>(x)] =
+        static_cast<std::size_t>(std::clamp(first.x() + x - kHalo, 0, grid.size.x() - 1));
+  const std::uint32_t needed = ((1U << (kBlock - 2 * skip)) - 1U) << skip;
   any_inside = any_outside = false;
-  for (int z = 0; z < kBlock; ++z) {
+  for (int z = skip; z < kBlock - skip; ++z) {
     const auto k =
         static_cast<std::size_t>(std::clamp(first.z() + z - kHalo, 0, grid.size.z() - 1));
-    for (int y = 0; y < kBlock; ++y) {
+    for (int y = skip; y < kBlock - skip; ++y) {
       const auto j =
           static_cast<std::size_t>(std::clamp(first.y() + y - kHalo, 0, grid.size.y() - 1));
       const std::size_t row = nx * (j + ny * k);
       float* level = &desk.level[static_cast<std::size_t>(at(0, y, z))];
       std::uint8_t* label = &desk.labels[static_cast<std::size_t>(at(0, y, z))];
-      float least = 1e30F, most = -1e30F;
-      for (int x = 0; x < kBlock; ++x) {
-        const std::size_t v = row + static_cast<std::size_t>(xs[static_cast<std::size_t>(x)]);
-        if (grid.grey != nullptr) {
-          level[x] = static_cast<float>(grid.grey[v]) - grid.iso;
-        } else {
+      if (grid.grey != nullptr) {
+        const std::int16_t* from = grey.data();
+        if (whole)
+          from = grid.grey + row + xs[0];
+        else
+          for (std::size_t x = 0; x < kBlock; ++x) grey[x] = grid.grey[row + xs[x]];
+        for (int x = 0; x < kBlock; ++x) level[x] = static_cast<float>(from[x]) - grid.iso;
+      } else {
+        for (std::size_t x = 0; x < kBlock; ++x) {
+          const std::size_t v = row + xs[x];
           label[x] = grid.labels[v];
           level[x] = grid.share != nullptr        ? static_cast<float>(grid.share[v]) - 127.5F
                      : grid.solid[grid.labels[v]] ? 127.5F
                                                   : -127.5F;
         }
-        least = std::min(least, level[x]);
-        most = std::max(most, level[x]);
       }
-      any_inside = any_inside || most >= 0;
-      any_outside = any_outside || least < 0;
+      const std::uint32_t in = not_below_zero(level) & needed;
+      desk.inside[static_cast<std::size_t>(z)][static_cast<std::size_t>(y)] = in;
+      any_inside = any_inside || in != 0;
+      any_outside = any_outside || in != needed;
     }
   }
 }
@@ -113,7 +122,7 @@ void blur(Desk& desk) {
 void find_points(const InsideGrid& grid, const math::Ijk& first, Desk& desk) {
   desk.points.clear();
   const bool labels = grid.grey == nullptr;
-  const float* s = desk.smooth.data();
+  const float* s = labels ? desk.smooth.data() : desk.level.data();
   const auto add = [&](int x, int y, int z, int axis) {
     const int stride = axis == 0 ? 1 : axis == 1 ? kBlock : kPlane;
     const int a = at(x, y, z), b = a + stride;
@@ -135,10 +144,13 @@ void find_points(const InsideGrid& grid, const math::Ijk& first, Desk& desk) {
       nz = axis == 2 ? along : 0;
       length = 1;
     }
-    Point p{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z),
-            nx / length,           ny / length,           nz / length};
+    SurfacePoint p{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z),
+                   nx / length,           ny / length,           nz / length};
     (axis == 0 ? p.x : axis == 1 ? p.y : p.z) += t;
-    desk.points.push_back(p);
+    p.x -= kHalo;
+    p.y -= kHalo;
+    p.z -= kHalo;
+    if (p.x >= -kReach && p.x <= kBrickEdge - 1 + kReach) desk.points.push_back(p);
   };
   // edges on the far side of the grid's border do not exist
   constexpr int kFrom = kHalo - 3, kTo = kHalo + kBrickEdge + 2;
@@ -148,105 +160,89 @@ void find_points(const InsideGrid& grid, const math::Ijk& first, Desk& desk) {
                      std::max(kFrom, kHalo - first.z()));
   const math::Ijk hi(std::min(kTo, kHalo + last.x()), std::min(kTo, kHalo + last.y()),
                      std::min(kTo, kHalo + last.z()));
+  const std::uint32_t here = (2U << hi.x()) - (1U << lo.x()), not_last = here & ~(1U << hi.x());
   for (int z = lo.z(); z <= hi.z(); ++z)
-    for (int y = lo.y(); y <= hi.y(); ++y)
-      for (int x = lo.x(); x <= hi.x(); ++x) {
-        const bool in = desk.level[static_cast<std::size_t>(at(x, y, z))] >= 0;
-        if (x < hi.x() && (desk.level[static_cast<std::size_t>(at(x + 1, y, z))] >= 0) != in)
-          add(x, y, z, 0);
-        if (y < hi.y() && (desk.level[static_cast<std::size_t>(at(x, y + 1, z))] >= 0) != in)
-          add(x, y, z, 1);
-        if (z < hi.z() && (desk.level[static_cast<std::size_t>(at(x, y, z + 1))] >= 0) != in)
-          add(x, y, z, 2);
+    for (int y = lo.y(); y <= hi.y(); ++y) {
+      const auto k = static_cast<std::size_t>(z), j = static_cast<std::size_t>(y);
+      const std::uint32_t in = desk.inside[k][j];
+      const std::uint32_t along_x = (in ^ in >> 1) & not_last,
+                          along_y = y < hi.y() ? (in ^ desk.inside[k][j + 1]) & here : 0,
+                          along_z = z < hi.z() ? (in ^ desk.inside[k + 1][j]) & here : 0;
+      for (std::uint32_t left = along_x | along_y | along_z; left != 0; left &= left - 1) {
+        const int x = std::countr_zero(left);
+        if ((along_x >> x & 1U) != 0) add(x, y, z, 0);
+        if ((along_y >> x & 1U) != 0) add(x, y, z, 1);
+        if ((along_z >> x & 1U) != 0) add(x, y, z, 2);
       }
-}
-
-// Adds one point to the 8 voxels of a row of the brick. The lanes never mix, so the sums have one
-// order whatever the processor.
-template <bool ByNormal>
-inline void speak(const Point& p, float soft, float dx0, float dy, float dz, Sums& sums,
-                  std::size_t row) {
-  const float rest = dy * dy + dz * dz + soft, plane = dy * p.ny + dz * p.nz;
-  // rows of different sums never overlap
-  float* __restrict weights = &sums.weights[row];
-  float* __restrict depths = &sums.depths[row];
-  float* __restrict nx = &sums.nx[row];
-  float* __restrict ny = &sums.ny[row];
-  float* __restrict nz = &sums.nz[row];
-  float* __restrict rx = &sums.rx[row];
-  float* __restrict ry = &sums.ry[row];
-  float* __restrict rz = &sums.rz[row];
-  const float* __restrict fx = &sums.facing_x[row];
-  const float* __restrict fy = &sums.facing_y[row];
-  const float* __restrict fz = &sums.facing_z[row];
-  for (int x = 0; x < kBrickEdge; ++x) {
-    const float dx = dx0 + static_cast<float>(x);
-    float w = 1.0F / (dx * dx + rest);
-    w *= w;
-    w *= w;
-    if (ByNormal) {
-      const float facing = 0.5F + 0.5F * (p.nx * fx[x] + p.ny * fy[x] + p.nz * fz[x]);
-      const float agree = facing > 0.0F ? facing : 0.0F;
-      w *= agree * agree;
     }
-    weights[x] += w;
-    depths[x] += w * (dx * p.nx + plane);
-    nx[x] += w * p.nx;
-    ny[x] += w * p.ny;
-    nz[x] += w * p.nz;
-    rx[x] += w * dx;
-    ry[x] += w * dy;
-    rz[x] += w * dz;
-  }
 }
 
-void measure(const Blend& blend, Desk& desk) {
-  Sums& sums = desk.sums;
-  for (auto* sum :
-       {&sums.weights, &sums.depths, &sums.nx, &sums.ny, &sums.nz, &sums.rx, &sums.ry, &sums.rz})
-    sum->fill(0);
-  if (blend.by_normal) {
-    // which way the material lies, and how surely: 0 in the middle of a thin wall
-    for (int z = 0, v = 0; z < kBrickEdge; ++z)
-      for (int y = 0; y < kBrickEdge; ++y)
-        for (int x = 0; x < kBrickEdge; ++x, ++v) {
-          const int a = at(x + kHalo, y + kHalo, z + kHalo);
-          const float* s = desk.smooth.data();
-          const float gx = s[a + 1] - s[a - 1], gy = s[a + kBlock] - s[a - kBlock],
-                      gz = s[a + kPlane] - s[a - kPlane];
-          const float length = std::sqrt(gx * gx + gy * gy + gz * gz);
-          const float scale = 1.0F / std::max(length, 30.0F);
-          const auto i = static_cast<std::size_t>(v);
-          sums.facing_x[i] = gx * scale;
-          sums.facing_y[i] = gy * scale;
-          sums.facing_z[i] = gz * scale;
-        }
-  }
-  for (const Point& p : desk.points) {
-    const float px = p.x - kHalo, py = p.y - kHalo, pz = p.z - kHalo;
-    if (px < -kReach || px > kBrickEdge - 1 + kReach) continue;
-    const int z0 = std::max(0, static_cast<int>(std::ceil(pz - kReach))),
-              z1 = std::min(kBrickEdge - 1, static_cast<int>(std::floor(pz + kReach)));
-    const int y0 = std::max(0, static_cast<int>(std::ceil(py - kReach))),
-              y1 = std::min(kBrickEdge - 1, static_cast<int>(std::floor(py + kReach)));
-    for (int z = z0; z <= z1; ++z)
-      for (int y = y0; y <= y1; ++y) {
-        const float dy = static_cast<float>(y) - py, dz = static_cast<float>(z) - pz;
-        if (dy * dy + dz * dz > kReach * kReach) continue;
-        const auto row = static_cast<std::size_t>(kBrickEdge * (y + kBrickEdge * z));
-        if (blend.by_normal)
-          speak<true>(p, blend.soft, -px, dy, dz, sums, row);
-        else
-          speak<false>(p, blend.soft, -px, dy, dz, sums, row);
+// Which way the material lies, and how surely: 0 in the middle of a thin wall.
+void face(Desk& desk) {
+  for (int z = 0, v = 0; z < kBrickEdge; ++z)
+    for (int y = 0; y < kBrickEdge; ++y)
+      for (int x = 0; x < kBrickEdge; ++x, ++v) {
+        const float* s = desk.smooth.data() + at(x + kHalo, y + kHalo, z + kHalo);
+        const float gx = s[1] - s[-1], gy = s[kBlock] - s[-kBlock], gz = s[kPlane] - s[-kPlane];
+        const float scale = 1.0F / std::max(std::sqrt(gx * gx + gy * gy + gz * gz), 30.0F);
+        desk.facing.x[v] = gx * scale;
+        desk.facing.y[v] = gy * scale;
+        desk.facing.z[v] = gz * scale;
       }
+}
+
+// The rows of the brick that a point is within kReach of: bit y + 8 z.
+std::uint64_t rows_near(const SurfacePoint& p) {
+  std::uint64_t rows = 0;
+  for (int z = 0; z < kBrickEdge; ++z) {
+    const float dz = static_cast<float>(z) - p.z, left = kReach * kReach - dz * dz;
+    if (left < 0) continue;
+    const float half = std::sqrt(left);
+    const float low = std::max(p.y - half, 0.0F),
+                high = std::min(p.y + half, static_cast<float>(kBrickEdge - 1));
+    if (low > high) continue;
+    const int whole = static_cast<int>(low),
+              from = whole + (static_cast<float>(whole) < low ? 1 : 0);
+    const std::uint32_t row = (2U << static_cast<int>(high)) - (1U << from);  // none if from > high
+    rows |= std::uint64_t{row} << (kBrickEdge * z);
   }
+  return rows;
+}
+
+// Sums up what the points say to every voxel. The softer, the more points are averaged: noise and
+// staircases ask for it, edges pay for it. by_normal: points that face the other way do not count
+// (thin walls of label maps).
+void measure(float soft, bool by_normal, SumPlanes sum_planes, Desk& desk) {
+  if (by_normal) face(desk);
+  // point after point into the lists of the rows it speaks to
+  desk.rows.clear();
+  for (const SurfacePoint& p : desk.points) desk.rows.push_back(rows_near(p));
+  desk.starts.fill(0);
+  for (const std::uint64_t rows : desk.rows)
+    for (std::uint64_t left = rows; left != 0; left &= left - 1)
+      ++desk.starts[static_cast<std::size_t>(std::countr_zero(left)) + 1];
+  for (std::size_t row = 1; row < desk.starts.size(); ++row)
+    desk.starts[row] += desk.starts[row - 1];
+  desk.which.resize(desk.starts.back());
+  auto next = desk.starts;
+  for (std::size_t n = 0; n < desk.rows.size(); ++n)
+    for (std::uint64_t left = desk.rows[n]; left != 0; left &= left - 1)
+      desk.which[next[static_cast<std::size_t>(std::countr_zero(left))]++] =
+          static_cast<std::uint16_t>(n);
+  for (int z = 0; z < kBrickEdge; ++z)
+    for (int y = 0; y < kBrickEdge; ++y) {
+      const auto row = static_cast<std::size_t>(y + kBrickEdge * z);
+      sum_planes(desk.points.data(), desk.which.data() + desk.starts[row],
+                 static_cast<int>(desk.starts[row + 1] - desk.starts[row]), y, z, soft,
+                 by_normal ? &desk.facing : nullptr, desk.sums);
+    }
 }
 
 // Depth of a voxel from what the points said. The mean distance to tangent planes is too small by
 // l^2 / 2R on a surface of radius R; the distance along the mean normal from the mean point is too
 // large by as much: half of both is right to second order (a chord is square to the mean of the
 // normals at its ends).
-double depth_of(const Sums& sums, std::size_t v) {
+double depth_of(const PlaneSums& sums, std::size_t v) {
   const double w = 1.0 / double{sums.weights[v]};
   const double planes = double{sums.depths[v]} * w;
   const double length =
@@ -312,19 +308,29 @@ TissueId hu_class(double hu) {
   return hu < 700 ? TissueId{1} : hu < 2000 ? TissueId{2} : TissueId{3};
 }
 
-void grey_tissue_of(const InsideGrid& grid, const GreyTissue& rule, const Desk& desk,
+void grey_tissue_of(const InsideGrid& grid, const GreyTissue& rule, bool ramps, Desk& desk,
                     const math::Ijk& room, const Target& to) {
-  // densest within two voxels, one axis after the other
-  std::array<float, kBlockVoxels> most{}, work{};
-  if (rule.by_hu) {
-    most = desk.level;
-    for (const int stride : {1, kBlock, kPlane}) {
-      work = most;
-      for (int v = 2 * stride; v < kBlockVoxels - 2 * stride; ++v) {
-        const auto i = static_cast<std::size_t>(v), s = static_cast<std::size_t>(stride);
-        most[i] = std::max({work[i], work[i - s], work[i + s], work[i - 2 * s], work[i + 2 * s]});
-      }
-    }
+  // densest within two voxels, one axis after the other; only a ramp asks for it
+  std::array<float, kBlockVoxels>& most = desk.smooth;
+  if (rule.by_hu && ramps) {
+    const auto densest = [](const float* from, int stride, float* result) {
+      for (int x = 0; x < kBrickEdge; ++x)
+        result[x] = std::max({from[x], from[x - stride], from[x + stride], from[x - 2 * stride],
+                              from[x + 2 * stride]});
+    };
+    constexpr int kFirst = kHalo, kEnd = kHalo + kBrickEdge;
+    for (int z = kFirst - 2; z < kEnd + 2; ++z)
+      for (int y = kFirst - 2; y < kEnd + 2; ++y)
+        densest(&desk.level[static_cast<std::size_t>(at(kFirst, y, z))], 1,
+                &desk.work[static_cast<std::size_t>(at(kFirst, y, z))]);
+    for (int z = kFirst - 2; z < kEnd + 2; ++z)
+      for (int y = kFirst; y < kEnd; ++y)
+        densest(&desk.work[static_cast<std::size_t>(at(kFirst, y, z))], kBlock,
+                &most[static_cast<std::size_t>(at(kFirst, y, z))]);
+    for (int z = kFirst; z < kEnd; ++z)
+      for (int y = kFirst; y < kEnd; ++y)
+        densest(&most[static_cast<std::size_t>(at(kFirst, y, z))], kPlane,
+                &desk.work[static_cast<std::size_t>(at(kFirst, y, z))]);
   }
   for (int z = 0; z < room.z(); ++z)
     for (int y = 0; y < room.y(); ++y)
@@ -341,27 +347,24 @@ void grey_tissue_of(const InsideGrid& grid, const GreyTissue& rule, const Desk& 
           to.tissue[v] = 1;
         } else {
           const bool ramp = to.field[v] < volume::kSolid;
-          const double densest = double{ramp ? most[a] : desk.level[a]} + double{grid.iso};
+          const double densest = double{ramp ? desk.work[a] : desk.level[a]} + double{grid.iso};
           to.tissue[v] = hu_class(densest * rule.step + rule.zero);
         }
       }
 }
 
-void fill_brick(const InsideGrid& grid, const GreyTissue& rule, const math::Ijk& first, Desk& desk,
-                const Target& to) {
+void fill_brick(const InsideGrid& grid, const GreyTissue& rule, SumPlanes sum_planes,
+                const math::Ijk& first, Desk& desk, const Target& to) {
   bool any_inside = false, any_outside = false;
-  fetch(grid, first, desk, any_inside, any_outside);
-  const math::Ijk room = (grid.size - first).cwiseMin(kBrickEdge);
   const bool labels = grid.grey == nullptr;
+  fetch(grid, first, labels ? 0 : kNoBlur, desk, any_inside, any_outside);
+  const math::Ijk room = (grid.size - first).cwiseMin(kBrickEdge);
   bool measured = false;
   if (any_inside && any_outside) {
-    if (labels)
-      blur(desk);
-    else
-      desk.smooth = desk.level;
+    if (labels) blur(desk);
     find_points(grid, first, desk);
     measured = !desk.points.empty();
-    if (measured) measure({grid.soft, labels}, desk);
+    if (measured) measure(grid.soft, labels, sum_planes, desk);
   }
   for (int z = 0; z < room.z(); ++z)
     for (int y = 0; y < room.y(); ++y)
@@ -384,7 +387,7 @@ void fill_brick(const InsideGrid& grid, const GreyTissue& rule, const math::Ijk&
   if (labels)
     label_tissue(grid, desk, room, to);
   else
-    grey_tissue_of(grid, rule, desk, room, to);
+    grey_tissue_of(grid, rule, measured, desk, room, to);
 }
 
 // Bricks with an inside voxel in or within 3 voxels of them, or with a label to keep.
@@ -446,6 +449,10 @@ std::vector<std::uint8_t> bricks_needed(const InsideGrid& grid, const math::Ijk&
 
 }  // namespace
 
+SumPlanes sum_planes_kernel() noexcept {
+  return rt::simd() == rt::Simd::scalar ? scalar::sum_planes : avx2::sum_planes;
+}
+
 std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueTable tissues,
                                        const InsideGrid& inside, const GreyTissue& grey_tissue,
                                        std::size_t reserve_bricks, Progress& progress) {
@@ -466,6 +473,7 @@ std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueT
     list.push_back(b);
     bone->ensure_slot(b);
   }
+  const SumPlanes sum_planes = sum_planes_kernel();
   constexpr std::size_t kPortion = 64;
   const int portions = static_cast<int>((list.size() + kPortion - 1) / kPortion);
   const bool done = in_pieces(portions, progress, "finding the surface", [&](int portion) {
@@ -476,7 +484,7 @@ std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueT
                            bone->has_intensity() ? bone->build_intensity(list[n]) : nullptr};
       desk->field.fill(0);  // of voxels beyond the grid
       desk->tissue.fill(0);
-      fill_brick(inside, grey_tissue, bone->brick_ijk(list[n]), *desk, made);
+      fill_brick(inside, grey_tissue, sum_planes, bone->brick_ijk(list[n]), *desk, made);
       // here, so that what is the same throughout never touches the room it was promised
       bone->build_brick(list[n], made.field, made.tissue);
     }

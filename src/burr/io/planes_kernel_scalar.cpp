@@ -1,0 +1,2 @@
+#define BURR_KERNEL scalar
+#include "burr/io/planes_kernel.inc"
