@@ -30,15 +30,24 @@ void versioned_write(VersionOf<Atoms>& version, std::uint64_t* shared, const std
   version.store(before + 2, std::memory_order_release);
 }
 
-// Any reader: false when a writer was at it, `to` is then rubbish; try again.
+// Any reader: calls copy(), which takes what it wants of the words by Atoms::load. False when a
+// writer was at it, what was copied is then rubbish; try again.
+template <class Atoms = StdAtoms, class Copy>
+bool versioned_read(const VersionOf<Atoms>& version, const Copy& copy) BURR_RT {
+  const std::uint32_t before = version.load(std::memory_order_acquire);
+  if ((before & 1U) != 0) return false;
+  copy();
+  Atoms::fence(std::memory_order_acquire);
+  return version.load(std::memory_order_relaxed) == before;
+}
+
+// The same for words [0, count).
 template <class Atoms = StdAtoms>
 bool versioned_read(const VersionOf<Atoms>& version, const std::uint64_t* shared, std::uint64_t* to,
                     std::size_t count) BURR_RT {
-  const std::uint32_t before = version.load(std::memory_order_acquire);
-  if ((before & 1U) != 0) return false;
-  for (std::size_t i = 0; i < count; ++i) to[i] = Atoms::load(shared[i]);
-  Atoms::fence(std::memory_order_acquire);
-  return version.load(std::memory_order_relaxed) == before;
+  return versioned_read<Atoms>(version, [&] {
+    for (std::size_t i = 0; i < count; ++i) to[i] = Atoms::load(shared[i]);
+  });
 }
 
 }  // namespace burr::rt

@@ -14,6 +14,7 @@
 namespace burr::surface {
 namespace {
 
+using volume::Bone;
 using volume::BrickField;
 using volume::BrickIndex;
 using volume::Field;
@@ -106,6 +107,10 @@ bool Mesher::Work::gather(const math::Ijk& first) {
   const auto index = [](int a, int b, int c) {
     return static_cast<std::size_t>(a + kBricks * (b + kBricks * c));
   };
+  // of the bricks at the rim only the rows of the apron are wanted
+  const auto rows = [](int brick) -> Bone::Range {
+    return {brick == 0 ? kBrickEdge - 2 : 0, brick == kBricks - 1 ? 1 : kBrickEdge};
+  };
   const auto copy = [&](int a, int b, int c) {
     const math::Ijk at = low + math::Ijk(a, b, c);
     const Field*& to = from[index(a, b, c)];
@@ -115,7 +120,7 @@ bool Mesher::Work::gather(const math::Ijk& first) {
     if (bone.brick_field(brick) == nullptr) return true;
     BrickField& mine = bricks[index(a, b, c)];
     for (int i = 0; i < kTries; ++i) {
-      if (!bone.copy_brick(brick, mine)) continue;
+      if (!bone.copy_rows(brick, rows(b), rows(c), mine)) continue;
       to = mine.voxel;
       return true;
     }
@@ -134,12 +139,14 @@ bool Mesher::Work::gather(const math::Ijk& first) {
           continue;
         }
         if ((any & ~all & 0x8000800080008000ULL) != 0) continue;
-        for (int w = 0; w < volume::kBrickWords; ++w) {
-          std::uint64_t word = 0;
-          std::memcpy(&word, voxel + 4 * w, sizeof word);
-          any |= word;
-          all &= word;
-        }
+        const Bone::Range ys = rows(b), zs = rows(c);
+        for (int z = zs.first; z < zs.last; ++z)
+          for (int v = 8 * (ys.first + 8 * z); v < 8 * (ys.last + 8 * z); v += 4) {
+            std::uint64_t word = 0;
+            std::memcpy(&word, voxel + v, sizeof word);
+            any |= word;
+            all &= word;
+          }
       }
   constexpr std::uint64_t kTops = 0x8000800080008000ULL;
   if ((any & kTops) == 0 || (all & kTops) == kTops) return true;

@@ -121,6 +121,25 @@ bool Bone::copy_brick(BrickIndex brick, BrickField& out) const BURR_RT {
                             reinterpret_cast<std::uint64_t*>(&out), kBrickWords);
 }
 
+bool Bone::copy_rows(BrickIndex brick, Range y, Range z, BrickField& out) const BURR_RT {
+  constexpr int kRowWords = kBrickWords / (kBrickEdge * kBrickEdge);
+  const std::int32_t slot =
+      directory_[static_cast<std::size_t>(brick)].load(std::memory_order_acquire);
+  auto* to = reinterpret_cast<std::uint64_t*>(&out);
+  const std::uint64_t* shared =
+      slot == kNoSlot ? nullptr : reinterpret_cast<const std::uint64_t*>(field_.data() + at(slot));
+  const auto copy = [&] {
+    for (int k = z.first; k < z.last; ++k)
+      for (int w = kRowWords * (kBrickEdge * k + y.first),
+               end = kRowWords * (kBrickEdge * k + y.last);
+           w < end; ++w)
+        to[w] = shared == nullptr ? 0 : rt::StdAtoms::load(shared[w]);
+  };
+  if (shared != nullptr) return rt::versioned_read(versions_[static_cast<std::size_t>(slot)], copy);
+  copy();
+  return true;
+}
+
 TissueId Bone::shared_tissue(int i, int j, int k) const BURR_RT {
   if (!grid_.contains({i, j, k})) return 0;
   const BrickIndex brick = brick_at(i >> 3, j >> 3, k >> 3);

@@ -120,6 +120,12 @@ class Bone {
   // Copies a brick's field whole. Wait-free; false: the writer was at it, try again. All air gives
   // zeros.
   [[nodiscard]] bool copy_brick(BrickIndex brick, BrickField& out) const BURR_RT;
+  // The same for a part: of slices z in [z.first, z.last) the rows y in [y.first, y.last); the rest
+  // of `out` stays as it is.
+  struct Range {
+    int first = 0, last = kBrickEdge;
+  };
+  [[nodiscard]] bool copy_rows(BrickIndex brick, Range y, Range z, BrickField& out) const BURR_RT;
   // Tissue changes only under deposited material; read by relaxed atomics, one voxel at a time.
   [[nodiscard]] TissueId shared_tissue(int i, int j, int k) const BURR_RT;
 
