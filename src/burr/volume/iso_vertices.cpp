@@ -105,7 +105,7 @@ IsoVertices::IsoVertices(const Bone& bone, const IsoSettings& settings, int thre
       places_[static_cast<std::size_t>(brick)] = {static_cast<std::uint32_t>(pool_used_), 0,
                                                   static_cast<std::uint16_t>(blocks)};
       pool_used_ += static_cast<std::size_t>(blocks);
-      store(brick, from, count);
+      BURR_CHECK(store(brick, from, count));  // its room was just given to it
       from += blocks;
       regrown += static_cast<std::size_t>(kClassBlocks[class_of(blocks)]);
       ++bricks;
@@ -218,13 +218,13 @@ bool IsoVertices::take_room(Place& place, int blocks) BURR_RT {
   return true;
 }
 
-void IsoVertices::store(BrickIndex brick, const VertexBlock* blocks, int count) BURR_RT {
+bool IsoVertices::store(BrickIndex brick, const VertexBlock* blocks, int count) BURR_RT {
   const auto at = static_cast<std::size_t>(brick);
   Place& place = places_[at];
   const int used = (count + kLanes - 1) / kLanes;
   if (!take_room(place, used)) {
     exhausted_ = true;
-    return;
+    return false;
   }
   ++revision_;
   std::copy_n(blocks, used, pool_.begin() + place.first);
@@ -237,15 +237,16 @@ void IsoVertices::store(BrickIndex brick, const VertexBlock* blocks, int count) 
                 static_cast<std::size_t>(first.x() / 8 / 64)];
   const std::uint64_t bit = 1ULL << (first.x() / 8 % 64);
   word = count == 0 ? word & ~bit : word | bit;
+  return true;
 }
 
-void IsoVertices::rebuild(BrickIndex brick) BURR_RT {
+bool IsoVertices::rebuild(BrickIndex brick) BURR_RT {
   alignas(64) std::uint16_t padded[kPadVoxels];
   alignas(64) VertexBlock out[kMostBlocks];
   gather(brick, padded);
   const int count = extract_vertices_kernel()(padded, low_border(brick), settings_.disc, out,
                                               kMostBlocks * kLanes);
-  store(brick, out, count);
+  return store(brick, out, count);
 }
 
 void IsoVertices::note(BrickIndex brick, int units) BURR_RT {
@@ -317,8 +318,12 @@ void IsoVertices::refresh(double share) BURR_RT {
       stale_[kept++] = one;
       continue;
     }
-    rebuild(one.brick);
-    lost_[static_cast<std::size_t>(one.brick)] = 0;
+    if (rebuild(one.brick)) {
+      lost_[static_cast<std::size_t>(one.brick)] = 0;
+    } else {
+      lost_[static_cast<std::size_t>(one.brick)] = 1;
+      stale_[kept++] = {one.brick, calls_};
+    }
     ++rebuilt_last_;
   }
   stale_.erase(stale_.begin() + static_cast<std::ptrdiff_t>(kept),
@@ -326,11 +331,14 @@ void IsoVertices::refresh(double share) BURR_RT {
 }
 
 void IsoVertices::refresh_all() BURR_RT {
-  for (const Stale& one : stale_) {
-    rebuild(one.brick);
-    lost_[static_cast<std::size_t>(one.brick)] = 0;
+  std::size_t kept = 0;
+  for (const Stale one : stale_) {
+    if (rebuild(one.brick))
+      lost_[static_cast<std::size_t>(one.brick)] = 0;
+    else
+      stale_[kept++] = one;
   }
-  stale_.clear();
+  stale_.resize(kept);
 }
 
 int IsoVertices::worst_staleness() const BURR_RT {

@@ -89,7 +89,8 @@ class IsoVertices {
   [[nodiscard]] std::size_t stale() const BURR_RT { return stale_.size(); }
   // The largest loss any vertex may still be stale by.  [field units]
   [[nodiscard]] int worst_staleness() const BURR_RT;
-  // true once: the pool was full and a brick kept its old vertices; raise reserve_blocks
+  // true for ever once the pool was full: a brick kept its old vertices then, stays stale and is
+  // tried again, the youngest of all; raise reserve_blocks
   [[nodiscard]] bool exhausted() const BURR_RT { return exhausted_; }
   [[nodiscard]] std::size_t memory_bytes() const;
   // Takes the memory that milling will need next; call it every few milliseconds while the servo
@@ -108,8 +109,9 @@ class IsoVertices {
     std::uint32_t since = 0;  // call of changed() that first made it stale
   };
 
-  void rebuild(BrickIndex brick) BURR_RT;
-  void store(BrickIndex brick, const VertexBlock* blocks, int count) BURR_RT;
+  // false: the pool has no room, and the brick keeps the vertices it had
+  [[nodiscard]] bool rebuild(BrickIndex brick) BURR_RT;
+  [[nodiscard]] bool store(BrickIndex brick, const VertexBlock* blocks, int count) BURR_RT;
   void gather(BrickIndex brick, std::uint16_t* padded) const BURR_RT;
   void note(BrickIndex brick, int units) BURR_RT;
   [[nodiscard]] unsigned low_border(BrickIndex brick) const BURR_RT;
