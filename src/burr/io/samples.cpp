@@ -12,9 +12,9 @@
 namespace burr::io {
 namespace {
 
-// No scanner's number is beyond it, and what is reckoned from values up to it (weights of a cubic,
-// squares summed over a volume) stays finite in a float.
-constexpr float kLargestValue = 1e12F;
+// No scanner's number is beyond it, and what is reckoned from values up to it (the weighted sums of
+// a cubic along three axes) stays finite in a float.
+constexpr float kLargestValue = 1e30F;
 
 template <class T>
 T load(const std::uint8_t* bytes, bool swap) {

@@ -34,7 +34,7 @@ class VoxelSink {
   void add(const float* values, std::size_t n);
   void add_bytes(const std::uint8_t* values, std::size_t n);
   // Into the scan: values, or labels where the numbers look like labels (or `labels_for_sure`).
-  // Not-a-number, infinity and what is beyond 1e12 become air, with a notice.
+  // Not-a-number, infinity and what is beyond 1e30 become air, with a notice.
   [[nodiscard]] Status finish(Scan& scan, bool labels_for_sure);
 
  private:
