@@ -110,15 +110,7 @@ const std::int16_t* Bone::brick_intensity(BrickIndex brick) const BURR_RT {
 }
 
 bool Bone::copy_brick(BrickIndex brick, BrickField& out) const BURR_RT {
-  const std::int32_t slot =
-      directory_[static_cast<std::size_t>(brick)].load(std::memory_order_acquire);
-  if (slot == kNoSlot) {
-    std::memset(&out, 0, sizeof out);
-    return true;
-  }
-  return rt::versioned_read(versions_[static_cast<std::size_t>(slot)],
-                            reinterpret_cast<const std::uint64_t*>(field_.data() + at(slot)),
-                            reinterpret_cast<std::uint64_t*>(&out), kBrickWords);
+  return copy_rows(brick, {}, {}, out);
 }
 
 bool Bone::copy_rows(BrickIndex brick, Range y, Range z, BrickField& out) const BURR_RT {
