@@ -1,6 +1,8 @@
 // The container, held against the specification by a second reading of the bytes that shares no
 // code with the first, and against the MCAP project's own reader where it is installed.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <sys/wait.h>
 #include <zstd.h>
 
@@ -11,6 +13,8 @@
 #include <set>
 
 #include "burr/record/crc32.h"
+#include "burr/record/mcap_reader.h"
+#include "burr/record/mcap_writer.h"
 #include "burr/record/packed.h"
 #include "burr/record/schema.h"
 #include "record/made_up.h"
@@ -263,6 +267,49 @@ TEST(Mcap, EveryByteIsWhereTheSpecificationWantsIt) {
   }
   EXPECT_TRUE(groups.empty());
   EXPECT_EQ(at, records.size() - 1) << "the footer follows";
+}
+
+TEST(Mcap, ALongRecordingTakesNoMoreMemoryThanAShortOne) {
+  const Folder folder;
+  const std::string path = folder / "long.mcap";
+  constexpr std::size_t kChunks = 20'000;  // a quarter of an hour
+  std::array<std::size_t, 3> held{};
+  {
+    McapWriter writer;
+    ASSERT_TRUE(writer.open(path, path).ok());
+    const auto schema = writer.add_schema("s", "jsonschema", "{}");
+    ASSERT_TRUE(schema.ok());
+    std::array<std::uint16_t, 3> channels{};
+    for (std::size_t i = 0; i < channels.size(); ++i)
+      channels[i] = *writer.add_channel(fmt::format("t{}", i), "json", *schema);
+    for (std::uint64_t n = 0; n < kChunks; ++n) {
+      for (std::size_t i = 0; i < channels.size(); ++i)
+        if (n % (i + 1) == 0) writer.add_message(channels[i], 0, n, as_bytes("{}"));
+      ASSERT_TRUE(writer.close_chunk().ok());
+      if (n == 1000) held[0] = mallinfo2().uordblks;
+    }
+    held[1] = mallinfo2().uordblks;
+    ASSERT_TRUE(writer.finish().ok());
+  }
+  EXPECT_LT(held[1], held[0] + 64 * 1024);
+  // and the index at its end knows every chunk, as whoever scans the file finds them
+  const auto index = McapReader::open(path),
+             scan = McapReader::open(path, McapReader::Trust::nothing);
+  ASSERT_TRUE(index.ok() && scan.ok());
+  ASSERT_EQ((*index)->chunks().size(), kChunks);
+  ASSERT_EQ((*scan)->chunks().size(), kChunks);
+  for (std::size_t n = 0; n < kChunks; ++n) {
+    const mcap::ChunkAt &a = (*index)->chunks()[n], &b = (*scan)->chunks()[n];
+    ASSERT_EQ(a.offset, b.offset);
+    ASSERT_EQ(a.length, b.length);
+    ASSERT_EQ(a.start_ns, n);
+    ASSERT_EQ(a.end_ns, n);
+    ASSERT_EQ(a.packed_size, b.packed_size);
+    ASSERT_EQ(a.unpacked_size, b.unpacked_size);
+    ASSERT_EQ(a.index_offsets, b.index_offsets);
+    ASSERT_EQ(a.index_length, b.index_length);
+    ASSERT_EQ(a.compression, b.compression);
+  }
 }
 
 TEST(Mcap, TheMcapProjectsOwnReaderAgrees) {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 
@@ -269,9 +270,9 @@ Status McapWriter::add_chunk(const mcap::ChunkAt& from, std::uint32_t unpacked_c
 }
 
 void McapWriter::count(const mcap::MessageIndexes& indexes, const mcap::ChunkAt& chunk) {
-  first_ns_ = chunks_.empty() ? chunk.start_ns : std::min(first_ns_, chunk.start_ns);
+  first_ns_ = chunks_ == 0 ? chunk.start_ns : std::min(first_ns_, chunk.start_ns);
   last_ns_ = std::max(last_ns_, chunk.end_ns);
-  chunks_.push_back(chunk);
+  if (chunks_++ == 0) first_chunk_ = chunk.offset;
   for (const auto& [channel, messages] : indexes) {
     message_counts_[channel] += messages.size();
     messages_ += messages.size();
@@ -292,8 +293,60 @@ Status McapWriter::still_there() const {
                                 "gone; leave a recording alone until the session has ended");
 }
 
+// Where the chunks and their indexes lie, from the heads of their records: 25 chunks a second of a
+// session would be 300 bytes each to remember.
+Status McapWriter::read_back(BytesOut& chunk_indexes) const {
+  std::array<std::uint8_t, 128> head{};
+  mcap::ChunkAt chunk;
+  const auto put = [&] {
+    BytesOut content;
+    content.put(chunk.start_ns);
+    content.put(chunk.end_ns);
+    content.put(chunk.offset);
+    content.put(chunk.length);
+    put_counts(content, chunk.index_offsets);
+    content.put(chunk.index_length);
+    content.text(chunk.compression);
+    content.put(chunk.packed_size);
+    content.put(chunk.unpacked_size);
+    mcap::put_record(chunk_indexes, Kind::chunk_index, content.span());
+  };
+  for (std::uint64_t at = first_chunk_; chunks_ > 0 && at < size_;) {
+    const ssize_t there = ::pread(file_, head.data(), head.size(), static_cast<off_t>(at));
+    if (there < 0 && errno == EINTR) continue;
+    if (there < 0) return trouble(shown_, "read back what was written");
+    BytesIn in(ByteSpan(head).first(static_cast<std::size_t>(there)));
+    const auto kind = static_cast<Kind>(in.get<std::uint8_t>());
+    const std::uint64_t length = mcap::kRecordHead + in.get<std::uint64_t>();
+    if (kind == Kind::chunk) {
+      if (chunk.length > 0) put();
+      chunk = {};
+      chunk.offset = at;
+      chunk.length = length;
+      chunk.start_ns = in.get<std::uint64_t>();
+      chunk.end_ns = in.get<std::uint64_t>();
+      chunk.unpacked_size = in.get<std::uint64_t>();
+      in.get<std::uint32_t>();
+      chunk.compression = in.text();
+      chunk.packed_size = in.get<std::uint64_t>();
+    } else if (kind == Kind::message_index) {
+      chunk.index_offsets[in.get<std::uint16_t>()] = at;
+      chunk.index_length += length;
+    }
+    if (!in.ok() || length > size_ - at)
+      return error(Trouble::io, shown_ +
+                                    ": was changed by another program while it was being "
+                                    "recorded; `burr repair` keeps what is left of it");
+    at += length;
+  }
+  if (chunks_ > 0) put();
+  return fine();
+}
+
 Status McapWriter::finish() {
   if (Status closed = close_chunk(); !closed.ok()) return closed;
+  BytesOut chunk_indexes;
+  if (Status read = read_back(chunk_indexes); !read.ok()) return read;
   BytesOut end;
   end.put(crc_);
   if (Status written = append_record(Kind::data_end, end.span()); !written.ok()) return written;
@@ -332,26 +385,13 @@ Status McapWriter::finish() {
       out.put(static_cast<std::uint32_t>(channels_.size()));
       out.put(static_cast<std::uint32_t>(attachments_.size()));
       out.put(static_cast<std::uint32_t>(metadata_.size()));
-      out.put(static_cast<std::uint32_t>(chunks_.size()));
+      out.put(static_cast<std::uint32_t>(chunks_));
       out.put(first_ns_);
       out.put(last_ns_);
       put_counts(out, message_counts_);
     });
   });
-  group(Kind::chunk_index, [&] {
-    for (const auto& chunk : chunks_)
-      put(Kind::chunk_index, [&](BytesOut& out) {
-        out.put(chunk.start_ns);
-        out.put(chunk.end_ns);
-        out.put(chunk.offset);
-        out.put(chunk.length);
-        put_counts(out, chunk.index_offsets);
-        out.put(chunk.index_length);
-        out.text(chunk.compression);
-        out.put(chunk.packed_size);
-        out.put(chunk.unpacked_size);
-      });
-  });
+  group(Kind::chunk_index, [&] { summary.raw(chunk_indexes.span()); });
   group(Kind::attachment_index, [&] {
     for (const auto& attachment : attachments_)
       put(Kind::attachment_index, [&](BytesOut& out) {

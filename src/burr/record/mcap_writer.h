@@ -4,7 +4,8 @@
 //     writer.open(path) -> schema, channel, metadata, attachment
 //                       -> [ message, message ... close_chunk ]*  -> finish
 //
-// Thread: one at a time; sync() alone may be called from another. Memory: one chunk.
+// Thread: one at a time; sync() alone may be called from another. Memory: one chunk, however long
+// the recording; the summary's index of all chunks is read back from the file at its end.
 #pragma once
 
 #include <atomic>
@@ -68,6 +69,7 @@ class McapWriter {
   [[nodiscard]] Status append(ByteSpan bytes);
   [[nodiscard]] Status append_record(mcap::Kind kind, ByteSpan content);
   void count(const mcap::MessageIndexes& indexes, const mcap::ChunkAt& chunk);
+  [[nodiscard]] Status read_back(BytesOut& chunk_indexes) const;
 
   std::string shown_;
   int file_ = -1;
@@ -82,7 +84,7 @@ class McapWriter {
 
   std::vector<mcap::Schema> schemas_;
   std::vector<mcap::Channel> channels_;
-  std::vector<mcap::ChunkAt> chunks_;
+  std::uint64_t first_chunk_ = 0, chunks_ = 0;  // offset; how many
   std::vector<mcap::AttachmentAt> attachments_;
   std::vector<mcap::MetadataAt> metadata_;
   std::map<std::uint16_t, std::uint64_t> message_counts_;
