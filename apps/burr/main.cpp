@@ -1,6 +1,7 @@
 // burr - the program. Each subcommand is a file of its own; this one parses, runs and turns trouble
 // into exit codes.
 #include <fmt/core.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <csignal>
@@ -51,6 +52,9 @@ bool interrupted() noexcept { return asked_to_stop != 0; }
 
 int main(int argc, char** argv) {
   using namespace burr;
+  // One arena for all threads: a software renderer takes and gives back a hundred megabytes a
+  // picture, and each arena keeps its own high-water mark for ever (memory of a session is locked).
+  mallopt(M_ARENA_MAX, 1);
   struct sigaction action = {};
   action.sa_handler = app::on_signal;
   sigaction(SIGINT, &action, nullptr);
