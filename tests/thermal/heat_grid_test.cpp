@@ -230,6 +230,8 @@ TEST(HeatGrid, OnlyWhatIsWithinReachOfTheCoolantIsCooled) {
   heat.advance(0.05);
   EXPECT_LT(heat.temperature_c({0, 0, 0}), 37);
   EXPECT_EQ(heat.temperature_c({8, 0, 0}), 37);
+  EXPECT_LT(heat.temperature_c({2, 0, 2}), 37);
+  EXPECT_EQ(heat.temperature_c({3, 0, 0}), 37) << "in the corner of the cube around the ball";
   EXPECT_EQ(heat.temperature_c({0, 2, 2}), heat.temperature_c({0, 1, 2}));
 }
 
@@ -444,6 +446,18 @@ TEST(HeatGrid, HalfACellTakesHalfItsHeatAndIsNoWarmer) {
   EXPECT_TRUE(heat.look());
   EXPECT_NEAR(heat.temperature_c({1, 1, 1}), t, 1e-12);
   EXPECT_NEAR(heat.ledger().removed, 0.05, 1e-12);
+}
+
+TEST(HeatGrid, ASplinterIsHeatedAsMuchAsAWholeCell) {
+  const auto bone = block({8, 8, 8}, 0.5e-3);
+  cut_out(*bone, {0, 0, 0}, {2, 2, 1});
+  cut_out(*bone, {0, 0, 1}, {1, 2, 2});  // a quarter of cell (0,0,0) is left
+  HeatGrid heat(*bone, everything(*bone), {});
+  const Vec3 between = 0.5 * (heat.centre({0, 0, 0}) + heat.centre({1, 1, 1}));
+  EXPECT_EQ(heat.deposit(between, 1e-3, 0.05), 0.05);
+  EXPECT_GT(heat.temperature_c({0, 0, 0}), 38);
+  EXPECT_NEAR(heat.temperature_c({0, 0, 0}), heat.temperature_c({1, 1, 1}), 1e-9);
+  EXPECT_NEAR(heat.ledger().stored, 0.05, 1e-12);
 }
 
 TEST(HeatGrid, WhatIsPutBackIsAsWarmAsAtTheStart) {
