@@ -173,6 +173,19 @@ TEST(EnergyGuard, ForgetsADeficitOnlyAfterFiftyMillisecondsInFreeAir) {
   EXPECT_NEAR(guard.written_off(), owed, 1e-12);
 }
 
+TEST(EnergyGuard, ARestartWritesOffWhatIsOwedAndWhatTheNextContactBeginsWith) {
+  EnergyGuard guard = EnergyGuard();
+  (void)guard.step(wall(0), kTick);
+  guard.sent({0, 0, 1});
+  (void)tick(guard, wall(1e-4));
+  guard.restart();
+  EXPECT_NEAR(guard.written_off(), 1e-4, 1e-12);
+  EXPECT_EQ(guard.deficit(), 0);
+  (void)tick(guard, wall(-1e-3));  // 0.5 mJ nobody paid for, and nobody is asked for
+  EXPECT_EQ(guard.deficit(), 0);
+  EXPECT_NEAR(guard.written_off(), 6e-4, 1e-12);
+}
+
 TEST(EnergyGuard, ADeficitIsRememberedUpToATankful) {
   EnergyGuard guard({.tank_full = 2e-3});
   (void)guard.step(wall(0), kTick);

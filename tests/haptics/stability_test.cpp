@@ -141,6 +141,24 @@ TEST(Stability, AFreeMassComesToRestWhereTheFormulaSays) {
   EXPECT_EQ(found.lowest, 0) << "less than the friction moves nothing";
 }
 
+TEST(Stability, TheControllerIsToldWholeStepsAndAFilteredSpeed) {
+  const Controller listener = [](const Sensed& hand) {
+    const double steps = hand.place / 55e-6;
+    EXPECT_NEAR(steps, std::round(steps), 1e-9);
+    return 0.0;
+  };
+  (void)swing({.damping = 0, .encoder_step = 55e-6}, listener, {.start = 0, .speed = 0.1});
+  // a step of speed through a first-order filter of 20 Hz
+  double at_10_ms = 0;
+  int n = 0;
+  const Controller filtered = [&](const Sensed& hand) {
+    if (n++ == 10) at_10_ms = hand.velocity;
+    return 0.0;
+  };
+  (void)swing({.damping = 0, .velocity_filter_hz = 20}, filtered, {.start = 0, .speed = 0.1});
+  EXPECT_NEAR(at_10_ms, 0.1 * (1 - std::exp(-2 * M_PI * 20 * 10e-3)), 1e-6);
+}
+
 // Abbott & Okamura's bound is for passivity: below it no wall may begin to tremble, from any small
 // beginning. How far above it one still does not is for information.
 TEST(Stability, BelowTheBoundOfEncoderAndDryFrictionNothingBeginsToTremble) {
