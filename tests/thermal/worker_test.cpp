@@ -19,7 +19,7 @@ using math::Vec3;
 using test::block;
 using test::everything;
 
-constexpr std::int64_t kTick_ns = 1'000'000;
+constexpr std::int64_t kTickNs = 1'000'000;
 
 // a burr that wanders over a slab for so many ticks, the coolant now and then
 std::vector<HeatRow> milling(int ticks, unsigned seed) {
@@ -30,7 +30,7 @@ std::vector<HeatRow> milling(int ticks, unsigned seed) {
   for (int tick = 0; tick < ticks; ++tick) {
     p.x() = std::clamp(p.x() + step(random), 2e-3, 18e-3);
     p.y() = std::clamp(p.y() + step(random), 2e-3, 18e-3);
-    rows.push_back({.time_ns = 5'000'000'000 + tick * kTick_ns,
+    rows.push_back({.time_ns = 5'000'000'000 + tick * kTickNs,
                     .place = p,
                     .energy = tick % 500 < 400 ? 3e-3 : 0,
                     .radius = 2e-3,
@@ -83,7 +83,7 @@ TEST(Heating, ARowForTenTicksIsAsGoodAsTen) {
   Heating a(*a_bone, everything(*a_bone), {}), b(*b_bone, everything(*b_bone), {});
   HeatRow row = {.place = {10e-3, 10e-3, 9.5e-3}, .energy = 2e-3, .radius = 2e-3};
   for (int tick = 0; tick < 2000; ++tick) {
-    row.time_ns = tick * kTick_ns;
+    row.time_ns = tick * kTickNs;
     static_cast<void>(a.take(row));
     if (tick % 10 != 0) continue;
     HeatRow ten = row;
@@ -206,7 +206,7 @@ TEST(HeatWorker, AFullRingRefusesAndCounts) {
   int lost = 0;
   HeatRow row;
   for (int n = 0; n < 2000; ++n) {
-    row.time_ns = n * 50 * kTick_ns;  // a step each: more than it can do
+    row.time_ns = n * 50 * kTickNs;  // a step each: more than it can do
     lost += worker.push(row) ? 0 : 1;
   }
   EXPECT_GT(lost, 0);

@@ -265,7 +265,7 @@ void HeatGrid::cool(double dt) {
 }
 
 void HeatGrid::add_dose(double dt) {
-  const double least = kLeastDose_c - settings_.start_c, minutes = dt / 60;
+  const double least = kLeastDoseC - settings_.start_c, minutes = dt / 60;
   for (int k = 0; k < box_.count.z(); ++k)
     for (int j = 0; j < box_.count.y(); ++j) {
       if (in_row_[static_cast<std::size_t>(j + box_.count.y() * k)] == 0) continue;

@@ -6,7 +6,7 @@
 namespace burr::thermal {
 namespace {
 
-constexpr std::int64_t kLatest_ns = 4'000'000'000'000'000'000;  // a century; sums of two fit
+constexpr std::int64_t kLatestNs = 4'000'000'000'000'000'000;  // a century; sums of two fit
 
 double staying(const StayingShare& shares, Edge edge) {
   switch (edge) {
@@ -28,7 +28,7 @@ Heating::Heating(volume::Bone& bone, const math::Aabb& work, const HeatSettings&
 }
 
 bool Heating::take(const HeatRow& row) {
-  const std::int64_t time_ns = std::clamp<std::int64_t>(row.time_ns, 0, kLatest_ns);
+  const std::int64_t time_ns = std::clamp<std::int64_t>(row.time_ns, 0, kLatestNs);
   ++rows_;
   if (row.start_over || !begun_) start_over(time_ns);
   const bool newer = pass(time_ns);
@@ -58,11 +58,11 @@ void Heating::start_over(std::int64_t time_ns) {
 // Works off the whole steps before this time of the rows. Time that runs backwards stands still.
 bool Heating::pass(std::int64_t time_ns) {
   bool newer = false;
-  skip_ns_ += std::max<std::int64_t>(0, time_ns - skip_ns_ - now_ns_ - kLongestGap_ns);
-  while (time_ns - skip_ns_ - now_ns_ >= kHeatStep_ns) {
+  skip_ns_ += std::max<std::int64_t>(0, time_ns - skip_ns_ - now_ns_ - kLongestGapNs);
+  while (time_ns - skip_ns_ - now_ns_ >= kHeatStepNs) {
     grid_.look();
-    grid_.advance(1e-9 * static_cast<double>(kHeatStep_ns));
-    now_ns_ += kHeatStep_ns;
+    grid_.advance(1e-9 * static_cast<double>(kHeatStepNs));
+    now_ns_ += kHeatStepNs;
     if (++steps_ < kStepsPerSummary) continue;
     steps_ = 0;
     sum_up();

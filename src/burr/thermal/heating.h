@@ -18,11 +18,11 @@
 
 namespace burr::thermal {
 
-inline constexpr std::int64_t kHeatStep_ns = 50'000'000;  // rows within it heat at its beginning
-inline constexpr int kStepsPerSummary = 2;                // ten summaries a second
+inline constexpr std::int64_t kHeatStepNs = 50'000'000;  // rows within it heat at its beginning
+inline constexpr int kStepsPerSummary = 2;               // ten summaries a second
 // A row later than this after the one before: the session slept, or the row is wrong. Only so much
 // time passes for the bone, so that a wrong number is not worked on for hours.
-inline constexpr std::int64_t kLongestGap_ns = 60'000'000'000;
+inline constexpr std::int64_t kLongestGapNs = 60'000'000'000;
 
 class Heating {
  public:
