@@ -25,10 +25,14 @@ using math::Vec3;
 struct Options {
   VolumeOptions volume;
   PictureSize size;
-  std::string path_csv, motion_name, record, picture, arm = "firm";
+  std::string path_csv, motion_name, record, picture, arm = "firm", touch = "constraint",
+                                                      removal = "energy";
   std::vector<double> at_mm, into;
   double burr_mm = 5, rpm = 40000, rate_hz = 1000, seconds = 10, stiffness = 1000;
   std::size_t undo_bricks = sim::ServoSettings{}.undo_bricks;
+  edit::RemovalSettings removing;
+  double vibration = 0;
+  bool guarded = false;
   bool realtime = false, embed = false, json = false, diamond = false;
 };
 
@@ -123,6 +127,11 @@ Status run(const Options& options) {
   sim::SessionSettings settings;
   settings.realtime = options.realtime;
   settings.servo.rate_hz = options.rate_hz;
+  settings.servo.touch = *haptics::method_named(options.touch);
+  settings.servo.removal = options.removing;
+  settings.servo.removal.law = *edit::law_named(options.removal);
+  settings.servo.guarded = options.guarded;
+  settings.servo.vibration_gain = options.vibration;
   settings.servo.burr.radius = 0.5e-3 * options.burr_mm;
   settings.servo.burr.kind = options.diamond ? tool::BurrKind::diamond : tool::BurrKind::cutting;
   settings.servo.spindle_rad_s = options.rpm * 2 * std::numbers::pi / 60;
@@ -190,6 +199,31 @@ void add(CLI::App& app, Todo& todo) {
       ->add_option("--arm", options->arm, "how the simulated hand holds on: firm, light or rigid")
       ->check(CLI::IsMember({"firm", "light", "rigid"}))
       ->capture_default_str();
+  command
+      ->add_option("--touch", options->touch,
+                   "the method of touch: ours, or one it is held against")
+      ->check(CLI::IsMember(haptics::kMethodNames))
+      ->capture_default_str();
+  command->add_option("--removal", options->removal, "the law by which bone is taken away")
+      ->check(CLI::IsMember(edit::kLawNames))
+      ->capture_default_str();
+  command
+      ->add_option("--thesis-rate", options->removing.thesis_rate,
+                   "with --removal thesis: of a voxel's density, 1 being solid [1/s]")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command
+      ->add_option("--thesis-frame", options->removing.thesis_frame,
+                   "with --removal thesis: every so many ticks; its own picture loop: 33")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command
+      ->add_option("--vibration", options->vibration,
+                   "gain of the spindle's buzz in the hand; 0: none, 1: as designed")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  command->add_flag("--guard", options->guarded,
+                    "with the energy guard: the hand gets back no more than it gave");
   command->add_flag("--realtime", options->realtime,
                     "paced by the clock (default: as fast as possible)");
   command->add_option("--record", options->record, "F.mcap: write the session down");

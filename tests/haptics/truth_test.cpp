@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <random>
 
 #include "burr/haptics/force_law.h"
@@ -347,18 +348,22 @@ class Friction : public testing::Test {
  protected:
   static constexpr double r = 1.5 * kMm, deep = 0.4 * kMm;
   Scene scene{scenes::slab(), 0.25};
-  [[nodiscard]] Proxy pressed(double mu_s, double mu_k) {
-    Proxy proxy(scene.surface, {.radius = r, .friction_static = mu_s, .friction_kinetic = mu_k},
-                {0, 0, 3 * kMm});
+  [[nodiscard]] Proxy& pressed(double mu_s, double mu_k) {
+    proxy_.emplace(scene.surface,
+                   ProxySettings{.radius = r, .friction_static = mu_s, .friction_kinetic = mu_k},
+                   Vec3(0, 0, 3 * kMm));
     for (int n = 0; n <= 200; ++n)
-      (void)proxy.step({0, 0, 3 * kMm + (r - deep - 3 * kMm) * (n / 200.0)});
-    return proxy;
+      (void)proxy_->step({0, 0, 3 * kMm + (r - deep - 3 * kMm) * (n / 200.0)});
+    return *proxy_;
   }
+
+ private:
+  std::optional<Proxy> proxy_;
 };
 
 TEST_F(Friction, SticksUntilTheConeIsReachedWithinOnePercent) {
   for (const double mu : {0.1, 0.3, 0.8}) {
-    Proxy proxy = pressed(mu, 0.9 * mu);
+    Proxy& proxy = pressed(mu, 0.9 * mu);
     double slipped_at = 0;
     for (int n = 0; n < 4000 && slipped_at == 0; ++n) {
       const double x = n * 0.1e-6;
@@ -371,7 +376,7 @@ TEST_F(Friction, SticksUntilTheConeIsReachedWithinOnePercent) {
 
 TEST_F(Friction, SlidingLagIsMuTimesDepth) {
   for (const double mu : {0.1, 0.3, 0.5, 0.8, 1.0}) {
-    Proxy proxy = pressed(mu, mu);
+    Proxy& proxy = pressed(mu, mu);
     Touch touch;
     double x = 0;
     for (int n = 0; n < 4000; ++n) touch = proxy.step({x += 1e-6, 0, r - deep});
@@ -383,7 +388,7 @@ TEST_F(Friction, SlidingLagIsMuTimesDepth) {
 }
 
 TEST_F(Friction, DoesNotDriftInAMinuteOfSticking) {
-  Proxy proxy = pressed(0.5, 0.45);
+  Proxy& proxy = pressed(0.5, 0.45);
   const Vec3 hand(0.1 * kMm, 0.05 * kMm, r - deep);
   for (int n = 0; n < 100; ++n)
     (void)proxy.step(hand * (n / 100.0) + Vec3(0, 0, (r - deep) * (1 - n / 100.0)));

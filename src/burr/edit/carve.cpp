@@ -285,6 +285,61 @@ void Carver::deposit(const Cut& cut, std::uint32_t& flags) BURR_RT {
   added_debt_ -= static_cast<double>(added);
 }
 
+// As gather(), with the plain test "is the voxel inside the mill".
+void Carver::gather_inside(const Vec3& centre, double radius, int amount,
+                           std::uint32_t& flags) BURR_RT {
+  work_count_ = 0;
+  crowded_ = false;
+  const math::Ijk last = bone_.bricks().array() - 1;
+  const math::Ijk lo = ((centre.array() - radius) / kBrickEdge)
+                           .floor()
+                           .max(0)
+                           .min(last.cast<double>().array() + 1)
+                           .cast<int>();
+  const math::Ijk hi = ((centre.array() + radius) / kBrickEdge)
+                           .floor()
+                           .max(-1)
+                           .min(last.cast<double>().array())
+                           .cast<int>();
+  for (int bk = lo.z(); bk <= hi.z(); ++bk)
+    for (int bj = lo.y(); bj <= hi.y(); ++bj)
+      for (int bi = lo.x(); bi <= hi.x(); ++bi) {
+        const BrickIndex brick = bone_.brick_at(bi, bj, bk);
+        if (highest_[static_cast<std::size_t>(brick)] == 0) continue;
+        if (work_count_ == kMostWork) {
+          crowded_ = true;
+          flags |= kPutOff;
+          return;
+        }
+        const volume::Field* field = bone_.brick_field(brick);
+        std::uint16_t* out = scratch_[work_count_].voxel;
+        const Vec3 first = Vec3(kBrickEdge * bi, kBrickEdge * bj, kBrickEdge * bk) - centre;
+        Excess excess;
+        for (int v = 0; v < kBrickVoxels; ++v) {
+          const Vec3 p = first + Vec3(v & 7, v >> 3 & 7, v >> 6);
+          const bool in = p.squaredNorm() <= radius * radius;
+          const int loses = in ? std::min(int{field[v]}, amount) : 0;
+          out[v] = static_cast<std::uint16_t>(loses);
+          if (loses == 0) continue;
+          excess.most = std::max(excess.most, loses);
+          excess.pairs |= 1U << (v >> 4);
+          excess.units += volume::volume_units(std::int32_t{field[v]}) -
+                          volume::volume_units(int{field[v]} - loses);
+        }
+        if (excess.most > 0) work_[work_count_++] = {brick, excess};
+      }
+}
+
+void Carver::lower(const Cut& cut, double amount, std::uint32_t& flags) BURR_RT {
+  gather_inside(cut.centre + advance_ * cut.push, cut.radius + least_margin_,
+                static_cast<int>(std::clamp(amount, 0.0, 65535.0)), flags);
+  last_energy_density_ = mean_energy();
+  const std::int64_t removed = apply(1, false, 0, flags);
+  removed_ += removed;
+  asked_ += static_cast<double>(removed);
+  energy_ += static_cast<double>(removed) * unit_m3_ * last_energy_density_;
+}
+
 void Carver::idle(double dt) BURR_RT {
   work_count_ = 0;
   crowded_ = false;

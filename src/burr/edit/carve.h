@@ -67,6 +67,9 @@ class Carver {
   // Adds to `flags` (haptics/contact.h bits: not cut, reserve, undo full, put off).
   void carve(const Cut& cut, std::uint32_t& flags) BURR_RT;
   void deposit(const Cut& cut, std::uint32_t& flags) BURR_RT;
+  // The thesis' removal: every voxel in the ball loses `amount` [field units], whatever that comes
+  // to. What is removed counts as asked for.
+  void lower(const Cut& cut, double amount, std::uint32_t& flags) BURR_RT;
   // Nothing touched this tick: what is still owed is written off as patience runs out.
   void idle(double dt) BURR_RT;
 
@@ -90,6 +93,8 @@ class Carver {
   };
   void gather(const math::Vec3& centre, double radius, const float keep_out[4], bool deposit,
               int turns, std::uint32_t& flags) BURR_RT;
+  void gather_inside(const math::Vec3& centre, double radius, int amount,
+                     std::uint32_t& flags) BURR_RT;
   [[nodiscard]] int choose_turns(int wanted, std::uint32_t& flags) BURR_RT;
   [[nodiscard]] double excess_of_all_turns() BURR_RT;
   [[nodiscard]] std::int64_t apply(double share, bool deposit, volume::TissueId material,

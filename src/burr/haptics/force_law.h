@@ -8,7 +8,9 @@
 // is capped by the device's own table. Thread: servo. Frame: world. Units: SI. Memory: none.
 #pragma once
 
-#include "burr/haptics/proxy.h"
+#include <algorithm>
+
+#include "burr/haptics/touch_method.h"
 #include "burr/math/vec3.h"
 #include "burr/rt/rt.h"
 

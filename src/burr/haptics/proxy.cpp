@@ -279,7 +279,8 @@ LeastMove Proxy::move_toward(const Vec3& from, const Vec3& wanted, double longes
 // same projection as for the discs, onto these at most three planes, gives a place that turns and
 // moves without hops. Where the field is no clean ramp (a sharp edge, noise, a thin wall) the
 // disc's own plane is kept, blended by how clean it is.
-Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand) const BURR_RT {
+Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand,
+                              double& pressing) const BURR_RT {
   constexpr int kRounds = 6;
   constexpr double kTurn = 1e-4;  // a normal that turns by less is found                      [rad]
   constexpr double kFarthest =
@@ -333,6 +334,9 @@ Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand) const BUR
     const LeastMove move = least_move(few, hand - place, kernel_.most_violated);
     if (!move.solved) break;
     place += move.p;
+    // by the surface's own normals: between discs those of the contacts lean towards each other
+    pressing = 0;
+    for (int a = 0; a < move.active; ++a) pressing += move.push[a];
     const Vec3 away = place - c_;
     const double far = away.norm();
     if (far > kFarthest) place = c_ + away * (kFarthest / far);
@@ -388,7 +392,7 @@ Vec3 Proxy::force_place(const LeastMove& last, const Vec3& hand, double& pressin
     soft_.known = false;
     return c_;
   }
-  const Vec3 smooth = soft_.share < 1 ? on_smooth_surface(last, hand) : c_;
+  const Vec3 smooth = soft_.share < 1 ? on_smooth_surface(last, hand, pressing) : c_;
   if (soft_.share == 0) {
     soft_.known = false;
     return smooth;

@@ -18,39 +18,14 @@
 
 #include "burr/haptics/least_move.h"
 #include "burr/haptics/scan_kernel.h"
+#include "burr/haptics/touch_method.h"
 #include "burr/math/vec3.h"
 #include "burr/rt/rt.h"
 #include "burr/volume/iso_vertices.h"
 
 namespace burr::haptics {
 
-struct ProxySettings {
-  double radius = 1.5e-3;  // of the burr head                                              [m]
-  double friction_static = 0.0;  // stick up to this; >= friction_kinetic [-]
-  double friction_kinetic = 0.0;
-  int max_moves = 12;      // in one tick; a hand faster than that is caught up later
-  double close = 0.02;     // a move shorter than this ends the search                      [voxel]
-  double recovery = 5e-3;  // bone that grew under the burr pushes it out this far a tick   [voxel]
-  bool smooth = true;      // force from the smooth surface (while cutting: from a soft layer), not
-                           // from the discs' facets
-};
-
-// Where the proxy came to rest this tick. World.
-struct Touch {
-  math::Vec3 proxy = math::Vec3::Zero();   // centre of the burr head, never inside bone [m]
-  math::Vec3 trail = math::Vec3::Zero();   // how friction holds it back, along the surface [m]
-  math::Vec3 normal = math::Vec3::Zero();  // unit, from the hand to its place on the smooth surface
-  double depth = 0;     // between those two                                       [m]
-  double pressing = 0;  // sum of the contacts' spring lengths; > depth in a wedge [m]
-  int active = 0;
-  int candidates = 0;
-  bool touching = false;
-  bool lagging = false;   // did not catch up with the hand within max_moves
-  bool stuck = false;     // friction holds it
-  bool overflow = false;  // more candidates than the list holds
-};
-
-class Proxy {
+class Proxy : public TouchMethod {
  public:
   Proxy(const volume::IsoVertices& surface, const ProxySettings& settings, const math::Vec3& hand);
 
@@ -58,18 +33,18 @@ class Proxy {
   [[nodiscard]] bool is_free(const math::Vec3& p) BURR_RT;
 
   // Puts the burr somewhere free; only for the start, a clutch, or a device that was lost.
-  void place(const math::Vec3& p) BURR_RT;
+  void place(const math::Vec3& p) BURR_RT override;
 
   // Moves the proxy toward the hand as far as the bone lets it.
-  [[nodiscard]] Touch step(const math::Vec3& hand) BURR_RT;
+  [[nodiscard]] Touch step(const math::Vec3& hand) BURR_RT override;
 
-  [[nodiscard]] const math::Vec3& position() const BURR_RT { return proxy_; }
+  [[nodiscard]] const math::Vec3& position() const BURR_RT override { return proxy_; }
   [[nodiscard]] const ProxySettings& settings() const BURR_RT { return settings_; }
-  void set_friction(double mu_static, double mu_kinetic) BURR_RT;
+  void set_friction(double mu_static, double mu_kinetic) BURR_RT override;
   // Fewer moves a tick cost less; the burr then lags behind a fast hand, and is never in bone.
   void set_max_moves(int moves) BURR_RT { settings_.max_moves = moves; }
   // A larger burr may not fit where the smaller one is; false then, and nothing changed.
-  [[nodiscard]] bool set_radius(double radius) BURR_RT;
+  [[nodiscard]] bool set_radius(double radius) BURR_RT override;
 
  private:
   void look_around(const math::Vec3& centre, double reach, bool crowded) BURR_RT;
@@ -81,8 +56,8 @@ class Proxy {
                                       double longest, double& guess, bool& cut_short) BURR_RT;
   [[nodiscard]] LeastMove settle(const math::Vec3& target, double guess, int moves,
                                  Touch& touch) BURR_RT;
-  [[nodiscard]] math::Vec3 on_smooth_surface(const LeastMove& last,
-                                             const math::Vec3& hand) const BURR_RT;
+  [[nodiscard]] math::Vec3 on_smooth_surface(const LeastMove& last, const math::Vec3& hand,
+                                             double& pressing) const BURR_RT;
   [[nodiscard]] bool rest_softly(const math::Vec3& hand) BURR_RT;
   [[nodiscard]] math::Vec3 force_place(const LeastMove& last, const math::Vec3& hand,
                                        double& pressing) BURR_RT;

@@ -41,6 +41,8 @@ enum class WishKind : std::uint8_t {
   reset,          // everything back to the start
   friction,       // value: scale of the tissues' friction
   load,           // value: sim/load.h, what the servo puts off; its own wish, first of its tick
+  touch_method,   // value: haptics/touch_method.h, Method
+  removal_law,    // value: edit/removal.h, RemovalLaw
 };
 struct Wish {
   WishKind kind = WishKind::spindle_speed;

@@ -304,8 +304,8 @@ constexpr const char* kWishSchema = R"({
  "type": "object",
  "properties": {
   "tick": {"type": "integer"},
-  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load"]},
-  "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch; friction scale; \"nan\", \"inf\", \"-inf\" as strings"}
+  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load", "touch_method", "removal_law"]},
+  "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch; friction scale; touch_method 0 constraint, 1 thesis, 2 thesis-literal, 3 voxel-springs, 4 samples, 5 triangles, 6 penalty; removal_law 0 energy, 1 thesis; \"nan\", \"inf\", \"-inf\" as strings"}
  }
 })";
 
@@ -345,6 +345,10 @@ const char* wish_name(WishKind kind) {
       return "friction";
     case WishKind::load:
       return "load";
+    case WishKind::touch_method:
+      return "touch_method";
+    case WishKind::removal_law:
+      return "removal_law";
   }
   return "";
 }

@@ -32,8 +32,10 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       changed_(bone),
       undo_(bone, settings.undo_bricks),
       carver_(bone, surface, undo_, &changed_, settings.carve),
-      proxy_(surface, {.radius = settings.burr.radius, .recovery = kRecovery / settings.rate_hz},
-             Vec3::Zero()),
+      touch_by_(surface, {.radius = settings.burr.radius, .recovery = kRecovery / settings.rate_hz},
+                settings.touch),
+      guard_({.largest_force = std::min(device.spec().peak_force, settings.limit.user_force)}),
+      vibration_({.device_gain = settings.vibration_gain}),
       limit_(device.spec(), settings.limit),
       path_(kPath),
       recent_(FaultReport::kTicks) {
@@ -71,17 +73,20 @@ const record::TickRow& Servo::tick(bool lost) BURR_RT {
     }
   } else {
     touch_ = {};
-    touch_.proxy = proxy_.position();
+    touch_.proxy = touch_by_.now().position();
     velocity_ = Vec3::Zero();
   }
 
   // force, bounded, to the hand
   const Vec3 wanted = haptics::force_law(touch_, velocity_, settings_.force);
-  const Vec3 force = limit_.apply(wanted, dt_, flags);
+  const Vec3 guarded = passive(wanted, lost || !believed), buzzing = buzz();
+  const Vec3 force = limit_.apply(guarded + buzzing, dt_, flags);
   device_.write_force(force);
+  const Vec3 touched = limit_.engaged() ? Vec3(force - buzzing) : force;  // without the spindle
+  guard_.sent(touched);
 
   // then the bone
-  cut_bone(force);
+  cut_bone(touched);
   surface_.refresh(kRefreshRate * dt_ / turns_of(load_));
   remember_path();
 
@@ -111,12 +116,44 @@ void Servo::touch_bone(const Vec3& hand) BURR_RT {
   if (!engaged_) {  // at the start, or after the hand was lost: wait until it is in free air
     touch_ = {};
     touch_.proxy = hand;
-    if (!proxy_.is_free(hand)) return;
-    proxy_.place(hand);
+    if (!touch_by_.constraint().is_free(hand)) return;
+    touch_by_.now().place(hand);
     engaged_ = true;
   }
   choose_friction();
-  touch_ = proxy_.step(hand);
+  touch_by_.show(row_.tick);
+  touch_ = touch_by_.now().step(hand);
+}
+
+// What of the wanted force may be sent without giving the hand more than it gave.
+Vec3 Servo::passive(const Vec3& wanted, bool begins_anew) BURR_RT {
+  if (!settings_.guarded) return wanted;
+  if (begins_anew) guard_.restart();
+  haptics::Exchange now;
+  now.hand = hand_.world_from_tool.p;
+  if (touch_.touching) now.stretch = touch_.depth * touch_.normal + touch_.trail;
+  now.stiffness = settings_.force.stiffness;
+  now.force = wanted;
+  const Vec3 force = guard_.step(now, dt_);
+  if (guard_.damping() > 0) row_.contact.flags |= haptics::kFlagGuarded;
+  return force;
+}
+
+Vec3 Servo::buzz() BURR_RT {
+  if (settings_.vibration_gain <= 0) return Vec3::Zero();
+  haptics::Milling now;
+  now.spindle_rad_s = spindle_.speed;
+  now.axis = hand_.world_from_tool.q * Vec3::UnitZ();
+  if (touch_.touching) now.normal = touch_.normal;
+  now.cutting_force = last_push_;
+  return vibration_.step(now, dt_);
+}
+
+// The burr is in bone, where ours cannot begin: the force fades, and touch begins again in free
+// air.
+void Servo::let_go_in_bone() BURR_RT {
+  limit_.fault(haptics::kFlagWaiting, row_.contact.flags);
+  engaged_ = false;
 }
 
 // Bone rubs as its tissue says while the spindle stands; a turning burr hardly at all.
@@ -132,7 +169,7 @@ void Servo::choose_friction() BURR_RT {
           bone_.tissues()[bone_.tissue(at.x(), at.y(), at.z())].friction * settings_.friction_scale;
     }
   }
-  proxy_.set_friction(mu, settings_.kinetic_share * mu);
+  touch_by_.now().set_friction(mu, settings_.kinetic_share * mu);
 }
 
 // ---- the bone
@@ -142,6 +179,7 @@ void Servo::cut_bone(const Vec3& force) BURR_RT {
   const bool may =
       restore_ == Restore::none && touch_.touching && settings_.mode != ToolMode::touch;
   const double push = may ? std::max(0.0, force.dot(touch_.normal)) : 0;
+  last_push_ = push;
   const bool works = settings_.mode == ToolMode::cut ? spindle_.speed > 0 && push > 0
                                                      : hand_.pedal > 0 && push > 0;
   if (!works) {
@@ -160,7 +198,14 @@ void Servo::cut_bone(const Vec3& force) BURR_RT {
   cut.radius = settings_.burr.radius / grid.voxel;
   cut.dt = dt_;
   cut.turns = turns_of(load_);
-  if (settings_.mode == ToolMode::cut) {
+  if (settings_.mode == ToolMode::cut && settings_.removal.law == edit::RemovalLaw::thesis) {
+    const auto frame = static_cast<std::uint64_t>(std::max(1, settings_.removal.thesis_frame));
+    if (row_.tick % frame == 0)
+      carver_.lower(cut, 65536 * settings_.removal.thesis_rate * dt_ * static_cast<double>(frame),
+                    flags);
+    else
+      carver_.idle(dt_);
+  } else if (settings_.mode == ToolMode::cut) {
     const Vec3 axis = hand_.world_from_tool.q * Vec3::UnitZ();
     cut.energy = dt_ * edit::cutting_power(push, spindle_.speed, settings_.burr.radius,
                                            tool::cutting_efficiency(settings_.burr.kind),
@@ -198,7 +243,7 @@ void Servo::obey(const Wish& wish) BURR_RT {
       break;
     case WishKind::burr_radius:
       if (wish.value >= 2 * bone_.grid().voxel &&
-          wish.value <= 0.5 * tool::kLargestDiameter + 1e-12 && proxy_.set_radius(wish.value))
+          wish.value <= 0.5 * tool::kLargestDiameter + 1e-12 && touch_by_.set_radius(wish.value))
         settings_.burr.radius = wish.value;
       break;
     case WishKind::stiffness:
@@ -206,6 +251,7 @@ void Servo::obey(const Wish& wish) BURR_RT {
       break;
     case WishKind::user_force:
       limit_.set_user_force(wish.value);
+      guard_.set_largest_force(std::min(device_.spec().peak_force, wish.value));
       break;
     case WishKind::tool_mode:
       if (wish.value >= 0 && wish.value <= 2)
@@ -217,7 +263,18 @@ void Servo::obey(const Wish& wish) BURR_RT {
     case WishKind::load:
       if (wish.value < 0 || wish.value >= kLoads) break;
       load_ = load_wished_ = static_cast<Load>(static_cast<int>(wish.value));
-      proxy_.set_max_moves(load_ == Load::touch ? kFewMoves : haptics::ProxySettings{}.max_moves);
+      touch_by_.constraint().set_max_moves(
+          load_ == Load::touch ? kFewMoves : haptics::ProxySettings{}.max_moves);
+      break;
+    case WishKind::touch_method:
+      if (wish.value >= 0 && wish.value < haptics::kMethods) {
+        settings_.touch = static_cast<haptics::Method>(static_cast<int>(wish.value));
+        if (!touch_by_.choose(settings_.touch)) let_go_in_bone();
+      }
+      break;
+    case WishKind::removal_law:
+      if (wish.value >= 0 && wish.value < edit::kLaws)
+        settings_.removal.law = static_cast<edit::RemovalLaw>(static_cast<int>(wish.value));
       break;
     case WishKind::undo:
     case WishKind::redo:
@@ -272,7 +329,7 @@ void Servo::step_restore() BURR_RT {
   if (restore_ == Restore::lifting) {
     double left = settings_.lift_speed * dt_;
     bool arrived = false;
-    Vec3 at = proxy_.position();
+    Vec3 at = touch_by_.now().position();
     if (lift_since_check_ >= settings_.burr.radius / 4) {
       arrived = clear_of_what_returns(at);
       lift_since_check_ = 0;
@@ -287,7 +344,7 @@ void Servo::step_restore() BURR_RT {
       lift_since_check_ += go;
       if (go >= far) --path_at_;
     }
-    proxy_.place(at);
+    touch_by_.now().place(at);
     if (!arrived &&
         path_at_ == oldest) {  // no way back is known: let go of the hand, engage again in free air
       limit_.fault(haptics::kFlagRestoring, row_.contact.flags);
@@ -307,12 +364,14 @@ void Servo::step_restore() BURR_RT {
     if (restored_ == range_.count) restore_ = Restore::settling;
   } else if (surface_.stale() == 0) {
     restore_ = Restore::none;
-    if (!proxy_.is_free(proxy_.position())) engaged_ = false;  // never resume inside bone
+    if (settings_.touch == haptics::Method::constraint &&
+        !touch_by_.constraint().is_free(touch_by_.now().position()))
+      engaged_ = false;  // never resume inside bone
   }
 
   // the hand feels the burr where it is held
   touch_ = {};
-  touch_.proxy = proxy_.position();
+  touch_.proxy = touch_by_.now().position();
   const Vec3 stretch = touch_.proxy - hand;
   touch_.depth = stretch.norm();
   if (engaged_ && touch_.depth > 1e-9) {
@@ -324,8 +383,9 @@ void Servo::step_restore() BURR_RT {
 void Servo::remember_path() BURR_RT {
   if (!engaged_ || restore_ != Restore::none || touch_.lagging) return;
   const double step = bone_.grid().voxel / 2;
-  if (path_end_ > 0 && (path_[(path_end_ - 1) % kPath] - proxy_.position()).norm() < step) return;
-  path_[path_end_++ % kPath] = proxy_.position();
+  if (path_end_ > 0 && (path_[(path_end_ - 1) % kPath] - touch_by_.now().position()).norm() < step)
+    return;
+  path_[path_end_++ % kPath] = touch_by_.now().position();
 }
 
 // ---- the diary
@@ -416,6 +476,9 @@ std::vector<std::string> words(std::uint32_t flags) {
        "undo memory was full, the oldest stroke was forgotten; raise --undo-bricks"},
       {haptics::kFlagHandLost, "the device lost the hand; the force was let go"},
       {haptics::kFlagRestoring, "an undo or reset was under way"},
+      {haptics::kFlagGuarded,
+       "the energy guard braked the hand: the spring is stiffer than this device can show; lower "
+       "--stiffness"},
       {haptics::kFlagNotCut, "the burr was blocked and some of what was asked was not cut"},
   };
   std::vector<std::string> said;

@@ -1,6 +1,7 @@
 // sim/servo.h - the tick: the hand comes first, then the bone.
 //
-//     read the hand - obey wishes - step the proxy - force law - limit - write the force
+//     read the hand - obey wishes - step the proxy - force law - energy guard - vibration - limit
+//     - write the force
 //     - then carve - then tell the others
 //
 // A pure function of (bone, hand, buttons, wishes, lost): no clock, no random number, so that a
@@ -18,13 +19,16 @@
 #include "burr/edit/changed_queue.h"
 #include "burr/edit/removal.h"
 #include "burr/edit/undo.h"
+#include "burr/haptics/energy_guard.h"
 #include "burr/haptics/force_law.h"
 #include "burr/haptics/limit.h"
-#include "burr/haptics/proxy.h"
+#include "burr/haptics/touch_method.h"
+#include "burr/haptics/vibration.h"
 #include "burr/record/rows.h"
 #include "burr/rt/latest.h"
 #include "burr/rt/ring.h"
 #include "burr/sim/load.h"
+#include "burr/sim/touch_methods.h"
 #include "burr/tool/burr_tool.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/iso_vertices.h"
@@ -35,9 +39,12 @@ enum class ToolMode { cut = 0, add = 1, touch = 2 };
 
 struct ServoSettings {
   double rate_hz = 1000;
+  haptics::Method touch = haptics::Method::constraint;
   tool::Burr burr;
   double spindle_rad_s = 4188.79;  // at full pedal: 40 000 rpm
   haptics::ForceSettings force;
+  bool guarded = true;        // by the energy guard
+  double vibration_gain = 0;  // of the spindle in the hand: 1 as haptics/vibration.h says, 0 none
   haptics::LimitSettings limit;
   edit::RemovalSettings removal;
   edit::CarveSettings carve;
@@ -122,6 +129,9 @@ class Servo {
   void step_restore() BURR_RT;
   [[nodiscard]] bool clear_of_what_returns(const math::Vec3& p) const BURR_RT;
   void touch_bone(const math::Vec3& hand) BURR_RT;
+  void let_go_in_bone() BURR_RT;
+  [[nodiscard]] math::Vec3 passive(const math::Vec3& wanted, bool begins_anew) BURR_RT;
+  [[nodiscard]] math::Vec3 buzz() BURR_RT;
   void choose_friction() BURR_RT;
   void cut_bone(const math::Vec3& force) BURR_RT;
   void remember_path() BURR_RT;
@@ -138,7 +148,9 @@ class Servo {
   edit::ChangedQueue changed_;
   edit::UndoStore undo_;
   edit::Carver carver_;
-  haptics::Proxy proxy_;
+  TouchMethods touch_by_;
+  haptics::EnergyGuard guard_;
+  haptics::Vibration vibration_;
   haptics::ForceLimit limit_;
   tool::Spindle spindle_;
   haptics::Touch touch_;
@@ -148,6 +160,7 @@ class Servo {
   bool engaged_ = false;      // the proxy is somewhere free and follows the hand
   bool fault_waits_ = false;  // a fault's ticks are to be copied out
   bool deposited_ = false;    // material was put on in this session
+  double last_push_ = 0;      // of touch alone, along the normal [N]
   double untouched_ = 0;      // since the last contact of the open stroke [s]
 
   // the way the proxy came, to go back on before an undo
@@ -170,9 +183,10 @@ class Servo {
   FaultReport report_;
 };
 
-// Without what every good session raises: the start ramp, and waiting for it.
+// Without what every good session raises: the start ramp, and waiting for it; the guard at work.
 [[nodiscard]] constexpr std::uint32_t worth_telling(std::uint32_t flags) {
-  return flags & ~(haptics::kFlagRamp | haptics::kFlagWaiting | haptics::kFlagSlewLimited);
+  return flags & ~(haptics::kFlagRamp | haptics::kFlagWaiting | haptics::kFlagSlewLimited |
+                   haptics::kFlagGuarded);
 }
 
 // In words, one sentence a flag, with the cure where there is one.

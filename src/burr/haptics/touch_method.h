@@ -1,0 +1,89 @@
+// haptics/touch_method.h - one way to turn a hand in bone into a force. Ours is `constraint`
+// (proxy.h); the others in methods/ are what it is measured against, on the same bone and the same
+// hand, with their faults.
+//
+// Thread: servo. Frame: world at the door. Memory: taken at construction; step() takes none.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "burr/math/vec3.h"
+#include "burr/rt/rt.h"
+#include "burr/volume/iso_vertices.h"
+
+namespace burr::haptics {
+
+enum class Method {
+  constraint,      // proxy.h
+  thesis,          // Eriksson 2006: two steps along the iso-surface, the spring ends on it
+  thesis_literal,  // the same with the spring ending a radius above it, as it is written
+  voxel_springs,   // a spring for every voxel in the burr, no proxy
+  samples,         // Vidholm & Agmund 2004: points on the burr vote for a direction
+  triangles,       // a god object on the picture's triangles
+  penalty,         // springs against the depth of points on the burr, in balance with the hand
+};
+inline constexpr int kMethods = 7;
+
+inline constexpr std::array<std::string_view, kMethods> kMethodNames = {
+    "constraint", "thesis", "thesis-literal", "voxel-springs", "samples", "triangles", "penalty"};
+[[nodiscard]] constexpr std::string_view name(Method method) {
+  return kMethodNames[static_cast<std::size_t>(method)];
+}
+[[nodiscard]] std::optional<Method> method_named(std::string_view name);
+
+struct ProxySettings {
+  double radius = 1.5e-3;  // of the burr head                                              [m]
+  double friction_static = 0.0;  // stick up to this; >= friction_kinetic [-]
+  double friction_kinetic = 0.0;
+  int max_moves = 12;      // in one tick; a hand faster than that is caught up later
+  double close = 0.02;     // a move shorter than this ends the search                      [voxel]
+  double recovery = 5e-3;  // bone that grew under the burr pushes it out this far a tick   [voxel]
+  bool smooth = true;      // force from the smooth surface (while cutting: from a soft layer), not
+                           // from the discs' facets
+};
+
+// Where the proxy came to rest this tick. World.
+struct Touch {
+  math::Vec3 proxy = math::Vec3::Zero();   // centre of the burr head, never inside bone [m]
+  math::Vec3 trail = math::Vec3::Zero();   // how friction holds it back, along the surface [m]
+  math::Vec3 normal = math::Vec3::Zero();  // unit, from the hand to its place on the smooth surface
+  double depth = 0;     // between those two                                       [m]
+  double pressing = 0;  // sum of the contacts' spring lengths; > depth in a wedge [m]
+  int active = 0;
+  int candidates = 0;
+  bool touching = false;
+  bool lagging = false;   // did not catch up with the hand within max_moves
+  bool stuck = false;     // friction holds it
+  bool overflow = false;  // more candidates than the list holds
+};
+
+class TouchMethod {
+ public:
+  TouchMethod() = default;
+  TouchMethod(const TouchMethod&) = delete;
+  TouchMethod& operator=(const TouchMethod&) = delete;
+  virtual ~TouchMethod() = default;
+
+  // Puts the burr somewhere; for the start, a clutch, a device that was lost, a change of method.
+  virtual void place(const math::Vec3& p) BURR_RT = 0;
+  // One tick. hand: world [m].
+  [[nodiscard]] virtual Touch step(const math::Vec3& hand) BURR_RT = 0;
+  // Where it believes the burr to be. World [m].
+  [[nodiscard]] virtual const math::Vec3& position() const BURR_RT = 0;
+  virtual void set_friction(double mu_static, double mu_kinetic) BURR_RT = 0;
+  // False: it does not fit there, and nothing changed.
+  [[nodiscard]] virtual bool set_radius(double radius) BURR_RT = 0;
+};
+
+// Of settings the radius and the friction count for all of them. Triangles have to be handed to
+// theirs (methods/triangles.h).
+[[nodiscard]] std::unique_ptr<TouchMethod> make_method(Method method,
+                                                       const volume::IsoVertices& surface,
+                                                       const ProxySettings& settings,
+                                                       const math::Vec3& hand);
+
+}  // namespace burr::haptics
