@@ -19,6 +19,7 @@ namespace burr {
 
 // What kind of trouble; the number is the exit code of the program (sysexits.h).
 enum class Trouble {
+  failed = 1,         // a check that was asked for does not hold
   usage = 2,          // the command line
   data = 65,          // a file says what cannot be
   internal = 70,      // our own mistake, caught late

@@ -1,0 +1,19 @@
+// apps/burr/verify/page.h - the report as one HTML file that needs nothing beside it: plots are
+// SVG.
+#pragma once
+
+#include <string>
+
+#include "report.h"
+
+namespace burr::app {
+
+[[nodiscard]] std::string page(const Report& report);
+
+// One plot; its axes side by side.
+[[nodiscard]] std::string svg(const Plot& plot);
+
+// For text between tags and in quotes of HTML and SVG.
+[[nodiscard]] std::string escaped(const std::string& text);
+
+}  // namespace burr::app

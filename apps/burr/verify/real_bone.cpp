@@ -1,0 +1,184 @@
+// burr verify bones - real bone, wandered over and milled, judged by a reference that looks at
+// every voxel edge near the burr and shares no code with the proxy.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include "../command.h"
+#include "../volume_options.h"
+#include "burr/sim/motion.h"
+#include "burr/volume/sample.h"
+#include "verify.h"
+#include "workbench.h"
+
+namespace burr::app {
+namespace {
+
+using math::Vec3;
+
+struct Subject {
+  const char *name, *file, *spacing_mm;
+  double minutes;
+};
+constexpr Subject kSubjects[] = {
+    {"temporal bone", "temporal_bone/RT143_512.seg.nrrd", "", 10},
+    {"jaw", "jaw_cbct/jaw_cbct_half_0.4mm.nii.gz", "", 2},
+    {"tooth", "tooth_microct/tooth.nhdr", "0.1,0.1,0.1", 2},
+    {"plastic skull", "skull_phantom/bone_1mm_jpegls", "", 2},
+};
+
+constexpr double kNear = 0.3;      // a crossing nearer than its disc is wide may press      [voxel]
+constexpr double kBurrVoxels = 8;  // radius of the burr                                 [voxel]
+
+// What the field itself says of a burr at c held by a hand at x.
+struct Verdict {
+  double overlap = 0;     // deepest crossing in the ball                        [voxel]
+  double unbalanced = 0;  // part of the spring that no contact can bear         [voxel]
+};
+
+// Every crossing of a voxel edge with the iso-surface near the ball: none may be inside, and those
+// at its surface have to be able to bear the spring (Kuhn and Tucker), by Hildreth's sweeps.
+Verdict judge(const volume::Bone& bone, const Vec3& proxy, const Vec3& hand, double radius) {
+  const volume::Grid& grid = bone.grid();
+  const Vec3 c = grid.grid_from_world(proxy);
+  const double r = radius / grid.voxel;
+  Verdict verdict;
+  std::vector<Vec3> normals;
+  const math::Ijk lo = (c.array() - r - 2).floor().cast<int>(),
+                  hi = (c.array() + r + 2).ceil().cast<int>();
+  for (int k = lo.z(); k <= hi.z(); ++k)
+    for (int j = lo.y(); j <= hi.y(); ++j)
+      for (int i = lo.x(); i <= hi.x(); ++i) {
+        const double here = bone.field(i, j, k) / 65536.0 - 0.5;
+        for (int axis = 0; axis < 3; ++axis) {
+          const math::Ijk next = math::Ijk(i, j, k) + math::Ijk::Unit(axis);
+          const double there = bone.field(next.x(), next.y(), next.z()) / 65536.0 - 0.5;
+          if ((here >= 0) == (there >= 0)) continue;
+          const Vec3 q = Vec3(i, j, k) + here / (here - there) * Vec3::Unit(axis);
+          const Vec3 away = c - q;
+          const double gap = away.norm() - r;
+          verdict.overlap = std::max(verdict.overlap, -gap);
+          if (gap < kNear) normals.push_back(away.normalized());
+        }
+      }
+  const Vec3 spring = c - grid.grid_from_world(hand);
+  Vec3 left = spring;
+  std::vector<double> bears(normals.size(), 0);
+  for (int sweep = 0; sweep < 400; ++sweep)
+    for (std::size_t n = 0; n < normals.size(); ++n) {
+      const double was = bears[n];
+      bears[n] = std::max(0.0, was + left.dot(normals[n]));
+      left -= (bears[n] - was) * normals[n];
+    }
+  verdict.unbalanced = left.norm();
+  return verdict;
+}
+
+// A hand that presses into the bone and wanders over it.
+device::HandPath wander(const sim::WorkPlace& place, double r, double seconds, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> stray(0, 1);
+  device::HandPath path;
+  const Vec3 u = place.into.unitOrthogonal(), v = place.into.cross(u);
+  Vec3 wish = Vec3::Zero();  // aside, aside, deep
+  for (double t = 0; t <= seconds; t += 0.05) {
+    // gathers and forgets within a second, a few burrs wide
+    wish += 0.05 * (-wish) + 0.3 * Vec3(stray(random), stray(random), 0.4 * stray(random));
+    device::PathPoint point;
+    point.t = t;
+    const double begun = std::min(1.0, t / 0.5);
+    point.world_from_tool.p =
+        place.at + r * (1.5 * wish.x() * u + 1.5 * wish.y() * v) +
+        ((0.4 * wish.z() + 0.3) * begun * r - (1 - begun) * 3 * r) * place.into;
+    point.pedal = 1;
+    path.points.push_back(point);
+  }
+  return path;
+}
+
+void bones(const Verify& verify, Report::Part& part) {
+  Series series{"real_bones", {"bone", "tick", "overlap_voxel", "unbalanced_share"}, {}};
+  for (const Subject& subject : kSubjects) {
+    const std::filesystem::path file = std::filesystem::path(verify.data) / subject.file;
+    if (verify.data.empty() || !std::filesystem::exists(file)) {
+      part.cannot(fmt::format("{}: {}", subject.name,
+                              verify.data.empty() ? "give --data DIR, where the real bones lie"
+                                                  : file.string() + " is not there"));
+      continue;
+    }
+    if (verify.quick && subject.minutes > 5) continue;
+    if (interrupted()) return;
+    VolumeOptions options;
+    options.path = file.string();
+    options.spacing_mm = subject.spacing_mm;
+    auto opened = open_volume(options, progress());
+    if (!opened) {
+      part.cannot(fmt::format("{}: {}", subject.name, opened.error().text));
+      continue;
+    }
+    const double h = opened->bone->grid().voxel, r = kBurrVoxels * h;
+    auto place = sim::find_work_place(*opened->bone, r, {}, {});
+    if (!place) {
+      part.cannot(fmt::format("{}: {}", subject.name, place.error().text));
+      continue;
+    }
+    WorkSettings settings;
+    settings.radius = r;
+    settings.spindle = 8.4 / r;
+    Workbench bench(std::move(opened->bone), settings);
+    const double minutes = verify.quick ? 0.05 : subject.minutes;
+    int tick = 0, fell = 0, silent = 0, judged = 0, touched = 0, lagged = 0;
+    double overlap = 0;
+    std::vector<double> shares;
+    Vec3 last = Vec3::Zero();
+    bench.watch = [&](const haptics::Touch& touch, const Vec3& hand) {
+      ++tick;
+      const Vec3 force = touch.depth * touch.normal;
+      const bool outlier = (force - last).norm() > 0.05 * h;
+      last = force;
+      touched += touch.touching ? 1 : 0;
+      const volume::Grid& grid = bench.bone().grid();
+      fell += volume::sample(bench.bone(), grid.grid_from_world(touch.proxy)) >= volume::kIsoShare;
+      if (!touch.touching && (touch.proxy - hand).norm() > 0.05 * h && !touch.lagging) ++silent;
+      lagged += touch.lagging ? 1 : 0;
+      if ((tick % 50 != 0 && !outlier) || touch.lagging || !touch.touching) return;
+      const Verdict verdict = judge(bench.bone(), touch.proxy, hand, r);
+      ++judged;
+      overlap = std::max(overlap, verdict.overlap);
+      const double depth = (touch.proxy - hand).norm() / h;
+      shares.push_back(verdict.unbalanced / std::max(depth, 0.5));
+      series.rows.push_back({static_cast<double>(&subject - kSubjects), static_cast<double>(tick),
+                             verdict.overlap, shares.back()});
+    };
+    device::ArmSettings arm{.mass = 0.1, .damping = 10, .stiffness = 500};
+    (void)bench.work(wander(*place, r, 60 * minutes, 7), arm, true);
+    std::sort(shares.begin(), shares.end());
+    const std::string which = subject.name;
+    part.at_most(which + ".fallen_through", 0, fell, "ticks");
+    part.at_most(which + ".silent", 0, silent, "ticks");
+    part.at_most(which + ".overlap", 0.05, overlap, "voxel");
+    part.at_most(
+        which + ".unbalanced_p99", 0.1,
+        shares.empty()
+            ? 1
+            : shares[static_cast<std::size_t>(0.99 * static_cast<double>(shares.size() - 1))],
+        "of the spring");
+    part.at_least(which + ".judged", verify.quick ? 20 : 1000, judged, "ticks");
+    part.at_most(which + ".lagging", 0.01 * tick, lagged, "ticks");
+  }
+  part.series.push_back(std::move(series));
+}
+
+const VerifyPart part{
+    70, "bones", "Real bone",
+    "A hand wanders over real bones and mills them. Every 50th tick, and whenever "
+    "the force steps, every crossing of a voxel edge near the burr is looked at: "
+    "none may be inside the ball, and the contacts have to be able to bear the "
+    "spring. The proxy's centre is never in bone.",
+    bones};
+
+}  // namespace
+}  // namespace burr::app

@@ -1,0 +1,164 @@
+#include "report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "burr/base/new_file.h"
+#include "page.h"
+
+namespace burr::app {
+namespace {
+
+constexpr std::size_t kMostInPage = 80;
+
+std::string number(double value) { return fmt::format("{:.4g}", value); }
+
+Status write_file(const std::string& path, const std::string& text) {
+  auto file = base::NewFile::beside(path);
+  if (!file) return file.error();
+  file->write(text);
+  return file->put_in_place();
+}
+
+std::string csv(const Series& series) {
+  std::string text = fmt::format("{}\n", fmt::join(series.columns, ","));
+  for (const std::vector<double>& row : series.rows)
+    text += fmt::format("{:.9g}\n", fmt::join(row, ","));
+  return text;
+}
+
+std::string row_of(const std::vector<std::string>& cells) {
+  return fmt::format("| {} |\n", fmt::join(cells, " | "));
+}
+
+}  // namespace
+
+void Report::Part::near(const std::string& what, double expected, double measured, double tolerance,
+                        const std::string& unit) {
+  checks.push_back({name + "." + what, fmt::format("{} +- {}", number(expected), number(tolerance)),
+                    measured, unit, std::abs(measured - expected) <= tolerance});
+}
+
+void Report::Part::at_most(const std::string& what, double bound, double measured,
+                           const std::string& unit) {
+  checks.push_back({name + "." + what, "<= " + number(bound), measured, unit, measured <= bound});
+}
+
+void Report::Part::at_least(const std::string& what, double bound, double measured,
+                            const std::string& unit) {
+  checks.push_back({name + "." + what, ">= " + number(bound), measured, unit, measured >= bound});
+}
+
+int Report::Part::failed() const {
+  int count = 0;
+  for (const Check& check : checks) count += check.pass ? 0 : 1;
+  return count;
+}
+
+Report::Part& Report::begin(std::string name, std::string title, std::string about) {
+  Part part;
+  part.name = std::move(name);
+  part.title = std::move(title);
+  part.about = std::move(about);
+  parts_.push_back(std::move(part));
+  return parts_.back();
+}
+
+int Report::failed() const {
+  int count = 0;
+  for (const Part& part : parts_) count += part.failed();
+  return count;
+}
+
+int Report::checks() const {
+  std::size_t count = 0;
+  for (const Part& part : parts_) count += part.checks.size();
+  return static_cast<int>(count);
+}
+
+std::string Report::line(const Check& check) {
+  return fmt::format("{:<52} {:>22} {:>12} {:<7} {}", check.name, check.expected,
+                     number(check.measured), check.unit, check.pass ? "pass" : "FAIL");
+}
+
+std::string Report::json() const {
+  nlohmann::json out;
+  out["checks"] = checks();
+  out["failed"] = failed();
+  for (const Part& part : parts_) {
+    nlohmann::json one = {
+        {"name", part.name}, {"took_s", part.took_s}, {"left_out", part.left_out}};
+    for (const Check& check : part.checks)
+      one["checks"].push_back({{"name", check.name},
+                               {"expected", check.expected},
+                               {"measured", check.measured},
+                               {"unit", check.unit},
+                               {"pass", check.pass}});
+    out["parts"].push_back(one);
+  }
+  return out.dump();
+}
+
+std::string Report::markdown() const {
+  std::string text =
+      "# Validation\n\n"
+      "Made by `burr verify --out DIR --data DATA`; edits are lost. Each check compares what burr "
+      "does "
+      "with a formula, a theory or an independent reference; a check of a baseline passes when the "
+      "baseline does what was predicted of it, failures included. The plots are in "
+      "`DIR/report.html`, every series is a CSV beside it. What `./test` asks besides: "
+      "[tested.md](tested.md).\n\n"
+      "What is **not** validated: that it feels like bone. Cutting energies are the middle of "
+      "published ranges (cortical bone about 1 J/mm3), friction likewise; nobody has compared a "
+      "session with a drill in a hand yet. Until somebody has, burr is for learning how such a "
+      "simulator works, not for judging people, and no medical device.\n\n"
+      "| part | checks | failed |\n|---|---|---|\n";
+  for (const Part& part : parts_)
+    text += row_of({part.title, std::to_string(part.checks.size()), std::to_string(part.failed())});
+  for (const Part& part : parts_) {
+    text += fmt::format("\n## {}\n\n{}\n", part.title, part.about);
+    // of many checks of one kind the table says more
+    const bool all = part.checks.size() <= kMostInPage;
+    if (!all)
+      text += fmt::format("\n{} checks, {} failed; each stands in `report.html`.\n",
+                          part.checks.size(), part.failed());
+    std::string rows;
+    for (const Check& check : part.checks)
+      if (all || !check.pass)
+        rows += row_of({check.name, check.expected, number(check.measured), check.unit,
+                        check.pass ? "pass" : "**FAIL**"});
+    if (!rows.empty())
+      text += "\n| check | expected | measured | unit | |\n|---|---|---|---|---|\n" + rows;
+    for (const Table& table : part.tables) {
+      text += "\n" + table.caption + "\n\n" + row_of(table.head) + "|";
+      for (std::size_t n = 0; n < table.head.size(); ++n) text += "---|";
+      text += "\n";
+      for (const auto& row : table.rows) text += row_of(row);
+    }
+    for (const std::string& sentence : part.left_out)
+      text += fmt::format("\nNot checked: {}\n", sentence);
+  }
+  return text;
+}
+
+Status Report::write(const std::string& folder) const {
+  std::error_code trouble;
+  std::filesystem::create_directories(folder, trouble);
+  if (trouble)
+    return error(Trouble::io, fmt::format("{}: cannot be made: {}; choose another folder", folder,
+                                          trouble.message()));
+  const std::filesystem::path into(folder);
+  for (const Part& part : parts_)
+    for (const Series& series : part.series)
+      if (Status done = write_file((into / (series.name + ".csv")).string(), csv(series)); !done)
+        return done;
+  if (Status done = write_file((into / "validation.md").string(), markdown()); !done) return done;
+  if (Status done = write_file((into / "verify.json").string(), json() + "\n"); !done) return done;
+  return write_file((into / "report.html").string(), page(*this));
+}
+
+}  // namespace burr::app

@@ -1,0 +1,97 @@
+// apps/burr/verify/report.h - what was expected, what was measured, and the series behind it.
+//
+//     Report::Part& part = report.begin("friction", "Friction", "what is asked here");
+//     part.near("stick-slip.threshold", 0.300, measured, 0.003, "");  // one line, one verdict
+//     part.plot({...});  part.table({...});  part.cannot("no data: ../shared/data is absent");
+//
+// A check names who is judged: ours has to hold, a baseline has to fail as it was predicted to, and
+// what is only information is never wrong. Thread: one. Numbers in SI unless the unit says
+// otherwise.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "burr/base/result.h"
+
+namespace burr::app {
+
+struct Check {
+  std::string name;      // part.what.which
+  std::string expected;  // in words: "0.300 +- 0.003", "<= 0.5", "> 0.75"
+  double measured = 0;
+  std::string unit;
+  bool pass = true;
+};
+
+// Columns of numbers; the first is what the others are drawn over.
+struct Series {
+  std::string name;  // of the file, without .csv
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+};
+
+struct Line {
+  std::string legend;
+  std::vector<double> x, y;
+  bool dashed = false;  // what is expected
+  bool dots = false;
+};
+struct Axes {
+  std::string title, x, y;  // with units
+  std::vector<Line> lines;
+  bool log_x = false, log_y = false;
+};
+// One or several axes side by side under one caption that says what to expect.
+struct Plot {
+  std::string caption;
+  int columns = 1;
+  std::vector<Axes> axes;
+};
+
+struct Table {
+  std::string caption;
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;
+};
+
+class Report {
+ public:
+  struct Part {
+    std::string name, title, about;
+    std::vector<Check> checks;
+    std::vector<Series> series;
+    std::vector<Plot> plots;
+    std::vector<Table> tables;
+    std::vector<std::string> left_out;
+    double took_s = 0;
+
+    void near(const std::string& what, double expected, double measured, double tolerance,
+              const std::string& unit);
+    void at_most(const std::string& what, double bound, double measured, const std::string& unit);
+    void at_least(const std::string& what, double bound, double measured, const std::string& unit);
+    void plot(Plot plot) { plots.push_back(std::move(plot)); }
+    void table(Table table) { tables.push_back(std::move(table)); }
+    void cannot(std::string sentence) { left_out.push_back(std::move(sentence)); }
+    [[nodiscard]] int failed() const;
+  };
+
+  Part& begin(std::string name, std::string title, std::string about);
+  [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+  [[nodiscard]] int failed() const;
+  [[nodiscard]] int checks() const;
+
+  // On one line, as it stands on the terminal.
+  [[nodiscard]] static std::string line(const Check& check);
+  [[nodiscard]] std::string json() const;
+  // The page for docs/validation.md; nothing in it depends on the hour or the machine.
+  [[nodiscard]] std::string markdown() const;
+  // FOLDER/<series>.csv, report.html, validation.md, verify.json.
+  [[nodiscard]] Status write(const std::string& folder) const;
+
+ private:
+  std::vector<Part> parts_;
+};
+
+}  // namespace burr::app

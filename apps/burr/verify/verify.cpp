@@ -1,0 +1,98 @@
+// burr verify - everything burr claims about touch, measured: one line a check, all series as CSV,
+// one report.
+#include "verify.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <tuple>
+
+#include "command.h"
+
+namespace burr::app {
+namespace {
+
+struct Known {
+  int place;
+  const char *name, *title, *about;
+  VerifyPart::Work work;
+};
+
+std::vector<Known>& known() {
+  static std::vector<Known> all;
+  return all;
+}
+
+struct Options {
+  std::vector<std::string> names;
+  std::string out, data;
+  bool quick = false, json = false;
+};
+
+Status run(const Options& options) {
+  std::vector<Known> parts = known();
+  std::sort(parts.begin(), parts.end(),
+            [](const Known& a, const Known& b) { return a.place < b.place; });
+  Report report;
+  for (const Known& one : parts) {
+    if (!options.names.empty() &&
+        std::find(options.names.begin(), options.names.end(), one.name) == options.names.end())
+      continue;
+    if (interrupted()) break;
+    progress().report(0, one.name);
+    const auto start = std::chrono::steady_clock::now();
+    Report::Part& part = report.begin(one.name, one.title, one.about);
+    one.work({options.quick, options.data}, part);
+    part.took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (options.json) continue;
+    for (const Check& check : part.checks) fmt::print("{}\n", Report::line(check));
+    for (const std::string& sentence : part.left_out) fmt::print("not checked: {}\n", sentence);
+    std::fflush(stdout);
+  }
+  if (!options.out.empty())
+    if (Status written = report.write(options.out); !written) return written;
+  if (options.json) {
+    fmt::print("{}\n", report.json());
+  } else {
+    fmt::print("{} checks, {} failed{}\n", report.checks(), report.failed(),
+               options.out.empty() ? "" : fmt::format("; {}/report.html", options.out));
+  }
+  if (interrupted())
+    return error(Trouble::interrupted, "stopped; what was checked until then is kept");
+  if (report.failed() > 0)
+    return error(Trouble::failed,
+                 fmt::format("{} of {} checks failed", report.failed(), report.checks()));
+  return fine();
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("verify", "prove the touch: checks against known truths");
+  std::vector<std::string> names;
+  for (const Known& one : known()) names.emplace_back(one.name);
+  std::sort(names.begin(), names.end());
+  command
+      ->add_option("names", options->names,
+                   fmt::format("which parts (default: all): {}", fmt::join(names, ", ")))
+      ->check(CLI::IsMember(names));
+  command->add_flag("--quick", options->quick, "within a minute: one resolution, short strokes");
+  command->add_option("--data", options->data,
+                      "DIR: where the real bones lie (docs/validation.md); default: none");
+  command->add_option("--out", options->out,
+                      "DIR: report.html, every series as CSV, verify.json, validation.md");
+  command->add_flag("--json", options->json, "one JSON object on the last line");
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{50, add};
+
+}  // namespace
+
+VerifyPart::VerifyPart(int place, const char* name, const char* title, const char* about,
+                       Work work) {
+  known().push_back({place, name, title, about, work});
+}
+
+}  // namespace burr::app

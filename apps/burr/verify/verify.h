@@ -1,0 +1,23 @@
+// apps/burr/verify/verify.h - a part of `burr verify`; one file each, which registers itself.
+//
+//     namespace {
+//     void friction(const Verify& verify, Report::Part& part) { ... part.near(...); }
+//     const VerifyPart part{40, "friction", "Friction", "What is asked here ...", friction};
+//     }
+#pragma once
+
+#include "report.h"
+
+namespace burr::app {
+
+struct Verify {
+  bool quick = false;  // a minute for everything: one resolution, short strokes
+  std::string data;    // folder of real bones; empty: none
+};
+
+struct VerifyPart {
+  using Work = void (*)(const Verify&, Report::Part&);
+  VerifyPart(int place, const char* name, const char* title, const char* about, Work work);
+};
+
+}  // namespace burr::app

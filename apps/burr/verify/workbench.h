@@ -1,0 +1,83 @@
+// apps/burr/verify/workbench.h - one bone, one hand, one burr: a tick without devices, limits and
+// recordings, in which one thing at a time can be other than it is in the servo.
+//
+// Thread: one. Frame: world. Units: SI.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "burr/device/simulated_hand.h"
+#include "burr/edit/carve.h"
+#include "burr/edit/removal.h"
+#include "burr/haptics/force_law.h"
+#include "burr/sim/touch_methods.h"
+#include "scenes/build.h"
+
+namespace burr::app {
+
+struct WorkSettings {
+  double rate_hz = 1000;
+  double radius = 2e-3;      // [m]
+  double spindle = 4188.79;  // [rad/s]
+  double stiffness = 1000;   // [N/m]
+  double damping = 0.5;      // [N s/m]
+  int carve_every = 1;       // ticks; then for all of them at once
+  haptics::Method touch = haptics::Method::constraint;
+  edit::RemovalSettings removal = {};
+};
+
+class Workbench {
+ public:
+  // One row a tick.
+  struct Row {
+    double t = 0;
+    math::Vec3 hand, proxy, force = math::Vec3::Zero();
+    double push = 0;     // of the force along its normal [N]
+    double energy = 0;   // spent on cutting so far       [J]
+    double removed = 0;  // so far                        [m^3]
+  };
+
+  Workbench(const scenes::Depth& depth, const volume::Grid& grid,
+            const volume::TissueTable& tissues, const WorkSettings& settings);
+
+  Workbench(std::unique_ptr<volume::Bone> bone, const WorkSettings& settings);
+
+  // Sees every tick between touch and cutting.
+  std::function<void(const haptics::Touch&, const math::Vec3& hand)> watch;
+  // Along the path with this arm, cutting or not.
+  std::vector<Row> work(const device::HandPath& path, const device::ArmSettings& arm, bool cut);
+
+  [[nodiscard]] volume::Bone& bone() { return *bone_; }
+  [[nodiscard]] const volume::IsoVertices& surface() const { return surface_; }
+  [[nodiscard]] edit::Ledger ledger() const { return carver_.ledger(); }
+
+ private:
+  NoProgress quiet_;
+  WorkSettings settings_;
+  std::unique_ptr<volume::Bone> bone_;
+  volume::IsoVertices surface_;
+  edit::UndoStore undo_;
+  edit::Carver carver_;
+  sim::TouchMethods touch_by_;
+  std::uint64_t tick_ = 0;
+  math::Vec3 velocity_ = math::Vec3::Zero();
+  double energy_ = 0;
+  bool placed_ = false;
+};
+
+// A path through points at these times, pedal down from the second on.
+struct Knot {
+  double t;
+  math::Vec3 p;
+};
+[[nodiscard]] device::HandPath path_through(const std::vector<Knot>& knots);
+
+// Depth below z = top of the surface along the line (x, y), from the field. [m]
+[[nodiscard]] double depth_of_hole(const volume::Bone& bone, double x, double y, double top);
+
+// Size of the wave of frequency f [Hz] in values taken rate times a second, their mean taken out.
+[[nodiscard]] double wave_at(const std::vector<double>& values, double rate_hz, double f);
+
+}  // namespace burr::app
