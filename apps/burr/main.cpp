@@ -52,7 +52,7 @@ bool interrupted() noexcept { return asked_to_stop != 0; }
 
 int main(int argc, char** argv) {
   using namespace burr;
-  // One arena for all threads: a software renderer takes and gives back a hundred megabytes a
+  // One arena for all threads: a software renderer takes and gives back some 75 MB a
   // picture, and each arena keeps its own high-water mark for ever (memory of a session is locked).
   mallopt(M_ARENA_MAX, 1);
   struct sigaction action = {};

@@ -7,8 +7,7 @@
 #include "burr/haptics/force_law.h"
 #include "burr/haptics/methods/voxel_springs.h"
 #include "burr/haptics/touch_method.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
+#include "haptics/scene.h"
 #include "support/rt_guard.h"
 
 namespace burr::haptics {
@@ -17,20 +16,11 @@ namespace {
 using math::Vec3;
 constexpr double kMm = 1e-3;
 
-struct Scene {
-  Scene(const scenes::Depth& depth, double h_mm, double half_mm = 8)
-      : h(h_mm * kMm),
-        bone(scenes::bone_from_distance(
-            scenes::box_grid(Vec3::Constant(-half_mm * kMm), Vec3::Constant(half_mm * kMm), h), {},
-            depth)),
-        surface(*bone, {}, 1, quiet) {}
+struct Scene : test::Scene {
+  using test::Scene::Scene;
   [[nodiscard]] std::unique_ptr<TouchMethod> method(Method which, double r, const Vec3& hand) {
     return make_method(which, surface, {.radius = r}, hand);
   }
-  double h;
-  NoProgress quiet;
-  std::unique_ptr<volume::Bone> bone;
-  volume::IsoVertices surface;
 };
 
 // From `from` to `to` at a steady pace, then still; what is felt in the end.
@@ -56,6 +46,8 @@ TEST(Methods, NoneOfThemTakesMemoryInATick) {
     const auto method = scene.method(static_cast<Method>(n), 1.5 * kMm, {0, 0, 7 * kMm});
     const test::RtGuard guard;
     for (int t = 0; t < 100; ++t) (void)method->step({1e-5 * t, 0, (7 - 0.03 * t) * kMm});
+    EXPECT_EQ(guard.allocations(), 0) << kMethodNames[static_cast<std::size_t>(n)];
+    EXPECT_EQ(guard.locks(), 0);
   }
 }
 

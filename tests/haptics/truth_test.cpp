@@ -9,8 +9,7 @@
 #include "burr/haptics/force_law.h"
 #include "burr/haptics/proxy.h"
 #include "burr/volume/iso_vertices.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
+#include "haptics/scene.h"
 #include "support/rt_guard.h"
 
 namespace burr::haptics {
@@ -19,18 +18,8 @@ namespace {
 using math::Vec3;
 constexpr double kMm = 1e-3;
 
-// A bone with its surface, ready to be touched.
-struct Scene {
-  Scene(const scenes::Depth& depth, double h_mm, double half_mm = 12)
-      : h(h_mm * kMm),
-        bone(scenes::bone_from_distance(
-            scenes::box_grid(Vec3::Constant(-half_mm * kMm), Vec3::Constant(half_mm * kMm), h), {},
-            depth)),
-        surface(*bone, {}, 1, quiet) {}
-  double h;
-  NoProgress quiet;
-  std::unique_ptr<volume::Bone> bone;
-  volume::IsoVertices surface;
+struct Scene : test::Scene {
+  using test::Scene::Scene;
   // algorithms.md 5: max(0.02 mm, 0.1 h); 0.15 h at h = 0.5 mm
   [[nodiscard]] double tolerance() const {
     return std::max(0.02 * kMm, (h > 0.4 * kMm ? 0.15 : 0.1) * h);

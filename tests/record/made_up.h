@@ -102,6 +102,8 @@ inline TickRow any_tick(std::uint64_t tick, Random& random) {
   row.contact.flags = static_cast<std::uint32_t>(random());
   row.ledger = {any(random), any(random), any(random), any(random), any(random), any(random)};
   row.spindle_rad_s = any(random);
+  row.cutting_nm = any(random);
+  row.cutting_w = any(random);
   row.took_us = static_cast<float>(any(random));
   row.late_us = static_cast<float>(any(random));
   row.hash = random();
@@ -137,6 +139,7 @@ inline void expect_same(const TickRow& a, const TickRow& b) {
               same(a.ledger.added, b.ledger.added) && same(a.ledger.energy, b.ledger.energy))
       << a.tick;
   EXPECT_TRUE(same(a.spindle_rad_s, b.spindle_rad_s)) << a.tick;
+  EXPECT_TRUE(same(a.cutting_nm, b.cutting_nm) && same(a.cutting_w, b.cutting_w)) << a.tick;
   EXPECT_EQ(std::bit_cast<std::uint32_t>(a.took_us), std::bit_cast<std::uint32_t>(b.took_us));
   EXPECT_EQ(std::bit_cast<std::uint32_t>(a.late_us), std::bit_cast<std::uint32_t>(b.late_us));
   EXPECT_EQ(a.hash, b.hash);

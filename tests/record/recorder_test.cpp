@@ -109,8 +109,9 @@ TEST(Recorder, TheSessionIsDescribedToTheBit) {
 TEST(Recorder, EveryFieldOfATickHasAColumn) {
   // what is in the structs but in no column would be lost in silence: sizes must add up
   TickRow row;
-  std::size_t fields = sizeof row.tick + sizeof row.spindle_rad_s + sizeof row.took_us +
-                       sizeof row.late_us + sizeof row.hash;
+  std::size_t fields = sizeof row.tick + sizeof row.spindle_rad_s + sizeof row.cutting_nm +
+                       sizeof row.cutting_w + sizeof row.took_us + sizeof row.late_us +
+                       sizeof row.hash;
   fields += sizeof(edit::Ledger);       // doubles only, no padding
   fields += sizeof(device::HandState);  // has 3 byte of padding after `valid`
   fields += sizeof(haptics::Contact);   // 3 byte after `touching`

@@ -17,6 +17,7 @@
 #include "burr/volume/volume_of.h"
 #include "scenes/build.h"
 #include "scenes/shapes.h"
+#include "support/rt_guard.h"
 
 namespace burr::sim {
 namespace {
@@ -56,6 +57,25 @@ TEST(MethodsInASession, EachOfThemMillsAndNoForceIsBeyondTheLimit) {
     const Outcome outcome = run->outcome();
     EXPECT_GT(outcome.ledger.removed, 0.1 * kMm * kMm * kMm) << haptics::name(settings.servo.touch);
     EXPECT_LE(outcome.peak_force, settings.servo.limit.user_force + 1e-9);
+  }
+}
+
+TEST(MethodsInASession, TakeNoMemoryInATickTheTrianglesOfThePictureNeither) {
+  for (int n = 0; n < haptics::kMethods; ++n) {
+    SessionSettings settings;
+    settings.servo.touch = static_cast<Method>(n);
+    settings.servo.guarded = true;
+    settings.servo.vibration_gain = 1;
+    const auto run = session(settings, "slot");
+    double removed = 0;
+    const test::RtGuard guard;
+    for (int k = 0; k < 1500; ++k) {
+      removed = run->servo().tick(false).ledger.removed;
+      run->servo().publish();
+    }
+    EXPECT_EQ(guard.allocations(), 0) << n;
+    EXPECT_EQ(guard.locks(), 0) << n;
+    EXPECT_GT(removed, 0) << n;
   }
 }
 

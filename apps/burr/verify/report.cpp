@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -28,6 +29,15 @@ std::string csv(const Series& series) {
   std::string text = fmt::format("{}\n", fmt::join(series.columns, ","));
   for (const std::vector<double>& row : series.rows)
     text += fmt::format("{:.9g}\n", fmt::join(row, ","));
+  return text;
+}
+
+// What a pair of axes shows, a row a point.
+std::string csv(const Axes& axes) {
+  std::string text = fmt::format("line,{},{}\n", axes.x, axes.y);
+  for (const Line& line : axes.lines)
+    for (std::size_t n = 0; n < std::min(line.x.size(), line.y.size()); ++n)
+      text += fmt::format("{},{:.9g},{:.9g}\n", line.legend, line.x[n], line.y[n]);
   return text;
 }
 
@@ -152,10 +162,19 @@ Status Report::write(const std::string& folder) const {
     return error(Trouble::io, fmt::format("{}: cannot be made: {}; choose another folder", folder,
                                           trouble.message()));
   const std::filesystem::path into(folder);
-  for (const Part& part : parts_)
+  for (const Part& part : parts_) {
+    int plots = 0;
+    for (const Plot& plot : part.plots) {
+      ++plots;
+      for (std::size_t n = 0; n < plot.axes.size(); ++n) {
+        const std::string name = fmt::format("{}_plot{}_{}.csv", part.name, plots, n + 1);
+        if (Status done = write_file((into / name).string(), csv(plot.axes[n])); !done) return done;
+      }
+    }
     for (const Series& series : part.series)
       if (Status done = write_file((into / (series.name + ".csv")).string(), csv(series)); !done)
         return done;
+  }
   if (Status done = write_file((into / "validation.md").string(), markdown()); !done) return done;
   if (Status done = write_file((into / "verify.json").string(), json() + "\n"); !done) return done;
   return write_file((into / "report.html").string(), page(*this));

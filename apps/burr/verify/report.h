@@ -87,7 +87,7 @@ class Report {
   [[nodiscard]] std::string json() const;
   // The page for docs/validation.md; nothing in it depends on the hour or the machine.
   [[nodiscard]] std::string markdown() const;
-  // FOLDER/<series>.csv, report.html, validation.md, verify.json.
+  // FOLDER/<series>.csv, <part>_plot<n>_<axes>.csv, report.html, validation.md, verify.json.
   [[nodiscard]] Status write(const std::string& folder) const;
 
  private:

@@ -36,6 +36,9 @@ Status run(const Options& options) {
   std::sort(parts.begin(), parts.end(),
             [](const Known& a, const Known& b) { return a.place < b.place; });
   Report report;
+  // a folder that cannot be written is told of now, not after minutes
+  if (!options.out.empty())
+    if (Status written = report.write(options.out); !written) return written;
   for (const Known& one : parts) {
     if (!options.names.empty() &&
         std::find(options.names.begin(), options.names.end(), one.name) == options.names.end())

@@ -79,6 +79,33 @@ bool grid_from_json(const json& object, volume::Grid& grid) {
   return std::abs(grid.frame.q.norm() - 1) < 1e-6;
 }
 
+namespace {
+
+constexpr std::pair<const char*, double volume::CuttingForce::*> kForce[] = {
+    {"chip_tangential_n_per_m2", &volume::CuttingForce::chip_tangential},
+    {"chip_radial_n_per_m2", &volume::CuttingForce::chip_radial},
+    {"edge_tangential_n_per_m", &volume::CuttingForce::edge_tangential},
+    {"edge_radial_n_per_m", &volume::CuttingForce::edge_radial},
+    {"edge_onset_m", &volume::CuttingForce::edge_onset}};
+
+json json_from_force(const volume::CuttingForce& force) {
+  json object = json::object();
+  for (const auto& [name, member] : kForce) object[name] = force.*member;
+  return object;
+}
+
+// Recordings from before the chips law have none: it was not used then.
+bool force_from_json(const json& tissue, volume::CuttingForce& force) {
+  const auto object = tissue.find("cutting_force");
+  if (object == tissue.end()) return true;
+  if (!object->is_object()) return false;
+  for (const auto& [name, member] : kForce)
+    if (!number(*object, name, force.*member) || !(force.*member >= 0)) return false;
+  return force.edge_onset > 0;
+}
+
+}  // namespace
+
 json json_from_tissues(const volume::TissueTable& tissues) {
   json list = json::array();
   for (const volume::Tissue& tissue : tissues.tissues)
@@ -87,6 +114,7 @@ json json_from_tissues(const volume::TissueTable& tissues) {
                     {"colour_srgb", tissue.colour},
                     {"cutting_energy_j_per_m3", tissue.cutting_energy},
                     {"friction", tissue.friction},
+                    {"cutting_force", json_from_force(tissue.force)},
                     {"spare", tissue.spare},
                     {"label", tissue.label}});
   return list;
@@ -106,7 +134,7 @@ bool tissues_from_json(const json& list, volume::TissueTable& tissues) {
         label == object.end() || !label->is_number_integer() ||
         !numbers(object, "colour_srgb", colour) ||
         !number(object, "cutting_energy_j_per_m3", tissue.cutting_energy) ||
-        !number(object, "friction", tissue.friction))
+        !number(object, "friction", tissue.friction) || !force_from_json(object, tissue.force))
       return false;
     tissue.name = name->get<std::string>();
     tissue.spare = spare->get<bool>();

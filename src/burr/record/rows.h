@@ -23,7 +23,9 @@ struct TickRow {
   device::HandState hand;    // as read
   haptics::Contact contact;  // as felt
   edit::Ledger ledger;       // as cut
-  double spindle_rad_s = 0;  // speed of the burr now
+  double spindle_rad_s = 0;  // speed of the burr now; below 0: turns backwards
+  double cutting_nm = 0;     // torque of the bone on the burr        [N m]
+  double cutting_w = 0;      // power that goes into the bone         [W]
   float took_us = 0;         // work of this tick, thread CPU time; not part of the hash
   float late_us = 0;         // after its due time; not part of the hash
   std::uint64_t hash = 0;
@@ -43,6 +45,7 @@ enum class WishKind : std::uint8_t {
   load,           // value: sim/load.h, what the servo puts off; its own wish, first of its tick
   touch_method,   // value: haptics/touch_method.h, Method
   removal_law,    // value: edit/removal.h, RemovalLaw
+  irrigation,     // value: 0 off, 1 on
 };
 struct Wish {
   WishKind kind = WishKind::spindle_speed;

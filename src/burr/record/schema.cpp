@@ -176,6 +176,9 @@ const TickColumn kTickColumns[] = {
     {{34, "cutting_energy_j", Type::f64, "spent on cutting since the start [J]"},
      BURR_AT(ledger.energy)},
     {{35, "spindle_rad_per_s", Type::f64, "speed of the burr now [rad/s]"}, BURR_AT(spindle_rad_s)},
+    {{39, "cutting_torque_nm", Type::f64, "torque of the bone on the burr [N m]"},
+     BURR_AT(cutting_nm)},
+    {{40, "cutting_power_w", Type::f64, "power that goes into the bone [W]"}, BURR_AT(cutting_w)},
     {{36, "took_us", Type::f32, "work of this tick, thread CPU time; not hashed [us]"},
      BURR_AT(took_us)},
     {{37, "late_us", Type::f32, "start after its due time; not hashed [us]"}, BURR_AT(late_us)},
@@ -283,6 +286,7 @@ constexpr const char* kSessionSchema = R"({
        "colour_srgb": {"type": "array", "items": {"type": "number"}, "description": "0..1"},
        "cutting_energy_j_per_m3": {"type": "number", "description": "specific cutting energy [J/m^3]"},
        "friction": {"type": "number"},
+       "cutting_force": {"type": "object", "description": "of the chips law", "additionalProperties": {"type": "number"}},
        "spare": {"type": "boolean", "description": "must not be cut"},
        "label": {"type": "integer", "description": "value in the file it came from"}
       }
@@ -304,8 +308,8 @@ constexpr const char* kWishSchema = R"({
  "type": "object",
  "properties": {
   "tick": {"type": "integer"},
-  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load", "touch_method", "removal_law"]},
-  "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch; friction scale; touch_method 0 constraint, 1 thesis, 2 thesis-literal, 3 voxel-springs, 4 samples, 5 triangles, 6 penalty; removal_law 0 energy, 1 thesis; \"nan\", \"inf\", \"-inf\" as strings"}
+  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load", "touch_method", "removal_law", "irrigation"]},
+  "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch; friction scale; touch_method 0 constraint, 1 thesis, 2 thesis-literal, 3 voxel-springs, 4 samples, 5 triangles, 6 penalty; removal_law 0 energy, 1 thesis, 2 chips; irrigation 0 off, 1 on; \"nan\", \"inf\", \"-inf\" as strings"}
  }
 })";
 
@@ -349,6 +353,8 @@ const char* wish_name(WishKind kind) {
       return "touch_method";
     case WishKind::removal_law:
       return "removal_law";
+    case WishKind::irrigation:
+      return "irrigation";
   }
   return "";
 }

@@ -93,6 +93,12 @@ const json& part(const json& object, const char* name) {
   return at == object.end() ? nothing : *at;
 }
 
+bool finite(const volume::CuttingForce& force) {
+  return std::isfinite(force.chip_tangential) && std::isfinite(force.chip_radial) &&
+         std::isfinite(force.edge_tangential) && std::isfinite(force.edge_radial) &&
+         std::isfinite(force.edge_onset);
+}
+
 }  // namespace
 
 std::string hex(std::uint64_t value) { return fmt::format("0x{:016x}", value); }
@@ -103,11 +109,13 @@ Status check(const SessionInfo& info) {
   if (Status good = check_fields(info.numbers, info.words); !good.ok()) return good;
   if (Status good = check_fields(info.volume.numbers, info.volume.words); !good.ok()) return good;
   for (const volume::Tissue& tissue : info.volume.tissues.tissues)
-    if (!std::isfinite(tissue.cutting_energy) || !std::isfinite(tissue.friction))
-      return error(Trouble::internal,
-                   fmt::format("recording: the tissue \"{}\" has a cutting energy or friction that "
-                               "is not a finite number",
-                               tissue.name));
+    if (!std::isfinite(tissue.cutting_energy) || !std::isfinite(tissue.friction) ||
+        !finite(tissue.force))
+      return error(
+          Trouble::internal,
+          fmt::format("recording: the tissue \"{}\" has a cutting energy, force or friction "
+                      "that is not a finite number",
+                      tissue.name));
   return fine();
 }
 

@@ -45,6 +45,8 @@ namespace burr::record {
   add(row.ledger.added);
   add(row.ledger.energy);
   add(row.spindle_rad_s);
+  add(row.cutting_nm);
+  add(row.cutting_w);
   return hash;
 }
 

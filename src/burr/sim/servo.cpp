@@ -276,6 +276,9 @@ void Servo::obey(const Wish& wish) BURR_RT {
       if (wish.value >= 0 && wish.value < edit::kLaws)
         settings_.removal.law = static_cast<edit::RemovalLaw>(static_cast<int>(wish.value));
       break;
+    case WishKind::irrigation:
+      irrigated_ = wish.value > 0;
+      break;
     case WishKind::undo:
     case WishKind::redo:
     case WishKind::reset:

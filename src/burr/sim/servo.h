@@ -161,6 +161,7 @@ class Servo {
   Load load_ = Load::none, load_wished_ = Load::none;
   bool engaged_ = false;      // the proxy is somewhere free and follows the hand
   bool fault_waits_ = false;  // a fault's ticks are to be copied out
+  bool irrigated_ = false;    // coolant runs: for the worker that knows the heat
   bool deposited_ = false;    // material was put on in this session
   double last_push_ = 0;      // of touch alone, along the normal [N]
   double untouched_ = 0;      // since the last contact of the open stroke [s]

@@ -9,8 +9,7 @@ using haptics::Method;
 using math::Vec3;
 
 constexpr double kAround = 3e-3;  // of triangles beyond the burr: how far it goes in a frame [m]
-
-constexpr double kShallow = 0.5;  // [voxel]
+constexpr double kShallow = 0.5;  // in bone, from which ours comes out by itself         [voxel]
 
 }  // namespace
 
@@ -26,11 +25,10 @@ TouchMethods::TouchMethods(const volume::IsoVertices& surface,
         haptics::make_method(static_cast<Method>(n), surface, settings, Vec3::Zero());
   constraint_ = static_cast<haptics::Proxy*>(all_[index(Method::constraint)].get());
   triangles_ = static_cast<haptics::TriangleProxy*>(all_[index(Method::triangles)].get());
-  // what a patch can have at most: three edges and five triangles a cell
-  constexpr std::size_t kCells =
-      std::size_t{surface::kPatchEdge} * surface::kPatchEdge * surface::kPatchEdge;
-  patch_.vertices.reserve(3 * kCells);
-  patch_.triangles.reserve(15 * kCells);
+  // what a patch can have at most: a vertex on each edge of its cells, five triangles a cell
+  constexpr std::size_t kEdge = surface::kPatchEdge;
+  patch_.vertices.reserve(3 * kEdge * (kEdge + 1) * (kEdge + 1));
+  patch_.triangles.reserve(15 * kEdge * kEdge * kEdge);
 }
 
 bool TouchMethods::choose(Method method) BURR_RT {

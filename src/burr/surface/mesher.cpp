@@ -280,7 +280,11 @@ bool Mesher::Work::run(int patch) {
   return true;
 }
 
-Mesher::Mesher(const volume::Bone& bone) : work_(std::make_unique<Work>(bone)) {}
+// The tables of cases are made now, not by the first patch: that may be meshed in a tick.
+Mesher::Mesher(const volume::Bone& bone) : work_(std::make_unique<Work>(bone)) {
+  static_cast<void>(cell_edges());
+  static_cast<void>(cell_cases());
+}
 Mesher::~Mesher() = default;
 
 math::Ijk Mesher::patches() const { return work_->patches; }
