@@ -31,8 +31,9 @@ struct Options {
   double burr_mm = 5, rpm = 40000, rate_hz = 1000, seconds = 10, stiffness = 1000;
   std::size_t undo_bricks = sim::ServoSettings{}.undo_bricks;
   edit::RemovalSettings removing;
-  double vibration = 0;
-  bool guarded = false;
+  double vibration = 0, torque_mnm = 1e3 * tool::Motor{}.torque, drag = 1;
+  int teeth = tool::Burr{}.teeth;
+  bool guarded = false, heat = false, irrigated = false;
   bool realtime = false, embed = false, json = false, diamond = false;
 };
 
@@ -62,9 +63,66 @@ Status draw(const Options& options, const sim::WorkPlace& place, sim::Session& s
   return render::render_png(scene, options.size.width, options.size.height, options.picture);
 }
 
+// Bone within 20 mm of the work: heat goes no further in minutes.
+math::Aabb work_box(const volume::Bone& bone, const Vec3& at) {
+  const volume::Grid& grid = bone.grid();
+  math::Aabb box;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p((corner & 1) != 0 ? grid.size.x() - 1.0 : 0.0,
+                 (corner & 2) != 0 ? grid.size.y() - 1.0 : 0.0,
+                 (corner & 4) != 0 ? grid.size.z() - 1.0 : 0.0);
+    box.extend(grid.world_from_grid(p));
+  }
+  constexpr double kAround = 20e-3;
+  box.lo = box.lo.cwiseMax(at - Vec3::Constant(kAround));
+  box.hi = box.hi.cwiseMin(at + Vec3::Constant(kAround));
+  return box;
+}
+
+void print_heat(const sim::Session& session, const thermal::HeatSummary& heat, std::uint64_t lost) {
+  const thermal::HeatLedger& ledger = heat.ledger;
+  fmt::print(
+      "heat: {:.2f} J of the burr's {:.2f} J stayed in the bone; {:.2f} J to the coolant; "
+      "warmest now {:.1f} deg C\n",
+      ledger.into, ledger.spent, ledger.convected, heat.hottest_c);
+  for (std::size_t id = 1; id < heat.tissue.size(); ++id) {
+    const thermal::TissueHeat& one = heat.tissue[id];
+    if (!one.there) continue;
+    fmt::print(
+        "  {}: {:.1f} deg C at the most, dose {:.3g} CEM43 min, {:.2f} mm3 above 47 deg C "
+        "now\n",
+        session.bone_tissues()[static_cast<volume::TissueId>(id)].name, one.ever_c, one.cem43_min,
+        1e9 * one.warm_m3);
+  }
+  if (lost > 0)
+    fmt::print("  {} rows of heat were lost, this machine is too slow: it was warmer\n", lost);
+}
+
+nlohmann::json heat_json(const sim::Session& session, const thermal::HeatSummary& heat,
+                         std::uint64_t lost) {
+  nlohmann::json tissues = nlohmann::json::array();
+  for (std::size_t id = 1; id < heat.tissue.size(); ++id) {
+    const thermal::TissueHeat& one = heat.tissue[id];
+    if (!one.there) continue;
+    tissues.push_back({{"tissue", session.bone_tissues()[static_cast<volume::TissueId>(id)].name},
+                       {"now_c", one.now_c},
+                       {"ever_c", one.ever_c},
+                       {"cem43_min", one.cem43_min},
+                       {"warm_mm3", 1e9 * one.warm_m3}});
+  }
+  return {{"hottest_c", heat.hottest_c},
+          {"spent_J", heat.ledger.spent},
+          {"into_bone_J", heat.ledger.into},
+          {"to_coolant_J", heat.ledger.convected},
+          {"rows_lost", lost},
+          {"tissues", tissues}};
+}
+
 void print(const Options& options, sim::Session& session, const Recording& recording) {
   const sim::Outcome outcome = session.outcome();
   const rt::TickSummary& t = outcome.timing;
+  thermal::HeatSummary heat;
+  if (options.heat) static_cast<void>(session.heat(heat));
   if (!options.json) {
     fmt::print(
         "{:.2f} s, {} ticks: removed {:.3f} mm3 of {:.3f} mm3 asked; force {:.2f} N mean in "
@@ -79,6 +137,7 @@ void print(const Options& options, sim::Session& session, const Recording& recor
     if (outcome.most_load != sim::Load::none)
       fmt::print("put off at times, because the machine could not keep up: {}\n",
                  sim::name(outcome.most_load));
+    if (options.heat) print_heat(session, heat, outcome.heat_rows_lost);
     for (const std::string& sentence : sim::words(sim::worth_telling(outcome.flags)))
       fmt::print("noted: {}\n", sentence);
     return;
@@ -105,6 +164,7 @@ void print(const Options& options, sim::Session& session, const Recording& recor
   out["bone_hash"] = record::hex(session.bone().content_hash());
   out["noted"] = sim::words(sim::worth_telling(outcome.flags));
   out["load_ticks"] = outcome.load_ticks;
+  if (options.heat) out["heat"] = heat_json(session, heat, outcome.heat_rows_lost);
   if (options.realtime) out["scheduling"] = outcome.scheduling;
   if (!options.record.empty()) out["recording"] = recording.account();
   fmt::print("{}\n", out.dump());
@@ -135,8 +195,13 @@ Status run(const Options& options) {
   settings.servo.burr.radius = 0.5e-3 * options.burr_mm;
   settings.servo.burr.kind = options.diamond ? tool::BurrKind::diamond : tool::BurrKind::cutting;
   settings.servo.spindle_rad_s = options.rpm * 2 * std::numbers::pi / 60;
+  settings.servo.motor.torque = 1e-3 * options.torque_mnm;
+  settings.servo.burr.teeth = options.teeth;
+  settings.servo.drag_gain = options.drag;
   settings.servo.force.stiffness = options.stiffness;
   settings.servo.undo_bricks = options.undo_bricks;
+  settings.servo.irrigated = options.irrigated;
+  if (options.heat) settings.heat = sim::HeatWish{work_box(*opened->bone, place.at), {}};
   device::ArmSettings arm;
   if (options.arm == "rigid") arm.stiffness = INFINITY;
   if (options.arm == "light") arm = {.mass = 0.06, .damping = 5, .stiffness = 200};
@@ -187,7 +252,22 @@ void add(CLI::App& app, Todo& todo) {
   command->add_option("--burr-mm", options->burr_mm, "diameter of the burr, 0.6 to 7")
       ->capture_default_str();
   command->add_flag("--diamond", options->diamond, "a diamond burr: cuts a quarter as fast");
-  command->add_option("--rpm", options->rpm, "of the spindle")->capture_default_str();
+  command->add_option("--rpm", options->rpm, "of the spindle; below 0 it turns backwards")
+      ->check(CLI::Range(-400000.0, 400000.0))
+      ->capture_default_str();
+  command
+      ->add_option("--torque-mnm", options->torque_mnm,
+                   "that the spindle gives at most [mN m]; 0: never gives way")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  command->add_option("--teeth", options->teeth, "cutting edges of the burr, for --removal chips")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command
+      ->add_option("--drag", options->drag,
+                   "gain of the bone's pull along its surface at a turning burr; 0: none")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
   command->add_option("--rate", options->rate_hz, "ticks a second, 500 to 10000")
       ->capture_default_str();
   command->add_option("--seconds", options->seconds, "of a built-in motion")->capture_default_str();
@@ -224,6 +304,9 @@ void add(CLI::App& app, Todo& todo) {
       ->capture_default_str();
   command->add_flag("--guard", options->guarded,
                     "with the energy guard: the hand gets back no more than it gave");
+  command->add_flag("--heat", options->heat, "how warm the bone gets, and what harm that does");
+  command->add_flag("--irrigation", options->irrigated, "coolant runs over the burr")
+      ->needs("--heat");
   command->add_flag("--realtime", options->realtime,
                     "paced by the clock (default: as fast as possible)");
   command->add_option("--record", options->record, "F.mcap: write the session down");

@@ -24,7 +24,7 @@ struct Felt {
 };
 
 // A rigid hand over the ball of the benches, 1 kN/m, a 6 mm burr.
-Felt felt(Motion motion, int ticks) {
+Felt felt(Motion motion, int ticks, bool guarded = false) {
   constexpr double kDt = 1e-3, kRadius = 3e-3;
   constexpr int kComing = 300;
   device::HandPath path;
@@ -60,6 +60,7 @@ Felt felt(Motion motion, int ticks) {
   settings.burr.radius = kRadius;
   settings.spindle_rad_s = 8.4 / kRadius;
   settings.force = {1000, 0};
+  settings.guarded = guarded;
   settings.limit.user_force = 50;
   settings.limit.slew = settings.limit.ramp_slew = 1e9;
   settings.friction_scale = settings.friction_turning = 0;
@@ -97,6 +98,15 @@ TEST(ForceStep, IsNoLargerInASlotThanTheHandMakesItItself) {
   EXPECT_LT(seen.most, 0.02);
   EXPECT_GT(seen.mean, 0.5);
   EXPECT_GT(seen.removed_mm3, 2);
+}
+
+// The guard lets the microjoules of a cut pass: it used to brake in blows of up to 0.27 N.
+TEST(ForceStep, TheEnergyGuardAddsNone) {
+  for (const Motion motion : {Motion::slide, Motion::pocket, Motion::slot}) {
+    const Felt without = felt(motion, 1500), with = felt(motion, 1500, true);
+    EXPECT_LT(with.most, without.most + 0.002) << static_cast<int>(motion);
+    EXPECT_NEAR(with.mean, without.mean, 0.02 * without.mean);
+  }
 }
 
 }  // namespace

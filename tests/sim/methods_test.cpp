@@ -66,6 +66,7 @@ TEST(MethodsInASession, TakeNoMemoryInATickTheTrianglesOfThePictureNeither) {
     settings.servo.touch = static_cast<Method>(n);
     settings.servo.guarded = true;
     settings.servo.vibration_gain = 1;
+    settings.servo.removal.law = static_cast<edit::RemovalLaw>(n % edit::kLaws);
     const auto run = session(settings, "slot");
     double removed = 0;
     const test::RtGuard guard;
@@ -124,7 +125,7 @@ TEST(MethodsInASession, TheRecordingKnowsAndSimulatesToTheSameBits) {
   for (int n = 0; n < 14; ++n) {
     run->run(0.2, quiet);
     run->wish({record::WishKind::touch_method, static_cast<double>(n % haptics::kMethods)});
-    run->wish({record::WishKind::removal_law, n % 3 == 2 ? 1.0 : 0.0});
+    run->wish({record::WishKind::removal_law, static_cast<double>(n % edit::kLaws)});
   }
   run->set_recorder(nullptr);
   ASSERT_TRUE(recorder.finish().ok());

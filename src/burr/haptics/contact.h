@@ -29,6 +29,7 @@ enum Flag : std::uint32_t {
   kFlagRestoring = 1U << 13,  // an undo or reset is under way: the burr is lifted, nothing is cut
   kFlagNotCut = 1U << 14,     // the debt reached its cap, the rest is counted as not cut
   kFlagGuarded = 1U << 16,    // the energy guard braked the hand
+  kFlagStalled = 1U << 17,    // the spindle stands: the bone holds it
   kFlagPutOff = 1U << 15,     // too much to cut in one tick: the bricks are cut in turn
 };
 

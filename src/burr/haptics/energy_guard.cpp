@@ -22,9 +22,10 @@ double or_zero(double value) { return std::isfinite(value) ? std::max(0.0, value
 }  // namespace
 
 EnergyGuard::EnergyGuard(const EnergyGuardSettings& settings) : settings_(settings) {
-  for (double* value : {&settings_.device_mass, &settings_.device_damping, &settings_.encoder_step,
-                        &settings_.count_force, &settings_.delay, &settings_.least_speed,
-                        &settings_.largest_force, &settings_.free_time, &settings_.tank_low})
+  for (double* value :
+       {&settings_.device_mass, &settings_.device_damping, &settings_.encoder_step,
+        &settings_.count_force, &settings_.delay, &settings_.least_speed, &settings_.largest_force,
+        &settings_.free_time, &settings_.tank_low, &settings_.slack})
     *value = or_zero(*value);
   settings_.tank_full = std::min(or_zero(settings_.tank_full), kMostTank);
   sent_.fill(Vec3::Zero());
@@ -45,9 +46,10 @@ Vec3 EnergyGuard::step(const Exchange& now, double dt) BURR_RT {
   }
 
   const double square = velocity_.squaredNorm();
-  if (deficit() <= 0 || square < settings_.least_speed * settings_.least_speed || square == 0)
+  const double owed = deficit() - settings_.slack;
+  if (owed <= 0 || square < settings_.least_speed * settings_.least_speed || square == 0)
     return now.force;
-  alpha_ = std::min(deficit() / (dt * square), most_damping(dt));
+  alpha_ = std::min(owed / (dt * square), most_damping(dt));
   return now.force - alpha_ * velocity_;
 }
 

@@ -35,7 +35,11 @@
 // least_speed; below that it may grow by k T v^2 / 2 per second, 2 uW for 1 kN/m. written_off() is
 // what was stored when the account began, a deficit after free_time in free air, and what is above
 // tank_full, so that no hand feels heavy for long.
-// Vibration (vibration.h) stays out: sent() is told the force without it.
+// slack: a deficit up to it is remembered and not acted on. While bone is cut, what is felt turns
+// by itself from tick to tick and owes some microjoules for a moment, which the cut then pays many
+// times over; a damper that takes each back at once is felt as blows. A wall that trembles owes
+// more and more. The promise is weaker by the slack. Vibration (vibration.h) stays out: sent() is
+// told the force without it.
 //
 // Thread: servo. Frame: world. Units: SI. Memory: none. Cost: under 0.2 us a tick.
 #pragma once
@@ -57,6 +61,7 @@ struct EnergyGuardSettings {
   double count_force = 0.1;    // the damper's most for one step in a tick; the joints' dry
                                // friction hides it, 0.26 N in an Omni                        [N]
   double delay = 0;            // from hand to force, beyond the held tick; up to 7 ticks     [s]
+  double slack = 0;            // deficit that is let pass: see above                       [J]
   double least_speed = 2e-3;   // below it velocity is mostly noise; no damping             [m/s]
   double largest_force = 3.3;  // that is ever sent: of the device and of the user           [N]
   double free_time = 50e-3;    // in free air until a deficit is forgotten                   [s]

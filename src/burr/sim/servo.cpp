@@ -17,8 +17,10 @@ constexpr int kWishesPerTick = 8;
 constexpr double kRestorePerSecond = 16e3;  // bricks; about as many as a deep cut changes
 constexpr double kRecovery = 5;  // of bone that grew under the burr pushes it out  [voxel/s]
 constexpr double kRefreshRate =
-    1e3;                      // of the budgets of IsoSettings: they are those of a millisecond
-constexpr int kFewMoves = 4;  // of the proxy, when even touch must do with less
+    1e3;                          // of the budgets of IsoSettings: they are those of a millisecond
+constexpr double kCarried = 0.4;  // of the tick rate: what a force can be made to swing with [-]
+constexpr double kHeatEvery = 10e-3;  // a row to the worker that knows the heat  [s]
+constexpr int kFewMoves = 4;          // of the proxy, when even touch must do with less
 
 }  // namespace
 
@@ -32,14 +34,18 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       changed_(bone),
       undo_(bone, settings.undo_bricks),
       carver_(bone, surface, undo_, &changed_, settings.carve),
+      chips_(bone),
       touch_by_(surface, {.radius = settings.burr.radius, .recovery = kRecovery / settings.rate_hz},
                 settings.touch),
-      guard_({.largest_force = std::min(device.spec().peak_force, settings.limit.user_force)}),
+      guard_({.slack = settings.guard_slack,
+              .largest_force = std::min(device.spec().peak_force, settings.limit.user_force)}),
       vibration_({.device_gain = settings.vibration_gain}),
       limit_(device.spec(), settings.limit),
       path_(kPath),
       recent_(FaultReport::kTicks) {
   spindle_.full_speed = settings.spindle_rad_s;
+  spindle_.motor = settings.motor;
+  irrigated_ = settings.irrigated;
 }
 
 const record::TickRow& Servo::tick(bool lost) BURR_RT {
@@ -59,7 +65,7 @@ const record::TickRow& Servo::tick(bool lost) BURR_RT {
   fault_waits_ |= !believed;
 
   take_wishes();
-  spindle_.step(believed ? hand_.pedal : 0, dt_);
+  spindle_.step(believed ? hand_.pedal : 0, cutting_.torque, dt_);
 
   // touch
   if (believed) {
@@ -79,15 +85,17 @@ const record::TickRow& Servo::tick(bool lost) BURR_RT {
 
   // force, bounded, to the hand
   const Vec3 wanted = haptics::force_law(touch_, velocity_, settings_.force);
-  const Vec3 guarded = passive(wanted, lost || !believed), buzzing = buzz();
-  const Vec3 force = limit_.apply(guarded + buzzing, dt_, flags);
+  const Vec3 guarded = passive(wanted, lost || !believed);
+  const Vec3 spinning = drag(guarded) + buzz();
+  const Vec3 force = limit_.apply(guarded + spinning, dt_, flags);
   device_.write_force(force);
-  const Vec3 touched = limit_.engaged() ? Vec3(force - buzzing) : force;  // without the spindle
+  const Vec3 touched = limit_.engaged() ? Vec3(force - spinning) : force;  // without the spindle
   guard_.sent(touched);
 
   // then the bone
   cut_bone(touched);
   surface_.refresh(kRefreshRate * dt_ / turns_of(load_));
+  tell_heat();
   remember_path();
 
   // and the account of it all
@@ -104,7 +112,10 @@ const record::TickRow& Servo::tick(bool lost) BURR_RT {
   if (surface_.exhausted()) flags |= haptics::kFlagReserve;
   if (load_ >= Load::removal_2) flags |= haptics::kFlagPutOff;
   row_.ledger = carver_.ledger();
-  row_.spindle_rad_s = spindle_.speed;
+  if (spindle_.stalled()) flags |= haptics::kFlagStalled;
+  row_.spindle_rad_s = spindle_.speed();
+  row_.cutting_nm = cutting_.torque;
+  row_.cutting_w = cutting_.power;
   hash_row();
   keep_for_fault();
   return row_;
@@ -142,11 +153,43 @@ Vec3 Servo::passive(const Vec3& wanted, bool begins_anew) BURR_RT {
 Vec3 Servo::buzz() BURR_RT {
   if (settings_.vibration_gain <= 0) return Vec3::Zero();
   haptics::Milling now;
-  now.spindle_rad_s = spindle_.speed;
+  now.spindle_rad_s = spindle_.speed();
   now.axis = hand_.world_from_tool.q * Vec3::UnitZ();
   if (touch_.touching) now.normal = touch_.normal;
   now.cutting_force = last_push_;
   return vibration_.step(now, dt_);
+}
+
+// What the bone pulls at the burr along its surface. Pressing and being dragged aside feed each
+// other in a hole that fits the burr, and would whirl a light device about: so it follows slowly,
+// and goes with the push.
+Vec3 Servo::drag(const Vec3& touched) BURR_RT {
+  const double share = 1 - std::exp(-2 * M_PI * settings_.drag_hz * dt_);
+  drag_ += share * (settings_.drag_gain * cutting_.drag - drag_);
+  const double ratio = last_push_ > 0 ? settings_.drag_gain * cutting_.drag.norm() / last_push_ : 0;
+  drag_ratio_ += share * (ratio - drag_ratio_);
+  // once per tooth, where the ticks are quick enough to carry it
+  const double tooth = settings_.burr.teeth * spindle_.speed() * dt_;  // [rad] a tick
+  tooth_phase_ = std::remainder(tooth_phase_ + tooth, 2 * M_PI);
+  if (!touch_.touching) return Vec3::Zero();
+
+  const Vec3 along = drag_ - drag_.dot(touch_.normal) * touch_.normal;
+  const double is = along.norm();
+  const double most = drag_ratio_ * std::max(0.0, touched.dot(touch_.normal));
+  if (is <= 0 || most <= 0) return Vec3::Zero();
+  double gain = std::min(1.0, most / is);
+  if (std::abs(tooth) < kCarried * 2 * M_PI)
+    gain *= 1 + std::min(1.0, settings_.drag_gain * cutting_.ripple / is) * std::cos(tooth_phase_);
+  return gain * along;
+}
+
+edit::Cutting Servo::cut_by_law(double push, double speed) BURR_RT {
+  const edit::Spin spin = {hand_.world_from_tool.q * Vec3::UnitZ(), speed};
+  const tool::Burr& burr = settings_.burr;
+  if (settings_.removal.law == edit::RemovalLaw::chips && burr.kind == tool::BurrKind::cutting)
+    return chips_.step(burr, touch_.proxy, touch_.normal, push, spin, dt_, settings_.removal);
+  return edit::energy_law(push, spin, burr.radius, tool::cutting_efficiency(burr.kind, speed),
+                          touch_.normal, dt_, settings_.removal);
 }
 
 // The burr is in bone, where ours cannot begin: the force fades, and touch begins again in free
@@ -159,7 +202,7 @@ void Servo::let_go_in_bone() BURR_RT {
 // Bone rubs as its tissue says while the spindle stands; a turning burr hardly at all.
 void Servo::choose_friction() BURR_RT {
   double mu = settings_.friction_turning;
-  if (spindle_.speed <= 0) {
+  if (spindle_.speed() == 0) {
     mu = 0;
     if (touch_.touching) {
       const Vec3 foot =
@@ -180,7 +223,12 @@ void Servo::cut_bone(const Vec3& force) BURR_RT {
       restore_ == Restore::none && touch_.touching && settings_.mode != ToolMode::touch;
   const double push = may ? std::max(0.0, force.dot(touch_.normal)) : 0;
   last_push_ = push;
-  const bool works = settings_.mode == ToolMode::cut ? spindle_.speed > 0 && push > 0
+  cutting_ = {};
+  // what holds a standing burr is what would brake it if it crept
+  if (settings_.mode == ToolMode::cut && push > 0 && spindle_.speed() == 0 && hand_.pedal > 0 &&
+      settings_.removal.law != edit::RemovalLaw::thesis)
+    cutting_.torque = cut_by_law(push, std::copysign(1.0, spindle_.full_speed)).torque;
+  const bool works = settings_.mode == ToolMode::cut ? spindle_.speed() != 0 && push > 0
                                                      : hand_.pedal > 0 && push > 0;
   if (!works) {
     carver_.idle(dt_);
@@ -206,10 +254,8 @@ void Servo::cut_bone(const Vec3& force) BURR_RT {
     else
       carver_.idle(dt_);
   } else if (settings_.mode == ToolMode::cut) {
-    const Vec3 axis = hand_.world_from_tool.q * Vec3::UnitZ();
-    cut.energy = dt_ * edit::cutting_power(push, spindle_.speed, settings_.burr.radius,
-                                           tool::cutting_efficiency(settings_.burr.kind),
-                                           touch_.normal, axis, settings_.removal);
+    cutting_ = cut_by_law(push, spindle_.speed());
+    cut.energy = cutting_.energy;
     carver_.carve(cut, flags);
   } else {
     cut.volume = settings_.deposit_rate * std::clamp(hand_.pedal, 0.0, 1.0) * dt_;
@@ -217,6 +263,37 @@ void Servo::cut_bone(const Vec3& force) BURR_RT {
     deposited_ = true;
     carver_.deposit(cut, flags);
   }
+}
+
+// A row for every hundredth of a second: what the burr spent meanwhile, and where last.
+void Servo::tell_heat() BURR_RT {
+  if (heat_ == nullptr) return;
+  const bool rubs = settings_.mode == ToolMode::cut && cutting_.power <= 0 && last_push_ > 0;
+  double power = cutting_.power;
+  if (rubs) {
+    const Vec3 axis = hand_.world_from_tool.q * Vec3::UnitZ();
+    power = settings_.friction_turning * last_push_ * std::abs(spindle_.speed()) *
+            settings_.burr.radius *
+            std::max(touch_.normal.cross(axis).norm(), settings_.removal.pole);
+  }
+  if (power > 0) {
+    using thermal::Edge;
+    heat_row_.energy += power * dt_;
+    heat_row_.place = touch_.proxy - settings_.burr.radius * touch_.normal;
+    heat_row_.edge = rubs                                             ? Edge::rubbing
+                     : settings_.burr.kind == tool::BurrKind::diamond ? Edge::diamond
+                                                                      : Edge::flute;
+  } else if (heat_row_.energy <= 0) {
+    heat_row_.place = touch_.proxy;  // where the coolant runs
+  }
+  const auto every = static_cast<std::uint64_t>(std::max(1.0, std::round(kHeatEvery / dt_)));
+  if (row_.tick % every != 0 && !heat_row_.start_over) return;
+  heat_row_.time_ns = std::llround(static_cast<double>(row_.tick) * dt_ * 1e9);
+  heat_row_.radius = settings_.burr.radius;
+  heat_row_.irrigated = irrigated_;
+  static_cast<void>(heat_->push(heat_row_));
+  heat_row_.energy = 0;
+  heat_row_.start_over = false;
 }
 
 // ---- wishes
@@ -239,7 +316,7 @@ void Servo::obey(const Wish& wish) BURR_RT {
   if (!std::isfinite(wish.value)) return;
   switch (wish.kind) {
     case WishKind::spindle_speed:
-      spindle_.full_speed = std::max(0.0, wish.value);
+      spindle_.full_speed = wish.value;
       break;
     case WishKind::burr_radius:
       if (wish.value >= 2 * bone_.grid().voxel &&
@@ -304,6 +381,7 @@ void Servo::begin_restore(WishKind kind) BURR_RT {
     if (undo_.touched() == 0) return;
     range_ = {0, undo_.touched(), 0};
     undo_.forget_strokes();
+    heat_row_.start_over = true;
   }
   restore_kind_ = kind;
   restore_ = Restore::lifting;
@@ -482,6 +560,9 @@ std::vector<std::string> words(std::uint32_t flags) {
       {haptics::kFlagGuarded,
        "the energy guard braked the hand: the spring is stiffer than this device can show; lower "
        "--stiffness"},
+      {haptics::kFlagStalled,
+       "the spindle stood still, held by the bone; press less, or give it more torque "
+       "(--torque-mnm)"},
       {haptics::kFlagNotCut, "the burr was blocked and some of what was asked was not cut"},
   };
   std::vector<std::string> said;

@@ -1,7 +1,7 @@
 // sim/servo.h - the tick: the hand comes first, then the bone.
 //
-//     read the hand - obey wishes - step the proxy - force law - energy guard - vibration - limit
-//     - write the force
+//     read the hand - obey wishes - step the proxy - force law - energy guard - drag of the bone on
+//     the burr and vibration - limit - write the force
 //     - then carve - then tell the others
 //
 // A pure function of (bone, hand, buttons, wishes, lost): no clock, no random number, so that a
@@ -17,6 +17,7 @@
 #include "burr/device/device.h"
 #include "burr/edit/carve.h"
 #include "burr/edit/changed_queue.h"
+#include "burr/edit/chips.h"
 #include "burr/edit/removal.h"
 #include "burr/edit/undo.h"
 #include "burr/haptics/energy_guard.h"
@@ -29,7 +30,9 @@
 #include "burr/rt/ring.h"
 #include "burr/sim/load.h"
 #include "burr/sim/touch_methods.h"
+#include "burr/thermal/worker.h"
 #include "burr/tool/burr_tool.h"
+#include "burr/tool/spindle.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/iso_vertices.h"
 
@@ -41,12 +44,17 @@ struct ServoSettings {
   double rate_hz = 1000;
   haptics::Method touch = haptics::Method::constraint;
   tool::Burr burr;
-  double spindle_rad_s = 4188.79;  // at full pedal: 40 000 rpm
+  double spindle_rad_s = 4188.79;  // at full pedal: 40 000 rpm; below 0: backwards
+  tool::Motor motor;
   haptics::ForceSettings force;
   // By the energy guard. Not by default: in tight holes it brakes in bursts of up to 0.3 N, where
   // the force without it steps by 0.01 N (docs/status.md).
   bool guarded = false;
-  double vibration_gain = 0;  // of the spindle in the hand: 1 as haptics/vibration.h says, 0 none
+  double guard_slack = 60e-6;  // that the guard lets pass, energy_guard.h               [J]
+  bool irrigated = false;      // coolant runs from the start
+  double drag_gain = 1;        // of the bone's drag on the turning burr in the hand
+  double drag_hz = 5;          // it follows no faster, first order: see docs/decisions.md
+  double vibration_gain = 0;   // of the spindle in the hand: 1 as haptics/vibration.h says, 0 none
   haptics::LimitSettings limit;
   edit::RemovalSettings removal;
   edit::CarveSettings carve;
@@ -95,6 +103,7 @@ class Servo {
   [[nodiscard]] rt::Latest<record::TickRow>& view() BURR_RT { return view_; }  // servo -> main
   [[nodiscard]] rt::Latest<FaultReport>& faults() BURR_RT { return faults_; }  // servo -> main
   void set_diary(const Diary& diary) { diary_ = diary; }                       // before the session
+  void set_heat(thermal::Worker* heat) { heat_ = heat; }  // servo -> heat; before the session
 
   // How long the last tick took and how late it began, for the diary and the view; not part of the
   // truth.
@@ -134,8 +143,11 @@ class Servo {
   void let_go_in_bone() BURR_RT;
   [[nodiscard]] math::Vec3 passive(const math::Vec3& wanted, bool begins_anew) BURR_RT;
   [[nodiscard]] math::Vec3 buzz() BURR_RT;
+  [[nodiscard]] math::Vec3 drag(const math::Vec3& touched) BURR_RT;
   void choose_friction() BURR_RT;
+  [[nodiscard]] edit::Cutting cut_by_law(double push, double speed) BURR_RT;
   void cut_bone(const math::Vec3& force) BURR_RT;
+  void tell_heat() BURR_RT;
   void remember_path() BURR_RT;
   void write_bricks(std::size_t most) BURR_RT;
   void keep_for_fault() BURR_RT;
@@ -150,6 +162,7 @@ class Servo {
   edit::ChangedQueue changed_;
   edit::UndoStore undo_;
   edit::Carver carver_;
+  edit::Chips chips_;
   TouchMethods touch_by_;
   haptics::EnergyGuard guard_;
   haptics::Vibration vibration_;
@@ -159,12 +172,16 @@ class Servo {
   device::HandState hand_;
   math::Vec3 velocity_ = math::Vec3::Zero();
   Load load_ = Load::none, load_wished_ = Load::none;
-  bool engaged_ = false;      // the proxy is somewhere free and follows the hand
-  bool fault_waits_ = false;  // a fault's ticks are to be copied out
-  bool irrigated_ = false;    // coolant runs: for the worker that knows the heat
-  bool deposited_ = false;    // material was put on in this session
-  double last_push_ = 0;      // of touch alone, along the normal [N]
-  double untouched_ = 0;      // since the last contact of the open stroke [s]
+  bool engaged_ = false;                  // the proxy is somewhere free and follows the hand
+  bool fault_waits_ = false;              // a fault's ticks are to be copied out
+  bool irrigated_ = false;                // coolant runs: for the worker that knows the heat
+  bool deposited_ = false;                // material was put on in this session
+  double last_push_ = 0;                  // of touch alone, along the normal [N]
+  edit::Cutting cutting_;                 // in the last tick
+  math::Vec3 drag_ = math::Vec3::Zero();  // of the bone on the burr, as the hand gets it [N]
+  double drag_ratio_ = 0;                 // over the push, likewise
+  double tooth_phase_ = 0;                // [rad]
+  double untouched_ = 0;                  // since the last contact of the open stroke [s]
 
   // the way the proxy came, to go back on before an undo
   static constexpr std::size_t kPath = 1 << 16;
@@ -180,6 +197,8 @@ class Servo {
   rt::Latest<record::TickRow> view_;
   rt::Latest<FaultReport> faults_;
   Diary diary_;
+  thermal::Worker* heat_ = nullptr;
+  thermal::HeatRow heat_row_;
   record::TickRow row_;
   std::uint64_t next_tick_ = 0, last_hash_ = 0;
   std::vector<record::TickRow> recent_;  // ring of FaultReport::kTicks

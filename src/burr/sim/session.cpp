@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::int64_t kFadeNs = 5'000'000;  // from detection of a loss to zero force
 constexpr std::int64_t kGuardNs = 500'000;   // between two looks of the guard
+constexpr std::uint64_t kHeatWait =
+    1000;  // ticks between two waits for the heat, when not by the clock
 constexpr auto kAheadPause = std::chrono::milliseconds(5);  // between two of taking memory ahead
 
 }  // namespace
@@ -50,8 +52,8 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
   if (!(servo.force.stiffness > 0 && std::isfinite(servo.force.stiffness)))
     return error(Trouble::usage, fmt::format("stiffness {} N/m makes no sense; take e.g. 1000",
                                              servo.force.stiffness));
-  if (!(servo.spindle_rad_s >= 0 && servo.spindle_rad_s < 1e5))
-    return error(Trouble::usage, "--rpm is out of range; take 0 to 400000");
+  if (!(std::abs(servo.spindle_rad_s) < 1e5))
+    return error(Trouble::usage, "--rpm is out of range; take -400000 to 400000");
 
   Status opened = device->open();
   if (!opened) return opened.error();
@@ -68,6 +70,11 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
                  "stopped while the surface was being prepared; nothing was written");
   session->servo_ =
       std::make_unique<Servo>(*session->bone_, *session->surface_, *session->device_, capped);
+  if (settings.heat) {
+    session->heat_ = std::make_unique<thermal::Worker>(*session->bone_, settings.heat->work,
+                                                       settings.heat->settings);
+    session->servo_->set_heat(session->heat_.get());
+  }
   session->watchdog_ = std::make_unique<haptics::Watchdog>(
       static_cast<std::int64_t>(spec.loss_timeout * 1e9), kFadeNs);
   return session;
@@ -127,6 +134,7 @@ void Session::loop(std::uint64_t ticks) {
     ledger_ = row.ledger;
     done_.fetch_add(1, std::memory_order_relaxed);
     if (!settings_.realtime && recorder_ != nullptr) recorder_->wait_for_room();
+    if (!settings_.realtime && heat_ && n % kHeatWait == 0) heat_->settle();
   }
   // the last force is let go within five milliseconds, not dropped
   const auto fade = static_cast<int>(std::ceil(5e-3 * settings_.servo.rate_hz));
@@ -138,6 +146,7 @@ void Session::loop(std::uint64_t ticks) {
     servo_->flush_bricks();
     recorder_->wait_for_room();
   }
+  if (heat_) heat_->settle();
   running_.store(false, std::memory_order_release);
 }
 
@@ -229,6 +238,7 @@ Outcome Session::outcome() const {
   outcome.mean_force = touching_ > 0 ? force_sum_ / static_cast<double>(touching_) : 0;
   outcome.ledger = ledger_;
   outcome.flags = flags_;
+  if (heat_) outcome.heat_rows_lost = heat_->dropped();
   outcome.timing = stats_.summary();
   outcome.scheduling = grant_.sentence;
   outcome.load_ticks = load_ticks_;

@@ -14,6 +14,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,17 @@
 #include "burr/rt/thread.h"
 #include "burr/sim/load.h"
 #include "burr/sim/servo.h"
+#include "burr/thermal/settings.h"
+#include "burr/thermal/summary.h"
+#include "burr/thermal/worker.h"
 
 namespace burr::sim {
+
+// How warm the bone gets is worked out beside the session, not in it: nothing felt depends on it.
+struct HeatWish {
+  math::Aabb work;  // bone outside keeps its temperature; world [m]
+  thermal::HeatSettings settings;
+};
 
 struct SessionSettings {
   ServoSettings servo;
@@ -34,6 +44,7 @@ struct SessionSettings {
   LoadSettings load;      // by the clock only: what is too much for this machine
   bool realtime = false;  // paced by the clock, watched by a watchdog; false: as fast as possible
   int threads = 2;        // for preparing the surface
+  std::optional<HeatWish> heat;
 };
 
 // What happened, so far.
@@ -43,7 +54,8 @@ struct Outcome {
   double peak_force = 0;  // that reached the hand  [N]
   double mean_force = 0;  // while touching         [N]
   edit::Ledger ledger;
-  std::uint32_t flags = 0;  // all that were ever raised
+  std::uint32_t flags = 0;           // all that were ever raised
+  std::uint64_t heat_rows_lost = 0;  // too slow a machine: what they heated is missing
   rt::TickSummary timing;
   std::string scheduling;  // what the servo thread was given, one sentence
   std::array<std::uint64_t, kLoads> load_ticks = {};  // ticks at each step of sim/load.h
@@ -78,11 +90,14 @@ class Session {
   void wish(const record::Wish& wish) { static_cast<void>(servo_->wishes().push(wish)); }
   [[nodiscard]] bool view(record::TickRow& newest) { return servo_->view().take(newest); }
   [[nodiscard]] bool fault(FaultReport& report) { return servo_->faults().take(report); }
+  // How warm it is, ten times a second of the session's time; false: nothing new, or nobody asked.
+  [[nodiscard]] bool heat(thermal::HeatSummary& newest) { return heat_ && heat_->take(newest); }
   // What the machine cannot keep up with just now: pictures and surface are to be made less often
   // from Load::picture and Load::mesh on. Any thread.
   [[nodiscard]] Load load() const { return load_.load(std::memory_order_relaxed); }
 
   [[nodiscard]] volume::Bone& bone() { return *bone_; }
+  [[nodiscard]] const volume::TissueTable& bone_tissues() const { return bone_->tissues(); }
   [[nodiscard]] device::Device& hand() { return *device_; }
   [[nodiscard]] const SessionSettings& settings() const { return settings_; }
   [[nodiscard]] const volume::IsoVertices& surface() const { return *surface_; }
@@ -107,6 +122,7 @@ class Session {
   std::unique_ptr<device::Device> device_;
   SessionSettings settings_;
   std::unique_ptr<volume::IsoVertices> surface_;
+  std::unique_ptr<thermal::Worker> heat_;
   std::unique_ptr<Servo> servo_;
   std::unique_ptr<haptics::Watchdog> watchdog_;
   record::Recorder* recorder_ = nullptr;

@@ -1,10 +1,7 @@
-// tool/burr_tool.h - what is in the hand: a round burr head on a shaft, turned by a spindle.
+// tool/burr_tool.h - what is in the hand: a round burr head on a shaft.
 //
 // Units: SI. Frame: the tool's: head centre at the origin, shaft along +z.
 #pragma once
-
-#include <algorithm>
-#include <cmath>
 
 #include "burr/rt/rt.h"
 
@@ -18,6 +15,7 @@ enum class BurrKind {
 struct Burr {
   double radius = 2.5e-3;  // of the head                                          [m]
   BurrKind kind = BurrKind::cutting;
+  int teeth = 8;                 // cutting edges, from pole to shaft; of a cutting burr [-]
   double shaft_radius = 1.2e-3;  // drawn only                                           [m]
   double shaft_length = 60e-3;   // drawn only                                           [m]
 };
@@ -25,22 +23,11 @@ struct Burr {
 inline constexpr double kSmallestDiameter = 0.6e-3,
                         kLargestDiameter = 7e-3;  // of round burrs in use  [m]
 
-// How much of the friction power becomes cutting (algorithms.md 3e).
-[[nodiscard]] inline double cutting_efficiency(BurrKind kind) BURR_RT {
-  return kind == BurrKind::cutting ? 1.0 : 0.25;
+// How much of the friction power becomes cutting (algorithms.md 3e). Flutes cut one way only,
+// grains both.
+[[nodiscard]] inline double cutting_efficiency(BurrKind kind, double speed) BURR_RT {
+  if (kind == BurrKind::diamond) return 0.25;
+  return speed >= 0 ? 1.0 : 0.0;
 }
-
-// The spindle follows the pedal like a first-order motor.
-struct Spindle {
-  double full_speed = 0;        // at full pedal                                          [rad/s]
-  double time_constant = 0.05;  // [s]
-  double speed = 0;             // now                                                    [rad/s]
-
-  void step(double pedal, double dt) BURR_RT {
-    const double wanted = full_speed * std::clamp(pedal, 0.0, 1.0);
-    speed += (wanted - speed) * (1 - std::exp(-dt / time_constant));
-    if (wanted == 0 && speed < 1) speed = 0;
-  }
-};
 
 }  // namespace burr::tool
