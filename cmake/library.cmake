@@ -15,6 +15,13 @@ endforeach()
 configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_cases.cpp.in ${CMAKE_BINARY_DIR}/built_in_cases.cpp @ONLY)
 list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_cases.cpp)
 
+# ... and so does the table of materials
+set(BURR_MATERIALS ${PROJECT_SOURCE_DIR}/materials/materials.toml)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${BURR_MATERIALS})
+file(READ ${BURR_MATERIALS} BURR_MATERIALS_TEXT)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_materials.cpp.in ${CMAKE_BINARY_DIR}/built_in_materials.cpp @ONLY)
+list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_materials.cpp)
+
 set(library_sources ${BURR_SOURCES})
 list(REMOVE_ITEM library_sources ${BURR_READERS})
 add_library(burr SHARED ${library_sources})

@@ -353,6 +353,16 @@ void texts() {
        "\"bone\"\n[[target]]\ntissue = \"bone\"\ngoal = \"open\"\nshare = 0.5\n");
   for (const fs::directory_entry& entry : fs::directory_iterator(BURR_SOURCE_DIR "/cases"))
     seed("case", entry.path().filename().string(), content(entry.path()));
+  seed("materials", "built_in", content(BURR_SOURCE_DIR "/materials/materials.toml"));
+  seed("materials", "own",
+       "[[material]]\nname = \"Enamel\"\nfriction = { value = 0.3, low = 0, high = 2, source = "
+       "\"a bench\", calibrated = true }\n[[material]]\nname = 'x'\nlike = 'cement'\n");
+  seed("force_log", "all",
+       "# a bench\ntime_s,normal_n,tangential_n,rpm,radius_mm,removal_mm3_s,power_w,edge_mm,"
+       "material\n0,1,0.4,40000,2,3,3.3,0.5,bone\n0.1,2,0.9,40000,2,7,6.8,0.7,bone\n0.2,3,1.1,"
+       "30000,2,9,7,0.4,bone\n0.3,4,1.7,20000,2,8,6.6,1.1,bone\n0.4,0,0,0,2,0,0,0,\n");
+  seed("force_log", "few",
+       "removal_mm3_s, rpm, radius_mm, time_s, tangential_n, normal_n\r\n1,1e4,1,0,.1,.2\r\n");
   seed("hand_path", "metres", "t,x,y,z\n0,0,0,0.01\n0.5,0,0,0\n1,1e-3,-2e-3,0\n");
   seed("hand_path", "all",
        "t,x_mm,y_mm,z_mm,qw,qx,qy,qz,spindle\r\n0,0,0,1,1,0,0,0,1\r\n0.1,0,0,.5,0,1,0,0,0\r\n");

@@ -74,9 +74,9 @@ double default_voxel_mm(std::string_view name) {
   return known == nullptr ? 0 : known->voxel_mm;
 }
 
-Result<std::unique_ptr<volume::Bone>> phantom(std::string_view name, double voxel_mm,
-                                              Progress& progress, std::size_t reserve_bricks,
-                                              int threads) {
+Result<std::unique_ptr<volume::Bone>> phantom(
+    std::string_view name, double voxel_mm, Progress& progress, std::size_t reserve_bricks,
+    int threads, const std::function<void(volume::TissueTable&)>& made_of) {
   const Known* known = find(name);
   if (known == nullptr)
     return error(Trouble::usage, "there is no phantom named '" + std::string(name) +
@@ -87,7 +87,8 @@ Result<std::unique_ptr<volume::Bone>> phantom(std::string_view name, double voxe
                                      in_mm(known->voxel_mm) + " suits the phantom " +
                                      std::string(name));
   const double voxel = 1e-3 * voxel_mm;
-  const Phantom made = known->make(voxel);
+  Phantom made = known->make(voxel);
+  if (made_of) made_of(made.tissues);
   const Vec3 along = (made.hi - made.lo) / voxel;
   if (along.minCoeff() < kFewestAlong)
     return error(Trouble::usage, "voxels of " + in_mm(voxel_mm) +

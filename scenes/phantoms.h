@@ -10,6 +10,7 @@
 // Same name and voxel, same bits, whatever the number of threads.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -35,10 +36,10 @@ struct Phantom {
 
 // The phantom in voxels of voxel_mm (0: its default), with room for `reserve_bricks` bricks of
 // added material. Errors: unknown name or a voxel that does not fit (usage), interrupted.
-[[nodiscard]] Result<std::unique_ptr<volume::Bone>> phantom(std::string_view name, double voxel_mm,
-                                                            Progress& progress,
-                                                            std::size_t reserve_bricks = 2048,
-                                                            int threads = 2);
+// made_of: may give the tissues other constants than the phantom's own.
+[[nodiscard]] Result<std::unique_ptr<volume::Bone>> phantom(
+    std::string_view name, double voxel_mm, Progress& progress, std::size_t reserve_bricks = 2048,
+    int threads = 2, const std::function<void(volume::TissueTable&)>& made_of = {});
 
 // The makers, one file each; `voxel` [m] says how far labels reach into the ramp.
 [[nodiscard]] Phantom temporal_bone(double voxel);

@@ -32,6 +32,7 @@ void describe_volume(const VolumeOptions& options, const io::ImportSummary& impo
   if (!options.series.empty())
     info.words["series"] = options.series.front() == '#' ? options.series : "given by name";
   if (!options.tissues.empty()) info.words["tissue_table"] = "own";
+  if (!options.materials.empty()) info.words["materials"] = "own";
 }
 
 Result<VolumeOptions> options_of(const record::SessionInfo& session, const VolumeOptions& given,

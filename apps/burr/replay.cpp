@@ -108,6 +108,13 @@ Status run(const Options& options) {
                2e3 * recorded->settings.servo.burr.radius, out.value("removed_mm3", 0.0));
 
   if (options.check) {
+    const record::SessionInfo& info = player.info();
+    if (info.volume.words.contains("materials") && !info.embedded &&
+        options.volume.materials.empty())
+      return error(
+          Trouble::usage,
+          fmt::format("{}: was made with an own table of materials; give it again with --materials",
+                      options.file));
     auto bone = bone_of(player, options.volume, progress());
     if (!bone) return bone.error();
     auto outcome = sim::replay(player, std::move(*bone), progress());
@@ -158,6 +165,8 @@ void add(CLI::App& app, Todo& todo) {
                       "of a DICOM folder, if the recording was made with one");
   command->add_option("--tissues", options->volume.tissues,
                       "TOML table, if the recording was made with one");
+  command->add_option("--materials", options->volume.materials,
+                      "TOML table of materials, if the recording was made with one");
   command->add_flag("--json", options->json, "one JSON object on the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

@@ -3,8 +3,11 @@
 #include <fmt/core.h>
 
 #include <charconv>
+#include <functional>
+#include <utility>
 #include <vector>
 
+#include "burr/io/materials.h"
 #include "burr/volume/volume_of.h"
 #include "scenes/phantoms.h"
 
@@ -32,8 +35,17 @@ Result<io::Imported> open_phantom(const VolumeOptions& options, Progress& progre
   if (!options.series.empty() || !options.spacing_mm.empty() || !options.roi.empty() ||
       !options.iso.empty() || !options.tissues.empty() || options.read_seconds != 0 ||
       options.read_memory_mb != 0)
-    return error(Trouble::usage, "a phantom is a formula: only --voxel-mm changes it");
-  auto bone = scenes::phantom(name, options.voxel_mm, progress, options.reserve_bricks);
+    return error(Trouble::usage,
+                 "a phantom is a formula: only --voxel-mm and --materials change it");
+  std::function<void(volume::TissueTable&)> made_of;
+  if (!options.materials.empty()) {
+    auto materials = io::read_materials(options.materials);
+    if (!materials) return materials.error();
+    made_of = [all = std::move(*materials)](volume::TissueTable& table) {
+      for (std::size_t id = 1; id < table.tissues.size(); ++id) all.lay_over(table.tissues[id]);
+    };
+  }
+  auto bone = scenes::phantom(name, options.voxel_mm, progress, options.reserve_bricks, 2, made_of);
   if (!bone) return bone.error();
   io::Imported made;
   made.bone = std::move(*bone);
@@ -68,6 +80,8 @@ void add_volume_options(CLI::App& command, VolumeOptions& options) {
                      "I0,I1,J0,J1,K0,K1: only these voxels of the file, first and last, from 0");
   command.add_option("--tissues", options.tissues,
                      "TOML table: which labels are solid, soft or air");
+  command.add_option("--materials", options.materials,
+                     "TOML table: what tissues are made of (default: burr materials)");
   command.add_option("--smooth", options.smooth,
                      "noise to smooth, in HU or the file's unit; 0: none (default: as measured)");
   command.add_option("--memory-mb", options.memory_mb,
@@ -104,6 +118,7 @@ Result<io::ImportOptions> import_options(const VolumeOptions& options) {
   out.voxel_mm = options.voxel_mm;
   out.smooth = options.smooth;
   out.tissue_table = options.tissues;
+  out.materials = options.materials;
   out.reserve_bricks = options.reserve_bricks;
   if (options.memory_mb != 0) {
     if (!(options.memory_mb >= 16))

@@ -15,13 +15,13 @@ namespace burr::app {
 // As typed. Defaults are those of io::ReadOptions and io::ImportOptions.
 struct VolumeOptions {
   std::string path;  // a file, a DICOM folder, or phantom:NAME
-  std::string series, spacing_mm, roi, iso, tissues;
+  std::string series, spacing_mm, roi, iso, tissues, materials;
   double voxel_mm = 0, smooth = -1, memory_mb = 0;
   double read_seconds = 0, read_memory_mb = 0;  // limits of the fence
   std::size_t reserve_bricks = io::ImportOptions{}.reserve_bricks;
 };
 
-// Adds --series --voxel-mm --spacing-mm --iso --roi --tissues --smooth --memory-mb
+// Adds --series --voxel-mm --spacing-mm --iso --roi --tissues --materials --smooth --memory-mb
 // --read-seconds --read-memory-mb; the volume itself is the subcommand's own positional, because
 // some take a CASE or a recording there.
 void add_volume_options(CLI::App& command, VolumeOptions& options);

@@ -196,6 +196,8 @@ TEST(ImportGrey, CleanScansAreNotSmoothed) {
   EXPECT_EQ(plan->iso, 300) << "CT at 300 HU";
 }
 
+using ImportOwnMaterials = test::FolderTest;
+
 TEST(ImportGrey, HuDecidesTheTissueAndTheRimOfCortexStaysCortex) {
   const Scan scan = grey_scan({40, 40, 40}, {0.5, 0.5, 0.5}, [](const Vec3& p) {
     const double r = p.norm();
@@ -203,11 +205,32 @@ TEST(ImportGrey, HuDecidesTheTissueAndTheRimOfCortexStaysCortex) {
   });
   const auto bone = import_or_fail(scan);
   ASSERT_TRUE(bone);
-  EXPECT_EQ(bone->tissue(20, 20, 20), 1) << "trabecular";
-  EXPECT_EQ(bone->tissue(32, 20, 20), 2) << "cortical";
-  EXPECT_EQ(bone->tissue(34, 20, 20), 2) << "the half-filled rim";
-  EXPECT_GT(bone->tissues()[2].cutting_energy, bone->tissues()[1].cutting_energy);
+  EXPECT_EQ(bone->tissue(20, 20, 20), 3) << "trabecular, 450 to 575 HU";
+  EXPECT_EQ(bone->tissue(32, 20, 20), 5) << "cortical";
+  EXPECT_EQ(bone->tissue(34, 20, 20), 5) << "the half-filled rim";
+  EXPECT_GT(bone->tissues()[5].cutting_energy, bone->tissues()[3].cutting_energy);
   EXPECT_EQ(bone->intensity(20, 20, 20), 450);
+}
+
+TEST_F(ImportOwnMaterials, ReachEveryKindOfScan) {
+  std::ofstream(path("m.toml")) << "[[material]]\nname = \"cortical bone\"\ncutting_energy_J_mm3 = "
+                                   "{ value = 1.5, low = 1, high = 2, source = \"a test\", "
+                                   "calibrated = true }\n";
+  ImportOptions options;
+  options.materials = path("m.toml");
+  Scan ct = grey_scan({24, 24, 24}, {0.5, 0.5, 0.5},
+                      [](const Vec3& p) { return p.norm() < 4 ? 1200.0 : -1000.0; });
+  const auto by_hu = plan_import(ct, options);
+  ASSERT_TRUE(by_hu.ok()) << by_hu.error().text;
+  EXPECT_NEAR(by_hu->tissues[4].tissue.cutting_energy, 1.5e9, 1) << by_hu->tissues[4].tissue.name;
+  EXPECT_NEAR(import_or_fail(ct, options)->tissues()[5].cutting_energy, 1.5e9, 1);
+  ct.hounsfield = false;
+  EXPECT_NEAR(import_or_fail(ct, options)->tissues()[1].cutting_energy, 1.5e9, 1);
+  const Scan labels =
+      label_scan({24, 24, 24}, {1, 1, 1}, [](const Vec3& p) { return p.norm() < 8 ? 3 : 0; });
+  EXPECT_NEAR(import_or_fail(labels, options)->tissues()[1].cutting_energy, 1.5e9, 1);
+  options.materials = path("none.toml");
+  EXPECT_FALSE(plan_import(ct, options).ok());
 }
 
 TEST(ImportGrey, WithoutHuOtsuFindsTheLevelAndSaysSo) {

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "burr/io/grey.h"
+#include "burr/io/materials.h"
 #include "burr/io/surface_field.h"
 #include "burr/io/tissues.h"
 #include "burr/io/workers.h"
@@ -26,6 +27,7 @@ constexpr double kBoneHu = 300;
 struct Plan {
   ImportSummary summary;
   LabelTissues labels;
+  volume::TissueTable grey_tissues;
   std::array<std::int64_t, 256> counts{};
   Vec3 scale = Vec3::Ones();  // new voxels in old ones
   Vec3 first = Vec3::Zero();  // centre of the first new voxel, in old voxels of the region
@@ -148,6 +150,12 @@ Result<Plan> make_plan(const Scan& scan, const ImportOptions& options) {
   if (scan.values.empty() == scan.labels.empty() ||
       std::max(scan.values.size(), scan.labels.size()) != product(scan.size))
     return error(Trouble::internal, "a scan needs values or labels, one for each voxel");
+  Materials materials = built_in_materials();
+  if (!options.materials.empty()) {
+    auto read = read_materials(options.materials);
+    if (!read) return read.error();
+    materials = std::move(*read);
+  }
   Plan plan;
   ImportSummary& out = plan.summary;
   out.format = scan.format;
@@ -169,7 +177,7 @@ Result<Plan> make_plan(const Scan& scan, const ImportOptions& options) {
     plan.counts = count_labels(scan, out);
     std::array<bool, 256> present{};
     for (std::size_t v = 1; v < 256; ++v) present[v] = plan.counts[v] > 0;
-    auto labels = label_tissues(scan, present, options.tissue_table);
+    auto labels = label_tissues(scan, present, options.tissue_table, materials);
     if (!labels) return labels.error();
     plan.labels = std::move(*labels);
     out.notices.insert(out.notices.end(), plan.labels.notices.begin(), plan.labels.notices.end());
@@ -245,9 +253,11 @@ Result<Plan> make_plan(const Scan& scan, const ImportOptions& options) {
           fmt::format("Noise of {:.3g} {} is smoothed along the surface; see --smooth.", out.smooth,
                       scan.hounsfield ? "HU" : "(the file's unit)"));
   }
-  const volume::TissueTable table = scan.hounsfield ? hu_tissues() : volume::TissueTable{};
-  for (std::size_t id = 1; id < table.tissues.size(); ++id)
-    out.tissues.push_back({static_cast<volume::TissueId>(id), table.tissues[id], 0, 0});
+  if (scan.hounsfield) plan.grey_tissues = hu_tissues(materials);
+  auto& tissues = plan.grey_tissues.tissues;
+  if (!scan.hounsfield) materials.lay_over(tissues[1]);
+  for (std::size_t id = 1; id < tissues.size(); ++id)
+    out.tissues.push_back({static_cast<volume::TissueId>(id), tissues[id], 0, 0});
   return plan;
 }
 
@@ -398,9 +408,8 @@ Result<Imported> import_grey(const Scan& scan, const ImportOptions& options, Pla
   inside.soft = out.smooth > 0 ? 4.0F : 1.0F;
   const GreyTissue rule{grey.step, grey.zero, scan.hounsfield};
   Imported made;
-  made.bone =
-      bone_from_inside(grid_of(scan, plan), scan.hounsfield ? hu_tissues() : volume::TissueTable{},
-                       inside, rule, options.reserve_bricks, progress);
+  made.bone = bone_from_inside(grid_of(scan, plan), std::move(plan.grey_tissues), inside, rule,
+                               options.reserve_bricks, progress);
   if (made.bone == nullptr) return stopped();
   made.summary = std::move(out);
   return made;

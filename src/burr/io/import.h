@@ -44,6 +44,7 @@ struct ImportOptions {
   double smooth = -1;        // noise to remove, standard deviation in HU or the file's unit;
                              // 0: none, below 0: as much as is measured in the scan
   std::string tissue_table;  // path of a TOML file, see docs/labels.md; empty: by name
+  std::string materials;     // path of a TOML file, see docs/materials.md; empty: the built-in ones
   std::size_t reserve_bricks = 4096;  // room for deposited material
 };
 

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "burr/io/planes_kernel.h"
+#include "burr/io/tissues.h"
 #include "burr/io/workers.h"
 #include "burr/rt/lanes.h"
 #include "burr/rt/simd.h"
@@ -302,12 +303,8 @@ void label_tissue(const InsideGrid& grid, const Desk& desk, const math::Ijk& roo
       }
 }
 
-// Tissue by HU. Near the surface a voxel is only partly bone and its number too low: the densest
-// within two voxels counts there.
-TissueId hu_class(double hu) {
-  return hu < 700 ? TissueId{1} : hu < 2000 ? TissueId{2} : TissueId{3};
-}
-
+// Near the surface a voxel is only partly bone and its HU too low: the densest within two voxels
+// counts there.
 void grey_tissue_of(const InsideGrid& grid, const GreyTissue& rule, bool ramps, Desk& desk,
                     const math::Ijk& room, const Target& to) {
   // densest within two voxels, one axis after the other; only a ramp asks for it
@@ -348,7 +345,7 @@ void grey_tissue_of(const InsideGrid& grid, const GreyTissue& rule, bool ramps, 
         } else {
           const bool ramp = to.field[v] < volume::kSolid;
           const double densest = double{ramp ? desk.work[a] : desk.level[a]} + double{grid.iso};
-          to.tissue[v] = hu_class(densest * rule.step + rule.zero);
+          to.tissue[v] = hu_tissue(densest * rule.step + rule.zero);
         }
       }
 }

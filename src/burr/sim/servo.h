@@ -47,9 +47,7 @@ struct ServoSettings {
   double spindle_rad_s = 4188.79;  // at full pedal: 40 000 rpm; below 0: backwards
   tool::Motor motor;
   haptics::ForceSettings force;
-  // By the energy guard. Not by default: in tight holes it brakes in bursts of up to 0.3 N, where
-  // the force without it steps by 0.01 N (docs/status.md).
-  bool guarded = false;
+  bool guarded = false;        // by the energy guard; not by default: docs/status.md
   double guard_slack = 60e-6;  // that the guard lets pass, energy_guard.h               [J]
   bool irrigated = false;      // coolant runs from the start
   double drag_gain = 1;        // of the bone's drag on the turning burr in the hand

@@ -1,0 +1,174 @@
+#include "burr/fit/recorded_log.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "burr/base/shown.h"
+#include "burr/math/vec3.h"
+
+namespace burr::fit {
+namespace {
+
+// Settings of the session that the law of removal asks for.
+struct Law {
+  double radius = 0, pole = 0, friction = 0, max_power = 0;
+  bool fluted = true;  // no diamond burr
+};
+
+Result<Law> law_of(const record::SessionInfo& info, const std::string& file) {
+  const auto number = [&info](const char* name) -> std::optional<double> {
+    const auto found = info.numbers.find(name);
+    return found == info.numbers.end() ? std::nullopt : std::optional(found->second);
+  };
+  Law law;
+  for (const auto& [name, place] :
+       {std::pair{"burr_radius_m", &law.radius}, std::pair{"pole_share", &law.pole},
+        std::pair{"cutting_friction", &law.friction}, std::pair{"max_power_w", &law.max_power}}) {
+    const auto value = number(name);
+    if (!value || !(*value >= 0))
+      return error(
+          fmt::format("{}: the session's settings lack {}; it was recorded by another "
+                      "version of burr ({})",
+                      file, name, base::shown(info.burr_version)));
+    *place = *value;
+  }
+  law.fluted = number("burr_kind").value_or(0) == 0;
+  if (number("removal_law").value_or(0) == 1)
+    return error(
+        fmt::format("{}: was milled by the thesis' removal, which knows no force; record "
+                    "with --removal energy",
+                    file));
+  return law;
+}
+
+Result<std::string> only_solid(const volume::TissueTable& tissues, const std::string& file) {
+  std::string name;
+  int solid = 0;
+  for (std::size_t id = 1; id < tissues.tissues.size(); ++id) {
+    if (tissues.tissues[id].kind != volume::TissueKind::solid) continue;
+    name = tissues.tissues[id].name;
+    ++solid;
+  }
+  if (solid == 1) return name;
+  return error(Trouble::usage,
+               fmt::format("{}: the bone has {} solid tissues, and a recording does "
+                           "not say which was cut; say it with --material",
+                           file, solid));
+}
+
+// Sums over one window.
+struct Window {
+  int ticks = 0;
+  bool whole = true;  // cut in every tick, none missing
+  double normal = 0, speed = 0, radius = 0, friction_power = 0, power = 0, torque = 0;
+  double removed_at_start = 0;
+};
+
+}  // namespace
+
+Result<ForceLog> log_of_recording(record::Player& player, double window,
+                                  std::string_view material) {
+  const record::SessionInfo& info = player.info();
+  const std::string file = std::filesystem::path(player.path()).filename().string();
+  auto law = law_of(info, file);
+  if (!law) return law.error();
+  std::string name(material);
+  if (name.empty()) {
+    auto only = only_solid(info.volume.tissues, file);
+    if (!only) return only.error();
+    name = *only;
+  }
+  const int per_window = std::max(1, static_cast<int>(std::lround(window * info.rate_hz)));
+
+  ForceLog log;
+  const std::size_t place = log.material(name);
+  struct Both {
+    ForceRow row;
+    double power, torque_force;
+  };
+  std::vector<Both> rows;
+  bool any_power = false, any_torque = false, any_removal = false;
+  record::Step step;
+  record::StepCursor steps = player.steps();
+  Window now;
+  double removed = 0, radius = law->radius;
+  std::uint64_t removing = 0;
+  while (steps.next(step)) {
+    for (const record::Wish& wish : step.wishes) {
+      if (wish.kind == record::WishKind::burr_radius) radius = wish.value;
+      if (wish.kind == record::WishKind::removal_law && wish.value == 1)
+        return error(
+            fmt::format("{}: was milled in part by the thesis' removal, which knows no "
+                        "force; record with --removal energy",
+                        file));
+    }
+    const record::TickRow& tick = step.row;
+    if (now.ticks == 0) {
+      now = {};
+      now.removed_at_start = removed;
+    }
+    const math::Vec3& normal = tick.contact.normal;
+    const math::Vec3 axis = tick.hand.world_from_tool.q * math::Vec3::UnitZ();
+    const double push = std::max(0.0, tick.contact.force.dot(normal));
+    const double effective = radius * std::max(normal.cross(axis).norm(), law->pole);
+    const bool cuts = tick.contact.touching && push > 0 && tick.spindle_rad_s > 0;
+    now.whole = now.whole && cuts && !step.gap && tick.ledger.removed >= removed;
+    removed = tick.ledger.removed;
+    ++now.ticks;
+    now.normal += push;
+    now.speed += tick.spindle_rad_s;
+    now.radius += effective;
+    now.friction_power +=
+        std::min(law->friction * push * tick.spindle_rad_s * effective, law->max_power);
+    now.power += tick.cutting_w;
+    now.torque += tick.cutting_nm;
+    if (now.ticks < per_window) continue;
+    const double n = now.ticks;
+    ForceRow row;
+    row.time = (static_cast<double>(tick.tick + 1) - 0.5 * n) / info.rate_hz;
+    row.normal = now.normal / n;
+    row.speed = now.speed / n;
+    row.radius = now.radius / n;
+    row.removal = (removed - now.removed_at_start) * info.rate_hz / n;
+    row.material = place;
+    if (now.whole) {
+      row.power = now.friction_power / n;
+      rows.push_back({row, now.power / n, now.torque / n / row.radius});
+      any_power = any_power || now.power != 0;
+      any_torque = any_torque || now.torque != 0;
+    }
+    removing += row.removal > 0 ? 1U : 0U;
+    any_removal = any_removal || row.removal > 0;
+    now.ticks = 0;
+  }
+  for (const std::string& notice : player.notices()) log.notices.push_back(notice);
+  if (!any_removal)
+    return error(fmt::format("{}: nothing is removed in it; record a session that mills", file));
+  if (!any_power && !law->fluted)
+    return error(
+        fmt::format("{}: holds no power of cutting, and was made with a diamond burr; "
+                    "record it again with this version of burr",
+                    file));
+  if (!any_power)
+    log.notices.push_back(fmt::format(
+        "{}: holds no power of cutting; that of the law it was made with is taken (mu_c {:g})",
+        file, law->friction));
+  if (removing > rows.size())
+    log.notices.push_back(
+        fmt::format("{}: {} windows are left out in which the burr did not cut "
+                    "all the time",
+                    file, removing - rows.size()));
+  for (Both& one : rows) {
+    if (any_power) one.row.power = one.power;
+    if (any_torque) one.row.tangential = one.torque_force;
+    log.rows.push_back(one.row);
+  }
+  return log;
+}
+
+}  // namespace burr::fit

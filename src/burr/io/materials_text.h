@@ -1,0 +1,9 @@
+// io/materials_text.h - the text of materials/materials.toml, made part of the library by
+// cmake/library.cmake; of this room only.
+#pragma once
+
+namespace burr::io {
+
+[[nodiscard]] const char* built_in_materials_text();
+
+}  // namespace burr::io
