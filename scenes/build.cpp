@@ -55,6 +55,8 @@ class Sampler {
 
   // a brick the bound found to be solid throughout
   void fill_solid(BrickIndex brick, Field* field, TissueId* tissue) const {
+    std::fill_n(field, kBrickVoxels, Field{0});  // what lies outside the grid is air
+    std::fill_n(tissue, kBrickVoxels, TissueId{0});
     each_voxel(brick_ijk(brick) * kBrickEdge, [&](std::size_t v, const Vec3& p_grid) {
       field[v] = volume::kSolid;
       tissue[v] = 1;

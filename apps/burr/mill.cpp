@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "burr/device/simulated_hand.h"
+#include "burr/io/materials.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/picture.h"
 #include "burr/sim/motion.h"
@@ -77,6 +78,27 @@ math::Aabb work_box(const volume::Bone& bone, const Vec3& at) {
   box.lo = box.lo.cwiseMax(at - Vec3::Constant(kAround));
   box.hi = box.hi.cwiseMin(at + Vec3::Constant(kAround));
   return box;
+}
+
+// How each tissue warms, by its name, from the table of materials.
+Result<thermal::HeatSettings> heat_settings(const Options& options,
+                                            const volume::TissueTable& tissues) {
+  io::Materials materials = io::built_in_materials();
+  if (!options.volume.materials.empty()) {
+    auto read = io::read_materials(options.volume.materials);
+    if (!read) return read.error();
+    materials = std::move(*read);
+  }
+  thermal::HeatSettings settings;
+  for (std::size_t id = 1; id < tissues.tissues.size(); ++id) {
+    const volume::Tissue& tissue = tissues.tissues[id];
+    const io::Material& material = materials.of(tissue.name, tissue.kind);
+    if (!material.conductivity || !material.density || !material.specific_heat) continue;
+    settings.special.push_back(
+        {static_cast<volume::TissueId>(id),
+         {material.conductivity->value, material.density->value, material.specific_heat->value}});
+  }
+  return settings;
 }
 
 void print_heat(const sim::Session& session, const thermal::HeatSummary& heat, std::uint64_t lost) {
@@ -201,7 +223,11 @@ Status run(const Options& options) {
   settings.servo.force.stiffness = options.stiffness;
   settings.servo.undo_bricks = options.undo_bricks;
   settings.servo.irrigated = options.irrigated;
-  if (options.heat) settings.heat = sim::HeatWish{work_box(*opened->bone, place.at), {}};
+  if (options.heat) {
+    auto warming = heat_settings(options, opened->bone->tissues());
+    if (!warming) return warming.error();
+    settings.heat = sim::HeatWish{work_box(*opened->bone, place.at), std::move(*warming)};
+  }
   device::ArmSettings arm;
   if (options.arm == "rigid") arm.stiffness = INFINITY;
   if (options.arm == "light") arm = {.mass = 0.06, .damping = 5, .stiffness = 200};

@@ -30,6 +30,21 @@ TEST(Build, EveryVoxelIsWhatTheFormulaSaysSkippedOrNot) {
       }
 }
 
+// A brick reaches beyond a grid that is no multiple of eight: there it held whatever memory held.
+TEST(Build, WhatLiesOutsideTheGridIsAir) {
+  const volume::Grid grid = box_grid(Vec3::Constant(-1.5 * kMm), Vec3(1.5, 1.5, 9.5) * kMm, kMm);
+  const auto bone = bone_from_distance(grid, {}, box(Vec3::Constant(1)));  // a metre: solid
+  for (volume::BrickIndex brick = 0; brick < bone->brick_count(); ++brick) {
+    const math::Ijk first = bone->brick_ijk(brick);
+    for (int v = 0; v < volume::kBrickVoxels; ++v) {
+      const math::Ijk at = first + math::Ijk(v % 8, v / 8 % 8, v / 64);
+      const bool inside = (at.array() < grid.size.array()).all();
+      ASSERT_EQ(bone->brick_field(brick)[v], inside ? volume::kSolid : 0) << v;
+      ASSERT_EQ(bone->brick_tissue(brick)[v], inside ? 1 : 0) << v;
+    }
+  }
+}
+
 TEST(Build, TheNumberOfThreadsDoesNotMatter) {
   const Depth shape = gyroid(4 * kMm);
   const volume::Grid grid = cube_grid(16 * kMm, 70);

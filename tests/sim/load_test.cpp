@@ -174,6 +174,7 @@ Bench bench(const std::string& motion_name, double seconds, double h_mm, double 
                                                    device::ArmSettings{});
   b.settings.burr.radius = radius;
   b.settings.undo_bricks = 2048;
+  b.settings.drag_gain = 0;
   b.servo = std::make_unique<Servo>(*b.bone, *b.surface, *b.hand, b.settings);
   return b;
 }

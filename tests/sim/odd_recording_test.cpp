@@ -57,6 +57,7 @@ TEST_F(Odd, EverySettingThatNoSessionCanHaveHadIsNamed) {
     // what is written into whole numbers, counts and memory must not come from these
     for (const double odd : {1e300, -1e300, -1.0, std::numeric_limits<double>::quiet_NaN(),
                              std::numeric_limits<double>::infinity()}) {
+      if (name == "spindle_rad_s" && odd == -1.0) continue;  // backwards
       record::SessionInfo wrong = info;
       wrong.numbers[name] = odd;
       const auto settings = settings_of(wrong, "s.mcap");

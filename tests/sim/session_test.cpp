@@ -118,6 +118,7 @@ Plunge plunge(double h_mm, double rate, double seconds = 1.5) {
   settings.servo.spindle_rad_s = 8.4 / r;
   settings.servo.limit.ramp_time = 0.05;
   settings.servo.undo_bricks = 2048;
+  settings.servo.drag_gain = 0;  // a press straight down, as the formulas have it
   auto session = Session::make(
       slab(h_mm, 6),
       std::make_unique<device::SimulatedHand>(path, device::ArmSettings{0.1, 10, 200}), settings,

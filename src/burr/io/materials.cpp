@@ -117,8 +117,9 @@ class Reader {
                 Material& out) {
     for (const auto& [key, node] : table) {
       if (key.str() == "name" || key.str() == "like") continue;
-      const auto field = std::find_if(kFields.begin(), kFields.end(),
-                                      [&key](const auto& one) { return key.str() == one.key; });
+      const auto field =
+          std::find_if(kFields.begin(), kFields.end(),
+                       [name = key.str()](const auto& one) { return name == one.key; });
       if (field == kFields.end())
         return fail(fmt::format("material {}: {} is not known here; there are {}", number,
                                 base::shown(key.str()), keys()));
