@@ -55,44 +55,53 @@ double where(double wanted, const Value& value, const Slope& slope) BURR_RT {
 
 }  // namespace
 
-// Which pieces of the teeth are in bone, ring by ring about the push.
-void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& normal, const Spin& spin,
-                   double pole) BURR_RT {
+// A spiral of points, each as far from the others as can be (Fibonacci's; Vogel 1979), denser
+// towards the push: a contact of light pressure is a small cap.
+Chips::Chips(const volume::Bone& bone) : bone_(bone) {
+  const auto cosine_of = [](double n) {
+    const double share = n / kPoints;
+    return std::cos(0.5 * M_PI * share * std::sqrt(share));
+  };
+  for (int n = 0; n < kPoints; ++n) {
+    Point& point = points_[static_cast<std::size_t>(n)];
+    point.cosine = cosine_of(n + 0.5);
+    const double sine = std::sqrt(1 - point.cosine * point.cosine), beta = 2 * M_PI * kGolden * n;
+    point.u = sine * std::cos(beta);
+    point.v = sine * std::sin(beta);
+    point.area = 2 * M_PI * (cosine_of(n) - cosine_of(n + 1));
+  }
+}
+
+// Which pieces of the teeth are in bone, ring by ring about the push. In grid axes.
+void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& normal, const Vec3& axis,
+                   double pole, bool with_ripple) BURR_RT {
   const volume::Grid& grid = bone_.grid();
   const Vec3 at = grid.grid_from_world(centre);
-  const math::Quat grid_from_world = grid.frame.q.conjugate();
   const double r = burr.radius, reach = std::max(kReach, kLeastReach * grid.voxel);
-  const double turns = std::copysign(1.0, spin.speed);
-  // axes of the rings, and of the azimuth about the shaft
-  const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
-  const Vec3 x = spin.axis.unitOrthogonal(), y = spin.axis.cross(x);
+  const double steep = 2 * volume::kRamp * grid.voxel / reach, out = r / grid.voxel;
+  // axes of the rings, which turn with the shaft and not by themselves; of the azimuth about it
+  const Vec3 side = axis - axis.dot(normal) * normal;
+  const Vec3 u = side.squaredNorm() > 0.01 ? side.normalized() : normal.unitOrthogonal();
+  const Vec3 v = normal.cross(u);
+  const Vec3 x = axis.unitOrthogonal(), y = axis.cross(x);
   for (int k = 0; k < kRings; ++k) {
     Ring& ring = rings_[static_cast<std::size_t>(k)];
     ring = {};
     ring.force = {0, 0, 0, 0, 0};
-    for (int j = 0; j < kAround; ++j) {
-      // a spiral of points, each as far from the others as can be (Fibonacci's; Vogel 1979),
-      // denser towards the push: a contact of light pressure is a small cap
-      const int i = k * kAround + j;
-      const auto cosine_of = [](double n) {
-        const double share = n / (kRings * kAround);
-        return std::cos(0.5 * M_PI * share * std::sqrt(share));
-      };
-      const double piece = 2 * M_PI * r * r * (cosine_of(i) - cosine_of(i + 1));  // [m^2]
-      const double cosine = cosine_of(i + 0.5), sine = std::sqrt(1 - cosine * cosine);
-      const double beta = 2 * M_PI * kGolden * i;
-      const Vec3 way = -cosine * normal + sine * (std::cos(beta) * u + std::sin(beta) * v);
-      const Vec3 p = at + grid_from_world * way * (r / grid.voxel);
-      const double depth = (volume::sample(bone_, p) - volume::kIsoShare) * 2 * volume::kRamp *
-                           grid.voxel;  // below the surface [m]
-      const double in_bone = std::clamp(1 + depth / reach, 0.0, 1.0);
+    for (int n = k * kAround; n < (k + 1) * kAround; ++n) {
+      const Point& point = points_[static_cast<std::size_t>(n)];
+      const double cosine = point.cosine, piece = r * r * point.area;  // [m^2]
+      const Vec3 way = point.u * u + point.v * v - cosine * normal;
+      const Vec3 p = at + out * way;
+      const double in_bone =
+          std::clamp(1 + (volume::sample(bone_, p) - volume::kIsoShare) * steep, 0.0, 1.0);
       if (in_bone <= 0) continue;
       // the tissue of what lies before it, not of the air it has made
-      const Vec3 ahead = p + grid_from_world * way;
+      const Vec3 ahead = p + way;
       const math::Ijk cell = (ahead.array() + 0.5).floor().cast<int>();
       const volume::Tissue& tissue = bone_.tissues()[bone_.tissue(cell.x(), cell.y(), cell.z())];
       if (tissue.kind != volume::TissueKind::solid) continue;
-      const Vec3 sliding = spin.axis.cross(way);
+      const Vec3 sliding = axis.cross(way);
       const double far = std::max(sliding.norm(), pole);  // from the axis, over r
       const double edge = in_bone * piece * burr.teeth / (2 * M_PI * r * far);
       ring.edge += edge;
@@ -105,7 +114,8 @@ void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& norma
       ring.force.edge_tangential += edge * tissue.force.edge_tangential;
       ring.force.edge_radial += edge * tissue.force.edge_radial;
       ring.force.edge_onset += edge * tissue.force.edge_onset;
-      ring.drag += edge * turns / far * sliding;
+      ring.drag += edge / far * sliding;
+      if (!with_ripple) continue;
       // e^(i z phi) by multiplying z times
       const double px = way.dot(x), py = way.dot(y), across = std::hypot(px, py);
       if (across <= 0) continue;
@@ -131,12 +141,16 @@ void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& norma
 }
 
 Cutting Chips::step(const tool::Burr& burr, const Vec3& centre, const Vec3& normal, double push,
-                    const Spin& spin, double dt, const RemovalSettings& settings) BURR_RT {
+                    const Spin& spin, double dt, const RemovalSettings& settings,
+                    bool with_ripple) BURR_RT {
   Cutting cutting;
   feed_ = edge_ = rate_ = 0;
   if (!(push > 0) || !(spin.speed > 0) || burr.teeth < 1 || burr.kind != tool::BurrKind::cutting)
     return cutting;
-  gather(burr, centre, normal, spin, settings.pole);
+  const math::Quat& world_from_grid = bone_.grid().frame.q;
+  const math::Quat grid_from_world = world_from_grid.conjugate();
+  gather(burr, centre, grid_from_world * normal, grid_from_world * spin.axis, settings.pole,
+         with_ripple);
   const auto sum = [this](const auto& of) BURR_RT {
     double total = 0;
     for (const Ring& ring : rings_)
@@ -184,6 +198,7 @@ Cutting Chips::step(const tool::Burr& burr, const Vec3& centre, const Vec3& norm
     re += force * ring.swing_re;
     im += force * ring.swing_im;
   }
+  cutting.drag = world_from_grid * cutting.drag;
   // the spring along the normal is the thrust already
   cutting.drag -= cutting.drag.dot(normal) * normal;
   cutting.ripple = 2 * std::hypot(re, im);

@@ -35,13 +35,14 @@ namespace burr::edit {
 
 class Chips {
  public:
-  explicit Chips(const volume::Bone& bone) : bone_(bone) {}
+  explicit Chips(const volume::Bone& bone);
 
   // centre: of the burr, world [m]; normal: of the contact, unit, out of the bone; push: normal
-  // force [N]. A burr without teeth, or one that turns backwards, cuts nothing.
+  // force [N]. Without ripple it stays 0, for a quarter of the time less. A burr without teeth, or
+  // one that turns backwards, cuts nothing.
   [[nodiscard]] Cutting step(const tool::Burr& burr, const math::Vec3& centre,
                              const math::Vec3& normal, double push, const Spin& spin, double dt,
-                             const RemovalSettings& settings) BURR_RT;
+                             const RemovalSettings& settings, bool with_ripple = true) BURR_RT;
 
   // Of the last step.
   [[nodiscard]] double feed_per_tooth() const BURR_RT { return feed_; }  // f  [m]
@@ -59,10 +60,17 @@ class Chips {
     math::Vec3 drag = math::Vec3::Zero();           // sum of edge times its way
     double swing_re = 0, swing_im = 0;              // sum of edge times e^(i z phi)
   };
+  // A direction on the ball: parts along the push and across it, and its share of the area over
+  // r^2.
+  struct Point {
+    double cosine = 0, u = 0, v = 0, area = 0;
+  };
+  static constexpr int kPoints = kRings * kAround;
   void gather(const tool::Burr& burr, const math::Vec3& centre, const math::Vec3& normal,
-              const Spin& spin, double pole) BURR_RT;
+              const math::Vec3& axis, double pole, bool with_ripple) BURR_RT;
 
   const volume::Bone& bone_;
+  std::array<Point, kPoints> points_;
   std::array<Ring, kRings> rings_;
   double feed_ = 0, edge_ = 0, rate_ = 0;
 };

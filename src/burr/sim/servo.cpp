@@ -18,6 +18,7 @@ constexpr double kRestorePerSecond = 16e3;  // bricks; about as many as a deep c
 constexpr double kRecovery = 5;  // of bone that grew under the burr pushes it out  [voxel/s]
 constexpr double kRefreshRate =
     1e3;                          // of the budgets of IsoSettings: they are those of a millisecond
+constexpr double kFastest = 1e5;  // spindle, either way  [rad/s]
 constexpr double kCarried = 0.4;  // of the tick rate: what a force can be made to swing with [-]
 constexpr double kHeatEvery = 10e-3;  // a row to the worker that knows the heat  [s]
 constexpr int kFewMoves = 4;          // of the proxy, when even touch must do with less
@@ -178,16 +179,22 @@ Vec3 Servo::drag(const Vec3& touched) BURR_RT {
   const double most = drag_ratio_ * std::max(0.0, touched.dot(touch_.normal));
   if (is <= 0 || most <= 0) return Vec3::Zero();
   double gain = std::min(1.0, most / is);
-  if (std::abs(tooth) < kCarried * 2 * M_PI)
+  if (tooth_is_carried())
     gain *= 1 + std::min(1.0, settings_.drag_gain * cutting_.ripple / is) * std::cos(tooth_phase_);
   return gain * along;
+}
+
+// Can a force change from tick to tick as fast as one tooth follows the other?
+bool Servo::tooth_is_carried() const BURR_RT {
+  return settings_.burr.teeth * std::abs(spindle_.speed()) * dt_ < kCarried * 2 * M_PI;
 }
 
 edit::Cutting Servo::cut_by_law(double push, double speed) BURR_RT {
   const edit::Spin spin = {hand_.world_from_tool.q * Vec3::UnitZ(), speed};
   const tool::Burr& burr = settings_.burr;
   if (settings_.removal.law == edit::RemovalLaw::chips && burr.kind == tool::BurrKind::cutting)
-    return chips_.step(burr, touch_.proxy, touch_.normal, push, spin, dt_, settings_.removal);
+    return chips_.step(burr, touch_.proxy, touch_.normal, push, spin, dt_, settings_.removal,
+                       tooth_is_carried());
   return edit::energy_law(push, spin, burr.radius, tool::cutting_efficiency(burr.kind, speed),
                           touch_.normal, dt_, settings_.removal);
 }
@@ -316,7 +323,7 @@ void Servo::obey(const Wish& wish) BURR_RT {
   if (!std::isfinite(wish.value)) return;
   switch (wish.kind) {
     case WishKind::spindle_speed:
-      spindle_.full_speed = wish.value;
+      spindle_.full_speed = std::clamp(wish.value, -kFastest, kFastest);
       break;
     case WishKind::burr_radius:
       if (wish.value >= 2 * bone_.grid().voxel &&

@@ -143,6 +143,7 @@ class Servo {
   [[nodiscard]] math::Vec3 buzz() BURR_RT;
   [[nodiscard]] math::Vec3 drag(const math::Vec3& touched) BURR_RT;
   void choose_friction() BURR_RT;
+  [[nodiscard]] bool tooth_is_carried() const BURR_RT;
   [[nodiscard]] edit::Cutting cut_by_law(double push, double speed) BURR_RT;
   void cut_bone(const math::Vec3& force) BURR_RT;
   void tell_heat() BURR_RT;
