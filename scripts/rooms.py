@@ -28,9 +28,10 @@ ALLOWED = {
     "io": "volume surface rt",
     "render": "surface volume tool rt",
     "record": "device haptics edit volume rt",
+    "people": "",
     "scenario": "volume tool io",
     "metrics": "record scenario surface volume tool",
-    "sim": "rt volume tool device edit haptics surface sound thermal io render record scenario metrics",
+    "sim": "rt volume tool device edit haptics surface sound thermal people io render record scenario metrics",
 }
 BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest floors know less than everyone
 
