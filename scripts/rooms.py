@@ -29,9 +29,10 @@ ALLOWED = {
     "render": "surface volume tool rt",
     "record": "device haptics edit volume rt",
     "fit": "record",
+    "people": "",
     "scenario": "volume tool io",
     "metrics": "record scenario surface volume tool",
-    "sim": "rt volume tool device edit haptics surface sound thermal io render record fit scenario metrics",
+    "sim": "rt volume tool device edit haptics surface sound thermal people io render record fit scenario metrics",
 }
 BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest floors know less than everyone
 

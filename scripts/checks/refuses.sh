@@ -34,7 +34,7 @@ expect 0 'examples' "$burr" help
 expect 0 'usage' "$burr" --help
 expect 2 '' "$burr" no-such-command
 expect 2 '' "$burr" --no-such-option
-for command in info mill export replay repair phantom run; do
+for command in info mill export replay repair phantom run psychophysics; do
   "$burr" --help | grep -qE "^  $command( |$)" || continue
   expect 2 '' "$burr" $command --no-such-option
   expect 0 '' "$burr" $command --help
@@ -52,5 +52,22 @@ fi
 if "$burr" --help | grep -qE '^  replay'; then
   expect 74 'no/such' "$burr" replay "$place/no/such.mcap"
   expect 65 'rubbish' "$burr" replay "$place/rubbish.nrrd"
+fi
+if "$burr" --help | grep -qE '^  psychophysics'; then
+  expect 2 'stiffness' "$burr" psychophysics
+  expect 2 '' "$burr" psychophysics colour
+  expect 2 'trials' "$burr" psychophysics stiffness --trials 3
+  expect 2 'standard' "$burr" psychophysics friction --standard 0
+  expect 2 'largest' "$burr" psychophysics stiffness --standard 900
+  expect 2 'largest' "$burr" psychophysics vibration --largest 0.5
+  expect 2 'smallest' "$burr" psychophysics stiffness --smallest 0.9
+  expect 2 'seconds' "$burr" psychophysics stiffness --seconds 0.5
+  expect 2 'until' "$burr" psychophysics stiffness --until 0.001
+  expect 2 'code' "$burr" psychophysics stiffness --subject 'Jane Doe'
+  expect 2 'code' "$burr" psychophysics stiffness --subject abcdefghijklmnopq
+  expect 2 'threshold' "$burr" psychophysics stiffness --observer slope=2
+  expect 2 'threshold' "$burr" psychophysics stiffness --observer threshold=-1
+  expect 2 'slope' "$burr" psychophysics stiffness --observer threshold=0.1,slope=2,feels=yes
+  expect 74 'continue' "$burr" psychophysics --continue "$place/none"
 fi
 exit $bad

@@ -1,0 +1,260 @@
+// burr psychophysics - how small a difference of stiffness, friction or vibration is felt: two
+// intervals, one answer, some hundred times.
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "burr/people/observer.h"
+#include "burr/sim/feeling.h"
+#include "command.h"
+#include "people/run.h"
+#include "scenes/wall.h"
+
+namespace burr::app {
+namespace {
+
+using people::Stimulus;
+using people::Trial;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  std::string stimulus, device = "simulated", method = "bayes", rule = "1up2down", observer,
+                        subject, out, go_on;
+  std::optional<double> standard, smallest, largest;
+  int trials = 300;
+  double until = 0, lapse = 0.02, seconds = 3, rate_hz = 1000;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
+template <class T, std::size_t N>
+T named(const std::array<std::string_view, N>& names, const std::string& text) {
+  return static_cast<T>(std::find(names.begin(), names.end(), text) - names.begin());
+}
+
+Result<PeopleRun> run_of(const Options& options) {
+  PeopleRun run;
+  run.plan = usual_plan(named<Stimulus>(people::kStimulusNames, options.stimulus));
+  run.plan.standard = options.standard.value_or(run.plan.standard);
+  run.plan.smallest = options.smallest.value_or(run.plan.smallest);
+  run.plan.largest = options.largest.value_or(run.plan.largest);
+  run.plan.method = named<people::Method>(people::kMethodNames, options.method);
+  run.plan.rule = named<people::Rule>(people::kRuleNames, options.rule);
+  run.plan.trials = options.trials;
+  run.plan.until = options.until;
+  run.plan.lapse = options.lapse;
+  run.plan.seed = options.seed;
+  run.seconds = options.seconds;
+  run.wall.rate_hz = options.rate_hz;
+  run.device = options.device;
+  run.subject = options.subject;
+  if (!options.observer.empty()) {
+    auto observer = read_observer(options.observer);
+    if (!observer) return observer.error();
+    run.observer = *observer;
+  }
+  return run;
+}
+
+// Shows the intervals and gets the answers; who answers makes no difference to the rest.
+class Lab {
+ public:
+  explicit Lab(const PeopleRun& run) : run_(run), wall_(scenes::wall, run.wall) {}
+
+  // Refuses, before the first trial, what this device could not show in one of them.
+  Status possible() {
+    const people::Plan& plan = run_.plan;
+    const double most = plan.stimulus == Stimulus::vibration ? plan.standard + plan.largest
+                                                             : plan.standard * (1 + plan.largest);
+    return wall_.possible(device::DeviceSpec{}, wall_.of(plan.stimulus, most));
+  }
+
+  // 1 or 2; 0: nobody answers any more. took: of a person [s].
+  Result<int> ask(const Trial& trial, double& took) {
+    took = -1;
+    if (run_.observer && !run_.observer->feels) {
+      const ObserverWish& wish = *run_.observer;
+      return people::KnowingObserver({wish.threshold, wish.slope, run_.plan.guess, wish.lapse},
+                                     wish.seed)
+          .answer(trial);
+    }
+    std::array<double, 2> felt = {};
+    for (const int interval : {1, 2}) {
+      if (!run_.observer)
+        fmt::print(stderr, "trial {} of {}, interval {} ...\n", trial.number, run_.plan.trials,
+                   interval);
+      auto one = show(trial, interval);
+      if (!one) return one.error();
+      felt[static_cast<std::size_t>(interval - 1)] = *one;
+      if (interrupted()) return 0;
+    }
+    if (!run_.observer) return person(took);
+    const ObserverWish& wish = *run_.observer;
+    return people::FeelingObserver(run_.plan.stimulus, wish.threshold, wish.lapse, wish.seed)
+        .answer(trial, felt[0], felt[1]);
+  }
+
+ private:
+  // The simulated hand, each time a little differently. A real device is one that lasts: opened
+  // once, handed to Wall::show() here.
+  Result<double> show(const Trial& trial, int interval) {
+    const int gesture = (trial.number + 2 * interval) % sim::kGestures;
+    device::SimulatedHand hand(
+        sim::gesture_for(run_.plan.stimulus, gesture, run_.wall, run_.seconds), {});
+    if (Status opened = hand.open(); !opened) return opened.error();
+    auto felt = wall_.show(hand, wall_.of(run_.plan.stimulus, trial.shown(interval)), run_.seconds,
+                           [&] { return interrupted() || (!hand.spec().simulated && key()); });
+    if (!felt) return felt.error();
+    return sim::sensed(run_.plan.stimulus, *felt);
+  }
+
+  // A line was typed: the interval was long enough.
+  static bool key() {
+    pollfd in = {.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+    if (isatty(STDIN_FILENO) == 0 || poll(&in, 1, 0) <= 0) return false;
+    std::string line;
+    std::getline(std::cin, line);
+    return true;
+  }
+
+  int person(double& took) {
+    const auto began = Clock::now();
+    while (!interrupted()) {
+      fmt::print(stderr, "{} 1 or 2, then Enter: ", question_of(run_.plan.stimulus));
+      std::string line;
+      if (!std::getline(std::cin, line)) return 0;
+      took = std::chrono::duration<double>(Clock::now() - began).count();
+      if (line == "1" || line == "2") return line == "1" ? 1 : 2;
+    }
+    return 0;
+  }
+
+  const PeopleRun& run_;
+  sim::Wall wall_;
+};
+
+Result<Unfinished> begin(const Options& options) {
+  if (!options.go_on.empty()) return load_run(options.go_on);
+  if (options.stimulus.empty())
+    return error(Trouble::usage, fmt::format("say what is to be felt: {}; or --continue DIR",
+                                             fmt::join(people::kStimulusNames, ", ")));
+  auto run = run_of(options);
+  if (!run) return run.error();
+  return Unfinished{*run, {}, {}, {}};
+}
+
+Status run(const Options& options) {
+  auto begun = begin(options);
+  if (!begun) return begun.error();
+  const PeopleRun& run = begun->run;
+  if (Status sound = check(run); !sound) return sound;
+  Lab lab(run);
+  if (Status can = lab.possible(); !can) return can;
+  const std::string folder = options.go_on.empty() ? options.out : options.go_on;
+
+  people::Experiment experiment(run.plan);
+  std::vector<double> seconds = begun->seconds;
+  for (std::size_t n = 0; n < begun->answers.size(); ++n) {
+    if (experiment.finished() ||
+        std::abs(experiment.next().level - begun->levels[n]) > 1e-9 * begun->levels[n])
+      return error(
+          fmt::format("{}/trials.csv: trial {} is not what its plan shows then; it was "
+                      "changed, or made by another burr; start again without --continue",
+                      folder, n + 1));
+    experiment.answer(begun->answers[n]);
+  }
+  const auto save = [&](bool all) {
+    if (folder.empty()) return fine();
+    if (Status done = save_trials(folder, experiment, seconds); !done) return done;
+    return all ? save_result(folder, run, experiment) : fine();
+  };
+  if (Status done = save(true); !done) return done;  // a folder that cannot be is told of now
+
+  bool left = false;
+  while (!experiment.finished() && !interrupted() && !left) {
+    double took = -1;
+    auto answer = lab.ask(experiment.next(), took);
+    if (!answer) return answer.error();
+    left = *answer == 0;
+    if (left) break;
+    experiment.answer(*answer);
+    seconds.push_back(took);
+    if (!run.observer)  // what a person answered is never lost
+      if (Status done = save(false); !done) return done;
+    progress().report(static_cast<double>(seconds.size()) / run.plan.trials, "trials");
+  }
+  if (Status done = save(true); !done) return done;
+  if (options.json)
+    fmt::print("{}\n", nlohmann::json::parse(result_json(run, experiment)).dump());
+  else
+    fmt::print("{}\n", result_words(run, experiment));
+  if (experiment.finished()) return fine();
+  return error(
+      Trouble::interrupted,
+      folder.empty()
+          ? fmt::format("stopped after {} trials; with --out they would have been kept",
+                        seconds.size())
+          : fmt::format("stopped after {} trials; go on with burr psychophysics --continue {}",
+                        seconds.size(), folder));
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand(
+      "psychophysics", "how small a difference is felt: two intervals, one answer, many times");
+  command
+      ->add_option("stimulus", options->stimulus,
+                   "what differs: stiffness [N/m], friction, or vibration [N rms]")
+      ->check(CLI::IsMember(people::kStimulusNames));
+  command->add_option("--device", options->device, "the hand; real ones are to come")
+      ->check(CLI::IsMember({"simulated"}))
+      ->capture_default_str();
+  command->add_option("--observer", options->observer,
+                      "threshold=T[,slope=S][,lapse=L][,seed=N][,feels=yes]: simulated; "
+                      "default: a person answers 1 or 2");
+  command->add_option("--method", options->method, "how levels are chosen")
+      ->check(CLI::IsMember(people::kMethodNames))
+      ->capture_default_str();
+  command->add_option("--rule", options->rule, "of a staircase")
+      ->check(CLI::IsMember(people::kRuleNames))
+      ->capture_default_str();
+  command->add_option("--trials", options->trials, "at most")->capture_default_str();
+  command
+      ->add_option("--until", options->until,
+                   "end once the 95 % interval is narrower than this share either way; 0: never")
+      ->capture_default_str();
+  command->add_option("--standard", options->standard,
+                      "what the comparison is held against (default: 400 N/m, 0.4, 0 N)");
+  command->add_option("--smallest", options->smallest,
+                      "difference, as a share of the standard; of vibration [N]");
+  command->add_option("--largest", options->largest,
+                      "likewise (default: 1 for stiffness, 1.5 for friction, 0.15 N)");
+  command->add_option("--lapse", options->lapse, "rate that is assumed of the person")
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds, "of an interval, at most")
+      ->capture_default_str();
+  command->add_option("--rate", options->rate_hz, "ticks a second, 500 to 10000")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "of orders and levels")->capture_default_str();
+  command->add_option("--subject", options->subject,
+                      "a code of at most 16 letters, digits, - and _; no name");
+  auto* out =
+      command->add_option("--out", options->out, "DIR: trials.csv, result.json, result.html");
+  command
+      ->add_option("--continue", options->go_on,
+                   "DIR: of an earlier --out that was broken off; the rest is taken from there")
+      ->excludes(out);
+  command->add_flag("--json", options->json, "one JSON object on the last line");
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{55, add};
+
+}  // namespace
+}  // namespace burr::app

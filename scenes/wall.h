@@ -1,0 +1,14 @@
+// scenes/wall.h - a wall to press, rub and hold a tool against: bone below z = 0.
+#pragma once
+
+#include <memory>
+
+#include "burr/volume/bone.h"
+
+namespace burr::scenes {
+
+// 60 x 60 mm about the origin, 8 mm thick. Its one tissue rubs with coefficient 1, so that a scale
+// of friction is the coefficient itself.
+[[nodiscard]] std::unique_ptr<volume::Bone> wall();
+
+}  // namespace burr::scenes

@@ -1,0 +1,35 @@
+// people/chance.h - random numbers that are the same on every machine and counted, not chained: the
+// n-th of a seed and stream is the n-th, so an interrupted experiment goes on as if it had not
+// been.
+//
+// Thread: one. Memory: none.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "burr/base/hash.h"
+
+namespace burr::people {
+
+class Chance {
+ public:
+  explicit Chance(std::uint64_t seed, std::uint64_t stream = 0)
+      : seed_(base::mix(base::mix(std::uint64_t{0x70656f706c65}, seed), stream)) {}
+
+  // 0 <= u < 1
+  double uniform() { return static_cast<double>(base::mix(seed_, count_++) >> 11) * 0x1p-53; }
+  // mean 0, variance 1 (Box and Muller 1958)
+  double normal() {
+    const double a = 1 - uniform(), b = uniform();
+    return std::sqrt(-2 * std::log(a)) * std::cos(2 * std::numbers::pi * b);
+  }
+  // 0 .. below - 1
+  int below(int below) { return static_cast<int>(uniform() * below); }
+
+ private:
+  std::uint64_t seed_, count_ = 0;
+};
+
+}  // namespace burr::people

@@ -1,0 +1,113 @@
+// people/experiment.h - an experiment of two intervals, forced choice: what is shown next, in which
+// order, and what the answers say.
+//
+//     Experiment experiment(plan);
+//     while (!experiment.finished()) {
+//       const Trial trial = experiment.next();
+//       ... show(trial.shown(1)), show(trial.shown(2)), ask which was more ...
+//       experiment.answer(1 or 2);
+//     }
+//     experiment.outcome().fit.threshold
+//
+// Everything but the answers follows from the plan and its seed, so answers read from a file bring
+// an experiment to where it was. In every ten trials the comparison comes first in five.
+// Thread: one. Memory: a row a trial.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "burr/people/chance.h"
+#include "burr/people/fit.h"
+#include "burr/people/psi.h"
+#include "burr/people/staircase.h"
+
+namespace burr::people {
+
+enum class Stimulus { stiffness, friction, vibration };
+inline constexpr std::array<std::string_view, 3> kStimulusNames = {"stiffness", "friction",
+                                                                   "vibration"};
+enum class Method { bayes, staircase, constant };
+inline constexpr std::array<std::string_view, 3> kMethodNames = {"bayes", "staircase", "constant"};
+
+[[nodiscard]] constexpr std::string_view name(Stimulus stimulus) {
+  return kStimulusNames[static_cast<std::size_t>(stimulus)];
+}
+[[nodiscard]] constexpr std::string_view name(Method method) {
+  return kMethodNames[static_cast<std::size_t>(method)];
+}
+[[nodiscard]] constexpr std::string_view name(Rule rule) {
+  return kRuleNames[static_cast<std::size_t>(rule)];
+}
+
+struct Plan {
+  Stimulus stimulus = Stimulus::stiffness;
+  // N/m, coefficient, or N root mean square; of vibration 0: the standard is silence
+  double standard = 400;
+  // Levels: of stiffness and friction how much more the comparison has, as a share of the standard
+  // (Weber's fraction); of vibration what is added [N].
+  double smallest = 0.01, largest = 1;
+  Method method = Method::bayes;
+  Rule rule = Rule::one_up_two_down;  // of the staircase
+  int trials = 300;                   // at most
+  double until = 0;  // ends once the interval reaches no further than this share; 0: all trials
+  int levels = 7;    // of constant stimuli, evenly in the logarithm over all that can be shown
+  double guess = 0.5, lapse = 0.02;  // of the fitted function
+  std::uint64_t seed = 1;
+};
+
+struct Trial {
+  int number = 1;
+  double level = 0;
+  double standard = 0, comparison = 0;
+  bool comparison_first = false;
+  // What the first or second interval shows.
+  [[nodiscard]] double shown(int interval) const {
+    return (interval == 1) == comparison_first ? comparison : standard;
+  }
+  [[nodiscard]] int right_answer() const { return comparison_first ? 1 : 2; }
+};
+
+struct Answered {
+  Trial trial;
+  int answer = 0;  // the interval that was said to be more: 1 or 2
+  [[nodiscard]] bool right() const { return answer == trial.right_answer(); }
+};
+
+struct Outcome {
+  Fit fit;
+  std::vector<Tally> tallies;     // by rising level
+  std::optional<double> settled;  // of a staircase: at target_of(rule)
+  int trials = 0, comparison_first = 0, said_first = 0;
+};
+
+class Experiment {
+ public:
+  explicit Experiment(const Plan& plan);
+
+  [[nodiscard]] bool finished() const { return finished_; }
+  [[nodiscard]] const Trial& next() const { return next_; }  // while it is not finished
+  void answer(int interval);
+
+  [[nodiscard]] const Plan& plan() const { return plan_; }
+  [[nodiscard]] const std::vector<Answered>& answered() const { return answered_; }
+  [[nodiscard]] Outcome outcome() const;
+
+ private:
+  void prepare();
+  [[nodiscard]] double level();
+
+  Plan plan_;
+  Chance order_, blocks_;
+  std::variant<Psi, Staircase, std::vector<double>> chooser_;  // of constant stimuli: all to come
+  std::vector<bool> orders_;
+  std::vector<Answered> answered_;
+  Trial next_;
+  bool finished_ = false;
+};
+
+}  // namespace burr::people
