@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "burr/people/observer.h"
 
@@ -13,7 +14,7 @@ constexpr Psychometric kTruth{0.15, 3.5, 0.5, 0.02};
 
 // The answers of runs with seeds first, first + 1 ...
 struct Study {
-  int runs = 0, found = 0, covered = 0, within = 0;
+  int runs = 0, found = 0, covered = 0, within = 0, guessed = 0;
   double log_sum = 0, log_squares = 0, settled_sum = 0, trials = 0;
   [[nodiscard]] double bias() const { return std::exp(log_sum / found) - 1; }
   [[nodiscard]] double scatter() const {
@@ -32,6 +33,7 @@ Study study(Plan plan, const Psychometric& truth, int runs, std::uint64_t first)
     ++all.runs;
     all.trials += out.trials;
     if (out.settled) all.settled_sum += std::log(*out.settled);
+    if (out.fit.why.find("guessed") != std::string::npos) ++all.guessed;
     if (!out.fit.found) continue;
     ++all.found;
     const double off = std::log(out.fit.best.threshold / truth.threshold);
@@ -153,6 +155,7 @@ TEST(Estimate, WhoGuessesHasNoThreshold) {
     plan.trials = 200;
     const Study all = study(plan, {INFINITY, 3.5, 0.5, 0.02}, 100, 5000);
     EXPECT_LE(all.found, 1) << name(method);
+    EXPECT_GE(all.guessed, 95) << name(method);  // and is told so
   }
 }
 
@@ -161,6 +164,19 @@ TEST(Estimate, AThresholdBeyondTheLevelsIsNotMadeUp) {
   Plan plan;
   EXPECT_EQ(study(plan, {2.5, 3.5, 0.5, 0.02}, 20, 6000).found, 0);
   EXPECT_EQ(study(plan, {0.002, 3.5, 0.5, 0.02}, 20, 6000).found, 0);
+}
+
+TEST(Fit, AnIntervalThatLeavesWhatCouldBeShownIsNoThreshold) {
+  const FitSettings settings;
+  const Tally rising[] = {{0.25, 100, 52}, {0.5, 100, 60}, {1, 100, 74}};
+  EXPECT_NE(fit(rising, settings).why.find("above the largest"), std::string::npos);
+  const Tally easy[] = {{0.01, 100, 80}, {0.02, 100, 95}, {0.04, 100, 98}};
+  EXPECT_NE(fit(easy, settings).why.find("below the smallest"), std::string::npos);
+  const Tally fine[] = {{0.1, 100, 55}, {0.2, 100, 74}, {0.4, 100, 96}};
+  const Fit found = fit(fine, settings);
+  EXPECT_TRUE(found.found) << found.why;
+  EXPECT_NEAR(found.best.threshold, 0.2, 0.01);
+  EXPECT_EQ(fit({}, settings).why, "no threshold found: nothing was answered");
 }
 
 TEST(Experiment, OrdersAreBalancedAndNotToBeForeseen) {

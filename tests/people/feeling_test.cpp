@@ -30,6 +30,48 @@ TEST(Interval, StiffnessFrictionAndVibrationAreWhatWasAskedFor) {
   }
 }
 
+// Somebody else's hand. One that says it is real goes by the clock, in a session of its own.
+class Watched final : public device::Device {
+ public:
+  Watched(device::Device& hand, bool real) : hand_(hand), spec_(hand.spec()) {
+    spec_.simulated = !real;
+    spec_.loss_timeout = 10;  // a busy machine is not what is asked here
+  }
+  Status open() override {
+    ++opened;
+    return fine();
+  }
+  void close() override { ++closed; }
+  [[nodiscard]] const device::DeviceSpec& spec() const override { return spec_; }
+  [[nodiscard]] device::HandState state(double dt) BURR_RT override { return hand_.state(dt); }
+  void write_force(const math::Vec3& force) BURR_RT override {
+    hand_.write_force(force);
+    last = force;
+  }
+  int opened = 0, closed = 0;
+  math::Vec3 last = math::Vec3::Zero();
+
+ private:
+  device::Device& hand_;
+  device::DeviceSpec spec_;
+};
+
+TEST(Interval, TheForceIsTheSpringAloneAndADrillRubsNot) {
+  Wall wall(scenes::wall, {});
+  device::SimulatedHand hand(gesture_for(Stimulus::stiffness, 3, wall.settings(), kSeconds), {});
+  ASSERT_TRUE(hand.open().ok());
+  const auto felt = wall.show(hand, {.stiffness = 400}, kSeconds, {});
+  ASSERT_TRUE(felt.ok());
+  for (std::size_t n = 700; n < felt->at.size(); ++n)  // whether it comes or goes
+    ASSERT_NEAR(felt->force[n].z(),
+                400 * std::max(0.0, wall.settings().burr_radius - felt->at[n].z()), 2e-3);
+  device::SimulatedHand rubbing(gesture_for(Stimulus::friction, 1, wall.settings(), kSeconds), {});
+  ASSERT_TRUE(rubbing.open().ok());
+  const auto buzz = wall.show(rubbing, {.vibration = 0.05}, kSeconds, {});
+  ASSERT_TRUE(buzz.ok());
+  EXPECT_NEAR(sensed(Stimulus::vibration, *buzz), 0.05, 0.004);
+}
+
 TEST(Interval, BeginsAndEndsWithoutForceAndNeverExceedsTheLimits) {
   WallSettings settings;
   settings.user_force = 0.5;
@@ -37,8 +79,11 @@ TEST(Interval, BeginsAndEndsWithoutForceAndNeverExceedsTheLimits) {
   device::SimulatedHand hand(gesture_for(Stimulus::stiffness, 3, settings, kSeconds),
                              {.stiffness = 3000});
   ASSERT_TRUE(hand.open().ok());
-  const auto felt = wall.show(hand, {.stiffness = 900}, kSeconds, {});
+  Watched watched(hand, false);
+  const auto felt = wall.show(watched, {.stiffness = 900}, kSeconds, {});
   ASSERT_TRUE(felt.ok());
+  EXPECT_GT(felt->force.back().norm(), 0.1);
+  EXPECT_EQ(watched.last.norm(), 0);
   double most = 0, step = 0;
   for (std::size_t n = 0; n < felt->force.size(); ++n) {
     most = std::max(most, felt->force[n].norm());
@@ -58,36 +103,16 @@ TEST(Interval, WhatTheDeviceCannotShowIsRefusedWithASentence) {
   EXPECT_FALSE(wall.possible(spec, {.friction = 5}).ok());
 }
 
-// A device that says it is real: then the interval goes by the clock, in a session of its own.
-class ByTheClock final : public device::Device {
- public:
-  explicit ByTheClock(device::Device& hand) : hand_(hand), spec_(hand.spec()) {
-    spec_.simulated = false;
-    spec_.loss_timeout = 10;  // a busy machine is not what is asked here
-  }
-  Status open() override {
-    ++opened;
-    return fine();
-  }
-  void close() override { ++closed; }
-  [[nodiscard]] const device::DeviceSpec& spec() const override { return spec_; }
-  [[nodiscard]] device::HandState state(double dt) BURR_RT override { return hand_.state(dt); }
-  void write_force(const math::Vec3& force) BURR_RT override { hand_.write_force(force); }
-  int opened = 0, closed = 0;
-
- private:
-  device::Device& hand_;
-  device::DeviceSpec spec_;
-};
-
 TEST(Interval, ARealDeviceIsTickedByTheClockAndStaysOpen) {
   Wall wall(scenes::wall, {});
   device::SimulatedHand hand(gesture_for(Stimulus::stiffness, 1, wall.settings(), kSeconds), {});
   ASSERT_TRUE(hand.open().ok());
-  ByTheClock real(hand);
+  Watched real(hand, true);
   const auto felt = wall.show(real, {.stiffness = 400}, kSeconds, {});
   ASSERT_TRUE(felt.ok());
   EXPECT_NEAR(sensed(Stimulus::stiffness, *felt), 400, 4);
+  EXPECT_GT(felt->force.back().norm(), 0.1);
+  EXPECT_EQ(real.last.norm(), 0);           // let go at the end
   EXPECT_EQ(real.opened + real.closed, 0);  // it belongs to who lent it
   const auto broken_off = wall.show(real, {.stiffness = 400}, 60, [] { return true; });
   ASSERT_TRUE(broken_off.ok());

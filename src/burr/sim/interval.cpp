@@ -30,11 +30,14 @@ class LentHand final : public device::Device {
     device::HandState now = hand_.state(dt);
     now.pedal = spindle_ ? 1 : 0;
     at_ = now.world_from_tool.p;
+    read_ = true;
     return now;
   }
   void write_force(const Vec3& force) BURR_RT override {
     hand_.write_force(force);
-    if (felt_.at.size() == felt_.at.capacity()) return;  // room was taken before it began
+    // not the fade at the end, which follows no reading; room was taken before it began
+    if (!read_ || felt_.at.size() == felt_.at.capacity()) return;
+    read_ = false;
     felt_.at.push_back(at_);
     felt_.force.push_back(force);
   }
@@ -44,7 +47,7 @@ class LentHand final : public device::Device {
  private:
   device::Device& hand_;
   people::Felt& felt_;
-  bool spindle_;
+  bool spindle_, read_ = false;
   Vec3 at_ = Vec3::Zero();
 };
 
