@@ -25,7 +25,7 @@ using math::Vec3;
 
 struct Options {
   int size = 512;
-  std::string shape = "ball", mill;
+  std::string shape = "ball", mill, touch = "constraint", removal = "energy";
   double burr_mm = 6, depth_mm = 0.5, speed_mm_s = 20, sink_mm = 3;
   int ticks = 3000;
   double rate_hz = 1000;
@@ -92,7 +92,7 @@ double reference_us(const volume::Bone& bone, double radius) {
   return seen == 0 ? 0 : quantile(took, 0.5);
 }
 
-Status run(const Options& options) {
+Result<nlohmann::json> measure(const Options& options) {
   if (options.size < 32 || options.size > 1024)
     return error(Trouble::usage, "--size is out of range; take 32 to 1024");
   if (options.ticks < 10) return error(Trouble::usage, "--ticks is out of range; take 10 or more");
@@ -106,12 +106,14 @@ Status run(const Options& options) {
   device::SimulatedHand hand(hand_path(options), {.stiffness = INFINITY},
                              {.peak_force = 50, .continuous_force = 50, .max_stiffness = 1e5});
   Status opened = hand.open();
-  if (!opened) return opened;
+  if (!opened) return opened.error();
 
   const double r = options.burr_mm * 0.5e-3;
   sim::ServoSettings settings;
   settings.rate_hz = options.rate_hz;
   settings.burr.radius = r;
+  settings.touch = *haptics::method_named(options.touch);
+  settings.removal.law = *edit::law_named(options.removal);
   settings.spindle_rad_s = kSurfaceSpeed / r;
   settings.force = {1000, 0};
   settings.limit.user_force = 50;
@@ -158,6 +160,8 @@ Status run(const Options& options) {
   out["burr_mm"] = options.burr_mm;
   out["speed_mm_s"] = options.speed_mm_s;
   out["mill"] = options.mill;
+  out["touch"] = options.touch;
+  out["removal"] = options.removal;
   out["sink_mm"] = options.sink_mm;
   out["evict"] = options.evict;
   out["simd"] = rt::name(rt::simd());
@@ -179,21 +183,68 @@ Status run(const Options& options) {
   out["candidates_p50"] = quantile(candidates, 0.5);
   out["reference_us"] = reference;
   out["ratio"] = reference / p50;
+  return out;
+}
+
+Status run(const Options& options) {
+  const auto measured = measure(options);
+  if (!measured) return measured.error();
+  const nlohmann::json& out = *measured;
   if (options.json) {
     fmt::print("{}\n", out.dump());
-  } else {
-    fmt::print(
-        "tick {:.1f} us median, {:.1f} p99, {:.1f} p99.9, {:.1f} worst (thread CPU); reference "
-        "visit {:.0f} us, {:.0f} times as long\n",
-        p50, quantile(cpu_us, 0.99), quantile(cpu_us, 0.999), quantile(cpu_us, 1), reference,
-        reference / p50);
-    fmt::print(
-        "force {:.4f} N mean, direction off by {:.2f} deg median, {:.2f} p99, largest step {:.4f} "
-        "N a tick; removed {:.3f} mm3\n",
-        force_sum / options.ticks, quantile(error_deg, 0.5), quantile(error_deg, 0.99), step_most,
-        removed * 1e9);
+    return fine();
   }
+  const auto of = [&out](const char* name) { return out.at(name).get<double>(); };
+  const nlohmann::json& direction = out.at("direction_error_deg");
+  fmt::print(
+      "tick {:.1f} us median, {:.1f} p99, {:.1f} p99.9, {:.1f} worst (thread CPU); reference "
+      "visit {:.0f} us, {:.0f} times as long\n",
+      of("p50_us"), of("p99_us"), of("p999_us"), of("max_us"), of("reference_us"), of("ratio"));
+  fmt::print(
+      "force {:.4f} N mean, direction off by {:.2f} deg median, {:.2f} p99, largest step {:.4f} "
+      "N a tick; removed {:.3f} mm3\n",
+      of("mean_force_N"), direction.at("p50").get<double>(), direction.at("p99").get<double>(),
+      of("force_step_N_max"), of("removed_mm3"));
   return fine();
+}
+
+// Every method of touch on one scene, by one hand: touching, then milling a slide.
+Status run_methods(Options options) {
+  const bool json = options.json;
+  nlohmann::json all = nlohmann::json::array();
+  if (!json)
+    fmt::print("{:<16} {:<8} {:>9} {:>9} {:>9} {:>9} {:>12} {:>12}\n", "touch", "mill", "p50 us",
+               "p99 us", "p99.9 us", "max us", "force N", "off by deg");
+  for (const char* mill : {"", "slide"})
+    for (const std::string_view method : haptics::kMethodNames) {
+      options.touch = method;
+      options.mill = mill;
+      const auto measured = measure(options);
+      if (!measured) return measured.error();
+      all.push_back(*measured);
+      const auto of = [&](const char* name) { return measured->at(name).get<double>(); };
+      if (!json)
+        fmt::print("{:<16} {:<8} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f} {:>12.3f} {:>12.2f}\n", method,
+                   *mill == 0 ? "no" : mill, of("p50_us"), of("p99_us"), of("p999_us"),
+                   of("max_us"), of("mean_force_N"),
+                   measured->at("direction_error_deg").at("p50").get<double>());
+    }
+  if (json) fmt::print("{}\n", all.dump());
+  return fine();
+}
+
+void add_methods(CLI::App& bench, app::Todo& todo) {
+  auto options = std::make_shared<Options>();
+  options->size = 256;
+  auto* command = bench.add_subcommand("methods", "all methods of touch, on the scene of `tick`");
+  command->add_option("--size", options->size, "voxels along each edge of the cube")
+      ->capture_default_str();
+  command->add_option("--burr-mm", options->burr_mm, "diameter of the burr")
+      ->check(CLI::Range(0.6, 20.0))
+      ->capture_default_str();
+  command->add_option("--ticks", options->ticks, "counted ticks")->capture_default_str();
+  command->add_flag("--json", options->json, "one JSON array on the last line");
+  command->callback([options, &todo] { todo.work = [options] { return run_methods(*options); }; });
 }
 
 void add(CLI::App& bench, app::Todo& todo) {
@@ -207,6 +258,12 @@ void add(CLI::App& bench, app::Todo& todo) {
       ->capture_default_str();
   command->add_option("--mill", options->mill, "cut while moving")
       ->check(CLI::IsMember({"slide", "slot", "plunge"}));
+  command->add_option("--touch", options->touch, "the method of touch")
+      ->check(CLI::IsMember(haptics::kMethodNames))
+      ->capture_default_str();
+  command->add_option("--removal", options->removal, "the law of removal")
+      ->check(CLI::IsMember(edit::kLawNames))
+      ->capture_default_str();
   command->add_option("--sink-mm", options->sink_mm, "how deep slot and plunge are pressed")
       ->check(CLI::Range(0.01, 10.0))
       ->capture_default_str();
@@ -226,6 +283,6 @@ void add(CLI::App& bench, app::Todo& todo) {
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }
 
-const app::BenchCommand command{10, add};
+const app::BenchCommand command{10, add}, methods{12, add_methods};
 
 }  // namespace

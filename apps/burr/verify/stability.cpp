@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burr/device/simulated_hand.h"
+#include "burr/sim/session.h"
+#include "scenes/build.h"
 #include "verify.h"
 
 namespace burr::app {
@@ -124,9 +127,122 @@ void devices(Report::Part& part) {
   part.table(std::move(table));
 }
 
+// Whole sessions: a hand presses, waits, and the energy it gave is counted, -F dx, with the force
+// that was held over each tick.
+struct Pressing {
+  const char* name;
+  scenes::Depth bone;
+  double radius = 2e-3;
+  sim::ToolMode mode = sim::ToolMode::touch;
+  double stiffness = 1000;
+  device::ArmSettings arm = {.mass = 0.06, .damping = 5, .stiffness = 200};
+  bool guarded = false;
+  double drag = 1;
+};
+struct Lasting {
+  double least = 0, energy = 0;  // that the hand ever gave, and gave in the end [J]
+  double ripple = 0;  // standard deviation of the force in the last second, over its mean
+  double force = 0;   // its mean [N]
+  bool ok = false;
+};
+Lasting last(const Pressing& one, double seconds) {
+  using math::Vec3;
+  constexpr double kMm = 1e-3;
+  device::HandPath path;
+  for (const auto& [t, z] : {std::pair{0.0, 2 * kMm}, std::pair{0.7, 2 * kMm},
+                             std::pair{1.2, -3 * kMm}, std::pair{seconds, -3 * kMm}}) {
+    device::PathPoint point;
+    point.t = t;
+    point.world_from_tool.q = Eigen::AngleAxisd(M_PI / 2, Vec3::UnitY());
+    point.world_from_tool.p = {0, 0, 1.5 * one.radius + z};
+    path.points.push_back(point);
+  }
+  sim::SessionSettings settings;
+  settings.servo.burr.radius = one.radius;
+  settings.servo.mode = one.mode;
+  settings.servo.force.stiffness = one.stiffness;
+  settings.servo.guarded = one.guarded;
+  settings.servo.drag_gain = one.drag;
+  device::DeviceSpec strong;
+  strong.max_stiffness = 1e5;
+  NoProgress quiet;
+  auto made = sim::Session::make(
+      scenes::bone_from_distance(
+          scenes::box_grid(Vec3::Constant(-9 * kMm), Vec3::Constant(9 * kMm), 0.25 * kMm), {},
+          one.bone, 4096),
+      std::make_unique<device::SimulatedHand>(path, one.arm, strong), settings, quiet);
+  Lasting out;
+  if (!made) return out;
+  const int ticks = static_cast<int>(1000 * (seconds - 0.1));
+  Vec3 held = Vec3::Zero(), at = Vec3::Zero();
+  double sum = 0, squares = 0;
+  for (int n = 0; n < ticks; ++n) {
+    const record::TickRow& row = (*made)->servo().tick(false);
+    (*made)->servo().publish();
+    const Vec3 now = row.hand.world_from_tool.p;
+    if (n > 0) out.energy -= held.dot(now - at);
+    out.least = std::min(out.least, out.energy);
+    at = now;
+    held = row.contact.force;
+    if (n < ticks - 1000) continue;
+    const double force = held.norm();
+    sum += force;
+    squares += force * force;
+  }
+  out.force = sum / 1000;
+  out.ripple =
+      std::sqrt(std::max(0.0, squares / 1000 - out.force * out.force)) / std::max(out.force, 1e-9);
+  out.ok = true;
+  return out;
+}
+
+void lasting(const Verify& verify, Report::Part& part) {
+  using sim::ToolMode;
+  const double seconds = verify.quick ? 6 : 30;
+  const scenes::Depth flat = scenes::slab(), groove = scenes::groove(M_PI / 4);
+  const device::ArmSettings stiff = {.mass = 0.3, .damping = 40, .stiffness = 3000};
+  // border 2 b / T = 2 kN/m
+  const device::ArmSettings loose = {.mass = 0.06, .damping = 1, .stiffness = 200};
+  const Pressing kAll[] = {
+      {.name = "touch", .bone = flat},
+      {.name = "touch_guarded", .bone = flat, .guarded = true},
+      {.name = "removing", .bone = flat, .mode = ToolMode::cut, .drag = 0},
+      {.name = "removing_guarded", .bone = flat, .mode = ToolMode::cut, .guarded = true, .drag = 0},
+      {.name = "adding", .bone = flat, .mode = ToolMode::add},
+      {.name = "groove_small_burr", .bone = groove, .radius = 1e-3},
+      {.name = "groove_large_burr", .bone = groove, .radius = 3e-3},
+      {.name = "stiff_on_stiff", .bone = flat, .stiffness = 5000, .arm = stiff},
+      {.name = "beyond", .bone = flat, .stiffness = 5000, .arm = loose},
+      {.name = "beyond_guarded", .bone = flat, .stiffness = 5000, .arm = loose, .guarded = true},
+      {.name = "stiff_in_groove", .bone = groove, .stiffness = 5000, .arm = stiff},
+  };
+  Table table;
+  table.caption = fmt::format(
+      "A hand presses for {:.0f} s: 60 g on 200 N/m, or a stiff one of 0.3 kg on 3 kN/m against 5 "
+      "kN/m. Energy it gave, at the least ever; how much the force wavers in the last second.",
+      seconds);
+  table.head = {"contact", "least energy [mJ]", "at the end [mJ]", "force [N]", "wavers by"};
+  for (const Pressing& one : kAll) {
+    const Lasting out = last(one, seconds);
+    const std::string name = fmt::format("lasting.{}", one.name);
+    const bool beyond = name == "lasting.beyond";  // 2.5 times the border: has to fail
+    if (beyond)
+      part.at_least(name + ".wavers", 0.1, out.ripple, "of the force");
+    else
+      part.at_least(name + ".energy", -0.1, out.ok ? 1e3 * out.least : -1e3, "mJ");
+    if (one.mode == ToolMode::touch && one.arm.damping > 1)
+      part.at_most(name + ".wavers", 0.01, out.ripple, "of the force");
+    table.rows.push_back({one.name, fmt::format("{:.4f}", 1e3 * out.least),
+                          fmt::format("{:.3f}", 1e3 * out.energy), fmt::format("{:.3f}", out.force),
+                          fmt::format("{:.2g}", out.ripple)});
+  }
+  part.table(std::move(table));
+}
+
 void stability(const Verify& verify, Report::Part& part) {
   borders(verify, part);
   devices(part);
+  lasting(verify, part);
   part.cannot("a real device: masses, damping and friction of all but one are assumed");
 }
 
