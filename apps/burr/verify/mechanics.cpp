@@ -153,7 +153,7 @@ void spindle(const Verify& verify, Report::Part& part) {
   const double mu = settings.removal.friction, full = settings.spindle_rad_s;
   Line measured{"measured", {}, {}, false, true}, theory{"formula", {}, {}, true};
   double worst = 0;
-  for (const double newton : {0.5, 1.0, 1.5, 2.0, 2.4, 2.6, 3.0}) {
+  for (const double newton : {0.5, 1.0, 1.5, 2.0, 2.4, 2.8, 3.0}) {
     if (verify.quick && newton != 1.0 && newton != 3.0) continue;
     const Pressed out = press(settings, newton);
     const double push = out.force.z(), torque = mu * push * kRadius;
