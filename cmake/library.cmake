@@ -24,21 +24,27 @@ list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_materials.cpp)
 
 set(library_sources ${BURR_SOURCES})
 list(REMOVE_ITEM library_sources ${BURR_READERS})
+list(APPEND library_sources ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp)
 add_library(burr SHARED ${library_sources})
 add_dependencies(burr burr_read)  # without it no scan can be read
 add_library(burr::burr ALIAS burr)
 set_target_properties(burr PROPERTIES OUTPUT_NAME burr VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
 target_include_directories(burr PUBLIC
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_include_directories(burr PRIVATE ${PROJECT_SOURCE_DIR}/third_party)
 target_compile_features(burr PUBLIC cxx_std_20)
 target_link_libraries(burr PUBLIC Eigen3::Eigen Threads::Threads)
 target_link_libraries(burr PRIVATE $<BUILD_INTERFACE:burr_options> fmt::fmt ZLIB::ZLIB BZip2::BZip2
   PkgConfig::ZSTD
   PkgConfig::EPOXY PkgConfig::SDL2 nlohmann_json::nlohmann_json spdlog::spdlog)
-target_compile_definitions(burr PRIVATE BURR_VERSION="${PROJECT_VERSION}" TOML_HEADER_ONLY=1
+target_compile_definitions(burr PRIVATE BURR_VERSION="${PROJECT_VERSION}"
   BURR_LIBEXEC_FROM_LIB="${BURR_LIBEXEC_FROM_LIB}")
 target_link_libraries(burr PRIVATE ${CMAKE_DL_LIBS})
 burr_common_headers(burr <fmt/format.h>)
+
+set(reading ${BURR_SOURCES} ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp)
+list(FILTER reading INCLUDE REGEX "/(base|io|record|scenario|fit|third_party)/")
+burr_reads_files(${reading})
 
 # Kernels exist once per instruction set, from one source, and are chosen at run time; the bits are the same.
 foreach(source ${BURR_SOURCES})

@@ -40,11 +40,32 @@ if(BURR_SANITIZE)
   target_compile_options(burr_options INTERFACE -fsanitize=${BURR_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(burr_options INTERFACE -fsanitize=${BURR_SANITIZE})
   target_compile_definitions(burr_options INTERFACE BURR_SANITIZED=1)
-  if(BURR_FUZZ)  # fuzz/: which code an input reaches
-    target_compile_options(burr_options INTERFACE -fsanitize=fuzzer-no-link)
+  if(BURR_SANITIZE MATCHES "undefined")
+    # checks of every pointer followed: they take half of the compiler's time, AddressSanitizer sees what comes
+    # of most of them, and what reads files has them all (burr_reads_files)
+    target_compile_options(burr_options INTERFACE -fno-sanitize=null,alignment,vptr,object-size,pointer-overflow)
   endif()
   if(BURR_SANITIZE MATCHES "thread" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # it does not model fences (rt/versioned.h); the words they order are atomics, which never race
     target_compile_options(burr_options INTERFACE -Wno-tsan)
   endif()
 endif()
+
+# burr_reads_files(SOURCE...): what strangers' files go through; in the build `asan` with every check, and with the
+# counters by which the fuzzers see which code an input reaches
+function(burr_reads_files)
+  if(BURR_SANITIZE MATCHES "undefined")
+    set(every "-fsanitize=null,alignment,object-size,pointer-overflow")
+    if(BURR_FUZZ)
+      list(APPEND every "-fsanitize=fuzzer-no-link")
+    endif()
+    foreach(source ${ARGN})
+      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS ${every})
+    endforeach()
+  endif()
+endfunction()
+
+# burr_glue(TARGET): code that only calls the library, where the time goes. Half of -O3's time to compile.
+function(burr_glue target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()

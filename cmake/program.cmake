@@ -6,8 +6,15 @@ if(BURR_APP)
   target_include_directories(burr_program PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr)
   target_link_libraries(burr_program PRIVATE burr burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
     nlohmann_json::nlohmann_json PkgConfig::EPOXY PkgConfig::SDL2)
-  target_compile_definitions(burr_program PRIVATE BURR_VERSION="${PROJECT_VERSION}" TOML_HEADER_ONLY=1)
+  target_compile_definitions(burr_program PRIVATE BURR_VERSION="${PROJECT_VERSION}")
   burr_common_headers(burr_program <fmt/format.h> <nlohmann/json.hpp>)
+  burr_glue(burr_program)
+  # holds the yardstick of `burr bench tick`, which is compiled as the library is
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/apps/burr/bench_tick.cpp PROPERTIES
+    COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>")
+  if(BURR_WARNINGS_ONLY)
+    target_compile_options(burr_program PRIVATE -O0)
+  endif()
 endif()
 
 file(GLOB BURR_SAMPLES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/samples/s[0-9]*.cpp)

@@ -238,6 +238,17 @@ std::unique_ptr<Bone> bone_from_distance(const volume::Grid& grid,
       bone_from_formula(grid, tissues, formula, reserve_bricks, threads, nobody).value());
 }
 
+volume::TissueTable bone_that_costs(double cutting_energy) {
+  volume::TissueTable table;
+  volume::Tissue& bone = table.tissues[1];
+  const double times = cutting_energy / bone.cutting_energy;
+  bone.cutting_energy = cutting_energy;
+  for (double* one : {&bone.force.chip_tangential, &bone.force.chip_radial,
+                      &bone.force.edge_tangential, &bone.force.edge_radial})
+    *one *= times;
+  return table;
+}
+
 std::unique_ptr<Bone> peers_bone(int n, std::size_t reserve_bricks, int threads) {
   return bone_from_distance(peers_grid(n), {}, ball(kPeersBall), reserve_bricks, threads);
 }

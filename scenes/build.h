@@ -50,6 +50,10 @@ struct Formula {
     const volume::Grid& grid, const volume::TissueTable& tissues, const Depth& depth,
     std::size_t reserve_bricks = 0, int threads = 2, double lipschitz = 1);
 
+// One bone that costs `cutting_energy` [J/m^3] to cut; the forces on a tooth in proportion to the
+// usual bone's.
+[[nodiscard]] volume::TissueTable bone_that_costs(double cutting_energy);
+
 // The benchmarks' ball in n^3 voxels.
 [[nodiscard]] std::unique_ptr<volume::Bone> peers_bone(int n, std::size_t reserve_bricks = 0,
                                                        int threads = 2);

@@ -13,6 +13,7 @@
 
 #include "bench.h"
 #include "burr/device/simulated_hand.h"
+#include "burr/math/turn.h"
 #include "burr/rt/clock.h"
 #include "burr/rt/simd.h"
 #include "burr/sim/servo.h"
@@ -66,8 +67,7 @@ device::HandPath hand_path(const Options& options) {
       at = Vec3(along, 0.3 * along, half + r - sunk + above);
     }
     // the burr's axis lies along the surface, so that it cuts best
-    device::PathPoint point{
-        n * dt, {at, math::Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), side))}, 1};
+    device::PathPoint point{n * dt, {at, math::shortest_turn(Vec3::UnitZ(), side)}, 1};
     point.pedal = options.mill.empty() ? 0 : 1;
     path.points.push_back(point);
   }

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "burr/device/simulated_hand.h"
+#include "burr/math/turn.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/pick.h"
 #include "burr/render/picture.h"
@@ -256,7 +257,7 @@ Status run_in_window(const Options& options) {
   // the hand begins two centimetres above the work
   math::Pose above;
   above.p = work.place.at - 20e-3 * work.place.into;
-  above.q = math::Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -work.place.into));
+  above.q = math::shortest_turn(Vec3::UnitZ(), -work.place.into);
   auto hand = std::make_unique<MouseHand>(above);
   MouseHand& mouse = *hand;
   auto started =

@@ -22,7 +22,7 @@ class FitProgram : public burr::test::FolderTest {
  protected:
   void SetUp() override {
     program_ = std::string(BURR_BUILD_DIR) + "/burr";
-    if (!std::filesystem::exists(program_)) GTEST_SKIP() << "burr is not built";
+    ASSERT_TRUE(std::filesystem::exists(program_)) << "build the target burr first";
   }
   // what it says, and "exit N" as the last line
   std::string burr(const std::string& words) {

@@ -1,4 +1,5 @@
 #include "burr/render/picture.h"
+#include "burr/math/turn.h"
 
 #include <gtest/gtest.h>
 #define STB_IMAGE_IMPLEMENTATION
@@ -208,8 +209,7 @@ TEST(Picture, TheBurrHidesWhatIsBehindItAndNothingElse) {
   scene.burr.visible = true;
   scene.burr.radius = 5e-3;
   scene.burr.world_from_tool.p = {0, -0.045, 0};
-  scene.burr.world_from_tool.q =
-      math::Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX()));
+  scene.burr.world_from_tool.q = math::shortest_turn(Vec3::UnitZ(), Vec3::UnitX());
   const auto before = gpu.image(scene, 400, 400);
   scene.burr.world_from_tool.p = {0, 0.045, 0};
   const auto behind = gpu.image(scene, 400, 400);

@@ -19,15 +19,9 @@ constexpr double kMm = 1e-3;
 constexpr double kRadius = 2 * kMm;
 
 std::unique_ptr<volume::Bone> slab(double cutting_energy = 1e9) {
-  volume::TissueTable tissues;
-  tissues.tissues[1].cutting_energy = cutting_energy;
-  volume::CuttingForce& force = tissues.tissues[1].force;
-  for (double* one :
-       {&force.chip_tangential, &force.chip_radial, &force.edge_tangential, &force.edge_radial})
-    *one *= cutting_energy / 1e9;
   return scenes::bone_from_distance(
-      scenes::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), 0.25 * kMm), tissues,
-      scenes::slab(), 256);
+      scenes::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), 0.25 * kMm),
+      scenes::bone_that_costs(cutting_energy), scenes::slab(), 256);
 }
 
 // A rigid hand that comes down to `deep` in the bone, its shaft lying along x, and waits there.
@@ -112,6 +106,50 @@ TEST(Drag, IsNeverMoreThanThePushCausesAndGrowsWithoutAStep) {
   }
   EXPECT_GT(most, 0.2);
   EXPECT_LT(steepest, 0.02) << "[N] in a tick";
+}
+
+// In a hole that just takes the burr, the bone's pull is a force across the displacement, of
+// mu k = 400 N/m: a mass m with a damper b between walls k bears b sqrt(k / m), 200 N/m for these
+// 25 g and 1 N s/m. So a pull without delay winds such a hand up in circles.
+TEST(Drag, FollowsSoSlowlyThatALightHandDoesNotWhirlInAHole) {
+  const auto swings = [](double drag_gain, double drag_hz) {
+    device::HandPath path;
+    for (const double t : {0.0, 3.0}) {
+      device::PathPoint point;
+      point.t = t;
+      point.world_from_tool.p = {0.02 * kMm, 0, -3 * kMm};
+      point.pedal = 1;
+      path.points.push_back(point);
+    }
+    SessionSettings settings;
+    settings.servo.burr.radius = kRadius;
+    settings.servo.friction_turning = 0;
+    settings.servo.drag_gain = drag_gain;
+    settings.servo.drag_hz = drag_hz;
+    settings.surface.reserve_blocks = 1 << 13;
+    NoProgress quiet;
+    auto run = Session::make(
+        scenes::bone_from_distance(
+            scenes::box_grid(Vec3::Constant(-6 * kMm), Vec3::Constant(6 * kMm), 0.25 * kMm),
+            scenes::bone_that_costs(kNever),
+            scenes::without(scenes::slab(), scenes::cylinder(kRadius + 0.02 * kMm, 8 * kMm)), 256),
+        std::make_unique<device::SimulatedHand>(path, device::ArmSettings{0.025, 1, 20}), settings,
+        quiet);
+    EXPECT_TRUE(run.ok()) << run.error().text;
+    double farthest = 0;
+    for (int n = 0; n < 2900; ++n) {
+      const record::TickRow& row = (*run)->servo().tick(false);
+      const Vec3& at = row.hand.world_from_tool.p;
+      if (n >= 2000) farthest = std::max(farthest, std::hypot(at.x(), at.y()));
+      (*run)->servo().publish();
+    }
+    std::printf("drag %.0f at %4.0f Hz: %.3f mm from the middle of the hole\n", drag_gain, drag_hz,
+                farthest / kMm);
+    return farthest;
+  };
+  const double none = swings(0, 5), slow = swings(1, 5), quick = swings(1, 400);
+  EXPECT_LT(slow, none + 0.05 * kMm);
+  EXPECT_GT(quick, none + 0.2 * kMm);
 }
 
 TEST(Spindle, GivesWayAndStallsUnderTheHandAndTheSessionSaysSo) {

@@ -16,15 +16,9 @@ constexpr double kMm = 1e-3, kRadius = 2 * kMm, kRpm = 2 * std::numbers::pi / 60
 constexpr double kUncut = 1e18;  // bone that nothing cuts, so that the contact stays  [J/m^3]
 
 std::unique_ptr<volume::Bone> slab(double cutting_energy) {
-  volume::TissueTable tissues;
-  tissues.tissues[1].cutting_energy = cutting_energy;
-  volume::CuttingForce& force = tissues.tissues[1].force;
-  for (double* one :
-       {&force.chip_tangential, &force.chip_radial, &force.edge_tangential, &force.edge_radial})
-    *one *= cutting_energy / 1e9;
   return scenes::bone_from_distance(
-      scenes::box_grid(Vec3::Constant(-6 * kMm), Vec3::Constant(6 * kMm), 0.25 * kMm), tissues,
-      scenes::slab(), 256);
+      scenes::box_grid(Vec3::Constant(-6 * kMm), Vec3::Constant(6 * kMm), 0.25 * kMm),
+      scenes::bone_that_costs(cutting_energy), scenes::slab(), 256);
 }
 
 // A rigid hand with its shaft along +x presses straight down, 1 N for every millimetre, for a

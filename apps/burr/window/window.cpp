@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "burr/math/turn.h"
 #include "burr/render/pick.h"
 #include "burr/render/renderer.h"
 #include "burr/rt/stats.h"
@@ -228,7 +229,7 @@ void Mill::point() {
       (normal_ + 0.7 * scene_.camera.right() + 0.2 * scene_.camera.above()).normalized();
   MouseHand::Aim aim;
   aim.world_from_tool.p = surface + height * normal_;
-  aim.world_from_tool.q = math::Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), handle));
+  aim.world_from_tool.q = math::shortest_turn(Vec3::UnitZ(), handle);
   aim.pedal = press ? 1 : 0;
   hand_.aim(aim);
 }

@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "burr/base/shown.h"
+#include "burr/base/text_file.h"
 
 namespace burr::fit {
 namespace {
@@ -108,20 +109,9 @@ void ForceLog::append(const ForceLog& other) {
 }
 
 Result<ForceLog> read_force_log(const std::string& path) {
-  // errors name the file, not where on the disk it lies
-  const std::string file = std::filesystem::path(path).filename().string();
-  std::error_code trouble;
-  const auto size = std::filesystem::file_size(path, trouble);
-  if (trouble)
-    return error(Trouble::io, fmt::format("{}: cannot be read: {}", file, trouble.message()));
-  if (size > kLargestFile)
-    return error(
-        fmt::format("{}: {} bytes are too many for a force log; give it in parts", file, size));
-  std::ifstream stream(path, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(stream)),
-                         std::istreambuf_iterator<char>());
-  if (!stream) return error(Trouble::io, fmt::format("{}: cannot be read", file));
-  return parse_force_log(text, file);
+  const auto text = base::text_of_file(path, kLargestFile, "a force log; give it in parts");
+  if (!text) return text.error();
+  return parse_force_log(*text, std::filesystem::path(path).filename().string());
 }
 
 Result<ForceLog> parse_force_log(std::string_view text, std::string_view file) {

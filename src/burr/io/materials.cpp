@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <safe_toml.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,10 +11,9 @@
 
 #include "burr/base/check.h"
 #include "burr/base/shown.h"
-#include "burr/io/bytes.h"
+#include "burr/base/text_file.h"
 #include "burr/io/materials_text.h"
 #include "burr/io/text.h"
-#include "burr/io/toml.h"
 
 namespace burr::io {
 namespace {
@@ -269,30 +269,19 @@ const Materials& built_in_materials() {
 }
 
 Result<Materials> read_materials(const std::string& path) {
-  const std::string file = short_name(path);
-  auto bytes = first_bytes(path, kLargestFile + 1);
-  if (!bytes) return bytes.error();
-  if (bytes->size() > kLargestFile)
-    return error(
-        fmt::format("{}: more than {} bytes are too many for a table of materials; is "
-                    "this another file?",
-                    file, kLargestFile));
-  return parse_materials({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file,
-                         built_in_materials());
+  const auto text =
+      base::text_of_file(path, kLargestFile, "a table of materials; is this another file?");
+  if (!text) return text.error();
+  return parse_materials(*text, short_name(path), built_in_materials());
 }
 
 Result<Materials> parse_materials(std::string_view text, std::string_view file,
                                   const Materials& base) {
-  toml::table table;
-  try {
-    table = toml::parse(text);
-  } catch (const toml::parse_error& problem) {
-    return error(fmt::format("{}: line {}: {}", file, problem.source().begin.line,
-                             base::shown(problem.description(), 300)));
-  }
+  const auto table = parse_toml(text, file);
+  if (!table) return table.error();
   Materials out = base;
   Reader reader(file, !base.all.empty());  // the built-in table says all it knows
-  reader.all(table, out);
+  reader.all(*table, out);
   if (reader.wrong()) return *reader.wrong();
   return out;
 }

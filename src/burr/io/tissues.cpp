@@ -2,13 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <safe_toml.h>
 #include <algorithm>
 #include <cmath>
 
 #include "burr/base/shown.h"
-#include "burr/io/bytes.h"
+#include "burr/base/text_file.h"
 #include "burr/io/text.h"
-#include "burr/io/toml.h"
 
 namespace burr::io {
 namespace {
@@ -49,18 +49,13 @@ std::string names_of(const Materials& materials) {
 
 Status read_table(const std::string& path, const Materials& materials,
                   std::vector<Tissue>& of_value, std::array<bool, 256>& known) {
-  toml::table table;
   const std::string file = short_name(path);
-  auto bytes = first_bytes(path, std::size_t{1} << 20);
-  if (!bytes) return bytes.error();
-  try {
-    table =
-        toml::parse(std::string_view(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
-  } catch (const toml::parse_error& problem) {
-    return error(fmt::format("{}: line {}: {}", file, problem.source().begin.line,
-                             base::shown(problem.description(), 300)));
-  }
-  const auto* list = table["label"].as_array();
+  const auto text =
+      base::text_of_file(path, std::uintmax_t{1} << 20, "a table of labels; is this another file?");
+  if (!text) return text.error();
+  const auto read = parse_toml(*text, file);
+  if (!read) return read.error();
+  const auto* list = (*read)["label"].as_array();
   if (list == nullptr)
     return error(fmt::format("{}: no [[label]] in it; see docs/labels.md", file));
   for (const auto& node : *list) {

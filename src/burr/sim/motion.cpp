@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "burr/base/shown.h"
+#include "burr/math/turn.h"
 
 namespace burr::sim {
 namespace {
@@ -65,7 +66,7 @@ std::optional<Vec3> outward(const Bone& bone, const Vec3& p, double radius) {
 }
 
 math::Quat handle_along(const Vec3& outward_axis) {
-  return math::Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), outward_axis));
+  return math::shortest_turn(Vec3::UnitZ(), outward_axis);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <functional>
 #include <numbers>
 
+#include "burr/math/turn.h"
+
 namespace burr::render::gl {
 
 using math::Vec3;
@@ -179,7 +181,7 @@ const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
     const Vec3 d = rod.b - rod.a;
     const double length = d.norm();
     if (!(length > 0) || !d.allFinite()) continue;
-    const math::Quat q(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), d));
+    const math::Quat q = math::shortest_turn(Vec3::UnitZ(), d);
     // an arrow's head takes its part of the length
     const double head = rod.arrow ? std::min(6 * rod.radius, 0.6 * length) : 0;
     add(rod_, placed({rod.a, q}, rod.radius, length - head), rod.colour, false, rod.on_top, {tube});

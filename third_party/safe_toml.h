@@ -1,6 +1,11 @@
-// io/toml.h - toml++ as burr uses it: without asserts that a file could break, and without its own
-// warnings. Private to io, of this room only.
+// safe_toml.h - toml++ as burr uses it: without asserts that a file could break, and without its
+// own warnings; a mistake in the text is one sentence. For .cpp files; no header of ours shows
+// toml++. Its code is compiled once, in safe_toml.cpp.
 #pragma once
+
+#include <string_view>
+
+#include "burr/base/result.h"
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
@@ -13,6 +18,7 @@
 #pragma push_macro("NDEBUG")
 #undef NDEBUG
 #define TOML_ASSERT(condition) static_assert(true)
+#define TOML_HEADER_ONLY 0
 // its table of blanks calls letters such as U+02BD impossible; they are no blanks
 #include <toml++/impl/preprocessor.h>
 #pragma push_macro("TOML_UNREACHABLE")
@@ -25,3 +31,10 @@
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif
+
+namespace burr {
+
+// file: the name for the error's sentence.
+[[nodiscard]] Result<toml::table> parse_toml(std::string_view text, std::string_view file);
+
+}  // namespace burr

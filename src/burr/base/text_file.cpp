@@ -1,0 +1,26 @@
+#include "burr/base/text_file.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace burr::base {
+
+Result<std::string> text_of_file(const std::string& path, std::uintmax_t most,
+                                 std::string_view for_what) {
+  const std::string file = std::filesystem::path(path).filename().string();
+  std::error_code trouble;
+  const auto size = std::filesystem::file_size(path, trouble);
+  if (trouble)
+    return error(Trouble::io, fmt::format("{}: cannot be read: {}", file, trouble.message()));
+  if (size > most)
+    return error(fmt::format("{}: {} bytes are too many for {}", file, size, for_what));
+  std::ifstream stream(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  if (!stream) return error(Trouble::io, fmt::format("{}: cannot be read", file));
+  return text;
+}
+
+}  // namespace burr::base

@@ -1,0 +1,29 @@
+// math/turn.h - from one direction to another.
+#pragma once
+
+#include <cmath>
+
+#include "burr/math/vec3.h"
+
+namespace burr::math {
+
+// The shortest turn that takes the direction of `from` to that of `to`; neither may be zero. Of
+// opposite directions: half a turn about one of the axes across. What Eigen's
+// Quaternion::FromTwoVectors does, whose singular values for that last case take a compiler half a
+// minute in every file.
+inline Quat shortest_turn(const Vec3& from, const Vec3& to) {
+  const Vec3 a = from.normalized(), b = to.normalized();
+  const double cosine = a.dot(b);
+  Quat turn;
+  if (cosine < -1 + 1e-12) {
+    turn.w() = 0;
+    turn.vec() = a.unitOrthogonal();
+    return turn;
+  }
+  const double s = std::sqrt(2 * (1 + cosine));
+  turn.w() = 0.5 * s;
+  turn.vec() = a.cross(b) * (1 / s);
+  return turn;
+}
+
+}  // namespace burr::math
