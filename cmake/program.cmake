@@ -9,11 +9,11 @@ if(BURR_APP)
   target_compile_definitions(burr_program PRIVATE BURR_VERSION="${PROJECT_VERSION}")
   burr_common_headers(burr_program <fmt/format.h> <nlohmann/json.hpp>)
   burr_glue(burr_program)
-  # holds the yardstick of `burr bench tick`, which is compiled as the library is
-  set_source_files_properties(${PROJECT_SOURCE_DIR}/apps/burr/bench_tick.cpp PROPERTIES
-    COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>")
   if(BURR_WARNINGS_ONLY)
     target_compile_options(burr_program PRIVATE -O0)
+  else()  # holds the yardstick of `burr bench tick`, which is compiled as the library is
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/apps/burr/bench_tick.cpp PROPERTIES
+      COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>" SKIP_PRECOMPILE_HEADERS ON)
   endif()
 endif()
 

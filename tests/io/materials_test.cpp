@@ -36,7 +36,8 @@ TEST(Materials, TheBuiltInTableSaysOfEveryConstantHowSureItIs) {
 // what a tissue is without any table and what the table says of cortical bone must not part
 TEST(Materials, CorticalBoneIsTheDefaultTissue) {
   volume::Tissue tissue;
-  tissue.cutting_energy = tissue.friction = tissue.force.chip_tangential = 1;
+  tissue.cutting_energy = tissue.friction = tissue.cutting_friction = 1;
+  tissue.force.chip_tangential = 1;
   tissue.force.chip_radial = tissue.force.edge_tangential = tissue.force.edge_radial = 1;
   tissue.force.edge_onset = 1;
   lay_over(*built_in_materials().find("cortical bone"), tissue);
@@ -44,6 +45,7 @@ TEST(Materials, CorticalBoneIsTheDefaultTissue) {
   const auto same = [](double a, double b) { EXPECT_NEAR(a, b, 1e-12 * b); };
   same(tissue.cutting_energy, usual.cutting_energy);
   same(tissue.friction, usual.friction);
+  same(tissue.cutting_friction, usual.cutting_friction);
   same(tissue.force.chip_tangential, usual.force.chip_tangential);
   same(tissue.force.chip_radial, usual.force.chip_radial);
   same(tissue.force.edge_tangential, usual.force.edge_tangential);

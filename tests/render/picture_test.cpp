@@ -1,5 +1,4 @@
 #include "burr/render/picture.h"
-#include "burr/math/turn.h"
 
 #include <gtest/gtest.h>
 #define STB_IMAGE_IMPLEMENTATION
@@ -18,6 +17,7 @@
 #include <optional>
 #include <random>
 
+#include "burr/math/turn.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/pick.h"
 #include "render/gpu.h"

@@ -69,7 +69,7 @@ Vec3 settled_force(Session& run, int ticks = 2900) {
 TEST(Drag, ATurningBurrIsPulledAlongTheSurfaceByItsCuttingFriction) {
   SessionSettings settings;
   settings.servo.friction_turning = 0;  // what friction there is beside it
-  const double mu = settings.servo.removal.friction;
+  const double mu = volume::Tissue{}.cutting_friction;
   const Vec3 forward = settled_force(*session(settings, slab(kNever)));
   EXPECT_NEAR(forward.z(), 1, 0.02);
   EXPECT_NEAR(std::hypot(forward.x(), forward.y()) / forward.z(), mu, 0.01);
@@ -87,6 +87,17 @@ TEST(Drag, ATurningBurrIsPulledAlongTheSurfaceByItsCuttingFriction) {
   EXPECT_NEAR(settled_force(*session(settings, slab(kNever))).y(), 0, 1e-3);
 }
 
+TEST(Drag, IsThatOfTheTissueUnderTheBurr) {
+  SessionSettings settings;
+  settings.servo.friction_turning = 0;
+  auto bone = slab(kNever);
+  volume::TissueTable tissues = bone->tissues();
+  tissues.tissues[1].cutting_friction = 0.2;
+  const Vec3 smooth = settled_force(
+      *session(settings, scenes::bone_from_distance(bone->grid(), tissues, scenes::slab(), 256)));
+  EXPECT_NEAR(smooth.y() / smooth.z(), 0.2, 0.01);
+}
+
 TEST(Drag, IsNeverMoreThanThePushCausesAndGrowsWithoutAStep) {
   SessionSettings settings;
   settings.servo.friction_turning = 0;
@@ -98,7 +109,7 @@ TEST(Drag, IsNeverMoreThanThePushCausesAndGrowsWithoutAStep) {
     const haptics::Contact& contact = row.contact;
     const Vec3 along = contact.force - contact.force.dot(contact.normal) * contact.normal;
     const double push = std::max(0.0, contact.force.dot(contact.normal));
-    EXPECT_LE(along.norm(), settings.servo.removal.friction * push + 1e-9) << n;
+    EXPECT_LE(along.norm(), volume::Tissue{}.cutting_friction * push + 1e-9) << n;
     most = std::max(most, along.norm());
     steepest = std::max(steepest, (along - last).norm());
     last = along;
@@ -114,10 +125,11 @@ TEST(Drag, IsNeverMoreThanThePushCausesAndGrowsWithoutAStep) {
 TEST(Drag, FollowsSoSlowlyThatALightHandDoesNotWhirlInAHole) {
   const auto swings = [](double drag_gain, double drag_hz) {
     device::HandPath path;
-    for (const double t : {0.0, 3.0}) {
+    for (const auto& [t, aside] :
+         {std::pair{0.0, 0.0}, {0.4, 0.0}, {0.5, 0.3 * kMm}, {3.0, 0.3 * kMm}}) {
       device::PathPoint point;
       point.t = t;
-      point.world_from_tool.p = {0.02 * kMm, 0, -3 * kMm};
+      point.world_from_tool.p = {aside, 0, -3 * kMm};
       point.pedal = 1;
       path.points.push_back(point);
     }
@@ -132,8 +144,8 @@ TEST(Drag, FollowsSoSlowlyThatALightHandDoesNotWhirlInAHole) {
         scenes::bone_from_distance(
             scenes::box_grid(Vec3::Constant(-6 * kMm), Vec3::Constant(6 * kMm), 0.25 * kMm),
             scenes::bone_that_costs(kNever),
-            scenes::without(scenes::slab(), scenes::cylinder(kRadius + 0.02 * kMm, 8 * kMm)), 256),
-        std::make_unique<device::SimulatedHand>(path, device::ArmSettings{0.025, 1, 20}), settings,
+            scenes::without(scenes::slab(), scenes::cylinder(kRadius + 0.01 * kMm, 8 * kMm)), 256),
+        std::make_unique<device::SimulatedHand>(path, device::ArmSettings{0.025, 1, 50}), settings,
         quiet);
     EXPECT_TRUE(run.ok()) << run.error().text;
     double farthest = 0;

@@ -143,8 +143,8 @@ void laws(const Verify& verify, Report::Part& part) {
     const Plunge one = plunge(h, settings, energy, target, 0.4);
     double asked = 0;  // mu F w r / u, from the forces that were felt
     for (const auto& row : one.rows)
-      asked += settings.removal.friction * row.push * settings.spindle * settings.radius / energy /
-               settings.rate_hz;
+      asked += volume::Tissue{}.cutting_friction * row.push * settings.spindle * settings.radius /
+               energy / settings.rate_hz;
     return (one.removed + one.ledger.debt + one.ledger.not_cut) / asked;
   };
   for (const double target : {0.5, 1.0, 2.0})

@@ -98,7 +98,10 @@ void chips(Report::Part& part) {
             {{"energy", {}, {}, true}, {"chips", {}, {}}}};
   const auto both = [&](double push, double angle, Axes& into, double x) {
     const edit::Spin spin = {Vec3(std::sin(angle), 0, std::cos(angle)), 40000 * kRpm};
-    const double one = edit::energy_law(push, spin, kRadius, 1, up, 1, settings).energy / 1e9 * 1e9;
+    const double one =
+        edit::energy_law(push, spin, kRadius, volume::Tissue{}.cutting_friction, up, 1, settings)
+            .energy /
+        1e9 * 1e9;
     const double two = 1e9 * chips.step(burr, centre, up, push, spin, 1, settings).energy / 1e9;
     into.lines[0].x.push_back(x);
     into.lines[0].y.push_back(one);
@@ -124,7 +127,7 @@ void chips(Report::Part& part) {
 
 void drag(Report::Part& part) {
   sim::ServoSettings settings;
-  const double mu = settings.removal.friction;
+  const double mu = volume::Tissue{}.cutting_friction;
   const Vec3 forward = press(settings, 1).force;
   part.near("drag.over_push", mu, forward.y() / forward.z(), 0.01, "");
   part.at_most("drag.along_the_shaft", 0.01, std::abs(forward.x()), "N");
@@ -144,7 +147,7 @@ void spindle(const Verify& verify, Report::Part& part) {
   settings.motor.torque = 2e-3;
   settings.motor.friction = 0;
   settings.motor.inertia = 5e-8;  // stands within the time
-  const double mu = settings.removal.friction, full = settings.spindle_rad_s;
+  const double mu = volume::Tissue{}.cutting_friction, full = settings.spindle_rad_s;
   Line measured{"measured", {}, {}, false, true}, theory{"formula", {}, {}, true};
   double worst = 0;
   for (const double newton : {0.5, 1.0, 1.5, 2.0, 2.4, 2.8, 3.0}) {

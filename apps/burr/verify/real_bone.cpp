@@ -22,12 +22,13 @@ using math::Vec3;
 struct Subject {
   const char *name, *file, *spacing_mm;
   double minutes;
+  bool smooth;  // at the size of a burr; a rough one lets it drop from edge to edge
 };
 constexpr Subject kSubjects[] = {
-    {"temporal bone", "temporal_bone/RT143_512.seg.nrrd", "", 10},
-    {"jaw", "jaw_cbct/jaw_cbct_half_0.4mm.nii.gz", "", 2},
-    {"tooth", "tooth_microct/tooth.nhdr", "0.1,0.1,0.1", 2},
-    {"plastic skull", "skull_phantom/bone_1mm_jpegls", "", 2},
+    {"temporal bone", "temporal_bone/RT143_512.seg.nrrd", "", 10, false},
+    {"jaw", "jaw_cbct/jaw_cbct_half_0.4mm.nii.gz", "", 2, false},
+    {"tooth", "tooth_microct/tooth.nhdr", "0.1,0.1,0.1", 2, true},
+    {"plastic skull", "skull_phantom/bone_1mm_jpegls", "", 2, true},
 };
 
 constexpr double kNear = 0.3;      // a crossing nearer than its disc is wide may press      [voxel]
@@ -99,8 +100,51 @@ device::HandPath wander(const sim::WorkPlace& place, double r, double seconds, u
   return path;
 }
 
+// A soft hand pulls the burr to the bone with some newton and draws it along at 10 mm/s: its force
+// should hardly change, and what changes within a twentieth of a second is noise of the voxels.
+struct Noise {
+  double mean = 0, rms = 0, step = 0;  // of the force, and of its change from tick to tick [N]
+  std::vector<double> t, force;
+};
+Noise noise(Workbench& bench, const sim::WorkPlace& place, double r) {
+  const Vec3 along = place.into.unitOrthogonal();
+  const Vec3 above = place.at - 2 * r * place.into, deep = place.at + 5e-3 * place.into;
+  device::HandPath path = path_through({{0, above},
+                                        {0.5, deep},
+                                        {0.8, deep},
+                                        {1.2, deep + 4e-3 * along},
+                                        {1.4, above + 4e-3 * along}});
+  const auto rows = bench.work(path, {.mass = 0.1, .damping = 10, .stiffness = 200}, false);
+  Noise out;
+  for (const auto& row : rows)
+    if (row.t >= 0.8 && row.t <= 1.2) {
+      out.t.push_back(row.t);
+      out.force.push_back(row.force.norm());
+    }
+  constexpr std::size_t kHalf = 25;  // ticks of the running mean to each side
+  int count = 0;
+  for (std::size_t n = 0; n < out.force.size(); ++n) {
+    out.mean += out.force[n] / static_cast<double>(out.force.size());
+    if (n > 0) out.step = std::max(out.step, std::abs(out.force[n] - out.force[n - 1]));
+    if (n < kHalf || n + kHalf >= out.force.size()) continue;
+    double around = 0;
+    for (std::size_t k = n - kHalf; k <= n + kHalf; ++k) around += out.force[k];
+    out.rms += std::pow(out.force[n] - around / (2 * kHalf + 1), 2);
+    ++count;
+  }
+  out.rms = std::sqrt(out.rms / std::max(1, count));
+  return out;
+}
+
 void bones(const Verify& verify, Report::Part& part) {
   Series series{"real_bones", {"bone", "tick", "overlap_voxel", "unbalanced_share"}, {}};
+  Axes strokes{"a stroke without cutting", "time [s]", "force [N]", {}};
+  Table strengths{
+      "The stroke: force, what flickers faster than a twentieth of a second, and the "
+      "largest step from one tick to the next. On smooth bone the force must be calm; on "
+      "rough bone a burr drops from edge to edge, and the table says by how much.",
+      {"bone", "surface", "force [N]", "noise [%]", "step [N]"},
+      {}};
   for (const Subject& subject : kSubjects) {
     const std::filesystem::path file = std::filesystem::path(verify.data) / subject.file;
     if (verify.data.empty() || !std::filesystem::exists(file)) {
@@ -129,6 +173,18 @@ void bones(const Verify& verify, Report::Part& part) {
     settings.radius = r;
     settings.spindle = 8.4 / r;
     Workbench bench(std::move(opened->bone), settings);
+    const Noise stroke = noise(bench, *place, r);
+    strokes.lines.push_back({subject.name, stroke.t, stroke.force});
+    strengths.rows.push_back({subject.name, subject.smooth ? "smooth" : "rough",
+                              fmt::format("{:.2f}", stroke.mean),
+                              fmt::format("{:.2f}", 100 * stroke.rms / stroke.mean),
+                              fmt::format("{:.4f}", stroke.step)});
+    if (subject.smooth) {
+      part.at_least(fmt::format("{}.stroke", subject.name), 0.3, stroke.mean, "N");
+      part.at_most(fmt::format("{}.noise", subject.name), 0.01, stroke.rms / stroke.mean,
+                   "of the force");
+      part.at_most(fmt::format("{}.noise_step", subject.name), 0.02, stroke.step, "N");
+    }
     const double minutes = verify.quick ? 0.05 : subject.minutes;
     int tick = 0, fell = 0, silent = 0, judged = 0, touched = 0, lagged = 0;
     double overlap = 0;
@@ -170,6 +226,13 @@ void bones(const Verify& verify, Report::Part& part) {
     part.at_most(which + ".lagging", 0.01 * tick, lagged, "ticks");
   }
   part.series.push_back(std::move(series));
+  if (!strengths.rows.empty()) part.table(std::move(strengths));
+  if (!strokes.lines.empty())
+    part.plot(
+        {"A soft hand draws the burr over the bone at 10 mm/s, nothing is cut. The force follows "
+         "the bone's shape; what flickers faster than a twentieth of a second is noise.",
+         1,
+         {strokes}});
 }
 
 const VerifyPart part{

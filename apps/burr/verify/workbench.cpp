@@ -48,7 +48,8 @@ std::vector<Workbench::Row> Workbench::work(const device::HandPath& path,
 
     if (cut && row.push > 0) {
       const double spent =
-          dt * edit::cutting_power(row.push, settings_.spindle, settings_.radius, 1, touch.normal,
+          dt * edit::cutting_power(row.push, settings_.spindle, settings_.radius,
+                                   volume::Tissue{}.cutting_friction, touch.normal,
                                    touch.normal.unitOrthogonal(), settings_.removal);
       energy_ += spent;
       waiting += spent;

@@ -39,7 +39,6 @@ inline constexpr std::array<std::string_view, kLaws> kLawNames = {"energy", "the
 
 struct RemovalSettings {
   RemovalLaw law = RemovalLaw::energy;
-  double friction = 0.4;    // mu_c of cutting                                            [-]
   double max_power = 60;    // of the motor at the burr                                   [W]
   double pole = 0.15;       // least sin(theta)                                           [-]
   double thesis_rate = 10;  // of a voxel's density, 1 being solid; the thesis names none  [1/s]
@@ -70,22 +69,23 @@ struct Spin {
 }
 
 // Power that goes into cutting [W].  normal: unit contact normal; axis: unit, of the burr; force_n
-// [N]; speed [rad/s]
+// [N]; speed [rad/s]; friction: mu_c of the tissue (volume::Tissue::cutting_friction) times the
+// burr's share of it (tool::cutting_efficiency)
 [[nodiscard]] inline double cutting_power(double force_n, double speed, double radius,
-                                          double efficiency, const math::Vec3& normal,
+                                          double friction, const math::Vec3& normal,
                                           const math::Vec3& axis,
                                           const RemovalSettings& settings) BURR_RT {
   const double sine = std::max(normal.cross(axis).norm(), settings.pole);
-  const double power = efficiency * settings.friction * force_n * std::abs(speed) * radius * sine;
+  const double power = friction * force_n * std::abs(speed) * radius * sine;
   return std::clamp(power, 0.0, settings.max_power);
 }
 
 // A tick of it. push: normal force [N]
 [[nodiscard]] inline Cutting energy_law(double push, const Spin& spin, double radius,
-                                        double efficiency, const math::Vec3& normal, double dt,
+                                        double friction, const math::Vec3& normal, double dt,
                                         const RemovalSettings& settings) BURR_RT {
   Cutting cutting;
-  cutting.power = cutting_power(push, spin.speed, radius, efficiency, normal, spin.axis, settings);
+  cutting.power = cutting_power(push, spin.speed, radius, friction, normal, spin.axis, settings);
   if (cutting.power <= 0) return cutting;
   cutting.energy = cutting.power * dt;
   cutting.torque = cutting.power / std::abs(spin.speed);

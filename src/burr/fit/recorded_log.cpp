@@ -16,8 +16,9 @@ namespace {
 
 // Settings of the session that the law of removal asks for.
 struct Law {
-  double radius = 0, pole = 0, friction = 0, max_power = 0;
-  bool fluted = true;  // no diamond burr
+  double radius = 0, pole = 0, max_power = 0;
+  double friction = 0;  // 0: of the tissues; then power is recorded
+  bool fluted = true;   // no diamond burr
 };
 
 Result<Law> law_of(const record::SessionInfo& info, const std::string& file) {
@@ -28,7 +29,7 @@ Result<Law> law_of(const record::SessionInfo& info, const std::string& file) {
   Law law;
   for (const auto& [name, place] :
        {std::pair{"burr_radius_m", &law.radius}, std::pair{"pole_share", &law.pole},
-        std::pair{"cutting_friction", &law.friction}, std::pair{"max_power_w", &law.max_power}}) {
+        std::pair{"max_power_w", &law.max_power}}) {
     const auto value = number(name);
     if (!value || !(*value >= 0))
       return error(
@@ -37,6 +38,7 @@ Result<Law> law_of(const record::SessionInfo& info, const std::string& file) {
                       file, name, base::shown(info.burr_version)));
     *place = *value;
   }
+  law.friction = number("cutting_friction").value_or(0);
   law.fluted = number("burr_kind").value_or(0) == 0;
   if (number("removal_law").value_or(0) == 1)
     return error(
@@ -149,11 +151,11 @@ Result<ForceLog> log_of_recording(record::Player& player, double window,
   for (const std::string& notice : player.notices()) log.notices.push_back(notice);
   if (!any_removal)
     return error(fmt::format("{}: nothing is removed in it; record a session that mills", file));
-  if (!any_power && !law->fluted)
-    return error(
-        fmt::format("{}: holds no power of cutting, and was made with a diamond burr; "
-                    "record it again with this version of burr",
-                    file));
+  if (!any_power && !(law->fluted && law->friction > 0))
+    return error(fmt::format(
+        "{}: holds no power of cutting, and {}; record it again with this version of burr", file,
+        law->fluted ? "does not say by which friction it was made"
+                    : "was made with a diamond burr"));
   if (!any_power)
     log.notices.push_back(fmt::format(
         "{}: holds no power of cutting; that of the law it was made with is taken (mu_c {:g})",

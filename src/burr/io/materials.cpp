@@ -252,6 +252,7 @@ void lay_over(const Material& material, volume::Tissue& tissue) {
   };
   take(material.cutting_energy, tissue.cutting_energy);
   take(material.friction, tissue.friction);
+  take(material.cutting_friction, tissue.cutting_friction);
   take(material.chip_tangential, tissue.force.chip_tangential);
   take(material.chip_radial, tissue.force.chip_radial);
   take(material.edge_tangential, tissue.force.edge_tangential);

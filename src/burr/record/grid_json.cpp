@@ -114,6 +114,7 @@ json json_from_tissues(const volume::TissueTable& tissues) {
                     {"colour_srgb", tissue.colour},
                     {"cutting_energy_j_per_m3", tissue.cutting_energy},
                     {"friction", tissue.friction},
+                    {"cutting_friction", tissue.cutting_friction},
                     {"cutting_force", json_from_force(tissue.force)},
                     {"spare", tissue.spare},
                     {"label", tissue.label}});
@@ -135,6 +136,11 @@ bool tissues_from_json(const json& list, volume::TissueTable& tissues) {
         !numbers(object, "colour_srgb", colour) ||
         !number(object, "cutting_energy_j_per_m3", tissue.cutting_energy) ||
         !number(object, "friction", tissue.friction) || !force_from_json(object, tissue.force))
+      return false;
+    // older recordings have one for all tissues, among the settings of the session
+    if (object.contains("cutting_friction") &&
+        !(number(object, "cutting_friction", tissue.cutting_friction) &&
+          tissue.cutting_friction >= 0))
       return false;
     tissue.name = name->get<std::string>();
     tissue.spare = spare->get<bool>();

@@ -285,7 +285,8 @@ constexpr const char* kSessionSchema = R"({
        "kind": {"enum": ["air", "soft", "solid"]},
        "colour_srgb": {"type": "array", "items": {"type": "number"}, "description": "0..1"},
        "cutting_energy_j_per_m3": {"type": "number", "description": "specific cutting energy [J/m^3]"},
-       "friction": {"type": "number"},
+       "friction": {"type": "number", "description": "of a standing burr"},
+       "cutting_friction": {"type": "number", "description": "tangential over normal force of a cut"},
        "cutting_force": {"type": "object", "description": "of the chips law", "additionalProperties": {"type": "number"}},
        "spare": {"type": "boolean", "description": "must not be cut"},
        "label": {"type": "integer", "description": "value in the file it came from"}

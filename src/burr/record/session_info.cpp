@@ -110,7 +110,7 @@ Status check(const SessionInfo& info) {
   if (Status good = check_fields(info.volume.numbers, info.volume.words); !good.ok()) return good;
   for (const volume::Tissue& tissue : info.volume.tissues.tissues)
     if (!std::isfinite(tissue.cutting_energy) || !std::isfinite(tissue.friction) ||
-        !finite(tissue.force))
+        !std::isfinite(tissue.cutting_friction) || !finite(tissue.force))
       return error(
           Trouble::internal,
           fmt::format("recording: the tissue \"{}\" has a cutting energy, force or friction "

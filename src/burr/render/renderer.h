@@ -42,6 +42,10 @@ class Renderer {
   Status show(const Scene& scene);
   void title(const std::string& text);
 
+  // Leave out patches of bone that others hide (on by default; only a software renderer does). The
+  // picture is the same either way.
+  void skip_hidden(bool on);
+
   // of the window's drawing area; 1280 x 720 without a window  [pixel]
   [[nodiscard]] int width() const;
   [[nodiscard]] int height() const;

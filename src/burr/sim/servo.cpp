@@ -195,8 +195,10 @@ edit::Cutting Servo::cut_by_law(double push, double speed) BURR_RT {
   if (settings_.removal.law == edit::RemovalLaw::chips && burr.kind == tool::BurrKind::cutting)
     return chips_.step(burr, touch_.proxy, touch_.normal, push, spin, dt_, settings_.removal,
                        tooth_is_carried());
-  return edit::energy_law(push, spin, burr.radius, tool::cutting_efficiency(burr.kind, speed),
-                          touch_.normal, dt_, settings_.removal);
+  return edit::energy_law(
+      push, spin, burr.radius,
+      tool::cutting_efficiency(burr.kind, speed) * touched_tissue().cutting_friction, touch_.normal,
+      dt_, settings_.removal);
 }
 
 // The burr is in bone, where ours cannot begin: the force fades, and touch begins again in free
@@ -206,18 +208,19 @@ void Servo::let_go_in_bone() BURR_RT {
   engaged_ = false;
 }
 
+// What lies half a voxel under the point of contact.
+const volume::Tissue& Servo::touched_tissue() const BURR_RT {
+  const Vec3 foot =
+      touch_.proxy - (settings_.burr.radius + 0.5 * bone_.grid().voxel) * touch_.normal;
+  const math::Ijk at = (bone_.grid().grid_from_world(foot).array() + 0.5).floor().cast<int>();
+  return bone_.tissues()[bone_.tissue(at.x(), at.y(), at.z())];
+}
+
 // Bone rubs as its tissue says while the spindle stands; a turning burr hardly at all.
 void Servo::choose_friction() BURR_RT {
   double mu = settings_.friction_turning;
   if (spindle_.speed() == 0) {
-    mu = 0;
-    if (touch_.touching) {
-      const Vec3 foot =
-          touch_.proxy - (settings_.burr.radius + 0.5 * bone_.grid().voxel) * touch_.normal;
-      const math::Ijk at = (bone_.grid().grid_from_world(foot).array() + 0.5).floor().cast<int>();
-      mu =
-          bone_.tissues()[bone_.tissue(at.x(), at.y(), at.z())].friction * settings_.friction_scale;
-    }
+    mu = touch_.touching ? touched_tissue().friction * settings_.friction_scale : 0;
   }
   touch_by_.now().set_friction(mu, settings_.kinetic_share * mu);
 }

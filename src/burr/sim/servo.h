@@ -142,6 +142,7 @@ class Servo {
   [[nodiscard]] math::Vec3 passive(const math::Vec3& wanted, bool begins_anew) BURR_RT;
   [[nodiscard]] math::Vec3 buzz() BURR_RT;
   [[nodiscard]] math::Vec3 drag(const math::Vec3& touched) BURR_RT;
+  [[nodiscard]] const volume::Tissue& touched_tissue() const BURR_RT;
   void choose_friction() BURR_RT;
   [[nodiscard]] bool tooth_is_carried() const BURR_RT;
   [[nodiscard]] edit::Cutting cut_by_law(double push, double speed) BURR_RT;

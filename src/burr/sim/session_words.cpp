@@ -54,7 +54,6 @@ const Entry kEntries[] = {
     BURR_ENTRY("removal_law", settings.servo.removal.law, 0, edit::kLaws - 1),
     BURR_ENTRY("thesis_rate_per_s", settings.servo.removal.thesis_rate, 0, 1e6),
     BURR_ENTRY("thesis_frame_ticks", settings.servo.removal.thesis_frame, 1, 1e6),
-    BURR_ENTRY("cutting_friction", settings.servo.removal.friction, 0, 1e3),
     BURR_ENTRY("max_power_w", settings.servo.removal.max_power, 0, 1e6),
     BURR_ENTRY("pole_share", settings.servo.removal.pole, 0, 1),
     BURR_ENTRY("carve_advance_m", settings.servo.carve.advance_m, 0, 1e-2),

@@ -37,6 +37,7 @@ struct Tissue {
   std::array<float, 3> colour = {0.89F, 0.85F, 0.76F};  // sRGB 0..1
   double cutting_energy = 1.0e9;  // specific cutting energy            [J/m^3]
   double friction = 0.25;         // steel on it, wet, spindle off      [-]
+  double cutting_friction = 0.4;  // mu_c: tangential over normal force of a cut  [-]
   CuttingForce force = {};        // for the chips law of removal
   bool spare = false;             // must not be cut
   int label = 0;                  // value in the file it came from

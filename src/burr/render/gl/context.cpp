@@ -97,6 +97,12 @@ Context::~Context() {
   if (sdl_) SDL_QuitSubSystem(SDL_INIT_VIDEO);
 }
 
+bool Context::software() const {
+  for (const char* name : {"llvmpipe", "softpipe", "SwiftShader", "SWR"})
+    if (gpu_.find(name) != std::string::npos) return true;
+  return false;
+}
+
 void Context::make_current() { SDL_GL_MakeCurrent(static_cast<SDL_Window*>(window_), gl_); }
 void Context::swap() { SDL_GL_SwapWindow(static_cast<SDL_Window*>(window_)); }
 void Context::title(const std::string& text) {

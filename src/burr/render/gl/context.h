@@ -29,6 +29,7 @@ class Context {
 
   [[nodiscard]] bool visible() const { return visible_; }
   [[nodiscard]] bool es() const { return es_; }
+  [[nodiscard]] bool software() const;  // drawn by the processor
   [[nodiscard]] const std::string& gpu() const { return gpu_; }
 
  private:

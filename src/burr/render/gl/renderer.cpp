@@ -12,6 +12,7 @@
 #include <span>
 #include <utility>
 
+#include "burr/render/depth_tiles.h"
 #include "burr/render/gl/context.h"
 #include "burr/render/gl/overlay.h"
 #include "burr/render/gl/shaders.h"
@@ -229,6 +230,10 @@ struct Renderer::Work {
   int most = kMostTarget;                    // samples along a side
   int idle_width = 1280, idle_height = 720;  // of show() without a window
   Figures figures;
+  bool reads_depth = false;  // cheaply: a graphics card waits for it, and OpenGL ES does not at all
+  bool skip_hidden = true;
+  std::vector<float> depth;
+  DepthTiles tiles;
 
   // what the target holds, to draw only the difference next time
   struct Held {
@@ -279,6 +284,7 @@ Status Renderer::Work::start() {
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
   most = std::min({kMostTarget, texture, viewport[0], viewport[1]});
   nothing.make();
+  reads_depth = !context->es() && context->software();
   return fine();
 }
 
@@ -367,7 +373,17 @@ void Renderer::Work::paint_geometry(const Scene& scene, const Frame& frame, cons
   skin_mesh.set("tissue_colours", 0);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, skin.colours());
-  const gl::Skin::Drawn drawn = skin.draw(scene.camera.eye(), planes_of(r, frame));
+  const gl::Skin::Hidden hidden = {
+      [&] {
+        depth.resize(static_cast<std::size_t>(r.x1 - r.x0) * static_cast<std::size_t>(r.y1 - r.y0));
+        glPixelStorei(GL_PACK_ALIGNMENT, 4);
+        glReadPixels(r.x0, r.y0, r.x1 - r.x0, r.y1 - r.y0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                     depth.data());
+        tiles.look(depth.data(), {r.x0, r.y0, r.x1 - r.x0, r.y1 - r.y0});
+      },
+      [&](const Aabb& box) { return tiles.hide(box, clip_from_world, frame.width, frame.height); }};
+  const gl::Skin::Drawn drawn = skin.draw(scene.camera.eye(), planes_of(r, frame),
+                                          reads_depth && skip_hidden ? &hidden : nullptr);
   figures.patches_drawn += drawn.patches;
   figures.triangles_drawn += drawn.triangles;
 
@@ -692,6 +708,8 @@ Status Renderer::show(const Scene& scene) {
   }
   return fine();
 }
+
+void Renderer::skip_hidden(bool on) { work_->skip_hidden = on; }
 
 void Renderer::title(const std::string& text) { work_->context->title(text); }
 

@@ -4,12 +4,15 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace burr::render::gl {
 
 using math::Vec3;
 
 namespace {
+
+constexpr std::size_t kWorthLooking = 200;  // patches; for fewer it costs more than it saves
 
 std::uint8_t unorm(float v) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0F, 1.0F) * 255.0F));
@@ -135,16 +138,39 @@ void Skin::send(Part& part, const ScenePatch& patch) {
   glVertexAttribIPointer(1, 1, GL_UNSIGNED_INT, kStride, behind_p);
 }
 
-Skin::Drawn Skin::draw(const Vec3& eye, const std::array<Eigen::Vector4d, 6>& planes) const {
+void Skin::draw(const Part& part, Drawn& drawn) const {
+  glBindVertexArray(part.array.get());
+  glDrawElements(GL_TRIANGLES, part.count, part.type, nullptr);
+  ++drawn.patches;
+  drawn.triangles += part.count / 3;
+}
+
+Skin::Drawn Skin::draw(const Vec3& eye, const std::array<Eigen::Vector4d, 6>& planes,
+                       const Hidden* hidden) {
   Drawn drawn;
-  for (const Part& part : parts_) {
-    if (part.count == 0 || outside(part.box, planes) ||
-        turned_away(part.box, part.facing, part.spread, eye))
-      continue;
-    glBindVertexArray(part.array.get());
-    glDrawElements(GL_TRIANGLES, part.count, part.type, nullptr);
-    ++drawn.patches;
-    drawn.triangles += part.count / 3;
+  asked_.clear();
+  for (Part& part : parts_)
+    if (part.count > 0 && !outside(part.box, planes) &&
+        !turned_away(part.box, part.facing, part.spread, eye))
+      asked_.push_back(&part);
+  if (hidden == nullptr || asked_.size() < kWorthLooking) {
+    for (const Part* part : asked_) draw(*part, drawn);
+    return drawn;
+  }
+  if (std::none_of(asked_.begin(), asked_.end(), [](const Part* part) { return part->seen; })) {
+    // nothing is known yet: what is nearest hides most
+    const auto third = asked_.begin() + static_cast<std::ptrdiff_t>(asked_.size() / 3);
+    std::nth_element(asked_.begin(), third, asked_.end(), [&](const Part* a, const Part* b) {
+      return (a->box.centre() - eye).squaredNorm() < (b->box.centre() - eye).squaredNorm();
+    });
+    for (auto at = asked_.begin(); at != third; ++at) (*at)->seen = true;
+  }
+  for (const Part* part : asked_)
+    if (part->seen) draw(*part, drawn);
+  hidden->look();
+  for (Part* part : asked_) {
+    const bool before = std::exchange(part->seen, !hidden->is(part->box));
+    if (part->seen && !before) draw(*part, drawn);
   }
   return drawn;
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "burr/render/gl/objects.h"
@@ -24,9 +25,16 @@ class Skin {
     int patches = 0;
     long triangles = 0;
   };
+  // Whether nothing of a box can be seen behind what has been drawn since `look`.
+  struct Hidden {
+    std::function<void()> look;
+    std::function<bool(const math::Aabb& box)> is;
+  };
   // Draws with the program in use what may be seen from `eye` inside the planes (nx, ny, nz, d:
-  // n . p + d >= 0 inside).
-  Drawn draw(const math::Vec3& eye, const std::array<Eigen::Vector4d, 6>& planes) const;
+  // n . p + d >= 0 inside). With `hidden`: first what was seen the last time, then of the rest what
+  // is not hidden behind it (two passes: Hill & Collin, GPU Pro 2, 2011). The picture is the same.
+  Drawn draw(const math::Vec3& eye, const std::array<Eigen::Vector4d, 6>& planes,
+             const Hidden* hidden);
 
  private:
   struct Part {
@@ -38,11 +46,14 @@ class Skin {
     math::Aabb box;
     math::Vec3 facing = math::Vec3::Zero();  // middle of the cone of the triangles' normals
     double spread = 0;                       // its half angle; pi: every way         [rad]
+    bool seen = false;                       // when it was last asked for
   };
+  void draw(const Part& part, Drawn& drawn) const;
   void send(Part& part, const ScenePatch& patch);
   void send_colours();
 
   std::vector<Part> parts_;
+  std::vector<Part*> asked_;  // of this draw
   std::vector<Colour> colours_;
   Texture colour_row_;
 };

@@ -1,0 +1,163 @@
+// What is left out because other bone hides it: never anything that could be seen.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "burr/render/bone_scene.h"
+#include "burr/render/depth_tiles.h"
+#include "render/gpu.h"
+#include "scenes/build.h"
+#include "scenes/shapes.h"
+
+namespace burr::render {
+namespace {
+
+using math::Aabb;
+using math::Vec3;
+constexpr double kMm = 1e-3;
+
+// ---- by itself
+
+// Eye at the origin, looking along -z; near 1, far 10.
+Eigen::Matrix4d perspective() {
+  Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
+  m(0, 0) = m(1, 1) = 1;
+  m(2, 2) = -11.0 / 9;
+  m(2, 3) = -20.0 / 9;
+  m(3, 2) = -1;
+  return m;
+}
+double depth_at(double z) { return 0.5 * (11.0 / 9 * -z - 20.0 / 9) / -z + 0.5; }
+
+TEST(DepthTiles, HideWhatIsWhollyBehindAWall) {
+  constexpr int kSize = 64;
+  std::vector<float> depth(kSize * kSize, static_cast<float>(depth_at(-4)));
+  DepthTiles tiles;
+  tiles.look(depth.data(), {0, 0, kSize, kSize});
+  const auto hidden = [&](const Aabb& box) { return tiles.hide(box, perspective(), kSize, kSize); };
+  EXPECT_TRUE(hidden({{-1, -1, -6}, {1, 1, -5}}));
+  EXPECT_TRUE(hidden({{-1, -1, -6}, {1, 1, -4.001}}));
+  EXPECT_FALSE(hidden({{-1, -1, -6}, {1, 1, -3.999}})) << "a side of it stands before the wall";
+  EXPECT_FALSE(hidden({{-1, -1, -3}, {1, 1, -2}}));
+  EXPECT_FALSE(hidden({{-1, -1, -6}, {1, 1, 1}})) << "it is around the eye";
+  EXPECT_FALSE(hidden({{-1, -1, -6}, {1, 1, -0.5}})) << "the near plane cuts it";
+  depth[20 * kSize + 40] = 1;  // a hole of one sample, at x 0.27, y -0.36 of the window
+  tiles.look(depth.data(), {0, 0, kSize, kSize});
+  const double x = (40.5 / 32 - 1) * 5, y = (20.5 / 32 - 1) * 5;
+  EXPECT_FALSE(hidden({{x - 0.01, y - 0.01, -5.02}, {x + 0.01, y + 0.01, -5}}));
+  EXPECT_TRUE(hidden({{x - 2, y - 0.01, -5.02}, {x - 1.5, y + 0.01, -5}}));
+}
+
+TEST(DepthTiles, NeverHideAPointThatTheSamplesShow) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  const auto from = [&](double lo, double hi) {
+    return std::uniform_real_distribution<double>(lo, hi)(random);
+  };
+  int hidden = 0;
+  for (int round = 0; round < 300; ++round) {
+    // a window of which only a part was drawn anew, and some hills in it
+    const int wide = 40 + static_cast<int>(from(0, 60)), high = 40 + static_cast<int>(from(0, 60));
+    const DepthTiles::Part part = {static_cast<int>(from(0, 20)), static_cast<int>(from(0, 20)),
+                                   static_cast<int>(from(1, 20)), static_cast<int>(from(1, 20))};
+    std::vector<float> depth(static_cast<std::size_t>(part.width * part.height));
+    const double base = from(-8, -2), swing = from(0, 1.9);
+    for (float& d : depth) d = static_cast<float>(depth_at(base + from(-swing, swing)));
+    DepthTiles tiles;
+    tiles.look(depth.data(), part);
+    for (int n = 0; n < 40; ++n) {
+      const Vec3 lo(from(-4, 4), from(-4, 4), from(-9, -1.5)),
+          size(from(0, 2), from(0, 2), from(0, 2));
+      const Aabb box = {lo, lo + size};
+      if (!tiles.hide(box, perspective(), wide, high)) continue;
+      ++hidden;
+      for (int k = 0; k < 200; ++k) {
+        const Vec3 p = lo + Vec3(from(0, 1), from(0, 1), from(0, 1)).cwiseProduct(size);
+        const Eigen::Vector4d c = perspective() * p.homogeneous();
+        const int x = static_cast<int>(std::floor((0.5 * c.x() / c.w() + 0.5) * wide)) - part.x0,
+                  y = static_cast<int>(std::floor((0.5 * c.y() / c.w() + 0.5) * high)) - part.y0;
+        if (x < 0 || y < 0 || x >= part.width || y >= part.height) continue;
+        EXPECT_GT(0.5 * c.z() / c.w() + 0.5,
+                  static_cast<double>(depth[static_cast<std::size_t>(y * part.width + x)]));
+      }
+    }
+  }
+  EXPECT_GT(hidden, 1000);
+}
+
+// ---- in pictures
+
+// A ball of sponge: every hole shows other holes.
+Scene sponge() {
+  NoProgress quiet;
+  const double voxel = 0.25 * kMm;
+  const auto bone = scenes::bone_from_distance(
+      scenes::box_grid(Vec3::Constant(-16 * kMm), Vec3::Constant(16 * kMm), voxel), {},
+      scenes::common(scenes::ball(15 * kMm), scenes::gyroid(7 * kMm)), 0, 2,
+      scenes::kGyroidSteepness);
+  Scene scene;
+  EXPECT_TRUE(skin_bone(scene, *bone, 2, quiet).ok());
+  scene.look.plain = true;
+  scene.look.supersample = 1;
+  return scene;
+}
+
+TEST(Visibility, LeavesOutHiddenBoneAndThePictureIsTheSameFromEverywhere) {
+  BURR_NEEDS_GPU(gpu);
+  Scene scene = sponge();
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(0, 1);
+  long all = 0, some = 0;
+  for (int view = 0; view < 200; ++view) {
+    scene.camera = whole_view(scene, 2 * M_PI * any(random), M_PI * (any(random) - 0.5), 1.3);
+    scene.camera.distance *= 0.15 + any(random);  // now and then from within
+    gpu.skip_hidden(false);
+    const auto whole = gpu.image(scene, 260, 200);
+    const int whole_patches = gpu.figures().patches_drawn;
+    gpu.skip_hidden(true);
+    const auto seen = gpu.image(scene, 260, 200);
+    ASSERT_TRUE(whole.ok() && seen.ok());
+    ASSERT_EQ(whole->rgb, seen->rgb) << "view " << view;
+    if (view % 10 != 0) continue;  // once more: what was seen the last time is what is seen
+    const auto again = gpu.image(scene, 260, 200);
+    ASSERT_EQ(whole->rgb, again->rgb) << "view " << view << " again";
+    all += whole_patches;
+    some += gpu.figures().patches_drawn;
+  }
+  std::printf("drawn in 20 views: %ld patches of %ld\n", some, all);
+  if (gpu.gpu().find("llvmpipe") != std::string::npos) {
+    EXPECT_LT(some, all * 9 / 10);
+  }
+}
+
+// as a window does: the eye moves a little from picture to picture, and the bone changes
+TEST(Visibility, HoldsWhileTheEyeMovesAndBoneIsTakenAway) {
+  BURR_NEEDS_GPU(gpu);
+  Scene scene = sponge();
+  gpu.resize_offscreen(260, 200);
+  scene.camera = whole_view(scene, 0, 0.2, 1.3);
+  scene.camera.distance *= 0.7;
+  auto whole_gpu = Renderer::offscreen();
+  ASSERT_TRUE(whole_gpu.ok());
+  (*whole_gpu)->resize_offscreen(260, 200);
+  (*whole_gpu)->skip_hidden(false);
+  for (int n = 0; n < 60; ++n) {
+    if (n % 3 != 0) orbit(scene.camera, 0.07, 0.01);
+    if (n % 5 == 0 && !scene.patches.empty())  // a hole of a patch, from the front on
+      for (std::size_t p = 0; p < scene.patches.size(); ++p)
+        if (scene.patches[p].mesh != nullptr && (p * 7 + static_cast<std::size_t>(n)) % 40 == 0)
+          set_patch(scene, static_cast<int>(p), surface::Patch{});
+    ASSERT_TRUE(gpu.show(scene).ok());
+    const Image seen = gpu.shown();
+    ASSERT_TRUE((*whole_gpu)->show(scene).ok());
+    ASSERT_EQ(seen.rgb, (*whole_gpu)->shown().rgb) << "picture " << n;
+  }
+}
+
+}  // namespace
+}  // namespace burr::render
