@@ -1,6 +1,7 @@
 #include "bench.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,12 @@ void add(CLI::App& app, Todo& todo) {
 const Command command{80, add};
 
 }  // namespace
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(std::llround(q * static_cast<double>(values.size() - 1)))];
+}
 
 BenchCommand::BenchCommand(int place, Command::Add add) { benches().emplace_back(place, add); }
 

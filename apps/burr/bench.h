@@ -10,6 +10,9 @@
 //     }
 #pragma once
 
+#include <chrono>
+#include <vector>
+
 #include "command.h"
 
 namespace burr::app {
@@ -17,5 +20,13 @@ namespace burr::app {
 struct BenchCommand {
   BenchCommand(int place, Command::Add add);
 };
+
+// The value below which a share q, 0..1, of them lies; of none 0.
+[[nodiscard]] double quantile(std::vector<double> values, double q);
+
+[[nodiscard]] inline double ms_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
 
 }  // namespace burr::app

@@ -12,7 +12,6 @@
 
 #include "bench.h"
 #include "burr/device/simulated_hand.h"
-#include "burr/render/bone_scene.h"
 #include "burr/render/renderer.h"
 #include "burr/sim/motion.h"
 #include "burr/sim/session.h"
@@ -48,11 +47,7 @@ struct Frames {
     patches += figures.patches_drawn;
     triangles += static_cast<double>(figures.triangles_drawn);
   }
-  [[nodiscard]] double quantile(double q) const {
-    std::vector<double> sorted = ms;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1) + 0.5)];
-  }
+  [[nodiscard]] double quantile(double q) const { return app::quantile(ms, q); }
   [[nodiscard]] double mean(double sum) const { return sum / static_cast<double>(ms.size()); }
   [[nodiscard]] nlohmann::ordered_json json() const {
     return {{"frames", ms.size()},         {"ms_p50", quantile(0.5)},    {"ms_p95", quantile(0.95)},
@@ -60,10 +55,6 @@ struct Frames {
             {"triangles", mean(triangles)}};
   }
 };
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 Status draw(render::Renderer& renderer, const render::Scene& scene, Frames& frames) {
   const auto start = Clock::now();

@@ -32,15 +32,6 @@ struct Options {
   bool json = false;
 };
 
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-// values sorted; q in 0..1
-double quantile(const std::vector<double>& sorted, double q) {
-  return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1) + 0.5)];
-}
-
 std::unique_ptr<volume::Bone> shell(int size) {
   progress().report(0, "making the bone");
   volume::Grid grid;

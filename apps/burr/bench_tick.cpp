@@ -22,6 +22,7 @@
 namespace {
 
 using namespace burr;
+using app::quantile;
 using math::Vec3;
 
 struct Options {
@@ -36,12 +37,6 @@ struct Options {
 constexpr int kWarmUp = 400;           // ticks from the air into contact, not counted
 constexpr double kGathers = 0.1;       // until the hand has all its speed  [s]
 constexpr double kSurfaceSpeed = 8.4;  // of the burr; 3.4 mm^3/s per N in cortical bone  [m/s]
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(std::llround(q * static_cast<double>(values.size() - 1)))];
-}
 
 // Where the hand goes; `out` tells the true direction of the force at the same time.
 device::HandPath hand_path(const Options& options) {

@@ -9,8 +9,8 @@ namespace burr::math {
 
 // The shortest turn that takes the direction of `from` to that of `to`; neither may be zero. Of
 // opposite directions: half a turn about one of the axes across. What Eigen's
-// Quaternion::FromTwoVectors does, whose singular values for that last case take a compiler half a
-// minute in every file.
+// Quaternion::FromTwoVectors does, whose singular values for that last case take a compiler some
+// twenty seconds in every file.
 inline Quat shortest_turn(const Vec3& from, const Vec3& to) {
   const Vec3 a = from.normalized(), b = to.normalized();
   const double cosine = a.dot(b);

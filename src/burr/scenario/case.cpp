@@ -5,9 +5,7 @@
 #include <safe_toml.h>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <initializer_list>
-#include <iterator>
 #include <numbers>
 #include <utility>
 
