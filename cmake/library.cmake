@@ -36,7 +36,7 @@ target_compile_features(burr PUBLIC cxx_std_20)
 target_link_libraries(burr PUBLIC Eigen3::Eigen Threads::Threads)
 target_link_libraries(burr PRIVATE $<BUILD_INTERFACE:burr_options> fmt::fmt ZLIB::ZLIB BZip2::BZip2
   PkgConfig::ZSTD
-  PkgConfig::EPOXY PkgConfig::SDL2 nlohmann_json::nlohmann_json spdlog::spdlog)
+  PkgConfig::EPOXY PkgConfig::SDL2 nlohmann_json::nlohmann_json spdlog::spdlog meshoptimizer::meshoptimizer)
 target_compile_definitions(burr PRIVATE BURR_VERSION="${PROJECT_VERSION}"
   BURR_LIBEXEC_FROM_LIB="${BURR_LIBEXEC_FROM_LIB}")
 target_link_libraries(burr PRIVATE ${CMAKE_DL_LIBS})

@@ -11,7 +11,7 @@ target_link_libraries(burr_test_support PUBLIC burr burr_scenes GTest::gtest fmt
 file(GLOB rooms CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/tests/*)
 # ThreadSanitizer is asked only about what has threads (cmake/checks.cmake), AddressSanitizer not about what is
 # arithmetic only
-set(with_threads "tests/(rt|window)/|(volume/bone|surface/mesher|surface/worker|record/recorder|sim/threads)_test.cpp$")
+set(with_threads "tests/(rt|window)/|(sound/voice|sound/speaker|volume/bone|surface/mesher|surface/worker|record/recorder|sim/threads)_test.cpp$")
 foreach(room ${rooms})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${room}/*_test.cpp)
   if(BURR_SANITIZE STREQUAL "thread")
@@ -23,10 +23,18 @@ foreach(room ${rooms})
     add_executable(test_${room} ${sources})
     target_link_libraries(test_${room} PRIVATE burr_test_support burr_options GTest::gtest_main nlohmann_json::nlohmann_json
       ZLIB::ZLIB PkgConfig::ZSTD PkgConfig::ASSIMP PkgConfig::EPOXY PkgConfig::SDL2)
-    if(room STREQUAL window)  # of the program, not of the library
-      file(GLOB window CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp)
-      target_sources(test_${room} PRIVATE ${window})
-      target_include_directories(test_${room} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr)
+    if(room MATCHES "^(window|sound)$")  # of the program, not of the library
+      set(parts hearing loudspeaker nearby)
+      if(room STREQUAL window)
+        list(APPEND parts live_bone work volume_options recording)
+        target_link_libraries(test_${room} PRIVATE PkgConfig::IMGUI)
+      endif()
+      file(GLOB of_program CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/${room}/*.cpp)
+      foreach(part ${parts})
+        list(APPEND of_program ${PROJECT_SOURCE_DIR}/apps/burr/${part}.cpp)
+      endforeach()
+      target_sources(test_${room} PRIVATE ${of_program})
+      target_include_directories(test_${room} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${PROJECT_SOURCE_DIR}/third_party)
       target_link_libraries(test_${room} PRIVATE CLI11::CLI11)
     endif()
     target_compile_definitions(test_${room} PRIVATE

@@ -4,7 +4,8 @@
     scripts/rooms.py [ROOT]               ROOT: the folder that holds src/burr; default: this checkout
 
 Fails on a room that is not listed, an arrow that is not listed, two rooms in a circle, and a third-party header
-where it does not belong: graphics only in render/gl, file formats only in io, a vendor's only in its own folder.
+where it does not belong: graphics only in render/gl, the loudspeaker only in sound, file formats only in io, a vendor's
+only in its own folder.
 """
 import collections
 import pathlib
@@ -48,8 +49,9 @@ ONLY = {
 
 # Third-party headers and the folders that may include them.
 ELSEWHERE = [
-    (r"(GL|GLES\d?|EGL|epoxy|SDL2?|GLFW)/|SDL", "render/gl", "graphics"),
-    (r"itk|gdcm|assimp/|vtk", "io", "a file format's library"),
+    (r"(GL|GLES\d?|EGL|epoxy|GLFW)/|SDL(2/SDL)?_(open|video|render|vulkan)", ["render/gl"], "graphics"),
+    (r"SDL", ["render/gl", "sound"], "graphics and sound"),
+    (r"itk|gdcm|assimp/|vtk", ["io"], "a file format's library"),
     (r"HD/hd|HDU|openhaptics|dhdc|drdc|chai3d|haply", None, "a vendor's library"),  # device/<vendor> only
 ]
 # What headers may show to others: the standard library, Eigen, ourselves.
@@ -92,14 +94,14 @@ def may(room, other):
 def third_party(path, name):
     """Says why this file may not include that third-party header, or nothing."""
     folder = path.parent.as_posix()
-    for pattern, home, what in ELSEWHERE:
+    for pattern, homes, what in ELSEWHERE:
         if not re.match(pattern, name):
             continue
-        if home is None:
+        if homes is None:
             if not re.match(r"device/\w+", folder):
                 return f"{what} belongs into a folder of its own under device/"
-        elif folder != home and not folder.startswith(home + "/"):
-            return f"{what} belongs into {home}"
+        elif not any(folder == home or folder.startswith(home + "/") for home in homes):
+            return f"{what} belongs into {' or '.join(homes)}"
     return ""
 
 

@@ -4,8 +4,12 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
+#include <iostream>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -30,6 +34,23 @@ void on_signal(int number) {
     std::raise(number);
   }
   asked_to_stop = 1;
+}
+
+// As a shell sees a program that SIGPIPE ended: whoever read our words has gone, and wants no more.
+constexpr int kReaderGone = 128 + SIGPIPE;
+
+// What could not be written to stdout or stderr, as an exit code; said where that is any use.
+int unheard(int trouble) {
+  if (trouble == EPIPE) return kReaderGone;
+  std::fprintf(stderr, "burr: standard output cannot be written: %s\n", std::strerror(trouble));
+  return static_cast<int>(Trouble::io);
+}
+
+// The last words, and the exit code: 0 only if all that was said arrived.
+int end(int code) {
+  errno = 0;
+  const bool told = std::fflush(stdout) == 0 && std::cout.flush().good();
+  return code == 0 && !told ? unheard(errno) : code;
 }
 
 constexpr const char* kExamples = R"(
@@ -87,23 +108,28 @@ int main(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     const int code = program.exit(problem);
-    return code == 0 ? 0 : static_cast<int>(Trouble::usage);
+    return app::end(code == 0 ? 0 : static_cast<int>(Trouble::usage));
   }
-  if (!todo.work) {
-    fmt::print("{}", program.help());
-    return 0;
-  }
+  if (!todo.work)
+    todo.work = [&program] {
+      fmt::print("{}", program.help());
+      return fine();
+    };
   Status status = error(Trouble::internal, "nothing was done");
   try {
     status = todo.work();
   } catch (const std::bad_alloc&) {
     status = error(Trouble::data, "not enough memory; use a larger --voxel-mm or a smaller --roi");
+  } catch (const std::system_error& problem) {
+    // fmt's words for what could not be written
+    if (problem.code() == std::errc::broken_pipe) return app::kReaderGone;
+    if (std::ferror(stdout) != 0) return app::unheard(problem.code().value());
+    status =
+        error(Trouble::internal, fmt::format("unexpected: {}; please report it", problem.what()));
   } catch (const std::exception& problem) {
     status =
         error(Trouble::internal, fmt::format("unexpected: {}; please report it", problem.what()));
   }
-  std::fflush(stdout);
-  if (status.ok()) return 0;
-  fmt::print(stderr, "burr: {}\n", status.error().text);
-  return static_cast<int>(status.error().trouble);
+  if (!status.ok()) std::fprintf(stderr, "burr: %s\n", status.error().text.c_str());
+  return app::end(status.ok() ? 0 : static_cast<int>(status.error().trouble));
 }

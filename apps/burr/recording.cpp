@@ -71,10 +71,12 @@ Result<VolumeOptions> options_of(const record::SessionInfo& session, const Volum
 }  // namespace
 
 Status Recording::start(sim::Session& session, const std::string& file, const VolumeOptions& volume,
-                        const io::ImportSummary& import, const std::string& motion, bool embed) {
+                        const io::ImportSummary& import, const std::string& motion, bool embed,
+                        const std::optional<Tissues>& spared) {
   record::SessionInfo info;
   sim::describe(session.settings(), session.hand().spec(), info);
   info.words["motion"] = motion;
+  if (spared) write_spared(*spared, info);
   const volume::Bone& bone = session.bone();
   info.volume.content_hash = bone.content_hash();
   if (!is_phantom(volume.path)) {

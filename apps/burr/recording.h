@@ -13,6 +13,7 @@
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
 #include "burr/sim/session.h"
+#include "nearby.h"
 #include "volume_options.h"
 
 namespace burr::app {
@@ -23,11 +24,13 @@ namespace burr::app {
 // without recording, and finish() says it again, for the exit code.
 class Recording {
  public:
-  // motion: in our words, "pocket" or "hand path". embed: the bone goes into the file.
+  // motion: in our words, "pocket" or "hand path". embed: the bone goes into the file. spared: what
+  // a case says must not be cut; none: what the table of tissues marks.
   // Error: only what the user can put right before anything has begun (a folder that does not
   // exist, a name that another burr is recording to).
   Status start(sim::Session& session, const std::string& file, const VolumeOptions& volume,
-               const io::ImportSummary& import, const std::string& motion, bool embed);
+               const io::ImportSummary& import, const std::string& motion, bool embed,
+               const std::optional<Tissues>& spared = {});
   // The Error says what is missing.
   [[nodiscard]] Status finish(sim::Session& session);
 

@@ -4,21 +4,30 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "burr/render/bone_scene.h"
 #include "burr/render/picture.h"
 #include "burr/sim/replay.h"
 #include "burr/sim/session_words.h"
+#include "burr/sound/synth.h"
+#include "burr/sound/wav.h"
 #include "burr/surface/worker.h"
 #include "command.h"
+#include "hearing.h"
+#include "nearby.h"
 #include "recording.h"
 #include "still.h"
+#include "views.h"
 
 namespace burr::app {
 namespace {
 
 struct Options {
-  std::string file, picture, film;
+  std::string file, picture, film, sound;
+  ViewOptions view;
   VolumeOptions volume;
   PictureSize size;
   double at = -1, fps = 25;
@@ -41,7 +50,8 @@ Status draw(const Options& options, record::Player& player, const sim::Recorded&
   put_tool(scene, *tick, radius, false);
   const Status skinned = render::skin_bone(scene, **bone, 2, progress());
   if (!skinned) return skinned;
-  return render::render_png(scene, options.size.width, options.size.height, options.picture);
+  return draw_view(std::move(scene), **bone, tick->contact.proxy, -shaft, options.view,
+                   options.size, options.picture);
 }
 
 // The whole session as numbered pictures, seen from where it ended.
@@ -54,6 +64,8 @@ Status film(const Options& options, record::Player& player, const sim::Recorded&
   const math::Vec3 shaft = last->hand.world_from_tool.q * math::Vec3::UnitZ();
   render::Scene scene = scene_of_work(**bone, radius, last->contact.proxy, shaft);
   scene.tissue_colours = render::colours_of((*bone)->tissues());
+  const Status possible = set_view(scene, last->contact.proxy, -shaft, options.view);
+  if (!possible) return possible;
   surface::Worker worker(**bone, 1);
   const auto show = [&scene](const surface::Skin& skin) {
     render::set_patch(scene, skin.patch, *skin.mesh);
@@ -79,6 +91,59 @@ Status film(const Options& options, record::Player& player, const sim::Recorded&
   progress().report(1, "filming");
   fmt::print("{}: {} pictures, {} a second\n", options.film, reel->frames(), options.fps);
   return fine();
+}
+
+// The whole session as it sounded, sample by sample at the time of its ticks.
+Status sound_of(const Options& options, record::Player& player, const sim::Recorded& recorded) {
+  sound::Synth synth;
+  auto file = sound::WavFile::create(options.sound, static_cast<int>(synth.settings().rate_hz));
+  if (!file) return file.error();
+  Nearby nearby;
+  if (const Tissues spared = read_spared(player.info()); !spared.empty()) {
+    auto bone = bone_of(player, options.volume, progress());
+    if (bone) {
+      auto measured = Nearby::make(**bone, spared, progress());
+      if (!measured) return measured.error();
+      nearby = std::move(*measured);
+    } else if (interrupted()) {
+      return bone.error();
+    } else {
+      fmt::print(stderr, "without warnings of what to spare: {}\n", bone.error().text);
+    }
+  }
+  Hearing hearing(recorded.settings.servo, nearby.distances());
+  const double per_tick = synth.settings().rate_hz / player.info().rate_hz;
+  std::vector<float> samples(4096);
+  record::StepCursor steps = player.steps();
+  record::Step step;
+  while (steps.next(step)) {
+    if (step.row.tick % 1024 == 0) {
+      if (interrupted()) return error(Trouble::interrupted, "stopped; no sound was written");
+      progress().report(static_cast<double>(step.row.tick) / static_cast<double>(player.end_tick()),
+                        "listening");
+    }
+    for (const record::Wish& wish : step.wishes) hearing.obey(wish);
+    synth.hear(hearing.hear(step.row));
+    // up to the end of this tick; where rows were lost, what was heard before goes on
+    const double end = static_cast<double>(step.row.tick + 1 - player.first_tick()) * per_tick;
+    if (end > static_cast<double>(sound::WavFile::kMostSamples))
+      return error(Trouble::data,
+                   fmt::format("{}: is longer than a .wav can hold ({:.0f} h)", options.file,
+                               static_cast<double>(sound::WavFile::kMostSamples) / 3600 /
+                                   synth.settings().rate_hz));
+    while (file->samples() < static_cast<std::uint64_t>(end)) {
+      const auto left = static_cast<std::uint64_t>(end) - file->samples();
+      const auto some = std::span(samples).first(std::min<std::uint64_t>(left, samples.size()));
+      synth.make(some);
+      file->write(some);
+    }
+  }
+  progress().report(1, "listening");
+  Status written = file->put_in_place();
+  if (written && !options.json)
+    fmt::print("{}: {:.3f} s of sound\n", options.sound,
+               static_cast<double>(file->samples()) / synth.settings().rate_hz);
+  return written;
 }
 
 Status run(const Options& options) {
@@ -141,6 +206,10 @@ Status run(const Options& options) {
     Status drawn = draw(options, player, *recorded);
     if (!drawn) return drawn;
   }
+  if (!options.sound.empty()) {
+    Status heard = sound_of(options, player, *recorded);
+    if (!heard) return heard;
+  }
   return options.film.empty() ? fine() : film(options, player, *recorded);
 }
 
@@ -153,9 +222,11 @@ void add(CLI::App& app, Todo& todo) {
                     "simulate it again and compare every tick and brick");
   command->add_option("--picture", options->picture, "F.png: the bone and the burr at a moment");
   command->add_option("--film", options->film, "DIR: the whole session as numbered pictures");
+  command->add_option("--sound", options->sound, "F.wav: the whole session as it sounded");
   command->add_option("--fps", options->fps, "pictures a second of the film")
       ->check(CLI::Range(0.1, 240.0))
       ->capture_default_str();
+  add_view_options(*command, options->view);
   add_picture_size(*command, options->size);
   command->add_option("--at", options->at, "seconds from the start (default: the end)")
       ->check(CLI::NonNegativeNumber);

@@ -2,33 +2,31 @@
 // leaves pictures, a recording and a page of figures.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "burr/device/simulated_hand.h"
-#include "burr/math/turn.h"
 #include "burr/render/bone_scene.h"
-#include "burr/render/pick.h"
 #include "burr/render/picture.h"
 #include "burr/render/renderer.h"
-#include "burr/scenario/case.h"
 #include "burr/sim/motion.h"
 #include "burr/sim/session.h"
-#include "burr/surface/worker.h"
 #include "command.h"
+#include "nearby.h"
 #include "recording.h"
 #include "still.h"
 #include "summary.h"
-#include "volume_options.h"
-#include "window/mouse_hand.h"
+#include "window/loading.h"
+#include "window/pages.h"
 #include "window/window.h"
+#include "window/words.h"
+#include "work.h"
 
 namespace burr::app {
 namespace {
@@ -39,22 +37,10 @@ constexpr int kWidth = 1280, kHeight = 720;  // of the pictures
 constexpr double kHeadlessSeconds = 20;
 
 struct Options {
-  VolumeOptions volume;
-  std::string out;
+  WorkOptions work;
+  std::string out, screenshot;
   double seconds = 0;
-  double burr_mm = 0, rpm = 0;   // 0: the case's, or 5 mm and 40 000
-  std::optional<Vec3> at, into;  // where the case begins
-  std::string motion = "pocket";
-  tool::BurrKind kind = tool::BurrKind::cutting;
-  bool headless = false;
-};
-
-// What is milled and where: everything before hand and session.
-struct Work {
-  io::Imported made;
-  std::string what;      // in our words
-  VolumeOptions volume;  // with the case's name as a phantom
-  sim::WorkPlace place;
+  bool headless = false, no_sound = false;
 };
 
 // A display that SDL could open a window on.
@@ -63,70 +49,6 @@ bool display_there() {
     if (const char* value = std::getenv(name); value != nullptr && *value != '\0') return true;
   return false;
 }
-
-// A built-in case or a .toml file says what is milled, where and with what; options given by hand
-// win. Anything else is left as it is.
-Status take_case(Options& options) {
-  VolumeOptions& volume = options.volume;
-  if (volume.path.empty()) volume.path = "temporal-bone";
-  const auto known = scenario::built_in_cases();
-  const bool built_in = std::find(known.begin(), known.end(), volume.path) != known.end();
-  std::error_code nobody_asks;
-  if ((built_in && !std::filesystem::exists(volume.path, nobody_asks)) ||
-      std::filesystem::path(volume.path).extension() == ".toml") {
-    const auto read = scenario::read_case(volume.path);
-    if (!read) return read.error();
-    volume.path = read->phantom.empty() ? read->volume : "phantom:" + read->phantom;
-    if (volume.voxel_mm == 0) volume.voxel_mm = 1e3 * read->voxel;
-    if (options.burr_mm == 0) options.burr_mm = 2e3 * read->burr.radius;
-    if (options.rpm == 0) options.rpm = read->full_speed * 60 / (2 * std::numbers::pi);
-    if (options.seconds == 0 && options.headless) options.seconds = read->seconds;
-    options.at = read->at;
-    options.into = read->into;
-    options.motion = read->motion;
-    options.kind = read->burr.kind;
-    fmt::print(stderr, "{}\n", read->title);
-  }
-  if (options.burr_mm == 0) options.burr_mm = 5;
-  if (options.rpm == 0) options.rpm = 40'000;
-  return fine();
-}
-
-Result<Work> open_work(Options options) {
-  VolumeOptions& volume = options.volume;
-  // a phantom's bare name; a file of that name comes first
-  std::error_code nobody_asks;
-  if (!is_phantom(volume.path) && volume.path.find_first_of("./") == std::string::npos &&
-      !std::filesystem::exists(volume.path, nobody_asks))
-    volume.path = "phantom:" + volume.path;
-  const bool phantom = is_phantom(volume.path);
-  auto made = open_volume(volume, progress());
-  if (!made) return made.error();
-
-  Work work;
-  work.made = std::move(*made);
-  work.volume = volume;
-  work.what =
-      phantom ? volume.path.substr(volume.path.find(':') + 1) : work.made.summary.format + " scan";
-  for (const std::string& notice : work.made.summary.notices) fmt::print(stderr, "{}\n", notice);
-  auto place =
-      sim::find_work_place(*work.made.bone, 0.5e-3 * options.burr_mm, options.at, options.into);
-  if (!place) return place.error();
-  work.place = *place;
-  return work;
-}
-
-sim::SessionSettings settings_of(const Options& options, bool realtime) {
-  sim::SessionSettings settings;
-  settings.servo.burr.radius = 0.5e-3 * options.burr_mm;
-  settings.servo.burr.kind = options.kind;
-  settings.servo.spindle_rad_s = options.rpm * 2 * std::numbers::pi / 60;
-  settings.realtime = realtime;
-  return settings;
-}
-
-// how much of the surroundings is seen: the pocket large, the anatomy around it still there
-double view_height(double burr_radius) { return std::clamp(20 * burr_radius, 20e-3, 70e-3); }
 
 Status make_folder(const std::filesystem::path& folder) {
   std::error_code trouble;
@@ -177,14 +99,17 @@ void put_tool_of(render::Scene& scene, sim::Session& session) {
 // Before, at half time with the burr in the bone, and after: the same view.
 Status run_headless(const Options& options) {
   const std::filesystem::path folder = options.out.empty() ? "burr-out" : options.out;
-  const double seconds = options.seconds > 0 ? options.seconds : kHeadlessSeconds;
+  const WorkOptions& wished = options.work;
+  const double seconds = wished.seconds > 0 ? wished.seconds : kHeadlessSeconds;
   Status made = make_folder(folder);
   if (!made) return made;
-  auto opened = open_work(options);
+  if (!wished.title.empty()) fmt::print(stderr, "{}\n", wished.title);
+  auto opened = open_work(wished, progress());
   if (!opened) return opened.error();
   Work& work = *opened;
-  const sim::SessionSettings settings = settings_of(options, false);
-  auto path = sim::motion(options.motion, work.place, settings.servo.burr.radius, seconds);
+  for (const std::string& notice : work.made.summary.notices) fmt::print(stderr, "{}\n", notice);
+  const sim::SessionSettings settings = settings_of(wished, false);
+  auto path = sim::motion(wished.motion, work.place, settings.servo.burr.radius, seconds);
   if (!path) return path.error();
   auto hand = std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{});
   auto started =
@@ -210,8 +135,9 @@ Status run_headless(const Options& options) {
   Status status = picture("before.png");
   if (!status) return status;
   Recording recording;
-  status = recording.start(session, (folder / "session.mcap").string(), work.volume,
-                           work.made.summary, options.motion, false);
+  status =
+      recording.start(session, (folder / "session.mcap").string(), work.volume, work.made.summary,
+                      wished.motion, false, to_spare(session.bone_tissues(), wished.spare));
   if (!status) return status;
   session.run(0.5 * seconds, progress());
   put_tool_of(scene, session);
@@ -226,7 +152,7 @@ Status run_headless(const Options& options) {
   }
   const Status recorded = recording.finish(session);
   if (!status) return status;
-  Summary summary = summary_of(session, work.what, "simulated hand, " + options.motion);
+  Summary summary = summary_of(session, work.what, "simulated hand, " + wished.motion);
   if (!recorded) fmt::print("{}", summary_text(summary));  // a disk that is full takes no picture
   status = picture("after.png");
   if (!status) return recorded ? status : recorded;
@@ -249,46 +175,48 @@ Status run_in_window(const Options& options) {
     Status made = make_folder(folder);
     if (!made) return made;
   }
-  auto opened = open_work(options);
-  if (!opened) return opened.error();
-  Work& work = *opened;
-  const sim::SessionSettings settings = settings_of(options, true);
+  auto desk = Desk::open(users_places());
+  if (!desk) return desk.error();
+  if (options.work.volume.path.empty())
+    return run_pages(**desk, {options.seconds, options.out, options.screenshot, !options.no_sound});
 
-  // the hand begins two centimetres above the work
-  math::Pose above;
-  above.p = work.place.at - 20e-3 * work.place.into;
-  above.q = math::shortest_turn(Vec3::UnitZ(), -work.place.into);
-  auto hand = std::make_unique<MouseHand>(above);
-  MouseHand& mouse = *hand;
-  auto started =
-      sim::Session::make(std::move(work.made.bone), std::move(hand), settings, progress());
-  if (!started) return started.error();
-  sim::Session& session = **started;
-
-  render::Scene scene;
-  scene.tissue_colours = render::colours_of(session.bone().tissues());
-  surface::Worker worker(session.bone(), 1);
-  Status status =
-      worker.first(progress(), [&scene](const surface::Skin& skin) { put_skin(scene, skin); });
-  if (!status) return status;
-  scene.camera = render::view_of_work(work.place.at, -work.place.into,
-                                      2 * view_height(settings.servo.burr.radius));
+  WorkOptions work = options.work;
+  if (const Status taken = take_case(work); !taken) return taken;
+  if (!work.title.empty()) fmt::print(stderr, "{}\n", work.title);
+  bool closed = false;
+  auto loaded = load(
+      **desk, say(Word::loading, work.title.empty() ? word(Word::start_scan) : work.title),
+      [work](Progress& seen) { return open_ready(work, seen); }, closed);
+  if (closed) return fine();
+  if (!loaded) return loaded.error();
+  Ready& ready = *loaded;
+  for (const std::string& notice : ready.import.notices) fmt::print(stderr, "{}\n", notice);
+  sim::Session& session = *ready.session;
+  render::Scene& scene = ready.scene;
   const render::Camera first_view = scene.camera;
   const render::Scene before = scene;
+  const WindowOptions window = {.seconds = options.seconds,
+                                .folder = options.out,
+                                .screenshot = options.screenshot,
+                                .sound = !options.no_sound};
+  if (folder.empty()) {
+    const auto left = mill_and_keep(**desk, ready, options.work, false, window);
+    return left ? fine() : Status(left.error());
+  }
 
   Recording recording;
-  if (!folder.empty()) {
-    status = recording.start(session, (folder / "session.mcap").string(), work.volume,
-                             work.made.summary, "mouse", false);
-    if (!status) return status;
-  }
-  status = run_window(session, mouse, worker, scene,
-                      {options.seconds, options.out, [&recording] { return recording.trouble(); }});
-  if (folder.empty()) return status;
+  Status status = recording.start(session, (folder / "session.mcap").string(), ready.volume,
+                                  ready.import, "mouse", false, ready.spared);
+  if (!status) return status;
+  WindowOptions told = window;
+  told.warning = [&recording] { return recording.trouble(); };
+  told.keep = [] { return true; };  // it is being kept already
+  const auto left = mill_with_sound(**desk, ready, told);
+  status = left ? fine() : Status(left.error());
   const Status recorded = recording.finish(session);
   if (!status) return status;
 
-  Summary summary = summary_of(session, work.what, "mouse");
+  Summary summary = summary_of(session, ready.what, "mouse");
   if (!recorded) fmt::print("{}", summary_text(summary));  // a disk that is full takes no picture
   scene.burr.visible = false;
   scene.markers.clear();
@@ -317,31 +245,37 @@ Status run(Options options) {
     fmt::print(stderr, "no display here: milling by itself, as with --headless\n");
     options.headless = true;
   }
-  if (Status taken = take_case(options); !taken) return taken;
-  if (options.headless) return run_headless(options);
-  return run_in_window(options);
+  if (!options.headless) return run_in_window(options);
+  options.work.seconds = options.seconds;
+  if (Status taken = take_case(options.work); !taken) return taken;
+  return run_headless(options);
 }
 
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("run", "mill a bone in a window");
   command->add_option(
-      "bone", options->volume.path,
-      "a case (temporal-bone, jaw, ... or a .toml file), or a scan: file or DICOM folder; default: "
-      "temporal-bone");
+      "bone", options->work.volume.path,
+      "a case (temporal-bone, jaw, ... or a .toml file), or a scan: file or DICOM folder; without "
+      "it: the start page, headless: temporal-bone");
   command->add_flag("--headless", options->headless,
                     "no window: mill by itself, leave pictures, a recording and a page of figures");
   command
       ->add_option("--seconds", options->seconds,
                    "close the window after so long; headless: simulated time (default: 20)")
       ->check(CLI::Range(0.1, 36'000.0));
-  command->add_option("--out", options->out,
-                      "folder for pictures, recording and summary (headless: burr-out; window: "
-                      "nothing is kept without it)");
-  command->add_option("--burr-mm", options->burr_mm,
+  command->add_option(
+      "--out", options->out,
+      "folder for pictures, recording and summary (headless: burr-out; window: none "
+      "of these without it)");
+  command->add_option("--screenshot", options->screenshot,
+                      "PNG of the window as it was when it closed, panels and all");
+  command->add_option("--burr-mm", options->work.burr_mm,
                       "diameter of the burr; default: the case's, else 5");
-  command->add_option("--rpm", options->rpm, "of the spindle; default: the case's, else 40000");
-  add_volume_options(*command, options->volume);
+  command->add_flag("--no-sound", options->no_sound, "the window makes no sound");
+  command->add_option("--rpm", options->work.rpm,
+                      "of the spindle; default: the case's, else 40000");
+  add_volume_options(*command, options->work.volume);
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }
 

@@ -13,7 +13,7 @@
 #include "burr/rt/idle_loop.h"
 #include "burr/surface/worker.h"
 #include "command.h"
-#include "window/window.h"
+#include "live_bone.h"
 
 namespace burr::app {
 namespace {
@@ -23,7 +23,6 @@ using math::Vec3;
 
 constexpr auto kFrame = std::chrono::microseconds(16'667);  // as the window does
 constexpr auto kSlowFrame = std::chrono::microseconds(100'000);
-constexpr int kPatchesPerFrame = 256;       // likewise
 constexpr double kLift = 0.3, kBack = 0.3;  // between two pockets  [s]
 constexpr double kLiftHeight = 5e-3;        // [m]
 
@@ -77,24 +76,26 @@ class Picture {
   }
 
   Status draw(sim::Session& session, const record::TickRow& row, WholeOutcome& out) {
-    worker_.hold_back(session.load() >= sim::Load::mesh);
-    surface::Skin skin;
-    for (int i = 0; i < kPatchesPerFrame && worker_.take(skin); ++i, ++out.patches) {
-      put_skin(scene_, skin);
-      worker_.give_back(skin);
-    }
+    live_.update();
+    out.patches += live_.skins().size();
     out.patches_waiting_most = std::max(out.patches_waiting_most, worker_.waiting());
     put_tool(scene_, row, session.settings().servo.burr.radius, true);
     ++out.frames;
-    return renderer_->show(scene_);
+    const Clock::time_point start = Clock::now();
+    const Status shown = renderer_->show(scene_);
+    live_.drawn(seconds_since(start), renderer_->figures().redrawn);
+    return shown;
   }
 
  private:
   Picture(sim::Session& session, std::unique_ptr<render::Renderer> renderer)
-      : renderer_(std::move(renderer)), worker_(session.bone(), 1) {}
+      : renderer_(std::move(renderer)),
+        worker_(session.bone(), 1),
+        live_(session, worker_, scene_, renderer_->software()) {}
   std::unique_ptr<render::Renderer> renderer_;
   surface::Worker worker_;
   render::Scene scene_;
+  LiveBone live_;
 };
 
 }  // namespace

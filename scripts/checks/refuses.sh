@@ -32,10 +32,11 @@ printf 'not a volume\n' >"$place/rubbish.nrrd"
 expect 0 '^burr [0-9]+\.[0-9]+\.[0-9]+' "$burr" --version
 expect 0 'examples' "$burr" help
 expect 0 'usage' "$burr" --help
+all=$("$burr" --help)  # once: grep -q goes away early
 expect 2 '' "$burr" no-such-command
 expect 2 '' "$burr" --no-such-option
 for command in info mill export replay repair phantom run psychophysics; do
-  "$burr" --help | grep -qE "^  $command( |$)" || continue
+  grep -qE "^  $command( |$)" <<<"$all" || continue
   expect 2 '' "$burr" $command --no-such-option
   expect 0 '' "$burr" $command --help
 done
@@ -43,17 +44,17 @@ expect 2 'usage' ./test --no-such-option
 expect 2 'usage' scripts/install_packages.sh nonsense
 expect 2 '' scripts/rooms.py --no-such-option
 
-if "$burr" --help | grep -qE '^  info'; then
+if grep -qE '^  info' <<<"$all"; then
   expect 2 '' "$burr" info
   expect 74 'file.nrrd' "$burr" info "$place/no/such/file.nrrd"
   expect 65 'rubbish' "$burr" info "$place/rubbish.nrrd"
   expect 65 'empty' "$burr" info "$place/empty.nii.gz"
 fi
-if "$burr" --help | grep -qE '^  replay'; then
+if grep -qE '^  replay' <<<"$all"; then
   expect 74 'no/such' "$burr" replay "$place/no/such.mcap"
   expect 65 'rubbish' "$burr" replay "$place/rubbish.nrrd"
 fi
-if "$burr" --help | grep -qE '^  psychophysics'; then
+if grep -qE '^  psychophysics' <<<"$all"; then
   expect 2 'stiffness' "$burr" psychophysics
   expect 2 '' "$burr" psychophysics colour
   expect 2 'trials' "$burr" psychophysics stiffness --trials 3
@@ -70,4 +71,33 @@ if "$burr" --help | grep -qE '^  psychophysics'; then
   expect 2 'slope' "$burr" psychophysics stiffness --observer threshold=0.1,slope=2,feels=yes
   expect 74 'continue' "$burr" psychophysics --continue "$place/none"
 fi
+
+# whoever reads what burr says goes away early: it ends quietly, as other programs do; a full disk is told
+reader_gone() {
+  local got
+  mkfifo "$place/pipe"
+  exec 7<>"$place/pipe" 8>"$place/pipe" 7<&-  # 8 is a pipe that nobody reads
+  "$@" >&8 2>"$place/err" </dev/null
+  got=$?
+  exec 8>&-
+  rm "$place/pipe"
+  if [ $got != 141 ] || [ -s "$place/err" ]; then
+    echo "exit code $got and '$(head -1 "$place/err")' instead of 141 and silence when nobody reads: $*"
+    bad=1
+  fi
+}
+reader_gone "$burr" materials
+reader_gone "$burr" --help
+reader_gone "$burr" help
+reader_gone "$burr"
+full() {
+  "$@" >/dev/full 2>"$place/err" </dev/null
+  local got=$?
+  if [ $got != 74 ] || ! grep -q 'standard output' "$place/err"; then
+    echo "exit code $got instead of 74 on a full disk: $*"
+    bad=1
+  fi
+}
+full "$burr" materials
+full "$burr" help
 exit $bad

@@ -15,6 +15,9 @@ has "$folder/alone" before.png working.png after.png session.mcap summary.html
 grep -q "^removed " "$folder/alone.txt" || fail "the figures are not told"
 cmp -s "$folder/alone/before.png" "$folder/alone/after.png" && fail "nothing is seen to be removed"
 "$burr" replay "$folder/alone/session.mcap" --check || fail "the session does not replay"
+for name in one two; do "$burr" replay "$folder/alone/session.mcap" --sound "$folder/$name.wav" >/dev/null || fail "no sound of it"; done
+cmp "$folder/one.wav" "$folder/two.wav" || fail "the same recording sounds differently"
+[ "$(stat -c %s "$folder/one.wav")" = $((44 + 2 * 48000 * 2)) ] || fail "two seconds of sound have another length"
 grep -q "$folder" "$folder/alone/summary.html" && fail "the summary names a folder"
 
 # with one
@@ -27,6 +30,9 @@ Xvfb -displayfd 3 -screen 0 1300x800x24 3>"$folder/display" 2>/dev/null &
 screen=$!
 for _ in $(seq 100); do [ -s "$folder/display" ] && break; sleep 0.1; done
 [ -s "$folder/display" ] || fail "Xvfb does not start"
+export XDG_CONFIG_HOME="$folder/config" XDG_STATE_HOME="$folder/state" XDG_CACHE_HOME="$folder/cache"
 DISPLAY=:$(cat "$folder/display") SDL_VIDEODRIVER=x11 "$burr" run block --voxel-mm 0.5 --seconds 2 --out "$folder/window" >/dev/null
 has "$folder/window" before.png after.png session.mcap summary.html
 DISPLAY=:$(cat "$folder/display") "$burr" run block --voxel-mm 0.5 --seconds 1 || fail "without --out"
+DISPLAY=:$(cat "$folder/display") "$burr" run --seconds 2 --screenshot "$folder/start.png" || fail "the start page"
+has "$folder" start.png

@@ -16,6 +16,7 @@ GOOD = {
     "device/hand.h": "",
     "haptics/proxy.cpp": '#include "burr/volume/bone.h"\n#include "burr/device/hand.h"\n',
     "render/gl/draw.cpp": "#include <epoxy/gl.h>\n#include <SDL.h>\n",
+    "sound/speaker.cpp": '#include <SDL2/SDL.h>\n#include "burr/rt/ring.h"\n',
     "io/dicom.cpp": "#include <itkImage.h>\n",
 }
 
@@ -69,7 +70,13 @@ class Rooms(unittest.TestCase):
 
     def test_graphics_stay_in_their_corner(self):
         self.bad("render/scene.cpp", "#include <epoxy/gl.h>\n", "graphics belongs into render/gl")
-        self.bad("sim/window.cpp", "#include <SDL2/SDL.h>\n", "graphics belongs into render/gl")
+        self.bad("sound/screen.cpp", "#include <epoxy/gl.h>\n", "graphics belongs into render/gl")
+        self.bad("sound/screen.cpp", "#include <SDL2/SDL_opengl.h>\n", "graphics belongs into render/gl")
+        self.bad("sim/window.cpp", "#include <SDL2/SDL.h>\n", "graphics and sound belongs into render/gl or sound")
+
+    def test_sound_knows_no_session(self):
+        self.bad("sound/a.cpp", '#include "burr/haptics/vibration.h"\n', "the arrow sound -> haptics is not listed")
+        self.bad("sound/a.h", "#include <SDL2/SDL.h>\n", "a header shows others only")
 
     def test_formats_stay_at_the_border(self):
         self.bad("volume/load.cpp", "#include <itkImage.h>\n", "belongs into io")

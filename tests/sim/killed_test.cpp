@@ -10,9 +10,11 @@
 //
 // Every single kill is judged, on any machine. What the machine may take from it is measured, not
 // guessed: the pen asks for a processor every 40 ms; for how long the kernel let it wait is in the
-// kernel's own account (schedstat), which the child copies out while it lives, and that long, no
-// more, is added to the tenth of a second. That the file holds whatever the recorder called safe,
-// and that it replays, has no excuse.
+// kernel's own account (schedstat), which the child copies out while it lives; for how long a
+// virtual machine's host kept the processors for others is in the account of stolen time
+// (/proc/stat; a thread on a stolen processor does not wait, it "runs"). That long, no more, is
+// added to the tenth of a second. That the file holds whatever the recorder called safe, and that
+// it replays, has no excuse.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -109,6 +111,16 @@ std::int64_t waited_by_pen() {
   return waited;
 }
 
+// How long the host has kept the processors of a virtual machine for others so far, of all of them
+// together  [ms]; it is counted in steps of 10 ms.
+double stolen_ms() {
+  std::ifstream stat("/proc/stat");
+  std::string cpu;
+  double user = 0, nice = 0, system = 0, idle = 0, io = 0, irq = 0, softirq = 0, stolen = 0;
+  stat >> cpu >> user >> nice >> system >> idle >> io >> irq >> softirq >> stolen;
+  return 1e3 * stolen / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
 // The child: mills, is wished at, records, until it is killed.
 [[noreturn]] void mill_until_killed(const std::string& file, bool realtime, bool humble,
                                     std::uint64_t seed, Told& told) {
@@ -170,7 +182,8 @@ struct Tally {
 };
 
 // What lies there after the kill.
-void judge(const std::string& file, const Told& told, bool realtime, bool again, Tally& tally) {
+void judge(const std::string& file, const Told& told, bool realtime, double stolen, bool again,
+           Tally& tally) {
   NoProgress quiet;
   auto opened = record::Player::open(file);
   ASSERT_TRUE(opened) << opened.error().text;
@@ -186,7 +199,9 @@ void judge(const std::string& file, const Told& told, bool realtime, bool again,
                     : 1e-6 * static_cast<double>(told.handed_ns[handed - 1] - told.handed_ns[kept]);
   tally.lost_ms.push_back(lost);
   const double waited = 1e-6 * static_cast<double>(std::max<std::int64_t>(0, told.waited_ns));
-  EXPECT_LE(lost, kPromised + waited) << "the pen waited " << waited << " ms for a processor";
+  EXPECT_LE(lost, kPromised + waited + stolen)
+      << "the pen waited " << waited << " ms for a processor, and the host took " << stolen
+      << " ms";
   if (lost > kPromised) ++tally.excused;
 
   // anybody can check the hashes of a recording without simulating it
@@ -250,6 +265,7 @@ TEST(Killed, AtAnyMomentItOpensLacksATenthOfASecondAtMostAndReplaysToTheBit) {
   int unborn = 0;
   for (int n = 0; n < kills && !HasFailure(); ++n) {
     Told& told = *new (memory) Told{};
+    const double stolen_before = stolen_ms();
     std::filesystem::remove(file);
     const bool realtime = n % 4 != 3, humble = ::getuid() == 0 && random() % 2 == 0;
     const bool early = random() % 16 == 0;
@@ -278,6 +294,7 @@ TEST(Killed, AtAnyMomentItOpensLacksATenthOfASecondAtMostAndReplaysToTheBit) {
     ASSERT_TRUE(WIFSIGNALED(state) && WTERMSIG(state) == SIGKILL)
         << "the child ended by itself, with " << WEXITSTATUS(state);
 
+    const double stolen = stolen_ms() - stolen_before;
     SCOPED_TRACE("kill " + std::to_string(n) + (realtime ? ", paced" : ", as fast as possible") +
                  (humble ? ", without priority" : ""));
     Tally& tally = realtime ? paced : fast;
@@ -287,7 +304,7 @@ TEST(Killed, AtAnyMomentItOpensLacksATenthOfASecondAtMostAndReplaysToTheBit) {
       ++tally.before_the_beginning;
       continue;
     }
-    judge(file, told, realtime, n % 10 == 0, tally);
+    judge(file, told, realtime, stolen, n % 10 == 0, tally);
   }
   if (HasFailure()) {
     std::printf("the last one is kept: %s\n", file.c_str());

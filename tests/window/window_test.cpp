@@ -9,11 +9,14 @@
 #include <SDL2/SDL.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <random>
 #include <string>
@@ -31,6 +34,7 @@
 #include "burr/sim/session_words.h"
 #include "burr/surface/worker.h"
 #include "command.h"
+#include "live_bone.h"
 #include "scenes/build.h"
 #include "scenes/shapes.h"
 #include "support/data.h"
@@ -101,13 +105,18 @@ class User {
     SDL_PushEvent(&event);
   }
   void key() {
-    constexpr SDL_Keycode kKeys[] = {SDLK_u, SDLK_u, SDLK_y, SDLK_r,    SDLK_1,     SDLK_1,
-                                     SDLK_2, SDLK_3, SDLK_h, SDLK_PLUS, SDLK_MINUS, SDLK_f};
+    constexpr SDL_Keycode kKeys[] = {SDLK_u, SDLK_u, SDLK_y,    SDLK_r,     SDLK_1, SDLK_1, SDLK_2,
+                                     SDLK_3, SDLK_h, SDLK_PLUS, SDLK_MINUS, SDLK_f, SDLK_9, SDLK_0};
     SDL_Event event = {};
     event.type = SDL_KEYDOWN;
     event.key.keysym.sym = kKeys[random_() % std::size(kKeys)];
     SDL_PushEvent(&event);
     ++keys_;
+    if (random_() % 8 == 0) {  // the sound off, and on again at once
+      event.key.keysym.sym = SDLK_m;
+      SDL_PushEvent(&event);
+      SDL_PushEvent(&event);
+    }
   }
 
   std::mt19937_64 random_;
@@ -119,6 +128,17 @@ class User {
  public:
   ~User() { done_ = true; }
 };
+
+// The loudest of what the loudspeaker was given last: a file of raw floats, which grows.
+float loudest(const std::string& file) {
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in.tellg();
+  in.seekg(std::max<std::streamoff>(0, size / 2048 - 8) * 2048);
+  float most = 0;
+  for (float x = 0; in.read(reinterpret_cast<char*>(&x), sizeof x);)
+    most = std::max(most, std::abs(x));
+  return most;
+}
 
 TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
   ::setenv("SDL_VIDEODRIVER", "offscreen", 1);
@@ -173,16 +193,26 @@ TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
   ASSERT_TRUE(started) << started.error().text;
   session.set_recorder(&recorder);
 
+  // sound goes into a file; looked for anew it begins the file anew
+  ::setenv("SDL_AUDIODRIVER", "disk", 1);
+  ::setenv("SDL_DISKAUDIOFILE", (file + ".raw").c_str(), 1);
+  float sounded = 0;
   {
+    Loudspeaker loudspeaker(settings.servo, {});
+    ASSERT_EQ(loudspeaker.trouble(), "");
     rt::ChangedBits& changed = session.bone().add_watcher();
     int cut = 0;
     User user(seed, seconds);
     const auto looks = [&]() -> std::string {
       changed.take_all([&cut](std::size_t) { ++cut; });
+      sounded = std::max(sounded, loudest(file + ".raw"));
       user.look(cut > 100);
       return {};
     };
-    const Status shown = run_window(session, hand, worker, scene, {0, {}, looks});
+    WindowOptions options;
+    options.warning = looks;
+    options.loudspeaker = &loudspeaker;
+    const Status shown = run_window(session, hand, worker, scene, options);
     ASSERT_TRUE(shown) << shown.error().text;
   }
   session.set_recorder(nullptr);
@@ -194,6 +224,8 @@ TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
               static_cast<unsigned long long>(outcome.timing.missed),
               static_cast<unsigned long long>(account->wishes),
               static_cast<unsigned long long>(account->brick_rows), 1e9 * outcome.ledger.removed);
+  std::filesystem::remove(file + ".raw");
+  EXPECT_GT(sounded, 0) << "nothing was to be heard of it";
   EXPECT_TRUE(account->whole());
   EXPECT_EQ(account->ticks, outcome.ticks);
   EXPECT_EQ(account->safe_ticks, outcome.ticks);

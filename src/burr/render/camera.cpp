@@ -23,7 +23,8 @@ double Camera::view_height() const { return 2 * distance * std::tan(field_of_vie
 
 bool same(const Camera& a, const Camera& b) {
   return (a.target.array() == b.target.array()).all() && a.distance == b.distance &&
-         a.azimuth == b.azimuth && a.elevation == b.elevation && a.field_of_view == b.field_of_view;
+         a.azimuth == b.azimuth && a.elevation == b.elevation &&
+         a.field_of_view == b.field_of_view && a.aside == b.aside;
 }
 
 void orbit(Camera& camera, double azimuth_by, double elevation_by) {
@@ -83,9 +84,22 @@ Camera view_of_work(const Vec3& point, const Vec3& normal, double view_height) {
   return camera;
 }
 
+Camera endoscope_view(const Vec3& tip, const Vec3& ahead) {
+  constexpr double kWide = 95.0 * std::numbers::pi / 180, kDeep = 10e-3;
+  const Vec3 back = ahead.squaredNorm() > 0 ? Vec3(-ahead.normalized()) : Vec3(0, -1, 0);
+  Camera camera;
+  camera.field_of_view = kWide;
+  camera.distance = kDeep;
+  camera.azimuth = std::atan2(back.x(), -back.y());
+  camera.elevation = std::clamp(std::asin(std::clamp(back.z(), -1.0, 1.0)), -kPole, kPole);
+  camera.target = tip - kDeep * camera.backward();
+  return camera;
+}
+
 Ray ray_through(const Camera& camera, double x, double y, int width, int height) {
   const double t = std::tan(camera.field_of_view / 2);
-  const double up = (1 - 2 * y / height) * t, right = (2 * x - width) / height * t;
+  const double up = (1 - 2 * y / height) * t;
+  const double right = (2 * x - width) / height * t - camera.aside / camera.distance;
   return {camera.eye(),
           (right * camera.right() + up * camera.above() - camera.backward()).normalized()};
 }
@@ -102,7 +116,8 @@ Eigen::Matrix4d view_from_world(const Camera& camera) {
 Eigen::Matrix4d clip_from_view(const Camera& camera, double aspect, double near, double far,
                                const Window& part) {
   const double t = near * std::tan(camera.field_of_view / 2);
-  const double left = part.left * t * aspect, right = part.right * t * aspect;
+  const double shift = camera.aside * near / camera.distance;
+  const double left = part.left * t * aspect - shift, right = part.right * t * aspect - shift;
   const double bottom = part.bottom * t, top = part.top * t;
   Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
   m(0, 0) = 2 * near / (right - left);

@@ -17,13 +17,15 @@ struct Camera {
   double azimuth = 0;                      // 0 from the front (-y), growing towards +x     [rad]
   double elevation = 0;                    // above the horizon, never quite at a pole      [rad]
   double field_of_view = 0.5;              // from bottom to top of the picture             [rad]
+  double aside = 0;  // of this eye from the middle, to the right: what lies as deep as the target
+                     // stays where it is, so that two eyes make a stereo picture           [m]
 
   // Unit vectors: from the target to the eye; to the right; up in the picture. World +z (superior)
   // always points up in it.
   [[nodiscard]] math::Vec3 backward() const;
   [[nodiscard]] math::Vec3 right() const;
   [[nodiscard]] math::Vec3 above() const;
-  [[nodiscard]] math::Vec3 eye() const { return target + distance * backward(); }
+  [[nodiscard]] math::Vec3 eye() const { return target + distance * backward() + aside * right(); }
   // what is seen at the target from bottom to top  [m]
   [[nodiscard]] double view_height() const;
 };
@@ -46,6 +48,10 @@ void pan(Camera& camera, double right_by, double up_by);
 // not hide what the head does. view_height: of the surroundings shown  [m].
 [[nodiscard]] Camera view_of_work(const math::Vec3& point, const math::Vec3& normal,
                                   double view_height);
+
+// From the tip of a tool ahead, with a wide angle. tip: world; ahead: any length. Straight up and
+// down are a degree off, as head up has no meaning there.
+[[nodiscard]] Camera endoscope_view(const math::Vec3& tip, const math::Vec3& ahead);
 
 struct Ray {
   math::Vec3 origin = math::Vec3::Zero();

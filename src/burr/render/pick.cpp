@@ -21,7 +21,8 @@ double entry(const math::Aabb& box, const Ray& ray, const Vec3& inverse) {
   return in <= out ? in : std::numeric_limits<double>::infinity();
 }
 
-void pick_in(const SkinMesh& mesh, const Ray& ray, Hit& nearest) {
+void pick_in(const SkinMesh& mesh, const Ray& ray, const std::optional<ClipPlane>& clip,
+             Hit& nearest) {
   for (std::size_t t = 0; t + 2 < mesh.index_count(); t += 3) {
     const SkinVertex& a = mesh.vertices()[mesh.index(t)];
     const SkinVertex& b = mesh.vertices()[mesh.index(t + 1)];
@@ -41,6 +42,7 @@ void pick_in(const SkinMesh& mesh, const Ray& ray, Hit& nearest) {
     if (v < 0 || u + v > area) continue;
     const double distance = ac.dot(over) / area;
     if (distance < 0 || distance >= nearest.distance) continue;
+    if (clip && clip->n.dot(ray.origin + distance * ray.direction - clip->p) > 0) continue;
 
     nearest.distance = distance;
     nearest.p = ray.origin + distance * ray.direction;
@@ -59,7 +61,7 @@ std::optional<Hit> pick(const Scene& scene, const Ray& ray) {
   nearest.distance = std::numeric_limits<double>::infinity();
   for (const ScenePatch& patch : scene.patches) {
     if (patch.mesh == nullptr || entry(patch.box, ray, inverse) >= nearest.distance) continue;
-    pick_in(*patch.mesh, ray, nearest);
+    pick_in(*patch.mesh, ray, scene.clip, nearest);
   }
   if (nearest.distance == std::numeric_limits<double>::infinity()) return std::nullopt;
   return nearest;

@@ -1,7 +1,8 @@
 // render/pick.h - which point of the bone lies under the mouse.
 //
 // By ray against the scene's triangles, front faces only, nearest first; needs no GPU, and the burr
-// is never in the way. Thread: any. Cost: a box test per patch, triangles of those hit.
+// is never in the way, nor is what a clip plane hides; its section is not hit. Thread: any. Cost: a
+// box test per patch, triangles of those hit.
 #pragma once
 
 #include <optional>

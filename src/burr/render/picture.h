@@ -9,22 +9,16 @@
 // Thread: main only (SDL). Cost: see bench/render.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <vector>
 
 #include "burr/base/result.h"
+#include "burr/render/image.h"
 #include "burr/render/scene.h"
 
 namespace burr::render {
 
 class Renderer;
-
-struct Image {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;  // (height x width x 3), top row first
-};
 
 // Any size up to 65536 a side: what is larger than the GPU can hold at once is drawn in tiles.
 [[nodiscard]] Result<Image> render_image(const Scene& scene, int width, int height);

@@ -7,6 +7,7 @@
 // install or what to make smaller. Cost: see bench/render.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -38,8 +39,9 @@ class Renderer {
   [[nodiscard]] Result<Image> image(const Scene& scene, int width, int height, int tile = 0);
 
   // Draws into the window (at most as often as the screen shows) and shows it. Without a window:
-  // draws all the same, for benchmarks.
-  Status show(const Scene& scene);
+  // draws all the same, for benchmarks. over: draws on top before it is shown, with OpenGL of its
+  // own into the framebuffer then bound, which has the window's size; leaves bindings as found.
+  Status show(const Scene& scene, const std::function<void()>& over = {});
   void title(const std::string& text);
 
   // Leave out patches of bone that others hide (on by default; only a software renderer does). The
@@ -53,6 +55,10 @@ class Renderer {
 
   // "llvmpipe (LLVM 15.0.6, 256 bits)"
   [[nodiscard]] std::string gpu() const;
+  [[nodiscard]] bool software() const;  // the processor draws
+  // Nothing is left to be made good of what scene.quality left out: the next picture of the same
+  // scene is this one.
+  [[nodiscard]] bool refined() const;
 
   // What the last show() or image() did.
   struct Figures {
@@ -63,7 +69,8 @@ class Renderer {
   };
   [[nodiscard]] Figures figures() const;
 
-  // The picture of the last show(), for tests and for pictures of a session.
+  // The picture of the last show() with all that was drawn over it, for tests and for pictures of a
+  // session.
   [[nodiscard]] Image shown();
 
  private:

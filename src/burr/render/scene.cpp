@@ -37,6 +37,14 @@ void set_patch(Scene& scene, int index, const surface::Patch& patch) {
   set_patch(scene, index, packed(patch));
 }
 
+std::uint64_t versions_of(const Scene& scene, const SceneBlock& block) {
+  std::uint64_t sum = 0;
+  for (const int patch : block.patches)
+    if (const auto p = static_cast<std::size_t>(patch); p < scene.patches.size())
+      sum += scene.patches[p].version;
+  return sum;
+}
+
 math::Aabb bounds(const Scene& scene) {
   math::Aabb box;
   for (const ScenePatch& patch : scene.patches) {

@@ -10,13 +10,17 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "burr/math/aabb.h"
 #include "burr/math/pose.h"
 #include "burr/render/camera.h"
+#include "burr/render/coarse_mesh.h"
+#include "burr/render/image.h"
 #include "burr/render/look.h"
+#include "burr/render/quality.h"
 #include "burr/render/skin_mesh.h"
 #include "burr/surface/patch.h"
 
@@ -27,6 +31,16 @@ struct ScenePatch {
   std::shared_ptr<const SkinMesh> mesh;  // nullptr: no surface here
   std::uint64_t version = 0;
   math::Aabb box;  // of its vertices
+};
+
+// Several patches with fewer triangles, drawn in their place where that is near enough and none of
+// them has changed since (coarsening.h). A large block holds smaller ones.
+struct SceneBlock {
+  std::vector<int> patches;  // all that it stands for
+  std::vector<int> inner;    // numbers of the blocks it is made of; none: of the patches
+  bool outermost = true;     // part of no other
+  std::shared_ptr<const CoarseMesh> mesh;  // nullptr: none made
+  std::uint64_t versions = 0;              // the patches' versions, added up, that it was made of
 };
 
 // The tool in the hand: a fluted ball on a shaft, which leaves along the tool's +z.
@@ -55,14 +69,32 @@ struct Rod {
   bool on_top = false;
 };
 
+// What lies on the side that n points to is not drawn; the bone's section is closed by a flat face.
+struct ClipPlane {
+  math::Vec3 p = math::Vec3::Zero();
+  math::Vec3 n = math::Vec3::UnitZ();  // unit
+};
+
+// A picture in the picture, with a word in its corner.
+struct Inset {
+  std::shared_ptr<const Image> image;  // sent again when this is another one
+  int x = 0, y = 0, width = 0,
+      height = 0;  // of the whole picture, from its top left corner [pixel]
+};
+
 struct Scene {
   std::vector<ScenePatch> patches;     // index: number of the patch, as surface/mesher.h counts
+  std::vector<SceneBlock> blocks;      // none: nothing is drawn coarser
   std::vector<Colour> tissue_colours;  // index: TissueId
   Burr burr;
   std::vector<Marker> markers;
   std::vector<Rod> rods;
   Camera camera;
   Look look;
+  Quality quality;                // of a window's picture
+  std::optional<ClipPlane> clip;  // of the bone
+  bool round = false;             // only a circle is seen, as through a microscope or endoscope
+  std::vector<Inset> insets;      // over it
   bool scale_bar = false;         // bottom right; true at the depth of the camera's target
   std::vector<std::string> text;  // lines, top left; ASCII
 };
@@ -75,6 +107,10 @@ void set_patch(Scene& scene, int index, const surface::Patch& patch);
 // The same in two steps, the first of them on any thread.
 [[nodiscard]] ScenePatch packed(const surface::Patch& patch);
 void set_patch(Scene& scene, int index, ScenePatch&& patch);
+
+// The versions of a block's patches as they are now, added up: they only grow, so the same sum is
+// the same patches.
+[[nodiscard]] std::uint64_t versions_of(const Scene& scene, const SceneBlock& block);
 
 // All patches; empty if there is none.
 [[nodiscard]] math::Aabb bounds(const Scene& scene);

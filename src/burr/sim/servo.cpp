@@ -43,6 +43,7 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       vibration_({.device_gain = settings.vibration_gain}),
       limit_(device.spec(), settings.limit),
       path_(kPath),
+      burr_radius_(settings.burr.radius),
       recent_(FaultReport::kTicks) {
   spindle_.full_speed = settings.spindle_rad_s;
   spindle_.motor = settings.motor;
@@ -330,8 +331,10 @@ void Servo::obey(const Wish& wish) BURR_RT {
       break;
     case WishKind::burr_radius:
       if (wish.value >= 2 * bone_.grid().voxel &&
-          wish.value <= 0.5 * tool::kLargestDiameter + 1e-12 && touch_by_.set_radius(wish.value))
+          wish.value <= 0.5 * tool::kLargestDiameter + 1e-12 && touch_by_.set_radius(wish.value)) {
         settings_.burr.radius = wish.value;
+        burr_radius_.store(wish.value, std::memory_order_relaxed);
+      }
       break;
     case WishKind::stiffness:
       settings_.force.stiffness = std::clamp(wish.value, 0.0, device_.spec().max_stiffness);

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -100,7 +101,11 @@ class Servo {
   [[nodiscard]] rt::Ring<record::Wish>& wishes() BURR_RT { return wishes_; }   // main -> servo
   [[nodiscard]] rt::Latest<record::TickRow>& view() BURR_RT { return view_; }  // servo -> main
   [[nodiscard]] rt::Latest<FaultReport>& faults() BURR_RT { return faults_; }  // servo -> main
-  void set_diary(const Diary& diary) { diary_ = diary; }                       // before the session
+  // of the burr's head as it is now: a wish for a larger one is refused where it has no room [m]
+  [[nodiscard]] double burr_radius() const BURR_RT {
+    return burr_radius_.load(std::memory_order_relaxed);
+  }
+  void set_diary(const Diary& diary) { diary_ = diary; }  // before the session
   void set_heat(thermal::Worker* heat) { heat_ = heat; }  // servo -> heat; before the session
 
   // How long the last tick took and how late it began, for the diary and the view; not part of the
@@ -196,6 +201,7 @@ class Servo {
   rt::Ring<record::Wish> wishes_{256};
   rt::Latest<record::TickRow> view_;
   rt::Latest<FaultReport> faults_;
+  std::atomic<double> burr_radius_;
   Diary diary_;
   thermal::Worker* heat_ = nullptr;
   thermal::HeatRow heat_row_;

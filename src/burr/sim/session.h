@@ -92,6 +92,8 @@ class Session {
   [[nodiscard]] bool fault(FaultReport& report) { return servo_->faults().take(report); }
   // How warm it is, ten times a second of the session's time; false: nothing new, or nobody asked.
   [[nodiscard]] bool heat(thermal::HeatSummary& newest) { return heat_ && heat_->take(newest); }
+  // of the burr's head as it is now [m]; any thread
+  [[nodiscard]] double burr_radius() const { return servo_->burr_radius(); }
   // What the machine cannot keep up with just now: pictures and surface are to be made less often
   // from Load::picture and Load::mesh on. Any thread.
   [[nodiscard]] Load load() const { return load_.load(std::memory_order_relaxed); }

@@ -51,6 +51,7 @@ struct Worker::Lane {
 
   // what changed, what came back
   void look() {
+    seen = std::chrono::steady_clock::now();
     changed.take_all([&](std::size_t brick) {
       named.clear();
       mesher.patches_of_brick(static_cast<volume::BrickIndex>(brick), named);
@@ -89,7 +90,7 @@ struct Worker::Lane {
     shown[at] = !mesh->triangles.empty();
     free.pop_back();
     ++lent;
-    const bool pushed = out.push({patch, mesh, mine});
+    const bool pushed = out.push({patch, mesh, mine, seen});
     BURR_CHECK(pushed);  // the ring holds all that may be lent
   }
 
@@ -104,6 +105,7 @@ struct Worker::Lane {
   std::vector<std::unique_ptr<Patch>> all;
   std::vector<Patch*> free;
   int lent = 0;
+  std::chrono::steady_clock::time_point seen;  // when it last looked
 
   // between this lane and main
   rt::Ring<Skin> out{kLent};

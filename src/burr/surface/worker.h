@@ -18,6 +18,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -37,6 +38,7 @@ struct Skin {
   int patch = -1;  // index, see Mesher
   const Patch* mesh = nullptr;
   int lane = 0;
+  std::chrono::steady_clock::time_point seen;  // what the servo did before this is in it
 };
 
 class Worker {

@@ -3,18 +3,20 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <vector>
 
 namespace burr::render::gl {
 
 namespace {
 
-Result<GLuint> compile(bool es, GLenum kind, const char* source) {
+Result<GLuint> compile(bool es, GLenum kind, std::initializer_list<const char*> source) {
   const char* head = es ? "#version 300 es\nprecision highp float;\nprecision highp int;\n"
                           "precision highp sampler2D;\nprecision highp usampler2D;\n"
                         : "#version 330 core\n";
-  const std::array<const char*, 2> text = {head, source};
+  std::vector<const char*> text = {head};
+  text.insert(text.end(), source);
   const GLuint shader = glCreateShader(kind);
-  glShaderSource(shader, 2, text.data(), nullptr);
+  glShaderSource(shader, static_cast<GLsizei>(text.size()), text.data(), nullptr);
   glCompileShader(shader);
   GLint good = 0;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
@@ -30,7 +32,8 @@ Result<GLuint> compile(bool es, GLenum kind, const char* source) {
 
 }  // namespace
 
-Result<Program> Program::link(bool es, const char* vertex, const char* fragment) {
+Result<Program> Program::link(bool es, std::initializer_list<const char*> vertex,
+                              std::initializer_list<const char*> fragment) {
   const Result<GLuint> v = compile(es, GL_VERTEX_SHADER, vertex);
   if (!v) return v.error();
   const Result<GLuint> f = compile(es, GL_FRAGMENT_SHADER, fragment);

@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 #include <Eigen/Core>
+#include <initializer_list>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -53,11 +54,13 @@ using VertexArray = Name<make_array, free_array>;
 using Texture = Name<make_texture, free_texture>;
 using Framebuffer = Name<make_framebuffer, free_framebuffer>;
 
-// Vertex and fragment shader, linked. The sources lack the #version line, which depends on the API.
+// Vertex and fragment shader, linked. The sources lack the #version line, which depends on the API;
+// they may come in parts, and begin with the #defines that make them what they are.
 class Program {
  public:
   Program() = default;
-  [[nodiscard]] static Result<Program> link(bool es, const char* vertex, const char* fragment);
+  [[nodiscard]] static Result<Program> link(bool es, std::initializer_list<const char*> vertex,
+                                            std::initializer_list<const char*> fragment);
   Program(Program&& other) noexcept
       : id_(std::exchange(other.id_, 0)), places_(std::move(other.places_)) {}
   Program& operator=(Program&& other) noexcept {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "burr/render/gl/shaders.h"
 
@@ -45,6 +46,23 @@ std::vector<float> moved(std::vector<float> xy, float by) {
   return xy;
 }
 
+// all of the picture but a circle that fits into it
+std::vector<float> around(int width, int height) {
+  constexpr int kSteps = 180;
+  const float x = 0.5F * static_cast<float>(width), y = 0.5F * static_cast<float>(height);
+  const float r = std::min(x, y) - 1, far = 1.1F * std::hypot(x, y);
+  std::vector<float> xy;
+  for (int n = 0; n < kSteps; ++n) {
+    constexpr float kStep = 2 * std::numbers::pi_v<float> / kSteps;
+    const float a = kStep * static_cast<float>(n), b = a + kStep;
+    const float ax = std::cos(a), ay = std::sin(a), bx = std::cos(b), by = std::sin(b);
+    xy.insert(xy.end(),
+              {x + r * ax, y + r * ay, x + far * ax, y + far * ay, x + far * bx, y + far * by,
+               x + r * ax, y + r * ay, x + far * bx, y + far * by, x + r * bx, y + r * by});
+  }
+  return xy;
+}
+
 }  // namespace
 
 double bar_length(double picture_width) {
@@ -56,15 +74,18 @@ double bar_length(double picture_width) {
 }
 
 Status Overlay::make(bool es) {
-  Result<Program> flat = Program::link(es, kFlatVertex, kFlatFragment);
+  Result<Program> flat = Program::link(es, {kFlatVertex}, {kFlatFragment});
   if (!flat) return flat.error();
   flat_ = std::move(*flat);
+  Result<Program> inset = Program::link(es, {kFlatVertex}, {kInsetFragment});
+  if (!inset) return inset.error();
+  inset_ = std::move(*inset);
   return fine();
 }
 
 void Overlay::draw(const Scene& scene, int width, int height, int left, int top, int wide,
                    int high) {
-  if (scene.text.empty() && !scene.scale_bar) return;
+  if (scene.text.empty() && !scene.scale_bar && !scene.round && scene.insets.empty()) return;
   const float size = std::max(1.0F, std::round(static_cast<float>(height) / 480.0F));
   std::vector<float> xy;
   float y = 8 * size;
@@ -91,24 +112,67 @@ void Overlay::draw(const Scene& scene, int width, int height, int left, int top,
   glDisable(GL_CULL_FACE);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  flat_.use();
   // y down in the words, y up in OpenGL
-  flat_.set("clip_from_pixel",
-            Eigen::Vector4f(2.0F / static_cast<float>(wide), -2.0F / static_cast<float>(high),
-                            -1.0F - 2.0F * static_cast<float>(left) / static_cast<float>(wide),
-                            1.0F + 2.0F * static_cast<float>(top) / static_cast<float>(high)));
+  const Eigen::Vector4f clip_from_pixel(
+      2.0F / static_cast<float>(wide), -2.0F / static_cast<float>(high),
+      -1.0F - 2.0F * static_cast<float>(left) / static_cast<float>(wide),
+      1.0F + 2.0F * static_cast<float>(top) / static_cast<float>(high));
+  flat_.use();
+  flat_.set("clip_from_pixel", clip_from_pixel);
+  if (scene.round) quads(around(width, height), {0, 0, 0, 1});
+  insets(scene, clip_from_pixel, size);
+  flat_.use();
   quads(moved(xy, 0.75F * size), {0, 0, 0, 0.55F});
   quads(xy, {1, 1, 1, 0.92F});
   glDisable(GL_BLEND);
 }
 
-void Overlay::quads(const std::vector<float>& xy, const Eigen::Vector4f& colour) {
+void Overlay::insets(const Scene& scene, const Eigen::Vector4f& clip_from_pixel, float size) {
+  sent_.resize(scene.insets.size());
+  for (std::size_t n = 0; n < sent_.size(); ++n) {
+    const Inset& inset = scene.insets[n];
+    if (inset.image == nullptr || inset.image->rgb.empty()) continue;
+    Sent& sent = sent_[n];
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, sent.texture.make());
+    if (sent.image != inset.image) {
+      sent.image = inset.image;
+      glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+      glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, inset.image->width, inset.image->height, 0, GL_RGB,
+                   GL_UNSIGNED_BYTE, inset.image->rgb.data());
+      for (const GLenum way : {GLenum{GL_TEXTURE_MIN_FILTER}, GLenum{GL_TEXTURE_MAG_FILTER}})
+        glTexParameteri(GL_TEXTURE_2D, way, GL_LINEAR);
+      for (const GLenum way : {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}})
+        glTexParameteri(GL_TEXTURE_2D, way, GL_CLAMP_TO_EDGE);
+    }
+    const auto x = static_cast<float>(inset.x), y = static_cast<float>(inset.y);
+    const auto w = static_cast<float>(inset.width), h = static_cast<float>(inset.height);
+    std::vector<float> xy;
+    add_box(xy, x - size, y - size, x + w + size, y + h + size);
+    flat_.use();
+    quads(xy, {0, 0, 0, 0.6F});
+    xy.clear();
+    add_box(xy, x, y, x + w, y + h);
+    inset_.use();
+    inset_.set("clip_from_pixel", clip_from_pixel);
+    inset_.set("picture", 0);
+    inset_.set("place", Eigen::Vector4f(x, y, w, h));
+    load(xy);
+    glDrawArrays(GL_TRIANGLES, 0, 6);
+  }
+}
+
+void Overlay::load(const std::vector<float>& xy) {
   glBindVertexArray(array_.make());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.make());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(xy.size() * sizeof(float)), xy.data(),
                GL_STREAM_DRAW);
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+}
+
+void Overlay::quads(const std::vector<float>& xy, const Eigen::Vector4f& colour) {
+  load(xy);
   flat_.set("colour", colour);
   glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(xy.size() / 2));
 }

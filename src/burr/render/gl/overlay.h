@@ -1,4 +1,4 @@
-// render/gl/overlay.h - words and a scale bar over the picture.
+// render/gl/overlay.h - words, a scale bar and pictures over the picture.
 //
 // A header of this room only.
 #pragma once
@@ -16,9 +16,17 @@ class Overlay {
   void draw(const Scene& scene, int width, int height, int left, int top, int wide, int high);
 
  private:
+  void load(const std::vector<float>& xy);
   void quads(const std::vector<float>& xy, const Eigen::Vector4f& colour);
+  void insets(const Scene& scene, const Eigen::Vector4f& clip_from_pixel, float size);
 
-  Program flat_;
+  // an inset's picture on the GPU
+  struct Sent {
+    std::shared_ptr<const Image> image;
+    Texture texture;
+  };
+  Program flat_, inset_;
+  std::vector<Sent> sent_;
   Buffer vertices_;
   VertexArray array_;
 };

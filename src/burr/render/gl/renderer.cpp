@@ -14,7 +14,9 @@
 
 #include "burr/render/depth_tiles.h"
 #include "burr/render/gl/context.h"
+#include "burr/render/gl/frame.h"
 #include "burr/render/gl/overlay.h"
+#include "burr/render/gl/region.h"
 #include "burr/render/gl/shaders.h"
 #include "burr/render/gl/shapes.h"
 #include "burr/render/gl/skin.h"
@@ -22,8 +24,12 @@
 
 namespace burr::render {
 
+using gl::Frame;
 using gl::Piece;
 using gl::Program;
+using gl::Rect;
+using gl::rect_of;
+using gl::Region;
 using math::Aabb;
 using math::Vec3;
 
@@ -36,37 +42,9 @@ constexpr int kMostPicture = 65536;
 
 constexpr float kBone = 1.0F, kSteel = 0.67F, kMark = 0.33F;  // kinds, as the shaders have them
 
-// samples [x0, x1) x [y0, y1), y up
-struct Rect {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
-  [[nodiscard]] Rect grown(int by) const { return {x0 - by, y0 - by, x1 + by, y1 + by}; }
-  [[nodiscard]] Rect in(const Rect& o) const {
-    return {std::max(x0, o.x0), std::max(y0, o.y0), std::min(x1, o.x1), std::min(y1, o.y1)};
-  }
-  [[nodiscard]] Rect with(const Rect& o) const {
-    if (empty()) return o;
-    if (o.empty()) return *this;
-    return {std::min(x0, o.x0), std::min(y0, o.y0), std::max(x1, o.x1), std::max(y1, o.y1)};
-  }
-  [[nodiscard]] double area() const {
-    return empty() ? 0 : static_cast<double>(x1 - x0) * static_cast<double>(y1 - y0);
-  }
-};
-
 void scissor(const Rect& r) {
   glScissor(r.x0, r.y0, std::max(0, r.x1 - r.x0), std::max(0, r.y1 - r.y0));
 }
-
-// How a part of the picture lies in the target.
-struct Frame {
-  int picture_width = 0, picture_height = 0;  // whole picture, in samples
-  int left = 0, bottom = 0;                   // of the target's first sample in it
-  int width = 0, height = 0;                  // of the target
-  double near = 0, far = 1;
-  Eigen::Matrix4d view, clip;  // view_from_world, clip_from_view (of this part)
-  [[nodiscard]] Rect all() const { return {0, 0, width, height}; }
-};
 
 float linear(float c) { return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F); }
 Eigen::Vector3f light_of(const Light& light) {
@@ -86,6 +64,10 @@ bool same(const Look& a, const Look& b) {
          a.supersample == b.supersample && a.plain == b.plain &&
          a.background_top == b.background_top && a.background_bottom == b.background_bottom;
 }
+bool same(const std::optional<ClipPlane>& a, const std::optional<ClipPlane>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return (a->p.array() == b->p.array()).all() && (a->n.array() == b->n.array()).all();
+}
 bool same(const Piece& a, const Piece& b) {
   return a.shape == b.shape && a.world_from_shape == b.world_from_shape && a.colour == b.colour &&
          a.on_top == b.on_top;
@@ -101,82 +83,7 @@ int margin_of(const Scene& scene, const Frame& frame) {
   return static_cast<int>(reach_of(scene, frame)) + 12;
 }
 
-// Near enough for the tool before the bone, far enough for all of it; depends on the camera and the
-// bone's extent alone, so that a moving tool leaves it alone.
-void set_depths(Frame& frame, const Camera& camera, const Aabb& bone) {
-  constexpr double kRoom = 0.1;  // for what is in the hand  [m]
-  frame.near = std::max(0.02 * camera.distance, 0.5e-3);
-  double far = camera.distance;
-  for (int corner = 0; corner < 8 && !bone.empty(); ++corner) {
-    const Vec3 p = bone.corner(corner);
-    far = std::max(far, (camera.eye() - p).dot(camera.backward()));
-  }
-  frame.far = far + kRoom;
-}
-
-// where something within the hull of these points may appear in the target; everything if a point
-// is beside or behind the eye
-Rect rect_of(std::span<const Vec3> points, const Frame& frame) {
-  Eigen::Vector2d lo(1e30, 1e30), hi(-1e30, -1e30);
-  for (const Vec3& point : points) {
-    const Eigen::Vector4d c = frame.clip * (frame.view * point.homogeneous());
-    if (c.w() < frame.near) return frame.all();
-    lo = lo.cwiseMin(c.head<2>() / c.w());
-    hi = hi.cwiseMax(c.head<2>() / c.w());
-  }
-  const auto pixel = [](double clip, int size) {
-    return static_cast<int>(std::clamp((clip * 0.5 + 0.5) * size, -1e6, 1e6));
-  };
-  const Rect r = {pixel(lo.x(), frame.width) - 2, pixel(lo.y(), frame.height) - 2,
-                  pixel(hi.x(), frame.width) + 3, pixel(hi.y(), frame.height) + 3};
-  return r.in(frame.all());
-}
-Rect rect_of(const Aabb& box, const Frame& frame) {
-  if (box.empty()) return {};
-  std::array<Vec3, 8> corners;
-  for (int corner = 0; corner < 8; ++corner)
-    corners[static_cast<std::size_t>(corner)] = box.corner(corner);
-  return rect_of(corners, frame);
-}
-
-// Several rectangles to be drawn anew. They may overlap: each is drawn whole, so twice is only
-// slower.
-class Region {
- public:
-  void add(const Rect& rect) {
-    if (!rect.empty()) rects_.push_back(rect);
-  }
-  void add(const Region& other) {
-    for (const Rect& rect : other.rects_) add(rect);
-  }
-  // Joins what is cheaper together than apart.
-  void join() {
-    for (std::size_t i = 0; i < rects_.size(); ++i)
-      for (std::size_t j = i + 1; j < rects_.size(); ++j) {
-        const Rect both = rects_[i].with(rects_[j]);
-        if (both.area() > 1.15 * (rects_[i].area() + rects_[j].area())) continue;
-        rects_[i] = both;
-        rects_.erase(rects_.begin() + static_cast<std::ptrdiff_t>(j));
-        j = i;  // the larger one is compared with all again
-      }
-  }
-  [[nodiscard]] Region grown(int by, const Rect& within) const {
-    Region region;
-    for (const Rect& rect : rects_) region.add(rect.grown(by).in(within));
-    region.join();
-    return region;
-  }
-  [[nodiscard]] double area() const {
-    double sum = 0;
-    for (const Rect& rect : rects_) sum += rect.area();
-    return sum;
-  }
-  [[nodiscard]] bool empty() const { return rects_.empty(); }
-  [[nodiscard]] const std::vector<Rect>& rects() const { return rects_; }
-
- private:
-  std::vector<Rect> rects_;
-};
+bool has_hollows(const Look& look) { return look.hollow > 0 && !look.plain; }
 
 // The tool's shadow reaches as far as a hand's breadth matters; bounded, so that it can be redrawn
 // where the tool moved and left elsewhere. gl/shaders.h, passes().
@@ -201,20 +108,6 @@ std::vector<Vec3> shadow_of(const Scene& scene) {
   return points;
 }
 
-// the six planes of what can be seen through `r`, in the world, pointing inwards
-std::array<Eigen::Vector4d, 6> planes_of(const Rect& r, const Frame& frame) {
-  const Eigen::Matrix4d m = frame.clip * frame.view;
-  const auto clip = [](int pixel, int size) { return 2.0 * pixel / size - 1; };
-  const Eigen::Vector4d x = m.row(0).transpose(), y = m.row(1).transpose(),
-                        z = m.row(2).transpose(), w = m.row(3).transpose();
-  return {x - clip(r.x0, frame.width) * w,
-          clip(r.x1, frame.width) * w - x,
-          y - clip(r.y0, frame.height) * w,
-          clip(r.y1, frame.height) * w - y,
-          z + w,
-          w - z};
-}
-
 }  // namespace
 
 struct Renderer::Work {
@@ -226,8 +119,9 @@ struct Renderer::Work {
   gl::Target target;
   gl::Sheet sheet;
   gl::VertexArray nothing;  // a screen's triangle has no data, but wants an array
-  Program skin_mesh, mesh, hollow, soften, light, shrink;
-  int most = kMostTarget;                    // samples along a side
+  Program skin_mesh, clipped_skin, mesh, hollow, soften, plain, sky, shrink;
+  Program lights[3][2];    // [hollows: none, full, half resolution][shadow of the tool]
+  int most = kMostTarget;  // samples along a side
   int idle_width = 1280, idle_height = 720;  // of show() without a window
   Figures figures;
   bool reads_depth = false;  // cheaply: a graphics card waits for it, and OpenGL ES does not at all
@@ -239,43 +133,75 @@ struct Renderer::Work {
   struct Held {
     Camera camera;
     Look look;
-    Aabb bone;
+    std::optional<ClipPlane> clip;
+    Aabb bone;    // when it was drawn whole
+    Aabb extent;  // ... and what was added since
     std::vector<Piece> pieces;
     std::vector<Vec3> shadow;
+    Region stale;              // where hollows are old or missing
+    std::vector<Rect> coarse;  // pieces that were drawn coarser than a picture at rest
   };
   std::optional<Held> held;
   std::vector<Aabb> changed;  // boxes of patches sent since the target was drawn
 
   Status start();
   void update(const Scene& scene);
-  void paint(const Scene& scene, const Frame& frame, const Region& fresh, const Region& shadow,
+  // What is to be drawn of a picture.
+  struct Parts {
+    Region bone;     // where it changed
+    Region tool;     // where tool or marks did
+    Region shadow;   // where the tool's falls or fell
+    Region hollows;  // of the bone, to be found
+    bool light_hollows = true;
+    Aabb extent;  // of all bone
+  };
+  void paint(const Scene& scene, const Frame& frame, const Parts& parts,
              const std::vector<Piece>& pieces);
-  void paint_geometry(const Scene& scene, const Frame& frame, const Rect& r,
-                      const std::vector<Piece>& pieces);
+  void paint_bone(const Scene& scene, const Frame& frame, const Rect& r);
+  void paint_tool(const Frame& frame, const Rect& r, const std::vector<Piece>& pieces);
   void paint_hollows(const Scene& scene, const Frame& frame, const Rect& r);
-  void paint_light(const Scene& scene, const Frame& frame, const Rect& r);
-  Status put_on_sheet(const Scene& scene, const Rect& from, int factor, int width, int height,
-                      int left, int top);
+  void paint_light(const Scene& scene, const Frame& frame, const Rect& r, bool hollows,
+                   bool shaded);
+  struct Size {
+    int width = 0, height = 0;
+  };
+  void paint_sky(const Scene& scene, const Frame& frame, const Rect& r);
+  Status put_on_sheet(const Scene& scene, const Rect& from, int factor, const Size& size, int width,
+                      int height, int left, int top);
+  Parts compare(const Scene& scene, const Frame& frame, const std::vector<Piece>& pieces, bool all);
   void read(Image& image, int left, int top);
 };
 
 // ---- starting
 
 Status Renderer::Work::start() {
+  constexpr const char *kColours = gl::kColourFunctions, *kLight = gl::kLightFragment,
+                       *kClip = "#define CLIP\n";
   const struct {
     Program* program;
-    const char *vertex, *fragment;
-  } all[] = {{&skin_mesh, gl::kSkinVertex, gl::kMeshFragment},
-             {&mesh, gl::kMeshVertex, gl::kMeshFragment},
-             {&hollow, gl::kScreenVertex, gl::kHollowFragment},
-             {&soften, gl::kScreenVertex, gl::kSoftenFragment},
-             {&light, gl::kScreenVertex, gl::kLightFragment},
-             {&shrink, gl::kScreenVertex, gl::kShrinkFragment}};
+    std::initializer_list<const char*> vertex, fragment;
+  } all[] = {{&skin_mesh, {gl::kSkinVertex}, {gl::kMeshFragment}},
+             {&clipped_skin, {kClip, gl::kSkinVertex}, {kClip, gl::kMeshFragment}},
+             {&mesh, {gl::kMeshVertex}, {gl::kMeshFragment}},
+             {&hollow, {gl::kScreenVertex}, {gl::kHollowFragment}},
+             {&soften, {gl::kScreenVertex}, {gl::kSoftenFragment}},
+             {&plain, {gl::kScreenVertex}, {"#define PLAIN\n", kColours, kLight}},
+             {&sky, {gl::kScreenVertex}, {gl::kSkyFragment}},
+             {&shrink, {gl::kScreenVertex}, {kColours, gl::kShrinkFragment}}};
   for (const auto& one : all) {
     Result<Program> linked = Program::link(context->es(), one.vertex, one.fragment);
     if (!linked) return linked.error();
     *one.program = std::move(*linked);
   }
+  constexpr const char* kHollows[] = {"", "#define HOLLOWS\n", "#define HOLLOWS\n#define HALF\n"};
+  for (std::size_t hollows = 0; hollows < 3; ++hollows)
+    for (const bool shadow : {false, true}) {
+      Result<Program> linked =
+          Program::link(context->es(), {gl::kScreenVertex},
+                        {kHollows[hollows], shadow ? "#define SHADOW\n" : "", kColours, kLight});
+      if (!linked) return linked.error();
+      lights[hollows][shadow ? 1 : 0] = std::move(*linked);
+    }
   const Status made = overlay.make(context->es());
   if (!made) return made;
   GLint texture = 0;
@@ -324,32 +250,43 @@ void Renderer::Work::update(const Scene& scene) {
   figures.patches_uploaded = skin.update(scene, changed);
 }
 
-void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Region& fresh,
-                           const Region& shadow, const std::vector<Piece>& pieces) {
+void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& parts,
+                           const std::vector<Piece>& pieces) {
   glEnable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
-  for (const Rect& rect : fresh.rects()) paint_geometry(scene, frame, rect, pieces);
+  Rect there = rect_of(parts.extent, frame);  // all that is not sky
+  for (const Piece& piece : pieces)
+    for (const auto& corners : piece.boxes) there = there.with(rect_of(corners, frame));
+  for (const Rect& rect : parts.bone.rects()) paint_bone(scene, frame, rect);
+  Region fresh = parts.bone;
+  fresh.add(parts.tool);
+  fresh.join();
+  for (const Rect& rect : fresh.rects()) paint_tool(frame, rect, pieces);
 
-  // what moved darkens the hollows around it
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glBindVertexArray(nothing.get());
-  const Region touched = fresh.grown(margin_of(scene, frame), frame.all());
-  if (scene.look.hollow > 0 && !scene.look.plain)
-    for (const Rect& rect : touched.rects()) paint_hollows(scene, frame, rect);
-
-  Region lit = touched;
-  lit.add(shadow);
+  for (const Rect& rect : parts.hollows.rects()) paint_hollows(scene, frame, rect.in(there));
+  Region lit = fresh;
+  lit.add(parts.hollows);
+  lit.add(parts.shadow);
   lit.join();
-  for (const Rect& rect : lit.rects()) paint_light(scene, frame, rect);
+  const std::vector<Vec3> shade = shadow_of(scene);
+  const Rect shaded = shade.empty() || scene.look.plain ? Rect{} : rect_of(shade, frame);
+  for (const Rect& rect : lit.rects()) {
+    const Rect some = rect.in(there);
+    paint_light(scene, frame, some.in(shaded), parts.light_hollows, true);
+    for (const Rect& rest : some.without(shaded))
+      paint_light(scene, frame, rest, parts.light_hollows, false);
+    for (const Rect& rest : rect.without(there)) paint_sky(scene, frame, rest);
+  }
   glDisable(GL_SCISSOR_TEST);
   figures.redrawn = std::min(1.0, lit.area() / frame.all().area());
 }
 
-void Renderer::Work::paint_geometry(const Scene& scene, const Frame& frame, const Rect& r,
-                                    const std::vector<Piece>& pieces) {
+void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Rect& r) {
   if (r.empty()) return;
-  glBindFramebuffer(GL_FRAMEBUFFER, target.geometry.get());
+  glBindFramebuffer(GL_FRAMEBUFFER, target.bone.get());
   glViewport(0, 0, frame.width, frame.height);
   scissor(r);
   const std::array<float, 4> none{};
@@ -363,14 +300,22 @@ void Renderer::Work::paint_geometry(const Scene& scene, const Frame& frame, cons
   glDepthFunc(GL_LESS);
   glEnable(GL_CULL_FACE);
 
-  // bone
-  skin_mesh.use();
+  Program& program = scene.clip ? clipped_skin : skin_mesh;
+  program.use();
   const Eigen::Matrix4d clip_from_world = frame.clip * frame.view;
-  skin_mesh.set("clip_from_model", Eigen::Matrix4f(clip_from_world.cast<float>()));
+  program.set("clip_from_model", Eigen::Matrix4f(clip_from_world.cast<float>()));
   const Eigen::Matrix3d turn = frame.view.block<3, 3>(0, 0);
-  skin_mesh.set("view_from_model_n", Eigen::Matrix3f(turn.cast<float>()));
-  skin_mesh.set("tint_kind", Eigen::Vector4f(1, 1, 1, kBone));
-  skin_mesh.set("tissue_colours", 0);
+  program.set("view_from_model_n", Eigen::Matrix3f(turn.cast<float>()));
+  program.set("tint_kind", Eigen::Vector4f(1, 1, 1, kBone));
+  program.set("tissue_colours", 0);
+  if (scene.clip) {
+    glDisable(GL_CULL_FACE);
+    const Vec3& n = scene.clip->n;
+    Eigen::Vector4f plane;
+    plane << n.cast<float>(), static_cast<float>(-n.dot(scene.clip->p));
+    program.set("plane", plane);
+    program.set("plane_n", Eigen::Vector3f((turn * n).cast<float>()));
+  }
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, skin.colours());
   const gl::Skin::Hidden hidden = {
@@ -382,14 +327,32 @@ void Renderer::Work::paint_geometry(const Scene& scene, const Frame& frame, cons
         tiles.look(depth.data(), {r.x0, r.y0, r.x1 - r.x0, r.y1 - r.y0});
       },
       [&](const Aabb& box) { return tiles.hide(box, clip_from_world, frame.width, frame.height); }};
-  const gl::Skin::Drawn drawn = skin.draw(scene.camera.eye(), planes_of(r, frame),
-                                          reads_depth && skip_hidden ? &hidden : nullptr);
+  const gl::Skin::Drawn drawn =
+      skin.draw(scene.camera.eye(), gl::planes_of(r, frame), scene.clip.has_value(),
+                reads_depth && skip_hidden ? &hidden : nullptr);
   figures.patches_drawn += drawn.patches;
   figures.triangles_drawn += drawn.triangles;
+}
 
-  // tool and marks
+// A copy of the bone, and what stands before it.
+void Renderer::Work::paint_tool(const Frame& frame, const Rect& r,
+                                const std::vector<Piece>& pieces) {
+  if (r.empty()) return;
+  scissor(r);
+  target.copy_bone(r.x0, r.y0, r.x1, r.y1);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.geometry.get());
+  glViewport(0, 0, frame.width, frame.height);
+  glDepthMask(GL_TRUE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glEnable(GL_CULL_FACE);
   mesh.use();
+  const Eigen::Matrix4d clip_from_world = frame.clip * frame.view;
+  const Eigen::Matrix3d turn = frame.view.block<3, 3>(0, 0);
   for (const Piece& piece : pieces) {
+    if (std::all_of(piece.boxes.begin(), piece.boxes.end(),
+                    [&](const auto& corners) { return rect_of(corners, frame).in(r).empty(); }))
+      continue;
     Eigen::Matrix4d m = clip_from_world * piece.world_from_shape;
     // on top: pressed into the nearest hundredth of the depth, where nothing else is
     if (piece.on_top) m.row(2) = 0.01 * m.row(2) - 0.985 * m.row(3);
@@ -437,15 +400,16 @@ float strict_of(const Scene& scene, const Frame& frame) {
 }  // namespace
 
 void Renderer::Work::paint_hollows(const Scene& scene, const Frame& frame, const Rect& r) {
+  if (r.empty()) return;
   const int stride = target.stride;
   const int count = std::clamp(scene.look.hollow_samples, 1, kMostSamples);
   const Rect low = Rect{r.x0 / stride, r.y0 / stride, (r.x1 + stride - 1) / stride,
                         (r.y1 + stride - 1) / stride};
   glViewport(0, 0, target.hollow_width, target.hollow_height);
   scissor(low);
-  bind(0, target.depth);
-  bind(1, target.colour);
-  bind(2, target.normal);
+  bind(0, target.bone_depth);
+  bind(1, target.bone_colour);
+  bind(2, target.bone_normal);
 
   hollow.use();
   hollow.set("depth_map", 0);
@@ -476,8 +440,33 @@ void Renderer::Work::paint_hollows(const Scene& scene, const Frame& frame, const
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::Work::paint_light(const Scene& scene, const Frame& frame, const Rect& r) {
+namespace {
+
+void set_sky(Program& program, const Look& look, const Frame& frame) {
+  const auto height = static_cast<float>(frame.picture_height);
+  program.set("sky", Eigen::Vector2f(1.0F / height, static_cast<float>(frame.bottom) / height));
+  program.set("sky_top", vector_of(look.background_top));
+  program.set("sky_bottom", vector_of(look.background_bottom));
+}
+
+}  // namespace
+
+void Renderer::Work::paint_sky(const Scene& scene, const Frame& frame, const Rect& r) {
+  if (r.empty()) return;
+  glBindFramebuffer(GL_FRAMEBUFFER, target.lit_at.get());
+  glViewport(0, 0, frame.width, frame.height);
+  scissor(r);
+  sky.use();
+  set_sky(sky, scene.look, frame);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::Work::paint_light(const Scene& scene, const Frame& frame, const Rect& r,
+                                 bool hollows, bool shaded) {
+  if (r.empty()) return;
   const Look& look = scene.look;
+  const std::size_t kind = !hollows ? 0 : target.stride == 1 ? 1 : 2;
+  Program& light = look.plain ? plain : lights[kind][shaded ? 1 : 0];
   glBindFramebuffer(GL_FRAMEBUFFER, target.lit_at.get());
   glViewport(0, 0, frame.width, frame.height);
   scissor(r);
@@ -495,14 +484,9 @@ void Renderer::Work::paint_light(const Scene& scene, const Frame& frame, const R
   light.set("planes",
             Eigen::Vector2f(static_cast<float>(frame.near), static_cast<float>(frame.far)));
   light.set("size", frame.width, frame.height);
-  light.set("stride", target.stride);
   light.set("hollow_size", target.hollow_width, target.hollow_height);
   light.set("strict", strict_of(scene, frame));
-  light.set("sky", Eigen::Vector2f(1.0F / static_cast<float>(frame.picture_height),
-                                   static_cast<float>(frame.bottom) /
-                                       static_cast<float>(frame.picture_height)));
-  light.set("sky_top", vector_of(look.background_top));
-  light.set("sky_bottom", vector_of(look.background_bottom));
+  set_sky(light, look, frame);
   light.set("key_towards", Eigen::Vector3f(look.key.towards.normalized().cast<float>()));
   light.set("key_light", light_of(look.key));
   light.set("fill_towards", Eigen::Vector3f(look.fill.towards.normalized().cast<float>()));
@@ -510,15 +494,13 @@ void Renderer::Work::paint_light(const Scene& scene, const Frame& frame, const R
   light.set("ambient", static_cast<float>(look.ambient));
   light.set("gloss", static_cast<float>(look.gloss));
   light.set("hollow", static_cast<float>(look.hollow));
-  light.set("plain", look.plain ? 1 : 0);
 
   // head and shaft as the shader needs them for the shadow
   const Burr& burr = scene.burr;
-  const bool casts = burr.visible && burr.world_from_tool.finite();
   const Vec3 centre = (frame.view * burr.world_from_tool.p.homogeneous()).head<3>();
   const Vec3 axis = frame.view.block<3, 3>(0, 0) * (burr.world_from_tool.q * Vec3::UnitZ());
-  Eigen::Vector4f ball = Eigen::Vector4f::Zero();
-  if (casts) ball << centre.cast<float>(), static_cast<float>(burr.radius);
+  Eigen::Vector4f ball;
+  ball << centre.cast<float>(), static_cast<float>(burr.radius);
   light.set("ball", ball);
   light.set("shaft", Eigen::Vector3f(axis.cast<float>()));
   light.set("shadow_reach", static_cast<float>(kShadowReach));
@@ -528,19 +510,20 @@ void Renderer::Work::paint_light(const Scene& scene, const Frame& frame, const R
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-// `from` of the target, shrunk, becomes the sheet, which is the part of a picture of width x height
-// that starts at (left, top); words on top.
-Status Renderer::Work::put_on_sheet(const Scene& scene, const Rect& from, int factor, int width,
-                                    int height, int left, int top) {
-  const int wide = (from.x1 - from.x0) / factor, high = (from.y1 - from.y0) / factor;
+// `from` of the target becomes the sheet of that size, shrunk by `factor` or stretched: the part of
+// a picture of width x height that starts at (left, top); words on top.
+Status Renderer::Work::put_on_sheet(const Scene& scene, const Rect& from, int factor,
+                                    const Size& size, int width, int height, int left, int top) {
+  const auto [wide, high] = size;
   const Status sized = sheet.resize(wide, high);
   if (!sized) return sized;
   glBindFramebuffer(GL_FRAMEBUFFER, sheet.at.get());
   glViewport(0, 0, wide, high);
   if (factor == 1) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target.lit_at.get());
+    const bool same_size = wide == from.x1 - from.x0 && high == from.y1 - from.y0;
     glBlitFramebuffer(from.x0, from.y0, from.x1, from.y1, 0, 0, wide, high, GL_COLOR_BUFFER_BIT,
-                      GL_NEAREST);
+                      same_size ? GL_NEAREST : GL_LINEAR);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, sheet.at.get());
   } else {
     bind(0, target.lit);
@@ -586,6 +569,7 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
   w.update(scene);
   w.changed.clear();
   w.held.reset();
+  w.skin.allow(0);
 
   const int factor = std::clamp(scene.look.supersample, 1, 8);
   const int stride = scene.look.hollow_half ? 2 : 1;
@@ -593,7 +577,8 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
   whole.picture_width = width * factor;
   whole.picture_height = height * factor;
   whole.view = view_from_world(scene.camera);
-  set_depths(whole, scene.camera, bounds(scene));
+  const Aabb bone = bounds(scene);
+  gl::set_depths(whole, scene.camera, bone);
 
   // tiles overlap by as far as hollows reach, in steps that keep their pattern in place
   const int margin = (margin_of(scene, whole) + 7) / 8 * 8;
@@ -624,14 +609,18 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
            part(outer.y0, whole.picture_height), part(outer.y1, whole.picture_height)});
       const Result<bool> sized = w.target.resize(frame.width, frame.height, stride);
       if (!sized) return sized.error();
-      Region everything;
-      everything.add(frame.all());
-      w.paint(scene, frame, everything, {}, pieces);
+      Work::Parts parts;
+      parts.extent = bone;
+      parts.bone.add(frame.all());
+      parts.light_hollows = has_hollows(scene.look);
+      if (parts.light_hollows) parts.hollows.add(frame.all());
+      w.paint(scene, frame, parts, pieces);
       const int left = inner.x0 / factor, top = height - inner.y1 / factor;
       const Status done = w.put_on_sheet(
           scene,
           {inner.x0 - outer.x0, inner.y0 - outer.y0, inner.x1 - outer.x0, inner.y1 - outer.y0},
-          factor, width, height, left, top);
+          factor, {(inner.x1 - inner.x0) / factor, (inner.y1 - inner.y0) / factor}, width, height,
+          left, top);
       if (!done) return done.error();
       w.read(image, left, top);
     }
@@ -641,15 +630,90 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
   return image;
 }
 
-Status Renderer::show(const Scene& scene) {
+namespace {
+
+// The picture in pieces, to be drawn one after the other.
+std::vector<Rect> pieces_of(const Rect& all) {
+  constexpr int kAcross = 6, kUp = 4;
+  std::vector<Rect> pieces;
+  for (int y = 0; y < kUp; ++y)
+    for (int x = 0; x < kAcross; ++x)
+      pieces.push_back({all.x1 * x / kAcross, all.y1 * y / kUp, all.x1 * (x + 1) / kAcross,
+                        all.y1 * (y + 1) / kUp});
+  return pieces;
+}
+
+}  // namespace
+
+// What differs from the picture that is held; then that is what is held.
+Renderer::Work::Parts Renderer::Work::compare(const Scene& scene, const Frame& frame,
+                                              const std::vector<Piece>& pieces, bool all) {
+  const Quality& quality = scene.quality;
+  Parts parts;
+  std::vector<Vec3> shadow = shadow_of(scene);
+  if (all) {
+    parts.bone.add(frame.all());
+  } else {
+    for (const Aabb& box : changed) {
+      parts.bone.add(rect_of(box, frame));
+      held->extent.extend(box.lo);
+      held->extent.extend(box.hi);
+    }
+    const std::vector<Piece>& old = held->pieces;
+    const auto add = [&](const std::vector<Piece>& some, std::size_t i) {
+      if (i >= some.size()) return;
+      for (const auto& corners : some[i].boxes) parts.tool.add(rect_of(corners, frame));
+    };
+    for (std::size_t i = 0; i < std::max(old.size(), pieces.size()); ++i) {
+      if (i < old.size() && i < pieces.size() && same(old[i], pieces[i])) continue;
+      add(old, i);
+      add(pieces, i);
+    }
+    if (quality.refine && !held->coarse.empty()) {
+      parts.bone.add(held->coarse.back());
+      held->coarse.pop_back();
+    }
+    parts.bone.join();
+    parts.tool.join();
+    if (!parts.tool.empty() || !parts.bone.empty())
+      for (const auto* points : {&std::as_const(held->shadow), &std::as_const(shadow)})
+        if (!points->empty()) parts.shadow.add(rect_of(*points, frame));
+  }
+  held->shadow = std::move(shadow);
+  parts.extent = held->extent;
+
+  // what changed darkens the hollows around it
+  parts.light_hollows = has_hollows(scene.look);
+  if (parts.light_hollows) {
+    held->stale.add(parts.bone.grown(margin_of(scene, frame), frame.all()));
+    held->stale.join();
+    if (held->stale.rects().size() > 32) {
+      held->stale = {};
+      held->stale.add(frame.all());
+    }
+    const bool now = all ? quality.hollows : !quality.hollows_later;
+    const bool later = quality.refine && held->coarse.empty() && parts.bone.empty();
+    if (now || later) parts.hollows = std::exchange(held->stale, {});
+    if (all && !now) {
+      target.clear_hollows();
+      parts.light_hollows = false;
+    }
+  }
+  return parts;
+}
+
+Status Renderer::show(const Scene& scene, const std::function<void()>& over) {
   Work& w = *work_;
   w.context->make_current();
   w.update(scene);
 
+  const Quality& quality = scene.quality;
   const int factor = std::clamp(scene.look.supersample, 1, 4);
+  const int wide = std::max(1, width()), high = std::max(1, height());
+  const double scale = factor == 1 ? std::clamp(quality.scale, 0.25, 1.0) : factor;
   Frame frame;
-  frame.picture_width = frame.width = std::max(1, width()) * factor;
-  frame.picture_height = frame.height = std::max(1, height()) * factor;
+  frame.picture_width = frame.width = std::max(1, static_cast<int>(std::lround(wide * scale)));
+  frame.picture_height = frame.height = std::max(1, static_cast<int>(std::lround(high * scale)));
   frame.view = view_from_world(scene.camera);
   const std::vector<Piece>& pieces = w.shapes.pieces(scene);
   const Result<bool> fresh =
@@ -657,46 +721,30 @@ Status Renderer::show(const Scene& scene) {
   if (!fresh) return fresh.error();
 
   // everything anew when the eye moved; else only where bone or tool did
-  const bool all =
-      *fresh || !w.held || !same(w.held->camera, scene.camera) || !same(w.held->look, scene.look);
+  const bool all = *fresh || !w.held || !same(w.held->camera, scene.camera) ||
+                   !same(w.held->look, scene.look) || !same(w.held->clip, scene.clip);
   if (all) {
     w.held.emplace();
-    w.held->bone = bounds(scene);
+    w.held->bone = w.held->extent = bounds(scene);
+    if (quality.coarse_px > quality.coarse_still_px) w.held->coarse = pieces_of(frame.all());
   }
-  set_depths(frame, scene.camera, w.held->bone);
-  frame.clip = clip_from_view(scene.camera, static_cast<double>(frame.width) / frame.height,
-                              frame.near, frame.far);
-  Region fresh_part, shadow_part;
-  std::vector<Vec3> shadow = shadow_of(scene);
-  if (all) {
-    fresh_part.add(frame.all());
-  } else {
-    for (const Aabb& box : w.changed) fresh_part.add(rect_of(box, frame));
-    const std::vector<Piece>& old = w.held->pieces;
-    const auto add = [&](const std::vector<Piece>& some, std::size_t i) {
-      if (i >= some.size()) return;
-      for (const auto& corners : some[i].boxes) fresh_part.add(rect_of(corners, frame));
-    };
-    for (std::size_t i = 0; i < std::max(old.size(), pieces.size()); ++i) {
-      if (i < old.size() && i < pieces.size() && same(old[i], pieces[i])) continue;
-      add(old, i);
-      add(pieces, i);
-    }
-    fresh_part.join();
-    if (!fresh_part.empty())
-      for (const auto* points : {&std::as_const(w.held->shadow), &std::as_const(shadow)})
-        if (!points->empty()) shadow_part.add(rect_of(*points, frame));
-  }
+  const double pixels_at_1m = high / (2 * std::tan(0.5 * scene.camera.field_of_view));
+  w.skin.allow((all ? quality.coarse_px : quality.coarse_still_px) / pixels_at_1m);
+  gl::set_depths(frame, scene.camera, w.held->bone);
+  frame.clip =
+      clip_from_view(scene.camera, static_cast<double>(wide) / high, frame.near, frame.far);
+  const Work::Parts parts = w.compare(scene, frame, pieces, all);
   w.changed.clear();
   w.held->camera = scene.camera;
   w.held->look = scene.look;
+  w.held->clip = scene.clip;
   w.held->pieces = pieces;
-  w.held->shadow = std::move(shadow);
-  if (!fresh_part.empty()) w.paint(scene, frame, fresh_part, shadow_part, pieces);
+  if (!parts.bone.empty() || !parts.tool.empty() || !parts.hollows.empty())
+    w.paint(scene, frame, parts, pieces);
 
-  const Status put =
-      w.put_on_sheet(scene, frame.all(), factor, frame.width / factor, frame.height / factor, 0, 0);
+  const Status put = w.put_on_sheet(scene, frame.all(), factor, {wide, high}, wide, high, 0, 0);
   if (!put) return put;
+  if (over) over();  // the sheet is bound
   if (w.context->visible()) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, w.sheet.at.get());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
@@ -729,6 +777,10 @@ void Renderer::resize_offscreen(int width, int height) {
 }
 
 std::string Renderer::gpu() const { return work_->context->gpu(); }
+bool Renderer::software() const { return work_->context->software(); }
+bool Renderer::refined() const {
+  return work_->held && work_->held->coarse.empty() && work_->held->stale.empty();
+}
 Renderer::Figures Renderer::figures() const { return work_->figures; }
 
 Image Renderer::shown() {

@@ -118,7 +118,7 @@ void Shapes::make() {
 
   // Flutes wind a little around the head, are deepest at its equator and fade towards the poles;
   // their edges lie on the ball itself.
-  send_round(head_, 160, 64, [&](double u, double v) {
+  send_round(head_, 96, 40, [&](double u, double v) {
     const double lat = (v - 0.5) * kPi, wave = u * kFlutes + 0.6 * (v - 0.5);
     const double saw = wave - std::floor(wave);
     const double depth = 0.16 * std::cos(lat) * std::cos(lat) * std::pow(1 - saw, 1.5);

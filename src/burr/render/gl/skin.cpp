@@ -12,7 +12,7 @@ using math::Vec3;
 
 namespace {
 
-constexpr std::size_t kWorthLooking = 200;  // patches; for fewer it costs more than it saves
+constexpr std::size_t kWorthLooking = 30;  // patches; for fewer it costs more than it saves
 
 std::uint8_t unorm(float v) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0F, 1.0F) * 255.0F));
@@ -64,24 +64,44 @@ int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
     colours_ = scene.tissue_colours;
     send_colours();
   }
-  if (parts_.size() > scene.patches.size()) {
-    for (std::size_t i = scene.patches.size(); i < parts_.size(); ++i)
-      if (parts_[i].count > 0) changed.push_back(parts_[i].box);
+  if (patches_.size() > scene.patches.size()) {
+    for (std::size_t i = scene.patches.size(); i < patches_.size(); ++i)
+      if (!patches_[i].levels.empty()) changed.push_back(patches_[i].box);
   }
-  parts_.resize(scene.patches.size());
+  patches_.resize(scene.patches.size());
 
   int sent = 0;
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
     const ScenePatch& patch = scene.patches[i];
-    Part& part = parts_[i];
+    Patch& part = patches_[i];
     if (part.version == patch.version) {
-      if (recolour && part.count > 0) changed.push_back(part.box);
+      if (recolour && !part.levels.empty()) changed.push_back(part.box);
       continue;
     }
-    if (part.count > 0) changed.push_back(part.box);
+    if (!part.levels.empty()) changed.push_back(part.box);
     send(part, patch);
-    if (part.count > 0) changed.push_back(part.box);
+    if (!part.levels.empty()) changed.push_back(part.box);
     ++sent;
+  }
+
+  // they look the same as their patches, so nothing has changed by them
+  blocks_.resize(scene.blocks.size());
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const SceneBlock& block = scene.blocks[i];
+    Block& part = blocks_[i];
+    if (part.patches.size() != block.patches.size() || part.inner.size() != block.inner.size()) {
+      part.patches = block.patches;
+      part.inner = block.inner;
+    }
+    part.outermost = block.outermost;
+    if (part.mesh != block.mesh) {
+      part.mesh = block.mesh;
+      if (part.mesh == nullptr || part.mesh->vertices.empty())
+        part.levels.clear();
+      else
+        send(part, *part.mesh);
+    }
+    part.stands = part.mesh != nullptr && block.versions == versions_of(scene, block);
   }
   return sent;
 }
@@ -101,35 +121,14 @@ void Skin::send_colours() {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-void Skin::send(Part& part, const ScenePatch& patch) {
-  if (patch.mesh == nullptr) {
-    part = Part{};
-    part.version = patch.version;
-    return;
-  }
-  const SkinMesh& mesh = *patch.mesh;
-  part.version = patch.version;
-  part.box = patch.box;
-  find_cone(mesh, part.facing, part.spread);
+namespace {
 
-  const auto fill = [](GLenum target, const auto& values) {
-    glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(values[0])), values.data(),
-                 GL_DYNAMIC_DRAW);
-  };
-  const bool fresh = part.array.get() == 0;
-  glBindVertexArray(part.array.make());
-  glBindBuffer(GL_ARRAY_BUFFER, part.vertices.make());
-  fill(GL_ARRAY_BUFFER, mesh.vertices());
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.make());
-  part.count = static_cast<GLsizei>(mesh.index_count());
-  if (mesh.large_indices().empty()) {
-    part.type = GL_UNSIGNED_SHORT;
-    fill(GL_ELEMENT_ARRAY_BUFFER, mesh.small_indices());
-  } else {
-    part.type = GL_UNSIGNED_INT;
-    fill(GL_ELEMENT_ARRAY_BUFFER, mesh.large_indices());
-  }
-  if (!fresh) return;
+void fill(GLenum target, const void* values, std::size_t bytes) {
+  glBufferData(target, static_cast<GLsizeiptr>(bytes), values, GL_DYNAMIC_DRAW);
+}
+
+// where places, normals and tissues lie in a vertex
+void lay_out() {
   constexpr GLsizei kStride = sizeof(SkinVertex);
   const auto* behind_p = reinterpret_cast<const void*>(sizeof(math::Vec3f));
   glEnableVertexAttribArray(0);
@@ -138,39 +137,125 @@ void Skin::send(Part& part, const ScenePatch& patch) {
   glVertexAttribIPointer(1, 1, GL_UNSIGNED_INT, kStride, behind_p);
 }
 
-void Skin::draw(const Part& part, Drawn& drawn) const {
-  glBindVertexArray(part.array.get());
-  glDrawElements(GL_TRIANGLES, part.count, part.type, nullptr);
-  ++drawn.patches;
-  drawn.triangles += part.count / 3;
+}  // namespace
+
+void Skin::send(Patch& part, const ScenePatch& patch) {
+  if (patch.mesh == nullptr) {
+    part = Patch{};
+    part.version = patch.version;
+    return;
+  }
+  const SkinMesh& mesh = *patch.mesh;
+  part.version = patch.version;
+  part.box = patch.box;
+  part.levels = {{0, 0, static_cast<GLsizei>(mesh.index_count())}};
+  find_cone(mesh, part.facing, part.spread);
+
+  const bool fresh = part.array.get() == 0;
+  glBindVertexArray(part.array.make());
+  glBindBuffer(GL_ARRAY_BUFFER, part.vertices.make());
+  fill(GL_ARRAY_BUFFER, mesh.vertices().data(), mesh.vertices().size() * sizeof(SkinVertex));
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.make());
+  if (mesh.large_indices().empty()) {
+    part.type = GL_UNSIGNED_SHORT;
+    fill(GL_ELEMENT_ARRAY_BUFFER, mesh.small_indices().data(),
+         mesh.index_count() * sizeof(std::uint16_t));
+  } else {
+    part.type = GL_UNSIGNED_INT;
+    fill(GL_ELEMENT_ARRAY_BUFFER, mesh.large_indices().data(),
+         mesh.index_count() * sizeof(std::uint32_t));
+  }
+  if (fresh) lay_out();
 }
 
-Skin::Drawn Skin::draw(const Vec3& eye, const std::array<Eigen::Vector4d, 6>& planes,
+void Skin::send(Block& part, const CoarseMesh& mesh) {
+  part.box = {};
+  for (const SkinVertex& vertex : mesh.vertices) part.box.extend(vertex.p.cast<double>());
+  part.spread = std::numbers::pi;  // so large a part faces every way
+  part.type = GL_UNSIGNED_INT;
+  part.levels.clear();
+  std::vector<std::uint32_t> indices;
+  for (const CoarseLevel& level : mesh.levels) {
+    part.levels.push_back({level.error, static_cast<GLsizei>(indices.size()),
+                           static_cast<GLsizei>(level.indices.size())});
+    indices.insert(indices.end(), level.indices.begin(), level.indices.end());
+  }
+  glBindVertexArray(part.array.make());
+  glBindBuffer(GL_ARRAY_BUFFER, part.vertices.make());
+  fill(GL_ARRAY_BUFFER, mesh.vertices.data(), mesh.vertices.size() * sizeof(SkinVertex));
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.make());
+  fill(GL_ELEMENT_ARRAY_BUFFER, indices.data(), indices.size() * sizeof(std::uint32_t));
+  lay_out();
+}
+
+void Skin::draw(const Asked& asked, Drawn& drawn) {
+  const Part& part = *asked.part;
+  const std::size_t size =
+      part.type == GL_UNSIGNED_SHORT ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
+  glBindVertexArray(part.array.get());
+  glDrawElements(
+      GL_TRIANGLES, asked.level->count, part.type,
+      reinterpret_cast<const void*>(static_cast<std::size_t>(asked.level->first) * size));
+  ++drawn.patches;
+  drawn.triangles += asked.level->count / 3;
+}
+
+void Skin::ask(Patch& patch, const Vec3& eye, const Planes& planes) {
+  if (!patch.levels.empty() && !outside(patch.box, planes) &&
+      (both_sides_ || !turned_away(patch.box, patch.facing, patch.spread, eye)))
+    asked_.push_back({&patch, &patch.levels.front()});
+}
+
+// The coarsest that is allowed: the block, or what it is made of.
+void Skin::ask(Block& block, const Vec3& eye, const Planes& planes) {
+  if (block.stands) {
+    if (block.levels.empty() || outside(block.box, planes)) return;
+    const double nearest =
+        std::max(0.0, (block.box.centre() - eye).norm() - 0.5 * block.box.extent().norm());
+    const Part::Level* level = nullptr;
+    for (const Part::Level& coarser : block.levels)
+      if (coarser.error <= error_share_ * nearest) level = &coarser;
+    if (level != nullptr) {
+      asked_.push_back({&block, level});
+      return;
+    }
+  }
+  for (const int inner : block.inner) ask(blocks_[static_cast<std::size_t>(inner)], eye, planes);
+  if (!block.inner.empty()) return;
+  for (const int patch : block.patches)
+    if (static_cast<std::size_t>(patch) < patches_.size())
+      ask(patches_[static_cast<std::size_t>(patch)], eye, planes);
+}
+
+Skin::Drawn Skin::draw(const Vec3& eye, const Planes& planes, bool both_sides,
                        const Hidden* hidden) {
   Drawn drawn;
+  both_sides_ = both_sides;
   asked_.clear();
-  for (Part& part : parts_)
-    if (part.count > 0 && !outside(part.box, planes) &&
-        !turned_away(part.box, part.facing, part.spread, eye))
-      asked_.push_back(&part);
+  if (blocks_.empty() || error_share_ <= 0)
+    for (Patch& patch : patches_) ask(patch, eye, planes);
+  else
+    for (Block& block : blocks_)
+      if (block.outermost) ask(block, eye, planes);
   if (hidden == nullptr || asked_.size() < kWorthLooking) {
-    for (const Part* part : asked_) draw(*part, drawn);
+    for (const Asked& asked : asked_) draw(asked, drawn);
     return drawn;
   }
-  if (std::none_of(asked_.begin(), asked_.end(), [](const Part* part) { return part->seen; })) {
+  if (std::none_of(asked_.begin(), asked_.end(), [](const Asked& a) { return a.part->seen; })) {
     // nothing is known yet: what is nearest hides most
     const auto third = asked_.begin() + static_cast<std::ptrdiff_t>(asked_.size() / 3);
-    std::nth_element(asked_.begin(), third, asked_.end(), [&](const Part* a, const Part* b) {
-      return (a->box.centre() - eye).squaredNorm() < (b->box.centre() - eye).squaredNorm();
+    std::nth_element(asked_.begin(), third, asked_.end(), [&](const Asked& a, const Asked& b) {
+      return (a.part->box.centre() - eye).squaredNorm() <
+             (b.part->box.centre() - eye).squaredNorm();
     });
-    for (auto at = asked_.begin(); at != third; ++at) (*at)->seen = true;
+    for (auto at = asked_.begin(); at != third; ++at) at->part->seen = true;
   }
-  for (const Part* part : asked_)
-    if (part->seen) draw(*part, drawn);
+  for (const Asked& asked : asked_)
+    if (asked.part->seen) draw(asked, drawn);
   hidden->look();
-  for (Part* part : asked_) {
-    const bool before = std::exchange(part->seen, !hidden->is(part->box));
-    if (part->seen && !before) draw(*part, drawn);
+  for (const Asked& asked : asked_) {
+    const bool before = std::exchange(asked.part->seen, !hidden->is(asked.part->box));
+    if (asked.part->seen && !before) draw(asked, drawn);
   }
   return drawn;
 }

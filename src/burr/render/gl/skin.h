@@ -1,7 +1,8 @@
 // render/gl/skin.h - the bone's surface on the GPU: one vertex and index buffer per patch.
 //
 // Memory: 16 B a vertex, 2 B an index, as they are in the scene. A patch is sent when its version
-// changes and skipped when it is out of sight or wholly turned away. A header of this room only.
+// changes and skipped when it is out of sight, wholly turned away or hidden. Where it is allowed, a
+// coarse block is drawn in the place of its patches. A header of this room only.
 #pragma once
 
 #include <array>
@@ -30,30 +31,58 @@ class Skin {
     std::function<void()> look;
     std::function<bool(const math::Aabb& box)> is;
   };
+  // Blocks may be drawn for their patches: by an error of `error_share` times their distance.
+  void allow(double error_share) { error_share_ = error_share; }
   // Draws with the program in use what may be seen from `eye` inside the planes (nx, ny, nz, d:
   // n . p + d >= 0 inside). With `hidden`: first what was seen the last time, then of the rest what
   // is not hidden behind it (two passes: Hill & Collin, GPU Pro 2, 2011). The picture is the same.
-  Drawn draw(const math::Vec3& eye, const std::array<Eigen::Vector4d, 6>& planes,
-             const Hidden* hidden);
+  using Planes = std::array<Eigen::Vector4d, 6>;
+  // both_sides: what is turned away is seen too.
+  Drawn draw(const math::Vec3& eye, const Planes& planes, bool both_sides, const Hidden* hidden);
 
  private:
   struct Part {
     Buffer vertices, indices;
     VertexArray array;
-    GLsizei count = 0;
+    // one after the other in `indices`, finest first
+    struct Level {
+      double error = 0;  // [m]
+      GLsizei first = 0, count = 0;
+    };
+    std::vector<Level> levels;  // none: nothing to draw
     GLenum type = GL_UNSIGNED_SHORT;
-    std::uint64_t version = 0;
     math::Aabb box;
     math::Vec3 facing = math::Vec3::Zero();  // middle of the cone of the triangles' normals
     double spread = 0;                       // its half angle; pi: every way         [rad]
     bool seen = false;                       // when it was last asked for
   };
-  void draw(const Part& part, Drawn& drawn) const;
-  void send(Part& part, const ScenePatch& patch);
+  struct Patch : Part {
+    std::uint64_t version = 0;
+  };
+  struct Block : Part {
+    std::vector<int> patches, inner;
+    bool outermost = true;
+    std::shared_ptr<const CoarseMesh> mesh;
+    bool stands = false;  // for its patches as they are now
+  };
+  // A part with the level it is to be drawn at.
+  struct Asked {
+    Part* part = nullptr;
+    const Part::Level* level = nullptr;
+  };
+
+  void send(Patch& part, const ScenePatch& patch);
+  static void send(Block& part, const CoarseMesh& mesh);
+  static void draw(const Asked& asked, Drawn& drawn);
+  void ask(Patch& patch, const math::Vec3& eye, const Planes& planes);
+  void ask(Block& block, const math::Vec3& eye, const Planes& planes);
   void send_colours();
 
-  std::vector<Part> parts_;
-  std::vector<Part*> asked_;  // of this draw
+  std::vector<Patch> patches_;
+  std::vector<Block> blocks_;
+  std::vector<Asked> asked_;  // of this draw
+  double error_share_ = 0;
+  bool both_sides_ = false;  // in this draw
   std::vector<Colour> colours_;
   Texture colour_row_;
 };

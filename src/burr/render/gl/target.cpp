@@ -46,13 +46,17 @@ Result<bool> Target::resize(int wide, int high, int hollow_stride) {
   hollow_width = (wide + hollow_stride - 1) / hollow_stride;
   hollow_height = (high + hollow_stride - 1) / hollow_stride;
 
-  shape(colour, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);
-  shape(normal, GL_RG16UI, wide, high, GL_RG_INTEGER, GL_UNSIGNED_SHORT);
-  shape(depth, GL_DEPTH_COMPONENT24, wide, high, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
+  for (Texture* one : {&bone_colour, &colour})
+    shape(*one, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);
+  for (Texture* one : {&bone_normal, &normal})
+    shape(*one, GL_RG16UI, wide, high, GL_RG_INTEGER, GL_UNSIGNED_SHORT);
+  for (Texture* one : {&bone_depth, &depth})
+    shape(*one, GL_DEPTH_COMPONENT24, wide, high, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
   shape(lit, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);
   shape(hollow, GL_RGBA8, hollow_width, hollow_height, GL_RGBA, GL_UNSIGNED_BYTE);
   shape(soft, GL_RGBA8, hollow_width, hollow_height, GL_RGBA, GL_UNSIGNED_BYTE);
-  for (const Status& made : {attach(geometry, {colour.get(), normal.get()}, depth.get()),
+  for (const Status& made : {attach(bone, {bone_colour.get(), bone_normal.get()}, bone_depth.get()),
+                             attach(geometry, {colour.get(), normal.get()}, depth.get()),
                              attach(hollow_at, {hollow.get()}, 0), attach(soft_at, {soft.get()}, 0),
                              attach(lit_at, {lit.get()}, 0)})
     if (!made) return made.error();
@@ -60,6 +64,30 @@ Result<bool> Target::resize(int wide, int high, int hollow_stride) {
   height = high;
   stride = hollow_stride;
   return true;
+}
+
+void Target::copy_bone(int x0, int y0, int x1, int y1) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, bone.get());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, geometry.get());
+  // one output at a time: what is read goes to all that are on
+  constexpr GLenum kColourOnly[] = {GL_COLOR_ATTACHMENT0, GL_NONE};
+  constexpr GLenum kNormalOnly[] = {GL_NONE, GL_COLOR_ATTACHMENT1};
+  constexpr GLenum kBoth[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glDrawBuffers(2, kColourOnly);
+  glBlitFramebuffer(x0, y0, x1, y1, x0, y0, x1, y1, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT,
+                    GL_NEAREST);
+  glReadBuffer(GL_COLOR_ATTACHMENT1);
+  glDrawBuffers(2, kNormalOnly);
+  glBlitFramebuffer(x0, y0, x1, y1, x0, y0, x1, y1, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glDrawBuffers(2, kBoth);
+}
+
+void Target::clear_hollows() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, soft_at.get());
+  constexpr float kOpen[] = {1, 0, 0, 1};
+  glClearBufferfv(GL_COLOR, 0, kOpen);
 }
 
 Status Sheet::resize(int wide, int high) {

@@ -1,0 +1,43 @@
+#include "live_bone.h"
+
+namespace burr::app {
+namespace {
+
+constexpr int kPatchesPerFrame = 256;  // sent to the GPU; more wait for the next frame
+
+}  // namespace
+
+void put_skin(render::Scene& scene, const surface::Skin& skin) {
+  if (skin.mesh == nullptr) return;
+  render::set_patch(scene, skin.patch, *skin.mesh);
+}
+
+LiveBone::LiveBone(sim::Session& session, surface::Worker& worker, render::Scene& scene,
+                   bool software)
+    : session_(session),
+      worker_(worker),
+      scene_(scene),
+      coarse_(worker.patches(), session.bone().grid().voxel),
+      governor_(software) {}
+
+double LiveBone::now() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+}
+
+void LiveBone::update() {
+  worker_.hold_back(session_.load() >= sim::Load::mesh);
+  skins_.clear();
+  surface::Skin skin;
+  for (int i = 0; i < kPatchesPerFrame && worker_.take(skin); ++i) {
+    put_skin(scene_, skin);
+    worker_.give_back(skin);
+    skins_.push_back(skin);
+  }
+  coarse_.hold_back(session_.load() >= sim::Load::picture);
+  coarse_.update(scene_, now());
+  scene_.quality = governor_.begin(scene_.camera, now());
+}
+
+void LiveBone::drawn(double took_s, double redrawn) { governor_.end(took_s, redrawn, now()); }
+
+}  // namespace burr::app

@@ -1,0 +1,52 @@
+// apps/burr/live_bone.h - what keeps the picture of a bone true and quick while it is milled: the
+// same for the window, a whole session without one, and the bench of frames.
+//
+//     LiveBone live(session, worker, scene, renderer.software());   // before the session starts
+//     each frame:   live.update();                // patches, coarse blocks, what may be left out
+//                   renderer.show(scene);
+//                   live.drawn(took_s, renderer.figures().redrawn);
+//
+// Thread: main.
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+#include "burr/render/coarsening.h"
+#include "burr/render/governor.h"
+#include "burr/render/scene.h"
+#include "burr/sim/session.h"
+#include "burr/surface/worker.h"
+
+namespace burr::app {
+
+// A made patch into the scene.
+void put_skin(render::Scene& scene, const surface::Skin& skin);
+
+class LiveBone {
+ public:
+  LiveBone(sim::Session& session, surface::Worker& worker, render::Scene& scene, bool software);
+
+  // Patches that are ready go into the scene, as many as a frame bears; surface and coarse blocks
+  // are held back where the machine does not keep up with the hand.
+  void update();
+  // After the frame: how long it took, how much of the picture was drawn anew.
+  void drawn(double took_s, double redrawn);
+
+  [[nodiscard]] render::FrameGovernor& governor() { return governor_; }
+  [[nodiscard]] render::Coarsening& coarsening() { return coarse_; }
+  // Of the last update; their meshes are given back.
+  [[nodiscard]] const std::vector<surface::Skin>& skins() const { return skins_; }
+  [[nodiscard]] double now() const;  // since it was made [s]
+
+ private:
+  sim::Session& session_;
+  surface::Worker& worker_;
+  render::Scene& scene_;
+  render::Coarsening coarse_;
+  render::FrameGovernor governor_;
+  std::vector<surface::Skin> skins_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace burr::app

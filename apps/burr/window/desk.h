@@ -1,0 +1,66 @@
+// apps/burr/window/desk.h - what all pages share: the window, what draws panels over it, and the
+// user's settings.
+//
+// Thread: main.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "burr/base/result.h"
+#include "burr/render/renderer.h"
+#include "window/settings.h"
+#include "window/ui.h"
+
+namespace burr::app {
+
+// Where the window keeps things; an empty folder: that is not kept.
+struct DeskPlaces {
+  std::filesystem::path config, state, cache;
+};
+// By the XDG base directories: ~/.config/burr and so on.
+[[nodiscard]] DeskPlaces users_places();
+
+enum class Page { none, start, loading, milling };
+
+class Desk {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<Desk>> open(const DeskPlaces& places);
+  Desk(const Desk&) = delete;
+  Desk& operator=(const Desk&) = delete;
+  ~Desk() = default;
+
+  [[nodiscard]] render::Renderer& renderer() { return *renderer_; }
+  [[nodiscard]] Ui& ui() { return *ui_; }
+  [[nodiscard]] const DeskPlaces& places() const { return places_; }
+
+  Settings settings;
+  std::vector<std::string> troubles;  // of the settings' file, to be told once
+  Page page = Page::none;             // the one shown
+  std::string told;                   // what went wrong, on the start page
+  std::function<void()> after_frame;  // whoever wants to look on, after each picture
+  // After a change: in effect, and written down.
+  void settings_changed();
+
+  // The next event, already known to the panels; false: none now.
+  [[nodiscard]] bool next(SDL_Event& event);
+  // One picture: the scene and, if `panels` is set, what it draws with ImGui over it. keys: the
+  // panels may be walked through by keyboard.
+  [[nodiscard]] Status show(const render::Scene& scene, const std::function<void()>& panels,
+                            bool keys = false);
+  // What the window shows now as a PNG in `folder`: burr_001.png, 002 ... The name, or the error.
+  [[nodiscard]] Result<std::string> leave_picture(const std::string& folder);
+
+ private:
+  Desk() = default;
+  DeskPlaces places_;
+  std::unique_ptr<render::Renderer> renderer_;
+  std::unique_ptr<Ui> ui_;  // goes first
+  bool keep_old_ = false;   // the settings' file had trouble
+  int pictures_ = 0;
+};
+
+}  // namespace burr::app

@@ -1,0 +1,72 @@
+#include "window/help.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "window/words.h"
+
+namespace burr::app {
+namespace {
+
+using Rows = std::vector<std::pair<std::string, Word>>;
+
+void block(const Ui& ui, float x, float& y, Word title, const Rows& rows) {
+  const float u = ui.unit();
+  ui.write(x, y, Ui::Letter::strong, ink::kAccent, word(title));
+  y += 25 * u;
+  for (const auto& [keys, what] : rows) {
+    ui.write(x, y, Ui::Letter::strong, ink::kText, keys);
+    ui.write(x + 168 * u, y, Ui::Letter::body, ink::kDim, word(what));
+    y += 23 * u;
+  }
+  y += 14 * u;
+}
+
+}  // namespace
+
+bool draw_help(Ui& ui, bool left_handed) {
+  const float u = ui.unit(), w = 920 * u, h = 520 * u;
+  const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
+  ui.page("##help", x, y, w, h);
+  ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::help_title));
+  const std::string mill = word(left_handed ? Word::key_right : Word::key_left);
+  const std::string turn = word(left_handed ? Word::key_left : Word::key_right);
+  float left = y + 70 * u, right = left;
+  block(ui, x + 28 * u, left, Word::help_hand,
+        {{mill, Word::help_mill},
+         {word(Word::key_space), Word::help_hold},
+         {"+  -", Word::help_push},
+         {word(Word::key_ctrl_wheel), Word::help_push}});
+  block(ui, x + 28 * u, left, Word::help_view,
+        {{turn, Word::help_turn},
+         {word(Word::key_arrows), Word::help_turn},
+         {word(Word::key_middle), Word::help_shift},
+         {word(Word::key_shift_arrows), Word::help_shift},
+         {word(Word::key_wheel), Word::help_zoom},
+         {"F", Word::help_first_view},
+         {"V  B  N", Word::help_slices},
+         {"L", Word::help_labels}});
+  block(ui, x + 480 * u, right, Word::help_tools,
+        {{"1  2  3", Word::help_modes},
+         {"[  ]", Word::help_sizes},
+         {word(Word::key_shift_wheel), Word::help_sizes},
+         {",  .", Word::help_speeds},
+         {"U  Y", Word::help_undo},
+         {"R", Word::help_reset}});
+  block(ui, x + 480 * u, right, Word::help_program,
+        {{"Tab", Word::help_hide},
+         {"F2", Word::help_settings},
+         {"S", Word::key_save},
+         {"P", Word::help_picture},
+         {"M", Word::help_sound},
+         {"9  0", Word::help_loudness},
+         {"Esc  Q", Word::help_quit}});
+  ui.write(x + 28 * u, y + h - 52 * u, Ui::Letter::body, ink::kDim, word(Word::help_ghost));
+  ImGui::SetCursorScreenPos({x + w - 100 * u, y + 20 * u});
+  const bool close = ImGui::Button("OK  [F1]", {76 * u, 0});
+  ImGui::End();
+  return !close;
+}
+
+}  // namespace burr::app

@@ -1,0 +1,11 @@
+// apps/burr/window/help.h - keys and mouse on one page.
+#pragma once
+
+#include "window/ui.h"
+
+namespace burr::app {
+
+// false: the user has read enough. left_handed: the mouse's buttons are the other way round.
+[[nodiscard]] bool draw_help(Ui& ui, bool left_handed);
+
+}  // namespace burr::app

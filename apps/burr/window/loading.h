@@ -1,0 +1,75 @@
+// apps/burr/window/loading.h - long work beside the window: how far it is, and a way to stop it.
+//
+//     Loading loading([=](Progress& progress) { return make(progress); });
+//     each frame:   if (loading.finished()) result = loading.take();
+//
+// The work runs on a thread of its own and touches nothing of the window's; destroying it asks the
+// work to stop and waits. Thread: main, except where the work runs.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "window/desk.h"
+#include "work.h"
+
+namespace burr::app {
+
+// Progress that another thread looks at.
+class SeenProgress final : public Progress {
+ public:
+  void report(double fraction, std::string_view stage) override;
+  [[nodiscard]] bool cancelled() const override { return cancel_.load(); }
+  void cancel() { cancel_ = true; }
+  struct Now {
+    double fraction = 0;
+    std::string stage;
+  };
+  [[nodiscard]] Now now() const;
+
+ private:
+  mutable std::mutex mutex_;
+  Now now_;
+  std::atomic<bool> cancel_ = false;
+};
+
+template <class Value>
+class Loading {
+ public:
+  using Make = std::function<Result<Value>(Progress&)>;
+  explicit Loading(Make make)
+      : thread_([this, make = std::move(make)] {
+          result_.emplace(make(progress_));
+          finished_ = true;
+        }) {}
+  ~Loading() { progress_.cancel(); }
+  Loading(const Loading&) = delete;
+  Loading& operator=(const Loading&) = delete;
+
+  [[nodiscard]] bool finished() const { return finished_; }
+  [[nodiscard]] SeenProgress& progress() { return progress_; }
+  // Once, after finished().
+  [[nodiscard]] Result<Value> take() {
+    thread_.join();
+    return std::move(*result_);
+  }
+
+ private:
+  SeenProgress progress_;
+  std::optional<Result<Value>> result_;
+  std::atomic<bool> finished_ = false;
+  std::jthread thread_;  // last: begins when all else is there, ends before it
+};
+
+// The page shown until the bone is ready. Error: Trouble::interrupted if the user cancelled;
+// `closed` is true if the window was closed.
+[[nodiscard]] Result<Ready> load(Desk& desk, const std::string& title, Loading<Ready>::Make make,
+                                 bool& closed);
+
+}  // namespace burr::app

@@ -1,0 +1,118 @@
+#include "window/pages.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "command.h"
+#include "window/loading.h"
+#include "window/sessions.h"
+#include "window/start_page.h"
+#include "window/words.h"
+
+namespace burr::app {
+namespace {
+
+// in words that name no patient
+std::string title_of(const WorkOptions& options, const Settings& settings) {
+  const std::string& path = options.volume.path;
+  const std::string known = name_of_case(path);
+  if (known != path || path.find('/') == std::string::npos) return known;
+  const std::filesystem::path file(path);
+  if (settings.recent_names) return file.filename().string();
+  return word(file.extension() == ".toml" ? Word::start_case_file : Word::start_scan);
+}
+
+Status leave_screenshot(Desk& desk, const std::string& file) {
+  return file.empty() ? fine() : render::write_png(desk.renderer().shown(), file);
+}
+
+}  // namespace
+
+Result<Ready> open_ready(WorkOptions options, Progress& progress) {
+  const Status taken = take_case(options);
+  if (!taken) return taken.error();
+  auto work = open_work(options, progress);
+  if (!work) return work.error();
+  return make_ready(options, std::move(*work), progress);
+}
+
+Result<Left> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& window) {
+  WindowOptions with = window;
+  with.nearby = ready.nearby.get();
+  std::unique_ptr<Loudspeaker> loudspeaker;
+  if (window.sound) {
+    loudspeaker =
+        std::make_unique<Loudspeaker>(ready.session->settings().servo, ready.nearby->distances());
+    if (!loudspeaker->trouble().empty()) fmt::print(stderr, "{}\n", loudspeaker->trouble());
+    with.loudspeaker = loudspeaker.get();
+  }
+  return mill(desk, *ready.session, *ready.hand, *ready.worker, ready.scene, with);
+}
+
+Result<Left> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options, bool embed,
+                           const WindowOptions& window) {
+  std::unique_ptr<Autosave> autosave;
+  if (desk.settings.autosave && !desk.places().state.empty()) {
+    throw_old_away(desk.places().state, desk.settings);
+    autosave = std::make_unique<Autosave>(desk.places().state, ready, options, embed);
+  }
+  WindowOptions with = window;
+  with.keep = [&autosave] { return autosave != nullptr && autosave->keep(); };
+  with.warning = [&] {
+    std::string warning = window.warning ? window.warning() : std::string();
+    if (warning.empty() && autosave) warning = autosave->trouble();
+    return warning;
+  };
+  Result<Left> left = mill_with_sound(desk, ready, with);
+  if (autosave) autosave->finish();
+  return left;
+}
+
+Status run_pages(Desk& desk, const PagesOptions& options) {
+  StartPage start(desk);
+  std::string trouble;
+  for (;;) {
+    auto choice = start.ask(trouble, options.seconds);
+    if (!choice) return choice.error();
+    trouble.clear();
+    if (choice->quit) return leave_screenshot(desk, options.screenshot);
+
+    const bool goes_on = choice->go_on.has_value();
+    const WorkOptions chosen = goes_on ? choice->go_on->options : *choice->open;
+    const std::string title =
+        say(Word::loading, goes_on ? choice->go_on->title : title_of(chosen, desk.settings));
+    bool closed = false;
+    Result<Ready> ready =
+        goes_on
+            ? load(
+                  desk, title,
+                  [kept = *choice->go_on](Progress& progress) {
+                    return continue_session(kept, progress);
+                  },
+                  closed)
+            : load(
+                  desk, title,
+                  [chosen](Progress& progress) { return open_ready(chosen, progress); }, closed);
+    if (closed || interrupted()) return fine();
+    if (!ready) {
+      if (ready.error().trouble != Trouble::interrupted) trouble = ready.error().text;
+      continue;
+    }
+    std::error_code nobody_asks;
+    if (!goes_on && std::filesystem::exists(chosen.volume.path, nobody_asks))
+      remember(desk.places().state, chosen.volume.path, ready->title);
+    for (const std::string& notice : ready->import.notices) desk.troubles.push_back(notice);
+    const Result<Left> left = mill_and_keep(desk, *ready, chosen, goes_on,
+                                            {.seconds = options.seconds,
+                                             .folder = options.folder,
+                                             .screenshot = options.screenshot,
+                                             .sound = options.sound});
+    if (!left) return left.error();
+    if (*left == Left::window) return fine();
+  }
+}
+
+}  // namespace burr::app

@@ -1,0 +1,155 @@
+#include "window/settings.h"
+
+#include <fmt/format.h>
+
+#include <safe_toml.h>
+#include <array>
+#include <cmath>
+#include <system_error>
+
+#include "burr/base/check.h"
+#include "burr/base/new_file.h"
+#include "burr/base/shown.h"
+#include "burr/base/text_file.h"
+
+namespace burr::app {
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 1U << 16;  // a page of settings  [byte]
+
+// One line of the file. Exactly one of the three is set.
+struct Field {
+  const char *key, *means;
+  double Settings::*number = nullptr;
+  bool Settings::*yes = nullptr;
+  Language Settings::*language = nullptr;
+  double least = 0, most = 0;
+};
+
+constexpr std::array kFields = {
+    Field{"language", "of the window: \"english\" or \"swedish\"", nullptr, nullptr,
+          &Settings::language},
+    Field{"scale", "of letters and panels, on top of the display's own", &Settings::scale, nullptr,
+          nullptr, 0.5, 3},
+    Field{"left_handed", "the right button mills and the left one turns; the handle leans left",
+          nullptr, &Settings::left_handed},
+    Field{"force_limit_n", "your own limit of the force in the hand [N]", &Settings::force_limit_n,
+          nullptr, nullptr, 0.2, 20},
+    Field{"press_mm", "how deep the mouse presses at first [mm]", &Settings::press_mm, nullptr,
+          nullptr, 0.5, 6},
+    Field{"turn_pace", "of the view, by mouse and arrows", &Settings::turn_pace, nullptr, nullptr,
+          0.1, 5},
+    Field{"zoom_pace", "by wheel and two fingers", &Settings::zoom_pace, nullptr, nullptr, 0.1, 5},
+    Field{"panels", "shown at the start; Tab hides them", nullptr, &Settings::panels},
+    Field{"help", "keys and mouse are shown at the start", nullptr, &Settings::help},
+    Field{"autosave", "sessions at the window are recorded, so that they can be continued", nullptr,
+          &Settings::autosave},
+    Field{"sessions_kept", "at most so many of them, the oldest go first", &Settings::sessions_kept,
+          nullptr, nullptr, 1, 1000},
+    Field{"sessions_mb", "... and together so large [MB]", &Settings::sessions_mb, nullptr, nullptr,
+          10, 1e6},
+    Field{"recent_names", "names of your own scans in lists and titles; they may be a patient's",
+          nullptr, &Settings::recent_names},
+};
+
+const char* name_of(Language language) {
+  return language == Language::swedish ? "swedish" : "english";
+}
+
+// "" when it is good
+std::string take(const Field& field, const toml::node& node, Settings& settings) {
+  if (field.yes != nullptr) {
+    const auto value = node.value_exact<bool>();
+    if (!value) return "must be true or false";
+    settings.*field.yes = *value;
+  } else if (field.number != nullptr) {
+    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !(*value >= field.least) || !(*value <= field.most))
+      return fmt::format("must be a number from {:g} to {:g}", field.least, field.most);
+    settings.*field.number = *value;
+  } else {
+    const auto value = node.value_exact<std::string>();
+    if (!value || (*value != "english" && *value != "swedish"))
+      return "must be \"english\" or \"swedish\"";
+    settings.*field.language = *value == "swedish" ? Language::swedish : Language::english;
+  }
+  return {};
+}
+
+}  // namespace
+
+SettingsRead parse_settings(std::string_view text, std::string_view file) {
+  SettingsRead read;
+  const auto table = parse_toml(text, file);
+  if (!table) {
+    read.troubles.push_back(table.error().text + "; the default settings are used");
+    return read;
+  }
+  for (const auto& [key, node] : *table) {
+    const Field* known = nullptr;
+    for (const Field& field : kFields)
+      if (key.str() == field.key) known = &field;
+    const std::string wrong =
+        known == nullptr ? "is no setting of this version" : take(*known, node, read.settings);
+    if (!wrong.empty())
+      read.troubles.push_back(
+          fmt::format("{}: {}: {}; {}", file, base::shown(key.str()), wrong,
+                      known == nullptr ? "it is left aside" : "the default is used"));
+  }
+  return read;
+}
+
+SettingsRead read_settings(const std::filesystem::path& path) {
+  std::error_code nobody_asks;
+  if (!std::filesystem::exists(path, nobody_asks)) return {};
+  const auto text =
+      base::text_of_file(path.string(), kLargestFile, "a page of settings; is this another file?");
+  if (text) return parse_settings(*text, path.filename().string());
+  SettingsRead read;
+  read.troubles.push_back(text.error().text + "; the default settings are used");
+  return read;
+}
+
+std::string settings_text(const Settings& settings) {
+  std::string text =
+      "# Settings of burr's window. Changed from the window (F2) or here; read at the start.\n";
+  for (const Field& field : kFields) {
+    text += fmt::format("\n# {}", field.means);
+    if (field.number != nullptr)
+      text += fmt::format("; {:g} to {:g}\n{} = {:g}\n", field.least, field.most, field.key,
+                          settings.*field.number);
+    else if (field.yes != nullptr)
+      text += fmt::format("\n{} = {}\n", field.key, settings.*field.yes);
+    else
+      text += fmt::format("\n{} = \"{}\"\n", field.key, name_of(settings.*field.language));
+  }
+  return text;
+}
+
+Status write_settings(const Settings& settings, const std::filesystem::path& path, bool keep_old) {
+  std::error_code trouble;
+  std::filesystem::create_directories(path.parent_path(), trouble);
+  if (trouble)
+    return error(Trouble::io, fmt::format("{}: cannot make this folder ({}); settings are not kept",
+                                          path.parent_path().string(), trouble.message()));
+  if (keep_old && std::filesystem::exists(path, trouble)) {
+    std::filesystem::path old = path;
+    old += ".old";
+    std::filesystem::rename(path, old, trouble);
+    if (trouble)
+      return error(Trouble::io, fmt::format("{}: cannot be kept aside ({}); settings are not kept",
+                                            path.string(), trouble.message()));
+  }
+  auto file = base::NewFile::beside(path.string());
+  if (!file) return file.error();
+  file->write(settings_text(settings));
+  return file->put_in_place();
+}
+
+SettingRange range_of(std::string_view key) {
+  for (const Field& field : kFields)
+    if (key == field.key) return {field.least, field.most};
+  BURR_CHECK(false);
+}
+
+}  // namespace burr::app

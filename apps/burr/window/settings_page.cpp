@@ -1,0 +1,115 @@
+#include "window/settings_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "window/words.h"
+
+namespace burr::app {
+namespace {
+
+// One setting a line: its name left, what changes it right.
+class Lines {
+ public:
+  Lines(const Ui& ui, float x, float y) : ui_(ui), u_(ui.unit()), x_(x), y_(y) {}
+
+  void heading(Word text) {
+    y_ += 6 * u_;
+    ui_.write(x_, y_, Ui::Letter::strong, ink::kAccent, word(text));
+    y_ += 26 * u_;
+  }
+
+  void number(Word name, const char* key, double& value, const char* format) {
+    begin(name);
+    auto now = static_cast<float>(value);
+    // letters that grow under the mouse would move the slider: those when it is let go
+    const bool later = std::string_view(key) == "scale";
+    float* const kept =
+        ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(key), static_cast<float>(value));
+    if (later && ImGui::IsMouseDown(0)) now = *kept;
+    const SettingRange range = range_of(key);
+    ImGui::SetNextItemWidth(200 * u_);
+    if (ImGui::SliderFloat(fmt::format("##{}", key).c_str(), &now, static_cast<float>(range.least),
+                           static_cast<float>(range.most), format,
+                           range.most / range.least > 50
+                               ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp
+                               : ImGuiSliderFlags_AlwaysClamp)) {
+      *kept = now;
+      if (!later) value = static_cast<double>(now);
+    }
+    if (later && ImGui::IsItemDeactivatedAfterEdit()) value = static_cast<double>(*kept);
+    if (!ImGui::IsItemActive()) *kept = static_cast<float>(value);
+    // written down when the slider is let go
+    changed_ = changed_ || ImGui::IsItemDeactivatedAfterEdit();
+    end();
+  }
+
+  void yes(Word name, const char* key, bool& value) {
+    begin(name);
+    changed_ = ImGui::Checkbox(fmt::format("##{}", key).c_str(), &value) || changed_;
+    end();
+  }
+
+  void language(Language& value) {
+    begin(Word::language);
+    int now = value == Language::swedish ? 1 : 0;
+    changed_ = ImGui::RadioButton("English", &now, 0) || changed_;
+    ImGui::SameLine();
+    changed_ = ImGui::RadioButton("Svenska", &now, 1) || changed_;
+    value = now == 1 ? Language::swedish : Language::english;
+    end();
+  }
+
+  [[nodiscard]] bool changed() const { return changed_; }
+
+ private:
+  void begin(Word name) {
+    ui_.write(x_, y_ + 5 * u_, Ui::Letter::body, ink::kText, word(name));
+    ImGui::SetCursorScreenPos({x_ + 190 * u_, y_});
+  }
+  void end() { y_ += 37 * u_; }
+
+  const Ui& ui_;
+  float u_, x_, y_;
+  bool changed_ = false;
+};
+
+}  // namespace
+
+SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file) {
+  const float u = ui.unit(), w = 900 * u, h = 490 * u;
+  const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
+  ui.page("##settings", x, y, w, h);
+  ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::settings_title));
+  Lines left(ui, x + 28 * u, y + 66 * u), right(ui, x + 480 * u, y + 66 * u);
+  left.heading(Word::set_look);
+  left.language(settings.language);
+  left.number(Word::set_scale, "scale", settings.scale, "%.2f x");
+  left.yes(Word::set_panels, "panels", settings.panels);
+  left.yes(Word::set_help, "help", settings.help);
+  left.heading(Word::set_sessions);
+  left.yes(Word::set_autosave, "autosave", settings.autosave);
+  left.number(Word::set_kept, "sessions_kept", settings.sessions_kept, "%.0f");
+  left.number(Word::set_mb, "sessions_mb", settings.sessions_mb, "%.0f MB");
+  right.heading(Word::set_hand);
+  right.yes(Word::set_left_handed, "left_handed", settings.left_handed);
+  right.number(Word::set_force, "force_limit_n", settings.force_limit_n, "%.1f N");
+  right.number(Word::set_press, "press_mm", settings.press_mm, "%.1f mm");
+  right.heading(Word::set_view);
+  right.number(Word::set_turn, "turn_pace", settings.turn_pace, "%.1f x");
+  right.number(Word::set_zoom, "zoom_pace", settings.zoom_pace, "%.1f x");
+  right.heading(Word::set_privacy);
+  right.yes(Word::set_recent_names, "recent_names", settings.recent_names);
+  ui.write(x + 28 * u, y + h - 34 * u, Ui::Letter::small, ink::kDim,
+           file.empty() ? word(Word::set_not_kept) : say(Word::set_file, file));
+  SettingsPage page;
+  page.changed = left.changed() || right.changed();
+  ImGui::SetCursorScreenPos({x + w - 100 * u, y + 20 * u});
+  page.done = ImGui::Button("OK  [F2]", {76 * u, 0});
+  ImGui::End();
+  return page;
+}
+
+}  // namespace burr::app

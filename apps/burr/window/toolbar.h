@@ -1,0 +1,32 @@
+// apps/burr/window/toolbar.h - what one may do, as buttons at the left edge, and as keys.
+//
+// Thread: main, between Ui::begin() and draw().
+#pragma once
+
+#include <optional>
+
+#include "burr/sim/servo.h"
+#include "window/ui.h"
+
+namespace burr::app {
+
+enum class Action {
+  cut,
+  add,
+  touch,
+  undo,
+  redo,
+  reset,
+  smaller,
+  larger,
+  slower,
+  faster,
+  settings,
+  help,
+  leave,
+};
+
+// The button pressed now, if one is.
+[[nodiscard]] std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode);
+
+}  // namespace burr::app

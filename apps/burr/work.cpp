@@ -1,0 +1,115 @@
+#include "work.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numbers>
+#include <system_error>
+#include <utility>
+
+#include "burr/math/turn.h"
+#include "burr/scenario/case.h"
+#include "live_bone.h"
+
+namespace burr::app {
+namespace {
+
+using math::Vec3;
+
+// how much of the surroundings is seen: the pocket large, the anatomy around it still there
+double view_height(double burr_radius) { return std::clamp(20 * burr_radius, 20e-3, 70e-3); }
+
+}  // namespace
+
+Status take_case(WorkOptions& options) {
+  VolumeOptions& volume = options.volume;
+  if (volume.path.empty()) volume.path = "temporal-bone";
+  const auto known = scenario::built_in_cases();
+  const bool built_in = std::find(known.begin(), known.end(), volume.path) != known.end();
+  std::error_code nobody_asks;
+  if ((built_in && !std::filesystem::exists(volume.path, nobody_asks)) ||
+      std::filesystem::path(volume.path).extension() == ".toml") {
+    const auto read = scenario::read_case(volume.path);
+    if (!read) return read.error();
+    volume.path = read->phantom.empty() ? read->volume : "phantom:" + read->phantom;
+    if (volume.voxel_mm == 0) volume.voxel_mm = 1e3 * read->voxel;
+    if (options.burr_mm == 0) options.burr_mm = 2e3 * read->burr.radius;
+    if (options.rpm == 0) options.rpm = read->full_speed * 60 / (2 * std::numbers::pi);
+    if (options.seconds == 0) options.seconds = read->seconds;
+    options.title = read->title;
+    options.at = read->at;
+    options.into = read->into;
+    options.motion = read->motion;
+    options.kind = read->burr.kind;
+    options.spare = read->spare;
+  }
+  if (options.burr_mm == 0) options.burr_mm = 5;
+  if (options.rpm == 0) options.rpm = 40'000;
+  return fine();
+}
+
+Result<Work> open_work(WorkOptions options, Progress& progress) {
+  VolumeOptions& volume = options.volume;
+  // a phantom's bare name; a file of that name comes first
+  std::error_code nobody_asks;
+  if (!is_phantom(volume.path) && volume.path.find_first_of("./") == std::string::npos &&
+      !std::filesystem::exists(volume.path, nobody_asks))
+    volume.path = "phantom:" + volume.path;
+  const bool phantom = is_phantom(volume.path);
+  auto made = open_volume(volume, progress);
+  if (!made) return made.error();
+
+  Work work;
+  work.made = std::move(*made);
+  work.volume = volume;
+  work.what =
+      phantom ? volume.path.substr(volume.path.find(':') + 1) : work.made.summary.format + " scan";
+  auto place =
+      sim::find_work_place(*work.made.bone, 0.5e-3 * options.burr_mm, options.at, options.into);
+  if (!place) return place.error();
+  work.place = *place;
+  return work;
+}
+
+sim::SessionSettings settings_of(const WorkOptions& options, bool realtime) {
+  sim::SessionSettings settings;
+  settings.servo.burr.radius = 0.5e-3 * options.burr_mm;
+  settings.servo.burr.kind = options.kind;
+  settings.servo.spindle_rad_s = options.rpm * 2 * std::numbers::pi / 60;
+  settings.realtime = realtime;
+  return settings;
+}
+
+Result<Ready> make_ready(const WorkOptions& options, Work work, Progress& progress) {
+  const sim::SessionSettings settings = settings_of(options, true);
+  // the hand begins two centimetres above the work
+  math::Pose above;
+  above.p = work.place.at - 20e-3 * work.place.into;
+  above.q = math::shortest_turn(Vec3::UnitZ(), -work.place.into);
+  auto hand = std::make_unique<MouseHand>(above);
+  Ready ready;
+  ready.title = options.title.empty() ? work.what : options.title;
+  ready.what = work.what;
+  ready.volume = work.volume;
+  ready.import = work.made.summary;
+  ready.hand = hand.get();
+  auto started = sim::Session::make(std::move(work.made.bone), std::move(hand), settings, progress);
+  if (!started) return started.error();
+  ready.session = std::move(*started);
+  volume::Bone& bone = ready.session->bone();
+  ready.spared = to_spare(bone.tissues(), options.spare);
+  auto nearby = Nearby::make(bone, ready.spared, progress);
+  if (!nearby) return nearby.error();
+  ready.nearby = std::make_unique<const Nearby>(std::move(*nearby));
+  ready.scene.tissue_colours = render::colours_of(bone.tissues());
+  ready.worker = std::make_unique<surface::Worker>(bone, 1);
+  const Status status = ready.worker->first(
+      progress, [&ready](const surface::Skin& skin) { put_skin(ready.scene, skin); });
+  if (!status) return status.error();
+  ready.scene.camera = render::view_of_work(work.place.at, -work.place.into,
+                                            2 * view_height(settings.servo.burr.radius));
+  return ready;
+}
+
+}  // namespace burr::app

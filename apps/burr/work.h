@@ -1,0 +1,69 @@
+// apps/burr/work.h - what is milled, where and with what: a case or a scan as the user named it,
+// made ready for a session. Shared by the window's pages and `burr run` without a display.
+//
+// Thread: any, one at a time; takes seconds and says how far it is.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "burr/io/import.h"
+#include "burr/math/vec3.h"
+#include "burr/render/scene.h"
+#include "burr/sim/motion.h"
+#include "burr/sim/session.h"
+#include "burr/surface/worker.h"
+#include "nearby.h"
+#include "volume_options.h"
+#include "window/mouse_hand.h"
+
+namespace burr::app {
+
+struct WorkOptions {
+  VolumeOptions volume;         // path: a case, a .toml file, a phantom or a scan
+  double burr_mm = 0, rpm = 0;  // 0: the case's, or 5 mm and 40 000
+  double seconds = 0;           // of the demonstration; 0: the case's
+  // what only a case says
+  std::string title;                   // one line; empty for a scan
+  std::optional<math::Vec3> at, into;  // where it begins
+  std::string motion = "pocket";
+  tool::BurrKind kind = tool::BurrKind::cutting;
+  std::vector<std::string> spare;  // tissues that must not be cut
+};
+
+// A built-in case or a .toml file says what is milled, where and with what; options given by hand
+// win. Anything else is left as it is.
+[[nodiscard]] Status take_case(WorkOptions& options);
+
+struct Work {
+  io::Imported made;
+  std::string what;      // in our words
+  VolumeOptions volume;  // with the case's name as a phantom
+  sim::WorkPlace place;
+};
+// After take_case().
+[[nodiscard]] Result<Work> open_work(WorkOptions options, Progress& progress);
+
+[[nodiscard]] sim::SessionSettings settings_of(const WorkOptions& options, bool realtime);
+
+// Everything a session at the window needs, with the hand of the mouse. What is told last goes
+// first.
+struct Ready {
+  std::string title, what;  // one line; what it is in our words: neither names a patient
+  VolumeOptions volume;
+  io::ImportSummary import;
+  std::unique_ptr<sim::Session> session;
+  MouseHand* hand = nullptr;  // the session's
+  std::unique_ptr<surface::Worker> worker;
+  render::Scene scene;                   // with its surface and first view
+  Tissues spared;                        // that must not be cut
+  std::unique_ptr<const Nearby> nearby;  // how far they are
+};
+// After open_work(); its bone may be replaced before, by what an older session left.
+[[nodiscard]] Result<Ready> make_ready(const WorkOptions& options, Work work, Progress& progress);
+
+}  // namespace burr::app

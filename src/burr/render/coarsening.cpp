@@ -1,0 +1,204 @@
+#include "burr/render/coarsening.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <span>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "burr/render/coarse_mesh.h"
+
+namespace burr::render {
+namespace {
+
+constexpr double kRest = 1;                // a block is let be for so long              [s]
+constexpr double kErrors[] = {0.5, 1.5};   // of a block's levels                     [voxel]
+constexpr double kLargeErrors[] = {1, 2};  // of a large block's, with those of what it is made of
+constexpr int kEdge = 4;                   // of a block in patches, of a large one in blocks
+constexpr std::size_t kHandedOutAtOnce = 8;
+constexpr int kNice = 15;
+
+}  // namespace
+
+struct Coarsening::Work {
+  struct Job {
+    std::size_t block = 0;
+    std::uint64_t versions = 0;
+    std::vector<std::shared_ptr<const SkinMesh>> patches;   // to be made of these
+    std::vector<std::shared_ptr<const CoarseMesh>> blocks;  // ... or these
+    std::shared_ptr<const CoarseMesh> made;
+  };
+  // when a block was last seen to change
+  struct Seen {
+    std::uint64_t versions = 0;
+    double since = 0;
+    bool changed = false, handed_out = false;
+  };
+
+  math::Ijk grid;  // patches along each axis
+  double voxel = 0;
+  bool held = false;
+  std::vector<Seen> seen;
+  std::size_t next = 0;  // block to look at
+  std::size_t out = 0;
+
+  mutable std::mutex mutex;
+  std::condition_variable due;
+  std::deque<Job> jobs, made;
+  bool ending = false;
+  std::thread thread;
+
+  void lay_out(Scene& scene);
+  void take_back(Scene& scene);
+  [[nodiscard]] bool collect(const Scene& scene, const SceneBlock& block, Job& job) const;
+  [[nodiscard]] CoarseMesh made_of(Joined&& all, bool patches) const;
+  void run();
+};
+
+// Blocks as a mesher's patches lie, then the large ones as the blocks do.
+void Coarsening::Work::lay_out(Scene& scene) {
+  if (!seen.empty() && scene.blocks.size() == seen.size()) return;
+  scene.blocks.clear();
+  const auto group = [&scene](const math::Ijk& cells, std::size_t first, const auto& put) {
+    const math::Ijk groups = (cells.array() + kEdge - 1) / kEdge;
+    scene.blocks.resize(first + static_cast<std::size_t>(groups.prod()));
+    for (int z = 0, n = 0; z < cells.z(); ++z)
+      for (int y = 0; y < cells.y(); ++y)
+        for (int x = 0; x < cells.x(); ++x, ++n)
+          put(scene.blocks[first +
+                           static_cast<std::size_t>(
+                               (z / kEdge * groups.y() + y / kEdge) * groups.x() + x / kEdge)],
+              n);
+    return groups;
+  };
+  const math::Ijk blocks =
+      group(grid, 0, [](SceneBlock& block, int patch) { block.patches.push_back(patch); });
+  group(blocks, scene.blocks.size(), [&scene](SceneBlock& large, int number) {
+    SceneBlock& block = scene.blocks[static_cast<std::size_t>(number)];
+    block.outermost = false;
+    large.inner.push_back(number);
+    large.patches.insert(large.patches.end(), block.patches.begin(), block.patches.end());
+  });
+  seen.assign(scene.blocks.size(), {});
+}
+
+void Coarsening::Work::take_back(Scene& scene) {
+  std::deque<Job> back;
+  {
+    const std::lock_guard lock(mutex);
+    back.swap(made);
+  }
+  out -= back.size();
+  for (Job& job : back) {
+    SceneBlock& block = scene.blocks[job.block];
+    block.mesh = std::move(job.made);
+    block.versions = job.versions;
+  }
+}
+
+// What the block is to be made of; false: its own blocks are not ready.
+bool Coarsening::Work::collect(const Scene& scene, const SceneBlock& block, Job& job) const {
+  for (const int inner : block.inner) {
+    const SceneBlock& one = scene.blocks[static_cast<std::size_t>(inner)];
+    const std::uint64_t versions = versions_of(scene, one);
+    if (versions == 0) continue;
+    if (one.mesh == nullptr || one.versions != versions) return false;
+    job.blocks.push_back(one.mesh);
+  }
+  if (!block.inner.empty()) return true;
+  for (const int patch : block.patches)
+    if (const auto p = static_cast<std::size_t>(patch);
+        p < scene.patches.size() && scene.patches[p].mesh != nullptr)
+      job.patches.push_back(scene.patches[p].mesh);
+  return true;
+}
+
+CoarseMesh Coarsening::Work::made_of(Joined&& all, bool patches) const {
+  std::vector<double> errors;
+  const double before = patches ? 0 : kErrors[0];
+  for (const double error : patches ? std::span(kErrors) : std::span(kLargeErrors))
+    errors.push_back((error - before) * voxel);
+  CoarseMesh mesh = coarser(std::move(all), errors);
+  for (CoarseLevel& level : mesh.levels) level.error += before * voxel;
+  return mesh;
+}
+
+void Coarsening::Work::run() {
+  // of this thread alone, on Linux
+  setpriority(PRIO_PROCESS, 0, kNice);
+  std::unique_lock lock(mutex);
+  for (;;) {
+    due.wait(lock, [this] { return ending || !jobs.empty(); });
+    if (ending) return;
+    Job job = std::move(jobs.front());
+    jobs.pop_front();
+    lock.unlock();
+    Joined all;
+    for (const auto& patch : job.patches) all.add(*patch);
+    for (const auto& block : job.blocks) all.add(*block);
+    job.made = std::make_shared<const CoarseMesh>(made_of(std::move(all), job.blocks.empty()));
+    job.patches.clear();
+    job.blocks.clear();
+    lock.lock();
+    made.push_back(std::move(job));
+  }
+}
+
+Coarsening::Coarsening(const math::Ijk& patches, double voxel) : work_(std::make_unique<Work>()) {
+  work_->grid = patches;
+  work_->voxel = voxel;
+  work_->thread = std::thread([work = work_.get()] { work->run(); });
+}
+
+Coarsening::~Coarsening() {
+  {
+    const std::lock_guard lock(work_->mutex);
+    work_->ending = true;
+  }
+  work_->due.notify_one();
+  work_->thread.join();
+}
+
+void Coarsening::update(Scene& scene, double now) {
+  Work& w = *work_;
+  w.lay_out(scene);
+  w.take_back(scene);
+  const std::size_t count = scene.blocks.size();
+  std::vector<Work::Job> jobs;
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t at = (w.next + n) % count;
+    const SceneBlock& block = scene.blocks[at];
+    Work::Seen& seen = w.seen[at];
+    const std::uint64_t versions = versions_of(scene, block);
+    // at the start nothing has changed yet: all of it is made at once
+    if (seen.versions != versions) seen = {versions, now, seen.versions != 0, false};
+    if (w.held || seen.handed_out || versions == 0) continue;
+    if (seen.changed && now - seen.since < kRest) continue;
+    if (w.out + jobs.size() >= kHandedOutAtOnce) continue;
+    Work::Job job;
+    job.block = at;
+    job.versions = versions;
+    if (!w.collect(scene, block, job)) continue;
+    seen.handed_out = true;
+    jobs.push_back(std::move(job));
+  }
+  if (jobs.empty()) return;
+  w.next = jobs.back().block + 1;
+  w.out += jobs.size();
+  {
+    const std::lock_guard lock(w.mutex);
+    for (Work::Job& job : jobs) w.jobs.push_back(std::move(job));
+  }
+  w.due.notify_one();
+}
+
+void Coarsening::hold_back(bool held) { work_->held = held; }
+
+std::size_t Coarsening::waiting() const { return work_->out; }
+
+}  // namespace burr::render

@@ -1,0 +1,44 @@
+// sound/voice.h - the synth behind a door: one thread says what is to be heard, another, which must
+// not wait, makes the samples.
+//
+// When nothing was said for a while - the program stands, or is busy with something else - it
+// fades, and comes back by itself. It begins silent.
+// Guarantee: hear(), on(), loudness() and make() are wait-free and take no memory.
+// Thread: hear() one feeder; make() one other, the audio's; on() and loudness() any.
+#pragma once
+
+#include <atomic>
+#include <span>
+
+#include "burr/rt/latest.h"
+#include "burr/sound/heard.h"
+#include "burr/sound/synth.h"
+
+namespace burr::sound {
+
+struct VoiceSettings {
+  SynthSettings synth;
+  double silent_after = 0.2;  // without a word                                              [s]
+};
+
+class Voice {
+ public:
+  explicit Voice(const VoiceSettings& settings = {});
+
+  void hear(const Heard& now) BURR_RT { door_.publish(now); }
+  void on(bool wanted) BURR_RT { on_.store(wanted, std::memory_order_relaxed); }
+  [[nodiscard]] bool is_on() const BURR_RT { return on_.load(std::memory_order_relaxed); }
+  void loudness(double wanted) BURR_RT { loudness_.store(wanted, std::memory_order_relaxed); }
+
+  void make(std::span<float> samples) BURR_RT;
+
+ private:
+  Synth synth_;
+  double silent_after_;
+  double unheard_;  // since the last word [s]
+  rt::Latest<Heard> door_;
+  std::atomic<bool> on_ = true;
+  std::atomic<double> loudness_ = 1;
+};
+
+}  // namespace burr::sound

@@ -1,0 +1,295 @@
+#include "burr/volume/distance_to.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+namespace burr::volume {
+namespace {
+
+constexpr std::uint16_t kBeyond = 65535;
+constexpr int kFarthest = 255;  // voxels: its square is below kBeyond
+
+// Distances along one line of voxels, and whose they are.
+struct Line {
+  explicit Line(std::size_t size) : square(size), tissue(size), parabola(size), from(size) {}
+  std::vector<std::uint16_t> square;
+  std::vector<TissueId> tissue;
+  // of the envelope: which parabolas it is made of, and from where on each is the lowest
+  std::vector<int> parabola, from;
+};
+
+// The nearest labelled voxel of a row, 0 being none: forward, then backward.
+void nearest_in_row(const std::vector<TissueId>& labels, Line& line) {
+  const int size = static_cast<int>(labels.size());
+  int far = kFarthest + 1;
+  TissueId whose = 0;
+  const auto here = [&](int i) {
+    const TissueId label = labels[static_cast<std::size_t>(i)];
+    far = label != 0 ? 0 : std::min(far + 1, kFarthest + 1);
+    if (far == 0) whose = label;
+  };
+  for (int i = 0; i < size; ++i) {
+    here(i);
+    line.square[static_cast<std::size_t>(i)] =
+        far > kFarthest ? kBeyond : static_cast<std::uint16_t>(far * far);
+    line.tissue[static_cast<std::size_t>(i)] = whose;
+  }
+  far = kFarthest + 1;
+  for (int i = size - 1; i >= 0; --i) {
+    here(i);
+    if (far * far >= line.square[static_cast<std::size_t>(i)]) continue;
+    line.square[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(far * far);
+    line.tissue[static_cast<std::size_t>(i)] = whose;
+  }
+}
+
+// The lower envelope of the parabolas (x - i)^2 + square[i], then put(n, square, tissue) at x = n
+// step for each of `kept`.
+template <class Put>
+void envelope(Line& line, int size, int kept, int step, const Put& put) {
+  const auto at = [&line](int x, int i) {
+    return (x - i) * (x - i) + int{line.square[static_cast<std::size_t>(i)]};
+  };
+  int last = -1;  // in the envelope
+  for (int i = 0; i < size; ++i) {
+    if (line.square[static_cast<std::size_t>(i)] == kBeyond) continue;
+    const auto top = [&] { return line.parabola[static_cast<std::size_t>(last)]; };
+    const auto top_from = [&] { return line.from[static_cast<std::size_t>(last)]; };
+    while (last >= 0 && at(top_from(), top()) > at(top_from(), i)) --last;
+    int from = 0;
+    if (last >= 0) {
+      // the last whole x at which the top is not higher
+      const int numerator = i * i - top() * top() + int{line.square[static_cast<std::size_t>(i)]} -
+                            int{line.square[static_cast<std::size_t>(top())]};
+      const int divisor = 2 * (i - top());
+      from = 1 + numerator / divisor;  // not below 0: the top is the lower one somewhere
+      if (from > (kept - 1) * step) continue;
+    }
+    ++last;
+    line.parabola[static_cast<std::size_t>(last)] = i;
+    line.from[static_cast<std::size_t>(last)] = from;
+  }
+  for (int n = kept - 1; n >= 0; --n) {
+    const int x = n * step;
+    while (last > 0 && line.from[static_cast<std::size_t>(last)] > x) --last;
+    const int i = last < 0 ? 0 : line.parabola[static_cast<std::size_t>(last)];
+    const int square = last < 0 ? int{kBeyond} : at(x, i);
+    put(n, static_cast<std::uint16_t>(std::min(square, int{kBeyond})),
+        line.tissue[static_cast<std::size_t>(i)]);
+  }
+}
+
+// work(n) for all n in 0..count-1, each once, with room of each thread's own. False: cancelled.
+template <class Room, class Work>
+bool in_parallel(int count, int threads, const Progress& progress, const Room& room,
+                 const Work& work) {
+  std::atomic<int> next{0};
+  std::atomic<bool> stop{false};
+  const auto take = [&](bool asks) {
+    Room own = room;
+    for (int n = next++; n < count && !stop; n = next++) {
+      work(n, own);
+      if (asks && progress.cancelled()) stop = true;
+    }
+  };
+  std::vector<std::thread> helpers;
+  for (int t = 1; t < threads; ++t) helpers.emplace_back(take, false);
+  take(true);
+  for (std::thread& helper : helpers) helper.join();
+  return !stop;
+}
+
+std::size_t sized(int n) { return static_cast<std::size_t>(n); }
+
+}  // namespace
+
+class DistanceTo::Maker {
+ public:
+  Maker(const Bone& bone, std::span<const TissueId> tissues) : bone_(bone) {
+    for (const TissueId tissue : tissues) {
+      wanted_[tissue] = true;
+      solid_[tissue] = bone.tissues()[tissue].kind == TissueKind::solid;
+    }
+  }
+
+  [[nodiscard]] Result<DistanceTo> make(const DistanceSettings& settings, Progress& progress) {
+    if (!any()) return DistanceTo();
+    const math::Ijk size = bone_.grid().size;
+    choose(settings);
+    // what the two first passes leave: few columns and rows, all slices
+    squares_.assign(in_slice_ * sized(size.z()), kBeyond);
+    whose_.assign(squares_.size(), 0);
+    made_.square_.assign(in_slice_ * sized(kept_.z()), kBeyond);
+    made_.tissue_.assign(made_.square_.size(), 0);
+    const char* stage = "measuring what to spare";
+    progress.report(0, stage);
+    const bool flat = in_parallel(size.z(), settings.threads, progress, Room(*this),
+                                  [this](int k, Room& room) { along_rows_and_columns(k, room); });
+    progress.report(0.8, stage);
+    if (!flat || !in_parallel(kept_.y(), settings.threads, progress, Line(sized(size.z())),
+                              [this](int m, Line& line) { through_slices(m, line); }))
+      return error(Trouble::interrupted, "stopped");
+    progress.report(1, stage);
+    return std::move(made_);
+  }
+
+ private:
+  // of one slice
+  struct Room {
+    explicit Room(const Maker& maker)
+        : row(sized((maker.kept_.x() - 1) * maker.made_.step_ + 1)),
+          column(sized(maker.bone_.grid().size.y())),
+          labels(row.square.size()),
+          squares(sized(maker.kept_.x()) * column.square.size()),
+          whose(squares.size()) {}
+    Line row, column;
+    std::vector<TissueId> labels;
+    std::vector<std::uint16_t> squares;  // (columns kept x rows)
+    std::vector<TissueId> whose;
+  };
+
+  // what voxel v of a brick counts as; 0: nothing
+  [[nodiscard]] TissueId counted(const TissueId* tissue, const Field* field, int v) const {
+    if (!wanted_[tissue[v]]) return 0;
+    return !solid_[tissue[v]] || (field != nullptr && field[v] >= kIso) ? tissue[v] : TissueId{0};
+  }
+
+  [[nodiscard]] bool any() const {
+    for (BrickIndex brick = 0; brick < bone_.brick_count(); ++brick) {
+      const TissueId* tissue = bone_.brick_tissue(brick);
+      const Field* field = bone_.brick_field(brick);
+      for (int v = 0; tissue != nullptr && v < kBrickVoxels; ++v)
+        if (counted(tissue, field, v) != 0) return true;
+    }
+    return false;
+  }
+
+  // Which voxels are kept: every step-th, and one at the far border or beyond it.
+  void choose(const DistanceSettings& settings) {
+    const Grid& grid = bone_.grid();
+    made_.grid_ = grid;
+    made_.reach_ = std::min(settings.reach, kFarthest * grid.voxel);
+    for (made_.step_ = 1;; ++made_.step_) {
+      kept_ = ((grid.size.array() + (made_.step_ - 2)) / made_.step_ + 1).matrix();
+      in_slice_ = sized(kept_.x()) * sized(kept_.y());
+      if (in_slice_ * sized(kept_.z()) <= std::max<std::size_t>(settings.most_kept, 8)) break;
+    }
+    made_.kept_ = kept_;
+  }
+
+  void along_rows_and_columns(int k, Room& room) {
+    const math::Ijk size = bone_.grid().size;
+    const std::size_t columns = sized(kept_.x()), step = sized(made_.step_);
+    for (int j = 0; j < size.y(); ++j) {
+      read_row(j, k, room.labels);
+      nearest_in_row(room.labels, room.row);
+      for (std::size_t n = 0; n < columns; ++n) {
+        room.squares[sized(j) * columns + n] = room.row.square[n * step];
+        room.whose[sized(j) * columns + n] = room.row.tissue[n * step];
+      }
+    }
+    for (std::size_t n = 0; n < columns; ++n) {
+      for (std::size_t j = 0; j < room.column.square.size(); ++j) {
+        room.column.square[j] = room.squares[j * columns + n];
+        room.column.tissue[j] = room.whose[j * columns + n];
+      }
+      const std::size_t to = sized(k) * in_slice_ + n;
+      envelope(room.column, size.y(), kept_.y(), made_.step_,
+               [&](int m, std::uint16_t square, TissueId tissue) {
+                 squares_[to + sized(m) * columns] = square;
+                 whose_[to + sized(m) * columns] = tissue;
+               });
+    }
+  }
+
+  void read_row(int j, int k, std::vector<TissueId>& labels) const {
+    const int first = (k % kBrickEdge * kBrickEdge + j % kBrickEdge) * kBrickEdge;
+    for (int bi = 0; bi < bone_.bricks().x(); ++bi) {
+      const BrickIndex brick = bone_.brick_at(bi, j / kBrickEdge, k / kBrickEdge);
+      const TissueId* tissue = bone_.brick_tissue(brick);
+      const Field* field = bone_.brick_field(brick);
+      const int i = bi * kBrickEdge, several = std::min(kBrickEdge, bone_.grid().size.x() - i);
+      for (int n = 0; n < several; ++n)
+        labels[sized(i + n)] = tissue == nullptr ? TissueId{0} : counted(tissue, field, first + n);
+    }
+  }
+
+  // of all kept voxels with that j
+  void through_slices(int m, Line& line) {
+    for (int n = 0; n < kept_.x(); ++n) {
+      const std::size_t to = sized(m) * sized(kept_.x()) + sized(n);
+      for (std::size_t k = 0; k < line.square.size(); ++k) {
+        line.square[k] = squares_[k * in_slice_ + to];
+        line.tissue[k] = whose_[k * in_slice_ + to];
+      }
+      envelope(line, static_cast<int>(line.square.size()), kept_.z(), made_.step_,
+               [&](int l, std::uint16_t square, TissueId tissue) {
+                 made_.square_[sized(l) * in_slice_ + to] = square;
+                 made_.tissue_[sized(l) * in_slice_ + to] = tissue;
+               });
+    }
+  }
+
+  const Bone& bone_;
+  std::array<bool, 256> wanted_ = {}, solid_ = {};
+  DistanceTo made_;
+  math::Ijk kept_ = {0, 0, 0};
+  std::size_t in_slice_ = 0;            // voxels kept of each
+  std::vector<std::uint16_t> squares_;  // (columns kept x rows kept x slices)
+  std::vector<TissueId> whose_;
+};
+
+Result<DistanceTo> DistanceTo::make(const Bone& bone, std::span<const TissueId> tissues,
+                                    const DistanceSettings& settings, Progress& progress) {
+  return Maker(bone, tissues).make(settings, progress);
+}
+
+Nearest DistanceTo::at(const math::Vec3& p) const BURR_RT {
+  if (empty() || !p.allFinite()) return {};
+  const math::Vec3 wanted = grid_.grid_from_world(p) / step_;  // in kept voxels
+  const math::Vec3 last = (kept_ - math::Ijk::Ones()).cast<double>();
+  const math::Vec3 inside = wanted.cwiseMax(0).cwiseMin(last);
+  const math::Ijk low = inside.array()
+                            .floor()
+                            .matrix()
+                            .cast<int>()
+                            .cwiseMin(kept_ - 2 * math::Ijk::Ones())
+                            .cwiseMax(0);
+  const math::Vec3 part = inside - low.cast<double>();
+
+  double sum = 0, nearest = std::numeric_limits<double>::infinity();
+  Nearest found;
+  for (int corner = 0; corner < 8; ++corner) {
+    const math::Ijk bit(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
+    const math::Ijk ijk = (low + bit).cwiseMin(kept_ - math::Ijk::Ones());
+    const double weight = (bit.x() ? part.x() : 1 - part.x()) *
+                          (bit.y() ? part.y() : 1 - part.y()) * (bit.z() ? part.z() : 1 - part.z());
+    if (weight <= 0) continue;
+    const std::size_t place =
+        (static_cast<std::size_t>(ijk.z()) * static_cast<std::size_t>(kept_.y()) +
+         static_cast<std::size_t>(ijk.y())) *
+            static_cast<std::size_t>(kept_.x()) +
+        static_cast<std::size_t>(ijk.x());
+    if (square_[place] == kBeyond) return {};
+    const double distance = std::sqrt(static_cast<double>(square_[place]));
+    sum += weight * distance;
+    // whose it is: the corner that has the shortest way from here
+    const double way = distance + step_ * (part - bit.cast<double>()).norm();
+    if (way < nearest) {
+      nearest = way;
+      found.tissue = tissue_[place];
+    }
+  }
+  // from outside: the border is on no way shorter than this (Pythagoras, the grid being convex)
+  const double outside = step_ * (wanted - inside).norm();
+  const double distance = grid_.voxel * (std::sqrt(sum * sum + outside * outside) - 0.5);
+  if (distance > reach_) return {};
+  found.distance = distance;
+  return found;
+}
+
+}  // namespace burr::volume

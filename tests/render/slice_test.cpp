@@ -1,0 +1,153 @@
+// Slices against the shapes they cut: where things lie, how large they are, what they are made of,
+// and that they follow the cut.
+#include "burr/render/slice.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <random>
+#include <thread>
+
+#include "scenes/build.h"
+#include "scenes/shapes.h"
+
+namespace burr::render {
+namespace {
+
+using math::Vec3;
+constexpr double kMm = 1e-3;
+
+// A ball of 6 mm that lies to the left, in front and above.
+const Vec3 kCentre = {5 * kMm, -4 * kMm, 3 * kMm};
+std::unique_ptr<volume::Bone> bone() {
+  return scenes::bone_from_distance(scenes::cube_grid(30 * kMm, 100), {},
+                                    scenes::ball(6 * kMm, kCentre), 64);
+}
+
+bool light(const Image& image, std::size_t at) { return image.rgb[3 * at] > 115; }
+
+struct Seen {
+  double area = 0;                                   // [m^2]
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();  // [pixel]
+};
+Seen look(const Image& image, const Slice& slice) {
+  Seen seen;
+  double count = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      if (!light(image, static_cast<std::size_t>(y * image.width + x))) continue;
+      ++count;
+      seen.middle += Eigen::Vector2d(x + 0.5, y + 0.5);
+    }
+  const double pixel = slice.height / image.height;
+  seen.area = count * pixel * pixel;
+  seen.middle /= std::max(1.0, count);
+  return seen;
+}
+
+TEST(Slice, ShowsEachPlaneTheRightWayRound) {
+  auto ball = bone();
+  Slicer slicer(*ball);
+  // the ball's middle, seen from the origin: right and up in the picture, by the header's words
+  const struct {
+    Plane plane;
+    double right, up, off;
+  } cases[] = {{Plane::axial, 5, 4, 3}, {Plane::coronal, 5, 3, 4}, {Plane::sagittal, -4, 3, 5}};
+  for (const auto& one : cases) {
+    Slice slice;
+    slice.plane = one.plane;
+    slice.height = 24 * kMm;
+    Image image{480, 360, {}};
+    EXPECT_TRUE(slicer.draw(slice, image));
+    const Seen seen = look(image, slice);
+    const double per_mm = 360.0 / 24;
+    EXPECT_NEAR(seen.middle.x(), 240 + per_mm * one.right, 1) << static_cast<int>(one.plane);
+    EXPECT_NEAR(seen.middle.y(), 180 - per_mm * one.up, 1) << static_cast<int>(one.plane);
+    // a plane `off` from the middle of a ball cuts a smaller disc
+    const double r2 = 36 - one.off * one.off;
+    EXPECT_NEAR(seen.area, std::numbers::pi * r2 * kMm * kMm, 0.01 * r2 * 3 * kMm * kMm);
+    // where the pixels say they are
+    const Vec3 middle = point_of(slice, seen.middle, image.width, image.height);
+    const Eigen::Vector2d again = pixel_of(slice, middle, image.width, image.height);
+    EXPECT_NEAR((again - seen.middle).norm(), 0, 1e-9);
+    EXPECT_NEAR((middle - kCentre).norm(), one.off * kMm, 0.1 * kMm);
+  }
+}
+
+TEST(Slice, FollowsTheCut) {
+  auto ball = bone();
+  Slicer slicer(*ball);
+  Slice slice;
+  slice.through = kCentre;
+  slice.height = 20 * kMm;
+  Image before{200, 200, {}}, after = before, again = before;
+  EXPECT_TRUE(slicer.draw(slice, before));
+  // a brick within the ball is taken away
+  const Vec3 at = ball->grid().grid_from_world(kCentre);
+  const volume::BrickIndex brick = ball->brick_at(
+      static_cast<int>(at.x()) / 8, static_cast<int>(at.y()) / 8, static_cast<int>(at.z()) / 8);
+  volume::BrickField nothing = {};
+  ball->ensure_slot(brick);
+  ball->write_brick(brick, nothing);
+  EXPECT_TRUE(slicer.draw(slice, after));
+  const double taken = look(before, slice).area - look(after, slice).area;
+  const double edge = 8 * ball->grid().voxel;
+  EXPECT_NEAR(taken, edge * edge, 0.35 * edge * edge);
+  EXPECT_TRUE(slicer.draw(slice, again));
+  EXPECT_EQ(after.rgb, again.rgb);
+}
+
+TEST(Slice, ColoursTissuesAndCanLeaveThatOut) {
+  volume::TissueTable table;
+  table.tissues[1].colour = {0, 0, 1};
+  auto ball =
+      scenes::bone_from_distance(scenes::cube_grid(30 * kMm, 60), table, scenes::ball(6 * kMm), 64);
+  Slicer slicer(*ball);
+  Slice slice;
+  Image image{21, 21, {}};
+  const std::size_t middle = 3 * (21 * 10 + 10);
+  slicer.draw(slice, image);
+  EXPECT_EQ(image.rgb[middle], 0);
+  EXPECT_EQ(image.rgb[middle + 2], 255);
+  slice.labels = false;
+  slicer.draw(slice, image);
+  EXPECT_GT(image.rgb[middle], 200);
+}
+
+// While another thread writes, no brick is ever half old and half new.
+TEST(Slice, BesideAWriterEachBrickIsOneOrTheOther) {
+  auto ball = bone();
+  Slicer slicer(*ball);
+  const Vec3 at = ball->grid().grid_from_world(kCentre);
+  const volume::BrickIndex brick = ball->brick_at(
+      static_cast<int>(at.x()) / 8, static_cast<int>(at.y()) / 8, static_cast<int>(at.z()) / 8);
+  ball->ensure_slot(brick);
+  std::jthread servo([&](const std::stop_token& stop) {
+    volume::BrickField all = {}, none = {};
+    std::fill(std::begin(all.voxel), std::end(all.voxel), volume::kSolid);
+    for (bool solid = true; !stop.stop_requested(); solid = !solid)
+      ball->write_brick(brick, solid ? all : none);
+  });
+  // voxel centres of one layer of the brick, no interpolation
+  const math::Ijk corner = ball->brick_ijk(brick);
+  const Vec3 middle = ball->grid().world_from_grid(corner.cast<double>() + Vec3(3.5, 3.5, 3));
+  Slice slice;
+  slice.through = middle;
+  slice.height = 8 * ball->grid().voxel;
+  Image image{8, 8, {}};
+  int drawn = 0;
+  for (int n = 0; n < 2000; ++n) {
+    if (!slicer.draw(slice, image)) continue;
+    ++drawn;
+    int lit = 0;
+    for (std::size_t p = 0; p < 64; ++p) lit += light(image, p) ? 1 : 0;
+    ASSERT_TRUE(lit == 0 || lit == 64) << lit;
+  }
+  EXPECT_GT(drawn, 0);
+}
+
+}  // namespace
+}  // namespace burr::render

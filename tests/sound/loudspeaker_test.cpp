@@ -1,0 +1,99 @@
+// The key and the loudness of the window's sound, and that it goes on without a device.
+#include "loudspeaker.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+namespace burr::app {
+namespace {
+
+struct Driver {
+  explicit Driver(const char* name) { ::setenv("SDL_AUDIODRIVER", name, 1); }
+  ~Driver() { ::unsetenv("SDL_AUDIODRIVER"); }
+  Driver(const Driver&) = delete;
+  Driver& operator=(const Driver&) = delete;
+};
+
+TEST(Loudspeaker, ObeysItsKeys) {
+  const Driver driver("dummy");
+  Loudspeaker loudspeaker({}, {});
+  EXPECT_EQ(loudspeaker.trouble(), "");
+  loudspeaker.hear({});
+  EXPECT_TRUE(loudspeaker.is_on());
+  loudspeaker.toggle();
+  EXPECT_FALSE(loudspeaker.is_on());
+  loudspeaker.hear({});
+  loudspeaker.toggle();
+  EXPECT_TRUE(loudspeaker.is_on());
+  EXPECT_EQ(loudspeaker.louder(1), 0) << "it is the loudest already";
+  EXPECT_EQ(loudspeaker.louder(-1), -3);
+  EXPECT_EQ(loudspeaker.louder(-100), -48);
+  EXPECT_EQ(loudspeaker.louder(2), -42);
+}
+
+TEST(Loudspeaker, WithoutADeviceItIsSilentAndTriesAgainWhenAsked) {
+  Driver none("no-such-driver");
+  Loudspeaker loudspeaker({}, {});
+  EXPECT_NE(loudspeaker.trouble(), "");
+  loudspeaker.hear({});
+  loudspeaker.toggle();
+  EXPECT_FALSE(loudspeaker.is_on());
+  EXPECT_NE(loudspeaker.trouble(), "");
+  EXPECT_EQ(loudspeaker.louder(-1), -3);
+  const Driver there("dummy");
+  loudspeaker.toggle();
+  EXPECT_TRUE(loudspeaker.is_on());
+  EXPECT_EQ(loudspeaker.trouble(), "");
+}
+
+// The loudest of what was sounded since the last call: SDL's disk driver appends raw floats.
+float loudest_since(const std::filesystem::path& file, std::streamoff& from) {
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(from);
+  float most = 0;
+  for (float x = 0; in.read(reinterpret_cast<char*>(&x), sizeof x); from += sizeof x)
+    most = std::max(most, std::abs(x));
+  return most;
+}
+
+TEST(Loudspeaker, WarnsFromTheRimOfTheBurrThatIsThereNow) {
+  const Driver driver("disk");
+  const std::filesystem::path file = std::filesystem::temp_directory_path() /
+                                     ("burr_loudspeaker_" + std::to_string(::getpid()) + ".raw");
+  ::setenv("SDL_DISKAUDIOFILE", file.c_str(), 1);
+  sim::ServoSettings settings;
+  settings.burr.radius = 6e-3;
+  {
+    Loudspeaker loudspeaker(settings, [](const math::Vec3&) { return 6.01e-3; });
+    ASSERT_EQ(loudspeaker.trouble(), "");
+    std::streamoff heard = 0;
+    const auto sounds = [&] {
+      float most = 0;
+      for (int n = 0; n < 40; ++n) {  // of 10 ms
+        loudspeaker.hear({});
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        // what was under way when it was asked does not count
+        const float now = loudest_since(file, heard);
+        if (n >= 20) most = std::max(most, now);
+      }
+      return most;
+    };
+    EXPECT_GT(sounds(), 1e-3F) << "a hundredth of a millimetre from what is to be spared";
+    loudspeaker.obey({record::WishKind::burr_radius, 0.5e-3});
+    EXPECT_LT(sounds(), 1e-6F) << "a smaller burr is 5.5 mm away from it";
+  }
+  ::unsetenv("SDL_DISKAUDIOFILE");
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace burr::app

@@ -1,0 +1,72 @@
+// What is to be spared, in words and in a recording.
+#include "nearby.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes/build.h"
+#include "scenes/shapes.h"
+
+namespace burr::app {
+namespace {
+
+volume::TissueTable table() {
+  volume::TissueTable tissues;
+  tissues.tissues.push_back({.name = "facial nerve", .kind = volume::TissueKind::soft});
+  tissues.tissues.push_back({.name = "dura", .kind = volume::TissueKind::soft, .spare = true});
+  return tissues;
+}
+
+TEST(Nearby, ACaseNamesWhatToSpareElseTheTableDoes) {
+  EXPECT_EQ(to_spare(table(), {}), Tissues{3});
+  EXPECT_EQ(to_spare(table(), {"facial nerve"}), Tissues{2});
+  EXPECT_EQ(to_spare(table(), {"dura", "facial nerve"}), (Tissues{3, 2}));
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(to_spare(table(), {"dura", "chorda\x1b[2J"}), Tissues{3});
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("chorda"), std::string::npos);
+  EXPECT_EQ(said.find('\x1b'), std::string::npos);
+}
+
+TEST(Nearby, ARecordingKeepsIt) {
+  record::SessionInfo info;
+  info.volume.tissues = table();
+  info.volume.grid = scenes::cube_grid(20e-3, 16);
+  EXPECT_EQ(read_spared(info), Tissues{3}) << "one without the word: what is marked";
+  for (const Tissues& spared : {Tissues{2, 3}, Tissues{}, Tissues{3}}) {
+    record::SessionInfo one = info;
+    write_spared(spared, one);
+    EXPECT_TRUE(record::check(one)) << "no word that a recording refuses";
+    const auto again = record::session_from_json(record::to_json(one), "s.mcap");
+    ASSERT_TRUE(again) << again.error().text;
+    EXPECT_EQ(read_spared(*again), spared);
+  }
+  info.words["spare"] = "2 700 3";
+  EXPECT_EQ(read_spared(info), Tissues{2}) << "up to what cannot be";
+  info.words["spare"] = "-1 nonsense";
+  EXPECT_EQ(read_spared(info), Tissues{});
+}
+
+TEST(Nearby, SaysWhatIsNearAndHowFar) {
+  // a ball of bone of 6 mm, all of it to be spared
+  auto bone = scenes::bone_from_distance(scenes::cube_grid(20e-3, 80), {}, scenes::ball(6e-3), 0);
+  NoProgress quiet;
+  const auto nearby = Nearby::make(*bone, {1}, quiet);
+  ASSERT_TRUE(nearby);
+  const math::Vec3 centre = {0, 0, 9e-3};
+  const auto distances = nearby->distances();
+  ASSERT_TRUE(distances);
+  EXPECT_NEAR(distances(centre), 3e-3, 0.2e-3);
+  const auto near = nearby->nearest(centre);
+  ASSERT_TRUE(near);
+  EXPECT_EQ(near->name, "bone");
+  EXPECT_EQ(near->distance, distances(centre));
+  EXPECT_FALSE(nearby->nearest({0, 0, 1})) << "beyond the reach";
+
+  const auto nothing = Nearby::make(*bone, {}, quiet);
+  ASSERT_TRUE(nothing);
+  EXPECT_FALSE(nothing->distances()) << "nothing to ask";
+  EXPECT_FALSE(nothing->nearest(centre));
+}
+
+}  // namespace
+}  // namespace burr::app

@@ -1,0 +1,96 @@
+// The loudspeaker end to end, without one: SDL's own drivers that play to nobody and into a file.
+#include "burr/sound/speaker.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "sound/ear.h"
+
+namespace burr::sound {
+namespace {
+
+using namespace std::chrono_literals;
+
+// An environment variable for as long as this lives.
+class Variable {
+ public:
+  Variable(const char* name, const std::string& value) : name_(name) {
+    ::setenv(name, value.c_str(), 1);
+  }
+  ~Variable() { ::unsetenv(name_); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+};
+
+// Speaks until the device has asked for so many more samples; false: it never does.
+bool speak(Speaker& speaker, const Heard& heard, double seconds) {
+  const std::uint64_t until = speaker.made() + static_cast<std::uint64_t>(seconds * test::kRate);
+  const auto given_up = std::chrono::steady_clock::now() + 120s;
+  while (speaker.made() < until) {
+    if (std::chrono::steady_clock::now() > given_up) return false;
+    speaker.voice().hear(heard);
+    std::this_thread::sleep_for(5ms);
+  }
+  return true;
+}
+
+TEST(Speaker, PlaysToNobody) {
+  const Variable driver("SDL_AUDIODRIVER", "dummy");
+  const Heard heard = {.spindle_rad_s = test::rad_s(40'000)};
+  for (int round = 0; round < 2; ++round) {  // and opens again
+    auto speaker = Speaker::open();
+    ASSERT_TRUE(speaker) << speaker.error().text;
+    EXPECT_EQ((*speaker)->driver(), "dummy");
+    EXPECT_TRUE(speak(**speaker, heard, 0.3));
+  }
+}
+
+TEST(Speaker, WhatComesOutIsWhatWasSaid) {
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("burr_speaker_" + std::to_string(getpid())))
+          .string() +
+      ".raw";
+  {
+    const Variable driver("SDL_AUDIODRIVER", "disk"), where("SDL_DISKAUDIOFILE", file);
+    auto speaker = Speaker::open();
+    ASSERT_TRUE(speaker) << speaker.error().text;
+    EXPECT_EQ((*speaker)->driver(), "disk");
+    ASSERT_TRUE(speak(**speaker, {.spindle_rad_s = test::rad_s(30'000)}, 2));
+  }
+  std::ifstream in(file, std::ios::binary);
+  const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), {});
+  std::filesystem::remove(file);
+  std::vector<float> samples(bytes.size() / sizeof(float));
+  std::memcpy(samples.data(), bytes.data(), samples.size() * sizeof(float));
+  ASSERT_GE(samples.size(), 65'536U + 24'000U);
+  const std::span<const float> last = std::span<const float>(samples).subspan(24'000, 65'536);
+  EXPECT_NEAR(test::peak_hz(last), 500, 5);
+  EXPECT_NEAR(test::rms(last), 0.08, 0.03);
+  EXPECT_LE(test::largest(samples), 1);
+}
+
+TEST(Speaker, WithoutADeviceItSaysSoInOneSentence) {
+  const Variable driver("SDL_AUDIODRIVER", "no-such-driver");
+  const auto speaker = Speaker::open();
+  ASSERT_FALSE(speaker);
+  EXPECT_NE(speaker.error().text.find("no sound: "), std::string::npos) << speaker.error().text;
+  EXPECT_NE(speaker.error().text.find("--no-sound"), std::string::npos);
+  EXPECT_EQ(speaker.error().text.find('\n'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace burr::sound

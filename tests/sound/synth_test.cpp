@@ -1,0 +1,494 @@
+// The drill as it sounds: where its lines are, what is louder than what, that nothing clicks.
+#include "burr/sound/synth.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "burr/tool/spindle.h"
+#include "sound/ear.h"
+#include "support/rt_guard.h"
+
+namespace burr::sound {
+namespace {
+
+using test::made;
+using test::rad_s;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// After the lags have run out: 0.5 s of silence or whatever it is, then `seconds` to look at.
+std::vector<float> steady(const Heard& heard, double seconds = 65536 / test::kRate,
+                          const SynthSettings& settings = {}) {
+  Synth synth(settings);
+  synth.hear(heard);
+  static_cast<void>(made(synth, 0.5));
+  return made(synth, seconds);
+}
+
+Heard turning(double rpm) { return {.spindle_rad_s = rad_s(rpm)}; }
+
+// A burr that mills: everything on.
+Heard milling(double mm3_s = 5) {
+  Heard heard = turning(40'000);
+  heard.cutting_nm = 3e-3;
+  heard.removal_m3_s = 1e-9 * mm3_s;
+  heard.hardness_j_m3 = 1e9;
+  heard.touching = true;
+  return heard;
+}
+
+TEST(Synth, TheSpindleIsHeardOnceATurn) {
+  for (const double rpm : {5'000.0, 12'345.0, 40'000.0, 80'000.0, 200'000.0})
+    for (const double way : {1.0, -1.0})
+      EXPECT_NEAR(test::peak_hz(steady(turning(way * rpm))), rpm / 60, 0.01 * rpm / 60)
+          << way * rpm;
+}
+
+TEST(Synth, ItIsHeardOnceATurnThroughTheCuttingToo) {
+  for (const double rpm : {20'000.0, 40'000.0, 80'000.0}) {
+    Heard heard = milling(20);
+    heard.spindle_rad_s = rad_s(rpm);
+    heard.irrigated = true;
+    EXPECT_NEAR(test::peak_hz(steady(heard)), rpm / 60, 0.01 * rpm / 60) << rpm;
+  }
+}
+
+// The motor's own droop, from its formula: K (w_set - w) = torque.
+TEST(Synth, UnderLoadTheSpindleIsLowerByWhatTheMotorGivesWay) {
+  tool::Spindle spindle;
+  spindle.full_speed = rad_s(40'000);
+  const double torque = 0.5 * spindle.motor.torque;
+  for (int tick = 0; tick < 2'000; ++tick) spindle.step(1, torque, 1e-3);
+  // half its torque costs half of its droop, and a little friction
+  const double expected = 40'000 / 60.0 * (1 - 0.5 * spindle.motor.droop);
+  Heard heard = turning(0);
+  heard.spindle_rad_s = spindle.speed();
+  heard.cutting_nm = torque;
+  EXPECT_NEAR(test::peak_hz(steady(heard)), expected, 0.01 * expected);
+}
+
+TEST(Synth, ATurnHasItsMultiplesAndItsTeeth) {
+  Heard heard = turning(30'000);
+  heard.teeth = 7;
+  const std::vector<float> samples = steady(heard);
+  const std::vector<double> power = test::spectrum(samples);
+  const double bin = test::kRate / static_cast<double>(samples.size());
+  const auto around = [&](double hz) {
+    double most = 0;
+    for (double at = hz - 4 * bin; at <= hz + 4 * bin; at += bin)
+      most = std::max(most, power[static_cast<std::size_t>(std::lround(at / bin))]);
+    return most;
+  };
+  const double first = around(500);
+  for (const int n : {2, 3, 4}) {
+    EXPECT_GT(around(500 * n), 1e-4 * first) << n;
+    EXPECT_LT(around(500 * n), first) << n;
+  }
+  EXPECT_GT(around(3'500), 1e-3 * first) << "seven teeth";
+  EXPECT_LT(around(3'250), 1e-6 * first) << "nothing between";
+  EXPECT_LT(around(3'000), 1e-6 * first) << "nor at six";
+}
+
+TEST(Synth, NothingIsHeardFoldedDownFromAboveHalfTheRate) {
+  // 400 000 rpm: the third multiple is at 20 kHz, the fourth would be at 26.7, its image at 21.3;
+  // eight teeth at 53.3 kHz, their image at 5.3
+  const std::vector<float> samples = steady(turning(400'000));
+  const std::vector<double> power = test::spectrum(samples);
+  const double bin = test::kRate / static_cast<double>(samples.size());
+  double first = 0, elsewhere = 0;
+  for (std::size_t k = 0; k < power.size(); ++k) {
+    const double hz = static_cast<double>(k) * bin;
+    const bool line = std::abs(std::remainder(hz, 400'000 / 60.0)) < 50 * bin;  // its skirts
+    double& most = line ? first : elsewhere;
+    most = std::max(most, power[k]);
+  }
+  EXPECT_LT(elsewhere, 1e-7 * first);
+}
+
+TEST(Synth, TheMoreBoneTheLouder) {
+  double before = 0;
+  for (const double mm3_s : {0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0}) {
+    Heard heard = milling(mm3_s);
+    const double now = test::rms(steady(heard));
+    EXPECT_GT(now, 1.01 * before) << mm3_s;
+    before = now;
+  }
+}
+
+TEST(Synth, CuttingIsAsLoudAsItsFormulaSays) {
+  // the noise alone: what the band takes away of white noise is given back, whatever the tissue
+  for (const double hardness : {0.02e9, 0.1e9, 1e9, 10e9}) {
+    Heard heard;
+    heard.removal_m3_s = 5e-9;
+    heard.hardness_j_m3 = hardness;
+    const double expected = SynthSettings{}.cutting * std::sqrt(0.5);
+    EXPECT_NEAR(test::rms(steady(heard, 4)), expected, 0.06 * expected) << hardness;
+  }
+}
+
+TEST(Synth, HarderTissueSoundsHigher) {
+  double before = 0;
+  for (const double hardness : {0.02e9, 0.1e9, 0.5e9, 1e9, 2e9, 10e9}) {
+    Heard heard;  // of the cutting alone: the spindle's lines do not depend on it
+    heard.removal_m3_s = 5e-9;
+    heard.hardness_j_m3 = hardness;
+    const double now = test::centroid_hz(steady(heard));
+    EXPECT_GT(now, 1.1 * before) << hardness;
+    before = now;
+    EXPECT_NEAR(test::peak_hz(steady(heard)), cutting_hz(hardness), 0.8 * cutting_hz(hardness));
+  }
+}
+
+TEST(Synth, LoadMakesTheTeethLouder) {
+  const auto teeth = [](double torque) {
+    Heard heard = turning(40'000);
+    heard.cutting_nm = torque;
+    const std::vector<float> samples = steady(heard);
+    const std::vector<double> power = test::spectrum(samples);
+    const double at = 8 * 40'000 / 60.0 / test::kRate * static_cast<double>(samples.size());
+    return power[static_cast<std::size_t>(std::lround(at))];
+  };
+  const double idle = teeth(0), loaded = teeth(3e-3), more = teeth(30e-3);
+  EXPECT_GT(loaded, 1.5 * idle);
+  EXPECT_GT(more, 1.2 * loaded);
+}
+
+TEST(Synth, CoolantHisses) {
+  Heard heard;
+  heard.irrigated = true;
+  const std::vector<float> samples = steady(heard);
+  EXPECT_NEAR(test::rms(samples), SynthSettings{}.coolant, 0.1 * SynthSettings{}.coolant);
+  EXPECT_GT(test::centroid_hz(samples), 4'000);
+}
+
+// How often it begins to beep in ten seconds: silence before it, of half the shortest gap.
+int beeps(double to_spare) {
+  Heard heard;
+  heard.to_spare = to_spare;
+  const std::vector<float> samples = steady(heard, 10);
+  int count = 0;
+  int quiet = 1'000'000;
+  for (const float x : samples) {
+    if (std::abs(x) > 1e-3F) {
+      if (quiet > 0.02 * test::kRate) ++count;
+      quiet = 0;
+    } else {
+      ++quiet;
+    }
+  }
+  return count;
+}
+
+TEST(Synth, TheNearerTheFasterTheWarning) {
+  const SynthSettings usual;
+  EXPECT_EQ(beeps(kInfinity), 0);
+  EXPECT_EQ(beeps(usual.warn_from + 1e-6), 0);
+  int before = 0;
+  for (const double mm : {4.9, 4.0, 3.0, 2.0, 1.0, 0.6}) {
+    const int now = beeps(1e-3 * mm);
+    EXPECT_GT(now, before) << mm;
+    EXPECT_NEAR(now, 10 / beep_every(usual, 1e-3 * mm), 1.01) << mm;
+    before = now;
+  }
+  // one tone at the end: never quiet
+  Heard heard;
+  for (const double to_spare : {0.5e-3, 0.0, -1e-3, -kInfinity}) {
+    heard.to_spare = to_spare;
+    const std::vector<float> samples = steady(heard);
+    EXPECT_NEAR(test::peak_hz(samples), usual.warn_hz, 2) << to_spare;
+    EXPECT_NEAR(test::rms(samples), usual.warning * std::sqrt(0.5), 1e-3) << to_spare;
+  }
+}
+
+TEST(Synth, WhoTremblesAtTheBorderIsNotWarnedInAHurry) {
+  Synth synth;
+  Heard heard;
+  std::vector<float> all;
+  for (int n = 0; n < 1'000; ++n) {  // ten seconds, in and out every 10 ms
+    heard.to_spare = 5e-3 + (n % 2 == 0 ? 1e-5 : -1e-5);
+    synth.hear(heard);
+    const std::vector<float> some = made(synth, 0.01);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  // beeps of 60 ms every 0.8 s, in and out: at most that share of the time
+  double loud = 0;
+  for (const float x : all) loud += std::abs(x) > 1e-3F ? 1 : 0;
+  EXPECT_GT(loud, 0);
+  EXPECT_LT(loud, 0.1 * static_cast<double>(all.size()));
+}
+
+TEST(Synth, AContactKnocksOnceAndNotWhileItRattles) {
+  Heard heard;
+  Synth synth;
+  synth.hear(heard);
+  static_cast<void>(made(synth, 0.2));
+  heard.touching = true;
+  synth.hear(heard);
+  const std::vector<float> knock = made(synth, 0.1);
+  EXPECT_GT(test::largest(knock), 0.3 * SynthSettings{}.knock);
+  EXPECT_LT(std::abs(knock[3]), 0.1 * test::largest(knock)) << "it begins softly";
+  static_cast<void>(made(synth, 0.5));
+  EXPECT_EQ(test::largest(made(synth, 0.5)), 0) << "and is over";
+
+  // in and out every millisecond
+  Synth rattled;
+  std::vector<float> all;
+  for (int n = 0; n < 500; ++n) {
+    heard.touching = n % 2 == 0;
+    rattled.hear(heard);
+    const std::vector<float> some = made(rattled, 1e-3);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  EXPECT_LT(test::largest(test::end_of(all, all.size() / 2)), 1e-4) << "one knock, long over";
+}
+
+// A parameter that leaps must not click: from before the leap to half a second after, the sound
+// bends no more sharply than it does before or after by itself.
+TEST(Synth, NothingClicksWhateverLeaps) {
+  const Heard quiet;
+  const Heard busy = [] {
+    Heard heard = milling(20);
+    heard.irrigated = true;
+    heard.to_spare = 0;
+    return heard;
+  }();
+  struct Leap {
+    const char* what;
+    Heard from, to;
+  };
+  std::vector<Leap> leaps = {{"all on", quiet, busy}, {"all off", busy, quiet}};
+  const auto leap = [&leaps](const char* what, auto change) {
+    Heard from = turning(40'000), to = from;
+    change(to);
+    leaps.push_back({what, from, to});
+    leaps.push_back({what, to, from});
+  };
+  leap("stop", [](Heard& h) { h.spindle_rad_s = 0; });
+  leap("backwards", [](Heard& h) { h.spindle_rad_s *= -1; });
+  leap("half speed", [](Heard& h) { h.spindle_rad_s /= 2; });
+  leap("teeth", [](Heard& h) { h.teeth = 12; });
+  leap("no teeth", [](Heard& h) { h.teeth = 0; });
+  leap("load", [](Heard& h) { h.cutting_nm = 30e-3; });
+  leap("contact", [](Heard& h) { h.touching = true; });
+  leap("warning", [](Heard& h) { h.to_spare = 0; });
+  leap("beeps", [](Heard& h) { h.to_spare = 2e-3; });
+  leaps.push_back({"contact", quiet, {.touching = true}});
+  leaps.push_back({"first beep", quiet, {.to_spare = 2e-3}});
+  for (const Leap& one : leaps)
+    for (std::size_t later = 0; later < 8; ++later) {  // wherever its oscillators happen to be
+      Synth synth;
+      synth.hear(one.from);
+      static_cast<void>(made(synth, 0.5 + static_cast<double>(7 * later) / test::kRate));
+      std::vector<float> all = made(synth, 0.5);
+      double bends = test::sharpest(all);
+      synth.hear(one.to);
+      const std::vector<float> after = made(synth, 0.5);
+      all.insert(all.end(), after.begin(), after.end());
+      bends = std::max(bends, test::sharpest(test::end_of(after, after.size() / 2)));
+      // what is heard only for a moment bends as its own line does at its loudest
+      const auto line = [&bends](double loud, double hz) {
+        bends = std::max(bends, loud * std::pow(2 * M_PI * hz / test::kRate, 2));
+      };
+      if (one.to.touching) line(SynthSettings{}.knock, cutting_hz(1e9) / 3);
+      if (std::isfinite(one.to.to_spare)) line(SynthSettings{}.warning, SynthSettings{}.warn_hz);
+      EXPECT_LT(test::sharpest(all), 1.3 * bends) << one.what << ", " << later;
+    }
+  // noise bends by chance: with cutting and coolant alone, fifty leaps of each
+  for (const bool coolant : {false, true}) {
+    Synth synth;
+    Heard heard, none;
+    heard.removal_m3_s = coolant ? 0 : 20e-9;
+    heard.hardness_j_m3 = 1e9;
+    heard.irrigated = coolant;
+    synth.hear(heard);
+    static_cast<void>(made(synth, 1));
+    const double bends = test::sharpest(made(synth, 10));
+    double leapt = 0;
+    for (int n = 0; n < 50; ++n) {
+      synth.hear(n % 2 == 0 ? none : heard);
+      leapt = std::max(leapt, test::sharpest(made(synth, 0.2)));
+    }
+    EXPECT_LT(leapt, 1.1 * bends) << coolant;
+  }
+}
+
+TEST(Synth, LouderAndQuieterDoNotClick) {
+  Synth synth;
+  synth.hear(milling(0));
+  static_cast<void>(made(synth, 0.5));
+  const double bends = test::sharpest(made(synth, 1));
+  for (const double loud : {0.0, 1.0, 0.1, 1.0}) {
+    synth.loudness(loud);
+    EXPECT_LT(test::sharpest(made(synth, 0.3)), 1.05 * bends) << loud;
+  }
+}
+
+// A click is heard at all pitches at once: what a change of loudness or speed puts beyond 16 kHz,
+// where neither has a line.
+TEST(Synth, NothingIsHeardWhereNothingIs) {
+  const auto beyond = [](const std::vector<float>& samples) {
+    const std::vector<double> power = test::spectrum(samples);
+    double high = 0, all = 0;
+    for (std::size_t k = 0; k < power.size(); ++k) {
+      all += power[k];
+      if (static_cast<double>(k) * test::kRate > 16e3 * static_cast<double>(samples.size()))
+        high += power[k];
+    }
+    return 10 * std::log10(high / all);  // [dB]
+  };
+  Heard heard = turning(40'000);
+  heard.teeth = 0;
+  for (const bool speed : {false, true}) {
+    Synth synth;
+    synth.hear(heard);
+    static_cast<void>(made(synth, 0.5));
+    std::vector<float> samples;
+    for (int n = 0; n < 8; ++n) {
+      heard.spindle_rad_s = test::rad_s(speed && n % 2 == 0 ? 20'000 : 40'000);
+      synth.hear(heard);
+      synth.loudness(!speed && n % 2 == 0 ? 0 : 1);
+      const std::vector<float> some = made(synth, 0.2);
+      samples.insert(samples.end(), some.begin(), some.end());
+    }
+    EXPECT_LT(beyond(samples), -120) << speed;
+  }
+}
+
+TEST(Synth, WithNothingToBeHeardItIsSilentExactly) {
+  Synth synth;
+  const auto silent = [&synth](double seconds) {
+    bool zeros = true;
+    for (const float x : made(synth, seconds)) zeros &= x == 0;
+    return zeros;
+  };
+  EXPECT_TRUE(silent(1)) << "at the start";
+  synth.hear({});
+  EXPECT_TRUE(silent(1)) << "nothing";
+  Heard busy = milling();
+  busy.irrigated = true;
+  busy.to_spare = 1e-3;
+  synth.hear(busy);
+  EXPECT_FALSE(silent(1));
+  synth.hear({});
+  static_cast<void>(made(synth, 3));
+  EXPECT_TRUE(silent(1)) << "again";
+  synth.hear(busy);
+  synth.loudness(0);
+  static_cast<void>(made(synth, 3));
+  EXPECT_TRUE(silent(1)) << "off";
+}
+
+TEST(Synth, TheSameWordsAreTheSameSamples) {
+  const auto some = [](std::size_t block) {
+    Synth synth;
+    std::vector<float> all;
+    for (int n = 0; n < 20; ++n) {
+      Heard heard = milling(n);
+      heard.to_spare = 1e-3 * n / 4;
+      synth.hear(heard);
+      for (std::size_t left = 960; left > 0;) {
+        std::vector<float> part(std::min(block, left));
+        synth.make(part);
+        all.insert(all.end(), part.begin(), part.end());
+        left -= part.size();
+      }
+    }
+    return all;
+  };
+  EXPECT_EQ(some(960), some(960));
+  EXPECT_EQ(some(960), some(17)) << "however many are asked for at once";
+}
+
+TEST(Synth, NeverLouderThanFullScaleAndNeverNotANumberWhateverItIsTold) {
+  const char* given = std::getenv("BURR_SEED");
+  const std::uint64_t seed =
+      given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
+  std::printf("BURR_SEED=%llu\n", static_cast<unsigned long long>(seed));
+  std::mt19937_64 random(seed);
+  SynthSettings loud;
+  loud.spindle = loud.tooth = loud.cutting = loud.knock = loud.coolant = loud.warning = 1;
+  Synth synth(loud);
+  const std::vector<double> odd = {0,     1,      -1,    kInfinity, -kInfinity, std::nan(""),
+                                   1e300, 1e-300, 4'000, 1e-9,      1e9,        -1e-3};
+  const auto any = [&] { return odd[random() % odd.size()]; };
+  for (int n = 0; n < 2'000; ++n) {
+    Heard heard;
+    heard.spindle_rad_s = any();
+    heard.teeth = static_cast<int>(random());
+    heard.cutting_nm = any();
+    heard.removal_m3_s = any();
+    heard.hardness_j_m3 = any();
+    heard.touching = random() % 2 == 0;
+    heard.irrigated = random() % 2 == 0;
+    heard.to_spare = any();
+    synth.hear(heard);
+    synth.loudness(any());
+    std::vector<float> samples(random() % 700);
+    synth.make(samples);
+    for (const float x : samples) ASSERT_LE(std::abs(x), 1.0F);  // false for what is not a number
+  }
+}
+
+TEST(Synth, OddSettingsAreHeldToWhatCanBe) {
+  const double nan = std::nan("");
+  SynthSettings odd;
+  odd.rate_hz = nan;
+  odd.spindle = 1e9;
+  odd.half_speed_hz = odd.half_removal = odd.half_torque = 0;
+  odd.warn_from = -1;
+  odd.beep_fast = odd.beep_slow = odd.beep = 0;
+  odd.warn_hz = kInfinity;
+  Synth synth(odd);
+  Heard heard = milling();
+  heard.to_spare = 0.1e-3;
+  synth.hear(heard);
+  for (const float x : made(synth, 1)) ASSERT_LE(std::abs(x), 1.0F);
+}
+
+TEST(Synth, WhatIsLoudIsBentAndWhatIsNotIsLeftAlone) {
+  // the warning alone is a sine: quiet ones keep their shape, loud ones bend, none reaches 1
+  for (const double loud : {0.1, 0.7, 1.0}) {
+    SynthSettings settings;
+    settings.warning = loud;
+    Heard heard;
+    heard.to_spare = 0;
+    const std::vector<float> samples = steady(heard, 65536 / test::kRate, settings);
+    const std::vector<double> power = test::spectrum(samples);
+    const double third = 3 * settings.warn_hz / test::kRate * static_cast<double>(samples.size());
+    const double share = power[static_cast<std::size_t>(std::lround(third))] /
+                         *std::max_element(power.begin(), power.end());
+    if (loud > 0.7) {
+      EXPECT_GT(share, 1e-5);
+      EXPECT_LT(test::largest(samples), 0.9);
+    } else {
+      EXPECT_LT(share, 1e-9) << loud;
+      EXPECT_NEAR(test::largest(samples), loud, 1e-3);
+    }
+  }
+}
+
+TEST(Synth, TakesNoMemoryAndNoLock) {
+  Synth synth;
+  std::vector<float> samples(512);
+  Heard heard = milling();
+  heard.irrigated = true;
+  heard.to_spare = 1e-3;
+  const test::RtGuard guard;
+  for (int n = 0; n < 200; ++n) {
+    heard.touching = n % 20 < 10;
+    heard.teeth = n % 12;
+    synth.hear(heard);
+    synth.loudness(n % 3 == 0 ? 0 : 1);
+    synth.make(samples);
+  }
+  EXPECT_EQ(guard.allocations(), 0);
+  EXPECT_EQ(guard.locks(), 0);
+}
+
+}  // namespace
+}  // namespace burr::sound

@@ -1,0 +1,525 @@
+// A user at the window, page by page: keys, mouse and drops as SDL events, without a screen.
+#include "window/pages.h"
+
+#include <gtest/gtest.h>
+
+#include <SDL2/SDL.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "burr/record/player.h"
+#include "burr/render/pick.h"
+#include "burr/rt/changed_bits.h"
+#include "recording.h"
+#include "support/data.h"
+#include "window/sessions.h"
+
+namespace burr::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// ---- what a user does
+
+void press(SDL_Keycode code) {
+  SDL_Event event = {};
+  event.type = SDL_KEYDOWN;
+  event.key.keysym.sym = code;
+  SDL_PushEvent(&event);
+  event.type = SDL_KEYUP;
+  SDL_PushEvent(&event);
+}
+void move_to(int x, int y) {
+  SDL_Event event = {};
+  event.type = SDL_MOUSEMOTION;
+  event.motion.x = x;
+  event.motion.y = y;
+  SDL_PushEvent(&event);
+}
+void button(Uint8 which, bool down) {
+  SDL_Event event = {};
+  event.type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP;
+  event.button.button = which;
+  SDL_PushEvent(&event);
+}
+void click(int x, int y) {
+  move_to(x, y);
+  button(SDL_BUTTON_LEFT, true);
+  button(SDL_BUTTON_LEFT, false);
+}
+void turn_wheel(int by) {
+  SDL_Event event = {};
+  event.type = SDL_MOUSEWHEEL;
+  event.wheel.y = by;
+  SDL_PushEvent(&event);
+}
+void type(const std::string& text) {
+  for (const char c : text) {
+    SDL_Event event = {};
+    event.type = SDL_TEXTINPUT;
+    event.text.text[0] = c;
+    SDL_PushEvent(&event);
+  }
+}
+void drop(const fs::path& path) {
+  SDL_Event event = {};
+  event.type = SDL_DROPFILE;
+  event.drop.file = SDL_strdup(path.c_str());
+  SDL_PushEvent(&event);
+}
+void close_window() {
+  SDL_Event event = {};
+  event.type = SDL_QUIT;
+  SDL_PushEvent(&event);
+}
+
+// One step after another: done when its condition holds; each looks once a picture.
+class Script {
+ public:
+  struct Step {
+    const char* what;
+    std::function<bool()> when;
+    std::function<void()> then;
+  };
+  explicit Script(std::vector<Step> steps) : steps_(std::move(steps)) {}
+
+  void look() {
+    if (next_ < steps_.size() && steps_[next_].when()) {
+      if (steps_[next_].then) steps_[next_].then();
+      ++next_;
+      since_ = Clock::now();
+    } else if (Clock::now() - since_ > std::chrono::seconds(120) && !gave_up_) {
+      gave_up_ = true;  // never hang: leave, and say where
+      ADD_FAILURE() << "waited in vain: "
+                    << (next_ < steps_.size() ? steps_[next_].what : "for the end");
+      close_window();
+    }
+  }
+  [[nodiscard]] bool finished() const { return next_ == steps_.size(); }
+
+ private:
+  std::vector<Step> steps_;
+  std::size_t next_ = 0;
+  Clock::time_point since_ = Clock::now();
+  bool gave_up_ = false;
+};
+
+// true at the n-th look
+std::function<bool()> looks(int n) {
+  return [n]() mutable { return --n <= 0; };
+}
+
+class Window : public testing::Test {
+ protected:
+  void SetUp() override {
+    ::setenv("SDL_VIDEODRIVER", "offscreen", 1);
+    fs::create_directories(folder_);
+    auto made = Desk::open({folder_ / "config", folder_ / "state", {}});
+    if (!made) {
+      ASSERT_FALSE(test::data_required()) << made.error().text;
+      GTEST_SKIP() << made.error().text;
+    }
+    desk_ = std::move(*made);
+    SDL_FlushEvents(SDL_FIRSTEVENT, SDL_LASTEVENT);
+  }
+  void TearDown() override {
+    desk_.reset();
+    fs::remove_all(folder_);
+    speak(Language::english);
+  }
+
+  // a block by formula, coarse, ready to be milled
+  static Result<Ready> block() {
+    WorkOptions options;
+    options.volume.path = "block";
+    options.volume.voxel_mm = 0.5;
+    NoProgress quiet;
+    return open_ready(options, quiet);
+  }
+  void mill_by(Ready& ready, std::vector<Script::Step> steps) {
+    Script script(std::move(steps));
+    desk_->after_frame = [&script] { script.look(); };
+    const auto left = mill(*desk_, *ready.session, *ready.hand, *ready.worker, ready.scene, {});
+    desk_->after_frame = {};
+    ASSERT_TRUE(left) << left.error().text;
+    EXPECT_TRUE(script.finished());
+  }
+  void pages_by(std::vector<Script::Step> steps) {
+    Script script(std::move(steps));
+    desk_->after_frame = [&script] { script.look(); };
+    const Status done = run_pages(*desk_, {});
+    desk_->after_frame = {};
+    ASSERT_TRUE(done) << done.error().text;
+    EXPECT_TRUE(script.finished());
+  }
+  [[nodiscard]] std::function<bool()> on(Page page) const {
+    return [this, page] { return desk_->page == page; };
+  }
+
+  // how many pixels differ in a box of two pictures
+  static int differ(const render::Image& a, const render::Image& b, int x0, int y0, int x1,
+                    int y1) {
+    int count = 0;
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) {
+        const std::size_t at =
+            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) +
+                 static_cast<std::size_t>(x));
+        int by = 0;
+        for (std::size_t c = 0; c < 3; ++c) by += std::abs(int{a.rgb[at + c]} - int{b.rgb[at + c]});
+        count += by > 24 ? 1 : 0;
+      }
+    return count;
+  }
+
+  // a ball of bone in air, as a scan: 24 x 24 x 24 voxels of 1 mm, HU
+  [[nodiscard]] fs::path scan() const {
+    const fs::path path = folder_ / "Svensson Karin.nrrd";
+    std::ofstream file(path, std::ios::binary);
+    file << "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\n"
+            "sizes: 24 24 24\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+            "space origin: (0,0,0)\nendian: little\nencoding: raw\n\n";
+    for (int k = 0; k < 24; ++k)
+      for (int j = 0; j < 24; ++j)
+        for (int i = 0; i < 24; ++i) {
+          const double r = std::hypot(i - 11.5, j - 11.5, k - 11.5);
+          const auto hu =
+              static_cast<std::int16_t>(std::clamp(300 + 700 * (8 - r), -1000.0, 1500.0));
+          const char bytes[2] = {static_cast<char>(hu & 0xFF), static_cast<char>((hu >> 8) & 0xFF)};
+          file.write(bytes, 2);
+        }
+    return path;
+  }
+
+  fs::path folder_ = fs::temp_directory_path() / ("burr_pages_" + std::to_string(::getpid()));
+  std::unique_ptr<Desk> desk_;
+};
+
+// ---- milling
+
+TEST_F(Window, ChangesTheBurrByKeyAndTheServoHasIt) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  sim::Session& session = *ready->session;
+  const double first = session.burr_radius();  // 3 mm: 6 mm wide
+  double smaller = 0;
+  mill_by(*ready, {{"the first picture", looks(3), [] { press(SDLK_LEFTBRACKET); }},
+                   {"a smaller burr", [&] { return session.burr_radius() < first; },
+                    [&] {
+                      smaller = session.burr_radius();
+                      press(SDLK_RIGHTBRACKET);
+                    }},
+                   {"the larger one again", [&] { return session.burr_radius() > smaller; },
+                    [] { press(SDLK_q); }}});
+  EXPECT_NEAR(smaller, 2.75e-3, 1e-9);
+  EXPECT_NEAR(session.servo().settings().burr.radius, first, 1e-9);
+}
+
+TEST_F(Window, UndoByKeyBringsTheBoneBackToTheBit) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  sim::Session& session = *ready->session;
+  const std::uint64_t before = session.bone().content_hash();
+  rt::ChangedBits& changed = session.bone().add_watcher();
+  int bricks = 0;
+  const auto count = [&] {
+    changed.take_all([&bricks](std::size_t) { ++bricks; });
+    return bricks;
+  };
+  Clock::time_point lifted;
+  int cut = 0;
+  record::TickRow row;
+  mill_by(
+      *ready,
+      {{"the first picture", looks(3),
+        [] {
+          move_to(640, 340);
+          button(SDL_BUTTON_LEFT, true);
+        }},
+       {"bone to be cut", [&] { return count() > 30; },
+        [&] {
+          button(SDL_BUTTON_LEFT, false);
+          lifted = Clock::now();
+        }},
+       {"the end of the stroke", [&] { return Clock::now() - lifted > std::chrono::seconds(1); },
+        [&] {
+          cut = count();
+          press(SDLK_u);
+        }},
+       {"the bone to come back", [&] { return count() > cut; }, [&] { lifted = Clock::now(); }},
+       {"all of it", [&] { return Clock::now() - lifted > std::chrono::seconds(1); },
+        [] { press(SDLK_q); }}});
+  EXPECT_GT(cut, 30) << "nothing was cut: the test shows nothing";
+  EXPECT_EQ(session.bone().content_hash(), before);
+  EXPECT_GT(session.outcome().peak_force, 0);
+}
+
+TEST_F(Window, TabHidesThePanelsAndShowsThemAgain) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  render::Image with, without, again;
+  const auto picture = [&](render::Image& image) {
+    return [&] {
+      image = desk_->renderer().shown();
+      press(SDLK_TAB);
+    };
+  };
+  mill_by(*ready, {{"the first picture", looks(10), picture(with)},
+                   {"no panels", looks(5), picture(without)},
+                   {"panels", looks(5), [&] {
+                      again = desk_->renderer().shown();
+                      press(SDLK_ESCAPE);
+                    }}});
+  ASSERT_EQ(with.width, 1280);
+  ASSERT_EQ(with.height, 720);
+  // strip below, tools at the left, slices at the right; not the middle
+  EXPECT_GT(differ(with, without, 100, 650, 1180, 712), 10'000);
+  EXPECT_GT(differ(with, without, 10, 60, 90, 560), 5000);
+  EXPECT_GT(differ(with, without, 1080, 20, 1270, 600), 10'000);
+  EXPECT_LT(differ(with, without, 700, 20, 1050, 200), 50);
+  EXPECT_GT(differ(without, again, 100, 650, 1180, 712), 10'000);
+}
+
+TEST_F(Window, ShowsSlicesThroughTheTipThatCanBeHidden) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  render::Image with, nearer, without;
+  mill_by(*ready, {{"the first picture", looks(20),
+                    [&] {
+                      with = desk_->renderer().shown();
+                      press(SDLK_b);
+                    }},
+                   {"nearer slices", looks(20),
+                    [&] {
+                      nearer = desk_->renderer().shown();
+                      press(SDLK_v);
+                    }},
+                   {"no slices", looks(5), [&] {
+                      without = desk_->renderer().shown();
+                      press(SDLK_ESCAPE);
+                    }}});
+  EXPECT_GT(differ(with, without, 1080, 20, 1270, 600), 10'000);
+  EXPECT_GT(differ(with, nearer, 1080, 20, 1270, 600), 100);
+  EXPECT_LT(differ(nearer, without, 100, 650, 900, 712), 3000) << "the strip stays";
+}
+
+TEST_F(Window, LiftsTheBurrWhenTheMouseComesOverAPanel) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  sim::Session& session = *ready->session;
+  record::TickRow row;
+  const auto pedal = [&](double wanted) {
+    return [&, wanted] {
+      static_cast<void>(session.view(row));
+      return row.tick > 0 && row.hand.pedal == wanted;
+    };
+  };
+  // so near that there is bone behind every panel
+  bool bone_there = false;
+  ready->scene.camera.elevation = 1.4;
+  mill_by(*ready, {{"the first picture", looks(3),
+                    [] {
+                      turn_wheel(16);
+                      move_to(640, 340);
+                      press(SDLK_SPACE);
+                    }},
+                   {"the press of the space bar", pedal(1),
+                    [&] {
+                      bone_there =
+                          render::pick(ready->scene, render::ray_through(ready->scene.camera, 50.5,
+                                                                         300.5, 1280, 720))
+                              .has_value();
+                      move_to(50, 300);
+                    }},
+                   {"the lift over the tools", pedal(0), [] { move_to(640, 345); }},
+                   {"the press again", pedal(1), [] { press(SDLK_SPACE); }},
+                   {"the lift by the space bar", pedal(0), [] { press(SDLK_q); }}});
+  EXPECT_TRUE(bone_there) << "no bone behind the panel: the test shows nothing";
+}
+
+TEST_F(Window, OfTheLeftHandedMillsWithTheRightButton) {
+  desk_->settings.left_handed = true;
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  sim::Session& session = *ready->session;
+  record::TickRow row;
+  bool left_pressed = false;
+  mill_by(*ready, {{"the first picture", looks(3),
+                    [] {
+                      move_to(640, 340);
+                      button(SDL_BUTTON_LEFT, true);
+                    }},
+                   {"nothing", looks(20),
+                    [&] {
+                      static_cast<void>(session.view(row));
+                      left_pressed = row.hand.pedal > 0;
+                      button(SDL_BUTTON_LEFT, false);
+                      button(SDL_BUTTON_RIGHT, true);
+                    }},
+                   {"the press",
+                    [&] {
+                      static_cast<void>(session.view(row));
+                      return row.hand.pedal == 1;
+                    },
+                    [] { press(SDLK_q); }}});
+  EXPECT_FALSE(left_pressed);
+}
+
+TEST_F(Window, WritesChangedSettingsDownAndSpeaksTheLanguageAtOnce) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  // F2, then "Svenska" on the page: the second of two buttons in the first line
+  mill_by(*ready,
+          {{"the first picture", looks(3), [] { press(SDLK_F2); }},
+           {"the page", looks(5), [] { click(1280 / 2 - 450 + 28 + 190 + 105, 204); }},
+           {"the change", [] { return spoken() == Language::swedish; }, [] { press(SDLK_ESCAPE); }},
+           {"the page to go", looks(5), [] { press(SDLK_q); }}});
+  const SettingsRead read = read_settings(folder_ / "config" / "settings.toml");
+  EXPECT_TRUE(read.troubles.empty());
+  EXPECT_EQ(read.settings.language, Language::swedish);
+}
+
+// ---- page to page
+
+TEST_F(Window, TakesADroppedScanMillsItComesBackAndGoesOnWhereItWas) {
+  const fs::path file = scan();
+  Clock::time_point began;
+  const auto a_while = [&] { return Clock::now() - began > std::chrono::seconds(3); };
+  const auto mills = [&] {
+    began = Clock::now();
+    move_to(640, 360);
+    press(SDLK_SPACE);
+  };
+  pages_by({{"the start page", on(Page::start), [&] { drop(file); }},
+            {"milling", on(Page::milling), mills},
+            {"a while", a_while, [] { press(SDLK_q); }},
+            {"the start page again", on(Page::start), nullptr},
+            {"its first pictures", looks(5), [] { click(938, 354); }},  // the first session
+            {"milling again", on(Page::milling), mills},
+            {"a while", a_while, [] { press(SDLK_s); }},
+            {"the word about it", looks(5), [] { press(SDLK_q); }},
+            {"the start page at last", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  EXPECT_EQ(desk_->told, "");
+  const std::vector<KeptSession> kept = kept_sessions(folder_ / "state");
+  ASSERT_EQ(kept.size(), 2U) << "nothing was cut: the test shows nothing";
+  EXPECT_TRUE(kept[0].clean && kept[1].clean);
+  EXPECT_TRUE(kept[0].keep);
+  EXPECT_FALSE(kept[1].keep);
+  EXPECT_GT(kept[1].removed_mm3, 0);
+  for (const KeptSession& one : kept) {
+    EXPECT_EQ(one.title.find("Svensson"), std::string::npos) << one.title;
+    EXPECT_EQ(one.file.string().find("Svensson"), std::string::npos);
+  }
+  ASSERT_EQ(recent(folder_ / "state").size(), 1U);
+  EXPECT_EQ(recent(folder_ / "state")[0].title.find("Svensson"), std::string::npos);
+
+  // the second began with the bone that the first ended with
+  NoProgress quiet;
+  auto first = record::Player::open(kept[1].file.string());
+  auto second = record::Player::open(kept[0].file.string());
+  ASSERT_TRUE(first && second);
+  VolumeOptions given;
+  given.path = file.string();
+  auto bone = bone_of(**first, given, quiet);
+  ASSERT_TRUE(bone) << bone.error().text;
+  const std::uint64_t uncut = (*bone)->content_hash();
+  ASSERT_TRUE((*first)->bone_at(1e9, **bone));
+  EXPECT_NE((*bone)->content_hash(), uncut);
+  EXPECT_EQ((*bone)->content_hash(), (*second)->info().volume.content_hash);
+}
+
+TEST_F(Window, TellsWhatIsWrongWithABrokenFileAndGoesOn) {
+  const fs::path broken = folder_ / "broken.nrrd";
+  std::ofstream(broken) << "NRRD0004\ntype: short\ndimension: 3\nsizes: 9 9\n\n";
+  std::string told;
+  // typed, this one: a click into the field, the path, Enter
+  pages_by({{"the start page", on(Page::start), [] { click(950, 238); }},
+            {"the field", looks(4), [&] { type(broken.string()); }},
+            {"the letters", looks(4), [] { press(SDLK_RETURN); }},
+            {"loading", on(Page::loading), nullptr},
+            {"the sentence", [&] { return desk_->page == Page::start && !desk_->told.empty(); },
+             [&] {
+               told = desk_->told;
+               drop(scan());
+             }},
+            {"milling all the same", on(Page::milling), [] { press(SDLK_q); }},
+            {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  EXPECT_NE(told.find("broken.nrrd"), std::string::npos) << told;
+  EXPECT_EQ(desk_->told, "") << "an old sentence stayed";
+}
+
+TEST_F(Window, TellsWhatIsWrongWithAFileOfTheCorpusAndGoesOn) {
+  BURR_NEEDS_DATA("corpus");
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(test::data_dir() / "corpus"))
+    if (entry.is_regular_file() &&
+        entry.path().filename().string().find("trunc") != std::string::npos)
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  ASSERT_FALSE(files.empty()) << "the corpus has no truncated file";
+  pages_by({{"the start page", on(Page::start), [&] { drop(files.front()); }},
+            {"loading", on(Page::loading), nullptr},
+            {"the sentence", [&] { return desk_->page == Page::start && !desk_->told.empty(); },
+             [] { press(SDLK_ESCAPE); }}});
+  EXPECT_FALSE(desk_->told.empty());
+}
+
+TEST_F(Window, CancelsLoadingAndIsBackAtTheStartWithoutComplaint) {
+  const fs::path work = fs::path(BURR_SOURCE_DIR) / "cases" / "temporal_bone.toml";
+  pages_by({{"the start page", on(Page::start), [&] { drop(work); }},
+            {"loading", on(Page::loading), [] { press(SDLK_ESCAPE); }},
+            {"the start page again", on(Page::start), nullptr},
+            {"a few pictures", looks(5), [] { press(SDLK_ESCAPE); }}});
+  EXPECT_EQ(desk_->told, "");
+  EXPECT_TRUE(kept_sessions(folder_ / "state").empty());
+}
+
+TEST_F(Window, OffersASessionThatEndedUnexpectedlyFirst) {
+  pages_by({{"the start page", on(Page::start), [&] { drop(scan()); }},
+            {"milling", on(Page::milling),
+             [] {
+               move_to(640, 360);
+               press(SDLK_SPACE);
+             }},
+            {"some pictures", looks(90), [] { press(SDLK_q); }},
+            {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  std::vector<KeptSession> kept = kept_sessions(folder_ / "state");
+  ASSERT_EQ(kept.size(), 1U) << "nothing was cut: the test shows nothing";
+  // as a crash leaves it: the account still open, the recording torn
+  fs::path account = kept[0].file;
+  account.replace_extension(".toml");
+  std::string text;
+  {
+    std::ifstream in(account);
+    text.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  const std::size_t at = text.find("clean = true");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 12, "clean = false");
+  std::ofstream(account) << text;
+  fs::resize_file(kept[0].file, fs::file_size(kept[0].file) * 3 / 4);
+
+  kept = kept_sessions(folder_ / "state");
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_FALSE(kept[0].clean);
+  NoProgress quiet;
+  const auto ready = continue_session(kept[0], quiet);
+  ASSERT_TRUE(ready) << ready.error().text;
+}
+
+}  // namespace
+}  // namespace burr::app

@@ -1,0 +1,112 @@
+// Settings come back as they were written; what cannot be is named, and never lost.
+#include "window/settings.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+
+namespace burr::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SettingsFile : public testing::Test {
+ protected:
+  void TearDown() override { fs::remove_all(folder_); }
+  void put(const std::string& text) const {
+    fs::create_directories(folder_);
+    std::ofstream(path_) << text;
+  }
+  [[nodiscard]] static std::string text_of(const fs::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+  fs::path folder_ = fs::temp_directory_path() / ("burr_settings_" + std::to_string(::getpid()));
+  fs::path path_ = folder_ / "deep" / ".." / "settings.toml";
+};
+
+TEST_F(SettingsFile, ComesBackAsItWasWrittenWithEveryValueChanged) {
+  Settings s;
+  s.language = Language::swedish;
+  s.scale = 1.25;
+  s.left_handed = true;
+  s.force_limit_n = 2.5;
+  s.press_mm = 3;
+  s.turn_pace = 0.5;
+  s.zoom_pace = 2;
+  s.panels = false;
+  s.help = true;
+  s.autosave = false;
+  s.sessions_kept = 3;
+  s.sessions_mb = 100;
+  s.recent_names = true;
+  const fs::path path = folder_ / "made" / "by itself" / "settings.toml";
+  const Status written = write_settings(s, path, false);
+  ASSERT_TRUE(written) << written.error().text;
+  const SettingsRead read = read_settings(path);
+  EXPECT_TRUE(read.troubles.empty()) << read.troubles.front();
+  EXPECT_EQ(settings_text(read.settings), settings_text(s));
+  EXPECT_NE(settings_text(read.settings), settings_text(Settings()));
+}
+
+TEST_F(SettingsFile, IsExplainedLineByLine) {
+  // every line that sets something has a line above it that says what
+  const std::string text = settings_text({});
+  std::istringstream lines(text);
+  std::string line, before;
+  int set = 0;
+  while (std::getline(lines, line)) {
+    if (line.find(" = ") != std::string::npos && line.front() != '#') {
+      ++set;
+      EXPECT_EQ(before.substr(0, 2), "# ") << line;
+    }
+    before = line;
+  }
+  EXPECT_EQ(set, 13);
+}
+
+TEST_F(SettingsFile, WhichIsNotThereMeansTheDefaultsWithoutTrouble) {
+  const SettingsRead read = read_settings(path_);
+  EXPECT_TRUE(read.troubles.empty());
+  EXPECT_EQ(settings_text(read.settings), settings_text({}));
+}
+
+TEST_F(SettingsFile, NamesFileAndFieldOfWhatCannotBeAndTakesTheRest) {
+  const SettingsRead read = parse_settings(
+      "scale = 40\nleft_handed = true\nlanguage = \"klingon\"\npanels = 1\ncolour = 2\n"
+      "force_limit_n = nan\n",
+      "settings.toml");
+  EXPECT_TRUE(read.settings.left_handed);
+  EXPECT_EQ(read.settings.scale, 1);
+  EXPECT_EQ(read.settings.force_limit_n, 3.3);
+  ASSERT_EQ(read.troubles.size(), 5U);
+  for (const std::string& one : read.troubles)
+    EXPECT_EQ(one.rfind("settings.toml: ", 0), 0U) << one;
+  std::string all;
+  for (const std::string& one : read.troubles) all += one + "\n";
+  EXPECT_NE(all.find("scale: must be a number from 0.5 to 3"), std::string::npos) << all;
+  EXPECT_NE(all.find("language: must be \"english\" or \"swedish\""), std::string::npos) << all;
+  EXPECT_NE(all.find("panels: must be true or false"), std::string::npos) << all;
+  EXPECT_NE(all.find("colour: is no setting of this version"), std::string::npos) << all;
+}
+
+TEST_F(SettingsFile, ThatIsBrokenIsKeptAsideWhenSettingsAreWritten) {
+  path_ = folder_ / "settings.toml";
+  const std::string broken = "scale = = 3\nmy own notes";
+  put(broken);
+  const SettingsRead read = read_settings(path_);
+  ASSERT_EQ(read.troubles.size(), 1U);
+  EXPECT_EQ(read.troubles[0].rfind("settings.toml", 0), 0U) << read.troubles[0];
+  EXPECT_EQ(text_of(path_), broken) << "reading changed the file";
+  ASSERT_TRUE(write_settings(read.settings, path_, true));
+  EXPECT_EQ(text_of(folder_ / "settings.toml.old"), broken);
+  EXPECT_TRUE(read_settings(path_).troubles.empty());
+}
+
+}  // namespace
+}  // namespace burr::app
