@@ -176,6 +176,7 @@ class TemporalBone {
     return last.parts;
   }
   [[nodiscard]] double outer(const Vec3& p, double canal_axis) const;
+  void ossicles(const Vec3& p, Parts& s) const;
   [[nodiscard]] double bone(const Parts& s) const;
   [[nodiscard]] static double labelled(const Parts& s);
   [[nodiscard]] TissueId solid_tissue(const Parts& s, const Vec3& p) const;
@@ -244,22 +245,22 @@ double TemporalBone::outer(const Vec3& p, double canal_axis) const {
   depth = carve_soft(depth, 0.65 * base, 3 * mm);
 
   // mastoid: broad above, tapering to a blunt tip that points down and a little forwards
-  const RoundCone body{at_mm(12.5, 15, 2), at_mm(10.5, 12, -12), 14.2 * mm, 11.0 * mm};
-  const RoundCone tip{at_mm(10.5, 12.5, -10), at_mm(9.0, 7.2, -23), 10.2 * mm, 4.6 * mm};
-  depth = blend(depth, body.depth(p), 7 * mm);
-  depth = blend(depth, tip.depth(p), 5 * mm);
+  static const RoundCone body{at_mm(12.5, 15, 2), at_mm(10.5, 12, -12), 14.2 * mm, 11.0 * mm};
+  static const RoundCone tip{at_mm(10.5, 12.5, -10), at_mm(9.0, 7.2, -23), 10.2 * mm, 4.6 * mm};
+  depth = blend(depth, body, p, 7 * mm);
+  depth = blend(depth, tip, p, 5 * mm);
 
   // pyramid: inwards and forwards, its top the floor of the middle fossa
-  const RoundCone pyramid{at_mm(16, 3, 0), at_mm(54, -21, -1), 13 * mm, 7.5 * mm};
-  depth = blend(depth, pyramid.depth(p), 6 * mm);
+  static const RoundCone pyramid{at_mm(16, 3, 0), at_mm(54, -21, -1), 13 * mm, 7.5 * mm};
+  depth = blend(depth, pyramid, p, 6 * mm);
 
   // root of the zygoma above the canal, running forwards as a bar; the temporal line behind it
-  const RoundCone root{at_mm(3.2, -3, 8.6), at_mm(-0.6, -15, 7.0), 4.4 * mm, 2.8 * mm};
-  const RoundCone bar{at_mm(-0.6, -15, 7.0), at_mm(-4.2, -34, 4.8), 2.8 * mm, 2.0 * mm};
-  const RoundCone line{at_mm(3.0, -1, 9.8), at_mm(8.6, 27, 16.5), 2.8 * mm, 1.6 * mm};
-  depth = blend(depth, root.depth(p), 5 * mm);
-  depth = blend(depth, bar.depth(p), 3 * mm);
-  depth = blend(depth, line.depth(p), 3.5 * mm);
+  static const RoundCone root{at_mm(3.2, -3, 8.6), at_mm(-0.6, -15, 7.0), 4.4 * mm, 2.8 * mm};
+  static const RoundCone bar{at_mm(-0.6, -15, 7.0), at_mm(-4.2, -34, 4.8), 2.8 * mm, 2.0 * mm};
+  static const RoundCone line{at_mm(3.0, -1, 9.8), at_mm(8.6, 27, 16.5), 2.8 * mm, 1.6 * mm};
+  depth = blend(depth, root, p, 5 * mm);
+  depth = blend(depth, bar, p, 3 * mm);
+  depth = blend(depth, line, p, 3.5 * mm);
 
   // between the squama and the pyramid: the roof of the jaw's joint
   const double roof = 2.4 * mm - std::abs(p.z() - 8.4 * mm + 0.04 * (p.x() - 10 * mm));
@@ -267,10 +268,10 @@ double TemporalBone::outer(const Vec3& p, double canal_axis) const {
   depth = blend(depth, std::min({roof, around, 70 * mm - from_skull}), 4 * mm);
 
   // tubercle and socket of that joint
-  const RoundCone tubercle{at_mm(3, -19.5, 3.4), at_mm(15, -18, 2.8), 3.4 * mm, 3.4 * mm};
-  depth = blend(depth, tubercle.depth(p), 4 * mm);
-  const RoundCone socket{at_mm(3, -12.5, -2.6), at_mm(17, -12, -3.4), 4.9 * mm, 4.9 * mm};
-  depth = carve_soft(depth, -socket.depth(p), 3 * mm);
+  static const RoundCone tubercle{at_mm(3, -19.5, 3.4), at_mm(15, -18, 2.8), 3.4 * mm, 3.4 * mm};
+  depth = blend(depth, tubercle, p, 4 * mm);
+  static const RoundCone socket{at_mm(3, -12.5, -2.6), at_mm(17, -12, -3.4), 4.9 * mm, 4.9 * mm};
+  depth = carve_soft(depth, socket, p, 3 * mm);
 
   // tympanic bone: a gutter that makes the canal's front, floor and part of its back
   const double ring = 7.0 * mm - canal_axis;
@@ -278,16 +279,16 @@ double TemporalBone::outer(const Vec3& p, double canal_axis) const {
   depth = blend(depth, std::min({ring, reach, 3.0 * mm - p.z()}), 2.2 * mm);
 
   // its sheath, and the styloid process
-  const RoundCone styloid{at_mm(17.2, 0.5, -8), at_mm(20.0, -6.5, -34), 2.6 * mm, 0.7 * mm};
-  depth = blend(depth, styloid.depth(p), 2.5 * mm);
+  static const RoundCone styloid{at_mm(17.2, 0.5, -8), at_mm(20.0, -6.5, -34), 2.6 * mm, 0.7 * mm};
+  depth = blend(depth, styloid, p, 2.5 * mm);
 
   // spine of Henle, behind and above the opening
-  const RoundCone spine{at_mm(2.2, 6.4, 1.6), at_mm(1.1, 4.6, 4.8), 1.1 * mm, 0.8 * mm};
-  depth = blend(depth, spine.depth(p), 1.6 * mm);
+  static const RoundCone spine{at_mm(2.2, 6.4, 1.6), at_mm(1.1, 4.6, 4.8), 1.1 * mm, 0.8 * mm};
+  depth = blend(depth, spine, p, 1.6 * mm);
 
   // groove of the digastric muscle, inside the tip
-  const RoundCone digastric{at_mm(17, 6, -24), at_mm(19, 30, -15), 4.2 * mm, 3.6 * mm};
-  depth = carve_soft(depth, -digastric.depth(p), 2.5 * mm);
+  static const RoundCone digastric{at_mm(17, 6, -24), at_mm(19, 30, -15), 4.2 * mm, 3.6 * mm};
+  depth = carve_soft(depth, digastric, p, 2.5 * mm);
 
   if (depth < -3 * mm) return depth;  // too far away for details to matter
 
@@ -331,7 +332,7 @@ Parts TemporalBone::parts(const Vec3& p) const {
   if (s.hull < -kSkin) return s;  // nothing inside matters here
 
   s.canal = (4.1 * mm + 0.035 * (6 * mm - std::clamp(p.x(), -3 * mm, 17 * mm))) - canal_axis;
-  const Vec3 drum_normal = Vec3(-0.84, 0.30, -0.45).normalized();  // towards the canal
+  static const Vec3 drum_normal = Vec3(-0.84, 0.30, -0.45).normalized();  // towards the canal
   const double before_drum = (p - at_mm(17.4, -4.0, -0.2)).dot(drum_normal);
   s.drum =
       std::min(0.2 * mm - std::abs(before_drum), 4.6 * mm - (p - at_mm(17.4, -4.0, -0.2)).norm());
@@ -352,10 +353,10 @@ Parts TemporalBone::parts(const Vec3& p) const {
   // middle ear: cavity, attic above it, and the way back to the antrum
   s.middle = ellipsoid(p, at_mm(19.9, -4.4, -0.2), at_mm(2.9, 5.6, 6.2));
   s.middle = blend(s.middle, ellipsoid(p, at_mm(19.2, -3.4, 6.2), at_mm(2.9, 4.8, 3.6)), 2 * mm);
-  const RoundCone aditus{at_mm(18.2, 0.5, 6.6), at_mm(16.0, 5.5, 6.6), 2.3 * mm, 2.8 * mm};
-  s.middle = blend(s.middle, aditus.depth(p), 1.5 * mm);
-  const RoundCone tube{at_mm(20.5, -8.5, -1), at_mm(33, -21, -5), 2.4 * mm, 1.3 * mm};
-  s.middle = blend(s.middle, tube.depth(p), 1.5 * mm);
+  static const RoundCone aditus{at_mm(18.2, 0.5, 6.6), at_mm(16.0, 5.5, 6.6), 2.3 * mm, 2.8 * mm};
+  s.middle = blend(s.middle, aditus, p, 1.5 * mm);
+  static const RoundCone tube{at_mm(20.5, -8.5, -1), at_mm(33, -21, -5), 2.4 * mm, 1.3 * mm};
+  s.middle = blend(s.middle, tube, p, 1.5 * mm);
   s.antrum =
       ellipsoid(p, at_mm(13.6, 9.2, 6.0), at_mm(4.4, 4.6, 4.4)) + 0.3 * mm * noise(p, 3 * mm, 7);
 
@@ -375,24 +376,7 @@ Parts TemporalBone::parts(const Vec3& p) const {
     s.cells = field;
   }
 
-  // the little bones
-  const auto rod = [&](const Vec3& a, const Vec3& b, double ra, double rb) {
-    return RoundCone{a, b, ra * mm, rb * mm}.depth(p);
-  };
-  const Vec3 head = at_mm(19.4, -5.4, 6.0);
-  s.malleus =
-      blend(rod(head, head, 1.25, 1.25), rod(head, at_mm(18.9, -5.0, 2.8), 0.7, 0.6), 0.6 * mm);
-  s.malleus =
-      blend(s.malleus, rod(at_mm(18.9, -5.0, 2.8), at_mm(18.0, -4.2, -0.8), 0.6, 0.4), 0.4 * mm);
-  const Vec3 body = at_mm(19.4, -2.9, 6.2);
-  s.incus = blend(rod(body, body, 1.3, 1.3), rod(body, at_mm(17.8, 1.4, 6.4), 0.9, 0.4), 0.5 * mm);
-  s.incus = blend(s.incus, rod(body, at_mm(20.2, -2.2, 2.0), 0.7, 0.4), 0.5 * mm);
-  s.incus = blend(s.incus, rod(at_mm(20.2, -2.2, 2.0), at_mm(20.8, -2.1, 1.9), 0.4, 0.4), 0.2 * mm);
-  const Vec3 anvil = at_mm(21.1, -2.0, 1.9);
-  s.stapes = blend(rod(anvil, at_mm(22.7, -2.9, 2.2), 0.3, 0.25),
-                   rod(anvil, at_mm(22.7, -0.9, 2.2), 0.3, 0.25), 0.1 * mm);
-  s.stapes =
-      blend(s.stapes, rod(at_mm(22.8, -3.0, 2.2), at_mm(22.8, -0.8, 2.2), 0.35, 0.35), 0.1 * mm);
+  ossicles(p, s);
   return s;
 }
 
@@ -401,6 +385,39 @@ constexpr double kFacialCanalRadius = 1.25 * kMm, kFacialNerveRadius = 0.85 * kM
 constexpr double kChordaCanalRadius = 0.45 * kMm, kChordaRadius = 0.3 * kMm;
 constexpr double kSinusRadius = 4.3 * kMm, kCarotidRadius = 2.7 * kMm, kMeatusRadius = 2.1 * kMm;
 constexpr double kCochleaTube = 0.8 * kMm;
+
+// The little bones; from afar only how far they are at least.
+void TemporalBone::ossicles(const Vec3& p, Parts& s) const {
+  const double mm = kMm;
+  const double outside = (p - at_mm(20, -2.5, 3)).norm() - 6.6 * mm;
+  if (outside > ramp_ + 0.5 * mm) {
+    s.malleus = s.incus = s.stapes = -outside;
+    return;
+  }
+  const auto rod = [](const Vec3& a, const Vec3& b, double ra, double rb) {
+    return RoundCone(a, b, ra * kMm, rb * kMm);
+  };
+  static const Vec3 head = at_mm(19.4, -5.4, 6.0), neck = at_mm(18.9, -5.0, 2.8);
+  static const RoundCone malleus[] = {rod(head, head, 1.25, 1.25), rod(head, neck, 0.7, 0.6),
+                                      rod(neck, at_mm(18.0, -4.2, -0.8), 0.6, 0.4)};
+  s.malleus = blend(malleus[0].depth(p), malleus[1].depth(p), 0.6 * mm);
+  s.malleus = blend(s.malleus, malleus[2].depth(p), 0.4 * mm);
+
+  static const Vec3 body = at_mm(19.4, -2.9, 6.2), long_end = at_mm(20.2, -2.2, 2.0);
+  static const RoundCone incus[] = {
+      rod(body, body, 1.3, 1.3), rod(body, at_mm(17.8, 1.4, 6.4), 0.9, 0.4),
+      rod(body, long_end, 0.7, 0.4), rod(long_end, at_mm(20.8, -2.1, 1.9), 0.4, 0.4)};
+  s.incus = blend(incus[0].depth(p), incus[1].depth(p), 0.5 * mm);
+  s.incus = blend(s.incus, incus[2].depth(p), 0.5 * mm);
+  s.incus = blend(s.incus, incus[3].depth(p), 0.2 * mm);
+
+  static const Vec3 anvil = at_mm(21.1, -2.0, 1.9);
+  static const RoundCone stapes[] = {
+      rod(anvil, at_mm(22.7, -2.9, 2.2), 0.3, 0.25), rod(anvil, at_mm(22.7, -0.9, 2.2), 0.3, 0.25),
+      rod(at_mm(22.8, -3.0, 2.2), at_mm(22.8, -0.8, 2.2), 0.35, 0.35)};
+  s.stapes = blend(stapes[0].depth(p), stapes[1].depth(p), 0.1 * mm);
+  s.stapes = blend(s.stapes, stapes[2].depth(p), 0.1 * mm);
+}
 
 double TemporalBone::bone(const Parts& s) const {
   const double mm = kMm;
