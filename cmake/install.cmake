@@ -5,6 +5,7 @@ install(TARGETS burr_read RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/burr)
 if(TARGET burr_program)
   set_target_properties(burr_program PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS burr_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(FILES ${BURR_BONES} DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/bones)
 endif()
 foreach(header ${BURR_HEADERS})
   # a header whose greeting says "of this room only" stays at home; scripts/rooms.py holds the rooms to it

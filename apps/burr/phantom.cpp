@@ -9,6 +9,7 @@
 #include "burr/io/write_volume.h"
 #include "burr/volume/volume_of.h"
 #include "command.h"
+#include "ready_bone.h"
 #include "scenes/phantoms.h"
 
 namespace burr::app {
@@ -32,6 +33,7 @@ std::string names() {
 }
 
 Status write(const volume::Bone& bone, const std::string& path) {
+  if (ends_with(path, ".bone")) return write_ready_bone(bone, path);
   return ends_with(path, ".seg.nrrd") ? io::write_labels(bone, path, progress())
                                       : io::write_field(bone, path, progress());
 }
@@ -58,11 +60,12 @@ void say(const volume::Bone& bone, const Options& options) {
 }
 
 Status run(const Options& options) {
-  if (!ends_with(options.out, ".nrrd"))
+  if (!ends_with(options.out, ".nrrd") && !ends_with(options.out, ".bone"))
     return error(
         Trouble::usage,
         fmt::format("--out {}: a phantom is written as .nrrd (how deep each voxel lies in "
-                    "the bone) or .seg.nrrd (named structures); choose one of these endings",
+                    "the bone), .seg.nrrd (named structures) or .bone (both, as burr itself keeps "
+                    "it); choose one of these endings",
                     options.out));
   auto bone = scenes::phantom(options.name, options.voxel_mm, progress(), 0);
   if (!bone) return bone.error();
@@ -79,7 +82,9 @@ void add(CLI::App& app, Todo& todo) {
       ->add_option("--voxel-mm", options->voxel_mm,
                    "edge of a voxel [mm]; without it what suits the phantom")
       ->check(CLI::PositiveNumber);
-  command->add_option("--out", options->out, ".nrrd: the field; .seg.nrrd: the structures")
+  command
+      ->add_option("--out", options->out,
+                   ".nrrd: the field; .seg.nrrd: the structures; .bone: both, for burr itself")
       ->required();
   command->add_flag("--json", options->json, "print a JSON object as the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });

@@ -9,6 +9,7 @@
 
 #include "burr/io/materials.h"
 #include "burr/volume/volume_of.h"
+#include "ready_bone.h"
 #include "scenes/phantoms.h"
 
 namespace burr::app {
@@ -45,10 +46,15 @@ Result<io::Imported> open_phantom(const VolumeOptions& options, Progress& progre
       for (std::size_t id = 1; id < table.tissues.size(); ++id) all.lay_over(table.tissues[id]);
     };
   }
-  auto bone = scenes::phantom(name, options.voxel_mm, progress, options.reserve_bricks, 2, made_of);
-  if (!bone) return bone.error();
   io::Imported made;
-  made.bone = std::move(*bone);
+  const bool usual = options.voxel_mm == 0 || options.voxel_mm == scenes::default_voxel_mm(name);
+  if (usual && !made_of) made.bone = ready_bone(name, options.reserve_bricks);
+  if (!made.bone) {
+    auto bone =
+        scenes::phantom(name, options.voxel_mm, progress, options.reserve_bricks, 2, made_of);
+    if (!bone) return bone.error();
+    made.bone = std::move(*bone);
+  }
   io::ImportSummary& s = made.summary;
   s.format = "formula";
   s.voxel_mm = made.bone->grid().voxel * 1e3;
