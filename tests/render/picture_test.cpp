@@ -122,6 +122,29 @@ TEST(Picture, ABallHasTheOutlineThatPerspectiveGivesIt) {
   EXPECT_NEAR(static_cast<double>(lit_pixels(*image)), kPi * r * r, 0.01 * kPi * r * r);
 }
 
+TEST(Picture, WhatLiesUnderThinBoneTintsIt) {
+  BURR_NEEDS_GPU(gpu);
+  Scene scene = ball_scene(Vec3::Zero(), 0.03, 100);
+  const auto middle = [&](volume::TissueId beneath, std::uint8_t through) {
+    surface::Patch patch = test::ball(Vec3::Zero(), 0.03, 100);
+    for (surface::Vertex& v : patch.vertices) {
+      v.beneath = beneath;
+      v.through = through;
+    }
+    set_patch(scene, 0, patch);
+    const auto image = gpu.image(scene, 101, 101);
+    EXPECT_TRUE(image.ok());
+    return image.ok() ? pixel(*image, 50, 50) : std::array<int, 3>{};
+  };
+  // kGrey with a red at 0.8, 0.2, 0.2
+  const double share = 102.0 / 255;
+  const std::array<int, 3> tinted = middle(2, 102), bare = middle(2, 0);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(bare[c], 255 * 0.6, 1.5);
+    EXPECT_NEAR(tinted[c], 255 * ((1 - share) * 0.6 + share * (c == 0 ? 0.8 : 0.2)), 2);
+  }
+}
+
 TEST(Picture, BrightnessFollowsLambert) {
   BURR_NEEDS_GPU(gpu);
   const double radius = 0.03;

@@ -40,7 +40,9 @@ inline surface::Patch ball(const math::Vec3& centre, double radius, int steps,
 inline surface::Patch unpacked(const render::SkinMesh& mesh) {
   surface::Patch patch;
   for (const render::SkinVertex& v : mesh.vertices())
-    patch.vertices.push_back({v.p, render::normal_of(v), render::tissue_of(v)});
+    patch.vertices.push_back({v.p, render::normal_of(v), render::tissue_of(v),
+                              static_cast<volume::TissueId>(v.under & 0xFFU),
+                              static_cast<std::uint8_t>(v.under >> 8 & 0xFFU)});
   for (std::size_t n = 0; n < mesh.index_count(); ++n) patch.triangles.push_back(mesh.index(n));
   return patch;
 }

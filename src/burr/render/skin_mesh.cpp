@@ -39,7 +39,9 @@ math::Vec3f normal_of(const SkinVertex& vertex) {
 
 SkinMesh::SkinMesh(const surface::Patch& patch) {
   vertices_.reserve(patch.vertices.size());
-  for (const surface::Vertex& v : patch.vertices) vertices_.push_back({v.p, folded(v.n, v.tissue)});
+  for (const surface::Vertex& v : patch.vertices)
+    vertices_.push_back(
+        {v.p, folded(v.n, v.tissue), std::uint32_t{v.beneath} | std::uint32_t{v.through} << 8});
   if (patch.vertices.size() > 65535) {
     large_ = patch.triangles;
     return;

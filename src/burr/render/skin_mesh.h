@@ -1,4 +1,4 @@
-// render/skin_mesh.h - a patch of surface as it is kept to be drawn and picked: 16 B a vertex and
+// render/skin_mesh.h - a patch of surface as it is kept to be drawn and picked: 20 B a vertex and
 // 2 B an index, where surface::Patch has 28 and 4.
 //
 // Places are those of the patch to the bit, so that seams stay closed. Normals are folded into an
@@ -16,10 +16,11 @@
 namespace burr::render {
 
 struct SkinVertex {
-  math::Vec3f p;           // world, LPS                                   [m]
-  std::uint32_t rest = 0;  // tissue: 8 bit; the normal's fold along x, y: 12 bit each
+  math::Vec3f p;            // world, LPS                                   [m]
+  std::uint32_t rest = 0;   // tissue: 8 bit; the normal's fold along x, y: 12 bit each
+  std::uint32_t under = 0;  // what shines through: tissue, then how much of 255: 8 bit each
 };
-static_assert(sizeof(SkinVertex) == 16, "goes to the GPU as it is");
+static_assert(sizeof(SkinVertex) == 20, "goes to the GPU as it is");
 
 [[nodiscard]] std::uint32_t folded(const math::Vec3f& n, volume::TissueId tissue);
 [[nodiscard]] math::Vec3f normal_of(const SkinVertex& vertex);  // unit

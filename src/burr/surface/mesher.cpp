@@ -27,6 +27,7 @@ constexpr int kSamples = kCells + 1;   // voxels its cells stand on
 constexpr int kApron = kSamples + 2;   // and one more on each side, for gradients
 constexpr int kRow = 20;               // room for a row of kApron, a multiple of 4
 constexpr int kBricks = 4;             // along each axis, that hold these
+constexpr int kMostSteps = 12;         // of a look under the surface  [voxel]
 constexpr int kTries = 32;             // copies of one brick before the servo is left alone
 constexpr float kCorner = 1.0F / 256;  // vertices stay this far from voxel centres  [voxel]
 
@@ -65,6 +66,9 @@ struct Mesher::Work {
     step = axes * grid.voxel;
     turn = axes.cast<float>();
     origin = grid.frame.p;
+    for (const volume::Tissue& tissue : bone.tissues().tissues)
+      soft.push_back(tissue.kind == volume::TissueKind::soft);
+    any_soft = std::find(soft.begin(), soft.end(), true) != soft.end();
     std::size_t e = 0;
     for (const CellEdge& edge : cell_edges())
       id_offset[e++] = edge.axis * kIds + (edge.z * kSamples + edge.y) * kSamples + edge.x;
@@ -77,8 +81,11 @@ struct Mesher::Work {
   template <int axis>
   void make_vertex(int x, int y, int z, const math::Ijk& first);
   void make_triangles();
+  void look_beneath(const math::Vec3& p_grid, const math::Vec3& n_grid, Vertex& v) const;
 
   const volume::Bone& bone;
+  std::vector<bool> soft;  // by TissueId
+  bool any_soft = false;
   math::Ijk patches = {0, 0, 0};
   math::Mat3 step;  // columns: world steps of one voxel  [m]
   Eigen::Matrix3f turn;
@@ -192,6 +199,54 @@ void Mesher::Work::find_solid() {
     }
 }
 
+// Along the normal, voxel by voxel: one step out of the bone for what fills a hollow, then inwards
+// for what lies under it. Air on the way hides what is behind.
+void Mesher::Work::look_beneath(const math::Vec3& p_grid, const math::Vec3& n_grid,
+                                Vertex& v) const {
+  const double voxel = bone.grid().voxel;
+  const math::Ijk& size = bone.grid().size;
+  const auto tissue_at = [&](double out) -> TissueId {
+    const math::Ijk at = (p_grid + out * n_grid).array().round().cast<int>();
+    if ((at.array() < 0).any() || (at.array() >= size.array()).any()) return 0;
+    return bone.shared_tissue(at.x(), at.y(), at.z());
+  };
+  // how much of the voxels about one point out of the bone, so that labels' stairs are softened
+  const math::Vec3 out = p_grid + 1.5 * n_grid;
+  const math::Ijk low = out.array().floor().cast<int>();
+  const math::Vec3 part = out - low.cast<double>();
+  double filled = 0;
+  TissueId filling = 0;
+  for (int c = 0; c < 8; ++c) {
+    const math::Ijk by(c & 1, (c >> 1) & 1, c >> 2), at = low + by;
+    if ((at.array() < 0).any() || (at.array() >= size.array()).any()) continue;
+    const TissueId tissue = bone.shared_tissue(at.x(), at.y(), at.z());
+    if (!soft[tissue]) continue;
+    filling = tissue;
+    double weight = 1;
+    for (int d = 0; d < 3; ++d) weight *= by[d] == 1 ? part[d] : 1 - part[d];
+    filled += weight;
+  }
+  if (filled > 0) {
+    v.beneath = filling;
+    v.through = static_cast<std::uint8_t>(std::lround(217 * filled));  // its wall is still bone
+    return;
+  }
+  const int steps = std::min(static_cast<int>(kShineThrough / voxel), kMostSteps);
+  bool in_bone = false;
+  for (int s = 1; s <= steps; ++s) {
+    const TissueId tissue = tissue_at(-s);
+    if (soft[tissue]) {
+      const double left = std::max(0.0, 1 - s * voxel / kShineThrough);
+      v.through = static_cast<std::uint8_t>(std::lround(191 * left));
+      v.beneath = v.through > 0 ? tissue : TissueId{0};
+      return;
+    }
+    const bool air = bone.tissues()[tissue].kind == volume::TissueKind::air;
+    if (air && in_bone) return;
+    in_bone = in_bone || !air;
+  }
+}
+
 template <int axis>
 void Mesher::Work::make_vertex(int x, int y, int z, const math::Ijk& first) {
   constexpr int kStep[3] = {1, kRow, kApron * kRow};
@@ -225,6 +280,9 @@ void Mesher::Work::make_vertex(int x, int y, int z, const math::Ijk& first) {
   vertex[i].p = (origin + step * p_grid).cast<float>();
   vertex[i].n = turn * (n / std::sqrt(length));
   vertex[i].tissue = bone.shared_tissue(voxel.x(), voxel.y(), voxel.z());
+  vertex[i].beneath = 0;
+  vertex[i].through = 0;
+  if (any_soft) look_beneath(p_grid, (n / std::sqrt(length)).template cast<double>(), vertex[i]);
   key[i] = EdgeKey{x, y, z, axis}.packed();
   id[static_cast<std::size_t>(axis * kIds + (z * kSamples + y) * kSamples + x)] =
       static_cast<std::uint16_t>(i);

@@ -9,6 +9,9 @@
 //
 //     patch (p,q,r): the cells between voxels 16p-1 .. 16p+15 along i, and so on
 //
+// A vertex also knows what soft tissue is near behind it (kShineThrough): thin bone lets it through
+// before it opens, and a hollow that soft tissue fills shows that tissue as its wall.
+//
 // Vertices stay 1/256 voxel away from the voxel centres, so that no triangle folds into a line.
 // Thread: mesh_patch() from any number of workers at once while the servo cuts; each worker has its
 // own Mesher. Two patches meshed while the servo cuts across their seam may differ there until both
@@ -25,6 +28,9 @@
 #include "burr/volume/bone.h"
 
 namespace burr::surface {
+
+inline constexpr double kShineThrough =
+    1.5e-3;  // bone as thick as this hides what lies under it [m]
 
 class Mesher {
  public:

@@ -15,6 +15,9 @@ struct Vertex {
   math::Vec3f p;  // world, LPS                                   [m]
   math::Vec3f n;  // unit, out of the bone, from the field's gradient
   volume::TissueId tissue = 1;
+  // what soft tissue lies under thin bone here, or fills the hollow this wall belongs to; 0: none
+  volume::TissueId beneath = 0;
+  std::uint8_t through = 0;  // how much of it is seen, of 255
 };
 
 // Counter-clockwise seen from the air. Vertices are shared inside the patch and repeated bit for

@@ -31,10 +31,10 @@ void main() {
 }
 )";
 
-// The bone's: normal and tissue in 32 bits (render/skin_mesh.h).
+// The bone's: normal, tissue and what shines through it in 64 bits (render/skin_mesh.h).
 inline constexpr const char* kSkinVertex = R"(
 layout(location = 0) in vec3 at_p;
-layout(location = 1) in uint at_rest;
+layout(location = 1) in uvec2 at_rest;
 uniform mat4 clip_from_model;
 uniform mat3 view_from_model_n;
 uniform sampler2D tissue_colours;
@@ -49,12 +49,14 @@ void main() {
 #ifdef CLIP
   beyond = dot(plane, vec4(at_p, 1.0));
 #endif
-  vec2 f = vec2(float(at_rest >> 8u & 4095u), float(at_rest >> 20u)) / 2047.0 - 1.0;
+  vec2 f = vec2(float(at_rest.x >> 8u & 4095u), float(at_rest.x >> 20u)) / 2047.0 - 1.0;
   vec3 m = vec3(f, 1.0 - abs(f.x) - abs(f.y));
   float t = max(-m.z, 0.0);
   m.xy += vec2(m.x >= 0.0 ? -t : t, m.y >= 0.0 ? -t : t);
   n = view_from_model_n * normalize(m);
-  colour = texelFetch(tissue_colours, ivec2(int(at_rest & 255u), 0), 0).rgb;
+  vec3 bone = texelFetch(tissue_colours, ivec2(int(at_rest.x & 255u), 0), 0).rgb;
+  vec3 under = texelFetch(tissue_colours, ivec2(int(at_rest.y & 255u), 0), 0).rgb;
+  colour = mix(bone, under, float(at_rest.y >> 8u & 255u) / 255.0);
 }
 )";
 

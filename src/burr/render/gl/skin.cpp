@@ -134,7 +134,7 @@ void lay_out() {
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride, nullptr);
   glEnableVertexAttribArray(1);
-  glVertexAttribIPointer(1, 1, GL_UNSIGNED_INT, kStride, behind_p);
+  glVertexAttribIPointer(1, 2, GL_UNSIGNED_INT, kStride, behind_p);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // render/gl/skin.h - the bone's surface on the GPU: one vertex and index buffer per patch.
 //
-// Memory: 16 B a vertex, 2 B an index, as they are in the scene. A patch is sent when its version
+// Memory: 20 B a vertex, 2 B an index, as they are in the scene. A patch is sent when its version
 // changes and skipped when it is out of sight, wholly turned away or hidden. Where it is allowed, a
 // coarse block is drawn in the place of its patches. A header of this room only.
 #pragma once
