@@ -17,9 +17,10 @@ using volume::TissueKind;
 constexpr TissueId kBone = 1, kNerve = 2, kCell = 3;
 constexpr double kTop = 30;  // where the bone ends [voxel]
 
-// Bone up to kTop; below `floor(x)` lies `filling`, as deep as the grid.
-std::unique_ptr<volume::Bone> plate(const volume::Grid& grid, TissueId filling,
-                                    const std::function<double(double x)>& floor) {
+// Bone up to kTop; below `floor(x)` lies `filling`, two voxels of it, and then `behind`.
+std::unique_ptr<volume::Bone> plate(const volume::Grid& grid, TissueId filling, TissueId behind,
+                                    const std::function<double(double x)>& floor,
+                                    double top = kTop) {
   volume::TissueTable table;
   table.tissues = {{.name = "air", .kind = TissueKind::air},
                    {.name = "bone", .kind = TissueKind::solid},
@@ -30,11 +31,10 @@ std::unique_ptr<volume::Bone> plate(const volume::Grid& grid, TissueId filling,
   for (int k = 0; k < grid.size.z(); ++k)
     for (int j = 0; j < grid.size.y(); ++j)
       for (int i = 0; i < grid.size.x(); ++i) {
-        const double depth = std::min(kTop - k, k - floor(i));
+        const double depth = std::min(top - k, k - floor(i));
         field.push_back(volume::field_from_depth(depth));
-        tissue.push_back(depth > -volume::kRamp ? (k < floor(i) ? filling : kBone)
-                         : k < floor(i)         ? filling
-                                                : TissueId{0});
+        const TissueId below = k < floor(i) - 2 ? behind : filling;
+        tissue.push_back(k < floor(i) ? below : depth > -volume::kRamp ? kBone : TissueId{0});
       }
   return volume::bone_from_arrays(grid, table, field, tissue, {}, 0);
 }
@@ -62,7 +62,7 @@ TEST(ShineThrough, IsSeenTheMoreTheThinnerTheBone) {
     SCOPED_TRACE(voxel);
     // from 2 to 14 voxels thick
     const auto floor = [](double x) { return kTop - 2 - 12 * x / 47; };
-    const auto bone = plate(test::askew({48, 24, 36}, voxel), kNerve, floor);
+    const auto bone = plate(test::askew({48, 24, 36}, voxel), kNerve, kNerve, floor);
     int hidden = 0;
     each_on_top(*bone, [&](const math::Vec3& p, const Vertex& v) {
       const double thick = (kTop - floor(p.x())) * voxel;
@@ -78,15 +78,45 @@ TEST(ShineThrough, IsSeenTheMoreTheThinnerTheBone) {
   }
 }
 
+// Wherever bricks end, and however far the nerve is from them.
+TEST(ShineThrough, IsFoundWhereverItLies) {
+  for (int top = 24; top < 32; ++top)
+    for (const int thick : {3, 6, 9, 11}) {
+      SCOPED_TRACE(top * 100 + thick);
+      // a nerve along y, from x = 28 to 35; elsewhere bone as deep as the grid
+      const auto floor = [&](double x) { return x >= 28 && x <= 35 ? top - thick : -9.0; };
+      const auto bone = plate(test::askew({64, 16, 40}, 0.1e-3), kNerve, kNerve, floor, top);
+      NoProgress quiet;
+      const auto mesh = whole_surface(*bone, 1, quiet);
+      ASSERT_TRUE(mesh);
+      int over = 0, far = 0;
+      for (const Vertex& v : mesh->vertices) {
+        const math::Vec3 p = bone->grid().grid_from_world(v.p.cast<double>());
+        if (std::abs(p.z() - top) > 0.1 || p.y() < 3 || p.y() > 12 || p.x() < 3 || p.x() > 60)
+          continue;
+        if (p.x() > 29.5 && p.x() < 33.5) {
+          EXPECT_EQ(v.beneath, kNerve);
+          EXPECT_NEAR(v.through, 191 * (1 - thick * 0.1e-3 / kShineThrough), 191 * 0.15);
+          ++over;
+        } else if (p.x() < 26 || p.x() > 37) {
+          EXPECT_EQ(v.through, 0);
+          ++far;
+        }
+      }
+      EXPECT_GT(over, 20);
+      EXPECT_GT(far, 100);
+    }
+}
+
 TEST(ShineThrough, AirHidesWhatIsBehindItAndDoesNotShineItself) {
-  const auto floor = [](double) { return kTop - 4; };
-  const auto bone = plate(test::askew({24, 24, 36}, 0.2e-3), kCell, floor);
+  const auto floor = [](double) { return kTop - 3; };  // the nerve would be 1 mm below the surface
+  const auto bone = plate(test::askew({24, 24, 36}, 0.2e-3), kCell, kNerve, floor);
   each_on_top(*bone, [](const math::Vec3&, const Vertex& v) { EXPECT_EQ(v.through, 0); });
 }
 
 TEST(ShineThrough, WhatFillsAHollowIsSeenOnItsWall) {
   const auto floor = [](double) { return 12.0; };
-  const auto bone = plate(test::askew({24, 24, 36}, 0.2e-3), kNerve, floor);
+  const auto bone = plate(test::askew({24, 24, 36}, 0.2e-3), kNerve, kNerve, floor);
   NoProgress quiet;
   const auto mesh = whole_surface(*bone, 1, quiet);
   ASSERT_TRUE(mesh);
@@ -102,7 +132,8 @@ TEST(ShineThrough, WhatFillsAHollowIsSeenOnItsWall) {
 }
 
 TEST(ShineThrough, NothingDoesWhereNothingIsSoft) {
-  const auto bone = plate(test::askew({24, 24, 36}, 0.2e-3), kBone, [](double) { return -9.0; });
+  const auto bone =
+      plate(test::askew({24, 24, 36}, 0.2e-3), kBone, kBone, [](double) { return -9.0; });
   each_on_top(*bone, [](const math::Vec3&, const Vertex& v) {
     EXPECT_EQ(v.beneath, 0);
     EXPECT_EQ(v.through, 0);

@@ -68,7 +68,8 @@ struct Mesher::Work {
     origin = grid.frame.p;
     for (const volume::Tissue& tissue : bone.tissues().tissues)
       soft.push_back(tissue.kind == volume::TissueKind::soft);
-    any_soft = std::find(soft.begin(), soft.end(), true) != soft.end();
+    soft.resize(256);
+    find_soft();
     std::size_t e = 0;
     for (const CellEdge& edge : cell_edges())
       id_offset[e++] = edge.axis * kIds + (edge.z * kSamples + edge.y) * kSamples + edge.x;
@@ -81,11 +82,14 @@ struct Mesher::Work {
   template <int axis>
   void make_vertex(int x, int y, int z, const math::Ijk& first);
   void make_triangles();
+  void find_soft();
+  [[nodiscard]] bool any_soft_near(const math::Ijk& first) const;
   void look_beneath(const math::Vec3& p_grid, const math::Vec3& n_grid, Vertex& v) const;
 
   const volume::Bone& bone;
-  std::vector<bool> soft;  // by TissueId
-  bool any_soft = false;
+  std::vector<bool> soft;         // by TissueId
+  std::vector<bool> soft_bricks;  // that hold any, and those around them; empty: none does
+  bool soft_near = false;         // this patch
   math::Ijk patches = {0, 0, 0};
   math::Mat3 step;  // columns: world steps of one voxel  [m]
   Eigen::Matrix3f turn;
@@ -199,6 +203,42 @@ void Mesher::Work::find_solid() {
     }
 }
 
+// Only deposited material changes tissues, and that is solid: what is soft is so for good.
+void Mesher::Work::find_soft() {
+  if (std::find(soft.begin(), soft.end(), true) == soft.end()) return;
+  std::vector<bool> wide(static_cast<std::size_t>(bone.brick_count()));
+  bool any = false;
+  for (BrickIndex b = 0; b < bone.brick_count(); ++b) {
+    const TissueId* tissue = bone.brick_tissue(b);
+    if (tissue == nullptr) continue;
+    const bool holds =
+        std::any_of(tissue, tissue + volume::kBrickVoxels, [&](TissueId one) { return soft[one]; });
+    if (!holds) continue;
+    any = true;
+    const math::Ijk at = bone.brick_ijk(b) / kBrickEdge;
+    const math::Ijk low = (at.array() - 1).max(0);
+    const math::Ijk high = (at.array() + 1).min(bone.bricks().array() - 1);
+    for (int k = low.z(); k <= high.z(); ++k)
+      for (int j = low.y(); j <= high.y(); ++j)
+        for (int i = low.x(); i <= high.x(); ++i)
+          wide[static_cast<std::size_t>(bone.brick_at(i, j, k))] = true;
+  }
+  if (any) soft_bricks = std::move(wide);
+}
+
+// Whether a look from this patch's vertices can meet soft tissue at all.
+bool Mesher::Work::any_soft_near(const math::Ijk& first) const {
+  if (soft_bricks.empty()) return false;
+  const math::Ijk low = ((first.array() - kMostSteps - 1) / kBrickEdge).max(0);
+  const math::Ijk high =
+      ((first.array() + kSamples + kMostSteps + 1) / kBrickEdge).min(bone.bricks().array() - 1);
+  for (int k = low.z(); k <= high.z(); ++k)
+    for (int j = low.y(); j <= high.y(); ++j)
+      for (int i = low.x(); i <= high.x(); ++i)
+        if (soft_bricks[static_cast<std::size_t>(bone.brick_at(i, j, k))]) return true;
+  return false;
+}
+
 // Along the normal, voxel by voxel: one step out of the bone for what fills a hollow, then inwards
 // for what lies under it. Air on the way hides what is behind.
 void Mesher::Work::look_beneath(const math::Vec3& p_grid, const math::Vec3& n_grid,
@@ -210,6 +250,15 @@ void Mesher::Work::look_beneath(const math::Vec3& p_grid, const math::Vec3& n_gr
     if ((at.array() < 0).any() || (at.array() >= size.array()).any()) return 0;
     return bone.shared_tissue(at.x(), at.y(), at.z());
   };
+  // nearly every vertex is far from everything soft: no part of the look is farther than half a
+  // brick from one of these, so what it could meet would be in their bricks or in those around them
+  const auto near_soft = [&](double out) {
+    const math::Ijk at =
+        (p_grid + out * n_grid).array().round().cast<int>().max(0).min(size.array() - 1);
+    return static_cast<bool>(soft_bricks[static_cast<std::size_t>(
+        bone.brick_at(at.x() / kBrickEdge, at.y() / kBrickEdge, at.z() / kBrickEdge))]);
+  };
+  if (!near_soft(0) && !near_soft(-8)) return;
   // how much of the voxels about one point out of the bone, so that labels' stairs are softened
   const math::Vec3 out = p_grid + 1.5 * n_grid;
   const math::Ijk low = out.array().floor().cast<int>();
@@ -282,7 +331,7 @@ void Mesher::Work::make_vertex(int x, int y, int z, const math::Ijk& first) {
   vertex[i].tissue = bone.shared_tissue(voxel.x(), voxel.y(), voxel.z());
   vertex[i].beneath = 0;
   vertex[i].through = 0;
-  if (any_soft) look_beneath(p_grid, (n / std::sqrt(length)).template cast<double>(), vertex[i]);
+  if (soft_near) look_beneath(p_grid, (n / std::sqrt(length)).template cast<double>(), vertex[i]);
   key[i] = EdgeKey{x, y, z, axis}.packed();
   id[static_cast<std::size_t>(axis * kIds + (z * kSamples + y) * kSamples + x)] =
       static_cast<std::uint16_t>(i);
@@ -333,6 +382,7 @@ bool Mesher::Work::run(int patch) {
   const math::Ijk first = at * kCells - math::Ijk::Ones();
   vertices = indices = 0;
   if (!gather(first)) return false;
+  soft_near = any_soft_near(first);
   make_vertices(first);
   if (vertices > 0) make_triangles();
   return true;
