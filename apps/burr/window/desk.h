@@ -24,7 +24,7 @@ struct DeskPlaces {
 // By the XDG base directories: ~/.config/burr and so on.
 [[nodiscard]] DeskPlaces users_places();
 
-enum class Page { none, start, loading, milling };
+enum class Page { none, start, loading, milling, replay };
 
 class Desk {
  public:
