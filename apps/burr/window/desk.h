@@ -41,6 +41,7 @@ class Desk {
   std::vector<std::string> troubles;  // of the settings' file, to be told once
   Page page = Page::none;             // the one shown
   std::string told;                   // what went wrong, on the start page
+  std::string said;                   // while milling: what must be known, or was done last
   std::function<void()> after_frame;  // whoever wants to look on, after each picture
   // After a change: in effect, and written down.
   void settings_changed();

@@ -29,7 +29,7 @@ void block(const Ui& ui, float x, float& y, Word title, const Rows& rows) {
 }  // namespace
 
 bool draw_help(Ui& ui, bool left_handed) {
-  const float u = ui.unit(), w = 920 * u, h = 520 * u;
+  const float u = ui.unit(), w = 920 * u, h = 534 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
   ui.page("##help", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::help_title));
@@ -62,6 +62,7 @@ bool draw_help(Ui& ui, bool left_handed) {
          {"F2", Word::help_settings},
          {"S", Word::key_save},
          {"P", Word::help_picture},
+         {"E", Word::export_help},
          {"M", Word::help_sound},
          {"9  0", Word::help_loudness},
          {"Esc  Q", Word::help_quit}});
