@@ -46,6 +46,12 @@ class Desk {
   // After a change: in effect, and written down.
   void settings_changed();
 
+  // Window and everything on the GPU anew, as after a graphics card was lost; what is shown is sent
+  // again with the next picture. Error: none can be had any more.
+  [[nodiscard]] Status renew();
+  // How often that was done; what others keep on the GPU is gone each time.
+  [[nodiscard]] int renewed() const { return renewed_; }
+
   // The next event, already known to the panels; false: none now.
   [[nodiscard]] bool next(SDL_Event& event);
   // One picture: the scene and, if `panels` is set, what it draws with ImGui over it. keys: the
@@ -61,7 +67,8 @@ class Desk {
   std::unique_ptr<render::Renderer> renderer_;
   std::unique_ptr<Ui> ui_;  // goes first
   bool keep_old_ = false;   // the settings' file had trouble
-  int pictures_ = 0;
+  bool minimised_ = false;  // nobody sees it: nothing is drawn
+  int pictures_ = 0, renewed_ = 0;
 };
 
 }  // namespace burr::app

@@ -63,7 +63,7 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
       out.worker->first(progress, [&out](const surface::Skin& skin) { put_skin(out.scene, skin); });
   if (!skinned) return skinned.error();
   if (out.timeline.work) {
-    const double height = std::clamp(40 * out.settings.settings.servo.burr.radius, 40e-3, 140e-3);
+    const double height = std::clamp(30 * out.settings.settings.servo.burr.radius, 30e-3, 100e-3);
     out.scene.camera =
         render::view_of_work(out.timeline.work->at, out.timeline.work->outward, height);
     render::pan(out.scene.camera, 0, -0.1);  // the strip takes the lower fifth

@@ -51,7 +51,8 @@ std::string name_of_case(const std::string& name) {
   return name;
 }
 
-StartPage::StartPage(Desk& desk) : desk_(desk), thumbnails_(desk.places().cache, cases()) {}
+StartPage::StartPage(Desk& desk)
+    : desk_(desk), thumbnails_(desk.places().cache, cases()), renewed_(desk.renewed()) {}
 
 Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seconds) {
   using Clock = std::chrono::steady_clock;
@@ -73,6 +74,7 @@ Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seco
     const Status shown = desk_.show(
         empty, [this] { draw(); }, true);
     if (!shown) return shown.error();
+    if (std::exchange(renewed_, desk_.renewed()) != desk_.renewed()) thumbnails_.forget();
     thumbnails_.step(desk_.renderer());
     if (const auto chosen = dialog_.answer(); chosen && !chosen->empty()) open(*chosen);
     const bool over = seconds > 0 && Clock::now() - start >= std::chrono::duration<double>(seconds);

@@ -34,7 +34,7 @@ std::string letter_of(const record::Wish& wish) {
     case record::WishKind::burr_radius:
       return "[ ]";
     case record::WishKind::spindle_speed:
-      return ", .";
+      return "rpm";
     case record::WishKind::tool_mode:
       return fmt::format("{:.0f}", std::clamp(wish.value, 0.0, 2.0) + 1);
     default:

@@ -108,8 +108,8 @@ class Bar {
     const ImVec2 p = ImGui::GetCursorScreenPos(), size = {66 * u_, 42 * u_};
     body(b, p, size, chosen);
     const ImU32 shade = chosen ? ink::kAccent : ink::kText;
-    icon(*ImGui::GetWindowDrawList(), b.action, {p.x + size.x / 2, p.y + 15 * u_}, 9 * u_, shade);
-    ui_.write(p.x + size.x / 2, p.y + 28 * u_, Ui::Letter::small, chosen ? ink::kText : ink::kDim,
+    icon(*ImGui::GetWindowDrawList(), b.action, {p.x + size.x / 2, p.y + 14 * u_}, 9 * u_, shade);
+    ui_.write(p.x + size.x / 2, p.y + 26 * u_, Ui::Letter::small, chosen ? ink::kText : ink::kDim,
               word(b.name), 0.5F);
   }
 

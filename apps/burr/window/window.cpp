@@ -238,7 +238,9 @@ void Mill::take_events() {
         render::zoom(scene_.camera, std::exp(4 * static_cast<double>(event.mgesture.dDist)));
         break;
       case SDL_WINDOWEVENT:
-        if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) lift();
+        if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST ||
+            event.window.event == SDL_WINDOWEVENT_MINIMIZED)
+          lift();
         break;
       default:
         break;
