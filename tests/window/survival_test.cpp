@@ -53,29 +53,35 @@ TEST_F(Survival, ResizedWhileMillingItDrawsTheNewSizeAndTheHandGoesOn) {
   sim::Session& session = *ready->session;
   render::Image small, large;
   std::uint64_t then = 0;
-  mill_by(
-      *ready,
-      {{"the first picture", looks(3),
-        [] {
-          move_to(640, 340);
-          button(SDL_BUTTON_LEFT, true);
-        }},
-       {"the press", [&] { return tick(session) > 0 && row_.hand.pedal == 1; },
-        [] { resize(900, 600); }},
-       {"the small picture", [&] { return desk_->renderer().width() == 900; }, nullptr},
-       {"drawn", looks(5),
-        [&] {
-          small = desk_->renderer().shown();
-          then = tick(session);
-          resize(2560, 1440);
-        }},
-       {"the large picture", [&] { return desk_->renderer().width() == 2560; }, nullptr},
-       {"drawn", looks(5),
-        [&] {
-          large = desk_->renderer().shown();
-          resize(1280, 720);
-        }},
-       {"as before", [&] { return desk_->renderer().width() == 1280; }, [] { press(SDLK_q); }}});
+  mill_by(*ready,
+          {{"the first picture", looks(3),
+            [] {
+              move_to(640, 340);
+              button(SDL_BUTTON_LEFT, true);
+            }},
+           {"the press", [&] { return tick(session) > 0 && row_.hand.pedal == 1; },
+            [] { resize(900, 600); }},
+           {"the small picture", [&] { return desk_->renderer().width() == 900; }, nullptr},
+           {"drawn", looks(5),
+            [&] {
+              small = desk_->renderer().shown();
+              then = tick(session);
+              move_to(1280, 680);
+              resize(2560, 1440);
+            }},
+           {"the large picture", [&] { return desk_->renderer().width() == 2560; }, nullptr},
+           {"drawn", looks(5),
+            [&] {
+              large = desk_->renderer().shown();
+              move_to(640, 340);
+              resize(1280, 720);
+            }},
+           {"as before, and bone to be cut",
+            [&] {
+              return desk_->renderer().width() == 1280 && tick(session) > then &&
+                     row_.ledger.removed > 0;
+            },
+            [] { press(SDLK_q); }}});
   EXPECT_EQ(small.width, 900);
   EXPECT_EQ(small.height, 600);
   EXPECT_EQ(large.width, 2560);
