@@ -148,6 +148,10 @@ TEST_F(Survival, AfterTheGraphicsCardIsLostTheSamePictureIsThereAgainAndBoneIsCu
   sim::Session& session = *ready->session;
   render::Image before, after;
   std::uint64_t then = 0;
+  // made good of all that was left out while the eye moved or the machine was busy
+  const auto at_rest = [&] {
+    return [this, n = 0]() mutable { return ++n > 60 && desk_->renderer().refined(); };
+  };
   // Tab: without what counts on by itself; far from the bone the tool stands still
   mill_by(*ready,
           {{"the first picture", looks(3),
@@ -155,14 +159,14 @@ TEST_F(Survival, AfterTheGraphicsCardIsLostTheSamePictureIsThereAgainAndBoneIsCu
               press(SDLK_TAB);
               move_to(1200, 60);
             }},
-           {"a picture at rest", looks(60),
+           {"a picture at rest", at_rest(),
             [&] {
               before = desk_->renderer().shown();
               then = tick(session);
               const Status renewed = desk_->renew();
               EXPECT_TRUE(renewed) << renewed.error().text;
             }},
-           {"a picture at rest", looks(60),
+           {"a picture at rest", at_rest(),
             [&] {
               after = desk_->renderer().shown();
               press(SDLK_TAB);
@@ -174,7 +178,9 @@ TEST_F(Survival, AfterTheGraphicsCardIsLostTheSamePictureIsThereAgainAndBoneIsCu
   EXPECT_EQ(desk_->renewed(), 1);
   ASSERT_EQ(after.width, before.width);
   EXPECT_TRUE(something_in(before, 300, 100, 1000, 600)) << "no bone: the test shows nothing";
-  EXPECT_LT(differ(before, after, 300, 150, 1000, 700), 300);
+  // the governor may have left out shade on one side only; lost bone would be a tenth and more
+  EXPECT_LT(differ(before, after, 300, 150, 1000, 700), 700 * 550 / 50);
+  EXPECT_TRUE(something_in(after, 300, 100, 1000, 600));
   EXPECT_GT(session.outcome().ledger.removed, 0);
 }
 
