@@ -14,18 +14,27 @@ void put_skin(render::Scene& scene, const surface::Skin& skin) {
 
 LiveBone::LiveBone(sim::Session& session, surface::Worker& worker, render::Scene& scene,
                    bool software)
-    : session_(session),
-      worker_(worker),
+    : LiveBone(session.bone(), worker, scene, software) {
+  session_ = &session;
+}
+
+LiveBone::LiveBone(const volume::Bone& bone, surface::Worker& worker, render::Scene& scene,
+                   bool software)
+    : worker_(worker),
       scene_(scene),
-      coarse_(worker.patches(), session.bone().grid().voxel),
+      coarse_(worker.patches(), bone.grid().voxel),
       governor_(software) {}
+
+sim::Load LiveBone::load() const {
+  return session_ != nullptr ? session_->load() : sim::Load::none;
+}
 
 double LiveBone::now() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
 }
 
 void LiveBone::update() {
-  worker_.hold_back(session_.load() >= sim::Load::mesh);
+  worker_.hold_back(load() >= sim::Load::mesh);
   skins_.clear();
   surface::Skin skin;
   for (int i = 0; i < kPatchesPerFrame && worker_.take(skin); ++i) {
@@ -33,7 +42,7 @@ void LiveBone::update() {
     worker_.give_back(skin);
     skins_.push_back(skin);
   }
-  coarse_.hold_back(session_.load() >= sim::Load::picture);
+  coarse_.hold_back(load() >= sim::Load::picture);
   coarse_.update(scene_, now());
   scene_.quality = governor_.begin(scene_.camera, now());
 }

@@ -26,6 +26,8 @@ void put_skin(render::Scene& scene, const surface::Skin& skin);
 class LiveBone {
  public:
   LiveBone(sim::Session& session, surface::Worker& worker, render::Scene& scene, bool software);
+  // A bone that no servo cuts: nothing is held back.
+  LiveBone(const volume::Bone& bone, surface::Worker& worker, render::Scene& scene, bool software);
 
   // Patches that are ready go into the scene, as many as a frame bears; surface and coarse blocks
   // are held back where the machine does not keep up with the hand.
@@ -40,7 +42,9 @@ class LiveBone {
   [[nodiscard]] double now() const;  // since it was made [s]
 
  private:
-  sim::Session& session_;
+  [[nodiscard]] sim::Load load() const;
+
+  sim::Session* session_ = nullptr;
   surface::Worker& worker_;
   render::Scene& scene_;
   render::Coarsening coarse_;

@@ -21,6 +21,7 @@
 #include "recording.h"
 #include "still.h"
 #include "views.h"
+#include "window/pages.h"
 
 namespace burr::app {
 namespace {
@@ -31,7 +32,9 @@ struct Options {
   VolumeOptions volume;
   PictureSize size;
   double at = -1, fps = 25;
-  bool check = false, json = false;
+  bool check = false, json = false, window = false;
+  double seconds = 0;  // of the window
+  std::string screenshot;
 };
 
 // The bone and the burr at one moment.
@@ -146,7 +149,18 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
   return written;
 }
 
+// Watched in a window; what is wrong with the file is said here, not on a page.
+Status show(const Options& options) {
+  auto desk = Desk::open(users_places());
+  if (!desk) return desk.error();
+  const auto left = watch_file(
+      **desk, options.file, options.volume,
+      {.seconds = options.seconds, .screenshot = options.screenshot, .from = options.at});
+  return left ? fine() : Status(left.error());
+}
+
 Status run(const Options& options) {
+  if (options.window) return show(options);
   auto opened = record::Player::open(options.file);
   if (!opened) return opened.error();
   record::Player& player = **opened;
@@ -228,6 +242,12 @@ void add(CLI::App& app, Todo& todo) {
       ->capture_default_str();
   add_view_options(*command, options->view);
   add_picture_size(*command, options->size);
+  command->add_flag("--window", options->window,
+                    "watch it: time line, bone, tool and force at any moment");
+  command->add_option("--seconds", options->seconds, "close the window after so long")
+      ->check(CLI::Range(0.1, 36'000.0));
+  command->add_option("--screenshot", options->screenshot,
+                      "PNG of the window as it was when it closed, panels and all");
   command->add_option("--at", options->at, "seconds from the start (default: the end)")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--volume", options->volume.path,

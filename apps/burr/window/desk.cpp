@@ -56,13 +56,49 @@ void Desk::settings_changed() {
 bool Desk::next(SDL_Event& event) {
   if (SDL_PollEvent(&event) == 0) return false;
   ui_->event(event);
+  if (event.type == SDL_WINDOWEVENT) switch (event.window.event) {
+      case SDL_WINDOWEVENT_MINIMIZED:
+      case SDL_WINDOWEVENT_HIDDEN:
+        minimised_ = true;
+        break;
+      case SDL_WINDOWEVENT_RESTORED:
+      case SDL_WINDOWEVENT_MAXIMIZED:
+      case SDL_WINDOWEVENT_SHOWN:
+      case SDL_WINDOWEVENT_EXPOSED:
+        minimised_ = false;
+        break;
+      default:
+        break;
+    }
   return true;
+}
+
+Status Desk::renew() {
+  int wide = 1280, high = 720;
+  if (SDL_Window* window = SDL_GL_GetCurrentWindow()) SDL_GetWindowSize(window, &wide, &high);
+  // video stays while there is no window, and with it the events on their way
+  const bool held = SDL_InitSubSystem(SDL_INIT_VIDEO) == 0;
+  ui_.reset();
+  renderer_.reset();
+  auto renderer = render::Renderer::window("burr", wide, high);
+  if (held) SDL_QuitSubSystem(SDL_INIT_VIDEO);
+  if (!renderer) return renderer.error();
+  renderer_ = std::move(*renderer);
+  ui_ = Ui::make();
+  minimised_ = false;
+  ++renewed_;
+  return fine();
 }
 
 Status Desk::show(const render::Scene& scene, const std::function<void()>& panels, bool keys) {
   int wide = renderer_->width(), high = renderer_->height();
   if (SDL_Window* window = SDL_GL_GetCurrentWindow()) SDL_GetWindowSize(window, &wide, &high);
   Status done = fine();
+  if (minimised_) {
+    SDL_Delay(50);
+    if (after_frame) after_frame();
+    return done;
+  }
   if (panels) {
     ui_->begin(wide, high, renderer_->width(), renderer_->height(), settings.scale, keys);
     panels();
@@ -71,6 +107,8 @@ Status Desk::show(const render::Scene& scene, const std::function<void()>& panel
     ui_->forget_panels();
     done = renderer_->show(scene);
   }
+  // a lost graphics card does not end the session; the next picture is drawn by what there is then
+  if (!done) done = renew();
   if (after_frame) after_frame();
   return done;
 }

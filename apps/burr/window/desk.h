@@ -24,7 +24,7 @@ struct DeskPlaces {
 // By the XDG base directories: ~/.config/burr and so on.
 [[nodiscard]] DeskPlaces users_places();
 
-enum class Page { none, start, loading, milling };
+enum class Page { none, start, loading, milling, replay };
 
 class Desk {
  public:
@@ -41,9 +41,16 @@ class Desk {
   std::vector<std::string> troubles;  // of the settings' file, to be told once
   Page page = Page::none;             // the one shown
   std::string told;                   // what went wrong, on the start page
+  std::string said;                   // while milling: what must be known, or was done last
   std::function<void()> after_frame;  // whoever wants to look on, after each picture
   // After a change: in effect, and written down.
   void settings_changed();
+
+  // Window and everything on the GPU anew, as after a graphics card was lost; what is shown is sent
+  // again with the next picture. Error: none can be had any more.
+  [[nodiscard]] Status renew();
+  // How often that was done; what others keep on the GPU is gone each time.
+  [[nodiscard]] int renewed() const { return renewed_; }
 
   // The next event, already known to the panels; false: none now.
   [[nodiscard]] bool next(SDL_Event& event);
@@ -60,7 +67,8 @@ class Desk {
   std::unique_ptr<render::Renderer> renderer_;
   std::unique_ptr<Ui> ui_;  // goes first
   bool keep_old_ = false;   // the settings' file had trouble
-  int pictures_ = 0;
+  bool minimised_ = false;  // nobody sees it: nothing is drawn
+  int pictures_ = 0, renewed_ = 0;
 };
 
 }  // namespace burr::app

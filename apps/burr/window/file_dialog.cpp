@@ -42,6 +42,14 @@ std::vector<std::string> command(bool folder) {
   return {};
 }
 
+std::vector<std::string> command_to_save(const std::string& suggested) {
+  if (std::string zenity = program("zenity"); !zenity.empty())
+    return {zenity, "--file-selection", "--save", "--filename=" + suggested};
+  if (std::string kdialog = program("kdialog"); !kdialog.empty())
+    return {kdialog, "--getsavefilename", suggested};
+  return {};
+}
+
 // What it prints; "" if it failed, was left, or `progress` is cancelled.
 Result<std::string> ask_program(const std::vector<std::string>& words, Progress& progress) {
   std::array<int, 2> pipe{};
@@ -85,6 +93,14 @@ void FileDialog::ask(bool folder) {
   if (open()) return;
   asked_ = std::make_unique<Loading<std::string>>(
       [words = command(folder)](Progress& progress) { return ask_program(words, progress); });
+}
+
+void FileDialog::ask_where(const std::string& suggested) {
+  if (open()) return;
+  asked_ = std::make_unique<Loading<std::string>>(
+      [words = command_to_save(suggested)](Progress& progress) {
+        return ask_program(words, progress);
+      });
 }
 
 std::optional<std::string> FileDialog::answer() {

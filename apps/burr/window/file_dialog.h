@@ -15,6 +15,8 @@ class FileDialog {
   [[nodiscard]] static bool there();  // on this machine
 
   void ask(bool folder);
+  // For a file to be written; whether it may replace another is not asked here.
+  void ask_where(const std::string& suggested);
   // The path chosen, once; "" when the user did not choose.
   [[nodiscard]] std::optional<std::string> answer();
   [[nodiscard]] bool open() const { return asked_ != nullptr; }

@@ -1,5 +1,8 @@
 #include "window/help.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,7 +29,7 @@ void block(const Ui& ui, float x, float& y, Word title, const Rows& rows) {
 }  // namespace
 
 bool draw_help(Ui& ui, bool left_handed) {
-  const float u = ui.unit(), w = 920 * u, h = 520 * u;
+  const float u = ui.unit(), w = 920 * u, h = 534 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
   ui.page("##help", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::help_title));
@@ -59,10 +62,40 @@ bool draw_help(Ui& ui, bool left_handed) {
          {"F2", Word::help_settings},
          {"S", Word::key_save},
          {"P", Word::help_picture},
+         {"E", Word::export_help},
          {"M", Word::help_sound},
          {"9  0", Word::help_loudness},
          {"Esc  Q", Word::help_quit}});
   ui.write(x + 28 * u, y + h - 52 * u, Ui::Letter::body, ink::kDim, word(Word::help_ghost));
+  ImGui::SetCursorScreenPos({x + w - 100 * u, y + 20 * u});
+  const bool close = ImGui::Button("OK  [F1]", {76 * u, 0});
+  ImGui::End();
+  return !close;
+}
+
+bool draw_replay_help(Ui& ui) {
+  const float u = ui.unit(), w = 920 * u, h = 320 * u;
+  const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 60 * u);
+  ui.page("##replayhelp", x, y, w, h);
+  ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::replay_help_title));
+  float left = y + 70 * u, right = left;
+  block(ui, x + 28 * u, left, Word::time,
+        {{word(Word::key_space), Word::replay_help_play},
+         {word(Word::replay_drag), Word::replay_help_drag},
+         {"←  →", Word::replay_help_step},
+         {word(Word::key_shift_arrows), Word::replay_help_small},
+         {word(Word::key_ctrl_arrows), Word::replay_help_stroke},
+         {"Home  End", Word::replay_help_ends},
+         {",  .", Word::replay_help_pace}});
+  block(ui, x + 480 * u, right, Word::help_view,
+        {{fmt::format("{}, ↑  ↓", word(Word::key_left)), Word::help_turn},
+         {word(Word::key_middle), Word::help_shift},
+         {word(Word::key_wheel), Word::help_zoom},
+         {"F", Word::help_first_view},
+         {"L", Word::help_labels},
+         {"Tab", Word::help_hide},
+         {"P", Word::help_picture},
+         {"Esc  Q", Word::help_quit}});
   ImGui::SetCursorScreenPos({x + w - 100 * u, y + 20 * u});
   const bool close = ImGui::Button("OK  [F1]", {76 * u, 0});
   ImGui::End();

@@ -7,5 +7,7 @@ namespace burr::app {
 
 // false: the user has read enough. left_handed: the mouse's buttons are the other way round.
 [[nodiscard]] bool draw_help(Ui& ui, bool left_handed);
+// The same for the page that shows a recording.
+[[nodiscard]] bool draw_replay_help(Ui& ui);
 
 }  // namespace burr::app

@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
@@ -67,9 +68,30 @@ class Loading {
   std::jthread thread_;  // last: begins when all else is there, ends before it
 };
 
-// The page shown until the bone is ready. Error: Trouble::interrupted if the user cancelled;
-// `closed` is true if the window was closed.
-[[nodiscard]] Result<Ready> load(Desk& desk, const std::string& title, Loading<Ready>::Make make,
-                                 bool& closed);
+// One picture of the loading page, and a little wait. True: the user wants to stop; `closed` is
+// set if the window was closed.
+[[nodiscard]] Result<bool> show_loading(Desk& desk, const std::string& title,
+                                        const SeenProgress& progress, bool stopping, bool& closed,
+                                        const std::function<bool()>& finished);
+
+// The page shown until it is made. Error: Trouble::interrupted if the user cancelled; `closed` is
+// true if the window was closed.
+template <class Value>
+[[nodiscard]] Result<Value> load(Desk& desk, const std::string& title,
+                                 typename Loading<Value>::Make make, bool& closed) {
+  Loading<Value> loading(std::move(make));
+  bool stopping = false;
+  closed = false;
+  while (!loading.finished()) {
+    const Result<bool> shown = show_loading(desk, title, loading.progress(), stopping, closed,
+                                            [&loading] { return loading.finished(); });
+    if (!shown) return shown.error();
+    stopping = *shown;
+    if (stopping) loading.progress().cancel();
+  }
+  Result<Value> made = loading.take();
+  if (stopping && !closed) return error(Trouble::interrupted, "stopped");
+  return made;
+}
 
 }  // namespace burr::app

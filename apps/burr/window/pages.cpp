@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "window/loading.h"
+#include "window/playback.h"
 #include "window/sessions.h"
 #include "window/start_page.h"
 #include "window/words.h"
@@ -71,6 +72,20 @@ Result<Left> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options,
   return left;
 }
 
+Result<Left> watch_file(Desk& desk, const std::string& file, const VolumeOptions& given,
+                        const WatchOptions& options) {
+  bool closed = false;
+  auto recorded = load<Recorded>(
+      desk, say(Word::loading, word(Word::start_recording)),
+      [&, state = desk.places().state](Progress& progress) {
+        return open_recorded(file, state, given, progress);
+      },
+      closed);
+  if (closed) return Left::window;
+  if (!recorded) return recorded.error();
+  return watch(desk, *recorded, options);
+}
+
 Status run_pages(Desk& desk, const PagesOptions& options) {
   StartPage start(desk);
   std::string trouble;
@@ -80,6 +95,15 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
     trouble.clear();
     if (choice->quit) return leave_screenshot(desk, options.screenshot);
 
+    if (choice->open && is_recording(choice->open->volume.path)) {
+      const Result<Left> left = watch_file(
+          desk, choice->open->volume.path, {},
+          {.seconds = options.seconds, .folder = options.folder, .screenshot = options.screenshot});
+      if (!left && left.error().trouble == Trouble::interrupted) continue;
+      if (left && *left == Left::window) return fine();
+      if (!left) trouble = left.error().text;
+      continue;
+    }
     const bool goes_on = choice->go_on.has_value();
     const WorkOptions chosen = goes_on ? choice->go_on->options : *choice->open;
     const std::string title =
@@ -87,13 +111,13 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
     bool closed = false;
     Result<Ready> ready =
         goes_on
-            ? load(
+            ? load<Ready>(
                   desk, title,
                   [kept = *choice->go_on](Progress& progress) {
                     return continue_session(kept, progress);
                   },
                   closed)
-            : load(
+            : load<Ready>(
                   desk, title,
                   [chosen](Progress& progress) { return open_ready(chosen, progress); }, closed);
     if (closed || interrupted()) return fine();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "window/desk.h"
+#include "window/replay_page.h"
 #include "window/window.h"
 #include "work.h"
 
@@ -24,6 +25,11 @@ struct PagesOptions {
 
 // A case or a scan with the loading page; as a Loading wants it.
 [[nodiscard]] Result<Ready> open_ready(WorkOptions options, Progress& progress);
+
+// A recording with the loading page, and the page it is watched on. given: what the user said of
+// its volume. Error: one sentence; Trouble::interrupted if the user cancelled.
+[[nodiscard]] Result<Left> watch_file(Desk& desk, const std::string& file,
+                                      const VolumeOptions& given, const WatchOptions& options);
 
 // One session with its loudspeaker and what is near, if `window` wants to hear it.
 [[nodiscard]] Result<Left> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& window);

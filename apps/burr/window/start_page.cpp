@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "window/help.h"
 #include "window/hud.h"
 #include "window/settings_page.h"
+#include "window/typed_path.h"
 #include "window/words.h"
 
 namespace burr::app {
@@ -38,32 +38,6 @@ std::vector<std::string> cases() {
   return names;
 }
 
-// as typed, pasted or dropped: quotes, file://, ~
-std::string cleaned(std::string path) {
-  const auto blank = [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; };
-  while (!path.empty() && blank(path.back())) path.pop_back();
-  while (!path.empty() && blank(path.front())) path.erase(0, 1);
-  if (path.size() >= 2 && path.front() == path.back() &&
-      (path.front() == '"' || path.front() == '\''))
-    path = path.substr(1, path.size() - 2);
-  if (path.rfind("file://", 0) == 0) path.erase(0, 7);
-  if (const char* home = std::getenv("HOME"); home != nullptr && path.rfind("~/", 0) == 0)
-    path = home + path.substr(1);
-  return path;
-}
-
-// ImGui's field over a std::string
-bool field(const char* id, const char* hint, std::string& text, float width) {
-  text.resize(std::max<std::size_t>(text.size(), 1));
-  std::vector<char> buffer(4096, '\0');
-  std::copy_n(text.c_str(), std::min(text.size(), buffer.size() - 1), buffer.begin());
-  ImGui::SetNextItemWidth(width);
-  const bool entered = ImGui::InputTextWithHint(id, hint, buffer.data(), buffer.size(),
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
-  text = buffer.data();
-  return entered;
-}
-
 }  // namespace
 
 std::string name_of_case(const std::string& name) {
@@ -77,7 +51,8 @@ std::string name_of_case(const std::string& name) {
   return name;
 }
 
-StartPage::StartPage(Desk& desk) : desk_(desk), thumbnails_(desk.places().cache, cases()) {}
+StartPage::StartPage(Desk& desk)
+    : desk_(desk), thumbnails_(desk.places().cache, cases()), renewed_(desk.renewed()) {}
 
 Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seconds) {
   using Clock = std::chrono::steady_clock;
@@ -99,6 +74,7 @@ Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seco
     const Status shown = desk_.show(
         empty, [this] { draw(); }, true);
     if (!shown) return shown.error();
+    if (std::exchange(renewed_, desk_.renewed()) != desk_.renewed()) thumbnails_.forget();
     thumbnails_.step(desk_.renderer());
     if (const auto chosen = dialog_.answer(); chosen && !chosen->empty()) open(*chosen);
     const bool over = seconds > 0 && Clock::now() - start >= std::chrono::duration<double>(seconds);
@@ -148,7 +124,7 @@ void StartPage::take_events() {
 
 void StartPage::open(std::string path) {
   WorkOptions options;
-  options.volume.path = cleaned(std::move(path));
+  options.volume.path = cleaned_path(std::move(path));
   if (!options.volume.path.empty())
     choice_ = Choice{.open = std::move(options), .go_on = {}, .quit = false};
 }
@@ -241,7 +217,7 @@ void StartPage::own_scan(float x, float y, float w) {
     ui.write(x + w / 2, y + 46 * u, Letter::body, ink::kDim, drop.substr(cut + 1), 0.5F);
   y += high + 12 * u;
   ImGui::SetCursorScreenPos({x, y});
-  const bool entered = field("##path", word(Word::start_path), typed_, w - 96 * u);
+  const bool entered = path_field("##path", word(Word::start_path), typed_, w - 96 * u);
   ImGui::SetCursorScreenPos({x + w - 86 * u, y});
   if (ImGui::Button(word(Word::start_open), {86 * u, 0}) || entered) open(typed_);
   if (!FileDialog::there()) return;

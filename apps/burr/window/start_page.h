@@ -43,6 +43,7 @@ class StartPage {
 
   Desk& desk_;
   Thumbnails thumbnails_;
+  int renewed_ = 0;  // as thumbnails_ knows it
   FileDialog dialog_;
   std::vector<KeptSession> kept_;
   std::vector<Recent> recent_;

@@ -71,6 +71,12 @@ Thumbnails::~Thumbnails() {
   glDeleteTextures(static_cast<GLsizei>(textures_.size()), textures_.data());
 }
 
+void Thumbnails::forget() {
+  std::fill(textures_.begin(), textures_.end(), 0U);
+  next_ = 0;
+  loading_.reset();
+}
+
 fs::path Thumbnails::file(std::size_t which) const {
   return cache_.empty() ? fs::path()
                         : cache_ / fmt::format("case_{}_{}.ppm", cases_[which], base::version());

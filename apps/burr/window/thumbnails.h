@@ -28,6 +28,8 @@ class Thumbnails {
 
   // Goes on a little with what is missing; each frame.
   void step(render::Renderer& renderer);
+  // What was on the GPU is gone: everything from the start.
+  void forget();
   // OpenGL's name of the texture; 0: not there yet.
   [[nodiscard]] unsigned texture(std::size_t which) const { return textures_[which]; }
   [[nodiscard]] bool finished() const { return next_ >= cases_.size(); }

@@ -60,6 +60,16 @@ void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
       tip(1.35F * kPi, 0.7F * r, 1);
       draw.AddCircleFilled(c, 0.2F * r, shade, 12);
       break;
+    case Action::export_:  // an arrow down into a tray
+      draw.AddLine({c.x, c.y - 0.9F * r}, {c.x, c.y}, shade, thick);
+      draw.AddTriangleFilled({c.x - 0.5F * r, c.y - 0.1F * r}, {c.x + 0.5F * r, c.y - 0.1F * r},
+                             {c.x, c.y + 0.5F * r}, shade);
+      for (const float side : {-0.85F, 0.85F})
+        draw.AddLine({c.x + side * r, c.y + 0.2F * r}, {c.x + side * r, c.y + 0.9F * r}, shade,
+                     thick);
+      draw.AddLine({c.x - 0.85F * r, c.y + 0.85F * r}, {c.x + 0.85F * r, c.y + 0.85F * r}, shade,
+                   thick);
+      break;
     case Action::settings:  // three sliders
       for (int n = 0; n < 3; ++n) {
         const float y = c.y + (static_cast<float>(n) - 1) * 0.65F * r;
@@ -95,11 +105,11 @@ class Bar {
 
   // icon above its name
   void tall(const Button& b, bool chosen = false) {
-    const ImVec2 p = ImGui::GetCursorScreenPos(), size = {66 * u_, 45 * u_};
+    const ImVec2 p = ImGui::GetCursorScreenPos(), size = {66 * u_, 42 * u_};
     body(b, p, size, chosen);
     const ImU32 shade = chosen ? ink::kAccent : ink::kText;
-    icon(*ImGui::GetWindowDrawList(), b.action, {p.x + size.x / 2, p.y + 15 * u_}, 9 * u_, shade);
-    ui_.write(p.x + size.x / 2, p.y + 28 * u_, Ui::Letter::small, chosen ? ink::kText : ink::kDim,
+    icon(*ImGui::GetWindowDrawList(), b.action, {p.x + size.x / 2, p.y + 14 * u_}, 9 * u_, shade);
+    ui_.write(p.x + size.x / 2, p.y + 26 * u_, Ui::Letter::small, chosen ? ink::kText : ink::kDim,
               word(b.name), 0.5F);
   }
 
@@ -148,7 +158,7 @@ class Bar {
 std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode) {
   std::optional<Action> pressed;
   const float u = ui.unit();
-  const float h = 553 * u, w = 82 * u;
+  const float h = 571 * u, w = 82 * u;
   const float free = ui.height() - 78 * u;
   const float y = std::max(6 * u, (free - h) / 2);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * u, 8 * u});
@@ -166,6 +176,7 @@ std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode) {
   bar.tall({Action::redo, Word::redo, "Y"});
   bar.tall({Action::reset, Word::reset, "R"});
   bar.gap(2);
+  bar.tall({Action::export_, Word::export_word, "E"});
   bar.tall({Action::settings, Word::settings, "F2"});
   bar.tall({Action::help, Word::help, "F1"});
   bar.tall({Action::leave, Word::leave, "Q"});

@@ -17,6 +17,7 @@ enum class Action {
   undo,
   redo,
   reset,
+  export_,
   smaller,
   larger,
   slower,

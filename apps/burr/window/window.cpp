@@ -16,6 +16,7 @@
 #include "burr/tool/burr_tool.h"
 #include "command.h"
 #include "live_bone.h"
+#include "window/export_page.h"
 #include "window/help.h"
 #include "window/hud.h"
 #include "window/settings_page.h"
@@ -103,7 +104,9 @@ class Mill {
     return (pressing_ || held_) && !page_open() && !desk_.ui().over_panel() && !over_slices();
   }
   [[nodiscard]] bool over_slices() const;
-  [[nodiscard]] bool page_open() const { return help_ || settings_page_; }
+  [[nodiscard]] bool page_open() const {
+    return help_ || settings_page_ || (export_ && export_->shown());
+  }
   void leave_picture();
 
   Desk& desk_;
@@ -119,6 +122,8 @@ class Mill {
   bool panels_ = true, help_ = false, settings_page_ = false;
   int picture_step_ = 0;
   std::optional<Slices> slices_;
+  std::optional<ExportPage> export_;
+  bool leaves_ = false;  // though a file is still being written
   bool slices_shown_ = true, labels_ = true;
   std::vector<render::Colour> colours_;   // of the tissues, while labels are shown
   bool pressing_ = false, held_ = false;  // by the button; by the space bar
@@ -159,6 +164,7 @@ Result<Left> Mill::run() {
 
   LiveBone live(session_, worker_, scene_, desk_.renderer().software());
   slices_.emplace(session_.bone());
+  export_.emplace(desk_, session_, scene_, options_.folder);
   colours_ = scene_.tissue_colours;
   SDL_GetMouseState(&mouse_x_, &mouse_y_);  // before it moves
   session_.start();
@@ -169,6 +175,7 @@ Result<Left> Mill::run() {
     take_events();
     look_at_session();
     point();
+    if (std::string told = export_->step(); !told.empty()) note(std::move(told));
     tell();
     slices_->update(scene_, slices_shown_ && panels_, labels_, desk_.renderer().width(),
                     desk_.renderer().height(), static_cast<int>(hud_height(desk_.ui())));
@@ -192,6 +199,7 @@ Result<Left> Mill::run() {
         std::chrono::duration<double>(Clock::now() - start).count() >= options_.seconds)
       open_ = false;
   }
+  export_.reset();
   session_.stop();
   scene_.insets.clear();
   scene_.tissue_colours = colours_;
@@ -230,7 +238,9 @@ void Mill::take_events() {
         render::zoom(scene_.camera, std::exp(4 * static_cast<double>(event.mgesture.dDist)));
         break;
       case SDL_WINDOWEVENT:
-        if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) lift();
+        if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST ||
+            event.window.event == SDL_WINDOWEVENT_MINIMIZED)
+          lift();
         break;
       default:
         break;
@@ -241,9 +251,10 @@ void Mill::key(const SDL_Keysym& pressed) {
   const bool shift = (pressed.mod & KMOD_SHIFT) != 0;
   switch (pressed.sym) {
     case SDLK_ESCAPE:
-      if (page_open())
+      if (page_open()) {
         help_ = settings_page_ = false;
-      else
+        export_->show(false);
+      } else
         act(Action::leave);
       break;
     case SDLK_q:
@@ -327,6 +338,9 @@ void Mill::key(const SDL_Keysym& pressed) {
     case SDLK_s:
       note(word(options_.keep && options_.keep() ? Word::session_kept : Word::session_not_kept));
       break;
+    case SDLK_e:
+      act(Action::export_);
+      break;
     case SDLK_p:
       picture_ = true;
       break;
@@ -374,15 +388,23 @@ void Mill::act(Action action) {
       return change_speed(-kRpmStep);
     case Action::faster:
       return change_speed(kRpmStep);
+    case Action::export_:
+      export_->show(!export_->shown());
+      help_ = settings_page_ = false;
+      break;
     case Action::settings:
       settings_page_ = !settings_page_;
       help_ = false;
+      export_->show(false);
       break;
     case Action::help:
       help_ = !help_;
       settings_page_ = false;
+      export_->show(false);
       break;
     case Action::leave:
+      if (!export_->progress().empty() && !std::exchange(leaves_, true))
+        return note(word(Word::export_wait));
       left_ = Left::page;
       open_ = false;
       break;
@@ -577,6 +599,10 @@ void Mill::tell() {
   warning_ = options_.warning ? options_.warning() : std::string();
   if (warning_.empty()) warning_ = told_flags(row_.contact.flags);
   if (Clock::now() - noted_ > std::chrono::seconds(6)) note_.clear();
+  if (note_.empty()) note_ = export_->progress();
+  desk_.said = !export_->trouble().empty() ? export_->trouble()
+               : warning_.empty()          ? note_
+                                           : warning_;
 }
 
 HudState Mill::hud() const {
@@ -624,6 +650,7 @@ void Mill::panels() {
     if (const auto pressed = draw_toolbar(ui, mode_)) act(*pressed);
   }
   if (help_) help_ = draw_help(ui, desk_.settings.left_handed);
+  if (export_->shown()) export_->draw();
   if (!settings_page_) return;
   const double limit = desk_.settings.force_limit_n;
   const std::filesystem::path& config = desk_.places().config;

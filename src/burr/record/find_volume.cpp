@@ -148,8 +148,8 @@ Result<std::string> find_volume(const VolumeInfo& wanted, const VolumeHints& hin
   }
   const Error lost = error(
       Trouble::io,
-      fmt::format("the bone of this recording ({}) was not found; give the scan it was made from "
-                  "with --volume, or its folder in BURR_VOLUME_PATH",
+      fmt::format("the bone of this recording ({}) was not found; put the scan it was made from "
+                  "beside it, or give it with --volume, or its folder in BURR_VOLUME_PATH",
                   described(wanted)));
   if (wanted.source_fingerprint == 0) return lost;
 

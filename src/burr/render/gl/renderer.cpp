@@ -754,6 +754,8 @@ Status Renderer::show(const Scene& scene, const std::function<void()>& over) {
   } else {
     glFinish();
   }
+  if (glGetError() == GL_CONTEXT_LOST)
+    return error(Trouble::io, "the graphics card was lost; start it anew");
   return fine();
 }
 

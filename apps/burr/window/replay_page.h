@@ -1,0 +1,37 @@
+// apps/burr/window/replay_page.h - a recorded session watched again: the bone, the tool and the
+// force at any moment, over a line of the whole session.
+//
+// Thread: main; the bone is made what it was on a thread of its own (playback.h).
+#pragma once
+
+#include <string>
+
+#include "window/desk.h"
+#include "window/playback.h"
+#include "window/window.h"
+
+namespace burr::app {
+
+// What is watched now, for whoever looks on.
+struct Watched {
+  double t = 0;      // wanted                       [s]
+  double shown = 0;  // that the picture is of       [s]
+  bool playing = false;
+  double pace = 1;
+  bool behind = false;  // the picture is not there yet
+  double force = 0;     // shown as a number        [N]
+  double removed = 0;   // likewise                 [m^3]
+};
+
+struct WatchOptions {
+  double seconds = 0;           // closes by itself after so long; 0: when the user closes it
+  std::string folder = {};      // where P leaves pictures; empty: where the program was started
+  std::string screenshot = {};  // a PNG of the window as it was last; empty: none
+  double from = -1;             // the moment first shown; below 0: the start, and it plays  [s]
+  Watched* seen = nullptr;      // kept true
+};
+
+// Until it is left.
+[[nodiscard]] Result<Left> watch(Desk& desk, Recorded& recorded, const WatchOptions& options);
+
+}  // namespace burr::app

@@ -1,0 +1,41 @@
+// apps/burr/window/timeline_panel.h - the strip below a watched session: numbers of the moment, and
+// the whole session as a line to scrub on, with force, strokes and wishes.
+//
+// Plain data in, what the user did comes back. Thread: main, between Ui::begin() and draw().
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "burr/record/timeline.h"
+#include "burr/sim/servo.h"
+#include "window/ui.h"
+
+namespace burr::app {
+
+struct TimelineState {
+  const record::Timeline* line = nullptr;
+  double t = 0;
+  bool playing = false, behind = false;
+  double pace = 1;
+  double force = 0;          // [N]
+  double removed = 0;        // [m^3]
+  double speed = 0;          // of the spindle  [rad/s]
+  double burr_diameter = 0;  // [m]
+  sim::ToolMode mode = sim::ToolMode::cut;
+  std::string note;     // the last thing done
+  std::string warning;  // what must be known; "" for nothing
+};
+
+struct TimelineDone {
+  std::optional<double> scrubbed;  // to this moment, the button is still down
+  bool play = false;               // play or pause was pressed
+  int pace = 0;                    // slower -1, faster 1
+};
+
+[[nodiscard]] TimelineDone draw_timeline(Ui& ui, const TimelineState& state);
+
+// What a wish says to people: "burr of 4 mm".
+[[nodiscard]] std::string told_wish(const record::Wish& wish);
+
+}  // namespace burr::app

@@ -1,0 +1,14 @@
+// apps/burr/window/typed_path.h - a path as people give it: typed, pasted or dropped.
+#pragma once
+
+#include <string>
+
+namespace burr::app {
+
+// Without blanks around it, quotes and file://; ~ is the home folder.
+[[nodiscard]] std::string cleaned_path(std::string path);
+
+// A field to type it into. true: Enter.
+[[nodiscard]] bool path_field(const char* id, const char* hint, std::string& text, float width);
+
+}  // namespace burr::app

@@ -1,0 +1,195 @@
+// A user who takes bone, what was removed, and a picture out of a session that goes on.
+#include "window/export_job.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+#include <csignal>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "burr/io/export_part.h"
+#include "window/user.h"
+
+namespace burr::app {
+namespace {
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Export : public Window {
+ protected:
+  // the cursor at the end of the path, so that what is typed comes after it
+  [[nodiscard]] static std::function<void()> types(const std::string& text) {
+    return [text] {
+      press(SDLK_END);
+      type(text);
+    };
+  }
+  [[nodiscard]] std::function<bool()> says(const std::string& words) const {
+    return [this, words] { return desk_->said.find(words) != std::string::npos; };
+  }
+  // the middle of what the page has, at 1280 x 720
+  static constexpr int kX = 280, kY = 155;
+  static void choose(int n) { click(kX + 28 + 95 + 198 * n, kY + 80); }
+  static void into_path() { click(kX + 300, kY + 174); }
+  static void write() { click(kX + 612, kY + 288); }
+  // writes into folder_ by the path that stands there when the page opens
+  void mill_in(Ready& ready, std::vector<Script::Step> steps) {
+    Script script(std::move(steps));
+    desk_->after_frame = [&script] { script.look(); };
+    const auto left = mill(*desk_, *ready.session, *ready.hand, *ready.worker, ready.scene,
+                           {.folder = folder_.string()});
+    desk_->after_frame = {};
+    ASSERT_TRUE(left) << left.error().text;
+    EXPECT_TRUE(script.finished());
+  }
+  // some bone to be cut, the button still down
+  [[nodiscard]] std::vector<Script::Step> cuts(sim::Session& session) {
+    rt::ChangedBits& changed = session.bone().add_watcher();
+    return {{"the first picture", looks(3),
+             [] {
+               move_to(640, 340);
+               button(SDL_BUTTON_LEFT, true);
+             }},
+            {"bone to be cut",
+             [&changed, bricks = 0]() mutable {
+               changed.take_all([&bricks](std::size_t) { ++bricks; });
+               return bricks > 60;
+             },
+             [] {
+               button(SDL_BUTTON_LEFT, false);
+               press(SDLK_e);
+             }}};
+  }
+};
+
+TEST_F(Export, WritesTheBoneWhileTheSessionGoesOn) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  sim::Session& session = *ready->session;
+  bool running = false;
+  auto steps = cuts(session);
+  steps.push_back({"the page", looks(5), [] { write(); }});
+  steps.push_back({"the word that it is written", says("written: "), nullptr});
+  steps.push_back({"... in triangles", says("triangles"), [&] {
+                     running = session.running();
+                     press(SDLK_q);
+                   }});
+  mill_in(*ready, std::move(steps));
+  EXPECT_TRUE(running);
+  // the burr was lifted before: what is there now is what was written
+  NoProgress quiet;
+  const fs::path truth = folder_ / "truth.stl";
+  ASSERT_TRUE(io::export_part(session.bone(), session.bone(), truth.string(), {}, quiet));
+  EXPECT_TRUE(bytes_of(folder_ / "bone.stl") == bytes_of(truth));
+  EXPECT_GT(fs::file_size(truth), 10'000U);
+}
+
+TEST_F(Export, WritesWhatWasRemovedAndItsVolumeIsThatOfTheLedger) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  sim::Session& session = *ready->session;
+  auto steps = cuts(session);
+  steps.push_back({"the page", looks(5), [] { choose(1); }});
+  steps.push_back({"the choice", looks(5), [] { write(); }});
+  steps.push_back({"the word that it is written", says("triangles"), [] { press(SDLK_q); }});
+  mill_in(*ready, std::move(steps));
+  const double removed = session.outcome().ledger.removed;
+  ASSERT_GT(removed, 0) << "nothing was cut: the test shows nothing";
+  EXPECT_NE(desk_->said.find("removed.stl"), std::string::npos) << desk_->said;
+  EXPECT_NE(desk_->said.find(fmt::format("{:.1f} mm", 1e9 * removed)), std::string::npos)
+      << desk_->said << " but removed were " << 1e9 * removed;
+  EXPECT_GT(fs::file_size(folder_ / "removed.stl"), 1000U);
+}
+
+TEST_F(Export, AsksBeforeItReplacesAFile) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  std::ofstream(folder_ / "picture.png") << "mine";
+  std::string before;
+  mill_in(*ready, {{"the first picture", looks(3), [] { press(SDLK_e); }},
+                   {"the page", looks(5), [] { choose(2); }},
+                   {"a picture", looks(5), [] { write(); }},
+                   {"the question", looks(20),
+                    [&] {
+                      before = bytes_of(folder_ / "picture.png");
+                      write();  // now it says: replace it
+                    }},
+                   {"the word that it is written", says("written: "), [] { press(SDLK_q); }}});
+  EXPECT_EQ(before, "mine");
+  EXPECT_EQ(bytes_of(folder_ / "picture.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Export, SaysWhatIsWrongAndOneGoesOn) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  sim::Session& session = *ready->session;
+  rlimit old{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old), 0);
+  std::string full;
+  // a disk that takes no more than 4 kB of a file
+  const auto was = std::signal(SIGXFSZ, SIG_IGN);
+  mill_in(*ready,
+          {{"the first picture", looks(3), [] { press(SDLK_e); }},
+           {"the page", looks(5), [] { into_path(); }},
+           {"the field", looks(5), types(".doc")},
+           {"the letters", looks(5), [] { press(SDLK_RETURN); }},
+           {"the sentence",
+            [&] { return desk_->said.find(".stl.doc: unknown ending") != std::string::npos; },
+            [] { press(SDLK_ESCAPE); }},
+           {"no page", looks(5), [] { press(SDLK_e); }},
+           {"the page", looks(5),
+            [&] {
+              const rlimit little = {4096, old.rlim_max};
+              ::setrlimit(RLIMIT_FSIZE, &little);
+              choose(0);
+            }},
+           {"its path anew", looks(5), [] { write(); }},
+           {"the sentence about the disk",
+            [&] {
+              full = desk_->said;
+              return full.find("File too large") != std::string::npos;
+            },
+            [] { press(SDLK_ESCAPE); }},
+           {"no page", looks(5), [] { press(SDLK_q); }}});
+  ::setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, was);
+  EXPECT_NE(full.find("bone"), std::string::npos) << full;
+  EXPECT_FALSE(fs::exists(folder_ / "bone.stl.doc.stl")) << "half a file was left";
+  EXPECT_GT(session.outcome().ticks, 100U);
+}
+
+// ---- without a window
+
+TEST(ExportWish, KeepsThePathInStepWithWhatIsWritten) {
+  EXPECT_EQ(path_for("/a/bone.stl", ExportWhat::removed, ".stl"), "/a/removed.stl");
+  EXPECT_EQ(path_for("/a/removed.seg.nrrd", ExportWhat::bone, ".ply"), "/a/bone.ply");
+  EXPECT_EQ(path_for("/a/bone.stl", ExportWhat::picture, ".png"), "/a/picture.png");
+  EXPECT_EQ(path_for("/a/petrous.STL", ExportWhat::removed, ".3mf"), "/a/petrous.3mf");
+  EXPECT_EQ(path_for("/a.stl/mine", ExportWhat::bone, ".obj"), "/a.stl/mine.obj");
+  EXPECT_EQ(ending_of("x.SEG.NRRD", ExportWhat::bone), ".seg.nrrd");
+  EXPECT_EQ(ending_of("x.nrrd", ExportWhat::bone), ".nrrd");
+  EXPECT_EQ(ending_of("x.png", ExportWhat::bone), "");
+}
+
+TEST(ExportWish, IsRefusedInOneSentence) {
+  const auto why = [](ExportWhat what, const std::string& path) {
+    const Status possible = check_wish({what, path});
+    return possible ? std::string() : possible.error().text;
+  };
+  EXPECT_NE(why(ExportWhat::bone, "").find("name"), std::string::npos);
+  EXPECT_NE(why(ExportWhat::bone, "/tmp").find("is a folder"), std::string::npos);
+  EXPECT_NE(why(ExportWhat::bone, "/tmp/x.doc").find("unknown ending"), std::string::npos);
+  EXPECT_NE(why(ExportWhat::picture, "/tmp/x.stl").find(".png"), std::string::npos);
+  EXPECT_NE(why(ExportWhat::bone, "/tmp/no/such/x.stl").find("no such folder"), std::string::npos);
+  EXPECT_EQ(why(ExportWhat::removed, "/tmp/x.stl"), "");
+  EXPECT_EQ(why(ExportWhat::picture, "/tmp/x.PNG"), "");
+}
+
+}  // namespace
+}  // namespace burr::app

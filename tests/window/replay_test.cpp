@@ -1,0 +1,280 @@
+// A user who watches a recording: what is shown is what was, at any moment asked for.
+#include "window/replay_page.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "burr/render/bone_scene.h"
+#include "burr/sim/motion.h"
+#include "recording.h"
+#include "window/user.h"
+
+namespace burr::app {
+namespace {
+
+constexpr double kSeconds = 12;
+
+// A block cut for twelve seconds of its time, with an undo and another burr on the way: a recording
+// and the bone as it was left.
+class Replay : public Window {
+ protected:
+  void SetUp() override {
+    Window::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    WorkOptions options;
+    options.volume.path = "block";
+    options.volume.voxel_mm = 0.5;
+    NoProgress quiet;
+    ASSERT_TRUE(take_case(options));
+    auto work = open_work(options, quiet);
+    ASSERT_TRUE(work) << work.error().text;
+    before_ = work->made.bone->content_hash();
+    const sim::SessionSettings settings = settings_of(options, false);
+    auto path = sim::motion("pocket", work->place, settings.servo.burr.radius, kSeconds);
+    ASSERT_TRUE(path) << path.error().text;
+    auto session = sim::Session::make(
+        std::move(work->made.bone),
+        std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{}), settings,
+        quiet);
+    ASSERT_TRUE(session) << session.error().text;
+    Recording recording;
+    ASSERT_TRUE(recording.start(**session, file_.string(), work->volume, work->made.summary,
+                                "pocket", false));
+    (*session)->run(5, quiet);
+    half_ = (*session)->bone().content_hash();
+    (*session)->wish({record::WishKind::undo, 0});
+    (*session)->wish({record::WishKind::spindle_speed, 3000});
+    (*session)->run(kSeconds - 5, quiet);
+    ASSERT_TRUE(recording.finish(**session));
+    after_ = (*session)->bone().content_hash();
+    removed_ = (*session)->outcome().ledger.removed;
+    ASSERT_NE(before_, half_) << "nothing was cut: the test shows nothing";
+    ASSERT_NE(half_, after_);
+  }
+
+  Recorded open() const {
+    NoProgress quiet;
+    auto recorded = open_recorded(file_.string(), {}, {}, quiet);
+    EXPECT_TRUE(recorded) << (recorded ? "" : recorded.error().text);
+    return recorded ? std::move(*recorded) : Recorded{};
+  }
+  void watch_by(Recorded& recorded, double from, std::vector<Script::Step> steps) {
+    Script script(std::move(steps));
+    desk_->after_frame = [&script] { script.look(); };
+    const auto left = watch(*desk_, recorded, {.from = from, .seen = &seen_});
+    desk_->after_frame = {};
+    ASSERT_TRUE(left) << left.error().text;
+    EXPECT_TRUE(script.finished());
+  }
+  // the picture is of this moment, whole
+  [[nodiscard]] std::function<bool()> shows(double t) const {
+    return [this, t, quiet = 0]() mutable {
+      quiet = std::abs(seen_.shown - t) < 1e-9 && std::abs(seen_.t - t) < 1e-9 && !seen_.behind
+                  ? quiet + 1
+                  : 0;
+      return quiet > 30;
+    };
+  }
+
+  fs::path file_ = folder_ / "s.mcap";
+  std::uint64_t before_ = 0, half_ = 0, after_ = 0;
+  double removed_ = 0;
+  Watched seen_;
+};
+
+TEST_F(Replay, ShowsTheBoneOfTheMomentThatKeysAskFor) {
+  Recorded recorded = open();
+  ASSERT_TRUE(recorded.bone);
+  render::Image start, half, end, again;
+  std::uint64_t hash_half = 0;
+  double force_half = 0, removed_end = 0;
+  watch_by(recorded, 4.999,
+           {{"half time", shows(4.999),
+             [&] {
+               hash_half = recorded.bone->content_hash();  // nobody writes it now
+               half = desk_->renderer().shown();
+               force_half = seen_.force;
+               press(SDLK_END);
+             }},
+            {"the end", shows(kSeconds),
+             [&] {
+               removed_end = seen_.removed;
+               end = desk_->renderer().shown();
+               press(SDLK_HOME);
+             }},
+            {"the start", shows(0),
+             [&] {
+               start = desk_->renderer().shown();
+               press(SDLK_END);
+             }},
+            {"the end again", shows(kSeconds), [&] {
+               again = desk_->renderer().shown();
+               press(SDLK_ESCAPE);
+             }}});
+  EXPECT_EQ(hash_half, half_);
+  EXPECT_EQ(recorded.bone->content_hash(), after_);
+  EXPECT_DOUBLE_EQ(removed_end, removed_);
+  EXPECT_NEAR(force_half, recorded.player->tick_at(4.999)->contact.force.norm(), 1e-12);
+  // above the strip
+  EXPECT_GT(differ(start, end, 100, 20, 1180, 500), 1000);
+  EXPECT_GT(differ(start, half, 100, 20, 1180, 500), 1000);
+  EXPECT_LT(differ(end, again, 100, 20, 1180, 500), 50) << "the same moment, another picture";
+}
+
+TEST_F(Replay, PlaysPausesAndChangesPace) {
+  Recorded recorded = open();
+  ASSERT_TRUE(recorded.bone);
+  double paused = -1, still = -1, began = -1;
+  Clock::time_point fast;
+  double passed = 0;
+  watch_by(recorded, -1,
+           {{"a second of it", [&] { return seen_.playing && seen_.shown > 1; },
+             [] { press(SDLK_SPACE); }},
+            {"the pause", [&] { return !seen_.playing; }, [&] { paused = seen_.t; }},
+            {"a while", looks(20),
+             [&] {
+               still = seen_.t;
+               for (int n = 0; n < 9; ++n) press(SDLK_PERIOD);
+               press(SDLK_SPACE);
+             }},
+            {"the fastest pace", [&] { return seen_.playing && seen_.pace == 8; },
+             [&] {
+               began = seen_.t;
+               fast = Clock::now();
+             }},
+            {"the end", [&] { return !seen_.playing; },
+             [&] {
+               passed = std::chrono::duration<double>(Clock::now() - fast).count();
+               for (int n = 0; n < 9; ++n) press(SDLK_COMMA);
+               press(SDLK_SPACE);
+             }},
+            {"the start, slowly", [&] { return seen_.playing && seen_.pace == 0.25; },
+             [] { press(SDLK_q); }}});
+  EXPECT_EQ(paused, still);
+  EXPECT_LT(passed, kSeconds - began) << "faster than it happened";
+  EXPECT_LT(seen_.t, 1) << "at the end, play begins again";
+}
+
+TEST_F(Replay, ScrubsByDraggingOnTheLineAndStepsByArrows) {
+  Recorded recorded = open();
+  ASSERT_TRUE(recorded.bone);
+  // the line goes from 26 to 1254 of 1280 pixels
+  const auto x_of = [](double t) {
+    return 26 + static_cast<int>(std::lround(1228 * t / kSeconds));
+  };
+  double dragged = -1, held = -1, stepped = -1, stroke = -1;
+  render::Camera before;
+  bool turned = true;
+  before = recorded.scene.camera;
+  watch_by(recorded, 0,
+           {{"the first picture", looks(5),
+             [&] {
+               move_to(x_of(3), 640);
+               button(SDL_BUTTON_LEFT, true);
+             }},
+            {"the press", [&] { return std::abs(seen_.t - 3) < 0.02; },
+             [&] {
+               dragged = seen_.t;
+               move_to(x_of(9), 300);  // out of the line: still held
+             }},
+            {"the drag", [&] { return std::abs(seen_.t - 9) < 0.02; },
+             [&] {
+               held = seen_.t;
+               turned = !render::same(recorded.scene.camera, before);
+               button(SDL_BUTTON_LEFT, false);
+               press(SDLK_LEFT);
+             }},
+            {"a step", [&] { return seen_.t < held - 0.9; },
+             [&] {
+               stepped = seen_.t;
+               press(SDLK_LEFT, KMOD_LCTRL);
+             }},
+            {"the stroke before", [&] { return seen_.t < stepped; },
+             [&] {
+               stroke = seen_.t;
+               press(SDLK_q);
+             }}});
+  EXPECT_NEAR(dragged, 3, 0.02);
+  EXPECT_NEAR(stepped, held - 1, 1e-9);
+  EXPECT_FALSE(turned) << "who scrubs does not turn the bone";
+  EXPECT_EQ(stroke, recorded.timeline.stroke_before(stepped - 0.5).value_or(0));
+}
+
+TEST_F(Replay, OpensADroppedRecordingAndComesBack) {
+  pages_by({{"the start page", on(Page::start), [&] { drop(file_); }},
+            {"the recording", on(Page::replay), nullptr},
+            {"some pictures", looks(20), [] { press(SDLK_F1); }},
+            {"the help", looks(5), [] { press(SDLK_ESCAPE); }},
+            {"no help", looks(5), [] { press(SDLK_ESCAPE); }},
+            {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  EXPECT_EQ(desk_->told, "");
+}
+
+TEST_F(Replay, TellsInOneSentenceWhatCannotBeWatched) {
+  // a scan's recording without its scan
+  std::string no_volume, garbage, missing;
+  const fs::path alone = folder_ / "elsewhere" / "alone.mcap";
+  fs::create_directories(alone.parent_path());
+  {
+    WorkOptions options;
+    options.volume.path = scan().string();
+    NoProgress quiet;
+    auto ready = open_ready(options, quiet);
+    ASSERT_TRUE(ready) << ready.error().text;
+    Recording recording;
+    ASSERT_TRUE(recording.start(*ready->session, alone.string(), ready->volume, ready->import,
+                                "mouse", false));
+    ready->session->start();
+    SDL_Delay(300);
+    ready->session->stop();
+    ASSERT_TRUE(recording.finish(*ready->session));
+  }
+  fs::remove(folder_ / "Svensson Karin.nrrd");
+  const fs::path torn = folder_ / "torn.mcap";
+  fs::copy_file(file_, torn);
+  fs::resize_file(torn, 900);  // in the middle of its beginning
+  const auto said = [&](std::string& into) {
+    return [&] {
+      into = desk_->told;
+      return desk_->page == Page::start && !into.empty();
+    };
+  };
+  pages_by({{"the start page", on(Page::start), [&] { drop(alone); }},
+            {"a sentence", said(no_volume),
+             [&] {
+               desk_->told.clear();
+               drop(torn);
+             }},
+            {"a sentence", said(garbage),
+             [&] {
+               desk_->told.clear();
+               drop(folder_ / "nowhere.mcap");
+             }},
+            {"a sentence", said(missing), [] { press(SDLK_ESCAPE); }}});
+  EXPECT_NE(no_volume.find("was not found"), std::string::npos) << no_volume;
+  EXPECT_NE(no_volume.find("beside it"), std::string::npos) << no_volume;
+  EXPECT_NE(garbage.find("torn.mcap"), std::string::npos) << garbage;
+  EXPECT_NE(missing.find("nowhere.mcap"), std::string::npos) << missing;
+  for (const std::string* one : {&no_volume, &garbage, &missing})
+    EXPECT_EQ(one->find('\n'), std::string::npos) << *one;
+}
+
+TEST_F(Replay, ShowsATornRecordingAsFarAsItGoesAndSaysSo) {
+  const fs::path torn = folder_ / "torn.mcap";
+  fs::copy_file(file_, torn);
+  fs::resize_file(torn, fs::file_size(torn) / 2);
+  file_ = torn;
+  Recorded recorded = open();
+  ASSERT_TRUE(recorded.bone);
+  EXPECT_LT(recorded.timeline.seconds, kSeconds);
+  EXPECT_GT(recorded.timeline.seconds, 1);
+  EXPECT_FALSE(recorded.notices.empty());
+  const double end = recorded.timeline.seconds;
+  watch_by(recorded, 0,
+           {{"the first picture", looks(5), [] { press(SDLK_END); }},
+            {"the end", shows(end), [] { press(SDLK_q); }}});
+}
+
+}  // namespace
+}  // namespace burr::app
