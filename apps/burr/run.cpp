@@ -184,7 +184,7 @@ Status run_in_window(const Options& options) {
   if (const Status taken = take_case(work); !taken) return taken;
   if (!work.title.empty()) fmt::print(stderr, "{}\n", work.title);
   bool closed = false;
-  auto loaded = load(
+  auto loaded = load<Ready>(
       **desk, say(Word::loading, work.title.empty() ? word(Word::start_scan) : work.title),
       [work](Progress& seen) { return open_ready(work, seen); }, closed);
   if (closed) return fine();

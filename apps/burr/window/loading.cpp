@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "command.h"
 #include "window/words.h"
@@ -49,14 +48,14 @@ bool draw_loading(Ui& ui, const std::string& title, const SeenProgress::Now& now
 
 }  // namespace
 
-Result<Ready> load(Desk& desk, const std::string& title, Loading<Ready>::Make make, bool& closed) {
-  Loading<Ready> loading(std::move(make));
+Result<bool> watch_loading(Desk& desk, const std::string& title, SeenProgress& progress,
+                           const std::function<bool()>& finished, bool& closed) {
   const render::Scene empty;
   bool stopping = false;
   closed = false;
   desk.page = Page::loading;
   desk.renderer().title("burr");
-  while (!loading.finished()) {
+  while (!finished()) {
     SDL_Event event;
     while (desk.next(event)) {
       closed = closed || event.type == SDL_QUIT;
@@ -67,23 +66,19 @@ Result<Ready> load(Desk& desk, const std::string& title, Loading<Ready>::Make ma
     const Status shown = desk.show(
         empty,
         [&] {
-          if (draw_loading(desk.ui(), title, loading.progress().now(), stopping)) stopping = true;
+          if (draw_loading(desk.ui(), title, progress.now(), stopping)) stopping = true;
         },
         true);
     if (!shown) return shown.error();
-    if (stopping || interrupted()) loading.progress().cancel();
+    if (stopping || interrupted()) progress.cancel();
     // the work has priority: where the processor draws, each picture is taken from it
-    for (int n = 0; n < 8 && !loading.finished(); ++n) {
+    for (int n = 0; n < 8 && !finished(); ++n) {
       SDL_Delay(30);
       SDL_PumpEvents();
       if (SDL_HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT) == SDL_TRUE) break;
     }
   }
-  if (stopping && !closed) {
-    static_cast<void>(loading.take());
-    return error(Trouble::interrupted, "stopped");
-  }
-  return loading.take();
+  return !stopping;
 }
 
 }  // namespace burr::app

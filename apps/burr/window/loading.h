@@ -13,11 +13,11 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "window/desk.h"
-#include "work.h"
 
 namespace burr::app {
 
@@ -67,9 +67,24 @@ class Loading {
   std::jthread thread_;  // last: begins when all else is there, ends before it
 };
 
-// The page shown until the bone is ready. Error: Trouble::interrupted if the user cancelled;
-// `closed` is true if the window was closed.
-[[nodiscard]] Result<Ready> load(Desk& desk, const std::string& title, Loading<Ready>::Make make,
-                                 bool& closed);
+// The loading page until finished(). false: the user wants no more of it, and the work was told.
+// closed: the window was.
+[[nodiscard]] Result<bool> watch_loading(Desk& desk, const std::string& title,
+                                         SeenProgress& progress,
+                                         const std::function<bool()>& finished, bool& closed);
+
+// The page shown until the bone, or what else takes long, is ready. Error: Trouble::interrupted if
+// the user cancelled; `closed` is true if the window was closed.
+template <class Value>
+[[nodiscard]] Result<Value> load(Desk& desk, const std::string& title,
+                                 typename Loading<Value>::Make make, bool& closed) {
+  Loading<Value> loading(std::move(make));
+  const Result<bool> watched = watch_loading(
+      desk, title, loading.progress(), [&loading] { return loading.finished(); }, closed);
+  if (!watched) return watched.error();
+  Result<Value> made = loading.take();
+  if (!*watched && !closed) return error(Trouble::interrupted, "stopped");
+  return made;
+}
 
 }  // namespace burr::app

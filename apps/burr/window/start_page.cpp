@@ -52,18 +52,6 @@ std::string cleaned(std::string path) {
   return path;
 }
 
-// ImGui's field over a std::string
-bool field(const char* id, const char* hint, std::string& text, float width) {
-  text.resize(std::max<std::size_t>(text.size(), 1));
-  std::vector<char> buffer(4096, '\0');
-  std::copy_n(text.c_str(), std::min(text.size(), buffer.size() - 1), buffer.begin());
-  ImGui::SetNextItemWidth(width);
-  const bool entered = ImGui::InputTextWithHint(id, hint, buffer.data(), buffer.size(),
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
-  text = buffer.data();
-  return entered;
-}
-
 }  // namespace
 
 std::string name_of_case(const std::string& name) {
@@ -241,7 +229,7 @@ void StartPage::own_scan(float x, float y, float w) {
     ui.write(x + w / 2, y + 46 * u, Letter::body, ink::kDim, drop.substr(cut + 1), 0.5F);
   y += high + 12 * u;
   ImGui::SetCursorScreenPos({x, y});
-  const bool entered = field("##path", word(Word::start_path), typed_, w - 96 * u);
+  const bool entered = text_field("##path", word(Word::start_path), typed_, w - 96 * u);
   ImGui::SetCursorScreenPos({x + w - 86 * u, y});
   if (ImGui::Button(word(Word::start_open), {86 * u, 0}) || entered) open(typed_);
   if (!FileDialog::there()) return;

@@ -1,0 +1,207 @@
+// tests/window/user.h - a user at the window: keys, mouse and drops as SDL events, a script of what
+// he does when, and the desk he sits at, without a screen.
+#pragma once
+
+#include <SDL2/SDL.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/data.h"
+#include "window/pages.h"
+#include "window/words.h"
+
+namespace burr::app {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// ---- what a user does
+
+inline void press(SDL_Keycode code) {
+  SDL_Event event = {};
+  event.type = SDL_KEYDOWN;
+  event.key.keysym.sym = code;
+  SDL_PushEvent(&event);
+  event.type = SDL_KEYUP;
+  SDL_PushEvent(&event);
+}
+inline void move_to(int x, int y) {
+  SDL_Event event = {};
+  event.type = SDL_MOUSEMOTION;
+  event.motion.x = x;
+  event.motion.y = y;
+  SDL_PushEvent(&event);
+}
+inline void button(Uint8 which, bool down) {
+  SDL_Event event = {};
+  event.type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP;
+  event.button.button = which;
+  SDL_PushEvent(&event);
+}
+inline void click(int x, int y) {
+  move_to(x, y);
+  button(SDL_BUTTON_LEFT, true);
+  button(SDL_BUTTON_LEFT, false);
+}
+inline void turn_wheel(int by) {
+  SDL_Event event = {};
+  event.type = SDL_MOUSEWHEEL;
+  event.wheel.y = by;
+  SDL_PushEvent(&event);
+}
+inline void type(const std::string& text) {
+  for (const char c : text) {
+    SDL_Event event = {};
+    event.type = SDL_TEXTINPUT;
+    event.text.text[0] = c;
+    SDL_PushEvent(&event);
+  }
+}
+inline void drop(const fs::path& path) {
+  SDL_Event event = {};
+  event.type = SDL_DROPFILE;
+  event.drop.file = SDL_strdup(path.c_str());
+  SDL_PushEvent(&event);
+}
+inline void close_window() {
+  SDL_Event event = {};
+  event.type = SDL_QUIT;
+  SDL_PushEvent(&event);
+}
+
+// One step after another: done when its condition holds; each looks once a picture.
+class Script {
+ public:
+  struct Step {
+    const char* what;
+    std::function<bool()> when;
+    std::function<void()> then;
+  };
+  explicit Script(std::vector<Step> steps) : steps_(std::move(steps)) {}
+
+  void look() {
+    if (next_ < steps_.size() && steps_[next_].when()) {
+      if (steps_[next_].then) steps_[next_].then();
+      ++next_;
+      since_ = Clock::now();
+    } else if (Clock::now() - since_ > std::chrono::seconds(120) && !gave_up_) {
+      gave_up_ = true;  // never hang: leave, and say where
+      ADD_FAILURE() << "waited in vain: "
+                    << (next_ < steps_.size() ? steps_[next_].what : "for the end");
+      close_window();
+    }
+  }
+  [[nodiscard]] bool finished() const { return next_ == steps_.size(); }
+
+ private:
+  std::vector<Step> steps_;
+  std::size_t next_ = 0;
+  Clock::time_point since_ = Clock::now();
+  bool gave_up_ = false;
+};
+
+// true at the n-th look
+inline std::function<bool()> looks(int n) {
+  return [n]() mutable { return --n <= 0; };
+}
+
+class Window : public testing::Test {
+ protected:
+  void SetUp() override {
+    ::setenv("SDL_VIDEODRIVER", "offscreen", 1);
+    fs::create_directories(folder_);
+    auto made = Desk::open({folder_ / "config", folder_ / "state", {}});
+    if (!made) {
+      ASSERT_FALSE(test::data_required()) << made.error().text;
+      GTEST_SKIP() << made.error().text;
+    }
+    desk_ = std::move(*made);
+    SDL_FlushEvents(SDL_FIRSTEVENT, SDL_LASTEVENT);
+  }
+  void TearDown() override {
+    desk_.reset();
+    fs::remove_all(folder_);
+    speak(Language::english);
+  }
+
+  // a block by formula, coarse, ready to be milled
+  static Result<Ready> block() {
+    WorkOptions options;
+    options.volume.path = "block";
+    options.volume.voxel_mm = 0.5;
+    NoProgress quiet;
+    return open_ready(options, quiet);
+  }
+  void mill_by(Ready& ready, std::vector<Script::Step> steps) {
+    Script script(std::move(steps));
+    desk_->after_frame = [&script] { script.look(); };
+    const auto left = mill(*desk_, *ready.session, *ready.hand, *ready.worker, ready.scene, {});
+    desk_->after_frame = {};
+    ASSERT_TRUE(left) << left.error().text;
+    EXPECT_TRUE(script.finished());
+  }
+  void pages_by(std::vector<Script::Step> steps) {
+    Script script(std::move(steps));
+    desk_->after_frame = [&script] { script.look(); };
+    const Status done = run_pages(*desk_, {});
+    desk_->after_frame = {};
+    ASSERT_TRUE(done) << done.error().text;
+    EXPECT_TRUE(script.finished());
+  }
+  [[nodiscard]] std::function<bool()> on(Page page) const {
+    return [this, page] { return desk_->page == page; };
+  }
+
+  // how many pixels differ in a box of two pictures
+  static int differ(const render::Image& a, const render::Image& b, int x0, int y0, int x1,
+                    int y1) {
+    int count = 0;
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) {
+        const std::size_t at =
+            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) +
+                 static_cast<std::size_t>(x));
+        int by = 0;
+        for (std::size_t c = 0; c < 3; ++c) by += std::abs(int{a.rgb[at + c]} - int{b.rgb[at + c]});
+        count += by > 24 ? 1 : 0;
+      }
+    return count;
+  }
+
+  // a ball of bone in air, as a scan: 24 x 24 x 24 voxels of 1 mm, HU
+  [[nodiscard]] fs::path scan() const {
+    const fs::path path = folder_ / "Svensson Karin.nrrd";
+    std::ofstream file(path, std::ios::binary);
+    file << "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\n"
+            "sizes: 24 24 24\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+            "space origin: (0,0,0)\nendian: little\nencoding: raw\n\n";
+    for (int k = 0; k < 24; ++k)
+      for (int j = 0; j < 24; ++j)
+        for (int i = 0; i < 24; ++i) {
+          const double r = std::hypot(i - 11.5, j - 11.5, k - 11.5);
+          const auto hu =
+              static_cast<std::int16_t>(std::clamp(300 + 700 * (8 - r), -1000.0, 1500.0));
+          const char bytes[2] = {static_cast<char>(hu & 0xFF), static_cast<char>((hu >> 8) & 0xFF)};
+          file.write(bytes, 2);
+        }
+    return path;
+  }
+
+  fs::path folder_ = fs::temp_directory_path() / ("burr_pages_" + std::to_string(::getpid()));
+  std::unique_ptr<Desk> desk_;
+};
+
+}  // namespace burr::app
