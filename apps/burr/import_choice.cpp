@@ -55,6 +55,75 @@ double number_in(const char* path) {
   return file >> number ? number : std::numeric_limits<double>::quiet_NaN();
 }
 
+// How much bone there is, and how much surface, on the grid that it gets.
+struct Extent {
+  double bricks = 0;  // with bone in them
+  double faces = 0;   // of voxels, between bone and what is none
+};
+
+template <class Inside>
+Extent extent_of(const io::Scan& scan, const io::ImportSummary& plan, Inside inside) {
+  const math::Vec3 fine = scan.spacing_mm / plan.voxel_mm;  // new voxels in an old one
+  const std::size_t nx = static_cast<std::size_t>(scan.size.x()),
+                    ny = static_cast<std::size_t>(scan.size.y());
+  std::array<std::size_t, 3> from{}, size{}, bricks{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int axis = static_cast<int>(a);
+    from[a] = static_cast<std::size_t>(plan.roi_from[axis]);
+    size[a] = static_cast<std::size_t>(plan.roi_size[axis]);
+    bricks[a] = static_cast<std::size_t>(plan.size[axis]) / 8 + 2;
+  }
+  const auto brick = [&fine](std::size_t n, int axis) {
+    return static_cast<std::size_t>(static_cast<double>(n) * fine[axis]) / 8;
+  };
+  std::vector<std::size_t> column(size[0]);
+  for (std::size_t i = 0; i < size[0]; ++i) column[i] = brick(i, 0);
+  std::vector<std::uint8_t> met(bricks[0] * bricks[1] * bricks[2]), row(size[0]), before(size[0]),
+      below(size[0] * size[1]);
+  std::array<std::int64_t, 3> crossed{};
+  for (std::size_t k = 0; k < size[2]; ++k)
+    for (std::size_t j = 0; j < size[1]; ++j) {
+      const std::size_t at = from[0] + nx * (from[1] + j + ny * (from[2] + k));
+      std::uint8_t any = 0;
+      for (std::size_t i = 0; i < size[0]; ++i) any |= row[i] = inside(at + i) ? 1 : 0;
+      std::uint8_t* under = below.data() + j * size[0];
+      std::int64_t x = 0, y = 0, z = 0;
+      for (std::size_t i = 1; i < size[0]; ++i) x += row[i] ^ row[i - 1];
+      if (j > 0)
+        for (std::size_t i = 0; i < size[0]; ++i) y += row[i] ^ before[i];
+      if (k > 0)
+        for (std::size_t i = 0; i < size[0]; ++i) z += row[i] ^ under[i];
+      crossed[0] += x;
+      crossed[1] += y;
+      crossed[2] += z;
+      std::copy(row.begin(), row.end(), under);
+      std::copy(row.begin(), row.end(), before.begin());
+      if (any == 0) continue;
+      std::uint8_t* to = met.data() + bricks[0] * (brick(j, 1) + bricks[1] * brick(k, 2));
+      for (std::size_t i = 0; i < size[0]; ++i) to[column[i]] |= row[i];
+    }
+  Extent out;
+  for (const std::uint8_t one : met) out.bricks += one;
+  out.bricks *=
+      std::max(1.0, fine.x() / 8) * std::max(1.0, fine.y() / 8) * std::max(1.0, fine.z() / 8);
+  out.faces = static_cast<double>(crossed[0]) * fine.y() * fine.z() +
+              static_cast<double>(crossed[1]) * fine.x() * fine.z() +
+              static_cast<double>(crossed[2]) * fine.x() * fine.y();
+  return out;
+}
+
+Extent extent_of(const io::Scan& scan, const io::ImportSummary& plan) {
+  if (!scan.values.empty()) {
+    const auto iso = static_cast<float>(plan.iso);
+    return extent_of(scan, plan, [&scan, iso](std::size_t n) { return scan.values[n] >= iso; });
+  }
+  std::array<bool, 256> solid{};
+  for (const io::TissueFound& one : plan.tissues)
+    solid[static_cast<std::size_t>(one.tissue.label)] =
+        one.tissue.kind == volume::TissueKind::solid;
+  return extent_of(scan, plan, [&scan, &solid](std::size_t n) { return solid[scan.labels[n]]; });
+}
+
 }  // namespace
 
 Greys greys_of(const io::Scan& scan, int steps) {
@@ -186,9 +255,26 @@ Result<KeptTable> keep_table(const std::filesystem::path& folder, const std::str
 }
 
 SessionMemory session_memory(const io::Scan& scan, const io::ImportSummary& plan) {
+  // Measured on eight scans of 0.4 to 130 million voxels; a picture drawn by the processor, which
+  // keeps its triangles in the same memory.
+  constexpr double kGreyBrick = 2700, kLabelBrick = 1200, kReserved = 1100;  // [byte]
+  constexpr double kFace = 120;                                              // of its mesh  [byte]
+  constexpr double kSession = 20, kSpared = 40;                              // [MB]
+  const Extent extent = extent_of(scan, plan);
+  const double bone = (extent.bricks * (plan.labels ? kLabelBrick : kGreyBrick) +
+                       static_cast<double>(io::ImportOptions{}.reserve_bricks) * kReserved) /
+                      kMb;
+  const double region = plan.roi_size.cast<double>().prod() / kMb,
+               made = plan.size.cast<double>().prod() / kMb;
+  const bool in_place = plan.size == plan.roi_size;
+  const double work = plan.labels
+                          ? (in_place ? 0 : 2 * made) + 1.5 * bone
+                          : std::max(2 * region + (in_place ? 0 : 2 * made), 2 * made + bone);
+  const bool spared = std::any_of(plan.tissues.begin(), plan.tissues.end(),
+                                  [](const io::TissueFound& one) { return one.tissue.spare; });
   SessionMemory memory;
-  memory.making = mb_of(scan) + plan.memory_mb;
-  memory.working = plan.memory_mb;
+  memory.working = bone + kSession + (spared ? kSpared : 0) + extent.faces * kFace / kMb;
+  memory.making = mb_of(scan) + std::max(work, memory.working);
   return memory;
 }
 

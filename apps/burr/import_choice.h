@@ -67,7 +67,8 @@ struct SessionMemory {
   double making = 0;   // at its highest, the scan included
   double working = 0;  // from then on
 };
-// Estimated from what importing and drawing took; good within a third (tests/window).
+// Estimated from how much bone and surface there is; good within a third of what a session in the
+// window takes (tests/window).
 [[nodiscard]] SessionMemory session_memory(const io::Scan& scan, const io::ImportSummary& plan);
 // What this computer still has to give, or this program may take.  [MB]
 [[nodiscard]] double free_memory_mb();

@@ -397,7 +397,7 @@ void ImportPage::draw_view(std::size_t which, const Part& part) {
                      4 * u);
   const std::array<double, 2> mm = extent_mm(scan, view.plane);
   // the letters of the patient's sides stay outside the picture
-  const float border = 20 * u, room_w = part.w - 2 * border, room_h = part.h - 2 * border;
+  const float border = 24 * u, room_w = part.w - 2 * border, room_h = part.h - 2 * border;
   const auto ratio = static_cast<float>(mm[0] / mm[1]);
   const float w = std::floor(std::min(room_w, room_h * ratio)), h = std::floor(w / ratio);
   const float x = std::round(part.x + (part.w - w) / 2), y = std::round(part.y + (part.h - h) / 2);
@@ -469,10 +469,10 @@ void ImportPage::draw_view(std::size_t which, const Part& part) {
     ui.write(lx, ly, Letter::small, ink::kText, std::string(1, c), 0.5F);
   };
   const float high = ui.height_of(Letter::small);
-  letter(x - 9 * u, y + (h - high) / 2, view.plane.left);
-  letter(x + w + 9 * u, y + (h - high) / 2, view.plane.right);
-  letter(x + w / 2, y - high - 3 * u, view.plane.top);
-  letter(x + w / 2, y + h + 2 * u, view.plane.bottom);
+  letter(x - 13 * u, y + (h - high) / 2, view.plane.left);
+  letter(x + w + 13 * u, y + (h - high) / 2, view.plane.right);
+  letter(x + w / 2, y - high - 6 * u, view.plane.top);
+  letter(x + w / 2, y + h + 5 * u, view.plane.bottom);
 }
 
 // The region: its frame, what lies outside dimmed, handles. The sides under the mouse.
