@@ -154,15 +154,17 @@ Result<io::ImportOptions> import_options(const VolumeOptions& options) {
   return out;
 }
 
-Result<io::Imported> open_volume(const VolumeOptions& options, Progress& progress) {
+Result<io::Imported> open_volume(const VolumeOptions& options, Progress& progress,
+                                 const io::Scan* scan) {
   if (is_phantom(options.path)) return open_phantom(options, progress);
   const auto reading = read_options(options);
   if (!reading) return reading.error();
   const auto importing = import_options(options);
   if (!importing) return importing.error();
-  auto scan = io::read_scan(options.path, *reading, progress);
-  if (!scan) return scan.error();
-  return io::import_bone(*scan, *importing, progress);
+  if (scan != nullptr) return io::import_bone(*scan, *importing, progress);
+  auto read = io::read_scan(options.path, *reading, progress);
+  if (!read) return read.error();
+  return io::import_bone(*read, *importing, progress);
 }
 
 }  // namespace burr::app

@@ -31,6 +31,8 @@ void add_volume_options(CLI::App& command, VolumeOptions& options);
 [[nodiscard]] Result<io::ImportOptions> import_options(const VolumeOptions& options);
 
 // The bone, ready to be milled, from a file, a folder or a formula.
-[[nodiscard]] Result<io::Imported> open_volume(const VolumeOptions& options, Progress& progress);
+// scan: what the path holds, where it was read before; it is not read again then.
+[[nodiscard]] Result<io::Imported> open_volume(const VolumeOptions& options, Progress& progress,
+                                               const io::Scan* scan = nullptr);
 
 }  // namespace burr::app

@@ -20,16 +20,32 @@ using math::Vec3;
 // how much of the surroundings is seen: the pocket large, the anatomy around it still there
 double view_height(double burr_radius) { return std::clamp(20 * burr_radius, 20e-3, 70e-3); }
 
+bool names_a_case(const std::string& path) {
+  const auto known = scenario::built_in_cases();
+  const bool built_in = std::find(known.begin(), known.end(), path) != known.end();
+  std::error_code nobody_asks;
+  return (built_in && !std::filesystem::exists(path, nobody_asks)) ||
+         std::filesystem::path(path).extension() == ".toml";
+}
+
+// a phantom's bare name; a file of that name comes first
+bool bare_name(const std::string& path) {
+  std::error_code nobody_asks;
+  return !is_phantom(path) && path.find_first_of("./") == std::string::npos &&
+         !std::filesystem::exists(path, nobody_asks);
+}
+
 }  // namespace
+
+bool names_a_scan(const WorkOptions& options) {
+  const std::string& path = options.volume.path;
+  return !path.empty() && !names_a_case(path) && !is_phantom(path) && !bare_name(path);
+}
 
 Status take_case(WorkOptions& options) {
   VolumeOptions& volume = options.volume;
   if (volume.path.empty()) volume.path = "temporal-bone";
-  const auto known = scenario::built_in_cases();
-  const bool built_in = std::find(known.begin(), known.end(), volume.path) != known.end();
-  std::error_code nobody_asks;
-  if ((built_in && !std::filesystem::exists(volume.path, nobody_asks)) ||
-      std::filesystem::path(volume.path).extension() == ".toml") {
+  if (names_a_case(volume.path)) {
     const auto read = scenario::read_case(volume.path);
     if (!read) return read.error();
     volume.path = read->phantom.empty() ? read->volume : "phantom:" + read->phantom;
@@ -49,15 +65,11 @@ Status take_case(WorkOptions& options) {
   return fine();
 }
 
-Result<Work> open_work(WorkOptions options, Progress& progress) {
+Result<Work> open_work(WorkOptions options, Progress& progress, const io::Scan* scan) {
   VolumeOptions& volume = options.volume;
-  // a phantom's bare name; a file of that name comes first
-  std::error_code nobody_asks;
-  if (!is_phantom(volume.path) && volume.path.find_first_of("./") == std::string::npos &&
-      !std::filesystem::exists(volume.path, nobody_asks))
-    volume.path = "phantom:" + volume.path;
+  if (bare_name(volume.path)) volume.path = "phantom:" + volume.path;
   const bool phantom = is_phantom(volume.path);
-  auto made = open_volume(volume, progress);
+  auto made = open_volume(volume, progress, scan);
   if (!made) return made.error();
 
   Work work;

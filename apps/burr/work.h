@@ -39,14 +39,18 @@ struct WorkOptions {
 // win. Anything else is left as it is.
 [[nodiscard]] Status take_case(WorkOptions& options);
 
+// Before take_case(): neither a built-in case, nor a phantom, nor a .toml file.
+[[nodiscard]] bool names_a_scan(const WorkOptions& options);
+
 struct Work {
   io::Imported made;
   std::string what;      // in our words
   VolumeOptions volume;  // with the case's name as a phantom
   sim::WorkPlace place;
 };
-// After take_case().
-[[nodiscard]] Result<Work> open_work(WorkOptions options, Progress& progress);
+// After take_case(). scan: as open_volume() wants it.
+[[nodiscard]] Result<Work> open_work(WorkOptions options, Progress& progress,
+                                     const io::Scan* scan = nullptr);
 
 [[nodiscard]] sim::SessionSettings settings_of(const WorkOptions& options, bool realtime);
 

@@ -123,6 +123,9 @@ TEST(ReadScan, OfAWholeStudyTakesTheThinBoneSeriesAndSaysSo) {
   EXPECT_EQ(scan->size, Ijk(512, 512, 140));
   EXPECT_NEAR(scan->spacing_mm.z(), 1, 1e-6);
   EXPECT_TRUE(says(*scan, "6 series found"));
+  ASSERT_EQ(scan->series.size(), 6U);
+  EXPECT_NE(scan->series[static_cast<std::size_t>(scan->series_taken)].find("140 pictures"),
+            std::string::npos);
 }
 
 TEST(ReadScan, TakesTheSeriesThatIsAskedFor) {

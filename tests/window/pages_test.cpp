@@ -3,28 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <SDL2/SDL.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <cstdint>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
-#include <functional>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "burr/record/player.h"
 #include "burr/render/pick.h"
 #include "burr/rt/changed_bits.h"
 #include "recording.h"
-#include "support/data.h"
 #include "window/sessions.h"
 #include "window/user.h"
 
@@ -239,6 +224,7 @@ TEST_F(Window, TakesADroppedScanMillsItComesBackAndGoesOnWhereItWas) {
     press(SDLK_SPACE);
   };
   pages_by({{"the start page", on(Page::start), [&] { drop(file); }},
+            {"its import page", on(Page::import), [] { press(SDLK_RETURN); }},
             {"milling", on(Page::milling), mills},
             {"a while", a_while, [] { press(SDLK_q); }},
             {"the start page again", on(Page::start), nullptr},
@@ -290,6 +276,7 @@ TEST_F(Window, TellsWhatIsWrongWithABrokenFileAndGoesOn) {
                told = desk_->told;
                drop(scan());
              }},
+            {"its import page", on(Page::import), [] { press(SDLK_RETURN); }},
             {"milling all the same", on(Page::milling), [] { press(SDLK_q); }},
             {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
   EXPECT_NE(told.find("broken.nrrd"), std::string::npos) << told;
@@ -324,6 +311,7 @@ TEST_F(Window, CancelsLoadingAndIsBackAtTheStartWithoutComplaint) {
 
 TEST_F(Window, OffersASessionThatEndedUnexpectedlyFirst) {
   pages_by({{"the start page", on(Page::start), [&] { drop(scan()); }},
+            {"its import page", on(Page::import), [] { press(SDLK_RETURN); }},
             {"milling", on(Page::milling),
              [] {
                move_to(640, 360);

@@ -22,6 +22,7 @@
 
 #include "support/data.h"
 #include "window/pages.h"
+#include "window/words.h"
 
 namespace burr::app {
 

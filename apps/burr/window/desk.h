@@ -24,7 +24,7 @@ struct DeskPlaces {
 // By the XDG base directories: ~/.config/burr and so on.
 [[nodiscard]] DeskPlaces users_places();
 
-enum class Page { none, start, loading, milling, replay };
+enum class Page { none, start, loading, import, milling, replay };
 
 class Desk {
  public:
@@ -40,7 +40,7 @@ class Desk {
   Settings settings;
   std::vector<std::string> troubles;  // of the settings' file, to be told once
   Page page = Page::none;             // the one shown
-  std::string told;                   // what went wrong, on the start page
+  std::string told;                   // what went wrong, on the start and import pages
   std::string said;                   // while milling: what must be known, or was done last
   std::function<void()> after_frame;  // whoever wants to look on, after each picture
   // After a change: in effect, and written down.

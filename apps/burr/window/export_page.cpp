@@ -145,7 +145,7 @@ void ExportPage::draw() {
   const float other = FileDialog::there() ? 132 * u : 0;
   const std::string was = wish_.path;
   const bool entered =
-      path_field("##where", word(Word::start_path), wish_.path, w - 56 * u - other);
+      text_field("##where", word(Word::start_path), wish_.path, w - 56 * u - other);
   if (wish_.path != was) replaces_ = false;
   if (other > 0) {
     ImGui::SetCursorScreenPos({x + w - 28 * u - 120 * u, y + 160 * u});

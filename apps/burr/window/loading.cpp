@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "command.h"
 #include "window/words.h"
@@ -49,33 +48,37 @@ bool draw_loading(Ui& ui, const std::string& title, const SeenProgress::Now& now
 
 }  // namespace
 
-Result<bool> show_loading(Desk& desk, const std::string& title, const SeenProgress& progress,
-                          bool stopping, bool& closed, const std::function<bool()>& finished) {
+Result<bool> watch_loading(Desk& desk, const std::string& title, SeenProgress& progress,
+                           const std::function<bool()>& finished, bool& closed) {
   const render::Scene empty;
+  bool stopping = false;
+  closed = false;
   desk.page = Page::loading;
   desk.renderer().title("burr");
-  SDL_Event event;
-  while (desk.next(event)) {
-    closed = closed || event.type == SDL_QUIT;
-    if (event.type == SDL_QUIT ||
-        (event.type == SDL_KEYDOWN && event.key.keysym.sym == SDLK_ESCAPE))
-      stopping = true;
+  while (!finished()) {
+    SDL_Event event;
+    while (desk.next(event)) {
+      closed = closed || event.type == SDL_QUIT;
+      if (event.type == SDL_QUIT ||
+          (event.type == SDL_KEYDOWN && event.key.keysym.sym == SDLK_ESCAPE))
+        stopping = true;
+    }
+    const Status shown = desk.show(
+        empty,
+        [&] {
+          if (draw_loading(desk.ui(), title, progress.now(), stopping)) stopping = true;
+        },
+        true);
+    if (!shown) return shown.error();
+    if (stopping || interrupted()) progress.cancel();
+    // the work has priority: where the processor draws, each picture is taken from it
+    for (int n = 0; n < 8 && !finished(); ++n) {
+      SDL_Delay(30);
+      SDL_PumpEvents();
+      if (SDL_HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT) == SDL_TRUE) break;
+    }
   }
-  const Status shown = desk.show(
-      empty,
-      [&] {
-        if (draw_loading(desk.ui(), title, progress.now(), stopping)) stopping = true;
-      },
-      true);
-  if (!shown) return shown.error();
-  stopping = stopping || interrupted();
-  // the work has priority: where the processor draws, each picture is taken from it
-  for (int n = 0; n < 8 && !finished(); ++n) {
-    SDL_Delay(30);
-    SDL_PumpEvents();
-    if (SDL_HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT) == SDL_TRUE) break;
-  }
-  return stopping;
+  return !stopping;
 }
 
 }  // namespace burr::app

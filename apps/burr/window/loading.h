@@ -18,7 +18,6 @@
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "window/desk.h"
-#include "work.h"
 
 namespace burr::app {
 
@@ -68,29 +67,23 @@ class Loading {
   std::jthread thread_;  // last: begins when all else is there, ends before it
 };
 
-// One picture of the loading page, and a little wait. True: the user wants to stop; `closed` is
-// set if the window was closed.
-[[nodiscard]] Result<bool> show_loading(Desk& desk, const std::string& title,
-                                        const SeenProgress& progress, bool stopping, bool& closed,
-                                        const std::function<bool()>& finished);
+// The loading page until finished(). false: the user wants no more of it, and the work was told.
+// closed: the window was.
+[[nodiscard]] Result<bool> watch_loading(Desk& desk, const std::string& title,
+                                         SeenProgress& progress,
+                                         const std::function<bool()>& finished, bool& closed);
 
-// The page shown until it is made. Error: Trouble::interrupted if the user cancelled; `closed` is
-// true if the window was closed.
+// The page shown until the bone, or what else takes long, is ready. Error: Trouble::interrupted if
+// the user cancelled; `closed` is true if the window was closed.
 template <class Value>
 [[nodiscard]] Result<Value> load(Desk& desk, const std::string& title,
                                  typename Loading<Value>::Make make, bool& closed) {
   Loading<Value> loading(std::move(make));
-  bool stopping = false;
-  closed = false;
-  while (!loading.finished()) {
-    const Result<bool> shown = show_loading(desk, title, loading.progress(), stopping, closed,
-                                            [&loading] { return loading.finished(); });
-    if (!shown) return shown.error();
-    stopping = *shown;
-    if (stopping) loading.progress().cancel();
-  }
+  const Result<bool> watched = watch_loading(
+      desk, title, loading.progress(), [&loading] { return loading.finished(); }, closed);
+  if (!watched) return watched.error();
   Result<Value> made = loading.take();
-  if (stopping && !closed) return error(Trouble::interrupted, "stopped");
+  if (!*watched && !closed) return error(Trouble::interrupted, "stopped");
   return made;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "command.h"
+#include "window/import_page.h"
 #include "window/loading.h"
 #include "window/playback.h"
 #include "window/sessions.h"
@@ -105,22 +106,23 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
       continue;
     }
     const bool goes_on = choice->go_on.has_value();
-    const WorkOptions chosen = goes_on ? choice->go_on->options : *choice->open;
+    WorkOptions chosen = goes_on ? choice->go_on->options : *choice->open;
     const std::string title =
         say(Word::loading, goes_on ? choice->go_on->title : title_of(chosen, desk.settings));
     bool closed = false;
     Result<Ready> ready =
-        goes_on
-            ? load<Ready>(
-                  desk, title,
-                  [kept = *choice->go_on](Progress& progress) {
-                    return continue_session(kept, progress);
-                  },
-                  closed)
+        goes_on ? load<Ready>(
+                      desk, title,
+                      [kept = *choice->go_on](Progress& progress) {
+                        return continue_session(kept, progress);
+                      },
+                      closed)
+        : names_a_scan(chosen)
+            ? open_by_page(desk, chosen, title, options.seconds, closed)
             : load<Ready>(
                   desk, title,
                   [chosen](Progress& progress) { return open_ready(chosen, progress); }, closed);
-    if (closed || interrupted()) return fine();
+    if (closed || interrupted()) return leave_screenshot(desk, options.screenshot);
     if (!ready) {
       if (ready.error().trouble != Trouble::interrupted) trouble = ready.error().text;
       continue;

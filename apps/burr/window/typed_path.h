@@ -8,7 +8,4 @@ namespace burr::app {
 // Without blanks around it, quotes and file://; ~ is the home folder.
 [[nodiscard]] std::string cleaned_path(std::string path);
 
-// A field to type it into. true: Enter.
-[[nodiscard]] bool path_field(const char* id, const char* hint, std::string& text, float width);
-
 }  // namespace burr::app

@@ -315,4 +315,14 @@ float Ui::width_of(Letter letter, const std::string& text) const {
 }
 float Ui::height_of(Letter letter) const { return font(letter)->FontSize; }
 
+bool text_field(const char* id, const char* hint, std::string& text, float width) {
+  std::vector<char> buffer(4096, '\0');
+  std::copy_n(text.c_str(), std::min(text.size(), buffer.size() - 1), buffer.begin());
+  ImGui::SetNextItemWidth(width);
+  const bool entered = ImGui::InputTextWithHint(id, hint, buffer.data(), buffer.size(),
+                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  text = buffer.data();
+  return entered;
+}
+
 }  // namespace burr::app

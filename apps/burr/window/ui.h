@@ -96,4 +96,7 @@ class Ui {
   Uint64 last_ = 0;
 };
 
+// ImGui's field over a std::string; true when Enter was pressed in it.
+[[nodiscard]] bool text_field(const char* id, const char* hint, std::string& text, float width);
+
 }  // namespace burr::app

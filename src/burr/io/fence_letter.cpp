@@ -12,7 +12,7 @@ namespace burr::io {
 namespace {
 
 constexpr std::size_t kLongestText = std::size_t{1} << 16;
-constexpr std::size_t kMostLabels = 4096, kMostNotices = 4096;
+constexpr std::size_t kMostLabels = 4096, kMostNotices = 4096, kMostSeries = 4096;
 
 class Packer {
  public:
@@ -103,7 +103,7 @@ class Unpacker {
 };
 
 // what both sides must agree about, structs included
-std::string version() { return std::string("fence 1 of burr ") + base::version(); }
+std::string version() { return std::string("fence 2 of burr ") + base::version(); }
 
 Trouble trouble_of(std::int32_t number) {
   switch (static_cast<Trouble>(number)) {
@@ -126,6 +126,9 @@ void pack_scan(Packer& to, const Scan& scan) {
   to.put(scan.format);
   to.put(static_cast<std::uint32_t>(scan.notices.size()));
   for (const std::string& notice : scan.notices) to.put(notice);
+  to.put(static_cast<std::uint32_t>(scan.series.size()));
+  for (const std::string& series : scan.series) to.put(series);
+  to.put(static_cast<std::int32_t>(scan.series_taken));
   to.put(static_cast<std::uint32_t>(scan.label_names.size()));
   for (const Label& label : scan.label_names) {
     to.put(static_cast<std::int32_t>(label.value));
@@ -150,6 +153,11 @@ void unpack_scan(Unpacker& from, Scan& scan) {
   scan.format = from.words();
   for (std::size_t n = from.count(kMostNotices); n > 0 && from.good(); --n)
     scan.notices.push_back(from.words());
+  const std::size_t series = from.count(kMostSeries);
+  for (std::size_t n = 0; n < series && from.good(); ++n) scan.series.push_back(from.words());
+  scan.series_taken = from.get<std::int32_t>();
+  from.demand(scan.series_taken >= 0 &&
+              static_cast<std::size_t>(scan.series_taken) < std::max<std::size_t>(series, 1));
   for (std::size_t n = from.count(kMostLabels); n > 0 && from.good(); --n) {
     Label label;
     label.value = from.get<std::int32_t>();

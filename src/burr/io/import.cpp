@@ -146,16 +146,18 @@ std::array<std::int64_t, 256> count_labels(const Scan& scan, const ImportSummary
   return counts;
 }
 
+Result<Materials> materials_of(const ImportOptions& options) {
+  if (options.materials.empty()) return built_in_materials();
+  return read_materials(options.materials);
+}
+
 Result<Plan> make_plan(const Scan& scan, const ImportOptions& options) {
   if (scan.values.empty() == scan.labels.empty() ||
       std::max(scan.values.size(), scan.labels.size()) != product(scan.size))
     return error(Trouble::internal, "a scan needs values or labels, one for each voxel");
-  Materials materials = built_in_materials();
-  if (!options.materials.empty()) {
-    auto read = read_materials(options.materials);
-    if (!read) return read.error();
-    materials = std::move(*read);
-  }
+  const auto given = materials_of(options);
+  if (!given) return given.error();
+  const Materials& materials = *given;
   Plan plan;
   ImportSummary& out = plan.summary;
   out.format = scan.format;
@@ -421,6 +423,31 @@ Result<ImportSummary> plan_import(const Scan& scan, const ImportOptions& options
   auto plan = make_plan(scan, options);
   if (!plan) return plan.error();
   return std::move(plan->summary);
+}
+
+Result<std::vector<TissueFound>> labels_of(const Scan& scan, const ImportOptions& options) {
+  std::vector<TissueFound> all;
+  if (scan.labels.empty()) return all;
+  const auto materials = materials_of(options);
+  if (!materials) return materials.error();
+  ImportSummary whole;
+  whole.roi_size = scan.size;
+  const std::array<std::int64_t, 256> counts = count_labels(scan, whole);
+  std::array<bool, 256> present{};
+  for (std::size_t v = 1; v < 256; ++v) present[v] = counts[v] > 0;
+  const auto labels = label_tissues(scan, present, options.tissue_table, *materials);
+  if (!labels) return labels.error();
+  for (std::size_t v = 1; v < 256; ++v)
+    if (const volume::TissueId id = labels->of_label[v]; id != 0)
+      all.push_back({id, labels->table[id], counts[v], 0});
+  for (const volume::Tissue& air : labels->air)
+    all.push_back({0, air, counts[static_cast<std::size_t>(air.label)], 0});
+  for (TissueFound& one : all)
+    one.volume_mm3 = static_cast<double>(one.voxels) * scan.spacing_mm.prod();
+  std::sort(all.begin(), all.end(), [](const TissueFound& a, const TissueFound& b) {
+    return a.tissue.label < b.tissue.label;
+  });
+  return all;
 }
 
 Result<Imported> import_bone(const Scan& scan, const ImportOptions& options, Progress& progress) {

@@ -86,6 +86,11 @@ struct Imported {
 // Everything decided, nothing built.
 [[nodiscard]] Result<ImportSummary> plan_import(const Scan& scan, const ImportOptions& options);
 
+// Every label that occurs anywhere in a label map, and what is decided about it; those taken for
+// air too, with id 0. Empty for a grey scan.
+[[nodiscard]] Result<std::vector<TissueFound>> labels_of(const Scan& scan,
+                                                         const ImportOptions& options);
+
 [[nodiscard]] Result<Imported> import_bone(const Scan& scan, const ImportOptions& options,
                                            Progress& progress);
 

@@ -541,6 +541,13 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
         fmt::format("{} links lead out of the folder and were not followed.", found->leading_out));
   auto chosen = choose(*found, options, file, scan);
   if (!chosen) return chosen.error();
+  // more than anyone would look through: those are chosen by --series only
+  constexpr std::size_t kListed = 1000;
+  if (found->series.size() > 1 && found->series.size() <= kListed) {
+    for (std::size_t s = 0; s < found->series.size(); ++s)
+      scan.series.push_back(one_line(found->series[s], s));
+    scan.series_taken = static_cast<int>(*chosen);
+  }
   const Series& series = found->series[*chosen];
   const DicomHeader& h = series.first();
 

@@ -35,6 +35,10 @@ struct Scan {
   bool k_reversed = false;  // the slices were put in reverse order to make the axes right-handed:
                             // voxel k here is voxel size.z-1-k of the file
   std::string format;       // "DICOM", "NRRD" ...
+  // Where a DICOM folder holds several series: each in a line that names no patient, as info lists
+  // them, and the place of the one that is here.
+  std::vector<std::string> series;
+  int series_taken = 0;
   std::vector<std::string>
       notices;  // what was found odd and what was done about it, one sentence each
 };

@@ -212,8 +212,11 @@ Result<LabelTissues> label_tissues(const Scan& scan, const std::array<bool, 256>
     out.table.tissues.push_back(of_value[v]);
   }
   for (std::size_t v = 1; v < 256; ++v)
-    if (present[v] && of_value[v].kind == TissueKind::air)
+    if (present[v] && of_value[v].kind == TissueKind::air) {
+      of_value[v].label = static_cast<int>(v);
+      out.air.push_back(of_value[v]);
       out.notices.push_back(fmt::format("Label {} ({}) is air.", v, base::shown(of_value[v].name)));
+    }
   return out;
 }
 

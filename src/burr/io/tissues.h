@@ -20,6 +20,7 @@ namespace burr::io {
 struct LabelTissues {
   volume::TissueTable table;                     // [0] air
   std::array<volume::TissueId, 256> of_label{};  // by value in the file
+  std::vector<volume::Tissue> air;               // labels that are
   std::vector<std::string> notices;
 };
 

@@ -1,0 +1,302 @@
+// A user at the import page: what he chooses there is what a command line would have said.
+#include "window/import_page.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+
+#include "burr/record/player.h"
+#include "recording.h"
+#include "window/sessions.h"
+#include "window/user.h"
+
+namespace burr::app {
+namespace {
+
+using Part = ImportLayout::Part;
+
+ImportLayout layout() { return import_layout(1280, 720, 1); }
+void click_on(const Part& part) {
+  click(static_cast<int>(part.x + part.w / 2), static_cast<int>(part.y + part.h / 2));
+}
+
+// The bone that the command line makes of the same words.
+std::uint64_t hash_of(const VolumeOptions& options) {
+  NoProgress quiet;
+  auto made = open_volume(options, quiet);
+  EXPECT_TRUE(made) << made.error().text;
+  return made ? made->bone->content_hash() : 0;
+}
+
+class ImportWindow : public Window {
+ protected:
+  // What a session began with, as its recording tells.
+  record::VolumeInfo begun() const {
+    const std::vector<KeptSession> kept = kept_sessions(folder_ / "state");
+    if (kept.empty()) return {};
+    auto player = record::Player::open(kept.front().file.string());
+    return player ? (*player)->info().volume : record::VolumeInfo{};
+  }
+  // mills a little, so that the session is kept, and leaves
+  std::vector<Script::Step> then_mills() {
+    return {{"milling", on(Page::milling),
+             [this] {
+               began_ = Clock::now();
+               move_to(640, 360);
+               press(SDLK_SPACE);
+             }},
+            {"a while", [this] { return Clock::now() - began_ > std::chrono::seconds(3); },
+             [] { press(SDLK_s); }},  // kept, cut or not
+            {"the word about it", looks(5), [] { press(SDLK_q); }},
+            {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}};
+  }
+  void by(std::vector<Script::Step> steps, std::vector<Script::Step> more) {
+    steps.insert(steps.end(), more.begin(), more.end());
+    pages_by(std::move(steps));
+  }
+  Clock::time_point began_;
+};
+
+TEST_F(ImportWindow, MakesTheBoneWithTheLevelAndRegionSetByMouse) {
+  const fs::path file = scan();
+  const ImportLayout at = layout();
+  const int y = static_cast<int>(at.plot.y + at.plot.h / 2);
+  const int x0 = static_cast<int>(at.plot.x + at.plot.w * 0.5F),
+            x1 = static_cast<int>(at.plot.x + at.plot.w * 0.75F);
+  const auto planes = planes_of(math::Mat3::Identity());
+  ASSERT_EQ(planes[0].across, 0);
+  // the axial view: 24 x 24 mm, 264 pixels in the middle of its part; its right side is pulled to
+  // three quarters
+  const Part& view = at.views[0];
+  const float side = std::floor(std::min(view.w, view.h) - 48);
+  const int left = static_cast<int>(view.x + (view.w - side) / 2),
+            middle = static_cast<int>(view.y + view.h / 2) + 20;
+  const int right = left + static_cast<int>(side);
+  by({{"the start page", on(Page::start), [&] { drop(file); }},
+      {"the import page", on(Page::import), nullptr},
+      {"a picture", looks(3),
+       [&] {
+         move_to(x0, y);
+         button(SDL_BUTTON_LEFT, true);
+       }},
+      {"the hold", looks(3), [&] { move_to(x1, y); }},
+      {"the pull", looks(3), [] { button(SDL_BUTTON_LEFT, false); }},
+      {"the level", looks(3),
+       [&] {
+         move_to(right, middle);
+         button(SDL_BUTTON_LEFT, true);
+       }},
+      {"the hold", looks(3), [&] { move_to(left + static_cast<int>(side * 0.75F), middle); }},
+      {"the pull", looks(3), [] { button(SDL_BUTTON_LEFT, false); }},
+      {"the region", looks(3), [] { press(SDLK_RETURN); }}},
+     then_mills());
+  const record::VolumeInfo info = begun();
+  ASSERT_TRUE(info.words.contains("iso") && info.words.contains("roi")) << "nothing was chosen";
+  // -1000 to 1500 HU lie along the plot
+  EXPECT_NEAR(std::stod(info.words.at("iso")), -1000 + 0.75 * 2500, 12);
+  EXPECT_EQ(info.words.at("roi"), "0,17,0,23,0,23");
+  VolumeOptions typed;
+  typed.path = file.string();
+  const std::uint64_t by_itself = hash_of(typed);
+  typed.iso = info.words.at("iso");
+  typed.roi = info.words.at("roi");
+  EXPECT_EQ(info.content_hash, hash_of(typed));
+  EXPECT_NE(info.content_hash, by_itself);
+}
+
+TEST_F(ImportWindow, OfADefaultScanChangesNothing) {
+  const fs::path file = scan();
+  by({{"the start page", on(Page::start), [&] { drop(file); }},
+      {"the import page", on(Page::import), nullptr},
+      {"a picture", looks(3), [] { click_on(layout().start); }}},
+     then_mills());
+  const record::VolumeInfo info = begun();
+  EXPECT_FALSE(info.words.contains("iso") || info.words.contains("roi"));
+  VolumeOptions typed;
+  typed.path = file.string();
+  EXPECT_EQ(info.content_hash, hash_of(typed));
+}
+
+TEST_F(ImportWindow, GoesBackWithoutComplaint) {
+  pages_by({{"the start page", on(Page::start), [&] { drop(scan()); }},
+            {"the import page", on(Page::import), [] { press(SDLK_ESCAPE); }},
+            {"the start page again", on(Page::start), nullptr},
+            {"a few pictures", looks(5), [] { press(SDLK_ESCAPE); }}});
+  EXPECT_EQ(desk_->told, "");
+}
+
+// ---- labels, series, trouble
+
+// 16 x 16 x 16 voxels of 1 mm: left half 1, right half 2, without names; what burr takes for solid
+fs::path halves(const fs::path& folder) {
+  const fs::path path = folder / "halves.nrrd";
+  std::ofstream file(path, std::ios::binary);
+  file << "NRRD0004\ntype: uchar\ndimension: 3\nspace: left-posterior-superior\n"
+          "sizes: 16 16 16\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+          "space origin: (0,0,0)\nencoding: raw\n\n";
+  for (int k = 0; k < 16; ++k)
+    for (int j = 0; j < 16; ++j)
+      for (int i = 0; i < 16; ++i) {
+        const bool in = i >= 2 && i < 14 && j >= 2 && j < 14 && k >= 2 && k < 14;
+        file.put(in ? (i < 8 ? '\1' : '\2') : '\0');
+      }
+  return path;
+}
+
+TEST_F(ImportWindow, MakesLabelsWhatTheyAreClickedToBe) {
+  const fs::path file = halves(folder_);
+  const ImportLayout at = layout();
+  // the row of label 2, the second of its three buttons: soft
+  const int x = static_cast<int>(at.plot.x + at.plot.w - 196 + 66 + 31),
+            y = static_cast<int>(at.level.y + 34 + 32 + 15);
+  by({{"the start page", on(Page::start), [&] { drop(file); }},
+      {"the import page", on(Page::import), nullptr},
+      {"a picture", looks(3), [&] { click(x, y); }},
+      {"the choice", looks(5), [] { press(SDLK_RETURN); }}},
+     then_mills());
+  const std::vector<KeptSession> kept = kept_sessions(folder_ / "state");
+  ASSERT_EQ(kept.size(), 1U) << "nothing was cut: the test shows nothing";
+  const record::VolumeInfo info = begun();
+  VolumeOptions typed;
+  typed.path = file.string();
+  const std::uint64_t by_itself = hash_of(typed);
+  const fs::path table = folder_ / "typed.toml";
+  std::ofstream(table) << "[[label]]\nvalue = 2\nkind = \"soft\"\n";
+  typed.tissues = table.string();
+  EXPECT_EQ(info.content_hash, hash_of(typed));
+  EXPECT_NE(info.content_hash, by_itself);
+  // and it goes on from there, with the table that the window wrote
+  NoProgress quiet;
+  const auto ready = continue_session(kept.front(), quiet);
+  EXPECT_TRUE(ready) << ready.error().text;
+}
+
+TEST_F(ImportWindow, LeavesNoTableBehindWhenOneGoesBack) {
+  const fs::path file = halves(folder_);
+  const ImportLayout at = layout();
+  const int x = static_cast<int>(at.plot.x + at.plot.w - 196 + 66 + 31),
+            y = static_cast<int>(at.level.y + 34 + 32 + 15);
+  bool written = false;
+  const auto tables = [&] {
+    std::error_code none;
+    return std::distance(fs::directory_iterator(folder_ / "state" / "labels", none), {});
+  };
+  pages_by({{"the start page", on(Page::start), [&] { drop(file); }},
+            {"the import page", on(Page::import), nullptr},
+            {"a picture", looks(3), [&] { click(x, y); }},
+            {"the choice", looks(5),
+             [&] {
+               written = tables() == 1;
+               press(SDLK_ESCAPE);
+             }},
+            {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  EXPECT_TRUE(written) << "nothing was chosen: the test shows nothing";
+  EXPECT_EQ(tables(), 0);
+}
+
+TEST_F(ImportWindow, SaysWhatIsWrongWithANumberAndLosesNothing) {
+  const fs::path file = scan();
+  const ImportLayout at = layout();
+  std::vector<std::string> told;
+  const auto typed = [&](const Part& part, std::string text) {
+    return std::vector<Script::Step>{
+        {"a picture", looks(3), [part] { click_on(part); }},
+        {"an empty field",
+         [looked = 0]() mutable {
+           // letter by letter, a few pictures for each
+           if (++looked % 3 == 0) press(SDLK_BACKSPACE);
+           return looked > 3 * 16;
+         },
+         [text] { type(text); }},
+        {"the letters", looks(static_cast<int>(text.size()) + 10), [] { press(SDLK_RETURN); }},
+        {"what it says", looks(15), [&] { told.push_back(desk_->told); }}};
+  };
+  std::vector<Script::Step> steps = {{"the start page", on(Page::start), [&] { drop(file); }},
+                                     {"the import page", on(Page::import), nullptr}};
+  const auto add = [&steps](std::vector<Script::Step> more) {
+    steps.insert(steps.end(), more.begin(), more.end());
+  };
+  add(typed(at.roi, "0,23,0,23,4,23"));  // good
+  add(typed(at.roi, "5,4,0,23,0,23"));   // empty
+  add(typed(at.voxel, "fine"));          // no number
+  add(typed(at.iso, "high"));            // no number
+  add(typed(at.iso, "5000"));            // no voxel is that dense
+  steps.push_back({"refused", looks(3), [] { press(SDLK_RETURN); }});
+  steps.push_back({"still here", looks(10),
+                   [&] { EXPECT_EQ(desk_->page, Page::import) << "started without bone"; }});
+  add(typed(at.iso, "200"));
+  steps.push_back({"good again", looks(3), [] { press(SDLK_RETURN); }});
+  by(steps, then_mills());
+  ASSERT_EQ(told.size(), 6U);
+  EXPECT_EQ(told[0], "");
+  EXPECT_NE(told[1].find("5..4"), std::string::npos) << told[1];
+  EXPECT_NE(told[2].find("fine"), std::string::npos) << told[2];
+  EXPECT_NE(told[3].find("high"), std::string::npos) << told[3];
+  EXPECT_NE(told[4].find("5000"), std::string::npos) << told[4];
+  EXPECT_EQ(told[5], "");
+  const record::VolumeInfo info = begun();
+  ASSERT_TRUE(info.words.contains("roi") && info.words.contains("iso"));
+  EXPECT_EQ(info.words.at("roi"), "0,23,0,23,4,23");
+  EXPECT_EQ(info.words.at("iso"), "200");
+}
+
+TEST_F(ImportWindow, ReadsAnotherSeriesThatIsChosen) {
+  BURR_NEEDS_DATA("skull_phantom");
+  const fs::path folder = test::data_dir() / "skull_phantom";
+  NoProgress quiet;
+  VolumeOptions typed;
+  typed.path = folder.string();
+  const auto opened = open_scan(typed, quiet);
+  ASSERT_TRUE(opened) << opened.error().text;
+  const std::vector<std::string>& all = opened->scan->series;
+  ASSERT_EQ(all.size(), 6U);
+  // the one of thick slices, by its line in the list; a list's lines are as high as its letters
+  const auto thick = std::find_if(all.begin(), all.end(), [](const std::string& line) {
+    return line.find("28 pictures") != std::string::npos;
+  });
+  ASSERT_NE(thick, all.end());
+  const Part& box = layout().series;
+  int loads = 0;
+  bool was_loading = false;
+  const auto count = [&] {
+    const bool is = desk_->page == Page::loading;
+    loads += is && !was_loading ? 1 : 0;
+    was_loading = is;
+  };
+  const int row = static_cast<int>(thick - all.begin());
+  by({{"the start page", on(Page::start), [&] { drop(folder); }},
+      {"the import page",
+       [&] {
+         count();
+         return desk_->page == Page::import;
+       },
+       nullptr},
+      {"a picture", looks(3), [&] { click_on(box); }},
+      {"the line",  // with the keys, wherever the lines lie
+       [row, looked = 0]() mutable {
+         if (++looked > 5 && looked % 4 == 0 && looked / 4 - 1 <= row) press(SDLK_DOWN);
+         return looked > 4 * (row + 3);
+       },
+       [] { press(SDLK_SPACE); }},
+      {"the reading",
+       [&] {
+         count();
+         return loads == 2;
+       },
+       nullptr},
+      {"the page of the other", on(Page::import), nullptr},
+      {"a picture", looks(3),
+       [&] {
+         EXPECT_EQ(desk_->told, "");
+         press(SDLK_RETURN);
+       }}},
+     then_mills());
+  const record::VolumeInfo info = begun();
+  ASSERT_TRUE(info.words.contains("series"));
+  EXPECT_EQ(info.words.at("series"), "#" + std::to_string(row + 1));
+}
+
+}  // namespace
+}  // namespace burr::app
