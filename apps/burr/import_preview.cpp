@@ -8,7 +8,7 @@ namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
 
-constexpr Colour kOutline = {255, 214, 90}, kTint = {230, 159, 0};
+constexpr Colour kOutline = {226, 88, 16}, kTint = {230, 159, 0};
 
 // The place of one pixel along an axis: two voxels and how much of the second.
 struct Tap {

@@ -119,6 +119,19 @@ TEST_F(ImportWindow, OfADefaultScanChangesNothing) {
   EXPECT_EQ(info.content_hash, hash_of(typed));
 }
 
+TEST_F(ImportWindow, DoesNotReadTheScanTwice) {
+  const fs::path file = scan();
+  pages_by({{"the start page", on(Page::start), [&] { drop(file); }},
+            {"the import page", on(Page::import),
+             [&] {
+               fs::remove(file);  // a stick that was pulled out
+               press(SDLK_RETURN);
+             }},
+            {"milling", on(Page::milling), [] { press(SDLK_q); }},
+            {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  EXPECT_EQ(desk_->told, "");
+}
+
 TEST_F(ImportWindow, GoesBackWithoutComplaint) {
   pages_by({{"the start page", on(Page::start), [&] { drop(scan()); }},
             {"the import page", on(Page::import), [] { press(SDLK_ESCAPE); }},

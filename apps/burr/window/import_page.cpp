@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "burr/base/shown.h"
 #include "command.h"
 #include "window/words.h"
 
@@ -598,6 +599,7 @@ void ImportPage::labels(const ImportLayout& at) {
   for (std::size_t n = 0; n < kinds_.size(); ++n) {
     const volume::Tissue& tissue = opened_.labels[n].tissue;
     const float y = from.y + high * static_cast<float>(n);
+    const std::string name = base::shown(tissue.name, 60);
     const auto part = [](float c) {
       return static_cast<unsigned>(255 * std::clamp(c, 0.0F, 1.0F));
     };
@@ -607,8 +609,12 @@ void ImportPage::labels(const ImportLayout& at) {
     const float choices = from.x + wide - 196 * u;
     draw.PushClipRect({from.x, y}, {choices - 6 * u, y + high}, true);
     ui.write(from.x + 26 * u, y + 6 * u, Letter::body, ink::kText,
-             fmt::format("{}  {}", tissue.label, tissue.name));
+             fmt::format("{}  {}", tissue.label, name));
     draw.PopClipRect();
+    const float room = choices - 6 * u - from.x;
+    if (ui.width_of(Letter::body, name) > room - 50 * u && ImGui::IsWindowHovered() &&
+        inside({from.x, y, room, high}, ImGui::GetIO().MousePos))
+      ImGui::SetTooltip("%s", name.c_str());
     float x = choices;
     for (const auto& [kind, says] : {std::pair{TissueKind::solid, Word::kind_solid},
                                      {TissueKind::soft, Word::kind_soft},
