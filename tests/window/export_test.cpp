@@ -56,11 +56,10 @@ class Export : public Window {
                move_to(640, 340);
                button(SDL_BUTTON_LEFT, true);
              }},
-            {"bone to be cut",
-             [&changed, bricks = 0]() mutable {
+            {"bone to be cut", pressing_until([&changed, bricks = 0]() mutable {
                changed.take_all([&bricks](std::size_t) { ++bricks; });
                return bricks > 60;
-             },
+             }),
              [] {
                button(SDL_BUTTON_LEFT, false);
                press(SDLK_e);

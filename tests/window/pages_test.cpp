@@ -47,7 +47,7 @@ TEST_F(Window, UndoByKeyBringsTheBoneBackToTheBit) {
     changed.take_all([&bricks](std::size_t) { ++bricks; });
     return bricks;
   };
-  Clock::time_point pressed, lifted;
+  Clock::time_point lifted;
   int cut = 0;
   mill_by(
       *ready,
@@ -55,21 +55,8 @@ TEST_F(Window, UndoByKeyBringsTheBoneBackToTheBit) {
         [&] {
           move_to(640, 340);
           button(SDL_BUTTON_LEFT, true);
-          pressed = Clock::now();
         }},
-       {"bone to be cut",
-        [&] {
-          if (count() > 30) return true;
-          // a busy machine may have let the force go; a hand lifts then and presses again
-          const auto since = Clock::now() - pressed;
-          if (since > std::chrono::seconds(3)) {
-            button(SDL_BUTTON_LEFT, true);
-            pressed = Clock::now();
-          } else if (since > std::chrono::seconds(2)) {
-            button(SDL_BUTTON_LEFT, false);
-          }
-          return false;
-        },
+       {"bone to be cut", pressing_until([&] { return count() > 30; }),
         [&] {
           button(SDL_BUTTON_LEFT, false);
           lifted = Clock::now();

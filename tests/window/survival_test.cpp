@@ -76,11 +76,10 @@ TEST_F(Survival, ResizedWhileMillingItDrawsTheNewSizeAndTheHandGoesOn) {
               move_to(640, 340);
               resize(1280, 720);
             }},
-           {"as before, and bone to be cut",
-            [&] {
+           {"as before, and bone to be cut", pressing_until([&] {
               return desk_->renderer().width() == 1280 && tick(session) > then &&
                      row_.ledger.removed > 0;
-            },
+            }),
             [] { press(SDLK_q); }}});
   EXPECT_EQ(small.width, 900);
   EXPECT_EQ(small.height, 600);
@@ -153,28 +152,28 @@ TEST_F(Survival, AfterTheGraphicsCardIsLostTheSamePictureIsThereAgainAndBoneIsCu
     return [this, n = 0]() mutable { return ++n > 60 && desk_->renderer().refined(); };
   };
   // Tab: without what counts on by itself; far from the bone the tool stands still
-  mill_by(*ready,
-          {{"the first picture", looks(3),
-            [] {
-              press(SDLK_TAB);
-              move_to(1200, 60);
-            }},
-           {"a picture at rest", at_rest(),
-            [&] {
-              before = desk_->renderer().shown();
-              then = tick(session);
-              const Status renewed = desk_->renew();
-              EXPECT_TRUE(renewed) << renewed.error().text;
-            }},
-           {"a picture at rest", at_rest(),
-            [&] {
-              after = desk_->renderer().shown();
-              press(SDLK_TAB);
-              move_to(640, 340);
-              button(SDL_BUTTON_LEFT, true);
-            }},
-           {"bone to be cut", [&] { return tick(session) > then && row_.ledger.removed > 0; },
-            [] { press(SDLK_q); }}});
+  mill_by(*ready, {{"the first picture", looks(3),
+                    [] {
+                      press(SDLK_TAB);
+                      move_to(1200, 60);
+                    }},
+                   {"a picture at rest", at_rest(),
+                    [&] {
+                      before = desk_->renderer().shown();
+                      then = tick(session);
+                      const Status renewed = desk_->renew();
+                      EXPECT_TRUE(renewed) << renewed.error().text;
+                    }},
+                   {"a picture at rest", at_rest(),
+                    [&] {
+                      after = desk_->renderer().shown();
+                      press(SDLK_TAB);
+                      move_to(640, 340);
+                      button(SDL_BUTTON_LEFT, true);
+                    }},
+                   {"bone to be cut",
+                    pressing_until([&] { return tick(session) > then && row_.ledger.removed > 0; }),
+                    [] { press(SDLK_q); }}});
   EXPECT_EQ(desk_->renewed(), 1);
   ASSERT_EQ(after.width, before.width);
   EXPECT_TRUE(something_in(before, 300, 100, 1000, 600)) << "no bone: the test shows nothing";

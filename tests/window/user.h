@@ -120,6 +120,23 @@ inline std::function<bool()> looks(int n) {
   return [n]() mutable { return --n <= 0; };
 }
 
+// True once it is `done`, while the left button is held. A busy machine may let the force go; a
+// hand lifts then, and presses again.
+inline std::function<bool()> pressing_until(std::function<bool()> done) {
+  return [done = std::move(done), since = Clock::time_point()]() mutable {
+    if (done()) return true;
+    const auto now = Clock::now();
+    if (since == Clock::time_point()) since = now;
+    if (now - since > std::chrono::seconds(4)) {
+      button(SDL_BUTTON_LEFT, true);
+      since = now;
+    } else if (now - since > std::chrono::seconds(3)) {
+      button(SDL_BUTTON_LEFT, false);
+    }
+    return false;
+  };
+}
+
 class Window : public testing::Test {
  protected:
   void SetUp() override {
