@@ -190,6 +190,8 @@ TEST_F(Survival, AFullDiskIsSaidInTheWindowAndTheSessionGoesOn) {
   std::string said;
   Clock::time_point full;
   pages_by({{"the start page", on(Page::start), [&] { drop(scan()); }},
+            {"the import page", on(Page::import), nullptr},
+            {"a picture of it", looks(3), [] { press(SDLK_RETURN); }},
             {"milling", on(Page::milling),
              [] {
                move_to(640, 360);
