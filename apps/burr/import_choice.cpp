@@ -186,6 +186,8 @@ std::array<Direction, 3> directions(const math::Mat3& axes) {
   return out;
 }
 
+std::string number_text(double value) { return fmt::format("{}", value); }
+
 Box whole(const io::Scan& scan) { return {Ijk::Zero(), scan.size - Ijk::Ones()}; }
 
 std::string roi_words(const io::Scan& scan, const Box& box) {

@@ -39,6 +39,9 @@ struct Direction {
 };
 [[nodiscard]] std::array<Direction, 3> directions(const math::Mat3& axes);
 
+// The shortest text that is this number, as options take it.
+[[nodiscard]] std::string number_text(double value);
+
 // Voxels of a Scan, first and last, both inside.
 struct Box {
   math::Ijk from = {0, 0, 0}, to = {0, 0, 0};

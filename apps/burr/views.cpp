@@ -63,9 +63,7 @@ namespace {
 
 void look(render::Scene& scene, const Vec3& at, const Vec3& ahead, const ViewOptions& options,
           double aspect) {
-  if (!options.labels)
-    for (std::size_t t = 1; t < scene.tissue_colours.size(); ++t)
-      scene.tissue_colours[t] = volume::Tissue{}.colour;
+  if (!options.labels) scene.tissue_colours = render::as_bone(scene.tissue_colours);
   if (const auto plane = named(kPlanes, options.clip))
     scene.clip = render::ClipPlane{at, towards_eye(*plane)};
 

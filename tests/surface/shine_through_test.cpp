@@ -66,8 +66,8 @@ TEST(ShineThrough, IsSeenTheMoreTheThinnerTheBone) {
     int hidden = 0;
     each_on_top(*bone, [&](const math::Vec3& p, const Vertex& v) {
       const double thick = (kTop - floor(p.x())) * voxel;
-      const double least = 191 * (1 - (thick + 1.01 * voxel) / kShineThrough) - 1;
-      const double most = 191 * (1 - (thick - 0.51 * voxel) / kShineThrough) + 1;
+      const double least = 191 * (1 - (thick + 1.01 * voxel) / shine_through(voxel)) - 1;
+      const double most = 191 * (1 - (thick - 0.51 * voxel) / shine_through(voxel)) + 1;
       EXPECT_GE(v.through, least) << "under " << 1e3 * thick << " mm";
       EXPECT_LE(v.through, std::max(most, 0.0)) << "under " << 1e3 * thick << " mm";
       EXPECT_EQ(v.beneath, v.through > 0 ? kNerve : 0);
@@ -96,7 +96,7 @@ TEST(ShineThrough, IsFoundWhereverItLies) {
           continue;
         if (p.x() > 29.5 && p.x() < 33.5) {
           EXPECT_EQ(v.beneath, kNerve);
-          EXPECT_NEAR(v.through, 191 * (1 - thick * 0.1e-3 / kShineThrough), 191 * 0.15);
+          EXPECT_NEAR(v.through, 191 * (1 - thick * 0.1e-3 / shine_through(0.1e-3)), 191 * 0.15);
           ++over;
         } else if (p.x() < 26 || p.x() > 37) {
           EXPECT_EQ(v.through, 0);

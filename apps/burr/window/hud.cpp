@@ -169,8 +169,16 @@ void scale_bar(const Ui& ui, const HudState& s) {
   }
 }
 
-// a line of words, in the middle above the strip
-void line(const Ui& ui, float& y, const std::string& text, bool warns) {
+// "40 000"
+std::string thousands(double value) {
+  const auto whole = static_cast<long>(std::round(value));
+  return whole < 1000 ? fmt::format("{}", whole)
+                      : fmt::format("{} {:03}", whole / 1000, whole % 1000);
+}
+
+}  // namespace
+
+void line_above(const Ui& ui, float& y, const std::string& text, bool warns) {
   if (text.empty()) return;
   const float u = ui.unit(), h = 32 * u;
   const float mark = warns ? 26 * u : 0;
@@ -195,20 +203,11 @@ void line(const Ui& ui, float& y, const std::string& text, bool warns) {
   draw.PopClipRect();
 }
 
-// "40 000"
-std::string thousands(double value) {
-  const auto whole = static_cast<long>(std::round(value));
-  return whole < 1000 ? fmt::format("{}", whole)
-                      : fmt::format("{} {:03}", whole / 1000, whole % 1000);
-}
-
 Word name_of(sim::ToolMode mode) {
   return mode == sim::ToolMode::add     ? Word::add
          : mode == sim::ToolMode::touch ? Word::touch
                                         : Word::cut;
 }
-
-}  // namespace
 
 float hud_height(const Ui& ui) { return (kStrip + kMargin) * ui.unit(); }
 
@@ -254,8 +253,8 @@ void draw_hud(Ui& ui, const HudState& s) {
 
   scale_bar(ui, s);
   float above = y;
-  line(ui, above, s.note, false);
-  line(ui, above, s.warning, true);
+  line_above(ui, above, s.note, false);
+  line_above(ui, above, s.warning, true);
 }
 
 }  // namespace burr::app

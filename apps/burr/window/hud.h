@@ -11,6 +11,7 @@
 
 #include "burr/sim/servo.h"
 #include "window/ui.h"
+#include "window/words.h"
 
 namespace burr::app {
 
@@ -53,6 +54,11 @@ struct HudState {
 void draw_hud(Ui& ui, const HudState& state);
 // The strip's and the line's own places are kept free by others: height from the bottom [pixel].
 [[nodiscard]] float hud_height(const Ui& ui);
+
+// Words in the middle above the strip, upwards from y; a sign before them where they warn.
+void line_above(const Ui& ui, float& y, const std::string& text, bool warns);
+
+[[nodiscard]] Word name_of(sim::ToolMode mode);
 
 // "4:07"
 [[nodiscard]] std::string minutes(double seconds);

@@ -17,6 +17,7 @@
 #include "import_preview.h"
 #include "window/desk.h"
 #include "window/loading.h"
+#include "window/texture.h"
 #include "work.h"
 
 namespace burr::app {
@@ -51,18 +52,6 @@ class ImportPage {
   [[nodiscard]] const std::shared_ptr<const io::Scan>& scan() const { return opened_.scan; }
 
  private:
-  class Texture {
-   public:
-    Texture() = default;
-    ~Texture();
-    Texture(const Texture&) = delete;
-    Texture& operator=(const Texture&) = delete;
-    void put(int width, int height, const std::vector<std::uint8_t>& rgba);
-    [[nodiscard]] unsigned name() const { return name_; }
-
-   private:
-    unsigned name_ = 0;
-  };
   struct View {
     PlaneView plane;
     PlaneValues values;
@@ -112,6 +101,7 @@ class ImportPage {
   std::unique_ptr<Loading<Planned>> planning_;
   bool stale_ = false, starting_ = false;
   std::array<View, 3> views_;
+  int renewed_ = 0;  // as often as the desk had made its window anew when they were drawn
   std::vector<std::uint8_t> pixels_;
   std::optional<Answer> answer_;
 };

@@ -285,10 +285,7 @@ void Watch::move(const SDL_MouseMotionEvent& motion) {
 
 void Watch::show_labels(bool shown) {
   labels_ = shown;
-  scene_.tissue_colours = colours_;
-  if (!shown)
-    for (std::size_t t = 1; t < colours_.size(); ++t)
-      scene_.tissue_colours[t] = volume::Tissue{}.colour;
+  scene_.tissue_colours = shown ? colours_ : render::as_bone(colours_);
 }
 
 // ---- what is drawn

@@ -1,6 +1,5 @@
 #include "window/thumbnails.h"
 
-#include <epoxy/gl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,14 +64,10 @@ void keep_picture(const fs::path& path, const render::Image& image) {
 }  // namespace
 
 Thumbnails::Thumbnails(fs::path cache, std::vector<std::string> cases)
-    : cache_(std::move(cache)), cases_(std::move(cases)), textures_(cases_.size(), 0) {}
-
-Thumbnails::~Thumbnails() {
-  glDeleteTextures(static_cast<GLsizei>(textures_.size()), textures_.data());
-}
+    : cache_(std::move(cache)), cases_(std::move(cases)), textures_(cases_.size()) {}
 
 void Thumbnails::forget() {
-  std::fill(textures_.begin(), textures_.end(), 0U);
+  for (Texture& texture : textures_) texture.forget();
   next_ = 0;
   loading_.reset();
 }
@@ -103,15 +98,7 @@ void Thumbnails::step(render::Renderer& renderer) {
 }
 
 void Thumbnails::put(std::size_t which, const render::Image& image) {
-  glGenTextures(1, &textures_[which]);
-  glBindTexture(GL_TEXTURE_2D, textures_[which]);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, image.width, image.height, 0, GL_RGB, GL_UNSIGNED_BYTE,
-               image.rgb.data());
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  textures_[which].put(image.width, image.height, 3, image.rgb);
 }
 
 }  // namespace burr::app

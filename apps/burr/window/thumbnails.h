@@ -13,6 +13,7 @@
 
 #include "burr/render/renderer.h"
 #include "window/loading.h"
+#include "window/texture.h"
 
 namespace burr::app {
 
@@ -22,16 +23,13 @@ class Thumbnails {
 
   // cache: empty, nothing is kept
   Thumbnails(std::filesystem::path cache, std::vector<std::string> cases);
-  ~Thumbnails();
-  Thumbnails(const Thumbnails&) = delete;
-  Thumbnails& operator=(const Thumbnails&) = delete;
 
   // Goes on a little with what is missing; each frame.
   void step(render::Renderer& renderer);
   // What was on the GPU is gone: everything from the start.
   void forget();
   // OpenGL's name of the texture; 0: not there yet.
-  [[nodiscard]] unsigned texture(std::size_t which) const { return textures_[which]; }
+  [[nodiscard]] unsigned texture(std::size_t which) const { return textures_[which].name(); }
   [[nodiscard]] bool finished() const { return next_ >= cases_.size(); }
 
  private:
@@ -40,7 +38,7 @@ class Thumbnails {
 
   std::filesystem::path cache_;
   std::vector<std::string> cases_;
-  std::vector<unsigned> textures_;
+  std::vector<Texture> textures_;
   std::size_t next_ = 0;
   std::unique_ptr<Loading<render::Scene>> loading_;
 };

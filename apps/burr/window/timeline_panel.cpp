@@ -182,34 +182,6 @@ class Line {
   float u_, x_, y_, w_;
 };
 
-// a line of words in the middle above the strip
-void line_above(const Ui& ui, float& y, const std::string& text, bool warns) {
-  if (text.empty()) return;
-  const float u = ui.unit(), h = 32 * u, mark = warns ? 26 * u : 0;
-  const float w = std::min(ui.width_of(Letter::body, text) + mark + 28 * u, ui.width() - 20 * u);
-  const float x = (ui.width() - w) / 2;
-  y -= h + 6 * u;
-  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  draw.AddRectFilled({x, y}, {x + w, y + h}, ink::kPanel, 8 * u);
-  if (warns) {
-    const float cx = x + 22 * u, cy = y + h / 2, r = 8 * u;
-    draw.AddTriangleFilled({cx - r, cy + 0.8F * r}, {cx + r, cy + 0.8F * r}, {cx, cy - 0.9F * r},
-                           ink::kWarn);
-  }
-  const ImFont* font = ui.font(Letter::body);
-  draw.PushClipRect({x, y}, {x + w, y + h});
-  draw.AddText(font, font->FontSize,
-               {std::round(x + 14 * u + mark), std::round(y + (h - font->FontSize) / 2)},
-               ink::kText, text.data(), text.data() + text.size());
-  draw.PopClipRect();
-}
-
-Word name_of(sim::ToolMode mode) {
-  return mode == sim::ToolMode::add     ? Word::add
-         : mode == sim::ToolMode::touch ? Word::touch
-                                        : Word::cut;
-}
-
 }  // namespace
 
 std::string told_wish(const record::Wish& wish) {

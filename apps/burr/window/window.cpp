@@ -558,10 +558,7 @@ bool Mill::over_slices() const {
 // Tissues in colours of their own, or all as bone.
 void Mill::show_labels(bool shown) {
   labels_ = shown;
-  scene_.tissue_colours = colours_;
-  if (!shown)
-    for (std::size_t t = 1; t < colours_.size(); ++t)
-      scene_.tissue_colours[t] = volume::Tissue{}.colour;
+  scene_.tissue_colours = shown ? colours_ : render::as_bone(colours_);
 }
 
 void Mill::toggle_sound() {

@@ -16,6 +16,11 @@ std::vector<Colour> colours_of(const volume::TissueTable& tissues) {
   return colours;
 }
 
+std::vector<Colour> as_bone(std::vector<Colour> colours) {
+  for (std::size_t t = 1; t < colours.size(); ++t) colours[t] = volume::Tissue{}.colour;
+  return colours;
+}
+
 ScenePatch packed(const surface::Patch& patch) {
   ScenePatch made;
   if (patch.triangles.empty()) return made;

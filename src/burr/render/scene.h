@@ -102,6 +102,9 @@ struct Scene {
 // tissues' own colours, one per id
 [[nodiscard]] std::vector<Colour> colours_of(const volume::TissueTable& tissues);
 
+// The same without labels: whatever it is, in the colour of bone.
+[[nodiscard]] std::vector<Colour> as_bone(std::vector<Colour> colours);
+
 // Puts a patch at its place (grows the list if needed) and raises its version.
 void set_patch(Scene& scene, int index, const surface::Patch& patch);
 // The same in two steps, the first of them on any thread.

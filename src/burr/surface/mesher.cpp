@@ -27,7 +27,6 @@ constexpr int kSamples = kCells + 1;   // voxels its cells stand on
 constexpr int kApron = kSamples + 2;   // and one more on each side, for gradients
 constexpr int kRow = 20;               // room for a row of kApron, a multiple of 4
 constexpr int kBricks = 4;             // along each axis, that hold these
-constexpr int kMostSteps = 12;         // of a look under the surface  [voxel]
 constexpr int kTries = 32;             // copies of one brick before the servo is left alone
 constexpr float kCorner = 1.0F / 256;  // vertices stay this far from voxel centres  [voxel]
 
@@ -229,9 +228,9 @@ void Mesher::Work::find_soft() {
 // Whether a look from this patch's vertices can meet soft tissue at all.
 bool Mesher::Work::any_soft_near(const math::Ijk& first) const {
   if (soft_bricks.empty()) return false;
-  const math::Ijk low = ((first.array() - kMostSteps - 1) / kBrickEdge).max(0);
+  const math::Ijk low = ((first.array() - kShineSteps - 1) / kBrickEdge).max(0);
   const math::Ijk high =
-      ((first.array() + kSamples + kMostSteps + 1) / kBrickEdge).min(bone.bricks().array() - 1);
+      ((first.array() + kSamples + kShineSteps + 1) / kBrickEdge).min(bone.bricks().array() - 1);
   for (int k = low.z(); k <= high.z(); ++k)
     for (int j = low.y(); j <= high.y(); ++j)
       for (int i = low.x(); i <= high.x(); ++i)
@@ -280,12 +279,13 @@ void Mesher::Work::look_beneath(const math::Vec3& p_grid, const math::Vec3& n_gr
     v.through = static_cast<std::uint8_t>(std::lround(217 * filled));  // its wall is still bone
     return;
   }
-  const int steps = std::min(static_cast<int>(kShineThrough / voxel), kMostSteps);
+  const double reach = shine_through(voxel);
+  const int steps = static_cast<int>(std::lround(reach / voxel));
   bool in_bone = false;
   for (int s = 1; s <= steps; ++s) {
     const TissueId tissue = tissue_at(-s);
     if (soft[tissue]) {
-      const double left = std::max(0.0, 1 - s * voxel / kShineThrough);
+      const double left = std::max(0.0, 1 - (s - 0.5) * voxel / reach);
       v.through = static_cast<std::uint8_t>(std::lround(191 * left));
       v.beneath = v.through > 0 ? tissue : TissueId{0};
       return;

@@ -9,7 +9,7 @@
 //
 //     patch (p,q,r): the cells between voxels 16p-1 .. 16p+15 along i, and so on
 //
-// A vertex also knows what soft tissue is near behind it (kShineThrough): thin bone lets it through
+// A vertex also knows what soft tissue is near behind it (shine_through): thin bone lets it through
 // before it opens, and a hollow that soft tissue fills shows that tissue as its wall.
 //
 // Vertices stay 1/256 voxel away from the voxel centres, so that no triangle folds into a line.
@@ -19,6 +19,7 @@
 // Memory: 0.9 MiB per Mesher. Cost: `burr bench surface`, `burr bench carve`.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -29,8 +30,9 @@
 
 namespace burr::surface {
 
-inline constexpr double kShineThrough =
-    1.5e-3;  // bone as thick as this hides what lies under it [m]
+inline constexpr int kShineSteps = 12;  // of a look under the surface  [voxel]
+// Bone as thick as this hides what lies under it [m], where voxels are `voxel` wide [m].
+inline double shine_through(double voxel) { return std::min(1.5e-3, kShineSteps * voxel); }
 
 class Mesher {
  public:
