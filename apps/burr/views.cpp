@@ -64,10 +64,16 @@ namespace {
 void look(render::Scene& scene, const Vec3& at, const Vec3& ahead, const ViewOptions& options,
           double aspect) {
   if (!options.labels) scene.tissue_colours = render::as_bone(scene.tissue_colours);
-  if (const auto plane = named(kPlanes, options.clip))
-    scene.clip = render::ClipPlane{at, towards_eye(*plane)};
-
   render::Camera& camera = scene.camera;
+  if (const auto plane = named(kPlanes, options.clip)) {
+    const Vec3 n = towards_eye(*plane);
+    scene.clip = render::ClipPlane{at, n};
+    // a section that is seen from the edge or from behind is none
+    constexpr double kFlattest = 0.5;
+    if (camera.backward().dot(n) < kFlattest)
+      camera = render::view_of_work(camera.target, n, camera.view_height());
+  }
+
   if (options.view == "whole")
     camera = render::whole_view(scene, camera.azimuth, camera.elevation, aspect);
   if (options.view == "microscope") {

@@ -1,14 +1,20 @@
 // What is left out because other bone hides it: never anything that could be seen.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <random>
+#include <string>
+#include <thread>
 
 #include "burr/render/bone_scene.h"
+#include "burr/render/coarsening.h"
 #include "burr/render/depth_tiles.h"
+#include "burr/surface/mesher.h"
 #include "render/gpu.h"
 #include "scenes/build.h"
+#include "scenes/phantoms.h"
 #include "scenes/shapes.h"
 
 namespace burr::render {
@@ -158,6 +164,64 @@ TEST(Visibility, HoldsWhileTheEyeMovesAndBoneIsTakenAway) {
     ASSERT_EQ(seen.rgb, (*whole_gpu)->shown().rgb) << "picture " << n;
   }
 }
+
+// Every bone there is, whole and as a window draws it on a slow machine: in coarse blocks.
+class VisibilityOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(VisibilityOf, NoViewLacksWhatCouldBeSeen) {
+  BURR_NEEDS_GPU(gpu);
+  BURR_NEEDS_GPU(whole_gpu);
+  NoProgress quiet;
+  const double coarser = GetParam() == "skull" ? 3 : 2;  // the largest
+  const auto bone =
+      scenes::phantom(GetParam(), coarser * scenes::default_voxel_mm(GetParam()), quiet);
+  ASSERT_TRUE(bone.ok()) << bone.error().text;
+  Scene scene;
+  ASSERT_TRUE(skin_bone(scene, **bone, 2, quiet).ok());
+  scene.look.plain = true;
+  scene.look.supersample = 1;
+  scene.quality.refine = false;
+  Coarsening coarse(surface::Mesher(**bone).patches(), (*bone)->grid().voxel);
+  for (int n = 0; n < 60'000 && (n < 2 || coarse.waiting() > 0); ++n) {
+    coarse.update(scene, n);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  coarse.update(scene, 1e6);
+
+  constexpr int kWide = 260, kHigh = 200;
+  for (Renderer* one : {&gpu, &whole_gpu}) one->resize_offscreen(kWide, kHigh);
+  whole_gpu.skip_hidden(false);
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(0, 1);
+  long all = 0, some = 0;
+  for (int view = 0; view < 200; ++view) {
+    scene.camera = whole_view(scene, 2 * M_PI * any(random), M_PI * (any(random) - 0.5), 1.3);
+    scene.camera.distance *= 0.05 + 1.1 * any(random);
+    scene.quality.coarse_px = view % 2 == 0 ? 0 : 3;
+    ASSERT_TRUE(gpu.show(scene).ok() && whole_gpu.show(scene).ok());
+    ASSERT_EQ(gpu.shown().rgb, whole_gpu.shown().rgb) << "view " << view;
+    all += whole_gpu.figures().triangles_drawn;
+    some += gpu.figures().triangles_drawn;
+  }
+  std::printf("drawn in 200 views: %ld triangles of %ld\n", some, all);
+  if (gpu.gpu().find("llvmpipe") != std::string::npos) {
+    EXPECT_LT(some, all);
+  }
+}
+
+std::vector<std::string> all_phantoms() {
+  std::vector<std::string> names;
+  for (const std::string_view name : scenes::phantom_names()) names.emplace_back(name);
+  return names;
+}
+INSTANTIATE_TEST_SUITE_P(Bones, VisibilityOf, testing::ValuesIn(all_phantoms()),
+                         [](const auto& bone) {
+                           std::string name = bone.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace burr::render

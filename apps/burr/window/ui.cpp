@@ -181,7 +181,8 @@ void Ui::draw() {
 
 float Ui::width() const { return ImGui::GetIO().DisplaySize.x; }
 float Ui::height() const { return ImGui::GetIO().DisplaySize.y; }
-bool Ui::typing() const { return ImGui::GetIO().WantTextInput; }
+// WantTextInput speaks of the picture before: a field that was left in this one is no longer active
+bool Ui::typing() const { return ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive(); }
 bool Ui::over_panel() const {
   const float x = mouse_x_ * from_window_, y = mouse_y_ * from_window_;
   return std::any_of(boxes_.begin(), boxes_.end(), [&](const Box& box) {
