@@ -311,5 +311,63 @@ TEST_F(ImportWindow, ReadsAnotherSeriesThatIsChosen) {
   EXPECT_EQ(info.words.at("series"), "#" + std::to_string(row + 1));
 }
 
+TEST_F(ImportWindow, CanBeStoppedWhileItReadsAndWhileBoneIsMade) {
+  BURR_NEEDS_DATA("skull_phantom");
+  const fs::path folder = test::data_dir() / "skull_phantom";
+  const Part plot = layout().plot;
+  const auto at = [&](float part) {
+    click(static_cast<int>(plot.x + part * plot.w), static_cast<int>(plot.y + plot.h / 2));
+  };
+  render::Image chosen, again;
+  pages_by({{"the start page", on(Page::start), [&] { drop(folder); }},
+            {"reading", on(Page::loading), [] { press(SDLK_ESCAPE); }},
+            {"the start page again", on(Page::start), [&] { drop(folder); }},
+            {"the import page", on(Page::import), nullptr},
+            {"a picture", looks(3), [&] { at(0.6F); }},
+            {"the level", looks(5), [] { move_to(5, 715); }},
+            {"a picture at rest", looks(60),
+             [&] {
+               chosen = desk_->renderer().shown();
+               press(SDLK_RETURN);
+             }},
+            {"bone being made", on(Page::loading), [] { press(SDLK_ESCAPE); }},
+            {"the import page again", on(Page::import), nullptr},
+            {"a picture of it", looks(60),
+             [&] {
+               again = desk_->renderer().shown();
+               press(SDLK_ESCAPE);
+             }},
+            {"the start page once more", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  EXPECT_EQ(desk_->told, "");
+  ASSERT_EQ(chosen.width, again.width);
+  EXPECT_LT(differ(chosen, again, 0, 60, 1280, 640), 20) << "what was chosen is kept";
+}
+
+TEST_F(ImportWindow, KeepsItsPicturesWhenTheGraphicsContextIsRenewed) {
+  const Part view = layout().views[0];
+  const int x0 = static_cast<int>(view.x), y0 = static_cast<int>(view.y),
+            x1 = static_cast<int>(view.x + view.w), y1 = static_cast<int>(view.y + view.h);
+  render::Image before, after;
+  pages_by({{"the start page", on(Page::start), [&] { drop(scan()); }},
+            {"the import page", on(Page::import), [] { move_to(5, 715); }},
+            {"a picture", looks(10),
+             [&] {
+               before = desk_->renderer().shown();
+               const Status renewed = desk_->renew();
+               EXPECT_TRUE(renewed) << renewed.error().text;
+             }},
+            {"a picture of the new context", looks(10),
+             [&] {
+               after = desk_->renderer().shown();
+               press(SDLK_ESCAPE);
+             }},
+            {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  EXPECT_EQ(desk_->renewed(), 1);
+  render::Image nothing = before;
+  std::fill(nothing.rgb.begin(), nothing.rgb.end(), std::uint8_t{0});
+  EXPECT_GT(differ(before, nothing, x0, y0, x1, y1), 1000) << "no preview: the test shows nothing";
+  EXPECT_LT(differ(before, after, x0, y0, x1, y1), 20);
+}
+
 }  // namespace
 }  // namespace burr::app
