@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "burr/base/new_file.h"
+#include "burr/io/keep_greys.h"
 
 namespace burr::app {
 namespace {
@@ -275,7 +276,10 @@ SessionMemory session_memory(const io::Scan& scan, const io::ImportSummary& plan
   const bool spared = std::any_of(plan.tissues.begin(), plan.tissues.end(),
                                   [](const io::TissueFound& one) { return one.tissue.spare; });
   SessionMemory memory;
-  memory.working = bone + kSession + (spared ? kSpared : 0) + extent.faces * kFace / kMb;
+  double greys = plan.labels ? 0 : static_cast<double>(scan.values.size());  // io/keep_greys.h
+  while (greys > io::kMostGreys) greys /= 2;
+  memory.working =
+      bone + kSession + (spared ? kSpared : 0) + extent.faces * kFace / kMb + 2 * greys / kMb;
   memory.making = mb_of(scan) + std::max(work, memory.working);
   return memory;
 }

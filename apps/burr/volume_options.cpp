@@ -126,6 +126,7 @@ Result<io::ImportOptions> import_options(const VolumeOptions& options) {
   out.tissue_table = options.tissues;
   out.materials = options.materials;
   out.reserve_bricks = options.reserve_bricks;
+  out.keep_greys = options.keep_greys;
   if (options.memory_mb != 0) {
     if (!(options.memory_mb >= 16))
       return error(Trouble::usage, "--memory-mb: at least 16 MB are needed");

@@ -19,6 +19,7 @@ struct VolumeOptions {
   double voxel_mm = 0, smooth = -1, memory_mb = 0;
   double read_seconds = 0, read_memory_mb = 0;  // limits of the fence
   std::size_t reserve_bricks = io::ImportOptions{}.reserve_bricks;
+  bool keep_greys = false;  // for slices with the scan's own values; not typed
 };
 
 // Adds --series --voxel-mm --spacing-mm --iso --roi --tissues --materials --smooth --memory-mb

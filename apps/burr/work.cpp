@@ -105,6 +105,7 @@ Result<Ready> make_ready(const WorkOptions& options, Work work, Progress& progre
   ready.what = work.what;
   ready.volume = work.volume;
   ready.import = work.made.summary;
+  ready.greys = std::move(work.made.greys);
   ready.hand = hand.get();
   auto started = sim::Session::make(std::move(work.made.bone), std::move(hand), settings, progress);
   if (!started) return started.error();

@@ -63,9 +63,10 @@ struct Ready {
   std::unique_ptr<sim::Session> session;
   MouseHand* hand = nullptr;  // the session's
   std::unique_ptr<surface::Worker> worker;
-  render::Scene scene;                   // with its surface and first view
-  Tissues spared;                        // that must not be cut
-  std::unique_ptr<const Nearby> nearby;  // how far they are
+  render::Scene scene;                         // with its surface and first view
+  std::shared_ptr<const volume::Greys> greys;  // of a scan
+  Tissues spared;                              // that must not be cut
+  std::unique_ptr<const Nearby> nearby;        // how far they are
 };
 // After open_work(); its bone may be replaced before, by what an older session left.
 [[nodiscard]] Result<Ready> make_ready(const WorkOptions& options, Work work, Progress& progress);

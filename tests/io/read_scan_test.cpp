@@ -375,6 +375,15 @@ TEST_F(ReadScanAgainst, AnotherReaderOfDicomVoxelByVoxel) {
   }
 }
 
+TEST(ReadScan, AFolderOfOneFileIsThatFile) {
+  BURR_NEEDS_DATA("head_ct/ct_example.nii.gz");
+  const auto folder = read("head_ct"), file = read("head_ct/ct_example.nii.gz");
+  ASSERT_TRUE(folder) << folder.error().text;
+  ASSERT_TRUE(file);
+  EXPECT_EQ(folder->format, "NIfTI");
+  EXPECT_TRUE(folder->values == file->values);
+}
+
 TEST(ReadScan, AHeaderNamesNoFileOutsideItsFolder) {
   BURR_NEEDS_DATA("corpus/derived/nrrd/detached_traversal.nhdr");
   for (const char* bad :

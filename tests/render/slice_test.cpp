@@ -118,6 +118,65 @@ TEST(Slice, ColoursTissuesAndCanLeaveThatOut) {
 }
 
 // While another thread writes, no brick is ever half old and half new.
+// Over the bone a scan of 1000 HU within 6 mm, 40 around it: what was measured is seen as it was,
+// but where bone is gone, and where some was added.
+TEST(Slice, ShowsWhatTheScanMeasuredAndWhatHasBecomeOfIt) {
+  auto ball = bone();
+  volume::Greys greys;
+  greys.size = {60, 60, 60};
+  greys.spacing = Vec3::Constant(0.5 * kMm);
+  greys.origin = kCentre - Vec3::Constant(29.5 * 0.5 * kMm);
+  greys.least = -1000;
+  greys.top = 1000;
+  greys.iso = 300;
+  for (int k = 0; k < 60; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 60; ++i) {
+        const Vec3 p = greys.origin + 0.5 * kMm * Vec3(i, j, k);
+        greys.stored.push_back((p - kCentre).norm() < 6 * kMm ? 2000 : 1040);
+      }
+  Slicer slicer(*ball);
+  Slice slice;
+  slice.through = kCentre;
+  slice.height = 20 * kMm;
+  slice.labels = false;
+  slice.greys = &greys;
+  slice.window = 2000;
+  slice.level = 500;
+  Image image{200, 200, {}};
+  const auto grey_at = [&](const Vec3& p) {
+    EXPECT_TRUE(slicer.draw(slice, image));
+    const Eigen::Vector2d at = pixel_of(slice, p, 200, 200);
+    return image.rgb[3 * static_cast<std::size_t>(static_cast<int>(at.y()) * 200 +
+                                                  static_cast<int>(at.x()))] /
+           255.0;
+  };
+  const Vec3 around = kCentre + Vec3(8 * kMm, 0, 0);
+  EXPECT_NEAR(grey_at(kCentre), (1000 - 500) / 2000.0 + 0.5, 0.01);
+  EXPECT_NEAR(grey_at(around), (40 - 500) / 2000.0 + 0.5, 0.01);
+  slice.window = 400;
+  slice.level = 40;
+  EXPECT_NEAR(grey_at(kCentre), 1, 0.01);
+  EXPECT_NEAR(grey_at(around), 0.5, 0.01);
+
+  const auto brick_of = [&](const Vec3& p) {
+    const Vec3 at = ball->grid().grid_from_world(p);
+    return ball->brick_at(static_cast<int>(at.x()) / 8, static_cast<int>(at.y()) / 8,
+                          static_cast<int>(at.z()) / 8);
+  };
+  const auto write = [&](volume::BrickIndex brick, volume::Field value) {
+    volume::BrickField field = {};
+    std::fill(std::begin(field.voxel), std::end(field.voxel), value);
+    ball->ensure_slot(brick);
+    ball->write_brick(brick, field);
+  };
+  write(brick_of(kCentre), 0);
+  write(brick_of(around), volume::kSolid);
+  EXPECT_LT(grey_at(kCentre), 0.1) << "what is gone is dark";
+  EXPECT_NEAR(grey_at(around), 0.86, 0.02) << "what was added is bone";
+  EXPECT_NEAR(grey_at(kCentre - Vec3(4 * kMm, 0, 0)), 1, 0.01) << "the rest is as it was";
+}
+
 TEST(Slice, BesideAWriterEachBrickIsOneOrTheOther) {
   auto ball = bone();
   Slicer slicer(*ball);

@@ -311,6 +311,49 @@ TEST_F(ImportWindow, ReadsAnotherSeriesThatIsChosen) {
   EXPECT_EQ(info.words.at("series"), "#" + std::to_string(row + 1));
 }
 
+// W: the scan's own values in the slices; the button that turns pulls their window.
+TEST_F(ImportWindow, ShowsWhatWasMeasuredInTheSlices) {
+  render::Image model, bone, soft, pulled, again;
+  const auto keep = [this](render::Image& image, std::function<void()> then) {
+    return [this, &image, then = std::move(then)] {
+      image = desk_->renderer().shown();
+      then();
+    };
+  };
+  const auto pull = [](int right) {
+    SDL_Event event = {};
+    event.type = SDL_MOUSEMOTION;
+    event.motion.x = 1150 + right;
+    event.motion.y = 100;
+    event.motion.xrel = right;
+    event.motion.state = SDL_BUTTON_RMASK;
+    SDL_PushEvent(&event);
+  };
+  pages_by(
+      {{"the start page", on(Page::start), [&] { drop(scan()); }},
+       {"the import page", on(Page::import), nullptr},
+       {"a picture of it", looks(3), [] { press(SDLK_RETURN); }},
+       {"milling", on(Page::milling), [] { move_to(640, 360); }},
+       {"the tip on the bone", looks(30), [] { move_to(1150, 100); }},
+       {"the slices", looks(60), keep(model, [] { press(SDLK_w); })},
+       {"the scan", looks(60), keep(bone, [] { press(SDLK_w); })},
+       {"the scan's soft tissue", looks(60), keep(soft, [] { button(SDL_BUTTON_RIGHT, true); })},
+       {"the hold", looks(3), [&] { pull(60); }},
+       {"the pull", looks(3), [] { button(SDL_BUTTON_RIGHT, false); }},
+       {"the wider window", looks(60), keep(pulled, [] { press(SDLK_w); })},
+       {"the model again", looks(60), keep(again, [] { press(SDLK_q); })},
+       {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  const auto changed = [](const render::Image& a, const render::Image& b) {
+    return differ(a, b, 1080, 20, 1270, 640);
+  };
+  EXPECT_GT(changed(model, bone), 2000);
+  EXPECT_GT(changed(bone, soft), 2000);
+  EXPECT_GT(changed(soft, pulled), 2000);
+  EXPECT_LT(changed(model, again), 400);
+  // the bone itself was not turned by the pull
+  EXPECT_LT(differ(soft, pulled, 200, 100, 1000, 560), 400);
+}
+
 TEST_F(ImportWindow, CanBeStoppedWhileItReadsAndWhileBoneIsMade) {
   BURR_NEEDS_DATA("skull_phantom");
   const fs::path folder = test::data_dir() / "skull_phantom";

@@ -49,6 +49,7 @@ bool draw_help(Ui& ui, bool left_handed) {
          {word(Word::key_wheel), Word::help_zoom},
          {"F", Word::help_first_view},
          {"V  B  N", Word::help_slices},
+         {"W", Word::help_window},
          {"L", Word::help_labels}});
   block(ui, x + 480 * u, right, Word::help_tools,
         {{"1  2  3", Word::help_modes},

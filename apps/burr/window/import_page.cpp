@@ -249,6 +249,7 @@ Result<OpenedScan> read_by_page(Desk& desk, const VolumeOptions& volume, const s
 
 Result<Ready> ready_from(WorkOptions options, const io::Scan& scan, Progress& progress) {
   if (const Status taken = take_case(options); !taken) return taken.error();
+  options.volume.keep_greys = true;
   auto work = open_work(options, progress, &scan);
   if (!work) return work.error();
   return make_ready(options, std::move(*work), progress);

@@ -36,6 +36,7 @@ Status leave_screenshot(Desk& desk, const std::string& file) {
 Result<Ready> open_ready(WorkOptions options, Progress& progress) {
   const Status taken = take_case(options);
   if (!taken) return taken.error();
+  options.volume.keep_greys = true;
   auto work = open_work(options, progress);
   if (!work) return work.error();
   return make_ready(options, std::move(*work), progress);
@@ -44,6 +45,7 @@ Result<Ready> open_ready(WorkOptions options, Progress& progress) {
 Result<Left> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& window) {
   WindowOptions with = window;
   with.nearby = ready.nearby.get();
+  with.greys = ready.greys;
   std::unique_ptr<Loudspeaker> loudspeaker;
   if (window.sound) {
     loudspeaker =

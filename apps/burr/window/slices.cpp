@@ -1,5 +1,7 @@
 #include "window/slices.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -43,12 +45,43 @@ void mark(Image& image, double radius_px) {
 
 }  // namespace
 
+Slices::Slices(volume::Bone& bone, std::shared_ptr<const volume::Greys> greys)
+    : slicer_(bone), greys_(std::move(greys)) {}
+
+std::string Slices::window_words() const {
+  return chosen_ == 0 ? std::string() : say(Word::slices_window, window_, level_);
+}
+
+std::string Slices::next_window() {
+  if (greys_ == nullptr) return word(Word::slices_no_scan);
+  chosen_ = (chosen_ + 1) % 3;
+  drawn_ = {};
+  if (chosen_ == 0) return word(Word::slices_model);
+  // as usual for HU; else all there is, and its darker half
+  const double all = greys_->top - greys_->least;
+  constexpr double kBoneWidth = 4000, kBoneLevel = 700, kSoftWidth = 400, kSoftLevel = 40;
+  const bool bone = chosen_ == 1;
+  window_ = greys_->hounsfield ? (bone ? kBoneWidth : kSoftWidth) : (bone ? all : 0.5 * all);
+  level_ = greys_->hounsfield ? (bone ? kBoneLevel : kSoftLevel)
+                              : greys_->least + (bone ? 0.5 : 0.25) * all;
+  return window_words();
+}
+
+void Slices::pull_window(double right, double up) {
+  if (greys_ == nullptr) return;
+  if (chosen_ == 0) next_window();
+  const double all = greys_->top - greys_->least;
+  window_ = std::clamp(window_ * std::exp(3 * right), 1e-3 * all, 4 * all);
+  level_ = std::clamp(level_ + up * window_, greys_->least - all, greys_->top + all);
+  drawn_ = {};
+}
+
 void Slices::zoom(int steps) {
   height_ = std::clamp(height_ * std::pow(1.25, -steps), 5e-3, 0.3);
   drawn_ = {};
 }
 
-void Slices::write_names(const render::Scene& scene, const Ui& ui) {
+void Slices::write_names(const render::Scene& scene, const Ui& ui) const {
   const float u = ui.unit();
   const ImFont* font = ui.font(Ui::Letter::strong);
   for (std::size_t n = 0; n < scene.insets.size(); ++n) {
@@ -56,7 +89,10 @@ void Slices::write_names(const render::Scene& scene, const Ui& ui) {
                 y = static_cast<float>(scene.insets[n].y) + 8 * u;
     for (const auto& [by, ink] : {std::pair{u, ink::rgb(0, 0, 0, 200)}, {0.0F, ink::kText}})
       ImGui::GetBackgroundDrawList()->AddText(
-          font, font->FontSize, {std::round(x + by), std::round(y + by)}, ink, word(kNames[n]));
+          font, font->FontSize, {std::round(x + by), std::round(y + by)}, ink,
+          (n == 0 && chosen_ != 0 ? fmt::format("{}  {}", word(kNames[n]), window_words())
+                                  : std::string(word(kNames[n])))
+              .c_str());
   }
 }
 
@@ -80,6 +116,11 @@ void Slices::update(render::Scene& scene, bool shown, bool labels, int width, in
     slice.through = scene.burr.world_from_tool.p;
     slice.height = height_;
     slice.labels = labels;
+    if (chosen_ != 0) {
+      slice.greys = greys_.get();
+      slice.window = window_;
+      slice.level = level_;
+    }
     slicer_.draw(slice, *image);
     mark(*image, scene.burr.radius * pixels / height_);
     images_[at] = std::move(image);

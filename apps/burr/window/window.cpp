@@ -104,6 +104,10 @@ class Mill {
     return (pressing_ || held_) && !page_open() && !desk_.ui().over_panel() && !over_slices();
   }
   [[nodiscard]] bool over_slices() const;
+  void aim_at_mouse() {
+    aim_x_ = mouse_x_;
+    aim_y_ = mouse_y_;
+  }
   [[nodiscard]] bool page_open() const {
     return help_ || settings_page_ || (export_ && export_->shown());
   }
@@ -124,10 +128,11 @@ class Mill {
   std::optional<Slices> slices_;
   std::optional<ExportPage> export_;
   bool leaves_ = false;  // though a file is still being written
-  bool slices_shown_ = true, labels_ = true;
+  bool slices_shown_ = true, labels_ = true, pulls_window_ = false;
   std::vector<render::Colour> colours_;   // of the tissues, while labels are shown
   bool pressing_ = false, held_ = false;  // by the button; by the space bar
   int mouse_x_ = 0, mouse_y_ = 0, width_ = 1, height_ = 1;
+  int aim_x_ = 0, aim_y_ = 0;  // where the mouse was last that was no slice
   double press_ = 4e-3;
   Vec3 normal_ = Vec3::Zero();  // of the surface under the mouse, calmed
   std::optional<Vec3> point_;   // there
@@ -163,10 +168,11 @@ Result<Left> Mill::run() {
   for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
 
   LiveBone live(session_, worker_, scene_, desk_.renderer().software());
-  slices_.emplace(session_.bone());
+  slices_.emplace(session_.bone(), options_.greys);
   export_.emplace(desk_, session_, scene_, options_.folder);
   colours_ = scene_.tissue_colours;
   SDL_GetMouseState(&mouse_x_, &mouse_y_);  // before it moves
+  aim_at_mouse();
   session_.start();
   const Clock::time_point start = Clock::now();
   Clock::time_point frame = start;
@@ -272,6 +278,9 @@ void Mill::key(const SDL_Keysym& pressed) {
       break;
     case SDLK_v:
       slices_shown_ = !slices_shown_;
+      break;
+    case SDLK_w:
+      if (slices_) note(slices_->next_window());
       break;
     case SDLK_b:
     case SDLK_n:
@@ -444,6 +453,8 @@ void Mill::lift() { pressing_ = held_ = false; }
 
 void Mill::button(const SDL_MouseButtonEvent& button) {
   const Uint8 mills = desk_.settings.left_handed ? SDL_BUTTON_RIGHT : SDL_BUTTON_LEFT;
+  if (button.button != mills && button.button != SDL_BUTTON_MIDDLE)
+    pulls_window_ = button.type == SDL_MOUSEBUTTONDOWN && over_slices();
   if (button.button != mills) return;
   // what began on a panel is not for the bone
   pressing_ = button.type == SDL_MOUSEBUTTONDOWN && !desk_.ui().over_panel();
@@ -476,8 +487,13 @@ void Mill::move(const SDL_MouseMotionEvent& motion) {
   if (page_open() || desk_.ui().over_panel()) return;
   mouse_x_ = motion.x;
   mouse_y_ = motion.y;
+  if (!over_slices()) aim_at_mouse();
   const Uint32 turns = desk_.settings.left_handed ? SDL_BUTTON_LMASK : SDL_BUTTON_RMASK;
-  if ((motion.state & turns) != 0) turn_view(-motion.xrel, motion.yrel, false);
+  if ((motion.state & turns) != 0 && pulls_window_) {
+    const double edge = scene_.insets.empty() ? 1 : scene_.insets.front().width;
+    slices_->pull_window(motion.xrel / edge, -motion.yrel / edge);
+  } else if ((motion.state & turns) != 0)
+    turn_view(-motion.xrel, motion.yrel, false);
   if ((motion.state & SDL_BUTTON_MMASK) != 0) turn_view(-motion.xrel, motion.yrel, true);
 }
 
@@ -485,7 +501,7 @@ void Mill::move(const SDL_MouseMotionEvent& motion) {
 void Mill::point() {
   if (SDL_Window* window = SDL_GL_GetCurrentWindow()) SDL_GetWindowSize(window, &width_, &height_);
   const render::Ray ray =
-      render::ray_through(scene_.camera, mouse_x_ + 0.5, mouse_y_ + 0.5, width_, height_);
+      render::ray_through(scene_.camera, aim_x_ + 0.5, aim_y_ + 0.5, width_, height_);
   const auto hit = render::pick(scene_, ray);
   Vec3 surface;
   if (hit) {
@@ -643,7 +659,7 @@ void Mill::panels() {
   Ui& ui = desk_.ui();
   if (panels_) {
     draw_hud(ui, hud());
-    Slices::write_names(scene_, ui);
+    slices_->write_names(scene_, ui);
     if (const auto pressed = draw_toolbar(ui, mode_)) act(*pressed);
   }
   if (help_) help_ = draw_help(ui, desk_.settings.left_handed);

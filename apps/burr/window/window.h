@@ -11,6 +11,7 @@
 #include "burr/render/scene.h"
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
+#include "burr/volume/greys.h"
 #include "loudspeaker.h"
 #include "nearby.h"
 #include "window/desk.h"
@@ -27,8 +28,9 @@ struct WindowOptions {
   std::function<std::string()> warning = {};
   // the user wants this session kept for good; false: there is nothing to keep
   std::function<bool()> keep = {};
-  const Nearby* nearby = nullptr;      // what must not be cut; nullptr: nothing
-  Loudspeaker* loudspeaker = nullptr;  // nullptr: no sound
+  const Nearby* nearby = nullptr;                   // what must not be cut; nullptr: nothing
+  Loudspeaker* loudspeaker = nullptr;               // nullptr: no sound
+  std::shared_ptr<const volume::Greys> greys = {};  // of the scan; none: slices show the bone
 };
 
 // How the page was left.

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "burr/io/grey.h"
+#include "burr/io/keep_greys.h"
 #include "burr/io/materials.h"
 #include "burr/io/surface_field.h"
 #include "burr/io/tissues.h"
@@ -413,6 +414,10 @@ Result<Imported> import_grey(const Scan& scan, const ImportOptions& options, Pla
   made.bone = bone_from_inside(grid_of(scan, plan), std::move(plan.grey_tissues), inside, rule,
                                options.reserve_bricks, progress);
   if (made.bone == nullptr) return stopped();
+  if (options.keep_greys) {
+    made.greys = keep_greys(scan, out.iso, progress);
+    if (made.greys == nullptr) return stopped();
+  }
   made.summary = std::move(out);
   return made;
 }

@@ -26,6 +26,7 @@
 #include "burr/base/result.h"
 #include "burr/io/scan.h"
 #include "burr/volume/bone.h"
+#include "burr/volume/greys.h"
 
 namespace burr::io {
 
@@ -46,6 +47,7 @@ struct ImportOptions {
   std::string tissue_table;  // path of a TOML file, see docs/labels.md; empty: by name
   std::string materials;     // path of a TOML file, see docs/materials.md; empty: the built-in ones
   std::size_t reserve_bricks = 4096;  // room for deposited material
+  bool keep_greys = false;            // of a grey scan, to be looked at
 };
 
 // One tissue of the result.
@@ -81,6 +83,7 @@ struct ImportSummary {
 struct Imported {
   std::unique_ptr<volume::Bone> bone;
   ImportSummary summary;
+  std::shared_ptr<const volume::Greys> greys;  // if they are to be kept
 };
 
 // Everything decided, nothing built.

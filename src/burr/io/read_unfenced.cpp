@@ -49,6 +49,18 @@ Result<Scan> read_by_content(const std::filesystem::path& path, const ReadOption
   return read_dicom(path, options, progress);
 }
 
+// The only file in a folder, whatever it is; else the folder, which is a DICOM series then.
+std::filesystem::path only_file_in(const std::filesystem::path& folder) {
+  std::error_code trouble;
+  std::filesystem::path only;
+  for (std::filesystem::directory_iterator it(folder, trouble), end; !trouble && it != end;
+       it.increment(trouble)) {
+    if (!only.empty() || !it->is_regular_file(trouble)) return folder;
+    only = it->path();
+  }
+  return trouble || only.empty() ? folder : only;
+}
+
 }  // namespace
 
 Result<Scan> read_unfenced(const std::filesystem::path& path, const ReadOptions& options,
@@ -60,8 +72,10 @@ Result<Scan> read_unfenced(const std::filesystem::path& path, const ReadOptions&
   if (!options.spacing_mm.isZero() && !(options.spacing_mm.array() > 0).all())
     return error(Trouble::usage, "--spacing-mm: three numbers above 0 are needed");
   try {
-    return std::filesystem::is_directory(status) ? read_dicom(path, options, progress)
-                                                 : read_by_content(path, options, progress);
+    if (!std::filesystem::is_directory(status)) return read_by_content(path, options, progress);
+    const std::filesystem::path only = only_file_in(path);
+    return only == path ? read_dicom(path, options, progress)
+                        : read_by_content(only, options, progress);
   } catch (const std::bad_alloc&) {
     return error(
         fmt::format("{}: reading it needs more memory than it may take; if you trust it, allow "

@@ -14,10 +14,37 @@ namespace {
 constexpr int kTries = 8;  // while the servo writes a brick
 constexpr Colour kAir = {0.03F, 0.03F, 0.04F};
 constexpr Colour kBone = {0.86F, 0.86F, 0.84F};
-constexpr float kSoft = 0.45F;  // of a soft tissue's colour
+constexpr float kSoft = 0.45F;    // of a soft tissue's colour
+constexpr float kTint = 0.2F;     // of a tissue's colour over what the scan measured
+constexpr double kClearly = 0.1;  // of the way from the least value to bone's
 
 std::uint8_t unorm(float v) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0F, 1.0F) * 255.0F));
+}
+
+// What the scan measured there, and what has become of it. solid: 0 air .. 1 bone, as it is now;
+// bone: its colour; what: its tissue, nullptr: not asked for.
+Colour over_greys(const Slice& slice, double measured, float solid, const Colour& bone,
+                  const volume::Tissue* what) {
+  const volume::Greys& greys = *slice.greys;
+  const auto grey = static_cast<float>(
+      std::clamp((measured - slice.level) / std::max(slice.window, 1e-9) + 0.5, 0.0, 1.0));
+  // clearly bone, or clearly not, when it was scanned: noise at the level is neither
+  const double edge = std::max(kClearly * (greys.iso - greys.least), 1e-9);
+  const auto was = static_cast<float>(std::clamp((measured - greys.iso) / edge, 0.0, 1.0)),
+             was_not = static_cast<float>(std::clamp((greys.iso - measured) / edge - 1, 0.0, 1.0));
+  const float removed = was * (1 - solid), added = was_not * solid;
+  float tint = 0;
+  if (what != nullptr && what->kind == volume::TissueKind::solid) tint = kTint * solid;
+  if (what != nullptr && what->kind == volume::TissueKind::soft) tint = kTint;
+  Colour seen;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const float own = what != nullptr ? what->colour[c] : bone[c];
+    float v = grey + tint * (own - grey);
+    v += removed * (kAir[c] - v);
+    seen[c] = v + added * (bone[c] - v);
+  }
+  return seen;
 }
 
 }  // namespace
@@ -108,12 +135,18 @@ bool Slicer::draw(const Slice& slice, Image& image) {
           std::clamp((value - volume::kIso) / volume::kFieldPerVoxel + 0.5, 0.0, 1.0));
       Colour bone = kBone, air = kAir;
       const Ijk nearest = p.array().round().cast<int>();
+      const volume::Tissue* what = nullptr;
       if (slice.labels && grid.contains(nearest)) {
-        const volume::TissueId tissue = bone_.shared_tissue(nearest.x(), nearest.y(), nearest.z());
-        const volume::Tissue& what = bone_.tissues()[tissue];
-        if (what.kind == volume::TissueKind::solid) bone = what.colour;
-        if (what.kind == volume::TissueKind::soft)
-          for (std::size_t c = 0; c < 3; ++c) air[c] = kSoft * what.colour[c];
+        what = &bone_.tissues()[bone_.shared_tissue(nearest.x(), nearest.y(), nearest.z())];
+        if (what->kind == volume::TissueKind::solid) bone = what->colour;
+        if (what->kind == volume::TissueKind::soft)
+          for (std::size_t c = 0; c < 3; ++c) air[c] = kSoft * what->colour[c];
+      }
+      double measured = 0;
+      if (slice.greys != nullptr && slice.greys->at(grid.world_from_grid(p), measured)) {
+        const Colour seen = over_greys(slice, measured, solid, bone, what);
+        for (std::size_t c = 0; c < 3; ++c) image.rgb[out + c] = unorm(seen[c]);
+        continue;
       }
       for (std::size_t c = 0; c < 3; ++c)
         image.rgb[out + c] = unorm(air[c] + solid * (bone[c] - air[c]));

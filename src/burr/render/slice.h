@@ -18,6 +18,7 @@
 #include "burr/render/look.h"
 #include "burr/rt/changed_bits.h"
 #include "burr/volume/bone.h"
+#include "burr/volume/greys.h"
 
 namespace burr::render {
 
@@ -28,6 +29,11 @@ struct Slice {
   math::Vec3 through = math::Vec3::Zero();  // is in the middle of the picture
   double height = 60e-3;                    // of what is shown
   bool labels = true;                       // colours of tissues; false: bone is bone
+  // What the scan measured, between black at level - window / 2 and white at level + window / 2,
+  // with what was milled away dark and what was added in its colour; tissues' colours are laid over
+  // it thinly. nullptr: bone is light, all else dark.
+  const volume::Greys* greys = nullptr;
+  double window = 4000, level = 700;  // in HU or the scan's unit
 };
 
 // Unit vectors of the world: to the right and up in the picture.
