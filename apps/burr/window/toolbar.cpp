@@ -60,6 +60,15 @@ void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
       tip(1.35F * kPi, 0.7F * r, 1);
       draw.AddCircleFilled(c, 0.2F * r, shade, 12);
       break;
+    case Action::measure:  // a ruler
+      draw.AddRect({c.x - 1.1F * r, c.y - 0.5F * r}, {c.x + 1.1F * r, c.y + 0.5F * r}, shade, 0, 0,
+                   0.8F * thick);
+      for (int n = -1; n <= 1; ++n) {
+        const float x = c.x + 0.55F * static_cast<float>(n) * r;
+        draw.AddLine({x, c.y - 0.5F * r}, {x, c.y + (n == 0 ? 0.15F : -0.05F) * r}, shade,
+                     0.8F * thick);
+      }
+      break;
     case Action::export_:  // an arrow down into a tray
       draw.AddLine({c.x, c.y - 0.9F * r}, {c.x, c.y}, shade, thick);
       draw.AddTriangleFilled({c.x - 0.5F * r, c.y - 0.1F * r}, {c.x + 0.5F * r, c.y - 0.1F * r},
@@ -155,10 +164,10 @@ class Bar {
 
 }  // namespace
 
-std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode) {
+std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode, bool measures) {
   std::optional<Action> pressed;
   const float u = ui.unit();
-  const float h = 571 * u, w = 82 * u;
+  const float h = 573 * u, w = 82 * u;
   const float free = ui.height() - 78 * u;
   const float y = std::max(6 * u, (free - h) / 2);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * u, 8 * u});
@@ -172,10 +181,10 @@ std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode) {
   bar.pair(Word::burr, {Action::smaller, Word::smaller, "["}, {Action::larger, Word::larger, "]"});
   bar.pair(Word::speed, {Action::slower, Word::slower, ","}, {Action::faster, Word::faster, "."});
   bar.gap(2);
-  bar.tall({Action::undo, Word::undo, "U"});
-  bar.tall({Action::redo, Word::redo, "Y"});
+  bar.pair(Word::stroke, {Action::undo, Word::undo, "U"}, {Action::redo, Word::redo, "Y"});
   bar.tall({Action::reset, Word::reset, "R"});
   bar.gap(2);
+  bar.tall({Action::measure, Word::measure, "D"}, measures);
   bar.tall({Action::export_, Word::export_word, "E"});
   bar.tall({Action::settings, Word::settings, "F2"});
   bar.tall({Action::help, Word::help, "F1"});

@@ -17,6 +17,7 @@ enum class Action {
   undo,
   redo,
   reset,
+  measure,
   export_,
   smaller,
   larger,
@@ -28,6 +29,6 @@ enum class Action {
 };
 
 // The button pressed now, if one is.
-[[nodiscard]] std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode);
+[[nodiscard]] std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode, bool measures);
 
 }  // namespace burr::app
