@@ -113,7 +113,8 @@ class Recorded : public testing::Test {
                       ("burr_brush_" + std::to_string(getpid()) + ".mcap"))
                          .string();
   // Mills a pocket, then works on with these wishes; recorded, replayed, compared.
-  void expect_same(const std::vector<record::Wish>& wishes) {
+  void expect_same(const std::vector<record::Wish>& wishes,
+                   const std::vector<record::Wish>& later = {}) {
     NoProgress quiet;
     SessionSettings settings;
     settings.servo.burr.radius = kRadius;
@@ -138,7 +139,9 @@ class Recorded : public testing::Test {
     session.run(1, quiet);
     const edit::Ledger milled = session.outcome().ledger;
     for (const record::Wish& wish : wishes) session.wish(wish);
-    session.run(1, quiet);
+    session.run(0.5, quiet);
+    for (const record::Wish& wish : later) session.wish(wish);
+    session.run(0.5, quiet);
     session.set_recorder(nullptr);
     ASSERT_TRUE(recorder.finish().ok());
     EXPECT_GT(session.outcome().ledger.added, milled.added) << "nothing was brushed";
@@ -158,12 +161,49 @@ TEST_F(Recorded, BackToTheOriginalReplaysToTheBit) {
   expect_same({{record::WishKind::tool_mode, static_cast<double>(ToolMode::restore)}});
 }
 
+TEST_F(Recorded, SmoothingReplaysToTheBit) {
+  expect_same({{record::WishKind::tool_mode, static_cast<double>(ToolMode::smooth)}});
+}
+
+TEST_F(Recorded, OneAfterTheOtherWithUndoReplaysToTheBit) {
+  expect_same({{record::WishKind::tool_mode, static_cast<double>(ToolMode::smooth)}},
+              {{record::WishKind::undo, 0},
+               {record::WishKind::tool_mode, static_cast<double>(ToolMode::restore)}});
+}
+
+TEST(Smooth, APressedBurrTakesTheEdgeOffAHoleAndTheAccountHolds) {
+  Held held;
+  const double before = volume::volume_of(*held.bone);
+  held.go({0, 0, 0.5 * kMm});
+  held.go({1.5 * kMm, 0, 0.5 * kMm}, 2 * kMm);
+  held.go({0, 0, 5 * kMm});
+  for (int n = 0; n < 400; ++n) held.tick();
+  const std::uint64_t milled = held.bone->content_hash();
+  held.mode(ToolMode::smooth);
+  held.go({0, 1.2 * kMm, 1 * kMm});
+  for (int n = 0; n < 1000; ++n) held.tick();
+  ASSERT_NE(held.bone->content_hash(), milled);
+  const edit::Ledger is = held.row.ledger;
+  EXPECT_GT(is.added, 0);
+  EXPECT_NEAR(is.asked, is.removed + is.debt + is.not_cut, 1e-6 * is.asked);
+  EXPECT_NEAR(volume::volume_of(*held.bone) - before, is.added - is.removed, 1e-6 * is.removed);
+  held.go({0, 0, 6 * kMm});
+  for (int n = 0; n < 400; ++n) held.tick();
+  held.servo.wishes().push({record::WishKind::undo, 0});
+  do held.tick();
+  while (held.servo.restoring());
+  EXPECT_EQ(held.bone->content_hash(), milled);
+}
+
 TEST(BackToTheOriginal, TheTickTakesNeitherMemoryNorLock) {
   Held held;
   held.go({0, 0, 0.5 * kMm});
   held.mode(ToolMode::restore);
   const test::RtGuard guard;
-  for (int n = 0; n < 1000; ++n) held.tick();
+  for (int n = 0; n < 1000; ++n) {
+    if (n == 500) held.mode(ToolMode::smooth);
+    held.tick();
+  }
   const long allocations = guard.allocations(), locks = guard.locks();
   EXPECT_EQ(allocations, 0);
   EXPECT_EQ(locks, 0);

@@ -51,7 +51,7 @@ bool draw_help(Ui& ui, bool left_handed) {
          {"V  B  N", Word::help_slices},
          {"L", Word::help_labels}});
   block(ui, x + 480 * u, right, Word::help_tools,
-        {{"1  2  3", Word::help_modes},
+        {{"1  2  3  4  5", Word::help_modes},
          {"[  ]", Word::help_sizes},
          {word(Word::key_shift_wheel), Word::help_sizes},
          {",  .", Word::help_speeds},

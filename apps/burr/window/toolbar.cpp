@@ -47,6 +47,25 @@ void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
       draw.AddCircle({c.x, c.y - 0.1F * r}, 0.55F * r, shade, 20, thick);
       draw.AddLine({c.x - r, c.y + 0.75F * r}, {c.x + r, c.y + 0.75F * r}, shade, thick);
       break;
+    case Action::back:  // a hollow that fills
+      ring(0, kPi, 0.75F * r);
+      draw.AddLine({c.x - 1.1F * r, c.y}, {c.x - 0.7F * r, c.y}, shade, thick);
+      draw.AddLine({c.x + 0.7F * r, c.y}, {c.x + 1.1F * r, c.y}, shade, thick);
+      draw.AddLine({c.x, c.y + 0.5F * r}, {c.x, c.y - 0.4F * r}, shade, thick);
+      draw.AddTriangleFilled({c.x + 0.4F * r, c.y - 0.3F * r}, {c.x - 0.4F * r, c.y - 0.3F * r},
+                             {c.x, c.y - 0.95F * r}, shade);
+      break;
+    case Action::smooth: {  // a wave above, a line below
+      for (int n = 0; n < 16; ++n) {
+        const auto wave = [&](int at) {
+          const float t = static_cast<float>(at) / 16;
+          return ImVec2{c.x + (2 * t - 1) * r, c.y - 0.35F * r - 0.3F * r * std::sin(4 * kPi * t)};
+        };
+        draw.AddLine(wave(n), wave(n + 1), shade, 0.8F * thick);
+      }
+      draw.AddLine({c.x - r, c.y + 0.6F * r}, {c.x + r, c.y + 0.6F * r}, shade, thick);
+      break;
+    }
     case Action::undo:
       ring(-0.95F * kPi, 0.35F * kPi, 0.7F * r);
       tip(-0.95F * kPi, 0.7F * r, -1);
@@ -167,7 +186,7 @@ class Bar {
 std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode, bool measures) {
   std::optional<Action> pressed;
   const float u = ui.unit();
-  const float h = 573 * u, w = 82 * u;
+  const float h = 622 * u, w = 82 * u;
   const float free = ui.height() - 78 * u;
   const float y = std::max(6 * u, (free - h) / 2);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * u, 8 * u});
@@ -177,6 +196,8 @@ std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode, bool measures) {
   bar.tall({Action::cut, Word::cut, "1"}, mode == sim::ToolMode::cut);
   bar.tall({Action::add, Word::add, "2"}, mode == sim::ToolMode::add);
   bar.tall({Action::touch, Word::touch, "3"}, mode == sim::ToolMode::touch);
+  bar.tall({Action::back, Word::back, "4"}, mode == sim::ToolMode::restore);
+  bar.tall({Action::smooth, Word::smooth, "5"}, mode == sim::ToolMode::smooth);
   bar.gap(2);
   bar.pair(Word::burr, {Action::smaller, Word::smaller, "["}, {Action::larger, Word::larger, "]"});
   bar.pair(Word::speed, {Action::slower, Word::slower, ","}, {Action::faster, Word::faster, "."});
@@ -186,8 +207,8 @@ std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode, bool measures) {
   bar.gap(2);
   bar.tall({Action::measure, Word::measure, "D"}, measures);
   bar.tall({Action::export_, Word::export_word, "E"});
-  bar.tall({Action::settings, Word::settings, "F2"});
-  bar.tall({Action::help, Word::help, "F1"});
+  bar.pair(Word::help_program, {Action::settings, Word::settings, "F2"},
+           {Action::help, Word::help, "F1"});
   bar.tall({Action::leave, Word::leave, "Q"});
   ImGui::End();
   ImGui::PopStyleVar(2);

@@ -14,6 +14,8 @@ enum class Action {
   cut,
   add,
   touch,
+  back,
+  smooth,
   undo,
   redo,
   reset,

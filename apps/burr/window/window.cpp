@@ -323,6 +323,12 @@ void Mill::key(const SDL_Keysym& pressed) {
     case SDLK_3:
       act(Action::touch);
       break;
+    case SDLK_4:
+      act(Action::back);
+      break;
+    case SDLK_5:
+      act(Action::smooth);
+      break;
     case SDLK_LEFTBRACKET:
     case SDLK_PAGEDOWN:
       act(Action::smaller);
@@ -385,6 +391,10 @@ void Mill::act(Action action) {
       return mode(sim::ToolMode::add, Word::now_add);
     case Action::touch:
       return mode(sim::ToolMode::touch, Word::now_touch);
+    case Action::back:
+      return mode(sim::ToolMode::restore, Word::now_back);
+    case Action::smooth:
+      return mode(sim::ToolMode::smooth, Word::now_smooth);
     case Action::undo:
       return wish(record::WishKind::undo, 0, Word::undone);
     case Action::redo:

@@ -288,7 +288,12 @@ void Servo::brush_bone(const edit::Cut& cut) BURR_RT {
   now.dt = dt_;
   now.turns = cut.turns;
   carver_.idle(dt_);
-  brush_.restore(now, row_.contact.flags);
+  if (settings_.mode == ToolMode::smooth) {
+    deposited_ = true;  // what grows into air gets a tissue
+    brush_.smooth(now, row_.contact.flags);
+  } else {
+    brush_.restore(now, row_.contact.flags);
+  }
 }
 
 // A row for every hundredth of a second: what the burr spent meanwhile, and where last.

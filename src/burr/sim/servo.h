@@ -41,8 +41,8 @@
 namespace burr::sim {
 
 // restore: back to what the bone was when the session began.
-enum class ToolMode { cut = 0, add = 1, touch = 2, restore = 3 };
-inline constexpr int kToolModes = 4;
+enum class ToolMode { cut = 0, add = 1, touch = 2, restore = 3, smooth = 4 };
+inline constexpr int kToolModes = 5;
 
 struct ServoSettings {
   double rate_hz = 1000;
