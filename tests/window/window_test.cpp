@@ -105,8 +105,9 @@ class User {
     SDL_PushEvent(&event);
   }
   void key() {
-    constexpr SDL_Keycode kKeys[] = {SDLK_u, SDLK_u, SDLK_y,    SDLK_r,     SDLK_1, SDLK_1, SDLK_2,
-                                     SDLK_3, SDLK_h, SDLK_PLUS, SDLK_MINUS, SDLK_f, SDLK_9, SDLK_0};
+    constexpr SDL_Keycode kKeys[] = {SDLK_u,     SDLK_u, SDLK_y, SDLK_r, SDLK_1, SDLK_1,
+                                     SDLK_2,     SDLK_3, SDLK_4, SDLK_5, SDLK_h, SDLK_PLUS,
+                                     SDLK_MINUS, SDLK_f, SDLK_9, SDLK_0};
     SDL_Event event = {};
     event.type = SDL_KEYDOWN;
     event.key.keysym.sym = kKeys[random_() % std::size(kKeys)];

@@ -52,12 +52,13 @@ bool draw_help(Ui& ui, bool left_handed) {
          {"W", Word::help_window},
          {"L", Word::help_labels}});
   block(ui, x + 480 * u, right, Word::help_tools,
-        {{"1  2  3", Word::help_modes},
+        {{"1  2  3  4  5", Word::help_modes},
          {"[  ]", Word::help_sizes},
          {word(Word::key_shift_wheel), Word::help_sizes},
          {",  .", Word::help_speeds},
          {"U  Y", Word::help_undo},
-         {"R", Word::help_reset}});
+         {"R", Word::help_reset},
+         {"D", Word::help_measure}});
   block(ui, x + 480 * u, right, Word::help_program,
         {{"Tab", Word::help_hide},
          {"F2", Word::help_settings},

@@ -204,9 +204,19 @@ void line_above(const Ui& ui, float& y, const std::string& text, bool warns) {
 }
 
 Word name_of(sim::ToolMode mode) {
-  return mode == sim::ToolMode::add     ? Word::add
-         : mode == sim::ToolMode::touch ? Word::touch
-                                        : Word::cut;
+  switch (mode) {
+    case sim::ToolMode::cut:
+      break;
+    case sim::ToolMode::add:
+      return Word::add;
+    case sim::ToolMode::touch:
+      return Word::touch;
+    case sim::ToolMode::restore:
+      return Word::back;
+    case sim::ToolMode::smooth:
+      return Word::smooth;
+  }
+  return Word::cut;
 }
 
 float hud_height(const Ui& ui) { return (kStrip + kMargin) * ui.unit(); }

@@ -199,6 +199,8 @@ std::string told_wish(const record::Wish& wish) {
     case record::WishKind::tool_mode:
       return word(wish.value == 1   ? Word::now_add
                   : wish.value == 2 ? Word::now_touch
+                  : wish.value == 3 ? Word::now_back
+                  : wish.value == 4 ? Word::now_smooth
                                     : Word::now_cut);
     case record::WishKind::user_force:
       return say(Word::replay_limit, wish.value);

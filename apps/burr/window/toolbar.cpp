@@ -47,6 +47,25 @@ void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
       draw.AddCircle({c.x, c.y - 0.1F * r}, 0.55F * r, shade, 20, thick);
       draw.AddLine({c.x - r, c.y + 0.75F * r}, {c.x + r, c.y + 0.75F * r}, shade, thick);
       break;
+    case Action::back:  // a hollow that fills
+      ring(0, kPi, 0.75F * r);
+      draw.AddLine({c.x - 1.1F * r, c.y}, {c.x - 0.7F * r, c.y}, shade, thick);
+      draw.AddLine({c.x + 0.7F * r, c.y}, {c.x + 1.1F * r, c.y}, shade, thick);
+      draw.AddLine({c.x, c.y + 0.5F * r}, {c.x, c.y - 0.4F * r}, shade, thick);
+      draw.AddTriangleFilled({c.x + 0.4F * r, c.y - 0.3F * r}, {c.x - 0.4F * r, c.y - 0.3F * r},
+                             {c.x, c.y - 0.95F * r}, shade);
+      break;
+    case Action::smooth: {  // a wave above, a line below
+      for (int n = 0; n < 16; ++n) {
+        const auto wave = [&](int at) {
+          const float t = static_cast<float>(at) / 16;
+          return ImVec2{c.x + (2 * t - 1) * r, c.y - 0.35F * r - 0.3F * r * std::sin(4 * kPi * t)};
+        };
+        draw.AddLine(wave(n), wave(n + 1), shade, 0.8F * thick);
+      }
+      draw.AddLine({c.x - r, c.y + 0.6F * r}, {c.x + r, c.y + 0.6F * r}, shade, thick);
+      break;
+    }
     case Action::undo:
       ring(-0.95F * kPi, 0.35F * kPi, 0.7F * r);
       tip(-0.95F * kPi, 0.7F * r, -1);
@@ -59,6 +78,15 @@ void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
       ring(-0.4F * kPi, 1.35F * kPi, 0.7F * r);
       tip(1.35F * kPi, 0.7F * r, 1);
       draw.AddCircleFilled(c, 0.2F * r, shade, 12);
+      break;
+    case Action::measure:  // a ruler
+      draw.AddRect({c.x - 1.1F * r, c.y - 0.5F * r}, {c.x + 1.1F * r, c.y + 0.5F * r}, shade, 0, 0,
+                   0.8F * thick);
+      for (int n = -1; n <= 1; ++n) {
+        const float x = c.x + 0.55F * static_cast<float>(n) * r;
+        draw.AddLine({x, c.y - 0.5F * r}, {x, c.y + (n == 0 ? 0.15F : -0.05F) * r}, shade,
+                     0.8F * thick);
+      }
       break;
     case Action::export_:  // an arrow down into a tray
       draw.AddLine({c.x, c.y - 0.9F * r}, {c.x, c.y}, shade, thick);
@@ -155,10 +183,10 @@ class Bar {
 
 }  // namespace
 
-std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode) {
+std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode, bool measures) {
   std::optional<Action> pressed;
   const float u = ui.unit();
-  const float h = 571 * u, w = 82 * u;
+  const float h = 622 * u, w = 82 * u;
   const float free = ui.height() - 78 * u;
   const float y = std::max(6 * u, (free - h) / 2);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * u, 8 * u});
@@ -168,17 +196,19 @@ std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode) {
   bar.tall({Action::cut, Word::cut, "1"}, mode == sim::ToolMode::cut);
   bar.tall({Action::add, Word::add, "2"}, mode == sim::ToolMode::add);
   bar.tall({Action::touch, Word::touch, "3"}, mode == sim::ToolMode::touch);
+  bar.tall({Action::back, Word::back, "4"}, mode == sim::ToolMode::restore);
+  bar.tall({Action::smooth, Word::smooth, "5"}, mode == sim::ToolMode::smooth);
   bar.gap(2);
   bar.pair(Word::burr, {Action::smaller, Word::smaller, "["}, {Action::larger, Word::larger, "]"});
   bar.pair(Word::speed, {Action::slower, Word::slower, ","}, {Action::faster, Word::faster, "."});
   bar.gap(2);
-  bar.tall({Action::undo, Word::undo, "U"});
-  bar.tall({Action::redo, Word::redo, "Y"});
+  bar.pair(Word::stroke, {Action::undo, Word::undo, "U"}, {Action::redo, Word::redo, "Y"});
   bar.tall({Action::reset, Word::reset, "R"});
   bar.gap(2);
+  bar.tall({Action::measure, Word::measure, "D"}, measures);
   bar.tall({Action::export_, Word::export_word, "E"});
-  bar.tall({Action::settings, Word::settings, "F2"});
-  bar.tall({Action::help, Word::help, "F1"});
+  bar.pair(Word::help_program, {Action::settings, Word::settings, "F2"},
+           {Action::help, Word::help, "F1"});
   bar.tall({Action::leave, Word::leave, "Q"});
   ImGui::End();
   ImGui::PopStyleVar(2);

@@ -14,9 +14,12 @@ enum class Action {
   cut,
   add,
   touch,
+  back,
+  smooth,
   undo,
   redo,
   reset,
+  measure,
   export_,
   smaller,
   larger,
@@ -28,6 +31,6 @@ enum class Action {
 };
 
 // The button pressed now, if one is.
-[[nodiscard]] std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode);
+[[nodiscard]] std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode, bool measures);
 
 }  // namespace burr::app

@@ -19,6 +19,7 @@
 #include "window/export_page.h"
 #include "window/help.h"
 #include "window/hud.h"
+#include "window/measuring.h"
 #include "window/settings_page.h"
 #include "window/slices.h"
 #include "window/toolbar.h"
@@ -96,12 +97,14 @@ class Mill {
   void show_labels(bool shown);
   void toggle_sound();
   void look_at_burr();
+  void measure();
   void tell();
   void note(std::string text);
   void panels();
   [[nodiscard]] HudState hud() const;
   [[nodiscard]] bool pressing() const {
-    return (pressing_ || held_) && !page_open() && !desk_.ui().over_panel() && !over_slices();
+    return (pressing_ || held_) && !measuring_.picks() && !page_open() &&
+           !desk_.ui().over_panel() && !over_slices();
   }
   [[nodiscard]] bool over_slices() const;
   void aim_at_mouse() {
@@ -137,6 +140,7 @@ class Mill {
   Vec3 normal_ = Vec3::Zero();  // of the surface under the mouse, calmed
   std::optional<Vec3> point_;   // there
   sim::ToolMode mode_ = sim::ToolMode::cut;
+  Measuring measuring_;
   double full_speed_ = 0;              // wished [rad/s]
   std::optional<double> burr_wished_;  // radius, until it is so or refused [m]
   Clock::time_point burr_wished_at_{};
@@ -181,14 +185,15 @@ Result<Left> Mill::run() {
     take_events();
     look_at_session();
     point();
+    measure();
     if (std::string told = export_->step(); !told.empty()) note(std::move(told));
     tell();
     slices_->update(scene_, slices_shown_ && panels_, labels_, desk_.renderer().width(),
                     desk_.renderer().height(), static_cast<int>(hud_height(desk_.ui())));
     live.update();
     const Clock::time_point drawing = Clock::now();
-    shown =
-        desk_.show(scene_, panels_ || page_open() ? [this] { panels(); } : std::function<void()>());
+    shown = desk_.show(scene_, panels_ || page_open() || measuring_.on() ? [this] { panels(); }
+                                                                         : std::function<void()>());
     live.drawn(std::chrono::duration<double>(Clock::now() - drawing).count(),
                desk_.renderer().figures().redrawn);
     picture_step_ = live.governor().step();
@@ -260,6 +265,9 @@ void Mill::key(const SDL_Keysym& pressed) {
       if (page_open()) {
         help_ = settings_page_ = false;
         export_->show(false);
+      } else if (measuring_.on()) {
+        measuring_.stop();
+        note(word(Word::measure_off));
       } else
         act(Action::leave);
       break;
@@ -312,6 +320,9 @@ void Mill::key(const SDL_Keysym& pressed) {
     case SDLK_r:
       act(Action::reset);
       break;
+    case SDLK_d:
+      act(Action::measure);
+      break;
     case SDLK_1:
       act(Action::cut);
       break;
@@ -320,6 +331,12 @@ void Mill::key(const SDL_Keysym& pressed) {
       break;
     case SDLK_3:
       act(Action::touch);
+      break;
+    case SDLK_4:
+      act(Action::back);
+      break;
+    case SDLK_5:
+      act(Action::smooth);
       break;
     case SDLK_LEFTBRACKET:
     case SDLK_PAGEDOWN:
@@ -383,12 +400,21 @@ void Mill::act(Action action) {
       return mode(sim::ToolMode::add, Word::now_add);
     case Action::touch:
       return mode(sim::ToolMode::touch, Word::now_touch);
+    case Action::back:
+      return mode(sim::ToolMode::restore, Word::now_back);
+    case Action::smooth:
+      return mode(sim::ToolMode::smooth, Word::now_smooth);
     case Action::undo:
       return wish(record::WishKind::undo, 0, Word::undone);
     case Action::redo:
       return wish(record::WishKind::redo, 0, Word::redone);
     case Action::reset:
       return wish(record::WishKind::reset, 0, Word::back_to_start);
+    case Action::measure:
+      measuring_.next();
+      lift();
+      note(measuring_.on() ? measuring_.words() : word(Word::measure_off));
+      break;
     case Action::smaller:
       return change_burr(-1);
     case Action::larger:
@@ -456,6 +482,14 @@ void Mill::button(const SDL_MouseButtonEvent& button) {
   if (button.button != mills && button.button != SDL_BUTTON_MIDDLE)
     pulls_window_ = button.type == SDL_MOUSEBUTTONDOWN && over_slices();
   if (button.button != mills) return;
+  if (measuring_.picks()) {
+    const bool down = button.type == SDL_MOUSEBUTTONDOWN;
+    if (!down || page_open() || desk_.ui().over_panel() || over_slices()) return;
+    const auto hit = render::pick(scene_, render::ray_through(scene_.camera, mouse_x_ + 0.5,
+                                                              mouse_y_ + 0.5, width_, height_));
+    if (hit) measuring_.pick(hit->p);
+    return note(measuring_.words());
+  }
   // what began on a panel is not for the bone
   pressing_ = button.type == SDL_MOUSEBUTTONDOWN && !desk_.ui().over_panel();
 }
@@ -529,6 +563,14 @@ void Mill::point() {
   aim.world_from_tool.q = math::shortest_turn(Vec3::UnitZ(), handle);
   aim.pedal = press ? 1 : 0;
   hand_.aim(aim);
+}
+
+// The thickness goes with the burr: along its contact, or below where it hovers.
+void Mill::measure() {
+  const Vec3 inward = row_.contact.touching ? Vec3(-row_.contact.normal) : Vec3(-normal_);
+  if (measuring_.what() == Measure::thickness)
+    measuring_.probe(session_.bone(), scene_.burr.world_from_tool.p, inward,
+                     scene_.burr.radius + 2 * kHover);
 }
 
 // ---- what is told
@@ -613,6 +655,7 @@ void Mill::tell() {
   if (warning_.empty()) warning_ = told_flags(row_.contact.flags);
   if (Clock::now() - noted_ > std::chrono::seconds(6)) note_.clear();
   if (note_.empty()) note_ = export_->progress();
+  if (note_.empty()) note_ = measuring_.words();
   desk_.said = !export_->trouble().empty() ? export_->trouble()
                : warning_.empty()          ? note_
                                            : warning_;
@@ -657,10 +700,11 @@ HudState Mill::hud() const {
 
 void Mill::panels() {
   Ui& ui = desk_.ui();
+  measuring_.draw(ui, scene_.camera);
   if (panels_) {
     draw_hud(ui, hud());
     slices_->write_names(scene_, ui);
-    if (const auto pressed = draw_toolbar(ui, mode_)) act(*pressed);
+    if (const auto pressed = draw_toolbar(ui, mode_, measuring_.on())) act(*pressed);
   }
   if (help_) help_ = draw_help(ui, desk_.settings.left_handed);
   if (export_->shown()) export_->draw();

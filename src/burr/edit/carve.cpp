@@ -387,6 +387,25 @@ void Carver::restore(const KeptBrick& kept) BURR_RT {
   note_whole(kept.brick, before, kept.field);
 }
 
+void Carver::rewrite(const KeptBrick& now, std::uint32_t& flags) BURR_RT {
+  if (bone_.ensure_slot(now.brick) == volume::kNoSlot) {
+    flags |= kReserve;
+    return;
+  }
+  if (undo_.keep(now.brick)) flags |= kUndoFull;
+  const volume::Field* field = bone_.brick_field(now.brick);
+  std::int64_t gone = 0;
+  for (int v = 0; v < kBrickVoxels; ++v) {
+    const int before = field[v], after = now.field.voxel[v];
+    if (before == after) continue;
+    const std::int64_t by = volume::volume_units(after) - volume::volume_units(before);
+    (after < before ? gone : added_) += after < before ? -by : by;
+  }
+  removed_ += gone;
+  asked_ += static_cast<double>(gone);
+  restore(now);
+}
+
 void Carver::swap(KeptBrick& kept) BURR_RT {
   KeptBrick now;
   now.brick = kept.brick;

@@ -77,6 +77,9 @@ class Carver {
   void swap(KeptBrick& kept) BURR_RT;
   // Puts a kept brick back (reset).
   void restore(const KeptBrick& kept) BURR_RT;
+  // Other content for a brick (brush.h): kept for undo, told to all, and in the account. flags: as
+  // above.
+  void rewrite(const KeptBrick& now, std::uint32_t& flags) BURR_RT;
   // Would a ball here be free of the kept brick's material?
   [[nodiscard]] bool clear_of(const KeptBrick& kept, const math::Vec3& centre,
                               double radius) const BURR_RT;

@@ -37,7 +37,7 @@ enum class WishKind : std::uint8_t {
   burr_radius,    // value: m
   stiffness,      // value: N/m
   user_force,     // value: N, the user's own limit
-  tool_mode,      // value: 0 cut, 1 add, 2 touch only
+  tool_mode,      // value: 0 cut, 1 add, 2 touch only, 3 back to the original, 4 smooth
   undo,           // the last stroke
   redo,           // the last undone stroke
   reset,          // everything back to the start

@@ -35,6 +35,7 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       changed_(bone),
       undo_(bone, settings.undo_bricks),
       carver_(bone, surface, undo_, &changed_, settings.carve),
+      brush_(bone, undo_, carver_),
       chips_(bone),
       touch_by_(surface, {.radius = settings.burr.radius, .recovery = kRecovery / settings.rate_hz},
                 settings.touch),
@@ -268,11 +269,30 @@ void Servo::cut_bone(const Vec3& force) BURR_RT {
     cutting_ = cut_by_law(push, spindle_.speed());
     cut.energy = cutting_.energy;
     carver_.carve(cut, flags);
+  } else if (settings_.mode != ToolMode::add) {
+    brush_bone(cut);
   } else {
     cut.volume = settings_.deposit_rate * std::clamp(hand_.pedal, 0.0, 1.0) * dt_;
     cut.material = settings_.deposit_tissue;
     deposited_ = true;
     carver_.deposit(cut, flags);
+  }
+}
+
+void Servo::brush_bone(const edit::Cut& cut) BURR_RT {
+  edit::Brushing now;
+  now.centre = cut.centre;
+  now.push = cut.push;
+  now.radius = cut.radius;
+  now.strength = std::clamp(hand_.pedal, 0.0, 1.0);
+  now.dt = dt_;
+  now.turns = cut.turns;
+  carver_.idle(dt_);
+  if (settings_.mode == ToolMode::smooth) {
+    deposited_ = true;  // what grows into air gets a tissue
+    brush_.smooth(now, row_.contact.flags);
+  } else {
+    brush_.restore(now, row_.contact.flags);
   }
 }
 
@@ -344,7 +364,7 @@ void Servo::obey(const Wish& wish) BURR_RT {
       guard_.set_largest_force(std::min(device_.spec().peak_force, wish.value));
       break;
     case WishKind::tool_mode:
-      if (wish.value >= 0 && wish.value <= 2)
+      if (wish.value >= 0 && wish.value < kToolModes)
         settings_.mode = static_cast<ToolMode>(static_cast<int>(wish.value));
       break;
     case WishKind::friction:

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "burr/device/device.h"
+#include "burr/edit/brush.h"
 #include "burr/edit/carve.h"
 #include "burr/edit/changed_queue.h"
 #include "burr/edit/chips.h"
@@ -39,7 +40,9 @@
 
 namespace burr::sim {
 
-enum class ToolMode { cut = 0, add = 1, touch = 2 };
+// restore: back to what the bone was when the session began.
+enum class ToolMode { cut = 0, add = 1, touch = 2, restore = 3, smooth = 4 };
+inline constexpr int kToolModes = 5;
 
 struct ServoSettings {
   double rate_hz = 1000;
@@ -152,6 +155,7 @@ class Servo {
   [[nodiscard]] bool tooth_is_carried() const BURR_RT;
   [[nodiscard]] edit::Cutting cut_by_law(double push, double speed) BURR_RT;
   void cut_bone(const math::Vec3& force) BURR_RT;
+  void brush_bone(const edit::Cut& cut) BURR_RT;
   void tell_heat() BURR_RT;
   void remember_path() BURR_RT;
   void write_bricks(std::size_t most) BURR_RT;
@@ -167,6 +171,7 @@ class Servo {
   edit::ChangedQueue changed_;
   edit::UndoStore undo_;
   edit::Carver carver_;
+  edit::Brush brush_;
   edit::Chips chips_;
   TouchMethods touch_by_;
   haptics::EnergyGuard guard_;

@@ -1,0 +1,26 @@
+// volume/thickness.h - how thick the bone is along a straight line, while its writer cuts it.
+//
+// Frame: world, LPS. Units: m. Thread: any, by copy_brick(); the writer is never waited for.
+// Memory: one brick and what a brick's neighbour lends, on the stack of the caller. Cost: a sample
+// every quarter of a voxel, some 0.1 ms for 30 mm at 0.2 mm.
+#pragma once
+
+#include <optional>
+
+#include "burr/math/vec3.h"
+#include "burr/volume/bone.h"
+
+namespace burr::volume {
+
+struct Span {
+  math::Vec3 in = math::Vec3::Zero(), out = math::Vec3::Zero();  // where the line enters and leaves
+  [[nodiscard]] double length() const { return (out - in).norm(); }
+};
+
+// The first bone along the line from `from` in `direction` (unit) that begins within `reach`, up to
+// the air behind it. Outside the grid is air. Nothing: there is no bone so near, or no number was
+// given.
+[[nodiscard]] std::optional<Span> thickness(const Bone& bone, const math::Vec3& from,
+                                            const math::Vec3& direction, double reach);
+
+}  // namespace burr::volume
