@@ -19,6 +19,7 @@
 #include "window/export_page.h"
 #include "window/help.h"
 #include "window/hud.h"
+#include "window/see_through.h"
 #include "window/settings_page.h"
 #include "window/slices.h"
 #include "window/toolbar.h"
@@ -203,6 +204,7 @@ Result<Left> Mill::run() {
   session_.stop();
   scene_.insets.clear();
   scene_.tissue_colours = colours_;
+  scene_.look.opacity = 1;
   worker_.hold_back(false);
   worker_.settle([this](const surface::Skin& skin) { put_skin(scene_, skin); });
   if (!shown) return shown.error();
@@ -279,6 +281,9 @@ void Mill::key(const SDL_Keysym& pressed) {
       break;
     case SDLK_l:
       show_labels(!labels_);
+      break;
+    case SDLK_t:
+      note(step_see_through(scene_, shift));
       break;
     case SDLK_SPACE:
       held_ = !held_;

@@ -18,6 +18,7 @@
 #include "burr/render/gl/lighting.h"
 #include "burr/render/gl/overlay.h"
 #include "burr/render/gl/region.h"
+#include "burr/render/gl/see_through.h"
 #include "burr/render/gl/shaders.h"
 #include "burr/render/gl/shapes.h"
 #include "burr/render/gl/skin.h"
@@ -51,7 +52,7 @@ bool same(const Look& a, const Look& b) {
   return same(a.key, b.key) && same(a.fill, b.fill) && a.ambient == b.ambient &&
          a.gloss == b.gloss && a.hollow == b.hollow && a.hollow_reach == b.hollow_reach &&
          a.hollow_samples == b.hollow_samples && a.hollow_half == b.hollow_half &&
-         a.supersample == b.supersample && a.plain == b.plain &&
+         a.supersample == b.supersample && a.opacity == b.opacity && a.plain == b.plain &&
          a.background_top == b.background_top && a.background_bottom == b.background_bottom;
 }
 bool same(const std::optional<ClipPlane>& a, const std::optional<ClipPlane>& b) {
@@ -73,6 +74,7 @@ int margin_of(const Scene& scene, const Frame& frame) {
   return static_cast<int>(reach_of(scene, frame)) + 12;
 }
 
+bool sees_through(const Look& look) { return look.opacity < 1; }
 bool has_hollows(const Look& look) { return look.hollow > 0 && !look.plain; }
 
 }  // namespace
@@ -87,6 +89,7 @@ struct Renderer::Work {
   gl::Sheet sheet;
   gl::VertexArray nothing;  // a screen's triangle has no data, but wants an array
   gl::Lighting lighting;
+  gl::SeeThrough through;
   Program skin_mesh, clipped_skin, mesh, hollow, soften, shrink;
   int most = kMostTarget;                    // samples along a side
   int idle_width = 1280, idle_height = 720;  // of show() without a window
@@ -126,6 +129,8 @@ struct Renderer::Work {
              const std::vector<Piece>& pieces);
   void paint_bone(const Scene& scene, const Frame& frame, const Rect& r);
   void paint_tool(const Frame& frame, const Rect& r, const std::vector<Piece>& pieces);
+  void draw_pieces(const Frame& frame, const Rect& r, const std::vector<Piece>& pieces,
+                   bool with_marks);
   void paint_hollows(const Scene& scene, const Frame& frame, const Rect& r);
   struct Size {
     int width = 0, height = 0;
@@ -154,7 +159,8 @@ Status Renderer::Work::start() {
     if (!linked) return linked.error();
     *one.program = std::move(*linked);
   }
-  for (const Status& made : {lighting.start(context->es()), overlay.make(context->es())})
+  for (const Status& made :
+       {lighting.start(context->es()), through.start(context->es()), overlay.make(context->es())})
     if (!made) return made;
   GLint texture = 0;
   std::array<GLint, 2> viewport{};
@@ -214,6 +220,14 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
   fresh.add(parts.tool);
   fresh.join();
   for (const Rect& rect : fresh.rects()) paint_tool(frame, rect, pieces);
+  const bool seen_through = sees_through(scene.look);
+  if (seen_through)
+    for (const Rect& rect : fresh.rects()) {
+      const gl::Skin::Drawn drawn =
+          through.paint(scene, frame, rect, skin, [&] { draw_pieces(frame, rect, pieces, false); });
+      figures.patches_drawn += drawn.patches;
+      figures.triangles_drawn += drawn.triangles;
+    }
 
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
@@ -235,6 +249,7 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
       lighting.paint(scene, frame, rest, what, hollows, false);
     for (const Rect& rest : rect.without(there))
       lighting.paint_sky(scene, frame, rest, target.lit_at);
+    if (seen_through) through.blend(scene, frame, some, what, lighting);
   }
   glDisable(GL_SCISSOR_TEST);
   figures.redrawn = std::min(1.0, lit.area() / frame.all().area());
@@ -302,10 +317,17 @@ void Renderer::Work::paint_tool(const Frame& frame, const Rect& r,
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glEnable(GL_CULL_FACE);
+  draw_pieces(frame, r, pieces, true);
+}
+
+// Tool and, with_marks, what is drawn over everything, into the framebuffer that is bound.
+void Renderer::Work::draw_pieces(const Frame& frame, const Rect& r,
+                                 const std::vector<Piece>& pieces, bool with_marks) {
   mesh.use();
   const Eigen::Matrix4d clip_from_world = frame.clip * frame.view;
   const Eigen::Matrix3d turn = frame.view.block<3, 3>(0, 0);
   for (const Piece& piece : pieces) {
+    if (piece.on_top && !with_marks) continue;
     if (std::all_of(piece.boxes.begin(), piece.boxes.end(),
                     [&](const auto& corners) { return rect_of(corners, frame).in(r).empty(); }))
       continue;
@@ -478,6 +500,9 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
            part(outer.y0, whole.picture_height), part(outer.y1, whole.picture_height)});
       const Result<bool> sized = w.target.resize(frame.width, frame.height, stride);
       if (!sized) return sized.error();
+      if (sees_through(scene.look))
+        if (const Status more = w.through.resize(frame.width, frame.height); !more)
+          return more.error();
       Work::Parts parts;
       parts.extent = bone;
       parts.bone.add(frame.all());
@@ -588,6 +613,8 @@ Status Renderer::show(const Scene& scene, const std::function<void()>& over) {
   const Result<bool> fresh =
       w.target.resize(frame.width, frame.height, scene.look.hollow_half ? 2 : 1);
   if (!fresh) return fresh.error();
+  if (sees_through(scene.look))
+    if (const Status more = w.through.resize(frame.width, frame.height); !more) return more;
 
   // everything anew when the eye moved; else only where bone or tool did
   const bool all = *fresh || !w.held || !same(w.held->camera, scene.camera) ||

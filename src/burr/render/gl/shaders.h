@@ -6,6 +6,7 @@
 //     soften    the same, its noise smoothed within the surface
 //     light     all of it -> the picture
 //     sky       the same, where there is nothing
+//     through   what is behind the bone shows through it
 //     shrink    n x n samples -> one pixel
 //     flat      overlay: text and bars
 //     inset     overlay: a picture
@@ -40,6 +41,9 @@ uniform mat3 view_from_model_n;
 uniform sampler2D tissue_colours;
 out vec3 n;
 out vec3 colour;
+#ifdef WALLS
+out float wall;
+#endif
 #ifdef CLIP
 uniform vec4 plane;  // hidden where dot(plane, (p, 1)) > 0; world
 out float beyond;
@@ -56,7 +60,12 @@ void main() {
   n = view_from_model_n * normalize(m);
   vec3 bone = texelFetch(tissue_colours, ivec2(int(at_rest.x & 255u), 0), 0).rgb;
   vec3 under = texelFetch(tissue_colours, ivec2(int(at_rest.y & 255u), 0), 0).rgb;
+#ifdef WALLS
+  colour = under;
+  wall = float(at_rest.y >> 16u & 255u) / 255.0;
+#else
   colour = mix(bone, under, float(at_rest.y >> 8u & 255u) / 255.0);
+#endif
 }
 )";
 
@@ -73,9 +82,19 @@ layout(location = 1) out uvec2 out_n;
 in float beyond;
 uniform vec3 plane_n;  // view
 #endif
+#ifdef WALLS
+in float wall;
+#endif
 void main() {
   vec3 k = n, c = colour;
+#ifdef WALLS
 #ifdef CLIP
+  if (beyond > 0.0) discard;
+#endif
+  // bone's normal leads into the tissue: from outside it is the tissue's own, turned around
+  if (wall < 0.2) discard;
+  if (!gl_FrontFacing) k = -n;
+#elif defined(CLIP)
   if (beyond > 0.0) discard;
   // what is seen from behind is seen through the section: it closes it
   if (!gl_FrontFacing) {
@@ -325,6 +344,30 @@ void main() {
 #endif
   vec3 back = mix(sky_bottom, sky_top, clamp(gl_FragCoord.y * sky.x + sky.y, 0.0, 1.0));
   result = vec4(c.a < 0.1 ? back : srgb(colour), 1.0);
+}
+)";
+
+// What is behind the bone over the bone, for blending. Where the bone is seen edge-on it stays, so
+// that its shape does; a bone of opacity 0 is gone.
+inline constexpr const char* kThroughFragment = R"(
+uniform sampler2D colour_map;    // of the front
+uniform usampler2D normal_map;
+uniform sampler2D behind;        // lit
+uniform vec4 ray;
+uniform ivec2 size;
+uniform float opacity;
+out vec4 result;
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  if (texelFetch(colour_map, at, 0).a < 0.8) discard;
+  vec2 f = vec2(texelFetch(normal_map, at, 0).rg) / 65535.0 * 2.0 - 1.0;
+  vec3 n = vec3(f, 1.0 - abs(f.x) - abs(f.y));
+  float t = max(-n.z, 0.0);
+  n.xy += vec2(n.x >= 0.0 ? -t : t, n.y >= 0.0 ? -t : t);
+  vec2 uv = (vec2(at) + 0.5) / vec2(size);
+  vec3 eye = normalize(vec3(-(uv * ray.xy + ray.zw), 1.0));
+  float facing = clamp(dot(normalize(n), eye), 0.0, 1.0);
+  result = vec4(texelFetch(behind, at, 0).rgb, (1.0 - opacity) * mix(1.0, facing, opacity));
 }
 )";
 

@@ -39,6 +39,8 @@ class Skin {
   using Planes = std::array<Eigen::Vector4d, 6>;
   // both_sides: what is turned away is seen too.
   Drawn draw(const math::Vec3& eye, const Planes& planes, bool both_sides, const Hidden* hidden);
+  // The walls of what soft tissue fills, both sides of them, though bone hides them.
+  Drawn draw_walls(const Planes& planes);
 
  private:
   struct Part {
@@ -51,6 +53,7 @@ class Skin {
     };
     std::vector<Level> levels;  // none: nothing to draw
     GLenum type = GL_UNSIGNED_SHORT;
+    Level walls;  // behind all levels in `indices`: triangles beside soft tissue
     math::Aabb box;
     math::Vec3 facing = math::Vec3::Zero();  // middle of the cone of the triangles' normals
     double spread = 0;                       // its half angle; pi: every way         [rad]
@@ -73,7 +76,7 @@ class Skin {
 
   void send(Patch& part, const ScenePatch& patch);
   static void send(Block& part, const CoarseMesh& mesh);
-  static void draw(const Asked& asked, Drawn& drawn);
+  static void draw(const Part& part, const Part::Level& level, Drawn& drawn);
   void ask(Patch& patch, const math::Vec3& eye, const Planes& planes);
   void ask(Block& block, const math::Vec3& eye, const Planes& planes);
   void send_colours();
