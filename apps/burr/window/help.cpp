@@ -57,7 +57,8 @@ bool draw_help(Ui& ui, bool left_handed) {
          {word(Word::key_shift_wheel), Word::help_sizes},
          {",  .", Word::help_speeds},
          {"U  Y", Word::help_undo},
-         {"R", Word::help_reset}});
+         {"R", Word::help_reset},
+         {"I", Word::help_coolant}});
   block(ui, x + 480 * u, right, Word::help_program,
         {{"Tab", Word::help_hide},
          {"F2", Word::help_settings},

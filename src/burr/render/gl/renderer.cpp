@@ -90,7 +90,7 @@ struct Renderer::Work {
   gl::VertexArray nothing;  // a screen's triangle has no data, but wants an array
   gl::Lighting lighting;
   gl::SeeThrough through;
-  Program skin_mesh, clipped_skin, mesh, hollow, soften, shrink;
+  Program skin_mesh, clipped_skin, dressed_skin, clipped_dressed_skin, mesh, hollow, soften, shrink;
   int most = kMostTarget;                    // samples along a side
   int idle_width = 1280, idle_height = 720;  // of show() without a window
   Figures figures;
@@ -144,12 +144,17 @@ struct Renderer::Work {
 // ---- starting
 
 Status Renderer::Work::start() {
-  constexpr const char *kColours = gl::kColourFunctions, *kClip = "#define CLIP\n";
+  constexpr const char *kColours = gl::kColourFunctions, *kClip = "#define CLIP\n",
+                       *kDressed = "#define DRESSED\n";
   const struct {
     Program* program;
     std::initializer_list<const char*> vertex, fragment;
   } all[] = {{&skin_mesh, {gl::kSkinVertex}, {gl::kMeshFragment}},
              {&clipped_skin, {kClip, gl::kSkinVertex}, {kClip, gl::kMeshFragment}},
+             {&dressed_skin, {kDressed, gl::kSkinVertex}, {kDressed, gl::kMeshFragment}},
+             {&clipped_dressed_skin,
+              {kClip, kDressed, gl::kSkinVertex},
+              {kClip, kDressed, gl::kMeshFragment}},
              {&mesh, {gl::kMeshVertex}, {gl::kMeshFragment}},
              {&hollow, {gl::kScreenVertex}, {gl::kHollowFragment}},
              {&soften, {gl::kScreenVertex}, {gl::kSoftenFragment}},
@@ -271,7 +276,8 @@ void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Re
   glDepthFunc(GL_LESS);
   glEnable(GL_CULL_FACE);
 
-  Program& program = scene.clip ? clipped_skin : skin_mesh;
+  Program& program = skin.dressed() ? (scene.clip ? clipped_dressed_skin : dressed_skin)
+                                    : (scene.clip ? clipped_skin : skin_mesh);
   program.use();
   const Eigen::Matrix4d clip_from_world = frame.clip * frame.view;
   program.set("clip_from_model", Eigen::Matrix4f(clip_from_world.cast<float>()));
@@ -279,6 +285,7 @@ void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Re
   program.set("view_from_model_n", Eigen::Matrix3f(turn.cast<float>()));
   program.set("tint_kind", Eigen::Vector4f(1, 1, 1, kBone));
   program.set("tissue_colours", 0);
+  program.set("grains_per_m", 2000.0F);
   if (scene.clip) {
     glDisable(GL_CULL_FACE);
     const Vec3& n = scene.clip->n;

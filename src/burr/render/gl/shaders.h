@@ -44,6 +44,11 @@ out vec3 colour;
 #ifdef WALLS
 out float wall;
 #endif
+#ifdef DRESSED
+layout(location = 2) in vec4 at_dress;  // fresh, wet
+uniform float grains_per_m;
+out float wet;
+#endif
 #ifdef CLIP
 uniform vec4 plane;  // hidden where dot(plane, (p, 1)) > 0; world
 out float beyond;
@@ -66,12 +71,24 @@ void main() {
 #else
   colour = mix(bone, under, float(at_rest.y >> 8u & 255u) / 255.0);
 #endif
+#ifdef DRESSED
+  // fresh bone is paler, and its grain is seen: a number of its own for every grain
+  uvec3 q = uvec3(ivec3(floor(at_p * grains_per_m + 0.25)));
+  uint h = q.x * 0x9E3779B1u ^ q.y * 0x85EBCA77u ^ q.z * 0xC2B2AE3Du;
+  h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;
+  h ^= h >> 12u;
+  float grain = float(h & 255u) / 127.5 - 1.0;
+  colour = mix(colour, vec3(1.0, 0.98, 0.94), 0.5 * at_dress.x);
+  colour *= 1.0 + 0.07 * grain * at_dress.x;
+  colour *= 1.0 - 0.22 * at_dress.y;
+  wet = at_dress.y;
+#endif
 }
 )";
 
-// kind: 0 nothing, 1 bone, 2/3 tool, 1/3 mark; in the alpha of the colour. Normals are folded into
-// an octahedron (Meyer et al. 2010, "On floating-point normal vectors") at 2 x 16 bit, which both
-// APIs can write.
+// kind: 0 nothing, 1 bone (wet down to 0.82), 2/3 tool, 1/3 mark; in the alpha of the colour.
+// Normals are folded into an octahedron (Meyer et al. 2010, "On floating-point normal vectors") at
+// 2 x 16 bit, which both APIs can write.
 inline constexpr const char* kMeshFragment = R"(
 in vec3 n;
 in vec3 colour;
@@ -84,6 +101,9 @@ uniform vec3 plane_n;  // view
 #endif
 #ifdef WALLS
 in float wall;
+#endif
+#ifdef DRESSED
+in float wet;
 #endif
 void main() {
   vec3 k = n, c = colour;
@@ -105,6 +125,9 @@ void main() {
   vec3 m = k / max(abs(k.x) + abs(k.y) + abs(k.z), 1e-20);
   vec2 o = m.z >= 0.0 ? m.xy : (1.0 - abs(m.yx)) * vec2(m.x >= 0.0 ? 1.0 : -1.0, m.y >= 0.0 ? 1.0 : -1.0);
   out_colour = vec4(c * tint_kind.rgb, tint_kind.a);
+#ifdef DRESSED
+  out_colour.a -= 0.18 * wet;  // still bone, and the light knows how wet
+#endif
   out_n = uvec2(round((o * 0.5 + 0.5) * 65535.0));
 }
 )";
@@ -335,6 +358,11 @@ void main() {
   float x4 = x * x * x * x, x12 = x4 * x4 * x4, x28 = x12 * x12 * x4;
   float shine = bone ? x28 : x28 * x28 * x4;
   float own = bone ? gloss : 0.45;
+  if (bone) {  // water: a sharper, stronger shine
+    float wet = (1.0 - c.a) / 0.18;
+    own += 0.5 * wet;
+    shine = mix(shine, x28 * x28 * x4, wet);
+  }
   vec3 colour = albedo * light + key_light * (own * shine * step(1e-4, lit) * open);
   // steel mirrors the room: bright above, dark below
   float mirrored = smoothstep(-0.2, 0.9, 2.0 * dot(n, eye) * n.y - eye.y);

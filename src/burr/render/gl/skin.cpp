@@ -56,6 +56,13 @@ bool outside(const math::Aabb& box, const std::array<Eigen::Vector4d, 6>& planes
   });
 }
 
+bool none_dressed(const Scene& scene, const SceneBlock& block) {
+  return std::none_of(block.patches.begin(), block.patches.end(), [&](int patch) {
+    const auto p = static_cast<std::size_t>(patch);
+    return p < scene.patches.size() && scene.patches[p].dress != nullptr;
+  });
+}
+
 }  // namespace
 
 int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
@@ -71,15 +78,20 @@ int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
   patches_.resize(scene.patches.size());
 
   int sent = 0;
+  dressed_ = false;
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     const ScenePatch& patch = scene.patches[i];
     Patch& part = patches_[i];
+    dressed_ = dressed_ || patch.dress != nullptr;
     if (part.version == patch.version) {
-      if (recolour && !part.levels.empty()) changed.push_back(part.box);
+      const bool other_dress = part.dress != patch.dress;
+      if (other_dress) send_dress(part, patch);
+      if ((recolour || other_dress) && !part.levels.empty()) changed.push_back(part.box);
       continue;
     }
     if (!part.levels.empty()) changed.push_back(part.box);
     send(part, patch);
+    send_dress(part, patch);
     if (!part.levels.empty()) changed.push_back(part.box);
     ++sent;
   }
@@ -101,7 +113,8 @@ int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
       else
         send(part, *part.mesh);
     }
-    part.stands = part.mesh != nullptr && block.versions == versions_of(scene, block);
+    part.stands = part.mesh != nullptr && block.versions == versions_of(scene, block) &&
+                  (!dressed_ || none_dressed(scene, block));
   }
   return sent;
 }
@@ -190,6 +203,22 @@ void Skin::send(Patch& part, const ScenePatch& patch) {
   if (fresh) lay_out();
 }
 
+// Its array exists, unless it has no surface.
+void Skin::send_dress(Patch& part, const ScenePatch& patch) {
+  part.dress = patch.dress;
+  if (part.array.get() == 0) return;
+  glBindVertexArray(part.array.get());
+  if (patch.mesh == nullptr || part.dress == nullptr ||
+      part.dress->size() != patch.mesh->vertices().size()) {
+    glDisableVertexAttribArray(2);
+    return;
+  }
+  glBindBuffer(GL_ARRAY_BUFFER, part.dress_values.make());
+  fill(GL_ARRAY_BUFFER, part.dress->data(), part.dress->size() * sizeof(Dress));
+  glEnableVertexAttribArray(2);
+  glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Dress), nullptr);
+}
+
 void Skin::send(Block& part, const CoarseMesh& mesh) {
   part.box = {};
   for (const SkinVertex& vertex : mesh.vertices) part.box.extend(vertex.p.cast<double>());
@@ -258,6 +287,7 @@ void Skin::ask(Block& block, const Vec3& eye, const Planes& planes) {
 Skin::Drawn Skin::draw(const Vec3& eye, const Planes& planes, bool both_sides,
                        const Hidden* hidden) {
   Drawn drawn;
+  glVertexAttrib4f(2, 0, 0, 0, 0);  // of what is not dressed
   both_sides_ = both_sides;
   asked_.clear();
   if (blocks_.empty() || error_share_ <= 0)
