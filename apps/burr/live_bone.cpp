@@ -1,4 +1,5 @@
 #include "live_bone.h"
+
 namespace burr::app {
 namespace {
 
