@@ -23,7 +23,8 @@ LiveBone::LiveBone(const volume::Bone& bone, surface::Worker& worker, render::Sc
     : worker_(worker),
       scene_(scene),
       coarse_(worker.patches(), bone.grid().voxel),
-      governor_(software) {}
+      governor_(software),
+      wound_(bone.grid().voxel) {}
 
 sim::Load LiveBone::load() const {
   return session_ != nullptr ? session_->load() : sim::Load::none;
@@ -39,12 +40,20 @@ void LiveBone::update() {
   surface::Skin skin;
   for (int i = 0; i < kPatchesPerFrame && worker_.take(skin); ++i) {
     put_skin(scene_, skin);
+    wound_.dress(scene_, skin.patch);
     worker_.give_back(skin);
     skins_.push_back(skin);
   }
   coarse_.hold_back(load() >= sim::Load::picture);
   coarse_.update(scene_, now());
   scene_.quality = governor_.begin(scene_.camera, now());
+  wound_.renew(scene_, now());
+}
+
+void LiveBone::look_plain() {
+  if (!wound_.any()) return;
+  wound_.forget();
+  wound_.dress(scene_);
 }
 
 void LiveBone::drawn(double took_s, double redrawn) { governor_.end(took_s, redrawn, now()); }

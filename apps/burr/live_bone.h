@@ -15,6 +15,7 @@
 #include "burr/render/coarsening.h"
 #include "burr/render/governor.h"
 #include "burr/render/scene.h"
+#include "burr/render/wound.h"
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
 
@@ -32,6 +33,9 @@ class LiveBone {
   // Patches that are ready go into the scene, as many as a frame bears; surface and coarse blocks
   // are held back where the machine does not keep up with the hand.
   void update();
+  // What the tool does to the look of the bone; before update(). nothing: the bone as ever.
+  void see(const render::Wound::Tick& tick) { wound_.see(tick); }
+  void look_plain();
   // After the frame: how long it took, how much of the picture was drawn anew.
   void drawn(double took_s, double redrawn);
 
@@ -49,6 +53,7 @@ class LiveBone {
   render::Scene& scene_;
   render::Coarsening coarse_;
   render::FrameGovernor governor_;
+  render::Wound wound_;
   std::vector<surface::Skin> skins_;
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
 };

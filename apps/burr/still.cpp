@@ -32,6 +32,12 @@ render::Scene scene_of_work(const volume::Bone& bone, double burr_radius, const 
   return scene;
 }
 
+render::Wound::Tick wound_tick(const record::TickRow& row, double rate_hz, double burr_radius,
+                               bool irrigated) {
+  return {static_cast<double>(row.tick) / rate_hz, row.contact.proxy, burr_radius,
+          row.ledger.removed, irrigated};
+}
+
 void put_tool(render::Scene& scene, const record::TickRow& row, double burr_radius, bool contact) {
   scene.burr.visible = true;
   scene.burr.radius = burr_radius;

@@ -8,6 +8,7 @@
 #include "burr/base/result.h"
 #include "burr/record/rows.h"
 #include "burr/render/scene.h"
+#include "burr/render/wound.h"
 #include "burr/volume/bone.h"
 
 namespace burr::app {
@@ -22,6 +23,10 @@ void add_picture_size(CLI::App& command, PictureSize& size);
 // around it, but no more air than a small bone leaves.
 [[nodiscard]] render::Scene scene_of_work(const volume::Bone& bone, double burr_radius,
                                           const math::Vec3& at, const math::Vec3& outward);
+
+// What a tick tells of the look of the bone.
+[[nodiscard]] render::Wound::Tick wound_tick(const record::TickRow& row, double rate_hz,
+                                             double burr_radius, bool irrigated);
 
 // The burr as it was in this tick, and with `contact` hand, proxy and force too.
 void put_tool(render::Scene& scene, const record::TickRow& row, double burr_radius, bool contact);

@@ -57,6 +57,10 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       .add_option("--height-mm", options.height_mm, "what is seen of the work from bottom to top")
       ->check(CLI::Range(0.1, 2000.0));
   command.add_flag("!--no-labels", options.labels, "bone in one colour, whatever its tissue");
+  command
+      .add_option("--see-through", options.see_through,
+                  "percent: how much of what lies in the bone and behind it is seen")
+      ->check(CLI::Range(0.0, 100.0));
 }
 
 namespace {
@@ -64,6 +68,7 @@ namespace {
 void look(render::Scene& scene, const Vec3& at, const Vec3& ahead, const ViewOptions& options,
           double aspect) {
   if (!options.labels) scene.tissue_colours = render::as_bone(scene.tissue_colours);
+  scene.look.opacity = 1 - options.see_through / 100;
   render::Camera& camera = scene.camera;
   if (const auto plane = named(kPlanes, options.clip)) {
     const Vec3 n = towards_eye(*plane);

@@ -18,9 +18,10 @@ struct ViewOptions {
   std::string stereo = "off";  // side-by-side, anaglyph, interleaved
   double height_mm = 0;        // of what is seen at the work; 0: what suits the view
   bool labels = true;          // colours of tissues
+  double see_through = 0;      // of the bone [%]
 };
 
-// Adds --view --clip --stereo --height-mm --no-labels.
+// Adds --view --clip --stereo --height-mm --no-labels --see-through.
 void add_view_options(CLI::App& command, ViewOptions& options);
 
 // Camera, clip plane and mask of a 3D view, for a film. The whole bone can only be fitted when its

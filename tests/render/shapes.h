@@ -42,7 +42,8 @@ inline surface::Patch unpacked(const render::SkinMesh& mesh) {
   for (const render::SkinVertex& v : mesh.vertices())
     patch.vertices.push_back({v.p, render::normal_of(v), render::tissue_of(v),
                               static_cast<volume::TissueId>(v.under & 0xFFU),
-                              static_cast<std::uint8_t>(v.under >> 8 & 0xFFU)});
+                              static_cast<std::uint8_t>(v.under >> 8 & 0xFFU),
+                              static_cast<std::uint8_t>(v.under >> 16)});
   for (std::size_t n = 0; n < mesh.index_count(); ++n) patch.triangles.push_back(mesh.index(n));
   return patch;
 }

@@ -10,6 +10,7 @@
 #include "burr/render/pick.h"
 #include "burr/rt/changed_bits.h"
 #include "recording.h"
+#include "window/see_through.h"
 #include "window/sessions.h"
 #include "window/user.h"
 
@@ -121,6 +122,36 @@ TEST_F(Window, ShowsSlicesThroughTheTipThatCanBeHidden) {
   EXPECT_GT(differ(with, without, 1080, 20, 1270, 600), 10'000);
   EXPECT_GT(differ(with, nearer, 1080, 20, 1270, 600), 100);
   EXPECT_LT(differ(nearer, without, 100, 650, 900, 712), 3000) << "the strip stays";
+}
+
+TEST_F(Window, MakesBoneSeeThroughInStepsAndWholeAgain) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  const render::Look& look = ready->scene.look;
+  render::Image whole, through;
+  std::vector<double> opacities;
+  const auto step = [&](Uint16 held) {
+    return [&, held] {
+      opacities.push_back(look.opacity);
+      if (opacities.size() == 1) whole = desk_->renderer().shown();
+      if (opacities.size() == 4) through = desk_->renderer().shown();
+      press(SDLK_t, held);
+    };
+  };
+  const auto is = [&](double opacity) { return [&, opacity] { return look.opacity == opacity; }; };
+  mill_by(*ready, {{"the first picture", looks(15), step(KMOD_NONE)},
+                   {"40 %", is(0.6), step(KMOD_NONE)},
+                   {"65 %", is(0.35), step(KMOD_NONE)},
+                   {"85 %", is(0.15), step(KMOD_LSHIFT)},
+                   {"65 % again", is(0.35), step(KMOD_NONE)},
+                   {"85 % again", is(0.15), step(KMOD_NONE)},
+                   {"whole", is(1), [] { press(SDLK_ESCAPE); }}});
+  EXPECT_EQ(opacities, (std::vector<double>{1, 0.6, 0.35, 0.15, 0.35, 0.15}));
+  render::Scene scene;
+  EXPECT_EQ(step_see_through(scene, false), "bone seen through: 40 %");
+  EXPECT_EQ(step_see_through(scene, true), "bone not seen through");
+  // the block itself, in the middle of the picture
+  EXPECT_GT(differ(whole, through, 400, 200, 900, 600), 50'000);
 }
 
 TEST_F(Window, LiftsTheBurrWhenTheMouseComesOverAPanel) {

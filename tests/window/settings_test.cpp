@@ -39,6 +39,7 @@ TEST_F(SettingsFile, ComesBackAsItWasWrittenWithEveryValueChanged) {
   s.press_mm = 3;
   s.turn_pace = 0.5;
   s.zoom_pace = 2;
+  s.effects = false;
   s.panels = false;
   s.help = true;
   s.autosave = false;

@@ -29,7 +29,7 @@ void block(const Ui& ui, float x, float& y, Word title, const Rows& rows) {
 }  // namespace
 
 bool draw_help(Ui& ui, bool left_handed) {
-  const float u = ui.unit(), w = 920 * u, h = 534 * u;
+  const float u = ui.unit(), w = 920 * u, h = 557 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
   ui.page("##help", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::help_title));
@@ -50,7 +50,8 @@ bool draw_help(Ui& ui, bool left_handed) {
          {"F", Word::help_first_view},
          {"V  B  N", Word::help_slices},
          {"W", Word::help_window},
-         {"L", Word::help_labels}});
+         {"L", Word::help_labels},
+         {"T", Word::help_see_through}});
   block(ui, x + 480 * u, right, Word::help_tools,
         {{"1  2  3  4  5", Word::help_modes},
          {"[  ]", Word::help_sizes},
@@ -58,7 +59,8 @@ bool draw_help(Ui& ui, bool left_handed) {
          {",  .", Word::help_speeds},
          {"U  Y", Word::help_undo},
          {"R", Word::help_reset},
-         {"D", Word::help_measure}});
+         {"D", Word::help_measure},
+         {"I", Word::help_coolant}});
   block(ui, x + 480 * u, right, Word::help_program,
         {{"Tab", Word::help_hide},
          {"F2", Word::help_settings},
@@ -76,7 +78,7 @@ bool draw_help(Ui& ui, bool left_handed) {
 }
 
 bool draw_replay_help(Ui& ui) {
-  const float u = ui.unit(), w = 920 * u, h = 320 * u;
+  const float u = ui.unit(), w = 920 * u, h = 343 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 60 * u);
   ui.page("##replayhelp", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::replay_help_title));
@@ -95,6 +97,7 @@ bool draw_replay_help(Ui& ui) {
          {word(Word::key_wheel), Word::help_zoom},
          {"F", Word::help_first_view},
          {"L", Word::help_labels},
+         {"T", Word::help_see_through},
          {"Tab", Word::help_hide},
          {"P", Word::help_picture},
          {"Esc  Q", Word::help_quit}});

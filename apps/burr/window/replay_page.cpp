@@ -13,6 +13,7 @@
 #include "live_bone.h"
 #include "still.h"
 #include "window/help.h"
+#include "window/see_through.h"
 #include "window/timeline_panel.h"
 #include "window/words.h"
 
@@ -116,6 +117,7 @@ Result<Left> Watch::run() {
       open_ = false;
   }
   scene_.tissue_colours = colours_;
+  scene_.look.opacity = 1;
   if (!shown) return shown.error();
   if (!options_.screenshot.empty()) {
     const Status kept = render::write_png(desk_.renderer().shown(), options_.screenshot);
@@ -236,6 +238,9 @@ void Watch::key(const SDL_Keysym& pressed) {
       break;
     case SDLK_l:
       show_labels(!labels_);
+      break;
+    case SDLK_t:
+      note(step_see_through(scene_, shift));
       break;
     case SDLK_TAB:
       panels_ = !panels_;

@@ -26,6 +26,7 @@ struct Settings {
   double press_mm = 4;         // how deep the mouse presses at first
   double turn_pace = 1;        // of the view, by mouse and arrows
   double zoom_pace = 1;        // by wheel and two fingers
+  bool effects = true;         // bone freshly cut and wet looks so for a while
   bool panels = true;          // shown at the start
   bool help = false;           // shown at the start
   bool autosave = true;        // sessions at the window are recorded

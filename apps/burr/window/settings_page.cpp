@@ -100,6 +100,7 @@ SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file) 
   right.heading(Word::set_view);
   right.number(Word::set_turn, "turn_pace", settings.turn_pace, "%.1f x");
   right.number(Word::set_zoom, "zoom_pace", settings.zoom_pace, "%.1f x");
+  right.yes(Word::set_effects, "effects", settings.effects);
   right.heading(Word::set_privacy);
   right.yes(Word::set_recent_names, "recent_names", settings.recent_names);
   ui.write(x + 28 * u, y + h - 34 * u, Ui::Letter::small, ink::kDim,

@@ -16,10 +16,12 @@
 #include "burr/tool/burr_tool.h"
 #include "command.h"
 #include "live_bone.h"
+#include "still.h"
 #include "window/export_page.h"
 #include "window/help.h"
 #include "window/hud.h"
 #include "window/measuring.h"
+#include "window/see_through.h"
 #include "window/settings_page.h"
 #include "window/slices.h"
 #include "window/toolbar.h"
@@ -96,6 +98,7 @@ class Mill {
   void look_at_session();
   void show_labels(bool shown);
   void toggle_sound();
+  void toggle_coolant();
   void look_at_burr();
   void measure();
   void tell();
@@ -131,6 +134,7 @@ class Mill {
   std::optional<Slices> slices_;
   std::optional<ExportPage> export_;
   bool leaves_ = false;  // though a file is still being written
+  bool irrigated_ = false;
   bool slices_shown_ = true, labels_ = true, pulls_window_ = false;
   std::vector<render::Colour> colours_;   // of the tissues, while labels are shown
   bool pressing_ = false, held_ = false;  // by the button; by the space bar
@@ -163,6 +167,7 @@ Result<Left> Mill::run() {
   scene_.burr.shaft_radius = burr.shaft_radius;
   scene_.burr.shaft_length = burr.shaft_length;
   mode_ = session_.settings().servo.mode;
+  irrigated_ = session_.settings().servo.irrigated;
   full_speed_ = session_.settings().servo.spindle_rad_s;
   panels_ = desk_.settings.panels;
   help_ = desk_.settings.help;
@@ -184,6 +189,10 @@ Result<Left> Mill::run() {
   while (open_ && shown && !interrupted()) {
     take_events();
     look_at_session();
+    if (!desk_.settings.effects)
+      live.look_plain();
+    else if (first_tick_)
+      live.see(wound_tick(row_, session_.settings().servo.rate_hz, scene_.burr.radius, irrigated_));
     point();
     measure();
     if (std::string told = export_->step(); !told.empty()) note(std::move(told));
@@ -214,6 +223,8 @@ Result<Left> Mill::run() {
   session_.stop();
   scene_.insets.clear();
   scene_.tissue_colours = colours_;
+  scene_.look.opacity = 1;
+  live.look_plain();
   worker_.hold_back(false);
   worker_.settle([this](const surface::Skin& skin) { put_skin(scene_, skin); });
   if (!shown) return shown.error();
@@ -296,6 +307,12 @@ void Mill::key(const SDL_Keysym& pressed) {
       break;
     case SDLK_l:
       show_labels(!labels_);
+      break;
+    case SDLK_t:
+      note(step_see_through(scene_, shift));
+      break;
+    case SDLK_i:
+      toggle_coolant();
       break;
     case SDLK_SPACE:
       held_ = !held_;
@@ -623,6 +640,14 @@ void Mill::toggle_sound() {
   options_.loudspeaker->toggle();
   if (!options_.loudspeaker->trouble().empty()) return note(options_.loudspeaker->trouble());
   note(word(options_.loudspeaker->is_on() ? Word::sound_on : Word::sound_off));
+}
+
+void Mill::toggle_coolant() {
+  irrigated_ = !irrigated_;
+  const record::Wish wish = {record::WishKind::irrigation, irrigated_ ? 1.0 : 0.0};
+  session_.wish(wish);
+  if (options_.loudspeaker != nullptr) options_.loudspeaker->obey(wish);
+  note(word(irrigated_ ? Word::coolant_on : Word::coolant_off));
 }
 
 // The burr that is wished for, or the sentence why not.

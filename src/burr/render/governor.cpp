@@ -32,6 +32,7 @@ Quality FrameGovernor::begin(const Camera& camera, double now) {
   quality.hollows_later = still >= 1;
   quality.coarse_still_px = still < 2 ? 0 : 1;
   quality.refine = !moving_;
+  quality.dress_s = still < 1 && moving < 1 ? 0.1 : still < 2 ? 0.5 : 2;
   const int step = steps_[index()].at;
   quality.scale = step < 3 ? 1 : step < 4 ? 0.87 : 0.75;
   return quality;

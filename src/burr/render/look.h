@@ -29,6 +29,7 @@ struct Look {
   bool hollow_half = true;     // at half the resolution: four times cheaper, a little softer
   int supersample = 1;         // n x n samples per pixel; 1 for a window without a GPU, 2 or 3 for
                                // a still
+  double opacity = 1;          // of bone; below 1 what lies in it or behind it is seen
   bool plain = false;          // only Lambert from the eye, no other light: to measure by
   Colour background_top = {0.20F, 0.23F, 0.27F};
   Colour background_bottom = {0.09F, 0.10F, 0.12F};

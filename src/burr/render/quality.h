@@ -13,6 +13,9 @@ struct Quality {
   bool hollows_later = false;  // leaves the old ones there
   double coarse_still_px = 0;
 
+  // how seldom what milling leaves on bone is drawn anew (wound.h)  [s]
+  double dress_s = 0.1;
+
   // makes good, piece by piece, what was left out before
   bool refine = true;
 

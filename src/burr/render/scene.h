@@ -8,6 +8,7 @@
 // Frame: world (LPS). Units: m. Thread: one at a time; a copy is cheap, the patches are shared.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -26,11 +27,22 @@
 
 namespace burr::render {
 
+// What milling left on a vertex for now (wound.h), of 255.
+struct Dress {
+  std::uint8_t fresh = 0;  // cut just now: pale and grainy
+  std::uint8_t wet = 0;    // dark and glossy
+  std::array<std::uint8_t, 2> nothing = {};
+  [[nodiscard]] bool operator==(const Dress&) const = default;
+};
+static_assert(sizeof(Dress) == 4, "goes to the GPU as it is");
+
 // One patch of surface. Whoever draws keeps its own copy and renews it when `version` differs.
 struct ScenePatch {
   std::shared_ptr<const SkinMesh> mesh;  // nullptr: no surface here
   std::uint64_t version = 0;
   math::Aabb box;  // of its vertices
+  // one for each vertex; nullptr: bone as ever. Sent again when it is another one.
+  std::shared_ptr<const std::vector<Dress>> dress;
 };
 
 // Several patches with fewer triangles, drawn in their place where that is near enough and none of

@@ -41,7 +41,8 @@ SkinMesh::SkinMesh(const surface::Patch& patch) {
   vertices_.reserve(patch.vertices.size());
   for (const surface::Vertex& v : patch.vertices)
     vertices_.push_back(
-        {v.p, folded(v.n, v.tissue), std::uint32_t{v.beneath} | std::uint32_t{v.through} << 8});
+        {v.p, folded(v.n, v.tissue),
+         std::uint32_t{v.beneath} | std::uint32_t{v.through} << 8 | std::uint32_t{v.wall} << 16});
   if (patch.vertices.size() > 65535) {
     large_ = patch.triangles;
     return;

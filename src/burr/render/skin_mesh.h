@@ -16,9 +16,11 @@
 namespace burr::render {
 
 struct SkinVertex {
-  math::Vec3f p;            // world, LPS                                   [m]
-  std::uint32_t rest = 0;   // tissue: 8 bit; the normal's fold along x, y: 12 bit each
-  std::uint32_t under = 0;  // what shines through: tissue, then how much of 255: 8 bit each
+  math::Vec3f p;           // world, LPS                                   [m]
+  std::uint32_t rest = 0;  // tissue: 8 bit; the normal's fold along x, y: 12 bit each
+  // what shines through: tissue, how much of 255, and how far this is the wall of what it fills:
+  // 8 bit each
+  std::uint32_t under = 0;
 };
 static_assert(sizeof(SkinVertex) == 20, "goes to the GPU as it is");
 
@@ -27,6 +29,8 @@ static_assert(sizeof(SkinVertex) == 20, "goes to the GPU as it is");
 [[nodiscard]] inline volume::TissueId tissue_of(const SkinVertex& vertex) {
   return static_cast<volume::TissueId>(vertex.rest & 0xFFU);
 }
+
+[[nodiscard]] inline bool is_wall(const SkinVertex& vertex) { return vertex.under >> 16 != 0; }
 
 class SkinMesh {
  public:

@@ -277,6 +277,7 @@ void Mesher::Work::look_beneath(const math::Vec3& p_grid, const math::Vec3& n_gr
   if (filled > 0) {
     v.beneath = filling;
     v.through = static_cast<std::uint8_t>(std::lround(217 * filled));  // its wall is still bone
+    v.wall = static_cast<std::uint8_t>(std::lround(255 * std::min(filled, 1.0)));
     return;
   }
   const double reach = shine_through(voxel);
@@ -331,6 +332,7 @@ void Mesher::Work::make_vertex(int x, int y, int z, const math::Ijk& first) {
   vertex[i].tissue = bone.shared_tissue(voxel.x(), voxel.y(), voxel.z());
   vertex[i].beneath = 0;
   vertex[i].through = 0;
+  vertex[i].wall = 0;
   if (soft_near) look_beneath(p_grid, (n / std::sqrt(length)).template cast<double>(), vertex[i]);
   key[i] = EdgeKey{x, y, z, axis}.packed();
   id[static_cast<std::size_t>(axis * kIds + (z * kSamples + y) * kSamples + x)] =

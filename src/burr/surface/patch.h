@@ -18,6 +18,7 @@ struct Vertex {
   // what soft tissue lies under thin bone here, or fills the hollow this wall belongs to; 0: none
   volume::TissueId beneath = 0;
   std::uint8_t through = 0;  // how much of it is seen, of 255
+  std::uint8_t wall = 0;     // how much of the hollow beside it such tissue fills, of 255
 };
 
 // Counter-clockwise seen from the air. Vertices are shared inside the patch and repeated bit for

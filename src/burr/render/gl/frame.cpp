@@ -41,6 +41,12 @@ Rect rect_of(const Aabb& box, const Frame& frame) {
   return rect_of(corners, frame);
 }
 
+Eigen::Vector4f ray_of(const Frame& frame) {
+  const Eigen::Matrix4d& m = frame.clip;
+  return {static_cast<float>(2 / m(0, 0)), static_cast<float>(2 / m(1, 1)),
+          static_cast<float>((m(0, 2) - 1) / m(0, 0)), static_cast<float>((m(1, 2) - 1) / m(1, 1))};
+}
+
 std::array<Eigen::Vector4d, 6> planes_of(const Rect& r, const Frame& frame) {
   const Eigen::Matrix4d m = frame.clip * frame.view;
   const auto clip = [](int pixel, int size) { return 2.0 * pixel / size - 1; };

@@ -30,6 +30,9 @@ void set_depths(Frame& frame, const Camera& camera, const math::Aabb& bone);
 [[nodiscard]] Rect rect_of(std::span<const math::Vec3> points, const Frame& frame);
 [[nodiscard]] Rect rect_of(const math::Aabb& box, const Frame& frame);
 
+// view xy per depth = uv * xy + zw, uv 0..1 over the target
+[[nodiscard]] Eigen::Vector4f ray_of(const Frame& frame);
+
 // The six planes of what can be seen through `r`, in the world, pointing inwards.
 [[nodiscard]] std::array<Eigen::Vector4d, 6> planes_of(const Rect& r, const Frame& frame);
 

@@ -15,8 +15,10 @@
 #include "burr/render/depth_tiles.h"
 #include "burr/render/gl/context.h"
 #include "burr/render/gl/frame.h"
+#include "burr/render/gl/lighting.h"
 #include "burr/render/gl/overlay.h"
 #include "burr/render/gl/region.h"
+#include "burr/render/gl/see_through.h"
 #include "burr/render/gl/shaders.h"
 #include "burr/render/gl/shapes.h"
 #include "burr/render/gl/skin.h"
@@ -42,17 +44,6 @@ constexpr int kMostPicture = 65536;
 
 constexpr float kBone = 1.0F, kSteel = 0.67F, kMark = 0.33F;  // kinds, as the shaders have them
 
-void scissor(const Rect& r) {
-  glScissor(r.x0, r.y0, std::max(0, r.x1 - r.x0), std::max(0, r.y1 - r.y0));
-}
-
-float linear(float c) { return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F); }
-Eigen::Vector3f light_of(const Light& light) {
-  return static_cast<float>(light.strength) *
-         Eigen::Vector3f(linear(light.colour[0]), linear(light.colour[1]), linear(light.colour[2]));
-}
-Eigen::Vector3f vector_of(const Colour& colour) { return {colour[0], colour[1], colour[2]}; }
-
 bool same(const Light& a, const Light& b) {
   return (a.towards.array() == b.towards.array()).all() && a.colour == b.colour &&
          a.strength == b.strength;
@@ -61,7 +52,7 @@ bool same(const Look& a, const Look& b) {
   return same(a.key, b.key) && same(a.fill, b.fill) && a.ambient == b.ambient &&
          a.gloss == b.gloss && a.hollow == b.hollow && a.hollow_reach == b.hollow_reach &&
          a.hollow_samples == b.hollow_samples && a.hollow_half == b.hollow_half &&
-         a.supersample == b.supersample && a.plain == b.plain &&
+         a.supersample == b.supersample && a.opacity == b.opacity && a.plain == b.plain &&
          a.background_top == b.background_top && a.background_bottom == b.background_bottom;
 }
 bool same(const std::optional<ClipPlane>& a, const std::optional<ClipPlane>& b) {
@@ -83,30 +74,8 @@ int margin_of(const Scene& scene, const Frame& frame) {
   return static_cast<int>(reach_of(scene, frame)) + 12;
 }
 
+bool sees_through(const Look& look) { return look.opacity < 1; }
 bool has_hollows(const Look& look) { return look.hollow > 0 && !look.plain; }
-
-// The tool's shadow reaches as far as a hand's breadth matters; bounded, so that it can be redrawn
-// where the tool moved and left elsewhere. gl/shaders.h, passes().
-constexpr double kShadowReach = 25e-3;  // from head and shaft along the light  [m]
-constexpr double kShadowShaft = 12e-3;  // of the shaft, from the head's centre [m]
-
-// Points around everything the shadow may touch; none without a tool.
-std::vector<Vec3> shadow_of(const Scene& scene) {
-  const Burr& burr = scene.burr;
-  if (!burr.visible || !burr.world_from_tool.finite()) return {};
-  const Vec3 light = scene.look.key.towards.normalized();
-  const Vec3 towards = light.x() * scene.camera.right() + light.y() * scene.camera.above() +
-                       light.z() * scene.camera.backward();
-  const double r = burr.radius + 0.12 * kShadowReach + 0.1 * burr.radius;  // with its soft edge
-  const Aabb box = {{-r, -r, -r}, {r, r, kShadowShaft + r}};
-  std::vector<Vec3> points;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p = burr.world_from_tool * box.corner(corner);
-    points.push_back(p);
-    points.push_back(p - (kShadowReach + r) * towards);
-  }
-  return points;
-}
 
 }  // namespace
 
@@ -119,9 +88,10 @@ struct Renderer::Work {
   gl::Target target;
   gl::Sheet sheet;
   gl::VertexArray nothing;  // a screen's triangle has no data, but wants an array
-  Program skin_mesh, clipped_skin, mesh, hollow, soften, plain, sky, shrink;
-  Program lights[3][2];    // [hollows: none, full, half resolution][shadow of the tool]
-  int most = kMostTarget;  // samples along a side
+  gl::Lighting lighting;
+  gl::SeeThrough through;
+  Program skin_mesh, clipped_skin, dressed_skin, clipped_dressed_skin, mesh, hollow, soften, shrink;
+  int most = kMostTarget;                    // samples along a side
   int idle_width = 1280, idle_height = 720;  // of show() without a window
   Figures figures;
   bool reads_depth = false;  // cheaply: a graphics card waits for it, and OpenGL ES does not at all
@@ -159,13 +129,12 @@ struct Renderer::Work {
              const std::vector<Piece>& pieces);
   void paint_bone(const Scene& scene, const Frame& frame, const Rect& r);
   void paint_tool(const Frame& frame, const Rect& r, const std::vector<Piece>& pieces);
+  void draw_pieces(const Frame& frame, const Rect& r, const std::vector<Piece>& pieces,
+                   bool with_marks);
   void paint_hollows(const Scene& scene, const Frame& frame, const Rect& r);
-  void paint_light(const Scene& scene, const Frame& frame, const Rect& r, bool hollows,
-                   bool shaded);
   struct Size {
     int width = 0, height = 0;
   };
-  void paint_sky(const Scene& scene, const Frame& frame, const Rect& r);
   Status put_on_sheet(const Scene& scene, const Rect& from, int factor, const Size& size, int width,
                       int height, int left, int top);
   Parts compare(const Scene& scene, const Frame& frame, const std::vector<Piece>& pieces, bool all);
@@ -175,35 +144,29 @@ struct Renderer::Work {
 // ---- starting
 
 Status Renderer::Work::start() {
-  constexpr const char *kColours = gl::kColourFunctions, *kLight = gl::kLightFragment,
-                       *kClip = "#define CLIP\n";
+  constexpr const char *kColours = gl::kColourFunctions, *kClip = "#define CLIP\n",
+                       *kDressed = "#define DRESSED\n";
   const struct {
     Program* program;
     std::initializer_list<const char*> vertex, fragment;
   } all[] = {{&skin_mesh, {gl::kSkinVertex}, {gl::kMeshFragment}},
              {&clipped_skin, {kClip, gl::kSkinVertex}, {kClip, gl::kMeshFragment}},
+             {&dressed_skin, {kDressed, gl::kSkinVertex}, {kDressed, gl::kMeshFragment}},
+             {&clipped_dressed_skin,
+              {kClip, kDressed, gl::kSkinVertex},
+              {kClip, kDressed, gl::kMeshFragment}},
              {&mesh, {gl::kMeshVertex}, {gl::kMeshFragment}},
              {&hollow, {gl::kScreenVertex}, {gl::kHollowFragment}},
              {&soften, {gl::kScreenVertex}, {gl::kSoftenFragment}},
-             {&plain, {gl::kScreenVertex}, {"#define PLAIN\n", kColours, kLight}},
-             {&sky, {gl::kScreenVertex}, {gl::kSkyFragment}},
              {&shrink, {gl::kScreenVertex}, {kColours, gl::kShrinkFragment}}};
   for (const auto& one : all) {
     Result<Program> linked = Program::link(context->es(), one.vertex, one.fragment);
     if (!linked) return linked.error();
     *one.program = std::move(*linked);
   }
-  constexpr const char* kHollows[] = {"", "#define HOLLOWS\n", "#define HOLLOWS\n#define HALF\n"};
-  for (std::size_t hollows = 0; hollows < 3; ++hollows)
-    for (const bool shadow : {false, true}) {
-      Result<Program> linked =
-          Program::link(context->es(), {gl::kScreenVertex},
-                        {kHollows[hollows], shadow ? "#define SHADOW\n" : "", kColours, kLight});
-      if (!linked) return linked.error();
-      lights[hollows][shadow ? 1 : 0] = std::move(*linked);
-    }
-  const Status made = overlay.make(context->es());
-  if (!made) return made;
+  for (const Status& made :
+       {lighting.start(context->es()), through.start(context->es()), overlay.make(context->es())})
+    if (!made) return made;
   GLint texture = 0;
   std::array<GLint, 2> viewport{};
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
@@ -262,6 +225,14 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
   fresh.add(parts.tool);
   fresh.join();
   for (const Rect& rect : fresh.rects()) paint_tool(frame, rect, pieces);
+  const bool seen_through = sees_through(scene.look);
+  if (seen_through)
+    for (const Rect& rect : fresh.rects()) {
+      const gl::Skin::Drawn drawn =
+          through.paint(scene, frame, rect, skin, [&] { draw_pieces(frame, rect, pieces, false); });
+      figures.patches_drawn += drawn.patches;
+      figures.triangles_drawn += drawn.triangles;
+    }
 
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
@@ -271,14 +242,19 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
   lit.add(parts.hollows);
   lit.add(parts.shadow);
   lit.join();
-  const std::vector<Vec3> shade = shadow_of(scene);
+  const std::vector<Vec3> shade = gl::shadow_of(scene);
   const Rect shaded = shade.empty() || scene.look.plain ? Rect{} : rect_of(shade, frame);
+  const gl::Unlit what = {&target.colour, &target.normal, &target.depth, &target.lit_at};
+  const gl::Hollows hollows = {parts.light_hollows ? &target.soft : nullptr, target.hollow_width,
+                               target.hollow_height, target.stride};
   for (const Rect& rect : lit.rects()) {
     const Rect some = rect.in(there);
-    paint_light(scene, frame, some.in(shaded), parts.light_hollows, true);
+    lighting.paint(scene, frame, some.in(shaded), what, hollows, true);
     for (const Rect& rest : some.without(shaded))
-      paint_light(scene, frame, rest, parts.light_hollows, false);
-    for (const Rect& rest : rect.without(there)) paint_sky(scene, frame, rest);
+      lighting.paint(scene, frame, rest, what, hollows, false);
+    for (const Rect& rest : rect.without(there))
+      lighting.paint_sky(scene, frame, rest, target.lit_at);
+    if (seen_through) through.blend(scene, frame, some, what, lighting);
   }
   glDisable(GL_SCISSOR_TEST);
   figures.redrawn = std::min(1.0, lit.area() / frame.all().area());
@@ -288,7 +264,7 @@ void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Re
   if (r.empty()) return;
   glBindFramebuffer(GL_FRAMEBUFFER, target.bone.get());
   glViewport(0, 0, frame.width, frame.height);
-  scissor(r);
+  gl::scissor(r);
   const std::array<float, 4> none{};
   const std::array<GLuint, 4> no_normal{};
   glClearBufferfv(GL_COLOR, 0, none.data());
@@ -300,7 +276,8 @@ void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Re
   glDepthFunc(GL_LESS);
   glEnable(GL_CULL_FACE);
 
-  Program& program = scene.clip ? clipped_skin : skin_mesh;
+  Program& program = skin.dressed() ? (scene.clip ? clipped_dressed_skin : dressed_skin)
+                                    : (scene.clip ? clipped_skin : skin_mesh);
   program.use();
   const Eigen::Matrix4d clip_from_world = frame.clip * frame.view;
   program.set("clip_from_model", Eigen::Matrix4f(clip_from_world.cast<float>()));
@@ -308,6 +285,7 @@ void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Re
   program.set("view_from_model_n", Eigen::Matrix3f(turn.cast<float>()));
   program.set("tint_kind", Eigen::Vector4f(1, 1, 1, kBone));
   program.set("tissue_colours", 0);
+  program.set("grains_per_m", 2000.0F);
   if (scene.clip) {
     glDisable(GL_CULL_FACE);
     const Vec3& n = scene.clip->n;
@@ -338,7 +316,7 @@ void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Re
 void Renderer::Work::paint_tool(const Frame& frame, const Rect& r,
                                 const std::vector<Piece>& pieces) {
   if (r.empty()) return;
-  scissor(r);
+  gl::scissor(r);
   target.copy_bone(r.x0, r.y0, r.x1, r.y1);
   glBindFramebuffer(GL_FRAMEBUFFER, target.geometry.get());
   glViewport(0, 0, frame.width, frame.height);
@@ -346,10 +324,17 @@ void Renderer::Work::paint_tool(const Frame& frame, const Rect& r,
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glEnable(GL_CULL_FACE);
+  draw_pieces(frame, r, pieces, true);
+}
+
+// Tool and, with_marks, what is drawn over everything, into the framebuffer that is bound.
+void Renderer::Work::draw_pieces(const Frame& frame, const Rect& r,
+                                 const std::vector<Piece>& pieces, bool with_marks) {
   mesh.use();
   const Eigen::Matrix4d clip_from_world = frame.clip * frame.view;
   const Eigen::Matrix3d turn = frame.view.block<3, 3>(0, 0);
   for (const Piece& piece : pieces) {
+    if (piece.on_top && !with_marks) continue;
     if (std::all_of(piece.boxes.begin(), piece.boxes.end(),
                     [&](const auto& corners) { return rect_of(corners, frame).in(r).empty(); }))
       continue;
@@ -369,13 +354,6 @@ void Renderer::Work::paint_tool(const Frame& frame, const Rect& r,
 
 namespace {
 
-// view xy per depth = uv * xy + zw, uv 0..1 over the target
-Eigen::Vector4f ray_of(const Frame& frame) {
-  const Eigen::Matrix4d& m = frame.clip;
-  return {static_cast<float>(2 / m(0, 0)), static_cast<float>(2 / m(1, 1)),
-          static_cast<float>((m(0, 2) - 1) / m(0, 0)), static_cast<float>((m(1, 2) - 1) / m(1, 1))};
-}
-
 // sample places within the unit disc, dense in the middle: a golden spiral
 std::array<float, 2 * kMostSamples> spiral(int count) {
   std::array<float, 2 * kMostSamples> xy{};
@@ -387,16 +365,6 @@ std::array<float, 2 * kMostSamples> spiral(int count) {
   return xy;
 }
 
-void bind(GLuint unit, const gl::Texture& texture) {
-  glActiveTexture(GL_TEXTURE0 + unit);
-  glBindTexture(GL_TEXTURE_2D, texture.get());
-}
-
-double reach_of(const Scene& scene) { return scene.look.hollow_reach * scene.camera.view_height(); }
-float strict_of(const Scene& scene, const Frame& frame) {
-  return static_cast<float>((frame.far - frame.near) / (0.5 * reach_of(scene)));
-}
-
 }  // namespace
 
 void Renderer::Work::paint_hollows(const Scene& scene, const Frame& frame, const Rect& r) {
@@ -406,21 +374,21 @@ void Renderer::Work::paint_hollows(const Scene& scene, const Frame& frame, const
   const Rect low = Rect{r.x0 / stride, r.y0 / stride, (r.x1 + stride - 1) / stride,
                         (r.y1 + stride - 1) / stride};
   glViewport(0, 0, target.hollow_width, target.hollow_height);
-  scissor(low);
-  bind(0, target.bone_depth);
-  bind(1, target.bone_colour);
-  bind(2, target.bone_normal);
+  gl::scissor(low);
+  gl::bind(0, target.bone_depth);
+  gl::bind(1, target.bone_colour);
+  gl::bind(2, target.bone_normal);
 
   hollow.use();
   hollow.set("depth_map", 0);
   hollow.set("colour_map", 1);
   hollow.set("normal_map", 2);
-  hollow.set("ray", ray_of(frame));
+  hollow.set("ray", gl::ray_of(frame));
   hollow.set("planes",
              Eigen::Vector2f(static_cast<float>(frame.near), static_cast<float>(frame.far)));
   hollow.set("size", frame.width, frame.height);
   hollow.set("stride", stride);
-  hollow.set("reach", static_cast<float>(reach_of(scene)));
+  hollow.set("reach", static_cast<float>(gl::hollow_reach(scene)));
   const double per_m =
       frame.picture_height / (2 * std::tan(scene.camera.field_of_view / 2));  // at 1 m
   hollow.set("pixels_per_m", static_cast<float>(per_m));
@@ -431,82 +399,12 @@ void Renderer::Work::paint_hollows(const Scene& scene, const Frame& frame, const
   glBindFramebuffer(GL_FRAMEBUFFER, target.hollow_at.get());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 
-  bind(0, target.hollow);
+  gl::bind(0, target.hollow);
   soften.use();
   soften.set("hollow_map", 0);
   soften.set("size", target.hollow_width, target.hollow_height);
-  soften.set("strict", strict_of(scene, frame));
+  soften.set("strict", gl::strict_of(scene, frame));
   glBindFramebuffer(GL_FRAMEBUFFER, target.soft_at.get());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-}
-
-namespace {
-
-void set_sky(Program& program, const Look& look, const Frame& frame) {
-  const auto height = static_cast<float>(frame.picture_height);
-  program.set("sky", Eigen::Vector2f(1.0F / height, static_cast<float>(frame.bottom) / height));
-  program.set("sky_top", vector_of(look.background_top));
-  program.set("sky_bottom", vector_of(look.background_bottom));
-}
-
-}  // namespace
-
-void Renderer::Work::paint_sky(const Scene& scene, const Frame& frame, const Rect& r) {
-  if (r.empty()) return;
-  glBindFramebuffer(GL_FRAMEBUFFER, target.lit_at.get());
-  glViewport(0, 0, frame.width, frame.height);
-  scissor(r);
-  sky.use();
-  set_sky(sky, scene.look, frame);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-}
-
-void Renderer::Work::paint_light(const Scene& scene, const Frame& frame, const Rect& r,
-                                 bool hollows, bool shaded) {
-  if (r.empty()) return;
-  const Look& look = scene.look;
-  const std::size_t kind = !hollows ? 0 : target.stride == 1 ? 1 : 2;
-  Program& light = look.plain ? plain : lights[kind][shaded ? 1 : 0];
-  glBindFramebuffer(GL_FRAMEBUFFER, target.lit_at.get());
-  glViewport(0, 0, frame.width, frame.height);
-  scissor(r);
-  bind(0, target.colour);
-  bind(1, target.normal);
-  bind(2, target.depth);
-  bind(3, target.soft);
-
-  light.use();
-  light.set("colour_map", 0);
-  light.set("normal_map", 1);
-  light.set("depth_map", 2);
-  light.set("hollow_map", 3);
-  light.set("ray", ray_of(frame));
-  light.set("planes",
-            Eigen::Vector2f(static_cast<float>(frame.near), static_cast<float>(frame.far)));
-  light.set("size", frame.width, frame.height);
-  light.set("hollow_size", target.hollow_width, target.hollow_height);
-  light.set("strict", strict_of(scene, frame));
-  set_sky(light, look, frame);
-  light.set("key_towards", Eigen::Vector3f(look.key.towards.normalized().cast<float>()));
-  light.set("key_light", light_of(look.key));
-  light.set("fill_towards", Eigen::Vector3f(look.fill.towards.normalized().cast<float>()));
-  light.set("fill_light", light_of(look.fill));
-  light.set("ambient", static_cast<float>(look.ambient));
-  light.set("gloss", static_cast<float>(look.gloss));
-  light.set("hollow", static_cast<float>(look.hollow));
-
-  // head and shaft as the shader needs them for the shadow
-  const Burr& burr = scene.burr;
-  const Vec3 centre = (frame.view * burr.world_from_tool.p.homogeneous()).head<3>();
-  const Vec3 axis = frame.view.block<3, 3>(0, 0) * (burr.world_from_tool.q * Vec3::UnitZ());
-  Eigen::Vector4f ball;
-  ball << centre.cast<float>(), static_cast<float>(burr.radius);
-  light.set("ball", ball);
-  light.set("shaft", Eigen::Vector3f(axis.cast<float>()));
-  light.set("shadow_reach", static_cast<float>(kShadowReach));
-  light.set("shaft_size",
-            Eigen::Vector2f(static_cast<float>(std::min(burr.shaft_radius, burr.radius)),
-                            static_cast<float>(std::min(burr.shaft_length, kShadowShaft))));
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -526,7 +424,7 @@ Status Renderer::Work::put_on_sheet(const Scene& scene, const Rect& from, int fa
                       same_size ? GL_NEAREST : GL_LINEAR);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, sheet.at.get());
   } else {
-    bind(0, target.lit);
+    gl::bind(0, target.lit);
     shrink.use();
     shrink.set("picture", 0);
     shrink.set("factor", factor);
@@ -609,6 +507,9 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
            part(outer.y0, whole.picture_height), part(outer.y1, whole.picture_height)});
       const Result<bool> sized = w.target.resize(frame.width, frame.height, stride);
       if (!sized) return sized.error();
+      if (sees_through(scene.look))
+        if (const Status more = w.through.resize(frame.width, frame.height); !more)
+          return more.error();
       Work::Parts parts;
       parts.extent = bone;
       parts.bone.add(frame.all());
@@ -650,7 +551,7 @@ Renderer::Work::Parts Renderer::Work::compare(const Scene& scene, const Frame& f
                                               const std::vector<Piece>& pieces, bool all) {
   const Quality& quality = scene.quality;
   Parts parts;
-  std::vector<Vec3> shadow = shadow_of(scene);
+  std::vector<Vec3> shadow = gl::shadow_of(scene);
   if (all) {
     parts.bone.add(frame.all());
   } else {
@@ -719,6 +620,8 @@ Status Renderer::show(const Scene& scene, const std::function<void()>& over) {
   const Result<bool> fresh =
       w.target.resize(frame.width, frame.height, scene.look.hollow_half ? 2 : 1);
   if (!fresh) return fresh.error();
+  if (sees_through(scene.look))
+    if (const Status more = w.through.resize(frame.width, frame.height); !more) return more;
 
   // everything anew when the eye moved; else only where bone or tool did
   const bool all = *fresh || !w.held || !same(w.held->camera, scene.camera) ||

@@ -6,6 +6,7 @@
 //     soften    the same, its noise smoothed within the surface
 //     light     all of it -> the picture
 //     sky       the same, where there is nothing
+//     through   what is behind the bone shows through it
 //     shrink    n x n samples -> one pixel
 //     flat      overlay: text and bars
 //     inset     overlay: a picture
@@ -40,6 +41,14 @@ uniform mat3 view_from_model_n;
 uniform sampler2D tissue_colours;
 out vec3 n;
 out vec3 colour;
+#ifdef WALLS
+out float wall;
+#endif
+#ifdef DRESSED
+layout(location = 2) in vec4 at_dress;  // fresh, wet
+uniform float grains_per_m;
+out float wet;
+#endif
 #ifdef CLIP
 uniform vec4 plane;  // hidden where dot(plane, (p, 1)) > 0; world
 out float beyond;
@@ -56,13 +65,30 @@ void main() {
   n = view_from_model_n * normalize(m);
   vec3 bone = texelFetch(tissue_colours, ivec2(int(at_rest.x & 255u), 0), 0).rgb;
   vec3 under = texelFetch(tissue_colours, ivec2(int(at_rest.y & 255u), 0), 0).rgb;
+#ifdef WALLS
+  colour = under;
+  wall = float(at_rest.y >> 16u & 255u) / 255.0;
+#else
   colour = mix(bone, under, float(at_rest.y >> 8u & 255u) / 255.0);
+#endif
+#ifdef DRESSED
+  // fresh bone is paler, and its grain is seen: a number of its own for every grain
+  uvec3 q = uvec3(ivec3(floor(at_p * grains_per_m + 0.25)));
+  uint h = q.x * 0x9E3779B1u ^ q.y * 0x85EBCA77u ^ q.z * 0xC2B2AE3Du;
+  h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;
+  h ^= h >> 12u;
+  float grain = float(h & 255u) / 127.5 - 1.0;
+  colour = mix(colour, vec3(1.0, 0.98, 0.94), 0.5 * at_dress.x);
+  colour *= 1.0 + 0.07 * grain * at_dress.x;
+  colour *= 1.0 - 0.22 * at_dress.y;
+  wet = at_dress.y;
+#endif
 }
 )";
 
-// kind: 0 nothing, 1 bone, 2/3 tool, 1/3 mark; in the alpha of the colour. Normals are folded into
-// an octahedron (Meyer et al. 2010, "On floating-point normal vectors") at 2 x 16 bit, which both
-// APIs can write.
+// kind: 0 nothing, 1 bone (wet down to 0.82), 2/3 tool, 1/3 mark; in the alpha of the colour.
+// Normals are folded into an octahedron (Meyer et al. 2010, "On floating-point normal vectors") at
+// 2 x 16 bit, which both APIs can write.
 inline constexpr const char* kMeshFragment = R"(
 in vec3 n;
 in vec3 colour;
@@ -73,9 +99,22 @@ layout(location = 1) out uvec2 out_n;
 in float beyond;
 uniform vec3 plane_n;  // view
 #endif
+#ifdef WALLS
+in float wall;
+#endif
+#ifdef DRESSED
+in float wet;
+#endif
 void main() {
   vec3 k = n, c = colour;
+#ifdef WALLS
 #ifdef CLIP
+  if (beyond > 0.0) discard;
+#endif
+  // bone's normal leads into the tissue: from outside it is the tissue's own, turned around
+  if (wall < 0.2) discard;
+  if (!gl_FrontFacing) k = -n;
+#elif defined(CLIP)
   if (beyond > 0.0) discard;
   // what is seen from behind is seen through the section: it closes it
   if (!gl_FrontFacing) {
@@ -86,6 +125,9 @@ void main() {
   vec3 m = k / max(abs(k.x) + abs(k.y) + abs(k.z), 1e-20);
   vec2 o = m.z >= 0.0 ? m.xy : (1.0 - abs(m.yx)) * vec2(m.x >= 0.0 ? 1.0 : -1.0, m.y >= 0.0 ? 1.0 : -1.0);
   out_colour = vec4(c * tint_kind.rgb, tint_kind.a);
+#ifdef DRESSED
+  out_colour.a -= 0.18 * wet;  // still bone, and the light knows how wet
+#endif
   out_n = uvec2(round((o * 0.5 + 0.5) * 65535.0));
 }
 )";
@@ -316,6 +358,11 @@ void main() {
   float x4 = x * x * x * x, x12 = x4 * x4 * x4, x28 = x12 * x12 * x4;
   float shine = bone ? x28 : x28 * x28 * x4;
   float own = bone ? gloss : 0.45;
+  if (bone) {  // water: a sharper, stronger shine
+    float wet = (1.0 - c.a) / 0.18;
+    own += 0.5 * wet;
+    shine = mix(shine, x28 * x28 * x4, wet);
+  }
   vec3 colour = albedo * light + key_light * (own * shine * step(1e-4, lit) * open);
   // steel mirrors the room: bright above, dark below
   float mirrored = smoothstep(-0.2, 0.9, 2.0 * dot(n, eye) * n.y - eye.y);
@@ -325,6 +372,30 @@ void main() {
 #endif
   vec3 back = mix(sky_bottom, sky_top, clamp(gl_FragCoord.y * sky.x + sky.y, 0.0, 1.0));
   result = vec4(c.a < 0.1 ? back : srgb(colour), 1.0);
+}
+)";
+
+// What is behind the bone over the bone, for blending. Where the bone is seen edge-on it stays, so
+// that its shape does; a bone of opacity 0 is gone.
+inline constexpr const char* kThroughFragment = R"(
+uniform sampler2D colour_map;    // of the front
+uniform usampler2D normal_map;
+uniform sampler2D behind;        // lit
+uniform vec4 ray;
+uniform ivec2 size;
+uniform float opacity;
+out vec4 result;
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  if (texelFetch(colour_map, at, 0).a < 0.8) discard;
+  vec2 f = vec2(texelFetch(normal_map, at, 0).rg) / 65535.0 * 2.0 - 1.0;
+  vec3 n = vec3(f, 1.0 - abs(f.x) - abs(f.y));
+  float t = max(-n.z, 0.0);
+  n.xy += vec2(n.x >= 0.0 ? -t : t, n.y >= 0.0 ? -t : t);
+  vec2 uv = (vec2(at) + 0.5) / vec2(size);
+  vec3 eye = normalize(vec3(-(uv * ray.xy + ray.zw), 1.0));
+  float facing = clamp(dot(normalize(n), eye), 0.0, 1.0);
+  result = vec4(texelFetch(behind, at, 0).rgb, (1.0 - opacity) * mix(1.0, facing, opacity));
 }
 )";
 

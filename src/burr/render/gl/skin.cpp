@@ -56,6 +56,13 @@ bool outside(const math::Aabb& box, const std::array<Eigen::Vector4d, 6>& planes
   });
 }
 
+bool none_dressed(const Scene& scene, const SceneBlock& block) {
+  return std::none_of(block.patches.begin(), block.patches.end(), [&](int patch) {
+    const auto p = static_cast<std::size_t>(patch);
+    return p < scene.patches.size() && scene.patches[p].dress != nullptr;
+  });
+}
+
 }  // namespace
 
 int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
@@ -71,15 +78,20 @@ int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
   patches_.resize(scene.patches.size());
 
   int sent = 0;
+  dressed_ = false;
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     const ScenePatch& patch = scene.patches[i];
     Patch& part = patches_[i];
+    dressed_ = dressed_ || patch.dress != nullptr;
     if (part.version == patch.version) {
-      if (recolour && !part.levels.empty()) changed.push_back(part.box);
+      const bool other_dress = part.dress != patch.dress;
+      if (other_dress) send_dress(part, patch);
+      if ((recolour || other_dress) && !part.levels.empty()) changed.push_back(part.box);
       continue;
     }
     if (!part.levels.empty()) changed.push_back(part.box);
     send(part, patch);
+    send_dress(part, patch);
     if (!part.levels.empty()) changed.push_back(part.box);
     ++sent;
   }
@@ -101,7 +113,8 @@ int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
       else
         send(part, *part.mesh);
     }
-    part.stands = part.mesh != nullptr && block.versions == versions_of(scene, block);
+    part.stands = part.mesh != nullptr && block.versions == versions_of(scene, block) &&
+                  (!dressed_ || none_dressed(scene, block));
   }
   return sent;
 }
@@ -125,6 +138,27 @@ namespace {
 
 void fill(GLenum target, const void* values, std::size_t bytes) {
   glBufferData(target, static_cast<GLsizeiptr>(bytes), values, GL_DYNAMIC_DRAW);
+}
+
+template <class Index>
+void fill_indices(const std::vector<Index>& all, const std::vector<Index>& walls) {
+  const std::size_t first = all.size() * sizeof(Index), more = walls.size() * sizeof(Index);
+  if (walls.empty()) return fill(GL_ELEMENT_ARRAY_BUFFER, all.data(), first);
+  fill(GL_ELEMENT_ARRAY_BUFFER, nullptr, first + more);
+  glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(first), all.data());
+  glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLintptr>(first),
+                  static_cast<GLsizeiptr>(more), walls.data());
+}
+
+// of the triangles that touch a wall
+template <class Index>
+std::vector<Index> walls_of(const SkinMesh& mesh, const std::vector<Index>& all) {
+  std::vector<Index> walls;
+  for (std::size_t t = 0; t + 2 < all.size(); t += 3)
+    if (is_wall(mesh.vertices()[all[t]]) || is_wall(mesh.vertices()[all[t + 1]]) ||
+        is_wall(mesh.vertices()[all[t + 2]]))
+      walls.insert(walls.end(), {all[t], all[t + 1], all[t + 2]});
+  return walls;
 }
 
 // where places, normals and tissues lie in a vertex
@@ -156,16 +190,33 @@ void Skin::send(Patch& part, const ScenePatch& patch) {
   glBindBuffer(GL_ARRAY_BUFFER, part.vertices.make());
   fill(GL_ARRAY_BUFFER, mesh.vertices().data(), mesh.vertices().size() * sizeof(SkinVertex));
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.make());
-  if (mesh.large_indices().empty()) {
-    part.type = GL_UNSIGNED_SHORT;
-    fill(GL_ELEMENT_ARRAY_BUFFER, mesh.small_indices().data(),
-         mesh.index_count() * sizeof(std::uint16_t));
-  } else {
-    part.type = GL_UNSIGNED_INT;
-    fill(GL_ELEMENT_ARRAY_BUFFER, mesh.large_indices().data(),
-         mesh.index_count() * sizeof(std::uint32_t));
-  }
+  const auto with_walls = [&](const auto& all, GLenum type) {
+    const auto walls = walls_of(mesh, all);
+    part.type = type;
+    part.walls = {0, static_cast<GLsizei>(all.size()), static_cast<GLsizei>(walls.size())};
+    fill_indices(all, walls);
+  };
+  if (mesh.large_indices().empty())
+    with_walls(mesh.small_indices(), GL_UNSIGNED_SHORT);
+  else
+    with_walls(mesh.large_indices(), GL_UNSIGNED_INT);
   if (fresh) lay_out();
+}
+
+// Its array exists, unless it has no surface.
+void Skin::send_dress(Patch& part, const ScenePatch& patch) {
+  part.dress = patch.dress;
+  if (part.array.get() == 0) return;
+  glBindVertexArray(part.array.get());
+  if (patch.mesh == nullptr || part.dress == nullptr ||
+      part.dress->size() != patch.mesh->vertices().size()) {
+    glDisableVertexAttribArray(2);
+    return;
+  }
+  glBindBuffer(GL_ARRAY_BUFFER, part.dress_values.make());
+  fill(GL_ARRAY_BUFFER, part.dress->data(), part.dress->size() * sizeof(Dress));
+  glEnableVertexAttribArray(2);
+  glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Dress), nullptr);
 }
 
 void Skin::send(Block& part, const CoarseMesh& mesh) {
@@ -188,16 +239,22 @@ void Skin::send(Block& part, const CoarseMesh& mesh) {
   lay_out();
 }
 
-void Skin::draw(const Asked& asked, Drawn& drawn) {
-  const Part& part = *asked.part;
+void Skin::draw(const Part& part, const Part::Level& level, Drawn& drawn) {
   const std::size_t size =
       part.type == GL_UNSIGNED_SHORT ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
   glBindVertexArray(part.array.get());
-  glDrawElements(
-      GL_TRIANGLES, asked.level->count, part.type,
-      reinterpret_cast<const void*>(static_cast<std::size_t>(asked.level->first) * size));
+  glDrawElements(GL_TRIANGLES, level.count, part.type,
+                 reinterpret_cast<const void*>(static_cast<std::size_t>(level.first) * size));
   ++drawn.patches;
-  drawn.triangles += asked.level->count / 3;
+  drawn.triangles += level.count / 3;
+}
+
+Skin::Drawn Skin::draw_walls(const Planes& planes) {
+  Drawn drawn;
+  for (const Patch& patch : patches_)
+    if (!patch.levels.empty() && patch.walls.count > 0 && !outside(patch.box, planes))
+      draw(patch, patch.walls, drawn);
+  return drawn;
 }
 
 void Skin::ask(Patch& patch, const Vec3& eye, const Planes& planes) {
@@ -230,6 +287,7 @@ void Skin::ask(Block& block, const Vec3& eye, const Planes& planes) {
 Skin::Drawn Skin::draw(const Vec3& eye, const Planes& planes, bool both_sides,
                        const Hidden* hidden) {
   Drawn drawn;
+  glVertexAttrib4f(2, 0, 0, 0, 0);  // of what is not dressed
   both_sides_ = both_sides;
   asked_.clear();
   if (blocks_.empty() || error_share_ <= 0)
@@ -238,7 +296,7 @@ Skin::Drawn Skin::draw(const Vec3& eye, const Planes& planes, bool both_sides,
     for (Block& block : blocks_)
       if (block.outermost) ask(block, eye, planes);
   if (hidden == nullptr || asked_.size() < kWorthLooking) {
-    for (const Asked& asked : asked_) draw(asked, drawn);
+    for (const Asked& asked : asked_) draw(*asked.part, *asked.level, drawn);
     return drawn;
   }
   if (std::none_of(asked_.begin(), asked_.end(), [](const Asked& a) { return a.part->seen; })) {
@@ -251,11 +309,11 @@ Skin::Drawn Skin::draw(const Vec3& eye, const Planes& planes, bool both_sides,
     for (auto at = asked_.begin(); at != third; ++at) at->part->seen = true;
   }
   for (const Asked& asked : asked_)
-    if (asked.part->seen) draw(asked, drawn);
+    if (asked.part->seen) draw(*asked.part, *asked.level, drawn);
   hidden->look();
   for (const Asked& asked : asked_) {
     const bool before = std::exchange(asked.part->seen, !hidden->is(asked.part->box));
-    if (asked.part->seen && !before) draw(asked, drawn);
+    if (asked.part->seen && !before) draw(*asked.part, *asked.level, drawn);
   }
   return drawn;
 }

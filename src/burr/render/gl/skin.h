@@ -19,6 +19,8 @@ class Skin {
   // Sends what changed since the last call; appends the boxes, before and after, of those patches.
   // Returns how many were sent.
   int update(const Scene& scene, std::vector<math::Aabb>& changed);
+  // Any patch is dressed.
+  [[nodiscard]] bool dressed() const { return dressed_; }
   // One row of 256 colours, by tissue.
   [[nodiscard]] GLuint colours() const { return colour_row_.get(); }
 
@@ -39,6 +41,8 @@ class Skin {
   using Planes = std::array<Eigen::Vector4d, 6>;
   // both_sides: what is turned away is seen too.
   Drawn draw(const math::Vec3& eye, const Planes& planes, bool both_sides, const Hidden* hidden);
+  // The walls of what soft tissue fills, both sides of them, though bone hides them.
+  Drawn draw_walls(const Planes& planes);
 
  private:
   struct Part {
@@ -51,6 +55,7 @@ class Skin {
     };
     std::vector<Level> levels;  // none: nothing to draw
     GLenum type = GL_UNSIGNED_SHORT;
+    Level walls;  // behind all levels in `indices`: triangles beside soft tissue
     math::Aabb box;
     math::Vec3 facing = math::Vec3::Zero();  // middle of the cone of the triangles' normals
     double spread = 0;                       // its half angle; pi: every way         [rad]
@@ -58,12 +63,14 @@ class Skin {
   };
   struct Patch : Part {
     std::uint64_t version = 0;
+    std::shared_ptr<const std::vector<Dress>> dress;
+    Buffer dress_values;
   };
   struct Block : Part {
     std::vector<int> patches, inner;
     bool outermost = true;
     std::shared_ptr<const CoarseMesh> mesh;
-    bool stands = false;  // for its patches as they are now
+    bool stands = false;  // for its patches as they are now, none of them dressed
   };
   // A part with the level it is to be drawn at.
   struct Asked {
@@ -72,8 +79,9 @@ class Skin {
   };
 
   void send(Patch& part, const ScenePatch& patch);
+  static void send_dress(Patch& part, const ScenePatch& patch);
   static void send(Block& part, const CoarseMesh& mesh);
-  static void draw(const Asked& asked, Drawn& drawn);
+  static void draw(const Part& part, const Part::Level& level, Drawn& drawn);
   void ask(Patch& patch, const math::Vec3& eye, const Planes& planes);
   void ask(Block& block, const math::Vec3& eye, const Planes& planes);
   void send_colours();
@@ -82,6 +90,7 @@ class Skin {
   std::vector<Block> blocks_;
   std::vector<Asked> asked_;  // of this draw
   double error_share_ = 0;
+  bool dressed_ = false;
   bool both_sides_ = false;  // in this draw
   std::vector<Colour> colours_;
   Texture colour_row_;

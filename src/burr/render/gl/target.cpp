@@ -6,8 +6,6 @@
 
 namespace burr::render::gl {
 
-namespace {
-
 void shape(Texture& texture, GLint inside, int width, int height, GLenum format, GLenum type) {
   texture = Texture();
   glBindTexture(GL_TEXTURE_2D, texture.make());
@@ -37,8 +35,6 @@ Status attach(Framebuffer& framebuffer, std::initializer_list<GLuint> colours, G
   return error(Trouble::io,
                "the graphics card cannot hold a picture of this size; make it smaller");
 }
-
-}  // namespace
 
 Result<bool> Target::resize(int wide, int high, int hollow_stride) {
   if (wide == width && high == height && hollow_stride == stride) return false;

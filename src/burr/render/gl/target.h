@@ -5,9 +5,15 @@
 // A header of this room only.
 #pragma once
 
+#include <initializer_list>
+
 #include "burr/render/gl/objects.h"
 
 namespace burr::render::gl {
+
+// A new texture of that size, each texel by itself; a framebuffer into such, depth 0: without.
+void shape(Texture& texture, GLint inside, int width, int height, GLenum format, GLenum type);
+Status attach(Framebuffer& framebuffer, std::initializer_list<GLuint> colours, GLuint depth);
 
 // Size of all maps is width x height samples; of the hollows' the same or half of it.
 struct Target {
