@@ -119,6 +119,8 @@ constexpr Shot kShots[] = {
     {"sagittal", "mastoid", "--view sagittal"},
     {"cut_open", "mastoid", "--clip axial"},
     {"without_labels", "mastoid", "--view sagittal --no-labels"},
+    {"see_through", "mastoid", "--see-through 65"},
+    {"fresh", "mastoid", "--effects --height-mm 20"},
     {"side_by_side", "mastoid", "--stereo side-by-side"},
     {"anaglyph", "mastoid", "--stereo anaglyph"},
     {"interleaved", "mastoid", "--stereo interleaved"},
