@@ -103,6 +103,8 @@ void look(render::Scene& scene, const Vec3& at, const Vec3& ahead, const ViewOpt
 
 }  // namespace
 
+bool shows_slice(const ViewOptions& options) { return named(kPlanes, options.view).has_value(); }
+
 Status set_view(render::Scene& scene, const Vec3& at, const Vec3& ahead,
                 const ViewOptions& options) {
   if (named(kPlanes, options.view) || options.view == "whole")
@@ -125,6 +127,11 @@ Status draw_view(render::Scene scene, volume::Bone& bone, const Vec3& at, const 
     slice.plane = *plane;
     slice.through = at;
     slice.labels = options.labels;
+    if (options.greys != nullptr) {
+      slice.greys = options.greys.get();
+      slice.window = options.window;
+      slice.level = options.grey_level;
+    }
     if (options.height_mm > 0) slice.height = 1e-3 * options.height_mm;
     render::Image image{size.width, size.height, {}};
     render::Slicer(bone).draw(slice, image);

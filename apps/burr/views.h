@@ -3,10 +3,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <string>
 
 #include "burr/render/scene.h"
 #include "burr/volume/bone.h"
+#include "burr/volume/greys.h"
 #include "still.h"
 
 namespace burr::app {
@@ -19,10 +21,15 @@ struct ViewOptions {
   double height_mm = 0;        // of what is seen at the work; 0: what suits the view
   bool labels = true;          // colours of tissues
   double see_through = 0;      // of the bone [%]
+  // of slices: what the scan measured, in this window; not typed here
+  std::shared_ptr<const volume::Greys> greys;
+  double window = 0, grey_level = 0;
 };
 
 // Adds --view --clip --stereo --height-mm --no-labels --see-through.
 void add_view_options(CLI::App& command, ViewOptions& options);
+
+[[nodiscard]] bool shows_slice(const ViewOptions& options);
 
 // Camera, clip plane and mask of a 3D view, for a film. The whole bone can only be fitted when its
 // surface is in the scene. Errors: Trouble::usage for a view that is not 3D or for two eyes.

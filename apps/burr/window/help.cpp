@@ -48,6 +48,7 @@ bool draw_help(Ui& ui, bool left_handed) {
          {word(Word::key_shift_arrows), Word::help_shift},
          {word(Word::key_wheel), Word::help_zoom},
          {"F", Word::help_first_view},
+         {"F5  F6  F7  F8", Word::help_views},
          {"V  B  N", Word::help_slices},
          {"W", Word::help_window},
          {"L", Word::help_labels},

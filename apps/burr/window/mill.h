@@ -1,0 +1,132 @@
+// apps/burr/window/mill.h - the page one works on, as one object: what a picture needs of the user,
+// the session and the bone. Its parts are window.cpp (picture after picture), mill_hand.cpp (what
+// the user does) and mill_told.cpp (what the user is told); nothing else includes this.
+//
+// Thread: main. Frame: world. Units: SI.
+#pragma once
+
+#include <SDL2/SDL.h>
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "burr/rt/stats.h"
+#include "window/export_page.h"
+#include "window/hud.h"
+#include "window/measuring.h"
+#include "window/saved_views.h"
+#include "window/slices.h"
+#include "window/toolbar.h"
+#include "window/window.h"
+
+namespace burr::app {
+
+inline constexpr double kHover = 3e-3;         // above the bone while not pressing           [m]
+inline constexpr double kPressLeast = 0.5e-3;  // how far below the surface the arm is aimed  [m]
+inline constexpr double kPressMost = 6e-3;
+
+class Mill {
+ public:
+  Mill(Desk& desk, sim::Session& session, MouseHand& hand, surface::Worker& worker,
+       render::Scene& scene, const WindowOptions& options)
+      : desk_(desk),
+        session_(session),
+        hand_(hand),
+        worker_(worker),
+        scene_(scene),
+        options_(options),
+        first_view_(scene.camera) {}
+
+  Result<Left> run();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // ---- mill_hand.cpp
+  void take_events();
+  void key(const SDL_Keysym& pressed);
+  void move(const SDL_MouseMotionEvent& motion);
+  void button(const SDL_MouseButtonEvent& button);
+  void wheel(const SDL_MouseWheelEvent& wheel);
+  void turn_view(double right, double up, bool shift);
+  void act(Action action);
+  void change_burr(int by);
+  void change_speed(double by);
+  void push(double factor);
+  void lift();
+  void point();
+  void measure();
+  void show_labels(bool shown);
+  void toggle_sound();
+  void toggle_coolant();
+  void saved_view(int slot, bool keep);
+  void aim_at_mouse() {
+    aim_x_ = mouse_x_;
+    aim_y_ = mouse_y_;
+  }
+  [[nodiscard]] bool over_slices() const;
+  [[nodiscard]] bool page_open() const {
+    return help_ || settings_page_ || (export_ && export_->shown());
+  }
+  [[nodiscard]] bool pressing() const {
+    return (pressing_ || held_) && !measuring_.picks() && !page_open() &&
+           !desk_.ui().over_panel() && !over_slices();
+  }
+
+  // ---- mill_told.cpp
+  void look_at_session();
+  void look_at_burr();
+  void tell();
+  void note(std::string text);
+  void panels();
+  void leave_picture();
+  [[nodiscard]] HudState hud() const;
+
+  Desk& desk_;
+  sim::Session& session_;
+  MouseHand& hand_;
+  surface::Worker& worker_;
+  render::Scene& scene_;
+  WindowOptions options_;
+  render::Camera first_view_;
+
+  bool open_ = true, picture_ = false;
+  Left left_ = Left::window;
+  bool panels_ = true, help_ = false, settings_page_ = false;
+  int picture_step_ = 0;
+  std::optional<Slices> slices_;
+  std::optional<SavedViews> saved_views_;
+  std::optional<ExportPage> export_;
+  bool leaves_ = false;  // though a file is still being written
+  bool irrigated_ = false;
+  bool slices_shown_ = true, labels_ = true, pulls_window_ = false;
+  std::vector<render::Colour> colours_;   // of the tissues, while labels are shown
+  bool pressing_ = false, held_ = false;  // by the button; by the space bar
+  int mouse_x_ = 0, mouse_y_ = 0, width_ = 1, height_ = 1;
+  int aim_x_ = 0, aim_y_ = 0;  // where the mouse was last that was no slice
+  double press_ = 4e-3;
+  math::Vec3 normal_ = math::Vec3::Zero();  // of the surface under the mouse, calmed
+  std::optional<math::Vec3> point_;         // there
+  sim::ToolMode mode_ = sim::ToolMode::cut;
+  Measuring measuring_;
+  double full_speed_ = 0;              // wished [rad/s]
+  std::optional<double> burr_wished_;  // radius, until it is so or refused [m]
+  Clock::time_point burr_wished_at_{};
+  record::TickRow row_;
+  rt::TickStats stats_;
+  std::optional<std::pair<std::uint64_t, Clock::time_point>> first_tick_;
+  std::uint64_t missed_ = 0;
+  Clock::time_point missed_at_{}, lost_at_{};
+  std::optional<HudState::Nearest> nearest_;
+  std::string note_, warning_;  // last thing done; what must be known
+  Clock::time_point noted_{}, said_{};
+};
+
+// As flag_words(), but what has a sign of its own is left out, and in the user's language.
+[[nodiscard]] std::string told_flags(std::uint32_t flags);
+
+}  // namespace burr::app

@@ -1,0 +1,189 @@
+// What the user is told at the page: the session as it is now, panels, words.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "burr/haptics/contact.h"
+#include "burr/render/scene.h"
+#include "window/help.h"
+#include "window/mill.h"
+#include "window/settings_page.h"
+#include "window/words.h"
+
+namespace burr::app {
+namespace {
+
+constexpr std::pair<std::uint32_t, Word> kFlagWords[] = {
+    {haptics::kFlagNotFinite, Word::flag_not_finite},
+    {haptics::kFlagHandLost, Word::flag_hand_lost},
+    {haptics::kFlagWatchdog, Word::flag_watchdog},
+    {haptics::kFlagJump, Word::flag_jump},
+    {haptics::kFlagForceLimited, Word::flag_force_limited},
+    {haptics::kFlagThermal, Word::flag_thermal},
+    {haptics::kFlagCandidates, Word::flag_candidates},
+    {haptics::kFlagReserve, Word::flag_reserve},
+    {haptics::kFlagUndoFull, Word::flag_undo_full},
+    {haptics::kFlagRestoring, Word::flag_restoring},
+    {haptics::kFlagNotCut, Word::flag_not_cut},
+    {haptics::kFlagPutOff, Word::flag_put_off},
+};
+
+}  // namespace
+
+// What a surgeon should see at once, in the user's language. That ticks are put off is told by
+// their own sign, that a limit holds by the force's bar.
+std::string told_flags(std::uint32_t flags) {
+  std::string text;
+  flags &= ~(haptics::kFlagPutOff | haptics::kFlagForceLimited);
+  for (const auto& [flag, says] : kFlagWords)
+    if ((flags & flag) != 0) text += (text.empty() ? "" : ", ") + std::string(word(says));
+  return text;
+}
+
+std::string flag_words(std::uint32_t flags) {
+  std::string text;
+  for (const auto& [flag, says] : kFlagWords)
+    if ((flags & flag) != 0)
+      text += (text.empty() ? "" : ", ") + std::string(word(says, Language::english));
+  return text;
+}
+
+void Mill::look_at_session() {
+  if (session_.view(row_)) {
+    const Clock::time_point now = Clock::now();
+    stats_.add(static_cast<std::int64_t>(1e3 * static_cast<double>(row_.took_us)));
+    scene_.burr.world_from_tool = {row_.contact.proxy, row_.hand.world_from_tool.q};
+    // turning is shown, not counted: 40 000 rpm are faster than any eye
+    if (row_.spindle_rad_s > 0) scene_.burr.turn = std::remainder(scene_.burr.turn + 0.7, 6.2832);
+    render::show_contact(scene_, row_.hand.world_from_tool.p, row_.contact.proxy,
+                         row_.contact.force);
+    if (options_.loudspeaker != nullptr) options_.loudspeaker->hear(row_);
+    if ((row_.contact.flags & haptics::kFlagWatchdog) != 0) lost_at_ = now;
+
+    // ticks that are not there by now; two may be under way
+    if (!first_tick_) first_tick_ = {row_.tick, now};
+    const double due = std::chrono::duration<double>(now - first_tick_->second).count() *
+                       session_.settings().servo.rate_hz;
+    const double done = static_cast<double>(row_.tick - first_tick_->first);
+    const auto missed = static_cast<std::uint64_t>(std::max(0.0, due - done - 2));
+    if (missed > missed_ + 3) missed_at_ = now;
+    missed_ = std::max(missed_, missed);
+  }
+  look_at_burr();
+  nearest_.reset();
+  if (options_.nearby != nullptr)
+    if (auto near = options_.nearby->nearest(scene_.burr.world_from_tool.p))
+      nearest_ = {std::move(near->name), near->distance - scene_.burr.radius};
+  sim::FaultReport fault;
+  if (session_.fault(fault)) note(say(Word::let_go, told_flags(fault.flags)));
+}
+
+// The burr that is wished for, or the sentence why not.
+void Mill::look_at_burr() {
+  const double radius = session_.burr_radius();
+  if (radius != scene_.burr.radius && options_.loudspeaker != nullptr)
+    options_.loudspeaker->obey({record::WishKind::burr_radius, radius});
+  scene_.burr.radius = radius;
+  if (!burr_wished_) return;
+  const bool so = std::abs(scene_.burr.radius - *burr_wished_) < 1e-9;
+  if (!so && Clock::now() - burr_wished_at_ < std::chrono::milliseconds(300)) return;
+  note(so ? say(Word::burr_now, 2e3 * scene_.burr.radius) : std::string(word(Word::no_room)));
+  burr_wished_.reset();
+}
+
+void Mill::note(std::string text) {
+  note_ = std::move(text);
+  noted_ = Clock::now();
+}
+
+void Mill::tell() {
+  if (Clock::now() - said_ < std::chrono::milliseconds(200)) return;
+  said_ = Clock::now();
+  const std::string flags = flag_words(row_.contact.flags);
+  desk_.renderer().title(
+      fmt::format("burr - removed {:.1f} mm^3 - force {:.2f} N - tick p99 {:.0f} us{}{}",
+                  1e9 * row_.ledger.removed, row_.contact.force.norm(), stats_.quantile_us(0.99),
+                  flags.empty() ? "" : " - ", flags));
+  warning_ = options_.warning ? options_.warning() : std::string();
+  if (warning_.empty()) warning_ = told_flags(row_.contact.flags);
+  if (Clock::now() - noted_ > std::chrono::seconds(6)) note_.clear();
+  if (note_.empty()) note_ = export_->progress();
+  if (note_.empty()) note_ = measuring_.words();
+  desk_.said = !export_->trouble().empty() ? export_->trouble()
+               : warning_.empty()          ? note_
+                                           : warning_;
+}
+
+HudState Mill::hud() const {
+  const sim::SessionSettings& settings = session_.settings();
+  HudState s;
+  s.force = row_.contact.force.norm();
+  s.user_limit = desk_.settings.force_limit_n;
+  s.device_limit = session_.hand().spec().peak_force;
+  s.press = press_;
+  s.press_most = kPressMost;
+  s.pressing = pressing();
+  s.speed = row_.spindle_rad_s;
+  s.full_speed = full_speed_;
+  if (settings.servo.motor.torque > 0)
+    s.load = std::clamp(row_.cutting_nm / settings.servo.motor.torque, 0.0, 1.0);
+  s.burr_diameter = 2 * scene_.burr.radius;
+  s.mode = mode_;
+  s.removed = row_.ledger.removed;
+  s.seconds = static_cast<double>(row_.tick) / settings.servo.rate_hz;
+  s.nearest = nearest_;
+  s.spares = options_.nearby != nullptr && !options_.nearby->empty();
+  const Clock::time_point now = Clock::now();
+  if (now - lost_at_ < std::chrono::seconds(5))
+    s.ticks = TickHealth::lost;
+  else if (session_.load() != sim::Load::none || now - missed_at_ < std::chrono::seconds(3))
+    s.ticks = TickHealth::busy;
+  const rt::TickSummary summary = stats_.summary();
+  s.p99_us = summary.p99_us;
+  s.max_us = summary.max_us;
+  s.missed = missed_;
+  s.picture_step = picture_step_;
+  if (!scene_.insets.empty())
+    s.column = static_cast<float>(desk_.renderer().width() - scene_.insets.front().x);
+  s.pixel = scene_.camera.view_height() / std::max(1, desk_.renderer().height());
+  s.note = note_;
+  s.warning = warning_;
+  return s;
+}
+
+void Mill::panels() {
+  Ui& ui = desk_.ui();
+  measuring_.draw(ui, scene_.camera);
+  if (panels_) {
+    draw_hud(ui, hud());
+    slices_->write_names(scene_, ui);
+    if (const auto pressed = draw_toolbar(ui, mode_, measuring_.on())) act(*pressed);
+  }
+  if (help_) help_ = draw_help(ui, desk_.settings.left_handed);
+  if (export_->shown()) export_->draw();
+  if (!settings_page_) return;
+  const double limit = desk_.settings.force_limit_n;
+  const std::filesystem::path& config = desk_.places().config;
+  const SettingsPage page = draw_settings(
+      ui, desk_.settings, config.empty() ? std::string() : (config / "settings.toml").string());
+  if (desk_.settings.force_limit_n != limit)
+    session_.wish({record::WishKind::user_force, desk_.settings.force_limit_n});
+  if (page.changed) {
+    desk_.settings_changed();
+    press_ = std::clamp(1e-3 * desk_.settings.press_mm, kPressLeast, kPressMost);
+    for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
+  }
+  if (page.done) settings_page_ = false;
+}
+
+void Mill::leave_picture() {
+  picture_ = false;
+  const Result<std::string> left = desk_.leave_picture(options_.folder);
+  note(left ? say(Word::picture_left, *left) : left.error().text);
+}
+
+}  // namespace burr::app
