@@ -26,7 +26,7 @@ foreach(room ${rooms})
     if(room MATCHES "^(window|sound)$")  # of the program, not of the library
       set(parts hearing loudspeaker nearby)
       if(room STREQUAL window)
-        list(APPEND parts live_bone work volume_options ready_bone recording still import_choice import_preview)
+        list(APPEND parts live_bone traces work volume_options ready_bone recording still import_choice import_preview)
         target_link_libraries(test_${room} PRIVATE PkgConfig::IMGUI)
       endif()
       file(GLOB of_program CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/${room}/*.cpp)

@@ -108,7 +108,7 @@ Phantom skull(double voxel) {
   phantom.tissues.tissues = {
       {.name = "air", .kind = TissueKind::air},
       {.name = "vault", .colour = {0.91F, 0.87F, 0.77F}, .cutting_energy = 1.2e9},
-      {.name = "diploe", .colour = {0.88F, 0.76F, 0.62F}, .cutting_energy = 0.7e9},
+      {.name = "diploe", .colour = {0.88F, 0.76F, 0.62F}, .cutting_energy = 0.7e9, .bleeds = 0.15},
       {.name = "teeth", .colour = {0.96F, 0.94F, 0.88F}, .cutting_energy = 3.0e9},
       {.name = "face and base", .colour = {0.90F, 0.85F, 0.74F}, .cutting_energy = 1.1e9},
   };

@@ -93,7 +93,10 @@ Phantom spine(double voxel) {
   phantom.tissues.tissues = {
       {.name = "air", .kind = TissueKind::air},
       {.name = "cortical bone", .colour = {0.91F, 0.87F, 0.77F}, .cutting_energy = 1.2e9},
-      {.name = "trabecular bone", .colour = {0.90F, 0.79F, 0.64F}, .cutting_energy = 0.6e9},
+      {.name = "trabecular bone",
+       .colour = {0.90F, 0.79F, 0.64F},
+       .cutting_energy = 0.6e9,
+       .bleeds = 0.15},
       {.name = "dural sac",
        .kind = TissueKind::soft,
        .colour = {0.93F, 0.86F, 0.66F},
@@ -102,7 +105,10 @@ Phantom spine(double voxel) {
        .kind = TissueKind::soft,
        .colour = {0.98F, 0.85F, 0.25F},
        .spare = true},
-      {.name = "marrow (soft tissue)", .kind = TissueKind::soft, .colour = {0.76F, 0.46F, 0.38F}},
+      {.name = "marrow (soft tissue)",
+       .kind = TissueKind::soft,
+       .colour = {0.76F, 0.46F, 0.38F},
+       .bleeds = 0.3},
   };
   for (std::size_t id = 0; id < phantom.tissues.tissues.size(); ++id)
     phantom.tissues.tissues[id].label = static_cast<int>(id);

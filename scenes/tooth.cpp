@@ -25,7 +25,11 @@ Phantom tooth(double voxel) {
       {.name = "air", .kind = TissueKind::air},
       {.name = "enamel", .colour = {0.96F, 0.95F, 0.91F}, .cutting_energy = 6.0e9, .friction = 0.2},
       {.name = "dentine", .colour = {0.92F, 0.83F, 0.60F}, .cutting_energy = 1.6e9},
-      {.name = "pulp", .kind = TissueKind::soft, .colour = {0.82F, 0.34F, 0.34F}, .spare = true},
+      {.name = "pulp",
+       .kind = TissueKind::soft,
+       .colour = {0.82F, 0.34F, 0.34F},
+       .spare = true,
+       .bleeds = 0.3},
       {.name = "caries", .colour = {0.48F, 0.33F, 0.20F}, .cutting_energy = 0.5e9},
   };
   for (std::size_t id = 0; id < phantom.tissues.tissues.size(); ++id)

@@ -24,7 +24,7 @@ LiveBone::LiveBone(const volume::Bone& bone, surface::Worker& worker, render::Sc
       scene_(scene),
       coarse_(worker.patches(), bone.grid().voxel),
       governor_(software),
-      wound_(bone.grid().voxel) {}
+      wound_(bone.grid().voxel, render::bleeding_of(bone.tissues())) {}
 
 sim::Load LiveBone::load() const {
   return session_ != nullptr ? session_->load() : sim::Load::none;

@@ -18,6 +18,7 @@
 #include "burr/render/wound.h"
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
+#include "traces.h"
 
 namespace burr::app {
 
@@ -35,6 +36,7 @@ class LiveBone {
   void update();
   // What the tool does to the look of the bone; before update(). nothing: the bone as ever.
   void see(const render::Wound::Tick& tick) { wound_.see(tick); }
+  void see(const Traces::Told& told) { told.show(wound_); }
   void look_plain();
   // After the frame: how long it took, how much of the picture was drawn anew.
   void drawn(double took_s, double redrawn);

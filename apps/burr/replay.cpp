@@ -20,6 +20,7 @@
 #include "nearby.h"
 #include "recording.h"
 #include "still.h"
+#include "traces.h"
 #include "views.h"
 #include "window/pages.h"
 
@@ -36,44 +37,6 @@ struct Options {
   bool check = false, json = false, window = false;
   double seconds = 0;  // of the window
   std::string screenshot;
-};
-
-// What milling left on the bone until a moment, on the way to a later one.
-class Traces {
- public:
-  Traces(record::Player& player, const sim::Recorded& recorded, double voxel)
-      : steps_(player.steps()),
-        first_(static_cast<double>(player.first_tick())),
-        rate_(player.info().rate_hz),
-        radius_(recorded.settings.servo.burr.radius),
-        irrigated_(recorded.settings.servo.irrigated),
-        wound_(voxel) {}
-
-  void until(double t) {
-    constexpr std::uint64_t kEvery = 16;  // ticks: about as often as a window looks
-    while ((!ahead_ || (static_cast<double>(step_.row.tick) - first_) / rate_ <= t)) {
-      if (ahead_) {
-        for (const record::Wish& wish : step_.wishes)
-          if (wish.kind == record::WishKind::irrigation)
-            irrigated_ = wish.value > 0;
-          else if (wish.kind == record::WishKind::burr_radius && wish.value > 0)
-            radius_ = wish.value;
-        if (step_.row.tick % kEvery == 0)
-          wound_.see(wound_tick(step_.row, rate_, radius_, irrigated_));
-      }
-      ahead_ = steps_.next(step_);
-      if (!ahead_) return;
-    }
-  }
-  [[nodiscard]] const render::Wound& wound() const { return wound_; }
-
- private:
-  record::StepCursor steps_;
-  record::Step step_;
-  bool ahead_ = false;  // step_ is the next one to be told
-  double first_, rate_, radius_;
-  bool irrigated_;
-  render::Wound wound_;
 };
 
 // The bone and the burr at one moment.
@@ -93,9 +56,9 @@ Status draw(const Options& options, record::Player& player, const sim::Recorded&
   const Status skinned = render::skin_bone(scene, **bone, 2, progress());
   if (!skinned) return skinned;
   if (options.effects) {
-    Traces traces(player, recorded, (*bone)->grid().voxel);
-    traces.until(t);
-    traces.wound().dress(scene);
+    render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
+    Traces(player, recorded.settings.servo).until(t).show(wound);
+    wound.dress_still(scene);
   }
   return draw_view(std::move(scene), **bone, tick->contact.proxy, -shaft, options.view,
                    options.size, options.picture);
@@ -121,7 +84,8 @@ Status film(const Options& options, record::Player& player, const sim::Recorded&
   if (!skinned) return skinned;
   auto reel = render::Film::in(options.film, options.size.width, options.size.height);
   if (!reel) return reel.error();
-  Traces traces(player, recorded, (*bone)->grid().voxel);
+  render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
+  Traces traces(player, recorded.settings.servo);
   const int frames = std::max(1, static_cast<int>(player.seconds() * options.fps));
   for (int n = 0; n < frames; ++n) {
     if (interrupted())
@@ -131,8 +95,8 @@ Status film(const Options& options, record::Player& player, const sim::Recorded&
     if (!there) return there;
     worker.settle(show);
     if (options.effects) {
-      traces.until(n / options.fps);
-      traces.wound().dress(scene);
+      traces.until(n / options.fps).show(wound);
+      wound.dress(scene);
     }
     auto tick = player.tick_at(n / options.fps);
     if (!tick) return tick.error();
@@ -290,8 +254,9 @@ void add(CLI::App& app, Todo& todo) {
       ->check(CLI::Range(0.1, 240.0))
       ->capture_default_str();
   add_view_options(*command, options->view);
-  command->add_flag("--effects", options->effects,
-                    "bone freshly cut, and wet from the coolant, looks so in picture and film");
+  command->add_flag(
+      "--effects", options->effects,
+      "what milling leaves is seen in picture and film: fresh bone, coolant, dust, blood");
   add_picture_size(*command, options->size);
   command->add_flag("--window", options->window,
                     "watch it: time line, bone, tool and force at any moment");

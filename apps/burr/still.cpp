@@ -34,8 +34,13 @@ render::Scene scene_of_work(const volume::Bone& bone, double burr_radius, const 
 
 render::Wound::Tick wound_tick(const record::TickRow& row, double rate_hz, double burr_radius,
                                bool irrigated) {
-  return {static_cast<double>(row.tick) / rate_hz, row.contact.proxy, burr_radius,
-          row.ledger.removed, irrigated};
+  return {static_cast<double>(row.tick) / rate_hz,
+          row.contact.proxy,
+          row.hand.world_from_tool.q * math::Vec3::UnitZ(),
+          burr_radius,
+          row.ledger.removed,
+          row.ledger.added,
+          irrigated};
 }
 
 void put_tool(render::Scene& scene, const record::TickRow& row, double burr_radius, bool contact) {

@@ -102,6 +102,10 @@ struct Session {
 };
 constexpr Session kSessions[] = {
     {"mastoid", "phantom:temporal-bone --voxel-mm 0.5 --motion pocket --burr-mm 5 --seconds 8"},
+    {"wet",
+     "phantom:temporal-bone --voxel-mm 0.5 --motion pocket --burr-mm 5 --seconds 4 --heat "
+     "--irrigation"},
+    {"pedicle", "phantom:spine --voxel-mm 0.6 --motion plunge --burr-mm 4 --seconds 20"},
     {"tooth", "phantom:tooth --voxel-mm 0.2 --motion touch --burr-mm 1 --seconds 1"},
     {"jaw", "phantom:jaw --voxel-mm 0.8 --motion touch --burr-mm 5 --seconds 1"},
     {"spine", "phantom:spine --voxel-mm 0.6 --motion touch --burr-mm 4 --seconds 1"},
@@ -120,7 +124,9 @@ constexpr Shot kShots[] = {
     {"cut_open", "mastoid", "--clip axial"},
     {"without_labels", "mastoid", "--view sagittal --no-labels"},
     {"see_through", "mastoid", "--see-through 65"},
-    {"fresh", "mastoid", "--effects --height-mm 20"},
+    {"dust", "mastoid", "--effects --height-mm 20"},
+    {"wet", "wet", "--effects --height-mm 20"},
+    {"blood", "pedicle", "--effects --view microscope --at 10"},
     {"side_by_side", "mastoid", "--stereo side-by-side"},
     {"anaglyph", "mastoid", "--stereo anaglyph"},
     {"interleaved", "mastoid", "--stereo interleaved"},

@@ -1,11 +1,13 @@
-// Fresh and wet bone: how long it lasts, where, and the colours it must have.
+// Fresh and wet bone, dust and blood: how long it lasts, where, and the colours it must have.
 #include "burr/render/wound.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "render/gpu.h"
@@ -22,13 +24,14 @@ constexpr double kVoxel = 0.25e-3, kRadius = 2e-3;
 class Milling {
  public:
   explicit Milling(Wound& wound) : wound_(wound) {}
-  void on(const Vec3& tip, double seconds, double removed, bool irrigated) {
+  void on(const Vec3& tip, double seconds, double removed, bool irrigated, double added = 0) {
     const int frames = std::max(1, static_cast<int>(std::lround(60 * seconds)));
     for (int n = 0; n < frames; ++n) {
       tick_.t += seconds / frames;
       tick_.tip = tip;
       tick_.radius = kRadius;
       tick_.removed += removed / frames;
+      tick_.added += added / frames;
       tick_.irrigated = irrigated;
       wound_.see(tick_);
     }
@@ -217,6 +220,269 @@ TEST(Wound, DressesOnlyWhatItReachesAndAWindowDrawsItAnew) {
   wound.dress(scene);
   ASSERT_TRUE(gpu.show(scene).ok());
   EXPECT_EQ(gpu.shown().rgb, before.rgb);
+}
+
+// ---- dust
+
+TEST(Wound, DustHangsInTheAirAndSettlesAroundTheToolInAConeOfItsVolume) {
+  Wound wound(kVoxel);
+  Milling milling(wound);
+  const Vec3 tip = Vec3::Zero();
+  constexpr double kRemoved = 2e-9;
+  milling.on(tip, 1.0 / 60, 0, false);
+  milling.on(tip, 1.0 / 60, kRemoved, false);
+  const double loose = kRemoved / Wound::kSolid;
+  EXPECT_NEAR(wound.in_the_air(), loose, 0.05 * loose);
+  const double before = wound.in_the_air();
+  milling.on(tip, Wound::kSettles, 0, false);
+  EXPECT_NEAR(wound.in_the_air(), before / std::exp(1), 1e-3 * loose);
+  milling.on(tip, 5, 0, false);
+  EXPECT_NEAR(wound.in_the_air(), 0, 1e-3 * loose);
+
+  // what lies hides the bone as a layer of that thickness does
+  const double reach = kRadius + Wound::kStrews;
+  double total = 0;
+  for (const double part : {0.45, 0.6, 0.75, 0.9}) {
+    const double d = part * reach;
+    const double thick = 3 * loose / (std::numbers::pi * reach * reach) * (1 - part);
+    EXPECT_NEAR(wound.at({d, 0, 0}).dust, 1 - std::exp(-thick / Wound::kCovers), 0.03) << part;
+  }
+  for (int n = 0; n < 1000;
+       ++n) {  // ... and all of it has come down: a cone's volume is its layers'
+    const double d = (n + 0.5) / 1000 * reach;
+    total += 3 * loose / (std::numbers::pi * reach * reach) * (1 - d / reach) * 2 *
+             std::numbers::pi * d * reach / 1000;
+  }
+  EXPECT_NEAR(total, loose, 0.01 * loose);
+  EXPECT_EQ(wound.at({reach + 1.5e-3, 0, 0}).dust, 0);
+  EXPECT_EQ(wound.at({0, 0, -kRadius}).dust, 0) << "the burr sweeps where it cuts";
+}
+
+TEST(Wound, CoolantWashesDustAwayAndLetsNoneSettle) {
+  Wound wound(kVoxel);
+  Milling milling(wound);
+  const Vec3 beside(kRadius + 2e-3, 0, 0);
+  milling.on(Vec3::Zero(), 1, 4e-9, false);
+  milling.on(Vec3::Zero(), 5, 0, false);
+  const float lies = wound.at(beside).dust;
+  ASSERT_GT(lies, 0.3F);
+  milling.on(Vec3::Zero(), Wound::kWashes, 0, true);
+  EXPECT_NEAR(wound.at(beside).dust, lies / std::exp(1), 0.02);
+  milling.on(Vec3::Zero(), 2, 0, true);
+  EXPECT_NEAR(wound.at(beside).dust, 0, 0.01);
+  milling.on(Vec3::Zero(), 2, 4e-9, true);
+  EXPECT_NEAR(wound.at(beside).dust, 0, 0.01) << "it goes with the water";
+}
+
+// ---- blood
+
+constexpr volume::TissueId kHard = 1, kVessel = 2, kMarrow = 3;
+
+// A flat surface of 20 x 20 mm through the origin, every 0.25 mm a vertex, facing n.
+surface::Patch flat(const Vec3& n, const std::function<surface::Vertex(const Vec3&)>& vertex) {
+  const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
+  surface::Patch patch;
+  constexpr int kSide = 81;
+  for (int j = 0; j < kSide; ++j)
+    for (int i = 0; i < kSide; ++i) {
+      const Vec3 p = 0.25e-3 * ((i - kSide / 2) * u + (j - kSide / 2) * v);
+      surface::Vertex one = vertex(p);
+      one.p = p.cast<float>();
+      one.n = n.cast<float>();
+      patch.vertices.push_back(one);
+      if (i + 1 == kSide || j + 1 == kSide) continue;
+      const auto at = static_cast<std::uint32_t>(j * kSide + i), up = at + kSide;
+      for (const std::uint32_t corner : {at, at + 1, up, at + 1, up + 1, up})
+        patch.triangles.push_back(corner);
+    }
+  return patch;
+}
+Scene scene_of(const surface::Patch& patch) {
+  Scene scene;
+  scene.tissue_colours = {{0, 0, 0}, kBone, kBone, kBone};
+  set_patch(scene, 0, patch);
+  return scene;
+}
+Scene plate(volume::TissueId tissue, const Vec3& n = Vec3::UnitZ()) {
+  return scene_of(flat(n, [&](const Vec3&) {
+    surface::Vertex vertex;
+    vertex.tissue = tissue;
+    return vertex;
+  }));
+}
+const std::vector<float> kBleeding = {0, 0, 1, 0.3F};
+
+// Seconds of a burr that rests where it just cut, the picture made anew ten times a second.
+void watch(Wound& wound, Milling& milling, Scene& scene, const Vec3& tip, double seconds,
+           bool irrigated = false, double added = 0) {
+  for (int n = 0; n < std::lround(10 * seconds); ++n) {
+    milling.on(tip, 0.1, 0, irrigated, added / (10 * seconds));
+    wound.dress(scene);
+  }
+}
+double blood_on(const Wound& wound) {
+  double sum = 0;
+  for (int j = -9; j <= 9; ++j)
+    for (int i = -9; i <= 9; ++i)
+      sum += static_cast<double>(wound.at({i * 1e-3, j * 1e-3, 0}).blood);
+  return sum;
+}
+
+TEST(Wound, OnlyWhatBleedsBleedsAndTheMoreTheFaster) {
+  double seen[4] = {};
+  for (const volume::TissueId tissue : {kHard, kMarrow, kVessel}) {
+    Wound wound(kVoxel, kBleeding);
+    Milling milling(wound);
+    Scene scene = plate(tissue);
+    const Vec3 tip(0, 0, 0.9 * kRadius);
+    watch(wound, milling, scene, tip, 1);
+    EXPECT_EQ(blood_on(wound), 0) << "touched, not cut";
+    milling.on(tip, 0.1, 1e-9, false);
+    watch(wound, milling, scene, tip, 2);
+    seen[tissue] = blood_on(wound);
+  }
+  EXPECT_EQ(seen[kHard], 0);
+  EXPECT_GT(seen[kMarrow], 0.5);
+  EXPECT_GT(seen[kVessel], 2 * seen[kMarrow]);
+}
+
+TEST(Wound, AVesselBleedsWhenItIsReachedNotThroughThinBone) {
+  for (const double deep : {0.3e-3, 1.2e-3}) {  // of the canal's wall below the cut
+    Wound wound(kVoxel, kBleeding);
+    Milling milling(wound);
+    Scene scene = scene_of(flat(Vec3::UnitZ(), [](const Vec3&) {
+      surface::Vertex wall;
+      wall.tissue = kHard;
+      wall.beneath = kVessel;
+      wall.wall = 255;
+      return wall;
+    }));
+    const bool reached = deep < 2 * kVoxel;
+    const Vec3 tip(0, 0, kRadius + (reached ? -deep : deep));
+    milling.on(tip, 0.1, 0, false);
+    milling.on(tip, 0.1, 1e-9, false);
+    watch(wound, milling, scene, tip, 2);
+    if (reached)
+      EXPECT_GT(blood_on(wound), 1) << "opened";
+    else
+      EXPECT_EQ(blood_on(wound), 0) << "bone of 1.2 mm is left";
+  }
+}
+
+TEST(Wound, BloodRunsDownAlongTheSurface) {
+  Wound wound(kVoxel, kBleeding);
+  Milling milling(wound);
+  // a wall: up is along it
+  Scene scene = scene_of(flat(Vec3::UnitX(), [](const Vec3& p) {
+    surface::Vertex vertex;
+    vertex.tissue = p.norm() < 1e-3 ? kVessel : kHard;
+    return vertex;
+  }));
+  const Vec3 tip(0.9 * kRadius, 0, 0);
+  milling.on(tip, 0.1, 0, false);
+  milling.on(tip, 0.1, 1e-9, false);
+  watch(wound, milling, scene, tip + Vec3(0.02, 0, 0), 6);
+  double above = 0, below = 0;
+  for (int n = 3; n <= 8; ++n) {
+    above += static_cast<double>(wound.at({0, 0, n * 1e-3}).blood);
+    below += static_cast<double>(wound.at({0, 0, -n * 1e-3}).blood);
+  }
+  EXPECT_GT(below, 2);
+  EXPECT_GT(below, 4 * above);
+  EXPECT_EQ(wound.at({4e-3, 0, -3e-3}).blood, 0) << "there is no surface in the air";
+}
+
+TEST(Wound, WaxStopsBloodAndCoolantOnlyWashesIt) {
+  Wound wound(kVoxel, kBleeding);
+  Milling milling(wound);
+  Scene scene = plate(kVessel);
+  const Vec3 tip(0, 0, 0.9 * kRadius);
+  milling.on(tip, 0.1, 0, false);
+  milling.on(tip, 0.1, 1e-9, false);
+  watch(wound, milling, scene, tip, 3);
+  const double bled = blood_on(wound);
+  ASSERT_GT(bled, 3);
+  watch(wound, milling, scene, tip, 2, true);
+  const double washed = blood_on(wound);
+  EXPECT_LT(washed, 0.5 * bled);
+  watch(wound, milling, scene, tip, 3);
+  EXPECT_GT(blood_on(wound), washed + 0.3 * bled) << "it comes again";
+  watch(wound, milling, scene, tip, 0.2, false, 1e-9);  // wax
+  watch(wound, milling, scene, tip, 1, true);
+  const double sealed = blood_on(wound);
+  watch(wound, milling, scene, tip, 3);
+  EXPECT_LE(blood_on(wound), sealed + 1e-6);
+}
+
+TEST(Wound, BloodClotsAndClears) {
+  Wound wound(kVoxel, kBleeding);
+  Milling milling(wound);
+  Scene scene = plate(kVessel);
+  const Vec3 tip(0, 0, 0.9 * kRadius);
+  milling.on(tip, 0.1, 0, false);
+  milling.on(tip, 0.1, 1e-9, false);
+  watch(wound, milling, scene, tip, 5);
+  const double bled = blood_on(wound);
+  ASSERT_GT(bled, 3);
+  Wound::Tick tick = milling.last();
+  for (int second = 0; second < 900; ++second) {
+    tick.t += 1;
+    wound.see(tick);
+    if (second % 10 == 0) wound.dress(scene);
+  }
+  EXPECT_LT(blood_on(wound), 0.01 * bled);
+}
+
+TEST(Wound, AStillShowsWhatIsOpenThoughNobodyLookedOn) {
+  Wound wound(kVoxel, kBleeding);
+  Milling milling(wound);
+  Scene scene = plate(kVessel);
+  const Vec3 tip(0, 0, 0.9 * kRadius);
+  milling.on(tip, 0.1, 0, false);
+  milling.on(tip, 0.1, 1e-9, false);
+  milling.on(tip + Vec3(0, 0, 5e-3), 5, 0, false);
+  EXPECT_EQ(blood_on(wound), 0) << "no surface has told";
+  wound.dress_still(scene);
+  EXPECT_GT(blood_on(wound), 3);
+  ASSERT_NE(scene.patches[0].dress, nullptr);
+  EXPECT_TRUE(std::any_of(scene.patches[0].dress->begin(), scene.patches[0].dress->end(),
+                          [](const Dress& dress) { return dress.blood > 200; }));
+}
+
+TEST(Wound, DustLiesOnWhatFacesUpNotUnderAnEdge) {
+  for (const double side : {1.0, -1.0}) {
+    Wound wound(kVoxel);
+    Milling milling(wound);
+    Scene scene = plate(kHard, Vec3(0, 0, side));
+    milling.on({0, 0, kRadius}, 0.1, 0, false);
+    milling.on({0, 0, kRadius}, 3, 5e-9, false);
+    milling.on({0, 0, kRadius}, 3, 0, false);
+    wound.dress(scene);
+    ASSERT_NE(scene.patches[0].dress, nullptr);
+    const bool any = std::any_of(scene.patches[0].dress->begin(), scene.patches[0].dress->end(),
+                                 [](const Dress& dress) { return dress.dust > 40; });
+    EXPECT_EQ(any, side > 0);
+  }
+}
+
+TEST(Wound, BloodIsRedAndDustPaleAndInGrains) {
+  BURR_NEEDS_GPU(gpu);
+  Scene scene = ball();
+  const auto see = [&](Dress dress) {
+    dress_all(scene, dress);
+    const auto image = gpu.image(scene, kWide, kHigh);
+    EXPECT_TRUE(image.ok());
+    return middle_of(*image);
+  };
+  const Seen clean = see({}), blood = see({.blood = 255}), some = see({.dust = 90}),
+             much = see({.dust = 255});
+  EXPECT_GT(blood.mean[0], 60);
+  EXPECT_LT(blood.mean[1], 30);
+  EXPECT_LT(blood.mean[2], 30);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_GT(much.mean[c], clean.mean[c] + 30) << c;
+  EXPECT_GT(some.mean[0], clean.mean[0] + 5);
+  EXPECT_LT(some.mean[0], much.mean[0] - 10);
+  EXPECT_GT(some.most - some.least, 30) << "grains, and bone between them";
 }
 
 }  // namespace

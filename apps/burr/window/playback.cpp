@@ -75,8 +75,12 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
 
 // ---- the thread
 
-Playback::Playback(record::Player& player, volume::Bone& bone)
-    : player_(player), bone_(bone), thread_([this] { work(); }) {}
+Playback::Playback(Recorded& recorded)
+    : player_(*recorded.player),
+      bone_(*recorded.bone),
+      timeline_(recorded.timeline),
+      traces_(player_, recorded.settings.settings.servo),
+      thread_([this] { work(); }) {}
 
 Playback::~Playback() {
   const std::lock_guard lock(mutex_);
@@ -119,8 +123,14 @@ void Playback::work() {
       shown.row = *row;
     else if (shown.trouble.empty())
       shown.trouble = row.error().text;
+    shown.told = traces_.until(shown.t, timeline_);
     lock.lock();
     working_ = false;
+    if (fresh_ && !shown.told.anew) {  // nobody took the last: its ticks come first
+      Traces::Told both = std::move(newest_.told);
+      both.ticks.insert(both.ticks.end(), shown.told.ticks.begin(), shown.told.ticks.end());
+      shown.told = std::move(both);
+    }
     newest_ = std::move(shown);
     fresh_ = true;
   }

@@ -28,6 +28,7 @@
 #include "burr/sim/session_words.h"
 #include "burr/surface/worker.h"
 #include "burr/volume/bone.h"
+#include "traces.h"
 #include "volume_options.h"
 
 namespace burr::app {
@@ -59,10 +60,11 @@ class Playback {
     double t = 0;         // the moment that was wanted  [s]
     record::TickRow row;  // the last tick then
     std::string trouble;  // "": the bone is as it was then; else why not
+    Traces::Told told;    // since what was taken before
   };
 
-  // Both outlive it, and belong to its thread.
-  Playback(record::Player& player, volume::Bone& bone);
+  // It outlives the playback; its player and bone belong to the playback's thread.
+  explicit Playback(Recorded& recorded);
   ~Playback();
   Playback(const Playback&) = delete;
   Playback& operator=(const Playback&) = delete;
@@ -78,6 +80,8 @@ class Playback {
 
   record::Player& player_;
   volume::Bone& bone_;
+  const record::Timeline& timeline_;
+  Traces traces_;
   mutable std::mutex mutex_;
   std::condition_variable wanted_changed_;
   double wanted_ = 0;

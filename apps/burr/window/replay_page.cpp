@@ -42,7 +42,7 @@ class Watch {
   void play(bool playing);
   void change_pace(int by);
   void turn_view(double right, double up, bool shift);
-  void look_at(Playback& playback);
+  void look_at(Playback& playback, LiveBone& live);
   void panels();
   void show_labels(bool shown);
   void note(std::string text) {
@@ -78,7 +78,7 @@ Result<Left> Watch::run() {
   now_.t = std::max(0.0, options_.from);
   now_.playing = options_.from < 0;
   LiveBone live(*recorded_.bone, *recorded_.worker, scene_, desk_.renderer().software());
-  Playback playback(*recorded_.player, *recorded_.bone);
+  Playback playback(recorded_);
   playback.want(now_.t);
 
   const Clock::time_point start = Clock::now();
@@ -98,7 +98,7 @@ Result<Left> Watch::run() {
     }
     // a machine that cannot follow shows fewer moments, not a longer session
     if (now_.t != asked) playback.want(asked = now_.t);
-    look_at(playback);
+    look_at(playback, live);
     live.update();
     const Clock::time_point drawing = Clock::now();
     shown = desk_.show(scene_, panels_ || help_ ? [this] { panels(); } : std::function<void()>());
@@ -118,6 +118,7 @@ Result<Left> Watch::run() {
   }
   scene_.tissue_colours = colours_;
   scene_.look.opacity = 1;
+  live.look_plain();
   if (!shown) return shown.error();
   if (!options_.screenshot.empty()) {
     const Status kept = render::write_png(desk_.renderer().shown(), options_.screenshot);
@@ -126,9 +127,10 @@ Result<Left> Watch::run() {
   return left_;
 }
 
-void Watch::look_at(Playback& playback) {
+void Watch::look_at(Playback& playback, LiveBone& live) {
   if (playback.take(shown_)) {
     now_.shown = shown_.t;
+    if (desk_.settings.effects) live.see(shown_.told);
     if (shown_.trouble.empty()) {
       put_tool(scene_, shown_.row, burr_radius(), true);
       const tool::Burr& burr = recorded_.settings.settings.servo.burr;

@@ -40,7 +40,7 @@ constexpr std::array kFields = {
     Field{"turn_pace", "of the view, by mouse and arrows", &Settings::turn_pace, nullptr, nullptr,
           0.1, 5},
     Field{"zoom_pace", "by wheel and two fingers", &Settings::zoom_pace, nullptr, nullptr, 0.1, 5},
-    Field{"effects", "bone freshly cut, and wet from the coolant, looks so for a while", nullptr,
+    Field{"effects", "what milling leaves on bone for a while: fresh faces, water, dust, blood", nullptr,
           &Settings::effects},
     Field{"panels", "shown at the start; Tab hides them", nullptr, &Settings::panels},
     Field{"help", "keys and mouse are shown at the start", nullptr, &Settings::help},

@@ -133,7 +133,7 @@ constexpr std::array kWords = {
     Entry{Word::help_coolant, "coolant on, off", "spolning på, av"},
     Entry{Word::coolant_on, "coolant on", "spolning på"},
     Entry{Word::coolant_off, "coolant off", "spolning av"},
-    Entry{Word::set_effects, "Fresh and wet bone", "Färskt och vått ben"},
+    Entry{Word::set_effects, "Fresh and wet bone, dust, blood", "Färskt och vått ben, damm, blod"},
     Entry{Word::help_see_through, "bone seen through, in steps", "benet genomskinligt, i steg"},
     Entry{Word::see_through, "bone seen through: {:.0f} %", "benet genomskinligt: {:.0f} %"},
     Entry{Word::bone_whole, "bone not seen through", "benet ogenomskinligt"},

@@ -19,6 +19,9 @@ using volume::TissueKind;
 // The table's trabecular bone is that of the middle of its class.
 constexpr double kTrabecularHu = 450;
 
+// A guess, to look at: it oozes where a vessel runs.
+constexpr double kTrabecularBleeds = 0.15;
+
 // Apparent density of trabecular bone (Rho et al. 1995), as far as there is such bone.  [kg/m^3]
 double density_of(double hu) { return std::clamp(131 + 1.067 * hu, 100.0, 2000.0); }
 
@@ -108,6 +111,12 @@ Status read_table(const std::string& path, const Materials& materials,
         tissue.friction = *friction;
       }
       if (const auto spare = (*entry)["spare"].value<bool>()) tissue.spare = *spare;
+      if (const auto bleeds = (*entry)["bleeds"].value<double>()) {
+        if (!(*bleeds >= 0 && *bleeds <= 1))
+          return error(fmt::format("{}: label {}: bleeds must be 0 (not at all) to 1 (as a vessel)",
+                                   file, v));
+        tissue.bleeds = *bleeds;
+      }
       if (const auto* colour = (*entry)["colour"].as_array()) {
         if (colour->size() != 3)
           return error(fmt::format("{}: label {}: colour needs three numbers 0..1", file, v));
@@ -166,6 +175,14 @@ Tissue tissue_by_name(const Label& label, bool named, const Materials& materials
                                "incus", "stapes", "cord", "brain", "aqueduct"}) ||
                  word_of(name, "iac") || word_of(name, "ica");
   if (soft) tissue.kind = TissueKind::soft;
+  if (soft && (any_of(name, {"artery", "arteries", "vein", "vessel", "carotid", "jugular", "sinus",
+                             "bulb"}) ||
+               word_of(name, "ica")))
+    tissue.bleeds = 1;
+  else if (any_of(name, {"marrow", "pulp"}))
+    tissue.bleeds = 0.3;
+  else if (!soft && any_of(name, {"trabecular", "spongiosa", "cancellous"}))
+    tissue.bleeds = kTrabecularBleeds;
   materials.lay_over(tissue);
   return tissue;
 }
@@ -233,6 +250,7 @@ volume::TissueTable hu_tissues(const Materials& materials) {
     tissue.name = fmt::format("trabecular bone {:.0f}-{:.0f} HU", from, to);
     tissue.colour = {0.86F, 0.76F, 0.62F};
     lay_over(materials.of("trabecular bone"), tissue);
+    tissue.bleeds = kTrabecularBleeds;
     // strength, and so what cutting costs, goes with the square of density (Carter & Hayes 1977)
     const double share = density_of(0.5 * (from + to)) / density_of(kTrabecularHu);
     const double harder = share * share;

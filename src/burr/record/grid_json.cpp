@@ -117,6 +117,7 @@ json json_from_tissues(const volume::TissueTable& tissues) {
                     {"cutting_friction", tissue.cutting_friction},
                     {"cutting_force", json_from_force(tissue.force)},
                     {"spare", tissue.spare},
+                    {"bleeds", tissue.bleeds},
                     {"label", tissue.label}});
   return list;
 }
@@ -141,6 +142,9 @@ bool tissues_from_json(const json& list, volume::TissueTable& tissues) {
     if (object.contains("cutting_friction") &&
         !(number(object, "cutting_friction", tissue.cutting_friction) &&
           tissue.cutting_friction >= 0))
+      return false;
+    if (object.contains("bleeds") &&
+        !(number(object, "bleeds", tissue.bleeds) && tissue.bleeds >= 0 && tissue.bleeds <= 1))
       return false;
     tissue.name = name->get<std::string>();
     tissue.spare = spare->get<bool>();

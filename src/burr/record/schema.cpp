@@ -289,6 +289,7 @@ constexpr const char* kSessionSchema = R"({
        "cutting_friction": {"type": "number", "description": "tangential over normal force of a cut"},
        "cutting_force": {"type": "object", "description": "of the chips law", "additionalProperties": {"type": "number"}},
        "spare": {"type": "boolean", "description": "must not be cut"},
+       "bleeds": {"type": "number", "description": "where it is opened: 0 not, 1 as a vessel; a picture only"},
        "label": {"type": "integer", "description": "value in the file it came from"}
       }
      }

@@ -110,11 +110,12 @@ Status check(const SessionInfo& info) {
   if (Status good = check_fields(info.volume.numbers, info.volume.words); !good.ok()) return good;
   for (const volume::Tissue& tissue : info.volume.tissues.tissues)
     if (!std::isfinite(tissue.cutting_energy) || !std::isfinite(tissue.friction) ||
-        !std::isfinite(tissue.cutting_friction) || !finite(tissue.force))
+        !std::isfinite(tissue.cutting_friction) || !std::isfinite(tissue.bleeds) ||
+        !finite(tissue.force))
       return error(
           Trouble::internal,
-          fmt::format("recording: the tissue \"{}\" has a cutting energy, force or friction "
-                      "that is not a finite number",
+          fmt::format("recording: the tissue \"{}\" has a cutting energy, force, friction or "
+                      "bleeding that is not a finite number",
                       tissue.name));
   return fine();
 }

@@ -8,7 +8,6 @@
 // Frame: world (LPS). Units: m. Thread: one at a time; a copy is cheap, the patches are shared.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -31,7 +30,8 @@ namespace burr::render {
 struct Dress {
   std::uint8_t fresh = 0;  // cut just now: pale and grainy
   std::uint8_t wet = 0;    // dark and glossy
-  std::array<std::uint8_t, 2> nothing = {};
+  std::uint8_t dust = 0;   // pale grains lie on it
+  std::uint8_t blood = 0;
   [[nodiscard]] bool operator==(const Dress&) const = default;
 };
 static_assert(sizeof(Dress) == 4, "goes to the GPU as it is");

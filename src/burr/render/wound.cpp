@@ -1,8 +1,10 @@
+// The grid, and what time and tool do to it. How it comes to be seen: wound_dress.cpp.
 #include "burr/render/wound.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <memory>
+#include <numbers>
 #include <utility>
 
 namespace burr::render {
@@ -13,14 +15,10 @@ using math::Vec3;
 
 namespace {
 
-constexpr int kEdge = 64;    // cells along a side
-constexpr int kRoom = 12;    // of the tool to the grid's side, at least  [cell]
-constexpr int kLevels = 32;  // a dress is told in: fewer are sent more seldom
-
-std::uint8_t level(float v) {
-  const auto step = static_cast<int>(std::lround(std::clamp(v, 0.0F, 1.0F) * kLevels));
-  return static_cast<std::uint8_t>(step * 255 / kLevels);
-}
+constexpr int kRoom = 12;        // of the tool to the grid's side, at least  [cell]
+constexpr double kKnown = 0.3;   // where the tool was in between is known that long  [s]
+constexpr double kStep = 0.1;    // of the blood: a cell in each                      [s]
+constexpr float kLeast = 1e-3F;  // less of it is nothing
 
 // of a point from the line between two
 double distance(const Vec3& p, const Vec3& a, const Vec3& b) {
@@ -30,14 +28,29 @@ double distance(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - a - s * way).norm();
 }
 
+float left_after(double seconds, double time) {
+  return static_cast<float>(std::exp(-seconds / time));
+}
+
 }  // namespace
 
-Wound::Wound(double voxel) : cell_(std::max(0.5e-3, 2 * voxel)) {}
+std::vector<float> bleeding_of(const volume::TissueTable& tissues) {
+  std::vector<float> bleeding;
+  for (const volume::Tissue& tissue : tissues.tissues)
+    bleeding.push_back(static_cast<float>(std::clamp(tissue.bleeds, 0.0, 1.0)));
+  return bleeding;
+}
+
+Wound::Wound(double voxel, std::vector<float> bleeding)
+    : cell_(std::max(0.5e-3, 2 * voxel)), voxel_(voxel), bleeding_(std::move(bleeding)) {}
 
 void Wound::forget() {
   cells_.clear();
   low_ = high_ = Ijk::Zero();
   last_.reset();
+  up_.reset();
+  airborne_ = flowed_ = 0;
+  bleeds_ = false;
   dressed_at_ = -1e9;
 }
 
@@ -56,7 +69,7 @@ void Wound::centre(const Vec3& p) {
   const Ijk inside = at - first_;
   if (inside.minCoeff() >= kRoom && inside.maxCoeff() < kEdge - kRoom) return;
   const Ijk by = inside - Ijk::Constant(kEdge / 2);
-  std::vector<State> moved(cells_.size());
+  std::vector<Cell> moved(cells_.size());
   const Ijk low = (low_ - by).cwiseMax(0), high = (high_ - by).cwiseMin(kEdge);
   for (int k = low.z(); k < high.z(); ++k)
     for (int j = low.y(); j < high.y(); ++j)
@@ -71,14 +84,21 @@ void Wound::centre(const Vec3& p) {
 void Wound::dull(double seconds) {
   const auto fresh = static_cast<float>(seconds / kDulls),
              wet = static_cast<float>(seconds / kDries);
+  const float clears = left_after(seconds, kClears), clots = left_after(seconds, kClots);
   Ijk low = high_, high = low_;
   for (int k = low_.z(); k < high_.z(); ++k)
     for (int j = low_.y(); j < high_.y(); ++j)
       for (int i = low_.x(); i < high_.x(); ++i) {
-        State& state = cells_[index(i, j, k)];
-        if (state.fresh <= 0 && state.wet <= 0) continue;
-        state.fresh = std::max(0.0F, state.fresh - fresh);
-        state.wet = std::max(0.0F, state.wet - wet);
+        Cell& cell = cells_[index(i, j, k)];
+        State& look = cell.look;
+        if (look.fresh <= 0 && look.wet <= 0 && look.dust <= 0 && look.blood <= 0 &&
+            cell.open <= 0 && cell.off >= kFar)
+          continue;
+        look.fresh = std::max(0.0F, look.fresh - fresh);
+        look.wet = std::max(0.0F, look.wet - wet);
+        look.blood = look.blood * clears < kLeast ? 0 : look.blood * clears;
+        cell.open = cell.open * clots < kLeast ? 0 : cell.open * clots;
+        if (look.fresh <= 0) cell.off = kFar;
         low = low.cwiseMin(Ijk(i, j, k));
         high = high.cwiseMax(Ijk(i + 1, j + 1, k + 1));
       }
@@ -109,48 +129,160 @@ void Wound::see(const Tick& tick) {
   if (!tick.tip.allFinite() || !std::isfinite(tick.t)) return;
   if (last_ && tick.t < last_->t) forget();
   const double seconds = last_ ? tick.t - last_->t : 0;
-  const bool cut = last_ && tick.removed > last_->removed;
+  const double removed = last_ ? tick.removed - last_->removed : 0;
+  const bool added = last_ && tick.added > last_->added;
   if (!cells_.empty()) dull(seconds);
-  if (cut || tick.irrigated) soak_and_cut(tick, seconds, cut);
+  if (removed > 0 || added || tick.irrigated) {
+    centre(tick.tip);
+    const Vec3 from = last_ && seconds <= kKnown ? last_->tip : tick.tip;
+    if (removed > 0) cut(tick, from, removed);
+    if (added) cover(tick, from);
+    if (tick.irrigated) soak(tick, from, seconds);
+  }
+  if (airborne_ > 0) settle(tick, seconds);
+  if (bleeds_) bleed(seconds);
   last_ = tick;
 }
 
-void Wound::soak_and_cut(const Tick& tick, double seconds, bool cut) {
-  centre(tick.tip);
-  // where the tool was in between is known as long as it was not long
-  constexpr double kKnown = 0.3;
-  const Vec3 from = last_ && seconds <= kKnown ? last_->tip : tick.tip;
-  if (cut)  // a cell and a bit more, so that what is between cells is fresh all through
-    each_near(from, tick.tip, tick.radius + 1.2 * cell_,
-              [](State& state, double) { state.fresh = 1; });
-  if (tick.irrigated) {
-    const auto soaks = static_cast<float>(seconds / kSoaks);
-    each_near(from, tick.tip, tick.radius + kSpray, [&](State& state, double d) {
-      // less at the rim of the spray
-      const double rim = (tick.radius + kSpray - d) / (0.4 * kSpray);
-      const auto most = static_cast<float>(std::min(1.0, rim));
-      state.wet = std::max(state.wet, std::min(most, state.wet + soaks));
-    });
+void Wound::cut(const Tick& tick, const Vec3& from, double removed) {
+  if (!up_) up_ = tick.up.norm() > 0 ? tick.up.normalized().eval() : Vec3::UnitZ();
+  airborne_ += removed / kSolid;
+  each_near(from, tick.tip, tick.radius + (kFar - 1) * cell_, [&](Cell& cell, double d) {
+    cell.off = std::min(cell.off, static_cast<float>((d - tick.radius) / cell_));
+    // a cell and a bit more, so that what is between cells is fresh all through
+    if (d > tick.radius + 1.2 * cell_) return;
+    cell.look.fresh = 1;
+    cell.look.dust = cell.look.blood = 0;  // swept
+  });
+}
+
+void Wound::cover(const Tick& tick, const Vec3& from) {
+  each_near(from, tick.tip, tick.radius + 1.2 * cell_, [](Cell& cell, double) {
+    cell.open = 0;
+    cell.off = kFar;
+    cell.look = {};
+  });
+}
+
+void Wound::soak(const Tick& tick, const Vec3& from, double seconds) {
+  const auto soaks = static_cast<float>(seconds / kSoaks);
+  const float washed = left_after(seconds, kWashes);
+  each_near(from, tick.tip, tick.radius + kSpray, [&](Cell& cell, double d) {
+    // less at the rim of the spray
+    const double rim = (tick.radius + kSpray - d) / (0.4 * kSpray);
+    const auto most = static_cast<float>(std::min(1.0, rim));
+    State& look = cell.look;
+    look.wet = std::max(look.wet, std::min(most, look.wet + soaks));
+    for (float* washes : {&look.dust, &look.blood}) {
+      *washes *= 1 - most * (1 - washed);
+      if (*washes < kLeast) *washes = 0;
+    }
+  });
+}
+
+// Thickest under the tool, none at the rim: a cone of the volume that comes down.
+void Wound::settle(const Tick& tick, double seconds) {
+  const double down = airborne_ * (1 - std::exp(-seconds / kSettles));
+  airborne_ = airborne_ - down < 1e-15 ? 0 : airborne_ - down;
+  if (tick.irrigated || cells_.empty() || down <= 0) return;  // water takes it along
+  const double reach = tick.radius + kStrews,
+               thickest = 3 * down / (std::numbers::pi * reach * reach);
+  each_near(tick.tip, tick.tip, reach, [&](Cell& cell, double d) {
+    if (cell.off < 1.2F && d < tick.radius + 1.2 * cell_) return;  // where the burr is, it sweeps
+    const double thick = thickest * (1 - d / reach);
+    const auto hidden = static_cast<float>(1 - std::exp(-thick / kCovers));
+    cell.look.dust += (1 - cell.look.dust) * hidden;
+  });
+}
+
+// ---- blood
+
+void Wound::bleed(double seconds) {
+  flowed_ += std::min(seconds, 5 * kStep);
+  while (flowed_ >= kStep) {
+    flowed_ -= kStep;
+    flow(kStep);
   }
 }
 
-Wound::State Wound::at(const Vec3& p) const {
+// What is more than a cell holds goes on to the surface beside it, one cell in a step.
+void Wound::flow(double seconds) {
+  bleeds_ = false;
+  running_.clear();
+  for (int k = low_.z(); k < high_.z(); ++k)
+    for (int j = low_.y(); j < high_.y(); ++j)
+      for (int i = low_.x(); i < high_.x(); ++i) {
+        Cell& cell = cells_[index(i, j, k)];
+        if (cell.open > 0) {
+          bleeds_ = true;
+          cell.look.blood += static_cast<float>(seconds / kFills) * cell.open;
+        }
+        if (cell.look.blood > 1) running_.push_back(index(i, j, k));
+      }
+  const Vec3 down = -up_.value_or(Vec3::UnitZ());
+  constexpr double kUphill = 0.35;  // of the weight of a way that leads down
+  for (const std::size_t from : running_) {
+    const auto n = static_cast<int>(from);
+    const Ijk at(n % kEdge, n / kEdge % kEdge, n / (kEdge * kEdge));
+    if (at.minCoeff() < 1 || at.maxCoeff() + 1 >= kEdge) {
+      cells_[from].look.blood = 1;  // out of the grid
+      continue;
+    }
+    std::array<std::pair<Cell*, float>, 26> ways;
+    std::size_t count = 0;
+    float sum = 0;
+    for (int way = 0; way < 27; ++way) {
+      const Ijk by(way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1);
+      if (way == 13) continue;
+      Cell& to = cells_[index(at.x() + by.x(), at.y() + by.y(), at.z() + by.z())];
+      const double falls = by.cast<double>().normalized().dot(down);
+      // what is full passes on, but what is empty takes more
+      const double weight = std::max(0.0, falls + kUphill) * (1.1 - std::min(1.0F, to.look.blood));
+      if (!to.skin || weight <= 0) continue;
+      ways[count++] = {&to, static_cast<float>(weight)};
+      sum += static_cast<float>(weight);
+    }
+    const float more = cells_[from].look.blood - 1;
+    if (sum > 0)
+      for (std::size_t w = 0; w < count; ++w)
+        ways[w].first->look.blood += more * ways[w].second / sum;
+    cells_[from].look.blood = 1;  // where there is no way it runs off unseen
+    low_ = low_.cwiseMin(at - Ijk::Ones());
+    high_ = high_.cwiseMax(at + Ijk::Constant(2));
+  }
+}
+
+// ---- asked
+
+// Of the eight cells around a place.
+Wound::Cell Wound::mean_at(const Vec3& p) const {
   if (cells_.empty()) return {};
   const Vec3 q = p / cell_ - first_.cast<double>() - Vec3::Constant(0.5);
   const Ijk low = q.array().floor().cast<int>();
   if (low.minCoeff() < 0 || low.maxCoeff() + 1 >= kEdge) return {};
   const Vec3 part = q - low.cast<double>();
-  State sum;
+  Cell mean;
+  mean.off = 0;
+  float surface = 0;  // blood is on the surface only, not beside it
   for (int c = 0; c < 8; ++c) {
     const Ijk by(c & 1, (c >> 1) & 1, c >> 2);
-    double weight = 1;
-    for (int d = 0; d < 3; ++d) weight *= by[d] == 1 ? part[d] : 1 - part[d];
-    const State& state = cells_[index(low.x() + by.x(), low.y() + by.y(), low.z() + by.z())];
-    sum.fresh += static_cast<float>(weight) * state.fresh;
-    sum.wet += static_cast<float>(weight) * state.wet;
+    double product = 1;
+    for (int d = 0; d < 3; ++d) product *= by[d] == 1 ? part[d] : 1 - part[d];
+    const auto weight = static_cast<float>(product);
+    const Cell& cell = cells_[index(low.x() + by.x(), low.y() + by.y(), low.z() + by.z())];
+    mean.look.fresh += weight * cell.look.fresh;
+    mean.look.wet += weight * cell.look.wet;
+    mean.look.dust += weight * cell.look.dust;
+    mean.off += weight * cell.off;
+    if (!cell.skin) continue;
+    mean.look.blood += weight * std::min(1.0F, cell.look.blood);
+    surface += weight;
   }
-  return sum;
+  if (surface > 0) mean.look.blood /= surface;
+  return mean;
 }
+
+Wound::State Wound::at(const Vec3& p) const { return mean_at(p).look; }
 
 Aabb Wound::touched() const {
   Aabb box;
@@ -158,41 +290,6 @@ Aabb Wound::touched() const {
   box.extend(cell_ * (first_ + low_ - Ijk::Ones()).cast<double>());
   box.extend(cell_ * (first_ + high_ + Ijk::Ones()).cast<double>());
   return box;
-}
-
-void Wound::dress(Scene& scene, int patch) const {
-  ScenePatch& entry = scene.patches[static_cast<std::size_t>(patch)];
-  if (entry.mesh == nullptr) return;
-  const Aabb box = touched();
-  const bool reached = !box.empty() && (entry.box.lo.array() <= box.hi.array()).all() &&
-                       (entry.box.hi.array() >= box.lo.array()).all();
-  if (!reached) {
-    entry.dress = nullptr;
-    return;
-  }
-  std::vector<Dress> dress;
-  dress.reserve(entry.mesh->vertices().size());
-  bool any = false;
-  for (const SkinVertex& vertex : entry.mesh->vertices()) {
-    const State state = at(vertex.p.cast<double>());
-    dress.push_back({level(state.fresh), level(state.wet)});
-    any = any || dress.back() != Dress{};
-  }
-  if (!any)
-    entry.dress = nullptr;
-  else if (entry.dress == nullptr || *entry.dress != dress)
-    entry.dress = std::make_shared<const std::vector<Dress>>(std::move(dress));
-}
-
-void Wound::dress(Scene& scene) const {
-  for (std::size_t patch = 0; patch < scene.patches.size(); ++patch)
-    dress(scene, static_cast<int>(patch));
-}
-
-void Wound::renew(Scene& scene, double now) {
-  if (now - dressed_at_ < scene.quality.dress_s) return;
-  dressed_at_ = now;
-  dress(scene);
 }
 
 }  // namespace burr::render

@@ -14,16 +14,17 @@ struct Entry {
   double (*get)(const Recorded&);
   void (*set)(Recorded&, double);
   double least, most;
+  bool newer = false;  // recordings of an older burr lack it: then it is as if never set
 };
 
 // NOLINTNEXTLINE(cppcoreguidelines-macro-usage): the one way to name a member once and use it twice
-#define BURR_ENTRY(name, member, least, most)                                     \
+#define BURR_ENTRY(name, member, ...)                                             \
   Entry {                                                                         \
     name, [](const Recorded& r) { return static_cast<double>(r.member); },        \
         [](Recorded& r, double v) {                                               \
           r.member = static_cast<std::remove_reference_t<decltype(r.member)>>(v); \
         },                                                                        \
-        least, most                                                               \
+        __VA_ARGS__                                                               \
   }
 
 const Entry kEntries[] = {
@@ -67,6 +68,7 @@ const Entry kEntries[] = {
     BURR_ENTRY("deposit_share", settings.servo.carve.deposit_share, 0, 1),
     BURR_ENTRY("deposit_gap_voxel", settings.servo.carve.deposit_gap, 0, 64),
     BURR_ENTRY("tool_mode", settings.servo.mode, 0, kToolModes - 1),
+    BURR_ENTRY("irrigated", settings.servo.irrigated, 0, 1, true),
     BURR_ENTRY("friction_scale", settings.servo.friction_scale, 0, 1e3),
     BURR_ENTRY("friction_turning", settings.servo.friction_turning, 0, 1e3),
     BURR_ENTRY("kinetic_share", settings.servo.kinetic_share, 0, 1),
@@ -103,6 +105,7 @@ Result<Recorded> settings_of(const record::SessionInfo& info, const std::string&
   Recorded all;
   for (const Entry& entry : kEntries) {
     const auto found = info.numbers.find(entry.name);
+    if (found == info.numbers.end() && entry.newer) continue;
     if (found == info.numbers.end())
       return error(fmt::format(
           "{}: the session's settings lack {}; it was recorded by another version of burr ({})",

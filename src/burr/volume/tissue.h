@@ -40,6 +40,7 @@ struct Tissue {
   double cutting_friction = 0.4;  // mu_c: tangential over normal force of a cut  [-]
   CuttingForce force = {};        // for the chips law of removal
   bool spare = false;             // must not be cut
+  double bleeds = 0;              // where it is opened: 0 not .. 1 as a vessel; a picture only
   int label = 0;                  // value in the file it came from
 };
 

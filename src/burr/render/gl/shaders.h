@@ -45,7 +45,7 @@ out vec3 colour;
 out float wall;
 #endif
 #ifdef DRESSED
-layout(location = 2) in vec4 at_dress;  // fresh, wet
+layout(location = 2) in vec4 at_dress;  // fresh, wet, dust, blood
 uniform float grains_per_m;
 out float wet;
 #endif
@@ -81,7 +81,11 @@ void main() {
   colour = mix(colour, vec3(1.0, 0.98, 0.94), 0.5 * at_dress.x);
   colour *= 1.0 + 0.07 * grain * at_dress.x;
   colour *= 1.0 - 0.22 * at_dress.y;
-  wet = at_dress.y;
+  // dust lies in grains, more of them the more there is
+  float lies = smoothstep(0.0, 0.35, at_dress.z * 1.35 - float(h >> 8u & 255u) / 255.0);
+  colour = mix(colour, vec3(0.96, 0.945, 0.91) * (1.0 + 0.05 * grain), 0.9 * lies);
+  colour = mix(colour, vec3(0.40, 0.03, 0.03), 0.92 * smoothstep(0.0, 0.6, at_dress.w));
+  wet = max(at_dress.y * (1.0 - lies), 0.8 * at_dress.w);
 #endif
 }
 )";

@@ -1,0 +1,103 @@
+// How a wound comes to be seen, and what the surface tells it: where it is, and what was opened.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "burr/render/wound.h"
+
+namespace burr::render {
+
+using math::Aabb;
+using math::Ijk;
+using math::Vec3;
+
+namespace {
+
+constexpr int kLevels = 32;           // a dress is told in: fewer are sent more seldom
+constexpr double kCutFace = 0.75;     // off the tool's way: the surface it left            [voxel]
+constexpr double kStillBleeds = 4.0;  // before a still                                     [s]
+
+std::uint8_t level(float v) {
+  const auto step = static_cast<int>(std::lround(std::clamp(v, 0.0F, 1.0F) * kLevels));
+  return static_cast<std::uint8_t>(step * 255 / kLevels);
+}
+
+// What bleeds there when it is opened: of a canal's wall, what fills the canal.
+volume::TissueId tissue_behind(const SkinVertex& vertex) {
+  const bool wall = (vertex.under >> 16 & 0xFFU) >= 128;
+  return wall ? static_cast<volume::TissueId>(vertex.under & 0xFFU) : tissue_of(vertex);
+}
+
+}  // namespace
+
+// A vertex on the surface the tool left, of what bleeds: there it was opened. A canal that the tool
+// has not reached has none, however thin the bone before it.
+void Wound::look_at(const SkinMesh& mesh) {
+  const float cut_face = static_cast<float>(kCutFace * voxel_ / cell_);
+  for (const SkinVertex& vertex : mesh.vertices()) {
+    const Vec3 p = vertex.p.cast<double>();
+    const Ijk at = (p / cell_).array().floor().cast<int>().matrix() - first_;
+    if (at.minCoeff() < 0 || at.maxCoeff() >= kEdge) continue;
+    Cell& cell = cells_[index(at.x(), at.y(), at.z())];
+    cell.skin = true;
+    const auto tissue = static_cast<std::size_t>(tissue_behind(vertex));
+    const float bleeds = tissue < bleeding_.size() ? bleeding_[tissue] : 0;
+    if (bleeds <= cell.open || cell.look.fresh <= 0 || mean_at(p).off > cut_face) continue;
+    cell.open = bleeds;
+    bleeds_ = true;
+  }
+}
+
+bool Wound::reached(const ScenePatch& patch) const {
+  const Aabb box = touched();
+  return patch.mesh != nullptr && !box.empty() && (patch.box.lo.array() <= box.hi.array()).all() &&
+         (patch.box.hi.array() >= box.lo.array()).all();
+}
+
+void Wound::dress(Scene& scene, int patch) {
+  ScenePatch& entry = scene.patches[static_cast<std::size_t>(patch)];
+  if (!reached(entry)) {
+    entry.dress = nullptr;
+    return;
+  }
+  look_at(*entry.mesh);
+  const math::Vec3f up = up_.value_or(Vec3::UnitZ()).cast<float>();
+  std::vector<Dress> dress;
+  dress.reserve(entry.mesh->vertices().size());
+  bool any = false;
+  for (const SkinVertex& vertex : entry.mesh->vertices()) {
+    State state = at(vertex.p.cast<double>());
+    // dust slides off what is steep, and none lies under an edge
+    if (state.dust > 0)
+      state.dust *= std::clamp(normal_of(vertex).dot(up) / 0.6F + 0.3F, 0.0F, 1.0F);
+    dress.push_back({level(state.fresh), level(state.wet), level(state.dust), level(state.blood)});
+    any = any || dress.back() != Dress{};
+  }
+  if (!any)
+    entry.dress = nullptr;
+  else if (entry.dress == nullptr || *entry.dress != dress)
+    entry.dress = std::make_shared<const std::vector<Dress>>(std::move(dress));
+}
+
+void Wound::dress(Scene& scene) {
+  for (Cell& cell : cells_) cell.skin = false;
+  for (std::size_t patch = 0; patch < scene.patches.size(); ++patch)
+    dress(scene, static_cast<int>(patch));
+}
+
+void Wound::dress_still(Scene& scene) {
+  dress(scene);
+  if (!bleeds_) return;
+  for (double t = 0; t < kStillBleeds; t += 0.1) flow(0.1);
+  dress(scene);
+}
+
+void Wound::renew(Scene& scene, double now) {
+  if (now - dressed_at_ < scene.quality.dress_s) return;
+  dressed_at_ = now;
+  dress(scene);
+}
+
+}  // namespace burr::render
