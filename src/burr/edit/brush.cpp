@@ -291,6 +291,7 @@ void Brush::look_at(Patch& patch, const Vec3& centre, double radius, const Half&
     patch.flow[v] = patch.ramp[v] = patch.weight[v] = 0;
     if (!in_layers(v, axis, patch.layers)) continue;
     const int x = v & 7, y = v >> 3 & 7, z = v >> 6;
+    if (!bone_.grid().contains(first + math::Ijk(x, y, z))) continue;  // it may end within a brick
     const float dx = fx + static_cast<float>(x), dy = fy + static_cast<float>(y),
                 dz = fz + static_cast<float>(z);
     const float in = 1 - (dx * dx + dy * dy + dz * dz) * per_square;
@@ -305,7 +306,9 @@ void Brush::look_at(Patch& patch, const Vec3& centre, double radius, const Half&
         if (on_ramp(at[-step]) && on_ramp(at[step])) bend += at[-step] + at[step] - 2 * is;
       if (std::abs(bend) <= kRounding) bend = 0;
       patch.flow[v] = static_cast<float>(bend);
-      if (off < 16384) {
+      // voxels on the plane move with the hand's side, but belong to both: to neither mean
+      if (off < 16384 &&
+          (!half.mirror.on() || 2 * (first[axis] + (v >> (3 * axis) & 7)) != half.mirror.twice)) {
         const float near = weight * (1 - static_cast<float>(off) / 16384);
         sums.flow += std::llround(kPerSum * near * static_cast<float>(bend));
         sums.weight += std::llround(kPerSum * near);

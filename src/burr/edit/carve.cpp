@@ -1,6 +1,7 @@
 #include "burr/edit/carve.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -29,6 +30,18 @@ constexpr std::uint8_t kMixed = 255;
 constexpr std::uint32_t kReserve = 1U << 10, kUndoFull = 1U << 11, kNotCut = 1U << 14,
                         kPutOff = 1U << 15;
 
+using Layers = std::array<unsigned, 3>;
+constexpr Layers kWholeBrick = {kAllLayers, kAllLayers, kAllLayers};
+
+// The grid may end within a brick; nothing grows beyond.
+Layers layers_inside(const math::Ijk& brick, const math::Ijk& size) BURR_RT {
+  Layers layers = kWholeBrick;
+  for (int axis = 0; axis < 3; ++axis)
+    layers[static_cast<std::size_t>(axis)] >>=
+        std::max(0, kBrickEdge * (brick[axis] + 1) - size[axis]);
+  return layers;
+}
+
 // Of the excess. Where the hand's side has none left, its image shall have none either.
 double share_of(double owed, double all, const Mirror& mirror) BURR_RT {
   if (all <= 0) return mirror.on() && owed > 0 ? 1 : 0;
@@ -38,14 +51,15 @@ double share_of(double owed, double all, const Mirror& mirror) BURR_RT {
 // As the kernels do, to a few per cent.
 std::int64_t rough_units(int field) { return 6 * std::clamp(field - 16384, 0, 32768); }
 
-// Of the excess that was found what is in these layers.
-Excess clipped(const Excess& found, const volume::Field* field, int axis, unsigned layers,
-               bool deposit, std::uint16_t* out) BURR_RT {
+// Of the excess that was found what is in these layers, along i, j, k.
+Excess clipped(const Excess& found, const volume::Field* field, const Layers& layers, bool deposit,
+               std::uint16_t* out) BURR_RT {
   Excess left;
   for (std::uint32_t pairs = found.pairs; pairs != 0; pairs &= pairs - 1) {
     const int pair = std::countr_zero(pairs), first = 2 * kBrickEdge * pair;
     for (int v = first; v < first + 2 * kBrickEdge; ++v) {
-      if (!in_layers(v, axis, layers)) out[v] = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        if (!in_layers(v, axis, layers[static_cast<std::size_t>(axis)])) out[v] = 0;
       const int by = out[v];
       if (by == 0) continue;
       left.most = std::max(left.most, by);
@@ -156,8 +170,10 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
         outside[3] = keep_out[3];
         std::uint16_t* out = scratch_[work_count_].voxel;
         Excess excess = kernel_.find(field, ball, outside, deposit ? 1 : 0, out);
-        if (layers != kAllLayers && excess.most > 0)
-          excess = clipped(excess, field, half.mirror.axis, layers, deposit, out);
+        Layers keep = deposit ? layers_inside({bi, bj, bk}, bone_.grid().size) : kWholeBrick;
+        if (half.mirror.on()) keep[static_cast<std::size_t>(half.mirror.axis)] &= layers;
+        if (keep != kWholeBrick && excess.most > 0)
+          excess = clipped(excess, field, keep, deposit, out);
         if (excess.most == 0) continue;
         work_[work_count_++] = {brick, excess};
         if (!half.is_image) {
