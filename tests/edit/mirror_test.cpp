@@ -73,12 +73,13 @@ struct Work {
   [[nodiscard]] double volume() const { return volume::volume_of(*bone); }
   // the first voxel that is not its image, in words
   [[nodiscard]] std::string odd() const {
-    for (int k = 0; k < kSize.z(); ++k)
-      for (int j = 0; j < kSize.y(); ++j)
-        for (int i = 0; i < kSize.x(); ++i) {
+    const math::Ijk& size = bone->grid().size;
+    for (int k = 0; k < size.z(); ++k)
+      for (int j = 0; j < size.y(); ++j)
+        for (int i = 0; i < size.x(); ++i) {
           math::Ijk of(i, j, k);
           of[mirror.axis] = mirror.twice - of[mirror.axis];
-          if ((of.array() < 0).any() || (of.array() >= kSize.array()).any()) continue;
+          if (!bone->grid().contains(of)) continue;
           if (bone->field(i, j, k) == bone->field(of.x(), of.y(), of.z()) &&
               bone->tissue(i, j, k) == bone->tissue(of.x(), of.y(), of.z()))
             continue;
@@ -293,6 +294,40 @@ TEST(Mirror, ABallOverThePlaneTakesTheUnionOfBothAndNothingTwice) {
       EXPECT_NEAR(gone, work.carver.ledger().removed, 1e-9 * gone);
       EXPECT_EQ(work.odd(), "");
     }
+}
+
+TEST(Mirror, MoreBricksThanATickBearsAreCutAndBroughtBackAlikeOnBothSides) {
+  volume::Grid wide = grid();
+  wide.size = {232, 132, 132};
+  const Mirror mirror = {0, 229};
+  Work work(mirror, scenes::bone_from_distance(wide, {}, [](const Vec3&) { return 1.0; }), {});
+  const double before = work.volume();
+  Cut cut;
+  cut.centre = Vec3(58.3, 66.2, 64.7);
+  cut.push = Vec3(0, 0, -1);
+  cut.radius = 56;
+  cut.energy = 3000;
+  cut.mirror = mirror;
+  for (int n = 0; n < 16; ++n) {
+    work.flags = 0;
+    work.carver.carve(cut, work.flags);
+    ASSERT_EQ(work.odd(), "") << n;
+  }
+  EXPECT_NE(work.flags & 1U << 15, 0U) << "nothing was put off: the test shows nothing";
+  EXPECT_GT(work.carver.removed_by_image(), 0);
+  Brushing now;
+  now.centre = cut.centre;
+  now.push = cut.push;
+  now.radius = 30;
+  now.mirror = mirror;
+  for (int n = 0; n < 24; ++n) {
+    const std::uint64_t was = work.bone->content_hash();
+    n % 2 == 0 ? work.brush.restore(now, work.flags) : work.brush.smooth(now, work.flags);
+    EXPECT_LE(work.brush.bricks_last(), 2 * Brush::kMostBricks);
+    if (n > 20 && n % 2 == 0) EXPECT_NE(work.bone->content_hash(), was);
+    ASSERT_EQ(work.odd(), "") << n;
+  }
+  work.expect_balance(before);
 }
 
 TEST(Mirror, OneStrokeTakesBothSidesBackAndBringsThemAgain) {

@@ -61,6 +61,7 @@ bool draw_help(Ui& ui, bool left_handed) {
          {"U  Y", Word::help_undo},
          {"R", Word::help_reset},
          {"D", Word::help_measure},
+         {"X", Word::help_mirror},
          {"I", Word::help_coolant}});
   block(ui, x + 480 * u, right, Word::help_program,
         {{"Tab", Word::help_hide},

@@ -158,7 +158,7 @@ void Shapes::add(const Shape& shape, const Eigen::Matrix4d& world_from_shape, co
 const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
   if (!made_) make();
   pieces_.clear();
-  const math::Aabb ball = {{-1, -1, -1}, {1, 1, 1}}, tube = {{-1, -1, 0}, {1, 1, 1}};
+  const math::Aabb ball = {{-1, -1, -1}, {1, 1, 1}};
 
   const Burr& burr = scene.burr;
   if (burr.visible && burr.world_from_tool.finite()) {
@@ -177,19 +177,55 @@ const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
     add(ball_, placed({marker.p, math::Quat::Identity()}, marker.radius, marker.radius),
         marker.colour, false, marker.on_top, {ball});
   }
-  for (const Rod& rod : scene.rods) {
-    const Vec3 d = rod.b - rod.a;
-    const double length = d.norm();
-    if (!(length > 0) || !d.allFinite()) continue;
-    const math::Quat q = math::shortest_turn(Vec3::UnitZ(), d);
-    // an arrow's head takes its part of the length
-    const double head = rod.arrow ? std::min(6 * rod.radius, 0.6 * length) : 0;
-    add(rod_, placed({rod.a, q}, rod.radius, length - head), rod.colour, false, rod.on_top, {tube});
-    if (rod.arrow)
-      add(tip_, placed({rod.b - d * (head / length), q}, 2.4 * rod.radius, head), rod.colour, false,
-          rod.on_top, {tube});
-  }
+  for (const Rod& rod : scene.rods) add_rod(rod);
+  if (scene.mirrored) add_mirrored(*scene.mirrored, scene.burr);
   return pieces_;
+}
+
+void Shapes::add_rod(const Rod& rod) {
+  const math::Aabb tube = {{-1, -1, 0}, {1, 1, 1}};
+  const Vec3 d = rod.b - rod.a;
+  const double length = d.norm();
+  if (!(length > 0) || !d.allFinite()) return;
+  const math::Quat q = math::shortest_turn(Vec3::UnitZ(), d);
+  // an arrow's head takes its part of the length
+  const double head = rod.arrow ? std::min(6 * rod.radius, 0.6 * length) : 0;
+  add(rod_, placed({rod.a, q}, rod.radius, length - head), rod.colour, false, rod.on_top, {tube});
+  if (rod.arrow)
+    add(tip_, placed({rod.b - d * (head / length), q}, 2.4 * rod.radius, head), rod.colour, false,
+        rod.on_top, {tube});
+}
+
+// Lines alone, so that nobody takes the image for the burr: rings around its head, a stick for its
+// shaft, dashes around the plane.
+void Shapes::add_mirrored(const Mirrored& mirrored, const Burr& burr) {
+  constexpr Colour kLines = {0.97F, 0.93F, 0.72F};
+  constexpr int kAround = 20, kDashes = 9;
+  const double line = mirrored.line;
+  const math::Pose& at = mirrored.world_from_tool;
+  if (burr.visible && at.finite()) {
+    for (int ring = 0; ring < 3; ++ring)
+      for (int n = 0; n < kAround; ++n) {
+        Vec3 ends[2];
+        for (int end = 0; end < 2; ++end) {
+          const double angle = 2 * kPi * (n + end) / kAround;
+          Vec3 p = Vec3::Zero();
+          p[(ring + 1) % 3] = burr.radius * std::cos(angle);
+          p[(ring + 2) % 3] = burr.radius * std::sin(angle);
+          ends[end] = at * p;
+        }
+        add_rod({ends[0], ends[1], line, kLines, false, true});
+      }
+    add_rod({at * Vec3(0, 0, burr.radius),
+             at * Vec3(0, 0, std::min(burr.shaft_length, 12 * burr.radius)), line, kLines, false,
+             true});
+  }
+  for (std::size_t side = 0; side < 4; ++side) {
+    const Vec3& from = mirrored.corners[side];
+    const Vec3 way = (mirrored.corners[(side + 1) % 4] - from) / (2 * kDashes - 1);
+    for (int n = 0; n < kDashes; ++n)
+      add_rod({from + 2 * n * way, from + (2 * n + 1) * way, line, kLines, false, true});
+  }
 }
 
 }  // namespace burr::render::gl
