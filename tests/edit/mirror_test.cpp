@@ -309,7 +309,6 @@ TEST(Mirror, MoreBricksThanATickBearsAreCutAndBroughtBackAlikeOnBothSides) {
   cut.energy = 3000;
   cut.mirror = mirror;
   for (int n = 0; n < 16; ++n) {
-    work.flags = 0;
     work.carver.carve(cut, work.flags);
     ASSERT_EQ(work.odd(), "") << n;
   }

@@ -129,7 +129,7 @@ TEST(MirrorWords, TellWhereThePlaneIs) {
   EXPECT_EQ(at("sagittal"), "mirror: sagittal, through the middle");
   EXPECT_EQ(at("sagittal,3"), "mirror: sagittal, 3.0 mm left of the middle");
   EXPECT_EQ(at("sagittal,-3"), "mirror: sagittal, 3.0 mm right of the middle");
-  EXPECT_EQ(at("coronal,2.25"), "mirror: coronal, 2.2 mm behind the middle");
+  EXPECT_EQ(at("coronal,2.5"), "mirror: coronal, 2.5 mm behind the middle");
   EXPECT_EQ(at("coronal,-1"), "mirror: coronal, 1.0 mm in front of the middle");
   EXPECT_EQ(at("axial,1"), "mirror: axial, 1.0 mm above the middle");
   EXPECT_EQ(at("axial,-1"), "mirror: axial, 1.0 mm below the middle");
