@@ -347,8 +347,8 @@ TEST(Brush, NeitherAddedNorSmoothedBoneGrowsOutOfTheVolume) {
   ASSERT_LT(size.x(), whole.x()) << "it does not end within a brick: the test shows nothing";
   work.undo.begin_stroke(0);
   const double before = work.volume();
-  const Vec3 corner = {5.4 * kMm, 0, 2 * kMm};
-  for (int n = 0; n < 200; ++n) {
+  for (int n = 0; n < 400; ++n) {
+    const Vec3 corner = {(n < 200 ? 4.1 : 5.4) * kMm, 0, 2 * kMm};
     work.add(corner);
     if (n % 2 == 0)
       work.brush.smooth({.centre = work.grid(corner), .push = {0, 0, -1}, .radius = 8}, work.flags);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "burr/base/hash.h"
 #include "burr/base/progress.h"
 #include "burr/edit/brush.h"
 #include "burr/volume/volume_of.h"
@@ -20,6 +21,7 @@ namespace burr::edit {
 namespace {
 
 using math::Vec3;
+using volume::BrickIndex;
 constexpr double kMm = 1e-3, kVoxel = 0.25 * kMm;
 const math::Ijk kSize = {60, 56, 44};
 
@@ -233,6 +235,32 @@ TEST_P(InAMirror, SmoothingAndTheOriginalLikewise) {
   work.expect_balance(before);
 }
 
+// What a neighbour says often weighs as much as what the other does; the image must take the other.
+TEST_P(InAMirror, ATangleOfEqualNeighboursIsSmoothedLikewise) {
+  const Mirror mirror = GetParam();
+  Work work(mirror);
+  for (BrickIndex b = 0; b < work.bone->brick_count(); ++b) {
+    KeptBrick content = {};
+    content.brick = b;
+    for (int v = 0; v < volume::kBrickVoxels; ++v) {
+      math::Ijk p = work.bone->brick_ijk(b) + math::Ijk(v & 7, v >> 3 & 7, v >> 6);
+      if (!work.bone->grid().contains(p)) continue;
+      p[mirror.axis] = std::min(p[mirror.axis], mirror.twice - p[mirror.axis]);
+      std::uint64_t hash = 1;
+      for (int axis = 0; axis < 3; ++axis)
+        hash = base::mix(hash, static_cast<std::uint64_t>(p[axis] + 100));
+      content.field.voxel[v] = static_cast<volume::Field>(std::min<int>(hash % 9 * 8192, 65535));
+      content.tissue[v] = static_cast<volume::TissueId>(hash >> 20 & 3);
+    }
+    work.carver.rewrite(content, work.flags);
+  }
+  ASSERT_EQ(work.odd(), "");
+  for (int n = 0; n < 30; ++n) {
+    work.work_over(place_of(mirror, 4 * n), true);
+    ASSERT_EQ(work.odd(), "") << n;
+  }
+}
+
 TEST(Mirror, BothSidesTogetherLoseExactlyTwiceWhatTheHandsSideLosesWithoutOne) {
   const Mirror mirror = {0, 57};
   Work both(mirror), alone(mirror);
@@ -298,12 +326,12 @@ TEST(Mirror, ABallOverThePlaneTakesTheUnionOfBothAndNothingTwice) {
 
 TEST(Mirror, MoreBricksThanATickBearsAreCutAndBroughtBackAlikeOnBothSides) {
   volume::Grid wide = grid();
-  wide.size = {232, 132, 132};
-  const Mirror mirror = {0, 229};
+  wide.size = {132, 132, 232};
+  const Mirror mirror = {2, 229};  // across the axis that bricks are gone through last
   Work work(mirror, scenes::bone_from_distance(wide, {}, [](const Vec3&) { return 1.0; }), {});
   const double before = work.volume();
   Cut cut;
-  cut.centre = Vec3(58.3, 66.2, 64.7);
+  cut.centre = Vec3(64.7, 66.2, 58.3);
   cut.push = Vec3(0, 0, -1);
   cut.radius = 56;
   cut.energy = 3000;
@@ -364,6 +392,19 @@ TEST(Mirror, WhereTheBoneIsAnotherTheSameShapeIsCutIntoIt) {
   for (int n = -3; n <= 3; ++n)  // where there was bone on both sides the floor is the same
     for (int k = 0; k < 24; ++k)
       EXPECT_NEAR(work.bone->field(14 + n, 28, k), work.bone->field(57 - 14 - n, 28, k), 2);
+}
+
+TEST(Mirror, WhereTheHandsSideHasNothingLeftItsImageIsEmptiedToo) {
+  const Mirror mirror = {0, 57};
+  Work work(mirror,
+            scenes::bone_from_distance(
+                grid(), {}, [](const Vec3& p) { return p.x() - 30 * kVoxel; }, 64),
+            {});
+  const double before = work.volume();
+  for (int n = 0; n < 3; ++n) work.carve({14, 28, 22});
+  EXPECT_GT(work.carver.ledger().removed, 0.9 * union_of_balls(6, 12) / 2 * std::pow(kVoxel, 3));
+  EXPECT_EQ(work.carver.removed_by_image(), work.carver.ledger().removed);
+  work.expect_balance(before);
 }
 
 TEST(Mirror, PlanesAreWhereVoxelsHaveImages) {
