@@ -51,7 +51,7 @@ void show_mirror(render::Scene& scene, const volume::Grid& grid, const edit::Mir
     for (const int axis : {u, v}) p[axis] = std::clamp(p[axis], 0.0, grid.size[axis] - 1.0);
     seen.corners[static_cast<std::size_t>(corner)] = grid.world_from_grid(p);
   }
-  seen.line = 0.0015 * scene.camera.view_height();
+  seen.line = 0.0018 * scene.camera.view_height();
   scene.mirrored = seen;
 }
 

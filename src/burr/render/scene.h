@@ -81,7 +81,7 @@ struct Rod {
   bool on_top = false;
 };
 
-// What mirror mode shows, as outlines over everything: the plane, dashed, and the burr's image.
+// What mirror mode shows, as outlines over everything: a frame in the plane, and the burr's image.
 struct Mirrored {
   math::Pose world_from_tool;              // of the image
   std::array<math::Vec3, 4> corners = {};  // of the plane, around

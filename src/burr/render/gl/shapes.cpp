@@ -197,34 +197,34 @@ void Shapes::add_rod(const Rod& rod) {
 }
 
 // Lines alone, so that nobody takes the image for the burr: rings around its head, a stick for its
-// shaft, dashes around the plane.
+// shaft, a frame around the plane; light and dark in turn, to be seen on bone and on air.
 void Shapes::add_mirrored(const Mirrored& mirrored, const Burr& burr) {
-  constexpr Colour kLines = {0.97F, 0.93F, 0.72F};
-  constexpr int kAround = 20, kDashes = 9;
-  const double line = mirrored.line;
+  constexpr Colour kInks[] = {{1.0F, 0.98F, 0.80F}, {0.05F, 0.06F, 0.10F}};
+  constexpr int kAround = 20, kAlong = 6, kDashes = 18;
+  const auto line = [&](const Vec3& from, const Vec3& to, int n) {
+    add_rod({from, to, mirrored.line, kInks[n % 2], false, true});
+  };
   const math::Pose& at = mirrored.world_from_tool;
   if (burr.visible && at.finite()) {
-    for (int ring = 0; ring < 3; ++ring)
-      for (int n = 0; n < kAround; ++n) {
-        Vec3 ends[2];
-        for (int end = 0; end < 2; ++end) {
-          const double angle = 2 * kPi * (n + end) / kAround;
-          Vec3 p = Vec3::Zero();
-          p[(ring + 1) % 3] = burr.radius * std::cos(angle);
-          p[(ring + 2) % 3] = burr.radius * std::sin(angle);
-          ends[end] = at * p;
-        }
-        add_rod({ends[0], ends[1], line, kLines, false, true});
-      }
-    add_rod({at * Vec3(0, 0, burr.radius),
-             at * Vec3(0, 0, std::min(burr.shaft_length, 12 * burr.radius)), line, kLines, false,
-             true});
+    for (int ring = 0; ring < 3; ++ring) {
+      const auto point = [&](int n) {
+        Vec3 p = Vec3::Zero();
+        p[(ring + 1) % 3] = burr.radius * std::cos(2 * kPi * n / kAround);
+        p[(ring + 2) % 3] = burr.radius * std::sin(2 * kPi * n / kAround);
+        return at * p;
+      };
+      for (int n = 0; n < kAround; ++n) line(point(n), point(n + 1), n);
+    }
+    const double end = std::min(burr.shaft_length, 12 * burr.radius);
+    const auto along = [&](int n) {
+      return at * Vec3(0, 0, burr.radius + (end - burr.radius) * n / kAlong);
+    };
+    for (int n = 0; n < kAlong; ++n) line(along(n), along(n + 1), n);
   }
   for (std::size_t side = 0; side < 4; ++side) {
     const Vec3& from = mirrored.corners[side];
-    const Vec3 way = (mirrored.corners[(side + 1) % 4] - from) / (2 * kDashes - 1);
-    for (int n = 0; n < kDashes; ++n)
-      add_rod({from + 2 * n * way, from + (2 * n + 1) * way, line, kLines, false, true});
+    const Vec3 way = (mirrored.corners[(side + 1) % 4] - from) / kDashes;
+    for (int n = 0; n < kDashes; ++n) line(from + n * way, from + (n + 1) * way, n);
   }
 }
 
