@@ -249,7 +249,8 @@ TEST_P(InAMirror, ATangleOfEqualNeighboursIsSmoothedLikewise) {
       std::uint64_t hash = 1;
       for (int axis = 0; axis < 3; ++axis)
         hash = base::mix(hash, static_cast<std::uint64_t>(p[axis] + 100));
-      content.field.voxel[v] = static_cast<volume::Field>(std::min<int>(hash % 9 * 8192, 65535));
+      content.field.voxel[v] =
+          static_cast<volume::Field>(std::min<std::uint64_t>(hash % 9 * 8192, 65535));
       content.tissue[v] = static_cast<volume::TissueId>(hash >> 20 & 3);
     }
     work.carver.rewrite(content, work.flags);
@@ -351,7 +352,9 @@ TEST(Mirror, MoreBricksThanATickBearsAreCutAndBroughtBackAlikeOnBothSides) {
     const std::uint64_t was = work.bone->content_hash();
     n % 2 == 0 ? work.brush.restore(now, work.flags) : work.brush.smooth(now, work.flags);
     EXPECT_LE(work.brush.bricks_last(), 2 * Brush::kMostBricks);
-    if (n > 20 && n % 2 == 0) EXPECT_NE(work.bone->content_hash(), was);
+    if (n > 20 && n % 2 == 0) {
+      EXPECT_NE(work.bone->content_hash(), was);
+    }
     ASSERT_EQ(work.odd(), "") << n;
   }
   work.expect_balance(before);
