@@ -11,6 +11,7 @@
 #include "burr/io/materials.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/picture.h"
+#include "burr/sim/mirror_plane.h"
 #include "burr/sim/motion.h"
 #include "burr/sim/session.h"
 #include "command.h"
@@ -27,7 +28,7 @@ struct Options {
   VolumeOptions volume;
   PictureSize size;
   std::string path_csv, motion_name, record, picture, arm = "firm", touch = "constraint",
-                                                      removal = "energy";
+                                                      removal = "energy", mirror;
   std::vector<double> at_mm, into;
   double burr_mm = 5, rpm = 40000, rate_hz = 1000, seconds = 10, stiffness = 1000;
   std::size_t undo_bricks = sim::ServoSettings{}.undo_bricks;
@@ -228,6 +229,12 @@ Status run(const Options& options) {
     if (!warming) return warming.error();
     settings.heat = sim::HeatWish{work_box(*opened->bone, place.at), std::move(*warming)};
   }
+  edit::Mirror mirror;
+  if (!options.mirror.empty()) {
+    auto plane = sim::mirror_in_words(options.mirror, opened->bone->grid());
+    if (!plane) return plane.error();
+    mirror = *plane;
+  }
   device::ArmSettings arm;
   if (options.arm == "rigid") arm.stiffness = INFINITY;
   if (options.arm == "light") arm = {.mass = 0.06, .damping = 5, .stiffness = 200};
@@ -235,6 +242,7 @@ Status run(const Options& options) {
   auto made = sim::Session::make(std::move(opened->bone), std::move(hand), settings, progress());
   if (!made) return made.error();
   sim::Session& session = **made;
+  if (mirror.on()) session.wish(sim::wish_for(mirror));
 
   Recording recording;
   if (!options.record.empty()) {
@@ -328,6 +336,10 @@ void add(CLI::App& app, Todo& todo) {
                    "gain of the spindle's buzz in the hand; 0: none, 1: as designed")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
+  command->add_option(
+      "--mirror", options->mirror,
+      "sagittal, coronal or axial[,MM]: what is done on one side of a plane through "
+      "the volume's middle, or MM to its left, back or top, is done on the other");
   command->add_flag("--guard", options->guarded,
                     "with the energy guard: the hand gets back no more than it gave");
   command->add_flag("--heat", options->heat, "how warm the bone gets, and what harm that does");

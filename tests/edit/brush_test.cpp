@@ -20,13 +20,13 @@ namespace burr::edit {
 namespace {
 
 using math::Vec3;
+using volume::BrickIndex;
 constexpr double kMm = 1e-3, kVoxel = 0.25 * kMm, kRadius = 2 * kMm;
 
 struct Work {
-  explicit Work(const scenes::Depth& depth)
+  explicit Work(const scenes::Depth& depth, double half = 6 * kMm)
       : bone(scenes::bone_from_distance(
-            scenes::box_grid(Vec3::Constant(-6 * kMm), Vec3::Constant(6 * kMm), kVoxel), {}, depth,
-            512)),
+            scenes::box_grid(Vec3::Constant(-half), Vec3::Constant(half), kVoxel), {}, depth, 512)),
         surface(*bone, {}, 1, quiet),
         undo(*bone, 4096),
         changed(*bone),
@@ -339,6 +339,33 @@ TEST(Smooth, IsUndoneTakesNeitherMemoryNorLockAndStaysInItsBall) {
   for (std::uint64_t n = 0; n < range.count; ++n)
     work.carver.swap(work.undo.entry(range.first + n));
   EXPECT_EQ(work.bone->content_hash(), hash);
+}
+
+TEST(Brush, NeitherAddedNorSmoothedBoneGrowsOutOfTheVolume) {
+  Work work(scenes::slab(), 5.5 * kMm);
+  const math::Ijk size = work.bone->grid().size, whole = work.bone->bricks() * 8;
+  ASSERT_LT(size.x(), whole.x()) << "it does not end within a brick: the test shows nothing";
+  work.undo.begin_stroke(0);
+  const double before = work.volume();
+  for (int n = 0; n < 400; ++n) {
+    const Vec3 corner = {(n < 200 ? 4.1 : 5.4) * kMm, 0, 2 * kMm};
+    work.add(corner);
+    if (n % 2 == 0)
+      work.brush.smooth({.centre = work.grid(corner), .push = {0, 0, -1}, .radius = 8}, work.flags);
+  }
+  EXPECT_GT(work.carver.ledger().added, 0.5e-9);
+  work.expect_balance(before);
+  for (BrickIndex b = 0; b < work.bone->brick_count(); ++b) {
+    const volume::Field* field = work.bone->brick_field(b);
+    if (field == nullptr) continue;
+    const math::Ijk first = work.bone->brick_ijk(b);
+    for (int v = 0; v < volume::kBrickVoxels; ++v) {
+      const math::Ijk at = first + math::Ijk(v & 7, v >> 3 & 7, v >> 6);
+      if (!work.bone->grid().contains(at)) {
+        ASSERT_EQ(field[v], 0) << at.transpose();
+      }
+    }
+  }
 }
 
 }  // namespace

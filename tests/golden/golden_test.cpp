@@ -126,7 +126,7 @@ constexpr Shot kShots[] = {
     {"see_through", "mastoid", "--see-through 65"},
     {"dust", "mastoid", "--effects --height-mm 20"},
     {"wet", "wet", "--effects --height-mm 20"},
-    {"blood", "pedicle", "--effects --view microscope --at 10"},
+    {"blood", "pedicle", "--effects --view microscope"},
     {"side_by_side", "mastoid", "--stereo side-by-side"},
     {"anaglyph", "mastoid", "--stereo anaglyph"},
     {"interleaved", "mastoid", "--stereo interleaved"},

@@ -203,6 +203,25 @@ void line_above(const Ui& ui, float& y, const std::string& text, bool warns) {
   draw.PopClipRect();
 }
 
+void draw_mirror_sign(const Ui& ui, const std::string& words, float column) {
+  if (words.empty()) return;
+  const float u = ui.unit(), h = 32 * u, text = ui.width_of(Letter::body, words);
+  const float w = text + 56 * u, x = (ui.width() - column - w) / 2, y = kMargin * u;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.AddRectFilled({x, y}, {x + w, y + h}, ink::kPanel, 8 * u);
+  draw.AddRect({x, y}, {x + w, y + h}, ink::kAccent, 8 * u, 0, 1.5F * u);
+  const float cx = x + 24 * u, cy = y + h / 2, r = 8 * u;
+  for (const float side : {-1.0F, 1.0F})
+    draw.AddTriangle({cx + 0.3F * side * r, cy - 0.7F * r}, {cx + 0.3F * side * r, cy + 0.7F * r},
+                     {cx + 1.1F * side * r, cy + 0.7F * r}, ink::kText, 1.4F * u);
+  for (const float at : {-0.9F, -0.2F, 0.5F})
+    draw.AddLine({cx, cy + at * r}, {cx, cy + (at + 0.4F) * r}, ink::kText, 1.4F * u);
+  const ImFont* font = ui.font(Letter::body);
+  draw.AddText(font, font->FontSize,
+               {std::round(x + 42 * u), std::round(y + (h - font->FontSize) / 2)}, ink::kText,
+               words.c_str());
+}
+
 Word name_of(sim::ToolMode mode) {
   switch (mode) {
     case sim::ToolMode::cut:
@@ -262,6 +281,7 @@ void draw_hud(Ui& ui, const HudState& s) {
   ImGui::End();
 
   scale_bar(ui, s);
+  draw_mirror_sign(ui, s.mirror, s.column);
   float above = y;
   line_above(ui, above, s.note, false);
   line_above(ui, above, s.warning, true);

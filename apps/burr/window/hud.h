@@ -47,6 +47,7 @@ struct HudState {
   int picture_step = 0;  // render::FrameGovernor's
   float column = 0;      // at the right that is taken by slices  [pixel]
   double pixel = 0;      // of the drawing area, at the depth of the camera's target  [m]
+  std::string mirror;    // which plane one sculpts across; "" for none
   std::string note;      // the last thing done
   std::string warning;   // what must be known; "" for nothing
 };
@@ -57,6 +58,10 @@ void draw_hud(Ui& ui, const HudState& state);
 
 // Words in the middle above the strip, upwards from y; a sign before them where they warn.
 void line_above(const Ui& ui, float& y, const std::string& text, bool warns);
+
+// A word at the top, in the middle of what `column` at the right leaves: what is done here is done
+// elsewhere too. Nothing if there are no words.
+void draw_mirror_sign(const Ui& ui, const std::string& words, float column);
 
 [[nodiscard]] Word name_of(sim::ToolMode mode);
 

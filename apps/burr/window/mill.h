@@ -18,6 +18,7 @@
 #include "window/export_page.h"
 #include "window/hud.h"
 #include "window/measuring.h"
+#include "window/mirror_mode.h"
 #include "window/saved_views.h"
 #include "window/slices.h"
 #include "window/toolbar.h"
@@ -39,7 +40,8 @@ class Mill {
         worker_(worker),
         scene_(scene),
         options_(options),
-        first_view_(scene.camera) {}
+        first_view_(scene.camera),
+        mirror_(session.bone().grid()) {}
 
   Result<Left> run();
 
@@ -63,6 +65,8 @@ class Mill {
   void show_labels(bool shown);
   void toggle_sound();
   void toggle_coolant();
+  void mirror(const SDL_Keysym& pressed);
+  void tell_mirror();
   void saved_view(int slot, bool keep);
   void aim_at_mouse() {
     aim_x_ = mouse_x_;
@@ -113,6 +117,7 @@ class Mill {
   std::optional<math::Vec3> point_;         // there
   sim::ToolMode mode_ = sim::ToolMode::cut;
   Measuring measuring_;
+  MirrorMode mirror_;
   double full_speed_ = 0;              // wished [rad/s]
   std::optional<double> burr_wished_;  // radius, until it is so or refused [m]
   Clock::time_point burr_wished_at_{};

@@ -136,6 +136,9 @@ void Mill::key(const SDL_Keysym& pressed) {
     case SDLK_d:
       act(Action::measure);
       break;
+    case SDLK_x:
+      mirror(pressed);
+      break;
     case SDLK_1:
       act(Action::cut);
       break;
@@ -228,6 +231,9 @@ void Mill::act(Action action) {
       lift();
       note(measuring_.on() ? measuring_.words() : word(Word::measure_off));
       break;
+    case Action::mirror:
+      mirror_.toggle();
+      return tell_mirror();
     case Action::smaller:
       return change_burr(-1);
     case Action::larger:
@@ -428,6 +434,22 @@ void Mill::toggle_coolant() {
   session_.wish(wish);
   if (options_.loudspeaker != nullptr) options_.loudspeaker->obey(wish);
   note(word(irrigated_ ? Word::coolant_on : Word::coolant_off));
+}
+
+// On, off; with Shift through the tip of the burr, with Ctrl another way.
+void Mill::mirror(const SDL_Keysym& pressed) {
+  if ((pressed.mod & KMOD_SHIFT) != 0)
+    mirror_.place_at(scene_.burr.world_from_tool.p);
+  else if ((pressed.mod & KMOD_CTRL) != 0)
+    mirror_.next_plane();
+  else
+    mirror_.toggle();
+  tell_mirror();
+}
+
+void Mill::tell_mirror() {
+  session_.wish(sim::wish_for(mirror_.now()));
+  note(mirror_words(session_.bone().grid(), mirror_.now()));
 }
 
 }  // namespace burr::app

@@ -74,6 +74,7 @@ void Mill::look_at_session() {
     missed_ = std::max(missed_, missed);
   }
   look_at_burr();
+  show_mirror(scene_, session_.bone().grid(), mirror_.now());
   nearest_.reset();
   if (options_.nearby != nullptr)
     if (auto near = options_.nearby->nearest(scene_.burr.world_from_tool.p))
@@ -150,6 +151,8 @@ HudState Mill::hud() const {
   if (!scene_.insets.empty())
     s.column = static_cast<float>(desk_.renderer().width() - scene_.insets.front().x);
   s.pixel = scene_.camera.view_height() / std::max(1, desk_.renderer().height());
+  if (const edit::Mirror mirror = mirror_.now(); mirror.on())
+    s.mirror = mirror_words(session_.bone().grid(), mirror);
   s.note = note_;
   s.warning = warning_;
   return s;
@@ -161,7 +164,8 @@ void Mill::panels() {
   if (panels_) {
     draw_hud(ui, hud());
     slices_->write_names(scene_, ui);
-    if (const auto pressed = draw_toolbar(ui, mode_, measuring_.on())) act(*pressed);
+    if (const auto pressed = draw_toolbar(ui, mode_, measuring_.on(), mirror_.now().on()))
+      act(*pressed);
   }
   if (help_) help_ = draw_help(ui, desk_.settings.left_handed);
   if (export_->shown()) export_->draw();

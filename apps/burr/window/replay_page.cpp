@@ -13,6 +13,8 @@
 #include "live_bone.h"
 #include "still.h"
 #include "window/help.h"
+#include "window/hud.h"
+#include "window/mirror_mode.h"
 #include "window/see_through.h"
 #include "window/timeline_panel.h"
 #include "window/words.h"
@@ -51,6 +53,7 @@ class Watch {
   }
   [[nodiscard]] double burr_radius() const;
   [[nodiscard]] sim::ToolMode mode() const;
+  [[nodiscard]] edit::Mirror mirror() const;
 
   Desk& desk_;
   Recorded& recorded_;
@@ -145,6 +148,7 @@ void Watch::look_at(Playback& playback, LiveBone& live) {
                : !recorded_.notices.empty() ? recorded_.notices.front()
                                             : std::string();
   }
+  show_mirror(scene_, recorded_.bone->grid(), mirror());
   // the picture is whole when bone, surface and GPU have it; while it plays a little lag is none
   const bool whole = !playback.behind() && recorded_.worker->waiting() == 0;
   if (whole) in_time_ = Clock::now();
@@ -163,7 +167,19 @@ double Watch::burr_radius() const {
 sim::ToolMode Watch::mode() const {
   const double wished = recorded_.timeline.wished(record::WishKind::tool_mode, shown_.t)
                             .value_or(static_cast<double>(recorded_.settings.settings.servo.mode));
-  return wished == 1 ? sim::ToolMode::add : wished == 2 ? sim::ToolMode::touch : sim::ToolMode::cut;
+  return wished >= 0 && wished < sim::kToolModes
+             ? static_cast<sim::ToolMode>(static_cast<int>(wished))
+             : sim::ToolMode::cut;
+}
+
+edit::Mirror Watch::mirror() const {
+  const math::Ijk& size = recorded_.bone->grid().size;
+  edit::Mirror now;
+  for (const record::TimelineEvent& event : recorded_.timeline.events) {
+    if (event.t_s > shown_.t) break;
+    now = sim::mirror_of(event.wish, size).value_or(now);
+  }
+  return now;
 }
 
 // ---- mouse and keys
@@ -311,6 +327,8 @@ void Watch::panels() {
     s.speed = shown_.row.spindle_rad_s;
     s.burr_diameter = 2 * burr_radius();
     s.mode = mode();
+    if (const edit::Mirror now = mirror(); now.on())
+      draw_mirror_sign(ui, mirror_words(recorded_.bone->grid(), now), 0);
     s.note = note_;
     s.warning = warning_;
     const TimelineDone done = draw_timeline(ui, s);

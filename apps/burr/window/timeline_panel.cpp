@@ -36,7 +36,12 @@ std::string letter_of(const record::Wish& wish) {
     case record::WishKind::spindle_speed:
       return "rpm";
     case record::WishKind::tool_mode:
-      return fmt::format("{:.0f}", std::clamp(wish.value, 0.0, 2.0) + 1);
+      return fmt::format("{:.0f}", std::clamp(wish.value, 0.0, sim::kToolModes - 1.0) + 1);
+    case record::WishKind::mirror_i:
+    case record::WishKind::mirror_j:
+    case record::WishKind::mirror_k:
+    case record::WishKind::mirror_off:
+      return "X";
     default:
       return "F2";
   }
@@ -202,6 +207,12 @@ std::string told_wish(const record::Wish& wish) {
                   : wish.value == 3 ? Word::now_back
                   : wish.value == 4 ? Word::now_smooth
                                     : Word::now_cut);
+    case record::WishKind::mirror_i:
+    case record::WishKind::mirror_j:
+    case record::WishKind::mirror_k:
+      return word(Word::mirror);
+    case record::WishKind::mirror_off:
+      return word(Word::mirror_off);
     case record::WishKind::user_force:
       return say(Word::replay_limit, wish.value);
     default:

@@ -88,6 +88,14 @@ void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
                      0.8F * thick);
       }
       break;
+    case Action::mirror:  // two halves, a plane between them
+      for (const float side : {-1.0F, 1.0F})
+        draw.AddTriangle({c.x + 0.3F * side * r, c.y - 0.7F * r},
+                         {c.x + 0.3F * side * r, c.y + 0.7F * r},
+                         {c.x + 1.1F * side * r, c.y + 0.7F * r}, shade, 0.8F * thick);
+      for (const float y : {-1.0F, -0.35F, 0.3F, 0.95F})
+        draw.AddLine({c.x, c.y + (y - 0.1F) * r}, {c.x, c.y + (y + 0.2F) * r}, shade, 0.8F * thick);
+      break;
     case Action::export_:  // an arrow down into a tray
       draw.AddLine({c.x, c.y - 0.9F * r}, {c.x, c.y}, shade, thick);
       draw.AddTriangleFilled({c.x - 0.5F * r, c.y - 0.1F * r}, {c.x + 0.5F * r, c.y - 0.1F * r},
@@ -142,16 +150,18 @@ class Bar {
   }
 
   // less and more beside each other, under what they change
-  void pair(Word name, const Button& less, const Button& more) {
+  void pair(Word name, const Button& less, const Button& more, bool less_chosen = false,
+            bool more_chosen = false) {
     const ImVec2 p = ImGui::GetCursorScreenPos();
     ui_.write(p.x + 33 * u_, p.y + 1 * u_, Ui::Letter::small, ink::kDim, word(name), 0.5F);
     int n = 0;
     for (const Button* b : {&less, &more}) {
       const ImVec2 at = {p.x + static_cast<float>(n++) * 35 * u_, p.y + 18 * u_};
       ImGui::SetCursorScreenPos(at);
-      body(*b, at, {31 * u_, 26 * u_}, false);
+      const bool chosen = b == &less ? less_chosen : more_chosen;
+      body(*b, at, {31 * u_, 26 * u_}, chosen);
       icon(*ImGui::GetWindowDrawList(), b->action, {at.x + 15.5F * u_, at.y + 13 * u_}, 7 * u_,
-           ink::kText);
+           chosen ? ink::kAccent : ink::kText);
     }
   }
 
@@ -183,10 +193,10 @@ class Bar {
 
 }  // namespace
 
-std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode, bool measures) {
+std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode, bool measures, bool mirrors) {
   std::optional<Action> pressed;
   const float u = ui.unit();
-  const float h = 622 * u, w = 82 * u;
+  const float h = 624 * u, w = 82 * u;
   const float free = ui.height() - 78 * u;
   const float y = std::max(6 * u, (free - h) / 2);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * u, 8 * u});
@@ -205,7 +215,8 @@ std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode, bool measures) {
   bar.pair(Word::stroke, {Action::undo, Word::undo, "U"}, {Action::redo, Word::redo, "Y"});
   bar.tall({Action::reset, Word::reset, "R"});
   bar.gap(2);
-  bar.tall({Action::measure, Word::measure, "D"}, measures);
+  bar.pair(Word::help_tools, {Action::measure, Word::measure, "D"},
+           {Action::mirror, Word::mirror, "X"}, measures, mirrors);
   bar.tall({Action::export_, Word::export_word, "E"});
   bar.pair(Word::help_program, {Action::settings, Word::settings, "F2"},
            {Action::help, Word::help, "F1"});

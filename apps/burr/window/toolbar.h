@@ -20,6 +20,7 @@ enum class Action {
   redo,
   reset,
   measure,
+  mirror,
   export_,
   smaller,
   larger,
@@ -31,6 +32,7 @@ enum class Action {
 };
 
 // The button pressed now, if one is.
-[[nodiscard]] std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode, bool measures);
+[[nodiscard]] std::optional<Action> draw_toolbar(Ui& ui, sim::ToolMode mode, bool measures,
+                                                 bool mirrors);
 
 }  // namespace burr::app

@@ -22,6 +22,7 @@ constexpr float kSlopeMayDiffer = 0.25F;
 constexpr double kMostShare = 0.125;  // of the second difference in a tick; beyond a sixth it rings
 constexpr double kAnew = 0.25;        // of a lacking ramp in a tick
 constexpr int kUsualBricks = 12;      // in a tick, some 8 us each; kMostBricks at the worst
+constexpr float kPerSum = 1 << 20;    // of a sum's unit
 constexpr int kAllBut = 4096;         // a quarter of a voxel of depth
 
 Field clamped(float f) {
@@ -29,13 +30,16 @@ Field clamped(float f) {
 }
 
 // Towards the original by at most `most`, as far as the ball lets it. ball: first voxel less the
-// middle, and its radius; inner: of what growing bone keeps out of. True: anything to write.
-bool go_back(const KeptBrick& original, const float* ball, float inner, int most, KeptBrick& now) {
+// middle, and its radius; inner: of what growing bone keeps out of; layers across the axis that may
+// change. True: anything to write.
+bool go_back(const KeptBrick& original, const float* ball, float inner, int most, int axis,
+             unsigned layers, KeptBrick& now) {
   constexpr auto kPerVoxel = static_cast<float>(volume::kFieldPerVoxel);
   bool changed = false;
   for (int v = 0; v < kBrickVoxels; ++v) {
     const int is = now.field.voxel[v], was = original.field.voxel[v];
     if (is == was && now.tissue[v] == original.tissue[v]) continue;
+    if (!in_layers(v, axis, layers)) continue;
     const float x = ball[0] + static_cast<float>(v & 7),
                 y = ball[1] + static_cast<float>(v >> 3 & 7),
                 z = ball[2] + static_cast<float>(v >> 6);
@@ -101,12 +105,13 @@ class Halo {
 };
 
 // What a voxel a voxel or more from the surface lacks to what the two towards the surface foretell,
-// along the axis that goes there most steeply; less what a curved ramp may differ by.
-int lack_of_ramp(const int* at) {
+// along the axis that goes there most steeply; less what a curved ramp may differ by. Of two as
+// steep the first counts; along the axis of step `flipped` that is the one above, as in a mirror.
+int lack_of_ramp(const int* at, int flipped) {
   const int is = *at;
   int steepest = kLeastSlope, lack = 0;
   for (const int axis : Halo::kSteps)
-    for (const int step : {-axis, axis}) {
+    for (const int step : {axis == flipped ? axis : -axis, axis == flipped ? -axis : axis}) {
       const int near = at[step], nearer = at[2 * step];
       const int slope = is < 32768 ? nearer - near : near - nearer;
       if (!on_ramp(near) || !on_ramp(nearer) || slope <= steepest) continue;
@@ -132,12 +137,13 @@ float lack_of_slope(const int* at) {
   return less * static_cast<float>(*at - 32768);
 }
 
-// The tissue of the fullest neighbour.
-volume::TissueId grown_from(const volume::Bone& bone, int i, int j, int k) {
+// The tissue of the fullest neighbour; of two as full the first, along the flipped axis the one
+// above.
+volume::TissueId grown_from(const volume::Bone& bone, int i, int j, int k, int flipped) {
   int fullest = 0;
   volume::TissueId tissue = 0;
   for (int axis = 0; axis < 3; ++axis)
-    for (const int step : {-1, 1}) {
+    for (const int step : {axis == flipped ? 1 : -1, axis == flipped ? -1 : 1}) {
       math::Ijk at(i, j, k);
       at[axis] += step;
       const int is = bone.field(at.x(), at.y(), at.z());
@@ -146,6 +152,18 @@ volume::TissueId grown_from(const volume::Bone& bone, int i, int j, int k) {
       tissue = bone.tissue(at.x(), at.y(), at.z());
     }
   return tissue;
+}
+
+// A brick on the plane is written from both sides.
+void keep_other_layers(const volume::Bone& bone, int axis, unsigned layers, KeptBrick& content) {
+  const Field* field = bone.brick_field(content.brick);
+  if (layers == kAllLayers || field == nullptr) return;
+  const volume::TissueId* tissue = bone.brick_tissue(content.brick);
+  for (int v = 0; v < kBrickVoxels; ++v) {
+    if (in_layers(v, axis, layers)) continue;
+    content.field.voxel[v] = field[v];
+    content.tissue[v] = tissue[v];
+  }
 }
 
 }  // namespace
@@ -171,11 +189,38 @@ void Brush::begin(int least_turns, std::uint32_t& flags) BURR_RT {
   if (least_turns > 1) flags |= kPutOff;
   turn_ = (turn_ + 1) % turns_;
   found_ = worked_ = 0;
+  crowded_ = false;
 }
 
-bool Brush::is_turn_of(int bi, int bj, int bk) const BURR_RT {
-  return static_cast<unsigned>(bi + 3 * bj + 5 * bk) % static_cast<unsigned>(turns_) ==
-         static_cast<unsigned>(turn_);
+template <class Wants>
+void Brush::find(const Sides& sides, int side, double reach, const Wants& wants) BURR_RT {
+  const Half& half = sides.half[side];
+  const int most = worked_ + kMostBricks;
+  const Box box = box_of(sides.centre[side], reach);
+  for (int bk = box.lo.z(); bk <= box.hi.z(); ++bk)
+    for (int bj = box.lo.y(); bj <= box.hi.y(); ++bj)
+      for (int bi = box.lo.x(); bi <= box.hi.x(); ++bi) {
+        if (!wants(bi, bj, bk)) continue;
+        ++found_;
+        const unsigned layers = layers_of({bi, bj, bk}, half, turns_, turn_);
+        if (layers == 0) continue;
+        if (worked_ == most) {
+          crowded_ = true;
+          continue;
+        }
+        Patch& patch = patches_[static_cast<std::size_t>(worked_++)];
+        patch.brick = bone_.brick_at(bi, bj, bk);
+        patch.layers = layers;
+        patch.side = side;
+      }
+}
+
+// Some of the one side and others of the other's would be no mirror: rather nothing, until there
+// are more turns.
+void Brush::end_finding(const Mirror& mirror, std::uint32_t& flags) BURR_RT {
+  if (!mirror.on() || !crowded_) return;
+  worked_ = 0;
+  flags |= kPutOff;
 }
 
 int Brush::units_a_tick(const Brushing& now) const BURR_RT {
@@ -187,31 +232,32 @@ void Brush::restore(const Brushing& now, std::uint32_t& flags) BURR_RT {
   begin(now.turns, flags);
   const int most = units_a_tick(now);
   const double reach = now.radius + kReach;
-  const Box box = box_of(now.centre, reach);
+  const Sides sides = sides_of(now.centre, now.mirror);
+  for (int side = 0; side < sides.count; ++side)
+    find(sides, side, reach, [this](int bi, int bj, int bk) BURR_RT {
+      const BrickIndex brick = bone_.brick_at(bi, bj, bk);
+      const KeptBrick* original = undo_.original_of(brick);
+      const Field* field = original != nullptr ? bone_.brick_field(brick) : nullptr;
+      return field != nullptr &&
+             (std::memcmp(field, &original->field, sizeof original->field) != 0 ||
+              std::memcmp(bone_.brick_tissue(brick), original->tissue, sizeof original->tissue) !=
+                  0);
+    });
+  end_finding(now.mirror, flags);
   KeptBrick content;
-  for (int bk = box.lo.z(); bk <= box.hi.z(); ++bk)
-    for (int bj = box.lo.y(); bj <= box.hi.y(); ++bj)
-      for (int bi = box.lo.x(); bi <= box.hi.x(); ++bi) {
-        const BrickIndex brick = bone_.brick_at(bi, bj, bk);
-        const KeptBrick* original = undo_.original_of(brick);
-        const Field* field = original != nullptr ? bone_.brick_field(brick) : nullptr;
-        if (field == nullptr) continue;
-        const volume::TissueId* tissue = bone_.brick_tissue(brick);
-        if (std::memcmp(field, &original->field, sizeof original->field) == 0 &&
-            std::memcmp(tissue, original->tissue, sizeof original->tissue) == 0)
-          continue;
-        ++found_;
-        if (!is_turn_of(bi, bj, bk) || worked_ == kMostBricks) continue;
-        ++worked_;
-        const Vec3 first = Vec3(kBrickEdge * bi, kBrickEdge * bj, kBrickEdge * bk) - now.centre;
-        const float ball[4] = {static_cast<float>(first.x()), static_cast<float>(first.y()),
-                               static_cast<float>(first.z()), static_cast<float>(reach)};
-        content.brick = brick;
-        std::memcpy(&content.field, field, sizeof content.field);
-        std::memcpy(content.tissue, tissue, sizeof content.tissue);
-        if (go_back(*original, ball, static_cast<float>(now.radius - kInto), most, content))
-          carver_.rewrite(content, flags);
-      }
+  for (int n = 0; n < worked_; ++n) {
+    const Patch& patch = patches_[static_cast<std::size_t>(n)];
+    const Half& half = sides.half[patch.side];
+    const Vec3 first = bone_.brick_ijk(patch.brick).cast<double>() - sides.centre[patch.side];
+    const float ball[4] = {static_cast<float>(first.x()), static_cast<float>(first.y()),
+                           static_cast<float>(first.z()), static_cast<float>(reach)};
+    content.brick = patch.brick;
+    std::memcpy(&content.field, bone_.brick_field(patch.brick), sizeof content.field);
+    std::memcpy(content.tissue, bone_.brick_tissue(patch.brick), sizeof content.tissue);
+    if (go_back(*undo_.original_of(patch.brick), ball, static_cast<float>(now.radius - kInto), most,
+                half.mirror.axis, patch.layers, content))
+      carver_.rewrite(content, flags);
+  }
 }
 
 // ---- smooth
@@ -232,7 +278,9 @@ bool Brush::flat_about(int bi, int bj, int bk) const BURR_RT {
          kind(bi, bj, bk + 1) == is;
 }
 
-void Brush::look_at(Patch& patch, const Vec3& centre, double radius, Sums& sums) const BURR_RT {
+void Brush::look_at(Patch& patch, const Vec3& centre, double radius, const Half& half,
+                    Sums& sums) const BURR_RT {
+  const int axis = half.mirror.axis, flipped = half.is_image ? Halo::kSteps[axis] : 0;
   const Halo halo(bone_, patch.brick);
   const math::Ijk first = bone_.brick_ijk(patch.brick);
   const Vec3 from = first.cast<double>() - centre;
@@ -241,7 +289,9 @@ void Brush::look_at(Patch& patch, const Vec3& centre, double radius, Sums& sums)
   const auto per_square = static_cast<float>(1 / (radius * radius));
   for (int v = 0; v < kBrickVoxels; ++v) {
     patch.flow[v] = patch.ramp[v] = patch.weight[v] = 0;
+    if (!in_layers(v, axis, patch.layers)) continue;
     const int x = v & 7, y = v >> 3 & 7, z = v >> 6;
+    if (!bone_.grid().contains(first + math::Ijk(x, y, z))) continue;  // it may end within a brick
     const float dx = fx + static_cast<float>(x), dy = fy + static_cast<float>(y),
                 dz = fz + static_cast<float>(z);
     const float in = 1 - (dx * dx + dy * dy + dz * dz) * per_square;
@@ -256,66 +306,81 @@ void Brush::look_at(Patch& patch, const Vec3& centre, double radius, Sums& sums)
         if (on_ramp(at[-step]) && on_ramp(at[step])) bend += at[-step] + at[step] - 2 * is;
       if (std::abs(bend) <= kRounding) bend = 0;
       patch.flow[v] = static_cast<float>(bend);
-      if (off < 16384) {
+      // voxels on the plane move with the hand's side, but belong to both: to neither mean
+      if (off < 16384 &&
+          (!half.mirror.on() || 2 * (first[axis] + (v >> (3 * axis) & 7)) != half.mirror.twice)) {
         const float near = weight * (1 - static_cast<float>(off) / 16384);
-        sums.flow += static_cast<double>(near * static_cast<float>(bend));
-        sums.weight += static_cast<double>(near);
+        sums.flow += std::llround(kPerSum * near * static_cast<float>(bend));
+        sums.weight += std::llround(kPerSum * near);
       }
     }
-    patch.ramp[v] = off >= 16384 ? static_cast<float>(lack_of_ramp(at)) : lack_of_slope(at);
+    patch.ramp[v] =
+        off >= 16384 ? static_cast<float>(lack_of_ramp(at, flipped)) : lack_of_slope(at);
   }
+}
+
+// What becomes of a brick; nothing is written yet. True: anything to write.
+bool Brush::move(Patch& patch, const Half& half, float share, float anew, float mean,
+                 float most) const BURR_RT {
+  const math::Ijk first = bone_.brick_ijk(patch.brick);
+  KeptBrick& content = patch.content;
+  content.brick = patch.brick;
+  const Field* field = bone_.brick_field(patch.brick);
+  if (field != nullptr) {
+    std::memcpy(&content.field, field, sizeof content.field);
+    std::memcpy(content.tissue, bone_.brick_tissue(patch.brick), sizeof content.tissue);
+  } else {
+    std::memset(&content.field, 0, sizeof content.field);
+    std::memset(content.tissue, 0, sizeof content.tissue);
+  }
+  bool changed = false;
+  for (int v = 0; v < kBrickVoxels; ++v) {
+    const int is = content.field.voxel[v];
+    const float moves = on_ramp(is) ? share * (patch.flow[v] - mean) : 0.0F;
+    const float by = std::clamp(patch.weight[v] * (moves + anew * patch.ramp[v]), -most, most);
+    const int to = std::clamp(is + static_cast<int>(std::lround(by)), 0, 65535);
+    if (to == is) continue;
+    changed = true;
+    content.field.voxel[v] = static_cast<Field>(to);
+    if (content.tissue[v] == 0)  // what grows into air is of what it grows from
+      content.tissue[v] = grown_from(bone_, first.x() + (v & 7), first.y() + (v >> 3 & 7),
+                                     first.z() + (v >> 6), half.is_image ? half.mirror.axis : -1);
+  }
+  return changed;
 }
 
 void Brush::smooth(const Brushing& now, std::uint32_t& flags) BURR_RT {
   begin(now.turns, flags);
   const double radius = kShare * now.radius;
-  const Vec3 centre = now.centre + now.radius * now.push;
-  const Box box = box_of(centre, radius);
-  Sums sums;
-  for (int bk = box.lo.z(); bk <= box.hi.z(); ++bk)
-    for (int bj = box.lo.y(); bj <= box.hi.y(); ++bj)
-      for (int bi = box.lo.x(); bi <= box.hi.x(); ++bi) {
-        if (flat_about(bi, bj, bk)) continue;
-        ++found_;
-        if (!is_turn_of(bi, bj, bk) || worked_ == kMostBricks) continue;
-        Patch& patch = patches_[static_cast<std::size_t>(worked_++)];
-        patch.brick = bone_.brick_at(bi, bj, bk);
-        look_at(patch, centre, radius, sums);
-      }
+  const Sides sides = sides_of(now.centre + now.radius * now.push, now.mirror);
+  for (int side = 0; side < sides.count; ++side)
+    find(sides, side, radius,
+         [this](int bi, int bj, int bk) BURR_RT { return !flat_about(bi, bj, bk); });
+  end_finding(now.mirror, flags);
+  Sums sums[2];
+  for (int n = 0; n < worked_; ++n) {
+    Patch& patch = patches_[static_cast<std::size_t>(n)];
+    look_at(patch, sides.centre[patch.side], radius, sides.half[patch.side], sums[patch.side]);
+  }
 
   const double h = bone_.grid().voxel;
   const auto share =
       static_cast<float>(now.strength * std::min(kSpread * now.dt * turns_ / (h * h), kMostShare));
   const auto anew = static_cast<float>(now.strength * std::min(kAnew * turns_, 1.0));
-  const auto mean = static_cast<float>(sums.weight > 0 ? sums.flow / sums.weight : 0);
   const auto most = static_cast<float>(units_a_tick(now));
   for (int n = 0; n < worked_; ++n) {
-    const Patch& patch = patches_[static_cast<std::size_t>(n)];
-    const math::Ijk first = bone_.brick_ijk(patch.brick);
-    KeptBrick content;
-    content.brick = patch.brick;
-    const Field* field = bone_.brick_field(patch.brick);
-    if (field != nullptr) {
-      std::memcpy(&content.field, field, sizeof content.field);
-      std::memcpy(content.tissue, bone_.brick_tissue(patch.brick), sizeof content.tissue);
-    } else {
-      std::memset(&content.field, 0, sizeof content.field);
-      std::memset(content.tissue, 0, sizeof content.tissue);
-    }
-    bool changed = false;
-    for (int v = 0; v < kBrickVoxels; ++v) {
-      const int is = content.field.voxel[v];
-      const float moves = on_ramp(is) ? share * (patch.flow[v] - mean) : 0.0F;
-      const float by = std::clamp(patch.weight[v] * (moves + anew * patch.ramp[v]), -most, most);
-      const int to = std::clamp(is + static_cast<int>(std::lround(by)), 0, 65535);
-      if (to == is) continue;
-      changed = true;
-      content.field.voxel[v] = static_cast<Field>(to);
-      if (content.tissue[v] == 0)  // what grows into air is of what it grows from
-        content.tissue[v] =
-            grown_from(bone_, first.x() + (v & 7), first.y() + (v >> 3 & 7), first.z() + (v >> 6));
-    }
-    if (changed) carver_.rewrite(content, flags);
+    Patch& patch = patches_[static_cast<std::size_t>(n)];
+    const Sums& of = sums[patch.side];
+    const auto mean = static_cast<float>(
+        of.weight > 0 ? static_cast<double>(of.flow) / static_cast<double>(of.weight) : 0);
+    if (!move(patch, sides.half[patch.side], share, anew, mean, most))
+      patch.content.brick = volume::kNoBrick;
+  }
+  for (int n = 0; n < worked_; ++n) {
+    Patch& patch = patches_[static_cast<std::size_t>(n)];
+    if (patch.content.brick == volume::kNoBrick) continue;
+    keep_other_layers(bone_, sides.half[patch.side].mirror.axis, patch.layers, patch.content);
+    carver_.rewrite(patch.content, flags);
   }
 }
 

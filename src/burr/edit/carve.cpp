@@ -1,6 +1,7 @@
 #include "burr/edit/carve.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -18,7 +19,7 @@ using volume::BrickIndex;
 using volume::kBrickEdge;
 using volume::kBrickVoxels;
 
-constexpr std::size_t kMostWork = 1024;  // bricks in one tick: 7 mm at 0.1 mm takes 400
+constexpr std::size_t kMostWork = 1024;  // bricks a side in one tick: 7 mm at 0.1 mm takes 400
 // Bricks in one tick from which on they are cut in turns though nobody is in a hurry: each of so
 // many loses a hair a tick, and costs as much as if it lost four.
 constexpr double kManyBricks = 72;
@@ -28,6 +29,47 @@ constexpr std::uint8_t kMixed = 255;
 // bits of haptics/contact.h; edit may not include haptics, sim/servo.cpp asserts that they agree
 constexpr std::uint32_t kReserve = 1U << 10, kUndoFull = 1U << 11, kNotCut = 1U << 14,
                         kPutOff = 1U << 15;
+
+using Layers = std::array<unsigned, 3>;
+constexpr Layers kWholeBrick = {kAllLayers, kAllLayers, kAllLayers};
+
+// The grid may end within a brick; nothing grows beyond.
+Layers layers_inside(const math::Ijk& brick, const math::Ijk& size) BURR_RT {
+  Layers layers = kWholeBrick;
+  for (int axis = 0; axis < 3; ++axis)
+    layers[static_cast<std::size_t>(axis)] >>=
+        std::max(0, kBrickEdge * (brick[axis] + 1) - size[axis]);
+  return layers;
+}
+
+// Of the excess. Where the hand's side has none left, its image shall have none either.
+double share_of(double owed, double all, const Mirror& mirror) BURR_RT {
+  if (all <= 0) return mirror.on() && owed > 0 ? 1 : 0;
+  return owed / all;
+}
+
+// As the kernels do, to a few per cent.
+std::int64_t rough_units(int field) { return 6 * std::clamp(field - 16384, 0, 32768); }
+
+// Of the excess that was found what is in these layers, along i, j, k.
+Excess clipped(const Excess& found, const volume::Field* field, const Layers& layers, bool deposit,
+               std::uint16_t* out) BURR_RT {
+  Excess left;
+  for (std::uint32_t pairs = found.pairs; pairs != 0; pairs &= pairs - 1) {
+    const int pair = std::countr_zero(pairs), first = 2 * kBrickEdge * pair;
+    for (int v = first; v < first + 2 * kBrickEdge; ++v) {
+      for (int axis = 0; axis < 3; ++axis)
+        if (!in_layers(v, axis, layers[static_cast<std::size_t>(axis)])) out[v] = 0;
+      const int by = out[v];
+      if (by == 0) continue;
+      left.most = std::max(left.most, by);
+      left.pairs |= 1U << pair;
+      left.units += deposit ? rough_units(field[v] + by) - rough_units(field[v])
+                            : rough_units(field[v]) - rough_units(field[v] - by);
+    }
+  }
+  return left;
+}
 
 }  // namespace
 
@@ -54,8 +96,8 @@ Carver::Carver(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo
       highest_(static_cast<std::size_t>(bone.brick_count())),
       uniform_(static_cast<std::size_t>(bone.brick_count()), std::uint8_t{0}),
       energy_of_(256, 1e9),
-      scratch_(kMostWork),
-      work_(kMostWork) {
+      scratch_(2 * kMostWork),
+      work_(2 * kMostWork) {
   const double h = bone.grid().voxel;
   advance_ = std::max(settings.advance_m / h, settings.advance_least);
   least_margin_ = margin_ = std::max(settings.margin_m / h, settings.margin_least);
@@ -76,11 +118,8 @@ Carver::Carver(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo
 
 // Finds in every brick that the ball meets what stands above it (or lacks below it).
 void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], bool deposit,
-                    int turns, std::uint32_t& flags) BURR_RT {
-  work_count_ = 0;
-  crowded_ = false;
-  const auto turn = static_cast<unsigned>(turn_);
-  total_units_ = 0;
+                    int turns, const Half& half, std::uint32_t& flags) BURR_RT {
+  const std::size_t most_work = work_count_ + kMostWork;
   const double reach = radius + volume::kRamp;
   math::Ijk lo, hi;
   for (int axis = 0; axis < 3; ++axis) {
@@ -93,10 +132,8 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
   for (int bk = lo.z(); bk <= hi.z(); ++bk)
     for (int bj = lo.y(); bj <= hi.y(); ++bj)
       for (int bi = lo.x(); bi <= hi.x(); ++bi) {
-        // odd steps: along every axis the next brick is another turn's
-        if (turns > 1 &&
-            static_cast<unsigned>(bi + 3 * bj + 5 * bk) % static_cast<unsigned>(turns) != turn)
-          continue;
+        const unsigned layers = layers_of({bi, bj, bk}, half, turns, turn_);
+        if (layers == 0) continue;
         const BrickIndex brick = bone_.brick_at(bi, bj, bk);
         if (!deposit && highest_[static_cast<std::size_t>(brick)] == 0) continue;
         const Vec3 first(kBrickEdge * bi, kBrickEdge * bj, kBrickEdge * bk);
@@ -110,7 +147,7 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
         if (!deposit && highest_[static_cast<std::size_t>(brick)] <=
                             volume::kIso + (far - radius) * volume::kFieldPerVoxel)
           continue;
-        if (work_count_ == kMostWork) {
+        if (work_count_ == most_work) {
           crowded_ = true;
           return;
         }
@@ -131,18 +168,39 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
           for (int axis = 0; axis < 3; ++axis)
             outside[axis] = static_cast<float>(first[axis]) - keep_out[axis];
         outside[3] = keep_out[3];
-        const Excess excess =
-            kernel_.find(field, ball, outside, deposit ? 1 : 0, scratch_[work_count_].voxel);
+        std::uint16_t* out = scratch_[work_count_].voxel;
+        Excess excess = kernel_.find(field, ball, outside, deposit ? 1 : 0, out);
+        Layers keep = deposit ? layers_inside({bi, bj, bk}, bone_.grid().size) : kWholeBrick;
+        if (half.mirror.on()) keep[static_cast<std::size_t>(half.mirror.axis)] &= layers;
+        if (keep != kWholeBrick && excess.most > 0)
+          excess = clipped(excess, field, keep, deposit, out);
         if (excess.most == 0) continue;
         work_[work_count_++] = {brick, excess};
-        total_units_ += excess.units;
+        if (!half.is_image) {
+          total_units_ += excess.units;
+          ++hand_count_;
+        }
       }
+}
+
+void Carver::begin_gathering() BURR_RT {
+  work_count_ = hand_count_ = 0;
+  crowded_ = false;
+  total_units_ = 0;
+}
+
+// Half of what the one side gave and all of the other's would be no mirror: rather nothing, until
+// there are more turns.
+void Carver::end_gathering(const Mirror& mirror) BURR_RT {
+  if (!mirror.on() || !crowded_) return;
+  work_count_ = hand_count_ = 0;
+  total_units_ = 0;
 }
 
 // Specific cutting energy of what the ball stands in, weighted by volume.  [J/m^3]
 double Carver::mean_energy() const BURR_RT {
   double energy = 0, weight = 0;
-  for (std::size_t w = 0; w < work_count_; ++w) {
+  for (std::size_t w = 0; w < hand_count_; ++w) {
     const auto units = static_cast<double>(std::max<std::int64_t>(work_[w].excess.units, 0));
     const std::uint8_t one = uniform_[static_cast<std::size_t>(work_[w].brick)];
     double mean = energy_of_[one];
@@ -166,11 +224,11 @@ double Carver::mean_energy() const BURR_RT {
 }
 
 // Takes (puts) `share` of the excess; returns how much that really was.
-std::int64_t Carver::apply(double share, bool deposit, volume::TissueId material,
+Carver::Done Carver::apply(double share, bool deposit, volume::TissueId material,
                            std::uint32_t& flags) BURR_RT {
+  Done done;
   const auto fixed = static_cast<std::int32_t>(std::clamp(share, 0.0, 1.0) * 65536.0);
-  if (fixed == 0) return 0;
-  std::int64_t done = 0;
+  if (fixed == 0) return done;
   BrickField now;
   for (std::size_t w = 0; w < work_count_; ++w) {
     const BrickIndex brick = work_[w].brick;
@@ -192,7 +250,7 @@ std::int64_t Carver::apply(double share, bool deposit, volume::TissueId material
     if (changed_ != nullptr) changed_->push(brick);
     highest_[static_cast<std::size_t>(brick)] = static_cast<std::uint16_t>(applied.highest);
     surface_.changed(brick, applied.most, applied.rows, applied.columns);
-    done += applied.units;
+    (w < hand_count_ ? done.hand : done.image) += applied.units;
   }
   return done;
 }
@@ -201,7 +259,7 @@ std::int64_t Carver::apply(double share, bool deposit, volume::TissueId material
 int Carver::choose_turns(int wanted, std::uint32_t& flags) BURR_RT {
   if (crowded_) {
     crowd_turns_ = std::min(2 * crowd_turns_, kMostTurns);
-  } else if (crowd_turns_ > 1 && work_count_ < kMostWork / 4) {
+  } else if (crowd_turns_ > 1 && std::max(hand_count_, work_count_ - hand_count_) < kMostWork / 4) {
     crowd_turns_ /= 2;
   }
   double bricks = 0;
@@ -245,10 +303,21 @@ void Carver::write_off(double asked_units, double dt, int turns) BURR_RT {
   }
 }
 
+// What the image took was asked of nobody: it counts as asked for.
+void Carver::take_account_of(const Done& removed) BURR_RT {
+  removed_ += removed.hand + removed.image;
+  image_removed_ += removed.image;
+  asked_ += static_cast<double>(removed.image);
+}
+
 void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
   constexpr float kNone[4] = {0, 0, 0, -1};
   const int turns = choose_turns(cut.turns, flags);
-  gather(cut.centre + advance_ * cut.push, cut.radius + margin_, kNone, false, turns, flags);
+  const Sides sides = sides_of(cut.centre + advance_ * cut.push, cut.mirror);
+  begin_gathering();
+  for (int s = 0; s < sides.count; ++s)
+    gather(sides.centre[s], cut.radius + margin_, kNone, false, turns, sides.half[s], flags);
+  end_gathering(cut.mirror);
   last_energy_density_ = mean_energy();
   const double asked = cut.energy / last_energy_density_ / unit_m3_;
   asked_ += asked;
@@ -258,9 +327,9 @@ void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
   // the turn comes round again, and what is still owed
   const double all = excess_of_all_turns(), owed = debt_ + (turns - 1) * asked;
   const bool blocked = all < owed;
-  const std::int64_t removed = all > 0 ? apply(owed / all, false, 0, flags) : 0;
-  removed_ += removed;
-  debt_ -= static_cast<double>(removed);
+  const Done removed = apply(share_of(owed, all, cut.mirror), false, 0, flags);
+  take_account_of(removed);
+  debt_ -= static_cast<double>(removed.hand);
   margin_ =
       std::clamp(margin_ + (blocked ? settings_.margin_rise : -settings_.margin_fall) * cut.dt,
                  least_margin_, std::max(least_margin_, settings_.margin_most));
@@ -271,25 +340,31 @@ void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
 
 void Carver::deposit(const Cut& cut, std::uint32_t& flags) BURR_RT {
   const double radius = settings_.deposit_share * cut.radius;
-  const float keep_out[4] = {static_cast<float>(cut.centre.x()), static_cast<float>(cut.centre.y()),
-                             static_cast<float>(cut.centre.z()),
-                             static_cast<float>(cut.radius + settings_.deposit_gap)};
   const int turns = choose_turns(cut.turns, flags);
-  gather(cut.centre + cut.radius * cut.push, radius, keep_out, true, turns, flags);
+  const Sides sides = sides_of(cut.centre + cut.radius * cut.push, cut.mirror);
+  begin_gathering();
+  for (int s = 0; s < sides.count; ++s) {
+    const Vec3 burr = folded(cut.centre, sides.half[s]);
+    const float keep_out[4] = {static_cast<float>(burr.x()), static_cast<float>(burr.y()),
+                               static_cast<float>(burr.z()),
+                               static_cast<float>(cut.radius + settings_.deposit_gap)};
+    gather(sides.centre[s], radius, keep_out, true, turns, sides.half[s], flags);
+  }
+  end_gathering(cut.mirror);
   const double patience = settings_.patience + (turns - 1) * cut.dt;
   const double asked = cut.volume / unit_m3_;
   added_debt_ = std::min(added_debt_ + asked, asked * patience / cut.dt);
   const double all = excess_of_all_turns(), owed = added_debt_ + (turns - 1) * asked;
-  const std::int64_t added = all > 0 ? apply(owed / all, true, cut.material, flags) : 0;
-  added_ += added;
-  added_debt_ -= static_cast<double>(added);
+  const Done added = apply(share_of(owed, all, cut.mirror), true, cut.material, flags);
+  added_ += added.hand + added.image;
+  image_added_ += added.image;
+  added_debt_ -= static_cast<double>(added.hand);
 }
 
 // As gather(), with the plain test "is the voxel inside the mill".
-void Carver::gather_inside(const Vec3& centre, double radius, int amount,
+void Carver::gather_inside(const Vec3& centre, double radius, int amount, const Half& half,
                            std::uint32_t& flags) BURR_RT {
-  work_count_ = 0;
-  crowded_ = false;
+  const std::size_t most_work = work_count_ + kMostWork;
   const math::Ijk last = bone_.bricks().array() - 1;
   const math::Ijk lo = ((centre.array() - radius) / kBrickEdge)
                            .floor()
@@ -304,9 +379,10 @@ void Carver::gather_inside(const Vec3& centre, double radius, int amount,
   for (int bk = lo.z(); bk <= hi.z(); ++bk)
     for (int bj = lo.y(); bj <= hi.y(); ++bj)
       for (int bi = lo.x(); bi <= hi.x(); ++bi) {
+        const unsigned layers = layers_of({bi, bj, bk}, half, 1, 0);
         const BrickIndex brick = bone_.brick_at(bi, bj, bk);
-        if (highest_[static_cast<std::size_t>(brick)] == 0) continue;
-        if (work_count_ == kMostWork) {
+        if (layers == 0 || highest_[static_cast<std::size_t>(brick)] == 0) continue;
+        if (work_count_ == most_work) {
           crowded_ = true;
           flags |= kPutOff;
           return;
@@ -317,7 +393,8 @@ void Carver::gather_inside(const Vec3& centre, double radius, int amount,
         Excess excess;
         for (int v = 0; v < kBrickVoxels; ++v) {
           const Vec3 p = first + Vec3(v & 7, v >> 3 & 7, v >> 6);
-          const bool in = p.squaredNorm() <= radius * radius;
+          const bool in =
+              p.squaredNorm() <= radius * radius && in_layers(v, half.mirror.axis, layers);
           const int loses = in ? std::min(int{field[v]}, amount) : 0;
           out[v] = static_cast<std::uint16_t>(loses);
           if (loses == 0) continue;
@@ -326,22 +403,28 @@ void Carver::gather_inside(const Vec3& centre, double radius, int amount,
           excess.units += volume::volume_units(std::int32_t{field[v]}) -
                           volume::volume_units(int{field[v]} - loses);
         }
-        if (excess.most > 0) work_[work_count_++] = {brick, excess};
+        if (excess.most == 0) continue;
+        work_[work_count_++] = {brick, excess};
+        hand_count_ += half.is_image ? 0 : 1;
       }
 }
 
 void Carver::lower(const Cut& cut, double amount, std::uint32_t& flags) BURR_RT {
-  gather_inside(cut.centre + advance_ * cut.push, cut.radius + least_margin_,
-                static_cast<int>(std::clamp(amount, 0.0, 65535.0)), flags);
+  const Sides sides = sides_of(cut.centre + advance_ * cut.push, cut.mirror);
+  begin_gathering();
+  for (int s = 0; s < sides.count; ++s)
+    gather_inside(sides.centre[s], cut.radius + least_margin_,
+                  static_cast<int>(std::clamp(amount, 0.0, 65535.0)), sides.half[s], flags);
+  end_gathering(cut.mirror);
   last_energy_density_ = mean_energy();
-  const std::int64_t removed = apply(1, false, 0, flags);
-  removed_ += removed;
-  asked_ += static_cast<double>(removed);
-  energy_ += static_cast<double>(removed) * unit_m3_ * last_energy_density_;
+  const Done removed = apply(1, false, 0, flags);
+  take_account_of(removed);
+  asked_ += static_cast<double>(removed.hand);
+  energy_ += static_cast<double>(removed.hand) * unit_m3_ * last_energy_density_;
 }
 
 void Carver::idle(double dt) BURR_RT {
-  work_count_ = 0;
+  work_count_ = hand_count_ = 0;
   crowded_ = false;
   rate_ += (0 - rate_) * std::min(1.0, dt / settings_.patience);
   const double most = settings_.patience * rate_;

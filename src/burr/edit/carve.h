@@ -11,6 +11,11 @@
 // first order in h that the prototype left open. What stays owed
 // longer than a few ticks is written off as "not cut", or a stalled burr would save up (flaw 4).
 //
+// With a mirror the image of the ball takes the same share of what it stands in, tick by tick: on
+// bone that is its own image that is the same to the bit; on other bone it goes towards the same
+// shape at the same pace. The hand pays for its own side alone; what the image takes counts as
+// asked for and taken.
+//
 // Thread: servo, the one writer of the bone. Frame: p_grid [voxel]. Memory: none after
 // construction.
 #pragma once
@@ -21,6 +26,7 @@
 #include "burr/edit/carve_kernel.h"
 #include "burr/edit/changed_queue.h"
 #include "burr/edit/ledger.h"
+#include "burr/edit/mirror.h"
 #include "burr/edit/undo.h"
 #include "burr/math/vec3.h"
 #include "burr/rt/rt.h"
@@ -55,6 +61,7 @@ struct Cut {
   volume::TissueId material = 1;  // deposit: what
   double dt = 1e-3;               // [s]
   int turns = 1;                  // the bricks are cut in so many ticks, in turn; a power of two
+  Mirror mirror = {};             // the same is done across it
 };
 
 class Carver {
@@ -86,7 +93,14 @@ class Carver {
 
   [[nodiscard]] Ledger ledger() const BURR_RT;
   [[nodiscard]] double margin() const BURR_RT { return margin_; }  // [voxel]
-  // Bricks that the burr stood in in the last tick; 0 while idle.
+  // Of what the ledger says was removed and added, that of the image.  [m^3]
+  [[nodiscard]] double removed_by_image() const BURR_RT {
+    return static_cast<double>(image_removed_) * unit_m3_;
+  }
+  [[nodiscard]] double added_by_image() const BURR_RT {
+    return static_cast<double>(image_added_) * unit_m3_;
+  }
+  // Bricks that the burr, and its image, stood in in the last tick; 0 while idle.
   [[nodiscard]] int bricks_last() const BURR_RT { return static_cast<int>(work_count_); }
 
  private:
@@ -94,15 +108,22 @@ class Carver {
     volume::BrickIndex brick = volume::kNoBrick;
     Excess excess;
   };
+  // What both sides took or put.  [units]
+  struct Done {
+    std::int64_t hand = 0, image = 0;
+  };
+  void begin_gathering() BURR_RT;
   void gather(const math::Vec3& centre, double radius, const float keep_out[4], bool deposit,
-              int turns, std::uint32_t& flags) BURR_RT;
-  void gather_inside(const math::Vec3& centre, double radius, int amount,
+              int turns, const Half& half, std::uint32_t& flags) BURR_RT;
+  void gather_inside(const math::Vec3& centre, double radius, int amount, const Half& half,
                      std::uint32_t& flags) BURR_RT;
+  void end_gathering(const Mirror& mirror) BURR_RT;
   [[nodiscard]] int choose_turns(int wanted, std::uint32_t& flags) BURR_RT;
   [[nodiscard]] double excess_of_all_turns() BURR_RT;
-  [[nodiscard]] std::int64_t apply(double share, bool deposit, volume::TissueId material,
-                                   std::uint32_t& flags) BURR_RT;
+  [[nodiscard]] Done apply(double share, bool deposit, volume::TissueId material,
+                           std::uint32_t& flags) BURR_RT;
   [[nodiscard]] double mean_energy() const BURR_RT;
+  void take_account_of(const Done& removed) BURR_RT;
   void write_off(double asked_units, double dt, int turns) BURR_RT;
   void note_whole(volume::BrickIndex brick, const volume::BrickField& before,
                   const volume::BrickField& now) BURR_RT;
@@ -119,10 +140,10 @@ class Carver {
   std::vector<double> energy_of_;            // (256) specific cutting energy by tissue [J/m^3]
   std::vector<volume::BrickField> scratch_;  // excess of the bricks in work_
   std::vector<Work> work_;
-  std::size_t work_count_ = 0;
-  bool crowded_ = false;  // more bricks than work_ holds
-  int crowd_turns_ = 1;   // in how many turns they fit
-  int usual_turns_ = 1;   // in how many it is worth the while
+  std::size_t work_count_ = 0, hand_count_ = 0;  // the hand's come first
+  bool crowded_ = false;                         // more bricks than work_ holds
+  int crowd_turns_ = 1;                          // in how many turns they fit
+  int usual_turns_ = 1;                          // in how many it is worth the while
   struct Part {
     std::int64_t units = 0;  // excess of the turn's bricks
     int bricks = 0;
@@ -134,6 +155,7 @@ class Carver {
 
   double asked_ = 0, debt_ = 0, not_cut_ = 0;           // [units]
   std::int64_t removed_ = 0, added_ = 0;                // [units]
+  std::int64_t image_removed_ = 0, image_added_ = 0;    // of these, the image's
   double added_debt_ = 0;                               // [units]
   double energy_ = 0;                                   // [J]
   double rate_ = 0;                                     // smoothed rate of asking [units/s]

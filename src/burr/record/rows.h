@@ -46,6 +46,10 @@ enum class WishKind : std::uint8_t {
   touch_method,   // value: haptics/touch_method.h, Method
   removal_law,    // value: edit/removal.h, RemovalLaw
   irrigation,     // value: 0 off, 1 on
+  mirror_i,       // value: of a plane across i, its place p_grid; what is done is mirrored by it
+  mirror_j,       // likewise across j
+  mirror_k,       // likewise across k
+  mirror_off,
 };
 struct Wish {
   WishKind kind = WishKind::spindle_speed;

@@ -81,6 +81,13 @@ struct Rod {
   bool on_top = false;
 };
 
+// What mirror mode shows, as outlines over everything: a frame in the plane, and the burr's image.
+struct Mirrored {
+  math::Pose world_from_tool;              // of the image
+  std::array<math::Vec3, 4> corners = {};  // of the plane, around
+  double line = 0.15e-3;                   // radius of the lines                         [m]
+};
+
 // What lies on the side that n points to is not drawn; the bone's section is closed by a flat face.
 struct ClipPlane {
   math::Vec3 p = math::Vec3::Zero();
@@ -101,6 +108,7 @@ struct Scene {
   Burr burr;
   std::vector<Marker> markers;
   std::vector<Rod> rods;
+  std::optional<Mirrored> mirrored;
   Camera camera;
   Look look;
   Quality quality;                // of a window's picture

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "burr/record/tick_hash.h"
+#include "burr/sim/mirror_plane.h"
 
 namespace burr::sim {
 namespace {
@@ -97,7 +98,8 @@ const record::TickRow& Servo::tick(bool lost) BURR_RT {
 
   // then the bone
   cut_bone(touched);
-  surface_.refresh(kRefreshRate * dt_ / turns_of(load_));
+  // twice as much changes in a mirror, and the hand's side must not be later for it
+  surface_.refresh((mirror_.on() ? 2 : 1) * kRefreshRate * dt_ / turns_of(load_));
   tell_heat();
   remember_path();
 
@@ -258,6 +260,7 @@ void Servo::cut_bone(const Vec3& force) BURR_RT {
   cut.radius = settings_.burr.radius / grid.voxel;
   cut.dt = dt_;
   cut.turns = turns_of(load_);
+  cut.mirror = mirror_;
   if (settings_.mode == ToolMode::cut && settings_.removal.law == edit::RemovalLaw::thesis) {
     const auto frame = static_cast<std::uint64_t>(std::max(1, settings_.removal.thesis_frame));
     if (row_.tick % frame == 0)
@@ -287,6 +290,7 @@ void Servo::brush_bone(const edit::Cut& cut) BURR_RT {
   now.strength = std::clamp(hand_.pedal, 0.0, 1.0);
   now.dt = dt_;
   now.turns = cut.turns;
+  now.mirror = cut.mirror;
   carver_.idle(dt_);
   if (settings_.mode == ToolMode::smooth) {
     deposited_ = true;  // what grows into air gets a tissue
@@ -388,6 +392,12 @@ void Servo::obey(const Wish& wish) BURR_RT {
       break;
     case WishKind::irrigation:
       irrigated_ = wish.value > 0;
+      break;
+    case WishKind::mirror_i:
+    case WishKind::mirror_j:
+    case WishKind::mirror_k:
+    case WishKind::mirror_off:
+      mirror_ = mirror_of(wish, bone_.grid().size).value_or(mirror_);
       break;
     case WishKind::undo:
     case WishKind::redo:

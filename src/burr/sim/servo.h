@@ -20,6 +20,7 @@
 #include "burr/edit/carve.h"
 #include "burr/edit/changed_queue.h"
 #include "burr/edit/chips.h"
+#include "burr/edit/mirror.h"
 #include "burr/edit/removal.h"
 #include "burr/edit/undo.h"
 #include "burr/haptics/energy_guard.h"
@@ -186,6 +187,7 @@ class Servo {
   bool fault_waits_ = false;              // a fault's ticks are to be copied out
   bool irrigated_ = false;                // coolant runs: for the worker that knows the heat
   bool deposited_ = false;                // material was put on in this session
+  edit::Mirror mirror_;                   // across which everything is done to the bone likewise
   double last_push_ = 0;                  // of touch alone, along the normal [N]
   edit::Cutting cutting_;                 // in the last tick
   math::Vec3 drag_ = math::Vec3::Zero();  // of the bone on the burr, as the hand gets it [N]

@@ -158,7 +158,7 @@ void Shapes::add(const Shape& shape, const Eigen::Matrix4d& world_from_shape, co
 const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
   if (!made_) make();
   pieces_.clear();
-  const math::Aabb ball = {{-1, -1, -1}, {1, 1, 1}}, tube = {{-1, -1, 0}, {1, 1, 1}};
+  const math::Aabb ball = {{-1, -1, -1}, {1, 1, 1}};
 
   const Burr& burr = scene.burr;
   if (burr.visible && burr.world_from_tool.finite()) {
@@ -177,19 +177,55 @@ const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
     add(ball_, placed({marker.p, math::Quat::Identity()}, marker.radius, marker.radius),
         marker.colour, false, marker.on_top, {ball});
   }
-  for (const Rod& rod : scene.rods) {
-    const Vec3 d = rod.b - rod.a;
-    const double length = d.norm();
-    if (!(length > 0) || !d.allFinite()) continue;
-    const math::Quat q = math::shortest_turn(Vec3::UnitZ(), d);
-    // an arrow's head takes its part of the length
-    const double head = rod.arrow ? std::min(6 * rod.radius, 0.6 * length) : 0;
-    add(rod_, placed({rod.a, q}, rod.radius, length - head), rod.colour, false, rod.on_top, {tube});
-    if (rod.arrow)
-      add(tip_, placed({rod.b - d * (head / length), q}, 2.4 * rod.radius, head), rod.colour, false,
-          rod.on_top, {tube});
-  }
+  for (const Rod& rod : scene.rods) add_rod(rod);
+  if (scene.mirrored) add_mirrored(*scene.mirrored, scene.burr);
   return pieces_;
+}
+
+void Shapes::add_rod(const Rod& rod) {
+  const math::Aabb tube = {{-1, -1, 0}, {1, 1, 1}};
+  const Vec3 d = rod.b - rod.a;
+  const double length = d.norm();
+  if (!(length > 0) || !d.allFinite()) return;
+  const math::Quat q = math::shortest_turn(Vec3::UnitZ(), d);
+  // an arrow's head takes its part of the length
+  const double head = rod.arrow ? std::min(6 * rod.radius, 0.6 * length) : 0;
+  add(rod_, placed({rod.a, q}, rod.radius, length - head), rod.colour, false, rod.on_top, {tube});
+  if (rod.arrow)
+    add(tip_, placed({rod.b - d * (head / length), q}, 2.4 * rod.radius, head), rod.colour, false,
+        rod.on_top, {tube});
+}
+
+// Lines alone, so that nobody takes the image for the burr: rings around its head, a stick for its
+// shaft, a frame around the plane; light and dark in turn, to be seen on bone and on air.
+void Shapes::add_mirrored(const Mirrored& mirrored, const Burr& burr) {
+  constexpr Colour kInks[] = {{1.0F, 0.98F, 0.80F}, {0.05F, 0.06F, 0.10F}};
+  constexpr int kAround = 20, kAlong = 6, kDashes = 18;
+  const auto line = [&](const Vec3& from, const Vec3& to, int n) {
+    add_rod({from, to, mirrored.line, kInks[n % 2], false, true});
+  };
+  const math::Pose& at = mirrored.world_from_tool;
+  if (burr.visible && at.finite()) {
+    for (int ring = 0; ring < 3; ++ring) {
+      const auto point = [&](int n) {
+        Vec3 p = Vec3::Zero();
+        p[(ring + 1) % 3] = burr.radius * std::cos(2 * kPi * n / kAround);
+        p[(ring + 2) % 3] = burr.radius * std::sin(2 * kPi * n / kAround);
+        return at * p;
+      };
+      for (int n = 0; n < kAround; ++n) line(point(n), point(n + 1), n);
+    }
+    const double end = std::min(burr.shaft_length, 12 * burr.radius);
+    const auto along = [&](int n) {
+      return at * Vec3(0, 0, burr.radius + (end - burr.radius) * n / kAlong);
+    };
+    for (int n = 0; n < kAlong; ++n) line(along(n), along(n + 1), n);
+  }
+  for (std::size_t side = 0; side < 4; ++side) {
+    const Vec3& from = mirrored.corners[side];
+    const Vec3 way = (mirrored.corners[(side + 1) % 4] - from) / kDashes;
+    for (int n = 0; n < kDashes; ++n) line(from + n * way, from + (n + 1) * way, n);
+  }
 }
 
 }  // namespace burr::render::gl

@@ -47,6 +47,9 @@ class Shapes {
   void add(const Shape& shape, const Eigen::Matrix4d& world_from_shape, const Colour& colour,
            bool steel, bool on_top, const std::vector<math::Aabb>& boxes_shape);
 
+  void add_rod(const Rod& rod);
+  void add_mirrored(const Mirrored& mirrored, const Burr& burr);
+
   Shape ball_, head_, rod_, tip_, shaft_;
   bool made_ = false;
   double shaft_of_[3] = {0, 0, 0};  // radius, shaft_radius, shaft_length it was made for
