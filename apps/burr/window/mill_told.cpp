@@ -103,6 +103,7 @@ void Mill::note(std::string text) {
 void Mill::tell() {
   if (Clock::now() - said_ < std::chrono::milliseconds(200)) return;
   said_ = Clock::now();
+  for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
   const std::string flags = flag_words(row_.contact.flags);
   desk_.renderer().title(
       fmt::format("burr - removed {:.1f} mm^3 - force {:.2f} N - tick p99 {:.0f} us{}{}",

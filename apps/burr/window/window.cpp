@@ -41,7 +41,7 @@ Result<Left> Mill::run() {
   if (!saved_views_->trouble().empty()) note(saved_views_->trouble());
   export_.emplace(desk_, session_, scene_, options_.folder);
   colours_ = scene_.tissue_colours;
-  SDL_GetMouseState(&mouse_x_, &mouse_y_);  // before it moves
+  desk_.mouse(mouse_x_, mouse_y_);  // before it moves
   aim_at_mouse();
   session_.start();
   const Clock::time_point start = Clock::now();
