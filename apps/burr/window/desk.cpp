@@ -36,6 +36,7 @@ Result<std::unique_ptr<Desk>> Desk::open(const DeskPlaces& places) {
     desk->troubles = std::move(read.troubles);
   }
   speak(desk->settings.language);
+  desk->headset_wanted = desk->settings.headset;
   desk->asked_quads_ = desk->settings.stereo == render::Stereo::quad_buffer;
   auto renderer = render::Renderer::window("burr", 1280, 720, desk->asked_quads_);
   if (!renderer) return renderer.error();
@@ -147,6 +148,7 @@ Status Desk::renew() {
   // video stays while there is no window, and with it the events on their way
   const bool held = SDL_InitSubSystem(SDL_INIT_VIDEO) == 0;
   ui_.reset();
+  headset.reset();
   renderer_.reset();
   asked_quads_ = settings.stereo == render::Stereo::quad_buffer;
   auto renderer = render::Renderer::window("burr", wide, high, asked_quads_);

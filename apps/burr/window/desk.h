@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "burr/base/result.h"
+#include "burr/render/headset.h"
 #include "burr/render/renderer.h"
 #include "window/settings.h"
 #include "window/ui.h"
@@ -43,6 +44,9 @@ class Desk {
   std::string told;                   // what went wrong, on the start and import pages
   std::string said;                   // while milling: what must be known, or was done last
   std::function<void()> after_frame;  // whoever wants to look on, after each picture
+  // Worn while milling; gone when the window is made anew.
+  std::unique_ptr<render::Headset> headset;
+  bool headset_wanted = false;  // by the settings or the command line, until one was tried in vain
   // After a change: in effect, and written down.
   void settings_changed();
 

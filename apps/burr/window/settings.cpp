@@ -54,6 +54,8 @@ constexpr std::array kFields = {
           &Settings::stereo_depth, nullptr, nullptr, 0.1, 3},
     Field{"swap_eyes", "left and right changed over, for screens that show them so", nullptr,
           &Settings::swap_eyes},
+    Field{"headset", "a headset by OpenXR, where there is one; as `burr run --xr`", nullptr,
+          &Settings::headset},
     Field{"panels", "shown at the start; Tab hides them", nullptr, &Settings::panels},
     Field{"help", "keys and mouse are shown at the start", nullptr, &Settings::help},
     Field{"autosave", "sessions at the window are recorded, so that they can be continued", nullptr,

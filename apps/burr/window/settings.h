@@ -30,6 +30,7 @@ struct Settings {
   bool effects = true;         // bone freshly cut and wet looks so for a while
   render::Stereo stereo = render::Stereo::off;
   double stereo_depth = 1;    // how far the eyes are apart; 1: as `burr picture` has it
+  bool headset = false;       // by OpenXR, where there is one
   bool swap_eyes = false;     // for screens that have left and right the other way round
   bool panels = true;         // shown at the start
   bool help = false;          // shown at the start

@@ -92,7 +92,7 @@ class Lines {
 }  // namespace
 
 SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file) {
-  const float u = ui.unit(), w = 900 * u, h = 550 * u;
+  const float u = ui.unit(), w = 900 * u, h = 582 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
   ui.page("##settings", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::settings_title));
@@ -120,6 +120,7 @@ SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file) 
   right.stereo(settings.stereo);
   right.number(Word::set_stereo_depth, "stereo_depth", settings.stereo_depth, "%.2f x");
   right.yes(Word::set_swap_eyes, "swap_eyes", settings.swap_eyes);
+  right.yes(Word::set_headset, "headset", settings.headset);
   ui.write(x + 28 * u, y + h - 34 * u, Ui::Letter::small, ink::kDim,
            file.empty() ? word(Word::set_not_kept) : say(Word::set_file, file));
   SettingsPage page;

@@ -49,6 +49,8 @@ class Renderer {
   // that `over` draws twice. A quad_buffer that is not there is shown as off.
   Status show(const Scene& scene, const TwoEyes& eyes, const std::function<void()>& over = {});
   void title(const std::string& text);
+  // For whoever draws with OpenGL of its own.
+  void make_current();
 
   // Leave out patches of bone that others hide (on by default; only a software renderer does). The
   // picture is the same either way.
@@ -59,12 +61,19 @@ class Renderer {
   [[nodiscard]] int height() const;
   void resize_offscreen(int width, int height);
 
+  // Into a texture of OpenGL's of that size, whose picture begins at the bottom: for a headset's
+  // left (0) and right (1) eye. Each has a held picture of its own, beside the window's.
+  Status eye(const Scene& scene, int which, unsigned texture, int width, int height);
+  // Whether show() waits for the screen, as it does at first; a headset has a pace of its own.
+  void wait_for_screen(bool on);
+
   // The window has a picture for each eye.
   [[nodiscard]] bool quad_buffer() const;
 
   // "llvmpipe (LLVM 15.0.6, 256 bits)"
   [[nodiscard]] std::string gpu() const;
   [[nodiscard]] bool software() const;  // the processor draws
+  [[nodiscard]] bool es() const;        // OpenGL ES, see Api
   // Nothing is left to be made good of what scene.quality left out: the next picture of the same
   // scene is this one.
   [[nodiscard]] bool refined() const;

@@ -113,6 +113,10 @@ bool Context::software() const {
 
 void Context::make_current() { SDL_GL_MakeCurrent(static_cast<SDL_Window*>(window_), gl_); }
 void Context::swap() { SDL_GL_SwapWindow(static_cast<SDL_Window*>(window_)); }
+void Context::wait_for_screen(bool on) {
+  make_current();
+  if (visible_) SDL_GL_SetSwapInterval(on ? 1 : 0);
+}
 void Context::title(const std::string& text) {
   SDL_SetWindowTitle(static_cast<SDL_Window*>(window_), text.c_str());
 }

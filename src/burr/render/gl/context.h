@@ -24,6 +24,7 @@ class Context {
 
   void make_current();
   void swap();
+  void wait_for_screen(bool on);
   void title(const std::string& text);
   void size(int& width, int& height) const;  // of the drawing area  [pixel]
 

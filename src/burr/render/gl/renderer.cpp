@@ -125,7 +125,8 @@ struct Renderer::Work {
     std::vector<Aabb> changed;
     bool started = false;  // its programs are linked
   };
-  std::array<Eye, 1> others;
+  std::array<Eye, 3> others;  // the window's second, a headset's two
+  gl::Framebuffer headset;
   int eye = 0;
   bool started = false;
   gl::Join join;
@@ -755,6 +756,34 @@ Status Renderer::show(const Scene& scene, const TwoEyes& eyes, const std::functi
   return fine();
 }
 
+Status Renderer::eye(const Scene& scene, int which, unsigned texture, int width, int height) {
+  Work& w = *work_;
+  w.context->make_current();
+  const Figures so_far = w.figures;
+  w.update(scene);
+  Status drawn = w.look_with(2 + which);
+  if (drawn) drawn = w.draw(scene, width, height);
+  if (drawn) {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, w.headset.make());
+    glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, w.sheet.at.get());
+    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    // the texture is its owner's again
+    glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glFlush();
+  }
+  if (const Status back = w.look_with(0); drawn && !back) drawn = back;
+  w.figures.redrawn = std::max(w.figures.redrawn, so_far.redrawn);
+  w.figures.patches_uploaded += so_far.patches_uploaded;
+  w.figures.patches_drawn += so_far.patches_drawn;
+  w.figures.triangles_drawn += so_far.triangles_drawn;
+  return drawn;
+}
+
+void Renderer::wait_for_screen(bool on) { work_->context->wait_for_screen(on); }
+void Renderer::make_current() { work_->context->make_current(); }
+bool Renderer::es() const { return work_->context->es(); }
 bool Renderer::quad_buffer() const { return work_->context->quad_buffer(); }
 
 void Renderer::skip_hidden(bool on) { work_->skip_hidden = on; }
