@@ -29,18 +29,23 @@ class TwoEyes : public Window {
     auto renderer = render::Renderer::offscreen();
     EXPECT_TRUE(renderer);
     const int wide = desk_->renderer().width(), high = desk_->renderer().height();
+    (*renderer)->resize_offscreen(wide, high);
     render::Scene one = scene;
+    one.quality = {};
+    one.quality.scale = scene.quality.scale;  // as few samples as a busy machine allows
+    const auto made = [&](const render::Camera& camera) {
+      one.camera = camera;
+      EXPECT_TRUE((*renderer)->show(one));
+      return (*renderer)->shown();
+    };
     render::Image wanted;
     const render::TwoEyes eyes = desk_->eyes(scene.camera);
     const render::Eyes cameras = render::eyes_of(scene.camera, scene.camera.distance / 30);
     EXPECT_NEAR(eyes.apart, scene.camera.distance / 30, 1e-12) << "as burr picture has it";
     if (how == Stereo::off) {
-      wanted = *(*renderer)->image(one, wide, high);
+      wanted = made(scene.camera);
     } else {
-      one.camera = cameras.left;
-      const render::Image left = *(*renderer)->image(one, wide, high);
-      one.camera = cameras.right;
-      const render::Image right = *(*renderer)->image(one, wide, high);
+      const render::Image left = made(cameras.left), right = made(cameras.right);
       // the window may begin on an odd row of the screen
       wanted = how == Stereo::interleaved && eyes.first_row % 2 == 1
                    ? render::joined(right, left, how)
@@ -90,9 +95,9 @@ TEST_F(TwoEyes, MouseFindsTheBoneInEitherHalf) {
   std::optional<math::Vec3> left, middle;
   const auto rests = [&scene, at = math::Vec3(0, 0, 0), n = 0]() mutable {
     const math::Vec3 now = scene.burr.world_from_tool.p;
-    n = (now - at).norm() < 2e-6 ? n + 1 : 0;
+    n = (now - at).norm() < 2e-5 ? n + 1 : 0;
     at = now;
-    return n > 25;
+    return n > 15;
   };
   mill_by(*ready,
           {{"the start", looks(3), [] { move_to(320 + 15, 400); }},

@@ -29,7 +29,7 @@ void block(const Ui& ui, float x, float& y, Word title, const Rows& rows) {
 }  // namespace
 
 bool draw_help(Ui& ui, bool left_handed) {
-  const float u = ui.unit(), w = 920 * u, h = 557 * u;
+  const float u = ui.unit(), w = 920 * u, h = 580 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
   ui.page("##help", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::help_title));

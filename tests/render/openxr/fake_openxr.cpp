@@ -120,6 +120,8 @@ XrResult xrDestroyInstance(XrInstance instance) {
   DEMAND(instance == kInstance && g_fake->instances == 1, XR_ERROR_HANDLE_INVALID);
   DEMAND(g_fake->sessions == 0, XR_ERROR_HANDLE_INVALID);
   --g_fake->instances;
+  g_world->requirements = g_world->attached = false;
+  g_world->actions.clear();
   return XR_SUCCESS;
 }
 

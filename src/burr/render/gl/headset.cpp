@@ -140,6 +140,7 @@ struct Headset::Work {
   void lose(std::string because);
   void locate(Headset::Now& now);
   bool draw(int eye, const Scene& scene);
+  void end_frame(const std::array<XrCompositionLayerProjectionView, 2>* parts);
   bool stop_waiting();
   void close();
 };
@@ -579,18 +580,22 @@ void Headset::end(const Scene& scene, const std::array<Camera, 2>& cameras) {
       part.subImage.imageRect.extent = {w.screens[eye].width, w.screens[eye].height};
     }
   }
-  if (w.over) return;
+  if (!w.over) w.end_frame(drawn ? &parts : nullptr);
+}
+
+// Every frame begun is ended, whatever became of its pictures; nullptr: of nothing.
+void Headset::Work::end_frame(const std::array<XrCompositionLayerProjectionView, 2>* parts) {
   auto layer = made<XrCompositionLayerProjection>(XR_TYPE_COMPOSITION_LAYER_PROJECTION);
-  layer.space = w.room;
+  layer.space = room;
   layer.viewCount = 2;
-  layer.views = parts.data();
+  layer.views = parts != nullptr ? parts->data() : nullptr;
   const auto* const layers = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer);
   auto info = made<XrFrameEndInfo>(XR_TYPE_FRAME_END_INFO);
-  info.displayTime = w.due;
-  info.environmentBlendMode = w.blend;
-  info.layerCount = drawn ? 1 : 0;
-  info.layers = drawn ? &layers : nullptr;
-  static_cast<void>(w.good("EndFrame", w.xr.EndFrame(w.session, &info)));
+  info.displayTime = due;
+  info.environmentBlendMode = blend;
+  info.layerCount = parts != nullptr ? 1 : 0;
+  info.layers = parts != nullptr ? &layers : nullptr;
+  static_cast<void>(good("EndFrame", xr.EndFrame(session, &info)));
 }
 
 // ---- the object
@@ -624,6 +629,7 @@ void Headset::Work::close() {
     else
       thread.detach();  // what it waits for must stay, then
   }
+  if (std::exchange(begun, false) && !over) end_frame(nullptr);
   if (!came_back || instance == XR_NULL_HANDLE || xr.DestroyInstance == nullptr) return;
   if (wand != XR_NULL_HANDLE) xr.DestroySpace(wand);
   if (room != XR_NULL_HANDLE) xr.DestroySpace(room);
