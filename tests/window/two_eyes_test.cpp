@@ -92,7 +92,7 @@ TEST_F(TwoEyes, MouseFindsTheBoneInEitherHalf) {
   ASSERT_TRUE(ready) << ready.error().text;
   const render::Scene& scene = ready->scene;
   desk_->settings.stereo = Stereo::side_by_side;
-  std::optional<math::Vec3> left, middle;
+  std::optional<math::Vec3> left;
   const auto rests = [&scene, at = math::Vec3(0, 0, 0), n = 0]() mutable {
     const math::Vec3 now = scene.burr.world_from_tool.p;
     n = (now - at).norm() < 2e-5 ? n + 1 : 0;
