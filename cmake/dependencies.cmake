@@ -10,6 +10,7 @@ find_package(ZLIB REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(SDL2 REQUIRED IMPORTED_TARGET sdl2)
+find_path(BURR_OPENXR_INCLUDE openxr/openxr.h REQUIRED)  # headers only: the loader is opened at run time
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)  # the window's panels; of the program only
 find_package(tomlplusplus QUIET)
 if(NOT tomlplusplus_FOUND)

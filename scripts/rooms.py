@@ -4,7 +4,7 @@
     scripts/rooms.py [ROOT]               ROOT: the folder that holds src/burr; default: this checkout
 
 Fails on a room that is not listed, an arrow that is not listed, two rooms in a circle, and a third-party header
-where it does not belong: graphics only in render/gl, the loudspeaker only in sound, file formats only in io, a vendor's
+where it does not belong: graphics and headsets only in render/gl, the loudspeaker only in sound, file formats only in io, a vendor's
 only in its own folder.
 """
 import collections
@@ -50,6 +50,7 @@ ONLY = {
 # Third-party headers and the folders that may include them.
 ELSEWHERE = [
     (r"(GL|GLES\d?|EGL|epoxy|GLFW)/|SDL(2/SDL)?_(open|video|render|vulkan)", ["render/gl"], "graphics"),
+    (r"openxr/", ["render/gl"], "a headset"),
     (r"SDL", ["render/gl", "sound"], "graphics and sound"),
     (r"itk|gdcm|assimp/|vtk", ["io"], "a file format's library"),
     (r"HD/hd|HDU|openhaptics|dhdc|drdc|chai3d|haply", None, "a vendor's library"),  # device/<vendor> only

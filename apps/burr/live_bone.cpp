@@ -34,7 +34,7 @@ double LiveBone::now() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
 }
 
-void LiveBone::update() {
+void LiveBone::update(const render::Camera* eye) {
   worker_.hold_back(load() >= sim::Load::mesh);
   skins_.clear();
   surface::Skin skin;
@@ -46,7 +46,7 @@ void LiveBone::update() {
   }
   coarse_.hold_back(load() >= sim::Load::picture);
   coarse_.update(scene_, now());
-  scene_.quality = governor_.begin(scene_.camera, now());
+  scene_.quality = governor_.begin(eye != nullptr ? *eye : scene_.camera, now());
   wound_.renew(scene_, now());
 }
 

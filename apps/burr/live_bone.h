@@ -32,8 +32,9 @@ class LiveBone {
   LiveBone(const volume::Bone& bone, surface::Worker& worker, render::Scene& scene, bool software);
 
   // Patches that are ready go into the scene, as many as a frame bears; surface and coarse blocks
-  // are held back where the machine does not keep up with the hand.
-  void update();
+  // are held back where the machine does not keep up with the hand. eye: that looks in place of the
+  // scene's camera, a headset's.
+  void update(const render::Camera* eye = nullptr);
   // What the tool does to the look of the bone; before update(). nothing: the bone as ever.
   void see(const render::Wound::Tick& tick) { wound_.see(tick); }
   void see(const Traces::Told& told) { told.show(wound_); }

@@ -40,7 +40,7 @@ struct Options {
   WorkOptions work;
   std::string out, screenshot;
   double seconds = 0;
-  bool headless = false, no_sound = false;
+  bool headless = false, no_sound = false, xr = false;
 };
 
 // A display that SDL could open a window on.
@@ -177,6 +177,7 @@ Status run_in_window(const Options& options) {
   }
   auto desk = Desk::open(users_places());
   if (!desk) return desk.error();
+  (*desk)->headset_wanted = (*desk)->headset_wanted || options.xr;
   if (options.work.volume.path.empty())
     return run_pages(**desk, {options.seconds, options.out, options.screenshot, !options.no_sound});
 
@@ -273,6 +274,8 @@ void add(CLI::App& app, Todo& todo) {
   command->add_option("--burr-mm", options->work.burr_mm,
                       "diameter of the burr; default: the case's, else 5");
   command->add_flag("--no-sound", options->no_sound, "the window makes no sound");
+  command->add_flag("--xr", options->xr, "wear a headset: OpenXR, where there is one")
+      ->excludes("--headless");
   command->add_option("--rpm", options->work.rpm,
                       "of the spindle; default: the case's, else 40000");
   add_volume_options(*command, options->work.volume);

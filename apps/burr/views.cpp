@@ -142,7 +142,7 @@ Status draw_view(render::Scene scene, volume::Bone& bone, const Vec3& at, const 
   const auto stereo = named(kStereo, options.stereo).value_or(render::Stereo::off);
   if (stereo == render::Stereo::off)
     return render::render_png(scene, size.width, size.height, file);
-  const render::Eyes eyes = render::eyes_of(camera, camera.distance / 30);
+  const render::Eyes eyes = render::eyes_of(camera, render::kComfortable * camera.distance);
   scene.camera = eyes.left;
   const auto left = render::render_image(scene, size.width, size.height);
   if (!left) return left.error();

@@ -16,6 +16,7 @@ GOOD = {
     "device/hand.h": "",
     "haptics/proxy.cpp": '#include "burr/volume/bone.h"\n#include "burr/device/hand.h"\n',
     "render/gl/draw.cpp": "#include <epoxy/gl.h>\n#include <SDL.h>\n",
+    "render/gl/worn.cpp": "#include <openxr/openxr.h>\n",
     "sound/speaker.cpp": '#include <SDL2/SDL.h>\n#include "burr/rt/ring.h"\n',
     "io/dicom.cpp": "#include <itkImage.h>\n",
 }
@@ -72,6 +73,7 @@ class Rooms(unittest.TestCase):
         self.bad("render/scene.cpp", "#include <epoxy/gl.h>\n", "graphics belongs into render/gl")
         self.bad("sound/screen.cpp", "#include <epoxy/gl.h>\n", "graphics belongs into render/gl")
         self.bad("sound/screen.cpp", "#include <SDL2/SDL_opengl.h>\n", "graphics belongs into render/gl")
+        self.bad("device/worn.cpp", "#include <openxr/openxr.h>\n", "a headset belongs into render/gl")
         self.bad("sim/window.cpp", "#include <SDL2/SDL.h>\n", "graphics and sound belongs into render/gl or sound")
 
     def test_sound_knows_no_session(self):

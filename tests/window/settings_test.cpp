@@ -40,6 +40,10 @@ TEST_F(SettingsFile, ComesBackAsItWasWrittenWithEveryValueChanged) {
   s.turn_pace = 0.5;
   s.zoom_pace = 2;
   s.effects = false;
+  s.stereo = render::Stereo::interleaved;
+  s.stereo_depth = 0.5;
+  s.swap_eyes = true;
+  s.headset = true;
   s.panels = false;
   s.help = true;
   s.autosave = false;
@@ -68,7 +72,7 @@ TEST_F(SettingsFile, IsExplainedLineByLine) {
     }
     before = line;
   }
-  EXPECT_EQ(set, 14);
+  EXPECT_EQ(set, 18);
 }
 
 TEST_F(SettingsFile, WhichIsNotThereMeansTheDefaultsWithoutTrouble) {
@@ -80,18 +84,19 @@ TEST_F(SettingsFile, WhichIsNotThereMeansTheDefaultsWithoutTrouble) {
 TEST_F(SettingsFile, NamesFileAndFieldOfWhatCannotBeAndTakesTheRest) {
   const SettingsRead read = parse_settings(
       "scale = 40\nleft_handed = true\nlanguage = \"klingon\"\npanels = 1\ncolour = 2\n"
-      "force_limit_n = nan\n",
+      "force_limit_n = nan\nstereo = \"both\"\n",
       "settings.toml");
   EXPECT_TRUE(read.settings.left_handed);
   EXPECT_EQ(read.settings.scale, 1);
   EXPECT_EQ(read.settings.force_limit_n, 3.3);
-  ASSERT_EQ(read.troubles.size(), 5U);
+  ASSERT_EQ(read.troubles.size(), 6U);
   for (const std::string& one : read.troubles)
     EXPECT_EQ(one.rfind("settings.toml: ", 0), 0U) << one;
   std::string all;
   for (const std::string& one : read.troubles) all += one + "\n";
   EXPECT_NE(all.find("scale: must be a number from 0.5 to 3"), std::string::npos) << all;
   EXPECT_NE(all.find("language: must be \"english\" or \"swedish\""), std::string::npos) << all;
+  EXPECT_NE(all.find("stereo: must be \"off\", \"side_by_side\""), std::string::npos) << all;
   EXPECT_NE(all.find("panels: must be true or false"), std::string::npos) << all;
   EXPECT_NE(all.find("colour: is no setting of this version"), std::string::npos) << all;
 }

@@ -66,6 +66,7 @@ bool draw_help(Ui& ui, bool left_handed) {
   block(ui, x + 480 * u, right, Word::help_program,
         {{"Tab", Word::help_hide},
          {"F2", Word::help_settings},
+         {"F3", Word::help_stereo},
          {"S", Word::key_save},
          {"P", Word::help_picture},
          {"E", Word::export_help},

@@ -1,12 +1,14 @@
 // apps/burr/window/mill.h - the page one works on, as one object: what a picture needs of the user,
 // the session and the bone. Its parts are window.cpp (picture after picture), mill_hand.cpp (what
-// the user does) and mill_told.cpp (what the user is told); nothing else includes this.
+// the user does), mill_headset.cpp (whoever wears one) and mill_told.cpp (what the user is told);
+// nothing else includes this.
 //
 // Thread: main. Frame: world. Units: SI.
 #pragma once
 
 #include <SDL2/SDL.h>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -14,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "burr/render/governor.h"
 #include "burr/rt/stats.h"
 #include "window/export_page.h"
 #include "window/hud.h"
@@ -81,6 +84,13 @@ class Mill {
            !desk_.ui().over_panel() && !over_slices();
   }
 
+  // ---- mill_headset.cpp
+  void look_for_headset();
+  void begin_headset(render::FrameGovernor& governor);
+  void end_headset();
+  void take_off_headset();
+  void point_wand();
+
   // ---- mill_told.cpp
   void look_at_session();
   void look_at_burr();
@@ -108,6 +118,11 @@ class Mill {
   bool leaves_ = false;  // though a file is still being written
   bool irrigated_ = false;
   bool slices_shown_ = true, labels_ = true, pulls_window_ = false;
+  bool headset_on_ = false, wand_ = false;    // it was there; the wand is the hand
+  std::optional<render::Headset::Now> seen_;  // the frame begun
+  std::array<render::Camera, 2> headset_cameras_;
+  render::Wand wand_at_;
+  Clock::time_point window_drawn_{};
   std::vector<render::Colour> colours_;   // of the tissues, while labels are shown
   bool pressing_ = false, held_ = false;  // by the button; by the space bar
   int mouse_x_ = 0, mouse_y_ = 0, width_ = 1, height_ = 1;

@@ -352,6 +352,7 @@ void Mill::move(const SDL_MouseMotionEvent& motion) {
 
 // Aims the arm: above the bone under the mouse, or into it while the button is down.
 void Mill::point() {
+  if (wand_) return point_wand();
   if (SDL_Window* window = SDL_GL_GetCurrentWindow()) SDL_GetWindowSize(window, &width_, &height_);
   const render::Ray ray =
       render::ray_through(scene_.camera, aim_x_ + 0.5, aim_y_ + 0.5, width_, height_);

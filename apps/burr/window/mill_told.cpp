@@ -104,6 +104,7 @@ void Mill::note(std::string text) {
 void Mill::tell() {
   if (Clock::now() - said_ < std::chrono::milliseconds(200)) return;
   said_ = Clock::now();
+  for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
   const std::string flags = flag_words(row_.contact.flags);
   desk_.renderer().title(
       fmt::format("burr - removed {:.1f} mm^3 - force {:.2f} N - tick p99 {:.0f} us{}{}",
@@ -127,7 +128,7 @@ HudState Mill::hud() const {
   s.device_limit = session_.hand().spec().peak_force;
   s.press = press_;
   s.press_most = kPressMost;
-  s.pressing = pressing();
+  s.pressing = wand_ ? wand_at_.tracked && wand_at_.trigger > 0 : pressing();
   s.speed = row_.spindle_rad_s;
   s.full_speed = full_speed_;
   if (settings.servo.motor.torque > 0)
@@ -171,11 +172,13 @@ void Mill::panels() {
   if (export_->shown()) export_->draw();
   if (!settings_page_) return;
   const double limit = desk_.settings.force_limit_n;
+  const bool worn = desk_.settings.headset;
   const std::filesystem::path& config = desk_.places().config;
   const SettingsPage page = draw_settings(
       ui, desk_.settings, config.empty() ? std::string() : (config / "settings.toml").string());
   if (desk_.settings.force_limit_n != limit)
     session_.wish({record::WishKind::user_force, desk_.settings.force_limit_n});
+  if (desk_.settings.headset != worn) desk_.headset_wanted = desk_.settings.headset;
   if (page.changed) {
     desk_.settings_changed();
     press_ = std::clamp(1e-3 * desk_.settings.press_mm, kPressLeast, kPressMost);

@@ -3,21 +3,23 @@
 #include <algorithm>
 
 namespace burr::app {
-namespace {
-
-constexpr double kPace = 0.25;  // of the aim: a brisk hand  [m/s]
-
-}  // namespace
-
-MouseHand::MouseHand(const math::Pose& start) : gliding_(start.p), p_(start.p) {
+MouseHand::MouseHand(const math::Pose& start) : gliding_(start.p), q_(start.q), p_(start.p) {
   aim_.world_from_tool = start;
   spec_.name = "mouse";
 }
 
 device::HandState MouseHand::state(double dt) BURR_RT {
   static_cast<void>(aims_.take(aim_));
+  if (!aim_.valid || !aim_.world_from_tool.finite()) {  // the arm waits where it is
+    velocity_.setZero();
+    device::HandState hand;
+    hand.world_from_tool = aim_.valid ? aim_.world_from_tool : math::Pose{p_, q_};
+    hand.valid = aim_.valid;
+    return hand;
+  }
+  q_ = aim_.world_from_tool.q;
   const math::Vec3 way = aim_.world_from_tool.p - gliding_;
-  const double far = way.norm(), most = kPace * dt;
+  const double far = way.norm(), most = aim_.pace * dt;
   gliding_ += far > most ? math::Vec3(way * (most / far)) : way;
 
   // semi-implicit Euler in four steps: stable at every rate burr allows

@@ -1,11 +1,12 @@
-// apps/burr/window/mouse_hand.h - the hand of somebody with only a mouse: an arm that follows where
-// the mouse points.
+// apps/burr/window/mouse_hand.h - the hand at the window: an arm that follows where the mouse
+// points, or what a headset's wearer holds.
 //
 //     main --aim(target)--> Latest --> servo: state() moves a mass on a spring and a damper
 //
 // The arm is that of device/simulated_hand.h; its aim glides no faster than a hand does, so that a
-// mouse that leaps over the picture does not throw the burr. Thread: aim() main; state() and
-// write_force() servo. Frame: world. Units: SI.
+// mouse that leaps over the picture does not throw the burr. What is not a place, or lost, is
+// handed on as such: the safety layer (haptics/limit.h) judges it, not the hand. Thread: aim()
+// main; state() and write_force() servo. Frame: world. Units: SI.
 #pragma once
 
 #include <atomic>
@@ -18,10 +19,14 @@ namespace burr::app {
 
 class MouseHand final : public device::Device {
  public:
+  // how fast the aim may glide: of a mouse, a brisk hand; what is held is where it is  [m/s]
+  static constexpr double kMousePace = 0.25, kWandPace = 1.5;
   // Where the arm is drawn to.
   struct Aim {
     math::Pose world_from_tool;
     double pedal = 0;  // 0..1
+    double pace = kMousePace;
+    bool valid = true;  // false: nobody knows where the hand is
   };
 
   // start: where the hand is when the session begins; in the air
@@ -43,6 +48,7 @@ class MouseHand final : public device::Device {
   // the servo's own
   Aim aim_;
   math::Vec3 gliding_ = math::Vec3::Zero();  // the aim, at a hand's pace
+  math::Quat q_ = math::Quat::Identity();
   math::Vec3 p_ = math::Vec3::Zero(), velocity_ = math::Vec3::Zero(), force_ = math::Vec3::Zero();
   std::atomic<double> scale_ = 1.0;
 };

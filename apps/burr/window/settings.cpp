@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <safe_toml.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <system_error>
 
 #include "burr/base/check.h"
@@ -17,13 +19,14 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = 1U << 16;  // a page of settings  [byte]
 
-// One line of the file. Exactly one of the three is set.
+// One line of the file. Exactly one of the four is set.
 struct Field {
   const char *key, *means;
   double Settings::*number = nullptr;
   bool Settings::*yes = nullptr;
   Language Settings::*language = nullptr;
   double least = 0, most = 0;
+  render::Stereo Settings::*stereo = nullptr;
 };
 
 constexpr std::array kFields = {
@@ -42,6 +45,17 @@ constexpr std::array kFields = {
     Field{"zoom_pace", "by wheel and two fingers", &Settings::zoom_pace, nullptr, nullptr, 0.1, 5},
     Field{"effects", "what milling leaves on bone for a while: fresh faces, water, dust, blood",
           nullptr, &Settings::effects},
+    Field{"stereo",
+          "two eyes: \"off\", \"side_by_side\", \"anaglyph\", \"line_interleaved\" or "
+          "\"quad_buffer\"; F3 goes on to the next",
+          nullptr, nullptr, nullptr, 0, 0, &Settings::stereo},
+    Field{"stereo_depth",
+          "how far the two eyes are apart; 1 is a thirtieth of the distance to what is looked at",
+          &Settings::stereo_depth, nullptr, nullptr, 0.1, 3},
+    Field{"swap_eyes", "left and right changed over, for screens that show them so", nullptr,
+          &Settings::swap_eyes},
+    Field{"headset", "a headset by OpenXR, where there is one; as `burr run --xr`", nullptr,
+          &Settings::headset},
     Field{"panels", "shown at the start; Tab hides them", nullptr, &Settings::panels},
     Field{"help", "keys and mouse are shown at the start", nullptr, &Settings::help},
     Field{"autosave", "sessions at the window are recorded, so that they can be continued", nullptr,
@@ -53,6 +67,9 @@ constexpr std::array kFields = {
     Field{"recent_names", "names of your own scans in lists and titles; they may be a patient's",
           nullptr, &Settings::recent_names},
 };
+
+constexpr const char* kStereoNames[] = {"off", "side_by_side", "anaglyph", "line_interleaved",
+                                        "quad_buffer"};
 
 const char* name_of(Language language) {
   return language == Language::swedish ? "swedish" : "english";
@@ -69,6 +86,13 @@ std::string take(const Field& field, const toml::node& node, Settings& settings)
     if (!value || !(*value >= field.least) || !(*value <= field.most))
       return fmt::format("must be a number from {:g} to {:g}", field.least, field.most);
     settings.*field.number = *value;
+  } else if (field.stereo != nullptr) {
+    const std::string value = node.value_exact<std::string>().value_or("");
+    const auto* const found = std::find(std::begin(kStereoNames), std::end(kStereoNames), value);
+    if (found == std::end(kStereoNames))
+      return "must be \"off\", \"side_by_side\", \"anaglyph\", \"line_interleaved\" or "
+             "\"quad_buffer\"";
+    settings.*field.stereo = static_cast<render::Stereo>(found - std::begin(kStereoNames));
   } else {
     const auto value = node.value_exact<std::string>();
     if (!value || (*value != "english" && *value != "swedish"))
@@ -79,6 +103,10 @@ std::string take(const Field& field, const toml::node& node, Settings& settings)
 }
 
 }  // namespace
+
+const char* name_of(render::Stereo stereo) {
+  return kStereoNames[static_cast<std::size_t>(stereo)];
+}
 
 SettingsRead parse_settings(std::string_view text, std::string_view file) {
   SettingsRead read;
@@ -123,7 +151,9 @@ std::string settings_text(const Settings& settings) {
     else if (field.yes != nullptr)
       text += fmt::format("\n{} = {}\n", field.key, settings.*field.yes);
     else
-      text += fmt::format("\n{} = \"{}\"\n", field.key, name_of(settings.*field.language));
+      text += fmt::format("\n{} = \"{}\"\n", field.key,
+                          field.stereo != nullptr ? name_of(settings.*field.stereo)
+                                                  : name_of(settings.*field.language));
   }
   return text;
 }

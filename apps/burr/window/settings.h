@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "burr/base/result.h"
+#include "burr/render/stereo.h"
 #include "window/words.h"
 
 namespace burr::app {
@@ -27,12 +28,16 @@ struct Settings {
   double turn_pace = 1;        // of the view, by mouse and arrows
   double zoom_pace = 1;        // by wheel and two fingers
   bool effects = true;         // bone freshly cut and wet looks so for a while
-  bool panels = true;          // shown at the start
-  bool help = false;           // shown at the start
-  bool autosave = true;        // sessions at the window are recorded
-  double sessions_kept = 10;   // at most so many of them
-  double sessions_mb = 2000;   // ... and together so large
-  bool recent_names = false;   // file names of one's own scans in lists and titles
+  render::Stereo stereo = render::Stereo::off;
+  double stereo_depth = 1;    // how far the eyes are apart; 1: as `burr picture` has it
+  bool headset = false;       // by OpenXR, where there is one
+  bool swap_eyes = false;     // for screens that have left and right the other way round
+  bool panels = true;         // shown at the start
+  bool help = false;          // shown at the start
+  bool autosave = true;       // sessions at the window are recorded
+  double sessions_kept = 10;  // at most so many of them
+  double sessions_mb = 2000;  // ... and together so large
+  bool recent_names = false;  // file names of one's own scans in lists and titles
 };
 
 struct SettingsRead {
@@ -49,6 +54,9 @@ struct SettingsRead {
 // Makes the folder. keep_old: what is there now goes to settings.toml.old first.
 [[nodiscard]] Status write_settings(const Settings& settings, const std::filesystem::path& path,
                                     bool keep_old);
+
+// "line_interleaved"; as the file has it.
+[[nodiscard]] const char* name_of(render::Stereo stereo);
 
 // What a setting may be, for the page that changes it.
 struct SettingRange {

@@ -62,6 +62,19 @@ class Lines {
     end();
   }
 
+  void stereo(render::Stereo& value) {
+    begin(Word::set_stereo);
+    constexpr Word kNames[] = {Word::stereo_off, Word::stereo_side_by_side, Word::stereo_anaglyph,
+                               Word::stereo_interleaved, Word::stereo_quad_buffer};
+    std::string all;
+    for (const Word name : kNames) all += std::string(word(name)) + '\0';
+    int now = static_cast<int>(value);
+    ImGui::SetNextItemWidth(200 * u_);
+    changed_ = ImGui::Combo("##stereo", &now, all.c_str()) || changed_;
+    value = static_cast<render::Stereo>(now);
+    end();
+  }
+
   [[nodiscard]] bool changed() const { return changed_; }
 
  private:
@@ -79,7 +92,7 @@ class Lines {
 }  // namespace
 
 SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file) {
-  const float u = ui.unit(), w = 900 * u, h = 490 * u;
+  const float u = ui.unit(), w = 900 * u, h = 582 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
   ui.page("##settings", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::settings_title));
@@ -101,8 +114,13 @@ SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file) 
   right.number(Word::set_turn, "turn_pace", settings.turn_pace, "%.1f x");
   right.number(Word::set_zoom, "zoom_pace", settings.zoom_pace, "%.1f x");
   right.yes(Word::set_effects, "effects", settings.effects);
-  right.heading(Word::set_privacy);
-  right.yes(Word::set_recent_names, "recent_names", settings.recent_names);
+  left.heading(Word::set_privacy);
+  left.yes(Word::set_recent_names, "recent_names", settings.recent_names);
+  right.heading(Word::set_two_eyes);
+  right.stereo(settings.stereo);
+  right.number(Word::set_stereo_depth, "stereo_depth", settings.stereo_depth, "%.2f x");
+  right.yes(Word::set_swap_eyes, "swap_eyes", settings.swap_eyes);
+  right.yes(Word::set_headset, "headset", settings.headset);
   ui.write(x + 28 * u, y + h - 34 * u, Ui::Letter::small, ink::kDim,
            file.empty() ? word(Word::set_not_kept) : say(Word::set_file, file));
   SettingsPage page;

@@ -175,8 +175,15 @@ void Ui::begin(int window_width, int window_height, int width, int height, doubl
 }
 
 void Ui::draw() {
-  ImGui::Render();
+  if (ImGui::GetDrawData() == nullptr) ImGui::Render();  // once, for two eyes as well
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Ui::own_pointer(bool on) {
+  ImGuiIO& io = ImGui::GetIO();
+  if (io.MouseDrawCursor == on) return;
+  io.MouseDrawCursor = on;
+  SDL_ShowCursor(on ? SDL_DISABLE : SDL_ENABLE);
 }
 
 float Ui::width() const { return ImGui::GetIO().DisplaySize.x; }

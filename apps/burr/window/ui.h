@@ -47,7 +47,9 @@ class Ui {
   // walked through by Tab and arrows.
   void begin(int window_width, int window_height, int width, int height, double user_scale,
              bool keys);
-  void draw();  // inside Renderer::show()
+  void draw();  // inside Renderer::show(), where it may come twice
+  // A pointer drawn among the panels, in place of the desktop's.
+  void own_pointer(bool on);
 
   [[nodiscard]] float unit() const { return unit_; }
   [[nodiscard]] float width() const;

@@ -41,7 +41,7 @@ Result<Left> Mill::run() {
   if (!saved_views_->trouble().empty()) note(saved_views_->trouble());
   export_.emplace(desk_, session_, scene_, options_.folder);
   colours_ = scene_.tissue_colours;
-  SDL_GetMouseState(&mouse_x_, &mouse_y_);  // before it moves
+  desk_.mouse(mouse_x_, mouse_y_);  // before it moves
   aim_at_mouse();
   session_.start();
   const Clock::time_point start = Clock::now();
@@ -54,16 +54,23 @@ Result<Left> Mill::run() {
       live.look_plain();
     else if (first_tick_)
       live.see(wound_tick(row_, session_.settings().servo.rate_hz, scene_.burr.radius, irrigated_));
+    begin_headset(live.governor());
     point();
     measure();
     if (std::string told = export_->step(); !told.empty()) note(std::move(told));
     tell();
     slices_->update(scene_, slices_shown_ && panels_, labels_, desk_.renderer().width(),
                     desk_.renderer().height(), static_cast<int>(hud_height(desk_.ui())));
-    live.update();
+    live.update(seen_ ? headset_cameras_.data() : nullptr);
     const Clock::time_point drawing = Clock::now();
-    shown = desk_.show(scene_, panels_ || page_open() || measuring_.on() ? [this] { panels(); }
-                                                                         : std::function<void()>());
+    // whoever wears a headset comes first; the window follows thirty times a second
+    if (!seen_ || drawing - window_drawn_ > std::chrono::milliseconds(30)) {
+      window_drawn_ = drawing;
+      shown =
+          desk_.show(scene_, panels_ || page_open() || measuring_.on() ? [this] { panels(); }
+                                                                       : std::function<void()>());
+    }
+    end_headset();
     live.drawn(std::chrono::duration<double>(Clock::now() - drawing).count(),
                desk_.renderer().figures().redrawn);
     picture_step_ = live.governor().step();
@@ -75,11 +82,13 @@ Result<Left> Mill::run() {
         std::chrono::microseconds(session_.load() >= sim::Load::picture ? 100'000 : 16'667);
     frame = std::max(frame + pause, Clock::now());
     const auto wait = std::chrono::duration_cast<std::chrono::milliseconds>(frame - Clock::now());
-    if (wait.count() > 0) SDL_Delay(static_cast<Uint32>(wait.count()));
+    const bool paced = desk_.headset != nullptr && desk_.headset->running();
+    if (wait.count() > 0 && !paced) SDL_Delay(static_cast<Uint32>(wait.count()));
     if (options_.seconds > 0 &&
         std::chrono::duration<double>(Clock::now() - start).count() >= options_.seconds)
       open_ = false;
   }
+  take_off_headset();
   export_.reset();
   session_.stop();
   scene_.insets.clear();

@@ -13,18 +13,33 @@ constexpr double kPole = 89.0 * std::numbers::pi / 180;  // as far up or down as
 constexpr double kNearest = 2e-3, kFarthest = 5;         // distance to the target  [m]
 }  // namespace
 
+bool same(const PlacedEye& a, const PlacedEye& b) {
+  return (a.world_from_eye.p.array() == b.world_from_eye.p.array()).all() &&
+         (a.world_from_eye.q.coeffs().array() == b.world_from_eye.q.coeffs().array()).all() &&
+         a.left == b.left && a.right == b.right && a.bottom == b.bottom && a.top == b.top;
+}
+
 Vec3 Camera::backward() const {
+  if (placed) return placed->world_from_eye.q * Vec3::UnitZ();
   return {std::cos(elevation) * std::sin(azimuth), -std::cos(elevation) * std::cos(azimuth),
           std::sin(elevation)};
 }
-Vec3 Camera::right() const { return {std::cos(azimuth), std::sin(azimuth), 0}; }
+Vec3 Camera::right() const {
+  if (placed) return placed->world_from_eye.q * Vec3::UnitX();
+  return {std::cos(azimuth), std::sin(azimuth), 0};
+}
 Vec3 Camera::above() const { return backward().cross(right()); }
+Vec3 Camera::eye() const {
+  if (placed) return placed->world_from_eye.p;
+  return target + distance * backward() + aside * right();
+}
 double Camera::view_height() const { return 2 * distance * std::tan(field_of_view / 2); }
 
 bool same(const Camera& a, const Camera& b) {
   return (a.target.array() == b.target.array()).all() && a.distance == b.distance &&
          a.azimuth == b.azimuth && a.elevation == b.elevation &&
-         a.field_of_view == b.field_of_view && a.aside == b.aside;
+         a.field_of_view == b.field_of_view && a.aside == b.aside &&
+         a.placed.has_value() == b.placed.has_value() && (!a.placed || same(*a.placed, *b.placed));
 }
 
 void orbit(Camera& camera, double azimuth_by, double elevation_by) {
@@ -97,6 +112,12 @@ Camera endoscope_view(const Vec3& tip, const Vec3& ahead) {
 }
 
 Ray ray_through(const Camera& camera, double x, double y, int width, int height) {
+  if (camera.placed) {
+    const PlacedEye& eye = *camera.placed;
+    const double right = eye.left + (eye.right - eye.left) * x / width;
+    const double up = eye.top + (eye.bottom - eye.top) * y / height;
+    return {camera.eye(), (eye.world_from_eye.q * Vec3(right, up, -1)).normalized()};
+  }
   const double t = std::tan(camera.field_of_view / 2);
   const double up = (1 - 2 * y / height) * t;
   const double right = (2 * x - width) / height * t - camera.aside / camera.distance;
@@ -117,8 +138,18 @@ Eigen::Matrix4d clip_from_view(const Camera& camera, double aspect, double near,
                                const Window& part) {
   const double t = near * std::tan(camera.field_of_view / 2);
   const double shift = camera.aside * near / camera.distance;
-  const double left = part.left * t * aspect - shift, right = part.right * t * aspect - shift;
-  const double bottom = part.bottom * t, top = part.top * t;
+  double left = part.left * t * aspect - shift, right = part.right * t * aspect - shift;
+  double bottom = part.bottom * t, top = part.top * t;
+  if (camera.placed) {
+    const PlacedEye& eye = *camera.placed;
+    const auto at = [near](double from, double to, double where) {
+      return near * (from + (to - from) * 0.5 * (where + 1));
+    };
+    left = at(eye.left, eye.right, part.left);
+    right = at(eye.left, eye.right, part.right);
+    bottom = at(eye.bottom, eye.top, part.bottom);
+    top = at(eye.bottom, eye.top, part.top);
+  }
   Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
   m(0, 0) = 2 * near / (right - left);
   m(0, 2) = (right + left) / (right - left);

@@ -5,11 +5,20 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 
 #include "burr/math/aabb.h"
+#include "burr/math/pose.h"
 
 namespace burr::render {
+
+// An eye that stands anywhere, tilted as it is, and sees as far to each side as a headset shows.
+struct PlacedEye {
+  math::Pose world_from_eye;                          // looks along -z, +y is up in the picture
+  double left = -1, right = 1, bottom = -1, top = 1;  // tangents of the angles from straight ahead
+};
+[[nodiscard]] bool same(const PlacedEye& a, const PlacedEye& b);
 
 struct Camera {
   math::Vec3 target = math::Vec3::Zero();  // is in the middle of the picture               [m]
@@ -19,13 +28,16 @@ struct Camera {
   double field_of_view = 0.5;              // from bottom to top of the picture             [rad]
   double aside = 0;  // of this eye from the middle, to the right: what lies as deep as the target
                      // stays where it is, so that two eyes make a stereo picture           [m]
+  // in place of the sphere: only target and distance remain what they were, and field_of_view is
+  // that of `placed`
+  std::optional<PlacedEye> placed = {};
 
   // Unit vectors: from the target to the eye; to the right; up in the picture. World +z (superior)
   // always points up in it.
   [[nodiscard]] math::Vec3 backward() const;
   [[nodiscard]] math::Vec3 right() const;
   [[nodiscard]] math::Vec3 above() const;
-  [[nodiscard]] math::Vec3 eye() const { return target + distance * backward() + aside * right(); }
+  [[nodiscard]] math::Vec3 eye() const;
   // what is seen at the target from bottom to top  [m]
   [[nodiscard]] double view_height() const;
 };

@@ -40,6 +40,9 @@ class FrameGovernor {
   // took: the frame; redrawn: part of the picture that was drawn, 0..1.
   void end(double took, double redrawn, double now);
 
+  // Another budget while the eye moves, as a headset's pace asks for.
+  void allow_moving(double seconds) { settings_.moving_s = seconds; }
+
   [[nodiscard]] bool moving() const { return moving_; }
   [[nodiscard]] int step() const { return steps_[index()].at; }  // of the frame begun last
   [[nodiscard]] static const char* name(int step);

@@ -14,6 +14,7 @@
 #include "burr/base/result.h"
 #include "burr/render/picture.h"
 #include "burr/render/scene.h"
+#include "burr/render/stereo.h"
 
 namespace burr::render {
 
@@ -28,8 +29,10 @@ class Renderer {
   // Without a display, or beside one.
   [[nodiscard]] static Result<std::unique_ptr<Renderer>> offscreen(Api api = Api::any);
   // With a window of that size, which the user may resize. Its events come through SDL.
+  // quad_buffer: with a picture for each eye if the driver has such; see quad_buffer().
   [[nodiscard]] static Result<std::unique_ptr<Renderer>> window(const std::string& title, int width,
-                                                                int height);
+                                                                int height,
+                                                                bool quad_buffer = false);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
@@ -42,7 +45,12 @@ class Renderer {
   // draws all the same, for benchmarks. over: draws on top before it is shown, with OpenGL of its
   // own into the framebuffer then bound, which has the window's size; leaves bindings as found.
   Status show(const Scene& scene, const std::function<void()>& over = {});
+  // The same for two eyes on both sides of the scene's camera, each with all that lies over it, so
+  // that `over` draws twice. A quad_buffer that is not there is shown as off.
+  Status show(const Scene& scene, const TwoEyes& eyes, const std::function<void()>& over = {});
   void title(const std::string& text);
+  // For whoever draws with OpenGL of its own.
+  void make_current();
 
   // Leave out patches of bone that others hide (on by default; only a software renderer does). The
   // picture is the same either way.
@@ -53,9 +61,19 @@ class Renderer {
   [[nodiscard]] int height() const;
   void resize_offscreen(int width, int height);
 
+  // Into a texture of OpenGL's of that size, whose picture begins at the bottom: for a headset's
+  // left (0) and right (1) eye. Each has a held picture of its own, beside the window's.
+  Status eye(const Scene& scene, int which, unsigned texture, int width, int height);
+  // Whether show() waits for the screen, as it does at first; a headset has a pace of its own.
+  void wait_for_screen(bool on);
+
+  // The window has a picture for each eye.
+  [[nodiscard]] bool quad_buffer() const;
+
   // "llvmpipe (LLVM 15.0.6, 256 bits)"
   [[nodiscard]] std::string gpu() const;
   [[nodiscard]] bool software() const;  // the processor draws
+  [[nodiscard]] bool es() const;        // OpenGL ES, see Api
   // Nothing is left to be made good of what scene.quality left out: the next picture of the same
   // scene is this one.
   [[nodiscard]] bool refined() const;

@@ -31,6 +31,7 @@ Image joined(const Image& left, const Image& right, Stereo how) {
       const std::size_t at = 3 * (y * wide + x);
       switch (how) {
         case Stereo::off:
+        case Stereo::quad_buffer:
           break;
         case Stereo::side_by_side: {
           const std::size_t half = wide / 2;

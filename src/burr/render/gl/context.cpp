@@ -42,26 +42,30 @@ Result<std::unique_ptr<Context>> Context::offscreen(Api api) {
   return context;
 }
 
-Result<std::unique_ptr<Context>> Context::window(const std::string& title, int width, int height) {
+Result<std::unique_ptr<Context>> Context::window(const std::string& title, int width, int height,
+                                                 bool quad_buffer) {
   std::unique_ptr<Context> context(new Context);
-  const Status made = context->create(title, width, height, true, Api::any);
+  const Status made = context->create(title, width, height, true, Api::any, quad_buffer);
   if (!made) return made.error();
   return context;
 }
 
-Status Context::create(const std::string& title, int width, int height, bool visible, Api api) {
+Status Context::create(const std::string& title, int width, int height, bool visible, Api api,
+                       bool quad_buffer) {
   std::string why;
   if (!start_video(visible, why)) return no_gl(why);
   sdl_ = true;
   visible_ = visible;
 
-  for (const bool es : {false, true}) {
-    if ((es && api == Api::core) || (!es && api == Api::es)) continue;
+  const struct { bool es, quad_buffer; } tries[] = {{false, true}, {false, false}, {true, false}};
+  for (const auto& [es, quads] : tries) {
+    if ((es && api == Api::core) || (!es && api == Api::es) || (quads && !quad_buffer)) continue;
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, es ? 0 : 3);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK,
                         es ? SDL_GL_CONTEXT_PROFILE_ES : SDL_GL_CONTEXT_PROFILE_CORE);
     SDL_GL_SetAttribute(SDL_GL_DOUBLEBUFFER, 1);
+    SDL_GL_SetAttribute(SDL_GL_STEREO, quads ? 1 : 0);
     SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);  // drawing happens in our own framebuffers
     const Uint32 flags =
         SDL_WINDOW_OPENGL |
@@ -78,6 +82,10 @@ Status Context::create(const std::string& title, int width, int height, bool vis
     window_ = made;
     gl_ = gl;
     es_ = es;
+    // what was asked for is not always what was given
+    GLboolean given = GL_FALSE;
+    if (quads) glGetBooleanv(GL_STEREO, &given);
+    quad_buffer_ = given == GL_TRUE;
     break;
   }
   if (gl_ == nullptr) return no_gl(why);
@@ -105,6 +113,10 @@ bool Context::software() const {
 
 void Context::make_current() { SDL_GL_MakeCurrent(static_cast<SDL_Window*>(window_), gl_); }
 void Context::swap() { SDL_GL_SwapWindow(static_cast<SDL_Window*>(window_)); }
+void Context::wait_for_screen(bool on) {
+  make_current();
+  if (visible_) SDL_GL_SetSwapInterval(on ? 1 : 0);
+}
 void Context::title(const std::string& text) {
   SDL_SetWindowTitle(static_cast<SDL_Window*>(window_), text.c_str());
 }

@@ -15,6 +15,7 @@
 #include "burr/render/depth_tiles.h"
 #include "burr/render/gl/context.h"
 #include "burr/render/gl/frame.h"
+#include "burr/render/gl/join.h"
 #include "burr/render/gl/lighting.h"
 #include "burr/render/gl/overlay.h"
 #include "burr/render/gl/region.h"
@@ -114,6 +115,28 @@ struct Renderer::Work {
   std::optional<Held> held;
   std::vector<Aabb> changed;  // boxes of patches sent since the target was drawn
 
+  // What is held belongs to one eye. The members above are those of the eye being drawn; those of
+  // the others wait here, and those of the first in the place of whoever is drawn instead.
+  struct Eye {
+    gl::Target target;
+    gl::SeeThrough through;
+    gl::Sheet sheet;
+    std::optional<Held> held;
+    std::vector<Aabb> changed;
+    bool started = false;  // its programs are linked
+  };
+  std::array<Eye, 3> others;  // the window's second, a headset's two
+  gl::Framebuffer headset;
+  int eye = 0;
+  bool started = false;
+  gl::Join join;
+  gl::Sheet both;               // two eyes' pictures as one
+  gl::Sheet* on_show = &sheet;  // of the last show()
+
+  Status look_with(int which);
+  Status draw(const Scene& scene, int wide, int high);
+  void present(Stereo how);
+
   Status start();
   void update(const Scene& scene);
   // What is to be drawn of a picture.
@@ -138,7 +161,7 @@ struct Renderer::Work {
   Status put_on_sheet(const Scene& scene, const Rect& from, int factor, const Size& size, int width,
                       int height, int left, int top);
   Parts compare(const Scene& scene, const Frame& frame, const std::vector<Piece>& pieces, bool all);
-  void read(Image& image, int left, int top);
+  static void read(const gl::Sheet& sheet, Image& image, int left, int top);
 };
 
 // ---- starting
@@ -174,7 +197,26 @@ Status Renderer::Work::start() {
   most = std::min({kMostTarget, texture, viewport[0], viewport[1]});
   nothing.make();
   reads_depth = !context->es() && context->software();
-  return fine();
+  started = true;
+  return join.start(context->es());
+}
+
+Status Renderer::Work::look_with(int which) {
+  const auto change = [this](int other) {
+    if (other == 0) return;
+    Eye& there = others[static_cast<std::size_t>(other - 1)];
+    std::swap(target, there.target);
+    std::swap(through, there.through);
+    std::swap(sheet, there.sheet);
+    std::swap(held, there.held);
+    std::swap(changed, there.changed);
+    std::swap(started, there.started);
+  };
+  change(eye);
+  eye = which;
+  change(eye);
+  if (std::exchange(started, true)) return fine();
+  return through.start(context->es());
 }
 
 Renderer::Renderer(std::unique_ptr<Work> work) : work_(std::move(work)) {}
@@ -194,9 +236,9 @@ Result<std::unique_ptr<Renderer>> Renderer::offscreen(Api api) {
   return renderer;
 }
 
-Result<std::unique_ptr<Renderer>> Renderer::window(const std::string& title, int width,
-                                                   int height) {
-  auto context = gl::Context::window(title, width, height);
+Result<std::unique_ptr<Renderer>> Renderer::window(const std::string& title, int width, int height,
+                                                   bool quad_buffer) {
+  auto context = gl::Context::window(title, width, height, quad_buffer);
   if (!context) return context.error();
   auto work = std::make_unique<Work>();
   work->context = std::move(*context);
@@ -210,7 +252,11 @@ Result<std::unique_ptr<Renderer>> Renderer::window(const std::string& title, int
 
 void Renderer::Work::update(const Scene& scene) {
   figures = {};
-  figures.patches_uploaded = skin.update(scene, changed);
+  std::vector<Aabb> sent;
+  figures.patches_uploaded = skin.update(scene, sent);
+  changed.insert(changed.end(), sent.begin(), sent.end());
+  for (Eye& other : others)  // who holds nothing is drawn whole
+    if (other.held) other.changed.insert(other.changed.end(), sent.begin(), sent.end());
 }
 
 void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& parts,
@@ -257,7 +303,7 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
     if (seen_through) through.blend(scene, frame, some, what, lighting);
   }
   glDisable(GL_SCISSOR_TEST);
-  figures.redrawn = std::min(1.0, lit.area() / frame.all().area());
+  figures.redrawn = std::max(figures.redrawn, std::min(1.0, lit.area() / frame.all().area()));
 }
 
 void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Rect& r) {
@@ -437,7 +483,7 @@ Status Renderer::Work::put_on_sheet(const Scene& scene, const Rect& from, int fa
 }
 
 // the sheet into its place in a picture
-void Renderer::Work::read(Image& image, int left, int top) {
+void Renderer::Work::read(const gl::Sheet& sheet, Image& image, int left, int top) {
   const auto wide = static_cast<std::size_t>(sheet.width);
   std::vector<std::uint8_t> rgba(wide * static_cast<std::size_t>(sheet.height) * 4);
   glBindFramebuffer(GL_FRAMEBUFFER, sheet.at.get());
@@ -523,7 +569,7 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
           factor, {(inner.x1 - inner.x0) / factor, (inner.y1 - inner.y0) / factor}, width, height,
           left, top);
       if (!done) return done.error();
-      w.read(image, left, top);
+      Work::read(w.sheet, image, left, top);
     }
   w.figures.redrawn = 1;
   if (glGetError() == GL_OUT_OF_MEMORY)
@@ -603,64 +649,142 @@ Renderer::Work::Parts Renderer::Work::compare(const Scene& scene, const Frame& f
   return parts;
 }
 
-Status Renderer::show(const Scene& scene, const std::function<void()>& over) {
-  Work& w = *work_;
-  w.context->make_current();
-  w.update(scene);
-
+// The scene as the eye that is drawn sees it, onto its sheet, which is bound then.
+Status Renderer::Work::draw(const Scene& scene, int wide, int high) {
   const Quality& quality = scene.quality;
   const int factor = std::clamp(scene.look.supersample, 1, 4);
-  const int wide = std::max(1, width()), high = std::max(1, height());
   const double scale = factor == 1 ? std::clamp(quality.scale, 0.25, 1.0) : factor;
   Frame frame;
   frame.picture_width = frame.width = std::max(1, static_cast<int>(std::lround(wide * scale)));
   frame.picture_height = frame.height = std::max(1, static_cast<int>(std::lround(high * scale)));
   frame.view = view_from_world(scene.camera);
-  const std::vector<Piece>& pieces = w.shapes.pieces(scene);
+  const std::vector<Piece>& pieces = shapes.pieces(scene);
   const Result<bool> fresh =
-      w.target.resize(frame.width, frame.height, scene.look.hollow_half ? 2 : 1);
+      target.resize(frame.width, frame.height, scene.look.hollow_half ? 2 : 1);
   if (!fresh) return fresh.error();
   if (sees_through(scene.look))
-    if (const Status more = w.through.resize(frame.width, frame.height); !more) return more;
+    if (const Status more = through.resize(frame.width, frame.height); !more) return more;
 
   // everything anew when the eye moved; else only where bone or tool did
-  const bool all = *fresh || !w.held || !same(w.held->camera, scene.camera) ||
-                   !same(w.held->look, scene.look) || !same(w.held->clip, scene.clip);
+  const bool all = *fresh || !held || !same(held->camera, scene.camera) ||
+                   !same(held->look, scene.look) || !same(held->clip, scene.clip);
   if (all) {
-    w.held.emplace();
-    w.held->bone = w.held->extent = bounds(scene);
-    if (quality.coarse_px > quality.coarse_still_px) w.held->coarse = pieces_of(frame.all());
+    held.emplace();
+    held->bone = held->extent = bounds(scene);
+    if (quality.coarse_px > quality.coarse_still_px) held->coarse = pieces_of(frame.all());
   }
   const double pixels_at_1m = high / (2 * std::tan(0.5 * scene.camera.field_of_view));
-  w.skin.allow((all ? quality.coarse_px : quality.coarse_still_px) / pixels_at_1m);
-  gl::set_depths(frame, scene.camera, w.held->bone);
+  skin.allow((all ? quality.coarse_px : quality.coarse_still_px) / pixels_at_1m);
+  gl::set_depths(frame, scene.camera, held->bone);
   frame.clip =
       clip_from_view(scene.camera, static_cast<double>(wide) / high, frame.near, frame.far);
-  const Work::Parts parts = w.compare(scene, frame, pieces, all);
-  w.changed.clear();
-  w.held->camera = scene.camera;
-  w.held->look = scene.look;
-  w.held->clip = scene.clip;
-  w.held->pieces = pieces;
+  const Parts parts = compare(scene, frame, pieces, all);
+  changed.clear();
+  held->camera = scene.camera;
+  held->look = scene.look;
+  held->clip = scene.clip;
+  held->pieces = pieces;
   if (!parts.bone.empty() || !parts.tool.empty() || !parts.hollows.empty())
-    w.paint(scene, frame, parts, pieces);
+    paint(scene, frame, parts, pieces);
 
-  const Status put = w.put_on_sheet(scene, frame.all(), factor, {wide, high}, wide, high, 0, 0);
-  if (!put) return put;
-  if (over) over();  // the sheet is bound
-  if (w.context->visible()) {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, w.sheet.at.get());
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glBlitFramebuffer(0, 0, w.sheet.width, w.sheet.height, 0, 0, w.sheet.width, w.sheet.height,
-                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    w.context->swap();
-  } else {
+  return put_on_sheet(scene, frame.all(), factor, {wide, high}, wide, high, 0, 0);
+}
+
+void Renderer::Work::present(Stereo how) {
+  if (!context->visible()) {
     glFinish();
+    return;
   }
+  const auto put = [](const gl::Sheet& from) {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, from.at.get());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, from.width, from.height, 0, 0, from.width, from.height,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  };
+  if (how == Stereo::quad_buffer) {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glDrawBuffer(GL_BACK_RIGHT);
+    put(others[0].sheet);
+    glDrawBuffer(GL_BACK_LEFT);
+    put(sheet);
+    glDrawBuffer(GL_BACK);
+  } else {
+    put(*on_show);
+  }
+  context->swap();
+}
+
+Status Renderer::show(const Scene& scene, const std::function<void()>& over) {
+  return show(scene, TwoEyes{}, over);
+}
+
+Status Renderer::show(const Scene& scene, const TwoEyes& eyes, const std::function<void()>& over) {
+  Work& w = *work_;
+  w.context->make_current();
+  w.update(scene);
+  const int wide = std::max(1, width()), high = std::max(1, height());
+  const Stereo how = eyes.how == Stereo::quad_buffer && !quad_buffer() ? Stereo::off : eyes.how;
+  w.on_show = &w.sheet;
+  if (how == Stereo::off) {
+    if (w.others[0].held) w.others[0] = {};
+    if (const Status drawn = w.draw(scene, wide, high); !drawn) return drawn;
+    if (over) over();  // the sheet is bound
+  } else {
+    const Eyes cameras = eyes_of(scene.camera, eyes.apart);
+    Scene seen = scene;
+    for (const int which : {0, 1}) {
+      seen.camera = (which == 0) != eyes.swapped ? cameras.left : cameras.right;
+      Status drawn = w.look_with(which);
+      if (drawn) drawn = w.draw(seen, wide, high);
+      if (drawn && over) over();
+      if (!drawn) {
+        static_cast<void>(w.look_with(0));
+        return drawn;
+      }
+    }
+    if (const Status back = w.look_with(0); !back) return back;
+    if (how != Stereo::quad_buffer) {
+      if (const Status sized = w.both.resize(wide, high); !sized) return sized;
+      glBindVertexArray(w.nothing.get());
+      w.join.draw(w.sheet, w.others[0].sheet, w.both, how, eyes.first_row);
+      w.on_show = &w.both;
+    }
+  }
+  w.present(how);
   if (glGetError() == GL_CONTEXT_LOST)
     return error(Trouble::io, "the graphics card was lost; start it anew");
   return fine();
 }
+
+Status Renderer::eye(const Scene& scene, int which, unsigned texture, int width, int height) {
+  Work& w = *work_;
+  w.context->make_current();
+  const Figures so_far = w.figures;
+  w.update(scene);
+  Status drawn = w.look_with(2 + which);
+  if (drawn) drawn = w.draw(scene, width, height);
+  if (drawn) {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, w.headset.make());
+    glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, w.sheet.at.get());
+    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    // the texture is its owner's again
+    glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glFlush();
+  }
+  if (const Status back = w.look_with(0); drawn && !back) drawn = back;
+  w.figures.redrawn = std::max(w.figures.redrawn, so_far.redrawn);
+  w.figures.patches_uploaded += so_far.patches_uploaded;
+  w.figures.patches_drawn += so_far.patches_drawn;
+  w.figures.triangles_drawn += so_far.triangles_drawn;
+  return drawn;
+}
+
+void Renderer::wait_for_screen(bool on) { work_->context->wait_for_screen(on); }
+void Renderer::make_current() { work_->context->make_current(); }
+bool Renderer::es() const { return work_->context->es(); }
+bool Renderer::quad_buffer() const { return work_->context->quad_buffer(); }
 
 void Renderer::skip_hidden(bool on) { work_->skip_hidden = on; }
 
@@ -684,17 +808,22 @@ void Renderer::resize_offscreen(int width, int height) {
 std::string Renderer::gpu() const { return work_->context->gpu(); }
 bool Renderer::software() const { return work_->context->software(); }
 bool Renderer::refined() const {
-  return work_->held && work_->held->coarse.empty() && work_->held->stale.empty();
+  const auto done = [](const std::optional<Work::Held>& held) {
+    return held->coarse.empty() && held->stale.empty();
+  };
+  const auto& other = work_->others[0].held;
+  return work_->held && done(work_->held) && (!other || done(other));
 }
 Renderer::Figures Renderer::figures() const { return work_->figures; }
 
 Image Renderer::shown() {
   Work& w = *work_;
   w.context->make_current();
-  Image image{w.sheet.width, w.sheet.height, {}};
+  const gl::Sheet& sheet = *w.on_show;
+  Image image{sheet.width, sheet.height, {}};
   image.rgb.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
                    3);
-  w.read(image, 0, 0);
+  Work::read(sheet, image, 0, 0);
   return image;
 }
 
