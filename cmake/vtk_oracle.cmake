@@ -1,5 +1,6 @@
-# burr_vtk_oracle: only where VTK 9 is installed, only to be compared with by `burr bench surface`
-option(BURR_VTK_ORACLE "build burr_vtk_oracle if VTK is there" ON)
+# burr_vtk_oracle, burr_vtk_frame: only where VTK 9 is installed, only to be compared with by
+# `burr bench surface` and `burr bench frame`
+option(BURR_VTK_ORACLE "build burr_vtk_oracle and burr_vtk_frame if VTK is there" ON)
 if(BURR_VTK_ORACLE)
   find_package(VTK 9 QUIET COMPONENTS CommonCore CommonDataModel FiltersCore)
   if(VTK_FOUND)
@@ -7,5 +8,12 @@ if(BURR_VTK_ORACLE)
     set_target_properties(burr_vtk_oracle PROPERTIES CXX_STANDARD 17 RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
     target_include_directories(burr_vtk_oracle PRIVATE ${PROJECT_SOURCE_DIR})
     target_link_libraries(burr_vtk_oracle PRIVATE VTK::CommonCore VTK::CommonDataModel VTK::FiltersCore)
+  endif()
+  find_package(VTK 9 QUIET COMPONENTS CommonCore CommonDataModel RenderingCore RenderingOpenGL2)
+  if(VTK_FOUND AND TARGET VTK::RenderingOpenGL2)
+    add_executable(burr_vtk_frame ${PROJECT_SOURCE_DIR}/bench/render/vtk_frame.cpp)
+    set_target_properties(burr_vtk_frame PROPERTIES CXX_STANDARD 17 RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+    target_link_libraries(burr_vtk_frame PRIVATE VTK::CommonCore VTK::CommonDataModel VTK::RenderingCore VTK::RenderingOpenGL2)
+    vtk_module_autoinit(TARGETS burr_vtk_frame MODULES VTK::RenderingCore VTK::RenderingOpenGL2)
   endif()
 endif()

@@ -8,6 +8,9 @@
 //   cut to picture: from the tick that changed a brick until the picture with all the patches it
 //       touches is drawn. A watcher looks 1000 times a second; a change counts from its look before
 //       the one that found it, so the figure is up to 1 ms too long, never too short.
+//   VTK, where it is installed: all triangles of the whole bone, one light, no effects, in a
+//   program
+//       of its own beside the servo; it is not slowed by loading patches, and knows no hollows.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -21,6 +24,7 @@
 #include <utility>
 
 #include "bench.h"
+#include "bench_vtk_frame.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/render/renderer.h"
 #include "burr/sim/motion.h"
@@ -143,6 +147,7 @@ struct Outcome {
   Frames work, whole, work_full, whole_full, whole_all;
   std::vector<double> input_ms, cut_ms;
   std::array<std::uint64_t, render::FrameGovernor::kSteps> steps = {};
+  std::optional<double> vtk_ms;  // VTK, the whole bone turning, the servo milling beside it
   sim::Outcome session;
 };
 
@@ -197,6 +202,7 @@ Status Desk::run(Outcome& out) {
   out.steps = live_.governor().frames();
   if (done) done = turn(Draw::full, options_.seconds, options_.turns, out.whole_full, nullptr);
   if (done) done = turn(Draw::all, options_.seconds, options_.turns, out.whole_all, nullptr);
+  if (done) out.vtk_ms = vtk_frame_ms(scene_, options_.size.width, options_.size.height, 20);
   scene_.camera = near;
   if (done) done = work(Draw::full, options_.seconds, out.work_full, nullptr);
   session_.stop();
@@ -301,6 +307,8 @@ void print(const Options& options, const Outcome& out) {
     json["input_to_picture_ms_p95"] = quantile(out.input_ms, 0.95);
     json["cut_to_picture_ms_p95"] = quantile(out.cut_ms, 0.95);
     json["governor_share_per_step"] = shares(out);
+    json["vtk_whole_fps"] =
+        out.vtk_ms ? nlohmann::ordered_json(1e3 / *out.vtk_ms) : nlohmann::ordered_json(nullptr);
     json["first_frame_ms"] = out.first_ms;
     json["coarse_s"] = out.coarse_s;
     json["work"] = out.work.json();
@@ -329,6 +337,11 @@ void print(const Options& options, const Outcome& out) {
   line("the work at full quality", out.work_full);
   line("the whole at full quality", out.whole_full);
   line("... with hidden bone", out.whole_all);
+  if (out.vtk_ms)
+    fmt::print("{:<28} {:5.1f} frames/s; {:6.1f} ms p50\n", "VTK, the whole bone, turning",
+               1e3 / *out.vtk_ms, *out.vtk_ms);
+  else
+    fmt::print("VTK not compared: burr_vtk_frame needs VTK 9 when burr is built, and a display\n");
   fmt::print(
       "input to picture {:.0f} ms p50, {:.0f} p95; cut to picture {:.0f} ms p50, {:.0f} p95\n",
       quantile(out.input_ms, 0.5), quantile(out.input_ms, 0.95), quantile(out.cut_ms, 0.5),

@@ -7,6 +7,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "burr/io/import.h"
+#include "burr/io/keep_greys.h"
+#include "burr/io/read_scan.h"
 #include "burr/record/find_volume.h"
 #include "burr/record/place_file.h"
 #include "burr/sim/session_words.h"
@@ -187,6 +190,19 @@ Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,
   Status same = record::check_volume(info.volume, *made->bone, options->path);
   if (!same) return same.error();
   return std::move(made->bone);
+}
+
+std::shared_ptr<const volume::Greys> scan_greys_of(const record::Player& player,
+                                                   const VolumeOptions& given, Progress& progress) {
+  const auto print = record::fingerprint(given.path);
+  if (!print || *print != player.info().volume.source_fingerprint) return nullptr;
+  const auto reading = read_options(given);
+  const auto importing = import_options(given);
+  if (!reading || !importing) return nullptr;
+  const auto scan = io::read_scan(given.path, *reading, progress);
+  if (!scan) return nullptr;
+  const auto plan = io::plan_import(*scan, *importing);
+  return plan ? io::keep_greys(*scan, plan->iso, progress) : nullptr;
 }
 
 }  // namespace burr::app

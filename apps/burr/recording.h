@@ -13,6 +13,7 @@
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
 #include "burr/sim/session.h"
+#include "burr/volume/greys.h"
 #include "nearby.h"
 #include "volume_options.h"
 
@@ -56,5 +57,11 @@ class Recording {
 [[nodiscard]] Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,
                                                             const VolumeOptions& given,
                                                             Progress& progress);
+
+// What the scan measured, for slices, read again from given.path. nullptr: no grey scan, not the
+// one the recording was made from, or it cannot be read.
+[[nodiscard]] std::shared_ptr<const volume::Greys> scan_greys_of(const record::Player& player,
+                                                                 const VolumeOptions& given,
+                                                                 Progress& progress);
 
 }  // namespace burr::app

@@ -212,6 +212,11 @@ Status run_in_window(const Options& options) {
   WindowOptions told = window;
   told.warning = [&recording] { return recording.trouble(); };
   told.keep = [] { return true; };  // it is being kept already
+  told.film_of = [&]() -> std::optional<FilmSource> {
+    FilmSource source = film_of(session, (folder / "session.mcap").string(), ready.volume);
+    source.effects = (*desk)->settings.effects;
+    return source;
+  };
   const auto left = mill_with_sound(**desk, ready, told);
   status = left ? fine() : Status(left.error());
   const Status recorded = recording.finish(session);

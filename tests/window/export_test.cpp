@@ -35,7 +35,7 @@ class Export : public Window {
   }
   // the middle of what the page has, at 1280 x 720
   static constexpr int kX = 280, kY = 155;
-  static void choose(int n) { click(kX + 28 + 95 + 198 * n, kY + 80); }
+  static void choose(int n) { click(kX + 28 + 79 + 166 * n, kY + 80); }
   static void into_path() { click(kX + 300, kY + 174); }
   static void write() { click(kX + 612, kY + 288); }
   // writes into folder_ by the path that stands there when the page opens

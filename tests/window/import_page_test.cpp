@@ -9,6 +9,7 @@
 
 #include "burr/record/player.h"
 #include "recording.h"
+#include "window/pages.h"
 #include "window/sessions.h"
 #include "window/user.h"
 
@@ -352,6 +353,36 @@ TEST_F(ImportWindow, ShowsWhatWasMeasuredInTheSlices) {
   EXPECT_LT(changed(model, again), 400);
   // the bone itself was not turned by the pull
   EXPECT_LT(differ(soft, pulled, 200, 100, 1000, 560), 400);
+}
+
+// ... and in a session that is gone on with, as long as the scan is where it was.
+TEST_F(ImportWindow, WhatWasMeasuredIsThereWhenOneGoesOn) {
+  pages_by({{"the start page", on(Page::start), [&] { drop(scan()); }},
+            {"the import page", on(Page::import), nullptr},
+            {"a picture of it", looks(3), [] { press(SDLK_RETURN); }},
+            {"milling", on(Page::milling),
+             [] {
+               move_to(640, 360);
+               press(SDLK_SPACE);
+             }},
+            {"some pictures", looks(90), [] { press(SDLK_q); }},
+            {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  const std::vector<KeptSession> kept = kept_sessions(folder_ / "state");
+  ASSERT_EQ(kept.size(), 1U) << "nothing was cut: the test shows nothing";
+  NoProgress quiet;
+  const auto fresh = open_ready(kept[0].options, quiet);
+  ASSERT_TRUE(fresh) << fresh.error().text;
+  ASSERT_NE(fresh->greys, nullptr);
+  auto ready = continue_session(kept[0], quiet);
+  ASSERT_TRUE(ready) << ready.error().text;
+  ASSERT_NE(ready->greys, nullptr);
+  EXPECT_EQ(ready->greys->stored, fresh->greys->stored);
+  {  // another scan took its place
+    std::ofstream(kept[0].options.volume.path, std::ios::app) << "other";
+  }
+  const auto player = record::Player::open(kept[0].file.string());
+  ASSERT_TRUE(player);
+  EXPECT_EQ(scan_greys_of(**player, kept[0].options.volume, quiet), nullptr);
 }
 
 TEST_F(ImportWindow, CanBeStoppedWhileItReadsAndWhileBoneIsMade) {

@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
 
 #include "burr/render/bone_scene.h"
 #include "burr/sim/motion.h"
@@ -158,6 +163,93 @@ TEST_F(Replay, ShowsWhatMillingLeftUnlessTheSettingIsOff) {
   EXPECT_GT(pale(with), pale(without) + 500);
   EXPECT_GT(pale(back), pale(without) + 500) << "after going back and there again";
   EXPECT_LT(pale(start), pale(without) + 200) << "nothing had been milled yet";
+}
+
+// ---- films
+
+// the middle of what the export page has, at 1280 x 720
+void click_write() { click(280 + 612, 155 + 288); }
+void click_stop() { click(280 + 447, 155 + 288); }
+
+int run_burr(const std::string& words) {
+  const int left =
+      std::system((std::string(BURR_BUILD_DIR "/burr --quiet ") + words + " > /dev/null").c_str());
+  return WIFEXITED(left) ? WEXITSTATUS(left) : -1;
+}
+fs::path frame(const fs::path& folder, int number) {
+  return folder / fmt::format("frame_{:06d}.png", number);
+}
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST_F(Replay, AFilmHasThePicturesOfTheCommandLine) {
+  const fs::path recording = folder_ / "short.mcap", film = folder_ / "film", other = folder_ / "o";
+  ASSERT_EQ(
+      run_burr("mill phantom:block --voxel-mm 1 --motion slot --burr-mm 5 --seconds 0.2 --record " +
+               recording.string()),
+      0);
+  ASSERT_EQ(run_burr("replay " + recording.string() + " --effects --film " + other.string()), 0);
+  NoProgress quiet;
+  auto recorded = open_recorded(recording.string(), {}, {}, quiet);
+  ASSERT_TRUE(recorded) << recorded.error().text;
+  const auto says = [this](const std::string& words) {
+    return [this, words] { return seen_.note.find(words) != std::string::npos; };
+  };
+  std::string asked;
+  Script script({{"the end", shows(0.2), [] { press(SDLK_e); }},
+                 {"the page", looks(5), click_write},
+                 {"the film", says("5 pictures"), [] { press(SDLK_e); }},
+                 {"the page again", looks(5), click_write},
+                 {"the question", looks(5),
+                  [&] {
+                    asked = seen_.note;
+                    fs::remove(frame(film, 1));
+                    press(SDLK_ESCAPE);
+                  }},
+                 {"the line again", looks(5), [] { press(SDLK_ESCAPE); }}});
+  desk_->after_frame = [&script] { script.look(); };
+  const auto left =
+      watch(*desk_, *recorded, {.folder = folder_.string(), .from = 0.2, .seen = &seen_});
+  desk_->after_frame = {};
+  ASSERT_TRUE(left) << left.error().text;
+  EXPECT_TRUE(script.finished());
+  for (int n = 2; n <= 5; ++n) {
+    ASSERT_TRUE(fs::exists(frame(other, n)));
+    EXPECT_EQ(bytes_of(frame(film, n)), bytes_of(frame(other, n))) << n;
+  }
+  EXPECT_FALSE(fs::exists(frame(film, 6)));
+  EXPECT_FALSE(fs::exists(frame(film, 1))) << "a film was there: asked first, not made again";
+}
+
+TEST_F(Replay, AFilmThatIsStoppedKeepsWhatWasMade) {
+  Recorded recorded = open();
+  ASSERT_TRUE(recorded.bone);
+  const fs::path film = folder_ / "film";
+  Script script(
+      {{"a moment", shows(1), [] { press(SDLK_e); }},
+       {"the page", looks(5), click_write},
+       {"some pictures", [&] { return fs::exists(frame(film, 2)); }, [] { press(SDLK_e); }},
+       {"the page again", looks(5), click_stop},
+       {"the word that it stopped", [&] { return seen_.note.find("stopped") != std::string::npos; },
+        [] { press(SDLK_ESCAPE); }},
+       {"the line", looks(5), [] { press(SDLK_ESCAPE); }}});
+  desk_->after_frame = [&script] { script.look(); };
+  const auto left =
+      watch(*desk_, recorded, {.folder = folder_.string(), .from = 1, .seen = &seen_});
+  desk_->after_frame = {};
+  ASSERT_TRUE(left) << left.error().text;
+  EXPECT_TRUE(script.finished());
+  EXPECT_TRUE(fs::exists(frame(film, 2)));
+  EXPECT_FALSE(fs::exists(frame(film, static_cast<int>(25 * kSeconds) - 1)));
+}
+
+TEST(Film, SaysWhyThereIsNone) {
+  NoProgress quiet;
+  const auto none = write_film({.recording = "/no/such.mcap"}, "/tmp/no_film", quiet);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().text.find("/no/such.mcap"), std::string::npos) << none.error().text;
 }
 
 TEST_F(Replay, PlaysPausesAndChangesPace) {

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "burr/render/picture.h"
 #include "window/typed_path.h"
 #include "window/words.h"
 
@@ -15,12 +16,17 @@ namespace burr::app {
 namespace fs = std::filesystem;
 using Letter = Ui::Letter;
 
-ExportPage::ExportPage(Desk& desk, sim::Session& session, const render::Scene& scene,
-                       const std::string& folder)
-    : desk_(desk), session_(session), scene_(scene), changed_(session.bone().add_watcher()) {
+ExportPage::ExportPage(Desk& desk, sim::Session* session, const render::Scene& scene,
+                       const std::string& folder, FilmOf film_of)
+    : desk_(desk), session_(session), scene_(scene), film_of_(std::move(film_of)) {
   std::error_code nobody_asks;
   const fs::path where = folder.empty() ? fs::current_path(nobody_asks) : fs::path(folder);
-  wish_.path = (where / "bone.stl").string();
+  if (session_ != nullptr) {
+    changed_ = &session_->bone().add_watcher();
+    wish_.path = (where / "bone.stl").string();
+  } else {
+    wish_ = {ExportWhat::film, (where / "film").string()};
+  }
 }
 
 ExportPage::~ExportPage() { show(false); }
@@ -52,17 +58,31 @@ void ExportPage::ask(bool may_replace) {
     trouble_ = possible.error().text;
     return;
   }
-  std::error_code nobody_asks;
-  if (!may_replace && fs::exists(wish_.path, nobody_asks)) {
+  if (!may_replace && already_there(wish_)) {
     replaces_ = true;
+    return;
+  }
+  if (wish_.what == ExportWhat::film) {
+    const std::optional<FilmSource> source = film_of_ ? film_of_() : std::nullopt;
+    if (!source) {
+      trouble_ = word(Word::film_of_nothing);
+      return;
+    }
+    work_ = std::make_unique<Loading<ExportDone>>(
+        [source = *source, path = wish_.path](Progress& progress) -> Result<ExportDone> {
+          const Result<int> made = write_film(source, path, progress);
+          if (!made) return made.error();
+          return ExportDone{.path = path, .pictures = *made};
+        });
+    show(false);
     return;
   }
   before_.reset();
   if (wish_.what == ExportWhat::removed) {
-    const bool ran = session_.running();
-    session_.stop();
-    before_ = session_.bone_before();
-    if (ran) session_.start();
+    const bool ran = session_->running();
+    session_->stop();
+    before_ = session_->bone_before();
+    if (ran) session_->start();
   }
   std::shared_ptr<const render::Image> picture;
   if (wish_.what == ExportWhat::picture) {
@@ -76,10 +96,15 @@ void ExportPage::ask(bool may_replace) {
     }
     picture = std::make_shared<const render::Image>(std::move(*image));
   }
-  work_ = std::make_unique<Loading<ExportDone>>(
-      [this, wish = wish_, before = std::exchange(before_, nullptr), picture](Progress& progress) {
-        return write_export(wish, session_.bone(), changed_, before.get(), picture.get(), progress);
-      });
+  work_ = std::make_unique<Loading<ExportDone>>([this, wish = wish_,
+                                                 before = std::exchange(before_, nullptr), picture](
+                                                    Progress& progress) -> Result<ExportDone> {
+    if (session_ == nullptr) {
+      const Status written = render::write_png(*picture, wish.path);
+      return written ? Result<ExportDone>(ExportDone{.path = wish.path}) : written.error();
+    }
+    return write_export(wish, session_->bone(), *changed_, before.get(), picture.get(), progress);
+  });
   show(false);
 }
 
@@ -90,11 +115,13 @@ std::string ExportPage::step() {
   work_.reset();
   if (!done) {
     // back to where it can be put right, with the reason
-    if (done.error().trouble == Trouble::interrupted) return word(Word::export_stopped);
+    if (done.error().trouble == Trouble::interrupted)
+      return word(wish_.what == ExportWhat::film ? Word::film_stopped : Word::export_stopped);
     show(true);
     trouble_ = done.error().text;
     return {};
   }
+  if (done->pictures > 0) return say(Word::film_done, done->path, done->pictures);
   if (done->triangles > 0)
     return say(Word::export_mesh, done->path, 1e9 * done->volume, done->triangles);
   if (done->volume > 0) return say(Word::export_volume, done->path, 1e9 * done->volume);
@@ -123,12 +150,15 @@ void ExportPage::draw() {
   float at = x + 28 * u;
   for (const auto& [what, name] : {std::pair{ExportWhat::bone, Word::export_bone},
                                    {ExportWhat::removed, Word::export_removed},
-                                   {ExportWhat::picture, Word::export_picture}}) {
+                                   {ExportWhat::picture, Word::export_picture},
+                                   {ExportWhat::film, Word::export_film}}) {
     const ExportWhat one = what;  // a lambda may not take a structured binding
-    if (!choice(at, y + 66 * u, word(name), wish_.what == one, 190 * u)) continue;
-    const std::string ending = ending_of(wish_.path, one);
+    if (session_ == nullptr && (one == ExportWhat::bone || one == ExportWhat::removed)) continue;
+    if (!choice(at, y + 66 * u, word(name), wish_.what == one, 158 * u)) continue;
+    std::string ending = ending_of(wish_.path, one);
+    if (ending.empty() && !endings_of(one).empty()) ending = endings_of(one).front();
     wish_.what = one;
-    wish_.path = path_for(wish_.path, one, ending.empty() ? endings_of(one).front() : ending);
+    wish_.path = path_for(wish_.path, one, ending);
     replaces_ = false;
     trouble_.clear();
   }
@@ -142,6 +172,8 @@ void ExportPage::draw() {
     }
 
   ImGui::SetCursorScreenPos({x + 28 * u, y + 160 * u});
+  if (wish_.what == ExportWhat::film)
+    ui.write(x + 28 * u, y + 118 * u, Letter::body, ink::kDim, word(Word::film_told));
   const float other = FileDialog::there() ? 132 * u : 0;
   const std::string was = wish_.path;
   const bool entered =

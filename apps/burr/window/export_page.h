@@ -1,10 +1,12 @@
-// apps/burr/window/export_page.h - bone, removed part or picture into a file, while one mills: what
-// and where is asked on a page, the work goes on beside the session.
+// apps/burr/window/export_page.h - bone, removed part, picture or film into a file, while one mills
+// or watches a recording (then only picture and film): what and where is asked on a page, the work
+// goes on beside the session.
 //
 // Thread: main. The servo stands for a moment when what was removed is asked for: only it knows
 // what was there before (Session::bone_before()).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,16 +16,20 @@
 #include "window/desk.h"
 #include "window/export_job.h"
 #include "window/file_dialog.h"
+#include "window/film_job.h"
 #include "window/loading.h"
 
 namespace burr::app {
 
 class ExportPage {
  public:
-  // Before the session starts: it adds a watcher. folder: where files go at first; empty: where the
-  // program was started.
-  ExportPage(Desk& desk, sim::Session& session, const render::Scene& scene,
-             const std::string& folder);
+  // What a film is made of, now; none: nothing is recorded.
+  using FilmOf = std::function<std::optional<FilmSource>()>;
+
+  // Before the session starts: it adds a watcher. nullptr: a recording is watched. folder: where
+  // files go at first; empty: where the program was started.
+  ExportPage(Desk& desk, sim::Session* session, const render::Scene& scene,
+             const std::string& folder, FilmOf film_of);
   ~ExportPage();  // an export that is under way is stopped, and leaves nothing
   ExportPage(const ExportPage&) = delete;
   ExportPage& operator=(const ExportPage&) = delete;
@@ -42,9 +48,10 @@ class ExportPage {
   void ask(bool may_replace);
 
   Desk& desk_;
-  sim::Session& session_;
+  sim::Session* session_;
   const render::Scene& scene_;
-  rt::ChangedBits& changed_;
+  FilmOf film_of_;
+  rt::ChangedBits* changed_ = nullptr;
   bool shown_ = false, replaces_ = false;  // asks whether it may
   ExportWish wish_;
   std::string trouble_;

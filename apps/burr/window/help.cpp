@@ -81,7 +81,7 @@ bool draw_help(Ui& ui, bool left_handed) {
 }
 
 bool draw_replay_help(Ui& ui) {
-  const float u = ui.unit(), w = 920 * u, h = 343 * u;
+  const float u = ui.unit(), w = 920 * u, h = 366 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 60 * u);
   ui.page("##replayhelp", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::replay_help_title));
@@ -103,6 +103,7 @@ bool draw_replay_help(Ui& ui) {
          {"T", Word::help_see_through},
          {"Tab", Word::help_hide},
          {"P", Word::help_picture},
+         {"E", Word::film_help},
          {"Esc  Q", Word::help_quit}});
   ImGui::SetCursorScreenPos({x + w - 100 * u, y + 20 * u});
   const bool close = ImGui::Button("OK  [F1]", {76 * u, 0});

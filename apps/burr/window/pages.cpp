@@ -65,6 +65,12 @@ Result<Left> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options,
   }
   WindowOptions with = window;
   with.keep = [&autosave] { return autosave != nullptr && autosave->keep(); };
+  with.film_of = [&]() -> std::optional<FilmSource> {
+    std::optional<FilmSource> source = autosave ? autosave->film_source() : std::nullopt;
+    if (source && embed) source->volume.path.clear();  // its bone is in the recording
+    if (source) source->effects = desk.settings.effects;
+    return source;
+  };
   with.warning = [&] {
     std::string warning = window.warning ? window.warning() : std::string();
     if (warning.empty() && autosave) warning = autosave->trouble();

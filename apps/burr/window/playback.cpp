@@ -49,6 +49,7 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
         fs::path(kept.options.volume.path).extension() != ".toml")
       volume = kept.options.volume;
   }
+  out.film = {file, volume, out.player->seconds(), true};
   auto bone = bone_of(*out.player, volume, progress);
   if (!bone) return bone.error();
   out.bone = std::move(*bone);

@@ -30,6 +30,7 @@
 #include "burr/volume/bone.h"
 #include "traces.h"
 #include "volume_options.h"
+#include "window/film_job.h"
 
 namespace burr::app {
 
@@ -42,6 +43,7 @@ struct Recorded {
   std::vector<std::string> notices;  // what is missing of it
   std::unique_ptr<volume::Bone> bone;
   std::unique_ptr<surface::Worker> worker;
+  FilmSource film;      // of it
   render::Scene scene;  // with the surface at the start, and a view of the work
 };
 

@@ -7,11 +7,13 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "command.h"
 #include "live_bone.h"
 #include "still.h"
+#include "window/export_page.h"
 #include "window/help.h"
 #include "window/hud.h"
 #include "window/mirror_mode.h"
@@ -51,6 +53,7 @@ class Watch {
     note_ = std::move(text);
     noted_ = Clock::now();
   }
+  [[nodiscard]] bool page_open() const { return help_ || (export_ && export_->shown()); }
   [[nodiscard]] double burr_radius() const;
   [[nodiscard]] sim::ToolMode mode() const;
   [[nodiscard]] edit::Mirror mirror() const;
@@ -65,7 +68,8 @@ class Watch {
   Playback::Shown shown_;
   Watched now_;
   bool open_ = true, picture_ = false, panels_ = true, help_ = false, scrubbing_ = false;
-  bool labels_ = true;
+  bool labels_ = true, leaves_ = false;  // leaves though a film is still being made
+  std::optional<ExportPage> export_;
   Left left_ = Left::window;
   std::string note_, warning_;
   Clock::time_point noted_{}, in_time_ = Clock::now();
@@ -74,6 +78,10 @@ class Watch {
 Result<Left> Watch::run() {
   desk_.page = Page::replay;
   desk_.renderer().title("burr");
+  export_.emplace(desk_, nullptr, scene_, options_.folder, [this] {
+    recorded_.film.effects = desk_.settings.effects;
+    return std::optional(recorded_.film);
+  });
   first_view_ = scene_.camera;
   colours_ = scene_.tissue_colours;
   scene_.scale_bar = false;
@@ -104,9 +112,12 @@ Result<Left> Watch::run() {
     look_at(playback, live);
     live.update();
     const Clock::time_point drawing = Clock::now();
-    shown = desk_.show(scene_, panels_ || help_ ? [this] { panels(); } : std::function<void()>());
+    if (std::string told = export_->step(); !told.empty()) note(std::move(told));
+    shown =
+        desk_.show(scene_, panels_ || page_open() ? [this] { panels(); } : std::function<void()>());
     live.drawn(std::chrono::duration<double>(Clock::now() - drawing).count(),
                desk_.renderer().figures().redrawn);
+    now_.note = !export_->trouble().empty() ? export_->trouble() : note_;
     if (options_.seen != nullptr) *options_.seen = now_;
     if (std::exchange(picture_, false)) {
       const Result<std::string> left = desk_.leave_picture(options_.folder);
@@ -119,6 +130,7 @@ Result<Left> Watch::run() {
         std::chrono::duration<double>(Clock::now() - start).count() >= options_.seconds)
       open_ = false;
   }
+  export_.reset();
   scene_.tissue_colours = colours_;
   scene_.look.opacity = 1;
   live.look_plain();
@@ -191,13 +203,13 @@ void Watch::take_events() {
         open_ = false;
         break;
       case SDL_KEYDOWN:
-        key(event.key.keysym);
+        if (!desk_.ui().typing()) key(event.key.keysym);
         break;
       case SDL_MOUSEMOTION:
         move(event.motion);
         break;
       case SDL_MOUSEWHEEL:
-        if (!help_ && !desk_.ui().over_panel())
+        if (!page_open() && !desk_.ui().over_panel())
           render::zoom(scene_.camera, std::pow(1.15, desk_.settings.zoom_pace * event.wheel.y));
         break;
       case SDL_MULTIGESTURE:
@@ -213,9 +225,17 @@ void Watch::key(const SDL_Keysym& pressed) {
   const record::Timeline& line = recorded_.timeline;
   switch (pressed.sym) {
     case SDLK_ESCAPE:
-      if (std::exchange(help_, false)) break;
+      if (page_open()) {
+        help_ = false;
+        export_->show(false);
+        break;
+      }
       [[fallthrough]];
     case SDLK_q:
+      if (!export_->progress().empty() && !std::exchange(leaves_, true)) {
+        note(word(Word::export_wait));
+        break;
+      }
       left_ = Left::page;
       open_ = false;
       break;
@@ -266,6 +286,11 @@ void Watch::key(const SDL_Keysym& pressed) {
     case SDLK_F1:
     case SDLK_h:
       help_ = !help_;
+      export_->show(false);
+      break;
+    case SDLK_e:
+      export_->show(!export_->shown());
+      help_ = false;
       break;
     case SDLK_p:
       picture_ = true;
@@ -300,7 +325,7 @@ void Watch::turn_view(double right, double up, bool shift) {
 
 // Nothing is milled here, so both buttons turn.
 void Watch::move(const SDL_MouseMotionEvent& motion) {
-  if (help_ || scrubbing_ || desk_.ui().over_panel()) return;
+  if (page_open() || scrubbing_ || desk_.ui().over_panel()) return;
   if ((motion.state & (SDL_BUTTON_LMASK | SDL_BUTTON_RMASK)) != 0)
     turn_view(-motion.xrel, motion.yrel, false);
   if ((motion.state & SDL_BUTTON_MMASK) != 0) turn_view(-motion.xrel, motion.yrel, true);
@@ -329,7 +354,7 @@ void Watch::panels() {
     s.mode = mode();
     if (const edit::Mirror now = mirror(); now.on())
       draw_mirror_sign(ui, mirror_words(recorded_.bone->grid(), now), 0);
-    s.note = note_;
+    s.note = note_.empty() ? export_->progress() : note_;
     s.warning = warning_;
     const TimelineDone done = draw_timeline(ui, s);
     scrubbing_ = done.scrubbed.has_value();
@@ -338,6 +363,7 @@ void Watch::panels() {
     if (done.pace != 0) change_pace(done.pace);
   }
   if (help_) help_ = draw_replay_help(ui);
+  if (export_->shown()) export_->draw();
 }
 
 }  // namespace

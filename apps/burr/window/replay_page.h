@@ -21,6 +21,7 @@ struct Watched {
   bool behind = false;  // the picture is not there yet
   double force = 0;     // shown as a number        [N]
   double removed = 0;   // likewise                 [m^3]
+  std::string note;     // told last
 };
 
 struct WatchOptions {

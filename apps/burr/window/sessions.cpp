@@ -157,6 +157,7 @@ Result<Ready> continue_session(const KeptSession& kept, Progress& progress) {
   const Status there = (*player)->bone_at(1e9, **bone);
   if (!there) return there.error();
   work.made.bone = std::move(*bone);
+  if (scan) work.made.greys = scan_greys_of(**player, options.volume, progress);
   const auto& words = (*player)->info().volume.words;
   const auto format = words.find("format");
   work.made.summary.format = format == words.end() ? "recording" : format->second;
@@ -192,6 +193,11 @@ Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& optio
   }
   if (made) made = write_account();
   if (!made) trouble_ = made.error().text;
+}
+
+std::optional<FilmSource> Autosave::film_source() const {
+  if (!recording_now_) return std::nullopt;
+  return film_of(session_, kept_.file.string(), kept_.options.volume);
 }
 
 Status Autosave::write_account() const {

@@ -12,11 +12,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "burr/base/result.h"
 #include "recording.h"
+#include "window/film_job.h"
 #include "window/settings.h"
 #include "work.h"
 
@@ -52,6 +54,8 @@ class Autosave {
            bool embed);
   // After the servo stands.
   void finish();
+  // What a film of it is made of, as it is now; none: it could not be kept.
+  [[nodiscard]] std::optional<FilmSource> film_source() const;
   [[nodiscard]] bool keep();  // not to be thrown away; false: there is nothing
   [[nodiscard]] std::string trouble() const;
   [[nodiscard]] const std::filesystem::path& file() const { return kept_.file; }

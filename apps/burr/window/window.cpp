@@ -39,7 +39,7 @@ Result<Left> Mill::run() {
   saved_views_.emplace(state.empty() ? state : state / "views.toml",
                        key_of(session_.bone().grid()));
   if (!saved_views_->trouble().empty()) note(saved_views_->trouble());
-  export_.emplace(desk_, session_, scene_, options_.folder);
+  export_.emplace(desk_, &session_, scene_, options_.folder, options_.film_of);
   colours_ = scene_.tissue_colours;
   desk_.mouse(mouse_x_, mouse_y_);  // before it moves
   aim_at_mouse();

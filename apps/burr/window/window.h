@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "burr/render/scene.h"
@@ -15,6 +16,7 @@
 #include "loudspeaker.h"
 #include "nearby.h"
 #include "window/desk.h"
+#include "window/film_job.h"
 #include "window/mouse_hand.h"
 
 namespace burr::app {
@@ -28,6 +30,8 @@ struct WindowOptions {
   std::function<std::string()> warning = {};
   // the user wants this session kept for good; false: there is nothing to keep
   std::function<bool()> keep = {};
+  // the session's recording as it is now, for a film; none: it is not recorded
+  std::function<std::optional<FilmSource>()> film_of = {};
   const Nearby* nearby = nullptr;                   // what must not be cut; nullptr: nothing
   Loudspeaker* loudspeaker = nullptr;               // nullptr: no sound
   std::shared_ptr<const volume::Greys> greys = {};  // of the scan; none: slices show the bone

@@ -1,6 +1,6 @@
 #include "window/words.h"
 
-#include <array>
+#include <iterator>
 
 namespace burr::app {
 namespace {
@@ -10,7 +10,7 @@ struct Entry {
   const char *english, *swedish;
 };
 
-constexpr std::array kWords = {
+constexpr Entry kWords[] = {
     Entry{Word::force, "Force", "Kraft"},
     Entry{Word::limit_user, "yours", "din"},
     Entry{Word::limit_device, "device", "don"},
@@ -195,12 +195,25 @@ constexpr std::array kWords = {
     Entry{Word::replay_drag, "drag on the line", "dra på linjen"},
     Entry{Word::key_ctrl_arrows, "Ctrl + arrows", "Ctrl + pilar"},
     Entry{Word::export_word, "Export", "Exportera"},
-    Entry{Word::export_help, "bone, removed part or picture into a file",
-          "ben, bortfräst del eller bild till en fil"},
+    Entry{Word::export_help, "bone, removed part, picture, film into files",
+          "ben, bortfräst del, bild, film till filer"},
     Entry{Word::export_title, "Export", "Exportera"},
     Entry{Word::export_bone, "The bone", "Benet"},
     Entry{Word::export_removed, "What was removed", "Det bortfrästa"},
     Entry{Word::export_picture, "A picture", "En bild"},
+    Entry{Word::export_film, "A film", "En film"},
+    Entry{Word::film_told, "a folder of numbered pictures, 25 a second, of the whole recording",
+          "en mapp med numrerade bilder, 25 per sekund, av hela inspelningen"},
+    Entry{Word::film_of_nothing,
+          "this session is not recorded, so there is nothing to film: switch autosave on (F2) "
+          "before the next",
+          "den här sessionen spelas inte in, så det finns inget att filma: slå på autosparning "
+          "(F2) före nästa"},
+    Entry{Word::film_done, "written: {}, {} pictures", "skriven: {}, {} bilder"},
+    Entry{Word::film_stopped, "film stopped; the pictures made until then are kept",
+          "filmen stoppad; bilderna som hann göras finns kvar"},
+    Entry{Word::film_help, "a picture, or a film of it all, into files",
+          "en bild, eller en film av allt, till filer"},
     Entry{Word::export_write, "Write", "Skriv"},
     Entry{Word::export_replace, "Replace it", "Ersätt den"},
     Entry{Word::export_stop, "Stop", "Stoppa"},
@@ -347,7 +360,8 @@ constexpr std::array kWords = {
     Entry{Word::flag_not_cut, "not all cut", "allt fräses inte"},
     Entry{Word::flag_put_off, "cutting in turns", "fräser i omgångar"},
 };
-static_assert(kWords.size() == static_cast<std::size_t>(Word::count_), "every Word has its entry");
+static_assert(std::size(kWords) == static_cast<std::size_t>(Word::count_),
+              "every Word has its entry");
 
 Language language_now = Language::english;
 
@@ -363,7 +377,7 @@ const char* word(Word which, Language language) {
 const char* word(Word which) { return word(which, language_now); }
 
 bool words_in_order() {
-  for (std::size_t n = 0; n < kWords.size(); ++n)
+  for (std::size_t n = 0; n < std::size(kWords); ++n)
     if (kWords[n].which != static_cast<Word>(n)) return false;
   return true;
 }
