@@ -55,6 +55,11 @@ void Desk::settings_changed() {
 
 bool Desk::next(SDL_Event& event) {
   if (SDL_PollEvent(&event) == 0) return false;
+  if (plugs(event)) {
+    pads.scan();
+    pedals.scan();
+  }
+  if (page != Page::milling) as_key(event);
   ui_->event(event);
   if (event.type == SDL_WINDOWEVENT) switch (event.window.event) {
       case SDL_WINDOWEVENT_MINIMIZED:

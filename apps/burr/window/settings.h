@@ -26,13 +26,19 @@ struct Settings {
   double press_mm = 4;         // how deep the mouse presses at first
   double turn_pace = 1;        // of the view, by mouse and arrows
   double zoom_pace = 1;        // by wheel and two fingers
-  bool effects = true;         // bone freshly cut and wet looks so for a while
-  bool panels = true;          // shown at the start
-  bool help = false;           // shown at the start
-  bool autosave = true;        // sessions at the window are recorded
-  double sessions_kept = 10;   // at most so many of them
-  double sessions_mb = 2000;   // ... and together so large
-  bool recent_names = false;   // file names of one's own scans in lists and titles
+  double pad_pace = 1;         // of the point that a gamepad or SpaceMouse moves
+  double pad_dead = 0.15;      // share of a stick's way that counts as rest
+  double pedal_mill = 0;       // buttons of a pedal, from 0
+  double pedal_burr = 1;
+  double pedal_coolant = 2;
+  double pedal_rest = -1;     // where its axis is with no foot on it
+  bool effects = true;        // bone freshly cut and wet looks so for a while
+  bool panels = true;         // shown at the start
+  bool help = false;          // shown at the start
+  bool autosave = true;       // sessions at the window are recorded
+  double sessions_kept = 10;  // at most so many of them
+  double sessions_mb = 2000;  // ... and together so large
+  bool recent_names = false;  // file names of one's own scans in lists and titles
 };
 
 struct SettingsRead {

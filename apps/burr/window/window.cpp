@@ -43,12 +43,16 @@ Result<Left> Mill::run() {
   colours_ = scene_.tissue_colours;
   SDL_GetMouseState(&mouse_x_, &mouse_y_);  // before it moves
   aim_at_mouse();
+  desk_.cap.open();
+  lift();
+  hands_taken_ = Clock::now();
   session_.start();
   const Clock::time_point start = Clock::now();
   Clock::time_point frame = start;
   Status shown = fine();
   while (open_ && shown && !interrupted()) {
     take_events();
+    take_hands();
     look_at_session();
     if (!desk_.settings.effects)
       live.look_plain();
@@ -62,8 +66,9 @@ Result<Left> Mill::run() {
                     desk_.renderer().height(), static_cast<int>(hud_height(desk_.ui())));
     live.update();
     const Clock::time_point drawing = Clock::now();
-    shown = desk_.show(scene_, panels_ || page_open() || measuring_.on() ? [this] { panels(); }
-                                                                         : std::function<void()>());
+    shown = desk_.show(scene_, panels_ || page_open() || measuring_.on() || leads_
+                                   ? [this] { panels(); }
+                                   : std::function<void()>());
     live.drawn(std::chrono::duration<double>(Clock::now() - drawing).count(),
                desk_.renderer().figures().redrawn);
     picture_step_ = live.governor().step();
@@ -80,6 +85,7 @@ Result<Left> Mill::run() {
         std::chrono::duration<double>(Clock::now() - start).count() >= options_.seconds)
       open_ = false;
   }
+  mouse_leads();
   export_.reset();
   session_.stop();
   scene_.insets.clear();
