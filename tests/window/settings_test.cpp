@@ -39,6 +39,12 @@ TEST_F(SettingsFile, ComesBackAsItWasWrittenWithEveryValueChanged) {
   s.press_mm = 3;
   s.turn_pace = 0.5;
   s.zoom_pace = 2;
+  s.pad_pace = 2;
+  s.pad_dead = 0.25;
+  s.pedal_mill = 3;
+  s.pedal_burr = 0;
+  s.pedal_coolant = 4;
+  s.pedal_rest = 1;
   s.effects = false;
   s.stereo = render::Stereo::interleaved;
   s.stereo_depth = 0.5;
@@ -72,7 +78,7 @@ TEST_F(SettingsFile, IsExplainedLineByLine) {
     }
     before = line;
   }
-  EXPECT_EQ(set, 18);
+  EXPECT_EQ(set, 24);
 }
 
 TEST_F(SettingsFile, WhichIsNotThereMeansTheDefaultsWithoutTrouble) {

@@ -65,6 +65,11 @@ bool Desk::next(SDL_Event& event) {
     next_stereo();
   } while (true);
   if (halves()) into_half(event);
+  if (plugs(event)) {
+    pads.scan();
+    pedals.scan();
+  }
+  if (page != Page::milling) as_key(event);
   ui_->event(event);
   if (event.type == SDL_WINDOWEVENT) switch (event.window.event) {
       case SDL_WINDOWEVENT_MINIMIZED:

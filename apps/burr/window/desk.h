@@ -13,7 +13,10 @@
 #include "burr/base/result.h"
 #include "burr/render/headset.h"
 #include "burr/render/renderer.h"
+#include "window/gamepad.h"
+#include "window/pedals.h"
 #include "window/settings.h"
+#include "window/spacemouse.h"
 #include "window/ui.h"
 
 namespace burr::app {
@@ -43,6 +46,9 @@ class Desk {
   Page page = Page::none;             // the one shown
   std::string told;                   // what went wrong, on the start and import pages
   std::string said;                   // while milling: what must be known, or was done last
+  Gamepads pads;                      // hands other than the mouse's
+  Pedals pedals;
+  SpaceMouse cap;
   std::function<void()> after_frame;  // whoever wants to look on, after each picture
   // Worn while milling; gone when the window is made anew.
   std::unique_ptr<render::Headset> headset;

@@ -26,13 +26,38 @@ void block(const Ui& ui, float x, float& y, Word title, const Rows& rows) {
   y += 14 * u;
 }
 
+// The other leaf: what gamepad, pedal and SpaceMouse do.
+void pad_rows(const Ui& ui, float x, float y) {
+  block(ui, x, y, Word::help_pad,
+        {{word(Word::key_sticks), Word::pad_sticks},
+         {word(Word::key_right_trigger), Word::pad_trigger},
+         {word(Word::key_left_trigger), Word::pad_slow},
+         {"B", Word::pad_lift},
+         {"X  Y", Word::pad_undo},
+         {word(Word::key_shoulders), Word::pad_shoulders},
+         {word(Word::key_cross), Word::pad_cross},
+         {word(Word::key_clicks), Word::pad_clicks},
+         {"Start  Back", Word::pad_menu},
+         {word(Word::key_pedal), Word::pedal_does},
+         {"SpaceMouse", Word::cap_does}});
+}
+
 }  // namespace
 
-bool draw_help(Ui& ui, bool left_handed) {
+bool draw_help(Ui& ui, bool left_handed, bool& pads) {
   const float u = ui.unit(), w = 920 * u, h = 580 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
   ui.page("##help", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::help_title));
+  ImGui::SetCursorScreenPos({x + w - 390 * u, y + 20 * u});
+  if (ImGui::Button(word(pads ? Word::help_title : Word::help_pad), {276 * u, 0})) pads = !pads;
+  ImGui::SetCursorScreenPos({x + w - 100 * u, y + 20 * u});
+  const bool close = ImGui::Button("OK  [F1]", {76 * u, 0});
+  if (pads) {
+    pad_rows(ui, x + 28 * u, y + 70 * u);
+    ImGui::End();
+    return !close;
+  }
   const std::string mill = word(left_handed ? Word::key_right : Word::key_left);
   const std::string turn = word(left_handed ? Word::key_left : Word::key_right);
   float left = y + 70 * u, right = left;
@@ -74,8 +99,6 @@ bool draw_help(Ui& ui, bool left_handed) {
          {"9  0", Word::help_loudness},
          {"Esc  Q", Word::help_quit}});
   ui.write(x + 28 * u, y + h - 52 * u, Ui::Letter::body, ink::kDim, word(Word::help_ghost));
-  ImGui::SetCursorScreenPos({x + w - 100 * u, y + 20 * u});
-  const bool close = ImGui::Button("OK  [F1]", {76 * u, 0});
   ImGui::End();
   return !close;
 }

@@ -1,7 +1,7 @@
 // apps/burr/window/mill.h - the page one works on, as one object: what a picture needs of the user,
 // the session and the bone. Its parts are window.cpp (picture after picture), mill_hand.cpp (what
-// the user does), mill_headset.cpp (whoever wears one) and mill_told.cpp (what the user is told);
-// nothing else includes this.
+// the user does), mill_pads.cpp (the same with other hands than the mouse), mill_headset.cpp
+// (whoever wears one) and mill_told.cpp (what the user is told); nothing else includes this.
 //
 // Thread: main. Frame: world. Units: SI.
 #pragma once
@@ -71,6 +71,9 @@ class Mill {
   void mirror(const SDL_Keysym& pressed);
   void tell_mirror();
   void saved_view(int slot, bool keep);
+  void go_back();
+  void keep();
+  void pick_point();
   void aim_at_mouse() {
     aim_x_ = mouse_x_;
     aim_y_ = mouse_y_;
@@ -80,9 +83,30 @@ class Mill {
     return help_ || settings_page_ || (export_ && export_->shown());
   }
   [[nodiscard]] bool pressing() const {
-    return (pressing_ || held_) && !measuring_.picks() && !page_open() &&
-           !desk_.ui().over_panel() && !over_slices();
+    return (pressing_ || held_ || depth_ > 0 || foot_ > 0) && !measuring_.picks() && !page_open() &&
+           !over_panel() && !over_slices();
   }
+  // while a pad leads, the mouse may lie where it was left
+  [[nodiscard]] bool over_panel() const { return !leads_ && desk_.ui().over_panel(); }
+  // how far below the surface the arm is aimed while it presses, and the spindle's share  [m], [1]
+  [[nodiscard]] double depth() const {
+    const double share = pressing_ || held_ || foot_ > 0 ? 1 : depth_;
+    return kPressLeast + share * (press_ - kPressLeast);
+  }
+  [[nodiscard]] double pedal() const {
+    return (pressing_ || held_ || depth_ > 0 ? 1 : foot_) * (1 - slowed_);
+  }
+
+  // ---- mill_pads.cpp
+  void take_hands();
+  void look_for_hands();
+  void lead();
+  void mouse_leads();
+  void move_aim(double right, double up, double dt);
+  void pad_button(Uint8 button);
+  void pedal_button(const SDL_Event& event);
+  void next_burr();
+  void draw_cursor() const;
 
   // ---- mill_headset.cpp
   void look_for_headset();
@@ -110,7 +134,7 @@ class Mill {
 
   bool open_ = true, picture_ = false;
   Left left_ = Left::window;
-  bool panels_ = true, help_ = false, settings_page_ = false;
+  bool panels_ = true, help_ = false, help_pads_ = false, settings_page_ = false;
   int picture_step_ = 0;
   std::optional<Slices> slices_;
   std::optional<SavedViews> saved_views_;
@@ -128,6 +152,12 @@ class Mill {
   int mouse_x_ = 0, mouse_y_ = 0, width_ = 1, height_ = 1;
   int aim_x_ = 0, aim_y_ = 0;  // where the mouse was last that was no slice
   double press_ = 4e-3;
+  // of pad, cap and pedal
+  double depth_ = 0, foot_ = 0, slowed_ = 0;  // share of the press, of the pedal; spindle held back
+  bool leads_ = false, pad_lifts_ = false, mouse_moved_ = false;
+  double pad_x_ = 0, pad_y_ = 0;  // its cursor
+  int hands_there_ = -1;
+  Clock::time_point hands_taken_{};
   math::Vec3 normal_ = math::Vec3::Zero();  // of the surface under the mouse, calmed
   std::optional<math::Vec3> point_;         // there
   sim::ToolMode mode_ = sim::ToolMode::cut;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -46,6 +47,12 @@ void Mill::take_events() {
       case SDL_MOUSEWHEEL:
         wheel(event.wheel);
         break;
+      case SDL_CONTROLLERBUTTONDOWN:
+        pad_button(event.cbutton.button);
+        break;
+      case SDL_JOYBUTTONDOWN:
+        pedal_button(event);
+        break;
       case SDL_MULTIGESTURE:  // two fingers on a touch screen
         render::zoom(scene_.camera, std::exp(4 * static_cast<double>(event.mgesture.dDist)));
         break;
@@ -63,14 +70,7 @@ void Mill::key(const SDL_Keysym& pressed) {
   const bool shift = (pressed.mod & KMOD_SHIFT) != 0;
   switch (pressed.sym) {
     case SDLK_ESCAPE:
-      if (page_open()) {
-        help_ = settings_page_ = false;
-        export_->show(false);
-      } else if (measuring_.on()) {
-        measuring_.stop();
-        note(word(Word::measure_off));
-      } else
-        act(Action::leave);
+      go_back();
       break;
     case SDLK_q:
       act(Action::leave);
@@ -178,7 +178,7 @@ void Mill::key(const SDL_Keysym& pressed) {
       push(1 / 1.25);
       break;
     case SDLK_s:
-      note(word(options_.keep && options_.keep() ? Word::session_kept : Word::session_not_kept));
+      keep();
       break;
     case SDLK_e:
       act(Action::export_);
@@ -198,6 +198,22 @@ void Mill::key(const SDL_Keysym& pressed) {
     default:
       break;
   }
+}
+
+// Closes what is open, last of all the page.
+void Mill::go_back() {
+  if (page_open()) {
+    help_ = settings_page_ = false;
+    export_->show(false);
+  } else if (measuring_.on()) {
+    measuring_.stop();
+    note(word(Word::measure_off));
+  } else
+    act(Action::leave);
+}
+
+void Mill::keep() {
+  note(word(options_.keep && options_.keep() ? Word::session_kept : Word::session_not_kept));
 }
 
 void Mill::act(Action action) {
@@ -253,6 +269,7 @@ void Mill::act(Action action) {
       break;
     case Action::help:
       help_ = !help_;
+      help_pads_ = false;
       settings_page_ = false;
       export_->show(false);
       break;
@@ -263,6 +280,15 @@ void Mill::act(Action action) {
       open_ = false;
       break;
   }
+}
+
+// The next size, and after the largest the smallest: a foot has one button for it.
+void Mill::next_burr() {
+  const double largest = *std::rbegin(kSizes);
+  const bool over = 2 * burr_wished_.value_or(session_.burr_radius()) > largest - 1e-9;
+  if (!over) return change_burr(1);
+  burr_wished_ = 0;
+  change_burr(1);
 }
 
 // The next size of kSizes that the voxels bear; the servo has the last word.
@@ -294,7 +320,20 @@ void Mill::change_speed(double by) {
 
 void Mill::push(double factor) { press_ = std::clamp(press_ * factor, kPressLeast, kPressMost); }
 
-void Mill::lift() { pressing_ = held_ = false; }
+void Mill::lift() {
+  pressing_ = held_ = false;
+  depth_ = foot_ = 0;
+  desk_.pads.disarm();
+  desk_.pedals.disarm();
+  desk_.cap.disarm();
+}
+
+void Mill::pick_point() {
+  const auto hit = render::pick(
+      scene_, render::ray_through(scene_.camera, mouse_x_ + 0.5, mouse_y_ + 0.5, width_, height_));
+  if (hit) measuring_.pick(hit->p);
+  note(measuring_.words());
+}
 
 void Mill::button(const SDL_MouseButtonEvent& button) {
   const Uint8 mills = desk_.settings.left_handed ? SDL_BUTTON_RIGHT : SDL_BUTTON_LEFT;
@@ -304,10 +343,7 @@ void Mill::button(const SDL_MouseButtonEvent& button) {
   if (measuring_.picks()) {
     const bool down = button.type == SDL_MOUSEBUTTONDOWN;
     if (!down || page_open() || desk_.ui().over_panel() || over_slices()) return;
-    const auto hit = render::pick(scene_, render::ray_through(scene_.camera, mouse_x_ + 0.5,
-                                                              mouse_y_ + 0.5, width_, height_));
-    if (hit) measuring_.pick(hit->p);
-    return note(measuring_.words());
+    return pick_point();
   }
   // what began on a panel is not for the bone
   pressing_ = button.type == SDL_MOUSEBUTTONDOWN && !desk_.ui().over_panel();
@@ -338,6 +374,8 @@ void Mill::turn_view(double right, double up, bool shift) {
 void Mill::move(const SDL_MouseMotionEvent& motion) {
   // over a panel the hand stays where it was
   if (page_open() || desk_.ui().over_panel()) return;
+  if (leads_ && (depth_ > 0 || held_)) return;  // a mouse that is knocked moves no pressing burr
+  mouse_leads();
   mouse_x_ = motion.x;
   mouse_y_ = motion.y;
   if (!over_slices()) aim_at_mouse();
@@ -372,7 +410,7 @@ void Mill::point() {
     normal_ = (0.8 * normal_ + 0.2 * scene_.camera.backward()).normalized();
   }
   const bool press = pressing() && hit.has_value();
-  const double height = scene_.burr.radius + (press ? -press_ : kHover);
+  const double height = scene_.burr.radius + (press ? -depth() : kHover);
 
   // the handle leans out of the way, to the side of the hand that holds it
   const double side = desk_.settings.left_handed ? -0.7 : 0.7;
@@ -381,7 +419,7 @@ void Mill::point() {
   MouseHand::Aim aim;
   aim.world_from_tool.p = surface + height * normal_;
   aim.world_from_tool.q = math::shortest_turn(Vec3::UnitZ(), handle);
-  aim.pedal = press ? 1 : 0;
+  aim.pedal = press ? pedal() : 0;
   hand_.aim(aim);
 }
 

@@ -126,7 +126,7 @@ HudState Mill::hud() const {
   s.force = row_.contact.force.norm();
   s.user_limit = desk_.settings.force_limit_n;
   s.device_limit = session_.hand().spec().peak_force;
-  s.press = press_;
+  s.press = pressing() ? depth() : press_;
   s.press_most = kPressMost;
   s.pressing = wand_ ? wand_at_.tracked && wand_at_.trigger > 0 : pressing();
   s.speed = row_.spindle_rad_s;
@@ -162,13 +162,14 @@ HudState Mill::hud() const {
 void Mill::panels() {
   Ui& ui = desk_.ui();
   measuring_.draw(ui, scene_.camera);
+  draw_cursor();
   if (panels_) {
     draw_hud(ui, hud());
     slices_->write_names(scene_, ui);
     if (const auto pressed = draw_toolbar(ui, mode_, measuring_.on(), mirror_.now().on()))
       act(*pressed);
   }
-  if (help_) help_ = draw_help(ui, desk_.settings.left_handed);
+  if (help_) help_ = draw_help(ui, desk_.settings.left_handed, help_pads_);
   if (export_->shown()) export_->draw();
   if (!settings_page_) return;
   const double limit = desk_.settings.force_limit_n;

@@ -27,7 +27,13 @@ struct Settings {
   double press_mm = 4;         // how deep the mouse presses at first
   double turn_pace = 1;        // of the view, by mouse and arrows
   double zoom_pace = 1;        // by wheel and two fingers
-  bool effects = true;         // bone freshly cut and wet looks so for a while
+  double pad_pace = 1;         // of the point that a gamepad or SpaceMouse moves
+  double pad_dead = 0.15;      // share of a stick's way that counts as rest
+  double pedal_mill = 0;       // buttons of a pedal, from 0
+  double pedal_burr = 1;
+  double pedal_coolant = 2;
+  double pedal_rest = -1;  // where its axis is with no foot on it
+  bool effects = true;     // bone freshly cut and wet looks so for a while
   render::Stereo stereo = render::Stereo::off;
   double stereo_depth = 1;    // how far the eyes are apart; 1: as `burr picture` has it
   bool headset = false;       // by OpenXR, where there is one

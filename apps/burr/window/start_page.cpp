@@ -134,7 +134,7 @@ void StartPage::open(std::string path) {
 void StartPage::draw() {
   Ui& ui = desk_.ui();
   const float u = ui.unit();
-  if (help_ && !draw_help(ui, desk_.settings.left_handed)) help_ = false;
+  if (help_ && !draw_help(ui, desk_.settings.left_handed, help_pads_)) help_ = false;
   if (settings_) {
     const fs::path& config = desk_.places().config;
     const SettingsPage page = draw_settings(

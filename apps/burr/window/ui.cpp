@@ -190,8 +190,8 @@ float Ui::width() const { return ImGui::GetIO().DisplaySize.x; }
 float Ui::height() const { return ImGui::GetIO().DisplaySize.y; }
 // WantTextInput speaks of the picture before: a field that was left in this one is no longer active
 bool Ui::typing() const { return ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive(); }
-bool Ui::over_panel() const {
-  const float x = mouse_x_ * from_window_, y = mouse_y_ * from_window_;
+bool Ui::over_panel(float window_x, float window_y) const {
+  const float x = window_x * from_window_, y = window_y * from_window_;
   return std::any_of(boxes_.begin(), boxes_.end(), [&](const Box& box) {
     return x >= box.x && x < box.x + box.w && y >= box.y && y < box.y + box.h;
   });

@@ -57,7 +57,9 @@ class Ui {
   // Somebody types into a field: keys are letters.
   [[nodiscard]] bool typing() const;
   // The mouse is over a panel, as last drawn. forget_panels(): none was drawn.
-  [[nodiscard]] bool over_panel() const;
+  [[nodiscard]] bool over_panel() const { return over_panel(mouse_x_, mouse_y_); }
+  // the same for any place  [window coordinates]
+  [[nodiscard]] bool over_panel(float window_x, float window_y) const;
   void forget_panels() { boxes_.clear(); }
 
   // ---- what panels are made of

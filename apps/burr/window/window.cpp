@@ -43,12 +43,16 @@ Result<Left> Mill::run() {
   colours_ = scene_.tissue_colours;
   desk_.mouse(mouse_x_, mouse_y_);  // before it moves
   aim_at_mouse();
+  desk_.cap.open();
+  lift();
+  hands_taken_ = Clock::now();
   session_.start();
   const Clock::time_point start = Clock::now();
   Clock::time_point frame = start;
   Status shown = fine();
   while (open_ && shown && !interrupted()) {
     take_events();
+    take_hands();
     look_at_session();
     if (!desk_.settings.effects)
       live.look_plain();
@@ -66,9 +70,9 @@ Result<Left> Mill::run() {
     // whoever wears a headset comes first; the window follows thirty times a second
     if (!seen_ || drawing - window_drawn_ > std::chrono::milliseconds(30)) {
       window_drawn_ = drawing;
-      shown =
-          desk_.show(scene_, panels_ || page_open() || measuring_.on() ? [this] { panels(); }
-                                                                       : std::function<void()>());
+      shown = desk_.show(scene_, panels_ || page_open() || measuring_.on() || leads_
+                                     ? [this] { panels(); }
+                                     : std::function<void()>());
     }
     end_headset();
     live.drawn(std::chrono::duration<double>(Clock::now() - drawing).count(),
@@ -89,6 +93,7 @@ Result<Left> Mill::run() {
       open_ = false;
   }
   take_off_headset();
+  mouse_leads();
   export_.reset();
   session_.stop();
   scene_.insets.clear();
