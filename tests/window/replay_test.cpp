@@ -187,18 +187,22 @@ std::string bytes_of(const fs::path& path) {
 TEST_F(Replay, AFilmHasThePicturesOfTheCommandLine) {
   const fs::path recording = folder_ / "short.mcap", film = folder_ / "film", other = folder_ / "o";
   ASSERT_EQ(
-      run_burr("mill phantom:block --voxel-mm 1 --motion slot --burr-mm 5 --seconds 0.2 --record " +
+      run_burr("mill phantom:block --voxel-mm 1 --motion slot --burr-mm 5 --seconds 1 --record " +
                recording.string()),
       0);
-  ASSERT_EQ(run_burr("replay " + recording.string() + " --effects --film " + other.string()), 0);
+  ASSERT_EQ(run_burr("replay " + recording.string() +
+                     " --effects --fps 5 --picture-size 160,100 --film " + other.string()),
+            0);
   NoProgress quiet;
   auto recorded = open_recorded(recording.string(), {}, {}, quiet);
   ASSERT_TRUE(recorded) << recorded.error().text;
+  recorded->film.fps = 5;
+  recorded->film.size = {160, 100};
   const auto says = [this](const std::string& words) {
     return [this, words] { return seen_.note.find(words) != std::string::npos; };
   };
   std::string asked;
-  Script script({{"the end", shows(0.2), [] { press(SDLK_e); }},
+  Script script({{"the end", shows(1), [] { press(SDLK_e); }},
                  {"the page", looks(5), click_write},
                  {"the film", says("5 pictures"), [] { press(SDLK_e); }},
                  {"the page again", looks(5), click_write},
@@ -211,13 +215,13 @@ TEST_F(Replay, AFilmHasThePicturesOfTheCommandLine) {
                  {"the line again", looks(5), [] { press(SDLK_ESCAPE); }}});
   desk_->after_frame = [&script] { script.look(); };
   const auto left =
-      watch(*desk_, *recorded, {.folder = folder_.string(), .from = 0.2, .seen = &seen_});
+      watch(*desk_, *recorded, {.folder = folder_.string(), .from = 1, .seen = &seen_});
   desk_->after_frame = {};
   ASSERT_TRUE(left) << left.error().text;
   EXPECT_TRUE(script.finished());
   for (int n = 2; n <= 5; ++n) {
     ASSERT_TRUE(fs::exists(frame(other, n)));
-    EXPECT_EQ(bytes_of(frame(film, n)), bytes_of(frame(other, n))) << n;
+    EXPECT_TRUE(bytes_of(frame(film, n)) == bytes_of(frame(other, n))) << n;
   }
   EXPECT_FALSE(fs::exists(frame(film, 6)));
   EXPECT_FALSE(fs::exists(frame(film, 1))) << "a film was there: asked first, not made again";
@@ -247,7 +251,9 @@ TEST_F(Replay, AFilmThatIsStoppedKeepsWhatWasMade) {
 
 TEST(Film, SaysWhyThereIsNone) {
   NoProgress quiet;
-  const auto none = write_film({.recording = "/no/such.mcap"}, "/tmp/no_film", quiet);
+  FilmSource source;
+  source.recording = "/no/such.mcap";
+  const auto none = write_film(source, "/tmp/no_film", quiet);
   ASSERT_FALSE(none);
   EXPECT_NE(none.error().text.find("/no/such.mcap"), std::string::npos) << none.error().text;
 }

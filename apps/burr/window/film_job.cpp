@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kFps = 25;
 constexpr int kNice = 10;  // what is milled meanwhile comes first
 constexpr auto kLook = std::chrono::milliseconds(100);
 constexpr auto kPatience = std::chrono::seconds(20);  // for a picture under way, when stopped
@@ -33,8 +32,11 @@ fs::path picture(const fs::path& folder, int number) {  // render::Film names th
 std::vector<std::string> command_of(const FilmSource& source, const std::string& folder) {
   std::error_code nobody_asks;
   const fs::path program = fs::read_symlink("/proc/self/exe", nobody_asks).parent_path() / "burr";
-  std::vector<std::string> words = {program.string(), "--quiet", "replay", source.recording,
-                                    "--film",         folder,    "--fps",  fmt::format("{}", kFps)};
+  std::vector<std::string> words = {
+      program.string(), "--quiet", "replay", source.recording,
+      "--film",         folder,    "--fps",  fmt::format("{}", source.fps)};
+  words.insert(words.end(),
+               {"--picture-size", fmt::format("{},{}", source.size.width, source.size.height)});
   const auto add = [&words](const char* option, const std::string& value) {
     if (value.empty()) return;
     words.emplace_back(option);
@@ -130,7 +132,7 @@ bool holds_film(const std::string& folder) {
 }
 
 Result<int> write_film(const FilmSource& source, const std::string& folder, Progress& progress) {
-  const int expected = std::max(1, static_cast<int>(source.seconds * kFps));
+  const int expected = std::max(1, static_cast<int>(source.seconds * source.fps));
   progress.report(0, "");
   std::error_code nobody_asks;
   for (int n = 1; fs::remove(picture(folder, n), nobody_asks); ++n) continue;

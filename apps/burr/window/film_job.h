@@ -9,6 +9,7 @@
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/sim/session.h"
+#include "still.h"
 #include "volume_options.h"
 
 namespace burr::app {
@@ -18,6 +19,8 @@ struct FilmSource {
   VolumeOptions volume;   // the scan it was made from; empty path: it is found by the recording
   double seconds = 0;     // how long it is by now, to tell how far the film is
   bool effects = true;    // burr replay --effects
+  double fps = 25;
+  PictureSize size = {};
 };
 
 // Of a session that goes on and is recorded.

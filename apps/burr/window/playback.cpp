@@ -49,7 +49,9 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
         fs::path(kept.options.volume.path).extension() != ".toml")
       volume = kept.options.volume;
   }
-  out.film = {file, volume, out.player->seconds(), true};
+  out.film.recording = file;
+  out.film.volume = volume;
+  out.film.seconds = out.player->seconds();
   auto bone = bone_of(*out.player, volume, progress);
   if (!bone) return bone.error();
   out.bone = std::move(*bone);
