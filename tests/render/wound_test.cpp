@@ -256,6 +256,10 @@ TEST(Wound, DustHangsInTheAirAndSettlesAroundTheToolInAConeOfItsVolume) {
   EXPECT_NEAR(total, loose, 0.01 * loose);
   EXPECT_EQ(wound.at({reach + 1.5e-3, 0, 0}).dust, 0);
   EXPECT_EQ(wound.at({0, 0, -kRadius}).dust, 0) << "the burr sweeps where it cuts";
+  const Vec3 beside(0.5 * reach, 0, 0);
+  ASSERT_GT(wound.at(beside).dust, 0.1F);
+  milling.on(beside, 0.1, 1e-12, false);
+  EXPECT_NEAR(wound.at(beside).dust, 0, 1e-3) << "... and what lay there before";
 }
 
 TEST(Wound, CoolantWashesDustAwayAndLetsNoneSettle) {
@@ -347,7 +351,8 @@ TEST(Wound, OnlyWhatBleedsBleedsAndTheMoreTheFaster) {
 }
 
 TEST(Wound, AVesselBleedsWhenItIsReachedNotThroughThinBone) {
-  for (const double deep : {0.3e-3, 1.2e-3}) {  // of the canal's wall below the cut
+  for (const bool reached : {true, false}) {
+    const double deep = reached ? 0.3e-3 : 0.4e-3;  // into the canal; of the bone that is left
     Wound wound(kVoxel, kBleeding);
     Milling milling(wound);
     Scene scene = scene_of(flat(Vec3::UnitZ(), [](const Vec3&) {
@@ -357,7 +362,6 @@ TEST(Wound, AVesselBleedsWhenItIsReachedNotThroughThinBone) {
       wall.wall = 255;
       return wall;
     }));
-    const bool reached = deep < 2 * kVoxel;
     const Vec3 tip(0, 0, kRadius + (reached ? -deep : deep));
     milling.on(tip, 0.1, 0, false);
     milling.on(tip, 0.1, 1e-9, false);
@@ -365,7 +369,7 @@ TEST(Wound, AVesselBleedsWhenItIsReachedNotThroughThinBone) {
     if (reached)
       EXPECT_GT(blood_on(wound), 1) << "opened";
     else
-      EXPECT_EQ(blood_on(wound), 0) << "bone of 1.2 mm is left";
+      EXPECT_EQ(blood_on(wound), 0) << "bone of 0.4 mm is left";
   }
 }
 
