@@ -40,7 +40,7 @@ class Export : public Window {
   static void write() { click(kX + 612, kY + 288); }
   // writes into folder_ by the path that stands there when the page opens
   void mill_in(Ready& ready, std::vector<Script::Step> steps) {
-    Script script(std::move(steps));
+    Script script(std::move(steps), desk_->said);
     desk_->after_frame = [&script] { script.look(); };
     const auto left = mill(*desk_, *ready.session, *ready.hand, *ready.worker, ready.scene,
                            {.folder = folder_.string()});

@@ -105,14 +105,17 @@ TEST_F(HandsWindow, AWholeSessionByGamepadAlone) {
   double was_across = 0, was_azimuth = 0;
   bool undone = false;
   std::vector<Script::Step> steps = {
-      {"seen at rest", looks(20), [&] { pad.axis(SDL_CONTROLLER_AXIS_LEFTX, 3000); }},
-      {"settled", looks(30), [&] { was_across = across(scene); }},
+      {"seen at rest", looks(20), [&] { pad.axis(SDL_CONTROLLER_AXIS_LEFTX, 32767); }},
+      {"led to the middle", looks(1), [&] { pad.axis(SDL_CONTROLLER_AXIS_LEFTX, 3000); }},
+      {"settled", looks(40), [&] { was_across = across(scene); }},
       {"a stick at rest moves nothing", looks(30),
        [&] {
          EXPECT_NEAR(across(scene), was_across, 1e-5);
          pad.axis(SDL_CONTROLLER_AXIS_LEFTX, 32767);
        }},
       {"to the right", [&] { return across(scene) > was_across + 2e-3; },
+       [&] { pad.axis(SDL_CONTROLLER_AXIS_LEFTX, -32768); }},
+      {"back", [&] { return across(scene) < was_across + 1e-3; },
        [&] {
          pad.axis(SDL_CONTROLLER_AXIS_LEFTX, 0);
          was_azimuth = scene.camera.azimuth;
@@ -123,7 +126,10 @@ TEST_F(HandsWindow, AWholeSessionByGamepadAlone) {
          pad.axis(SDL_CONTROLLER_AXIS_RIGHTX, 0);
          pad.trigger(0.8);
        }},
-      {"milled", [&] { return removed() > 4; }, [&] { pad.trigger(0); }},
+      {"milled",
+       pressing_until([&] { return removed() > 4; },
+                      [&](bool down) { pad.trigger(down ? 0.8 : 0); }),
+       [&] { pad.trigger(0); }},
       {"lifted", looks(40), {}},
       {"undone",
        [&, look = 0]() mutable {
@@ -219,10 +225,15 @@ TEST_F(HandsWindow, APedalMillsByItsWayChangesTheBurrAndLetsTheCoolantRun) {
                     }},
                    {"half down", [&] { return pedal() > 0.3 && pedal() < 0.6; },
                     [&] { stick.axis(0, 32767); }},
-                   {"down", [&] { return pedal() > 0.99 && row.ledger.removed > 1e-9; },
+                   {"down",
+                    pressing_until([&] { return pedal() > 0.99 && row.ledger.removed > 1e-9; },
+                                   [&](bool down) { stick.axis(0, down ? 32767 : -32768); }),
                     [&] { stick.axis(0, -32768); }},
                    {"up", [&] { return pedal() == 0; }, [&] { stick.button(2, true); }},
-                   {"the next burr", [&] { return session.burr_radius() > radius + 1e-5; }, {}},
+                   {"the next burr",
+                    asking_until([&] { return session.burr_radius() > radius + 1e-5; },
+                                 [&, down = true]() mutable { stick.button(2, down = !down); }),
+                    {}},
                    {"told", looks(20), [&] { stick.button(1, true); }},
                    {"coolant", [&] { return desk_->said.find("oolant") != std::string::npos; },
                     [&] { stick.button(0, true); }},
@@ -303,7 +314,7 @@ TEST_F(CapWindow, MovesPressesTurnsAndChangesTheBurr) {
   mill_by(
       *ready,
       {{"led to the middle", looks(20), [&] { held = {350, 0, 0, 0, 0, 0}; }},
-       {"moving", until(looks(10)), [&] { held = {}; }},
+       {"moving", until(looks(1)), [&] { held = {}; }},
        {"settled", until(looks(40)),
         [&] {
           x = across(scene);
@@ -340,15 +351,25 @@ TEST_F(CapWindow, MovesPressesTurnsAndChangesTheBurr) {
           held = {0, 0, 0, scene.camera.elevation > 0.5 ? -300 : 300, 0, 0};
         }},
        {"tilted", until([&] { return std::abs(scene.camera.elevation - elevation) > 0.1; }),
-        [&] { held = {0, -300, 0, 0, 0, 0}; }},
+        [&] {
+          // back over the bone: the view has turned under the cursor
+          held = {};
+          move_to(640, 360);
+        }},
+       {"led by the mouse", until(looks(10)), [&] { held = {0, -300, 0, 0, 0, 0}; }},
        {"pushed in", until([&] { return pedal() > 0.9; }), [&] { held = {0, 300, 0, 0, 0, 0}; }},
        {"pulled", until([&] { return pedal() == 0; }),
         [&] {
           held = {};
           press_(1);
         }},
-       {"larger", until([&] { return session.burr_radius() > radius + 1e-5; }), [&] { press_(0); }},
-       {"smaller", until([&] { return session.burr_radius() < radius + 1e-5; }),
+       {"larger",
+        until(asking_until([&] { return session.burr_radius() > radius + 1e-5; },
+                           [&] { press_(1); })),
+        [&] { press_(0); }},
+       {"smaller",
+        until(asking_until([&] { return session.burr_radius() < radius + 1e-5; },
+                           [&] { press_(0); })),
         [&] { held = {0, INT_MIN, 0, 0, 0, 0}; }},
        {"pressing", until([&] { return pedal() > 0.9; }), {}},
        // now it says nothing any more: the daemon died

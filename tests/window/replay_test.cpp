@@ -65,7 +65,7 @@ class Replay : public Window {
     return recorded ? std::move(*recorded) : Recorded{};
   }
   void watch_by(Recorded& recorded, double from, std::vector<Script::Step> steps) {
-    Script script(std::move(steps));
+    Script script(std::move(steps), seen_.note);
     desk_->after_frame = [&script] { script.look(); };
     const auto left = watch(*desk_, recorded, {.from = from, .seen = &seen_});
     desk_->after_frame = {};
@@ -212,7 +212,8 @@ TEST_F(Replay, AFilmHasThePicturesOfTheCommandLine) {
                     fs::remove(frame(film, 1));
                     press(SDLK_ESCAPE);
                   }},
-                 {"the line again", looks(5), [] { press(SDLK_ESCAPE); }}});
+                 {"the line again", looks(5), [] { press(SDLK_ESCAPE); }}},
+                seen_.note);
   desk_->after_frame = [&script] { script.look(); };
   const auto left =
       watch(*desk_, *recorded, {.folder = folder_.string(), .from = 1, .seen = &seen_});
@@ -238,7 +239,8 @@ TEST_F(Replay, AFilmThatIsStoppedKeepsWhatWasMade) {
        {"the page again", looks(5), click_stop},
        {"the word that it stopped", [&] { return seen_.note.find("stopped") != std::string::npos; },
         [] { press(SDLK_ESCAPE); }},
-       {"the line", looks(5), [] { press(SDLK_ESCAPE); }}});
+       {"the line", looks(5), [] { press(SDLK_ESCAPE); }}},
+      seen_.note);
   desk_->after_frame = [&script] { script.look(); };
   const auto left =
       watch(*desk_, recorded, {.folder = folder_.string(), .from = 1, .seen = &seen_});

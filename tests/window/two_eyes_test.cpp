@@ -320,10 +320,10 @@ TEST_F(Headset, IsPutOnAndTakenOffBySettings) {
                     }},
                    {"worn", [&] { return worn.xr().with_pictures > 3; },
                     [&] {
-                      EXPECT_EQ(desk_->said, "headset: Fake headset");
+                      EXPECT_NE(desk_->said.find("headset: Fake headset"), std::string::npos);
                       desk_->headset_wanted = false;
                     }},
-                   {"off", [&] { return desk_->said == "headset off"; },
+                   {"off", [&] { return desk_->said.find("headset off") != std::string::npos; },
                     [&] {
                       EXPECT_EQ(worn.xr().instances, 0);
                       desk_->headset_wanted = true;

@@ -92,7 +92,9 @@ class Script {
     std::function<bool()> when;
     std::function<void()> then;
   };
-  explicit Script(std::vector<Step> steps) : steps_(std::move(steps)) {}
+  // `told`: what the window said last, for a step that never comes
+  Script(std::vector<Step> steps, const std::string& told)
+      : steps_(std::move(steps)), told_(told) {}
 
   void look() {
     if (next_ < steps_.size() && steps_[next_].when()) {
@@ -102,7 +104,8 @@ class Script {
     } else if (Clock::now() - since_ > std::chrono::seconds(120) && !gave_up_) {
       gave_up_ = true;  // never hang: leave, and say where
       ADD_FAILURE() << "waited in vain: "
-                    << (next_ < steps_.size() ? steps_[next_].what : "for the end");
+                    << (next_ < steps_.size() ? steps_[next_].what : "for the end")
+                    << "; told last: \"" << told_ << "\"";
       close_window();
     }
   }
@@ -110,6 +113,7 @@ class Script {
 
  private:
   std::vector<Step> steps_;
+  const std::string& told_;
   std::size_t next_ = 0;
   Clock::time_point since_ = Clock::now();
   bool gave_up_ = false;
@@ -120,18 +124,33 @@ inline std::function<bool()> looks(int n) {
   return [n]() mutable { return --n <= 0; };
 }
 
-// True once it is `done`, while the left button is held. A busy machine may let the force go; a
-// hand lifts then, and presses again.
-inline std::function<bool()> pressing_until(std::function<bool()> done) {
-  return [done = std::move(done), since = Clock::time_point()]() mutable {
+// True once it is `done`, while `press(true)` holds. A busy machine may let the force go; a hand
+// lifts then, and presses again.
+inline std::function<bool()> pressing_until(
+    std::function<bool()> done,
+    std::function<void(bool)> press = [](bool down) { button(SDL_BUTTON_LEFT, down); }) {
+  return [done = std::move(done), press = std::move(press), since = Clock::time_point()]() mutable {
     if (done()) return true;
     const auto now = Clock::now();
     if (since == Clock::time_point()) since = now;
     if (now - since > std::chrono::seconds(4)) {
-      button(SDL_BUTTON_LEFT, true);
+      press(true);
       since = now;
     } else if (now - since > std::chrono::seconds(3)) {
-      button(SDL_BUTTON_LEFT, false);
+      press(false);
+    }
+    return false;
+  };
+}
+
+// True once it is `done`; meanwhile, once a second, what was asked for is asked again: a larger
+// burr has no room while the tip is still in its hole.
+inline std::function<bool()> asking_until(std::function<bool()> done, std::function<void()> ask) {
+  return [done = std::move(done), ask = std::move(ask), asked = Clock::now()]() mutable {
+    if (done()) return true;
+    if (Clock::now() - asked > std::chrono::seconds(1)) {
+      ask();
+      asked = Clock::now();
     }
     return false;
   };
@@ -165,7 +184,7 @@ class Window : public testing::Test {
     return open_ready(options, quiet);
   }
   void mill_by(Ready& ready, std::vector<Script::Step> steps) {
-    Script script(std::move(steps));
+    Script script(std::move(steps), desk_->said);
     desk_->after_frame = [&script] { script.look(); };
     const auto left = mill(*desk_, *ready.session, *ready.hand, *ready.worker, ready.scene, {});
     desk_->after_frame = {};
@@ -173,7 +192,7 @@ class Window : public testing::Test {
     EXPECT_TRUE(script.finished());
   }
   void pages_by(std::vector<Script::Step> steps) {
-    Script script(std::move(steps));
+    Script script(std::move(steps), desk_->said);
     desk_->after_frame = [&script] { script.look(); };
     const Status done = run_pages(*desk_, {});
     desk_->after_frame = {};

@@ -45,7 +45,7 @@ class Desk {
   std::vector<std::string> troubles;  // of the settings' file and of stereo, to be told once
   Page page = Page::none;             // the one shown
   std::string told;                   // what went wrong, on the start and import pages
-  std::string said;                   // while milling: what must be known, or was done last
+  std::string said;                   // while milling: what must be known, what was done last
   Gamepads pads;                      // hands other than the mouse's
   Pedals pedals;
   SpaceMouse cap;

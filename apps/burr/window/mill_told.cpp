@@ -115,9 +115,9 @@ void Mill::tell() {
   if (Clock::now() - noted_ > std::chrono::seconds(6)) note_.clear();
   if (note_.empty()) note_ = export_->progress();
   if (note_.empty()) note_ = measuring_.words();
-  desk_.said = !export_->trouble().empty() ? export_->trouble()
-               : warning_.empty()          ? note_
-                                           : warning_;
+  desk_.said = !export_->trouble().empty()         ? export_->trouble()
+               : warning_.empty() || note_.empty() ? warning_ + note_
+                                                   : warning_ + "; " + note_;
 }
 
 HudState Mill::hud() const {
