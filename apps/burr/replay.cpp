@@ -28,7 +28,7 @@ namespace burr::app {
 namespace {
 
 struct Options {
-  std::string file, picture, film, sound;
+  std::string file, beside, picture, film, sound;
   ViewOptions view;
   VolumeOptions volume;
   PictureSize size;
@@ -166,14 +166,18 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
 Status show(const Options& options) {
   auto desk = Desk::open(users_places());
   if (!desk) return desk.error();
-  const auto left = watch_file(
-      **desk, options.file, options.volume,
-      {.seconds = options.seconds, .screenshot = options.screenshot, .from = options.at});
+  const auto left = watch_file(**desk, options.file, options.volume,
+                               {.seconds = options.seconds,
+                                .screenshot = options.screenshot,
+                                .from = options.at,
+                                .beside = options.beside});
   return left ? fine() : Status(left.error());
 }
 
 Status run(const Options& options) {
   if (options.window) return show(options);
+  if (!options.beside.empty())
+    return error(Trouble::usage, "--beside is for watching: give --window too");
   auto opened = record::Player::open(options.file);
   if (!opened) return opened.error();
   record::Player& player = **opened;
@@ -260,6 +264,8 @@ void add(CLI::App& app, Todo& todo) {
   add_picture_size(*command, options->size);
   command->add_flag("--window", options->window,
                     "watch it: time line, bone, tool and force at any moment");
+  command->add_option("--beside", options->beside,
+                      "G.mcap: watched in the right half of the window, at the same moment");
   command->add_option("--seconds", options->seconds, "close the window after so long")
       ->check(CLI::Range(0.1, 36'000.0));
   command->add_option("--screenshot", options->screenshot,

@@ -13,6 +13,7 @@
 #include "burr/render/bone_scene.h"
 #include "burr/sim/motion.h"
 #include "recording.h"
+#include "window/pages.h"
 #include "window/user.h"
 
 namespace burr::app {
@@ -165,17 +166,155 @@ TEST_F(Replay, ShowsWhatMillingLeftUnlessTheSettingIsOff) {
   EXPECT_LT(pale(start), pale(without) + 200) << "nothing had been milled yet";
 }
 
-// ---- films
-
-// the middle of what the export page has, at 1280 x 720
-void click_write() { click(280 + 612, 155 + 288); }
-void click_stop() { click(280 + 447, 155 + 288); }
+// ---- two of them
 
 int run_burr(const std::string& words) {
   const int left =
       std::system((std::string(BURR_BUILD_DIR "/burr --quiet ") + words + " > /dev/null").c_str());
   return WIFEXITED(left) ? WEXITSTATUS(left) : -1;
 }
+
+// In how many squares of 16 pixels, where no panel lies, the right half differs from the left one
+// by their mean: a half may have been drawn with fewer samples, which shows along edges.
+int halves_differ(const render::Image& image) {
+  constexpr int kSide = 16;
+  const int half = image.width / 2;
+  int count = 0;
+  for (int y = 64; y + kSide <= 460; y += kSide)
+    for (int x = 16; x + kSide <= half - 16; x += kSide) {
+      std::array<int, 3> by = {};
+      for (int n = 0; n < kSide * kSide; ++n) {
+        const int at = (y + n / kSide) * image.width + x + n % kSide;
+        for (int c = 0; c < 3; ++c)
+          by[static_cast<std::size_t>(c)] +=
+              int{image.rgb[static_cast<std::size_t>(3 * at + c)]} -
+              int{image.rgb[static_cast<std::size_t>(3 * (at + half) + c)]};
+      }
+      int all = 0;
+      for (const int each : by) all += std::abs(each);
+      count += all > 24 * kSide * kSide ? 1 : 0;
+    }
+  return count;
+}
+
+class TwoReplays : public Replay {
+ protected:
+  // looks settled with the left one at t and the right one at its own moment
+  [[nodiscard]] std::function<bool()> both_show(double t, double right) const {
+    return [this, t, right, quiet = 0]() mutable {
+      const bool so = seen_.beside && std::abs(seen_.shown - t) < 1e-9 &&
+                      std::abs(seen_.shown_beside - right) < 1e-9 && !seen_.behind;
+      quiet = so ? quiet + 1 : 0;
+      return quiet > 30;
+    };
+  }
+  void watch_file_by(double from, std::vector<Script::Step> steps) {
+    Script script(std::move(steps), seen_.note);
+    desk_->after_frame = [&script] { script.look(); };
+    const auto left = watch_file(*desk_, file_.string(), {}, {.from = from, .seen = &seen_});
+    desk_->after_frame = {};
+    ASSERT_TRUE(left) << left.error().text;
+    EXPECT_TRUE(script.finished());
+  }
+};
+
+TEST_F(TwoReplays, OfOneSessionAreTheSamePictureUntilOneIsShifted) {
+  desk_->settings.effects = false;  // dust lies as one came to the moment
+  int same = -1, shifted = -1, again = -1;
+  double removed = 0, removed_later = 0;
+  render::Image whole, after;
+  watch_file_by(3, {{"one", shows(3),
+                     [&] {
+                       whole = desk_->renderer().shown();
+                       drop(file_);
+                     }},
+                    {"both", both_show(3, 3),
+                     [&] {
+                       same = halves_differ(desk_->renderer().shown());
+                       removed = seen_.removed_beside;
+                       for (int n = 0; n < 4; ++n) press(SDLK_RIGHTBRACKET);
+                     }},
+                    {"the right one two seconds later", both_show(3, 1),
+                     [&] {
+                       shifted = halves_differ(desk_->renderer().shown());
+                       removed_later = seen_.removed_beside;
+                       press(SDLK_END);
+                     }},
+                    {"its end comes later", both_show(kSeconds, kSeconds),
+                     [&] {
+                       EXPECT_DOUBLE_EQ(seen_.t, kSeconds + 2);
+                       again = halves_differ(desk_->renderer().shown());
+                       press(SDLK_b);
+                     }},
+                    {"one again", shows(kSeconds), [&] {
+                       EXPECT_FALSE(seen_.beside);
+                       after = desk_->renderer().shown();
+                       press(SDLK_ESCAPE);
+                     }}});
+  EXPECT_LE(same, 1) << "the same moment from the same side";
+  EXPECT_GT(shifted, 8);
+  EXPECT_LE(again, 1);
+  NoProgress quiet;
+  auto player = record::Player::open(file_.string());
+  ASSERT_TRUE(player);
+  EXPECT_DOUBLE_EQ(removed, (*player)->tick_at(3)->ledger.removed);
+  EXPECT_DOUBLE_EQ(removed_later, (*player)->tick_at(1)->ledger.removed);
+  EXPECT_GT(differ(whole, after, 700, 60, 1200, 500), 100) << "more was milled by then";
+}
+
+TEST_F(TwoReplays, OfTwoSessionsEachShowItsOwnAndTheShorterWaitsAtItsEnd) {
+  const fs::path other = folder_ / "other.mcap", broken = folder_ / "broken.mcap";
+  ASSERT_EQ(run_burr("mill phantom:block --voxel-mm 0.5 --motion slot --burr-mm 5 --seconds 3 "
+                     "--record " +
+                     other.string()),
+            0);
+  std::ofstream(broken) << "no recording";
+  auto player = record::Player::open(other.string());
+  ASSERT_TRUE(player);
+  const double end = (*player)->seconds();
+  desk_->settings.effects = false;  // they go on changing the picture
+  int halves = 0;
+  double right = 0, left = 0;
+  const auto turned = [](const render::Image& a, const render::Image& b, int from) {
+    return differ(a, b, from + 4, 60, from + 636, 520);
+  };
+  render::Image before, after;
+  watch_file_by(2, {{"one", shows(2), [&] { drop(broken); }},
+                    {"told", [&] { return seen_.note.find("broken.mcap") != std::string::npos; },
+                     [&] {
+                       EXPECT_FALSE(seen_.beside);
+                       drop(other);
+                     }},
+                    {"both", both_show(2, 2),
+                     [&] {
+                       before = desk_->renderer().shown();
+                       halves = halves_differ(before);
+                       left = seen_.removed;
+                       right = seen_.removed_beside;
+                       press(SDLK_UP);
+                       press(SDLK_UP);
+                     }},
+                    {"turned", looks(40),
+                     [&] {
+                       after = desk_->renderer().shown();
+                       press(SDLK_END);
+                     }},
+                    {"the end", both_show(kSeconds, end), [] { press(SDLK_ESCAPE); }}});
+  EXPECT_GT(halves, 8);
+  EXPECT_DOUBLE_EQ(right, (*player)->tick_at(2)->ledger.removed);
+  EXPECT_NE(right, left);
+  EXPECT_GT(turned(before, after, 0), 10'000);
+  EXPECT_GT(turned(before, after, 640), 10'000) << "the right one is turned with the left one";
+  EXPECT_EQ(run_burr("replay " + other.string() + " --beside " + file_.string() + " 2> /dev/null"),
+            2);
+}
+
+// ---- films
+
+// the middle of what the export page has, at 1280 x 720
+void click_write() { click(280 + 612, 155 + 288); }
+void click_stop() { click(280 + 447, 155 + 288); }
+
 fs::path frame(const fs::path& folder, int number) {
   return folder / fmt::format("frame_{:06d}.png", number);
 }

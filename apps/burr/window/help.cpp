@@ -116,7 +116,9 @@ bool draw_replay_help(Ui& ui) {
          {word(Word::key_shift_arrows), Word::replay_help_small},
          {word(Word::key_ctrl_arrows), Word::replay_help_stroke},
          {"Home  End", Word::replay_help_ends},
-         {",  .", Word::replay_help_pace}});
+         {",  .", Word::replay_help_pace},
+         {"B", Word::replay_help_beside},
+         {"[  ]", Word::replay_help_shift}});
   block(ui, x + 480 * u, right, Word::help_view,
         {{fmt::format("{}, ↑  ↓", word(Word::key_left)), Word::help_turn},
          {word(Word::key_middle), Word::help_shift},

@@ -84,15 +84,20 @@ Result<Left> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options,
 Result<Left> watch_file(Desk& desk, const std::string& file, const VolumeOptions& given,
                         const WatchOptions& options) {
   bool closed = false;
-  auto recorded = load<Recorded>(
-      desk, say(Word::loading, word(Word::start_recording)),
-      [&, state = desk.places().state](Progress& progress) {
-        return open_recorded(file, state, given, progress);
-      },
-      closed);
+  const auto open = [&desk, &given](const std::string& path, bool& shut) {
+    return load<Recorded>(
+        desk, say(Word::loading, word(Word::start_recording)),
+        [&given, path, state = desk.places().state](Progress& progress) {
+          return open_recorded(path, state, given, progress);
+        },
+        shut);
+  };
+  auto recorded = open(file, closed);
   if (closed) return Left::window;
   if (!recorded) return recorded.error();
-  return watch(desk, *recorded, options);
+  WatchOptions with = options;
+  with.open = open;
+  return watch(desk, *recorded, with);
 }
 
 Status run_pages(Desk& desk, const PagesOptions& options) {

@@ -11,13 +11,14 @@
 #include <utility>
 
 #include "command.h"
-#include "live_bone.h"
-#include "still.h"
 #include "window/export_page.h"
+#include "window/file_dialog.h"
 #include "window/help.h"
 #include "window/hud.h"
 #include "window/mirror_mode.h"
+#include "window/pair.h"
 #include "window/see_through.h"
+#include "window/side.h"
 #include "window/timeline_panel.h"
 #include "window/words.h"
 
@@ -29,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kPaces[] = {0.25, 0.5, 1, 2, 4, 8};
 constexpr double kStep = 1, kSmallStep = 0.05;  // of an arrow; with Shift  [s]
 constexpr double kTurn = 0.006;                 // of the view, by a pixel of the mouse  [rad]
-constexpr auto kPatience = std::chrono::milliseconds(150);  // before "..." is shown
+constexpr double kShift = 0.5;                  // of the second against the first, by a key  [s]
 
 class Watch {
  public:
@@ -46,17 +47,26 @@ class Watch {
   void play(bool playing);
   void change_pace(int by);
   void turn_view(double right, double up, bool shift);
-  void look_at(Playback& playback, LiveBone& live);
+  Status show();
+  Status open_beside(const std::string& file);
+  void close_beside();
+  void ask_beside();
+  void shift(double by);
+  void follow();
   void panels();
+  void titles() const;
   void show_labels(bool shown);
   void note(std::string text) {
     note_ = std::move(text);
     noted_ = Clock::now();
   }
   [[nodiscard]] bool page_open() const { return help_ || (export_ && export_->shown()); }
-  [[nodiscard]] double burr_radius() const;
-  [[nodiscard]] sim::ToolMode mode() const;
-  [[nodiscard]] edit::Mirror mirror() const;
+  // of the shared clock, until both are over  [s]
+  [[nodiscard]] double seconds() const {
+    return std::max(first_->line().seconds, second_ ? second_->line().seconds + now_.shift : 0.0);
+  }
+  [[nodiscard]] double stroke_before(double t) const;
+  [[nodiscard]] double stroke_after(double t) const;
 
   Desk& desk_;
   Recorded& recorded_;
@@ -64,15 +74,20 @@ class Watch {
   const WatchOptions& options_;
 
   render::Camera first_view_;
-  std::vector<render::Colour> colours_;
-  Playback::Shown shown_;
+  std::optional<Side> first_;
+  std::unique_ptr<Recorded> beside_;  // watched by second_, if anything
+  std::optional<Side> second_;
+  render::Camera second_view_;
+  std::optional<Pair> pair_;
+  FileDialog dialog_;
+  std::vector<std::string> dropped_;
   Watched now_;
   bool open_ = true, picture_ = false, panels_ = true, help_ = false, scrubbing_ = false;
   bool labels_ = true, leaves_ = false;  // leaves though a film is still being made
   std::optional<ExportPage> export_;
   Left left_ = Left::window;
-  std::string note_, warning_;
-  Clock::time_point noted_{}, in_time_ = Clock::now();
+  std::string note_, trouble_;  // trouble: of a second recording, until a key is pressed
+  Clock::time_point noted_{};
 };
 
 Result<Left> Watch::run() {
@@ -83,18 +98,16 @@ Result<Left> Watch::run() {
     return std::optional(recorded_.film);
   });
   first_view_ = scene_.camera;
-  colours_ = scene_.tissue_colours;
-  scene_.scale_bar = false;
-  warning_ = recorded_.notices.empty() ? std::string() : recorded_.notices.front();
+  first_.emplace(recorded_, desk_.renderer().software());
+  if (!options_.beside.empty()) {
+    const Status opened = open_beside(options_.beside);
+    if (!opened && opened.error().trouble != Trouble::interrupted) return opened.error();
+  }
   now_.t = std::max(0.0, options_.from);
   now_.playing = options_.from < 0;
-  LiveBone live(*recorded_.bone, *recorded_.worker, scene_, desk_.renderer().software());
-  Playback playback(recorded_);
-  playback.want(now_.t);
 
   const Clock::time_point start = Clock::now();
   Clock::time_point frame = start, last = start;
-  double asked = now_.t;
   Status shown = fine();
   while (open_ && shown && !interrupted()) {
     const Clock::time_point began = Clock::now();
@@ -103,22 +116,16 @@ Result<Left> Watch::run() {
     const double passed = std::chrono::duration<double>(began - last).count();
     last = began;
     if (now_.playing && !scrubbing_) now_.t += now_.pace * std::min(passed, 0.25);
-    if (now_.t >= recorded_.timeline.seconds) {
-      now_.t = recorded_.timeline.seconds;
+    if (now_.t >= seconds()) {
+      now_.t = seconds();
       if (!scrubbing_) now_.playing = false;
     }
     // a machine that cannot follow shows fewer moments, not a longer session
-    if (now_.t != asked) playback.want(asked = now_.t);
-    look_at(playback, live);
-    live.update();
-    const Clock::time_point drawing = Clock::now();
+    first_->want(now_.t);
+    if (second_) second_->want(now_.t - now_.shift);
     if (std::string told = export_->step(); !told.empty()) note(std::move(told));
-    shown =
-        desk_.show(scene_, panels_ || page_open() ? [this] { panels(); } : std::function<void()>());
-    live.drawn(std::chrono::duration<double>(Clock::now() - drawing).count(),
-               desk_.renderer().figures().redrawn);
-    now_.note = !export_->trouble().empty() ? export_->trouble() : note_;
-    if (options_.seen != nullptr) *options_.seen = now_;
+    if (Clock::now() - noted_ > std::chrono::seconds(6)) note_.clear();
+    shown = show();
     if (std::exchange(picture_, false)) {
       const Result<std::string> left = desk_.leave_picture(options_.folder);
       note(left ? say(Word::picture_left, *left) : left.error().text);
@@ -131,9 +138,8 @@ Result<Left> Watch::run() {
       open_ = false;
   }
   export_.reset();
-  scene_.tissue_colours = colours_;
-  scene_.look.opacity = 1;
-  live.look_plain();
+  close_beside();
+  first_.reset();
   if (!shown) return shown.error();
   if (!options_.screenshot.empty()) {
     const Status kept = render::write_png(desk_.renderer().shown(), options_.screenshot);
@@ -142,56 +148,112 @@ Result<Left> Watch::run() {
   return left_;
 }
 
-void Watch::look_at(Playback& playback, LiveBone& live) {
-  if (playback.take(shown_)) {
-    now_.shown = shown_.t;
-    if (desk_.settings.effects) live.see(shown_.told);
-    if (shown_.trouble.empty()) {
-      put_tool(scene_, shown_.row, burr_radius(), true);
-      const tool::Burr& burr = recorded_.settings.settings.servo.burr;
-      scene_.burr.shaft_radius = burr.shaft_radius;
-      scene_.burr.shaft_length = burr.shaft_length;
-      if (now_.playing && shown_.row.spindle_rad_s > 0)
-        scene_.burr.turn = std::remainder(scene_.burr.turn + 0.7, 6.2832);
-      now_.force = shown_.row.contact.force.norm();
-      now_.removed = shown_.row.ledger.removed;
-    }
-    warning_ = !shown_.trouble.empty()      ? shown_.trouble
-               : !recorded_.notices.empty() ? recorded_.notices.front()
-                                            : std::string();
+// One picture: of the one, or of both in halves of the window.
+Status Watch::show() {
+  first_->look(desk_.settings.effects, now_.playing);
+  const auto over = panels_ || page_open() ? [this] { panels(); } : std::function<void()>();
+  Status shown = fine();
+  if (second_) {
+    follow();
+    second_->look(desk_.settings.effects, now_.playing);
+    shown = pair_->draw({&scene_, &second_->scene()}, desk_.renderer().width(),
+                        desk_.renderer().height());
+    desk_.renderer().make_current();
+    first_->drawn(pair_->took_s(0), pair_->redrawn(0));
+    second_->drawn(pair_->took_s(1), pair_->redrawn(1));
+    if (shown) shown = desk_.show(pair_->both(), over);
+  } else {
+    const Clock::time_point drawing = Clock::now();
+    shown = desk_.show(scene_, over);
+    first_->drawn(std::chrono::duration<double>(Clock::now() - drawing).count(),
+                  desk_.renderer().figures().redrawn);
   }
-  show_mirror(scene_, recorded_.bone->grid(), mirror());
-  // the picture is whole when bone, surface and GPU have it; while it plays a little lag is none
-  const bool whole = !playback.behind() && recorded_.worker->waiting() == 0;
-  if (whole) in_time_ = Clock::now();
-  now_.behind = !whole && Clock::now() - in_time_ > kPatience;
-  if (Clock::now() - noted_ > std::chrono::seconds(6)) note_.clear();
+  now_.shown = first_->shown();
+  now_.force = first_->force();
+  now_.removed = first_->removed();
+  now_.behind = first_->behind() || (second_ && second_->behind());
+  now_.beside = second_.has_value();
+  now_.shown_beside = second_ ? second_->shown() : 0;
+  now_.removed_beside = second_ ? second_->removed() : 0;
+  now_.note = !export_->trouble().empty() ? export_->trouble()
+              : !trouble_.empty()         ? trouble_
+                                          : note_;
+  if (options_.seen != nullptr) *options_.seen = now_;
+  return shown;
 }
 
-double Watch::burr_radius() const {
-  // as wished: whether the servo had room for it stands nowhere in a recording
-  const double first = recorded_.settings.settings.servo.burr.radius;
-  const double wished =
-      recorded_.timeline.wished(record::WishKind::burr_radius, shown_.t).value_or(first);
-  return wished > 0 && wished <= 0.5 * tool::kLargestDiameter + 1e-12 ? wished : first;
+// ---- the one beside it
+
+Status Watch::open_beside(const std::string& file) {
+  if (!options_.open)
+    return error(Trouble::usage, file + ": nothing here opens a second recording");
+  bool closed = false;
+  auto opened = options_.open(file, closed);
+  desk_.page = Page::replay;
+  if (closed) open_ = false;
+  if (!opened) return opened.error();
+  close_beside();
+  beside_ = std::make_unique<Recorded>(std::move(*opened));
+  second_.emplace(*beside_, desk_.renderer().software());
+  second_->show_labels(labels_);
+  second_view_ = beside_->scene.camera;
+  // of the same bone both are seen from the same place
+  const volume::Grid &one = recorded_.bone->grid(), &other = beside_->bone->grid();
+  if ((one.world_from_grid(math::Vec3::Zero()) - other.world_from_grid(math::Vec3::Zero())).norm() <
+          1e-9 &&
+      one.voxel == other.voxel && one.size == other.size)
+    second_view_ = first_view_;
+  pair_.emplace();
+  return fine();
 }
 
-sim::ToolMode Watch::mode() const {
-  const double wished = recorded_.timeline.wished(record::WishKind::tool_mode, shown_.t)
-                            .value_or(static_cast<double>(recorded_.settings.settings.servo.mode));
-  return wished >= 0 && wished < sim::kToolModes
-             ? static_cast<sim::ToolMode>(static_cast<int>(wished))
-             : sim::ToolMode::cut;
+void Watch::close_beside() {
+  pair_.reset();
+  second_.reset();
+  beside_.reset();
+  now_.shift = 0;
 }
 
-edit::Mirror Watch::mirror() const {
-  const math::Ijk& size = recorded_.bone->grid().size;
-  edit::Mirror now;
-  for (const record::TimelineEvent& event : recorded_.timeline.events) {
-    if (event.t_s > shown_.t) break;
-    now = sim::mirror_of(event.wish, size).value_or(now);
-  }
-  return now;
+void Watch::ask_beside() {
+  if (second_) return close_beside();
+  if (FileDialog::there() && !dialog_.open())
+    dialog_.ask(false);
+  else
+    note(word(Word::replay_drop_second));
+}
+
+void Watch::shift(double by) {
+  if (!second_) return;
+  // one that begins before the first has its start at the first's end at most, and the other way
+  now_.shift = std::clamp(now_.shift + by, -second_->line().seconds, first_->line().seconds);
+  note(say(Word::replay_shifted, now_.shift));
+}
+
+// The second is seen as the first is: turned, moved and nearer by as much.
+void Watch::follow() {
+  render::Camera camera = scene_.camera;
+  camera.target = second_view_.target + (camera.target - first_view_.target);
+  camera.distance *= second_view_.distance / first_view_.distance;
+  camera.azimuth += second_view_.azimuth - first_view_.azimuth;
+  constexpr double kHighest = 1.55;  // short of the pole
+  camera.elevation = std::clamp(camera.elevation + second_view_.elevation - first_view_.elevation,
+                                -kHighest, kHighest);
+  second_->scene().camera = camera;
+  second_->scene().look.opacity = scene_.look.opacity;
+}
+
+double Watch::stroke_before(double t) const {
+  const double first = first_->line().stroke_before(t).value_or(0);
+  if (!second_) return first;
+  return std::max(first,
+                  second_->line().stroke_before(t - now_.shift).value_or(-now_.shift) + now_.shift);
+}
+
+double Watch::stroke_after(double t) const {
+  const double first = first_->line().stroke_after(t).value_or(seconds());
+  if (!second_) return first;
+  const auto other = second_->line().stroke_after(t - now_.shift);
+  return other ? std::min(first, *other + now_.shift) : first;
 }
 
 // ---- mouse and keys
@@ -202,7 +264,15 @@ void Watch::take_events() {
       case SDL_QUIT:
         open_ = false;
         break;
+      case SDL_WINDOWEVENT:  // SDL quits with the last window only, and the halves have hidden ones
+        if (event.window.event == SDL_WINDOWEVENT_CLOSE) open_ = false;
+        break;
+      case SDL_DROPFILE:
+        if (event.drop.file != nullptr) dropped_.emplace_back(event.drop.file);
+        SDL_free(event.drop.file);
+        break;
       case SDL_KEYDOWN:
+        trouble_.clear();
         if (!desk_.ui().typing()) key(event.key.keysym);
         break;
       case SDL_MOUSEMOTION:
@@ -218,11 +288,15 @@ void Watch::take_events() {
       default:
         break;
     }
+  if (auto chosen = dialog_.answer(); chosen && !chosen->empty()) dropped_.push_back(*chosen);
+  for (const std::string& file : std::exchange(dropped_, {})) {
+    const Status opened = open_beside(file);
+    if (!opened && opened.error().trouble != Trouble::interrupted) trouble_ = opened.error().text;
+  }
 }
 
 void Watch::key(const SDL_Keysym& pressed) {
-  const bool shift = (pressed.mod & KMOD_SHIFT) != 0, ctrl = (pressed.mod & KMOD_CTRL) != 0;
-  const record::Timeline& line = recorded_.timeline;
+  const bool shift_held = (pressed.mod & KMOD_SHIFT) != 0, ctrl = (pressed.mod & KMOD_CTRL) != 0;
   switch (pressed.sym) {
     case SDLK_ESCAPE:
       if (page_open()) {
@@ -243,22 +317,20 @@ void Watch::key(const SDL_Keysym& pressed) {
       play(!now_.playing);
       break;
     case SDLK_LEFT:
-      go(ctrl ? line.stroke_before(now_.t - 0.5).value_or(0)
-              : now_.t - (shift ? kSmallStep : kStep));
+      go(ctrl ? stroke_before(now_.t - 0.5) : now_.t - (shift_held ? kSmallStep : kStep));
       break;
     case SDLK_RIGHT:
-      go(ctrl ? line.stroke_after(now_.t).value_or(line.seconds)
-              : now_.t + (shift ? kSmallStep : kStep));
+      go(ctrl ? stroke_after(now_.t) : now_.t + (shift_held ? kSmallStep : kStep));
       break;
     case SDLK_UP:
     case SDLK_DOWN:
-      turn_view(0, pressed.sym == SDLK_UP ? 12 : -12, shift);
+      turn_view(0, pressed.sym == SDLK_UP ? 12 : -12, shift_held);
       break;
     case SDLK_HOME:
       go(0);
       break;
     case SDLK_END:
-      go(line.seconds);
+      go(seconds());
       break;
     case SDLK_COMMA:
     case SDLK_MINUS:
@@ -271,6 +343,15 @@ void Watch::key(const SDL_Keysym& pressed) {
     case SDLK_KP_PLUS:
       change_pace(1);
       break;
+    case SDLK_b:
+      ask_beside();
+      break;
+    case SDLK_LEFTBRACKET:
+      shift(shift_held ? -kSmallStep : -kShift);
+      break;
+    case SDLK_RIGHTBRACKET:
+      shift(shift_held ? kSmallStep : kShift);
+      break;
     case SDLK_f:
       scene_.camera = first_view_;
       break;
@@ -278,7 +359,7 @@ void Watch::key(const SDL_Keysym& pressed) {
       show_labels(!labels_);
       break;
     case SDLK_t:
-      note(step_see_through(scene_, shift));
+      note(step_see_through(scene_, shift_held));
       break;
     case SDLK_TAB:
       panels_ = !panels_;
@@ -300,11 +381,11 @@ void Watch::key(const SDL_Keysym& pressed) {
   }
 }
 
-void Watch::go(double t) { now_.t = std::clamp(t, 0.0, recorded_.timeline.seconds); }
+void Watch::go(double t) { now_.t = std::clamp(t, 0.0, seconds()); }
 
 void Watch::play(bool playing) {
   // at the end it begins again
-  if (playing && now_.t >= recorded_.timeline.seconds) now_.t = 0;
+  if (playing && now_.t >= seconds()) now_.t = 0;
   now_.playing = playing;
 }
 
@@ -333,29 +414,64 @@ void Watch::move(const SDL_MouseMotionEvent& motion) {
 
 void Watch::show_labels(bool shown) {
   labels_ = shown;
-  scene_.tissue_colours = shown ? colours_ : render::as_bone(colours_);
+  first_->show_labels(shown);
+  if (second_) second_->show_labels(shown);
 }
 
 // ---- what is drawn
+
+namespace {
+
+TimelineMoment moment_of(const Side& side, double from) {
+  return {.line = &side.line(),
+          .from = from,
+          .force = side.force(),
+          .removed = side.removed(),
+          .speed = side.speed(),
+          .burr_diameter = 2 * side.burr_radius(),
+          .mode = side.mode()};
+}
+
+}  // namespace
+
+// Which half is whose.
+void Watch::titles() const {
+  const Ui& ui = desk_.ui();
+  const float u = ui.unit(), middle = std::floor(ui.width() / 2);
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.AddRectFilled({middle - std::max(1.0F, u), 0}, {middle + std::max(1.0F, u), ui.height()},
+                     ink::rgb(0, 0, 0));
+  const auto title = [&](const Side& side, float x) {
+    const std::string& text = side.recorded().title;
+    const float w = std::min(ui.width_of(Ui::Letter::strong, text) + 24 * u, middle - 24 * u);
+    const float h = ui.height_of(Ui::Letter::strong) + 12 * u;
+    const std::string name = fmt::format("##title{}", x > 0 ? 2 : 1);
+    desk_.ui().panel(name.c_str(), x + 12 * u, 12 * u, w, h);
+    ui.write(x + 24 * u, 18 * u, Ui::Letter::strong, ink::kText, text);
+    ImGui::End();
+  };
+  title(*first_, 0);
+  title(*second_, middle);
+}
 
 void Watch::panels() {
   Ui& ui = desk_.ui();
   if (panels_) {
     TimelineState s;
-    s.line = &recorded_.timeline;
+    s.first = moment_of(*first_, 0);
+    if (second_) s.second = moment_of(*second_, now_.shift);
+    s.seconds = seconds();
     s.t = now_.t;
     s.playing = now_.playing;
     s.behind = now_.behind;
     s.pace = now_.pace;
-    s.force = now_.force;
-    s.removed = now_.removed;
-    s.speed = shown_.row.spindle_rad_s;
-    s.burr_diameter = 2 * burr_radius();
-    s.mode = mode();
-    if (const edit::Mirror now = mirror(); now.on())
+    if (const edit::Mirror now = first_->mirror(); now.on() && !second_)
       draw_mirror_sign(ui, mirror_words(recorded_.bone->grid(), now), 0);
     s.note = note_.empty() ? export_->progress() : note_;
-    s.warning = warning_;
+    s.warning = !trouble_.empty()                      ? trouble_
+                : first_->trouble().empty() && second_ ? second_->trouble()
+                                                       : first_->trouble();
+    if (second_) titles();
     const TimelineDone done = draw_timeline(ui, s);
     scrubbing_ = done.scrubbed.has_value();
     if (done.scrubbed) go(*done.scrubbed);

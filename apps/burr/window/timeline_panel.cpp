@@ -73,31 +73,53 @@ bool button(const char* id, ImVec2 p, ImVec2 size, float round) {
   return pressed;
 }
 
-// Force as a curve, strokes as bars below it, wishes as marks with the letter of their key.
+constexpr float kCurve = 62, kBar = 10;  // [points]
+
+// Force as a curve, strokes as bars below it, wishes as marks with the letter of their key; along
+// a clock that may begin before it and end after it.
 class Line {
  public:
-  Line(const Ui& ui, const record::Timeline& line, float x, float y, float w)
-      : ui_(ui), line_(line), u_(ui.unit()), x_(x), y_(y), w_(w) {}
+  struct Place {
+    float x, y, w;     // [pixel]
+    float curve, bar;  // how high  [points]
+    double peak;       // as high as the curve goes  [N]
+  };
+  Line(const Ui& ui, const TimelineMoment& moment, double whole, const Place& place)
+      : ui_(ui),
+        line_(*moment.line),
+        from_(moment.from),
+        whole_(whole),
+        u_(ui.unit()),
+        x_(place.x),
+        y_(place.y),
+        w_(place.w),
+        peak_(place.peak),
+        curve_(place.curve),
+        bar_(place.bar) {}
 
-  [[nodiscard]] float at(double t) const {
-    return x_ + w_ * static_cast<float>(line_.seconds > 0 ? std::clamp(t / line_.seconds, 0.0, 1.0)
-                                                          : 0.0);
+  // of its own time, of the clock's
+  [[nodiscard]] float at(double t) const { return at_clock(t + from_); }
+  [[nodiscard]] float at_clock(double t) const {
+    return x_ + w_ * static_cast<float>(whole_ > 0 ? std::clamp(t / whole_, 0.0, 1.0) : 0.0);
   }
-  [[nodiscard]] double time_at(float px) const {
-    return line_.seconds * std::clamp(static_cast<double>((px - x_) / w_), 0.0, 1.0);
+  [[nodiscard]] double clock_at(float px) const {
+    return whole_ * std::clamp(static_cast<double>((px - x_) / w_), 0.0, 1.0);
   }
   [[nodiscard]] float top() const { return y_; }
-  [[nodiscard]] float bottom() const { return y_ + kCurve * u_ + kBar * u_; }
+  [[nodiscard]] float bottom() const { return y_ + curve_ * u_ + bar_ * u_; }
 
   void curve() const {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const float floor = y_ + kCurve * u_;
+    const float floor = y_ + curve_ * u_;
     draw.AddRectFilled({x_, y_}, {x_ + w_, floor}, ink::rgb(255, 255, 255, 14), 4 * u_);
-    const double full = std::max(0.5, 1.15 * line_.peak_force);
+    const float room = curve_ < kCurve ? 2 : 14;  // for the words above
+    const double full = std::max(0.5, 1.15 * peak_);
     for (float px = 0; px < w_; px += 1) {
-      const double force = line_.force_in(time_at(x_ + px), time_at(x_ + px + 0.999F));
+      const double from = clock_at(x_ + px) - from_, to = clock_at(x_ + px + 0.999F) - from_;
+      if (to < 0 || from > line_.seconds) continue;
+      const double force = line_.force_in(std::max(0.0, from), to);
       if (force < 0.002 * full) continue;
-      const float h = (kCurve - 14) * u_ * static_cast<float>(std::min(1.0, force / full));
+      const float h = (curve_ - room) * u_ * static_cast<float>(std::min(1.0, force / full));
       draw.AddRectFilled({x_ + px, floor - h}, {x_ + px + 1, floor}, ink::kAccent);
     }
     ui_.write(x_ + 6 * u_, y_ + 1 * u_, Letter::small, ink::kDim,
@@ -106,7 +128,7 @@ class Line {
 
   void strokes() const {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const float top = y_ + (kCurve + 3) * u_, floor = bottom();
+    const float top = y_ + (curve_ + 3) * u_, floor = bottom();
     draw.AddRectFilled({x_, top}, {x_ + w_, floor}, ink::rgb(255, 255, 255, 14), 2 * u_);
     for (const record::Stroke& stroke : line_.strokes)
       draw.AddRectFilled({at(stroke.begin_s), top},
@@ -119,7 +141,7 @@ class Line {
     float free = x_ - 1;  // a letter only where the one before leaves room
     for (const record::TimelineEvent& event : line_.events) {
       const float px = std::round(at(event.t_s));
-      draw.AddRectFilled({px, y_ + 14 * u_}, {px + std::max(1.0F, u_), y_ + kCurve * u_},
+      draw.AddRectFilled({px, y_ + 14 * u_}, {px + std::max(1.0F, u_), y_ + curve_ * u_},
                          ink::rgb(238, 240, 242, 150));
       const std::string letter = letter_of(event.wish);
       const float wide = ui_.width_of(Letter::small, letter);
@@ -132,16 +154,15 @@ class Line {
 
   // round times below, as many as there is room for
   void scale() const {
-    if (!(line_.seconds > 0)) return;
+    if (!(whole_ > 0)) return;
     double step = 0.5;
     for (const double longer :
          {1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0, 36'000.0})
-      if (static_cast<double>(w_) * step / line_.seconds < static_cast<double>(74 * u_))
-        step = longer;
-    if (line_.seconds / step > 1000) return;
+      if (static_cast<double>(w_) * step / whole_ < static_cast<double>(74 * u_)) step = longer;
+    if (whole_ / step > 1000) return;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    for (double t = 0; t <= line_.seconds; t += step) {
-      const float px = at(t);
+    for (double t = 0; t <= whole_; t += step) {
+      const float px = at_clock(t);
       draw.AddRectFilled({px, bottom()}, {px + std::max(1.0F, u_), bottom() + 4 * u_}, ink::kDim);
       const std::string text = step < 1 ? clock_of(t) : minutes(t);
       const float wide = ui_.width_of(Letter::small, text);
@@ -150,21 +171,24 @@ class Line {
     }
   }
 
-  void head(double t) const {
+  // from above, down to `floor`
+  void head(double t, float floor) const {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const float px = std::round(at(t)), half = std::max(1.0F, 1.0F * u_);
-    draw.AddRectFilled({px - half - u_, y_ - 2 * u_}, {px + half + u_, bottom() + 2 * u_},
+    const float px = std::round(at_clock(t)), half = std::max(1.0F, 1.0F * u_);
+    draw.AddRectFilled({px - half - u_, y_ - 2 * u_}, {px + half + u_, floor + 2 * u_},
                        ink::rgb(0, 0, 0, 160));
-    draw.AddRectFilled({px - half, y_ - 2 * u_}, {px + half, bottom() + 2 * u_}, ink::kText);
+    draw.AddRectFilled({px - half, y_ - 2 * u_}, {px + half, floor + 2 * u_}, ink::kText);
     draw.AddTriangleFilled({px - 6 * u_, y_ - 8 * u_}, {px + 6 * u_, y_ - 8 * u_},
                            {px, y_ + 1 * u_}, ink::kText);
   }
 
   // what is under the mouse, in words
-  void told(double t) const {
+  void told(double clock) const {
+    const double t = clock - from_;
+    if (t < 0 || t > line_.seconds) return;
     std::string text = fmt::format("{}   {:.2f} N", clock_of(t),
-                                   line_.force_in(t, t + line_.seconds / static_cast<double>(w_)));
-    const double near = 4 * static_cast<double>(u_) / static_cast<double>(w_) * line_.seconds;
+                                   line_.force_in(t, t + whole_ / static_cast<double>(w_)));
+    const double near = 4 * static_cast<double>(u_) / static_cast<double>(w_) * whole_;
     for (const record::Stroke& stroke : line_.strokes)
       if (t > stroke.begin_s - near && t < stroke.end_s + near) {
         text += say(Word::replay_stroke, clock_of(stroke.begin_s), clock_of(stroke.end_s));
@@ -181,10 +205,12 @@ class Line {
   }
 
  private:
-  static constexpr float kCurve = 62, kBar = 10;  // [points]
   const Ui& ui_;
   const record::Timeline& line_;
+  double from_, whole_;
   float u_, x_, y_, w_;
+  double peak_;
+  float curve_, bar_;
 };
 
 }  // namespace
@@ -245,13 +271,26 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
 
   Cells cells(ui, x + 78 * u, y + 10 * u);
   cells.cell(196, word(Word::time), clock_of(s.t),
-             fmt::format("/ {}{}", clock_of(s.line->seconds), s.behind ? "   …" : ""));
-  cells.cell(112, word(Word::force), fmt::format("{:.2f}", s.force), "N");
-  cells.cell(136, word(Word::removed), fmt::format("{:.1f}", 1e9 * s.removed), "mm³");
-  cells.cell(140, word(Word::burr), fmt::format("{:g}", std::round(1e5 * s.burr_diameter) / 100),
-             fmt::format("mm  {}", word(name_of(s.mode))));
-  cells.cell(150, word(Word::speed),
-             fmt::format("{:.0f}", std::abs(s.speed) * 60 / (2 * std::numbers::pi)), "rpm");
+             fmt::format("/ {}{}", clock_of(s.seconds), s.behind ? "   …" : ""));
+  const bool two = s.second.line != nullptr;
+  // of both: the left one's, the right one's
+  const auto numbers = [&](const auto& number) {
+    return two ? fmt::format("{} | {}", number(s.first), number(s.second)) : number(s.first);
+  };
+  cells.cell(two ? 170 : 112, word(Word::force),
+             numbers([](const TimelineMoment& m) { return fmt::format("{:.2f}", m.force); }), "N");
+  cells.cell(two ? 230 : 136, word(Word::removed), numbers([](const TimelineMoment& m) {
+               return fmt::format("{:.1f}", 1e9 * m.removed);
+             }),
+             "mm³");
+  cells.cell(two ? 150 : 140, word(Word::burr), numbers([](const TimelineMoment& m) {
+               return fmt::format("{:g}", std::round(1e5 * m.burr_diameter) / 100);
+             }),
+             two ? "mm" : fmt::format("mm  {}", word(name_of(s.first.mode))));
+  cells.cell(150, word(Word::speed), numbers([](const TimelineMoment& m) {
+               return fmt::format("{:.0f}", std::abs(m.speed) * 60 / (2 * std::numbers::pi));
+             }),
+             "rpm");
 
   // slower, pace, faster
   const float right = x + w - kPad * u;
@@ -268,18 +307,34 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
   }
   ui.write(right - 75 * u, y + 28 * u, Letter::strong, ink::kText, pace, 0.5F);
 
-  const Line line(ui, *s.line, x + kPad * u, y + 64 * u, w - 2 * kPad * u);
+  // two curves of one scale
+  const double peak = std::max(s.first.line->peak_force, two ? s.second.line->peak_force : 0.0);
+  const Line::Place place = {x + kPad * u,         y + 64 * u,        w - 2 * kPad * u,
+                             two ? 29.0F : kCurve, two ? 5.0F : kBar, peak};
+  const Line line(ui, s.first, s.seconds, place);
+  std::optional<Line> second;
+  if (two) {
+    Line::Place below = place;
+    below.y = line.bottom() + 4 * u;
+    second.emplace(ui, s.second, s.seconds, below);
+  }
+  const Line& lowest = second ? *second : line;
   ImGui::SetCursorScreenPos({x + kPad * u, line.top() - 6 * u});
-  ImGui::InvisibleButton("##line", {w - 2 * kPad * u, line.bottom() - line.top() + 24 * u});
-  const float mouse = ImGui::GetIO().MousePos.x;
-  if (ImGui::IsItemActive()) done.scrubbed = line.time_at(mouse);
+  ImGui::InvisibleButton("##line", {w - 2 * kPad * u, lowest.bottom() - line.top() + 24 * u});
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (ImGui::IsItemActive()) done.scrubbed = line.clock_at(mouse.x);
   const bool over = ImGui::IsItemHovered();
-  line.curve();
-  line.strokes();
-  line.events();
-  line.scale();
-  line.head(s.t);
-  if (over || done.scrubbed) line.told(line.time_at(mouse));
+  const auto draw_all = [](const Line& each) {
+    each.curve();
+    each.strokes();
+    each.events();
+  };
+  draw_all(line);
+  if (second) draw_all(*second);
+  lowest.scale();
+  line.head(s.t, lowest.bottom());
+  if (over || done.scrubbed)
+    (second && mouse.y > second->top() ? *second : line).told(line.clock_at(mouse.x));
   ImGui::End();
 
   float above = y;

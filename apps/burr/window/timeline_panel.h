@@ -13,16 +13,23 @@
 
 namespace burr::app {
 
+// Of one recording, now.
+struct TimelineMoment {
+  const record::Timeline* line = nullptr;  // none: no recording
+  double from = 0;                         // its start on the shared clock  [s]
+  double force = 0;                        // [N]
+  double removed = 0;                      // [m^3]
+  double speed = 0;                        // of the spindle  [rad/s]
+  double burr_diameter = 0;                // [m]
+  sim::ToolMode mode = sim::ToolMode::cut;
+};
+
 struct TimelineState {
-  const record::Timeline* line = nullptr;
+  TimelineMoment first, second;  // the second below the first, by the same clock
+  double seconds = 0;            // of that clock
   double t = 0;
   bool playing = false, behind = false;
   double pace = 1;
-  double force = 0;          // [N]
-  double removed = 0;        // [m^3]
-  double speed = 0;          // of the spindle  [rad/s]
-  double burr_diameter = 0;  // [m]
-  sim::ToolMode mode = sim::ToolMode::cut;
   std::string note;     // the last thing done
   std::string warning;  // what must be known; "" for nothing
 };

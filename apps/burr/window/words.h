@@ -188,6 +188,10 @@ enum class Word {
   replay_help_ends,
   replay_help_pace,
   replay_help_drag,
+  replay_help_beside,
+  replay_help_shift,
+  replay_drop_second,
+  replay_shifted,
   replay_drag,
   key_ctrl_arrows,
   // out of the window
