@@ -24,6 +24,18 @@ TEST(ShortestTurn, TakesOneDirectionToTheOtherAboutTheAxisAcross) {
   }
 }
 
+TEST(ShortestTurn, OfNearlyOppositeDirectionsIsStillARotation) {
+  for (const double short_of : {0.1, 1e-2, 1e-3, 1e-4, 1e-5}) {  // of half a turn  [rad]
+    const Vec3 from(0.3, -0.4, 1.2);
+    const Vec3 across = from.unitOrthogonal();
+    const Vec3 to =
+        from.norm() * (std::sin(short_of) * across - std::cos(short_of) * from.normalized());
+    const Quat turn = shortest_turn(from, to);
+    EXPECT_NEAR(turn.norm(), 1, 1e-14) << short_of;
+    EXPECT_NEAR((turn * from - to).norm(), 0, 1e-14 / short_of + 1e-14) << short_of;
+  }
+}
+
 TEST(ShortestTurn, OfTheSameDirectionIsNone) {
   EXPECT_EQ(shortest_turn({0, 0, 2}, {0, 0, 5}).coeffs(), Quat::Identity().coeffs());
 }

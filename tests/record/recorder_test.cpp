@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include "burr/record/player.h"
@@ -196,6 +200,30 @@ TEST(Recorder, AnOlderRecordingIsReplacedOnlyByANewOneThatBegan) {
   ASSERT_TRUE(player.ok());
   EXPECT_EQ((*player)->end_tick(), 200U);
   EXPECT_EQ(folder.names(), std::vector<std::string>{"s.mcap"});
+}
+
+TEST(Recorder, WhatAnotherUsersBurrLeftWhenItWasKilledIsNoHindrance) {
+  if (::getuid() != 0) GTEST_SKIP() << "only root can be two users";
+  const Folder folder;
+  const std::string path = folder / "s.mcap";
+  std::filesystem::permissions(std::filesystem::path(path).parent_path(),
+                               std::filesystem::perms::all);
+  std::ofstream(path + ".part") << "half a recording";
+  std::filesystem::permissions(path + ".part", std::filesystem::perms(0644));
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    if (::setgid(65534) != 0 || ::setuid(65534) != 0) ::_exit(10);
+    Random random(1);
+    const auto bone = any_bone(random);
+    Recorder recorder(1000, 8192, false);
+    ::_exit(recorder.start(path, info_of(*bone, random)) ? 0 : 11);
+  }
+  int state = 0;
+  ASSERT_EQ(::waitpid(child, &state, 0), child);
+  EXPECT_TRUE(WIFEXITED(state));
+  EXPECT_EQ(WEXITSTATUS(state), 0);
+  EXPECT_TRUE(std::filesystem::exists(path));
 }
 
 TEST(Recorder, TwoCannotWriteTheSameFile) {

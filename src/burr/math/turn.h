@@ -20,10 +20,11 @@ inline Quat shortest_turn(const Vec3& from, const Vec3& to) {
     turn.vec() = a.unitOrthogonal();
     return turn;
   }
-  const double s = std::sqrt(2 * (1 + cosine));
+  // by the sum: of nearly opposite directions 1 + cosine has lost its digits
+  const double s = (a + b).norm();
   turn.w() = 0.5 * s;
   turn.vec() = a.cross(b) * (1 / s);
-  return turn;
+  return turn.normalized();
 }
 
 }  // namespace burr::math

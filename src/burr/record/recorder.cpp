@@ -471,6 +471,11 @@ Status Recorder::start(const std::string& path, const SessionInfo& asked, const 
     return problem;
   };
   auto writer = std::make_unique<McapWriter>();
+  // what another user's burr left there when it was killed, and this one may not write: rubbish, as
+  // far as it may be read, so that its lock is seen
+  if (::access(beside.c_str(), R_OK) == 0 && ::access(beside.c_str(), W_OK) != 0 &&
+      !being_written(beside))
+    ::unlink(beside.c_str());
   if (Status opened = writer->open(beside, path); !opened.ok()) return opened;
   if (Status added = writer->add_metadata(
           "burr.format", {{"version", fmt::format("{}", kFormatVersion)},
