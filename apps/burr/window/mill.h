@@ -24,6 +24,7 @@
 #include "window/mirror_mode.h"
 #include "window/saved_views.h"
 #include "window/slices.h"
+#include "window/told.h"
 #include "window/toolbar.h"
 #include "window/window.h"
 
@@ -172,8 +173,9 @@ class Mill {
   std::uint64_t missed_ = 0;
   Clock::time_point missed_at_{}, lost_at_{};
   std::optional<HudState::Nearest> nearest_;
-  std::string note_, warning_;  // last thing done; what must be known
-  Clock::time_point noted_{}, said_{};
+  Told told_;
+  std::string note_, warning_;  // as they are shown
+  Clock::time_point said_{};
 };
 
 // As flag_words(), but what has a sign of its own is left out, and in the user's language.

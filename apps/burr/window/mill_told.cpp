@@ -80,7 +80,7 @@ void Mill::look_at_session() {
     if (auto near = options_.nearby->nearest(scene_.burr.world_from_tool.p))
       nearest_ = {std::move(near->name), near->distance - scene_.burr.radius};
   sim::FaultReport fault;
-  if (session_.fault(fault)) note(say(Word::let_go, told_flags(fault.flags)));
+  if (session_.fault(fault)) told_.let_go(say(Word::let_go, told_flags(fault.flags)), Clock::now());
 }
 
 // The burr that is wished for, or the sentence why not.
@@ -96,24 +96,22 @@ void Mill::look_at_burr() {
   burr_wished_.reset();
 }
 
-void Mill::note(std::string text) {
-  note_ = std::move(text);
-  noted_ = Clock::now();
-}
+void Mill::note(std::string text) { told_.note(std::move(text), Clock::now()); }
 
 void Mill::tell() {
-  if (Clock::now() - said_ < std::chrono::milliseconds(200)) return;
-  said_ = Clock::now();
+  const Clock::time_point now = Clock::now();
+  if (now - said_ < std::chrono::milliseconds(200)) return;
+  said_ = now;
   for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
   const std::string flags = flag_words(row_.contact.flags);
   desk_.renderer().title(
       fmt::format("burr - removed {:.1f} mm^3 - force {:.2f} N - tick p99 {:.0f} us{}{}",
                   1e9 * row_.ledger.removed, row_.contact.force.norm(), stats_.quantile_us(0.99),
                   flags.empty() ? "" : " - ", flags));
-  warning_ = options_.warning ? options_.warning() : std::string();
-  if (warning_.empty()) warning_ = told_flags(row_.contact.flags);
-  if (Clock::now() - noted_ > std::chrono::seconds(6)) note_.clear();
-  if (note_.empty()) note_ = export_->progress();
+  std::string lasting = options_.warning ? options_.warning() : std::string();
+  if (lasting.empty()) lasting = told_flags(row_.contact.flags);
+  warning_ = told_.warning(now, lasting);
+  note_ = told_.note(now, export_->progress());
   if (note_.empty()) note_ = measuring_.words();
   desk_.said = !export_->trouble().empty()         ? export_->trouble()
                : warning_.empty() || note_.empty() ? warning_ + note_
