@@ -69,6 +69,18 @@ TEST(LoadGovernor, LooksAtWorkAtLatenessAndAtWhatWasLeftOut) {
   EXPECT_GT(after(0, 0, 1), Load::none);
 }
 
+TEST(LoadGovernor, PutsNothingOffForATickThatNobodyHereKeptWaiting) {
+  LoadSettings settings;
+  settings.first_in_line = true;
+  LoadGovernor late(kMs, settings), heavy(kMs, settings);
+  for (int n = 0; n < 5000; ++n) {
+    late.note(kMs / 10, 2 * kMs, 2);
+    heavy.note(kMs * 7 / 10, 2 * kMs, 2);
+  }
+  EXPECT_EQ(late.most(), Load::none);
+  EXPECT_EQ(heavy.load(), Load::touch);
+}
+
 TEST(LoadGovernor, TouchesLessWellOnlyWhereTheTickItselfIsTooHeavy) {
   LoadGovernor late(kMs), heavy(kMs);
   for (int n = 0; n < 5000; ++n) {

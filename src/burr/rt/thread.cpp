@@ -125,4 +125,10 @@ void Thread::join() {
 
 const ThreadGrant& Thread::grant() const { return work_->grant; }
 
+bool goes_first() {
+  int policy = SCHED_OTHER;
+  sched_param param = {};
+  return pthread_getschedparam(pthread_self(), &policy, &param) == 0 && policy == SCHED_FIFO;
+}
+
 }  // namespace burr::rt

@@ -47,4 +47,7 @@ class Thread {
   std::unique_ptr<Work> work_;
 };
 
+// The calling thread runs under SCHED_FIFO.
+[[nodiscard]] bool goes_first();
+
 }  // namespace burr::rt

@@ -45,6 +45,9 @@ inline constexpr int kLoads = 7;
 struct LoadSettings {
   double work_share = 0.6;  // of the period a tick may take, from its begin to its end
   double late_share = 0.5;  // of the period it may begin late
+  // The tick goes before everything else (SCHED_FIFO): what makes it late is then nobody's work
+  // that could be put off, but the machine itself or what it runs on; only its own length counts.
+  bool first_in_line = false;
   double often = 0.25;      // share of the last ticks over either, from which on it is too much
   double seldom = 0.02;     // ... up to which it is not
   double memory = 0.02;     // over how long that share is taken                      [s]

@@ -92,7 +92,9 @@ void Session::loop(std::uint64_t ticks) {
   rt::NoWaitClock simulated(settings_.servo.rate_hz);
   rt::TickClock& clock = settings_.realtime ? static_cast<rt::TickClock&>(wall) : simulated;
   if (settings_.realtime) watchdog_->rearm(rt::monotonic_ns());
-  LoadGovernor governor(clock.period_ns(), settings_.load);
+  LoadSettings load = settings_.load;
+  load.first_in_line = load.first_in_line || rt::goes_first();
+  LoadGovernor governor(clock.period_ns(), load);
   math::Vec3 last_force = math::Vec3::Zero();
 
   for (std::uint64_t n = 0;

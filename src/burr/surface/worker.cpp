@@ -1,5 +1,6 @@
 #include "burr/surface/worker.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <deque>
@@ -13,8 +14,9 @@ namespace {
 
 constexpr std::size_t kSpare = 16;                    // patches a resting lane keeps room for
 constexpr auto kLook = std::chrono::milliseconds(5);  // well under a frame, and nearly no load
-constexpr auto kHeld =
-    std::chrono::milliseconds(10);  // after each patch, when others are more urgent
+// rest after each patch, when others are more urgent: a quarter of a core is left to it
+constexpr int kHeldTimes = 3;  // as long as it took
+constexpr auto kHeldMost = std::chrono::milliseconds(10);
 
 }  // namespace
 
@@ -44,8 +46,11 @@ struct Worker::Lane {
         std::this_thread::sleep_for(kLook);
         continue;
       }
+      const auto begun = std::chrono::steady_clock::now();
       make(due.front());
-      if (held.load(std::memory_order_relaxed)) std::this_thread::sleep_for(kHeld);
+      if (held.load(std::memory_order_relaxed))
+        std::this_thread::sleep_for(std::min<std::chrono::steady_clock::duration>(
+            kHeldTimes * (std::chrono::steady_clock::now() - begun), kHeldMost));
     }
   }
 
