@@ -354,8 +354,10 @@ void print(const Options& options, const Outcome& out) {
           fmt::format("{}{:.0f} % {}", steps.empty() ? "" : ", ", 1e2 * share.get<double>(), name);
   fmt::print("left out: {}\n", steps);
   fmt::print(
-      "first frame {:.0f} ms; tick p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f} us, {} of {} left out\n",
-      out.first_ms, tick.p50_us, tick.p99_us, tick.p999_us, tick.missed, tick.ticks);
+      "first frame {:.0f} ms; tick p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f} us, {} of {} left out; "
+      "removed {:.1f} mm^3\n",
+      out.first_ms, tick.p50_us, tick.p99_us, tick.p999_us, tick.missed, tick.ticks,
+      1e9 * out.session.ledger.removed);
 }
 
 Status run(Options options) {

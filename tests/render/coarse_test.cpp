@@ -211,12 +211,12 @@ TEST(Coarsening, MakesAllOnceAndWhatIsMilledWhenItRests) {
   coarse.hold_back(false);
   settle(coarse, scene, 0);
 
-  // every patch is in one block, which stands, and that in one large one
+  // every patch is in one smallest block, every block but the largest in one larger
   std::vector<int> within(scene.patches.size()), large(scene.blocks.size());
   for (const SceneBlock& block : scene.blocks) {
     EXPECT_TRUE(versions_of(scene, block) == 0 || stands(scene, block));
     for (const int inner : block.inner) ++large[static_cast<std::size_t>(inner)];
-    if (block.outermost) continue;
+    if (!block.inner.empty()) continue;
     for (const int patch : block.patches)
       if (static_cast<std::size_t>(patch) < within.size())
         ++within[static_cast<std::size_t>(patch)];
@@ -228,9 +228,10 @@ TEST(Coarsening, MakesAllOnceAndWhatIsMilledWhenItRests) {
   // made anew, as if milled: no block stands for it until it has rested
   std::size_t some = 0;
   while (scene.patches[some].mesh == nullptr) ++some;
-  const auto all_stand = [&](bool with) {
+  const auto all_stand = [&](bool with, bool larger = false) {
     for (const SceneBlock& block : scene.blocks)
-      if ((std::find(block.patches.begin(), block.patches.end(), static_cast<int>(some)) !=
+      if ((!larger || !block.inner.empty()) &&
+          (std::find(block.patches.begin(), block.patches.end(), static_cast<int>(some)) !=
            block.patches.end()) &&
           stands(scene, block) != with)
         return false;
@@ -239,10 +240,13 @@ TEST(Coarsening, MakesAllOnceAndWhatIsMilledWhenItRests) {
   const ScenePatch again = scene.patches[some];
   EXPECT_TRUE(all_stand(true));
   set_patch(scene, static_cast<int>(some), ScenePatch(again));
-  for (const double now : {10.0, 10.5}) {
+  for (const double now : {10.0, 10.2}) {
     settle(coarse, scene, now);
     EXPECT_TRUE(all_stand(false)) << now;
   }
+  settle(coarse, scene, 10.5);  // the smallest is there first
+  EXPECT_FALSE(all_stand(false));
+  EXPECT_TRUE(all_stand(false, true));
   settle(coarse, scene, 11.1);
   EXPECT_TRUE(all_stand(true));
   // what changes while its coarse levels are being made does not get the old ones
@@ -266,16 +270,24 @@ TEST(CoarsePicture, OfAClosedCaveShowsNoBackground) {
   Scene scene = cave();
   Coarsening coarse(cave_patches(), kVoxel);
   settle(coarse, scene, 0);
-  // neighbours of every kind: the large block does not stand, and one block does not either
+  // neighbours of every kind: no block around one of the patches stands
   const auto in_middle = [](const ScenePatch& patch) {
     return patch.mesh != nullptr && patch.box.centre().norm() < 10 * kMm;
   };
   const auto some = std::find_if(scene.patches.begin(), scene.patches.end(), in_middle);
   ASSERT_NE(some, scene.patches.end());
   set_patch(scene, static_cast<int>(some - scene.patches.begin()), ScenePatch(*some));
-  const auto standing = std::count_if(scene.blocks.begin(), scene.blocks.end(),
-                                      [&](const SceneBlock& b) { return stands(scene, b); });
-  EXPECT_EQ(standing, static_cast<long>(scene.blocks.size()) - 2);
+  const int hole = static_cast<int>(some - scene.patches.begin());
+  int holed = 0, sizes = 0;
+  for (const SceneBlock& block : scene.blocks) {
+    const bool with =
+        std::find(block.patches.begin(), block.patches.end(), hole) != block.patches.end();
+    EXPECT_EQ(stands(scene, block), versions_of(scene, block) != 0 && !with);
+    holed += with ? 1 : 0;
+    sizes += block.outermost && with ? 1 : 0;
+  }
+  EXPECT_GE(holed, 3);
+  EXPECT_EQ(sizes, 1);
   scene.look.background_top = scene.look.background_bottom = {1, 0, 1};
   scene.quality.coarse_px = 1000;
   scene.quality.refine = false;
@@ -291,7 +303,7 @@ TEST(CoarsePicture, OfAClosedCaveShowsNoBackground) {
       through += image.rgb[i] > 200 && image.rgb[i + 1] < 60 && image.rgb[i + 2] > 200;
     EXPECT_EQ(through, 0) << "view " << view;
   }
-  // it was coarse at all: seven blocks of eight as one part each
+  // it was coarse at all
   scene.camera.distance = 80 * kMm;
   gpu.skip_hidden(false);
   ASSERT_TRUE(gpu.show(scene).ok());

@@ -103,6 +103,9 @@ CoarseMesh coarser(Joined&& joined, std::span<const double> errors) {
       triangles.assign(simpler.begin(), simpler.begin() + static_cast<std::ptrdiff_t>(left));
       level.indices.insert(level.indices.end(), triangles.begin(), triangles.end());
     }
+    // a vertex that is still at hand is not transformed again
+    meshopt_optimizeVertexCache(level.indices.data(), level.indices.data(), level.indices.size(),
+                                count);
     out.levels.push_back(std::move(level));
   }
   out.vertices = std::move(all.vertices);

@@ -3,10 +3,10 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
-#include <span>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -16,18 +16,20 @@
 namespace burr::render {
 namespace {
 
-constexpr double kRest = 1;                // a block is let be for so long              [s]
-constexpr double kErrors[] = {0.5, 1.5};   // of a block's levels                     [voxel]
-constexpr double kLargeErrors[] = {1, 2};  // of a large block's, with those of what it is made of
-constexpr int kEdge = 4;                   // of a block in patches, of a large one in blocks
-constexpr std::size_t kHandedOutAtOnce = 8;
+// a block is let be for so long; one of the smallest, which follow the burr                 [s]
+constexpr double kRest = 1, kSmallRest = 0.3;
+constexpr int kEdge = 2;  // of a block in patches, of a larger one in blocks
+// Errors of the two levels of each size of block, with those of what it is made of [voxel].
+constexpr std::array<std::array<double, 2>, 4> kErrors = {
+    {{0.5, 1.5}, {0.75, 1.75}, {1, 2}, {1.25, 2.5}}};
+constexpr std::size_t kHandedOutAtOnce = 32;
 constexpr int kNice = 15;
 
 }  // namespace
 
 struct Coarsening::Work {
   struct Job {
-    std::size_t block = 0;
+    std::size_t block = 0, size = 0;
     std::uint64_t versions = 0;
     std::vector<std::shared_ptr<const SkinMesh>> patches;   // to be made of these
     std::vector<std::shared_ptr<const CoarseMesh>> blocks;  // ... or these
@@ -44,7 +46,9 @@ struct Coarsening::Work {
   double voxel = 0;
   bool held = false;
   std::vector<Seen> seen;
-  std::size_t next = 0;  // block to look at
+  std::vector<std::size_t> firsts;      // number of the first block of each size
+  std::vector<std::uint64_t> versions;  // of each block's patches as they are now
+  std::size_t next = 0;                 // block to look at
   std::size_t out = 0;
 
   mutable std::mutex mutex;
@@ -55,12 +59,13 @@ struct Coarsening::Work {
 
   void lay_out(Scene& scene);
   void take_back(Scene& scene);
+  void count_versions(const Scene& scene);
   [[nodiscard]] bool collect(const Scene& scene, const SceneBlock& block, Job& job) const;
-  [[nodiscard]] CoarseMesh made_of(Joined&& all, bool patches) const;
+  [[nodiscard]] CoarseMesh made_of(Joined&& all, std::size_t size) const;
   void run();
 };
 
-// Blocks as a mesher's patches lie, then the large ones as the blocks do.
+// Blocks as a mesher's patches lie, then larger and larger ones as the blocks do.
 void Coarsening::Work::lay_out(Scene& scene) {
   if (!seen.empty() && scene.blocks.size() == seen.size()) return;
   scene.blocks.clear();
@@ -76,14 +81,20 @@ void Coarsening::Work::lay_out(Scene& scene) {
               n);
     return groups;
   };
-  const math::Ijk blocks =
+  firsts = {0};
+  math::Ijk blocks =
       group(grid, 0, [](SceneBlock& block, int patch) { block.patches.push_back(patch); });
-  group(blocks, scene.blocks.size(), [&scene](SceneBlock& large, int number) {
-    SceneBlock& block = scene.blocks[static_cast<std::size_t>(number)];
-    block.outermost = false;
-    large.inner.push_back(number);
-    large.patches.insert(large.patches.end(), block.patches.begin(), block.patches.end());
-  });
+  while (firsts.size() < kErrors.size()) {
+    const std::size_t before = firsts.back();
+    firsts.push_back(scene.blocks.size());
+    blocks = group(blocks, firsts.back(), [&](SceneBlock& large, int number) {
+      const std::size_t inner = before + static_cast<std::size_t>(number);
+      SceneBlock& block = scene.blocks[inner];
+      block.outermost = false;
+      large.inner.push_back(static_cast<int>(inner));
+      large.patches.insert(large.patches.end(), block.patches.begin(), block.patches.end());
+    });
+  }
   seen.assign(scene.blocks.size(), {});
 }
 
@@ -101,13 +112,23 @@ void Coarsening::Work::take_back(Scene& scene) {
   }
 }
 
+// Those of a block are before it.
+void Coarsening::Work::count_versions(const Scene& scene) {
+  versions.assign(scene.blocks.size(), 0);
+  for (std::size_t b = 0; b < versions.size(); ++b) {
+    const SceneBlock& block = scene.blocks[b];
+    if (block.inner.empty()) versions[b] = versions_of(scene, block);
+    for (const int inner : block.inner) versions[b] += versions[static_cast<std::size_t>(inner)];
+  }
+}
+
 // What the block is to be made of; false: its own blocks are not ready.
 bool Coarsening::Work::collect(const Scene& scene, const SceneBlock& block, Job& job) const {
   for (const int inner : block.inner) {
     const SceneBlock& one = scene.blocks[static_cast<std::size_t>(inner)];
-    const std::uint64_t versions = versions_of(scene, one);
-    if (versions == 0) continue;
-    if (one.mesh == nullptr || one.versions != versions) return false;
+    const std::uint64_t now = versions[static_cast<std::size_t>(inner)];
+    if (now == 0) continue;
+    if (one.mesh == nullptr || one.versions != now) return false;
     job.blocks.push_back(one.mesh);
   }
   if (!block.inner.empty()) return true;
@@ -118,11 +139,10 @@ bool Coarsening::Work::collect(const Scene& scene, const SceneBlock& block, Job&
   return true;
 }
 
-CoarseMesh Coarsening::Work::made_of(Joined&& all, bool patches) const {
-  std::vector<double> errors;
-  const double before = patches ? 0 : kErrors[0];
-  for (const double error : patches ? std::span(kErrors) : std::span(kLargeErrors))
-    errors.push_back((error - before) * voxel);
+CoarseMesh Coarsening::Work::made_of(Joined&& all, std::size_t size) const {
+  std::array<double, 2> errors = kErrors[size];
+  const double before = size == 0 ? 0 : kErrors[size - 1][0];
+  for (double& error : errors) error = (error - before) * voxel;
   CoarseMesh mesh = coarser(std::move(all), errors);
   for (CoarseLevel& level : mesh.levels) level.error += before * voxel;
   return mesh;
@@ -141,7 +161,7 @@ void Coarsening::Work::run() {
     Joined all;
     for (const auto& patch : job.patches) all.add(*patch);
     for (const auto& block : job.blocks) all.add(*block);
-    job.made = std::make_shared<const CoarseMesh>(made_of(std::move(all), job.blocks.empty()));
+    job.made = std::make_shared<const CoarseMesh>(made_of(std::move(all), job.size));
     job.patches.clear();
     job.blocks.clear();
     lock.lock();
@@ -168,20 +188,24 @@ void Coarsening::update(Scene& scene, double now) {
   Work& w = *work_;
   w.lay_out(scene);
   w.take_back(scene);
+  w.count_versions(scene);
   const std::size_t count = scene.blocks.size();
   std::vector<Work::Job> jobs;
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t at = (w.next + n) % count;
     const SceneBlock& block = scene.blocks[at];
     Work::Seen& seen = w.seen[at];
-    const std::uint64_t versions = versions_of(scene, block);
+    const std::uint64_t versions = w.versions[at];
     // at the start nothing has changed yet: all of it is made at once
     if (seen.versions != versions) seen = {versions, now, seen.versions != 0, false};
     if (w.held || seen.handed_out || versions == 0) continue;
-    if (seen.changed && now - seen.since < kRest) continue;
+    const double rest = block.inner.empty() ? kSmallRest : kRest;
+    if (seen.changed && now - seen.since < rest) continue;
     if (w.out + jobs.size() >= kHandedOutAtOnce) continue;
     Work::Job job;
     job.block = at;
+    job.size =
+        static_cast<std::size_t>(std::ranges::upper_bound(w.firsts, at) - w.firsts.begin() - 1);
     job.versions = versions;
     if (!w.collect(scene, block, job)) continue;
     seen.handed_out = true;

@@ -3,9 +3,10 @@
 //     render::Coarsening coarse(worker.patches(), bone.grid().voxel);
 //     each frame:   coarse.update(scene, now);   // hands out blocks, takes back what is made
 //
-//     scene ---> blocks whose patches have rested for a second ---> thread "coarse" ---> scene
+//     scene ---> blocks whose patches have rested for a while ---> thread "coarse" ---> scene
 //
-// A block is 4 x 4 x 4 patches, a large one 4 x 4 x 4 blocks: the larger, the less of it is rim.
+// A block is 2 x 2 x 2 patches, a larger one 2 x 2 x 2 blocks, and so on, four sizes in all: the
+// larger, the less of it is rim; the smaller, the less is drawn as it is for one hole in it.
 // What is being milled is drawn as it is until it has rested. Thread: update() and hold_back() on
 // main; its own thread runs when nothing else wants to.
 #pragma once

@@ -49,8 +49,8 @@ struct ScenePatch {
 // them has changed since (coarsening.h). A large block holds smaller ones.
 struct SceneBlock {
   std::vector<int> patches;  // all that it stands for
-  std::vector<int> inner;    // numbers of the blocks it is made of; none: of the patches
-  bool outermost = true;     // part of no other
+  std::vector<int> inner;  // numbers of the blocks it is made of, lower ones; none: of the patches
+  bool outermost = true;   // part of no other
   std::shared_ptr<const CoarseMesh> mesh;  // nullptr: none made
   std::uint64_t versions = 0;              // the patches' versions, added up, that it was made of
 };

@@ -77,13 +77,15 @@ Status Lighting::start(bool es) {
   sky_ = std::move(*linked);
   constexpr const char* kHollows[] = {"", "#define HOLLOWS\n", "#define HOLLOWS\n#define HALF\n"};
   for (std::size_t hollows = 0; hollows < 3; ++hollows)
-    for (const bool shadow : {false, true}) {
-      linked = Program::link(
-          es, {kScreenVertex},
-          {kHollows[hollows], shadow ? "#define SHADOW\n" : "", kColourFunctions, kLightFragment});
-      if (!linked) return linked.error();
-      lights_[hollows][shadow ? 1 : 0] = std::move(*linked);
-    }
+    for (const bool shadow : {false, true})
+      for (const bool others : {false, true}) {
+        linked =
+            Program::link(es, {kScreenVertex},
+                          {kHollows[hollows], shadow ? "#define SHADOW\n" : "",
+                           others ? "#define OTHERS\n" : "", kColourFunctions, kLightFragment});
+        if (!linked) return linked.error();
+        lights_[hollows][shadow ? 1 : 0][others ? 1 : 0] = std::move(*linked);
+      }
   return fine();
 }
 
@@ -99,11 +101,12 @@ void Lighting::paint_sky(const Scene& scene, const Frame& frame, const Rect& r,
 }
 
 void Lighting::paint(const Scene& scene, const Frame& frame, const Rect& r, const Unlit& what,
-                     const Hollows& hollows, bool shadow) {
+                     const Hollows& hollows, const Besides& besides) {
   if (r.empty()) return;
   const Look& look = scene.look;
   const std::size_t kind = hollows.map == nullptr ? 0 : hollows.stride == 1 ? 1 : 2;
-  Program& light = look.plain ? plain_ : lights_[kind][shadow ? 1 : 0];
+  Program& light =
+      look.plain ? plain_ : lights_[kind][besides.shadow ? 1 : 0][besides.others ? 1 : 0];
   glBindFramebuffer(GL_FRAMEBUFFER, what.lit_at->get());
   glViewport(0, 0, frame.width, frame.height);
   scissor(r);

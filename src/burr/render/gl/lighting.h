@@ -28,14 +28,18 @@ struct Hollows {
 class Lighting {
  public:
   Status start(bool es);
-  // shadow: the tool's may fall there. The array of a screen's triangle is bound.
+  // What may be in a rectangle besides bone: the tool's shadow; tool and marks themselves.
+  struct Besides {
+    bool shadow = false, others = false;
+  };
+  // The array of a screen's triangle is bound.
   void paint(const Scene& scene, const Frame& frame, const Rect& r, const Unlit& what,
-             const Hollows& hollows, bool shadow);
+             const Hollows& hollows, const Besides& besides);
   void paint_sky(const Scene& scene, const Frame& frame, const Rect& r, const Framebuffer& lit_at);
 
  private:
   Program plain_, sky_;
-  Program lights_[3][2];  // [hollows: none, full, half resolution][shadow of the tool]
+  Program lights_[3][2][2];  // [hollows: none, full, half resolution][shadow][others]
 };
 
 // Points around everything the tool's shadow may touch; none without a tool.

@@ -87,8 +87,9 @@ struct Renderer::Work {
   gl::Shapes shapes;
   gl::Overlay overlay;
   gl::Target target;
-  gl::Sheet sheet;
-  gl::VertexArray nothing;  // a screen's triangle has no data, but wants an array
+  gl::Sheet sheet, stretched;  // the picture; what was lit, in its pixels where those are more
+  Region lit_anew;             // samples, by the last paint()
+  gl::VertexArray nothing;     // a screen's triangle has no data, but wants an array
   gl::Lighting lighting;
   gl::SeeThrough through;
   Program skin_mesh, clipped_skin, dressed_skin, clipped_dressed_skin, mesh, hollow, soften, shrink;
@@ -120,7 +121,7 @@ struct Renderer::Work {
   struct Eye {
     gl::Target target;
     gl::SeeThrough through;
-    gl::Sheet sheet;
+    gl::Sheet sheet, stretched;
     std::optional<Held> held;
     std::vector<Aabb> changed;
     bool started = false;  // its programs are linked
@@ -158,6 +159,7 @@ struct Renderer::Work {
   struct Size {
     int width = 0, height = 0;
   };
+  Status stretch(const Rect& from, int wide, int high);
   Status put_on_sheet(const Scene& scene, const Rect& from, int factor, const Size& size, int width,
                       int height, int left, int top);
   Parts compare(const Scene& scene, const Frame& frame, const std::vector<Piece>& pieces, bool all);
@@ -208,6 +210,7 @@ Status Renderer::Work::look_with(int which) {
     std::swap(target, there.target);
     std::swap(through, there.through);
     std::swap(sheet, there.sheet);
+    std::swap(stretched, there.stretched);
     std::swap(held, there.held);
     std::swap(changed, there.changed);
     std::swap(started, there.started);
@@ -263,9 +266,10 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
                            const std::vector<Piece>& pieces) {
   glEnable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
-  Rect there = rect_of(parts.extent, frame);  // all that is not sky
+  Rect not_bone;
   for (const Piece& piece : pieces)
-    for (const auto& corners : piece.boxes) there = there.with(rect_of(corners, frame));
+    for (const auto& corners : piece.boxes) not_bone = not_bone.with(rect_of(corners, frame));
+  const Rect there = rect_of(parts.extent, frame).with(not_bone);  // all that is not sky
   for (const Rect& rect : parts.bone.rects()) paint_bone(scene, frame, rect);
   Region fresh = parts.bone;
   fresh.add(parts.tool);
@@ -295,14 +299,19 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
                                target.hollow_height, target.stride};
   for (const Rect& rect : lit.rects()) {
     const Rect some = rect.in(there);
-    lighting.paint(scene, frame, some.in(shaded), what, hollows, true);
-    for (const Rect& rest : some.without(shaded))
-      lighting.paint(scene, frame, rest, what, hollows, false);
+    const auto light = [&](const Rect& part, bool shadow) {
+      lighting.paint(scene, frame, part.in(not_bone), what, hollows, {shadow, true});
+      for (const Rect& bone : part.without(not_bone))
+        lighting.paint(scene, frame, bone, what, hollows, {shadow, false});
+    };
+    light(some.in(shaded), true);
+    for (const Rect& rest : some.without(shaded)) light(rest, false);
     for (const Rect& rest : rect.without(there))
       lighting.paint_sky(scene, frame, rest, target.lit_at);
     if (seen_through) through.blend(scene, frame, some, what, lighting);
   }
   glDisable(GL_SCISSOR_TEST);
+  lit_anew = lit;
   figures.redrawn = std::max(figures.redrawn, std::min(1.0, lit.area() / frame.all().area()));
 }
 
@@ -312,9 +321,8 @@ void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Re
   glViewport(0, 0, frame.width, frame.height);
   gl::scissor(r);
   const std::array<float, 4> none{};
-  const std::array<GLuint, 4> no_normal{};
   glClearBufferfv(GL_COLOR, 0, none.data());
-  glClearBufferuiv(GL_COLOR, 1, no_normal.data());
+  glClearBufferfv(GL_COLOR, 1, none.data());
   const float farthest = 1;
   glDepthMask(GL_TRUE);
   glClearBufferfv(GL_DEPTH, 0, &farthest);
@@ -454,6 +462,34 @@ void Renderer::Work::paint_hollows(const Scene& scene, const Frame& frame, const
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+// All of the target in more pixels, anew only where it is: to stretch costs more than to light.
+Status Renderer::Work::stretch(const Rect& from, int wide, int high) {
+  const bool kept = stretched.width == wide && stretched.height == high;
+  if (const Status sized = stretched.resize(wide, high); !sized) return sized;
+  if (!kept) {
+    lit_anew = {};
+    lit_anew.add(from);
+  }
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, target.lit_at.get());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, stretched.at.get());
+  glEnable(GL_SCISSOR_TEST);
+  const double x = static_cast<double>(wide) / (from.x1 - from.x0),
+               y = static_cast<double>(high) / (from.y1 - from.y0);
+  const Region anew = std::exchange(lit_anew, {});
+  for (const Rect& rect : anew.rects()) {
+    // a pixel mixes the samples around it
+    const Rect wider = rect.grown(1);
+    gl::scissor(
+        Rect{static_cast<int>(std::floor(wider.x0 * x)), static_cast<int>(std::floor(wider.y0 * y)),
+             static_cast<int>(std::ceil(wider.x1 * x)), static_cast<int>(std::ceil(wider.y1 * y))}
+            .in({0, 0, wide, high}));
+    glBlitFramebuffer(from.x0, from.y0, from.x1, from.y1, 0, 0, wide, high, GL_COLOR_BUFFER_BIT,
+                      GL_LINEAR);
+  }
+  glDisable(GL_SCISSOR_TEST);
+  return fine();
+}
+
 // `from` of the target becomes the sheet of that size, shrunk by `factor` or stretched: the part of
 // a picture of width x height that starts at (left, top); words on top.
 Status Renderer::Work::put_on_sheet(const Scene& scene, const Rect& from, int factor,
@@ -464,10 +500,14 @@ Status Renderer::Work::put_on_sheet(const Scene& scene, const Rect& from, int fa
   glBindFramebuffer(GL_FRAMEBUFFER, sheet.at.get());
   glViewport(0, 0, wide, high);
   if (factor == 1) {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, target.lit_at.get());
     const bool same_size = wide == from.x1 - from.x0 && high == from.y1 - from.y0;
-    glBlitFramebuffer(from.x0, from.y0, from.x1, from.y1, 0, 0, wide, high, GL_COLOR_BUFFER_BIT,
-                      same_size ? GL_NEAREST : GL_LINEAR);
+    if (!same_size)
+      if (const Status done = stretch(from, wide, high); !done) return done;
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, sheet.at.get());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, (same_size ? target.lit_at : stretched.at).get());
+    const Rect all = same_size ? from : Rect{0, 0, wide, high};
+    glBlitFramebuffer(all.x0, all.y0, all.x1, all.y1, 0, 0, wide, high, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, sheet.at.get());
   } else {
     gl::bind(0, target.lit);

@@ -26,7 +26,7 @@ Status SeeThrough::resize(int wide, int high) {
   if (wide == width_ && high == height_) return fine();
   width_ = height_ = 0;  // in case it fails half-way
   shape(colour_, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);
-  shape(normal_, GL_RG16UI, wide, high, GL_RG_INTEGER, GL_UNSIGNED_SHORT);
+  shape(normal_, GL_RGB10_A2, wide, high, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV);
   shape(depth_, GL_DEPTH_COMPONENT24, wide, high, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
   shape(lit_, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);
   for (const Status& made : {attach(geometry_, {colour_.get(), normal_.get()}, depth_.get()),
@@ -44,11 +44,10 @@ Skin::Drawn SeeThrough::paint(const Scene& scene, const Frame& frame, const Rect
   glViewport(0, 0, frame.width, frame.height);
   scissor(r);
   const std::array<float, 4> none{};
-  const std::array<GLuint, 4> no_normal{};
   const float farthest = 1;
   glDepthMask(GL_TRUE);
   glClearBufferfv(GL_COLOR, 0, none.data());
-  glClearBufferuiv(GL_COLOR, 1, no_normal.data());
+  glClearBufferfv(GL_COLOR, 1, none.data());
   glClearBufferfv(GL_DEPTH, 0, &farthest);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
@@ -79,7 +78,8 @@ Skin::Drawn SeeThrough::paint(const Scene& scene, const Frame& frame, const Rect
 void SeeThrough::blend(const Scene& scene, const Frame& frame, const Rect& r, const Unlit& front,
                        Lighting& lighting) {
   if (r.empty()) return;
-  lighting.paint(scene, frame, r, {&colour_, &normal_, &depth_, &lit_at_}, {}, false);
+  lighting.paint(scene, frame, r, {&colour_, &normal_, &depth_, &lit_at_}, {},
+                 {.shadow = false, .others = true});
   glBindFramebuffer(GL_FRAMEBUFFER, front.lit_at->get());
   scissor(r);
   bind(0, *front.colour);

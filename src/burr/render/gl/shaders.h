@@ -27,7 +27,7 @@ out vec3 n;
 out vec3 colour;
 void main() {
   gl_Position = clip_from_model * vec4(at_p, 1.0);
-  n = view_from_model_n * at_n;
+  n = normalize(view_from_model_n * at_n);
   colour = at_colour;
 }
 )";
@@ -91,14 +91,14 @@ void main() {
 )";
 
 // kind: 0 nothing, 1 bone (wet down to 0.82), 2/3 tool, 1/3 mark; in the alpha of the colour.
-// Normals are folded into an octahedron (Meyer et al. 2010, "On floating-point normal vectors") at
-// 2 x 16 bit, which both APIs can write.
+// Normals are written as they are, at 3 x 10 bit: to fold them here and back in each later step
+// cost a tenth of a picture where the processor draws.
 inline constexpr const char* kMeshFragment = R"(
 in vec3 n;
 in vec3 colour;
 uniform vec4 tint_kind;
 layout(location = 0) out vec4 out_colour;
-layout(location = 1) out uvec2 out_n;
+layout(location = 1) out vec4 out_n;
 #ifdef CLIP
 in float beyond;
 uniform vec3 plane_n;  // view
@@ -126,13 +126,11 @@ void main() {
     c = mix(c, vec3(0.80, 0.55, 0.45), 0.5);
   }
 #endif
-  vec3 m = k / max(abs(k.x) + abs(k.y) + abs(k.z), 1e-20);
-  vec2 o = m.z >= 0.0 ? m.xy : (1.0 - abs(m.yx)) * vec2(m.x >= 0.0 ? 1.0 : -1.0, m.y >= 0.0 ? 1.0 : -1.0);
   out_colour = vec4(c * tint_kind.rgb, tint_kind.a);
 #ifdef DRESSED
   out_colour.a -= 0.18 * wet;  // still bone, and the light knows how wet
 #endif
-  out_n = uvec2(round((o * 0.5 + 0.5) * 65535.0));
+  out_n = vec4(k * 0.5 + 0.5, 1.0);
 }
 )";
 
@@ -149,7 +147,7 @@ void main() {
 inline constexpr const char* kHollowFragment = R"(
 uniform sampler2D depth_map;
 uniform sampler2D colour_map;
-uniform usampler2D normal_map;
+uniform sampler2D normal_map;
 uniform vec4 ray;            // view xy per depth = uv * ray.xy + ray.zw
 uniform vec2 planes;         // near, far
 uniform ivec2 size;          // of the full maps
@@ -169,13 +167,7 @@ vec3 position(ivec2 at, float z) {
   vec2 uv = (vec2(at) + 0.5) / vec2(size);
   return vec3((uv * ray.xy + ray.zw) * z, -z);
 }
-vec3 unfold(uvec2 o) {
-  vec2 f = vec2(o) / 65535.0 * 2.0 - 1.0;
-  vec3 n = vec3(f, 1.0 - abs(f.x) - abs(f.y));
-  float t = max(-n.z, 0.0);
-  n.xy += vec2(n.x >= 0.0 ? -t : t, n.y >= 0.0 ? -t : t);
-  return normalize(n);
-}
+vec3 normal_at(ivec2 at) { return normalize(texelFetch(normal_map, at, 0).rgb - 0.5); }
 void main() {
   ivec2 here = ivec2(gl_FragCoord.xy);
   ivec2 at = min(here * stride, size - 1);
@@ -186,7 +178,7 @@ void main() {
   }
   float z = view_depth(at);
   vec3 p = position(at, z);
-  vec3 n = unfold(texelFetch(normal_map, at, 0).rg);
+  vec3 n = normal_at(at);
 
   int turn = ((here.x & 3) * 4 + (here.y & 3)) * 7 & 15;
   float angle = float(turn) * 0.392699;
@@ -234,7 +226,7 @@ void main() {
 
 // sRGB to linear light and back (IEC 61966-2-1), the powers by square roots: where the processor
 // draws, a power costs as much as all the rest of a pixel. Coefficients fitted; off by at most 0.01
-// and 0.1 of 255.
+// and 0.2 of 255.
 inline constexpr const char* kColourFunctions = R"(
 vec3 linear(vec3 c) {
   return mix(c / 12.92, 0.000769 + c * (0.040096 + c * (0.323391 + 0.635813 * sqrt(c))), step(0.04045, c));
@@ -242,16 +234,17 @@ vec3 linear(vec3 c) {
 vec3 srgb(vec3 c) {
   c = clamp(c, 0.0, 1.0);
   vec3 s = sqrt(c);
-  return mix(c * 12.92, -0.076906 + 0.833739 * s + 0.298120 * sqrt(s) - 0.055313 * c, step(0.0031308, c));
+  vec3 bright = -0.0370168 + s * (1.4480358 + s * (-0.9453218 + s * (0.8433921 - 0.3098380 * s)));
+  return mix(c * 12.92, bright, step(0.0031308, c));
 }
 )";
 
-// Behind kColourFunctions, with PLAIN, or with HOLLOWS (and HALF: at half resolution) and SHADOW
-// (of the tool) as wished: a processor that draws takes both ways of every `if`, so what is not
-// needed must not be there.
+// Behind kColourFunctions, with PLAIN, or with HOLLOWS (and HALF: at half resolution), SHADOW (of
+// the tool) and OTHERS (than bone: tool and marks) as wished: a processor that draws takes both
+// ways of every `if`, so what is not needed must not be there.
 inline constexpr const char* kLightFragment = R"(
 uniform sampler2D colour_map;
-uniform usampler2D normal_map;
+uniform sampler2D normal_map;
 uniform sampler2D depth_map;
 uniform sampler2D hollow_map;
 uniform vec4 ray;
@@ -275,13 +268,7 @@ uniform vec2 shaft_size;   // radius, length
 uniform float shadow_reach;
 out vec4 result;
 
-vec3 unfold(uvec2 o) {
-  vec2 f = vec2(o) / 65535.0 * 2.0 - 1.0;
-  vec3 n = vec3(f, 1.0 - abs(f.x) - abs(f.y));
-  float t = max(-n.z, 0.0);
-  n.xy += vec2(n.x >= 0.0 ? -t : t, n.y >= 0.0 ? -t : t);
-  return normalize(n);
-}
+vec3 normal_at(ivec2 at) { return normalize(texelFetch(normal_map, at, 0).rgb - 0.5); }
 float key(vec4 t) { return t.g + t.b / 255.0; }
 
 #ifndef HOLLOWS
@@ -336,21 +323,28 @@ float passes(vec3 p, vec3 to) { return 1.0; }
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec4 c = texelFetch(colour_map, at, 0);
-  vec3 n = unfold(texelFetch(normal_map, at, 0).rg);
+  vec3 n = normal_at(at);
   vec3 albedo = linear(c.rgb);
 #ifdef PLAIN
   vec3 colour = albedo * max(n.z, 0.0);
 #else
-  float d = texelFetch(depth_map, at, 0).r;
-  float z = planes.x * planes.y / (planes.y - d * (planes.y - planes.x));
   vec2 uv = (vec2(at) + 0.5) / vec2(size);
-  vec3 p = vec3((uv * ray.xy + ray.zw) * z, -z);
-  vec3 eye = normalize(-p);
+  vec3 along = vec3(uv * ray.xy + ray.zw, -1.0);
+  vec3 eye = normalize(-along);
+  float z = 0.0;
+#if defined(SHADOW) || defined(HALF)
+  float d = texelFetch(depth_map, at, 0).r;
+  z = planes.x * planes.y / (planes.y - d * (planes.y - planes.x));
+#endif
+#ifdef OTHERS
   bool bone = c.a > 0.8;
+#else
+  const bool bone = true;
+#endif
   float open = bone ? mix(1.0, openness(at, z), hollow) : 1.0;  // only bone has hollows
 
   float lit = max(dot(n, key_towards), 0.0);
-  if (bone) lit *= passes(p, key_towards);
+  if (bone) lit *= passes(along * z, key_towards);
   float side = max(dot(n, fill_towards), 0.0);
   vec3 direct = key_light * lit + fill_light * side;
   float around = ambient * (0.8 + 0.2 * n.y);
@@ -368,11 +362,13 @@ void main() {
     shine = mix(shine, x28 * x28 * x4, wet);
   }
   vec3 colour = albedo * light + key_light * (own * shine * step(1e-4, lit) * open);
+#ifdef OTHERS
   // steel mirrors the room: bright above, dark below
   float mirrored = smoothstep(-0.2, 0.9, 2.0 * dot(n, eye) * n.y - eye.y);
   colour += bone ? vec3(0.0) : albedo * (0.35 * mirrored * open);
   // marks: readable rather than real
   colour = c.a < 0.5 ? albedo * (0.55 + 0.45 * max(n.z, 0.0)) : colour;
+#endif
 #endif
   vec3 back = mix(sky_bottom, sky_top, clamp(gl_FragCoord.y * sky.x + sky.y, 0.0, 1.0));
   result = vec4(c.a < 0.1 ? back : srgb(colour), 1.0);
@@ -383,7 +379,7 @@ void main() {
 // that its shape does; a bone of opacity 0 is gone.
 inline constexpr const char* kThroughFragment = R"(
 uniform sampler2D colour_map;    // of the front
-uniform usampler2D normal_map;
+uniform sampler2D normal_map;
 uniform sampler2D behind;        // lit
 uniform vec4 ray;
 uniform ivec2 size;
@@ -392,10 +388,7 @@ out vec4 result;
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   if (texelFetch(colour_map, at, 0).a < 0.8) discard;
-  vec2 f = vec2(texelFetch(normal_map, at, 0).rg) / 65535.0 * 2.0 - 1.0;
-  vec3 n = vec3(f, 1.0 - abs(f.x) - abs(f.y));
-  float t = max(-n.z, 0.0);
-  n.xy += vec2(n.x >= 0.0 ? -t : t, n.y >= 0.0 ? -t : t);
+  vec3 n = texelFetch(normal_map, at, 0).rgb - 0.5;
   vec2 uv = (vec2(at) + 0.5) / vec2(size);
   vec3 eye = normalize(vec3(-(uv * ray.xy + ray.zw), 1.0));
   float facing = clamp(dot(normalize(n), eye), 0.0, 1.0);

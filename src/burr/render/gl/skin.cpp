@@ -13,6 +13,7 @@ using math::Vec3;
 namespace {
 
 constexpr std::size_t kWorthLooking = 30;  // patches; for fewer it costs more than it saves
+constexpr long kCall = 50;                 // to draw one part by itself costs so many triangles
 
 std::uint8_t unorm(float v) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0F, 1.0F) * 255.0F));
@@ -56,10 +57,11 @@ bool outside(const math::Aabb& box, const std::array<Eigen::Vector4d, 6>& planes
   });
 }
 
-bool none_dressed(const Scene& scene, const SceneBlock& block) {
-  return std::none_of(block.patches.begin(), block.patches.end(), [&](int patch) {
-    const auto p = static_cast<std::size_t>(patch);
-    return p < scene.patches.size() && scene.patches[p].dress != nullptr;
+bool inside(const math::Aabb& box, const std::array<Eigen::Vector4d, 6>& planes) {
+  return std::all_of(planes.begin(), planes.end(), [&](const Eigen::Vector4d& plane) {
+    const Vec3 nearest((plane.x() > 0 ? box.lo : box.hi).x(), (plane.y() > 0 ? box.lo : box.hi).y(),
+                       (plane.z() > 0 ? box.lo : box.hi).z());
+    return plane.head<3>().dot(nearest) + plane.w() >= 0;
   });
 }
 
@@ -113,10 +115,46 @@ int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
       else
         send(part, *part.mesh);
     }
-    part.stands = part.mesh != nullptr && block.versions == versions_of(scene, block) &&
-                  (!dressed_ || none_dressed(scene, block));
+    know(part, scene, block);
   }
   return sent;
+}
+
+// What a block has to know of its patches; those of its own blocks are known.
+void Skin::know(Block& part, const Scene& scene, const SceneBlock& block) {
+  std::uint64_t versions = 0;
+  part.dressed = false;
+  for (const int inner : part.inner) {
+    const Block& one = blocks_[static_cast<std::size_t>(inner)];
+    versions += one.versions;
+    part.dressed = part.dressed || one.dressed;
+  }
+  const auto each = [&](const auto& visit) {
+    for (const int patch : part.patches)
+      if (const auto p = static_cast<std::size_t>(patch); p < scene.patches.size())
+        visit(scene.patches[p]);
+  };
+  if (part.inner.empty())
+    each([&](const ScenePatch& patch) {
+      versions += patch.version;
+      part.dressed = part.dressed || patch.dress != nullptr;
+    });
+  if (versions != part.versions) {
+    part.versions = versions;
+    part.box = {};
+    for (const int inner : part.inner)
+      if (const Block& one = blocks_[static_cast<std::size_t>(inner)]; !one.box.empty()) {
+        part.box.extend(one.box.lo);
+        part.box.extend(one.box.hi);
+      }
+    if (part.inner.empty())
+      each([&](const ScenePatch& patch) {
+        if (patch.mesh == nullptr) return;
+        part.box.extend(patch.box.lo);
+        part.box.extend(patch.box.hi);
+      });
+  }
+  part.stands = part.mesh != nullptr && block.versions == versions && !part.dressed;
 }
 
 void Skin::send_colours() {
@@ -220,8 +258,6 @@ void Skin::send_dress(Patch& part, const ScenePatch& patch) {
 }
 
 void Skin::send(Block& part, const CoarseMesh& mesh) {
-  part.box = {};
-  for (const SkinVertex& vertex : mesh.vertices) part.box.extend(vertex.p.cast<double>());
   part.spread = std::numbers::pi;  // so large a part faces every way
   part.type = GL_UNSIGNED_INT;
   part.levels.clear();
@@ -257,31 +293,47 @@ Skin::Drawn Skin::draw_walls(const Planes& planes) {
   return drawn;
 }
 
-void Skin::ask(Patch& patch, const Vec3& eye, const Planes& planes) {
-  if (!patch.levels.empty() && !outside(patch.box, planes) &&
-      (both_sides_ || !turned_away(patch.box, patch.facing, patch.spread, eye)))
-    asked_.push_back({&patch, &patch.levels.front()});
+long Skin::ask(Patch& patch, const Vec3& eye, const Planes& planes) {
+  if (patch.levels.empty() || outside(patch.box, planes) ||
+      (!both_sides_ && turned_away(patch.box, patch.facing, patch.spread, eye)))
+    return 0;
+  asked_.push_back({&patch, &patch.levels.front()});
+  return kCall + patch.levels.front().count / 3;
 }
 
-// The coarsest that is allowed: the block, or what it is made of.
-void Skin::ask(Block& block, const Vec3& eye, const Planes& planes) {
+// The coarsest that is allowed: the block, or what it is made of. A block of which only a part is
+// in sight may be more than that part of what it is made of.
+long Skin::ask(Block& block, const Vec3& eye, const Planes& planes) {
+  if (block.box.empty() || outside(block.box, planes)) return 0;
+  const Part::Level* level = nullptr;
   if (block.stands) {
-    if (block.levels.empty() || outside(block.box, planes)) return;
+    if (block.levels.empty()) return 0;
     const double nearest =
         std::max(0.0, (block.box.centre() - eye).norm() - 0.5 * block.box.extent().norm());
-    const Part::Level* level = nullptr;
     for (const Part::Level& coarser : block.levels)
       if (coarser.error <= error_share_ * nearest) level = &coarser;
-    if (level != nullptr) {
-      asked_.push_back({&block, level});
-      return;
-    }
   }
-  for (const int inner : block.inner) ask(blocks_[static_cast<std::size_t>(inner)], eye, planes);
-  if (!block.inner.empty()) return;
+  if (level == nullptr) return ask_inside(block, eye, planes);
+  const long whole = kCall + level->count / 3;
+  if (!inside(block.box, planes)) {
+    const std::size_t before = asked_.size();
+    const long parts = ask_inside(block, eye, planes);
+    if (parts < whole) return parts;
+    asked_.resize(before);
+  }
+  asked_.push_back({&block, level});
+  return whole;
+}
+
+long Skin::ask_inside(Block& block, const Vec3& eye, const Planes& planes) {
+  long cost = 0;
+  for (const int inner : block.inner)
+    cost += ask(blocks_[static_cast<std::size_t>(inner)], eye, planes);
+  if (!block.inner.empty()) return cost;
   for (const int patch : block.patches)
     if (static_cast<std::size_t>(patch) < patches_.size())
-      ask(patches_[static_cast<std::size_t>(patch)], eye, planes);
+      cost += ask(patches_[static_cast<std::size_t>(patch)], eye, planes);
+  return cost;
 }
 
 Skin::Drawn Skin::draw(const Vec3& eye, const Planes& planes, bool both_sides,

@@ -70,7 +70,9 @@ class Skin {
     std::vector<int> patches, inner;
     bool outermost = true;
     std::shared_ptr<const CoarseMesh> mesh;
-    bool stands = false;  // for its patches as they are now, none of them dressed
+    std::uint64_t versions = 0;  // of all its patches as they are now; its box is theirs
+    bool dressed = false;        // one of them is
+    bool stands = false;         // for its patches as they are now, none of them dressed
   };
   // A part with the level it is to be drawn at.
   struct Asked {
@@ -82,8 +84,11 @@ class Skin {
   static void send_dress(Patch& part, const ScenePatch& patch);
   static void send(Block& part, const CoarseMesh& mesh);
   static void draw(const Part& part, const Part::Level& level, Drawn& drawn);
-  void ask(Patch& patch, const math::Vec3& eye, const Planes& planes);
-  void ask(Block& block, const math::Vec3& eye, const Planes& planes);
+  // Asks for what is to be drawn of it. What that costs, in triangles.
+  long ask(Patch& patch, const math::Vec3& eye, const Planes& planes);
+  long ask(Block& block, const math::Vec3& eye, const Planes& planes);
+  long ask_inside(Block& block, const math::Vec3& eye, const Planes& planes);
+  void know(Block& part, const Scene& scene, const SceneBlock& block);
   void send_colours();
 
   std::vector<Patch> patches_;

@@ -45,7 +45,7 @@ Result<bool> Target::resize(int wide, int high, int hollow_stride) {
   for (Texture* one : {&bone_colour, &colour})
     shape(*one, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);
   for (Texture* one : {&bone_normal, &normal})
-    shape(*one, GL_RG16UI, wide, high, GL_RG_INTEGER, GL_UNSIGNED_SHORT);
+    shape(*one, GL_RGB10_A2, wide, high, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV);
   for (Texture* one : {&bone_depth, &depth})
     shape(*one, GL_DEPTH_COMPONENT24, wide, high, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
   shape(lit, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);
