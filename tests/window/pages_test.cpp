@@ -230,6 +230,23 @@ TEST_F(Window, WritesChangedSettingsDownAndSpeaksTheLanguageAtOnce) {
   EXPECT_EQ(read.settings.language, Language::swedish);
 }
 
+TEST_F(Window, ChangesWhatAGamepadAndAPedalDoOnTheOtherLeafOfTheSettings) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  // the second slider of the left column, near its right end
+  mill_by(*ready, {{"the first picture", looks(3), [] { press(SDLK_F2); }},
+                   {"the page", looks(5), [] { click(1280 / 2 + 200, 83); }},
+                   {"its other leaf", looks(5), [] { click(600, 196); }},
+                   {"the change", [&] { return desk_->settings.pad_dead > 0.5; },
+                    [] { move_to(1200, 600); }},
+                   {"the slider let go", looks(5), [] { press(SDLK_ESCAPE); }},
+                   {"the page to go", looks(5), [] { press(SDLK_q); }}});
+  const SettingsRead read = read_settings(folder_ / "config" / "settings.toml");
+  EXPECT_TRUE(read.troubles.empty());
+  EXPECT_NEAR(read.settings.pad_dead, desk_->settings.pad_dead, 1e-6);
+  EXPECT_EQ(read.settings.pedal_mill, Settings{}.pedal_mill);
+}
+
 // ---- page to page
 
 TEST_F(Window, TakesADroppedScanMillsItComesBackAndGoesOnWhereItWas) {

@@ -135,7 +135,8 @@ class Mill {
 
   bool open_ = true, picture_ = false;
   Left left_ = Left::window;
-  bool panels_ = true, help_ = false, help_pads_ = false, settings_page_ = false;
+  bool panels_ = true, help_ = false, help_pads_ = false, settings_page_ = false,
+       settings_pads_ = false;
   int picture_step_ = 0;
   std::optional<Slices> slices_;
   std::optional<SavedViews> saved_views_;

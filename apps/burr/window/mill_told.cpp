@@ -174,7 +174,8 @@ void Mill::panels() {
   const bool worn = desk_.settings.headset;
   const std::filesystem::path& config = desk_.places().config;
   const SettingsPage page = draw_settings(
-      ui, desk_.settings, config.empty() ? std::string() : (config / "settings.toml").string());
+      ui, desk_.settings, config.empty() ? std::string() : (config / "settings.toml").string(),
+      settings_pads_);
   if (desk_.settings.force_limit_n != limit)
     session_.wish({record::WishKind::user_force, desk_.settings.force_limit_n});
   if (desk_.settings.headset != worn) desk_.headset_wanted = desk_.settings.headset;

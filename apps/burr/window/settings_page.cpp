@@ -33,7 +33,7 @@ class Lines {
     ImGui::SetNextItemWidth(200 * u_);
     if (ImGui::SliderFloat(fmt::format("##{}", key).c_str(), &now, static_cast<float>(range.least),
                            static_cast<float>(range.most), format,
-                           range.most / range.least > 50
+                           range.least > 0 && range.most / range.least > 50
                                ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp
                                : ImGuiSliderFlags_AlwaysClamp)) {
       *kept = now;
@@ -89,14 +89,7 @@ class Lines {
   bool changed_ = false;
 };
 
-}  // namespace
-
-SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file) {
-  const float u = ui.unit(), w = 900 * u, h = 582 * u;
-  const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
-  ui.page("##settings", x, y, w, h);
-  ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::settings_title));
-  Lines left(ui, x + 28 * u, y + 66 * u), right(ui, x + 480 * u, y + 66 * u);
+void main_leaf(Lines& left, Lines& right, Settings& settings) {
   left.heading(Word::set_look);
   left.language(settings.language);
   left.number(Word::set_scale, "scale", settings.scale, "%.2f x");
@@ -106,6 +99,8 @@ SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file) 
   left.yes(Word::set_autosave, "autosave", settings.autosave);
   left.number(Word::set_kept, "sessions_kept", settings.sessions_kept, "%.0f");
   left.number(Word::set_mb, "sessions_mb", settings.sessions_mb, "%.0f MB");
+  left.heading(Word::set_privacy);
+  left.yes(Word::set_recent_names, "recent_names", settings.recent_names);
   right.heading(Word::set_hand);
   right.yes(Word::set_left_handed, "left_handed", settings.left_handed);
   right.number(Word::set_force, "force_limit_n", settings.force_limit_n, "%.1f N");
@@ -114,17 +109,39 @@ SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file) 
   right.number(Word::set_turn, "turn_pace", settings.turn_pace, "%.1f x");
   right.number(Word::set_zoom, "zoom_pace", settings.zoom_pace, "%.1f x");
   right.yes(Word::set_effects, "effects", settings.effects);
-  left.heading(Word::set_privacy);
-  left.yes(Word::set_recent_names, "recent_names", settings.recent_names);
   right.heading(Word::set_two_eyes);
   right.stereo(settings.stereo);
   right.number(Word::set_stereo_depth, "stereo_depth", settings.stereo_depth, "%.2f x");
   right.yes(Word::set_swap_eyes, "swap_eyes", settings.swap_eyes);
   right.yes(Word::set_headset, "headset", settings.headset);
+}
+
+void pads_leaf(Lines& left, Lines& right, Settings& settings) {
+  left.heading(Word::set_sticks);
+  left.number(Word::set_pad_pace, "pad_pace", settings.pad_pace, "%.1f x");
+  left.number(Word::set_pad_dead, "pad_dead", settings.pad_dead, "%.2f");
+  right.heading(Word::key_pedal);
+  right.number(Word::set_pedal_mill, "pedal_mill", settings.pedal_mill, "%.0f");
+  right.number(Word::set_pedal_burr, "pedal_burr", settings.pedal_burr, "%.0f");
+  right.number(Word::set_pedal_coolant, "pedal_coolant", settings.pedal_coolant, "%.0f");
+  right.number(Word::set_pedal_rest, "pedal_rest", settings.pedal_rest, "%.0f");
+}
+
+}  // namespace
+
+SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file, bool& pads) {
+  const float u = ui.unit(), w = 900 * u, h = 582 * u;
+  const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
+  ui.page("##settings", x, y, w, h);
+  ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::settings_title));
+  Lines left(ui, x + 28 * u, y + 66 * u), right(ui, x + 480 * u, y + 66 * u);
+  (pads ? pads_leaf : main_leaf)(left, right, settings);
   ui.write(x + 28 * u, y + h - 34 * u, Ui::Letter::small, ink::kDim,
            file.empty() ? word(Word::set_not_kept) : say(Word::set_file, file));
   SettingsPage page;
   page.changed = left.changed() || right.changed();
+  ImGui::SetCursorScreenPos({x + w - 390 * u, y + 20 * u});
+  if (ImGui::Button(word(pads ? Word::settings_title : Word::help_pad), {276 * u, 0})) pads = !pads;
   ImGui::SetCursorScreenPos({x + w - 100 * u, y + 20 * u});
   page.done = ImGui::Button("OK  [F2]", {76 * u, 0});
   ImGui::End();

@@ -11,7 +11,9 @@ struct SettingsPage {
   bool done = false;     // the user is
 };
 
-// file: where they are kept, told below; "" if they are not.
-[[nodiscard]] SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file);
+// file: where they are kept, told below; "" if they are not. pads: the leaf of gamepad, pedal and
+// SpaceMouse is shown; a button turns over.
+[[nodiscard]] SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file,
+                                         bool& pads);
 
 }  // namespace burr::app

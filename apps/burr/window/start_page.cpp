@@ -138,7 +138,8 @@ void StartPage::draw() {
   if (settings_) {
     const fs::path& config = desk_.places().config;
     const SettingsPage page = draw_settings(
-        ui, desk_.settings, config.empty() ? std::string() : (config / "settings.toml").string());
+        ui, desk_.settings, config.empty() ? std::string() : (config / "settings.toml").string(),
+        settings_pads_);
     if (page.changed) desk_.settings_changed();
     if (page.done) settings_ = false;
   }

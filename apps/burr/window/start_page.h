@@ -50,7 +50,7 @@ class StartPage {
   std::vector<std::string> dropped_;
   std::string typed_;
   std::optional<Choice> choice_;
-  bool help_ = false, help_pads_ = false, settings_ = false;
+  bool help_ = false, help_pads_ = false, settings_ = false, settings_pads_ = false;
 };
 
 // "Temporal bone", in the user's language; the case's own name if it is not known.
