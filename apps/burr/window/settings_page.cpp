@@ -120,7 +120,7 @@ void pads_leaf(Lines& left, Lines& right, Settings& settings) {
   left.heading(Word::set_sticks);
   left.number(Word::set_pad_pace, "pad_pace", settings.pad_pace, "%.1f x");
   left.number(Word::set_pad_dead, "pad_dead", settings.pad_dead, "%.2f");
-  right.heading(Word::key_pedal);
+  right.heading(Word::set_pedal);
   right.number(Word::set_pedal_mill, "pedal_mill", settings.pedal_mill, "%.0f");
   right.number(Word::set_pedal_burr, "pedal_burr", settings.pedal_burr, "%.0f");
   right.number(Word::set_pedal_coolant, "pedal_coolant", settings.pedal_coolant, "%.0f");

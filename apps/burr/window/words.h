@@ -244,6 +244,7 @@ enum class Word {
   set_sticks,
   set_pad_pace,
   set_pad_dead,
+  set_pedal,
   set_pedal_mill,
   set_pedal_burr,
   set_pedal_coolant,
