@@ -99,7 +99,7 @@ void put_tool_of(render::Scene& scene, sim::Session& session) {
 // Before, at half time with the burr in the bone, and after: the same view.
 Status run_headless(const Options& options) {
   const std::filesystem::path folder = options.out.empty() ? "burr-out" : options.out;
-  const WorkOptions& wished = options.work;
+  WorkOptions wished = options.work;
   const double seconds = wished.seconds > 0 ? wished.seconds : kHeadlessSeconds;
   Status made = make_folder(folder);
   if (!made) return made;
@@ -107,6 +107,7 @@ Status run_headless(const Options& options) {
   auto opened = open_work(wished, progress());
   if (!opened) return opened.error();
   Work& work = *opened;
+  fit_burr(wished, work.made);
   for (const std::string& notice : work.made.summary.notices) fmt::print(stderr, "{}\n", notice);
   const sim::SessionSettings settings = settings_of(wished, false);
   auto path = sim::motion(wished.motion, work.place, settings.servo.burr.radius, seconds);

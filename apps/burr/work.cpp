@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <system_error>
@@ -93,7 +94,20 @@ sim::SessionSettings settings_of(const WorkOptions& options, bool realtime) {
   return settings;
 }
 
-Result<Ready> make_ready(const WorkOptions& options, Work work, Progress& progress) {
+void fit_burr(WorkOptions& options, io::Imported& made) {
+  const double least_mm = std::ceil(4e4 * made.bone->grid().voxel - 1e-6) / 10;
+  if (options.burr_mm >= least_mm || least_mm > 1e3 * tool::kLargestDiameter) return;
+  made.summary.notices.push_back(
+      fmt::format("A burr of {:.2f} mm is too small for voxels of {:.2f} mm: one of {:.1f} mm is "
+                  "taken; a smaller one "
+                  "wants --voxel-mm {:.2f} or finer.",
+                  options.burr_mm, 1e3 * made.bone->grid().voxel, least_mm,
+                  std::floor(25 * options.burr_mm) / 100));
+  options.burr_mm = least_mm;
+}
+
+Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress) {
+  fit_burr(options, work.made);
   const sim::SessionSettings settings = settings_of(options, true);
   // the hand begins two centimetres above the work
   math::Pose above;

@@ -52,6 +52,10 @@ struct Work {
 [[nodiscard]] Result<Work> open_work(WorkOptions options, Progress& progress,
                                      const io::Scan* scan = nullptr);
 
+// Where the burr has less than four voxels, which cannot be felt, and a usual one has them, that one
+// is taken, and a notice says so.
+void fit_burr(WorkOptions& options, io::Imported& made);
+
 [[nodiscard]] sim::SessionSettings settings_of(const WorkOptions& options, bool realtime);
 
 // Everything a session at the window needs, with the hand of the mouse. What is told last goes
@@ -69,6 +73,6 @@ struct Ready {
   std::unique_ptr<const Nearby> nearby;        // how far they are
 };
 // After open_work(); its bone may be replaced before, by what an older session left.
-[[nodiscard]] Result<Ready> make_ready(const WorkOptions& options, Work work, Progress& progress);
+[[nodiscard]] Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress);
 
 }  // namespace burr::app

@@ -309,13 +309,14 @@ TEST(Picture, HollowsAreDarkerThanPlains) {
 
 // ---- what is drawn again only where it changed
 
-TEST(Picture, OnlyChangedPatchesAreSentAndNoDifferenceIsSeen) {
-  BURR_NEEDS_GPU(gpu);
+// A scene that changes here and there, drawn as it changes and drawn whole each time.
+void expect_no_difference_is_seen(Renderer& gpu, double scale) {
   auto other = Renderer::offscreen();
   ASSERT_TRUE(other.ok());
   for (Renderer* renderer : {&gpu, other->get()}) renderer->resize_offscreen(320, 240);
 
   Scene scene = bumpy_scene();
+  scene.quality.scale = scale;
   scene.look.gloss = 0.3;
   ASSERT_TRUE(gpu.show(scene).ok());
   EXPECT_EQ(gpu.figures().patches_uploaded, static_cast<int>(scene.patches.size()));
@@ -355,6 +356,16 @@ TEST(Picture, OnlyChangedPatchesAreSentAndNoDifferenceIsSeen) {
     EXPECT_LT(apart.mean, 5e-3) << "step " << step;
   }
   EXPECT_TRUE(any_partial) << "everything was drawn each time: this test proved nothing";
+}
+
+TEST(Picture, OnlyChangedPatchesAreSentAndNoDifferenceIsSeen) {
+  BURR_NEEDS_GPU(gpu);
+  expect_no_difference_is_seen(gpu, 1);
+}
+
+TEST(Picture, WhatIsStretchedOnlyInPartIsNotSeenEither) {
+  BURR_NEEDS_GPU(gpu);
+  expect_no_difference_is_seen(gpu, 0.75);
 }
 
 TEST(Picture, PatchesOutOfSightOrTurnedAwayAreNotDrawn) {

@@ -1,0 +1,309 @@
+// The five steps of a picture: what is there, how open it is, softened, lit, and shrunk to pixels.
+// Each works inside a rectangle, which is the whole picture or only where something moved.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "burr/render/gl/shaders.h"
+#include "burr/render/gl/work.h"
+
+namespace burr::render {
+
+using gl::Frame;
+using gl::Piece;
+using gl::Program;
+using gl::Rect;
+using gl::rect_of;
+using gl::Region;
+using math::Aabb;
+using math::Vec3;
+
+namespace {
+
+constexpr int kMostSamples = 48;  // of the hollows, see shaders.h
+
+constexpr float kBone = 1.0F, kSteel = 0.67F, kMark = 0.33F;  // kinds, as the shaders have them
+
+}  // namespace
+
+void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& parts,
+                           const std::vector<Piece>& pieces) {
+  glEnable(GL_SCISSOR_TEST);
+  glDisable(GL_BLEND);
+  Rect not_bone;
+  for (const Piece& piece : pieces)
+    for (const auto& corners : piece.boxes) not_bone = not_bone.with(rect_of(corners, frame));
+  const Rect there = rect_of(parts.extent, frame).with(not_bone);  // all that is not sky
+  for (const Rect& rect : parts.bone.rects()) paint_bone(scene, frame, rect);
+  Region fresh = parts.bone;
+  fresh.add(parts.tool);
+  fresh.join();
+  for (const Rect& rect : fresh.rects()) paint_tool(frame, rect, pieces);
+  const bool seen_through = sees_through(scene.look);
+  if (seen_through)
+    for (const Rect& rect : fresh.rects()) {
+      const gl::Skin::Drawn drawn =
+          through.paint(scene, frame, rect, skin, [&] { draw_pieces(frame, rect, pieces, false); });
+      figures.patches_drawn += drawn.patches;
+      figures.triangles_drawn += drawn.triangles;
+    }
+
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glBindVertexArray(nothing.get());
+  for (const Rect& rect : parts.hollows.rects()) paint_hollows(scene, frame, rect.in(there));
+  Region lit = fresh;
+  lit.add(parts.hollows);
+  lit.add(parts.shadow);
+  lit.join();
+  const std::vector<Vec3> shade = gl::shadow_of(scene);
+  const Rect shaded = shade.empty() || scene.look.plain ? Rect{} : rect_of(shade, frame);
+  const gl::Unlit what = {&target.colour, &target.normal, &target.depth, &target.lit_at};
+  const gl::Hollows hollows = {parts.light_hollows ? &target.soft : nullptr, target.hollow_width,
+                               target.hollow_height, target.stride};
+  for (const Rect& rect : lit.rects()) {
+    const Rect some = rect.in(there);
+    const auto light = [&](const Rect& part, bool shadow) {
+      lighting.paint(scene, frame, part.in(not_bone), what, hollows, {shadow, true});
+      for (const Rect& bone : part.without(not_bone))
+        lighting.paint(scene, frame, bone, what, hollows, {shadow, false});
+    };
+    light(some.in(shaded), true);
+    for (const Rect& rest : some.without(shaded)) light(rest, false);
+    for (const Rect& rest : rect.without(there))
+      lighting.paint_sky(scene, frame, rest, target.lit_at);
+    if (seen_through) through.blend(scene, frame, some, what, lighting);
+  }
+  glDisable(GL_SCISSOR_TEST);
+  lit_anew = lit;
+  figures.redrawn = std::max(figures.redrawn, std::min(1.0, lit.area() / frame.all().area()));
+}
+
+void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Rect& r) {
+  if (r.empty()) return;
+  glBindFramebuffer(GL_FRAMEBUFFER, target.bone.get());
+  glViewport(0, 0, frame.width, frame.height);
+  gl::scissor(r);
+  const std::array<float, 4> none{};
+  glClearBufferfv(GL_COLOR, 0, none.data());
+  glClearBufferfv(GL_COLOR, 1, none.data());
+  const float farthest = 1;
+  glDepthMask(GL_TRUE);
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glEnable(GL_CULL_FACE);
+
+  Program& program = skin.dressed() ? (scene.clip ? clipped_dressed_skin : dressed_skin)
+                                    : (scene.clip ? clipped_skin : skin_mesh);
+  program.use();
+  const Eigen::Matrix4d clip_from_world = frame.clip * frame.view;
+  program.set("clip_from_model", Eigen::Matrix4f(clip_from_world.cast<float>()));
+  const Eigen::Matrix3d turn = frame.view.block<3, 3>(0, 0);
+  program.set("view_from_model_n", Eigen::Matrix3f(turn.cast<float>()));
+  program.set("tint_kind", Eigen::Vector4f(1, 1, 1, kBone));
+  program.set("tissue_colours", 0);
+  program.set("grains_per_m", 2000.0F);
+  if (scene.clip) {
+    glDisable(GL_CULL_FACE);
+    const Vec3& n = scene.clip->n;
+    Eigen::Vector4f plane;
+    plane << n.cast<float>(), static_cast<float>(-n.dot(scene.clip->p));
+    program.set("plane", plane);
+    program.set("plane_n", Eigen::Vector3f((turn * n).cast<float>()));
+  }
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, skin.colours());
+  const gl::Skin::Hidden hidden = {
+      [&] {
+        depth.resize(static_cast<std::size_t>(r.x1 - r.x0) * static_cast<std::size_t>(r.y1 - r.y0));
+        glPixelStorei(GL_PACK_ALIGNMENT, 4);
+        glReadPixels(r.x0, r.y0, r.x1 - r.x0, r.y1 - r.y0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                     depth.data());
+        tiles.look(depth.data(), {r.x0, r.y0, r.x1 - r.x0, r.y1 - r.y0});
+      },
+      [&](const Aabb& box) { return tiles.hide(box, clip_from_world, frame.width, frame.height); }};
+  const gl::Skin::Drawn drawn =
+      skin.draw(scene.camera.eye(), gl::planes_of(r, frame), scene.clip.has_value(),
+                reads_depth && skip_hidden ? &hidden : nullptr);
+  figures.patches_drawn += drawn.patches;
+  figures.triangles_drawn += drawn.triangles;
+}
+
+// A copy of the bone, and what stands before it.
+void Renderer::Work::paint_tool(const Frame& frame, const Rect& r,
+                                const std::vector<Piece>& pieces) {
+  if (r.empty()) return;
+  gl::scissor(r);
+  target.copy_bone(r.x0, r.y0, r.x1, r.y1);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.geometry.get());
+  glViewport(0, 0, frame.width, frame.height);
+  glDepthMask(GL_TRUE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glEnable(GL_CULL_FACE);
+  draw_pieces(frame, r, pieces, true);
+}
+
+// Tool and, with_marks, what is drawn over everything, into the framebuffer that is bound.
+void Renderer::Work::draw_pieces(const Frame& frame, const Rect& r,
+                                 const std::vector<Piece>& pieces, bool with_marks) {
+  mesh.use();
+  const Eigen::Matrix4d clip_from_world = frame.clip * frame.view;
+  const Eigen::Matrix3d turn = frame.view.block<3, 3>(0, 0);
+  for (const Piece& piece : pieces) {
+    if (piece.on_top && !with_marks) continue;
+    if (std::all_of(piece.boxes.begin(), piece.boxes.end(),
+                    [&](const auto& corners) { return rect_of(corners, frame).in(r).empty(); }))
+      continue;
+    Eigen::Matrix4d m = clip_from_world * piece.world_from_shape;
+    // on top: pressed into the nearest hundredth of the depth, where nothing else is
+    if (piece.on_top) m.row(2) = 0.01 * m.row(2) - 0.985 * m.row(3);
+    mesh.set("clip_from_model", Eigen::Matrix4f(m.cast<float>()));
+    const Eigen::Matrix3d n =
+        (turn * piece.world_from_shape.block<3, 3>(0, 0)).inverse().transpose();
+    // scaled, so that single precision does not run out on small tools
+    mesh.set("view_from_model_n", Eigen::Matrix3f((n / n.norm()).cast<float>()));
+    mesh.set("tint_kind", Eigen::Vector4f(piece.colour[0], piece.colour[1], piece.colour[2],
+                                          piece.steel ? kSteel : kMark));
+    piece.shape->draw();
+  }
+}
+
+namespace {
+
+// sample places within the unit disc, dense in the middle: a golden spiral
+std::array<float, 2 * kMostSamples> spiral(int count) {
+  std::array<float, 2 * kMostSamples> xy{};
+  for (int s = 0; s < count; ++s) {
+    const double r = (s + 0.5) / count, angle = s * std::numbers::pi * (3 - std::sqrt(5.0));
+    xy[static_cast<std::size_t>(2 * s)] = static_cast<float>(r * std::cos(angle));
+    xy[static_cast<std::size_t>(2 * s + 1)] = static_cast<float>(r * std::sin(angle));
+  }
+  return xy;
+}
+
+}  // namespace
+
+void Renderer::Work::paint_hollows(const Scene& scene, const Frame& frame, const Rect& r) {
+  if (r.empty()) return;
+  const int stride = target.stride;
+  const int count = std::clamp(scene.look.hollow_samples, 1, kMostSamples);
+  const Rect low = Rect{r.x0 / stride, r.y0 / stride, (r.x1 + stride - 1) / stride,
+                        (r.y1 + stride - 1) / stride};
+  glViewport(0, 0, target.hollow_width, target.hollow_height);
+  gl::scissor(low);
+  gl::bind(0, target.bone_depth);
+  gl::bind(1, target.bone_colour);
+  gl::bind(2, target.bone_normal);
+
+  hollow.use();
+  hollow.set("depth_map", 0);
+  hollow.set("colour_map", 1);
+  hollow.set("normal_map", 2);
+  hollow.set("ray", gl::ray_of(frame));
+  hollow.set("planes",
+             Eigen::Vector2f(static_cast<float>(frame.near), static_cast<float>(frame.far)));
+  hollow.set("size", frame.width, frame.height);
+  hollow.set("stride", stride);
+  hollow.set("reach", static_cast<float>(gl::hollow_reach(scene)));
+  const double per_m =
+      frame.picture_height / (2 * std::tan(scene.camera.field_of_view / 2));  // at 1 m
+  hollow.set("pixels_per_m", static_cast<float>(per_m));
+  hollow.set("most_pixels", static_cast<float>(std::min<double>(
+                                2 * scene.look.hollow_reach * frame.picture_height, kMostReach)));
+  hollow.set("samples", count);
+  hollow.set_pairs("spiral", count, spiral(count).data());
+  glBindFramebuffer(GL_FRAMEBUFFER, target.hollow_at.get());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+
+  gl::bind(0, target.hollow);
+  soften.use();
+  soften.set("hollow_map", 0);
+  soften.set("size", target.hollow_width, target.hollow_height);
+  soften.set("strict", gl::strict_of(scene, frame));
+  glBindFramebuffer(GL_FRAMEBUFFER, target.soft_at.get());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+// All of the target in more pixels, anew only where it is: to stretch costs more than to light.
+Status Renderer::Work::stretch(const Rect& from, int wide, int high) {
+  const bool kept = stretched.width == wide && stretched.height == high;
+  if (const Status sized = stretched.resize(wide, high); !sized) return sized;
+  if (!kept) {
+    lit_anew = {};
+    lit_anew.add(from);
+  }
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, target.lit_at.get());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, stretched.at.get());
+  glEnable(GL_SCISSOR_TEST);
+  const double x = static_cast<double>(wide) / (from.x1 - from.x0),
+               y = static_cast<double>(high) / (from.y1 - from.y0);
+  const Region anew = std::exchange(lit_anew, {});
+  for (const Rect& rect : anew.rects()) {
+    // a pixel mixes the samples around it
+    const Rect wider = rect.grown(1);
+    gl::scissor(
+        Rect{static_cast<int>(std::floor(wider.x0 * x)), static_cast<int>(std::floor(wider.y0 * y)),
+             static_cast<int>(std::ceil(wider.x1 * x)), static_cast<int>(std::ceil(wider.y1 * y))}
+            .in({0, 0, wide, high}));
+    glBlitFramebuffer(from.x0, from.y0, from.x1, from.y1, 0, 0, wide, high, GL_COLOR_BUFFER_BIT,
+                      GL_LINEAR);
+  }
+  glDisable(GL_SCISSOR_TEST);
+  return fine();
+}
+
+// `from` of the target becomes the sheet of that size, shrunk by `factor` or stretched: the part of
+// a picture of width x height that starts at (left, top); words on top.
+Status Renderer::Work::put_on_sheet(const Scene& scene, const Rect& from, int factor,
+                                    const Size& size, int width, int height, int left, int top) {
+  const auto [wide, high] = size;
+  const Status sized = sheet.resize(wide, high);
+  if (!sized) return sized;
+  glBindFramebuffer(GL_FRAMEBUFFER, sheet.at.get());
+  glViewport(0, 0, wide, high);
+  if (factor == 1) {
+    const bool same_size = wide == from.x1 - from.x0 && high == from.y1 - from.y0;
+    if (!same_size)
+      if (const Status done = stretch(from, wide, high); !done) return done;
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, sheet.at.get());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, (same_size ? target.lit_at : stretched.at).get());
+    const Rect all = same_size ? from : Rect{0, 0, wide, high};
+    glBlitFramebuffer(all.x0, all.y0, all.x1, all.y1, 0, 0, wide, high, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, sheet.at.get());
+  } else {
+    gl::bind(0, target.lit);
+    shrink.use();
+    shrink.set("picture", 0);
+    shrink.set("factor", factor);
+    shrink.set("from", from.x0, from.y0);
+    glBindVertexArray(nothing.get());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  overlay.draw(scene, width, height, left, top, wide, high);
+  return fine();
+}
+
+// the sheet into its place in a picture
+void Renderer::Work::read(const gl::Sheet& sheet, Image& image, int left, int top) {
+  const auto wide = static_cast<std::size_t>(sheet.width);
+  std::vector<std::uint8_t> rgba(wide * static_cast<std::size_t>(sheet.height) * 4);
+  glBindFramebuffer(GL_FRAMEBUFFER, sheet.at.get());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, sheet.width, sheet.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  for (int y = 0; y < sheet.height; ++y) {
+    const std::uint8_t* from =
+        rgba.data() + static_cast<std::size_t>(sheet.height - 1 - y) * wide * 4;
+    std::uint8_t* to = image.rgb.data() +
+                       (static_cast<std::size_t>(top + y) * static_cast<std::size_t>(image.width) +
+                        static_cast<std::size_t>(left)) *
+                           3;
+    for (std::size_t x = 0; x < wide; ++x) std::copy_n(from + 4 * x, 3, to + 3 * x);
+  }
+}
+
+}  // namespace burr::render
