@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <thread>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "burr/render/renderer.h"
 #include "burr/surface/mesher.h"
 #include "render/gpu.h"
+#include "render/shapes.h"
 #include "scenes/build.h"
 #include "scenes/shapes.h"
 
@@ -312,6 +314,66 @@ TEST(CoarsePicture, OfAClosedCaveShowsNoBackground) {
   orbit(scene.camera, 0.01, 0);
   ASSERT_TRUE(gpu.show(scene).ok());
   EXPECT_GT(gpu.figures().triangles_drawn, 2 * coarse_ones);
+}
+
+// Coarse levels stand for patches as they were: of what was milled, or carries dust or blood, not
+// one pixel may be missing because its block has an older picture of it.
+TEST(CoarsePicture, DrawsWhatChangedOrIsDressedAsItIsAndNotAsItsBlockWas) {
+  BURR_NEEDS_GPU(gpu);
+  Scene scene = cave();
+  Coarsening coarse(cave_patches(), kVoxel);
+  settle(coarse, scene, 0);
+  scene.camera = whole_view(scene, 0.5, 0.4, 1.4);
+  scene.tissue_colours.resize(4);
+  scene.tissue_colours[3] = {1, 0, 1};
+  gpu.resize_offscreen(700, 500);
+  const Vec3 eye = scene.camera.eye();
+  int nearest = -1;
+  for (std::size_t p = 0; p < scene.patches.size(); ++p)
+    if (scene.patches[p].mesh != nullptr &&
+        (nearest < 0 ||
+         (scene.patches[p].box.centre() - eye).norm() <
+             (scene.patches[static_cast<std::size_t>(nearest)].box.centre() - eye).norm()))
+      nearest = static_cast<int>(p);
+  const ScenePatch before = scene.patches[static_cast<std::size_t>(nearest)];
+
+  const auto count = [&](double coarse_px, const auto& is) {
+    scene.quality.coarse_px = coarse_px;
+    scene.quality.refine = false;
+    orbit(scene.camera, 1e-4, 0);  // drawn whole
+    EXPECT_TRUE(gpu.show(scene).ok());
+    const Image image = gpu.shown();
+    long found = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) found += is(&image.rgb[i]);
+    return found;
+  };
+  const auto pink = [](const std::uint8_t* rgb) {
+    return rgb[0] > 200 && rgb[1] < 60 && rgb[2] > 200;
+  };
+  EXPECT_EQ(count(1000, pink), 0);
+  surface::Patch other = test::unpacked(*before.mesh);
+  for (auto& v : other.vertices) v.tissue = 3;
+  set_patch(scene, nearest, other);
+  const long all = count(0, pink);
+  EXPECT_GT(all, 500);
+  EXPECT_NEAR(static_cast<double>(count(1000, pink)), static_cast<double>(all),
+              0.02 * static_cast<double>(all));
+
+  // as before again, its block stands again; then blood comes over it
+  set_patch(scene, nearest, ScenePatch(before));
+  settle(coarse, scene, 10);
+  settle(coarse, scene, 12);
+  const auto red = [](const std::uint8_t* rgb) {
+    return rgb[0] > 2 * rgb[1] && rgb[0] > 2 * rgb[2];
+  };
+  EXPECT_EQ(count(1000, red), 0);
+  scene.patches[static_cast<std::size_t>(nearest)].dress =
+      std::make_shared<const std::vector<Dress>>(before.mesh->vertices().size(),
+                                                 Dress{0, 0, 0, 255});
+  const long bloody = count(0, red);
+  EXPECT_GT(bloody, 500);
+  EXPECT_NEAR(static_cast<double>(count(1000, red)), static_cast<double>(bloody),
+              0.02 * static_cast<double>(bloody));
 }
 
 // What was left out while the eye moved is made good to the bit, in any order of events.

@@ -233,18 +233,33 @@ TEST_F(Window, WritesChangedSettingsDownAndSpeaksTheLanguageAtOnce) {
 TEST_F(Window, ChangesWhatAGamepadAndAPedalDoOnTheOtherLeafOfTheSettings) {
   auto ready = block();
   ASSERT_TRUE(ready) << ready.error().text;
-  // the second slider of the left column, near its right end
+  // every slider near its right end: those of the left column, then those of the right one
+  const Settings& now = desk_->settings;
+  const auto none = [] {};
   mill_by(*ready, {{"the first picture", looks(3), [] { press(SDLK_F2); }},
                    {"the page", looks(5), [] { click(1280 / 2 + 200, 83); }},
-                   {"its other leaf", looks(5), [] { click(600, 196); }},
-                   {"the change", [&] { return desk_->settings.pad_dead > 0.5; },
-                    [] { move_to(1200, 600); }},
+                   {"its other leaf", looks(5), [] { click(600, 160); }},
+                   {"the pace", [&] { return now.pad_pace > 2; }, none},
+                   {"the next slider", looks(3), [] { click(600, 197); }},
+                   {"the rest of a stick", [&] { return now.pad_dead > 0.5; }, none},
+                   {"the next slider", looks(3), [] { click(1050, 160); }},
+                   {"the mill", [&] { return now.pedal_mill > 20; }, none},
+                   {"the next slider", looks(3), [] { click(1050, 197); }},
+                   {"the burr", [&] { return now.pedal_burr > 20; }, none},
+                   {"the next slider", looks(3), [] { click(1050, 234); }},
+                   {"the coolant", [&] { return now.pedal_coolant > 20; }, none},
+                   {"the next slider", looks(3), [] { click(1050, 271); }},
+                   {"the axis", [&] { return now.pedal_rest > 0.9; }, [] { move_to(1200, 600); }},
                    {"the slider let go", looks(5), [] { press(SDLK_ESCAPE); }},
                    {"the page to go", looks(5), [] { press(SDLK_q); }}});
   const SettingsRead read = read_settings(folder_ / "config" / "settings.toml");
   EXPECT_TRUE(read.troubles.empty());
-  EXPECT_NEAR(read.settings.pad_dead, desk_->settings.pad_dead, 1e-6);
-  EXPECT_EQ(read.settings.pedal_mill, Settings{}.pedal_mill);
+  EXPECT_NEAR(read.settings.pad_pace, now.pad_pace, 1e-6);
+  EXPECT_NEAR(read.settings.pad_dead, now.pad_dead, 1e-6);
+  EXPECT_EQ(read.settings.pedal_mill, now.pedal_mill);
+  EXPECT_EQ(read.settings.pedal_burr, now.pedal_burr);
+  EXPECT_EQ(read.settings.pedal_coolant, now.pedal_coolant);
+  EXPECT_EQ(read.settings.pedal_rest, now.pedal_rest);
 }
 
 // ---- page to page
