@@ -52,8 +52,8 @@ struct Work {
 [[nodiscard]] Result<Work> open_work(WorkOptions options, Progress& progress,
                                      const io::Scan* scan = nullptr);
 
-// Where the burr has less than four voxels, which cannot be felt, and a usual one has them, that one
-// is taken, and a notice says so.
+// Where the burr has less than four voxels, which cannot be felt, and a usual one has them, that
+// one is taken, and a notice says so.
 void fit_burr(WorkOptions& options, io::Imported& made);
 
 [[nodiscard]] sim::SessionSettings settings_of(const WorkOptions& options, bool realtime);
