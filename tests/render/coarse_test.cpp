@@ -201,6 +201,7 @@ void settle(Coarsening& coarse, Scene& scene, double now) {
 
 // stands for its patches as they are
 bool stands(const Scene& scene, const SceneBlock& block) {
+  EXPECT_EQ(block.now, versions_of(scene, block));
   return block.mesh != nullptr && block.versions == versions_of(scene, block);
 }
 
@@ -225,7 +226,7 @@ TEST(Coarsening, MakesAllOnceAndWhatIsMilledWhenItRests) {
   }
   EXPECT_EQ(within, std::vector<int>(within.size(), 1));
   for (std::size_t b = 0; b < scene.blocks.size(); ++b)
-    EXPECT_EQ(large[b], scene.blocks[b].outermost ? 0 : 1);
+    EXPECT_EQ(large[b], scene.blocks[b].outer < 0 ? 0 : 1);
 
   // made anew, as if milled: no block stands for it until it has rested
   std::size_t some = 0;
@@ -286,7 +287,7 @@ TEST(CoarsePicture, OfAClosedCaveShowsNoBackground) {
         std::find(block.patches.begin(), block.patches.end(), hole) != block.patches.end();
     EXPECT_EQ(stands(scene, block), versions_of(scene, block) != 0 && !with);
     holed += with ? 1 : 0;
-    sizes += block.outermost && with ? 1 : 0;
+    sizes += block.outer < 0 && with ? 1 : 0;
   }
   EXPECT_GE(holed, 3);
   EXPECT_EQ(sizes, 1);
@@ -367,9 +368,9 @@ TEST(CoarsePicture, DrawsWhatChangedOrIsDressedAsItIsAndNotAsItsBlockWas) {
     return rgb[0] > 2 * rgb[1] && rgb[0] > 2 * rgb[2];
   };
   EXPECT_EQ(count(1000, red), 0);
-  scene.patches[static_cast<std::size_t>(nearest)].dress =
-      std::make_shared<const std::vector<Dress>>(before.mesh->vertices().size(),
-                                                 Dress{0, 0, 0, 255});
+  set_dress(scene, nearest,
+            std::make_shared<const std::vector<Dress>>(before.mesh->vertices().size(),
+                                                       Dress{0, 0, 0, 255}));
   const long bloody = count(0, red);
   EXPECT_GT(bloody, 500);
   EXPECT_NEAR(static_cast<double>(count(1000, red)), static_cast<double>(bloody),

@@ -105,8 +105,9 @@ Scene ball() {
   return scene;
 }
 void dress_all(Scene& scene, Dress dress) {
-  ScenePatch& patch = scene.patches[0];
-  patch.dress = std::make_shared<const std::vector<Dress>>(patch.mesh->vertices().size(), dress);
+  set_dress(
+      scene, 0,
+      std::make_shared<const std::vector<Dress>>(scene.patches[0].mesh->vertices().size(), dress));
 }
 
 // of the pixels that face the eye: their mean, and how far from it they are
@@ -171,13 +172,13 @@ TEST(Wound, ADressOfNothingAndNoneAreTheSamePicture) {
   for (const bool plain : {true, false}) {
     scene.look = Look();
     scene.look.plain = plain;
-    scene.patches[0].dress = nullptr;
+    set_dress(scene, 0, nullptr);
     const auto none = gpu.image(scene, kWide, kHigh);
     dress_all(scene, {});
     const auto nothing = gpu.image(scene, kWide, kHigh);
     dress_all(scene, {.fresh = 200, .wet = 90});
     const auto some = gpu.image(scene, kWide, kHigh);
-    scene.patches[0].dress = nullptr;
+    set_dress(scene, 0, nullptr);
     const auto off = gpu.image(scene, kWide, kHigh);
     ASSERT_TRUE(none.ok() && nothing.ok() && some.ok() && off.ok());
     EXPECT_EQ(none->rgb, nothing->rgb);

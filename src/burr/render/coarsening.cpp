@@ -46,9 +46,8 @@ struct Coarsening::Work {
   double voxel = 0;
   bool held = false;
   std::vector<Seen> seen;
-  std::vector<std::size_t> firsts;      // number of the first block of each size
-  std::vector<std::uint64_t> versions;  // of each block's patches as they are now
-  std::size_t next = 0;                 // block to look at
+  std::vector<std::size_t> firsts;  // number of the first block of each size
+  std::size_t next = 0;             // block to look at
   std::size_t out = 0;
 
   mutable std::mutex mutex;
@@ -59,7 +58,6 @@ struct Coarsening::Work {
 
   void lay_out(Scene& scene);
   void take_back(Scene& scene);
-  void count_versions(const Scene& scene);
   [[nodiscard]] bool collect(const Scene& scene, const SceneBlock& block, Job& job) const;
   [[nodiscard]] CoarseMesh made_of(Joined&& all, std::size_t size) const;
   void run();
@@ -75,26 +73,32 @@ void Coarsening::Work::lay_out(Scene& scene) {
     for (int z = 0, n = 0; z < cells.z(); ++z)
       for (int y = 0; y < cells.y(); ++y)
         for (int x = 0; x < cells.x(); ++x, ++n)
-          put(scene.blocks[first +
-                           static_cast<std::size_t>(
-                               (z / kEdge * groups.y() + y / kEdge) * groups.x() + x / kEdge)],
+          put(static_cast<int>(first) + (z / kEdge * groups.y() + y / kEdge) * groups.x() +
+                  x / kEdge,
               n);
     return groups;
   };
+  const auto at = [&scene](int block) -> SceneBlock& {
+    return scene.blocks[static_cast<std::size_t>(block)];
+  };
+  scene.block_of.assign(static_cast<std::size_t>(grid.prod()), -1);
   firsts = {0};
-  math::Ijk blocks =
-      group(grid, 0, [](SceneBlock& block, int patch) { block.patches.push_back(patch); });
+  math::Ijk blocks = group(grid, 0, [&](int block, int patch) {
+    at(block).patches.push_back(patch);
+    scene.block_of[static_cast<std::size_t>(patch)] = block;
+  });
   while (firsts.size() < kErrors.size()) {
-    const std::size_t before = firsts.back();
+    const int before = static_cast<int>(firsts.back());
     firsts.push_back(scene.blocks.size());
-    blocks = group(blocks, firsts.back(), [&](SceneBlock& large, int number) {
-      const std::size_t inner = before + static_cast<std::size_t>(number);
-      SceneBlock& block = scene.blocks[inner];
-      block.outermost = false;
-      large.inner.push_back(static_cast<int>(inner));
-      large.patches.insert(large.patches.end(), block.patches.begin(), block.patches.end());
+    blocks = group(blocks, firsts.back(), [&](int large, int number) {
+      const int inner = before + number;
+      at(inner).outer = large;
+      at(large).inner.push_back(inner);
+      at(large).patches.insert(at(large).patches.end(), at(inner).patches.begin(),
+                               at(inner).patches.end());
     });
   }
+  for (SceneBlock& block : scene.blocks) block.now = versions_of(scene, block);
   seen.assign(scene.blocks.size(), {});
 }
 
@@ -112,23 +116,12 @@ void Coarsening::Work::take_back(Scene& scene) {
   }
 }
 
-// Those of a block are before it.
-void Coarsening::Work::count_versions(const Scene& scene) {
-  versions.assign(scene.blocks.size(), 0);
-  for (std::size_t b = 0; b < versions.size(); ++b) {
-    const SceneBlock& block = scene.blocks[b];
-    if (block.inner.empty()) versions[b] = versions_of(scene, block);
-    for (const int inner : block.inner) versions[b] += versions[static_cast<std::size_t>(inner)];
-  }
-}
-
 // What the block is to be made of; false: its own blocks are not ready.
 bool Coarsening::Work::collect(const Scene& scene, const SceneBlock& block, Job& job) const {
   for (const int inner : block.inner) {
     const SceneBlock& one = scene.blocks[static_cast<std::size_t>(inner)];
-    const std::uint64_t now = versions[static_cast<std::size_t>(inner)];
-    if (now == 0) continue;
-    if (one.mesh == nullptr || one.versions != now) return false;
+    if (one.now == 0) continue;
+    if (one.mesh == nullptr || one.versions != one.now) return false;
     job.blocks.push_back(one.mesh);
   }
   if (!block.inner.empty()) return true;
@@ -188,14 +181,13 @@ void Coarsening::update(Scene& scene, double now) {
   Work& w = *work_;
   w.lay_out(scene);
   w.take_back(scene);
-  w.count_versions(scene);
   const std::size_t count = scene.blocks.size();
   std::vector<Work::Job> jobs;
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t at = (w.next + n) % count;
     const SceneBlock& block = scene.blocks[at];
     Work::Seen& seen = w.seen[at];
-    const std::uint64_t versions = w.versions[at];
+    const std::uint64_t versions = block.now;
     // at the start nothing has changed yet: all of it is made at once
     if (seen.versions != versions) seen = {versions, now, seen.versions != 0, false};
     if (w.held || seen.handed_out || versions == 0) continue;

@@ -24,7 +24,13 @@ std::vector<Colour> as_bone(std::vector<Colour> colours) {
 ScenePatch packed(const surface::Patch& patch) {
   ScenePatch made;
   if (patch.triangles.empty()) return made;
-  for (const surface::Vertex& vertex : patch.vertices) made.box.extend(vertex.p.cast<double>());
+  math::Vec3f lo = patch.vertices.front().p, hi = lo;
+  for (const surface::Vertex& vertex : patch.vertices) {
+    lo = lo.cwiseMin(vertex.p);
+    hi = hi.cwiseMax(vertex.p);
+  }
+  made.box.extend(lo.cast<double>());
+  made.box.extend(hi.cast<double>());
   made.mesh = std::make_shared<const SkinMesh>(patch);
   return made;
 }
@@ -36,10 +42,24 @@ void set_patch(Scene& scene, int index, ScenePatch&& patch) {
   ScenePatch& entry = scene.patches[place];
   patch.version = entry.version + 1;
   entry = std::move(patch);
+  scene.changes.add(index);
+  int block = place < scene.block_of.size() ? scene.block_of[place] : -1;
+  while (block >= 0) {
+    SceneBlock& around = scene.blocks[static_cast<std::size_t>(block)];
+    ++around.now;
+    block = around.outer;
+  }
 }
 
 void set_patch(Scene& scene, int index, const surface::Patch& patch) {
   set_patch(scene, index, packed(patch));
+}
+
+void set_dress(Scene& scene, int index, std::shared_ptr<const std::vector<Dress>> dress) {
+  ScenePatch& patch = scene.patches[static_cast<std::size_t>(index)];
+  if (patch.dress == dress) return;
+  patch.dress = std::move(dress);
+  scene.changes.add(index);
 }
 
 std::uint64_t versions_of(const Scene& scene, const SceneBlock& block) {

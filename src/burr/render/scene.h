@@ -17,6 +17,7 @@
 #include "burr/math/aabb.h"
 #include "burr/math/pose.h"
 #include "burr/render/camera.h"
+#include "burr/render/changes.h"
 #include "burr/render/coarse_mesh.h"
 #include "burr/render/image.h"
 #include "burr/render/look.h"
@@ -40,9 +41,9 @@ static_assert(sizeof(Dress) == 4, "goes to the GPU as it is");
 struct ScenePatch {
   std::shared_ptr<const SkinMesh> mesh;  // nullptr: no surface here
   std::uint64_t version = 0;
-  math::Aabb box;  // of its vertices
   // one for each vertex; nullptr: bone as ever. Sent again when it is another one.
   std::shared_ptr<const std::vector<Dress>> dress;
+  math::Aabb box;  // of its vertices
 };
 
 // Several patches with fewer triangles, drawn in their place where that is near enough and none of
@@ -50,9 +51,10 @@ struct ScenePatch {
 struct SceneBlock {
   std::vector<int> patches;  // all that it stands for
   std::vector<int> inner;  // numbers of the blocks it is made of, lower ones; none: of the patches
-  bool outermost = true;   // part of no other
+  int outer = -1;          // number of the block it is part of; -1: of none
+  std::uint64_t now = 0;   // the patches' versions, added up
   std::shared_ptr<const CoarseMesh> mesh;  // nullptr: none made
-  std::uint64_t versions = 0;              // the patches' versions, added up, that it was made of
+  std::uint64_t versions = 0;              // what `now` was when it was made
 };
 
 // The tool in the hand: a fluted ball on a shaft, which leaves along the tool's +z.
@@ -103,7 +105,9 @@ struct Inset {
 
 struct Scene {
   std::vector<ScenePatch> patches;     // index: number of the patch, as surface/mesher.h counts
+  Changes changes;                     // of the patches; set_patch() and set_dress() tell it
   std::vector<SceneBlock> blocks;      // none: nothing is drawn coarser
+  std::vector<int> block_of;           // (patches) the smallest block; short: of the rest none
   std::vector<Colour> tissue_colours;  // index: TissueId
   Burr burr;
   std::vector<Marker> markers;
@@ -130,6 +134,8 @@ void set_patch(Scene& scene, int index, const surface::Patch& patch);
 // The same in two steps, the first of them on any thread.
 [[nodiscard]] ScenePatch packed(const surface::Patch& patch);
 void set_patch(Scene& scene, int index, ScenePatch&& patch);
+// Of a patch that is there.
+void set_dress(Scene& scene, int index, std::shared_ptr<const std::vector<Dress>> dress);
 
 // The versions of a block's patches as they are now, added up: they only grow, so the same sum is
 // the same patches.

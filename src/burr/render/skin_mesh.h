@@ -44,11 +44,13 @@ class SkinMesh {
   // One of them is empty: 16 bit unless there are too many vertices.
   [[nodiscard]] const std::vector<std::uint16_t>& small_indices() const { return small_; }
   [[nodiscard]] const std::vector<std::uint32_t>& large_indices() const { return large_; }
+  [[nodiscard]] bool has_walls() const { return walls_; }
 
  private:
   std::vector<SkinVertex> vertices_;
   std::vector<std::uint16_t> small_;  // (n x 3)
   std::vector<std::uint32_t> large_;  // (n x 3)
+  bool walls_ = false;
 };
 
 }  // namespace burr::render

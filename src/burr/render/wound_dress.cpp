@@ -59,7 +59,7 @@ bool Wound::reached(const ScenePatch& patch) const {
 void Wound::dress(Scene& scene, int patch) {
   ScenePatch& entry = scene.patches[static_cast<std::size_t>(patch)];
   if (!reached(entry)) {
-    entry.dress = nullptr;
+    set_dress(scene, patch, nullptr);
     return;
   }
   look_at(*entry.mesh);
@@ -76,9 +76,9 @@ void Wound::dress(Scene& scene, int patch) {
     any = any || dress.back() != Dress{};
   }
   if (!any)
-    entry.dress = nullptr;
+    set_dress(scene, patch, nullptr);
   else if (entry.dress == nullptr || *entry.dress != dress)
-    entry.dress = std::make_shared<const std::vector<Dress>>(std::move(dress));
+    set_dress(scene, patch, std::make_shared<const std::vector<Dress>>(std::move(dress)));
 }
 
 void Wound::dress(Scene& scene) {

@@ -19,25 +19,34 @@ std::uint8_t unorm(float v) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0F, 1.0F) * 255.0F));
 }
 
-// the narrowest cone we easily find around all triangles' own normals
-void find_cone(const SkinMesh& mesh, Vec3& facing, double& spread) {
-  std::vector<Vec3> normals;
-  normals.reserve(mesh.index_count() / 3);
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t t = 0; t + 2 < mesh.index_count(); t += 3) {
-    const Vec3 a = mesh.vertices()[mesh.index(t)].p.cast<double>();
-    const Vec3 b = mesh.vertices()[mesh.index(t + 1)].p.cast<double>();
-    const Vec3 c = mesh.vertices()[mesh.index(t + 2)].p.cast<double>();
-    const Vec3 n = (b - a).cross(c - a);
-    const double length = n.norm();
-    if (length == 0) continue;
-    normals.emplace_back(n / length);
-    sum += n;
+// The narrowest cone we easily find around all triangles' own normals. In single precision: who
+// asks leaves a margin.
+void find_cone(const SkinMesh& mesh, Vec3& facing, double& spread,
+               std::vector<math::Vec3f>& normals) {
+  normals.clear();
+  const auto visit = [&](const auto& indices) {
+    for (std::size_t t = 0; t + 2 < indices.size(); t += 3) {
+      const math::Vec3f& a = mesh.vertices()[indices[t]].p;
+      normals.push_back(
+          (mesh.vertices()[indices[t + 1]].p - a).cross(mesh.vertices()[indices[t + 2]].p - a));
+    }
+  };
+  if (mesh.large_indices().empty())
+    visit(mesh.small_indices());
+  else
+    visit(mesh.large_indices());
+  math::Vec3f sum = math::Vec3f::Zero();
+  for (const math::Vec3f& n : normals) sum += n;
+  const math::Vec3f towards =
+      sum.norm() > 0 ? sum.normalized().eval() : math::Vec3f::UnitZ().eval();
+  float least = 1;  // cosine; of squares, so that no root is drawn but of the widest
+  for (const math::Vec3f& n : normals) {
+    const float along = n.dot(towards), length = n.squaredNorm();
+    if (length > 0) least = std::min(least, along * std::abs(along) / length);
   }
-  facing = sum.norm() > 0 ? sum.normalized().eval() : Vec3::UnitZ();
-  double least = 1;
-  for (const Vec3& n : normals) least = std::min(least, n.dot(facing));
-  spread = std::acos(std::clamp(least, -1.0, 1.0));
+  facing = towards.cast<double>().normalized();
+  const double cosine = std::copysign(std::sqrt(std::abs(static_cast<double>(least))), least);
+  spread = std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
 // true: no triangle of the patch can show its face to the eye
@@ -77,84 +86,89 @@ int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
     for (std::size_t i = scene.patches.size(); i < patches_.size(); ++i)
       if (!patches_[i].levels.empty()) changed.push_back(patches_[i].box);
   }
+  const bool other_size = patches_.size() != scene.patches.size();
   patches_.resize(scene.patches.size());
+  other_dresses_ = other_dresses_ || other_size;
 
   int sent = 0;
-  dressed_ = false;
-  for (std::size_t i = 0; i < patches_.size(); ++i) {
+  const auto look_at = [&](int index) {
+    const auto i = static_cast<std::size_t>(index);
     const ScenePatch& patch = scene.patches[i];
     Patch& part = patches_[i];
-    dressed_ = dressed_ || patch.dress != nullptr;
-    if (part.version == patch.version) {
-      const bool other_dress = part.dress != patch.dress;
-      if (other_dress) send_dress(part, patch);
-      if ((recolour || other_dress) && !part.levels.empty()) changed.push_back(part.box);
-      continue;
-    }
+    const bool anew = part.version != patch.version, dress = part.dress != patch.dress;
+    if (!anew && !dress && !recolour) return;
+    other_dresses_ = other_dresses_ || (part.dress == nullptr) != (patch.dress == nullptr);
+    part.version = patch.version;
     if (!part.levels.empty()) changed.push_back(part.box);
-    send(part, patch);
-    send_dress(part, patch);
-    if (!part.levels.empty()) changed.push_back(part.box);
-    ++sent;
+    if (anew) send(part, patch);
+    if (anew || dress) send_dress(part, patch);
+    if (anew && !part.levels.empty()) changed.push_back(part.box);
+    sent += anew ? 1 : 0;
+  };
+  if (recolour || other_size || !scene.changes.since(known_, look_at)) {
+    for (std::size_t i = 0; i < patches_.size(); ++i) look_at(static_cast<int>(i));
+    for (Block& block : blocks_) block.laid_out = false;
   }
-
-  // they look the same as their patches, so nothing has changed by them
-  blocks_.resize(scene.blocks.size());
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    const SceneBlock& block = scene.blocks[i];
-    Block& part = blocks_[i];
-    if (part.patches.size() != block.patches.size() || part.inner.size() != block.inner.size()) {
-      part.patches = block.patches;
-      part.inner = block.inner;
-    }
-    part.outermost = block.outermost;
-    if (part.mesh != block.mesh) {
-      part.mesh = block.mesh;
-      if (part.mesh == nullptr || part.mesh->vertices.empty())
-        part.levels.clear();
-      else
-        send(part, *part.mesh);
-    }
-    know(part, scene, block);
-  }
+  known_ = scene.changes.newest();
+  update_blocks(scene);
   return sent;
 }
 
-// What a block has to know of its patches; those of its own blocks are known.
-void Skin::know(Block& part, const Scene& scene, const SceneBlock& block) {
-  std::uint64_t versions = 0;
-  part.dressed = false;
-  for (const int inner : part.inner) {
-    const Block& one = blocks_[static_cast<std::size_t>(inner)];
-    versions += one.versions;
-    part.dressed = part.dressed || one.dressed;
+// They look the same as their patches, so nothing has changed by them.
+void Skin::update_blocks(const Scene& scene) {
+  if (blocks_.size() != scene.blocks.size()) {
+    blocks_.clear();
+    blocks_.resize(scene.blocks.size());
+    other_dresses_ = true;
   }
-  const auto each = [&](const auto& visit) {
-    for (const int patch : part.patches)
-      if (const auto p = static_cast<std::size_t>(patch); p < scene.patches.size())
-        visit(scene.patches[p]);
+  if (std::exchange(other_dresses_, false)) find_dressed(scene);
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const SceneBlock& block = scene.blocks[i];
+    Block& part = blocks_[i];
+    if (part.mesh == block.mesh && part.now == block.now && part.laid_out) continue;
+    if (!std::exchange(part.laid_out, true) || part.now != block.now) {
+      part.patches = block.patches;
+      part.inner = block.inner;
+      part.outermost = block.outer < 0;
+      part.now = block.now;
+      find_box(part, scene);
+    }
+    part.of_now = block.versions == block.now;
+    if (part.mesh == block.mesh) continue;
+    part.mesh = block.mesh;
+    if (part.mesh == nullptr || part.mesh->vertices.empty())
+      part.levels.clear();
+    else
+      send(part, *part.mesh);
+  }
+}
+
+void Skin::find_dressed(const Scene& scene) {
+  dressed_ = false;
+  for (Block& part : blocks_) part.dressed = false;
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    if (patches_[i].dress == nullptr) continue;
+    dressed_ = true;
+    int b = i < scene.block_of.size() ? scene.block_of[i] : -1;
+    for (; b >= 0; b = scene.blocks[static_cast<std::size_t>(b)].outer)
+      blocks_[static_cast<std::size_t>(b)].dressed = true;
+  }
+}
+
+// Those of its own blocks are known.
+void Skin::find_box(Block& part, const Scene& scene) const {
+  part.box = {};
+  const auto add = [&part](const math::Aabb& box) {
+    if (box.empty()) return;
+    part.box.extend(box.lo);
+    part.box.extend(box.hi);
   };
-  if (part.inner.empty())
-    each([&](const ScenePatch& patch) {
-      versions += patch.version;
-      part.dressed = part.dressed || patch.dress != nullptr;
-    });
-  if (versions != part.versions) {
-    part.versions = versions;
-    part.box = {};
-    for (const int inner : part.inner)
-      if (const Block& one = blocks_[static_cast<std::size_t>(inner)]; !one.box.empty()) {
-        part.box.extend(one.box.lo);
-        part.box.extend(one.box.hi);
-      }
-    if (part.inner.empty())
-      each([&](const ScenePatch& patch) {
-        if (patch.mesh == nullptr) return;
-        part.box.extend(patch.box.lo);
-        part.box.extend(patch.box.hi);
-      });
-  }
-  part.stands = part.mesh != nullptr && block.versions == versions && !part.dressed;
+  for (const int inner : part.inner) add(blocks_[static_cast<std::size_t>(inner)].box);
+  if (!part.inner.empty()) return;
+  for (const int patch : part.patches)
+    if (const auto p = static_cast<std::size_t>(patch);
+        p < scene.patches.size() && scene.patches[p].mesh != nullptr)
+      add(scene.patches[p].box);
 }
 
 void Skin::send_colours() {
@@ -192,6 +206,7 @@ void fill_indices(const std::vector<Index>& all, const std::vector<Index>& walls
 template <class Index>
 std::vector<Index> walls_of(const SkinMesh& mesh, const std::vector<Index>& all) {
   std::vector<Index> walls;
+  if (!mesh.has_walls()) return walls;
   for (std::size_t t = 0; t + 2 < all.size(); t += 3)
     if (is_wall(mesh.vertices()[all[t]]) || is_wall(mesh.vertices()[all[t + 1]]) ||
         is_wall(mesh.vertices()[all[t + 2]]))
@@ -213,15 +228,15 @@ void lay_out() {
 
 void Skin::send(Patch& part, const ScenePatch& patch) {
   if (patch.mesh == nullptr) {
+    const std::uint64_t version = part.version;
     part = Patch{};
-    part.version = patch.version;
+    part.version = version;
     return;
   }
   const SkinMesh& mesh = *patch.mesh;
-  part.version = patch.version;
   part.box = patch.box;
   part.levels = {{0, 0, static_cast<GLsizei>(mesh.index_count())}};
-  find_cone(mesh, part.facing, part.spread);
+  find_cone(mesh, part.facing, part.spread, normals_);
 
   const bool fresh = part.array.get() == 0;
   glBindVertexArray(part.array.make());
@@ -306,7 +321,7 @@ long Skin::ask(Patch& patch, const Vec3& eye, const Planes& planes) {
 long Skin::ask(Block& block, const Vec3& eye, const Planes& planes) {
   if (block.box.empty() || outside(block.box, planes)) return 0;
   const Part::Level* level = nullptr;
-  if (block.stands) {
+  if (block.mesh != nullptr && block.of_now && !block.dressed) {
     if (block.levels.empty()) return 0;
     const double nearest =
         std::max(0.0, (block.box.centre() - eye).norm() - 0.5 * block.box.extent().norm());

@@ -68,11 +68,11 @@ class Skin {
   };
   struct Block : Part {
     std::vector<int> patches, inner;
-    bool outermost = true;
+    bool outermost = true, laid_out = false;
     std::shared_ptr<const CoarseMesh> mesh;
-    std::uint64_t versions = 0;  // of all its patches as they are now; its box is theirs
-    bool dressed = false;        // one of them is
-    bool stands = false;         // for its patches as they are now, none of them dressed
+    std::uint64_t now = 0;  // as the scene's block has it; its box is that of its patches
+    bool of_now = false;    // its mesh was made of the patches as they are now
+    bool dressed = false;   // one of them is: the mesh does not show it
   };
   // A part with the level it is to be drawn at.
   struct Asked {
@@ -88,15 +88,20 @@ class Skin {
   long ask(Patch& patch, const math::Vec3& eye, const Planes& planes);
   long ask(Block& block, const math::Vec3& eye, const Planes& planes);
   long ask_inside(Block& block, const math::Vec3& eye, const Planes& planes);
-  void know(Block& part, const Scene& scene, const SceneBlock& block);
+  void update_blocks(const Scene& scene);
+  void find_dressed(const Scene& scene);
+  void find_box(Block& part, const Scene& scene) const;
   void send_colours();
 
   std::vector<Patch> patches_;
   std::vector<Block> blocks_;
-  std::vector<Asked> asked_;  // of this draw
+  std::vector<Asked> asked_;          // of this draw
+  std::vector<math::Vec3f> normals_;  // of the patch being sent
   double error_share_ = 0;
   bool dressed_ = false;
-  bool both_sides_ = false;  // in this draw
+  bool other_dresses_ = false;  // some patch has lost its dress, or got one
+  std::uint64_t known_ = 0;     // of the scene's changes
+  bool both_sides_ = false;     // in this draw
   std::vector<Colour> colours_;
   Texture colour_row_;
 };

@@ -1,0 +1,49 @@
+// render/changes.h - which patches of a scene changed last, so that whoever keeps copies need not
+// look at all of them for each picture: a fine scan has some ten thousand.
+//
+//     if (!scene.changes.since(known, look_at)) look_at_all();
+//     known = scene.changes.newest();
+//
+// Changes are numbered over all scenes of the program, so a number stands for one history: of
+// another scene, or one that changed after it was copied, since() says that it does not know.
+// Thread: that of its scene.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+namespace burr::render {
+
+class Changes {
+ public:
+  void add(int patch) {
+    if (log_.size() == kKept)
+      log_.erase(log_.begin(), log_.begin() + static_cast<std::ptrdiff_t>(kKept / 2));
+    log_.push_back({++count_, patch});
+  }
+
+  [[nodiscard]] std::uint64_t newest() const { return log_.empty() ? 0 : log_.back().number; }
+
+  // Every patch that changed after `known`, an earlier newest(); one that changed twice comes
+  // twice. False: that is too long ago, or was another scene; nothing was visited.
+  template <class Visit>
+  [[nodiscard]] bool since(std::uint64_t known, const Visit& visit) const {
+    const auto at = std::ranges::lower_bound(log_, known, {}, &One::number);
+    if (at == log_.end() || at->number != known) return false;
+    for (auto next = at + 1; next != log_.end(); ++next) visit(next->patch);
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t kKept = 4096;
+  struct One {
+    std::uint64_t number = 0;
+    int patch = 0;
+  };
+  inline static std::atomic<std::uint64_t> count_ = 0;
+  std::vector<One> log_;
+};
+
+}  // namespace burr::render
