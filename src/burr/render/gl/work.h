@@ -36,6 +36,9 @@ inline int margin_of(const Scene& scene, const gl::Frame& frame) {
   return static_cast<int>(reach_of(scene, frame)) + 12;
 }
 
+// What pieces may cover.
+[[nodiscard]] gl::Rect rect_around(const std::vector<gl::Piece>& pieces, const gl::Frame& frame);
+
 inline bool sees_through(const Look& look) { return look.opacity < 1; }
 inline bool has_hollows(const Look& look) { return look.hollow > 0 && !look.plain; }
 
@@ -70,6 +73,7 @@ struct Renderer::Work {
     math::Aabb extent;  // ... and what was added since
     std::vector<gl::Piece> pieces;
     std::vector<math::Vec3> shadow;
+    gl::Rect there;                // outside it there was but sky, all the time
     gl::Region stale;              // where hollows are old or missing
     std::vector<gl::Rect> coarse;  // pieces that were drawn coarser than a picture at rest
   };

@@ -57,8 +57,9 @@ Renderer::Work::Parts Renderer::Work::compare(const Scene& scene, const Frame& f
   const Quality& quality = scene.quality;
   Parts parts;
   std::vector<Vec3> shadow = gl::shadow_of(scene);
+  const Rect there = rect_of(held->extent, frame).with(rect_around(pieces, frame));
   if (all) {
-    parts.bone.add(frame.all());
+    parts.bone.add(there.with(held->there));  // sky is the same from everywhere
   } else {
     for (const Aabb& box : changed) {
       parts.bone.add(rect_of(box, frame));
@@ -87,6 +88,8 @@ Renderer::Work::Parts Renderer::Work::compare(const Scene& scene, const Frame& f
   }
   held->shadow = std::move(shadow);
   parts.extent = held->extent;
+  const Rect covered = all ? there : rect_of(held->extent, frame).with(rect_around(pieces, frame));
+  held->there = all ? covered : held->there.with(covered);
 
   // what changed darkens the hollows around it
   parts.light_hollows = has_hollows(scene.look);
@@ -128,7 +131,10 @@ Status Renderer::Work::draw(const Scene& scene, int wide, int high) {
   const bool all = *fresh || !held || !same(held->camera, scene.camera) ||
                    !same(held->look, scene.look) || !same(held->clip, scene.clip);
   if (all) {
+    const Rect sky_outside =
+        held && !*fresh && same(held->look, scene.look) ? held->there : frame.all();
     held.emplace();
+    held->there = sky_outside;
     held->bone = held->extent = bounds(scene);
     if (quality.coarse_px > quality.coarse_still_px) held->coarse = pieces_of(frame.all());
   }
@@ -145,6 +151,7 @@ Status Renderer::Work::draw(const Scene& scene, int wide, int high) {
   held->pieces = pieces;
   if (!parts.bone.empty() || !parts.tool.empty() || !parts.hollows.empty())
     paint(scene, frame, parts, pieces);
+  if (all) figures.redrawn = 1;
 
   return put_on_sheet(scene, frame.all(), factor, {wide, high}, wide, high, 0, 0);
 }

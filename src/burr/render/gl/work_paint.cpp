@@ -28,13 +28,18 @@ constexpr float kBone = 1.0F, kSteel = 0.67F, kMark = 0.33F;  // kinds, as the s
 
 }  // namespace
 
+Rect rect_around(const std::vector<Piece>& pieces, const Frame& frame) {
+  Rect all;
+  for (const Piece& piece : pieces)
+    for (const auto& corners : piece.boxes) all = all.with(rect_of(corners, frame));
+  return all;
+}
+
 void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& parts,
                            const std::vector<Piece>& pieces) {
   glEnable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
-  Rect not_bone;
-  for (const Piece& piece : pieces)
-    for (const auto& corners : piece.boxes) not_bone = not_bone.with(rect_of(corners, frame));
+  const Rect not_bone = rect_around(pieces, frame);
   const Rect there = rect_of(parts.extent, frame).with(not_bone);  // all that is not sky
   for (const Rect& rect : parts.bone.rects()) paint_bone(scene, frame, rect);
   Region fresh = parts.bone;
