@@ -21,7 +21,7 @@ class Changes {
   void add(int patch) {
     if (log_.size() == kKept)
       log_.erase(log_.begin(), log_.begin() + static_cast<std::ptrdiff_t>(kKept / 2));
-    log_.push_back({++count_, patch});
+    log_.push_back({next_number(), patch});
   }
 
   [[nodiscard]] std::uint64_t newest() const { return log_.empty() ? 0 : log_.back().number; }
@@ -42,7 +42,10 @@ class Changes {
     std::uint64_t number = 0;
     int patch = 0;
   };
-  inline static std::atomic<std::uint64_t> count_ = 0;
+  static std::uint64_t next_number() {
+    static std::atomic<std::uint64_t> count = 0;
+    return ++count;
+  }
   std::vector<One> log_;
 };
 
