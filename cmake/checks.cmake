@@ -124,13 +124,14 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
 
   # ThreadSanitizer: the doors; bone, mesh and recording while others look on; a whole session; the
   # whole program, for minutes with scripts/tsan_long.sh
-  burr_other_build(tsan test_rt test_volume test_surface test_sound test_record test_sim test_window)
+  burr_other_build(tsan test_rt test_volume test_surface test_sound test_record test_sim test_device test_window)
   burr_other_test(tsan rt "*")
   burr_other_test(tsan volume "Bone.*:SharedCopy.*")
   burr_other_test(tsan surface "Worker.Shows*:Worker.Keeps*:Mesher.Workers*")
   burr_other_test(tsan sound "*")
   burr_other_test(tsan record "*Recorder*")
   burr_other_test(tsan sim "WholeSession.*")
+  burr_other_test(tsan device "*-*Million*:*Thousand*:*Hundred*Times*")
   # the program's threads; a press that goes on and on loses ticks there, and then the hand is not given back: WholeProgram
   # undoes as well
   burr_other_test(tsan window "WholeProgram.*:Window.*-Window.UndoByKey*")

@@ -56,7 +56,7 @@ ELSEWHERE = [
     (r"HD/hd|HDU|openhaptics|dhdc|drdc|chai3d|haply", None, "a vendor's library"),  # device/<vendor> only
 ]
 # What headers may show to others: the standard library, Eigen, ourselves.
-PUBLIC = re.compile(r"^(Eigen/|burr/|[a-z_0-9]+$|sys/|unistd|pthread|sched|[a-z]+intrin\.h$)")
+PUBLIC = re.compile(r"^(Eigen/|burr/|[a-z_0-9]+$|sys/|unistd|pthread|sched|semaphore|[a-z]+intrin\.h$)")
 
 # A header whose greeting says this may show more, is not installed, and is known only to its room.
 PRIVATE = "of this room only"

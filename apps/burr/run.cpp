@@ -208,7 +208,7 @@ Status run_in_window(const Options& options) {
 
   Recording recording;
   Status status = recording.start(session, (folder / "session.mcap").string(), ready.volume,
-                                  ready.import, "mouse", false, ready.spared);
+                                  ready.import, session.hand().spec().name, false, ready.spared);
   if (!status) return status;
   WindowOptions told = window;
   told.warning = [&recording] { return recording.trouble(); };
@@ -223,7 +223,7 @@ Status run_in_window(const Options& options) {
   const Status recorded = recording.finish(session);
   if (!status) return status;
 
-  Summary summary = summary_of(session, ready.what, "mouse");
+  Summary summary = summary_of(session, ready.what, session.hand().spec().name);
   if (!recorded) fmt::print("{}", summary_text(summary));  // a disk that is full takes no picture
   scene.burr.visible = false;
   scene.markers.clear();
@@ -284,6 +284,7 @@ void add(CLI::App& app, Todo& todo) {
       ->excludes("--headless");
   command->add_option("--rpm", options->work.rpm,
                       "of the spindle; default: the case's, else 40000");
+  add_hand_options(*command, options->work.hand);
   add_volume_options(*command, options->work.volume);
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

@@ -8,6 +8,7 @@
 #include "burr/base/new_file.h"
 #include "burr/base/version.h"
 #include "burr/volume/volume_of.h"
+#include "html_page.h"
 
 namespace burr::app {
 namespace {
@@ -40,35 +41,6 @@ std::vector<Row> rows_of(const Summary& s) {
   return rows;
 }
 
-// the bone's words come from files: nothing of them may become markup
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  return safe;
-}
-
-constexpr const char* kStyle =
-    "body{font:15px/1.45 system-ui,sans-serif;max-width:70em;margin:2em auto;padding:0 1em;"
-    "color:#222}h1{font-size:1.3em}figure{display:inline-block;width:48%;margin:0 1% 1em 0}"
-    "img{width:100%}figcaption{color:#666;font-size:.9em}td{padding:.15em 1.2em .15em 0;"
-    "vertical-align:top}td:first-child{color:#666}.spare{color:#b00;font-weight:600}"
-    "footer{color:#888;font-size:.85em;margin-top:1.5em}@media print{body{margin:0}}";
-
 }  // namespace
 
 std::vector<TissueLoss> losses(const volume::Bone& before, const volume::Bone& now) {
@@ -89,7 +61,7 @@ Status write_summary(const Summary& summary, const std::filesystem::path& folder
   std::string page = fmt::format(
       "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\">"
       "<title>burr: a session</title><style>{}</style>\n<h1>A session on {}</h1>\n",
-      kStyle, escaped(summary.what));
+      kPageStyle, escaped(summary.what));
   for (const auto& [file, caption] : summary.pictures)
     page +=
         fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>\n",

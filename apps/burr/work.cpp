@@ -106,21 +106,43 @@ void fit_burr(WorkOptions& options, io::Imported& made) {
   options.burr_mm = least_mm;
 }
 
+math::Quat view_of_hand(const render::Camera& camera) {
+  math::Mat3 axes;
+  axes << camera.right(), camera.above(), camera.backward();
+  return math::Quat(axes).normalized();
+}
+
 Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress) {
   fit_burr(options, work.made);
-  const sim::SessionSettings settings = settings_of(options, true);
+  sim::SessionSettings settings = settings_of(options, true);
   // the hand begins two centimetres above the work
   math::Pose above;
   above.p = work.place.at - 20e-3 * work.place.into;
   above.q = math::shortest_turn(Vec3::UnitZ(), -work.place.into);
-  auto hand = std::make_unique<MouseHand>(above);
   Ready ready;
+  ready.scene.camera = render::view_of_work(work.place.at, -work.place.into,
+                                            2 * view_height(settings.servo.burr.radius));
+  std::unique_ptr<device::Device> hand;
+  if (options.hand.device.empty()) {
+    auto mouse = std::make_unique<MouseHand>(above);
+    ready.hands.mouse = mouse.get();
+    hand = std::move(mouse);
+  } else {
+    auto laid = lay_hand(options.hand, above, view_of_hand(ready.scene.camera));
+    if (!laid) return laid.error();
+    settings.servo.rate_hz = tick_rate(laid->hand->spec());
+    settings.servo.limit.user_force = laid->max_force;
+    settings.servo.vibration_gain = laid->vibration;
+    for (const std::string& notice : laid->notices) work.made.summary.notices.push_back(notice);
+    ready.hands.real = laid->hand.get();
+    ready.hands.max_force = laid->max_force;
+    hand = std::move(laid->hand);
+  }
   ready.title = options.title.empty() ? work.what : options.title;
   ready.what = work.what;
   ready.volume = work.volume;
   ready.import = work.made.summary;
   ready.greys = std::move(work.made.greys);
-  ready.hand = hand.get();
   auto started = sim::Session::make(std::move(work.made.bone), std::move(hand), settings, progress);
   if (!started) return started.error();
   ready.session = std::move(*started);
@@ -134,8 +156,6 @@ Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress) {
   const Status status = ready.worker->first(
       progress, [&ready](const surface::Skin& skin) { put_skin(ready.scene, skin); });
   if (!status) return status.error();
-  ready.scene.camera = render::view_of_work(work.place.at, -work.place.into,
-                                            2 * view_height(settings.servo.burr.radius));
   return ready;
 }
 

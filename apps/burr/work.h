@@ -17,6 +17,7 @@
 #include "burr/sim/motion.h"
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
+#include "hand_device.h"
 #include "nearby.h"
 #include "volume_options.h"
 #include "window/mouse_hand.h"
@@ -27,6 +28,7 @@ struct WorkOptions {
   VolumeOptions volume;         // path: a case, a .toml file, a phantom or a scan
   double burr_mm = 0, rpm = 0;  // 0: the case's, or 5 mm and 40 000
   double seconds = 0;           // of the demonstration; 0: the case's
+  HandWish hand;                // at the window
   // what only a case says
   std::string title;                   // one line; empty for a scan
   std::optional<math::Vec3> at, into;  // where it begins
@@ -58,20 +60,23 @@ void fit_burr(WorkOptions& options, io::Imported& made);
 
 [[nodiscard]] sim::SessionSettings settings_of(const WorkOptions& options, bool realtime);
 
-// Everything a session at the window needs, with the hand of the mouse. What is told last goes
-// first.
+// Everything a session at the window needs, with the hand of the mouse or a haptic device. What is
+// told last goes first.
 struct Ready {
   std::string title, what;  // one line; what it is in our words: neither names a patient
   VolumeOptions volume;
   io::ImportSummary import;
   std::unique_ptr<sim::Session> session;
-  MouseHand* hand = nullptr;  // the session's
+  Hands hands;  // the session's
   std::unique_ptr<surface::Worker> worker;
   render::Scene scene;                         // with its surface and first view
   std::shared_ptr<const volume::Greys> greys;  // of a scan
   Tissues spared;                              // that must not be cut
   std::unique_ptr<const Nearby> nearby;        // how far they are
 };
+// A hand's axes, x right, y up, z to the user, as one looks at the bone; world_from_view.
+[[nodiscard]] math::Quat view_of_hand(const render::Camera& camera);
+
 // After open_work(); its bone may be replaced before, by what an older session left.
 [[nodiscard]] Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress);
 

@@ -42,7 +42,7 @@ class Export : public Window {
   void mill_in(Ready& ready, std::vector<Script::Step> steps) {
     Script script(std::move(steps), desk_->said);
     desk_->after_frame = [&script] { script.look(); };
-    const auto left = mill(*desk_, *ready.session, *ready.hand, *ready.worker, ready.scene,
+    const auto left = mill(*desk_, *ready.session, ready.hands, *ready.worker, ready.scene,
                            {.folder = folder_.string()});
     desk_->after_frame = {};
     ASSERT_TRUE(left) << left.error().text;

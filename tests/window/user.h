@@ -186,7 +186,7 @@ class Window : public testing::Test {
   void mill_by(Ready& ready, std::vector<Script::Step> steps) {
     Script script(std::move(steps), desk_->said);
     desk_->after_frame = [&script] { script.look(); };
-    const auto left = mill(*desk_, *ready.session, *ready.hand, *ready.worker, ready.scene, {});
+    const auto left = mill(*desk_, *ready.session, ready.hands, *ready.worker, ready.scene, {});
     desk_->after_frame = {};
     ASSERT_TRUE(left) << left.error().text;
     EXPECT_TRUE(script.finished());

@@ -213,7 +213,7 @@ TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
     WindowOptions options;
     options.warning = looks;
     options.loudspeaker = &loudspeaker;
-    const Status shown = run_window(session, hand, worker, scene, options);
+    const Status shown = run_window(session, {.mouse = &hand}, worker, scene, options);
     ASSERT_TRUE(shown) << shown.error().text;
   }
   session.set_recorder(nullptr);

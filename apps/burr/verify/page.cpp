@@ -22,29 +22,6 @@ figure { margin: 1.2em 0 } figcaption, .about { color: #444; max-width: 75em } s
 
 }  // namespace
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 std::string page(const Report& report) {
   std::string html = kHead;
   html += fmt::format("<h1>burr verify</h1><p>burr {} ({}): {} checks, {} failed.</p>\n",

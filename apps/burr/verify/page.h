@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "html_page.h"
 #include "report.h"
 
 namespace burr::app {
@@ -12,8 +13,5 @@ namespace burr::app {
 
 // One plot; its axes side by side.
 [[nodiscard]] std::string svg(const Plot& plot);
-
-// For text between tags and in quotes of HTML and SVG.
-[[nodiscard]] std::string escaped(const std::string& text);
 
 }  // namespace burr::app

@@ -13,6 +13,7 @@
 #include "burr/base/result.h"
 #include "burr/render/headset.h"
 #include "burr/render/renderer.h"
+#include "places.h"
 #include "window/gamepad.h"
 #include "window/pedals.h"
 #include "window/settings.h"
@@ -20,13 +21,6 @@
 #include "window/ui.h"
 
 namespace burr::app {
-
-// Where the window keeps things; an empty folder: that is not kept.
-struct DeskPlaces {
-  std::filesystem::path config, state, cache;
-};
-// By the XDG base directories: ~/.config/burr and so on.
-[[nodiscard]] DeskPlaces users_places();
 
 enum class Page { none, start, loading, import, milling, replay };
 

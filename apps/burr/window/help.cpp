@@ -39,7 +39,8 @@ void pad_rows(const Ui& ui, float x, float y) {
          {word(Word::key_clicks), Word::pad_clicks},
          {"Start  Back", Word::pad_menu},
          {word(Word::key_pedal), Word::pedal_does},
-         {"SpaceMouse", Word::cap_does}});
+         {"SpaceMouse", Word::cap_does},
+         {word(Word::key_real), Word::real_does}});
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <SDL2/SDL.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -36,11 +37,11 @@ inline constexpr double kPressMost = 6e-3;
 
 class Mill {
  public:
-  Mill(Desk& desk, sim::Session& session, MouseHand& hand, surface::Worker& worker,
+  Mill(Desk& desk, sim::Session& session, const Hands& hands, surface::Worker& worker,
        render::Scene& scene, const WindowOptions& options)
       : desk_(desk),
         session_(session),
-        hand_(hand),
+        hands_(hands),
         worker_(worker),
         scene_(scene),
         options_(options),
@@ -65,6 +66,8 @@ class Mill {
   void push(double factor);
   void lift();
   void point();
+  void lay_real_hand();
+  void let_go(bool gone);
   void measure();
   void show_labels(bool shown);
   void toggle_sound();
@@ -94,6 +97,10 @@ class Mill {
     const double share = pressing_ || held_ || foot_ > 0 ? 1 : depth_;
     return kPressLeast + share * (press_ - kPressLeast);
   }
+  // of the settings, and what the user keeps for this device  [N]
+  [[nodiscard]] double user_limit() const {
+    return std::min(desk_.settings.force_limit_n, hands_.max_force);
+  }
   [[nodiscard]] double pedal() const {
     return (pressing_ || held_ || depth_ > 0 ? 1 : foot_) * (1 - slowed_);
   }
@@ -118,6 +125,7 @@ class Mill {
 
   // ---- mill_told.cpp
   void look_at_session();
+  void keep_fault_of_device(const sim::FaultReport& fault);
   void look_at_burr();
   void tell();
   void note(std::string text);
@@ -127,7 +135,7 @@ class Mill {
 
   Desk& desk_;
   sim::Session& session_;
-  MouseHand& hand_;
+  Hands hands_;
   surface::Worker& worker_;
   render::Scene& scene_;
   WindowOptions options_;
@@ -150,6 +158,7 @@ class Mill {
   render::Wand wand_at_;
   Clock::time_point window_drawn_{};
   std::vector<render::Colour> colours_;   // of the tissues, while labels are shown
+  bool let_go_ = false, lifted_ = false;  // a haptic device: stopped; only laid elsewhere
   bool pressing_ = false, held_ = false;  // by the button; by the space bar
   int mouse_x_ = 0, mouse_y_ = 0, width_ = 1, height_ = 1;
   int aim_x_ = 0, aim_y_ = 0;  // where the mouse was last that was no slice

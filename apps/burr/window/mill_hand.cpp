@@ -14,6 +14,7 @@
 #include "window/mill.h"
 #include "window/see_through.h"
 #include "window/words.h"
+#include "work.h"
 
 namespace burr::app {
 namespace {
@@ -36,6 +37,9 @@ void Mill::take_events() {
         break;
       case SDL_KEYDOWN:
         if (!desk_.ui().typing()) key(event.key.keysym);
+        break;
+      case SDL_KEYUP:
+        if (event.key.keysym.sym == SDLK_c) lifted_ = false;
         break;
       case SDL_MOUSEMOTION:
         move(event.motion);
@@ -69,6 +73,13 @@ void Mill::take_events() {
 void Mill::key(const SDL_Keysym& pressed) {
   const bool shift = (pressed.mod & KMOD_SHIFT) != 0;
   switch (pressed.sym) {
+    case SDLK_BACKSPACE:
+    case SDLK_PAUSE:
+      if (hands_.real != nullptr) let_go(!let_go_);
+      break;
+    case SDLK_c:
+      lifted_ = true;
+      break;
     case SDLK_ESCAPE:
       go_back();
       break;
@@ -321,6 +332,7 @@ void Mill::change_speed(double by) {
 void Mill::push(double factor) { press_ = std::clamp(press_ * factor, kPressLeast, kPressMost); }
 
 void Mill::lift() {
+  lifted_ = false;
   pressing_ = held_ = false;
   depth_ = foot_ = 0;
   desk_.pads.disarm();
@@ -390,6 +402,7 @@ void Mill::move(const SDL_MouseMotionEvent& motion) {
 
 // Aims the arm: above the bone under the mouse, or into it while the button is down.
 void Mill::point() {
+  if (hands_.real != nullptr) return lay_real_hand();
   if (wand_) return point_wand();
   if (SDL_Window* window = SDL_GL_GetCurrentWindow()) SDL_GetWindowSize(window, &width_, &height_);
   const render::Ray ray =
@@ -420,7 +433,25 @@ void Mill::point() {
   aim.world_from_tool.p = surface + height * normal_;
   aim.world_from_tool.q = math::shortest_turn(Vec3::UnitZ(), handle);
   aim.pedal = press ? pedal() : 0;
-  hand_.aim(aim);
+  hands_.mouse->aim(aim);
+}
+
+// A haptic device points by itself; the view says where its right and up are, keys and feet help.
+void Mill::lay_real_hand() {
+  device::MappedHand& hand = *hands_.real;
+  hand.lay(view_of_hand(scene_.camera));
+  const bool rests = page_open() || measuring_.picks();
+  hand.press(rests ? 0 : (held_ ? 1 : foot_) * (1 - slowed_));
+  hand.lift(let_go_ || lifted_);
+  point_ = row_.contact.proxy;
+  if (row_.contact.touching) normal_ = row_.contact.normal;
+}
+
+// The user's emergency stop, and taking the hand again.
+void Mill::let_go(bool gone) {
+  let_go_ = gone;
+  hands_.real->lift(let_go_ || lifted_);  // now, not with the next picture
+  note(word(gone ? Word::stopped : Word::taken_again));
 }
 
 // The thickness goes with the burr: along its contact, or below where it hovers.

@@ -66,13 +66,13 @@ void Mill::end_headset() {
 // The wand is the hand: its end the burr's head, its back the handle. What is not known of it goes
 // to the servo as it is.
 void Mill::point_wand() {
-  if (!seen_) return;
+  if (!seen_ || hands_.mouse == nullptr) return;
   MouseHand::Aim aim;
   aim.valid = wand_at_.tracked;
   aim.pace = MouseHand::kWandPace;
   aim.pedal = page_open() || measuring_.picks() ? 0 : wand_at_.trigger;
   if (aim.valid) aim.world_from_tool = render::placed(scene_.camera, wand_at_.room_from_wand);
-  hand_.aim(aim);
+  hands_.mouse->aim(aim);
 }
 
 }  // namespace burr::app

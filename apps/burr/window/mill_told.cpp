@@ -9,6 +9,7 @@
 
 #include "burr/haptics/contact.h"
 #include "burr/render/scene.h"
+#include "fault_file.h"
 #include "window/help.h"
 #include "window/mill.h"
 #include "window/settings_page.h"
@@ -80,7 +81,20 @@ void Mill::look_at_session() {
     if (auto near = options_.nearby->nearest(scene_.burr.world_from_tool.p))
       nearest_ = {std::move(near->name), near->distance - scene_.burr.radius};
   sim::FaultReport fault;
-  if (session_.fault(fault)) told_.let_go(say(Word::let_go, told_flags(fault.flags)), Clock::now());
+  if (session_.fault(fault)) {
+    told_.let_go(say(Word::let_go, told_flags(fault.flags)), Clock::now());
+    keep_fault_of_device(fault);
+  }
+}
+
+// A mouse that waits for a slow machine is no fault to look into; a device that let go is.
+void Mill::keep_fault_of_device(const sim::FaultReport& fault) {
+  const std::filesystem::path& state = desk_.places().state;
+  if (hands_.real == nullptr || state.empty()) return;
+  const auto kept = keep_fault(
+      state / "faults", fault_text(fault, session_.hand().spec(), session_.settings().servo.rate_hz,
+                                   session_.hand().trouble()));
+  note(kept ? say(Word::fault_kept, kept->string()) : kept.error().text);
 }
 
 // The burr that is wished for, or the sentence why not.
@@ -109,6 +123,8 @@ void Mill::tell() {
                   1e9 * row_.ledger.removed, row_.contact.force.norm(), stats_.quantile_us(0.99),
                   flags.empty() ? "" : " - ", flags));
   std::string lasting = options_.warning ? options_.warning() : std::string();
+  if (lasting.empty() && let_go_) lasting = word(Word::stopped);
+  if (lasting.empty()) lasting = session_.hand().trouble();
   if (lasting.empty()) lasting = told_flags(row_.contact.flags);
   warning_ = told_.warning(now, lasting);
   note_ = told_.note(now, export_->progress());
@@ -122,11 +138,13 @@ HudState Mill::hud() const {
   const sim::SessionSettings& settings = session_.settings();
   HudState s;
   s.force = row_.contact.force.norm();
-  s.user_limit = desk_.settings.force_limit_n;
+  s.user_limit = user_limit();
   s.device_limit = session_.hand().spec().peak_force;
   s.press = pressing() ? depth() : press_;
   s.press_most = kPressMost;
-  s.pressing = wand_ ? wand_at_.tracked && wand_at_.trigger > 0 : pressing();
+  s.pressing = hands_.real != nullptr ? row_.hand.pedal > 0
+               : wand_                ? wand_at_.tracked && wand_at_.trigger > 0
+                                      : pressing();
   s.speed = row_.spindle_rad_s;
   s.full_speed = full_speed_;
   if (settings.servo.motor.torque > 0)
@@ -177,7 +195,7 @@ void Mill::panels() {
       ui, desk_.settings, config.empty() ? std::string() : (config / "settings.toml").string(),
       settings_pads_);
   if (desk_.settings.force_limit_n != limit)
-    session_.wish({record::WishKind::user_force, desk_.settings.force_limit_n});
+    session_.wish({record::WishKind::user_force, user_limit()});
   if (desk_.settings.headset != worn) desk_.headset_wanted = desk_.settings.headset;
   if (page.changed) {
     desk_.settings_changed();

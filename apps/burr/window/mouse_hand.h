@@ -12,6 +12,7 @@
 #include <atomic>
 
 #include "burr/device/device.h"
+#include "burr/device/mapping.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/rt/latest.h"
 
@@ -51,6 +52,13 @@ class MouseHand final : public device::Device {
   math::Quat q_ = math::Quat::Identity();
   math::Vec3 p_ = math::Vec3::Zero(), velocity_ = math::Vec3::Zero(), force_ = math::Vec3::Zero();
   std::atomic<double> scale_ = 1.0;
+};
+
+// The hand at the page, one of two.
+struct Hands {
+  MouseHand* mouse = nullptr;
+  device::MappedHand* real = nullptr;  // a haptic device
+  double max_force = 1e3;              // its user's own limit and its own [N]
 };
 
 }  // namespace burr::app

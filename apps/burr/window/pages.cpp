@@ -53,7 +53,7 @@ Result<Left> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& wind
     if (!loudspeaker->trouble().empty()) fmt::print(stderr, "{}\n", loudspeaker->trouble());
     with.loudspeaker = loudspeaker.get();
   }
-  return mill(desk, *ready.session, *ready.hand, *ready.worker, ready.scene, with);
+  return mill(desk, *ready.session, ready.hands, *ready.worker, ready.scene, with);
 }
 
 Result<Left> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options, bool embed,

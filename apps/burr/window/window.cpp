@@ -29,8 +29,8 @@ Result<Left> Mill::run() {
   panels_ = desk_.settings.panels;
   help_ = desk_.settings.help;
   press_ = std::clamp(1e-3 * desk_.settings.press_mm, kPressLeast, kPressMost);
-  if (desk_.settings.force_limit_n != session_.settings().servo.limit.user_force)
-    session_.wish({record::WishKind::user_force, desk_.settings.force_limit_n});
+  if (user_limit() != session_.settings().servo.limit.user_force)
+    session_.wish({record::WishKind::user_force, user_limit()});
   for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
 
   LiveBone live(session_, worker_, scene_, desk_.renderer().software());
@@ -110,16 +110,16 @@ Result<Left> Mill::run() {
   return left_;
 }
 
-Result<Left> mill(Desk& desk, sim::Session& session, MouseHand& hand, surface::Worker& worker,
+Result<Left> mill(Desk& desk, sim::Session& session, const Hands& hands, surface::Worker& worker,
                   render::Scene& scene, const WindowOptions& options) {
-  return Mill(desk, session, hand, worker, scene, options).run();
+  return Mill(desk, session, hands, worker, scene, options).run();
 }
 
-Status run_window(sim::Session& session, MouseHand& hand, surface::Worker& worker,
+Status run_window(sim::Session& session, const Hands& hands, surface::Worker& worker,
                   render::Scene& scene, const WindowOptions& options) {
   auto desk = Desk::open({});
   if (!desk) return desk.error();
-  const Result<Left> left = mill(**desk, session, hand, worker, scene, options);
+  const Result<Left> left = mill(**desk, session, hands, worker, scene, options);
   if (!left) return left.error();
   return fine();
 }

@@ -45,12 +45,12 @@ enum class Left {
 
 // Runs until it is left; then the servo stands. `scene` has the bone's surface as `worker` made it,
 // and the first view; it is left as last seen.
-[[nodiscard]] Result<Left> mill(Desk& desk, sim::Session& session, MouseHand& hand,
+[[nodiscard]] Result<Left> mill(Desk& desk, sim::Session& session, const Hands& hands,
                                 surface::Worker& worker, render::Scene& scene,
                                 const WindowOptions& options);
 
 // The same in a window of its own, which keeps nothing of the user's.
-[[nodiscard]] Status run_window(sim::Session& session, MouseHand& hand, surface::Worker& worker,
+[[nodiscard]] Status run_window(sim::Session& session, const Hands& hands, surface::Worker& worker,
                                 render::Scene& scene, const WindowOptions& options);
 
 // The flags of haptics/contact.h that a user should know of, in a few words; "" if there is none.

@@ -91,6 +91,11 @@ enum class Word {
   no_burr,
   picture_left,
   let_go,
+  fault_kept,
+  stopped,
+  taken_again,
+  key_real,
+  real_does,
   // help
   help_title,
   help_hand,

@@ -10,6 +10,10 @@
 
 namespace burr::device {
 
+// In HandState::buttons: the hand is lifted off to be laid elsewhere (a clutch): no force, nothing
+// is touched or cut until it is let go again in free air.
+inline constexpr std::uint32_t kLifted = 1U << 31;
+
 // One reading of the hand. The tool's tip (centre of the burr head) is the origin of the tool
 // frame, its handle lies along +z.
 struct HandState {
@@ -23,12 +27,17 @@ struct HandState {
 // What a device is and how much it may be asked for. All forces at the tip.
 struct DeviceSpec {
   std::string name = "simulated hand";
+  std::string serial = {};         // as the maker wrote it; empty: unknown
+  int sensed = 6;                  // degrees of freedom it reads: 3 place, 6 also how it is turned
+  int actuated = 3;                // that it pushes
   double peak_force = 3.3;         // never exceeded                                             [N]
   double continuous_force = 0.88;  // bearable for ever; the motors' heat budget starts here     [N]
+  double peak_torque = 0;  // 0: none can be felt                                        [N m]
   double thermal_budget = 3.3 * 3.3 * 5;  // how long above that: integral of F^2 - F_cont^2 [N^2 s]
   double max_stiffness = 1000;  // of a wall it can show without trembling                    [N/m]
-  double max_damping = 5;     // likewise                                                   [N s/m]
-  double native_rate = 1000;  // ticks per second it likes best                             [Hz]
+  double max_damping = 5;  // likewise                                                   [N s/m]
+  double workspace_radius = 75e-3;  // of the hand's own way about its middle [m]
+  double native_rate = 1000;    // ticks per second it likes best                             [Hz]
   double loss_timeout = 20e-3;  // no tick for this long: fade to zero. Real devices: 5e-3    [s]
   bool simulated = true;
 };

@@ -58,6 +58,10 @@ bool ForceLimit::believe(const device::HandState& hand, std::uint32_t& flags) BU
 
 void ForceLimit::fault(std::uint32_t flag, std::uint32_t& flags) BURR_RT {
   flags |= flag;
+  lift();
+}
+
+void ForceLimit::lift() BURR_RT {
   if (state_ == State::fading) return;  // already on its way to zero
   state_ = State::fading;
   fading_from_ = sent_;

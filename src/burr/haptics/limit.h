@@ -46,6 +46,9 @@ class ForceLimit {
   // Ticks were lost, or the device was: fade what is left, then wait for a small force and ramp up.
   void fault(std::uint32_t flag, std::uint32_t& flags) BURR_RT;
 
+  // The hand was lifted on purpose: as a fault, without being one.
+  void lift() BURR_RT;
+
   // The force is already zero at the device (the watchdog faded it): wait and ramp up.
   void restart() BURR_RT;
 

@@ -66,6 +66,10 @@ const record::TickRow& Servo::tick(bool lost) BURR_RT {
     fault_waits_ = true;
   }
   const bool believed = limit_.believe(hand_, flags);
+  if ((hand_.buttons & device::kLifted) != 0) {  // it comes back in free air only
+    limit_.lift();
+    engaged_ = false;
+  }
   fault_waits_ |= !believed;
 
   take_wishes();

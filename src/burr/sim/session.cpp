@@ -75,8 +75,10 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
                                                        settings.heat->settings);
     session->servo_->set_heat(session->heat_.get());
   }
-  session->watchdog_ = std::make_unique<haptics::Watchdog>(
-      static_cast<std::int64_t>(spec.loss_timeout * 1e9), kFadeNs);
+  // a real hand's link lets go by itself after loss_timeout; the guard stands behind it
+  const double timeout = (spec.simulated ? 1 : 2) * spec.loss_timeout;
+  session->watchdog_ =
+      std::make_unique<haptics::Watchdog>(static_cast<std::int64_t>(timeout * 1e9), kFadeNs);
   return session;
 }
 
@@ -90,7 +92,10 @@ void Session::set_recorder(record::Recorder* recorder) {
 void Session::loop(std::uint64_t ticks) {
   rt::WallClock wall(settings_.servo.rate_hz);
   rt::NoWaitClock simulated(settings_.servo.rate_hz);
-  rt::TickClock& clock = settings_.realtime ? static_cast<rt::TickClock&>(wall) : simulated;
+  rt::TickClock* own = settings_.realtime ? device_->clock(settings_.servo.rate_hz) : nullptr;
+  rt::TickClock& clock = own != nullptr       ? *own
+                         : settings_.realtime ? static_cast<rt::TickClock&>(wall)
+                                              : simulated;
   if (settings_.realtime) watchdog_->rearm(rt::monotonic_ns());
   LoadSettings load = settings_.load;
   load.first_in_line = load.first_in_line || rt::goes_first();

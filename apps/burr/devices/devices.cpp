@@ -1,0 +1,170 @@
+// burr devices - the haptic devices burr can drive: which are there, what each is to do, and a
+// trial.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "burr/base/new_file.h"
+#include "command.h"
+#include "device_book.h"
+#include "devices/trial.h"
+#include "hand_device.h"
+
+namespace burr::app {
+namespace {
+
+struct Options {
+  HandWish wish;
+  std::string out;
+  std::vector<std::string> assignments;
+  TrialSettings trial;
+  bool json = false, yes = false;
+};
+
+// Opens and closes each; nothing moves and nothing is pushed.
+Status list(const Options& options) {
+  nlohmann::json found = nlohmann::json::array();
+  const DeviceBook book = DeviceBook::read(users_book());
+  for (const std::string& trouble : book.troubles()) fmt::print(stderr, "{}\n", trouble);
+  if (!options.json)
+    fmt::print("mouse, gamepad, pedal, SpaceMouse  in the window, without force\n");
+  for (const HandKind& kind : hand_kinds()) {
+    HandWish wish;
+    wish.device = kind.name;
+    auto device = make_hand(wish);
+    if (!device) return device.error();
+    const Status opened = (*device)->open();
+    if (!opened) {
+      found.push_back({{"name", kind.name}, {"there", false}, {"why", opened.error().text}});
+      if (!options.json)
+        fmt::print("{:<16} {}\n                 not there: {}\n", kind.name, kind.makes,
+                   opened.error().text);
+      continue;
+    }
+    const device::DeviceSpec spec = (*device)->spec();
+    const std::string trouble = (*device)->trouble();
+    (*device)->close();
+    const DeviceWishes wishes = book.of(id_of(spec));
+    found.push_back({{"name", kind.name},
+                     {"there", true},
+                     {"id", id_of(spec)},
+                     {"peak_force_N", spec.peak_force},
+                     {"continuous_force_N", spec.continuous_force},
+                     {"stiffness_N_m", spec.max_stiffness},
+                     {"rate_hz", spec.native_rate},
+                     {"trouble", trouble},
+                     {"scale", wishes.mapping.scale},
+                     {"max_force_N", wishes.max_force_n}});
+    if (options.json) continue;
+    fmt::print(
+        "{:<16} {}: {:.1f} N ({:.2f} N for long), walls to {:.0f} N/m, {:.0f} Hz; scale {:g}{}\n",
+        kind.name, id_of(spec), spec.peak_force, spec.continuous_force, spec.max_stiffness,
+        spec.native_rate, wishes.mapping.scale,
+        wishes.max_force_n > 0 ? fmt::format(", your limit {:g} N", wishes.max_force_n) : "");
+    if (!trouble.empty()) fmt::print("                 {}\n", trouble);
+  }
+  if (options.json) fmt::print("{}\n", found.dump());
+  return fine();
+}
+
+Result<std::unique_ptr<device::MappedHand>> take(const Options& options) {
+  HandWish wish = options.wish;
+  wish.scale = 1;  // tried as it is
+  auto laid = lay_hand(wish, {}, math::Quat::Identity());
+  if (!laid) return laid.error();
+  return std::move(laid->hand);
+}
+
+Status set(const Options& options) {
+  auto device = make_hand(options.wish);
+  if (!device) return device.error();
+  const Status opened = (*device)->open();
+  if (!opened) return opened.error();
+  const std::string id = id_of((*device)->spec());
+  (*device)->close();
+  DeviceBook book = DeviceBook::read(users_book());
+  for (const std::string& trouble : book.troubles()) fmt::print(stderr, "{}\n", trouble);
+  for (const std::string& assignment : options.assignments) {
+    const Status taken = book.set(id, assignment);
+    if (!taken) return taken;
+  }
+  const Status kept = book.write(users_book());
+  if (!kept) return kept;
+  fmt::print("{}: kept in {}\n", id, users_book().string());
+  return fine();
+}
+
+Status test(const Options& options) {
+  auto hand = take(options);
+  if (!hand) return hand.error();
+  fmt::print(stderr, "{}: {:.1f} N at most. Ctrl-C ends it and lets go.\n", id_of((*hand)->spec()),
+             std::min(options.trial.most_force, (*hand)->spec().peak_force));
+  const TrialSeen seen = try_device(
+      **hand, options.trial, [](const std::string& words) { fmt::print(stderr, "{}\n", words); },
+      [] { return interrupted(); });
+  (*hand)->close();
+  if (options.json)
+    fmt::print("{}\n", trial_json(seen));
+  else
+    fmt::print("{}", trial_text(seen));
+  if (!options.out.empty()) {
+    auto file = base::NewFile::beside(options.out);
+    if (!file) return file.error();
+    file->write(trial_page(seen));
+    const Status put = file->put_in_place();
+    if (!put) return put;
+    fmt::print(stderr, "{}: the same as a page\n", options.out);
+  }
+  if (seen.stopped)
+    return error(Trouble::interrupted, "stopped; what was measured until then is above");
+  if (!seen.left_out.empty())
+    return error(Trouble::failed, "not all was tried; what was left out is named above");
+  return fine();
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* command =
+      app.add_subcommand("devices", "haptic devices: which are there, settings, a trial");
+  command->require_subcommand(0, 1);
+  command->add_flag("--json", options->json, "for programs");
+  command->callback([options, &todo, command] {
+    if (command->get_subcommands().empty()) todo.work = [options] { return list(*options); };
+  });
+
+  auto* setting = command->add_subcommand(
+      "set", "what a device is to do from now on, kept by its serial number");
+  setting
+      ->add_option("name", options->wish.device,
+                   "touch, force-dimension; NAME:WHICH where there are several")
+      ->required();
+  setting->add_option("settings", options->assignments, "scale=0.5 max_force_n=2 dead_man=true ...")
+      ->required();
+  setting->callback([options, &todo] { todo.work = [options] { return set(*options); }; });
+
+  auto* trial = command->add_subcommand(
+      "test", "first nothing moves, then a guided touch: rate, answer, noise, axes, a wall");
+  trial
+      ->add_option("name", options->wish.device,
+                   "touch, force-dimension; NAME:WHICH where there are several")
+      ->required();
+  trial->add_flag("--home", options->wish.home,
+                  "a Force Dimension arm may move by itself to find its home; keep the space free");
+  trial->add_flag("--is-homed", options->wish.is_homed,
+                  "you homed the arm yourself, and its library cannot tell");
+  trial->add_option("--out", options->out, "F.html: the result as a page to send");
+  trial->add_option("--most-force", options->trial.most_force, "of the wall [N]")
+      ->check(CLI::Range(0.1, 5.0))
+      ->capture_default_str();
+  trial->add_option("--wait", options->trial.longest_s, "for each thing you are asked to do [s]")
+      ->check(CLI::Range(0.5, 600.0))
+      ->capture_default_str();
+  trial->add_flag("--json", options->json, "one JSON object");
+  trial->callback([options, &todo] { todo.work = [options] { return test(*options); }; });
+}
+
+const Command command{85, add};
+
+}  // namespace
+}  // namespace burr::app

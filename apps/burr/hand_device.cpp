@@ -1,0 +1,107 @@
+#include "hand_device.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "burr/device/forcedimension/omega.h"
+#include "burr/device/openhaptics/touch.h"
+#include "device_book.h"
+
+namespace burr::app {
+namespace {
+
+constexpr double kUsualRate = 1000;  // [Hz]
+
+}  // namespace
+
+const std::vector<HandKind>& hand_kinds() {
+  static const std::vector<HandKind> all = {
+      {"touch", "3D Systems Touch (Omni), Touch X (Desktop), Premium", "touch"},
+      {"force-dimension", "Force Dimension omega, delta, sigma, lambda; Novint Falcon",
+       "force_dimension"},
+  };
+  return all;
+}
+
+Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish) {
+  const std::string& name = wish.device;
+  const std::string kind = name.substr(0, name.find(':'));
+  const std::string which = kind.size() < name.size() ? name.substr(kind.size() + 1) : "";
+  if (kind == "touch") {
+    device::openhaptics::TouchSettings settings;
+    settings.name = which;
+    return std::unique_ptr<device::Device>(
+        std::make_unique<device::openhaptics::Touch>(std::move(settings)));
+  }
+  if (kind == "force-dimension") {
+    device::forcedimension::OmegaSettings settings;
+    settings.home_allowed = wish.home;
+    settings.is_homed = wish.is_homed;
+    if (!which.empty()) {
+      const auto [end, trouble] =
+          std::from_chars(which.data(), which.data() + which.size(), settings.serial);
+      if (trouble != std::errc() || end != which.data() + which.size() || settings.serial < 0)
+        return error(Trouble::usage,
+                     fmt::format("--device {}: after the colon comes a serial number", name));
+    }
+    return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
+        std::make_unique<device::forcedimension::Omega>(std::move(settings))));
+  }
+  std::vector<std::string> known;
+  for (const HandKind& one : hand_kinds()) known.emplace_back(one.name);
+  return error(Trouble::usage,
+               fmt::format("--device {}: burr drives no such device; take one of: {}", name,
+                           fmt::join(known, ", ")));
+}
+
+Result<LaidHand> lay_hand(const HandWish& wish, const math::Pose& start,
+                          const math::Quat& world_from_view) {
+  auto device = make_hand(wish);
+  if (!device) return device.error();
+  LaidHand laid;
+  laid.hand = std::make_unique<device::MappedHand>(std::move(*device), start, world_from_view);
+  Status opened = laid.hand->open();
+  if (!opened) return opened.error();
+  const DeviceBook book = DeviceBook::read(users_book());
+  laid.notices = book.troubles();
+  DeviceWishes wishes = book.of(id_of(laid.hand->spec()));
+  if (wish.scale) wishes.mapping.scale = *wish.scale;
+  wishes.mapping.dead_man = wishes.mapping.dead_man || wish.dead_man;
+  const Status set = laid.hand->set(wishes.mapping);
+  if (!set) return set.error();
+  const double peak = laid.hand->spec().peak_force;
+  laid.max_force = wishes.max_force_n > 0 ? std::min(peak, wishes.max_force_n) : peak;
+  laid.vibration = wishes.vibration;
+  return laid;
+}
+
+double tick_rate(const device::DeviceSpec& spec) {
+  if (!(spec.native_rate > 0)) return kUsualRate;
+  return std::clamp(spec.native_rate / std::max(1.0, std::round(spec.native_rate / kUsualRate)),
+                    500.0, 10'000.0);
+}
+
+void add_hand_options(CLI::App& command, HandWish& wish) {
+  std::vector<std::string> known;
+  for (const HandKind& one : hand_kinds()) known.emplace_back(one.name);
+  command.add_option("--device", wish.device,
+                     fmt::format("a haptic device: {}; NAME:WHICH where there are several",
+                                 fmt::join(known, ", ")));
+  command
+      .add_option("--device-scale", wish.scale,
+                  "way of the tip over way of the hand; smaller: finer work, softer walls")
+      ->check(CLI::Range(0.1, 10.0));
+  command.add_flag(
+      "--home", wish.home,
+      "a Force Dimension arm may move by itself to find its home; keep the space free");
+  command.add_flag("--is-homed", wish.is_homed,
+                   "you homed the arm yourself, and its library cannot tell");
+  command.add_flag("--dead-man", wish.dead_man,
+                   "the device pushes only while its mill button is held");
+}
+
+}  // namespace burr::app

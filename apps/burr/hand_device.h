@@ -1,0 +1,58 @@
+// apps/burr/hand_device.h - the haptic device a user named, ready to be opened.
+//
+//     --device touch            the default Touch        --device "touch:Left one"   by its name
+//     --device force-dimension  the first                --device force-dimension:17 by its serial
+//     number
+//
+// Thread: main.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "burr/base/result.h"
+#include "burr/device/device.h"
+#include "burr/device/mapping.h"
+
+namespace burr::app {
+
+struct HandWish {
+  std::string device;  // empty: the mouse, or a simulated hand
+  // where given by hand, in place of what the book says (device_book.h)
+  std::optional<double> scale;
+  bool dead_man = false;
+  bool home = false;      // an arm may move by itself to find its home
+  bool is_homed = false;  // said where the library cannot tell
+};
+
+// One kind of device burr can drive.
+struct HandKind {
+  const char* name;   // as the user writes it
+  const char* makes;  // maker and models
+  const char* page;   // of docs/devices/
+};
+[[nodiscard]] const std::vector<HandKind>& hand_kinds();
+
+// Error: no kind of that name; says which there are. The device itself is looked for by open().
+[[nodiscard]] Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish);
+
+// The same, open and laid over a bone as its user wishes: the tip begins at `start`, the axes are
+// those of the view.
+struct LaidHand {
+  std::unique_ptr<device::MappedHand> hand;
+  double max_force = 0;  // the user's own and the device's [N]
+  double vibration = 0;
+  std::vector<std::string> notices;  // of the book
+};
+[[nodiscard]] Result<LaidHand> lay_hand(const HandWish& wish, const math::Pose& start,
+                                        const math::Quat& world_from_view);
+
+// The rate of ticks that suits a device: its own, or a whole part of it near a thousand [Hz].
+[[nodiscard]] double tick_rate(const device::DeviceSpec& spec);
+
+void add_hand_options(CLI::App& command, HandWish& wish);
+
+}  // namespace burr::app

@@ -1,0 +1,377 @@
+#include "burr/device/forcedimension/omega.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <mutex>
+#include <set>
+#include <utility>
+
+namespace burr::device::forcedimension {
+namespace {
+
+using math::Mat3;
+using math::Vec3;
+
+constexpr double kFarthest = 1.0;                     // no arm is longer [m]
+constexpr int kMostErrors = 500;                      // in a row, and the device is opened anew
+constexpr std::int64_t kLookEvery = 50'000'000;       // at what the device says of itself [ns]
+constexpr double kOpenAngle = 0.3, kOpenGap = 15e-3;  // a gripper opens at least so far [rad, m]
+constexpr double kRest = 0.8;                         // of the way open: no pedal from there on
+constexpr int kMostDevices = 64;
+
+// What the models can bear (chai3d's table). Makers' sheets call the peak of all but the Falcon
+// continuous. An unknown one is taken for the weakest.
+struct Model {
+  int type;
+  const char* name;
+  double peak, continuous, stiffness, damping, radius;
+};
+constexpr Model kModels[] = {
+    {33, "omega.3", 12, 12, 5000, 30, 75e-3},    {34, "omega.6", 12, 12, 5000, 30, 75e-3},
+    {36, "omega.6", 12, 12, 5000, 30, 75e-3},    {35, "omega.7", 12, 12, 5000, 30, 75e-3},
+    {37, "omega.7", 12, 12, 5000, 30, 75e-3},    {63, "delta.3", 20, 20, 5000, 30, 150e-3},
+    {206, "sigma.3", 12, 12, 4000, 30, 75e-3},   {104, "sigma.7", 12, 12, 4000, 30, 75e-3},
+    {105, "sigma.7", 12, 12, 4000, 30, 75e-3},   {203, "lambda.3", 12, 12, 8000, 30, 112e-3},
+    {131, "lambda.6", 12, 12, 8000, 30, 112e-3}, {132, "lambda.6", 12, 12, 8000, 30, 112e-3},
+    {108, "lambda.7", 12, 12, 8000, 30, 112e-3}, {109, "lambda.7", 12, 12, 8000, 30, 112e-3},
+    {60, "Falcon", 8, 3, 3000, 20, 40e-3},
+};
+constexpr Model kUnknown = {0, "Force Dimension device", 8, 3, 3000, 20, 40e-3};
+
+const Model& model_of(int type) {
+  const auto* known = std::find_if(std::begin(kModels), std::end(kModels),
+                                   [type](const Model& one) { return one.type == type; });
+  return known != std::end(kModels) ? *known : kUnknown;
+}
+
+// Which are open here: the library gives an open one out again as if it were not. Opening and
+// closing is one at a time, as it looks through all devices.
+std::mutex& opening() {
+  static std::mutex one;
+  return one;
+}
+std::set<std::pair<const void*, int>>& taken() {  // under it
+  static std::set<std::pair<const void*, int>> ids;
+  return ids;
+}
+
+// Ours is x right, y up, z to the user; the library's x to the user, y right, z up.
+Vec3 ours(double x, double y, double z) BURR_RT { return {y, z, x}; }
+
+const char* force_off_words(int cause) BURR_RT {
+  switch (cause) {
+    case 1:
+      return "let go, as its force button was pressed; press it again.";
+    case 2:
+      return "was moved too fast and let go; lift it from the bone and press its force button.";
+    case 3:
+      return "heard nothing for too long and let go (watchdog); press its force button, and give "
+             "burr a quieter computer (burr check).";
+    case 4:
+      return "was told by a program to let go; close others that use it, and begin again.";
+    case 5:
+      return "lost its USB connection for a moment and let go; press its force button.";
+    case 6:
+      return "feels no hand and let go (dead-man); take its handle.";
+    default:
+      return "let go; press its force button.";
+  }
+}
+
+}  // namespace
+
+// ---- found and made ready
+
+Result<DeviceSpec> Omega::connect() {
+  disconnect();
+  if (!(settings_.rate >= 500 && settings_.rate <= 4000))
+    return error(Trouble::usage,
+                 fmt::format("a rate of {} Hz is out of range for a Force Dimension device; take "
+                             "500 to 4000",
+                             settings_.rate));
+  auto dhd = load(settings_.library);
+  if (!dhd) return dhd.error();
+  dhd_ = *dhd;
+
+  const std::lock_guard lock(opening());
+  Status found = find();
+  if (!found) return found.error();
+  DeviceSpec spec = describe();
+  name_ = spec.name;
+  Status ready = home();
+  if (ready) ready = prepare(spec);
+  if (!ready) {
+    let_go(id_);
+    id_ = -1;
+    return ready.error();
+  }
+  serial_ = serial_of(id_);
+  was_ready_ = true;
+  return spec;
+}
+
+// The wanted one, open, in id_. The same as before where it has a serial number: an index is only
+// the order in which they were plugged in.
+Status Omega::find() {
+  const int count = std::min(dhd_->GetDeviceCount(), kMostDevices);
+  if (count <= 0)
+    return error(Trouble::io,
+                 "no Force Dimension device was found; plug it in, switch it on, and let your user "
+                 "open it (docs/devices/force_dimension.md, udev)");
+  const int serial = settings_.serial >= 0 ? settings_.serial : serial_;
+  if (serial < 0) {
+    if (settings_.index < 0 || settings_.index >= count)
+      return error(Trouble::usage,
+                   fmt::format("there is no Force Dimension device {}; {} {} plugged in, counted "
+                               "from 0",
+                               settings_.index, count, count == 1 ? "is" : "are"));
+    const char* why = nullptr;
+    id_ = open(settings_.index, why);
+    if (id_ >= 0) return fine();
+    return error(Trouble::io, fmt::format("Force Dimension device {} {}", settings_.index, why));
+  }
+  if (dhd_->GetSerialNumber == nullptr)
+    return error(Trouble::io,
+                 fmt::format("{}: knows no serial numbers; leave the number away, or install a "
+                             "newer Force Dimension SDK",
+                             dhd_->file));
+  int locked = 0;
+  for (int index = 0; index < count; ++index) {
+    const char* why = nullptr;
+    id_ = open(index, why);
+    if (id_ < 0) {
+      ++locked;
+      continue;
+    }
+    if (serial_of(id_) == serial) return fine();
+    let_go(id_);
+    id_ = -1;
+  }
+  return error(
+      Trouble::io,
+      fmt::format("the Force Dimension device with serial number {} was not found{}; plug it in, "
+                  "switch it on, and close other programs that use it",
+                  serial,
+                  locked > 0 ? fmt::format(" ({} of {} cannot be opened)", locked, count) : ""));
+}
+
+// -1: it cannot be had.
+int Omega::open(int index, const char*& why) const {
+  const char which = static_cast<char>(index);
+  const int id = dhd_->homes() ? dhd_->DrdOpenID(which) : dhd_->OpenID(which);
+  if (id < 0) {
+    why = words(dhd_->ErrorGetLast());
+    return -1;
+  }
+  if (taken().emplace(dhd_->library, id).second) return id;
+  why = "is in use by burr itself; close that session, or name another device.";
+  return -1;
+}
+
+Status Omega::home() {
+  const char id = static_cast<char>(id_);
+  if (!dhd_->homes()) {
+    if (settings_.is_homed) return fine();
+    return error(Trouble::io,
+                 fmt::format("{}: cannot say whether {} is homed (libdrd is missing); install "
+                             "libdrd of the same SDK beside it, or home the arm by hand and say so "
+                             "(is_homed)",
+                             dhd_->file, name_));
+  }
+  if (dhd_->DrdIsInitialized(id)) return fine();
+  if (was_ready_)
+    return error(Trouble::io, fmt::format("{} has lost its home; begin a new session, with --home "
+                                          "where its arm may move by itself",
+                                          name_));
+  if (!settings_.home_allowed)
+    return error(Trouble::io,
+                 fmt::format("{} is not homed: free the space around its arm, let it go, and allow "
+                             "it to move by itself with --home",
+                             name_));
+  const bool homed = !failed(dhd_->DrdAutoInit(id));
+  const int trouble = homed ? kNoError : dhd_->ErrorGetLast();
+  const bool stopped = !failed(dhd_->DrdStop(true, id));  // whatever became of it: no regulation
+  if (homed && stopped && dhd_->DrdIsInitialized(id)) return fine();
+  return error(Trouble::io, fmt::format("{} could not be homed: it {}", name_, words(trouble)));
+}
+
+// Forces last, when all that bounds them stands.
+Status Omega::prepare(const DeviceSpec& spec) {
+  to_ = static_cast<char>(id_);
+  peak_ = spec.peak_force;
+  wrist_ = dhd_->HasWrist(to_);
+  gripper_ = nullptr;
+  if (dhd_->HasGripper(to_)) {
+    gripper_ = dhd_->GetGripperAngleRad != nullptr ? dhd_->GetGripperAngleRad : dhd_->GetGripperGap;
+    open_ = dhd_->GetGripperAngleRad != nullptr ? kOpenAngle : kOpenGap;
+  }
+  armed_ = off_ = false;
+  seen_power_ = seen_connected_ = seen_force_ = false;
+  read_errors_ = write_errors_ = 0;
+  looked_ns_ = INT64_MIN;
+  note(read_trouble_, nullptr);
+  note(write_trouble_, nullptr);
+  note(status_trouble_, nullptr);
+
+  // write() bounds as well; models without either go on
+  if (dhd_->SetMaxForce != nullptr) static_cast<void>(dhd_->SetMaxForce(peak_, to_));
+  static_cast<void>(dhd_->SetGravityCompensation(1, to_));
+  static_cast<void>(dhd_->SetForceAndTorqueAndGripperForce(0, 0, 0, 0, 0, 0, 0, to_));
+  if (failed(dhd_->EnableForce(1, to_)))
+    return error(Trouble::io, fmt::format("{} {}", name_, words(dhd_->ErrorGetLast())));
+  return fine();
+}
+
+DeviceSpec Omega::describe() const {
+  const char id = static_cast<char>(id_);
+  const Model& model = model_of(dhd_->GetSystemType(id));
+  const char* name = dhd_->GetSystemName != nullptr ? dhd_->GetSystemName(id) : nullptr;
+  const int serial = serial_of(id_);
+  DeviceSpec spec;
+  spec.name = name != nullptr && *name != '\0' ? name : model.name;
+  if (dhd_->IsLeftHanded(id) && spec.name.find("left") == std::string::npos)
+    spec.name += " (left hand)";
+  spec.serial = serial >= 0 ? std::to_string(serial) : "";
+  spec.simulated = false;
+  spec.sensed = dhd_->HasWrist(id) ? 6 : 3;
+  spec.actuated = 3;
+  spec.peak_force = model.peak;
+  spec.continuous_force = model.continuous;
+  spec.thermal_budget = 5 * model.peak * model.peak;
+  spec.max_stiffness = model.stiffness;
+  spec.max_damping = model.damping;
+  spec.workspace_radius = model.radius;
+  spec.native_rate = settings_.rate;
+  spec.loss_timeout = 5e-3;
+  return spec;
+}
+
+int Omega::serial_of(int id) const {
+  unsigned short serial = 0;
+  if (dhd_->GetSerialNumber == nullptr ||
+      failed(dhd_->GetSerialNumber(&serial, static_cast<char>(id))))
+    return -1;
+  return serial;
+}
+
+void Omega::let_go(int id) {
+  static_cast<void>(dhd_->homes() ? dhd_->DrdClose(static_cast<char>(id))
+                                  : dhd_->Close(static_cast<char>(id)));
+  taken().erase({dhd_->library, id});
+}
+
+void Omega::disconnect() {
+  if (id_ < 0) return;
+  const std::lock_guard lock(opening());
+  static_cast<void>(dhd_->SetForceAndTorqueAndGripperForce(0, 0, 0, 0, 0, 0, 0, to_));
+  static_cast<void>(dhd_->EnableForce(0, to_));
+  let_go(id_);
+  id_ = -1;
+}
+
+// ---- the exchange
+
+void Omega::note(const char*& what, const char* words) BURR_RT {
+  if (what != words) ++told_;
+  what = words;
+}
+
+// Of a failed call: whether the device may still be there.
+bool Omega::bear(const char*& trouble, int& errors) BURR_RT {
+  const int code = dhd_->ErrorGetLast();
+  note(trouble, words(code));
+  return !is_gone(code) && ++errors < kMostErrors;
+}
+
+// What the device says of itself. What was never told as good is not told at all (a model that
+// fills in nothing). False: it says that it is gone.
+bool Omega::look() BURR_RT {
+  const std::int64_t now = settings_.now();
+  if (dhd_->GetStatus == nullptr || (looked_ns_ != INT64_MIN && now - looked_ns_ < kLookEvery))
+    return true;
+  looked_ns_ = now;
+  int status[kMostStatus] = {};
+  if (failed(dhd_->GetStatus(status, to_))) return true;  // reading says what is wrong
+  const int cause = status[kStatusForceOffCause];
+  seen_power_ = seen_power_ || status[kStatusPower] != 0;
+  seen_connected_ = seen_connected_ || status[kStatusConnected] != 0;
+  seen_force_ = seen_force_ || status[kStatusForce] != 0;
+  if (seen_connected_ && status[kStatusConnected] == 0) {
+    note(status_trouble_, "is not connected any more; check its cable and its power.");
+    return false;
+  }
+  const bool unpowered = seen_power_ && status[kStatusPower] == 0;
+  const bool forceless = status[kStatusForce] == 0 && (seen_force_ || cause != 0);
+  off_ = unpowered || forceless;
+  note(status_trouble_, unpowered   ? "has no power; switch it on."
+                        : forceless ? force_off_words(cause)
+                                    : nullptr);
+  return true;
+}
+
+// Closed is all of the pedal, open none; what is held closed from the start counts only after it
+// was opened.
+void Omega::squeeze(HandState& hand) BURR_RT {
+  double apart = 0;
+  if (gripper_ == nullptr || failed(gripper_(&apart, to_)) || !std::isfinite(apart)) return;
+  apart = std::abs(apart);  // a left hand's counts the other way
+  open_ = std::max(open_, std::min(apart, 2.0));
+  const double pedal = std::clamp(1 - apart / (kRest * open_), 0.0, 1.0);
+  armed_ = armed_ || pedal == 0;
+  if (armed_) hand.pedal = pedal;
+}
+
+Wire::Read Omega::read(HandState& hand) BURR_RT {
+  double x = 0, y = 0, z = 0, frame[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const int code = wrist_ ? dhd_->GetPositionAndOrientationFrame(&x, &y, &z, frame, to_)
+                          : dhd_->GetPosition(&x, &y, &z, to_);
+  hand.valid = false;
+  if (failed(code)) return bear(read_trouble_, read_errors_) ? Read::hand : Read::lost;
+  if (!look()) return Read::lost;
+  read_errors_ = 0;
+
+  // rows and columns in our order: its y, z, x
+  Mat3 turn;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) turn(i, k) = frame[(i + 1) % 3][(k + 1) % 3];
+  const Vec3 place = ours(x, y, z);
+  double vx = 0, vy = 0, vz = 0;
+  // it errs until it has seen the hand twice: at rest then
+  const bool knows_speed = !failed(dhd_->GetLinearVelocity(&vx, &vy, &vz, to_));
+  hand.velocity = knows_speed ? ours(vx, vy, vz) : Vec3(Vec3::Zero());
+  hand.buttons = dhd_->GetButtonMask(to_) & ~kLifted;
+  squeeze(hand);
+
+  const bool sound = turn.allFinite() && place.allFinite() && hand.velocity.allFinite() &&
+                     place.norm() < kFarthest && std::abs(turn.determinant() - 1) < 0.1 &&
+                     (turn * turn.transpose() - Mat3::Identity()).cwiseAbs().maxCoeff() < 0.1;
+  note(read_trouble_,
+       sound ? nullptr : "says what cannot be of its hand; move it, and home it again.");
+  if (!sound) return Read::hand;
+  hand.world_from_tool = {place, math::Quat(turn).normalized()};
+  hand.valid = !off_ && write_trouble_ == nullptr;
+  return Read::hand;
+}
+
+bool Omega::write(const Vec3& force) BURR_RT {
+  // no hand should ever learn whether the tick's own limit has a mistake
+  Vec3 push = force.allFinite() && !off_ ? force : Vec3(Vec3::Zero());
+  if (const double size = push.norm(); size > peak_) push *= peak_ / size;
+  const int code =
+      dhd_->SetForceAndTorqueAndGripperForce(push.z(), push.x(), push.y(), 0, 0, 0, 0, to_);
+  if (failed(code)) return bear(write_trouble_, write_errors_);
+  write_errors_ = 0;
+  note(write_trouble_, nullptr);
+  return true;
+}
+
+std::string Omega::why() const {
+  for (const char* words : {read_trouble_, write_trouble_, status_trouble_})
+    if (words != nullptr) return name_ + " " + words;
+  return {};
+}
+
+}  // namespace burr::device::forcedimension

@@ -1,0 +1,84 @@
+// device/forcedimension/omega.h - Force Dimension's omega, delta, sigma and lambda, and the Falcon
+// through the same library: three or six degrees of freedom in, three out.
+//
+//     Session::make(bone, std::make_unique<WireDevice>(std::make_unique<Omega>(settings)), ...)
+//
+// Writing a force waits for a frame of the device, 1 to 4 kHz: that is the wire's pace. The
+// library's frame is x to the user, y right, z up; ours, in which everything here speaks, x right,
+// y up, z to the user. The tool's handle lies along its +z: to the user while nothing is turned.
+// A gripper is the pedal, squeezed: full; it counts once it was seen open.
+//
+// The arm never moves by itself unless home_allowed, and then only before the first session: an arm
+// that lost its home in between says so. The maker's own guards (velocity, watchdog, hand
+// detection) stay on; what they switch off is told, and nothing is pushed until it is on again.
+// Thread: as Wire. Several at once: one Omega each.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "burr/device/forcedimension/dhd.h"
+#include "burr/device/wire.h"
+
+namespace burr::device::forcedimension {
+
+struct OmegaSettings {
+  std::string library = {};   // empty: BURR_FORCEDIMENSION, or as candidates() finds it
+  int index = 0;              // of the devices that are plugged in, from 0
+  int serial = -1;            // of the device wanted, whatever its index; -1: any
+  bool home_allowed = false;  // the arm may move by itself when it is not homed
+  bool is_homed = false;      // said by the user, where the library cannot tell (no libdrd)
+  double rate = 1000;         // of ticks; 500..4000 [Hz]
+  Link::Now now = &rt::monotonic_ns;
+};
+
+class Omega final : public Wire {
+ public:
+  explicit Omega(OmegaSettings settings = {}) : settings_(std::move(settings)) {}
+  ~Omega() override { disconnect(); }
+
+  [[nodiscard]] Result<DeviceSpec> connect() override;
+  [[nodiscard]] Read read(HandState& hand) BURR_RT override;
+  [[nodiscard]] bool write(const math::Vec3& force) BURR_RT override;
+  void disconnect() override;
+  [[nodiscard]] std::string why() const override;
+  [[nodiscard]] unsigned told() const BURR_RT override { return told_; }
+
+ private:
+  [[nodiscard]] Status find();
+  [[nodiscard]] int open(int index, const char*& why) const;
+  [[nodiscard]] Status home();
+  [[nodiscard]] Status prepare(const DeviceSpec& spec);
+  [[nodiscard]] DeviceSpec describe() const;
+  [[nodiscard]] int serial_of(int id) const;
+  void let_go(int id);
+
+  [[nodiscard]] bool bear(const char*& trouble, int& errors) BURR_RT;
+  void note(const char*& what, const char* words) BURR_RT;
+  [[nodiscard]] bool look() BURR_RT;
+  void squeeze(HandState& hand) BURR_RT;
+
+  OmegaSettings settings_;
+  const Dhd* dhd_ = nullptr;
+  int id_ = -1;  // of the library; -1: none is open
+  int serial_ = -1;
+  bool was_ready_ = false;
+  std::string name_ = "the Force Dimension device";
+  bool wrist_ = false;
+  double peak_ = 0;
+
+  // the wire's own
+  char to_ = 0;
+  const char *read_trouble_ = nullptr, *write_trouble_ = nullptr, *status_trouble_ = nullptr;
+  int read_errors_ = 0, write_errors_ = 0;  // in a row
+  unsigned told_ = 0;
+  bool off_ = false;
+  bool seen_power_ = false, seen_connected_ = false, seen_force_ = false;
+  std::int64_t looked_ns_ = INT64_MIN;
+  int (*gripper_)(double*, char) = nullptr;
+  double open_ = 0;  // the widest it was seen, radians or metres
+  bool armed_ = false;
+};
+
+}  // namespace burr::device::forcedimension

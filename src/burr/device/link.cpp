@@ -1,0 +1,164 @@
+#include "burr/device/link.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <ctime>
+
+#include "burr/base/check.h"
+
+namespace burr::device {
+namespace {
+
+using math::Vec3;
+
+constexpr std::uint64_t kTellEvery = 256;  // readings between two accounts
+
+std::int64_t ns(double seconds) { return std::llround(1e9 * seconds); }
+
+}  // namespace
+
+Link::Bell::Bell() { BURR_CHECK(sem_init(&sem_, 0, 0) == 0); }
+Link::Bell::~Bell() { sem_destroy(&sem_); }
+
+void Link::Bell::strike() BURR_RT {
+  if (!struck_.exchange(true, std::memory_order_acq_rel)) sem_post(&sem_);
+}
+
+void Link::Bell::hear(std::int64_t until_ns) BURR_RT {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  timespec until = {};
+  until.tv_sec = until_ns / kSecond;
+  until.tv_nsec = until_ns % kSecond;
+  while (sem_clockwait(&sem_, CLOCK_MONOTONIC, &until) != 0)
+    if (errno != EINTR) return;
+  // an exchange, so that what was struck for until now is seen by whoever goes on to look
+  static_cast<void>(struck_.exchange(false, std::memory_order_acq_rel));
+}
+
+Link::Link(const LinkSettings& settings, Now clock)
+    : now_(clock),
+      patience_ns_(ns(settings.patience)),
+      timeout_ns_(ns(settings.loss_timeout)),
+      fade_ns_(ns(settings.fade)) {}
+
+Link::~Link() = default;
+
+// ---- wire
+
+void Link::tell(const HandState& hand, std::int64_t now) BURR_RT {
+  readings_.publish({hand, now, ++number_});
+  read_.strike();
+}
+
+Vec3 Link::exchange(const HandState& hand) BURR_RT {
+  const std::int64_t now = now_();
+  if (now < begin_ns_.load(std::memory_order_relaxed)) {
+    ++account_.passed_over;
+    return push();
+  }
+  tell(hand, now);
+  take_answers(now);
+  // nobody is there to answer, or nobody yet: waiting would only slow the device down
+  if (answered_ns_ == kNever || now - answered_ns_ >= timeout_ns_) return push();
+  const std::int64_t until = now + patience_ns_;
+  while (patience_ns_ > 0 && answer_.number != number_ && now_() < until) {
+    answered_.hear(until);
+    take_answers(now_());
+  }
+  if (answer_.number != number_) ++account_.unanswered;
+  account_.answers.add(now_() - now);
+  if (++account_.readings % kTellEvery == 0) told_.publish(account_);
+  return push();
+}
+
+void Link::take_answers(std::int64_t now) BURR_RT {
+  if (answers_.take(answer_)) answered_ns_ = now;
+}
+
+Vec3 Link::push() BURR_RT {
+  const std::int64_t now = now_();
+  take_answers(now);
+  if (!fading_ && pushed_ != Vec3::Zero() && now - answered_ns_ >= timeout_ns_) {
+    fading_ = true;
+    faded_since_ns_ = now;
+    fading_from_ = pushed_;
+    fading_after_ = number_;
+    let_go_.store(true, std::memory_order_release);
+  }
+  if (fading_) {
+    // done once the servo knows, and has let go as well
+    if (answer_.number > fading_after_ && answer_.force == Vec3::Zero()) fading_ = false;
+    const double left =
+        1 - static_cast<double>(now - faded_since_ns_) / static_cast<double>(fade_ns_);
+    pushed_ = fading_ ? Vec3(std::max(0.0, left) * fading_from_) : Vec3::Zero();
+  } else {
+    pushed_ = answer_.force * scale_.load(std::memory_order_relaxed);
+  }
+  return pushed_;
+}
+
+void Link::lose() BURR_RT {
+  const std::int64_t now = now_();
+  HandState none;
+  none.valid = false;
+  tell(none, now);
+  fading_ = true;  // whoever is gone is not pushed; who comes back, not at once
+  faded_since_ns_ = now - fade_ns_;
+  fading_from_ = pushed_ = Vec3::Zero();
+  fading_after_ = number_;
+  let_go_.store(true, std::memory_order_release);
+}
+
+// ---- servo
+
+bool Link::wait(std::int64_t until_ns) BURR_RT {
+  fresh_ = fresh_ || readings_.take(reading_);
+  while (!fresh_ && now_() < until_ns) {
+    read_.hear(until_ns);
+    fresh_ = readings_.take(reading_);
+  }
+  return fresh_;
+}
+
+HandState Link::state() BURR_RT {
+  if (!fresh_) static_cast<void>(readings_.take(reading_));
+  fresh_ = false;
+  HandState hand = reading_.hand;
+  if (reading_.number == 0 || now_() - reading_.arrived_ns >= timeout_ns_ ||
+      let_go_.exchange(false, std::memory_order_acq_rel))
+    hand.valid = false;
+  return hand;
+}
+
+void Link::write_force(const Vec3& force) BURR_RT {
+  scale_.store(1.0, std::memory_order_relaxed);
+  answers_.publish({force, reading_.number});
+  answered_.strike();
+}
+
+// ---- the pace
+
+rt::TickTime LinkClock::wait() BURR_RT {
+  const bool first = start_ns_ < 0;
+  if (first) start_ns_ = last_ns_ = link_.now();
+  // long enough for a reading to be late, then once a period
+  const std::int64_t patience =
+      std::max(period_ns_, link_.arrived_ns() + link_.timeout_ns() - last_ns_);
+  const bool fresh = link_.wait(last_ns_ + (first ? link_.timeout_ns() : patience));
+  const std::int64_t now = link_.now();
+  // a device is a little faster than it says, or brings several readings a tick
+  link_.begin_at((fresh ? link_.arrived_ns() : now) + period_ns_ - period_ns_ / 8);
+
+  rt::TickTime time;
+  time.now_ns = now - start_ns_;
+  time.since_last_ns = first ? period_ns_ : now - last_ns_;
+  // due is when its reading came; without one it begins when it can
+  time.late_ns = fresh ? std::max<std::int64_t>(0, now - link_.arrived_ns()) : 0;
+  time.due_ns = time.now_ns - time.late_ns;
+  time.missed = std::max<std::int64_t>(0, (time.since_last_ns + period_ns_ / 2) / period_ns_ - 1);
+  last_ns_ = now;
+  return time;
+}
+
+}  // namespace burr::device

@@ -1,0 +1,145 @@
+// device/link.h - the crossing between a device's own thread, the wire, and the tick.
+//
+//     wire:  force = exchange(reading)      servo:  wait() - state() - tick - write_force()
+//
+// A reading begins a tick, and the wire waits for that tick's force, but never longer than its
+// patience: then the force before it stands, for a few milliseconds. No answer for loss_timeout,
+// and what is pushed fades linearly to zero; it stays there until the servo has seen the loss (an
+// invalid reading) and has itself come down to zero, so that force returns only by the start ramp.
+// The same when no reading comes. A last force is never repeated for longer than the timeout.
+//
+// Thread: exchange(), push(), lose() on the wire; wait(), state(), write_force(), begin_at() on the
+// servo; hold() any. Wait-free but for the two bounded waits. Memory: none. Units: SI, ns.
+#pragma once
+
+#include <semaphore.h>
+
+#include <atomic>
+#include <cstdint>
+
+#include "burr/device/device.h"
+#include "burr/rt/clock.h"
+#include "burr/rt/latest.h"
+#include "burr/rt/rt.h"
+
+namespace burr::device {
+
+struct LinkSettings {
+  double patience = 0.5e-3;    // that the wire waits for the force of its reading [s]
+  double loss_timeout = 5e-3;  // without an answer, or without a reading [s]
+  double fade = 5e-3;          // from then to no force [s]
+};
+
+class Link {
+ public:
+  using Now = std::int64_t (*)();  // [ns], never back
+
+  explicit Link(const LinkSettings& settings = {}, Now clock = &rt::monotonic_ns);
+  ~Link();
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+
+  // ---- wire
+  // A reading of the hand, just arrived; the force to push it with [N]. One that comes before the
+  // next tick may begin (begin_at()) is passed over: the force before it stands.
+  [[nodiscard]] math::Vec3 exchange(const HandState& hand) BURR_RT;
+  // The force just now, without a reading.
+  [[nodiscard]] math::Vec3 push() BURR_RT;
+  // The device is gone, or says what cannot be: nothing is pushed, the tick learns it at once.
+  void lose() BURR_RT;
+
+  // ---- servo
+  // Until a reading has come that has not been taken, or the time: whether there is one.
+  [[nodiscard]] bool wait(std::int64_t until_ns) BURR_RT;
+  // The newest reading; invalid when it is older than the timeout, or after the wire let go.
+  [[nodiscard]] HandState state() BURR_RT;
+  void write_force(const math::Vec3& force) BURR_RT;
+  // Readings before this time begin no tick.
+  void begin_at(std::int64_t ns) BURR_RT { begin_ns_.store(ns, std::memory_order_relaxed); }
+  // When the newest reading that was taken arrived [ns]: after wait() the one that state() will
+  // give.
+  [[nodiscard]] std::int64_t arrived_ns() const BURR_RT { return reading_.arrived_ns; }
+
+  // ---- one thread, any
+  // The account so far, every 256 readings; false: nothing new.
+  [[nodiscard]] bool account(LinkAccount& newest) { return told_.take(newest); }
+
+  // ---- any
+  // Multiplies what is pushed, until the next write_force().
+  void hold(double scale) BURR_RT { scale_.store(scale, std::memory_order_relaxed); }
+
+  [[nodiscard]] std::int64_t now() const BURR_RT { return now_(); }
+  [[nodiscard]] std::int64_t timeout_ns() const BURR_RT { return timeout_ns_; }
+
+ private:
+  struct Reading {
+    HandState hand;
+    std::int64_t arrived_ns = 0;
+    std::uint64_t number = 0;  // 0: there has been none
+  };
+  struct Answer {
+    math::Vec3 force = math::Vec3::Zero();
+    std::uint64_t number = 0;  // of the reading it is for
+  };
+
+  // A bell that rings once, however often it is struck before somebody hears it.
+  class Bell {
+   public:
+    Bell();
+    ~Bell();
+    Bell(const Bell&) = delete;
+    Bell& operator=(const Bell&) = delete;
+    void strike() BURR_RT;
+    void hear(std::int64_t until_ns) BURR_RT;  // or until then
+
+   private:
+    sem_t sem_{};
+    std::atomic<bool> struck_ = false;
+  };
+
+  void tell(const HandState& hand, std::int64_t now) BURR_RT;
+  void take_answers(std::int64_t now) BURR_RT;
+
+  Now now_;
+  std::int64_t patience_ns_, timeout_ns_, fade_ns_;
+
+  rt::Latest<Reading> readings_;
+  rt::Latest<Answer> answers_;
+  Bell read_, answered_;
+  std::atomic<std::int64_t> begin_ns_ = INT64_MIN;
+  std::atomic<double> scale_ = 1.0;
+  std::atomic<bool> let_go_ = false;  // by the wire: the servo is to come down to zero
+
+  rt::Latest<LinkAccount> told_;
+
+  // the wire's own
+  LinkAccount account_;
+  std::uint64_t number_ = 0;
+  Answer answer_;
+  static constexpr std::int64_t kNever = INT64_MIN;
+  std::int64_t answered_ns_ = kNever;
+  bool fading_ = false;
+  std::int64_t faded_since_ns_ = 0;
+  math::Vec3 fading_from_ = math::Vec3::Zero(), pushed_ = math::Vec3::Zero();
+  std::uint64_t fading_after_ = 0;  // readings after this one have been answered in knowledge of it
+
+  // the servo's own
+  Reading reading_;
+  bool fresh_ = false;
+};
+
+// The pace of a link: a tick begins when its reading comes, and is as late as it begins after that.
+// Where none comes in time, ticks go on once a period, so that force can fade.
+class LinkClock final : public rt::TickClock {
+ public:
+  LinkClock(Link& link, double rate_hz) : link_(link), period_ns_(rt::period_from_rate(rate_hz)) {}
+
+  [[nodiscard]] std::int64_t period_ns() const BURR_RT override { return period_ns_; }
+  [[nodiscard]] rt::TickTime wait() BURR_RT override;
+
+ private:
+  Link& link_;
+  std::int64_t period_ns_, start_ns_ = -1, last_ns_ = 0;
+};
+
+}  // namespace burr::device

@@ -1,0 +1,79 @@
+// device/openhaptics/touch.h - 3D Systems' Touch, Touch X and Premium: six degrees of freedom in,
+// three out; the device of Eriksson's thesis.
+//
+// The library calls us a thousand times a second: a reading, the tick's force, the next. Its frame
+// is ours: x right, y up, z to the user; the stylus' own z runs along it, away from the tip. Pulled
+// out, or a fault, the hand is lost; it is tried again twice a second. Thread: as Device; the
+// callback on the library's own. Two devices: one Touch each, by the names they were given in Touch
+// Setup.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "burr/device/device.h"
+#include "burr/device/link.h"
+#include "burr/device/openhaptics/hd.h"
+#include "burr/rt/thread.h"
+
+namespace burr::device::openhaptics {
+
+struct TouchSettings {
+  std::string library = {};  // empty: BURR_OPENHAPTICS, or as the system finds it
+  std::string name = {};     // as in Touch Setup; empty: the default device
+  LinkSettings link = {};
+  Link::Now now = &rt::monotonic_ns;
+};
+
+class Touch final : public Device {
+ public:
+  explicit Touch(TouchSettings settings = {});
+  ~Touch() override { close(); }
+
+  Status open() override;
+  void close() override;
+  [[nodiscard]] const DeviceSpec& spec() const override { return spec_; }
+  [[nodiscard]] HandState state(double) BURR_RT override { return link_.state(); }
+  void write_force(const math::Vec3& force) BURR_RT override { link_.write_force(force); }
+  void hold(double scale) BURR_RT override { link_.hold(scale); }
+  [[nodiscard]] rt::TickClock* clock(double rate_hz) override;
+  [[nodiscard]] std::int64_t arrived_ns() const BURR_RT override { return link_.arrived_ns(); }
+  [[nodiscard]] bool account(LinkAccount& newest) override { return link_.account(newest); }
+  [[nodiscard]] std::string trouble() const override;
+
+ private:
+  Result<DeviceSpec> start();
+  void end();
+  [[nodiscard]] DeviceSpec describe() const;
+  void calibrate() BURR_RT;
+  void note(Code code) BURR_RT;
+  [[nodiscard]] bool read(HandState& hand) BURR_RT;
+  void exchange() BURR_RT;
+  static unsigned tick(void* self);
+  void keep();
+
+  TouchSettings settings_;
+  Link link_;
+  std::unique_ptr<LinkClock> clock_;
+  DeviceSpec spec_;
+  const Hd* hd_ = nullptr;
+  Handle handle_ = kNoDevice;
+  unsigned long loop_ = 0;
+  std::unique_ptr<rt::Thread> keeper_;
+  std::atomic<bool> stop_ = false;
+  std::string found_;  // why it could not be found again
+  mutable std::mutex words_;
+
+  // between the callback and the others
+  std::atomic<Code> trouble_ = kNoError;  // of the frame before
+  std::atomic<int> bad_frames_ = 0;       // in a row
+  std::atomic<Code> calibration_ = kCalibrationOk;
+  std::atomic<std::int64_t> called_ns_ = 0;  // when last
+  // the callback's own
+  std::uint64_t frames_ = 0;
+  int warm_frames_ = 0;
+};
+
+}  // namespace burr::device::openhaptics

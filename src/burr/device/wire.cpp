@@ -1,0 +1,117 @@
+#include "burr/device/wire.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+namespace burr::device {
+namespace {
+
+constexpr auto kComeBack = std::chrono::milliseconds(500);  // between two tries to find it again
+constexpr auto kLook = std::chrono::milliseconds(5);  // in which a wish to stop is seen meanwhile
+constexpr std::int64_t kFastestNs = 200'000;   // a device that never waits is asked no more often
+constexpr std::int64_t kTellNs = 100'000'000;  // no oftener is what is wrong told
+
+}  // namespace
+
+bool exchange(Wire& wire, Link& link) BURR_RT {
+  HandState hand;
+  const Wire::Read read = wire.read(hand);
+  return read != Wire::Read::lost &&
+         wire.write(read == Wire::Read::hand ? link.exchange(hand) : link.push());
+}
+
+WireDevice::WireDevice(std::unique_ptr<Wire> wire, const LinkSettings& settings)
+    : wire_(std::move(wire)), link_(settings) {}
+
+Status WireDevice::open() {
+  close();
+  auto found = wire_->connect();
+  if (!found) return found.error();
+  spec_ = std::move(*found);
+  stop_ = false;
+  say({});
+  thread_ = std::make_unique<rt::Thread>(
+      rt::ThreadWish{.name = "wire", .realtime = true, .priority = 82}, [this] { work(); });
+  return fine();
+}
+
+void WireDevice::close() {
+  stop_ = true;
+  if (thread_) thread_->join();
+  thread_.reset();
+}
+
+rt::TickClock* WireDevice::clock(double rate_hz) {
+  clock_ = std::make_unique<LinkClock>(link_, rate_hz);
+  return clock_.get();
+}
+
+std::string WireDevice::trouble() const {
+  const std::lock_guard lock(words_);
+  return trouble_;
+}
+
+void WireDevice::say(std::string trouble) {
+  const std::lock_guard lock(words_);
+  trouble_ = std::move(trouble);
+}
+
+// Another device of the kind is another hand: its limits are not those the session lives by.
+bool WireDevice::come_back() {
+  auto found = wire_->connect();
+  if (!found) {
+    say(found.error().text);
+    return false;
+  }
+  if (found->serial == spec_.serial && found->peak_force == spec_.peak_force) {
+    returns_.fetch_add(1, std::memory_order_relaxed);
+    say({});
+    return true;
+  }
+  say("Another device was plugged in than the one the session began with (" + spec_.name + " " +
+      spec_.serial + "); plug that one in again, or begin a new session.");
+  wire_->disconnect();
+  return false;
+}
+
+void WireDevice::work() {
+  bool connected = true;
+  std::int64_t asked = rt::monotonic_ns(), said = asked;
+  unsigned told = wire_->told();
+  while (!stop_.load(std::memory_order_relaxed)) {
+    if (!connected) {
+      const auto until = std::chrono::steady_clock::now() + kComeBack;
+      while (!stop_.load(std::memory_order_relaxed) && std::chrono::steady_clock::now() < until)
+        std::this_thread::sleep_for(kLook);
+      if (stop_.load(std::memory_order_relaxed)) return;
+      connected = come_back();
+      told = wire_->told();
+      continue;
+    }
+    if (!exchange(*wire_, link_)) {
+      link_.lose();
+      say(wire_->why());
+      wire_->disconnect();
+      connected = false;
+      continue;
+    }
+    const std::int64_t now = rt::monotonic_ns();
+    if (now - asked < kFastestNs)
+      std::this_thread::sleep_for(std::chrono::nanoseconds(kFastestNs - (now - asked)));
+    asked = rt::monotonic_ns();
+    if (wire_->told() != told && asked - said >= kTellNs) {
+      told = wire_->told();
+      said = asked;
+      say(wire_->why());
+    }
+  }
+  if (connected) {
+    static_cast<void>(wire_->write(math::Vec3::Zero()));
+    wire_->disconnect();
+  }
+  link_.lose();  // opened again, it begins with nothing, not with the last force of before
+}
+
+}  // namespace burr::device

@@ -1,0 +1,243 @@
+// The crossing between a wire and the tick, mostly by a clock that the test turns.
+#include "burr/device/link.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+#include "support/rt_guard.h"
+
+namespace burr::device {
+namespace {
+
+using math::Vec3;
+
+std::atomic<std::int64_t> virtual_ns;
+std::int64_t virtual_now() { return virtual_ns; }
+// as above, and a tenth of a millisecond passes whenever somebody looks
+std::int64_t passing_now() { return virtual_ns += 100'000; }
+
+void at(double ms) { virtual_ns = std::llround(1e6 * ms); }
+
+HandState hand_at(double x) {
+  HandState hand;
+  hand.world_from_tool.p = {x, 0, 0};
+  return hand;
+}
+
+// One that nobody waits in: readings and answers as the test gives them.
+struct Still {
+  Link link{{.patience = 0}, &virtual_now};
+  Still() { at(1000); }
+  double x = 0;
+
+  double exchange(double ms) {
+    at(ms);
+    return link.exchange(hand_at(x += 1e-3)).z();
+  }
+  double push(double ms) {
+    at(ms);
+    return link.push().z();
+  }
+  // a tick: what the hand says, and the answer
+  bool tick(double newton) {
+    const bool valid = link.state().valid;
+    link.write_force({0, 0, newton});
+    return valid;
+  }
+};
+
+TEST(Link, TheForceOfAReadingGoesOutWithItHoweverLongTheTickTakes) {
+  Link link({.patience = 10, .loss_timeout = 100});
+  constexpr int kReadings = 3000;
+  std::atomic<bool> done = false;
+  std::thread servo([&] {
+    while (!done) {
+      if (!link.wait(rt::monotonic_ns() + 1'000'000)) continue;
+      const HandState hand = link.state();
+      link.write_force({hand.world_from_tool.p.x(), 0, 0});
+    }
+  });
+  while (link.exchange(hand_at(-1)).x() != -1) {  // until somebody answers
+  }
+  int wrong = 0;
+  for (int n = 1; n <= kReadings; ++n) wrong += link.exchange(hand_at(n)).x() != n;
+  done = true;
+  servo.join();
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(Link, AForceWithoutAnswersStandsForAWhileAndThenFadesOnce) {
+  Still still;
+  EXPECT_EQ(still.exchange(1000), 0);
+  EXPECT_TRUE(still.tick(2));
+  EXPECT_EQ(still.exchange(1001), 2);
+  EXPECT_EQ(still.exchange(1005.9), 2);  // taken at 1001
+  EXPECT_EQ(still.exchange(1006), 2);    // detected
+  EXPECT_NEAR(still.exchange(1007), 1.6, 1e-12);
+  EXPECT_NEAR(still.push(1008.5), 1.0, 1e-12);
+  EXPECT_NEAR(still.exchange(1010.75), 0.1, 1e-12);
+  EXPECT_EQ(still.exchange(1011), 0);
+  EXPECT_EQ(still.exchange(1100), 0);
+}
+
+TEST(Link, ForceComesBackOnlyAfterTheTickItselfWasAtZero) {
+  Still still;
+  still.exchange(1000);
+  still.tick(2);
+  still.exchange(1001);
+  still.exchange(1010);
+  still.exchange(1020);         // it has let go
+  EXPECT_FALSE(still.tick(2));  // the tick learns it, and comes down in its own time
+  EXPECT_EQ(still.exchange(1021), 0);
+  EXPECT_TRUE(still.tick(1.5));
+  EXPECT_EQ(still.exchange(1022), 0);
+  still.tick(0);
+  EXPECT_EQ(still.exchange(1023), 0);
+  still.tick(0.06);
+  EXPECT_NEAR(still.exchange(1024), 0.06, 1e-15);
+}
+
+// A zero that was written in ignorance, before the loss was known, is no sign of it.
+TEST(Link, AZeroFromBeforeTheLossDoesNotCount) {
+  Still still;
+  still.exchange(1000);
+  still.tick(2);
+  still.exchange(1001);
+  still.link.lose();
+  still.tick(0);  // has seen it: the reading was invalid
+  still.exchange(1002);
+  EXPECT_EQ(still.push(1002.5), 0);
+  still.link.lose();
+  EXPECT_EQ(still.push(1003), 0);
+  still.link.write_force({0, 0, 0});  // of the reading before
+  EXPECT_EQ(still.push(1003.1), 0);
+  still.link.write_force({0, 0, 3});
+  EXPECT_EQ(still.push(1003.2), 0) << "the tick has not seen the second loss yet";
+}
+
+TEST(Link, AHandThatSaysNothingIsLostAfterTheTimeout) {
+  Still still;
+  EXPECT_FALSE(still.link.state().valid) << "there was no reading yet";
+  still.exchange(1000);
+  EXPECT_TRUE(still.tick(0));
+  at(1004.9);
+  EXPECT_TRUE(still.tick(0));
+  at(1005);
+  EXPECT_FALSE(still.tick(0));
+}
+
+TEST(Link, ALostDeviceIsPushedNoMoreAndTheTickLearnsIt) {
+  Still still;
+  still.exchange(1000);
+  still.tick(3);
+  EXPECT_EQ(still.push(1001), 3);
+  still.link.lose();
+  EXPECT_EQ(still.push(1001), 0);
+  EXPECT_FALSE(still.tick(3));
+  EXPECT_EQ(still.push(1001.1), 0);
+}
+
+TEST(Link, WhatTheGuardHoldsBackIsHeldBackUntilTheNextForce) {
+  Still still;
+  still.exchange(1000);
+  still.tick(2);
+  still.link.hold(0.25);
+  EXPECT_NEAR(still.push(1001), 0.5, 1e-12);
+  still.tick(2);
+  EXPECT_NEAR(still.push(1002), 2, 1e-12);
+}
+
+TEST(Link, AReadingBeforeItsTickIsPassedOver) {
+  Still still;
+  still.exchange(1000);
+  still.tick(1);
+  still.link.begin_at(std::llround(1000.9e6));
+  still.exchange(1000.5);
+  at(1000.6);
+  EXPECT_EQ(still.link.state().world_from_tool.p.x(), 1e-3);
+  still.exchange(1001);
+  EXPECT_EQ(still.link.state().world_from_tool.p.x(), 3e-3);
+}
+
+TEST(Link, TakesNoMemoryAndNoLock) {
+  Link link({.patience = 1e-4});
+  const test::RtGuard guard;
+  for (int n = 0; n < 100; ++n) {
+    static_cast<void>(link.exchange(hand_at(n)));
+    static_cast<void>(link.wait(rt::monotonic_ns()));
+    static_cast<void>(link.state());
+    link.write_force({0, 0, 1});
+    link.hold(0.5);
+    static_cast<void>(link.push());
+  }
+  link.lose();
+  EXPECT_EQ(guard.allocations(), 0);
+  EXPECT_EQ(guard.locks(), 0);
+}
+
+// ---- the pace
+
+TEST(LinkClock, BeginsWithTheReadingAndCountsWhatDidNotCome) {
+  Link link({.patience = 0}, &virtual_now);
+  LinkClock clock(link, 1000);
+  const double comes[] = {1000, 1001, 1002.2, 1006, 1007};
+  const std::int64_t missed[] = {0, 0, 0, 3, 0};
+  const double after[] = {0, 0.1, 0, 0.3, 0};  // its reading came
+  for (int n = 0; n < 5; ++n) {
+    at(comes[n]);
+    static_cast<void>(link.exchange(hand_at(n)));
+    virtual_ns += std::llround(1e6 * after[n]);
+    const rt::TickTime time = clock.wait();
+    EXPECT_EQ(time.missed, missed[n]) << n;
+    EXPECT_NEAR(1e-6 * static_cast<double>(time.late_ns), after[n], 1e-9) << n;
+    EXPECT_TRUE(link.state().valid);
+  }
+}
+
+// At 4 kHz every fourth begins a tick, at 1.05 kHz each.
+TEST(LinkClock, ADeviceThatIsFasterThanTheTickGivesItWhatItCanUse) {
+  for (const auto& [rate, each] : {std::pair{4000.0, 4}, {2000.0, 2}, {1050.0, 1}, {1000.0, 1}}) {
+    Link link({.patience = 0}, &virtual_now);
+    LinkClock clock(link, 1000);
+    int ticks = 0;
+    constexpr int kReadings = 400;
+    double last = -1;
+    for (int n = 0; n < kReadings; ++n) {
+      at(1000 + 1e3 * n / rate);
+      static_cast<void>(link.exchange(hand_at(n)));
+      if (!link.wait(virtual_now())) continue;
+      static_cast<void>(clock.wait());
+      const double x = link.state().world_from_tool.p.x();
+      if (last >= 0) {
+        EXPECT_EQ(x - last, each) << rate;
+      }
+      last = x;
+      ++ticks;
+    }
+    EXPECT_EQ(ticks, kReadings / each) << rate;
+  }
+}
+
+TEST(LinkClock, GoesOnWithoutReadingsSoThatForceCanFade) {
+  Link link({.patience = 0}, &passing_now);
+  LinkClock clock(link, 1000);
+  at(1000);
+  static_cast<void>(link.exchange(hand_at(1)));
+  static_cast<void>(clock.wait());
+  EXPECT_TRUE(link.state().valid);
+  const rt::TickTime first = clock.wait();  // waits out the timeout
+  EXPECT_NEAR(1e-6 * static_cast<double>(first.since_last_ns), 5, 0.5);
+  EXPECT_EQ(first.missed, 4);
+  EXPECT_FALSE(link.state().valid);
+  for (int n = 0; n < 10; ++n) {
+    const rt::TickTime time = clock.wait();
+    EXPECT_NEAR(1e-6 * static_cast<double>(time.since_last_ns), 1, 0.35);
+    EXPECT_EQ(time.missed, 0);
+  }
+}
+
+}  // namespace
+}  // namespace burr::device

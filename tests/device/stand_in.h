@@ -1,0 +1,90 @@
+// A tick without bone: reads the hand, bounds the force it wants and writes it, at the device's own
+// pace and on a thread of its own, as a session would.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "burr/device/device.h"
+#include "burr/haptics/limit.h"
+
+namespace burr::test {
+
+class StandIn {
+ public:
+  using Want = std::function<math::Vec3(const device::HandState&)>;  // on the tick's thread
+
+  StandIn(device::Device& device, Want want, haptics::LimitSettings limit = {})
+      : device_(device),
+        want_(std::move(want)),
+        limit_(device.spec(), limit),
+        thread_([this] { run(); }) {}
+  ~StandIn() { stop(); }
+  StandIn(const StandIn&) = delete;
+  StandIn& operator=(const StandIn&) = delete;
+
+  void stop() {
+    stop_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+  // The next tick takes so much longer, once.
+  void stall(std::chrono::milliseconds by) { stall_ms_ = static_cast<int>(by.count()); }
+
+  [[nodiscard]] device::HandState hand() const {
+    const std::lock_guard lock(mutex_);
+    return hand_;
+  }
+  [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
+  [[nodiscard]] std::uint64_t invalid() const { return invalid_; }  // readings
+  [[nodiscard]] std::uint32_t flags() const { return flags_; }
+  [[nodiscard]] bool engaged() const { return engaged_; }
+
+ private:
+  void run() {
+    rt::TickClock* clock = device_.clock(1000);
+    while (!stop_) {
+      static_cast<void>(clock->wait());
+      const device::HandState hand = device_.state(1e-3);
+      if (const int stall = stall_ms_.exchange(0); stall > 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(stall));
+      std::uint32_t flags = 0;
+      const bool believed = limit_.believe(hand, flags);
+      const math::Vec3 wanted = believed ? want_(hand) : math::Vec3::Zero();
+      device_.write_force(limit_.apply(wanted, 1e-3, flags));
+      flags_ |= flags;
+      engaged_ = limit_.engaged();
+      if (!hand.valid) ++invalid_;
+      ++ticks_;
+      const std::lock_guard lock(mutex_);
+      hand_ = hand;
+    }
+  }
+
+  device::Device& device_;
+  Want want_;
+  haptics::ForceLimit limit_;
+  mutable std::mutex mutex_;
+  device::HandState hand_;
+  std::atomic<std::uint64_t> ticks_ = 0, invalid_ = 0;
+  std::atomic<std::uint32_t> flags_ = 0;
+  std::atomic<bool> stop_ = false, engaged_ = false;
+  std::atomic<int> stall_ms_ = 0;
+  std::thread thread_;
+};
+
+// Until it is so; false: not within a time that no machine needs.
+[[nodiscard]] inline bool soon(const std::function<bool()>& so,
+                               std::chrono::seconds longest = std::chrono::seconds(60)) {
+  const auto until = std::chrono::steady_clock::now() + longest;
+  while (!so()) {
+    if (std::chrono::steady_clock::now() > until) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+}  // namespace burr::test
