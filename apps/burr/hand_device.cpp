@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "burr/device/forcedimension/omega.h"
+#include "burr/device/haply/inverse.h"
 #include "burr/device/openhaptics/touch.h"
 #include "device_book.h"
 
@@ -23,6 +24,7 @@ const std::vector<HandKind>& hand_kinds() {
       {"touch", "3D Systems Touch (Omni), Touch X (Desktop), Premium", "touch"},
       {"force-dimension", "Force Dimension omega, delta, sigma, lambda; Novint Falcon",
        "force_dimension"},
+      {"haply", "Haply Inverse3, Inverse3x, Minverse with VerseGrip", "haply"},
   };
   return all;
 }
@@ -50,6 +52,12 @@ Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish) {
     }
     return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
         std::make_unique<device::forcedimension::Omega>(std::move(settings))));
+  }
+  if (kind == "haply") {
+    device::haply::InverseSettings settings;
+    settings.id = which;
+    return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
+        std::make_unique<device::haply::Inverse>(std::move(settings))));
   }
   std::vector<std::string> known;
   for (const HandKind& one : hand_kinds()) known.emplace_back(one.name);

@@ -12,12 +12,14 @@ constexpr double kOver = 10e-3;  // removal is told over so long, or longer  [s]
 
 Hearing::Hearing(const sim::ServoSettings& settings, ToSpare to_spare)
     : rate_hz_(settings.rate_hz), radius_(settings.burr.radius), to_spare_(std::move(to_spare)) {
-  now_.teeth = settings.burr.kind == tool::BurrKind::diamond ? 0 : settings.burr.teeth;
+  teeth_ = settings.burr.teeth;
+  now_.teeth = settings.burr.kind == tool::BurrKind::diamond ? 0 : teeth_;
   now_.irrigated = settings.irrigated;
 }
 
 void Hearing::obey(const record::Wish& wish) {
   if (wish.kind == record::WishKind::irrigation) now_.irrigated = wish.value > 0;
+  if (wish.kind == record::WishKind::burr_kind) now_.teeth = wish.value > 0 ? 0 : teeth_;
   if (wish.kind == record::WishKind::burr_radius && wish.value > 0 &&
       wish.value <= 0.5 * tool::kLargestDiameter)
     radius_ = wish.value;

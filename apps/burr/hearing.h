@@ -34,6 +34,7 @@ class Hearing {
     double removed = 0, energy = 0;
   };
 
+  int teeth_ = 0;  // of a cutting burr
   double rate_hz_, radius_;
   ToSpare to_spare_;
   std::optional<Account> before_;

@@ -65,13 +65,29 @@ class TouchTest : public ::testing::Test {
     EXPECT_EQ(fake().hd->starts, fake().hd->stops);
   }
 
+  template <class F>
+  static auto with_hd(F look) {
+    const std::lock_guard lock(fake().hd->mutex);
+    return look(*fake().hd);
+  }
   // With no frames but those the test asks for, and no time but the test's.
   static TouchSettings by_hand() {
-    fake().hd->rate = 0;
+    with_hd([](test::FakeHd& hd) { hd.rate = 0; });
     virtual_ns = 1'000'000'000;
     return {.library = kLibrary, .link = {.patience = 0}, .now = &virtual_now};
   }
-  static TouchSettings by_itself() { return {.library = kLibrary}; }
+  static TouchSettings by_itself(double loss_timeout = test::kStallsAllowed) {
+    TouchSettings settings;
+    settings.library = kLibrary;
+    settings.link.loss_timeout = loss_timeout;
+    return settings;
+  }
+  static bool is_open(std::size_t which) {
+    return with_hd([which](test::FakeHd& hd) { return hd.touch[which].open; });
+  }
+  static std::uint64_t frames_now() {
+    return with_hd([](test::FakeHd& hd) { return hd.touch[0].frames; });
+  }
   template <class F>
   static void set(F change) {
     const std::lock_guard lock(fake().hd->mutex);
@@ -114,7 +130,7 @@ TEST_F(TouchTest, SaysWhatItIsAndWhatItCanBear) {
       touch.nominal_force = one.nominal;
       touch.nominal_continuous = one.nominal;
     });
-    Touch touch(by_itself());
+    Touch touch(by_itself(5e-3));
     ASSERT_TRUE(touch.open().ok());
     EXPECT_EQ(touch.spec().name, one.model);
     EXPECT_EQ(touch.spec().serial, "T-0001");
@@ -217,7 +233,7 @@ TEST_F(TouchTest, ADeviceThatIsAbsentOrTakenIsRefusedInWords) {
 }
 
 TEST_F(TouchTest, AFullSchedulerIsRefusedAndAllIsGivenBack) {
-  fake().hd->no_room = true;
+  with_hd([](test::FakeHd& hd) { hd.no_room = true; });
   Touch touch(by_itself());
   const Status opened = touch.open();
   ASSERT_FALSE(opened.ok());
@@ -225,7 +241,7 @@ TEST_F(TouchTest, AFullSchedulerIsRefusedAndAllIsGivenBack) {
 }
 
 TEST_F(TouchTest, AnOldDriverWantsItsDeviceByName) {
-  fake().hd->needs_name = true;
+  with_hd([](test::FakeHd& hd) { hd.needs_name = true; });
   Touch touch(by_itself());
   EXPECT_TRUE(touch.open().ok());
 }
@@ -247,7 +263,7 @@ TEST_F(TouchTest, WhatIsNoReadingIsNotBelieved) {
       one = {};
       spoil(one);
     });
-    fake().hd->touch[0].open = fake().hd->touch[0].force_on = true;
+    set([](test::FakeTouch& one) { one.open = one.force_on = true; });
     EXPECT_FALSE(valid());
   };
   bad([](test::FakeTouch& one) { one.transform[12] = std::numeric_limits<double>::quiet_NaN(); });
@@ -329,11 +345,11 @@ TEST_F(TouchTest, PulledOutInContactItLetsGoAndComesBackByTheRamp) {
   ASSERT_TRUE(test::soon([&] { return tick.invalid() > 0; }));
   ASSERT_TRUE(test::soon([&] { return !touch.trouble().empty(); }));
   // opened anew in vain, then found again
-  ASSERT_TRUE(test::soon([&] { return !fake().hd->touch[0].open; }));
+  ASSERT_TRUE(test::soon([&] { return !is_open(0); }));
   EXPECT_FALSE(tick.engaged());
-  const auto frames = fake().hd->touch[0].frames;
+  const auto frames = frames_now();
   set([](test::FakeTouch& one) { one.present = true; });
-  ASSERT_TRUE(test::soon([&] { return fake().hd->touch[0].frames > frames + 50; }));
+  ASSERT_TRUE(test::soon([&] { return frames_now() > frames + 50; }));
   EXPECT_FALSE(tick.engaged()) << "the wall is still there: it waits for a small force";
   EXPECT_EQ(last_force(), Vec3::Zero());
   wall = false;
@@ -347,7 +363,7 @@ TEST_F(TouchTest, AnotherDeviceThanBeforeIsNotTaken) {
   Touch touch(by_itself());
   ASSERT_TRUE(touch.open().ok());
   set([](test::FakeTouch& one) { one.present = false; });
-  ASSERT_TRUE(test::soon([&] { return !fake().hd->touch[0].open; }));
+  ASSERT_TRUE(test::soon([&] { return !is_open(0); }));
   set([](test::FakeTouch& one) {
     one.present = true;
     one.serial = "T-0009";
@@ -357,7 +373,7 @@ TEST_F(TouchTest, AnotherDeviceThanBeforeIsNotTaken) {
 }
 
 TEST_F(TouchTest, AtAHundredHertzNothingIsPushed) {
-  Touch touch(by_itself());
+  Touch touch(by_itself(5e-3));
   ASSERT_TRUE(touch.open().ok());
   test::StandIn tick(touch, [&](const HandState&) { return Vec3(0, 0.04, 0); });
   ASSERT_TRUE(test::soon([&] { return last_force().y() > 0.03; }));
@@ -366,9 +382,9 @@ TEST_F(TouchTest, AtAHundredHertzNothingIsPushed) {
   fake().hd->mutex.unlock();
   ASSERT_TRUE(test::soon([&] { return (tick.flags() & haptics::kFlagHandLost) != 0; }));
   ASSERT_TRUE(test::soon([&] { return last_force() == Vec3::Zero(); }));
-  const auto frames = fake().hd->touch[0].frames;
+  const auto frames = frames_now();
   double most = 0;
-  while (fake().hd->touch[0].frames < frames + 30) {
+  while (frames_now() < frames + 30) {
     most = std::max(most, last_force().norm());
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -444,7 +460,7 @@ TEST_F(TouchTest, TwoAtOnceEachHasItsOwnForce) {
     two.stop();
   }
   first.close();
-  EXPECT_TRUE(fake().hd->touch[1].open);
+  EXPECT_TRUE(is_open(1));
   second.close();
 }
 

@@ -37,6 +37,7 @@ class WholeSession : public ::testing::Test {
     }
     openhaptics::TouchSettings settings;
     settings.library = kLibrary;
+    settings.link.loss_timeout = test::kStallsAllowed;
     // a slab whose top is z = 0, seen from above: up is world z
     auto hand = std::make_unique<MappedHand>(std::make_unique<openhaptics::Touch>(settings),
                                              math::Pose{{0, 0, 4 * kMm}, Quat::Identity()},

@@ -14,6 +14,10 @@
 
 namespace burr::test {
 
+// For tests by the clock that are not about loss: a machine that stalls for a moment, as test
+// machines do, lets no hand go.
+inline constexpr double kStallsAllowed = 0.5;  // [s]
+
 class StandIn {
  public:
   using Want = std::function<math::Vec3(const device::HandState&)>;  // on the tick's thread

@@ -79,6 +79,26 @@ TEST(Session, MillsAPocketAndTheAccountHolds) {
   EXPECT_NEAR(volume::volume_of(*session->bone_before()), before, 1e-12 * before);
 }
 
+TEST(Session, ADiamondBurrByWishIsTheOneOfTheSettings) {
+  NoProgress quiet;
+  std::vector<std::uint64_t> bones;
+  std::vector<double> removed;
+  for (const auto& [settled, wished] : {std::pair{0, 0}, {1, 1}, {0, 1}, {1, 0}}) {
+    SessionSettings settings;
+    settings.servo.burr.kind = settled > 0 ? tool::BurrKind::diamond : tool::BurrKind::cutting;
+    const auto session = make({}, settings);
+    if (wished != settled)
+      session->wish({record::WishKind::burr_kind, static_cast<double>(wished)});
+    session->run(2, quiet);
+    bones.push_back(session->bone().content_hash());
+    removed.push_back(session->outcome().ledger.removed);
+  }
+  EXPECT_EQ(bones[2], bones[1]);
+  EXPECT_EQ(bones[3], bones[0]);
+  EXPECT_LT(removed[1], 0.5 * removed[0]);
+  EXPECT_GT(removed[1], 0);
+}
+
 TEST(Session, TheSameSessionGivesTheSameBitsOnEveryInstructionSet) {
   NoProgress quiet;
   std::vector<std::uint64_t> bones, ticks;

@@ -81,6 +81,11 @@ TEST(Hearing, TellsWhatTheRowTells) {
   EXPECT_FALSE(hearing.hear(one).irrigated);
   EXPECT_NEAR(hearing.hear(one).to_spare, 4e-3, 1e-15);
 
+  hearing.obey({record::WishKind::burr_kind, 1});
+  EXPECT_EQ(hearing.hear(one).teeth, 0) << "it grinds";
+  hearing.obey({record::WishKind::burr_kind, 0});
+  EXPECT_EQ(hearing.hear(one).teeth, 6);
+
   settings.burr.kind = tool::BurrKind::diamond;
   Hearing without(settings);
   EXPECT_EQ(without.hear(one).teeth, 0) << "it grinds";

@@ -37,6 +37,25 @@ TEST_F(Window, ChangesTheBurrByKeyAndTheServoHasIt) {
   EXPECT_NEAR(session.servo().settings().burr.radius, first, 1e-9);
 }
 
+TEST_F(Window, TakesADiamondBurrByKeyAndBack) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  render::Image fluted;
+  mill_by(*ready, {{"the first picture", looks(3), [] { move_to(640, 340); }},
+                   {"the burr over the bone", looks(40),
+                    [&] {
+                      fluted = desk_->renderer().shown();
+                      press(SDLK_k);
+                    }},
+                   {"told", [&] { return desk_->said.find("diamond") != std::string::npos; }, {}},
+                   {"another burr is seen", looks(10), [&] {
+                      EXPECT_TRUE(ready->scene.burr.diamond);
+                      EXPECT_GT(differ(fluted, desk_->renderer().shown(), 120, 40, 1040, 600), 60);
+                      press(SDLK_q);
+                    }}});
+  EXPECT_EQ(ready->session->servo().settings().burr.kind, tool::BurrKind::diamond);
+}
+
 TEST_F(Window, UndoByKeyBringsTheBoneBackToTheBit) {
   auto ready = block();
   ASSERT_TRUE(ready) << ready.error().text;

@@ -88,6 +88,7 @@ bool draw_help(Ui& ui, bool left_handed, bool& pads) {
          {"R", Word::help_reset},
          {"D", Word::help_measure},
          {"X", Word::help_mirror},
+         {"K", Word::help_kind},
          {"I", Word::help_coolant}});
   block(ui, x + 480 * u, right, Word::help_program,
         {{"Tab", Word::help_hide},

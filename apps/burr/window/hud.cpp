@@ -258,8 +258,10 @@ void draw_hud(Ui& ui, const HudState& s) {
   press_cell(ui, strip, s);
   strip.cell(176, Word::speed, thousands(std::abs(s.speed) * 60 / (2 * std::numbers::pi)),
              fmt::format("rpm  {}", say(Word::load, 100 * s.load)));
-  strip.cell(132, Word::burr, fmt::format("{:g}", std::round(1e5 * s.burr_diameter) / 100),
-             fmt::format("mm  {}", word(name_of(s.mode))));
+  strip.cell(
+      132, Word::burr, fmt::format("{:g}", std::round(1e5 * s.burr_diameter) / 100),
+      fmt::format("mm  {}", word(s.diamond && s.mode == sim::ToolMode::cut ? Word::diamond
+                                                                           : name_of(s.mode))));
   strip.cell(124, Word::removed, fmt::format("{:.1f}", 1e9 * s.removed), "mm³");
   if (near && !s.nearest) {
     strip.cell(160, Word::nearest_far, "> 20", "mm");

@@ -32,6 +32,7 @@ struct HudState {
   double speed = 0, full_speed = 0;  // of the spindle                    [rad/s]
   double load = 0;                   // share of the motor's torque       [0..1]
   double burr_diameter = 0;          // [m]
+  bool diamond = false;
   sim::ToolMode mode = sim::ToolMode::cut;
   double removed = 0;  // [m^3]
   double seconds = 0;

@@ -72,6 +72,7 @@ class Mill {
   void show_labels(bool shown);
   void toggle_sound();
   void toggle_coolant();
+  void toggle_kind();
   void mirror(const SDL_Keysym& pressed);
   void tell_mirror();
   void saved_view(int slot, bool keep);

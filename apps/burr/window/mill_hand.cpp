@@ -118,6 +118,9 @@ void Mill::key(const SDL_Keysym& pressed) {
     case SDLK_t:
       note(step_see_through(scene_, shift));
       break;
+    case SDLK_k:
+      toggle_kind();
+      break;
     case SDLK_i:
       toggle_coolant();
       break;
@@ -496,6 +499,15 @@ void Mill::toggle_sound() {
   options_.loudspeaker->toggle();
   if (!options_.loudspeaker->trouble().empty()) return note(options_.loudspeaker->trouble());
   note(word(options_.loudspeaker->is_on() ? Word::sound_on : Word::sound_off));
+}
+
+void Mill::toggle_kind() {
+  bool& diamond = scene_.burr.diamond;
+  diamond = !diamond;
+  const record::Wish wish = {record::WishKind::burr_kind, diamond ? 1.0 : 0.0};
+  session_.wish(wish);
+  if (options_.loudspeaker != nullptr) options_.loudspeaker->obey(wish);
+  note(word(diamond ? Word::now_diamond : Word::now_fluted));
 }
 
 void Mill::toggle_coolant() {

@@ -151,6 +151,7 @@ HudState Mill::hud() const {
     s.load = std::clamp(row_.cutting_nm / settings.servo.motor.torque, 0.0, 1.0);
   s.burr_diameter = 2 * scene_.burr.radius;
   s.mode = mode_;
+  s.diamond = scene_.burr.diamond;
   s.removed = row_.ledger.removed;
   s.seconds = static_cast<double>(row_.tick) / settings.servo.rate_hz;
   s.nearest = nearest_;

@@ -40,6 +40,7 @@ void Side::look(bool effects, bool playing) {
     if (effects) live_.see(shown_.told);
     if (shown_.trouble.empty()) {
       put_tool(scene(), shown_.row, burr_radius(), true);
+      scene().burr.diamond = diamond();
       const tool::Burr& burr = recorded_.settings.settings.servo.burr;
       scene().burr.shaft_radius = burr.shaft_radius;
       scene().burr.shaft_length = burr.shaft_length;
@@ -70,6 +71,11 @@ double Side::burr_radius() const {
   const double first = recorded_.settings.settings.servo.burr.radius;
   const double wished = line().wished(record::WishKind::burr_radius, shown_.t).value_or(first);
   return wished > 0 && wished <= 0.5 * tool::kLargestDiameter + 1e-12 ? wished : first;
+}
+
+bool Side::diamond() const {
+  const auto first = static_cast<double>(recorded_.settings.settings.servo.burr.kind);
+  return line().wished(record::WishKind::burr_kind, shown_.t).value_or(first) > 0;
 }
 
 sim::ToolMode Side::mode() const {

@@ -46,6 +46,7 @@ class Side {
   [[nodiscard]] double removed() const { return removed_; }  // [m^3]
   [[nodiscard]] double speed() const { return shown_.row.spindle_rad_s; }
   [[nodiscard]] double burr_radius() const;  // [m]
+  [[nodiscard]] bool diamond() const;
   [[nodiscard]] sim::ToolMode mode() const;
   [[nodiscard]] edit::Mirror mirror() const;
   [[nodiscard]] const std::string& trouble() const { return trouble_; }  // "": none

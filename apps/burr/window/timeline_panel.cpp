@@ -33,6 +33,8 @@ std::string letter_of(const record::Wish& wish) {
       return "R";
     case record::WishKind::burr_radius:
       return "[ ]";
+    case record::WishKind::burr_kind:
+      return "K";
     case record::WishKind::spindle_speed:
       return "rpm";
     case record::WishKind::tool_mode:
@@ -227,6 +229,8 @@ std::string told_wish(const record::Wish& wish) {
       return say(Word::burr_now, std::round(2e5 * wish.value) / 100);
     case record::WishKind::spindle_speed:
       return say(Word::speed_now, wish.value * 60 / (2 * std::numbers::pi));
+    case record::WishKind::burr_kind:
+      return word(wish.value > 0 ? Word::now_diamond : Word::now_fluted);
     case record::WishKind::tool_mode:
       return word(wish.value == 1   ? Word::now_add
                   : wish.value == 2 ? Word::now_touch

@@ -21,6 +21,7 @@ Result<Left> Mill::run() {
   scene_.burr.visible = true;
   const tool::Burr& burr = session_.settings().servo.burr;
   scene_.burr.radius = burr.radius;
+  scene_.burr.diamond = burr.kind == tool::BurrKind::diamond;
   scene_.burr.shaft_radius = burr.shaft_radius;
   scene_.burr.shaft_length = burr.shaft_length;
   mode_ = session_.settings().servo.mode;

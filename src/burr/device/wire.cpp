@@ -92,7 +92,8 @@ void WireDevice::work() {
     }
     if (!exchange(*wire_, link_)) {
       link_.lose();
-      say(wire_->why());
+      const std::string why = wire_->why();
+      say(!why.empty() ? why : spec_.name + " was lost; it is looked for.");
       wire_->disconnect();
       connected = false;
       continue;

@@ -103,6 +103,11 @@ Result<ForceLog> log_of_recording(record::Player& player, double window,
   while (steps.next(step)) {
     for (const record::Wish& wish : step.wishes) {
       if (wish.kind == record::WishKind::burr_radius) radius = wish.value;
+      if (wish.kind == record::WishKind::burr_kind && (wish.value > 0) == law->fluted)
+        return error(
+            fmt::format("{}: the burr was changed between cutting and diamond on the way; record "
+                        "one session for each",
+                        file));
       if (wish.kind == record::WishKind::removal_law && wish.value == 1)
         return error(
             fmt::format("{}: was milled in part by the thesis' removal, which knows no "

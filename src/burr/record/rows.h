@@ -50,6 +50,7 @@ enum class WishKind : std::uint8_t {
   mirror_j,       // likewise across j
   mirror_k,       // likewise across k
   mirror_off,
+  burr_kind,  // value: 0 cutting, 1 diamond
 };
 struct Wish {
   WishKind kind = WishKind::spindle_speed;

@@ -310,8 +310,8 @@ constexpr const char* kWishSchema = R"({
  "type": "object",
  "properties": {
   "tick": {"type": "integer"},
-  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load", "touch_method", "removal_law", "irrigation", "mirror_i", "mirror_j", "mirror_k", "mirror_off"]},
-  "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch, 3 back to the original, 4 smooth; friction scale; touch_method 0 constraint, 1 thesis, 2 thesis-literal, 3 voxel-springs, 4 samples, 5 triangles, 6 penalty; removal_law 0 energy, 1 thesis, 2 chips; irrigation 0 off, 1 on; mirror_i, mirror_j, mirror_k place of the plane along that axis of the grid, voxels; \"nan\", \"inf\", \"-inf\" as strings"}
+  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load", "touch_method", "removal_law", "irrigation", "mirror_i", "mirror_j", "mirror_k", "mirror_off", "burr_kind"]},
+  "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch, 3 back to the original, 4 smooth; friction scale; touch_method 0 constraint, 1 thesis, 2 thesis-literal, 3 voxel-springs, 4 samples, 5 triangles, 6 penalty; removal_law 0 energy, 1 thesis, 2 chips; irrigation 0 off, 1 on; mirror_i, mirror_j, mirror_k place of the plane along that axis of the grid, voxels; burr_kind 0 cutting, 1 diamond; \"nan\", \"inf\", \"-inf\" as strings"}
  }
 })";
 
@@ -365,6 +365,8 @@ const char* wish_name(WishKind kind) {
       return "mirror_k";
     case WishKind::mirror_off:
       return "mirror_off";
+    case WishKind::burr_kind:
+      return "burr_kind";
   }
   return "";
 }

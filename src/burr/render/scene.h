@@ -57,7 +57,7 @@ struct SceneBlock {
   std::uint64_t versions = 0;              // what `now` was when it was made
 };
 
-// The tool in the hand: a fluted ball on a shaft, which leaves along the tool's +z.
+// The tool in the hand: a fluted or grainy ball on a shaft, which leaves along the tool's +z.
 struct Burr {
   bool visible = false;
   math::Pose world_from_tool;    // origin: centre of the head
@@ -65,6 +65,7 @@ struct Burr {
   double shaft_radius = 1.2e-3;  // [m]
   double shaft_length = 70e-3;   // [m]
   double turn = 0;               // of the spindle                                  [rad]
+  bool diamond = false;          // grains in place of flutes
 };
 
 struct Marker {

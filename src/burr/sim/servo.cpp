@@ -364,6 +364,9 @@ void Servo::obey(const Wish& wish) BURR_RT {
         burr_radius_.store(wish.value, std::memory_order_relaxed);
       }
       break;
+    case WishKind::burr_kind:
+      settings_.burr.kind = wish.value > 0 ? tool::BurrKind::diamond : tool::BurrKind::cutting;
+      break;
     case WishKind::stiffness:
       settings_.force.stiffness = std::clamp(wish.value, 0.0, device_.spec().max_stiffness);
       break;

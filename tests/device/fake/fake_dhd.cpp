@@ -277,7 +277,7 @@ DHD int dhdSetMaxForce(double newton, char id) {
   const Lock lock(state().lock);
   FakeArm* arm = open_one(id, "asked what is not open");
   if (arm == nullptr) return fail(15);
-  if (arm->force_on) misuse("the largest force, once forces are on");
+  if (arm->force_on && arm->homed == 0) misuse("the largest force, once forces are on");
   arm->most_force = newton;
   return done(*arm);
 }
@@ -302,11 +302,19 @@ DHD bool drdIsInitialized(char id) {
 }
 
 DHD int drdAutoInit(char id) {
-  const Lock lock(state().lock);
+  std::unique_lock lock(state().lock);
   FakeArm* arm = open_one(id, "homed what is not open");
   if (arm == nullptr) return fail(15);
   ++arm->homed;
-  arm->regulates = true;
+  arm->regulates = arm->force_on = true;
+  const std::int64_t start = now_ns();
+  while (arm->homes_after >= 0 &&
+         state().arm[static_cast<std::size_t>(arm->homes_after)].force_on) {
+    if (now_ns() - start > 20'000'000'000) return fail(7);
+    lock.unlock();
+    std::this_thread::yield();
+    lock.lock();
+  }
   if (!arm->can_home) return fail(7);
   arm->initialized = true;
   return 0;

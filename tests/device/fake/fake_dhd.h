@@ -39,6 +39,7 @@ struct FakeArm {
   unsigned short serial = 1001;
   bool present = true, in_use = false, left = false, wrist = true, gripper = false;
   bool initialized = true, can_home = true;
+  int homes_after = -1;  // homing ends once that other arm pushes no more; -1: at once
   // what its hand does
   std::array<double, 3> place{}, velocity{};
   std::array<double, 9> frame = {1, 0, 0, 0, 1, 0, 0, 0, 1};  // row after row

@@ -16,7 +16,7 @@ using math::Mat3;
 using math::Vec3;
 
 constexpr double kFarthest = 1.0;                     // no arm is longer [m]
-constexpr int kMostErrors = 500;                      // in a row, and the device is opened anew
+constexpr int kMostErrors = 500;                      // of reading in a row: opened anew
 constexpr std::int64_t kLookEvery = 50'000'000;       // at what the device says of itself [ns]
 constexpr double kOpenAngle = 0.3, kOpenGap = 15e-3;  // a gripper opens at least so far [rad, m]
 constexpr double kRest = 0.8;                         // of the way open: no pedal from there on
@@ -104,6 +104,7 @@ Result<DeviceSpec> Omega::connect() {
   Status ready = home();
   if (ready) ready = prepare(spec);
   if (!ready) {
+    static_cast<void>(dhd_->EnableForce(0, static_cast<char>(id_)));  // homing leaves them on
     let_go(id_);
     id_ = -1;
     return ready.error();
@@ -210,7 +211,7 @@ Status Omega::prepare(const DeviceSpec& spec) {
   }
   armed_ = off_ = false;
   seen_power_ = seen_connected_ = seen_force_ = false;
-  read_errors_ = write_errors_ = 0;
+  errors_ = 0;
   looked_ns_ = INT64_MIN;
   note(read_trouble_, nullptr);
   note(write_trouble_, nullptr);
@@ -254,7 +255,7 @@ int Omega::serial_of(int id) const {
   if (dhd_->GetSerialNumber == nullptr ||
       failed(dhd_->GetSerialNumber(&serial, static_cast<char>(id))))
     return -1;
-  return serial;
+  return serial != 0 ? serial : -1;  // of one that was never given a number
 }
 
 void Omega::let_go(int id) {
@@ -265,9 +266,9 @@ void Omega::let_go(int id) {
 
 void Omega::disconnect() {
   if (id_ < 0) return;
-  const std::lock_guard lock(opening());
   static_cast<void>(dhd_->SetForceAndTorqueAndGripperForce(0, 0, 0, 0, 0, 0, 0, to_));
   static_cast<void>(dhd_->EnableForce(0, to_));
+  const std::lock_guard lock(opening());  // only now: another one may be homing
   let_go(id_);
   id_ = -1;
 }
@@ -280,10 +281,10 @@ void Omega::note(const char*& what, const char* words) BURR_RT {
 }
 
 // Of a failed call: whether the device may still be there.
-bool Omega::bear(const char*& trouble, int& errors) BURR_RT {
+bool Omega::bear(const char*& trouble) BURR_RT {
   const int code = dhd_->ErrorGetLast();
   note(trouble, words(code));
-  return !is_gone(code) && ++errors < kMostErrors;
+  return !is_gone(code);
 }
 
 // What the device says of itself. What was never told as good is not told at all (a model that
@@ -329,9 +330,9 @@ Wire::Read Omega::read(HandState& hand) BURR_RT {
   const int code = wrist_ ? dhd_->GetPositionAndOrientationFrame(&x, &y, &z, frame, to_)
                           : dhd_->GetPosition(&x, &y, &z, to_);
   hand.valid = false;
-  if (failed(code)) return bear(read_trouble_, read_errors_) ? Read::hand : Read::lost;
+  if (failed(code)) return bear(read_trouble_) && ++errors_ < kMostErrors ? Read::hand : Read::lost;
   if (!look()) return Read::lost;
-  read_errors_ = 0;
+  errors_ = 0;
 
   // rows and columns in our order: its y, z, x
   Mat3 turn;
@@ -362,8 +363,8 @@ bool Omega::write(const Vec3& force) BURR_RT {
   if (const double size = push.norm(); size > peak_) push *= peak_ / size;
   const int code =
       dhd_->SetForceAndTorqueAndGripperForce(push.z(), push.x(), push.y(), 0, 0, 0, 0, to_);
-  if (failed(code)) return bear(write_trouble_, write_errors_);
-  write_errors_ = 0;
+  // however long it lasts, it is not opened anew: that would switch on what the user switched off
+  if (failed(code)) return bear(write_trouble_);
   note(write_trouble_, nullptr);
   return true;
 }

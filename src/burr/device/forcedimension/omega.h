@@ -54,7 +54,7 @@ class Omega final : public Wire {
   [[nodiscard]] int serial_of(int id) const;
   void let_go(int id);
 
-  [[nodiscard]] bool bear(const char*& trouble, int& errors) BURR_RT;
+  [[nodiscard]] bool bear(const char*& trouble) BURR_RT;
   void note(const char*& what, const char* words) BURR_RT;
   [[nodiscard]] bool look() BURR_RT;
   void squeeze(HandState& hand) BURR_RT;
@@ -71,7 +71,7 @@ class Omega final : public Wire {
   // the wire's own
   char to_ = 0;
   const char *read_trouble_ = nullptr, *write_trouble_ = nullptr, *status_trouble_ = nullptr;
-  int read_errors_ = 0, write_errors_ = 0;  // in a row
+  int errors_ = 0;  // of reading, in a row
   unsigned told_ = 0;
   bool off_ = false;
   bool seen_power_ = false, seen_connected_ = false, seen_force_ = false;

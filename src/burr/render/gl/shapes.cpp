@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kFlutes = 8;
-constexpr Colour kSteel = {0.58F, 0.60F, 0.63F};
+constexpr Colour kSteel = {0.58F, 0.60F, 0.63F}, kGrains = {0.42F, 0.38F, 0.30F};
 
 // A surface over (u, v) in [0, 1]^2, u once around +z counter-clockwise, v along -z to +z; normals
 // by differences, so that flutes shine as they should.
@@ -124,6 +124,12 @@ void Shapes::make() {
     const double depth = 0.16 * std::cos(lat) * std::cos(lat) * std::pow(1 - saw, 1.5);
     return Vec3(sphere(u, v) * (1 - depth));
   });
+  // Grains stand out of a diamond burr by a few hundredths of its radius, up to the ball itself.
+  send_round(grains_, 96, 48, [&](double u, double v) {
+    const double waves = std::sin(2 * kPi * 31 * u + 7 * std::sin(40 * v)) *
+                         std::sin(2 * kPi * 24 * v + 5 * std::sin(2 * kPi * 9 * u));
+    return Vec3(sphere(u, v) * (1 - 0.02 * (1 - waves)));
+  });
   send_turned(rod_, {{0, 0}, {0, 1}, {1, 1}, {1, 0}});
   send_turned(tip_, {{0, 0}, {0, 1}, {1, 0}});
 }
@@ -165,7 +171,8 @@ const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
     make_shaft(burr);
     math::Pose turned = burr.world_from_tool;
     turned.q = turned.q * math::Quat(Eigen::AngleAxisd(burr.turn, Vec3::UnitZ()));
-    add(head_, placed(turned, burr.radius, burr.radius), kSteel, true, false, {ball});
+    add(burr.diamond ? grains_ : head_, placed(turned, burr.radius, burr.radius),
+        burr.diamond ? kGrains : kSteel, !burr.diamond, false, {ball});
     const double r = burr.shaft_radius, end = std::max(burr.shaft_length, 30 * burr.radius);
     std::vector<math::Aabb> slices;
     for (int slice = 0; slice < 4; ++slice)

@@ -1,6 +1,5 @@
-// render/gl/shapes.h - tool and marks as triangles: fluted ball, turned shaft, ball, rod, arrow
-// head.
-// A header of this room only.
+// render/gl/shapes.h - tool and marks as triangles: fluted and grainy ball, turned shaft, ball,
+// rod, arrow head. A header of this room only.
 #pragma once
 
 #include <array>
@@ -50,7 +49,7 @@ class Shapes {
   void add_rod(const Rod& rod);
   void add_mirrored(const Mirrored& mirrored, const Burr& burr);
 
-  Shape ball_, head_, rod_, tip_, shaft_;
+  Shape ball_, head_, grains_, rod_, tip_, shaft_;
   bool made_ = false;
   double shaft_of_[3] = {0, 0, 0};  // radius, shaft_radius, shaft_length it was made for
   std::vector<Piece> pieces_;

@@ -1,0 +1,92 @@
+// Haptic devices: what burr itself would find, tried in a process of its own.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "burr/device/forcedimension/dhd.h"
+#include "burr/device/openhaptics/hd.h"
+#include "device_book.h"
+#include "doctor/apart.h"
+#include "doctor/look.h"
+#include "hand_device.h"
+
+namespace burr::app {
+namespace {
+
+constexpr const char* kGroup = "haptic devices";
+
+// "+words" or "-words": what was found, or why not.
+std::string of_library(const std::string& kind) {
+  if (kind == "touch") {
+    const auto hd = device::openhaptics::load();
+    return hd ? "+" + (*hd)->file : "-" + hd.error().text;
+  }
+  if (kind == "force-dimension") {
+    const auto dhd = device::forcedimension::load();
+    return dhd ? "+" + (*dhd)->file : "-" + dhd.error().text;
+  }
+  return "+";
+}
+
+std::string of_device(const std::string& kind) {
+  HandWish wish;
+  wish.device = kind;
+  auto device = make_hand(wish);
+  if (!device) return "-" + device.error().text;
+  const Status opened = (*device)->open();
+  if (!opened) return "-" + opened.error().text;
+  const device::DeviceSpec spec = (*device)->spec();
+  const std::string trouble = (*device)->trouble();
+  (*device)->close();
+  const std::string words =
+      fmt::format("{}: {:.1f} N, {:.0f} Hz", id_of(spec), spec.peak_force, spec.native_rate);
+  return trouble.empty() ? "+" + words : fmt::format("!{}. {}", words, trouble);
+}
+
+// Why, and what to do: a sentence of burr's has both, on either side of its semicolon.
+void split(const std::string& sentence, Finding& finding) {
+  const std::size_t cut = sentence.find("; ");
+  finding.is = sentence.substr(0, cut);
+  finding.todo = cut == std::string::npos ? "see docs/devices.md" : sentence.substr(cut + 2);
+}
+
+}  // namespace
+
+std::vector<Finding> look_at_devices(const System& system) {
+  std::vector<Finding> findings;
+  for (const HandKind& kind : hand_kinds()) {
+    Finding finding{kGroup, kind.name, Health::absent, "", ""};
+    const std::string name = kind.name;
+    const Apart library = apart([&name] { return of_library(name); }, system.patience);
+    if (!library.ended) {
+      finding.health = Health::trouble;
+      finding.is = "its library was loaded, and " + library.words;
+      finding.todo =
+          fmt::format("install it anew as its maker says (docs/devices/{}.md)", kind.page);
+    } else if (library.words.starts_with('-')) {
+      split(library.words.substr(1), finding);
+      finding.todo += fmt::format(", if you have one (docs/devices/{}.md)", kind.page);
+    } else {
+      const Apart there = apart([&name] { return of_device(name); }, system.patience);
+      if (!there.ended) {
+        finding.health = Health::trouble;
+        finding.is = "it was opened, and " + there.words;
+        finding.todo =
+            fmt::format("try the maker's own test program; docs/devices/{}.md", kind.page);
+      } else if (there.words.starts_with('+')) {
+        finding.health = Health::good;
+        finding.is = there.words.substr(1);
+        finding.todo = fmt::format("burr devices test {}", kind.name);
+      } else {
+        if (there.words.starts_with('!')) finding.health = Health::trouble;
+        split(there.words.substr(1), finding);
+      }
+      const std::string file = library.words.substr(1);
+      if (!file.empty()) finding.is = fmt::format("{} is there; {}", file, finding.is);
+    }
+    findings.push_back(std::move(finding));
+  }
+  return findings;
+}
+
+}  // namespace burr::app

@@ -1,0 +1,135 @@
+// Devices on USB by their makers' numbers: plugged in, and allowed to this user.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <system_error>
+
+#include "doctor/look.h"
+
+namespace burr::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kGroup = "USB";
+
+struct Known {
+  const char* vendor;
+  const char* product;  // "": any
+  const char* what;
+  bool any_end;  // the product's first two digits only
+};
+constexpr Known kKnown[] = {
+    {"1451", "", "Force Dimension", false},
+    {"0403", "cb48", "Novint Falcon", false},
+    {"16c0", "04", "Polhem, WoodenHaptics", true},
+};
+
+std::string line_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+const Known* known(const std::string& vendor, const std::string& product) {
+  for (const Known& one : kKnown) {
+    const std::string wanted = one.product;
+    if (vendor == one.vendor &&
+        (wanted.empty() || (one.any_end ? product.starts_with(wanted) : product == wanted)))
+      return &one;
+  }
+  return nullptr;
+}
+
+bool may_use(const System& system, const fs::path& node) {
+  if (system.may_use) return system.may_use(node);
+  return access(node.c_str(), R_OK | W_OK) == 0;
+}
+
+// "3" as "003"
+std::string three(const std::string& number) {
+  return number.size() < 3 ? std::string(3 - number.size(), '0') + number : number;
+}
+
+// Serial lines and raw HID below the same device.
+std::vector<fs::path> nodes_below(const System& system, const fs::path& device) {
+  std::vector<fs::path> nodes;
+  std::error_code nobody_asks;
+  for (auto it = fs::recursive_directory_iterator(
+           device, fs::directory_options::skip_permission_denied, nobody_asks);
+       it != fs::recursive_directory_iterator(); it.increment(nobody_asks)) {
+    const std::string name = it->path().filename().string();
+    const std::string above = it->path().parent_path().filename().string();
+    if ((above == "tty" && name.starts_with("ttyACM")) ||
+        (above == "hidraw" && name.starts_with("hidraw")))
+      nodes.push_back(system.root / "dev" / name);
+    if (nodes.size() > 16) break;
+  }
+  return nodes;
+}
+
+}  // namespace
+
+std::string udev_rules() {
+  std::string rules =
+      "# Haptic devices for whoever sits at the computer; written by `burr doctor --fix`.\n";
+  for (const Known& one : kKnown) {
+    const std::string product =
+        *one.product == '\0'
+            ? ""
+            : fmt::format(", ATTRS{{idProduct}}==\"{}{}\"", one.product, one.any_end ? "*" : "");
+    rules += fmt::format("# {}\n", one.what);
+    for (const char* subsystem : {"usb", "tty", "hidraw"})
+      rules += fmt::format(
+          "SUBSYSTEM==\"{}\", ATTRS{{idVendor}}==\"{}\"{}, MODE=\"0660\", TAG+=\"uaccess\"\n",
+          subsystem, one.vendor, product);
+  }
+  return rules;
+}
+
+fs::path udev_file(const System& system) { return system.root / "etc/udev/rules.d/70-burr.rules"; }
+
+std::vector<Finding> look_at_nodes(const System& system) {
+  std::vector<Finding> findings;
+  std::error_code nobody_asks;
+  for (const auto& entry :
+       fs::directory_iterator(system.root / "sys/bus/usb/devices", nobody_asks)) {
+    const fs::path device = entry.path();
+    const Known* one = known(line_of(device / "idVendor"), line_of(device / "idProduct"));
+    if (one == nullptr) continue;
+    std::vector<fs::path> nodes = {system.root / "dev/bus/usb" / three(line_of(device / "busnum")) /
+                                   three(line_of(device / "devnum"))};
+    for (fs::path& more : nodes_below(system, device)) nodes.push_back(std::move(more));
+    Finding finding{kGroup, one->what, Health::good, "", ""};
+    std::string closed;
+    for (const fs::path& node : nodes) {
+      const std::string shown = "/" + node.lexically_relative(system.root).string();
+      finding.is += (finding.is.empty() ? "" : ", ") + shown;
+      if (!may_use(system, node)) closed += (closed.empty() ? "" : ", ") + shown;
+    }
+    if (!closed.empty()) {
+      finding.health = Health::trouble;
+      finding.is = "plugged in, but you may not open " + closed;
+      finding.todo = fs::exists(udev_file(system), nobody_asks)
+                         ? "the rule is there: unplug it, plug it in again; sit at the computer "
+                           "itself, not over ssh"
+                         : "burr doctor --fix writes the rule that allows it";
+    }
+    findings.push_back(std::move(finding));
+  }
+  if (findings.empty())
+    findings.push_back(
+        {kGroup, "haptic devices", Health::absent,
+         "none of Force Dimension, Falcon or Polhem is plugged in; a Touch is not told by its USB "
+         "number here, its own line above tells",
+         ""});
+  std::sort(findings.begin(), findings.end(),
+            [](const Finding& a, const Finding& b) { return a.what < b.what; });
+  return findings;
+}
+
+}  // namespace burr::app

@@ -1,0 +1,49 @@
+// device/haply/inverse.h - Haply's Inverse3, Inverse3x and Minverse with a VerseGrip, through the
+// maker's Inverse Service on this computer.
+//
+// One message of ours, one state of its own, and never two under way; what we do not send the
+// device does not do, so it lets go by itself when burr stops. Its frame: x right, y forward, z up;
+// ours is x right, y up, z to the user. The grip points along its +y, so the tool's handle, our +z,
+// is its -y. Without a grip the tool stands upright. Button a mills, b lifts.
+// Which of two spellings of a force the service takes depends on its version; a force too small to
+// be felt shows which one it obeys. Thread: as Wire (device/wire.h). Memory: the wire's own, a
+// message at a time; none in the tick.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "burr/device/wire.h"
+
+namespace burr::device::haply {
+
+struct InverseSettings {
+  std::string host = {};  // empty: HAPLY_WS_HOST, else 127.0.0.1
+  int port = 0;           // 0: HAPLY_WS_PORT, else 10001, then 10000
+  std::string id = {};    // of the arm; empty: the first
+};
+
+class Inverse final : public Wire {
+ public:
+  explicit Inverse(InverseSettings settings = {});
+  ~Inverse() override;
+
+  [[nodiscard]] Result<DeviceSpec> connect() override;
+  [[nodiscard]] Read read(HandState& hand) BURR_RT override;
+  [[nodiscard]] bool write(const math::Vec3& force) BURR_RT override;
+  void disconnect() override;
+  [[nodiscard]] std::string why() const override;
+  [[nodiscard]] unsigned told() const BURR_RT override { return told_; }
+
+ private:
+  struct Talk;
+  void note(const char* words) BURR_RT;
+
+  InverseSettings settings_;
+  std::unique_ptr<Talk> talk_;
+  std::string name_ = "the Inverse3";
+  const char* trouble_ = nullptr;
+  unsigned told_ = 0;
+};
+
+}  // namespace burr::device::haply

@@ -1,0 +1,20 @@
+// A library that crashes, or never comes back, when it is loaded.
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+
+namespace {
+
+struct Loaded {
+  Loaded() {
+#ifdef FAKE_HANGS
+    for (;;) pause();
+#else
+    std::signal(SIGABRT, SIG_DFL);
+    std::abort();
+#endif
+  }
+} const loaded;
+
+}  // namespace

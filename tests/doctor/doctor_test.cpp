@@ -1,0 +1,222 @@
+// The doctor at a computer made of files, and with libraries that misbehave.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "doctor/apart.h"
+#include "doctor/finding.h"
+#include "doctor/look.h"
+
+namespace burr::app {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+
+// ---- apart
+
+TEST(Apart, GivesBackTheWords) {
+  const Apart seen = apart([] { return std::string("all is well"); }, milliseconds(10'000));
+  EXPECT_TRUE(seen.ended);
+  EXPECT_EQ(seen.words, "all is well");
+}
+
+TEST(Apart, SurvivesACrashAnEndAndAHang) {
+  const Apart crash = apart(
+      []() -> std::string {
+        std::signal(SIGABRT, SIG_DFL);
+        std::abort();
+      },
+      milliseconds(10'000));
+  EXPECT_FALSE(crash.ended);
+  EXPECT_NE(crash.words.find("crashed"), std::string::npos) << crash.words;
+  const Apart end = apart([]() -> std::string { _exit(3); }, milliseconds(10'000));
+  EXPECT_FALSE(end.ended);
+  EXPECT_NE(end.words.find("exit code 3"), std::string::npos) << end.words;
+  const Apart hang = apart(
+      [] {
+        std::this_thread::sleep_for(std::chrono::hours(1));
+        return std::string("late");
+      },
+      milliseconds(100));
+  EXPECT_FALSE(hang.ended);
+  EXPECT_NE(hang.words.find("hung"), std::string::npos) << hang.words;
+}
+
+TEST(Apart, WordsWithoutEndAreCut) {
+  const Apart seen = apart([] { return std::string(100'000, 'x'); }, milliseconds(10'000));
+  EXPECT_TRUE(seen.ended);
+  EXPECT_EQ(seen.words.size(), 4096U);
+}
+
+// ---- nodes, on a computer of files
+
+class DoctorNodes : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    system_.root = fs::temp_directory_path() / ("burr_doctor_" + std::to_string(getpid()));
+    fs::create_directories(system_.root / "sys/bus/usb/devices");
+    system_.may_use = [this](const fs::path& node) {
+      asked_.push_back(node);
+      return allowed_;
+    };
+  }
+  void TearDown() override { fs::remove_all(system_.root); }
+
+  void plug(const std::string& place, const std::string& vendor, const std::string& product,
+            int number) {
+    const fs::path device = system_.root / "sys/bus/usb/devices" / place;
+    fs::create_directories(device);
+    std::ofstream(device / "idVendor") << vendor << "\n";
+    std::ofstream(device / "idProduct") << product << "\n";
+    std::ofstream(device / "busnum") << "1\n";
+    std::ofstream(device / "devnum") << number << "\n";
+  }
+
+  System system_;
+  bool allowed_ = true;
+  std::vector<fs::path> asked_;
+};
+
+TEST_F(DoctorNodes, NothingPluggedInIsNoTrouble) {
+  const auto findings = look_at_nodes(system_);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].health, Health::absent);
+}
+
+TEST_F(DoctorNodes, KnowsMakersByTheirNumbersAndNoOthers) {
+  plug("1-1", "1451", "0402", 7);
+  plug("1-2", "0403", "cb48", 8);
+  plug("1-3", "0403", "6001", 9);  // another thing with the same maker's chip
+  plug("1-4", "16c0", "0483", 10);
+  plug("1-5", "046d", "c077", 11);
+  const auto findings = look_at_nodes(system_);
+  ASSERT_EQ(findings.size(), 3U);
+  EXPECT_EQ(findings[0].what, "Force Dimension");
+  EXPECT_EQ(findings[1].what, "Novint Falcon");
+  EXPECT_EQ(findings[2].what, "Polhem, WoodenHaptics");
+  for (const Finding& one : findings) EXPECT_EQ(one.health, Health::good);
+  EXPECT_NE(findings[0].is.find("/dev/bus/usb/001/007"), std::string::npos) << findings[0].is;
+}
+
+TEST_F(DoctorNodes, ANodeThatMayNotBeOpenedIsNamedWithTheCure) {
+  plug("1-1", "1451", "0402", 7);
+  allowed_ = false;
+  auto findings = look_at_nodes(system_);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].health, Health::trouble);
+  EXPECT_NE(findings[0].is.find("/dev/bus/usb/001/007"), std::string::npos);
+  EXPECT_NE(findings[0].todo.find("doctor --fix"), std::string::npos);
+  // the rule is there already: something else is to be done
+  fs::create_directories(udev_file(system_).parent_path());
+  std::ofstream(udev_file(system_)) << udev_rules();
+  findings = look_at_nodes(system_);
+  EXPECT_EQ(findings[0].todo.find("--fix"), std::string::npos);
+  EXPECT_NE(findings[0].todo.find("plug it in again"), std::string::npos);
+}
+
+TEST_F(DoctorNodes, SerialLinesAndRawHidBelowADeviceAreAskedForToo) {
+  plug("1-1", "16c0", "0486", 7);
+  fs::create_directories(system_.root / "sys/bus/usb/devices/1-1/1-1:1.0/tty/ttyACM0");
+  fs::create_directories(system_.root /
+                         "sys/bus/usb/devices/1-1/1-1:1.1/0003:16C0:0486.0001/hidraw/hidraw3");
+  static_cast<void>(look_at_nodes(system_));
+  ASSERT_EQ(asked_.size(), 3U);
+  EXPECT_NE(std::find(asked_.begin(), asked_.end(), system_.root / "dev/ttyACM0"), asked_.end());
+  EXPECT_NE(std::find(asked_.begin(), asked_.end(), system_.root / "dev/hidraw3"), asked_.end());
+}
+
+TEST(DoctorRules, NameEveryMakerOnceForEachKindOfNode) {
+  const std::string rules = udev_rules();
+  for (const char* words :
+       {"SUBSYSTEM==\"usb\", ATTRS{idVendor}==\"1451\", MODE", "ATTRS{idProduct}==\"cb48\"",
+        "ATTRS{idProduct}==\"04*\"", "SUBSYSTEM==\"tty\"", "SUBSYSTEM==\"hidraw\"", "uaccess"})
+    EXPECT_NE(rules.find(words), std::string::npos) << words << "\n" << rules;
+}
+
+// ---- devices
+
+class DoctorDevices : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ::setenv("HAPLY_WS_PORT", "1", 1);
+    ::setenv("BURR_FORCEDIMENSION", "/nowhere/libdrd.so", 1);
+    system_.patience = milliseconds(20'000);
+  }
+  void TearDown() override {
+    for (const char* name : {"HAPLY_WS_PORT", "BURR_FORCEDIMENSION", "BURR_OPENHAPTICS"})
+      ::unsetenv(name);
+  }
+  Finding of(const std::string& what) {
+    for (Finding& one : look_at_devices(system_))
+      if (one.what == what) return one;
+    ADD_FAILURE() << what << " was not looked at";
+    return {};
+  }
+  System system_;
+};
+
+TEST_F(DoctorDevices, WhatIsMissingIsSaidWithTheLoadersWordsAndWhatToInstall) {
+  ::setenv("BURR_OPENHAPTICS", "/nowhere/libHD.so", 1);
+  const Finding touch = of("touch");
+  EXPECT_EQ(touch.health, Health::absent);
+  EXPECT_NE(touch.is.find("No such file"), std::string::npos) << touch.is;
+  EXPECT_NE(touch.todo.find("install"), std::string::npos) << touch.todo;
+  EXPECT_NE(touch.todo.find("docs/devices/touch.md"), std::string::npos);
+  const Finding haply = of("haply");
+  EXPECT_EQ(haply.health, Health::absent);
+  EXPECT_NE(haply.is.find(":1"), std::string::npos) << haply.is;
+}
+
+TEST_F(DoctorDevices, AMissingSymbolIsNamed) {
+  ::setenv("BURR_OPENHAPTICS", BURR_BUILD_DIR "/fakes/libHD_old.so", 1);
+  EXPECT_NE(of("touch").is.find("hdScheduleAsynchronous"), std::string::npos);
+}
+
+TEST_F(DoctorDevices, ADeviceThatIsThereIsNamedAndCanBeTried) {
+  ::setenv("BURR_OPENHAPTICS", BURR_BUILD_DIR "/fakes/libHD.so", 1);
+  const Finding touch = of("touch");
+  EXPECT_EQ(touch.health, Health::good);
+  EXPECT_NE(touch.is.find("T-0001"), std::string::npos) << touch.is;
+  EXPECT_EQ(touch.todo, "burr devices test touch");
+}
+
+TEST_F(DoctorDevices, ALibraryThatCrashesOrHangsDoesSoAlone) {
+  ::setenv("BURR_OPENHAPTICS", BURR_BUILD_DIR "/fakes/libHD_crash.so", 1);
+  Finding touch = of("touch");
+  EXPECT_EQ(touch.health, Health::trouble);
+  EXPECT_NE(touch.is.find("crashed"), std::string::npos) << touch.is;
+  ::setenv("BURR_OPENHAPTICS", BURR_BUILD_DIR "/fakes/libHD_hang.so", 1);
+  system_.patience = milliseconds(1500);
+  touch = of("touch");
+  EXPECT_NE(touch.is.find("hung"), std::string::npos) << touch.is;
+  EXPECT_NE(touch.todo.find("install"), std::string::npos);
+}
+
+// ---- words
+
+TEST(Findings, ReadAsLinesAndAsJson) {
+  const std::vector<Finding> findings = {
+      {"a", "one", Health::good, "is there", ""},
+      {"a", "two", Health::trouble, "is \"odd\"", "mend it"},
+      {"b", "three", Health::absent, std::string(300, 'x') + " y", "get one"}};
+  const std::string text = text_of(findings);
+  EXPECT_NE(text.find("ok one"), std::string::npos) << text;
+  EXPECT_NE(text.find("!! two"), std::string::npos);
+  EXPECT_NE(text.find("-> mend it"), std::string::npos);
+  EXPECT_NE(text.find("-- three"), std::string::npos);
+  const auto json = nlohmann::json::parse(json_of(findings));
+  ASSERT_EQ(json.size(), 3U);
+  EXPECT_EQ(json[1]["health"], "trouble");
+  EXPECT_EQ(json[1]["is"], "is \"odd\"");
+}
+
+}  // namespace
+}  // namespace burr::app

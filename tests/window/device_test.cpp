@@ -1,0 +1,167 @@
+// A haptic device at the window: the library is one that the test plays, loaded as the real one is.
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "device/fake/fake_hd.h"
+#include "window/user.h"
+
+namespace burr::app {
+namespace {
+
+using math::Vec3;
+
+class DeviceWindow : public Window {
+ protected:
+  void SetUp() override {
+    const std::string library = std::string(BURR_BUILD_DIR) + "/fakes/libHD.so";
+    ::setenv("BURR_OPENHAPTICS", library.c_str(), 1);
+    ::setenv("XDG_CONFIG_HOME", fs::absolute(folder_).c_str(), 1);
+    void* loaded = dlopen(library.c_str(), RTLD_NOW | RTLD_GLOBAL);
+    ASSERT_NE(loaded, nullptr);
+    hd_ = reinterpret_cast<test::FakeHdState>(dlsym(loaded, "fake_hd"))();
+    const std::lock_guard lock(hd_->mutex);
+    hd_->touch = {};
+    hd_->rate = 1000;
+    Window::SetUp();
+  }
+  void TearDown() override {
+    Window::TearDown();
+    ::unsetenv("BURR_OPENHAPTICS");
+    ::unsetenv("XDG_CONFIG_HOME");
+  }
+
+  static Result<Ready> with_touch() {
+    WorkOptions options;
+    options.volume.path = "block";
+    options.volume.voxel_mm = 0.5;
+    options.hand.device = "touch";
+    NoProgress quiet;
+    return open_ready(options, quiet);
+  }
+  void stylus(const Vec3& mm, int buttons = 0) {
+    const std::lock_guard lock(hd_->mutex);
+    std::copy_n(mm.data(), 3, hd_->touch[0].transform.begin() + 12);
+    hd_->touch[0].buttons = buttons;
+  }
+  Vec3 hand(sim::Session& session) {
+    static_cast<void>(session.view(row_));
+    return row_.hand.world_from_tool.p;
+  }
+  bool lifted(sim::Session& session) {
+    static_cast<void>(session.view(row_));
+    return (row_.hand.buttons & device::kLifted) != 0;
+  }
+
+  test::FakeHd* hd_ = nullptr;
+  record::TickRow row_;
+};
+
+TEST_F(DeviceWindow, ItsAxesAreThoseOfTheViewAlsoOfATurnedOne) {
+  auto ready = with_touch();
+  ASSERT_TRUE(ready) << ready.error().text;
+  sim::Session& session = *ready->session;
+  const render::Scene& scene = ready->scene;
+  Vec3 at = Vec3::Zero();
+  // Moves the stylus by `mm` until the tip has gone that `way`; once more where a machine that
+  // stalled lost the hand meanwhile.
+  const auto moving_until = [&](const Vec3& mm, auto way) {
+    return [&, mm, way, start = Vec3(Vec3::Zero()), asked = Clock::time_point()]() mutable {
+      if (asked != Clock::time_point() && (hand(session) - start - 1e-3 * way()).norm() < 1e-5)
+        return true;
+      if (Clock::now() - asked < std::chrono::seconds(1)) return false;
+      asked = Clock::now();
+      start = hand(session);
+      at += mm;
+      stylus(at);
+      return false;
+    };
+  };
+  mill_by(*ready, {{"at rest", looks(20), {}},
+                   {"ten millimetres to the right of the picture",
+                    moving_until({10, 0, 0}, [&] { return Vec3(10 * scene.camera.right()); }),
+                    {}},
+                   {"up", moving_until({0, 5, 0}, [&] { return Vec3(5 * scene.camera.above()); }),
+                    [] {
+                      for (int n = 0; n < 6; ++n) press(SDLK_LEFT);
+                    }},
+                   {"turned", looks(10), {}},
+                   {"to the user",
+                    moving_until({0, 0, 8}, [&] { return Vec3(8 * scene.camera.backward()); }),
+                    [] { press(SDLK_q); }}});
+}
+
+TEST_F(DeviceWindow, StopsByKeyAndGoesOnByTheSame) {
+  auto ready = with_touch();
+  ASSERT_TRUE(ready) << ready.error().text;
+  sim::Session& session = *ready->session;
+  Vec3 start = Vec3::Zero();
+  mill_by(*ready, {{"at rest", looks(20),
+                    [&] {
+                      EXPECT_FALSE(lifted(session));
+                      press(SDLK_BACKSPACE);
+                    }},
+                   {"stopped", [&] { return lifted(session); }, {}},
+                   {"and said", [&] { return desk_->said.find("stopped") != std::string::npos; },
+                    [&] {
+                      start = hand(session);
+                      stylus({0, 20, 0}, 1);
+                    }},
+                   {"nothing moves, nothing mills", looks(20),
+                    [&] {
+                      EXPECT_EQ(hand(session), start);
+                      EXPECT_EQ(row_.hand.pedal, 0);
+                      stylus({0, 20, 0}, 0);
+                      press(SDLK_BACKSPACE);
+                    }},
+                   {"on again", [&] { return !lifted(session); },
+                    [&] {
+                      EXPECT_NEAR((hand(session) - start).norm(), 0, 1e-6);
+                      press(SDLK_q);
+                    }}});
+}
+
+TEST_F(DeviceWindow, PulledOutItIsSaidAndTheLastTicksAreKept) {
+  auto ready = with_touch();
+  ASSERT_TRUE(ready) << ready.error().text;
+  const auto set_there = [&](bool there) {
+    const std::lock_guard lock(hd_->mutex);
+    hd_->touch[0].present = there;
+  };
+  mill_by(
+      *ready,
+      {{"at rest", looks(20), [&] { set_there(false); }},
+       {"said, with the cure", [&] { return desk_->said.find("cable") != std::string::npos; }, {}},
+       {"kept", [&] { return fs::exists(folder_ / "state" / "faults"); }, [&] { set_there(true); }},
+       {"there again",
+        [&] {
+          static_cast<void>(hand(*ready->session));
+          return row_.hand.valid;
+        },
+        [] { press(SDLK_q); }}});
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / "state" / "faults")) {
+    std::ifstream file(entry.path());
+    std::string first;
+    std::getline(file, first);
+    EXPECT_NE(first.find("let go"), std::string::npos) << first;
+    ++files;
+  }
+  EXPECT_GE(files, 1);
+}
+
+TEST_F(DeviceWindow, ADeviceThatIsNotThereIsRefusedBeforeTheBoneIsMade) {
+  {
+    const std::lock_guard lock(hd_->mutex);
+    hd_->touch[0].present = false;
+  }
+  const auto ready = with_touch();
+  ASSERT_FALSE(ready);
+  EXPECT_NE(ready.error().text.find("cable"), std::string::npos) << ready.error().text;
+}
+
+}  // namespace
+}  // namespace burr::app
