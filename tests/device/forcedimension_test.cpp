@@ -62,7 +62,7 @@ void judge(const test::FakeDhd& dhd) {
 std::int64_t virtual_ns = 0;
 std::int64_t virtual_now() { return virtual_ns; }
 
-OmegaSettings by_itself() { return {.library = kLibrary}; }
+OmegaSettings by_itself() { return {.dhd_file = kLibrary}; }
 
 template <class F>
 void set(F change, std::size_t which = 0) {
@@ -312,14 +312,14 @@ TEST_F(OmegaTest, AnArmWithoutAGripperHasNoPedal) {
 // ---- libraries
 
 TEST_F(OmegaTest, ALibraryThatIsMissingIsNamedWithTheLoadersWords) {
-  const std::string text = refused({.library = kFakes + "nowhere/libdrd.so"});
+  const std::string text = refused({.dhd_file = kFakes + "nowhere/libdrd.so"});
   EXPECT_TRUE(has(text, "No such file")) << text;
   EXPECT_TRUE(has(text, "nowhere/libdrd.so")) << text;
   EXPECT_TRUE(has(text, "BURR_FORCEDIMENSION")) << text;
 }
 
 TEST_F(OmegaTest, ASymbolThatIsMissingIsNamedWithTheVersion) {
-  const std::string text = refused({.library = kFakes + "libdrd_broken.so"});
+  const std::string text = refused({.dhd_file = kFakes + "libdrd_broken.so"});
   EXPECT_TRUE(has(text, "dhdSetForceAndTorqueAndGripperForce")) << text;
   EXPECT_TRUE(has(text, "version 3.17.1")) << text;
 }
@@ -338,7 +338,7 @@ TEST_F(OmegaTest, AnOldLibraryServesAsFarAsItGoes) {
   test::FakeDhd& old = state_of(kFakes + "libdrd_old.so");
   begin(old);
   old.arm[0].rate = 0;
-  OmegaSettings settings{.library = kFakes + "libdrd_old.so", .now = &virtual_now};
+  OmegaSettings settings{.dhd_file = kFakes + "libdrd_old.so", .now = &virtual_now};
   {
     Omega omega(settings);
     const auto spec = omega.connect();
@@ -363,7 +363,7 @@ TEST_F(OmegaTest, AnOldLibraryServesAsFarAsItGoes) {
 TEST_F(OmegaTest, WithoutDrdTheUserMustSayThatItIsHomed) {
   test::FakeDhd& alone = state_of(kFakes + "libdhd.so");
   begin(alone);
-  OmegaSettings settings{.library = kFakes + "libdhd.so", .home_allowed = true};
+  OmegaSettings settings{.dhd_file = kFakes + "libdhd.so", .home_allowed = true};
   const std::string text = refused(settings);
   EXPECT_TRUE(has(text, "libdrd")) << text;
   EXPECT_TRUE(has(text, "is_homed")) << text;

@@ -74,11 +74,11 @@ class TouchTest : public ::testing::Test {
   static TouchSettings by_hand() {
     with_hd([](test::FakeHd& hd) { hd.rate = 0; });
     virtual_ns = 1'000'000'000;
-    return {.library = kLibrary, .link = {.patience = 0}, .now = &virtual_now};
+    return {.hd_file = kLibrary, .link = {.patience = 0}, .now = &virtual_now};
   }
   static TouchSettings by_itself(double loss_timeout = test::kStallsAllowed) {
     TouchSettings settings;
-    settings.library = kLibrary;
+    settings.hd_file = kLibrary;
     settings.link.loss_timeout = loss_timeout;
     return settings;
   }
@@ -202,7 +202,7 @@ TEST_F(TouchTest, ARunningSessionPushesAndLetsGo) {
 }
 
 TEST_F(TouchTest, ALibraryThatIsMissingIsNamedWithTheLoadersWords) {
-  Touch touch({.library = kFakes + "nowhere/libHD.so"});
+  Touch touch({.hd_file = kFakes + "nowhere/libHD.so"});
   const Status opened = touch.open();
   ASSERT_FALSE(opened.ok());
   EXPECT_NE(opened.error().text.find("No such file"), std::string::npos) << opened.error().text;
@@ -210,7 +210,7 @@ TEST_F(TouchTest, ALibraryThatIsMissingIsNamedWithTheLoadersWords) {
 }
 
 TEST_F(TouchTest, ASymbolThatIsMissingIsNamed) {
-  Touch touch({.library = kFakes + "libHD_old.so"});
+  Touch touch({.hd_file = kFakes + "libHD_old.so"});
   const Status opened = touch.open();
   ASSERT_FALSE(opened.ok());
   EXPECT_NE(opened.error().text.find("hdScheduleAsynchronous"), std::string::npos)

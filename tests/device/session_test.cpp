@@ -36,7 +36,7 @@ class WholeSession : public ::testing::Test {
       hd_->rate = 1000;
     }
     openhaptics::TouchSettings settings;
-    settings.library = kLibrary;
+    settings.hd_file = kLibrary;
     settings.link.loss_timeout = test::kStallsAllowed;
     // a slab whose top is z = 0, seen from above: up is world z
     auto hand = std::make_unique<MappedHand>(std::make_unique<openhaptics::Touch>(settings),

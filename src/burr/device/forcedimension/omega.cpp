@@ -92,7 +92,7 @@ Result<DeviceSpec> Omega::connect() {
                  fmt::format("a rate of {} Hz is out of range for a Force Dimension device; take "
                              "500 to 4000",
                              settings_.rate));
-  auto dhd = load(settings_.library);
+  auto dhd = load(settings_.dhd_file);
   if (!dhd) return dhd.error();
   dhd_ = *dhd;
 

@@ -24,7 +24,7 @@
 namespace burr::device::forcedimension {
 
 struct OmegaSettings {
-  std::string library = {};   // empty: BURR_FORCEDIMENSION, or as candidates() finds it
+  std::string dhd_file = {};  // empty: BURR_FORCEDIMENSION, or as candidates() finds it
   int index = 0;              // of the devices that are plugged in, from 0
   int serial = -1;            // of the device wanted, whatever its index; -1: any
   bool home_allowed = false;  // the arm may move by itself when it is not homed

@@ -55,7 +55,7 @@ Touch::Touch(TouchSettings settings)
 
 Status Touch::open() {
   close();
-  auto hd = load(settings_.library);
+  auto hd = load(settings_.hd_file);
   if (!hd) return hd.error();
   hd_ = *hd;
   auto started = start();

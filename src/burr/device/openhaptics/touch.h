@@ -21,7 +21,7 @@
 namespace burr::device::openhaptics {
 
 struct TouchSettings {
-  std::string library = {};  // empty: BURR_OPENHAPTICS, or as the system finds it
+  std::string hd_file = {};  // empty: BURR_OPENHAPTICS, or as the system finds it
   std::string name = {};     // as in Touch Setup; empty: the default device
   LinkSettings link = {};
   Link::Now now = &rt::monotonic_ns;
