@@ -26,3 +26,6 @@ find_library(BURR_GDCM_COMMON gdcmCommon REQUIRED)
 add_library(burr_gdcm INTERFACE)
 target_include_directories(burr_gdcm SYSTEM INTERFACE ${BURR_GDCM_INCLUDE})
 target_link_libraries(burr_gdcm INTERFACE ${BURR_GDCM_MSFF} ${BURR_GDCM_DSED} ${BURR_GDCM_COMMON})
+# the bus of ROS 2, on which CRTK arms speak; idlc makes C of the messages
+find_package(CycloneDDS REQUIRED)
+find_program(BURR_IDLC idlc REQUIRED)

@@ -1,7 +1,7 @@
 # `cmake --install` gives others a library: find_package(burr), target burr::burr
 include(CMakePackageConfigHelpers)
 install(TARGETS burr EXPORT burrTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS burr_read RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/burr)
+install(TARGETS burr_read burr_guard RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/burr)
 if(TARGET burr_program)
   set_target_properties(burr_program PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS burr_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -26,7 +26,7 @@ set(library_sources ${BURR_SOURCES})
 list(REMOVE_ITEM library_sources ${BURR_READERS})
 list(APPEND library_sources ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp)
 add_library(burr SHARED ${library_sources})
-add_dependencies(burr burr_read)  # without it no scan can be read
+add_dependencies(burr burr_read burr_guard)  # without them no scan can be read, no arm be guarded
 add_library(burr::burr ALIAS burr)
 set_target_properties(burr PROPERTIES OUTPUT_NAME burr VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
 target_include_directories(burr PUBLIC
@@ -36,7 +36,8 @@ target_compile_features(burr PUBLIC cxx_std_20)
 target_link_libraries(burr PUBLIC Eigen3::Eigen Threads::Threads)
 target_link_libraries(burr PRIVATE $<BUILD_INTERFACE:burr_options> fmt::fmt ZLIB::ZLIB BZip2::BZip2
   PkgConfig::ZSTD
-  PkgConfig::EPOXY PkgConfig::SDL2 nlohmann_json::nlohmann_json spdlog::spdlog meshoptimizer::meshoptimizer)
+  PkgConfig::EPOXY PkgConfig::SDL2 nlohmann_json::nlohmann_json spdlog::spdlog meshoptimizer::meshoptimizer
+  $<BUILD_INTERFACE:burr_crtk>)
 target_compile_definitions(burr PRIVATE BURR_VERSION="${PROJECT_VERSION}"
   BURR_LIBEXEC_FROM_LIB="${BURR_LIBEXEC_FROM_LIB}")
 target_link_libraries(burr PRIVATE ${CMAKE_DL_LIBS})

@@ -53,6 +53,7 @@ ELSEWHERE = [
     (r"openxr/", ["render/gl"], "a headset"),
     (r"SDL", ["render/gl", "sound"], "graphics and sound"),
     (r"itk|gdcm|assimp/|vtk", ["io"], "a file format's library"),
+    (r"dds/|crtk_messages", ["device/crtk"], "the bus of ROS 2"),
     (r"HD/hd|HDU|openhaptics|dhdc|drdc|chai3d|haply", None, "a vendor's library"),  # device/<vendor> only
 ]
 # What headers may show to others: the standard library, Eigen, ourselves.

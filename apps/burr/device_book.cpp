@@ -11,6 +11,7 @@
 #include "burr/base/new_file.h"
 #include "burr/base/shown.h"
 #include "burr/base/text_file.h"
+#include "burr/device/axes.h"
 #include "places.h"
 
 namespace burr::app {
@@ -18,13 +19,14 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = 1U << 16;  // [byte]
 
-// One line of a device. Exactly one of the three is set.
+// One line of a device. Exactly one of the four is set.
 struct Field {
   const char *key, *means;
   double least = 0, most = 0;
   double& (*number)(DeviceWishes&) = nullptr;
   int& (*button)(DeviceWishes&) = nullptr;
   bool& (*yes)(DeviceWishes&) = nullptr;
+  math::Quat& (*axes)(DeviceWishes&) = nullptr;
 };
 
 const std::array kFields = {
@@ -40,6 +42,8 @@ const std::array kFields = {
           nullptr, [](DeviceWishes& w) -> int& { return w.mapping.clutch_button; }},
     Field{"dead_man", "it pushes only while the mill button or the pedal is down", 0, 1, nullptr,
           nullptr, [](DeviceWishes& w) -> bool& { return w.mapping.dead_man; }},
+    Field{"axes", "where its x, y, z point: right, left, up, down, near or far", 0, 0, nullptr,
+          nullptr, nullptr, [](DeviceWishes& w) -> math::Quat& { return w.mapping.axes; }},
 };
 
 // "" when it is good
@@ -48,6 +52,15 @@ std::string take(const Field& field, const toml::node& node, DeviceWishes& wishe
     const auto value = node.value_exact<bool>();
     if (!value) return "must be true or false";
     field.yes(wishes) = *value;
+    return {};
+  }
+  if (field.axes != nullptr) {
+    const auto words = node.value_exact<std::string>();
+    const auto axes = words ? device::axes_from_words(*words) : std::nullopt;
+    if (!axes)
+      return "must be three words of right, left, up, down, near, far in quotes, a right-handed "
+             "frame: \"right up near\" leaves it as it is";
+    field.axes(wishes) = *axes;
     return {};
   }
   const auto value = node.is_number() ? node.value<double>() : std::nullopt;
@@ -141,7 +154,10 @@ Status DeviceBook::set(const std::string& id, std::string_view assignment) {
     return error(Trouble::usage,
                  fmt::format("{}: is no setting of a device; write one of {} with =VALUE",
                              base::shown(assignment), known_keys()));
-  const auto table = parse_toml(assignment, "the setting");
+  std::string written(assignment);
+  if (field->axes != nullptr && written.find('"') == std::string::npos)  // the shell took them
+    written = key + "=" + quoted(written.substr(equals + 1));
+  const auto table = parse_toml(written, "the setting");
   const toml::node* value = table ? table->get(key) : nullptr;
   DeviceWishes wishes = of(id);
   const std::string wrong = value == nullptr ? std::string("has no value that can be read")
@@ -164,6 +180,8 @@ std::string DeviceBook::text() const {
         text += fmt::format("{:g}\n", field.number(wishes));
       else if (field.button != nullptr)
         text += fmt::format("{}\n", field.button(wishes));
+      else if (field.axes != nullptr)
+        text += fmt::format("\"{}\"\n", device::words_of_axes(field.axes(wishes)));
       else
         text += fmt::format("{}\n", field.yes(wishes));
     }

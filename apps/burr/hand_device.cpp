@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "burr/device/crtk/leader.h"
 #include "burr/device/forcedimension/omega.h"
 #include "burr/device/haply/inverse.h"
 #include "burr/device/openhaptics/touch.h"
@@ -25,8 +26,15 @@ const std::vector<HandKind>& hand_kinds() {
       {"force-dimension", "Force Dimension omega, delta, sigma, lambda; Novint Falcon",
        "force_dimension"},
       {"haply", "Haply Inverse3, Inverse3x, Minverse with VerseGrip", "haply"},
+      {"crtk", "robot arms that speak CRTK: dVRK's leaders, lab devices behind a node", "crtk"},
   };
   return all;
+}
+
+std::string kinds_known() {
+  std::vector<std::string> known;
+  for (const HandKind& one : hand_kinds()) known.emplace_back(one.name);
+  return fmt::format("{}", fmt::join(known, ", "));
 }
 
 Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish) {
@@ -59,11 +67,16 @@ Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish) {
     return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
         std::make_unique<device::haply::Inverse>(std::move(settings))));
   }
-  std::vector<std::string> known;
-  for (const HandKind& one : hand_kinds()) known.emplace_back(one.name);
-  return error(Trouble::usage,
-               fmt::format("--device {}: burr drives no such device; take one of: {}", name,
-                           fmt::join(known, ", ")));
+  if (kind == "crtk") {
+    device::crtk::LeaderSettings settings;
+    settings.arm = which;
+    settings.home_allowed = wish.home;
+    return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
+        std::make_unique<device::crtk::Leader>(std::move(settings))));
+  }
+  return error(
+      Trouble::usage,
+      fmt::format("--device {}: burr drives no such device; take one of: {}", name, kinds_known()));
 }
 
 Result<LaidHand> lay_hand(const HandWish& wish, const math::Pose& start,
@@ -93,21 +106,23 @@ double tick_rate(const device::DeviceSpec& spec) {
                     500.0, 10'000.0);
 }
 
+void add_homing_options(CLI::App& command, HandWish& wish) {
+  command.add_flag(
+      "--home", wish.home,
+      "a Force Dimension or CRTK arm may move by itself to find its home; keep the space free");
+  command.add_flag("--is-homed", wish.is_homed,
+                   "you homed the arm yourself, and its library cannot tell");
+}
+
 void add_hand_options(CLI::App& command, HandWish& wish) {
-  std::vector<std::string> known;
-  for (const HandKind& one : hand_kinds()) known.emplace_back(one.name);
-  command.add_option("--device", wish.device,
-                     fmt::format("a haptic device: {}; NAME:WHICH where there are several",
-                                 fmt::join(known, ", ")));
+  command.add_option(
+      "--device", wish.device,
+      fmt::format("a haptic device: {}; NAME:WHICH where there are several", kinds_known()));
   command
       .add_option("--device-scale", wish.scale,
                   "way of the tip over way of the hand; smaller: finer work, softer walls")
       ->check(CLI::Range(0.1, 10.0));
-  command.add_flag(
-      "--home", wish.home,
-      "a Force Dimension arm may move by itself to find its home; keep the space free");
-  command.add_flag("--is-homed", wish.is_homed,
-                   "you homed the arm yourself, and its library cannot tell");
+  add_homing_options(command, wish);
   command.add_flag("--dead-man", wish.dead_man,
                    "the device pushes only while its mill button is held");
 }

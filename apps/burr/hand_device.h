@@ -3,6 +3,7 @@
 //     --device touch            the default Touch        --device "touch:Left one"   by its name
 //     --device force-dimension  the first                --device force-dimension:17 by its serial
 //     number
+//     --device crtk             the only arm on the bus  --device crtk:/MTMR         by its name
 //
 // Thread: main.
 #pragma once
@@ -53,6 +54,12 @@ struct LaidHand {
 // The rate of ticks that suits a device: its own, or a whole part of it near a thousand [Hz].
 [[nodiscard]] double tick_rate(const device::DeviceSpec& spec);
 
+// "touch, force-dimension, ..."
+[[nodiscard]] std::string kinds_known();
+
+// --home, --is-homed
+void add_homing_options(CLI::App& command, HandWish& wish);
+// The same, and --device with all that goes with it.
 void add_hand_options(CLI::App& command, HandWish& wish);
 
 }  // namespace burr::app

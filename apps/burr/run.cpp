@@ -285,6 +285,11 @@ void add(CLI::App& app, Todo& todo) {
   command->add_option("--rpm", options->work.rpm,
                       "of the spindle; default: the case's, else 40000");
   add_hand_options(*command, options->work.hand);
+  command
+      ->add_option("--tell-as", options->work.told_as,
+                   "/burr: others may watch and record the window's session as a CRTK arm of that "
+                   "name (ROS 2)")
+      ->excludes("--headless");
   add_volume_options(*command, options->work.volume);
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

@@ -146,6 +146,12 @@ Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress) {
   auto started = sim::Session::make(std::move(work.made.bone), std::move(hand), settings, progress);
   if (!started) return started.error();
   ready.session = std::move(*started);
+  if (!options.told_as.empty()) {
+    auto arm = device::crtk::Arm::open({.name = options.told_as, .middle = above.p});
+    if (!arm) return arm.error();
+    ready.arm = std::move(*arm);
+    ready.teller = std::make_unique<ArmTeller>(*ready.session, *ready.arm);
+  }
   volume::Bone& bone = ready.session->bone();
   ready.spared = to_spare(bone.tissues(), options.spare);
   auto nearby = Nearby::make(bone, ready.spared, progress);

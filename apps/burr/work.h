@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "arm_teller.h"
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/io/import.h"
@@ -29,6 +30,7 @@ struct WorkOptions {
   double burr_mm = 0, rpm = 0;  // 0: the case's, or 5 mm and 40 000
   double seconds = 0;           // of the demonstration; 0: the case's
   HandWish hand;                // at the window
+  std::string told_as;          // likewise: a CRTK arm by which others may watch; empty: nobody may
   // what only a case says
   std::string title;                   // one line; empty for a scan
   std::optional<math::Vec3> at, into;  // where it begins
@@ -68,6 +70,8 @@ struct Ready {
   io::ImportSummary import;
   std::unique_ptr<sim::Session> session;
   Hands hands;  // the session's
+  std::unique_ptr<device::crtk::Arm> arm;
+  std::unique_ptr<ArmTeller> teller;
   std::unique_ptr<surface::Worker> worker;
   render::Scene scene;                         // with its surface and first view
   std::shared_ptr<const volume::Greys> greys;  // of a scan

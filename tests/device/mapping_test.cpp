@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 
+#include "burr/device/axes.h"
 #include "support/rt_guard.h"
 
 namespace burr::device {
@@ -155,6 +156,60 @@ TEST(MappedHand, TheMillButtonAndTheFootAreThePedal) {
   laid.stub->hand.buttons = 0;
   laid.hand->press(0.4);
   EXPECT_EQ(laid.hand->state(1e-3).pedal, 0.4);
+}
+
+// A robot's base looks forward: x far, y left, z up.
+TEST(MappedHand, ADevicesAxesAreAsItStands) {
+  const auto axes = axes_from_words("far left up");
+  ASSERT_TRUE(axes.has_value());
+  Laid laid({.axes = *axes});
+  static_cast<void>(laid.tip());
+  for (const auto& [by, is] : {std::pair<Vec3, Vec3>{{0.01, 0, 0}, {0, 0, -0.01}},
+                               {{0, 0.01, 0}, {-0.01, 0, 0}},
+                               {{0, 0, 0.01}, {0, 0.01, 0}}}) {
+    const Vec3 before = laid.tip();
+    laid.move(by);
+    EXPECT_NEAR((laid.tip() - before - kTurn * is).norm(), 0, 1e-12);
+    laid.hand->write_force(kTurn * (100 * is));
+    EXPECT_NEAR((laid.stub->pushed - 100 * by).norm(), 0, 1e-12);
+    laid.hand->write_force(Vec3::Zero());
+  }
+  laid.hand->lay(Quat::Identity());  // the view turned: the device stands as it stood
+  static_cast<void>(laid.tip());
+  const Vec3 before = laid.tip();
+  laid.move({0.01, 0, 0});
+  EXPECT_NEAR((laid.tip() - before - Vec3(0, 0, -0.01)).norm(), 0, 1e-12);
+}
+
+TEST(MappedHand, AxesAreWordsOfARightHandedFrame) {
+  EXPECT_EQ(words_of_axes(Quat::Identity()), "right up near");
+  int frames = 0;
+  const char* ways[] = {"right", "left", "up", "down", "near", "far"};
+  for (const char* x : ways)
+    for (const char* y : ways)
+      for (const char* z : ways) {
+        const std::string words = std::string(x) + " " + y + " " + z;
+        const auto axes = axes_from_words(words);
+        if (!axes) continue;
+        ++frames;
+        EXPECT_EQ(words_of_axes(*axes), words);
+      }
+  EXPECT_EQ(frames, 24) << "turns of a cube";
+  for (const char* bad :
+       {"", "right up", "right up far", "right right near", "x y z", "right up near near"})
+    EXPECT_FALSE(axes_from_words(bad).has_value()) << bad;
+}
+
+TEST(MappedHand, LiftedByTheDeviceItIsLaidElsewhereToo) {
+  Laid laid;
+  const Vec3 tip = laid.tip();
+  laid.stub->hand.buttons = kLifted;
+  laid.stub->hand.pedal = 1;
+  laid.move({0.02, 0, 0});
+  EXPECT_EQ(laid.tip(), tip);
+  EXPECT_EQ(laid.hand->state(1e-3).pedal, 0);
+  laid.stub->hand.buttons = 0;
+  EXPECT_EQ(laid.tip(), tip);
 }
 
 TEST(MappedHand, TakesNoMemory) {

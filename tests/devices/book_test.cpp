@@ -1,6 +1,8 @@
 // What a user wishes of each device, kept by its serial number.
 #include "device_book.h"
 
+#include "burr/device/axes.h"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -16,7 +18,9 @@ TEST(DeviceBook, ComesBackAsItWasWritten) {
   ASSERT_TRUE(book.set("Touch T-1", "dead_man=true").ok());
   ASSERT_TRUE(book.set("Odd \"name\" \\ 7", "max_force_n=2.5").ok());
   ASSERT_TRUE(book.set("Odd \"name\" \\ 7", "clutch_button=-1").ok());
+  ASSERT_TRUE(book.set("CRTK arm /MTMR", "axes=far left up").ok());
   const DeviceBook again = DeviceBook::parse(book.text(), "devices.toml");
+  EXPECT_EQ(device::words_of_axes(again.of("CRTK arm /MTMR").mapping.axes), "far left up");
   EXPECT_TRUE(again.troubles().empty()) << again.troubles().front();
   EXPECT_EQ(again.of("Touch T-1").mapping.scale, 0.5);
   EXPECT_TRUE(again.of("Touch T-1").mapping.dead_man);
@@ -27,9 +31,10 @@ TEST(DeviceBook, ComesBackAsItWasWritten) {
 }
 
 TEST(DeviceBook, RefusesInOneSentenceWhatCannotBe) {
-  for (const char* wrong : {"scale", "scale=", "scale=0", "scale=99", "scale=nan", "scale=\"1\"",
-                            "scale=1,2", "colour=1", "=1", "", "dead_man=1", "mill_button=0.5",
-                            "mill_button=31", "max_force_n=-1", "scale=1\nmax_force_n=3"}) {
+  for (const char* wrong :
+       {"scale", "scale=", "scale=0", "scale=99", "scale=nan", "scale=\"1\"", "scale=1,2",
+        "colour=1", "=1", "", "dead_man=1", "mill_button=0.5", "mill_button=31", "max_force_n=-1",
+        "axes=up", "axes=1", "axes=\"left up near\"", "scale=1\nmax_force_n=3"}) {
     DeviceBook book;
     const Status taken = book.set("a", wrong);
     const bool second_line = std::string(wrong).find('\n') != std::string::npos;

@@ -137,7 +137,7 @@ void add(CLI::App& app, Todo& todo) {
       "set", "what a device is to do from now on, kept by its serial number");
   setting
       ->add_option("name", options->wish.device,
-                   "touch, force-dimension, haply; NAME:WHICH where there are several")
+                   kinds_known() + "; NAME:WHICH where there are several")
       ->required();
   setting->add_option("settings", options->assignments, "scale=0.5 max_force_n=2 dead_man=true ...")
       ->required();
@@ -147,12 +147,9 @@ void add(CLI::App& app, Todo& todo) {
       "test", "first nothing moves, then a guided touch: rate, answer, noise, axes, a wall");
   trial
       ->add_option("name", options->wish.device,
-                   "touch, force-dimension, haply; NAME:WHICH where there are several")
+                   kinds_known() + "; NAME:WHICH where there are several")
       ->required();
-  trial->add_flag("--home", options->wish.home,
-                  "a Force Dimension arm may move by itself to find its home; keep the space free");
-  trial->add_flag("--is-homed", options->wish.is_homed,
-                  "you homed the arm yourself, and its library cannot tell");
+  add_homing_options(*trial, options->wish);
   trial->add_option("--out", options->out, "F.html: the result as a page to send");
   trial->add_option("--most-force", options->trial.most_force, "of the wall [N]")
       ->check(CLI::Range(0.1, 5.0))

@@ -15,8 +15,9 @@ MappedHand::MappedHand(std::unique_ptr<Device> device, const math::Pose& start,
                        const Quat& world_from_hand, const MappingSettings& settings)
     : device_(std::move(device)),
       settings_(settings),
-      turn_(world_from_hand),
-      wished_(world_from_hand),
+      laid_(world_from_hand),
+      turn_(world_from_hand * settings.axes),
+      wished_(turn_),
       at_(start.p),
       tip_(start.p),
       held_(start.q) {}
@@ -35,6 +36,7 @@ Status MappedHand::set(const MappingSettings& settings) {
         Trouble::usage,
         fmt::format("a device's scale of {} is out of range; take 0.1 to 10", settings.scale));
   settings_ = settings;
+  turn_ = wished_ = laid_ * settings_.axes;
   spec_ = device_->spec();
   spec_.max_stiffness /= settings_.scale;
   spec_.max_damping /= settings_.scale;
@@ -54,10 +56,11 @@ HandState MappedHand::state(double dt) BURR_RT {
     return button >= 0 && button < 31 && (hand.buttons >> button & 1U) != 0;
   };
   const double foot = pedal_.load(std::memory_order_relaxed);
-  const bool asleep = settings_.dead_man && !down(settings_.mill_button) && foot <= 0;
-  const bool lifted =
-      asleep || lifted_.load(std::memory_order_relaxed) || down(settings_.clutch_button);
-  static_cast<void>(turns_.take(wished_));
+  const bool asleep =
+      settings_.dead_man && !down(settings_.mill_button) && foot <= 0 && hand.pedal <= 0;
+  const bool lifted = asleep || (hand.buttons & kLifted) != 0 ||
+                      lifted_.load(std::memory_order_relaxed) || down(settings_.clutch_button);
+  if (turns_.take(laid_)) wished_ = laid_ * settings_.axes;
   const bool turns = forced_ == Vec3::Zero() && turn_.coeffs() != wished_.coeffs();
   if (lifted || !anchored_ || turns) {
     at_ = tip_;

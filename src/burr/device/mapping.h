@@ -21,8 +21,9 @@
 namespace burr::device {
 
 struct MappingSettings {
-  double scale = 1;       // way of the tip over way of the hand; 0.1..10
-  int clutch_button = 1;  // lifts the hand while it is down; -1: none
+  double scale = 1;                          // way of the tip over way of the hand; 0.1..10
+  math::Quat axes = math::Quat::Identity();  // hand_from_device, as it stands (axes.h)
+  int clutch_button = 1;                     // lifts the hand while it is down; -1: none
   bool dead_man = false;  // lifted unless the mill button is down, or the foot presses
   int mill_button = 0;    // full pedal while it is down; -1: none
 };
@@ -68,7 +69,8 @@ class MappedHand final : public Device {
   std::atomic<double> pedal_ = 0;
 
   // the servo's own
-  math::Quat turn_, wished_;
+  math::Quat laid_;                            // world_from_hand, as last wished
+  math::Quat turn_, wished_;                   // world_from_device
   math::Vec3 at_, from_ = math::Vec3::Zero();  // the tip, when the hand was there
   math::Vec3 tip_;
   math::Vec3 forced_ = math::Vec3::Zero();

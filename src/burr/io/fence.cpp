@@ -1,36 +1,14 @@
 #include "burr/io/fence.h"
 
-#include <dlfcn.h>
 #include <fmt/core.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <filesystem>
-
+#include "burr/base/helper_program.h"
 #include "burr/io/fence_walls.h"
-
-#if !defined(BURR_LIBEXEC_FROM_LIB)
-#define BURR_LIBEXEC_FROM_LIB "../libexec/burr"
-#endif
 
 namespace burr::io {
 namespace {
 
-// beside the library (a build tree), or where an installation has its helpers
-std::string find_reader() {
-  if (const char* named = std::getenv("BURR_READ"); named != nullptr && *named != '\0')
-    return ::access(named, X_OK) == 0 ? named : "";
-  Dl_info here{};
-  if (::dladdr(reinterpret_cast<const void*>(&find_reader), &here) == 0) return {};
-  std::error_code trouble;
-  auto library = std::filesystem::canonical(here.dli_fname, trouble);
-  if (trouble) return {};
-  for (const char* place : {"burr-read", BURR_LIBEXEC_FROM_LIB "/burr-read"}) {
-    const std::string reader = (library.parent_path() / place).lexically_normal().string();
-    if (::access(reader.c_str(), X_OK) == 0) return reader;
-  }
-  return {};
-}
+std::string find_reader() { return base::helper_program("burr-read", "BURR_READ"); }
 
 }  // namespace
 

@@ -548,6 +548,7 @@ void Servo::publish() BURR_RT {
   write_bricks(changed_.size() / ticks + 1);
   if (diary_.ticks != nullptr) diary_.ticks->push(row_);
   view_.publish(row_);
+  if (watch_ != nullptr) watch_->publish(row_);
 }
 
 void Servo::flush_bricks() BURR_RT { write_bricks(changed_.size()); }

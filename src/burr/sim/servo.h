@@ -110,6 +110,8 @@ class Servo {
     return burr_radius_.load(std::memory_order_relaxed);
   }
   void set_diary(const Diary& diary) { diary_ = diary; }  // before the session
+  // One more who sees every row, on a thread of its own; before the session. nullptr: nobody.
+  void set_watch(rt::Latest<record::TickRow>* watch) { watch_ = watch; }
   void set_heat(thermal::Worker* heat) { heat_ = heat; }  // servo -> heat; before the session
 
   // How long the last tick took and how late it began, for the diary and the view; not part of the
@@ -169,6 +171,7 @@ class Servo {
   ServoSettings settings_;
   double dt_;
 
+  rt::Latest<record::TickRow>* watch_ = nullptr;
   edit::ChangedQueue changed_;
   edit::UndoStore undo_;
   edit::Carver carver_;

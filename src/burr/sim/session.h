@@ -77,6 +77,10 @@ class Session {
   // nullptr: nowhere.
   void set_recorder(record::Recorder* recorder);
 
+  // The newest row goes to one more reader, beside view(); before run() or start(), and it outlives
+  // the session's last tick. nullptr: nobody.
+  void set_watch(rt::Latest<record::TickRow>* watch) { servo_->set_watch(watch); }
+
   // Until the hand has finished, `seconds` of its time are over, or progress is cancelled; returns
   // when the servo stands.
   void run(double seconds, Progress& progress);

@@ -1,0 +1,258 @@
+#include "burr/device/crtk/arm.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "burr/device/crtk/bus.h"
+#include "burr/rt/latest.h"
+
+namespace burr::device::crtk {
+namespace {
+
+using math::Pose;
+using math::Quat;
+using math::Vec3;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kHeard(300);             // for another of the same name
+constexpr std::int64_t kListenNs = 20'000'000;  // between two looks whether it is to end
+constexpr milliseconds kStateAgain(1000);       // operating_state, though nothing changed
+constexpr double kFarthest = 1;                 // from the middle [m]
+constexpr std::array<const char*, 3> kStates = {"ENABLED", "PAUSED", "DISABLED"};
+
+constexpr double kThere = 1e-9;  // [m]
+
+bool sound(const PoseStamped& goal, const Vec3& middle) {
+  const Pose pose = pose_of(goal.pose_);
+  const double size = pose.q.norm();
+  return !is_zero(goal.header_.stamp_) && pose.finite() && size > 0.9 && size < 1.1 &&
+         (pose.p - middle).norm() <= kFarthest;
+}
+
+}  // namespace
+
+struct Arm::Talk {
+  std::unique_ptr<Bus> bus;
+  Vec3 middle;
+  Writer<PoseStamped> measured, setpoint;
+  Writer<TwistStamped> velocity;
+  Writer<WrenchStamped> body, spatial;
+  Writer<OperatingState> states;
+  Reader<PoseStamped> servo, move;
+  Reader<StringStamped> commands;
+  Reader<Joy> spindle;
+  dds_entity_t waits;
+
+  rt::Latest<ArmGoal> goals;
+  std::atomic<std::uint64_t> left_aside = 0;
+  std::atomic<ArmState> state = ArmState::enabled;
+  std::atomic<bool> homed = true, stop = false;
+  std::thread listener;
+
+  // the listener's own
+  ArmGoal goal;
+
+  // the teller's own
+  int stated = -1;
+  steady_clock::time_point stated_at;
+
+  Talk(std::unique_ptr<Bus> on, const std::string& name, const Vec3& about)
+      : bus(std::move(on)),
+        middle(about),
+        measured(bus->participant(), name + "/measured_cp"),
+        setpoint(bus->participant(), name + "/setpoint_cp"),
+        velocity(bus->participant(), name + "/measured_cv"),
+        body(bus->participant(), name + "/body/measured_cf"),
+        spatial(bus->participant(), name + "/spatial/measured_cf"),
+        states(bus->participant(), name + "/operating_state", Keep::last),
+        servo(bus->participant(), name + "/servo_cp", Keep::newest),
+        move(bus->participant(), name + "/move_cp", Keep::all),
+        commands(bus->participant(), name + "/state_command", Keep::all),
+        spindle(bus->participant(), name + "/spindle", Keep::all),
+        waits(dds_create_waitset(bus->participant())) {
+    for (const dds_entity_t reader :
+         {servo.entity(), move.entity(), commands.entity(), spindle.entity()})
+      dds_waitset_attach(waits, dds_create_readcondition(reader, DDS_ANY_STATE), 0);
+    listener = std::thread([this] { listen(); });
+  }
+  ~Talk() {
+    stop = true;
+    listener.join();
+    dds_delete(waits);
+  }
+  Talk(const Talk&) = delete;
+  Talk& operator=(const Talk&) = delete;
+
+  void begin(ArmGoal::Kind kind) {
+    goal.kind = kind;
+    ++goal.number;
+  }
+  void obey(std::string_view word) {
+    ArmState next = goal.state;
+    if (word == "enable")
+      next = ArmState::enabled;
+    else if (word == "disable")
+      next = ArmState::disabled;
+    else if (word == "pause" && goal.state == ArmState::enabled)
+      next = ArmState::paused;
+    else if (word == "resume" && goal.state == ArmState::paused)
+      next = ArmState::enabled;
+    else if (word == "unhome")
+      homed = false;
+    else if (word == "home" && goal.state == ArmState::enabled) {
+      homed = true;
+      begin(ArmGoal::Kind::home);
+    } else {
+      ++left_aside;
+    }
+    if (next != goal.state && next != ArmState::enabled) begin(ArmGoal::Kind::stay);
+    if (next != ArmState::enabled) goal.spindle = 0;
+    goal.state = next;
+    state = next;
+  }
+  void follow(const PoseStamped& wanted, ArmGoal::Kind kind) {
+    if (goal.state != ArmState::enabled || !homed || !sound(wanted, middle)) {
+      ++left_aside;
+      return;
+    }
+    goal.goal = pose_of(wanted.pose_);
+    goal.goal.q.normalize();
+    begin(kind);
+  }
+  void listen() {
+    dds_attach_t found = 0;
+    while (!stop) {
+      if (dds_waitset_wait(waits, &found, 1, kListenNs) <= 0) continue;
+      while (const StringStamped* command = commands.take())
+        obey(command->string_ != nullptr ? command->string_ : "");
+      while (const PoseStamped* wanted = move.take()) follow(*wanted, ArmGoal::Kind::move);
+      while (const PoseStamped* wanted = servo.take()) follow(*wanted, ArmGoal::Kind::servo);
+      while (const Joy* joy = spindle.take()) {
+        const double pedal = joy->axes_._length > 0 ? joy->axes_._buffer[0] : NAN;
+        if (std::isfinite(pedal) && goal.state == ArmState::enabled)
+          goal.spindle = std::clamp(pedal, 0.0, 1.0);
+        else
+          ++left_aside;
+      }
+      goals.publish(goal);
+    }
+  }
+};
+
+Arm::Arm(std::unique_ptr<Talk> talk) : talk_(std::move(talk)) {}
+Arm::~Arm() = default;
+
+Result<std::unique_ptr<Arm>> Arm::open(const ArmSettings& settings) {
+  const std::string name = arm_name(settings.name);
+  if (name.empty())
+    return error(
+        Trouble::usage,
+        fmt::format("{}: is no name of an arm; write it as ROS does, /burr", settings.name));
+  auto bus = Bus::open(settings.domain);
+  if (!bus) return bus.error();
+  for (const auto until = steady_clock::now() + kHeard; steady_clock::now() < until;
+       std::this_thread::sleep_for(milliseconds(10)))
+    for (const Topic& topic : (*bus)->written())
+      if (topic.name == name + "/measured_cp")
+        return error(
+            Trouble::usage,
+            fmt::format("another arm {} is on DDS domain {} already; give this one another "
+                        "name, or set another ROS_DOMAIN_ID",
+                        name, (*bus)->domain()));
+  return std::unique_ptr<Arm>(
+      new Arm(std::make_unique<Talk>(std::move(*bus), name, settings.middle)));
+}
+
+void Arm::tell(const ArmTold& told) {
+  const std_msgs_msg_dds__Header_ header{now_stamp(), lent("world")};
+  talk_->measured.write(PoseStamped{header, message_of(told.measured)});
+  talk_->setpoint.write(PoseStamped{header, message_of(told.setpoint)});
+  talk_->velocity.write(TwistStamped{header, {message_of(told.velocity), {}}});
+  const Quat& q = told.measured.q;
+  talk_->body.write(WrenchStamped{header, {message_of(Vec3(q.conjugate() * told.force)), {}}});
+  talk_->spatial.write(WrenchStamped{
+      header, {message_of(told.force), message_of(Vec3(told.measured.p.cross(told.force)))}});
+  const auto state = talk_->state.load();
+  const bool homed = talk_->homed;
+  const int stated = 4 * static_cast<int>(state) + (homed ? 2 : 0) + (told.busy ? 1 : 0);
+  const auto now = steady_clock::now();
+  if (stated == talk_->stated && now - talk_->stated_at < kStateAgain) return;
+  talk_->states.write(
+      OperatingState{header, lent(kStates[static_cast<std::size_t>(state)]), homed, told.busy});
+  talk_->stated = stated;
+  talk_->stated_at = now;
+}
+
+bool Arm::take(ArmGoal& newest) BURR_RT { return talk_->goals.take(newest); }
+int Arm::domain() const { return talk_->bus->domain(); }
+std::uint64_t Arm::left_aside() const { return talk_->left_aside; }
+
+// ---- the hand
+
+DrivenHand::DrivenHand(Arm& arm, const Pose& start)
+    : arm_(arm), home_(start), at_(start), goal_(start) {
+  spec_.name = "driven arm";
+}
+
+void DrivenHand::step(double dt) BURR_RT {
+  const Vec3 before = at_.p;
+  const Vec3 way = goal_.p - at_.p;
+  const double left = way.norm();
+  const bool servo = told_.kind == ArmGoal::Kind::servo;
+  const double half = 0.5 * kMoveAcceleration * dt;
+  if (servo)
+    speed_ = kServoSpeed;
+  else  // no faster than from where it can stop
+    speed_ = std::min({kMoveSpeed, speed_ + kMoveAcceleration * dt,
+                       std::sqrt(2 * kMoveAcceleration * left + half * half) - half});
+  const double reach = speed_ * dt;
+  if (left <= reach + kThere) {
+    at_.p = goal_.p;
+    speed_ = 0;
+  } else {
+    at_.p += way * (reach / left);
+  }
+  const double angle = at_.q.angularDistance(goal_.q);
+  if (angle <= kTurnSpeed * dt)
+    at_.q = goal_.q;
+  else
+    at_.q = Quat(at_.q.slerp(kTurnSpeed * dt / angle, goal_.q));
+  velocity_ = (at_.p - before) / dt;
+  busy_.store(!servo && (at_.p != goal_.p || at_.q.coeffs() != goal_.q.coeffs()),
+              std::memory_order_relaxed);
+}
+
+HandState DrivenHand::state(double dt) BURR_RT {
+  const std::uint64_t number = told_.number;
+  if (arm_.take(told_) && told_.number != number) {
+    if (told_.kind == ArmGoal::Kind::stay) goal_ = at_;
+    if (told_.kind == ArmGoal::Kind::home) goal_ = home_;
+    if (told_.kind == ArmGoal::Kind::servo || told_.kind == ArmGoal::Kind::move) goal_ = told_.goal;
+  }
+  if (dt > 0) step(dt);
+  HandState hand;
+  hand.world_from_tool = at_;
+  hand.velocity = velocity_;
+  hand.pedal = told_.spindle;
+  hand.buttons = told_.state == ArmState::disabled ? kLifted : 0;
+  return hand;
+}
+
+std::string DrivenHand::trouble() const {
+  const std::uint64_t count = arm_.left_aside();
+  return count == 0 ? std::string()
+                    : fmt::format(
+                          "{} goals or commands were left aside: disabled, paused or not "
+                          "homed, a stamp of 0, no numbers, or too far.",
+                          count);
+}
+
+}  // namespace burr::device::crtk

@@ -1,0 +1,188 @@
+#include "burr/device/crtk/bus.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstdlib>
+#include <ctime>
+#include <utility>
+
+namespace burr::device::crtk {
+namespace {
+
+constexpr int kMostDomains = 232;  // ports end there (RTPS 2.2, 9.6.1)
+constexpr std::string_view kPrefix = "rt";
+constexpr int kHistory = 10;  // as ROS keeps by default
+
+struct QosDeleter {
+  void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
+};
+using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
+
+Qos qos(Keep keep) {
+  Qos one(dds_create_qos());
+  dds_qset_history(one.get(), DDS_HISTORY_KEEP_LAST, keep == Keep::all ? kHistory : 1);
+  dds_qset_durability(
+      one.get(), keep == Keep::last ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+  return one;
+}
+
+dds_entity_t make_topic(dds_entity_t participant, const dds_topic_descriptor_t& type,
+                        std::string_view topic) {
+  const std::string name = std::string(kPrefix) + std::string(topic);
+  return dds_create_topic(participant, &type, name.c_str(), nullptr, nullptr);
+}
+
+}  // namespace
+
+template <>
+const dds_topic_descriptor_t& described<Bool>() {
+  return std_msgs_msg_dds__Bool__desc;
+}
+template <>
+const dds_topic_descriptor_t& described<PoseStamped>() {
+  return geometry_msgs_msg_dds__PoseStamped__desc;
+}
+template <>
+const dds_topic_descriptor_t& described<TwistStamped>() {
+  return geometry_msgs_msg_dds__TwistStamped__desc;
+}
+template <>
+const dds_topic_descriptor_t& described<WrenchStamped>() {
+  return geometry_msgs_msg_dds__WrenchStamped__desc;
+}
+template <>
+const dds_topic_descriptor_t& described<JointState>() {
+  return sensor_msgs_msg_dds__JointState__desc;
+}
+template <>
+const dds_topic_descriptor_t& described<Joy>() {
+  return sensor_msgs_msg_dds__Joy__desc;
+}
+template <>
+const dds_topic_descriptor_t& described<OperatingState>() {
+  return crtk_msgs_msg_dds__OperatingState__desc;
+}
+template <>
+const dds_topic_descriptor_t& described<StringStamped>() {
+  return crtk_msgs_msg_dds__StringStamped__desc;
+}
+
+Bus::Bus(dds_entity_t participant, int domain)
+    : participant_(participant),
+      publications_(
+          dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr)),
+      domain_(domain) {}
+
+Bus::~Bus() { dds_delete(participant_); }
+
+Result<std::unique_ptr<Bus>> Bus::open(int domain) {
+  const char* given = std::getenv("ROS_DOMAIN_ID");
+  if (domain < 0 && given != nullptr && *given != '\0') {
+    const std::string_view text(given);
+    const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), domain);
+    if (bad != std::errc() || end != text.data() + text.size() || domain < 0 ||
+        domain > kMostDomains)
+      return error(Trouble::usage, fmt::format("ROS_DOMAIN_ID is \"{}\"; give a number, 0 to {}",
+                                               text, kMostDomains));
+  }
+  domain = std::max(domain, 0);
+  const dds_entity_t participant =
+      dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr);
+  if (participant < 0)
+    return error(Trouble::io,
+                 fmt::format("DDS cannot be opened on domain {} ({}); see that a network interface "
+                             "is up and what CYCLONEDDS_URI says",
+                             domain, dds_strretcode(participant)));
+  return std::unique_ptr<Bus>(new Bus(participant, domain));
+}
+
+std::vector<Topic> Bus::written() {
+  void* sample = nullptr;
+  dds_sample_info_t info{};
+  while (dds_take(publications_, &sample, &info, 1, 1) > 0) {
+    const auto& point = *static_cast<const dds_builtintopic_endpoint_t*>(sample);
+    const std::string key(reinterpret_cast<const char*>(&point.key), sizeof point.key);
+    std::erase_if(heard_, [&key](const auto& one) { return one.first == key; });
+    if (info.instance_state == DDS_IST_ALIVE && info.valid_data) {
+      const std::string_view name = point.topic_name;
+      if (name.starts_with("rt/"))
+        heard_.emplace_back(
+            key, Topic{std::string(name.substr(kPrefix.size())), std::string(point.type_name)});
+    }
+    dds_return_loan(publications_, &sample, 1);
+    sample = nullptr;
+  }
+  std::vector<Topic> all;
+  for (const auto& one : heard_) all.push_back(one.second);
+  std::sort(all.begin(), all.end(), [](const Topic& a, const Topic& b) { return a.name < b.name; });
+  return all;
+}
+
+namespace detail {
+
+dds_entity_t make_reader(dds_entity_t participant, const dds_topic_descriptor_t& type,
+                         std::string_view topic, Keep keep) {
+  const Qos wish = qos(keep);
+  // what happened before can be had only from a writer that is reliable
+  dds_qset_reliability(
+      wish.get(), keep == Keep::last ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, 0);
+  return dds_create_reader(participant, make_topic(participant, type, topic), wish.get(), nullptr);
+}
+
+dds_entity_t make_writer(dds_entity_t participant, const dds_topic_descriptor_t& type,
+                         std::string_view topic, Keep keep) {
+  const Qos wish = qos(keep);
+  dds_qset_reliability(wish.get(), DDS_RELIABILITY_RELIABLE, 0);  // no wait for who is slow
+  return dds_create_writer(participant, make_topic(participant, type, topic), wish.get(), nullptr);
+}
+
+bool take(dds_entity_t reader, void* sample) {
+  dds_sample_info_t info{};
+  while (dds_take(reader, &sample, &info, 1, 1) > 0)
+    if (info.valid_data) return true;
+  return false;
+}
+
+}  // namespace detail
+
+Stamp now_stamp() {
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  return {static_cast<std::int32_t>(now.tv_sec), static_cast<std::uint32_t>(now.tv_nsec)};
+}
+
+math::Pose pose_of(const geometry_msgs_msg_dds__Pose_& pose) {
+  math::Pose out;
+  out.p = {pose.position_.x_, pose.position_.y_, pose.position_.z_};
+  out.q = math::Quat(pose.orientation_.w_, pose.orientation_.x_, pose.orientation_.y_,
+                     pose.orientation_.z_);
+  return out;
+}
+
+geometry_msgs_msg_dds__Pose_ message_of(const math::Pose& pose) {
+  return {{pose.p.x(), pose.p.y(), pose.p.z()}, {pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()}};
+}
+
+geometry_msgs_msg_dds__Vector3_ message_of(const math::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+math::Vec3 vector_of(const geometry_msgs_msg_dds__Vector3_& v) { return {v.x_, v.y_, v.z_}; }
+
+std::string arm_name(std::string_view given) {
+  while (given.ends_with('/')) given.remove_suffix(1);
+  while (given.starts_with('/')) given.remove_prefix(1);
+  bool begins = true;  // a part of the name, which is never empty and begins with no digit
+  for (const char c : given) {
+    const auto letter = static_cast<unsigned char>(c);
+    if (c == '/'
+            ? begins
+            : !(std::isalpha(letter) != 0 || c == '_' || (!begins && std::isdigit(letter) != 0)))
+      return {};
+    begins = c == '/';
+  }
+  return given.empty() ? std::string() : "/" + std::string(given);
+}
+
+}  // namespace burr::device::crtk

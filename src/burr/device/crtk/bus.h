@@ -1,0 +1,139 @@
+// device/crtk/bus.h - the bus that CRTK arms speak on: DDS with the names of ROS 2, no ROS needed;
+// of this room only.
+//
+//     auto bus = Bus::open(-1);                         // the domain of ROS_DOMAIN_ID
+//     Reader<PoseStamped> place((*bus)->participant(), "/MTMR/measured_cp", Keep::newest);
+//     if (const PoseStamped* newest = place.take()) ...
+//
+// A topic /x of ROS is rt/x here, its type p::msg::dds_::T_ (crtk_messages.idl). Writers are
+// reliable, keep one sample and never wait; readers take what either kind of writer offers.
+// Thread: each Reader and each Writer on one thread at a time. Errors: a bus that cannot be opened
+// says why; after that a reader that could not be made reads nothing, a writer writes nothing.
+#pragma once
+
+#include <dds/dds.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <crtk_messages.h>
+#include "burr/base/result.h"
+#include "burr/math/pose.h"
+
+namespace burr::device::crtk {
+
+using Stamp = builtin_interfaces_msg_dds__Time_;
+using Bool = std_msgs_msg_dds__Bool_;
+using PoseStamped = geometry_msgs_msg_dds__PoseStamped_;
+using TwistStamped = geometry_msgs_msg_dds__TwistStamped_;
+using WrenchStamped = geometry_msgs_msg_dds__WrenchStamped_;
+using JointState = sensor_msgs_msg_dds__JointState_;
+using Joy = sensor_msgs_msg_dds__Joy_;
+using OperatingState = crtk_msgs_msg_dds__OperatingState_;
+using StringStamped = crtk_msgs_msg_dds__StringStamped_;
+
+template <class T>
+[[nodiscard]] const dds_topic_descriptor_t& described();
+
+// A topic somebody writes or reads, as its discovery tells it.
+struct Topic {
+  std::string name;  // as ROS says it: /MTMR/measured_cp
+  std::string type;  // geometry_msgs::msg::dds_::PoseStamped_
+};
+
+class Bus {
+ public:
+  // domain: 0..232; below 0: ROS_DOMAIN_ID, else 0
+  [[nodiscard]] static Result<std::unique_ptr<Bus>> open(int domain);
+  ~Bus();
+  Bus(const Bus&) = delete;
+  Bus& operator=(const Bus&) = delete;
+
+  [[nodiscard]] dds_entity_t participant() const { return participant_; }
+  [[nodiscard]] int domain() const { return domain_; }
+  // Topics of ROS that somebody writes, as far as heard by now; sorted.
+  [[nodiscard]] std::vector<Topic> written();
+
+ private:
+  Bus(dds_entity_t participant, int domain);
+
+  dds_entity_t participant_, publications_;
+  int domain_;
+  std::vector<std::pair<std::string, Topic>> heard_;  // by the writer's key
+};
+
+enum class Keep {
+  newest,  // one sample: what is measured
+  all,     // ten: what happens
+  last,    // likewise, and the last one from before we came
+};
+
+namespace detail {
+[[nodiscard]] dds_entity_t make_reader(dds_entity_t participant, const dds_topic_descriptor_t& type,
+                                       std::string_view topic, Keep keep);
+[[nodiscard]] dds_entity_t make_writer(dds_entity_t participant, const dds_topic_descriptor_t& type,
+                                       std::string_view topic, Keep keep);
+[[nodiscard]] bool take(dds_entity_t reader, void* sample);
+}  // namespace detail
+
+template <class T>
+class Reader {
+ public:
+  Reader(dds_entity_t participant, std::string_view topic, Keep keep)
+      : entity_(detail::make_reader(participant, described<T>(), topic, keep)) {}
+  ~Reader() {
+    dds_delete(entity_);
+    dds_sample_free(&sample_, &described<T>(), DDS_FREE_CONTENTS);
+  }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  // The next sample, oldest first, until the next take(); nullptr: none.
+  [[nodiscard]] const T* take() { return detail::take(entity_, &sample_) ? &sample_ : nullptr; }
+  [[nodiscard]] dds_entity_t entity() const { return entity_; }
+
+ private:
+  dds_entity_t entity_;
+  T sample_{};
+};
+
+template <class T>
+class Writer {
+ public:
+  Writer(dds_entity_t participant, std::string_view topic, Keep keep = Keep::newest)
+      : entity_(detail::make_writer(participant, described<T>(), topic, keep)) {}
+  ~Writer() { dds_delete(entity_); }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  // False: it went nowhere.
+  bool write(const T& sample) { return dds_write(entity_, &sample) == DDS_RETCODE_OK; }
+  // How many read it.
+  [[nodiscard]] int readers() const { return dds_get_matched_subscriptions(entity_, nullptr, 0); }
+  // Until all who read it have it, or so long [ns].
+  void flush(std::int64_t longest) { dds_wait_for_acks(entity_, longest); }
+
+ private:
+  dds_entity_t entity_;
+};
+
+// The time of ROS: since 1970.
+[[nodiscard]] Stamp now_stamp();
+[[nodiscard]] inline bool is_zero(const Stamp& stamp) {
+  return stamp.sec_ == 0 && stamp.nanosec_ == 0;
+}
+// A text of ours in a sample to be written, which reads it only.
+[[nodiscard]] inline char* lent(const char* text) { return const_cast<char*>(text); }
+
+[[nodiscard]] math::Pose pose_of(const geometry_msgs_msg_dds__Pose_& pose);
+[[nodiscard]] geometry_msgs_msg_dds__Pose_ message_of(const math::Pose& pose);
+[[nodiscard]] geometry_msgs_msg_dds__Vector3_ message_of(const math::Vec3& v);
+[[nodiscard]] math::Vec3 vector_of(const geometry_msgs_msg_dds__Vector3_& v);
+
+// A namespace of ROS as a user may write it, "MTMR" or "/MTMR/", as "/MTMR"; empty: it is none.
+[[nodiscard]] std::string arm_name(std::string_view given);
+
+}  // namespace burr::device::crtk

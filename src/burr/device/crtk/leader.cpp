@@ -1,0 +1,384 @@
+#include "burr/device/crtk/leader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "burr/device/crtk/bus.h"
+#include "burr/device/guardian.h"
+
+namespace burr::device::crtk {
+namespace {
+
+using math::Quat;
+using math::Vec3;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kHeard(1500);    // for who is there to be heard of
+constexpr milliseconds kMatched(2000);  // for a topic to be joined
+constexpr milliseconds kStated(600);    // for an arm to say its state
+constexpr milliseconds kHomes(60'000);  // for an arm to home
+constexpr milliseconds kCounted(400);   // in which its rate is seen
+constexpr milliseconds kSilent(200);    // then it is gone
+constexpr milliseconds kLook(2);
+constexpr std::int64_t kOneReadingNs = 2'000'000;  // that read() waits
+constexpr std::int64_t kLastNs = 100'000'000;      // for the last force to arrive
+constexpr double kSlowest = 400;    // readings a second: the tick lets go after 5 ms without [Hz]
+constexpr double kFarthest = 5;     // no arm is longer [m]
+constexpr int kLookAtReaders = 64;  // forces between two looks whether anybody takes them
+
+constexpr const char *kBody = "/body/servo_cf", *kSpatial = "/spatial/servo_cf";
+constexpr const char* kPlace = "/measured_cp";
+constexpr const char* kPoseType = "geometry_msgs::msg::dds_::PoseStamped_";
+
+// CRTK tells no limits. Cautious ones, for an arm of the size of dVRK's leaders: what the hand of
+// any of them can bear, not what the strongest could do.
+constexpr double kPeak = 3, kContinuous = 1;      // [N]
+constexpr double kStiffness = 400, kDamping = 3;  // [N/m], [N s/m]
+constexpr double kRadius = 100e-3;                // [m]
+
+template <class Done>
+bool until(milliseconds longest, Done done) {
+  for (const auto end = steady_clock::now() + longest; !done();) {
+    if (steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(kLook);
+  }
+  return true;
+}
+
+bool is_pressed(const Joy& joy) { return joy.buttons_._length > 0 && joy.buttons_._buffer[0] != 0; }
+
+}  // namespace
+
+// The connection, and what is known through it.
+struct Leader::Talk {
+  std::unique_ptr<Bus> bus;
+  std::string arm;
+  Reader<PoseStamped> place;
+  Reader<TwistStamped> speed;
+  Reader<OperatingState> happens, happened;
+  Reader<Bool> gripper;
+  Reader<Joy> clutch, coag, present;
+  Writer<WrenchStamped> body, spatial;
+  Writer<StringStamped> command;
+  Writer<Bool> absolute, weightless;
+  dds_entity_t waits, comes;
+  std::unique_ptr<Guardian> guardian;
+
+  bool to_body = true;
+  WrenchStamped wrench{};
+  int until_look = kLookAtReaders;
+  bool taken = true;
+  HandState hand;
+  steady_clock::time_point heard;
+
+  bool stated = false;
+  std::string state;
+  bool homed = false, busy = false;
+  bool is_present = true;
+  std::uint32_t buttons = 0;
+  double pedal = 0;
+
+  Talk(std::unique_ptr<Bus> on, const std::string& name)
+      : bus(std::move(on)),
+        arm(name),
+        place(bus->participant(), name + kPlace, Keep::newest),
+        speed(bus->participant(), name + "/measured_cv", Keep::newest),
+        happens(bus->participant(), name + "/operating_state", Keep::all),
+        happened(bus->participant(), name + "/operating_state", Keep::last),
+        gripper(bus->participant(), name + "/gripper/closed", Keep::all),
+        clutch(bus->participant(), "/footpedals/clutch", Keep::all),
+        coag(bus->participant(), "/footpedals/coag", Keep::all),
+        present(bus->participant(), "/console/operator_present", Keep::all),
+        body(bus->participant(), name + kBody),
+        spatial(bus->participant(), name + kSpatial),
+        command(bus->participant(), name + "/state_command", Keep::all),
+        absolute(bus->participant(), name + "/body/set_cf_orientation_absolute"),
+        weightless(bus->participant(), name + "/use_gravity_compensation"),
+        waits(dds_create_waitset(bus->participant())),
+        comes(dds_create_readcondition(place.entity(), DDS_ANY_STATE)) {
+    dds_waitset_attach(waits, comes, 0);
+    wrench.header_.frame_id_ = lent("");
+  }
+  ~Talk() {
+    guardian.reset();
+    dds_delete(waits);
+    dds_delete(comes);
+  }
+  Talk(const Talk&) = delete;
+  Talk& operator=(const Talk&) = delete;
+
+  Writer<WrenchStamped>& force() { return to_body ? body : spatial; }
+
+  void take_state(const OperatingState& told) {
+    stated = true;
+    state.assign(told.state_ != nullptr ? told.state_ : "");
+    homed = told.is_homed_;
+    busy = told.is_busy_;
+  }
+
+  // All that is told beside the place.
+  void listen() {
+    if (!stated)
+      while (const OperatingState* told = happened.take()) take_state(*told);
+    while (const OperatingState* told = happens.take()) take_state(*told);
+    while (const Bool* closed = gripper.take()) press(0, closed->data_);
+    while (const Joy* joy = clutch.take()) press(1, is_pressed(*joy));
+    while (const Joy* joy = coag.take()) pedal = is_pressed(*joy) ? 1 : 0;
+    while (const Joy* joy = present.take()) is_present = is_pressed(*joy);
+  }
+  void press(int button, bool down) {
+    const std::uint32_t bit = 1U << button;
+    buttons = down ? buttons | bit : buttons & ~bit;
+  }
+
+  // Until a place has come, or a few milliseconds.
+  const PoseStamped* next_place() {
+    dds_attach_t found = 0;
+    static_cast<void>(dds_waitset_wait(waits, &found, 1, kOneReadingNs));
+    return place.take();
+  }
+  // How often a place comes [Hz].
+  double rate() {
+    int places = 0;
+    const auto began = steady_clock::now();
+    while (steady_clock::now() - began < kCounted)
+      if (next_place() != nullptr) ++places;
+    return places / std::chrono::duration<double>(steady_clock::now() - began).count();
+  }
+
+  [[nodiscard]] bool enabled() const { return !stated || state == "ENABLED"; }
+  [[nodiscard]] bool ready() const { return !stated || (enabled() && homed && !busy); }
+
+  void ask(const char* words) {
+    StringStamped message{};
+    message.header_ = {now_stamp(), lent("")};
+    message.string_ = lent(words);
+    command.write(message);
+  }
+
+  // A pure force at the arm's end; p, q: where that is in the frame of the force.
+  bool push(const Vec3& wanted) {
+    const math::Pose& end = hand.world_from_tool;
+    wrench.header_.stamp_ = now_stamp();
+    wrench.wrench_.force_ = message_of(to_body ? Vec3(end.q.conjugate() * wanted) : wanted);
+    wrench.wrench_.torque_ = message_of(to_body ? Vec3(Vec3::Zero()) : Vec3(end.p.cross(wanted)));
+    return force().write(wrench);
+  }
+};
+
+Leader::Leader(LeaderSettings settings) : settings_(std::move(settings)) {}
+Leader::~Leader() { disconnect(); }
+
+namespace {
+
+// The arm to take; error: which there are.
+Result<std::string> choose(Bus& bus, const std::string& given) {
+  std::string wanted;
+  if (!given.empty()) {
+    wanted = arm_name(given);
+    if (wanted.empty())
+      return error(Trouble::usage,
+                   fmt::format("{}: is no name of an arm; write it as ROS does, /MTMR", given));
+  }
+  std::vector<std::string> arms;
+  std::string old;
+  const auto look = [&] {
+    arms.clear();
+    for (const Topic& topic : bus.written()) {
+      if (!topic.name.ends_with(kPlace) || topic.name.find("/local/") != std::string::npos)
+        continue;
+      const std::string arm = topic.name.substr(0, topic.name.size() - std::string(kPlace).size());
+      if (topic.type != kPoseType)
+        old = arm + " " + topic.type;
+      else if (std::find(arms.begin(), arms.end(), arm) == arms.end())
+        arms.push_back(arm);
+    }
+    return !wanted.empty() && std::find(arms.begin(), arms.end(), wanted) != arms.end();
+  };
+  if (until(kHeard, look)) return wanted;
+  if (wanted.empty() && arms.size() == 1) return arms.front();
+  if (!old.empty() && (wanted.empty() || old.starts_with(wanted + " ")))
+    return error(Trouble::io,
+                 fmt::format("{} is not what CRTK has said since 2022, a PoseStamped; update the "
+                             "arm's node",
+                             old));
+  const std::string where = fmt::format("on DDS domain {}", bus.domain());
+  if (arms.empty())
+    return error(
+        Trouble::io,
+        fmt::format(
+            "no CRTK arm{}{} is heard {}; start its node, and see that ROS_DOMAIN_ID is the "
+            "same for both",
+            wanted.empty() ? "" : " ", wanted, where));
+  return error(Trouble::io,
+               wanted.empty()
+                   ? fmt::format("several CRTK arms are heard {}: {}; say which one, crtk:{}",
+                                 where, fmt::join(arms, ", "), arms.front())
+                   : fmt::format("no CRTK arm {} is heard {}; there are {}", wanted, where,
+                                 fmt::join(arms, ", ")));
+}
+
+}  // namespace
+
+// Enabled and homed, by itself where that is allowed.
+Status Leader::prepare(Talk& talk) {
+  const auto stated = [&talk] {
+    talk.listen();
+    return talk.stated;
+  };
+  static_cast<void>(until(kStated, stated));
+  if (talk.ready()) return fine();
+  const auto trouble = [&talk](const char* todo) {
+    return error(Trouble::io, fmt::format("{} is {}{}; {}", talk.arm, talk.state,
+                                          talk.busy    ? " and busy"
+                                          : talk.homed ? ""
+                                                       : " and not homed",
+                                          todo));
+  };
+  if (talk.state == "FAULT") return trouble("clear the fault at its console");
+  if (!settings_.home_allowed)
+    return trouble("enable and home it at its console, or allow burr to by --home: it moves then");
+  talk.ask(talk.state == "PAUSED" ? "resume" : "enable");
+  static_cast<void>(until(kMatched, [&talk] {
+    talk.listen();
+    return talk.enabled();
+  }));
+  if (!talk.homed) talk.ask("home");
+  const bool came = until(kHomes, [&talk] {
+    talk.listen();
+    return talk.ready() || talk.state == "FAULT";
+  });
+  if (!came || !talk.ready()) return trouble("it did not home; see its console");
+  return fine();
+}
+
+Result<DeviceSpec> Leader::connect() {
+  disconnect();
+  auto bus = Bus::open(settings_.domain);
+  if (!bus) return bus.error();
+  const auto arm = choose(**bus, settings_.arm);
+  if (!arm) return arm.error();
+  const int domain = (*bus)->domain();
+  auto talk = std::make_unique<Talk>(std::move(*bus), *arm);
+  name_ = *arm;
+
+  const auto taken = [&talk] {
+    talk->to_body = talk->body.readers() > 0;
+    return talk->to_body || talk->spatial.readers() > 0;
+  };
+  if (!until(kMatched, taken))
+    return error(
+        Trouble::io,
+        fmt::format("{0} takes no force: nobody listens to {0}{1} or {0}{2}; burr needs an "
+                    "arm that can push",
+                    *arm, kBody, kSpatial));
+  if (!talk->to_body)  // it may only not have been heard of yet
+    static_cast<void>(until(kStated, [&talk] { return talk->body.readers() > 0; }));
+  static_cast<void>(taken());
+  const Status prepared = prepare(*talk);
+  if (!prepared) return prepared.error();
+
+  const double rate = talk->rate();
+  if (rate < kSlowest)
+    return error(Trouble::io,
+                 fmt::format("{} tells its place {:.0f} times a second; burr needs {:.0f} or more: "
+                             "set a shorter period where its node is started",
+                             *arm, rate, kSlowest));
+
+  // Where the arm knows them: its weight carried, and forces as its end is turned.
+  const Bool yes{true}, no{false};
+  talk->weightless.write(yes);
+  if (talk->to_body) talk->absolute.write(no);
+  auto guardian =
+      Guardian::start({"crtk", std::to_string(domain), *arm, talk->to_body ? kBody : kSpatial});
+  if (!guardian) return guardian.error();
+  talk->guardian = std::move(*guardian);
+  talk->heard = steady_clock::now();
+  talk_ = std::move(talk);
+
+  trouble_ = nullptr;
+  DeviceSpec spec;
+  spec.name = "CRTK arm";
+  spec.serial = *arm;
+  spec.simulated = false;
+  spec.sensed = 6;
+  spec.actuated = 3;
+  spec.peak_force = kPeak;
+  spec.continuous_force = kContinuous;
+  spec.thermal_budget = 5 * kPeak * kPeak;
+  spec.max_stiffness = kStiffness;
+  spec.max_damping = kDamping;
+  spec.workspace_radius = kRadius;
+  spec.native_rate = 1000;
+  spec.loss_timeout = 5e-3;
+  return spec;
+}
+
+void Leader::note(const char* words) BURR_RT {
+  if (trouble_ != words) ++told_;
+  trouble_ = words;
+}
+
+Wire::Read Leader::read(HandState& hand) BURR_RT {
+  Talk& talk = *talk_;
+  hand.valid = false;
+  const PoseStamped* newest = talk.next_place();
+  talk.guardian->beat();
+  if (newest == nullptr) {
+    if (steady_clock::now() - talk.heard < kSilent) return Read::nothing;
+    note("has gone silent; see that its node runs.");
+    return Read::lost;
+  }
+  talk.heard = steady_clock::now();
+  talk.listen();
+  while (const TwistStamped* speed = talk.speed.take())
+    talk.hand.velocity =
+        is_zero(speed->header_.stamp_) ? Vec3(Vec3::Zero()) : vector_of(speed->twist_.linear_);
+  const bool stamped = !is_zero(newest->header_.stamp_);  // CRTK: 0 says that it is not valid
+  const math::Pose pose = pose_of(newest->pose_);
+  const double size = pose.q.norm();
+  const bool sound = pose.finite() && size > 0.5 && size < 2 && pose.p.norm() < kFarthest &&
+                     talk.hand.velocity.allFinite();
+  note(!talk.enabled()      ? "was disabled; enable it at its console."
+       : !talk.ready()      ? "homes or moves by itself just now; wait for it."
+       : !stamped || !sound ? "says that its place is not valid; see its console."
+       : !talk.taken        ? "does not take forces; see that its node runs."
+       : !talk.is_present   ? "waits for somebody at its console."
+                            : nullptr);
+  if (stamped && sound) talk.hand.world_from_tool = {pose.p, Quat(pose.q.coeffs() / size)};
+  hand = talk.hand;
+  hand.buttons = talk.buttons | (talk.is_present ? 0 : kLifted);
+  hand.pedal = talk.pedal;
+  hand.valid = stamped && sound && talk.taken && talk.ready();
+  return Read::hand;
+}
+
+bool Leader::write(const Vec3& force) BURR_RT {
+  Talk& talk = *talk_;
+  Vec3 push = force.allFinite() ? force : Vec3(Vec3::Zero());
+  if (const double size = push.norm(); size > kPeak) push *= kPeak / size;
+  static_cast<void>(talk.push(push));  // what went nowhere is followed by the next
+  if (--talk.until_look <= 0) {
+    talk.until_look = kLookAtReaders;
+    talk.taken = talk.force().readers() > 0;
+  }
+  return true;
+}
+
+void Leader::disconnect() {
+  if (!talk_) return;
+  static_cast<void>(talk_->push(Vec3::Zero()));
+  talk_->force().flush(kLastNs);
+  talk_.reset();
+}
+
+std::string Leader::why() const {
+  return trouble_ != nullptr ? name_ + " " + trouble_ : std::string();
+}
+
+}  // namespace burr::device::crtk

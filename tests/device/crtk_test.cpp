@@ -1,0 +1,433 @@
+// A CRTK arm as the hand, against one that the test plays on the same bus (fake/fake_crtk.h).
+#include <dds/ddsi/ddsi_serdata.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <random>
+#include <string>
+
+#include "burr/device/crtk/bus.h"
+#include "burr/device/crtk/leader.h"
+#include "burr/haptics/contact.h"
+#include "device/fake/fake_crtk.h"
+#include "device/stand_in.h"
+
+namespace burr::device::crtk {
+namespace {
+
+using math::Quat;
+using math::Vec3;
+using test::FakeArm;
+using test::soon;
+using Wishes = FakeArm::Wishes;
+
+class LeaderTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { domain_ = test::quiet_domain(); }
+  [[nodiscard]] static LeaderSettings here(const std::string& arm = "/arm", bool home = false) {
+    return {.arm = arm, .domain = domain_, .home_allowed = home};
+  }
+  [[nodiscard]] static std::unique_ptr<WireDevice> device(
+      const std::string& arm = "/arm", double loss_timeout = test::kStallsAllowed) {
+    LinkSettings link;
+    link.loss_timeout = loss_timeout;
+    return std::make_unique<WireDevice>(std::make_unique<Leader>(here(arm)), link);
+  }
+  static HandState next(Leader& wire) {
+    HandState hand;
+    Wire::Read read = Wire::Read::nothing;
+    EXPECT_TRUE(soon([&] { return (read = wire.read(hand)) != Wire::Read::nothing; }));
+    EXPECT_EQ(read, Wire::Read::hand);
+    return hand;
+  }
+  static std::string refusal(const LeaderSettings& settings) {
+    Leader wire(settings);
+    const auto found = wire.connect();
+    return found.ok() ? "it connected" : found.error().text;
+  }
+  static int domain_;
+};
+int LeaderTest::domain_ = 0;
+
+TEST_F(LeaderTest, SaysWhatItIsAndSetsTheArmUp) {
+  FakeArm arm(domain_);
+  const auto hand = device("arm/");
+  const Status opened = hand->open();
+  ASSERT_TRUE(opened.ok()) << opened.error().text;
+  EXPECT_EQ(hand->spec().serial, "/arm");
+  EXPECT_EQ(hand->spec().sensed, 6);
+  EXPECT_EQ(hand->spec().peak_force, 3);
+  EXPECT_EQ(hand->spec().loss_timeout, 5e-3);
+  EXPECT_TRUE(soon([&] { return arm.with([](Wishes& w) { return w.weightless && !w.absolute; }); }))
+      << "its weight is carried, and forces are as its end is turned";
+  EXPECT_EQ(hand->trouble(), "");
+}
+
+TEST_F(LeaderTest, TheOnlyArmIsFoundByItself) {
+  FakeArm arm(domain_, "/lab/left_1");
+  Leader wire(here(""));
+  const auto spec = wire.connect();
+  ASSERT_TRUE(spec.ok()) << spec.error().text;
+  EXPECT_EQ(spec->serial, "/lab/left_1");
+}
+
+TEST_F(LeaderTest, TenMillimetresAreThoseAlongEveryAxis) {
+  FakeArm arm(domain_);
+  Leader wire(here());
+  ASSERT_TRUE(wire.connect().ok());
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 way = 0.01 * Vec3::Unit(axis);
+    const Quat turn(Eigen::AngleAxisd(0.3 + axis, Vec3(1, 2, 3).normalized()));
+    arm.with([&](Wishes& w) {
+      w.place = {way, turn};
+      w.velocity = 20 * way;
+    });
+    HandState hand;
+    ASSERT_TRUE(soon([&] {
+      hand = next(wire);
+      return (hand.world_from_tool.p - way).norm() < 1e-12 &&
+             (hand.velocity - 20 * way).norm() < 1e-12;
+    }));
+    EXPECT_TRUE(hand.valid);
+    EXPECT_NEAR(hand.world_from_tool.q.angularDistance(turn), 0, 1e-7);
+  }
+}
+
+// The arm's end is turned: what it is told is in its own frame, what it pushes in the base's.
+TEST_F(LeaderTest, TheForceIsTurnedIntoTheFrameOfTheArmsEnd) {
+  FakeArm arm(domain_);
+  const Quat turn(Eigen::AngleAxisd(1.1, Vec3(1, -2, 0.5).normalized()));
+  arm.with([&](Wishes& w) { w.place = {{0.1, 0.2, 0.3}, turn}; });
+  Leader wire(here());
+  ASSERT_TRUE(wire.connect().ok());
+  ASSERT_TRUE(
+      soon([&] { return (next(wire).world_from_tool.p - Vec3(0.1, 0.2, 0.3)).norm() < 1e-12; }));
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 wanted = 1.5 * Vec3::Unit(axis);
+    ASSERT_TRUE(wire.write(wanted));
+    Vec3 pushed = Vec3::Zero();
+    EXPECT_TRUE(soon([&] {
+      pushed = turn * arm.force();
+      return (pushed - wanted).norm() < 1e-9;
+    })) << pushed.transpose();
+    EXPECT_EQ(arm.with([](Wishes& w) { return w.torque; }), Vec3::Zero());
+  }
+}
+
+// dVRK's spatial wrench is about the base: a force at the end is seen there with its moment.
+TEST_F(LeaderTest, AnArmWithoutBodyForcesGetsTheWrenchAboutItsBase) {
+  FakeArm arm(domain_, "/arm", {.body = false});
+  const Vec3 place(0.1, 0.2, 0.3), force(1, -1, 0.5);
+  arm.with([&](Wishes& w) { w.place.p = place; });
+  Leader wire(here());
+  ASSERT_TRUE(wire.connect().ok());
+  ASSERT_TRUE(soon([&] { return (next(wire).world_from_tool.p - place).norm() < 1e-12; }));
+  ASSERT_TRUE(wire.write(force));
+  EXPECT_TRUE(soon([&] { return (arm.force() - force).norm() < 1e-9; }));
+  const Vec3 torque = arm.with([](Wishes& w) { return w.torque; });
+  EXPECT_NEAR(torque.x(), 0.2 * 0.5 - 0.3 * -1, 1e-12);
+  EXPECT_NEAR(torque.y(), 0.3 * 1 - 0.1 * 0.5, 1e-12);
+  EXPECT_NEAR(torque.z(), 0.1 * -1 - 0.2 * 1, 1e-12);
+}
+
+TEST_F(LeaderTest, GripperAndPedalsMillAndLift) {
+  FakeArm arm(domain_);
+  Leader wire(here());
+  ASSERT_TRUE(wire.connect().ok());
+  EXPECT_EQ(next(wire).buttons, 0U);
+  arm.tread("gripper", true);
+  EXPECT_TRUE(soon([&] { return next(wire).buttons == 1U; }));
+  arm.tread("gripper", false);
+  arm.tread("clutch", true);
+  EXPECT_TRUE(soon([&] { return next(wire).buttons == 2U; }));
+  arm.tread("clutch", false);
+  arm.tread("coag", true);
+  EXPECT_TRUE(soon([&] {
+    const HandState hand = next(wire);
+    return hand.buttons == 0U && hand.pedal == 1;
+  }));
+  arm.tread("present", false);
+  EXPECT_TRUE(soon([&] { return (next(wire).buttons & kLifted) != 0; })) << "nobody is there";
+  EXPECT_NE(wire.why().find("somebody"), std::string::npos);
+  arm.tread("present", true);
+  EXPECT_TRUE(soon([&] { return (next(wire).buttons & kLifted) == 0; }));
+}
+
+TEST_F(LeaderTest, WhatCannotServeAsAHandIsSaidWithItsRemedy) {
+  EXPECT_NE(refusal(here()).find("no CRTK arm /arm is heard on DDS domain"), std::string::npos);
+  EXPECT_NE(refusal(here("1/x")).find("is no name of an arm"), std::string::npos);
+  {
+    FakeArm one(domain_, "/one"), two(domain_, "/two");
+    const std::string several = refusal(here(""));
+    EXPECT_NE(several.find("/one, /two; say which one"), std::string::npos) << several;
+    const std::string none = refusal(here("/three"));
+    EXPECT_NE(none.find("there are /one, /two"), std::string::npos) << none;
+  }
+  {
+    FakeArm arm(domain_, "/arm", {.body = false, .spatial = false});
+    EXPECT_NE(refusal(here()).find("takes no force"), std::string::npos);
+  }
+  {
+    FakeArm arm(domain_);
+    arm.with([](Wishes& w) { w.rate_hz = 100; });
+    const std::string slow = refusal(here());
+    EXPECT_NE(slow.find("times a second; burr needs 400"), std::string::npos) << slow;
+  }
+  ::setenv("ROS_DOMAIN_ID", "three", 1);
+  EXPECT_NE(refusal({}).find("ROS_DOMAIN_ID is \"three\""), std::string::npos);
+  ::setenv("ROS_DOMAIN_ID", "233", 1);
+  EXPECT_NE(refusal({}).find("0 to 232"), std::string::npos);
+  ::unsetenv("ROS_DOMAIN_ID");
+}
+
+TEST_F(LeaderTest, AnOldPlaceOfAnotherTypeIsSaid) {
+  auto bus = Bus::open(domain_);
+  ASSERT_TRUE(bus.ok());
+  const Writer<JointState> odd((*bus)->participant(), "/arm/measured_cp");
+  const std::string old = refusal(here());
+  EXPECT_NE(old.find("update the arm's node"), std::string::npos) << old;
+}
+
+TEST_F(LeaderTest, AnArmMovesByItselfOnlyWhereThatIsAllowed) {
+  Wishes rests;
+  rests.state = "DISABLED";
+  rests.homed = false;
+  FakeArm arm(domain_, rests);
+  const std::string said = refusal(here());
+  EXPECT_NE(said.find("/arm is DISABLED and not homed; enable and home it"), std::string::npos)
+      << said;
+  EXPECT_TRUE(arm.with([](Wishes& w) { return w.asked; }).empty()) << "left as it was";
+  Leader wire(here("/arm", true));
+  const auto spec = wire.connect();
+  ASSERT_TRUE(spec.ok()) << spec.error().text;
+  EXPECT_EQ(arm.with([](Wishes& w) { return w.asked; }),
+            (std::vector<std::string>{"enable", "home"}));
+  EXPECT_TRUE(next(wire).valid);
+}
+
+TEST_F(LeaderTest, AnArmThatFaultsWhileHomingIsSaid) {
+  Wishes lame;
+  lame.homed = false;
+  lame.home_ms = -1;
+  FakeArm arm(domain_, lame);
+  const std::string said = refusal(here("/arm", true));
+  EXPECT_NE(said.find("is FAULT"), std::string::npos) << said;
+  EXPECT_NE(refusal(here()).find("clear the fault"), std::string::npos);
+}
+
+TEST_F(LeaderTest, AnArmThatTellsNoStateIsTakenAsItIs) {
+  FakeArm arm(domain_, "/arm", {.states = false});
+  Leader wire(here());
+  ASSERT_TRUE(wire.connect().ok());
+  EXPECT_TRUE(next(wire).valid);
+}
+
+TEST_F(LeaderTest, DisabledUnstampedOrImpossibleItIsNotBelieved) {
+  FakeArm arm(domain_);
+  Leader wire(here());
+  ASSERT_TRUE(wire.connect().ok());
+  const auto good = [&] { return next(wire).valid; };
+  const auto bad = [&] { return !next(wire).valid; };
+  ASSERT_TRUE(soon(good));
+  arm.with([](Wishes& w) { w.state = "DISABLED"; });
+  EXPECT_TRUE(soon(bad));
+  EXPECT_NE(wire.why().find("disabled"), std::string::npos) << wire.why();
+  arm.with([](Wishes& w) { w.state = "ENABLED"; });
+  EXPECT_TRUE(soon(good));
+  EXPECT_EQ(wire.why(), "");
+  arm.with([](Wishes& w) { w.stamped = false; });
+  EXPECT_TRUE(soon(bad));
+  EXPECT_NE(wire.why().find("not valid"), std::string::npos);
+  arm.with([](Wishes& w) { w.stamped = true; });
+  EXPECT_TRUE(soon(good));
+  for (const double odd :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e6}) {
+    arm.with([&](Wishes& w) { w.place.p.y() = odd; });
+    EXPECT_TRUE(soon(bad));
+    arm.with([](Wishes& w) { w.place.p.setZero(); });
+    EXPECT_TRUE(soon(good));
+    arm.with([&](Wishes& w) { w.velocity.x() = odd == 1e6 ? 0 : odd; });
+    if (odd != 1e6) {
+      EXPECT_TRUE(soon(bad));
+    }
+    arm.with([](Wishes& w) { w.velocity.setZero(); });
+    EXPECT_TRUE(soon(good));
+  }
+  arm.with([](Wishes& w) { w.place.q.coeffs().setZero(); });
+  EXPECT_TRUE(soon(bad));
+}
+
+TEST_F(LeaderTest, ARunningSessionPushesAndLetsGo) {
+  FakeArm arm(domain_);
+  const auto hand = device();
+  ASSERT_TRUE(hand->open().ok());
+  test::StandIn tick(*hand, [](const HandState& state) {
+    return Vec3(0, -400 * std::min(0.0, state.world_from_tool.p.y()), 0);
+  });
+  ASSERT_TRUE(soon([&] { return tick.engaged(); }));
+  arm.with([](Wishes& w) { w.place.p.y() = -4e-3; });
+  EXPECT_TRUE(soon([&] { return arm.force().y() > 1.5; }));
+  EXPECT_TRUE(soon([&] { return arm.with([](Wishes& w) { return w.forces; }) > 500; }));
+  tick.stop();
+  hand->close();
+  EXPECT_TRUE(soon([&] { return arm.force() == Vec3::Zero(); }));
+}
+
+TEST_F(LeaderTest, ANodeThatDiesInContactIsALostHandAndComesBackByTheRamp) {
+  auto arm = std::make_unique<FakeArm>(domain_);
+  const auto hand = device();
+  ASSERT_TRUE(hand->open().ok());
+  std::atomic<bool> wall = false;
+  test::StandIn tick(*hand, [&](const HandState&) { return Vec3(0, wall ? 2.0 : 0.0, 0); });
+  ASSERT_TRUE(soon([&] { return tick.engaged(); }));
+  wall = true;
+  ASSERT_TRUE(soon([&] { return arm->force().norm() > 1.9; }));
+  arm.reset();
+  ASSERT_TRUE(soon([&] { return tick.invalid() > 0; }));
+  ASSERT_TRUE(soon([&] { return !hand->trouble().empty(); }));
+  arm = std::make_unique<FakeArm>(domain_);
+  ASSERT_TRUE(soon([&] { return hand->returns() == 1; })) << hand->trouble();
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_EQ(arm->force(), Vec3::Zero()) << "the wall is still there: it waits for a small force";
+  wall = false;
+  EXPECT_TRUE(soon([&] { return tick.engaged(); }));
+}
+
+TEST_F(LeaderTest, AStallOf50MsIsALostHandAndNotALostArm) {
+  FakeArm arm(domain_);
+  const auto hand = device("/arm", 5e-3);
+  ASSERT_TRUE(hand->open().ok());
+  test::StandIn tick(*hand, [](const HandState&) { return Vec3(0, 0.04, 0); });
+  ASSERT_TRUE(soon([&] { return arm.force().norm() > 0.03; }));
+  arm.with([](Wishes& w) { w.stall_ms = 50; });
+  EXPECT_TRUE(soon([&] { return (tick.flags() & haptics::kFlagHandLost) != 0; }));
+  EXPECT_TRUE(soon([&] { return tick.hand().valid && arm.force().norm() > 0.03; }));
+  EXPECT_EQ(hand->returns(), 0);
+}
+
+TEST_F(LeaderTest, ARateThatFallsLaterIsALostHandEachTime) {
+  FakeArm arm(domain_);
+  const auto hand = device("/arm", 5e-3);
+  ASSERT_TRUE(hand->open().ok());
+  test::StandIn tick(*hand, [](const HandState&) { return Vec3(0, 0.04, 0); });
+  ASSERT_TRUE(soon([&] { return arm.force().norm() > 0.03; }));
+  arm.with([](Wishes& w) { w.rate_hz = 100; });
+  EXPECT_TRUE(soon([&] { return tick.invalid() > 20; }));
+  EXPECT_TRUE(soon([&] { return arm.force().norm() < 0.03; })) << "not held over";
+}
+
+TEST_F(LeaderTest, TwoAtOnceEachHasItsOwnForce) {
+  FakeArm left(domain_, "/MTML"), right(domain_, "/MTMR");
+  const auto one = device("/MTML"), two = device("/MTMR");
+  ASSERT_TRUE(one->open().ok());
+  ASSERT_TRUE(two->open().ok());
+  test::StandIn first(*one, [](const HandState&) { return Vec3(0.04, 0, 0); });
+  test::StandIn second(*two, [](const HandState&) { return Vec3(0, 0.03, 0); });
+  EXPECT_TRUE(soon([&] {
+    return std::abs(left.force().x() - 0.04) < 1e-9 && std::abs(right.force().y() - 0.03) < 1e-9;
+  }));
+  EXPECT_EQ(right.force().x(), 0);
+}
+
+TEST_F(LeaderTest, NoForceEverPassesTheLimit) {
+  FakeArm arm(domain_);
+  Leader wire(here());
+  ASSERT_TRUE(wire.connect().ok());
+  next(wire);
+  const unsigned seed = std::random_device{}();
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-1, 1);
+  // whatever comes: each is read back on the bus, not only what the arm had time for
+  auto bus = Bus::open(domain_);
+  ASSERT_TRUE(bus.ok());
+  Reader<WrenchStamped> wrenches((*bus)->participant(), "/arm/body/servo_cf", Keep::all);
+  ASSERT_TRUE(soon([&] {
+    static_cast<void>(wire.write(Vec3::Zero()));
+    return wrenches.take() != nullptr;
+  }));
+  double largest = 0;
+  for (int n = 0; n < 200'000; ++n) {
+    Vec3 force = std::pow(10, 4 * any(random)) * Vec3(any(random), any(random), any(random));
+    if (n % 50 == 7) force.x() = std::numeric_limits<double>::quiet_NaN();
+    if (n % 50 == 8) force.y() = -std::numeric_limits<double>::infinity();
+    static_cast<void>(wire.write(force));
+    while (const WrenchStamped* wrench = wrenches.take())
+      largest = std::max(largest, vector_of(wrench->wrench_.force_).norm());
+  }
+  EXPECT_GT(largest, 2.9) << "seed " << seed;
+  EXPECT_LE(largest, 3 + 1e-9) << "seed " << seed;
+}
+
+// ---- names and bytes, against what ROS 2 lays down rather than against ourselves
+
+TEST_F(LeaderTest, NamesAndTypesAreThoseOfRos) {
+  FakeArm arm(domain_);
+  auto bus = Bus::open(domain_);
+  ASSERT_TRUE(bus.ok());
+  const dds_entity_t all =
+      dds_create_reader((*bus)->participant(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
+  std::vector<std::string> seen;
+  const auto look = [&] {
+    void* sample = nullptr;
+    dds_sample_info_t info;
+    while (dds_take(all, &sample, &info, 1, 1) > 0) {
+      const auto& point = *static_cast<const dds_builtintopic_endpoint_t*>(sample);
+      seen.push_back(std::string(point.topic_name) + " " + point.type_name);
+      dds_return_loan(all, &sample, 1);
+      sample = nullptr;
+    }
+    const auto has = [&](const char* what) {
+      return std::find(seen.begin(), seen.end(), what) != seen.end();
+    };
+    return has("rt/arm/measured_cp geometry_msgs::msg::dds_::PoseStamped_") &&
+           has("rt/arm/operating_state crtk_msgs::msg::dds_::OperatingState_") &&
+           has("rt/footpedals/clutch sensor_msgs::msg::dds_::Joy_") &&
+           has("rt/arm/gripper/closed std_msgs::msg::dds_::Bool_");
+  };
+  EXPECT_TRUE(soon(look));
+}
+
+// PoseStamped as common_interfaces lays it down, in plain CDR, little-endian (RTPS 10.2): int32
+// sec, uint32 nanosec, string frame_id, 3 doubles of the place, 4 of the turn (x y z w).
+TEST_F(LeaderTest, APlaceOnTheWireIsThatOfRosByteForByte) {
+  auto bus = Bus::open(domain_);
+  ASSERT_TRUE(bus.ok());
+  Writer<PoseStamped> writer((*bus)->participant(), "/bytes/measured_cp");
+  Reader<PoseStamped> reader((*bus)->participant(), "/bytes/measured_cp", Keep::all);
+  PoseStamped pose{{{7, 9}, lent("abc")}, {{1, 2, 3}, {0.1, 0.2, 0.3, 0.4}}};
+  ASSERT_TRUE(soon([&] { return writer.readers() > 0; }));
+  writer.write(pose);
+  ddsi_serdata* data = nullptr;
+  dds_sample_info_t info;
+  ASSERT_TRUE(
+      soon([&] { return dds_takecdr(reader.entity(), &data, 1, &info, DDS_ANY_STATE) == 1; }));
+  std::vector<unsigned char> bytes(ddsi_serdata_size(data));
+  ddsi_serdata_to_ser(data, 0, bytes.size(), bytes.data());
+  ddsi_serdata_unref(data);
+  std::vector<unsigned char> expected = {0, 1, 0, 0, 7, 0, 0,   0,   9,   0,
+                                         0, 0, 4, 0, 0, 0, 'a', 'b', 'c', 0};
+  for (const double number : {1.0, 2.0, 3.0, 0.1, 0.2, 0.3, 0.4}) {
+    // doubles at multiples of eight after the four bytes of the heading
+    while ((expected.size() - 4) % 8 != 0) expected.push_back(0);
+    unsigned char raw[8];
+    std::memcpy(raw, &number, 8);
+    expected.insert(expected.end(), raw, raw + 8);
+  }
+  ASSERT_GE(bytes.size(), expected.size());
+  bytes.resize(expected.size());
+  bytes[2] = bytes[3] = 0;  // options of the heading: padding at the end
+  EXPECT_EQ(bytes, expected);
+}
+
+TEST(CrtkNames, AreWrittenAsRosDoes) {
+  EXPECT_EQ(arm_name("MTMR"), "/MTMR");
+  EXPECT_EQ(arm_name("/lab/left_1/"), "/lab/left_1");
+  for (const char* bad : {"", "/", "1arm", "a//b", "a b", "a/1", "\xc3\xa4"})
+    EXPECT_EQ(arm_name(bad), "") << bad;
+}
+
+}  // namespace
+}  // namespace burr::device::crtk

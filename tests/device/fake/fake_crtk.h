@@ -1,0 +1,185 @@
+// An arm that speaks CRTK, played by the test on a bus of its own: it tells its place at its rate,
+// holds the last force it was given for ever, as real ones do, and misbehaves when it is told to.
+#pragma once
+
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "burr/device/crtk/bus.h"
+
+namespace burr::test {
+
+// Nothing goes beyond this computer, and other tests are on other domains.
+inline int quiet_domain() {
+  ::setenv("CYCLONEDDS_URI",
+           "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
+           "<AllowMulticast>false</AllowMulticast></General><Discovery>"
+           "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>30"
+           "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
+           "</Discovery></Domain></CycloneDDS>",
+           1);
+  return 20 + static_cast<int>(::getpid() % 200);
+}
+
+struct Offers {
+  bool body = true, spatial = true, states = true;
+};
+
+class FakeArm {
+ public:
+  struct Wishes {
+    math::Pose place;
+    math::Vec3 velocity = math::Vec3::Zero();
+    bool stamped = true, silent = false;
+    int stall_ms = 0;  // once
+    double rate_hz = 1000;
+    std::string state = "ENABLED";
+    bool homed = true, busy = false;
+    int home_ms = 50;  // that homing takes; below 0: it faults
+    // ---- what came
+    math::Vec3 force = math::Vec3::Zero(), torque = math::Vec3::Zero();
+    double largest = 0;
+    std::uint64_t forces = 0;
+    std::vector<std::string> asked;
+    bool weightless = false, absolute = true;
+  };
+  explicit FakeArm(int domain, std::string name = "/arm", Offers offers = {})
+      : FakeArm(domain, Wishes(), std::move(name), offers) {}
+  FakeArm(int domain, Wishes begins, std::string name = "/arm", Offers offers = {})
+      : offers_(offers),
+        bus_(std::move(*device::crtk::Bus::open(domain))),
+        name_(std::move(name)),
+        wishes_(std::move(begins)) {
+    thread_ = std::thread([this] { run(); });
+  }
+  ~FakeArm() {
+    stop_ = true;
+    thread_.join();
+  }
+  FakeArm(const FakeArm&) = delete;
+  FakeArm& operator=(const FakeArm&) = delete;
+
+  template <class F>
+  auto with(F look) {
+    const std::lock_guard lock(mutex_);
+    return look(wishes_);
+  }
+  [[nodiscard]] math::Vec3 force() {
+    return with([](Wishes& w) { return w.force; });
+  }
+  void tread(const char* pedal, bool down) {
+    const std::lock_guard lock(mutex_);
+    trodden_.emplace_back(pedal, down);
+  }
+
+ private:
+  void run() {
+    using namespace device::crtk;
+    const dds_entity_t on = bus_->participant();
+    Writer<PoseStamped> place(on, name_ + "/measured_cp");
+    Writer<TwistStamped> speed(on, name_ + "/measured_cv");
+    std::unique_ptr<Writer<OperatingState>> states;
+    if (offers_.states)
+      states = std::make_unique<Writer<OperatingState>>(on, name_ + "/operating_state", Keep::last);
+    Writer<Bool> gripper(on, name_ + "/gripper/closed", Keep::all);
+    Writer<Joy> clutch(on, "/footpedals/clutch", Keep::all),
+        coag(on, "/footpedals/coag", Keep::all),
+        present(on, "/console/operator_present", Keep::all);
+    std::unique_ptr<Reader<WrenchStamped>> body, spatial;
+    if (offers_.body)
+      body = std::make_unique<Reader<WrenchStamped>>(on, name_ + "/body/servo_cf", Keep::all);
+    if (offers_.spatial)
+      spatial = std::make_unique<Reader<WrenchStamped>>(on, name_ + "/spatial/servo_cf", Keep::all);
+    Reader<StringStamped> commands(on, name_ + "/state_command", Keep::all);
+    Reader<Bool> absolute(on, name_ + "/body/set_cf_orientation_absolute", Keep::all),
+        weightless(on, name_ + "/use_gravity_compensation", Keep::all);
+
+    std::string told;
+    auto home_at = std::chrono::steady_clock::time_point::max();
+    for (auto next = std::chrono::steady_clock::now(); !stop_;) {
+      int stall = 0;
+      double rate = 1000;
+      {
+        const std::lock_guard lock(mutex_);
+        Wishes& w = wishes_;
+        const auto take = [&w](const WrenchStamped& wrench) {
+          w.force = vector_of(wrench.wrench_.force_);
+          w.torque = vector_of(wrench.wrench_.torque_);
+          w.largest = std::max(w.largest, w.force.norm());
+          ++w.forces;
+        };
+        if (body)
+          while (const WrenchStamped* wrench = body->take()) take(*wrench);
+        if (spatial)
+          while (const WrenchStamped* wrench = spatial->take()) take(*wrench);
+        while (const Bool* yes = absolute.take()) w.absolute = yes->data_;
+        while (const Bool* yes = weightless.take()) w.weightless = yes->data_;
+        while (const StringStamped* command = commands.take()) {
+          w.asked.emplace_back(command->string_);
+          if (w.asked.back() == "enable" || w.asked.back() == "resume") w.state = "ENABLED";
+          if (w.asked.back() == "home") {
+            w.busy = true;
+            home_at = std::chrono::steady_clock::now() + std::chrono::milliseconds(w.home_ms);
+          }
+        }
+        if (w.busy && std::chrono::steady_clock::now() > home_at) {
+          w.busy = false;
+          w.homed = w.home_ms >= 0;
+          if (!w.homed) w.state = "FAULT";
+          home_at = std::chrono::steady_clock::time_point::max();
+        }
+        const std::string tells = w.state + (w.homed ? "h" : "") + (w.busy ? "b" : "");
+        if (states && tells != told) {
+          OperatingState state{{now_stamp(), lent("")}, lent(w.state.c_str()), w.homed, w.busy};
+          states->write(state);
+          told = tells;
+        }
+        for (const auto& [pedal, down] : trodden_) {
+          std::int32_t button = down ? 1 : 0;
+          Joy joy{};
+          joy.header_ = {now_stamp(), lent("")};
+          joy.buttons_._buffer = &button;
+          joy.buttons_._length = joy.buttons_._maximum = 1;
+          if (pedal == "gripper") gripper.write(Bool{down});
+          if (pedal == "clutch") clutch.write(joy);
+          if (pedal == "coag") coag.write(joy);
+          if (pedal == "present") present.write(joy);
+        }
+        trodden_.clear();
+        if (!w.silent) {
+          const Stamp stamp = w.stamped ? now_stamp() : Stamp{};
+          TwistStamped twist{};
+          twist.header_ = {stamp, lent("")};
+          twist.twist_.linear_ = message_of(w.velocity);
+          speed.write(twist);
+          place.write(PoseStamped{{stamp, lent("base")}, message_of(w.place)});
+        }
+        stall = w.stall_ms;
+        w.stall_ms = 0;
+        rate = w.rate_hz;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(stall));
+      next += std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate));
+      next = std::max(next, std::chrono::steady_clock::now() - std::chrono::milliseconds(2));
+      std::this_thread::sleep_until(next);
+    }
+  }
+
+  Offers offers_;
+  std::unique_ptr<device::crtk::Bus> bus_;
+  std::string name_;
+  Wishes wishes_;
+  std::mutex mutex_;
+  std::vector<std::pair<std::string, bool>> trodden_;
+  std::atomic<bool> stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace burr::test

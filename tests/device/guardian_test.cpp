@@ -1,0 +1,166 @@
+// What becomes of a device's last force when burr dies, hangs, or just ends: burr is a process that
+// the test forks and kills.
+#include "burr/device/guardian.h"
+
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <functional>
+#include <string>
+
+#include "burr/device/crtk/leader.h"
+#include "device/fake/fake_crtk.h"
+#include "device/stand_in.h"
+
+namespace burr::device {
+namespace {
+
+using math::Vec3;
+using test::soon;
+
+// A burr of the test's own; begun before the test has threads.
+class Burr {
+ public:
+  explicit Burr(const std::function<void()>& life) : process_(::fork()) {
+    if (process_ == 0) {
+      life();
+      ::_exit(0);
+    }
+  }
+  ~Burr() { end(SIGKILL); }
+  void send(int signal) const { ::kill(process_, signal); }
+  void end(int signal) {
+    if (process_ <= 0) return;
+    send(signal);
+    ::waitpid(process_, nullptr, 0);
+    process_ = -1;
+  }
+
+ private:
+  pid_t process_;
+};
+
+class Pipe {
+ public:
+  Pipe() { EXPECT_EQ(::pipe(ends_), 0); }
+  ~Pipe() {
+    ::close(ends_[0]);
+    ::close(ends_[1]);
+  }
+  [[nodiscard]] int in() const { return ends_[1]; }
+  // What has come within so long.
+  [[nodiscard]] std::string read(int longest_ms) const {
+    pollfd waits{ends_[0], POLLIN, 0};
+    if (::poll(&waits, 1, longest_ms) <= 0) return {};
+    char some[256];
+    const ssize_t got = ::read(ends_[0], some, sizeof some);
+    return got > 0 ? std::string(some, static_cast<std::size_t>(got)) : std::string();
+  }
+
+ private:
+  int ends_[2] = {-1, -1};
+};
+
+constexpr int kLongMs = 20'000;  // no machine needs it
+
+TEST(Guardian, SaysNoForceWhenBurrIsKilled) {
+  const Pipe device, ready;
+  Burr burr([&] {
+    auto guardian = Guardian::start({"line", "none\n"}, device.in());
+    static_cast<void>(::write(ready.in(), guardian.ok() ? "+" : "-", 1));
+    for (;;) ::pause();
+  });
+  ASSERT_EQ(ready.read(kLongMs), "+");
+  EXPECT_EQ(device.read(200), "") << "nothing while burr lives, though it has not begun to beat";
+  burr.end(SIGKILL);
+  EXPECT_TRUE(device.read(kLongMs).starts_with("none\n"));
+}
+
+TEST(Guardian, SaysNoForceWhileBurrHangsAndNoLonger) {
+  const Pipe device, ready;
+  Burr burr([&] {
+    auto guardian = Guardian::start({"line", "none\n"}, device.in());
+    static_cast<void>(::write(ready.in(), guardian.ok() ? "+" : "-", 1));
+    for (;;) {
+      (*guardian)->beat();
+      ::usleep(1000);
+    }
+  });
+  ASSERT_EQ(ready.read(kLongMs), "+");
+  ::usleep(50'000);
+  burr.send(SIGSTOP);
+  EXPECT_TRUE(device.read(kLongMs).starts_with("none\n"));
+  burr.send(SIGCONT);
+  // what was said until it was seen to beat again, then silence
+  EXPECT_TRUE(soon([&] { return device.read(300).empty(); }));
+}
+
+TEST(Guardian, DismissedItSaysNothingAndIsGone) {
+  const Pipe device;
+  pid_t process = -1;
+  {
+    auto guardian = Guardian::start({"line", "none\n"}, device.in());
+    ASSERT_TRUE(guardian.ok()) << guardian.error().text;
+    process = (*guardian)->process();
+    (*guardian)->beat();
+    EXPECT_EQ(::kill(process, 0), 0);
+    for (const int deaf : {SIGINT, SIGTERM, SIGHUP}) ::kill(process, deaf);
+    EXPECT_NE(::getsid(process), ::getsid(0)) << "a Ctrl-C in burr's terminal is not for it";
+  }
+  EXPECT_EQ(::kill(process, 0), -1);
+  EXPECT_EQ(errno, ESRCH);
+  EXPECT_EQ(device.read(50), "");
+}
+
+TEST(Guardian, ManyTimesStartedAndDismissedNothingIsLeft) {
+  const Pipe device;
+  const int before = ::dup(0);
+  ::close(before);
+  for (int n = 0; n < 50; ++n) ASSERT_TRUE(Guardian::start({"line", "none\n"}, device.in()).ok());
+  const int after = ::dup(0);
+  ::close(after);
+  EXPECT_EQ(after, before) << "descriptors";
+}
+
+TEST(Guardian, WhatCannotGuardIsSaid) {
+  const auto odd = Guardian::start({"dance"});
+  ASSERT_FALSE(odd.ok());
+  EXPECT_NE(odd.error().text.find("does not answer"), std::string::npos) << odd.error().text;
+  ::setenv("BURR_GUARD", "/nowhere/burr-guard", 1);
+  const auto none = Guardian::start({"line", "x"}, 1);
+  ::unsetenv("BURR_GUARD");
+  ASSERT_FALSE(none.ok());
+  EXPECT_NE(none.error().text.find("install burr again"), std::string::npos) << none.error().text;
+}
+
+// A robot's arm holds the last force it was given for ever; burr is killed in the middle of it.
+TEST(Guardian, AnArmOnTheBusIsLetGoWhenBurrIsKilledOrStopped) {
+  const int domain = test::quiet_domain();
+  for (const int end : {SIGKILL, SIGSEGV, SIGSTOP}) {
+    Burr burr([&] {
+      crtk::Leader wire({.arm = "/arm", .domain = domain});
+      while (!wire.connect().ok()) ::usleep(1000);
+      HandState hand;
+      for (;;) {
+        static_cast<void>(wire.read(hand));
+        static_cast<void>(wire.write({0, 1.5, 0}));
+      }
+    });
+    test::FakeArm arm(domain);
+    ASSERT_TRUE(soon([&] { return arm.force().y() == 1.5; }));
+    ::usleep(50'000);
+    burr.send(end);
+    EXPECT_TRUE(soon([&] { return arm.force() == Vec3::Zero(); })) << "signal " << end;
+    if (end == SIGSTOP) {
+      burr.send(SIGCONT);
+      EXPECT_TRUE(soon([&] { return arm.force().y() == 1.5; })) << "and goes on";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace burr::device
