@@ -135,8 +135,9 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # the program's threads; a press that goes on and on loses ticks there, and then the hand is not given back: WholeProgram
   # undoes as well
   burr_other_test(tsan window "WholeProgram.*:Window.*-Window.UndoByKey*")
-  set_property(TEST tsan.window PROPERTY ENVIRONMENT
-    "TSAN_OPTIONS=halt_on_error=1 second_deadlock_stack=1 suppressions=${PROJECT_SOURCE_DIR}/scripts/checks/tsan_suppressions.txt;BURR_WINDOW_SECONDS=15")
+  set(tsan_options "TSAN_OPTIONS=halt_on_error=1 second_deadlock_stack=1 suppressions=${PROJECT_SOURCE_DIR}/scripts/checks/tsan_suppressions.txt")
+  set_property(TEST tsan.window PROPERTY ENVIRONMENT "${tsan_options};BURR_WINDOW_SECONDS=15")
+  set_property(TEST tsan.device PROPERTY ENVIRONMENT "${tsan_options}")
 
   # libFuzzer: 20 s for every reader; scripts/fuzz_night.sh gives them longer
   add_test(NAME fuzz.seeds COMMAND ${checks}/fuzz.sh seeds)

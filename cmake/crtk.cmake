@@ -5,6 +5,8 @@ add_custom_command(OUTPUT ${made}/crtk_messages.c ${made}/crtk_messages.h
   COMMAND ${CMAKE_COMMAND} -E make_directory ${made}
   COMMAND ${BURR_IDLC} -l c -o ${made} ${idl}
   DEPENDS ${idl} COMMENT "Messages of CRTK" VERBATIM)
+# its own switch, which nothing of ours asks for: one more definition, and no common headers (options.cmake)
+set_property(TARGET CycloneDDS::ddsc PROPERTY INTERFACE_COMPILE_DEFINITIONS "")
 add_library(burr_crtk STATIC ${made}/crtk_messages.c ${made}/crtk_messages.h)
 target_include_directories(burr_crtk SYSTEM PUBLIC ${made})
 target_link_libraries(burr_crtk PUBLIC CycloneDDS::ddsc)

@@ -107,9 +107,9 @@ endif()
 # makers' libraries without a device, loaded as the real ones are (tests/device/fake/)
 function(burr_fake_library target name source)
   add_library(${target} SHARED ${PROJECT_SOURCE_DIR}/tests/device/fake/${source})
-  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/src)
   target_compile_definitions(${target} PRIVATE ${ARGN})
-  target_link_libraries(${target} PRIVATE burr_options)
+  target_link_libraries(${target} PRIVATE Eigen3::Eigen burr_options)
   if(BURR_SANITIZE MATCHES "undefined")  # types of their own, as a maker's library has
     set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/device/fake/${source} PROPERTIES
       COMPILE_OPTIONS -fno-sanitize=function)
@@ -135,6 +135,11 @@ endif()
 if(EXISTS ${PROJECT_SOURCE_DIR}/cmake/checks.cmake)
   include(cmake/checks.cmake)
 endif()
+
+# a false device to measure with, or to try burr without hardware (bench/results/device.md)
+add_executable(false_device EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/bench/device/false_device.cpp)
+target_include_directories(false_device PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+target_link_libraries(false_device PRIVATE burr burr_crtk burr_options nlohmann_json::nlohmann_json fmt::fmt)
 
 # bench/<room>/x_bench.cpp -> one Google Benchmark program each; never part of pass or fail
 find_package(benchmark QUIET)

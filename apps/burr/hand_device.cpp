@@ -11,6 +11,7 @@
 #include "burr/device/forcedimension/omega.h"
 #include "burr/device/haply/inverse.h"
 #include "burr/device/openhaptics/touch.h"
+#include "burr/device/polhem/polhem.h"
 #include "device_book.h"
 
 namespace burr::app {
@@ -26,6 +27,8 @@ const std::vector<HandKind>& hand_kinds() {
       {"force-dimension", "Force Dimension omega, delta, sigma, lambda; Novint Falcon",
        "force_dimension"},
       {"haply", "Haply Inverse3, Inverse3x, Minverse with VerseGrip", "haply"},
+      {"polhem", "Haptikfabriken's Polhem, and WoodenHaptics with its serial electronics",
+       "polhem"},
       {"crtk", "robot arms that speak CRTK: dVRK's leaders, lab devices behind a node", "crtk"},
   };
   return all;
@@ -66,6 +69,12 @@ Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish) {
     settings.id = which;
     return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
         std::make_unique<device::haply::Inverse>(std::move(settings))));
+  }
+  if (kind == "polhem") {
+    device::polhem::PolhemSettings settings;
+    settings.port = which;
+    return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
+        std::make_unique<device::polhem::Polhem>(std::move(settings))));
   }
   if (kind == "crtk") {
     device::crtk::LeaderSettings settings;

@@ -20,9 +20,9 @@ namespace {
 
 using math::Quat;
 using math::Vec3;
-using test::FakeArm;
+using test::FakeCrtkArm;
 using test::soon;
-using Wishes = FakeArm::Wishes;
+using Wishes = FakeCrtkArm::Wishes;
 
 class LeaderTest : public ::testing::Test {
  protected:
@@ -53,7 +53,7 @@ class LeaderTest : public ::testing::Test {
 int LeaderTest::domain_ = 0;
 
 TEST_F(LeaderTest, SaysWhatItIsAndSetsTheArmUp) {
-  FakeArm arm(domain_);
+  FakeCrtkArm arm(domain_);
   const auto hand = device("arm/");
   const Status opened = hand->open();
   ASSERT_TRUE(opened.ok()) << opened.error().text;
@@ -67,7 +67,7 @@ TEST_F(LeaderTest, SaysWhatItIsAndSetsTheArmUp) {
 }
 
 TEST_F(LeaderTest, TheOnlyArmIsFoundByItself) {
-  FakeArm arm(domain_, "/lab/left_1");
+  FakeCrtkArm arm(domain_, "/lab/left_1");
   Leader wire(here(""));
   const auto spec = wire.connect();
   ASSERT_TRUE(spec.ok()) << spec.error().text;
@@ -75,7 +75,7 @@ TEST_F(LeaderTest, TheOnlyArmIsFoundByItself) {
 }
 
 TEST_F(LeaderTest, TenMillimetresAreThoseAlongEveryAxis) {
-  FakeArm arm(domain_);
+  FakeCrtkArm arm(domain_);
   Leader wire(here());
   ASSERT_TRUE(wire.connect().ok());
   for (int axis = 0; axis < 3; ++axis) {
@@ -98,7 +98,7 @@ TEST_F(LeaderTest, TenMillimetresAreThoseAlongEveryAxis) {
 
 // The arm's end is turned: what it is told is in its own frame, what it pushes in the base's.
 TEST_F(LeaderTest, TheForceIsTurnedIntoTheFrameOfTheArmsEnd) {
-  FakeArm arm(domain_);
+  FakeCrtkArm arm(domain_);
   const Quat turn(Eigen::AngleAxisd(1.1, Vec3(1, -2, 0.5).normalized()));
   arm.with([&](Wishes& w) { w.place = {{0.1, 0.2, 0.3}, turn}; });
   Leader wire(here());
@@ -119,7 +119,7 @@ TEST_F(LeaderTest, TheForceIsTurnedIntoTheFrameOfTheArmsEnd) {
 
 // dVRK's spatial wrench is about the base: a force at the end is seen there with its moment.
 TEST_F(LeaderTest, AnArmWithoutBodyForcesGetsTheWrenchAboutItsBase) {
-  FakeArm arm(domain_, "/arm", {.body = false});
+  FakeCrtkArm arm(domain_, "/arm", {.body = false});
   const Vec3 place(0.1, 0.2, 0.3), force(1, -1, 0.5);
   arm.with([&](Wishes& w) { w.place.p = place; });
   Leader wire(here());
@@ -134,7 +134,7 @@ TEST_F(LeaderTest, AnArmWithoutBodyForcesGetsTheWrenchAboutItsBase) {
 }
 
 TEST_F(LeaderTest, GripperAndPedalsMillAndLift) {
-  FakeArm arm(domain_);
+  FakeCrtkArm arm(domain_);
   Leader wire(here());
   ASSERT_TRUE(wire.connect().ok());
   EXPECT_EQ(next(wire).buttons, 0U);
@@ -160,18 +160,18 @@ TEST_F(LeaderTest, WhatCannotServeAsAHandIsSaidWithItsRemedy) {
   EXPECT_NE(refusal(here()).find("no CRTK arm /arm is heard on DDS domain"), std::string::npos);
   EXPECT_NE(refusal(here("1/x")).find("is no name of an arm"), std::string::npos);
   {
-    FakeArm one(domain_, "/one"), two(domain_, "/two");
+    FakeCrtkArm one(domain_, "/one"), two(domain_, "/two");
     const std::string several = refusal(here(""));
     EXPECT_NE(several.find("/one, /two; say which one"), std::string::npos) << several;
     const std::string none = refusal(here("/three"));
     EXPECT_NE(none.find("there are /one, /two"), std::string::npos) << none;
   }
   {
-    FakeArm arm(domain_, "/arm", {.body = false, .spatial = false});
+    FakeCrtkArm arm(domain_, "/arm", {.body = false, .spatial = false});
     EXPECT_NE(refusal(here()).find("takes no force"), std::string::npos);
   }
   {
-    FakeArm arm(domain_);
+    FakeCrtkArm arm(domain_);
     arm.with([](Wishes& w) { w.rate_hz = 100; });
     const std::string slow = refusal(here());
     EXPECT_NE(slow.find("times a second; burr needs 400"), std::string::npos) << slow;
@@ -195,7 +195,7 @@ TEST_F(LeaderTest, AnArmMovesByItselfOnlyWhereThatIsAllowed) {
   Wishes rests;
   rests.state = "DISABLED";
   rests.homed = false;
-  FakeArm arm(domain_, rests);
+  FakeCrtkArm arm(domain_, rests);
   const std::string said = refusal(here());
   EXPECT_NE(said.find("/arm is DISABLED and not homed; enable and home it"), std::string::npos)
       << said;
@@ -212,21 +212,21 @@ TEST_F(LeaderTest, AnArmThatFaultsWhileHomingIsSaid) {
   Wishes lame;
   lame.homed = false;
   lame.home_ms = -1;
-  FakeArm arm(domain_, lame);
+  FakeCrtkArm arm(domain_, lame);
   const std::string said = refusal(here("/arm", true));
   EXPECT_NE(said.find("is FAULT"), std::string::npos) << said;
   EXPECT_NE(refusal(here()).find("clear the fault"), std::string::npos);
 }
 
 TEST_F(LeaderTest, AnArmThatTellsNoStateIsTakenAsItIs) {
-  FakeArm arm(domain_, "/arm", {.states = false});
+  FakeCrtkArm arm(domain_, "/arm", {.states = false});
   Leader wire(here());
   ASSERT_TRUE(wire.connect().ok());
   EXPECT_TRUE(next(wire).valid);
 }
 
 TEST_F(LeaderTest, DisabledUnstampedOrImpossibleItIsNotBelieved) {
-  FakeArm arm(domain_);
+  FakeCrtkArm arm(domain_);
   Leader wire(here());
   ASSERT_TRUE(wire.connect().ok());
   const auto good = [&] { return next(wire).valid; };
@@ -261,7 +261,7 @@ TEST_F(LeaderTest, DisabledUnstampedOrImpossibleItIsNotBelieved) {
 }
 
 TEST_F(LeaderTest, ARunningSessionPushesAndLetsGo) {
-  FakeArm arm(domain_);
+  FakeCrtkArm arm(domain_);
   const auto hand = device();
   ASSERT_TRUE(hand->open().ok());
   test::StandIn tick(*hand, [](const HandState& state) {
@@ -277,7 +277,7 @@ TEST_F(LeaderTest, ARunningSessionPushesAndLetsGo) {
 }
 
 TEST_F(LeaderTest, ANodeThatDiesInContactIsALostHandAndComesBackByTheRamp) {
-  auto arm = std::make_unique<FakeArm>(domain_);
+  auto arm = std::make_unique<FakeCrtkArm>(domain_);
   const auto hand = device();
   ASSERT_TRUE(hand->open().ok());
   std::atomic<bool> wall = false;
@@ -288,7 +288,7 @@ TEST_F(LeaderTest, ANodeThatDiesInContactIsALostHandAndComesBackByTheRamp) {
   arm.reset();
   ASSERT_TRUE(soon([&] { return tick.invalid() > 0; }));
   ASSERT_TRUE(soon([&] { return !hand->trouble().empty(); }));
-  arm = std::make_unique<FakeArm>(domain_);
+  arm = std::make_unique<FakeCrtkArm>(domain_);
   ASSERT_TRUE(soon([&] { return hand->returns() == 1; })) << hand->trouble();
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_EQ(arm->force(), Vec3::Zero()) << "the wall is still there: it waits for a small force";
@@ -297,7 +297,7 @@ TEST_F(LeaderTest, ANodeThatDiesInContactIsALostHandAndComesBackByTheRamp) {
 }
 
 TEST_F(LeaderTest, AStallOf50MsIsALostHandAndNotALostArm) {
-  FakeArm arm(domain_);
+  FakeCrtkArm arm(domain_);
   const auto hand = device("/arm", 5e-3);
   ASSERT_TRUE(hand->open().ok());
   test::StandIn tick(*hand, [](const HandState&) { return Vec3(0, 0.04, 0); });
@@ -309,7 +309,7 @@ TEST_F(LeaderTest, AStallOf50MsIsALostHandAndNotALostArm) {
 }
 
 TEST_F(LeaderTest, ARateThatFallsLaterIsALostHandEachTime) {
-  FakeArm arm(domain_);
+  FakeCrtkArm arm(domain_);
   const auto hand = device("/arm", 5e-3);
   ASSERT_TRUE(hand->open().ok());
   test::StandIn tick(*hand, [](const HandState&) { return Vec3(0, 0.04, 0); });
@@ -320,7 +320,7 @@ TEST_F(LeaderTest, ARateThatFallsLaterIsALostHandEachTime) {
 }
 
 TEST_F(LeaderTest, TwoAtOnceEachHasItsOwnForce) {
-  FakeArm left(domain_, "/MTML"), right(domain_, "/MTMR");
+  FakeCrtkArm left(domain_, "/MTML"), right(domain_, "/MTMR");
   const auto one = device("/MTML"), two = device("/MTMR");
   ASSERT_TRUE(one->open().ok());
   ASSERT_TRUE(two->open().ok());
@@ -333,7 +333,7 @@ TEST_F(LeaderTest, TwoAtOnceEachHasItsOwnForce) {
 }
 
 TEST_F(LeaderTest, NoForceEverPassesTheLimit) {
-  FakeArm arm(domain_);
+  FakeCrtkArm arm(domain_);
   Leader wire(here());
   ASSERT_TRUE(wire.connect().ok());
   next(wire);
@@ -364,7 +364,7 @@ TEST_F(LeaderTest, NoForceEverPassesTheLimit) {
 // ---- names and bytes, against what ROS 2 lays down rather than against ourselves
 
 TEST_F(LeaderTest, NamesAndTypesAreThoseOfRos) {
-  FakeArm arm(domain_);
+  FakeCrtkArm arm(domain_);
   auto bus = Bus::open(domain_);
   ASSERT_TRUE(bus.ok());
   const dds_entity_t all =

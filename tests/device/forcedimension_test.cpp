@@ -1,6 +1,5 @@
 // Force Dimension's arms against libraries that the test plays (fake/fake_dhd.h), loaded as the
 // real ones are.
-#include <dirent.h>
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -1029,26 +1028,18 @@ TEST_F(OmegaTest, AMillionWildTicksNeverPassTheLimit) {
   EXPECT_LE(largest, kUsers + 1e-9) << "seed " << seed;
 }
 
-int open_files() {
-  DIR* folder = opendir("/proc/self/fd");
-  int count = 0;
-  while (readdir(folder) != nullptr) ++count;
-  closedir(folder);
-  return count;
-}
-
 TEST_F(OmegaTest, AThousandTimesOpenedAndClosedNothingIsLeft) {
   set([](test::FakeArm& arm) { arm.rate = 4000; });
   {
     std::unique_ptr<WireDevice> kept;
     ASSERT_TRUE(made(kept, by_itself()).open().ok());
   }
-  const int files = open_files();
+  const int files = test::open_files();
   for (int n = 0; n < 1000; ++n) {
     std::unique_ptr<WireDevice> kept;
     ASSERT_TRUE(made(kept, by_itself()).open().ok()) << n;
   }
-  EXPECT_EQ(open_files(), files);
+  EXPECT_EQ(test::open_files(), files);
   EXPECT_EQ(of([](const test::FakeArm& arm) { return arm.opened; }), 1001U);
   EXPECT_EQ(of([](const test::FakeArm& arm) { return arm.closed; }), 1001U);
 }

@@ -13,7 +13,9 @@
 #include <string>
 
 #include "burr/device/crtk/leader.h"
+#include "burr/device/polhem/polhem.h"
 #include "device/fake/fake_crtk.h"
+#include "device/fake/fake_polhem.h"
 #include "device/stand_in.h"
 
 namespace burr::device {
@@ -118,12 +120,9 @@ TEST(Guardian, DismissedItSaysNothingAndIsGone) {
 
 TEST(Guardian, ManyTimesStartedAndDismissedNothingIsLeft) {
   const Pipe device;
-  const int before = ::dup(0);
-  ::close(before);
+  const int before = test::open_files();
   for (int n = 0; n < 50; ++n) ASSERT_TRUE(Guardian::start({"line", "none\n"}, device.in()).ok());
-  const int after = ::dup(0);
-  ::close(after);
-  EXPECT_EQ(after, before) << "descriptors";
+  EXPECT_EQ(test::open_files(), before);
 }
 
 TEST(Guardian, WhatCannotGuardIsSaid) {
@@ -150,7 +149,7 @@ TEST(Guardian, AnArmOnTheBusIsLetGoWhenBurrIsKilledOrStopped) {
         static_cast<void>(wire.write({0, 1.5, 0}));
       }
     });
-    test::FakeArm arm(domain);
+    test::FakeCrtkArm arm(domain);
     ASSERT_TRUE(soon([&] { return arm.force().y() == 1.5; }));
     ::usleep(50'000);
     burr.send(end);
@@ -160,6 +159,24 @@ TEST(Guardian, AnArmOnTheBusIsLetGoWhenBurrIsKilledOrStopped) {
       EXPECT_TRUE(soon([&] { return arm.force().y() == 1.5; })) << "and goes on";
     }
   }
+}
+
+TEST(Guardian, APolhemIsLetGoWhenBurrIsKilled) {
+  const Pipe path;
+  Burr burr([&] {
+    polhem::Polhem wire({.port = path.read(kLongMs), .system = "/nowhere"});
+    if (!wire.connect().ok()) return;
+    HandState hand;
+    for (;;) {
+      static_cast<void>(wire.read(hand));
+      static_cast<void>(wire.write({0, 1.5, 0}));
+    }
+  });
+  test::FakePolhem arm;
+  ASSERT_GT(::write(path.in(), arm.path.data(), arm.path.size()), 0);
+  ASSERT_TRUE(soon([&] { return arm.force().norm() == 1.5; }));
+  burr.end(SIGKILL);
+  EXPECT_TRUE(soon([&] { return arm.force() == Vec3::Zero(); }));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // The Touch against a libHD.so that the test plays (fake/fake_hd.h), loaded as the real one is.
 #include "burr/device/openhaptics/touch.h"
 
-#include <dirent.h>
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -503,25 +502,17 @@ TEST_F(TouchTest, AMillionWildTicksNeverPassTheLimit) {
   EXPECT_LE(fake().hd->touch[0].largest_force, 3.3 + 1e-9) << "seed " << seed;
 }
 
-int open_files() {
-  DIR* folder = opendir("/proc/self/fd");
-  int count = 0;
-  while (readdir(folder) != nullptr) ++count;
-  closedir(folder);
-  return count;
-}
-
 TEST_F(TouchTest, AThousandTimesOpenedAndClosedNothingIsLeft) {
   {
     Touch first(by_itself());
     ASSERT_TRUE(first.open().ok());
   }
-  const int files = open_files();
+  const int files = test::open_files();
   for (int n = 0; n < 1000; ++n) {
     Touch touch(by_itself());
     ASSERT_TRUE(touch.open().ok()) << n;
   }
-  EXPECT_EQ(open_files(), files);
+  EXPECT_EQ(test::open_files(), files);
   const std::lock_guard lock(fake().hd->mutex);
   EXPECT_EQ(fake().hd->touch[0].opened, 1001U);
   EXPECT_EQ(fake().hd->touch[0].closed, 1001U);

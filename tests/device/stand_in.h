@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -79,6 +80,14 @@ class StandIn {
   std::atomic<int> stall_ms_ = 0;
   std::thread thread_;
 };
+
+// Descriptors of this process.
+[[nodiscard]] inline int open_files() {
+  int count = 0;
+  for ([[maybe_unused]] const auto& one : std::filesystem::directory_iterator("/proc/self/fd"))
+    ++count;
+  return count;
+}
 
 // Until it is so; false: not within a time that no machine needs.
 [[nodiscard]] inline bool soon(const std::function<bool()>& so,

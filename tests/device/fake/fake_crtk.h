@@ -32,7 +32,7 @@ struct Offers {
   bool body = true, spatial = true, states = true;
 };
 
-class FakeArm {
+class FakeCrtkArm {
  public:
   struct Wishes {
     math::Pose place;
@@ -50,21 +50,21 @@ class FakeArm {
     std::vector<std::string> asked;
     bool weightless = false, absolute = true;
   };
-  explicit FakeArm(int domain, std::string name = "/arm", Offers offers = {})
-      : FakeArm(domain, Wishes(), std::move(name), offers) {}
-  FakeArm(int domain, Wishes begins, std::string name = "/arm", Offers offers = {})
+  explicit FakeCrtkArm(int domain, std::string name = "/arm", Offers offers = {})
+      : FakeCrtkArm(domain, Wishes(), std::move(name), offers) {}
+  FakeCrtkArm(int domain, Wishes begins, std::string name = "/arm", Offers offers = {})
       : offers_(offers),
         bus_(std::move(*device::crtk::Bus::open(domain))),
         name_(std::move(name)),
         wishes_(std::move(begins)) {
     thread_ = std::thread([this] { run(); });
   }
-  ~FakeArm() {
+  ~FakeCrtkArm() {
     stop_ = true;
     thread_.join();
   }
-  FakeArm(const FakeArm&) = delete;
-  FakeArm& operator=(const FakeArm&) = delete;
+  FakeCrtkArm(const FakeCrtkArm&) = delete;
+  FakeCrtkArm& operator=(const FakeCrtkArm&) = delete;
 
   template <class F>
   auto with(F look) {

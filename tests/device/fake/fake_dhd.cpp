@@ -5,7 +5,10 @@
 #include <time.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <mutex>
+
+#include "device/fake/own_way.h"
 
 namespace burr::test {
 namespace {
@@ -81,8 +84,27 @@ int close_id(int id) {
   return 0;
 }
 
+// For measuring with the whole program: FAKE_DHD_MOTION=1 goes its own way, pressing the button,
+// from the first reading since it was opened on; FAKE_DHD_RATE=4000 is that fast.
+void move_by_itself(FakeArm& arm) {
+  static const char* const motion = std::getenv("FAKE_DHD_MOTION");
+  static const char* const rate = std::getenv("FAKE_DHD_RATE");
+  if (motion == nullptr || *motion != '1') return;
+  static std::uint64_t opened = 0;
+  static std::int64_t began_ns = 0;
+  if (opened != arm.opened) {
+    opened = arm.opened;
+    began_ns = now_ns();
+  }
+  if (rate != nullptr) arm.rate = std::atoi(rate);
+  const math::Vec3 hand = own_way(1e-9 * static_cast<double>(now_ns() - began_ns));
+  arm.place = {hand.z(), hand.x(), hand.y()};
+  arm.buttons = 1;
+}
+
 int read_place(FakeArm& arm, double* x, double* y, double* z) {
   ++arm.reads;
+  move_by_itself(arm);
   if (!arm.present) return fail(2);
   if (arm.read_error != 0) return fail(arm.read_error);
   *x = arm.place[0];

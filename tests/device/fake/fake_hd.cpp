@@ -8,6 +8,8 @@
 #include <deque>
 #include <thread>
 
+#include "device/fake/own_way.h"
+
 namespace burr::test {
 namespace {
 
@@ -27,16 +29,11 @@ std::vector<Loop> loops;
 [[maybe_unused]] unsigned long next_loop = 1;
 std::atomic<bool> runs = false;
 std::thread clock_thread;
-bool moves =
-    false;  // by itself, for measuring with the whole program: down into the bone, and round
+bool moves = false;  // by itself (own_way.h)
 
-// Twenty-two millimetres away from the user, where the bone is, then circles there, pressing.
 void move_by_itself(double t) {
   FakeTouch& touch = state().touch[0];
-  const double down = std::min(1.0, t / 2), round = std::max(0.0, t - 2);
-  touch.transform[12] = 3 * std::min(1.0, round) * std::sin(3 * round);
-  touch.transform[13] = 3 * std::min(1.0, round) * std::cos(2 * round);
-  touch.transform[14] = -22.0 * down - 1.0 * std::sin(5 * round);
+  for (int axis = 0; axis < 3; ++axis) touch.transform[12 + axis] = 1e3 * own_way(t)[axis];
   touch.buttons = 1;
 }
 

@@ -1,0 +1,273 @@
+#include "burr/device/polhem/polhem.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "burr/rt/clock.h"
+
+namespace burr::device::polhem {
+namespace {
+
+namespace fs = std::filesystem;
+using math::Quat;
+using math::Vec3;
+
+constexpr int kOneReadingMs = 2;                 // that read() waits
+constexpr int kWakesMs = 1500, kWakeMs = 50;     // for an arm that begins to run when it is opened
+constexpr std::int64_t kAgainNs = 20'000'000;    // without an answer: its line or ours was lost
+constexpr std::int64_t kSilentNs = 200'000'000;  // then it is gone
+constexpr int kMostNonsense = 50;                // lines without a good one between
+constexpr double kPeak = 5, kContinuous = 1.5;   // [N]; the former from the maker's polhem_v3
+constexpr double kStiffness = 2000, kDamping = 1;  // [N/m], [N s/m], likewise
+constexpr double kRadius = 150e-3;                 // [m], likewise
+constexpr double kSlowest = 1e-3;                  // time constant of the place's change  [s]
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::string word;
+  in >> word;
+  return word;
+}
+
+// Ours from the arm's.
+Vec3 ours(const Vec3& v) BURR_RT { return {v.y(), v.z(), v.x()}; }
+Vec3 theirs(const Vec3& v) BURR_RT { return {v.z(), v.x(), v.y()}; }
+
+Quat about(const Vec3& axis, double angle) BURR_RT { return Quat(Eigen::AngleAxisd(angle, axis)); }
+
+// How the tool is turned: the wrist's chain (uhaptikfabriken.h, getRot(), without the stylus' own
+// turn), its x becoming the tool's z.
+Quat turn_of(const State& state) BURR_RT {
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+  const Quat wrist = about(z, state.tA) * about(y, -state.lambda) * about(x, state.tD) *
+                     about(y, state.tE) * about(y, M_PI / 2);
+  // x right, y up, z to the user of what is x to the user, y right, z up: a third of a turn
+  const Quat frame(0.5, -0.5, -0.5, -0.5);
+  return frame * wrist;
+}
+
+}  // namespace
+
+std::vector<Port> ports_of_arms(const std::string& system) {
+  std::vector<Port> ports;
+  std::error_code nobody_asks;
+  for (const auto& entry :
+       fs::directory_iterator(fs::path(system) / "sys/class/tty", nobody_asks)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("ttyACM")) continue;
+    const fs::path device = fs::canonical(entry.path() / "device", nobody_asks).parent_path();
+    if (text_of(device / "idVendor") == "16c0" && text_of(device / "idProduct").starts_with("04"))
+      ports.push_back({(fs::path(system) / "dev" / name).string(), text_of(device / "serial")});
+  }
+  std::sort(ports.begin(), ports.end(),
+            [](const Port& a, const Port& b) { return a.path < b.path; });
+  return ports;
+}
+
+Polhem::Polhem(PolhemSettings settings) : settings_(std::move(settings)) {}
+Polhem::~Polhem() { disconnect(); }
+
+Result<DeviceSpec> Polhem::connect() {
+  disconnect();
+  const std::vector<Port> known = ports_of_arms(settings_.system);
+  Port port{settings_.port, ""};
+  if (port.path.empty() && known.empty())
+    return error(Trouble::io,
+                 "no Polhem is plugged in (no /dev/ttyACM of USB 16c0:04xx); plug it in and switch "
+                 "it on, or name its port: polhem:/dev/ttyACM0");
+  for (const Port& one : known)
+    if (port.path.empty() || one.path == port.path) {
+      port = one;
+      break;
+    }
+  const auto fail = [&](const std::string& why) {
+    if (port_ >= 0) ::close(port_);
+    port_ = -1;
+    return error(Trouble::io, why);
+  };
+  port_ = ::open(port.path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (port_ < 0 && errno == EACCES)
+    return fail(
+        fmt::format("{} is not open to you; run burr doctor --fix, or: sudo usermod -aG "
+                    "dialout $USER, and log in again",
+                    port.path));
+  if (port_ < 0)
+    return fail(
+        fmt::format("{} cannot be opened ({}); see burr devices", port.path, std::strerror(errno)));
+  termios raw{};
+  if (::tcgetattr(port_, &raw) != 0)
+    return fail(fmt::format("{} is no serial port; name the one of the arm", port.path));
+  if (::flock(port_, LOCK_EX | LOCK_NB) != 0 || ::ioctl(port_, TIOCEXCL) != 0)
+    return fail(fmt::format("{} is held by another program; close that one", port.path));
+  ::cfmakeraw(&raw);
+  raw.c_cflag |= CLOCAL | CREAD;
+  ::cfsetspeed(&raw, B115200);
+  if (::tcsetattr(port_, TCSANOW, &raw) != 0)
+    return fail(fmt::format("{} cannot be set up ({}); unplug it and plug it in again", port.path,
+                            std::strerror(errno)));
+  ::tcflush(port_, TCIOFLUSH);
+  lines_.clear();
+  unsaid_ = 0;
+  nonsense_ = 0;
+  name_ = "the Polhem at " + port.path;
+
+  // Asked without force until it answers; boards begin anew when their port is opened.
+  Heard heard = Heard::nothing;
+  for (int waited = 0; heard == Heard::nothing && waited < kWakesMs; waited += kWakeMs)
+    heard = say(Vec3::Zero()) ? hear(kWakeMs) : Heard::gone;
+  if (heard != Heard::state)
+    return fail(nonsense_ > 0
+                    ? fmt::format("{} does not speak as a Polhem does; name another port, or put "
+                                  "the maker's firmware of 2021 or later on it",
+                                  port.path)
+                    : fmt::format("{} does not answer; switch the arm on, unplug it and plug it in "
+                                  "again",
+                                  port.path));
+  const Line none = force_line(Vec3::Zero());
+  auto guardian = Guardian::start({"line", std::string(none.data(), none.size())}, port_);
+  if (!guardian) return fail(guardian.error().text);
+  guardian_ = std::move(*guardian);
+  if (!say(Vec3::Zero())) return fail(port.path + " was unplugged; plug it in again");
+  heard_ns_ = rt::monotonic_ns();
+  last_place_ = state_.place;
+  velocity_.setZero();
+  trouble_ = nullptr;
+
+  DeviceSpec spec;
+  spec.name = "Polhem";
+  spec.serial = port.serial.empty() ? port.path : port.serial;
+  spec.simulated = false;
+  spec.sensed = 5;
+  spec.actuated = 3;
+  spec.peak_force = kPeak;
+  spec.continuous_force = kContinuous;
+  spec.thermal_budget = 5 * kPeak * kPeak;
+  spec.max_stiffness = kStiffness;
+  spec.max_damping = kDamping;
+  spec.workspace_radius = kRadius;
+  spec.native_rate = 1000;
+  spec.loss_timeout = 5e-3;
+  return spec;
+}
+
+void Polhem::note(const char* words) BURR_RT {
+  if (trouble_ != words) ++told_;
+  trouble_ = words;
+}
+
+Polhem::Heard Polhem::hear(int longest_ms) BURR_RT {
+  const std::int64_t until = rt::monotonic_ns() + std::int64_t{1'000'000} * longest_ms;
+  for (;;) {
+    const ssize_t got = ::read(port_, lines_.room(), lines_.left());
+    if (got > 0) {
+      const int before = nonsense_;
+      if (!lines_.take(static_cast<std::size_t>(got), state_, nonsense_)) {
+        if (nonsense_ == before) continue;  // a part of a line
+        asked_ = false;                     // an answer, though none that helps
+        return Heard::nothing;
+      }
+      nonsense_ = 0;
+      asked_ = false;
+      return Heard::state;
+    }
+    // a terminal whose other end is closed reads as ended, or as broken
+    if (got == 0 || (errno != EAGAIN && errno != EINTR)) return Heard::gone;
+    const std::int64_t left = until - rt::monotonic_ns();
+    if (left <= 0) return Heard::nothing;
+    pollfd waits{port_, POLLIN, 0};
+    const timespec longest{left / 1'000'000'000, left % 1'000'000'000};
+    if (::ppoll(&waits, 1, &longest, nullptr) == 0) return Heard::nothing;
+    if ((waits.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0 && (waits.revents & POLLIN) == 0)
+      return Heard::gone;
+  }
+}
+
+bool Polhem::say(const Vec3& force) BURR_RT {
+  if (unsaid_ == 0) {
+    out_ = force_line(force);
+    unsaid_ = kLine;
+  }
+  // a line half taken is ended first: the arm would read two as one
+  while (unsaid_ > 0) {
+    const ssize_t put = ::write(port_, out_.data() + (kLine - unsaid_), unsaid_);
+    if (put > 0)
+      unsaid_ -= static_cast<std::size_t>(put);
+    else if (errno == EAGAIN || errno == EINTR)
+      return true;
+    else
+      return false;
+  }
+  asked_ = true;
+  asked_ns_ = rt::monotonic_ns();
+  return true;
+}
+
+Wire::Read Polhem::read(HandState& hand) BURR_RT {
+  hand.valid = false;
+  guardian_->beat();
+  const Heard heard = hear(kOneReadingMs);
+  const std::int64_t now = rt::monotonic_ns();
+  if (heard == Heard::gone) {
+    note("was unplugged; plug it in again.");
+    return Read::lost;
+  }
+  if (nonsense_ > kMostNonsense) {
+    note("says what cannot be read; unplug it and plug it in again.");
+    return Read::lost;
+  }
+  if (heard == Heard::nothing) {
+    if (now - heard_ns_ < kSilentNs) return Read::nothing;
+    note("has gone silent; see that it is switched on.");
+    return Read::lost;
+  }
+  const double dt = 1e-9 * static_cast<double>(now - heard_ns_);
+  heard_ns_ = now;
+  velocity_ +=
+      dt / (dt + kSlowest) * ((state_.place - last_place_) / std::max(dt, 1e-5) - velocity_);
+  last_place_ = state_.place;
+  note(state_.info != 0 ? "tells of a state that is not known; see its maker's program." : nullptr);
+  hand.world_from_tool = {ours(state_.place), turn_of(state_)};
+  hand.velocity = ours(velocity_);
+  hand.buttons = 0;
+  hand.valid = true;
+  return Read::hand;
+}
+
+bool Polhem::write(const Vec3& force) BURR_RT {
+  // its answer is still to come; a line lost on the way is said again
+  if (asked_ && rt::monotonic_ns() - asked_ns_ < kAgainNs) return true;
+  Vec3 push = force.allFinite() ? force : Vec3(Vec3::Zero());
+  if (const double size = push.norm(); size > kPeak) push *= kPeak / size;
+  if (say(theirs(push))) return true;
+  note("was unplugged; plug it in again.");
+  return false;
+}
+
+void Polhem::disconnect() {
+  if (port_ < 0) return;
+  static_cast<void>(say(Vec3::Zero()));  // the rest of a line that was under way, or no force
+  static_cast<void>(say(Vec3::Zero()));
+  guardian_.reset();
+  ::close(port_);
+  port_ = -1;
+}
+
+std::string Polhem::why() const {
+  return trouble_ != nullptr ? name_ + " " + trouble_ : std::string();
+}
+
+}  // namespace burr::device::polhem

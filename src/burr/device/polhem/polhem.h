@@ -1,0 +1,69 @@
+// device/polhem/polhem.h - Haptikfabriken's Polhem, and WoodenHaptics with its electronics, over a
+// serial port.
+//
+// The arm answers each line of ours with one of its own. Its frame: x to the user, y right, z up;
+// ours is x right, y up, z to the user. The stylus lies along the x of its wrist, away from the
+// arm; how it is turned about itself and its button come by a radio of their own, which is not
+// read: the tool does not turn about its handle, and a pedal mills.
+// Nothing is known of a watchdog in the arm, so a guardian (guardian.h) says "no force" to it
+// should burr die. Thread: as Wire. Memory: none after connect().
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "burr/device/guardian.h"
+#include "burr/device/polhem/line.h"
+#include "burr/device/wire.h"
+
+namespace burr::device::polhem {
+
+struct PolhemSettings {
+  std::string port = {};     // /dev/ttyACM0; empty: the first that is one
+  std::string system = "/";  // where sys and dev lie
+};
+
+class Polhem final : public Wire {
+ public:
+  explicit Polhem(PolhemSettings settings = {});
+  ~Polhem() override;
+
+  [[nodiscard]] Result<DeviceSpec> connect() override;
+  [[nodiscard]] Read read(HandState& hand) BURR_RT override;
+  [[nodiscard]] bool write(const math::Vec3& force) BURR_RT override;
+  void disconnect() override;
+  [[nodiscard]] std::string why() const override;
+  [[nodiscard]] unsigned told() const BURR_RT override { return told_; }
+
+ private:
+  void note(const char* words) BURR_RT;
+  enum class Heard { state, nothing, gone };
+  [[nodiscard]] Heard hear(int longest_ms) BURR_RT;
+  [[nodiscard]] bool say(const math::Vec3& force) BURR_RT;  // false: gone
+
+  PolhemSettings settings_;
+  std::unique_ptr<Guardian> guardian_;
+  int port_ = -1;
+  std::string name_ = "the Polhem";
+  Lines lines_;
+  State state_;
+  Line out_{};
+  std::size_t unsaid_ = 0;  // bytes of out_ that the port did not take yet
+  bool asked_ = false;
+  std::int64_t asked_ns_ = 0, heard_ns_ = 0;
+  math::Vec3 last_place_ = math::Vec3::Zero(), velocity_ = math::Vec3::Zero();
+  int nonsense_ = 0;
+  const char* trouble_ = nullptr;
+  unsigned told_ = 0;
+};
+
+// The serial ports that are an arm's, by what their USB says (16c0:04xx): /dev/ttyACM0 and serial
+// number; sorted.
+struct Port {
+  std::string path, serial;
+};
+[[nodiscard]] std::vector<Port> ports_of_arms(const std::string& system);
+
+}  // namespace burr::device::polhem
