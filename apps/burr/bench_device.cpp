@@ -91,12 +91,20 @@ Status run(const Options& options) {
   ready->hands.real->lay(math::shortest_turn(math::Vec3::UnitZ(), outward));
   // anew, so that a device that moves by itself begins its way with the session
   session.hand().close();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // a pause that it can tell
   const Status again = session.hand().open();
   if (!again) return again;
+  const auto began = std::chrono::steady_clock::now();
   session.run(options.seconds, progress());
+  const double wall =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   LinkAccount whole;
   static_cast<void>(session.hand().account(whole));
   const sim::Outcome outcome = session.outcome();
+  // what the clock of the wall would have had room for, and neither came nor was counted as left
+  // out
+  const double unaccounted = wall * session.settings().servo.rate_hz -
+                             static_cast<double>(outcome.ticks + outcome.timing.missed);
   const double above = 1e-3 * (whole.answers.quantile_us(0.99) - idle.answers.quantile_us(0.99));
   if (options.json) {
     nlohmann::json out;
@@ -107,6 +115,8 @@ Status run(const Options& options) {
     out["p99_above_echo_ms"] = above;
     out["ticks"] = outcome.ticks;
     out["missed"] = outcome.timing.missed;
+    out["wall_s"] = wall;
+    out["unaccounted"] = unaccounted;
     out["tick_us"] = {{"p50", outcome.timing.p50_us},
                       {"p99", outcome.timing.p99_us},
                       {"p999", outcome.timing.p999_us},
@@ -120,11 +130,13 @@ Status run(const Options& options) {
   print("the whole of burr", whole);
   fmt::print("p99 {:.3f} ms above the echo (bar 1)\n", above);
   fmt::print(
-      "{} ticks, {} left out; tick p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f} us; removed {:.1f} mm3, "
+      "{} ticks, {} left out, {:.0f} not accounted for in {:.2f} s; tick p50 {:.0f}, p99 {:.0f}, "
+      "p99.9 {:.0f} us; removed {:.1f} mm3, "
       "{:.2f} N "
       "at the most\n",
-      outcome.ticks, outcome.timing.missed, outcome.timing.p50_us, outcome.timing.p99_us,
-      outcome.timing.p999_us, 1e9 * outcome.ledger.removed, outcome.peak_force);
+      outcome.ticks, outcome.timing.missed, unaccounted, wall, outcome.timing.p50_us,
+      outcome.timing.p99_us, outcome.timing.p999_us, 1e9 * outcome.ledger.removed,
+      outcome.peak_force);
   return fine();
 }
 

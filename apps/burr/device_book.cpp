@@ -211,6 +211,11 @@ Status DeviceBook::write(const std::filesystem::path& path) const {
   return file->put_in_place();
 }
 
+WishRange range_of_wish(std::string_view key) {
+  const Field* field = field_named(key);
+  return field != nullptr ? WishRange{field->least, field->most} : WishRange{0, 0};
+}
+
 std::string id_of(const device::DeviceSpec& spec) {
   return spec.serial.empty() ? spec.name : spec.name + " " + spec.serial;
 }

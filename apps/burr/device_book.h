@@ -39,6 +39,9 @@ class DeviceBook {
   // "scale=0.5"; error: no such field, or no such value.
   [[nodiscard]] Status set(const std::string& id, std::string_view assignment);
 
+  // All at once, as a page of settings has them; each within its range.
+  void put(const std::string& id, const DeviceWishes& wishes) { wishes_[id] = wishes; }
+
   [[nodiscard]] std::string text() const;
   // Makes the folder.
   [[nodiscard]] Status write(const std::filesystem::path& path) const;
@@ -47,6 +50,12 @@ class DeviceBook {
   std::map<std::string, DeviceWishes> wishes_;
   std::vector<std::string> troubles_;
 };
+
+// What a number of it may be.
+struct WishRange {
+  double least, most;
+};
+[[nodiscard]] WishRange range_of_wish(std::string_view key);
 
 // How a device is called in the book: its name and its serial number.
 [[nodiscard]] std::string id_of(const device::DeviceSpec& spec);

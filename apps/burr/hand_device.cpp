@@ -12,7 +12,6 @@
 #include "burr/device/haply/inverse.h"
 #include "burr/device/openhaptics/touch.h"
 #include "burr/device/polhem/polhem.h"
-#include "device_book.h"
 
 namespace burr::app {
 namespace {
@@ -98,7 +97,9 @@ Result<LaidHand> lay_hand(const HandWish& wish, const math::Pose& start,
   if (!opened) return opened.error();
   const DeviceBook book = DeviceBook::read(users_book());
   laid.notices = book.troubles();
-  DeviceWishes wishes = book.of(id_of(laid.hand->spec()));
+  laid.id = id_of(laid.hand->spec());
+  laid.wishes = book.of(laid.id);
+  DeviceWishes wishes = laid.wishes;
   if (wish.scale) wishes.mapping.scale = *wish.scale;
   wishes.mapping.dead_man = wishes.mapping.dead_man || wish.dead_man;
   const Status set = laid.hand->set(wishes.mapping);

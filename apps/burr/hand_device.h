@@ -17,6 +17,7 @@
 #include "burr/base/result.h"
 #include "burr/device/device.h"
 #include "burr/device/mapping.h"
+#include "device_book.h"
 
 namespace burr::app {
 
@@ -46,6 +47,8 @@ struct LaidHand {
   std::unique_ptr<device::MappedHand> hand;
   double max_force = 0;  // the user's own and the device's [N]
   double vibration = 0;
+  std::string id;                    // in the book
+  DeviceWishes wishes;               // as the book has them
   std::vector<std::string> notices;  // of the book
 };
 [[nodiscard]] Result<LaidHand> lay_hand(const HandWish& wish, const math::Pose& start,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burr/base/markup.h"
 #include "burr/base/new_file.h"
 #include "burr/base/version.h"
 #include "burr/volume/volume_of.h"
@@ -61,20 +62,21 @@ Status write_summary(const Summary& summary, const std::filesystem::path& folder
   std::string page = fmt::format(
       "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\">"
       "<title>burr: a session</title><style>{}</style>\n<h1>A session on {}</h1>\n",
-      kPageStyle, escaped(summary.what));
+      kPageStyle, base::markup_text(summary.what));
   for (const auto& [file, caption] : summary.pictures)
     page +=
         fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>\n",
-                    escaped(file), escaped(caption));
+                    base::markup_text(file), base::markup_text(caption));
   page += "<table>\n";
   for (const auto& [name, value] : rows_of(summary))
-    page += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(name), escaped(value));
+    page += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", base::markup_text(name),
+                        base::markup_text(value));
   page += "</table>\n";
   if (!summary.tissues.empty()) {
     page += "<h1>Removed, by tissue</h1>\n<table>\n";
     for (const TissueLoss& loss : summary.tissues)
       page += fmt::format("<tr{}><td>{}</td><td>{:.2f} mm\u00b3{}</td></tr>\n",
-                          loss.spare ? " class=\"spare\"" : "", escaped(loss.name),
+                          loss.spare ? " class=\"spare\"" : "", base::markup_text(loss.name),
                           1e9 * loss.removed, loss.spare ? ", was to be spared" : "");
     page += "</table>\n";
   }
@@ -82,9 +84,9 @@ Status write_summary(const Summary& summary, const std::filesystem::path& folder
     page += fmt::format(
         "<p>Recording: <a href=\"{0}\">{0}</a>; <code>burr replay {0} --check</code> simulates it "
         "again.</p>\n",
-        escaped(summary.recording));
+        base::markup_text(summary.recording));
   page += fmt::format("<footer>burr {} ({})</footer></html>\n", base::version(),
-                      escaped(base::build()));
+                      base::markup_text(base::build()));
 
   Result<base::NewFile> file = base::NewFile::beside((folder / "summary.html").string());
   if (!file) return file.error();

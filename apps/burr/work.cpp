@@ -136,6 +136,8 @@ Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress) {
     for (const std::string& notice : laid->notices) work.made.summary.notices.push_back(notice);
     ready.hands.real = laid->hand.get();
     ready.hands.max_force = laid->max_force;
+    ready.hands.id = laid->id;
+    ready.hands.wishes = laid->wishes;
     hand = std::move(laid->hand);
   }
   ready.title = options.title.empty() ? work.what : options.title;

@@ -12,6 +12,7 @@
 
 #include "doctor/apart.h"
 #include "doctor/finding.h"
+#include "doctor/fix.h"
 #include "doctor/look.h"
 
 namespace burr::app {
@@ -216,6 +217,67 @@ TEST(Findings, ReadAsLinesAndAsJson) {
   ASSERT_EQ(json.size(), 3U);
   EXPECT_EQ(json[1]["health"], "trouble");
   EXPECT_EQ(json[1]["is"], "is \"odd\"");
+}
+
+// ---- the rule that --fix writes
+
+class Rules : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    system_.root = fs::temp_directory_path() / ("burr_rules_" + std::to_string(getpid()));
+    fs::create_directories(udev_file(system_).parent_path());
+  }
+  void TearDown() override { fs::remove_all(system_.root); }
+  [[nodiscard]] static std::string held(const fs::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  static Answer yes(const std::string&) { return Answer::yes; }
+  System system_;
+};
+
+TEST_F(Rules, AreShownAskedForWrittenAndThenLeftAlone) {
+  std::string shown;
+  const auto no = write_rules(system_, [&](const std::string& rules) {
+    shown = rules;
+    return Answer::no;
+  });
+  ASSERT_TRUE(no.ok());
+  EXPECT_NE(no->find("nothing was written"), std::string::npos);
+  EXPECT_NE(shown.find(udev_rules()), std::string::npos);
+  EXPECT_NE(shown.find(udev_file(system_).string()), std::string::npos);
+  EXPECT_FALSE(fs::exists(udev_file(system_)));
+  const auto written = write_rules(system_, yes);
+  ASSERT_TRUE(written.ok()) << written.error().text;
+  EXPECT_NE(written->find("udevadm"), std::string::npos);
+  EXPECT_EQ(held(udev_file(system_)), udev_rules());
+  const auto again = write_rules(system_, [](const std::string&) {
+    ADD_FAILURE() << "asked for nothing";
+    return Answer::no;
+  });
+  ASSERT_TRUE(again.ok());
+  EXPECT_NE(again->find("is as it should be"), std::string::npos);
+}
+
+TEST_F(Rules, OfTheUsersOwnAreKeptBeside) {
+  std::ofstream(udev_file(system_)) << "# mine\n";
+  const auto written = write_rules(system_, yes);
+  ASSERT_TRUE(written.ok());
+  EXPECT_NE(written->find("70-burr.rules.old"), std::string::npos);
+  EXPECT_EQ(held(udev_file(system_).string() + ".old"), "# mine\n");
+  EXPECT_EQ(held(udev_file(system_)), udev_rules());
+}
+
+TEST_F(Rules, WhatCannotBeIsSaidAndNothingIsLost) {
+  const auto nobody = write_rules(system_, [](const std::string&) { return Answer::nobody; });
+  ASSERT_FALSE(nobody.ok());
+  EXPECT_NE(nobody.error().text.find("--fix --yes"), std::string::npos);
+  fs::remove_all(udev_file(system_).parent_path());
+  std::ofstream(udev_file(system_).parent_path()) << "a file where a folder should be\n";
+  const auto nowhere = write_rules(system_, yes);
+  ASSERT_FALSE(nowhere.ok());
+  EXPECT_NE(nowhere.error().text.find("sudo burr doctor --fix"), std::string::npos)
+      << nowhere.error().text;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "device/fake/fake_hd.h"
 #include "window/user.h"
@@ -151,6 +152,30 @@ TEST_F(DeviceWindow, PulledOutItIsSaidAndTheLastTicksAreKept) {
     ++files;
   }
   EXPECT_GE(files, 1);
+}
+
+TEST_F(DeviceWindow, ItsSettingsAreChangedThereAndKeptInItsBook) {
+  std::optional<Ready> ready = std::move(*with_touch());
+  const std::string id = ready->hands.id;
+  EXPECT_EQ(ready->hands.max_force, 3.3);
+  const auto none = [] {};
+  const auto kept = [&] { return DeviceBook::read(users_book()).of(id); };
+  // below the two sliders of gamepad and SpaceMouse
+  mill_by(*ready, {{"the first picture", looks(3), [] { press(SDLK_F2); }},
+                   {"the page", looks(5), [] { click(1280 / 2 + 200, 83); }},
+                   {"its other leaf", looks(5), [] { click(500, 266); }},
+                   {"the force", [&] { return kept().max_force_n > 0; }, none},
+                   {"the next", looks(3), [] { click(416, 377); }},
+                   {"dead-man", [&] { return kept().mapping.dead_man; }, none},
+                   {"a look", looks(3), [] { press(SDLK_ESCAPE); }},
+                   {"the page to go", looks(5), [] { press(SDLK_q); }}});
+  EXPECT_LT(kept().max_force_n, 3.3);
+  EXPECT_EQ(kept().mapping.scale, 1);
+  EXPECT_EQ(ready->session->servo().settings().limit.user_force, 3.3) << "as it began";
+  ready.reset();
+  const auto again = with_touch();
+  ASSERT_TRUE(again) << again.error().text;
+  EXPECT_EQ(again->hands.max_force, kept().max_force_n);
 }
 
 TEST_F(DeviceWindow, ADeviceThatIsNotThereIsRefusedBeforeTheBoneIsMade) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "burr/base/markup.h"
 #include "burr/base/version.h"
 #include "devices/trial.h"
 #include "html_page.h"
@@ -61,11 +62,12 @@ std::string trial_page(const TrialSeen& seen) {
   std::string page = fmt::format(
       "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>burr: a device tried</title>"
       "<style>{}</style>\n<h1>{}</h1>\n<table>\n",
-      kPageStyle, escaped(seen.spec.name));
+      kPageStyle, base::markup_text(seen.spec.name));
   for (const auto& [name, value] : rows_of(seen))
-    page += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(name), escaped(value));
+    page += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", base::markup_text(name),
+                        base::markup_text(value));
   return page + fmt::format("</table>\n<footer>burr {} ({})</footer></html>\n", base::version(),
-                            escaped(base::build()));
+                            base::markup_text(base::build()));
 }
 
 std::string trial_json(const TrialSeen& s) {

@@ -6,78 +6,34 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <system_error>
 
-#include "burr/base/new_file.h"
 #include "command.h"
+#include "doctor/fix.h"
 #include "doctor/look.h"
 #include "machine_trial.h"
 
 namespace burr::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct Options {
   double seconds = 10;
   bool json = false, fix = false, yes = false;
 };
 
-std::string text_of_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream all;
-  all << in.rdbuf();
-  return all.str();
+Answer agreed(const std::string& rules) {
+  fmt::print("{}", rules);
+  return Answer::yes;
 }
 
-// Asks first; a rule of the user's own is kept beside.
-Status fix(const System& system, bool yes) {
-  const fs::path file = udev_file(system);
-  const std::string rules = udev_rules();
-  std::error_code trouble;
-  if (fs::exists(file, trouble) && text_of_file(file) == rules) {
-    fmt::print("{} is as it should be\n", file.string());
-    return fine();
-  }
-  fmt::print("{} is to hold:\n\n{}\n", file.string(), rules);
-  if (!yes && isatty(STDIN_FILENO) == 0)
-    return error(
-        Trouble::usage,
-        "there is no terminal to ask at; burr doctor --fix --yes writes it without asking");
-  if (!yes) {
-    fmt::print("Write it? [y/N] ");
-    std::fflush(stdout);
-    const int answer = std::getchar();
-    if (answer != 'y' && answer != 'Y') {
-      fmt::print("nothing was written\n");
-      return fine();
-    }
-  }
-  if (fs::exists(file, trouble)) {
-    fs::path old = file;
-    old += ".old";
-    fs::copy_file(file, old, fs::copy_options::overwrite_existing, trouble);
-    if (trouble)
-      return error(Trouble::io, fmt::format("{}: cannot be kept as {} ({}); nothing was written",
-                                            file.string(), old.string(), trouble.message()));
-    fmt::print("what it held is in {}\n", old.string());
-  }
-  const auto cannot = [&](const std::string& why) {
-    return error(Trouble::io,
-                 fmt::format("{}; run it as root: sudo burr doctor --fix --seconds 0", why));
-  };
-  auto out = base::NewFile::beside(file.string());
-  if (!out) return cannot(out.error().text);
-  out->write(rules);
-  const Status put = out->put_in_place();
-  if (!put) return cannot(put.error().text);
-  fmt::print(
-      "written. Now: udevadm control --reload && udevadm trigger, then plug the device in again\n");
-  return fine();
+// At the terminal, where there is one.
+Answer ask(const std::string& rules) {
+  fmt::print("{}", rules);
+  if (isatty(STDIN_FILENO) == 0) return Answer::nobody;
+  fmt::print("Write it? [y/N] ");
+  std::fflush(stdout);
+  const int letter = std::getchar();
+  return letter == 'y' || letter == 'Y' ? Answer::yes : Answer::no;
 }
 
 std::string usable(const std::vector<Finding>& findings) {
@@ -91,7 +47,12 @@ std::string usable(const std::vector<Finding>& findings) {
 
 Status run(const Options& options) {
   const System system;
-  if (options.fix) return fix(system, options.yes);
+  if (options.fix) {
+    const auto said = write_rules(system, options.yes ? agreed : ask);
+    if (!said) return said.error();
+    fmt::print("{}\n", *said);
+    return fine();
+  }
   std::vector<Finding> findings = look_at_devices(system);  // first: it forks
   for (auto* look : {&look_at_nodes, &look_at_pads, &look_at_screen, &look_at_machine})
     for (Finding& one : look(system)) findings.push_back(std::move(one));

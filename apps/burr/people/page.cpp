@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "burr/base/markup.h"
 #include "burr/base/version.h"
 #include "people/run.h"
 #include "verify/page.h"
@@ -97,15 +98,15 @@ std::string result_page(const PeopleRun& run, const people::Experiment& experime
   Plot plot{"", 2, {function(run, out), track(run, experiment)}};
   std::string html = kHead;
   html += fmt::format("<h1>{}</h1>\n<p>{}.</p>\n<figure>{}<figcaption>", name(plan.stimulus),
-                      escaped(result_words(run, experiment)), svg(plot));
-  html += escaped(fmt::format(
+                      base::markup_text(result_words(run, experiment)), svg(plot));
+  html += base::markup_text(fmt::format(
       "Left: how often the comparison was told from the standard of {:g} {}, over how much more it "
       "had; the threshold is half way between guessing (50 %) and never being wrong but by a lapse "
       "({:g} %), the short line across it its 95 % interval. Right: what was shown in each trial.",
       plan.standard, unit_of(plan.stimulus), 100 * plan.lapse));
   html += "</figcaption></figure>\n<table>\n";
   const auto row = [&](const char* what, const std::string& value) {
-    html += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", what, escaped(value));
+    html += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", what, base::markup_text(value));
   };
   row("question", question_of(plan.stimulus));
   row("answered by", run.observer ? fmt::format("a simulated observer{}, threshold {:g}, seed {}",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "burr/base/markup.h"
 #include "burr/base/version.h"
 
 namespace burr::app {
@@ -25,35 +26,36 @@ figure { margin: 1.2em 0 } figcaption, .about { color: #444; max-width: 75em } s
 std::string page(const Report& report) {
   std::string html = kHead;
   html += fmt::format("<h1>burr verify</h1><p>burr {} ({}): {} checks, {} failed.</p>\n",
-                      base::version(), escaped(base::build()), report.checks(), report.failed());
+                      base::version(), base::markup_text(base::build()), report.checks(),
+                      report.failed());
   html +=
       "<p>A check of ours passes when it holds; a check of a baseline passes when the baseline "
       "does what was predicted of it, failures included.</p><ul>\n";
   for (const Report::Part& part : report.parts())
     html += fmt::format("<li><a href=\"#{}\">{}</a>: {} of {} passed, {:.1f} s</li>\n", part.name,
-                        escaped(part.title),
+                        base::markup_text(part.title),
                         part.checks.size() - static_cast<std::size_t>(part.failed()),
                         part.checks.size(), part.took_s);
   html += "</ul>\n";
   for (const Report::Part& part : report.parts()) {
     html += fmt::format("<h2 id=\"{}\">{}</h2>\n<p class=\"about\">{}</p>\n", part.name,
-                        escaped(part.title), escaped(part.about));
+                        base::markup_text(part.title), base::markup_text(part.about));
     for (const Plot& plot : part.plots)
       html += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", svg(plot),
-                          escaped(plot.caption));
+                          base::markup_text(plot.caption));
     for (const Table& table : part.tables) {
-      html += fmt::format("<p>{}</p>\n<table><tr>", escaped(table.caption));
-      for (const std::string& cell : table.head) html += "<th>" + escaped(cell) + "</th>";
+      html += fmt::format("<p>{}</p>\n<table><tr>", base::markup_text(table.caption));
+      for (const std::string& cell : table.head) html += "<th>" + base::markup_text(cell) + "</th>";
       html += "</tr>\n";
       for (const auto& row : table.rows) {
         html += "<tr>";
-        for (const std::string& cell : row) html += "<td>" + escaped(cell) + "</td>";
+        for (const std::string& cell : row) html += "<td>" + base::markup_text(cell) + "</td>";
         html += "</tr>\n";
       }
       html += "</table>\n";
     }
     for (const std::string& sentence : part.left_out)
-      html += fmt::format("<p class=\"left\">Not checked: {}</p>\n", escaped(sentence));
+      html += fmt::format("<p class=\"left\">Not checked: {}</p>\n", base::markup_text(sentence));
     if (part.checks.empty()) continue;
     html +=
         "<table><tr><th>check</th><th>expected</th><th>measured</th><th>unit</th><th></th></tr>\n";
@@ -61,8 +63,9 @@ std::string page(const Report& report) {
       html += fmt::format(
           "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{:.4g}</td><td>{}</td><td "
           "class=\"{}\">{}</td></tr>\n",
-          escaped(check.name), escaped(check.expected), check.measured, escaped(check.unit),
-          check.pass ? "pass" : "fail", check.pass ? "pass" : "FAIL");
+          base::markup_text(check.name), base::markup_text(check.expected), check.measured,
+          base::markup_text(check.unit), check.pass ? "pass" : "fail",
+          check.pass ? "pass" : "FAIL");
     html += "</table>\n";
   }
   return html + "</body></html>\n";

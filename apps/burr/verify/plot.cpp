@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "burr/base/markup.h"
 #include "page.h"
 
 namespace burr::app {
@@ -82,7 +83,7 @@ std::string axes_svg(const Axes& axes, double x0, double y0) {
       "<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n"
       "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" "
       "stroke=\"#888\"/>\n",
-      left, y0 + 18, escaped(axes.title), left, top, wide, high);
+      left, y0 + 18, base::markup_text(axes.title), left, top, wide, high);
   for (const double at : x.ticks())
     out += fmt::format(
         "<path d=\"M{0:.1f} {1:.1f}v{2:.1f}\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" y=\"{3:.1f}\" "
@@ -94,10 +95,10 @@ std::string axes_svg(const Axes& axes, double x0, double y0) {
         "text-anchor=\"end\">{5:.4g}</text>\n",
         left, py(at), wide, left - 5, py(at) + 4, at);
   out += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\">{}</text>\n",
-                     left + wide / 2, top + high + 34, escaped(axes.x));
+                     left + wide / 2, top + high + 34, base::markup_text(axes.x));
   out += fmt::format(
       "<text transform=\"translate({:.0f} {:.0f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-      x0 + 13, top + high / 2, escaped(axes.y));
+      x0 + 13, top + high / 2, base::markup_text(axes.y));
   for (std::size_t n = 0; n < axes.lines.size(); ++n) {
     const Line& line = axes.lines[n];
     const char* colour = kColours[n % kColours.size()];
@@ -125,7 +126,7 @@ std::string axes_svg(const Axes& axes, double x0, double y0) {
     out += fmt::format(
         "<path d=\"M{0:.0f} {1:.0f}h22\" stroke=\"{2}\" stroke-width=\"2\"{3}/><text x=\"{4:.0f}\" "
         "y=\"{5:.0f}\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\">{6}</text>\n",
-        left + 8, at, colour, dash, left + 36, at + 4, escaped(line.legend));
+        left + 8, at, colour, dash, left + 36, at + 4, base::markup_text(line.legend));
   }
   return out;
 }

@@ -192,9 +192,12 @@ void Mill::panels() {
   const double limit = desk_.settings.force_limit_n;
   const bool worn = desk_.settings.headset;
   const std::filesystem::path& config = desk_.places().config;
+  DeviceLeaf device{hands_.id, hands_.real != nullptr ? hands_.real->spec().peak_force : 0,
+                    hands_.wishes};
   const SettingsPage page = draw_settings(
       ui, desk_.settings, config.empty() ? std::string() : (config / "settings.toml").string(),
-      settings_pads_);
+      settings_pads_, hands_.real != nullptr ? &device : nullptr);
+  if (device.changed) keep_wishes_of_device();
   if (desk_.settings.force_limit_n != limit)
     session_.wish({record::WishKind::user_force, user_limit()});
   if (desk_.settings.headset != worn) desk_.headset_wanted = desk_.settings.headset;
@@ -204,6 +207,17 @@ void Mill::panels() {
     for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
   }
   if (page.done) settings_page_ = false;
+}
+
+// In its book; the force holds at once.
+void Mill::keep_wishes_of_device() {
+  const double peak = hands_.real->spec().peak_force, wished = hands_.wishes.max_force_n;
+  hands_.max_force = wished > 0 ? std::min(peak, wished) : peak;
+  session_.wish({record::WishKind::user_force, user_limit()});
+  DeviceBook book = DeviceBook::read(users_book());
+  book.put(hands_.id, hands_.wishes);
+  const Status kept = book.write(users_book());
+  if (!kept) note(kept.error().text);
 }
 
 void Mill::leave_picture() {

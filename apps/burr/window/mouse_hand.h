@@ -15,6 +15,7 @@
 #include "burr/device/mapping.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/rt/latest.h"
+#include "device_book.h"
 
 namespace burr::app {
 
@@ -59,6 +60,8 @@ struct Hands {
   MouseHand* mouse = nullptr;
   device::MappedHand* real = nullptr;  // a haptic device
   double max_force = 1e3;              // its user's own limit and its own [N]
+  std::string id = {};                 // of the device, in the book of what users wish of it
+  DeviceWishes wishes = {};            // what the book has for it
 };
 
 }  // namespace burr::app

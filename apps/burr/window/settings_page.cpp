@@ -15,13 +15,22 @@ class Lines {
  public:
   Lines(const Ui& ui, float x, float y) : ui_(ui), u_(ui.unit()), x_(x), y_(y) {}
 
-  void heading(Word text) {
+  void heading(Word text) { heading(std::string(word(text))); }
+  void heading(const std::string& text) {
     y_ += 6 * u_;
-    ui_.write(x_, y_, Ui::Letter::strong, ink::kAccent, word(text));
+    ui_.write(x_, y_, Ui::Letter::strong, ink::kAccent, text);
     y_ += 26 * u_;
+  }
+  void remark(Word text) {
+    ui_.write(x_, y_ + 2 * u_, Ui::Letter::small, ink::kDim, word(text));
+    y_ += 24 * u_;
   }
 
   void number(Word name, const char* key, double& value, const char* format) {
+    number(name, key, value, format, range_of(key));
+  }
+  void number(Word name, const char* key, double& value, const char* format,
+              const SettingRange& range) {
     begin(name);
     auto now = static_cast<float>(value);
     // letters that grow under the mouse would move the slider: those when it is let go
@@ -29,7 +38,6 @@ class Lines {
     float* const kept =
         ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(key), static_cast<float>(value));
     if (later && ImGui::IsMouseDown(0)) now = *kept;
-    const SettingRange range = range_of(key);
     ImGui::SetNextItemWidth(200 * u_);
     if (ImGui::SliderFloat(fmt::format("##{}", key).c_str(), &now, static_cast<float>(range.least),
                            static_cast<float>(range.most), format,
@@ -116,10 +124,31 @@ void main_leaf(Lines& left, Lines& right, Settings& settings) {
   right.yes(Word::set_headset, "headset", settings.headset);
 }
 
-void pads_leaf(Lines& left, Lines& right, Settings& settings) {
+void pads_leaf(Lines& left, Lines& right, Settings& settings, DeviceLeaf* device) {
   left.heading(Word::set_sticks);
   left.number(Word::set_pad_pace, "pad_pace", settings.pad_pace, "%.1f x");
   left.number(Word::set_pad_dead, "pad_dead", settings.pad_dead, "%.2f");
+  if (device != nullptr) {
+    const bool before = left.changed();
+    DeviceWishes& wishes = device->wishes;
+    left.heading(device->id);
+    // in the book 0 is "what the device can"; a slider at its left end is the smallest force
+    double force =
+        wishes.max_force_n > 0 ? std::min(wishes.max_force_n, device->peak) : device->peak;
+    const double shown = force;
+    left.number(Word::set_device_force, "device_force", force, "%.1f N", {0.1, device->peak});
+    if (force != shown) wishes.max_force_n = force;
+    const auto wish = [&left](Word name, const char* key, double& value, const char* format) {
+      const WishRange range = range_of_wish(key);
+      left.number(name, ("device_" + std::string(key)).c_str(), value, format,
+                  {range.least, range.most});
+    };
+    wish(Word::set_device_scale, "scale", wishes.mapping.scale, "%.2f x");
+    wish(Word::set_device_vibration, "vibration", wishes.vibration, "%.1f x");
+    left.yes(Word::set_device_dead_man, "device_dead_man", wishes.mapping.dead_man);
+    left.remark(Word::set_device_next);
+    device->changed = left.changed() && !before;
+  }
   right.heading(Word::set_pedal);
   right.number(Word::set_pedal_mill, "pedal_mill", settings.pedal_mill, "%.0f");
   right.number(Word::set_pedal_burr, "pedal_burr", settings.pedal_burr, "%.0f");
@@ -129,13 +158,17 @@ void pads_leaf(Lines& left, Lines& right, Settings& settings) {
 
 }  // namespace
 
-SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file, bool& pads) {
+SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file, bool& pads,
+                           DeviceLeaf* device) {
   const float u = ui.unit(), w = 900 * u, h = 582 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
   ui.page("##settings", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::settings_title));
   Lines left(ui, x + 28 * u, y + 66 * u), right(ui, x + 480 * u, y + 66 * u);
-  (pads ? pads_leaf : main_leaf)(left, right, settings);
+  if (pads)
+    pads_leaf(left, right, settings, device);
+  else
+    main_leaf(left, right, settings);
   ui.write(x + 28 * u, y + h - 34 * u, Ui::Letter::small, ink::kDim,
            file.empty() ? word(Word::set_not_kept) : say(Word::set_file, file));
   SettingsPage page;

@@ -1,6 +1,7 @@
 // apps/burr/window/settings_page.h - the settings, changed while one looks.
 #pragma once
 
+#include "device_book.h"
 #include "window/settings.h"
 #include "window/ui.h"
 
@@ -11,9 +12,17 @@ struct SettingsPage {
   bool done = false;     // the user is
 };
 
+// The haptic device that is led just now, and what its book says of it.
+struct DeviceLeaf {
+  const std::string& id;
+  double peak;  // that it can push [N]
+  DeviceWishes& wishes;
+  bool changed = false;
+};
+
 // file: where they are kept, told below; "" if they are not. pads: the leaf of gamepad, pedal and
-// SpaceMouse is shown; a button turns over.
+// SpaceMouse, and of a haptic device, is shown; a button turns over.
 [[nodiscard]] SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file,
-                                         bool& pads);
+                                         bool& pads, DeviceLeaf* device = nullptr);
 
 }  // namespace burr::app

@@ -23,7 +23,7 @@ bool exchange(Wire& wire, Link& link) BURR_RT {
 }
 
 WireDevice::WireDevice(std::unique_ptr<Wire> wire, const LinkSettings& settings)
-    : wire_(std::move(wire)), link_(settings) {}
+    : LinkedDevice(settings), wire_(std::move(wire)) {}
 
 Status WireDevice::open() {
   close();
@@ -41,11 +41,6 @@ void WireDevice::close() {
   stop_ = true;
   if (thread_) thread_->join();
   thread_.reset();
-}
-
-rt::TickClock* WireDevice::clock(double rate_hz) {
-  clock_ = std::make_unique<LinkClock>(link_, rate_hz);
-  return clock_.get();
 }
 
 std::string WireDevice::trouble() const {

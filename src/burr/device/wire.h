@@ -16,8 +16,7 @@
 #include <string>
 
 #include "burr/base/result.h"
-#include "burr/device/device.h"
-#include "burr/device/link.h"
+#include "burr/device/linked.h"
 #include "burr/rt/thread.h"
 
 namespace burr::device {
@@ -55,20 +54,13 @@ class Wire {
 // One exchange: a reading, and the force of its tick. False: lost.
 [[nodiscard]] bool exchange(Wire& wire, Link& link) BURR_RT;
 
-class WireDevice final : public Device {
+class WireDevice final : public LinkedDevice {
  public:
   explicit WireDevice(std::unique_ptr<Wire> wire, const LinkSettings& settings = {});
   ~WireDevice() override { close(); }
 
   Status open() override;
   void close() override;
-  [[nodiscard]] const DeviceSpec& spec() const override { return spec_; }
-  [[nodiscard]] HandState state(double) BURR_RT override { return link_.state(); }
-  void write_force(const math::Vec3& force) BURR_RT override { link_.write_force(force); }
-  void hold(double scale) BURR_RT override { link_.hold(scale); }
-  [[nodiscard]] rt::TickClock* clock(double rate_hz) override;
-  [[nodiscard]] std::int64_t arrived_ns() const BURR_RT override { return link_.arrived_ns(); }
-  [[nodiscard]] bool account(LinkAccount& newest) override { return link_.account(newest); }
   [[nodiscard]] std::string trouble() const override;
 
   // How often it was lost and found again.
@@ -80,9 +72,6 @@ class WireDevice final : public Device {
   void say(std::string trouble);
 
   std::unique_ptr<Wire> wire_;
-  Link link_;
-  std::unique_ptr<LinkClock> clock_;
-  DeviceSpec spec_;
   std::unique_ptr<rt::Thread> thread_;
   std::atomic<bool> stop_ = false;
   std::atomic<int> returns_ = 0;

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <vector>
 
+#include "burr/base/markup.h"
 #include "burr/io/deflate.h"
 #include "burr/io/mesh_formats.h"
 
@@ -101,27 +102,6 @@ constexpr const char* kRelations =
 <Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>
 )";
 
-std::string xml_text(const std::string& text) {
-  std::string safe;
-  for (const char c : text) switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  return safe;
-}
-
 bool write_model(const MeshOut& out, Deflate& to, Progress& progress) {
   const auto& mesh = out.mesh;
   fmt::memory_buffer text;
@@ -142,7 +122,7 @@ bool write_model(const MeshOut& out, Deflate& to, Progress& progress) {
   for (const volume::Tissue& tissue : out.tissues.tissues) {
     const auto colour = bytes_of(tissue.colour);
     fmt::format_to(add, "<base name=\"{}\" displaycolor=\"#{:02X}{:02X}{:02X}\"/>\n",
-                   xml_text(tissue.name), colour[0], colour[1], colour[2]);
+                   base::markup_text(tissue.name), colour[0], colour[1], colour[2]);
   }
   const auto material = [&](std::uint32_t vertex) -> unsigned {
     const unsigned id = mesh.vertices[vertex].tissue;

@@ -51,7 +51,7 @@ int running = 0;  // under it
 }  // namespace
 
 Touch::Touch(TouchSettings settings)
-    : settings_(std::move(settings)), link_(settings_.link, settings_.now) {}
+    : LinkedDevice(settings.link, settings.now), settings_(std::move(settings)) {}
 
 Status Touch::open() {
   close();
@@ -272,11 +272,6 @@ void Touch::exchange() BURR_RT {
 }
 
 // ---- for the user
-
-rt::TickClock* Touch::clock(double rate_hz) {
-  clock_ = std::make_unique<LinkClock>(link_, rate_hz);
-  return clock_.get();
-}
 
 std::string Touch::trouble() const {
   {

@@ -13,8 +13,7 @@
 #include <mutex>
 #include <string>
 
-#include "burr/device/device.h"
-#include "burr/device/link.h"
+#include "burr/device/linked.h"
 #include "burr/device/openhaptics/hd.h"
 #include "burr/rt/thread.h"
 
@@ -27,20 +26,13 @@ struct TouchSettings {
   Link::Now now = &rt::monotonic_ns;
 };
 
-class Touch final : public Device {
+class Touch final : public LinkedDevice {
  public:
   explicit Touch(TouchSettings settings = {});
   ~Touch() override { close(); }
 
   Status open() override;
   void close() override;
-  [[nodiscard]] const DeviceSpec& spec() const override { return spec_; }
-  [[nodiscard]] HandState state(double) BURR_RT override { return link_.state(); }
-  void write_force(const math::Vec3& force) BURR_RT override { link_.write_force(force); }
-  void hold(double scale) BURR_RT override { link_.hold(scale); }
-  [[nodiscard]] rt::TickClock* clock(double rate_hz) override;
-  [[nodiscard]] std::int64_t arrived_ns() const BURR_RT override { return link_.arrived_ns(); }
-  [[nodiscard]] bool account(LinkAccount& newest) override { return link_.account(newest); }
   [[nodiscard]] std::string trouble() const override;
 
  private:
@@ -55,9 +47,6 @@ class Touch final : public Device {
   void keep();
 
   TouchSettings settings_;
-  Link link_;
-  std::unique_ptr<LinkClock> clock_;
-  DeviceSpec spec_;
   const Hd* hd_ = nullptr;
   Handle handle_ = kNoDevice;
   unsigned long loop_ = 0;

@@ -1,0 +1,67 @@
+#include "doctor/fix.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "burr/base/new_file.h"
+
+namespace burr::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of_file(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream all;
+  all << in.rdbuf();
+  return all.str();
+}
+
+}  // namespace
+
+Result<std::string> write_rules(const System& system,
+                                const std::function<Answer(const std::string&)>& ask) {
+  const fs::path file = udev_file(system);
+  const std::string rules = udev_rules();
+  std::error_code trouble;
+  const bool there = fs::exists(file, trouble);
+  if (there && text_of_file(file) == rules)
+    return fmt::format("{} is as it should be", file.string());
+  switch (ask(fmt::format("{} is to hold:\n\n{}\n", file.string(), rules))) {
+    case Answer::nobody:
+      return error(Trouble::usage,
+                   "there is no terminal to ask at; burr doctor --fix --yes writes it without "
+                   "asking");
+    case Answer::no:
+      return std::string("nothing was written");
+    case Answer::yes:
+      break;
+  }
+  std::string said;
+  if (there) {
+    fs::path old = file;
+    old += ".old";
+    fs::copy_file(file, old, fs::copy_options::overwrite_existing, trouble);
+    if (trouble)
+      return error(Trouble::io, fmt::format("{}: cannot be kept as {} ({}); nothing was written",
+                                            file.string(), old.string(), trouble.message()));
+    said = fmt::format("what it held is in {}\n", old.string());
+  }
+  const auto cannot = [](const std::string& why) {
+    return error(Trouble::io,
+                 fmt::format("{}; run it as root: sudo burr doctor --fix --seconds 0", why));
+  };
+  auto out = base::NewFile::beside(file.string());
+  if (!out) return cannot(out.error().text);
+  out->write(rules);
+  const Status put = out->put_in_place();
+  if (!put) return cannot(put.error().text);
+  return said +
+         "written. Now: udevadm control --reload && udevadm trigger, then plug the device in again";
+}
+
+}  // namespace burr::app
