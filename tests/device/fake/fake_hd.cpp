@@ -33,7 +33,8 @@ bool moves = false;  // by itself (own_way.h)
 
 void move_by_itself(double t) {
   FakeTouch& touch = state().touch[0];
-  for (int axis = 0; axis < 3; ++axis) touch.transform[12 + axis] = 1e3 * own_way(t)[axis];
+  const math::Vec3 mm = 1e3 * own_way(t);
+  std::copy_n(mm.data(), 3, touch.transform.begin() + 12);
   touch.buttons = 1;
 }
 
