@@ -37,6 +37,9 @@ class LiveBone {
   void update(const render::Camera* eye = nullptr);
   // What the tool does to the look of the bone; before update(). nothing: the bone as ever.
   void see(const render::Wound::Tick& tick) { wound_.see(tick); }
+  void suck(const math::Vec3& mouth, double radius, double seconds) {
+    wound_.suck(mouth, radius, seconds);
+  }
   void see(const Traces::Told& told) { told.show(wound_); }
   void look_plain();
   // After the frame: how long it took, how much of the picture was drawn anew.

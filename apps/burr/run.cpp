@@ -286,6 +286,10 @@ void add(CLI::App& app, Todo& todo) {
                       "of the spindle; default: the case's, else 40000");
   add_hand_options(*command, options->work.hand);
   command
+      ->add_option("--suction", options->work.suction,
+                   "a second haptic device in the other hand: a suction tube, seen and not felt")
+      ->excludes("--headless");
+  command
       ->add_option("--tell-as", options->work.told_as,
                    "/burr: others may watch and record the window's session as a CRTK arm of that "
                    "name (ROS 2)")

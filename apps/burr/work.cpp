@@ -140,6 +140,15 @@ Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress) {
     ready.hands.wishes = laid->wishes;
     hand = std::move(laid->hand);
   }
+  if (!options.suction.empty()) {
+    // beside the burr, on the side of the other hand
+    const math::Quat view = view_of_hand(ready.scene.camera);
+    auto suction = SuctionHand::open(options.suction,
+                                     {above.p - view * math::Vec3(15e-3, 0, 0), above.q}, view);
+    if (!suction) return suction.error();
+    ready.suction = std::move(*suction);
+    ready.hands.suction = ready.suction.get();
+  }
   ready.title = options.title.empty() ? work.what : options.title;
   ready.what = work.what;
   ready.volume = work.volume;

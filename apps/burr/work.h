@@ -20,6 +20,7 @@
 #include "burr/surface/worker.h"
 #include "hand_device.h"
 #include "nearby.h"
+#include "suction_hand.h"
 #include "volume_options.h"
 #include "window/mouse_hand.h"
 
@@ -30,6 +31,7 @@ struct WorkOptions {
   double burr_mm = 0, rpm = 0;  // 0: the case's, or 5 mm and 40 000
   double seconds = 0;           // of the demonstration; 0: the case's
   HandWish hand;                // at the window
+  std::string suction;          // likewise: a second device for the other hand; empty: none
   std::string told_as;          // likewise: a CRTK arm by which others may watch; empty: nobody may
   // what only a case says
   std::string title;                   // one line; empty for a scan
@@ -70,6 +72,7 @@ struct Ready {
   io::ImportSummary import;
   std::unique_ptr<sim::Session> session;
   Hands hands;  // the session's
+  std::unique_ptr<SuctionHand> suction;
   std::unique_ptr<device::crtk::Arm> arm;
   std::unique_ptr<ArmTeller> teller;
   std::unique_ptr<surface::Worker> worker;

@@ -332,7 +332,7 @@ TEST_F(LeaderTest, TwoAtOnceEachHasItsOwnForce) {
   EXPECT_EQ(right.force().x(), 0);
 }
 
-TEST_F(LeaderTest, NoForceEverPassesTheLimit) {
+TEST_F(LeaderTest, AMillionForcesAndNonePassesTheLimit) {
   FakeCrtkArm arm(domain_);
   Leader wire(here());
   ASSERT_TRUE(wire.connect().ok());
@@ -349,7 +349,7 @@ TEST_F(LeaderTest, NoForceEverPassesTheLimit) {
     return wrenches.take() != nullptr;
   }));
   double largest = 0;
-  for (int n = 0; n < 200'000; ++n) {
+  for (int n = 0; n < 1'000'000; ++n) {
     Vec3 force = std::pow(10, 4 * any(random)) * Vec3(any(random), any(random), any(random));
     if (n % 50 == 7) force.x() = std::numeric_limits<double>::quiet_NaN();
     if (n % 50 == 8) force.y() = -std::numeric_limits<double>::infinity();

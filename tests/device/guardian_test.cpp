@@ -179,5 +179,30 @@ TEST(Guardian, APolhemIsLetGoWhenBurrIsKilled) {
   EXPECT_TRUE(soon([&] { return arm.force() == Vec3::Zero(); }));
 }
 
+// The program itself, milling, and then no more: asked to end, or ended.
+TEST(Guardian, TheProgramLetsGoHoweverItEnds) {
+  const std::string program = BURR_BUILD_DIR "/burr";
+  if (::access(program.c_str(), X_OK) != 0) GTEST_SKIP() << program << " is not built here";
+  for (const int end : {SIGINT, SIGTERM, SIGKILL}) {
+    test::FakePolhem arm;
+    const std::string device = "polhem:" + arm.path;
+    Burr burr([&] {
+      ::setenv("XDG_CONFIG_HOME", "/nowhere", 1);
+      ::execl(program.c_str(), program.c_str(), "bench", "device", "block", "--voxel-mm", "0.5",
+              "--echo-seconds", "1", "--seconds", "600", "--device", device.c_str(), nullptr);
+    });
+    // into the bone once it has begun: burr lays the tip two centimetres above it, whenever that is
+    double mm = 0;
+    const bool pushed = soon([&] {
+      mm -= 0.02;
+      arm.with([&](test::FakePolhem::Wishes& w) { w.mm[0] = mm; });
+      return arm.force().norm() > 0.3;
+    });
+    ASSERT_TRUE(pushed) << "signal " << end;
+    burr.end(end);
+    EXPECT_TRUE(soon([&] { return arm.force() == Vec3::Zero(); })) << "signal " << end;
+  }
+}
+
 }  // namespace
 }  // namespace burr::device

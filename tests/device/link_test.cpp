@@ -5,8 +5,11 @@
 
 #include <atomic>
 #include <cmath>
+#include <limits>
+#include <random>
 #include <thread>
 
+#include "burr/device/wire.h"
 #include "support/rt_guard.h"
 
 namespace burr::device {
@@ -237,6 +240,34 @@ TEST(LinkClock, GoesOnWithoutReadingsSoThatForceCanFade) {
     EXPECT_NEAR(1e-6 * static_cast<double>(time.since_last_ns), 1, 0.35);
     EXPECT_EQ(time.missed, 0);
   }
+}
+
+// ---- the last bound of a wire
+
+TEST(Bounded, AMillionForcesOfAnySizeKeepTheirDirectionOrAreNone) {
+  const unsigned seed = std::random_device{}();
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-1, 1);
+  constexpr double kPeak = 3.3, kNan = std::numeric_limits<double>::quiet_NaN(),
+                   kInfinite = std::numeric_limits<double>::infinity();
+  const test::RtGuard guard;
+  for (int n = 0; n < 1'000'000; ++n) {
+    const double scale = std::pow(10, 300 * any(random) * std::abs(any(random)));
+    Vec3 force = scale * Vec3(any(random), any(random), any(random));
+    if (n % 100 == 7) force[n % 3] = kNan;
+    if (n % 100 == 8) force[n % 3] = kInfinite;
+    const Vec3 sent = bounded(force, kPeak);
+    ASSERT_TRUE(sent.allFinite() && sent.norm() <= kPeak * (1 + 1e-12)) << "seed " << seed;
+    if (!force.allFinite()) {
+      ASSERT_EQ(sent, Vec3::Zero());
+    } else if (force.norm() <= kPeak) {
+      ASSERT_EQ(sent, force);
+    } else if (std::isfinite(force.squaredNorm())) {
+      ASSERT_NEAR(sent.norm(), kPeak, 1e-9) << "seed " << seed;
+      ASSERT_LT(sent.cross(force.normalized()).norm(), 1e-9) << "seed " << seed;
+    }
+  }
+  EXPECT_EQ(guard.allocations(), 0);
 }
 
 }  // namespace

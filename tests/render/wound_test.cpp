@@ -43,6 +43,32 @@ class Milling {
   Wound::Tick tick_;
 };
 
+TEST(Wound, WhatASuctionTubeComesNearIsDryAndCleanAndStillFresh) {
+  Wound wound(kVoxel);
+  wound.suck(Vec3::Zero(), 1.5e-3, 1);  // nothing to take yet
+  EXPECT_FALSE(wound.any());
+  Milling milling(wound);
+  const Vec3 tip(0.03, -0.02, 0.011), face = tip - Vec3(0, 0, kRadius);
+  milling.on(tip, 1, 1e-9, true);
+  ASSERT_GT(wound.at(face).wet, 0.9F);
+  const float fresh = wound.at(face).fresh;
+  const float before = wound.at(face).wet;
+  wound.suck(face + Vec3(0, 0, 20e-3), 1.5e-3, 1);
+  EXPECT_EQ(wound.at(face).wet, before) << "two centimetres off";
+  wound.suck(face, 1.5e-3, Wound::kSucks);
+  EXPECT_NEAR(wound.at(face).wet, before * std::exp(-1), 0.12) << "an e-th part in its time";
+  wound.suck(face, 1.5e-3, 5);
+  EXPECT_EQ(wound.at(face).wet, 0);
+  EXPECT_EQ(wound.at(face).fresh, fresh);
+  // dry again: dust lies beside the cut, and goes
+  milling.on(tip, 1, 2e-9, false);
+  milling.on(tip + Vec3(0, 0, 0.01), 3, 0, false);
+  const Vec3 beside = tip + Vec3(kRadius + 1.5e-3, 0, 0);
+  ASSERT_GT(wound.at(beside).dust, 0.05F);
+  wound.suck(beside, 1.5e-3, 5);
+  EXPECT_EQ(wound.at(beside).dust, 0);
+}
+
 TEST(Wound, IsFreshWhereItWasCutAndDullsInItsTime) {
   Wound wound(kVoxel);
   Milling milling(wound);

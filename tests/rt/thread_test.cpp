@@ -1,8 +1,10 @@
 #include "burr/rt/thread.h"
 
 #include <gtest/gtest.h>
+
 #include <pthread.h>
 #include <sched.h>
+#include <thread>
 
 #include <atomic>
 
@@ -64,6 +66,26 @@ TEST(Thread, ACoreThatIsNotThereIsSaidAndTheWorkRunsAnyway) {
   EXPECT_TRUE(ran);
   EXPECT_FALSE(thread.grant().pinned);
   EXPECT_NE(thread.grant().sentence.find("core 1000000"), std::string::npos);
+}
+
+TEST(Thread, ThatGoesFirstStepsAsideForAWhile) {
+  bool first = false, aside = true, heir = true, again = false;
+  Thread thread({.name = "first", .realtime = true}, [&] {
+    first = goes_first();
+    {
+      const Ordinary ordinary;
+      aside = goes_first();
+      std::thread begun([&] { heir = goes_first(); });
+      begun.join();
+    }
+    again = goes_first();
+  });
+  thread.join();
+  if (!thread.grant().fifo) GTEST_SKIP() << "this machine lets nobody go first";
+  EXPECT_TRUE(first);
+  EXPECT_FALSE(aside);
+  EXPECT_FALSE(heir);
+  EXPECT_TRUE(again);
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "device/fake/fake_hd.h"
+#include "suction_hand.h"
+#include "window/stick.h"
 #include "window/user.h"
 
 namespace burr::app {
@@ -35,8 +37,9 @@ class DeviceWindow : public Window {
     ::unsetenv("XDG_CONFIG_HOME");
   }
 
-  static Result<Ready> with_touch() {
+  static Result<Ready> with_touch(const std::string& suction = {}) {
     WorkOptions options;
+    options.suction = suction;
     options.volume.path = "block";
     options.volume.voxel_mm = 0.5;
     options.hand.device = "touch";
@@ -123,6 +126,73 @@ TEST_F(DeviceWindow, StopsByKeyAndGoesOnByTheSame) {
                       EXPECT_NEAR((hand(session) - start).norm(), 0, 1e-6);
                       press(SDLK_q);
                     }}});
+}
+
+TEST_F(DeviceWindow, AFootOnTheClutchLiftsIt) {
+  auto ready = with_touch();
+  ASSERT_TRUE(ready) << ready.error().text;
+  sim::Session& session = *ready->session;
+  const Stick pedal(SDL_JOYSTICK_TYPE_UNKNOWN, 1, 5);
+  pedal.axis(0, -32768);
+  Vec3 start = Vec3::Zero();
+  mill_by(*ready, {{"at rest", looks(20),
+                    [&] {
+                      EXPECT_FALSE(lifted(session));
+                      pedal.button(3, true);
+                    }},
+                   {"lifted", [&] { return lifted(session); },
+                    [&] {
+                      start = hand(session);
+                      stylus({15, 0, 0});
+                    }},
+                   {"laid elsewhere", looks(20),
+                    [&] {
+                      EXPECT_EQ(hand(session), start);
+                      pedal.button(3, false);
+                    }},
+                   {"let down", [&] { return !lifted(session); },
+                    [&] {
+                      EXPECT_NEAR((hand(session) - start).norm(), 0, 1e-6);
+                      press(SDLK_q);
+                    }}});
+}
+
+TEST_F(DeviceWindow, ASecondOneLeadsTheSuctionAndIsNeverPushed) {
+  {
+    const std::lock_guard lock(hd_->mutex);
+    hd_->touch[1].name = "Left";
+    hd_->touch[1].serial = "T-0002";
+    hd_->touch[1].present = true;
+  }
+  {
+    auto ready = with_touch("touch:Left");
+    ASSERT_TRUE(ready) << ready.error().text;
+    sim::Session& session = *ready->session;
+    const auto tube = [&]() -> const render::Rod* {
+      for (const render::Rod& rod : ready->scene.rods)
+        if (rod.radius == SuctionHand::kRadius) return &rod;
+      return nullptr;
+    };
+    Vec3 start = Vec3::Zero(), burr = Vec3::Zero();
+    mill_by(
+        *ready,
+        {{"the tube", [&] { return tube() != nullptr; },
+          [&] {
+            start = tube()->a;
+            burr = hand(session);
+            const std::lock_guard lock(hd_->mutex);
+            hd_->touch[1].transform[12] = 10;
+          }},
+         {"it goes by itself",
+          [&] { return (tube()->a - start - 10e-3 * ready->scene.camera.right()).norm() < 1e-6; },
+          [&] {
+            EXPECT_EQ(hand(session), burr) << "the burr does not";
+            press(SDLK_q);
+          }}});
+  }
+  const std::lock_guard lock(hd_->mutex);
+  EXPECT_EQ(hd_->touch[1].largest_force, 0);
+  EXPECT_FALSE(hd_->touch[1].open);
 }
 
 TEST_F(DeviceWindow, PulledOutItIsSaidAndTheLastTicksAreKept) {

@@ -268,6 +268,8 @@ TEST_F(Window, ChangesWhatAGamepadAndAPedalDoOnTheOtherLeafOfTheSettings) {
                    {"the next slider", looks(3), [] { click(1050, 234); }},
                    {"the coolant", [&] { return now.pedal_coolant > 20; }, none},
                    {"the next slider", looks(3), [] { click(1050, 271); }},
+                   {"the clutch", [&] { return now.pedal_clutch > 20; }, none},
+                   {"the next slider", looks(3), [] { click(1050, 308); }},
                    {"the axis", [&] { return now.pedal_rest > 0.9; }, [] { move_to(1200, 600); }},
                    {"the slider let go", looks(5), [] { press(SDLK_ESCAPE); }},
                    {"the page to go", looks(5), [] { press(SDLK_q); }}});

@@ -44,6 +44,7 @@ TEST_F(SettingsFile, ComesBackAsItWasWrittenWithEveryValueChanged) {
   s.pedal_mill = 3;
   s.pedal_burr = 0;
   s.pedal_coolant = 4;
+  s.pedal_clutch = 5;
   s.pedal_rest = 1;
   s.effects = false;
   s.stereo = render::Stereo::interleaved;
@@ -78,7 +79,7 @@ TEST_F(SettingsFile, IsExplainedLineByLine) {
     }
     before = line;
   }
-  EXPECT_EQ(set, 24);
+  EXPECT_EQ(set, 25);
 }
 
 TEST_F(SettingsFile, WhichIsNotThereMeansTheDefaultsWithoutTrouble) {

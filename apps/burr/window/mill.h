@@ -35,6 +35,8 @@ inline constexpr double kHover = 3e-3;         // above the bone while not press
 inline constexpr double kPressLeast = 0.5e-3;  // how far below the surface the arm is aimed  [m]
 inline constexpr double kPressMost = 6e-3;
 
+class LiveBone;
+
 class Mill {
  public:
   Mill(Desk& desk, sim::Session& session, const Hands& hands, surface::Worker& worker,
@@ -68,6 +70,7 @@ class Mill {
   void point();
   void lay_real_hand();
   void let_go(bool gone);
+  void lead_suction(LiveBone& live);
   void measure();
   void show_labels(bool shown);
   void toggle_sound();
@@ -159,8 +162,9 @@ class Mill {
   std::array<render::Camera, 2> headset_cameras_;
   render::Wand wand_at_;
   Clock::time_point window_drawn_{};
-  std::vector<render::Colour> colours_;   // of the tissues, while labels are shown
-  bool let_go_ = false, lifted_ = false;  // a haptic device: stopped; only laid elsewhere
+  std::vector<render::Colour> colours_;  // of the tissues, while labels are shown
+  // a haptic device: stopped; only laid elsewhere, by key and by foot
+  bool let_go_ = false, lifted_ = false, foot_lifts_ = false;
   bool pressing_ = false, held_ = false;  // by the button; by the space bar
   int mouse_x_ = 0, mouse_y_ = 0, width_ = 1, height_ = 1;
   int aim_x_ = 0, aim_y_ = 0;  // where the mouse was last that was no slice
@@ -170,6 +174,7 @@ class Mill {
   bool leads_ = false, pad_lifts_ = false, mouse_moved_ = false;
   double pad_x_ = 0, pad_y_ = 0;  // its cursor
   int hands_there_ = -1;
+  Clock::time_point sucked_;  // until then the suction was led
   Clock::time_point hands_taken_{};
   math::Vec3 normal_ = math::Vec3::Zero();  // of the surface under the mouse, calmed
   std::optional<math::Vec3> point_;         // there

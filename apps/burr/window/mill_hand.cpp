@@ -11,6 +11,8 @@
 #include "burr/math/turn.h"
 #include "burr/render/pick.h"
 #include "burr/tool/burr_tool.h"
+#include "live_bone.h"
+#include "suction_hand.h"
 #include "window/mill.h"
 #include "window/see_through.h"
 #include "window/words.h"
@@ -445,7 +447,7 @@ void Mill::lay_real_hand() {
   hand.lay(view_of_hand(scene_.camera));
   const bool rests = page_open() || measuring_.picks();
   hand.press(rests ? 0 : (held_ ? 1 : foot_) * (1 - slowed_));
-  hand.lift(let_go_ || lifted_);
+  hand.lift(let_go_ || lifted_ || foot_lifts_);
   point_ = row_.contact.proxy;
   if (row_.contact.touching) normal_ = row_.contact.normal;
 }
@@ -453,8 +455,30 @@ void Mill::lay_real_hand() {
 // The user's emergency stop, and taking the hand again.
 void Mill::let_go(bool gone) {
   let_go_ = gone;
-  hands_.real->lift(let_go_ || lifted_);  // now, not with the next picture
+  hands_.real->lift(let_go_ || lifted_ || foot_lifts_);  // now, not with the next picture
   note(word(gone ? Word::stopped : Word::taken_again));
+}
+
+// The tube in the other hand: a rod that comes from its handle, and what it takes away.
+void Mill::lead_suction(LiveBone& live) {
+  if (hands_.suction == nullptr) return;
+  const Clock::time_point now = Clock::now();
+  const double seconds =
+      std::min(0.1, std::chrono::duration<double>(now - std::exchange(sucked_, now)).count());
+  hands_.suction->lay(view_of_hand(scene_.camera));
+  const SuctionHand::Seen seen = hands_.suction->now();
+  std::erase_if(scene_.rods,
+                [](const render::Rod& rod) { return rod.radius == SuctionHand::kRadius; });
+  if (!seen.there) return;
+  constexpr double kLong = 60e-3;  // of the tube that is drawn [m]
+  const Vec3& mouth = seen.world_from_tool.p;
+  scene_.rods.push_back({mouth,
+                         mouth + seen.world_from_tool.q * Vec3(0, 0, kLong),
+                         SuctionHand::kRadius,
+                         {0.72F, 0.76F, 0.8F},
+                         false,
+                         false});
+  if (seen.sucks && desk_.settings.effects) live.suck(mouth, SuctionHand::kRadius, seconds);
 }
 
 // The thickness goes with the burr: along its contact, or below where it hovers.

@@ -21,7 +21,7 @@ constexpr double kLongest = 0.1;   // a picture that took longer moves no farthe
 PedalMap map_of(const Settings& settings) {
   const auto number = [](double value) { return static_cast<int>(std::lround(value)); };
   return {number(settings.pedal_mill), number(settings.pedal_burr), number(settings.pedal_coolant),
-          number(settings.pedal_rest)};
+          number(settings.pedal_clutch), number(settings.pedal_rest)};
 }
 
 }  // namespace
@@ -37,6 +37,7 @@ void Mill::take_hands() {
   const PadSticks pad = desk_.pads.now(settings.pad_dead);
   const CapMotion cap = desk_.cap.now(settings.pad_dead);
   const double foot = desk_.pedals.now(map_of(settings));
+  foot_lifts_ = desk_.pedals.clutched(map_of(settings));
   pad_lifts_ = pad.lifts;
   if (pad.lifts || page_open()) lift();
   depth_ = foot_ = 0;

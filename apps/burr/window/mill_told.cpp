@@ -10,6 +10,7 @@
 #include "burr/haptics/contact.h"
 #include "burr/render/scene.h"
 #include "fault_file.h"
+#include "suction_hand.h"
 #include "window/help.h"
 #include "window/mill.h"
 #include "window/settings_page.h"
@@ -125,6 +126,7 @@ void Mill::tell() {
   std::string lasting = options_.warning ? options_.warning() : std::string();
   if (lasting.empty() && let_go_) lasting = word(Word::stopped);
   if (lasting.empty()) lasting = session_.hand().trouble();
+  if (lasting.empty() && hands_.suction != nullptr) lasting = hands_.suction->trouble();
   if (lasting.empty()) lasting = told_flags(row_.contact.flags);
   warning_ = told_.warning(now, lasting);
   note_ = told_.note(now, export_->progress());

@@ -55,11 +55,14 @@ class MouseHand final : public device::Device {
   std::atomic<double> scale_ = 1.0;
 };
 
-// The hand at the page, one of two.
+class SuctionHand;
+
+// The hand at the page, one of two, and what the other one may hold.
 struct Hands {
   MouseHand* mouse = nullptr;
   device::MappedHand* real = nullptr;  // a haptic device
   double max_force = 1e3;              // its user's own limit and its own [N]
+  SuctionHand* suction = nullptr;      // in the other hand
   std::string id = {};                 // of the device, in the book of what users wish of it
   DeviceWishes wishes = {};            // what the book has for it
 };

@@ -60,6 +60,13 @@ double Pedals::now(const PedalMap& map) {
   return armed_ ? std::clamp((down - kLetGo) / (1 - kLetGo), 0.0, 1.0) : 0;
 }
 
+bool Pedals::clutched(const PedalMap& map) const {
+  return std::any_of(pedals_.begin(), pedals_.end(), [&map](SDL_Joystick* pedal) {
+    return SDL_JoystickGetAttached(pedal) == SDL_TRUE &&
+           SDL_JoystickGetButton(pedal, map.clutch) != 0;
+  });
+}
+
 Pedals::Step Pedals::step(const SDL_Event& event, const PedalMap& map) const {
   if (event.type != SDL_JOYBUTTONDOWN) return Step::none;
   const bool ours = std::any_of(pedals_.begin(), pedals_.end(), [&](SDL_Joystick* pedal) {

@@ -32,8 +32,9 @@ struct Settings {
   double pedal_mill = 0;       // buttons of a pedal, from 0
   double pedal_burr = 1;
   double pedal_coolant = 2;
-  double pedal_rest = -1;  // where its axis is with no foot on it
-  bool effects = true;     // bone freshly cut and wet looks so for a while
+  double pedal_clutch = 3;  // lifts a haptic device while it is down
+  double pedal_rest = -1;   // where its axis is with no foot on it
+  bool effects = true;      // bone freshly cut and wet looks so for a while
   render::Stereo stereo = render::Stereo::off;
   double stereo_depth = 1;    // how far the eyes are apart; 1: as `burr picture` has it
   bool headset = false;       // by OpenXR, where there is one

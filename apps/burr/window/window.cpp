@@ -59,6 +59,7 @@ Result<Left> Mill::run() {
       live.look_plain();
     else if (first_tick_)
       live.see(wound_tick(row_, session_.settings().servo.rate_hz, scene_.burr.radius, irrigated_));
+    lead_suction(live);
     begin_headset(live.governor());
     point();
     measure();

@@ -305,6 +305,7 @@ constexpr Entry kWords[] = {
     Entry{Word::set_pedal_mill, "Button that mills", "Knapp som fräser"},
     Entry{Word::set_pedal_burr, "Next burr", "Nästa fräs"},
     Entry{Word::set_pedal_coolant, "Coolant", "Kylning"},
+    Entry{Word::set_pedal_clutch, "Lift the device", "Lyft apparaten"},
     Entry{Word::set_pedal_rest, "Axis at rest", "Axeln i vila"},
     Entry{Word::set_device_scale, "Tip's way over hand's", "Spetsens väg per handens"},
     Entry{Word::set_device_force, "Largest force", "Största kraft"},

@@ -257,6 +257,7 @@ enum class Word {
   set_pedal_mill,
   set_pedal_burr,
   set_pedal_coolant,
+  set_pedal_clutch,
   set_pedal_rest,
   set_device_scale,
   set_device_force,

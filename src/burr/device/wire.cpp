@@ -15,6 +15,12 @@ constexpr std::int64_t kTellNs = 100'000'000;  // no oftener is what is wrong to
 
 }  // namespace
 
+math::Vec3 bounded(const math::Vec3& force, double peak) BURR_RT {
+  if (!force.allFinite()) return math::Vec3::Zero();
+  const double size = force.norm();
+  return size > peak ? math::Vec3(force * (peak / size)) : force;
+}
+
 bool exchange(Wire& wire, Link& link) BURR_RT {
   HandState hand;
   const Wire::Read read = wire.read(hand);
@@ -77,6 +83,7 @@ void WireDevice::work() {
   unsigned told = wire_->told();
   while (!stop_.load(std::memory_order_relaxed)) {
     if (!connected) {
+      const rt::Ordinary aside;  // looking for it may take its time, and begins other threads
       const auto until = std::chrono::steady_clock::now() + kComeBack;
       while (!stop_.load(std::memory_order_relaxed) && std::chrono::steady_clock::now() < until)
         std::this_thread::sleep_for(kLook);

@@ -51,6 +51,10 @@ class Wire {
   [[nodiscard]] virtual unsigned told() const BURR_RT { return 0; }
 };
 
+// The last bound before a device, beside the tick's own, should that ever be mistaken: what is no
+// number is no force, what is larger than peak [N] is that, its direction kept.
+[[nodiscard]] math::Vec3 bounded(const math::Vec3& force, double peak) BURR_RT;
+
 // One exchange: a reading, and the force of its tick. False: lost.
 [[nodiscard]] bool exchange(Wire& wire, Link& link) BURR_RT;
 

@@ -180,6 +180,19 @@ void Wound::soak(const Tick& tick, const Vec3& from, double seconds) {
   });
 }
 
+void Wound::suck(const Vec3& mouth, double radius, double seconds) {
+  if (cells_.empty() || !mouth.allFinite() || !(seconds > 0)) return;
+  const float left = left_after(seconds, kSucks);
+  each_near(mouth, mouth, radius + kDraws, [&](Cell& cell, double d) {
+    const auto most = static_cast<float>(std::min(1.0, (radius + kDraws - d) / kDraws));
+    State& look = cell.look;
+    for (float* goes : {&look.wet, &look.dust, &look.blood}) {
+      *goes *= 1 - most * (1 - left);
+      if (*goes < kLeast) *goes = 0;
+    }
+  });
+}
+
 // Thickest under the tool, none at the rim: a cone of the volume that comes down.
 void Wound::settle(const Tick& tick, double seconds) {
   const double down = airborne_ * (1 - std::exp(-seconds / kSettles));

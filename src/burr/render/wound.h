@@ -43,6 +43,8 @@ class Wound {
   static constexpr double kStrews = 6e-3;            // from the head's surface          [m]
   static constexpr double kCovers = 0.05e-3;         // thick, it hides all but an e-th  [m]
   static constexpr double kWashes = 0.3;             // e-th part left under coolant     [s]
+  static constexpr double kDraws = 3e-3;             // from the tube's mouth, beyond its radius [m]
+  static constexpr double kSucks = 0.15;             // e-th part left at the mouth      [s]
   static constexpr double kFills = 0.4;              // a cell, from a vessel in it      [s]
   static constexpr double kClots = 60;               // e-th part of the flow left       [s]
   static constexpr double kClears = 90;              // e-th part of the blood left      [s]
@@ -59,6 +61,8 @@ class Wound {
     bool irrigated = false;
   };
   void see(const Tick& tick);
+  // A suction tube's mouth was there for so long: water, dust and blood near it go.
+  void suck(const math::Vec3& mouth, double radius, double seconds);
   void forget();
   // It has seen something that may show.
   [[nodiscard]] bool any() const { return !cells_.empty(); }

@@ -125,6 +125,22 @@ void Thread::join() {
 
 const ThreadGrant& Thread::grant() const { return work_->grant; }
 
+Ordinary::Ordinary() {
+  int policy = SCHED_OTHER;
+  sched_param param = {};
+  if (pthread_getschedparam(pthread_self(), &policy, &param) != 0 || policy != SCHED_FIFO) return;
+  const sched_param none = {};
+  if (pthread_setschedparam(pthread_self(), SCHED_OTHER, &none) == 0)
+    priority_ = param.sched_priority;
+}
+
+Ordinary::~Ordinary() {
+  if (priority_ == 0) return;
+  sched_param param = {};
+  param.sched_priority = priority_;
+  static_cast<void>(pthread_setschedparam(pthread_self(), SCHED_FIFO, &param));
+}
+
 bool goes_first() {
   int policy = SCHED_OTHER;
   sched_param param = {};

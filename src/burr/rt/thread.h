@@ -47,6 +47,19 @@ class Thread {
   std::unique_ptr<Work> work_;
 };
 
+// The calling thread, and those it begins, run as ordinary ones while this lives; then it goes
+// first again if it did.
+class Ordinary {
+ public:
+  Ordinary();
+  ~Ordinary();
+  Ordinary(const Ordinary&) = delete;
+  Ordinary& operator=(const Ordinary&) = delete;
+
+ private:
+  int priority_ = 0;  // of SCHED_FIFO before; 0: it was ordinary
+};
+
 // The calling thread runs under SCHED_FIFO.
 [[nodiscard]] bool goes_first();
 

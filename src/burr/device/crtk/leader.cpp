@@ -360,9 +360,7 @@ Wire::Read Leader::read(HandState& hand) BURR_RT {
 
 bool Leader::write(const Vec3& force) BURR_RT {
   Talk& talk = *talk_;
-  Vec3 push = force.allFinite() ? force : Vec3(Vec3::Zero());
-  if (const double size = push.norm(); size > kPeak) push *= kPeak / size;
-  static_cast<void>(talk.push(push));  // what went nowhere is followed by the next
+  static_cast<void>(talk.push(bounded(force, kPeak)));  // what went nowhere is followed by the next
   if (--talk.until_look <= 0) {
     talk.until_look = kLookAtReaders;
     talk.taken = talk.force().readers() > 0;

@@ -358,9 +358,7 @@ Wire::Read Omega::read(HandState& hand) BURR_RT {
 }
 
 bool Omega::write(const Vec3& force) BURR_RT {
-  // no hand should ever learn whether the tick's own limit has a mistake
-  Vec3 push = force.allFinite() && !off_ ? force : Vec3(Vec3::Zero());
-  if (const double size = push.norm(); size > peak_) push *= peak_ / size;
+  const Vec3 push = off_ ? Vec3(Vec3::Zero()) : bounded(force, peak_);
   const int code =
       dhd_->SetForceAndTorqueAndGripperForce(push.z(), push.x(), push.y(), 0, 0, 0, 0, to_);
   // however long it lasts, it is not opened anew: that would switch on what the user switched off

@@ -352,9 +352,7 @@ Wire::Read Inverse::read(HandState& hand) BURR_RT {
 bool Inverse::write(const Vec3& force) BURR_RT {
   Talk& talk = *talk_;
   if (talk.asked) return true;  // its answer is still to come; never two under way
-  Vec3 push = force.allFinite() ? force : Vec3(Vec3::Zero());
-  if (const double size = push.norm(); size > talk.peak) push *= talk.peak / size;
-  write_force(talk.id, talk.key, theirs(push), talk.out);
+  write_force(talk.id, talk.key, theirs(bounded(force, talk.peak)), talk.out);
   if (talk.send(talk.out)) return true;
   note("cannot be reached any more; see that Haply's Inverse Service runs.");
   return false;

@@ -250,9 +250,7 @@ Wire::Read Polhem::read(HandState& hand) BURR_RT {
 bool Polhem::write(const Vec3& force) BURR_RT {
   // its answer is still to come; a line lost on the way is said again
   if (asked_ && rt::monotonic_ns() - asked_ns_ < kAgainNs) return true;
-  Vec3 push = force.allFinite() ? force : Vec3(Vec3::Zero());
-  if (const double size = push.norm(); size > kPeak) push *= kPeak / size;
-  if (say(theirs(push))) return true;
+  if (say(theirs(bounded(force, kPeak)))) return true;
   note("was unplugged; plug it in again.");
   return false;
 }
