@@ -36,6 +36,8 @@ const std::array kFields = {
           [](DeviceWishes& w) -> double& { return w.max_force_n; }},
     Field{"vibration", "gain of the spindle's buzz; 0: none, 1: as designed", 0, 4,
           [](DeviceWishes& w) -> double& { return w.vibration; }},
+    Field{"torque", "gain of the motor's twist, where the device can turn the hand; 0: none", 0, 4,
+          [](DeviceWishes& w) -> double& { return w.torque; }},
     Field{"mill_button", "its button that mills, counted from 0; -1: none", -1, 30, nullptr,
           [](DeviceWishes& w) -> int& { return w.mapping.mill_button; }},
     Field{"clutch_button", "its button that lifts the hand to lay it elsewhere; -1: none", -1, 30,

@@ -26,6 +26,7 @@ struct DeviceWishes {
   device::MappingSettings mapping;
   double max_force_n = 0;  // the user's own, beside the device's; 0: the device's
   double vibration = 0;    // gain of the spindle's buzz
+  double torque = 1;       // gain of its motor's twist, where the device can turn the hand
 };
 
 class DeviceBook {

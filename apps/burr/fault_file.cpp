@@ -42,15 +42,17 @@ std::string fault_text(const sim::FaultReport& report, const device::DeviceSpec&
       report.count, rate_hz);
   text +=
       "tick,valid,hand_x_mm,hand_y_mm,hand_z_mm,velocity_x_mm_s,velocity_y_mm_s,velocity_z_mm_s,"
-      "proxy_x_mm,proxy_y_mm,proxy_z_mm,force_x_n,force_y_n,force_z_n,depth_mm,pedal,buttons,flags,"
+      "proxy_x_mm,proxy_y_mm,proxy_z_mm,force_x_n,force_y_n,force_z_n,torque_x_nm,torque_y_nm,"
+      "torque_z_nm,depth_mm,pedal,buttons,flags,"
       "took_us,late_us\n";
   for (int n = 0; n < report.count; ++n) {
     const record::TickRow& row = report.rows[static_cast<std::size_t>(n)];
-    text += fmt::format("{},{},{},{},{},{},{:.6g},{:.3g},{},{},{:.1f},{:.1f}\n", row.tick,
+    text += fmt::format("{},{},{},{},{},{},{},{:.6g},{:.3g},{},{},{:.1f},{:.1f}\n", row.tick,
                         row.hand.valid ? 1 : 0, three(row.hand.world_from_tool.p, 1e3),
                         three(row.hand.velocity, 1e3), three(row.contact.proxy, 1e3),
-                        three(row.contact.force, 1), 1e3 * row.contact.depth, row.hand.pedal,
-                        row.hand.buttons, row.contact.flags, row.took_us, row.late_us);
+                        three(row.contact.force, 1), three(row.contact.torque, 1),
+                        1e3 * row.contact.depth, row.hand.pedal, row.hand.buttons,
+                        row.contact.flags, row.took_us, row.late_us);
   }
   return text;
 }

@@ -107,6 +107,7 @@ Result<LaidHand> lay_hand(const HandWish& wish, const math::Pose& start,
   const double peak = laid.hand->spec().peak_force;
   laid.max_force = wishes.max_force_n > 0 ? std::min(peak, wishes.max_force_n) : peak;
   laid.vibration = wishes.vibration;
+  laid.torque = wishes.torque;
   return laid;
 }
 

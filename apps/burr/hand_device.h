@@ -45,8 +45,8 @@ struct HandKind {
 // those of the view.
 struct LaidHand {
   std::unique_ptr<device::MappedHand> hand;
-  double max_force = 0;  // the user's own and the device's [N]
-  double vibration = 0;
+  double max_force = 0;              // the user's own and the device's [N]
+  double vibration = 0, torque = 1;  // gains
   std::string id;                    // in the book
   DeviceWishes wishes;               // as the book has them
   std::vector<std::string> notices;  // of the book

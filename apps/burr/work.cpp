@@ -133,6 +133,7 @@ Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress) {
     settings.servo.rate_hz = tick_rate(laid->hand->spec());
     settings.servo.limit.user_force = laid->max_force;
     settings.servo.vibration_gain = laid->vibration;
+    settings.servo.torque_gain = laid->torque;
     for (const std::string& notice : laid->notices) work.made.summary.notices.push_back(notice);
     ready.hands.real = laid->hand.get();
     ready.hands.max_force = laid->max_force;

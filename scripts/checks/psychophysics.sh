@@ -39,6 +39,19 @@ printf '2\n%.0s' {1..20} | $burr --continue "$place/keys" >"$place/said" 2>/dev/
 [ "$(wc -l <"$place/keys/trials.csv")" = 41 ] || complain "continued answers are lost"
 [ "$(field "$place/keys/result.json" said_first)" = 20 ] || complain "other answers than were given"
 
+# ---- at a device: a false Touch, whose hand goes by itself
+export BURR_OPENHAPTICS="$(realpath "$1")/fakes/libHD.so" FAKE_HD_MOTION=1 XDG_CONFIG_HOME="$place"
+printf '1\n%.0s' {1..3} | $burr stiffness --device touch --standard 200 --largest 0.9 --trials 40 --seconds 1.5 --out "$place/hand" 2>"$place/err" >/dev/null
+[ ${PIPESTATUS[1]} = 130 ] || complain "no end with 130 at a device: $(cat "$place/err")"
+[ "$(wc -l <"$place/hand/trials.csv")" = 4 ] || complain "answers at a device are lost"
+grep -q '"device_id": "Touch T-0001"' "$place/hand/result.json" || complain "the device is not named"
+$burr stiffness --device touch 2>"$place/err" && complain "shows 800 N/m on a Touch"
+grep -q "at most 400 N/m" "$place/err" || complain "does not say what a Touch can show: $(cat "$place/err")"
+$burr stiffness --device touch --observer threshold=0.1,feels=yes 2>"$place/err" && complain "an observer at a device"
+grep -q "simulated hand" "$place/err" || complain "does not say where an observer feels: $(cat "$place/err")"
+$burr stiffness --device nosuch 2>"$place/err" && complain "takes any device"
+grep -q "touch" "$place/err" || complain "does not say which devices there are: $(cat "$place/err")"
+
 # ---- a broken-off run of a simulated observer becomes the same as one that was not
 cp -r "$place/known" "$place/again"
 head -151 "$place/known/trials.csv" >"$place/again/trials.csv"

@@ -397,7 +397,19 @@ TEST_F(LeaderTest, APlaceOnTheWireIsThatOfRosByteForByte) {
   ASSERT_TRUE(bus.ok());
   Writer<PoseStamped> writer((*bus)->participant(), "/bytes/measured_cp");
   Reader<PoseStamped> reader((*bus)->participant(), "/bytes/measured_cp", Keep::all);
-  PoseStamped pose{{{7, 9}, lent("abc")}, {{1, 2, 3}, {0.1, 0.2, 0.3, 0.4}}};
+  PoseStamped pose{};
+  pose.header_.stamp_.sec_ = 7;
+  pose.header_.stamp_.nanosec_ = 9;
+  pose.header_.frame_id_ = lent("abc");
+  auto& place = pose.pose_.position_;  // each by its name, in the order of ROS below
+  place.x_ = 1;
+  place.y_ = 2;
+  place.z_ = 3;
+  auto& turn = pose.pose_.orientation_;
+  turn.x_ = 0.1;
+  turn.y_ = 0.2;
+  turn.z_ = 0.3;
+  turn.w_ = 0.4;
   ASSERT_TRUE(soon([&] { return writer.readers() > 0; }));
   writer.write(pose);
   ddsi_serdata* data = nullptr;

@@ -685,6 +685,68 @@ TEST_F(OmegaTest, NoForceEverPassesTheArmsOwnLimit) {
   }
 }
 
+// ---- torque
+
+// The library: x to the user, y right, z up, for torques as for forces.
+TEST_F(OmegaTest, AWristWithMotorsIsTurnedAboutEveryAxisAndNoFurtherThanItMay) {
+  set([](test::FakeArm& arm) {
+    arm.type = 104;
+    arm.active_wrist = true;
+  });
+  ByHand by;
+  EXPECT_EQ(by.spec.actuated, 6);
+  EXPECT_EQ(by.spec.peak_torque, 0.2);
+  EXPECT_EQ(of([](const test::FakeArm& arm) { return arm.most_torque; }), 0.2)
+      << "the library bounds it as well";
+  const auto last_torque = [] {
+    return of([](const test::FakeArm& arm) { return Vec3(arm.forces.back().newton_metre.data()); });
+  };
+  const auto tick = [&by](const Vec3& torque) {
+    static_cast<void>(by.link.state());
+    by.link.write_torque(torque);
+    by.link.write_force({0, 1, 0});
+    by.frame();
+  };
+  by.frame();
+  const Vec3 ours[] = {Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitY()};
+  for (int axis = 0; axis < 3; ++axis) {
+    tick(0.1 * ours[axis]);
+    EXPECT_NEAR((last_torque() - 0.1 * Vec3::Unit(axis)).norm(), 0, 1e-15) << axis;
+    EXPECT_EQ(last_force(), Vec3::UnitZ());
+  }
+  tick({3, 0, 4});
+  EXPECT_NEAR(last_torque().norm(), 0.2, 1e-15);
+  EXPECT_NEAR(last_torque().y() / last_torque().x(), 0.75, 1e-12);
+  tick({kNan, 0, 0});
+  EXPECT_EQ(last_torque(), Vec3::Zero());
+  by.step({0, 1, 0});  // of a tick that says nothing of torque
+  by.frame();
+  EXPECT_EQ(last_torque(), Vec3::Zero());
+  tick(0.1 * Vec3::UnitX());
+  set([](test::FakeArm& arm) { arm.off_cause = 1; });
+  for (int n = 0; n < 60; ++n) tick(0.1 * Vec3::UnitX());
+  EXPECT_EQ(last_torque(), Vec3::Zero()) << "its forces are off";
+}
+
+TEST_F(OmegaTest, AWristWithoutMotorsIsNeverTurned) {
+  for (const bool wrist : {true, false}) {  // the fake calls a torque misuse then
+    set([wrist](test::FakeArm& arm) {
+      arm.wrist = wrist;
+      arm.active_wrist = !wrist;  // motors of what is not there
+      arm.type = wrist ? 34 : 33;
+    });
+    ByHand by;
+    EXPECT_EQ(by.spec.peak_torque, 0);
+    EXPECT_EQ(by.spec.actuated, 3);
+    by.frame();
+    static_cast<void>(by.link.state());
+    by.link.write_torque({0.1, 0, 0});
+    by.link.write_force({0, 1, 0});
+    by.frame();
+    EXPECT_EQ(of([](const test::FakeArm& arm) { return arm.largest_torque; }), 0);
+  }
+}
+
 // ---- forces that the arm itself switched off
 
 TEST_F(OmegaTest, WhyForcesAreOffIsToldAndNothingIsPushedMeanwhile) {

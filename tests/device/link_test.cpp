@@ -270,5 +270,48 @@ TEST(Bounded, AMillionForcesOfAnySizeKeepTheirDirectionOrAreNone) {
   EXPECT_EQ(guard.allocations(), 0);
 }
 
+TEST(Link, ATorqueGoesWithItsForceAndFadesWithIt) {
+  Still still;
+  const auto twist = [&] { return still.link.torque().x(); };
+  const auto tick = [&](double newton, double newton_metre) {
+    static_cast<void>(still.link.state());
+    still.link.write_torque({newton_metre, 0, 0});
+    still.link.write_force({0, 0, newton});
+  };
+  EXPECT_EQ(still.exchange(1000), 0);
+  EXPECT_EQ(twist(), 0);
+  tick(2, 0.1);
+  EXPECT_EQ(still.exchange(1001), 2);
+  EXPECT_EQ(twist(), 0.1);
+  still.link.hold(0.5);
+  EXPECT_EQ(still.exchange(1001.5), 1);
+  EXPECT_EQ(twist(), 0.05);
+  still.link.hold(1);
+  EXPECT_EQ(still.exchange(1002), 2);
+  still.exchange(1006);  // nobody has answered for five milliseconds
+  EXPECT_EQ(still.exchange(1008), 1.2);
+  EXPECT_NEAR(twist(), 0.06, 1e-12);
+  EXPECT_EQ(still.exchange(1011), 0);
+  EXPECT_EQ(twist(), 0);
+  tick(0, 0.1);  // a torque alone is no letting go
+  EXPECT_EQ(still.exchange(1012), 0);
+  EXPECT_EQ(twist(), 0);
+  tick(0, 0);
+  still.exchange(1013);
+  tick(0, 0.1);
+  still.exchange(1014);
+  EXPECT_EQ(twist(), 0.1);
+  still.tick(1);  // that says nothing of torque
+  EXPECT_EQ(still.exchange(1015), 1);
+  EXPECT_EQ(twist(), 0);
+  tick(0, 0.1);
+  still.exchange(1016);
+  still.exchange(1021);  // a torque without force fades as well
+  still.exchange(1023.5);
+  EXPECT_NEAR(twist(), 0.05, 1e-12);
+  still.link.lose();
+  EXPECT_EQ(twist(), 0);
+}
+
 }  // namespace
 }  // namespace burr::device

@@ -24,8 +24,9 @@ class Stub final : public Device {
   [[nodiscard]] const DeviceSpec& spec() const override { return spec_; }
   [[nodiscard]] HandState state(double) BURR_RT override { return hand; }
   void write_force(const Vec3& force) BURR_RT override { pushed = force; }
+  void write_torque(const Vec3& torque) BURR_RT override { twisted = torque; }
   HandState hand;
-  Vec3 pushed = Vec3::Zero();
+  Vec3 pushed = Vec3::Zero(), twisted = Vec3::Zero();
 
  private:
   DeviceSpec spec_{.max_stiffness = 800, .max_damping = 4, .simulated = false};
@@ -61,6 +62,8 @@ TEST(MappedHand, TenMillimetresAreTenAlongTheAxesOfTheView) {
     EXPECT_NEAR((laid.tip() - before - is).norm(), 0, 1e-12);
     laid.hand->write_force(is);
     EXPECT_NEAR((laid.stub->pushed - by).norm(), 0, 1e-12) << "the force comes from the same side";
+    laid.hand->write_torque(is);
+    EXPECT_NEAR((laid.stub->twisted - by).norm(), 0, 1e-12) << "and so does the torque";
     laid.hand->write_force(Vec3::Zero());
   }
 }

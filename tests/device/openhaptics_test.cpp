@@ -162,6 +162,57 @@ TEST_F(TouchTest, TenMillimetresAndANewtonAreThoseAlongEveryAxis) {
   }
 }
 
+TEST_F(TouchTest, APremiumWithSixMotorsIsTurnedInMillinewtonMetres) {
+  set([](test::FakeTouch& one) {
+    one.model = "PHANToM Premium 1.5 6DOF";
+    one.output_dof = 6;
+  });
+  Touch touch(by_hand());
+  ASSERT_TRUE(touch.open().ok());
+  EXPECT_EQ(touch.spec().actuated, 6);
+  EXPECT_EQ(touch.spec().peak_torque, 0.188);
+  const auto twisted = [&](const Vec3& torque) {
+    for (int n = 0; n < 2; ++n)
+      step(touch, [&](const HandState& hand) {
+        EXPECT_TRUE(hand.valid);
+        touch.write_torque(torque);
+        return Vec3::Zero();
+      });
+    return with_hd([](test::FakeHd& hd) { return Vec3(hd.touch[0].torque.data()); });
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR((twisted(0.01 * Vec3::Unit(axis)) - 10 * Vec3::Unit(axis)).norm(), 0, 1e-12);
+  EXPECT_NEAR(twisted({0, 3, 4}).norm(), 188, 1e-9);
+  EXPECT_EQ(twisted(Vec3::Zero()), Vec3::Zero());
+
+  // one that counts six and takes none after all goes on without
+  set([](test::FakeTouch& one) {
+    one.takes_torque = false;
+    one.torques = 0;
+  });
+  static_cast<void>(twisted({0.01, 0, 0}));
+  static_cast<void>(twisted({0.01, 0, 0}));
+  EXPECT_EQ(with_hd([](test::FakeHd& hd) { return hd.touch[0].torques; }), 1);
+  EXPECT_EQ(touch.trouble(), "");
+}
+
+TEST_F(TouchTest, WhatHasThreeMotorsOrDoesNotSayIsNotTurned) {
+  for (const int dof : {3, -1}) {
+    set([dof](test::FakeTouch& one) { one.output_dof = dof; });
+    Touch touch(by_hand());
+    ASSERT_TRUE(touch.open().ok());
+    EXPECT_EQ(touch.spec().actuated, 3);
+    EXPECT_EQ(touch.spec().peak_torque, 0);
+    for (int n = 0; n < 3; ++n)
+      step(touch, [&](const HandState& hand) {
+        EXPECT_TRUE(hand.valid);
+        touch.write_torque({0.1, 0, 0});
+        return Vec3::Zero();
+      });
+    EXPECT_EQ(touch.trouble(), "");
+  }
+}
+
 TEST_F(TouchTest, ReadsHowItIsTurnedItsSpeedAndItsButtons) {
   Touch touch(by_hand());
   ASSERT_TRUE(touch.open().ok());

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "burr/haptics/contact.h"
 #include "burr/haptics/watchdog.h"
@@ -187,6 +188,65 @@ TEST(Watchdog, LetsGoWithinFiveMillisecondsOfDetectionAndStaysThere) {
   EXPECT_EQ(dog.poll(last_beat + 11'100'000), 0.0) << "a beat alone does not bring the force back";
   dog.rearm(last_beat + 12'000'000);
   EXPECT_EQ(dog.poll(last_beat + 12'500'000), 1.0);
+}
+
+// A device that turns the hand as well: 0.2 N m beside its 4 N, a lever of 50 mm.
+TEST(TorqueLimit, IsBoundedInTheProportionOfTheForce) {
+  const device::DeviceSpec spec = {.peak_force = 4, .continuous_force = 4, .peak_torque = 0.2};
+  for (const double user : {10.0, 1.0}) {
+    ForceLimit limit(spec, {.user_force = user});
+    std::uint32_t flags = 0;
+    const auto tick = [&](const Vec3& torque) {
+      static_cast<void>(limit.apply(Vec3::Zero(), kTick, flags));
+      return limit.apply_torque(torque, kTick, flags);
+    };
+    EXPECT_EQ(tick({0, 0, 1}), Vec3::Zero()) << "no torque before there is force";
+    double last = 0;
+    for (int n = 0; n < 500; ++n) {  // 60 N/s in the ramp
+      const double now = tick({0.3, 0, 0.4}).norm();
+      EXPECT_LE(now - last, 0.05 * 60 * kTick + 1e-12);
+      last = now;
+    }
+    const Vec3 held = tick({0.3, 0, 0.4});
+    EXPECT_NEAR(held.norm(), 0.05 * std::min(4.0, user), 1e-12);
+    EXPECT_NEAR(held.x() / held.z(), 0.75, 1e-12);
+    EXPECT_EQ(tick(Vec3::Zero()), Vec3::Zero()) << "letting go is free";
+    EXPECT_NEAR(tick({0, 1, 0}).y(), 0.05 * 300 * kTick, 1e-12);
+  }
+}
+
+TEST(TorqueLimit, FadesAndComesBackWithTheForce) {
+  const device::DeviceSpec spec = {.peak_force = 4, .continuous_force = 4, .peak_torque = 0.2};
+  for (const bool of_torque : {false, true}) {
+    ForceLimit limit(spec, {.user_force = 4});
+    std::uint32_t flags = 0;
+    const auto tick = [&](double force, double torque) {
+      static_cast<void>(limit.apply({0, 0, force}, kTick, flags));
+      return limit.apply_torque({0, 0, torque}, kTick, flags).z();
+    };
+    for (int n = 0; n < 700; ++n) static_cast<void>(tick(n > 600 ? 2 : 0, 0.1));
+    EXPECT_NEAR(tick(2, 0.1), 0.1, 1e-12);
+    const double no = kNaN;
+    std::vector<double> left;
+    left.push_back(of_torque ? tick(2, no) : tick(no, 0.1));
+    for (int n = 0; n < 6; ++n) left.push_back(tick(2, 0.1));
+    EXPECT_TRUE(flags & kFlagNotFinite);
+    for (std::size_t n = 1; n < left.size(); ++n)
+      EXPECT_LE(left[n], std::max(0.0, left[n - 1] - 0.02) + 1e-12) << n;
+    EXPECT_EQ(left.back(), 0);
+    EXPECT_FALSE(limit.engaged());
+    for (int n = 0; n < 100; ++n) EXPECT_EQ(tick(2, 0.1), 0) << "the force is not small yet";
+    static_cast<void>(tick(0, 0));
+    EXPECT_NEAR(tick(0, 0.1), 0.05 * 60 * kTick, 1e-12);
+  }
+}
+
+TEST(TorqueLimit, WhatCannotTurnTheHandIsNotAskedTo) {
+  ForceLimit limit = running();
+  std::uint32_t flags = 0;
+  EXPECT_EQ(limit.apply_torque({1, 2, 3}, kTick, flags), Vec3::Zero());
+  EXPECT_EQ(limit.apply_torque({kNaN, 2, 3}, kTick, flags), Vec3::Zero());
+  EXPECT_EQ(flags & kFlagNotFinite, 0U);
 }
 
 }  // namespace

@@ -95,6 +95,7 @@ inline TickRow any_tick(std::uint64_t tick, Random& random) {
   row.contact.proxy = any_vec3(random);
   row.contact.normal = any_vec3(random);
   row.contact.force = any_vec3(random);
+  row.contact.torque = any_vec3(random);
   row.contact.depth = any(random);
   row.contact.active = static_cast<int>(random() % 4);
   row.contact.candidates = static_cast<int>(random() % 1000) - 1;
@@ -129,6 +130,7 @@ inline void expect_same(const TickRow& a, const TickRow& b) {
   EXPECT_TRUE(same3(a.contact.proxy, b.contact.proxy)) << a.tick;
   EXPECT_TRUE(same3(a.contact.normal, b.contact.normal)) << a.tick;
   EXPECT_TRUE(same3(a.contact.force, b.contact.force)) << a.tick;
+  EXPECT_TRUE(same3(a.contact.torque, b.contact.torque)) << a.tick;
   EXPECT_TRUE(same(a.contact.depth, b.contact.depth)) << a.tick;
   EXPECT_EQ(a.contact.active, b.contact.active);
   EXPECT_EQ(a.contact.candidates, b.contact.candidates);

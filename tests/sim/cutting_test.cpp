@@ -1,8 +1,10 @@
 // What cutting does to the hand, the spindle and the bone's temperature, in whole sessions.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "burr/device/simulated_hand.h"
 #include "burr/sim/motion.h"
@@ -25,7 +27,8 @@ std::unique_ptr<volume::Bone> slab(double cutting_energy = 1e9) {
 }
 
 // A rigid hand that comes down to `deep` in the bone, its shaft lying along x, and waits there.
-std::unique_ptr<device::SimulatedHand> pressing(double deep, double seconds, double pedal = 1) {
+std::unique_ptr<device::SimulatedHand> pressing(double deep, double seconds, double pedal = 1,
+                                                const device::DeviceSpec& spec = {}) {
   device::HandPath path;
   const math::Quat lying(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitY()));  // z to x
   for (const auto& [t, z] : {std::pair{0.0, 1 * kMm}, std::pair{0.8, 1 * kMm},
@@ -39,7 +42,7 @@ std::unique_ptr<device::SimulatedHand> pressing(double deep, double seconds, dou
   }
   device::ArmSettings rigid;
   rigid.stiffness = INFINITY;
-  return std::make_unique<device::SimulatedHand>(path, rigid);
+  return std::make_unique<device::SimulatedHand>(path, rigid, spec);
 }
 
 constexpr double kNever = 1e18;  // J/m^3: bone that cannot be cut in these times
@@ -203,6 +206,93 @@ TEST(Spindle, FlutesCutNothingBackwardsGrainsDo) {
   const auto grains = session(settings, slab());
   grains->run(2.9, quiet);
   EXPECT_GT(grains->outcome().ledger.removed, 1e-10);
+}
+
+// ---- the drill twists in the hand
+
+// A hand that can be turned, and keeps what it was told.
+class TurnedHand final : public device::Device {
+ public:
+  explicit TurnedHand(std::unique_ptr<device::SimulatedHand> hand) : hand_(std::move(hand)) {
+    torques.reserve(8192);
+  }
+  Status open() override { return hand_->open(); }
+  void close() override { hand_->close(); }
+  [[nodiscard]] const device::DeviceSpec& spec() const override { return hand_->spec(); }
+  [[nodiscard]] device::HandState state(double dt) BURR_RT override { return hand_->state(dt); }
+  void write_force(const Vec3& force) BURR_RT override {
+    if (torques.size() < torques.capacity()) torques.push_back(torque_);
+    torque_ = Vec3::Zero();
+    hand_->write_force(force);
+  }
+  void write_torque(const Vec3& torque) BURR_RT override { torque_ = torque; }
+  std::vector<Vec3> torques;
+
+ private:
+  std::unique_ptr<device::SimulatedHand> hand_;
+  Vec3 torque_ = Vec3::Zero();
+};
+
+const device::DeviceSpec kTurned = {.peak_force = 12, .continuous_force = 12, .peak_torque = 0.2};
+
+// 1 N at 2 mm with mu 0.4 is 0.8 mN m. The shaft lies along +x, to the hand; the burr turns
+// clockwise seen from there, so the handpiece is twisted anticlockwise: about +x.
+TEST(Twist, IsTheTorqueOfTheBoneAboutTheShaftAndOfTheRotorAsItStarts) {
+  NoProgress quiet;
+  for (const double way : {1.0, -1.0}) {
+    SessionSettings settings;
+    settings.servo.burr.radius = kRadius;
+    settings.servo.burr.kind = tool::BurrKind::diamond;
+    settings.servo.undo_bricks = 1024;
+    settings.servo.spindle_rad_s *= way;
+    settings.servo.limit.user_force = 12;
+    settings.surface.reserve_blocks = 1 << 13;
+    auto owned = std::make_unique<TurnedHand>(pressing(1 * kMm, 3, 1, kTurned));
+    const TurnedHand& hand = *owned;
+    auto run = Session::make(slab(kNever), std::move(owned), settings, quiet);
+    ASSERT_TRUE(run.ok()) << run.error().text;
+    (*run)->run(2.9, quiet);
+    record::TickRow row;
+    ASSERT_TRUE((*run)->view(row));
+    EXPECT_NEAR(row.cutting_nm, 0.25 * 0.8e-3, 0.02e-3) << "diamond bites a quarter as much";
+    EXPECT_NEAR((row.contact.torque - way * row.cutting_nm * Vec3::UnitX()).norm(), 0, 5e-6);
+    double most = 0;
+    for (std::size_t n = 1; n < 800; ++n) {
+      const double now = way * hand.torques[n].x(), last = way * hand.torques[n - 1].x();
+      most = std::max(most, now);
+      EXPECT_LE(now - last, 0.2 / 12 * 0.06 + 1e-12) << n << ": the start ramp holds it back";
+      EXPECT_LT(std::hypot(hand.torques[n].y(), hand.torques[n].z()), 1e-12);
+    }
+    EXPECT_GT(most, 10e-3) << "it starts with a jerk";
+    EXPECT_LE(most, settings.servo.motor.torque + 1e-9);
+    // and at the end it is let go in five steps, not dropped
+    const auto count = hand.torques.size();
+    for (std::size_t n = 1; n <= 5; ++n)
+      EXPECT_NEAR((hand.torques[count - 6 + n] -
+                   (1 - 0.2 * static_cast<double>(n)) * hand.torques[count - 6])
+                      .norm(),
+                  0, 1e-12);
+    EXPECT_EQ(hand.torques.back(), Vec3::Zero());
+  }
+}
+
+TEST(Twist, IsNotForAHandThatCannotBeTurnedOrWantsNone) {
+  NoProgress quiet;
+  for (const bool can : {false, true}) {
+    SessionSettings settings;
+    settings.servo.burr.radius = kRadius;
+    settings.servo.undo_bricks = 1024;
+    settings.servo.torque_gain = can ? 0 : 1;
+    settings.surface.reserve_blocks = 1 << 13;
+    auto owned =
+        std::make_unique<TurnedHand>(pressing(1 * kMm, 3, 1, can ? kTurned : device::DeviceSpec()));
+    const TurnedHand& hand = *owned;
+    auto run = Session::make(slab(kNever), std::move(owned), settings, quiet);
+    ASSERT_TRUE(run.ok()) << run.error().text;
+    (*run)->run(2, quiet);
+    for (const Vec3& torque : hand.torques) EXPECT_EQ(torque, Vec3::Zero());
+    EXPECT_GT(hand.torques.size(), 1900U);
+  }
 }
 
 TEST(ChipsLaw, CutsInASessionAndTheLedgerBalances) {

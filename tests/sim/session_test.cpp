@@ -46,7 +46,7 @@ struct Plan {
 };
 
 std::unique_ptr<Session> make(const Plan& plan, SessionSettings settings = {},
-                              device::ArmSettings arm = {}) {
+                              device::ArmSettings arm = {}, const device::DeviceSpec& hand = {}) {
   NoProgress quiet;
   auto path = motion(plan.motion, {}, 0.5 * plan.burr_mm * kMm, plan.seconds);
   EXPECT_TRUE(path.ok());
@@ -55,8 +55,8 @@ std::unique_ptr<Session> make(const Plan& plan, SessionSettings settings = {},
   settings.realtime = plan.realtime;
   settings.servo.undo_bricks = 2048;
   settings.surface.reserve_blocks = 1 << 13;
-  auto session = Session::make(slab(plan.h_mm), std::make_unique<device::SimulatedHand>(*path, arm),
-                               settings, quiet);
+  auto session = Session::make(
+      slab(plan.h_mm), std::make_unique<device::SimulatedHand>(*path, arm, hand), settings, quiet);
   EXPECT_TRUE(session.ok()) << session.error().text;
   return std::move(*session);
 }
@@ -363,6 +363,26 @@ TEST_F(Replay, ComesOutTheSameToTheBitWithWishesAndUndo) {
   auto bone = (*player)->embedded_bone(256);
   ASSERT_TRUE((*player)->bone_at(4, **bone).ok());
   EXPECT_EQ((*bone)->content_hash(), end);
+}
+
+// What turned the hand is in the recording and comes out again, with the flags it set.
+TEST_F(Replay, AHandThatIsTurnedComesOutTheSame) {
+  SessionSettings settings;
+  settings.servo.torque_gain = 3;
+  settings.servo.limit.user_force = 2;
+  const auto session = make({.seconds = 3}, settings, {},
+                            {.peak_force = 12, .continuous_force = 12, .peak_torque = 0.2});
+  record(*session, 2);
+  NoProgress quiet;
+  auto player = record::Player::open(file);
+  auto outcome = replay(**player, std::move(*(*player)->embedded_bone(256)), quiet);
+  ASSERT_TRUE(outcome.ok());
+  EXPECT_FALSE(outcome->parted_at) << *outcome->parted_at << ": " << outcome->difference;
+  record::StepCursor steps = (*player)->steps();
+  record::Step step;
+  double most = 0;
+  while (steps.next(step)) most = std::max(most, step.row.contact.torque.norm());
+  EXPECT_NEAR(most, 0.2 * 2 / 12, 1e-12) << "as much as the user's share of the force allows";
 }
 
 TEST_F(Replay, NamesTheTickAtWhichItParts) {

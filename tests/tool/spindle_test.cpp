@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace burr::tool {
@@ -104,6 +105,45 @@ TEST(Spindle, WithoutAMotorGoesAsCommandedWhateverTheLoad) {
   Spindle one = spindle(none);
   one.step(0.5, 1, 1e-3);
   EXPECT_EQ(one.speed(), 0.5 * kFull);
+}
+
+// What the hand feels of it is what the bone takes and what the rotor gains: over any time the
+// twist of the handpiece is the bone's plus J times the change of speed.
+TEST(Spindle, TheHandpieceTwistsAgainstWhatTheBurrMeets) {
+  Motor rubbing = kFree;
+  rubbing.friction = 1e-6;
+  for (const double full : {kFull, -kFull})
+    for (const Motor& motor : {kFree, rubbing}) {
+      Spindle one = spindle(motor, full);
+      constexpr double kDt = 1e-5;
+      const double way = full > 0 ? 1 : -1;
+      double twist = 0, bone = 0, most = 0;
+      const auto go = [&](double seconds, double pedal, double cutting) {
+        for (int n = 0; n < std::lround(seconds / kDt); ++n) {
+          one.step(pedal, cutting, kDt);
+          twist += one.reaction() * kDt;
+          bone += way * cutting * kDt;
+          most = std::max(most, std::abs(one.reaction()));
+        }
+      };
+      go(0.02, 1, 0);
+      EXPECT_NEAR(one.reaction(), way * motor.torque, 0.1 * motor.torque) << "it starts";
+      go(0.7, 1, 0);
+      EXPECT_NEAR(one.reaction(), 0, 1e-3 * motor.torque) << "it idles";
+      go(0.7, 1, 0.01);
+      EXPECT_NEAR(one.reaction(), way * 0.01, 1e-5) << "it cuts";
+      go(0.01, 0, 0.01);
+      EXPECT_NEAR(twist, bone + motor.inertia * one.speed(), 0.01 * std::abs(bone));
+      EXPECT_LE(most, motor.torque + motor.friction * kFull + 1e-12);
+    }
+  Spindle held = spindle();
+  run(held, 0.1, 1, 1);
+  EXPECT_TRUE(held.stalled());
+  EXPECT_NEAR(held.reaction(), kFree.torque, 1e-15)
+      << "the bone holds the burr, the hand the drill";
+  Spindle none = spindle({.torque = 0}, -kFull);
+  none.step(1, 0.01, 1e-3);
+  EXPECT_EQ(none.reaction(), -0.01);
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ Status list(const Options& options) {
                      {"id", id_of(spec)},
                      {"peak_force_N", spec.peak_force},
                      {"continuous_force_N", spec.continuous_force},
+                     {"peak_torque_Nm", spec.peak_torque},
                      {"stiffness_N_m", spec.max_stiffness},
                      {"rate_hz", spec.native_rate},
                      {"trouble", trouble},
@@ -58,8 +59,9 @@ Status list(const Options& options) {
                      {"max_force_N", wishes.max_force_n}});
     if (options.json) continue;
     fmt::print(
-        "{:<16} {}: {:.1f} N ({:.2f} N for long), walls to {:.0f} N/m, {:.0f} Hz; scale {:g}{}\n",
-        kind.name, id_of(spec), spec.peak_force, spec.continuous_force, spec.max_stiffness,
+        "{:<16} {}: {:.1f} N ({:.2f} N for long){}, walls to {:.0f} N/m, {:.0f} Hz; scale {:g}{}\n",
+        kind.name, id_of(spec), spec.peak_force, spec.continuous_force,
+        spec.peak_torque > 0 ? fmt::format(", {:g} N m", spec.peak_torque) : "", spec.max_stiffness,
         spec.native_rate, wishes.mapping.scale,
         wishes.max_force_n > 0 ? fmt::format(", your limit {:g} N", wishes.max_force_n) : "");
     if (!trouble.empty()) fmt::print("                 {}\n", trouble);

@@ -54,6 +54,7 @@ json plan_json(const PeopleRun& run) {
               {"vibration_hz", run.wall.vibration_hz},
               {"other_stiffness_N_m", run.wall.other_stiffness},
               {"device", run.device},
+              {"device_id", run.device_id},
               {"subject", run.subject}};
   if (run.observer)
     out["observer"] = {{"threshold", finite(run.observer->threshold)},
@@ -94,6 +95,7 @@ PeopleRun run_of(const json& in) {
   in.at("vibration_hz").get_to(run.wall.vibration_hz);
   in.at("other_stiffness_N_m").get_to(run.wall.other_stiffness);
   in.at("device").get_to(run.device);
+  run.device_id = in.value("device_id", "");
   in.at("subject").get_to(run.subject);
   if (const auto found = in.find("observer"); found != in.end()) {
     ObserverWish wish;

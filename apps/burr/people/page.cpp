@@ -114,7 +114,7 @@ std::string result_page(const PeopleRun& run, const people::Experiment& experime
                                                 run.observer->threshold, run.observer->seed)
                                   : "a person");
   if (!run.subject.empty()) row("subject", run.subject);
-  row("device", run.device);
+  row("device", run.device_id.empty() ? run.device : run.device_id);
   row("method", plan.method == people::Method::staircase
                     ? fmt::format("{} {}", name(plan.method), name(plan.rule))
                     : std::string(name(plan.method)));

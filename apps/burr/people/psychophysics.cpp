@@ -5,14 +5,18 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
 
 #include "burr/people/observer.h"
 #include "burr/sim/feeling.h"
 #include "command.h"
+#include "hand_device.h"
 #include "people/run.h"
 #include "scenes/wall.h"
 
@@ -23,14 +27,18 @@ using people::Stimulus;
 using people::Trial;
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* kSimulated = "simulated";
+constexpr double kAbove = 20e-3;  // the wall the tip begins [m]
+
 struct Options {
-  std::string stimulus, device = "simulated", method = "bayes", rule = "1up2down", observer,
-                        subject, out, go_on;
+  std::string stimulus, device = kSimulated, method = "bayes", rule = "1up2down", observer, subject,
+                        out, go_on;
   std::optional<double> standard, smallest, largest;
   int trials = 300;
   double until = 0, lapse = 0.02, seconds = 3, rate_hz = 1000;
   std::uint64_t seed = 1;
   bool json = false;
+  HandWish hand;  // homing alone
 };
 
 template <class T, std::size_t N>
@@ -65,14 +73,17 @@ Result<PeopleRun> run_of(const Options& options) {
 // Shows the intervals and gets the answers; who answers makes no difference to the rest.
 class Lab {
  public:
-  explicit Lab(const PeopleRun& run) : run_(run), wall_(scenes::wall, run.wall) {}
+  // hand: of a device that is open; none: the simulated one
+  Lab(const PeopleRun& run, device::MappedHand* hand)
+      : run_(run), wall_(scenes::wall, run.wall), hand_(hand) {}
 
   // Refuses, before the first trial, what this device could not show in one of them.
   Status possible() {
     const people::Plan& plan = run_.plan;
     const double most = plan.stimulus == Stimulus::vibration ? plan.standard + plan.largest
                                                              : plan.standard * (1 + plan.largest);
-    return wall_.possible(device::DeviceSpec{}, wall_.of(plan.stimulus, most));
+    return wall_.possible(hand_ != nullptr ? hand_->spec() : device::DeviceSpec{},
+                          wall_.of(plan.stimulus, most));
   }
 
   // 1 or 2; 0: nobody answers any more. took: of a person [s].
@@ -101,15 +112,31 @@ class Lab {
   }
 
  private:
-  // The simulated hand, each time a little differently. A real device is one that lasts: opened
-  // once, handed to Wall::show() here.
   Result<double> show(const Trial& trial, int interval) {
+    return hand_ != nullptr ? show_to_hand(trial, interval) : show_to_simulated(trial, interval);
+  }
+
+  // An interval in which the device let go is shown again.
+  Result<double> show_to_hand(const Trial& trial, int interval) {
+    while (true) {
+      auto felt = wall_.show(*hand_, wall_.of(run_.plan.stimulus, trial.shown(interval)),
+                             run_.seconds, [] { return interrupted() || key(); });
+      if (!felt) return felt.error();
+      const std::string trouble = hand_->trouble();
+      if (trouble.empty() || interrupted()) return sim::sensed(run_.plan.stimulus, *felt);
+      fmt::print(stderr, "{} Interval {} again ...\n", trouble, interval);
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+    }
+  }
+
+  // Each time a little differently.
+  Result<double> show_to_simulated(const Trial& trial, int interval) {
     const int gesture = (trial.number + 2 * interval) % sim::kGestures;
     device::SimulatedHand hand(
         sim::gesture_for(run_.plan.stimulus, gesture, run_.wall, run_.seconds), {});
     if (Status opened = hand.open(); !opened) return opened.error();
     auto felt = wall_.show(hand, wall_.of(run_.plan.stimulus, trial.shown(interval)), run_.seconds,
-                           [&] { return interrupted() || (!hand.spec().simulated && key()); });
+                           [] { return interrupted(); });
     if (!felt) return felt.error();
     return sim::sensed(run_.plan.stimulus, *felt);
   }
@@ -137,7 +164,29 @@ class Lab {
 
   const PeopleRun& run_;
   sim::Wall wall_;
+  device::MappedHand* hand_;
 };
+
+// The device of the run, laid over the wall: right is right, up is up. Its rate, its user's limit
+// and what stiffness it can show are the wall's from then on. nullptr: the simulated hand.
+Result<std::unique_ptr<device::MappedHand>> take_hand(const Options& options, PeopleRun& run) {
+  if (run.device == kSimulated) return std::unique_ptr<device::MappedHand>();
+  if (run.observer)
+    return error(Trouble::usage,
+                 "an --observer is shown the wall by the simulated hand; leave --device away");
+  HandWish wish = options.hand;
+  wish.device = run.device;
+  math::Pose above;
+  above.p = {0, 0, run.wall.burr_radius + kAbove};
+  auto laid = lay_hand(wish, above, math::Quat(Eigen::AngleAxisd(M_PI / 2, math::Vec3::UnitX())));
+  if (!laid) return laid.error();
+  for (const std::string& notice : laid->notices) fmt::print(stderr, "{}\n", notice);
+  run.device_id = laid->id;
+  run.wall.rate_hz = tick_rate(laid->hand->spec());
+  run.wall.user_force = laid->max_force;
+  run.wall.other_stiffness = std::min(run.wall.other_stiffness, laid->hand->spec().max_stiffness);
+  return std::move(laid->hand);
+}
 
 Result<Unfinished> begin(const Options& options) {
   if (!options.go_on.empty()) return load_run(options.go_on);
@@ -152,9 +201,11 @@ Result<Unfinished> begin(const Options& options) {
 Status run(const Options& options) {
   auto begun = begin(options);
   if (!begun) return begun.error();
+  auto hand = take_hand(options, begun->run);
+  if (!hand) return hand.error();
   const PeopleRun& run = begun->run;
   if (Status sound = check(run); !sound) return sound;
-  Lab lab(run);
+  Lab lab(run, hand->get());
   if (Status can = lab.possible(); !can) return can;
   const std::string folder = options.go_on.empty() ? options.out : options.go_on;
 
@@ -212,9 +263,11 @@ void add(CLI::App& app, Todo& todo) {
       ->add_option("stimulus", options->stimulus,
                    "what differs: stiffness [N/m], friction, or vibration [N rms]")
       ->check(CLI::IsMember(people::kStimulusNames));
-  command->add_option("--device", options->device, "the hand; real ones are to come")
-      ->check(CLI::IsMember({"simulated"}))
+  command
+      ->add_option("--device", options->device,
+                   fmt::format("the hand: simulated, or one of {}", kinds_known()))
       ->capture_default_str();
+  add_homing_options(*command, options->hand);
   command->add_option("--observer", options->observer,
                       "threshold=T[,slope=S][,lapse=L][,seed=N][,feels=yes]: simulated; "
                       "default: a person answers 1 or 2");

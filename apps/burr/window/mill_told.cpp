@@ -194,8 +194,9 @@ void Mill::panels() {
   const double limit = desk_.settings.force_limit_n;
   const bool worn = desk_.settings.headset;
   const std::filesystem::path& config = desk_.places().config;
-  DeviceLeaf device{hands_.id, hands_.real != nullptr ? hands_.real->spec().peak_force : 0,
-                    hands_.wishes};
+  const device::DeviceSpec spec =
+      hands_.real != nullptr ? hands_.real->spec() : device::DeviceSpec();
+  DeviceLeaf device{hands_.id, spec.peak_force, spec.peak_torque > 0, hands_.wishes};
   const SettingsPage page = draw_settings(
       ui, desk_.settings, config.empty() ? std::string() : (config / "settings.toml").string(),
       settings_pads_, hands_.real != nullptr ? &device : nullptr);

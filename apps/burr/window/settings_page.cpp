@@ -145,6 +145,7 @@ void pads_leaf(Lines& left, Lines& right, Settings& settings, DeviceLeaf* device
     };
     wish(Word::set_device_scale, "scale", wishes.mapping.scale, "%.2f x");
     wish(Word::set_device_vibration, "vibration", wishes.vibration, "%.1f x");
+    if (device->turns) wish(Word::set_device_torque, "torque", wishes.torque, "%.1f x");
     left.yes(Word::set_device_dead_man, "device_dead_man", wishes.mapping.dead_man);
     left.remark(Word::set_device_next);
     device->changed = left.changed() && !before;

@@ -16,6 +16,7 @@ struct SettingsPage {
 struct DeviceLeaf {
   const std::string& id;
   double peak;  // that it can push [N]
+  bool turns;   // it has torque
   DeviceWishes& wishes;
   bool changed = false;
 };

@@ -310,6 +310,7 @@ constexpr Entry kWords[] = {
     Entry{Word::set_device_scale, "Tip's way over hand's", "Spetsens väg per handens"},
     Entry{Word::set_device_force, "Largest force", "Största kraft"},
     Entry{Word::set_device_vibration, "Buzz of the spindle", "Spindelns surr"},
+    Entry{Word::set_device_torque, "Twist of the motor", "Motorns vridning"},
     Entry{Word::set_device_dead_man, "Pushes while milling", "Kraft bara vid fräsning"},
     Entry{Word::set_device_next, "The force at once, the rest from the next session.",
           "Kraften genast, resten från nästa session."},

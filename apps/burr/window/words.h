@@ -262,6 +262,7 @@ enum class Word {
   set_device_scale,
   set_device_force,
   set_device_vibration,
+  set_device_torque,
   set_device_dead_man,
   set_device_next,
   headset_on,

@@ -1,6 +1,6 @@
 // device/device.h - a hand on the other side: a haptic device, a simulated arm, a recording.
 //
-//     open -> [ state -> write_force ] at every tick -> close
+//     open -> [ state -> (write_torque) -> write_force ] at every tick -> close
 //
 // Thread: open/close on main; state/write_force only on the servo thread, allocation-free and
 // wait-free. Errors: open() says in one sentence what is missing and what to do; in the tick a lost
@@ -42,6 +42,10 @@ class Device {
 
   // Pushes the hand; world, at the tip [N]. Already bounded by haptics/limit.h.
   virtual void write_force(const math::Vec3& force) BURR_RT = 0;
+
+  // Turns the hand about the tip; world [N m]. Bounded likewise, said before the force it goes out
+  // with, and none again after that. Only where spec().peak_torque is above 0.
+  virtual void write_torque(const math::Vec3& torque) BURR_RT { static_cast<void>(torque); }
 
   // The tick has died: multiply whatever is being pushed by scale, 0..1, until the next
   // write_force(). Any thread.

@@ -79,7 +79,7 @@ void Link::take_answers(std::int64_t now) BURR_RT {
 Vec3 Link::push() BURR_RT {
   const std::int64_t now = now_();
   take_answers(now);
-  if (!fading_ && pushed_ != Vec3::Zero() && now - answered_ns_ >= timeout_ns_) {
+  if (!fading_ && !pushed_.none() && now - answered_ns_ >= timeout_ns_) {
     fading_ = true;
     faded_since_ns_ = now;
     fading_from_ = pushed_;
@@ -88,14 +88,14 @@ Vec3 Link::push() BURR_RT {
   }
   if (fading_) {
     // done once the servo knows, and has let go as well
-    if (answer_.number > fading_after_ && answer_.force == Vec3::Zero()) fading_ = false;
+    if (answer_.number > fading_after_ && answer_.push.none()) fading_ = false;
     const double left =
         1 - static_cast<double>(now - faded_since_ns_) / static_cast<double>(fade_ns_);
-    pushed_ = fading_ ? Vec3(std::max(0.0, left) * fading_from_) : Vec3::Zero();
+    pushed_ = fading_ ? fading_from_.scaled(std::max(0.0, left)) : Push{};
   } else {
-    pushed_ = answer_.force * scale_.load(std::memory_order_relaxed);
+    pushed_ = answer_.push.scaled(scale_.load(std::memory_order_relaxed));
   }
-  return pushed_;
+  return pushed_.force;
 }
 
 void Link::lose() BURR_RT {
@@ -105,7 +105,7 @@ void Link::lose() BURR_RT {
   tell(none, now);
   fading_ = true;  // whoever is gone is not pushed; who comes back, not at once
   faded_since_ns_ = now - fade_ns_;
-  fading_from_ = pushed_ = Vec3::Zero();
+  fading_from_ = pushed_ = {};
   fading_after_ = number_;
   let_go_.store(true, std::memory_order_release);
 }
@@ -133,7 +133,8 @@ HandState Link::state() BURR_RT {
 
 void Link::write_force(const Vec3& force) BURR_RT {
   scale_.store(1.0, std::memory_order_relaxed);
-  answers_.publish({force, reading_.number});
+  answers_.publish({{force, torque_}, reading_.number});
+  torque_ = Vec3::Zero();
   answered_.strike();
 }
 

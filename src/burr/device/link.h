@@ -8,8 +8,9 @@
 // invalid reading) and has itself come down to zero, so that force returns only by the start ramp.
 // The same when no reading comes. A last force is never repeated for longer than the timeout.
 //
-// Thread: exchange(), push(), lose() on the wire; wait(), state(), write_force(), begin_at() on the
-// servo; hold() any. Wait-free but for the two bounded waits. Memory: none. Units: SI, ns.
+// Thread: exchange(), push(), torque(), lose() on the wire; wait(), state(), write_torque(),
+// write_force(), begin_at() on the servo; hold() any. Wait-free but for the two bounded waits.
+// Memory: none. Units: SI, ns.
 #pragma once
 
 #include <semaphore.h>
@@ -45,6 +46,8 @@ class Link {
   [[nodiscard]] math::Vec3 exchange(const HandState& hand) BURR_RT;
   // The force just now, without a reading.
   [[nodiscard]] math::Vec3 push() BURR_RT;
+  // What goes with the force that was given last, held and faded as that [N m].
+  [[nodiscard]] const math::Vec3& torque() const BURR_RT { return pushed_.torque; }
   // The device is gone, or says what cannot be: nothing is pushed, the tick learns it at once.
   void lose() BURR_RT;
 
@@ -53,6 +56,8 @@ class Link {
   [[nodiscard]] bool wait(std::int64_t until_ns) BURR_RT;
   // The newest reading; invalid when it is older than the timeout, or after the wire let go.
   [[nodiscard]] HandState state() BURR_RT;
+  // Of the next force; then none again.
+  void write_torque(const math::Vec3& torque) BURR_RT { torque_ = torque; }
   void write_force(const math::Vec3& force) BURR_RT;
   // Readings before this time begin no tick.
   void begin_at(std::int64_t ns) BURR_RT { begin_ns_.store(ns, std::memory_order_relaxed); }
@@ -77,8 +82,15 @@ class Link {
     std::int64_t arrived_ns = 0;
     std::uint64_t number = 0;  // 0: there has been none
   };
+  struct Push {
+    math::Vec3 force = math::Vec3::Zero(), torque = math::Vec3::Zero();
+    [[nodiscard]] bool none() const BURR_RT {
+      return force == math::Vec3::Zero() && torque == math::Vec3::Zero();
+    }
+    [[nodiscard]] Push scaled(double by) const BURR_RT { return {by * force, by * torque}; }
+  };
   struct Answer {
-    math::Vec3 force = math::Vec3::Zero();
+    Push push;
     std::uint64_t number = 0;  // of the reading it is for
   };
 
@@ -120,12 +132,13 @@ class Link {
   std::int64_t answered_ns_ = kNever;
   bool fading_ = false;
   std::int64_t faded_since_ns_ = 0;
-  math::Vec3 fading_from_ = math::Vec3::Zero(), pushed_ = math::Vec3::Zero();
+  Push fading_from_, pushed_;
   std::uint64_t fading_after_ = 0;  // readings after this one have been answered in knowledge of it
 
   // the servo's own
   Reading reading_;
   bool fresh_ = false;
+  math::Vec3 torque_ = math::Vec3::Zero();
 };
 
 // The pace of a link: a tick begins when its reading comes, and is as late as it begins after that.

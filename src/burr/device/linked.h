@@ -15,6 +15,7 @@ class LinkedDevice : public Device {
  public:
   [[nodiscard]] const DeviceSpec& spec() const final { return spec_; }
   [[nodiscard]] HandState state(double) BURR_RT final { return link_.state(); }
+  void write_torque(const math::Vec3& torque) BURR_RT final { link_.write_torque(torque); }
   void write_force(const math::Vec3& force) BURR_RT final { link_.write_force(force); }
   void hold(double scale) BURR_RT final { link_.hold(scale); }
   [[nodiscard]] rt::TickClock* clock(double rate_hz) final {

@@ -53,6 +53,9 @@ class MappedHand final : public Device {
   [[nodiscard]] const DeviceSpec& spec() const override { return spec_; }
   [[nodiscard]] HandState state(double dt) BURR_RT override;
   void write_force(const math::Vec3& force) BURR_RT override;
+  void write_torque(const math::Vec3& torque) BURR_RT override {
+    device_->write_torque(turn_.conjugate() * torque);
+  }
   void hold(double scale) BURR_RT override { device_->hold(scale); }
   [[nodiscard]] rt::TickClock* clock(double rate_hz) override { return device_->clock(rate_hz); }
   [[nodiscard]] std::int64_t arrived_ns() const BURR_RT override { return device_->arrived_ns(); }

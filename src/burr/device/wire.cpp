@@ -1,6 +1,5 @@
 #include "burr/device/wire.h"
 
-#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -15,17 +14,13 @@ constexpr std::int64_t kTellNs = 100'000'000;  // no oftener is what is wrong to
 
 }  // namespace
 
-math::Vec3 bounded(const math::Vec3& force, double peak) BURR_RT {
-  if (!force.allFinite()) return math::Vec3::Zero();
-  const double size = force.norm();
-  return size > peak ? math::Vec3(force * (peak / size)) : force;
-}
-
 bool exchange(Wire& wire, Link& link) BURR_RT {
   HandState hand;
   const Wire::Read read = wire.read(hand);
-  return read != Wire::Read::lost &&
-         wire.write(read == Wire::Read::hand ? link.exchange(hand) : link.push());
+  if (read == Wire::Read::lost) return false;
+  const math::Vec3 force = read == Wire::Read::hand ? link.exchange(hand) : link.push();
+  wire.write_torque(link.torque());
+  return wire.write(force);
 }
 
 WireDevice::WireDevice(std::unique_ptr<Wire> wire, const LinkSettings& settings)
@@ -66,7 +61,8 @@ bool WireDevice::come_back() {
     say(found.error().text);
     return false;
   }
-  if (found->serial == spec_.serial && found->peak_force == spec_.peak_force) {
+  if (found->serial == spec_.serial && found->peak_force == spec_.peak_force &&
+      found->peak_torque == spec_.peak_torque) {
     returns_.fetch_add(1, std::memory_order_relaxed);
     say({});
     return true;
@@ -111,6 +107,7 @@ void WireDevice::work() {
     }
   }
   if (connected) {
+    wire_->write_torque(math::Vec3::Zero());
     static_cast<void>(wire_->write(math::Vec3::Zero()));
     wire_->disconnect();
   }

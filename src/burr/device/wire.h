@@ -16,6 +16,7 @@
 #include <string>
 
 #include "burr/base/result.h"
+#include "burr/device/bounded.h"
 #include "burr/device/linked.h"
 #include "burr/rt/thread.h"
 
@@ -40,6 +41,8 @@ class Wire {
   // Waits for the next reading, for some milliseconds at most; in metres, in the device's own frame
   // as the driver's header states it.
   [[nodiscard]] virtual Read read(HandState& hand) BURR_RT = 0;
+  // Of the next force [N m], in that frame; zero unless its peak_torque is above 0.
+  virtual void write_torque(const math::Vec3& torque) BURR_RT { static_cast<void>(torque); }
   // [N], in that frame; false: lost.
   [[nodiscard]] virtual bool write(const math::Vec3& force) BURR_RT = 0;
   // No force, motors off, all given back; also after it was lost.
@@ -50,10 +53,6 @@ class Wire {
   // Another number whenever why() says something else: it is asked only then.
   [[nodiscard]] virtual unsigned told() const BURR_RT { return 0; }
 };
-
-// The last bound before a device, beside the tick's own, should that ever be mistaken: what is no
-// number is no force, what is larger than peak [N] is that, its direction kept.
-[[nodiscard]] math::Vec3 bounded(const math::Vec3& force, double peak) BURR_RT;
 
 // One exchange: a reading, and the force of its tick. False: lost.
 [[nodiscard]] bool exchange(Wire& wire, Link& link) BURR_RT;

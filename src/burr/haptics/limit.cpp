@@ -28,7 +28,9 @@ constexpr double kFarthestHand = 1e3;
 }  // namespace
 
 ForceLimit::ForceLimit(const device::DeviceSpec& device, const LimitSettings& settings)
-    : device_(device), settings_(settings) {}
+    : device_(device),
+      settings_(settings),
+      lever_(device.peak_force > 0 ? device.peak_torque / device.peak_force : 0) {}
 
 void ForceLimit::set_user_force(double newton) BURR_RT {
   if (std::isfinite(newton) && newton >= 0) settings_.user_force = newton;
@@ -64,40 +66,35 @@ void ForceLimit::fault(std::uint32_t flag, std::uint32_t& flags) BURR_RT {
 void ForceLimit::lift() BURR_RT {
   if (state_ == State::fading) return;  // already on its way to zero
   state_ = State::fading;
-  fading_from_ = sent_;
+  for (Channel* one : {&force_, &torque_}) one->fading_from = one->sent;
   in_state_ = 0;
 }
 
 void ForceLimit::restart() BURR_RT {
   state_ = State::waiting;
-  sent_ = Vec3::Zero();
+  for (Channel* one : {&force_, &torque_}) one->sent = Vec3::Zero();
   in_state_ = 0;
 }
 
-Vec3 ForceLimit::apply(const Vec3& wanted, double dt, std::uint32_t& flags) BURR_RT {
-  const bool finite = wanted.allFinite();
-  if (!finite) fault(kFlagNotFinite, flags);
-  in_state_ += dt;
+double ForceLimit::left() const BURR_RT {
+  return std::max(0.0, 1.0 - in_state_ / settings_.fade_time);
+}
 
+// What of `wanted` may go to these motors as things stand.
+Vec3 ForceLimit::bound(Channel& channel, const Vec3& wanted, double dt,
+                       std::uint32_t& flags) const BURR_RT {
   Vec3 force = Vec3::Zero();
   if (state_ == State::fading) {
-    const double left = std::max(0.0, 1.0 - in_state_ / settings_.fade_time);
-    force = left * fading_from_;
-    if (left <= 0) restart();
+    force = left() * channel.fading_from;
   } else if (state_ == State::waiting) {
     flags |= kFlagWaiting;
-    if (wanted.norm() < settings_.small_force) {
-      state_ = State::ramp;
-      in_state_ = 0;
-    }
   } else {
-    if (state_ == State::ramp && in_state_ >= settings_.ramp_time) state_ = State::running;
     force = wanted;
 
     // the device, the user, and the motors' heat; direction kept. The heat limit closes gradually
     // over its last tenth.
     double most = std::min(device_.peak_force, settings_.user_force);
-    const double hot = std::clamp((heat_ / device_.thermal_budget - 0.9) * 10.0, 0.0, 1.0);
+    const double hot = std::clamp((channel.heat / device_.thermal_budget - 0.9) * 10.0, 0.0, 1.0);
     const double bearable = std::min(most, device_.continuous_force);
     if (hot > 0) most += hot * (bearable - most);
     const double size = force.norm();
@@ -107,16 +104,38 @@ Vec3 ForceLimit::apply(const Vec3& wanted, double dt, std::uint32_t& flags) BURR
     }
 
     bool bounded = false;
-    force = slew_bound(
-        force, sent_, (state_ == State::ramp ? settings_.ramp_slew : settings_.slew) * dt, bounded);
+    force =
+        slew_bound(force, channel.sent,
+                   (state_ == State::ramp ? settings_.ramp_slew : settings_.slew) * dt, bounded);
     if (bounded) flags |= kFlagSlewLimited;
     if (state_ == State::ramp) flags |= kFlagRamp;
   }
 
   const double bearable = device_.continuous_force;
-  heat_ = std::max(0.0, heat_ + (force.squaredNorm() - bearable * bearable) * dt);
-  sent_ = force;
+  channel.heat = std::max(0.0, channel.heat + (force.squaredNorm() - bearable * bearable) * dt);
+  channel.sent = force;
   return force;
+}
+
+Vec3 ForceLimit::apply(const Vec3& wanted, double dt, std::uint32_t& flags) BURR_RT {
+  if (!wanted.allFinite()) fault(kFlagNotFinite, flags);
+  in_state_ += dt;
+  if (state_ == State::ramp && in_state_ >= settings_.ramp_time) state_ = State::running;
+  const Vec3 force = bound(force_, wanted, dt, flags);
+  if (state_ == State::fading && left() <= 0) {
+    restart();
+  } else if (state_ == State::waiting && wanted.norm() < settings_.small_force) {
+    state_ = State::ramp;
+    in_state_ = 0;
+  }
+  return force;
+}
+
+Vec3 ForceLimit::apply_torque(const Vec3& wanted, double dt, std::uint32_t& flags) BURR_RT {
+  if (lever_ <= 0) return Vec3::Zero();
+  if (!wanted.allFinite()) fault(kFlagNotFinite, flags);
+  if (state_ == State::ramp && in_state_ <= 0) return Vec3::Zero();  // from the next tick on
+  return lever_ * bound(torque_, wanted / lever_, dt, flags);
 }
 
 }  // namespace burr::haptics

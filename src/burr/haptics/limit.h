@@ -8,6 +8,9 @@
 // detection; the way back is always waiting and the start ramp. Nothing here repeats a last force
 // or drops it at once on its own.
 //
+// A torque is bounded as the force is, in the same proportion to what the device can: in half the
+// user's force there is half the torque, and one grows as fast as the other.
+//
 // Thread: servo. Frame: any one. Units: SI. Memory: none.
 #pragma once
 
@@ -38,6 +41,10 @@ class ForceLimit {
   // `flags` (contact.h).
   [[nodiscard]] math::Vec3 apply(const math::Vec3& wanted, double dt, std::uint32_t& flags) BURR_RT;
 
+  // The torque of the same tick, after apply(); none where the device has none [N m].
+  [[nodiscard]] math::Vec3 apply_torque(const math::Vec3& wanted, double dt,
+                                        std::uint32_t& flags) BURR_RT;
+
   // Judges the hand's reading before touch uses it: false, and the force starts to fade, if it is
   // lost, not finite, or leapt. The first reading after a fault or start is always a beginning,
   // never a leap.
@@ -57,19 +64,27 @@ class ForceLimit {
     return state_ == State::ramp || state_ == State::running;
   }
   [[nodiscard]] double heat() const BURR_RT {
-    return heat_;
+    return force_.heat;
   }  // of the motors above what is bearable  [N^2 s]
 
  private:
   enum class State { waiting, ramp, running, fading };
 
+  // What goes to one set of motors [N].
+  struct Channel {
+    math::Vec3 sent = math::Vec3::Zero(), fading_from = math::Vec3::Zero();
+    double heat = 0;  // [N^2 s]
+  };
+  [[nodiscard]] double left() const BURR_RT;  // of what fades, 1..0
+  [[nodiscard]] math::Vec3 bound(Channel& channel, const math::Vec3& wanted, double dt,
+                                 std::uint32_t& flags) const BURR_RT;
+
   device::DeviceSpec device_;
   LimitSettings settings_;
+  double lever_ = 0;  // a torque over it is counted as a force                             [m]
   State state_ = State::waiting;
-  math::Vec3 sent_ = math::Vec3::Zero();
-  math::Vec3 fading_from_ = math::Vec3::Zero();
   double in_state_ = 0;  // [s]
-  double heat_ = 0;
+  Channel force_, torque_;
   math::Vec3 last_hand_ = math::Vec3::Zero();
   bool has_last_hand_ = false;
 };

@@ -1,7 +1,9 @@
 // record/tick_hash.h - one number for what a tick read and what came of it; a replay compares it.
 //
 // Chained: `before` is the hash of the tick before, so the last one stands for the whole session.
-// Times (took_us, late_us) are left out, they differ from run to run. Allocation-free.
+// Times (took_us, late_us) are left out, they differ from run to run; a torque of zero as well, so
+// that recordings from before there was one keep their hashes.
+// Allocation-free.
 #pragma once
 
 #include <bit>
@@ -33,6 +35,7 @@ namespace burr::record {
   add3(row.contact.proxy);
   add3(row.contact.normal);
   add3(row.contact.force);
+  if (row.contact.torque != math::Vec3::Zero()) add3(row.contact.torque);
   add(row.contact.depth);
   bits(static_cast<std::uint64_t>(row.contact.active));
   bits(static_cast<std::uint64_t>(row.contact.candidates));

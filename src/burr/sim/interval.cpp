@@ -33,6 +33,7 @@ class LentHand final : public device::Device {
     read_ = true;
     return now;
   }
+  void write_torque(const Vec3& torque) BURR_RT override { hand_.write_torque(torque); }
   void write_force(const Vec3& force) BURR_RT override {
     hand_.write_force(force);
     // not the fade at the end, which follows no reading; room was taken before it began
@@ -42,6 +43,10 @@ class LentHand final : public device::Device {
     felt_.force.push_back(force);
   }
   void hold(double scale) BURR_RT override { hand_.hold(scale); }
+  [[nodiscard]] rt::TickClock* clock(double rate_hz) override { return hand_.clock(rate_hz); }
+  [[nodiscard]] std::int64_t arrived_ns() const BURR_RT override { return hand_.arrived_ns(); }
+  [[nodiscard]] bool account(device::LinkAccount& newest) override { return hand_.account(newest); }
+  [[nodiscard]] std::string trouble() const override { return hand_.trouble(); }
   [[nodiscard]] bool finished() const BURR_RT override { return hand_.finished(); }
 
  private:
@@ -62,6 +67,7 @@ ServoSettings servo_of(const WallSettings& wall, const Shown& shown) {
   servo.kinetic_share = 1;
   servo.spindle_rad_s = wall.vibration_hz * 2 * std::numbers::pi;
   // in touch alone nothing cuts: its base is all there is of vibration
+  servo.torque_gain = 0;
   servo.vibration_gain = shown.vibration / haptics::VibrationSettings{}.base;
   servo.limit.user_force = wall.user_force;
   servo.undo_bricks = 64;

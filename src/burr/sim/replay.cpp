@@ -16,6 +16,9 @@ std::string difference(const record::TickRow& was, const record::TickRow& is) {
     return fmt::format("force ({:.6g}, {:.6g}, {:.6g}) N instead of ({:.6g}, {:.6g}, {:.6g}) N",
                        is.contact.force.x(), is.contact.force.y(), is.contact.force.z(),
                        was.contact.force.x(), was.contact.force.y(), was.contact.force.z());
+  if (was.contact.torque != is.contact.torque)
+    return fmt::format("torque of {:.6g} N m instead of {:.6g} N m", is.contact.torque.norm(),
+                       was.contact.torque.norm());
   if (was.contact.proxy != is.contact.proxy) return "the burr is elsewhere";
   if (was.contact.flags != is.contact.flags)
     return fmt::format("flags {:#x} instead of {:#x}", is.contact.flags, was.contact.flags);

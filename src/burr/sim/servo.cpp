@@ -96,6 +96,8 @@ const record::TickRow& Servo::tick(bool lost) BURR_RT {
   const Vec3 guarded = passive(wanted, lost || !believed);
   const Vec3 spinning = drag(guarded) + buzz();
   const Vec3 force = limit_.apply(guarded + spinning, dt_, flags);
+  const Vec3 torque = turn(believed);
+  device_.write_torque(torque);
   device_.write_force(force);
   const Vec3 touched = limit_.engaged() ? Vec3(force - spinning) : force;  // without the spindle
   guard_.sent(touched);
@@ -112,6 +114,7 @@ const record::TickRow& Servo::tick(bool lost) BURR_RT {
   contact.proxy = touch_.proxy;
   contact.normal = touch_.normal;
   contact.force = force;
+  contact.torque = torque;
   contact.depth = touch_.depth;
   contact.active = touch_.active;
   contact.candidates = touch_.candidates;
@@ -167,6 +170,16 @@ Vec3 Servo::buzz() BURR_RT {
   if (touch_.touching) now.normal = touch_.normal;
   now.cutting_force = last_push_;
   return vibration_.step(now, dt_);
+}
+
+// What the motor's torque does to the handpiece (tool/spindle.h), where the device can turn the
+// hand: as the tip is where the device pushes, the force itself has no lever.
+Vec3 Servo::turn(bool believed) BURR_RT {
+  if (device_.spec().peak_torque <= 0) return Vec3::Zero();
+  const Vec3 axis = hand_.world_from_tool.q * Vec3::UnitZ();
+  const Vec3 wanted =
+      believed ? Vec3(settings_.torque_gain * spindle_.reaction() * axis) : Vec3(Vec3::Zero());
+  return limit_.apply_torque(wanted, dt_, row_.contact.flags);
 }
 
 // What the bone pulls at the burr along its surface. Pressing and being dragged aside feed each

@@ -58,6 +58,7 @@ struct ServoSettings {
   double drag_gain = 1;        // of the bone's drag on the turning burr in the hand
   double drag_hz = 5;          // it follows no faster, first order: see docs/decisions.md
   double vibration_gain = 0;   // of the spindle in the hand: 1 as haptics/vibration.h says, 0 none
+  double torque_gain = 1;      // of the motor on the hand, where the device can turn it
   haptics::LimitSettings limit;
   edit::RemovalSettings removal;
   edit::CarveSettings carve;
@@ -152,6 +153,7 @@ class Servo {
   void let_go_in_bone() BURR_RT;
   [[nodiscard]] math::Vec3 passive(const math::Vec3& wanted, bool begins_anew) BURR_RT;
   [[nodiscard]] math::Vec3 buzz() BURR_RT;
+  [[nodiscard]] math::Vec3 turn(bool believed) BURR_RT;
   [[nodiscard]] math::Vec3 drag(const math::Vec3& touched) BURR_RT;
   [[nodiscard]] const volume::Tissue& touched_tissue() const BURR_RT;
   void choose_friction() BURR_RT;

@@ -100,7 +100,7 @@ void Session::loop(std::uint64_t ticks) {
   LoadSettings load = settings_.load;
   load.first_in_line = load.first_in_line || rt::goes_first();
   LoadGovernor governor(clock.period_ns(), load);
-  math::Vec3 last_force = math::Vec3::Zero();
+  math::Vec3 last_force = math::Vec3::Zero(), last_torque = math::Vec3::Zero();
 
   for (std::uint64_t n = 0;
        n < ticks && !stop_.load(std::memory_order_relaxed) && !device_->finished(); ++n) {
@@ -131,6 +131,7 @@ void Session::loop(std::uint64_t ticks) {
       load_.store(governor.load(), std::memory_order_relaxed);
     }
     last_force = row.contact.force;
+    last_torque = row.contact.torque;
     const double force = last_force.norm();
     peak_force_ = std::max(peak_force_, force);
     if (row.contact.touching) {
@@ -147,7 +148,9 @@ void Session::loop(std::uint64_t ticks) {
   const auto fade = static_cast<int>(std::ceil(5e-3 * settings_.servo.rate_hz));
   for (int n = 1; n <= fade; ++n) {
     static_cast<void>(clock.wait());
-    device_->write_force(last_force * (1 - static_cast<double>(n) / fade));
+    const double left = 1 - static_cast<double>(n) / fade;
+    device_->write_torque(last_torque * left);
+    device_->write_force(last_force * left);
   }
   while (recorder_ != nullptr && servo_->bricks_to_write() > 0) {  // what the diary is still owed
     servo_->flush_bricks();

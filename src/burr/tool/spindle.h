@@ -8,6 +8,10 @@
 // it exceeds the motor's, the burr stands. Within a tick all are constant, so the step is exact and
 // stable however short J/K is.
 //
+// What the motor gives to the burr it takes from the handpiece: the hand feels
+//     tau_m - b w = tau_cut + J dw/dt        [N m]    about the shaft,
+// the drill that twists as it starts and as it bites, and nothing while it idles.
+//
 // Speeds are signed: above 0 the burr turns clockwise seen from the hand, as drills do; below 0 it
 // turns backwards. Units: SI. Thread: servo. Memory: none.
 #pragma once
@@ -38,10 +42,12 @@ class Spindle {
     stalled_ = false;
     if (!(motor.torque > 0) || !(motor.inertia > 0)) {  // no motor: as commanded
       speed_ = set;
+      reaction_ = std::copysign(cutting, set);
       return;
     }
     const double steep = motor.torque / std::max(std::abs(full_speed) * motor.droop, 1.0);
     const double driven = std::clamp(steep * (set - speed_), -motor.torque, motor.torque);
+    reaction_ = driven - motor.friction * speed_;
     // which way it turns, or would; from standing the bone holds it until the motor is stronger
     const double way = speed_ != 0 ? std::copysign(1.0, speed_) : std::copysign(1.0, driven);
     if (speed_ == 0 && std::abs(driven) <= cutting) {
@@ -63,10 +69,14 @@ class Spindle {
   }
 
   [[nodiscard]] double speed() const BURR_RT { return speed_; }  // [rad/s]
+  // On the handpiece, as the tick began; positive turns it anticlockwise seen from the hand, about
+  // +z of the tool. At most the motor's torque and its friction [N m]
+  [[nodiscard]] double reaction() const BURR_RT { return reaction_; }
   [[nodiscard]] bool stalled() const BURR_RT { return stalled_; }
 
  private:
   double speed_ = 0;
+  double reaction_ = 0;
   bool stalled_ = false;
 };
 

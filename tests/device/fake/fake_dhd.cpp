@@ -77,7 +77,9 @@ int close_id(int id) {
   FakeArm* arm = open_one(id, "closed what was not open");
   if (arm == nullptr) return fail(15);
   if (arm->present && arm->force_on) misuse("closed with its forces on");
-  if (arm->present && !arm->forces.empty() && arm->forces.back().newton != std::array<double, 3>{})
+  if (arm->present && !arm->forces.empty() &&
+      (arm->forces.back().newton != std::array<double, 3>{} ||
+       arm->forces.back().newton_metre != std::array<double, 3>{}))
     misuse("closed while it pushed");
   arm->open = arm->force_on = arm->gravity = false;
   ++arm->closed;
@@ -113,7 +115,14 @@ int read_place(FakeArm& arm, double* x, double* y, double* z) {
   return arm.code;
 }
 
-[[maybe_unused]] void put(FakeArm& arm, double x, double y, double z) {
+[[maybe_unused]] void put(FakeArm& arm, double x, double y, double z,
+                          const std::array<double, 3>& torque) {
+  const double twist =
+      std::sqrt(torque[0] * torque[0] + torque[1] * torque[1] + torque[2] * torque[2]);
+  if (!std::isfinite(twist)) misuse("a torque that is no number");
+  if (twist > 0 && !arm.active_wrist) misuse("a torque on a wrist without motors");
+  if (twist > 0 && (!arm.force_on || arm.regulates)) misuse("a torque while forces are off");
+  if (!(twist <= arm.largest_torque)) arm.largest_torque = twist;
   const double size = std::sqrt(x * x + y * y + z * z);
   if (!std::isfinite(size)) misuse("a force that is no number");
   if (size > 0 && !arm.force_on) misuse("a force while forces are off");
@@ -121,7 +130,7 @@ int read_place(FakeArm& arm, double* x, double* y, double* z) {
   if (!(size <= arm.largest_force)) arm.largest_force = size;
   if (arm.forces.capacity() < 8192) arm.forces.reserve(8192);
   if (arm.forces.size() >= 8192) arm.forces.erase(arm.forces.begin(), arm.forces.begin() + 4096);
-  arm.forces.push_back({{x, y, z}, now_ns()});
+  arm.forces.push_back({{x, y, z}, torque, now_ns()});
   ++arm.writes;
 }
 
@@ -162,6 +171,12 @@ DHD bool dhdHasWrist(char id) {
   const Lock lock(state().lock);
   const FakeArm* arm = open_one(id, "asked what is not open");
   return arm != nullptr && arm->wrist;
+}
+
+DHD bool dhdHasActiveWrist(char id) {
+  const Lock lock(state().lock);
+  const FakeArm* arm = open_one(id, "asked what is not open");
+  return arm != nullptr && arm->active_wrist;
 }
 
 DHD bool dhdHasGripper(char id) {
@@ -231,10 +246,10 @@ DHD int dhdSetForceAndTorqueAndGripperForce(double x, double y, double z, double
     const Lock lock(state().lock);
     FakeArm* arm = open_one(id, "force on what is not open");
     if (arm == nullptr) return fail(15);
-    if (a != 0 || b != 0 || c != 0 || grip != 0) misuse("a torque that nobody computed");
+    if (grip != 0) misuse("a force on the gripper that nobody computed");
     if (!arm->present) return fail(2);
     if (arm->write_error != 0) return fail(arm->write_error);
-    put(*arm, x, y, z);
+    put(*arm, x, y, z, {a, b, c});
     code = arm->code;
     if (arm->rate > 0) {
       const std::int64_t now = now_ns();
@@ -301,6 +316,15 @@ DHD int dhdSetMaxForce(double newton, char id) {
   if (arm == nullptr) return fail(15);
   if (arm->force_on && arm->homed == 0) misuse("the largest force, once forces are on");
   arm->most_force = newton;
+  return done(*arm);
+}
+
+DHD int dhdSetMaxTorque(double newton_metre, char id) {
+  const Lock lock(state().lock);
+  FakeArm* arm = open_one(id, "asked what is not open");
+  if (arm == nullptr) return fail(15);
+  if (arm->force_on && arm->homed == 0) misuse("the largest torque, once forces are on");
+  arm->most_torque = newton_metre;
   return done(*arm);
 }
 #endif

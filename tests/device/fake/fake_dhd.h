@@ -28,7 +28,7 @@ class FakeLock {
 };
 
 struct FakeForce {
-  std::array<double, 3> newton{};
+  std::array<double, 3> newton{}, newton_metre{};
   std::int64_t ns = 0;  // of CLOCK_MONOTONIC
 };
 
@@ -38,6 +38,7 @@ struct FakeArm {
   std::string name = "omega.6";
   unsigned short serial = 1001;
   bool present = true, in_use = false, left = false, wrist = true, gripper = false;
+  bool active_wrist = false;  // with motors
   bool initialized = true, can_home = true;
   int homes_after = -1;  // homing ends once that other arm pushes no more; -1: at once
   // what its hand does
@@ -56,9 +57,9 @@ struct FakeArm {
   bool tells = true;  // what GetStatus() fills in; false: all zero
   // what was told
   bool open = false, force_on = false, gravity = false, regulates = false;
-  double most_force = -1;         // SetMaxForce()
-  std::vector<FakeForce> forces;  // newest last; the newest 4096
-  double largest_force = 0;       // of all
+  double most_force = -1, most_torque = -1;      // SetMaxForce(), SetMaxTorque()
+  std::vector<FakeForce> forces;                 // newest last; the newest 4096
+  double largest_force = 0, largest_torque = 0;  // of all
   std::uint64_t writes = 0, reads = 0, opened = 0, closed = 0, homed = 0, asked = 0;
   std::int64_t next_ns = 0;  // when the frame after this one is due
 };

@@ -234,6 +234,8 @@ HD void hdGetIntegerv(unsigned what, int* out) {
     *out = touch->buttons;
   else if (what == 0x2600)
     *out = 1000;
+  else if (what == 0x2554 && touch->output_dof > 0)
+    *out = touch->output_dof;
   else
     errors.push_back(0x0100);
 }
@@ -243,6 +245,13 @@ HD void hdSetDoublev(unsigned what, const double* value) {
   FakeTouch* touch = framed("force without a device");
   if (touch == nullptr) return;
   if (!in_frame) return misuse("force outside a frame");
+  if (what == 0x2701) {
+    if (touch->output_dof != 6) misuse("a torque on a device that has none");
+    ++touch->torques;
+    if (!touch->takes_torque) return errors.push_back(0x0100);
+    std::copy_n(value, 3, touch->torque.begin());
+    return;
+  }
   if (what != 0x2700) return errors.push_back(0x0100);
   if (touch->forces.empty()) return misuse("force before a frame");
   std::copy_n(value, 3, touch->forces.back().begin());

@@ -20,12 +20,16 @@ struct FakeTouch {
   std::array<double, 16> transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // mm
   std::array<double, 3> velocity{};                                                     // mm/s
   int buttons = 0;
+  int output_dof = 3;        // -1: it does not know
+  bool takes_torque = true;  // of six
   unsigned calibration = 0x5000, style = 2;
   unsigned frame_error = 0;  // of every frame from now on
   bool force_on = false, open = false;
   // what was told
   std::vector<std::array<double, 3>> forces;  // of each frame, newest last; the newest 4096
   double largest_force = 0;                   // of all frames
+  std::array<double, 3> torque{};             // told last [mN m]
+  int torques = 0;                            // how often
   std::uint64_t frames = 0, opened = 0, closed = 0;
   std::uint64_t first_frame = 0;  // since it was opened last
 };

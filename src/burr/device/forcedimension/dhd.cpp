@@ -50,6 +50,8 @@ const char* find_all(void* library, Dhd& dhd) {
   BURR_OR_NONE(GetSystemName);
   BURR_OR_NONE(GetStatus);
   BURR_OR_NONE(SetMaxForce);
+  BURR_OR_NONE(SetMaxTorque);
+  BURR_OR_NONE(HasActiveWrist);
   BURR_OR_NONE(GetGripperAngleRad);
   BURR_OR_NONE(GetGripperGap);
 #undef BURR_NEEDED

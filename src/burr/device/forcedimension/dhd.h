@@ -67,6 +67,8 @@ struct Dhd {
   const char* (*GetSystemName)(char id);
   int (*GetStatus)(int* status, char id);
   int (*SetMaxForce)(double newton, char id);
+  int (*SetMaxTorque)(double newton_metre, char id);
+  bool (*HasActiveWrist)(char id);
   int (*GetGripperAngleRad)(double* angle, char id);
   int (*GetGripperGap)(double* metres, char id);
 

@@ -29,6 +29,7 @@ struct Model {
   const char* name;
   double peak, continuous, stiffness, damping, radius;
 };
+constexpr double kTorque = 0.2;  // of a wrist with motors; the table's, of the sigma.7       [N m]
 constexpr Model kModels[] = {
     {33, "omega.3", 12, 12, 5000, 30, 75e-3},    {34, "omega.6", 12, 12, 5000, 30, 75e-3},
     {36, "omega.6", 12, 12, 5000, 30, 75e-3},    {35, "omega.7", 12, 12, 5000, 30, 75e-3},
@@ -203,6 +204,8 @@ Status Omega::home() {
 Status Omega::prepare(const DeviceSpec& spec) {
   to_ = static_cast<char>(id_);
   peak_ = spec.peak_force;
+  peak_torque_ = spec.peak_torque;
+  torque_ = Vec3::Zero();
   wrist_ = dhd_->HasWrist(to_);
   gripper_ = nullptr;
   if (dhd_->HasGripper(to_)) {
@@ -219,6 +222,8 @@ Status Omega::prepare(const DeviceSpec& spec) {
 
   // write() bounds as well; models without either go on
   if (dhd_->SetMaxForce != nullptr) static_cast<void>(dhd_->SetMaxForce(peak_, to_));
+  if (dhd_->SetMaxTorque != nullptr && peak_torque_ > 0)
+    static_cast<void>(dhd_->SetMaxTorque(peak_torque_, to_));
   static_cast<void>(dhd_->SetGravityCompensation(1, to_));
   static_cast<void>(dhd_->SetForceAndTorqueAndGripperForce(0, 0, 0, 0, 0, 0, 0, to_));
   if (failed(dhd_->EnableForce(1, to_)))
@@ -238,7 +243,10 @@ DeviceSpec Omega::describe() const {
   spec.serial = serial >= 0 ? std::to_string(serial) : "";
   spec.simulated = false;
   spec.sensed = dhd_->HasWrist(id) ? 6 : 3;
-  spec.actuated = 3;
+  const bool turns =
+      spec.sensed == 6 && dhd_->HasActiveWrist != nullptr && dhd_->HasActiveWrist(id);
+  spec.actuated = turns ? 6 : 3;
+  spec.peak_torque = turns ? kTorque : 0;
   spec.peak_force = model.peak;
   spec.continuous_force = model.continuous;
   spec.thermal_budget = 5 * model.peak * model.peak;
@@ -359,8 +367,9 @@ Wire::Read Omega::read(HandState& hand) BURR_RT {
 
 bool Omega::write(const Vec3& force) BURR_RT {
   const Vec3 push = off_ ? Vec3(Vec3::Zero()) : bounded(force, peak_);
-  const int code =
-      dhd_->SetForceAndTorqueAndGripperForce(push.z(), push.x(), push.y(), 0, 0, 0, 0, to_);
+  const Vec3 turn = off_ ? Vec3(Vec3::Zero()) : bounded(torque_, peak_torque_);
+  const int code = dhd_->SetForceAndTorqueAndGripperForce(push.z(), push.x(), push.y(), turn.z(),
+                                                          turn.x(), turn.y(), 0, to_);
   // however long it lasts, it is not opened anew: that would switch on what the user switched off
   if (failed(code)) return bear(write_trouble_);
   note(write_trouble_, nullptr);

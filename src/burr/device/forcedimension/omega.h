@@ -40,6 +40,7 @@ class Omega final : public Wire {
 
   [[nodiscard]] Result<DeviceSpec> connect() override;
   [[nodiscard]] Read read(HandState& hand) BURR_RT override;
+  void write_torque(const math::Vec3& torque) BURR_RT override { torque_ = torque; }
   [[nodiscard]] bool write(const math::Vec3& force) BURR_RT override;
   void disconnect() override;
   [[nodiscard]] std::string why() const override;
@@ -66,7 +67,8 @@ class Omega final : public Wire {
   bool was_ready_ = false;
   std::string name_ = "the Force Dimension device";
   bool wrist_ = false;
-  double peak_ = 0;
+  double peak_ = 0, peak_torque_ = 0;
+  math::Vec3 torque_ = math::Vec3::Zero();
 
   // the wire's own
   char to_ = 0;

@@ -32,10 +32,12 @@ enum : Code {
   kVersion = 0x2500,
   kModel = 0x2501,
   kSerial = 0x2504,
+  kOutputDof = 0x2554,          // int
   kUpdateRate = 0x2600,         // int, Hz
   kNominalForce = 0x2603,       // double, N
   kNominalContinuous = 0x2604,  // double, N
   kForce = 0x2700,              // 3 double, N
+  kTorque = 0x2701,             // 3 double, mN m; only with six degrees of freedom
   kForceOutput = 0x4000,
   kCalibrationOk = 0x5000,
   kCalibrationUpdate = 0x5001,
@@ -87,5 +89,8 @@ struct Hd {
 
 // Only the force was refused or cut, by the device itself; the reading is good.
 [[nodiscard]] constexpr bool is_about_force(Code code) { return code >> 8 == 0x02; }
+
+// A call that this library or device does not know.
+[[nodiscard]] constexpr bool is_refused(Code code) { return code >> 8 == 0x01; }
 
 }  // namespace burr::device::openhaptics

@@ -9,6 +9,8 @@
 #include <thread>
 #include <utility>
 
+#include "burr/device/bounded.h"
+
 namespace burr::device::openhaptics {
 namespace {
 
@@ -21,6 +23,7 @@ constexpr std::int64_t kSilentNs = 1'000'000'000;  // likewise without a call
 constexpr int kCalibrationEvery = 100;             // frames between two looks while it is missing
 constexpr int kWarmFrames = 1000;                  // for which the word about warm motors stays
 constexpr double kFarthest = 1.0;                  // no arm is longer  [m]
+constexpr double kPremiumTorque = 0.188;           // chai3d's table  [N m]
 constexpr auto kKeep = std::chrono::milliseconds(500);
 constexpr auto kLook = std::chrono::milliseconds(5);
 
@@ -101,6 +104,9 @@ Result<DeviceSpec> Touch::start() {
   }
   hd_->MakeCurrentDevice(handle_);
   DeviceSpec spec = describe();
+  peak_ = spec.peak_force;
+  peak_torque_ = spec.peak_torque;
+  turns_ = peak_torque_ > 0;
   hd_->Enable(kForceOutput);
   trouble_ = kNoError;
   bad_frames_ = 0;
@@ -135,6 +141,7 @@ void Touch::end() {
 
 // From the table, and never more than the device itself says.
 DeviceSpec Touch::describe() const {
+  const int axes = pushes();  // first: an error then is its own
   const std::string model = string_of(*hd_, kModel);
   const Model* known = &kWeakest;
   for (const Model& one : kModels)
@@ -152,7 +159,8 @@ DeviceSpec Touch::describe() const {
   spec.serial = string_of(*hd_, kSerial);
   spec.simulated = false;
   spec.sensed = 6;
-  spec.actuated = 3;
+  spec.actuated = axes;
+  spec.peak_torque = spec.actuated == 6 ? kPremiumTorque : 0;
   spec.peak_force = at_most(kNominalForce, known->peak);
   spec.continuous_force = std::min(spec.peak_force, at_most(kNominalContinuous, known->continuous));
   spec.thermal_budget = 5 * spec.peak_force * spec.peak_force;
@@ -164,6 +172,14 @@ DeviceSpec Touch::describe() const {
   hd_->GetIntegerv(kUpdateRate, &rate);
   spec.native_rate = rate >= 500 && rate <= 10'000 ? rate : 1000;
   return spec;
+}
+
+// Degrees of freedom with motors. One that cannot say has three.
+int Touch::pushes() const {
+  int said = 0;
+  hd_->GetIntegerv(kOutputDof, &said);
+  const bool knows = hd_->GetError().code == kNoError;
+  return knows && said == 6 ? 6 : 3;
 }
 
 // Twice a second: is it still there? What was lost is opened anew.
@@ -251,14 +267,22 @@ void Touch::exchange() BURR_RT {
   const bool believed = read(hand);
   const bool ready = calibration_.load(std::memory_order_relaxed) == kCalibrationOk;
   hand.valid = believed && ready && bad_frames_.load(std::memory_order_relaxed) == 0;
-  const Vec3 force = link_.exchange(hand);
+  const Vec3 force = bounded(link_.exchange(hand), peak_);
   hd_->SetDoublev(kForce, force.data());
+  if (turns_) {
+    const Vec3 torque = 1e3 * bounded(link_.torque(), peak_torque_);
+    hd_->SetDoublev(kTorque, torque.data());
+  }
   hd_->EndFrame(handle_);
 
   Code worst = kNoError;
   for (int n = 0; n < kMostOldErrors; ++n) {
     const Code code = hd_->GetError().code;
     if (code == kNoError) break;
+    if (turns_ && is_refused(code)) {  // it takes no torque after all
+      turns_ = false;
+      continue;
+    }
     if (worst == kNoError || worst == kWarmMotors) worst = code;
   }
   note(worst);

@@ -39,6 +39,7 @@ class Touch final : public LinkedDevice {
   Result<DeviceSpec> start();
   void end();
   [[nodiscard]] DeviceSpec describe() const;
+  [[nodiscard]] int pushes() const;
   void calibrate() BURR_RT;
   void note(Code code) BURR_RT;
   [[nodiscard]] bool read(HandState& hand) BURR_RT;
@@ -63,6 +64,8 @@ class Touch final : public LinkedDevice {
   // the callback's own
   std::uint64_t frames_ = 0;
   int warm_frames_ = 0;
+  double peak_ = 0, peak_torque_ = 0;  // [N], [N m]
+  bool turns_ = false;                 // it takes torque
 };
 
 }  // namespace burr::device::openhaptics
