@@ -29,7 +29,7 @@ struct PeopleRun {
   sim::WallSettings wall;
   double seconds = 3;  // of an interval, at most
   std::string device = "simulated", subject;
-  std::string device_id = {};  // name and serial number of a real one
+  std::string device_id = {};            // name and serial number of a real one
   std::optional<ObserverWish> observer;  // none: a person answers
 };
 
