@@ -60,7 +60,7 @@ TEST_F(LeaderTest, SaysWhatItIsAndSetsTheArmUp) {
   EXPECT_EQ(hand->spec().serial, "/arm");
   EXPECT_EQ(hand->spec().sensed, 6);
   EXPECT_EQ(hand->spec().peak_force, 3);
-  EXPECT_EQ(hand->spec().loss_timeout, 5e-3);
+  EXPECT_EQ(hand->spec().loss_timeout, test::kStallsAllowed) << "as its link was told";
   EXPECT_TRUE(soon([&] { return arm.with([](Wishes& w) { return w.weightless && !w.absolute; }); }))
       << "its weight is carried, and forces are as its end is turned";
   EXPECT_EQ(hand->trouble(), "");

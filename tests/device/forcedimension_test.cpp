@@ -178,7 +178,6 @@ TEST_F(OmegaTest, SaysWhatItIsAndWhatItCanBear) {
     EXPECT_EQ(spec->actuated, 3);
     EXPECT_EQ(spec->peak_torque, 0);
     EXPECT_EQ(spec->native_rate, 1000);
-    EXPECT_EQ(spec->loss_timeout, 5e-3);
     EXPECT_FALSE(spec->simulated);
     EXPECT_EQ(of([](const test::FakeArm& arm) { return arm.most_force; }), one.peak)
         << "the library bounds it as well";

@@ -81,6 +81,13 @@ class StandIn {
   std::thread thread_;
 };
 
+// Forces that go over a real wire: a sanitizer makes each slow.
+#if defined(BURR_SANITIZED)
+inline constexpr int kForcesOnAWire = 50'000;
+#else
+inline constexpr int kForcesOnAWire = 1'000'000;
+#endif
+
 // Descriptors of this process.
 [[nodiscard]] inline int open_files() {
   int count = 0;

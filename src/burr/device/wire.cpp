@@ -24,13 +24,14 @@ bool exchange(Wire& wire, Link& link) BURR_RT {
 }
 
 WireDevice::WireDevice(std::unique_ptr<Wire> wire, const LinkSettings& settings)
-    : LinkedDevice(settings), wire_(std::move(wire)) {}
+    : LinkedDevice(settings), wire_(std::move(wire)), timeout_(settings.loss_timeout) {}
 
 Status WireDevice::open() {
   close();
   auto found = wire_->connect();
   if (!found) return found.error();
   spec_ = std::move(*found);
+  spec_.loss_timeout = timeout_;
   stop_ = false;
   say({});
   thread_ = std::make_unique<rt::Thread>(

@@ -35,8 +35,8 @@ class Wire {
   Wire& operator=(const Wire&) = delete;
   virtual ~Wire() = default;
 
-  // Finds the device and makes it ready, motors without force. May take its time. The same device
-  // again after it was lost.
+  // Finds the device and makes it ready, motors without force. loss_timeout is the link's to say.
+  // May take its time. The same device again after it was lost.
   [[nodiscard]] virtual Result<DeviceSpec> connect() = 0;
   // Waits for the next reading, for some milliseconds at most; in metres, in the device's own frame
   // as the driver's header states it.
@@ -75,6 +75,7 @@ class WireDevice final : public LinkedDevice {
   void say(std::string trouble);
 
   std::unique_ptr<Wire> wire_;
+  double timeout_;  // of its link [s]
   std::unique_ptr<rt::Thread> thread_;
   std::atomic<bool> stop_ = false;
   std::atomic<int> returns_ = 0;

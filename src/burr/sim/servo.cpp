@@ -175,7 +175,6 @@ Vec3 Servo::buzz() BURR_RT {
 // What the motor's torque does to the handpiece (tool/spindle.h), where the device can turn the
 // hand: as the tip is where the device pushes, the force itself has no lever.
 Vec3 Servo::turn(bool believed) BURR_RT {
-  if (device_.spec().peak_torque <= 0) return Vec3::Zero();
   const Vec3 axis = hand_.world_from_tool.q * Vec3::UnitZ();
   const Vec3 wanted =
       believed ? Vec3(settings_.torque_gain * spindle_.reaction() * axis) : Vec3(Vec3::Zero());

@@ -254,7 +254,6 @@ DeviceSpec Omega::describe() const {
   spec.max_damping = model.damping;
   spec.workspace_radius = model.radius;
   spec.native_rate = settings_.rate;
-  spec.loss_timeout = 5e-3;
   return spec;
 }
 

@@ -302,7 +302,6 @@ Result<DeviceSpec> Inverse::connect() {
   spec.max_damping = model.damping;
   spec.workspace_radius = model.radius;
   spec.native_rate = 1000;
-  spec.loss_timeout = 5e-3;
   return spec;
 }
 

@@ -160,7 +160,6 @@ Result<DeviceSpec> Polhem::connect() {
   spec.max_damping = kDamping;
   spec.workspace_radius = kRadius;
   spec.native_rate = 1000;
-  spec.loss_timeout = 5e-3;
   return spec;
 }
 
