@@ -276,8 +276,17 @@ TEST_F(Rules, WhatCannotBeIsSaidAndNothingIsLost) {
   std::ofstream(udev_file(system_).parent_path()) << "a file where a folder should be\n";
   const auto nowhere = write_rules(system_, yes);
   ASSERT_FALSE(nowhere.ok());
-  EXPECT_NE(nowhere.error().text.find("sudo burr doctor --fix"), std::string::npos)
-      << nowhere.error().text;
+  EXPECT_NE(nowhere.error().text.find("cannot be made"), std::string::npos) << nowhere.error().text;
+  EXPECT_EQ(nowhere.error().text.find("sudo burr doctor --fix") != std::string::npos,
+            geteuid() != 0);
+}
+
+TEST_F(Rules, WithoutUdevTheyWaitForIt) {
+  fs::remove_all(udev_file(system_).parent_path().parent_path());
+  const auto written = write_rules(system_, yes);
+  ASSERT_TRUE(written.ok()) << written.error().text;
+  EXPECT_NE(written->find("apt install udev"), std::string::npos) << *written;
+  EXPECT_EQ(held(udev_file(system_)), udev_rules());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "doctor/fix.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -53,13 +54,22 @@ Result<std::string> write_rules(const System& system,
   }
   const auto cannot = [](const std::string& why) {
     return error(Trouble::io,
-                 fmt::format("{}; run it as root: sudo burr doctor --fix --seconds 0", why));
+                 geteuid() == 0
+                     ? why
+                     : fmt::format("{}; run it as root: sudo burr doctor --fix --seconds 0", why));
   };
+  // without udev there is no folder yet; the rule waits there for it
+  const bool no_udev = fs::create_directories(file.parent_path(), trouble);
+  if (trouble)
+    return cannot(fmt::format("{}: the folder cannot be made ({})", file.parent_path().string(),
+                              trouble.message()));
   auto out = base::NewFile::beside(file.string());
   if (!out) return cannot(out.error().text);
   out->write(rules);
   const Status put = out->put_in_place();
   if (!put) return cannot(put.error().text);
+  if (no_udev)
+    return said + "written, but udev, which reads it, is not on this computer: apt install udev";
   return said +
          "written. Now: udevadm control --reload && udevadm trigger, then plug the device in again";
 }
