@@ -200,13 +200,14 @@ TEST(LinkClock, BeginsWithTheReadingAndCountsWhatDidNotCome) {
   }
 }
 
-// At 4 kHz every fourth begins a tick, at 1.05 kHz each.
+// More readings than ticks: a second of ticks is a second, each as long after the one before as
+// readings allow. One each, a little too fast: all are taken.
 TEST(LinkClock, ADeviceThatIsFasterThanTheTickGivesItWhatItCanUse) {
-  for (const auto& [rate, each] : {std::pair{4000.0, 4}, {2000.0, 2}, {1050.0, 1}, {1000.0, 1}}) {
+  for (const double rate : {8000.0, 4300.0, 4000.0, 2000.0, 1500.0, 1200.0, 1050.0, 1000.0}) {
     Link link({.patience = 0}, &virtual_now);
     LinkClock clock(link, 1000);
     int ticks = 0;
-    constexpr int kReadings = 400;
+    constexpr int kReadings = 20'000, kKnown = 2000;
     double last = -1;
     for (int n = 0; n < kReadings; ++n) {
       at(1000 + 1e3 * n / rate);
@@ -214,14 +215,57 @@ TEST(LinkClock, ADeviceThatIsFasterThanTheTickGivesItWhatItCanUse) {
       if (!link.wait(virtual_now())) continue;
       static_cast<void>(clock.wait());
       const double x = link.state().world_from_tool.p.x();
+      if (n < kKnown) continue;
       if (last >= 0) {
-        EXPECT_EQ(x - last, each) << rate;
+        EXPECT_GE(x - last, std::floor(rate / 1000)) << rate;
+        EXPECT_LE(x - last, std::ceil(rate / 1000)) << rate;
       }
       last = x;
       ++ticks;
     }
-    EXPECT_EQ(ticks, kReadings / each) << rate;
+    const double seconds = (kReadings - kKnown) / rate;
+    EXPECT_NEAR(ticks, seconds * (rate < 1100 ? rate : 1000), 2) << rate;
   }
+}
+
+// A stall is not made up for by ticks in haste.
+TEST(LinkClock, AfterAStallItIsNoFaster) {
+  Link link({.patience = 0}, &virtual_now);
+  LinkClock clock(link, 1000);
+  int ticks = 0;
+  for (int n = 0; n < 8000; ++n) {
+    at(1000 + 0.25 * n + (n > 4000 ? 30 : 0));
+    static_cast<void>(link.exchange(hand_at(n)));
+    if (!link.wait(virtual_now())) continue;
+    static_cast<void>(clock.wait());
+    static_cast<void>(link.state());
+    ticks += n > 4001 && n <= 4400 ? 1 : 0;
+  }
+  EXPECT_NEAR(ticks, 100, 2);
+}
+
+// One reading a tick, now 0.6 ms after the one before and now 1.4: each begins one.
+TEST(LinkClock, ReadingsThatComeUnevenlyEachBeginATickOnceTheirPaceIsKnown) {
+  Link link({.patience = 0}, &virtual_now);
+  LinkClock clock(link, 1000);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uneven(-0.2, 0.2);
+  int left_out = 0;
+  for (int n = 0; n < 3000; ++n) {
+    at(1000 + n + uneven(random));
+    static_cast<void>(link.exchange(hand_at(n)));
+    if (!link.wait(virtual_now())) {
+      left_out += n >= 300 ? 1 : 0;
+      continue;
+    }
+    const rt::TickTime time = clock.wait();
+    if (n >= 301) {
+      EXPECT_EQ(time.missed, 0) << n;
+    }
+    static_cast<void>(link.state());
+  }
+  EXPECT_EQ(left_out, 0);
+  EXPECT_NEAR(1e-6 * static_cast<double>(link.reading_period_ns()), 1, 0.1);
 }
 
 TEST(LinkClock, GoesOnWithoutReadingsSoThatForceCanFade) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <ctime>
 
 #include "burr/base/check.h"
@@ -12,7 +13,9 @@ namespace {
 
 using math::Vec3;
 
-constexpr std::uint64_t kTellEvery = 256;  // readings between two accounts
+constexpr std::uint64_t kTellEvery = 256;       // readings between two accounts
+constexpr std::int64_t kMean = 64;              // readings over which their pace is seen
+constexpr std::int64_t kLongestNs = 4'000'000;  // that counts for it: a stall is no pace
 
 std::int64_t ns(double seconds) { return std::llround(1e9 * seconds); }
 
@@ -53,6 +56,7 @@ void Link::tell(const HandState& hand, std::int64_t now) BURR_RT {
 
 Vec3 Link::exchange(const HandState& hand) BURR_RT {
   const std::int64_t now = now_();
+  count_readings(now);
   if (now < begin_ns_.load(std::memory_order_relaxed)) {
     ++account_.passed_over;
     return push();
@@ -70,6 +74,15 @@ Vec3 Link::exchange(const HandState& hand) BURR_RT {
   account_.answers.add(now_() - now);
   if (++account_.readings % kTellEvery == 0) told_.publish(account_);
   return push();
+}
+
+void Link::count_readings(std::int64_t now) BURR_RT {
+  if (last_reading_ns_ != kNever) {
+    const std::int64_t mean = reading_period_ns_.load(std::memory_order_relaxed);
+    const std::int64_t since = std::min(now - last_reading_ns_, kLongestNs);
+    reading_period_ns_.store(mean + (since - mean) / kMean, std::memory_order_relaxed);
+  }
+  last_reading_ns_ = now;
 }
 
 void Link::take_answers(std::int64_t now) BURR_RT {
@@ -140,6 +153,25 @@ void Link::write_force(const Vec3& force) BURR_RT {
 
 // ---- the pace
 
+// The time from which on a reading may begin the next tick. Of a device that brings more readings
+// than ticks it is the one nearest to where the nominal rate would have it, so that a second of
+// ticks is a second. One that brings one each may bring it unevenly, and be a little faster than it
+// says; before its pace is known an eighth early is early enough for both.
+std::int64_t LinkClock::next_after(std::int64_t began) BURR_RT {
+  const std::int64_t reading = link_.reading_period_ns();
+  if (reading > period_ns_ - period_ns_ / 8) {
+    due_ns_ = began;
+    return began + period_ns_ / 2;
+  }
+  if (reading < period_ns_ / 64) {
+    due_ns_ = began;
+    return began + period_ns_ - period_ns_ / 8;
+  }
+  due_ns_ += period_ns_;
+  if (std::abs(began - due_ns_) > period_ns_) due_ns_ = began;  // after a stall, not faster
+  return due_ns_ + period_ns_ - reading / 2;
+}
+
 rt::TickTime LinkClock::wait() BURR_RT {
   const bool first = start_ns_ < 0;
   if (first) start_ns_ = last_ns_ = link_.now();
@@ -148,8 +180,7 @@ rt::TickTime LinkClock::wait() BURR_RT {
       std::max(period_ns_, link_.arrived_ns() + link_.timeout_ns() - last_ns_);
   const bool fresh = link_.wait(last_ns_ + (first ? link_.timeout_ns() : patience));
   const std::int64_t now = link_.now();
-  // a device is a little faster than it says, or brings several readings a tick
-  link_.begin_at((fresh ? link_.arrived_ns() : now) + period_ns_ - period_ns_ / 8);
+  link_.begin_at(next_after(fresh ? link_.arrived_ns() : now));
 
   rt::TickTime time;
   time.now_ns = now - start_ns_;

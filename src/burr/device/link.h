@@ -69,6 +69,11 @@ class Link {
   // The account so far, every 256 readings; false: nothing new.
   [[nodiscard]] bool account(LinkAccount& newest) { return told_.take(newest); }
 
+  // Between two readings, in the mean of some hundred; 0 at first [ns]. Any.
+  [[nodiscard]] std::int64_t reading_period_ns() const BURR_RT {
+    return reading_period_ns_.load(std::memory_order_relaxed);
+  }
+
   // ---- any
   // Multiplies what is pushed, until the next write_force().
   void hold(double scale) BURR_RT { scale_.store(scale, std::memory_order_relaxed); }
@@ -109,6 +114,7 @@ class Link {
     std::atomic<bool> struck_ = false;
   };
 
+  void count_readings(std::int64_t now) BURR_RT;
   void tell(const HandState& hand, std::int64_t now) BURR_RT;
   void take_answers(std::int64_t now) BURR_RT;
 
@@ -119,6 +125,7 @@ class Link {
   rt::Latest<Answer> answers_;
   Bell read_, answered_;
   std::atomic<std::int64_t> begin_ns_ = INT64_MIN;
+  std::atomic<std::int64_t> reading_period_ns_ = 0;
   std::atomic<double> scale_ = 1.0;
   std::atomic<bool> let_go_ = false;  // by the wire: the servo is to come down to zero
 
@@ -129,6 +136,7 @@ class Link {
   std::uint64_t number_ = 0;
   Answer answer_;
   static constexpr std::int64_t kNever = INT64_MIN;
+  std::int64_t last_reading_ns_ = kNever;
   std::int64_t answered_ns_ = kNever;
   bool fading_ = false;
   std::int64_t faded_since_ns_ = 0;
@@ -142,7 +150,8 @@ class Link {
 };
 
 // The pace of a link: a tick begins when its reading comes, and is as late as it begins after that.
-// Where none comes in time, ticks go on once a period, so that force can fade.
+// Of more readings than ticks it takes those nearest to the nominal rate. Where none comes in time,
+// ticks go on once a period, so that force can fade.
 class LinkClock final : public rt::TickClock {
  public:
   LinkClock(Link& link, double rate_hz) : link_(link), period_ns_(rt::period_from_rate(rate_hz)) {}
@@ -152,7 +161,9 @@ class LinkClock final : public rt::TickClock {
 
  private:
   Link& link_;
+  [[nodiscard]] std::int64_t next_after(std::int64_t began) BURR_RT;
   std::int64_t period_ns_, start_ns_ = -1, last_ns_ = 0;
+  std::int64_t due_ns_ = 0;  // of the last tick, at the nominal rate
 };
 
 }  // namespace burr::device
