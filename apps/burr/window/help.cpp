@@ -46,7 +46,7 @@ void pad_rows(const Ui& ui, float x, float y) {
 }  // namespace
 
 bool draw_help(Ui& ui, bool left_handed, bool& pads) {
-  const float u = ui.unit(), w = 920 * u, h = 580 * u;
+  const float u = ui.unit(), w = 920 * u, h = 612 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
   ui.page("##help", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::help_title));
@@ -66,7 +66,9 @@ bool draw_help(Ui& ui, bool left_handed, bool& pads) {
         {{mill, Word::help_mill},
          {word(Word::key_space), Word::help_hold},
          {"+  -", Word::help_push},
-         {word(Word::key_ctrl_wheel), Word::help_push}});
+         {word(Word::key_ctrl_wheel), Word::help_push},
+         {"G", Word::help_plane},
+         {word(Word::key_ctrl_arrows), Word::help_aim}});
   block(ui, x + 28 * u, left, Word::help_view,
         {{turn, Word::help_turn},
          {word(Word::key_arrows), Word::help_turn},
@@ -100,7 +102,7 @@ bool draw_help(Ui& ui, bool left_handed, bool& pads) {
          {"M", Word::help_sound},
          {"9  0", Word::help_loudness},
          {"Esc  Q", Word::help_quit}});
-  ui.write(x + 28 * u, y + h - 52 * u, Ui::Letter::body, ink::kDim, word(Word::help_ghost));
+  ui.write(x + 28 * u, y + h - 64 * u, Ui::Letter::body, ink::kDim, word(Word::help_ghost));
   ImGui::End();
   return !close;
 }

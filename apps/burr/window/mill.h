@@ -20,6 +20,7 @@
 #include "burr/render/governor.h"
 #include "burr/rt/stats.h"
 #include "window/export_page.h"
+#include "window/hand_plane.h"
 #include "window/hud.h"
 #include "window/measuring.h"
 #include "window/mirror_mode.h"
@@ -58,6 +59,7 @@ class Mill {
   // ---- mill_hand.cpp
   void take_events();
   void key(const SDL_Keysym& pressed);
+  bool aim_key(const SDL_Keysym& pressed, bool down);
   void move(const SDL_MouseMotionEvent& motion);
   void button(const SDL_MouseButtonEvent& button);
   void wheel(const SDL_MouseWheelEvent& wheel);
@@ -66,8 +68,12 @@ class Mill {
   void change_burr(int by);
   void change_speed(double by);
   void push(double factor);
+  void deepen(double steps);
+  void toggle_plane();
   void lift();
   void point();
+  void point_in_plane(const render::Ray& ray);
+  void aim_at(const math::Vec3& tip, double pedal);
   void lay_real_hand();
   void let_go(bool gone);
   void lead_suction(LiveBone& live);
@@ -169,6 +175,8 @@ class Mill {
   int mouse_x_ = 0, mouse_y_ = 0, width_ = 1, height_ = 1;
   int aim_x_ = 0, aim_y_ = 0;  // where the mouse was last that was no slice
   double press_ = 4e-3;
+  HandPlane plane_;
+  std::array<bool, 4> aim_keys_ = {};  // left, right, down, up: held
   // of pad, cap and pedal
   double depth_ = 0, foot_ = 0, slowed_ = 0;  // share of the press, of the pedal; spindle held back
   bool leads_ = false, pad_lifts_ = false, mouse_moved_ = false;

@@ -27,7 +27,8 @@ using math::Vec3;
 constexpr double kSizes[] = {0.6e-3, 0.8e-3, 1e-3, 1.5e-3, 2e-3, 2.5e-3, 3e-3, 3.5e-3,
                              4e-3,   4.5e-3, 5e-3, 5.5e-3, 6e-3, 6.5e-3, 7e-3};
 constexpr double kRpmStep = 5000, kRpmMost = 80'000;
-constexpr double kTurn = 0.006;  // of the view, by a pixel of the mouse  [rad]
+constexpr double kDeeper = 0.5e-3;  // of the plane, by a step of the wheel  [m]
+constexpr double kTurn = 0.006;     // of the view, by a pixel of the mouse  [rad]
 
 }  // namespace
 
@@ -38,9 +39,10 @@ void Mill::take_events() {
         open_ = false;
         break;
       case SDL_KEYDOWN:
-        if (!desk_.ui().typing()) key(event.key.keysym);
+        if (!desk_.ui().typing() && !aim_key(event.key.keysym, true)) key(event.key.keysym);
         break;
       case SDL_KEYUP:
+        aim_key(event.key.keysym, false);
         if (event.key.keysym.sym == SDLK_c) lifted_ = false;
         break;
       case SDL_MOUSEMOTION:
@@ -70,6 +72,22 @@ void Mill::take_events() {
       default:
         break;
     }
+}
+
+// Keys that move the hand while they are held: Ctrl and an arrow, or the keypad's. Whether this one
+// is of them.
+bool Mill::aim_key(const SDL_Keysym& pressed, bool down) {
+  constexpr SDL_Keycode kArrows[] = {SDLK_LEFT, SDLK_RIGHT, SDLK_DOWN, SDLK_UP};
+  constexpr SDL_Keycode kPad[] = {SDLK_KP_4, SDLK_KP_6, SDLK_KP_2, SDLK_KP_8};
+  const bool ctrl = (pressed.mod & KMOD_CTRL) != 0;
+  for (std::size_t n = 0; n < aim_keys_.size(); ++n) {
+    const bool arrow = pressed.sym == kArrows[n];
+    if (!arrow && pressed.sym != kPad[n]) continue;
+    if (down && ((arrow && !ctrl) || hands_.real != nullptr)) return false;
+    aim_keys_[n] = down;
+    return true;
+  }
+  return false;
 }
 
 void Mill::key(const SDL_Keysym& pressed) {
@@ -170,12 +188,28 @@ void Mill::key(const SDL_Keysym& pressed) {
     case SDLK_5:
       act(Action::smooth);
       break;
-    case SDLK_LEFTBRACKET:
+    case SDLK_g:
+      toggle_plane();
+      break;
+    case SDLK_KP_3:
+      deepen(-1);
+      break;
+    case SDLK_KP_9:
+      deepen(1);
+      break;
     case SDLK_PAGEDOWN:
+    case SDLK_PAGEUP: {
+      const bool up = pressed.sym == SDLK_PAGEUP;
+      if ((pressed.mod & KMOD_CTRL) != 0)
+        deepen(up ? 1 : -1);
+      else
+        act(up ? Action::larger : Action::smaller);
+      break;
+    }
+    case SDLK_LEFTBRACKET:
       act(Action::smaller);
       break;
     case SDLK_RIGHTBRACKET:
-    case SDLK_PAGEUP:
       act(Action::larger);
       break;
     case SDLK_COMMA:
@@ -334,10 +368,29 @@ void Mill::change_speed(double by) {
   note(say(Word::speed_now, rpm));
 }
 
+// Of a hand that follows the bone, how far it presses in; of one in its plane, where that is.
+void Mill::deepen(double steps) {
+  if (plane_.on())
+    plane_.push(kDeeper * steps, scene_.camera);
+  else
+    push(std::pow(1.1, steps));
+}
+
+// A haptic device and a wand point by themselves.
+void Mill::toggle_plane() {
+  if (hands_.real != nullptr || wand_) return;
+  if (plane_.on())
+    plane_.end();
+  else
+    plane_.begin(row_.hand.world_from_tool.p);
+  note(word(plane_.on() ? Word::plane_on : Word::plane_off));
+}
+
 void Mill::push(double factor) { press_ = std::clamp(press_ * factor, kPressLeast, kPressMost); }
 
 void Mill::lift() {
   lifted_ = false;
+  aim_keys_ = {};
   pressing_ = held_ = false;
   depth_ = foot_ = 0;
   desk_.pads.disarm();
@@ -371,12 +424,14 @@ void Mill::wheel(const SDL_MouseWheelEvent& wheel) {
   const double by =
       wheel.preciseY != 0 ? static_cast<double>(wheel.preciseY) : static_cast<double>(wheel.y);
   const SDL_Keymod held = SDL_GetModState();
-  if ((held & KMOD_CTRL) != 0)
-    push(std::pow(1.1, by));
-  else if ((held & KMOD_SHIFT) != 0 && by != 0)
-    change_burr(by > 0 ? 1 : -1);
-  else
+  const bool ctrl = (held & KMOD_CTRL) != 0;
+  if ((held & KMOD_SHIFT) != 0 && !ctrl) {
+    if (by != 0) change_burr(by > 0 ? 1 : -1);
+  } else if (plane_.on() != ctrl) {
+    deepen(by);
+  } else {
     render::zoom(scene_.camera, std::pow(1.15, by * desk_.settings.zoom_pace));
+  }
 }
 
 // by pixels of the mouse, or what an arrow counts as
@@ -412,6 +467,7 @@ void Mill::point() {
   if (SDL_Window* window = SDL_GL_GetCurrentWindow()) SDL_GetWindowSize(window, &width_, &height_);
   const render::Ray ray =
       render::ray_through(scene_.camera, aim_x_ + 0.5, aim_y_ + 0.5, width_, height_);
+  if (plane_.on()) return point_in_plane(ray);
   const auto hit = render::pick(scene_, ray);
   Vec3 surface;
   if (hit) {
@@ -430,14 +486,26 @@ void Mill::point() {
   const bool press = pressing() && hit.has_value();
   const double height = scene_.burr.radius + (press ? -depth() : kHover);
 
-  // the handle leans out of the way, to the side of the hand that holds it
+  aim_at(surface + height * normal_, press ? pedal() : 0);
+}
+
+// The hand where the mouse is, as deep as the plane; the bone holds the burr, not the hand.
+void Mill::point_in_plane(const render::Ray& ray) {
+  const Vec3 out = row_.contact.touching ? row_.contact.normal : scene_.camera.backward();
+  normal_ = (0.8 * normal_ + 0.2 * out).normalized();
+  point_ = plane_.meet(ray, scene_.camera);
+  aim_at(*point_, pressing() ? pedal() : 0);
+}
+
+// The handle leans out of the way, to the side of the hand that holds it.
+void Mill::aim_at(const Vec3& tip, double pedal) {
   const double side = desk_.settings.left_handed ? -0.7 : 0.7;
   const Vec3 handle =
       (normal_ + side * scene_.camera.right() + 0.2 * scene_.camera.above()).normalized();
   MouseHand::Aim aim;
-  aim.world_from_tool.p = surface + height * normal_;
+  aim.world_from_tool.p = tip;
   aim.world_from_tool.q = math::shortest_turn(Vec3::UnitZ(), handle);
-  aim.pedal = press ? pedal() : 0;
+  aim.pedal = pedal;
   hands_.mouse->aim(aim);
 }
 

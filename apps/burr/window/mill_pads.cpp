@@ -45,7 +45,11 @@ void Mill::take_hands() {
 
   for (const int button : cap.buttons) change_burr(button == 0 ? -1 : 1);
   const auto sum = [](double a, double b) { return std::clamp(a + b, -1.0, 1.0); };
-  move_aim(sum(pad.aim_right, cap.right), sum(pad.aim_up, cap.away), dt * settings.pad_pace);
+  const auto held = [this](std::size_t back, std::size_t on) {
+    return (aim_keys_[on] ? 1.0 : 0.0) - (aim_keys_[back] ? 1.0 : 0.0);
+  };
+  move_aim(sum(sum(pad.aim_right, cap.right), held(0, 1)),
+           sum(sum(pad.aim_up, cap.away), held(2, 3)), dt * settings.pad_pace);
   const double turn_up = pad.lifts ? 0 : pad.turn_up;
   if (pad.lifts)
     render::zoom(scene_.camera, std::exp(kZoomPace * settings.zoom_pace * pad.turn_up * dt));

@@ -77,6 +77,7 @@ void Mill::look_at_session() {
   }
   look_at_burr();
   show_mirror(scene_, session_.bone().grid(), mirror_.now());
+  plane_.show(scene_);
   nearest_.reset();
   if (options_.nearby != nullptr)
     if (auto near = options_.nearby->nearest(scene_.burr.world_from_tool.p))
@@ -147,6 +148,10 @@ HudState Mill::hud() const {
   s.pressing = hands_.real != nullptr ? row_.hand.pedal > 0
                : wand_                ? wand_at_.tracked && wand_at_.trigger > 0
                                       : pressing();
+  if (hands_.real == nullptr && !wand_ && plane_.on()) {  // there the hand itself is in the bone
+    s.press = row_.contact.touching ? row_.contact.depth : 0;
+    s.pressing = row_.contact.touching;
+  }
   s.speed = row_.spindle_rad_s;
   s.full_speed = full_speed_;
   if (settings.servo.motor.torque > 0)

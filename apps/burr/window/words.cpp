@@ -124,6 +124,13 @@ constexpr Entry kWords[] = {
     Entry{Word::help_mill, "press into the bone while held", "tryck mot benet så länge den hålls"},
     Entry{Word::help_hold, "press on and off, without holding", "tryck på och av, utan att hålla"},
     Entry{Word::help_push, "push deeper or less deep", "tryck djupare eller grundare"},
+    Entry{Word::help_plane, "the hand in a plane; the wheel: deeper",
+          "handen i ett plan; hjulet: djupare"},
+    Entry{Word::help_aim, "move the hand by keys", "flytta handen med tangenter"},
+    Entry{Word::plane_on,
+          "The hand goes in the plane that is drawn; the wheel moves that deeper, G ends it.",
+          "Handen går i planet som ritas; hjulet flyttar det djupare, G avslutar."},
+    Entry{Word::plane_off, "The hand follows the bone again.", "Handen följer benet igen."},
     Entry{Word::help_turn, "turn the bone", "vrid benet"},
     Entry{Word::help_shift, "shift it", "flytta det"},
     Entry{Word::help_zoom, "nearer, farther", "närmare, längre bort"},
@@ -174,12 +181,12 @@ constexpr Entry kWords[] = {
     Entry{Word::help_sound, "sound on, off", "ljud på, av"},
     Entry{Word::help_loudness, "quieter, louder", "tystare, högre"},
     Entry{Word::help_ghost,
-          "The blue dot is your hand: where it would be if the bone gave way. The farther it is "
-          "from\n"
-          "the burr, the harder you press; the orange arrow is the bone's force on the hand.",
-          "Den blå pricken är din hand: där den vore om benet gav vika. Ju längre från borren, "
-          "desto\n"
-          "hårdare trycker du; den orange pilen är benets kraft på handen."},
+          "The blue dot is your hand: where it would be if the bone\n"
+          "gave way. The farther it is from the burr, the harder you\n"
+          "press; the orange arrow is the bone's force on the hand.",
+          "Den blå pricken är din hand: där den vore om benet gav\n"
+          "vika. Ju längre från borren, desto hårdare trycker du;\n"
+          "den orange pilen är benets kraft på handen."},
     Entry{Word::help_pad, "Gamepad, pedal, SpaceMouse", "Handkontroll, pedal, SpaceMouse"},
     Entry{Word::pad_sticks, "move the burr over the bone; turn the view",
           "flytta borret över benet; vrid vyn"},
