@@ -349,6 +349,51 @@ TEST_F(CapWindow, MovesPressesTurnsAndChangesTheBurr) {
   EXPECT_EQ(opened_(), 0) << "left open";
 }
 
+TEST_F(CapWindow, BeforeAPlaneItIsAHandOfThreeAxes) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  sim::Session& session = *ready->session;
+  const render::Camera& camera = ready->scene.camera;
+  record::TickRow row;
+  const auto hand = [&] {
+    static_cast<void>(session.view(row));
+    return row.hand.world_from_tool.p;
+  };
+  std::array<int, 6> held = {};
+  math::Vec3 was = math::Vec3::Zero();
+  const auto until = [&](std::function<bool()> done) {
+    return [this, &held, done = std::move(done)] {
+      cap(held);
+      return done();
+    };
+  };
+  mill_by(*ready, {{"over the bone", looks(20), [] { move_to(640, 300); }},
+                   {"at rest", looks(60), [] { press(SDLK_g); }},
+                   {"in the plane", looks(20),
+                    [&] {
+                      was = hand();
+                      held = {0, 300, 0, 0, 0, 0};
+                    }},
+                   {"up", until([&] { return (hand() - was).dot(camera.above()) > 2e-3; }),
+                    [&] {
+                      EXPECT_NEAR((hand() - was).dot(camera.backward()), 0, 0.1e-3);
+                      EXPECT_EQ(row.hand.pedal, 0);
+                      held = {0, -300, 0, 0, 0, 0};
+                    }},
+                   {"down", until([&] { return (hand() - was).dot(camera.above()) < 0; }),
+                    [&] {
+                      EXPECT_EQ(row.hand.pedal, 0) << "down is no pressing there";
+                      was = hand();
+                      held = {0, 0, -300, 0, 0, 0};
+                    }},
+                   {"towards", until([&] { return (hand() - was).dot(camera.backward()) > 2e-3; }),
+                    [&] { held = {0, 0, 300, 0, 0, 0}; }},
+                   {"away", until([&] { return (hand() - was).dot(camera.backward()) < 0; }), [&] {
+                      held = {};
+                      press(SDLK_q);
+                    }}});
+}
+
 TEST(Cap, WithoutLibraryOrDaemonThereIsNone) {
   ::setenv("BURR_SPNAV", "/nowhere/libspnav.so.0", 1);
   SpaceMouse none;

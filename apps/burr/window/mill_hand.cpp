@@ -386,7 +386,10 @@ void Mill::toggle_plane() {
   note(word(plane_.on() ? Word::plane_on : Word::plane_off));
 }
 
-void Mill::push(double factor) { press_ = std::clamp(press_ * factor, kPressLeast, kPressMost); }
+void Mill::push(double factor) {
+  if (plane_.on()) return deepen(factor > 1 ? 1 : -1);
+  press_ = std::clamp(press_ * factor, kPressLeast, kPressMost);
+}
 
 void Mill::lift() {
   lifted_ = false;

@@ -13,10 +13,11 @@
 namespace burr::app {
 namespace {
 
-constexpr double kAimPace = 0.5;   // of a stick all the way  [heights of the picture / s]
-constexpr double kTurnPace = 300;  // the same for the view  [pixels of the mouse / s]
-constexpr double kZoomPace = 1.2;  // e-fold in a second
-constexpr double kLongest = 0.1;   // a picture that took longer moves no farther  [s]
+constexpr double kAimPace = 0.5;     // of a stick all the way  [heights of the picture / s]
+constexpr double kDeepPace = 20e-3;  // of a cap all the way, of the plane  [m/s]
+constexpr double kTurnPace = 300;    // the same for the view  [pixels of the mouse / s]
+constexpr double kZoomPace = 1.2;    // e-fold in a second
+constexpr double kLongest = 0.1;     // a picture that took longer moves no farther  [s]
 
 PedalMap map_of(const Settings& settings) {
   const auto number = [](double value) { return static_cast<int>(std::lround(value)); };
@@ -45,11 +46,14 @@ void Mill::take_hands() {
 
   for (const int button : cap.buttons) change_burr(button == 0 ? -1 : 1);
   const auto sum = [](double a, double b) { return std::clamp(a + b, -1.0, 1.0); };
+  // over the bone a cap's away is up, and down is in; before a plane it is a hand of three axes
+  const bool in_plane = plane_.on();
+  if (in_plane) plane_.push(kDeepPace * dt * settings.pad_pace * cap.away, scene_.camera);
   const auto held = [this](std::size_t back, std::size_t on) {
     return (aim_keys_[on] ? 1.0 : 0.0) - (aim_keys_[back] ? 1.0 : 0.0);
   };
   move_aim(sum(sum(pad.aim_right, cap.right), held(0, 1)),
-           sum(sum(pad.aim_up, cap.away), held(2, 3)), dt * settings.pad_pace);
+           sum(sum(pad.aim_up, in_plane ? cap.up : cap.away), held(2, 3)), dt * settings.pad_pace);
   const double turn_up = pad.lifts ? 0 : pad.turn_up;
   if (pad.lifts)
     render::zoom(scene_.camera, std::exp(kZoomPace * settings.zoom_pace * pad.turn_up * dt));
@@ -58,7 +62,7 @@ void Mill::take_hands() {
             kTurnPace * dt * sum(turn_up, cap.tilt), false);
 
   if (pad.lifts) return;
-  depth_ = std::max(pad.press, -std::min(cap.up, 0.0));
+  depth_ = std::max(pad.press, in_plane ? 0.0 : -std::min(cap.up, 0.0));
   if (depth_ > 0) lead();
   foot_ = foot;
   slowed_ = pad.slow;

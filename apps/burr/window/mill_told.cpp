@@ -148,7 +148,7 @@ HudState Mill::hud() const {
   s.pressing = hands_.real != nullptr ? row_.hand.pedal > 0
                : wand_                ? wand_at_.tracked && wand_at_.trigger > 0
                                       : pressing();
-  if (hands_.real == nullptr && !wand_ && plane_.on()) {  // there the hand itself is in the bone
+  if (plane_.on() && !wand_) {  // there the hand itself is in the bone
     s.press = row_.contact.touching ? row_.contact.depth : 0;
     s.pressing = row_.contact.touching;
   }
