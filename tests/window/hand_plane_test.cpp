@@ -45,7 +45,32 @@ TEST(HandPlane, IsSquareToTheLookThroughTheHandAndAsDeepAsItWasPushed) {
     // a ray that goes away from it
     const render::Ray away = {camera.eye(), camera.backward()};
     EXPECT_EQ(plane.meet(away, camera), is);
+    // and pulled behind the eye it is met by none
+    plane.push(-2 * camera.distance, camera);
+    const Vec3 behind = is + 2 * camera.distance * camera.backward();
+    EXPECT_NEAR(
+        (plane.meet(render::ray_through(camera, 300, 500, 1280, 720), camera) - behind).norm(), 0,
+        1e-12);
   }
+}
+
+TEST(HandPlane, ItsLinesAreDrawnOnceAndLeaveOthersAlone) {
+  render::Scene scene;
+  scene.rods.push_back({Vec3::Zero(), Vec3::UnitX(), 1e-3, {1, 1, 1}, false, false});
+  HandPlane plane;
+  plane.begin({0, 0, 1e-3});
+  for (int n = 0; n < 3; ++n) {
+    plane.show(scene);
+    EXPECT_EQ(scene.rods.size(), 11U);
+    render::zoom(scene.camera, 1.3);
+  }
+  for (std::size_t n = 1; n < scene.rods.size(); ++n)
+    for (const Vec3& end : {scene.rods[n].a, scene.rods[n].b})
+      EXPECT_NEAR((end - Vec3(0, 0, 1e-3)).dot(scene.camera.backward()), 0, 1e-12);
+  plane.end();
+  plane.show(scene);
+  ASSERT_EQ(scene.rods.size(), 1U);
+  EXPECT_EQ(scene.rods[0].radius, 1e-3);
 }
 
 class PlaneWindow : public Window {
