@@ -79,7 +79,11 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   endfunction()
   # burr_other_test(PRESET ROOM FILTER): the room's tests in that build; FILTER as for gtest
   function(burr_other_test preset room filter)
-    add_test(NAME ${preset}.${room} COMMAND ${PROJECT_SOURCE_DIR}/build/${preset}/test_${room}
+    set(by)
+    if(preset STREQUAL tsan)
+      set(by ${checks}/tsan.sh)
+    endif()
+    add_test(NAME ${preset}.${room} COMMAND ${by} ${PROJECT_SOURCE_DIR}/build/${preset}/test_${room}
       --gtest_brief=1 --gtest_filter=${filter})
     set_tests_properties(${preset}.${room} PROPERTIES FIXTURES_REQUIRED ${preset}_programs TIMEOUT 1800 LABELS long
       ENVIRONMENT "UBSAN_OPTIONS=print_stacktrace=1;TSAN_OPTIONS=halt_on_error=1 second_deadlock_stack=1;ASAN_OPTIONS=detect_stack_use_after_return=1")
