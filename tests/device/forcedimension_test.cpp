@@ -169,6 +169,7 @@ TEST_F(OmegaTest, SaysWhatItIsAndWhatItCanBear) {
     ASSERT_TRUE(spec.ok()) << spec.error().text;
     EXPECT_EQ(spec->name, "omega.6");
     EXPECT_EQ(spec->serial, "1001");
+    EXPECT_TRUE(spec->software.starts_with("SDK 3.")) << spec->software;
     EXPECT_EQ(spec->peak_force, one.peak) << one.type;
     EXPECT_LE(spec->continuous_force, spec->peak_force);
     EXPECT_EQ(spec->max_stiffness, one.stiffness) << one.type;
@@ -774,6 +775,34 @@ TEST_F(OmegaTest, WhyForcesAreOffIsToldAndNothingIsPushedMeanwhile) {
     EXPECT_TRUE(by.hand.valid);
     EXPECT_EQ(by.omega.why(), "");
   }
+}
+
+// What lets go when burr dies or stands still: 30 ms, a closer one is left as it is.
+TEST_F(OmegaTest, TheArmsOwnWatchdogIsSetAndTheExpertModeClosedAgain) {
+  for (const bool guarded : {false, true})
+    for (const auto& [was, is] : {std::pair{0, 240}, {250, 240}, {80, 80}}) {
+      set([&, was = was](test::FakeArm& arm) { arm.watchdog = was; });
+      {
+        const std::lock_guard lock(fake().lock);
+        fake().guards_watchdog = guarded;
+      }
+      const ByHand by;
+      EXPECT_EQ(of([](const test::FakeArm& arm) { return arm.watchdog; }), is) << guarded << was;
+      const std::lock_guard lock(fake().lock);
+      EXPECT_FALSE(fake().expert);
+      fake().guards_watchdog = false;
+    }
+}
+
+TEST_F(OmegaTest, AWireThatStandsForLongIsLetGoByTheArmItselfAndSaysSo) {
+  set([](test::FakeArm& arm) { arm.watches = true; });
+  std::unique_ptr<WireDevice> device;
+  ASSERT_TRUE(made(device, by_itself()).open().ok());
+  test::StandIn tick(*device, [](const HandState&) { return Vec3(0, 0.04, 0); });
+  ASSERT_TRUE(test::soon([&] { return tick.engaged(); }));
+  set([](test::FakeArm& arm) { arm.stall_ms = 100; });
+  EXPECT_TRUE(test::soon([&] { return has(device->trouble(), "watchdog"); })) << device->trouble();
+  EXPECT_TRUE(test::soon([&] { return !tick.hand().valid && last_force() == Vec3::Zero(); }));
 }
 
 TEST_F(OmegaTest, PowerThatFailsIsToldAndAConnectionThatFailsIsALoss) {

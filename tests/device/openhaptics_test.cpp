@@ -140,8 +140,13 @@ TEST_F(TouchTest, SaysWhatItIsAndWhatItCanBear) {
     EXPECT_EQ(touch.spec().actuated, 3);
     EXPECT_FALSE(touch.spec().simulated);
     EXPECT_EQ(touch.spec().loss_timeout, 5e-3);
+    EXPECT_EQ(touch.spec().software, "HD API 3.0, driver 2019.2.15");
     EXPECT_EQ(touch.trouble(), "");
   }
+  set([](test::FakeTouch& touch) { touch.tells_driver = false; });
+  Touch touch(by_itself(5e-3));
+  ASSERT_TRUE(touch.open().ok()) << "a library that does not know its driver's version";
+  EXPECT_EQ(touch.spec().software, "HD API 3.0");
 }
 
 // Three taps: 10 mm along each axis, and a push back along the same.

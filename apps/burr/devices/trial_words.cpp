@@ -19,6 +19,7 @@ std::vector<std::pair<std::string, std::string>> rows_of(const TrialSeen& s) {
   };
   const device::DeviceSpec& spec = s.spec;
   row("device", spec.serial.empty() ? spec.name : spec.name + ", serial number " + spec.serial);
+  if (!spec.software.empty()) row("its software", spec.software);
   row("reads, pushes", fmt::format("{} and {} degrees of freedom", spec.sensed, spec.actuated));
   row("force",
       fmt::format("{:.2f} N at most, {:.2f} N for long", spec.peak_force, spec.continuous_force));

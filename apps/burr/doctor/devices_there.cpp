@@ -23,7 +23,9 @@ std::string of_library(const std::string& kind) {
   }
   if (kind == "force-dimension") {
     const auto dhd = device::forcedimension::load();
-    return dhd ? "+" + (*dhd)->file : "-" + dhd.error().text;
+    if (!dhd) return "-" + dhd.error().text;
+    const std::string& version = (*dhd)->version;
+    return "+" + (*dhd)->file + (version.empty() ? "" : " " + version);
   }
   return "+";
 }
@@ -39,7 +41,8 @@ std::string of_device(const std::string& kind) {
   const std::string trouble = (*device)->trouble();
   (*device)->close();
   const std::string words =
-      fmt::format("{}: {:.1f} N, {:.0f} Hz", id_of(spec), spec.peak_force, spec.native_rate);
+      fmt::format("{}: {:.1f} N, {:.0f} Hz{}{}", id_of(spec), spec.peak_force, spec.native_rate,
+                  spec.software.empty() ? "" : "; ", spec.software);
   return trouble.empty() ? "+" + words : fmt::format("!{}. {}", words, trouble);
 }
 

@@ -28,6 +28,7 @@ struct HandState {
 struct DeviceSpec {
   std::string name = "simulated hand";
   std::string serial = {};         // as the maker wrote it; empty: unknown
+  std::string software = {};       // of its maker, with versions as they are told; empty: not told
   int sensed = 6;                  // degrees of freedom it reads: 3 place, 6 also how it is turned
   int actuated = 3;                // that it pushes
   double peak_force = 3.3;         // never exceeded                                             [N]

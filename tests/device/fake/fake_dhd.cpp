@@ -249,6 +249,11 @@ DHD int dhdSetForceAndTorqueAndGripperForce(double x, double y, double z, double
     if (grip != 0) misuse("a force on the gripper that nobody computed");
     if (!arm->present) return fail(2);
     if (arm->write_error != 0) return fail(arm->write_error);
+    const std::int64_t came = now_ns();
+    if (arm->watches && arm->watchdog > 0 && arm->force_on && arm->written_ns > 0 &&
+        came - arm->written_ns > std::int64_t{125'000} * arm->watchdog)
+      arm->off_cause = 3;
+    arm->written_ns = came;
     put(*arm, x, y, z, {a, b, c});
     code = arm->code;
     if (arm->rate > 0) {
@@ -308,6 +313,35 @@ DHD int dhdGetStatus(int* status, char id) {
   status[10] = arm->gravity ? 1 : 0;
   status[14] = arm->off_cause;
   return done(*arm);
+}
+
+DHD int dhdSetWatchdog(unsigned char eighths, char id) {
+  const Lock lock(state().lock);
+  FakeArm* arm = open_one(id, "told what is not open");
+  if (arm == nullptr) return fail(15);
+  if (state().guards_watchdog && !state().expert) return fail(9);
+  arm->watchdog = eighths;
+  return done(*arm);
+}
+
+DHD int dhdGetWatchdog(unsigned char* eighths, char id) {
+  const Lock lock(state().lock);
+  const FakeArm* arm = open_one(id, "asked what is not open");
+  if (arm == nullptr) return fail(15);
+  *eighths = static_cast<unsigned char>(arm->watchdog);
+  return done(*arm);
+}
+
+DHD int dhdEnableExpertMode() {
+  const Lock lock(state().lock);
+  state().expert = true;
+  return 0;
+}
+
+DHD int dhdDisableExpertMode() {
+  const Lock lock(state().lock);
+  state().expert = false;
+  return 0;
 }
 
 DHD int dhdSetMaxForce(double newton, char id) {

@@ -57,16 +57,21 @@ struct FakeArm {
   bool tells = true;  // what GetStatus() fills in; false: all zero
   // what was told
   bool open = false, force_on = false, gravity = false, regulates = false;
-  double most_force = -1, most_torque = -1;      // SetMaxForce(), SetMaxTorque()
-  std::vector<FakeForce> forces;                 // newest last; the newest 4096
+  double most_force = -1, most_torque = -1;  // SetMaxForce(), SetMaxTorque()
+  int watchdog = 0;                          // in eighths of a millisecond; 0: none
+  bool watches = false;           // and it acts: forces are off for good after so long without one
+  std::vector<FakeForce> forces;  // newest last; the newest 4096
   double largest_force = 0, largest_torque = 0;  // of all
   std::uint64_t writes = 0, reads = 0, opened = 0, closed = 0, homed = 0, asked = 0;
   std::int64_t next_ns = 0;  // when the frame after this one is due
+  std::int64_t written_ns = 0;
 };
 
 struct FakeDhd {
   FakeLock lock;  // over all of it
   std::array<FakeArm, 3> arm;
+  bool guards_watchdog = false;  // behind the expert mode
+  bool expert = false;
   unsigned misuse = 0;  // calls that move an arm unasked, or push what is not held
   std::string misused;  // the first of them
 };

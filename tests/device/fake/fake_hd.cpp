@@ -266,6 +266,8 @@ HD const char* hdGetString(unsigned what) {
   if (what == 0x2501) return touch->model.c_str();
   if (what == 0x2504) return touch->serial.c_str();
   if (what == 0x2500) return "3.0";
+  if (what == 0x2502 && touch->tells_driver) return "2019.2.15";
+  errors.push_back(0x0100);
   return nullptr;
 }
 

@@ -21,6 +21,7 @@ struct FakeTouch {
   std::array<double, 3> velocity{};                                                     // mm/s
   int buttons = 0;
   int output_dof = 3;        // -1: it does not know
+  bool tells_driver = true;  // its version
   bool takes_torque = true;  // of six
   unsigned calibration = 0x5000, style = 2;
   unsigned frame_error = 0;  // of every frame from now on

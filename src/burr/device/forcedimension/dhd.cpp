@@ -54,6 +54,10 @@ const char* find_all(void* library, Dhd& dhd) {
   BURR_OR_NONE(HasActiveWrist);
   BURR_OR_NONE(GetGripperAngleRad);
   BURR_OR_NONE(GetGripperGap);
+  BURR_OR_NONE(SetWatchdog);
+  BURR_OR_NONE(GetWatchdog);
+  BURR_OR_NONE(EnableExpertMode);
+  BURR_OR_NONE(DisableExpertMode);
 #undef BURR_NEEDED
 #undef BURR_OR_NONE
   const bool homes =

@@ -71,6 +71,11 @@ struct Dhd {
   bool (*HasActiveWrist)(char id);
   int (*GetGripperAngleRad)(double* angle, char id);
   int (*GetGripperGap)(double* metres, char id);
+  // in eighths of a millisecond, 0: none; the arm's own, see Omega::watch()
+  int (*SetWatchdog)(unsigned char eighths, char id);
+  int (*GetWatchdog)(unsigned char* eighths, char id);
+  int (*EnableExpertMode)();
+  int (*DisableExpertMode)();
 
   // of libdrd: all or none
   int (*DrdOpenID)(char index);

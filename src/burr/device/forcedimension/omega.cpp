@@ -21,6 +21,7 @@ constexpr std::int64_t kLookEvery = 50'000'000;       // at what the device says
 constexpr double kOpenAngle = 0.3, kOpenGap = 15e-3;  // a gripper opens at least so far [rad, m]
 constexpr double kRest = 0.8;                         // of the way open: no pedal from there on
 constexpr int kMostDevices = 64;
+constexpr unsigned char kWatchdog = 240;  // 30 ms, of the 32 that its number can say [1/8 ms]
 
 // What the models can bear (chai3d's table). Makers' sheets call the peak of all but the Falcon
 // continuous. An unknown one is taken for the weakest.
@@ -224,11 +225,28 @@ Status Omega::prepare(const DeviceSpec& spec) {
   if (dhd_->SetMaxForce != nullptr) static_cast<void>(dhd_->SetMaxForce(peak_, to_));
   if (dhd_->SetMaxTorque != nullptr && peak_torque_ > 0)
     static_cast<void>(dhd_->SetMaxTorque(peak_torque_, to_));
+  watch();
   static_cast<void>(dhd_->SetGravityCompensation(1, to_));
   static_cast<void>(dhd_->SetForceAndTorqueAndGripperForce(0, 0, 0, 0, 0, 0, 0, to_));
   if (failed(dhd_->EnableForce(1, to_)))
     return error(Trouble::io, fmt::format("{} {}", name_, words(dhd_->ErrorGetLast())));
   return fine();
+}
+
+// Should this program die or stand still, the arm's own firmware switches forces off when none has
+// been written for so long. One that watches closer already is left as it is. The call is behind
+// the library's expert mode in some versions, which is closed again at once.
+void Omega::watch() const {
+  if (dhd_->SetWatchdog == nullptr) return;
+  unsigned char is = 0;
+  const bool known = dhd_->GetWatchdog != nullptr && !failed(dhd_->GetWatchdog(&is, to_));
+  if (known && is > 0 && is <= kWatchdog) return;
+  if (!failed(dhd_->SetWatchdog(kWatchdog, to_)) || dhd_->EnableExpertMode == nullptr ||
+      dhd_->DisableExpertMode == nullptr)
+    return;
+  if (failed(dhd_->EnableExpertMode())) return;
+  static_cast<void>(dhd_->SetWatchdog(kWatchdog, to_));
+  static_cast<void>(dhd_->DisableExpertMode());
 }
 
 DeviceSpec Omega::describe() const {
@@ -254,6 +272,7 @@ DeviceSpec Omega::describe() const {
   spec.max_damping = model.damping;
   spec.workspace_radius = model.radius;
   spec.native_rate = settings_.rate;
+  if (!dhd_->version.empty()) spec.software = "SDK " + dhd_->version;
   return spec;
 }
 

@@ -52,6 +52,7 @@ class Omega final : public Wire {
   [[nodiscard]] Status home();
   [[nodiscard]] Status prepare(const DeviceSpec& spec);
   [[nodiscard]] DeviceSpec describe() const;
+  void watch() const;
   [[nodiscard]] int serial_of(int id) const;
   void let_go(int id);
 

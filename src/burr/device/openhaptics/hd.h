@@ -31,6 +31,7 @@ enum : Code {
   kTransform = 0x2052,  // 16 double, column after column, mm
   kVersion = 0x2500,
   kModel = 0x2501,
+  kDriver = 0x2502,
   kSerial = 0x2504,
   kOutputDof = 0x2554,          // int
   kUpdateRate = 0x2600,         // int, Hz

@@ -171,7 +171,17 @@ DeviceSpec Touch::describe() const {
   int rate = 0;
   hd_->GetIntegerv(kUpdateRate, &rate);
   spec.native_rate = rate >= 500 && rate <= 10'000 ? rate : 1000;
+  spec.software = versions();
   return spec;
+}
+
+// What an old library does not know of this is no trouble; a device that is gone says so again.
+std::string Touch::versions() const {
+  const std::string hd = string_of(*hd_, kVersion), driver = string_of(*hd_, kDriver);
+  for (int n = 0; n < kMostOldErrors && is_refused(hd_->GetError().code); ++n) {
+  }
+  return fmt::format("HD API{}{}", hd.empty() ? "" : " " + hd,
+                     driver.empty() ? "" : ", driver " + driver);
 }
 
 // Degrees of freedom with motors. One that cannot say has three.

@@ -40,6 +40,7 @@ class Touch final : public LinkedDevice {
   void end();
   [[nodiscard]] DeviceSpec describe() const;
   [[nodiscard]] int pushes() const;
+  [[nodiscard]] std::string versions() const;
   void calibrate() BURR_RT;
   void note(Code code) BURR_RT;
   [[nodiscard]] bool read(HandState& hand) BURR_RT;
