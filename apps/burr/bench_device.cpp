@@ -155,6 +155,8 @@ void add(CLI::App& bench, Todo& todo) {
   command->add_option("--burr-mm", options->work.burr_mm, "diameter of the burr");
   command->add_flag("--json", options->json, "one JSON object");
   add_hand_options(*command, options->work.hand);
+  command->add_option("--suction", options->work.suction,
+                      "a second device beside it, as for burr run: what it adds to the tick");
   add_volume_options(*command, options->work.volume);
   command->callback([options, &todo] {
     if (options->work.hand.device.empty()) throw CLI::RequiredError("--device");

@@ -11,6 +11,7 @@
 #include "burr/base/new_file.h"
 #include "burr/base/shown.h"
 #include "burr/base/text_file.h"
+#include "burr/base/toml_text.h"
 #include "burr/device/axes.h"
 #include "places.h"
 
@@ -90,18 +91,6 @@ std::string known_keys() {
   return all;
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) < 0x20)
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
-    else
-      out += c;
-  }
-  return out + "\"";
-}
-
 }  // namespace
 
 DeviceBook DeviceBook::parse(std::string_view text, std::string_view file) {
@@ -158,7 +147,7 @@ Status DeviceBook::set(const std::string& id, std::string_view assignment) {
                              base::shown(assignment), known_keys()));
   std::string written(assignment);
   if (field->axes != nullptr && written.find('"') == std::string::npos)  // the shell took them
-    written = key + "=" + quoted(written.substr(equals + 1));
+    written = key + "=" + base::toml_text(written.substr(equals + 1));
   const auto table = parse_toml(written, "the setting");
   const toml::node* value = table ? table->get(key) : nullptr;
   DeviceWishes wishes = of(id);
@@ -174,7 +163,7 @@ std::string DeviceBook::text() const {
   std::string text =
       "# What burr does with each haptic device. Changed by `burr devices set` or here.\n";
   for (const auto& [id, kept] : wishes_) {
-    text += fmt::format("\n[{}]\n", quoted(id));
+    text += fmt::format("\n[{}]\n", base::toml_text(id));
     DeviceWishes wishes = kept;
     for (const Field& field : kFields) {
       text += fmt::format("# {}\n{} = ", field.means, field.key);

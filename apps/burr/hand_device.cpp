@@ -33,6 +33,12 @@ const std::vector<HandKind>& hand_kinds() {
   return all;
 }
 
+bool is_hand_kind(std::string_view device) {
+  const std::string_view kind = device.substr(0, device.find(':'));
+  const auto& all = hand_kinds();
+  return std::any_of(all.begin(), all.end(), [&](const HandKind& one) { return kind == one.name; });
+}
+
 std::string kinds_known() {
   std::vector<std::string> known;
   for (const HandKind& one : hand_kinds()) known.emplace_back(one.name);

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "burr/base/result.h"
@@ -37,6 +38,8 @@ struct HandKind {
   const char* page;   // of docs/devices/
 };
 [[nodiscard]] const std::vector<HandKind>& hand_kinds();
+// "touch", "touch:Left": of a kind that burr drives.
+[[nodiscard]] bool is_hand_kind(std::string_view device);
 
 // Error: no kind of that name; says which there are. The device itself is looked for by open().
 [[nodiscard]] Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish);

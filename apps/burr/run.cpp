@@ -180,7 +180,8 @@ Status run_in_window(const Options& options) {
   if (!desk) return desk.error();
   (*desk)->headset_wanted = (*desk)->headset_wanted || options.xr;
   if (options.work.volume.path.empty())
-    return run_pages(**desk, {options.seconds, options.out, options.screenshot, !options.no_sound});
+    return run_pages(**desk, {options.seconds, options.out, options.screenshot, !options.no_sound,
+                              options.work});
 
   WorkOptions work = options.work;
   if (const Status taken = take_case(work); !taken) return taken;
@@ -287,7 +288,7 @@ void add(CLI::App& app, Todo& todo) {
   add_hand_options(*command, options->work.hand);
   command
       ->add_option("--suction", options->work.suction,
-                   "a second haptic device in the other hand: a suction tube, seen and not felt")
+                   "a second haptic device in the other hand: a suction tube, which feels bone")
       ->excludes("--headless");
   command
       ->add_option("--tell-as", options->work.told_as,

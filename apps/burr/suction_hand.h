@@ -1,20 +1,19 @@
 // apps/burr/suction_hand.h - a second haptic device in the other hand: it leads a suction tube,
-// which takes water, dust and blood off the bone it comes near (render/wound.h). It is seen and not
-// felt: this device is never pushed, and nothing of it is recorded.
+// which rests on the bone (sim/second_hand.h) and takes water, dust and blood off what it comes
+// near (render/wound.h). It never changes bone, and nothing of it is recorded.
 //
-//     auto hand = SuctionHand::open("touch:Left", start, view);
+//     auto hand = SuctionHand::join(*session, "touch:Left", start, view);
 //     each frame:   hand->lay(view);  const SuctionHand::Seen seen = hand->now();
 //
-// Thread: main; it reads the device on one of its own.
+// Thread: main.
 #pragma once
 
-#include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "burr/base/result.h"
-#include "burr/rt/latest.h"
-#include "burr/rt/thread.h"
+#include "burr/sim/session.h"
 #include "hand_device.h"
 
 namespace burr::app {
@@ -24,32 +23,31 @@ class SuctionHand {
   static constexpr double kRadius = 1.5e-3;  // of the tube [m]
 
   // Where its tip begins, and the axes of the view; its button that mills stops the suction while
-  // it is down, its clutch lifts. Error: as lay_hand().
-  [[nodiscard]] static Result<std::unique_ptr<SuctionHand>> open(const std::string& device,
+  // it is down, its clutch lifts. Before the session starts, which keeps the device. Error: as
+  // lay_hand().
+  [[nodiscard]] static Result<std::unique_ptr<SuctionHand>> join(sim::Session& session,
+                                                                 const std::string& device,
                                                                  const math::Pose& start,
                                                                  const math::Quat& world_from_view);
-  ~SuctionHand();
-  SuctionHand(const SuctionHand&) = delete;
-  SuctionHand& operator=(const SuctionHand&) = delete;
 
   struct Seen {
-    math::Pose world_from_tool;
+    math::Pose world_from_tool;  // where the bone lets it be
+    math::Vec3 force = math::Vec3::Zero();
     bool there = false;  // the device knows where it is
     bool sucks = false;
   };
   [[nodiscard]] Seen now();
-  void lay(const math::Quat& world_from_view) { hand_->lay(world_from_view); }
-  [[nodiscard]] std::string trouble() const { return hand_->trouble(); }
-  [[nodiscard]] const device::DeviceSpec& spec() const { return hand_->spec(); }
+  void lay(const math::Quat& world_from_view) { hand_.lay(world_from_view); }
+  // By the user's emergency stop.
+  void lift(bool lifted) { hand_.lift(lifted); }
+  [[nodiscard]] const device::Device& hand() const { return hand_; }
 
  private:
-  explicit SuctionHand(std::unique_ptr<device::MappedHand> hand);
+  SuctionHand(sim::Session& session, device::MappedHand& hand) : session_(session), hand_(hand) {}
 
-  std::unique_ptr<device::MappedHand> hand_;
-  rt::Latest<Seen> told_;
-  Seen seen_;
-  std::atomic<bool> stop_ = false;
-  std::unique_ptr<rt::Thread> thread_;
+  sim::Session& session_;
+  device::MappedHand& hand_;
+  record::TickRow row_;
 };
 
 }  // namespace burr::app

@@ -141,15 +141,6 @@ Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress) {
     ready.hands.wishes = laid->wishes;
     hand = std::move(laid->hand);
   }
-  if (!options.suction.empty()) {
-    // beside the burr, on the side of the other hand
-    const math::Quat view = view_of_hand(ready.scene.camera);
-    auto suction = SuctionHand::open(options.suction,
-                                     {above.p - view * math::Vec3(15e-3, 0, 0), above.q}, view);
-    if (!suction) return suction.error();
-    ready.suction = std::move(*suction);
-    ready.hands.suction = ready.suction.get();
-  }
   ready.title = options.title.empty() ? work.what : options.title;
   ready.what = work.what;
   ready.volume = work.volume;
@@ -158,6 +149,15 @@ Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress) {
   auto started = sim::Session::make(std::move(work.made.bone), std::move(hand), settings, progress);
   if (!started) return started.error();
   ready.session = std::move(*started);
+  if (!options.suction.empty()) {
+    // beside the burr, on the side of the other hand
+    const math::Quat view = view_of_hand(ready.scene.camera);
+    auto suction = SuctionHand::join(*ready.session, options.suction,
+                                     {above.p - view * Vec3(15e-3, 0, 0), above.q}, view);
+    if (!suction) return suction.error();
+    ready.suction = std::move(*suction);
+    ready.hands.suction = ready.suction.get();
+  }
   if (!options.told_as.empty()) {
     auto arm = device::crtk::Arm::open({.name = options.told_as, .middle = above.p});
     if (!arm) return arm.error();

@@ -165,6 +165,18 @@ TEST(Link, AReadingBeforeItsTickIsPassedOver) {
   EXPECT_EQ(still.link.state().world_from_tool.p.x(), 3e-3);
 }
 
+// A second device beside the one whose readings begin the ticks.
+TEST(Link, WhereTicksGoByAnothersPaceNothingWaitsForThem) {
+  Link link({.patience = 20, .loss_timeout = 100});
+  link.never_wait();
+  static_cast<void>(link.exchange(hand_at(0)));
+  static_cast<void>(link.state());
+  link.write_force({0, 0, 1});
+  const std::int64_t began = rt::monotonic_ns();
+  for (int n = 0; n < 3; ++n) EXPECT_EQ(link.exchange(hand_at(n)), Vec3(0, 0, 1)) << "the last one";
+  EXPECT_LT(rt::monotonic_ns() - began, std::int64_t{5'000'000'000});
+}
+
 TEST(Link, TakesNoMemoryAndNoLock) {
   Link link({.patience = 1e-4});
   const test::RtGuard guard;

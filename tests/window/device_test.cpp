@@ -157,7 +157,7 @@ TEST_F(DeviceWindow, AFootOnTheClutchLiftsIt) {
                     }}});
 }
 
-TEST_F(DeviceWindow, ASecondOneLeadsTheSuctionAndIsNeverPushed) {
+TEST_F(DeviceWindow, ASecondOneLeadsTheSuctionAndFeelsTheBone) {
   {
     const std::lock_guard lock(hd_->mutex);
     hd_->touch[1].name = "Left";
@@ -168,31 +168,106 @@ TEST_F(DeviceWindow, ASecondOneLeadsTheSuctionAndIsNeverPushed) {
     auto ready = with_touch("touch:Left");
     ASSERT_TRUE(ready) << ready.error().text;
     sim::Session& session = *ready->session;
+    WorkOptions block;
+    block.volume.path = "block";
+    ASSERT_TRUE(take_case(block));
+    const auto place =
+        sim::find_work_place(session.bone(), 0.5e-3 * block.burr_mm, block.at, block.into);
+    ASSERT_TRUE(place);
+    const math::Quat view = view_of_hand(ready->scene.camera);
     const auto tube = [&]() -> const render::Rod* {
       for (const render::Rod& rod : ready->scene.rods)
         if (rod.radius == SuctionHand::kRadius) return &rod;
       return nullptr;
     };
+    const auto stylus_goes = [&](const Vec3& mm) {
+      const std::lock_guard lock(hd_->mutex);
+      Eigen::Map<Vec3>(hd_->touch[1].transform.data() + 12) = view.conjugate() * mm;
+    };
+    const auto felt = [&] {
+      const std::lock_guard lock(hd_->mutex);
+      const auto& forces = hd_->touch[1].forces;
+      return forces.empty() ? Vec3(Vec3::Zero())
+                            : Vec3(forces.back()[0], forces.back()[1], forces.back()[2]);
+    };
+    // by a millimetre a picture, as a hand goes; the tip begins 20 mm above the work
+    double deep = 0;
+    const auto goes_to = [&](double mm) {
+      return [&, mm] {
+        deep = mm > deep ? std::min(mm, deep + 1) : std::max(mm, deep - 1);
+        stylus_goes(deep * place->into);
+        return deep == mm;
+      };
+    };
     Vec3 start = Vec3::Zero(), burr = Vec3::Zero();
-    mill_by(
-        *ready,
-        {{"the tube", [&] { return tube() != nullptr; },
-          [&] {
-            start = tube()->a;
-            burr = hand(session);
-            const std::lock_guard lock(hd_->mutex);
-            hd_->touch[1].transform[12] = 10;
-          }},
-         {"it goes by itself",
-          [&] { return (tube()->a - start - 10e-3 * ready->scene.camera.right()).norm() < 1e-6; },
-          [&] {
-            EXPECT_EQ(hand(session), burr) << "the burr does not";
-            press(SDLK_q);
-          }}});
+    mill_by(*ready, {{"the tube", [&] { return tube() != nullptr; },
+                      [&] {
+                        start = tube()->a;
+                        burr = hand(session);
+                      }},
+                     {"it goes by itself", goes_to(15), {}},
+                     {"as far as the hand",
+                      [&] { return (tube()->a - start - 15e-3 * place->into).norm() < 1e-6; },
+                      {}},
+                     {"against the bone", goes_to(22), {}},
+                     {"it rests on the bone, and the hand feels it",
+                      [&] {
+                        const double way = (tube()->a - start).dot(place->into);
+                        return felt().norm() > 0.5 && way > 17e-3 && way < 20e-3;
+                      },
+                      [&] {
+                        const Vec3 push = view * felt().normalized();
+                        EXPECT_LT(push.dot(place->into), -0.9) << "outwards";
+                        EXPECT_EQ(hand(session), burr) << "the burr stays";
+                        EXPECT_EQ(row_.ledger.removed, 0);
+                        press(SDLK_BACKSPACE);
+                      }},
+                     {"the stop is one for both hands", [&] { return felt() == Vec3::Zero(); },
+                      [] { press(SDLK_q); }}});
   }
   const std::lock_guard lock(hd_->mutex);
-  EXPECT_EQ(hd_->touch[1].largest_force, 0);
+  EXPECT_LE(hd_->touch[1].largest_force, 3.3 + 1e-9);
   EXPECT_FALSE(hd_->touch[1].open);
+}
+
+// Chosen with the mouse, looked for at once, and there again at the next start.
+TEST_F(DeviceWindow, IsChosenOnTheStartPageAndKept) {
+  const auto taken = [this] {
+    const std::lock_guard lock(hd_->mutex);
+    return hd_->touch[0].open;
+  };
+  bool led = false;
+  pages_by({{"the start page", on(Page::start), nullptr},
+            {"its pictures", looks(5), [] { click(1100, 648); }},
+            {"the list", looks(5), [] { click(900, 523); }},  // its second line
+            {"it is kept", [&] { return desk_->settings.device == "touch"; }, nullptr},
+            {"looked for and let be", looks(30), [] { click(200, 240); }},  // the first case
+            {"milling", on(Page::milling), [&] { led = taken(); }},
+            {"pictures", looks(5), [] { press(SDLK_q); }},
+            {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  EXPECT_TRUE(led);
+  EXPECT_FALSE(taken());
+  EXPECT_EQ(desk_->told, "");
+  const SettingsRead kept = read_settings(desk_->places().config / "settings.toml");
+  EXPECT_EQ(kept.settings.device, "touch");
+}
+
+TEST_F(DeviceWindow, OneThatIsNotThereIsToldAndTheMouseStaysAWay) {
+  {
+    const std::lock_guard lock(hd_->mutex);
+    hd_->touch[0].present = false;
+  }
+  desk_->settings.device = "touch";
+  std::string told;
+  pages_by({{"the start page", on(Page::start), nullptr},
+            {"its pictures", looks(5), [] { click(200, 240); }},
+            {"the sentence", [&] { return desk_->page == Page::start && !desk_->told.empty(); },
+             [&] {
+               told = desk_->told;
+               desk_->settings.device.clear();
+               press(SDLK_ESCAPE);
+             }}});
+  EXPECT_NE(told.find("does not answer"), std::string::npos) << told;
 }
 
 TEST_F(DeviceWindow, PulledOutItIsSaidAndTheLastTicksAreKept) {

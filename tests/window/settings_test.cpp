@@ -35,6 +35,7 @@ TEST_F(SettingsFile, ComesBackAsItWasWrittenWithEveryValueChanged) {
   s.language = Language::swedish;
   s.scale = 1.25;
   s.left_handed = true;
+  s.device = "touch:\"Left\" \\ one";
   s.force_limit_n = 2.5;
   s.press_mm = 3;
   s.turn_pace = 0.5;
@@ -79,7 +80,7 @@ TEST_F(SettingsFile, IsExplainedLineByLine) {
     }
     before = line;
   }
-  EXPECT_EQ(set, 25);
+  EXPECT_EQ(set, 26);
 }
 
 TEST_F(SettingsFile, WhichIsNotThereMeansTheDefaultsWithoutTrouble) {
@@ -91,12 +92,12 @@ TEST_F(SettingsFile, WhichIsNotThereMeansTheDefaultsWithoutTrouble) {
 TEST_F(SettingsFile, NamesFileAndFieldOfWhatCannotBeAndTakesTheRest) {
   const SettingsRead read = parse_settings(
       "scale = 40\nleft_handed = true\nlanguage = \"klingon\"\npanels = 1\ncolour = 2\n"
-      "force_limit_n = nan\nstereo = \"both\"\n",
+      "force_limit_n = nan\nstereo = \"both\"\ndevice = \"broom\"\n",
       "settings.toml");
   EXPECT_TRUE(read.settings.left_handed);
   EXPECT_EQ(read.settings.scale, 1);
   EXPECT_EQ(read.settings.force_limit_n, 3.3);
-  ASSERT_EQ(read.troubles.size(), 6U);
+  ASSERT_EQ(read.troubles.size(), 7U);
   for (const std::string& one : read.troubles)
     EXPECT_EQ(one.rfind("settings.toml: ", 0), 0U) << one;
   std::string all;
@@ -104,6 +105,7 @@ TEST_F(SettingsFile, NamesFileAndFieldOfWhatCannotBeAndTakesTheRest) {
   EXPECT_NE(all.find("scale: must be a number from 0.5 to 3"), std::string::npos) << all;
   EXPECT_NE(all.find("language: must be \"english\" or \"swedish\""), std::string::npos) << all;
   EXPECT_NE(all.find("stereo: must be \"off\", \"side_by_side\""), std::string::npos) << all;
+  EXPECT_NE(all.find("device: must be empty, or one of touch, "), std::string::npos) << all;
   EXPECT_NE(all.find("panels: must be true or false"), std::string::npos) << all;
   EXPECT_NE(all.find("colour: is no setting of this version"), std::string::npos) << all;
 }

@@ -136,7 +136,7 @@ class Mill {
   // ---- mill_told.cpp
   void look_at_session();
   void keep_wishes_of_device();
-  void keep_fault_of_device(const sim::FaultReport& fault);
+  void keep_fault_of(const device::Device& hand, const sim::FaultReport& fault);
   void look_at_burr();
   void tell();
   void note(std::string text);

@@ -95,7 +95,7 @@ void Mill::key(const SDL_Keysym& pressed) {
   switch (pressed.sym) {
     case SDLK_BACKSPACE:
     case SDLK_PAUSE:
-      if (hands_.real != nullptr) let_go(!let_go_);
+      if (hands_.real != nullptr || hands_.suction != nullptr) let_go(!let_go_);
       break;
     case SDLK_c:
       lifted_ = true;
@@ -523,10 +523,11 @@ void Mill::lay_real_hand() {
   if (row_.contact.touching) normal_ = row_.contact.normal;
 }
 
-// The user's emergency stop, and taking the hand again.
+// The user's emergency stop, of both hands, and taking them again.
 void Mill::let_go(bool gone) {
-  let_go_ = gone;
-  hands_.real->lift(let_go_ || lifted_ || foot_lifts_);  // now, not with the next picture
+  let_go_ = gone;  // now, not with the next picture
+  if (hands_.real != nullptr) hands_.real->lift(let_go_ || lifted_ || foot_lifts_);
+  if (hands_.suction != nullptr) hands_.suction->lift(let_go_);
   note(word(gone ? Word::stopped : Word::taken_again));
 }
 

@@ -85,17 +85,21 @@ void Mill::look_at_session() {
   sim::FaultReport fault;
   if (session_.fault(fault)) {
     told_.let_go(say(Word::let_go, told_flags(fault.flags)), Clock::now());
-    keep_fault_of_device(fault);
+    // a mouse that waits for a slow machine is no fault to look into; a device that let go is
+    if (hands_.real != nullptr) keep_fault_of(session_.hand(), fault);
+  }
+  if (hands_.suction != nullptr && session_.second_hand()->faults().take(fault)) {
+    told_.let_go(say(Word::let_go, told_flags(fault.flags)), Clock::now());
+    keep_fault_of(hands_.suction->hand(), fault);
   }
 }
 
-// A mouse that waits for a slow machine is no fault to look into; a device that let go is.
-void Mill::keep_fault_of_device(const sim::FaultReport& fault) {
+void Mill::keep_fault_of(const device::Device& hand, const sim::FaultReport& fault) {
   const std::filesystem::path& state = desk_.places().state;
-  if (hands_.real == nullptr || state.empty()) return;
-  const auto kept = keep_fault(
-      state / "faults", fault_text(fault, session_.hand().spec(), session_.settings().servo.rate_hz,
-                                   session_.hand().trouble()));
+  if (state.empty()) return;
+  const auto kept =
+      keep_fault(state / "faults",
+                 fault_text(fault, hand.spec(), session_.settings().servo.rate_hz, hand.trouble()));
   note(kept ? say(Word::fault_kept, kept->string()) : kept.error().text);
 }
 
@@ -127,7 +131,7 @@ void Mill::tell() {
   std::string lasting = options_.warning ? options_.warning() : std::string();
   if (lasting.empty() && let_go_) lasting = word(Word::stopped);
   if (lasting.empty()) lasting = session_.hand().trouble();
-  if (lasting.empty() && hands_.suction != nullptr) lasting = hands_.suction->trouble();
+  if (lasting.empty() && hands_.suction != nullptr) lasting = hands_.suction->hand().trouble();
   if (lasting.empty()) lasting = told_flags(row_.contact.flags);
   warning_ = told_.warning(now, lasting);
   note_ = told_.note(now, export_->progress());

@@ -101,7 +101,7 @@ Result<Left> watch_file(Desk& desk, const std::string& file, const VolumeOptions
 }
 
 Status run_pages(Desk& desk, const PagesOptions& options) {
-  StartPage start(desk);
+  StartPage start(desk, options.led.hand);
   std::string trouble;
   for (;;) {
     auto choice = start.ask(trouble, options.seconds);
@@ -119,7 +119,12 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
       continue;
     }
     const bool goes_on = choice->go_on.has_value();
-    WorkOptions chosen = goes_on ? choice->go_on->options : *choice->open;
+    if (goes_on) choice->open = choice->go_on->options;
+    WorkOptions& chosen = *choice->open;
+    chosen.hand = start.hand();
+    chosen.suction = options.led.suction;
+    chosen.told_as = options.led.told_as;
+    if (goes_on) choice->go_on->options = chosen;
     const std::string title =
         say(Word::loading, goes_on ? choice->go_on->title : title_of(chosen, desk.settings));
     bool closed = false;

@@ -11,6 +11,7 @@
 
 #include "burr/base/new_file.h"
 #include "burr/base/text_file.h"
+#include "burr/base/toml_text.h"
 #include "burr/record/place_file.h"
 #include "burr/record/player.h"
 
@@ -26,19 +27,6 @@ std::tm local_now() {
   std::tm local = {};
   localtime_r(&now, &local);
   return local;
-}
-
-// a text in quotes, as TOML wants it
-std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
-      out += c;
-  }
-  return out + "\"";
 }
 
 std::string word_of(const toml::table& table, const char* key) {
@@ -187,8 +175,8 @@ Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& optio
     kept_.file = folder / (name + ".mcap");
     for (int n = 2; fs::exists(kept_.file, nobody_asks); ++n)  // two within a second
       kept_.file = folder / fmt::format("{}_{}.mcap", name, n);
-    made =
-        recording_.start(session_, kept_.file.string(), ready.volume, ready.import, "mouse", embed);
+    made = recording_.start(session_, kept_.file.string(), ready.volume, ready.import,
+                            session_.hand().spec().name, embed);
     recording_now_ = made.ok();
   }
   if (made) made = write_account();
@@ -212,7 +200,7 @@ Status Autosave::write_account() const {
                                    {"iso", &volume.iso},
                                    {"tissues", &volume.tissues},
                                    {"materials", &volume.materials}})
-    text += fmt::format("{} = {}\n", key, in_quotes(*value));
+    text += fmt::format("{} = {}\n", key, base::toml_text(*value));
   text += fmt::format(
       "voxel_mm = {}\nburr_mm = {}\nrpm = {}\nseconds = {:.3f}\nremoved_mm3 = {:.3f}\n"
       "clean = {}\nkeep = {}\n",
@@ -279,8 +267,8 @@ void remember(const fs::path& state, const std::string& path, const std::string&
   if (all.size() > kRecent) all.resize(kRecent);
   std::string text = "# Scans opened lately in burr's window.\n";
   for (const Recent& one : all)
-    text += fmt::format("\n[[scan]]\npath = {}\ntitle = {}\nwhen = {}\n", in_quotes(one.path),
-                        in_quotes(one.title), in_quotes(one.when));
+    text += fmt::format("\n[[scan]]\npath = {}\ntitle = {}\nwhen = {}\n", base::toml_text(one.path),
+                        base::toml_text(one.title), base::toml_text(one.when));
   static_cast<void>(write_text(state / "recent.toml", text));  // a list less is no trouble
 }
 

@@ -13,13 +13,15 @@
 #include "burr/base/new_file.h"
 #include "burr/base/shown.h"
 #include "burr/base/text_file.h"
+#include "burr/base/toml_text.h"
+#include "hand_device.h"
 
 namespace burr::app {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 1U << 16;  // a page of settings  [byte]
 
-// One line of the file. Exactly one of the four is set.
+// One line of the file. Exactly one of the five is set.
 struct Field {
   const char *key, *means;
   double Settings::*number = nullptr;
@@ -27,6 +29,7 @@ struct Field {
   Language Settings::*language = nullptr;
   double least = 0, most = 0;
   render::Stereo Settings::*stereo = nullptr;
+  std::string Settings::*device = nullptr;
 };
 
 constexpr std::array kFields = {
@@ -36,6 +39,9 @@ constexpr std::array kFields = {
           nullptr, 0.5, 3},
     Field{"left_handed", "the right button mills and the left one turns; the handle leans left",
           nullptr, &Settings::left_handed},
+    Field{"device",
+          "a haptic device that leads the burr, chosen on the start page; empty: the mouse",
+          nullptr, nullptr, nullptr, 0, 0, nullptr, &Settings::device},
     Field{"force_limit_n", "your own limit of the force in the hand [N]", &Settings::force_limit_n,
           nullptr, nullptr, 0.2, 20},
     Field{"press_mm", "how deep the mouse presses at first [mm]", &Settings::press_mm, nullptr,
@@ -100,6 +106,12 @@ std::string take(const Field& field, const toml::node& node, Settings& settings)
     if (!value || !(*value >= field.least) || !(*value <= field.most))
       return fmt::format("must be a number from {:g} to {:g}", field.least, field.most);
     settings.*field.number = *value;
+  } else if (field.device != nullptr) {
+    const auto value = node.value_exact<std::string>();
+    if (!value || (!value->empty() && !is_hand_kind(*value)))
+      return fmt::format("must be empty, or one of {}, with :WHICH where there are several",
+                         kinds_known());
+    settings.*field.device = *value;
   } else if (field.stereo != nullptr) {
     const std::string value = node.value_exact<std::string>().value_or("");
     const auto* const found = std::find(std::begin(kStereoNames), std::end(kStereoNames), value);
@@ -164,6 +176,8 @@ std::string settings_text(const Settings& settings) {
                           settings.*field.number);
     else if (field.yes != nullptr)
       text += fmt::format("\n{} = {}\n", field.key, settings.*field.yes);
+    else if (field.device != nullptr)
+      text += fmt::format("\n{} = {}\n", field.key, base::toml_text(settings.*field.device));
     else
       text += fmt::format("\n{} = \"{}\"\n", field.key,
                           field.stereo != nullptr ? name_of(settings.*field.stereo)

@@ -23,6 +23,7 @@ struct Settings {
   Language language = Language::english;
   double scale = 1;            // of letters and panels, on top of the display's own
   bool left_handed = false;    // the right button mills, the handle leans left
+  std::string device = {};     // that leads the burr, as after --device; empty: the mouse
   double force_limit_n = 3.3;  // the user's own limit of the force in the hand
   double press_mm = 4;         // how deep the mouse presses at first
   double turn_pace = 1;        // of the view, by mouse and arrows

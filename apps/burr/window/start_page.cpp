@@ -51,8 +51,12 @@ std::string name_of_case(const std::string& name) {
   return name;
 }
 
-StartPage::StartPage(Desk& desk)
-    : desk_(desk), thumbnails_(desk.places().cache, cases()), renewed_(desk.renewed()) {}
+StartPage::StartPage(Desk& desk, const HandWish& hand)
+    : desk_(desk), thumbnails_(desk.places().cache, cases()), renewed_(desk.renewed()), hand_([&] {
+        HandWish wish = hand;
+        if (wish.device.empty()) wish.device = desk.settings.device;
+        return wish;
+      }()) {}
 
 Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seconds) {
   using Clock = std::chrono::steady_clock;
@@ -71,11 +75,11 @@ Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seco
   while (!choice_) {
     const Clock::time_point frame = Clock::now();
     take_events();
+    thumbnails_.step(desk_.renderer());  // first: what is shown last is the page itself
     const Status shown = desk_.show(
         empty, [this] { draw(); }, true);
     if (!shown) return shown.error();
     if (std::exchange(renewed_, desk_.renewed()) != desk_.renewed()) thumbnails_.forget();
-    thumbnails_.step(desk_.renderer());
     if (const auto chosen = dialog_.answer(); chosen && !chosen->empty()) open(*chosen);
     const bool over = seconds > 0 && Clock::now() - start >= std::chrono::duration<double>(seconds);
     if (interrupted() || over) choice_ = Choice{.open = {}, .go_on = {}, .quit = true};
@@ -86,6 +90,7 @@ Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seco
           static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
   }
   SDL_StopTextInput();
+  hand_.rest();
   return *choice_;
 }
 
@@ -161,6 +166,10 @@ void StartPage::draw() {
   sessions(right, y, w);
   y += 12 * u;
   recents(right, y, w);
+  if (hand_.draw(ui, right, top + 632 * u, w)) {
+    desk_.settings.device = hand_.wish().device;
+    desk_.settings_changed();
+  }
 
   ImGui::SetCursorScreenPos({x, std::min(top + 660 * u, ui.height() - 48 * u)});
   if (ImGui::Button(fmt::format("{}  [F2]", word(Word::settings_title)).c_str())) settings_ = true;

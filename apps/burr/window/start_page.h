@@ -10,6 +10,7 @@
 
 #include "window/desk.h"
 #include "window/file_dialog.h"
+#include "window/hand_choice.h"
 #include "window/sessions.h"
 #include "window/thumbnails.h"
 
@@ -17,7 +18,8 @@ namespace burr::app {
 
 class StartPage {
  public:
-  explicit StartPage(Desk& desk);
+  // hand: of the command line; without a device the settings say which one
+  StartPage(Desk& desk, const HandWish& hand);
 
   // What the user chose; exactly one is set.
   struct Choice {
@@ -28,6 +30,8 @@ class StartPage {
   // Until something is chosen, the program is interrupted, or `seconds` are over (0: never).
   // trouble: a sentence about what went wrong before; "" for nothing.
   [[nodiscard]] Result<Choice> ask(const std::string& trouble, double seconds = 0);
+  // What is to lead the burr; no device: the mouse.
+  [[nodiscard]] const HandWish& hand() const { return hand_.wish(); }
 
  private:
   void take_events();
@@ -45,6 +49,7 @@ class StartPage {
   Thumbnails thumbnails_;
   int renewed_ = 0;  // as thumbnails_ knows it
   FileDialog dialog_;
+  HandChoice hand_;
   std::vector<KeptSession> kept_;
   std::vector<Recent> recent_;
   std::vector<std::string> dropped_;

@@ -304,6 +304,10 @@ enum class Word {
   start_unclean,
   start_kept,
   start_trouble,
+  hand_title,
+  hand_mouse,
+  hand_home,
+  hand_looks,
   // a scan before it becomes bone
   import_title,
   import_hint,

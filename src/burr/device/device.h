@@ -58,6 +58,9 @@ class Device {
     return nullptr;
   }
 
+  // Ticks go by another device's pace from now on: its exchanges do not wait for them. Main.
+  virtual void follow() {}
+
   // When the reading that state() gave last reached this computer, CLOCK_MONOTONIC [ns]; 0: not
   // known. Servo.
   [[nodiscard]] virtual std::int64_t arrived_ns() const BURR_RT { return 0; }

@@ -65,8 +65,10 @@ Vec3 Link::exchange(const HandState& hand) BURR_RT {
   take_answers(now);
   // nobody is there to answer, or nobody yet: waiting would only slow the device down
   if (answered_ns_ == kNever || now - answered_ns_ >= timeout_ns_) return push();
-  const std::int64_t until = now + patience_ns_;
-  while (patience_ns_ > 0 && answer_.number != number_ && now_() < until) {
+  const std::int64_t patience = patience_ns_.load(std::memory_order_relaxed);
+  if (patience <= 0) return push();
+  const std::int64_t until = now + patience;
+  while (answer_.number != number_ && now_() < until) {
     answered_.hear(until);
     take_answers(now_());
   }

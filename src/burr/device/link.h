@@ -75,6 +75,8 @@ class Link {
   }
 
   // ---- any
+  // Ticks begin by another device's readings: waiting for one's own would only slow this one down.
+  void never_wait() BURR_RT { patience_ns_.store(0, std::memory_order_relaxed); }
   // Multiplies what is pushed, until the next write_force().
   void hold(double scale) BURR_RT { scale_.store(scale, std::memory_order_relaxed); }
 
@@ -119,7 +121,8 @@ class Link {
   void take_answers(std::int64_t now) BURR_RT;
 
   Now now_;
-  std::int64_t patience_ns_, timeout_ns_, fade_ns_;
+  std::atomic<std::int64_t> patience_ns_;
+  std::int64_t timeout_ns_, fade_ns_;
 
   rt::Latest<Reading> readings_;
   rt::Latest<Answer> answers_;

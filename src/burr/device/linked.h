@@ -22,6 +22,7 @@ class LinkedDevice : public Device {
     clock_ = std::make_unique<LinkClock>(link_, rate_hz);
     return clock_.get();
   }
+  void follow() final { link_.never_wait(); }
   [[nodiscard]] std::int64_t arrived_ns() const BURR_RT final { return link_.arrived_ns(); }
   [[nodiscard]] bool account(LinkAccount& newest) final { return link_.account(newest); }
 

@@ -58,6 +58,7 @@ class MappedHand final : public Device {
   }
   void hold(double scale) BURR_RT override { device_->hold(scale); }
   [[nodiscard]] rt::TickClock* clock(double rate_hz) override { return device_->clock(rate_hz); }
+  void follow() override { device_->follow(); }
   [[nodiscard]] std::int64_t arrived_ns() const BURR_RT override { return device_->arrived_ns(); }
   [[nodiscard]] bool account(LinkAccount& newest) override { return device_->account(newest); }
   [[nodiscard]] std::string trouble() const override { return device_->trouble(); }

@@ -12,6 +12,7 @@
 #include "burr/base/check.h"
 #include "burr/base/shown.h"
 #include "burr/base/text_file.h"
+#include "burr/base/toml_text.h"
 #include "burr/io/materials_text.h"
 #include "burr/io/text.h"
 
@@ -204,16 +205,6 @@ class Reader {
   std::optional<Error> wrong_;
 };
 
-// As a TOML string; what it cannot hold becomes a space.
-std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  }
-  return out + '"';
-}
-
 // A float of TOML: 1 would be a whole number; either is read, but a float says what is meant.
 std::string number_text(double value) {
   std::string text = fmt::format("{:.9g}", value);
@@ -291,7 +282,7 @@ std::string materials_toml(std::span<const Material> materials) {
   std::string out;
   for (const Material& material : materials) {
     out += fmt::format("{}[[material]]\nname = {}\n", out.empty() ? "" : "\n",
-                       in_quotes(material.name));
+                       base::toml_text(material.name));
     for (const MaterialField& field : kFields) {
       const std::optional<Constant>& constant = material.*(field.place);
       if (!constant) continue;
@@ -299,7 +290,7 @@ std::string materials_toml(std::span<const Material> materials) {
           fmt::format("{} = {{ value = {}, low = {}, high = {}, source = {}, calibrated = {} }}\n",
                       field.key, number_text(constant->value / field.si),
                       number_text(constant->low / field.si), number_text(constant->high / field.si),
-                      in_quotes(constant->source), constant->calibrated);
+                      base::toml_text(constant->source), constant->calibrated);
     }
   }
   return out;

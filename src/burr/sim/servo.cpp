@@ -45,8 +45,7 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       vibration_({.device_gain = settings.vibration_gain}),
       limit_(device.spec(), settings.limit),
       path_(kPath),
-      burr_radius_(settings.burr.radius),
-      recent_(FaultReport::kTicks) {
+      burr_radius_(settings.burr.radius) {
   spindle_.full_speed = settings.spindle_rad_s;
   spindle_.motor = settings.motor;
   irrigated_ = settings.irrigated;
@@ -63,14 +62,14 @@ const record::TickRow& Servo::tick(bool lost) BURR_RT {
   if (lost) {
     limit_.restart();
     flags |= haptics::kFlagWatchdog;
-    fault_waits_ = true;
+    faults_.raise();
   }
   const bool believed = limit_.believe(hand_, flags);
   if ((hand_.buttons & device::kLifted) != 0) {  // it comes back in free air only
     limit_.lift();
     engaged_ = false;
   }
-  fault_waits_ |= !believed;
+  if (!believed) faults_.raise();
 
   take_wishes();
   spindle_.step(believed ? hand_.pedal : 0, cutting_.torque, dt_);
@@ -129,7 +128,7 @@ const record::TickRow& Servo::tick(bool lost) BURR_RT {
   row_.cutting_nm = cutting_.torque;
   row_.cutting_w = cutting_.power;
   hash_row();
-  keep_for_fault();
+  faults_.note(row_);
   return row_;
 }
 
@@ -568,21 +567,7 @@ void Servo::flush_bricks() BURR_RT { write_bricks(changed_.size()); }
 void Servo::note_timing(double took_us, double late_us) BURR_RT {
   row_.took_us = static_cast<float>(took_us);
   row_.late_us = static_cast<float>(late_us);
-  recent_[row_.tick % FaultReport::kTicks] = row_;
-}
-
-void Servo::keep_for_fault() BURR_RT {
-  recent_[row_.tick % FaultReport::kTicks] = row_;
-  report_.flags |= row_.contact.flags & (haptics::kFlagNotFinite | haptics::kFlagWatchdog |
-                                         haptics::kFlagJump | haptics::kFlagHandLost);
-  if (!fault_waits_ || row_.contact.force != Vec3::Zero()) return;  // first let the force fade
-  fault_waits_ = false;
-  report_.count = static_cast<int>(std::min<std::uint64_t>(next_tick_, FaultReport::kTicks));
-  for (int i = 0; i < report_.count; ++i)
-    report_.rows[static_cast<std::size_t>(i)] =
-        recent_[(next_tick_ - static_cast<std::uint64_t>(report_.count - i)) % FaultReport::kTicks];
-  faults_.publish(report_);
-  report_.flags = 0;
+  faults_.renew(row_);
 }
 
 // Chained, so that the first tick at which two runs part is the first whose hash differs.

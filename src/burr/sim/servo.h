@@ -9,7 +9,6 @@
 // bone. Memory: taken at construction. Cost: docs/realtime.md.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <span>
@@ -31,6 +30,7 @@
 #include "burr/record/rows.h"
 #include "burr/rt/latest.h"
 #include "burr/rt/ring.h"
+#include "burr/sim/fault_report.h"
 #include "burr/sim/load.h"
 #include "burr/sim/touch_methods.h"
 #include "burr/thermal/worker.h"
@@ -81,14 +81,6 @@ struct Diary {
   rt::Ring<record::BrickRow>* bricks = nullptr;
 };
 
-// The last ticks before something went wrong, oldest first; copied out once the force is zero.
-struct FaultReport {
-  static constexpr int kTicks = 200;
-  std::uint32_t flags = 0;  // what happened, haptics/contact.h
-  int count = 0;
-  std::array<record::TickRow, kTicks> rows;
-};
-
 class Servo {
  public:
   Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& device,
@@ -105,7 +97,7 @@ class Servo {
   // ---- doors (architecture.md 4)
   [[nodiscard]] rt::Ring<record::Wish>& wishes() BURR_RT { return wishes_; }   // main -> servo
   [[nodiscard]] rt::Latest<record::TickRow>& view() BURR_RT { return view_; }  // servo -> main
-  [[nodiscard]] rt::Latest<FaultReport>& faults() BURR_RT { return faults_; }  // servo -> main
+  [[nodiscard]] rt::Latest<FaultReport>& faults() BURR_RT { return faults_.reports(); }  // likewise
   // of the burr's head as it is now: a wish for a larger one is refused where it has no room [m]
   [[nodiscard]] double burr_radius() const BURR_RT {
     return burr_radius_.load(std::memory_order_relaxed);
@@ -164,7 +156,6 @@ class Servo {
   void tell_heat() BURR_RT;
   void remember_path() BURR_RT;
   void write_bricks(std::size_t most) BURR_RT;
-  void keep_for_fault() BURR_RT;
   void hash_row() BURR_RT;
 
   volume::Bone& bone_;
@@ -189,7 +180,6 @@ class Servo {
   math::Vec3 velocity_ = math::Vec3::Zero();
   Load load_ = Load::none, load_wished_ = Load::none;
   bool engaged_ = false;                  // the proxy is somewhere free and follows the hand
-  bool fault_waits_ = false;              // a fault's ticks are to be copied out
   bool irrigated_ = false;                // coolant runs: for the worker that knows the heat
   bool deposited_ = false;                // material was put on in this session
   edit::Mirror mirror_;                   // across which everything is done to the bone likewise
@@ -212,15 +202,13 @@ class Servo {
 
   rt::Ring<record::Wish> wishes_{256};
   rt::Latest<record::TickRow> view_;
-  rt::Latest<FaultReport> faults_;
+  FaultKeeper faults_;
   std::atomic<double> burr_radius_;
   Diary diary_;
   thermal::Worker* heat_ = nullptr;
   thermal::HeatRow heat_row_;
   record::TickRow row_;
   std::uint64_t next_tick_ = 0, last_hash_ = 0;
-  std::vector<record::TickRow> recent_;  // ring of FaultReport::kTicks
-  FaultReport report_;
 };
 
 // Without what every good session raises: the start ramp, and waiting for it; the guard at work.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <thread>
 
+#include "burr/base/check.h"
 #include "burr/rt/clock.h"
 
 namespace burr::sim {
@@ -26,6 +27,7 @@ Session::Session(std::unique_ptr<volume::Bone> bone, std::unique_ptr<device::Dev
 Session::~Session() {
   stop();
   device_->close();
+  if (second_device_) second_device_->close();
 }
 
 Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bone,
@@ -82,6 +84,17 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
   return session;
 }
 
+Status Session::join(std::unique_ptr<device::Device> device, const SecondHandSettings& settings) {
+  BURR_CHECK(second_ == nullptr && !running());
+  const Status opened = device->open();
+  if (!opened) return opened;
+  second_device_ = std::move(device);
+  second_device_->follow();
+  second_ =
+      std::make_unique<SecondHand>(*surface_, *second_device_, settings, settings_.servo.rate_hz);
+  return fine();
+}
+
 void Session::set_recorder(record::Recorder* recorder) {
   recorder_ = recorder;
   Diary diary;
@@ -118,6 +131,7 @@ void Session::loop(std::uint64_t ticks) {
     }
     const std::int64_t began = rt::monotonic_ns(), before = rt::thread_cpu_ns();
     const record::TickRow& row = servo_->tick(lost);
+    if (second_) second_->step(lost, servo_->restoring());
     const std::int64_t took = rt::thread_cpu_ns() - before;
     servo_->note_timing(1e-3 * static_cast<double>(took), 1e-3 * static_cast<double>(time.late_ns));
     servo_->publish();
@@ -151,6 +165,7 @@ void Session::loop(std::uint64_t ticks) {
     const double left = 1 - static_cast<double>(n) / fade;
     device_->write_torque(last_torque * left);
     device_->write_force(last_force * left);
+    if (second_) second_device_->write_force(second_->row().contact.force * left);
   }
   while (recorder_ != nullptr && servo_->bricks_to_write() > 0) {  // what the diary is still owed
     servo_->flush_bricks();
@@ -164,7 +179,10 @@ void Session::loop(std::uint64_t ticks) {
 void Session::guard() {
   while (running_.load(std::memory_order_acquire)) {
     const double scale = watchdog_->poll(rt::monotonic_ns());
-    if (scale < 1) device_->hold(scale);
+    if (scale < 1) {
+      device_->hold(scale);
+      if (second_) second_device_->hold(scale);
+    }
     std::this_thread::sleep_for(std::chrono::nanoseconds(kGuardNs));
   }
 }

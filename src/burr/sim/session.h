@@ -25,6 +25,7 @@
 #include "burr/rt/stats.h"
 #include "burr/rt/thread.h"
 #include "burr/sim/load.h"
+#include "burr/sim/second_hand.h"
 #include "burr/sim/servo.h"
 #include "burr/thermal/settings.h"
 #include "burr/thermal/summary.h"
@@ -72,6 +73,13 @@ class Session {
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
+
+  // One more device, in the other hand, which feels the bone and never changes it; nothing of it is
+  // recorded. Opens it. Before run() or start(), once. Error: as its open() says.
+  [[nodiscard]] Status join(std::unique_ptr<device::Device> device,
+                            const SecondHandSettings& settings);
+  // nullptr: there is none. Its view() and faults() are doors.
+  [[nodiscard]] SecondHand* second_hand() { return second_.get(); }
 
   // Everything that happens goes to this recorder, already started; before run() or start().
   // nullptr: nowhere.
@@ -125,11 +133,12 @@ class Session {
   void take_ahead();
 
   std::unique_ptr<volume::Bone> bone_;
-  std::unique_ptr<device::Device> device_;
+  std::unique_ptr<device::Device> device_, second_device_;
   SessionSettings settings_;
   std::unique_ptr<volume::IsoVertices> surface_;
   std::unique_ptr<thermal::Worker> heat_;
   std::unique_ptr<Servo> servo_;
+  std::unique_ptr<SecondHand> second_;
   std::unique_ptr<haptics::Watchdog> watchdog_;
   record::Recorder* recorder_ = nullptr;
 
