@@ -65,7 +65,9 @@ Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish) {
   }
   if (kind == "haply") {
     device::haply::InverseSettings settings;
-    settings.id = which;
+    const std::size_t plus = which.find('+');
+    settings.id = which.substr(0, plus);
+    if (plus != std::string::npos) settings.grip = which.substr(plus + 1);
     return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
         std::make_unique<device::haply::Inverse>(std::move(settings))));
   }
