@@ -40,6 +40,14 @@ struct HandKind {
 };
 [[nodiscard]] const std::vector<HandKind>& hand_kinds();
 
+// Those of a kind that are there, as a user names them: "haply:049D". Nothing moves and nothing is
+// pushed. The kind's own name where none is there, or none can be told apart.
+struct NamesThere {
+  std::vector<std::string> names;
+  std::string note;  // what else is to be said of the names, a sentence; or empty
+};
+[[nodiscard]] NamesThere names_there(const HandKind& kind);
+
 // Error: no kind of that name; says which there are. The device itself is looked for by open().
 [[nodiscard]] Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish);
 

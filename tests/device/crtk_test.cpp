@@ -536,9 +536,14 @@ TEST_F(LeaderTest, WhoComesLaterMakesItLetGo) {
 TEST_F(LeaderTest, AThousandTimesOpenedAndClosedNothingIsLeft) {
   FakeCrtkArm arm(domain_);
   const auto once = [&] {
-    Leader wire(here());
-    const auto found = wire.connect();
-    return found.ok() ? "" : found.error().text;
+    std::string trouble;
+    static_cast<void>(soon([&] {  // a busy machine may make the false arm too slow
+      Leader wire(here());
+      const auto found = wire.connect();
+      trouble = found.ok() ? "" : found.error().text;
+      return trouble.find("times a second") == std::string::npos;
+    }));
+    return trouble;
   };
   for (int n = 0; n < 10; ++n) ASSERT_EQ(once(), "");  // what is taken for ever is taken
   const int files = test::open_files();

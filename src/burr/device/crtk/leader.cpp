@@ -184,6 +184,23 @@ Leader::~Leader() { disconnect(); }
 
 namespace {
 
+struct Heard {
+  std::vector<std::string> arms;
+  std::string old;  // one whose place is of a type of before 2022, and that type
+};
+Heard heard_on(Bus& bus) {
+  Heard heard;
+  for (const Topic& topic : bus.written()) {
+    if (!topic.name.ends_with(kPlace) || topic.name.find("/local/") != std::string::npos) continue;
+    const std::string arm = topic.name.substr(0, topic.name.size() - std::string(kPlace).size());
+    if (topic.type != kPoseType)
+      heard.old = arm + " " + topic.type;
+    else if (std::find(heard.arms.begin(), heard.arms.end(), arm) == heard.arms.end())
+      heard.arms.push_back(arm);
+  }
+  return heard;
+}
+
 // The arm to take; error: which there are.
 Result<std::string> choose(Bus& bus, const std::string& given) {
   std::string wanted;
@@ -193,19 +210,11 @@ Result<std::string> choose(Bus& bus, const std::string& given) {
       return error(Trouble::usage,
                    fmt::format("{}: is no name of an arm; write it as ROS does, /MTMR", given));
   }
-  std::vector<std::string> arms;
-  std::string old;
+  Heard heard;
+  const std::vector<std::string>& arms = heard.arms;
+  const std::string& old = heard.old;
   const auto look = [&] {
-    arms.clear();
-    for (const Topic& topic : bus.written()) {
-      if (!topic.name.ends_with(kPlace) || topic.name.find("/local/") != std::string::npos)
-        continue;
-      const std::string arm = topic.name.substr(0, topic.name.size() - std::string(kPlace).size());
-      if (topic.type != kPoseType)
-        old = arm + " " + topic.type;
-      else if (std::find(arms.begin(), arms.end(), arm) == arms.end())
-        arms.push_back(arm);
-    }
+    heard = heard_on(bus);
     return !wanted.empty() && std::find(arms.begin(), arms.end(), wanted) != arms.end();
   };
   if (until(kHeard, look)) return wanted;
@@ -232,6 +241,13 @@ Result<std::string> choose(Bus& bus, const std::string& given) {
 }
 
 }  // namespace
+
+Result<std::vector<std::string>> arms_heard(const LeaderSettings& settings) {
+  auto bus = Bus::open(settings.domain);
+  if (!bus) return bus.error();
+  std::this_thread::sleep_for(kHeard);
+  return heard_on(**bus).arms;
+}
 
 // Enabled and homed, by itself where that is allowed.
 Status Leader::prepare(Talk& talk) {

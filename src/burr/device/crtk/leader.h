@@ -31,6 +31,9 @@ struct LeaderSettings {
   bool home_allowed = false;  // it may be enabled and home itself: it moves
 };
 
+// Every arm that is heard on the bus within a second and a half; nothing is said to any.
+[[nodiscard]] Result<std::vector<std::string>> arms_heard(const LeaderSettings& settings = {});
+
 class Leader final : public Wire {
  public:
   explicit Leader(LeaderSettings settings = {});
