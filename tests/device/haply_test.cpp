@@ -540,11 +540,12 @@ TEST_F(InverseEventsTest, OnlyItsOwnDevicesCount) {
     service_.tell_safety("ebrake_triggered", other);
   }
   service_.tell("device-busy", "049D");
-  for (bool seen = false; !seen;) {  // in order: what came before it has been left aside by then
-    EXPECT_TRUE(exchange(wire).valid);
+  EXPECT_TRUE(soon([&] {  // in order: what came before it has been left aside by then
+    const bool valid = exchange(wire).valid;
+    EXPECT_TRUE(valid);
     EXPECT_EQ(wire.why().find("battery"), std::string::npos) << wire.why();
-    seen = wire.why().find("is busy") != std::string::npos;
-  }
+    return !valid || wire.why().find("is busy") != std::string::npos;
+  }));
   service_.tell("device-battery-low");
   EXPECT_TRUE(says(wire, "battery is low")) << "whose it is was not told";
 }
