@@ -439,6 +439,37 @@ string container(bool packed, bool finished) {
   return content(path);
 }
 
+// What devices say, and what is wished of them.
+void devices() {
+  const string first =
+      R"({"session_id":7,"inverse3":[{"device_id":"049D","config":{"type":"inverse3",)"
+      R"("handedness":"left","device_info":{"major_version":7,"minor_version":4}},"state":)"
+      R"({"cursor_position":{"x":0.01,"y":-0.02,"z":0.03},"cursor_velocity":{"x":0,"y":0,"z":0},)"
+      R"("current_cursor_force":{"x":0,"y":0,"z":0}},"status":{"calibrated":true,"in_use":false,)"
+      R"("power_supply":true,"ready":true}}],"wireless_verse_grip":[{"device_id":"GRIP","state":)"
+      R"({"orientation":{"w":1,"x":0,"y":0,"z":0},"buttons":{"a":true,"button_1":true},)"
+      R"("battery_level":0.8},"status":{"connected":true,"awake":true}}]})";
+  seed("haply_message", "states",
+       first + "\n" + R"({"inverse3":[{"device_id":"049D","state":{}}],"verse_grip":[]})" + "\n" +
+           R"({"inverse3":[]})");
+  seed("haply_message", "version", R"({"ok":true,"data":{"project_version":"3.5.0"}})");
+  seed("haply_message", "events",
+       R"({"name":"device-safety-triggered","category":"device","level":"critical","data":)"
+       R"({"device_id":"049D","safety_type":"ebrake_triggered"},"message":"x"})"
+       "\n"
+       R"({"name":"device-battery-low","level":"warning","data":{"device_id":"GRIP"}})");
+  const string line = "0.0 10.5 -3.25 0.1 -0.2 0.3 0.0 0";
+  const string whole = line + string(63 - line.size(), ' ') + "\n";
+  seed("polhem_line", "line", line);
+  seed("polhem_line", "whole", '\x0d' + whole + '\x0d' + whole);
+  seed("polhem_line", "pieces", '\x02' + whole.substr(0, 11) + '\x0c' + whole.substr(11) + '\xff');
+  seed("device_book", "usual",
+       "scale=0.5\n[\"Touch T-1\"]\nscale = 2\nmax_force_n = 1.5\ndead_man = true\naxes = \"far "
+       "left up\"\n[\"CRTK arm /MTMR\"]\nmill_button = 1\nclutch_button = -1\nvibration = 0.5\n"
+       "torque = 0\n");
+  seed("device_book", "axes", "axes=right up near\n");
+}
+
 string recorded() {
   const string path = fuzz::folder() + "/seed.mcap";
   const auto bone = block(8);
@@ -516,6 +547,7 @@ int main(int argc, char** argv) {
   dicom();
   unpacking();
   texts();
+  devices();
   recordings();
   if (argc == 3) {
     const fs::path corpus = argv[2];

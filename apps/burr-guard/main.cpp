@@ -82,7 +82,8 @@ int guard_arm(int domain, const std::string& arm, const std::string& route) {
     answer(bus.error().text);
     return EXIT_FAILURE;
   }
-  crtk::Writer<crtk::WrenchStamped> force((*bus)->participant(), arm + route);
+  crtk::Writer<crtk::WrenchStamped> force((*bus)->participant(), arm + route, crtk::Keep::newest,
+                                          crtk::kGuardian);
   for (const auto until = steady_clock::now() + kFound; force.readers() <= 0;) {
     if (steady_clock::now() > until) {
       answer(

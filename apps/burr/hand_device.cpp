@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "burr/device/crtk/leader.h"
 #include "burr/device/forcedimension/omega.h"
@@ -45,6 +47,42 @@ std::string kinds_known() {
   return fmt::format("{}", fmt::join(known, ", "));
 }
 
+NamesThere names_there(const HandKind& kind) {
+  const std::string name = kind.name;
+  NamesThere there;
+  const auto add = [&](const std::string& which) { there.names.push_back(name + ":" + which); };
+  if (name == "touch") {
+    there.note =
+        "Of several each has the name that its setup program gave it: touch:NAME. Its library "
+        "cannot list them.";
+  } else if (name == "force-dimension") {
+    if (const auto plugged = device::forcedimension::Omega::plugged()) {
+      for (const int serial : plugged->serials) add(std::to_string(serial));
+      if (!plugged->serials.empty() && plugged->nameless > 0)
+        there.note = fmt::format(
+            "{} more cannot be told by a serial number; another program may have it open.",
+            plugged->nameless);
+    }
+  } else if (name == "haply") {
+    if (const auto known = device::haply::all_known({})) {
+      for (const device::haply::Known& arm : known->arms) add(arm.id);
+      if (known->grips.size() > 1)
+        there.note =
+            fmt::format("There are the grips {}: haply:ARM+GRIP says which is held with an arm.",
+                        fmt::join(known->grips, ", "));
+    }
+  } else if (name == "polhem") {
+    for (const device::polhem::Port& port :
+         device::polhem::ports_of_arms(device::polhem::PolhemSettings{}.system))
+      add(port.path);
+  } else if (name == "crtk") {
+    if (const auto arms = device::crtk::arms_heard())
+      for (const std::string& arm : *arms) add(arm);
+  }
+  if (there.names.empty()) there.names.push_back(name);
+  return there;
+}
+
 Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish) {
   const std::string& name = wish.device;
   const std::string kind = name.substr(0, name.find(':'));
@@ -71,7 +109,9 @@ Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish) {
   }
   if (kind == "haply") {
     device::haply::InverseSettings settings;
-    settings.id = which;
+    const std::size_t plus = which.find('+');
+    settings.id = which.substr(0, plus);
+    if (plus != std::string::npos) settings.grip = which.substr(plus + 1);
     return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
         std::make_unique<device::haply::Inverse>(std::move(settings))));
   }

@@ -3,6 +3,8 @@
 //     --device touch            the default Touch        --device "touch:Left one"   by its name
 //     --device force-dimension  the first                --device force-dimension:17 by its serial
 //     number
+//     --device haply            the first arm, the   --device haply:049D+GRIP   an arm and the grip
+//     first grip                                     that is held with it, each by its id
 //     --device crtk             the only arm on the bus  --device crtk:/MTMR         by its name
 //
 // Thread: main.
@@ -40,6 +42,14 @@ struct HandKind {
 [[nodiscard]] const std::vector<HandKind>& hand_kinds();
 // "touch", "touch:Left": of a kind that burr drives.
 [[nodiscard]] bool is_hand_kind(std::string_view device);
+
+// Those of a kind that are there, as a user names them: "haply:049D". Nothing moves and nothing is
+// pushed. The kind's own name where none is there, or none can be told apart.
+struct NamesThere {
+  std::vector<std::string> names;
+  std::string note;  // what else is to be said of the names, a sentence; or empty
+};
+[[nodiscard]] NamesThere names_there(const HandKind& kind);
 
 // Error: no kind of that name; says which there are. The device itself is looked for by open().
 [[nodiscard]] Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish);

@@ -26,8 +26,13 @@ using Wishes = FakeHaply::Wishes;
 
 class InverseTest : public ::testing::Test {
  protected:
-  [[nodiscard]] InverseSettings here(const std::string& id = {}) const {
-    return {.host = "127.0.0.1", .port = service_.port, .id = id};
+  [[nodiscard]] InverseSettings here(const std::string& id = {},
+                                     const std::string& grip = {}) const {
+    return {.host = "127.0.0.1",
+            .port = service_.port,
+            .id = id,
+            .grip = grip,
+            .events_port = service_.events_port};
   }
   [[nodiscard]] std::unique_ptr<WireDevice> device(
       const std::string& id = {}, double loss_timeout = test::kStallsAllowed) const {
@@ -43,6 +48,11 @@ class InverseTest : public ::testing::Test {
     EXPECT_EQ(read, Wire::Read::hand);
     EXPECT_TRUE(wire.write(force));
     return hand;
+  }
+  std::string refusal(const InverseSettings& settings) {
+    Inverse wire(settings);
+    const auto found = wire.connect();
+    return found.ok() ? "it connected" : found.error().text;
   }
   Vec3 asked(std::size_t arm = 0) {
     return service_.with([&](Wishes& w) { return w.arms[arm].force; });
@@ -333,6 +343,305 @@ TEST_F(InverseTest, TwoAtOnceEachHasItsOwnForce) {
   EXPECT_NEAR(asked(0).z(), 0, 1e-9);
 }
 
+TEST_F(InverseTest, TwoAtOnceEachHasItsOwnGrip) {
+  service_.with([](Wishes& w) {
+    w.arms.push_back({});
+    w.arms[1].id = "B2";
+    w.more_grips = {{.id = "LEFT", .buttons = 2}};
+    w.buttons = 1;
+  });
+  Inverse first(here("049D")), second(here("B2", "LEFT"));
+  ASSERT_TRUE(first.connect().ok());
+  ASSERT_TRUE(second.connect().ok());
+  const Quat down(Eigen::AngleAxisd(-M_PI / 2, Vec3::UnitX()));
+  service_.with([&](Wishes& w) { w.more_grips[0].orientation = down; });
+  exchange(first);
+  exchange(second);
+  const HandState one = exchange(first), two = exchange(second);
+  EXPECT_EQ(one.buttons, 1U) << "the first grip, where none is named";
+  EXPECT_EQ(two.buttons, 2U);
+  EXPECT_NEAR((one.world_from_tool.q * Vec3::UnitZ() - Vec3::UnitZ()).norm(), 0, 1e-9);
+  EXPECT_NEAR((two.world_from_tool.q * Vec3::UnitZ() - Vec3::UnitY()).norm(), 0, 1e-9);
+  const std::string none = refusal(here("", "RIGHT"));
+  EXPECT_NE(none.find("knows no grip RIGHT; it knows GRIP, LEFT"), std::string::npos) << none;
+}
+
+// Its last word may have been that a button is down.
+TEST_F(InverseTest, AGripThatIsGoneHoldsNoButton) {
+  service_.with([](Wishes& w) { w.more_grips = {{.id = "LEFT", .buttons = 1}}; });
+  Inverse wire(here("", "LEFT"));
+  ASSERT_TRUE(wire.connect().ok());
+  exchange(wire);
+  EXPECT_EQ(exchange(wire).buttons, 1U);
+  service_.with([](Wishes& w) { w.more_grips[0].connected = false; });
+  exchange(wire);
+  EXPECT_EQ(exchange(wire).buttons, 0U);
+  service_.with([](Wishes& w) { w.more_grips[0].connected = true; });
+  exchange(wire);
+  EXPECT_EQ(exchange(wire).buttons, 1U);
+  service_.with([](Wishes& w) { w.more_grips.clear(); });
+  exchange(wire);
+  EXPECT_EQ(exchange(wire).buttons, 0U);
+}
+
+TEST_F(InverseTest, ALeftHandIsNamed) {
+  service_.with([](Wishes& w) { w.arms[0].left = true; });
+  Inverse wire(here());
+  const auto spec = wire.connect();
+  ASSERT_TRUE(spec.ok());
+  EXPECT_EQ(spec->name, "inverse3 (left hand)");
+}
+
+TEST_F(InverseTest, AtAHundredHertzNothingIsPushed) {
+  const auto arm = device({}, 5e-3);
+  ASSERT_TRUE(arm->open().ok());
+  test::StandIn tick(*arm, [](const HandState&) { return Vec3(0, 0.04, 0); });
+  ASSERT_TRUE(soon([&] { return asked().norm() > 0.03; }));
+  service_.with([](Wishes& w) { w.pace_ms = 10; });
+  ASSERT_TRUE(soon([&] { return (tick.flags() & haptics::kFlagHandLost) != 0; }));
+  ASSERT_TRUE(soon([&] { return asked() == Vec3::Zero(); }));
+  const int before = service_.messages;
+  double most = 0;
+  while (service_.messages < before + 30) {
+    most = std::max(most, asked().norm());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(most, 0);
+  EXPECT_EQ(arm->returns(), 0) << "slow, and not lost";
+}
+
+// The service adds up what all sessions ask for.
+TEST_F(InverseTest, AnArmThatIsInUseIsLeftToItsProgram) {
+  service_.with([](Wishes& w) { w.arms[0].in_use = true; });
+  const std::string said = refusal(here());
+  EXPECT_NE(said.find("inverse3 049D is in use by another program; close that one"),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(service_.messages, 0) << "not a word to it";
+  ::setenv("BURR_HAPLY_SHARED", "1", 1);
+  EXPECT_EQ(refusal(here()), "it connected") << "its user knows better";
+  ::unsetenv("BURR_HAPLY_SHARED");
+}
+
+TEST_F(InverseTest, ASecondBurrIsRefusedAndTheFirstGoesOn) {
+  Inverse first(here());
+  ASSERT_TRUE(first.connect().ok());
+  std::atomic<bool> done = false;
+  int invalid = 0;
+  std::thread goes_on([&] {
+    while (!done) invalid += exchange(first, {0.5, 0, 0}).valid ? 0 : 1;
+  });
+  EXPECT_NE(refusal(here()).find("in use by another program"), std::string::npos);
+  done = true;
+  goes_on.join();
+  EXPECT_EQ(invalid, 0) << "that it is in use by ourselves is no trouble";
+  EXPECT_NEAR(asked().x(), 0.5, 1e-4);
+  first.disconnect();
+  EXPECT_EQ(refusal(here()), "it connected") << "as soon as the first has ended";
+}
+
+TEST_F(InverseTest, AnOldServiceIsToldByItsVersion) {
+  service_.with([](Wishes& w) {
+    w.version = "3.0.4";
+    w.greets = R"({"devices":[{"device_id":"049D","cursor_position":{"x":0,"y":0,"z":0}}]})";
+  });
+  std::string said = refusal(here());
+  EXPECT_NE(said.find("is version 3.0, which speaks otherwise; install version 3.1 or later"),
+            std::string::npos)
+      << said;
+  service_.with([](Wishes& w) {
+    w.web_socket = false;
+    w.version = "2.2.1";
+  });
+  said = refusal(here());
+  EXPECT_NE(said.find("is version 2.2, which speaks otherwise"), std::string::npos) << said;
+  service_.with([](Wishes& w) { w.version = ""; });
+  said = refusal(here());
+  EXPECT_NE(said.find("is no Inverse Service of version 3.1 or later; update"), std::string::npos)
+      << said;
+  service_.with([](Wishes& w) {
+    w.web_socket = true;
+    w.greets = "hello";
+  });
+  said = refusal(here());
+  EXPECT_NE(said.find("is no Inverse Service of version 3.1 or later; update"), std::string::npos)
+      << said;
+  EXPECT_EQ(service_.messages, 0);
+}
+
+// ---- what it tells besides
+
+class InverseEventsTest : public InverseTest {
+ protected:
+  // With exchanges going on, so that what is told is seen.
+  bool says(Inverse& wire, const std::string& words) {
+    return soon([&] {
+      valid_ = exchange(wire).valid;
+      return words.empty() ? wire.why().empty() : wire.why().find(words) != std::string::npos;
+    });
+  }
+  bool listens() {
+    return soon([&] { return service_.listeners == 1; });
+  }
+  bool valid_ = false;
+};
+
+TEST_F(InverseEventsTest, WhatMattersIsSaidInWords) {
+  Inverse wire(here());
+  ASSERT_TRUE(wire.connect().ok());
+  ASSERT_TRUE(listens());
+  for (const auto& [name, words] : {std::pair{"device-disconnected", "was disconnected"},
+                                    {"device-battery-low", "battery is low"},
+                                    {"device-battery-critical", "battery is nearly empty"},
+                                    {"device-sleep", "fell asleep"},
+                                    {"device-busy", "is busy; close other programs"},
+                                    {"device-connection-loop", "again and again"},
+                                    {"device-calibration-failed", "could not be calibrated"}}) {
+    service_.tell(name, "049D");
+    EXPECT_TRUE(says(wire, words)) << name << ": " << wire.why();
+    EXPECT_TRUE(wire.why().starts_with("inverse3 049D ")) << wire.why();
+    EXPECT_TRUE(valid_) << name;
+  }
+  for (const auto& [type, words] : {std::pair{"fod_stage_changed", "stage of its own guard"},
+                                    {"stall_detected", "motors stalled"},
+                                    {"stability_ceiling", "limit of stability"}}) {
+    service_.tell_safety(type, "049D");
+    EXPECT_TRUE(says(wire, words)) << type << ": " << wire.why();
+    EXPECT_TRUE(valid_) << type;
+  }
+  service_.tell("device-meltdown", "049D", "critical");
+  EXPECT_TRUE(says(wire, "tells of trouble"));
+  service_.tell("device-connected", "049D", "info");
+  EXPECT_TRUE(says(wire, "")) << wire.why();
+}
+
+TEST_F(InverseEventsTest, WhatWasToldIsSaidForSomeSeconds) {
+  Inverse wire(here());
+  ASSERT_TRUE(wire.connect().ok());
+  ASSERT_TRUE(listens());
+  service_.tell("device-battery-low", "GRIP");
+  ASSERT_TRUE(says(wire, "battery is low")) << "of the grip that is held with it";
+  const auto began = std::chrono::steady_clock::now();
+  ASSERT_TRUE(says(wire, ""));
+  EXPECT_GT(std::chrono::steady_clock::now() - began, std::chrono::seconds(3));
+}
+
+TEST_F(InverseEventsTest, OnlyItsOwnDevicesCount) {
+  service_.with([](Wishes& w) {
+    w.arms.push_back({});
+    w.arms[1].id = "B2";
+    w.more_grips = {{.id = "LEFT"}};
+  });
+  Inverse wire(here("049D", "GRIP"));
+  ASSERT_TRUE(wire.connect().ok());
+  ASSERT_TRUE(listens());
+  for (const char* other : {"B2", "LEFT"}) {
+    service_.tell("device-battery-low", other);
+    service_.tell_safety("ebrake_triggered", other);
+  }
+  service_.tell("device-busy", "049D");
+  EXPECT_TRUE(soon([&] {  // in order: what came before it has been left aside by then
+    const bool valid = exchange(wire).valid;
+    EXPECT_TRUE(valid);
+    EXPECT_EQ(wire.why().find("battery"), std::string::npos) << wire.why();
+    return !valid || wire.why().find("is busy") != std::string::npos;
+  }));
+  service_.tell("device-battery-low");
+  EXPECT_TRUE(says(wire, "battery is low")) << "whose it is was not told";
+}
+
+TEST_F(InverseEventsTest, AnEmergencyBrakeLetsGoUntilItIsReleasedAndForceReturnsByTheRamp) {
+  const auto arm = device();
+  ASSERT_TRUE(arm->open().ok());
+  std::atomic<bool> wall = false;
+  test::StandIn tick(*arm, [&](const HandState&) { return Vec3(0, wall ? 2.0 : 0.0, 0); });
+  ASSERT_TRUE(soon([&] { return tick.engaged(); }));
+  ASSERT_TRUE(listens());
+  wall = true;
+  ASSERT_TRUE(soon([&] { return asked().norm() > 1.9; }));
+  service_.tell_safety("ebrake_triggered", "049D");
+  ASSERT_TRUE(soon([&] { return asked() == Vec3::Zero(); }));
+  EXPECT_FALSE(tick.hand().valid);
+  EXPECT_TRUE(soon([&] { return arm->trouble().find("emergency brake") != std::string::npos; }));
+  EXPECT_EQ(arm->returns(), 0);
+  service_.tell("device-battery-low", "049D");
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_EQ(asked(), Vec3::Zero());
+  EXPECT_NE(arm->trouble().find("emergency brake"), std::string::npos) << "first of all";
+  service_.tell_safety("ebrake_released", "049D");
+  ASSERT_TRUE(soon([&] { return tick.hand().valid; }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_FALSE(tick.engaged()) << "the wall is still there: it waits for a small force";
+  wall = false;
+  EXPECT_TRUE(soon([&] { return tick.engaged(); }));
+}
+
+// Nobody told that it was released, so nobody knows.
+TEST_F(InverseEventsTest, ABrakeOutlivesItsChannelAndTheConnection) {
+  Inverse wire(here());
+  ASSERT_TRUE(wire.connect().ok());
+  ASSERT_TRUE(listens());
+  service_.tell_safety("ebrake_triggered");
+  ASSERT_TRUE(says(wire, "is held by its emergency brake"));
+  EXPECT_FALSE(valid_);
+  service_.with([](Wishes& w) { w.events_hang_up = true; });
+  ASSERT_TRUE(says(wire, "when it was last heard of; release it, and begin again"));
+  EXPECT_FALSE(valid_);
+  ASSERT_TRUE(wire.connect().ok());
+  EXPECT_FALSE(exchange(wire).valid);
+  ASSERT_TRUE(listens());
+  service_.tell_safety("ebrake_released");
+  EXPECT_TRUE(says(wire, ""));
+  EXPECT_TRUE(valid_);
+}
+
+TEST_F(InverseEventsTest, GarbageHugeMessagesAndHangUpsDisturbNothing) {
+  const auto arm = device();
+  ASSERT_TRUE(arm->open().ok());
+  test::StandIn tick(*arm, [](const HandState&) { return Vec3(0, 0.04, 0); });
+  ASSERT_TRUE(soon([&] { return asked().norm() > 0.03; }));
+  ASSERT_TRUE(listens());
+  const std::uint64_t invalid = tick.invalid();
+  for (const char* odd : {"{", "[]", "{}", R"({"name":7})", R"({"name":"x","data":[]})",
+                          R"({"name":"device-safety-triggered","data":{"safety_type":[1]}})"})
+    service_.tell_text(odd);
+  service_.tell("device-battery-low", "049D");
+  EXPECT_TRUE(soon([&] { return arm->trouble().find("battery") != std::string::npos; }))
+      << "after all that";
+  service_.tell_text('"' + std::string(10'000'000, 'x') + '"');
+  EXPECT_TRUE(soon([&] { return service_.listened == 2; })) << "hung up on, and listened to again";
+  service_.with([](Wishes& w) { w.events_hang_up = true; });
+  EXPECT_TRUE(soon([&] { return service_.listened == 3; }));
+  for (int n = 0; n < 2000; ++n) service_.tell_text("nonsense");
+  EXPECT_TRUE(soon([&] { return service_.listened == 4; })) << "it is another's channel";
+  service_.tell_text("\xff\xfe");
+  EXPECT_TRUE(soon([&] { return service_.listened == 5; })) << "no text at all";
+  service_.tell("device-busy", "049D");
+  EXPECT_TRUE(soon([&] { return arm->trouble().find("busy") != std::string::npos; }));
+  EXPECT_EQ(arm->returns(), 0);
+  EXPECT_EQ(tick.invalid(), invalid);
+  EXPECT_GT(asked().norm(), 0.03);
+}
+
+TEST_F(InverseEventsTest, WithoutTheChannelItGoesOn) {
+  InverseSettings settings = here();
+  settings.events_port = 1;
+  Inverse wire(settings);
+  ASSERT_TRUE(wire.connect().ok());
+  EXPECT_TRUE(exchange(wire).valid);
+  EXPECT_EQ(wire.why(), "");
+  wire.disconnect();
+  ::setenv("HAPLY_EVENTS_PORT", "x", 1);
+  settings.events_port = 0;
+  EXPECT_NE(refusal(settings).find("HAPLY_EVENTS_PORT is \"x\"; give a port"), std::string::npos);
+  ::setenv("HAPLY_EVENTS_PORT", std::to_string(service_.events_port).c_str(), 1);
+  EXPECT_EQ(service_.listened, 0);
+  Inverse told(settings);
+  ASSERT_TRUE(told.connect().ok());
+  EXPECT_TRUE(listens());
+  ::unsetenv("HAPLY_EVENTS_PORT");
+}
+
 TEST_F(InverseTest, AMillionForcesAndNonePassesTheLimit) {
   Inverse wire(here());
   ASSERT_TRUE(wire.connect().ok());
@@ -351,11 +660,21 @@ TEST_F(InverseTest, AMillionForcesAndNonePassesTheLimit) {
 }
 
 TEST_F(InverseTest, AThousandTimesOpenedAndClosedNothingIsLeft) {
-  for (int n = 0; n < 1000; ++n) {
+  const auto once = [&] {
     Inverse wire(here());
-    ASSERT_TRUE(wire.connect().ok()) << n;
-  }
-  EXPECT_EQ(service_.sessions, 1000);
+    return wire.connect().ok();
+  };
+  const auto ended = [&] { return service_.listeners == 0; };
+  for (int n = 0; n < 20; ++n) ASSERT_TRUE(once());  // what is taken for ever is taken
+  ASSERT_TRUE(soon(ended));
+  const int files = test::open_files();
+  const std::size_t memory = test::memory_in_use();
+  for (int n = 0; n < 1000; ++n) ASSERT_TRUE(once()) << n;
+  EXPECT_TRUE(soon([&] { return ended() && test::open_files() <= files; }))
+      << test::open_files() << " open, " << files << " before";
+  EXPECT_GE(service_.sessions, 1020);
+  // the false service keeps a few hundred bytes of each; a leaked connection has some kilobytes
+  EXPECT_LT(test::memory_in_use(), memory + 2'000'000);
 }
 
 // ---- messages
@@ -369,7 +688,7 @@ TEST(HaplyMessage, BrokenTextsAreNoStates) {
       R"("cursor_velocity":{"x":0,"y":0,"z":0}},"status":{"calibrated":true}}],"verse_grip":[{"state":{"orientation":)"
       R"({"w":1,"x":0,"y":0,"z":0},"buttons":{"a":true}}}]})";
   State known;
-  ASSERT_EQ(read_state(whole, "049D", known), Read::state);
+  ASSERT_EQ(read_state(whole, "049D", "", known), Read::state);
   EXPECT_EQ(known.place, Vec3(0.01, -0.02, 0.03));
   EXPECT_EQ(known.buttons, 1U);
   for (int n = 0; n < 20'000; ++n) {
@@ -384,14 +703,32 @@ TEST(HaplyMessage, BrokenTextsAreNoStates) {
       if (text.empty()) break;
     }
     State state;
-    static_cast<void>(read_state(text, "049D", state));
+    static_cast<void>(read_state(text, "049D", "", state));
     std::vector<Found> found;
     static_cast<void>(read_found(text, found));
     static_cast<void>(read_version(text));
+    Event event;
+    static_cast<void>(read_event(text, event));
     EXPECT_TRUE(state.place.allFinite() && state.velocity.allFinite() && state.force.allFinite())
         << "seed " << seed << ": " << text;
     EXPECT_NEAR(state.grip.norm(), 1, 1e-9) << "seed " << seed << ": " << text;
   }
+}
+
+TEST(HaplyMessage, EventsAreWhatTheServiceTells) {
+  Event event;
+  ASSERT_TRUE(
+      read_event(R"({"name":"device-safety-triggered","category":"device","level":"critical",)"
+                 R"("data":{"device_id":"049D","safety_type":"ebrake_triggered"}})",
+                 event));
+  EXPECT_EQ(event.what, Told::brake);
+  EXPECT_EQ(event.device, "049D");
+  ASSERT_TRUE(read_event(R"({"name":"http-route-deprecated","level":"warning","data":{}})", event));
+  EXPECT_EQ(event.what, Told::nothing);
+  EXPECT_EQ(event.device, "");
+  ASSERT_TRUE(read_event(R"({"name":"device-sleep"})", event));
+  EXPECT_EQ(event.what, Told::sleeps);
+  EXPECT_FALSE(read_event(R"({"message":"x"})", event));
 }
 
 TEST(HaplyMessage, VersionsAreToldApart) {

@@ -2,7 +2,7 @@
 // trial.
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "burr/base/new_file.h"
@@ -22,51 +22,76 @@ struct Options {
   bool json = false, yes = false;
 };
 
-// Opens and closes each; nothing moves and nothing is pushed.
+// One that may be there, opened and closed, as JSON and as the user reads it.
+Status tell(const HandKind& kind, const std::string& name, const DeviceBook& book,
+            nlohmann::json& all, bool json) {
+  HandWish wish;
+  wish.device = name;
+  auto device = make_hand(wish);
+  if (!device) return device.error();
+  const Status opened = (*device)->open();
+  if (!opened) {
+    all.push_back(
+        {{"name", name}, {"kind", kind.name}, {"there", false}, {"why", opened.error().text}});
+    if (!json)
+      fmt::print("{:<16} {}\n                 not there: {}\n", name, kind.makes,
+                 opened.error().text);
+    return fine();
+  }
+  const device::DeviceSpec spec = (*device)->spec();
+  const std::string trouble = (*device)->trouble();
+  (*device)->close();
+  const DeviceWishes wishes = book.of(id_of(spec));
+  all.push_back({{"name", name},
+                 {"kind", kind.name},
+                 {"there", true},
+                 {"id", id_of(spec)},
+                 {"sensed", spec.sensed},
+                 {"actuated", spec.actuated},
+                 {"peak_force_N", spec.peak_force},
+                 {"continuous_force_N", spec.continuous_force},
+                 {"peak_torque_Nm", spec.peak_torque},
+                 {"stiffness_N_m", spec.max_stiffness},
+                 {"damping_N_s_m", spec.max_damping},
+                 {"workspace_mm", 1e3 * spec.workspace_radius},
+                 {"rate_hz", spec.native_rate},
+                 {"trouble", trouble},
+                 {"scale", wishes.mapping.scale},
+                 {"max_force_N", wishes.max_force_n}});
+  if (json) return fine();
+  fmt::print("{:<16} {}: feels {} axes and pushes {}, {:.1f} N ({:.2f} N for long){}\n", name,
+             id_of(spec), spec.sensed, spec.actuated, spec.peak_force, spec.continuous_force,
+             spec.peak_torque > 0 ? fmt::format(", {:g} N m", spec.peak_torque) : "");
+  fmt::print(
+      "                 walls to {:.0f} N/m, damping to {:g} N s/m, {:.0f} mm about its "
+      "middle, {:.0f} Hz; scale {:g}{}\n",
+      spec.max_stiffness, spec.max_damping, 1e3 * spec.workspace_radius, spec.native_rate,
+      wishes.mapping.scale,
+      wishes.max_force_n > 0 ? fmt::format(", your limit {:g} N", wishes.max_force_n) : "");
+  if (!trouble.empty()) fmt::print("                 {}\n", trouble);
+  return fine();
+}
+
+// Every one that is there, by the name a user calls it; nothing moves and nothing is pushed.
 Status list(const Options& options) {
-  nlohmann::json found = nlohmann::json::array();
+  nlohmann::json all = nlohmann::json::array();
   const DeviceBook book = DeviceBook::read(users_book());
   for (const std::string& trouble : book.troubles()) fmt::print(stderr, "{}\n", trouble);
   if (!options.json)
     fmt::print("mouse, gamepad, pedal, SpaceMouse  in the window, without force\n");
   for (const HandKind& kind : hand_kinds()) {
-    HandWish wish;
-    wish.device = kind.name;
-    auto device = make_hand(wish);
-    if (!device) return device.error();
-    const Status opened = (*device)->open();
-    if (!opened) {
-      found.push_back({{"name", kind.name}, {"there", false}, {"why", opened.error().text}});
-      if (!options.json)
-        fmt::print("{:<16} {}\n                 not there: {}\n", kind.name, kind.makes,
-                   opened.error().text);
-      continue;
+    const NamesThere there = names_there(kind);
+    const std::size_t before = all.size();
+    for (const std::string& name : there.names) {
+      const Status told = tell(kind, name, book, all, options.json);
+      if (!told) return told;
     }
-    const device::DeviceSpec spec = (*device)->spec();
-    const std::string trouble = (*device)->trouble();
-    (*device)->close();
-    const DeviceWishes wishes = book.of(id_of(spec));
-    found.push_back({{"name", kind.name},
-                     {"there", true},
-                     {"id", id_of(spec)},
-                     {"peak_force_N", spec.peak_force},
-                     {"continuous_force_N", spec.continuous_force},
-                     {"peak_torque_Nm", spec.peak_torque},
-                     {"stiffness_N_m", spec.max_stiffness},
-                     {"rate_hz", spec.native_rate},
-                     {"trouble", trouble},
-                     {"scale", wishes.mapping.scale},
-                     {"max_force_N", wishes.max_force_n}});
-    if (options.json) continue;
-    fmt::print(
-        "{:<16} {}: {:.1f} N ({:.2f} N for long){}, walls to {:.0f} N/m, {:.0f} Hz; scale {:g}{}\n",
-        kind.name, id_of(spec), spec.peak_force, spec.continuous_force,
-        spec.peak_torque > 0 ? fmt::format(", {:g} N m", spec.peak_torque) : "", spec.max_stiffness,
-        spec.native_rate, wishes.mapping.scale,
-        wishes.max_force_n > 0 ? fmt::format(", your limit {:g} N", wishes.max_force_n) : "");
-    if (!trouble.empty()) fmt::print("                 {}\n", trouble);
+    const bool any = std::any_of(all.begin() + static_cast<std::ptrdiff_t>(before), all.end(),
+                                 [](const nlohmann::json& one) { return one["there"] == true; });
+    if (any && !there.note.empty() && !options.json)
+      fmt::print("                 {}\n", there.note);
   }
-  if (options.json) fmt::print("{}\n", found.dump());
+  if (options.json) fmt::print("{}\n", all.dump());
   return fine();
 }
 

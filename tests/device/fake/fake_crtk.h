@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -43,6 +44,9 @@ class FakeCrtkArm {
     std::string state = "ENABLED";
     bool homed = true, busy = false;
     int home_ms = 50;  // that homing takes; below 0: it faults
+    // makes of what it is about to tell something else
+    std::function<void(device::crtk::PoseStamped&, device::crtk::TwistStamped&)> spoil;
+    std::uint64_t places = 0;  // told
     // ---- what came
     math::Vec3 force = math::Vec3::Zero(), torque = math::Vec3::Zero();
     double largest = 0;
@@ -158,8 +162,11 @@ class FakeCrtkArm {
           TwistStamped twist{};
           twist.header_ = {stamp, lent("")};
           twist.twist_.linear_ = message_of(w.velocity);
+          PoseStamped pose{{stamp, lent("base")}, message_of(w.place)};
+          if (w.spoil) w.spoil(pose, twist);
           speed.write(twist);
-          place.write(PoseStamped{{stamp, lent("base")}, message_of(w.place)});
+          place.write(pose);
+          ++w.places;
         }
         stall = w.stall_ms;
         w.stall_ms = 0;

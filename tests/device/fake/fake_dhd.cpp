@@ -15,8 +15,23 @@ namespace {
 
 constexpr int kFirstId = 5;  // an id is no index, whatever the real library does
 
+// FAKE_DHD_SERIALS, "1001,1002": for a program that a test runs; those and no other are there.
+void plug_in(FakeDhd& all) {
+  const char* serials = std::getenv("FAKE_DHD_SERIALS");
+  if (serials == nullptr) return;
+  for (FakeArm& arm : all.arm) {
+    char* end = nullptr;
+    const long serial = std::strtol(serials, &end, 10);
+    arm.present = end != serials;
+    arm.serial = static_cast<unsigned short>(serial);
+    serials = *end == ',' ? end + 1 : end;
+  }
+}
+
 FakeDhd& state() {
   static FakeDhd one;
+  static const bool plugged = (plug_in(one), true);
+  static_cast<void>(plugged);
   return one;
 }
 

@@ -1,5 +1,5 @@
 // An Inverse Service without a device: a WebSocket server that answers each message with one state,
-// as the maker's pages say, and misbehaves as a test wishes.
+// and another that tells what happens, as the maker's pages say; both misbehave as a test wishes.
 #pragma once
 
 #include <sys/socket.h>
@@ -13,9 +13,11 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -26,16 +28,25 @@ namespace burr::test {
 
 class FakeHaply {
  public:
+  using Json = nlohmann::json;
   struct Arm {
     std::string id = "049D", type = "inverse3";
     math::Vec3 place = math::Vec3::Zero(), velocity = math::Vec3::Zero();
-    bool calibrated = true, powered = true;
+    bool calibrated = true, powered = true, left = false;
+    bool in_use = false;                    // by another program; it is by ours once we command it
     math::Vec3 force = math::Vec3::Zero();  // as asked for last
     double largest = 0;                     // of all
   };
+  struct Grip {
+    std::string id;
+    math::Quat orientation = math::Quat::Identity();
+    unsigned buttons = 0;
+    bool connected = true;
+  };
   struct Wishes {
     std::vector<Arm> arms = {{}};
-    bool grip = true;
+    bool grip = true;  // "GRIP", the first one, and how it is held
+    std::vector<Grip> more_grips;
     bool grip_awake = true;
     math::Quat orientation = math::Quat::Identity();
     std::string names_of_buttons = "abc";  // or "button_"
@@ -44,21 +55,33 @@ class FakeHaply {
     std::string key = "vector";     // of a force; another is not obeyed
     bool silent = false;            // takes messages and does not answer
     int stall_ms = 0;               // the next answer comes so much later, once
+    int pace_ms = 0;                // each answer does
+    bool web_socket = true;         // false: it speaks HTTP only
+    std::string greets;             // the first message, whatever it is; empty: as it should be
     bool fragments = false, pings = false;
     std::deque<std::string> instead;  // the next answers, whatever they are
     bool hang_up = false;
     bool leaves_out = false;  // what is as it was
+    // ---- the channel of events
+    std::vector<std::string> events;  // told to all who listen, one after another
+    bool events_hang_up = false;
   };
 
-  FakeHaply() : acceptor_(io_, {boost::asio::ip::address_v4::loopback(), 0}) {
+  FakeHaply()
+      : acceptor_(io_, {boost::asio::ip::address_v4::loopback(), 0}),
+        events_acceptor_(io_, {boost::asio::ip::address_v4::loopback(), 0}) {
     port = acceptor_.local_endpoint().port();
-    thread_ = std::thread([this] { serve(); });
+    events_port = events_acceptor_.local_endpoint().port();
+    thread_ = std::thread([this] { serve(acceptor_, &FakeHaply::talk); });
+    events_thread_ = std::thread([this] { serve(events_acceptor_, &FakeHaply::tell_all); });
   }
   ~FakeHaply() {
     stop_ = true;
     ::shutdown(acceptor_.native_handle(), SHUT_RDWR);
+    ::shutdown(events_acceptor_.native_handle(), SHUT_RDWR);
     drop();
     thread_.join();
+    events_thread_.join();
     for (std::thread& one : talks_) one.join();
   }
   FakeHaply(const FakeHaply&) = delete;
@@ -76,25 +99,45 @@ class FakeHaply {
     for (const int one : open_) ::shutdown(one, SHUT_RDWR);
   }
 
-  int port = 0;
+  // Something happens, as the service tells it; device: its id, empty: none is told.
+  void tell(const std::string& name, const std::string& device = {},
+            const std::string& level = "warning", Json data = Json::object()) {
+    if (!device.empty()) data["device_id"] = device;
+    tell_text(Json{{"name", name},
+                   {"category", "device"},
+                   {"level", level},
+                   {"data", data},
+                   {"message", "as it is told"}}
+                  .dump());
+  }
+  void tell_safety(const std::string& type, const std::string& device = {}) {
+    tell("device-safety-triggered", device, "critical", {{"safety_type", type}});
+  }
+  void tell_text(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    wishes_.events.push_back(text);
+  }
+
+  int port = 0, events_port = 0;
   std::atomic<int> messages = 0, sessions = 0, unreadable = 0;
+  std::atomic<int> listeners = 0, listened = 0;  // to events: now, ever
 
  private:
   using Tcp = boost::asio::ip::tcp;
-  using Json = nlohmann::json;
 
-  void serve() {
+  void serve(Tcp::acceptor& acceptor, void (FakeHaply::*speak)(Tcp::socket)) {
     while (!stop_) {
       boost::system::error_code trouble;
       Tcp::socket socket(io_);
-      acceptor_.accept(socket, trouble);
+      acceptor.accept(socket, trouble);
       if (trouble) continue;
+      socket.set_option(Tcp::no_delay(true), trouble);
       const std::lock_guard lock(mutex_);
       if (stop_) return;
       open_.push_back(socket.native_handle());
-      talks_.emplace_back([this, taken = std::make_shared<Tcp::socket>(std::move(socket))] {
+      talks_.emplace_back([this, speak, taken = std::make_shared<Tcp::socket>(std::move(socket))] {
         const int handle = taken->native_handle();
-        talk(std::move(*taken));
+        (this->*speak)(std::move(*taken));
         const std::lock_guard done(mutex_);
         std::erase(open_, handle);
       });
@@ -109,23 +152,36 @@ class FakeHaply {
     boost::system::error_code trouble;
     http::read(socket, buffer, ask, trouble);
     if (trouble) return;
-    if (!beast::websocket::is_upgrade(ask)) return answer_http(socket, std::string(ask.target()));
+    if (!beast::websocket::is_upgrade(ask) || !with([](Wishes& w) { return w.web_socket; }))
+      return answer_http(socket, std::string(ask.target()));
     beast::websocket::stream<Tcp::socket> stream(std::move(socket));
     stream.accept(ask, trouble);
     if (trouble) return;
     ++sessions;
-    if (!send(stream, state(true))) return;
+    std::set<std::string> held;
+    converse(stream, held);
+    const std::lock_guard lock(mutex_);
+    for (const std::string& arm : held) --holders_[arm];
+  }
+
+  template <class Stream>
+  void converse(Stream& stream, std::set<std::string>& held) {
+    namespace beast = boost::beast;
+    boost::system::error_code trouble;
+    const std::string greets = with([](Wishes& w) { return w.greets; });
+    if (!send(stream, greets.empty() ? state(true) : greets)) return;
     while (!stop_) {
       beast::flat_buffer message;
       stream.read(message, trouble);
       if (trouble) return;
       ++messages;
-      obey(beast::buffers_to_string(message.data()));
+      obey(beast::buffers_to_string(message.data()), held);
       int stall = 0;
       bool silent = false, pings = false, hang_up = false;
       std::string answer;
       with([&](Wishes& w) {
         std::swap(stall, w.stall_ms);
+        stall += w.pace_ms;
         silent = w.silent;
         pings = w.pings;
         std::swap(hang_up, w.hang_up);
@@ -140,6 +196,31 @@ class FakeHaply {
       if (pings) stream.ping({}, trouble);
       if (!send(stream, answer.empty() ? state(false) : answer)) return;
     }
+  }
+
+  // What happens from now on, until the other end or the test has had enough.
+  void tell_all(Tcp::socket socket) {
+    boost::beast::websocket::stream<Tcp::socket> stream(std::move(socket));
+    boost::system::error_code trouble;
+    stream.accept(trouble);
+    if (trouble) return;
+    std::size_t next = with([](Wishes& w) { return w.events.size(); });
+    ++listeners;
+    ++listened;
+    while (!stop_) {
+      std::string text;
+      bool hang_up = false;
+      with([&](Wishes& w) {
+        std::swap(hang_up, w.events_hang_up);
+        if (next < w.events.size()) text = w.events[next++];
+      });
+      char seen = 0;
+      const bool gone =
+          ::recv(stream.next_layer().native_handle(), &seen, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
+      if (hang_up || gone || (!text.empty() && !send(stream, text))) break;
+      if (text.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    --listeners;
   }
 
   void answer_http(Tcp::socket& socket, const std::string& target) {
@@ -173,10 +254,12 @@ class FakeHaply {
     return with([&](Wishes& w) {
       Json all = {{"session_id", 7}, {"inverse3", Json::array()}};
       for (const Arm& arm : w.arms) {
-        Json one = {
-            {"device_id", arm.id},
-            {"status",
-             {{"calibrated", arm.calibrated}, {"power_supply", arm.powered}, {"ready", true}}}};
+        Json one = {{"device_id", arm.id},
+                    {"status",
+                     {{"calibrated", arm.calibrated},
+                      {"power_supply", arm.powered},
+                      {"ready", true},
+                      {"in_use", arm.in_use || holders_[arm.id] > 0}}}};
         one["state"] = {{"cursor_position", xyz(arm.place)},
                         {"cursor_velocity", xyz(arm.velocity)}};
         if (!w.leaves_out || arm.force != math::Vec3::Zero())
@@ -184,30 +267,35 @@ class FakeHaply {
         if (w.leaves_out && arm.place == math::Vec3::Zero()) one["state"].erase("cursor_position");
         if (first)
           one["config"] = {{"type", arm.type},
-                           {"handedness", "right"},
+                           {"handedness", arm.left ? "left" : "right"},
                            {"device_info", {{"major_version", 7}, {"minor_version", 4}}}};
         all["inverse3"].push_back(one);
       }
-      if (w.grip) {
-        Json buttons;
-        for (unsigned n = 0; n < 3; ++n)
-          buttons[w.names_of_buttons == "abc" ? std::string(1, static_cast<char>('a' + n))
-                                              : "button_" + std::to_string(n)] =
-              (w.buttons >> n & 1U) != 0;
-        const math::Quat& q = w.orientation;
-        all["wireless_verse_grip"] = {
-            {{"device_id", "GRIP"},
-             {"state",
-              {{"orientation", {{"w", q.w()}, {"x", q.x()}, {"y", q.y()}, {"z", q.z()}}},
-               {"buttons", buttons},
-               {"battery_level", 0.8}}},
-             {"status", {{"connected", true}, {"awake", w.grip_awake}}}}};
-      }
+      if (w.grip)
+        all["wireless_verse_grip"].push_back(
+            grip_state(w, {"GRIP", w.orientation, w.buttons, true}, w.grip_awake));
+      for (const Grip& grip : w.more_grips)
+        all["wireless_verse_grip"].push_back(grip_state(w, grip, true));
       return all.dump();
     });
   }
 
-  void obey(const std::string& text) {
+  static Json grip_state(const Wishes& w, const Grip& grip, bool awake) {
+    Json buttons;
+    for (unsigned n = 0; n < 3; ++n)
+      buttons[w.names_of_buttons == "abc" ? std::string(1, static_cast<char>('a' + n))
+                                          : "button_" + std::to_string(n)] =
+          (grip.buttons >> n & 1U) != 0;
+    const math::Quat& q = grip.orientation;
+    return {{"device_id", grip.id},
+            {"state",
+             {{"orientation", {{"w", q.w()}, {"x", q.x()}, {"y", q.y()}, {"z", q.z()}}},
+              {"buttons", buttons},
+              {"battery_level", 0.8}}},
+            {"status", {{"connected", grip.connected}, {"awake", awake}}}};
+  }
+
+  void obey(const std::string& text, std::set<std::string>& held) {
     const Json all = Json::parse(text, nullptr, false);
     if (!all.is_object() || !all.contains("inverse3")) {
       ++unreadable;
@@ -217,6 +305,7 @@ class FakeHaply {
       for (const Json& asked : all["inverse3"])
         for (Arm& arm : w.arms) {
           if (asked.value("device_id", "") != arm.id) continue;
+          if (held.insert(arm.id).second) ++holders_[arm.id];
           const Json force = asked.value("/commands/set_cursor_force"_json_pointer, Json());
           if (!force.is_object() || !force.contains(w.key)) continue;  // not obeyed
           const Json& v = force[w.key];
@@ -228,13 +317,14 @@ class FakeHaply {
   }
 
   boost::asio::io_context io_;
-  Tcp::acceptor acceptor_;
+  Tcp::acceptor acceptor_, events_acceptor_;
   std::mutex mutex_;
   Wishes wishes_;
+  std::map<std::string, int> holders_;  // sessions that command an arm
   std::vector<int> open_;
   std::vector<std::thread> talks_;
   std::atomic<bool> stop_ = false;
-  std::thread thread_;
+  std::thread thread_, events_thread_;
 };
 
 }  // namespace burr::test

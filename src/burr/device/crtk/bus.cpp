@@ -7,6 +7,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <utility>
 
@@ -34,6 +35,15 @@ dds_entity_t make_topic(dds_entity_t participant, const dds_topic_descriptor_t& 
                         std::string_view topic) {
   const std::string name = std::string(kPrefix) + std::string(topic);
   return dds_create_topic(participant, &type, name.c_str(), nullptr, nullptr);
+}
+
+std::string mark_of(const dds_qos_t* qos) {
+  void* data = nullptr;
+  std::size_t size = 0;
+  if (qos == nullptr || !dds_qget_userdata(qos, &data, &size) || data == nullptr) return {};
+  std::string mark(static_cast<const char*>(data), size);
+  dds_free(data);
+  return mark;
 }
 
 }  // namespace
@@ -71,11 +81,7 @@ const dds_topic_descriptor_t& described<StringStamped>() {
   return crtk_msgs_msg_dds__StringStamped__desc;
 }
 
-Bus::Bus(dds_entity_t participant, int domain)
-    : participant_(participant),
-      publications_(
-          dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr)),
-      domain_(domain) {}
+Bus::Bus(dds_entity_t participant, int domain) : participant_(participant), domain_(domain) {}
 
 Bus::~Bus() { dds_delete(participant_); }
 
@@ -100,26 +106,45 @@ Result<std::unique_ptr<Bus>> Bus::open(int domain) {
   return std::unique_ptr<Bus>(new Bus(participant, domain));
 }
 
-std::vector<Topic> Bus::written() {
+void Bus::hear() {
+  // only where somebody asks: what is told and not taken stays in memory
+  if (publications_ <= 0)
+    publications_ =
+        dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
+  dds_guid_t own{};
+  static_cast<void>(dds_get_guid(participant_, &own));
   void* sample = nullptr;
   dds_sample_info_t info{};
   while (dds_take(publications_, &sample, &info, 1, 1) > 0) {
     const auto& point = *static_cast<const dds_builtintopic_endpoint_t*>(sample);
     const std::string key(reinterpret_cast<const char*>(&point.key), sizeof point.key);
-    std::erase_if(heard_, [&key](const auto& one) { return one.first == key; });
+    std::erase_if(heard_, [&key](const Writes& one) { return one.key == key; });
     if (info.instance_state == DDS_IST_ALIVE && info.valid_data) {
       const std::string_view name = point.topic_name;
       if (name.starts_with("rt/"))
-        heard_.emplace_back(
-            key, Topic{std::string(name.substr(kPrefix.size())), std::string(point.type_name)});
+        heard_.push_back({key,
+                          {std::string(name.substr(kPrefix.size())), std::string(point.type_name)},
+                          std::memcmp(&point.participant_key, &own, sizeof own) == 0,
+                          mark_of(point.qos) == kGuardian});
     }
     dds_return_loan(publications_, &sample, 1);
     sample = nullptr;
   }
+}
+
+std::vector<Topic> Bus::written() {
+  hear();
   std::vector<Topic> all;
-  for (const auto& one : heard_) all.push_back(one.second);
+  for (const Writes& one : heard_) all.push_back(one.topic);
   std::sort(all.begin(), all.end(), [](const Topic& a, const Topic& b) { return a.name < b.name; });
   return all;
+}
+
+int Bus::others_writing(std::string_view topic, bool guardians) {
+  hear();
+  return static_cast<int>(std::count_if(heard_.begin(), heard_.end(), [&](const Writes& one) {
+    return one.topic.name == topic && !one.ours && (guardians || !one.guardian);
+  }));
 }
 
 namespace detail {
@@ -134,8 +159,9 @@ dds_entity_t make_reader(dds_entity_t participant, const dds_topic_descriptor_t&
 }
 
 dds_entity_t make_writer(dds_entity_t participant, const dds_topic_descriptor_t& type,
-                         std::string_view topic, Keep keep) {
+                         std::string_view topic, Keep keep, std::string_view mark) {
   const Qos wish = qos(keep);
+  if (!mark.empty()) dds_qset_userdata(wish.get(), mark.data(), mark.size());
   dds_qset_reliability(wish.get(), DDS_RELIABILITY_RELIABLE, 0);  // no wait for who is slow
   return dds_create_writer(participant, make_topic(participant, type, topic), wish.get(), nullptr);
 }

@@ -56,14 +56,27 @@ class Bus {
   [[nodiscard]] int domain() const { return domain_; }
   // Topics of ROS that somebody writes, as far as heard by now; sorted.
   [[nodiscard]] std::vector<Topic> written();
+  // How many others write it, as far as heard by now; guardians: also those processes of burr's
+  // that say nothing but "no force" (device/guardian.h).
+  [[nodiscard]] int others_writing(std::string_view topic, bool guardians);
 
  private:
   Bus(dds_entity_t participant, int domain);
 
-  dds_entity_t participant_, publications_;
+  struct Writes {
+    std::string key;  // of the writer
+    Topic topic;
+    bool ours = false, guardian = false;
+  };
+  void hear();
+
+  dds_entity_t participant_, publications_ = 0;
   int domain_;
-  std::vector<std::pair<std::string, Topic>> heard_;  // by the writer's key
+  std::vector<Writes> heard_;
 };
+
+// What a guardian's writer carries, so that it is known for one.
+inline constexpr std::string_view kGuardian = "burr-guard";
 
 enum class Keep {
   newest,  // one sample: what is measured
@@ -75,7 +88,7 @@ namespace detail {
 [[nodiscard]] dds_entity_t make_reader(dds_entity_t participant, const dds_topic_descriptor_t& type,
                                        std::string_view topic, Keep keep);
 [[nodiscard]] dds_entity_t make_writer(dds_entity_t participant, const dds_topic_descriptor_t& type,
-                                       std::string_view topic, Keep keep);
+                                       std::string_view topic, Keep keep, std::string_view mark);
 [[nodiscard]] bool take(dds_entity_t reader, void* sample);
 }  // namespace detail
 
@@ -103,8 +116,10 @@ class Reader {
 template <class T>
 class Writer {
  public:
-  Writer(dds_entity_t participant, std::string_view topic, Keep keep = Keep::newest)
-      : entity_(detail::make_writer(participant, described<T>(), topic, keep)) {}
+  // mark: that others may know it by
+  Writer(dds_entity_t participant, std::string_view topic, Keep keep = Keep::newest,
+         std::string_view mark = {})
+      : entity_(detail::make_writer(participant, described<T>(), topic, keep, mark)) {}
   ~Writer() { dds_delete(entity_); }
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;

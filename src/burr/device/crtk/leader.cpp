@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "burr/device/crtk/bus.h"
+#include "burr/device/crtk/reading.h"
 #include "burr/device/guardian.h"
 
 namespace burr::device::crtk {
 namespace {
 
-using math::Quat;
 using math::Vec3;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
@@ -23,13 +23,14 @@ constexpr milliseconds kMatched(2000);  // for a topic to be joined
 constexpr milliseconds kStated(600);    // for an arm to say its state
 constexpr milliseconds kHomes(60'000);  // for an arm to home
 constexpr milliseconds kCounted(400);   // in which its rate is seen
+constexpr int kCountedPlaces = 100;     // likewise: so many are enough
+constexpr milliseconds kLeft(1000);     // for another's writer to go: our own of before
 constexpr milliseconds kSilent(200);    // then it is gone
 constexpr milliseconds kLook(2);
 constexpr std::int64_t kOneReadingNs = 2'000'000;  // that read() waits
 constexpr std::int64_t kLastNs = 100'000'000;      // for the last force to arrive
-constexpr double kSlowest = 400;    // readings a second: the tick lets go after 5 ms without [Hz]
-constexpr double kFarthest = 5;     // no arm is longer [m]
-constexpr int kLookAtReaders = 64;  // forces between two looks whether anybody takes them
+constexpr double kSlowest = 400;  // readings a second: the tick lets go after 5 ms without [Hz]
+constexpr int kLookAtBus = 64;  // forces between two looks who takes them, and who else gives some
 
 constexpr const char *kBody = "/body/servo_cf", *kSpatial = "/spatial/servo_cf";
 constexpr const char* kPlace = "/measured_cp";
@@ -71,8 +72,9 @@ struct Leader::Talk {
 
   bool to_body = true;
   WrenchStamped wrench{};
-  int until_look = kLookAtReaders;
-  bool taken = true;
+  int until_look = kLookAtBus;
+  bool taken = true, alone = true;
+  bool sound_speed = true;
   HandState hand;
   steady_clock::time_point heard;
 
@@ -146,9 +148,15 @@ struct Leader::Talk {
   double rate() {
     int places = 0;
     const auto began = steady_clock::now();
-    while (steady_clock::now() - began < kCounted)
+    while (places < kCountedPlaces && steady_clock::now() - began < kCounted)
       if (next_place() != nullptr) ++places;
     return places / std::chrono::duration<double>(steady_clock::now() - began).count();
+  }
+
+  // Who else writes its forces.
+  int others(bool guardians) {
+    return bus->others_writing(arm + kBody, guardians) +
+           bus->others_writing(arm + kSpatial, guardians);
   }
 
   [[nodiscard]] bool enabled() const { return !stated || state == "ENABLED"; }
@@ -176,6 +184,23 @@ Leader::~Leader() { disconnect(); }
 
 namespace {
 
+struct Heard {
+  std::vector<std::string> arms;
+  std::string old;  // one whose place is of a type of before 2022, and that type
+};
+Heard heard_on(Bus& bus) {
+  Heard heard;
+  for (const Topic& topic : bus.written()) {
+    if (!topic.name.ends_with(kPlace) || topic.name.find("/local/") != std::string::npos) continue;
+    const std::string arm = topic.name.substr(0, topic.name.size() - std::string(kPlace).size());
+    if (topic.type != kPoseType)
+      heard.old = arm + " " + topic.type;
+    else if (std::find(heard.arms.begin(), heard.arms.end(), arm) == heard.arms.end())
+      heard.arms.push_back(arm);
+  }
+  return heard;
+}
+
 // The arm to take; error: which there are.
 Result<std::string> choose(Bus& bus, const std::string& given) {
   std::string wanted;
@@ -185,19 +210,11 @@ Result<std::string> choose(Bus& bus, const std::string& given) {
       return error(Trouble::usage,
                    fmt::format("{}: is no name of an arm; write it as ROS does, /MTMR", given));
   }
-  std::vector<std::string> arms;
-  std::string old;
+  Heard heard;
+  const std::vector<std::string>& arms = heard.arms;
+  const std::string& old = heard.old;
   const auto look = [&] {
-    arms.clear();
-    for (const Topic& topic : bus.written()) {
-      if (!topic.name.ends_with(kPlace) || topic.name.find("/local/") != std::string::npos)
-        continue;
-      const std::string arm = topic.name.substr(0, topic.name.size() - std::string(kPlace).size());
-      if (topic.type != kPoseType)
-        old = arm + " " + topic.type;
-      else if (std::find(arms.begin(), arms.end(), arm) == arms.end())
-        arms.push_back(arm);
-    }
+    heard = heard_on(bus);
     return !wanted.empty() && std::find(arms.begin(), arms.end(), wanted) != arms.end();
   };
   if (until(kHeard, look)) return wanted;
@@ -224,6 +241,13 @@ Result<std::string> choose(Bus& bus, const std::string& given) {
 }
 
 }  // namespace
+
+Result<std::vector<std::string>> arms_heard(const LeaderSettings& settings) {
+  auto bus = Bus::open(settings.domain);
+  if (!bus) return bus.error();
+  std::this_thread::sleep_for(kHeard);
+  return heard_on(**bus).arms;
+}
 
 // Enabled and homed, by itself where that is allowed.
 Status Leader::prepare(Talk& talk) {
@@ -290,6 +314,12 @@ Result<DeviceSpec> Leader::connect() {
                              "set a shorter period where its node is started",
                              *arm, rate, kSlowest));
 
+  if (!until(kLeft, [&talk] { return talk->others(true) == 0; }))
+    return error(Trouble::io,
+                 fmt::format("{0} is pushed by another program: somebody else writes {0}{1} or "
+                             "{0}{2}; end that one, two forces on one arm are dangerous",
+                             *arm, kBody, kSpatial));
+
   // Where the arm knows them: its weight carried, and forces as its end is turned.
   const Bool yes{true}, no{false};
   talk->weightless.write(yes);
@@ -336,24 +366,19 @@ Wire::Read Leader::read(HandState& hand) BURR_RT {
   talk.heard = steady_clock::now();
   talk.listen();
   while (const TwistStamped* speed = talk.speed.take())
-    talk.hand.velocity =
-        is_zero(speed->header_.stamp_) ? Vec3(Vec3::Zero()) : vector_of(speed->twist_.linear_);
-  const bool stamped = !is_zero(newest->header_.stamp_);  // CRTK: 0 says that it is not valid
-  const math::Pose pose = pose_of(newest->pose_);
-  const double size = pose.q.norm();
-  const bool sound = pose.finite() && size > 0.5 && size < 2 && pose.p.norm() < kFarthest &&
-                     talk.hand.velocity.allFinite();
-  note(!talk.enabled()      ? "was disabled; enable it at its console."
-       : !talk.ready()      ? "homes or moves by itself just now; wait for it."
-       : !stamped || !sound ? "says that its place is not valid; see its console."
-       : !talk.taken        ? "does not take forces; see that its node runs."
-       : !talk.is_present   ? "waits for somebody at its console."
-                            : nullptr);
-  if (stamped && sound) talk.hand.world_from_tool = {pose.p, Quat(pose.q.coeffs() / size)};
+    talk.sound_speed = take_speed(*speed, talk.hand);
+  const bool sound = take_place(*newest, talk.hand) && talk.sound_speed;
+  note(!talk.enabled()    ? "was disabled; enable it at its console."
+       : !talk.ready()    ? "homes or moves by itself just now; wait for it."
+       : !sound           ? "says that its place is not valid; see its console."
+       : !talk.alone      ? "is pushed by another program too; end that one."
+       : !talk.taken      ? "does not take forces; see that its node runs."
+       : !talk.is_present ? "waits for somebody at its console."
+                          : nullptr);
   hand = talk.hand;
   hand.buttons = talk.buttons | (talk.is_present ? 0 : kLifted);
   hand.pedal = talk.pedal;
-  hand.valid = stamped && sound && talk.taken && talk.ready();
+  hand.valid = sound && talk.alone && talk.taken && talk.ready();
   return Read::hand;
 }
 
@@ -361,8 +386,9 @@ bool Leader::write(const Vec3& force) BURR_RT {
   Talk& talk = *talk_;
   static_cast<void>(talk.push(bounded(force, kPeak)));  // what went nowhere is followed by the next
   if (--talk.until_look <= 0) {
-    talk.until_look = kLookAtReaders;
+    talk.until_look = kLookAtBus;
     talk.taken = talk.force().readers() > 0;
+    talk.alone = talk.others(false) == 0;
   }
   return true;
 }

@@ -9,7 +9,9 @@
 // not homed is left so unless its owner allowed it to move. gripper/closed mills (button 0),
 // /footpedals/clutch lifts (button 1), /footpedals/coag is the pedal, and where
 // /console/operator_present speaks the hand is lifted while nobody is there.
-// CRTK knows no time limit on a force: a guardian takes it back should burr die (guardian.h).
+// Where somebody else writes the arm's forces it is left to him, and let go should he come later:
+// the arm would obey now one and now the other. CRTK knows no time limit on a force: a guardian
+// takes it back should burr die (guardian.h).
 //
 // Source: CRTK Robot API (operating state, motion), dVRK API 2.x. Thread: as Wire. Memory: the
 // wire's own, a message at a time; none in the tick.
@@ -28,6 +30,9 @@ struct LeaderSettings {
   int domain = -1;            // of DDS; below 0: ROS_DOMAIN_ID, else 0
   bool home_allowed = false;  // it may be enabled and home itself: it moves
 };
+
+// Every arm that is heard on the bus within a second and a half; nothing is said to any.
+[[nodiscard]] Result<std::vector<std::string>> arms_heard(const LeaderSettings& settings = {});
 
 class Leader final : public Wire {
  public:

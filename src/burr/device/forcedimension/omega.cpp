@@ -161,6 +161,27 @@ Status Omega::find() {
                   locked > 0 ? fmt::format(" ({} of {} cannot be opened)", locked, count) : ""));
 }
 
+Result<Plugged> Omega::plugged(const OmegaSettings& settings) {
+  auto dhd = load(settings.dhd_file);
+  if (!dhd) return dhd.error();
+  Omega one(settings);
+  one.dhd_ = *dhd;
+  const std::lock_guard lock(opening());
+  Plugged all;
+  const int count = std::min(one.dhd_->GetDeviceCount(), kMostDevices);
+  for (int index = 0; index < count; ++index) {
+    const char* why = nullptr;
+    const int id = one.open(index, why);
+    const int serial = id >= 0 ? one.serial_of(id) : -1;
+    if (id >= 0) one.let_go(id);
+    if (serial >= 0)
+      all.serials.push_back(serial);
+    else
+      ++all.nameless;
+  }
+  return all;
+}
+
 // -1: it cannot be had.
 int Omega::open(int index, const char*& why) const {
   const char which = static_cast<char>(index);

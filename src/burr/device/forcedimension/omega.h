@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "burr/device/forcedimension/dhd.h"
 #include "burr/device/wire.h"
@@ -33,8 +34,17 @@ struct OmegaSettings {
   Link::Now now = &rt::monotonic_ns;
 };
 
+// What is plugged in.
+struct Plugged {
+  std::vector<int> serials;  // of those that can be opened and have one
+  int nameless = 0;          // of the others
+};
+
 class Omega final : public Wire {
  public:
+  // Opens and closes each; nothing moves and nothing is pushed.
+  [[nodiscard]] static Result<Plugged> plugged(const OmegaSettings& settings = {});
+
   explicit Omega(OmegaSettings settings = {}) : settings_(std::move(settings)) {}
   ~Omega() override { disconnect(); }
 

@@ -1,6 +1,6 @@
 #include "burr/device/haply/inverse.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <boost/asio/connect.hpp>
@@ -13,8 +13,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <thread>
+#include <utility>
 #include <vector>
 
+#include "burr/device/haply/events.h"
 #include "burr/device/haply/message.h"
 
 namespace burr::device::haply {
@@ -37,6 +40,10 @@ constexpr int kProbes = 20;                    // exchanges in which a tiny forc
 constexpr double kTiny = 0.02, kSeen = 0.005;  // that nobody feels; of it, to be believed  [N]
 constexpr double kFarthest = 1;                // no arm is longer  [m]
 constexpr int kPorts[] = {10001, 10000};
+constexpr int kEventsPort = 10020;
+constexpr int kOldest = 301;            // of the service's versions, as read_version() has them
+constexpr milliseconds kLetGo(1000);    // for a session that ends just now, our own of before
+constexpr milliseconds kLookAgain(20);  // meanwhile
 
 // Cautious choices: no published figures were at hand for stiffness and damping.
 struct Model {
@@ -58,6 +65,20 @@ std::string from_environment(const char* name, const char* otherwise) {
   const char* value = std::getenv(name);
   return value != nullptr && *value != '\0' ? value : otherwise;
 }
+
+// 0: it says nothing.
+Result<int> port_from_environment(const char* name) {
+  const std::string given = from_environment(name, "");
+  if (given.empty()) return 0;
+  int port = 0;
+  const auto [end, bad] = std::from_chars(given.data(), given.data() + given.size(), port);
+  if (bad != std::errc() || end != given.data() + given.size() || port < 1 || port > 65535)
+    return error(Trouble::usage, fmt::format("{} is \"{}\"; give a port, 1 to 65535", name, given));
+  return port;
+}
+
+// Said by the user, where a service calls its arms used though nobody uses them.
+bool may_be_shared() { return from_environment("BURR_HAPLY_SHARED", "") == "1"; }
 
 // Our frame from the service's: a quarter turn about x.
 const Quat& turn() {
@@ -82,9 +103,13 @@ struct Inverse::Talk {
   State state;
   Found found;
   std::string id;  // quoted
+  std::string wanted_grip;
   const char* key = "vector";
   std::string out;
   double peak = 0;
+  bool answered = false;  // somebody listens there, whatever he speaks
+  std::unique_ptr<Events> events;
+  std::string grip;  // whose events are followed
 
   // Lets what is under way go on until `done`, or so long; what is not done then stays under way.
   template <class Done>
@@ -149,6 +174,7 @@ struct Inverse::Talk {
       return "no answer";
     }
     if (trouble) return trouble.message();
+    answered = true;
     beast::get_lowest_layer(stream).socket().set_option(Tcp::no_delay(true), trouble);
     stream.read_message_max(kLargest);
     done = false;
@@ -161,14 +187,21 @@ struct Inverse::Talk {
       run(kPatience, [&] { return done; });
       return "no WebSocket";
     }
-    return trouble ? trouble.message() : "";
+    return trouble ? "no WebSocket" : "";
   }
 
   // One exchange; false: the service is gone, or speaks nonsense.
   bool exchange(const Vec3& force) {
     write_force(id, key, force, out);
-    return send(out) && receive(kPatience) &&
-           read_state(text(), found.id, state) == haply::Read::state;
+    return send(out) && receive(kPatience) && take_state() == haply::Read::state;
+  }
+  haply::Read take_state() {
+    const haply::Read read = read_state(text(), found.id, wanted_grip, state);
+    if (events && state.grip_id != grip) {
+      grip = state.grip_id;
+      events->follow_grip(grip);
+    }
+    return read;
   }
 
   // Whether the service gives back a force that is written with this key.
@@ -217,81 +250,139 @@ int version_of(const std::string& host, int port) {
 Inverse::Inverse(InverseSettings settings) : settings_(std::move(settings)) {}
 Inverse::~Inverse() { disconnect(); }
 
-Result<DeviceSpec> Inverse::connect() {
-  disconnect();
-  const std::string host =
-      settings_.host.empty() ? from_environment("HAPLY_WS_HOST", "127.0.0.1") : settings_.host;
+// The service's first message, in talk_.
+Status Inverse::reach() {
+  talk_.reset();
+  host_ = settings_.host.empty() ? from_environment("HAPLY_WS_HOST", "127.0.0.1") : settings_.host;
   std::vector<int> ports(std::begin(kPorts), std::end(kPorts));
-  if (settings_.port > 0) ports = {settings_.port};
-  if (const std::string given = from_environment("HAPLY_WS_PORT", "");
-      settings_.port == 0 && !given.empty()) {
-    int port = 0;
-    const auto [end, bad] = std::from_chars(given.data(), given.data() + given.size(), port);
-    if (bad != std::errc() || end != given.data() + given.size() || port < 1 || port > 65535)
-      return error(Trouble::usage,
-                   fmt::format("HAPLY_WS_PORT is \"{}\"; give a port, 1 to 65535", given));
-    ports = {port};
-  }
+  const auto told = port_from_environment("HAPLY_WS_PORT");
+  if (!told && settings_.port == 0) return told.error();
+  if (settings_.port > 0 || *told > 0) ports = {settings_.port > 0 ? settings_.port : *told};
 
   std::string trouble;
-  int port = 0;
+  int answers = 0;  // the port at which something else does
   for (const int one : ports) {
     talk_ = std::make_unique<Talk>();
-    const std::string why = talk_->connect(host, one);
-    if (why.empty()) {
-      port = one;
-      break;
-    }
-    trouble += fmt::format("{}{}:{}: {}", trouble.empty() ? "" : ", ", host, one, why);
+    const std::string why = talk_->connect(host_, one);
+    port_ = one;
+    if (why.empty()) break;
+    if (talk_->answered) answers = one;
+    trouble += fmt::format("{}{}:{}: {}", trouble.empty() ? "" : ", ", host_, one, why);
     talk_.reset();
   }
-  if (!talk_)
+  std::vector<Found> nobody_asks;
+  if (talk_ && talk_->receive(kPatience) && read_found(talk_->text(), nobody_asks)) return fine();
+  if (talk_) answers = port_;
+  talk_.reset();
+  if (answers == 0)
     return error(
         Trouble::io,
         fmt::format("Haply's Inverse Service does not answer ({}); install and start it, or "
                     "say where it is by HAPLY_WS_HOST and HAPLY_WS_PORT",
                     trouble));
-  const auto fail = [this](std::string why) {
-    talk_.reset();
-    return error(Trouble::io, std::move(why));
-  };
+  const int version = version_of(host_, answers);
+  if (version > 0 && version < kOldest)
+    return error(Trouble::io,
+                 fmt::format("Haply's Inverse Service at {}:{} is version {}.{}, which speaks "
+                             "otherwise; install version 3.1 or later",
+                             host_, answers, version / 100, version % 100));
+  return error(
+      Trouble::io,
+      fmt::format("{}:{} is no Inverse Service of version 3.1 or later; update Haply's, or "
+                  "say where it is by HAPLY_WS_PORT",
+                  host_, answers));
+}
+
+// The arm and the grip that are wanted, as the first message tells them.
+Status Inverse::meet() {
+  const Status reached = reach();
+  if (!reached) return reached;
   std::vector<Found> all;
-  if (!talk_->receive(kPatience) || !read_found(talk_->text(), all))
-    return fail(
-        fmt::format("{}:{} is no Inverse Service of version 3; see HAPLY_WS_PORT", host, port));
+  static_cast<void>(read_found(talk_->text(), all));
   const auto wanted = std::find_if(all.begin(), all.end(), [this](const Found& one) {
     return settings_.id.empty() || one.id == settings_.id;
   });
   if (wanted == all.end()) {
-    std::string known;
-    for (const Found& one : all) known += (known.empty() ? "" : ", ") + one.id;
-    return fail(all.empty() ? "Haply's Inverse Service knows no arm; plug it in, switch it on, and "
-                              "wait for its light"
-                            : fmt::format("Haply's Inverse Service knows no arm {}; it knows {}",
-                                          settings_.id, known));
+    std::vector<std::string> known;
+    for (const Found& one : all) known.push_back(one.id);
+    return error(Trouble::io,
+                 all.empty()
+                     ? "Haply's Inverse Service knows no arm; plug it in, switch it on, and "
+                       "wait for its light"
+                     : fmt::format("Haply's Inverse Service knows no arm {}; it knows {}",
+                                   settings_.id, fmt::join(known, ", ")));
   }
+  const std::vector<std::string> grips = grips_in(talk_->text());
+  if (!settings_.grip.empty() &&
+      std::find(grips.begin(), grips.end(), settings_.grip) == grips.end())
+    return error(Trouble::io,
+                 fmt::format("Haply's Inverse Service knows no grip {}; {}", settings_.grip,
+                             grips.empty() ? std::string("wake one by its buttons")
+                                           : fmt::format("it knows {}", fmt::join(grips, ", "))));
   talk_->found = *wanted;
   talk_->id = as_json(wanted->id);
-  const Model& model = model_of(wanted->type);
-  talk_->peak = model.peak;
+  talk_->wanted_grip = settings_.grip;
+  talk_->peak = model_of(wanted->type).peak;
   name_ = wanted->type + " " + wanted->id;
-  static_cast<void>(read_state(talk_->text(), wanted->id, talk_->state));
+  static_cast<void>(talk_->take_state());
+  return fine();
+}
 
-  const char* likely = key_of_force(version_of(host, port));
+// Says who we are, and finds out how a force is spelled.
+Status Inverse::greet() {
+  const auto silent = [this] {
+    return error(Trouble::io,
+                 fmt::format("{} does not answer; restart Haply's Inverse Service", name_));
+  };
+  const char* likely = key_of_force(version_of(host_, port_));
   const char* other = likely == key_of_force(305) ? key_of_force(301) : key_of_force(305);
-  if (!talk_->send(greeting(talk_->id, likely)) || !talk_->receive(kPatience))
-    return fail(fmt::format("{} does not answer; restart Haply's Inverse Service", name_));
+  if (!talk_->send(greeting(talk_->id, likely)) || !talk_->receive(kPatience)) return silent();
   if (!talk_->obeys(likely) && !talk_->obeys(other))
     talk_->key = likely;  // an arm that rests gives nothing back
-  if (!talk_->exchange(Vec3::Zero()))
-    return fail(fmt::format("{} does not answer; restart Haply's Inverse Service", name_));
-  if (!talk_->send(greeting(talk_->id, talk_->key)))  // so that the first read() has its answer
-    return fail(fmt::format("{} does not answer; restart Haply's Inverse Service", name_));
+  if (!talk_->exchange(Vec3::Zero())) return silent();
+  // so that the first read() has its answer
+  if (!talk_->send(greeting(talk_->id, talk_->key))) return silent();
+  return fine();
+}
+
+Result<DeviceSpec> Inverse::connect() {
+  disconnect();
+  const auto told = port_from_environment("HAPLY_EVENTS_PORT");
+  if (!told && settings_.events_port == 0) return told.error();
+  const int events_port = settings_.events_port > 0 ? settings_.events_port
+                          : *told > 0               ? *told
+                                                    : kEventsPort;
+  Status met = meet();
+  const auto anothers = [&] { return met.ok() && talk_->state.in_use && !may_be_shared(); };
+  for (const auto until = std::chrono::steady_clock::now() + kLetGo;
+       anothers() && std::chrono::steady_clock::now() < until; met = meet()) {
+    talk_.reset();
+    std::this_thread::sleep_for(kLookAgain);
+  }
+  if (anothers())
+    met = error(Trouble::io,
+                fmt::format("{} is in use by another program; close that one, and see the sessions "
+                            "in Haply's window (docs/devices/haply.md)",
+                            name_));
+  if (met) {
+    beast::error_code odd;
+    const auto address =
+        beast::get_lowest_layer(talk_->stream).socket().remote_endpoint(odd).address();
+    talk_->events =
+        std::make_unique<Events>(address.to_string(), events_port, talk_->found.id, braked_);
+    met = greet();
+  }
+  if (!met) {
+    talk_.reset();
+    return met.error();
+  }
 
   trouble_ = nullptr;
+  const Found& arm = talk_->found;
+  const Model& model = model_of(arm.type);
   DeviceSpec spec;
-  spec.name = wanted->type + (wanted->left_handed ? " (left hand)" : "");
-  spec.serial = wanted->id;
+  spec.name = arm.type + (arm.left_handed ? " (left hand)" : "");
+  spec.serial = arm.id;
   spec.simulated = false;
   spec.sensed = talk_->state.grip_there ? 6 : 3;
   spec.actuated = 3;
@@ -303,6 +394,19 @@ Result<DeviceSpec> Inverse::connect() {
   spec.workspace_radius = model.radius;
   spec.native_rate = 1000;
   return spec;
+}
+
+Result<AllKnown> all_known(const InverseSettings& settings) {
+  Inverse wire(settings);
+  const Status reached = wire.reach();
+  if (!reached) return reached.error();
+  std::vector<Found> found;
+  static_cast<void>(read_found(wire.talk_->text(), found));
+  AllKnown all;
+  for (const Found& one : found) all.arms.push_back({one.id, one.type});
+  all.grips = grips_in(wire.talk_->text());
+  wire.talk_.reset();
+  return all;
 }
 
 void Inverse::note(const char* words) BURR_RT {
@@ -319,7 +423,7 @@ Wire::Read Inverse::read(HandState& hand) BURR_RT {
     note("has gone silent; see that Haply's Inverse Service runs.");
     return Read::lost;
   }
-  switch (read_state(talk.text(), talk.found.id, talk.state)) {
+  switch (talk.take_state()) {
     case haply::Read::gone:
       note("was unplugged; plug it in again.");
       return Read::lost;
@@ -337,14 +441,18 @@ Wire::Read Inverse::read(HandState& hand) BURR_RT {
   hand.world_from_tool.q =
       state.grip_there ? Quat((turn() * state.grip * handle).normalized()) : upright;
   hand.buttons = state.grip_there ? state.buttons : 0;
-  const bool ready = state.calibrated && state.powered && state.ready;
-  note(!state.calibrated                       ? "is not calibrated; move it as its lights ask."
+  const bool braked = talk.events->braked();
+  const char* told = talk.events->words();
+  note(braked                                  ? told
+       : !state.calibrated                     ? "is not calibrated; move it as its lights ask."
        : !state.powered                        ? "has no power; connect its supply."
        : !state.ready                          ? "is not ready yet; wait for its light."
+       : told != nullptr                       ? told
        : state.grip_there && !state.grip_awake ? "has a grip that sleeps; press one of its buttons."
        : state.grip_there && state.battery < 0.1 ? "has a grip with an empty battery; charge it."
                                                  : nullptr);
-  hand.valid = ready && hand.world_from_tool.p.norm() < kFarthest;
+  hand.valid = !braked && state.calibrated && state.powered && state.ready &&
+               hand.world_from_tool.p.norm() < kFarthest;
   return Read::hand;
 }
 
@@ -360,6 +468,7 @@ bool Inverse::write(const Vec3& force) BURR_RT {
 void Inverse::disconnect() {
   if (!talk_) return;
   Talk& talk = *talk_;
+  if (talk.events) braked_ = talk.events->braked();
   if (!talk.read_error && !talk.write_error) {
     write_force(talk.id, talk.key, Vec3::Zero(), talk.out);
     static_cast<void>(talk.send(talk.out));

@@ -6,12 +6,15 @@
 // ours is x right, y up, z to the user. The grip points along its +y, so the tool's handle, our +z,
 // is its -y. Without a grip the tool stands upright. Button a mills, b lifts.
 // Which of two spellings of a force the service takes depends on its version; a force too small to
-// be felt shows which one it obeys. Thread: as Wire (device/wire.h). Memory: the wire's own, a
-// message at a time; none in the tick.
+// be felt shows which one it obeys. An arm that is in use before we have said a word is another
+// program's, and is left to it: two forces on one arm add up. What the service tells of besides
+// (haply/events.h) becomes words, and an emergency brake takes the force away until it is released.
+// Thread: as Wire (device/wire.h). Memory: the wire's own, a message at a time; none in the tick.
 #pragma once
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "burr/device/wire.h"
 
@@ -21,7 +24,19 @@ struct InverseSettings {
   std::string host = {};  // empty: HAPLY_WS_HOST, else 127.0.0.1
   int port = 0;           // 0: HAPLY_WS_PORT, else 10001, then 10000
   std::string id = {};    // of the arm; empty: the first
+  std::string grip = {};  // id of the grip that is held with it; empty: the first
+  int events_port = 0;    // 0: HAPLY_EVENTS_PORT, else 10020
 };
+
+// Every arm and every grip that the service knows, without a word to any of them.
+struct Known {
+  std::string id, type;
+};
+struct AllKnown {
+  std::vector<Known> arms;
+  std::vector<std::string> grips;
+};
+[[nodiscard]] Result<AllKnown> all_known(const InverseSettings& settings);
 
 class Inverse final : public Wire {
  public:
@@ -36,11 +51,18 @@ class Inverse final : public Wire {
   [[nodiscard]] unsigned told() const BURR_RT override { return told_; }
 
  private:
+  friend Result<AllKnown> all_known(const InverseSettings&);
   struct Talk;
+  [[nodiscard]] Status reach();
+  [[nodiscard]] Status meet();
+  [[nodiscard]] Status greet();
   void note(const char* words) BURR_RT;
 
   InverseSettings settings_;
+  std::string host_;
+  int port_ = 0;
   std::unique_ptr<Talk> talk_;
+  bool braked_ = false;  // when it was last heard of
   std::string name_ = "the Inverse3";
   const char* trouble_ = nullptr;
   unsigned told_ = 0;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <utility>
 
 namespace burr::device::haply {
 namespace {
@@ -87,17 +87,29 @@ const json* entry_of(const json& all, const std::string& id) {
   return nullptr;
 }
 
-// The first grip of any kind that is not told to be away.
-const json* grip_of(const json& all) {
-  for (const char* kind : {"verse_grip", "wireless_verse_grip", "custom_verse_grip"}) {
+constexpr const char* kGrips[] = {"verse_grip", "wireless_verse_grip", "custom_verse_grip"};
+
+// `told`: whether the message speaks of grips at all.
+const json* grip_of(const json& all, const std::string& wanted, bool& told) {
+  const json* away = nullptr;
+  for (const char* kind : kGrips) {
     const json* grips = at(all, kind);
-    if (grips != nullptr && grips->is_array() && !grips->empty()) return &grips->front();
+    if (grips == nullptr || !grips->is_array()) continue;
+    told = true;
+    for (const json& grip : *grips) {
+      if (!wanted.empty() && text_at(grip, "device_id") != wanted) continue;
+      const json* status = at(grip, "status");
+      bool connected = true;
+      if (status == nullptr || !take(*status, "connected", connected) || connected) return &grip;
+      if (away == nullptr) away = &grip;
+    }
   }
-  return nullptr;
+  return away;
 }
 
 bool take_grip(const json& grip, State& state) {
   state.grip_there = true;
+  state.grip_id = text_at(grip, "device_id");
   if (const json* now = at(grip, "state"))
     if (!take(*now, "orientation", state.grip) || !take_buttons(*now, state.buttons) ||
         !take(*now, "battery_level", state.battery))
@@ -119,7 +131,7 @@ bool read_found(std::string_view text, std::vector<Found>& found) {
   if (!all.is_object()) return false;
   found.clear();
   const json* arms = at(all, "inverse3");
-  if (arms == nullptr) return true;
+  if (arms == nullptr) return at(all, "session_id") != nullptr;
   if (!arms->is_array()) return false;
   for (const json& arm : *arms) {
     Found one;
@@ -141,7 +153,18 @@ bool read_found(std::string_view text, std::vector<Found>& found) {
   return true;
 }
 
-Read read_state(std::string_view text, const std::string& id, State& known) {
+std::vector<std::string> grips_in(std::string_view text) {
+  std::vector<std::string> ids;
+  const json all = json::parse(text, nullptr, false);
+  for (const char* kind : kGrips)
+    if (const json* grips = at(all, kind); grips != nullptr && grips->is_array())
+      for (const json& grip : *grips)
+        if (std::string id = text_at(grip, "device_id"); !id.empty()) ids.push_back(std::move(id));
+  return ids;
+}
+
+Read read_state(std::string_view text, const std::string& id, const std::string& grip,
+                State& known) {
   const json all = json::parse(text, nullptr, false);
   if (!all.is_object()) return Read::nonsense;
   const json* arms = at(all, "inverse3");
@@ -156,12 +179,50 @@ Read read_state(std::string_view text, const std::string& id, State& known) {
       return Read::nonsense;
   if (const json* status = at(*arm, "status"))
     if (!take(*status, "calibrated", state.calibrated) || !take(*status, "ready", state.ready) ||
-        !take(*status, "power_supply", state.powered))
+        !take(*status, "power_supply", state.powered) || !take(*status, "in_use", state.in_use))
       return Read::nonsense;
-  if (const json* grip = grip_of(all); grip != nullptr && !take_grip(*grip, state))
-    return Read::nonsense;
-  known = state;
+  bool told = false;
+  if (const json* held = grip_of(all, grip, told)) {
+    if (!take_grip(*held, state)) return Read::nonsense;
+  } else if (told) {  // it was there, and is no longer: no button of it stays down
+    state.grip_there = false;
+    state.buttons = 0;
+  }
+  known = std::move(state);
   return Read::state;
+}
+
+bool read_event(std::string_view text, Event& event) {
+  static constexpr std::pair<const char*, Told> kNames[] = {
+      {"device-connected", Told::connected},
+      {"device-disconnected", Told::disconnected},
+      {"device-battery-low", Told::battery_low},
+      {"device-battery-critical", Told::battery_critical},
+      {"device-sleep", Told::sleeps},
+      {"device-busy", Told::busy},
+      {"device-connection-loop", Told::connection_loop},
+      {"device-calibration-failed", Told::calibration_failed},
+  };
+  static constexpr std::pair<const char*, Told> kSafety[] = {
+      {"ebrake_triggered", Told::brake},     {"ebrake_released", Told::brake_released},
+      {"fod_stage_changed", Told::stage},    {"stall_detected", Told::stalled},
+      {"stability_ceiling", Told::unstable},
+  };
+  const json all = json::parse(text, nullptr, false);
+  const std::string name = text_at(all, "name"), level = text_at(all, "level");
+  if (name.empty()) return false;
+  event = {};
+  if (level == "critical" || level == "panic") event.what = Told::trouble;
+  const json* data = at(all, "data");
+  if (data != nullptr) event.device = text_at(*data, "device_id");
+  for (const auto& [known, what] : kNames)
+    if (name == known) event.what = what;
+  if (name == "device-safety-triggered" && data != nullptr) {
+    const std::string type = text_at(*data, "safety_type");
+    for (const auto& [known, what] : kSafety)
+      if (type == known) event.what = what;
+  }
+  return true;
 }
 
 int read_version(std::string_view text) {

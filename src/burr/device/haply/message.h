@@ -21,7 +21,9 @@ struct State {
   math::Quat grip = math::Quat::Identity();
   unsigned buttons = 0;  // a, b, c: bits 0, 1, 2
   bool calibrated = true, ready = true, powered = true;
+  bool in_use = false;  // some session commands it, perhaps our own
   bool grip_there = false, grip_awake = true;
+  std::string grip_id;
   double battery = 1;  // of the grip, 0..1
 };
 
@@ -33,11 +35,40 @@ struct Found {
 
 // Every arm in the service's first message. false: no message of the service.
 [[nodiscard]] bool read_found(std::string_view text, std::vector<Found>& found);
+// The ids of the grips in it, of whatever kind.
+[[nodiscard]] std::vector<std::string> grips_in(std::string_view text);
 
 enum class Read { state, gone, nonsense };
-// The arm `id` and the first grip of a message, over what was known. gone: the message is good, but
-// that arm is no longer in it; nonsense: known is as it was.
-[[nodiscard]] Read read_state(std::string_view text, const std::string& id, State& known);
+// The arm `id` and a grip of a message, over what was known; grip: its id, empty: the first that is
+// connected. gone: the message is good, but that arm is no longer in it; nonsense: known is as it
+// was.
+[[nodiscard]] Read read_state(std::string_view text, const std::string& id, const std::string& grip,
+                              State& known);
+
+// What the service tells on its channel of events, as far as it matters to a hand.
+enum class Told {
+  nothing,
+  connected,
+  disconnected,
+  battery_low,
+  battery_critical,
+  sleeps,
+  busy,
+  connection_loop,
+  calibration_failed,
+  brake,
+  brake_released,
+  stalled,
+  unstable,
+  stage,    // of its safety has changed
+  trouble,  // of a kind that is not known, which the service calls critical or worse
+};
+struct Event {
+  Told what = Told::nothing;
+  std::string device;  // its id; empty: not told
+};
+// false: no event.
+[[nodiscard]] bool read_event(std::string_view text, Event& event);
 
 // The version of "GET /version", as 305 for 3.5; 0: not told.
 [[nodiscard]] int read_version(std::string_view text);
