@@ -65,8 +65,10 @@ Result<std::filesystem::path> keep_fault(const std::filesystem::path& folder,
     return error(Trouble::io,
                  fmt::format("{}: cannot make this folder ({}); the last ticks are not kept",
                              folder.string(), trouble.message()));
-  const std::filesystem::path path =
-      folder / fmt::format("fault-{:%Y%m%d-%H%M%S}.csv", fmt::gmtime(std::time(nullptr)));
+  const std::string name = fmt::format("fault-{:%Y%m%d-%H%M%S}", fmt::gmtime(std::time(nullptr)));
+  std::filesystem::path path = folder / (name + ".csv");
+  for (int n = 2; std::filesystem::exists(path, trouble); ++n)  // another one in the same second
+    path = folder / fmt::format("{}.{}.csv", name, n);
   auto file = base::NewFile::beside(path.string());
   if (!file) return file.error();
   file->write(text);
