@@ -215,6 +215,24 @@ TEST(MappedHand, LiftedByTheDeviceItIsLaidElsewhereToo) {
   EXPECT_EQ(laid.tip(), tip);
 }
 
+// What fades goes on pushing the way it pushed, lifted or not.
+TEST(MappedHand, TheAxesOfAForceThatFadesAreThoseItBeganWith) {
+  Laid laid;
+  laid.tip();
+  laid.hand->write_force({0, 0, 1});
+  const Vec3 pushed = laid.stub->pushed;
+  ASSERT_EQ(pushed.norm(), 1);
+  laid.hand->lift(true);
+  laid.hand->lay(kTurn * kTurn);
+  laid.tip();
+  laid.hand->write_force({0, 0, 0.5});
+  EXPECT_NEAR((laid.stub->pushed - 0.5 * pushed).norm(), 0, 1e-12);
+  laid.hand->write_force(Vec3::Zero());
+  laid.tip();
+  laid.hand->write_force({0, 0, 0.5});
+  EXPECT_GT((laid.stub->pushed - 0.5 * pushed).norm(), 0.1) << "turned, once nothing was pushed";
+}
+
 TEST(MappedHand, TakesNoMemory) {
   Laid laid;
   const test::RtGuard guard;
