@@ -3,9 +3,11 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <thread>
 
@@ -32,6 +34,18 @@ TEST(PolhemDoubt, LinesThatAreNoneAreBorneForAMomentOnly) {
     return read == Wire::Read::lost || good > 10;
   }));
   EXPECT_NE(wire.why().find("cannot be read"), std::string::npos) << wire.why();
+}
+
+// A field of the arm holds 16 bits of millinewtons; more would turn round in it.
+TEST(PolhemDoubt, ALineAsksForNoMoreThanItsFieldsHold) {
+  for (const double newton : {33.0, 1e6, 1e300, std::numeric_limits<double>::infinity()}) {
+    const polhem::Line line = polhem::force_line({newton, -newton, 0.5});
+    const std::string text(line.data(), line.size());
+    const bool finite = std::isfinite(newton);
+    EXPECT_TRUE(text.starts_with(finite ? "32000 -32000 500 2 0 0 0 " : "0 0 500 2 0 0 0 "))
+        << text;
+    EXPECT_EQ(text.find('\n'), text.size() - 1);
+  }
 }
 
 // It tells no speed: how its place changes is one.

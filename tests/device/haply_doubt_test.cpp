@@ -1,7 +1,7 @@
 // What Haply's service may say that is not to be believed, or is to be believed at once.
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <memory>
 #include <string>
 
 #include "burr/device/haply/inverse.h"
@@ -70,6 +70,20 @@ TEST_F(HaplyDoubt, AnArmThatIsNotInAMessageIsUnpluggedAtOnce) {
   }));
   EXPECT_LE(readings, 1) << "one message was under way";
   EXPECT_NE(wire_.why().find("unplugged"), std::string::npos) << wire_.why();
+}
+
+// The service has several arms: in a session one is not taken for another.
+TEST_F(HaplyDoubt, AnotherArmThanBeforeIsNotTaken) {
+  WireDevice device(std::make_unique<Inverse>(
+      InverseSettings{.host = "127.0.0.1", .port = service_.port, .id = {}}));
+  ASSERT_TRUE(device.open().ok());
+  service_.with([](Wishes& w) { w.arms[0].id = "OTHER"; });
+  EXPECT_TRUE(soon([&] { return device.trouble().find("Another device") != std::string::npos; }))
+      << device.trouble();
+  EXPECT_EQ(device.returns(), 0);
+  EXPECT_EQ(service_.with([](Wishes& w) { return w.arms[0].force; }), Vec3::Zero());
+  service_.with([](Wishes& w) { w.arms[0].id = "049D"; });
+  EXPECT_TRUE(soon([&] { return device.returns() == 1; })) << device.trouble();
 }
 
 // However late it answers, it is asked once: each answer belongs to one message.
