@@ -135,9 +135,10 @@ TEST(Guardian, DismissedItSaysNothingAndIsGone) {
     auto guardian = Guardian::start({"line", "none\n"}, device.in());
     ASSERT_TRUE(guardian.ok()) << guardian.error().text;
     process = (*guardian)->process();
-    (*guardian)->beat();
-    EXPECT_EQ(::kill(process, 0), 0);
     for (const int deaf : {SIGINT, SIGTERM, SIGHUP}) ::kill(process, deaf);
+    ::usleep(50'000);  // before the first beat, after which it would be missed
+    EXPECT_EQ(::waitpid(process, nullptr, WNOHANG), 0) << "it lives on";
+    (*guardian)->beat();
     EXPECT_NE(::getsid(process), ::getsid(0)) << "a Ctrl-C in burr's terminal is not for it";
   }
   EXPECT_EQ(::kill(process, 0), -1);
