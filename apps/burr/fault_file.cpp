@@ -67,8 +67,8 @@ Result<std::filesystem::path> keep_fault(const std::filesystem::path& folder,
                              folder.string(), trouble.message()));
   const std::string name = fmt::format("fault-{:%Y%m%d-%H%M%S}", fmt::gmtime(std::time(nullptr)));
   std::filesystem::path path = folder / (name + ".csv");
-  for (int n = 2; std::filesystem::exists(path, trouble); ++n)  // two hands, let go at once
-    path = folder / fmt::format("{}_{}.csv", name, n);
+  for (int n = 2; std::filesystem::exists(path, trouble); ++n)  // another one in the same second
+    path = folder / fmt::format("{}.{}.csv", name, n);
   auto file = base::NewFile::beside(path.string());
   if (!file) return file.error();
   file->write(text);

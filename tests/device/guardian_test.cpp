@@ -7,7 +7,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <functional>
 #include <string>
@@ -101,6 +103,31 @@ TEST(Guardian, SaysNoForceWhileBurrHangsAndNoLonger) {
   EXPECT_TRUE(soon([&] { return device.read(300).empty(); }));
 }
 
+// The best of some tries: a machine that stalls makes each later.
+TEST(Guardian, SeesAHangWithinAFractionOfASecond) {
+  const auto seen_after = [] {
+    const Pipe device, ready;
+    Burr burr([&] {
+      auto guardian = Guardian::start({"line", "none\n"}, device.in());
+      static_cast<void>(::write(ready.in(), guardian.ok() ? "+" : "-", 1));
+      for (;;) {
+        (*guardian)->beat();
+        ::usleep(1000);
+      }
+    });
+    EXPECT_EQ(ready.read(kLongMs), "+");
+    ::usleep(20'000);
+    const auto began = std::chrono::steady_clock::now();
+    burr.send(SIGSTOP);
+    EXPECT_TRUE(device.read(kLongMs).starts_with("none\n"));
+    return std::chrono::steady_clock::now() - began;
+  };
+  auto best = seen_after();
+  for (int n = 0; n < 9 && best > std::chrono::milliseconds(500); ++n)
+    best = std::min(best, seen_after());
+  EXPECT_LT(best, std::chrono::milliseconds(500));
+}
+
 TEST(Guardian, DismissedItSaysNothingAndIsGone) {
   const Pipe device;
   pid_t process = -1;
@@ -108,9 +135,10 @@ TEST(Guardian, DismissedItSaysNothingAndIsGone) {
     auto guardian = Guardian::start({"line", "none\n"}, device.in());
     ASSERT_TRUE(guardian.ok()) << guardian.error().text;
     process = (*guardian)->process();
-    (*guardian)->beat();
-    EXPECT_EQ(::kill(process, 0), 0);
     for (const int deaf : {SIGINT, SIGTERM, SIGHUP}) ::kill(process, deaf);
+    ::usleep(50'000);  // before the first beat, after which it would be missed
+    EXPECT_EQ(::waitpid(process, nullptr, WNOHANG), 0) << "it lives on";
+    (*guardian)->beat();
     EXPECT_NE(::getsid(process), ::getsid(0)) << "a Ctrl-C in burr's terminal is not for it";
   }
   EXPECT_EQ(::kill(process, 0), -1);
@@ -177,6 +205,26 @@ TEST(Guardian, APolhemIsLetGoWhenBurrIsKilled) {
   ASSERT_TRUE(soon([&] { return arm.force().norm() == 1.5; }));
   burr.end(SIGKILL);
   EXPECT_TRUE(soon([&] { return arm.force() == Vec3::Zero(); }));
+}
+
+TEST(Guardian, APolhemIsLetGoWhileBurrHangs) {
+  const Pipe path;
+  Burr burr([&] {
+    polhem::Polhem wire({.port = path.read(kLongMs), .system = "/nowhere"});
+    if (!wire.connect().ok()) return;
+    HandState hand;
+    for (;;) {
+      static_cast<void>(wire.read(hand));
+      static_cast<void>(wire.write({0, 1.5, 0}));
+    }
+  });
+  test::FakePolhem arm;
+  ASSERT_GT(::write(path.in(), arm.path.data(), arm.path.size()), 0);
+  ASSERT_TRUE(soon([&] { return arm.force().norm() == 1.5; }));
+  burr.send(SIGSTOP);
+  EXPECT_TRUE(soon([&] { return arm.force() == Vec3::Zero(); }));
+  burr.send(SIGCONT);
+  EXPECT_TRUE(soon([&] { return arm.force().norm() == 1.5; })) << "and goes on";
 }
 
 // The program itself, milling, and then no more: asked to end, or ended.

@@ -143,6 +143,17 @@ TEST(Link, ALostDeviceIsPushedNoMoreAndTheTickLearnsIt) {
   EXPECT_EQ(still.push(1001.1), 0);
 }
 
+TEST(Link, ALossIsLearntEvenIfTheNextReadingIsGood) {
+  Still still;
+  still.exchange(1000);
+  still.tick(3);
+  still.link.lose();
+  still.exchange(1001);
+  EXPECT_FALSE(still.tick(3)) << "once, so that the tick comes down to zero";
+  still.exchange(1002);
+  EXPECT_TRUE(still.tick(0));
+}
+
 TEST(Link, WhatTheGuardHoldsBackIsHeldBackUntilTheNextForce) {
   Still still;
   still.exchange(1000);

@@ -215,6 +215,60 @@ TEST(MappedHand, LiftedByTheDeviceItIsLaidElsewhereToo) {
   EXPECT_EQ(laid.tip(), tip);
 }
 
+TEST(MappedHand, TheTipsSpeedIsScaledAsItsWayAndNoneWhileItIsLifted) {
+  Laid laid({.scale = 0.5});
+  laid.stub->hand.velocity = {0, 0.2, 0};
+  EXPECT_NEAR((laid.hand->state(1e-3).velocity - Vec3(0, 0, 0.1)).norm(), 0, 1e-15);
+  laid.hand->lift(true);
+  EXPECT_EQ(laid.hand->state(1e-3).velocity, Vec3::Zero());
+}
+
+TEST(MappedHand, OfTheFootAndTheDevicesOwnPedalTheLargerCounts) {
+  Laid laid;
+  const auto pedal = [&] { return laid.hand->state(1e-3).pedal; };
+  laid.stub->hand.pedal = 0.3;
+  EXPECT_EQ(pedal(), 0.3);
+  laid.hand->press(0.1);
+  EXPECT_EQ(pedal(), 0.3);
+  laid.hand->press(0.8);
+  EXPECT_EQ(pedal(), 0.8);
+}
+
+// Whoever presses, by whatever of the three, is there.
+TEST(MappedHand, TheDeadManIsAwakeByButtonFootOrTheDevicesOwnPedal) {
+  Laid laid({.dead_man = true});
+  const auto lifted = [&] { return (laid.hand->state(1e-3).buttons & kLifted) != 0; };
+  EXPECT_TRUE(lifted());
+  laid.hand->press(0.2);
+  EXPECT_FALSE(lifted());
+  laid.hand->press(0);
+  EXPECT_TRUE(lifted());
+  laid.stub->hand.pedal = 0.2;
+  EXPECT_FALSE(lifted());
+  laid.stub->hand.pedal = 0;
+  EXPECT_TRUE(lifted());
+  laid.stub->hand.buttons = 1;
+  EXPECT_FALSE(lifted());
+}
+
+// What fades goes on pushing the way it pushed, lifted or not.
+TEST(MappedHand, TheAxesOfAForceThatFadesAreThoseItBeganWith) {
+  Laid laid;
+  laid.tip();
+  laid.hand->write_force({0, 0, 1});
+  const Vec3 pushed = laid.stub->pushed;
+  ASSERT_EQ(pushed.norm(), 1);
+  laid.hand->lift(true);
+  laid.hand->lay(kTurn * kTurn);
+  laid.tip();
+  laid.hand->write_force({0, 0, 0.5});
+  EXPECT_NEAR((laid.stub->pushed - 0.5 * pushed).norm(), 0, 1e-12);
+  laid.hand->write_force(Vec3::Zero());
+  laid.tip();
+  laid.hand->write_force({0, 0, 0.5});
+  EXPECT_GT((laid.stub->pushed - 0.5 * pushed).norm(), 0.1) << "turned, once nothing was pushed";
+}
+
 TEST(MappedHand, TakesNoMemory) {
   Laid laid;
   const test::RtGuard guard;

@@ -1,15 +1,18 @@
-// Whole sessions with a Touch that the test plays: bone, tick, safety layer, wire.
-#include <dlfcn.h>
+// Whole sessions with every device that burr knows: bone, tick, safety layer, wire, and a user that
+// the test plays (players/).
+#include "burr/sim/session.h"
+
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "burr/device/mapping.h"
-#include "burr/device/openhaptics/touch.h"
 #include "burr/haptics/contact.h"
-#include "burr/sim/session.h"
-#include "device/fake/fake_hd.h"
+#include "device/players/every.h"
 #include "device/stand_in.h"
 #include "scenes/build.h"
 #include "scenes/shapes.h"
@@ -21,25 +24,23 @@ using math::Quat;
 using math::Vec3;
 using test::soon;
 constexpr double kMm = 1e-3;
+constexpr double kWall = 400;      // that all of them can show [N/m]
+constexpr double kUnfelt = 0.021;  // by which Haply's service is asked how a force is spelt [N]
 
-const std::string kLibrary = BURR_BUILD_DIR "/fakes/libHD.so";
-
-class WholeSession : public ::testing::Test {
+class WholeSession : public ::testing::TestWithParam<test::Driver> {
  protected:
-  void SetUp() override {
-    void* library = dlopen(kLibrary.c_str(), RTLD_NOW | RTLD_GLOBAL);
-    ASSERT_NE(library, nullptr);
-    hd_ = reinterpret_cast<test::FakeHdState>(dlsym(library, "fake_hd"))();
-    {
-      const std::lock_guard lock(hd_->mutex);
-      hd_->touch = {};
-      hd_->rate = 1000;
-    }
-    openhaptics::TouchSettings settings;
-    settings.hd_file = kLibrary;
-    settings.link.loss_timeout = test::kStallsAllowed;
-    // a slab whose top is z = 0, seen from above: up is world z
-    auto hand = std::make_unique<MappedHand>(std::make_unique<openhaptics::Touch>(settings),
+  void TearDown() override {
+    session_.reset();
+    EXPECT_EQ(player_->misuse(), "");
+    EXPECT_LE(player_->largest(), player_->limit() + 1e-3) << "a wire's last digit beyond";
+  }
+
+  // A slab whose top is z = 0, seen from above: the hand's up is world z. The burr is 2 mm over it.
+  void begin(double patience = LinkSettings().patience, double stiffness = kWall) {
+    LinkSettings link;
+    link.loss_timeout = test::kStallsAllowed;
+    link.patience = patience;
+    auto hand = std::make_unique<MappedHand>(player_->device(link),
                                              math::Pose{{0, 0, 4 * kMm}, Quat::Identity()},
                                              Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX())));
     hand_ = hand.get();
@@ -48,6 +49,8 @@ class WholeSession : public ::testing::Test {
     wished.realtime = true;
     wished.servo.burr.radius = 2 * kMm;
     wished.servo.undo_bricks = 512;
+    wished.servo.force.stiffness = stiffness;
+    wished.servo.limit.user_force = 100;  // the device's own limit is what is asked about
     wished.surface.reserve_blocks = 1 << 12;
     auto made = sim::Session::make(
         scenes::bone_from_distance(
@@ -59,68 +62,72 @@ class WholeSession : public ::testing::Test {
     session_->start();
     ASSERT_TRUE(soon([&] { return row().tick > 600; })) << "the start ramp is over";
   }
-  void TearDown() override {
-    session_.reset();
-    const std::lock_guard lock(hd_->mutex);
-    EXPECT_FALSE(hd_->touch[0].open);
-    EXPECT_LE(hd_->touch[0].largest_force, 3.3 + 1e-9);
-  }
 
   record::TickRow row() {
     static_cast<void>(session_->view(row_));
     return row_;
   }
-  template <class F>
-  void set(F change) {
-    const std::lock_guard lock(hd_->mutex);
-    change(hd_->touch[0]);
-  }
-  // The stylus goes there as a hand would, at 50 mm/s; its y, since the last call.
-  void go(double y_mm, int button = 0) {
+  // The hand goes up or down as a hand would, at 50 mm/s; its y, since the beginning.
+  void go(double y_mm) {
     const double step = y_mm > y_mm_ ? 0.05 : -0.05;
     const auto way = static_cast<int>(std::lround(std::abs(y_mm - y_mm_) / 0.05));
     for (int n = 0; n <= way; ++n) {
-      set([&](test::FakeTouch& touch) {
-        touch.transform[13] = n == way ? y_mm : y_mm_ + n * step;
-        touch.velocity[1] = n == way ? 0 : 1e3 * step;
-        touch.buttons = button;
-      });
+      const bool there = n == way;
+      player_->hold({0, kMm * (there ? y_mm : y_mm_ + n * step), 0}, {0, there ? 0 : step, 0});
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     y_mm_ = y_mm;
   }
-  Vec3 wire() {
-    const std::lock_guard lock(hd_->mutex);
-    const auto& forces = hd_->touch[0].forces;
-    return forces.empty() ? Vec3(Vec3::Zero())
-                          : Vec3(forces.back()[0], forces.back()[1], forces.back()[2]);
+  // To 2.5 mm in the bone: a newton.
+  [[nodiscard]] bool press() {
+    go(-4.5);
+    return soon([&] { return player_->force().y() > 0.9; });
+  }
+  [[nodiscard]] bool let_go() {
+    return soon([&] { return player_->force() == Vec3::Zero(); });
+  }
+  // By its own button, or by a pedal beside it.
+  void mill(bool down) {
+    if (!player_->mill(down)) hand_->press(down ? 1 : 0);
+  }
+  void clutch(bool down) {
+    if (!player_->clutch(down)) hand_->lift(down);
+  }
+  // So many ticks go by.
+  [[nodiscard]] bool ticks(std::uint64_t count) {
+    const std::uint64_t now = row().tick;
+    return soon([&] { return row().tick > now + count; });
+  }
+  [[nodiscard]] bool raised(std::uint32_t flag) {
+    return soon([&] { return (row().contact.flags & flag) != 0; });
   }
 
-  test::FakeHd* hd_ = nullptr;
+  std::unique_ptr<test::Player> player_ = GetParam().player();
   MappedHand* hand_ = nullptr;
   std::unique_ptr<sim::Session> session_;
   record::TickRow row_;
   double y_mm_ = 0;
 };
 
-TEST_F(WholeSession, TheWallPushesUpOnTheStylusAndTheMillButtonCuts) {
-  go(-4.5);  // 2.5 mm into the bone, 400 N/m
-  ASSERT_TRUE(soon([&] { return wire().y() > 0.8; })) << wire().transpose();
-  EXPECT_NEAR(wire().y(), 1.0, 0.15);
-  EXPECT_NEAR(wire().x(), 0, 0.05);
-  EXPECT_NEAR(wire().z(), 0, 0.05);
+TEST_P(WholeSession, TheWallPushesUpAndTheMillButtonCuts) {
+  begin();
+  ASSERT_TRUE(press()) << player_->force().transpose();
+  const Vec3 force = player_->force();
+  EXPECT_NEAR(force.y(), kWall * 2.5 * kMm, 0.1);
+  EXPECT_NEAR(force.x(), 0, 0.05);
+  EXPECT_NEAR(force.z(), 0, 0.05);
   EXPECT_EQ(row().ledger.removed, 0);
-  go(-4.5, 1);
+  mill(true);
   ASSERT_TRUE(soon([&] { return row().ledger.removed > 1e-9; }));
   session_->stop();
-  EXPECT_TRUE(soon([&] { return wire() == Vec3::Zero(); })) << "let go with the session";
+  EXPECT_TRUE(let_go()) << "with the session";
 }
 
-TEST_F(WholeSession, PulledOutInContactTheSessionTellsAndGoesOnWhenItIsBack) {
-  go(-4.5);
-  ASSERT_TRUE(soon([&] { return wire().y() > 0.8; }));
-  set([](test::FakeTouch& touch) { touch.present = false; });
-  ASSERT_TRUE(soon([&] { return (row().contact.flags & haptics::kFlagHandLost) != 0; }));
+TEST_P(WholeSession, PulledOutInContactTheSessionTellsAndGoesOnWhenItIsBack) {
+  begin();
+  ASSERT_TRUE(press());
+  player_->unplug();
+  ASSERT_TRUE(raised(haptics::kFlagHandLost));
   sim::FaultReport fault;
   ASSERT_TRUE(soon([&] { return session_->fault(fault); }));
   EXPECT_TRUE((fault.flags & haptics::kFlagHandLost) != 0);
@@ -128,39 +135,94 @@ TEST_F(WholeSession, PulledOutInContactTheSessionTellsAndGoesOnWhenItIsBack) {
   double pushed = 0;
   for (const record::TickRow& one : fault.rows) pushed = std::max(pushed, one.contact.force.norm());
   EXPECT_GT(pushed, 0.7) << "the ticks before it, still pushing";
+  EXPECT_TRUE(let_go()) << player_->force().transpose();
+  EXPECT_TRUE(soon([&] { return !session_->hand().trouble().empty(); }));
+  ASSERT_TRUE(ticks(20)) << "the session goes on";
   EXPECT_EQ(row().contact.force, Vec3::Zero());
-  EXPECT_FALSE(session_->hand().trouble().empty());
-  set([](test::FakeTouch& touch) { touch.present = true; });
+
+  static_cast<void>(player_->felt());
+  player_->plug_in();
   ASSERT_TRUE(soon([&] { return row().hand.valid; }));
-  EXPECT_EQ(wire(), Vec3::Zero());
+  ASSERT_TRUE(ticks(50));
+  EXPECT_TRUE((row().contact.flags & haptics::kFlagWaiting) != 0) << "it is still in the bone";
+  for (const test::Felt& one : player_->felt()) ASSERT_LE(one.force.norm(), kUnfelt);
   go(4);
-  ASSERT_TRUE(soon([&] { return (row().contact.flags & haptics::kFlagWaiting) == 0; }));
+  ASSERT_TRUE(raised(haptics::kFlagRamp));
+  EXPECT_TRUE(soon([&] { return session_->hand().trouble().empty(); }));
   go(-6.5);
-  ASSERT_TRUE(soon([&] { return wire().y() > 0.3; })) << "it pushes again";
+  EXPECT_TRUE(soon([&] { return player_->force().y() > 0.3; })) << "it pushes again";
 }
 
-TEST_F(WholeSession, LiftedItCanBeLaidElsewhere) {
-  go(-4.5);
-  ASSERT_TRUE(soon([&] { return wire().y() > 0.8; }));
-  go(-4.5, 2);
+TEST_P(WholeSession, LiftedItCanBeLaidElsewhere) {
+  begin();
+  ASSERT_TRUE(press());
+  clutch(true);
   ASSERT_TRUE(soon([&] { return (row().hand.buttons & kLifted) != 0; }));
-  ASSERT_TRUE(soon([&] { return wire() == Vec3::Zero(); }));
+  ASSERT_TRUE(let_go());
   const Vec3 tip = row().hand.world_from_tool.p;
-  go(10, 2);
+  go(10);
+  ASSERT_TRUE(ticks(20)) << "all of the way has been read";
   EXPECT_EQ(row().hand.world_from_tool.p, tip);
-  go(10, 0);
+  clutch(false);
+  ASSERT_TRUE(soon([&] { return (row().hand.buttons & kLifted) == 0; }));
   go(14);
-  EXPECT_NEAR(row().hand.world_from_tool.p.z() - tip.z(), 4 * kMm, 0.1 * kMm);
+  EXPECT_TRUE(soon([&] {
+    return std::abs(row().hand.world_from_tool.p.z() - tip.z() - 4 * kMm) < 0.1 * kMm;
+  })) << row().hand.world_from_tool.p.transpose();
 }
 
-TEST_F(WholeSession, AStopFromOutsideIsAsALift) {
-  go(-4.5);
-  ASSERT_TRUE(soon([&] { return wire().y() > 0.8; }));
+TEST_P(WholeSession, AStopFromOutsideIsAsALift) {
+  begin();
+  ASSERT_TRUE(press());
   hand_->lift(true);
-  ASSERT_TRUE(soon([&] { return wire() == Vec3::Zero(); }));
-  go(-5, 1);
+  ASSERT_TRUE(let_go());
+  mill(true);
+  go(-5);
+  ASSERT_TRUE(ticks(20));
   EXPECT_EQ(row().ledger.removed, 0);
+  EXPECT_EQ(player_->force(), Vec3::Zero());
 }
+
+// The wire waits for its tick here, so that only readings between two ticks have no force of their
+// own: what is late in the middle of many steps is not the machine.
+TEST_P(WholeSession, AForceIsOfTheReadingItGoesWith) {
+  begin(test::kStallsAllowed / 2);
+  ASSERT_TRUE(press());
+  std::vector<int> late;
+  for (int step = 0; step < 41; ++step) {
+    const double depth = (step % 2 == 0 ? 2.0 : 2.5) * kMm;
+    const Vec3 place(0, -2 * kMm - depth, 0);
+    const auto is_of_it = [&](const Vec3& force) {
+      return std::abs(force.y() - kWall * depth) < 0.05;
+    };
+    static_cast<void>(player_->felt());
+    player_->hold(place, Vec3::Zero());
+    std::vector<test::Felt> felt;
+    ASSERT_TRUE(soon([&] {
+      for (const test::Felt& one : player_->felt())
+        if ((one.told - place).norm() < 1e-6) felt.push_back(one);
+      return std::any_of(felt.begin(), felt.end(),
+                         [&](const test::Felt& one) { return is_of_it(one.force); });
+    })) << player_->force().transpose();
+    const auto first = std::find_if(felt.begin(), felt.end(),
+                                    [&](const test::Felt& one) { return is_of_it(one.force); });
+    late.push_back(static_cast<int>(first - felt.begin()));
+  }
+  std::nth_element(late.begin(), late.begin() + 20, late.end());
+  EXPECT_LE(late[20], player_->most_late());
+}
+
+// As deep as a hand can go into the hardest wall that it can show.
+TEST_P(WholeSession, NothingPassesTheDevicesLimit) {
+  begin(LinkSettings().patience, 1e6);
+  go(-3);
+  go(-11);
+  ASSERT_TRUE(soon([&] { return player_->force().y() > 0.99 * player_->limit(); }))
+      << player_->force().transpose();
+  EXPECT_TRUE(raised(haptics::kFlagForceLimited));
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, WholeSession, test::every_driver(), test::name_of);
 
 }  // namespace
 }  // namespace burr::device

@@ -47,6 +47,19 @@ TEST(DeviceBook, RefusesInOneSentenceWhatCannotBe) {
   }
 }
 
+TEST(DeviceBook, TwoOfAKindHaveAPageEach) {
+  device::DeviceSpec one, other, unknown;
+  one.name = other.name = unknown.name = "Touch";
+  one.serial = "T-1";
+  other.serial = "T-2";
+  EXPECT_EQ(id_of(one), "Touch T-1");
+  EXPECT_EQ(id_of(unknown), "Touch");
+  DeviceBook book;
+  ASSERT_TRUE(book.set(id_of(one), "scale=2").ok());
+  EXPECT_EQ(book.of(id_of(one)).mapping.scale, 2);
+  EXPECT_EQ(book.of(id_of(other)).mapping.scale, 1);
+}
+
 TEST(DeviceBook, AFileWithTroubleLosesNothing) {
   const auto folder =
       std::filesystem::temp_directory_path() / ("burr_book_" + std::to_string(getpid()));

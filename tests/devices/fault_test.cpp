@@ -54,6 +54,35 @@ TEST(FaultFile, SaysWhatHappenedAndHoldsEveryTick) {
   EXPECT_NE(head.find("Touch # nonsense T-1"), std::string::npos) << head;
 }
 
+// Each number under its own name, in the unit of that name.
+TEST(FaultFile, ColumnsHoldWhatTheirNamesSay) {
+  auto report = std::make_unique<sim::FaultReport>();
+  report->count = 1;
+  record::TickRow& row = report->rows[0];
+  row.tick = 7;
+  row.hand.world_from_tool.p = {0.001, 0.002, 0.003};
+  row.hand.velocity = {0.011, 0.012, 0.013};
+  row.contact.proxy = {0.021, 0.022, 0.023};
+  row.contact.force = {0.1, 0.2, 0.3};
+  row.contact.torque = {0.01, 0.02, 0.03};
+  row.contact.depth = 0.0045;
+  row.contact.flags = 5;
+  row.hand.pedal = 0.5;
+  row.hand.buttons = 3;
+  row.took_us = 12.5F;
+  row.late_us = 1.5F;
+  std::istringstream text(fault_text(*report, {}, 1000, ""));
+  std::string names, values;
+  while (std::getline(text, names) && names[0] == '#') {
+  }
+  ASSERT_TRUE(std::getline(text, values));
+  EXPECT_EQ(names,
+            "tick,valid,hand_x_mm,hand_y_mm,hand_z_mm,velocity_x_mm_s,velocity_y_mm_s,"
+            "velocity_z_mm_s,proxy_x_mm,proxy_y_mm,proxy_z_mm,force_x_n,force_y_n,force_z_n,"
+            "torque_x_nm,torque_y_nm,torque_z_nm,depth_mm,pedal,buttons,flags,took_us,late_us");
+  EXPECT_EQ(values, "7,1,1,2,3,11,12,13,21,22,23,0.1,0.2,0.3,0.01,0.02,0.03,4.5,0.5,3,5,12.5,1.5");
+}
+
 TEST(FaultFile, KeepsTheNewestTwenty) {
   const auto folder =
       std::filesystem::temp_directory_path() / ("burr_faults_" + std::to_string(getpid()));
@@ -70,6 +99,11 @@ TEST(FaultFile, KeepsTheNewestTwenty) {
   int count = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++count;
   EXPECT_EQ(count, 21);
+  const auto next = keep_fault(folder, "other words\n");
+  ASSERT_TRUE(next.ok()) << next.error().text;
+  EXPECT_NE(*next, *kept) << "however soon it comes";
+  EXPECT_TRUE(std::filesystem::exists(*next));
+  EXPECT_TRUE(std::filesystem::exists(*kept));
   std::filesystem::remove_all(folder);
   const auto nowhere = keep_fault("/proc/no/such", "x");
   ASSERT_FALSE(nowhere.ok());

@@ -1,4 +1,5 @@
 // The doctor at a computer made of files, and with libraries that misbehave.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "device/fake/fake_hd.h"
 #include "doctor/apart.h"
 #include "doctor/finding.h"
 #include "doctor/fix.h"
@@ -187,6 +189,21 @@ TEST_F(DoctorDevices, ADeviceThatIsThereIsNamedAndCanBeTried) {
   EXPECT_EQ(touch.health, Health::good);
   EXPECT_NE(touch.is.find("T-0001"), std::string::npos) << touch.is;
   EXPECT_EQ(touch.todo, "burr devices test touch");
+}
+
+TEST_F(DoctorDevices, ADeviceThatIsThereAndInTroubleIsToldAsThat) {
+  const std::string library = BURR_BUILD_DIR "/fakes/libHD.so";
+  void* loaded = dlopen(library.c_str(), RTLD_NOW | RTLD_GLOBAL);
+  ASSERT_NE(loaded, nullptr);
+  test::FakeHd& hd = *reinterpret_cast<test::FakeHdState>(dlsym(loaded, "fake_hd"))();
+  hd.touch[0].calibration = 0x5001;  // to be done, and only
+  hd.touch[0].style = 4;             // by the inkwell
+  ::setenv("BURR_OPENHAPTICS", library.c_str(), 1);
+  const Finding touch = of("touch");
+  hd.touch[0] = {};
+  EXPECT_EQ(touch.health, Health::trouble);
+  EXPECT_NE(touch.is.find("T-0001"), std::string::npos) << touch.is;
+  EXPECT_NE((touch.is + touch.todo).find("inkwell"), std::string::npos) << touch.is << touch.todo;
 }
 
 TEST_F(DoctorDevices, ALibraryThatCrashesOrHangsDoesSoAlone) {

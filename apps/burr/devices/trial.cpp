@@ -208,7 +208,7 @@ void wall(Ticks& ticks, const TrialSettings& settings, const std::function<bool(
     }
     return seen.presses >= settings.presses;
   });
-  ticks.want({});
+  // the wall stays until the ticks end: who stops in the middle of it is let go, not dropped
   if (depth_square > 0) seen.stiffness = depth_force / depth_square;
   if (!done) seen.left_out.emplace_back("the wall: it was not pressed and left often enough");
 }

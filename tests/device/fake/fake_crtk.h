@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "burr/device/crtk/bus.h"
+#include "device/fake/answers.h"
 
 namespace burr::test {
 
@@ -39,7 +40,8 @@ class FakeCrtkArm {
     math::Pose place;
     math::Vec3 velocity = math::Vec3::Zero();
     bool stamped = true, silent = false;
-    int stall_ms = 0;  // once
+    bool deaf = false;  // from then on nobody takes forces
+    int stall_ms = 0;   // once
     double rate_hz = 1000;
     std::string state = "ENABLED";
     bool homed = true, busy = false;
@@ -51,6 +53,7 @@ class FakeCrtkArm {
     math::Vec3 force = math::Vec3::Zero(), torque = math::Vec3::Zero();
     double largest = 0;
     std::uint64_t forces = 0;
+    Answers answers;
     std::vector<std::string> asked;
     bool weightless = false, absolute = true;
   };
@@ -117,8 +120,13 @@ class FakeCrtkArm {
           w.force = vector_of(wrench.wrench_.force_);
           w.torque = vector_of(wrench.wrench_.torque_);
           w.largest = std::max(w.largest, w.force.norm());
+          w.answers.take(w.force.data());
           ++w.forces;
         };
+        if (w.deaf) {
+          body.reset();
+          spatial.reset();
+        }
         if (body)
           while (const WrenchStamped* wrench = body->take()) take(*wrench);
         if (spatial)
@@ -165,6 +173,7 @@ class FakeCrtkArm {
           PoseStamped pose{{stamp, lent("base")}, message_of(w.place)};
           if (w.spoil) w.spoil(pose, twist);
           speed.write(twist);
+          w.answers.tell(w.place.p.data());
           place.write(pose);
           ++w.places;
         }

@@ -127,6 +127,7 @@ int read_place(FakeArm& arm, double* x, double* y, double* z) {
   *x = arm.place[0];
   *y = arm.place[1];
   *z = arm.place[2];
+  arm.answers.tell(arm.place.data());
   return arm.code;
 }
 
@@ -146,6 +147,7 @@ int read_place(FakeArm& arm, double* x, double* y, double* z) {
   if (arm.forces.capacity() < 8192) arm.forces.reserve(8192);
   if (arm.forces.size() >= 8192) arm.forces.erase(arm.forces.begin(), arm.forces.begin() + 4096);
   arm.forces.push_back({{x, y, z}, torque, now_ns()});
+  arm.answers.take(arm.forces.back().newton.data());
   ++arm.writes;
 }
 

@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "device/fake/answers.h"
+
 namespace burr::test {
 
 // Not a mutex: a test that counts the driver's own must not count these.
@@ -62,6 +64,7 @@ struct FakeArm {
   bool watches = false;           // and it acts: forces are off for good after so long without one
   std::vector<FakeForce> forces;  // newest last; the newest 4096
   double largest_force = 0, largest_torque = 0;  // of all
+  Answers answers;
   std::uint64_t writes = 0, reads = 0, opened = 0, closed = 0, homed = 0, asked = 0;
   std::int64_t next_ns = 0;  // when the frame after this one is due
   std::int64_t written_ns = 0;

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "burr/math/vec3.h"
+#include "device/fake/answers.h"
 
 namespace burr::test {
 
@@ -36,6 +37,7 @@ class FakeHaply {
     bool in_use = false;                    // by another program; it is by ours once we command it
     math::Vec3 force = math::Vec3::Zero();  // as asked for last
     double largest = 0;                     // of all
+    Answers answers;
   };
   struct Grip {
     std::string id;
@@ -253,7 +255,8 @@ class FakeHaply {
   std::string state(bool first) {
     return with([&](Wishes& w) {
       Json all = {{"session_id", 7}, {"inverse3", Json::array()}};
-      for (const Arm& arm : w.arms) {
+      for (Arm& arm : w.arms) {
+        arm.answers.tell(arm.place.data());
         Json one = {{"device_id", arm.id},
                     {"status",
                      {{"calibrated", arm.calibrated},
@@ -310,6 +313,7 @@ class FakeHaply {
           if (!force.is_object() || !force.contains(w.key)) continue;  // not obeyed
           const Json& v = force[w.key];
           arm.force = {v.at("x").get<double>(), v.at("y").get<double>(), v.at("z").get<double>()};
+          arm.answers.take(arm.force.data());
           const double size = arm.force.norm();
           if (!(size <= arm.largest)) arm.largest = size;
         }

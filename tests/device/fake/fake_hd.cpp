@@ -146,6 +146,7 @@ HD void hdDisableDevice(unsigned handle) {
   FakeTouch* touch = touch_of(handle);
   if (touch == nullptr || !touch->open) return misuse("disabled what was not open");
   touch->open = false;
+  touch->left_on = touch->force_on;
   touch->force_on = false;
   ++touch->closed;
 }
@@ -203,7 +204,7 @@ HD void hdDisable(unsigned what) {
 
 HD void hdGetDoublev(unsigned what, double* out) {
   const std::lock_guard lock(state().mutex);
-  const FakeTouch* touch = framed("read without a device");
+  FakeTouch* touch = framed("read without a device");
   if (touch == nullptr) return;
   switch (what) {
     case 0x2050:
@@ -214,6 +215,7 @@ HD void hdGetDoublev(unsigned what, double* out) {
       return;
     case 0x2052:
       std::copy(touch->transform.begin(), touch->transform.end(), out);
+      touch->answers.tell(out + 12);
       return;
     case 0x2603:
       *out = touch->nominal_force;
@@ -255,6 +257,7 @@ HD void hdSetDoublev(unsigned what, const double* value) {
   if (what != 0x2700) return errors.push_back(0x0100);
   if (touch->forces.empty()) return misuse("force before a frame");
   std::copy_n(value, 3, touch->forces.back().begin());
+  touch->answers.take(value);
   const double size = std::sqrt(value[0] * value[0] + value[1] * value[1] + value[2] * value[2]);
   if (!(size <= touch->largest_force)) touch->largest_force = size;  // what is not a number stays
 }

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "device/fake/answers.h"
+
 namespace burr::test {
 
 struct FakeTouch {
@@ -26,9 +28,11 @@ struct FakeTouch {
   unsigned calibration = 0x5000, style = 2;
   unsigned frame_error = 0;  // of every frame from now on
   bool force_on = false, open = false;
+  bool left_on = false;  // when it was disabled last
   // what was told
   std::vector<std::array<double, 3>> forces;  // of each frame, newest last; the newest 4096
   double largest_force = 0;                   // of all frames
+  Answers answers;                            // mm, N
   std::array<double, 3> torque{};             // told last [mN m]
   int torques = 0;                            // how often
   std::uint64_t frames = 0, opened = 0, closed = 0;

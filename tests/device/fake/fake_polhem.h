@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "burr/math/vec3.h"
+#include "device/fake/answers.h"
 
 namespace burr::test {
 
@@ -34,6 +35,7 @@ class FakePolhem {
     math::Vec3 force = math::Vec3::Zero();  // its own axes [N]
     double largest = 0;
     std::uint64_t lines = 0, odd = 0;
+    Answers answers;  // mm, N
   };
 
   FakePolhem() {
@@ -93,6 +95,7 @@ class FakePolhem {
                         w.mm[0], w.mm[1], w.mm[2], w.turns[0], w.turns[1], w.turns[2], w.turns[3],
                         static_cast<short>(w.info));
       line.assign(text, static_cast<std::size_t>(n));
+      w.answers.tell(w.mm);
       if (line.size() < 64) {  // filled up, with a second newline at its end
         line.resize(64, ' ');
         line[63] = '\n';
@@ -133,6 +136,7 @@ class FakePolhem {
           ++(good && command == 2 ? wishes_.lines : wishes_.odd);
           if (good && command == 2) {
             wishes_.force = 1e-3 * math::Vec3(x, y, z);
+            wishes_.answers.take(wishes_.force.data());
             wishes_.largest = std::max(wishes_.largest, wishes_.force.norm());
           }
           answers = !wishes_.swallow;

@@ -121,6 +121,7 @@ Result<DeviceSpec> Touch::start() {
     if (is_about_force(code)) continue;
     hd_->Unschedule(loop_);
     if (--running == 0) hd_->StopScheduler();
+    hd_->Disable(kForceOutput);
     hd_->DisableDevice(handle_);
     handle_ = kNoDevice;
     return error(Trouble::io, fmt::format("{} cannot be used: {}", which, words(code)));

@@ -95,6 +95,7 @@ Result<DeviceSpec> Polhem::connect() {
       break;
     }
   const auto fail = [&](const std::string& why) {
+    guardian_.reset();  // it has the port too, and would keep it from the next try
     if (port_ >= 0) ::close(port_);
     port_ = -1;
     return error(Trouble::io, why);

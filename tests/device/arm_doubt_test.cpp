@@ -1,0 +1,116 @@
+// What a Polhem or a CRTK arm may do that is not to be believed.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <thread>
+
+#include "device/players/every.h"
+#include "device/stand_in.h"
+
+namespace burr::device {
+namespace {
+
+using math::Vec3;
+using test::soon;
+
+TEST(PolhemDoubt, LinesThatAreNoneAreBorneForAMomentOnly) {
+  test::FakePolhem arm;
+  polhem::Polhem wire({.port = arm.path, .system = "/nowhere"});
+  ASSERT_TRUE(wire.connect().ok());
+  arm.with([](test::FakePolhem::Wishes& wishes) { wishes.instead.assign(100, "no\n"); });
+  HandState hand;
+  int good = 0;
+  ASSERT_TRUE(soon([&] {
+    const Wire::Read read = wire.read(hand);
+    if (read == Wire::Read::hand) ++good;
+    static_cast<void>(wire.write(Vec3::Zero()));
+    return read == Wire::Read::lost || good > 10;
+  }));
+  EXPECT_NE(wire.why().find("cannot be read"), std::string::npos) << wire.why();
+}
+
+// A field of the arm holds 16 bits of millinewtons; more would turn round in it.
+TEST(PolhemDoubt, ALineAsksForNoMoreThanItsFieldsHold) {
+  for (const double newton : {33.0, 1e6, 1e300, std::numeric_limits<double>::infinity()}) {
+    const polhem::Line line = polhem::force_line({newton, -newton, 0.5});
+    const std::string text(line.data(), line.size());
+    const bool finite = std::isfinite(newton);
+    EXPECT_TRUE(text.starts_with(finite ? "32000 -32000 500 2 0 0 0 " : "0 0 500 2 0 0 0 "))
+        << text;
+    EXPECT_EQ(text.find('\n'), text.size() - 1);
+  }
+}
+
+// It tells no speed: how its place changes is one.
+TEST(PolhemDoubt, ItsSpeedGoesTheWayItGoes) {
+  test::FakePolhem arm;
+  arm.with([](test::FakePolhem::Wishes& wishes) { wishes.rate_hz = 1000; });
+  polhem::Polhem wire({.port = arm.path, .system = "/nowhere"});
+  ASSERT_TRUE(wire.connect().ok());
+  HandState hand;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double way : {1.0, -1.0}) {
+      for (int readings = 0; readings < 20;) {
+        const Wire::Read read = wire.read(hand);
+        ASSERT_NE(read, Wire::Read::lost) << wire.why();
+        if (read == Wire::Read::hand) ++readings;
+        arm.with([&](test::FakePolhem::Wishes& wishes) { wishes.mm[axis] += 0.1 * way; });
+        ASSERT_TRUE(wire.write(Vec3::Zero()));
+      }
+      const int ours = (axis + 2) % 3;  // its x is our z, its y our x
+      EXPECT_GT(way * hand.velocity[ours], 1e-3) << hand.velocity.transpose();
+      EXPECT_LT(way * hand.velocity[ours], 1) << "some tenths of a millimetre in a millisecond";
+    }
+}
+
+// Its guardian has the port as well: what could not be opened is given back by both.
+TEST(PolhemDoubt, UnpluggedWhileItIsOpenedNothingIsLeftOpen) {
+  const int before = test::open_files();
+  const auto slow = std::filesystem::temp_directory_path() /
+                    ("burr_slow_guard_" + std::to_string(::getpid()) + ".sh");
+  std::ofstream(slow) << "#!/bin/sh\nsleep 0.3\nprintf +\ncat >&2\n";
+  std::filesystem::permissions(slow, std::filesystem::perms::owner_all);
+  ::setenv("BURR_GUARD", slow.c_str(), 1);
+  test::FakePolhem arm;
+  polhem::Polhem wire({.port = arm.path, .system = "/nowhere"});
+  std::thread user([&] {
+    static_cast<void>(
+        soon([&] { return arm.with([](auto& wishes) { return wishes.lines; }) > 0; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    arm.unplug();
+  });
+  const auto connected = wire.connect();
+  user.join();
+  ::unsetenv("BURR_GUARD");
+  std::filesystem::remove(slow);
+  EXPECT_FALSE(connected.ok());
+  EXPECT_EQ(test::open_files(), before);
+}
+
+// Whoever pushes an arm that nobody makes push has lost it.
+TEST(CrtkDoubt, AnArmThatTakesForcesNoMoreIsNotBelieved) {
+  const int domain = test::quiet_domain();
+  test::FakeCrtkArm arm(domain);
+  crtk::Leader wire({.arm = "/arm", .domain = domain});
+  ASSERT_TRUE(wire.connect().ok());
+  HandState hand;
+  const auto next = [&] {
+    const Wire::Read read = wire.read(hand);
+    static_cast<void>(wire.write(Vec3::Zero()));
+    return read == Wire::Read::hand;
+  };
+  ASSERT_TRUE(soon([&] { return next() && hand.valid; }));
+  arm.with([](test::FakeCrtkArm::Wishes& wishes) { wishes.deaf = true; });
+  EXPECT_TRUE(soon([&] { return next() && !hand.valid; }));
+  EXPECT_NE(wire.why().find("does not take forces"), std::string::npos) << wire.why();
+}
+
+}  // namespace
+}  // namespace burr::device

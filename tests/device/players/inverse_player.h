@@ -1,0 +1,81 @@
+// A false Inverse3 with a grip (fake/fake_haply.h), behind a service on the loopback. Its frame:
+// x right, y forward, z up.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "burr/device/haply/inverse.h"
+#include "device/fake/fake_haply.h"
+#include "device/players/player.h"
+
+namespace burr::test {
+
+class InversePlayer final : public Player {
+  using Arm = FakeHaply::Arm;
+  template <class F>
+  auto with(F look) {
+    return service_.with([&](FakeHaply::Wishes& wishes) {
+      return look(wishes.arms.empty() ? away_ : wishes.arms.front());
+    });
+  }
+
+ public:
+  std::unique_ptr<device::Device> device(const device::LinkSettings& link) override {
+    const device::haply::InverseSettings settings{
+        .host = "127.0.0.1", .port = service_.port, .id = {}};
+    return std::make_unique<device::WireDevice>(std::make_unique<device::haply::Inverse>(settings),
+                                                link);
+  }
+
+  void hold(const math::Vec3& place, const math::Vec3& velocity) override {
+    with([&](Arm& arm) {
+      arm.place = {place.x(), -place.z(), place.y()};
+      arm.velocity = {velocity.x(), -velocity.z(), velocity.y()};
+    });
+  }
+  bool mill(bool down) override { return press(1U, down); }
+  bool clutch(bool down) override { return press(2U, down); }
+  void unplug() override {
+    service_.with([&](FakeHaply::Wishes& wishes) {
+      away_ = wishes.arms.front();
+      wishes.arms.clear();
+      away_.force.setZero();  // what the service no longer hears of, it lets go
+    });
+  }
+  void plug_in() override {
+    service_.with([&](FakeHaply::Wishes& wishes) { wishes.arms = {away_}; });
+  }
+
+  math::Vec3 force() override {
+    return with([](Arm& arm) { return ours(arm.force.data()); });
+  }
+  double largest() override {
+    return with([](Arm& arm) { return arm.largest; });
+  }
+  std::vector<Felt> felt() override {
+    std::vector<Felt> all;
+    for (const Answer& one : with([](Arm& arm) { return arm.answers.look(); }))
+      all.push_back({ours(one.told.data()), ours(one.force.data())});
+    return all;
+  }
+  [[nodiscard]] double limit() const override { return 8; }
+  // It answers five thousand times a second at most, so only every fifth of its readings begins a
+  // tick: within that tick.
+  [[nodiscard]] int most_late() const override { return 5; }
+
+ private:
+  static math::Vec3 ours(const double* v) { return {v[0], v[2], -v[1]}; }
+  bool press(unsigned button, bool down) {
+    service_.with([&](FakeHaply::Wishes& wishes) {
+      wishes.buttons = down ? wishes.buttons | button : wishes.buttons & ~button;
+    });
+    return true;
+  }
+
+  FakeHaply service_;
+  Arm away_;
+};
+
+}  // namespace burr::test

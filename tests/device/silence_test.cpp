@@ -1,0 +1,58 @@
+// A device that says nothing any more is lost within a fifth of a second, whatever its wire.
+// Counted in readings that did not come, each waited for 2 ms: a machine that stalls makes them
+// fewer.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+
+#include "device/players/every.h"
+#include "device/stand_in.h"
+
+namespace burr::device {
+namespace {
+
+constexpr int kReadings = 250;
+
+// Until it is lost; how many readings did not come.
+int readings_until_lost(Wire& wire, const char* words) {
+  HandState hand;
+  for (int nothing = 0; nothing < 10 * kReadings;) {
+    const Wire::Read read = wire.read(hand);
+    if (read == Wire::Read::lost) {
+      EXPECT_NE(wire.why().find(words), std::string::npos) << wire.why();
+      return nothing;
+    }
+    if (read == Wire::Read::nothing) ++nothing;
+    EXPECT_TRUE(wire.write(math::Vec3::Zero()));
+  }
+  return 10 * kReadings;
+}
+
+TEST(Silence, OfHaplysServiceIsALoss) {
+  test::FakeHaply service;
+  haply::Inverse wire({.host = "127.0.0.1", .port = service.port, .id = {}});
+  ASSERT_TRUE(wire.connect().ok());
+  service.with([](test::FakeHaply::Wishes& wishes) { wishes.silent = true; });
+  EXPECT_LE(readings_until_lost(wire, "silent"), kReadings);
+}
+
+TEST(Silence, OfAPolhemIsALoss) {
+  test::FakePolhem arm;
+  polhem::Polhem wire({.port = arm.path, .system = "/nowhere"});
+  ASSERT_TRUE(wire.connect().ok());
+  arm.with([](test::FakePolhem::Wishes& wishes) { wishes.silent = true; });
+  EXPECT_LE(readings_until_lost(wire, "silent"), kReadings);
+}
+
+TEST(Silence, OfACrtkArmIsALoss) {
+  const int domain = test::quiet_domain();
+  test::FakeCrtkArm arm(domain);
+  crtk::Leader wire({.arm = "/arm", .domain = domain});
+  ASSERT_TRUE(wire.connect().ok());
+  arm.with([](test::FakeCrtkArm::Wishes& wishes) { wishes.silent = true; });
+  EXPECT_LE(readings_until_lost(wire, "silent"), kReadings);
+}
+
+}  // namespace
+}  // namespace burr::device
