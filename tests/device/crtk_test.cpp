@@ -16,6 +16,7 @@
 #include "burr/haptics/contact.h"
 #include "device/fake/fake_crtk.h"
 #include "device/stand_in.h"
+#include "device/wild_forces.h"
 
 namespace burr::device::crtk {
 namespace {
@@ -347,8 +348,7 @@ TEST_F(LeaderTest, AMillionForcesAndNonePassesTheLimit) {
   ASSERT_TRUE(wire.connect().ok());
   next(wire);
   const unsigned seed = std::random_device{}();
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> any(-1, 1);
+  test::WildForces forces(seed);
   // whatever comes: each is read back on the bus, not only what the arm had time for
   auto bus = Bus::open(domain_);
   ASSERT_TRUE(bus.ok());
@@ -359,10 +359,7 @@ TEST_F(LeaderTest, AMillionForcesAndNonePassesTheLimit) {
   }));
   double largest = 0;
   for (int n = 0; n < 1'000'000; ++n) {
-    Vec3 force = std::pow(10, 4 * any(random)) * Vec3(any(random), any(random), any(random));
-    if (n % 50 == 7) force.x() = std::numeric_limits<double>::quiet_NaN();
-    if (n % 50 == 8) force.y() = -std::numeric_limits<double>::infinity();
-    static_cast<void>(wire.write(force));
+    static_cast<void>(wire.write(forces.next()));
     while (const WrenchStamped* wrench = wrenches.take())
       largest = std::max(largest, vector_of(wrench->wrench_.force_).norm());
   }

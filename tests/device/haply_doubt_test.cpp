@@ -74,6 +74,7 @@ TEST_F(HaplyDoubt, AnArmThatIsNotInAMessageIsUnpluggedAtOnce) {
 
 // The service has several arms: in a session one is not taken for another.
 TEST_F(HaplyDoubt, AnotherArmThanBeforeIsNotTaken) {
+  wire_.disconnect();
   WireDevice device(std::make_unique<Inverse>(
       InverseSettings{.host = "127.0.0.1", .port = service_.port, .id = {}}));
   ASSERT_TRUE(device.open().ok());
@@ -101,7 +102,7 @@ TEST(HaplyMessage, ATurnOfNoLengthIsNonsenseAndChangesNothing) {
   const State before = known;
   EXPECT_EQ(read_state(R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":0.1}}}],
                            "verse_grip":[{"state":{"orientation":{"w":0,"x":0,"y":0,"z":0}}}]})",
-                       "049D", known),
+                       "049D", "", known),
             Read::nonsense);
   EXPECT_EQ(known.grip.coeffs(), before.grip.coeffs());
   EXPECT_EQ(known.place, before.place);

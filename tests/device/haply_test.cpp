@@ -14,6 +14,7 @@
 #include "burr/haptics/contact.h"
 #include "device/fake/fake_haply.h"
 #include "device/stand_in.h"
+#include "device/wild_forces.h"
 
 namespace burr::device::haply {
 namespace {
@@ -71,6 +72,7 @@ TEST_F(InverseTest, SaysWhatItIsAndWhatItCanBear) {
     EXPECT_EQ(arm->spec().name, type);
     EXPECT_EQ(arm->spec().serial, "049D");
     EXPECT_EQ(arm->spec().peak_force, peak);
+    EXPECT_EQ(arm->spec().software, "Inverse Service 3.5, firmware 7.4");
     EXPECT_EQ(arm->spec().sensed, 6);
     EXPECT_FALSE(arm->spec().simulated);
     EXPECT_EQ(arm->trouble(), "");
@@ -646,14 +648,8 @@ TEST_F(InverseTest, AMillionForcesAndNonePassesTheLimit) {
   Inverse wire(here());
   ASSERT_TRUE(wire.connect().ok());
   const unsigned seed = std::random_device{}();
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> any(-1, 1);
-  for (int n = 0; n < test::kForcesOnAWire; ++n) {
-    Vec3 force = std::pow(10, 4 * any(random)) * Vec3(any(random), any(random), any(random));
-    if (n % 50 == 7) force.x() = std::numeric_limits<double>::quiet_NaN();
-    if (n % 50 == 8) force.y() = std::numeric_limits<double>::infinity();
-    exchange(wire, force);
-  }
+  test::WildForces forces(seed);
+  test::push_wildly(wire, test::kForcesOnAWire, forces);
   const double largest = service_.with([](Wishes& w) { return w.arms[0].largest; });
   EXPECT_GT(largest, 7.9) << "seed " << seed;
   EXPECT_LE(largest, 8 + 1e-4) << "seed " << seed;

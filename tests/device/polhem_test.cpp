@@ -15,6 +15,7 @@
 #include "burr/haptics/contact.h"
 #include "device/fake/fake_polhem.h"
 #include "device/stand_in.h"
+#include "device/wild_forces.h"
 #include "support/rt_guard.h"
 
 namespace burr::device::polhem {
@@ -268,14 +269,8 @@ TEST_F(PolhemTest, AMillionForcesAndNonePassesTheLimit) {
   Polhem wire(here());
   ASSERT_TRUE(wire.connect().ok());
   const unsigned seed = std::random_device{}();
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> any(-1, 1);
-  for (int n = 0; n < test::kForcesOnAWire; ++n) {
-    Vec3 force = std::pow(10, 4 * any(random)) * Vec3(any(random), any(random), any(random));
-    if (n % 50 == 7) force.x() = std::numeric_limits<double>::quiet_NaN();
-    if (n % 50 == 8) force.y() = std::numeric_limits<double>::infinity();
-    next(wire, force);
-  }
+  test::WildForces forces(seed);
+  test::push_wildly(wire, test::kForcesOnAWire, forces);
   const double largest = arm_.with([](Wishes& w) { return w.largest; });
   EXPECT_GT(largest, 4.9) << "seed " << seed;
   EXPECT_LE(largest, 5 + 1e-3) << "rounded to millinewtons; seed " << seed;

@@ -104,6 +104,7 @@ struct Inverse::Talk {
   Found found;
   std::string id;  // quoted
   std::string wanted_grip;
+  int version = 0;  // of the service, as read_version()
   const char* key = "vector";
   std::string out;
   double peak = 0;
@@ -334,7 +335,8 @@ Status Inverse::greet() {
     return error(Trouble::io,
                  fmt::format("{} does not answer; restart Haply's Inverse Service", name_));
   };
-  const char* likely = key_of_force(version_of(host_, port_));
+  talk_->version = version_of(host_, port_);
+  const char* likely = key_of_force(talk_->version);
   const char* other = likely == key_of_force(305) ? key_of_force(301) : key_of_force(305);
   if (!talk_->send(greeting(talk_->id, likely)) || !talk_->receive(kPatience)) return silent();
   if (!talk_->obeys(likely) && !talk_->obeys(other))
@@ -393,6 +395,10 @@ Result<DeviceSpec> Inverse::connect() {
   spec.max_damping = model.damping;
   spec.workspace_radius = model.radius;
   spec.native_rate = 1000;
+  spec.software = talk_->version > 0 ? fmt::format("Inverse Service {}.{}", talk_->version / 100,
+                                                   talk_->version % 100)
+                                     : "Inverse Service";
+  if (!arm.firmware.empty()) spec.software += ", firmware " + arm.firmware;
   return spec;
 }
 
