@@ -148,9 +148,13 @@ struct Leader::Talk {
   double rate() {
     int places = 0;
     const auto began = steady_clock::now();
-    while (places < kCountedPlaces && steady_clock::now() - began < kCounted)
+    const auto seconds = [began] {
+      return std::chrono::duration<double>(steady_clock::now() - began).count();
+    };
+    const auto good = [&] { return places >= kCountedPlaces && places >= kSlowest * seconds(); };
+    while (!good() && steady_clock::now() - began < kCounted)
       if (next_place() != nullptr) ++places;
-    return places / std::chrono::duration<double>(steady_clock::now() - began).count();
+    return places / seconds();
   }
 
   // Who else writes its forces.
