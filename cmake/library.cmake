@@ -44,7 +44,7 @@ target_link_libraries(burr PRIVATE ${CMAKE_DL_LIBS})
 burr_common_headers(burr <fmt/format.h>)
 
 set(reading ${BURR_SOURCES} ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp)
-list(FILTER reading INCLUDE REGEX "/(base|io|record|scenario|fit|third_party)/|/sim/(motion|replay|session_words)[.]cpp$")
+list(FILTER reading INCLUDE REGEX "/(base|io|record|scenario|fit|third_party)/|/sim/(motion|replay|session_words)[.]cpp$|/device/(haply/message|polhem/line)[.]cpp$")
 burr_reads_files(${reading})
 
 # Kernels exist once per instruction set, from one source, and are chosen at run time; the bits are the same.

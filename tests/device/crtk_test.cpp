@@ -478,7 +478,7 @@ TEST_F(LeaderTest, AnArmThatAnotherPushesIsLeftToHim) {
     EXPECT_NE(said.find("end that one"), std::string::npos) << said;
   }
   EXPECT_EQ(arm.with([](Wishes& w) { return w.forces; }), 0U);
-  EXPECT_EQ(refusal(here()), "it connected") << "once he has ended";
+  EXPECT_TRUE(soon([&] { return refusal(here()) == "it connected"; })) << "once he has ended";
 }
 
 TEST_F(LeaderTest, ASecondBurrIsRefusedAndTheFirstGoesOn) {

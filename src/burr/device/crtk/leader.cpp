@@ -148,9 +148,13 @@ struct Leader::Talk {
   double rate() {
     int places = 0;
     const auto began = steady_clock::now();
-    while (places < kCountedPlaces && steady_clock::now() - began < kCounted)
+    const auto seconds = [began] {
+      return std::chrono::duration<double>(steady_clock::now() - began).count();
+    };
+    const auto good = [&] { return places >= kCountedPlaces && places >= kSlowest * seconds(); };
+    while (!good() && steady_clock::now() - began < kCounted)
       if (next_place() != nullptr) ++places;
-    return places / std::chrono::duration<double>(steady_clock::now() - began).count();
+    return places / seconds();
   }
 
   // Who else writes its forces.
@@ -308,17 +312,16 @@ Result<DeviceSpec> Leader::connect() {
   if (!prepared) return prepared.error();
 
   const double rate = talk->rate();
-  if (rate < kSlowest)
-    return error(Trouble::io,
-                 fmt::format("{} tells its place {:.0f} times a second; burr needs {:.0f} or more: "
-                             "set a shorter period where its node is started",
-                             *arm, rate, kSlowest));
-
   if (!until(kLeft, [&talk] { return talk->others(true) == 0; }))
     return error(Trouble::io,
                  fmt::format("{0} is pushed by another program: somebody else writes {0}{1} or "
                              "{0}{2}; end that one, two forces on one arm are dangerous",
                              *arm, kBody, kSpatial));
+  if (rate < kSlowest)
+    return error(Trouble::io,
+                 fmt::format("{} tells its place {:.0f} times a second; burr needs {:.0f} or more: "
+                             "set a shorter period where its node is started",
+                             *arm, rate, kSlowest));
 
   // Where the arm knows them: its weight carried, and forces as its end is turned.
   const Bool yes{true}, no{false};
