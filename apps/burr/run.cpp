@@ -249,11 +249,15 @@ Status run_in_window(const Options& options) {
 }
 
 Status run(Options options) {
-  if (!display_there() && !options.headless) {
+  const bool windowless = options.headless || !display_there();
+  if (!windowless) return run_in_window(options);
+  if (const std::string& device = options.work.hand.device; !device.empty())
+    return error(Trouble::usage,
+                 fmt::format("--device {}: a device leads the burr in a window; sit at the "
+                             "computer's own display, or leave --device away to mill by itself",
+                             device));
+  if (!options.headless)
     fmt::print(stderr, "no display here: milling by itself, as with --headless\n");
-    options.headless = true;
-  }
-  if (!options.headless) return run_in_window(options);
   options.work.seconds = options.seconds;
   if (Status taken = take_case(options.work); !taken) return taken;
   return run_headless(options);

@@ -60,6 +60,7 @@ std::vector<Finding> look_at_devices(const System& system) {
   for (const HandKind& kind : hand_kinds()) {
     Finding finding{kGroup, kind.name, Health::absent, "", ""};
     const std::string name = kind.name;
+    const std::string if_owned = fmt::format(", if you have one (docs/devices/{}.md)", kind.page);
     const Apart library = apart([&name] { return of_library(name); }, system.patience);
     if (!library.ended) {
       finding.health = Health::trouble;
@@ -68,7 +69,7 @@ std::vector<Finding> look_at_devices(const System& system) {
           fmt::format("install it anew as its maker says (docs/devices/{}.md)", kind.page);
     } else if (library.words.starts_with('-')) {
       split(library.words.substr(1), finding);
-      finding.todo += fmt::format(", if you have one (docs/devices/{}.md)", kind.page);
+      finding.todo += if_owned;
     } else {
       const Apart there = apart([&name] { return of_device(name); }, system.patience);
       if (!there.ended) {
@@ -81,8 +82,11 @@ std::vector<Finding> look_at_devices(const System& system) {
         finding.is = there.words.substr(1);
         finding.todo = fmt::format("burr devices test {}", kind.name);
       } else {
-        if (there.words.starts_with('!')) finding.health = Health::trouble;
         split(there.words.substr(1), finding);
+        if (there.words.starts_with('!'))
+          finding.health = Health::trouble;
+        else
+          finding.todo += if_owned;
       }
       const std::string file = library.words.substr(1);
       if (!file.empty()) finding.is = fmt::format("{} is there; {}", file, finding.is);
