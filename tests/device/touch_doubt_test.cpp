@@ -36,7 +36,7 @@ TEST_F(TouchDoubt, AButtonThatNoDeviceHasDoesNotLift) {
 }
 
 TEST_F(TouchDoubt, ALibraryThatCallsNoMoreIsOpenedAnew) {
-  test::FakeHd& hd = player_.library();
+  test::FakeHd& hd = player_.false_library();
   const auto with = [&](auto look) {
     const std::lock_guard lock(hd.mutex);
     return look(hd);
@@ -53,8 +53,8 @@ TEST_F(TouchDoubt, ALibraryThatCallsNoMoreIsOpenedAnew) {
 TEST(TouchRefused, LeavesNoForcesOn) {
   test::TouchPlayer player;
   const auto room = [&](bool none) {
-    const std::lock_guard lock(player.library().mutex);
-    player.library().no_room = none;
+    const std::lock_guard lock(player.false_library().mutex);
+    player.false_library().no_room = none;
   };
   room(true);
   EXPECT_FALSE(player.device({})->open().ok());

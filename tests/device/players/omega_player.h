@@ -24,7 +24,7 @@ class OmegaPlayer final : public Player {
   }
 
  public:
-  OmegaPlayer() : dhd_(library()) {
+  OmegaPlayer() : dhd_(false_library()) {
     const std::lock_guard lock(dhd_.lock);
     dhd_.arm = {};
     for (std::size_t other = 1; other < dhd_.arm.size(); ++other) dhd_.arm[other].present = false;
@@ -78,7 +78,7 @@ class OmegaPlayer final : public Player {
 
  private:
   inline static const std::string kLibrary = BURR_BUILD_DIR "/fakes/libdrd.so";
-  static FakeDhd& library() {
+  static FakeDhd& false_library() {
     void* loaded = dlopen(kLibrary.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (loaded == nullptr) std::abort();
     return *reinterpret_cast<FakeDhdState>(dlsym(loaded, "fake_dhd"))();

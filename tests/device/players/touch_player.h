@@ -25,12 +25,12 @@ class TouchPlayer final : public Player {
   }
 
  public:
-  static FakeHd& library() {
+  static FakeHd& false_library() {
     void* loaded = dlopen(kLibrary.c_str(), RTLD_NOW | RTLD_GLOBAL);
     if (loaded == nullptr) std::abort();
     return *reinterpret_cast<FakeHdState>(dlsym(loaded, "fake_hd"))();
   }
-  TouchPlayer() : hd_(library()) {
+  TouchPlayer() : hd_(false_library()) {
     const std::lock_guard lock(hd_.mutex);
     hd_.touch = {};
     hd_.rate = 1000;
