@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <random>
+#include <thread>
 
 #include "burr/device/replayed_hand.h"
 #include "burr/haptics/contact.h"
@@ -29,8 +31,9 @@ class Pushed final : public device::Device {
   struct Log {
     device::HandState hand;
     Vec3 force = Vec3::Zero();
-    double held = 1, largest = 0;
-    bool open = false;
+    double largest = 0;
+    std::atomic<double> held_least = 1;  // by the guard, on its own thread
+    bool open = false, follows = false;
   };
   Pushed(Log& log, device::DeviceSpec spec) : log_(log), spec_(std::move(spec)) {}
   Status open() override {
@@ -44,7 +47,10 @@ class Pushed final : public device::Device {
     log_.force = force;
     log_.largest = std::max(log_.largest, force.norm());
   }
-  void hold(double scale) BURR_RT override { log_.held = scale; }
+  void hold(double scale) BURR_RT override {
+    log_.held_least = std::min(log_.held_least.load(), scale);
+  }
+  void follow() override { log_.follows = true; }
 
  private:
   Log& log_;
@@ -303,6 +309,47 @@ TEST(SecondHand, TakesNoMemoryAndNoLock) {
   }
   EXPECT_EQ(guard.allocations(), 0);
   EXPECT_EQ(guard.locks(), 0);
+}
+
+// A first hand in which the tick once stands for a quarter of a second.
+class Stands final : public device::Device {
+ public:
+  Status open() override { return fine(); }
+  void close() override {}
+  [[nodiscard]] const device::DeviceSpec& spec() const override { return spec_; }
+  [[nodiscard]] device::HandState state(double) BURR_RT override {
+    if (++ticks_ == 300) std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    device::HandState hand;
+    hand.world_from_tool.p = {0, 0, 6 * kMm};
+    return hand;
+  }
+  void write_force(const Vec3&) BURR_RT override {}
+
+ private:
+  device::DeviceSpec spec_;
+  int ticks_ = 0;
+};
+
+TEST(SecondHand, IsHeldBackByTheGuardWhileTheTickStands) {
+  NoProgress quiet;
+  SessionSettings settings;
+  settings.realtime = true;
+  settings.servo.burr.radius = 2 * kMm;
+  settings.servo.undo_bricks = 512;
+  settings.surface.reserve_blocks = 1 << 12;
+  auto made = Session::make(
+      scenes::bone_from_distance(
+          scenes::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), 0.25 * kMm), {},
+          scenes::slab(), 64),
+      std::make_unique<Stands>(), settings, quiet);
+  ASSERT_TRUE(made.ok());
+  Pushed::Log log;
+  log.hand.world_from_tool.p = {0, 0, 5 * kMm};
+  ASSERT_TRUE((*made)->join(std::make_unique<Pushed>(log, device::DeviceSpec{}), {}).ok());
+  EXPECT_TRUE(log.follows) << "its wire does not wait for ticks that another one begins";
+  (*made)->run(0.5, quiet);
+  EXPECT_EQ(log.held_least, 0);
+  EXPECT_NE((*made)->outcome().flags & haptics::kFlagWatchdog, 0U);
 }
 
 TEST(SecondHand, GoesWithTheSessionAndIsLetGoWithIt) {
