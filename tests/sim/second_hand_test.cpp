@@ -200,16 +200,20 @@ TEST(SecondHand, LostItFadesInFiveTicksIsKeptAndComesBackByTheRamp) {
   const double force = bench.log.force.norm();
   ASSERT_GT(force, 1);
   bench.log.hand.valid = false;
+  auto report = std::make_unique<FaultReport>();
   for (int n = 1; n <= 5; ++n) {
+    EXPECT_FALSE(bench.session->second_hand()->faults().take(*report)) << "first it fades";
     bench.tick();
     EXPECT_NEAR(bench.log.force.norm(), force * (1 - n / 5.0), 1e-9);
   }
-  auto report = std::make_unique<FaultReport>();
   bench.tick();
   ASSERT_TRUE(bench.session->second_hand()->faults().take(*report));
   EXPECT_EQ(report->flags, haptics::kFlagHandLost);
   EXPECT_EQ(report->count, FaultReport::kTicks);
   EXPECT_NEAR(report->rows[100].contact.force.norm(), force, 1e-9);
+  for (std::size_t n = 1; n < FaultReport::kTicks; ++n)
+    ASSERT_EQ(report->rows[n].tick, report->rows[0].tick + n) << "oldest first";
+  EXPECT_EQ(report->rows[199].tick, bench.second().tick);
   FaultReport& of_first = *report;
   EXPECT_FALSE(bench.session->fault(of_first)) << "the first hand has none";
   bench.log.hand.valid = true;
@@ -349,6 +353,9 @@ TEST(SecondHand, IsHeldBackByTheGuardWhileTheTickStands) {
   EXPECT_TRUE(log.follows) << "its wire does not wait for ticks that another one begins";
   (*made)->run(0.5, quiet);
   EXPECT_EQ(log.held_least, 0);
+  auto report = std::make_unique<FaultReport>();
+  ASSERT_TRUE((*made)->second_hand()->faults().take(*report));
+  EXPECT_NE(report->flags & haptics::kFlagWatchdog, 0U);
   EXPECT_NE((*made)->outcome().flags & haptics::kFlagWatchdog, 0U);
 }
 
