@@ -205,6 +205,13 @@ class Reader {
   std::optional<Error> wrong_;
 };
 
+// A name and a source are told in one line.
+std::string in_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
+  return text;
+}
+
 // A float of TOML: 1 would be a whole number; either is read, but a float says what is meant.
 std::string number_text(double value) {
   std::string text = fmt::format("{:.9g}", value);
@@ -282,7 +289,7 @@ std::string materials_toml(std::span<const Material> materials) {
   std::string out;
   for (const Material& material : materials) {
     out += fmt::format("{}[[material]]\nname = {}\n", out.empty() ? "" : "\n",
-                       base::toml_text(material.name));
+                       base::toml_text(in_one_line(material.name)));
     for (const MaterialField& field : kFields) {
       const std::optional<Constant>& constant = material.*(field.place);
       if (!constant) continue;
@@ -290,7 +297,7 @@ std::string materials_toml(std::span<const Material> materials) {
           fmt::format("{} = {{ value = {}, low = {}, high = {}, source = {}, calibrated = {} }}\n",
                       field.key, number_text(constant->value / field.si),
                       number_text(constant->low / field.si), number_text(constant->high / field.si),
-                      base::toml_text(constant->source), constant->calibrated);
+                      base::toml_text(in_one_line(constant->source)), constant->calibrated);
     }
   }
   return out;
