@@ -129,7 +129,7 @@ struct Events::Ear {
   }
 };
 
-Events::Events(std::string address, int port, std::string arm, bool braked)
+Events::Events(const std::string& address, int port, std::string arm, bool braked)
     : arm_(std::move(arm)), braked_(braked), deaf_(braked), ear_(std::make_unique<Ear>()) {
   beast::error_code odd;
   ear_->where = {net::ip::make_address(address, odd), static_cast<std::uint16_t>(port)};

@@ -24,7 +24,7 @@ namespace burr::device::haply {
 class Events {
  public:
   // address: of the service, in numbers; arm: whose events count; braked: what is known of before
-  Events(std::string address, int port, std::string arm, bool braked);
+  Events(const std::string& address, int port, std::string arm, bool braked);
   ~Events();
   Events(const Events&) = delete;
   Events& operator=(const Events&) = delete;
