@@ -251,11 +251,14 @@ Status run_in_window(const Options& options) {
 Status run(Options options) {
   const bool windowless = options.headless || !display_there();
   if (!windowless) return run_in_window(options);
-  if (const std::string& device = options.work.hand.device; !device.empty())
-    return error(Trouble::usage,
-                 fmt::format("--device {}: a device leads the burr in a window; sit at the "
-                             "computer's own display, or leave --device away to mill by itself",
-                             device));
+  for (const auto& [option, given] : {std::pair{"--device", &options.work.hand.device},
+                                      {"--suction", &options.work.suction},
+                                      {"--tell-as", &options.work.told_as}})
+    if (!given->empty())
+      return error(Trouble::usage,
+                   fmt::format("{0} {1}: this is for a session in a window; sit at the computer's "
+                               "own display, or leave {0} away to mill by itself",
+                               option, *given));
   if (!options.headless)
     fmt::print(stderr, "no display here: milling by itself, as with --headless\n");
   options.work.seconds = options.seconds;

@@ -230,6 +230,37 @@ TEST_F(DeviceWindow, ASecondOneLeadsTheSuctionAndFeelsTheBone) {
   EXPECT_FALSE(hd_->touch[1].open);
 }
 
+// The mouse leads the burr, a device the suction: the stop is for both.
+TEST_F(DeviceWindow, TheStopStopsAMouseBesideASuctionToo) {
+  WorkOptions options;
+  options.suction = "touch";
+  options.volume.path = "block";
+  options.volume.voxel_mm = 0.5;
+  NoProgress quiet;
+  auto ready = open_ready(options, quiet);
+  ASSERT_TRUE(ready) << ready.error().text;
+  sim::Session& session = *ready->session;
+  const auto removed = [&] {
+    static_cast<void>(session.view(row_));
+    return row_.ledger.removed;
+  };
+  double then = 0;
+  mill_by(*ready, {{"the first picture", looks(3),
+                    [] {
+                      move_to(640, 340);
+                      button(SDL_BUTTON_LEFT, true);
+                    }},
+                   {"bone to be cut", pressing_until([&] { return removed() > 0; }),
+                    [] { press(SDLK_BACKSPACE); }},
+                   {"stopped", looks(20), [&] { then = removed(); }},
+                   {"nothing more is cut", looks(30), [&] {
+                      EXPECT_EQ(removed(), then);
+                      EXPECT_EQ(row_.hand.pedal, 0);
+                      button(SDL_BUTTON_LEFT, false);
+                      press(SDLK_q);
+                    }}});
+}
+
 // Chosen with the mouse, looked for at once, and there again at the next start.
 TEST_F(DeviceWindow, IsChosenOnTheStartPageAndKept) {
   const auto taken = [this] {

@@ -97,8 +97,8 @@ class Mill {
     return help_ || settings_page_ || (export_ && export_->shown());
   }
   [[nodiscard]] bool pressing() const {
-    return (pressing_ || held_ || depth_ > 0 || foot_ > 0) && !measuring_.picks() && !page_open() &&
-           !over_panel() && !over_slices();
+    return !let_go_ && (pressing_ || held_ || depth_ > 0 || foot_ > 0) && !measuring_.picks() &&
+           !page_open() && !over_panel() && !over_slices();
   }
   // while a pad leads, the mouse may lie where it was left
   [[nodiscard]] bool over_panel() const { return !leads_ && desk_.ui().over_panel(); }
