@@ -1,6 +1,8 @@
 // What is left out because other bone hides it: never anything that could be seen.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +11,7 @@
 #include <thread>
 
 #include "burr/render/bone_scene.h"
+#include "burr/render/camera.h"
 #include "burr/render/coarsening.h"
 #include "burr/render/depth_tiles.h"
 #include "burr/surface/mesher.h"
@@ -96,6 +99,86 @@ TEST(DepthTiles, NeverHideAPointThatTheSamplesShow) {
 
 // ---- in pictures
 
+// Whether a triangle of the scene stands edge-on to the eye, narrower than the rasteriser's grid,
+// at the middle of this pixel (y down). Depth and colour of what is drawn of such a one are
+// anything: its plane is steeper than what single precision can follow.
+class EdgeOn {
+ public:
+  EdgeOn(const Scene& scene, int width, int height)
+      : view_(view_from_world(scene.camera)),
+        per_unit_(0.5 * height / std::tan(0.5 * scene.camera.field_of_view)),
+        middle_(0.5 * width, 0.5 * height) {
+    for (const ScenePatch& patch : scene.patches)
+      if (patch.mesh != nullptr)
+        look_at(patch.mesh->vertices(), patch.mesh->index_count(),
+                [&](std::size_t n) { return patch.mesh->index(n); });
+    for (const SceneBlock& block : scene.blocks)
+      if (block.mesh != nullptr)
+        for (const CoarseLevel& level : block.mesh->levels)
+          look_at(block.mesh->vertices, level.indices.size(),
+                  [&](std::size_t n) { return level.indices[n]; });
+  }
+  [[nodiscard]] bool at(int x, int y) const {
+    const Eigen::Vector2d p(x + 0.5, y + 0.5);
+    return std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) {
+      const Eigen::Vector2d along = line.b - line.a;
+      const double t = std::clamp((p - line.a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      return (line.a + t * along - p).norm() < kGrid;
+    });
+  }
+
+ private:
+  static constexpr double kGrid = 1.0 / 128;  // OpenGL asks for 1/16 of a pixel, llvmpipe has 1/256
+  struct Line {
+    Eigen::Vector2d a, b;  // [px]
+  };
+
+  template <class Index>
+  void look_at(const std::vector<SkinVertex>& vertices, std::size_t count, Index index) {
+    for (std::size_t t = 0; t + 2 < count; t += 3) {
+      std::array<Eigen::Vector2d, 3> at;
+      bool before = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 p = vertices[index(t + k)].p.template cast<double>();
+        const Eigen::Vector4d v = view_ * p.homogeneous();
+        before = before && v.z() < -1e-4;
+        at[k] = middle_ + per_unit_ / -v.z() * Eigen::Vector2d(v.x(), -v.y());
+      }
+      if (!before) continue;
+      std::size_t longest = 0;
+      const auto side = [&](std::size_t k) { return (at[(k + 1) % 3] - at[k]).norm(); };
+      for (std::size_t k = 1; k < 3; ++k)
+        if (side(k) > side(longest)) longest = k;
+      const Eigen::Vector2d &a = at[longest], &b = at[(longest + 1) % 3],
+                            &c = at[(longest + 2) % 3], u = b - a, w = c - a;
+      if (u.norm() > 0 && std::abs(u.x() * w.y() - u.y() * w.x()) < kGrid * u.norm())
+        lines_.push_back({a, b});
+    }
+  }
+
+  Eigen::Matrix4d view_;
+  double per_unit_;  // pixels, at 1 m
+  Eigen::Vector2d middle_;
+  std::vector<Line> lines_;
+};
+
+// The picture without what is hidden is the whole one, but where a triangle that may be hidden
+// shows through what is before it: one in some ten million samples, not what the user should see.
+void expect_same(const Scene& scene, const Image& whole, const Image& seen) {
+  ASSERT_EQ(whole.rgb.size(), seen.rgb.size());
+  if (whole.rgb == seen.rgb) return;
+  const EdgeOn edge_on(scene, whole.width, whole.height);
+  int strays = 0;
+  for (int y = 0; y < whole.height; ++y)
+    for (int x = 0; x < whole.width; ++x) {
+      const auto at = static_cast<std::ptrdiff_t>(y * whole.width + x) * 3;
+      if (std::equal(whole.rgb.begin() + at, whole.rgb.begin() + at + 3, seen.rgb.begin() + at))
+        continue;
+      EXPECT_LE(++strays, 2);
+      ASSERT_TRUE(edge_on.at(x, y)) << "bone is missing at " << x << ", " << y;
+    }
+}
+
 // A ball of sponge: every hole shows other holes.
 Scene sponge() {
   NoProgress quiet;
@@ -128,10 +211,12 @@ TEST(Visibility, LeavesOutHiddenBoneAndThePictureIsTheSameFromEverywhere) {
     gpu.skip_hidden(true);
     const auto seen = gpu.image(scene, 260, 200);
     ASSERT_TRUE(whole.ok() && seen.ok());
-    ASSERT_EQ(whole->rgb, seen->rgb) << "view " << view;
+    SCOPED_TRACE(view);
+    ASSERT_NO_FATAL_FAILURE(expect_same(scene, *whole, *seen));
     if (view % 10 != 0) continue;  // once more: what was seen the last time is what is seen
     const auto again = gpu.image(scene, 260, 200);
-    ASSERT_EQ(whole->rgb, again->rgb) << "view " << view << " again";
+    ASSERT_TRUE(again.ok());
+    ASSERT_NO_FATAL_FAILURE(expect_same(scene, *whole, *again)) << "again";
     all += whole_patches;
     some += gpu.figures().patches_drawn;
   }
@@ -161,7 +246,7 @@ TEST(Visibility, HoldsWhileTheEyeMovesAndBoneIsTakenAway) {
     ASSERT_TRUE(gpu.show(scene).ok());
     const Image seen = gpu.shown();
     ASSERT_TRUE((*whole_gpu)->show(scene).ok());
-    ASSERT_EQ(seen.rgb, (*whole_gpu)->shown().rgb) << "picture " << n;
+    ASSERT_NO_FATAL_FAILURE(expect_same(scene, (*whole_gpu)->shown(), seen)) << "picture " << n;
   }
 }
 
@@ -201,7 +286,7 @@ TEST_P(VisibilityOf, NoViewLacksWhatCouldBeSeen) {
     scene.camera.distance *= 0.05 + 1.1 * any(random);
     scene.quality.coarse_px = view % 2 == 0 ? 0 : 3;
     ASSERT_TRUE(gpu.show(scene).ok() && whole_gpu.show(scene).ok());
-    ASSERT_EQ(gpu.shown().rgb, whole_gpu.shown().rgb) << "view " << view;
+    ASSERT_NO_FATAL_FAILURE(expect_same(scene, whole_gpu.shown(), gpu.shown())) << "view " << view;
     all += whole_gpu.figures().triangles_drawn;
     some += gpu.figures().triangles_drawn;
   }
