@@ -142,14 +142,16 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   set(tsan_options "TSAN_OPTIONS=halt_on_error=1 second_deadlock_stack=1 suppressions=${PROJECT_SOURCE_DIR}/scripts/checks/tsan_suppressions.txt")
   set_property(TEST tsan.window PROPERTY ENVIRONMENT "${tsan_options};BURR_WINDOW_SECONDS=15")
   set_property(TEST tsan.device PROPERTY ENVIRONMENT "${tsan_options}")
+  # by the clock, and mostly waiting: beside anything but each other
+  set_tests_properties(asan.device tsan.device tsan.window PROPERTIES RESOURCE_LOCK clock)
 
-  # libFuzzer: 20 s for every reader; scripts/fuzz_night.sh gives them longer
+  # libFuzzer: 10 s for every reader; scripts/fuzz_night.sh gives them longer
   add_test(NAME fuzz.seeds COMMAND ${checks}/fuzz.sh seeds)
   set_tests_properties(fuzz.seeds PROPERTIES FIXTURES_REQUIRED asan_programs FIXTURES_SETUP fuzz_seeds LABELS long)
   file(GLOB fuzz_targets CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/fuzz ${PROJECT_SOURCE_DIR}/fuzz/*_fuzz.cpp)
   foreach(file ${fuzz_targets})
     string(REGEX REPLACE "_fuzz\\.cpp$" "" name ${file})
-    add_test(NAME fuzz.${name} COMMAND ${checks}/fuzz.sh ${name} 20)
+    add_test(NAME fuzz.${name} COMMAND ${checks}/fuzz.sh ${name} 10)
     set_tests_properties(fuzz.${name} PROPERTIES FIXTURES_REQUIRED "asan_programs;fuzz_seeds" TIMEOUT 300 LABELS long)
   endforeach()
 endif()
@@ -166,13 +168,20 @@ set_tests_properties(house.verify PROPERTIES TIMEOUT 900)
 set(costs house.same_bits 50 house.measures 30 house.recording_trouble 25 house.run 20 house.install 20 house.verify 40
   haptics.Proxy.AMillionTicksAtUpToTenMillimetresNeverCrossAThinPlate 70 io.Corpus.EveryFileIsReadOrRefusedWithASentence 40
   io.CorpusAgainst.ASecondReaderSeesTheSame 30
-  asan.io 160 asan.haptics 60 asan.volume 40 asan.edit 40 asan.record 40 asan.same_bits 40 tsan.sim 60 tsan.rt 40
+  asan.device 170 asan.io 160 tsan.device 130 tsan.window 120 asan.haptics 60 asan.volume 40 asan.edit 40 asan.record 40 asan.same_bits 40 tsan.sim 60 tsan.rt 40
   clang.same_bits 30)
 set(orders "")
 while(costs)
   list(POP_FRONT costs test seconds)
   string(APPEND orders "set_tests_properties(${test} PROPERTIES COST ${seconds})\n")
 endwhile()
+# of the rooms whose tests run alone (tests.cmake), what does not go by the clock
+foreach(test InverseTest.AMillionForcesAndNonePassesTheLimit PolhemTest.AMillionForcesAndNonePassesTheLimit
+    LeaderTest.AThousandTimesOpenedAndClosedNothingIsLeft InverseTest.AThousandTimesOpenedAndClosedNothingIsLeft
+    TouchTest.AThousandTimesOpenedAndClosedNothingIsLeft PolhemTest.AThousandTimesOpenedAndClosedNothingIsLeft)
+  string(APPEND orders "set_tests_properties(device.${test} PROPERTIES RUN_SERIAL FALSE COST 40)\n")
+endforeach()
+string(APPEND orders "set_tests_properties(device.LeaderTest.AThousandTimesOpenedAndClosedNothingIsLeft PROPERTIES COST 130)\n")
 # what is lost by a kill is judged in milliseconds of a clock, which another test must not take away
 string(APPEND orders "set_tests_properties(sim.Killed.AtAnyMomentItOpensLacksATenthOfASecondAtMostAndReplaysToTheBit "
   "PROPERTIES RUN_SERIAL TRUE)\n")

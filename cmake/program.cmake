@@ -1,18 +1,35 @@
 # the program `burr`: one file per subcommand
 file(GLOB_RECURSE BURR_APP CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/*.cpp)
 if(BURR_APP)
+  # burr_of_program(TARGET): what all that is compiled of it have in common
+  function(burr_of_program target)
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${PROJECT_SOURCE_DIR}/third_party)
+    target_link_libraries(${target} PRIVATE burr burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
+      nlohmann_json::nlohmann_json PkgConfig::EPOXY PkgConfig::SDL2 PkgConfig::IMGUI)
+    target_compile_definitions(${target} PRIVATE BURR_VERSION="${PROJECT_VERSION}")
+    burr_common_headers(${target} ${ARGN})
+    burr_glue(${target})
+    if(BURR_WARNINGS_ONLY)
+      target_compile_options(${target} PRIVATE -O0)
+    endif()
+  endfunction()
+
+  # the parts that tests look at as well, compiled once: the window, the doctor, what both stand on
+  set(BURR_APP_PARTS arm_teller device_book fault_file hand_device hearing html_page import_choice import_preview
+    live_bone loudspeaker nearby places ready_bone recording still suction_hand traces volume_options work
+    devices/trial devices/trial_words doctor/apart doctor/devices_there doctor/finding doctor/fix doctor/nodes)
+  list(TRANSFORM BURR_APP_PARTS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/apps/burr/\\1.cpp")
+  file(GLOB window CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp)
+  list(APPEND BURR_APP_PARTS ${window})
+  list(REMOVE_ITEM BURR_APP ${BURR_APP_PARTS})
+  add_library(burr_app STATIC EXCLUDE_FROM_ALL ${BURR_APP_PARTS})
+  burr_of_program(burr_app <fmt/format.h> <nlohmann/json.hpp>)
+
   add_executable(burr_program ${BURR_APP})
   set_target_properties(burr_program PROPERTIES OUTPUT_NAME burr RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
-  target_include_directories(burr_program PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr)
-  target_link_libraries(burr_program PRIVATE burr burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
-    nlohmann_json::nlohmann_json PkgConfig::EPOXY PkgConfig::SDL2 PkgConfig::IMGUI)
-  target_include_directories(burr_program PRIVATE ${PROJECT_SOURCE_DIR}/third_party)
-  target_compile_definitions(burr_program PRIVATE BURR_VERSION="${PROJECT_VERSION}")
-  burr_common_headers(burr_program <fmt/format.h> <nlohmann/json.hpp>)
-  burr_glue(burr_program)
-  if(BURR_WARNINGS_ONLY)
-    target_compile_options(burr_program PRIVATE -O0)
-  else()  # holds the yardstick of `burr bench tick`, which is compiled as the library is
+  burr_of_program(burr_program REUSE_FROM burr_app)
+  target_link_libraries(burr_program PRIVATE burr_app)
+  if(NOT BURR_WARNINGS_ONLY)  # holds the yardstick of `burr bench tick`, which is compiled as the library is
     set_source_files_properties(${PROJECT_SOURCE_DIR}/apps/burr/bench_tick.cpp PROPERTIES
       COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>" SKIP_PRECOMPILE_HEADERS ON)
   endif()

@@ -9,6 +9,7 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "burr/device/haply/message.h"
 #include "burr/haptics/contact.h"
@@ -614,7 +615,9 @@ TEST_F(InverseEventsTest, GarbageHugeMessagesAndHangUpsDisturbNothing) {
   service_.tell("device-battery-low", "049D");
   EXPECT_TRUE(soon([&] { return arm->trouble().find("battery") != std::string::npos; }))
       << "after all that";
-  service_.tell_text('"' + std::string(10'000'000, 'x') + '"');
+  std::string huge(10'000'000, 'x');
+  huge.front() = huge.back() = '"';
+  service_.tell_text(std::move(huge));
   EXPECT_TRUE(soon([&] { return service_.listened == 2; })) << "hung up on, and listened to again";
   service_.with([](Wishes& w) { w.events_hang_up = true; });
   EXPECT_TRUE(soon([&] { return service_.listened == 3; }));

@@ -2,6 +2,8 @@
 // holds the last force it was given for ever, as real ones do, and misbehaves when it is told to.
 #pragma once
 
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -27,7 +29,19 @@ inline int quiet_domain() {
            "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
            "</Discovery></Domain></CycloneDDS>",
            1);
-  return 20 + static_cast<int>(::getpid() % 200);
+  static const int domain = [] {  // whose name on this computer nobody else has taken
+    for (int n = 0; n < 200; ++n) {
+      const int wanted = 20 + static_cast<int>((::getpid() + n) % 200);
+      sockaddr_un name{.sun_family = AF_UNIX, .sun_path = {}};
+      const std::string as = "burr test on domain " + std::to_string(wanted);
+      as.copy(name.sun_path + 1, sizeof name.sun_path - 1);
+      const int held = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);  // until this process ends
+      if (::bind(held, reinterpret_cast<const sockaddr*>(&name), sizeof name) == 0) return wanted;
+      ::close(held);
+    }
+    return 20;
+  }();
+  return domain;
 }
 
 struct Offers {
