@@ -7,7 +7,7 @@ if(BURR_APP)
     target_link_libraries(${target} PRIVATE burr burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
       nlohmann_json::nlohmann_json PkgConfig::EPOXY PkgConfig::SDL2 PkgConfig::IMGUI)
     target_compile_definitions(${target} PRIVATE BURR_VERSION="${PROJECT_VERSION}")
-    burr_common_headers(${target} ${ARGN})
+    burr_common_headers(${target} <fmt/format.h> <nlohmann/json.hpp>)
     burr_glue(${target})
     if(BURR_WARNINGS_ONLY)
       target_compile_options(${target} PRIVATE -O0)
@@ -23,11 +23,11 @@ if(BURR_APP)
   list(APPEND BURR_APP_PARTS ${window})
   list(REMOVE_ITEM BURR_APP ${BURR_APP_PARTS})
   add_library(burr_app STATIC EXCLUDE_FROM_ALL ${BURR_APP_PARTS})
-  burr_of_program(burr_app <fmt/format.h> <nlohmann/json.hpp>)
+  burr_of_program(burr_app)
 
   add_executable(burr_program ${BURR_APP})
   set_target_properties(burr_program PROPERTIES OUTPUT_NAME burr RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
-  burr_of_program(burr_program REUSE_FROM burr_app)
+  burr_of_program(burr_program)
   target_link_libraries(burr_program PRIVATE burr_app)
   if(NOT BURR_WARNINGS_ONLY)  # holds the yardstick of `burr bench tick`, which is compiled as the library is
     set_source_files_properties(${PROJECT_SOURCE_DIR}/apps/burr/bench_tick.cpp PROPERTIES

@@ -1,6 +1,7 @@
 // burr arm - burr as a robot's arm on the bus of ROS 2 (CRTK): others drive it into a bone, feel
 // what the bone answers, watch and record.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <nlohmann/json.hpp>

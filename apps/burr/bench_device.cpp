@@ -3,6 +3,7 @@
 //
 // Wall time, taken on the wire's side: a reading has arrived - its force is handed to the device.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <nlohmann/json.hpp>

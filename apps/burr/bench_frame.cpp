@@ -12,6 +12,7 @@
 //   program
 //       of its own beside the servo; it is not slowed by loading patches, and knows no hollows.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>

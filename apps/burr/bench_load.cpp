@@ -2,6 +2,7 @@
 // memory.
 #include <fmt/core.h>
 #include <sys/resource.h>
+#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <fstream>

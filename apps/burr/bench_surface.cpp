@@ -1,5 +1,6 @@
 // `burr bench surface` and `burr bench carve`: how fast bone becomes triangles.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>

@@ -5,6 +5,7 @@
 // tilted great circle at a commanded depth, 1 kN/m, no friction. The clock is the thread's CPU time
 // round the whole tick; the wall's beside it.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>

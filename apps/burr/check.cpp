@@ -3,6 +3,7 @@
 //
 // Ends with 0 when it could measure, whatever the verdict: scripts read "verdict" from --json.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -11,11 +11,14 @@
 //     }
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
+
+namespace CLI {
+class App;
+}
 
 namespace burr::app {
 

@@ -1,5 +1,6 @@
 // `burr export`: the bone or what was removed, as a mesh or a volume other programs open.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>

@@ -1,5 +1,6 @@
 // `burr fit`: constants of materials from force logs, with 95 % intervals.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>

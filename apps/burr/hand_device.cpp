@@ -1,6 +1,7 @@
 #include "hand_device.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -10,7 +10,6 @@
 // Thread: main.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +20,10 @@
 #include "burr/device/device.h"
 #include "burr/device/mapping.h"
 #include "device_book.h"
+
+namespace CLI {
+class App;
+}
 
 namespace burr::app {
 

@@ -1,6 +1,7 @@
 // `burr info`: what a file holds, and what would be done to it. No name, id, date or path of a
 // patient.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <nlohmann/json.hpp>

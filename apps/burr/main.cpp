@@ -2,6 +2,7 @@
 // into exit codes.
 #include <fmt/core.h>
 #include <malloc.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cerrno>

@@ -2,6 +2,7 @@
 #include "burr/io/materials.h"
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,6 @@
 // burr phantom - writes a bone made by formula to a file.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>

@@ -1,5 +1,6 @@
 // burr picture - a bone as a PNG, without a display: any of the views.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <optional>

@@ -1,5 +1,6 @@
 // burr repair - a torn recording becomes a whole one.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <string>

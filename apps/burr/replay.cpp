@@ -1,6 +1,7 @@
 // burr replay - a recording opened again: what happened, the bone at any moment, and whether it
 // comes out the same.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,7 @@
 // `burr run`: the simulator in a window; or, without a display, a session that mills by itself and
 // leaves pictures, a recording and a page of figures.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdlib>
 #include <filesystem>

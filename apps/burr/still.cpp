@@ -1,5 +1,6 @@
 #include "still.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <vector>
 

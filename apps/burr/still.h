@@ -2,7 +2,6 @@
 // it leaves.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "burr/base/result.h"
@@ -10,6 +9,10 @@
 #include "burr/render/scene.h"
 #include "burr/render/wound.h"
 #include "burr/volume/bone.h"
+
+namespace CLI {
+class App;
+}
 
 namespace burr::app {
 

@@ -1,5 +1,6 @@
 #include "views.h"
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <optional>
 #include <utility>

@@ -2,7 +2,6 @@
 // cut open, and for two eyes.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
@@ -10,6 +9,10 @@
 #include "burr/volume/bone.h"
 #include "burr/volume/greys.h"
 #include "still.h"
+
+namespace CLI {
+class App;
+}
 
 namespace burr::app {
 

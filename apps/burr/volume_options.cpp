@@ -1,6 +1,7 @@
 #include "volume_options.h"
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <charconv>
 #include <functional>

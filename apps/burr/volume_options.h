@@ -2,13 +2,16 @@
 // or phantom, and what is done to it on the way to bone.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/io/import.h"
 #include "burr/io/read_scan.h"
+
+namespace CLI {
+class App;
+}
 
 namespace burr::app {
 

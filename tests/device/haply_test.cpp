@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -278,6 +279,21 @@ TEST_F(InverseTest, AServiceThatHangsUpOrFallsSilentIsSoughtAgain) {
   EXPECT_TRUE(soon([&] { return arm->returns() == 2; }));
 }
 
+TEST_F(InverseTest, AServiceThatHangsUpIsNotTakenForOneThatSpeaksNonsense) {
+  Inverse wire(here());
+  ASSERT_TRUE(wire.connect().ok());
+  exchange(wire);
+  service_.drop();
+  HandState hand;
+  Wire::Read read = Wire::Read::nothing;
+  EXPECT_TRUE(soon([&] {
+    read = wire.read(hand);
+    EXPECT_EQ(wire.why().find("cannot be read"), std::string::npos);
+    return read == Wire::Read::lost;
+  }));
+  EXPECT_NE(wire.why().find("has gone silent"), std::string::npos) << wire.why();
+}
+
 TEST_F(InverseTest, AStallOf50MsIsALostHandAndNotALostService) {
   const auto arm = device({}, 5e-3);
   ASSERT_TRUE(arm->open().ok());
@@ -518,8 +534,11 @@ TEST_F(InverseEventsTest, WhatMattersIsSaidInWords) {
   }
   service_.tell("device-meltdown", "049D", "critical");
   EXPECT_TRUE(says(wire, "tells of trouble"));
+  const auto told = std::chrono::steady_clock::now();
   service_.tell("device-connected", "049D", "info");
   EXPECT_TRUE(says(wire, "")) << wire.why();
+  EXPECT_LT(std::chrono::steady_clock::now() - told, std::chrono::seconds(4))
+      << "not only because it has been said long enough";
 }
 
 TEST_F(InverseEventsTest, WhatWasToldIsSaidForSomeSeconds) {

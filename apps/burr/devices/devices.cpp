@@ -1,6 +1,7 @@
 // burr devices - the haptic devices burr can drive: which are there, what each is to do, and a
 // trial.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

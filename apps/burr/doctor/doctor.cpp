@@ -4,6 +4,7 @@
 // Ends with 0 when it could look, whatever it saw. Nothing moves, and only --fix changes anything.
 #include <fmt/format.h>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>

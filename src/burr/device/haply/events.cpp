@@ -1,13 +1,6 @@
 #include "burr/device/haply/events.h"
 
-#include <boost/asio/executor_work_guard.hpp>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/post.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/websocket.hpp>
 #include <chrono>
-#include <optional>
 #include <utility>
 
 #include "burr/rt/clock.h"
@@ -15,14 +8,9 @@
 namespace burr::device::haply {
 namespace {
 
-namespace beast = boost::beast;
-namespace websocket = beast::websocket;
-namespace net = boost::asio;
-using Tcp = net::ip::tcp;
 using std::chrono::milliseconds;
-using std::chrono::steady_clock;
 
-constexpr milliseconds kPatience(500);           // with a service that is to answer
+constexpr milliseconds kListen(500);             // at a time
 constexpr milliseconds kAgain(2000);             // between two looks whether it is there
 constexpr std::size_t kLargest = 1 << 16;        // of an event [byte]
 constexpr int kMostNonsense = 50;                // in a row: it is another's channel
@@ -64,84 +52,16 @@ const char* words_of(Told what) {
 
 }  // namespace
 
-// The line to the channel, as far as there is one.
-struct Events::Ear {
-  Tcp::endpoint where;
-  net::io_context io{1};
-  net::executor_work_guard<net::io_context::executor_type> stays{net::make_work_guard(io)};
-  std::optional<websocket::stream<beast::tcp_stream>> stream;
-  beast::flat_buffer buffer;
-  std::atomic<bool> stop = false;
+Events::Events(std::string address, int port, std::string arm, bool braked)
+    : address_(std::move(address)),
+      port_(port),
+      arm_(std::move(arm)),
+      braked_(braked),
+      deaf_(braked),
+      line_(kLargest),
+      thread_({.name = "haply events", .stack_bytes = 0}, [this] { listen(); }) {}
 
-  void end() {
-    stop = true;
-    net::post(io, [] {});  // wakes it
-  }
-
-  // Until it is done, so long, or the end.
-  template <class Done>
-  bool run(milliseconds longest, Done done) {
-    const auto until = steady_clock::now() + longest;
-    while (!done()) {
-      const auto now = steady_clock::now();
-      if (stop || now >= until) return false;
-      io.run_one_for(until - now);
-    }
-    return true;
-  }
-  // One step of the talk; false: it failed, took longer than is waited for, or this is the end.
-  template <class Begin, class Wait>
-  bool step(Begin begin, Wait wait) {
-    bool done = false;
-    beast::error_code trouble;
-    begin([&done, &trouble](beast::error_code error, auto&&...) {
-      trouble = error;
-      done = true;
-    });
-    do {
-      if (run(kPatience, [&done] { return done; })) return !trouble;
-    } while (!stop && wait());
-    beast::get_lowest_layer(*stream).close();
-    while (!done) io.run_one();  // what is closed ends at once
-    return false;
-  }
-
-  bool connect() {
-    stream.emplace(io);
-    stream->read_message_max(kLargest);
-    const std::string host = where.address().to_string() + ":" + std::to_string(where.port());
-    const auto once = [] { return false; };
-    return step(
-               [this](auto then) {
-                 beast::get_lowest_layer(*stream).async_connect(where, std::move(then));
-               },
-               once) &&
-           step([&](auto then) { stream->async_handshake(host, "/", std::move(then)); }, once);
-  }
-  // However long it takes, but not for the other end to agree that what it says is no message.
-  bool hear(std::string_view& text) {
-    buffer.consume(buffer.size());
-    if (!step([this](auto then) { stream->async_read(buffer, std::move(then)); },
-              [this] { return stream->is_open(); }))
-      return false;
-    text = {static_cast<const char*>(buffer.data().data()), buffer.size()};
-    return true;
-  }
-};
-
-Events::Events(const std::string& address, int port, std::string arm, bool braked)
-    : arm_(std::move(arm)), braked_(braked), deaf_(braked), ear_(std::make_unique<Ear>()) {
-  beast::error_code odd;
-  ear_->where = {net::ip::make_address(address, odd), static_cast<std::uint16_t>(port)};
-  if (odd) return;  // nowhere to listen
-  thread_ = std::make_unique<rt::Thread>(rt::ThreadWish{.name = "haply events", .stack_bytes = 0},
-                                         [this] { listen(); });
-}
-
-Events::~Events() {
-  ear_->end();
-  thread_.reset();
-}
+Events::~Events() { line_.stop(); }
 
 void Events::follow_grip(const std::string& id) {
   const std::lock_guard lock(whose_);
@@ -164,21 +84,29 @@ const char* Events::words() const BURR_RT {
              : nullptr;
 }
 
+// The next message, however long it takes; false: the channel or this is at its end.
+bool Events::hear() {
+  WebSocket::Heard heard = WebSocket::Heard::nothing;
+  while (heard == WebSocket::Heard::nothing) heard = line_.receive(kListen);
+  return heard == WebSocket::Heard::message;
+}
+
 void Events::listen() {
-  while (!ear_->stop) {
+  while (!line_.stopped()) {
     int nonsense = 0;
-    if (ear_->connect())
-      for (std::string_view text; nonsense < kMostNonsense && ear_->hear(text);) {
+    if (line_.connect(address_, port_).empty())
+      while (nonsense < kMostNonsense && hear()) {
         Event event;
-        if (read_event(text, event)) {
+        if (read_event(line_.text(), event)) {
           nonsense = 0;
           take(event);
         } else {
           ++nonsense;
         }
       }
+    line_.close();
     if (braked()) deaf_ = true;  // its release may have been told to nobody
-    static_cast<void>(ear_->run(kAgain, [] { return false; }));
+    line_.rest(kAgain);
   }
 }
 

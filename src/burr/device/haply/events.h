@@ -11,11 +11,11 @@
 
 #include <atomic>
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <string>
 
 #include "burr/device/haply/message.h"
+#include "burr/device/haply/web_socket.h"
 #include "burr/rt/rt.h"
 #include "burr/rt/thread.h"
 
@@ -24,7 +24,7 @@ namespace burr::device::haply {
 class Events {
  public:
   // address: of the service, in numbers; arm: whose events count; braked: what is known of before
-  Events(const std::string& address, int port, std::string arm, bool braked);
+  Events(std::string address, int port, std::string arm, bool braked);
   ~Events();
   Events(const Events&) = delete;
   Events& operator=(const Events&) = delete;
@@ -37,11 +37,13 @@ class Events {
   [[nodiscard]] const char* words() const BURR_RT;
 
  private:
-  struct Ear;
   void listen();
+  [[nodiscard]] bool hear();
   void take(const Event& event);
   [[nodiscard]] bool is_ours(const std::string& device);
 
+  std::string address_;
+  int port_;
   std::string arm_;
   std::mutex whose_;  // between the wire, when a grip comes, and the listening thread
   std::string grip_;
@@ -49,8 +51,8 @@ class Events {
   std::atomic<bool> deaf_ = false;  // the channel was lost after the brake was told
   std::atomic<const char*> words_ = nullptr;
   std::atomic<std::int64_t> until_ns_ = 0;  // that they are said
-  std::unique_ptr<Ear> ear_;
-  std::unique_ptr<rt::Thread> thread_;
+  WebSocket line_;
+  rt::Thread thread_;
 };
 
 }  // namespace burr::device::haply

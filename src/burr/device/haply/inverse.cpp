@@ -3,12 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/asio/connect.hpp>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -19,19 +13,16 @@
 
 #include "burr/device/haply/events.h"
 #include "burr/device/haply/message.h"
+#include "burr/device/haply/web_socket.h"
 
 namespace burr::device::haply {
 namespace {
 
-namespace beast = boost::beast;
-namespace websocket = beast::websocket;
-namespace net = boost::asio;
 using math::Quat;
 using math::Vec3;
-using Tcp = net::ip::tcp;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kPatience(500);         // with a service that is to answer once
+constexpr milliseconds kPatience(500);         // with a service that is to answer
 constexpr milliseconds kOneReading(2);         // that read() waits
 constexpr milliseconds kSilent(200);           // then it is gone
 constexpr std::size_t kLargest = 1 << 20;      // of a message  [byte]
@@ -92,11 +83,8 @@ Vec3 theirs(const Vec3& v) BURR_RT { return {v.x(), -v.z(), v.y()}; }
 
 // The connection, and what is known through it.
 struct Inverse::Talk {
-  net::io_context io{1};
-  websocket::stream<beast::tcp_stream> stream{io};
-  beast::flat_buffer buffer;
-  bool reading = false, read_done = false, wrote = false, asked = false;
-  beast::error_code read_error, write_error;
+  WebSocket line{kLargest};
+  bool asked = false;  // its answer is still to come
   std::chrono::steady_clock::time_point heard;
   int nonsense = 0;
 
@@ -108,96 +96,30 @@ struct Inverse::Talk {
   const char* key = "vector";
   std::string out;
   double peak = 0;
-  bool answered = false;  // somebody listens there, whatever he speaks
   std::unique_ptr<Events> events;
   std::string grip;  // whose events are followed
 
-  // Lets what is under way go on until `done`, or so long; what is not done then stays under way.
-  template <class Done>
-  bool run(milliseconds longest, Done done) {
-    const auto until = std::chrono::steady_clock::now() + longest;
-    while (!done()) {
-      const auto now = std::chrono::steady_clock::now();
-      if (now >= until) return false;
-      io.restart();
-      if (io.run_one_for(until - now) == 0 && !done()) return false;
-    }
-    return true;
-  }
-
   bool send(const std::string& text) {
-    wrote = false;
-    stream.async_write(net::buffer(text), [this](beast::error_code error, std::size_t) {
-      write_error = error;
-      wrote = true;
-    });
-    if (!run(kPatience, [this] { return wrote; }) || write_error) return false;
+    if (!line.send(text)) return false;
     asked = true;
     return true;
   }
-
-  // A whole message in `buffer`; false: none yet, or read_error.
-  bool receive(milliseconds longest) {
-    if (!reading) {
-      buffer.consume(buffer.size());
-      reading = true;
-      read_done = false;
-      stream.async_read(buffer, [this](beast::error_code error, std::size_t) {
-        read_error = error;
-        read_done = true;
-      });
-    }
-    if (!run(longest, [this] { return read_done; })) return false;
-    reading = false;
-    if (read_error) return false;
+  WebSocket::Heard receive(milliseconds longest) {
+    const WebSocket::Heard what = line.receive(longest);
+    if (what != WebSocket::Heard::message) return what;
     heard = std::chrono::steady_clock::now();
     asked = false;
-    return true;
+    return what;
   }
-  [[nodiscard]] std::string_view text() const {
-    return {static_cast<const char*>(buffer.data().data()), buffer.size()};
-  }
-
-  // "": connected
-  std::string connect(const std::string& host, int port) {
-    Tcp::resolver resolver(io);
-    beast::error_code trouble;
-    const auto where = resolver.resolve(host, std::to_string(port), trouble);
-    if (trouble) return trouble.message();
-    bool done = false;
-    beast::get_lowest_layer(stream).async_connect(where, [&](beast::error_code error, const auto&) {
-      trouble = error;
-      done = true;
-    });
-    if (!run(kPatience, [&] { return done; })) {
-      beast::get_lowest_layer(stream).cancel();
-      run(kPatience, [&] { return done; });
-      return "no answer";
-    }
-    if (trouble) return trouble.message();
-    answered = true;
-    beast::get_lowest_layer(stream).socket().set_option(Tcp::no_delay(true), trouble);
-    stream.read_message_max(kLargest);
-    done = false;
-    stream.async_handshake(fmt::format("{}:{}", host, port), "/", [&](beast::error_code error) {
-      trouble = error;
-      done = true;
-    });
-    if (!run(kPatience, [&] { return done; })) {
-      beast::get_lowest_layer(stream).close();
-      run(kPatience, [&] { return done; });
-      return "no WebSocket";
-    }
-    return trouble ? "no WebSocket" : "";
-  }
+  bool hears() { return receive(kPatience) == WebSocket::Heard::message; }
 
   // One exchange; false: the service is gone, or speaks nonsense.
   bool exchange(const Vec3& force) {
     write_force(id, key, force, out);
-    return send(out) && receive(kPatience) && take_state() == haply::Read::state;
+    return send(out) && hears() && take_state() == haply::Read::state;
   }
   haply::Read take_state() {
-    const haply::Read read = read_state(text(), found.id, wanted_grip, state);
+    const haply::Read read = read_state(line.text(), found.id, wanted_grip, state);
     if (events && state.grip_id != grip) {
       grip = state.grip_id;
       events->follow_grip(grip);
@@ -220,30 +142,7 @@ namespace {
 
 // What the service says of its version over HTTP; 0: nothing.
 int version_of(const std::string& host, int port) {
-  namespace http = beast::http;
-  net::io_context io{1};
-  beast::tcp_stream stream(io);
-  Tcp::resolver resolver(io);
-  beast::error_code trouble;
-  const auto where = resolver.resolve(host, std::to_string(port), trouble);
-  if (trouble) return 0;
-  int version = 0;
-  beast::flat_buffer buffer;
-  http::request<http::empty_body> ask(http::verb::get, "/version", 11);
-  ask.set(http::field::host, host);
-  http::response<http::string_body> answer;
-  stream.expires_after(kPatience);
-  stream.async_connect(where, [&](beast::error_code error, const auto&) {
-    if (error) return;
-    http::async_write(stream, ask, [&](beast::error_code failed, std::size_t) {
-      if (failed) return;
-      http::async_read(stream, buffer, answer, [&](beast::error_code bad, std::size_t) {
-        if (!bad) version = read_version(answer.body());
-      });
-    });
-  });
-  io.run_for(2 * kPatience);
-  return version;
+  return read_version(http_body(host, port, "/version"));
 }
 
 }  // namespace
@@ -264,15 +163,15 @@ Status Inverse::reach() {
   int answers = 0;  // the port at which something else does
   for (const int one : ports) {
     talk_ = std::make_unique<Talk>();
-    const std::string why = talk_->connect(host_, one);
+    const std::string why = talk_->line.connect(host_, one);
     port_ = one;
     if (why.empty()) break;
-    if (talk_->answered) answers = one;
+    if (talk_->line.answered()) answers = one;
     trouble += fmt::format("{}{}:{}: {}", trouble.empty() ? "" : ", ", host_, one, why);
     talk_.reset();
   }
   std::vector<Found> nobody_asks;
-  if (talk_ && talk_->receive(kPatience) && read_found(talk_->text(), nobody_asks)) return fine();
+  if (talk_ && talk_->hears() && read_found(talk_->line.text(), nobody_asks)) return fine();
   if (talk_) answers = port_;
   talk_.reset();
   if (answers == 0)
@@ -299,7 +198,7 @@ Status Inverse::meet() {
   const Status reached = reach();
   if (!reached) return reached;
   std::vector<Found> all;
-  static_cast<void>(read_found(talk_->text(), all));
+  static_cast<void>(read_found(talk_->line.text(), all));
   const auto wanted = std::find_if(all.begin(), all.end(), [this](const Found& one) {
     return settings_.id.empty() || one.id == settings_.id;
   });
@@ -313,7 +212,7 @@ Status Inverse::meet() {
                      : fmt::format("Haply's Inverse Service knows no arm {}; it knows {}",
                                    settings_.id, fmt::join(known, ", ")));
   }
-  const std::vector<std::string> grips = grips_in(talk_->text());
+  const std::vector<std::string> grips = grips_in(talk_->line.text());
   if (!settings_.grip.empty() &&
       std::find(grips.begin(), grips.end(), settings_.grip) == grips.end())
     return error(Trouble::io,
@@ -338,7 +237,7 @@ Status Inverse::greet() {
   talk_->version = version_of(host_, port_);
   const char* likely = key_of_force(talk_->version);
   const char* other = likely == key_of_force(305) ? key_of_force(301) : key_of_force(305);
-  if (!talk_->send(greeting(talk_->id, likely)) || !talk_->receive(kPatience)) return silent();
+  if (!talk_->send(greeting(talk_->id, likely)) || !talk_->hears()) return silent();
   if (!talk_->obeys(likely) && !talk_->obeys(other))
     talk_->key = likely;  // an arm that rests gives nothing back
   if (!talk_->exchange(Vec3::Zero())) return silent();
@@ -367,11 +266,8 @@ Result<DeviceSpec> Inverse::connect() {
                             "in Haply's window (docs/devices/haply.md)",
                             name_));
   if (met) {
-    beast::error_code odd;
-    const auto address =
-        beast::get_lowest_layer(talk_->stream).socket().remote_endpoint(odd).address();
     talk_->events =
-        std::make_unique<Events>(address.to_string(), events_port, talk_->found.id, braked_);
+        std::make_unique<Events>(talk_->line.peer(), events_port, talk_->found.id, braked_);
     met = greet();
   }
   if (!met) {
@@ -407,10 +303,10 @@ Result<AllKnown> all_known(const InverseSettings& settings) {
   const Status reached = wire.reach();
   if (!reached) return reached.error();
   std::vector<Found> found;
-  static_cast<void>(read_found(wire.talk_->text(), found));
+  static_cast<void>(read_found(wire.talk_->line.text(), found));
   AllKnown all;
   for (const Found& one : found) all.arms.push_back({one.id, one.type});
-  all.grips = grips_in(wire.talk_->text());
+  all.grips = grips_in(wire.talk_->line.text());
   wire.talk_.reset();
   return all;
 }
@@ -423,8 +319,10 @@ void Inverse::note(const char* words) BURR_RT {
 Wire::Read Inverse::read(HandState& hand) BURR_RT {
   Talk& talk = *talk_;
   hand.valid = false;
-  if (!talk.receive(kOneReading)) {
-    if (!talk.read_done && std::chrono::steady_clock::now() - talk.heard < kSilent)
+  const WebSocket::Heard heard = talk.receive(kOneReading);
+  if (heard != WebSocket::Heard::message) {
+    if (heard == WebSocket::Heard::nothing &&
+        std::chrono::steady_clock::now() - talk.heard < kSilent)
       return Read::nothing;
     note("has gone silent; see that Haply's Inverse Service runs.");
     return Read::lost;
@@ -475,12 +373,10 @@ void Inverse::disconnect() {
   if (!talk_) return;
   Talk& talk = *talk_;
   if (talk.events) braked_ = talk.events->braked();
-  if (!talk.read_error && !talk.write_error) {
+  if (talk.line.whole()) {
     write_force(talk.id, talk.key, Vec3::Zero(), talk.out);
     static_cast<void>(talk.send(talk.out));
   }
-  beast::get_lowest_layer(talk.stream).close();
-  talk.run(kPatience, [&talk] { return !talk.reading || talk.read_done; });
   talk_.reset();
 }
 
