@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "burr/device/haply/message.h"
+#include "burr/device/haply/web_socket.h"
 #include "burr/haptics/contact.h"
 #include "device/fake/fake_haply.h"
 #include "device/stand_in.h"
@@ -697,6 +698,29 @@ TEST_F(InverseTest, AThousandTimesOpenedAndClosedNothingIsLeft) {
   EXPECT_GE(service_.sessions, 1020);
   // the false service keeps a few hundred bytes of each; a leaked connection has some kilobytes
   EXPECT_LT(test::memory_in_use(), memory + 2'000'000);
+}
+
+// ---- the line
+
+TEST_F(InverseTest, ALineThatIsNotConnectedTakesAndGivesNothing) {
+  WebSocket line(1000);
+  const auto is_none = [&line] {
+    return !line.whole() && !line.send("{}") &&
+           line.receive(std::chrono::milliseconds(1)) == WebSocket::Heard::lost;
+  };
+  EXPECT_TRUE(is_none()) << "not yet";
+  EXPECT_NE(line.connect("", service_.port), "");
+  EXPECT_TRUE(is_none()) << "nowhere";
+  EXPECT_NE(line.connect("127.0.0.1", 1), "");
+  EXPECT_TRUE(is_none()) << "refused";
+  ASSERT_EQ(line.connect("127.0.0.1", service_.port), "");
+  EXPECT_TRUE(line.whole());
+  EXPECT_EQ(line.peer(), "127.0.0.1");
+  EXPECT_TRUE(soon([&] {
+    return line.receive(std::chrono::milliseconds(1)) == WebSocket::Heard::message;
+  })) << "its greeting";
+  line.close();
+  EXPECT_TRUE(is_none()) << "no more";
 }
 
 // ---- messages

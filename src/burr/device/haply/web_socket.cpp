@@ -35,7 +35,8 @@ struct WebSocket::Line {
   beast::flat_buffer buffer;
   std::string out;
   bool reading = false, writing = false;  // under way
-  bool failed = false, answered = false;
+  bool failed = true;                     // not connected, or not any more
+  bool answered = false;
   beast::error_code read_error;
   std::atomic<bool> stop = false;
 
@@ -80,7 +81,7 @@ WebSocket::~WebSocket() { close(); }
 std::string WebSocket::connect(const std::string& host, int port) {
   Line& line = *line_;
   line.close();
-  line.failed = line.answered = false;
+  line.answered = false;
   if (host.empty()) return "no address";
   line.stream.emplace(line.io);
   line.stream->read_message_max(line.longest);
@@ -98,7 +99,8 @@ std::string WebSocket::connect(const std::string& host, int port) {
   const std::string name = fmt::format("{}:{}", host, port);
   const std::string why = line.step(
       "no WebSocket", [&](auto then) { line.stream->async_handshake(name, "/", std::move(then)); });
-  return why.empty() ? "" : "no WebSocket";
+  line.failed = !why.empty();
+  return line.failed ? "no WebSocket" : "";
 }
 
 bool WebSocket::answered() const { return line_->answered; }
@@ -138,7 +140,7 @@ WebSocket::Heard WebSocket::receive(milliseconds longest) {
     return line.failed ? Heard::lost : Heard::message;
   }
   // what is no message is hung up on; whether the other end agrees is not waited for
-  line.failed = line.stop || !line.stream->is_open();
+  line.failed = line.failed || line.stop || !line.stream->is_open();
   return line.failed ? Heard::lost : Heard::nothing;
 }
 
@@ -146,7 +148,7 @@ std::string_view WebSocket::text() const {
   return {static_cast<const char*>(line_->buffer.data().data()), line_->buffer.size()};
 }
 
-bool WebSocket::whole() const { return line_->stream && !line_->failed; }
+bool WebSocket::whole() const { return !line_->failed; }
 void WebSocket::close() { line_->close(); }
 
 void WebSocket::rest(milliseconds time) {

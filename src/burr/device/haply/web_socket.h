@@ -39,7 +39,7 @@ class WebSocket {
   [[nodiscard]] Heard receive(std::chrono::milliseconds longest);
   // The message, until the next receive().
   [[nodiscard]] std::string_view text() const;
-  // Neither has failed since it is connected.
+  // Connected, and neither has failed since.
   [[nodiscard]] bool whole() const;
   void close();
 
