@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -68,6 +69,66 @@ TEST(PolhemDoubt, ItsSpeedGoesTheWayItGoes) {
       EXPECT_GT(way * hand.velocity[ours], 1e-3) << hand.velocity.transpose();
       EXPECT_LT(way * hand.velocity[ours], 1) << "some tenths of a millimetre in a millisecond";
     }
+}
+
+// burr and the arm stand still, the guardian asks meanwhile, and the arm comes to it late. None of
+// ours may wait behind those lines for ever. How many readings a force took from then on; nothing
+// when the machine stood longer than that, and the arm was lost.
+std::optional<int> late_after_a_stall() {
+  test::FakePolhem arm;
+  arm.with([](test::FakePolhem::Wishes& wishes) { wishes.rate_hz = 1000; });
+  polhem::Polhem wire({.port = arm.path, .system = "/nowhere"});
+  if (!wire.connect()) return std::nullopt;
+  HandState hand;
+  const auto readings = [&](int count, const Vec3& force) {
+    for (int n = 0; n < count;) {
+      const Wire::Read read = wire.read(hand);
+      if (read == Wire::Read::lost || !wire.write(force)) return false;
+      if (read == Wire::Read::hand) ++n;
+    }
+    return true;
+  };
+  const auto lines = [&] {
+    return arm.with([](test::FakePolhem::Wishes& wishes) { return wishes.lines; });
+  };
+  if (!readings(20, Vec3::Zero())) return std::nullopt;
+  const std::uint64_t before = lines();
+  arm.with([](test::FakePolhem::Wishes& wishes) { wishes.stall_ms = 150; });
+  std::this_thread::sleep_for(std::chrono::milliseconds(140));
+  if (!readings(20, Vec3::Zero())) return std::nullopt;
+  EXPECT_TRUE(soon([&] { return lines() > before + 10; })) << "the guardian's";
+  int late = 0;
+  for (; late < 100 && arm.force().y() != 1; ++late)
+    if (!readings(1, late < 60 ? Vec3(0.5, 0, 0) : Vec3(1, 0, 0))) return std::nullopt;
+  return late - 60;
+}
+
+TEST(PolhemDoubt, AForceIsNotLateForEverAfterAStall) {
+  std::optional<int> late;
+  for (int tries = 0; tries < 10 && !late; ++tries) late = late_after_a_stall();
+  ASSERT_TRUE(late);
+  EXPECT_GT(*late, 0);
+  EXPECT_LE(*late, 3);
+}
+
+// It goes on as it was told last: that must not be the force of the moment when it fell silent.
+TEST(PolhemDoubt, WithoutAnAnswerItIsToldNoForce) {
+  test::FakePolhem arm;
+  polhem::Polhem wire({.port = arm.path, .system = "/nowhere"});
+  ASSERT_TRUE(wire.connect().ok());
+  HandState hand;
+  const auto pushed_until = [&](double newton) {
+    return soon([&] {
+      static_cast<void>(wire.read(hand));
+      static_cast<void>(wire.write(Vec3(1, 0, 0)));
+      return arm.force() == Vec3(0, newton, 0);
+    });
+  };
+  ASSERT_TRUE(pushed_until(1));
+  arm.with([](test::FakePolhem::Wishes& wishes) { wishes.silent = true; });
+  EXPECT_TRUE(pushed_until(0));
+  arm.with([](test::FakePolhem::Wishes& wishes) { wishes.silent = false; });
+  EXPECT_TRUE(pushed_until(1)) << "once it answers again";
 }
 
 // Its guardian has the port as well: what could not be opened is given back by both.

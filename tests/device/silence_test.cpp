@@ -1,8 +1,11 @@
 // A device that says nothing any more is lost within a fifth of a second, whatever its wire.
 // Counted in readings that did not come, each waited for 2 ms: a machine that stalls makes them
 // fewer.
+#include "burr/device/silence.h"
+
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -13,6 +16,26 @@ namespace burr::device {
 namespace {
 
 constexpr int kReadings = 250;
+constexpr std::int64_t kMs = 1'000'000;
+
+TEST(Silence, IsWhatWasListenedToAndNotAMachineThatStoodStill) {
+  Silence silence;
+  std::int64_t now = 7'000 * kMs;
+  silence.ended(now);
+  const auto readings_until_lost = [&] {
+    for (int nothing = 1;; ++nothing)
+      if (silence.lasts(now += 2 * kMs)) return nothing;
+  };
+  EXPECT_EQ(readings_until_lost(), 100);
+  silence.ended(now);
+  now += 60'000 * kMs;
+  EXPECT_FALSE(silence.lasts(now)) << "it stood still for a minute";
+  EXPECT_EQ(readings_until_lost(), 95);
+  for (int n = 0; n < 99; ++n) {
+    silence.ended(now);
+    EXPECT_FALSE(silence.lasts(now += 199 * kMs));
+  }
+}
 
 // Until it is lost; how many readings did not come.
 int readings_until_lost(Wire& wire, const char* words) {

@@ -8,6 +8,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -108,7 +109,7 @@ class FakePolhem {
       w.stall_ms = 0;
       pieces = w.pieces;
       if (w.silent) return;
-      if (w.rate_hz > 0) stall = static_cast<int>(1000 / w.rate_hz);
+      if (w.rate_hz > 0) stall = std::max(stall, static_cast<int>(1000 / w.rate_hz));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(stall));
     if (!pieces) return put(master_, line);

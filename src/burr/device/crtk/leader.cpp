@@ -10,6 +10,8 @@
 #include "burr/device/crtk/bus.h"
 #include "burr/device/crtk/reading.h"
 #include "burr/device/guardian.h"
+#include "burr/device/silence.h"
+#include "burr/rt/clock.h"
 
 namespace burr::device::crtk {
 namespace {
@@ -22,10 +24,9 @@ constexpr milliseconds kHeard(1500);    // for who is there to be heard of
 constexpr milliseconds kMatched(2000);  // for a topic to be joined
 constexpr milliseconds kStated(600);    // for an arm to say its state
 constexpr milliseconds kHomes(60'000);  // for an arm to home
-constexpr milliseconds kCounted(400);   // in which its rate is seen
+constexpr double kCounted = 0.4;        // in which its rate is seen [s]
 constexpr int kCountedPlaces = 100;     // likewise: so many are enough
 constexpr milliseconds kLeft(1000);     // for another's writer to go: our own of before
-constexpr milliseconds kSilent(200);    // then it is gone
 constexpr milliseconds kLook(2);
 constexpr std::int64_t kOneReadingNs = 2'000'000;  // that read() waits
 constexpr std::int64_t kLastNs = 100'000'000;      // for the last force to arrive
@@ -76,7 +77,7 @@ struct Leader::Talk {
   bool taken = true, alone = true;
   bool sound_speed = true;
   HandState hand;
-  steady_clock::time_point heard;
+  Silence silence;
 
   bool stated = false;
   std::string state;
@@ -147,14 +148,15 @@ struct Leader::Talk {
   // How often a place comes [Hz].
   double rate() {
     int places = 0;
-    const auto began = steady_clock::now();
-    const auto seconds = [began] {
-      return std::chrono::duration<double>(steady_clock::now() - began).count();
-    };
-    const auto good = [&] { return places >= kCountedPlaces && places >= kSlowest * seconds(); };
-    while (!good() && steady_clock::now() - began < kCounted)
+    double seconds = 0;
+    Listened listened;
+    listened.begin(rt::monotonic_ns());
+    const auto good = [&] { return places >= kCountedPlaces && places >= kSlowest * seconds; };
+    while (!good() && seconds < kCounted) {
       if (next_place() != nullptr) ++places;
-    return places / seconds();
+      seconds = 1e-9 * static_cast<double>(listened.until(rt::monotonic_ns()));
+    }
+    return places / seconds;
   }
 
   // Who else writes its forces.
@@ -331,7 +333,7 @@ Result<DeviceSpec> Leader::connect() {
       Guardian::start({"crtk", std::to_string(domain), *arm, talk->to_body ? kBody : kSpatial});
   if (!guardian) return guardian.error();
   talk->guardian = std::move(*guardian);
-  talk->heard = steady_clock::now();
+  talk->silence.ended(rt::monotonic_ns());
   talk_ = std::move(talk);
 
   trouble_ = nullptr;
@@ -362,11 +364,11 @@ Wire::Read Leader::read(HandState& hand) BURR_RT {
   const PoseStamped* newest = talk.next_place();
   talk.guardian->beat();
   if (newest == nullptr) {
-    if (steady_clock::now() - talk.heard < kSilent) return Read::nothing;
+    if (!talk.silence.lasts(rt::monotonic_ns())) return Read::nothing;
     note("has gone silent; see that its node runs.");
     return Read::lost;
   }
-  talk.heard = steady_clock::now();
+  talk.silence.ended(rt::monotonic_ns());
   talk.listen();
   while (const TwistStamped* speed = talk.speed.take())
     talk.sound_speed = take_speed(*speed, talk.hand);

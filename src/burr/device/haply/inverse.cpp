@@ -14,6 +14,8 @@
 #include "burr/device/haply/events.h"
 #include "burr/device/haply/message.h"
 #include "burr/device/haply/web_socket.h"
+#include "burr/device/silence.h"
+#include "burr/rt/clock.h"
 
 namespace burr::device::haply {
 namespace {
@@ -24,7 +26,6 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kPatience(500);         // with a service that is to answer
 constexpr milliseconds kOneReading(2);         // that read() waits
-constexpr milliseconds kSilent(200);           // then it is gone
 constexpr std::size_t kLargest = 1 << 20;      // of a message  [byte]
 constexpr int kMostNonsense = 50;              // messages in a row
 constexpr int kProbes = 20;                    // exchanges in which a tiny force must come back
@@ -85,7 +86,7 @@ Vec3 theirs(const Vec3& v) BURR_RT { return {v.x(), -v.z(), v.y()}; }
 struct Inverse::Talk {
   WebSocket line{kLargest};
   bool asked = false;  // its answer is still to come
-  std::chrono::steady_clock::time_point heard;
+  Silence silence;
   int nonsense = 0;
 
   State state;
@@ -107,7 +108,7 @@ struct Inverse::Talk {
   WebSocket::Heard receive(milliseconds longest) {
     const WebSocket::Heard what = line.receive(longest);
     if (what != WebSocket::Heard::message) return what;
-    heard = std::chrono::steady_clock::now();
+    silence.ended(rt::monotonic_ns());
     asked = false;
     return what;
   }
@@ -321,8 +322,7 @@ Wire::Read Inverse::read(HandState& hand) BURR_RT {
   hand.valid = false;
   const WebSocket::Heard heard = talk.receive(kOneReading);
   if (heard != WebSocket::Heard::message) {
-    if (heard == WebSocket::Heard::nothing &&
-        std::chrono::steady_clock::now() - talk.heard < kSilent)
+    if (heard == WebSocket::Heard::nothing && !talk.silence.lasts(rt::monotonic_ns()))
       return Read::nothing;
     note("has gone silent; see that Haply's Inverse Service runs.");
     return Read::lost;

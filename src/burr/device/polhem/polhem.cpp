@@ -26,15 +26,18 @@ namespace fs = std::filesystem;
 using math::Quat;
 using math::Vec3;
 
-constexpr int kOneReadingMs = 2;                 // that read() waits
-constexpr int kWakesMs = 1500, kWakeMs = 50;     // for an arm that begins to run when it is opened
-constexpr std::int64_t kAgainNs = 20'000'000;    // without an answer: its line or ours was lost
-constexpr std::int64_t kSilentNs = 200'000'000;  // then it is gone
-constexpr int kMostNonsense = 50;                // lines without a good one between
-constexpr double kPeak = 5, kContinuous = 1.5;   // [N]; the former from the maker's polhem_v3
-constexpr double kStiffness = 2000, kDamping = 1;  // [N/m], [N s/m], likewise
-constexpr double kRadius = 150e-3;                 // [m], likewise
-constexpr double kSlowest = 1e-3;                  // time constant of the place's change  [s]
+constexpr int kOneReadingMs = 2;               // that read() waits
+constexpr int kWakesMs = 1500, kWakeMs = 50;   // for an arm that begins to run when it is opened
+constexpr std::int64_t kAgainNs = 20'000'000;  // without an answer: its line or ours was lost
+// Beats so far apart, and the guardian has spoken to the arm meanwhile, or was about to.
+constexpr std::int64_t kGuardedNs = (Guardian::kMissedMs - 10) * std::int64_t{1'000'000};
+constexpr std::int64_t kQuietNs = 5'000'000;        // then no more answers are owed
+constexpr std::int64_t kCatchUpNs = 1'000'000'000;  // in which it has fallen quiet
+constexpr int kMostNonsense = 50;                   // lines without a good one between
+constexpr double kPeak = 5, kContinuous = 1.5;      // [N]; the former from the maker's polhem_v3
+constexpr double kStiffness = 2000, kDamping = 1;   // [N/m], [N s/m], likewise
+constexpr double kRadius = 150e-3;                  // [m], likewise
+constexpr double kSlowest = 1e-3;                   // time constant of the place's change  [s]
 
 std::string text_of(const fs::path& file) {
   std::ifstream in(file);
@@ -124,12 +127,16 @@ Result<DeviceSpec> Polhem::connect() {
   lines_.clear();
   unsaid_ = 0;
   nonsense_ = 0;
+  beaten_ns_ = 0;
+  behind_ = false;
   name_ = "the Polhem at " + port.path;
 
   // Asked without force until it answers; boards begin anew when their port is opened.
   Heard heard = Heard::nothing;
-  for (int waited = 0; heard == Heard::nothing && waited < kWakesMs; waited += kWakeMs)
+  for (int waited = 0; heard == Heard::nothing && waited < kWakesMs; waited += kWakeMs) {
+    if (waited > 0) fall_behind(rt::monotonic_ns());
     heard = say(Vec3::Zero()) ? hear(kWakeMs) : Heard::gone;
+  }
   if (heard != Heard::state)
     return fail(nonsense_ > 0
                     ? fmt::format("{} does not speak as a Polhem does; name another port, or put "
@@ -144,6 +151,7 @@ Result<DeviceSpec> Polhem::connect() {
   guardian_ = std::move(*guardian);
   if (!say(Vec3::Zero())) return fail(port.path + " was unplugged; plug it in again");
   heard_ns_ = rt::monotonic_ns();
+  silence_.ended(heard_ns_);
   last_place_ = state_.place;
   velocity_.setZero();
   trouble_ = nullptr;
@@ -216,11 +224,30 @@ bool Polhem::say(const Vec3& force) BURR_RT {
   return true;
 }
 
+// More was asked than was answered, by ourselves or by the guardian. Were the arm asked again at
+// each of those answers, every force would reach it so many lines late from then on.
+void Polhem::fall_behind(std::int64_t now) BURR_RT {
+  if (behind_) return;
+  behind_ = true;
+  stilled_ = false;
+  behind_since_ns_ = now;
+}
+
 Wire::Read Polhem::read(HandState& hand) BURR_RT {
   hand.valid = false;
+  const std::int64_t begun = rt::monotonic_ns();
+  if (beaten_ns_ != 0 && begun - beaten_ns_ > kGuardedNs) fall_behind(begun);
+  beaten_ns_ = begun;
   guardian_->beat();
   const Heard heard = hear(kOneReadingMs);
   const std::int64_t now = rt::monotonic_ns();
+  // quiet counts after an answer only: one that stands still has not said yet what it owes
+  if (heard == Heard::nothing && !asked_ && now - std::max(heard_ns_, behind_since_ns_) > kQuietNs)
+    behind_ = false;
+  if (behind_ && now - behind_since_ns_ > kCatchUpNs) {
+    note("answers more than it is asked; unplug it and plug it in again.");
+    return Read::lost;
+  }
   if (heard == Heard::gone) {
     note("was unplugged; plug it in again.");
     return Read::lost;
@@ -230,12 +257,13 @@ Wire::Read Polhem::read(HandState& hand) BURR_RT {
     return Read::lost;
   }
   if (heard == Heard::nothing) {
-    if (now - heard_ns_ < kSilentNs) return Read::nothing;
+    if (!silence_.lasts(now)) return Read::nothing;
     note("has gone silent; see that it is switched on.");
     return Read::lost;
   }
   const double dt = 1e-9 * static_cast<double>(now - heard_ns_);
   heard_ns_ = now;
+  silence_.ended(now);
   velocity_ +=
       dt / (dt + kSlowest) * ((state_.place - last_place_) / std::max(dt, 1e-5) - velocity_);
   last_place_ = state_.place;
@@ -248,11 +276,18 @@ Wire::Read Polhem::read(HandState& hand) BURR_RT {
 }
 
 bool Polhem::write(const Vec3& force) BURR_RT {
-  // its answer is still to come; a line lost on the way is said again
-  if (asked_ && rt::monotonic_ns() - asked_ns_ < kAgainNs) return true;
-  if (say(theirs(bounded(force, kPeak)))) return true;
-  note("was unplugged; plug it in again.");
-  return false;
+  // its answer is still to come; where a line was lost on the way another is said
+  const std::int64_t now = rt::monotonic_ns();
+  if (asked_ && now - asked_ns_ < kAgainNs) return true;
+  if (asked_) fall_behind(now);
+  const bool whole = unsaid_ == 0;
+  if (behind_ && stilled_ && !asked_ && whole) return true;
+  if (!say(behind_ ? Vec3::Zero() : theirs(bounded(force, kPeak)))) {
+    note("was unplugged; plug it in again.");
+    return false;
+  }
+  stilled_ = behind_ && whole;
+  return true;
 }
 
 void Polhem::disconnect() {

@@ -16,6 +16,7 @@
 
 #include "burr/device/guardian.h"
 #include "burr/device/polhem/line.h"
+#include "burr/device/silence.h"
 #include "burr/device/wire.h"
 
 namespace burr::device::polhem {
@@ -41,6 +42,7 @@ class Polhem final : public Wire {
   void note(const char* words) BURR_RT;
   enum class Heard { state, nothing, gone };
   [[nodiscard]] Heard hear(int longest_ms) BURR_RT;
+  void fall_behind(std::int64_t now) BURR_RT;
   [[nodiscard]] bool say(const math::Vec3& force) BURR_RT;  // false: gone
 
   PolhemSettings settings_;
@@ -53,6 +55,11 @@ class Polhem final : public Wire {
   std::size_t unsaid_ = 0;  // bytes of out_ that the port did not take yet
   bool asked_ = false;
   std::int64_t asked_ns_ = 0, heard_ns_ = 0;
+  Silence silence_;
+  std::int64_t beaten_ns_ = 0;  // the guardian; 0: not yet
+  bool behind_ = false;         // answers are owed: no force is said until they have come
+  bool stilled_ = false;        // and "no force" was said at the beginning of it
+  std::int64_t behind_since_ns_ = 0;
   math::Vec3 last_place_ = math::Vec3::Zero(), velocity_ = math::Vec3::Zero();
   int nonsense_ = 0;
   const char* trouble_ = nullptr;
