@@ -4,6 +4,7 @@
 #include <utility>
 
 namespace burr::app {
+namespace {
 
 device::crtk::ArmTold told_of(const record::TickRow& row) {
   device::crtk::ArmTold told;
@@ -14,6 +15,8 @@ device::crtk::ArmTold told_of(const record::TickRow& row) {
   return told;
 }
 
+}  // namespace
+
 ArmTeller::ArmTeller(sim::Session& session, device::crtk::Arm& arm, std::function<bool()> busy)
     : session_(session) {
   session_.set_watch(&rows_);
@@ -23,6 +26,7 @@ ArmTeller::ArmTeller(sim::Session& session, device::crtk::Arm& arm, std::functio
       if (rows_.take(row)) {
         device::crtk::ArmTold told = told_of(row);
         told.busy = busy && busy();
+        told.let_go = session_.servo().let_go();
         arm.tell(told);
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -31,7 +31,4 @@ class ArmTeller {
   std::thread thread_;
 };
 
-// What others are told of a tick.
-[[nodiscard]] device::crtk::ArmTold told_of(const record::TickRow& row);
-
 }  // namespace burr::app

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string>
+#include <thread>
 
 #include "burr/device/crtk/bus.h"
 #include "burr/math/turn.h"
@@ -225,59 +228,156 @@ TEST_F(ArmTest, WhatIsToldIsReadByOthers) {
   EXPECT_NEAR((vector_of(spatial->wrench_.torque_) - Vec3(0, 6, -4)).norm(), 0, 1e-12);
 }
 
-// The whole: somebody drives the burr into a slab whose top is z = 0.
-TEST_F(ArmTest, DrivenIntoBoneItStaysOnItPushesBackAndMills) {
-  hand_.reset();
-  const Pose start{{0, 0, 5 * kMm}, Quat::Identity()};
-  auto driven = std::make_unique<DrivenHand>(*arm_, start);
-  NoProgress quiet;
-  sim::SessionSettings wished;
-  wished.realtime = true;
-  wished.servo.burr.radius = 2 * kMm;
-  wished.servo.undo_bricks = 512;
-  wished.surface.reserve_blocks = 1 << 12;
-  auto made = sim::Session::make(
-      scenes::bone_from_distance(
-          scenes::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), 0.25 * kMm), {},
-          scenes::slab(), 64),
-      std::move(driven), wished, quiet);
-  ASSERT_TRUE(made.ok()) << made.error().text;
-  sim::Session& session = **made;
-  rt::Latest<record::TickRow> rows;
-  session.set_watch(&rows);
-  session.start();
-  record::TickRow row;
-  Vec3 measured = start.p, setpoint = start.p, force = Vec3::Zero();
-  const auto hear = [&] {
-    if (rows.take(row))
-      arm_->tell({{row.contact.proxy, row.hand.world_from_tool.q},
-                  row.hand.world_from_tool,
-                  row.hand.velocity,
-                  row.contact.force,
-                  false});
-    if (const PoseStamped* newest = driver_->measured.take()) measured = pose_of(newest->pose_).p;
-    if (const PoseStamped* newest = driver_->setpoint.take()) setpoint = pose_of(newest->pose_).p;
-    if (const WrenchStamped* newest = driver_->body.take())
-      force = vector_of(newest->wrench_.force_);
-  };
-  const auto heard = [&](const std::function<bool()>& so) {
+TEST_F(ArmTest, OneThatWasLetGoSaysFaultWhileItIsEnabled) {
+  ArmTold told;
+  const auto says = [&](const std::string& word) {
+    std::string said;
     return soon([&] {
-      hear();
-      return so();
+      arm_->tell(told);
+      if (const OperatingState* state = driver_->state.take()) said = state->state_;
+      return said == word;
     });
   };
-  ASSERT_TRUE(heard([&] { return row.tick > 600; }));
-  driver_->go(driver_->move, {{0, 0, 1 * kMm}, Quat::Identity()});
-  ASSERT_TRUE(heard([&] { return setpoint.z() < 1.001 * kMm && force.z() > 0.5; }));
-  EXPECT_NEAR(measured.z(), 2 * kMm, 0.1 * kMm) << "the burr's radius above the slab";
-  EXPECT_EQ(row.ledger.removed, 0);
-  driver_->press(1);
-  ASSERT_TRUE(heard([&] { return row.ledger.removed > 1e-9; }));
-  ASSERT_TRUE(heard([&] { return measured.z() < 1.6 * kMm; })) << measured.transpose();
+  EXPECT_TRUE(says("ENABLED"));
+  told.let_go = true;
+  EXPECT_TRUE(says("FAULT"));
+  driver_->ask("pause");
+  EXPECT_TRUE(says("PAUSED"));
+  driver_->ask("resume");
+  EXPECT_TRUE(says("FAULT"));
   driver_->ask("disable");
-  EXPECT_TRUE(heard([&] { return force == Vec3::Zero(); }));
-  session.stop();
-  session.set_watch(nullptr);
+  EXPECT_TRUE(says("DISABLED"));
+  driver_->ask("enable");
+  told.let_go = false;
+  EXPECT_TRUE(says("ENABLED"));
+}
+
+// A driven hand on a machine that stands still now and then, which lets no hand go; and once for
+// longer, when asked to.
+class Unhurried final : public Device {
+ public:
+  Unhurried(std::unique_ptr<DrivenHand> hand, std::atomic<int>& stall_ms)
+      : hand_(std::move(hand)), spec_(hand_->spec()), stall_ms_(stall_ms) {
+    spec_.loss_timeout = test::kStallsAllowed;
+  }
+  Status open() override { return hand_->open(); }
+  void close() override { hand_->close(); }
+  [[nodiscard]] const DeviceSpec& spec() const override { return spec_; }
+  [[nodiscard]] HandState state(double dt) BURR_RT override {
+    if (const int stall = stall_ms_.exchange(0); stall > 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(stall));
+    return hand_->state(dt);
+  }
+  void write_force(const Vec3& force) BURR_RT override { hand_->write_force(force); }
+
+ private:
+  std::unique_ptr<DrivenHand> hand_;
+  DeviceSpec spec_;
+  std::atomic<int>& stall_ms_;
+};
+
+// The whole: somebody drives the burr into a slab whose top is z = 0, as a program does: what it
+// waits for is what it is told.
+class DrivenArm : public ArmTest {
+ protected:
+  static constexpr double kFree = 5 * kMm, kDeep = 1 * kMm;  // the middle of a ball of 2 mm
+
+  void SetUp() override {
+    ArmTest::SetUp();
+    hand_.reset();
+    NoProgress quiet;
+    sim::SessionSettings wished;
+    wished.realtime = true;
+    wished.servo.burr.radius = 2 * kMm;
+    wished.servo.undo_bricks = 512;
+    wished.surface.reserve_blocks = 1 << 12;
+    auto made = sim::Session::make(
+        scenes::bone_from_distance(
+            scenes::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), 0.25 * kMm), {},
+            scenes::slab(), 64),
+        std::make_unique<Unhurried>(
+            std::make_unique<DrivenHand>(*arm_, Pose{{0, 0, kFree}, Quat::Identity()}), stall_ms_),
+        wished, quiet);
+    ASSERT_TRUE(made.ok()) << made.error().text;
+    session_ = std::move(*made);
+    session_->set_watch(&rows_);
+    session_->start();
+    ASSERT_TRUE(heard([&] { return row_.tick > 600 && state_ == "ENABLED"; }));
+  }
+  void TearDown() override {
+    if (session_ == nullptr) return;
+    session_->stop();
+    session_->set_watch(nullptr);
+  }
+  bool heard(const std::function<bool()>& so) {
+    return soon([&] {
+      if (rows_.take(row_))
+        arm_->tell({{row_.contact.proxy, row_.hand.world_from_tool.q},
+                    row_.hand.world_from_tool,
+                    row_.hand.velocity,
+                    row_.contact.force,
+                    false,
+                    session_->servo().let_go()});
+      if (const PoseStamped* newest = driver_->measured.take())
+        measured_ = pose_of(newest->pose_).p;
+      if (const PoseStamped* newest = driver_->setpoint.take())
+        setpoint_ = pose_of(newest->pose_).p;
+      if (const WrenchStamped* newest = driver_->body.take())
+        force_ = vector_of(newest->wrench_.force_);
+      if (const OperatingState* newest = driver_->state.take()) state_ = newest->state_;
+      return so();
+    });
+  }
+  void go(double z) { driver_->go(driver_->move, {{0, 0, z}, Quat::Identity()}); }
+  bool there(double z) {
+    return heard([&] { return std::abs(setpoint_.z() - z) < 1e-6; });
+  }
+
+  std::atomic<int> stall_ms_ = 0;
+  std::unique_ptr<sim::Session> session_;
+  rt::Latest<record::TickRow> rows_;
+  record::TickRow row_;
+  Vec3 measured_ = Vec3::Zero(), setpoint_ = Vec3::Zero(), force_ = Vec3::Zero();
+  std::string state_;
+};
+
+TEST_F(DrivenArm, StaysOnTheBonePushesBackAndMills) {
+  go(kDeep);
+  ASSERT_TRUE(there(kDeep));
+  ASSERT_TRUE(heard([&] { return force_.z() > 0.5; }));
+  EXPECT_NEAR(measured_.z(), 2 * kMm, 0.1 * kMm) << "the burr's radius above the slab";
+  EXPECT_EQ(row_.ledger.removed, 0);
+  driver_->press(1);
+  ASSERT_TRUE(heard([&] { return row_.ledger.removed > 1e-9; }));
+  ASSERT_TRUE(heard([&] { return measured_.z() < 1.6 * kMm; })) << measured_.transpose();
+  driver_->ask("disable");
+  EXPECT_TRUE(heard([&] { return force_ == Vec3::Zero() && state_ == "DISABLED"; }));
+}
+
+TEST_F(DrivenArm, LetGoInBoneItSaysSoAndBeginsAgainInFreeAir) {
+  go(kDeep);
+  ASSERT_TRUE(heard([&] { return force_.z() > 0.5; }));
+  stall_ms_ = static_cast<int>(2e3 * test::kStallsAllowed);
+  ASSERT_TRUE(heard([&] { return state_ == "FAULT" && force_ == Vec3::Zero(); }));
+  driver_->press(1);
+  const std::uint64_t then = row_.tick;
+  ASSERT_TRUE(heard([&] { return row_.tick > then + 300; }));
+  EXPECT_EQ(row_.ledger.removed, 0);
+  EXPECT_EQ(state_, "FAULT");
+  driver_->press(0);
+  go(kFree);  // it goes where it is told meanwhile
+  ASSERT_TRUE(there(kFree));
+  ASSERT_TRUE(heard([&] { return state_ == "ENABLED"; }));
+  go(kDeep);
+  EXPECT_TRUE(heard([&] { return force_.z() > 0.5; }));
+
+  driver_->ask("disable");
+  ASSERT_TRUE(heard([&] { return state_ == "DISABLED" && force_ == Vec3::Zero(); }));
+  driver_->ask("enable");
+  ASSERT_TRUE(heard([&] { return state_ == "FAULT"; })) << "enabled in the bone";
+  EXPECT_EQ(force_, Vec3::Zero());
+  go(kFree);
+  EXPECT_TRUE(heard([&] { return state_ == "ENABLED"; }));
 }
 
 }  // namespace

@@ -134,6 +134,9 @@ void Mill::tell() {
   if (lasting.empty() && hands_.suction != nullptr) lasting = hands_.suction->hand().trouble();
   if (lasting.empty()) lasting = told_flags(row_.contact.flags);
   warning_ = told_.warning(now, lasting);
+  // beside why it was let go: what to do
+  if (lasting.empty() && session_.servo().let_go() && (row_.hand.buttons & device::kLifted) == 0)
+    warning_ += (warning_.empty() ? "" : "; ") + std::string(word(Word::begins_free));
   note_ = told_.note(now, export_->progress());
   if (note_.empty()) note_ = measuring_.words();
   desk_.said = !export_->trouble().empty()         ? export_->trouble()

@@ -112,6 +112,8 @@ constexpr Entry kWords[] = {
     Entry{Word::fault_kept, "the last ticks are kept: {}", "de sista takterna är sparade: {}"},
     Entry{Word::stopped, "stopped: nothing is pushed or cut; Backspace goes on",
           "stoppad: inget trycks eller fräses; backsteg fortsätter"},
+    Entry{Word::begins_free, "nothing is felt or cut until the burr was lifted off the bone",
+          "inget känns eller fräses förrän borren har lyfts från benet"},
     Entry{Word::taken_again, "on again: begin in free air", "på igen: börja i fria luften"},
     Entry{Word::key_real, "C  Backspace", "C  backsteg"},
     Entry{Word::real_does, "haptic device: lay it elsewhere while held; stop it, go on",

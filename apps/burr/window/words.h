@@ -96,6 +96,7 @@ enum class Word {
   let_go,
   fault_kept,
   stopped,
+  begins_free,
   taken_again,
   key_real,
   real_does,

@@ -109,6 +109,7 @@ const record::TickRow& Servo::tick(bool lost) BURR_RT {
   remember_path();
 
   // and the account of it all
+  let_go_.store(!engaged_ || !limit_.engaged(), std::memory_order_relaxed);
   haptics::Contact& contact = row_.contact;
   contact.proxy = touch_.proxy;
   contact.normal = touch_.normal;

@@ -102,6 +102,9 @@ class Servo {
   [[nodiscard]] double burr_radius() const BURR_RT {
     return burr_radius_.load(std::memory_order_relaxed);
   }
+  // The hand neither feels nor cuts, and will not until it was in free air once: a fault let go of
+  // it in contact, or it came back inside bone. As of the last tick; any thread.
+  [[nodiscard]] bool let_go() const BURR_RT { return let_go_.load(std::memory_order_relaxed); }
   void set_diary(const Diary& diary) { diary_ = diary; }  // before the session
   // One more who sees every row, on a thread of its own; before the session. nullptr: nobody.
   void set_watch(rt::Latest<record::TickRow>* watch) { watch_ = watch; }
@@ -204,6 +207,7 @@ class Servo {
   rt::Latest<record::TickRow> view_;
   FaultKeeper faults_;
   std::atomic<double> burr_radius_;
+  std::atomic<bool> let_go_ = false;
   Diary diary_;
   thermal::Worker* heat_ = nullptr;
   thermal::HeatRow heat_row_;

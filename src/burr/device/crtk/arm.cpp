@@ -182,11 +182,13 @@ void Arm::tell(const ArmTold& told) {
       header, {message_of(told.force), message_of(Vec3(told.measured.p.cross(told.force)))}});
   const auto state = talk_->state.load();
   const bool homed = talk_->homed;
-  const int stated = 4 * static_cast<int>(state) + (homed ? 2 : 0) + (told.busy ? 1 : 0);
+  const bool fault = told.let_go && state == ArmState::enabled;
+  const int stated =
+      8 * static_cast<int>(state) + (fault ? 4 : 0) + (homed ? 2 : 0) + (told.busy ? 1 : 0);
   const auto now = steady_clock::now();
   if (stated == talk_->stated && now - talk_->stated_at < kStateAgain) return;
-  talk_->states.write(
-      OperatingState{header, lent(kStates[static_cast<std::size_t>(state)]), homed, told.busy});
+  const char* word = fault ? "FAULT" : kStates[static_cast<std::size_t>(state)];
+  talk_->states.write(OperatingState{header, lent(word), homed, told.busy});
   talk_->stated = stated;
   talk_->stated_at = now;
 }

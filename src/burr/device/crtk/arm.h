@@ -7,8 +7,9 @@
 //
 // out: measured_cp (the burr where the bone lets it be), setpoint_cp (where it was told to be),
 // measured_cv, body/measured_cf and spatial/measured_cf (the bone's push on the burr),
-// operating_state. in: servo_cp, move_cp, state_command (enable disable pause resume home unhome),
-// and spindle (a Joy whose first axis is the pedal, 0..1).
+// operating_state (ENABLED, PAUSED, DISABLED, or FAULT: enabled, but let go of until it was in free
+// air). in: servo_cp, move_cp, state_command (enable disable pause resume home unhome), and spindle
+// (a Joy whose first axis is the pedal, 0..1).
 // It has no joints, so servo_jp and measured_js are not there. Goals with a stamp of 0, without a
 // unit turn, or a metre away are left aside and counted.
 //
@@ -51,6 +52,7 @@ struct ArmTold {
   math::Vec3 velocity = math::Vec3::Zero();  // [m/s]
   math::Vec3 force = math::Vec3::Zero();     // of the bone on the burr, at its centre [N]
   bool busy = false;                         // moves by itself
+  bool let_go = false;                       // touches nothing until it was in free air
 };
 
 class Arm {
