@@ -127,7 +127,6 @@ Result<DeviceSpec> Polhem::connect() {
   lines_.clear();
   unsaid_ = 0;
   nonsense_ = 0;
-  beaten_ns_ = 0;
   behind_ = false;
   name_ = "the Polhem at " + port.path;
 
@@ -152,6 +151,7 @@ Result<DeviceSpec> Polhem::connect() {
   if (!say(Vec3::Zero())) return fail(port.path + " was unplugged; plug it in again");
   heard_ns_ = rt::monotonic_ns();
   silence_.ended(heard_ns_);
+  beaten_ns_ = heard_ns_;
   last_place_ = state_.place;
   velocity_.setZero();
   trouble_ = nullptr;
@@ -236,7 +236,7 @@ void Polhem::fall_behind(std::int64_t now) BURR_RT {
 Wire::Read Polhem::read(HandState& hand) BURR_RT {
   hand.valid = false;
   const std::int64_t begun = rt::monotonic_ns();
-  if (beaten_ns_ != 0 && begun - beaten_ns_ > kGuardedNs) fall_behind(begun);
+  if (begun - beaten_ns_ > kGuardedNs) fall_behind(begun);
   beaten_ns_ = begun;
   guardian_->beat();
   const Heard heard = hear(kOneReadingMs);

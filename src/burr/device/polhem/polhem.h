@@ -56,7 +56,7 @@ class Polhem final : public Wire {
   bool asked_ = false;
   std::int64_t asked_ns_ = 0, heard_ns_ = 0;
   Silence silence_;
-  std::int64_t beaten_ns_ = 0;  // the guardian; 0: not yet
+  std::int64_t beaten_ns_ = 0;  // the guardian
   bool behind_ = false;         // answers are owed: no force is said until they have come
   bool stilled_ = false;        // and "no force" was said at the beginning of it
   std::int64_t behind_since_ns_ = 0;
