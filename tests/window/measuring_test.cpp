@@ -114,7 +114,8 @@ TEST_F(MeasuringWindow, TwoClicksGiveTheirDistanceNothingIsCutAndEscapeEndsIt) {
                     }}});
   ASSERT_TRUE(std::isfinite(truth)) << "a click beside the bone: the test shows nothing";
   EXPECT_GT(truth, 1e-3);
-  EXPECT_EQ(told, say(Word::measured_distance, 1e3 * truth));
+  // the last of what is said: a busy machine may have lost ticks before
+  EXPECT_TRUE(told.ends_with(say(Word::measured_distance, 1e3 * truth))) << told;
   EXPECT_GT(drawn, 100) << "no line over the picture";
   EXPECT_EQ(row.hand.pedal, 0);
   EXPECT_TRUE(still_there) << "Escape left the window";
