@@ -14,9 +14,8 @@
 #include "burr/math/turn.h"
 #include "burr/sim/session.h"
 #include "device/fake/fake_crtk.h"
+#include "device/slab.h"
 #include "device/stand_in.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 
 namespace burr::device::crtk {
 namespace {
@@ -285,19 +284,8 @@ class DrivenArm : public ArmTest {
   void SetUp() override {
     ArmTest::SetUp();
     hand_.reset();
-    NoProgress quiet;
-    sim::SessionSettings wished;
-    wished.realtime = true;
-    wished.servo.burr.radius = 2 * kMm;
-    wished.servo.undo_bricks = 512;
-    wished.surface.reserve_blocks = 1 << 12;
-    auto made = sim::Session::make(
-        scenes::bone_from_distance(
-            scenes::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), 0.25 * kMm), {},
-            scenes::slab(), 64),
-        std::make_unique<Unhurried>(
-            std::make_unique<DrivenHand>(*arm_, Pose{{0, 0, kFree}, Quat::Identity()}), stall_ms_),
-        wished, quiet);
+    auto made = test::slab_session(std::make_unique<Unhurried>(
+        std::make_unique<DrivenHand>(*arm_, Pose{{0, 0, kFree}, Quat::Identity()}), stall_ms_));
     ASSERT_TRUE(made.ok()) << made.error().text;
     session_ = std::move(*made);
     session_->set_watch(&rows_);

@@ -13,9 +13,8 @@
 #include "burr/device/mapping.h"
 #include "burr/haptics/contact.h"
 #include "device/players/every.h"
+#include "device/slab.h"
 #include "device/stand_in.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 
 namespace burr::device {
 namespace {
@@ -44,19 +43,10 @@ class WholeSession : public ::testing::TestWithParam<test::Driver> {
                                              math::Pose{{0, 0, 4 * kMm}, Quat::Identity()},
                                              Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX())));
     hand_ = hand.get();
-    NoProgress quiet;
-    sim::SessionSettings wished;
-    wished.realtime = true;
-    wished.servo.burr.radius = 2 * kMm;
-    wished.servo.undo_bricks = 512;
+    sim::SessionSettings wished = test::slab_settings();
     wished.servo.force.stiffness = stiffness;
     wished.servo.limit.user_force = 100;  // the device's own limit is what is asked about
-    wished.surface.reserve_blocks = 1 << 12;
-    auto made = sim::Session::make(
-        scenes::bone_from_distance(
-            scenes::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), 0.25 * kMm), {},
-            scenes::slab(), 64),
-        std::move(hand), wished, quiet);
+    auto made = test::slab_session(std::move(hand), wished);
     ASSERT_TRUE(made.ok()) << made.error().text;
     session_ = std::move(*made);
     session_->start();

@@ -10,9 +10,8 @@
 #include "burr/haptics/contact.h"
 #include "burr/sim/session.h"
 #include "device/fake/fake_hd.h"
+#include "device/slab.h"
 #include "device/stand_in.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 
 namespace burr::device {
 namespace {
@@ -38,18 +37,7 @@ class TwoHands : public ::testing::Test {
       hd_->touch[1].serial = "T-0002";
       hd_->touch[1].present = true;
     }
-    NoProgress quiet;
-    sim::SessionSettings wished;
-    wished.realtime = true;
-    wished.servo.burr.radius = 2 * kMm;
-    wished.servo.undo_bricks = 512;
-    wished.surface.reserve_blocks = 1 << 12;
-    // a slab whose top is z = 0, seen from above
-    auto made = sim::Session::make(
-        scenes::bone_from_distance(
-            scenes::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), 0.25 * kMm), {},
-            scenes::slab(), 64),
-        hand("", {-3 * kMm, 0, 4 * kMm}), wished, quiet);
+    auto made = test::slab_session(hand("", {-3 * kMm, 0, 4 * kMm}));
     ASSERT_TRUE(made.ok()) << made.error().text;
     session_ = std::move(*made);
     const Status joined = session_->join(hand("Left", {3 * kMm, 0, 4 * kMm}), {});

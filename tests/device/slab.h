@@ -1,0 +1,32 @@
+// A slab whose top is z = 0, and a session by the clock with a ball of 2 mm over it.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "burr/sim/session.h"
+#include "scenes/build.h"
+#include "scenes/shapes.h"
+
+namespace burr::test {
+
+inline sim::SessionSettings slab_settings() {
+  sim::SessionSettings wished;
+  wished.realtime = true;
+  wished.servo.burr.radius = 2e-3;
+  wished.servo.undo_bricks = 512;
+  wished.surface.reserve_blocks = 1 << 12;
+  return wished;
+}
+
+inline Result<std::unique_ptr<sim::Session>> slab_session(
+    std::unique_ptr<device::Device> hand, const sim::SessionSettings& wished = slab_settings()) {
+  NoProgress quiet;
+  return sim::Session::make(
+      scenes::bone_from_distance(
+          scenes::box_grid(math::Vec3::Constant(-8e-3), math::Vec3::Constant(8e-3), 0.25e-3), {},
+          scenes::slab(), 64),
+      std::move(hand), wished, quiet);
+}
+
+}  // namespace burr::test
