@@ -22,8 +22,8 @@ foreach(source ${fuzz_targets})
 endforeach()
 
 # of the program, not of the library
-target_sources(fuzz_device_book PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr/device_book.cpp ${PROJECT_SOURCE_DIR}/apps/burr/places.cpp)
-burr_reads_files(${PROJECT_SOURCE_DIR}/apps/burr/device_book.cpp)
+target_sources(fuzz_device_book PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr/workshop/device_book.cpp ${PROJECT_SOURCE_DIR}/apps/burr/workshop/places.cpp)
+burr_reads_files(${PROJECT_SOURCE_DIR}/apps/burr/workshop/device_book.cpp)
 target_include_directories(fuzz_device_book PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${PROJECT_SOURCE_DIR}/third_party)
 
 add_executable(fuzz_seeds EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/fuzz/seeds.cpp)

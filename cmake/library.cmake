@@ -44,7 +44,7 @@ target_link_libraries(burr PRIVATE ${CMAKE_DL_LIBS})
 burr_common_headers(burr <fmt/format.h>)
 
 set(reading ${BURR_SOURCES} ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp)
-list(FILTER reading INCLUDE REGEX "/(base|io|record|scenario|fit|third_party)/|/sim/(motion|replay|session_words)[.]cpp$|/device/(haply/message|polhem/line)[.]cpp$")
+list(FILTER reading INCLUDE REGEX "/(base|io|importing|record|scenario|fit|third_party)/|/surgeon/motion[.]cpp$|/sim/(replay|session_words)[.]cpp$|/device/(haply/message|polhem/line)[.]cpp$")
 burr_reads_files(${reading})
 
 # Kernels exist once per instruction set, from one source, and are chosen at run time; the bits are the same.
@@ -62,7 +62,10 @@ foreach(source ${BURR_SOURCES})
   endif()
 endforeach()
 
-# formulas for bones: shared by the program, tests, benches and samples
+# what the built-in bones are shaped by (program.cmake)
+file(GLOB BURR_PHANTOMS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/phantom/*)
+
+# hands and bones with known answers: shared by the program, tests, benches and samples
 file(GLOB BURR_SCENES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenes/*.cpp)
 if(BURR_SCENES)
   add_library(burr_scenes STATIC ${BURR_SCENES})

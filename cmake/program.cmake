@@ -15,12 +15,12 @@ if(BURR_APP)
   endfunction()
 
   # the parts that tests look at as well, compiled once: the window, the doctor, what both stand on
-  set(BURR_APP_PARTS arm_teller device_book fault_file hand_device hearing html_page import_choice import_preview
-    live_bone loudspeaker nearby places ready_bone recording still suction_hand traces volume_options work
+  set(BURR_APP_PARTS commands/html_page
     devices/trial devices/trial_words doctor/apart doctor/devices_there doctor/finding doctor/fix doctor/nodes)
   list(TRANSFORM BURR_APP_PARTS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/apps/burr/\\1.cpp")
-  file(GLOB window CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp)
-  list(APPEND BURR_APP_PARTS ${window})
+  file(GLOB_RECURSE window_and_workshop CONFIGURE_DEPENDS
+    ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp ${PROJECT_SOURCE_DIR}/apps/burr/workshop/*.cpp)
+  list(APPEND BURR_APP_PARTS ${window_and_workshop})
   list(REMOVE_ITEM BURR_APP ${BURR_APP_PARTS})
   add_library(burr_app STATIC EXCLUDE_FROM_ALL ${BURR_APP_PARTS})
   burr_of_program(burr_app)
@@ -30,12 +30,12 @@ if(BURR_APP)
   burr_of_program(burr_program)
   target_link_libraries(burr_program PRIVATE burr_app)
   if(NOT BURR_WARNINGS_ONLY)  # holds the yardstick of `burr bench tick`, which is compiled as the library is
-    set_source_files_properties(${PROJECT_SOURCE_DIR}/apps/burr/bench_tick.cpp PROPERTIES
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/apps/burr/bench/bench_tick.cpp PROPERTIES
       COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>" SKIP_PRECOMPILE_HEADERS ON)
   endif()
 endif()
 
-# The bones of the built-in cases, shaped once here: their formulas take seconds (apps/burr/ready_bone.h).
+# The bones of the built-in cases, shaped once here: their formulas take seconds (apps/burr/workshop/ready_bone.h).
 # Not where a sanitizer watches: there it takes minutes, and the program falls back on the formula.
 if(BURR_APP AND NOT BURR_SANITIZE AND NOT BURR_WARNINGS_ONLY)
   foreach(phantom temporal-bone jaw tooth spine)
@@ -43,7 +43,7 @@ if(BURR_APP AND NOT BURR_SANITIZE AND NOT BURR_WARNINGS_ONLY)
     add_custom_command(OUTPUT ${bone}
       COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_BINARY_DIR}/bones
       COMMAND burr_program phantom ${phantom} --out ${bone} > ${CMAKE_BINARY_DIR}/bones/${phantom}.txt 2>&1
-      DEPENDS $<TARGET_FILE:burr_scenes> COMMENT "Shaping ${phantom}" VERBATIM)
+      DEPENDS ${BURR_PHANTOMS} COMMENT "Shaping ${phantom}" VERBATIM)
     list(APPEND BURR_BONES ${bone})
   endforeach()
   add_custom_target(burr_bones ALL DEPENDS ${BURR_BONES})

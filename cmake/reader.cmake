@@ -1,10 +1,10 @@
-# burr-read: reads one scan in a process of its own (src/burr/io/fence.h). It holds the readers and what they
+# burr-read: reads one scan in a process of its own (src/burr/io/sandbox/fence.h). It holds the readers and what they
 # stand on, so it starts in milliseconds; libburr holds only what both sides need, and no codec at all.
 file(GLOB base CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/base/*.cpp)
 set(BURR_BOTH_SIDES
-  io/bytes.cpp io/fence_letter.cpp io/fence_walls.cpp io/samples.cpp io/text.cpp io/voxels.cpp)
-set(BURR_READERS io/dicom_header.cpp io/dicom_pixels.cpp io/fence_child.cpp io/geometry.cpp
-  io/read_dicom.cpp io/read_meta.cpp io/read_nifti.cpp io/read_nrrd.cpp io/read_unfenced.cpp)
+  io/read/bytes.cpp io/sandbox/fence_letter.cpp io/sandbox/fence_walls.cpp io/read/samples.cpp io/read/text.cpp io/voxels.cpp)
+set(BURR_READERS io/read/dicom_header.cpp io/read/dicom_pixels.cpp io/sandbox/fence_child.cpp io/read/geometry.cpp
+  io/read/read_dicom.cpp io/read/read_meta.cpp io/read/read_nifti.cpp io/read/read_nrrd.cpp io/read/read_unfenced.cpp)
 list(TRANSFORM BURR_BOTH_SIDES PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)
 list(TRANSFORM BURR_READERS PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)
 

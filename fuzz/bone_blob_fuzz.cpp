@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "burr/record/crc32.h"
-#include "burr/record/packed.h"
+#include "burr/record/mcap/crc32.h"
+#include "burr/record/mcap/packed.h"
 #include "support.h"
 
 namespace {

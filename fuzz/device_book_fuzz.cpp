@@ -1,5 +1,5 @@
 // A user's devices.toml, and one setting as it is written on the command line: the first line.
-#include "device_book.h"
+#include "workshop/device_book.h"
 
 #include "support.h"
 

@@ -1,6 +1,6 @@
 // One DICOM file: the header's walk through any structure, plain and deflated pixels. Packed pixels
 // (JPEG and the like) are another library's, and behind the fence.
-#include "burr/io/dicom_header.h"
+#include "burr/io/read/dicom_header.h"
 #include "support.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

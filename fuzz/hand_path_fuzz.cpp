@@ -1,11 +1,11 @@
 // The way of a hand (CSV), and the hand that goes it.
 #include "burr/device/hand_path.h"
-#include "burr/sim/motion.h"
+#include "burr/surgeon/motion.h"
 #include "support.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace burr;
-  const auto path = sim::read_path(fuzz::as_file("a.csv", {data, size}));
+  const auto path = surgeon::read_path(fuzz::as_file("a.csv", {data, size}));
   fuzz::look_at_error(path);
   if (!path) return 0;
   fuzz::must(std::isfinite(path->duration()) && path->duration() >= 0, "a path has a duration");

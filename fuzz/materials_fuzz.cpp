@@ -1,5 +1,5 @@
 // The table of materials (TOML), and what tissues become of it.
-#include "burr/io/materials.h"
+#include "burr/importing/materials.h"
 
 #include <cmath>
 
@@ -8,11 +8,11 @@
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace burr;
   const std::string_view text = fuzz::text_of({data, size});
-  const auto read = io::parse_materials(text, "a.toml", io::built_in_materials());
+  const auto read = importing::parse_materials(text, "a.toml", importing::built_in_materials());
   fuzz::look_at_error(read);
   if (!read) return 0;
-  for (const io::Material& material : read->all)
-    for (const io::MaterialField& field : io::material_fields())
+  for (const importing::Material& material : read->all)
+    for (const importing::MaterialField& field : importing::material_fields())
       if (const auto& c = material.*(field.place))
         fuzz::must(c->value > 0 && c->low >= 0 && c->low <= c->value && c->value <= c->high &&
                        std::isfinite(c->high) && !c->source.empty(),
@@ -25,7 +25,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     table.tissues.push_back(tissue);
   }
   fuzz::look_at(table);
-  fuzz::must(io::parse_materials(io::materials_toml(read->all), "b.toml", {}).ok(),
+  fuzz::must(importing::parse_materials(importing::materials_toml(read->all), "b.toml", {}).ok(),
              "what is written is read");
   return 0;
 }

@@ -3,8 +3,8 @@
 #include <cstring>
 #include <vector>
 
-#include "burr/record/crc32.h"
-#include "burr/record/mcap_reader.h"
+#include "burr/record/mcap/crc32.h"
+#include "burr/record/mcap/mcap_reader.h"
 #include "burr/record/repair.h"
 #include "support.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "burr/record/bone_blob.h"
-#include "burr/record/mcap.h"
+#include "burr/record/mcap/mcap.h"
 #include "burr/record/player.h"
 #include "burr/record/schema.h"
 #include "burr/record/session_info.h"
@@ -95,10 +95,10 @@ std::string session(fuzz::Pieces& in) {
 }
 
 void ticks(fuzz::Pieces& in, std::uint64_t& tick, BytesOut& out) {
-  std::vector<record::TickRow> rows(in.byte() % 16U);
-  record::TickRow row;
+  std::vector<tick::TickRow> rows(in.byte() % 16U);
+  tick::TickRow row;
   row.hand.world_from_tool.p = {6e-3, 6e-3, 7e-3};
-  for (record::TickRow& one : rows) {
+  for (tick::TickRow& one : rows) {
     const std::uint8_t what = in.byte();
     if ((what & 1U) != 0) row.hand.world_from_tool.p = {number(in), number(in), number(in)};
     if ((what & 2U) != 0)
@@ -230,7 +230,7 @@ File file_of(fuzz::Pieces& in) {
     } else if (topic == 1) {
       ticks(in, tick, data);
     } else if (topic == 2) {
-      const auto kind = static_cast<record::WishKind>(in.byte() % 9);
+      const auto kind = static_cast<tick::WishKind>(in.byte() % 9);
       data.raw(record::as_bytes(record::to_json({count(in), {kind, number(in)}})));
     } else if (topic == 3) {
       data.raw(record::as_bytes("{\"dropped_ticks\":" + std::to_string(count(in)) + "}"));

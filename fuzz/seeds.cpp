@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
-#include "burr/io/write_volume.h"
+#include "burr/io/write/write_volume.h"
 #include "burr/record/bone_blob.h"
-#include "burr/record/crc32.h"
-#include "burr/record/mcap_writer.h"
-#include "burr/record/packed.h"
+#include "burr/record/mcap/crc32.h"
+#include "burr/record/mcap/mcap_writer.h"
+#include "burr/record/mcap/packed.h"
 #include "burr/record/recorder.h"
 #include "burr/record/schema.h"
 #include "burr/record/session_info.h"
@@ -408,7 +408,7 @@ string container(bool packed, bool finished) {
   good(writer.add_metadata("burr", {{"format", "1"}}).ok());
   good(writer.add_attachment("bone", "application/x-burr-bone", record::as_bytes("BURRBON1")).ok());
   const string info = record::to_json(session_of(*block(8)));
-  std::vector<record::TickRow> rows(2);
+  std::vector<tick::TickRow> rows(2);
   BytesOut columns;
   record::encode_ticks(rows, columns);
   if (packed) {
@@ -476,7 +476,7 @@ string recorded() {
   record::Recorder recorder(1000);
   fuzz::must(recorder.start(path, session_of(*bone), bone.get()).ok(), "a session is recorded");
   for (std::uint64_t tick = 0; tick < 3; ++tick) {
-    record::TickRow row;
+    tick::TickRow row;
     row.tick = tick;
     fuzz::must(recorder.ticks().push(row), "a tick is taken");
   }

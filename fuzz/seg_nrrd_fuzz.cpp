@@ -1,5 +1,5 @@
 // .seg.nrrd all the way: segments with names and colours become tissues, labels become bone.
-#include "burr/io/import.h"
+#include "burr/importing/import.h"
 #include "support.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -7,14 +7,14 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto scan = fuzz::read_scan_bytes(io::read_nrrd, "a.seg.nrrd", {data, size});
   // import is bounded by its own rules; here it need only be small enough to be done often
   if (!scan || scan->labels.empty() || scan->size.maxCoeff() > 48) return 0;
-  io::ImportOptions options;
+  importing::ImportOptions options;
   options.reserve_bricks = 0;
   options.memory_budget_mb = 16;
   NoProgress progress;
-  const auto plan = io::plan_import(*scan, options);
+  const auto plan = importing::plan_import(*scan, options);
   fuzz::look_at_error(plan);
   if (!plan || plan->size.maxCoeff() > 64) return 0;
-  const auto made = io::import_bone(*scan, options, progress);
+  const auto made = importing::import_bone(*scan, options, progress);
   fuzz::look_at_error(made);
   if (made) fuzz::look_at(made->bone->tissues());
   return 0;

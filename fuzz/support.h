@@ -12,8 +12,8 @@
 #include <string_view>
 
 #include "burr/base/result.h"
-#include "burr/io/read_scan.h"
-#include "burr/io/readers.h"
+#include "burr/io/read/read_scan.h"
+#include "burr/io/read/readers.h"
 #include "burr/io/scan.h"
 #include "burr/volume/tissue.h"
 

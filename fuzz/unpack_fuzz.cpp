@@ -2,8 +2,8 @@
 // for at once; zstd is also told how long it will be.
 #include <vector>
 
-#include "burr/io/bytes.h"
-#include "burr/record/packed.h"
+#include "burr/io/read/bytes.h"
+#include "burr/record/mcap/packed.h"
 #include "support.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -9,9 +9,9 @@
 
 #include "burr/base/progress.h"
 #include "burr/haptics/proxy.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/volume/iso_vertices.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 
 int main() {
   using namespace burr;
@@ -19,7 +19,7 @@ int main() {
 
   // a bone by formula, and its surface as touch sees it
   const auto bone =
-      scenes::bone_from_distance(scenes::cube_grid(30e-3, 120), {}, scenes::ball(ball));
+      phantom::bone_from_distance(phantom::cube_grid(30e-3, 120), {}, phantom::ball(ball));
   NoProgress quiet;
   volume::IsoVertices surface(*bone, {}, 2, quiet);
 

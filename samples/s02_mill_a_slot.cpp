@@ -9,10 +9,10 @@
 
 #include "burr/base/progress.h"
 #include "burr/device/simulated_hand.h"
-#include "burr/sim/motion.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/sim/session.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
+#include "burr/surgeon/motion.h"
 
 namespace {
 
@@ -25,14 +25,14 @@ int trouble(const burr::Error& error) {
 
 int main() {
   using namespace burr;
-  auto bone = scenes::bone_from_distance(scenes::cube_grid(30e-3, 75), {}, scenes::slab());
+  auto bone = phantom::bone_from_distance(phantom::cube_grid(30e-3, 75), {}, phantom::slab());
 
   // where, which way, for how long
   sim::SessionSettings settings;
   settings.servo.burr.radius = 2e-3;
-  const auto place = sim::find_work_place(*bone, settings.servo.burr.radius, {}, {});
+  const auto place = surgeon::find_work_place(*bone, settings.servo.burr.radius, {}, {});
   if (!place) return trouble(place.error());
-  auto path = sim::motion("slot", *place, settings.servo.burr.radius, 3.0);
+  auto path = surgeon::motion("slot", *place, settings.servo.burr.radius, 3.0);
   if (!path) return trouble(path.error());
   auto hand = std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{});
 

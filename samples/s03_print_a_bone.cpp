@@ -5,17 +5,17 @@
 #include <numbers>
 
 #include "burr/base/progress.h"
-#include "burr/io/write_mesh.h"
+#include "burr/io/write/write_mesh.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/surface/mesher.h"
 #include "burr/volume/volume_of.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 
 int main() {
   using namespace burr;
   const double ring = 10e-3, tube = 3e-3;  // [m]
   const auto bone =
-      scenes::bone_from_distance(scenes::cube_grid(30e-3, 100), {}, scenes::torus(ring, tube));
+      phantom::bone_from_distance(phantom::cube_grid(30e-3, 100), {}, phantom::torus(ring, tube));
 
   NoProgress quiet;
   const auto mesh = surface::whole_surface(*bone, 2, quiet);

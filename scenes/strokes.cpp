@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/build.h"
+#include "burr/phantom/build.h"
 
 namespace burr::scenes {
 namespace {
@@ -22,7 +22,7 @@ volume::Grid about(const Stroke& stroke, double r, double h) {
   // voxel centres at whole multiples of h/2 from the origin, whatever the box
   lo = ((lo - around) / h).array().floor() * h;
   hi = ((hi + around) / h).array().ceil() * h;
-  return box_grid(lo, hi, h);
+  return phantom::box_grid(lo, hi, h);
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     Stroke one;
     one.name = "plane";
     const Vec3 n = Vec3(0.3, -0.5, 0.8).normalized(), along = n.unitOrthogonal();
-    one.depth = slab(n);
+    one.depth = phantom::slab(n);
     one.start = (r + above) * n;
     one.hand = [=](double s) { return Vec3((r - deep) * n + (8 * s - 4) * kMm * along); };
     one.place = [=](const Vec3& x) { return Vec3(x + (r - n.dot(x)) * n); };
@@ -47,7 +47,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     Stroke one;
     one.name = "ball";
     const double R = 5 * kMm;
-    one.depth = ball(R);
+    one.depth = phantom::ball(R);
     one.start = (R + r + above) * on(0);
     one.hand = [=](double s) { return Vec3((R + r - deep) * on(1.5 * s)); };
     one.place = [=](const Vec3& x) { return Vec3((R + r) * x.normalized()); };
@@ -58,7 +58,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     Stroke one;
     one.name = "cavity";
     const double R = std::max(6 * kMm, 1.5 * r);
-    one.depth = bowl(R);
+    one.depth = phantom::bowl(R);
     one.start = Vec3::Zero();
     one.hand = [=](double s) { return Vec3((R - r + deep) * on(1.5 * s)); };
     one.place = [=](const Vec3& x) { return Vec3((R - r) * x.normalized()); };
@@ -73,7 +73,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     one.sharp = true;
     const double side = std::ceil(5 * kMm / h) * h + h / 2, flat = 3 * kMm, turn = M_PI / 2 * r,
                  total = 2 * flat + turn;
-    one.depth = box(Vec3::Constant(side));
+    one.depth = phantom::box(Vec3::Constant(side));
     const auto way = [=](double s, double away) {
       const double at = s * total;
       if (at < flat) return Vec3(side - flat + at, 0.4 * kMm, side + away);
@@ -94,7 +94,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     one.name = "corner";
     one.sharp = true;
     const double side = std::ceil(5 * kMm / h) * h + h / 2;
-    one.depth = box(Vec3::Constant(side));
+    one.depth = phantom::box(Vec3::Constant(side));
     const Vec3 corner = Vec3::Constant(side), u = Vec3(1, 1, 1).normalized(),
                t = u.unitOrthogonal(), q = u.cross(t);
     const auto out = [=](double s) {
@@ -109,7 +109,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     Stroke one;
     one.name = "torus";
     const double ring = 6 * kMm, tube = 2 * kMm;
-    one.depth = torus(ring, tube);
+    one.depth = phantom::torus(ring, tube);
     const auto hand = [=](double s) {
       const double round = 0.8 * s, up = 0.4 + 0.9 * s;
       const Vec3 out(std::cos(round), std::sin(round), 0);
@@ -133,7 +133,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     Stroke one;
     one.name = "hole";
     const double tube = 2 * kMm, ring = tube + 0.6 * r;
-    one.depth = torus(ring, tube);
+    one.depth = phantom::torus(ring, tube);
     const double z = std::sqrt((tube + r) * (tube + r) - ring * ring);
     one.start = {0, 0, z + above};
     one.hand = [=](double s) { return Vec3(0, 0, z - deep * (0.5 + s / 2)); };
@@ -145,7 +145,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     Stroke one;
     one.name = half > 40 ? "groove 90" : "groove 60";
     const double angle = half * M_PI / 180, z = r / std::sin(angle);
-    one.depth = groove(angle);
+    one.depth = phantom::groove(angle);
     one.start = {0, -3 * kMm, z + above};
     one.hand = [=](double s) { return Vec3(0, (6 * s - 3) * kMm, z - deep); };
     one.place = [=](const Vec3& x) { return Vec3(0, x.y(), z); };
@@ -159,7 +159,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     Stroke one;
     one.name = "two balls";
     const double rho = 3 * kMm, apart = std::min(3.5 * kMm, 0.8 * (rho + r));
-    one.depth = two_balls(rho, apart);
+    one.depth = phantom::two_balls(rho, apart);
     const double z = std::sqrt((rho + r) * (rho + r) - apart * apart);
     one.start = {0, 0, z + above};
     one.hand = [=](double s) { return Vec3(0, 0, z - deep * (0.5 + s / 2)); };

@@ -11,14 +11,16 @@
 #include <string>
 #include <vector>
 
+#include "burr/phantom/shapes.h"
 #include "burr/volume/grid.h"
-#include "scenes/shapes.h"
 
 namespace burr::scenes {
 
+using math::Vec3;
+
 struct Stroke {
   std::string name;
-  Depth depth;                               // of the bone: exact in the air about it
+  phantom::Depth depth;                      // of the bone: exact in the air about it
   volume::Grid grid;                         // that holds all the burr can reach
   Vec3 start;                                // free, above the stroke's beginning
   std::function<Vec3(double s)> hand;        // s = 0 .. 1; presses all the way

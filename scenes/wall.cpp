@@ -1,6 +1,6 @@
 #include "scenes/wall.h"
 
-#include "scenes/build.h"
+#include "burr/phantom/build.h"
 
 namespace burr::scenes {
 
@@ -9,8 +9,9 @@ std::unique_ptr<volume::Bone> wall() {
   volume::TissueTable tissues;
   tissues.tissues[1].name = "wall";
   tissues.tissues[1].friction = 1;
-  return bone_from_distance(box_grid({-kHalf, -kHalf, -kThick}, {kHalf, kHalf, kAir}, kVoxel),
-                            tissues, slab());
+  return phantom::bone_from_distance(
+      phantom::box_grid({-kHalf, -kHalf, -kThick}, {kHalf, kHalf, kAir}, kVoxel), tissues,
+      phantom::slab());
 }
 
 }  // namespace burr::scenes

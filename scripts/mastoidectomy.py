@@ -8,7 +8,7 @@
 
 Layer by layer from the cortex inwards in rows, a funnel as a surgeon makes it, then a fine pass over its walls; the middle of
 the burr (5 mm) keeps its distance from sinus, dura, ear canal, facial nerve and the lateral canal. These lie where
-scenes/temporal_bone.cpp puts them. This makes the picture of README.md.
+src/burr/phantom/temporal_bone.cpp puts them. This makes the picture of README.md.
 """
 import math
 
@@ -17,7 +17,7 @@ TOOL = (-0.86, -0.34, -0.30)          # from the head along the shaft
 
 
 def curve(through, steps=8):
-    """Catmull-Rom, as scenes/sculpt.h draws them."""
+    """Catmull-Rom, as src/burr/phantom/sculpt.h draws them."""
     points, last = [], len(through) - 1
     for i in range(last):
         p = [through[min(max(i + by, 0), last)] for by in (-1, 0, 1, 2)]

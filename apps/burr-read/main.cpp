@@ -1,5 +1,5 @@
-// burr-read - reads one scan for burr and nothing else: the process behind the fence (io/fence.h).
-#include "burr/io/fence_child.h"
-#include "burr/io/readers.h"
+// burr-read - reads one scan for burr and nothing else: the process behind the fence (io/sandbox/fence.h).
+#include "burr/io/read/readers.h"
+#include "burr/io/sandbox/fence_child.h"
 
 int main() { return burr::io::answer_one_request(burr::io::read_unfenced); }

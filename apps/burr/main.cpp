@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "burr/base/version.h"
-#include "command.h"
-#include "console.h"
+#include "commands/command.h"
+#include "commands/console.h"
 
 namespace burr::app {
 namespace {

@@ -28,10 +28,10 @@ std::unique_ptr<volume::Bone> slab() {
 }
 
 // a hand that goes round and trembles, every number alive
-record::TickRow tick_of(std::uint64_t tick, double rate_hz, std::mt19937_64& random) {
+tick::TickRow tick_of(std::uint64_t tick, double rate_hz, std::mt19937_64& random) {
   const double t = static_cast<double>(tick) / rate_hz;
   std::normal_distribution<double> tremble(0, 2e-6);
-  record::TickRow row;
+  tick::TickRow row;
   row.tick = tick;
   row.hand.world_from_tool.p = {0.01 * std::cos(t), 0.01 * std::sin(t), 0.001 * std::sin(9 * t)};
   for (int i = 0; i < 3; ++i) row.hand.world_from_tool.p[i] += tremble(random);
@@ -74,7 +74,7 @@ std::string record_session(const volume::Bone& base, double seconds, double rate
     if (tick % every == 0) {
       const auto step = static_cast<int>(tick / every);
       for (int b = 0; b < 27; ++b) {
-        record::BrickRow row;
+        tick::BrickRow row;
         row.tick = tick;
         const int i = (step / 40 + b % 3) % 16, j = (step / 640 + b / 3 % 3) % 16, k = 10 + b / 9;
         row.brick = base.brick_at(i, j, k);

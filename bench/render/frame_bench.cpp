@@ -9,7 +9,7 @@
 #include <map>
 #include <memory>
 
-#include "apps/burr/bench_shell.h"
+#include "apps/burr/bench/bench_shell.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/pick.h"
 #include "burr/render/renderer.h"

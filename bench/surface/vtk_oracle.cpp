@@ -15,7 +15,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "apps/burr/bench_shell.h"
+#include "apps/burr/bench/bench_shell.h"
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;

@@ -22,16 +22,16 @@
 #include "burr/base/hash.h"
 #include "burr/base/progress.h"
 #include "burr/device/simulated_hand.h"
-#include "burr/io/import.h"
+#include "burr/importing/import.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/phantoms.h"
+#include "burr/phantom/shapes.h"
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
-#include "burr/sim/motion.h"
 #include "burr/sim/replay.h"
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
-#include "scenes/build.h"
-#include "scenes/phantoms.h"
-#include "scenes/shapes.h"
+#include "burr/surgeon/motion.h"
 
 namespace {
 
@@ -59,13 +59,13 @@ T take(Result<T> result) {
 // A simulated hand that also wishes, each thing at its own tick.
 struct WishAt {
   std::uint64_t tick;
-  record::Wish wish;
+  tick::Wish wish;
 };
 class WishingHand final : public device::Device {
  public:
   WishingHand(device::HandPath path, const device::ArmSettings& arm, std::vector<WishAt> wishes)
       : hand_(std::move(path), arm), wishes_(std::move(wishes)) {}
-  void tell(sim::Servo& servo) { servo_ = &servo; }
+  void tell(tick::Servo& servo) { servo_ = &servo; }
   Status open() override { return hand_.open(); }
   void close() override { hand_.close(); }
   [[nodiscard]] const device::DeviceSpec& spec() const override { return hand_.spec(); }
@@ -82,7 +82,7 @@ class WishingHand final : public device::Device {
  private:
   device::SimulatedHand hand_;
   std::vector<WishAt> wishes_;
-  sim::Servo* servo_ = nullptr;
+  tick::Servo* servo_ = nullptr;
   std::uint64_t tick_ = 0;
 };
 
@@ -106,8 +106,8 @@ void mill(const char* name, const Plan& plan, const std::function<Bone()>& make,
   settings.realtime = options.realtime;
   settings.threads = options.threads;
   Bone bone = make();
-  const auto place = take(sim::find_work_place(*bone, settings.servo.burr.radius, {}, {}));
-  auto path = take(sim::motion(plan.motion, place, settings.servo.burr.radius, plan.seconds));
+  const auto place = take(surgeon::find_work_place(*bone, settings.servo.burr.radius, {}, {}));
+  auto path = take(surgeon::motion(plan.motion, place, settings.servo.burr.radius, plan.seconds));
   auto hand = std::make_unique<WishingHand>(std::move(path), plan.arm, plan.wishes);
   WishingHand& wishing = *hand;
   auto session = take(sim::Session::make(std::move(bone), std::move(hand), settings, quiet));
@@ -124,7 +124,7 @@ void mill(const char* name, const Plan& plan, const std::function<Bone()>& make,
   session->run(plan.seconds, quiet);
   session->set_recorder(nullptr);
   static_cast<void>(take(recorder.finish()));
-  record::TickRow row;
+  tick::TickRow row;
   if (!session->view(row)) give_up("not one tick");
 
   // whatever happened, it happens again
@@ -136,7 +136,7 @@ void mill(const char* name, const Plan& plan, const std::function<Bone()>& make,
     give_up(fmt::format("{}: does not replay: {}", name, again.difference));
   const sim::Outcome outcome = session->outcome();
   const bool lost =
-      (outcome.flags & haptics::kFlagWatchdog) != 0 || outcome.most_load != sim::Load::none;
+      (outcome.flags & haptics::kFlagWatchdog) != 0 || outcome.most_load != tick::Load::none;
   fmt::print("{} {:016x} {:016x}{}\n", name, row.hash, session->bone().content_hash(),
              lost ? " lost" : "");
 }
@@ -169,10 +169,10 @@ void all(const Options& options) {
   const auto bone_only = [&](const char* name, const Bone& bone) {
     fmt::print("{} {:016x} {:016x}\n", name, 0, bone->content_hash());
   };
-  const auto wish = [](std::uint64_t tick, record::WishKind kind, double value = 0) {
+  const auto wish = [](std::uint64_t tick, tick::WishKind kind, double value = 0) {
     return WishAt{tick, {kind, value}};
   };
-  using Kind = record::WishKind;
+  using Kind = tick::WishKind;
   if (wanted("pocket"))
     mill(
         "pocket",
@@ -183,9 +183,9 @@ void all(const Options& options) {
                     wish(1500, Kind::burr_radius, 1.7e-3), wish(1700, Kind::tool_mode, 1),
                     wish(2100, Kind::tool_mode, 0), wish(2500, Kind::reset)}},
         [&] {
-          return scenes::bone_from_distance(
-              scenes::box_grid(Vec3::Constant(-8e-3), Vec3::Constant(8e-3), 0.25e-3), {},
-              scenes::slab(), 256, options.threads);
+          return phantom::bone_from_distance(
+              phantom::box_grid(Vec3::Constant(-8e-3), Vec3::Constant(8e-3), 0.25e-3), {},
+              phantom::slab(), 256, options.threads);
         },
         options);
   if (wanted("plunge"))
@@ -197,27 +197,27 @@ void all(const Options& options) {
          .kind = tool::BurrKind::diamond,
          .arm = {.mass = 0.06, .damping = 5, .stiffness = 200}},
         [&] {
-          return scenes::bone_from_distance(scenes::cube_grid(16e-3, 50, {1e-3, 2e-3, 3e-3}), {},
-                                            scenes::gyroid(5e-3, 0.6), 256, options.threads,
-                                            scenes::kGyroidSteepness);
+          return phantom::bone_from_distance(phantom::cube_grid(16e-3, 50, {1e-3, 2e-3, 3e-3}), {},
+                                             phantom::gyroid(5e-3, 0.6), 256, options.threads,
+                                             phantom::kGyroidSteepness);
         },
         options);
   if (wanted("slot"))
     mill(
         "slot", {.motion = "slot", .seconds = 2, .burr_mm = 5},
-        [&] { return take(scenes::phantom("temporal-bone", 0.9, quiet, 256, options.threads)); },
+        [&] { return take(phantom::phantom("temporal-bone", 0.9, quiet, 256, options.threads)); },
         options);
   if (wanted("touch"))
     mill(
         "touch", {.motion = "touch", .seconds = 2, .burr_mm = 4, .arm = {.stiffness = INFINITY}},
-        [&] { return scenes::peers_bone(64, 64, options.threads); }, options);
-  for (const auto phantom : scenes::phantom_names()) {
+        [&] { return phantom::peers_bone(64, 64, options.threads); }, options);
+  for (const auto phantom : phantom::phantom_names()) {
     const std::string name(phantom);
     if (wanted(name.c_str()))
-      bone_only(name.c_str(), take(scenes::phantom(phantom, 2 * scenes::default_voxel_mm(phantom),
-                                                   quiet, 64, options.threads)));
+      bone_only(name.c_str(), take(phantom::phantom(phantom, 2 * phantom::default_voxel_mm(phantom),
+                                                    quiet, 64, options.threads)));
   }
-  if (wanted("scan")) bone_only("scan", take(io::import_bone(noisy_scan(), {}, quiet)).bone);
+  if (wanted("scan")) bone_only("scan", take(importing::import_bone(noisy_scan(), {}, quiet)).bone);
 }
 
 }  // namespace

@@ -323,8 +323,8 @@ class DrivenArm : public ArmTest {
 
   std::atomic<int> stall_ms_ = 0;
   std::unique_ptr<sim::Session> session_;
-  rt::Latest<record::TickRow> rows_;
-  record::TickRow row_;
+  rt::Latest<tick::TickRow> rows_;
+  tick::TickRow row_;
   Vec3 measured_ = Vec3::Zero(), setpoint_ = Vec3::Zero(), force_ = Vec3::Zero();
   std::string state_;
 };

@@ -53,7 +53,7 @@ class WholeSession : public ::testing::TestWithParam<test::Driver> {
     ASSERT_TRUE(soon([&] { return row().tick > 600; })) << "the start ramp is over";
   }
 
-  record::TickRow row() {
+  tick::TickRow row() {
     static_cast<void>(session_->view(row_));
     return row_;
   }
@@ -95,7 +95,7 @@ class WholeSession : public ::testing::TestWithParam<test::Driver> {
   std::unique_ptr<test::Player> player_ = GetParam().player();
   MappedHand* hand_ = nullptr;
   std::unique_ptr<sim::Session> session_;
-  record::TickRow row_;
+  tick::TickRow row_;
   double y_mm_ = 0;
 };
 
@@ -118,12 +118,12 @@ TEST_P(WholeSession, PulledOutInContactTheSessionTellsAndGoesOnWhenItIsBack) {
   ASSERT_TRUE(press());
   player_->unplug();
   ASSERT_TRUE(raised(haptics::kFlagHandLost));
-  sim::FaultReport fault;
+  tick::FaultReport fault;
   ASSERT_TRUE(soon([&] { return session_->fault(fault); }));
   EXPECT_TRUE((fault.flags & haptics::kFlagHandLost) != 0);
-  EXPECT_EQ(fault.count, sim::FaultReport::kTicks);
+  EXPECT_EQ(fault.count, tick::FaultReport::kTicks);
   double pushed = 0;
-  for (const record::TickRow& one : fault.rows) pushed = std::max(pushed, one.contact.force.norm());
+  for (const tick::TickRow& one : fault.rows) pushed = std::max(pushed, one.contact.force.norm());
   EXPECT_GT(pushed, 0.7) << "the ticks before it, still pushing";
   EXPECT_TRUE(let_go()) << player_->force().transpose();
   EXPECT_TRUE(soon([&] { return !session_->hand().trouble().empty(); }));

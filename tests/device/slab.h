@@ -4,9 +4,9 @@
 #include <memory>
 #include <utility>
 
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/sim/session.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 
 namespace burr::test {
 
@@ -23,9 +23,9 @@ inline Result<std::unique_ptr<sim::Session>> slab_session(
     std::unique_ptr<device::Device> hand, const sim::SessionSettings& wished = slab_settings()) {
   NoProgress quiet;
   return sim::Session::make(
-      scenes::bone_from_distance(
-          scenes::box_grid(math::Vec3::Constant(-8e-3), math::Vec3::Constant(8e-3), 0.25e-3), {},
-          scenes::slab(), 64),
+      phantom::bone_from_distance(
+          phantom::box_grid(math::Vec3::Constant(-8e-3), math::Vec3::Constant(8e-3), 0.25e-3), {},
+          phantom::slab(), 64),
       std::move(hand), wished, quiet);
 }
 

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "burr/device/device.h"
-#include "burr/haptics/limit.h"
+#include "burr/haptics/safety/limit.h"
 
 namespace burr::test {
 

@@ -62,11 +62,11 @@ class TwoHands : public ::testing::Test {
                                         math::Pose{start, Quat::Identity()},
                                         Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX())));
   }
-  record::TickRow first() {
+  tick::TickRow first() {
     static_cast<void>(session_->view(first_));
     return first_;
   }
-  record::TickRow second() {
+  tick::TickRow second() {
     static_cast<void>(session_->second_hand()->view().take(second_));
     return second_;
   }
@@ -88,7 +88,7 @@ class TwoHands : public ::testing::Test {
 
   test::FakeHd* hd_ = nullptr;
   std::unique_ptr<sim::Session> session_;
-  record::TickRow first_, second_;
+  tick::TickRow first_, second_;
 };
 
 TEST_F(TwoHands, EachFeelsTheBoneWhereItIs) {
@@ -115,7 +115,7 @@ TEST_F(TwoHands, TheLossOfOneIsNotTheOthers) {
   EXPECT_TRUE(soon([&] { return second().contact.force == Vec3::Zero(); }));
   EXPECT_EQ(first().contact.flags & haptics::kFlagHandLost, 0U);
   EXPECT_TRUE(soon([&] { return up(0) > 0.5; })) << "a frame begins with none";
-  auto report = std::make_unique<sim::FaultReport>();
+  auto report = std::make_unique<tick::FaultReport>();
   EXPECT_TRUE(soon([&] { return session_->second_hand()->faults().take(*report); }));
   EXPECT_NE(report->flags & haptics::kFlagHandLost, 0U);
   EXPECT_FALSE(session_->fault(*report));

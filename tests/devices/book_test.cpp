@@ -1,5 +1,5 @@
 // What a user wishes of each device, kept by its serial number.
-#include "device_book.h"
+#include "workshop/device_book.h"
 
 #include "burr/device/axes.h"
 

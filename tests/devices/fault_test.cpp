@@ -1,5 +1,5 @@
 // The last ticks before a fault, on disk.
-#include "fault_file.h"
+#include "workshop/fault_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -16,11 +16,11 @@ namespace burr::app {
 namespace {
 
 TEST(FaultFile, SaysWhatHappenedAndHoldsEveryTick) {
-  auto report = std::make_unique<sim::FaultReport>();
+  auto report = std::make_unique<tick::FaultReport>();
   report->flags = haptics::kFlagHandLost;
   report->count = 200;
   for (int n = 0; n < 200; ++n) {
-    record::TickRow& row = report->rows[static_cast<std::size_t>(n)];
+    tick::TickRow& row = report->rows[static_cast<std::size_t>(n)];
     row.tick = 1000 + static_cast<std::uint64_t>(n);
     row.hand.world_from_tool.p = {1e-3 * n, 0.002, -0.003};
     row.hand.valid = n < 195;
@@ -56,9 +56,9 @@ TEST(FaultFile, SaysWhatHappenedAndHoldsEveryTick) {
 
 // Each number under its own name, in the unit of that name.
 TEST(FaultFile, ColumnsHoldWhatTheirNamesSay) {
-  auto report = std::make_unique<sim::FaultReport>();
+  auto report = std::make_unique<tick::FaultReport>();
   report->count = 1;
-  record::TickRow& row = report->rows[0];
+  tick::TickRow& row = report->rows[0];
   row.tick = 7;
   row.hand.world_from_tool.p = {0.001, 0.002, 0.003};
   row.hand.velocity = {0.011, 0.012, 0.013};

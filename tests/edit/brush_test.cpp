@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "burr/base/progress.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/volume/sample.h"
 #include "burr/volume/volume_of.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 #include "support/rt_guard.h"
 
 namespace burr::edit {
@@ -24,9 +24,10 @@ using volume::BrickIndex;
 constexpr double kMm = 1e-3, kVoxel = 0.25 * kMm, kRadius = 2 * kMm;
 
 struct Work {
-  explicit Work(const scenes::Depth& depth, double half = 6 * kMm)
-      : bone(scenes::bone_from_distance(
-            scenes::box_grid(Vec3::Constant(-half), Vec3::Constant(half), kVoxel), {}, depth, 512)),
+  explicit Work(const phantom::Depth& depth, double half = 6 * kMm)
+      : bone(phantom::bone_from_distance(
+            phantom::box_grid(Vec3::Constant(-half), Vec3::Constant(half), kVoxel), {}, depth,
+            512)),
         surface(*bone, {}, 1, quiet),
         undo(*bone, 4096),
         changed(*bone),
@@ -89,7 +90,7 @@ void brush_all(Work& work, int ticks) {
 }
 
 TEST(BackToTheOriginal, BrushedAllOverItIsTheOriginalToTheByteTissueAndAll) {
-  Work work(scenes::slab());
+  Work work(phantom::slab());
   const double before = work.volume();
   const std::uint64_t hash = work.bone->content_hash();
   spoil(work);
@@ -119,7 +120,7 @@ TEST(BackToTheOriginal, BrushedAllOverItIsTheOriginalToTheByteTissueAndAll) {
 }
 
 TEST(BackToTheOriginal, IsBoundedAndStaysWithinItsReachAndOutOfTheBurr) {
-  Work work(scenes::slab());
+  Work work(phantom::slab());
   spoil(work);
   work.undo.begin_stroke(0);
   const volume::Grid& grid = work.bone->grid();
@@ -162,7 +163,7 @@ TEST(BackToTheOriginal, IsBoundedAndStaysWithinItsReachAndOutOfTheBurr) {
 }
 
 TEST(BackToTheOriginal, WhereNothingWasChangedNothingHappens) {
-  Work work(scenes::slab());
+  Work work(phantom::slab());
   const std::uint64_t hash = work.bone->content_hash();
   work.undo.begin_stroke(0);
   for (int n = 0; n < 100; ++n) work.back({0, 0, kRadius});
@@ -172,7 +173,7 @@ TEST(BackToTheOriginal, WhereNothingWasChangedNothingHappens) {
 }
 
 TEST(BackToTheOriginal, TakesNeitherMemoryNorLock) {
-  Work work(scenes::slab());
+  Work work(phantom::slab());
   spoil(work);
   work.undo.begin_stroke(0);
   const test::RtGuard guard;
@@ -260,7 +261,7 @@ TEST(Smooth, ABallLosesItsRippleAndKeepsItsRadius) {
 }
 
 TEST(Smooth, ARoundBallStaysAsItIsHoweverLong) {
-  Work work(scenes::ball(kBall));
+  Work work(phantom::ball(kBall));
   const double before = work.volume();
   work.undo.begin_stroke(0);
   for (int round = 0; round < 20; ++round)
@@ -277,7 +278,7 @@ TEST(Smooth, ARoundBallStaysAsItIsHoweverLong) {
 TEST(Smooth, APlaneStaysToTheByteWhateverItsSlant) {
   for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(1, 1, 1), Vec3(0.3, -0.2, 1), Vec3(2, 1, 0)}) {
     const Vec3 out = normal.normalized();
-    Work work(scenes::slab(out, 0.07 * kMm * out));
+    Work work(phantom::slab(out, 0.07 * kMm * out));
     const std::uint64_t hash = work.bone->content_hash();
     work.undo.begin_stroke(0);
     for (int n = 0; n < 1000; ++n)
@@ -342,7 +343,7 @@ TEST(Smooth, IsUndoneTakesNeitherMemoryNorLockAndStaysInItsBall) {
 }
 
 TEST(Brush, NeitherAddedNorSmoothedBoneGrowsOutOfTheVolume) {
-  Work work(scenes::slab(), 5.5 * kMm);
+  Work work(phantom::slab(), 5.5 * kMm);
   const math::Ijk size = work.bone->grid().size, whole = work.bone->bricks() * 8;
   ASSERT_LT(size.x(), whole.x()) << "it does not end within a brick: the test shows nothing";
   work.undo.begin_stroke(0);

@@ -9,11 +9,11 @@
 #include <random>
 
 #include "burr/base/hash.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/rt/simd.h"
 #include "burr/volume/sample.h"
 #include "burr/volume/volume_of.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 #include "support/rt_guard.h"
 
 namespace burr::edit {
@@ -23,10 +23,10 @@ using math::Vec3;
 constexpr double kMm = 1e-3, kMm3 = 1e-9;
 
 struct Work {
-  Work(const scenes::Depth& depth, double h_mm, double half_mm = 6, std::size_t reserve = 0)
+  Work(const phantom::Depth& depth, double h_mm, double half_mm = 6, std::size_t reserve = 0)
       : h(h_mm * kMm),
-        bone(scenes::bone_from_distance(
-            scenes::box_grid(Vec3::Constant(-half_mm * kMm), Vec3::Constant(half_mm * kMm), h), {},
+        bone(phantom::bone_from_distance(
+            phantom::box_grid(Vec3::Constant(-half_mm * kMm), Vec3::Constant(half_mm * kMm), h), {},
             depth, reserve)),
         surface(*bone, {}, 1, quiet),
         undo(*bone, 4096),
@@ -63,7 +63,7 @@ class Carving : public testing::TestWithParam<double> {};  // voxel [mm]
 
 TEST_P(Carving, APlungeTakesTheCapOfTheBall) {
   const double r = 2 * kMm, depth = 0.2 * kMm;
-  Work work(scenes::slab(), GetParam());
+  Work work(phantom::slab(), GetParam());
   const double before = volume::volume_of(*work.bone);
   work.cut_whole_ball({0.1 * kMm, -0.2 * kMm, r - depth}, r);
   const double cap = M_PI * depth * depth * (r - depth / 3);  // 0.24295 mm^3
@@ -76,7 +76,7 @@ TEST_P(Carving, APlungeTakesTheCapOfTheBall) {
 
 TEST_P(Carving, ABuriedBallTakesItsWholeVolume) {
   const double r = 2 * kMm;
-  Work work(scenes::slab({0, 0, 1}, {0, 0, 5 * kMm}), GetParam());
+  Work work(phantom::slab({0, 0, 1}, {0, 0, 5 * kMm}), GetParam());
   work.cut_whole_ball({0.13 * kMm, 0.07 * kMm, -0.11 * kMm}, r);
   const double ball = 4.0 / 3 * M_PI * r * r * r;
   EXPECT_NEAR(work.carver.ledger().removed, ball, 0.01 * ball);
@@ -84,7 +84,7 @@ TEST_P(Carving, ABuriedBallTakesItsWholeVolume) {
 
 TEST_P(Carving, ASlotHasTheSegmentsCrossSection) {
   const double r = 2 * kMm, depth = 0.2 * kMm, length = 6 * kMm;
-  Work work(scenes::slab(), GetParam());
+  Work work(phantom::slab(), GetParam());
   for (double s = 0; s <= length; s += 0.05 * kMm)
     work.cut_whole_ball({s - length / 2, 0, r - depth}, r);
   const double area =
@@ -101,7 +101,7 @@ TEST_P(Carving, AScallopStandsBetweenTwoPasses) {
   const double middle =
       GetParam() / 2 *
       kMm;  // the ridge runs along voxels; between them a cusp is cut off like any edge
-  Work work(scenes::slab(), GetParam());
+  Work work(phantom::slab(), GetParam());
   for (double s = -3 * kMm; s <= 3 * kMm; s += 0.05 * kMm)
     for (const double y : {-step / 2, step / 2}) work.cut_whole_ball({s, y + middle, r - depth}, r);
   // height of the ridge over the slots' floor, found by bisection of the field along z
@@ -124,7 +124,7 @@ TEST_P(Carving, TheLedgerBalancesOverAHundredThousandTicks) {
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);
   std::mt19937 random(kSeed);
   std::uniform_real_distribution<double> side(-4 * kMm, 4 * kMm), share(0, 1);
-  Work work(scenes::slab(), GetParam());
+  Work work(phantom::slab(), GetParam());
   const double before = volume::volume_of(*work.bone);
   const int ticks = GetParam() < 0.2 ? 20'000 : 100'000;
   for (int n = 0; n < ticks; ++n) {
@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(VoxelMm, Carving, testing::Values(0.5, 0.25, 0.125),
                          });
 
 TEST(Carver, TakesExactlyWhatIsAskedAndCarriesTheRest) {
-  Work work(scenes::slab(), 0.2);
+  Work work(phantom::slab(), 0.2);
   double asked = 0;
   for (int n = 0; n < 500; ++n) {
     std::uint32_t flags = 0;
@@ -171,8 +171,8 @@ TEST(Carver, HardTissueGivesLessForTheSameWork) {
     volume::TissueTable table;
     table.tissues[1].cutting_energy = 1e9 * harder;
     const volume::Grid grid =
-        scenes::box_grid(Vec3::Constant(-6 * kMm), Vec3::Constant(6 * kMm), 0.25 * kMm);
-    auto bone = scenes::bone_from_distance(grid, table, scenes::slab());
+        phantom::box_grid(Vec3::Constant(-6 * kMm), Vec3::Constant(6 * kMm), 0.25 * kMm);
+    auto bone = phantom::bone_from_distance(grid, table, phantom::slab());
     NoProgress quiet;
     volume::IsoVertices surface(*bone, {}, 1, quiet);
     UndoStore undo(*bone, 1024);
@@ -190,7 +190,7 @@ TEST(Carver, HardTissueGivesLessForTheSameWork) {
 }
 
 TEST(Carver, ABlockedBurrDoesNotSaveUp) {
-  Work work(scenes::slab(), 0.25);
+  Work work(phantom::slab(), 0.25);
   Carver carver(*work.bone, work.surface, work.undo, nullptr, {});
   std::uint32_t flags = 0;
   const Cut far{.centre = work.bone->grid().grid_from_world({0, 0, 4 * kMm}),
@@ -206,7 +206,7 @@ TEST(Carver, ABlockedBurrDoesNotSaveUp) {
 }
 
 TEST(Carver, MaterialIsAddedUpToTheBurrAndIsItsOwnTissue) {
-  Work work(scenes::slab(), 0.25, 6, 512);
+  Work work(phantom::slab(), 0.25, 6, 512);
   std::uint32_t flags = 0;
   const double r = 1.5 * kMm;
   const Vec3 centre(0, 0, r);
@@ -227,7 +227,7 @@ TEST(Carver, MaterialIsAddedUpToTheBurrAndIsItsOwnTissue) {
 }
 
 TEST(UndoStore, BringsBackToTheBitAndForthAgain) {
-  Work work(scenes::slab(), 0.25);
+  Work work(phantom::slab(), 0.25);
   const std::uint64_t start = work.bone->content_hash();
   work.cut_whole_ball({0, 0, 0}, 2 * kMm);
   work.undo.end_stroke();
@@ -264,7 +264,7 @@ TEST(UndoStore, BringsBackToTheBitAndForthAgain) {
 }
 
 TEST(UndoStore, ForgetsTheOldestWhenFullAndSaysSo) {
-  Work work(scenes::slab(), 0.25);
+  Work work(phantom::slab(), 0.25);
   UndoStore small(*work.bone, 64);
   Carver carver(*work.bone, work.surface, small, nullptr,
                 {.advance_m = 0, .advance_least = 0, .margin_m = 0, .margin_least = 0});
@@ -293,7 +293,7 @@ TEST(UndoStore, ForgetsTheOldestWhenFullAndSaysSo) {
 }
 
 TEST(Carver, TakesNeitherMemoryNorLock) {
-  Work work(scenes::slab(), 0.25, 6, 256);
+  Work work(phantom::slab(), 0.25, 6, 256);
   std::uint32_t flags = 0;
   Cut cut{.centre = work.bone->grid().grid_from_world({0, 0, 1 * kMm}),
           .push = {0, 0, -1},
@@ -327,7 +327,7 @@ TEST(Simd, EveryPathCutsTheSameBits) {
   const rt::Simd before = rt::simd();
   for (const rt::Simd which : {rt::Simd::scalar, rt::Simd::avx2, rt::Simd::avx512}) {
     rt::force_simd(which);
-    Work work(scenes::gyroid(3 * kMm), 0.2, 5, 64);
+    Work work(phantom::gyroid(3 * kMm), 0.2, 5, 64);
     std::uint32_t flags = 0;
     for (int n = 0; n < 300; ++n) {
       work.carver.carve({.centre = work.bone->grid().grid_from_world(

@@ -1,14 +1,14 @@
 // The chips law against its own integrals, done again finely and another way, and against what has
 // been measured on bone.
-#include "burr/edit/chips.h"
+#include "burr/edit/laws/chips.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 
-#include "scenes/build.h"
-#include "scenes/shapes.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "support/rt_guard.h"
 
 namespace burr::edit {
@@ -18,13 +18,13 @@ using math::Vec3;
 constexpr double kMm = 1e-3, kRpm = 2 * M_PI / 60;
 constexpr double kDt = 1e-3;
 
-std::unique_ptr<volume::Bone> bone_of(const scenes::Depth& depth, double h_mm = 0.2,
+std::unique_ptr<volume::Bone> bone_of(const phantom::Depth& depth, double h_mm = 0.2,
                                       const volume::TissueTable& tissues = {}) {
-  return scenes::bone_from_distance(
-      scenes::box_grid(Vec3::Constant(-5 * kMm), Vec3::Constant(5 * kMm), h_mm * kMm), tissues,
+  return phantom::bone_from_distance(
+      phantom::box_grid(Vec3::Constant(-5 * kMm), Vec3::Constant(5 * kMm), h_mm * kMm), tissues,
       depth);
 }
-const scenes::Depth kEverywhere = [](const Vec3&) { return 4 * kMm; };
+const phantom::Depth kEverywhere = [](const Vec3&) { return 4 * kMm; };
 const volume::CuttingForce kForce = volume::Tissue{}.force;
 
 // The same integral by azimuth about the shaft and height along it, where a piece of the ball is
@@ -35,7 +35,7 @@ struct Fine {
   std::complex<double> swing = 0;
 };
 Fine fine(const tool::Burr& burr, const Vec3& centre, const Vec3& normal, const Spin& spin,
-          double feed, const scenes::Depth& depth, double reach, double pole) {
+          double feed, const phantom::Depth& depth, double reach, double pole) {
   constexpr int kHigh = 600, kRound = 600;
   Fine all;
   const Vec3 x = spin.axis.unitOrthogonal(), y = spin.axis.cross(x);
@@ -68,7 +68,7 @@ Fine fine(const tool::Burr& burr, const Vec3& centre, const Vec3& normal, const 
 
 struct Place {
   const char* what;
-  scenes::Depth depth;
+  phantom::Depth depth;
   Vec3 centre, axis;
   double tolerance;
 };
@@ -76,9 +76,9 @@ std::vector<Place> places() {
   const Vec3 upright(0, 0, 1), aslant = Vec3(1, 0.3, 1.2).normalized();
   return {{"wholly in bone, shaft along the push", kEverywhere, {0, 0, 0}, upright, 0.03},
           {"wholly in bone, shaft aslant", kEverywhere, {0, 0, 0}, aslant, 0.03},
-          {"half in", scenes::slab(), {0.1 * kMm, 0, 0}, aslant, 0.03},
-          {"a third of the radius in", scenes::slab(), {0, 0, 1 * kMm}, aslant, 0.05},
-          {"just touching", scenes::slab(), {0, 0, 1.5 * kMm}, aslant, 0.12}};
+          {"half in", phantom::slab(), {0.1 * kMm, 0, 0}, aslant, 0.03},
+          {"a third of the radius in", phantom::slab(), {0, 0, 1 * kMm}, aslant, 0.05},
+          {"just touching", phantom::slab(), {0, 0, 1.5 * kMm}, aslant, 0.12}};
 }
 
 TEST(Chips, TheThrustOfAllTeethIsThePushAndTheRestFollows) {
@@ -128,7 +128,7 @@ TEST(Chips, InTheOpenTheIntegralsAreKnownByHeart) {
 
 // The teeth stepped through a pitch one by one: the swing is the first harmonic of what they feel.
 TEST(Chips, TheRippleIsWhatTheTeethFeelOneAfterTheOther) {
-  const auto bone = bone_of(scenes::slab(), 0.1);
+  const auto bone = bone_of(phantom::slab(), 0.1);
   const Vec3 normal(0, 0, 1), centre(0, 0, 1.2 * kMm);
   for (const int teeth : {1, 2, 4, 8}) {
     const tool::Burr burr = {.radius = 1.5 * kMm, .teeth = teeth};
@@ -174,7 +174,7 @@ TEST(Chips, ThinChipsCostMoreAsMeasuredOnBone) {
   EXPECT_NEAR(energy(10e-6), 0.9e9, 0.1e9);
   EXPECT_NEAR(energy(2.5e-6), 3e9, 0.3e9);
 
-  const auto bone = bone_of(scenes::slab());
+  const auto bone = bone_of(phantom::slab());
   const tool::Burr burr = {.radius = 2 * kMm};
   const Vec3 centre(0, 0, 1.9 * kMm);
   double last = 1e12, torque = 0;
@@ -216,7 +216,7 @@ TEST(Chips, HarderBoneGivesThinnerChipsAndTissuesAreEachTheirOwn) {
 }
 
 TEST(Chips, WithoutPushTeethSpeedOrBoneNothingIsCut) {
-  const auto bone = bone_of(scenes::slab());
+  const auto bone = bone_of(phantom::slab());
   Chips chips(*bone);
   tool::Burr burr = {.radius = 2 * kMm};
   const Vec3 at(0, 0, 1.9 * kMm), up(0, 0, 1);
@@ -249,7 +249,7 @@ TEST(Chips, TheMotorsPowerIsTheLimit) {
 }
 
 TEST(Chips, TakeNoMemory) {
-  const auto bone = bone_of(scenes::slab());
+  const auto bone = bone_of(phantom::slab());
   Chips chips(*bone);
   const test::RtGuard guard;
   for (int n = 0; n < 50; ++n)

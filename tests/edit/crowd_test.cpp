@@ -6,9 +6,9 @@
 
 #include "burr/edit/carve.h"
 #include "burr/haptics/contact.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/volume/volume_of.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 
 namespace burr::edit {
 namespace {
@@ -19,9 +19,9 @@ constexpr int kMostBricks = 1024;
 
 struct Crowd {
   Crowd()
-      : bone(scenes::bone_from_distance(
-            scenes::box_grid(Vec3::Constant(-7 * kMm), Vec3::Constant(7 * kMm), 0.1 * kMm), {},
-            scenes::slab({0, 0, 1}, {0, 0, 20 * kMm}))),
+      : bone(phantom::bone_from_distance(
+            phantom::box_grid(Vec3::Constant(-7 * kMm), Vec3::Constant(7 * kMm), 0.1 * kMm), {},
+            phantom::slab({0, 0, 1}, {0, 0, 20 * kMm}))),
         surface(*bone, {}, 1, quiet),
         undo(*bone, 8192),
         carver(*bone, surface, undo, nullptr,

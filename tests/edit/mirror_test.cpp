@@ -12,9 +12,9 @@
 #include "burr/base/hash.h"
 #include "burr/base/progress.h"
 #include "burr/edit/brush.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/volume/volume_of.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 #include "support/rt_guard.h"
 
 namespace burr::edit {
@@ -39,7 +39,7 @@ std::unique_ptr<volume::Bone> even_bone(const Mirror& mirror, std::size_t reserv
     q[mirror.axis] = std::abs(q[mirror.axis] - mirror.place());
     return q;
   };
-  scenes::Formula formula;
+  phantom::Formula formula;
   formula.depth = [fold, mirror](const Vec3& p) {  // hilly, below k = 24, or a plate
     const Vec3 q = fold(p);
     return kVoxel * 0.5 *
@@ -54,7 +54,7 @@ std::unique_ptr<volume::Bone> even_bone(const Mirror& mirror, std::size_t reserv
   tissues.tissues.resize(4, tissues.tissues.back());
   tissues.tissues[2].cutting_energy *= 1.7;
   NoProgress quiet;
-  auto made = scenes::bone_from_formula(grid(), tissues, formula, reserve, 2, quiet);
+  auto made = phantom::bone_from_formula(grid(), tissues, formula, reserve, 2, quiet);
   EXPECT_TRUE(made);
   return std::move(*made);
 }
@@ -307,7 +307,7 @@ TEST(Mirror, ABallOverThePlaneTakesTheUnionOfBothAndNothingTwice) {
   for (const double off : {0.0, 0.3, 2.5, 6.0, 9.9, 12.0})
     for (const int twice : {57, 58}) {
       const Mirror mirror = {0, twice};
-      Work work(mirror, scenes::bone_from_distance(grid(), {}, [](const Vec3&) { return 1.0; }),
+      Work work(mirror, phantom::bone_from_distance(grid(), {}, [](const Vec3&) { return 1.0; }),
                 plain);
       const double before = work.volume();
       Cut cut;
@@ -329,7 +329,7 @@ TEST(Mirror, MoreBricksThanATickBearsAreCutAndBroughtBackAlikeOnBothSides) {
   volume::Grid wide = grid();
   wide.size = {132, 132, 232};
   const Mirror mirror = {2, 229};  // across the axis that bricks are gone through last
-  Work work(mirror, scenes::bone_from_distance(wide, {}, [](const Vec3&) { return 1.0; }), {});
+  Work work(mirror, phantom::bone_from_distance(wide, {}, [](const Vec3&) { return 1.0; }), {});
   const double before = work.volume();
   Cut cut;
   cut.centre = Vec3(64.7, 66.2, 58.3);
@@ -383,7 +383,7 @@ TEST(Mirror, WhereTheBoneIsAnotherTheSameShapeIsCutIntoIt) {
   const Mirror mirror = {0, 57};
   Work work(
       mirror,
-      scenes::bone_from_distance(
+      phantom::bone_from_distance(
           grid(), {},
           [](const Vec3& p) { return kVoxel * (p.x() < 28.5 * kVoxel ? 24.0 : 28.0) - p.z(); }, 64,
           2, 8),
@@ -400,7 +400,7 @@ TEST(Mirror, WhereTheBoneIsAnotherTheSameShapeIsCutIntoIt) {
 TEST(Mirror, WhereTheHandsSideHasNothingLeftItsImageIsEmptiedToo) {
   const Mirror mirror = {0, 57};
   Work work(mirror,
-            scenes::bone_from_distance(
+            phantom::bone_from_distance(
                 grid(), {}, [](const Vec3& p) { return p.x() - 30 * kVoxel; }, 64),
             {});
   const double before = work.volume();

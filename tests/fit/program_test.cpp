@@ -11,7 +11,7 @@
 #include <numbers>
 #include <string>
 
-#include "burr/io/materials.h"
+#include "burr/importing/materials.h"
 #include "fit/made_up.h"
 #include "io/folder.h"
 
@@ -50,10 +50,10 @@ TEST_F(FitProgram, WhatItWritesIsReadAsMaterials) {
   const std::string said = burr("fit bench.csv --material dentine --date 2026-11-22 --out d.toml");
   EXPECT_NE(said.find("exit 0"), std::string::npos) << said;
   EXPECT_NE(said.find("dentine: 400 rows used, 0 left out"), std::string::npos) << said;
-  const auto read = io::read_materials(path("d.toml"));
+  const auto read = importing::read_materials(path("d.toml"));
   ASSERT_TRUE(read.ok()) << read.error().text;
-  const io::Material& dentine = *read->find("dentine");
-  const auto near = [](const std::optional<io::Constant>& c, double value) {
+  const importing::Material& dentine = *read->find("dentine");
+  const auto near = [](const std::optional<importing::Constant>& c, double value) {
     ASSERT_TRUE(c.has_value());
     EXPECT_NEAR(c->value / value, 1, 0.05);
     EXPECT_LT(c->low, c->value);

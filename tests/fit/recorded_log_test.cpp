@@ -10,12 +10,12 @@
 
 #include "burr/device/simulated_hand.h"
 #include "burr/fit/laws.h"
-#include "burr/sim/motion.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
+#include "burr/surgeon/motion.h"
 #include "record/made_up.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 
 namespace burr::fit {
 namespace {
@@ -39,10 +39,10 @@ void mill(const Plan& plan, const std::string& path) {
   table.tissues[1].cutting_energy = plan.energy;
   while (static_cast<int>(table.tissues.size()) <= plan.solid_tissues)
     table.tissues.push_back({.name = "other"});
-  auto bone = scenes::bone_from_distance(
-      scenes::box_grid(Vec3::Constant(-8e-3), Vec3::Constant(8e-3), 0.25e-3), table, scenes::slab(),
-      256);
-  auto hand_path = sim::motion(plan.motion, {}, 2e-3, plan.seconds);
+  auto bone = phantom::bone_from_distance(
+      phantom::box_grid(Vec3::Constant(-8e-3), Vec3::Constant(8e-3), 0.25e-3), table,
+      phantom::slab(), 256);
+  auto hand_path = surgeon::motion(plan.motion, {}, 2e-3, plan.seconds);
   ASSERT_TRUE(hand_path.ok());
   sim::SessionSettings settings;
   settings.servo.burr.radius = 2e-3;

@@ -8,8 +8,8 @@
 
 #include "burr/haptics/proxy.h"
 #include "burr/haptics/thin.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 
 namespace burr::haptics {
 namespace {
@@ -21,9 +21,9 @@ TEST(Crowd, ABurrInASocketOfItsOwnSizeStaysInItAndComesOutAgain) {
   // as when bone returned round the burr: some 30 000 contacts at once, the list holds 16 384
   const double r = 3.5 * kMm, h = 0.05 * kMm;
   NoProgress quiet;
-  const auto bone = scenes::bone_from_distance(
-      scenes::box_grid(Vec3(-4.5, -4.5, -4.5) * kMm, Vec3(4.5, 4.5, 0) * kMm, h), {},
-      scenes::without(scenes::slab({0, 0, 1}, {0, 0, -1 * kMm}), scenes::ball(r)));
+  const auto bone = phantom::bone_from_distance(
+      phantom::box_grid(Vec3(-4.5, -4.5, -4.5) * kMm, Vec3(4.5, 4.5, 0) * kMm, h), {},
+      phantom::without(phantom::slab({0, 0, 1}, {0, 0, -1 * kMm}), phantom::ball(r)));
   const volume::IsoVertices surface(*bone, {.reserve_blocks = 1 << 10}, 1, quiet);
   Proxy proxy(surface, {.radius = r}, Vec3::Zero());
   proxy.place(Vec3::Zero());

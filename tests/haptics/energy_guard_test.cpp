@@ -1,5 +1,5 @@
 // The energy guard on invented ticks: accounts that can be done by hand, and a hand that wanders.
-#include "burr/haptics/energy_guard.h"
+#include "burr/haptics/safety/energy_guard.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 
 #include "burr/haptics/contact.h"
-#include "burr/haptics/limit.h"
+#include "burr/haptics/safety/limit.h"
 #include "support/rt_guard.h"
 
 namespace burr::haptics {

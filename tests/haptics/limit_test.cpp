@@ -1,6 +1,6 @@
 // The last word before the hand, on invented ticks: nothing unbounded, nothing sudden upward, and
 // always the way back by the start ramp.
-#include "burr/haptics/limit.h"
+#include "burr/haptics/safety/limit.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "burr/haptics/contact.h"
-#include "burr/haptics/watchdog.h"
+#include "burr/haptics/safety/watchdog.h"
 
 namespace burr::haptics {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "burr/haptics/baselines/voxel_springs.h"
 #include "burr/haptics/force_law.h"
-#include "burr/haptics/methods/voxel_springs.h"
 #include "burr/haptics/touch_method.h"
 #include "haptics/scene.h"
 #include "support/rt_guard.h"
@@ -41,7 +41,7 @@ TEST(Methods, HaveNamesThatAreUnderstood) {
 }
 
 TEST(Methods, NoneOfThemTakesMemoryInATick) {
-  Scene scene(scenes::ball(4 * kMm), 0.5);
+  Scene scene(phantom::ball(4 * kMm), 0.5);
   for (int n = 0; n < kMethods; ++n) {
     const auto method = scene.method(static_cast<Method>(n), 1.5 * kMm, {0, 0, 7 * kMm});
     const test::RtGuard guard;
@@ -62,7 +62,7 @@ double half_space(double a, double r, double h) {  // for one newton a metre and
 TEST(VoxelSprings, GiveTheForceOfAHalfSpace) {
   const double r = 3 * kMm;
   for (const double h_mm : {0.5, 0.25}) {
-    Scene scene(scenes::slab(), h_mm);
+    Scene scene(phantom::slab(), h_mm);
     const auto method = scene.method(Method::voxel_springs, r, {0, 0, 6 * kMm});
     for (double a_mm = -2; a_mm <= 2; a_mm += 0.25) {
       const double a = a_mm * kMm + 0.031 * kMm;
@@ -80,7 +80,7 @@ TEST(VoxelSprings, AreEightTimesAsStiffWithVoxelsHalfAsLarge) {
   double force[2] = {};
   int n = 0;
   for (const double h_mm : {0.5, 0.25}) {
-    Scene scene(scenes::slab(), h_mm);
+    Scene scene(phantom::slab(), h_mm);
     const auto method = scene.method(Method::voxel_springs, 3 * kMm, {0, 0, 6 * kMm});
     force[n++] = method->step({0, 0, 1 * kMm}).depth;
   }
@@ -89,7 +89,7 @@ TEST(VoxelSprings, AreEightTimesAsStiffWithVoxelsHalfAsLarge) {
 
 TEST(VoxelSprings, SoftenBeyondHalfImmersionAndGiveNothingInside) {
   const double r = 2 * kMm;
-  Scene scene(scenes::slab(), 0.25);
+  Scene scene(phantom::slab(), 0.25);
   const auto method = scene.method(Method::voxel_springs, r, {0, 0, 6 * kMm});
   const double half = method->step({0, 0, 0}).depth, deeper = method->step({0, 0, -1 * kMm}).depth,
                inside = method->step({0, 0, -2.6 * kMm}).depth;
@@ -103,7 +103,7 @@ TEST(Thesis, IsExactOnAPlaneAndOnABall) {
   const double r = 1.5 * kMm;
   {
     const Vec3 n = Vec3(0.3, -0.5, 0.8).normalized();
-    Scene scene(scenes::slab(n), 0.25);
+    Scene scene(phantom::slab(n), 0.25);
     const auto method = scene.method(Method::thesis, r, 3 * kMm * n);
     const Vec3 hand = -0.3 * kMm * n + 0.7 * kMm * n.unitOrthogonal();
     const Touch touch = press(*method, hand + 1 * kMm * n, hand);
@@ -113,7 +113,7 @@ TEST(Thesis, IsExactOnAPlaneAndOnABall) {
   }
   {
     const double R = 5 * kMm;
-    Scene scene(scenes::ball(R), 0.25);
+    Scene scene(phantom::ball(R), 0.25);
     const auto method = scene.method(Method::thesis, r, {0, 0, 6 * kMm});
     const Vec3 out = Vec3(0.2, 0.3, 0.9).normalized();
     const Touch touch = press(*method, (R + 0.5 * kMm) * out, (R - 0.3 * kMm) * out);
@@ -123,7 +123,7 @@ TEST(Thesis, IsExactOnAPlaneAndOnABall) {
 
 TEST(Thesis, StandsInTheOtherWallOfAGroove) {
   const double r = 1.5 * kMm;
-  Scene scene(scenes::groove(M_PI / 4), 0.25);
+  Scene scene(phantom::groove(M_PI / 4), 0.25);
   // pressed against the left wall near the bottom
   double worst = 0;
   for (const double down : {1.5, 1.0, 0.5, 0.2}) {
@@ -137,7 +137,7 @@ TEST(Thesis, StandsInTheOtherWallOfAGroove) {
 
 TEST(Thesis, AsItIsWrittenTheForceLeapsAtContact) {
   const double r = 1.5 * kMm;
-  Scene scene(scenes::slab(), 0.25);
+  Scene scene(phantom::slab(), 0.25);
   for (const Method which : {Method::thesis, Method::thesis_literal}) {
     const auto method = scene.method(which, r, {0, 0, 1 * kMm});
     double leap = 0;
@@ -161,7 +161,7 @@ TEST(Thesis, AsItIsWrittenTheForceLeapsAtContact) {
 TEST(Samples, RestOnAPlaneAndStayInsideForEverRoundACorner) {
   const double r = 1 * kMm;
   {
-    Scene scene(scenes::slab(), 0.25);
+    Scene scene(phantom::slab(), 0.25);
     const auto method = scene.method(Method::samples, r, {0, 0, 3 * kMm});
     const Touch touch = press(*method, {0, 0, 3 * kMm}, {0.3 * kMm, 0, 0.7 * kMm});
     ASSERT_TRUE(touch.touching);
@@ -172,9 +172,9 @@ TEST(Samples, RestOnAPlaneAndStayInsideForEverRoundACorner) {
   for (const int ticks : {20, 3})
     for (const Method which : {Method::samples, Method::constraint}) {
       Scene scene(
-          scenes::without(scenes::slab({0, 0, 1}, {0, 0, 6 * kMm}),
-                          scenes::placed(scenes::box(Vec3(4, 8, 8) * kMm),
-                                         {math::Vec3(-4, 0, 8) * kMm, math::Quat::Identity()})),
+          phantom::without(phantom::slab({0, 0, 1}, {0, 0, 6 * kMm}),
+                           phantom::placed(phantom::box(Vec3(4, 8, 8) * kMm),
+                                           {math::Vec3(-4, 0, 8) * kMm, math::Quat::Identity()})),
           0.25);
       const auto method = scene.method(which, r, {-4 * kMm, 0, 3 * kMm});
       const Vec3 floor(-4 * kMm, 0, 0.6 * kMm), wall(6 * kMm, 0, 0.6 * kMm);
@@ -200,18 +200,18 @@ TEST(Penalty, AgreesWithOursInShallowContact) {
   const double r = 1.5 * kMm;
   struct Case {
     const char* what;
-    scenes::Depth depth;
+    phantom::Depth depth;
     Vec3 from, to;
   };
   const Vec3 out = Vec3(0.2, 0.3, 0.9).normalized();
   const Case cases[] = {
-      {"plane", scenes::slab(), {0, 0, 3 * kMm}, {0.3 * kMm, 0, r - 0.1 * kMm}},
-      {"ball", scenes::ball(4 * kMm), 7 * kMm * out, (4 * kMm + r - 0.1 * kMm) * out},
+      {"plane", phantom::slab(), {0, 0, 3 * kMm}, {0.3 * kMm, 0, r - 0.1 * kMm}},
+      {"ball", phantom::ball(4 * kMm), 7 * kMm * out, (4 * kMm + r - 0.1 * kMm) * out},
       {"groove",
-       scenes::groove(M_PI / 4),
+       phantom::groove(M_PI / 4),
        {0, 0, 5 * kMm},
        {0.05 * kMm, 0, r * std::sqrt(2.0) - 0.1 * kMm}},
-      {"bowl", scenes::bowl(4 * kMm), Vec3::Zero(), (4 * kMm - r + 0.1 * kMm) * out}};
+      {"bowl", phantom::bowl(4 * kMm), Vec3::Zero(), (4 * kMm - r + 0.1 * kMm) * out}};
   for (const Case& one : cases) {
     Scene scene(one.depth, 0.25);
     const auto ours = scene.method(Method::constraint, r, one.from),

@@ -4,18 +4,18 @@
 #include <memory>
 
 #include "burr/base/progress.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/volume/iso_vertices.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 
 namespace burr::test {
 
 struct Scene {
-  Scene(const scenes::Depth& depth, double h_mm, double half_mm = 12)
+  Scene(const phantom::Depth& depth, double h_mm, double half_mm = 12)
       : h(h_mm * 1e-3),
-        bone(scenes::bone_from_distance(scenes::box_grid(math::Vec3::Constant(-half_mm * 1e-3),
-                                                         math::Vec3::Constant(half_mm * 1e-3), h),
-                                        {}, depth)),
+        bone(phantom::bone_from_distance(phantom::box_grid(math::Vec3::Constant(-half_mm * 1e-3),
+                                                           math::Vec3::Constant(half_mm * 1e-3), h),
+                                         {}, depth)),
         surface(*bone, {}, 1, quiet) {}
   double h;  // [m]
   NoProgress quiet;

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "burr/haptics/proxy.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/rt/simd.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 
 namespace burr::haptics {
 namespace {
@@ -143,7 +143,7 @@ TEST(SoftContact, EveryInstructionSetPushesTheSame) {
 TEST(Scan, DiscsThatWereTakenAreSeenAsTheirBlocksAre) {
   NoProgress quiet;
   const auto bone =
-      scenes::bone_from_distance(scenes::cube_grid(10e-3, 64), {}, scenes::gyroid(3e-3), 64);
+      phantom::bone_from_distance(phantom::cube_grid(10e-3, 64), {}, phantom::gyroid(3e-3), 64);
   const volume::IsoVertices surface(*bone, {}, 1, quiet);
   const volume::BrickIndex brick = [&] {
     volume::BrickIndex most = 0;

@@ -1,5 +1,5 @@
 // The bench against theory, then the guard on the bench.
-#include "burr/haptics/stability.h"
+#include "burr/haptics/safety/stability.h"
 
 #include <gtest/gtest.h>
 

@@ -61,7 +61,7 @@ class Truth : public testing::TestWithParam<double> {};  // voxel size [mm]
 
 TEST_P(Truth, RestsOneRadiusAboveAnObliquePlane) {
   const Vec3 n = Vec3(0.3, -0.5, 0.8).normalized();
-  Scene scene(scenes::slab(n), GetParam());
+  Scene scene(phantom::slab(n), GetParam());
   const double r = 1.5 * kMm, deep = 0.3 * kMm;
   const Vec3 along = n.unitOrthogonal();
   const Worst worst = stroke(
@@ -75,7 +75,7 @@ TEST_P(Truth, RestsOneRadiusAboveAnObliquePlane) {
 
 TEST_P(Truth, RollsOverABallWithoutTangentialError) {
   const double R = 5 * kMm, r = 1.5 * kMm, deep = 0.3 * kMm;
-  Scene scene(scenes::ball(R), GetParam());
+  Scene scene(phantom::ball(R), GetParam());
   const Vec3 a(1, 0, 0), b = Vec3(0, 0.8, 0.6);
   const auto on = [&](double s) { return Vec3(std::cos(2 * s) * a + std::sin(2 * s) * b); };
   const Worst worst = stroke(
@@ -88,7 +88,7 @@ TEST_P(Truth, RollsOverABallWithoutTangentialError) {
 
 TEST_P(Truth, StaysInsideABowlAndIsPushedInward) {
   const double R = 6 * kMm, r = 1.5 * kMm, deep = 0.3 * kMm;
-  Scene scene(scenes::bowl(R), GetParam());
+  Scene scene(phantom::bowl(R), GetParam());
   const Vec3 a(1, 0, 0), b = Vec3(0, 0.8, 0.6);
   const auto on = [&](double s) { return Vec3(std::cos(2 * s) * a + std::sin(2 * s) * b); };
   const Worst worst = stroke(
@@ -101,7 +101,7 @@ TEST_P(Truth, StaysInsideABowlAndIsPushedInward) {
 
 TEST_P(Truth, ABallInACavityOfItsOwnSizeDoesNotMove) {
   const double r = 3 * kMm;
-  Scene scene(scenes::bowl(r + 0.02 * kMm), GetParam());
+  Scene scene(phantom::bowl(r + 0.02 * kMm), GetParam());
   Proxy proxy(scene.surface, {.radius = r}, Vec3::Zero());
   std::mt19937 random(7);
   std::normal_distribution<double> push(0, 1 * kMm);
@@ -116,7 +116,7 @@ TEST_P(Truth, ABallInACavityOfItsOwnSizeDoesNotMove) {
 // AnEdgeBetweenVoxelsIsChamferedByLessThanOne.
 TEST_P(Truth, TurnsRoundTheEdgeOfABoxContinuously) {
   const double b = 5 * kMm + GetParam() / 2 * kMm, r = 1.5 * kMm, deep = 0.3 * kMm;
-  Scene scene(scenes::box(Vec3::Constant(b)), GetParam());
+  Scene scene(phantom::box(Vec3::Constant(b)), GetParam());
   // from the top face over the edge x = z = b down the side, 0.3 mm inside the true rounded path
   const double quarter = M_PI / 2 * r, total = 4 * kMm + quarter + 4 * kMm;
   const auto way = [&](double s, double radius) {
@@ -155,7 +155,7 @@ TEST_P(Truth, AnEdgeBetweenVoxelsIsChamferedByLessThanOne) {
   const double r = 1.5 * kMm;
   for (const double shift : {0.0, 0.125, 0.25, 0.375}) {
     const double b = 5 * kMm + shift * GetParam() * kMm;
-    Scene scene(scenes::box(Vec3::Constant(b)), GetParam());
+    Scene scene(phantom::box(Vec3::Constant(b)), GetParam());
     const Vec3 u = Vec3(1, 0, 1).normalized(), edge(b, 0.3 * kMm, b);
     Proxy proxy(scene.surface, {.radius = r}, edge + (r + 1 * kMm) * u);
     Touch touch;
@@ -168,7 +168,7 @@ TEST_P(Truth, AnEdgeBetweenVoxelsIsChamferedByLessThanOne) {
 
 TEST_P(Truth, RestsOnTheCornerOfABox) {
   const double b = 5 * kMm + GetParam() / 2 * kMm, r = 1.5 * kMm;
-  Scene scene(scenes::box(Vec3::Constant(b)), GetParam());
+  Scene scene(phantom::box(Vec3::Constant(b)), GetParam());
   const Vec3 u = Vec3(1, 1, 1).normalized(), corner = Vec3::Constant(b);
   Proxy proxy(scene.surface, {.radius = r}, corner + (r + 1 * kMm) * u);
   Touch touch;
@@ -180,7 +180,7 @@ TEST_P(Truth, RestsOnTheCornerOfABox) {
 
 TEST_P(Truth, RestsInANinetyDegreeGroove) {
   const double r = 1.5 * kMm;
-  Scene scene(scenes::groove(M_PI / 4), GetParam());
+  Scene scene(phantom::groove(M_PI / 4), GetParam());
   const auto truth = [&](const Vec3& x) { return Vec3(0, x.y(), r / std::sin(M_PI / 4)); };
   const Worst worst = stroke(
       scene, r, Vec3(0, -4 * kMm, 6 * kMm),
@@ -193,7 +193,7 @@ TEST_P(Truth, RestsInANinetyDegreeGroove) {
 
 TEST_P(Truth, StrokesATorus) {
   const double ring = 6 * kMm, tube = 2 * kMm, r = 1.5 * kMm, deep = 0.3 * kMm;
-  Scene scene(scenes::torus(ring, tube), GetParam());
+  Scene scene(phantom::torus(ring, tube), GetParam());
   const auto centre_line = [&](const Vec3& x) {
     const Vec3 flat(x.x(), x.y(), 0);
     return Vec3(ring * flat.normalized());
@@ -217,7 +217,7 @@ TEST_P(Truth, StrokesATorus) {
 
 TEST_P(Truth, RestsInTheHoleOfATorus) {
   const double ring = 4 * kMm, tube = 2 * kMm, r = 3 * kMm;
-  Scene scene(scenes::torus(ring, tube), GetParam());
+  Scene scene(phantom::torus(ring, tube), GetParam());
   Proxy proxy(scene.surface, {.radius = r}, {0, 0, 8 * kMm});
   Touch touch;
   for (int n = 0; n < 600; ++n)
@@ -229,7 +229,7 @@ TEST_P(Truth, RestsInTheHoleOfATorus) {
 
 TEST_P(Truth, SitsBetweenTwoBallsSymmetrically) {
   const double rho = 3 * kMm, D = 3.5 * kMm, r = 1.5 * kMm;
-  Scene scene(scenes::two_balls(rho, D), GetParam());
+  Scene scene(phantom::two_balls(rho, D), GetParam());
   Proxy proxy(scene.surface, {.radius = r}, {0, 0, 8 * kMm});
   Touch touch;
   for (int n = 0; n < 600; ++n)
@@ -244,7 +244,7 @@ TEST_P(Truth, SitsBetweenTwoBallsSymmetrically) {
 // smooth surface.
 TEST_P(Truth, TheForceOfADeepPushPullsToTheExactPlace) {
   const double R = 5 * kMm, r = 1.5 * kMm, deep = 1 * kMm;
-  Scene scene(scenes::ball(R), GetParam());
+  Scene scene(phantom::ball(R), GetParam());
   Proxy proxy(scene.surface, {.radius = r}, {0, 0, 8 * kMm});
   double worst = 0, worst_proxy = 0;
   for (int n = 0; n <= 2000; ++n) {
@@ -271,7 +271,7 @@ TEST(Proxy, AMillionTicksAtUpToTenMillimetresNeverCrossAThinPlate) {
   constexpr unsigned kSeed = 20260817;
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);
   const Vec3 n = Vec3(0.2, 0.3, 1).normalized();
-  Scene scene(scenes::plate(0.6 * kMm, n), 0.3);
+  Scene scene(phantom::plate(0.6 * kMm, n), 0.3);
   std::mt19937 random(kSeed);
   std::uniform_real_distribution<double> speed(0, 10 * kMm), side(-7 * kMm, 7 * kMm);
   std::normal_distribution<double> turn(0, 1);
@@ -296,7 +296,7 @@ TEST(Proxy, AMillionTicksAtUpToTenMillimetresNeverCrossAThinPlate) {
 TEST(Proxy, WandersOverPorousBoneAndIsNeverInside) {
   constexpr unsigned kSeed = 11;
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);
-  Scene scene(scenes::gyroid(4 * kMm), 0.2, 8);
+  Scene scene(phantom::gyroid(4 * kMm), 0.2, 8);
   std::mt19937 random(kSeed);
   std::normal_distribution<double> stray(0, 0.4 * kMm);
   const double r = 0.6 * kMm;
@@ -320,7 +320,7 @@ TEST(Proxy, WandersOverPorousBoneAndIsNeverInside) {
 }
 
 TEST(Proxy, FollowsAFastHandThroughFreeAirWithoutForce) {
-  Scene scene(scenes::slab(), 0.5);
+  Scene scene(phantom::slab(), 0.5);
   Proxy proxy(scene.surface, {.radius = 1 * kMm}, {0, 0, 9 * kMm});
   for (int n = 0; n < 100; ++n) {
     const Vec3 hand(10 * kMm * (n % 2), 0, 9 * kMm);
@@ -336,7 +336,7 @@ TEST(Proxy, FollowsAFastHandThroughFreeAirWithoutForce) {
 class Friction : public testing::Test {
  protected:
   static constexpr double r = 1.5 * kMm, deep = 0.4 * kMm;
-  Scene scene{scenes::slab(), 0.25};
+  Scene scene{phantom::slab(), 0.25};
   [[nodiscard]] Proxy& pressed(double mu_s, double mu_k) {
     proxy_.emplace(scene.surface,
                    ProxySettings{.radius = r, .friction_static = mu_s, .friction_kinetic = mu_k},
@@ -387,7 +387,7 @@ TEST_F(Friction, DoesNotDriftInAMinuteOfSticking) {
 }
 
 TEST_F(Friction, AGrooveHoldsHarder) {  // |F_t| <= mu sum N_i = mu F / sin A
-  Scene groove(scenes::groove(M_PI / 4), 0.25);
+  Scene groove(phantom::groove(M_PI / 4), 0.25);
   const double mu = 0.3, z = r / std::sin(M_PI / 4);
   Proxy proxy(groove.surface, {.radius = r, .friction_static = mu, .friction_kinetic = mu},
               {0, 0, 6 * kMm});
@@ -403,7 +403,7 @@ TEST_F(Friction, AGrooveHoldsHarder) {  // |F_t| <= mu sum N_i = mu F / sin A
 // ---- the tick is sacred
 
 TEST(Proxy, TakesNeitherMemoryNorLock) {
-  Scene scene(scenes::ball(5 * kMm), 0.25);
+  Scene scene(phantom::ball(5 * kMm), 0.25);
   Proxy proxy(scene.surface,
               {.radius = 1.5 * kMm, .friction_static = 0.3, .friction_kinetic = 0.25},
               {0, 0, 8 * kMm});

@@ -24,7 +24,7 @@
 #include <thread>
 #include <vector>
 
-#include "burr/io/read_scan.h"
+#include "burr/io/read/read_scan.h"
 #include "io/folder.h"
 #include "support/data.h"
 

@@ -1,7 +1,7 @@
 // The fence for real: a reader that crashes, hangs, eats memory, reaches for files, network and
 // other programs, or lies about what it read (naughty/naughty_reader.cpp), asked through
 // io::read_scan like any other. Each ends in its sentence, and nothing else happens.
-#include "burr/io/fence.h"
+#include "burr/io/sandbox/fence.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -19,8 +19,8 @@
 #include <thread>
 #include <vector>
 
-#include "burr/io/fence_walls.h"
-#include "burr/io/read_scan.h"
+#include "burr/io/read/read_scan.h"
+#include "burr/io/sandbox/fence_walls.h"
 #include "io/folder.h"
 #include "support/data.h"
 

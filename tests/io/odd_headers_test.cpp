@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "burr/io/import.h"
-#include "burr/io/read_scan.h"
+#include "burr/importing/import.h"
+#include "burr/io/read/read_scan.h"
 #include "io/folder.h"
 
 namespace burr::io {
@@ -104,9 +104,9 @@ TEST_F(OddHeader, AColourInATableOfTissuesMustBeNumbers) {
       file("a.nrrd",
            "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 16 16 16\nencoding: raw\n\n" + voxels));
   ASSERT_TRUE(scan.ok()) << scan.error().text;
-  ImportOptions options;
+  importing::ImportOptions options;
   options.tissue_table = file("t.toml", "[[label]]\nvalue = 1\ncolour = [nan, 0, inf]\n");
-  const auto plan = plan_import(*scan, options);
+  const auto plan = importing::plan_import(*scan, options);
   ASSERT_FALSE(plan.ok());
   EXPECT_TRUE(has(plan.error().text, "t.toml: label 1: colour needs three numbers"));
 }

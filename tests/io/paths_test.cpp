@@ -9,8 +9,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "burr/io/read_scan.h"
-#include "burr/io/readers.h"
+#include "burr/io/read/read_scan.h"
+#include "burr/io/read/readers.h"
 #include "io/folder.h"
 #include "support/data.h"
 

@@ -1,4 +1,4 @@
-#include "burr/io/read_scan.h"
+#include "burr/io/read/read_scan.h"
 
 #include <gtest/gtest.h>
 

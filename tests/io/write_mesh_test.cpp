@@ -1,4 +1,4 @@
-#include "burr/io/write_mesh.h"
+#include "burr/io/write/write_mesh.h"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>

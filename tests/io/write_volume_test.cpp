@@ -1,4 +1,4 @@
-#include "burr/io/write_volume.h"
+#include "burr/io/write/write_volume.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>

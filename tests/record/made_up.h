@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "burr/record/recorder.h"
-#include "burr/record/rows.h"
 #include "burr/record/session_info.h"
+#include "burr/tick/rows.h"
 
 namespace burr::record::test {
 
@@ -83,8 +83,8 @@ inline math::Vec3 any_vec3(Random& random) {
   return {x, y, z};
 }
 
-inline TickRow any_tick(std::uint64_t tick, Random& random) {
-  TickRow row;
+inline tick::TickRow any_tick(std::uint64_t tick, Random& random) {
+  tick::TickRow row;
   row.tick = tick;
   row.hand.world_from_tool.p = any_vec3(random);
   row.hand.world_from_tool.q.coeffs() << any_vec3(random), any(random);
@@ -112,7 +112,7 @@ inline TickRow any_tick(std::uint64_t tick, Random& random) {
 }
 
 // the same bits, NaN included, whatever the padding
-inline void expect_same(const TickRow& a, const TickRow& b) {
+inline void expect_same(const tick::TickRow& a, const tick::TickRow& b) {
   const auto same = [](double x, double y) {
     return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
   };
@@ -187,15 +187,15 @@ inline SessionInfo info_of(const volume::Bone& bone, Random& random) {
 }
 
 // What the servo would do to a bone at one tick: nibble at some bricks, now and then deposit.
-inline std::vector<BrickRow> nibble(volume::Bone& bone, std::uint64_t tick, Random& random) {
-  std::vector<BrickRow> rows;
+inline std::vector<tick::BrickRow> nibble(volume::Bone& bone, std::uint64_t tick, Random& random) {
+  std::vector<tick::BrickRow> rows;
   for (std::uint64_t i = random() % 3; i > 0; --i) {
     const auto brick =
         static_cast<volume::BrickIndex>(random() % static_cast<std::uint64_t>(bone.brick_count()));
     const bool deposit = random() % 8 == 0;
     if (bone.brick_field(brick) == nullptr && !deposit) continue;
     if (bone.ensure_slot(brick) == volume::kNoSlot) continue;
-    BrickRow row;
+    tick::BrickRow row;
     row.tick = tick;
     row.brick = brick;
     std::copy_n(bone.brick_field(brick), volume::kBrickVoxels, row.field.voxel);
@@ -218,9 +218,9 @@ inline std::vector<BrickRow> nibble(volume::Bone& bone, std::uint64_t tick, Rand
 // Everything a made-up session was, to compare with.
 struct Truth {
   SessionInfo info;
-  std::vector<TickRow> ticks;
-  std::vector<WishRow> wishes;
-  std::vector<BrickRow> bricks;
+  std::vector<tick::TickRow> ticks;
+  std::vector<tick::WishRow> wishes;
+  std::vector<tick::BrickRow> bricks;
   RecordingAccount account;
 };
 
@@ -237,10 +237,10 @@ inline Truth record_any(const std::string& path, std::uint64_t count, double rat
     recorder.wait_for_room();
     if (random() % 50 == 0)
       for (std::uint64_t i = random() % 3; i > 0; --i) {
-        truth.wishes.push_back({tick, {static_cast<WishKind>(random() % 9), any(random)}});
+        truth.wishes.push_back({tick, {static_cast<tick::WishKind>(random() % 9), any(random)}});
         EXPECT_TRUE(recorder.wishes().push(truth.wishes.back()));
       }
-    for (const BrickRow& row : nibble(bone, tick, random)) {
+    for (const tick::BrickRow& row : nibble(bone, tick, random)) {
       truth.bricks.push_back(row);
       EXPECT_TRUE(recorder.bricks().push(row));
     }

@@ -12,10 +12,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "burr/record/crc32.h"
-#include "burr/record/mcap_reader.h"
-#include "burr/record/mcap_writer.h"
-#include "burr/record/packed.h"
+#include "burr/record/mcap/crc32.h"
+#include "burr/record/mcap/mcap_reader.h"
+#include "burr/record/mcap/mcap_writer.h"
+#include "burr/record/mcap/packed.h"
 #include "burr/record/schema.h"
 #include "record/made_up.h"
 

@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/record/bone_blob.h"
-#include "burr/record/crc32.h"
 #include "burr/record/find_volume.h"
 #include "burr/record/grid_json.h"
-#include "burr/record/mcap_writer.h"
-#include "burr/record/packed.h"
+#include "burr/record/mcap/crc32.h"
+#include "burr/record/mcap/mcap_writer.h"
+#include "burr/record/mcap/packed.h"
 #include "burr/record/schema.h"
 #include "record/made_up.h"
 
@@ -23,7 +23,7 @@ using namespace test;
 
 // The bone as it was after a tick, from the truth.
 std::uint64_t hash_after(const Truth& truth, std::uint64_t tick, volume::Bone& bone) {
-  for (const BrickRow& row : truth.bricks) {
+  for (const tick::BrickRow& row : truth.bricks) {
     if (row.tick > tick) break;
     EXPECT_NE(bone.ensure_slot(row.brick), volume::kNoSlot);
     bone.write_brick(row.brick, row.field);
@@ -156,14 +156,15 @@ TEST(Player, OpensAnyMomentOfTenMinutesAtOnce) {
   const auto cut = any_bone(random, 500);
   const std::string path = folder / "long.mcap";
   {
-    const TickRow row = any_tick(0, random);
+    const tick::TickRow row = any_tick(0, random);
     Recorder recorder(1000);
     ASSERT_TRUE(recorder.start(path, info_of(*cut, random)).ok());
     for (std::uint64_t tick = 0; tick < 600'000; ++tick) {
       recorder.wait_for_room();
       if (tick % 20 == 0)
-        for (const BrickRow& brick : nibble(*cut, tick, random)) recorder.bricks().push(brick);
-      TickRow mine = row;
+        for (const tick::BrickRow& brick : nibble(*cut, tick, random))
+          recorder.bricks().push(brick);
+      tick::TickRow mine = row;
       mine.tick = tick;
       mine.hash = tick;
       recorder.ticks().push(mine);
@@ -293,13 +294,13 @@ TEST(Player, OpensARecordingOfNothingButWishesAtOnce) {
   const auto wishes = writer.add_channel(kWishes.name, "json", 0);
   writer.add_message(*session, 0, 0, as_bytes(to_json(info_of(*any_bone(random), random))));
   BytesOut rows;
-  const TickRow row = any_tick(3, random);
+  const tick::TickRow row = any_tick(3, random);
   encode_ticks({&row, 1}, rows);
   writer.add_message(*ticks, 0, 0, rows.span());
   ASSERT_TRUE(writer.close_chunk().ok());
   constexpr std::uint64_t kWishChunks = 15'000;
   for (std::uint64_t n = 0; n < kWishChunks; ++n) {
-    const std::string wish = to_json(WishRow{n, {WishKind::undo, 0}});
+    const std::string wish = to_json(tick::WishRow{n, {tick::WishKind::undo, 0}});
     writer.add_message(*wishes, 0, 1'000'000 * n, as_bytes(wish));
     ASSERT_TRUE(writer.close_chunk().ok());
   }

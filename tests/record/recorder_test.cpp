@@ -31,7 +31,7 @@ void expect_same_rows(Player& player, const Truth& truth) {
     ASSERT_LT(tick, truth.ticks.size());
     expect_same(step.row, truth.ticks[tick]);
     EXPECT_FALSE(step.gap);
-    for (const Wish& got : step.wishes) {
+    for (const tick::Wish& got : step.wishes) {
       ASSERT_LT(wish, truth.wishes.size());
       EXPECT_EQ(truth.wishes[wish].tick, step.row.tick);
       EXPECT_EQ(truth.wishes[wish].wish.kind, got.kind);
@@ -47,11 +47,11 @@ void expect_same_rows(Player& player, const Truth& truth) {
   EXPECT_EQ(wish, truth.wishes.size());
 
   BrickCursor bricks = player.bricks();
-  BrickRow row;
+  tick::BrickRow row;
   std::size_t brick = 0;
   while (bricks.next(row)) {
     ASSERT_LT(brick, truth.bricks.size());
-    const BrickRow& want = truth.bricks[brick++];
+    const tick::BrickRow& want = truth.bricks[brick++];
     ASSERT_EQ(row.tick, want.tick);
     ASSERT_EQ(row.brick, want.brick);
     ASSERT_EQ(std::memcmp(&row.field, &want.field, sizeof row.field), 0);
@@ -112,15 +112,16 @@ TEST(Recorder, TheSessionIsDescribedToTheBit) {
 
 TEST(Recorder, EveryFieldOfATickHasAColumn) {
   // what is in the structs but in no column would be lost in silence: sizes must add up
-  TickRow row;
+  tick::TickRow row;
   std::size_t fields = sizeof row.tick + sizeof row.spindle_rad_s + sizeof row.cutting_nm +
                        sizeof row.cutting_w + sizeof row.took_us + sizeof row.late_us +
                        sizeof row.hash;
   fields += sizeof(edit::Ledger);       // doubles only, no padding
   fields += sizeof(device::HandState);  // has 3 byte of padding after `valid`
   fields += sizeof(haptics::Contact);   // 3 byte after `touching`
-  EXPECT_EQ(fields, sizeof(TickRow)) << "a new field in TickRow: add its column in schema.cpp";
-  EXPECT_EQ(tick_columns_size(), sizeof(TickRow) - 3 - 3)
+  EXPECT_EQ(fields, sizeof(tick::TickRow))
+      << "a new field in TickRow: add its column in schema.cpp";
+  EXPECT_EQ(tick_columns_size(), sizeof(tick::TickRow) - 3 - 3)
       << "a new field in HandState, Contact or Ledger: add its column in schema.cpp";
 }
 
@@ -130,8 +131,8 @@ TEST(Recorder, ThePushesOfATickNeitherAllocateNorLock) {
   const Folder folder;
   Recorder recorder(1000);
   ASSERT_TRUE(recorder.start(folder / "s.mcap", info_of(*bone, random)).ok());
-  const TickRow tick = any_tick(0, random);
-  const BrickRow brick{.tick = 0, .brick = 3};
+  const tick::TickRow tick = any_tick(0, random);
+  const tick::BrickRow brick{.tick = 0, .brick = 3};
   {
     const burr::test::RtGuard guard;
     for (int i = 0; i < 100; ++i) {

@@ -71,18 +71,18 @@ TEST(Timeline, KeepsWhatPeopleWishedButNotWhatTheServoPutOff) {
   TimelineMaker maker(500, 1000);
   for (std::uint64_t tick = 0; tick < 1000; ++tick) {
     Step step = step_at(tick, 0, 0);
-    if (tick == 100) step.wishes = {{WishKind::load, 2}, {WishKind::burr_radius, 2e-3}};
-    if (tick == 400) step.wishes = {{WishKind::undo, 0}, {WishKind::burr_radius, 1e-3}};
+    if (tick == 100) step.wishes = {{tick::WishKind::load, 2}, {tick::WishKind::burr_radius, 2e-3}};
+    if (tick == 400) step.wishes = {{tick::WishKind::undo, 0}, {tick::WishKind::burr_radius, 1e-3}};
     maker.add(step);
   }
   const Timeline line = maker.finish();
   ASSERT_EQ(line.events.size(), 3U);
   EXPECT_DOUBLE_EQ(line.events[0].t_s, 0.2);
-  EXPECT_EQ(line.events[1].wish.kind, WishKind::undo);
-  EXPECT_FALSE(line.wished(WishKind::burr_radius, 0.19).has_value());
-  EXPECT_EQ(line.wished(WishKind::burr_radius, 0.2), 2e-3);
-  EXPECT_EQ(line.wished(WishKind::burr_radius, 0.799), 2e-3);
-  EXPECT_EQ(line.wished(WishKind::burr_radius, 1.9), 1e-3);
+  EXPECT_EQ(line.events[1].wish.kind, tick::WishKind::undo);
+  EXPECT_FALSE(line.wished(tick::WishKind::burr_radius, 0.19).has_value());
+  EXPECT_EQ(line.wished(tick::WishKind::burr_radius, 0.2), 2e-3);
+  EXPECT_EQ(line.wished(tick::WishKind::burr_radius, 0.799), 2e-3);
+  EXPECT_EQ(line.wished(tick::WishKind::burr_radius, 1.9), 1e-3);
   EXPECT_FALSE(line.work.has_value()) << "nothing was cut";
 }
 
@@ -114,11 +114,12 @@ TEST(Timeline, OfARecordingIsThatOfItsRows) {
   ASSERT_TRUE(line.ok()) << line.error().text;
   EXPECT_DOUBLE_EQ(line->seconds, 6);
   double peak = 0;
-  for (const TickRow& row : truth.ticks)
+  for (const tick::TickRow& row : truth.ticks)
     if (std::isfinite(row.contact.force.norm())) peak = std::max(peak, row.contact.force.norm());
   EXPECT_DOUBLE_EQ(line->peak_force, peak);
   std::size_t wishes = 0;
-  for (const WishRow& row : truth.wishes) wishes += row.wish.kind != WishKind::load ? 1 : 0;
+  for (const tick::WishRow& row : truth.wishes)
+    wishes += row.wish.kind != tick::WishKind::load ? 1 : 0;
   EXPECT_EQ(line->events.size(), wishes);
 }
 

@@ -28,7 +28,7 @@ Truth record_in_chunks(const std::string& path, int chunks, std::uint64_t ticks_
   std::uint64_t tick = 0;
   for (int c = 0; c < chunks; ++c) {
     for (std::uint64_t i = 0; i < ticks_each; ++i, ++tick) {
-      for (const BrickRow& row : nibble(bone, tick, random)) {
+      for (const tick::BrickRow& row : nibble(bone, tick, random)) {
         truth.bricks.push_back(row);
         recorder.bricks().push(row);
       }
@@ -300,7 +300,7 @@ TEST(Damaged, RandomBytesNeverCrashNorMakeUsTakeWhatTheyPromise) {
     while (steps.next(step)) {
     }
     BrickCursor bricks = (*player)->bricks();
-    BrickRow row;
+    tick::BrickRow row;
     while (bricks.next(row)) {
     }
     static_cast<void>((*player)->tick_at(0.01));

@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/coarse_mesh.h"
 #include "burr/render/coarsening.h"
@@ -19,8 +21,6 @@
 #include "burr/surface/mesher.h"
 #include "render/gpu.h"
 #include "render/shapes.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 
 namespace burr::render {
 namespace {
@@ -37,14 +37,14 @@ Scene cave() {
   table.tissues.push_back(table.tissues[1]);
   table.tissues[2].name = "other";
   table.tissues[2].colour = {0.2F, 0.4F, 0.9F};
-  scenes::Formula formula;
-  formula.depth = scenes::common(scenes::box(Vec3::Constant(12 * kMm)), scenes::bowl(9 * kMm));
+  phantom::Formula formula;
+  formula.depth = phantom::common(phantom::box(Vec3::Constant(12 * kMm)), phantom::bowl(9 * kMm));
   formula.tissue = [](const Vec3& p, double) {
     return static_cast<volume::TissueId>(p.x() + 0.4 * p.z() > 1 * kMm ? 2 : 1);
   };
-  auto bone = scenes::bone_from_formula(
-      scenes::box_grid(Vec3::Constant(-14 * kMm), Vec3::Constant(14 * kMm), kVoxel), table, formula,
-      0, 2, quiet);
+  auto bone = phantom::bone_from_formula(
+      phantom::box_grid(Vec3::Constant(-14 * kMm), Vec3::Constant(14 * kMm), kVoxel), table,
+      formula, 0, 2, quiet);
   EXPECT_TRUE(bone.ok());
   Scene scene;
   EXPECT_TRUE(skin_bone(scene, **bone, 2, quiet).ok());
@@ -55,7 +55,7 @@ Scene cave() {
 // patches of its grid along each axis
 math::Ijk cave_patches() {
   const volume::Grid grid =
-      scenes::box_grid(Vec3::Constant(-14 * kMm), Vec3::Constant(14 * kMm), kVoxel);
+      phantom::box_grid(Vec3::Constant(-14 * kMm), Vec3::Constant(14 * kMm), kVoxel);
   const volume::Bone bone(grid, volume::TissueTable{}, 1, 0, false);
   return surface::Mesher(bone).patches();
 }

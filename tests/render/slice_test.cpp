@@ -12,8 +12,8 @@
 #include <random>
 #include <thread>
 
-#include "scenes/build.h"
-#include "scenes/shapes.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 
 namespace burr::render {
 namespace {
@@ -24,8 +24,8 @@ constexpr double kMm = 1e-3;
 // A ball of 6 mm that lies to the left, in front and above.
 const Vec3 kCentre = {5 * kMm, -4 * kMm, 3 * kMm};
 std::unique_ptr<volume::Bone> bone() {
-  return scenes::bone_from_distance(scenes::cube_grid(30 * kMm, 100), {},
-                                    scenes::ball(6 * kMm, kCentre), 64);
+  return phantom::bone_from_distance(phantom::cube_grid(30 * kMm, 100), {},
+                                     phantom::ball(6 * kMm, kCentre), 64);
 }
 
 bool light(const Image& image, std::size_t at) { return image.rgb[3 * at] > 115; }
@@ -104,8 +104,8 @@ TEST(Slice, FollowsTheCut) {
 TEST(Slice, ColoursTissuesAndCanLeaveThatOut) {
   volume::TissueTable table;
   table.tissues[1].colour = {0, 0, 1};
-  auto ball =
-      scenes::bone_from_distance(scenes::cube_grid(30 * kMm, 60), table, scenes::ball(6 * kMm), 64);
+  auto ball = phantom::bone_from_distance(phantom::cube_grid(30 * kMm, 60), table,
+                                          phantom::ball(6 * kMm), 64);
   Slicer slicer(*ball);
   Slice slice;
   Image image{21, 21, {}};

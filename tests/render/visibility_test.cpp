@@ -10,15 +10,15 @@
 #include <string>
 #include <thread>
 
+#include "burr/phantom/build.h"
+#include "burr/phantom/phantoms.h"
+#include "burr/phantom/shapes.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/camera.h"
 #include "burr/render/coarsening.h"
 #include "burr/render/depth_tiles.h"
 #include "burr/surface/mesher.h"
 #include "render/gpu.h"
-#include "scenes/build.h"
-#include "scenes/phantoms.h"
-#include "scenes/shapes.h"
 
 namespace burr::render {
 namespace {
@@ -183,10 +183,10 @@ void expect_same(const Scene& scene, const Image& whole, const Image& seen) {
 Scene sponge() {
   NoProgress quiet;
   const double voxel = 0.25 * kMm;
-  const auto bone = scenes::bone_from_distance(
-      scenes::box_grid(Vec3::Constant(-16 * kMm), Vec3::Constant(16 * kMm), voxel), {},
-      scenes::common(scenes::ball(15 * kMm), scenes::gyroid(7 * kMm)), 0, 2,
-      scenes::kGyroidSteepness);
+  const auto bone = phantom::bone_from_distance(
+      phantom::box_grid(Vec3::Constant(-16 * kMm), Vec3::Constant(16 * kMm), voxel), {},
+      phantom::common(phantom::ball(15 * kMm), phantom::gyroid(7 * kMm)), 0, 2,
+      phantom::kGyroidSteepness);
   Scene scene;
   EXPECT_TRUE(skin_bone(scene, *bone, 2, quiet).ok());
   scene.look.plain = true;
@@ -259,7 +259,7 @@ TEST_P(VisibilityOf, NoViewLacksWhatCouldBeSeen) {
   NoProgress quiet;
   const double coarser = GetParam() == "skull" ? 3 : 2;  // the largest
   const auto bone =
-      scenes::phantom(GetParam(), coarser * scenes::default_voxel_mm(GetParam()), quiet);
+      phantom::phantom(GetParam(), coarser * phantom::default_voxel_mm(GetParam()), quiet);
   ASSERT_TRUE(bone.ok()) << bone.error().text;
   Scene scene;
   ASSERT_TRUE(skin_bone(scene, **bone, 2, quiet).ok());
@@ -298,7 +298,7 @@ TEST_P(VisibilityOf, NoViewLacksWhatCouldBeSeen) {
 
 std::vector<std::string> all_phantoms() {
   std::vector<std::string> names;
-  for (const std::string_view name : scenes::phantom_names()) names.emplace_back(name);
+  for (const std::string_view name : phantom::phantom_names()) names.emplace_back(name);
   return names;
 }
 INSTANTIATE_TEST_SUITE_P(Bones, VisibilityOf, testing::ValuesIn(all_phantoms()),

@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
+#include "burr/phantom/phantoms.h"
 #include "burr/volume/pyramid.h"
-#include "scenes/phantoms.h"
 
 namespace burr::scenario {
 namespace {
@@ -165,7 +165,7 @@ TEST(Case, TheBuiltInOnesFitTheirBones) {
     EXPECT_FALSE(read->description.empty());
     EXPECT_GE(read->burr.radius, 2 * read->voxel) << "too coarse for the burr";
     NoProgress nobody;
-    auto bone = scenes::phantom(read->phantom, 1600 * read->voxel, nobody, 0);
+    auto bone = phantom::phantom(read->phantom, 1600 * read->voxel, nobody, 0);
     ASSERT_TRUE(bone.ok()) << bone.error().text;
     const Status fits = check_tissues(*read, (*bone)->tissues());
     EXPECT_TRUE(fits.ok()) << fits.error().text;

@@ -36,17 +36,17 @@
 
 #include "burr/base/progress.h"
 #include "burr/device/simulated_hand.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
 #include "burr/record/repair.h"
-#include "burr/record/tick_hash.h"
 #include "burr/rt/clock.h"
-#include "burr/sim/motion.h"
 #include "burr/sim/replay.h"
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
+#include "burr/surgeon/motion.h"
+#include "burr/tick/tick_hash.h"
 
 namespace burr::sim {
 namespace {
@@ -93,7 +93,7 @@ class CountingHand final : public device::Device {
 };
 
 std::unique_ptr<volume::Bone> small_bone() {
-  return scenes::bone_from_distance(scenes::cube_grid(16e-3, 48), {}, scenes::slab(), 64, 1);
+  return phantom::bone_from_distance(phantom::cube_grid(16e-3, 48), {}, phantom::slab(), 64, 1);
 }
 
 // How long the thread named "pen" has waited for a processor so far  [ns]; -1: nobody says.
@@ -127,16 +127,17 @@ double stolen_ms() {
   // an ordinary user gets no priority from the kernel
   if (humble && (::setgid(65534) != 0 || ::setuid(65534) != 0)) ::_exit(10);
   Random random(seed);
-  const auto names = motion_names();
+  const auto names = surgeon::motion_names();
   SessionSettings settings;
   settings.servo.burr.radius = 1.5e-3;
   settings.servo.undo_bricks = 1024;
   settings.realtime = realtime;
   settings.threads = 1;
   auto bone = small_bone();
-  const auto place = find_work_place(*bone, settings.servo.burr.radius, {}, {});
+  const auto place = surgeon::find_work_place(*bone, settings.servo.burr.radius, {}, {});
   if (!place) ::_exit(11);
-  auto path = motion(names[random() % names.size()], *place, settings.servo.burr.radius, 200.0);
+  auto path =
+      surgeon::motion(names[random() % names.size()], *place, settings.servo.burr.radius, 200.0);
   if (!path) ::_exit(12);
   // in the bone soon, not after the long way of a built-in motion
   for (device::PathPoint& point : path->points) point.t *= 0.25;
@@ -155,19 +156,19 @@ double stolen_ms() {
   session.set_recorder(&recorder);
   told.started = true;
   session.start();
-  const record::WishKind kinds[] = {record::WishKind::undo,      record::WishKind::redo,
-                                    record::WishKind::reset,     record::WishKind::stiffness,
-                                    record::WishKind::tool_mode, record::WishKind::spindle_speed};
+  const tick::WishKind kinds[] = {tick::WishKind::undo,      tick::WishKind::redo,
+                                  tick::WishKind::reset,     tick::WishKind::stiffness,
+                                  tick::WishKind::tool_mode, tick::WishKind::spindle_speed};
   while (session.running()) {
     told.safe = recorder.safe_ticks();
     told.refused = recorder.ticks().dropped();
     told.waited_ns = waited_by_pen();
     if (random() % 16 == 0) {
-      const record::WishKind kind = kinds[random() % std::size(kinds)];
-      const double value = kind == record::WishKind::stiffness
+      const tick::WishKind kind = kinds[random() % std::size(kinds)];
+      const double value = kind == tick::WishKind::stiffness
                                ? 300 + 100 * static_cast<double>(random() % 8)
-                           : kind == record::WishKind::tool_mode ? static_cast<double>(random() % 2)
-                                                                 : 4000;
+                           : kind == tick::WishKind::tool_mode ? static_cast<double>(random() % 2)
+                                                               : 4000;
       session.wish({kind, value});
     }
     std::this_thread::sleep_for(2ms);
@@ -209,7 +210,7 @@ void judge(const std::string& file, const Told& told, bool realtime, double stol
   record::Step step;
   std::uint64_t hash = 0;
   while (steps.next(step)) {
-    hash = record::tick_hash(step.row, hash);
+    hash = tick::tick_hash(step.row, hash);
     ASSERT_EQ(hash, step.row.hash) << "tick " << step.row.tick;
   }
 

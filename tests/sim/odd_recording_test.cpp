@@ -9,13 +9,13 @@
 #include <limits>
 
 #include "burr/device/replayed_hand.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
-#include "burr/sim/motion.h"
 #include "burr/sim/replay.h"
 #include "burr/sim/session_words.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
+#include "burr/surgeon/motion.h"
 
 namespace burr::sim {
 namespace {
@@ -33,8 +33,9 @@ class Odd : public testing::Test {
 };
 
 std::unique_ptr<volume::Bone> slab() {
-  return scenes::bone_from_distance(
-      scenes::box_grid(Vec3::Constant(-4e-3), Vec3::Constant(4e-3), 0.5e-3), {}, scenes::slab(), 8);
+  return phantom::bone_from_distance(
+      phantom::box_grid(Vec3::Constant(-4e-3), Vec3::Constant(4e-3), 0.5e-3), {}, phantom::slab(),
+      8);
 }
 
 record::SessionInfo usual(const volume::Bone& bone) {
@@ -84,8 +85,8 @@ TEST_F(Odd, AReplayAsksForNoBrickThatIsNotThere) {
     state.world_from_tool.p = {0, 0, 3e-3};
     hand.set(state);
     volume::IsoVertices surface(*bone, recorded->settings.surface, 1, quiet);
-    Servo servo(*bone, surface, hand, recorded->settings.servo);
-    record::BrickRow row;
+    tick::Servo servo(*bone, surface, hand, recorded->settings.servo);
+    tick::BrickRow row;
     row.brick = brick;
     ASSERT_TRUE(recorder.bricks().push(row));
     ASSERT_TRUE(recorder.ticks().push(servo.tick(false)));
@@ -104,7 +105,7 @@ TEST_F(Odd, APathThatCannotBeMeantIsRefusedWithItsLine) {
   const auto refusal = [&](const std::string& text) {
     const std::string file = (folder / "p.csv").string();
     std::ofstream(file, std::ios::binary) << text;
-    const auto path = read_path(file);
+    const auto path = surgeon::read_path(file);
     EXPECT_FALSE(path.ok()) << text;
     return path ? std::string() : path.error().text;
   };
@@ -117,7 +118,7 @@ TEST_F(Odd, APathThatCannotBeMeantIsRefusedWithItsLine) {
   const std::string head = refusal("a\x1B[2J" + std::string(100'000, 'x') + "\n");
   EXPECT_LT(head.size(), 400U);
   EXPECT_EQ(head.find('\x1B'), std::string::npos);
-  EXPECT_FALSE(read_path("/dev/zero").ok()) << "a device never ends";
+  EXPECT_FALSE(surgeon::read_path("/dev/zero").ok()) << "a device never ends";
 }
 
 }  // namespace

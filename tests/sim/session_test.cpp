@@ -15,16 +15,16 @@
 
 #include "burr/device/replayed_hand.h"
 #include "burr/device/simulated_hand.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/record/player.h"
 #include "burr/rt/simd.h"
-#include "burr/sim/motion.h"
 #include "burr/sim/replay.h"
 #include "burr/sim/session_words.h"
 #include "burr/surface/worker.h"
+#include "burr/surgeon/motion.h"
 #include "burr/volume/sample.h"
 #include "burr/volume/volume_of.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 #include "support/rt_guard.h"
 
 namespace burr::sim {
@@ -34,9 +34,9 @@ using math::Vec3;
 constexpr double kMm = 1e-3, kMm3 = 1e-9;
 
 std::unique_ptr<volume::Bone> slab(double h_mm, double half_mm = 8, std::size_t reserve = 256) {
-  return scenes::bone_from_distance(
-      scenes::box_grid(Vec3::Constant(-half_mm * kMm), Vec3::Constant(half_mm * kMm), h_mm * kMm),
-      {}, scenes::slab(), reserve);
+  return phantom::bone_from_distance(
+      phantom::box_grid(Vec3::Constant(-half_mm * kMm), Vec3::Constant(half_mm * kMm), h_mm * kMm),
+      {}, phantom::slab(), reserve);
 }
 
 struct Plan {
@@ -48,7 +48,7 @@ struct Plan {
 std::unique_ptr<Session> make(const Plan& plan, SessionSettings settings = {},
                               device::ArmSettings arm = {}, const device::DeviceSpec& hand = {}) {
   NoProgress quiet;
-  auto path = motion(plan.motion, {}, 0.5 * plan.burr_mm * kMm, plan.seconds);
+  auto path = surgeon::motion(plan.motion, {}, 0.5 * plan.burr_mm * kMm, plan.seconds);
   EXPECT_TRUE(path.ok());
   settings.servo.rate_hz = plan.rate;
   settings.servo.burr.radius = 0.5 * plan.burr_mm * kMm;
@@ -87,8 +87,7 @@ TEST(Session, ADiamondBurrByWishIsTheOneOfTheSettings) {
     SessionSettings settings;
     settings.servo.burr.kind = settled > 0 ? tool::BurrKind::diamond : tool::BurrKind::cutting;
     const auto session = make({}, settings);
-    if (wished != settled)
-      session->wish({record::WishKind::burr_kind, static_cast<double>(wished)});
+    if (wished != settled) session->wish({tick::WishKind::burr_kind, static_cast<double>(wished)});
     session->run(2, quiet);
     bones.push_back(session->bone().content_hash());
     removed.push_back(session->outcome().ledger.removed);
@@ -107,7 +106,7 @@ TEST(Session, TheSameSessionGivesTheSameBitsOnEveryInstructionSet) {
     rt::force_simd(which);
     const auto session = make({});
     session->run(2, quiet);
-    record::TickRow row;
+    tick::TickRow row;
     ASSERT_TRUE(session->view(row));
     bones.push_back(session->bone().content_hash());
     ticks.push_back(row.hash);
@@ -146,7 +145,7 @@ Plunge plunge(double h_mm, double rate, double seconds = 1.5, double drag = 1) {
       quiet);
   EXPECT_TRUE(session.ok());
   (*session)->run(0.5 + seconds, quiet);
-  record::TickRow row;
+  tick::TickRow row;
   EXPECT_TRUE((*session)->view(row));
   const Outcome outcome = (*session)->outcome();
   return {outcome.ledger.removed, r - row.contact.proxy.z(), outcome.mean_force};
@@ -190,10 +189,10 @@ TEST(Session,
 TEST(Session, UndoAndResetBringTheBoneBackWhileTheHandPressesAndNeverJump) {
   const auto session = make({.motion = "plunge", .seconds = 30});
   const std::uint64_t start = session->bone().content_hash();
-  Servo& servo = session->servo();
+  tick::Servo& servo = session->servo();
   Vec3 last = Vec3::Zero();
   const auto tick = [&] {
-    const record::TickRow& row = servo.tick(false);
+    const tick::TickRow& row = servo.tick(false);
     servo.publish();
     const double square = last.squaredNorm();
     const Vec3 kept = square > 0
@@ -206,12 +205,12 @@ TEST(Session, UndoAndResetBringTheBoneBackWhileTheHandPressesAndNeverJump) {
   };
   for (int n = 0; n < 3000; ++n) (void)tick();
   ASSERT_NE(session->bone().content_hash(), start);
-  for (const auto kind : {record::WishKind::undo, record::WishKind::reset}) {
+  for (const auto kind : {tick::WishKind::undo, tick::WishKind::reset}) {
     session->wish({kind, 0});
-    session->wish({record::WishKind::tool_mode, 2});  // and do not cut again meanwhile
+    session->wish({tick::WishKind::tool_mode, 2});  // and do not cut again meanwhile
     int ticks = 0;
     do {
-      const record::TickRow row = tick();
+      const tick::TickRow row = tick();
       EXPECT_LT(volume::sample(session->bone(),
                                session->bone().grid().grid_from_world(row.contact.proxy)),
                 0.5)
@@ -221,10 +220,10 @@ TEST(Session, UndoAndResetBringTheBoneBackWhileTheHandPressesAndNeverJump) {
     EXPECT_EQ(session->bone().content_hash(), start);
     // the hand is still deep: the burr rests on the bone again, one radius above
     for (int n = 0; n < 50; ++n) (void)tick();
-    const record::TickRow row = tick();
+    const tick::TickRow row = tick();
     EXPECT_TRUE(row.contact.touching);
     EXPECT_GT(row.contact.proxy.z(), 2 * kMm - 0.05 * kMm);
-    session->wish({record::WishKind::tool_mode, 0});
+    session->wish({tick::WishKind::tool_mode, 0});
     for (int n = 0; n < 1000; ++n) (void)tick();
     ASSERT_NE(session->bone().content_hash(), start);
   }
@@ -232,16 +231,16 @@ TEST(Session, UndoAndResetBringTheBoneBackWhileTheHandPressesAndNeverJump) {
 
 TEST(Session, TheTickTakesNeitherMemoryNorLock) {
   const auto session = make({.motion = "pocket", .seconds = 10});
-  Servo& servo = session->servo();
-  for (const auto& wish : std::initializer_list<record::Wish>{{record::WishKind::stiffness, 800}})
+  tick::Servo& servo = session->servo();
+  for (const auto& wish : std::initializer_list<tick::Wish>{{tick::WishKind::stiffness, 800}})
     session->wish(wish);
   const test::RtGuard guard;
   for (int n = 0; n < 4000; ++n) {
-    if (n == 1500) session->wish({record::WishKind::undo, 0});
-    if (n == 2200) session->wish({record::WishKind::burr_radius, 1.5 * kMm});
-    if (n == 2500) session->wish({record::WishKind::tool_mode, 1});
-    if (n == 3000) session->wish({record::WishKind::reset, 0});
-    if (n == 3500) session->wish({record::WishKind::spindle_speed, 0});
+    if (n == 1500) session->wish({tick::WishKind::undo, 0});
+    if (n == 2200) session->wish({tick::WishKind::burr_radius, 1.5 * kMm});
+    if (n == 2500) session->wish({tick::WishKind::tool_mode, 1});
+    if (n == 3000) session->wish({tick::WishKind::reset, 0});
+    if (n == 3500) session->wish({tick::WishKind::spindle_speed, 0});
     (void)servo.tick(n == 2000);
     servo.note_timing(1, 0);
     servo.publish();
@@ -260,9 +259,9 @@ TEST(Session, FuzzedHandsNeverGetMoreThanTheLimitAndNoNaN) {
   NoProgress quiet;
   volume::IsoVertices surface(*bone, {}, 1, quiet);
   device::ReplayedHand hand({});
-  ServoSettings settings;
+  tick::ServoSettings settings;
   settings.undo_bricks = 1024;
-  Servo servo(*bone, surface, hand, settings);
+  tick::Servo servo(*bone, surface, hand, settings);
   device::HandState state;
   state.world_from_tool.p = {0, 0, 6 * kMm};
   int touched = 0;
@@ -281,7 +280,7 @@ TEST(Session, FuzzedHandsNeverGetMoreThanTheLimitAndNoNaN) {
     }
     now.pedal = n / 3000 % 2;
     hand.set(now);
-    const record::TickRow& row = servo.tick(odd == 6);
+    const tick::TickRow& row = servo.tick(odd == 6);
     servo.publish();
     touched += row.contact.touching ? 1 : 0;
     ASSERT_TRUE(row.contact.force.allFinite()) << n;
@@ -295,10 +294,11 @@ TEST(Session, RefusesABurrSmallerThanTheVoxelsCanCarryWithTheCure) {
   NoProgress quiet;
   SessionSettings settings;
   settings.servo.burr.radius = 0.4 * kMm;
-  auto session = Session::make(slab(0.25),
-                               std::make_unique<device::SimulatedHand>(
-                                   *motion("stroke", {}, 0.4 * kMm, 2), device::ArmSettings{}),
-                               settings, quiet);
+  auto session =
+      Session::make(slab(0.25),
+                    std::make_unique<device::SimulatedHand>(
+                        *surgeon::motion("stroke", {}, 0.4 * kMm, 2), device::ArmSettings{}),
+                    settings, quiet);
   ASSERT_FALSE(session.ok());
   EXPECT_EQ(session.error().trouble, Trouble::usage);
   EXPECT_NE(session.error().text.find("--voxel-mm 0.2"), std::string::npos) << session.error().text;
@@ -337,8 +337,8 @@ class Replay : public testing::Test {
 TEST_F(Replay, ComesOutTheSameToTheBitWithWishesAndUndo) {
   const auto session = make({.seconds = 6});
   record(*session, 4, [&] {
-    session->wish({record::WishKind::undo, 0});
-    session->wish({record::WishKind::stiffness, 700});
+    session->wish({tick::WishKind::undo, 0});
+    session->wish({tick::WishKind::stiffness, 700});
   });
   const std::uint64_t end = session->bone().content_hash();
   NoProgress quiet;
@@ -422,7 +422,7 @@ TEST_F(Replay, AWholeSessionInRealTimeBesideSurfaceRecorderAndViewer) {
   session->set_recorder(&recorder);
   session->start();
   int views = 0;
-  record::TickRow row;
+  tick::TickRow row;
   for (int n = 0; n < 75; ++n) {
     surface::Skin skin;
     while (worker.take(skin)) {
@@ -430,7 +430,7 @@ TEST_F(Replay, AWholeSessionInRealTimeBesideSurfaceRecorderAndViewer) {
       worker.give_back(skin);
     }
     views += session->view(row) ? 1 : 0;
-    if (n == 40) session->wish({record::WishKind::undo, 0});
+    if (n == 40) session->wish({tick::WishKind::undo, 0});
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   session->stop();
@@ -445,18 +445,19 @@ TEST_F(Replay, AWholeSessionInRealTimeBesideSurfaceRecorderAndViewer) {
 // ---- where work begins
 
 TEST(Motion, FindsTheTopmostBoneUnderTheMiddleAlongItsNormal) {
-  const auto bone = scenes::bone_from_distance(
-      scenes::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), 0.25 * kMm), {},
-      scenes::ball(5 * kMm, {1 * kMm, 0, 0}));
-  auto place = find_work_place(*bone, 1 * kMm, {}, {});
+  const auto bone = phantom::bone_from_distance(
+      phantom::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), 0.25 * kMm), {},
+      phantom::ball(5 * kMm, {1 * kMm, 0, 0}));
+  auto place = surgeon::find_work_place(*bone, 1 * kMm, {}, {});
   ASSERT_TRUE(place.ok());
   EXPECT_NEAR(place->at.z(), std::sqrt(24.0) * kMm, 0.15 * kMm);
   const Vec3 inward = (Vec3(1 * kMm, 0, 0) - place->at).normalized();
   EXPECT_GT(place->into.dot(inward), 0.99);
-  auto aside = find_work_place(*bone, 1 * kMm, Vec3(6 * kMm, 0, 0), Vec3(-1, 0, 0));
+  auto aside = surgeon::find_work_place(*bone, 1 * kMm, Vec3(6 * kMm, 0, 0), Vec3(-1, 0, 0));
   ASSERT_TRUE(aside.ok());
   EXPECT_NEAR(aside->at.x(), 6 * kMm, 0.15 * kMm);
-  EXPECT_FALSE(find_work_place(*bone, 1 * kMm, Vec3(0, 7.5 * kMm, 7.5 * kMm), Vec3(1, 0, 0)).ok());
+  EXPECT_FALSE(
+      surgeon::find_work_place(*bone, 1 * kMm, Vec3(0, 7.5 * kMm, 7.5 * kMm), Vec3(1, 0, 0)).ok());
 }
 
 }  // namespace

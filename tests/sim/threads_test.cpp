@@ -13,13 +13,13 @@
 
 #include "burr/base/progress.h"
 #include "burr/device/simulated_hand.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
-#include "burr/sim/motion.h"
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
+#include "burr/surgeon/motion.h"
 
 namespace burr::sim {
 namespace {
@@ -31,13 +31,13 @@ TEST(WholeSession, EveryThreadAtOnceEndsWithOneTruth) {
       (std::filesystem::temp_directory_path() / ("burr_threads_" + std::to_string(getpid())))
           .string() +
       ".mcap";
-  auto bone = scenes::bone_from_distance(scenes::cube_grid(24e-3, 60), {}, scenes::slab(), 64);
+  auto bone = phantom::bone_from_distance(phantom::cube_grid(24e-3, 60), {}, phantom::slab(), 64);
   SessionSettings settings;
   settings.servo.burr.radius = 2e-3;
   settings.realtime = true;
-  const auto place = find_work_place(*bone, settings.servo.burr.radius, {}, {});
+  const auto place = surgeon::find_work_place(*bone, settings.servo.burr.radius, {}, {});
   ASSERT_TRUE(place) << place.error().text;
-  auto path = motion("pocket", *place, settings.servo.burr.radius, 2.0);
+  auto path = surgeon::motion("pocket", *place, settings.servo.burr.radius, 2.0);
   ASSERT_TRUE(path) << path.error().text;
 
   NoProgress quiet;
@@ -65,7 +65,7 @@ TEST(WholeSession, EveryThreadAtOnceEndsWithOneTruth) {
 
   // two seconds of looking on, and wishing
   session.start();
-  record::TickRow row;
+  tick::TickRow row;
   std::uint64_t seen = 0;
   const auto end = std::chrono::steady_clock::now() + 2s;
   bool changed = false, undone = false;
@@ -80,12 +80,12 @@ TEST(WholeSession, EveryThreadAtOnceEndsWithOneTruth) {
       worker.give_back(skin);
     }
     if (!changed && seen > 500) {
-      session.wish({record::WishKind::stiffness, 300});
-      session.wish({record::WishKind::spindle_speed, 3000});
+      session.wish({tick::WishKind::stiffness, 300});
+      session.wish({tick::WishKind::spindle_speed, 3000});
       changed = true;
     }
     if (!undone && seen > 1500) {
-      session.wish({record::WishKind::undo, 0});
+      session.wish({tick::WishKind::undo, 0});
       undone = true;
     }
     std::this_thread::sleep_for(1ms);

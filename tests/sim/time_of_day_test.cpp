@@ -11,14 +11,14 @@
 
 #include "burr/base/progress.h"
 #include "burr/device/simulated_hand.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
-#include "burr/sim/motion.h"
 #include "burr/sim/replay.h"
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
+#include "burr/surgeon/motion.h"
 #include "support/wall_clock.h"
 
 namespace burr::sim {
@@ -34,15 +34,15 @@ TEST(TimeOfDay, MayJumpWhileASessionIsRecordedAndNobodyAsksForIt) {
           .string() +
       ".mcap";
   const auto slab = [] {
-    return scenes::bone_from_distance(scenes::cube_grid(16e-3, 48), {}, scenes::slab(), 64, 1);
+    return phantom::bone_from_distance(phantom::cube_grid(16e-3, 48), {}, phantom::slab(), 64, 1);
   };
   SessionSettings settings;
   settings.servo.burr.radius = 1.5e-3;
   settings.realtime = true;
   auto bone = slab();
-  const auto place = find_work_place(*bone, settings.servo.burr.radius, {}, {});
+  const auto place = surgeon::find_work_place(*bone, settings.servo.burr.radius, {}, {});
   ASSERT_TRUE(place);
-  auto path = motion("pocket", *place, settings.servo.burr.radius, 1.5);
+  auto path = surgeon::motion("pocket", *place, settings.servo.burr.radius, 1.5);
   ASSERT_TRUE(path);
   NoProgress quiet;
 

@@ -1,5 +1,5 @@
 // From rows to what is heard of them.
-#include "hearing.h"
+#include "workshop/hearing.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 namespace burr::app {
 namespace {
 
-record::TickRow row(std::uint64_t tick, double removed_mm3, double energy_j) {
-  record::TickRow made;
+tick::TickRow row(std::uint64_t tick, double removed_mm3, double energy_j) {
+  tick::TickRow made;
   made.tick = tick;
   made.ledger.removed = 1e-9 * removed_mm3;
   made.ledger.energy = energy_j;
@@ -19,7 +19,7 @@ record::TickRow row(std::uint64_t tick, double removed_mm3, double energy_j) {
 
 TEST(Hearing, HowFastAndHowHardIsTheDifferenceOfTwoRows) {
   for (const double rate : {1'000.0, 4'000.0}) {
-    sim::ServoSettings settings;
+    tick::ServoSettings settings;
     settings.rate_hz = rate;
     // 3 mm3/s of 0.4 J/mm3; as a recording shows it, and as a window does
     for (const std::uint64_t step : {1U, 16U, 40U}) {
@@ -49,7 +49,7 @@ TEST(Hearing, AReturnToTheStartIsNoRemoval) {
 }
 
 TEST(Hearing, TellsWhatTheRowTells) {
-  sim::ServoSettings settings;
+  tick::ServoSettings settings;
   settings.burr.radius = 2e-3;
   settings.burr.teeth = 6;
   math::Vec3 asked = math::Vec3::Zero();
@@ -57,7 +57,7 @@ TEST(Hearing, TellsWhatTheRowTells) {
     asked = p;
     return 5e-3;
   });
-  record::TickRow one = row(0, 0, 0);
+  tick::TickRow one = row(0, 0, 0);
   one.spindle_rad_s = -1'234;
   one.cutting_nm = 1e-3;
   one.contact.touching = true;
@@ -71,19 +71,19 @@ TEST(Hearing, TellsWhatTheRowTells) {
   EXPECT_EQ(asked, math::Vec3(1, 2, 3)) << "where the burr is";
   EXPECT_NEAR(heard.to_spare, 3e-3, 1e-15) << "from its surface";
 
-  hearing.obey({record::WishKind::irrigation, 1});
-  hearing.obey({record::WishKind::burr_radius, 1e-3});
+  hearing.obey({tick::WishKind::irrigation, 1});
+  hearing.obey({tick::WishKind::burr_radius, 1e-3});
   heard = hearing.hear(one);
   EXPECT_TRUE(heard.irrigated);
   EXPECT_NEAR(heard.to_spare, 4e-3, 1e-15);
-  hearing.obey({record::WishKind::irrigation, 0});
-  hearing.obey({record::WishKind::burr_radius, std::nan("")});
+  hearing.obey({tick::WishKind::irrigation, 0});
+  hearing.obey({tick::WishKind::burr_radius, std::nan("")});
   EXPECT_FALSE(hearing.hear(one).irrigated);
   EXPECT_NEAR(hearing.hear(one).to_spare, 4e-3, 1e-15);
 
-  hearing.obey({record::WishKind::burr_kind, 1});
+  hearing.obey({tick::WishKind::burr_kind, 1});
   EXPECT_EQ(hearing.hear(one).teeth, 0) << "it grinds";
-  hearing.obey({record::WishKind::burr_kind, 0});
+  hearing.obey({tick::WishKind::burr_kind, 0});
   EXPECT_EQ(hearing.hear(one).teeth, 6);
 
   settings.burr.kind = tool::BurrKind::diamond;

@@ -1,5 +1,5 @@
 // The key and the loudness of the window's sound, and that it goes on without a device.
-#include "loudspeaker.h"
+#include "workshop/loudspeaker.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -70,7 +70,7 @@ TEST(Loudspeaker, WarnsFromTheRimOfTheBurrThatIsThereNow) {
   const std::filesystem::path file = std::filesystem::temp_directory_path() /
                                      ("burr_loudspeaker_" + std::to_string(::getpid()) + ".raw");
   ::setenv("SDL_DISKAUDIOFILE", file.c_str(), 1);
-  sim::ServoSettings settings;
+  tick::ServoSettings settings;
   settings.burr.radius = 6e-3;
   {
     Loudspeaker loudspeaker(settings, [](const math::Vec3&) { return 6.01e-3; });
@@ -88,7 +88,7 @@ TEST(Loudspeaker, WarnsFromTheRimOfTheBurrThatIsThereNow) {
       return most;
     };
     EXPECT_GT(sounds(), 1e-3F) << "a hundredth of a millimetre from what is to be spared";
-    loudspeaker.obey({record::WishKind::burr_radius, 0.5e-3});
+    loudspeaker.obey({tick::WishKind::burr_radius, 0.5e-3});
     EXPECT_LT(sounds(), 1e-6F) << "a smaller burr is 5.5 mm away from it";
   }
   ::unsetenv("SDL_DISKAUDIOFILE");

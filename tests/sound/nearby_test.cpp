@@ -1,10 +1,10 @@
 // What is to be spared, in words and in a recording.
-#include "nearby.h"
+#include "workshop/nearby.h"
 
 #include <gtest/gtest.h>
 
-#include "scenes/build.h"
-#include "scenes/shapes.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 
 namespace burr::app {
 namespace {
@@ -30,7 +30,7 @@ TEST(Nearby, ACaseNamesWhatToSpareElseTheTableDoes) {
 TEST(Nearby, ARecordingKeepsIt) {
   record::SessionInfo info;
   info.volume.tissues = table();
-  info.volume.grid = scenes::cube_grid(20e-3, 16);
+  info.volume.grid = phantom::cube_grid(20e-3, 16);
   EXPECT_EQ(read_spared(info), Tissues{3}) << "one without the word: what is marked";
   for (const Tissues& spared : {Tissues{2, 3}, Tissues{}, Tissues{3}}) {
     record::SessionInfo one = info;
@@ -48,7 +48,8 @@ TEST(Nearby, ARecordingKeepsIt) {
 
 TEST(Nearby, SaysWhatIsNearAndHowFar) {
   // a ball of bone of 6 mm, all of it to be spared
-  auto bone = scenes::bone_from_distance(scenes::cube_grid(20e-3, 80), {}, scenes::ball(6e-3), 0);
+  auto bone =
+      phantom::bone_from_distance(phantom::cube_grid(20e-3, 80), {}, phantom::ball(6e-3), 0);
   NoProgress quiet;
   const auto nearby = Nearby::make(*bone, {1}, quiet);
   ASSERT_TRUE(nearby);

@@ -7,8 +7,8 @@
 #include <random>
 #include <string>
 
+#include "burr/phantom/build.h"
 #include "burr/volume/sample.h"
-#include "scenes/build.h"
 #include "support/rt_guard.h"
 
 namespace burr::volume {
@@ -21,9 +21,9 @@ std::unique_ptr<Bone> some_bone(const math::Ijk& size) {
   Grid grid;
   grid.size = size;
   grid.voxel = 1;
-  const scenes::Depth shape =
-      scenes::either(scenes::ball(7, {14, 20, 15}), scenes::plate(2.5, {1, 2, 3}, {30, 20, 20}));
-  return scenes::bone_from_distance(grid, {}, shape, 50);
+  const phantom::Depth shape =
+      phantom::either(phantom::ball(7, {14, 20, 15}), phantom::plate(2.5, {1, 2, 3}, {30, 20, 20}));
+  return phantom::bone_from_distance(grid, {}, shape, 50);
 }
 
 Aabb some_box(std::mt19937_64& random, double lo, double hi, double longest) {
@@ -150,8 +150,8 @@ TEST(Pyramid, FirstHitIsTheFirstCrossingOfTheTrilinearField) {
 }
 
 TEST(Pyramid, AKnownHitAndAFreeWay) {
-  const auto bone = scenes::bone_from_distance(scenes::cube_grid(64e-3, 64), {},
-                                               scenes::slab({0, 0, 1}, {0, 0, 5.25e-3}));
+  const auto bone = phantom::bone_from_distance(phantom::cube_grid(64e-3, 64), {},
+                                                phantom::slab({0, 0, 1}, {0, 0, 5.25e-3}));
   const Pyramid pyramid(*bone);
   const Vec3 above = bone->grid().grid_from_world({1e-3, 2e-3, 30e-3});
   const auto hit = pyramid.first_hit(above, -Vec3::UnitZ(), 100);

@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "scenes/build.h"
+#include "burr/phantom/build.h"
 #include "support/rt_guard.h"
 
 namespace burr::volume {
@@ -72,11 +72,11 @@ TEST(Sample, KnowsDepthAndNormalOfATurnedSlab) {
   const std::uint64_t seed = 8;
   SCOPED_TRACE("seed " + std::to_string(seed));
   const Vec3 outward = Vec3(1, -2, 2).normalized();
-  Grid grid = scenes::cube_grid(30e-3, 60);
+  Grid grid = phantom::cube_grid(30e-3, 60);
   grid.frame.q = math::Quat(Eigen::AngleAxisd(0.5, Vec3(0, 1, 1).normalized()));
   grid.frame.p = grid.frame.q * grid.frame.p;
-  const scenes::Depth slab = scenes::slab(outward);
-  const auto bone = scenes::bone_from_distance(grid, {}, slab);
+  const phantom::Depth slab = phantom::slab(outward);
+  const auto bone = phantom::bone_from_distance(grid, {}, slab);
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> u(-5e-3, 5e-3), height(-0.05e-3, 0.05e-3);
   for (int n = 0; n < 2000; ++n) {

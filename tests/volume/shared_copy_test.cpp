@@ -8,15 +8,15 @@
 #include <thread>
 #include <vector>
 
-#include "scenes/build.h"
-#include "scenes/phantoms.h"
-#include "scenes/shapes.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/phantoms.h"
+#include "burr/phantom/shapes.h"
 
 namespace burr::volume {
 namespace {
 
 std::unique_ptr<Bone> ball() {
-  return scenes::bone_from_distance(scenes::cube_grid(20e-3, 64), {}, scenes::ball(8e-3), 64);
+  return phantom::bone_from_distance(phantom::cube_grid(20e-3, 64), {}, phantom::ball(8e-3), 64);
 }
 
 TEST(SharedCopy, OfABoneAtRestIsTheSameBone) {
@@ -33,7 +33,7 @@ TEST(SharedCopy, OfABoneAtRestIsTheSameBone) {
 // Nerves, pulp, named cavities: labels where there is no bone.
 TEST(SharedCopy, KeepsWhatHasANameWithoutBeingBone) {
   NoProgress quiet;
-  auto made = scenes::phantom("tooth", 0.4, quiet);
+  auto made = phantom::phantom("tooth", 0.4, quiet);
   ASSERT_TRUE(made) << made.error().text;
   rt::ChangedBits& changed = (*made)->add_watcher();
   const auto copy = shared_copy(**made, changed, quiet);

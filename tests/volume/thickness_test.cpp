@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "scenes/build.h"
-#include "scenes/shapes.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 
 namespace burr::volume {
 namespace {
@@ -15,15 +15,15 @@ namespace {
 using math::Vec3;
 constexpr double kMm = 1e-3, kVoxel = 0.25 * kMm;
 
-std::unique_ptr<Bone> bone_of(const scenes::Depth& depth) {
-  return scenes::bone_from_distance(
-      scenes::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), kVoxel), {}, depth);
+std::unique_ptr<Bone> bone_of(const phantom::Depth& depth) {
+  return phantom::bone_from_distance(
+      phantom::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), kVoxel), {}, depth);
 }
 
 TEST(Thickness, OfAPlateIsThePlatesStraightAndSlanted) {
   for (const double thick : {1.3 * kMm, 4 * kMm}) {
     const Vec3 normal = Vec3(1, 2, 3).normalized();
-    const auto bone = bone_of(scenes::plate(thick, normal, {0.2 * kMm, 0, -0.1 * kMm}));
+    const auto bone = bone_of(phantom::plate(thick, normal, {0.2 * kMm, 0, -0.1 * kMm}));
     const Vec3 from = 5 * kMm * normal;
     const auto straight = thickness(*bone, from, -normal, 6 * kMm);
     ASSERT_TRUE(straight);
@@ -39,7 +39,7 @@ TEST(Thickness, OfAPlateIsThePlatesStraightAndSlanted) {
 
 TEST(Thickness, OfABallIsTheChord) {
   const double r = 5 * kMm;
-  const auto bone = bone_of(scenes::ball(r));
+  const auto bone = bone_of(phantom::ball(r));
   for (const double aside : {0.0, 1.1 * kMm, 3 * kMm}) {
     const auto chord = thickness(*bone, {aside, 0.07 * kMm, 7 * kMm}, {0, 0, -1}, 5 * kMm);
     ASSERT_TRUE(chord);
@@ -56,14 +56,14 @@ TEST(Thickness, EndsAtTheNextAirAndAtTheEdgeOfTheGrid) {
   ASSERT_TRUE(wall);
   EXPECT_NEAR(wall->length(), 2 * kMm, 0.1 * kVoxel);
   // bone that goes on beyond the grid ends half-way to the first voxel beyond it
-  const auto slab = bone_of(scenes::slab());
+  const auto slab = bone_of(phantom::slab());
   const auto all = thickness(*slab, {0, 0, 1 * kMm}, {0, 0, -1}, 3 * kMm);
   ASSERT_TRUE(all);
   EXPECT_NEAR(all->length(), 8 * kMm, kVoxel);
 }
 
 TEST(Thickness, IsNothingWhereNoBoneIsNearOrNoNumberIsGiven) {
-  const auto bone = bone_of(scenes::ball(5 * kMm));
+  const auto bone = bone_of(phantom::ball(5 * kMm));
   EXPECT_FALSE(thickness(*bone, {0, 0, 7 * kMm}, {0, 0, 1}, 5 * kMm)) << "away from it";
   EXPECT_FALSE(thickness(*bone, {0, 0, 7 * kMm}, {0, 0, -1}, 1 * kMm)) << "too far";
   EXPECT_FALSE(thickness(*bone, {0, 0, 7 * kMm}, {0, 0, 0}, 5 * kMm));

@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "device/fake/fake_hd.h"
-#include "suction_hand.h"
 #include "window/stick.h"
 #include "window/user.h"
+#include "workshop/suction_hand.h"
 
 namespace burr::app {
 namespace {
@@ -47,11 +47,11 @@ class DeviceWindow : public Window {
     return open_ready(options, quiet);
   }
   // Where the block's case has its work.
-  static Result<sim::WorkPlace> work_place(sim::Session& session) {
+  static Result<surgeon::WorkPlace> work_place(sim::Session& session) {
     WorkOptions block;
     block.volume.path = "block";
     if (const Status taken = take_case(block); !taken) return taken.error();
-    return sim::find_work_place(session.bone(), 0.5e-3 * block.burr_mm, block.at, block.into);
+    return surgeon::find_work_place(session.bone(), 0.5e-3 * block.burr_mm, block.at, block.into);
   }
   void stylus(const Vec3& mm, int buttons = 0) {
     const std::lock_guard lock(hd_->mutex);
@@ -68,7 +68,7 @@ class DeviceWindow : public Window {
   }
 
   test::FakeHd* hd_ = nullptr;
-  record::TickRow row_;
+  tick::TickRow row_;
 };
 
 TEST_F(DeviceWindow, ItsAxesAreThoseOfTheViewAlsoOfATurnedOne) {

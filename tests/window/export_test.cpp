@@ -1,5 +1,5 @@
 // A user who takes bone, what was removed, and a picture out of a session that goes on.
-#include "window/export_job.h"
+#include "window/mill/export_job.h"
 
 #include <gtest/gtest.h>
 

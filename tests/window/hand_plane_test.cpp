@@ -1,5 +1,5 @@
 // The hand without a device that goes in a plane, and the one that is led by keys.
-#include "window/hand_plane.h"
+#include "window/mill/hand_plane.h"
 
 #include <gtest/gtest.h>
 
@@ -95,7 +95,7 @@ TEST_F(PlaneWindow, TheWheelPutsTheHandIntoTheBoneWhichHoldsTheBurr) {
   ASSERT_TRUE(ready) << ready.error().text;
   sim::Session& session = *ready->session;
   const render::Scene& scene = ready->scene;
-  record::TickRow row;
+  tick::TickRow row;
   const auto hand = [&] {
     static_cast<void>(session.view(row));
     return row.hand.world_from_tool.p;
@@ -163,7 +163,7 @@ TEST_F(PlaneWindow, KeysAloneLeadTheHandPressAndMill) {
   ASSERT_TRUE(ready) << ready.error().text;
   sim::Session& session = *ready->session;
   const render::Scene& scene = ready->scene;
-  record::TickRow row;
+  tick::TickRow row;
   const auto across = [&] {
     return (scene.burr.world_from_tool.p - scene.camera.target).dot(scene.camera.right());
   };

@@ -11,9 +11,9 @@
 #include <limits>
 #include <string>
 
-#include "window/gamepad.h"
-#include "window/pedals.h"
-#include "window/spacemouse.h"
+#include "window/hands/gamepad.h"
+#include "window/hands/pedals.h"
+#include "window/hands/spacemouse.h"
 #include "window/stick.h"
 #include "window/user.h"
 
@@ -62,7 +62,7 @@ TEST_F(HandsWindow, AWholeSessionByGamepadAlone) {
   const double first_radius = session.burr_radius();
   render::Scene& scene = ready->scene;
   Pad pad;
-  record::TickRow row;
+  tick::TickRow row;
   const auto removed = [&] {
     static_cast<void>(session.view(row));
     return 1e9 * row.ledger.removed;
@@ -130,7 +130,7 @@ TEST_F(HandsWindow, AGamepadThatIsPulledOutWhileItPressesLifts) {
   ASSERT_TRUE(ready) << ready.error().text;
   sim::Session& session = *ready->session;
   Pad pad;
-  record::TickRow row;
+  tick::TickRow row;
   const auto pedal = [&] {
     static_cast<void>(session.view(row));
     return row.hand.pedal;
@@ -147,7 +147,7 @@ TEST_F(HandsWindow, ATriggerThatIsHeldFromTheStartPressesOnlyAfterItWasLetGo) {
   ASSERT_TRUE(ready) << ready.error().text;
   Pad pad;
   pad.trigger(1);
-  record::TickRow row;
+  tick::TickRow row;
   const auto pedal = [&] {
     static_cast<void>(ready->session->view(row));
     return row.hand.pedal;
@@ -177,7 +177,7 @@ TEST_F(HandsWindow, APedalMillsByItsWayChangesTheBurrAndLetsTheCoolantRun) {
   Stick stick(SDL_JOYSTICK_TYPE_UNKNOWN, 1, 4);
   stick.axis(0, -32768);
   const double radius = session.burr_radius();
-  record::TickRow row;
+  tick::TickRow row;
   const auto pedal = [&] {
     static_cast<void>(session.view(row));
     return row.hand.pedal;
@@ -262,7 +262,7 @@ TEST_F(CapWindow, MovesPressesTurnsAndChangesTheBurr) {
   render::Scene& scene = ready->scene;
   EXPECT_EQ(opened_(), 1);
   const double radius = session.burr_radius();
-  record::TickRow row;
+  tick::TickRow row;
   const auto pedal = [&] {
     static_cast<void>(session.view(row));
     return row.hand.pedal;
@@ -354,7 +354,7 @@ TEST_F(CapWindow, BeforeAPlaneItIsAHandOfThreeAxes) {
   ASSERT_TRUE(ready) << ready.error().text;
   sim::Session& session = *ready->session;
   const render::Camera& camera = ready->scene.camera;
-  record::TickRow row;
+  tick::TickRow row;
   const auto hand = [&] {
     static_cast<void>(session.view(row));
     return row.hand.world_from_tool.p;

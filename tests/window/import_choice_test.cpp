@@ -1,5 +1,5 @@
 // What the import page works out: greys, directions, regions, tables, planes, memory.
-#include "import_choice.h"
+#include "workshop/import_choice.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 #include <fstream>
 #include <string>
 
-#include "import_preview.h"
 #include "window/user.h"
+#include "workshop/import_preview.h"
 
 namespace burr::app {
 namespace {
@@ -121,7 +121,7 @@ TEST(Region, IsSaidInVoxelsOfTheFileAndReadBack) {
 }
 
 TEST(LabelTable, SaysOnlyWhatDiffersAndNoNames) {
-  std::vector<io::TissueFound> found(2);
+  std::vector<importing::TissueFound> found(2);
   found[0].tissue.label = 3;
   found[0].tissue.name = "Svensson";
   found[1].tissue.label = 7;

@@ -1,5 +1,5 @@
 // A user at the import page: what he chooses there is what a command line would have said.
-#include "window/import_page.h"
+#include "window/import/import_page.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <fstream>
 
 #include "burr/record/player.h"
-#include "recording.h"
-#include "window/pages.h"
-#include "window/sessions.h"
+#include "window/shell/pages.h"
+#include "window/start/sessions.h"
 #include "window/user.h"
+#include "workshop/recording.h"
 
 namespace burr::app {
 namespace {

@@ -1,13 +1,13 @@
 // Measuring at the window: the numbers against the points themselves, and the clicks end to end.
-#include "window/measuring.h"
+#include "window/mill/measuring.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/render/pick.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 #include "window/user.h"
 
 namespace burr::app {
@@ -37,8 +37,8 @@ TEST(Measuring, KnowsDistancesAndAngles) {
   m.next();
   ASSERT_EQ(m.what(), Measure::thickness);
   EXPECT_FALSE(m.picks());
-  const auto bone = scenes::bone_from_distance(scenes::cube_grid(20e-3, 64), {},
-                                               scenes::plate(3e-3, {0, 0, 1}, {0, 0, 0}));
+  const auto bone = phantom::bone_from_distance(phantom::cube_grid(20e-3, 64), {},
+                                                phantom::plate(3e-3, {0, 0, 1}, {0, 0, 0}));
   m.probe(*bone, {0, 0, 5e-3}, {0, 0, -1}, 5e-3);
   ASSERT_TRUE(m.value());
   EXPECT_NEAR(*m.value(), 3e-3, 1e-5);
@@ -80,7 +80,7 @@ TEST_F(MeasuringWindow, TwoClicksGiveTheirDistanceNothingIsCutAndEscapeEndsIt) {
   double truth = 0;
   int drawn = 0;
   render::Image before;
-  record::TickRow row;
+  tick::TickRow row;
   bool still_there = false;
   const auto says = [this](const std::string& word) {
     return [this, word] { return desk_->said.find(word) != std::string::npos; };

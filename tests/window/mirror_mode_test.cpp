@@ -1,6 +1,6 @@
 // The mirror at the window: switched on by its key, seen, told, cut across, undone, and switched
 // off; and the words for where its plane is.
-#include "window/mirror_mode.h"
+#include "window/mill/mirror_mode.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ TEST_F(MirrorWindow, IsSwitchedOnSeenToldCutAcrossAndUndone) {
   const volume::Grid grid = session.bone().grid();
   const std::uint64_t start = session.bone().content_hash();
   render::Scene& scene = ready->scene;
-  record::TickRow row;
+  tick::TickRow row;
   const auto removed = [&] {
     static_cast<void>(session.view(row));
     return 1e9 * row.ledger.removed;
@@ -48,7 +48,7 @@ TEST_F(MirrorWindow, IsSwitchedOnSeenToldCutAcrossAndUndone) {
     return [this, words] { return desk_->said.find(words) != std::string::npos; };
   };
   render::Image without;
-  const edit::Mirror middle = sim::mirror_plane(grid, sim::Plane::sagittal);
+  const edit::Mirror middle = tick::mirror_plane(grid, tick::Plane::sagittal);
   std::pair<double, double> cut;
   double was = 0;
   mill_by(*ready,
@@ -126,7 +126,7 @@ TEST(MirrorWords, TellWhereThePlaneIs) {
   grid.size = {101, 61, 41};
   grid.voxel = 0.5e-3;
   const auto at = [&](const char* words) {
-    return mirror_words(grid, *sim::mirror_in_words(words, grid));
+    return mirror_words(grid, *tick::mirror_in_words(words, grid));
   };
   EXPECT_EQ(at("sagittal"), "mirror: sagittal, through the middle");
   EXPECT_EQ(at("sagittal,3"), "mirror: sagittal, 3.0 mm left of the middle");

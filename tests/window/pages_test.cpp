@@ -1,5 +1,5 @@
 // A user at the window, page by page: keys, mouse and drops as SDL events, without a screen.
-#include "window/pages.h"
+#include "window/shell/pages.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include "burr/record/player.h"
 #include "burr/render/pick.h"
 #include "burr/rt/changed_bits.h"
-#include "recording.h"
-#include "window/see_through.h"
-#include "window/sessions.h"
+#include "window/mill/see_through.h"
+#include "window/start/sessions.h"
 #include "window/user.h"
+#include "workshop/recording.h"
 
 namespace burr::app {
 namespace {
@@ -177,7 +177,7 @@ TEST_F(Window, LiftsTheBurrWhenTheMouseComesOverAPanel) {
   auto ready = block();
   ASSERT_TRUE(ready) << ready.error().text;
   sim::Session& session = *ready->session;
-  record::TickRow row;
+  tick::TickRow row;
   const auto pedal = [&](double wanted) {
     return [&, wanted] {
       static_cast<void>(session.view(row));
@@ -212,7 +212,7 @@ TEST_F(Window, OfTheLeftHandedMillsWithTheRightButton) {
   auto ready = block();
   ASSERT_TRUE(ready) << ready.error().text;
   sim::Session& session = *ready->session;
-  record::TickRow row;
+  tick::TickRow row;
   bool left_pressed = false;
   mill_by(*ready, {{"the first picture", looks(3),
                     [] {

@@ -1,10 +1,10 @@
 // The bones shaped at build time are those of their formulas, to the bit.
-#include "ready_bone.h"
+#include "workshop/ready_bone.h"
 
 #include <gtest/gtest.h>
 
 #include "burr/base/progress.h"
-#include "scenes/phantoms.h"
+#include "burr/phantom/phantoms.h"
 
 namespace burr::app {
 namespace {
@@ -18,7 +18,7 @@ TEST(ReadyBone, IsTheBoneOfItsFormulaToTheBit) {
     const auto ready = ready_bone(name, 100);
     ASSERT_NE(ready, nullptr) << "not there, or damaged";
     NoProgress quiet;
-    const auto formula = scenes::phantom(name, 0, quiet, 100);
+    const auto formula = phantom::phantom(name, 0, quiet, 100);
     ASSERT_TRUE(formula) << formula.error().text;
     EXPECT_EQ(ready->content_hash(), (*formula)->content_hash());
     EXPECT_EQ(ready->grid().size, (*formula)->grid().size);

@@ -1,5 +1,5 @@
 // A user who watches a recording: what is shown is what was, at any moment asked for.
-#include "window/replay_page.h"
+#include "window/replay/replay_page.h"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 #include <iterator>
 
 #include "burr/render/bone_scene.h"
-#include "burr/sim/motion.h"
-#include "recording.h"
-#include "window/pages.h"
+#include "burr/surgeon/motion.h"
+#include "window/shell/pages.h"
 #include "window/user.h"
+#include "workshop/recording.h"
 
 namespace burr::app {
 namespace {
@@ -37,7 +37,7 @@ class Replay : public Window {
     ASSERT_TRUE(work) << work.error().text;
     before_ = work->made.bone->content_hash();
     const sim::SessionSettings settings = settings_of(options, false);
-    auto path = sim::motion("pocket", work->place, settings.servo.burr.radius, kSeconds);
+    auto path = surgeon::motion("pocket", work->place, settings.servo.burr.radius, kSeconds);
     ASSERT_TRUE(path) << path.error().text;
     auto session = sim::Session::make(
         std::move(work->made.bone),
@@ -49,8 +49,8 @@ class Replay : public Window {
                                 "pocket", false));
     (*session)->run(5, quiet);
     half_ = (*session)->bone().content_hash();
-    (*session)->wish({record::WishKind::undo, 0});
-    (*session)->wish({record::WishKind::spindle_speed, 3000});
+    (*session)->wish({tick::WishKind::undo, 0});
+    (*session)->wish({tick::WishKind::spindle_speed, 3000});
     (*session)->run(kSeconds - 5, quiet);
     ASSERT_TRUE(recording.finish(**session));
     after_ = (*session)->bone().content_hash();

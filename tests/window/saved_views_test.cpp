@@ -1,5 +1,5 @@
 // Views come back as they were kept, each with its bone, and nothing of a file is lost.
-#include "window/saved_views.h"
+#include "window/mill/saved_views.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Settings come back as they were written; what cannot be is named, and never lost.
-#include "window/settings.h"
+#include "window/shell/settings.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 // What may happen to a window while one mills: it is resized, put away and brought back, its
 // letters grow, the graphics card is lost, the disk is full. The session goes on each time.
-#include "window/pages.h"
+#include "window/shell/pages.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <csignal>
 
 #include "burr/record/player.h"
-#include "window/sessions.h"
+#include "window/start/sessions.h"
 #include "window/user.h"
 
 namespace burr::app {
@@ -30,7 +30,7 @@ class Survival : public Window {
     static_cast<void>(session.view(row_));
     return row_.tick;
   }
-  record::TickRow row_;
+  tick::TickRow row_;
 };
 
 // the picture as it is at rest: bone in the middle, a strip below

@@ -219,7 +219,7 @@ TEST_F(Headset, WandIsTheHandThroughTheSafetyLayerUntilTheRuntimeGoes) {
   desk_->headset_wanted = true;
   const auto burr = [&scene] { return scene.burr.world_from_tool.p; };
   const auto flags = [&] {
-    record::TickRow row;
+    tick::TickRow row;
     static_cast<void>(ready->session->view(row));
     return row.contact.flags;
   };

@@ -21,8 +21,8 @@
 #include <vector>
 
 #include "support/data.h"
-#include "window/pages.h"
-#include "window/words.h"
+#include "window/shell/pages.h"
+#include "window/shell/words.h"
 
 namespace burr::app {
 

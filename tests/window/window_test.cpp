@@ -2,7 +2,7 @@
 // workers mesh, the recorder writes, and a restless user moves the mouse, presses keys, undoes,
 // redoes and resets. Run under ThreadSanitizer too, where silence is the test (scripts/tsan_long.sh
 // for minutes).
-#include "window/window.h"
+#include "window/mill/window.h"
 
 #include <gtest/gtest.h>
 
@@ -23,21 +23,21 @@
 #include <thread>
 
 #include "burr/base/progress.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/renderer.h"
 #include "burr/rt/changed_bits.h"
-#include "burr/sim/motion.h"
 #include "burr/sim/replay.h"
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
 #include "burr/surface/worker.h"
-#include "command.h"
-#include "live_bone.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
+#include "burr/surgeon/motion.h"
+#include "commands/command.h"
 #include "support/data.h"
+#include "workshop/live_bone.h"
 
 namespace burr::app {
 
@@ -161,13 +161,13 @@ TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
           .string() +
       ".mcap";
   const auto make = [] {
-    return scenes::bone_from_distance(scenes::cube_grid(20e-3, 64), {}, scenes::ball(8e-3), 512);
+    return phantom::bone_from_distance(phantom::cube_grid(20e-3, 64), {}, phantom::ball(8e-3), 512);
   };
   sim::SessionSettings settings;
   settings.servo.burr.radius = 1.5e-3;
   settings.realtime = true;
   auto bone = make();
-  const auto place = sim::find_work_place(*bone, settings.servo.burr.radius, {}, {});
+  const auto place = surgeon::find_work_place(*bone, settings.servo.burr.radius, {}, {});
   ASSERT_TRUE(place) << place.error().text;
   math::Pose above;
   above.p = place->at - 10e-3 * place->into;

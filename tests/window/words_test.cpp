@@ -1,5 +1,5 @@
 // Everything the window says is there in both languages, and takes the same values.
-#include "window/words.h"
+#include "window/shell/words.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What is milled, and with what, when a person asks for a bone.
-#include "work.h"
+#include "workshop/work.h"
 
 #include <gtest/gtest.h>
 

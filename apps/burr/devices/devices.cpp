@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/base/new_file.h"
-#include "command.h"
-#include "device_book.h"
+#include "commands/command.h"
 #include "devices/trial.h"
-#include "hand_device.h"
+#include "workshop/device_book.h"
+#include "workshop/hand_device.h"
 
 namespace burr::app {
 namespace {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <thread>
 
-#include "burr/haptics/limit.h"
+#include "burr/haptics/safety/limit.h"
 #include "burr/rt/latest.h"
 #include "burr/rt/stats.h"
 #include "burr/rt/thread.h"

@@ -5,7 +5,7 @@
 //
 // Each part waits for the person to do what `tell` says and goes on by itself; a part that is not
 // done in time is left out and named. The wall passes the safety layer of every session
-// (haptics/limit.h). Thread: the caller's, with one of its own for the ticks. Units: SI.
+// (haptics/safety/limit.h). Thread: the caller's, with one of its own for the ticks. Units: SI.
 #pragma once
 
 #include <array>

@@ -6,8 +6,8 @@
 
 #include "burr/base/markup.h"
 #include "burr/base/version.h"
+#include "commands/html_page.h"
 #include "devices/trial.h"
-#include "html_page.h"
 
 namespace burr::app {
 namespace {

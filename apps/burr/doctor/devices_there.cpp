@@ -5,10 +5,10 @@
 
 #include "burr/device/forcedimension/dhd.h"
 #include "burr/device/openhaptics/hd.h"
-#include "device_book.h"
 #include "doctor/apart.h"
 #include "doctor/look.h"
-#include "hand_device.h"
+#include "workshop/device_book.h"
+#include "workshop/hand_device.h"
 
 namespace burr::app {
 namespace {

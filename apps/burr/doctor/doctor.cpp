@@ -9,10 +9,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "command.h"
+#include "bench/machine_trial.h"
+#include "commands/command.h"
 #include "doctor/fix.h"
 #include "doctor/look.h"
-#include "machine_trial.h"
 
 namespace burr::app {
 namespace {
@@ -71,15 +71,15 @@ Status run(const Options& options) {
       tried.todo = "burr check tries it again";
     } else {
       const rt::TickSummary& t = measured->seen.milling_loaded;
-      const sim::MachineJudged judged = sim::judge(measured->seen);
-      verdict = sim::name(judged.verdict);
-      tried.health = judged.verdict == sim::Verdict::not_enough ? Health::trouble : Health::good;
+      const rt::MachineJudged judged = rt::judge(measured->seen);
+      verdict = rt::name(judged.verdict);
+      tried.health = judged.verdict == rt::Verdict::not_enough ? Health::trouble : Health::good;
       tried.is = fmt::format(
           "milling with all else at work: a tick took {:.0f} us (p99.9), began {:.0f} us late "
           "(p99.9), at the worst {:.1f} ms; {} of {} left out. {}",
           t.p999_us, t.late_p999_us, 1e-3 * t.worst_lateness_us, t.missed, t.ticks + t.missed,
           judged.sentence);
-      if (judged.verdict != sim::Verdict::good)
+      if (judged.verdict != rt::Verdict::good)
         tried.todo = "the lines marked !! above; burr check measures longer";
       trial = {{"ticks", t.ticks},
                {"missed", t.missed},

@@ -8,8 +8,8 @@
 
 #include "burr/render/renderer.h"
 #include "burr/rt/machine.h"
+#include "burr/rt/machine_check.h"
 #include "burr/rt/thread.h"
-#include "burr/sim/machine_check.h"
 #include "doctor/look.h"
 
 namespace burr::app {
@@ -23,14 +23,14 @@ std::string from_environment(const char* name) {
 }  // namespace
 
 std::vector<Finding> look_at_machine(const System& system) {
-  sim::MachineSeen seen;
+  rt::MachineSeen seen;
   seen.machine = rt::read_machine(system.root);
   {
     rt::Thread tried({.name = "doctor", .realtime = true}, [] {});
     seen.grant = tried.grant();
   }
   std::vector<Finding> findings;
-  for (const sim::CheckLine& line : sim::judge(seen).lines)
+  for (const rt::CheckLine& line : rt::judge(seen).lines)
     findings.push_back({"computer", line.what, line.change.empty() ? Health::good : Health::trouble,
                         line.is, line.change});
   return findings;

@@ -16,10 +16,10 @@
 
 #include "burr/people/observer.h"
 #include "burr/sim/feeling.h"
-#include "command.h"
-#include "hand_device.h"
+#include "commands/command.h"
 #include "people/run.h"
 #include "scenes/wall.h"
+#include "workshop/hand_device.h"
 
 namespace burr::app {
 namespace {

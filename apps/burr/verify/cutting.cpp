@@ -21,7 +21,7 @@ constexpr device::ArmSettings kSoft{.mass = 0.1, .damping = 10, .stiffness = 200
 constexpr double kSoftEnergy = 0.838e9, kSoftTarget = 4e-3, kSoftSeconds = 1.5;
 constexpr device::ArmSettings kFirm{.mass = 0.1, .damping = 20, .stiffness = 500};
 
-volume::Grid block(double h, const Vec3& half) { return scenes::box_grid(-half, half, h); }
+volume::Grid block(double h, const Vec3& half) { return phantom::box_grid(-half, half, h); }
 
 double cap(double depth) { return M_PI * depth * depth * (kR - depth / 3); }  // [m^3]
 
@@ -33,7 +33,7 @@ struct Plunge {
 };
 Plunge plunge(double h, const WorkSettings& settings, double energy, double target, double seconds,
               const device::ArmSettings& arm = kFirm) {
-  Workbench bench(scenes::slab(), block(h, Vec3(4, 4, 5) * kMm), scenes::bone_that_costs(energy),
+  Workbench bench(phantom::slab(), block(h, Vec3(4, 4, 5) * kMm), phantom::bone_that_costs(energy),
                   settings);
   const double before = volume::volume_of(bench.bone());
   Plunge out;
@@ -81,7 +81,7 @@ void holes(const Verify& verify, Report::Part& part) {
   const double h = 0.2 * kMm, deep = 0.2 * kMm, feed = 5 * kMm;
   constexpr device::ArmSettings kRigid{.mass = 0.1, .damping = 10, .stiffness = INFINITY};
   {
-    Workbench bench(scenes::slab(), block(h, Vec3(10, 4, 4) * kMm), scenes::bone_that_costs(1e8),
+    Workbench bench(phantom::slab(), block(h, Vec3(10, 4, 4) * kMm), phantom::bone_that_costs(1e8),
                     {.radius = kR, .spindle = 20000});
     const double z = kR - deep;
     const auto rows = bench.work(path_through({{0, {-6 * kMm, 0, kR + 1 * kMm}},
@@ -100,7 +100,7 @@ void holes(const Verify& verify, Report::Part& part) {
   {
     // the ridge lies over a row of voxel centres: between them a field knows no sharp one
     const double step = 1 * kMm, down = 0.3 * kMm, y0 = -step / 2 + h / 2, y1 = y0 + step;
-    Workbench bench(scenes::slab(), block(h, Vec3(8, 5, 4) * kMm), scenes::bone_that_costs(1e8),
+    Workbench bench(phantom::slab(), block(h, Vec3(8, 5, 4) * kMm), phantom::bone_that_costs(1e8),
                     {.radius = kR, .spindle = 20000});
     const double z = kR - down;
     (void)bench.work(path_through({{0, {-5 * kMm, y0, kR + 1 * kMm}},
@@ -182,7 +182,7 @@ void laws(const Verify& verify, Report::Part& part) {
   for (int n = 0; n < 2; ++n) {
     WorkSettings settings{.radius = kR};
     settings.carve_every = n == 0 ? 1 : 33;
-    Workbench bench(scenes::slab(), block(h, Vec3(16, 4, 4) * kMm), scenes::bone_that_costs(2e9),
+    Workbench bench(phantom::slab(), block(h, Vec3(16, 4, 4) * kMm), phantom::bone_that_costs(2e9),
                     settings);
     const double z = kR - 1 * kMm;
     const auto rows =

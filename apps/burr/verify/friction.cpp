@@ -6,7 +6,7 @@
 
 #include "burr/haptics/force_law.h"
 #include "burr/haptics/proxy.h"
-#include "scenes/build.h"
+#include "burr/phantom/build.h"
 #include "verify.h"
 
 namespace burr::app {
@@ -17,9 +17,9 @@ using math::Vec3;
 constexpr double kMm = 1e-3, kRadius = 1.5 * kMm, kDeep = 0.4 * kMm;
 
 struct Scene {
-  explicit Scene(const scenes::Depth& depth)
-      : bone(scenes::bone_from_distance(
-            scenes::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), 0.25 * kMm), {},
+  explicit Scene(const phantom::Depth& depth)
+      : bone(phantom::bone_from_distance(
+            phantom::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), 0.25 * kMm), {},
             depth)),
         surface(*bone, {}, 2, quiet) {}
   NoProgress quiet;
@@ -39,7 +39,7 @@ std::unique_ptr<haptics::Proxy> press(const Scene& scene, double mu_static, doub
 }
 
 void friction(const Verify& verify, Report::Part& part) {
-  const Scene plane(scenes::slab());
+  const Scene plane(phantom::slab());
   const Vec3 above(0, 0, 3 * kMm), down(0, 0, kRadius - kDeep);
 
   // the hand is moved aside by 0.1 um a tick until the burr lets go
@@ -74,7 +74,7 @@ void friction(const Verify& verify, Report::Part& part) {
     for (const double share : {0.98, 1.02}) {
       const double slope = std::atan(share * mu);
       const Vec3 n(std::sin(slope), 0, std::cos(slope));
-      const Scene tilted(scenes::slab(n));
+      const Scene tilted(phantom::slab(n));
       const Vec3 rest = kRadius * n;
       const auto proxy = press(tilted, mu, mu, rest + 3 * kMm * n, rest);
       Vec3 hand = rest;
@@ -94,7 +94,7 @@ void friction(const Verify& verify, Report::Part& part) {
   // a groove presses with more than the hand: mu / sin A
   for (const double half_deg : {45.0, 30.0}) {
     const double mu = 0.3, half = half_deg * M_PI / 180, z = kRadius / std::sin(half);
-    const Scene groove(scenes::groove(half));
+    const Scene groove(phantom::groove(half));
     const auto proxy = press(groove, mu, 0.9 * mu, {0, 0, z + 2 * kMm}, {0, 0, z - kDeep});
     double slipped = 0;
     for (int n = 0; n < 12000 && slipped == 0; ++n) {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
-#include "../command.h"
 #include "burr/haptics/force_law.h"
-#include "burr/sim/touch_methods.h"
-#include "scenes/build.h"
+#include "burr/phantom/build.h"
+#include "burr/tick/touch_methods.h"
+#include "commands/command.h"
 #include "scenes/strokes.h"
 #include "verify.h"
 
@@ -46,7 +46,7 @@ Found stroke_with(const scenes::Stroke& stroke, const volume::IsoVertices& surfa
                   Method method) {
   haptics::ProxySettings settings;
   settings.radius = r;
-  sim::TouchMethods by(surface, settings, method);
+  tick::TouchMethods by(surface, settings, method);
   by.now().place(stroke.start);
   const auto hand = [&](double s) {
     if (!feels_its_centre(method)) return stroke.hand(s);
@@ -122,7 +122,7 @@ void truths(const Verify& verify, Report::Part& part) {
             done++ / static_cast<double>(strokes.size() * voxels.size() * radii.size()),
             "ground truths");
         if (order.size() < strokes.size()) order.push_back(stroke.name);
-        const auto bone = scenes::bone_from_distance(stroke.grid, {}, stroke.depth);
+        const auto bone = phantom::bone_from_distance(stroke.grid, {}, stroke.depth);
         const volume::IsoVertices surface(*bone, {}, 2, quiet);
         for (int m = 0; m < haptics::kMethods; ++m) {
           const auto method = static_cast<Method>(m);

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "burr/phantom/build.h"
 #include "burr/thermal/dose.h"
 #include "burr/thermal/heat_grid.h"
-#include "scenes/build.h"
 #include "verify.h"
 
 namespace burr::app {
@@ -18,8 +18,8 @@ constexpr double kPi = std::numbers::pi;
 
 // Bone everywhere in the box and half a metre about it.
 std::unique_ptr<volume::Bone> solid(const Vec3& half, double voxel) {
-  return scenes::bone_from_distance(scenes::box_grid(-half, half, voxel), {},
-                                    scenes::box(Vec3::Constant(0.5)));
+  return phantom::bone_from_distance(phantom::box_grid(-half, half, voxel), {},
+                                     phantom::box(Vec3::Constant(0.5)));
 }
 
 // A watt held in the middle of a large block: T = P / (4 pi k R) once it is steady near by.

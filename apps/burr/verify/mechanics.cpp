@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "burr/device/simulated_hand.h"
-#include "burr/edit/chips.h"
+#include "burr/edit/laws/chips.h"
+#include "burr/phantom/build.h"
 #include "burr/sim/session.h"
-#include "scenes/build.h"
 #include "verify.h"
 
 namespace burr::app {
@@ -16,19 +16,19 @@ constexpr double kMm = 1e-3, kRadius = 2 * kMm, kRpm = 2 * std::numbers::pi / 60
 constexpr double kUncut = 1e18;  // bone that nothing cuts, so that the contact stays  [J/m^3]
 
 std::unique_ptr<volume::Bone> slab(double cutting_energy) {
-  return scenes::bone_from_distance(
-      scenes::box_grid(Vec3::Constant(-6 * kMm), Vec3::Constant(6 * kMm), 0.25 * kMm),
-      scenes::bone_that_costs(cutting_energy), scenes::slab(), 256);
+  return phantom::bone_from_distance(
+      phantom::box_grid(Vec3::Constant(-6 * kMm), Vec3::Constant(6 * kMm), 0.25 * kMm),
+      phantom::bone_that_costs(cutting_energy), phantom::slab(), 256);
 }
 
 // A rigid hand with its shaft along +x presses straight down, 1 N for every millimetre, for a
 // while.
 struct Pressed {
   Vec3 force = Vec3::Zero();  // mean of the last 0.2 s
-  record::TickRow last;
+  tick::TickRow last;
   std::uint32_t flags = 0;
 };
-Pressed press(sim::ServoSettings servo, double newton) {
+Pressed press(tick::ServoSettings servo, double newton) {
   device::HandPath path;
   for (const auto& [t, z] : {std::pair{0.0, 1 * kMm}, std::pair{0.8, 1 * kMm},
                              std::pair{1.2, -newton * kMm}, std::pair{3.0, -newton * kMm}}) {
@@ -126,7 +126,7 @@ void chips(Report::Part& part) {
 }
 
 void drag(Report::Part& part) {
-  sim::ServoSettings settings;
+  tick::ServoSettings settings;
   const double mu = volume::Tissue{}.cutting_friction;
   const Vec3 forward = press(settings, 1).force;
   part.near("drag.over_push", mu, forward.y() / forward.z(), 0.01, "");
@@ -143,7 +143,7 @@ void drag(Report::Part& part) {
 }
 
 void spindle(const Verify& verify, Report::Part& part) {
-  sim::ServoSettings settings;
+  tick::ServoSettings settings;
   settings.motor.torque = 2e-3;
   settings.motor.friction = 0;
   settings.motor.inertia = 5e-8;  // stands within the time

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "html_page.h"
+#include "commands/html_page.h"
 #include "report.h"
 
 namespace burr::app {

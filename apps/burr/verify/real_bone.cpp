@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <random>
 
-#include "../command.h"
-#include "../volume_options.h"
-#include "burr/sim/motion.h"
+#include "burr/surgeon/motion.h"
 #include "burr/volume/sample.h"
+#include "commands/command.h"
 #include "verify.h"
 #include "workbench.h"
+#include "workshop/volume_options.h"
 
 namespace burr::app {
 namespace {
@@ -79,7 +79,7 @@ Verdict judge(const volume::Bone& bone, const Vec3& proxy, const Vec3& hand, dou
 }
 
 // A hand that presses into the bone and wanders over it.
-device::HandPath wander(const sim::WorkPlace& place, double r, double seconds, unsigned seed) {
+device::HandPath wander(const surgeon::WorkPlace& place, double r, double seconds, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> stray(0, 1);
   device::HandPath path;
@@ -106,7 +106,7 @@ struct Noise {
   double mean = 0, rms = 0, step = 0;  // of the force, and of its change from tick to tick [N]
   std::vector<double> t, force;
 };
-Noise noise(Workbench& bench, const sim::WorkPlace& place, double r) {
+Noise noise(Workbench& bench, const surgeon::WorkPlace& place, double r) {
   const Vec3 along = place.into.unitOrthogonal();
   const Vec3 above = place.at - 2 * r * place.into, deep = place.at + 5e-3 * place.into;
   device::HandPath path = path_through({{0, above},
@@ -164,7 +164,7 @@ void bones(const Verify& verify, Report::Part& part) {
       continue;
     }
     const double h = opened->bone->grid().voxel, r = kBurrVoxels * h;
-    auto place = sim::find_work_place(*opened->bone, r, {}, {});
+    auto place = surgeon::find_work_place(*opened->bone, r, {}, {});
     if (!place) {
       part.cannot(fmt::format("{}: {}", subject.name, place.error().text));
       continue;

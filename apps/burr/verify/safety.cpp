@@ -8,8 +8,8 @@
 #include <random>
 
 #include "burr/device/device.h"
-#include "burr/sim/servo.h"
-#include "scenes/build.h"
+#include "burr/phantom/build.h"
+#include "burr/tick/servo.h"
 #include "verify.h"
 
 namespace burr::app {
@@ -37,14 +37,14 @@ class Puppet final : public device::Device {
 };
 
 struct Bench {
-  explicit Bench(sim::ServoSettings settings = {})
-      : bone(scenes::bone_from_distance(
-            scenes::box_grid(Vec3(-8, -8, -6) * kMm, Vec3(8, 8, 6) * kMm, 0.25 * kMm), {},
-            scenes::slab(), 4000)),
+  explicit Bench(tick::ServoSettings settings = {})
+      : bone(phantom::bone_from_distance(
+            phantom::box_grid(Vec3(-8, -8, -6) * kMm, Vec3(8, 8, 6) * kMm, 0.25 * kMm), {},
+            phantom::slab(), 4000)),
         surface(*bone, {}, 2, quiet) {
     settings.burr.radius = kRadius;
     limit = settings.limit;
-    servo = std::make_unique<sim::Servo>(*bone, surface, puppet, settings);
+    servo = std::make_unique<tick::Servo>(*bone, surface, puppet, settings);
     puppet.next.pedal = 0;
   }
   const Vec3& step(const Vec3& at, bool lost = false) {
@@ -65,7 +65,7 @@ struct Bench {
   std::unique_ptr<volume::Bone> bone;
   volume::IsoVertices surface;
   Puppet puppet;
-  std::unique_ptr<sim::Servo> servo;
+  std::unique_ptr<tick::Servo> servo;
   haptics::LimitSettings limit;
   double most = 0, growth = 0;  // of the force [N], [N/s]
   bool not_finite = false;
@@ -103,7 +103,7 @@ void fuzzed(const Verify& verify, Report::Part& part) {
     if (what > 0.997) said += Vec3(stray(random), stray(random), stray(random)) * 0.1;
     if (what > 0.5 && what < 0.502) lost = true;
     if (what > 0.6 && what < 0.6005) {  // wishes of everybody, senseless ones too
-      const auto kind = static_cast<record::WishKind>(random() % 12);
+      const auto kind = static_cast<tick::WishKind>(random() % 12);
       static_cast<void>(bench.servo->wishes().push(
           {kind, share(random) < 0.2 ? bad[random() % std::size(bad)] : 3 * stray(random)}));
     }
@@ -127,12 +127,12 @@ void in_contact(Report::Part& part) {
     const char* name;
     std::function<void(Bench&)> happens;
   };
-  const auto wish = [](record::WishKind kind, double value) {
+  const auto wish = [](tick::WishKind kind, double value) {
     return [kind, value](Bench& bench) {
       static_cast<void>(bench.servo->wishes().push({kind, value}));
     };
   };
-  using Kind = record::WishKind;
+  using Kind = tick::WishKind;
   const Event events[] = {
       {"stall_100ms", [](Bench& bench) { (void)bench.step(kPressed, true); }},
       {"not_a_number", [](Bench& bench) { (void)bench.step(Vec3::Constant(NAN)); }},
@@ -187,8 +187,8 @@ void in_contact(Report::Part& part) {
 
 // Material put on under the tool: the burr is pushed out, no faster than the limits allow.
 void growth(Report::Part& part) {
-  sim::ServoSettings settings;
-  settings.mode = sim::ToolMode::add;
+  tick::ServoSettings settings;
+  settings.mode = tick::ToolMode::add;
   Bench bench(settings);
   bench.ease(kAir, kAir, 100);
   bench.ease(kAir, kPressed, 400);

@@ -1,6 +1,6 @@
 // burr verify stability - how stiff a wall a hand may hold, against theory; with and without the
 // energy guard.
-#include "burr/haptics/stability.h"
+#include "burr/haptics/safety/stability.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "burr/device/simulated_hand.h"
+#include "burr/phantom/build.h"
 #include "burr/sim/session.h"
-#include "scenes/build.h"
 #include "verify.h"
 
 namespace burr::app {
@@ -131,9 +131,9 @@ void devices(Report::Part& part) {
 // that was held over each tick.
 struct Pressing {
   const char* name;
-  scenes::Depth bone;
+  phantom::Depth bone;
   double radius = 2e-3;
-  sim::ToolMode mode = sim::ToolMode::touch;
+  tick::ToolMode mode = tick::ToolMode::touch;
   double stiffness = 1000;
   device::ArmSettings arm = {.mass = 0.06, .damping = 5, .stiffness = 200};
   bool guarded = false;
@@ -167,8 +167,8 @@ Lasting last(const Pressing& one, double seconds) {
   strong.max_stiffness = 1e5;
   NoProgress quiet;
   auto made = sim::Session::make(
-      scenes::bone_from_distance(
-          scenes::box_grid(Vec3::Constant(-9 * kMm), Vec3::Constant(9 * kMm), 0.25 * kMm), {},
+      phantom::bone_from_distance(
+          phantom::box_grid(Vec3::Constant(-9 * kMm), Vec3::Constant(9 * kMm), 0.25 * kMm), {},
           one.bone, 4096),
       std::make_unique<device::SimulatedHand>(path, one.arm, strong), settings, quiet);
   Lasting out;
@@ -177,7 +177,7 @@ Lasting last(const Pressing& one, double seconds) {
   Vec3 held = Vec3::Zero(), at = Vec3::Zero();
   double sum = 0, squares = 0;
   for (int n = 0; n < ticks; ++n) {
-    const record::TickRow& row = (*made)->servo().tick(false);
+    const tick::TickRow& row = (*made)->servo().tick(false);
     (*made)->servo().publish();
     const Vec3 now = row.hand.world_from_tool.p;
     if (n > 0) out.energy -= held.dot(now - at);
@@ -197,9 +197,9 @@ Lasting last(const Pressing& one, double seconds) {
 }
 
 void lasting(const Verify& verify, Report::Part& part) {
-  using sim::ToolMode;
+  using tick::ToolMode;
   const double seconds = verify.quick ? 6 : 30;
-  const scenes::Depth flat = scenes::slab(), groove = scenes::groove(M_PI / 4);
+  const phantom::Depth flat = phantom::slab(), groove = phantom::groove(M_PI / 4);
   const device::ArmSettings stiff = {.mass = 0.3, .damping = 40, .stiffness = 3000};
   // border 2 b / T = 2 kN/m
   const device::ArmSettings loose = {.mass = 0.06, .damping = 1, .stiffness = 200};
@@ -227,7 +227,7 @@ void lasting(const Verify& verify, Report::Part& part) {
     const std::string name = fmt::format("lasting.{}", one.name);
     const bool beyond = name == "lasting.beyond";  // 2.5 times the border: has to fail
     // the guard's promise: its slack, and k T v^2 / 2 a second below its least speed
-    const sim::ServoSettings usual;
+    const tick::ServoSettings usual;
     const double slow = haptics::EnergyGuardSettings{}.least_speed;
     const double allowed =
         one.guarded ? usual.guard_slack + 0.5 * one.stiffness * kT * slow * slow * seconds : 20e-6;

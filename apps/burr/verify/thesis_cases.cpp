@@ -8,7 +8,7 @@
 #include "burr/device/simulated_hand.h"
 #include "burr/haptics/force_law.h"
 #include "burr/haptics/touch_method.h"
-#include "scenes/build.h"
+#include "burr/phantom/build.h"
 #include "verify.h"
 
 namespace burr::app {
@@ -82,9 +82,9 @@ bool slides(const Row& row) { return row.t > 2.5 && row.t < 3.4; }
 
 void cases(const Verify&, Report::Part& part) {
   NoProgress quiet;
-  const scenes::Depth cube = scenes::box(Vec3::Constant(kSide));
+  const phantom::Depth cube = phantom::box(Vec3::Constant(kSide));
   const Vec3 half = Vec3::Constant(std::ceil((kSide + 5 * kMm) / kVoxel) * kVoxel);
-  const auto bone = scenes::bone_from_distance(scenes::box_grid(-half, half, kVoxel), {}, cube);
+  const auto bone = phantom::bone_from_distance(phantom::box_grid(-half, half, kVoxel), {}, cube);
   const volume::IsoVertices surface(*bone, {}, 2, quiet);
   for (const Method method : {Method::thesis, Method::constraint}) {
     const std::string who(haptics::name(method));

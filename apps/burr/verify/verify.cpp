@@ -10,7 +10,7 @@
 #include <chrono>
 #include <tuple>
 
-#include "command.h"
+#include "commands/command.h"
 
 namespace burr::app {
 namespace {

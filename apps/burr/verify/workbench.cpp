@@ -9,9 +9,9 @@ namespace burr::app {
 
 using math::Vec3;
 
-Workbench::Workbench(const scenes::Depth& depth, const volume::Grid& grid,
+Workbench::Workbench(const phantom::Depth& depth, const volume::Grid& grid,
                      const volume::TissueTable& tissues, const WorkSettings& settings)
-    : Workbench(scenes::bone_from_distance(grid, tissues, depth), settings) {}
+    : Workbench(phantom::bone_from_distance(grid, tissues, depth), settings) {}
 
 Workbench::Workbench(std::unique_ptr<volume::Bone> bone, const WorkSettings& settings)
     : settings_(settings),

@@ -10,10 +10,10 @@
 
 #include "burr/device/simulated_hand.h"
 #include "burr/edit/carve.h"
-#include "burr/edit/removal.h"
+#include "burr/edit/laws/removal.h"
 #include "burr/haptics/force_law.h"
-#include "burr/sim/touch_methods.h"
-#include "scenes/build.h"
+#include "burr/phantom/build.h"
+#include "burr/tick/touch_methods.h"
 
 namespace burr::app {
 
@@ -39,7 +39,7 @@ class Workbench {
     double removed = 0;  // so far                        [m^3]
   };
 
-  Workbench(const scenes::Depth& depth, const volume::Grid& grid,
+  Workbench(const phantom::Depth& depth, const volume::Grid& grid,
             const volume::TissueTable& tissues, const WorkSettings& settings);
 
   Workbench(std::unique_ptr<volume::Bone> bone, const WorkSettings& settings);
@@ -60,7 +60,7 @@ class Workbench {
   volume::IsoVertices surface_;
   edit::UndoStore undo_;
   edit::Carver carver_;
-  sim::TouchMethods touch_by_;
+  tick::TouchMethods touch_by_;
   std::uint64_t tick_ = 0;
   math::Vec3 velocity_ = math::Vec3::Zero();
   double energy_ = 0;

@@ -40,7 +40,7 @@ class Device {
   // ones ignore it.
   [[nodiscard]] virtual HandState state(double dt) BURR_RT = 0;
 
-  // Pushes the hand; world, at the tip [N]. Already bounded by haptics/limit.h.
+  // Pushes the hand; world, at the tip [N]. Already bounded by haptics/safety/limit.h.
   virtual void write_force(const math::Vec3& force) BURR_RT = 0;
 
   // Turns the hand about the tip; world [N m]. Bounded likewise, said before the force it goes out

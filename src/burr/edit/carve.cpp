@@ -26,7 +26,7 @@ constexpr double kManyBricks = 72;
 constexpr int kUsualTurns = 4;  // at most
 constexpr std::uint8_t kMixed = 255;
 
-// bits of haptics/contact.h; edit may not include haptics, sim/servo.cpp asserts that they agree
+// bits of haptics/contact.h; edit may not include haptics, tick/servo.cpp asserts that they agree
 constexpr std::uint32_t kReserve = 1U << 10, kUndoFull = 1U << 11, kNotCut = 1U << 14,
                         kPutOff = 1U << 15;
 

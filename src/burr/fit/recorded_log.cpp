@@ -101,20 +101,20 @@ Result<ForceLog> log_of_recording(record::Player& player, double window,
   double removed = 0, radius = law->radius;
   std::uint64_t removing = 0;
   while (steps.next(step)) {
-    for (const record::Wish& wish : step.wishes) {
-      if (wish.kind == record::WishKind::burr_radius) radius = wish.value;
-      if (wish.kind == record::WishKind::burr_kind && (wish.value > 0) == law->fluted)
+    for (const tick::Wish& wish : step.wishes) {
+      if (wish.kind == tick::WishKind::burr_radius) radius = wish.value;
+      if (wish.kind == tick::WishKind::burr_kind && (wish.value > 0) == law->fluted)
         return error(
             fmt::format("{}: the burr was changed between cutting and diamond on the way; record "
                         "one session for each",
                         file));
-      if (wish.kind == record::WishKind::removal_law && wish.value == 1)
+      if (wish.kind == tick::WishKind::removal_law && wish.value == 1)
         return error(
             fmt::format("{}: was milled in part by the thesis' removal, which knows no "
                         "force; record with --removal energy",
                         file));
     }
-    const record::TickRow& tick = step.row;
+    const tick::TickRow& tick = step.row;
     if (now.ticks == 0) {
       now = {};
       now.removed_at_start = removed;

@@ -1,10 +1,10 @@
 #include "burr/haptics/touch_method.h"
 
-#include "burr/haptics/methods/penalty.h"
-#include "burr/haptics/methods/samples.h"
-#include "burr/haptics/methods/thesis.h"
-#include "burr/haptics/methods/triangles.h"
-#include "burr/haptics/methods/voxel_springs.h"
+#include "burr/haptics/baselines/penalty.h"
+#include "burr/haptics/baselines/samples.h"
+#include "burr/haptics/baselines/thesis.h"
+#include "burr/haptics/baselines/triangles.h"
+#include "burr/haptics/baselines/voxel_springs.h"
 #include "burr/haptics/proxy.h"
 
 namespace burr::haptics {

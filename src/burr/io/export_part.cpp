@@ -6,8 +6,8 @@
 #include <memory>
 #include <thread>
 
-#include "burr/io/write_mesh.h"
-#include "burr/io/write_volume.h"
+#include "burr/io/write/write_mesh.h"
+#include "burr/io/write/write_volume.h"
 #include "burr/surface/mesher.h"
 #include "burr/volume/removed_part.h"
 #include "burr/volume/volume_of.h"

@@ -1,8 +1,8 @@
 // io/export_part.h - the bone, or what was taken out of it, into one file; the ending says which
 // kind.
 //
-//     .stl .ply .obj .3mf .glb    its closed surface            (io/write_mesh.h)
-//     .seg.nrrd                   a label per tissue            (io/write_volume.h)
+//     .stl .ply .obj .3mf .glb    its closed surface            (io/write/write_mesh.h)
+//     .seg.nrrd                   a label per tissue            (io/write/write_volume.h)
 //     .nrrd                       the field, or the scan with the cut in it
 //
 // Both bones at rest. Thread: one; meshes on a few of its own. Memory: for a mesh about 130 bytes
@@ -14,7 +14,7 @@
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
-#include "burr/io/frame.h"
+#include "burr/io/write/frame.h"
 #include "burr/volume/bone.h"
 
 namespace burr::io {

@@ -2,7 +2,7 @@
 
 #include <sys/mman.h>
 
-#include "burr/io/voxel_lender.h"
+#include "burr/io/sandbox/voxel_lender.h"
 
 namespace burr::io {
 namespace {

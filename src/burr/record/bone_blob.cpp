@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "burr/record/crc32.h"
 #include "burr/record/grid_json.h"
-#include "burr/record/packed.h"
+#include "burr/record/mcap/crc32.h"
+#include "burr/record/mcap/packed.h"
 
 namespace burr::record {
 namespace {

@@ -14,7 +14,7 @@
 #include <set>
 
 #include "burr/base/hash.h"
-#include "burr/record/bytes.h"
+#include "burr/record/mcap/bytes.h"
 
 namespace burr::record {
 namespace {

@@ -15,9 +15,9 @@ namespace {
 
 using volume::BrickIndex;
 
-BrickRow row_of(std::uint64_t tick, BrickIndex brick, const BrickContent& content,
-                bool with_tissue) {
-  BrickRow row;
+tick::BrickRow row_of(std::uint64_t tick, BrickIndex brick, const BrickContent& content,
+                      bool with_tissue) {
+  tick::BrickRow row;
   row.tick = tick;
   row.brick = brick;
   row.field = content.field;
@@ -121,7 +121,7 @@ void Player::find_ends() {
   if (!first.next(step)) return;
   first_tick_ = step.row.tick;
   // each chunk is read once: there may be many with wishes alone
-  std::vector<TickRow> rows;
+  std::vector<tick::TickRow> rows;
   for (std::size_t c = step_chunks_.size(); c-- > 0 && rows.empty();) {
     const auto chunk = reader_->read_chunk(step_chunks_[c]);
     if (!chunk) {
@@ -150,7 +150,7 @@ bool StepCursor::fill() {
       continue;
     }
     for (const McapMessage& message : chunk->messages) {
-      WishRow wish;
+      tick::WishRow wish;
       if (message.channel == player.tick_channel_ && !decode_ticks(message.data, rows_))
         player_->notice(
             fmt::format("{}: a message of ticks near {:.3f} s is malformed and was "
@@ -174,7 +174,7 @@ bool StepCursor::fill() {
 bool StepCursor::next(Step& step) {
   for (;;) {
     if (row_ == rows_.size() && !fill()) return false;
-    const TickRow& row = rows_[row_++];
+    const tick::TickRow& row = rows_[row_++];
     if (row.tick < first_tick_ || (last_tick_ && row.tick <= *last_tick_)) continue;
     step.row = row;
     step.gap = row.tick != (last_tick_ ? *last_tick_ + 1 : first_tick_);
@@ -192,7 +192,7 @@ StepCursor Player::steps(std::uint64_t first_tick) {
 
 BrickCursor Player::bricks() { return BrickCursor(*this); }
 
-bool BrickCursor::next(BrickRow& row) {
+bool BrickCursor::next(tick::BrickRow& row) {
   while (row_ == rows_.size()) {
     rows_.clear();
     row_ = 0;
@@ -253,9 +253,9 @@ std::size_t Player::step_chunk_before(std::uint64_t tick) const {
   return count == 0 ? 0 : count - 1;
 }
 
-Result<TickRow> Player::tick_at(double t_s) {
+Result<tick::TickRow> Player::tick_at(double t_s) {
   const std::uint64_t tick = tick_of(t_s);
-  std::optional<TickRow> found;
+  std::optional<tick::TickRow> found;
   for (std::size_t start = step_chunk_before(tick), back = 16;; back *= 2) {
     StepCursor cursor(*this, start, 0);
     Step step;

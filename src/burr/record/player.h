@@ -20,19 +20,19 @@
 #include <vector>
 
 #include "burr/base/result.h"
-#include "burr/record/mcap_reader.h"
-#include "burr/record/rows.h"
+#include "burr/record/mcap/mcap_reader.h"
 #include "burr/record/schema.h"
 #include "burr/record/session_info.h"
+#include "burr/tick/rows.h"
 #include "burr/volume/bone.h"
 
 namespace burr::record {
 
 // One tick as a replay needs it.
 struct Step {
-  TickRow row;               // inputs, and what came of them
-  std::vector<Wish> wishes;  // taken at the start of this tick, in order
-  bool gap = false;          // ticks before this one are missing: dropped, or in a damaged stretch
+  tick::TickRow row;               // inputs, and what came of them
+  std::vector<tick::Wish> wishes;  // taken at the start of this tick, in order
+  bool gap = false;  // ticks before this one are missing: dropped, or in a damaged stretch
 };
 
 class Player;
@@ -52,22 +52,22 @@ class StepCursor {
   std::size_t chunk_;  // in step_chunks_
   std::uint64_t first_tick_;
   std::optional<std::uint64_t> last_tick_;
-  std::vector<TickRow> rows_;
+  std::vector<tick::TickRow> rows_;
   std::size_t row_ = 0;
-  std::deque<WishRow> wishes_;
+  std::deque<tick::WishRow> wishes_;
 };
 
 // Goes through the changed bricks in order, as the servo pushed them: whole contents.
 class BrickCursor {
  public:
-  [[nodiscard]] bool next(BrickRow& row);
+  [[nodiscard]] bool next(tick::BrickRow& row);
 
  private:
   friend class Player;
   explicit BrickCursor(Player& player) : player_(&player) {}
   Player* player_;
   std::size_t chunk_ = 0, row_ = 0;  // chunk_: in change_chunks_
-  std::vector<BrickRow> rows_;
+  std::vector<tick::BrickRow> rows_;
   std::unordered_map<volume::BrickIndex, BrickContent> state_;
 };
 
@@ -101,7 +101,7 @@ class Player {
   // or the bone is another one (by size), or has no room for deposits (reserve_bricks).
   [[nodiscard]] Status bone_at(double t_s, volume::Bone& bone);
   // the last tick at or before t: pose, proxy, force ... for a picture
-  [[nodiscard]] Result<TickRow> tick_at(double t_s);
+  [[nodiscard]] Result<tick::TickRow> tick_at(double t_s);
 
   // The bone at the start, if the recording holds it (info().embedded).
   [[nodiscard]] Result<std::unique_ptr<volume::Bone>> embedded_bone(

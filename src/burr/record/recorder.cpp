@@ -20,7 +20,7 @@
 #include "burr/base/check.h"
 #include "burr/base/version.h"
 #include "burr/record/bone_blob.h"
-#include "burr/record/mcap_writer.h"
+#include "burr/record/mcap/mcap_writer.h"
 #include "burr/record/place_file.h"
 #include "burr/record/schema.h"
 #include "burr/rt/thread.h"
@@ -169,9 +169,9 @@ class Recorder::Pen {
 
   // after a failure: the rings must not look full for ever, wait_for_room() would not return
   void discard() {
-    TickRow tick;
-    WishRow wish;
-    BrickRow brick;
+    tick::TickRow tick;
+    tick::WishRow wish;
+    tick::BrickRow brick;
     while (recorder_.ticks_.pop(tick)) ++account_.dropped_ticks;
     while (recorder_.wishes_.pop(wish)) ++account_.dropped_wishes;
     while (recorder_.bricks_.pop(brick)) ++account_.dropped_bricks;
@@ -248,8 +248,8 @@ class Recorder::Pen {
   void take_ticks() {
     const auto per_message =
         static_cast<std::size_t>(std::max(1.0, std::round(recorder_.rate_hz_ * kBatch)));
-    std::vector<TickRow> rows;
-    TickRow row;
+    std::vector<tick::TickRow> rows;
+    tick::TickRow row;
     // no more than there are now: a servo as fast as we are would keep us here
     for (std::size_t left = recorder_.ticks_.size(); left > 0 && recorder_.ticks_.pop(row);
          --left) {
@@ -279,7 +279,7 @@ class Recorder::Pen {
   }
 
   void take_wishes(std::uint64_t until) {
-    WishRow row;
+    tick::WishRow row;
     while (next_until(recorder_.wishes_, waiting_wish_, until, row)) {
       put(wish_channel_, row.tick, as_bytes(to_json(row)));
       ++account_.wishes;
@@ -288,7 +288,7 @@ class Recorder::Pen {
 
   void take_bricks(std::uint64_t until) {
     Bricks bricks;
-    BrickRow row;
+    tick::BrickRow row;
     while (next_until(recorder_.bricks_, waiting_brick_, until, row)) {
       // what it is now goes to the mirror, what is different to the file
       BrickContent& mirror = mirror_[row.brick];
@@ -418,8 +418,8 @@ class Recorder::Pen {
   bool failed_ = false;
   Clock::time_point last_write_;
   std::uint64_t end_tick_ = 0;  // ticks before this one are taken
-  std::optional<WishRow> waiting_wish_;
-  std::optional<BrickRow> waiting_brick_;
+  std::optional<tick::WishRow> waiting_wish_;
+  std::optional<tick::BrickRow> waiting_brick_;
   std::unordered_map<volume::BrickIndex, BrickContent> mirror_;  // what the file says of the bone
   std::uint64_t batch_ = 0;
   std::vector<std::pair<volume::BrickIndex, BrickContent>> keyframe_;  // being written

@@ -28,9 +28,9 @@
 #include <string>
 
 #include "burr/base/result.h"
-#include "burr/record/rows.h"
 #include "burr/record/session_info.h"
 #include "burr/rt/ring.h"
+#include "burr/tick/rows.h"
 #include "burr/volume/bone.h"
 
 namespace burr::record {
@@ -67,9 +67,9 @@ class Recorder {
                              std::function<void(const Error&)> on_trouble = {});
 
   // ---- the servo's side; within a tick: wishes, bricks, then the tick
-  [[nodiscard]] rt::Ring<TickRow>& ticks() BURR_RT { return ticks_; }
-  [[nodiscard]] rt::Ring<WishRow>& wishes() BURR_RT { return wishes_; }
-  [[nodiscard]] rt::Ring<BrickRow>& bricks() BURR_RT { return bricks_; }
+  [[nodiscard]] rt::Ring<tick::TickRow>& ticks() BURR_RT { return ticks_; }
+  [[nodiscard]] rt::Ring<tick::WishRow>& wishes() BURR_RT { return wishes_; }
+  [[nodiscard]] rt::Ring<tick::BrickRow>& bricks() BURR_RT { return bricks_; }
 
   // For a session as fast as possible: call between ticks, on the servo's thread; waits (not
   // real-time!) until no ring is more than half full. Paced sessions never call it.
@@ -89,9 +89,9 @@ class Recorder {
 
  private:
   class Pen;
-  rt::Ring<TickRow> ticks_;
-  rt::Ring<WishRow> wishes_;
-  rt::Ring<BrickRow> bricks_;
+  rt::Ring<tick::TickRow> ticks_;
+  rt::Ring<tick::WishRow> wishes_;
+  rt::Ring<tick::BrickRow> bricks_;
   double rate_hz_;
   bool realtime_;
   std::unique_ptr<Pen> pen_;

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "burr/record/mcap_reader.h"
-#include "burr/record/mcap_writer.h"
+#include "burr/record/mcap/mcap_reader.h"
+#include "burr/record/mcap/mcap_writer.h"
 #include "burr/record/place_file.h"
 #include "burr/record/schema.h"
 #include "burr/record/session_info.h"
@@ -63,7 +63,7 @@ Status copy(const McapReader& from, McapWriter& to, RepairReport& report, Progre
         !added.ok())
       return added;
     ++report.chunks;
-    std::vector<TickRow> rows;
+    std::vector<tick::TickRow> rows;
     for (const McapMessage& message : chunk->messages)
       if (message.channel == tick_channel) static_cast<void>(decode_ticks(message.data, rows));
     report.ticks += rows.size();

@@ -4,7 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "burr/record/crc32.h"
+#include "burr/record/mcap/crc32.h"
 
 namespace burr::record {
 namespace {
@@ -125,10 +125,10 @@ struct FieldText {
 
 struct TickColumn {
   FieldText text;
-  void* (*in)(TickRow& row);  // where it lies in a row
+  void* (*in)(tick::TickRow& row);  // where it lies in a row
 };
 
-#define BURR_AT(member) [](TickRow& row) -> void* { return &row.member; }
+#define BURR_AT(member) [](tick::TickRow& row) -> void* { return &row.member; }
 const TickColumn kTickColumns[] = {
     {{1, "tick", Type::u64, "0, 1, 2 ... of the session; time is tick / rate_hz [1]"},
      BURR_AT(tick)},
@@ -334,43 +334,43 @@ constexpr const char* kEventSchema = R"({
  }
 })";
 
-const char* wish_name(WishKind kind) {
+const char* wish_name(tick::WishKind kind) {
   switch (kind) {
-    case WishKind::spindle_speed:
+    case tick::WishKind::spindle_speed:
       return "spindle_speed";
-    case WishKind::burr_radius:
+    case tick::WishKind::burr_radius:
       return "burr_radius";
-    case WishKind::stiffness:
+    case tick::WishKind::stiffness:
       return "stiffness";
-    case WishKind::user_force:
+    case tick::WishKind::user_force:
       return "user_force";
-    case WishKind::tool_mode:
+    case tick::WishKind::tool_mode:
       return "tool_mode";
-    case WishKind::undo:
+    case tick::WishKind::undo:
       return "undo";
-    case WishKind::redo:
+    case tick::WishKind::redo:
       return "redo";
-    case WishKind::reset:
+    case tick::WishKind::reset:
       return "reset";
-    case WishKind::friction:
+    case tick::WishKind::friction:
       return "friction";
-    case WishKind::load:
+    case tick::WishKind::load:
       return "load";
-    case WishKind::touch_method:
+    case tick::WishKind::touch_method:
       return "touch_method";
-    case WishKind::removal_law:
+    case tick::WishKind::removal_law:
       return "removal_law";
-    case WishKind::irrigation:
+    case tick::WishKind::irrigation:
       return "irrigation";
-    case WishKind::mirror_i:
+    case tick::WishKind::mirror_i:
       return "mirror_i";
-    case WishKind::mirror_j:
+    case tick::WishKind::mirror_j:
       return "mirror_j";
-    case WishKind::mirror_k:
+    case tick::WishKind::mirror_k:
       return "mirror_k";
-    case WishKind::mirror_off:
+    case tick::WishKind::mirror_off:
       return "mirror_off";
-    case WishKind::burr_kind:
+    case tick::WishKind::burr_kind:
       return "burr_kind";
   }
   return "";
@@ -401,13 +401,13 @@ std::string schema_data(std::string_view schema_name) {
   return descriptor("Ticks", fields);
 }
 
-void encode_ticks(std::span<const TickRow> rows, BytesOut& out) {
+void encode_ticks(std::span<const tick::TickRow> rows, BytesOut& out) {
   BytesOut packed;
   // the accessors want rows they could change
-  std::vector<TickRow> mine(rows.begin(), rows.end());
+  std::vector<tick::TickRow> mine(rows.begin(), rows.end());
   for (const TickColumn& column : kTickColumns) {
     packed.clear();
-    for (TickRow& row : mine) {
+    for (tick::TickRow& row : mine) {
       if (column.text.type == Type::flag)
         packed.put(static_cast<std::uint8_t>(*static_cast<bool*>(column.in(row)) ? 1 : 0));
       else
@@ -417,7 +417,7 @@ void encode_ticks(std::span<const TickRow> rows, BytesOut& out) {
   }
 }
 
-bool decode_ticks(ByteSpan message, std::vector<TickRow>& rows) {
+bool decode_ticks(ByteSpan message, std::vector<tick::TickRow>& rows) {
   constexpr std::size_t kColumns = std::size(kTickColumns);
   std::array<ByteSpan, kColumns> columns{};
   if (!each_field(message, [&](std::uint64_t field, std::uint64_t, ByteSpan block) {
@@ -457,14 +457,14 @@ std::size_t tick_columns_size() {
   return size;
 }
 
-std::string to_json(const WishRow& row) {
+std::string to_json(const tick::WishRow& row) {
   json object = {{"tick", row.tick}, {"kind", wish_name(row.wish.kind)}, {"value", row.wish.value}};
   if (std::isnan(row.wish.value)) object["value"] = "nan";
   if (std::isinf(row.wish.value)) object["value"] = row.wish.value > 0 ? "inf" : "-inf";
   return object.dump();
 }
 
-bool wish_from_json(std::string_view text, WishRow& row) {
+bool wish_from_json(std::string_view text, tick::WishRow& row) {
   const json object = json::parse(text, nullptr, false);
   if (!object.is_object()) return false;
   const auto tick = object.find("tick"), kind = object.find("kind"), value = object.find("value");
@@ -484,7 +484,7 @@ bool wish_from_json(std::string_view text, WishRow& row) {
       return false;
   }
   for (unsigned k = 0; k < 256; ++k) {
-    const auto known = static_cast<WishKind>(k);
+    const auto known = static_cast<tick::WishKind>(k);
     const std::string_view name = wish_name(known);
     if (name.empty()) break;
     if (*kind == name) {

@@ -15,8 +15,8 @@
 #include <string_view>
 #include <vector>
 
-#include "burr/record/bytes.h"
-#include "burr/record/rows.h"
+#include "burr/record/mcap/bytes.h"
+#include "burr/tick/rows.h"
 
 namespace burr::record {
 
@@ -43,15 +43,15 @@ inline constexpr const char* kBoneMediaType = "application/x-burr-bone";
 [[nodiscard]] std::string schema_data(std::string_view schema_name);
 
 // ---- ticks
-void encode_ticks(std::span<const TickRow> rows, BytesOut& out);
+void encode_ticks(std::span<const tick::TickRow> rows, BytesOut& out);
 // appends; false: malformed, nothing appended
-[[nodiscard]] bool decode_ticks(ByteSpan message, std::vector<TickRow>& rows);
+[[nodiscard]] bool decode_ticks(ByteSpan message, std::vector<tick::TickRow>& rows);
 // bytes of a row that are written; for the test that no field is forgotten
 [[nodiscard]] std::size_t tick_columns_size();
 
 // ---- wishes
-[[nodiscard]] std::string to_json(const WishRow& row);
-[[nodiscard]] bool wish_from_json(std::string_view text, WishRow& row);
+[[nodiscard]] std::string to_json(const tick::WishRow& row);
+[[nodiscard]] bool wish_from_json(std::string_view text, tick::WishRow& row);
 
 // ---- bricks
 // What a brick is like; tissue only where it differs from the bone as it was opened.

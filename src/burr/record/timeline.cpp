@@ -19,7 +19,7 @@ double Timeline::force_in(double from_s, double to_s) const {
                         force.begin() + static_cast<std::ptrdiff_t>(last) + 1));
 }
 
-std::optional<double> Timeline::wished(WishKind kind, double t_s) const {
+std::optional<double> Timeline::wished(tick::WishKind kind, double t_s) const {
   std::optional<double> value;
   for (const TimelineEvent& event : events) {
     if (event.t_s > t_s) break;
@@ -48,7 +48,7 @@ TimelineMaker::TimelineMaker(double rate_hz, std::uint64_t end_tick)
 }
 
 void TimelineMaker::add(const Step& step) {
-  const TickRow& row = step.row;
+  const tick::TickRow& row = step.row;
   const double t = static_cast<double>(row.tick) / rate_hz_;
   // a damaged row may say anything
   const double force = row.contact.force.norm();
@@ -76,8 +76,9 @@ void TimelineMaker::add(const Step& step) {
       line_.work = {row.contact.proxy, outward};
   }
 
-  for (const Wish& wish : step.wishes)
-    if (wish.kind != WishKind::load) line_.events.push_back({t, wish});  // that one is the servo's
+  for (const tick::Wish& wish : step.wishes)
+    if (wish.kind != tick::WishKind::load)
+      line_.events.push_back({t, wish});  // that one is the servo's
 }
 
 Timeline TimelineMaker::finish() { return std::move(line_); }

@@ -17,7 +17,7 @@
 #include "burr/base/result.h"
 #include "burr/math/vec3.h"
 #include "burr/record/player.h"
-#include "burr/record/rows.h"
+#include "burr/tick/rows.h"
 
 namespace burr::record {
 
@@ -28,7 +28,7 @@ struct Stroke {
 
 struct TimelineEvent {
   double t_s = 0;
-  Wish wish;
+  tick::Wish wish;
 };
 
 struct Timeline {
@@ -48,7 +48,7 @@ struct Timeline {
   // the largest force from one moment to another; of the part they lie in if that is longer
   [[nodiscard]] double force_in(double from_s, double to_s) const;
   // what a wish of this kind set last, at or before t
-  [[nodiscard]] std::optional<double> wished(WishKind kind, double t_s) const;
+  [[nodiscard]] std::optional<double> wished(tick::WishKind kind, double t_s) const;
   // the stroke at t, or the next one before or after it: its begin; none: there is none
   [[nodiscard]] std::optional<double> stroke_after(double t_s) const;
   [[nodiscard]] std::optional<double> stroke_before(double t_s) const;

@@ -56,11 +56,11 @@ class LentHand final : public device::Device {
   Vec3 at_ = Vec3::Zero();
 };
 
-ServoSettings servo_of(const WallSettings& wall, const Shown& shown) {
-  ServoSettings servo;
+tick::ServoSettings servo_of(const WallSettings& wall, const Shown& shown) {
+  tick::ServoSettings servo;
   servo.rate_hz = wall.rate_hz;
   servo.burr.radius = wall.burr_radius;
-  servo.mode = ToolMode::touch;
+  servo.mode = tick::ToolMode::touch;
   servo.force = {shown.stiffness, 0};  // a damper would be felt as more stiffness
   servo.friction_scale = shown.friction;
   servo.friction_turning = 0;
@@ -124,7 +124,7 @@ Result<people::Felt> Wall::show(device::Device& hand, const Shown& shown, double
       surface_ = std::make_unique<volume::IsoVertices>(*bone_, volume::IsoSettings{}, 1, quiet);
     }
     LentHand lent(hand, felt, spindle);
-    Servo servo(*bone_, *surface_, lent, servo_of(settings_, shown));
+    tick::Servo servo(*bone_, *surface_, lent, servo_of(settings_, shown));
     Vec3 last = Vec3::Zero();
     for (std::size_t n = 0; n < ticks && !(n % 100 == 0 && enough && enough()); ++n) {
       last = servo.tick(false).contact.force;

@@ -11,7 +11,7 @@ namespace burr::sim {
 namespace {
 
 // What first differs between two rows of the same tick.
-std::string difference(const record::TickRow& was, const record::TickRow& is) {
+std::string difference(const tick::TickRow& was, const tick::TickRow& is) {
   if (was.contact.force != is.contact.force)
     return fmt::format("force ({:.6g}, {:.6g}, {:.6g}) N instead of ({:.6g}, {:.6g}, {:.6g}) N",
                        is.contact.force.x(), is.contact.force.y(), is.contact.force.z(),
@@ -36,13 +36,13 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
   if (!recorded) return recorded.error();
   volume::IsoVertices surface(*bone, recorded->settings.surface, 2, progress);
   device::ReplayedHand hand(recorded->device);
-  Servo servo(*bone, surface, hand, recorded->settings.servo);
+  tick::Servo servo(*bone, surface, hand, recorded->settings.servo);
 
   ReplayOutcome outcome;
   record::StepCursor steps = player.steps();
   record::BrickCursor bricks = player.bricks();
   record::Step step;
-  record::BrickRow brick;
+  tick::BrickRow brick;
   bool has_brick = bricks.next(brick);
   while (!outcome.parted_at && steps.next(step)) {
     if (step.gap || step.row.tick != outcome.ticks) {
@@ -52,9 +52,9 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
                       step.row.tick);
       break;
     }
-    for (const record::Wish& wish : step.wishes) servo.wishes().push(wish);
+    for (const tick::Wish& wish : step.wishes) servo.wishes().push(wish);
     hand.set(step.row.hand);
-    const record::TickRow& row = servo.tick((step.row.contact.flags & haptics::kFlagWatchdog) != 0);
+    const tick::TickRow& row = servo.tick((step.row.contact.flags & haptics::kFlagWatchdog) != 0);
     servo.publish();
     ++outcome.ticks;
     if (row.hash != step.row.hash) {

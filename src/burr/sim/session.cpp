@@ -34,7 +34,7 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
                                                std::unique_ptr<device::Device> device,
                                                const SessionSettings& settings,
                                                Progress& progress) {
-  const ServoSettings& servo = settings.servo;
+  const tick::ServoSettings& servo = settings.servo;
   const double h = bone->grid().voxel, r = servo.burr.radius;
   if (!(servo.rate_hz >= 500 && servo.rate_hz <= 10000))
     return error(Trouble::usage,
@@ -61,7 +61,7 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
   if (!opened) return opened.error();
   std::unique_ptr<Session> session(new Session(std::move(bone), std::move(device), settings));
   const device::DeviceSpec& spec = session->device_->spec();
-  ServoSettings capped = servo;
+  tick::ServoSettings capped = servo;
   capped.force.stiffness = std::min(servo.force.stiffness, spec.max_stiffness);
   capped.force.damping = std::min(servo.force.damping, spec.max_damping);
   session->settings_.servo = capped;
@@ -71,7 +71,7 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
     return error(Trouble::interrupted,
                  "stopped while the surface was being prepared; nothing was written");
   session->servo_ =
-      std::make_unique<Servo>(*session->bone_, *session->surface_, *session->device_, capped);
+      std::make_unique<tick::Servo>(*session->bone_, *session->surface_, *session->device_, capped);
   if (settings.heat) {
     session->heat_ = std::make_unique<thermal::Worker>(*session->bone_, settings.heat->work,
                                                        settings.heat->settings);
@@ -84,20 +84,21 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
   return session;
 }
 
-Status Session::join(std::unique_ptr<device::Device> device, const SecondHandSettings& settings) {
+Status Session::join(std::unique_ptr<device::Device> device,
+                     const tick::SecondHandSettings& settings) {
   BURR_CHECK(second_ == nullptr && !running());
   const Status opened = device->open();
   if (!opened) return opened;
   second_device_ = std::move(device);
   second_device_->follow();
-  second_ =
-      std::make_unique<SecondHand>(*surface_, *second_device_, settings, settings_.servo.rate_hz);
+  second_ = std::make_unique<tick::SecondHand>(*surface_, *second_device_, settings,
+                                               settings_.servo.rate_hz);
   return fine();
 }
 
 void Session::set_recorder(record::Recorder* recorder) {
   recorder_ = recorder;
-  Diary diary;
+  tick::Diary diary;
   if (recorder != nullptr) diary = {&recorder->ticks(), &recorder->wishes(), &recorder->bricks()};
   servo_->set_diary(diary);
 }
@@ -110,9 +111,9 @@ void Session::loop(std::uint64_t ticks) {
                          : settings_.realtime ? static_cast<rt::TickClock&>(wall)
                                               : simulated;
   if (settings_.realtime) watchdog_->rearm(rt::monotonic_ns());
-  LoadSettings load = settings_.load;
+  tick::LoadSettings load = settings_.load;
   load.first_in_line = load.first_in_line || rt::goes_first();
-  LoadGovernor governor(clock.period_ns(), load);
+  tick::LoadGovernor governor(clock.period_ns(), load);
   math::Vec3 last_force = math::Vec3::Zero(), last_torque = math::Vec3::Zero();
 
   for (std::uint64_t n = 0;
@@ -130,7 +131,7 @@ void Session::loop(std::uint64_t ticks) {
       }
     }
     const std::int64_t began = rt::monotonic_ns(), before = rt::thread_cpu_ns();
-    const record::TickRow& row = servo_->tick(lost);
+    const tick::TickRow& row = servo_->tick(lost);
     if (second_) second_->step(lost, servo_->restoring());
     const std::int64_t took = rt::thread_cpu_ns() - before;
     servo_->note_timing(1e-3 * static_cast<double>(took), 1e-3 * static_cast<double>(time.late_ns));
@@ -270,9 +271,9 @@ Outcome Session::outcome() const {
   outcome.timing = stats_.summary();
   outcome.scheduling = grant_.sentence;
   outcome.load_ticks = load_ticks_;
-  for (int step = 0; step < kLoads; ++step)
+  for (int step = 0; step < tick::kLoads; ++step)
     if (load_ticks_[static_cast<std::size_t>(step)] > 0)
-      outcome.most_load = static_cast<Load>(step);
+      outcome.most_load = static_cast<tick::Load>(step);
   return outcome;
 }
 

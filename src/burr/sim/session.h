@@ -20,16 +20,16 @@
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
-#include "burr/haptics/watchdog.h"
+#include "burr/haptics/safety/watchdog.h"
 #include "burr/record/recorder.h"
 #include "burr/rt/stats.h"
 #include "burr/rt/thread.h"
-#include "burr/sim/load.h"
-#include "burr/sim/second_hand.h"
-#include "burr/sim/servo.h"
 #include "burr/thermal/settings.h"
 #include "burr/thermal/summary.h"
 #include "burr/thermal/worker.h"
+#include "burr/tick/load.h"
+#include "burr/tick/second_hand.h"
+#include "burr/tick/servo.h"
 
 namespace burr::sim {
 
@@ -40,11 +40,11 @@ struct HeatWish {
 };
 
 struct SessionSettings {
-  ServoSettings servo;
+  tick::ServoSettings servo;
   volume::IsoSettings surface;
-  LoadSettings load;      // by the clock only: what is too much for this machine
-  bool realtime = false;  // paced by the clock, watched by a watchdog; false: as fast as possible
-  int threads = 2;        // for preparing the surface
+  tick::LoadSettings load;  // by the clock only: what is too much for this machine
+  bool realtime = false;    // paced by the clock, watched by a watchdog; false: as fast as possible
+  int threads = 2;          // for preparing the surface
   std::optional<HeatWish> heat;
 };
 
@@ -59,8 +59,8 @@ struct Outcome {
   std::uint64_t heat_rows_lost = 0;  // too slow a machine: what they heated is missing
   rt::TickSummary timing;
   std::string scheduling;  // what the servo thread was given, one sentence
-  std::array<std::uint64_t, kLoads> load_ticks = {};  // ticks at each step of sim/load.h
-  Load most_load = Load::none;                        // the highest step ever taken
+  std::array<std::uint64_t, tick::kLoads> load_ticks = {};  // ticks at each step of tick/load.h
+  tick::Load most_load = tick::Load::none;                  // the highest step ever taken
 };
 
 class Session {
@@ -77,9 +77,9 @@ class Session {
   // One more device, in the other hand, which feels the bone and never changes it; nothing of it is
   // recorded. Opens it. Before run() or start(), once. Error: as its open() says.
   [[nodiscard]] Status join(std::unique_ptr<device::Device> device,
-                            const SecondHandSettings& settings);
+                            const tick::SecondHandSettings& settings);
   // nullptr: there is none. Its view() and faults() are doors.
-  [[nodiscard]] SecondHand* second_hand() { return second_.get(); }
+  [[nodiscard]] tick::SecondHand* second_hand() { return second_.get(); }
 
   // Everything that happens goes to this recorder, already started; before run() or start().
   // nullptr: nowhere.
@@ -87,7 +87,7 @@ class Session {
 
   // The newest row goes to one more reader, beside view(); before run() or start(), and it outlives
   // the session's last tick. nullptr: nobody.
-  void set_watch(rt::Latest<record::TickRow>* watch) { servo_->set_watch(watch); }
+  void set_watch(rt::Latest<tick::TickRow>* watch) { servo_->set_watch(watch); }
 
   // Until the hand has finished, `seconds` of its time are over, or progress is cancelled; returns
   // when the servo stands.
@@ -99,16 +99,16 @@ class Session {
   [[nodiscard]] bool running() const { return running_.load(std::memory_order_acquire); }
 
   // ---- doors
-  void wish(const record::Wish& wish) { static_cast<void>(servo_->wishes().push(wish)); }
-  [[nodiscard]] bool view(record::TickRow& newest) { return servo_->view().take(newest); }
-  [[nodiscard]] bool fault(FaultReport& report) { return servo_->faults().take(report); }
+  void wish(const tick::Wish& wish) { static_cast<void>(servo_->wishes().push(wish)); }
+  [[nodiscard]] bool view(tick::TickRow& newest) { return servo_->view().take(newest); }
+  [[nodiscard]] bool fault(tick::FaultReport& report) { return servo_->faults().take(report); }
   // How warm it is, ten times a second of the session's time; false: nothing new, or nobody asked.
   [[nodiscard]] bool heat(thermal::HeatSummary& newest) { return heat_ && heat_->take(newest); }
   // of the burr's head as it is now [m]; any thread
   [[nodiscard]] double burr_radius() const { return servo_->burr_radius(); }
   // What the machine cannot keep up with just now: pictures and surface are to be made less often
   // from Load::picture and Load::mesh on. Any thread.
-  [[nodiscard]] Load load() const { return load_.load(std::memory_order_relaxed); }
+  [[nodiscard]] tick::Load load() const { return load_.load(std::memory_order_relaxed); }
 
   [[nodiscard]] volume::Bone& bone() { return *bone_; }
   [[nodiscard]] const volume::TissueTable& bone_tissues() const { return bone_->tissues(); }
@@ -116,7 +116,7 @@ class Session {
   [[nodiscard]] const SessionSettings& settings() const { return settings_; }
   [[nodiscard]] const volume::IsoVertices& surface() const { return *surface_; }
   // The servo itself; only while it stands.
-  [[nodiscard]] Servo& servo() { return *servo_; }
+  [[nodiscard]] tick::Servo& servo() { return *servo_; }
   // The bone as it was before the first cut; only while the servo stands.
   [[nodiscard]] std::unique_ptr<volume::Bone> bone_before() const;
   // Only while the servo stands.
@@ -137,19 +137,19 @@ class Session {
   SessionSettings settings_;
   std::unique_ptr<volume::IsoVertices> surface_;
   std::unique_ptr<thermal::Worker> heat_;
-  std::unique_ptr<Servo> servo_;
-  std::unique_ptr<SecondHand> second_;
+  std::unique_ptr<tick::Servo> servo_;
+  std::unique_ptr<tick::SecondHand> second_;
   std::unique_ptr<haptics::Watchdog> watchdog_;
   record::Recorder* recorder_ = nullptr;
 
   std::unique_ptr<rt::Thread> thread_, guard_, ahead_;
   std::atomic<bool> running_ = false, stop_ = false;
   std::atomic<std::uint64_t> done_ = 0;
-  std::atomic<Load> load_ = Load::none;
+  std::atomic<tick::Load> load_ = tick::Load::none;
 
   // the servo's own account
   rt::TickStats stats_;
-  std::array<std::uint64_t, kLoads> load_ticks_ = {};
+  std::array<std::uint64_t, tick::kLoads> load_ticks_ = {};
   double peak_force_ = 0, force_sum_ = 0;
   std::uint64_t touching_ = 0;
   std::uint32_t flags_ = 0;

@@ -68,7 +68,7 @@ const Entry kEntries[] = {
     BURR_ENTRY("carve_patience_s", settings.servo.carve.patience, 0, 1e6),
     BURR_ENTRY("deposit_share", settings.servo.carve.deposit_share, 0, 1),
     BURR_ENTRY("deposit_gap_voxel", settings.servo.carve.deposit_gap, 0, 64),
-    BURR_ENTRY("tool_mode", settings.servo.mode, 0, kToolModes - 1),
+    BURR_ENTRY("tool_mode", settings.servo.mode, 0, tick::kToolModes - 1),
     BURR_ENTRY("irrigated", settings.servo.irrigated, 0, 1, true),
     BURR_ENTRY("friction_scale", settings.servo.friction_scale, 0, 1e3),
     BURR_ENTRY("friction_turning", settings.servo.friction_turning, 0, 1e3),

@@ -1,6 +1,6 @@
 // sound/heard.h - what there is to be heard now. Plain struct; SI.
 //
-// Whoever knows the session fills it in (apps/burr/hearing.h). What is not a number is heard as
+// Whoever knows the session fills it in (apps/burr/workshop/hearing.h). What is not a number is heard as
 // nothing.
 #pragma once
 

@@ -12,7 +12,7 @@
 // search for the smallest worst error. Two nested straight ramps (Richardson) have the first
 // property but not the second: 1.8 % for a ball of 3.3 voxels, 5 % for slanted plates.
 // Worst errors over all places: balls of R >= 3 voxels 0.7 %; plates of t >= 2 voxels 0.8 % along
-// the axes, 1.4 % along the worst lattice diagonal. tests/scenes/build_test.cpp
+// the axes, 1.4 % along the worst lattice diagonal. tests/phantom/build_test.cpp
 //
 // A voxel's volume is a whole number, so sums are exact in any order; it is found in floats without
 // contraction, so it is the same on every machine.

@@ -19,10 +19,10 @@
 #include <thread>
 #include <vector>
 
-#include "burr/io/bytes.h"
-#include "burr/io/fence_child.h"
-#include "burr/io/fence_letter.h"
-#include "burr/io/text.h"
+#include "burr/io/read/bytes.h"
+#include "burr/io/read/text.h"
+#include "burr/io/sandbox/fence_child.h"
+#include "burr/io/sandbox/fence_letter.h"
 
 namespace burr::io {
 namespace {

@@ -1,0 +1,32 @@
+// apps/burr/bench/bench.h - `burr bench NAME`: what is fast enough and what is not; one file per
+// measurement, which registers itself.
+//
+//     namespace {
+//     void add(CLI::App& bench, burr::app::Todo& todo) {
+//       auto* command = bench.add_subcommand("surface", "the whole surface of a phantom");
+//       ...                                            // as in command.h
+//     }
+//     const burr::app::BenchCommand command{20, add};  // 20: place in the help
+//     }
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+#include "commands/command.h"
+
+namespace burr::app {
+
+struct BenchCommand {
+  BenchCommand(int place, Command::Add add);
+};
+
+// The value below which a share q, 0..1, of them lies; of none 0.
+[[nodiscard]] double quantile(std::vector<double> values, double q);
+
+[[nodiscard]] inline double ms_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+}  // namespace burr::app

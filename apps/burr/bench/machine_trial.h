@@ -1,0 +1,28 @@
+// apps/burr/bench/machine_trial.h - this computer tried as the home of a haptic device: a loop that only
+// waits, the real tick while milling, and both with everything else at work.
+//
+// Main thread; takes its time and says how far it is.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "burr/base/result.h"
+#include "burr/rt/machine_check.h"
+
+namespace burr::app {
+
+struct MachineTrial {
+  double seconds = 12;    // in three equal parts
+  double voxel_mm = 0.2;  // of the built-in bone that is milled
+  bool picture = true;    // drawn meanwhile
+};
+
+struct MachineMeasured {
+  rt::MachineSeen seen;
+  std::vector<std::string> left_out;  // sentences
+};
+
+[[nodiscard]] Result<MachineMeasured> measure_machine(const MachineTrial& trial);
+
+}  // namespace burr::app

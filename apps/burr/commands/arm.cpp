@@ -1,0 +1,111 @@
+// burr arm - burr as a robot's arm on the bus of ROS 2 (CRTK): others drive it into a bone, feel
+// what the bone answers, watch and record.
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "burr/device/crtk/arm.h"
+#include "burr/math/turn.h"
+#include "commands/command.h"
+#include "workshop/arm_teller.h"
+#include "workshop/recording.h"
+#include "workshop/work.h"
+
+namespace burr::app {
+namespace {
+
+struct Options {
+  WorkOptions work;
+  device::crtk::ArmSettings arm;
+  std::string record;
+  double seconds = 0;
+  bool json = false;
+};
+
+constexpr double kForGood = 1e9;  // [s]
+constexpr double kAbove = 20e-3;  // where it begins, over the work [m]
+
+Status run(const Options& options) {
+  WorkOptions wished = options.work;
+  if (const Status taken = take_case(wished); !taken) return taken;
+  auto work = open_work(wished, progress());
+  if (!work) return work.error();
+  fit_burr(wished, work->made);
+  for (const std::string& notice : work->made.summary.notices) fmt::print(stderr, "{}\n", notice);
+  const sim::SessionSettings settings = settings_of(wished, true);
+  math::Pose start;
+  start.p = work->place.at - kAbove * work->place.into;
+  start.q = math::shortest_turn(math::Vec3::UnitZ(), -work->place.into);
+
+  device::crtk::ArmSettings named = options.arm;
+  named.middle = start.p;
+  auto arm = device::crtk::Arm::open(named);
+  if (!arm) return arm.error();
+  auto driven = std::make_unique<device::crtk::DrivenHand>(**arm, start);
+  device::crtk::DrivenHand& hand = *driven;
+  auto made =
+      sim::Session::make(std::move(work->made.bone), std::move(driven), settings, progress());
+  if (!made) return made.error();
+  sim::Session& session = **made;
+  Recording recording;
+  if (!options.record.empty()) {
+    const Status started = recording.start(session, options.record, work->volume,
+                                           work->made.summary, "CRTK " + named.name, false);
+    if (!started) return started;
+  }
+  fmt::print(
+      stderr,
+      "{0} is on DDS domain {1} (ROS_DOMAIN_ID): drive it by {0}/servo_cp or move_cp [m, LPS], "
+      "the spindle by {0}/spindle (Joy, axis 0); it begins at {2:.4f} {3:.4f} {4:.4f}. Ctrl-C "
+      "ends it.\n",
+      named.name, (*arm)->domain(), start.p.x(), start.p.y(), start.p.z());
+  {
+    const ArmTeller teller(session, **arm, [&hand] { return hand.busy(); });
+    session.run(options.seconds > 0 ? options.seconds : kForGood, progress());
+  }
+  const Status recorded = options.record.empty() ? fine() : recording.finish(session);
+  const sim::Outcome outcome = session.outcome();
+  if (options.json)
+    fmt::print("{}\n", nlohmann::json({{"ticks", outcome.ticks},
+                                       {"seconds", outcome.seconds},
+                                       {"missed", outcome.timing.missed},
+                                       {"removed_mm3", 1e9 * outcome.ledger.removed},
+                                       {"peak_force_N", outcome.peak_force},
+                                       {"left_aside", (*arm)->left_aside()}})
+                           .dump());
+  else
+    fmt::print(
+        "{:.1f} s: removed {:.3f} mm3, {:.2f} N at the most; {} goals or commands left aside\n",
+        outcome.seconds, 1e9 * outcome.ledger.removed, outcome.peak_force, (*arm)->left_aside());
+  return recorded;
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  options->seconds = 0;
+  auto* command = app.add_subcommand(
+      "arm", "burr as a CRTK robot arm (ROS 2 names, no ROS needed) that others drive and watch");
+  command->add_option("bone", options->work.volume.path,
+                      "a case or a scan (default: temporal-bone)");
+  command->add_option("--name", options->arm.name, "of the arm, as ROS writes it")
+      ->capture_default_str();
+  command->add_option("--domain", options->arm.domain, "of DDS (default: ROS_DOMAIN_ID, else 0)")
+      ->check(CLI::Range(0, 232));
+  command->add_option("--seconds", options->seconds, "until it ends (default: Ctrl-C)")
+      ->check(CLI::Range(0.1, 1e6));
+  command->add_option("--record", options->record, "F.mcap: write the session down");
+  command->add_option("--burr-mm", options->work.burr_mm,
+                      "diameter of the burr; default: the case's, else 5");
+  command->add_option("--rpm", options->work.rpm,
+                      "of the spindle; default: the case's, else 40000");
+  command->add_flag("--json", options->json, "one JSON object on the last line");
+  add_volume_options(*command, options->work.volume);
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{86, add};
+
+}  // namespace
+}  // namespace burr::app

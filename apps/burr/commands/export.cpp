@@ -1,0 +1,148 @@
+// `burr export`: the bone or what was removed, as a mesh or a volume other programs open.
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "burr/io/export_part.h"
+#include "burr/record/player.h"
+#include "commands/command.h"
+#include "workshop/recording.h"
+#include "workshop/volume_options.h"
+
+namespace burr::app {
+namespace {
+
+struct Options {
+  std::string source, out;
+  VolumeOptions volume;  // path: --volume, of a recording
+  double at_s = -1;      // moment of a recording; below 0: its end
+  std::string part = "bone", frame = "lps";
+  bool scan = false;
+  bool json = false;
+
+  [[nodiscard]] io::ExportOptions what() const {
+    return {part == "removed" ? io::Part::removed : io::Part::bone,
+            frame == "ras"     ? io::Frame::ras
+            : frame == "print" ? io::Frame::print
+                               : io::Frame::lps,
+            scan};
+  }
+};
+
+struct Bones {
+  std::unique_ptr<volume::Bone> before, now;  // now empty: the same
+};
+
+// With room for deposits.
+std::unique_ptr<volume::Bone> copy_of(const volume::Bone& from, std::size_t reserve_bricks) {
+  auto copy = std::make_unique<volume::Bone>(from.grid(), from.tissues(), from.used_slots(),
+                                             reserve_bricks, from.has_intensity());
+  for (volume::BrickIndex brick = 0; brick < from.brick_count(); ++brick) {
+    if (from.brick_field(brick) == nullptr) continue;
+    copy->build_brick(brick, from.brick_field(brick), from.brick_tissue(brick));
+    if (from.has_intensity())
+      std::copy_n(from.brick_intensity(brick), volume::kBrickVoxels, copy->build_intensity(brick));
+  }
+  copy->pack();
+  return copy;
+}
+
+bool is_recording(const std::string& path) {
+  return path.size() > 5 && path.compare(path.size() - 5, 5, ".mcap") == 0;
+}
+
+// A volume as it is opened: nothing is removed from it.
+Result<Bones> open_plain(const Options& options) {
+  if (options.part == "removed")
+    return error(Trouble::usage, "nothing is removed from a volume yet; give a recording (.mcap)");
+  VolumeOptions volume = options.volume;
+  volume.path = options.source;
+  volume.reserve_bricks = 0;
+  auto opened = open_volume(volume, progress());
+  if (!opened) return opened.error();
+  for (const std::string& notice : opened->summary.notices) fmt::print(stderr, "{}\n", notice);
+  Bones bones;
+  bones.before = std::move(opened->bone);
+  return bones;
+}
+
+// The bone a recording began with, and as it was at the wanted moment.
+Result<Bones> open_recording(const Options& options) {
+  auto player = record::Player::open(options.source);
+  if (!player) return player.error();
+  Bones bones;
+  auto before = bone_of(**player, options.volume, progress());
+  if (!before) return before.error();
+  bones.before = std::move(*before);
+  bones.now = copy_of(*bones.before, (*player)->info().volume.reserve_bricks);
+  const double at_s = options.at_s < 0 ? (*player)->seconds() : options.at_s;
+  const Status there = (*player)->bone_at(at_s, *bones.now);
+  if (!there) return there.error();
+  for (const std::string& notice : (*player)->notices()) fmt::print(stderr, "{}\n", notice);
+  return bones;
+}
+
+Status run(const Options& options) {
+  const Status possible = io::check_export(options.out, options.what());
+  if (!possible) return possible;
+  auto bones = is_recording(options.source) ? open_recording(options) : open_plain(options);
+  if (!bones) return bones.error();
+  const volume::Bone& before = *bones->before;
+  const volume::Bone& now = bones->now ? *bones->now : before;
+  const auto exported = io::export_part(before, now, options.out, options.what(), progress());
+  if (!exported) return exported.error();
+
+  const double volume_mm3 = exported.value().volume * 1e9;
+  if (options.json) {
+    nlohmann::ordered_json row;
+    row["part"] = options.part;
+    row["volume_mm3"] = volume_mm3;
+    row["triangles"] = exported.value().triangles;
+    fmt::print("{}\n", row.dump());
+  } else if (exported.value().triangles > 0) {
+    fmt::print("{}: {:.1f} mm^3 in {} triangles\n", options.out, volume_mm3,
+               exported.value().triangles);
+  } else {
+    fmt::print("{}: {:.1f} mm^3\n", options.out, volume_mm3);
+  }
+  return fine();
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto* command = app.add_subcommand("export", "write the bone, or what was removed, to a file");
+  auto options = std::make_shared<Options>();
+  command
+      ->add_option("source", options->source,
+                   "a recording (.mcap), or a volume as burr info takes it")
+      ->required();
+  command
+      ->add_option("--out", options->out,
+                   "file to write; its ending says how: .stl .ply .obj .3mf .glb .seg.nrrd .nrrd")
+      ->required();
+  command->add_option("--part", options->part, "bone, or removed")
+      ->check(CLI::IsMember({"bone", "removed"}))
+      ->capture_default_str();
+  command
+      ->add_option("--frame", options->frame,
+                   "axes of a mesh: lps as the scan, ras, or print (z up, on the bed, centred)")
+      ->check(CLI::IsMember({"lps", "ras", "print"}))
+      ->capture_default_str();
+  command->add_flag("--scan", options->scan,
+                    "into .nrrd: the scan's grey values with the cut in them, not the field");
+  command->add_option("--at", options->at_s, "moment of the recording [s]; default: its end")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--volume", options->volume.path,
+                      "of a recording: the volume it was cut from (default: search for it)");
+  add_volume_options(*command, options->volume);
+  command->add_flag("--json", options->json, "one JSON object as the last line");
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{60, add};
+
+}  // namespace
+}  // namespace burr::app

@@ -1,0 +1,177 @@
+// `burr info`: what a file holds, and what would be done to it. No name, id, date or path of a
+// patient.
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "burr/io/sandbox/fence.h"
+#include "commands/command.h"
+#include "workshop/volume_options.h"
+
+namespace burr::app {
+namespace {
+
+struct Options {
+  VolumeOptions volume;
+  bool json = false;
+};
+
+const char* word(volume::TissueKind kind) {
+  switch (kind) {
+    case volume::TissueKind::air:
+      return "air";
+    case volume::TissueKind::soft:
+      return "soft";
+    case volume::TissueKind::solid:
+      return "solid";
+  }
+  return "";
+}
+
+std::string vector_text(const math::Vec3& v) {
+  return fmt::format("({:.5g}, {:.5g}, {:.5g})", v.x(), v.y(), v.z());
+}
+
+nlohmann::json array(const math::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+nlohmann::json array(const math::Ijk& v) { return {v.x(), v.y(), v.z()}; }
+
+void print(const importing::ImportSummary& s) {
+  fmt::print("{}: {} x {} x {} voxels of {:.5g} x {:.5g} x {:.5g} mm, {}\n", s.format,
+             s.scan_size.x(), s.scan_size.y(), s.scan_size.z(), s.spacing_mm.x(), s.spacing_mm.y(),
+             s.spacing_mm.z(),
+             s.labels       ? "labels"
+             : s.hounsfield ? "Hounsfield units"
+                            : "grey values");
+  fmt::print("  first voxel at {} mm LPS; rows {}, columns {}, slices {}\n",
+             vector_text(s.origin_mm), vector_text(s.axes.col(0)), vector_text(s.axes.col(1)),
+             vector_text(s.axes.col(2)));
+  if (!s.labels) fmt::print("  values {:.5g} to {:.5g}\n", s.low, s.high);
+  if (s.size.isZero()) return;
+  if (s.roi_size != s.scan_size)
+    fmt::print("  cropped to {} x {} x {} voxels\n", s.roi_size.x(), s.roi_size.y(),
+               s.roi_size.z());
+  fmt::print("becomes bone of {} x {} x {} voxels of {:.5g} mm, about {:.0f} MB\n", s.size.x(),
+             s.size.y(), s.size.z(), s.voxel_mm, s.memory_mb);
+  if (!s.labels)
+    fmt::print("  surface at {:.5g}{}{}; noise smoothed: {:.3g}\n", s.iso,
+               s.hounsfield ? " HU" : "", s.iso_by_otsu ? " (Otsu)" : "", s.smooth);
+  for (const importing::TissueFound& t : s.tissues) {
+    fmt::print("  {:>3} {:<28} {:<5}{}", t.tissue.label, t.tissue.name, word(t.tissue.kind),
+               t.tissue.spare ? " spare" : "");
+    if (t.voxels > 0) fmt::print("  {:.1f} mm^3", t.volume_mm3);
+    fmt::print("\n");
+  }
+}
+
+nlohmann::json to_json(const importing::ImportSummary& s) {
+  nlohmann::json out = {{"format", s.format},
+                        {"size", array(s.scan_size)},
+                        {"spacing_mm", array(s.spacing_mm)},
+                        {"origin_mm", array(s.origin_mm)},
+                        {"axes",
+                         {array(math::Vec3(s.axes.col(0))), array(math::Vec3(s.axes.col(1))),
+                          array(math::Vec3(s.axes.col(2)))}},
+                        {"labels", s.labels},
+                        {"hounsfield", s.hounsfield},
+                        {"notices", s.notices}};
+  if (!s.labels) {
+    out["low"] = s.low;
+    out["high"] = s.high;
+  }
+  if (s.size.isZero()) {
+    out["bone"] = nullptr;
+    return out;
+  }
+  nlohmann::json bone = {
+      {"size", array(s.size)}, {"voxel_mm", s.voxel_mm}, {"memory_mb", s.memory_mb}};
+  if (!s.labels) {
+    bone["iso"] = s.iso;
+    bone["iso_by_otsu"] = s.iso_by_otsu;
+    bone["smooth"] = s.smooth;
+  }
+  for (const importing::TissueFound& t : s.tissues) {
+    nlohmann::json one = {{"label", t.tissue.label},
+                          {"name", t.tissue.name},
+                          {"kind", word(t.tissue.kind)},
+                          {"spare", t.tissue.spare},
+                          {"cutting_energy_J_mm3", t.tissue.cutting_energy * 1e-9}};
+    if (t.voxels > 0) one["volume_mm3"] = t.volume_mm3;
+    bone["tissues"].push_back(one);
+  }
+  out["bone"] = bone;
+  return out;
+}
+
+// How well this computer shuts a damaged file in (burr/io/sandbox/fence.h).
+nlohmann::json with_fence(nlohmann::json out) {
+  const io::FenceState fence = io::fence_state();
+  out["fence"] = {{"process", !fence.reader.empty()},
+                  {"memory_limit", fence.memory_limit},
+                  {"landlock", fence.landlock},
+                  {"seccomp", fence.seccomp}};
+  return out;
+}
+
+// What is in it; and, if it can be milled, what would become of it.
+Result<importing::ImportSummary> look(const VolumeOptions& options) {
+  if (is_phantom(options.path)) {
+    auto made = open_volume(options, progress());
+    if (!made) return made.error();
+    return std::move(made->summary);
+  }
+  const auto reading = read_options(options);
+  if (!reading) return reading.error();
+  const auto importing = import_options(options);
+  if (!importing) return importing.error();
+  auto scan = io::read_scan(options.path, *reading, progress());
+  if (!scan) return scan.error();
+  auto plan = importing::plan_import(*scan, *importing);
+  if (plan || plan.error().trouble == Trouble::usage) return plan;
+  // a file that is read but cannot be milled is still described
+  importing::ImportSummary s;
+  s.format = scan->format;
+  s.scan_size = s.roi_size = scan->size;
+  s.spacing_mm = scan->spacing_mm;
+  s.axes = scan->axes;
+  s.origin_mm = scan->origin_mm;
+  s.labels = scan->values.empty();
+  s.hounsfield = scan->hounsfield;
+  if (!s.labels) {
+    const auto [low, high] = std::minmax_element(scan->values.begin(), scan->values.end());
+    s.low = *low;
+    s.high = *high;
+  }
+  s.notices = scan->notices;
+  s.notices.push_back("It cannot be milled: " + plan.error().text + ".");
+  return s;
+}
+
+Status run(const Options& options) {
+  auto found = look(options.volume);
+  if (!found) return found.error();
+  print(*found);
+  for (const std::string& notice : found->notices) fmt::print("  note: {}\n", notice);
+  if (options.json)
+    fmt::print(
+        "{}\n",
+        with_fence(to_json(*found)).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  return fine();
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto* command = app.add_subcommand("info", "what a volume holds and what would be done to it");
+  auto options = std::make_shared<Options>();
+  command->add_option("volume", options->volume.path, "file, DICOM folder, or phantom:NAME")
+      ->required();
+  add_volume_options(*command, options->volume);
+  command->add_flag("--json", options->json, "one JSON object as the last line");
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{20, add};
+
+}  // namespace
+}  // namespace burr::app

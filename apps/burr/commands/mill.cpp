@@ -1,0 +1,371 @@
+// burr mill - a simulated hand mills a bone from a file or a formula, and what happened is
+// measured, recorded and drawn.
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "burr/device/simulated_hand.h"
+#include "burr/importing/materials.h"
+#include "burr/render/bone_scene.h"
+#include "burr/render/picture.h"
+#include "burr/sim/session.h"
+#include "burr/surgeon/motion.h"
+#include "burr/tick/mirror_plane.h"
+#include "commands/command.h"
+#include "workshop/recording.h"
+#include "workshop/still.h"
+#include "workshop/volume_options.h"
+
+namespace burr::app {
+namespace {
+
+using math::Vec3;
+
+struct Options {
+  VolumeOptions volume;
+  PictureSize size;
+  std::string path_csv, motion_name, record, picture, arm = "firm", touch = "constraint",
+                                                      removal = "energy", mirror;
+  std::vector<double> at_mm, into;
+  double burr_mm = 5, rpm = 40000, rate_hz = 1000, seconds = 10, stiffness = 1000;
+  std::size_t undo_bricks = tick::ServoSettings{}.undo_bricks;
+  edit::RemovalSettings removing;
+  double vibration = 0, torque_mnm = 1e3 * tool::Motor{}.torque, drag = 1;
+  int teeth = tool::Burr{}.teeth;
+  bool guarded = false, heat = false, irrigated = false;
+  bool realtime = false, embed = false, json = false, diamond = false;
+};
+
+Result<device::HandPath> hand_path(const Options& options, const volume::Bone& bone,
+                                   surgeon::WorkPlace& place) {
+  std::optional<Vec3> at, into;
+  if (!options.at_mm.empty())
+    at = Vec3(options.at_mm[0], options.at_mm[1], options.at_mm[2]) * 1e-3;
+  if (!options.into.empty()) into = Vec3(options.into[0], options.into[1], options.into[2]);
+  auto found = surgeon::find_work_place(bone, 0.5e-3 * options.burr_mm, at, into);
+  if (!options.path_csv.empty()) {
+    auto path = surgeon::read_path(options.path_csv);
+    if (path && found) place = *found;
+    if (path && !found) place.at = path->points.front().world_from_tool.p;
+    return path;
+  }
+  if (!found) return found.error();
+  place = *found;
+  return surgeon::motion(options.motion_name, place, 0.5e-3 * options.burr_mm, options.seconds);
+}
+
+Status draw(const Options& options, const surgeon::WorkPlace& place, sim::Session& session) {
+  render::Scene scene =
+      scene_of_work(session.bone(), 0.5e-3 * options.burr_mm, place.at, -place.into);
+  const Status skinned = render::skin_bone(scene, session.bone(), 2, progress());
+  if (!skinned) return skinned;
+  return render::render_png(scene, options.size.width, options.size.height, options.picture);
+}
+
+// Bone within 20 mm of the work: heat goes no further in minutes.
+math::Aabb work_box(const volume::Bone& bone, const Vec3& at) {
+  const volume::Grid& grid = bone.grid();
+  math::Aabb box;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p((corner & 1) != 0 ? grid.size.x() - 1.0 : 0.0,
+                 (corner & 2) != 0 ? grid.size.y() - 1.0 : 0.0,
+                 (corner & 4) != 0 ? grid.size.z() - 1.0 : 0.0);
+    box.extend(grid.world_from_grid(p));
+  }
+  constexpr double kAround = 20e-3;
+  box.lo = box.lo.cwiseMax(at - Vec3::Constant(kAround));
+  box.hi = box.hi.cwiseMin(at + Vec3::Constant(kAround));
+  return box;
+}
+
+// How each tissue warms, by its name, from the table of materials.
+Result<thermal::HeatSettings> heat_settings(const Options& options,
+                                            const volume::TissueTable& tissues) {
+  importing::Materials materials = importing::built_in_materials();
+  if (!options.volume.materials.empty()) {
+    auto read = importing::read_materials(options.volume.materials);
+    if (!read) return read.error();
+    materials = std::move(*read);
+  }
+  thermal::HeatSettings settings;
+  for (std::size_t id = 1; id < tissues.tissues.size(); ++id) {
+    const volume::Tissue& tissue = tissues.tissues[id];
+    const importing::Material& material = materials.of(tissue.name, tissue.kind);
+    if (!material.conductivity || !material.density || !material.specific_heat) continue;
+    settings.special.push_back(
+        {static_cast<volume::TissueId>(id),
+         {material.conductivity->value, material.density->value, material.specific_heat->value}});
+  }
+  return settings;
+}
+
+void print_heat(const sim::Session& session, const thermal::HeatSummary& heat, std::uint64_t lost) {
+  const thermal::HeatLedger& ledger = heat.ledger;
+  fmt::print(
+      "heat: {:.2f} J of the burr's {:.2f} J stayed in the bone; {:.2f} J to the coolant; "
+      "warmest now {:.1f} deg C\n",
+      ledger.into, ledger.spent, ledger.convected, heat.hottest_c);
+  for (std::size_t id = 1; id < heat.tissue.size(); ++id) {
+    const thermal::TissueHeat& one = heat.tissue[id];
+    if (!one.there) continue;
+    fmt::print(
+        "  {}: {:.1f} deg C at the most, dose {:.3g} CEM43 min, {:.2f} mm3 above 47 deg C "
+        "now\n",
+        session.bone_tissues()[static_cast<volume::TissueId>(id)].name, one.ever_c, one.cem43_min,
+        1e9 * one.warm_m3);
+  }
+  if (lost > 0)
+    fmt::print("  {} rows of heat were lost, this machine is too slow: it was warmer\n", lost);
+}
+
+nlohmann::json heat_json(const sim::Session& session, const thermal::HeatSummary& heat,
+                         std::uint64_t lost) {
+  nlohmann::json tissues = nlohmann::json::array();
+  for (std::size_t id = 1; id < heat.tissue.size(); ++id) {
+    const thermal::TissueHeat& one = heat.tissue[id];
+    if (!one.there) continue;
+    tissues.push_back({{"tissue", session.bone_tissues()[static_cast<volume::TissueId>(id)].name},
+                       {"now_c", one.now_c},
+                       {"ever_c", one.ever_c},
+                       {"cem43_min", one.cem43_min},
+                       {"warm_mm3", 1e9 * one.warm_m3}});
+  }
+  return {{"hottest_c", heat.hottest_c},
+          {"spent_J", heat.ledger.spent},
+          {"into_bone_J", heat.ledger.into},
+          {"to_coolant_J", heat.ledger.convected},
+          {"rows_lost", lost},
+          {"tissues", tissues}};
+}
+
+void print(const Options& options, sim::Session& session, const Recording& recording) {
+  const sim::Outcome outcome = session.outcome();
+  const rt::TickSummary& t = outcome.timing;
+  thermal::HeatSummary heat;
+  if (options.heat) static_cast<void>(session.heat(heat));
+  if (!options.json) {
+    fmt::print(
+        "{:.2f} s, {} ticks: removed {:.3f} mm3 of {:.3f} mm3 asked; force {:.2f} N mean in "
+        "contact, {:.2f} N peak\n",
+        outcome.seconds, outcome.ticks, 1e9 * outcome.ledger.removed, 1e9 * outcome.ledger.asked,
+        outcome.mean_force, outcome.peak_force);
+    fmt::print("tick {:.1f} us median, {:.1f} p99, {:.1f} p99.9, {:.1f} worst (thread CPU){}\n",
+               t.p50_us, t.p99_us, t.p999_us, t.max_us,
+               options.realtime
+                   ? fmt::format("; {} late, {} missed; {}", t.late, t.missed, outcome.scheduling)
+                   : "");
+    if (outcome.most_load != tick::Load::none)
+      fmt::print("put off at times, because the machine could not keep up: {}\n",
+                 tick::name(outcome.most_load));
+    if (options.heat) print_heat(session, heat, outcome.heat_rows_lost);
+    for (const std::string& sentence : tick::words(tick::worth_telling(outcome.flags)))
+      fmt::print("noted: {}\n", sentence);
+    return;
+  }
+  nlohmann::json out;
+  out["ticks"] = outcome.ticks;
+  out["seconds"] = outcome.seconds;
+  out["removed_mm3"] = 1e9 * outcome.ledger.removed;
+  out["asked_mm3"] = 1e9 * outcome.ledger.asked;
+  out["not_cut_mm3"] = 1e9 * outcome.ledger.not_cut;
+  out["owed_mm3"] = 1e9 * outcome.ledger.debt;
+  out["peak_force_N"] = outcome.peak_force;
+  out["mean_force_N"] = outcome.mean_force;
+  out["tick_us"] = {{"p50", t.p50_us}, {"p99", t.p99_us}, {"p999", t.p999_us}, {"max", t.max_us}};
+  out["rate_hz"] = options.rate_hz;
+  out["realtime"] = options.realtime;
+  out["late_us"] = {{"p50", t.late_p50_us},
+                    {"p99", t.late_p99_us},
+                    {"p999", t.late_p999_us},
+                    {"max", t.worst_lateness_us}};
+  out["late"] = t.late;
+  out["missed"] = t.missed;
+  out["worst_lateness_us"] = t.worst_lateness_us;
+  out["bone_hash"] = record::hex(session.bone().content_hash());
+  out["noted"] = tick::words(tick::worth_telling(outcome.flags));
+  out["load_ticks"] = outcome.load_ticks;
+  if (options.heat) out["heat"] = heat_json(session, heat, outcome.heat_rows_lost);
+  if (options.realtime) out["scheduling"] = outcome.scheduling;
+  if (!options.record.empty()) out["recording"] = recording.account();
+  fmt::print("{}\n", out.dump());
+}
+
+Status run(const Options& options) {
+  if (options.path_csv.empty() == options.motion_name.empty())
+    return error(Trouble::usage,
+                 fmt::format("give either --path FILE.csv or --motion NAME (one of {})",
+                             fmt::join(surgeon::motion_names(), ", ")));
+  auto opened = open_volume(options.volume, progress());
+  if (!opened) return opened.error();
+  for (const std::string& notice : opened->summary.notices) fmt::print(stderr, "{}\n", notice);
+
+  surgeon::WorkPlace place;
+  auto path = hand_path(options, *opened->bone, place);
+  if (!path) return path.error();
+  const double seconds = options.path_csv.empty() ? options.seconds : path->duration();
+
+  sim::SessionSettings settings;
+  settings.realtime = options.realtime;
+  settings.servo.rate_hz = options.rate_hz;
+  settings.servo.touch = *haptics::method_named(options.touch);
+  settings.servo.removal = options.removing;
+  settings.servo.removal.law = *edit::law_named(options.removal);
+  settings.servo.guarded = options.guarded;
+  settings.servo.vibration_gain = options.vibration;
+  settings.servo.burr.radius = 0.5e-3 * options.burr_mm;
+  settings.servo.burr.kind = options.diamond ? tool::BurrKind::diamond : tool::BurrKind::cutting;
+  settings.servo.spindle_rad_s = options.rpm * 2 * std::numbers::pi / 60;
+  settings.servo.motor.torque = 1e-3 * options.torque_mnm;
+  settings.servo.burr.teeth = options.teeth;
+  settings.servo.drag_gain = options.drag;
+  settings.servo.force.stiffness = options.stiffness;
+  settings.servo.undo_bricks = options.undo_bricks;
+  settings.servo.irrigated = options.irrigated;
+  if (options.heat) {
+    auto warming = heat_settings(options, opened->bone->tissues());
+    if (!warming) return warming.error();
+    settings.heat = sim::HeatWish{work_box(*opened->bone, place.at), std::move(*warming)};
+  }
+  edit::Mirror mirror;
+  if (!options.mirror.empty()) {
+    auto plane = tick::mirror_in_words(options.mirror, opened->bone->grid());
+    if (!plane) return plane.error();
+    mirror = *plane;
+  }
+  device::ArmSettings arm;
+  if (options.arm == "rigid") arm.stiffness = INFINITY;
+  if (options.arm == "light") arm = {.mass = 0.06, .damping = 5, .stiffness = 200};
+  auto hand = std::make_unique<device::SimulatedHand>(std::move(*path), arm);
+  auto made = sim::Session::make(std::move(opened->bone), std::move(hand), settings, progress());
+  if (!made) return made.error();
+  sim::Session& session = **made;
+  if (mirror.on()) session.wish(tick::wish_for(mirror));
+
+  Recording recording;
+  if (!options.record.empty()) {
+    Status started = recording.start(session, options.record, options.volume, opened->summary,
+                                     options.path_csv.empty() ? options.motion_name : "hand path",
+                                     options.embed);
+    if (!started) return started;
+  }
+  session.run(seconds, progress());
+  const Status recorded = options.record.empty() ? fine() : recording.finish(session);
+  if (!options.picture.empty()) {
+    Status drawn = draw(options, place, session);
+    if (!drawn) return drawn;
+  }
+  print(options, session, recording);
+  if (!recorded) return recorded;
+  if (interrupted())
+    return error(Trouble::interrupted, "stopped; what was done until then is kept");
+  return fine();
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("mill", "a simulated hand mills a bone");
+  command->add_option("volume", options->volume.path, "file, DICOM folder, or phantom:NAME")
+      ->required();
+  command->add_option("--path", options->path_csv,
+                      "CSV file t,x,y,z[,qw,qx,qy,qz][,spindle] of the hand (s, m; or x_mm ...)");
+  command->add_option("--motion", options->motion_name,
+                      fmt::format("built-in: {}", fmt::join(surgeon::motion_names(), ", ")));
+  command
+      ->add_option("--at", options->at_mm,
+                   "X,Y,Z [mm, LPS]: where to begin (default: topmost bone)")
+      ->delimiter(',')
+      ->expected(3);
+  command
+      ->add_option("--into", options->into,
+                   "DX,DY,DZ: the way into the bone (default: against the surface normal)")
+      ->delimiter(',')
+      ->expected(3);
+  command->add_option("--burr-mm", options->burr_mm, "diameter of the burr, 0.6 to 7")
+      ->capture_default_str();
+  command->add_flag("--diamond", options->diamond, "a diamond burr: cuts a quarter as fast");
+  command->add_option("--rpm", options->rpm, "of the spindle; below 0 it turns backwards")
+      ->check(CLI::Range(-400000.0, 400000.0))
+      ->capture_default_str();
+  command
+      ->add_option("--torque-mnm", options->torque_mnm,
+                   "that the spindle gives at most [mN m]; 0: never gives way")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  command->add_option("--teeth", options->teeth, "cutting edges of the burr, for --removal chips")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command
+      ->add_option("--drag", options->drag,
+                   "gain of the bone's pull along its surface at a turning burr; 0: none")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command->add_option("--rate", options->rate_hz, "ticks a second, 500 to 10000")
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds, "of a built-in motion")->capture_default_str();
+  command
+      ->add_option("--stiffness", options->stiffness,
+                   "of the spring to the hand [N/m]; capped by the device")
+      ->capture_default_str();
+  command
+      ->add_option("--arm", options->arm, "how the simulated hand holds on: firm, light or rigid")
+      ->check(CLI::IsMember({"firm", "light", "rigid"}))
+      ->capture_default_str();
+  command
+      ->add_option("--touch", options->touch,
+                   "the method of touch: ours, or one it is held against")
+      ->check(CLI::IsMember(haptics::kMethodNames))
+      ->capture_default_str();
+  command->add_option("--removal", options->removal, "the law by which bone is taken away")
+      ->check(CLI::IsMember(edit::kLawNames))
+      ->capture_default_str();
+  command
+      ->add_option("--thesis-rate", options->removing.thesis_rate,
+                   "with --removal thesis: of a voxel's density, 1 being solid [1/s]")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command
+      ->add_option("--thesis-frame", options->removing.thesis_frame,
+                   "with --removal thesis: every so many ticks; its own picture loop: 33")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command
+      ->add_option("--vibration", options->vibration,
+                   "gain of the spindle's buzz in the hand; 0: none, 1: as designed")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  command->add_option(
+      "--mirror", options->mirror,
+      "sagittal, coronal or axial[,MM]: what is done on one side of a plane through "
+      "the volume's middle, or MM to its left, back or top, is done on the other");
+  command->add_flag("--guard", options->guarded,
+                    "with the energy guard: the hand gets back no more than it gave");
+  command->add_flag("--heat", options->heat, "how warm the bone gets, and what harm that does");
+  command->add_flag("--irrigation", options->irrigated, "coolant runs over the burr")
+      ->needs("--heat");
+  command->add_flag("--realtime", options->realtime,
+                    "paced by the clock (default: as fast as possible)");
+  command->add_option("--record", options->record, "F.mcap: write the session down");
+  command->add_flag("--embed", options->embed, "with --record: the bone goes into the file");
+  command->add_option("--picture", options->picture, "F.png: the bone afterwards");
+  command
+      ->add_option("--undo-bricks", options->undo_bricks,
+                   "bricks of 8^3 voxels that all strokes kept for undo may touch")
+      ->capture_default_str();
+  command
+      ->add_option("--reserve-bricks", options->volume.reserve_bricks,
+                   "bricks of room for added material")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "one JSON object on the last line");
+  add_picture_size(*command, options->size);
+  add_volume_options(*command, options->volume);
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{30, add};
+
+}  // namespace
+}  // namespace burr::app

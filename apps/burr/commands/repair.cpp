@@ -1,0 +1,45 @@
+// burr repair - a torn recording becomes a whole one.
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+
+#include "burr/record/repair.h"
+#include "commands/command.h"
+
+namespace {
+
+using namespace burr;
+
+struct Options {
+  std::string path, out;
+};
+
+Status run(const Options& options) {
+  const std::string& out = options.out.empty() ? options.path : options.out;
+  const auto report = record::repair(options.path, out, app::progress());
+  if (!report) return report.error();
+  for (const std::string& notice : report->notices) fmt::print("{}\n", notice);
+  if (report->was_whole) {
+    fmt::print("{}: is whole, nothing to repair ({} ticks, {:.3f} s)\n", options.path,
+               report->ticks, report->seconds);
+    return fine();
+  }
+  fmt::print("{}: kept {} ticks, up to {:.3f} s, in {} chunks; {} bytes were lost\n", out,
+             report->ticks, report->seconds, report->chunks, report->lost_bytes);
+  return fine();
+}
+
+void add(CLI::App& app, app::Todo& todo) {
+  auto* command = app.add_subcommand("repair", "make a torn recording whole again");
+  auto options = std::make_shared<Options>();
+  command->add_option("recording", options->path, "the recording (.mcap)")->required();
+  command->add_option("--out", options->out,
+                      "write the whole one here and leave the torn one as it is");
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const app::Command command{60, add};
+
+}  // namespace

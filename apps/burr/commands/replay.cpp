@@ -1,0 +1,291 @@
+// burr replay - a recording opened again: what happened, the bone at any moment, and whether it
+// comes out the same.
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "burr/render/bone_scene.h"
+#include "burr/render/picture.h"
+#include "burr/sim/replay.h"
+#include "burr/sim/session_words.h"
+#include "burr/sound/synth.h"
+#include "burr/sound/wav.h"
+#include "burr/surface/worker.h"
+#include "commands/command.h"
+#include "commands/views.h"
+#include "window/shell/pages.h"
+#include "workshop/hearing.h"
+#include "workshop/nearby.h"
+#include "workshop/recording.h"
+#include "workshop/still.h"
+#include "workshop/traces.h"
+
+namespace burr::app {
+namespace {
+
+struct Options {
+  std::string file, beside, picture, film, sound;
+  ViewOptions view;
+  VolumeOptions volume;
+  PictureSize size;
+  double at = -1, fps = 25;
+  bool effects = false;
+  bool check = false, json = false, window = false;
+  double seconds = 0;  // of the window
+  std::string screenshot;
+};
+
+// The bone and the burr at one moment.
+Status draw(const Options& options, record::Player& player, const sim::Recorded& recorded) {
+  auto bone = bone_of(player, options.volume, progress());
+  if (!bone) return bone.error();
+  const double t = options.at < 0 ? player.seconds() : options.at;
+  Status there = player.bone_at(t, **bone);
+  if (!there) return there;
+  auto tick = player.tick_at(t);
+  if (!tick) return tick.error();
+
+  const double radius = recorded.settings.servo.burr.radius;
+  const math::Vec3 shaft = tick->hand.world_from_tool.q * math::Vec3::UnitZ();
+  render::Scene scene = scene_of_work(**bone, radius, tick->contact.proxy, shaft);
+  put_tool(scene, *tick, radius, false);
+  const Status skinned = render::skin_bone(scene, **bone, 2, progress());
+  if (!skinned) return skinned;
+  if (options.effects) {
+    render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
+    Traces(player, recorded.settings.servo).until(t).show(wound);
+    wound.dress_still(scene);
+  }
+  return draw_view(std::move(scene), **bone, tick->contact.proxy, -shaft, options.view,
+                   options.size, options.picture);
+}
+
+// The whole session as numbered pictures, seen from where it ended.
+Status film(const Options& options, record::Player& player, const sim::Recorded& recorded) {
+  auto bone = bone_of(player, options.volume, progress());
+  if (!bone) return bone.error();
+  auto last = player.tick_at(player.seconds());
+  if (!last) return last.error();
+  const double radius = recorded.settings.servo.burr.radius;
+  const math::Vec3 shaft = last->hand.world_from_tool.q * math::Vec3::UnitZ();
+  render::Scene scene = scene_of_work(**bone, radius, last->contact.proxy, shaft);
+  scene.tissue_colours = render::colours_of((*bone)->tissues());
+  const Status possible = set_view(scene, last->contact.proxy, -shaft, options.view);
+  if (!possible) return possible;
+  surface::Worker worker(**bone, 1);
+  const auto show = [&scene](const surface::Skin& skin) {
+    render::set_patch(scene, skin.patch, *skin.mesh);
+  };
+  const Status skinned = worker.first(progress(), show);
+  if (!skinned) return skinned;
+  auto reel = render::Film::in(options.film, options.size.width, options.size.height);
+  if (!reel) return reel.error();
+  render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
+  Traces traces(player, recorded.settings.servo);
+  const int frames = std::max(1, static_cast<int>(player.seconds() * options.fps));
+  for (int n = 0; n < frames; ++n) {
+    if (interrupted())
+      return error(Trouble::interrupted, "stopped; the pictures made until then are kept");
+    progress().report(static_cast<double>(n) / frames, "filming");
+    Status there = player.bone_at(n / options.fps, **bone);
+    if (!there) return there;
+    worker.settle(show);
+    if (options.effects) {
+      traces.until(n / options.fps).show(wound);
+      wound.dress(scene);
+    }
+    auto tick = player.tick_at(n / options.fps);
+    if (!tick) return tick.error();
+    put_tool(scene, *tick, radius, true);
+    Status written = reel->frame(scene);
+    if (!written) return written;
+  }
+  progress().report(1, "filming");
+  fmt::print("{}: {} pictures, {} a second\n", options.film, reel->frames(), options.fps);
+  return fine();
+}
+
+// The whole session as it sounded, sample by sample at the time of its ticks.
+Status sound_of(const Options& options, record::Player& player, const sim::Recorded& recorded) {
+  sound::Synth synth;
+  auto file = sound::WavFile::create(options.sound, static_cast<int>(synth.settings().rate_hz));
+  if (!file) return file.error();
+  Nearby nearby;
+  if (const Tissues spared = read_spared(player.info()); !spared.empty()) {
+    auto bone = bone_of(player, options.volume, progress());
+    if (bone) {
+      auto measured = Nearby::make(**bone, spared, progress());
+      if (!measured) return measured.error();
+      nearby = std::move(*measured);
+    } else if (interrupted()) {
+      return bone.error();
+    } else {
+      fmt::print(stderr, "without warnings of what to spare: {}\n", bone.error().text);
+    }
+  }
+  Hearing hearing(recorded.settings.servo, nearby.distances());
+  const double per_tick = synth.settings().rate_hz / player.info().rate_hz;
+  std::vector<float> samples(4096);
+  record::StepCursor steps = player.steps();
+  record::Step step;
+  while (steps.next(step)) {
+    if (step.row.tick % 1024 == 0) {
+      if (interrupted()) return error(Trouble::interrupted, "stopped; no sound was written");
+      progress().report(static_cast<double>(step.row.tick) / static_cast<double>(player.end_tick()),
+                        "listening");
+    }
+    for (const tick::Wish& wish : step.wishes) hearing.obey(wish);
+    synth.hear(hearing.hear(step.row));
+    // up to the end of this tick; where rows were lost, what was heard before goes on
+    const double end = static_cast<double>(step.row.tick + 1 - player.first_tick()) * per_tick;
+    if (end > static_cast<double>(sound::WavFile::kMostSamples))
+      return error(Trouble::data,
+                   fmt::format("{}: is longer than a .wav can hold ({:.0f} h)", options.file,
+                               static_cast<double>(sound::WavFile::kMostSamples) / 3600 /
+                                   synth.settings().rate_hz));
+    while (file->samples() < static_cast<std::uint64_t>(end)) {
+      const auto left = static_cast<std::uint64_t>(end) - file->samples();
+      const auto some = std::span(samples).first(std::min<std::uint64_t>(left, samples.size()));
+      synth.make(some);
+      file->write(some);
+    }
+  }
+  progress().report(1, "listening");
+  Status written = file->put_in_place();
+  if (written && !options.json)
+    fmt::print("{}: {:.3f} s of sound\n", options.sound,
+               static_cast<double>(file->samples()) / synth.settings().rate_hz);
+  return written;
+}
+
+// Watched in a window; what is wrong with the file is said here, not on a page.
+Status show(const Options& options) {
+  auto desk = Desk::open(users_places());
+  if (!desk) return desk.error();
+  const auto left = watch_file(**desk, options.file, options.volume,
+                               {.seconds = options.seconds,
+                                .screenshot = options.screenshot,
+                                .from = options.at,
+                                .beside = options.beside});
+  return left ? fine() : Status(left.error());
+}
+
+Status run(const Options& options) {
+  if (options.window) return show(options);
+  if (!options.beside.empty())
+    return error(Trouble::usage, "--beside is for watching: give --window too");
+  auto opened = record::Player::open(options.file);
+  if (!opened) return opened.error();
+  record::Player& player = **opened;
+  for (const std::string& notice : player.notices()) fmt::print(stderr, "{}\n", notice);
+  auto recorded = sim::settings_of(player.info(), player.path());
+  if (!recorded) return recorded.error();
+  if (options.at > player.seconds())
+    return error(Trouble::usage, fmt::format("--at {} is after the end; {} lasts {:.3f} s",
+                                             options.at, options.file, player.seconds()));
+
+  nlohmann::json out;
+  out["ticks"] = player.end_tick() - player.first_tick();
+  out["seconds"] = player.seconds();
+  out["finished"] = player.finished();
+  if (player.end_tick() > player.first_tick()) {
+    auto last = player.tick_at(player.seconds());
+    if (!last) return last.error();
+    out["removed_mm3"] = 1e9 * last->ledger.removed;
+    out["asked_mm3"] = 1e9 * last->ledger.asked;
+  }
+  if (!options.json)
+    fmt::print("{:.3f} s, {} ticks at {} Hz, burr {:.2f} mm; removed {:.3f} mm3\n",
+               player.seconds(), player.end_tick(), player.info().rate_hz,
+               2e3 * recorded->settings.servo.burr.radius, out.value("removed_mm3", 0.0));
+
+  if (options.check) {
+    const record::SessionInfo& info = player.info();
+    if (info.volume.words.contains("materials") && !info.embedded &&
+        options.volume.materials.empty())
+      return error(
+          Trouble::usage,
+          fmt::format("{}: was made with an own table of materials; give it again with --materials",
+                      options.file));
+    auto bone = bone_of(player, options.volume, progress());
+    if (!bone) return bone.error();
+    auto outcome = sim::replay(player, std::move(*bone), progress());
+    if (!outcome) return outcome.error();
+    out["checked_ticks"] = outcome->ticks;
+    out["checked_bricks"] = outcome->bricks;
+    out["same"] = !outcome->parted_at && outcome->gaps == 0;
+    out["bone_hash"] = record::hex(outcome->bone->content_hash());
+    if (outcome->parted_at) out["parted_at"] = *outcome->parted_at;
+    if (options.json) fmt::print("{}\n", out.dump());
+    if (outcome->parted_at)
+      return error(fmt::format(
+          "{}: comes out differently at tick {} ({:.3f} s): {}; recorded by {}", options.file,
+          *outcome->parted_at, static_cast<double>(*outcome->parted_at) / player.info().rate_hz,
+          outcome->difference, player.info().build));
+    if (outcome->gaps > 0) return error(fmt::format("{}: {}", options.file, outcome->difference));
+    if (!options.json)
+      fmt::print("the same to the bit: {} ticks and {} bricks simulated again and compared\n",
+                 outcome->ticks, outcome->bricks);
+  } else if (options.json) {
+    fmt::print("{}\n", out.dump());
+  }
+  if (!options.picture.empty()) {
+    Status drawn = draw(options, player, *recorded);
+    if (!drawn) return drawn;
+  }
+  if (!options.sound.empty()) {
+    Status heard = sound_of(options, player, *recorded);
+    if (!heard) return heard;
+  }
+  return options.film.empty() ? fine() : film(options, player, *recorded);
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* command =
+      app.add_subcommand("replay", "open a recording: what happened, any moment, the same again?");
+  command->add_option("recording", options->file, "F.mcap")->required();
+  command->add_flag("--check", options->check,
+                    "simulate it again and compare every tick and brick");
+  command->add_option("--picture", options->picture, "F.png: the bone and the burr at a moment");
+  command->add_option("--film", options->film, "DIR: the whole session as numbered pictures");
+  command->add_option("--sound", options->sound, "F.wav: the whole session as it sounded");
+  command->add_option("--fps", options->fps, "pictures a second of the film")
+      ->check(CLI::Range(0.1, 240.0))
+      ->capture_default_str();
+  add_view_options(*command, options->view);
+  command->add_flag(
+      "--effects", options->effects,
+      "what milling leaves is seen in picture and film: fresh bone, coolant, dust, blood");
+  add_picture_size(*command, options->size);
+  command->add_flag("--window", options->window,
+                    "watch it: time line, bone, tool and force at any moment");
+  command->add_option("--beside", options->beside,
+                      "G.mcap: watched in the right half of the window, at the same moment");
+  command->add_option("--seconds", options->seconds, "close the window after so long")
+      ->check(CLI::Range(0.1, 36'000.0));
+  command->add_option("--screenshot", options->screenshot,
+                      "PNG of the window as it was when it closed, panels and all");
+  command->add_option("--at", options->at, "seconds from the start (default: the end)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--volume", options->volume.path,
+                      "the scan it was made from, if it cannot be found");
+  command->add_option("--series", options->volume.series,
+                      "of a DICOM folder, if the recording was made with one");
+  command->add_option("--tissues", options->volume.tissues,
+                      "TOML table, if the recording was made with one");
+  command->add_option("--materials", options->volume.materials,
+                      "TOML table of materials, if the recording was made with one");
+  command->add_flag("--json", options->json, "one JSON object on the last line");
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{40, add};
+
+}  // namespace
+}  // namespace burr::app

@@ -1,0 +1,313 @@
+// `burr run`: the simulator in a window; or, without a display, a session that mills by itself and
+// leaves pictures, a recording and a page of figures.
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "burr/device/simulated_hand.h"
+#include "burr/render/bone_scene.h"
+#include "burr/render/picture.h"
+#include "burr/render/renderer.h"
+#include "burr/sim/session.h"
+#include "burr/surgeon/motion.h"
+#include "commands/command.h"
+#include "commands/summary.h"
+#include "window/mill/window.h"
+#include "window/shell/loading.h"
+#include "window/shell/pages.h"
+#include "window/shell/words.h"
+#include "workshop/nearby.h"
+#include "workshop/recording.h"
+#include "workshop/still.h"
+#include "workshop/work.h"
+
+namespace burr::app {
+namespace {
+
+using math::Vec3;
+
+constexpr int kWidth = 1280, kHeight = 720;  // of the pictures
+constexpr double kHeadlessSeconds = 20;
+
+struct Options {
+  WorkOptions work;
+  std::string out, screenshot;
+  double seconds = 0;
+  bool headless = false, no_sound = false, xr = false;
+};
+
+// A display that SDL could open a window on.
+bool display_there() {
+  for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"})
+    if (const char* value = std::getenv(name); value != nullptr && *value != '\0') return true;
+  return false;
+}
+
+Status make_folder(const std::filesystem::path& folder) {
+  std::error_code trouble;
+  std::filesystem::create_directories(folder, trouble);
+  if (!trouble) return fine();
+  return error(Trouble::io, fmt::format("{}: cannot make this folder ({}); choose another --out",
+                                        folder.string(), trouble.message()));
+}
+
+Summary summary_of(sim::Session& session, const std::string& what, const std::string& hand) {
+  const sim::Outcome outcome = session.outcome();
+  const sim::SessionSettings& settings = session.settings();
+  Summary summary;
+  summary.what = what;
+  summary.hand = hand;
+  summary.size = session.bone().grid().size;
+  summary.voxel = session.bone().grid().voxel;
+  summary.burr_radius = settings.servo.burr.radius;
+  summary.rpm = settings.servo.spindle_rad_s * 60 / (2 * std::numbers::pi);
+  summary.seconds = outcome.seconds;
+  summary.rate_hz = settings.servo.rate_hz;
+  summary.ticks = outcome.ticks;
+  summary.realtime = settings.realtime;
+  summary.removed = outcome.ledger.removed;
+  summary.asked = outcome.ledger.asked;
+  summary.not_cut = outcome.ledger.not_cut;
+  summary.added = outcome.ledger.added;
+  summary.peak_force = outcome.peak_force;
+  summary.mean_force = outcome.mean_force;
+  summary.p50_us = outcome.timing.p50_us;
+  summary.p99_us = outcome.timing.p99_us;
+  summary.p999_us = outcome.timing.p999_us;
+  summary.max_us = outcome.timing.max_us;
+  summary.late = outcome.timing.late;
+  summary.missed = outcome.timing.missed;
+  summary.flags = flag_words(outcome.flags);
+  summary.bone_hash = session.bone().content_hash();
+  summary.tissues = losses(*session.bone_before(), session.bone());
+  return summary;
+}
+
+// the tool as the session last had it
+void put_tool_of(render::Scene& scene, sim::Session& session) {
+  tick::TickRow row;
+  if (session.view(row)) put_tool(scene, row, session.settings().servo.burr.radius, true);
+}
+
+// Before, at half time with the burr in the bone, and after: the same view.
+Status run_headless(const Options& options) {
+  const std::filesystem::path folder = options.out.empty() ? "burr-out" : options.out;
+  WorkOptions wished = options.work;
+  const double seconds = wished.seconds > 0 ? wished.seconds : kHeadlessSeconds;
+  Status made = make_folder(folder);
+  if (!made) return made;
+  if (!wished.title.empty()) fmt::print(stderr, "{}\n", wished.title);
+  auto opened = open_work(wished, progress());
+  if (!opened) return opened.error();
+  Work& work = *opened;
+  fit_burr(wished, work.made);
+  for (const std::string& notice : work.made.summary.notices) fmt::print(stderr, "{}\n", notice);
+  const sim::SessionSettings settings = settings_of(wished, false);
+  auto path = surgeon::motion(wished.motion, work.place, settings.servo.burr.radius, seconds);
+  if (!path) return path.error();
+  auto hand = std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{});
+  auto started =
+      sim::Session::make(std::move(work.made.bone), std::move(hand), settings, progress());
+  if (!started) return started.error();
+  sim::Session& session = **started;
+
+  auto renderer = render::Renderer::offscreen();
+  if (!renderer) return renderer.error();
+  render::Scene scene =
+      scene_of_work(session.bone(), settings.servo.burr.radius, work.place.at, -work.place.into);
+  const auto picture = [&](const char* name) -> Status {
+    const Status skinned = render::skin_bone(scene, session.bone(), settings.threads, progress());
+    if (!skinned) return skinned;
+    const auto image = (*renderer)->image(scene, kWidth, kHeight);
+    if (!image) return image.error();
+    return render::write_png(*image, folder / name);
+  };
+  const auto stopped = [] {
+    return interrupted() ? Status(error(Trouble::interrupted, "stopped")) : fine();
+  };
+
+  Status status = picture("before.png");
+  if (!status) return status;
+  Recording recording;
+  status =
+      recording.start(session, (folder / "session.mcap").string(), work.volume, work.made.summary,
+                      wished.motion, false, to_spare(session.bone_tissues(), wished.spare));
+  if (!status) return status;
+  session.run(0.5 * seconds, progress());
+  put_tool_of(scene, session);
+  status = stopped();
+  if (status) status = picture("working.png");
+  scene.burr.visible = false;
+  scene.markers.clear();
+  scene.rods.clear();
+  if (status) {
+    session.run(0.5 * seconds, progress());
+    status = stopped();
+  }
+  const Status recorded = recording.finish(session);
+  if (!status) return status;
+  Summary summary = summary_of(session, work.what, "simulated hand, " + wished.motion);
+  if (!recorded) fmt::print("{}", summary_text(summary));  // a disk that is full takes no picture
+  status = picture("after.png");
+  if (!status) return recorded ? status : recorded;
+
+  summary.pictures = {
+      {"before.png", "before"}, {"working.png", "at half time"}, {"after.png", "after"}};
+  if (recorded) summary.recording = "session.mcap";
+  status = write_summary(summary, folder);
+  if (!recorded) return recorded;
+  if (!status) return status;
+  fmt::print("{}{}: before.png working.png after.png session.mcap summary.html\n",
+             summary_text(summary), folder.string());
+  return fine();
+}
+
+// A person's session: the window, and what it leaves if a folder was named.
+Status run_in_window(const Options& options) {
+  const std::filesystem::path folder = options.out;
+  if (!folder.empty()) {
+    Status made = make_folder(folder);
+    if (!made) return made;
+  }
+  auto desk = Desk::open(users_places());
+  if (!desk) return desk.error();
+  (*desk)->headset_wanted = (*desk)->headset_wanted || options.xr;
+  if (options.work.volume.path.empty())
+    return run_pages(**desk, {options.seconds, options.out, options.screenshot, !options.no_sound,
+                              options.work});
+
+  WorkOptions work = options.work;
+  if (const Status taken = take_case(work); !taken) return taken;
+  if (!work.title.empty()) fmt::print(stderr, "{}\n", work.title);
+  bool closed = false;
+  auto loaded = load<Ready>(
+      **desk, say(Word::loading, work.title.empty() ? word(Word::start_scan) : work.title),
+      [work](Progress& seen) { return open_ready(work, seen); }, closed);
+  if (closed) return fine();
+  if (!loaded) return loaded.error();
+  Ready& ready = *loaded;
+  for (const std::string& notice : ready.import.notices) fmt::print(stderr, "{}\n", notice);
+  sim::Session& session = *ready.session;
+  render::Scene& scene = ready.scene;
+  const render::Camera first_view = scene.camera;
+  const render::Scene before = scene;
+  const WindowOptions window = {.seconds = options.seconds,
+                                .folder = options.out,
+                                .screenshot = options.screenshot,
+                                .sound = !options.no_sound};
+  if (folder.empty()) {
+    const auto left = mill_and_keep(**desk, ready, options.work, false, window);
+    return left ? fine() : Status(left.error());
+  }
+
+  Recording recording;
+  Status status = recording.start(session, (folder / "session.mcap").string(), ready.volume,
+                                  ready.import, session.hand().spec().name, false, ready.spared);
+  if (!status) return status;
+  WindowOptions told = window;
+  told.warning = [&recording] { return recording.trouble(); };
+  told.keep = [] { return true; };  // it is being kept already
+  told.film_of = [&]() -> std::optional<FilmSource> {
+    FilmSource source = film_of(session, (folder / "session.mcap").string(), ready.volume);
+    source.effects = (*desk)->settings.effects;
+    return source;
+  };
+  const auto left = mill_with_sound(**desk, ready, told);
+  status = left ? fine() : Status(left.error());
+  const Status recorded = recording.finish(session);
+  if (!status) return status;
+
+  Summary summary = summary_of(session, ready.what, session.hand().spec().name);
+  if (!recorded) fmt::print("{}", summary_text(summary));  // a disk that is full takes no picture
+  scene.burr.visible = false;
+  scene.markers.clear();
+  scene.rods.clear();
+  for (const auto& [name, one] : {std::pair{"before", &before}, {"after", &std::as_const(scene)}}) {
+    render::Scene picture = *one;
+    picture.look = render::still_look();
+    picture.camera = first_view;
+    picture.scale_bar = true;
+    const std::string file = std::string(name) + ".png";
+    status = render::render_png(picture, kWidth, kHeight, folder / file);
+    if (!status) return recorded ? status : recorded;
+    summary.pictures.emplace_back(file, name);
+  }
+  if (recorded) summary.recording = "session.mcap";
+  status = write_summary(summary, folder);
+  if (!recorded) return recorded;
+  if (!status) return status;
+  fmt::print("{}{}: before.png after.png session.mcap summary.html\n", summary_text(summary),
+             folder.string());
+  return fine();
+}
+
+Status run(Options options) {
+  const bool windowless = options.headless || !display_there();
+  if (!windowless) return run_in_window(options);
+  for (const auto& [option, given] : {std::pair{"--device", &options.work.hand.device},
+                                      {"--suction", &options.work.suction},
+                                      {"--tell-as", &options.work.told_as}})
+    if (!given->empty())
+      return error(Trouble::usage,
+                   fmt::format("{0} {1}: this is for a session in a window; sit at the computer's "
+                               "own display, or leave {0} away to mill by itself",
+                               option, *given));
+  if (!options.headless)
+    fmt::print(stderr, "no display here: milling by itself, as with --headless\n");
+  options.work.seconds = options.seconds;
+  if (Status taken = take_case(options.work); !taken) return taken;
+  return run_headless(options);
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("run", "mill a bone in a window");
+  command->add_option(
+      "bone", options->work.volume.path,
+      "a case (temporal-bone, jaw, ... or a .toml file), or a scan: file or DICOM folder; without "
+      "it: the start page, headless: temporal-bone");
+  command->add_flag("--headless", options->headless,
+                    "no window: mill by itself, leave pictures, a recording and a page of figures");
+  command
+      ->add_option("--seconds", options->seconds,
+                   "close the window after so long; headless: simulated time (default: 20)")
+      ->check(CLI::Range(0.1, 36'000.0));
+  command->add_option(
+      "--out", options->out,
+      "folder for pictures, recording and summary (headless: burr-out; window: none "
+      "of these without it)");
+  command->add_option("--screenshot", options->screenshot,
+                      "PNG of the window as it was when it closed, panels and all");
+  command->add_option("--burr-mm", options->work.burr_mm,
+                      "diameter of the burr; default: the case's, else 5");
+  command->add_flag("--no-sound", options->no_sound, "the window makes no sound");
+  command->add_flag("--xr", options->xr, "wear a headset: OpenXR, where there is one")
+      ->excludes("--headless");
+  command->add_option("--rpm", options->work.rpm,
+                      "of the spindle; default: the case's, else 40000");
+  add_hand_options(*command, options->work.hand);
+  command
+      ->add_option("--suction", options->work.suction,
+                   "a second haptic device in the other hand: a suction tube, which feels bone")
+      ->excludes("--headless");
+  command
+      ->add_option("--tell-as", options->work.told_as,
+                   "/burr: others may watch and record the window's session as a CRTK arm of that "
+                   "name (ROS 2)")
+      ->excludes("--headless");
+  add_volume_options(*command, options->work.volume);
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{10, add};
+
+}  // namespace
+}  // namespace burr::app

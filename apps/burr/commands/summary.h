@@ -1,0 +1,57 @@
+// apps/burr/commands/summary.h - what a session came to, on one page: pictures, figures, no names.
+//
+// Plain data in, a folder's worth of files out. Holds no patient name, id, date or path: `what` is
+// what the program calls the bone ("temporal-bone", "NIfTI scan"), never a file's name.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "burr/base/result.h"
+#include "burr/render/scene.h"
+#include "burr/volume/bone.h"
+
+namespace burr::app {
+
+// One tissue that lost (or, negative, gained) volume.
+struct TissueLoss {
+  std::string name;
+  double removed = 0;  // [m^3]
+  bool spare = false;  // must not be cut
+};
+
+struct Summary {
+  std::string what;  // the bone, in our words
+  math::Ijk size = {0, 0, 0};
+  double voxel = 0;        // [m]
+  double burr_radius = 0;  // [m]
+  double rpm = 0;
+  std::string hand;    // "simulated hand, pocket", "mouse"
+  double seconds = 0;  // of simulated time
+  double rate_hz = 0;
+  std::uint64_t ticks = 0;
+  bool realtime = false;
+  double removed = 0, asked = 0, not_cut = 0, added = 0;  // [m^3]
+  double peak_force = 0, mean_force = 0;                  // [N]
+  double p50_us = 0, p99_us = 0, p999_us = 0, max_us = 0;
+  std::uint64_t late = 0, missed = 0;
+  std::string flags;  // in words; empty: none
+  std::uint64_t bone_hash = 0;
+  std::vector<TissueLoss> tissues;                            // those that changed
+  std::vector<std::pair<std::string, std::string>> pictures;  // file beside the page, caption
+  std::string recording;                                      // file beside the page, or empty
+};
+
+// Tissues whose volume differs by more than a hundredth of a mm^3, most lost first.
+[[nodiscard]] std::vector<TissueLoss> losses(const volume::Bone& before, const volume::Bone& now);
+
+// folder/summary.html
+[[nodiscard]] Status write_summary(const Summary& summary, const std::filesystem::path& folder);
+
+// One page of plain text with the same figures, for a terminal.
+[[nodiscard]] std::string summary_text(const Summary& summary);
+
+}  // namespace burr::app

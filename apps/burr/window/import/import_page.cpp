@@ -1,0 +1,305 @@
+#include "window/import/import_page.h"
+
+#include <SDL2/SDL.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include "commands/command.h"
+#include "window/shell/words.h"
+
+namespace burr::app {
+namespace {
+
+using volume::TissueKind;
+
+bool number_of(std::string text, double& value) {
+  std::erase(text, ' ');
+  std::replace(text.begin(), text.end(), ',', '.');
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  return read.ec == std::errc() && read.ptr == text.data() + text.size() && std::isfinite(value);
+}
+
+}  // namespace
+
+// ---- what is chosen
+
+ImportPage::ImportPage(Desk& desk, OpenedScan opened)
+    : desk_(desk), opened_(std::move(opened)), volume_(opened_.volume), renewed_(desk.renewed()) {
+  const io::Scan& scan = *opened_.scan;
+  const auto box = box_of(scan, volume_.roi);
+  box_ = box ? *box : whole(scan);
+  for (std::size_t a = 0; a < 3; ++a) slice_[a] = scan.size[static_cast<int>(a)] / 2;
+  const std::array<PlaneView, 3> planes = planes_of(scan.axes);
+  for (std::size_t n = 0; n < 3; ++n) views_[n].plane = planes[n];
+  for (const importing::TissueFound& one : opened_.labels) kinds_.push_back(one.tissue.kind);
+  if (opened_.planned)
+    planned_ = *opened_.planned;
+  else
+    plan_trouble_ = opened_.planned.error().text;
+  if (double given = 0; number_of(volume_.iso, given)) level_ = given;
+  roi_text_ = volume_.roi;
+  if (volume_.voxel_mm > 0) voxel_text_ = number_text(volume_.voxel_mm);
+  if (const auto now = level()) iso_text_ = number_text(*now);
+}
+
+ImportPage::~ImportPage() {
+  planning_.reset();
+  forget_table();
+}
+
+std::optional<double> ImportPage::level() const {
+  if (opened_.scan->values.empty()) return std::nullopt;
+  if (level_) return level_;
+  if (planned_) {
+    // Otsu's has more digits than anybody wants to see
+    const double step = 0.01 * opened_.greys.step();
+    return std::round(planned_->import.iso / step) * step;
+  }
+  return std::nullopt;
+}
+
+std::string ImportPage::unit_of_values() const { return opened_.scan->hounsfield ? " HU" : ""; }
+
+void ImportPage::changed() {
+  stale_ = true;
+  trouble_.clear();
+}
+
+void ImportPage::set_level(double wanted) {
+  const double step = opened_.greys.step();
+  // 1300 * 0.001 is 1.3, not 1.3000000000000003
+  level_ = step < 1 ? std::round(wanted / step) / std::round(1 / step)
+                    : std::round(wanted / step) * step;
+  volume_.iso = iso_text_ = number_text(*level_);
+  for (View& view : views_) view.coloured = false;
+  changed();
+}
+
+void ImportPage::take_level() {
+  double wanted = 0;
+  const bool good = number_of(iso_text_, wanted);
+  const auto now = level();
+  if (!good) trouble_ = say(Word::import_no_number, iso_text_);
+  if (good && wanted != now) {
+    level_ = wanted;
+    volume_.iso = number_text(wanted);
+    for (View& view : views_) view.coloured = false;
+    changed();
+  }
+  iso_text_ = good ? number_text(wanted) : now ? number_text(*now) : "";
+}
+
+void ImportPage::set_box(const Box& box) {
+  if (box == box_) return;
+  box_ = box;
+  volume_.roi = roi_text_ = roi_words(*opened_.scan, box_);
+  changed();
+}
+
+void ImportPage::take_roi() {
+  const auto box = box_of(*opened_.scan, roi_text_);
+  if (!box) {
+    trouble_ = box.error().text;
+    roi_text_ = volume_.roi;
+    return;
+  }
+  set_box(*box);
+  roi_text_ = volume_.roi;
+}
+
+void ImportPage::take_voxel() {
+  double wanted = 0;
+  if (!voxel_text_.empty() && (!number_of(voxel_text_, wanted) || wanted <= 0)) {
+    trouble_ = say(Word::import_no_number, voxel_text_);
+  } else if (wanted != volume_.voxel_mm) {
+    volume_.voxel_mm = wanted;
+    changed();
+  }
+  voxel_text_ = volume_.voxel_mm > 0 ? number_text(volume_.voxel_mm) : "";
+}
+
+void ImportPage::set_kind(std::size_t label, TissueKind kind) {
+  if (kinds_[label] == kind) return;
+  std::vector<TissueKind> wanted = kinds_;
+  wanted[label] = kind;
+  const std::string table = table_of(opened_.labels, wanted);
+  KeptTable kept{opened_.volume.tissues, false};
+  if (!table.empty()) {
+    std::error_code nobody_asks;
+    const std::filesystem::path& state = desk_.places().state;
+    auto written =
+        keep_table(state.empty() ? std::filesystem::temp_directory_path(nobody_asks) / "burr_labels"
+                                 : state / "labels",
+                   table);
+    if (!written) {
+      trouble_ = written.error().text;
+      return;
+    }
+    kept = std::move(*written);
+  }
+  planning_.reset();  // it may read the table that goes now
+  forget_table();
+  if (kept.fresh) own_table_ = kept.path;
+  volume_.tissues = kept.path.string();
+  kinds_ = std::move(wanted);
+  for (View& view : views_) view.coloured = false;
+  changed();
+}
+
+void ImportPage::forget_table() {
+  std::error_code nobody_asks;
+  if (!own_table_.empty()) std::filesystem::remove(own_table_, nobody_asks);
+  own_table_.clear();
+}
+
+// ---- from picture to picture
+
+Result<ImportPage::Answer> ImportPage::ask(const std::string& told, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  trouble_ = told;
+  answer_.reset();
+  starting_ = false;
+  series_.clear();
+  desk_.page = Page::import;
+  SDL_StartTextInput();
+  const render::Scene empty;
+  const Clock::time_point start = Clock::now();
+  while (!answer_) {
+    const Clock::time_point frame = Clock::now();
+    take_events();
+    work();
+    const Status shown = desk_.show(
+        empty, [this] { draw(); }, true);
+    if (!shown) return shown.error();
+    const bool over = seconds > 0 && Clock::now() - start >= std::chrono::duration<double>(seconds);
+    if (interrupted() || over) answer_ = Answer::closed;
+    const auto left = std::chrono::milliseconds(33) - (Clock::now() - frame);
+    if (left.count() > 0)
+      SDL_Delay(
+          static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
+  }
+  SDL_StopTextInput();
+  if (*answer_ == Answer::start) own_table_.clear();  // a session needs it from now on
+  desk_.told.clear();
+  return *answer_;
+}
+
+void ImportPage::take_events() {
+  SDL_Event event;
+  while (desk_.next(event)) {
+    if (event.type == SDL_QUIT) answer_ = Answer::closed;
+    if (event.type == SDL_DROPFILE) SDL_free(event.drop.file);
+    if (event.type != SDL_KEYDOWN || desk_.ui().typing()) continue;
+    const SDL_Keycode key = event.key.keysym.sym;
+    if (key == SDLK_ESCAPE) decide(Answer::back);
+    if (key == SDLK_RETURN || key == SDLK_KP_ENTER) decide(Answer::start);
+  }
+}
+
+void ImportPage::decide(Answer answer) {
+  if (answer != Answer::start) {
+    answer_ = answer;
+    return;
+  }
+  starting_ = true;  // once it is known to go
+  trouble_.clear();  // a field with trouble was put back
+}
+
+void ImportPage::work() {
+  if (planning_ && planning_->finished()) {
+    auto planned = planning_->take();
+    planning_.reset();
+    if (!stale_) {
+      if (planned) planned_ = std::move(*planned);
+      plan_trouble_ = planned ? std::string() : planned.error().text;
+      if (const auto now = level(); now && !level_ && !desk_.ui().typing())
+        iso_text_ = number_text(*now);
+    }
+  }
+  // not while something is drawn about with the mouse: the preview needs the processor
+  if (stale_ && !planning_ && !ImGui::IsMouseDown(0)) {
+    stale_ = false;
+    planning_ = std::make_unique<Loading<Planned>>(
+        [scan = opened_.scan, options = volume_](Progress& /*unused*/) {
+          return plan_session(*scan, options);
+        });
+  }
+  if (starting_ && !stale_ && !planning_) {
+    starting_ = false;
+    if (plan_trouble_.empty()) answer_ = Answer::start;
+  }
+  desk_.told = trouble_.empty() ? plan_trouble_ : trouble_;
+}
+
+// ---- the whole way
+
+namespace {
+
+Result<OpenedScan> read_by_page(Desk& desk, const VolumeOptions& volume, const std::string& title,
+                                bool& closed) {
+  return load<OpenedScan>(
+      desk, title, [volume](Progress& progress) { return open_scan(volume, progress); }, closed);
+}
+
+Result<Ready> ready_from(WorkOptions options, const io::Scan& scan, Progress& progress) {
+  if (const Status taken = take_case(options); !taken) return taken.error();
+  options.volume.keep_greys = true;
+  auto work = open_work(options, progress, &scan);
+  if (!work) return work.error();
+  return make_ready(options, std::move(*work), progress);
+}
+
+}  // namespace
+
+Result<Ready> open_by_page(Desk& desk, WorkOptions& options, const std::string& title,
+                           double seconds, bool& closed) {
+  const Error gone = error(Trouble::interrupted, "stopped");
+  auto opened = read_by_page(desk, options.volume, title, closed);
+  if (!opened) return opened.error();
+  if (closed) return gone;
+  auto page = std::make_unique<ImportPage>(desk, std::move(*opened));
+  std::string trouble;
+  for (;;) {
+    const auto answer = page->ask(trouble, seconds);
+    if (!answer) return answer.error();
+    trouble.clear();
+    if (*answer == ImportPage::Answer::closed) {
+      closed = true;
+      return gone;
+    }
+    if (*answer == ImportPage::Answer::back) return gone;
+    if (*answer == ImportPage::Answer::other_series) {
+      VolumeOptions other = options.volume;
+      other.series = page->series();
+      auto reopened = read_by_page(desk, other, title, closed);
+      if (closed) return gone;
+      if (reopened)
+        page = std::make_unique<ImportPage>(desk, std::move(*reopened));
+      else if (reopened.error().trouble != Trouble::interrupted)
+        trouble = reopened.error().text;
+      continue;
+    }
+    WorkOptions chosen = options;
+    chosen.volume = page->volume();
+    Result<Ready> ready = load<Ready>(
+        desk, title,
+        [chosen, scan = page->scan()](Progress& progress) {
+          return ready_from(chosen, *scan, progress);
+        },
+        closed);
+    if (closed) return gone;
+    if (ready) {
+      options = chosen;
+      return ready;
+    }
+    if (ready.error().trouble != Trouble::interrupted) trouble = ready.error().text;
+  }
+}
+
+}  // namespace burr::app

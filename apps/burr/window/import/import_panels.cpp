@@ -1,0 +1,503 @@
+// What the import page shows, and what the mouse does to it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "burr/base/shown.h"
+#include "window/import/import_page.h"
+#include "window/shell/words.h"
+
+namespace burr::app {
+namespace {
+
+using Letter = Ui::Letter;
+using volume::TissueKind;
+using Part = ImportLayout::Part;
+
+constexpr Word kNames[] = {Word::axial, Word::coronal, Word::sagittal};
+constexpr int kMostPixels = 720;  // of a preview along a side; stretched to more
+constexpr int kFree = 16;         // grabbed: the slices, not the frame
+
+const char* way(Way which) {
+  constexpr Word kWays[] = {Word::way_left,     Word::way_right, Word::way_backwards,
+                            Word::way_forwards, Word::way_up,    Word::way_down};
+  return word(kWays[static_cast<std::size_t>(which)]);
+}
+
+std::string memory_text(double mb) {
+  return mb < 1000 ? fmt::format("{:.0f} MB", mb) : fmt::format("{:.1f} GB", mb / 1024);
+}
+
+// when Enter was pressed, or the user went elsewhere after typing
+bool changed_field(const char* id, const char* hint, std::string& text, float width) {
+  const bool entered = text_field(id, hint, text, width);
+  return entered || ImGui::IsItemDeactivatedAfterEdit();
+}
+
+bool inside(const Part& part, const ImVec2& p) {
+  return p.x >= part.x && p.x < part.x + part.w && p.y >= part.y && p.y < part.y + part.h;
+}
+
+void warning_sign(const Ui& ui, float x, float y) {
+  const float r = 7 * ui.unit();
+  ImGui::GetWindowDrawList()->AddTriangleFilled({x, y + 2 * r}, {x + 2 * r, y + 2 * r}, {x + r, y},
+                                                ink::kWarn);
+}
+
+// several lines in a box, cut off below
+void wrapped(const Ui& ui, Letter letter, ImU32 ink, const Part& part, const std::string& text) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImFont* font = ui.font(letter);
+  draw.PushClipRect({part.x, part.y}, {part.x + part.w, part.y + part.h}, true);
+  draw.AddText(font, font->FontSize, {part.x, part.y}, ink, text.c_str(), nullptr, part.w);
+  draw.PopClipRect();
+}
+
+}  // namespace
+
+ImportLayout import_layout(float width, float height, float unit) {
+  const float u = unit, margin = 28 * u, gap = 14 * u, wide = width - 2 * margin;
+  const float top = 66 * u, low = 262 * u, foot = 60 * u;
+  ImportLayout at;
+  const float view_w = (wide - 2 * gap) / 3, view_h = height - top - low - foot - 2 * gap;
+  for (std::size_t n = 0; n < 3; ++n)
+    at.views[n] = {margin + static_cast<float>(n) * (view_w + gap), top, view_w, view_h};
+  const float y = top + view_h + gap;
+  at.level = {margin, y, view_w, low};
+  at.facts = {margin + view_w + gap, y, view_w, low};
+  at.bone = {margin + 2 * (view_w + gap), y, view_w, low};
+  at.plot = {at.level.x, y + 42 * u, at.level.w, low - 74 * u};
+  at.iso = {at.level.x + at.level.w - 150 * u, y, 110 * u, 30 * u};
+  at.roi = {at.bone.x + 110 * u, y + 34 * u, at.bone.w - 110 * u, 30 * u};
+  at.all = {at.bone.x + at.bone.w - 150 * u, y, 150 * u, 30 * u};
+  at.voxel = {at.bone.x + 110 * u, y + 72 * u, 110 * u, 30 * u};
+  at.series = {margin + wide - 560 * u, 20 * u, 560 * u, 30 * u};
+  const float last = height - foot + 4 * u;
+  at.start = {margin + wide - 210 * u, last, 210 * u, 36 * u};
+  at.back = {at.start.x - 150 * u - gap, last, 150 * u, 36 * u};
+  at.told = {margin, last, at.back.x - margin - gap, 46 * u};
+  return at;
+}
+
+void ImportPage::draw() {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit();
+  const ImportLayout at = import_layout(ui.width(), ui.height(), u);
+  ui.page("##import", 0, 0, ui.width(), ui.height());
+  ui.write(at.views[0].x, 14 * u, Letter::large, ink::kText, word(Word::import_title));
+  ui.write(at.views[0].x, 42 * u, Letter::small, ink::kDim, word(Word::import_hint));
+  const io::Scan& scan = *opened_.scan;
+  if (!scan.series.empty()) {
+    const auto taken = static_cast<std::size_t>(scan.series_taken);
+    ui.write(at.series.x - 10 * u, at.series.y + 7 * u, Letter::body, ink::kText,
+             word(Word::import_series), 1);
+    ImGui::SetCursorScreenPos({at.series.x, at.series.y});
+    ImGui::SetNextItemWidth(at.series.w);
+    if (ImGui::BeginCombo("##series", scan.series[taken].c_str())) {
+      for (std::size_t n = 0; n < scan.series.size(); ++n)
+        if (ImGui::Selectable(scan.series[n].c_str(), n == taken) && n != taken) {
+          series_ = fmt::format("#{}", n + 1);
+          decide(Answer::other_series);
+        }
+      ImGui::EndCombo();
+    }
+  }
+  if (std::exchange(renewed_, desk_.renewed()) != desk_.renewed())
+    for (View& view : views_) {
+      view.texture.forget();
+      view.coloured = false;
+    }
+  for (std::size_t n = 0; n < 3; ++n) draw_view(n, at.views[n]);
+  if (scan.values.empty())
+    labels(at);
+  else
+    histogram(at);
+  facts(at.facts);
+  bone(at);
+  last_line(at);
+  ImGui::End();
+}
+
+void ImportPage::picture(View& view, int width, int height) {
+  const io::Scan& scan = *opened_.scan;
+  const int slice = slice_[static_cast<std::size_t>(view.plane.through)];
+  if (view.sampled != slice || view.values.width != width || view.values.height != height) {
+    sample(scan, view.plane, slice, width, height, view.values);
+    view.sampled = slice;
+    view.coloured = false;
+  }
+  if (view.coloured) return;
+  const int line = std::max(1, std::max(width, height) / 300);
+  if (scan.values.empty()) {
+    std::array<LabelLook, 256> looks;
+    for (std::size_t n = 0; n < kinds_.size(); ++n) {
+      const volume::Tissue& tissue = opened_.labels[n].tissue;
+      looks[static_cast<std::size_t>(tissue.label)] = {kinds_[n], tissue.colour};
+    }
+    draw_labels(view.values, looks, line, pixels_);
+  } else {
+    const Greys& greys = opened_.greys;
+    draw_greys(view.values, greys.from, std::min(greys.to, scan.hounsfield ? 1800 : greys.to),
+               level(), line, pixels_);
+  }
+  view.texture.put(width, height, 4, pixels_);
+  view.coloured = true;
+}
+
+void ImportPage::draw_view(std::size_t which, const Part& part) {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit();
+  View& view = views_[which];
+  const io::Scan& scan = *opened_.scan;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled({part.x, part.y}, {part.x + part.w, part.y + part.h}, ink::rgb(0, 0, 0),
+                     4 * u);
+  const std::array<double, 2> mm = extent_mm(scan, view.plane);
+  // the letters of the patient's sides stay outside the picture
+  const float border = 24 * u, room_w = part.w - 2 * border, room_h = part.h - 2 * border;
+  const auto ratio = static_cast<float>(mm[0] / mm[1]);
+  const float w = std::floor(std::min(room_w, room_h * ratio)), h = std::floor(w / ratio);
+  const float x = std::round(part.x + (part.w - w) / 2), y = std::round(part.y + (part.h - h) / 2);
+  if (w < 2 || h < 2) return;
+  const float fine = std::min(1.0F, static_cast<float>(kMostPixels) / std::max(w, h));
+  picture(view, std::max(2, static_cast<int>(w * fine)), std::max(2, static_cast<int>(h * fine)));
+  draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(view.texture.name())),
+                {x, y}, {x + w, y + h});
+
+  const auto axis = static_cast<std::size_t>(view.plane.through);
+  int& slice = slice_[axis];
+  const auto side = [&](bool down, double voxels) {
+    return (down ? y : x) +
+           (down ? h : w) * static_cast<float>(place_of(scan, view.plane, down, voxels));
+  };
+  // where the other two planes cut this one
+  const auto across = static_cast<std::size_t>(view.plane.across),
+             down = static_cast<std::size_t>(view.plane.down);
+  const float cx = side(false, slice_[across] + 0.5), cy = side(true, slice_[down] + 0.5);
+  for (const ImU32 ink : {ink::rgb(0, 0, 0, 110), ink::rgb(86, 180, 233, 130)}) {
+    const float by = ink == ink::rgb(0, 0, 0, 110) ? u : 0;
+    draw.AddLine({cx + by, y}, {cx + by, y + h}, ink, u);
+    draw.AddLine({x, cy + by}, {x + w, cy + by}, ink, u);
+  }
+  const int over = frame(view, x, y, w, h);
+
+  ImGui::SetCursorScreenPos({part.x, part.y});
+  ImGui::PushID(static_cast<int>(which));
+  ImGui::InvisibleButton("##view", {part.w, part.h});
+  ImGui::PopID();
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const auto voxels = [&](bool vertical) {
+    const float place = vertical ? (mouse.y - y) / h : (mouse.x - x) / w;
+    return voxels_at(scan, view.plane, vertical, std::clamp(static_cast<double>(place), 0.0, 1.0));
+  };
+  if (ImGui::IsItemActivated()) view.grabbed = over != 0 ? over : kFree;
+  if (ImGui::IsItemActive() && view.grabbed == kFree) {
+    slice_[across] =
+        std::clamp(static_cast<int>(voxels(false)), 0, scan.size[view.plane.across] - 1);
+    slice_[down] = std::clamp(static_cast<int>(voxels(true)), 0, scan.size[view.plane.down] - 1);
+  } else if (ImGui::IsItemActive() && view.grabbed != 0) {
+    Box box = box_;
+    const auto pull = [&](bool vertical, bool far_side) {
+      const int a = vertical ? view.plane.down : view.plane.across;
+      const bool flip = vertical ? view.plane.flip_down : view.plane.flip_across;
+      const int edge = static_cast<int>(std::lround(voxels(vertical)));
+      // a frame keeps a little inside
+      const int least = std::min(4, scan.size[a]);
+      if (far_side != flip)
+        box.to[a] =
+            std::clamp(edge - 1, std::min(box.from[a] + least, scan.size[a]) - 1, scan.size[a] - 1);
+      else
+        box.from[a] = std::clamp(edge, 0, std::max(box.to[a] + 1 - least, 0));
+    };
+    if ((view.grabbed & 3) != 0) pull(false, (view.grabbed & 2) != 0);
+    if ((view.grabbed & 12) != 0) pull(true, (view.grabbed & 8) != 0);
+    set_box(box);
+  } else if (!ImGui::IsItemActive()) {
+    view.grabbed = 0;
+  }
+  const float wheel = ImGui::GetIO().MouseWheel;
+  if (wheel != 0 && inside(part, mouse) && ImGui::IsWindowHovered())
+    slice = std::clamp(slice + static_cast<int>(wheel), 0, scan.size[view.plane.through] - 1);
+
+  ui.write(part.x + 8 * u, part.y + 4 * u, Letter::strong, ink::kText, word(kNames[which]));
+  ui.write(part.x + part.w - 8 * u, part.y + 5 * u, Letter::small, ink::kDim,
+           fmt::format("{} / {}", slice + 1, scan.size[view.plane.through]), 1);
+  const auto letter = [&](float lx, float ly, char c) {
+    ui.write(lx, ly, Letter::small, ink::kText, std::string(1, c), 0.5F);
+  };
+  const float high = ui.height_of(Letter::small);
+  letter(x - 13 * u, y + (h - high) / 2, view.plane.left);
+  letter(x + w + 13 * u, y + (h - high) / 2, view.plane.right);
+  letter(x + w / 2, y - high - 6 * u, view.plane.top);
+  letter(x + w / 2, y + h + 5 * u, view.plane.bottom);
+}
+
+// The region: its frame, what lies outside dimmed, handles. The sides under the mouse.
+int ImportPage::frame(View& view, float x, float y, float w, float h) {
+  const float u = desk_.ui().unit();
+  const io::Scan& scan = *opened_.scan;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const auto range = [&](bool down) {
+    const int a = down ? view.plane.down : view.plane.across;
+    double first = place_of(scan, view.plane, down, box_.from[a]),
+           last = place_of(scan, view.plane, down, box_.to[a] + 1);
+    if (first > last) std::swap(first, last);
+    return std::pair{static_cast<float>(first), static_cast<float>(last)};
+  };
+  const auto [left, right] = range(false);
+  const auto [top, bottom] = range(true);
+  const float x0 = x + left * w, x1 = x + right * w, y0 = y + top * h, y1 = y + bottom * h;
+  constexpr ImU32 kOutside = ink::rgb(0, 0, 0, 150);
+  draw.AddRectFilled({x, y}, {x + w, y0}, kOutside);
+  draw.AddRectFilled({x, y1}, {x + w, y + h}, kOutside);
+  draw.AddRectFilled({x, y0}, {x0, y1}, kOutside);
+  draw.AddRectFilled({x1, y0}, {x + w, y1}, kOutside);
+  draw.AddRect({x0, y0}, {x1, y1}, ink::rgb(0, 0, 0, 160), 0, 0, 3 * u);
+  draw.AddRect({x0, y0}, {x1, y1}, ink::kText, 0, 0, 1.3F * u);
+
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const float reach = 8 * u;
+  int over = 0;
+  if (mouse.x > x0 - reach && mouse.x < x1 + reach && mouse.y > y0 - reach &&
+      mouse.y < y1 + reach) {
+    if (std::abs(mouse.x - x0) < reach)
+      over |= 1;
+    else if (std::abs(mouse.x - x1) < reach)
+      over |= 2;
+    if (std::abs(mouse.y - y0) < reach)
+      over |= 4;
+    else if (std::abs(mouse.y - y1) < reach)
+      over |= 8;
+  }
+  const int lit = view.grabbed != 0 ? view.grabbed : over;
+  const float mx = (x0 + x1) / 2, my = (y0 + y1) / 2, r = 4 * u;
+  for (const auto& [hx, hy, sides] : {std::tuple{x0, y0, 5},
+                                      {x1, y0, 6},
+                                      {x0, y1, 9},
+                                      {x1, y1, 10},
+                                      {x0, my, 1},
+                                      {x1, my, 2},
+                                      {mx, y0, 4},
+                                      {mx, y1, 8}}) {
+    const bool on = lit == sides;
+    const float grown = on ? 1.5F * r : r;
+    draw.AddRectFilled({hx - grown, hy - grown}, {hx + grown, hy + grown},
+                       on ? ink::kAccent : ink::kText);
+    draw.AddRect({hx - grown, hy - grown}, {hx + grown, hy + grown}, ink::rgb(0, 0, 0, 200));
+  }
+  return over;
+}
+
+void ImportPage::histogram(const ImportLayout& at) {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit();
+  const Greys& greys = opened_.greys;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  ui.write(at.level.x, at.level.y + 6 * u, Letter::strong, ink::kAccent, word(Word::import_level));
+  ImGui::SetCursorScreenPos({at.iso.x, at.iso.y});
+  if (changed_field("##iso", "", iso_text_, at.iso.w)) take_level();
+  ui.write(at.iso.x + at.iso.w + 8 * u, at.iso.y + 7 * u, Letter::body, ink::kText,
+           unit_of_values());
+
+  const Part& p = at.plot;
+  draw.AddRectFilled({p.x, p.y}, {p.x + p.w, p.y + p.h}, ink::rgb(30, 34, 39), 4 * u);
+  const auto place = [&](double value) {
+    return p.x + p.w * static_cast<float>(
+                           std::clamp((value - greys.from) / (greys.to - greys.from), 0.0, 1.0));
+  };
+  const auto now = level();
+  const double most = std::log1p(static_cast<double>(greys.most));
+  const float wide = p.w / static_cast<float>(greys.counts.size());
+  const float line = now ? place(*now) : p.x + 2 * p.w;
+  for (std::size_t n = 0; n < greys.counts.size(); ++n) {
+    const float left = p.x + wide * static_cast<float>(n);
+    const float high =
+        (p.h - 8 * u) * static_cast<float>(std::log1p(static_cast<double>(greys.counts[n])) / most);
+    draw.AddRectFilled({left, p.y + p.h - high}, {left + std::max(wide, 1.0F), p.y + p.h},
+                       left + wide / 2 >= line ? ink::rgb(230, 159, 0) : ink::rgb(120, 128, 137));
+  }
+  ImGui::SetCursorScreenPos({p.x, p.y});
+  ImGui::InvisibleButton("##levelline", {p.w, p.h});
+  const bool held = ImGui::IsItemActive(), over = held || ImGui::IsItemHovered();
+  if (held) {
+    const float share = std::clamp((ImGui::GetIO().MousePos.x - p.x) / p.w, 0.0F, 1.0F);
+    const double wanted = greys.from + static_cast<double>(share) * (greys.to - greys.from);
+    if (!now || std::abs(wanted - *now) >= 0.5 * greys.step()) set_level(wanted);
+  }
+  if (now) {
+    draw.AddLine({line + u, p.y}, {line + u, p.y + p.h}, ink::rgb(0, 0, 0), 3 * u);
+    draw.AddLine({line, p.y}, {line, p.y + p.h}, ink::kText, (over ? 3.0F : 2.0F) * u);
+    draw.AddTriangleFilled({line - 8 * u, p.y}, {line + 8 * u, p.y}, {line, p.y + 11 * u},
+                           over ? ink::kAccent : ink::kText);
+    ui.write(
+        p.x, p.y + p.h + 8 * u, Letter::body, ink::kText,
+        say(Word::import_share, number_text(*now), unit_of_values(), 100 * greys.share_from(*now)));
+  }
+  const auto ends = [&](double value, float aligned) {
+    ui.write(aligned == 0 ? p.x + 4 * u : p.x + p.w - 4 * u, p.y + 4 * u, Letter::small, ink::kDim,
+             fmt::format("{:.4g}{}", value, unit_of_values()), aligned);
+  };
+  ends(greys.from, 0);
+  ends(greys.to, 1);
+}
+
+void ImportPage::labels(const ImportLayout& at) {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit();
+  ui.write(at.level.x, at.level.y + 6 * u, Letter::strong, ink::kAccent, word(Word::import_labels));
+  ImGui::SetCursorScreenPos({at.plot.x, at.level.y + 34 * u});
+  ImGui::BeginChild("##labels", {at.plot.w, at.level.h - 40 * u}, false);
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const float high = 32 * u;
+  const bool bar = high * static_cast<float>(kinds_.size()) > at.level.h - 40 * u;
+  const float wide = at.plot.w - (bar ? 14 * u : 0);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (std::size_t n = 0; n < kinds_.size(); ++n) {
+    const volume::Tissue& tissue = opened_.labels[n].tissue;
+    const float y = from.y + high * static_cast<float>(n);
+    const std::string name = base::shown(tissue.name, 60);
+    const auto part = [](float c) {
+      return static_cast<unsigned>(255 * std::clamp(c, 0.0F, 1.0F));
+    };
+    draw.AddRectFilled(
+        {from.x, y + 6 * u}, {from.x + 18 * u, y + 24 * u},
+        ink::rgb(part(tissue.colour[0]), part(tissue.colour[1]), part(tissue.colour[2])), 3 * u);
+    const float choices = from.x + wide - 196 * u;
+    draw.PushClipRect({from.x, y}, {choices - 6 * u, y + high}, true);
+    ui.write(from.x + 26 * u, y + 6 * u, Letter::body, ink::kText,
+             fmt::format("{}  {}", tissue.label, name));
+    draw.PopClipRect();
+    const float room = choices - 6 * u - from.x;
+    if (ui.width_of(Letter::body, name) > room - 50 * u && ImGui::IsWindowHovered() &&
+        inside({from.x, y, room, high}, ImGui::GetIO().MousePos))
+      ImGui::SetTooltip("%s", name.c_str());
+    float x = choices;
+    for (const auto& [kind, says] : {std::pair{TissueKind::solid, Word::kind_solid},
+                                     {TissueKind::soft, Word::kind_soft},
+                                     {TissueKind::air, Word::kind_air}}) {
+      const bool on = kinds_[n] == kind;
+      ImGui::SetCursorScreenPos({x, y + 1 * u});
+      ImGui::PushStyleColor(ImGuiCol_Button, on ? ink::rgb(30, 96, 138) : ink::kButton);
+      // the one that holds has a dot as well
+      const std::string text =
+          fmt::format("{}##{}{}", word(says), tissue.label, static_cast<int>(kind));
+      if (ImGui::Button(text.c_str(), {62 * u, 28 * u})) set_kind(n, kind);
+      ImGui::PopStyleColor();
+      if (on) {
+        draw.AddRect({x, y + 1 * u}, {x + 62 * u, y + 29 * u}, ink::kText, 6 * u, 0, 1.5F * u);
+        draw.AddCircleFilled({x + 31 * u, y + 26 * u}, 2.2F * u, ink::kText);
+      }
+      x += 66 * u;
+    }
+  }
+  ImGui::SetCursorScreenPos({from.x, from.y + high * static_cast<float>(kinds_.size())});
+  ImGui::Dummy({1, 1});
+  ImGui::EndChild();
+}
+
+void ImportPage::facts(const Part& part) {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit();
+  const io::Scan& scan = *opened_.scan;
+  ui.write(part.x, part.y + 6 * u, Letter::strong, ink::kAccent, word(Word::import_scan));
+  float y = part.y + 36 * u;
+  const auto line = [&](const std::string& text) {
+    ui.write(part.x, y, Letter::body, ink::kText, text);
+    y += 23 * u;
+  };
+  line(say(Word::import_voxels, scan.format, scan.size.x(), scan.size.y(), scan.size.z()));
+  line(say(Word::import_spacing, scan.spacing_mm.x(), scan.spacing_mm.y(), scan.spacing_mm.z()));
+  const math::Vec3 cm = 0.1 * scan.size.cast<double>().cwiseProduct(scan.spacing_mm);
+  line(say(Word::import_extent, cm.x(), cm.y(), cm.z()));
+  const auto ways = directions(scan.axes);
+  const bool about = ways[0].about || ways[1].about || ways[2].about;
+  line(say(about ? Word::import_about : Word::import_ways, way(ways[0].way), way(ways[1].way),
+           way(ways[2].way)));
+  if (!scan.values.empty())
+    line(say(Word::import_values, opened_.greys.low, opened_.greys.high, unit_of_values()));
+
+  // the reader's own sentences; that of the series is the chooser above
+  std::string notices;
+  const std::vector<std::string>& all = planned_ ? planned_->import.notices : scan.notices;
+  for (const std::string& notice : all)
+    if (scan.series.empty() || notice.find("choose with --series") == std::string::npos)
+      notices += (notices.empty() ? "" : "\n") + notice;
+  if (notices.empty()) return;
+  ImGui::SetCursorScreenPos({part.x, y + 4 * u});
+  ImGui::BeginChild("##notices", {part.w, part.y + part.h - y - 4 * u}, false);
+  ImGui::PushFont(ui.font(Letter::small));
+  ImGui::PushStyleColor(ImGuiCol_Text, ink::kDim);
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(notices.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+  ImGui::EndChild();
+}
+
+void ImportPage::bone(const ImportLayout& at) {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit();
+  const Part& part = at.bone;
+  ui.write(part.x, part.y + 6 * u, Letter::strong, ink::kAccent, word(Word::import_bone));
+  ImGui::SetCursorScreenPos({at.all.x, at.all.y});
+  if (ImGui::Button(word(Word::import_whole), {at.all.w, 0})) set_box(whole(*opened_.scan));
+  ui.write(part.x, at.roi.y + 7 * u, Letter::body, ink::kText, word(Word::import_region));
+  ImGui::SetCursorScreenPos({at.roi.x, at.roi.y});
+  if (changed_field("##roi", word(Word::import_all), roi_text_, at.roi.w)) take_roi();
+  ui.write(part.x, at.voxel.y + 7 * u, Letter::body, ink::kText, word(Word::import_voxel));
+  ImGui::SetCursorScreenPos({at.voxel.x, at.voxel.y});
+  if (changed_field("##voxel", word(Word::import_by_itself), voxel_text_, at.voxel.w)) take_voxel();
+  ui.write(at.voxel.x + at.voxel.w + 8 * u, at.voxel.y + 7 * u, Letter::body, ink::kText, "mm");
+
+  float y = at.voxel.y + 42 * u;
+  const bool counting = stale_ || planning_;
+  if (!planned_ || !plan_trouble_.empty()) {
+    ui.write(part.x, y, Letter::body, ink::kDim, counting ? word(Word::import_counting) : "");
+    return;
+  }
+  const importing::ImportSummary& plan = planned_->import;
+  const auto line = [&](const std::string& text) {
+    ui.write(part.x, y, Letter::body, counting ? ink::kDim : ink::kText, text);
+    y += 23 * u;
+  };
+  line(say(Word::import_made, plan.size.x(), plan.size.y(), plan.size.z(), plan.voxel_mm));
+  const SessionMemory& memory = planned_->memory;
+  line(say(Word::import_memory, memory_text(memory.making), memory_text(memory.working)));
+  const double free = free_memory_mb();
+  if (memory.making <= free) return;
+  y += 4 * u;
+  warning_sign(ui, part.x, y);
+  wrapped(ui, Letter::body, ink::kText, {part.x + 24 * u, y, part.w - 24 * u, part.y + part.h - y},
+          say(Word::import_too_much, memory_text(free)));
+}
+
+void ImportPage::last_line(const ImportLayout& at) {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit();
+  if (!desk_.told.empty()) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const Part& p = at.told;
+    draw.AddRectFilled({p.x, p.y}, {p.x + p.w, p.y + p.h}, ink::rgb(50, 38, 22), 6 * u);
+    draw.AddRect({p.x, p.y}, {p.x + p.w, p.y + p.h}, ink::kWarn, 6 * u, 0, 1.2F * u);
+    warning_sign(ui, p.x + 10 * u, p.y + 10 * u);
+    wrapped(ui, Letter::body, ink::kText, {p.x + 34 * u, p.y + 4 * u, p.w - 44 * u, p.h - 4 * u},
+            desk_.told);
+  }
+  ImGui::SetCursorScreenPos({at.back.x, at.back.y});
+  if (ImGui::Button(fmt::format("{}  [Esc]", word(Word::import_back)).c_str(),
+                    {at.back.w, at.back.h}))
+    decide(Answer::back);
+  ImGui::SetCursorScreenPos({at.start.x, at.start.y});
+  ImGui::PushStyleColor(ImGuiCol_Button, ink::rgb(20, 92, 140));
+  const std::string text =
+      starting_ ? word(Word::import_counting)
+                : fmt::format("{}  [{}]", word(Word::import_start), word(Word::key_enter));
+  if (ImGui::Button(fmt::format("{}##start", text).c_str(), {at.start.w, at.start.h}))
+    decide(Answer::start);
+  ImGui::PopStyleColor();
+}
+
+}  // namespace burr::app

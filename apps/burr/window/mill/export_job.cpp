@@ -1,0 +1,120 @@
+#include "window/mill/export_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <system_error>
+
+#include "burr/io/export_part.h"
+#include "burr/render/picture.h"
+#include "burr/volume/shared_copy.h"
+#include "window/replay/film_job.h"
+
+namespace burr::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool ends_with(const std::string& path, const std::string& ending) {
+  return path.size() >= ending.size() &&
+         std::equal(ending.rbegin(), ending.rend(), path.rbegin(), [](char e, char p) {
+           return e == std::tolower(static_cast<unsigned char>(p));
+         });
+}
+
+const char* name_of(ExportWhat what) {
+  switch (what) {
+    case ExportWhat::removed:
+      return "removed";
+    case ExportWhat::picture:
+      return "picture";
+    case ExportWhat::film:
+      return "film";
+    default:
+      return "bone";
+  }
+}
+
+io::ExportOptions options_of(ExportWhat what) {
+  io::ExportOptions options;
+  options.part = what == ExportWhat::removed ? io::Part::removed : io::Part::bone;
+  return options;
+}
+
+}  // namespace
+
+const std::vector<std::string>& endings_of(ExportWhat what) {
+  static const std::vector<std::string> bone = {".stl", ".ply",      ".obj", ".3mf",
+                                                ".glb", ".seg.nrrd", ".nrrd"},
+                                        picture = {".png"}, none;
+  return what == ExportWhat::film ? none : what == ExportWhat::picture ? picture : bone;
+}
+
+std::string ending_of(const std::string& path, ExportWhat what) {
+  for (const std::string& ending : endings_of(what))  // .seg.nrrd comes before .nrrd
+    if (ends_with(path, ending)) return ending;
+  return {};
+}
+
+std::string path_for(const std::string& path, ExportWhat what, const std::string& ending) {
+  std::string bare = path;
+  for (const ExportWhat any : {ExportWhat::bone, ExportWhat::picture})
+    if (const std::string old = ending_of(path, any); !old.empty())
+      bare = path.substr(0, path.size() - old.size());
+  const fs::path whole(bare);
+  const std::string name = whole.filename().string();
+  const bool ours =
+      name.empty() || name == "bone" || name == "removed" || name == "picture" || name == "film";
+  return (ours ? whole.parent_path() / name_of(what) : whole).string() + ending;
+}
+
+bool already_there(const ExportWish& wish) {
+  std::error_code nobody_asks;
+  return wish.what == ExportWhat::film ? holds_film(wish.path) : fs::exists(wish.path, nobody_asks);
+}
+
+Status check_wish(const ExportWish& wish) {
+  if (wish.path.empty()) return error(Trouble::usage, "give the file a name");
+  std::error_code nobody_asks;
+  if (wish.what == ExportWhat::film) {
+    if (fs::exists(wish.path, nobody_asks) && !fs::is_directory(wish.path, nobody_asks))
+      return error(Trouble::usage,
+                   wish.path + ": is a file; a film is a folder of pictures, give it another name");
+  } else if (fs::is_directory(wish.path, nobody_asks))
+    return error(Trouble::usage, wish.path + ": is a folder; add a name for the file");
+  if (wish.what == ExportWhat::picture) {
+    if (ending_of(wish.path, wish.what).empty())
+      return error(Trouble::usage, wish.path + ": unknown ending; use .png for a picture");
+  } else if (wish.what == ExportWhat::film) {
+    // any name will do
+  } else if (const Status possible = io::check_export(wish.path, options_of(wish.what));
+             !possible) {
+    return possible;
+  }
+  const fs::path folder = fs::path(wish.path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, nobody_asks))
+    return error(Trouble::io, fmt::format("{}: there is no such folder; make it, or choose another",
+                                          folder.string()));
+  return fine();
+}
+
+Result<ExportDone> write_export(const ExportWish& wish, const volume::Bone& bone,
+                                rt::ChangedBits& changed, const volume::Bone* before,
+                                const render::Image* picture, Progress& progress) {
+  if (wish.what == ExportWhat::picture) {
+    const Status written =
+        picture != nullptr ? render::write_png(*picture, wish.path) : Status(error("no picture"));
+    if (!written) return written.error();
+    return ExportDone{.path = wish.path};
+  }
+  const auto now = volume::shared_copy(bone, changed, progress);
+  if (!now) return now.error();
+  const auto exported = io::export_part(before != nullptr ? *before : **now, **now, wish.path,
+                                        options_of(wish.what), progress);
+  if (!exported) return exported.error();
+  return ExportDone{wish.path, exported->volume, exported->triangles, 0};
+}
+
+}  // namespace burr::app

@@ -1,0 +1,223 @@
+#include "window/mill/export_page.h"
+
+#include <SDL2/SDL.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "burr/render/picture.h"
+#include "window/shell/typed_path.h"
+#include "window/shell/words.h"
+
+namespace burr::app {
+
+namespace fs = std::filesystem;
+using Letter = Ui::Letter;
+
+ExportPage::ExportPage(Desk& desk, sim::Session* session, const render::Scene& scene,
+                       const std::string& folder, FilmOf film_of)
+    : desk_(desk), session_(session), scene_(scene), film_of_(std::move(film_of)) {
+  std::error_code nobody_asks;
+  const fs::path where = folder.empty() ? fs::current_path(nobody_asks) : fs::path(folder);
+  if (session_ != nullptr) {
+    changed_ = &session_->bone().add_watcher();
+    wish_.path = (where / "bone.stl").string();
+  } else {
+    wish_ = {ExportWhat::film, (where / "film").string()};
+  }
+}
+
+ExportPage::~ExportPage() { show(false); }
+
+void ExportPage::show(bool shown) {
+  if (shown == shown_) return;
+  shown_ = shown;
+  trouble_.clear();
+  replaces_ = false;
+  if (shown)
+    SDL_StartTextInput();
+  else
+    SDL_StopTextInput();
+}
+
+std::string ExportPage::progress() const {
+  if (!work_) return {};
+  const SeenProgress::Now now = work_->progress().now();
+  return say(Word::export_writing, fs::path(wish_.path).filename().string(), 100 * now.fraction,
+             now.stage);
+}
+
+// As the page says, if nothing speaks against it.
+void ExportPage::ask(bool may_replace) {
+  wish_.path = cleaned_path(wish_.path);
+  trouble_.clear();
+  replaces_ = false;
+  if (const Status possible = check_wish(wish_); !possible) {
+    trouble_ = possible.error().text;
+    return;
+  }
+  if (!may_replace && already_there(wish_)) {
+    replaces_ = true;
+    return;
+  }
+  if (wish_.what == ExportWhat::film) {
+    const std::optional<FilmSource> source = film_of_ ? film_of_() : std::nullopt;
+    if (!source) {
+      trouble_ = word(Word::film_of_nothing);
+      return;
+    }
+    work_ = std::make_unique<Loading<ExportDone>>(
+        [source = *source, path = wish_.path](Progress& progress) -> Result<ExportDone> {
+          const Result<int> made = write_film(source, path, progress);
+          if (!made) return made.error();
+          return ExportDone{.path = path, .pictures = *made};
+        });
+    show(false);
+    return;
+  }
+  before_.reset();
+  if (wish_.what == ExportWhat::removed) {
+    const bool ran = session_->running();
+    session_->stop();
+    before_ = session_->bone_before();
+    if (ran) session_->start();
+  }
+  std::shared_ptr<const render::Image> picture;
+  if (wish_.what == ExportWhat::picture) {
+    render::Scene scene = scene_;
+    scene.insets.clear();
+    scene.quality = {};
+    auto image = desk_.renderer().image(scene, desk_.renderer().width(), desk_.renderer().height());
+    if (!image) {
+      trouble_ = image.error().text;
+      return;
+    }
+    picture = std::make_shared<const render::Image>(std::move(*image));
+  }
+  work_ = std::make_unique<Loading<ExportDone>>([this, wish = wish_,
+                                                 before = std::exchange(before_, nullptr), picture](
+                                                    Progress& progress) -> Result<ExportDone> {
+    if (session_ == nullptr) {
+      const Status written = render::write_png(*picture, wish.path);
+      return written ? Result<ExportDone>(ExportDone{.path = wish.path}) : written.error();
+    }
+    return write_export(wish, session_->bone(), *changed_, before.get(), picture.get(), progress);
+  });
+  show(false);
+}
+
+std::string ExportPage::step() {
+  if (const auto chosen = dialog_.answer(); chosen && !chosen->empty()) wish_.path = *chosen;
+  if (!work_ || !work_->finished()) return {};
+  const Result<ExportDone> done = work_->take();
+  work_.reset();
+  if (!done) {
+    // back to where it can be put right, with the reason
+    if (done.error().trouble == Trouble::interrupted)
+      return word(wish_.what == ExportWhat::film ? Word::film_stopped : Word::export_stopped);
+    show(true);
+    trouble_ = done.error().text;
+    return {};
+  }
+  if (done->pictures > 0) return say(Word::film_done, done->path, done->pictures);
+  if (done->triangles > 0)
+    return say(Word::export_mesh, done->path, 1e9 * done->volume, done->triangles);
+  if (done->volume > 0) return say(Word::export_volume, done->path, 1e9 * done->volume);
+  return say(Word::export_done, done->path);
+}
+
+void ExportPage::draw() {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit(), w = 720 * u, h = 330 * u;
+  const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 40 * u);
+  ui.page("##export", x, y, w, h);
+  ui.write(x + 28 * u, y + 22 * u, Letter::large, ink::kText, word(Word::export_title));
+  const auto choice = [&](float& at, float top, const char* text, bool chosen, float wide) {
+    ImGui::SetCursorScreenPos({at, top});
+    if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ink::rgb(86, 180, 233, 90));
+    const bool pressed = ImGui::Button(text, {wide, 0});
+    if (chosen) {
+      ImGui::PopStyleColor();
+      ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
+                                          ink::kAccent, 6 * u, 0, 1.5F * u);
+    }
+    at += wide + 8 * u;
+    return pressed;
+  };
+
+  float at = x + 28 * u;
+  for (const auto& [what, name] : {std::pair{ExportWhat::bone, Word::export_bone},
+                                   {ExportWhat::removed, Word::export_removed},
+                                   {ExportWhat::picture, Word::export_picture},
+                                   {ExportWhat::film, Word::export_film}}) {
+    const ExportWhat one = what;  // a lambda may not take a structured binding
+    if (session_ == nullptr && (one == ExportWhat::bone || one == ExportWhat::removed)) continue;
+    if (!choice(at, y + 66 * u, word(name), wish_.what == one, 158 * u)) continue;
+    std::string ending = ending_of(wish_.path, one);
+    if (ending.empty() && !endings_of(one).empty()) ending = endings_of(one).front();
+    wish_.what = one;
+    wish_.path = path_for(wish_.path, one, ending);
+    replaces_ = false;
+    trouble_.clear();
+  }
+  at = x + 28 * u;
+  for (const std::string& ending : endings_of(wish_.what))
+    if (choice(at, y + 112 * u, ending.c_str(), ending_of(wish_.path, wish_.what) == ending,
+               (ending.size() > 5 ? 96 : 70) * u)) {
+      wish_.path = path_for(wish_.path, wish_.what, ending);
+      replaces_ = false;
+      trouble_.clear();
+    }
+
+  ImGui::SetCursorScreenPos({x + 28 * u, y + 160 * u});
+  if (wish_.what == ExportWhat::film)
+    ui.write(x + 28 * u, y + 118 * u, Letter::body, ink::kDim, word(Word::film_told));
+  const float other = FileDialog::there() ? 132 * u : 0;
+  const std::string was = wish_.path;
+  const bool entered =
+      text_field("##where", word(Word::start_path), wish_.path, w - 56 * u - other);
+  if (wish_.path != was) replaces_ = false;
+  if (other > 0) {
+    ImGui::SetCursorScreenPos({x + w - 28 * u - 120 * u, y + 160 * u});
+    if (ImGui::Button(word(Word::start_file), {120 * u, 0})) dialog_.ask_where(wish_.path);
+  }
+
+  // what speaks against it, or how far the last one is
+  const std::string& told = replaces_
+                                ? say(Word::export_exists, fs::path(wish_.path).filename().string())
+                            : trouble_.empty() ? progress()
+                                               : trouble_;
+  if (!told.empty()) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    float from = x + 28 * u;
+    if (replaces_ || !trouble_.empty()) {
+      const float cx = from + 8 * u, cy = y + 213 * u, r = 8 * u;
+      draw.AddTriangleFilled({cx - r, cy + 0.8F * r}, {cx + r, cy + 0.8F * r}, {cx, cy - 0.9F * r},
+                             ink::kWarn);
+      from += 26 * u;
+    }
+    const ImFont* font = ui.font(Letter::body);
+    draw.PushClipRect({x, y}, {x + w, y + h - 60 * u}, true);
+    draw.AddText(font, font->FontSize, {from, y + 204 * u}, ink::kText, told.c_str(), nullptr,
+                 x + w - 28 * u - from);
+    draw.PopClipRect();
+  }
+
+  ImGui::SetCursorScreenPos({x + w - 28 * u - 320 * u, y + h - 54 * u});
+  const bool busy = work_ != nullptr;
+  if (ImGui::Button(word(busy ? Word::export_stop : Word::cancel), {150 * u, 0})) {
+    if (busy)
+      work_->progress().cancel();
+    else
+      show(false);
+  }
+  ImGui::SetCursorScreenPos({x + w - 28 * u - 160 * u, y + h - 54 * u});
+  const bool go =
+      ImGui::Button(word(replaces_ ? Word::export_replace : Word::export_write), {160 * u, 0});
+  if ((go || entered) && !busy) ask(replaces_ && go);
+  ImGui::End();
+}
+
+}  // namespace burr::app

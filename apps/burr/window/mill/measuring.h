@@ -1,0 +1,61 @@
+// apps/burr/window/mill/measuring.h - how far, at what angle, how thick: measured on the bone as it is
+// now and drawn over the picture. It only reads.
+//
+//     measuring.next();                                   // distance, angle, thickness, off
+//     if (measuring.picks()) measuring.pick(hit->p);      // a click
+//     measuring.probe(bone, tip, inward, reach);          // each picture, for the thickness
+//     measuring.draw(ui, scene.camera);
+//
+// Thread: main. Frame: world. Units: m, rad; people read mm and degrees.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "burr/render/camera.h"
+#include "burr/volume/thickness.h"
+#include "window/shell/ui.h"
+
+namespace burr::app {
+
+enum class Measure { off, distance, angle, thickness };
+
+class Measuring {
+ public:
+  void next();
+  void stop() { *this = {}; }
+  [[nodiscard]] Measure what() const { return what_; }
+  [[nodiscard]] bool on() const { return what_ != Measure::off; }
+  // The mouse shows points and does not mill.
+  [[nodiscard]] bool picks() const { return points_wanted() > 0; }
+
+  // One more point on the surface; when all are there it begins anew.
+  void pick(const math::Vec3& p);
+  // From the middle of the burr into the bone. inward: unit.
+  void probe(const volume::Bone& bone, const math::Vec3& tip, const math::Vec3& inward,
+             double reach);
+
+  // The length [m] or the angle [rad], once it is known.
+  [[nodiscard]] std::optional<double> value() const;
+  // In the user's words: the result, or what to do for it; "" when off.
+  [[nodiscard]] std::string words() const;
+
+  // Behind the panels, within a frame of ImGui.
+  void draw(const Ui& ui, const render::Camera& camera) const;
+
+ private:
+  [[nodiscard]] std::size_t points_wanted() const {
+    return what_ == Measure::distance ? 2 : what_ == Measure::angle ? 3 : 0;
+  }
+  Measure what_ = Measure::off;
+  std::vector<math::Vec3> points_;  // of an angle the second is its tip
+  std::optional<volume::Span> span_;
+};
+
+// Where a point of the world lies in a picture of width x height; nothing behind the eye. The way
+// back of render::ray_through().
+[[nodiscard]] std::optional<ImVec2> on_picture(const render::Camera& camera, const math::Vec3& p,
+                                               float width, float height);
+
+}  // namespace burr::app

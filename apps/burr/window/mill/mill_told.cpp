@@ -1,0 +1,244 @@
+// What the user is told at the page: the session as it is now, panels, words.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "burr/haptics/contact.h"
+#include "burr/render/scene.h"
+#include "window/mill/mill.h"
+#include "window/shell/help.h"
+#include "window/shell/settings_page.h"
+#include "window/shell/words.h"
+#include "workshop/fault_file.h"
+#include "workshop/suction_hand.h"
+
+namespace burr::app {
+namespace {
+
+constexpr std::pair<std::uint32_t, Word> kFlagWords[] = {
+    {haptics::kFlagNotFinite, Word::flag_not_finite},
+    {haptics::kFlagHandLost, Word::flag_hand_lost},
+    {haptics::kFlagWatchdog, Word::flag_watchdog},
+    {haptics::kFlagJump, Word::flag_jump},
+    {haptics::kFlagForceLimited, Word::flag_force_limited},
+    {haptics::kFlagThermal, Word::flag_thermal},
+    {haptics::kFlagCandidates, Word::flag_candidates},
+    {haptics::kFlagReserve, Word::flag_reserve},
+    {haptics::kFlagUndoFull, Word::flag_undo_full},
+    {haptics::kFlagRestoring, Word::flag_restoring},
+    {haptics::kFlagNotCut, Word::flag_not_cut},
+    {haptics::kFlagPutOff, Word::flag_put_off},
+};
+
+}  // namespace
+
+// What a surgeon should see at once, in the user's language. That ticks are put off is told by
+// their own sign, that a limit holds by the force's bar.
+std::string told_flags(std::uint32_t flags) {
+  std::string text;
+  flags &= ~(haptics::kFlagPutOff | haptics::kFlagForceLimited);
+  for (const auto& [flag, says] : kFlagWords)
+    if ((flags & flag) != 0) text += (text.empty() ? "" : ", ") + std::string(word(says));
+  return text;
+}
+
+std::string flag_words(std::uint32_t flags) {
+  std::string text;
+  for (const auto& [flag, says] : kFlagWords)
+    if ((flags & flag) != 0)
+      text += (text.empty() ? "" : ", ") + std::string(word(says, Language::english));
+  return text;
+}
+
+void Mill::look_at_session() {
+  if (session_.view(row_)) {
+    const Clock::time_point now = Clock::now();
+    stats_.add(static_cast<std::int64_t>(1e3 * static_cast<double>(row_.took_us)));
+    scene_.burr.world_from_tool = {row_.contact.proxy, row_.hand.world_from_tool.q};
+    // turning is shown, not counted: 40 000 rpm are faster than any eye
+    if (row_.spindle_rad_s > 0) scene_.burr.turn = std::remainder(scene_.burr.turn + 0.7, 6.2832);
+    render::show_contact(scene_, row_.hand.world_from_tool.p, row_.contact.proxy,
+                         row_.contact.force);
+    if (options_.loudspeaker != nullptr) options_.loudspeaker->hear(row_);
+    if ((row_.contact.flags & haptics::kFlagWatchdog) != 0) lost_at_ = now;
+
+    // ticks that are not there by now; two may be under way
+    if (!first_tick_) first_tick_ = {row_.tick, now};
+    const double due = std::chrono::duration<double>(now - first_tick_->second).count() *
+                       session_.settings().servo.rate_hz;
+    const double done = static_cast<double>(row_.tick - first_tick_->first);
+    const auto missed = static_cast<std::uint64_t>(std::max(0.0, due - done - 2));
+    if (missed > missed_ + 3) missed_at_ = now;
+    missed_ = std::max(missed_, missed);
+  }
+  look_at_burr();
+  show_mirror(scene_, session_.bone().grid(), mirror_.now());
+  plane_.show(scene_);
+  nearest_.reset();
+  if (options_.nearby != nullptr)
+    if (auto near = options_.nearby->nearest(scene_.burr.world_from_tool.p))
+      nearest_ = {std::move(near->name), near->distance - scene_.burr.radius};
+  tick::FaultReport fault;
+  if (session_.fault(fault)) {
+    told_.let_go(say(Word::let_go, told_flags(fault.flags)), Clock::now());
+    // a mouse that waits for a slow machine is no fault to look into; a device that let go is
+    if (hands_.real != nullptr) keep_fault_of(session_.hand(), fault);
+  }
+  if (hands_.suction != nullptr && session_.second_hand()->faults().take(fault)) {
+    told_.let_go(say(Word::let_go, told_flags(fault.flags)), Clock::now());
+    keep_fault_of(hands_.suction->hand(), fault);
+  }
+}
+
+void Mill::keep_fault_of(const device::Device& hand, const tick::FaultReport& fault) {
+  const std::filesystem::path& state = desk_.places().state;
+  if (state.empty()) return;
+  const auto kept =
+      keep_fault(state / "faults",
+                 fault_text(fault, hand.spec(), session_.settings().servo.rate_hz, hand.trouble()));
+  note(kept ? say(Word::fault_kept, kept->string()) : kept.error().text);
+}
+
+// The burr that is wished for, or the sentence why not.
+void Mill::look_at_burr() {
+  const double radius = session_.burr_radius();
+  if (radius != scene_.burr.radius && options_.loudspeaker != nullptr)
+    options_.loudspeaker->obey({tick::WishKind::burr_radius, radius});
+  scene_.burr.radius = radius;
+  if (!burr_wished_) return;
+  const bool so = std::abs(scene_.burr.radius - *burr_wished_) < 1e-9;
+  if (!so && Clock::now() - burr_wished_at_ < std::chrono::milliseconds(300)) return;
+  note(so ? say(Word::burr_now, 2e3 * scene_.burr.radius) : std::string(word(Word::no_room)));
+  burr_wished_.reset();
+}
+
+void Mill::note(std::string text) { told_.note(std::move(text), Clock::now()); }
+
+void Mill::tell() {
+  const Clock::time_point now = Clock::now();
+  if (now - said_ < std::chrono::milliseconds(200)) return;
+  said_ = now;
+  for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
+  const std::string flags = flag_words(row_.contact.flags);
+  desk_.renderer().title(
+      fmt::format("burr - removed {:.1f} mm^3 - force {:.2f} N - tick p99 {:.0f} us{}{}",
+                  1e9 * row_.ledger.removed, row_.contact.force.norm(), stats_.quantile_us(0.99),
+                  flags.empty() ? "" : " - ", flags));
+  std::string lasting = options_.warning ? options_.warning() : std::string();
+  if (lasting.empty() && let_go_) lasting = word(Word::stopped);
+  if (lasting.empty()) lasting = session_.hand().trouble();
+  if (lasting.empty() && hands_.suction != nullptr) lasting = hands_.suction->hand().trouble();
+  if (lasting.empty()) lasting = told_flags(row_.contact.flags);
+  warning_ = told_.warning(now, lasting);
+  // beside why it was let go: what to do
+  if (lasting.empty() && session_.servo().let_go() && (row_.hand.buttons & device::kLifted) == 0)
+    warning_ += (warning_.empty() ? "" : "; ") + std::string(word(Word::begins_free));
+  note_ = told_.note(now, export_->progress());
+  if (note_.empty()) note_ = measuring_.words();
+  desk_.said = !export_->trouble().empty()         ? export_->trouble()
+               : warning_.empty() || note_.empty() ? warning_ + note_
+                                                   : warning_ + "; " + note_;
+}
+
+HudState Mill::hud() const {
+  const sim::SessionSettings& settings = session_.settings();
+  HudState s;
+  s.force = row_.contact.force.norm();
+  s.user_limit = user_limit();
+  s.device_limit = session_.hand().spec().peak_force;
+  s.press = pressing() ? depth() : press_;
+  s.press_most = kPressMost;
+  s.pressing = hands_.real != nullptr ? row_.hand.pedal > 0
+               : wand_                ? wand_at_.tracked && wand_at_.trigger > 0
+                                      : pressing();
+  if (plane_.on() && !wand_) {  // there the hand itself is in the bone
+    s.press = row_.contact.touching ? row_.contact.depth : 0;
+    s.pressing = row_.contact.touching;
+  }
+  s.speed = row_.spindle_rad_s;
+  s.full_speed = full_speed_;
+  if (settings.servo.motor.torque > 0)
+    s.load = std::clamp(row_.cutting_nm / settings.servo.motor.torque, 0.0, 1.0);
+  s.burr_diameter = 2 * scene_.burr.radius;
+  s.mode = mode_;
+  s.diamond = scene_.burr.diamond;
+  s.removed = row_.ledger.removed;
+  s.seconds = static_cast<double>(row_.tick) / settings.servo.rate_hz;
+  s.nearest = nearest_;
+  s.spares = options_.nearby != nullptr && !options_.nearby->empty();
+  const Clock::time_point now = Clock::now();
+  if (now - lost_at_ < std::chrono::seconds(5))
+    s.ticks = TickHealth::lost;
+  else if (session_.load() != tick::Load::none || now - missed_at_ < std::chrono::seconds(3))
+    s.ticks = TickHealth::busy;
+  const rt::TickSummary summary = stats_.summary();
+  s.p99_us = summary.p99_us;
+  s.max_us = summary.max_us;
+  s.missed = missed_;
+  s.picture_step = picture_step_;
+  if (!scene_.insets.empty())
+    s.column = static_cast<float>(desk_.renderer().width() - scene_.insets.front().x);
+  s.pixel = scene_.camera.view_height() / std::max(1, desk_.renderer().height());
+  if (const edit::Mirror mirror = mirror_.now(); mirror.on())
+    s.mirror = mirror_words(session_.bone().grid(), mirror);
+  s.note = note_;
+  s.warning = warning_;
+  return s;
+}
+
+void Mill::panels() {
+  Ui& ui = desk_.ui();
+  measuring_.draw(ui, scene_.camera);
+  draw_cursor();
+  if (panels_) {
+    draw_hud(ui, hud());
+    slices_->write_names(scene_, ui);
+    if (const auto pressed = draw_toolbar(ui, mode_, measuring_.on(), mirror_.now().on()))
+      act(*pressed);
+  }
+  if (help_) help_ = draw_help(ui, desk_.settings.left_handed, help_pads_);
+  if (export_->shown()) export_->draw();
+  if (!settings_page_) return;
+  const double limit = desk_.settings.force_limit_n;
+  const bool worn = desk_.settings.headset;
+  const std::filesystem::path& config = desk_.places().config;
+  const device::DeviceSpec spec =
+      hands_.real != nullptr ? hands_.real->spec() : device::DeviceSpec();
+  DeviceLeaf device{hands_.id, spec.peak_force, spec.peak_torque > 0, hands_.wishes};
+  const SettingsPage page = draw_settings(
+      ui, desk_.settings, config.empty() ? std::string() : (config / "settings.toml").string(),
+      settings_pads_, hands_.real != nullptr ? &device : nullptr);
+  if (device.changed) keep_wishes_of_device();
+  if (desk_.settings.force_limit_n != limit)
+    session_.wish({tick::WishKind::user_force, user_limit()});
+  if (desk_.settings.headset != worn) desk_.headset_wanted = desk_.settings.headset;
+  if (page.changed) {
+    desk_.settings_changed();
+    press_ = std::clamp(1e-3 * desk_.settings.press_mm, kPressLeast, kPressMost);
+    for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
+  }
+  if (page.done) settings_page_ = false;
+}
+
+// In its book; the force holds at once.
+void Mill::keep_wishes_of_device() {
+  const double peak = hands_.real->spec().peak_force, wished = hands_.wishes.max_force_n;
+  hands_.max_force = wished > 0 ? std::min(peak, wished) : peak;
+  session_.wish({tick::WishKind::user_force, user_limit()});
+  DeviceBook book = DeviceBook::read(users_book());
+  book.put(hands_.id, hands_.wishes);
+  const Status kept = book.write(users_book());
+  if (!kept) note(kept.error().text);
+}
+
+void Mill::leave_picture() {
+  picture_ = false;
+  const Result<std::string> left = desk_.leave_picture(options_.folder);
+  note(left ? say(Word::picture_left, *left) : left.error().text);
+}
+
+}  // namespace burr::app

@@ -1,0 +1,229 @@
+#include "window/mill/toolbar.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "window/shell/words.h"
+
+namespace burr::app {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+// Drawn, not typed: no font of signs is needed. c: middle, r: half the size.
+void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
+  const float thick = 0.22F * r;
+  const auto ring = [&](float from, float to, float radius) {
+    draw.PathArcTo(c, radius, from, to, 24);
+    draw.PathStroke(shade, 0, thick);
+  };
+  // tip of an arrow at angle a of a ring, pointing on (or back) around it
+  const auto tip = [&](float a, float radius, float way) {
+    const ImVec2 p = {c.x + radius * std::cos(a), c.y + radius * std::sin(a)};
+    const ImVec2 t = {-way * std::sin(a), way * std::cos(a)};
+    const float s = 0.42F * r;
+    draw.AddTriangleFilled({p.x + 1.3F * s * t.x, p.y + 1.3F * s * t.y},
+                           {p.x + s * std::cos(a), p.y + s * std::sin(a)},
+                           {p.x - s * std::cos(a), p.y - s * std::sin(a)}, shade);
+  };
+  switch (action) {
+    case Action::cut:  // a burr on its shaft
+      draw.AddLine({c.x + 0.9F * r, c.y - 0.9F * r}, {c.x, c.y}, shade, thick);
+      draw.AddCircleFilled({c.x - 0.25F * r, c.y + 0.25F * r}, 0.55F * r, shade, 20);
+      break;
+    case Action::add:
+    case Action::larger:
+    case Action::faster:
+      draw.AddLine({c.x, c.y - 0.8F * r}, {c.x, c.y + 0.8F * r}, shade, thick);
+      draw.AddLine({c.x - 0.8F * r, c.y}, {c.x + 0.8F * r, c.y}, shade, thick);
+      break;
+    case Action::smaller:
+    case Action::slower:
+      draw.AddLine({c.x - 0.8F * r, c.y}, {c.x + 0.8F * r, c.y}, shade, thick);
+      break;
+    case Action::touch:  // a ball on a line
+      draw.AddCircle({c.x, c.y - 0.1F * r}, 0.55F * r, shade, 20, thick);
+      draw.AddLine({c.x - r, c.y + 0.75F * r}, {c.x + r, c.y + 0.75F * r}, shade, thick);
+      break;
+    case Action::back:  // a hollow that fills
+      ring(0, kPi, 0.75F * r);
+      draw.AddLine({c.x - 1.1F * r, c.y}, {c.x - 0.7F * r, c.y}, shade, thick);
+      draw.AddLine({c.x + 0.7F * r, c.y}, {c.x + 1.1F * r, c.y}, shade, thick);
+      draw.AddLine({c.x, c.y + 0.5F * r}, {c.x, c.y - 0.4F * r}, shade, thick);
+      draw.AddTriangleFilled({c.x + 0.4F * r, c.y - 0.3F * r}, {c.x - 0.4F * r, c.y - 0.3F * r},
+                             {c.x, c.y - 0.95F * r}, shade);
+      break;
+    case Action::smooth: {  // a wave above, a line below
+      for (int n = 0; n < 16; ++n) {
+        const auto wave = [&](int at) {
+          const float t = static_cast<float>(at) / 16;
+          return ImVec2{c.x + (2 * t - 1) * r, c.y - 0.35F * r - 0.3F * r * std::sin(4 * kPi * t)};
+        };
+        draw.AddLine(wave(n), wave(n + 1), shade, 0.8F * thick);
+      }
+      draw.AddLine({c.x - r, c.y + 0.6F * r}, {c.x + r, c.y + 0.6F * r}, shade, thick);
+      break;
+    }
+    case Action::undo:
+      ring(-0.95F * kPi, 0.35F * kPi, 0.7F * r);
+      tip(-0.95F * kPi, 0.7F * r, -1);
+      break;
+    case Action::redo:
+      ring(0.65F * kPi, 1.95F * kPi, 0.7F * r);
+      tip(1.95F * kPi, 0.7F * r, 1);
+      break;
+    case Action::reset:
+      ring(-0.4F * kPi, 1.35F * kPi, 0.7F * r);
+      tip(1.35F * kPi, 0.7F * r, 1);
+      draw.AddCircleFilled(c, 0.2F * r, shade, 12);
+      break;
+    case Action::measure:  // a ruler
+      draw.AddRect({c.x - 1.1F * r, c.y - 0.5F * r}, {c.x + 1.1F * r, c.y + 0.5F * r}, shade, 0, 0,
+                   0.8F * thick);
+      for (int n = -1; n <= 1; ++n) {
+        const float x = c.x + 0.55F * static_cast<float>(n) * r;
+        draw.AddLine({x, c.y - 0.5F * r}, {x, c.y + (n == 0 ? 0.15F : -0.05F) * r}, shade,
+                     0.8F * thick);
+      }
+      break;
+    case Action::mirror:  // two halves, a plane between them
+      for (const float side : {-1.0F, 1.0F})
+        draw.AddTriangle({c.x + 0.3F * side * r, c.y - 0.7F * r},
+                         {c.x + 0.3F * side * r, c.y + 0.7F * r},
+                         {c.x + 1.1F * side * r, c.y + 0.7F * r}, shade, 0.8F * thick);
+      for (const float y : {-1.0F, -0.35F, 0.3F, 0.95F})
+        draw.AddLine({c.x, c.y + (y - 0.1F) * r}, {c.x, c.y + (y + 0.2F) * r}, shade, 0.8F * thick);
+      break;
+    case Action::export_:  // an arrow down into a tray
+      draw.AddLine({c.x, c.y - 0.9F * r}, {c.x, c.y}, shade, thick);
+      draw.AddTriangleFilled({c.x - 0.5F * r, c.y - 0.1F * r}, {c.x + 0.5F * r, c.y - 0.1F * r},
+                             {c.x, c.y + 0.5F * r}, shade);
+      for (const float side : {-0.85F, 0.85F})
+        draw.AddLine({c.x + side * r, c.y + 0.2F * r}, {c.x + side * r, c.y + 0.9F * r}, shade,
+                     thick);
+      draw.AddLine({c.x - 0.85F * r, c.y + 0.85F * r}, {c.x + 0.85F * r, c.y + 0.85F * r}, shade,
+                   thick);
+      break;
+    case Action::settings:  // three sliders
+      for (int n = 0; n < 3; ++n) {
+        const float y = c.y + (static_cast<float>(n) - 1) * 0.65F * r;
+        const float k = n == 1 ? 0.4F : -0.35F;
+        draw.AddLine({c.x - 0.9F * r, y}, {c.x + 0.9F * r, y}, shade, 0.7F * thick);
+        draw.AddCircleFilled({c.x + k * r, y}, 0.26F * r, shade, 12);
+      }
+      break;
+    case Action::help: {
+      ImFont* font = ImGui::GetFont();
+      const float size = 2.0F * r;
+      const ImVec2 wide = font->CalcTextSizeA(size, 1e9F, 0, "?");
+      draw.AddText(font, size, {c.x - wide.x / 2, c.y - size / 2}, shade, "?");
+      break;
+    }
+    case Action::leave:  // a door and an arrow out of it
+      draw.AddLine({c.x + 0.8F * r, c.y}, {c.x - 0.3F * r, c.y}, shade, thick);
+      draw.AddTriangleFilled({c.x - 0.9F * r, c.y}, {c.x - 0.2F * r, c.y - 0.5F * r},
+                             {c.x - 0.2F * r, c.y + 0.5F * r}, shade);
+      break;
+  }
+}
+
+struct Button {
+  Action action;
+  Word name;
+  const char* key;
+};
+
+class Bar {
+ public:
+  Bar(Ui& ui, std::optional<Action>& pressed) : ui_(ui), pressed_(pressed), u_(ui.unit()) {}
+
+  // icon above its name
+  void tall(const Button& b, bool chosen = false) {
+    const ImVec2 p = ImGui::GetCursorScreenPos(), size = {66 * u_, 42 * u_};
+    body(b, p, size, chosen);
+    const ImU32 shade = chosen ? ink::kAccent : ink::kText;
+    icon(*ImGui::GetWindowDrawList(), b.action, {p.x + size.x / 2, p.y + 14 * u_}, 9 * u_, shade);
+    ui_.write(p.x + size.x / 2, p.y + 26 * u_, Ui::Letter::small, chosen ? ink::kText : ink::kDim,
+              word(b.name), 0.5F);
+  }
+
+  // less and more beside each other, under what they change
+  void pair(Word name, const Button& less, const Button& more, bool less_chosen = false,
+            bool more_chosen = false) {
+    const ImVec2 p = ImGui::GetCursorScreenPos();
+    ui_.write(p.x + 33 * u_, p.y + 1 * u_, Ui::Letter::small, ink::kDim, word(name), 0.5F);
+    int n = 0;
+    for (const Button* b : {&less, &more}) {
+      const ImVec2 at = {p.x + static_cast<float>(n++) * 35 * u_, p.y + 18 * u_};
+      ImGui::SetCursorScreenPos(at);
+      const bool chosen = b == &less ? less_chosen : more_chosen;
+      body(*b, at, {31 * u_, 26 * u_}, chosen);
+      icon(*ImGui::GetWindowDrawList(), b->action, {at.x + 15.5F * u_, at.y + 13 * u_}, 7 * u_,
+           chosen ? ink::kAccent : ink::kText);
+    }
+  }
+
+  void gap(float points) { ImGui::Dummy({1, points * u_}); }
+
+ private:
+  void body(const Button& b, ImVec2 p, ImVec2 size, bool chosen) {
+    ImGui::PushID(static_cast<int>(b.action));
+    if (ImGui::InvisibleButton("##b", size)) pressed_ = b.action;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 q = {p.x + size.x, p.y + size.y};
+    if (ImGui::IsItemHovered()) {
+      draw.AddRectFilled(p, q, ink::kOver, 6 * u_);
+      ImGui::SetTooltip("%s  [%s]", word(b.name), b.key);
+    } else if (size.x < 40 * u_) {
+      draw.AddRectFilled(p, q, ink::kButton, 6 * u_);
+    }
+    if (chosen) {  // a frame, so that not colour alone tells
+      draw.AddRectFilled(p, q, ink::rgb(86, 180, 233, 40), 6 * u_);
+      draw.AddRect(p, q, ink::kAccent, 6 * u_, 0, 1.5F * u_);
+    }
+    ImGui::PopID();
+  }
+
+  Ui& ui_;
+  std::optional<Action>& pressed_;
+  float u_;
+};
+
+}  // namespace
+
+std::optional<Action> draw_toolbar(Ui& ui, tick::ToolMode mode, bool measures, bool mirrors) {
+  std::optional<Action> pressed;
+  const float u = ui.unit();
+  const float h = 624 * u, w = 82 * u;
+  const float free = ui.height() - 78 * u;
+  const float y = std::max(6 * u, (free - h) / 2);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * u, 8 * u});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {4 * u, 3 * u});
+  ui.panel("##tools", 10 * u, y, w, h);
+  Bar bar(ui, pressed);
+  bar.tall({Action::cut, Word::cut, "1"}, mode == tick::ToolMode::cut);
+  bar.tall({Action::add, Word::add, "2"}, mode == tick::ToolMode::add);
+  bar.tall({Action::touch, Word::touch, "3"}, mode == tick::ToolMode::touch);
+  bar.tall({Action::back, Word::back, "4"}, mode == tick::ToolMode::restore);
+  bar.tall({Action::smooth, Word::smooth, "5"}, mode == tick::ToolMode::smooth);
+  bar.gap(2);
+  bar.pair(Word::burr, {Action::smaller, Word::smaller, "["}, {Action::larger, Word::larger, "]"});
+  bar.pair(Word::speed, {Action::slower, Word::slower, ","}, {Action::faster, Word::faster, "."});
+  bar.gap(2);
+  bar.pair(Word::stroke, {Action::undo, Word::undo, "U"}, {Action::redo, Word::redo, "Y"});
+  bar.tall({Action::reset, Word::reset, "R"});
+  bar.gap(2);
+  bar.pair(Word::help_tools, {Action::measure, Word::measure, "D"},
+           {Action::mirror, Word::mirror, "X"}, measures, mirrors);
+  bar.tall({Action::export_, Word::export_word, "E"});
+  bar.pair(Word::help_program, {Action::settings, Word::settings, "F2"},
+           {Action::help, Word::help, "F1"});
+  bar.tall({Action::leave, Word::leave, "Q"});
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+  return pressed;
+}
+
+}  // namespace burr::app

@@ -1,0 +1,142 @@
+#include "window/replay/playback.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+#include <utility>
+
+#include "burr/render/camera.h"
+#include "window/shell/words.h"
+#include "window/start/sessions.h"
+#include "workshop/live_bone.h"
+#include "workshop/recording.h"
+
+namespace burr::app {
+
+namespace fs = std::filesystem;
+
+bool is_recording(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".mcap";
+}
+
+Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
+                               const VolumeOptions& given, Progress& progress) {
+  auto player = record::Player::open(file);
+  if (!player) return player.error();
+  Recorded out;
+  out.player = std::move(*player);
+  if (out.player->end_tick() == out.player->first_tick())
+    return error(
+        fmt::format("{}: nothing happened in this recording, not one tick is in it", file));
+  auto settings = sim::settings_of(out.player->info(), file);
+  if (!settings) return settings.error();
+  out.settings = std::move(*settings);
+
+  // a session that burr kept knows its title, and where its scan lies
+  VolumeOptions volume = given;
+  out.title = fs::path(file).filename().string();
+  std::error_code nobody_asks;
+  for (const KeptSession& kept : kept_sessions(state)) {
+    if (!fs::equivalent(kept.file, file, nobody_asks)) continue;
+    out.title = kept.title;
+    if (given.path.empty() && !out.player->info().embedded &&
+        fs::exists(kept.options.volume.path, nobody_asks) &&
+        fs::path(kept.options.volume.path).extension() != ".toml")
+      volume = kept.options.volume;
+  }
+  out.film.recording = file;
+  out.film.volume = volume;
+  out.film.seconds = out.player->seconds();
+  auto bone = bone_of(*out.player, volume, progress);
+  if (!bone) return bone.error();
+  out.bone = std::move(*bone);
+  auto line = record::timeline_of(*out.player, progress);
+  if (!line) return line.error();
+  out.timeline = std::move(*line);
+  out.notices = out.player->notices();
+
+  out.scene.tissue_colours = render::colours_of(out.bone->tissues());
+  out.worker = std::make_unique<surface::Worker>(*out.bone, 1);
+  const Status skinned =
+      out.worker->first(progress, [&out](const surface::Skin& skin) { put_skin(out.scene, skin); });
+  if (!skinned) return skinned.error();
+  if (out.timeline.work) {
+    const double height = std::clamp(30 * out.settings.settings.servo.burr.radius, 30e-3, 100e-3);
+    out.scene.camera =
+        render::view_of_work(out.timeline.work->at, out.timeline.work->outward, height);
+    render::pan(out.scene.camera, 0, -0.1);  // the strip takes the lower fifth
+  } else {
+    out.scene.camera = render::whole_view(out.scene, 0.3, 0.4, 16.0 / 9);
+  }
+  return out;
+}
+
+// ---- the thread
+
+Playback::Playback(Recorded& recorded)
+    : player_(*recorded.player),
+      bone_(*recorded.bone),
+      timeline_(recorded.timeline),
+      traces_(player_, recorded.settings.settings.servo),
+      thread_([this] { work(); }) {}
+
+Playback::~Playback() {
+  const std::lock_guard lock(mutex_);
+  end_ = true;
+  wanted_changed_.notify_one();
+}
+
+void Playback::want(double t_s) {
+  const std::lock_guard lock(mutex_);
+  wanted_ = t_s;
+  asked_ = true;
+  wanted_changed_.notify_one();
+}
+
+bool Playback::take(Shown& shown) {
+  const std::lock_guard lock(mutex_);
+  if (!std::exchange(fresh_, false)) return false;
+  shown = newest_;
+  return true;
+}
+
+bool Playback::behind() const {
+  const std::lock_guard lock(mutex_);
+  return asked_ || working_;
+}
+
+void Playback::work() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    wanted_changed_.wait(lock, [this] { return asked_ || end_; });
+    if (end_) return;
+    asked_ = false;
+    working_ = true;
+    Shown shown;
+    shown.t = wanted_;
+    lock.unlock();
+    if (const Status there = player_.bone_at(shown.t, bone_); !there)
+      shown.trouble = there.error().text;
+    if (auto row = player_.tick_at(shown.t))
+      shown.row = *row;
+    else if (shown.trouble.empty())
+      shown.trouble = row.error().text;
+    shown.told = traces_.until(shown.t, timeline_);
+    lock.lock();
+    working_ = false;
+    if (fresh_ && !shown.told.anew) {  // nobody took the last: its ticks come first
+      Traces::Told both = std::move(newest_.told);
+      both.ticks.insert(both.ticks.end(), shown.told.ticks.begin(), shown.told.ticks.end());
+      shown.told = std::move(both);
+    }
+    newest_ = std::move(shown);
+    fresh_ = true;
+  }
+}
+
+}  // namespace burr::app

@@ -1,0 +1,491 @@
+#include "window/replay/replay_page.h"
+
+#include <SDL2/SDL.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "commands/command.h"
+#include "window/mill/export_page.h"
+#include "window/mill/hud.h"
+#include "window/mill/mirror_mode.h"
+#include "window/mill/see_through.h"
+#include "window/replay/pair.h"
+#include "window/replay/side.h"
+#include "window/replay/timeline_panel.h"
+#include "window/shell/file_dialog.h"
+#include "window/shell/help.h"
+#include "window/shell/words.h"
+
+namespace burr::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kPaces[] = {0.25, 0.5, 1, 2, 4, 8};
+constexpr double kStep = 1, kSmallStep = 0.05;  // of an arrow; with Shift  [s]
+constexpr double kTurn = 0.006;                 // of the view, by a pixel of the mouse  [rad]
+constexpr double kShift = 0.5;                  // of the second against the first, by a key  [s]
+
+class Watch {
+ public:
+  Watch(Desk& desk, Recorded& recorded, const WatchOptions& options)
+      : desk_(desk), recorded_(recorded), scene_(recorded.scene), options_(options) {}
+
+  Result<Left> run();
+
+ private:
+  void take_events();
+  void key(const SDL_Keysym& pressed);
+  void move(const SDL_MouseMotionEvent& motion);
+  void go(double t);
+  void play(bool playing);
+  void change_pace(int by);
+  void turn_view(double right, double up, bool shift);
+  Status show();
+  Status open_beside(const std::string& file);
+  void close_beside();
+  void ask_beside();
+  void shift(double by);
+  void follow();
+  void panels();
+  void titles() const;
+  void show_labels(bool shown);
+  void note(std::string text) {
+    note_ = std::move(text);
+    noted_ = Clock::now();
+  }
+  [[nodiscard]] bool page_open() const { return help_ || (export_ && export_->shown()); }
+  // of the shared clock, until both are over  [s]
+  [[nodiscard]] double seconds() const {
+    return std::max(first_->line().seconds, second_ ? second_->line().seconds + now_.shift : 0.0);
+  }
+  [[nodiscard]] double stroke_before(double t) const;
+  [[nodiscard]] double stroke_after(double t) const;
+
+  Desk& desk_;
+  Recorded& recorded_;
+  render::Scene& scene_;
+  const WatchOptions& options_;
+
+  render::Camera first_view_;
+  std::optional<Side> first_;
+  std::unique_ptr<Recorded> beside_;  // watched by second_, if anything
+  std::optional<Side> second_;
+  render::Camera second_view_;
+  std::optional<Pair> pair_;
+  FileDialog dialog_;
+  std::vector<std::string> dropped_;
+  Watched now_;
+  bool open_ = true, picture_ = false, panels_ = true, help_ = false, scrubbing_ = false;
+  bool labels_ = true, leaves_ = false;  // leaves though a film is still being made
+  std::optional<ExportPage> export_;
+  Left left_ = Left::window;
+  std::string note_, trouble_;  // trouble: of a second recording, until a key is pressed
+  Clock::time_point noted_{};
+};
+
+Result<Left> Watch::run() {
+  desk_.page = Page::replay;
+  desk_.renderer().title("burr");
+  export_.emplace(desk_, nullptr, scene_, options_.folder, [this] {
+    recorded_.film.effects = desk_.settings.effects;
+    return std::optional(recorded_.film);
+  });
+  first_view_ = scene_.camera;
+  first_.emplace(recorded_, desk_.renderer().software());
+  if (!options_.beside.empty()) {
+    const Status opened = open_beside(options_.beside);
+    if (!opened && opened.error().trouble != Trouble::interrupted) return opened.error();
+  }
+  now_.t = std::max(0.0, options_.from);
+  now_.playing = options_.from < 0;
+
+  const Clock::time_point start = Clock::now();
+  Clock::time_point frame = start, last = start;
+  Status shown = fine();
+  while (open_ && shown && !interrupted()) {
+    const Clock::time_point began = Clock::now();
+    take_events();
+    // time goes on, unless the user holds it
+    const double passed = std::chrono::duration<double>(began - last).count();
+    last = began;
+    if (now_.playing && !scrubbing_) now_.t += now_.pace * std::min(passed, 0.25);
+    if (now_.t >= seconds()) {
+      now_.t = seconds();
+      if (!scrubbing_) now_.playing = false;
+    }
+    // a machine that cannot follow shows fewer moments, not a longer session
+    first_->want(now_.t);
+    if (second_) second_->want(now_.t - now_.shift);
+    if (std::string told = export_->step(); !told.empty()) note(std::move(told));
+    if (Clock::now() - noted_ > std::chrono::seconds(6)) note_.clear();
+    shown = show();
+    if (std::exchange(picture_, false)) {
+      const Result<std::string> left = desk_.leave_picture(options_.folder);
+      note(left ? say(Word::picture_left, *left) : left.error().text);
+    }
+    frame = std::max(frame + std::chrono::microseconds(16'667), Clock::now());
+    const auto wait = std::chrono::duration_cast<std::chrono::milliseconds>(frame - Clock::now());
+    if (wait.count() > 0) SDL_Delay(static_cast<Uint32>(wait.count()));
+    if (options_.seconds > 0 &&
+        std::chrono::duration<double>(Clock::now() - start).count() >= options_.seconds)
+      open_ = false;
+  }
+  export_.reset();
+  close_beside();
+  first_.reset();
+  if (!shown) return shown.error();
+  if (!options_.screenshot.empty()) {
+    const Status kept = render::write_png(desk_.renderer().shown(), options_.screenshot);
+    if (!kept) return kept.error();
+  }
+  return left_;
+}
+
+// One picture: of the one, or of both in halves of the window.
+Status Watch::show() {
+  first_->look(desk_.settings.effects, now_.playing);
+  const auto over = panels_ || page_open() ? [this] { panels(); } : std::function<void()>();
+  Status shown = fine();
+  if (second_) {
+    follow();
+    second_->look(desk_.settings.effects, now_.playing);
+    shown = pair_->draw({&scene_, &second_->scene()}, desk_.renderer().width(),
+                        desk_.renderer().height());
+    desk_.renderer().make_current();
+    first_->drawn(pair_->took_s(0), pair_->redrawn(0));
+    second_->drawn(pair_->took_s(1), pair_->redrawn(1));
+    if (shown) shown = desk_.show(pair_->both(), over);
+  } else {
+    const Clock::time_point drawing = Clock::now();
+    shown = desk_.show(scene_, over);
+    first_->drawn(std::chrono::duration<double>(Clock::now() - drawing).count(),
+                  desk_.renderer().figures().redrawn);
+  }
+  now_.shown = first_->shown();
+  now_.force = first_->force();
+  now_.removed = first_->removed();
+  now_.behind = first_->behind() || (second_ && second_->behind());
+  now_.beside = second_.has_value();
+  now_.shown_beside = second_ ? second_->shown() : 0;
+  now_.removed_beside = second_ ? second_->removed() : 0;
+  now_.note = !export_->trouble().empty() ? export_->trouble()
+              : !trouble_.empty()         ? trouble_
+                                          : note_;
+  if (options_.seen != nullptr) *options_.seen = now_;
+  return shown;
+}
+
+// ---- the one beside it
+
+Status Watch::open_beside(const std::string& file) {
+  if (!options_.open)
+    return error(Trouble::usage, file + ": nothing here opens a second recording");
+  bool closed = false;
+  auto opened = options_.open(file, closed);
+  desk_.page = Page::replay;
+  if (closed) open_ = false;
+  if (!opened) return opened.error();
+  close_beside();
+  beside_ = std::make_unique<Recorded>(std::move(*opened));
+  second_.emplace(*beside_, desk_.renderer().software());
+  second_->show_labels(labels_);
+  second_view_ = beside_->scene.camera;
+  // of the same bone both are seen from the same place
+  const volume::Grid &one = recorded_.bone->grid(), &other = beside_->bone->grid();
+  if ((one.world_from_grid(math::Vec3::Zero()) - other.world_from_grid(math::Vec3::Zero())).norm() <
+          1e-9 &&
+      one.voxel == other.voxel && one.size == other.size)
+    second_view_ = first_view_;
+  pair_.emplace();
+  return fine();
+}
+
+void Watch::close_beside() {
+  pair_.reset();
+  second_.reset();
+  beside_.reset();
+  now_.shift = 0;
+}
+
+void Watch::ask_beside() {
+  if (second_) return close_beside();
+  if (FileDialog::there() && !dialog_.open())
+    dialog_.ask(false);
+  else
+    note(word(Word::replay_drop_second));
+}
+
+void Watch::shift(double by) {
+  if (!second_) return;
+  // one that begins before the first has its start at the first's end at most, and the other way
+  now_.shift = std::clamp(now_.shift + by, -second_->line().seconds, first_->line().seconds);
+  note(say(Word::replay_shifted, now_.shift));
+}
+
+// The second is seen as the first is: turned, moved and nearer by as much.
+void Watch::follow() {
+  render::Camera camera = scene_.camera;
+  camera.target = second_view_.target + (camera.target - first_view_.target);
+  camera.distance *= second_view_.distance / first_view_.distance;
+  camera.azimuth += second_view_.azimuth - first_view_.azimuth;
+  constexpr double kHighest = 1.55;  // short of the pole
+  camera.elevation = std::clamp(camera.elevation + second_view_.elevation - first_view_.elevation,
+                                -kHighest, kHighest);
+  second_->scene().camera = camera;
+  second_->scene().look.opacity = scene_.look.opacity;
+}
+
+double Watch::stroke_before(double t) const {
+  const double first = first_->line().stroke_before(t).value_or(0);
+  if (!second_) return first;
+  return std::max(first,
+                  second_->line().stroke_before(t - now_.shift).value_or(-now_.shift) + now_.shift);
+}
+
+double Watch::stroke_after(double t) const {
+  const double first = first_->line().stroke_after(t).value_or(seconds());
+  if (!second_) return first;
+  const auto other = second_->line().stroke_after(t - now_.shift);
+  return other ? std::min(first, *other + now_.shift) : first;
+}
+
+// ---- mouse and keys
+
+void Watch::take_events() {
+  SDL_Event event;
+  while (desk_.next(event)) switch (event.type) {
+      case SDL_QUIT:
+        open_ = false;
+        break;
+      case SDL_WINDOWEVENT:  // SDL quits with the last window only, and the halves have hidden ones
+        if (event.window.event == SDL_WINDOWEVENT_CLOSE) open_ = false;
+        break;
+      case SDL_DROPFILE:
+        if (event.drop.file != nullptr) dropped_.emplace_back(event.drop.file);
+        SDL_free(event.drop.file);
+        break;
+      case SDL_KEYDOWN:
+        trouble_.clear();
+        if (!desk_.ui().typing()) key(event.key.keysym);
+        break;
+      case SDL_MOUSEMOTION:
+        move(event.motion);
+        break;
+      case SDL_MOUSEWHEEL:
+        if (!page_open() && !desk_.ui().over_panel())
+          render::zoom(scene_.camera, std::pow(1.15, desk_.settings.zoom_pace * event.wheel.y));
+        break;
+      case SDL_MULTIGESTURE:
+        render::zoom(scene_.camera, std::exp(4 * static_cast<double>(event.mgesture.dDist)));
+        break;
+      default:
+        break;
+    }
+  if (auto chosen = dialog_.answer(); chosen && !chosen->empty()) dropped_.push_back(*chosen);
+  for (const std::string& file : std::exchange(dropped_, {})) {
+    const Status opened = open_beside(file);
+    if (!opened && opened.error().trouble != Trouble::interrupted) trouble_ = opened.error().text;
+  }
+}
+
+void Watch::key(const SDL_Keysym& pressed) {
+  const bool shift_held = (pressed.mod & KMOD_SHIFT) != 0, ctrl = (pressed.mod & KMOD_CTRL) != 0;
+  switch (pressed.sym) {
+    case SDLK_ESCAPE:
+      if (page_open()) {
+        help_ = false;
+        export_->show(false);
+        break;
+      }
+      [[fallthrough]];
+    case SDLK_q:
+      if (!export_->progress().empty() && !std::exchange(leaves_, true)) {
+        note(word(Word::export_wait));
+        break;
+      }
+      left_ = Left::page;
+      open_ = false;
+      break;
+    case SDLK_SPACE:
+      play(!now_.playing);
+      break;
+    case SDLK_LEFT:
+      go(ctrl ? stroke_before(now_.t - 0.5) : now_.t - (shift_held ? kSmallStep : kStep));
+      break;
+    case SDLK_RIGHT:
+      go(ctrl ? stroke_after(now_.t) : now_.t + (shift_held ? kSmallStep : kStep));
+      break;
+    case SDLK_UP:
+    case SDLK_DOWN:
+      turn_view(0, pressed.sym == SDLK_UP ? 12 : -12, shift_held);
+      break;
+    case SDLK_HOME:
+      go(0);
+      break;
+    case SDLK_END:
+      go(seconds());
+      break;
+    case SDLK_COMMA:
+    case SDLK_MINUS:
+    case SDLK_KP_MINUS:
+      change_pace(-1);
+      break;
+    case SDLK_PERIOD:
+    case SDLK_PLUS:
+    case SDLK_EQUALS:
+    case SDLK_KP_PLUS:
+      change_pace(1);
+      break;
+    case SDLK_b:
+      ask_beside();
+      break;
+    case SDLK_LEFTBRACKET:
+      shift(shift_held ? -kSmallStep : -kShift);
+      break;
+    case SDLK_RIGHTBRACKET:
+      shift(shift_held ? kSmallStep : kShift);
+      break;
+    case SDLK_f:
+      scene_.camera = first_view_;
+      break;
+    case SDLK_l:
+      show_labels(!labels_);
+      break;
+    case SDLK_t:
+      note(step_see_through(scene_, shift_held));
+      break;
+    case SDLK_TAB:
+      panels_ = !panels_;
+      break;
+    case SDLK_F1:
+    case SDLK_h:
+      help_ = !help_;
+      export_->show(false);
+      break;
+    case SDLK_e:
+      export_->show(!export_->shown());
+      help_ = false;
+      break;
+    case SDLK_p:
+      picture_ = true;
+      break;
+    default:
+      break;
+  }
+}
+
+void Watch::go(double t) { now_.t = std::clamp(t, 0.0, seconds()); }
+
+void Watch::play(bool playing) {
+  // at the end it begins again
+  if (playing && now_.t >= seconds()) now_.t = 0;
+  now_.playing = playing;
+}
+
+void Watch::change_pace(int by) {
+  const auto at = std::find(std::begin(kPaces), std::end(kPaces), now_.pace) - std::begin(kPaces);
+  now_.pace = kPaces[std::clamp<std::ptrdiff_t>(at + by, 0, std::ssize(kPaces) - 1)];
+}
+
+void Watch::turn_view(double right, double up, bool shift) {
+  int wide = 1, high = 1;
+  if (SDL_Window* window = SDL_GL_GetCurrentWindow()) SDL_GetWindowSize(window, &wide, &high);
+  if (shift)
+    render::pan(scene_.camera, right / high, up / high);
+  else
+    render::orbit(scene_.camera, kTurn * desk_.settings.turn_pace * right,
+                  kTurn * desk_.settings.turn_pace * up);
+}
+
+// Nothing is milled here, so both buttons turn.
+void Watch::move(const SDL_MouseMotionEvent& motion) {
+  if (page_open() || scrubbing_ || desk_.ui().over_panel()) return;
+  if ((motion.state & (SDL_BUTTON_LMASK | SDL_BUTTON_RMASK)) != 0)
+    turn_view(-motion.xrel, motion.yrel, false);
+  if ((motion.state & SDL_BUTTON_MMASK) != 0) turn_view(-motion.xrel, motion.yrel, true);
+}
+
+void Watch::show_labels(bool shown) {
+  labels_ = shown;
+  first_->show_labels(shown);
+  if (second_) second_->show_labels(shown);
+}
+
+// ---- what is drawn
+
+namespace {
+
+TimelineMoment moment_of(const Side& side, double from) {
+  return {.line = &side.line(),
+          .from = from,
+          .force = side.force(),
+          .removed = side.removed(),
+          .speed = side.speed(),
+          .burr_diameter = 2 * side.burr_radius(),
+          .mode = side.mode()};
+}
+
+}  // namespace
+
+// Which half is whose.
+void Watch::titles() const {
+  const Ui& ui = desk_.ui();
+  const float u = ui.unit(), middle = std::floor(ui.width() / 2);
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.AddRectFilled({middle - std::max(1.0F, u), 0}, {middle + std::max(1.0F, u), ui.height()},
+                     ink::rgb(0, 0, 0));
+  const auto title = [&](const Side& side, float x) {
+    const std::string& text = side.recorded().title;
+    const float w = std::min(ui.width_of(Ui::Letter::strong, text) + 24 * u, middle - 24 * u);
+    const float h = ui.height_of(Ui::Letter::strong) + 12 * u;
+    const std::string name = fmt::format("##title{}", x > 0 ? 2 : 1);
+    desk_.ui().panel(name.c_str(), x + 12 * u, 12 * u, w, h);
+    ui.write(x + 24 * u, 18 * u, Ui::Letter::strong, ink::kText, text);
+    ImGui::End();
+  };
+  title(*first_, 0);
+  title(*second_, middle);
+}
+
+void Watch::panels() {
+  Ui& ui = desk_.ui();
+  if (panels_) {
+    TimelineState s;
+    s.first = moment_of(*first_, 0);
+    if (second_) s.second = moment_of(*second_, now_.shift);
+    s.seconds = seconds();
+    s.t = now_.t;
+    s.playing = now_.playing;
+    s.behind = now_.behind;
+    s.pace = now_.pace;
+    if (const edit::Mirror now = first_->mirror(); now.on() && !second_)
+      draw_mirror_sign(ui, mirror_words(recorded_.bone->grid(), now), 0);
+    s.note = note_.empty() ? export_->progress() : note_;
+    s.warning = !trouble_.empty()                      ? trouble_
+                : first_->trouble().empty() && second_ ? second_->trouble()
+                                                       : first_->trouble();
+    if (second_) titles();
+    const TimelineDone done = draw_timeline(ui, s);
+    scrubbing_ = done.scrubbed.has_value();
+    if (done.scrubbed) go(*done.scrubbed);
+    if (done.play) play(!now_.playing);
+    if (done.pace != 0) change_pace(done.pace);
+  }
+  if (help_) help_ = draw_replay_help(ui);
+  if (export_->shown()) export_->draw();
+}
+
+}  // namespace
+
+Result<Left> watch(Desk& desk, Recorded& recorded, const WatchOptions& options) {
+  return Watch(desk, recorded, options).run();
+}
+
+}  // namespace burr::app

@@ -1,0 +1,162 @@
+#include "window/shell/pages.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "commands/command.h"
+#include "window/import/import_page.h"
+#include "window/replay/playback.h"
+#include "window/shell/loading.h"
+#include "window/shell/words.h"
+#include "window/start/sessions.h"
+#include "window/start/start_page.h"
+
+namespace burr::app {
+namespace {
+
+// in words that name no patient
+std::string title_of(const WorkOptions& options, const Settings& settings) {
+  const std::string& path = options.volume.path;
+  const std::string known = name_of_case(path);
+  if (known != path || path.find('/') == std::string::npos) return known;
+  const std::filesystem::path file(path);
+  if (settings.recent_names) return file.filename().string();
+  return word(file.extension() == ".toml" ? Word::start_case_file : Word::start_scan);
+}
+
+Status leave_screenshot(Desk& desk, const std::string& file) {
+  return file.empty() ? fine() : render::write_png(desk.renderer().shown(), file);
+}
+
+}  // namespace
+
+Result<Ready> open_ready(WorkOptions options, Progress& progress) {
+  const Status taken = take_case(options);
+  if (!taken) return taken.error();
+  options.volume.keep_greys = true;
+  auto work = open_work(options, progress);
+  if (!work) return work.error();
+  return make_ready(options, std::move(*work), progress);
+}
+
+Result<Left> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& window) {
+  WindowOptions with = window;
+  with.nearby = ready.nearby.get();
+  with.greys = ready.greys;
+  std::unique_ptr<Loudspeaker> loudspeaker;
+  if (window.sound) {
+    loudspeaker =
+        std::make_unique<Loudspeaker>(ready.session->settings().servo, ready.nearby->distances());
+    if (!loudspeaker->trouble().empty()) fmt::print(stderr, "{}\n", loudspeaker->trouble());
+    with.loudspeaker = loudspeaker.get();
+  }
+  return mill(desk, *ready.session, ready.hands, *ready.worker, ready.scene, with);
+}
+
+Result<Left> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options, bool embed,
+                           const WindowOptions& window) {
+  std::unique_ptr<Autosave> autosave;
+  if (desk.settings.autosave && !desk.places().state.empty()) {
+    throw_old_away(desk.places().state, desk.settings);
+    autosave = std::make_unique<Autosave>(desk.places().state, ready, options, embed);
+  }
+  WindowOptions with = window;
+  with.keep = [&autosave] { return autosave != nullptr && autosave->keep(); };
+  with.film_of = [&]() -> std::optional<FilmSource> {
+    std::optional<FilmSource> source = autosave ? autosave->film_source() : std::nullopt;
+    if (source && embed) source->volume.path.clear();  // its bone is in the recording
+    if (source) source->effects = desk.settings.effects;
+    return source;
+  };
+  with.warning = [&] {
+    std::string warning = window.warning ? window.warning() : std::string();
+    if (warning.empty() && autosave) warning = autosave->trouble();
+    return warning;
+  };
+  Result<Left> left = mill_with_sound(desk, ready, with);
+  if (autosave) autosave->finish();
+  return left;
+}
+
+Result<Left> watch_file(Desk& desk, const std::string& file, const VolumeOptions& given,
+                        const WatchOptions& options) {
+  bool closed = false;
+  const auto open = [&desk, &given](const std::string& path, bool& shut) {
+    return load<Recorded>(
+        desk, say(Word::loading, word(Word::start_recording)),
+        [&given, path, state = desk.places().state](Progress& progress) {
+          return open_recorded(path, state, given, progress);
+        },
+        shut);
+  };
+  auto recorded = open(file, closed);
+  if (closed) return Left::window;
+  if (!recorded) return recorded.error();
+  WatchOptions with = options;
+  with.open = open;
+  return watch(desk, *recorded, with);
+}
+
+Status run_pages(Desk& desk, const PagesOptions& options) {
+  StartPage start(desk, options.led.hand);
+  std::string trouble;
+  for (;;) {
+    auto choice = start.ask(trouble, options.seconds);
+    if (!choice) return choice.error();
+    trouble.clear();
+    if (choice->quit) return leave_screenshot(desk, options.screenshot);
+
+    if (choice->open && is_recording(choice->open->volume.path)) {
+      const Result<Left> left = watch_file(
+          desk, choice->open->volume.path, {},
+          {.seconds = options.seconds, .folder = options.folder, .screenshot = options.screenshot});
+      if (!left && left.error().trouble == Trouble::interrupted) continue;
+      if (left && *left == Left::window) return fine();
+      if (!left) trouble = left.error().text;
+      continue;
+    }
+    const bool goes_on = choice->go_on.has_value();
+    if (goes_on) choice->open = choice->go_on->options;
+    WorkOptions& chosen = *choice->open;
+    chosen.hand = start.hand();
+    chosen.suction = options.led.suction;
+    chosen.told_as = options.led.told_as;
+    if (goes_on) choice->go_on->options = chosen;
+    const std::string title =
+        say(Word::loading, goes_on ? choice->go_on->title : title_of(chosen, desk.settings));
+    bool closed = false;
+    Result<Ready> ready =
+        goes_on ? load<Ready>(
+                      desk, title,
+                      [kept = *choice->go_on](Progress& progress) {
+                        return continue_session(kept, progress);
+                      },
+                      closed)
+        : names_a_scan(chosen)
+            ? open_by_page(desk, chosen, title, options.seconds, closed)
+            : load<Ready>(
+                  desk, title,
+                  [chosen](Progress& progress) { return open_ready(chosen, progress); }, closed);
+    if (closed || interrupted()) return leave_screenshot(desk, options.screenshot);
+    if (!ready) {
+      if (ready.error().trouble != Trouble::interrupted) trouble = ready.error().text;
+      continue;
+    }
+    std::error_code nobody_asks;
+    if (!goes_on && std::filesystem::exists(chosen.volume.path, nobody_asks))
+      remember(desk.places().state, chosen.volume.path, ready->title);
+    for (const std::string& notice : ready->import.notices) desk.troubles.push_back(notice);
+    const Result<Left> left = mill_and_keep(desk, *ready, chosen, goes_on,
+                                            {.seconds = options.seconds,
+                                             .folder = options.folder,
+                                             .screenshot = options.screenshot,
+                                             .sound = options.sound});
+    if (!left) return left.error();
+    if (*left == Left::window) return fine();
+  }
+}
+
+}  // namespace burr::app

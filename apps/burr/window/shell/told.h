@@ -1,0 +1,40 @@
+// apps/burr/window/shell/told.h - the two lines beside the picture while milling: a note of what was done
+// last, and a warning of what must be known. A force that was let go is a warning, so that it does
+// not take the place of the answer to a key.
+// Thread: main.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace burr::app {
+
+class Told {
+ public:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::seconds kShown{6};
+
+  void note(std::string text, Clock::time_point now) { note_ = {std::move(text), now}; }
+  void let_go(std::string text, Clock::time_point now) { let_go_ = {std::move(text), now}; }
+
+  // `otherwise`: shown while nothing was done of late
+  [[nodiscard]] std::string note(Clock::time_point now, const std::string& otherwise) const {
+    return fresh(note_, now) ? note_.text : otherwise;
+  }
+  // `lasting`: what holds now; it goes before what has happened
+  [[nodiscard]] std::string warning(Clock::time_point now, const std::string& lasting) const {
+    return !lasting.empty() || !fresh(let_go_, now) ? lasting : let_go_.text;
+  }
+
+ private:
+  struct Line {
+    std::string text;
+    Clock::time_point at;
+  };
+  static bool fresh(const Line& line, Clock::time_point now) {
+    return !line.text.empty() && now - line.at <= kShown;
+  }
+  Line note_, let_go_;
+};
+
+}  // namespace burr::app

@@ -1,0 +1,106 @@
+// apps/burr/window/shell/ui.h - panels, letters and colours over the picture: Dear ImGui, as burr uses
+// it.
+//
+//     ui->event(event);                                  // every SDL event, pages look after it
+//     ui->begin(window, renderer->width(), ...);  ... ImGui and the helpers below ...
+//     renderer->show(scene, [&] { ui->draw(); });
+//
+// Everything is in pixels of the drawing area; `unit()` of them are one point of the design, by the
+// display's scale. Where the mouse is comes from the events alone, so that a test that pushes
+// events is a user. Colours are told apart by people who are colour-blind too (Okabe and Ito), and
+// no colour says anything that a word or a shape beside it does not.
+// Thread: main, with the renderer's context; one at a time. Cost: panels only, a few thousand
+// triangles.
+#pragma once
+
+#include <SDL2/SDL_events.h>
+#include <imgui/imgui.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace burr::app {
+
+namespace ink {
+constexpr ImU32 rgb(unsigned r, unsigned g, unsigned b, unsigned a = 255) {
+  return r | g << 8U | b << 16U | a << 24U;
+}
+inline constexpr ImU32 kText = rgb(238, 240, 242), kDim = rgb(176, 182, 189),
+                       kPanel = rgb(17, 19, 22, 214), kLine = rgb(255, 255, 255, 28),
+                       kTrough = rgb(255, 255, 255, 34), kButton = rgb(44, 49, 55, 235),
+                       kOver = rgb(62, 70, 78, 245), kAccent = rgb(86, 180, 233),
+                       kGood = rgb(0, 178, 133), kWarn = rgb(240, 180, 30),
+                       kBad = rgb(231, 110, 30);
+}  // namespace ink
+
+class Ui {
+ public:
+  // The context of the renderer is current.
+  [[nodiscard]] static std::unique_ptr<Ui> make();
+  ~Ui();
+  Ui(const Ui&) = delete;
+  Ui& operator=(const Ui&) = delete;
+
+  void event(const SDL_Event& event);
+  // window_*: what SDL calls the window's size, in which mouse events come. keys: panels may be
+  // walked through by Tab and arrows.
+  void begin(int window_width, int window_height, int width, int height, double user_scale,
+             bool keys);
+  void draw();  // inside Renderer::show(), where it may come twice
+  // A pointer drawn among the panels, in place of the desktop's.
+  void own_pointer(bool on);
+
+  [[nodiscard]] float unit() const { return unit_; }
+  [[nodiscard]] float width() const;
+  [[nodiscard]] float height() const;
+  // Somebody types into a field: keys are letters.
+  [[nodiscard]] bool typing() const;
+  // The mouse is over a panel, as last drawn. forget_panels(): none was drawn.
+  [[nodiscard]] bool over_panel() const { return over_panel(mouse_x_, mouse_y_); }
+  // the same for any place  [window coordinates]
+  [[nodiscard]] bool over_panel(float window_x, float window_y) const;
+  void forget_panels() { boxes_.clear(); }
+
+  // ---- what panels are made of
+  // A panel at a fixed place; end it with ImGui::End().
+  void panel(const char* name, float x, float y, float w, float h, bool plain = false);
+  // The same for a page in the middle, which takes the keyboard.
+  void page(const char* name, float x, float y, float w, float h);
+
+  enum class Letter { small, body, strong, large, title };
+  [[nodiscard]] ImFont* font(Letter letter) const { return fonts_[static_cast<int>(letter)]; }
+  // One line with its top left corner at (x, y); aligned 0 left, 0.5 middle, 1 right of it.
+  void write(float x, float y, Letter letter, ImU32 colour, const std::string& text,
+             float aligned = 0) const;
+  [[nodiscard]] float width_of(Letter letter, const std::string& text) const;
+  [[nodiscard]] float height_of(Letter letter) const;
+
+  // "DejaVu Sans", "" for ImGui's own
+  [[nodiscard]] const std::string& letters() const { return letters_; }
+
+ private:
+  Ui() = default;
+  void build_fonts();
+  void style() const;
+
+  struct Box {
+    float x, y, w, h;
+  };
+  ImGuiContext* context_ = nullptr;
+  ImFont* fonts_[5] = {};
+  std::string letters_;
+  float unit_ = 0;
+  float from_window_ = 1;  // pixels per unit of the window
+  float mouse_x_ = -1, mouse_y_ = -1;
+  bool down_[3] = {}, pressed_[3] = {};
+  std::vector<Box> boxes_;
+  // a key let go within the frame that it was pressed in stays down for one
+  std::vector<SDL_Scancode> fresh_, let_go_, up_;
+  Uint64 last_ = 0;
+};
+
+// ImGui's field over a std::string; true when Enter was pressed in it.
+[[nodiscard]] bool text_field(const char* id, const char* hint, std::string& text, float width);
+
+}  // namespace burr::app

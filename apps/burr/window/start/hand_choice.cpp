@@ -1,0 +1,119 @@
+#include "window/start/hand_choice.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "window/shell/words.h"
+
+namespace burr::app {
+namespace {
+
+using Letter = Ui::Letter;
+
+constexpr float kLines = 3;                // of what was found, at most
+constexpr std::chrono::seconds kAgain(3);  // between two looks for one that is not there
+
+// Whether an arm of that kind may have to move by itself before it knows where it is.
+bool homes(const std::string& device) {
+  return device.starts_with("force-dimension") || device.starts_with("crtk");
+}
+
+// What may be chosen: as one writes it after --device; "" is the mouse.
+std::vector<std::string> choices(const std::string& wished) {
+  std::vector<std::string> all = {""};
+  for (const HandKind& kind : hand_kinds()) {
+    all.emplace_back(kind.name);
+    if (wished.starts_with(all.back() + ":")) all.push_back(wished);
+  }
+  return all;
+}
+
+std::string shown(const std::string& device) {
+  if (device.empty()) return word(Word::hand_mouse);
+  const std::string kind = device.substr(0, device.find(':'));
+  for (const HandKind& one : hand_kinds())
+    if (kind == one.name) return fmt::format("{}: {}", device, one.makes);
+  return device;
+}
+
+}  // namespace
+
+HandChoice::HandChoice(HandWish wish) : wish_(std::move(wish)) { look(); }
+
+void HandChoice::look() {
+  looked_ = std::chrono::steady_clock::now();
+  if (wish_.device.empty()) return;
+  HandWish asked = wish_;
+  asked.home = false;  // nothing moves before there is a bone
+  looks_ = std::async(std::launch::async, [asked]() -> Found {
+    auto device = make_hand(asked);
+    if (!device) return {false, device.error().text};
+    const Status opened = (*device)->open();
+    if (!opened) return {false, opened.error().text};
+    const device::DeviceSpec spec = (*device)->spec();
+    (*device)->close();
+    return {true,
+            fmt::format("{}: {:.1f} N, {:.0f} Hz", id_of(spec), spec.peak_force, spec.native_rate)};
+  });
+}
+
+void HandChoice::rest() {
+  if (!looks_.valid()) return;
+  Found found = looks_.get();
+  words_ = std::move(found.words);
+  there_ = found.there;
+}
+
+bool HandChoice::draw(Ui& ui, float x, float y, float w) {
+  const float u = ui.unit();
+  if (looks_.valid() && looks_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+    rest();
+  if (there_ == false && !looks_.valid() && std::chrono::steady_clock::now() - looked_ > kAgain)
+    look();
+  ui.write(x, y + 5 * u, Letter::strong, ink::kAccent, word(Word::hand_title));
+  const float beside = 92 * u;
+  ImGui::SetCursorScreenPos({x + beside, y});
+  ImGui::SetNextItemWidth(w - beside);
+  bool changed = false;
+  const std::string preview = wish_.device.empty() ? shown({}) : wish_.device;
+  if (ImGui::BeginCombo("##hand", preview.c_str(), ImGuiComboFlags_PopupAlignLeft)) {
+    for (const std::string& device : choices(wish_.device))
+      if (ImGui::Selectable(shown(device).c_str(), device == wish_.device) &&
+          device != wish_.device) {
+        wish_ = HandWish();  // what was allowed to one arm is not allowed to another
+        wish_.device = device;
+        changed = true;
+      }
+    ImGui::EndCombo();
+  }
+  if (changed) {
+    rest();  // of the one before
+    words_.clear();
+    there_.reset();
+    look();
+  }
+  y += 36 * u;
+  if (homes(wish_.device)) {
+    ImGui::SetCursorScreenPos({x, y});
+    ImGui::Checkbox(word(Word::hand_home), &wish_.home);
+    y += 32 * u;
+  }
+  if (wish_.device.empty()) return changed;
+
+  const std::string text = there_ ? words_ : word(Word::hand_looks);
+  const ImFont* font = ui.font(Letter::small);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.PushClipRect({x, y}, {x + w, y + kLines * 1.2F * font->FontSize}, true);
+  draw.AddText(font, font->FontSize, {x, y},
+               !there_   ? ink::kDim
+               : *there_ ? ink::kGood
+                         : ink::kWarn,
+               text.c_str(), nullptr, w);
+  draw.PopClipRect();
+  return changed;
+}
+
+}  // namespace burr::app

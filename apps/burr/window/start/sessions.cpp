@@ -1,0 +1,275 @@
+#include "window/start/sessions.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <safe_toml.h>
+#include <algorithm>
+#include <ctime>
+#include <system_error>
+#include <utility>
+
+#include "burr/base/new_file.h"
+#include "burr/base/text_file.h"
+#include "burr/base/toml_text.h"
+#include "burr/record/place_file.h"
+#include "burr/record/player.h"
+
+namespace burr::app {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::uintmax_t kLargestFile = 1U << 18;  // of an account or a list  [byte]
+constexpr std::size_t kRecent = 8;
+
+std::tm local_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local = {};
+  localtime_r(&now, &local);
+  return local;
+}
+
+std::string word_of(const toml::table& table, const char* key) {
+  return table[key].value_exact<std::string>().value_or(std::string());
+}
+double number_of(const toml::table& table, const char* key) {
+  return table[key].value<double>().value_or(0.0);
+}
+
+Status write_text(const fs::path& path, const std::string& text) {
+  auto file = base::NewFile::beside(path.string());
+  if (!file) return file.error();
+  file->write(text);
+  return file->put_in_place();
+}
+
+// A folder that only its owner can look into.
+Status make_folder(const fs::path& folder) {
+  std::error_code trouble;
+  fs::create_directories(folder, trouble);
+  if (!trouble) fs::permissions(folder, fs::perms::owner_all, trouble);
+  if (!trouble) return fine();
+  return error(Trouble::io, fmt::format("{}: cannot be made ({}); this session is not kept",
+                                        folder.string(), trouble.message()));
+}
+
+fs::path account_of(const fs::path& recording) {
+  fs::path account = recording;
+  return account.replace_extension(".toml");
+}
+
+bool read_account(const fs::path& account, KeptSession& kept) {
+  const auto text = base::text_of_file(account.string(), kLargestFile, "an account of a session");
+  if (!text) return false;
+  const auto table = parse_toml(*text, account.filename().string());
+  if (!table) return false;
+  kept.title = word_of(*table, "title");
+  kept.when = word_of(*table, "when");
+  kept.seconds = number_of(*table, "seconds");
+  kept.removed_mm3 = number_of(*table, "removed_mm3");
+  kept.clean = (*table)["clean"].value_or(false);
+  kept.keep = (*table)["keep"].value_or(false);
+  VolumeOptions& volume = kept.options.volume;
+  volume.path = word_of(*table, "source");
+  volume.series = word_of(*table, "series");
+  volume.spacing_mm = word_of(*table, "spacing_mm");
+  volume.roi = word_of(*table, "roi");
+  volume.iso = word_of(*table, "iso");
+  volume.tissues = word_of(*table, "tissues");
+  volume.materials = word_of(*table, "materials");
+  volume.voxel_mm = number_of(*table, "voxel_mm");
+  kept.options.burr_mm = number_of(*table, "burr_mm");
+  kept.options.rpm = number_of(*table, "rpm");
+  return !volume.path.empty();
+}
+
+}  // namespace
+
+std::vector<KeptSession> kept_sessions(const fs::path& state) {
+  std::vector<KeptSession> all;
+  std::error_code trouble;
+  for (fs::directory_iterator at(state / "sessions", trouble), end; !trouble && at != end;
+       at.increment(trouble)) {
+    if (at->path().extension() != ".mcap") continue;
+    KeptSession kept;
+    kept.file = at->path();
+    std::error_code nobody_asks;
+    kept.bytes = fs::file_size(kept.file, nobody_asks);
+    if (nobody_asks || record::being_written(kept.file.string())) continue;
+    if (read_account(account_of(kept.file), kept)) all.push_back(std::move(kept));
+  }
+  // the names hold the time
+  std::sort(all.begin(), all.end(), [](const KeptSession& a, const KeptSession& b) {
+    return a.clean != b.clean ? !a.clean : a.file.filename() > b.file.filename();
+  });
+  return all;
+}
+
+void throw_old_away(const fs::path& state, const Settings& settings) {
+  std::vector<KeptSession> all = kept_sessions(state);
+  std::sort(all.begin(), all.end(), [](const KeptSession& a, const KeptSession& b) {
+    return a.file.filename() > b.file.filename();
+  });
+  double count = 0, mb = 0;
+  for (const KeptSession& kept : all) {
+    count += 1;
+    mb += 1e-6 * static_cast<double>(kept.bytes);
+    // the newest stays whatever its size: it is the one to go on with
+    if (kept.keep || count <= 1 || (count <= settings.sessions_kept && mb <= settings.sessions_mb))
+      continue;
+    std::error_code nobody_asks;
+    fs::remove(kept.file, nobody_asks);
+    fs::remove(account_of(kept.file), nobody_asks);
+  }
+}
+
+Result<Ready> continue_session(const KeptSession& kept, Progress& progress) {
+  WorkOptions options = kept.options;
+  const Status taken = take_case(options);
+  if (!taken) return taken.error();
+  auto player = record::Player::open(kept.file.string());
+  if (!player) return player.error();
+
+  // a formula or an embedded bone is found by the recording, a scan by the user's own path
+  std::error_code nobody_asks;
+  const bool scan = fs::exists(options.volume.path, nobody_asks);
+  VolumeOptions given = options.volume;
+  if ((*player)->info().embedded || !scan) given.path.clear();
+  auto bone = bone_of(**player, given, progress);
+  if (!bone) return bone.error();
+  Work work;
+  // the place is that of the bone before it was cut
+  auto place = surgeon::find_work_place(**bone, 0.5e-3 * options.burr_mm, options.at, options.into);
+  if (!place) return place.error();
+  work.place = *place;
+  const Status there = (*player)->bone_at(1e9, **bone);
+  if (!there) return there.error();
+  work.made.bone = std::move(*bone);
+  if (scan) work.made.greys = scan_greys_of(**player, options.volume, progress);
+  const auto& words = (*player)->info().volume.words;
+  const auto format = words.find("format");
+  work.made.summary.format = format == words.end() ? "recording" : format->second;
+  work.volume = options.volume;
+  work.what = kept.title;
+  if (options.title.empty()) options.title = kept.title;
+  return make_ready(options, std::move(work), progress);
+}
+
+// ---- one being kept
+
+Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& options, bool embed)
+    : session_(*ready.session) {
+  if (state.empty()) return;
+  const fs::path folder = state / "sessions";
+  Status made = make_folder(folder);
+  if (made) {
+    kept_.title = ready.title;
+    kept_.options = options;
+    std::error_code nobody_asks;
+    if (const fs::path there = fs::absolute(options.volume.path, nobody_asks);
+        fs::exists(options.volume.path, nobody_asks))
+      kept_.options.volume.path = there.string();
+    const std::tm now = local_now();
+    kept_.when = fmt::format("{:%Y-%m-%d %H:%M}", now);
+    const std::string name = fmt::format("session_{:%Y%m%d_%H%M%S}", now);
+    kept_.file = folder / (name + ".mcap");
+    for (int n = 2; fs::exists(kept_.file, nobody_asks); ++n)  // two within a second
+      kept_.file = folder / fmt::format("{}_{}.mcap", name, n);
+    made = recording_.start(session_, kept_.file.string(), ready.volume, ready.import,
+                            session_.hand().spec().name, embed);
+    recording_now_ = made.ok();
+  }
+  if (made) made = write_account();
+  if (!made) trouble_ = made.error().text;
+}
+
+std::optional<FilmSource> Autosave::film_source() const {
+  if (!recording_now_) return std::nullopt;
+  return film_of(session_, kept_.file.string(), kept_.options.volume);
+}
+
+Status Autosave::write_account() const {
+  const VolumeOptions& volume = kept_.options.volume;
+  std::string text = "# A session of burr, kept so that one can go on with it.\n";
+  for (const auto& [key, value] : {std::pair{"title", &kept_.title},
+                                   {"when", &kept_.when},
+                                   {"source", &volume.path},
+                                   {"series", &volume.series},
+                                   {"spacing_mm", &volume.spacing_mm},
+                                   {"roi", &volume.roi},
+                                   {"iso", &volume.iso},
+                                   {"tissues", &volume.tissues},
+                                   {"materials", &volume.materials}})
+    text += fmt::format("{} = {}\n", key, base::toml_text(*value));
+  text += fmt::format(
+      "voxel_mm = {}\nburr_mm = {}\nrpm = {}\nseconds = {:.3f}\nremoved_mm3 = {:.3f}\n"
+      "clean = {}\nkeep = {}\n",
+      volume.voxel_mm, kept_.options.burr_mm, kept_.options.rpm, kept_.seconds, kept_.removed_mm3,
+      kept_.clean, kept_.keep);
+  return write_text(account_of(kept_.file), text);
+}
+
+void Autosave::finish() {
+  if (!std::exchange(recording_now_, false)) return;
+  const Status done = recording_.finish(session_);
+  const sim::Outcome outcome = session_.outcome();
+  kept_.seconds = outcome.seconds;
+  kept_.removed_mm3 = 1e9 * outcome.ledger.removed;
+  kept_.clean = true;
+  const Status written = write_account();
+  if (!done)
+    trouble_ = done.error().text;
+  else if (!written)
+    trouble_ = written.error().text;
+  if (outcome.ledger.removed > 0 || outcome.ledger.added > 0 || kept_.keep) return;
+  // nobody did anything: nothing to go on with
+  std::error_code nobody_asks;
+  fs::remove(kept_.file, nobody_asks);
+  fs::remove(account_of(kept_.file), nobody_asks);
+}
+
+bool Autosave::keep() {
+  if (!recording_now_ || !trouble().empty()) return false;
+  kept_.keep = true;
+  return write_account().ok();
+}
+
+std::string Autosave::trouble() const {
+  return trouble_.empty() && recording_now_ ? recording_.trouble() : trouble_;
+}
+
+// ---- scans opened lately
+
+std::vector<Recent> recent(const fs::path& state) {
+  std::vector<Recent> all;
+  std::error_code nobody_asks;
+  const fs::path path = state / "recent.toml";
+  if (state.empty() || !fs::exists(path, nobody_asks)) return all;
+  const auto text = base::text_of_file(path.string(), kLargestFile, "a list of scans");
+  if (!text) return all;
+  const auto table = parse_toml(*text, "recent.toml");
+  if (!table) return all;
+  const toml::array* list = (*table)["scan"].as_array();
+  for (std::size_t n = 0; list != nullptr && n < list->size() && n < kRecent; ++n)
+    if (const toml::table* one = (*list)[n].as_table())
+      if (const std::string where = word_of(*one, "path"); fs::exists(where, nobody_asks))
+        all.push_back({where, word_of(*one, "title"), word_of(*one, "when")});
+  return all;
+}
+
+void remember(const fs::path& state, const std::string& path, const std::string& title) {
+  if (state.empty() || !make_folder(state)) return;
+  std::error_code nobody_asks;
+  const std::string whole = fs::absolute(path, nobody_asks).string();
+  std::vector<Recent> all = recent(state);
+  std::erase_if(all, [&](const Recent& one) { return one.path == whole; });
+  all.insert(all.begin(), {whole, title, fmt::format("{:%Y-%m-%d %H:%M}", local_now())});
+  if (all.size() > kRecent) all.resize(kRecent);
+  std::string text = "# Scans opened lately in burr's window.\n";
+  for (const Recent& one : all)
+    text += fmt::format("\n[[scan]]\npath = {}\ntitle = {}\nwhen = {}\n", base::toml_text(one.path),
+                        base::toml_text(one.title), base::toml_text(one.when));
+  static_cast<void>(write_text(state / "recent.toml", text));  // a list less is no trouble
+}
+
+}  // namespace burr::app

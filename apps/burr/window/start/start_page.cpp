@@ -1,0 +1,330 @@
+#include "window/start/start_page.h"
+
+#include <SDL2/SDL.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "burr/scenario/case.h"
+#include "commands/command.h"
+#include "window/mill/hud.h"
+#include "window/shell/help.h"
+#include "window/shell/settings_page.h"
+#include "window/shell/typed_path.h"
+#include "window/shell/words.h"
+
+namespace burr::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Letter = Ui::Letter;
+
+constexpr std::size_t kSessionsShown = 5, kRecentsShown = 3;
+
+// the cases in the order of their difficulty
+std::vector<std::string> cases() {
+  std::vector<std::string> names = {"temporal-bone", "jaw", "spine", "tooth", "block"};
+  const std::vector<std::string> known = scenario::built_in_cases();
+  std::erase_if(names, [&](const std::string& name) {
+    return std::find(known.begin(), known.end(), name) == known.end();
+  });
+  for (const std::string& name : known)
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
+}  // namespace
+
+std::string name_of_case(const std::string& name) {
+  const std::pair<const char*, Word> known[] = {{"temporal-bone", Word::case_temporal_bone},
+                                                {"jaw", Word::case_jaw},
+                                                {"spine", Word::case_spine},
+                                                {"tooth", Word::case_tooth},
+                                                {"block", Word::case_block}};
+  for (const auto& [key, says] : known)
+    if (name == key) return word(says);
+  return name;
+}
+
+StartPage::StartPage(Desk& desk, const HandWish& hand)
+    : desk_(desk), thumbnails_(desk.places().cache, cases()), renewed_(desk.renewed()), hand_([&] {
+        HandWish wish = hand;
+        if (wish.device.empty()) wish.device = desk.settings.device;
+        return wish;
+      }()) {}
+
+Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  desk_.told = trouble;
+  for (const std::string& one : std::exchange(desk_.troubles, {}))
+    desk_.told += (desk_.told.empty() ? "" : "\n") + one;
+  choice_.reset();
+  kept_ = kept_sessions(desk_.places().state);
+  recent_ = recent(desk_.places().state);
+  help_ = settings_ = false;
+  desk_.page = Page::start;
+  desk_.renderer().title("burr");
+  SDL_StartTextInput();
+  const render::Scene empty;
+  const Clock::time_point start = Clock::now();
+  while (!choice_) {
+    const Clock::time_point frame = Clock::now();
+    take_events();
+    thumbnails_.step(desk_.renderer());  // first: what is shown last is the page itself
+    const Status shown = desk_.show(
+        empty, [this] { draw(); }, true);
+    if (!shown) return shown.error();
+    if (std::exchange(renewed_, desk_.renewed()) != desk_.renewed()) thumbnails_.forget();
+    if (const auto chosen = dialog_.answer(); chosen && !chosen->empty()) open(*chosen);
+    const bool over = seconds > 0 && Clock::now() - start >= std::chrono::duration<double>(seconds);
+    if (interrupted() || over) choice_ = Choice{.open = {}, .go_on = {}, .quit = true};
+    // nothing moves by itself here: thirty pictures a second are enough
+    const auto left = std::chrono::milliseconds(33) - (Clock::now() - frame);
+    if (left.count() > 0)
+      SDL_Delay(
+          static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
+  }
+  SDL_StopTextInput();
+  hand_.rest();
+  return *choice_;
+}
+
+void StartPage::take_events() {
+  const auto quit = [this] { choice_ = Choice{.open = {}, .go_on = {}, .quit = true}; };
+  SDL_Event event;
+  while (desk_.next(event)) switch (event.type) {
+      case SDL_QUIT:
+        quit();
+        break;
+      case SDL_DROPFILE:
+        if (event.drop.file != nullptr) dropped_.emplace_back(event.drop.file);
+        SDL_free(event.drop.file);
+        break;
+      case SDL_KEYDOWN: {
+        const SDL_Keycode key = event.key.keysym.sym;
+        if (key == SDLK_F1) help_ = !help_;
+        if (key == SDLK_F2) settings_ = !settings_;
+        if (key != SDLK_ESCAPE || desk_.ui().typing()) break;
+        if (help_ || settings_)
+          help_ = settings_ = false;
+        else
+          quit();
+        break;
+      }
+      default:
+        break;
+    }
+  if (dropped_.empty()) return;
+  // many slices at once are meant as their folder
+  const std::string first = dropped_.front();
+  const bool many = dropped_.size() > 1;
+  dropped_.clear();
+  open(many ? fs::path(first).parent_path().string() : first);
+}
+
+void StartPage::open(std::string path) {
+  WorkOptions options;
+  options.volume.path = cleaned_path(std::move(path));
+  if (!options.volume.path.empty())
+    choice_ = Choice{.open = std::move(options), .go_on = {}, .quit = false};
+}
+
+// ---- what is drawn
+
+void StartPage::draw() {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit();
+  if (help_ && !draw_help(ui, desk_.settings.left_handed, help_pads_)) help_ = false;
+  if (settings_) {
+    const fs::path& config = desk_.places().config;
+    const SettingsPage page = draw_settings(
+        ui, desk_.settings, config.empty() ? std::string() : (config / "settings.toml").string(),
+        settings_pads_);
+    if (page.changed) desk_.settings_changed();
+    if (page.done) settings_ = false;
+  }
+  if (help_ || settings_) return;
+
+  ui.page("##start", 0, 0, ui.width(), ui.height());
+  // everything in the middle of a large screen
+  const float x = std::max(40 * u, (ui.width() - 1180 * u) / 2);
+  const float top = std::max(0.0F, (ui.height() - 720 * u) / 2);
+  ui.write(x, top + 30 * u, Letter::title, ink::kText, "burr");
+  ui.write(x + 86 * u, top + 45 * u, Letter::body, ink::kDim, word(Word::start_hello));
+  ui.write(x, top + 96 * u, Letter::strong, ink::kAccent, word(Word::start_cases));
+  cards(x, top + 124 * u);
+  told(x, top + 528 * u, 752 * u);
+
+  const float right = x + 788 * u, w = 392 * u;
+  own_scan(right, top + 96 * u, w);
+  float y = top + 314 * u;
+  sessions(right, y, w);
+  y += 12 * u;
+  recents(right, y, w);
+  if (hand_.draw(ui, right, top + 632 * u, w)) {
+    desk_.settings.device = hand_.wish().device;
+    desk_.settings_changed();
+  }
+
+  ImGui::SetCursorScreenPos({x, std::min(top + 660 * u, ui.height() - 48 * u)});
+  if (ImGui::Button(fmt::format("{}  [F2]", word(Word::settings_title)).c_str())) settings_ = true;
+  ImGui::SameLine();
+  if (ImGui::Button(fmt::format("{}  [F1]", word(Word::help)).c_str())) help_ = true;
+  ImGui::SameLine();
+  if (ImGui::Button(fmt::format("{}  [Esc]", word(Word::start_quit)).c_str()))
+    choice_ = Choice{.open = {}, .go_on = {}, .quit = true};
+  ImGui::End();
+}
+
+void StartPage::cards(float x, float y) {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit(), w = 240 * u, h = 186 * u, gap = 16 * u, pictured = 137 * u;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const std::vector<std::string> names = cases();
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    const ImVec2 p = {x + static_cast<float>(n % 3) * (w + gap),
+                      y + static_cast<float>(n / 3) * (h + gap)};
+    ImGui::SetCursorScreenPos(p);
+    if (ImGui::InvisibleButton(fmt::format("##card{}", n).c_str(), {w, h})) open(names[n]);
+    const bool at = ImGui::IsItemHovered() || ImGui::IsItemFocused();
+    const ImVec2 q = {p.x + w, p.y + h};
+    draw.AddRectFilled(p, q, at ? ink::kOver : ink::rgb(30, 34, 39), 8 * u);
+    if (const unsigned texture = thumbnails_.texture(n); texture != 0)
+      draw.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), p,
+                           {q.x, p.y + pictured}, {0, 0}, {1, 1}, ink::rgb(255, 255, 255), 8 * u,
+                           ImDrawFlags_RoundCornersTop);
+    else
+      draw.AddRectFilled(p, {q.x, p.y + pictured}, ink::rgb(40, 45, 52), 8 * u,
+                         ImDrawFlags_RoundCornersTop);
+    if (at) draw.AddRect(p, q, ink::kAccent, 8 * u, 0, 2 * u);
+    ui.write(p.x + 14 * u, p.y + pictured + 15 * u, Letter::strong, ink::kText,
+             name_of_case(names[n]));
+  }
+}
+
+void StartPage::own_scan(float x, float y, float w) {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit(), high = 88 * u;
+  ui.write(x, y, Letter::strong, ink::kAccent, word(Word::start_own));
+  y += 28 * u;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled({x, y}, {x + w, y + high}, ink::rgb(30, 34, 39), 8 * u);
+  for (float at = 0; at < w; at += 12 * u)  // a dashed frame: here something may be put
+    for (const float edge : {y, y + high})
+      draw.AddLine({x + at, edge}, {std::min(x + at + 7 * u, x + w), edge}, ink::kDim, 1.2F * u);
+  for (float at = 0; at < high; at += 12 * u)
+    for (const float edge : {x, x + w})
+      draw.AddLine({edge, y + at}, {edge, std::min(y + at + 7 * u, y + high)}, ink::kDim, 1.2F * u);
+  const std::string drop = word(Word::start_drop);
+  const std::size_t cut = drop.find('\n');
+  ui.write(x + w / 2, y + 24 * u, Letter::body, ink::kText, drop.substr(0, cut), 0.5F);
+  if (cut != std::string::npos)
+    ui.write(x + w / 2, y + 46 * u, Letter::body, ink::kDim, drop.substr(cut + 1), 0.5F);
+  y += high + 12 * u;
+  ImGui::SetCursorScreenPos({x, y});
+  const bool entered = text_field("##path", word(Word::start_path), typed_, w - 96 * u);
+  ImGui::SetCursorScreenPos({x + w - 86 * u, y});
+  if (ImGui::Button(word(Word::start_open), {86 * u, 0}) || entered) open(typed_);
+  if (!FileDialog::there()) return;
+  y += 40 * u;
+  ImGui::SetCursorScreenPos({x, y});
+  if (ImGui::Button(word(Word::start_file), {(w - 10 * u) / 2, 0})) dialog_.ask(false);
+  ImGui::SetCursorScreenPos({x + (w + 10 * u) / 2, y});
+  if (ImGui::Button(word(Word::start_folder), {(w - 10 * u) / 2, 0})) dialog_.ask(true);
+}
+
+// a line one may click; mark: a triangle before it, something is the matter
+bool StartPage::row(const char* id, float x, float& y, float w, const std::string& left,
+                    const std::string& right, bool mark) {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit(), h = 30 * u;
+  ImGui::SetCursorScreenPos({x, y});
+  const bool pressed = ImGui::InvisibleButton(id, {w, h - 2 * u});
+  const bool at = ImGui::IsItemHovered() || ImGui::IsItemFocused();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled({x, y}, {x + w, y + h - 2 * u}, at ? ink::kOver : ink::rgb(30, 34, 39), 5 * u);
+  if (at) draw.AddRect({x, y}, {x + w, y + h - 2 * u}, ink::kAccent, 5 * u, 0, 1.5F * u);
+  float from = x + 10 * u;
+  if (mark) {
+    const float cx = from + 6 * u, cy = y + 14 * u, r = 6 * u;
+    draw.AddTriangleFilled({cx - r, cy + 0.8F * r}, {cx + r, cy + 0.8F * r}, {cx, cy - 0.9F * r},
+                           ink::kWarn);
+    from += 18 * u;
+  }
+  const float end = x + w - 10 * u - ui.width_of(Letter::small, right);
+  draw.PushClipRect({from, y}, {end - 8 * u, y + h}, true);
+  ui.write(from, y + 6 * u, Letter::body, ink::kText, left);
+  draw.PopClipRect();
+  ui.write(end, y + 8 * u, Letter::small, ink::kDim, right);
+  y += h;
+  return pressed;
+}
+
+void StartPage::sessions(float x, float& y, float w) {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit();
+  ui.write(x, y, Letter::strong, ink::kAccent, word(Word::start_sessions));
+  y += 26 * u;
+  if (kept_.empty()) {
+    ui.write(x, y, Letter::body, ink::kDim, word(Word::start_none));
+    y += 26 * u;
+  }
+  for (std::size_t n = 0; n < std::min(kept_.size(), kSessionsShown); ++n) {
+    const KeptSession& kept = kept_[n];
+    std::string right = kept.when;
+    if (!kept.clean)
+      right = fmt::format("{} - {}", word(Word::start_unclean), kept.when);
+    else
+      right = fmt::format("{}{} - {:.0f} mm³ - {}",
+                          kept.keep ? fmt::format("{} - ", word(Word::start_kept)) : "",
+                          minutes(kept.seconds), kept.removed_mm3, kept.when);
+    if (row(fmt::format("##kept{}", n).c_str(), x, y, w, kept.title, right, !kept.clean))
+      choice_ = Choice{.open = {}, .go_on = kept, .quit = false};
+  }
+}
+
+void StartPage::recents(float x, float& y, float w) {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit();
+  if (recent_.empty()) return;
+  ui.write(x, y, Letter::strong, ink::kAccent, word(Word::start_recent));
+  y += 26 * u;
+  for (std::size_t n = 0; n < std::min(recent_.size(), kRecentsShown); ++n) {
+    const Recent& one = recent_[n];
+    // a file's name may be a patient's
+    const std::string name =
+        desk_.settings.recent_names ? fs::path(one.path).filename().string() : one.title;
+    if (row(fmt::format("##recent{}", n).c_str(), x, y, w, name, one.when, false)) open(one.path);
+  }
+}
+
+void StartPage::told(float x, float y, float w) {
+  if (desk_.told.empty()) return;
+  Ui& ui = desk_.ui();
+  const float u = ui.unit();
+  const ImFont* font = ui.font(Letter::body);
+  const float pad = 14 * u;
+  const ImVec2 size =
+      font->CalcTextSizeA(font->FontSize, 1e9F, w - 2 * pad - 40 * u, desk_.told.c_str());
+  const float h = std::min(size.y, 70 * u) + 2 * pad + 22 * u;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled({x, y}, {x + w, y + h}, ink::rgb(50, 38, 22), 8 * u);
+  draw.AddRect({x, y}, {x + w, y + h}, ink::kWarn, 8 * u, 0, 1.2F * u);
+  const float cx = x + pad + 8 * u, cy = y + pad + 8 * u, r = 8 * u;
+  draw.AddTriangleFilled({cx - r, cy + 0.8F * r}, {cx + r, cy + 0.8F * r}, {cx, cy - 0.9F * r},
+                         ink::kWarn);
+  ui.write(x + pad + 24 * u, y + pad, Letter::strong, ink::kText, word(Word::start_trouble));
+  draw.PushClipRect({x, y}, {x + w, y + h}, true);
+  draw.AddText(font, font->FontSize, {x + pad, y + pad + 22 * u}, ink::kText, desk_.told.c_str(),
+               nullptr, w - 2 * pad - 40 * u);
+  draw.PopClipRect();
+  ImGui::SetCursorScreenPos({x + w - 50 * u, y + pad - 4 * u});
+  if (ImGui::Button("x##told", {34 * u, 0})) desk_.told.clear();
+}
+
+}  // namespace burr::app

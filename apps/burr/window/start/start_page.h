@@ -1,0 +1,64 @@
+// apps/burr/window/start/start_page.h - where one begins: the built-in cases, a scan of one's own, a
+// session to go on with.
+//
+// Thread: main.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "window/shell/desk.h"
+#include "window/shell/file_dialog.h"
+#include "window/start/hand_choice.h"
+#include "window/start/sessions.h"
+#include "window/start/thumbnails.h"
+
+namespace burr::app {
+
+class StartPage {
+ public:
+  // hand: of the command line; without a device the settings say which one
+  StartPage(Desk& desk, const HandWish& hand);
+
+  // What the user chose; exactly one is set.
+  struct Choice {
+    std::optional<WorkOptions> open;
+    std::optional<KeptSession> go_on;
+    bool quit = false;
+  };
+  // Until something is chosen, the program is interrupted, or `seconds` are over (0: never).
+  // trouble: a sentence about what went wrong before; "" for nothing.
+  [[nodiscard]] Result<Choice> ask(const std::string& trouble, double seconds = 0);
+  // What is to lead the burr; no device: the mouse.
+  [[nodiscard]] const HandWish& hand() const { return hand_.wish(); }
+
+ private:
+  void take_events();
+  void draw();
+  void cards(float x, float y);
+  void own_scan(float x, float y, float w);
+  void sessions(float x, float& y, float w);
+  void recents(float x, float& y, float w);
+  void told(float x, float y, float w);
+  [[nodiscard]] bool row(const char* id, float x, float& y, float w, const std::string& left,
+                         const std::string& right, bool mark);
+  void open(std::string path);
+
+  Desk& desk_;
+  Thumbnails thumbnails_;
+  int renewed_ = 0;  // as thumbnails_ knows it
+  FileDialog dialog_;
+  HandChoice hand_;
+  std::vector<KeptSession> kept_;
+  std::vector<Recent> recent_;
+  std::vector<std::string> dropped_;
+  std::string typed_;
+  std::optional<Choice> choice_;
+  bool help_ = false, help_pads_ = false, settings_ = false, settings_pads_ = false;
+};
+
+// "Temporal bone", in the user's language; the case's own name if it is not known.
+[[nodiscard]] std::string name_of_case(const std::string& name);
+
+}  // namespace burr::app

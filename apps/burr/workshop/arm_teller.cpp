@@ -1,0 +1,43 @@
+#include "workshop/arm_teller.h"
+
+#include <chrono>
+#include <utility>
+
+namespace burr::app {
+namespace {
+
+device::crtk::ArmTold told_of(const tick::TickRow& row) {
+  device::crtk::ArmTold told;
+  told.setpoint = row.hand.world_from_tool;
+  told.measured = {row.contact.proxy, row.hand.world_from_tool.q};
+  told.velocity = row.hand.velocity;
+  told.force = row.contact.force;
+  return told;
+}
+
+}  // namespace
+
+ArmTeller::ArmTeller(sim::Session& session, device::crtk::Arm& arm, std::function<bool()> busy)
+    : session_(session) {
+  session_.set_watch(&rows_);
+  thread_ = std::thread([this, &arm, busy = std::move(busy)] {
+    tick::TickRow row;
+    while (!stop_) {
+      if (rows_.take(row)) {
+        device::crtk::ArmTold told = told_of(row);
+        told.busy = busy && busy();
+        told.let_go = session_.servo().let_go();
+        arm.tell(told);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  });
+}
+
+ArmTeller::~ArmTeller() {
+  stop_ = true;
+  thread_.join();
+  session_.set_watch(nullptr);
+}
+
+}  // namespace burr::app

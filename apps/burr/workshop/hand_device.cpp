@@ -1,0 +1,188 @@
+#include "workshop/hand_device.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "burr/device/crtk/leader.h"
+#include "burr/device/forcedimension/omega.h"
+#include "burr/device/haply/inverse.h"
+#include "burr/device/openhaptics/touch.h"
+#include "burr/device/polhem/polhem.h"
+
+namespace burr::app {
+namespace {
+
+constexpr double kUsualRate = 1000;  // [Hz]
+
+}  // namespace
+
+const std::vector<HandKind>& hand_kinds() {
+  static const std::vector<HandKind> all = {
+      {"touch", "3D Systems Touch (Omni), Touch X (Desktop), Premium", "touch"},
+      {"force-dimension", "Force Dimension omega, delta, sigma, lambda; Novint Falcon",
+       "force_dimension"},
+      {"haply", "Haply Inverse3, Inverse3x, Minverse with VerseGrip", "haply"},
+      {"polhem", "Haptikfabriken's Polhem, and WoodenHaptics with its serial electronics",
+       "polhem"},
+      {"crtk", "robot arms that speak CRTK: dVRK's leaders, lab devices behind a node", "crtk"},
+  };
+  return all;
+}
+
+bool is_hand_kind(std::string_view device) {
+  const std::string_view kind = device.substr(0, device.find(':'));
+  const auto& all = hand_kinds();
+  return std::any_of(all.begin(), all.end(), [&](const HandKind& one) { return kind == one.name; });
+}
+
+std::string kinds_known() {
+  std::vector<std::string> known;
+  for (const HandKind& one : hand_kinds()) known.emplace_back(one.name);
+  return fmt::format("{}", fmt::join(known, ", "));
+}
+
+NamesThere names_there(const HandKind& kind) {
+  const std::string name = kind.name;
+  NamesThere there;
+  const auto add = [&](const std::string& which) { there.names.push_back(name + ":" + which); };
+  if (name == "touch") {
+    there.note =
+        "Of several each has the name that its setup program gave it: touch:NAME. Its library "
+        "cannot list them.";
+  } else if (name == "force-dimension") {
+    if (const auto plugged = device::forcedimension::Omega::plugged()) {
+      for (const int serial : plugged->serials) add(std::to_string(serial));
+      if (!plugged->serials.empty() && plugged->nameless > 0)
+        there.note = fmt::format(
+            "{} more cannot be told by a serial number; another program may have it open.",
+            plugged->nameless);
+    }
+  } else if (name == "haply") {
+    if (const auto known = device::haply::all_known({})) {
+      for (const device::haply::Known& arm : known->arms) add(arm.id);
+      if (known->grips.size() > 1)
+        there.note =
+            fmt::format("There are the grips {}: haply:ARM+GRIP says which is held with an arm.",
+                        fmt::join(known->grips, ", "));
+    }
+  } else if (name == "polhem") {
+    for (const device::polhem::Port& port :
+         device::polhem::ports_of_arms(device::polhem::PolhemSettings{}.system))
+      add(port.path);
+  } else if (name == "crtk") {
+    if (const auto arms = device::crtk::arms_heard())
+      for (const std::string& arm : *arms) add(arm);
+  }
+  if (there.names.empty()) there.names.push_back(name);
+  return there;
+}
+
+Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish) {
+  const std::string& name = wish.device;
+  const std::string kind = name.substr(0, name.find(':'));
+  const std::string which = kind.size() < name.size() ? name.substr(kind.size() + 1) : "";
+  if (kind == "touch") {
+    device::openhaptics::TouchSettings settings;
+    settings.name = which;
+    return std::unique_ptr<device::Device>(
+        std::make_unique<device::openhaptics::Touch>(std::move(settings)));
+  }
+  if (kind == "force-dimension") {
+    device::forcedimension::OmegaSettings settings;
+    settings.home_allowed = wish.home;
+    settings.is_homed = wish.is_homed;
+    if (!which.empty()) {
+      const auto [end, trouble] =
+          std::from_chars(which.data(), which.data() + which.size(), settings.serial);
+      if (trouble != std::errc() || end != which.data() + which.size() || settings.serial < 0)
+        return error(Trouble::usage,
+                     fmt::format("--device {}: after the colon comes a serial number", name));
+    }
+    return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
+        std::make_unique<device::forcedimension::Omega>(std::move(settings))));
+  }
+  if (kind == "haply") {
+    device::haply::InverseSettings settings;
+    const std::size_t plus = which.find('+');
+    settings.id = which.substr(0, plus);
+    if (plus != std::string::npos) settings.grip = which.substr(plus + 1);
+    return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
+        std::make_unique<device::haply::Inverse>(std::move(settings))));
+  }
+  if (kind == "polhem") {
+    device::polhem::PolhemSettings settings;
+    settings.port = which;
+    return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
+        std::make_unique<device::polhem::Polhem>(std::move(settings))));
+  }
+  if (kind == "crtk") {
+    device::crtk::LeaderSettings settings;
+    settings.arm = which;
+    settings.home_allowed = wish.home;
+    return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
+        std::make_unique<device::crtk::Leader>(std::move(settings))));
+  }
+  return error(
+      Trouble::usage,
+      fmt::format("--device {}: burr drives no such device; take one of: {}", name, kinds_known()));
+}
+
+Result<LaidHand> lay_hand(const HandWish& wish, const math::Pose& start,
+                          const math::Quat& world_from_view) {
+  auto device = make_hand(wish);
+  if (!device) return device.error();
+  LaidHand laid;
+  laid.hand = std::make_unique<device::MappedHand>(std::move(*device), start, world_from_view);
+  Status opened = laid.hand->open();
+  if (!opened) return opened.error();
+  const DeviceBook book = DeviceBook::read(users_book());
+  laid.notices = book.troubles();
+  laid.id = id_of(laid.hand->spec());
+  laid.wishes = book.of(laid.id);
+  DeviceWishes wishes = laid.wishes;
+  if (wish.scale) wishes.mapping.scale = *wish.scale;
+  wishes.mapping.dead_man = wishes.mapping.dead_man || wish.dead_man;
+  const Status set = laid.hand->set(wishes.mapping);
+  if (!set) return set.error();
+  const double peak = laid.hand->spec().peak_force;
+  laid.max_force = wishes.max_force_n > 0 ? std::min(peak, wishes.max_force_n) : peak;
+  laid.vibration = wishes.vibration;
+  laid.torque = wishes.torque;
+  return laid;
+}
+
+double tick_rate(const device::DeviceSpec& spec) {
+  if (!(spec.native_rate > 0)) return kUsualRate;
+  return std::clamp(spec.native_rate / std::max(1.0, std::round(spec.native_rate / kUsualRate)),
+                    500.0, 10'000.0);
+}
+
+void add_homing_options(CLI::App& command, HandWish& wish) {
+  command.add_flag(
+      "--home", wish.home,
+      "a Force Dimension or CRTK arm may move by itself to find its home; keep the space free");
+  command.add_flag("--is-homed", wish.is_homed,
+                   "you homed the arm yourself, and its library cannot tell");
+}
+
+void add_hand_options(CLI::App& command, HandWish& wish) {
+  command.add_option(
+      "--device", wish.device,
+      fmt::format("a haptic device: {}; NAME:WHICH where there are several", kinds_known()));
+  command
+      .add_option("--device-scale", wish.scale,
+                  "way of the tip over way of the hand; smaller: finer work, softer walls")
+      ->check(CLI::Range(0.1, 10.0));
+  add_homing_options(command, wish);
+  command.add_flag("--dead-man", wish.dead_man,
+                   "the device pushes only while its mill button is held");
+}
+
+}  // namespace burr::app

@@ -1,0 +1,39 @@
+// apps/burr/workshop/loudspeaker.h - the sound of a session in the window: on and off, louder and quieter.
+//
+// Without a device it stays silent and says why. Switched on again it looks for the device anew:
+// one that was unplugged, or plugged in since. Main thread.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "burr/sound/speaker.h"
+#include "workshop/hearing.h"
+
+namespace burr::app {
+
+class Loudspeaker {
+ public:
+  Loudspeaker(const tick::ServoSettings& settings, Hearing::ToSpare to_spare);
+
+  // A wish as the servo obeyed it: the warning distance, say, is from the burr's rim.
+  void obey(const tick::Wish& wish) { hearing_.obey(wish); }
+  void hear(const tick::TickRow& newest);
+  void toggle();
+  double louder(int steps);  // of 3 dB, below 0: quieter; how loud it is then [dB], 0 the loudest
+  [[nodiscard]] bool is_on() const { return speaker_ && speaker_->voice().is_on(); }
+
+  // "" while there is a device, or the sentence that says why it does not.
+  [[nodiscard]] const std::string& trouble() const { return trouble_; }
+
+ private:
+  void open();
+  [[nodiscard]] double loudness() const;
+
+  Hearing hearing_;
+  std::unique_ptr<sound::Speaker> speaker_;
+  std::string trouble_;
+  int steps_ = 0;  // from the loudest, 0 or less
+};
+
+}  // namespace burr::app

@@ -1,0 +1,51 @@
+// apps/burr/workshop/nearby.h - how near the burr is to what must not be cut, for the eye and the ear.
+//
+// Thread: main. Memory: volume/distance_to.h; where there is nothing to spare, none.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "burr/record/session_info.h"
+#include "burr/volume/distance_to.h"
+#include "workshop/hearing.h"
+
+namespace burr::app {
+
+using Tissues = std::vector<volume::TissueId>;
+
+// What a case names, or, where nothing is named, what the table marks. Names the bone does not have
+// are left out, and told on stderr.
+[[nodiscard]] Tissues to_spare(const volume::TissueTable& table,
+                               const std::vector<std::string>& named);
+
+// The same into a recording and out of it; one without the word: what its table marks.
+void write_spared(const Tissues& spared, record::SessionInfo& info);
+[[nodiscard]] Tissues read_spared(const record::SessionInfo& info);
+
+class Nearby {
+ public:
+  Nearby() = default;  // nothing is near
+  // Before the first cut. Error: only Trouble::interrupted.
+  [[nodiscard]] static Result<Nearby> make(const volume::Bone& bone, const Tissues& spared,
+                                           Progress& progress);
+
+  // From a point [m]; empty: there is nothing to spare. Good as long as this lives.
+  [[nodiscard]] Hearing::ToSpare distances() const;
+  [[nodiscard]] bool empty() const { return distance_.empty(); }
+  struct Near {
+    std::string name;     // of the tissue
+    double distance = 0;  // of the point from it; 0 inside [m]
+  };
+  // Nothing within reach, or nothing to spare: none.
+  [[nodiscard]] std::optional<Near> nearest(const math::Vec3& p) const;
+
+ private:
+  volume::DistanceTo distance_;
+  volume::TissueTable table_;
+};
+
+}  // namespace burr::app

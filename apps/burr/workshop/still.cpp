@@ -1,0 +1,55 @@
+#include "workshop/still.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <vector>
+
+#include "burr/render/camera.h"
+#include "burr/render/look.h"
+
+namespace burr::app {
+
+void add_picture_size(CLI::App& command, PictureSize& size) {
+  command
+      .add_option_function<std::vector<int>>(
+          "--picture-size",
+          [&size](const std::vector<int>& wh) {
+            size = {wh[0], wh[1]};
+          },
+          "W,H of pictures [pixel] (default: 1280,720)")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(CLI::Range(16, 65536));
+}
+
+render::Scene scene_of_work(const volume::Bone& bone, double burr_radius, const math::Vec3& at,
+                            const math::Vec3& outward) {
+  render::Scene scene;
+  scene.look = render::still_look();
+  scene.scale_bar = true;
+  const double bone_height = 1.2 * bone.grid().size.cast<double>().maxCoeff() * bone.grid().voxel;
+  const double height = std::min(std::clamp(20 * burr_radius, 20e-3, 70e-3), bone_height);
+  scene.camera = render::view_of_work(at, outward, height);
+  return scene;
+}
+
+render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz, double burr_radius,
+                               bool irrigated) {
+  return {static_cast<double>(row.tick) / rate_hz,
+          row.contact.proxy,
+          row.hand.world_from_tool.q * math::Vec3::UnitZ(),
+          burr_radius,
+          row.ledger.removed,
+          row.ledger.added,
+          irrigated};
+}
+
+void put_tool(render::Scene& scene, const tick::TickRow& row, double burr_radius, bool contact) {
+  scene.burr.visible = true;
+  scene.burr.radius = burr_radius;
+  scene.burr.world_from_tool = {row.contact.proxy, row.hand.world_from_tool.q};
+  if (contact)
+    render::show_contact(scene, row.hand.world_from_tool.p, row.contact.proxy, row.contact.force);
+}
+
+}  // namespace burr::app

@@ -1,0 +1,90 @@
+// apps/burr/workshop/work.h - what is milled, where and with what: a case or a scan as the user named it,
+// made ready for a session. Shared by the window's pages and `burr run` without a display.
+//
+// Thread: any, one at a time; takes seconds and says how far it is.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "burr/importing/import.h"
+#include "burr/math/vec3.h"
+#include "burr/render/scene.h"
+#include "burr/sim/session.h"
+#include "burr/surface/worker.h"
+#include "burr/surgeon/motion.h"
+#include "window/hands/mouse_hand.h"
+#include "workshop/arm_teller.h"
+#include "workshop/hand_device.h"
+#include "workshop/nearby.h"
+#include "workshop/suction_hand.h"
+#include "workshop/volume_options.h"
+
+namespace burr::app {
+
+struct WorkOptions {
+  VolumeOptions volume;         // path: a case, a .toml file, a phantom or a scan
+  double burr_mm = 0, rpm = 0;  // 0: the case's, or 5 mm and 40 000
+  double seconds = 0;           // of the demonstration; 0: the case's
+  HandWish hand;                // at the window
+  std::string suction;          // likewise: a second device for the other hand; empty: none
+  std::string told_as;          // likewise: a CRTK arm by which others may watch; empty: nobody may
+  // what only a case says
+  std::string title;                   // one line; empty for a scan
+  std::optional<math::Vec3> at, into;  // where it begins
+  std::string motion = "pocket";
+  tool::BurrKind kind = tool::BurrKind::cutting;
+  std::vector<std::string> spare;  // tissues that must not be cut
+};
+
+// A built-in case or a .toml file says what is milled, where and with what; options given by hand
+// win. Anything else is left as it is.
+[[nodiscard]] Status take_case(WorkOptions& options);
+
+// Before take_case(): neither a built-in case, nor a phantom, nor a .toml file.
+[[nodiscard]] bool names_a_scan(const WorkOptions& options);
+
+struct Work {
+  importing::Imported made;
+  std::string what;      // in our words
+  VolumeOptions volume;  // with the case's name as a phantom
+  surgeon::WorkPlace place;
+};
+// After take_case(). scan: as open_volume() wants it.
+[[nodiscard]] Result<Work> open_work(WorkOptions options, Progress& progress,
+                                     const io::Scan* scan = nullptr);
+
+// Where the burr has less than four voxels, which cannot be felt, and a usual one has them, that
+// one is taken, and a notice says so.
+void fit_burr(WorkOptions& options, importing::Imported& made);
+
+[[nodiscard]] sim::SessionSettings settings_of(const WorkOptions& options, bool realtime);
+
+// Everything a session at the window needs, with the hand of the mouse or a haptic device. What is
+// told last goes first.
+struct Ready {
+  std::string title, what;  // one line; what it is in our words: neither names a patient
+  VolumeOptions volume;
+  importing::ImportSummary import;
+  std::unique_ptr<sim::Session> session;
+  Hands hands;  // the session's
+  std::unique_ptr<SuctionHand> suction;
+  std::unique_ptr<device::crtk::Arm> arm;
+  std::unique_ptr<ArmTeller> teller;
+  std::unique_ptr<surface::Worker> worker;
+  render::Scene scene;                         // with its surface and first view
+  std::shared_ptr<const volume::Greys> greys;  // of a scan
+  Tissues spared;                              // that must not be cut
+  std::unique_ptr<const Nearby> nearby;        // how far they are
+};
+// A hand's axes, x right, y up, z to the user, as one looks at the bone; world_from_view.
+[[nodiscard]] math::Quat view_of_hand(const render::Camera& camera);
+
+// After open_work(); its bone may be replaced before, by what an older session left.
+[[nodiscard]] Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress);
+
+}  // namespace burr::app

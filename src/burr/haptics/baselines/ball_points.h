@@ -1,0 +1,22 @@
+// haptics/baselines/ball_points.h - points spread evenly over the unit ball's surface.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "burr/math/vec3.h"
+
+namespace burr::haptics {
+
+// A spiral by the golden angle (Vogel 1979): each stands for 4 pi / n of the surface.
+inline void spread_on_ball(std::span<math::Vec3> points) {
+  const double golden = M_PI * (3 - std::sqrt(5.0));
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const double z = 1 - (2 * static_cast<double>(n) + 1) / static_cast<double>(points.size()),
+                 flat = std::sqrt(1 - z * z), turn = golden * static_cast<double>(n);
+    points[n] = {flat * std::cos(turn), flat * std::sin(turn), z};
+  }
+}
+
+}  // namespace burr::haptics

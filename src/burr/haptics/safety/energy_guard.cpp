@@ -1,0 +1,156 @@
+#include "burr/haptics/safety/energy_guard.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burr::haptics {
+namespace {
+
+using math::Vec3;
+
+constexpr double kMostTank = 10e-3;      // however it is set  [J]
+constexpr double kGrantLasts = 50e-3;    // bone that grows is felt within about this  [s]
+constexpr double kLargestAccount = 1e3;  // beyond, a number went wrong somewhere  [J]
+
+bool fine(const Exchange& now, double dt) BURR_RT {
+  return now.hand.allFinite() && now.stretch.allFinite() && now.force.allFinite() &&
+         std::isfinite(now.stiffness) && now.stiffness >= 0 && std::isfinite(dt) && dt > 0;
+}
+
+double or_zero(double value) { return std::isfinite(value) ? std::max(0.0, value) : 0.0; }
+
+}  // namespace
+
+EnergyGuard::EnergyGuard(const EnergyGuardSettings& settings) : settings_(settings) {
+  for (double* value :
+       {&settings_.device_mass, &settings_.device_damping, &settings_.encoder_step,
+        &settings_.count_force, &settings_.delay, &settings_.least_speed, &settings_.largest_force,
+        &settings_.free_time, &settings_.tank_low, &settings_.slack})
+    *value = or_zero(*value);
+  settings_.tank_full = std::min(or_zero(settings_.tank_full), kMostTank);
+  sent_.fill(Vec3::Zero());
+}
+
+Vec3 EnergyGuard::step(const Exchange& now, double dt) BURR_RT {
+  alpha_ = 0;
+  if (!fine(now, dt)) {
+    restart();
+    return now.force;
+  }
+  observe(now, dt);
+  settle(dt);
+  forget_when_free(now, dt);
+  if (!(std::abs(energy_) < kLargestAccount && std::abs(stored_) < kLargestAccount)) {
+    restart();
+    return now.force;
+  }
+
+  const double square = velocity_.squaredNorm();
+  const double owed = deficit() - settings_.slack;
+  if (owed <= 0 || square < settings_.least_speed * settings_.least_speed || square == 0)
+    return now.force;
+  alpha_ = std::min(owed / (dt * square), most_damping(dt));
+  return now.force - alpha_ * velocity_;
+}
+
+void EnergyGuard::sent(const Vec3& force) BURR_RT {
+  newest_ = (newest_ + 1) % kSent;
+  sent_[newest_] = force.allFinite() ? force : Vec3(Vec3::Zero());
+}
+
+// Since the tick before: with a delay of q ticks and a rest, first the force of one tick earlier.
+Vec3 EnergyGuard::acting(double dt) const BURR_RT {
+  const double ticks = std::min(settings_.delay / dt, static_cast<double>(kSent) - 1.001);
+  const auto whole = static_cast<std::size_t>(ticks);
+  const double rest = ticks - static_cast<double>(whole);
+  const Vec3& late = sent_[(newest_ + kSent - whole) % kSent];
+  const Vec3& later = sent_[(newest_ + 2 * kSent - whole - 1) % kSent];
+  return (1 - rest) * late + rest * later;
+}
+
+// What the spring gives back on the way home. Where it asks for more than is ever sent, the force
+// is the largest one.
+double EnergyGuard::spring_energy(const Exchange& now) const BURR_RT {
+  const double stretch = now.stretch.norm();
+  const double most = settings_.largest_force;
+  if (now.stiffness * stretch <= most) return 0.5 * now.stiffness * stretch * stretch;
+  return most * (stretch - 0.5 * most / now.stiffness);
+}
+
+void EnergyGuard::observe(const Exchange& now, double dt) BURR_RT {
+  stored_ = spring_energy(now);
+  if (!begun_) {
+    begun_ = true;
+    energy_ = stored_;
+    written_off_ += stored_;
+    velocity_ = Vec3::Zero();
+  } else {
+    const Vec3 way = now.hand - last_hand_;
+    velocity_ = way / dt;
+    const double work = -acting(dt).dot(way);
+    work_in_ += work;
+    energy_ += work;
+    // the device lost at least b |dx|^2 / T on the way; that pays a debt, but fills no tank
+    const double own =
+        std::min(settings_.device_damping * way.squaredNorm() / dt, std::max(0.0, deficit()));
+    energy_ += own;
+    lost_in_device_ += own;
+  }
+  last_hand_ = now.hand;
+}
+
+// Surplus is lost to the world for good: into the tank. A deficit that was allowed is paid by it.
+void EnergyGuard::settle(double dt) BURR_RT {
+  if (energy_ > stored_) {
+    tank_ = std::min(settings_.tank_full, tank_ + (energy_ - stored_));
+    energy_ = stored_;
+  }
+  const double paid = std::min(granted_, deficit());
+  granted_ -= paid;
+  energy_ += paid;
+  // no more is remembered than a tank holds: it would make the hand feel heavy long afterwards
+  const double forgotten = std::max(0.0, deficit() - settings_.tank_full);
+  energy_ += forgotten;
+  written_off_ += forgotten;
+  const double back = granted_ * std::min(1.0, dt / kGrantLasts);
+  granted_ -= back;
+  tank_ = std::min(settings_.tank_full, tank_ + back);
+}
+
+void EnergyGuard::forget_when_free(const Exchange& now, double dt) BURR_RT {
+  const bool free = stored_ <= 0 && now.force.squaredNorm() <= 0;
+  free_ = free ? free_ + dt : 0;
+  if (free_ < settings_.free_time) return;
+  written_off_ += deficit();
+  energy_ = stored_;
+}
+
+// A sampled damper alpha on a mass m is itself unstable beyond m / T; half of that, and less when
+// it acts late.
+double EnergyGuard::most_damping(double dt) const BURR_RT {
+  const double most = 0.5 * settings_.device_mass / (dt + settings_.delay);
+  const double quiet = settings_.count_force * dt;  // alpha step / T <= count_force
+  return most * settings_.encoder_step > quiet ? quiet / settings_.encoder_step : most;
+}
+
+double EnergyGuard::allow(double wanted_energy) BURR_RT {
+  if (!std::isfinite(wanted_energy) || wanted_energy <= 0) return 0;
+  const double share = tank_ < settings_.tank_low ? tank_ / settings_.tank_low : 1.0;
+  const double allowed = std::min(share * wanted_energy, tank_);
+  tank_ -= allowed;
+  granted_ += allowed;
+  return allowed;
+}
+
+void EnergyGuard::restart() BURR_RT {
+  if (begun_) written_off_ += deficit();
+  begun_ = false;
+  energy_ = stored_ = alpha_ = granted_ = free_ = 0;
+  sent_.fill(Vec3::Zero());
+}
+
+void EnergyGuard::set_largest_force(double newton) BURR_RT {
+  if (std::isfinite(newton) && newton >= 0) settings_.largest_force = newton;
+}
+
+}  // namespace burr::haptics

@@ -1,0 +1,141 @@
+#include "burr/haptics/safety/limit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "burr/haptics/contact.h"
+
+namespace burr::haptics {
+namespace {
+
+using math::Vec3;
+
+// The nearest force to `wanted` that is no further than `step` from what can be had by only letting
+// go of `sent`. Letting go is free, growing and turning are not.
+Vec3 slew_bound(const Vec3& wanted, const Vec3& sent, double step, bool& bounded) BURR_RT {
+  const double square = sent.squaredNorm();
+  const double keep = square > 0 ? std::clamp(wanted.dot(sent) / square, 0.0, 1.0) : 0.0;
+  const Vec3 base = keep * sent;
+  const Vec3 growth = wanted - base;
+  const double size = growth.norm();
+  bounded = size > step;
+  return bounded ? Vec3(base + growth * (step / size)) : wanted;
+}
+
+// no bone lies beyond it, nor may a path of a hand; places further out fit no count of voxels  [m]
+constexpr double kFarthestHand = 1e3;
+
+}  // namespace
+
+ForceLimit::ForceLimit(const device::DeviceSpec& device, const LimitSettings& settings)
+    : device_(device),
+      settings_(settings),
+      lever_(device.peak_force > 0 ? device.peak_torque / device.peak_force : 0) {}
+
+void ForceLimit::set_user_force(double newton) BURR_RT {
+  if (std::isfinite(newton) && newton >= 0) settings_.user_force = newton;
+}
+
+bool ForceLimit::believe(const device::HandState& hand, std::uint32_t& flags) BURR_RT {
+  std::uint32_t trouble = 0;
+  if (!hand.valid) {
+    trouble = kFlagHandLost;
+  } else if (!hand.world_from_tool.finite() || !hand.velocity.allFinite() ||
+             !std::isfinite(hand.pedal) ||
+             hand.world_from_tool.p.cwiseAbs().maxCoeff() > kFarthestHand) {
+    trouble = kFlagNotFinite;
+  } else if (has_last_hand_ &&
+             (hand.world_from_tool.p - last_hand_).norm() > settings_.longest_leap) {
+    trouble = kFlagJump;
+  }
+  if (trouble != 0) {
+    fault(trouble, flags);
+    has_last_hand_ = false;
+    return false;
+  }
+  last_hand_ = hand.world_from_tool.p;
+  has_last_hand_ = true;
+  return true;
+}
+
+void ForceLimit::fault(std::uint32_t flag, std::uint32_t& flags) BURR_RT {
+  flags |= flag;
+  lift();
+}
+
+void ForceLimit::lift() BURR_RT {
+  if (state_ == State::fading) return;  // already on its way to zero
+  state_ = State::fading;
+  for (Channel* one : {&force_, &torque_}) one->fading_from = one->sent;
+  in_state_ = 0;
+}
+
+void ForceLimit::restart() BURR_RT {
+  state_ = State::waiting;
+  for (Channel* one : {&force_, &torque_}) one->sent = Vec3::Zero();
+  in_state_ = 0;
+}
+
+double ForceLimit::left() const BURR_RT {
+  return std::max(0.0, 1.0 - in_state_ / settings_.fade_time);
+}
+
+// What of `wanted` may go to these motors as things stand.
+Vec3 ForceLimit::bound(Channel& channel, const Vec3& wanted, double dt,
+                       std::uint32_t& flags) const BURR_RT {
+  Vec3 force = Vec3::Zero();
+  if (state_ == State::fading) {
+    force = left() * channel.fading_from;
+  } else if (state_ == State::waiting) {
+    flags |= kFlagWaiting;
+  } else {
+    force = wanted;
+
+    // the device, the user, and the motors' heat; direction kept. The heat limit closes gradually
+    // over its last tenth.
+    double most = std::min(device_.peak_force, settings_.user_force);
+    const double hot = std::clamp((channel.heat / device_.thermal_budget - 0.9) * 10.0, 0.0, 1.0);
+    const double bearable = std::min(most, device_.continuous_force);
+    if (hot > 0) most += hot * (bearable - most);
+    const double size = force.norm();
+    if (size > most) {
+      force *= most / size;
+      flags |= hot > 0 ? kFlagThermal : kFlagForceLimited;
+    }
+
+    bool bounded = false;
+    force =
+        slew_bound(force, channel.sent,
+                   (state_ == State::ramp ? settings_.ramp_slew : settings_.slew) * dt, bounded);
+    if (bounded) flags |= kFlagSlewLimited;
+    if (state_ == State::ramp) flags |= kFlagRamp;
+  }
+
+  const double bearable = device_.continuous_force;
+  channel.heat = std::max(0.0, channel.heat + (force.squaredNorm() - bearable * bearable) * dt);
+  channel.sent = force;
+  return force;
+}
+
+Vec3 ForceLimit::apply(const Vec3& wanted, double dt, std::uint32_t& flags) BURR_RT {
+  if (!wanted.allFinite()) fault(kFlagNotFinite, flags);
+  in_state_ += dt;
+  if (state_ == State::ramp && in_state_ >= settings_.ramp_time) state_ = State::running;
+  const Vec3 force = bound(force_, wanted, dt, flags);
+  if (state_ == State::fading && left() <= 0) {
+    restart();
+  } else if (state_ == State::waiting && wanted.norm() < settings_.small_force) {
+    state_ = State::ramp;
+    in_state_ = 0;
+  }
+  return force;
+}
+
+Vec3 ForceLimit::apply_torque(const Vec3& wanted, double dt, std::uint32_t& flags) BURR_RT {
+  if (lever_ <= 0) return Vec3::Zero();
+  if (!wanted.allFinite()) fault(kFlagNotFinite, flags);
+  if (state_ == State::ramp && in_state_ <= 0) return Vec3::Zero();  // from the next tick on
+  return lever_ * bound(torque_, wanted / lever_, dt, flags);
+}
+
+}  // namespace burr::haptics

@@ -1,0 +1,345 @@
+#include "burr/importing/grey.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "burr/io/workers.h"
+
+namespace burr::importing {
+namespace {
+
+std::size_t count(const math::Ijk& size) {
+  return static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()) *
+         static_cast<std::size_t>(size.z());
+}
+
+const float* row_of(const io::Scan& scan, int i, int j, int k) {
+  return scan.values.data() + static_cast<std::size_t>(i) +
+         static_cast<std::size_t>(scan.size.x()) *
+             (static_cast<std::size_t>(j) +
+              static_cast<std::size_t>(scan.size.y()) * static_cast<std::size_t>(k));
+}
+
+double catmull_rom(double x) {
+  x = std::abs(x);
+  if (x < 1) return 1 + x * x * (1.5 * x - 2.5);
+  if (x < 2) return 2 - x * (4 - x * (2.5 - 0.5 * x));
+  return 0;
+}
+
+// Which old samples make one new sample, and how much of each.
+struct Taps {
+  int first = 0;
+  std::vector<float> weights;
+};
+
+std::vector<Taps> taps(int from, int to, double scale, double first) {
+  const double wide = std::max(1.0, scale);
+  std::vector<Taps> all(static_cast<std::size_t>(to));
+  for (int n = 0; n < to; ++n) {
+    const double at = first + n * scale;
+    const int lo = static_cast<int>(std::floor(at - 2 * wide)) + 1,
+              hi = static_cast<int>(std::ceil(at + 2 * wide)) - 1;
+    Taps& tap = all[static_cast<std::size_t>(n)];
+    tap.first = std::clamp(lo, 0, from - 1);
+    const int last = std::clamp(hi, 0, from - 1);
+    std::vector<double> sum(static_cast<std::size_t>(last - tap.first + 1), 0.0);
+    double total = 0;
+    for (int s = lo; s <= hi; ++s) {
+      const double w = catmull_rom((s - at) / wide);
+      // beyond the border the last sample goes on
+      sum[static_cast<std::size_t>(std::clamp(s, 0, from - 1) - tap.first)] += w;
+      total += w;
+    }
+    for (const double w : sum) tap.weights.push_back(static_cast<float>(w / total));
+  }
+  return all;
+}
+
+std::int16_t rounded(float value) {
+  return static_cast<std::int16_t>(std::lrintf(std::clamp(value, -32768.0F, 32767.0F)));
+}
+
+// rows are weighted sums of rows: for the y and z axis
+void sum_rows(const std::int16_t* const* rows, const float* weights, std::size_t n,
+              std::size_t length, std::vector<float>& work, std::int16_t* out) {
+  std::fill(work.begin(), work.begin() + static_cast<std::ptrdiff_t>(length), 0.0F);
+  for (std::size_t t = 0; t < n; ++t)
+    for (std::size_t x = 0; x < length; ++x) work[x] += weights[t] * static_cast<float>(rows[t][x]);
+  for (std::size_t x = 0; x < length; ++x) out[x] = rounded(work[x]);
+}
+
+}  // namespace
+
+Grey take_grey(const io::Scan& scan, const math::Ijk& from, const math::Ijk& size) {
+  Grey grey;
+  grey.size = size;
+  grey.voxels.resize(count(size));
+  const auto for_each_row = [&](const auto& work) {
+    std::size_t v = 0;
+    for (int k = 0; k < size.z(); ++k)
+      for (int j = 0; j < size.y(); ++j, v += static_cast<std::size_t>(size.x()))
+        work(row_of(scan, from.x(), from.y() + j, from.z() + k), grey.voxels.data() + v);
+  };
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  for_each_row([&](const float* row, std::int16_t*) {
+    for (int i = 0; i < size.x(); ++i) {
+      low = row[i] < low ? row[i] : low;
+      high = row[i] > high ? row[i] : high;
+    }
+  });
+  bool is_whole = low >= -30000 && high <= 30000;
+  if (is_whole)
+    for_each_row([&](const float* row, std::int16_t* to) {
+      int broken = 0;
+      for (int i = 0; i < size.x(); ++i) {
+        const int number = static_cast<int>(row[i]);
+        broken |= static_cast<int>(static_cast<float>(number) != row[i]);
+        to[i] = static_cast<std::int16_t>(number);
+      }
+      is_whole = is_whole && broken == 0;
+    });
+  if (is_whole) return grey;
+  grey.zero = 0.5 * (double{low} + double{high});
+  grey.step = std::max((double{high} - double{low}) / 40000.0, 1e-30);  // room for cubic overshoot
+  const double inverse = 1 / grey.step;
+  for_each_row([&](const float* row, std::int16_t* to) {
+    for (int i = 0; i < size.x(); ++i)
+      to[i] = rounded(static_cast<float>((double{row[i]} - grey.zero) * inverse));
+  });
+  return grey;
+}
+
+double measure_noise(const io::Scan& scan, const math::Ijk& from, const math::Ijk& size,
+                     double iso) {
+  if (size.minCoeff() < 3) return 0;
+  // about a million samples, evenly spread
+  const double all = static_cast<double>(count(size));
+  const int step = std::max(1, static_cast<int>(std::cbrt(all / 1.0e6)));
+  std::vector<float> inside, around;
+  float low = std::numeric_limits<float>::infinity();
+  for (int k = 1; k + 1 < size.z(); k += step)
+    for (int j = 1; j + 1 < size.y(); j += step) {
+      const float* row = row_of(scan, from.x(), from.y() + j, from.z() + k);
+      for (int i = 1; i + 1 < size.x(); i += step) low = std::min(low, row[i]);
+    }
+  const float level = static_cast<float>(iso);
+  // air itself is often clipped and says nothing: "around" begins a third of the way up to the iso
+  const float floor_value = low + (level - low) * 0.35F;
+  for (int k = 1; k + 1 < size.z(); k += step)
+    for (int j = 1; j + 1 < size.y(); j += step) {
+      const float* row = row_of(scan, from.x(), from.y() + j, from.z() + k);
+      const float* up = row_of(scan, from.x(), from.y() + j - 1, from.z() + k);
+      const float* down = row_of(scan, from.x(), from.y() + j + 1, from.z() + k);
+      const float* front = row_of(scan, from.x(), from.y() + j, from.z() + k - 1);
+      const float* back = row_of(scan, from.x(), from.y() + j, from.z() + k + 1);
+      for (int i = 1; i + 1 < size.x(); i += step) {
+        const float near[6] = {row[i - 1], row[i + 1], up[i], down[i], front[i], back[i]};
+        const auto [least, most] = std::minmax_element(near, near + 6);
+        const float mean = (near[0] + near[1] + near[2] + near[3] + near[4] + near[5]) / 6;
+        const float differs = std::abs(row[i] - mean);
+        if (*least >= level && row[i] >= level) {
+          inside.push_back(differs);
+        } else if (*most < level && row[i]<level&& * least> floor_value) {
+          around.push_back(differs);
+        }
+      }
+    }
+  // the lower quartile is hardly moved by edges and texture; 0.3186 sigma for a normal
+  // distribution, and a difference to the mean of six has 7/6 of the variance
+  const auto sigma = [](std::vector<float>& found) {
+    if (found.size() < 500) return std::numeric_limits<double>::infinity();
+    const auto quarter = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 4);
+    std::nth_element(found.begin(), quarter, found.end());
+    return double{*quarter} / 0.3186 * std::sqrt(6.0 / 7.0);
+  };
+  const double noise = std::min(sigma(inside), sigma(around));
+  return std::isfinite(noise) ? noise : 0.0;
+}
+
+double otsu(const io::Scan& scan, const math::Ijk& from, const math::Ijk& size) {
+  constexpr std::size_t kBins = 1024;
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  for (int k = 0; k < size.z(); ++k)
+    for (int j = 0; j < size.y(); ++j) {
+      const float* row = row_of(scan, from.x(), from.y() + j, from.z() + k);
+      const auto [least, most] = std::minmax_element(row, row + size.x());
+      low = std::min(low, *least);
+      high = std::max(high, *most);
+    }
+  if (!(high > low)) return double{low};
+  std::vector<double> bins(kBins);
+  const double scale = static_cast<double>(kBins - 1) / (double{high} - double{low});
+  for (int k = 0; k < size.z(); ++k)
+    for (int j = 0; j < size.y(); ++j) {
+      const float* row = row_of(scan, from.x(), from.y() + j, from.z() + k);
+      for (int i = 0; i < size.x(); ++i)
+        bins[static_cast<std::size_t>((double{row[i]} - double{low}) * scale + 0.5)] += 1;
+    }
+  double total = 0, sum = 0;
+  for (std::size_t b = 0; b < kBins; ++b) {
+    total += bins[b];
+    sum += bins[b] * static_cast<double>(b);
+  }
+  // between classes the best split is often a plateau: its middle
+  double below = 0, sum_below = 0, best = -1, first = 0, last = 0;
+  for (std::size_t b = 0; b + 1 < kBins; ++b) {
+    below += bins[b];
+    sum_below += bins[b] * static_cast<double>(b);
+    const double above = total - below;
+    if (below == 0 || above == 0) continue;
+    const double apart = sum_below / below - (sum - sum_below) / above;
+    const double between = below * above * apart * apart;
+    if (between > best * (1 + 1e-12)) {
+      best = between;
+      first = last = static_cast<double>(b);
+    } else if (between >= best * (1 - 1e-12)) {
+      last = static_cast<double>(b);
+    }
+  }
+  return double{low} + (0.5 * (first + last) + 0.5) / scale;
+}
+
+bool smooth_near(Grey& grey, double iso_stored, double noise_stored, const math::Vec3& spacing_mm,
+                 Progress& progress) {
+  constexpr int kReach = 2;
+  const int nx = grey.size.x(), ny = grey.size.y(), nz = grey.size.z();
+  if (grey.size.minCoeff() <= 2 * kReach) return true;
+  const double finest = spacing_mm.minCoeff();
+
+  struct Offset {
+    std::ptrdiff_t move;
+    float weight, x, y, z;  // place in finest spacings
+  };
+  std::vector<Offset> offsets;
+  for (int dz = -kReach; dz <= kReach; ++dz)
+    for (int dy = -kReach; dy <= kReach; ++dy)
+      for (int dx = -kReach; dx <= kReach; ++dx) {
+        const math::Vec3 d = math::Vec3(dx, dy, dz).cwiseProduct(spacing_mm) / finest;
+        const double weight = std::exp(-d.squaredNorm() / (2 * 1.3 * 1.3));
+        if (weight < 0.01) continue;
+        offsets.push_back({dx + std::ptrdiff_t{nx} * (dy + std::ptrdiff_t{ny} * dz),
+                           static_cast<float>(weight), static_cast<float>(d.x()),
+                           static_cast<float>(d.y()), static_cast<float>(d.z())});
+      }
+  const float iso = static_cast<float>(iso_stored);
+  const float range = static_cast<float>(1.0 / (3.0 * 3.0 * noise_stored * noise_stored));
+  const std::ptrdiff_t sx = 1, sy = nx, sz = std::ptrdiff_t{nx} * ny;
+  const std::vector<std::int16_t> source = grey.voxels;
+  float moment_x = 0, moment_y = 0, moment_z = 0;
+  for (const Offset& o : offsets) {
+    moment_x += o.weight * o.x * o.x;
+    moment_y += o.weight * o.y * o.y;
+    moment_z += o.weight * o.z * o.z;
+  }
+
+  return io::in_pieces(nz, progress, "smoothing", [&](int k) {
+    if (k < kReach || k >= nz - kReach) return;
+    for (int j = kReach; j < ny - kReach; ++j) {
+      const std::ptrdiff_t row = sy * j + sz * k;
+      for (int i0 = kReach; i0 + 8 <= nx - kReach || i0 < nx - kReach; i0 += 8) {
+        const int lanes = std::min(8, nx - kReach - i0);
+        const std::int16_t* at = source.data() + row + i0;
+        // is a surface within two voxels of any of these?
+        bool near = false;
+        for (int l = 0; l < lanes && !near; ++l) {
+          const bool in = static_cast<float>(at[l]) >= iso;
+          for (const std::ptrdiff_t s : {sx, sy, sz})
+            near = near || (static_cast<float>(at[l + s]) >= iso) != in ||
+                   (static_cast<float>(at[l - s]) >= iso) != in ||
+                   (static_cast<float>(at[l + 2 * s]) >= iso) != in ||
+                   (static_cast<float>(at[l - 2 * s]) >= iso) != in;
+        }
+        if (!near) continue;
+        // the slope of the values around, by least squares over all of them
+        float gx[8] = {}, gy[8] = {}, gz[8] = {}, own[8] = {};
+        for (int l = 0; l < lanes; ++l) own[l] = static_cast<float>(at[l]);
+        for (const Offset& o : offsets)
+          for (int l = 0; l < lanes; ++l) {
+            const float value = o.weight * static_cast<float>(at[l + o.move]);
+            gx[l] += o.x * value;
+            gy[l] += o.y * value;
+            gz[l] += o.z * value;
+          }
+        float slope[8] = {};
+        for (int l = 0; l < lanes; ++l) {
+          gx[l] /= moment_x;
+          gy[l] /= moment_y;
+          gz[l] /= moment_z;
+          slope[l] = std::sqrt(gx[l] * gx[l] + gy[l] * gy[l] + gz[l] * gz[l]) + 1e-12F;
+          gx[l] /= slope[l];
+          gy[l] /= slope[l];
+          gz[l] /= slope[l];
+        }
+        // the mean along the surface, each value brought to this depth by the slope
+        float sum[8] = {}, weights[8] = {};
+        for (const Offset& o : offsets)
+          for (int l = 0; l < lanes; ++l) {
+            const float across = gx[l] * o.x + gy[l] * o.y + gz[l] * o.z;
+            const float value = static_cast<float>(at[l + o.move]) - slope[l] * across;
+            const float d = value - own[l];
+            const float falls = (1.0F + d * d * range) * (1.0F + 3.0F * across * across);
+            const float w = o.weight / (falls * falls);
+            sum[l] += w * value;
+            weights[l] += w;
+          }
+        for (int l = 0; l < lanes; ++l)
+          grey.voxels[static_cast<std::size_t>(row + i0 + l)] = rounded(sum[l] / weights[l]);
+      }
+    }
+  });
+}
+
+bool resample(Grey& grey, const math::Ijk& to, const math::Vec3& scale, const math::Vec3& first,
+              Progress& progress) {
+  const auto same = [&](int axis) {
+    return std::abs(scale[axis] - 1) < 1e-9 && std::abs(first[axis]) < 1e-9 &&
+           to[axis] == grey.size[axis];
+  };
+  for (const int axis : {0, 1, 2}) {
+    if (same(axis)) continue;
+    const math::Ijk old = grey.size;
+    math::Ijk fresh = old;
+    fresh[axis] = to[axis];
+    const std::vector<Taps> all = taps(old[axis], to[axis], scale[axis], first[axis]);
+    std::vector<std::int16_t> out(count(fresh));
+    const auto nx = static_cast<std::size_t>(old.x()), ny = static_cast<std::size_t>(old.y());
+    const auto fx = static_cast<std::size_t>(fresh.x()), fy = static_cast<std::size_t>(fresh.y());
+    const bool done = io::in_pieces(fresh.z(), progress, "making voxels cubic", [&](int z) {
+      const auto k = static_cast<std::size_t>(z);
+      std::vector<float> work(nx);
+      std::vector<const std::int16_t*> rows;
+      for (std::size_t j = 0; j < fy; ++j) {
+        std::int16_t* target = out.data() + fx * (j + fy * k);
+        if (axis == 0) {
+          const std::int16_t* row = grey.voxels.data() + nx * (j + ny * k);
+          for (std::size_t i = 0; i < fx; ++i) {
+            const Taps& tap = all[i];
+            float sum = 0;
+            for (std::size_t t = 0; t < tap.weights.size(); ++t)
+              sum +=
+                  tap.weights[t] * static_cast<float>(row[static_cast<std::size_t>(tap.first) + t]);
+            target[i] = rounded(sum);
+          }
+          continue;
+        }
+        const Taps& tap = all[axis == 1 ? j : k];
+        rows.clear();
+        for (std::size_t t = 0; t < tap.weights.size(); ++t) {
+          const std::size_t line = static_cast<std::size_t>(tap.first) + t;
+          rows.push_back(grey.voxels.data() +
+                         (axis == 1 ? nx * (line + ny * k) : nx * (j + ny * line)));
+        }
+        sum_rows(rows.data(), tap.weights.data(), rows.size(), nx, work, target);
+      }
+    });
+    if (!done) return false;
+    grey.voxels = std::move(out);
+    grey.size = fresh;
+  }
+  return true;
+}
+
+}  // namespace burr::importing

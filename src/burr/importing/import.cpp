@@ -1,0 +1,477 @@
+#include "burr/importing/import.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include "burr/importing/grey.h"
+#include "burr/importing/keep_greys.h"
+#include "burr/importing/materials.h"
+#include "burr/importing/surface_field.h"
+#include "burr/importing/tissues.h"
+#include "burr/io/workers.h"
+#include "burr/volume/volume_of.h"
+
+namespace burr::importing {
+namespace {
+
+using math::Ijk;
+using math::Vec3;
+
+// Between the soft tissues (up to about 100 HU, 200 with contrast medium) and thin or porous bone:
+// half-way from muscle (50) to the 550 HU that a one-voxel lamella still shows.
+constexpr double kBoneHu = 300;
+
+struct Plan {
+  ImportSummary summary;
+  LabelTissues labels;
+  volume::TissueTable grey_tissues;
+  std::array<std::int64_t, 256> counts{};
+  Vec3 scale = Vec3::Ones();  // new voxels in old ones
+  Vec3 first = Vec3::Zero();  // centre of the first new voxel, in old voxels of the region
+};
+
+std::size_t product(const Ijk& n) {
+  return static_cast<std::size_t>(n.x()) * static_cast<std::size_t>(n.y()) *
+         static_cast<std::size_t>(n.z());
+}
+
+Status set_region(const io::Scan& scan, const ImportOptions& options, ImportSummary& out) {
+  out.roi_from = {0, 0, 0};
+  out.roi_size = scan.size;
+  if (!options.roi) return fine();
+  const std::array<std::array<int, 2>, 3> box = {options.roi->i, options.roi->j, options.roi->k};
+  constexpr const char* kAxes = "ijk";
+  for (int a = 0; a < 3; ++a) {
+    const auto& range = box[static_cast<std::size_t>(a)];
+    if (range[0] < 0 || range[1] >= scan.size[a] || range[0] > range[1])
+      return error(Trouble::usage, fmt::format("--roi: {} {}..{} does not lie in 0..{}", kAxes[a],
+                                               range[0], range[1], scan.size[a] - 1));
+    out.roi_from[a] = range[0];
+    out.roi_size[a] = range[1] - range[0] + 1;
+  }
+  if (scan.k_reversed) out.roi_from.z() = scan.size.z() - 1 - box[2][1];
+  return fine();
+}
+
+// Cubic voxels: the finest axis, or what was asked, or coarser where memory asks for it.
+Status set_voxels(const io::Scan& scan, const ImportOptions& options, Plan& plan) {
+  ImportSummary& out = plan.summary;
+  const Vec3 spacing = scan.spacing_mm;
+  const bool labels = out.labels;
+  double voxel = spacing.minCoeff();
+  const auto size_at = [&](double edge) {
+    Ijk size;
+    for (int a = 0; a < 3; ++a)
+      size[a] = static_cast<int>(std::floor((out.roi_size[a] - 1) * spacing[a] / edge + 1e-6)) + 1;
+    return size;
+  };
+  const auto memory_mb = [&](double edge) {
+    double voxels = 1;
+    for (int a = 0; a < 3; ++a)
+      voxels *= std::floor((out.roi_size[a] - 1) * spacing[a] / edge + 1e-6) + 1;
+    // work: 2 bytes a voxel twice (grey), then 3 or 5 bytes where bone is, taken for two thirds
+    const double each = labels ? 2 + 2.0 : 4 + 3.4;
+    return voxels * each / 1048576.0 +
+           static_cast<double>(options.reserve_bricks) * 2560 / 1048576.0;
+  };
+  if (options.voxel_mm != 0) {
+    if (!(options.voxel_mm >= 0.005 && options.voxel_mm <= 20))
+      return error(Trouble::usage,
+                   fmt::format("--voxel-mm: {} is not between 0.005 and 20", options.voxel_mm));
+    voxel = options.voxel_mm;
+    // nearly cubic and wanted as it is: an axis off by less than a third of a voxel in all stays
+  } else {
+    const double finest = voxel;
+    while (memory_mb(voxel) > options.memory_budget_mb) voxel *= 1.02;
+    if (voxel > finest)
+      out.notices.push_back(
+          fmt::format("Voxels of {:.3g} mm would take {:.0f} MB, more than the budget of {:.0f} "
+                      "MB: {:.3g} mm was taken; "
+                      "crop with --roi or give --voxel-mm.",
+                      finest, memory_mb(finest), options.memory_budget_mb, voxel));
+  }
+  double voxels = 1;
+  for (int a = 0; a < 3; ++a)
+    voxels *= std::floor((out.roi_size[a] - 1) * spacing[a] / voxel + 1e-6) + 1;
+  if (voxels > 1.6e9)
+    return error(Trouble::usage,
+                 fmt::format("voxels of {:.3g} mm make {:.1f} thousand million of them; use a "
+                             "larger --voxel-mm or a smaller --roi",
+                             voxel, voxels / 1e9));
+
+  // a grid that is cubic but for rounding in its header is not resampled
+  const double mean = spacing.mean();
+  bool nearly = options.voxel_mm == 0 || std::abs(options.voxel_mm - mean) < 0.002 * mean;
+  for (int a = 0; a < 3; ++a)
+    nearly = nearly && std::abs(spacing[a] - mean) / mean * out.roi_size[a] < 0.6;
+  if (nearly && voxel < 1.002 * mean) {
+    out.voxel_mm = mean;
+    out.size = out.roi_size;
+    plan.scale = Vec3::Ones();
+    plan.first = Vec3::Zero();
+    if ((spacing.array() - mean).abs().maxCoeff() / mean > 1e-4)
+      out.notices.push_back(fmt::format("The voxels are cubic within {:.1g}: taken for {:.6g} mm.",
+                                        (spacing.array() - mean).abs().maxCoeff() / mean, mean));
+  } else {
+    out.voxel_mm = voxel;
+    out.size = size_at(voxel);
+    for (int a = 0; a < 3; ++a) {
+      plan.scale[a] = voxel / spacing[a];
+      if (std::abs(plan.scale[a] - 1) < 1e-9) plan.scale[a] = 1;
+      // the rest is shared by both ends
+      plan.first[a] = plan.scale[a] == 1
+                          ? 0
+                          : 0.5 * ((out.roi_size[a] - 1) - (out.size[a] - 1) * plan.scale[a]);
+    }
+  }
+  out.memory_mb = memory_mb(out.voxel_mm);
+  return fine();
+}
+
+std::array<std::int64_t, 256> count_labels(const io::Scan& scan, const ImportSummary& out) {
+  std::array<std::int64_t, 256> counts{};
+  for (int k = 0; k < out.roi_size.z(); ++k)
+    for (int j = 0; j < out.roi_size.y(); ++j) {
+      const std::size_t row = static_cast<std::size_t>(out.roi_from.x()) +
+                              static_cast<std::size_t>(scan.size.x()) *
+                                  (static_cast<std::size_t>(out.roi_from.y() + j) +
+                                   static_cast<std::size_t>(scan.size.y()) *
+                                       static_cast<std::size_t>(out.roi_from.z() + k));
+      for (std::size_t i = 0; i < static_cast<std::size_t>(out.roi_size.x()); ++i)
+        ++counts[scan.labels[row + i]];
+    }
+  return counts;
+}
+
+Result<Materials> materials_of(const ImportOptions& options) {
+  if (options.materials.empty()) return built_in_materials();
+  return read_materials(options.materials);
+}
+
+Result<Plan> make_plan(const io::Scan& scan, const ImportOptions& options) {
+  if (scan.values.empty() == scan.labels.empty() ||
+      std::max(scan.values.size(), scan.labels.size()) != product(scan.size))
+    return error(Trouble::internal, "a scan needs values or labels, one for each voxel");
+  const auto given = materials_of(options);
+  if (!given) return given.error();
+  const Materials& materials = *given;
+  Plan plan;
+  ImportSummary& out = plan.summary;
+  out.format = scan.format;
+  out.scan_size = scan.size;
+  out.spacing_mm = scan.spacing_mm;
+  out.axes = scan.axes;
+  out.origin_mm = scan.origin_mm;
+  out.labels = scan.values.empty();
+  out.hounsfield = scan.hounsfield;
+  out.notices = scan.notices;
+  if (Status status = set_region(scan, options, out); !status) return status.error();
+  if (out.roi_size.minCoeff() < 2)
+    return error(
+        fmt::format("{} x {} x {} voxels are no volume; give the folder of the whole series",
+                    out.roi_size.x(), out.roi_size.y(), out.roi_size.z()));
+  if (Status status = set_voxels(scan, options, plan); !status) return status.error();
+
+  if (out.labels) {
+    plan.counts = count_labels(scan, out);
+    std::array<bool, 256> present{};
+    for (std::size_t v = 1; v < 256; ++v) present[v] = plan.counts[v] > 0;
+    auto labels = label_tissues(scan, present, options.tissue_table, materials);
+    if (!labels) return labels.error();
+    plan.labels = std::move(*labels);
+    out.notices.insert(out.notices.end(), plan.labels.notices.begin(), plan.labels.notices.end());
+    const double each = scan.spacing_mm.prod();
+    bool any_solid = false;
+    for (std::size_t v = 1; v < 256; ++v) {
+      const volume::TissueId id = plan.labels.of_label[v];
+      if (id == 0) continue;
+      const volume::Tissue& tissue = plan.labels.table[id];
+      any_solid = any_solid || tissue.kind == volume::TissueKind::solid;
+      out.tissues.push_back(
+          {id, tissue, plan.counts[v], static_cast<double>(plan.counts[v]) * each});
+    }
+    if (!any_solid)
+      return error(
+          "no label is solid: there is nothing to mill; name the solid ones with --tissues");
+    return plan;
+  }
+
+  if (!options.tissue_table.empty())
+    out.notices.emplace_back(
+        "--tissues speaks of labels; this scan has grey values, the table was left out.");
+  out.low = std::numeric_limits<float>::infinity();
+  out.high = -out.low;
+  for (int k = 0; k < out.roi_size.z(); ++k)
+    for (int j = 0; j < out.roi_size.y(); ++j) {
+      const auto row =
+          scan.values.begin() +
+          static_cast<std::ptrdiff_t>(static_cast<std::size_t>(out.roi_from.x()) +
+                                      static_cast<std::size_t>(scan.size.x()) *
+                                          (static_cast<std::size_t>(out.roi_from.y() + j) +
+                                           static_cast<std::size_t>(scan.size.y()) *
+                                               static_cast<std::size_t>(out.roi_from.z() + k)));
+      float low = *row, high = low;
+      for (int i = 0; i < out.roi_size.x(); ++i) {
+        low = row[i] < low ? row[i] : low;
+        high = row[i] > high ? row[i] : high;
+      }
+      out.low = std::min(out.low, low);
+      out.high = std::max(out.high, high);
+    }
+  if (options.iso) {
+    out.iso = *options.iso;
+  } else if (scan.hounsfield && kBoneHu < double{out.high}) {
+    out.iso = kBoneHu;
+  } else {
+    out.iso = otsu(scan, out.roi_from, out.roi_size);
+    out.iso_by_otsu = true;
+    out.notices.push_back(scan.hounsfield
+                              ? fmt::format("No voxel reaches {:.0f} HU: the surface level {:.4g} "
+                                            "is Otsu's threshold; see --iso.",
+                                            kBoneHu, out.iso)
+                              : fmt::format("The values are not HU: the surface level {:.4g} is "
+                                            "Otsu's threshold between dark and "
+                                            "bright; see --iso.",
+                                            out.iso));
+  }
+  if (!(out.iso > double{out.low} && out.iso <= double{out.high}))
+    return error(fmt::format(
+        "the surface level {:.4g} does not lie between the values {:.4g} and {:.4g}: there is "
+        "no bone; choose another with --iso",
+        out.iso, out.low, out.high));
+  if (options.smooth >= 0) {
+    out.smooth = options.smooth;
+  } else {
+    const double noise = measure_noise(scan, out.roi_from, out.roi_size, out.iso);
+    // under half a percent of the step from air to bone the hand feels none of it; more than a
+    // tenth is structure
+    const double step = 2 * (out.iso - double{out.low});
+    out.smooth = noise < 0.003 * step ? 0.0 : std::min(noise, 0.1 * step);
+    if (out.smooth > 0)
+      out.notices.push_back(
+          fmt::format("Noise of {:.3g} {} is smoothed along the surface; see --smooth.", out.smooth,
+                      scan.hounsfield ? "HU" : "(the file's unit)"));
+  }
+  if (scan.hounsfield) plan.grey_tissues = hu_tissues(materials);
+  auto& tissues = plan.grey_tissues.tissues;
+  if (!scan.hounsfield) materials.lay_over(tissues[1]);
+  for (std::size_t id = 1; id < tissues.size(); ++id)
+    out.tissues.push_back({static_cast<volume::TissueId>(id), tissues[id], 0, 0});
+  return plan;
+}
+
+volume::Grid grid_of(const io::Scan& scan, const Plan& plan) {
+  const ImportSummary& out = plan.summary;
+  volume::Grid grid;
+  grid.size = out.size;
+  grid.voxel = out.voxel_mm * 1e-3;
+  // the middle of the region stays where it is
+  const Vec3 middle_old =
+      out.roi_from.cast<double>() + 0.5 * (out.roi_size - Ijk::Ones()).cast<double>();
+  const Vec3 middle_mm = scan.origin_mm + scan.axes * middle_old.cwiseProduct(scan.spacing_mm);
+  const Vec3 half_mm = 0.5 * (out.size - Ijk::Ones()).cast<double>() * out.voxel_mm;
+  grid.frame.q = math::Quat(Eigen::Quaterniond(scan.axes).normalized());
+  grid.frame.p = 1e-3 * (middle_mm - scan.axes * half_mm);
+  return grid;
+}
+
+// Labels on the cubic grid: how much of each new voxel is solid, and whose it is.
+struct CubicLabels {
+  std::vector<std::uint8_t> labels, share;
+};
+
+bool resample_labels(const io::Scan& scan, const Plan& plan, const std::array<bool, 256>& solid,
+                     CubicLabels& out, Progress& progress) {
+  const ImportSummary& s = plan.summary;
+  const std::size_t nx = static_cast<std::size_t>(s.size.x()),
+                    ny = static_cast<std::size_t>(s.size.y());
+  out.labels.resize(product(s.size));
+  const bool same = plan.scale.isOnes(0);
+  if (!same) out.share.resize(product(s.size));
+  struct Taps {
+    int first = 0;
+    std::vector<float> weights;
+  };
+  // tents: linear between voxels, wider where the new grid is coarser
+  std::array<std::vector<Taps>, 3> taps;
+  for (int a = 0; a < 3; ++a) {
+    const double wide = std::max(1.0, plan.scale[a]);
+    for (int n = 0; n < s.size[a]; ++n) {
+      const double at = plan.first[a] + n * plan.scale[a];
+      const int lo = std::clamp(static_cast<int>(std::floor(at - wide)) + 1, 0, s.roi_size[a] - 1),
+                hi = std::clamp(static_cast<int>(std::ceil(at + wide)) - 1, lo, s.roi_size[a] - 1);
+      Taps tap{lo, {}};
+      double total = 0;
+      for (int v = lo; v <= hi; ++v) total += std::max(0.0, 1 - std::abs(v - at) / wide);
+      for (int v = lo; v <= hi; ++v)
+        tap.weights.push_back(static_cast<float>(
+            total > 0 ? std::max(0.0, 1 - std::abs(v - at) / wide) / total : 1.0));
+      taps[static_cast<std::size_t>(a)].push_back(std::move(tap));
+    }
+  }
+  return io::in_pieces(s.size.z(), progress, "making voxels cubic", [&](int z) {
+    const auto k = static_cast<std::size_t>(z);
+    std::array<float, 256> weight{};
+    for (std::size_t j = 0; j < ny; ++j)
+      for (std::size_t i = 0; i < nx; ++i) {
+        const Taps &tx = taps[0][i], &ty = taps[1][j], &tz = taps[2][k];
+        std::array<std::uint8_t, 64> met{};
+        std::size_t different = 0;
+        float bone = 0;
+        for (std::size_t c = 0; c < tz.weights.size(); ++c)
+          for (std::size_t b = 0; b < ty.weights.size(); ++b) {
+            const float w_row = tz.weights[c] * ty.weights[b];
+            const std::uint8_t* row =
+                scan.labels.data() + static_cast<std::size_t>(s.roi_from.x() + tx.first) +
+                static_cast<std::size_t>(scan.size.x()) *
+                    (static_cast<std::size_t>(s.roi_from.y() + ty.first) + b +
+                     static_cast<std::size_t>(scan.size.y()) *
+                         (static_cast<std::size_t>(s.roi_from.z() + tz.first) + c));
+            for (std::size_t a = 0; a < tx.weights.size(); ++a) {
+              const std::uint8_t label = row[a];
+              const float w = w_row * tx.weights[a];
+              if (w == 0) continue;
+              if (weight[label] == 0 && different < met.size()) met[different++] = label;
+              weight[label] += w;
+              if (solid[label]) bone += w;
+            }
+          }
+        const std::size_t v = i + nx * (j + ny * k);
+        const bool is_solid = bone >= 0.5F;
+        float most = -1;
+        for (std::size_t d = 0; d < different; ++d) {
+          const std::uint8_t label = met[d];
+          if (solid[label] == is_solid &&
+              (weight[label] > most || (weight[label] == most && label > out.labels[v]))) {
+            most = weight[label];
+            out.labels[v] = label;
+          }
+        }
+        for (std::size_t d = 0; d < different; ++d) weight[met[d]] = 0;
+        if (!same)
+          out.share[v] = static_cast<std::uint8_t>(
+              std::clamp(std::lround(bone * 255.0F), is_solid ? 128L : 0L, is_solid ? 255L : 127L));
+      }
+  });
+}
+
+Result<Imported> import_labels(const io::Scan& scan, const ImportOptions& options, Plan plan,
+                               Progress& progress) {
+  InsideGrid inside;
+  inside.size = plan.summary.size;
+  inside.tissue = plan.labels.of_label;
+  std::vector<double> wanted(plan.labels.table.tissues.size(), -1.0);
+  const double old_voxel = scan.spacing_mm.prod(), new_voxel = std::pow(plan.summary.voxel_mm, 3);
+  for (std::size_t v = 1; v < 256; ++v) {
+    const volume::TissueId id = plan.labels.of_label[v];
+    inside.solid[v] = id != 0 && plan.labels.table[id].kind == volume::TissueKind::solid;
+    if (inside.solid[v]) wanted[id] = static_cast<double>(plan.counts[v]) * old_voxel / new_voxel;
+  }
+  // the whole scan on its own grid is read in place
+  CubicLabels cubic;
+  const bool in_place = plan.scale.isOnes(0) && plan.summary.roi_size == scan.size;
+  if (!in_place) {
+    if (!resample_labels(scan, plan, inside.solid, cubic, progress))
+      return error(Trouble::interrupted, "the import was stopped");
+    inside.labels = cubic.labels.data();
+    inside.share = cubic.share.empty() ? nullptr : cubic.share.data();
+  } else {
+    inside.labels = scan.labels.data();
+    // a nearly cubic grid is taken for cubic: the voxels count, not their rounding
+    for (double& voxels : wanted) voxels *= new_voxel / old_voxel;
+  }
+  Imported made;
+  made.bone = bone_from_inside(grid_of(scan, plan), std::move(plan.labels.table), inside, {},
+                               options.reserve_bricks, progress);
+  if (made.bone == nullptr) return error(Trouble::interrupted, "the import was stopped");
+  keep_volumes(*made.bone, wanted);
+  made.summary = std::move(plan.summary);
+  return made;
+}
+
+Result<Imported> import_grey(const io::Scan& scan, const ImportOptions& options, Plan plan,
+                             Progress& progress) {
+  ImportSummary& out = plan.summary;
+  Grey grey = take_grey(scan, out.roi_from, out.roi_size);
+  const double iso = grey.stored(out.iso);
+  const auto stopped = [] { return error(Trouble::interrupted, "the import was stopped"); };
+  if (out.smooth > 0 && !smooth_near(grey, iso, out.smooth / grey.step, scan.spacing_mm, progress))
+    return stopped();
+  if (!resample(grey, out.size, plan.scale, plan.first, progress)) return stopped();
+
+  InsideGrid inside;
+  inside.size = out.size;
+  inside.grey = grey.voxels.data();
+  inside.iso = static_cast<float>(iso);
+  // what noise the filter leaves is averaged over neighbouring points of the surface
+  inside.soft = out.smooth > 0 ? 4.0F : 1.0F;
+  const GreyTissue rule{grey.step, grey.zero, scan.hounsfield};
+  Imported made;
+  made.bone = bone_from_inside(grid_of(scan, plan), std::move(plan.grey_tissues), inside, rule,
+                               options.reserve_bricks, progress);
+  if (made.bone == nullptr) return stopped();
+  if (options.keep_greys) {
+    made.greys = keep_greys(scan, out.iso, progress);
+    if (made.greys == nullptr) return stopped();
+  }
+  made.summary = std::move(out);
+  return made;
+}
+
+}  // namespace
+
+Result<ImportSummary> plan_import(const io::Scan& scan, const ImportOptions& options) {
+  auto plan = make_plan(scan, options);
+  if (!plan) return plan.error();
+  return std::move(plan->summary);
+}
+
+Result<std::vector<TissueFound>> labels_of(const io::Scan& scan, const ImportOptions& options) {
+  std::vector<TissueFound> all;
+  if (scan.labels.empty()) return all;
+  const auto materials = materials_of(options);
+  if (!materials) return materials.error();
+  ImportSummary whole;
+  whole.roi_size = scan.size;
+  const std::array<std::int64_t, 256> counts = count_labels(scan, whole);
+  std::array<bool, 256> present{};
+  for (std::size_t v = 1; v < 256; ++v) present[v] = counts[v] > 0;
+  const auto labels = label_tissues(scan, present, options.tissue_table, *materials);
+  if (!labels) return labels.error();
+  for (std::size_t v = 1; v < 256; ++v)
+    if (const volume::TissueId id = labels->of_label[v]; id != 0)
+      all.push_back({id, labels->table[id], counts[v], 0});
+  for (const volume::Tissue& air : labels->air)
+    all.push_back({0, air, counts[static_cast<std::size_t>(air.label)], 0});
+  for (TissueFound& one : all)
+    one.volume_mm3 = static_cast<double>(one.voxels) * scan.spacing_mm.prod();
+  std::sort(all.begin(), all.end(), [](const TissueFound& a, const TissueFound& b) {
+    return a.tissue.label < b.tissue.label;
+  });
+  return all;
+}
+
+Result<Imported> import_bone(const io::Scan& scan, const ImportOptions& options,
+                             Progress& progress) {
+  try {
+    auto plan = make_plan(scan, options);
+    if (!plan) return plan.error();
+    auto made = plan->summary.labels ? import_labels(scan, options, std::move(*plan), progress)
+                                     : import_grey(scan, options, std::move(*plan), progress);
+    if (!made) return made;
+    const volume::Bone& bone = *made->bone;
+    made->summary.solid_mm3 = volume::volume_of(bone) * 1e9;
+    made->summary.memory_mb = static_cast<double>(bone.memory_bytes()) / 1048576.0;
+    if (made->summary.solid_mm3 <= 0)
+      return error("no bone is left at this surface level; choose another with --iso");
+    return made;
+  } catch (const std::bad_alloc&) {
+    return error("not enough memory for the bone; use a larger --voxel-mm or a smaller --roi");
+  }
+}
+
+}  // namespace burr::importing

@@ -1,0 +1,2 @@
+#define BURR_KERNEL scalar
+#include "burr/importing/planes_kernel.inc"

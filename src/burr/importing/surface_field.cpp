@@ -1,0 +1,554 @@
+#include "burr/importing/surface_field.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "burr/importing/planes_kernel.h"
+#include "burr/importing/tissues.h"
+#include "burr/io/workers.h"
+#include "burr/rt/lanes.h"
+#include "burr/rt/simd.h"
+#include "burr/volume/volume_of.h"
+
+namespace burr::importing {
+namespace {
+
+using volume::Bone;
+using volume::BrickIndex;
+using volume::Field;
+using volume::kBrickEdge;
+using volume::TissueId;
+
+// The neighbourhood of one brick that is looked at: 6 voxels on every side; of those 2 feed the
+// blur, 1 the gradient, and 3 may hold points that reach into the brick.
+constexpr int kHalo = 6, kBlock = kBrickEdge + 2 * kHalo, kPlane = kBlock * kBlock,
+              kBlockVoxels = kPlane * kBlock;
+constexpr int kNoBlur = 2;  // grey is not blurred, so so much of the block's border is not needed
+constexpr float kReach = 3.0F;  // a point speaks to voxels this near [voxel]
+
+constexpr int at(int x, int y, int z) { return x + kBlock * (y + kBlock * z); }
+
+// Everything one worker needs; made once, used for thousands of bricks.
+struct Desk {
+  std::array<float, kBlockVoxels> level;   // >= 0 inside, with the crossing by linear interpolation
+  std::array<float, kBlockVoxels> smooth;  // what gradients are taken of, in label maps
+  std::array<float, kBlockVoxels> work;
+  std::array<std::uint8_t, kBlockVoxels> labels;
+  // bit x: voxel x of the row is inside; [z][y]
+  std::array<std::array<std::uint32_t, kBlock>, kBlock> inside;
+  std::vector<SurfacePoint> points;
+  std::vector<std::uint64_t> rows;  // that each point speaks to
+  // the points that speak to each row of the brick: which[starts[row]] and on
+  std::array<std::uint32_t, kBrickEdge * kBrickEdge + 1> starts;
+  std::vector<std::uint16_t> which;
+  PlaneSums sums;
+  Facing facing;
+  std::array<Field, volume::kBrickVoxels> field;  // the brick being made
+  std::array<TissueId, volume::kBrickVoxels> tissue;
+};
+
+// Bit x: number x of a row of the block is not below 0.
+std::uint32_t not_below_zero(const float* row) {
+  static_assert(kBlock >= 16 && kBlock <= 32);
+  rt::lanes::Floats low, high;
+  rt::lanes::load(row, low);
+  rt::lanes::load(row + kBlock - 16, high);
+  return rt::lanes::bits_of(low >= 0.0F) | rt::lanes::bits_of(high >= 0.0F) << (kBlock - 16);
+}
+
+// Reads the block around a brick, but for its outermost `skip` voxels; beyond the border of the
+// grid the last voxels go on. Returns: does it hold inside, outside voxels?
+void fetch(const InsideGrid& grid, const math::Ijk& first, int skip, Desk& desk, bool& any_inside,
+           bool& any_outside) {
+  const auto nx = static_cast<std::size_t>(grid.size.x()),
+             ny = static_cast<std::size_t>(grid.size.y());
+  std::array<std::int16_t, kBlock> grey{};
+  const bool whole = first.x() >= kHalo && first.x() - kHalo + kBlock <= grid.size.x();
+  std::array<std::size_t, kBlock> xs{};
+  for (int x = 0; x < kBlock; ++x)
+    xs[static_cast<std::size_t>(x)] =
+        static_cast<std::size_t>(std::clamp(first.x() + x - kHalo, 0, grid.size.x() - 1));
+  const std::uint32_t needed = ((1U << (kBlock - 2 * skip)) - 1U) << skip;
+  any_inside = any_outside = false;
+  for (int z = skip; z < kBlock - skip; ++z) {
+    const auto k =
+        static_cast<std::size_t>(std::clamp(first.z() + z - kHalo, 0, grid.size.z() - 1));
+    for (int y = skip; y < kBlock - skip; ++y) {
+      const auto j =
+          static_cast<std::size_t>(std::clamp(first.y() + y - kHalo, 0, grid.size.y() - 1));
+      const std::size_t row = nx * (j + ny * k);
+      float* level = &desk.level[static_cast<std::size_t>(at(0, y, z))];
+      std::uint8_t* label = &desk.labels[static_cast<std::size_t>(at(0, y, z))];
+      if (grid.grey != nullptr) {
+        const std::int16_t* from = grey.data();
+        if (whole)
+          from = grid.grey + row + xs[0];
+        else
+          for (std::size_t x = 0; x < kBlock; ++x) grey[x] = grid.grey[row + xs[x]];
+        for (int x = 0; x < kBlock; ++x) level[x] = static_cast<float>(from[x]) - grid.iso;
+      } else {
+        for (std::size_t x = 0; x < kBlock; ++x) {
+          const std::size_t v = row + xs[x];
+          label[x] = grid.labels[v];
+          level[x] = grid.share != nullptr        ? static_cast<float>(grid.share[v]) - 127.5F
+                     : grid.solid[grid.labels[v]] ? 127.5F
+                                                  : -127.5F;
+        }
+      }
+      const std::uint32_t in = not_below_zero(level) & needed;
+      desk.inside[static_cast<std::size_t>(z)][static_cast<std::size_t>(y)] = in;
+      any_inside = any_inside || in != 0;
+      any_outside = any_outside || in != needed;
+    }
+  }
+}
+
+// [1 4 6 4 1] / 16 along all axes
+void blur(Desk& desk) {
+  desk.smooth = desk.level;
+  for (const int stride : {1, kBlock, kPlane}) {
+    desk.work = desk.smooth;
+    const float* from = desk.work.data();
+    float* to = desk.smooth.data();
+    for (int v = 2 * stride; v < kBlockVoxels - 2 * stride; ++v)
+      to[v] = 0.375F * from[v] + 0.25F * (from[v - stride] + from[v + stride]) +
+              0.0625F * (from[v - 2 * stride] + from[v + 2 * stride]);
+  }
+}
+
+// The points of the surface on edges of the grid near the brick.
+void find_points(const InsideGrid& grid, const math::Ijk& first, Desk& desk) {
+  desk.points.clear();
+  const bool labels = grid.grey == nullptr;
+  const float* s = labels ? desk.smooth.data() : desk.level.data();
+  const auto add = [&](int x, int y, int z, int axis) {
+    const int stride = axis == 0 ? 1 : axis == 1 ? kBlock : kPlane;
+    const int a = at(x, y, z), b = a + stride;
+    const float la = desk.level[static_cast<std::size_t>(a)],
+                lb = desk.level[static_cast<std::size_t>(b)];
+    float t = la / (la - lb);
+    if (labels) t = std::clamp(t, 0.1F, 0.9F);
+    const auto slope = [&](int step) {
+      return (1 - t) * (s[a + step] - s[a - step]) + t * (s[b + step] - s[b - step]);
+    };
+    float nx = slope(1), ny = slope(kBlock), nz = slope(kPlane);
+    float length = std::sqrt(nx * nx + ny * ny + nz * nz);
+    // a lone voxel has no slope: then the edge itself is the normal
+    const float along = lb > la ? 1.0F : -1.0F;
+    const float own = axis == 0 ? nx : axis == 1 ? ny : nz;
+    if (!(length > 1e-6F) || own * along <= 0) {
+      nx = axis == 0 ? along : 0;
+      ny = axis == 1 ? along : 0;
+      nz = axis == 2 ? along : 0;
+      length = 1;
+    }
+    SurfacePoint p{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z),
+                   nx / length,           ny / length,           nz / length};
+    (axis == 0 ? p.x : axis == 1 ? p.y : p.z) += t;
+    p.x -= kHalo;
+    p.y -= kHalo;
+    p.z -= kHalo;
+    if (p.x >= -kReach && p.x <= kBrickEdge - 1 + kReach) desk.points.push_back(p);
+  };
+  // edges on the far side of the grid's border do not exist
+  constexpr int kFrom = kHalo - 3, kTo = kHalo + kBrickEdge + 2;
+  const math::Ijk last =
+      grid.size - first - math::Ijk::Ones();  // last voxel, counted from the brick
+  const math::Ijk lo(std::max(kFrom, kHalo - first.x()), std::max(kFrom, kHalo - first.y()),
+                     std::max(kFrom, kHalo - first.z()));
+  const math::Ijk hi(std::min(kTo, kHalo + last.x()), std::min(kTo, kHalo + last.y()),
+                     std::min(kTo, kHalo + last.z()));
+  const std::uint32_t here = (2U << hi.x()) - (1U << lo.x()), not_last = here & ~(1U << hi.x());
+  for (int z = lo.z(); z <= hi.z(); ++z)
+    for (int y = lo.y(); y <= hi.y(); ++y) {
+      const auto k = static_cast<std::size_t>(z), j = static_cast<std::size_t>(y);
+      const std::uint32_t in = desk.inside[k][j];
+      const std::uint32_t along_x = (in ^ in >> 1) & not_last,
+                          along_y = y < hi.y() ? (in ^ desk.inside[k][j + 1]) & here : 0,
+                          along_z = z < hi.z() ? (in ^ desk.inside[k + 1][j]) & here : 0;
+      for (std::uint32_t left = along_x | along_y | along_z; left != 0; left &= left - 1) {
+        const int x = std::countr_zero(left);
+        if ((along_x >> x & 1U) != 0) add(x, y, z, 0);
+        if ((along_y >> x & 1U) != 0) add(x, y, z, 1);
+        if ((along_z >> x & 1U) != 0) add(x, y, z, 2);
+      }
+    }
+}
+
+// Which way the material lies, and how surely: 0 in the middle of a thin wall.
+void face(Desk& desk) {
+  for (int z = 0, v = 0; z < kBrickEdge; ++z)
+    for (int y = 0; y < kBrickEdge; ++y)
+      for (int x = 0; x < kBrickEdge; ++x, ++v) {
+        const float* s = desk.smooth.data() + at(x + kHalo, y + kHalo, z + kHalo);
+        const float gx = s[1] - s[-1], gy = s[kBlock] - s[-kBlock], gz = s[kPlane] - s[-kPlane];
+        const float scale = 1.0F / std::max(std::sqrt(gx * gx + gy * gy + gz * gz), 30.0F);
+        desk.facing.x[v] = gx * scale;
+        desk.facing.y[v] = gy * scale;
+        desk.facing.z[v] = gz * scale;
+      }
+}
+
+// The rows of the brick that a point is within kReach of: bit y + 8 z.
+std::uint64_t rows_near(const SurfacePoint& p) {
+  std::uint64_t rows = 0;
+  for (int z = 0; z < kBrickEdge; ++z) {
+    const float dz = static_cast<float>(z) - p.z, left = kReach * kReach - dz * dz;
+    if (left < 0) continue;
+    const float half = std::sqrt(left);
+    const float low = std::max(p.y - half, 0.0F),
+                high = std::min(p.y + half, static_cast<float>(kBrickEdge - 1));
+    if (low > high) continue;
+    const int whole = static_cast<int>(low),
+              from = whole + (static_cast<float>(whole) < low ? 1 : 0);
+    const std::uint32_t row = (2U << static_cast<int>(high)) - (1U << from);  // none if from > high
+    rows |= std::uint64_t{row} << (kBrickEdge * z);
+  }
+  return rows;
+}
+
+// Sums up what the points say to every voxel. The softer, the more points are averaged: noise and
+// staircases ask for it, edges pay for it. by_normal: points that face the other way do not count
+// (thin walls of label maps).
+void measure(float soft, bool by_normal, SumPlanes sum_planes, Desk& desk) {
+  if (by_normal) face(desk);
+  // point after point into the lists of the rows it speaks to
+  desk.rows.clear();
+  for (const SurfacePoint& p : desk.points) desk.rows.push_back(rows_near(p));
+  desk.starts.fill(0);
+  for (const std::uint64_t rows : desk.rows)
+    for (std::uint64_t left = rows; left != 0; left &= left - 1)
+      ++desk.starts[static_cast<std::size_t>(std::countr_zero(left)) + 1];
+  for (std::size_t row = 1; row < desk.starts.size(); ++row)
+    desk.starts[row] += desk.starts[row - 1];
+  desk.which.resize(desk.starts.back());
+  auto next = desk.starts;
+  for (std::size_t n = 0; n < desk.rows.size(); ++n)
+    for (std::uint64_t left = desk.rows[n]; left != 0; left &= left - 1)
+      desk.which[next[static_cast<std::size_t>(std::countr_zero(left))]++] =
+          static_cast<std::uint16_t>(n);
+  for (int z = 0; z < kBrickEdge; ++z)
+    for (int y = 0; y < kBrickEdge; ++y) {
+      const auto row = static_cast<std::size_t>(y + kBrickEdge * z);
+      sum_planes(desk.points.data(), desk.which.data() + desk.starts[row],
+                 static_cast<int>(desk.starts[row + 1] - desk.starts[row]), y, z, soft,
+                 by_normal ? &desk.facing : nullptr, desk.sums);
+    }
+}
+
+// Depth of a voxel from what the points said. The mean distance to tangent planes is too small by
+// l^2 / 2R on a surface of radius R; the distance along the mean normal from the mean point is too
+// large by as much: half of both is right to second order (a chord is square to the mean of the
+// normals at its ends).
+double depth_of(const PlaneSums& sums, std::size_t v) {
+  const double w = 1.0 / double{sums.weights[v]};
+  const double planes = double{sums.depths[v]} * w;
+  const double length =
+      std::sqrt(double{sums.nx[v]} * double{sums.nx[v]} + double{sums.ny[v]} * double{sums.ny[v]} +
+                double{sums.nz[v]} * double{sums.nz[v]});
+  // in the middle of a thin wall the normals cancel and there is no mean one
+  const double sure = length * w;
+  if (sure < 0.6) return planes;
+  const double along =
+      (double{sums.nx[v]} * double{sums.rx[v]} + double{sums.ny[v]} * double{sums.ry[v]} +
+       double{sums.nz[v]} * double{sums.rz[v]}) *
+      w / length;
+  const double share = std::min(1.0, (sure - 0.6) / 0.2);
+  return planes + 0.5 * share * (along - planes);
+}
+
+// Neighbours within 2.5 voxels, the nearest first.
+const std::vector<math::Ijk>& near_offsets() {
+  static const std::vector<math::Ijk> all = [] {
+    std::vector<math::Ijk> found;
+    for (int z = -2; z <= 2; ++z)
+      for (int y = -2; y <= 2; ++y)
+        for (int x = -2; x <= 2; ++x)
+          if (x * x + y * y + z * z > 0 && x * x + y * y + z * z <= 8) found.emplace_back(x, y, z);
+    std::stable_sort(found.begin(), found.end(), [](const math::Ijk& a, const math::Ijk& b) {
+      return a.squaredNorm() < b.squaredNorm();
+    });
+    return found;
+  }();
+  return all;
+}
+
+struct Target {
+  Field* field = nullptr;
+  TissueId* tissue = nullptr;
+  std::int16_t* intensity = nullptr;
+};
+
+// Tissue of labels: its own, or on the ramp in air that of the nearest solid.
+void label_tissue(const InsideGrid& grid, const Desk& desk, const math::Ijk& room,
+                  const Target& to) {
+  for (int z = 0; z < room.z(); ++z)
+    for (int y = 0; y < room.y(); ++y)
+      for (int x = 0; x < room.x(); ++x) {
+        const int v = x + kBrickEdge * (y + kBrickEdge * z),
+                  a = at(x + kHalo, y + kHalo, z + kHalo);
+        TissueId id = grid.tissue[desk.labels[static_cast<std::size_t>(a)]];
+        if (id == 0 && to.field[v] > 0)
+          for (const math::Ijk& off : near_offsets()) {
+            const std::uint8_t label =
+                desk.labels[static_cast<std::size_t>(a + at(off.x(), off.y(), off.z()))];
+            if (!grid.solid[label]) continue;
+            id = grid.tissue[label];
+            break;
+          }
+        to.tissue[v] = id;
+      }
+}
+
+// Near the surface a voxel is only partly bone and its HU too low: the densest within two voxels
+// counts there.
+void grey_tissue_of(const InsideGrid& grid, const GreyTissue& rule, bool ramps, Desk& desk,
+                    const math::Ijk& room, const Target& to) {
+  // densest within two voxels, one axis after the other; only a ramp asks for it
+  std::array<float, kBlockVoxels>& most = desk.smooth;
+  if (rule.by_hu && ramps) {
+    const auto densest = [](const float* from, int stride, float* result) {
+      for (int x = 0; x < kBrickEdge; ++x)
+        result[x] = std::max({from[x], from[x - stride], from[x + stride], from[x - 2 * stride],
+                              from[x + 2 * stride]});
+    };
+    constexpr int kFirst = kHalo, kEnd = kHalo + kBrickEdge;
+    for (int z = kFirst - 2; z < kEnd + 2; ++z)
+      for (int y = kFirst - 2; y < kEnd + 2; ++y)
+        densest(&desk.level[static_cast<std::size_t>(at(kFirst, y, z))], 1,
+                &desk.work[static_cast<std::size_t>(at(kFirst, y, z))]);
+    for (int z = kFirst - 2; z < kEnd + 2; ++z)
+      for (int y = kFirst; y < kEnd; ++y)
+        densest(&desk.work[static_cast<std::size_t>(at(kFirst, y, z))], kBlock,
+                &most[static_cast<std::size_t>(at(kFirst, y, z))]);
+    for (int z = kFirst; z < kEnd; ++z)
+      for (int y = kFirst; y < kEnd; ++y)
+        densest(&most[static_cast<std::size_t>(at(kFirst, y, z))], kPlane,
+                &desk.work[static_cast<std::size_t>(at(kFirst, y, z))]);
+  }
+  for (int z = 0; z < room.z(); ++z)
+    for (int y = 0; y < room.y(); ++y)
+      for (int x = 0; x < room.x(); ++x) {
+        const int v = x + kBrickEdge * (y + kBrickEdge * z);
+        const auto a = static_cast<std::size_t>(at(x + kHalo, y + kHalo, z + kHalo));
+        const double stored = double{desk.level[a]} + double{grid.iso};
+        if (to.intensity != nullptr)
+          to.intensity[v] = static_cast<std::int16_t>(
+              std::lround(std::clamp(stored * rule.step + rule.zero, -32768.0, 32767.0)));
+        if (to.field[v] == 0) {
+          to.tissue[v] = 0;
+        } else if (!rule.by_hu) {
+          to.tissue[v] = 1;
+        } else {
+          const bool ramp = to.field[v] < volume::kSolid;
+          const double densest = double{ramp ? desk.work[a] : desk.level[a]} + double{grid.iso};
+          to.tissue[v] = hu_tissue(densest * rule.step + rule.zero);
+        }
+      }
+}
+
+void fill_brick(const InsideGrid& grid, const GreyTissue& rule, SumPlanes sum_planes,
+                const math::Ijk& first, Desk& desk, const Target& to) {
+  bool any_inside = false, any_outside = false;
+  const bool labels = grid.grey == nullptr;
+  fetch(grid, first, labels ? 0 : kNoBlur, desk, any_inside, any_outside);
+  const math::Ijk room = (grid.size - first).cwiseMin(kBrickEdge);
+  bool measured = false;
+  if (any_inside && any_outside) {
+    if (labels) blur(desk);
+    find_points(grid, first, desk);
+    measured = !desk.points.empty();
+    if (measured) measure(grid.soft, labels, sum_planes, desk);
+  }
+  for (int z = 0; z < room.z(); ++z)
+    for (int y = 0; y < room.y(); ++y)
+      for (int x = 0; x < room.x(); ++x) {
+        const int v = x + kBrickEdge * (y + kBrickEdge * z);
+        const auto i = static_cast<std::size_t>(v);
+        const bool in =
+            desk.level[static_cast<std::size_t>(at(x + kHalo, y + kHalo, z + kHalo))] >= 0;
+        double depth = in ? 10 : -10;
+        if (measured && desk.sums.weights[i] > 1e-12F) {
+          depth = depth_of(desk.sums, i);
+          // where averaging would carry the surface past a voxel by much, a thin wall or gap is
+          // meant: that one stays
+          constexpr double kLeast = 0.02, kMuch = 0.4;
+          if (in && depth < -kMuch) depth = kLeast;
+          if (!in && depth > kMuch) depth = -kLeast;
+        }
+        to.field[v] = volume::field_from_depth(depth);
+      }
+  if (labels)
+    label_tissue(grid, desk, room, to);
+  else
+    grey_tissue_of(grid, rule, measured, desk, room, to);
+}
+
+// Bricks with an inside voxel in or within 3 voxels of them, or with a label to keep.
+std::vector<std::uint8_t> bricks_needed(const InsideGrid& grid, const math::Ijk& bricks,
+                                        Progress& progress, bool& cancelled) {
+  const auto bx = static_cast<std::size_t>(bricks.x()), by = static_cast<std::size_t>(bricks.y()),
+             bz = static_cast<std::size_t>(bricks.z());
+  // per layer of bricks, what it has itself and what its two outer thirds say to its neighbours
+  std::vector<std::uint8_t> own(bx * by * bz), below(bx * by * bz), above(bx * by * bz);
+  cancelled = !io::in_pieces(bricks.z(), progress, "looking for bone", [&](int layer) {
+    std::vector<std::uint8_t> row(bx + 2);
+    for (int z = layer * kBrickEdge; z < std::min((layer + 1) * kBrickEdge, grid.size.z()); ++z)
+      for (int y = 0; y < grid.size.y(); ++y) {
+        std::fill(row.begin(), row.end(), std::uint8_t{0});
+        const std::size_t base =
+            static_cast<std::size_t>(grid.size.x()) *
+            (static_cast<std::size_t>(y) +
+             static_cast<std::size_t>(grid.size.y()) * static_cast<std::size_t>(z));
+        bool any = false;
+        for (std::size_t b = 0; b < bx; ++b) {
+          const int from = static_cast<int>(b) * kBrickEdge,
+                    n = std::min(kBrickEdge, grid.size.x() - from);
+          unsigned in = 0, kept = 0;
+          for (int x = 0; x < n; ++x) {
+            const std::size_t v = base + static_cast<std::size_t>(from + x);
+            in |= static_cast<unsigned>(grid.inside(v)) << x;
+            if (grid.labels != nullptr)
+              kept |= static_cast<unsigned>(grid.tissue[grid.labels[v]] != 0);
+          }
+          if (in == 0 && kept == 0) continue;
+          any = true;
+          row[b + 1] |= static_cast<std::uint8_t>((in != 0 ? 1 : 0) | (kept != 0 ? 2 : 0));
+          if ((in & 0x07U) != 0) row[b] |= 1;      // within three of the neighbour before
+          if ((in & 0xE0U) != 0) row[b + 2] |= 1;  // and of the one after
+        }
+        if (!any) continue;
+        const int brick_y = y / kBrickEdge, in_y = y % kBrickEdge, in_z = z % kBrickEdge;
+        for (int dy = -1; dy <= 1; ++dy) {
+          if ((dy < 0 && in_y > 2) || (dy > 0 && in_y < 5)) continue;
+          if (brick_y + dy < 0 || brick_y + dy >= bricks.y()) continue;
+          const std::size_t line =
+              bx * (static_cast<std::size_t>(brick_y + dy) + by * static_cast<std::size_t>(layer));
+          for (std::size_t b = 0; b < bx; ++b) {
+            const std::uint8_t said = dy == 0 ? row[b + 1] : row[b + 1] & 1;
+            own[line + b] |= said;
+            if (in_z < 3) below[line + b] |= said & 1;
+            if (in_z > 4) above[line + b] |= said & 1;
+          }
+        }
+      }
+  });
+  for (std::size_t z = 0; z < bz; ++z)
+    for (std::size_t b = 0; b < bx * by; ++b) {
+      if (z > 0) own[b + bx * by * z] |= above[b + bx * by * (z - 1)];
+      if (z + 1 < bz) own[b + bx * by * z] |= below[b + bx * by * (z + 1)];
+    }
+  return own;
+}
+
+}  // namespace
+
+SumPlanes sum_planes_kernel() noexcept {
+  return rt::simd() == rt::Simd::scalar ? scalar::sum_planes : avx2::sum_planes;
+}
+
+std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueTable tissues,
+                                       const InsideGrid& inside, const GreyTissue& grey_tissue,
+                                       std::size_t reserve_bricks, Progress& progress) {
+  const math::Ijk bricks = (grid.size.array() + kBrickEdge - 1) / kBrickEdge;
+  bool cancelled = false;
+  const std::vector<std::uint8_t> needed = bricks_needed(inside, bricks, progress, cancelled);
+  if (cancelled) return nullptr;
+  const auto used = static_cast<std::size_t>(
+      std::count_if(needed.begin(), needed.end(), [](std::uint8_t n) { return n != 0; }));
+  auto bone = std::make_unique<Bone>(grid, std::move(tissues), used, reserve_bricks,
+                                     inside.grey != nullptr);
+
+  // slots first and in order, so that the same scan gives the same bone whoever fills it
+  std::vector<BrickIndex> list;
+  list.reserve(used);
+  for (BrickIndex b = 0; b < bone->brick_count(); ++b) {
+    if (needed[static_cast<std::size_t>(b)] == 0) continue;
+    list.push_back(b);
+    bone->ensure_slot(b);
+  }
+  const SumPlanes sum_planes = sum_planes_kernel();
+  constexpr std::size_t kPortion = 64;
+  const int portions = static_cast<int>((list.size() + kPortion - 1) / kPortion);
+  const bool done = io::in_pieces(portions, progress, "finding the surface", [&](int portion) {
+    thread_local std::unique_ptr<Desk> desk = std::make_unique<Desk>();
+    const std::size_t from = static_cast<std::size_t>(portion) * kPortion;
+    for (std::size_t n = from; n < std::min(list.size(), from + kPortion); ++n) {
+      const Target made = {desk->field.data(), desk->tissue.data(),
+                           bone->has_intensity() ? bone->build_intensity(list[n]) : nullptr};
+      desk->field.fill(0);  // of voxels beyond the grid
+      desk->tissue.fill(0);
+      fill_brick(inside, grey_tissue, sum_planes, bone->brick_ijk(list[n]), *desk, made);
+      // here, so that what is the same throughout never touches the room it was promised
+      bone->build_brick(list[n], made.field, made.tissue);
+    }
+  });
+  if (!done) return nullptr;
+  bone->pack();
+  return bone;
+}
+
+std::vector<double> keep_volumes(Bone& bone, const std::vector<double>& wanted_voxels) {
+  // how many voxels of each tissue have which field, in steps of 16: 1/1024 of a voxel of depth
+  constexpr int kStep = 16, kBins = 65536 / kStep;
+  const std::size_t tissues = bone.tissues().tissues.size();
+  std::vector<std::vector<std::int64_t>> bins(tissues);
+  for (BrickIndex b = 0; b < bone.brick_count(); ++b) {
+    const Field* field = bone.brick_field(b);
+    if (field == nullptr) continue;
+    const TissueId* tissue = bone.brick_tissue(b);
+    for (int v = 0; v < volume::kBrickVoxels; ++v) {
+      if (field[v] == 0 || tissue[v] >= tissues) continue;
+      auto& own = bins[tissue[v]];
+      if (own.empty()) own.resize(kBins);
+      ++own[field[v] / kStep];
+    }
+  }
+  const auto volume_at = [&](std::size_t t, int shift) {
+    std::int64_t sum = 0;
+    for (int bin = 0; bin < kBins; ++bin) {
+      const int field =
+          bin == kBins - 1 ? 65535 : std::clamp(bin * kStep + kStep / 2 + shift, 0, 65535);
+      sum += bins[t][static_cast<std::size_t>(bin)] * volume::volume_units(field);
+    }
+    return static_cast<double>(sum) / static_cast<double>(volume::kVoxelUnits);
+  };
+  // volume grows with the shift: halve the interval
+  std::vector<int> shifts(tissues);
+  const int most = static_cast<int>(0.35 * volume::kFieldPerVoxel);
+  std::size_t largest = 0;
+  for (std::size_t t = 1; t < tissues; ++t) {
+    if (t >= wanted_voxels.size() || wanted_voxels[t] <= 0 || bins[t].empty()) continue;
+    if (largest == 0 || wanted_voxels[t] > wanted_voxels[largest]) largest = t;
+    int lo = -most, hi = most;
+    while (hi - lo > 1) {
+      const int middle = (lo + hi) / 2;
+      (volume_at(t, middle) < wanted_voxels[t] ? lo : hi) = middle;
+    }
+    shifts[t] = std::abs(volume_at(t, lo) - wanted_voxels[t]) <
+                        std::abs(volume_at(t, hi) - wanted_voxels[t])
+                    ? lo
+                    : hi;
+  }
+  // the ramp reaching into soft labels moves with the largest solid, so that no step is left there
+  for (std::size_t t = 1; t < tissues; ++t)
+    if (bone.tissues()[static_cast<TissueId>(t)].kind == volume::TissueKind::soft)
+      shifts[t] = shifts[largest];
+  for (BrickIndex b = 0; b < bone.brick_count(); ++b) {
+    if (bone.brick_field(b) == nullptr || bone.is_uniform(b)) continue;
+    Field* field = bone.build_field(b);
+    const TissueId* tissue = bone.brick_tissue(b);
+    for (int v = 0; v < volume::kBrickVoxels; ++v)
+      if (field[v] > 0 && field[v] < volume::kSolid)
+        field[v] = static_cast<Field>(
+            std::clamp(int{field[v]} + shifts[tissue[v] < tissues ? tissue[v] : 0], 1, 65534));
+  }
+  std::vector<double> moved(tissues);
+  for (std::size_t t = 0; t < tissues; ++t) moved[t] = shifts[t] / volume::kFieldPerVoxel;
+  return moved;
+}
+
+}  // namespace burr::importing

@@ -1,2 +1,0 @@
-#define BURR_KERNEL avx2
-#include "burr/io/planes_kernel.inc"

@@ -1,2 +1,0 @@
-#define BURR_KERNEL scalar
-#include "burr/io/planes_kernel.inc"

@@ -1,0 +1,54 @@
+// io/read/dicom_header.h - the few facts of a DICOM file that burr needs, read by a parser that believes
+// no length: everything is checked against the file before memory is taken. Private to io.
+//
+// No patient name, id, date or institution is even looked at.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "burr/base/result.h"
+#include "burr/math/vec3.h"
+
+namespace burr::io {
+
+// Numbers as the pixels of one frame need them.
+struct DicomFrame {
+  bool has_position = false, has_orientation = false, has_spacing = false;
+  math::Vec3 position_mm = math::Vec3::Zero();  // centre of the first pixel, LPS
+  math::Vec3 row = math::Vec3::UnitX();         // direction of a row: to the next column
+  math::Vec3 column = math::Vec3::UnitY();
+  double row_gap_mm = 1, column_gap_mm = 1;  // between rows, between columns
+  double slope = 1, intercept = 0;
+  bool has_rescale = false;
+  double thickness_mm = 0;
+};
+
+struct DicomHeader {
+  std::filesystem::path path;
+  std::string transfer_syntax, sop_class, series, modality, image_type, kernel, description,
+      photometric, rescale_type;
+  int series_number = 0, instance = 0, acquisition = 0;
+  int rows = 0, columns = 0, frame_count = 1, samples = 1;
+  int bits_allocated = 0, bits_stored = 0, high_bit = 0;
+  bool is_signed = false, has_modality_lut = false, has_padding = false, padding_range = false;
+  std::int64_t padding = 0, padding_end = 0;  // stored values
+  double between_slices_mm = 0;
+  std::vector<DicomFrame> frames;  // (frame_count)
+
+  bool big_endian = false, deflated = false;
+  bool has_pixels = false, float_pixels = false, encapsulated = false;
+  std::uint64_t pixels_at = 0, pixels_length = 0;  // in the file, or in the inflated data set
+};
+
+// An error when it is no DICOM image or its lengths contradict the file. A file that is no DICOM at
+// all gives an error too; a folder's reader skips those.
+[[nodiscard]] Result<DicomHeader> read_dicom_header(const std::filesystem::path& path);
+
+// The stored pixel values of all frames (columns x rows x frames), before rescaling. Packed pixels
+// are unpacked by GDCM.
+[[nodiscard]] Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& header);
+
+}  // namespace burr::io

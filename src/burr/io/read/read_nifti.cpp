@@ -1,0 +1,329 @@
+// NIfTI-1 and NIfTI-2, one file or a pair, gzip or not, after https://nifti.nimh.nih.gov (nifti1.h,
+// nifti2.h). World is RAS there: x and y change their sign here.
+#include <fmt/core.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <system_error>
+
+#include <Eigen/Geometry>
+
+#include "burr/io/read/bytes.h"
+#include "burr/io/read/geometry.h"
+#include "burr/io/read/readers.h"
+#include "burr/io/read/samples.h"
+#include "burr/io/read/text.h"
+
+namespace burr::io {
+namespace {
+
+using math::Mat3;
+using math::Vec3;
+
+// The fields burr needs, of either version.
+struct Nifti {
+  bool big_endian = false, pair = false;
+  std::array<std::int64_t, 8> dim{};
+  std::array<double, 8> pixdim{};
+  int datatype = 0, qform = 0, sform = 0, units = 0;
+  double offset = 0, slope = 0, intercept = 0;
+  Vec3 quaternion = Vec3::Zero(), quaternion_offset = Vec3::Zero();
+  Eigen::Matrix<double, 3, 4> rows = Eigen::Matrix<double, 3, 4>::Zero();
+};
+
+class Fields {
+ public:
+  Fields(const std::vector<std::uint8_t>& bytes, bool swap) : bytes_(bytes), swap_(swap) {}
+  template <class T>
+  [[nodiscard]] T get(std::size_t at) const {
+    std::array<std::uint8_t, sizeof(T)> raw{};
+    if (at + sizeof(T) <= bytes_.size()) std::memcpy(raw.data(), bytes_.data() + at, sizeof(T));
+    if (swap_) std::reverse(raw.begin(), raw.end());
+    T value;
+    std::memcpy(&value, raw.data(), sizeof(T));
+    return value;
+  }
+
+ private:
+  const std::vector<std::uint8_t>& bytes_;
+  bool swap_;
+};
+
+Result<Nifti> parse(const std::vector<std::uint8_t>& bytes, const std::string& file) {
+  if (bytes.size() < 348)
+    return error(fmt::format("{}: {} bytes are too few for a NIfTI header", file, bytes.size()));
+  bool swap = false;
+  std::int32_t length = Fields(bytes, false).get<std::int32_t>(0);
+  if (length != 348 && length != 540) {
+    swap = true;
+    length = Fields(bytes, true).get<std::int32_t>(0);
+  }
+  const bool two = length == 540;
+  if (length != 348 && !two)
+    return error(fmt::format("{}: is no NIfTI file (header length {})", file, length));
+  if (two && bytes.size() < 540)
+    return error(fmt::format("{}: {} bytes are too few for a NIfTI-2 header", file, bytes.size()));
+  const Fields at(bytes, swap);
+  Nifti n;
+  n.big_endian = swap == (std::endian::native == std::endian::little);
+  const std::string magic(reinterpret_cast<const char*>(bytes.data()) + (two ? 4 : 344), 3);
+  if (magic == (two ? "ni2" : "ni1"))
+    n.pair = true;
+  else if (magic != (two ? "n+2" : "n+1"))
+    return error(fmt::format(
+        "{}: is no NIfTI file (its mark is missing; Analyze 7.5 is not read, convert it to NIfTI)",
+        file));
+  for (std::size_t i = 0; i < 8; ++i) {
+    n.dim[i] = two ? at.get<std::int64_t>(16 + 8 * i) : at.get<std::int16_t>(40 + 2 * i);
+    n.pixdim[i] = two ? at.get<double>(104 + 8 * i) : double{at.get<float>(76 + 4 * i)};
+  }
+  n.datatype = at.get<std::int16_t>(two ? 12 : 70);
+  n.offset = two ? static_cast<double>(at.get<std::int64_t>(168)) : double{at.get<float>(108)};
+  n.slope = two ? at.get<double>(176) : double{at.get<float>(112)};
+  n.intercept = two ? at.get<double>(184) : double{at.get<float>(116)};
+  n.units = two ? at.get<std::int32_t>(500) : at.get<std::uint8_t>(123);
+  n.qform = two ? at.get<std::int32_t>(344) : at.get<std::int16_t>(252);
+  n.sform = two ? at.get<std::int32_t>(348) : at.get<std::int16_t>(254);
+  for (int a = 0; a < 3; ++a) {
+    const auto i = static_cast<std::size_t>(a);
+    n.quaternion[a] = two ? at.get<double>(352 + 8 * i) : double{at.get<float>(256 + 4 * i)};
+    n.quaternion_offset[a] = two ? at.get<double>(376 + 8 * i) : double{at.get<float>(268 + 4 * i)};
+    for (int b = 0; b < 4; ++b) {
+      const auto j = static_cast<std::size_t>(4 * a + b);
+      n.rows(a, b) = two ? at.get<double>(400 + 8 * j) : double{at.get<float>(280 + 4 * j)};
+    }
+  }
+  return n;
+}
+
+bool sample_type(int datatype, SampleType& type) {
+  switch (datatype) {
+    case 2:
+      type = SampleType::u8;
+      return true;
+    case 4:
+      type = SampleType::i16;
+      return true;
+    case 8:
+      type = SampleType::i32;
+      return true;
+    case 16:
+      type = SampleType::f32;
+      return true;
+    case 64:
+      type = SampleType::f64;
+      return true;
+    case 256:
+      type = SampleType::i8;
+      return true;
+    case 512:
+      type = SampleType::u16;
+      return true;
+    case 768:
+      type = SampleType::u32;
+      return true;
+    case 1024:
+      type = SampleType::i64;
+      return true;
+    case 1280:
+      type = SampleType::u64;
+      return true;
+    default:
+      return false;
+  }
+}
+
+std::string type_name(int datatype) {
+  switch (datatype) {
+    case 1:
+      return "single bits";
+    case 32:
+    case 1792:
+    case 2048:
+      return "complex numbers";
+    case 128:
+    case 2304:
+      return "colours";
+    case 1536:
+      return "128 bit floats";
+    default:
+      return fmt::format("data type {}", datatype);
+  }
+}
+
+// ras = step * ijk + origin: sform, else qform, else the bare spacing
+Affine affine_of(const Nifti& n, Scan& scan) {
+  const double unit = (n.units & 7) == 1 ? 1000.0 : (n.units & 7) == 3 ? 1e-3 : 1.0;
+  Affine affine;
+  bool found = false;
+  if (n.sform > 0) {
+    affine.step = n.rows.leftCols<3>();
+    affine.origin = n.rows.col(3);
+    affine.step *= unit;
+    affine.origin *= unit;
+    found = usable(affine);
+    if (!found) scan.notices.emplace_back("The sform of the file cannot be used and was left out.");
+  }
+  Vec3 spacing(n.pixdim[1], n.pixdim[2], n.pixdim[3]);
+  bool guessed = false;
+  for (int a = 0; a < 3; ++a) {
+    spacing[a] = std::abs(spacing[a]);
+    if (!std::isfinite(spacing[a]) || spacing[a] == 0) {
+      spacing[a] = 1;
+      guessed = true;
+    }
+  }
+  if (!found && n.qform > 0) {
+    const double b = n.quaternion.x(), c = n.quaternion.y(), d = n.quaternion.z();
+    const double rest = 1.0 - (b * b + c * c + d * d);
+    Eigen::Quaterniond q(rest > 0 ? std::sqrt(rest) : 0.0, b, c, d);
+    if (q.coeffs().allFinite() && q.norm() > 0.5) {
+      q.normalize();
+      const double mirror = n.pixdim[0] < 0 ? -1 : 1;
+      affine.step =
+          q.toRotationMatrix() * Vec3(spacing.x(), spacing.y(), mirror * spacing.z()).asDiagonal();
+      affine.origin = n.quaternion_offset;
+      affine.step *= unit;
+      affine.origin *= unit;
+      found = usable(affine);
+    }
+  }
+  if (!found) {
+    affine.step = (unit * spacing).asDiagonal();
+    affine.origin = Vec3::Zero();
+    scan.notices.emplace_back(
+        "The file does not say how it lies in the body: taken for right, anterior, superior.");
+  }
+  if (guessed && !found)
+    scan.notices.emplace_back(
+        "The file states no voxel spacing: taken for 1 mm; see --spacing-mm.");
+  const Mat3 lps_from_ras = Vec3(-1, -1, 1).asDiagonal();
+  affine.step = lps_from_ras * affine.step;
+  affine.origin = lps_from_ras * affine.origin;
+  return affine;
+}
+
+// "x.hdr.gz" <-> "x.img.gz"; either part may be packed by itself
+std::filesystem::path partner(const std::filesystem::path& path, const char* from, const char* to) {
+  std::string name = path.filename().string();
+  const std::size_t at = lower(name).rfind(from);
+  if (at == std::string::npos) return {};
+  name.replace(at, 4, to);
+  auto other = path.parent_path() / name;
+  std::error_code trouble;
+  if (std::filesystem::exists(other, trouble)) return other;
+  other = name.size() > 3 && name.substr(name.size() - 3) == ".gz"
+              ? path.parent_path() / name.substr(0, name.size() - 3)
+              : path.parent_path() / (name + ".gz");
+  return std::filesystem::exists(other, trouble) ? other : std::filesystem::path();
+}
+
+struct Opened {
+  std::unique_ptr<ByteSource> source;
+  std::uint64_t most = 0;  // bytes it can possibly give
+};
+
+// packed or not, as the bytes say and not the name; the other half of a pair is no link
+Result<Opened> open_maybe_packed(const std::filesystem::path& path, bool follow_links) {
+  auto head = first_bytes(path, 2, follow_links);
+  if (!head) return head.error();
+  auto file = open_file(path, 0, follow_links);
+  if (!file) return file.error();
+  Opened opened;
+  const bool packed = head->size() == 2 && (*head)[0] == 0x1F && (*head)[1] == 0x8B;
+  opened.most = packed ? file->size * kMostGzip : file->size;
+  opened.source = packed ? gunzip(std::move(file->source)) : std::move(file->source);
+  return opened;
+}
+
+}  // namespace
+
+Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& options,
+                        Progress& progress) {
+  const std::string file = short_name(given);
+  // of a pair the header is the one to read first
+  std::filesystem::path path = given;
+  if (lower(file).find(".img") != std::string::npos) {
+    path = partner(given, ".img", ".hdr");
+    if (path.empty())
+      return error(
+          fmt::format("{}: its header (.hdr) is not there; put it in the same folder", file));
+  }
+  auto opened = open_maybe_packed(path, path == given);
+  if (!opened) return opened.error();
+  std::vector<std::uint8_t> head(540);
+  std::size_t have = 0;
+  while (have < head.size()) {
+    auto got = opened->source->read(head.data() + have, head.size() - have);
+    if (!got) return error(got.error().trouble, fmt::format("{}: {}", file, got.error().text));
+    if (*got == 0) break;
+    have += *got;
+  }
+  head.resize(have);
+  auto header = parse(head, file);
+  if (!header) return header.error();
+
+  // axes beyond the third must be of length one
+  if (header->dim[0] < 1 || header->dim[0] > 7)
+    return error(fmt::format("{}: dim[0] is {}, 3 expected", file, header->dim[0]));
+  for (std::size_t a = 4; a <= static_cast<std::size_t>(header->dim[0]); ++a)
+    if (header->dim[a] > 1)
+      return error(
+          fmt::format("{}: 3 axes expected, axis {} has {} entries; is this a time series?", file,
+                      a, header->dim[a]));
+  if (header->dim[0] < 3)
+    return error(fmt::format("{}: 3 axes expected, {} found; a single picture is no volume", file,
+                             header->dim[0]));
+  auto count = voxel_count(file, header->dim[1], header->dim[2], header->dim[3]);
+  if (!count) return count.error();
+  SampleFormat format;
+  if (!sample_type(header->datatype, format.type))
+    return error(fmt::format("{}: datatype: {} are not read; burr reads one number a voxel", file,
+                             type_name(header->datatype)));
+  format.big_endian = header->big_endian;
+  if (std::isfinite(header->slope) && header->slope != 0) {
+    format.slope = header->slope;
+    format.intercept = std::isfinite(header->intercept) ? header->intercept : 0;
+  }
+
+  Scan scan;
+  scan.format = "NIfTI";
+  scan.size = {static_cast<int>(header->dim[1]), static_cast<int>(header->dim[2]),
+               static_cast<int>(header->dim[3])};
+  const double first = header->pair ? 0 : have >= 540 && head[0] + head[3] != 92 ? 544 : 352;
+  if (!std::isfinite(header->offset) || header->offset < 0 || header->offset > 1e12)
+    return error(fmt::format("{}: vox_offset is no place in the file; its header is wrong", file));
+  const double at = header->offset > 0 ? header->offset : first;
+  const auto offset = static_cast<std::uint64_t>(at);
+
+  if (header->pair) {
+    const auto image = partner(path, ".hdr", ".img");
+    if (image.empty())
+      return error(
+          fmt::format("{}: its data file (.img) is not there; put it in the same folder", file));
+    opened = open_maybe_packed(image, image == given);
+  } else {
+    opened = open_maybe_packed(path, path == given);
+  }
+  if (!opened) return opened.error();
+  const std::uint64_t needed = *count * bytes_of(format.type);
+  if (offset > opened->most || needed > opened->most - offset)
+    return error(
+        fmt::format("{}: the header promises {} bytes of voxels, the file cannot hold them; it "
+                    "is cut off or its header is wrong",
+                    file, needed));
+  VoxelSink sink(*count);
+  Status read = skip(*opened->source, offset);
+  if (read) read = read_samples(*opened->source, format, *count, sink, progress);
+  if (!read) return error(read.error().trouble, fmt::format("{}: {}", file, read.error().text));
+  if (Status status = sink.finish(scan, false); !status)
+    return error(fmt::format("{}: {}", file, status.error().text));
+  const Affine affine = affine_of(*header, scan);
+  if (Status status = place(scan, affine, options.spacing_mm, file, progress); !status)
+    return status.error();
+  return scan;
+}
+
+}  // namespace burr::io

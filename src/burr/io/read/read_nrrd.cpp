@@ -1,0 +1,542 @@
+// NRRD and .seg.nrrd, after https://teem.sourceforge.net/nrrd/format.html; segments after 3D
+// Slicer's vtkMRMLSegmentationStorageNode.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <system_error>
+
+#include "burr/base/shown.h"
+#include "burr/io/read/bytes.h"
+#include "burr/io/read/geometry.h"
+#include "burr/io/read/readers.h"
+#include "burr/io/read/samples.h"
+#include "burr/io/read/text.h"
+
+namespace burr::io {
+namespace {
+
+using math::Mat3;
+using math::Vec3;
+
+struct Header {
+  std::map<std::string, std::string> fields;  // by lower-case name without blanks
+  std::map<std::string, std::string> keys;    // key:=value, as written
+  std::vector<std::string> file_list;         // after "data file: LIST"
+  std::size_t end = 0;                        // where attached data begins
+};
+
+std::string field_name(std::string_view text) {
+  std::string name = lower(trimmed(text));
+  name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
+  if (name == "centerings") return "centers";
+  return name;
+}
+
+Result<Header> parse(const std::string& text, const std::string& file) {
+  Header header;
+  std::size_t at = 0;
+  bool first = true, listing = false;
+  while (at < text.size()) {
+    std::size_t end = text.find('\n', at);
+    const bool last = end == std::string::npos;
+    if (last) end = text.size();
+    const std::string_view line = trimmed(std::string_view(text).substr(at, end - at));
+    at = last ? text.size() : end + 1;
+    header.end = at;
+    if (line.empty()) return header;
+    if (first) {
+      first = false;
+      if (line.substr(0, 4) != "NRRD")
+        return error(fmt::format("{}: does not begin with NRRD", file));
+      continue;
+    }
+    if (listing) {
+      header.file_list.emplace_back(line);
+      continue;
+    }
+    if (line.front() == '#') continue;
+    const std::size_t key = line.find(":="), field = line.find(": ");
+    if (key != std::string_view::npos && (field == std::string_view::npos || key < field)) {
+      header.keys[std::string(line.substr(0, key))] = std::string(trimmed(line.substr(key + 2)));
+    } else if (const std::size_t colon = line.find(':'); colon != std::string_view::npos) {
+      const std::string name = field_name(line.substr(0, colon));
+      header.fields[name] = std::string(trimmed(line.substr(colon + 1)));
+      if (name == "datafile" && header.fields[name].substr(0, 4) == "LIST") listing = true;
+    }
+  }
+  return header;
+}
+
+bool sample_type(const std::string& name, SampleType& type) {
+  static const std::map<std::string, SampleType> known = {
+      {"signed char", SampleType::i8},
+      {"int8", SampleType::i8},
+      {"int8_t", SampleType::i8},
+      {"uchar", SampleType::u8},
+      {"unsigned char", SampleType::u8},
+      {"uint8", SampleType::u8},
+      {"uint8_t", SampleType::u8},
+      {"short", SampleType::i16},
+      {"short int", SampleType::i16},
+      {"signed short", SampleType::i16},
+      {"signed short int", SampleType::i16},
+      {"int16", SampleType::i16},
+      {"int16_t", SampleType::i16},
+      {"ushort", SampleType::u16},
+      {"unsigned short", SampleType::u16},
+      {"unsigned short int", SampleType::u16},
+      {"uint16", SampleType::u16},
+      {"uint16_t", SampleType::u16},
+      {"int", SampleType::i32},
+      {"signed int", SampleType::i32},
+      {"int32", SampleType::i32},
+      {"int32_t", SampleType::i32},
+      {"uint", SampleType::u32},
+      {"unsigned int", SampleType::u32},
+      {"uint32", SampleType::u32},
+      {"uint32_t", SampleType::u32},
+      {"longlong", SampleType::i64},
+      {"long long", SampleType::i64},
+      {"long long int", SampleType::i64},
+      {"signed long long", SampleType::i64},
+      {"signed long long int", SampleType::i64},
+      {"int64", SampleType::i64},
+      {"int64_t", SampleType::i64},
+      {"ulonglong", SampleType::u64},
+      {"unsigned long long", SampleType::u64},
+      {"unsigned long long int", SampleType::u64},
+      {"uint64", SampleType::u64},
+      {"uint64_t", SampleType::u64},
+      {"float", SampleType::f32},
+      {"double", SampleType::f64}};
+  const auto found = known.find(name);
+  if (found == known.end()) return false;
+  type = found->second;
+  return true;
+}
+
+// "slice.%03d": one number, nothing else; never handed to printf
+bool numbered_name(const std::string& pattern, std::int64_t number, std::string& name) {
+  const std::size_t percent = pattern.find('%');
+  if (percent == std::string::npos || pattern.find('%', percent + 1) != std::string::npos)
+    return false;
+  std::size_t at = percent + 1;
+  const bool zeros = at < pattern.size() && pattern[at] == '0';
+  std::size_t width = 0;
+  while (at < pattern.size() && pattern[at] >= '0' && pattern[at] <= '9' && width < 100)
+    width = width * 10 + static_cast<std::size_t>(pattern[at++] - '0');
+  if (at >= pattern.size() || (pattern[at] != 'd' && pattern[at] != 'u' && pattern[at] != 'i') ||
+      width > 20)
+    return false;
+  std::string digits = std::to_string(number);
+  if (digits.size() < width) digits.insert(0, width - digits.size(), zeros ? '0' : ' ');
+  name = pattern.substr(0, percent) + digits + pattern.substr(at + 1);
+  return true;
+}
+
+// The names of all data files; empty: the data is in the header's own file.
+Result<std::vector<std::filesystem::path>> data_files(const Header& header,
+                                                      const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> files;
+  const auto field = header.fields.find("datafile");
+  if (field == header.fields.end()) return files;
+  std::vector<std::string> names;
+  const std::vector<std::string> parts = words(field->second);
+  std::int64_t from = 0, to = 0, step = 1;
+  if (!parts.empty() && parts[0] == "LIST") {
+    names = header.file_list;
+  } else if (parts.size() >= 4 && parts[0].find('%') != std::string::npos &&
+             to_number(parts[1], from) && to_number(parts[2], to) && to_number(parts[3], step)) {
+    constexpr std::int64_t kLargest = 1'000'000'000;
+    const auto small = [](std::int64_t n) { return n >= -kLargest && n <= kLargest; };
+    if (step == 0 || !small(from) || !small(to) || !small(step) ||
+        std::abs(to - from) / std::abs(step) > 100000)
+      return error(fmt::format("{}: data file: the range of numbers is wrong", short_name(path)));
+    for (std::int64_t n = from; step > 0 ? n <= to : n >= to; n += step) {
+      std::string name;
+      if (!numbered_name(parts[0], n, name))
+        return error(fmt::format("{}: data file: the pattern may hold one number such as %03d",
+                                 short_name(path)));
+      names.push_back(name);
+    }
+  } else {
+    names.push_back(field->second);
+  }
+  for (const std::string& name : names) {
+    auto file = beside(path, name);
+    if (!file) return file.error();
+    std::error_code trouble;
+    const auto kind = std::filesystem::symlink_status(*file, trouble).type();
+    if (kind != std::filesystem::file_type::regular)
+      return error(fmt::format(
+          "{}: its data file {} is not there or no plain file; put it in the same folder",
+          short_name(path), short_name(*file)));
+    files.push_back(*file);
+  }
+  return files;
+}
+
+std::map<std::string, double> unit_mm() {
+  return {{"mm", 1},           {"cm", 10},       {"m", 1000},       {"um", 1e-3},
+          {"\xC2\xB5m", 1e-3}, {"micron", 1e-3}, {"microns", 1e-3}, {"nm", 1e-6}};
+}
+
+// Segment0_Name:=... of a .seg.nrrd
+std::vector<Label> segments(const Header& header) {
+  std::vector<Label> labels;
+  for (int n = 0; n < 4096; ++n) {
+    const std::string prefix = fmt::format("Segment{}_", n);
+    const auto get = [&](const char* what) {
+      const auto found = header.keys.find(prefix + what);
+      return found == header.keys.end() ? std::string() : found->second;
+    };
+    const std::string value = get("LabelValue"), name = get("Name"), id = get("ID");
+    if (value.empty() && name.empty() && id.empty()) break;
+    Label label;
+    std::int64_t number = n + 1;
+    if (!value.empty() && !to_number(value, number)) continue;
+    if (number < 1 || number > 255) continue;
+    label.value = static_cast<int>(number);
+    label.name = !name.empty() ? name : id;
+    const std::vector<double> colour = numbers(get("Color"));
+    if (colour.size() == 3)
+      for (std::size_t c = 0; c < 3; ++c)
+        if (std::isfinite(colour[c]))
+          label.colour[c] = static_cast<float>(std::clamp(colour[c], 0.0, 1.0));
+    labels.push_back(label);
+  }
+  return labels;
+}
+
+struct Shape {
+  std::vector<std::int64_t> sizes;  // of the three axes kept
+  std::vector<std::size_t> axes;    // which of the file's axes they are
+};
+
+Result<Shape> shape_of(const Header& header, const std::string& file, bool segmentation) {
+  const auto text = header.fields.find("sizes");
+  if (text == header.fields.end())
+    return error(fmt::format("{}: the field \"sizes\" is missing", file));
+  Shape shape;
+  std::vector<std::int64_t> all;
+  for (const std::string& word : words(text->second)) {
+    std::int64_t n = 0;
+    if (!to_number(word, n) || n < 1)
+      return error(fmt::format("{}: sizes: \"{}\" is no size of an axis", file, base::shown(word)));
+    all.push_back(n);
+  }
+  std::int64_t dimension = 0;
+  const auto stated = header.fields.find("dimension");
+  if (stated == header.fields.end() || !to_number(stated->second, dimension) ||
+      dimension != static_cast<std::int64_t>(all.size()))
+    return error(fmt::format("{}: dimension does not agree with {} sizes", file, all.size()));
+  const std::vector<std::string> kinds =
+      words(header.fields.count("kinds") != 0 ? header.fields.at("kinds") : "");
+
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    const std::string kind = a < kinds.size() ? lower(kinds[a]) : "";
+    const bool no_space = kind == "list" || kind == "vector" || kind == "time" ||
+                          kind.find("color") != std::string::npos || kind == "3-vector";
+    if (all[a] == 1 && (all.size() > 3 || no_space)) continue;  // an axis of one does not matter
+    if (no_space && segmentation)
+      return error(
+          fmt::format("{}: its segments overlap in {} layers; in 3D Slicer make one layer of them "
+                      "(Segmentations, "
+                      "Collapse segments) and save again",
+                      file, all[a]));
+    if (no_space)
+      return error(
+          fmt::format("{}: axis {} is \"{}\" with {} entries, not space; burr reads one value "
+                      "a voxel",
+                      file, a, base::shown(kind), all[a]));
+    shape.sizes.push_back(all[a]);
+    shape.axes.push_back(a);
+  }
+  if (shape.sizes.size() > 3)
+    return error(fmt::format("{}: 3 axes expected, {} found; is this a time series?", file,
+                             shape.sizes.size()));
+  if (shape.sizes.size() < 3)
+    return error(fmt::format("{}: 3 axes expected, {} found; a single picture is no volume", file,
+                             shape.sizes.size()));
+  return shape;
+}
+
+// lps = flip * file space
+Mat3 lps_from_space(const std::string& space, const std::string& file, Scan& scan) {
+  const std::string name = lower(space);
+  const auto is = [&](const char* words, const char* letters) {
+    return name.rfind(words, 0) == 0 || name == letters || name == std::string(letters) + "t";
+  };
+  (void)file;
+  if (is("left-posterior-superior", "lps")) return Mat3::Identity();
+  if (is("right-anterior-superior", "ras")) return Vec3(-1, -1, 1).asDiagonal();
+  if (is("left-anterior-superior", "las")) return Vec3(1, -1, 1).asDiagonal();
+  if (name.rfind("3d-left-handed", 0) == 0) {
+    scan.notices.emplace_back(
+        "The file's space is left-handed and does not name its directions: taken for rows to the "
+        "left, columns to the back, slices downwards.");
+    return Vec3(1, 1, -1).asDiagonal();
+  }
+  scan.notices.emplace_back(
+      "The file does not say how it lies in the body: taken for left, posterior, superior.");
+  return Mat3::Identity();
+}
+
+Affine affine_of(const Header& header, const Shape& shape, const std::string& file, Scan& scan) {
+  const auto get = [&](const char* name) {
+    const auto found = header.fields.find(name);
+    return found == header.fields.end() ? std::string() : found->second;
+  };
+  const Mat3 flip = lps_from_space(get("space"), file, scan);
+  Affine affine;
+
+  // one "(x,y,z)" or "none" for each axis
+  std::vector<std::string> moves;
+  for (std::string text = get("spacedirections"); !text.empty();) {
+    const std::string_view rest = trimmed(text);
+    if (rest.empty()) break;
+    const std::size_t end = rest.front() == '(' ? rest.find(')') : rest.find(' ');
+    const std::size_t n =
+        end == std::string_view::npos ? rest.size() : end + (rest.front() == '(' ? 1 : 0);
+    moves.emplace_back(rest.substr(0, n));
+    text = std::string(rest.substr(n));
+  }
+  // some writers leave out what has no direction
+  const bool only_space = moves.size() == 3;
+  bool directed = !moves.empty();
+  for (std::size_t a = 0; a < 3 && directed; ++a) {
+    const std::size_t axis = only_space ? a : shape.axes[a];
+    const std::vector<double> move =
+        axis < moves.size() ? numbers(moves[axis]) : std::vector<double>();
+    directed = move.size() == 3;
+    if (directed) affine.step.col(static_cast<Eigen::Index>(a)) = Vec3(move[0], move[1], move[2]);
+  }
+  if (!directed) {
+    affine.step.setIdentity();
+    const std::vector<std::string> spacings = words(get("spacings"));
+    bool stated = false;
+    for (std::size_t a = 0; a < 3; ++a) {
+      double step = 0;
+      if (shape.axes[a] < spacings.size() && to_number(spacings[shape.axes[a]], step) &&
+          std::isfinite(step) && step != 0) {
+        affine.step(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(a)) = std::abs(step);
+        stated = true;
+      }
+    }
+    if (!stated)
+      scan.notices.emplace_back(
+          "The file states no voxel spacing: taken for 1 mm; see --spacing-mm.");
+  }
+  const std::vector<double> origin = numbers(get("spaceorigin"));
+  if (origin.size() == 3) affine.origin = Vec3(origin[0], origin[1], origin[2]);
+
+  std::string unit = get("spaceunits");
+  unit.erase(std::remove(unit.begin(), unit.end(), '"'), unit.end());
+  const std::vector<std::string> units = words(unit);
+  double scale = 1;
+  const auto known = unit_mm();
+  if (!units.empty()) {
+    const auto found = known.find(units.back());
+    if (found != known.end()) scale = found->second;
+  }
+  affine.step = flip * affine.step * scale;
+  affine.origin = flip * affine.origin * scale;
+  return affine;
+}
+
+Result<std::int64_t> skip_field(const Header& header, const char* name, const std::string& file,
+                                std::int64_t lowest) {
+  const auto found = header.fields.find(name);
+  std::int64_t n = 0;
+  if (found != header.fields.end() && (!to_number(found->second, n) || n < lowest))
+    return error(fmt::format("{}: {}: \"{}\" is no number of bytes or lines", file, name,
+                             base::shown(found->second)));
+  return n;
+}
+
+Status skip_lines(ByteSource& source, std::int64_t lines) {
+  char c = 0;
+  while (lines > 0) {
+    if (Status status = read_exactly(source, &c, 1); !status) return status;
+    if (c == '\n') --lines;
+  }
+  return fine();
+}
+
+// numbers as text, blanks and commas between
+Status read_ascii(ByteSource& source, std::size_t count, VoxelSink& sink) {
+  std::string word;
+  std::vector<float> values;
+  const auto take = [&] {
+    if (word.empty()) return true;
+    double value = 0;
+    const bool good = to_number(word, value);
+    values.push_back(static_cast<float>(value));
+    word.clear();
+    return good;
+  };
+  std::vector<char> block(65536);
+  while (values.size() < count) {
+    auto got = source.read(block.data(), block.size());
+    if (!got) return got.error();
+    if (*got == 0) break;
+    for (std::size_t i = 0; i < *got; ++i) {
+      const char c = block[i];
+      if (c != ' ' && c != '\n' && c != '\t' && c != '\r' && c != ',') {
+        word += c;
+        if (word.size() < 64) continue;
+      }
+      if (!take()) return error("a word that is no number stands in the text data");
+    }
+  }
+  if (values.size() < count && !take())
+    return error("a word that is no number stands in the text data");
+  if (values.size() < count)
+    return error(
+        fmt::format("{} numbers expected, {} found; the file is cut off", count, values.size()));
+  sink.add(values.data(), count);
+  return fine();
+}
+
+// Data: opened, unpacked and brought to its first byte.
+Result<std::unique_ptr<ByteSource>> data_source(const Header& header,
+                                                const std::filesystem::path& path,
+                                                const std::string& encoding, std::size_t bytes) {
+  const std::string file = short_name(path);
+  auto files = data_files(header, path);
+  if (!files) return files.error();
+  auto lines = skip_field(header, "lineskip", file, 0);
+  if (!lines) return lines.error();
+  auto skip_bytes = skip_field(header, "byteskip", file, -1);
+  if (!skip_bytes) return skip_bytes.error();
+
+  std::uint64_t size = 0, offset = 0;
+  if (files->empty()) {
+    auto own = open_file(path);
+    if (!own) return own.error();
+    offset = header.end;
+    size = own->size;
+  } else {
+    for (const auto& one : *files) {
+      std::error_code trouble;
+      size += std::filesystem::file_size(one, trouble);
+      if (trouble) return error(Trouble::io, fmt::format("{}: cannot be read", short_name(one)));
+    }
+  }
+  const bool raw = encoding == "raw", gzip = encoding == "gzip" || encoding == "gz",
+             bzip = encoding == "bzip2" || encoding == "bz2";
+  const std::uint64_t there = size > offset ? size - offset : 0;
+  const std::uint64_t most = gzip ? there * kMostGzip : bzip ? there * kMostBzip2 : there;
+  const std::uint64_t needed =
+      raw || gzip || bzip ? bytes : bytes / 8;  // text: at least a digit each
+  if (needed > most)
+    return error(
+        fmt::format("{}: sizes promise {} bytes of data, the file holds {}; it is cut off or "
+                    "its header is wrong",
+                    file, needed, there));
+
+  const auto open = [&](std::int64_t from_end) -> Result<std::unique_ptr<ByteSource>> {
+    std::unique_ptr<ByteSource> source;
+    if (files->empty() || files->size() == 1) {
+      const std::uint64_t at = from_end >= 0 ? size - static_cast<std::uint64_t>(from_end) : offset;
+      auto opened = open_file(files->empty() ? path : files->front(), at, files->empty());
+      if (!opened) return opened.error();
+      source = std::move(opened->source);
+    } else {
+      source = files_in_a_row(*files,
+                              raw && *skip_bytes > 0 ? static_cast<std::uint64_t>(*skip_bytes) : 0);
+      return source;
+    }
+    if (from_end < 0)
+      if (Status status = skip_lines(*source, *lines); !status) return status.error();
+    if (gzip) source = gunzip(std::move(source));
+    if (bzip) source = bunzip2(std::move(source));
+    return source;
+  };
+
+  if (*skip_bytes == -1 && raw && files->size() <= 1) return open(static_cast<std::int64_t>(bytes));
+  if (*skip_bytes == -1 && files->size() <= 1) {
+    // the last `bytes` of what is unpacked: count first
+    auto counting = open(-1);
+    if (!counting) return counting.error();
+    std::vector<std::uint8_t> block(std::size_t{1} << 16);
+    std::uint64_t total = 0;
+    while (true) {
+      auto got = (*counting)->read(block.data(), block.size());
+      if (!got) return got.error();
+      if (*got == 0) break;
+      total += *got;
+      if (total > (std::uint64_t{1} << 36))
+        return error(fmt::format("{}: unpacks without end", file));
+    }
+    if (total < bytes)
+      return error(fmt::format("{}: holds {} bytes of voxels, {} are needed", file, total, bytes));
+    auto source = open(-1);
+    if (!source) return source.error();
+    if (Status status = skip(**source, total - bytes); !status) return status.error();
+    return source;
+  }
+  auto source = open(-1);
+  if (!source) return source.error();
+  if (*skip_bytes > 0 && files->size() <= 1)
+    if (Status status = skip(**source, static_cast<std::uint64_t>(*skip_bytes)); !status)
+      return status.error();
+  return source;
+}
+
+}  // namespace
+
+Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& options,
+                       Progress& progress) {
+  const std::string file = short_name(path);
+  constexpr std::size_t kLongestHeader = std::size_t{4} << 20;
+  auto head = first_bytes(path, kLongestHeader);
+  if (!head) return head.error();
+  auto header = parse(std::string(head->begin(), head->end()), file);
+  if (!header) return header.error();
+
+  Scan scan;
+  scan.format = "NRRD";
+  scan.label_names = segments(*header);
+  const bool segmentation = !scan.label_names.empty();
+  if (segmentation) scan.format = "NRRD segmentation";
+
+  auto shape = shape_of(*header, file, segmentation);
+  if (!shape) return shape.error();
+  auto count = voxel_count(file, shape->sizes[0], shape->sizes[1], shape->sizes[2]);
+  if (!count) return count.error();
+  for (int a = 0; a < 3; ++a)
+    scan.size[a] = static_cast<int>(shape->sizes[static_cast<std::size_t>(a)]);
+
+  SampleFormat format;
+  const std::string type = lower(header->fields["type"]);
+  if (!sample_type(type, format.type))
+    return error(fmt::format("{}: type: \"{}\" is no number burr reads", file, base::shown(type)));
+  const std::string endian = lower(header->fields["endian"]);
+  format.big_endian = endian == "big";
+  const std::string encoding = lower(header->fields["encoding"]);
+  const bool text = encoding == "text" || encoding == "txt" || encoding == "ascii";
+  if (!text && encoding != "raw" && encoding != "gzip" && encoding != "gz" && encoding != "bzip2" &&
+      encoding != "bz2")
+    return error(fmt::format("{}: encoding: \"{}\" is not read; save it as raw or gzip", file,
+                             base::shown(encoding)));
+  if (encoding == "raw" && endian.empty() && bytes_of(format.type) > 1)
+    scan.notices.emplace_back("The file does not state its byte order: taken for little endian.");
+
+  auto source = data_source(*header, path, encoding, *count * bytes_of(format.type));
+  if (!source) return source.error();
+  VoxelSink sink(*count);
+  Status read = text ? read_ascii(**source, *count, sink)
+                     : read_samples(**source, format, *count, sink, progress);
+  if (!read) return error(read.error().trouble, fmt::format("{}: {}", file, read.error().text));
+  if (Status status = sink.finish(scan, segmentation); !status)
+    return error(fmt::format("{}: {}", file, status.error().text));
+  const Affine affine = affine_of(*header, *shape, file, scan);
+  if (Status status = place(scan, affine, options.spacing_mm, file, progress); !status)
+    return status.error();
+  return scan;
+}
+
+}  // namespace burr::io

@@ -1,0 +1,427 @@
+// The asking side of the fence: starts burr-read, lends it memory, watches it, and believes nothing
+// it says without looking.
+#include "burr/io/read/read_scan.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "burr/io/read/bytes.h"
+#include "burr/io/sandbox/fence.h"
+#include "burr/io/sandbox/fence_letter.h"
+#include "burr/io/sandbox/fence_walls.h"
+
+namespace burr::io {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::size_t kLongestRequest = 16384;
+
+// An open file, out of the way of 0..3, which the reader is started with.
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(int number) : number_(number) {
+    constexpr int kFree = 10;
+    if (number_ < 0 || number_ >= kFree) return;
+    number_ = ::fcntl(number, F_DUPFD_CLOEXEC, kFree);
+    ::close(number);
+  }
+  Handle(Handle&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() { reset(); }
+  void reset() {
+    if (number_ >= 0) ::close(std::exchange(number_, -1));
+  }
+  [[nodiscard]] int get() const { return number_; }
+  [[nodiscard]] bool open() const { return number_ >= 0; }
+
+ private:
+  int number_ = -1;
+};
+
+// Memory of exactly this size: nobody can make it shorter under us, or longer.
+Handle sealed_memory(const char* name, std::size_t bytes) {
+  Handle handle(::memfd_create(name, MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  if (!handle.open() || ::ftruncate(handle.get(), static_cast<off_t>(bytes)) != 0 ||
+      ::fcntl(handle.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW) != 0)
+    return {};
+  return handle;
+}
+
+bool all_finite(const Voxels<float>& values) {
+  constexpr std::uint32_t kExponent = 0x7F800000;
+  std::uint32_t broken = 0;
+  for (const float value : values) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    broken |= (bits & kExponent) == kExponent ? 1U : 0U;
+  }
+  return broken == 0;
+}
+
+class Reader {
+ public:
+  Reader() = default;
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  ~Reader() { stop(); }
+
+  Result<Scan> read(const std::filesystem::path& path, const ReadOptions& options,
+                    Progress& progress) {
+    file_ = short_name(path);
+    if (Status status = start(path, options); !status) return status.error();
+    if (Status status = watch(progress); !status) return status.error();
+    return outcome();
+  }
+
+ private:
+  struct Loan {
+    Handle memory;
+    std::uint64_t bytes = 0;
+  };
+
+  Status start(const std::filesystem::path& path, const ReadOptions& options) {
+    const std::string program = fence_state().reader;
+    if (program.empty())
+      return error(Trouble::io,
+                   "the program burr-read, which reads scans, is not beside libburr.so; install "
+                   "burr again or name it in BURR_READ");
+    const auto failed = [this](const char* what, int reason) {
+      return error(Trouble::io,
+                   fmt::format("{}: cannot be read: {}: {}", file_, what, std::strerror(reason)));
+    };
+    letter_ = sealed_memory("burr-letter", kLetterBytes);
+    if (!letter_.open()) return failed("no memory to share", errno);
+    std::vector<std::uint8_t> request(kLongestRequest);
+    const std::uint64_t length = pack(FenceRequest{path.string(), options}, request);
+    if (length == 0) return error(Trouble::usage, fmt::format("{}: its path is too long", file_));
+    if (::pwrite(letter_.get(), &length, sizeof length, 0) != ssize_t{sizeof length} ||
+        ::pwrite(letter_.get(), request.data(), length, sizeof length) !=
+            static_cast<ssize_t>(length))
+      return failed("no memory to share", errno);
+    int ends[2] = {-1, -1};
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
+      return failed("no socket", errno);
+    socket_ = Handle(ends[0]);
+    Handle theirs(ends[1]);
+
+    // posix_spawn, because a fork of a process with threads may only call a few functions
+    posix_spawn_file_actions_t handles;
+    posix_spawnattr_t attributes;
+    posix_spawn_file_actions_init(&handles);
+    posix_spawnattr_init(&attributes);
+    posix_spawn_file_actions_adddup2(&handles, theirs.get(), kFenceSocket);
+    posix_spawn_file_actions_adddup2(&handles, letter_.get(), kFenceLetter);
+    posix_spawn_file_actions_addopen(&handles, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    if (kMemoryLimit)  // else: the report of a sanitizer must be seen
+      posix_spawn_file_actions_addopen(&handles, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    sigset_t none, all;
+    sigemptyset(&none);
+    sigfillset(&all);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &all);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    std::string name = "burr-read";
+    char* arguments[] = {name.data(), nullptr};
+    pid_t child = -1;
+    const int reason =
+        ::posix_spawn(&child, program.c_str(), &handles, &attributes, arguments, environ);
+    posix_spawn_file_actions_destroy(&handles);
+    posix_spawnattr_destroy(&attributes);
+    if (reason != 0) return failed("burr-read cannot be started", reason);
+    child_ = child;
+    return fine();
+  }
+
+  // Until the reader is gone.
+  Status watch(Progress& progress) {
+    constexpr int kTick = 50;  // [ms]
+    mark_ = Clock::now();
+    while (true) {
+      if (progress.cancelled()) {
+        stop();
+        return error(Trouble::interrupted, "reading was stopped");
+      }
+      pollfd waiting{socket_.get(), POLLIN, 0};
+      ::poll(&waiting, 1, kTick);
+      const bool gone = reap(WNOHANG);  // asked before the socket is emptied: nothing gets lost
+      bool closed = !listen(progress);
+      for (int n = 0; gone && !closed && n < 8; ++n) closed = !listen(progress);
+      if (gone || closed) break;
+      if (misbehaved_ || done_) break;
+      // work of a thousandth of the time is work, on the busiest computer; less is a nap
+      constexpr double kWork = 1e-3;
+      const double work = processor_seconds();
+      // its own limit ends it long before: a second line, should the first not hold
+      constexpr double kGrace = 3;  // [s]
+      if (work > limits_.seconds + kGrace) {
+        stop();
+        return took_too_long();
+      }
+      if (work - worked_at_mark_ > kWork * limits_.seconds) {
+        mark_ = Clock::now();
+        worked_at_mark_ = work;
+      } else if (Clock::now() - mark_ > std::chrono::duration<double>(limits_.seconds)) {
+        stop();
+        return error(
+            fmt::format("{}: reading it stood still for {:.0f} s and was stopped; copy it to a "
+                        "disk of this computer, or wait longer with --read-seconds",
+                        file_, limits_.seconds));
+      }
+    }
+    if (misbehaved_) {
+      stop();
+      return error(
+          fmt::format("{}: the reader answered what cannot be and was stopped; the file "
+                      "is damaged or made to do harm",
+                      file_));
+    }
+    if (done_) {
+      end_soon();
+      return fine();
+    }
+    end_soon();
+    return why_it_ended();
+  }
+
+  // All messages that are there; false: the other end is closed.
+  bool listen(Progress& progress) {
+    for (int n = 0; n < 256 && !misbehaved_; ++n) {
+      FenceMessage message;
+      const ssize_t got = ::recv(socket_.get(), &message, sizeof message, MSG_DONTWAIT | MSG_TRUNC);
+      if (got < 0) return errno == EAGAIN || errno == EINTR;
+      if (got == 0) return false;
+      if (got != ssize_t{sizeof message})
+        misbehaved_ = true;
+      else
+        take(message, progress);
+    }
+    return true;
+  }
+
+  void take(FenceMessage& message, Progress& progress) {
+    switch (message.kind) {
+      case FenceMessage::ready:
+        // said before it opened the file, so it is believed
+        limits_ = {message.bytes, message.value};
+        mark_ = Clock::now();
+        return;
+      case FenceMessage::want:
+        return lend(message.bytes);
+      case FenceMessage::back:
+        if (message.loan == 0 || message.loan > loans_.size()) {
+          misbehaved_ = true;
+          return;
+        }
+        loans_[message.loan - 1] = {};
+        return;
+      case FenceMessage::report: {
+        message.words[sizeof message.words - 1] = '\0';
+        for (char* c = message.words; *c != '\0'; ++c)
+          if (static_cast<unsigned char>(*c) < 0x20 || *c == 0x7F) *c = ' ';
+        progress.report(message.value >= 0 ? std::min(message.value, 1.0) : 0, message.words);
+        return;
+      }
+      case FenceMessage::done:
+        done_ = message.bytes;
+        return;
+      case FenceMessage::stranger:
+      case FenceMessage::no_walls:
+        refusal_ = message.kind;
+        return;
+      default:
+        misbehaved_ = true;
+    }
+  }
+
+  void lend(std::uint64_t bytes) {
+    std::uint64_t lent = 0;
+    for (const Loan& loan : loans_) lent += loan.bytes;
+    FenceMessage answer;
+    answer.kind = FenceMessage::refused;
+    Handle memory;
+    auto place = std::find_if(loans_.begin(), loans_.end(),
+                              [](const Loan& loan) { return !loan.memory.open(); });
+    const bool room = place != loans_.end() || loans_.size() < kMostLoans;
+    if (bytes > 0 && bytes <= limits_.memory && lent <= limits_.memory - bytes && room)
+      memory = sealed_memory("burr-voxels", static_cast<std::size_t>(bytes));
+    iovec part{&answer, sizeof answer};
+    alignas(cmsghdr) char extra[CMSG_SPACE(sizeof(int))] = {};
+    msghdr head{};
+    head.msg_iov = &part;
+    head.msg_iovlen = 1;
+    if (memory.open()) {
+      if (place == loans_.end()) {
+        loans_.emplace_back();
+        place = loans_.end() - 1;
+      }
+      answer.kind = FenceMessage::lent;
+      answer.loan = static_cast<std::uint32_t>(place - loans_.begin()) + 1;
+      head.msg_control = extra;
+      head.msg_controllen = sizeof extra;
+      cmsghdr* first = CMSG_FIRSTHDR(&head);
+      first->cmsg_level = SOL_SOCKET;
+      first->cmsg_type = SCM_RIGHTS;
+      first->cmsg_len = CMSG_LEN(sizeof(int));
+      const int handle = memory.get();
+      std::memcpy(CMSG_DATA(first), &handle, sizeof handle);
+      place->memory = std::move(memory);
+      place->bytes = bytes;
+    }
+    // it waits for this answer, so there is always room for it
+    const ssize_t sent = ::sendmsg(socket_.get(), &head, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent < 0 && errno != EPIPE && errno != ECONNRESET) misbehaved_ = true;
+  }
+
+  [[nodiscard]] double processor_seconds() const {
+    clockid_t clock{};
+    timespec used{};
+    if (::clock_getcpuclockid(child_, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return -1;
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+  }
+
+  // True: it is gone. Somebody else in this process may have waited for it.
+  bool reap(int how) {
+    if (child_ < 0) return true;
+    pid_t which = 0;
+    do {
+      which = ::waitpid(child_, &status_, how);
+    } while (which < 0 && errno == EINTR);
+    if (which == 0) return false;
+    if (which < 0) status_ = 0;
+    child_ = -1;
+    return true;
+  }
+  void stop() {
+    if (reap(WNOHANG)) return;
+    ::kill(child_, SIGKILL);
+    reap(0);
+  }
+  // it has said its last word; a moment to leave
+  void end_soon() {
+    for (int n = 0; n < 400 && !reap(WNOHANG); ++n) ::usleep(n < 50 ? 200 : 5000);
+    stop();
+  }
+
+  [[nodiscard]] Error took_too_long() const {
+    return error(
+        fmt::format("{}: reading it took more than {:.0f} s of processor time, far more than "
+                    "its size explains; if you trust it, allow more with --read-seconds",
+                    file_, limits_.seconds));
+  }
+
+  Error why_it_ended() {
+    if (refusal_ == FenceMessage::stranger)
+      return error(Trouble::internal,
+                   "burr-read is of another version of burr; install burr again");
+    if (refusal_ == FenceMessage::no_walls)
+      return error(Trouble::internal,
+                   "burr-read could not limit itself and has read nothing; see `burr check`");
+    const int number = WIFSIGNALED(status_) ? WTERMSIG(status_) : 0;
+    switch (number) {
+      case SIGXCPU:
+        return took_too_long();
+      case SIGSYS:
+        return error(
+            fmt::format("{}: reading it tried what no reader needs (the network, another program, "
+                        "writing) and was stopped; do not trust this file",
+                        file_));
+      case SIGKILL:
+        return error(
+            fmt::format("{}: reading it was ended by the system, most likely because "
+                        "memory ran out; close other programs or give a smaller scan",
+                        file_));
+      default:
+        return error(fmt::format(
+            "{}: reading it crashed ({}), and nothing else did; the file is damaged in a way the "
+            "decoder does not survive, copy it again",
+            file_, number != 0 ? ::strsignal(number) : "no answer"));
+    }
+  }
+
+  Result<Scan> outcome() {
+    const auto lies = [this] {
+      return error(
+          fmt::format("{}: the reader answered what cannot be; the file is damaged or "
+                      "made to do harm",
+                      file_));
+    };
+    if (*done_ == 0 || *done_ > kLetterBytes) return lies();
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(*done_));
+    if (::pread(letter_.get(), bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+      return lies();
+    FenceOutcome outcome;
+    if (!unpack(bytes, outcome)) return lies();
+    if (!outcome.scan) {
+      if (outcome.scan.error().trouble == Trouble::interrupted) return lies();
+      return outcome.scan.error();
+    }
+    Scan& scan = *outcome.scan;
+    if (!take_over(scan.values, outcome.values_loan, outcome.values) ||
+        !take_over(scan.labels, outcome.labels_loan, outcome.labels) || !all_finite(scan.values))
+      return lies();
+    return std::move(scan);
+  }
+
+  // The voxels of a loan become ours, without a copy.
+  template <class T>
+  bool take_over(Voxels<T>& to, std::uint32_t number, std::uint64_t count) {
+    if (count == 0) return true;
+    if (number == 0 || number > loans_.size()) return false;
+    Loan& loan = loans_[number - 1];
+    if (!loan.memory.open() || count > loan.bytes / sizeof(T)) return false;
+    // nobody writes into it any more: refused while anyone still could
+    if (::fcntl(loan.memory.get(), F_ADD_SEALS, F_SEAL_WRITE) != 0) return false;
+    const auto bytes = static_cast<std::size_t>(loan.bytes);
+    void* at = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE,
+                      loan.memory.get(), 0);
+    if (at == MAP_FAILED) return false;
+    to = voxels_in<T>(at, bytes, static_cast<std::size_t>(count));
+    loan.memory.reset();
+    return true;
+  }
+
+  std::string file_;
+  Handle letter_, socket_;
+  std::vector<Loan> loans_;
+  FenceLimits limits_{0, 60};  // until the reader has said them
+  Clock::time_point mark_;     // when it was last seen to have worked
+  double worked_at_mark_ = 0;  // processor time then  [s]
+  pid_t child_ = -1;
+  int status_ = 0;
+  bool misbehaved_ = false;
+  std::uint32_t refusal_ = 0;
+  std::optional<std::uint64_t> done_;
+};
+
+}  // namespace
+
+Result<Scan> read_scan(const std::filesystem::path& path, const ReadOptions& options,
+                       Progress& progress) {
+  return Reader().read(path, options, progress);
+}
+
+}  // namespace burr::io

@@ -1,0 +1,89 @@
+// Which reader a file gets: by its first bytes, else by its name.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <new>
+#include <string>
+#include <system_error>
+
+#include "burr/io/read/bytes.h"
+#include "burr/io/read/readers.h"
+
+namespace burr::io {
+namespace {
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+bool begins_with(const std::vector<std::uint8_t>& bytes, std::size_t at, std::string_view text) {
+  return bytes.size() >= at + text.size() &&
+         std::equal(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
+Result<Scan> read_by_content(const std::filesystem::path& path, const ReadOptions& options,
+                             Progress& progress) {
+  std::string name = short_name(path);
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  auto head = first_bytes(path, 132);
+  if (!head) return head.error();
+  if (head->empty())
+    return error(fmt::format("{}: the file is empty; copy it again", short_name(path)));
+
+  if (begins_with(*head, 0, "NRRD")) return read_nrrd(path, options, progress);
+  if (begins_with(*head, 128, "DICM")) return read_dicom(path, options, progress);
+  for (const char* end : {".nii", ".nii.gz", ".hdr", ".hdr.gz", ".img", ".img.gz"})
+    if (ends_with(name, end)) return read_nifti(path, options, progress);
+  if (ends_with(name, ".mha") || ends_with(name, ".mhd")) return read_meta(path, options, progress);
+  if (ends_with(name, ".nrrd") || ends_with(name, ".nhdr"))
+    return error(
+        fmt::format("{}: does not begin with \"NRRD\"; it is no NRRD file", short_name(path)));
+  // NIfTI under another name: its header's length comes first
+  const auto first = (*head)[0] | (*head)[1] << 8 | (*head)[2] << 16;
+  if (head->size() > 4 && (first == 348 || first == 540))
+    return read_nifti(path, options, progress);
+  if (begins_with(*head, 0, "ObjectType")) return read_meta(path, options, progress);
+  // DICOM without its 128 byte preamble
+  return read_dicom(path, options, progress);
+}
+
+// The only file in a folder, whatever it is; else the folder, which is a DICOM series then.
+std::filesystem::path only_file_in(const std::filesystem::path& folder) {
+  std::error_code trouble;
+  std::filesystem::path only;
+  for (std::filesystem::directory_iterator it(folder, trouble), end; !trouble && it != end;
+       it.increment(trouble)) {
+    if (!only.empty() || !it->is_regular_file(trouble)) return folder;
+    only = it->path();
+  }
+  return trouble || only.empty() ? folder : only;
+}
+
+}  // namespace
+
+Result<Scan> read_unfenced(const std::filesystem::path& path, const ReadOptions& options,
+                           Progress& progress) {
+  std::error_code trouble;
+  const auto status = std::filesystem::status(path, trouble);
+  if (trouble || status.type() == std::filesystem::file_type::not_found)
+    return error(Trouble::io, fmt::format("{}: is not there; check the name", short_name(path)));
+  if (!options.spacing_mm.isZero() && !(options.spacing_mm.array() > 0).all())
+    return error(Trouble::usage, "--spacing-mm: three numbers above 0 are needed");
+  try {
+    if (!std::filesystem::is_directory(status)) return read_by_content(path, options, progress);
+    const std::filesystem::path only = only_file_in(path);
+    return only == path ? read_dicom(path, options, progress)
+                        : read_by_content(only, options, progress);
+  } catch (const std::bad_alloc&) {
+    return error(
+        fmt::format("{}: reading it needs more memory than it may take; if you trust it, allow "
+                    "more with --read-memory-mb",
+                    short_name(path)));
+  } catch (const std::exception& problem) {  // a library under us
+    return error(fmt::format("{}: cannot be read: {}", short_name(path), problem.what()));
+  }
+}
+
+}  // namespace burr::io

@@ -1,0 +1,24 @@
+// io/read/text.h - small words for text headers. Private to io.
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "burr/base/result.h"
+#include "burr/io/read/bytes.h"
+
+namespace burr::io {
+
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+[[nodiscard]] std::vector<std::string> words(std::string_view text);
+[[nodiscard]] std::string lower(std::string_view text);
+// the whole text as a number, or false
+[[nodiscard]] bool to_number(std::string_view text, double& out);
+[[nodiscard]] bool to_number(std::string_view text, std::int64_t& out);
+// numbers separated by spaces, commas or brackets; empty where one is none
+[[nodiscard]] std::vector<double> numbers(std::string_view text);
+
+}  // namespace burr::io

@@ -1,0 +1,214 @@
+#include "burr/io/sandbox/fence_child.h"
+
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <mutex>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "burr/io/read/bytes.h"
+#include "burr/io/sandbox/fence_letter.h"
+#include "burr/io/sandbox/fence_walls.h"
+#include "burr/io/sandbox/voxel_lender.h"
+
+namespace burr::io {
+namespace {
+
+// False: nobody listens any more.
+bool say(const FenceMessage& message) {
+  iovec part{const_cast<FenceMessage*>(&message), sizeof message};  // only read
+  msghdr head{};
+  head.msg_iov = &part;
+  head.msg_iovlen = 1;
+  ssize_t sent = 0;
+  do {
+    sent = ::sendmsg(kFenceSocket, &head, MSG_NOSIGNAL);
+  } while (sent < 0 && errno == EINTR);
+  return sent == static_cast<ssize_t>(sizeof message);
+}
+
+// The answer and the handle that comes along, or -1.
+bool hear(FenceMessage& message, int& handle) {
+  handle = -1;
+  iovec part{&message, sizeof message};
+  alignas(cmsghdr) char extra[CMSG_SPACE(sizeof(int))] = {};
+  msghdr head{};
+  head.msg_iov = &part;
+  head.msg_iovlen = 1;
+  head.msg_control = extra;
+  head.msg_controllen = sizeof extra;
+  ssize_t got = 0;
+  do {
+    got = ::recvmsg(kFenceSocket, &head, MSG_CMSG_CLOEXEC);
+  } while (got < 0 && errno == EINTR);
+  const cmsghdr* first = CMSG_FIRSTHDR(&head);
+  if (first != nullptr && first->cmsg_type == SCM_RIGHTS)
+    std::memcpy(&handle, CMSG_DATA(first), sizeof handle);
+  return got == static_cast<ssize_t>(sizeof message);
+}
+
+// Who waits for an answer holds the lock, so an answer is always one's own.
+class Loans final : public VoxelLender {
+ public:
+  void* lend(std::size_t bytes) override {
+    const std::lock_guard guard(lock_);
+    FenceMessage message;
+    message.kind = FenceMessage::want;
+    message.bytes = bytes;
+    int handle = -1;
+    if (!say(message) || !hear(message, handle)) ::_exit(1);  // the asker is gone
+    if (message.kind != FenceMessage::lent || handle < 0) return nullptr;
+    void* at = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, handle, 0);
+    ::close(handle);
+    if (at == MAP_FAILED) {
+      give_back(message.loan);
+      return nullptr;
+    }
+    loans_.push_back({at, bytes, message.loan});
+    return at;
+  }
+  bool take_back(void* at) override {
+    const std::lock_guard guard(lock_);
+    const auto loan = find(at);
+    if (loan == loans_.end()) return false;
+    ::munmap(loan->at, loan->bytes);
+    give_back(loan->number);
+    loans_.erase(loan);
+    return true;
+  }
+  // Number of the loan, or 0.
+  [[nodiscard]] std::uint32_t number(const void* at) {
+    const std::lock_guard guard(lock_);
+    const auto loan = find(at);
+    return loan == loans_.end() ? 0 : loan->number;
+  }
+
+ private:
+  struct Loan {
+    void* at;
+    std::size_t bytes;
+    std::uint32_t number;
+  };
+  std::vector<Loan>::iterator find(const void* at) {
+    return std::find_if(loans_.begin(), loans_.end(), [at](const Loan& l) { return l.at == at; });
+  }
+  static void give_back(std::uint32_t number) {
+    FenceMessage message;
+    message.kind = FenceMessage::back;
+    message.loan = number;
+    (void)say(message);
+  }
+  std::mutex lock_;
+  std::vector<Loan> loans_;
+};
+
+// Passes on what people can see, not every slice.
+class Reports final : public Progress {
+ public:
+  void report(double fraction, std::string_view stage) override {
+    const auto now = std::chrono::steady_clock::now();
+    if (stage == stage_ && fraction < 1 && now - last_ < std::chrono::milliseconds(40)) return;
+    stage_ = stage;
+    last_ = now;
+    FenceMessage message;
+    message.kind = FenceMessage::report;
+    message.value = fraction;
+    stage.copy(message.words, sizeof message.words - 1);
+    (void)say(message);
+  }
+  // who wants to stop ends this process
+  [[nodiscard]] bool cancelled() const override { return false; }
+
+ private:
+  std::string stage_;
+  std::chrono::steady_clock::time_point last_;
+};
+
+FenceOutcome read_all(FencedRead read, const FenceRequest& request) {
+  Reports reports;
+  FenceOutcome outcome;
+  try {
+    outcome.scan = read(request.path, request.options, reports);
+  } catch (const std::bad_alloc&) {
+    outcome.scan =
+        error(short_name(request.path) + ": reading it needs more memory than it may take");
+  } catch (const std::exception& problem) {
+    outcome.scan = error(short_name(request.path) + ": reading it failed: " + problem.what());
+  }
+  return outcome;
+}
+
+}  // namespace
+
+int answer_one_request(FencedRead read) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // Ctrl-C goes to everybody at the terminal; whether to stop is for the asker to say
+  for (const int number : {SIGINT, SIGQUIT, SIGHUP}) ::signal(number, SIG_IGN);
+#if defined(SYS_close_range)
+  ::syscall(SYS_close_range, kFenceLetter + 1, ~0U, 0);
+#endif
+  struct stat facts = {};
+  void* letter = MAP_FAILED;
+  if (::fstat(kFenceLetter, &facts) == 0 && facts.st_size == off_t{kLetterBytes})
+    letter = ::mmap(nullptr, kLetterBytes, PROT_READ | PROT_WRITE, MAP_SHARED, kFenceLetter, 0);
+  if (letter == MAP_FAILED) {
+    std::fputs("burr-read reads scans for burr; it is not started by hand\n", stderr);
+    return 2;
+  }
+  ::close(kFenceLetter);
+
+  auto* bytes = static_cast<std::uint8_t*>(letter);
+  std::uint64_t length = 0;
+  std::memcpy(&length, bytes, sizeof length);
+  FenceRequest request;
+  FenceMessage message;
+  if (length > kLetterBytes - sizeof length ||
+      !unpack({bytes + sizeof length, static_cast<std::size_t>(length)}, request)) {
+    message.kind = FenceMessage::stranger;
+    (void)say(message);
+    return 1;
+  }
+  const FenceLimits limits = fence_limits(request.path, request.options);
+  if (!raise_walls(request.path, limits)) {
+    message.kind = FenceMessage::no_walls;
+    (void)say(message);
+    return 1;
+  }
+  message.kind = FenceMessage::ready;
+  message.bytes = limits.memory;
+  message.value = limits.seconds;
+  if (!say(message)) return 1;
+
+  static Loans loans;  // outlives every voxel
+  set_voxel_lender(&loans);
+  FenceOutcome outcome = read_all(read, request);
+  if (outcome.scan.ok()) {
+    outcome.values = outcome.scan->values.size();
+    outcome.labels = outcome.scan->labels.size();
+    outcome.values_loan = loans.number(outcome.scan->values.data());
+    outcome.labels_loan = loans.number(outcome.scan->labels.data());
+  }
+  message = {};
+  message.kind = FenceMessage::done;
+  message.bytes = pack(outcome, {bytes, kLetterBytes});
+  if (message.bytes == 0) {
+    outcome.scan = error("its header holds more words than burr keeps");
+    message.bytes = pack(outcome, {bytes, kLetterBytes});
+  }
+  (void)say(message);
+  ::_exit(0);  // the voxels stay where they are
+}
+
+}  // namespace burr::io

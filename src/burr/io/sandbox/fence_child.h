@@ -1,0 +1,20 @@
+// io/sandbox/fence_child.h - the reader's side of the fence: what `burr-read` does. A header of this room
+// only.
+#pragma once
+
+#include <filesystem>
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "burr/io/read/read_scan.h"
+
+namespace burr::io {
+
+using FencedRead = Result<Scan> (*)(const std::filesystem::path& path, const ReadOptions& options,
+                                    Progress& progress);
+
+// All that main() of a fenced reader does: takes the request, puts the walls up, reads, answers.
+// Returns the exit status. Started by hand it says so and does nothing.
+[[nodiscard]] int answer_one_request(FencedRead read);
+
+}  // namespace burr::io

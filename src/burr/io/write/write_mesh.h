@@ -1,0 +1,31 @@
+// io/write/write_mesh.h - a surface goes out as a file other programs open. Millimetres, except GLB.
+//
+//     .stl   binary; SPACE=LPS or SPACE=RAS in the header, as 3D Slicer reads it
+//     .ply   binary little endian; the mark as a comment; normals and a colour per vertex
+//     .obj   text; the mark as a comment; normals
+//     .3mf   unit millimeter; one material with name and colour per tissue
+//     .glb   metres, +Y up (superior), +Z to the front (anterior); normals and a colour per vertex
+//
+// A mesh in the frame `print` carries no mark: it no longer lies where the patient lay. GLB has its
+// own axes and takes no frame. Files are written beside their place and renamed. Errors:
+// Trouble::usage for an ending not listed, Trouble::io, Trouble::interrupted. Thread: any.
+#pragma once
+
+#include <string>
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "burr/io/write/frame.h"
+#include "burr/surface/patch.h"
+#include "burr/volume/tissue.h"
+
+namespace burr::io {
+
+// true: the ending of this path is one of the above, in any case
+[[nodiscard]] bool is_mesh_path(const std::string& path);
+
+// mesh: closed, world LPS in metres; its tissue ids index `tissues`.
+[[nodiscard]] Status write_mesh(const surface::Mesh& mesh, const volume::TissueTable& tissues,
+                                const std::string& path, Frame frame, Progress& progress);
+
+}  // namespace burr::io

@@ -1,0 +1,139 @@
+// src/burr/phantom/spine.cpp - a third lumbar vertebra, by formula.
+//
+// Frame: LPS about the middle of the body: x left, y backwards, z up. Sizes: Panjabi et al. 1992,
+// Spine 17(3) (body 46 x 34 x 28 mm, pedicle 10 mm wide, canal 23 x 18 mm).
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "burr/phantom/phantoms.h"
+#include "burr/phantom/sculpt.h"
+
+namespace burr::phantom {
+namespace {
+
+using volume::TissueId;
+using volume::TissueKind;
+
+enum Id : TissueId { kAir, kCortex, kTrabecular, kSac, kRoots, kMarrow };
+
+class Vertebra {
+ public:
+  struct Parts {
+    double hull = 0, marrow = 0, sac = 0, roots = 0;
+  };
+
+  [[nodiscard]] Parts parts(const Vec3& p) const {
+    const double mm = kMm;
+    Parts s;
+    // left and right are the same, but for the noise
+    const Vec3 q(std::abs(p.x()), p.y(), p.z());
+    const auto cone = [&](const Vec3& a, double ra, const Vec3& b, double rb) {
+      return RoundCone{a, b, ra * mm, rb * mm}.depth(q);
+    };
+
+    // body: an oval drum with a waist, rims a little raised, plates a little hollow
+    const double waist = 1 - 0.10 * (1 - std::pow(std::min(std::abs(q.z()) / (14 * mm), 1.0), 2));
+    const double round =
+        ellipsoid(Vec3(q.x(), q.y(), 0), Vec3::Zero(), at_mm(23 * waist, 17 * waist, 23));
+    const double middle =
+        std::clamp(1 - (q.x() * q.x() + q.y() * q.y()) / (15e-3 * 15e-3), 0.0, 1.0);
+    double hull = carve_soft(round, 14 * mm - 1.3 * mm * middle - std::abs(q.z()), 3 * mm);
+
+    // arch: pedicles, laminae, spine, transverse and joint processes
+    hull = blend(hull,
+                 std::max(cone(at_mm(13, 8, 7), 4.6, at_mm(15.5, 26, 6.5), 4.8),
+                          cone(at_mm(13, 8, 2.5), 4.6, at_mm(15.5, 26, 3), 4.8)),
+                 4 * mm);
+    hull = blend(hull, cone(at_mm(15, 28.5, 3), 4.2, at_mm(3, 39.5, -5), 3.6), 4 * mm);
+    hull = blend(hull, cone(at_mm(13, 31, -5), 3.4, at_mm(2, 40.5, -9), 3.4), 4 * mm);
+    hull = blend(hull,
+                 std::max(cone(at_mm(0, 39, -3), 3.4, at_mm(0, 64, -5), 2.8),
+                          cone(at_mm(0, 39, -11), 3.2, at_mm(0, 66, -13), 3.8)),
+                 3.5 * mm);
+    hull = blend(hull, cone(at_mm(0, 52, -3), 2.4, at_mm(0, 54, -12), 2.4), 4 * mm);
+    hull = blend(hull, cone(at_mm(16, 28, 4), 4.6, at_mm(41, 34, 6), 3.0), 4 * mm);
+    hull = blend(hull, cone(at_mm(16.5, 29.5, 6), 5.0, at_mm(17.5, 30.5, 18), 4.6), 3 * mm);
+    hull = blend(hull, cone(at_mm(12.5, 36, -6), 4.8, at_mm(12.5, 36.5, -19), 4.8), 3 * mm);
+    // facets: flat, the upper ones look inwards and back, the lower ones outwards and forwards
+    const Vec3 upper = Vec3(-0.75, 0.66, 0.05).normalized(),
+               lower = Vec3(0.8, -0.6, 0).normalized();
+    if (q.z() > 8 * mm && q.y() > 20 * mm)
+      hull = carve_soft(hull, 2.4 * mm - (q - at_mm(16.5, 30.5, 15)).dot(upper), 1.5 * mm);
+    if (q.z() < -10 * mm && q.y() > 28 * mm)
+      hull = carve_soft(hull, 2.8 * mm - (q - at_mm(12.5, 36.5, -16)).dot(lower), 1.5 * mm);
+
+    // canal: a rounded triangle
+    double canal = ellipsoid(Vec3(q.x(), q.y(), 0), at_mm(0, 23.5, 0), at_mm(11.6, 7.4, 12));
+    canal = blend(canal, 6.5 * mm - std::hypot(q.x(), q.y() - 27 * mm), 3 * mm);
+    hull = carve_soft(hull, -canal, 1.5 * mm);
+    s.hull = hull + 0.3 * mm * noise(p, 9 * mm, 31) + 0.08 * mm * noise(p, 2.5 * mm, 32);
+
+    s.sac = ellipsoid(Vec3(q.x(), q.y(), 0), at_mm(0, 24, 0), at_mm(8.6, 6.4, 9));
+    s.roots = cone(at_mm(7.5, 23, 4), 1.7, at_mm(13, 20, -9), 1.9);
+    s.roots = std::max(s.roots, cone(at_mm(13, 20, -9), 1.9, at_mm(24, 15, -21), 2.0));
+
+    // spongy inside; the shell is thicker in the arch than about the body
+    const double shell =
+        (q.y() > 17 * mm ? 2.0 : 1.1 + 0.9 * std::clamp((q.y() - 8 * mm) / (9 * mm), 0.0, 1.0)) *
+        mm;
+    const double inside = s.hull - shell;
+    s.marrow =
+        inside > -1.5 * mm ? std::min(inside, foam(p, 3.0 * mm, 0.35, 33) - 0.27 * mm) : inside;
+    return s;
+  }
+};
+
+double solid(const Vertebra::Parts& s) { return std::min(s.hull, -s.marrow); }
+
+}  // namespace
+
+Phantom spine(double voxel) {
+  Phantom phantom;
+  phantom.tissues.tissues = {
+      {.name = "air", .kind = TissueKind::air},
+      {.name = "cortical bone", .colour = {0.91F, 0.87F, 0.77F}, .cutting_energy = 1.2e9},
+      {.name = "trabecular bone",
+       .colour = {0.90F, 0.79F, 0.64F},
+       .cutting_energy = 0.6e9,
+       .bleeds = 0.15},
+      {.name = "dural sac",
+       .kind = TissueKind::soft,
+       .colour = {0.93F, 0.86F, 0.66F},
+       .spare = true},
+      {.name = "nerve roots",
+       .kind = TissueKind::soft,
+       .colour = {0.98F, 0.85F, 0.25F},
+       .spare = true},
+      {.name = "marrow (soft tissue)",
+       .kind = TissueKind::soft,
+       .colour = {0.76F, 0.46F, 0.38F},
+       .bleeds = 0.3},
+  };
+  for (std::size_t id = 0; id < phantom.tissues.tissues.size(); ++id)
+    phantom.tissues.tissues[id].label = static_cast<int>(id);
+
+  const auto model = std::make_shared<const Vertebra>();
+  phantom.formula.lipschitz = 2.0;
+  phantom.formula.depth = [model](const Vec3& p) { return solid(model->parts(p)); };
+  phantom.formula.soft = [model](const Vec3& p) {
+    const Vertebra::Parts s = model->parts(p);
+    return std::max({s.sac, s.roots, s.marrow});
+  };
+  phantom.formula.tissue = [model, ramp = volume::kRamp * voxel](const Vec3& p,
+                                                                 double depth) -> TissueId {
+    const Vertebra::Parts s = model->parts(p);
+    if (depth < -1e-4 * ramp) {  // its field is below the surface, rounded
+      if (s.sac > 0) return kSac;
+      if (s.roots > 0) return kRoots;
+      if (s.marrow > 0) return kMarrow;
+    }
+    if (depth < -ramp) return kAir;
+    return s.marrow > -0.9 * kMm && s.hull > 1.0 * kMm ? kTrabecular : kCortex;
+  };
+  phantom.lo = at_mm(-46, -19, -26);
+  phantom.hi = at_mm(46, 72, 26);
+  return phantom;
+}
+
+}  // namespace burr::phantom

@@ -1,0 +1,535 @@
+// src/burr/phantom/temporal_bone.cpp - a right temporal bone, by formula.
+//
+// Frame: LPS about the opening of the ear canal; for a right ear x runs medially (deeper for the
+// surgeon), y backwards, z up. Distances between landmarks follow Gulya & Schuknecht, Anatomy of
+// the Temporal Bone, 3rd ed., to a millimetre or two; the outer shape is modelled by eye.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+#include "burr/phantom/phantoms.h"
+#include "burr/phantom/sculpt.h"
+
+namespace burr::phantom {
+namespace {
+
+using volume::Tissue;
+using volume::TissueId;
+using volume::TissueKind;
+
+enum Id : TissueId {
+  kAir,
+  kCortex,
+  kCellWalls,
+  kCanalWall,
+  kDuraPlate,
+  kSinusPlate,
+  kLabyrinth,
+  kFacialCanal,
+  kMalleus,
+  kIncus,
+  kStapes,
+  kFacialNerve,
+  kChorda,
+  kSinus,
+  kDura,
+  kSemicircular,
+  kCochlea,
+  kEardrum,
+  kCarotid,
+  kMeatusNerves,
+  kEarCanal,
+  kMiddleEar,
+  kAntrum,
+  kCells,
+};
+
+volume::TissueTable table() {
+  using enum TissueKind;
+  const double hard = 1.6e9, bone = 1.2e9, light = 0.8e9;  // specific cutting energy [J/m^3]
+  volume::TissueTable t;
+  t.tissues = {
+      {.name = "air", .kind = air},
+      {.name = "cortical bone",
+       .kind = solid,
+       .colour = {0.91F, 0.87F, 0.77F},
+       .cutting_energy = bone},
+      {.name = "mastoid bone",
+       .kind = solid,
+       .colour = {0.90F, 0.80F, 0.66F},
+       .cutting_energy = light},
+      {.name = "bony meatus wall",
+       .kind = solid,
+       .colour = {0.93F, 0.84F, 0.70F},
+       .cutting_energy = bone,
+       .spare = true},
+      {.name = "bony dura plate (tegmen)",
+       .kind = solid,
+       .colour = {0.93F, 0.80F, 0.74F},
+       .cutting_energy = bone,
+       .spare = true},
+      {.name = "bony sinus plate",
+       .kind = solid,
+       .colour = {0.80F, 0.79F, 0.84F},
+       .cutting_energy = bone},
+      {.name = "labyrinth (otic capsule)",
+       .kind = solid,
+       .colour = {0.97F, 0.95F, 0.88F},
+       .cutting_energy = hard,
+       .spare = true},
+      {.name = "facial canal bone",
+       .kind = solid,
+       .colour = {0.94F, 0.86F, 0.62F},
+       .cutting_energy = bone},
+      {.name = "malleus",
+       .kind = solid,
+       .colour = {0.96F, 0.91F, 0.80F},
+       .cutting_energy = bone,
+       .spare = true},
+      {.name = "incus",
+       .kind = solid,
+       .colour = {0.95F, 0.89F, 0.76F},
+       .cutting_energy = bone,
+       .spare = true},
+      {.name = "stapes",
+       .kind = solid,
+       .colour = {0.97F, 0.93F, 0.84F},
+       .cutting_energy = bone,
+       .spare = true},
+      {.name = "facial nerve", .kind = soft, .colour = {0.98F, 0.85F, 0.25F}, .spare = true},
+      {.name = "chorda tympani", .kind = soft, .colour = {0.98F, 0.72F, 0.20F}, .spare = true},
+      {.name = "sigmoid sinus",
+       .kind = soft,
+       .colour = {0.30F, 0.38F, 0.72F},
+       .spare = true,
+       .bleeds = 1},
+      {.name = "dura", .kind = soft, .colour = {0.80F, 0.62F, 0.62F}, .spare = true},
+      {.name = "semicircular canals", .kind = soft, .colour = {0.55F, 0.78F, 0.85F}, .spare = true},
+      {.name = "cochlea (soft tissue)",
+       .kind = soft,
+       .colour = {0.45F, 0.70F, 0.62F},
+       .spare = true},
+      {.name = "eardrum (membrane)", .kind = soft, .colour = {0.88F, 0.80F, 0.78F}, .spare = true},
+      {.name = "internal carotid artery",
+       .kind = soft,
+       .colour = {0.80F, 0.20F, 0.18F},
+       .spare = true,
+       .bleeds = 1},
+      {.name = "internal meatus nerves",
+       .kind = soft,
+       .colour = {0.95F, 0.80F, 0.40F},
+       .spare = true},
+      {.name = "ear canal", .kind = air, .colour = {0.75F, 0.60F, 0.52F}},
+      {.name = "middle ear", .kind = air, .colour = {0.70F, 0.55F, 0.60F}},
+      {.name = "antrum air", .kind = air, .colour = {0.62F, 0.58F, 0.66F}},
+      {.name = "mastoid air cells", .kind = air, .colour = {0.66F, 0.66F, 0.70F}},
+  };
+  for (std::size_t id = 0; id < t.tissues.size(); ++id) t.tissues[id].label = static_cast<int>(id);
+  return t;
+}
+
+// everything the formula asks about one point, depths positive inside each thing [m]
+struct Parts {
+  double hull = 0;    // the bone as a whole, without holes
+  double fossa = 0;   // the inside of the skull
+  double tegmen = 0;  // height above the floor of the middle fossa
+  double canal = 0;   // ear canal
+  double middle = 0;  // tympanic cavity
+  double antrum = 0;
+  double cells = 0;   // air of the mastoid cells
+  double facial = 0;  // distance to the nerve's middle
+  double chorda = 0;  // likewise
+  double sinus = 0;   // distance to its middle line, bulb included
+  double carotid = 0;
+  double meatus = 0;
+  double semicircular = 0;  // distance to the nearest canal's circle
+  double cochlea = 0;       // distance to the spiral, less its tube
+  double capsule = 0;
+  double malleus = 0, incus = 0, stapes = 0;
+  double drum = 0;
+};
+
+// beyond this nothing has a name [m]
+constexpr double kSkin = 6e-3;
+
+class TemporalBone {
+ public:
+  explicit TemporalBone(double voxel) : ramp_(volume::kRamp * voxel) {}
+
+  [[nodiscard]] double depth(const Vec3& p) const { return bone(remembered(p)); }
+  [[nodiscard]] double soft(const Vec3& p) const { return labelled(remembered(p)); }
+  [[nodiscard]] TissueId tissue(const Vec3& p, double depth) const;
+
+  static Vec3 lo() { return at_mm(-9, -29, -31); }
+  static Vec3 hi() { return at_mm(49, 35, 27); }
+
+ private:
+  [[nodiscard]] Parts parts(const Vec3& p) const;
+  // the last point is asked about twice: how deep, and what tissue
+  [[nodiscard]] const Parts& remembered(const Vec3& p) const {
+    struct Memory {
+      Vec3 p = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+      double ramp = 0;
+      Parts parts;
+    };
+    thread_local Memory last;
+    if (last.p != p || last.ramp != ramp_) last = {p, ramp_, parts(p)};
+    return last.parts;
+  }
+  [[nodiscard]] double outer(const Vec3& p, double canal_axis) const;
+  void ossicles(const Vec3& p, Parts& s) const;
+  [[nodiscard]] double bone(const Parts& s) const;
+  [[nodiscard]] static double labelled(const Parts& s);
+  [[nodiscard]] TissueId solid_tissue(const Parts& s, const Vec3& p) const;
+  [[nodiscard]] static TissueId soft_tissue(const Parts& s);
+  [[nodiscard]] static TissueId air_tissue(const Parts& s, const Vec3& p);
+
+  double ramp_;  // [m]
+
+  // the inside of the skull: a ball, cut off below by the middle fossa's floor and in front by the
+  // back face of the pyramid
+  Vec3 skull_ = at_mm(70, 6, 30);
+  Vec3 back_face_ = Vec3(0.62, 0.77, 0.14).normalized();
+
+  Curve canal_{{at_mm(-9, 1, -1), at_mm(0, 0, 0), at_mm(7, -1.2, 0.6), at_mm(17.2, -4, -0.4)},
+               14 * kMm};
+  Curve facial_{
+      {at_mm(37, -3.2, 4.6), at_mm(31, -4.4, 4.4), at_mm(27.5, -7.2, 5.0), at_mm(25.2, -9.0, 5.2),
+       at_mm(23.4, -6.4, 5.0), at_mm(21.8, -2.4, 4.4), at_mm(19.6, 1.4, 3.4), at_mm(17.6, 4.0, 1.0),
+       at_mm(16.8, 4.8, -3), at_mm(16.2, 5.2, -10), at_mm(15.6, 5.4, -18), at_mm(14.5, 4.0, -25)},
+      4 * kMm};
+  Curve chorda_{{at_mm(16.1, 5.0, -12.5), at_mm(15.9, 3.0, -6), at_mm(16.6, 0.8, -0.5),
+                 at_mm(18.2, -1.5, 2.6), at_mm(18.8, -4.6, 3.0), at_mm(18.6, -8.2, 1.6),
+                 at_mm(19.2, -11.5, -1.0)},
+                3 * kMm};
+  Curve sinus_{{at_mm(27, 44, 12), at_mm(18.5, 33.5, 9.5), at_mm(13.6, 26.5, 3.5),
+                at_mm(12.2, 22.5, -4.5), at_mm(14.5, 19.5, -11.5), at_mm(19.5, 14, -14.5),
+                at_mm(23.6, 7.5, -13), at_mm(24.6, 3.6, -11)},
+               8 * kMm};
+  Curve carotid_{
+      {at_mm(29, -6, -34), at_mm(28.5, -8.6, -17), at_mm(28.4, -11.2, -9), at_mm(31, -13.4, -6),
+       at_mm(38, -16.6, -3.6), at_mm(46, -21, -3.2), at_mm(56, -27, -3)},
+      6 * kMm};
+  Curve meatus_{{at_mm(30.5, -3.6, 3.6), at_mm(36, -2.6, 4), at_mm(50, 0.5, 4.5)}, 5 * kMm};
+  Curve cochlea_ = spiral();
+  Circle lateral_{at_mm(22.0, 2.6, 4.4), Vec3(0.06, 0.42, 0.9).normalized(), 3.0 * kMm};
+  Circle posterior_{at_mm(24.8, 5.6, 1.6), Vec3(0.62, 0.76, 0.2).normalized(), 2.9 * kMm};
+  Circle superior_{at_mm(25.4, -0.4, 7.0), Vec3(0.76, -0.62, -0.16).normalized(), 3.1 * kMm};
+  Vec3 vestibule_ = at_mm(24.0, -1.2, 2.6);
+
+  // two and a half turns, the tip forwards and outwards
+  static Curve spiral() {
+    const Vec3 base = at_mm(27.8, -9.2, -0.4);
+    const Vec3 axis = Vec3(-0.52, -0.78, -0.34).normalized();
+    const Vec3 u = axis.cross(Vec3::UnitZ()).normalized(), v = axis.cross(u);
+    std::vector<Vec3> through;
+    for (int n = 0; n <= 30; ++n) {
+      const double turn = 2 * std::numbers::pi * n / 12.0;
+      const double shrink = 1 - 0.72 * n / 30.0;
+      through.push_back(base + kMm * (3.4 * shrink * (std::cos(turn) * u + std::sin(turn) * v) +
+                                      (3.2 * n / 30.0 - 1.2) * axis));
+    }
+    return Curve(through, 5 * kMm, 2);
+  }
+};
+
+// The outside, as one sees it before the first cut.
+double TemporalBone::outer(const Vec3& p, double canal_axis) const {
+  const double mm = kMm;
+
+  // vault: the squama above and the wall behind, one shell of the skull
+  const double from_skull = (p - skull_).norm();
+  const double thickness = (3.6 + 0.8 * noise(p, 14 * mm, 1)) * mm;
+  double depth = std::min(70 * mm - from_skull, from_skull - (70 * mm - thickness));
+  // it ends at the skull's base: in front above the joint, behind at the occipital suture
+  const double base = p.z() - (p.y() < 4 * mm ? 5 * mm : 5 * mm - 1.1 * (p.y() - 4 * mm));
+  depth = carve_soft(depth, 0.65 * base, 3 * mm);
+
+  // mastoid: broad above, tapering to a blunt tip that points down and a little forwards
+  static const RoundCone body{at_mm(12.5, 15, 2), at_mm(10.5, 12, -12), 14.2 * mm, 11.0 * mm};
+  static const RoundCone tip{at_mm(10.5, 12.5, -10), at_mm(9.0, 7.2, -23), 10.2 * mm, 4.6 * mm};
+  depth = blend(depth, body, p, 7 * mm);
+  depth = blend(depth, tip, p, 5 * mm);
+
+  // pyramid: inwards and forwards, its top the floor of the middle fossa
+  static const RoundCone pyramid{at_mm(16, 3, 0), at_mm(54, -21, -1), 13 * mm, 7.5 * mm};
+  depth = blend(depth, pyramid, p, 6 * mm);
+
+  // root of the zygoma above the canal, running forwards as a bar; the temporal line behind it
+  static const RoundCone root{at_mm(3.2, -3, 8.6), at_mm(-0.6, -15, 7.0), 4.4 * mm, 2.8 * mm};
+  static const RoundCone bar{at_mm(-0.6, -15, 7.0), at_mm(-4.2, -34, 4.8), 2.8 * mm, 2.0 * mm};
+  static const RoundCone line{at_mm(3.0, -1, 9.8), at_mm(8.6, 27, 16.5), 2.8 * mm, 1.6 * mm};
+  depth = blend(depth, root, p, 5 * mm);
+  depth = blend(depth, bar, p, 3 * mm);
+  depth = blend(depth, line, p, 3.5 * mm);
+
+  // between the squama and the pyramid: the roof of the jaw's joint
+  const double roof = 2.4 * mm - std::abs(p.z() - 8.4 * mm + 0.04 * (p.x() - 10 * mm));
+  const double around = 17 * mm - (p - at_mm(15, -13, 8)).norm();
+  depth = blend(depth, std::min({roof, around, 70 * mm - from_skull}), 4 * mm);
+
+  // tubercle and socket of that joint
+  static const RoundCone tubercle{at_mm(3, -19.5, 3.4), at_mm(15, -18, 2.8), 3.4 * mm, 3.4 * mm};
+  depth = blend(depth, tubercle, p, 4 * mm);
+  static const RoundCone socket{at_mm(3, -12.5, -2.6), at_mm(17, -12, -3.4), 4.9 * mm, 4.9 * mm};
+  depth = carve_soft(depth, socket, p, 3 * mm);
+
+  // tympanic bone: a gutter that makes the canal's front, floor and part of its back
+  const double ring = 7.0 * mm - canal_axis;
+  const double reach = std::min(p.x() - 1.6 * mm + 0.12 * p.z(), 19 * mm - p.x());
+  depth = blend(depth, std::min({ring, reach, 3.0 * mm - p.z()}), 2.2 * mm);
+
+  // its sheath, and the styloid process
+  static const RoundCone styloid{at_mm(17.2, 0.5, -8), at_mm(20.0, -6.5, -34), 2.6 * mm, 0.7 * mm};
+  depth = blend(depth, styloid, p, 2.5 * mm);
+
+  // spine of Henle, behind and above the opening
+  static const RoundCone spine{at_mm(2.2, 6.4, 1.6), at_mm(1.1, 4.6, 4.8), 1.1 * mm, 0.8 * mm};
+  depth = blend(depth, spine, p, 1.6 * mm);
+
+  // groove of the digastric muscle, inside the tip
+  static const RoundCone digastric{at_mm(17, 6, -24), at_mm(19, 30, -15), 4.2 * mm, 3.6 * mm};
+  depth = carve_soft(depth, digastric, p, 2.5 * mm);
+
+  if (depth < -3 * mm) return depth;  // too far away for details to matter
+
+  // pits of the cribriform area over the antrum, and the emissary vein's hole
+  const double area = 5.0 * mm - (p - at_mm(-1.5, 11, 6)).norm();
+  if (area > -3 * mm) {
+    const double pits =
+        std::min(0.35 * mm - 0.9 * mm + 0.9 * mm * noise(p, 1.5 * mm, 2), 0.3 * area);
+    depth = carve_soft(depth, -pits, 0.5 * mm);
+  }
+
+  // no bone of a body is as smooth as a formula
+  return depth + 0.35 * mm * noise(p, 7 * mm, 3) + 0.10 * mm * noise(p, 2.2 * mm, 4);
+}
+
+Parts TemporalBone::parts(const Vec3& p) const {
+  const double mm = kMm;
+  Parts s;
+
+  // a specimen as it comes from the saw: rounded block around the bone
+  const Vec3 half = 0.5 * (hi() - lo()) - Vec3::Constant(1.2 * mm);
+  const Vec3 out = (p - 0.5 * (lo() + hi())).cwiseAbs() - (half - Vec3::Constant(2 * mm));
+  const double block = 2 * mm - out.cwiseMax(0.0).norm() - std::min(out.maxCoeff(), 0.0);
+
+  // floor of the middle fossa: falls towards the apex, rises over the superior canal
+  const double eminence =
+      2.4 * mm * std::exp(-(p - superior_.centre).head<2>().squaredNorm() / (36e-6));
+  s.tegmen =
+      p.z() - (11.6 * mm - 0.09 * (p.x() - 14 * mm) + eminence + 0.5 * mm * noise(p, 8 * mm, 5));
+  const double within_skull = 66.6 * mm - (p - skull_).norm();
+  const double behind = (p - at_mm(26, 10.5, 0)).dot(back_face_) + 0.4 * mm * noise(p, 9 * mm, 6);
+  // the sinus lies in the corner and keeps its own bone in front
+  s.sinus = std::min(sinus_.distance(p), (p - at_mm(24.4, 3.8, -10.6)).norm() - 0.6 * mm);
+  const double over = std::min(s.tegmen, within_skull);
+  const double back = std::min(behind, within_skull);
+  s.fossa = blend(over, back, 1.5 * mm);
+
+  const double canal_axis = canal_.distance(p);
+  s.hull = std::min(carve_soft(outer(p, canal_axis), -s.fossa, 1.5 * mm), block);
+
+  if (s.hull < -kSkin) return s;  // nothing inside matters here
+
+  s.canal = (4.1 * mm + 0.035 * (6 * mm - std::clamp(p.x(), -3 * mm, 17 * mm))) - canal_axis;
+  static const Vec3 drum_normal = Vec3(-0.84, 0.30, -0.45).normalized();  // towards the canal
+  const double before_drum = (p - at_mm(17.4, -4.0, -0.2)).dot(drum_normal);
+  s.drum =
+      std::min(0.2 * mm - std::abs(before_drum), 4.6 * mm - (p - at_mm(17.4, -4.0, -0.2)).norm());
+
+  s.facial = facial_.distance(p);
+  s.chorda = chorda_.distance(p);
+  s.carotid = carotid_.distance(p);
+  s.meatus = meatus_.distance(p);
+  s.semicircular = std::min({lateral_.distance(p), posterior_.distance(p), superior_.distance(p)});
+  s.cochlea = cochlea_.distance(p);
+  const double vestibule = ellipsoid(p, vestibule_, at_mm(1.7, 2.2, 2.4));
+
+  // hard shell of the inner ear about its canals
+  s.capsule = blend(1.75 * mm - s.semicircular, vestibule + 1.9 * mm, 1.2 * mm);
+  s.capsule = blend(s.capsule, 2.2 * mm - s.cochlea, 1.2 * mm);
+  s.semicircular = std::min(s.semicircular - 0.55 * mm, -vestibule);
+
+  // middle ear: cavity, attic above it, and the way back to the antrum
+  s.middle = ellipsoid(p, at_mm(19.9, -4.4, -0.2), at_mm(2.9, 5.6, 6.2));
+  s.middle = blend(s.middle, ellipsoid(p, at_mm(19.2, -3.4, 6.2), at_mm(2.9, 4.8, 3.6)), 2 * mm);
+  static const RoundCone aditus{at_mm(18.2, 0.5, 6.6), at_mm(16.0, 5.5, 6.6), 2.3 * mm, 2.8 * mm};
+  s.middle = blend(s.middle, aditus, p, 1.5 * mm);
+  static const RoundCone tube{at_mm(20.5, -8.5, -1), at_mm(33, -21, -5), 2.4 * mm, 1.3 * mm};
+  s.middle = blend(s.middle, tube, p, 1.5 * mm);
+  s.antrum =
+      ellipsoid(p, at_mm(13.6, 9.2, 6.0), at_mm(4.4, 4.6, 4.4)) + 0.3 * mm * noise(p, 3 * mm, 7);
+
+  // air cells: the mastoid's inside down to the tip, under a cortex, larger near the antrum
+  const double cortex = (2.3 + 0.6 * noise(p, 9 * mm, 8)) * mm;
+  const double field = std::min(
+      s.hull - cortex, blend(ellipsoid(p, at_mm(10, 13, -1), at_mm(13, 15, 14)),
+                             ellipsoid(p, at_mm(10, 11.5, -15), at_mm(8.5, 8.5, 11)), 4 * mm));
+  if (field > -ramp_ - 1 * mm) {
+    const double wall = 0.5 * (0.5 + 0.15 * noise(p, 5 * mm, 9)) * mm;
+    // towards the edge of the field the cells are small
+    const double deep = std::clamp((field - 2.5 * mm) / (3 * mm), 0.0, 1.0);
+    const double big = deep > 0 ? foam(p, 4.4 * mm, 0.24, 11) - wall : 0;
+    const double small = deep < 1 ? foam(p, 2.6 * mm, 0.14, 12) - wall : 0;
+    s.cells = std::min(deep * big + (1 - deep) * small, field);
+  } else {
+    s.cells = field;
+  }
+
+  ossicles(p, s);
+  return s;
+}
+
+// tubes in the bone: how wide the canal is, and what lies in it
+constexpr double kFacialCanalRadius = 1.25 * kMm, kFacialNerveRadius = 0.85 * kMm;
+constexpr double kChordaCanalRadius = 0.45 * kMm, kChordaRadius = 0.3 * kMm;
+constexpr double kSinusRadius = 4.3 * kMm, kCarotidRadius = 2.7 * kMm, kMeatusRadius = 2.1 * kMm;
+constexpr double kCochleaTube = 0.8 * kMm;
+
+// The little bones; from afar only how far they are at least.
+void TemporalBone::ossicles(const Vec3& p, Parts& s) const {
+  const double mm = kMm;
+  const double outside = (p - at_mm(20, -2.5, 3)).norm() - 6.6 * mm;
+  if (outside > ramp_ + 0.5 * mm) {
+    s.malleus = s.incus = s.stapes = -outside;
+    return;
+  }
+  const auto rod = [](const Vec3& a, const Vec3& b, double ra, double rb) {
+    return RoundCone(a, b, ra * kMm, rb * kMm);
+  };
+  static const Vec3 head = at_mm(19.4, -5.4, 6.0), neck = at_mm(18.9, -5.0, 2.8);
+  static const RoundCone malleus[] = {rod(head, head, 1.25, 1.25), rod(head, neck, 0.7, 0.6),
+                                      rod(neck, at_mm(18.0, -4.2, -0.8), 0.6, 0.4)};
+  s.malleus = blend(malleus[0].depth(p), malleus[1].depth(p), 0.6 * mm);
+  s.malleus = blend(s.malleus, malleus[2].depth(p), 0.4 * mm);
+
+  static const Vec3 body = at_mm(19.4, -2.9, 6.2), long_end = at_mm(20.2, -2.2, 2.0);
+  static const RoundCone incus[] = {
+      rod(body, body, 1.3, 1.3), rod(body, at_mm(17.8, 1.4, 6.4), 0.9, 0.4),
+      rod(body, long_end, 0.7, 0.4), rod(long_end, at_mm(20.8, -2.1, 1.9), 0.4, 0.4)};
+  s.incus = blend(incus[0].depth(p), incus[1].depth(p), 0.5 * mm);
+  s.incus = blend(s.incus, incus[2].depth(p), 0.5 * mm);
+  s.incus = blend(s.incus, incus[3].depth(p), 0.2 * mm);
+
+  static const Vec3 anvil = at_mm(21.1, -2.0, 1.9);
+  static const RoundCone stapes[] = {
+      rod(anvil, at_mm(22.7, -2.9, 2.2), 0.3, 0.25), rod(anvil, at_mm(22.7, -0.9, 2.2), 0.3, 0.25),
+      rod(at_mm(22.8, -3.0, 2.2), at_mm(22.8, -0.8, 2.2), 0.35, 0.35)};
+  s.stapes = blend(stapes[0].depth(p), stapes[1].depth(p), 0.1 * mm);
+  s.stapes = blend(s.stapes, stapes[2].depth(p), 0.1 * mm);
+}
+
+double TemporalBone::bone(const Parts& s) const {
+  const double mm = kMm;
+  if (s.hull < -kSkin) return s.hull;
+
+  // the whole, hollowed by cells, cavities and the ear canal
+  double depth = std::min(s.hull, -s.cells);
+  depth = carve_soft(depth, -s.antrum, 0.6 * mm);
+  depth = carve_soft(depth, -s.middle, 0.6 * mm);
+
+  // shells that stay between the cells and what they protect
+  const double facial =
+      std::max(kFacialCanalRadius + 0.8 * mm - s.facial, kChordaCanalRadius + 0.5 * mm - s.chorda);
+  double shells = std::max(s.capsule, facial);
+  shells = std::max(shells, kSinusRadius + 1.0 * mm - s.sinus);
+  shells = std::max(shells, kCarotidRadius + 1.0 * mm - s.carotid);
+  shells = std::max(shells, std::min(s.canal + 1.5 * mm, -s.middle));
+  shells = std::max(shells, std::min(s.tegmen, 0.0) + 1.3 * mm);
+  depth = std::max(depth, std::min(shells, s.hull));
+
+  // then the canals themselves
+  depth = carve_soft(depth, -s.canal, 0.8 * mm);
+  depth = std::min(depth, s.facial - kFacialCanalRadius);
+  depth = std::min(depth, s.chorda - kChordaCanalRadius);
+  depth = carve_soft(depth, s.sinus - kSinusRadius, 0.6 * mm);
+  depth = carve_soft(depth, s.carotid - kCarotidRadius, 0.6 * mm);
+  depth = std::min({depth, s.meatus - kMeatusRadius, s.semicircular, s.cochlea - kCochleaTube});
+
+  return std::max({depth, s.malleus, s.incus, s.stapes});
+}
+
+// depth in the nearest thing that has a name without being bone
+double TemporalBone::labelled(const Parts& s) {
+  if (s.hull < -kSkin) return s.hull + 5.5 * kMm;
+  const double in_bone = s.hull + 1.5 * kMm;  // the named part of a tube ends with the bone
+  const double tubes = std::max({kFacialNerveRadius - s.facial, kSinusRadius - s.sinus,
+                                 kCarotidRadius - s.carotid, kMeatusRadius - s.meatus});
+  const double holes =
+      std::max({s.canal, s.middle, s.antrum, s.cells, -s.semicircular, kCochleaTube - s.cochlea});
+  const double dura = std::min(s.fossa, 1.5 * kMm - s.fossa);
+  return std::max({std::min(std::max(tubes, holes), in_bone + 4 * kMm), kChordaRadius - s.chorda,
+                   std::min(dura, in_bone), s.drum});
+}
+
+TissueId TemporalBone::tissue(const Vec3& p, double depth) const {
+  const Parts& s = remembered(p);
+  if (s.hull < -kSkin) return kAir;
+
+  // soft things fill their canals to the wall; the field is rounded, so a hair below the surface
+  if (depth < -1e-4 * ramp_) {
+    const TissueId soft = soft_tissue(s);
+    if (soft != kAir) return soft;
+  }
+  return depth > -ramp_ ? solid_tissue(s, p) : air_tissue(s, p);
+}
+
+// in the bone, and in the ramp above it: which bone
+TissueId TemporalBone::solid_tissue(const Parts& s, const Vec3& p) const {
+  const double mm = kMm;
+  if (s.malleus > -ramp_ && s.malleus >= s.incus) return kMalleus;
+  if (s.incus > -ramp_ && s.incus >= s.stapes) return kIncus;
+  if (s.stapes > -ramp_) return kStapes;
+  if (s.facial < kFacialCanalRadius + 0.8 * mm) return kFacialCanal;
+  if (s.capsule > 0) return kLabyrinth;
+  if (s.sinus < kSinusRadius + 1.0 * mm) return kSinusPlate;
+  if (s.canal > -1.5 * mm && p.x() > 1 * mm) return kCanalWall;
+  if (std::abs(s.tegmen) < 1.4 * mm && s.fossa > -2.4 * mm) return kDuraPlate;
+  if (s.cells > -0.9 * mm && s.hull > 1.6 * mm) return kCellWalls;
+  return kCortex;
+}
+
+TissueId TemporalBone::soft_tissue(const Parts& s) {
+  const double mm = kMm;
+  if (s.facial < kFacialNerveRadius && s.hull > -4 * mm) return kFacialNerve;
+  if (s.chorda < kChordaRadius) return kChorda;
+  if (s.drum > 0) return kEardrum;
+  if (s.hull < -2 * mm) return kAir;
+  if (s.semicircular < 0) return kSemicircular;
+  if (s.cochlea < kCochleaTube) return kCochlea;
+  if (s.sinus < kSinusRadius) return kSinus;
+  if (s.carotid < kCarotidRadius) return kCarotid;
+  if (s.meatus < kMeatusRadius) return kMeatusNerves;
+  if (s.fossa > 0 && s.fossa < 1.5 * mm) return kDura;
+  return kAir;
+}
+
+TissueId TemporalBone::air_tissue(const Parts& s, const Vec3& p) {
+  if (s.hull < -2 * kMm) return kAir;
+  if (s.middle > 0) return kMiddleEar;
+  if (s.antrum > 0) return kAntrum;
+  if (s.canal > 0 && p.x() > -1 * kMm) return kEarCanal;
+  return s.cells > 0 ? kCells : kAir;
+}
+
+}  // namespace
+
+Phantom temporal_bone(double voxel) {
+  const auto model = std::make_shared<const TemporalBone>(voxel);
+  Phantom phantom;
+  phantom.tissues = table();
+  phantom.formula.depth = [model](const Vec3& p) { return model->depth(p); };
+  phantom.formula.soft = [model](const Vec3& p) { return model->soft(p); };
+  phantom.formula.tissue = [model](const Vec3& p, double depth) { return model->tissue(p, depth); };
+  phantom.formula.lipschitz = 2.0;
+  phantom.lo = TemporalBone::lo();
+  phantom.hi = TemporalBone::hi();
+  return phantom;
+}
+
+}  // namespace burr::phantom

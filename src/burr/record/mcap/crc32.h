@@ -1,0 +1,14 @@
+// record/mcap/crc32.h - the checksum of MCAP (and zip, PNG, Ethernet): CRC-32, polynomial 0xEDB88320.
+#pragma once
+
+#include <cstdint>
+
+#include "burr/record/mcap/bytes.h"
+
+namespace burr::record {
+
+// crc: of what came before, 0 at the start. About 1 ns per byte.
+[[nodiscard]] std::uint32_t crc32(std::uint32_t crc, ByteSpan bytes) noexcept;
+[[nodiscard]] inline std::uint32_t crc32(ByteSpan bytes) noexcept { return crc32(0, bytes); }
+
+}  // namespace burr::record

@@ -1,0 +1,86 @@
+// record/mcap/mcap.h - words of the MCAP container (mcap.dev/spec) that writer and reader share.
+//
+//     magic | Header | Schema, Channel, Metadata, Attachment ... | Chunk MessageIndex* ... |
+//     DataEnd
+//           | summary: Schema, Channel, Statistics, indexes, SummaryOffset | Footer | magic
+//
+// A record is u8 kind, u64 length, content; all little-endian.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "burr/record/mcap/bytes.h"
+
+namespace burr::record::mcap {
+
+inline constexpr std::array<std::uint8_t, 8> kMagic = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
+
+enum class Kind : std::uint8_t {
+  header = 0x01,
+  footer = 0x02,
+  schema = 0x03,
+  channel = 0x04,
+  message = 0x05,
+  chunk = 0x06,
+  message_index = 0x07,
+  chunk_index = 0x08,
+  attachment = 0x09,
+  attachment_index = 0x0A,
+  statistics = 0x0B,
+  metadata = 0x0C,
+  metadata_index = 0x0D,
+  summary_offset = 0x0E,
+  data_end = 0x0F,
+};
+
+inline constexpr std::uint64_t kRecordHead = 9;  // kind and length                          [byte]
+inline constexpr std::uint64_t kFooter = kRecordHead + 20;
+// more than any chunk of ours holds; a larger one is not believed
+inline constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 28;  // unpacked         [byte]
+
+struct Schema {
+  std::uint16_t id = 0;
+  std::string name, encoding, data;
+};
+
+struct Channel {
+  std::uint16_t id = 0, schema = 0;
+  std::string topic, encoding;
+};
+
+// Where a message lies: its time and its offset in the unpacked chunk.
+using MessageAt = std::pair<std::uint64_t, std::uint64_t>;
+using MessageIndexes = std::map<std::uint16_t, std::vector<MessageAt>>;  // by channel
+
+struct ChunkAt {
+  std::uint64_t start_ns = 0, end_ns = 0;                // of its messages' log_time
+  std::uint64_t offset = 0, length = 0;                  // of the Chunk record in the file
+  std::uint64_t packed_size = 0, unpacked_size = 0;      // of its records
+  std::uint64_t index_length = 0;                        // of the MessageIndexes that follow
+  std::string compression;                               // "zstd" or ""
+  std::map<std::uint16_t, std::uint64_t> index_offsets;  // channel -> its MessageIndex
+};
+
+struct AttachmentAt {
+  std::uint64_t offset = 0, length = 0;  // of the record
+  std::uint64_t log_ns = 0, create_ns = 0, size = 0;
+  std::string name, media_type;
+};
+
+struct MetadataAt {
+  std::uint64_t offset = 0, length = 0;
+  std::string name;
+};
+
+using Pairs = std::map<std::string, std::string>;  // Metadata, channel metadata
+
+void put_record(BytesOut& out, Kind kind, ByteSpan content);
+void put_pairs(BytesOut& out, const Pairs& pairs);
+[[nodiscard]] bool get_pairs(BytesIn& in, Pairs& pairs);
+
+}  // namespace burr::record::mcap

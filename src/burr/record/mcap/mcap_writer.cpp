@@ -1,0 +1,432 @@
+#include "burr/record/mcap/mcap_writer.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "burr/base/check.h"
+#include "burr/base/version.h"
+#include "burr/record/mcap/crc32.h"
+
+namespace burr::record {
+namespace mcap {
+
+void put_record(BytesOut& out, Kind kind, ByteSpan content) {
+  out.put(static_cast<std::uint8_t>(kind));
+  out.put(std::uint64_t{content.size()});
+  out.raw(content);
+}
+
+void put_pairs(BytesOut& out, const Pairs& pairs) {
+  BytesOut inner;
+  for (const auto& [key, value] : pairs) {
+    inner.text(key);
+    inner.text(value);
+  }
+  out.text(as_text(inner.span()));
+}
+
+bool get_pairs(BytesIn& in, Pairs& pairs) {
+  BytesIn inner(in.block());
+  while (in.ok() && inner.ok() && !inner.empty()) {
+    const std::string key(inner.text());
+    pairs[key] = inner.text();
+  }
+  return in.ok() && inner.ok();
+}
+
+}  // namespace mcap
+
+using mcap::Kind;
+
+namespace {
+
+const char* remedy(int code) {
+  switch (code) {
+    case ENOSPC:
+    case EDQUOT:
+      return "; make room or choose another disk";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "; choose a folder you may write to";
+    case EFBIG:
+      return "; raise the limit on the size of files (ulimit -f)";
+    default:
+      return "";
+  }
+}
+
+Error trouble(const std::string& shown, const char* doing) {
+  const int code = errno;
+  return error(Trouble::io,
+               fmt::format("{}: cannot {}: {}{}", shown, doing, std::strerror(code), remedy(code)));
+}
+
+void put_schema(BytesOut& out, const mcap::Schema& schema) {
+  out.put(schema.id);
+  out.text(schema.name);
+  out.text(schema.encoding);
+  out.text(schema.data);
+}
+
+void put_channel(BytesOut& out, const mcap::Channel& channel) {
+  out.put(channel.id);
+  out.put(channel.schema);
+  out.text(channel.topic);
+  out.text(channel.encoding);
+  mcap::put_pairs(out, {});
+}
+
+// array of (u16, u64), with its length in bytes in front
+void put_counts(BytesOut& out, const std::map<std::uint16_t, std::uint64_t>& counts) {
+  out.put(static_cast<std::uint32_t>(counts.size() * 10));
+  for (const auto& [channel, value] : counts) {
+    out.put(channel);
+    out.put(value);
+  }
+}
+
+}  // namespace
+
+McapWriter::~McapWriter() {
+  if (file_ >= 0) ::close(file_);
+}
+
+Status McapWriter::open(const std::string& path, const std::string& shown) {
+  BURR_CHECK(file_ < 0);
+  shown_ = shown;
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file_ < 0) return trouble(shown_, "write here");
+  if (::flock(file_, LOCK_EX | LOCK_NB) != 0)
+    return error(Trouble::io, shown_ + ": another burr is writing it; choose another name");
+  if (::ftruncate(file_, 0) != 0) return trouble(shown_, "write here");
+  if (Status written = append(mcap::kMagic); !written.ok()) return written;
+  BytesOut header;
+  header.text("burr");
+  header.text(std::string("burr ") + base::version());
+  return append_record(Kind::header, header.span());
+}
+
+Status McapWriter::append(ByteSpan bytes) {
+  if (failed_)
+    return error(Trouble::io, shown_ + ": not written any more, after an earlier failure");
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t n = ::write(file_, bytes.data() + done, bytes.size() - done);
+    if (n > 0) {
+      done += static_cast<std::size_t>(n);
+      continue;
+    }
+    if (n < 0 && errno == EINTR) continue;
+    const Error problem = trouble(shown_, "write on");
+    failed_ = true;
+    // a file torn in the middle of a record is readable, a clean end is better; try
+    static_cast<void>(::ftruncate(file_, static_cast<off_t>(size_)) == 0);
+    return problem;
+  }
+  crc_ = crc32(crc_, bytes);
+  size_ += bytes.size();
+  return fine();
+}
+
+Status McapWriter::append_record(Kind kind, ByteSpan content) {
+  BytesOut record;
+  mcap::put_record(record, kind, content);
+  return append(record.span());
+}
+
+Result<std::uint16_t> McapWriter::add_schema(const std::string& name, const std::string& encoding,
+                                             const std::string& data) {
+  const auto id = static_cast<std::uint16_t>(schemas_.size() + 1);
+  if (Status added = add(mcap::Schema{id, name, encoding, data}); !added.ok()) return added.error();
+  return id;
+}
+
+Result<std::uint16_t> McapWriter::add_channel(const std::string& topic, const std::string& encoding,
+                                              std::uint16_t schema) {
+  const auto id = static_cast<std::uint16_t>(channels_.size() + 1);
+  if (Status added = add(mcap::Channel{id, schema, topic, encoding}); !added.ok())
+    return added.error();
+  return id;
+}
+
+Status McapWriter::add(const mcap::Schema& schema) {
+  BytesOut content;
+  put_schema(content, schema);
+  schemas_.push_back(schema);
+  return append_record(Kind::schema, content.span());
+}
+
+Status McapWriter::add(const mcap::Channel& channel) {
+  BytesOut content;
+  put_channel(content, channel);
+  channels_.push_back(channel);
+  return append_record(Kind::channel, content.span());
+}
+
+Status McapWriter::add_metadata(const std::string& name, const mcap::Pairs& pairs) {
+  BytesOut content;
+  content.text(name);
+  mcap::put_pairs(content, pairs);
+  metadata_.push_back({size_, mcap::kRecordHead + content.size(), name});
+  return append_record(Kind::metadata, content.span());
+}
+
+Status McapWriter::add_attachment(const std::string& name, const std::string& media_type,
+                                  ByteSpan data) {
+  BytesOut head;
+  head.put(std::uint64_t{0});  // log_time: from the start of the session
+  head.put(std::uint64_t{0});  // create_time: unknown on purpose, no dates in recordings
+  head.text(name);
+  head.text(media_type);
+  head.put(std::uint64_t{data.size()});
+  const std::uint32_t crc = crc32(crc32(head.span()), data);
+
+  const std::uint64_t length = head.size() + data.size() + sizeof crc;
+  attachments_.push_back({size_, mcap::kRecordHead + length, 0, 0, data.size(), name, media_type});
+  BytesOut start;
+  start.put(static_cast<std::uint8_t>(Kind::attachment));
+  start.put(length);
+  start.raw(head.span());
+  if (Status written = append(start.span()); !written.ok()) return written;
+  if (Status written = append(data); !written.ok()) return written;
+  BytesOut end;
+  end.put(crc);
+  return append(end.span());
+}
+
+void McapWriter::add_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns,
+                             ByteSpan data) {
+  start_ns_ = chunk_.empty() ? time_ns : std::min(start_ns_, time_ns);
+  end_ns_ = chunk_.empty() ? time_ns : std::max(end_ns_, time_ns);
+  indexes_[channel].emplace_back(time_ns, chunk_.size());
+  chunk_.put(static_cast<std::uint8_t>(Kind::message));
+  chunk_.put(std::uint64_t{2 + 4 + 8 + 8 + data.size()});
+  chunk_.put(channel);
+  chunk_.put(sequence);
+  chunk_.put(time_ns);
+  chunk_.put(time_ns);
+  chunk_.raw(data);
+}
+
+Status McapWriter::close_chunk() {
+  if (chunk_.empty()) return fine();
+  std::vector<std::uint8_t> packed;
+  packer_.pack(chunk_.span(), packed);
+  mcap::ChunkAt chunk;
+  chunk.start_ns = start_ns_;
+  chunk.end_ns = end_ns_;
+  chunk.packed_size = packed.size();
+  chunk.unpacked_size = chunk_.size();
+  chunk.compression = "zstd";
+  Status written = add_chunk(chunk, crc32(chunk_.span()), packed, indexes_);
+  chunk_.clear();
+  indexes_.clear();
+  return written;
+}
+
+Status McapWriter::add_chunk(const mcap::ChunkAt& from, std::uint32_t unpacked_crc, ByteSpan packed,
+                             const mcap::MessageIndexes& indexes) {
+  mcap::ChunkAt chunk = from;
+  BytesOut content;
+  content.put(chunk.start_ns);
+  content.put(chunk.end_ns);
+  content.put(chunk.unpacked_size);
+  content.put(unpacked_crc);
+  content.text(chunk.compression);
+  content.put(std::uint64_t{packed.size()});
+  content.raw(packed);
+  BytesOut whole;
+  mcap::put_record(whole, Kind::chunk, content.span());
+  chunk.offset = size_;
+  chunk.length = whole.size();
+  chunk.packed_size = packed.size();
+
+  // the indexes ride in the same write, so that a killed writer leaves both or a torn tail
+  chunk.index_offsets.clear();
+  for (const auto& [channel, messages] : indexes) {
+    chunk.index_offsets[channel] = size_ + whole.size();
+    BytesOut index;
+    index.put(channel);
+    index.put(static_cast<std::uint32_t>(messages.size() * 16));
+    for (const auto& [time, offset] : messages) {
+      index.put(time);
+      index.put(offset);
+    }
+    mcap::put_record(whole, Kind::message_index, index.span());
+  }
+  chunk.index_length = whole.size() - chunk.length;
+  if (Status written = append(whole.span()); !written.ok()) return written;
+  count(indexes, chunk);
+  return fine();
+}
+
+void McapWriter::count(const mcap::MessageIndexes& indexes, const mcap::ChunkAt& chunk) {
+  first_ns_ = chunks_ == 0 ? chunk.start_ns : std::min(first_ns_, chunk.start_ns);
+  last_ns_ = std::max(last_ns_, chunk.end_ns);
+  if (chunks_++ == 0) first_chunk_ = chunk.offset;
+  for (const auto& [channel, messages] : indexes) {
+    message_counts_[channel] += messages.size();
+    messages_ += messages.size();
+  }
+}
+
+Status McapWriter::sync() {
+  if (::fdatasync(file_) != 0) return trouble(shown_, "bring it to the disk");
+  return fine();
+}
+
+Status McapWriter::still_there() const {
+  struct stat now = {};
+  if (::fstat(file_, &now) != 0) return trouble(shown_, "look at it");
+  if (now.st_nlink > 0) return fine();
+  return error(Trouble::io, shown_ +
+                                ": was removed while it was being recorded, and what it held is "
+                                "gone; leave a recording alone until the session has ended");
+}
+
+// Where the chunks and their indexes lie, from the heads of their records: 25 chunks a second of a
+// session would be 300 bytes each to remember.
+Status McapWriter::read_back(BytesOut& chunk_indexes) const {
+  std::array<std::uint8_t, 128> head{};
+  mcap::ChunkAt chunk;
+  const auto put = [&] {
+    BytesOut content;
+    content.put(chunk.start_ns);
+    content.put(chunk.end_ns);
+    content.put(chunk.offset);
+    content.put(chunk.length);
+    put_counts(content, chunk.index_offsets);
+    content.put(chunk.index_length);
+    content.text(chunk.compression);
+    content.put(chunk.packed_size);
+    content.put(chunk.unpacked_size);
+    mcap::put_record(chunk_indexes, Kind::chunk_index, content.span());
+  };
+  for (std::uint64_t at = first_chunk_; chunks_ > 0 && at < size_;) {
+    const ssize_t there = ::pread(file_, head.data(), head.size(), static_cast<off_t>(at));
+    if (there < 0 && errno == EINTR) continue;
+    if (there < 0) return trouble(shown_, "read back what was written");
+    BytesIn in(ByteSpan(head).first(static_cast<std::size_t>(there)));
+    const auto kind = static_cast<Kind>(in.get<std::uint8_t>());
+    const std::uint64_t length = mcap::kRecordHead + in.get<std::uint64_t>();
+    if (kind == Kind::chunk) {
+      if (chunk.length > 0) put();
+      chunk = {};
+      chunk.offset = at;
+      chunk.length = length;
+      chunk.start_ns = in.get<std::uint64_t>();
+      chunk.end_ns = in.get<std::uint64_t>();
+      chunk.unpacked_size = in.get<std::uint64_t>();
+      in.get<std::uint32_t>();
+      chunk.compression = in.text();
+      chunk.packed_size = in.get<std::uint64_t>();
+    } else if (kind == Kind::message_index) {
+      chunk.index_offsets[in.get<std::uint16_t>()] = at;
+      chunk.index_length += length;
+    }
+    if (!in.ok() || length > size_ - at)
+      return error(Trouble::io, shown_ +
+                                    ": was changed by another program while it was being "
+                                    "recorded; `burr repair` keeps what is left of it");
+    at += length;
+  }
+  if (chunks_ > 0) put();
+  return fine();
+}
+
+Status McapWriter::finish() {
+  if (Status closed = close_chunk(); !closed.ok()) return closed;
+  BytesOut chunk_indexes;
+  if (Status read = read_back(chunk_indexes); !read.ok()) return read;
+  BytesOut end;
+  end.put(crc_);
+  if (Status written = append_record(Kind::data_end, end.span()); !written.ok()) return written;
+
+  // the summary: each kind together, and where each kind begins
+  const std::uint64_t summary_start = size_;
+  BytesOut summary;
+  BytesOut offsets;
+  const auto group = [&](Kind kind, auto&& put_all) {
+    const std::uint64_t before = summary.size();
+    put_all();
+    if (summary.size() == before) return;
+    BytesOut offset;
+    offset.put(static_cast<std::uint8_t>(kind));
+    offset.put(summary_start + before);
+    offset.put(summary.size() - before);
+    mcap::put_record(offsets, Kind::summary_offset, offset.span());
+  };
+  const auto put = [&](Kind kind, auto&& fill) {
+    BytesOut content;
+    fill(content);
+    mcap::put_record(summary, kind, content.span());
+  };
+  group(Kind::schema, [&] {
+    for (const auto& schema : schemas_)
+      put(Kind::schema, [&](BytesOut& out) { put_schema(out, schema); });
+  });
+  group(Kind::channel, [&] {
+    for (const auto& channel : channels_)
+      put(Kind::channel, [&](BytesOut& out) { put_channel(out, channel); });
+  });
+  group(Kind::statistics, [&] {
+    put(Kind::statistics, [&](BytesOut& out) {
+      out.put(messages_);
+      out.put(static_cast<std::uint16_t>(schemas_.size()));
+      out.put(static_cast<std::uint32_t>(channels_.size()));
+      out.put(static_cast<std::uint32_t>(attachments_.size()));
+      out.put(static_cast<std::uint32_t>(metadata_.size()));
+      out.put(static_cast<std::uint32_t>(chunks_));
+      out.put(first_ns_);
+      out.put(last_ns_);
+      put_counts(out, message_counts_);
+    });
+  });
+  group(Kind::chunk_index, [&] { summary.raw(chunk_indexes.span()); });
+  group(Kind::attachment_index, [&] {
+    for (const auto& attachment : attachments_)
+      put(Kind::attachment_index, [&](BytesOut& out) {
+        out.put(attachment.offset);
+        out.put(attachment.length);
+        out.put(attachment.log_ns);
+        out.put(attachment.create_ns);
+        out.put(attachment.size);
+        out.text(attachment.name);
+        out.text(attachment.media_type);
+      });
+  });
+  group(Kind::metadata_index, [&] {
+    for (const auto& metadata : metadata_)
+      put(Kind::metadata_index, [&](BytesOut& out) {
+        out.put(metadata.offset);
+        out.put(metadata.length);
+        out.text(metadata.name);
+      });
+  });
+
+  const std::uint64_t offsets_start = summary_start + summary.size();
+  summary.raw(offsets.span());
+  summary.put(static_cast<std::uint8_t>(Kind::footer));
+  summary.put(std::uint64_t{20});
+  summary.put(summary_start);
+  summary.put(offsets_start);
+  summary.put(crc32(summary.span()));
+  summary.raw(mcap::kMagic);
+  if (Status written = append(summary.span()); !written.ok()) return written;
+  if (Status synced = sync(); !synced.ok()) return synced;
+  const int file = file_;
+  file_ = -1;
+  if (::close(file) != 0) return trouble(shown_, "close it");
+  return fine();
+}
+
+}  // namespace burr::record

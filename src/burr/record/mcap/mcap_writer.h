@@ -1,0 +1,94 @@
+// record/mcap/mcap_writer.h - writes an MCAP file (mcap.dev/spec) by appending only, a whole chunk at a
+// time, so that whoever is killed leaves a file whose beginning is good.
+//
+//     writer.open(path) -> schema, channel, metadata, attachment
+//                       -> [ message, message ... close_chunk ]*  -> finish
+//
+// Thread: one at a time; sync() alone may be called from another. Memory: one chunk, however long
+// the recording; the summary's index of all chunks is read back from the file at its end.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "burr/base/result.h"
+#include "burr/record/mcap/mcap.h"
+#include "burr/record/mcap/packed.h"
+
+namespace burr::record {
+
+class McapWriter {
+ public:
+  McapWriter() = default;
+  ~McapWriter();  // without finish(): the file stays as it is, torn but readable
+  McapWriter(const McapWriter&) = delete;
+  McapWriter& operator=(const McapWriter&) = delete;
+
+  // Makes the file, empty but for its header; what was there is gone. `shown`: the name errors give
+  // it. The open file is locked (flock), so that `burr repair` knows it is still being written.
+  [[nodiscard]] Status open(const std::string& path, const std::string& shown);
+
+  // Every id is handed out by us, from 1. Written at once, and again in the summary.
+  [[nodiscard]] Result<std::uint16_t> add_schema(const std::string& name,
+                                                 const std::string& encoding,
+                                                 const std::string& data);
+  [[nodiscard]] Result<std::uint16_t> add_channel(const std::string& topic,
+                                                  const std::string& encoding,
+                                                  std::uint16_t schema);
+  // with the ids they have; for repair
+  [[nodiscard]] Status add(const mcap::Schema& schema);
+  [[nodiscard]] Status add(const mcap::Channel& channel);
+
+  [[nodiscard]] Status add_metadata(const std::string& name, const mcap::Pairs& pairs);
+  [[nodiscard]] Status add_attachment(const std::string& name, const std::string& media_type,
+                                      ByteSpan data);
+
+  // Into the open chunk. time_ns: log_time and publish_time.
+  void add_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns,
+                   ByteSpan data);
+  [[nodiscard]] bool chunk_open() const { return !chunk_.empty(); }
+  // Packs the open chunk and appends it with its indexes in one write. Nothing open: nothing done.
+  // After a failure the file is cut back to its last good chunk, and takes no more.
+  [[nodiscard]] Status close_chunk();
+  // A chunk as it lies in another file, already checked; for repair.
+  [[nodiscard]] Status add_chunk(const mcap::ChunkAt& chunk, std::uint32_t unpacked_crc,
+                                 ByteSpan packed, const mcap::MessageIndexes& indexes);
+
+  // Everything appended so far reaches the disk, not only the kernel. Slow.
+  [[nodiscard]] Status sync();
+  // Error: somebody removed the file meanwhile, what is written now is in no folder.
+  [[nodiscard]] Status still_there() const;
+  // Summary, footer, sync, close.
+  [[nodiscard]] Status finish();
+
+  [[nodiscard]] std::uint64_t size() const { return size_; }  // of the file so far  [byte]
+
+ private:
+  [[nodiscard]] Status append(ByteSpan bytes);
+  [[nodiscard]] Status append_record(mcap::Kind kind, ByteSpan content);
+  void count(const mcap::MessageIndexes& indexes, const mcap::ChunkAt& chunk);
+  [[nodiscard]] Status read_back(BytesOut& chunk_indexes) const;
+
+  std::string shown_;
+  int file_ = -1;
+  bool failed_ = false;
+  std::uint64_t size_ = 0;
+  std::uint32_t crc_ = 0;  // of everything so far
+
+  Packer packer_;
+  BytesOut chunk_;
+  mcap::MessageIndexes indexes_;
+  std::uint64_t start_ns_ = 0, end_ns_ = 0;
+
+  std::vector<mcap::Schema> schemas_;
+  std::vector<mcap::Channel> channels_;
+  std::uint64_t first_chunk_ = 0, chunks_ = 0;  // offset; how many
+  std::vector<mcap::AttachmentAt> attachments_;
+  std::vector<mcap::MetadataAt> metadata_;
+  std::map<std::uint16_t, std::uint64_t> message_counts_;
+  std::uint64_t messages_ = 0, first_ns_ = 0, last_ns_ = 0;
+};
+
+}  // namespace burr::record

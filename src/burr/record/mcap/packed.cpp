@@ -1,0 +1,62 @@
+#include "burr/record/mcap/packed.h"
+
+#include <zstd.h>
+
+#include <algorithm>
+#include <new>
+
+namespace burr::record {
+
+struct Packer::Context {
+  ZSTD_CCtx* zstd = ZSTD_createCCtx();
+  ~Context() { ZSTD_freeCCtx(zstd); }
+};
+
+Packer::Packer(int level) : context_(std::make_unique<Context>()) {
+  if (context_->zstd == nullptr) throw std::bad_alloc();
+  ZSTD_CCtx_setParameter(context_->zstd, ZSTD_c_compressionLevel, level);
+}
+Packer::~Packer() = default;
+
+void Packer::pack(ByteSpan bytes, std::vector<std::uint8_t>& out) {
+  const std::size_t before = out.size();
+  out.resize(before + ZSTD_compressBound(bytes.size()));
+  const std::size_t took = ZSTD_compress2(context_->zstd, out.data() + before, out.size() - before,
+                                          bytes.data(), bytes.size());
+  // with room for the bound, the only thing that can fail is memory
+  if (ZSTD_isError(took) != 0U) throw std::bad_alloc();
+  out.resize(before + took);
+}
+
+bool unpack(ByteSpan packed, std::uint64_t size, std::vector<std::uint8_t>& out) {
+  constexpr std::size_t kStep = std::size_t{1} << 20;
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 34;
+  constexpr int kWindowLog = 27;  // 128 MiB, zstd's own default bound
+  struct Free {
+    void operator()(ZSTD_DCtx* zstd) const { ZSTD_freeDCtx(zstd); }
+  };
+  const std::unique_ptr<ZSTD_DCtx, Free> zstd(ZSTD_createDCtx());
+  if (!zstd) return false;
+  ZSTD_DCtx_setParameter(zstd.get(), ZSTD_d_windowLogMax, kWindowLog);
+
+  out.clear();
+  if (size >= kMost) return false;
+  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
+  std::size_t filled = 0;
+  for (;;) {
+    // one byte more than promised, so that a frame that is too long gives itself away
+    if (filled == out.size())
+      out.resize(std::min(static_cast<std::size_t>(size) + 1, std::max(2 * filled, kStep)));
+    ZSTD_outBuffer to{out.data(), out.size(), filled};
+    const std::size_t more = ZSTD_decompressStream(zstd.get(), &to, &in);
+    if (ZSTD_isError(more) != 0U) return false;
+    filled = to.pos;
+    if (filled > size) return false;
+    if (more == 0) break;
+    if (in.pos == in.size && filled < out.size()) return false;  // ends too early
+  }
+  out.resize(filled);
+  return filled == size && in.pos == in.size;
+}
+
+}  // namespace burr::record

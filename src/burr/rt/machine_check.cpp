@@ -1,0 +1,181 @@
+#include "burr/rt/machine_check.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace burr::rt {
+namespace {
+
+constexpr const char* kHow = "docs/realtime.md, \"Allowing real time\", has the two lines";
+
+CheckLine processor_line(const rt::Machine& machine) {
+  CheckLine line{"processor", machine.processor.empty() ? "not named" : machine.processor, ""};
+  line.is += fmt::format(", {} core{} for burr", machine.cores, machine.cores == 1 ? "" : "s");
+  if (machine.core_quota > 0) line.is += fmt::format(", limited to {:.2g}", machine.core_quota);
+  if (machine.cores < 2)
+    line.change = "the hand and the picture share one core; give burr two or more";
+  else if (machine.core_quota > 0 && machine.core_quota < 2)
+    line.change = "the container stops burr when its share is used up; give it two cores or more";
+  return line;
+}
+
+CheckLine simd_line(const rt::Machine& machine) {
+  CheckLine line{"instructions", machine.simd, ""};
+  if (machine.simd == "scalar")
+    line.change =
+        "no AVX2 is used, so large burrs on fine voxels cost more; take coarser voxels, or a newer "
+        "processor";
+  return line;
+}
+
+CheckLine priority_line(const MachineSeen& seen) {
+  CheckLine line{"priority", "SCHED_FIFO: the tick goes before everything else", ""};
+  if (seen.grant.fifo) {
+    const rt::Machine& m = seen.machine;
+    if (m.fifo_share_us >= 0 && m.fifo_period_us > 0 && 10 * m.fifo_share_us < 9 * m.fifo_period_us)
+      line.change = fmt::format(
+          "the kernel gives SCHED_FIFO only {} of {} us; raise kernel.sched_rt_runtime_us with "
+          "sysctl",
+          m.fifo_share_us, m.fifo_period_us);
+    return line;
+  }
+  line.is = "ordinary: any busy program may delay the tick";
+  line.change = seen.machine.fifo_limit > 0
+                    ? fmt::format("SCHED_FIFO is allowed up to {} but 80 is needed; {}",
+                                  seen.machine.fifo_limit, kHow)
+                    : fmt::format("allow SCHED_FIFO (rtprio) for your user; {}", kHow);
+  return line;
+}
+
+CheckLine memory_line(const MachineSeen& seen) {
+  CheckLine line{"memory", "locked: what was touched once stays", ""};
+  if (seen.grant.locked) return line;
+  line.is = seen.machine.locked_bytes == rt::kNoLimit
+                ? std::string("not locked")
+                : fmt::format("not locked: the limit is {} KiB", seen.machine.locked_bytes / 1024);
+  line.change = fmt::format("allow memlock unlimited for your user; {}", kHow);
+  return line;
+}
+
+CheckLine kernel_line(const rt::Machine& machine) {
+  CheckLine line{"kernel", machine.kernel.empty() ? "not named" : machine.kernel, ""};
+  if (!machine.preemption.empty()) line.is += ", " + machine.preemption;
+  if (!machine.preempt_rt())
+    line.change =
+        "for a real device take a kernel with PREEMPT_RT (apt install linux-image-rt-amd64): it "
+        "bounds the worst tick";
+  return line;
+}
+
+CheckLine governor_line(const rt::Machine& machine) {
+  CheckLine line{"frequency", machine.governor.empty() ? "not told" : machine.governor, ""};
+  if (!machine.governor.empty() && machine.governor != "performance")
+    line.change =
+        "the processor slows down between ticks; cpupower frequency-set -g performance (package "
+        "linux-cpupower)";
+  return line;
+}
+
+CheckLine clock_line(const rt::Machine& machine) {
+  CheckLine line{"clock", machine.clock_source.empty() ? "not told" : machine.clock_source, ""};
+  static constexpr std::array<std::string_view, 5> kSlow = {"hpet", "acpi_pm", "jiffies", "pit",
+                                                            "refined-jiffies"};
+  if (std::find(kSlow.begin(), kSlow.end(), machine.clock_source) != kSlow.end())
+    line.change =
+        "this clock is slow to read or coarse; see `dmesg | grep -i clocksource` for why the "
+        "processor's own (tsc) is not used";
+  return line;
+}
+
+CheckLine virtual_line(const rt::Machine& machine) {
+  if (machine.virtual_machine.empty()) return {"virtual machine", "none seen", ""};
+  return {"virtual machine", machine.virtual_machine,
+          "the worst case belongs to the host; for a real device run burr on the machine itself"};
+}
+
+// Why these ticks do not meet the bars.
+void hold_against(const CheckBars& bars, const rt::TickSummary& ticks,
+                  std::vector<std::string>& why) {
+  if (ticks.p999_us > bars.work_us)
+    why.push_back(fmt::format("one tick in a thousand works {:.0f} us or longer ({:.0f} allowed)",
+                              ticks.p999_us, bars.work_us));
+  if (ticks.late_p999_us > bars.late_us)
+    why.push_back(
+        fmt::format("one tick in a thousand begins {:.0f} us late or later ({:.0f} allowed)",
+                    ticks.late_p999_us, bars.late_us));
+  if (ticks.worst_lateness_us > bars.worst_us)
+    why.push_back(fmt::format("the latest tick began {:.1f} ms late ({:.0f} allowed)",
+                              1e-3 * ticks.worst_lateness_us, 1e-3 * bars.worst_us));
+  const double all = static_cast<double>(ticks.ticks + ticks.missed);
+  if (static_cast<double>(ticks.missed) > bars.missed_share * all)
+    why.push_back(fmt::format("{} of {:.0f} ticks were left out", ticks.missed, all));
+}
+
+// What only a real device needs.
+void hold_against(const MachineSeen& seen, std::vector<std::string>& why) {
+  if (!seen.grant.fifo) why.emplace_back("the tick has ordinary priority");
+  if (!seen.grant.locked) why.emplace_back("memory is not locked");
+  if (seen.machine.cores < 2) why.emplace_back("there is one core only");
+  if (seen.machine.core_quota > 0 && seen.machine.core_quota < 2)
+    why.emplace_back("a container limits the processor");
+  if (!seen.machine.virtual_machine.empty())
+    why.emplace_back("in a virtual machine the worst case is the host's");
+}
+
+}  // namespace
+
+const char* name(Verdict verdict) noexcept {
+  switch (verdict) {
+    case Verdict::good:
+      return "good";
+    case Verdict::usable:
+      return "usable";
+    case Verdict::not_enough:
+      break;
+  }
+  return "not good enough";
+}
+
+MachineJudged judge(const MachineSeen& seen) {
+  MachineJudged judged;
+  judged.lines = {processor_line(seen.machine), simd_line(seen.machine),
+                  priority_line(seen),          memory_line(seen),
+                  kernel_line(seen.machine),    governor_line(seen.machine),
+                  clock_line(seen.machine),     virtual_line(seen.machine)};
+
+  const rt::TickSummary& ticks = seen.milling_loaded;
+  std::vector<std::string> hard;
+  hold_against(kUsable, ticks, hard);
+  if (!hard.empty()) {
+    judged.reasons = hard;
+    judged.verdict = Verdict::not_enough;
+  } else {
+    hold_against(kGood, ticks, judged.reasons);
+    hold_against(seen, judged.reasons);
+    judged.verdict = judged.reasons.empty() ? Verdict::good : Verdict::usable;
+  }
+
+  judged.sentence = judged.verdict == Verdict::good ? "good: this computer can hold a real device"
+                    : judged.verdict == Verdict::usable
+                        ? "usable: to learn and to try; with a real device the "
+                          "force may be let go of at times"
+                        : "not good enough for a real device";
+  if (!judged.reasons.empty())
+    judged.sentence += fmt::format(": {}", fmt::join(judged.reasons, "; "));
+  // whose fault the lateness is
+  const CheckBars& bars = hard.empty() ? kGood : kUsable;
+  if (ticks.late_p999_us > bars.late_us || ticks.worst_lateness_us > bars.worst_us)
+    judged.sentence +=
+        seen.waiting_loaded.late_p999_us > bars.late_us ||
+                seen.waiting_loaded.worst_lateness_us > bars.worst_us
+            ? "; a loop that only waits comes as late: it is the machine, not the tick"
+            : "; a loop that only waits is in time: close other programs, or take a "
+              "smaller burr or coarser voxels";
+  return judged;
+}
+
+}  // namespace burr::rt

@@ -1,0 +1,74 @@
+// tick/rows.h - what a session writes down. Plain structs; the file holds fields with names
+// (record/schema.cpp), not these bytes.
+//
+// Frame: world (LPS). Units: SI.
+//
+// Order of writing, by the servo, within one tick: wishes taken, bricks changed, then the TickRow.
+// So whoever holds the row of a tick holds everything that belongs to it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "burr/device/hand.h"
+#include "burr/edit/ledger.h"
+#include "burr/haptics/contact.h"
+#include "burr/volume/bone.h"
+
+namespace burr::tick {
+
+// One per tick: the inputs, the outcome, and a hash of both and of the ledger.
+struct TickRow {
+  std::uint64_t tick = 0;    // 0, 1, 2 ... of the session; time is tick / rate
+  device::HandState hand;    // as read
+  haptics::Contact contact;  // as felt
+  edit::Ledger ledger;       // as cut
+  double spindle_rad_s = 0;  // speed of the burr now; below 0: turns backwards
+  double cutting_nm = 0;     // torque of the bone on the burr        [N m]
+  double cutting_w = 0;      // power that goes into the bone         [W]
+  float took_us = 0;         // work of this tick, thread CPU time; not part of the hash
+  float late_us = 0;         // after its due time; not part of the hash
+  std::uint64_t hash = 0;
+};
+
+// Wishes of the people around: taken by the servo at the start of `tick`, in order.
+enum class WishKind : std::uint8_t {
+  spindle_speed,  // value: rad/s at full pedal
+  burr_radius,    // value: m
+  stiffness,      // value: N/m
+  user_force,     // value: N, the user's own limit
+  tool_mode,      // value: 0 cut, 1 add, 2 touch only, 3 back to the original, 4 smooth
+  undo,           // the last stroke
+  redo,           // the last undone stroke
+  reset,          // everything back to the start
+  friction,       // value: scale of the tissues' friction
+  load,           // value: tick/load.h, what the servo puts off; its own wish, first of its tick
+  touch_method,   // value: haptics/touch_method.h, Method
+  removal_law,    // value: edit/laws/removal.h, RemovalLaw
+  irrigation,     // value: 0 off, 1 on
+  mirror_i,       // value: of a plane across i, its place p_grid; what is done is mirrored by it
+  mirror_j,       // likewise across j
+  mirror_k,       // likewise across k
+  mirror_off,
+  burr_kind,  // value: 0 cutting, 1 diamond
+};
+struct Wish {
+  WishKind kind = WishKind::spindle_speed;
+  double value = 0;
+};
+struct WishRow {
+  std::uint64_t tick = 0;
+  Wish wish;
+};
+
+// A brick's whole field as it is after `tick`. Every brick that changes is written again within 100
+// ms. Tissue comes along only where material was deposited, since nothing else changes it.
+struct BrickRow {
+  std::uint64_t tick = 0;
+  volume::BrickIndex brick = volume::kNoBrick;
+  bool has_tissue = false;
+  volume::BrickField field = {};
+  std::array<volume::TissueId, volume::kBrickVoxels> tissue = {};  // only if has_tissue
+};
+
+}  // namespace burr::tick

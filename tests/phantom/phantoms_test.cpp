@@ -1,0 +1,259 @@
+#include "burr/phantom/phantoms.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "burr/importing/tissues.h"
+#include "burr/volume/sample.h"
+#include "burr/volume/volume_of.h"
+
+namespace burr::phantom {
+namespace {
+
+using volume::Bone;
+using volume::TissueId;
+using volume::TissueKind;
+
+std::unique_ptr<Bone> make(std::string_view name, double voxel_mm, int threads = 2) {
+  NoProgress nobody;
+  auto bone = phantom(name, voxel_mm, nobody, 0, threads);
+  EXPECT_TRUE(bone.ok()) << (bone.ok() ? "" : bone.error().text);
+  return std::move(*bone);
+}
+
+TissueId id_of(const Bone& bone, std::string_view name) {
+  const auto& all = bone.tissues().tissues;
+  for (std::size_t id = 0; id < all.size(); ++id)
+    if (all[id].name == name) return static_cast<TissueId>(id);
+  ADD_FAILURE() << "no tissue named " << name;
+  return 0;
+}
+
+template <class Do>
+void each_voxel(const Bone& bone, Do&& what) {
+  const math::Ijk& size = bone.grid().size;
+  for (int k = 0; k < size.z(); ++k)
+    for (int j = 0; j < size.y(); ++j)
+      for (int i = 0; i < size.x(); ++i) what(math::Ijk(i, j, k));
+}
+
+const std::map<std::string_view, double> kTestVoxelMm = {
+    {"temporal-bone", 0.4}, {"jaw", 0.4},   {"tooth", 0.2}, {"spine", 0.8},
+    {"skull", 1.2},         {"block", 0.5}, {"ball", 0.5}};
+
+// made once, asked often
+const Bone& of(std::string_view name) {
+  static std::map<std::string_view, std::unique_ptr<Bone>> made;
+  std::unique_ptr<Bone>& bone = made[name];
+  if (bone == nullptr) bone = make(name, kTestVoxelMm.at(name));
+  return *bone;
+}
+
+TEST(Phantoms, EveryNameMakesABoneAndNothingReachesTheBorder) {
+  for (const std::string_view name : phantom_names()) {
+    SCOPED_TRACE(name);
+    ASSERT_TRUE(kTestVoxelMm.contains(name));
+    const Bone* bone = &of(name);
+    EXPECT_GT(default_voxel_mm(name), 0);
+    EXPECT_GT(volume::volume_of(*bone),
+              0.02 * std::pow(bone->grid().voxel * bone->grid().size.minCoeff(), 3));
+    const math::Ijk last = bone->grid().size - math::Ijk::Ones();
+    int open = 0;
+    each_voxel(*bone, [&](const math::Ijk& v) {
+      const bool border = (v.array() == 0).any() || (v.array() == last.array()).any();
+      open += border && bone->field(v.x(), v.y(), v.z()) >= volume::kIso ? 1 : 0;
+    });
+    EXPECT_EQ(open, 0) << "the surface is closed inside the grid";
+  }
+}
+
+TEST(Phantoms, EveryTissueIsThereAndHasItsOwnNameAndLabel) {
+  for (const std::string_view name : phantom_names()) {
+    SCOPED_TRACE(name);
+    const Bone* bone = &of(name);
+    const auto& tissues = bone->tissues().tissues;
+    std::vector<std::size_t> count(tissues.size());
+    each_voxel(*bone, [&](const math::Ijk& v) {
+      const TissueId id = bone->tissue(v.x(), v.y(), v.z());
+      ASSERT_LT(id, tissues.size());
+      ++count[id];
+      // bone is bone, and what is not bone is not hard
+      if (bone->field(v.x(), v.y(), v.z()) >= volume::kIso) {
+        ASSERT_EQ(tissues[id].kind, TissueKind::solid)
+            << tissues[id].name << " at " << v.transpose();
+      }
+    });
+    std::set<std::string> names;
+    std::set<int> labels;
+    for (std::size_t id = 1; id < tissues.size(); ++id) {
+      EXPECT_GT(count[id], 0U) << tissues[id].name;
+      EXPECT_TRUE(names.insert(tissues[id].name).second) << tissues[id].name;
+      EXPECT_TRUE(labels.insert(tissues[id].label).second || tissues.size() == 2);
+    }
+  }
+}
+
+// a phantom written as .seg.nrrd and read again is the same bone: names alone say what is hard
+TEST(Phantoms, NamesSayWhatIsSolidSoftAndAir) {
+  for (const std::string_view name : phantom_names()) {
+    const Phantom made = name == "temporal-bone" ? temporal_bone(1e-3)
+                         : name == "jaw"         ? jaw(1e-3)
+                         : name == "tooth"       ? tooth(1e-3)
+                         : name == "spine"       ? spine(1e-3)
+                                                 : skull(1e-3);
+    for (const volume::Tissue& tissue : made.tissues.tissues) {
+      if (&tissue == &made.tissues.tissues.front()) continue;
+      const volume::Tissue read =
+          importing::tissue_by_name({tissue.label, tissue.name, tissue.colour}, true);
+      EXPECT_EQ(read.kind, tissue.kind) << name << ": " << tissue.name;
+    }
+  }
+}
+
+TEST(Phantoms, SameBitsWhateverTheNumberOfThreads) {
+  for (const std::string_view name : {"temporal-bone", "jaw", "spine"}) {
+    SCOPED_TRACE(name);
+    const double voxel_mm = name == "spine" ? 1.5 : 0.9;
+    EXPECT_EQ(make(name, voxel_mm, 1)->content_hash(), make(name, voxel_mm, 3)->content_hash());
+  }
+}
+
+// bricks are skipped by a bound on how fast the formula changes; were the bound wrong, bone would
+// be missing
+TEST(Phantoms, NoBrickIsSkippedThatHoldsBone) {
+  for (const std::string_view name : phantom_names()) {
+    SCOPED_TRACE(name);
+    const double voxel = 1e-3 * kTestVoxelMm.at(name);
+    const Bone* bone = &of(name);
+    Formula formula;
+    if (name == "temporal-bone") formula = temporal_bone(voxel).formula;
+    if (name == "jaw") formula = jaw(voxel).formula;
+    if (name == "tooth") formula = tooth(voxel).formula;
+    if (name == "spine") formula = spine(voxel).formula;
+    if (name == "skull") formula = skull(voxel).formula;
+    if (!formula.depth) continue;
+    int wrong = 0;
+    each_voxel(*bone, [&](const math::Ijk& v) {
+      if ((v.x() + 3 * v.y() + 7 * v.z()) % 7 != 0) return;
+      const Vec3 p = bone->grid().world_from_grid(v.cast<double>());
+      const volume::Field field = volume::field_from_depth(formula.depth(p) / bone->grid().voxel);
+      wrong += field != bone->field(v.x(), v.y(), v.z()) ? 1 : 0;
+    });
+    EXPECT_EQ(wrong, 0);
+  }
+}
+
+TEST(Phantoms, TemporalBoneHasItsStructuresWhereTheyBelong) {
+  const Bone& bone = of("temporal-bone");
+  struct Extent {
+    math::Aabb box;
+    double voxels = 0;
+  };
+  std::map<std::string, Extent> at;
+  each_voxel(bone, [&](const math::Ijk& v) {
+    const TissueId id = bone.tissue(v.x(), v.y(), v.z());
+    if (id == 0) return;
+    if (bone.tissues()[id].kind == TissueKind::solid &&
+        bone.field(v.x(), v.y(), v.z()) < volume::kIso)
+      return;  // the ramp above a surface
+    Extent& extent = at[bone.tissues()[id].name];
+    extent.box.extend(1e3 * bone.grid().world_from_grid(v.cast<double>()));
+    extent.voxels += 1;
+  });
+  const double mm3 = std::pow(1e3 * bone.grid().voxel, 3);
+
+  // a right ear: x runs inwards, y back, z up; origin at the opening of the ear canal
+  EXPECT_LT(at["ear canal"].box.lo.x(), 1);
+  EXPECT_GT(at["antrum air"].box.centre().y(), at["middle ear"].box.centre().y())
+      << "antrum behind";
+  EXPECT_GT(at["antrum air"].box.centre().z(), 3) << "antrum above the canal";
+  EXPECT_GT(at["sigmoid sinus"].box.hi.y(), 25) << "sinus at the back";
+  EXPECT_LT(at["mastoid air cells"].box.lo.z(), -15) << "cells down to the tip";
+  EXPECT_GT(at["bony dura plate (tegmen)"].box.centre().z(), 8) << "dura above";
+  EXPECT_GT(at["labyrinth (otic capsule)"].box.lo.x(), at["antrum air"].box.centre().x());
+  EXPECT_GT(at["cochlea (soft tissue)"].box.centre().x(), at["middle ear"].box.centre().x());
+  // the nerve runs from the inner meatus to the stylomastoid foramen
+  EXPECT_GT(at["facial nerve"].box.hi.x(), 33);
+  EXPECT_LT(at["facial nerve"].box.lo.z(), -16);
+  // sizes that textbooks give, within a factor
+  const double antrum_ml = 1e-3 * mm3 * at["antrum air"].voxels;
+  EXPECT_GT(antrum_ml, 0.1);
+  EXPECT_LT(antrum_ml, 1.0);
+  const double cells_ml = 1e-3 * mm3 * at["mastoid air cells"].voxels;
+  EXPECT_GT(cells_ml, 0.1) << "only what is two voxels from a wall counts";
+  EXPECT_LT(cells_ml, 12);
+  for (const char* little : {"malleus", "incus", "stapes"}) {
+    EXPECT_GT(mm3 * at[little].voxels, 0.5) << little;
+    EXPECT_LT(mm3 * at[little].voxels, 40) << little;
+  }
+}
+
+// the surgeon meets bone before anything to be spared, seen from the side over the antrum
+TEST(Phantoms, WhatMustBeSparedLiesUnderBone) {
+  const Bone& bone = of("temporal-bone");
+  const volume::Grid& grid = bone.grid();
+  int ways = 0;
+  for (double y = 8; y <= 18; y += 1)
+    for (double z = -14; z <= 6; z += 1) {
+      ++ways;
+      for (double x = -8; x < 40; x += 0.1) {
+        const Vec3 p = grid.grid_from_world(1e-3 * Vec3(x, y, z));
+        const math::Ijk v = p.array().round().cast<int>();
+        const volume::Tissue& tissue = bone.tissues()[bone.tissue(v.x(), v.y(), v.z())];
+        ASSERT_FALSE(tissue.spare) << tissue.name << " lies open at " << y << ' ' << z;
+        if (volume::sample(bone, p) >= volume::kIsoShare) break;
+      }
+    }
+  EXPECT_GT(ways, 100);
+}
+
+TEST(Phantoms, TheFacialNerveIsOneWholeAndHasBoneOrAirAboutIt) {
+  const Bone& bone = of("temporal-bone");
+  const TissueId nerve = id_of(bone, "facial nerve");
+  std::vector<math::Ijk> open;
+  std::set<std::tuple<int, int, int>> left;
+  each_voxel(bone, [&](const math::Ijk& v) {
+    if (bone.tissue(v.x(), v.y(), v.z()) == nerve) left.insert({v.x(), v.y(), v.z()});
+  });
+  ASSERT_GT(left.size(), 300U);
+  const auto first = *left.begin();
+  open.emplace_back(std::get<0>(first), std::get<1>(first), std::get<2>(first));
+  left.erase(left.begin());
+  while (!open.empty()) {
+    const math::Ijk v = open.back();
+    open.pop_back();
+    for (int n = 0; n < 27; ++n) {
+      const auto next = left.find({v.x() + n % 3 - 1, v.y() + n / 3 % 3 - 1, v.z() + n / 9 - 1});
+      if (next == left.end()) continue;
+      open.emplace_back(std::get<0>(*next), std::get<1>(*next), std::get<2>(*next));
+      left.erase(next);
+    }
+  }
+  EXPECT_TRUE(left.empty()) << left.size() << " voxels of the nerve are cut off";
+}
+
+TEST(Phantoms, BadNamesAndVoxelsAreTurnedDownWithWhatThereIs) {
+  NoProgress nobody;
+  const auto unknown = phantom("elbow", 0.3, nobody);
+  ASSERT_FALSE(unknown.ok());
+  EXPECT_EQ(unknown.error().trouble, Trouble::usage);
+  EXPECT_NE(unknown.error().text.find("elbow"), std::string::npos);
+  EXPECT_NE(unknown.error().text.find("temporal-bone, jaw, tooth"), std::string::npos);
+  for (const double voxel_mm : {-1.0, 1e-3, 50.0, std::nan(""), 1e300}) {
+    const auto bad = phantom("temporal-bone", voxel_mm, nobody);
+    ASSERT_FALSE(bad.ok()) << voxel_mm;
+    EXPECT_EQ(bad.error().trouble, Trouble::usage);
+    EXPECT_NE(bad.error().text.find("0.25 mm"), std::string::npos) << bad.error().text;
+  }
+  EXPECT_EQ(default_voxel_mm("elbow"), 0);
+}
+
+}  // namespace
+}  // namespace burr::phantom
