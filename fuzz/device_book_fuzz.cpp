@@ -11,18 +11,18 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   for (const std::string& trouble : book.troubles()) fuzz::look_at(error(trouble));
   const Status set = book.set("Touch T-1", assignment);
   if (!set) fuzz::look_at(set.error());
-  const app::DeviceWishes wishes = book.of("Touch T-1");
+  const app::DevicePreferences preferences = book.of("Touch T-1");
   const auto within = [](std::string_view key, double value) {
-    const app::WishRange range = app::range_of_wish(key);
-    fuzz::must(value >= range.least && value <= range.most, "a wish is within its range");
+    const app::PreferenceRange range = app::range_of_preference(key);
+    fuzz::must(value >= range.least && value <= range.most, "a preference is within its range");
   };
-  within("scale", wishes.mapping.scale);
-  within("max_force_n", wishes.max_force_n);
-  within("vibration", wishes.vibration);
-  within("torque", wishes.torque);
-  within("mill_button", wishes.mapping.mill_button);
-  within("clutch_button", wishes.mapping.clutch_button);
-  fuzz::must(std::abs(wishes.mapping.axes.norm() - 1) < 1e-9, "a device stands somehow");
+  within("scale", preferences.mapping.scale);
+  within("max_force_n", preferences.max_force_n);
+  within("vibration", preferences.vibration);
+  within("torque", preferences.torque);
+  within("mill_button", preferences.mapping.mill_button);
+  within("clutch_button", preferences.mapping.clutch_button);
+  fuzz::must(std::abs(preferences.mapping.axes.norm() - 1) < 1e-9, "a device stands somehow");
   const std::string written = book.text();
   const auto again = app::DeviceBook::parse(written, "b.toml");
   fuzz::must(again.troubles().empty() && again.text() == written, "what is written is read");

@@ -230,7 +230,7 @@ File file_of(fuzz::Pieces& in) {
     } else if (topic == 1) {
       ticks(in, tick, data);
     } else if (topic == 2) {
-      const auto kind = static_cast<tick::WishKind>(in.byte() % 9);
+      const auto kind = static_cast<tick::CommandKind>(in.byte() % 9);
       data.raw(record::as_bytes(record::to_json({count(in), {kind, number(in)}})));
     } else if (topic == 3) {
       data.raw(record::as_bytes("{\"dropped_ticks\":" + std::to_string(count(in)) + "}"));

@@ -439,7 +439,7 @@ string container(bool packed, bool finished) {
   return content(path);
 }
 
-// What devices say, and what is wished of them.
+// What devices say, and what is requested of them.
 void devices() {
   const string first =
       R"({"session_id":7,"inverse3":[{"device_id":"049D","config":{"type":"inverse3",)"
@@ -502,7 +502,7 @@ void recordings() {
   seed("mcap", "not_finished", container(false, false));
   seed("mcap", "torn", whole.substr(0, whole.size() / 2));
   seed("mcap", "recorded", recorded());
-  // bytes as player_fuzz.cpp takes them: a session, ticks, wishes, bricks, chunks
+  // bytes as player_fuzz.cpp takes them: a session, ticks, commands, bricks, chunks
   seed("player", "usual",
        string("\x00\x00\x06\x01\x04\x00\x00\x00\x00\x06\x01\x02\x00\x00\x06", 15));
   seed(

@@ -51,7 +51,7 @@ int main(int count, char** words) {
     std::fflush(stdout);
     play([&] { return static_cast<std::uint64_t>(service.messages); },
          [&](const math::Vec3& hand) {
-           service.with([&](test::FakeHaply::Wishes& w) {
+           service.with([&](test::FakeHaply::Commands& w) {
              w.arms[0].place = {hand.x(), -hand.z(), hand.y()};
              w.buttons = 1;
            });
@@ -61,9 +61,9 @@ int main(int count, char** words) {
     test::FakePolhem arm;
     fmt::print("burr ... --device polhem:{}\n", arm.path);
     std::fflush(stdout);
-    play([&] { return arm.with([](test::FakePolhem::Wishes& w) { return w.lines; }); },
+    play([&] { return arm.with([](test::FakePolhem::Commands& w) { return w.lines; }); },
          [&](const math::Vec3& hand) {
-           arm.with([&](test::FakePolhem::Wishes& w) {
+           arm.with([&](test::FakePolhem::Commands& w) {
              w.mm[0] = 1e3 * hand.z();
              w.mm[1] = 1e3 * hand.x();
              w.mm[2] = 1e3 * hand.y();
@@ -75,9 +75,9 @@ int main(int count, char** words) {
     arm.tread("gripper", true);
     fmt::print("burr ... --device crtk:/false\n");
     std::fflush(stdout);
-    play([&] { return arm.with([](test::FakeCrtkArm::Wishes& w) { return w.forces; }); },
+    play([&] { return arm.with([](test::FakeCrtkArm::Commands& w) { return w.forces; }); },
          [&](const math::Vec3& hand) {
-           arm.with([&](test::FakeCrtkArm::Wishes& w) { w.place.p = hand; });
+           arm.with([&](test::FakeCrtkArm::Commands& w) { w.place.p = hand; });
            static std::uint64_t often = 0;
            if (++often % 200 == 0) arm.tread("gripper", true);
          });

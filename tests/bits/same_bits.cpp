@@ -56,22 +56,24 @@ T take(Result<T> result) {
   return std::move(*result);
 }
 
-// A simulated hand that also wishes, each thing at its own tick.
-struct WishAt {
+// A simulated hand that also commands, each thing at its own tick.
+struct CommandAt {
   std::uint64_t tick;
-  tick::Wish wish;
+  tick::Command command;
 };
-class WishingHand final : public device::Device {
+class CommandingHand final : public device::Device {
  public:
-  WishingHand(device::HandPath path, const device::ArmSettings& arm, std::vector<WishAt> wishes)
-      : hand_(std::move(path), arm), wishes_(std::move(wishes)) {}
+  CommandingHand(device::HandPath path, const device::ArmSettings& arm,
+                 std::vector<CommandAt> commands)
+      : hand_(std::move(path), arm), commands_(std::move(commands)) {}
   void tell(tick::Servo& servo) { servo_ = &servo; }
   Status open() override { return hand_.open(); }
   void close() override { hand_.close(); }
   [[nodiscard]] const device::DeviceSpec& spec() const override { return hand_.spec(); }
   [[nodiscard]] device::HandState state(double dt) BURR_RT override {
-    for (const WishAt& at : wishes_)
-      if (at.tick == tick_ && servo_ != nullptr) static_cast<void>(servo_->wishes().push(at.wish));
+    for (const CommandAt& at : commands_)
+      if (at.tick == tick_ && servo_ != nullptr)
+        static_cast<void>(servo_->commands().push(at.command));
     ++tick_;
     return hand_.state(dt);
   }
@@ -81,7 +83,7 @@ class WishingHand final : public device::Device {
 
  private:
   device::SimulatedHand hand_;
-  std::vector<WishAt> wishes_;
+  std::vector<CommandAt> commands_;
   tick::Servo* servo_ = nullptr;
   std::uint64_t tick_ = 0;
 };
@@ -91,7 +93,7 @@ struct Plan {
   double seconds, burr_mm;
   tool::BurrKind kind = tool::BurrKind::cutting;
   device::ArmSettings arm = {};
-  std::vector<WishAt> wishes = {};
+  std::vector<CommandAt> commands = {};
 };
 
 void mill(const char* name, const Plan& plan, const std::function<Bone()>& make,
@@ -108,10 +110,10 @@ void mill(const char* name, const Plan& plan, const std::function<Bone()>& make,
   Bone bone = make();
   const auto place = take(surgeon::find_work_place(*bone, settings.servo.burr.radius, {}, {}));
   auto path = take(surgeon::motion(plan.motion, place, settings.servo.burr.radius, plan.seconds));
-  auto hand = std::make_unique<WishingHand>(std::move(path), plan.arm, plan.wishes);
-  WishingHand& wishing = *hand;
+  auto hand = std::make_unique<CommandingHand>(std::move(path), plan.arm, plan.commands);
+  CommandingHand& commanding = *hand;
   auto session = take(sim::Session::make(std::move(bone), std::move(hand), settings, quiet));
-  wishing.tell(session->servo());
+  commanding.tell(session->servo());
 
   record::SessionInfo info;
   sim::describe(session->settings(), session->hand().spec(), info);
@@ -136,7 +138,7 @@ void mill(const char* name, const Plan& plan, const std::function<Bone()>& make,
     give_up(fmt::format("{}: does not replay: {}", name, again.difference));
   const sim::Outcome outcome = session->outcome();
   const bool lost =
-      (outcome.flags & haptics::kFlagWatchdog) != 0 || outcome.most_load != tick::Load::none;
+      (outcome.flags & haptics::kFlagWatchdog) != 0 || outcome.most_shed != tick::Shed::none;
   fmt::print("{} {:016x} {:016x}{}\n", name, row.hash, session->bone().content_hash(),
              lost ? " lost" : "");
 }
@@ -169,19 +171,20 @@ void all(const Options& options) {
   const auto bone_only = [&](const char* name, const Bone& bone) {
     fmt::print("{} {:016x} {:016x}\n", name, 0, bone->content_hash());
   };
-  const auto wish = [](std::uint64_t tick, tick::WishKind kind, double value = 0) {
-    return WishAt{tick, {kind, value}};
+  const auto command = [](std::uint64_t tick, tick::CommandKind kind, double value = 0) {
+    return CommandAt{tick, {kind, value}};
   };
-  using Kind = tick::WishKind;
+  using Kind = tick::CommandKind;
   if (wanted("pocket"))
     mill(
         "pocket",
         {.motion = "pocket",
          .seconds = 3,
          .burr_mm = 4,
-         .wishes = {wish(900, Kind::undo), wish(1300, Kind::redo), wish(1400, Kind::stiffness, 600),
-                    wish(1500, Kind::burr_radius, 1.7e-3), wish(1700, Kind::tool_mode, 1),
-                    wish(2100, Kind::tool_mode, 0), wish(2500, Kind::reset)}},
+         .commands = {command(900, Kind::undo), command(1300, Kind::redo),
+                      command(1400, Kind::stiffness, 600), command(1500, Kind::burr_radius, 1.7e-3),
+                      command(1700, Kind::tool_mode, 1), command(2100, Kind::tool_mode, 0),
+                      command(2500, Kind::reset)}},
         [&] {
           return phantom::bone_from_distance(
               phantom::box_grid(Vec3::Constant(-8e-3), Vec3::Constant(8e-3), 0.25e-3), {},

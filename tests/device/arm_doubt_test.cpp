@@ -25,7 +25,7 @@ TEST(PolhemDoubt, LinesThatAreNoneAreBorneForAMomentOnly) {
   test::FakePolhem arm;
   polhem::Polhem wire({.port = arm.path, .system = "/nowhere"});
   ASSERT_TRUE(wire.connect().ok());
-  arm.with([](test::FakePolhem::Wishes& wishes) { wishes.instead.assign(100, "no\n"); });
+  arm.with([](test::FakePolhem::Commands& commands) { commands.instead.assign(100, "no\n"); });
   HandState hand;
   int good = 0;
   ASSERT_TRUE(soon([&] {
@@ -52,7 +52,7 @@ TEST(PolhemDoubt, ALineAsksForNoMoreThanItsFieldsHold) {
 // It tells no speed: how its place changes is one.
 TEST(PolhemDoubt, ItsSpeedGoesTheWayItGoes) {
   test::FakePolhem arm;
-  arm.with([](test::FakePolhem::Wishes& wishes) { wishes.rate_hz = 1000; });
+  arm.with([](test::FakePolhem::Commands& commands) { commands.rate_hz = 1000; });
   polhem::Polhem wire({.port = arm.path, .system = "/nowhere"});
   ASSERT_TRUE(wire.connect().ok());
   HandState hand;
@@ -62,7 +62,7 @@ TEST(PolhemDoubt, ItsSpeedGoesTheWayItGoes) {
         const Wire::Read read = wire.read(hand);
         ASSERT_NE(read, Wire::Read::lost) << wire.why();
         if (read == Wire::Read::hand) ++readings;
-        arm.with([&](test::FakePolhem::Wishes& wishes) { wishes.mm[axis] += 0.1 * way; });
+        arm.with([&](test::FakePolhem::Commands& commands) { commands.mm[axis] += 0.1 * way; });
         ASSERT_TRUE(wire.write(Vec3::Zero()));
       }
       const int ours = (axis + 2) % 3;  // its x is our z, its y our x
@@ -76,7 +76,7 @@ TEST(PolhemDoubt, ItsSpeedGoesTheWayItGoes) {
 // when the machine stood longer than that, and the arm was lost.
 std::optional<int> late_after_a_stall() {
   test::FakePolhem arm;
-  arm.with([](test::FakePolhem::Wishes& wishes) { wishes.rate_hz = 1000; });
+  arm.with([](test::FakePolhem::Commands& commands) { commands.rate_hz = 1000; });
   polhem::Polhem wire({.port = arm.path, .system = "/nowhere"});
   if (!wire.connect()) return std::nullopt;
   HandState hand;
@@ -89,11 +89,11 @@ std::optional<int> late_after_a_stall() {
     return true;
   };
   const auto lines = [&] {
-    return arm.with([](test::FakePolhem::Wishes& wishes) { return wishes.lines; });
+    return arm.with([](test::FakePolhem::Commands& commands) { return commands.lines; });
   };
   if (!readings(20, Vec3::Zero())) return std::nullopt;
   const std::uint64_t before = lines();
-  arm.with([](test::FakePolhem::Wishes& wishes) { wishes.stall_ms = 150; });
+  arm.with([](test::FakePolhem::Commands& commands) { commands.stall_ms = 150; });
   std::this_thread::sleep_for(std::chrono::milliseconds(140));
   if (!readings(20, Vec3::Zero())) return std::nullopt;
   EXPECT_TRUE(soon([&] { return lines() > before + 10; })) << "the guardian's";
@@ -125,9 +125,9 @@ TEST(PolhemDoubt, WithoutAnAnswerItIsToldNoForce) {
     });
   };
   ASSERT_TRUE(pushed_until(1));
-  arm.with([](test::FakePolhem::Wishes& wishes) { wishes.silent = true; });
+  arm.with([](test::FakePolhem::Commands& commands) { commands.silent = true; });
   EXPECT_TRUE(pushed_until(0));
-  arm.with([](test::FakePolhem::Wishes& wishes) { wishes.silent = false; });
+  arm.with([](test::FakePolhem::Commands& commands) { commands.silent = false; });
   EXPECT_TRUE(pushed_until(1)) << "once it answers again";
 }
 
@@ -143,7 +143,7 @@ TEST(PolhemDoubt, UnpluggedWhileItIsOpenedNothingIsLeftOpen) {
   polhem::Polhem wire({.port = arm.path, .system = "/nowhere"});
   std::thread user([&] {
     static_cast<void>(
-        soon([&] { return arm.with([](auto& wishes) { return wishes.lines; }) > 0; }));
+        soon([&] { return arm.with([](auto& commands) { return commands.lines; }) > 0; }));
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     arm.unplug();
   });
@@ -168,7 +168,7 @@ TEST(CrtkDoubt, AnArmThatTakesForcesNoMoreIsNotBelieved) {
     return read == Wire::Read::hand;
   };
   ASSERT_TRUE(soon([&] { return next() && hand.valid; }));
-  arm.with([](test::FakeCrtkArm::Wishes& wishes) { wishes.deaf = true; });
+  arm.with([](test::FakeCrtkArm::Commands& commands) { commands.deaf = true; });
   EXPECT_TRUE(soon([&] { return next() && !hand.valid; }));
   EXPECT_NE(wire.why().find("does not take forces"), std::string::npos) << wire.why();
 }

@@ -197,7 +197,7 @@ TEST_F(ArmTest, NoTwoArmsHaveOneName) {
 }
 
 TEST_F(ArmTest, WhatIsToldIsReadByOthers) {
-  ArmTold told;
+  ArmReport told;
   told.measured = {{1, 2, 3}, Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()))};
   told.setpoint.p = {4, 5, 6};
   told.force = {2, 0, 0};
@@ -228,7 +228,7 @@ TEST_F(ArmTest, WhatIsToldIsReadByOthers) {
 }
 
 TEST_F(ArmTest, OneThatWasLetGoSaysFaultWhileItIsEnabled) {
-  ArmTold told;
+  ArmReport told;
   const auto says = [&](const std::string& word) {
     std::string said;
     return soon([&] {

@@ -25,7 +25,7 @@ using math::Quat;
 using math::Vec3;
 using test::FakeCrtkArm;
 using test::soon;
-using Wishes = FakeCrtkArm::Wishes;
+using Commands = FakeCrtkArm::Commands;
 
 // A round takes an eighth of a second: the bus, a hundred readings for the rate, the guardian.
 #if defined(BURR_SANITIZED)
@@ -71,8 +71,9 @@ TEST_F(LeaderTest, SaysWhatItIsAndSetsTheArmUp) {
   EXPECT_EQ(hand->spec().sensed, 6);
   EXPECT_EQ(hand->spec().peak_force, 3);
   EXPECT_EQ(hand->spec().loss_timeout, test::kStallsAllowed) << "as its link was told";
-  EXPECT_TRUE(soon([&] { return arm.with([](Wishes& w) { return w.weightless && !w.absolute; }); }))
-      << "its weight is carried, and forces are as its end is turned";
+  EXPECT_TRUE(soon([&] {
+    return arm.with([](Commands& w) { return w.weightless && !w.absolute; });
+  })) << "its weight is carried, and forces are as its end is turned";
   EXPECT_EQ(hand->trouble(), "");
 }
 
@@ -91,7 +92,7 @@ TEST_F(LeaderTest, TenMillimetresAreThoseAlongEveryAxis) {
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3 way = 0.01 * Vec3::Unit(axis);
     const Quat turn(Eigen::AngleAxisd(0.3 + axis, Vec3(1, 2, 3).normalized()));
-    arm.with([&](Wishes& w) {
+    arm.with([&](Commands& w) {
       w.place = {way, turn};
       w.velocity = 20 * way;
     });
@@ -110,7 +111,7 @@ TEST_F(LeaderTest, TenMillimetresAreThoseAlongEveryAxis) {
 TEST_F(LeaderTest, TheForceIsTurnedIntoTheFrameOfTheArmsEnd) {
   FakeCrtkArm arm(domain_);
   const Quat turn(Eigen::AngleAxisd(1.1, Vec3(1, -2, 0.5).normalized()));
-  arm.with([&](Wishes& w) { w.place = {{0.1, 0.2, 0.3}, turn}; });
+  arm.with([&](Commands& w) { w.place = {{0.1, 0.2, 0.3}, turn}; });
   Leader wire(here());
   ASSERT_TRUE(wire.connect().ok());
   ASSERT_TRUE(
@@ -123,7 +124,7 @@ TEST_F(LeaderTest, TheForceIsTurnedIntoTheFrameOfTheArmsEnd) {
       pushed = turn * arm.force();
       return (pushed - wanted).norm() < 1e-9;
     })) << pushed.transpose();
-    EXPECT_EQ(arm.with([](Wishes& w) { return w.torque; }), Vec3::Zero());
+    EXPECT_EQ(arm.with([](Commands& w) { return w.torque; }), Vec3::Zero());
   }
 }
 
@@ -131,13 +132,13 @@ TEST_F(LeaderTest, TheForceIsTurnedIntoTheFrameOfTheArmsEnd) {
 TEST_F(LeaderTest, AnArmWithoutBodyForcesGetsTheWrenchAboutItsBase) {
   FakeCrtkArm arm(domain_, "/arm", {.body = false});
   const Vec3 place(0.1, 0.2, 0.3), force(1, -1, 0.5);
-  arm.with([&](Wishes& w) { w.place.p = place; });
+  arm.with([&](Commands& w) { w.place.p = place; });
   Leader wire(here());
   ASSERT_TRUE(wire.connect().ok());
   ASSERT_TRUE(soon([&] { return (next(wire).world_from_tool.p - place).norm() < 1e-12; }));
   ASSERT_TRUE(wire.write(force));
   EXPECT_TRUE(soon([&] { return (arm.force() - force).norm() < 1e-9; }));
-  const Vec3 torque = arm.with([](Wishes& w) { return w.torque; });
+  const Vec3 torque = arm.with([](Commands& w) { return w.torque; });
   EXPECT_NEAR(torque.x(), 0.2 * 0.5 - 0.3 * -1, 1e-12);
   EXPECT_NEAR(torque.y(), 0.3 * 1 - 0.1 * 0.5, 1e-12);
   EXPECT_NEAR(torque.z(), 0.1 * -1 - 0.2 * 1, 1e-12);
@@ -182,7 +183,7 @@ TEST_F(LeaderTest, WhatCannotServeAsAHandIsSaidWithItsRemedy) {
   }
   {
     FakeCrtkArm arm(domain_);
-    arm.with([](Wishes& w) { w.rate_hz = 100; });
+    arm.with([](Commands& w) { w.rate_hz = 100; });
     const std::string slow = refusal(here());
     EXPECT_NE(slow.find("times a second; burr needs 400"), std::string::npos) << slow;
   }
@@ -202,24 +203,24 @@ TEST_F(LeaderTest, AnOldPlaceOfAnotherTypeIsSaid) {
 }
 
 TEST_F(LeaderTest, AnArmMovesByItselfOnlyWhereThatIsAllowed) {
-  Wishes rests;
+  Commands rests;
   rests.state = "DISABLED";
   rests.homed = false;
   FakeCrtkArm arm(domain_, rests);
   const std::string said = refusal(here());
   EXPECT_NE(said.find("/arm is DISABLED and not homed; enable and home it"), std::string::npos)
       << said;
-  EXPECT_TRUE(arm.with([](Wishes& w) { return w.asked; }).empty()) << "left as it was";
+  EXPECT_TRUE(arm.with([](Commands& w) { return w.asked; }).empty()) << "left as it was";
   Leader wire(here("/arm", true));
   const auto spec = wire.connect();
   ASSERT_TRUE(spec.ok()) << spec.error().text;
-  EXPECT_EQ(arm.with([](Wishes& w) { return w.asked; }),
+  EXPECT_EQ(arm.with([](Commands& w) { return w.asked; }),
             (std::vector<std::string>{"enable", "home"}));
   EXPECT_TRUE(next(wire).valid);
 }
 
 TEST_F(LeaderTest, AnArmThatFaultsWhileHomingIsSaid) {
-  Wishes lame;
+  Commands lame;
   lame.homed = false;
   lame.home_ms = -1;
   FakeCrtkArm arm(domain_, lame);
@@ -242,31 +243,31 @@ TEST_F(LeaderTest, DisabledUnstampedOrImpossibleItIsNotBelieved) {
   const auto good = [&] { return next(wire).valid; };
   const auto bad = [&] { return !next(wire).valid; };
   ASSERT_TRUE(soon(good));
-  arm.with([](Wishes& w) { w.state = "DISABLED"; });
+  arm.with([](Commands& w) { w.state = "DISABLED"; });
   EXPECT_TRUE(soon(bad));
   EXPECT_NE(wire.why().find("disabled"), std::string::npos) << wire.why();
-  arm.with([](Wishes& w) { w.state = "ENABLED"; });
+  arm.with([](Commands& w) { w.state = "ENABLED"; });
   EXPECT_TRUE(soon(good));
   EXPECT_EQ(wire.why(), "");
-  arm.with([](Wishes& w) { w.stamped = false; });
+  arm.with([](Commands& w) { w.stamped = false; });
   EXPECT_TRUE(soon(bad));
   EXPECT_NE(wire.why().find("not valid"), std::string::npos);
-  arm.with([](Wishes& w) { w.stamped = true; });
+  arm.with([](Commands& w) { w.stamped = true; });
   EXPECT_TRUE(soon(good));
   for (const double odd :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e6}) {
-    arm.with([&](Wishes& w) { w.place.p.y() = odd; });
+    arm.with([&](Commands& w) { w.place.p.y() = odd; });
     EXPECT_TRUE(soon(bad));
-    arm.with([](Wishes& w) { w.place.p.setZero(); });
+    arm.with([](Commands& w) { w.place.p.setZero(); });
     EXPECT_TRUE(soon(good));
-    arm.with([&](Wishes& w) { w.velocity.x() = odd == 1e6 ? 0 : odd; });
+    arm.with([&](Commands& w) { w.velocity.x() = odd == 1e6 ? 0 : odd; });
     if (odd != 1e6) {
       EXPECT_TRUE(soon(bad));
     }
-    arm.with([](Wishes& w) { w.velocity.setZero(); });
+    arm.with([](Commands& w) { w.velocity.setZero(); });
     EXPECT_TRUE(soon(good));
   }
-  arm.with([](Wishes& w) { w.place.q.coeffs().setZero(); });
+  arm.with([](Commands& w) { w.place.q.coeffs().setZero(); });
   EXPECT_TRUE(soon(bad));
 }
 
@@ -278,9 +279,9 @@ TEST_F(LeaderTest, ARunningSessionPushesAndLetsGo) {
     return Vec3(0, -400 * std::min(0.0, state.world_from_tool.p.y()), 0);
   });
   ASSERT_TRUE(soon([&] { return tick.engaged(); }));
-  arm.with([](Wishes& w) { w.place.p.y() = -4e-3; });
+  arm.with([](Commands& w) { w.place.p.y() = -4e-3; });
   EXPECT_TRUE(soon([&] { return arm.force().y() > 1.5; }));
-  EXPECT_TRUE(soon([&] { return arm.with([](Wishes& w) { return w.forces; }) > 500; }));
+  EXPECT_TRUE(soon([&] { return arm.with([](Commands& w) { return w.forces; }) > 500; }));
   tick.stop();
   hand->close();
   EXPECT_TRUE(soon([&] { return arm.force() == Vec3::Zero(); }));
@@ -312,7 +313,7 @@ TEST_F(LeaderTest, AStallOf50MsIsALostHandAndNotALostArm) {
   ASSERT_TRUE(hand->open().ok());
   test::StandIn tick(*hand, [](const HandState&) { return Vec3(0, 0.04, 0); });
   ASSERT_TRUE(soon([&] { return arm.force().norm() > 0.03; }));
-  arm.with([](Wishes& w) { w.stall_ms = 50; });
+  arm.with([](Commands& w) { w.stall_ms = 50; });
   EXPECT_TRUE(soon([&] { return (tick.flags() & haptics::kFlagHandLost) != 0; }));
   EXPECT_TRUE(soon([&] { return tick.hand().valid && arm.force().norm() > 0.03; }));
   EXPECT_EQ(hand->returns(), 0);
@@ -324,7 +325,7 @@ TEST_F(LeaderTest, ARateThatFallsLaterIsALostHandEachTime) {
   ASSERT_TRUE(hand->open().ok());
   test::StandIn tick(*hand, [](const HandState&) { return Vec3(0, 0.04, 0); });
   ASSERT_TRUE(soon([&] { return arm.force().norm() > 0.03; }));
-  arm.with([](Wishes& w) { w.rate_hz = 100; });
+  arm.with([](Commands& w) { w.rate_hz = 100; });
   EXPECT_TRUE(soon([&] { return tick.invalid() > 20; }));
   EXPECT_TRUE(soon([&] { return arm.force().norm() < 0.03; })) << "not held over";
 }
@@ -448,20 +449,20 @@ TEST_F(LeaderTest, WhateverNumbersComeTheForceIsBoundedAndTheHandCanBe) {
   ASSERT_TRUE(soon([&] { return tick.engaged(); }));
   const unsigned seed = std::random_device{}();
   auto odd = std::make_shared<Odd>(seed);
-  const std::uint64_t before = arm.with([&](Wishes& w) {
+  const std::uint64_t before = arm.with([&](Commands& w) {
     w.place.p = {0.01, 0.02, 0.03};
     w.spoil = [odd](PoseStamped& pose, TwistStamped& twist) { odd->spoil(pose, twist); };
     return w.places;
   });
   ASSERT_TRUE(soon([&] {
     if (!can_be(tick.hand())) ++odd_hands;
-    return arm.with([](Wishes& w) { return w.places; }) > before + 5000;
+    return arm.with([](Commands& w) { return w.places; }) > before + 5000;
   }));
   EXPECT_EQ(odd_hands, 0) << "seed " << seed;
   EXPECT_GT(seen, 100) << "some are believed";
   EXPECT_GT(tick.invalid(), 100U) << "and some are not";
-  EXPECT_LE(arm.with([](Wishes& w) { return w.largest; }), 3 + 1e-9) << "seed " << seed;
-  arm.with([](Wishes& w) { w.spoil = nullptr; });
+  EXPECT_LE(arm.with([](Commands& w) { return w.largest; }), 3 + 1e-9) << "seed " << seed;
+  arm.with([](Commands& w) { w.spoil = nullptr; });
   EXPECT_TRUE(soon([&] { return tick.hand().valid; })) << "and it goes on; seed " << seed;
 }
 
@@ -477,7 +478,7 @@ TEST_F(LeaderTest, AnArmThatAnotherPushesIsLeftToHim) {
     EXPECT_NE(said.find("/arm is pushed by another program"), std::string::npos) << said;
     EXPECT_NE(said.find("end that one"), std::string::npos) << said;
   }
-  EXPECT_EQ(arm.with([](Wishes& w) { return w.forces; }), 0U);
+  EXPECT_EQ(arm.with([](Commands& w) { return w.forces; }), 0U);
   EXPECT_TRUE(soon([&] { return refusal(here()) == "it connected"; })) << "once he has ended";
 }
 

@@ -209,7 +209,7 @@ TEST_F(OmegaTest, ALeftHandIsNamed) {
   EXPECT_EQ(omega.connect()->name, "omega.6 (left-hand)");
 }
 
-TEST_F(OmegaTest, ARateIsTakenAsWishedOrRefused) {
+TEST_F(OmegaTest, ARateIsTakenAsRequestedOrRefused) {
   for (const double rate : {500.0, 2500.0, 4000.0}) {
     OmegaSettings settings = by_itself();
     settings.rate = rate;

@@ -230,7 +230,7 @@ TEST(Guardian, TheProgramLetsGoHoweverItEnds) {
     double mm = 0;
     const bool pushed = soon([&] {
       mm -= 0.02;
-      arm.with([&](test::FakePolhem::Wishes& w) { w.mm[0] = mm; });
+      arm.with([&](test::FakePolhem::Commands& w) { w.mm[0] = mm; });
       return arm.force().norm() > 0.3;
     });
     ASSERT_TRUE(pushed) << "signal " << end;

@@ -15,7 +15,7 @@ namespace {
 using math::Vec3;
 using test::FakeHaply;
 using test::soon;
-using Wishes = FakeHaply::Wishes;
+using Commands = FakeHaply::Commands;
 
 class HaplyDoubt : public ::testing::Test {
  protected:
@@ -39,27 +39,27 @@ class HaplyDoubt : public ::testing::Test {
 
 TEST_F(HaplyDoubt, AHandMetresAwayIsNotBelieved) {
   EXPECT_TRUE(next().valid);
-  service_.with([](Wishes& w) { w.arms[0].place = {1.2, 0, 0}; });
+  service_.with([](Commands& w) { w.arms[0].place = {1.2, 0, 0}; });
   EXPECT_FALSE(next().valid);
-  service_.with([](Wishes& w) { w.arms[0].place = {0.1, 0, 0}; });
+  service_.with([](Commands& w) { w.arms[0].place = {0.1, 0, 0}; });
   EXPECT_TRUE(next().valid);
 }
 
 TEST_F(HaplyDoubt, AnArmWithoutPowerOrCalibrationIsNotBelieved) {
-  service_.with([](Wishes& w) { w.arms[0].powered = false; });
+  service_.with([](Commands& w) { w.arms[0].powered = false; });
   EXPECT_FALSE(next().valid);
-  service_.with([](Wishes& w) {
+  service_.with([](Commands& w) {
     w.arms[0].powered = true;
     w.arms[0].calibrated = false;
   });
   EXPECT_FALSE(next().valid);
-  service_.with([](Wishes& w) { w.arms[0].calibrated = true; });
+  service_.with([](Commands& w) { w.arms[0].calibrated = true; });
   EXPECT_TRUE(next().valid);
 }
 
 TEST_F(HaplyDoubt, AnArmThatIsNotInAMessageIsUnpluggedAtOnce) {
   next();
-  service_.with([](Wishes& w) { w.arms.clear(); });
+  service_.with([](Commands& w) { w.arms.clear(); });
   HandState hand;
   int readings = 0;
   ASSERT_TRUE(soon([&] {
@@ -78,12 +78,12 @@ TEST_F(HaplyDoubt, AnotherArmThanBeforeIsNotTaken) {
   WireDevice device(std::make_unique<Inverse>(
       InverseSettings{.host = "127.0.0.1", .port = service_.port, .id = {}}));
   ASSERT_TRUE(device.open().ok());
-  service_.with([](Wishes& w) { w.arms[0].id = "OTHER"; });
+  service_.with([](Commands& w) { w.arms[0].id = "OTHER"; });
   EXPECT_TRUE(soon([&] { return device.trouble().find("Another device") != std::string::npos; }))
       << device.trouble();
   EXPECT_EQ(device.returns(), 0);
-  EXPECT_EQ(service_.with([](Wishes& w) { return w.arms[0].force; }), Vec3::Zero());
-  service_.with([](Wishes& w) { w.arms[0].id = "049D"; });
+  EXPECT_EQ(service_.with([](Commands& w) { return w.arms[0].force; }), Vec3::Zero());
+  service_.with([](Commands& w) { w.arms[0].id = "049D"; });
   EXPECT_TRUE(soon([&] { return device.returns() == 1; })) << device.trouble();
 }
 
@@ -91,7 +91,7 @@ TEST_F(HaplyDoubt, AnotherArmThanBeforeIsNotTaken) {
 TEST_F(HaplyDoubt, TwoMessagesAreNeverUnderWay) {
   next();
   const int before = service_.messages;
-  service_.with([](Wishes& w) { w.stall_ms = 50; });
+  service_.with([](Commands& w) { w.stall_ms = 50; });
   next(20);
   EXPECT_LE(service_.messages - before, 21);
 }

@@ -26,7 +26,7 @@ using math::Quat;
 using math::Vec3;
 using test::FakeHaply;
 using test::soon;
-using Wishes = FakeHaply::Wishes;
+using Commands = FakeHaply::Commands;
 
 class InverseTest : public ::testing::Test {
  protected:
@@ -59,7 +59,7 @@ class InverseTest : public ::testing::Test {
     return found.ok() ? "it connected" : found.error().text;
   }
   Vec3 asked(std::size_t arm = 0) {
-    return service_.with([&](Wishes& w) { return w.arms[arm].force; });
+    return service_.with([&](Commands& w) { return w.arms[arm].force; });
   }
 
   FakeHaply service_;
@@ -68,7 +68,7 @@ class InverseTest : public ::testing::Test {
 TEST_F(InverseTest, SaysWhatItIsAndWhatItCanBear) {
   for (const auto& [type, peak] :
        {std::pair{"inverse3", 8.0}, {"inverse3x", 8.0}, {"minverse", 3.0}, {"new", 3.0}}) {
-    service_.with([&, type = type](Wishes& w) { w.arms[0].type = type; });
+    service_.with([&, type = type](Commands& w) { w.arms[0].type = type; });
     const auto arm = device();
     const Status opened = arm->open();
     ASSERT_TRUE(opened.ok()) << opened.error().text;
@@ -89,7 +89,7 @@ TEST_F(InverseTest, TenMillimetresAndANewtonAreThoseAlongEveryAxis) {
   for (const auto& [theirs, ours] : {std::pair<Vec3, Vec3>{{1, 0, 0}, {1, 0, 0}},
                                      {{0, 1, 0}, {0, 0, -1}},
                                      {{0, 0, 1}, {0, 1, 0}}}) {
-    service_.with([&, way = theirs](Wishes& w) {
+    service_.with([&, way = theirs](Commands& w) {
       w.arms[0].place = 0.01 * way;
       w.arms[0].velocity = 0.2 * way;
     });
@@ -113,7 +113,7 @@ TEST_F(InverseTest, TheHandleIsTheGripsBackAndItsButtonsMillAndLift) {
   // it points forward, away from the user: the handle comes to the user
   EXPECT_NEAR((hand.world_from_tool.q * Vec3::UnitZ() - Vec3::UnitZ()).norm(), 0, 1e-12);
   // pointing down, a quarter turn about x: y to -z
-  service_.with([](Wishes& w) {
+  service_.with([](Commands& w) {
     w.orientation = Quat(Eigen::AngleAxisd(-M_PI / 2, Vec3::UnitX()));
     w.buttons = 5;
   });
@@ -122,7 +122,7 @@ TEST_F(InverseTest, TheHandleIsTheGripsBackAndItsButtonsMillAndLift) {
   EXPECT_NEAR((hand.world_from_tool.q * Vec3::UnitZ() - Vec3::UnitY()).norm(), 0, 1e-9)
       << "the handle stands up";
   EXPECT_EQ(hand.buttons, 5U);
-  service_.with([](Wishes& w) {
+  service_.with([](Commands& w) {
     w.names_of_buttons = "button_";
     w.buttons = 2;
   });
@@ -132,7 +132,7 @@ TEST_F(InverseTest, TheHandleIsTheGripsBackAndItsButtonsMillAndLift) {
 }
 
 TEST_F(InverseTest, WithoutAGripTheToolStandsUpright) {
-  service_.with([](Wishes& w) { w.grip = false; });
+  service_.with([](Commands& w) { w.grip = false; });
   Inverse wire(here());
   const auto spec = wire.connect();
   ASSERT_TRUE(spec.ok());
@@ -151,7 +151,7 @@ TEST_F(InverseTest, TheSpellingOfAForceIsTheOneThatIsObeyed) {
                                      {"", "values"},
                                      {"", "vector"},
                                      {"3.5.1", "values"}}) {
-    service_.with([&, version = version, key = key](Wishes& w) {
+    service_.with([&, version = version, key = key](Commands& w) {
       w.version = version;
       w.key = key;
     });
@@ -165,11 +165,11 @@ TEST_F(InverseTest, TheSpellingOfAForceIsTheOneThatIsObeyed) {
 TEST_F(InverseTest, FindingTheSpellingIsNotFelt) {
   Inverse wire(here());
   ASSERT_TRUE(wire.connect().ok());
-  EXPECT_LE(service_.with([](Wishes& w) { return w.arms[0].largest; }), 0.021);
+  EXPECT_LE(service_.with([](Commands& w) { return w.arms[0].largest; }), 0.021);
 }
 
 TEST_F(InverseTest, WhatIsLeftOutIsAsItWas) {
-  service_.with([](Wishes& w) {
+  service_.with([](Commands& w) {
     w.leaves_out = true;
     w.arms[0].place = {0.02, 0, 0};
   });
@@ -177,7 +177,7 @@ TEST_F(InverseTest, WhatIsLeftOutIsAsItWas) {
   ASSERT_TRUE(wire.connect().ok());
   exchange(wire);
   EXPECT_NEAR(exchange(wire).world_from_tool.p.x(), 0.02, 1e-12);
-  service_.with([](Wishes& w) { w.arms[0].place.setZero(); });
+  service_.with([](Commands& w) { w.arms[0].place.setZero(); });
   exchange(wire);
   EXPECT_NEAR(exchange(wire).world_from_tool.p.x(), 0.02, 1e-12);
 }
@@ -198,7 +198,7 @@ TEST_F(InverseTest, NoArmAndAnotherArmAreSaid) {
     EXPECT_NE(found.error().text.find("AAAA"), std::string::npos);
     EXPECT_NE(found.error().text.find("049D"), std::string::npos);
   }
-  service_.with([](Wishes& w) { w.arms.clear(); });
+  service_.with([](Commands& w) { w.arms.clear(); });
   Inverse wire(here());
   const auto found = wire.connect();
   ASSERT_FALSE(found.ok());
@@ -206,7 +206,7 @@ TEST_F(InverseTest, NoArmAndAnotherArmAreSaid) {
 }
 
 TEST_F(InverseTest, AStrangersSocketIsNoService) {
-  service_.with([](Wishes& w) { w.silent = true; });
+  service_.with([](Commands& w) { w.silent = true; });
   Inverse wire(here());
   const auto found = wire.connect();
   ASSERT_FALSE(found.ok());
@@ -214,7 +214,7 @@ TEST_F(InverseTest, AStrangersSocketIsNoService) {
 }
 
 TEST_F(InverseTest, FragmentsAndPingsChangeNothing) {
-  service_.with([](Wishes& w) {
+  service_.with([](Commands& w) {
     w.fragments = w.pings = true;
     w.arms[0].place = {0.01, 0.02, 0.03};
   });
@@ -232,7 +232,7 @@ TEST_F(InverseTest, ARunningSessionPushesAndLetsGo) {
     return Vec3(0, -400 * std::min(0.0, hand.world_from_tool.p.y()), 0);
   });
   ASSERT_TRUE(soon([&] { return tick.engaged(); }));
-  service_.with([](Wishes& w) { w.arms[0].place.z() = -5e-3; });
+  service_.with([](Commands& w) { w.arms[0].place.z() = -5e-3; });
   EXPECT_TRUE(soon([&] { return asked().z() > 1.9; })) << "up in its frame";
   tick.stop();
   arm->close();
@@ -249,7 +249,7 @@ TEST_F(InverseTest, UnpluggedInContactItLetsGoAndComesBackByTheRamp) {
   wall = true;
   ASSERT_TRUE(soon([&] { return asked().norm() > 1.9; }));
   FakeHaply::Arm kept;
-  service_.with([&](Wishes& w) {
+  service_.with([&](Commands& w) {
     kept = w.arms[0];
     w.arms.clear();
   });
@@ -257,7 +257,7 @@ TEST_F(InverseTest, UnpluggedInContactItLetsGoAndComesBackByTheRamp) {
   ASSERT_TRUE(soon([&] { return arm->trouble().find("plug") != std::string::npos; }))
       << arm->trouble();
   kept.force.setZero();
-  service_.with([&](Wishes& w) { w.arms = {kept}; });
+  service_.with([&](Commands& w) { w.arms = {kept}; });
   ASSERT_TRUE(soon([&] { return arm->returns() == 1; }));
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_LE(asked().norm(), 0.021) << "the wall is still there: it waits for a small force";
@@ -274,9 +274,9 @@ TEST_F(InverseTest, AServiceThatHangsUpOrFallsSilentIsSoughtAgain) {
   service_.drop();
   ASSERT_TRUE(soon([&] { return arm->returns() == 1; }));
   ASSERT_TRUE(soon([&] { return tick.hand().valid; }));
-  service_.with([](Wishes& w) { w.silent = true; });
+  service_.with([](Commands& w) { w.silent = true; });
   ASSERT_TRUE(soon([&] { return arm->trouble().find("Inverse Service") != std::string::npos; }));
-  service_.with([](Wishes& w) { w.silent = false; });
+  service_.with([](Commands& w) { w.silent = false; });
   EXPECT_TRUE(soon([&] { return arm->returns() == 2; }));
 }
 
@@ -300,7 +300,7 @@ TEST_F(InverseTest, AStallOf50MsIsALostHandAndNotALostService) {
   ASSERT_TRUE(arm->open().ok());
   test::StandIn tick(*arm, [](const HandState&) { return Vec3(0, 0.04, 0); });
   ASSERT_TRUE(soon([&] { return asked().norm() > 0.03; }));
-  service_.with([](Wishes& w) { w.stall_ms = 50; });
+  service_.with([](Commands& w) { w.stall_ms = 50; });
   EXPECT_TRUE(soon([&] { return (tick.flags() & haptics::kFlagHandLost) != 0; }));
   EXPECT_TRUE(soon([&] { return tick.hand().valid && asked().norm() > 0.03; }));
   EXPECT_EQ(arm->returns(), 0);
@@ -311,15 +311,15 @@ TEST_F(InverseTest, AnArmThatIsNotReadyIsNotBelievedAndSaysWhy) {
   ASSERT_TRUE(arm->open().ok());
   test::StandIn tick(*arm, [](const HandState&) { return Vec3::Zero(); });
   ASSERT_TRUE(soon([&] { return tick.hand().valid; }));
-  service_.with([](Wishes& w) { w.arms[0].calibrated = false; });
+  service_.with([](Commands& w) { w.arms[0].calibrated = false; });
   EXPECT_TRUE(soon([&] { return !tick.hand().valid; }));
   EXPECT_TRUE(soon([&] { return arm->trouble().find("calibrated") != std::string::npos; }));
-  service_.with([](Wishes& w) {
+  service_.with([](Commands& w) {
     w.arms[0].calibrated = true;
     w.arms[0].powered = false;
   });
   EXPECT_TRUE(soon([&] { return arm->trouble().find("power") != std::string::npos; }));
-  service_.with([](Wishes& w) { w.arms[0].powered = true; });
+  service_.with([](Commands& w) { w.arms[0].powered = true; });
   EXPECT_TRUE(soon([&] { return tick.hand().valid && arm->trouble().empty(); }));
 }
 
@@ -327,7 +327,7 @@ TEST_F(InverseTest, OneNonsenseIsBorneManyAreNot) {
   Inverse wire(here());
   ASSERT_TRUE(wire.connect().ok());
   exchange(wire);
-  service_.with([](Wishes& w) {
+  service_.with([](Commands& w) {
     w.instead = {"{",
                  R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":"1"}}}]})",
                  R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":1e999}}}]})"};
@@ -336,7 +336,7 @@ TEST_F(InverseTest, OneNonsenseIsBorneManyAreNot) {
   for (int n = 0; n < 6; ++n) nonsense += exchange(wire).valid ? 0 : 1;
   EXPECT_EQ(nonsense, 3);
   EXPECT_TRUE(exchange(wire).valid);
-  service_.with([](Wishes& w) { w.instead.assign(200, "[]"); });
+  service_.with([](Commands& w) { w.instead.assign(200, "[]"); });
   HandState hand;
   Wire::Read read = Wire::Read::hand;
   for (int n = 0; n < 400 && read != Wire::Read::lost; ++n) {
@@ -348,7 +348,7 @@ TEST_F(InverseTest, OneNonsenseIsBorneManyAreNot) {
 }
 
 TEST_F(InverseTest, TwoAtOnceEachHasItsOwnForce) {
-  service_.with([](Wishes& w) {
+  service_.with([](Commands& w) {
     w.arms.push_back({});
     w.arms[1].id = "B\"2";
   });
@@ -364,7 +364,7 @@ TEST_F(InverseTest, TwoAtOnceEachHasItsOwnForce) {
 }
 
 TEST_F(InverseTest, TwoAtOnceEachHasItsOwnGrip) {
-  service_.with([](Wishes& w) {
+  service_.with([](Commands& w) {
     w.arms.push_back({});
     w.arms[1].id = "B2";
     w.more_grips = {{.id = "LEFT", .buttons = 2}};
@@ -374,7 +374,7 @@ TEST_F(InverseTest, TwoAtOnceEachHasItsOwnGrip) {
   ASSERT_TRUE(first.connect().ok());
   ASSERT_TRUE(second.connect().ok());
   const Quat down(Eigen::AngleAxisd(-M_PI / 2, Vec3::UnitX()));
-  service_.with([&](Wishes& w) { w.more_grips[0].orientation = down; });
+  service_.with([&](Commands& w) { w.more_grips[0].orientation = down; });
   exchange(first);
   exchange(second);
   const HandState one = exchange(first), two = exchange(second);
@@ -388,24 +388,24 @@ TEST_F(InverseTest, TwoAtOnceEachHasItsOwnGrip) {
 
 // Its last word may have been that a button is down.
 TEST_F(InverseTest, AGripThatIsGoneHoldsNoButton) {
-  service_.with([](Wishes& w) { w.more_grips = {{.id = "LEFT", .buttons = 1}}; });
+  service_.with([](Commands& w) { w.more_grips = {{.id = "LEFT", .buttons = 1}}; });
   Inverse wire(here("", "LEFT"));
   ASSERT_TRUE(wire.connect().ok());
   exchange(wire);
   EXPECT_EQ(exchange(wire).buttons, 1U);
-  service_.with([](Wishes& w) { w.more_grips[0].connected = false; });
+  service_.with([](Commands& w) { w.more_grips[0].connected = false; });
   exchange(wire);
   EXPECT_EQ(exchange(wire).buttons, 0U);
-  service_.with([](Wishes& w) { w.more_grips[0].connected = true; });
+  service_.with([](Commands& w) { w.more_grips[0].connected = true; });
   exchange(wire);
   EXPECT_EQ(exchange(wire).buttons, 1U);
-  service_.with([](Wishes& w) { w.more_grips.clear(); });
+  service_.with([](Commands& w) { w.more_grips.clear(); });
   exchange(wire);
   EXPECT_EQ(exchange(wire).buttons, 0U);
 }
 
 TEST_F(InverseTest, ALeftHandIsNamed) {
-  service_.with([](Wishes& w) { w.arms[0].left = true; });
+  service_.with([](Commands& w) { w.arms[0].left = true; });
   Inverse wire(here());
   const auto spec = wire.connect();
   ASSERT_TRUE(spec.ok());
@@ -417,7 +417,7 @@ TEST_F(InverseTest, AtAHundredHertzNothingIsPushed) {
   ASSERT_TRUE(arm->open().ok());
   test::StandIn tick(*arm, [](const HandState&) { return Vec3(0, 0.04, 0); });
   ASSERT_TRUE(soon([&] { return asked().norm() > 0.03; }));
-  service_.with([](Wishes& w) { w.pace_ms = 10; });
+  service_.with([](Commands& w) { w.pace_ms = 10; });
   ASSERT_TRUE(soon([&] { return (tick.flags() & haptics::kFlagHandLost) != 0; }));
   ASSERT_TRUE(soon([&] { return asked() == Vec3::Zero(); }));
   // a machine that stalls for long loses the service, which is asked by a tiny force then: again
@@ -436,7 +436,7 @@ TEST_F(InverseTest, AtAHundredHertzNothingIsPushed) {
 
 // The service adds up what all sessions ask for.
 TEST_F(InverseTest, AnArmThatIsInUseIsLeftToItsProgram) {
-  service_.with([](Wishes& w) { w.arms[0].in_use = true; });
+  service_.with([](Commands& w) { w.arms[0].in_use = true; });
   const std::string said = refusal(here());
   EXPECT_NE(said.find("inverse3 049D is in use by another program; close that one"),
             std::string::npos)
@@ -465,7 +465,7 @@ TEST_F(InverseTest, ASecondBurrIsRefusedAndTheFirstGoesOn) {
 }
 
 TEST_F(InverseTest, AnOldServiceIsToldByItsVersion) {
-  service_.with([](Wishes& w) {
+  service_.with([](Commands& w) {
     w.version = "3.0.4";
     w.greets = R"({"devices":[{"device_id":"049D","cursor_position":{"x":0,"y":0,"z":0}}]})";
   });
@@ -473,17 +473,17 @@ TEST_F(InverseTest, AnOldServiceIsToldByItsVersion) {
   EXPECT_NE(said.find("is version 3.0, which speaks otherwise; install version 3.1 or later"),
             std::string::npos)
       << said;
-  service_.with([](Wishes& w) {
+  service_.with([](Commands& w) {
     w.web_socket = false;
     w.version = "2.2.1";
   });
   said = refusal(here());
   EXPECT_NE(said.find("is version 2.2, which speaks otherwise"), std::string::npos) << said;
-  service_.with([](Wishes& w) { w.version = ""; });
+  service_.with([](Commands& w) { w.version = ""; });
   said = refusal(here());
   EXPECT_NE(said.find("is no Inverse Service of version 3.1 or later; update"), std::string::npos)
       << said;
-  service_.with([](Wishes& w) {
+  service_.with([](Commands& w) {
     w.web_socket = true;
     w.greets = "hello";
   });
@@ -554,7 +554,7 @@ TEST_F(InverseEventsTest, WhatWasToldIsSaidForSomeSeconds) {
 }
 
 TEST_F(InverseEventsTest, OnlyItsOwnDevicesCount) {
-  service_.with([](Wishes& w) {
+  service_.with([](Commands& w) {
     w.arms.push_back({});
     w.arms[1].id = "B2";
     w.more_grips = {{.id = "LEFT"}};
@@ -611,7 +611,7 @@ TEST_F(InverseEventsTest, ABrakeOutlivesItsChannelAndTheConnection) {
   service_.tell_safety("ebrake_triggered");
   ASSERT_TRUE(says(wire, "is held by its emergency brake"));
   EXPECT_FALSE(valid_);
-  service_.with([](Wishes& w) { w.events_hang_up = true; });
+  service_.with([](Commands& w) { w.events_hang_up = true; });
   ASSERT_TRUE(says(wire, "when it was last heard of; release it, and begin again"));
   EXPECT_FALSE(valid_);
   ASSERT_TRUE(wire.connect().ok());
@@ -639,7 +639,7 @@ TEST_F(InverseEventsTest, GarbageHugeMessagesAndHangUpsDisturbNothing) {
   huge.front() = huge.back() = '"';
   service_.tell_text(std::move(huge));
   EXPECT_TRUE(soon([&] { return service_.listened == 2; })) << "hung up on, and listened to again";
-  service_.with([](Wishes& w) { w.events_hang_up = true; });
+  service_.with([](Commands& w) { w.events_hang_up = true; });
   EXPECT_TRUE(soon([&] { return service_.listened == 3; }));
   for (int n = 0; n < 2000; ++n) service_.tell_text("nonsense");
   EXPECT_TRUE(soon([&] { return service_.listened == 4; })) << "it is another's channel";
@@ -677,7 +677,7 @@ TEST_F(InverseTest, AMillionForcesAndNonePassesTheLimit) {
   const unsigned seed = std::random_device{}();
   test::WildForces forces(seed);
   test::push_wildly(wire, test::kForcesOnAWire, forces);
-  const double largest = service_.with([](Wishes& w) { return w.arms[0].largest; });
+  const double largest = service_.with([](Commands& w) { return w.arms[0].largest; });
   EXPECT_GT(largest, 7.9) << "seed " << seed;
   EXPECT_LE(largest, 8 + 1e-4) << "seed " << seed;
 }

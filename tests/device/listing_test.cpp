@@ -69,7 +69,7 @@ TEST_F(ListingTest, EveryDeviceThatIsThereHasTheNameAUserTypes) {
   const Variable libraries("BURR_FORCEDIMENSION", kFakes + "libdrd.so");
   const Variable serials("FAKE_DHD_SERIALS", "1001,2002");
   test::FakeHaply service;
-  service.with([](test::FakeHaply::Wishes& w) {
+  service.with([](test::FakeHaply::Commands& w) {
     w.arms.push_back({});
     w.arms[1].id = "B2";
     w.arms[1].type = "minverse";
@@ -100,15 +100,16 @@ TEST_F(ListingTest, EveryDeviceThatIsThereHasTheNameAUserTypes) {
   ASSERT_EQ(touch.size(), 1U);
   EXPECT_EQ(touch[0]["name"], "touch");
   EXPECT_EQ(touch[0]["there"], false);
-  EXPECT_EQ(service.with([](test::FakeHaply::Wishes& w) { return w.arms[1].largest; }) < 0.03, true)
+  EXPECT_EQ(service.with([](test::FakeHaply::Commands& w) { return w.arms[1].largest; }) < 0.03,
+            true)
       << "nothing is pushed";
-  EXPECT_EQ(left.with([](test::FakeCrtkArm::Wishes& w) { return w.largest; }), 0);
+  EXPECT_EQ(left.with([](test::FakeCrtkArm::Commands& w) { return w.largest; }), 0);
 }
 
 TEST_F(ListingTest, AUserReadsWhatEachCanDoAndHowToNameIt) {
   const Variable library("BURR_OPENHAPTICS", kFakes + "libHD.so");
   test::FakeHaply service;
-  service.with([](test::FakeHaply::Wishes& w) { w.more_grips = {{.id = "LEFT"}}; });
+  service.with([](test::FakeHaply::Commands& w) { w.more_grips = {{.id = "LEFT"}}; });
   const Variable port("HAPLY_WS_PORT", std::to_string(service.port));
   const Variable events("HAPLY_EVENTS_PORT", std::to_string(service.events_port));
   const std::string said = said_by("devices");
@@ -121,7 +122,7 @@ TEST_F(ListingTest, AUserReadsWhatEachCanDoAndHowToNameIt) {
 
 TEST_F(ListingTest, TheGripIsPartOfTheName) {
   test::FakeHaply service;
-  service.with([](test::FakeHaply::Wishes& w) { w.more_grips = {{.id = "LEFT"}}; });
+  service.with([](test::FakeHaply::Commands& w) { w.more_grips = {{.id = "LEFT"}}; });
   const Variable port("HAPLY_WS_PORT", std::to_string(service.port));
   const Variable events("HAPLY_EVENTS_PORT", std::to_string(service.events_port));
   const Variable config("XDG_CONFIG_HOME", ::testing::TempDir() + "listing_test");

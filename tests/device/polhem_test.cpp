@@ -25,7 +25,7 @@ using math::Quat;
 using math::Vec3;
 using test::FakePolhem;
 using test::soon;
-using Wishes = FakePolhem::Wishes;
+using Commands = FakePolhem::Commands;
 
 class PolhemTest : public ::testing::Test {
  protected:
@@ -69,7 +69,7 @@ TEST_F(PolhemTest, TenMillimetresAndANewtonAreThoseAlongEveryAxis) {
   ASSERT_TRUE(wire.connect().ok());
   const Vec3 ways[] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};  // ours, of their x, y, z
   for (int axis = 0; axis < 3; ++axis) {
-    arm_.with([&](Wishes& w) {
+    arm_.with([&](Commands& w) {
       for (int other = 0; other < 3; ++other) w.mm[other] = other == axis ? 10 : 0;
     });
     HandState hand;
@@ -82,19 +82,19 @@ TEST_F(PolhemTest, TenMillimetresAndANewtonAreThoseAlongEveryAxis) {
       return (arm_.force() - 1.5 * Vec3(Vec3::Unit(axis))).norm() < 1e-9;
     })) << arm_.force().transpose();
   }
-  EXPECT_EQ(arm_.with([](Wishes& w) { return w.odd; }), 0U) << "each line has 64 bytes";
+  EXPECT_EQ(arm_.with([](Commands& w) { return w.odd; }), 0U) << "each line has 64 bytes";
 }
 
 TEST_F(PolhemTest, AForceIsOnTheWireWithTheNextLine) {
   Polhem wire(here());
   ASSERT_TRUE(wire.connect().ok());
   next(wire);
-  const std::uint64_t before = arm_.with([](Wishes& w) { return w.lines; });
+  const std::uint64_t before = arm_.with([](Commands& w) { return w.lines; });
   HandState hand;
   ASSERT_TRUE(soon([&] { return wire.read(hand) == Wire::Read::hand; }));
   ASSERT_TRUE(wire.write({0, 2, 0}));
   ASSERT_TRUE(soon([&] { return arm_.force().z() == 2; }));
-  EXPECT_LE(arm_.with([](Wishes& w) { return w.lines; }) - before, 2U);
+  EXPECT_LE(arm_.with([](Commands& w) { return w.lines; }) - before, 2U);
 }
 
 TEST_F(PolhemTest, TheHandleIsTheStylus) {
@@ -103,7 +103,7 @@ TEST_F(PolhemTest, TheHandleIsTheStylus) {
   EXPECT_NEAR((next(wire).world_from_tool.q * Vec3::UnitZ() - Vec3::UnitZ()).norm(), 0, 1e-12)
       << "straight to the user";
   const auto handle = [&](double tA, double lambda, double tD, double tE) {
-    arm_.with([&](Wishes& w) {
+    arm_.with([&](Commands& w) {
       w.turns[0] = tA;
       w.turns[1] = lambda;
       w.turns[2] = tD;
@@ -130,9 +130,9 @@ TEST_F(PolhemTest, WhatIsNoArmIsSaidWithItsRemedy) {
   EXPECT_NE(refusal({.system = "/nowhere"}).find("no Polhem is plugged in"), std::string::npos);
   EXPECT_NE(refusal({.port = "/dev/none"}).find("cannot be opened"), std::string::npos);
   EXPECT_NE(refusal({.port = "/dev/zero"}).find("is no serial port"), std::string::npos);
-  arm_.with([](Wishes& w) { w.silent = true; });
+  arm_.with([](Commands& w) { w.silent = true; });
   EXPECT_NE(refusal(here()).find("does not answer"), std::string::npos);
-  arm_.with([](Wishes& w) {
+  arm_.with([](Commands& w) {
     w.silent = false;
     w.instead.assign(1000, "hello, I am a thermometer: 21.5\n");
   });
@@ -157,12 +157,12 @@ TEST_F(PolhemTest, ARunningSessionPushesAndLetsGo) {
     return Vec3(0, -400 * std::min(0.0, hand.world_from_tool.p.y()), 0);
   });
   ASSERT_TRUE(soon([&] { return tick.engaged(); }));
-  arm_.with([](Wishes& w) { w.mm[2] = -5; });
+  arm_.with([](Commands& w) { w.mm[2] = -5; });
   EXPECT_TRUE(soon([&] { return arm_.force().z() > 1.9; })) << "up in its frame";
   tick.stop();
   arm->close();
   EXPECT_TRUE(soon([&] { return arm_.force() == Vec3::Zero(); }));
-  EXPECT_EQ(arm_.with([](Wishes& w) { return w.odd; }), 0U);
+  EXPECT_EQ(arm_.with([](Commands& w) { return w.odd; }), 0U);
 }
 
 TEST_F(PolhemTest, UnpluggedInContactItIsLostInWords) {
@@ -187,12 +187,12 @@ TEST_F(PolhemTest, ASilentArmIsSoughtAgainAndComesBackByTheRamp) {
   ASSERT_TRUE(soon([&] { return tick.engaged(); }));
   wall = true;
   ASSERT_TRUE(soon([&] { return arm_.force().norm() > 1.9; }));
-  arm_.with([](Wishes& w) { w.silent = true; });
+  arm_.with([](Commands& w) { w.silent = true; });
   ASSERT_TRUE(soon([&] {
     return arm->trouble().find("silent") != std::string::npos ||
            arm->trouble().find("answer") != std::string::npos;
   }));
-  arm_.with([](Wishes& w) { w.silent = false; });
+  arm_.with([](Commands& w) { w.silent = false; });
   ASSERT_TRUE(soon([&] { return arm->returns() == 1; })) << arm->trouble();
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_EQ(arm_.force(), Vec3::Zero()) << "the wall is still there: it waits for a small force";
@@ -205,7 +205,7 @@ TEST_F(PolhemTest, AStallOf50MsIsALostHandAndNotALostArm) {
   ASSERT_TRUE(arm->open().ok());
   test::StandIn tick(*arm, [](const HandState&) { return Vec3(0, 0.04, 0); });
   ASSERT_TRUE(soon([&] { return arm_.force().norm() > 0.03; }));
-  arm_.with([](Wishes& w) { w.stall_ms = 50; });
+  arm_.with([](Commands& w) { w.stall_ms = 50; });
   EXPECT_TRUE(soon([&] { return (tick.flags() & haptics::kFlagHandLost) != 0; }));
   EXPECT_TRUE(soon([&] { return tick.hand().valid && arm_.force().norm() > 0.03; }));
   EXPECT_EQ(arm->returns(), 0);
@@ -216,7 +216,7 @@ TEST_F(PolhemTest, AtAHundredHertzNothingIsHeldOver) {
   ASSERT_TRUE(arm->open().ok());
   test::StandIn tick(*arm, [](const HandState&) { return Vec3(0, 0.04, 0); });
   ASSERT_TRUE(soon([&] { return arm_.force().norm() > 0.03; }));
-  arm_.with([](Wishes& w) { w.rate_hz = 100; });
+  arm_.with([](Commands& w) { w.rate_hz = 100; });
   EXPECT_TRUE(soon([&] { return tick.invalid() > 20 && arm_.force().norm() < 0.03; }));
 }
 
@@ -224,7 +224,7 @@ TEST_F(PolhemTest, ALineThatWasLostIsSaidAgain) {
   Polhem wire(here());
   ASSERT_TRUE(wire.connect().ok());
   next(wire);
-  arm_.with([](Wishes& w) { w.swallow = true; });
+  arm_.with([](Commands& w) { w.swallow = true; });
   for (int n = 0; n < 20; ++n) next(wire);
   EXPECT_EQ(wire.why(), "");
 }
@@ -232,13 +232,13 @@ TEST_F(PolhemTest, ALineThatWasLostIsSaidAgain) {
 TEST_F(PolhemTest, PiecesAndNonsenseAreBorneALotOfItIsNot) {
   Polhem wire(here());
   ASSERT_TRUE(wire.connect().ok());
-  arm_.with([](Wishes& w) {
+  arm_.with([](Commands& w) {
     w.pieces = true;
     w.mm[0] = 12;
   });
   for (int n = 0; n < 20; ++n) next(wire);
   EXPECT_NEAR(next(wire).world_from_tool.p.z(), 0.012, 1e-12);
-  arm_.with([](Wishes& w) {
+  arm_.with([](Commands& w) {
     w.pieces = false;
     w.instead = {"nan 0 0 0 0 0 0 0\n",
                  "inf 0 0 0 0 0 0 0\n",
@@ -255,7 +255,7 @@ TEST_F(PolhemTest, PiecesAndNonsenseAreBorneALotOfItIsNot) {
     const HandState hand = next(wire);
     EXPECT_NEAR(hand.world_from_tool.p.z(), 0.012, 1e-12) << "only what was sound";
   }
-  arm_.with([](Wishes& w) { w.instead.assign(400, "no\n"); });
+  arm_.with([](Commands& w) { w.instead.assign(400, "no\n"); });
   HandState hand;
   Wire::Read read = Wire::Read::hand;
   ASSERT_TRUE(soon([&] {
@@ -271,7 +271,7 @@ TEST_F(PolhemTest, AMillionForcesAndNonePassesTheLimit) {
   const unsigned seed = std::random_device{}();
   test::WildForces forces(seed);
   test::push_wildly(wire, test::kForcesOnAWire, forces);
-  const double largest = arm_.with([](Wishes& w) { return w.largest; });
+  const double largest = arm_.with([](Commands& w) { return w.largest; });
   EXPECT_GT(largest, 4.9) << "seed " << seed;
   EXPECT_LE(largest, 5 + 1e-3) << "rounded to millinewtons; seed " << seed;
 }

@@ -43,10 +43,10 @@ class WholeSession : public ::testing::TestWithParam<test::Driver> {
                                              math::Pose{{0, 0, 4 * kMm}, Quat::Identity()},
                                              Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX())));
     hand_ = hand.get();
-    sim::SessionSettings wished = test::slab_settings();
-    wished.servo.force.stiffness = stiffness;
-    wished.servo.limit.user_force = 100;  // the device's own limit is what is asked about
-    auto made = test::slab_session(std::move(hand), wished);
+    sim::SessionSettings requested = test::slab_settings();
+    requested.servo.force.stiffness = stiffness;
+    requested.servo.limit.user_force = 100;  // the device's own limit is what is asked about
+    auto made = test::slab_session(std::move(hand), requested);
     ASSERT_TRUE(made.ok()) << made.error().text;
     session_ = std::move(*made);
     session_->start();

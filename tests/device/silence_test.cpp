@@ -56,7 +56,7 @@ TEST(Silence, OfHaplysServiceIsALoss) {
   test::FakeHaply service;
   haply::Inverse wire({.host = "127.0.0.1", .port = service.port, .id = {}});
   ASSERT_TRUE(wire.connect().ok());
-  service.with([](test::FakeHaply::Wishes& wishes) { wishes.silent = true; });
+  service.with([](test::FakeHaply::Commands& commands) { commands.silent = true; });
   EXPECT_LE(readings_until_lost(wire, "silent"), kReadings);
 }
 
@@ -64,7 +64,7 @@ TEST(Silence, OfAPolhemIsALoss) {
   test::FakePolhem arm;
   polhem::Polhem wire({.port = arm.path, .system = "/nowhere"});
   ASSERT_TRUE(wire.connect().ok());
-  arm.with([](test::FakePolhem::Wishes& wishes) { wishes.silent = true; });
+  arm.with([](test::FakePolhem::Commands& commands) { commands.silent = true; });
   EXPECT_LE(readings_until_lost(wire, "silent"), kReadings);
 }
 
@@ -73,7 +73,7 @@ TEST(Silence, OfACrtkArmIsALoss) {
   test::FakeCrtkArm arm(domain);
   crtk::Leader wire({.arm = "/arm", .domain = domain});
   ASSERT_TRUE(wire.connect().ok());
-  arm.with([](test::FakeCrtkArm::Wishes& wishes) { wishes.silent = true; });
+  arm.with([](test::FakeCrtkArm::Commands& commands) { commands.silent = true; });
   EXPECT_LE(readings_until_lost(wire, "silent"), kReadings);
 }
 

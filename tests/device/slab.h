@@ -11,22 +11,22 @@
 namespace burr::test {
 
 inline sim::SessionSettings slab_settings() {
-  sim::SessionSettings wished;
-  wished.realtime = true;
-  wished.servo.burr.radius = 2e-3;
-  wished.servo.undo_bricks = 512;
-  wished.surface.reserve_blocks = 1 << 12;
-  return wished;
+  sim::SessionSettings requested;
+  requested.realtime = true;
+  requested.servo.burr.radius = 2e-3;
+  requested.servo.undo_bricks = 512;
+  requested.surface.reserve_blocks = 1 << 12;
+  return requested;
 }
 
 inline Result<std::unique_ptr<sim::Session>> slab_session(
-    std::unique_ptr<device::Device> hand, const sim::SessionSettings& wished = slab_settings()) {
+    std::unique_ptr<device::Device> hand, const sim::SessionSettings& requested = slab_settings()) {
   NoProgress quiet;
   return sim::Session::make(
       phantom::bone_from_distance(
           phantom::box_grid(math::Vec3::Constant(-8e-3), math::Vec3::Constant(8e-3), 0.25e-3), {},
           phantom::slab(), 64),
-      std::move(hand), wished, quiet);
+      std::move(hand), requested, quiet);
 }
 
 }  // namespace burr::test

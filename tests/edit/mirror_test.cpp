@@ -91,13 +91,13 @@ struct Work {
         }
     return {};
   }
-  void carve(const Vec3& at, int turns = 1, bool in_mirror = true) {
+  void carve(const Vec3& at, int slices = 1, bool in_mirror = true) {
     Cut cut;
     cut.centre = at;
     cut.push = Vec3(0.1, 0.2, -1).normalized();
     cut.radius = 6;
     cut.energy = 2e-2;
-    cut.turns = turns;
+    cut.slices = slices;
     if (in_mirror) cut.mirror = mirror;
     carver.carve(cut, flags);
     surface.refresh();
@@ -111,24 +111,24 @@ struct Work {
     carver.lower(cut, 700, flags);
     surface.refresh();
   }
-  void add(const Vec3& at, int turns = 1) {
+  void add(const Vec3& at, int slices = 1) {
     Cut cut;
     cut.centre = at;
     cut.push = Vec3(0.1, 0.2, -1).normalized();
     cut.radius = 6;
     cut.volume = 4e-11;
     cut.material = 3;
-    cut.turns = turns;
+    cut.slices = slices;
     cut.mirror = mirror;
     carver.deposit(cut, flags);
     surface.refresh();
   }
-  void work_over(const Vec3& at, bool smooth, int turns = 1) {
+  void work_over(const Vec3& at, bool smooth, int slices = 1) {
     Brushing now;
     now.centre = at;
     now.push = Vec3(0.1, 0.2, -1).normalized();
     now.radius = 6;
-    now.turns = turns;
+    now.slices = slices;
     now.mirror = mirror;
     smooth ? brush.smooth(now, flags) : brush.restore(now, flags);
     surface.refresh();
@@ -421,21 +421,21 @@ TEST(Mirror, PlanesAreWhereVoxelsHaveImages) {
 TEST(Mirror, EveryVoxelIsInOneHalfAndHasTheTurnOfItsImage) {
   for (const Mirror& mirror : planes())
     for (const double off : {-3.2, 0.0, 0.2})
-      for (const int turns : {1, 2, 8}) {
+      for (const int slices : {1, 2, 8}) {
         Vec3 centre = Vec3::Zero();
         centre[mirror.axis] = mirror.place() + off;
         const Sides sides = sides_of(centre, mirror);
         ASSERT_EQ(sides.count, 2);
         std::vector<int> seen(80, 0);  // by voxel along the axis, at bricks (1, 2, 3) across it
-        for (int turn = 0; turn < turns; ++turn)
+        for (int slice = 0; slice < slices; ++slice)
           for (int b = 0; b < 10; ++b)
             for (const Half& half : sides.half) {
               math::Ijk brick(1, 2, 3);
               brick[mirror.axis] = b;
-              const unsigned layers = layers_of(brick, half, turns, turn);
+              const unsigned layers = layers_of(brick, half, slices, slice);
               for (int n = 0; n < 8; ++n) {
                 if ((layers >> n & 1U) == 0) continue;
-                seen[static_cast<std::size_t>(8 * b + n)] += 1 + 100 * turn;
+                seen[static_cast<std::size_t>(8 * b + n)] += 1 + 100 * slice;
               }
             }
         for (int v = 0; v < 80; ++v) {

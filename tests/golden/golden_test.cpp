@@ -1,7 +1,7 @@
 // Every view and effect against the picture somebody once looked at and found right. Formula bones
 // only, drawn by the processor; another card rounds otherwise and is not asked.
 //
-// A wish to change them: BURR_GOLDEN_WRITE=1 test_golden, look at tests/golden/*.png, commit.
+// A request to change them: BURR_GOLDEN_WRITE=1 test_golden, look at tests/golden/*.png, commit.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 

@@ -234,7 +234,7 @@ TEST(EnergyTank, GivesAllAboveLowAndLessAndLessBelow) {
   EXPECT_GE(guard.tank(), 0);
 }
 
-TEST(EnergyTank, NoOddWishEmptiesIt) {
+TEST(EnergyTank, NoOddRequestEmptiesIt) {
   EnergyGuard guard = filled(1e-3);
   for (const double odd : {kNaN, -1.0, kInfinity, -kInfinity, 0.0}) EXPECT_EQ(guard.allow(odd), 0);
   EXPECT_NEAR(guard.tank(), 1e-3, 1e-12);

@@ -219,7 +219,7 @@ inline std::vector<tick::BrickRow> nibble(volume::Bone& bone, std::uint64_t tick
 struct Truth {
   SessionInfo info;
   std::vector<tick::TickRow> ticks;
-  std::vector<tick::WishRow> wishes;
+  std::vector<tick::CommandRow> commands;
   std::vector<tick::BrickRow> bricks;
   RecordingAccount account;
 };
@@ -237,8 +237,9 @@ inline Truth record_any(const std::string& path, std::uint64_t count, double rat
     recorder.wait_for_room();
     if (random() % 50 == 0)
       for (std::uint64_t i = random() % 3; i > 0; --i) {
-        truth.wishes.push_back({tick, {static_cast<tick::WishKind>(random() % 9), any(random)}});
-        EXPECT_TRUE(recorder.wishes().push(truth.wishes.back()));
+        truth.commands.push_back(
+            {tick, {static_cast<tick::CommandKind>(random() % 9), any(random)}});
+        EXPECT_TRUE(recorder.commands().push(truth.commands.back()));
       }
     for (const tick::BrickRow& row : nibble(bone, tick, random)) {
       truth.bricks.push_back(row);

@@ -331,7 +331,7 @@ TEST(Mcap, TheMcapProjectsOwnReaderAgrees) {
   ASSERT_EQ(WEXITSTATUS(status), 0) << said;
   const auto out = nlohmann::json::parse(said);
   EXPECT_EQ(out["ticks"], truth.ticks.size());
-  EXPECT_EQ(out["wishes"], truth.wishes.size());
+  EXPECT_EQ(out["wishes"], truth.commands.size());
   EXPECT_EQ(out["bricks"], truth.bricks.size());
   EXPECT_EQ(out["session"], hex(truth.info.volume.content_hash));
   EXPECT_EQ(out["attachments"], 1);

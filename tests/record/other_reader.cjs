@@ -28,7 +28,7 @@ async function indexed(path) {
       ? protobuf.util.newBuffer(schema.data) : schema.data);
     types.set(schema.id, root.lookupType(schema.name));
   }
-  const out = { messages: {}, ticks: 0, first_x: null, last_x: null, wishes: 0, bricks: 0, session: null,
+  const out = { messages: {}, ticks: 0, first_x: null, last_x: null, commands: 0, bricks: 0, session: null,
                 attachments: 0, metadata: [], statistics: Number(reader.statistics.messageCount) };
   for await (const message of reader.readMessages()) {
     const channel = reader.channelsById.get(message.channelId);
@@ -47,7 +47,7 @@ async function indexed(path) {
       out.bricks += bricks.brick.length;
     }
     const text = () => JSON.parse(new TextDecoder().decode(message.data));
-    if (channel.topic === "/wishes") { text(); ++out.wishes; }
+    if (channel.topic === "/wishes") { text(); ++out.commands; }
     if (channel.topic === "/session") out.session = text().volume.content_hash;
   }
   for await (const attachment of reader.readAttachments()) out.attachments += attachment.data.length > 0;

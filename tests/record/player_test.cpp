@@ -282,8 +282,8 @@ TEST(BoneBlob, PromisesOfMoreBricksThanThereAreCostNothing) {
 #endif
 }
 
-TEST(Player, OpensARecordingOfNothingButWishesAtOnce) {
-  // made up: a session, one tick, and then wishes, each in a chunk of its own
+TEST(Player, OpensARecordingOfNothingButCommandsAtOnce) {
+  // made up: a session, one tick, and then commands, each in a chunk of its own
   BURR_SEEDED(random, 55);
   const Folder folder;
   const std::string path = folder / "s.mcap";
@@ -291,17 +291,17 @@ TEST(Player, OpensARecordingOfNothingButWishesAtOnce) {
   ASSERT_TRUE(writer.open(path, path).ok());
   const auto session = writer.add_channel(kSession.name, "json", 0);
   const auto ticks = writer.add_channel(kTicks.name, "protobuf", 0);
-  const auto wishes = writer.add_channel(kWishes.name, "json", 0);
+  const auto commands = writer.add_channel(kCommands.name, "json", 0);
   writer.add_message(*session, 0, 0, as_bytes(to_json(info_of(*any_bone(random), random))));
   BytesOut rows;
   const tick::TickRow row = any_tick(3, random);
   encode_ticks({&row, 1}, rows);
   writer.add_message(*ticks, 0, 0, rows.span());
   ASSERT_TRUE(writer.close_chunk().ok());
-  constexpr std::uint64_t kWishChunks = 15'000;
-  for (std::uint64_t n = 0; n < kWishChunks; ++n) {
-    const std::string wish = to_json(tick::WishRow{n, {tick::WishKind::undo, 0}});
-    writer.add_message(*wishes, 0, 1'000'000 * n, as_bytes(wish));
+  constexpr std::uint64_t kCommandChunks = 15'000;
+  for (std::uint64_t n = 0; n < kCommandChunks; ++n) {
+    const std::string command = to_json(tick::CommandRow{n, {tick::CommandKind::undo, 0}});
+    writer.add_message(*commands, 0, 1'000'000 * n, as_bytes(command));
     ASSERT_TRUE(writer.close_chunk().ok());
   }
   ASSERT_TRUE(writer.finish().ok());

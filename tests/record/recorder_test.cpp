@@ -26,25 +26,25 @@ void expect_same_rows(Player& player, const Truth& truth) {
   ASSERT_EQ(player.end_tick(), truth.ticks.size());
   StepCursor steps = player.steps();
   Step step;
-  std::size_t tick = 0, wish = 0;
+  std::size_t tick = 0, command = 0;
   while (steps.next(step)) {
     ASSERT_LT(tick, truth.ticks.size());
     expect_same(step.row, truth.ticks[tick]);
     EXPECT_FALSE(step.gap);
-    for (const tick::Wish& got : step.wishes) {
-      ASSERT_LT(wish, truth.wishes.size());
-      EXPECT_EQ(truth.wishes[wish].tick, step.row.tick);
-      EXPECT_EQ(truth.wishes[wish].wish.kind, got.kind);
-      const double want = truth.wishes[wish].wish.value;
+    for (const tick::Command& got : step.commands) {
+      ASSERT_LT(command, truth.commands.size());
+      EXPECT_EQ(truth.commands[command].tick, step.row.tick);
+      EXPECT_EQ(truth.commands[command].command.kind, got.kind);
+      const double want = truth.commands[command].command.value;
       EXPECT_TRUE(std::isnan(want) ? std::isnan(got.value)
                                    : std::bit_cast<std::uint64_t>(want) ==
                                          std::bit_cast<std::uint64_t>(got.value));
-      ++wish;
+      ++command;
     }
     ++tick;
   }
   EXPECT_EQ(tick, truth.ticks.size());
-  EXPECT_EQ(wish, truth.wishes.size());
+  EXPECT_EQ(command, truth.commands.size());
 
   BrickCursor bricks = player.bricks();
   tick::BrickRow row;
@@ -136,7 +136,7 @@ TEST(Recorder, ThePushesOfATickNeitherAllocateNorLock) {
   {
     const burr::test::RtGuard guard;
     for (int i = 0; i < 100; ++i) {
-      recorder.wishes().push({});
+      recorder.commands().push({});
       recorder.bricks().push(brick);
       recorder.ticks().push(tick);
     }
@@ -154,7 +154,7 @@ TEST(Recorder, RowsThatFindTheRingFullAreCountedInTheFile) {
   // before start() nobody empties the rings: 4 s of ticks fit, rounded up to 4096
   for (std::uint64_t tick = 0; tick < 5000; ++tick) recorder.ticks().push(any_tick(tick, random));
   for (int i = 0; i < 100; ++i) recorder.bricks().push({.tick = 1, .brick = i % 7});
-  for (int i = 0; i < 1030; ++i) recorder.wishes().push({});
+  for (int i = 0; i < 1030; ++i) recorder.commands().push({});
   ASSERT_TRUE(recorder.start(folder / "s.mcap", info_of(*bone, random)).ok());
   // the recorder goes on afterwards, with a gap that can be seen
   while (recorder.ticks().size() > 0) std::this_thread::yield();
@@ -163,14 +163,14 @@ TEST(Recorder, RowsThatFindTheRingFullAreCountedInTheFile) {
   ASSERT_TRUE(account.ok()) << account.error().text;
   EXPECT_EQ(account->dropped_ticks, 5000U - 4096U);
   EXPECT_EQ(account->dropped_bricks, 36U);
-  EXPECT_EQ(account->dropped_wishes, 6U);
+  EXPECT_EQ(account->dropped_commands, 6U);
   EXPECT_FALSE(account->whole());
 
   auto player = Player::open(folder / "s.mcap");
   ASSERT_TRUE(player.ok()) << player.error().text;
   EXPECT_EQ((*player)->dropped_ticks(), 5000U - 4096U);
   EXPECT_EQ((*player)->dropped_bricks(), 36U);
-  EXPECT_EQ((*player)->dropped_wishes(), 6U);
+  EXPECT_EQ((*player)->dropped_commands(), 6U);
   EXPECT_EQ((*player)->notices().size(), 1U);
   StepCursor steps = (*player)->steps();
   Step step;

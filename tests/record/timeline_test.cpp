@@ -1,4 +1,4 @@
-// A session on one line, against sessions whose strokes, peaks and wishes are known.
+// A session on one line, against sessions whose strokes, peaks and commands are known.
 #include "burr/record/timeline.h"
 
 #include <gtest/gtest.h>
@@ -67,22 +67,24 @@ TEST(Timeline, GoesFromStrokeToStroke) {
   EXPECT_FALSE(line.stroke_before(1).has_value());
 }
 
-TEST(Timeline, KeepsWhatPeopleWishedButNotWhatTheServoPutOff) {
+TEST(Timeline, KeepsTheCommandsOfPeopleButNotWhatTheServoPutOff) {
   TimelineMaker maker(500, 1000);
   for (std::uint64_t tick = 0; tick < 1000; ++tick) {
     Step step = step_at(tick, 0, 0);
-    if (tick == 100) step.wishes = {{tick::WishKind::load, 2}, {tick::WishKind::burr_radius, 2e-3}};
-    if (tick == 400) step.wishes = {{tick::WishKind::undo, 0}, {tick::WishKind::burr_radius, 1e-3}};
+    if (tick == 100)
+      step.commands = {{tick::CommandKind::shed, 2}, {tick::CommandKind::burr_radius, 2e-3}};
+    if (tick == 400)
+      step.commands = {{tick::CommandKind::undo, 0}, {tick::CommandKind::burr_radius, 1e-3}};
     maker.add(step);
   }
   const Timeline line = maker.finish();
   ASSERT_EQ(line.events.size(), 3U);
   EXPECT_DOUBLE_EQ(line.events[0].t_s, 0.2);
-  EXPECT_EQ(line.events[1].wish.kind, tick::WishKind::undo);
-  EXPECT_FALSE(line.wished(tick::WishKind::burr_radius, 0.19).has_value());
-  EXPECT_EQ(line.wished(tick::WishKind::burr_radius, 0.2), 2e-3);
-  EXPECT_EQ(line.wished(tick::WishKind::burr_radius, 0.799), 2e-3);
-  EXPECT_EQ(line.wished(tick::WishKind::burr_radius, 1.9), 1e-3);
+  EXPECT_EQ(line.events[1].command.kind, tick::CommandKind::undo);
+  EXPECT_FALSE(line.requested(tick::CommandKind::burr_radius, 0.19).has_value());
+  EXPECT_EQ(line.requested(tick::CommandKind::burr_radius, 0.2), 2e-3);
+  EXPECT_EQ(line.requested(tick::CommandKind::burr_radius, 0.799), 2e-3);
+  EXPECT_EQ(line.requested(tick::CommandKind::burr_radius, 1.9), 1e-3);
   EXPECT_FALSE(line.work.has_value()) << "nothing was cut";
 }
 
@@ -117,10 +119,10 @@ TEST(Timeline, OfARecordingIsThatOfItsRows) {
   for (const tick::TickRow& row : truth.ticks)
     if (std::isfinite(row.contact.force.norm())) peak = std::max(peak, row.contact.force.norm());
   EXPECT_DOUBLE_EQ(line->peak_force, peak);
-  std::size_t wishes = 0;
-  for (const tick::WishRow& row : truth.wishes)
-    wishes += row.wish.kind != tick::WishKind::load ? 1 : 0;
-  EXPECT_EQ(line->events.size(), wishes);
+  std::size_t commands = 0;
+  for (const tick::CommandRow& row : truth.commands)
+    commands += row.command.kind != tick::CommandKind::shed ? 1 : 0;
+  EXPECT_EQ(line->events.size(), commands);
 }
 
 }  // namespace

@@ -40,9 +40,9 @@ class Dawdling : public testing::Test {
     const char* given = std::getenv("BURR_SEED");
     seed_ = given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
     std::printf("BURR_SEED=%llu\n", static_cast<unsigned long long>(seed_));
-    const char* wish = std::getenv("BURR_DAWDLE_SECONDS");
-    end_ = Clock::now() + std::chrono::milliseconds(
-                              static_cast<int>(1e3 * (wish != nullptr ? std::atof(wish) : 0.5)));
+    const char* request = std::getenv("BURR_DAWDLE_SECONDS");
+    end_ = Clock::now() + std::chrono::milliseconds(static_cast<int>(
+                              1e3 * (request != nullptr ? std::atof(request) : 0.5)));
     DawdlingAtoms::seed(seed_);
   }
   using Clock = std::chrono::steady_clock;

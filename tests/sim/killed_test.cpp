@@ -121,7 +121,7 @@ double stolen_ms() {
   return 1e3 * stolen / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 
-// The child: mills, is wished at, records, until it is killed.
+// The child: mills, is requested at, records, until it is killed.
 [[noreturn]] void mill_until_killed(const std::string& file, bool realtime, bool humble,
                                     std::uint64_t seed, Told& told) {
   // an ordinary user gets no priority from the kernel
@@ -156,20 +156,20 @@ double stolen_ms() {
   session.set_recorder(&recorder);
   told.started = true;
   session.start();
-  const tick::WishKind kinds[] = {tick::WishKind::undo,      tick::WishKind::redo,
-                                  tick::WishKind::reset,     tick::WishKind::stiffness,
-                                  tick::WishKind::tool_mode, tick::WishKind::spindle_speed};
+  const tick::CommandKind kinds[] = {
+      tick::CommandKind::undo,      tick::CommandKind::redo,      tick::CommandKind::reset,
+      tick::CommandKind::stiffness, tick::CommandKind::tool_mode, tick::CommandKind::spindle_speed};
   while (session.running()) {
     told.safe = recorder.safe_ticks();
     told.refused = recorder.ticks().dropped();
     told.waited_ns = waited_by_pen();
     if (random() % 16 == 0) {
-      const tick::WishKind kind = kinds[random() % std::size(kinds)];
-      const double value = kind == tick::WishKind::stiffness
-                               ? 300 + 100 * static_cast<double>(random() % 8)
-                           : kind == tick::WishKind::tool_mode ? static_cast<double>(random() % 2)
-                                                               : 4000;
-      session.wish({kind, value});
+      const tick::CommandKind kind = kinds[random() % std::size(kinds)];
+      const double value =
+          kind == tick::CommandKind::stiffness   ? 300 + 100 * static_cast<double>(random() % 8)
+          : kind == tick::CommandKind::tool_mode ? static_cast<double>(random() % 2)
+                                                 : 4000;
+      session.command({kind, value});
     }
     std::this_thread::sleep_for(2ms);
   }
@@ -246,8 +246,8 @@ void judge(const std::string& file, const Told& told, bool realtime, double stol
 }
 
 TEST(Killed, AtAnyMomentItOpensLacksATenthOfASecondAtMostAndReplaysToTheBit) {
-  const char* wish = std::getenv("BURR_KILLS");
-  const int kills = wish != nullptr ? std::atoi(wish) : 40;
+  const char* command = std::getenv("BURR_KILLS");
+  const int kills = command != nullptr ? std::atoi(command) : 40;
   const char* given = std::getenv("BURR_SEED");
   const std::uint64_t seed =
       given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();

@@ -79,15 +79,16 @@ TEST(Session, MillsAPocketAndTheAccountHolds) {
   EXPECT_NEAR(volume::volume_of(*session->bone_before()), before, 1e-12 * before);
 }
 
-TEST(Session, ADiamondBurrByWishIsTheOneOfTheSettings) {
+TEST(Session, ADiamondBurrByCommandIsTheOneOfTheSettings) {
   NoProgress quiet;
   std::vector<std::uint64_t> bones;
   std::vector<double> removed;
-  for (const auto& [settled, wished] : {std::pair{0, 0}, {1, 1}, {0, 1}, {1, 0}}) {
+  for (const auto& [settled, requested] : {std::pair{0, 0}, {1, 1}, {0, 1}, {1, 0}}) {
     SessionSettings settings;
     settings.servo.burr.kind = settled > 0 ? tool::BurrKind::diamond : tool::BurrKind::cutting;
     const auto session = make({}, settings);
-    if (wished != settled) session->wish({tick::WishKind::burr_kind, static_cast<double>(wished)});
+    if (requested != settled)
+      session->command({tick::CommandKind::burr_kind, static_cast<double>(requested)});
     session->run(2, quiet);
     bones.push_back(session->bone().content_hash());
     removed.push_back(session->outcome().ledger.removed);
@@ -205,9 +206,9 @@ TEST(Session, UndoAndResetBringTheBoneBackWhileTheHandPressesAndNeverJump) {
   };
   for (int n = 0; n < 3000; ++n) (void)tick();
   ASSERT_NE(session->bone().content_hash(), start);
-  for (const auto kind : {tick::WishKind::undo, tick::WishKind::reset}) {
-    session->wish({kind, 0});
-    session->wish({tick::WishKind::tool_mode, 2});  // and do not cut again meanwhile
+  for (const auto kind : {tick::CommandKind::undo, tick::CommandKind::reset}) {
+    session->command({kind, 0});
+    session->command({tick::CommandKind::tool_mode, 2});  // and do not cut again meanwhile
     int ticks = 0;
     do {
       const tick::TickRow row = tick();
@@ -223,7 +224,7 @@ TEST(Session, UndoAndResetBringTheBoneBackWhileTheHandPressesAndNeverJump) {
     const tick::TickRow row = tick();
     EXPECT_TRUE(row.contact.touching);
     EXPECT_GT(row.contact.proxy.z(), 2 * kMm - 0.05 * kMm);
-    session->wish({tick::WishKind::tool_mode, 0});
+    session->command({tick::CommandKind::tool_mode, 0});
     for (int n = 0; n < 1000; ++n) (void)tick();
     ASSERT_NE(session->bone().content_hash(), start);
   }
@@ -232,15 +233,16 @@ TEST(Session, UndoAndResetBringTheBoneBackWhileTheHandPressesAndNeverJump) {
 TEST(Session, TheTickTakesNeitherMemoryNorLock) {
   const auto session = make({.motion = "pocket", .seconds = 10});
   tick::Servo& servo = session->servo();
-  for (const auto& wish : std::initializer_list<tick::Wish>{{tick::WishKind::stiffness, 800}})
-    session->wish(wish);
+  for (const auto& command :
+       std::initializer_list<tick::Command>{{tick::CommandKind::stiffness, 800}})
+    session->command(command);
   const test::RtGuard guard;
   for (int n = 0; n < 4000; ++n) {
-    if (n == 1500) session->wish({tick::WishKind::undo, 0});
-    if (n == 2200) session->wish({tick::WishKind::burr_radius, 1.5 * kMm});
-    if (n == 2500) session->wish({tick::WishKind::tool_mode, 1});
-    if (n == 3000) session->wish({tick::WishKind::reset, 0});
-    if (n == 3500) session->wish({tick::WishKind::spindle_speed, 0});
+    if (n == 1500) session->command({tick::CommandKind::undo, 0});
+    if (n == 2200) session->command({tick::CommandKind::burr_radius, 1.5 * kMm});
+    if (n == 2500) session->command({tick::CommandKind::tool_mode, 1});
+    if (n == 3000) session->command({tick::CommandKind::reset, 0});
+    if (n == 3500) session->command({tick::CommandKind::spindle_speed, 0});
     (void)servo.tick(n == 2000);
     servo.note_timing(1, 0);
     servo.publish();
@@ -334,11 +336,11 @@ class Replay : public testing::Test {
   }
 };
 
-TEST_F(Replay, ComesOutTheSameToTheBitWithWishesAndUndo) {
+TEST_F(Replay, ComesOutTheSameToTheBitWithCommandsAndUndo) {
   const auto session = make({.seconds = 6});
   record(*session, 4, [&] {
-    session->wish({tick::WishKind::undo, 0});
-    session->wish({tick::WishKind::stiffness, 700});
+    session->command({tick::CommandKind::undo, 0});
+    session->command({tick::CommandKind::stiffness, 700});
   });
   const std::uint64_t end = session->bone().content_hash();
   NoProgress quiet;
@@ -430,7 +432,7 @@ TEST_F(Replay, AWholeSessionInRealTimeBesideSurfaceRecorderAndViewer) {
       worker.give_back(skin);
     }
     views += session->view(row) ? 1 : 0;
-    if (n == 40) session->wish({tick::WishKind::undo, 0});
+    if (n == 40) session->command({tick::CommandKind::undo, 0});
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   session->stop();

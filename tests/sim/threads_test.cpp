@@ -1,5 +1,5 @@
 // A whole session with every thread there is: the servo cuts, workers mesh what changed, the
-// recorder writes, somebody looks and wishes. Run under ThreadSanitizer too, where silence is the
+// recorder writes, somebody looks and commands. Run under ThreadSanitizer too, where silence is the
 // test.
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -63,7 +63,7 @@ TEST(WholeSession, EveryThreadAtOnceEndsWithOneTruth) {
   ASSERT_TRUE(started) << started.error().text;
   session.set_recorder(&recorder);
 
-  // two seconds of looking on, and wishing
+  // two seconds of looking on, and commanding
   session.start();
   tick::TickRow row;
   std::uint64_t seen = 0;
@@ -80,12 +80,12 @@ TEST(WholeSession, EveryThreadAtOnceEndsWithOneTruth) {
       worker.give_back(skin);
     }
     if (!changed && seen > 500) {
-      session.wish({tick::WishKind::stiffness, 300});
-      session.wish({tick::WishKind::spindle_speed, 3000});
+      session.command({tick::CommandKind::stiffness, 300});
+      session.command({tick::CommandKind::spindle_speed, 3000});
       changed = true;
     }
     if (!undone && seen > 1500) {
-      session.wish({tick::WishKind::undo, 0});
+      session.command({tick::CommandKind::undo, 0});
       undone = true;
     }
     std::this_thread::sleep_for(1ms);

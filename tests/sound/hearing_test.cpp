@@ -71,19 +71,19 @@ TEST(Hearing, TellsWhatTheRowTells) {
   EXPECT_EQ(asked, math::Vec3(1, 2, 3)) << "where the burr is";
   EXPECT_NEAR(heard.to_spare, 3e-3, 1e-15) << "from its surface";
 
-  hearing.obey({tick::WishKind::irrigation, 1});
-  hearing.obey({tick::WishKind::burr_radius, 1e-3});
+  hearing.obey({tick::CommandKind::irrigation, 1});
+  hearing.obey({tick::CommandKind::burr_radius, 1e-3});
   heard = hearing.hear(one);
   EXPECT_TRUE(heard.irrigated);
   EXPECT_NEAR(heard.to_spare, 4e-3, 1e-15);
-  hearing.obey({tick::WishKind::irrigation, 0});
-  hearing.obey({tick::WishKind::burr_radius, std::nan("")});
+  hearing.obey({tick::CommandKind::irrigation, 0});
+  hearing.obey({tick::CommandKind::burr_radius, std::nan("")});
   EXPECT_FALSE(hearing.hear(one).irrigated);
   EXPECT_NEAR(hearing.hear(one).to_spare, 4e-3, 1e-15);
 
-  hearing.obey({tick::WishKind::burr_kind, 1});
+  hearing.obey({tick::CommandKind::burr_kind, 1});
   EXPECT_EQ(hearing.hear(one).teeth, 0) << "it grinds";
-  hearing.obey({tick::WishKind::burr_kind, 0});
+  hearing.obey({tick::CommandKind::burr_kind, 0});
   EXPECT_EQ(hearing.hear(one).teeth, 6);
 
   settings.burr.kind = tool::BurrKind::diamond;

@@ -88,7 +88,7 @@ TEST(Loudspeaker, WarnsFromTheRimOfTheBurrThatIsThereNow) {
       return most;
     };
     EXPECT_GT(sounds(), 1e-3F) << "a hundredth of a millimetre from what is to be spared";
-    loudspeaker.obey({tick::WishKind::burr_radius, 0.5e-3});
+    loudspeaker.obey({tick::CommandKind::burr_radius, 0.5e-3});
     EXPECT_LT(sounds(), 1e-6F) << "a smaller burr is 5.5 mm away from it";
   }
   ::unsetenv("SDL_DISKAUDIOFILE");

@@ -350,10 +350,10 @@ TEST(Heat, WhatTheBurrSpendsWarmsTheBoneAndCoolantTakesItAway) {
   for (const bool wet : {false, true}) {
     sim::SessionSettings settings;
     settings.servo.irrigated = wet;
-    sim::HeatWish wish;
-    wish.work.extend(Vec3::Constant(-7 * kMm));
-    wish.work.extend(Vec3::Constant(7 * kMm));
-    settings.heat = wish;
+    sim::HeatRequest request;
+    request.work.extend(Vec3::Constant(-7 * kMm));
+    request.work.extend(Vec3::Constant(7 * kMm));
+    settings.heat = request;
     const auto run = session(settings, slab(), 1 * kMm, 5);
     double spent = 0;
     for (int n = 0; n < 4901; ++n) {
@@ -383,10 +383,10 @@ TEST(Heat, NothingFeltDependsOnIt) {
   for (const bool heated : {false, true}) {
     sim::SessionSettings settings;
     if (heated) {
-      sim::HeatWish wish;
-      wish.work.extend(Vec3::Constant(-7 * kMm));
-      wish.work.extend(Vec3::Constant(7 * kMm));
-      settings.heat = wish;
+      sim::HeatRequest request;
+      request.work.extend(Vec3::Constant(-7 * kMm));
+      request.work.extend(Vec3::Constant(7 * kMm));
+      settings.heat = request;
     }
     const auto run = session(settings, slab());
     run->run(2, quiet);

@@ -90,7 +90,7 @@ TEST(MethodsInASession, AreChangedInItsMiddleAndTheForceGrowsNoFasterThanEver) {
     const int which = n / 100 % haptics::kMethods;
     if (n % 100 == 0)
       static_cast<void>(
-          servo.wishes().push({tick::WishKind::touch_method, static_cast<double>(which)}));
+          servo.commands().push({tick::CommandKind::touch_method, static_cast<double>(which)}));
     const tick::TickRow& row = servo.tick(false);
     const double now = row.contact.force.norm();
     fastest = std::max(fastest, (now - last) * 1e3);
@@ -124,8 +124,8 @@ TEST(MethodsInASession, TheRecordingKnowsAndSimulatesToTheSameBits) {
   run->set_recorder(&recorder);
   for (int n = 0; n < 14; ++n) {
     run->run(0.2, quiet);
-    run->wish({tick::WishKind::touch_method, static_cast<double>(n % haptics::kMethods)});
-    run->wish({tick::WishKind::removal_law, static_cast<double>(n % edit::kLaws)});
+    run->command({tick::CommandKind::touch_method, static_cast<double>(n % haptics::kMethods)});
+    run->command({tick::CommandKind::removal_law, static_cast<double>(n % edit::kLaws)});
   }
   run->set_recorder(nullptr);
   ASSERT_TRUE(recorder.finish().ok());

@@ -28,7 +28,7 @@ namespace {
 
 using edit::Mirror;
 using math::Vec3;
-using tick::WishKind;
+using tick::CommandKind;
 constexpr double kMm = 1e-3, kRadius = 1.5 * kMm, kVoxel = 0.25 * kMm;
 
 std::unique_ptr<volume::Bone> slab() {
@@ -60,7 +60,7 @@ struct Held {
         hand({}),
         servo(*bone, surface, hand, {}),
         mirror(mirror_plane(bone->grid(), Plane::sagittal)) {
-    wish(WishKind::burr_radius, kRadius);
+    command(CommandKind::burr_radius, kRadius);
     state.world_from_tool.p = {-3 * kMm, 0, 5 * kMm};
     state.pedal = 1;
     for (int n = 0; n < 300; ++n) tick();
@@ -79,9 +79,9 @@ struct Held {
       tick();
     }
   }
-  void wish(WishKind kind, double value = 0) { servo.wishes().push({kind, value}); }
-  void settle(WishKind kind) {
-    wish(kind);
+  void command(CommandKind kind, double value = 0) { servo.commands().push({kind, value}); }
+  void settle(CommandKind kind) {
+    command(kind);
     do tick();
     while (servo.restoring());
   }
@@ -104,11 +104,11 @@ struct Held {
 
 TEST(MirrorMode, EveryToolWorksOnBothSidesAndOneStrokeGoesBackOnBoth) {
   Held held;
-  held.servo.wishes().push(wish_for(held.mirror));
+  held.servo.commands().push(command_for(held.mirror));
   std::uint64_t last = held.start;
   for (const ToolMode mode : {ToolMode::cut, ToolMode::add, ToolMode::smooth, ToolMode::restore}) {
     SCOPED_TRACE(static_cast<int>(mode));
-    held.wish(WishKind::tool_mode, static_cast<double>(mode));
+    held.command(CommandKind::tool_mode, static_cast<double>(mode));
     held.go({-3 * kMm, 0, 0.5 * kMm});
     held.go({-0.4 * kMm, 0.5 * kMm, 0.5 * kMm}, 6 * kMm);  // as far as the plane
     held.go({0.6 * kMm, 0.5 * kMm, 0.5 * kMm}, 6 * kMm);   // and across
@@ -120,18 +120,18 @@ TEST(MirrorMode, EveryToolWorksOnBothSidesAndOneStrokeGoesBackOnBoth) {
     EXPECT_NEAR(is.asked, is.removed + is.debt + is.not_cut, 1e-6 * is.asked);
     EXPECT_NEAR(volume::volume_of(*held.bone) - held.before, is.added - is.removed,
                 1e-6 * is.removed);
-    held.settle(WishKind::undo);
+    held.settle(CommandKind::undo);
     EXPECT_EQ(held.bone->content_hash(), last);
-    held.settle(WishKind::redo);
+    held.settle(CommandKind::redo);
     EXPECT_EQ(held.bone->content_hash(), now);
     last = now;
   }
-  held.settle(WishKind::reset);
+  held.settle(CommandKind::reset);
   EXPECT_EQ(held.bone->content_hash(), held.start);
 
   // and off again
-  held.wish(WishKind::mirror_off);
-  held.wish(WishKind::tool_mode, static_cast<double>(ToolMode::cut));
+  held.command(CommandKind::mirror_off);
+  held.command(CommandKind::tool_mode, static_cast<double>(ToolMode::cut));
   held.lift();
   held.go({-3 * kMm, 0, 5 * kMm});
   held.go({-3 * kMm, 0, 0.5 * kMm});
@@ -140,7 +140,7 @@ TEST(MirrorMode, EveryToolWorksOnBothSidesAndOneStrokeGoesBackOnBoth) {
 
 TEST(MirrorMode, TheHandFeelsWhatItFeelsWithoutOne) {
   Held held, plain;
-  held.servo.wishes().push(wish_for(held.mirror));
+  held.servo.commands().push(command_for(held.mirror));
   for (Held* one : {&held, &plain}) {
     one->go({-3 * kMm, 0, 0.5 * kMm});
     for (int n = 0; n < 300; ++n) one->tick();
@@ -157,10 +157,11 @@ TEST(MirrorMode, TheTickTakesNeitherMemoryNorLock) {
   Held held;
   held.go({-2 * kMm, 0, 1.6 * kMm});
   const test::RtGuard guard;
-  held.servo.wishes().push(wish_for(held.mirror));
+  held.servo.commands().push(command_for(held.mirror));
   held.state.world_from_tool.p.z() = 0.5 * kMm;
   for (int n = 0; n < 2000; ++n) {
-    if (n % 400 == 399) held.wish(WishKind::tool_mode, n / 400 == 1 ? 4 : n / 400 == 2 ? 3 : 1);
+    if (n % 400 == 399)
+      held.command(CommandKind::tool_mode, n / 400 == 1 ? 4 : n / 400 == 2 ? 3 : 1);
     held.state.world_from_tool.p.x() = (-2 + 1e-3 * n) * kMm;
     held.tick();
   }
@@ -197,15 +198,15 @@ TEST(MirrorMode, ARecordingReplaysToTheBitAndHoldsEveryMoment) {
   session.set_recorder(&recorder);
   const Mirror first = mirror_plane(session.bone().grid(), Plane::sagittal);
   const Mirror then = mirror_plane(session.bone().grid(), Plane::coronal, Vec3(0, 0.4 * kMm, 0));
-  session.wish(wish_for(first));
+  session.command(command_for(first));
   session.run(1, quiet);
   EXPECT_EQ(odd(session.bone(), first), "");
-  session.wish(wish_for(then));
-  session.wish({WishKind::tool_mode, static_cast<double>(ToolMode::smooth)});
+  session.command(command_for(then));
+  session.command({CommandKind::tool_mode, static_cast<double>(ToolMode::smooth)});
   session.run(0.7, quiet);
-  session.wish({WishKind::undo, 0});
-  session.wish({WishKind::mirror_off, 0});
-  session.wish({WishKind::tool_mode, static_cast<double>(ToolMode::add)});
+  session.command({CommandKind::undo, 0});
+  session.command({CommandKind::mirror_off, 0});
+  session.command({CommandKind::tool_mode, static_cast<double>(ToolMode::add)});
   session.run(1, quiet);
   session.set_recorder(nullptr);
   ASSERT_TRUE(recorder.finish().ok());
@@ -270,15 +271,15 @@ TEST(MirrorPlane, InWordsCountsToTheLeftBackAndTop) {
   }
 }
 
-TEST(MirrorPlane, AWishSaysItAndAnImageIsTheToolAcross) {
+TEST(MirrorPlane, ACommandChoosesItAndAnImageIsTheToolAcross) {
   const volume::Grid grid = askew();
   for (const Mirror& mirror : {Mirror{}, Mirror{0, 33}, Mirror{1, 20}, Mirror{2, 71}}) {
-    const auto back = mirror_of(wish_for(mirror), grid.size);
+    const auto back = mirror_of(command_for(mirror), grid.size);
     ASSERT_TRUE(back);
     EXPECT_EQ(*back, mirror);
   }
-  EXPECT_FALSE(mirror_of({WishKind::undo, 0}, grid.size));
-  EXPECT_FALSE(mirror_of({WishKind::mirror_j, NAN}, grid.size));
+  EXPECT_FALSE(mirror_of({CommandKind::undo, 0}, grid.size));
+  EXPECT_FALSE(mirror_of({CommandKind::mirror_j, NAN}, grid.size));
   const Mirror mirror = {1, 41};
   math::Pose tool;
   tool.p = grid.world_from_grid({3, 4, 5});

@@ -62,7 +62,7 @@ struct Bench {
   device::ReplayedHand* first = nullptr;
   Pushed::Log log;
 
-  explicit Bench(bool joined = true, const SecondHandSettings& wished = {},
+  explicit Bench(bool joined = true, const SecondHandSettings& requested = {},
                  const device::DeviceSpec& spec = {}) {
     NoProgress quiet;
     auto owned = std::make_unique<device::ReplayedHand>(device::DeviceSpec{});
@@ -80,7 +80,7 @@ struct Bench {
     EXPECT_TRUE(made.ok());
     session = std::move(*made);
     if (joined) {
-      EXPECT_TRUE(session->join(std::make_unique<Pushed>(log, spec), wished).ok());
+      EXPECT_TRUE(session->join(std::make_unique<Pushed>(log, spec), requested).ok());
     }
     burr({0, 0, 6 * kMm}, 0);
     tube({0, 0, 5 * kMm});
@@ -111,18 +111,18 @@ struct Bench {
 };
 
 TEST(SecondHand, FeelsAWallAsItsOwnSpringSays) {
-  SecondHandSettings wished;
-  wished.force.stiffness = 700;
-  wished.friction = 0;
-  Bench bench(true, wished);
+  SecondHandSettings requested;
+  requested.force.stiffness = 700;
+  requested.friction = 0;
+  Bench bench(true, requested);
   for (const double depth_mm : {0.5, 1.0, 2.0}) {
-    bench.tube({3 * kMm, 1 * kMm, wished.radius - depth_mm * kMm});
+    bench.tube({3 * kMm, 1 * kMm, requested.radius - depth_mm * kMm});
     bench.ticks(200);
     const Vec3 force = bench.log.force;
     // the field's surface lies within a fiftieth of a voxel of the plane
     EXPECT_NEAR(force.z(), 700 * depth_mm * kMm, 700 * 0.005 * kMm) << depth_mm;
     EXPECT_LT(std::hypot(force.x(), force.y()), 0.01 * force.z()) << depth_mm;
-    EXPECT_NEAR(bench.second().contact.proxy.z(), wished.radius, 0.01 * kMm);
+    EXPECT_NEAR(bench.second().contact.proxy.z(), requested.radius, 0.01 * kMm);
     bench.tube({3 * kMm, 1 * kMm, 5 * kMm});
     bench.ticks(20);
     EXPECT_EQ(bench.log.force, Vec3::Zero());
@@ -131,9 +131,9 @@ TEST(SecondHand, FeelsAWallAsItsOwnSpringSays) {
 
 // Slid along, it is held back by its share of the push, and no more.
 TEST(SecondHand, RubsAsItsFrictionSays) {
-  SecondHandSettings wished;
-  wished.friction = 0.2;
-  Bench bench(true, wished);
+  SecondHandSettings requested;
+  requested.friction = 0.2;
+  Bench bench(true, requested);
   for (int n = 0; n < 300; ++n) {
     bench.tube({-3 * kMm + 0.02 * kMm * n, 0, 0.5 * kMm});
     bench.tick();
@@ -252,7 +252,7 @@ TEST(SecondHand, AnUndoUnderItLetsItGo) {
   bench.ticks(500);
   bench.tube({0, 0, -0.5 * kMm});
   bench.ticks(50);
-  bench.session->wish({tick::WishKind::undo, 0});
+  bench.session->command({tick::CommandKind::undo, 0});
   bench.tick();
   ASSERT_TRUE(bench.session->servo().restoring());
   double last = bench.log.force.norm();
@@ -274,9 +274,9 @@ TEST(SecondHand, AnUndoUnderItLetsItGo) {
 TEST(SecondHand, WhateverItSaysItsLimitHolds) {
   device::DeviceSpec spec;
   spec.peak_force = 2;
-  SecondHandSettings wished;
-  wished.limit.user_force = 1.5;
-  Bench bench(true, wished, spec);
+  SecondHandSettings requested;
+  requested.limit.user_force = 1.5;
+  Bench bench(true, requested, spec);
   const unsigned seed = std::random_device{}();
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> any(-1, 1);

@@ -165,7 +165,7 @@ TEST_F(Export, SaysWhatIsWrongAndOneGoesOn) {
 
 // ---- without a window
 
-TEST(ExportWish, KeepsThePathInStepWithWhatIsWritten) {
+TEST(ExportRequest, KeepsThePathInStepWithWhatIsWritten) {
   EXPECT_EQ(path_for("/a/bone.stl", ExportWhat::removed, ".stl"), "/a/removed.stl");
   EXPECT_EQ(path_for("/a/removed.seg.nrrd", ExportWhat::bone, ".ply"), "/a/bone.ply");
   EXPECT_EQ(path_for("/a/bone.stl", ExportWhat::picture, ".png"), "/a/picture.png");
@@ -176,9 +176,9 @@ TEST(ExportWish, KeepsThePathInStepWithWhatIsWritten) {
   EXPECT_EQ(ending_of("x.png", ExportWhat::bone), "");
 }
 
-TEST(ExportWish, IsRefusedInOneSentence) {
+TEST(ExportRequest, IsRefusedInOneSentence) {
   const auto why = [](ExportWhat what, const std::string& path) {
-    const Status possible = check_wish({what, path});
+    const Status possible = check_request({what, path});
     return possible ? std::string() : possible.error().text;
   };
   EXPECT_NE(why(ExportWhat::bone, "").find("name"), std::string::npos);

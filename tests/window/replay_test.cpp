@@ -49,8 +49,8 @@ class Replay : public Window {
                                 "pocket", false));
     (*session)->run(5, quiet);
     half_ = (*session)->bone().content_hash();
-    (*session)->wish({tick::WishKind::undo, 0});
-    (*session)->wish({tick::WishKind::spindle_speed, 3000});
+    (*session)->command({tick::CommandKind::undo, 0});
+    (*session)->command({tick::CommandKind::spindle_speed, 3000});
     (*session)->run(kSeconds - 5, quiet);
     ASSERT_TRUE(recording.finish(**session));
     after_ = (*session)->bone().content_hash();

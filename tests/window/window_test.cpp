@@ -37,7 +37,7 @@
 #include "burr/surgeon/motion.h"
 #include "commands/command.h"
 #include "support/data.h"
-#include "workshop/live_bone.h"
+#include "workshop/live_surface.h"
 
 namespace burr::app {
 
@@ -150,8 +150,8 @@ TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
       GTEST_SKIP() << gpu.error().text;
     }
   }
-  const char* wish = std::getenv("BURR_WINDOW_SECONDS");
-  const double seconds = wish != nullptr ? std::atof(wish) : 3;
+  const char* command = std::getenv("BURR_WINDOW_SECONDS");
+  const double seconds = command != nullptr ? std::atof(command) : 3;
   const char* given = std::getenv("BURR_SEED");
   const std::uint64_t seed =
       given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
@@ -220,17 +220,17 @@ TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
   const auto account = recorder.finish();
   ASSERT_TRUE(account) << account.error().text;
   const sim::Outcome outcome = session.outcome();
-  std::printf("%llu ticks (%llu missed), %llu wishes, %llu changed bricks, %.1f mm3 removed\n",
+  std::printf("%llu ticks (%llu missed), %llu commands, %llu changed bricks, %.1f mm3 removed\n",
               static_cast<unsigned long long>(outcome.ticks),
               static_cast<unsigned long long>(outcome.timing.missed),
-              static_cast<unsigned long long>(account->wishes),
+              static_cast<unsigned long long>(account->commands),
               static_cast<unsigned long long>(account->brick_rows), 1e9 * outcome.ledger.removed);
   std::filesystem::remove(file + ".raw");
   EXPECT_GT(sounded, 0) << "nothing was to be heard of it";
   EXPECT_TRUE(account->whole());
   EXPECT_EQ(account->ticks, outcome.ticks);
   EXPECT_EQ(account->safe_ticks, outcome.ticks);
-  EXPECT_GT(account->wishes, 0U) << "nobody wished for anything: the test shows nothing";
+  EXPECT_GT(account->commands, 0U) << "no command was given: the test shows nothing";
   EXPECT_GT(account->brick_rows, 0U) << "nothing was cut: the test shows nothing";
 
   // what was recorded is what is there

@@ -69,11 +69,11 @@ void print(const char* what, const LinkAccount& account) {
 }
 
 Status run(const Options& options) {
-  WorkOptions wished = options.work;
-  if (const Status taken = take_case(wished); !taken) return taken;
+  WorkOptions requested = options.work;
+  if (const Status taken = take_case(requested); !taken) return taken;
   LinkAccount idle;
   {
-    auto device = make_hand(wished.hand);
+    auto device = make_hand(requested.hand);
     if (!device) return device.error();
     const Status opened = (*device)->open();
     if (!opened) return opened;
@@ -82,10 +82,10 @@ Status run(const Options& options) {
     idle = echo(**device, tick_rate((*device)->spec()), options.echo_s);
     (*device)->close();
   }
-  auto work = open_work(wished, progress());
+  auto work = open_work(requested, progress());
   if (!work) return work.error();
   const math::Vec3 outward = -work->place.into;
-  auto ready = make_ready(wished, std::move(*work), progress());
+  auto ready = make_ready(requested, std::move(*work), progress());
   if (!ready) return ready.error();
   sim::Session& session = *ready->session;
   // straight down is into the bone

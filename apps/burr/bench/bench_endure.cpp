@@ -16,7 +16,7 @@
 #include <thread>
 
 #include "bench/bench.h"
-#include "bench/whole_session.h"
+#include "bench/full_load_run.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/rt/idle_loop.h"
 
@@ -91,7 +91,7 @@ void print(const Options& options, const WholeOutcome& out, const rt::TickSummar
   json["recorded"] = {{"ticks", out.recorded.ticks},
                       {"bricks", out.recorded.brick_rows},
                       {"dropped_ticks", out.recorded.dropped_ticks},
-                      {"dropped_wishes", out.recorded.dropped_wishes},
+                      {"dropped_wishes", out.recorded.dropped_commands},
                       {"dropped_bricks", out.recorded.dropped_bricks},
                       {"bytes", out.recorded.bytes},
                       {"longest_pause_s", out.recorded.longest_pause_s}};
@@ -101,8 +101,8 @@ void print(const Options& options, const WholeOutcome& out, const rt::TickSummar
   json["not_cut_mm3"] = 1e9 * ledger.not_cut;
   json["owed_mm3"] = 1e9 * ledger.debt;
   json["noted"] = tick::words(tick::worth_telling(out.session.flags));
-  json["load_ticks"] = out.session.load_ticks;
-  json["most_put_off"] = tick::name(out.session.most_load);
+  json["load_ticks"] = out.session.shed_ticks;
+  json["most_put_off"] = tick::name(out.session.most_shed);
   json["peak_force_N"] = out.session.peak_force;
   json["scheduling"] = out.session.scheduling;
   json["left_out"] = out.left_out;

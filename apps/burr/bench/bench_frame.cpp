@@ -26,16 +26,16 @@
 
 #include "bench/bench.h"
 #include "bench/bench_vtk_frame.h"
-#include "bench/whole_session.h"
+#include "bench/full_load_run.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/render/renderer.h"
 #include "burr/sim/session.h"
 #include "burr/surface/mesher.h"
 #include "burr/surface/worker.h"
 #include "burr/surgeon/motion.h"
-#include "workshop/live_bone.h"
-#include "workshop/still.h"
+#include "workshop/live_surface.h"
 #include "workshop/volume_options.h"
+#include "workshop/work_view.h"
 
 namespace burr::app {
 namespace {
@@ -186,7 +186,7 @@ class Desk {
   std::unique_ptr<render::Renderer> renderer_;
   surface::Worker worker_;
   render::Scene scene_;
-  LiveBone live_;
+  LiveSurface live_;
   Cuts cuts_;
 };
 

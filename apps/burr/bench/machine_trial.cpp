@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "bench/whole_session.h"
+#include "bench/full_load_run.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/rt/idle_loop.h"
 #include "burr/sim/session.h"

@@ -9,7 +9,7 @@
 #include "burr/device/crtk/arm.h"
 #include "burr/math/turn.h"
 #include "commands/command.h"
-#include "workshop/arm_teller.h"
+#include "workshop/arm_publisher.h"
 #include "workshop/recording.h"
 #include "workshop/work.h"
 
@@ -28,13 +28,13 @@ constexpr double kForGood = 1e9;  // [s]
 constexpr double kAbove = 20e-3;  // where it begins, over the work [m]
 
 Status run(const Options& options) {
-  WorkOptions wished = options.work;
-  if (const Status taken = take_case(wished); !taken) return taken;
-  auto work = open_work(wished, progress());
+  WorkOptions requested = options.work;
+  if (const Status taken = take_case(requested); !taken) return taken;
+  auto work = open_work(requested, progress());
   if (!work) return work.error();
-  fit_burr(wished, work->made);
+  fit_burr(requested, work->made);
   for (const std::string& notice : work->made.summary.notices) fmt::print(stderr, "{}\n", notice);
-  const sim::SessionSettings settings = settings_of(wished, true);
+  const sim::SessionSettings settings = settings_of(requested, true);
   math::Pose start;
   start.p = work->place.at - kAbove * work->place.into;
   start.q = math::shortest_turn(math::Vec3::UnitZ(), -work->place.into);
@@ -62,7 +62,7 @@ Status run(const Options& options) {
       "ends it.\n",
       named.name, (*arm)->domain(), start.p.x(), start.p.y(), start.p.z());
   {
-    const ArmTeller teller(session, **arm, [&hand] { return hand.busy(); });
+    const ArmPublisher teller(session, **arm, [&hand] { return hand.busy(); });
     session.run(options.seconds > 0 ? options.seconds : kForGood, progress());
   }
   const Status recorded = options.record.empty() ? fine() : recording.finish(session);

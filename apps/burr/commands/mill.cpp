@@ -17,8 +17,8 @@
 #include "burr/tick/mirror_plane.h"
 #include "commands/command.h"
 #include "workshop/recording.h"
-#include "workshop/still.h"
 #include "workshop/volume_options.h"
+#include "workshop/work_view.h"
 
 namespace burr::app {
 namespace {
@@ -158,9 +158,9 @@ void print(const Options& options, sim::Session& session, const Recording& recor
                options.realtime
                    ? fmt::format("; {} late, {} missed; {}", t.late, t.missed, outcome.scheduling)
                    : "");
-    if (outcome.most_load != tick::Load::none)
+    if (outcome.most_shed != tick::Shed::none)
       fmt::print("put off at times, because the machine could not keep up: {}\n",
-                 tick::name(outcome.most_load));
+                 tick::name(outcome.most_shed));
     if (options.heat) print_heat(session, heat, outcome.heat_rows_lost);
     for (const std::string& sentence : tick::words(tick::worth_telling(outcome.flags)))
       fmt::print("noted: {}\n", sentence);
@@ -187,7 +187,7 @@ void print(const Options& options, sim::Session& session, const Recording& recor
   out["worst_lateness_us"] = t.worst_lateness_us;
   out["bone_hash"] = record::hex(session.bone().content_hash());
   out["noted"] = tick::words(tick::worth_telling(outcome.flags));
-  out["load_ticks"] = outcome.load_ticks;
+  out["load_ticks"] = outcome.shed_ticks;
   if (options.heat) out["heat"] = heat_json(session, heat, outcome.heat_rows_lost);
   if (options.realtime) out["scheduling"] = outcome.scheduling;
   if (!options.record.empty()) out["recording"] = recording.account();
@@ -228,7 +228,7 @@ Status run(const Options& options) {
   if (options.heat) {
     auto warming = heat_settings(options, opened->bone->tissues());
     if (!warming) return warming.error();
-    settings.heat = sim::HeatWish{work_box(*opened->bone, place.at), std::move(*warming)};
+    settings.heat = sim::HeatRequest{work_box(*opened->bone, place.at), std::move(*warming)};
   }
   edit::Mirror mirror;
   if (!options.mirror.empty()) {
@@ -243,7 +243,7 @@ Status run(const Options& options) {
   auto made = sim::Session::make(std::move(opened->bone), std::move(hand), settings, progress());
   if (!made) return made.error();
   sim::Session& session = **made;
-  if (mirror.on()) session.wish(tick::wish_for(mirror));
+  if (mirror.on()) session.command(tick::command_for(mirror));
 
   Recording recording;
   if (!options.record.empty()) {

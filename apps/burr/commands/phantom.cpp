@@ -11,7 +11,7 @@
 #include "burr/phantom/phantoms.h"
 #include "burr/volume/volume_of.h"
 #include "commands/command.h"
-#include "workshop/ready_bone.h"
+#include "workshop/prebuilt_phantom.h"
 
 namespace burr::app {
 namespace {
@@ -34,7 +34,7 @@ std::string names() {
 }
 
 Status write(const volume::Bone& bone, const std::string& path) {
-  if (ends_with(path, ".bone")) return write_ready_bone(bone, path);
+  if (ends_with(path, ".bone")) return write_prebuilt_phantom(bone, path);
   return ends_with(path, ".seg.nrrd") ? io::write_labels(bone, path, progress())
                                       : io::write_field(bone, path, progress());
 }

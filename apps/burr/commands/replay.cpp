@@ -20,10 +20,10 @@
 #include "commands/views.h"
 #include "window/shell/pages.h"
 #include "workshop/hearing.h"
-#include "workshop/nearby.h"
 #include "workshop/recording.h"
-#include "workshop/still.h"
+#include "workshop/spared_distance.h"
 #include "workshop/traces.h"
+#include "workshop/work_view.h"
 
 namespace burr::app {
 namespace {
@@ -115,20 +115,20 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
   sound::Synth synth;
   auto file = sound::WavFile::create(options.sound, static_cast<int>(synth.settings().rate_hz));
   if (!file) return file.error();
-  Nearby nearby;
+  SparedDistance spared_distance;
   if (const Tissues spared = read_spared(player.info()); !spared.empty()) {
     auto bone = bone_of(player, options.volume, progress());
     if (bone) {
-      auto measured = Nearby::make(**bone, spared, progress());
+      auto measured = SparedDistance::make(**bone, spared, progress());
       if (!measured) return measured.error();
-      nearby = std::move(*measured);
+      spared_distance = std::move(*measured);
     } else if (interrupted()) {
       return bone.error();
     } else {
       fmt::print(stderr, "without warnings of what to spare: {}\n", bone.error().text);
     }
   }
-  Hearing hearing(recorded.settings.servo, nearby.distances());
+  Hearing hearing(recorded.settings.servo, spared_distance.distances());
   const double per_tick = synth.settings().rate_hz / player.info().rate_hz;
   std::vector<float> samples(4096);
   record::StepCursor steps = player.steps();
@@ -139,7 +139,7 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
       progress().report(static_cast<double>(step.row.tick) / static_cast<double>(player.end_tick()),
                         "listening");
     }
-    for (const tick::Wish& wish : step.wishes) hearing.obey(wish);
+    for (const tick::Command& command : step.commands) hearing.obey(command);
     synth.hear(hearing.hear(step.row));
     // up to the end of this tick; where rows were lost, what was heard before goes on
     const double end = static_cast<double>(step.row.tick + 1 - player.first_tick()) * per_tick;

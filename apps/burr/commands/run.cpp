@@ -24,10 +24,10 @@
 #include "window/shell/loading.h"
 #include "window/shell/pages.h"
 #include "window/shell/words.h"
-#include "workshop/nearby.h"
 #include "workshop/recording.h"
-#include "workshop/still.h"
+#include "workshop/spared_distance.h"
 #include "workshop/work.h"
+#include "workshop/work_view.h"
 
 namespace burr::app {
 namespace {
@@ -100,18 +100,18 @@ void put_tool_of(render::Scene& scene, sim::Session& session) {
 // Before, at half time with the burr in the bone, and after: the same view.
 Status run_headless(const Options& options) {
   const std::filesystem::path folder = options.out.empty() ? "burr-out" : options.out;
-  WorkOptions wished = options.work;
-  const double seconds = wished.seconds > 0 ? wished.seconds : kHeadlessSeconds;
+  WorkOptions requested = options.work;
+  const double seconds = requested.seconds > 0 ? requested.seconds : kHeadlessSeconds;
   Status made = make_folder(folder);
   if (!made) return made;
-  if (!wished.title.empty()) fmt::print(stderr, "{}\n", wished.title);
-  auto opened = open_work(wished, progress());
+  if (!requested.title.empty()) fmt::print(stderr, "{}\n", requested.title);
+  auto opened = open_work(requested, progress());
   if (!opened) return opened.error();
   Work& work = *opened;
-  fit_burr(wished, work.made);
+  fit_burr(requested, work.made);
   for (const std::string& notice : work.made.summary.notices) fmt::print(stderr, "{}\n", notice);
-  const sim::SessionSettings settings = settings_of(wished, false);
-  auto path = surgeon::motion(wished.motion, work.place, settings.servo.burr.radius, seconds);
+  const sim::SessionSettings settings = settings_of(requested, false);
+  auto path = surgeon::motion(requested.motion, work.place, settings.servo.burr.radius, seconds);
   if (!path) return path.error();
   auto hand = std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{});
   auto started =
@@ -139,7 +139,7 @@ Status run_headless(const Options& options) {
   Recording recording;
   status =
       recording.start(session, (folder / "session.mcap").string(), work.volume, work.made.summary,
-                      wished.motion, false, to_spare(session.bone_tissues(), wished.spare));
+                      requested.motion, false, to_spare(session.bone_tissues(), requested.spare));
   if (!status) return status;
   session.run(0.5 * seconds, progress());
   put_tool_of(scene, session);
@@ -154,7 +154,7 @@ Status run_headless(const Options& options) {
   }
   const Status recorded = recording.finish(session);
   if (!status) return status;
-  Summary summary = summary_of(session, work.what, "simulated hand, " + wished.motion);
+  Summary summary = summary_of(session, work.what, "simulated hand, " + requested.motion);
   if (!recorded) fmt::print("{}", summary_text(summary));  // a disk that is full takes no picture
   status = picture("after.png");
   if (!status) return recorded ? status : recorded;

@@ -8,7 +8,7 @@
 #include "burr/render/scene.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/greys.h"
-#include "workshop/still.h"
+#include "workshop/work_view.h"
 
 namespace CLI {
 class App;

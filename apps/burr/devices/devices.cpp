@@ -16,7 +16,7 @@ namespace burr::app {
 namespace {
 
 struct Options {
-  HandWish wish;
+  HandRequest request;
   std::string out;
   std::vector<std::string> assignments;
   TrialSettings trial;
@@ -26,9 +26,9 @@ struct Options {
 // One that may be there, opened and closed, as JSON and as the user reads it.
 Status tell(const HandKind& kind, const std::string& name, const DeviceBook& book,
             nlohmann::json& all, bool json) {
-  HandWish wish;
-  wish.device = name;
-  auto device = make_hand(wish);
+  HandRequest request;
+  request.device = name;
+  auto device = make_hand(request);
   if (!device) return device.error();
   const Status opened = (*device)->open();
   if (!opened) {
@@ -42,7 +42,7 @@ Status tell(const HandKind& kind, const std::string& name, const DeviceBook& boo
   const device::DeviceSpec spec = (*device)->spec();
   const std::string trouble = (*device)->trouble();
   (*device)->close();
-  const DeviceWishes wishes = book.of(id_of(spec));
+  const DevicePreferences preferences = book.of(id_of(spec));
   all.push_back({{"name", name},
                  {"kind", kind.name},
                  {"there", true},
@@ -57,8 +57,8 @@ Status tell(const HandKind& kind, const std::string& name, const DeviceBook& boo
                  {"workspace_mm", 1e3 * spec.workspace_radius},
                  {"rate_hz", spec.native_rate},
                  {"trouble", trouble},
-                 {"scale", wishes.mapping.scale},
-                 {"max_force_N", wishes.max_force_n}});
+                 {"scale", preferences.mapping.scale},
+                 {"max_force_N", preferences.max_force_n}});
   if (json) return fine();
   fmt::print("{:<16} {}: feels {} axes and pushes {}, {:.1f} N ({:.2f} N for long){}\n", name,
              id_of(spec), spec.sensed, spec.actuated, spec.peak_force, spec.continuous_force,
@@ -67,8 +67,9 @@ Status tell(const HandKind& kind, const std::string& name, const DeviceBook& boo
       "                 walls to {:.0f} N/m, damping to {:g} N s/m, {:.0f} mm about its "
       "middle, {:.0f} Hz; scale {:g}{}\n",
       spec.max_stiffness, spec.max_damping, 1e3 * spec.workspace_radius, spec.native_rate,
-      wishes.mapping.scale,
-      wishes.max_force_n > 0 ? fmt::format(", your limit {:g} N", wishes.max_force_n) : "");
+      preferences.mapping.scale,
+      preferences.max_force_n > 0 ? fmt::format(", your limit {:g} N", preferences.max_force_n)
+                                  : "");
   if (!trouble.empty()) fmt::print("                 {}\n", trouble);
   return fine();
 }
@@ -97,15 +98,15 @@ Status list(const Options& options) {
 }
 
 Result<std::unique_ptr<device::MappedHand>> take(const Options& options) {
-  HandWish wish = options.wish;
-  wish.scale = 1;  // tried as it is
-  auto laid = lay_hand(wish, {}, math::Quat::Identity());
+  HandRequest request = options.request;
+  request.scale = 1;  // tried as it is
+  auto laid = lay_hand(request, {}, math::Quat::Identity());
   if (!laid) return laid.error();
   return std::move(laid->hand);
 }
 
 Status set(const Options& options) {
-  auto device = make_hand(options.wish);
+  auto device = make_hand(options.request);
   if (!device) return device.error();
   const Status opened = (*device)->open();
   if (!opened) return opened.error();
@@ -164,7 +165,7 @@ void add(CLI::App& app, Todo& todo) {
   auto* setting = command->add_subcommand(
       "set", "what a device is to do from now on, kept by its serial number");
   setting
-      ->add_option("name", options->wish.device,
+      ->add_option("name", options->request.device,
                    kinds_known() + "; NAME:WHICH where there are several")
       ->required();
   setting->add_option("settings", options->assignments, "scale=0.5 max_force_n=2 dead_man=true ...")
@@ -174,10 +175,10 @@ void add(CLI::App& app, Todo& todo) {
   auto* trial = command->add_subcommand(
       "test", "first nothing moves, then a guided touch: rate, answer, noise, axes, a wall");
   trial
-      ->add_option("name", options->wish.device,
+      ->add_option("name", options->request.device,
                    kinds_known() + "; NAME:WHICH where there are several")
       ->required();
-  add_homing_options(*trial, options->wish);
+  add_homing_options(*trial, options->request);
   trial->add_option("--out", options->out, "F.html: the result as a page to send");
   trial->add_option("--most-force", options->trial.most_force, "of the wall [N]")
       ->check(CLI::Range(0.1, 5.0))

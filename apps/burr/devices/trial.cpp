@@ -22,7 +22,7 @@ constexpr double kStill = 0.02;      // slower than this is at rest  [m/s]
 constexpr double kTrialRate = 1000;  // [Hz]
 
 // What the ticks tell the caller.
-struct Told {
+struct StatusLine {
   device::HandState hand;
   Vec3 force = Vec3::Zero();
   std::uint64_t tick = 0;
@@ -40,7 +40,7 @@ class Ticks {
   Ticks(device::Device& device, const TrialSettings& settings)
       : device_(device), limit_(device.spec(), {.user_force = settings.most_force}) {
     stiffness_ = std::min(settings.stiffness, device.spec().max_stiffness);
-    thread_ = std::make_unique<rt::Thread>(rt::ThreadWish{.name = "servo", .realtime = true},
+    thread_ = std::make_unique<rt::Thread>(rt::ThreadRequest{.name = "servo", .realtime = true},
                                            [this] { run(); });
   }
   ~Ticks() { end(); }
@@ -52,7 +52,7 @@ class Ticks {
     thread_->join();
   }
   void want(const Wanted& wanted) { wanted_.publish(wanted); }
-  bool now(Told& told) { return told_.take(told); }
+  bool now(StatusLine& told) { return told_.take(told); }
   [[nodiscard]] double stiffness() const { return stiffness_; }
 
   // after end()
@@ -66,7 +66,7 @@ class Ticks {
     rt::TickClock& clock = own != nullptr ? *own : wall;
     Wanted wanted;
     Vec3 force = Vec3::Zero();
-    Told told;
+    StatusLine told;
     while (!stop_.load(std::memory_order_relaxed)) {
       const rt::TickTime time = clock.wait();
       static_cast<void>(wanted_.take(wanted));
@@ -98,7 +98,7 @@ class Ticks {
   haptics::ForceLimit limit_;
   double stiffness_ = 0;
   rt::Latest<Wanted> wanted_;
-  rt::Latest<Told> told_;
+  rt::Latest<StatusLine> told_;
   std::atomic<bool> stop_ = false;
   std::unique_ptr<rt::Thread> thread_;
 };
@@ -107,7 +107,7 @@ class Ticks {
 template <class Done>
 bool watch(Ticks& ticks, double longest_s, const std::function<bool()>& stop, Done done) {
   const auto until = Clock::now() + std::chrono::duration<double>(longest_s);
-  Told told;
+  StatusLine told;
   while (Clock::now() < until && !stop()) {
     if (!ticks.now(told)) {
       std::this_thread::sleep_for(std::chrono::microseconds(300));
@@ -126,7 +126,7 @@ void at_rest(Ticks& ticks, const TrialSettings& settings, const std::function<bo
   std::uint64_t begin = 0, end = 0;
   const auto began = Clock::now();
   Clock::time_point last = began;
-  static_cast<void>(watch(ticks, settings.rest_s, stop, [&](const Told& told) {
+  static_cast<void>(watch(ticks, settings.rest_s, stop, [&](const StatusLine& told) {
     if (n == 0) {
       first = told.hand.world_from_tool.p;
       begin = told.tick;
@@ -155,7 +155,7 @@ void along(Ticks& ticks, const TrialSettings& settings, const Vec3& way,
            const std::function<bool()>& stop, AxisSeen& seen) {
   bool has_start = false;
   Vec3 start = Vec3::Zero();
-  seen.done = watch(ticks, settings.longest_s, stop, [&](const Told& told) {
+  seen.done = watch(ticks, settings.longest_s, stop, [&](const StatusLine& told) {
     if (!has_start) {
       if (told.hand.velocity.norm() > kStill) return false;
       start = told.hand.world_from_tool.p;
@@ -171,7 +171,7 @@ void along(Ticks& ticks, const TrialSettings& settings, const Vec3& way,
 void wall(Ticks& ticks, const TrialSettings& settings, const std::function<bool()>& stop,
           TrialSeen& seen) {
   double height = 0;
-  if (!watch(ticks, settings.longest_s, stop, [&](const Told& told) {
+  if (!watch(ticks, settings.longest_s, stop, [&](const StatusLine& told) {
         height = told.hand.world_from_tool.p.y() - settings.below;
         return told.hand.velocity.norm() <= kStill;
       })) {
@@ -183,7 +183,7 @@ void wall(Ticks& ticks, const TrialSettings& settings, const std::function<bool(
   double depth_force = 0, depth_square = 0;
   Vec3 deepest_at = Vec3::Zero();
   double deepest = 0;
-  const bool done = watch(ticks, 3 * settings.longest_s, stop, [&](const Told& told) {
+  const bool done = watch(ticks, 3 * settings.longest_s, stop, [&](const StatusLine& told) {
     const double depth = height - told.hand.world_from_tool.p.y();
     if (depth > 0 && told.force.y() > 0) {
       // slowly, where the force is the spring's

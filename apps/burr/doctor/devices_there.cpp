@@ -31,9 +31,9 @@ std::string of_library(const std::string& kind) {
 }
 
 std::string of_device(const std::string& kind) {
-  HandWish wish;
-  wish.device = kind;
-  auto device = make_hand(wish);
+  HandRequest request;
+  request.device = kind;
+  auto device = make_hand(request);
   if (!device) return "-" + device.error().text;
   const Status opened = (*device)->open();
   if (!opened) return "-" + opened.error().text;

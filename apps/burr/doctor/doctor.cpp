@@ -61,9 +61,9 @@ Status run(const Options& options) {
   nlohmann::json trial;
   std::string verdict;
   if (options.seconds > 0) {
-    MachineTrial wished;
-    wished.seconds = options.seconds;
-    const auto measured = measure_machine(wished);
+    MachineTrial requested;
+    requested.seconds = options.seconds;
+    const auto measured = measure_machine(requested);
     Finding tried{"trial", fmt::format("{:g} seconds", options.seconds), Health::trouble, "", ""};
     if (!measured) {
       if (measured.error().trouble == Trouble::interrupted) return measured.error();

@@ -98,14 +98,14 @@ PeopleRun run_of(const json& in) {
   run.device_id = in.value("device_id", "");
   in.at("subject").get_to(run.subject);
   if (const auto found = in.find("observer"); found != in.end()) {
-    ObserverWish wish;
+    ObserverRequest request;
     const json& threshold = found->at("threshold");
-    wish.threshold = threshold.is_null() ? INFINITY : threshold.get<double>();
-    found->at("slope").get_to(wish.slope);
-    found->at("lapse").get_to(wish.lapse);
-    found->at("seed").get_to(wish.seed);
-    found->at("feels").get_to(wish.feels);
-    run.observer = wish;
+    request.threshold = threshold.is_null() ? INFINITY : threshold.get<double>();
+    found->at("slope").get_to(request.slope);
+    found->at("lapse").get_to(request.lapse);
+    found->at("seed").get_to(request.seed);
+    found->at("feels").get_to(request.feels);
+    run.observer = request;
   }
   return run;
 }

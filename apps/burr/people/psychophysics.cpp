@@ -39,7 +39,7 @@ struct Options {
   double until = 0, lapse = 0.02, seconds = 3, rate_hz = 1000;
   std::uint64_t seed = 1;
   bool json = false;
-  HandWish hand;  // homing alone
+  HandRequest hand;  // homing alone
 };
 
 template <class T, std::size_t N>
@@ -91,9 +91,9 @@ class Lab {
   Result<int> ask(const Trial& trial, double& took) {
     took = -1;
     if (run_.observer && !run_.observer->feels) {
-      const ObserverWish& wish = *run_.observer;
-      return people::KnowingObserver({wish.threshold, wish.slope, run_.plan.guess, wish.lapse},
-                                     wish.seed)
+      const ObserverRequest& request = *run_.observer;
+      return people::KnowingObserver(
+                 {request.threshold, request.slope, run_.plan.guess, request.lapse}, request.seed)
           .answer(trial);
     }
     std::array<double, 2> felt = {};
@@ -107,8 +107,9 @@ class Lab {
       if (interrupted()) return 0;
     }
     if (!run_.observer) return person(took);
-    const ObserverWish& wish = *run_.observer;
-    return people::FeelingObserver(run_.plan.stimulus, wish.threshold, wish.lapse, wish.seed)
+    const ObserverRequest& request = *run_.observer;
+    return people::FeelingObserver(run_.plan.stimulus, request.threshold, request.lapse,
+                                   request.seed)
         .answer(trial, felt[0], felt[1]);
   }
 
@@ -175,11 +176,12 @@ Result<std::unique_ptr<device::MappedHand>> take_hand(const Options& options, Pe
   if (run.observer)
     return error(Trouble::usage,
                  "an --observer is shown the wall by the simulated hand; leave --device away");
-  HandWish wish = options.hand;
-  wish.device = run.device;
+  HandRequest request = options.hand;
+  request.device = run.device;
   math::Pose above;
   above.p = {0, 0, run.wall.burr_radius + kAbove};
-  auto laid = lay_hand(wish, above, math::Quat(Eigen::AngleAxisd(M_PI / 2, math::Vec3::UnitX())));
+  auto laid =
+      lay_hand(request, above, math::Quat(Eigen::AngleAxisd(M_PI / 2, math::Vec3::UnitX())));
   if (!laid) return laid.error();
   for (const std::string& notice : laid->notices) fmt::print(stderr, "{}\n", notice);
   run.device_id = laid->id;

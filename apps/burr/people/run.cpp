@@ -31,8 +31,8 @@ Error bad_observer(const std::string& part, const char* what) {
 
 }  // namespace
 
-Result<ObserverWish> read_observer(const std::string& words) {
-  ObserverWish wish;
+Result<ObserverRequest> read_observer(const std::string& words) {
+  ObserverRequest request;
   bool has_slope = false, has_threshold = false;
   for (std::size_t from = 0; from <= words.size();) {
     const std::size_t to = std::min(words.find(',', from), words.size());
@@ -43,36 +43,36 @@ Result<ObserverWish> read_observer(const std::string& words) {
     const std::string name = part.substr(0, is), value = part.substr(is + 1);
     if (name == "feels") {
       if (value != "yes" && value != "no") return bad_observer(part, "is neither yes nor no");
-      wish.feels = value == "yes";
+      request.feels = value == "yes";
       continue;
     }
     const std::optional<double> number = number_of(value);
     if (!number) return bad_observer(part, "is no number");
     if (name == "threshold") {
       if (!(*number > 0)) return bad_observer(part, "is not above 0");
-      wish.threshold = *number;
+      request.threshold = *number;
       has_threshold = true;
     } else if (name == "slope") {
       if (!(*number >= 0.5 && *number <= 12)) return bad_observer(part, "is not 0.5 to 12");
-      wish.slope = *number;
+      request.slope = *number;
       has_slope = true;
     } else if (name == "lapse") {
       if (!(*number >= 0 && *number <= 0.2)) return bad_observer(part, "is not 0 to 0.2");
-      wish.lapse = *number;
+      request.lapse = *number;
     } else if (name == "seed") {
       if (!(*number >= 0 && *number < 1e15 && *number == std::floor(*number)))
         return bad_observer(part, "is no whole number from 0 on");
-      wish.seed = static_cast<std::uint64_t>(*number);
+      request.seed = static_cast<std::uint64_t>(*number);
     } else {
       return bad_observer(part, "is not known");
     }
   }
   if (!has_threshold) return bad_observer(words, "has no threshold");
-  if (wish.feels && has_slope)
+  if (request.feels && has_slope)
     return bad_observer(words, "has a slope, but one that feels gets it from its noise");
-  if (wish.feels && std::isinf(wish.threshold))
+  if (request.feels && std::isinf(request.threshold))
     return bad_observer(words, "feels nothing; leave out feels=yes for one who guesses");
-  return wish;
+  return request;
 }
 
 const char* unit_of(Stimulus stimulus) {

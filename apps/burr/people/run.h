@@ -18,7 +18,7 @@
 namespace burr::app {
 
 // A simulated observer of known threshold.
-struct ObserverWish {
+struct ObserverRequest {
   double threshold = 0.15, slope = 3.5, lapse = 0.02;
   std::uint64_t seed = 1;
   bool feels = false;  // presses, rubs and holds instead of answering by formula
@@ -29,12 +29,12 @@ struct PeopleRun {
   sim::WallSettings wall;
   double seconds = 3;  // of an interval, at most
   std::string device = "simulated", subject;
-  std::string device_id = {};            // name and serial number of a real one
-  std::optional<ObserverWish> observer;  // none: a person answers
+  std::string device_id = {};               // name and serial number of a real one
+  std::optional<ObserverRequest> observer;  // none: a person answers
 };
 
 // "threshold=0.12,slope=3.5,lapse=0.02,seed=1,feels=yes"
-[[nodiscard]] Result<ObserverWish> read_observer(const std::string& words);
+[[nodiscard]] Result<ObserverRequest> read_observer(const std::string& words);
 
 // What belongs to a stimulus: its unit, and what the person is asked.
 [[nodiscard]] const char* unit_of(people::Stimulus stimulus);

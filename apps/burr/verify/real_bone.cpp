@@ -84,16 +84,16 @@ device::HandPath wander(const surgeon::WorkPlace& place, double r, double second
   std::normal_distribution<double> stray(0, 1);
   device::HandPath path;
   const Vec3 u = place.into.unitOrthogonal(), v = place.into.cross(u);
-  Vec3 wish = Vec3::Zero();  // aside, aside, deep
+  Vec3 request = Vec3::Zero();  // aside, aside, deep
   for (double t = 0; t <= seconds; t += 0.05) {
     // gathers and forgets within a second, a few burrs wide
-    wish += 0.05 * (-wish) + 0.3 * Vec3(stray(random), stray(random), 0.4 * stray(random));
+    request += 0.05 * (-request) + 0.3 * Vec3(stray(random), stray(random), 0.4 * stray(random));
     device::PathPoint point;
     point.t = t;
     const double begun = std::min(1.0, t / 0.5);
     point.world_from_tool.p =
-        place.at + r * (1.5 * wish.x() * u + 1.5 * wish.y() * v) +
-        ((0.4 * wish.z() + 0.3) * begun * r - (1 - begun) * 3 * r) * place.into;
+        place.at + r * (1.5 * request.x() * u + 1.5 * request.y() * v) +
+        ((0.4 * request.z() + 0.3) * begun * r - (1 - begun) * 3 * r) * place.into;
     point.pedal = 1;
     path.points.push_back(point);
   }

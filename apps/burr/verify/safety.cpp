@@ -102,9 +102,9 @@ void fuzzed(const Verify& verify, Report::Part& part) {
     if (what < 0.003) said[static_cast<int>(3 * share(random))] = bad[random() % std::size(bad)];
     if (what > 0.997) said += Vec3(stray(random), stray(random), stray(random)) * 0.1;
     if (what > 0.5 && what < 0.502) lost = true;
-    if (what > 0.6 && what < 0.6005) {  // wishes of everybody, senseless ones too
-      const auto kind = static_cast<tick::WishKind>(random() % 12);
-      static_cast<void>(bench.servo->wishes().push(
+    if (what > 0.6 && what < 0.6005) {  // commands of everybody, senseless ones too
+      const auto kind = static_cast<tick::CommandKind>(random() % 12);
+      static_cast<void>(bench.servo->commands().push(
           {kind, share(random) < 0.2 ? bad[random() % std::size(bad)] : 3 * stray(random)}));
     }
     (void)bench.step(said, lost);
@@ -127,23 +127,23 @@ void in_contact(Report::Part& part) {
     const char* name;
     std::function<void(Bench&)> happens;
   };
-  const auto wish = [](tick::WishKind kind, double value) {
+  const auto command = [](tick::CommandKind kind, double value) {
     return [kind, value](Bench& bench) {
-      static_cast<void>(bench.servo->wishes().push({kind, value}));
+      static_cast<void>(bench.servo->commands().push({kind, value}));
     };
   };
-  using Kind = tick::WishKind;
+  using Kind = tick::CommandKind;
   const Event events[] = {
       {"stall_100ms", [](Bench& bench) { (void)bench.step(kPressed, true); }},
       {"not_a_number", [](Bench& bench) { (void)bench.step(Vec3::Constant(NAN)); }},
       {"leap", [](Bench& bench) { (void)bench.step(kPressed + Vec3(0, 0, 50 * kMm)); }},
-      {"smaller_burr", wish(Kind::burr_radius, 1 * kMm)},
-      {"larger_burr", wish(Kind::burr_radius, 2 * kMm)},
-      {"stiffer", wish(Kind::stiffness, 2000)},
-      {"undo", wish(Kind::undo, 0)},
-      {"reset", wish(Kind::reset, 0)},
-      {"touch_by_penalty", wish(Kind::touch_method, 6)},
-      {"touch_by_thesis_literal", wish(Kind::touch_method, 2)},
+      {"smaller_burr", command(Kind::burr_radius, 1 * kMm)},
+      {"larger_burr", command(Kind::burr_radius, 2 * kMm)},
+      {"stiffer", command(Kind::stiffness, 2000)},
+      {"undo", command(Kind::undo, 0)},
+      {"reset", command(Kind::reset, 0)},
+      {"touch_by_penalty", command(Kind::touch_method, 6)},
+      {"touch_by_thesis_literal", command(Kind::touch_method, 2)},
   };
   Plot plot{
       "The force on a hand that presses with about a newton, while at 0.2 s something happens: "
@@ -210,7 +210,7 @@ void safety(const Verify& verify, Report::Part& part) {
 const VerifyPart part{
     60, "safety", "Safety",
     "The whole tick with a device that says anything: not-a-number, leaps, lost "
-    "ticks, senseless wishes; changes of tool, method, stiffness and bone in "
+    "ticks, senseless commands; changes of tool, method, stiffness and bone in "
     "contact. Never above the user's limit, never faster than the slew, zero within "
     "5 ms of a reading that cannot be.",
     safety};

@@ -24,37 +24,37 @@ constexpr std::uintmax_t kLargestFile = 1U << 16;  // [byte]
 struct Field {
   const char *key, *means;
   double least = 0, most = 0;
-  double& (*number)(DeviceWishes&) = nullptr;
-  int& (*button)(DeviceWishes&) = nullptr;
-  bool& (*yes)(DeviceWishes&) = nullptr;
-  math::Quat& (*axes)(DeviceWishes&) = nullptr;
+  double& (*number)(DevicePreferences&) = nullptr;
+  int& (*button)(DevicePreferences&) = nullptr;
+  bool& (*yes)(DevicePreferences&) = nullptr;
+  math::Quat& (*axes)(DevicePreferences&) = nullptr;
 };
 
 const std::array kFields = {
     Field{"scale", "way of the tip over way of the hand", 0.1, 10,
-          [](DeviceWishes& w) -> double& { return w.mapping.scale; }},
+          [](DevicePreferences& w) -> double& { return w.mapping.scale; }},
     Field{"max_force_n", "your own limit of its force [N]; 0: what the device can", 0, 40,
-          [](DeviceWishes& w) -> double& { return w.max_force_n; }},
+          [](DevicePreferences& w) -> double& { return w.max_force_n; }},
     Field{"vibration", "gain of the spindle's buzz; 0: none, 1: as designed", 0, 4,
-          [](DeviceWishes& w) -> double& { return w.vibration; }},
+          [](DevicePreferences& w) -> double& { return w.vibration; }},
     Field{"torque", "gain of the motor's twist, where the device can turn the hand; 0: none", 0, 4,
-          [](DeviceWishes& w) -> double& { return w.torque; }},
+          [](DevicePreferences& w) -> double& { return w.torque; }},
     Field{"mill_button", "its button that mills, counted from 0; -1: none", -1, 30, nullptr,
-          [](DeviceWishes& w) -> int& { return w.mapping.mill_button; }},
+          [](DevicePreferences& w) -> int& { return w.mapping.mill_button; }},
     Field{"clutch_button", "its button that lifts the hand to lay it elsewhere; -1: none", -1, 30,
-          nullptr, [](DeviceWishes& w) -> int& { return w.mapping.clutch_button; }},
+          nullptr, [](DevicePreferences& w) -> int& { return w.mapping.clutch_button; }},
     Field{"dead_man", "it pushes only while the mill button or the pedal is down", 0, 1, nullptr,
-          nullptr, [](DeviceWishes& w) -> bool& { return w.mapping.dead_man; }},
+          nullptr, [](DevicePreferences& w) -> bool& { return w.mapping.dead_man; }},
     Field{"axes", "where its x, y, z point: right, left, up, down, near or far", 0, 0, nullptr,
-          nullptr, nullptr, [](DeviceWishes& w) -> math::Quat& { return w.mapping.axes; }},
+          nullptr, nullptr, [](DevicePreferences& w) -> math::Quat& { return w.mapping.axes; }},
 };
 
 // "" when it is good
-std::string take(const Field& field, const toml::node& node, DeviceWishes& wishes) {
+std::string take(const Field& field, const toml::node& node, DevicePreferences& preferences) {
   if (field.yes != nullptr) {
     const auto value = node.value_exact<bool>();
     if (!value) return "must be true or false";
-    field.yes(wishes) = *value;
+    field.yes(preferences) = *value;
     return {};
   }
   if (field.axes != nullptr) {
@@ -63,7 +63,7 @@ std::string take(const Field& field, const toml::node& node, DeviceWishes& wishe
     if (!axes)
       return "must be three words of right, left, up, down, near, far in quotes, a right-handed "
              "frame: \"right up near\" leaves it as it is";
-    field.axes(wishes) = *axes;
+    field.axes(preferences) = *axes;
     return {};
   }
   const auto value = node.is_number() ? node.value<double>() : std::nullopt;
@@ -73,9 +73,9 @@ std::string take(const Field& field, const toml::node& node, DeviceWishes& wishe
     return fmt::format("must be a {}number from {:g} to {:g}", whole ? "whole " : "", field.least,
                        field.most);
   if (whole)
-    field.button(wishes) = static_cast<int>(*value);
+    field.button(preferences) = static_cast<int>(*value);
   else
-    field.number(wishes) = *value;
+    field.number(preferences) = *value;
   return {};
 }
 
@@ -107,12 +107,12 @@ DeviceBook DeviceBook::parse(std::string_view text, std::string_view file) {
           fmt::format("{}: {}: is no [\"device\"]; it is left aside", file, base::shown(id.str())));
       continue;
     }
-    DeviceWishes& wishes = book.wishes_[std::string(id.str())];
+    DevicePreferences& preferences = book.preferences_[std::string(id.str())];
     for (const auto& [key, value] : *device) {
       const Field* field = field_named(key.str());
       const std::string wrong = field == nullptr
                                     ? fmt::format("is no setting; there are {}", known_keys())
-                                    : take(*field, value, wishes);
+                                    : take(*field, value, preferences);
       if (!wrong.empty())
         book.troubles_.push_back(fmt::format("{}: {}: {}: {}; it is left aside", file,
                                              base::shown(id.str()), base::shown(key.str()), wrong));
@@ -132,9 +132,9 @@ DeviceBook DeviceBook::read(const std::filesystem::path& path) {
   return book;
 }
 
-DeviceWishes DeviceBook::of(const std::string& id) const {
-  const auto known = wishes_.find(id);
-  return known != wishes_.end() ? known->second : DeviceWishes{};
+DevicePreferences DeviceBook::of(const std::string& id) const {
+  const auto known = preferences_.find(id);
+  return known != preferences_.end() ? known->second : DevicePreferences{};
 }
 
 Status DeviceBook::set(const std::string& id, std::string_view assignment) {
@@ -150,31 +150,31 @@ Status DeviceBook::set(const std::string& id, std::string_view assignment) {
     written = key + "=" + base::toml_text(written.substr(equals + 1));
   const auto table = parse_toml(written, "the setting");
   const toml::node* value = table ? table->get(key) : nullptr;
-  DeviceWishes wishes = of(id);
+  DevicePreferences preferences = of(id);
   const std::string wrong = value == nullptr ? std::string("has no value that can be read")
-                                             : take(*field, *value, wishes);
+                                             : take(*field, *value, preferences);
   if (!wrong.empty())
     return error(Trouble::usage, fmt::format("{}: {} {}", base::shown(assignment), key, wrong));
-  wishes_[id] = wishes;
+  preferences_[id] = preferences;
   return fine();
 }
 
 std::string DeviceBook::text() const {
   std::string text =
       "# What burr does with each haptic device. Changed by `burr devices set` or here.\n";
-  for (const auto& [id, kept] : wishes_) {
+  for (const auto& [id, kept] : preferences_) {
     text += fmt::format("\n[{}]\n", base::toml_text(id));
-    DeviceWishes wishes = kept;
+    DevicePreferences preferences = kept;
     for (const Field& field : kFields) {
       text += fmt::format("# {}\n{} = ", field.means, field.key);
       if (field.number != nullptr)
-        text += fmt::format("{:g}\n", field.number(wishes));
+        text += fmt::format("{:g}\n", field.number(preferences));
       else if (field.button != nullptr)
-        text += fmt::format("{}\n", field.button(wishes));
+        text += fmt::format("{}\n", field.button(preferences));
       else if (field.axes != nullptr)
-        text += fmt::format("\"{}\"\n", device::words_of_axes(field.axes(wishes)));
+        text += fmt::format("\"{}\"\n", device::words_of_axes(field.axes(preferences)));
       else
-        text += fmt::format("{}\n", field.yes(wishes));
+        text += fmt::format("{}\n", field.yes(preferences));
     }
   }
   return text;
@@ -202,9 +202,9 @@ Status DeviceBook::write(const std::filesystem::path& path) const {
   return file->put_in_place();
 }
 
-WishRange range_of_wish(std::string_view key) {
+PreferenceRange range_of_preference(std::string_view key) {
   const Field* field = field_named(key);
-  return field != nullptr ? WishRange{field->least, field->most} : WishRange{0, 0};
+  return field != nullptr ? PreferenceRange{field->least, field->most} : PreferenceRange{0, 0};
 }
 
 std::string id_of(const device::DeviceSpec& spec) {

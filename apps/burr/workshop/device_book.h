@@ -1,4 +1,4 @@
-// apps/burr/workshop/device_book.h - what a user wishes of each haptic device, kept by its serial number in
+// apps/burr/workshop/device_book.h - what a user preferences of each haptic device, kept by its serial number in
 // one readable TOML file.
 //
 //     ["Touch T-0001"]
@@ -22,7 +22,7 @@
 
 namespace burr::app {
 
-struct DeviceWishes {
+struct DevicePreferences {
   device::MappingSettings mapping;
   double max_force_n = 0;  // the user's own, beside the device's; 0: the device's
   double vibration = 0;    // gain of the spindle's buzz
@@ -36,27 +36,29 @@ class DeviceBook {
   [[nodiscard]] static DeviceBook parse(std::string_view text, std::string_view file);
   [[nodiscard]] const std::vector<std::string>& troubles() const { return troubles_; }
 
-  [[nodiscard]] DeviceWishes of(const std::string& id) const;
+  [[nodiscard]] DevicePreferences of(const std::string& id) const;
   // "scale=0.5"; error: no such field, or no such value.
   [[nodiscard]] Status set(const std::string& id, std::string_view assignment);
 
   // All at once, as a page of settings has them; each within its range.
-  void put(const std::string& id, const DeviceWishes& wishes) { wishes_[id] = wishes; }
+  void put(const std::string& id, const DevicePreferences& preferences) {
+    preferences_[id] = preferences;
+  }
 
   [[nodiscard]] std::string text() const;
   // Makes the folder.
   [[nodiscard]] Status write(const std::filesystem::path& path) const;
 
  private:
-  std::map<std::string, DeviceWishes> wishes_;
+  std::map<std::string, DevicePreferences> preferences_;
   std::vector<std::string> troubles_;
 };
 
 // What a number of it may be.
-struct WishRange {
+struct PreferenceRange {
   double least, most;
 };
-[[nodiscard]] WishRange range_of_wish(std::string_view key);
+[[nodiscard]] PreferenceRange range_of_preference(std::string_view key);
 
 // How a device is called in the book: its name and its serial number.
 [[nodiscard]] std::string id_of(const device::DeviceSpec& spec);

@@ -84,8 +84,8 @@ NamesThere names_there(const HandKind& kind) {
   return there;
 }
 
-Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish) {
-  const std::string& name = wish.device;
+Result<std::unique_ptr<device::Device>> make_hand(const HandRequest& request) {
+  const std::string& name = request.device;
   const std::string kind = name.substr(0, name.find(':'));
   const std::string which = kind.size() < name.size() ? name.substr(kind.size() + 1) : "";
   if (kind == "touch") {
@@ -96,8 +96,8 @@ Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish) {
   }
   if (kind == "force-dimension") {
     device::forcedimension::OmegaSettings settings;
-    settings.home_allowed = wish.home;
-    settings.is_homed = wish.is_homed;
+    settings.home_allowed = request.home;
+    settings.is_homed = request.is_homed;
     if (!which.empty()) {
       const auto [end, trouble] =
           std::from_chars(which.data(), which.data() + which.size(), settings.serial);
@@ -125,7 +125,7 @@ Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish) {
   if (kind == "crtk") {
     device::crtk::LeaderSettings settings;
     settings.arm = which;
-    settings.home_allowed = wish.home;
+    settings.home_allowed = request.home;
     return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
         std::make_unique<device::crtk::Leader>(std::move(settings))));
   }
@@ -134,9 +134,9 @@ Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish) {
       fmt::format("--device {}: burr drives no such device; take one of: {}", name, kinds_known()));
 }
 
-Result<LaidHand> lay_hand(const HandWish& wish, const math::Pose& start,
+Result<LaidHand> lay_hand(const HandRequest& request, const math::Pose& start,
                           const math::Quat& world_from_view) {
-  auto device = make_hand(wish);
+  auto device = make_hand(request);
   if (!device) return device.error();
   LaidHand laid;
   laid.hand = std::make_unique<device::MappedHand>(std::move(*device), start, world_from_view);
@@ -145,16 +145,16 @@ Result<LaidHand> lay_hand(const HandWish& wish, const math::Pose& start,
   const DeviceBook book = DeviceBook::read(users_book());
   laid.notices = book.troubles();
   laid.id = id_of(laid.hand->spec());
-  laid.wishes = book.of(laid.id);
-  DeviceWishes wishes = laid.wishes;
-  if (wish.scale) wishes.mapping.scale = *wish.scale;
-  wishes.mapping.dead_man = wishes.mapping.dead_man || wish.dead_man;
-  const Status set = laid.hand->set(wishes.mapping);
+  laid.preferences = book.of(laid.id);
+  DevicePreferences preferences = laid.preferences;
+  if (request.scale) preferences.mapping.scale = *request.scale;
+  preferences.mapping.dead_man = preferences.mapping.dead_man || request.dead_man;
+  const Status set = laid.hand->set(preferences.mapping);
   if (!set) return set.error();
   const double peak = laid.hand->spec().peak_force;
-  laid.max_force = wishes.max_force_n > 0 ? std::min(peak, wishes.max_force_n) : peak;
-  laid.vibration = wishes.vibration;
-  laid.torque = wishes.torque;
+  laid.max_force = preferences.max_force_n > 0 ? std::min(peak, preferences.max_force_n) : peak;
+  laid.vibration = preferences.vibration;
+  laid.torque = preferences.torque;
   return laid;
 }
 
@@ -164,24 +164,24 @@ double tick_rate(const device::DeviceSpec& spec) {
                     500.0, 10'000.0);
 }
 
-void add_homing_options(CLI::App& command, HandWish& wish) {
+void add_homing_options(CLI::App& command, HandRequest& request) {
   command.add_flag(
-      "--home", wish.home,
+      "--home", request.home,
       "a Force Dimension or CRTK arm may move by itself to find its home; keep the space free");
-  command.add_flag("--is-homed", wish.is_homed,
+  command.add_flag("--is-homed", request.is_homed,
                    "you homed the arm yourself, and its library cannot tell");
 }
 
-void add_hand_options(CLI::App& command, HandWish& wish) {
+void add_hand_options(CLI::App& command, HandRequest& request) {
   command.add_option(
-      "--device", wish.device,
+      "--device", request.device,
       fmt::format("a haptic device: {}; NAME:WHICH where there are several", kinds_known()));
   command
-      .add_option("--device-scale", wish.scale,
+      .add_option("--device-scale", request.scale,
                   "way of the tip over way of the hand; smaller: finer work, softer walls")
       ->check(CLI::Range(0.1, 10.0));
-  add_homing_options(command, wish);
-  command.add_flag("--dead-man", wish.dead_man,
+  add_homing_options(command, request);
+  command.add_flag("--dead-man", request.dead_man,
                    "the device pushes only while its mill button is held");
 }
 

@@ -27,7 +27,7 @@ class App;
 
 namespace burr::app {
 
-struct HandWish {
+struct HandRequest {
   std::string device;  // empty: the mouse, or a simulated hand
   // where given by hand, in place of what the book says (device_book.h)
   std::optional<double> scale;
@@ -55,19 +55,19 @@ struct NamesThere {
 [[nodiscard]] NamesThere names_there(const HandKind& kind);
 
 // Error: no kind of that name; says which there are. The device itself is looked for by open().
-[[nodiscard]] Result<std::unique_ptr<device::Device>> make_hand(const HandWish& wish);
+[[nodiscard]] Result<std::unique_ptr<device::Device>> make_hand(const HandRequest& request);
 
-// The same, open and laid over a bone as its user wishes: the tip begins at `start`, the axes are
+// The same, open and laid over a bone as its user preferences: the tip begins at `start`, the axes are
 // those of the view.
 struct LaidHand {
   std::unique_ptr<device::MappedHand> hand;
   double max_force = 0;              // the user's own and the device's [N]
   double vibration = 0, torque = 1;  // gains
   std::string id;                    // in the book
-  DeviceWishes wishes;               // as the book has them
+  DevicePreferences preferences;     // as the book has them
   std::vector<std::string> notices;  // of the book
 };
-[[nodiscard]] Result<LaidHand> lay_hand(const HandWish& wish, const math::Pose& start,
+[[nodiscard]] Result<LaidHand> lay_hand(const HandRequest& request, const math::Pose& start,
                                         const math::Quat& world_from_view);
 
 // The rate of ticks that suits a device: its own, or a whole part of it near a thousand [Hz].
@@ -77,8 +77,8 @@ struct LaidHand {
 [[nodiscard]] std::string kinds_known();
 
 // --home, --is-homed
-void add_homing_options(CLI::App& command, HandWish& wish);
+void add_homing_options(CLI::App& command, HandRequest& request);
 // The same, and --device with all that goes with it.
-void add_hand_options(CLI::App& command, HandWish& wish);
+void add_hand_options(CLI::App& command, HandRequest& request);
 
 }  // namespace burr::app

@@ -17,12 +17,12 @@ Hearing::Hearing(const tick::ServoSettings& settings, ToSpare to_spare)
   now_.irrigated = settings.irrigated;
 }
 
-void Hearing::obey(const tick::Wish& wish) {
-  if (wish.kind == tick::WishKind::irrigation) now_.irrigated = wish.value > 0;
-  if (wish.kind == tick::WishKind::burr_kind) now_.teeth = wish.value > 0 ? 0 : teeth_;
-  if (wish.kind == tick::WishKind::burr_radius && wish.value > 0 &&
-      wish.value <= 0.5 * tool::kLargestDiameter)
-    radius_ = wish.value;
+void Hearing::obey(const tick::Command& command) {
+  if (command.kind == tick::CommandKind::irrigation) now_.irrigated = command.value > 0;
+  if (command.kind == tick::CommandKind::burr_kind) now_.teeth = command.value > 0 ? 0 : teeth_;
+  if (command.kind == tick::CommandKind::burr_radius && command.value > 0 &&
+      command.value <= 0.5 * tool::kLargestDiameter)
+    radius_ = command.value;
 }
 
 const sound::Heard& Hearing::hear(const tick::TickRow& row) {

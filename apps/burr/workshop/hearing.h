@@ -23,8 +23,8 @@ class Hearing {
 
   explicit Hearing(const tick::ServoSettings& settings, ToSpare to_spare = {});
 
-  // A wish as the servo obeyed it; some change what is heard.
-  void obey(const tick::Wish& wish);
+  // A command as the servo obeyed it; some change what is heard.
+  void obey(const tick::Command& command);
   // The newest row, or the next one of a recording; rows may be left out.
   [[nodiscard]] const sound::Heard& hear(const tick::TickRow& row);
 

@@ -135,9 +135,9 @@ Status Recording::finish(sim::Session& session) {
     if (done && !done->whole())
       return error(
           Trouble::io,
-          fmt::format("{}: {} ticks, {} wishes and {} bricks could not be written in time "
+          fmt::format("{}: {} ticks, {} commands and {} bricks could not be written in time "
                       "and are missing; record to a faster disk",
-                      file_, done->dropped_ticks, done->dropped_wishes, done->dropped_bricks));
+                      file_, done->dropped_ticks, done->dropped_commands, done->dropped_bricks));
   }
   const std::lock_guard lock(mutex_);
   if (!trouble_) return fine();

@@ -14,7 +14,7 @@
 #include "burr/record/recorder.h"
 #include "burr/sim/session.h"
 #include "burr/volume/greys.h"
-#include "workshop/nearby.h"
+#include "workshop/spared_distance.h"
 #include "workshop/volume_options.h"
 
 namespace burr::app {

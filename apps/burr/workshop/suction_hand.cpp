@@ -9,9 +9,9 @@ Result<std::unique_ptr<SuctionHand>> SuctionHand::join(sim::Session& session,
                                                        const std::string& device,
                                                        const math::Pose& start,
                                                        const math::Quat& world_from_view) {
-  HandWish wish;
-  wish.device = device;
-  auto laid = lay_hand(wish, start, world_from_view);
+  HandRequest request;
+  request.device = device;
+  auto laid = lay_hand(request, start, world_from_view);
   if (!laid) return laid.error();
   device::MappedHand& hand = *laid->hand;
   tick::SecondHandSettings settings;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "workshop/still.h"
+#include "workshop/work_view.h"
 
 namespace burr::app {
 namespace {
@@ -30,42 +30,43 @@ void Traces::begin(double t, const record::Timeline& timeline) {
   const auto ticks = static_cast<std::uint64_t>(std::max(0.0, t) * player_.info().rate_hz);
   steps_ = player_.steps(player_.first_tick() + ticks);
   ahead_ = false;
-  radius_ = timeline.wished(tick::WishKind::burr_radius, t).value_or(settings_.burr.radius);
+  radius_ = timeline.requested(tick::CommandKind::burr_radius, t).value_or(settings_.burr.radius);
   if (!(radius_ > 0)) radius_ = settings_.burr.radius;
-  irrigated_ = timeline.wished(tick::WishKind::irrigation, t).value_or(settings_.irrigated) > 0;
+  irrigated_ =
+      timeline.requested(tick::CommandKind::irrigation, t).value_or(settings_.irrigated) > 0;
 }
 
-Traces::Told Traces::until(double t) {
-  Told told;
+Traces::StatusLine Traces::until(double t) {
+  StatusLine told;
   tell(t, kEvery, told);
   return told;
 }
 
-Traces::Told Traces::until(double t, const record::Timeline& timeline) {
-  Told told;
+Traces::StatusLine Traces::until(double t, const record::Timeline& timeline) {
+  StatusLine told;
   told.anew = t < asked_ || t > asked_ + kFar;
   if (told.anew) begin(t - kAgo, timeline);
   tell(t, told.anew ? kEveryOfMany : kEvery, told);
   return told;
 }
 
-void Traces::tell(double t, std::uint64_t every, Told& told) {
+void Traces::tell(double t, std::uint64_t every, StatusLine& told) {
   asked_ = t;
   for (;;) {
     if (!ahead_ && !steps_.next(step_)) return;
     ahead_ = time_of(step_.row) > t;
     if (ahead_) return;
-    for (const tick::Wish& wish : step_.wishes)
-      if (wish.kind == tick::WishKind::irrigation)
-        irrigated_ = wish.value > 0;
-      else if (wish.kind == tick::WishKind::burr_radius && wish.value > 0)
-        radius_ = wish.value;
+    for (const tick::Command& command : step_.commands)
+      if (command.kind == tick::CommandKind::irrigation)
+        irrigated_ = command.value > 0;
+      else if (command.kind == tick::CommandKind::burr_radius && command.value > 0)
+        radius_ = command.value;
     if (step_.row.tick % every == 0)
       told.ticks.push_back(wound_tick(step_.row, player_.info().rate_hz, radius_, irrigated_));
   }
 }
 
-void Traces::Told::show(render::Wound& wound) const {
+void Traces::StatusLine::show(render::Wound& wound) const {
   if (anew) wound.forget();
   for (const render::Wound::Tick& tick : ticks) wound.see(tick);
 }

@@ -19,7 +19,7 @@ namespace burr::app {
 
 class Traces {
  public:
-  struct Told {
+  struct StatusLine {
     bool anew = false;  // what was seen before does not count
     std::vector<render::Wound::Tick> ticks;
     void show(render::Wound& wound) const;
@@ -28,13 +28,13 @@ class Traces {
   Traces(record::Player& player, const tick::ServoSettings& settings);
 
   // All that happened since the moment asked before, up to t [s], which is no earlier.
-  [[nodiscard]] Told until(double t);
+  [[nodiscard]] StatusLine until(double t);
   // The same for any t: a jump back, or far ahead, is told from a minute before t, in larger steps.
-  [[nodiscard]] Told until(double t, const record::Timeline& timeline);
+  [[nodiscard]] StatusLine until(double t, const record::Timeline& timeline);
 
  private:
   void begin(double t, const record::Timeline& timeline);
-  void tell(double t, std::uint64_t every, Told& told);
+  void tell(double t, std::uint64_t every, StatusLine& told);
   [[nodiscard]] double time_of(const tick::TickRow& row) const;
 
   record::Player& player_;

@@ -11,7 +11,7 @@
 #include "burr/importing/materials.h"
 #include "burr/phantom/phantoms.h"
 #include "burr/volume/volume_of.h"
-#include "workshop/ready_bone.h"
+#include "workshop/prebuilt_phantom.h"
 
 namespace burr::app {
 namespace {
@@ -49,7 +49,7 @@ Result<importing::Imported> open_phantom(const VolumeOptions& options, Progress&
   }
   importing::Imported made;
   const bool usual = options.voxel_mm == 0 || options.voxel_mm == phantom::default_voxel_mm(name);
-  if (usual && !made_of) made.bone = ready_bone(name, options.reserve_bricks);
+  if (usual && !made_of) made.bone = prebuilt_phantom(name, options.reserve_bricks);
   if (!made.bone) {
     auto bone =
         phantom::phantom(name, options.voxel_mm, progress, options.reserve_bricks, 2, made_of);

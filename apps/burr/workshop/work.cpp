@@ -11,7 +11,7 @@
 
 #include "burr/math/turn.h"
 #include "burr/scenario/case.h"
-#include "workshop/live_bone.h"
+#include "workshop/live_surface.h"
 
 namespace burr::app {
 namespace {
@@ -138,7 +138,7 @@ Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress) {
     ready.hands.real = laid->hand.get();
     ready.hands.max_force = laid->max_force;
     ready.hands.id = laid->id;
-    ready.hands.wishes = laid->wishes;
+    ready.hands.preferences = laid->preferences;
     hand = std::move(laid->hand);
   }
   ready.title = options.title.empty() ? work.what : options.title;
@@ -162,13 +162,13 @@ Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress) {
     auto arm = device::crtk::Arm::open({.name = options.told_as, .middle = above.p});
     if (!arm) return arm.error();
     ready.arm = std::move(*arm);
-    ready.teller = std::make_unique<ArmTeller>(*ready.session, *ready.arm);
+    ready.teller = std::make_unique<ArmPublisher>(*ready.session, *ready.arm);
   }
   volume::Bone& bone = ready.session->bone();
   ready.spared = to_spare(bone.tissues(), options.spare);
-  auto nearby = Nearby::make(bone, ready.spared, progress);
-  if (!nearby) return nearby.error();
-  ready.nearby = std::make_unique<const Nearby>(std::move(*nearby));
+  auto spared_distance = SparedDistance::make(bone, ready.spared, progress);
+  if (!spared_distance) return spared_distance.error();
+  ready.spared_distance = std::make_unique<const SparedDistance>(std::move(*spared_distance));
   ready.scene.tissue_colours = render::colours_of(bone.tissues());
   ready.worker = std::make_unique<surface::Worker>(bone, 1);
   const Status status = ready.worker->first(

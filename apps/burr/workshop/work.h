@@ -18,9 +18,9 @@
 #include "burr/surface/worker.h"
 #include "burr/surgeon/motion.h"
 #include "window/hands/mouse_hand.h"
-#include "workshop/arm_teller.h"
+#include "workshop/arm_publisher.h"
 #include "workshop/hand_device.h"
-#include "workshop/nearby.h"
+#include "workshop/spared_distance.h"
 #include "workshop/suction_hand.h"
 #include "workshop/volume_options.h"
 
@@ -30,7 +30,7 @@ struct WorkOptions {
   VolumeOptions volume;         // path: a case, a .toml file, a phantom or a scan
   double burr_mm = 0, rpm = 0;  // 0: the case's, or 5 mm and 40 000
   double seconds = 0;           // of the demonstration; 0: the case's
-  HandWish hand;                // at the window
+  HandRequest hand;             // at the window
   std::string suction;          // likewise: a second device for the other hand; empty: none
   std::string told_as;          // likewise: a CRTK arm by which others may watch; empty: nobody may
   // what only a case says
@@ -74,12 +74,12 @@ struct Ready {
   Hands hands;  // the session's
   std::unique_ptr<SuctionHand> suction;
   std::unique_ptr<device::crtk::Arm> arm;
-  std::unique_ptr<ArmTeller> teller;
+  std::unique_ptr<ArmPublisher> teller;
   std::unique_ptr<surface::Worker> worker;
-  render::Scene scene;                         // with its surface and first view
-  std::shared_ptr<const volume::Greys> greys;  // of a scan
-  Tissues spared;                              // that must not be cut
-  std::unique_ptr<const Nearby> nearby;        // how far they are
+  render::Scene scene;                                    // with its surface and first view
+  std::shared_ptr<const volume::Greys> greys;             // of a scan
+  Tissues spared;                                         // that must not be cut
+  std::unique_ptr<const SparedDistance> spared_distance;  // how far they are
 };
 // A hand's axes, x right, y up, z to the user, as one looks at the bone; world_from_view.
 [[nodiscard]] math::Quat view_of_hand(const render::Camera& camera);

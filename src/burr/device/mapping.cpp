@@ -17,7 +17,7 @@ MappedHand::MappedHand(std::unique_ptr<Device> device, const math::Pose& start,
       settings_(settings),
       laid_(world_from_hand),
       turn_(world_from_hand * settings.axes),
-      wished_(turn_),
+      requested_(turn_),
       at_(start.p),
       tip_(start.p),
       held_(start.q) {}
@@ -36,7 +36,7 @@ Status MappedHand::set(const MappingSettings& settings) {
         Trouble::usage,
         fmt::format("a device's scale of {} is out of range; take 0.1 to 10", settings.scale));
   settings_ = settings;
-  turn_ = wished_ = laid_ * settings_.axes;
+  turn_ = requested_ = laid_ * settings_.axes;
   spec_ = device_->spec();
   spec_.max_stiffness /= settings_.scale;
   spec_.max_damping /= settings_.scale;
@@ -60,13 +60,13 @@ HandState MappedHand::state(double dt) BURR_RT {
       settings_.dead_man && !down(settings_.mill_button) && foot <= 0 && hand.pedal <= 0;
   const bool lifted = asleep || (hand.buttons & kLifted) != 0 ||
                       lifted_.load(std::memory_order_relaxed) || down(settings_.clutch_button);
-  if (turns_.take(laid_)) wished_ = laid_ * settings_.axes;
-  const bool turns = forced_ == Vec3::Zero() && turn_.coeffs() != wished_.coeffs();
+  if (turns_.take(laid_)) requested_ = laid_ * settings_.axes;
+  const bool turns = forced_ == Vec3::Zero() && turn_.coeffs() != requested_.coeffs();
   if (lifted || !anchored_ || turns) {
     at_ = tip_;
     from_ = raw;
     anchored_ = true;
-    if (forced_ == Vec3::Zero()) turn_ = wished_;
+    if (forced_ == Vec3::Zero()) turn_ = requested_;
   }
   tip_ = at_ + settings_.scale * (turn_ * (raw - from_));
   held_ = turn_ * hand.world_from_tool.q;

@@ -73,8 +73,8 @@ class MappedHand final : public Device {
   std::atomic<double> pedal_ = 0;
 
   // the servo's own
-  math::Quat laid_;                            // world_from_hand, as last wished
-  math::Quat turn_, wished_;                   // world_from_device
+  math::Quat laid_;                            // world_from_hand, as last requested
+  math::Quat turn_, requested_;                // world_from_device
   math::Vec3 at_, from_ = math::Vec3::Zero();  // the tip, when the hand was there
   math::Vec3 tip_;
   math::Vec3 forced_ = math::Vec3::Zero();

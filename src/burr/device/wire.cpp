@@ -8,7 +8,8 @@ namespace burr::device {
 namespace {
 
 constexpr auto kComeBack = std::chrono::milliseconds(500);  // between two tries to find it again
-constexpr auto kLook = std::chrono::milliseconds(5);  // in which a wish to stop is seen meanwhile
+constexpr auto kLook =
+    std::chrono::milliseconds(5);              // in which a request to stop is seen meanwhile
 constexpr std::int64_t kFastestNs = 200'000;   // a device that never waits is asked no more often
 constexpr std::int64_t kTellNs = 100'000'000;  // no oftener is what is wrong told
 
@@ -35,7 +36,7 @@ Status WireDevice::open() {
   stop_ = false;
   say({});
   thread_ = std::make_unique<rt::Thread>(
-      rt::ThreadWish{.name = "wire", .realtime = true, .priority = 82}, [this] { work(); });
+      rt::ThreadRequest{.name = "wire", .realtime = true, .priority = 82}, [this] { work(); });
   return fine();
 }
 

@@ -14,7 +14,7 @@ using volume::kBrickEdge;
 using volume::kBrickVoxels;
 
 constexpr std::uint32_t kPutOff = 1U << 15;  // of haptics/contact.h, as in carve.cpp
-constexpr int kMostTurns = Carver::kMostTurns;
+constexpr int kMostSlices = Carver::kMostSlices;
 constexpr int kRounding = 8;       // of a second difference: three of them, of rounded values
 constexpr int kMayDiffer = 4096;   // a quarter of a voxel
 constexpr int kLeastSlope = 4096;  // of a ramp along its steepest axis, a voxel  [field units]
@@ -180,14 +180,14 @@ Brush::Box Brush::box_of(const Vec3& centre, double reach) const BURR_RT {
   return box;
 }
 
-// As many turns as the bricks of the last tick need.
-void Brush::begin(int least_turns, std::uint32_t& flags) BURR_RT {
-  int turns = std::clamp(least_turns, 1, kMostTurns);
-  while (turns < kMostTurns && found_ > turns * kUsualBricks) turns *= 2;
-  if (turns != turns_) turn_ = 0;
-  turns_ = turns;
-  if (least_turns > 1) flags |= kPutOff;
-  turn_ = (turn_ + 1) % turns_;
+// As many slices as the bricks of the last tick need.
+void Brush::begin(int least_slices, std::uint32_t& flags) BURR_RT {
+  int slices = std::clamp(least_slices, 1, kMostSlices);
+  while (slices < kMostSlices && found_ > slices * kUsualBricks) slices *= 2;
+  if (slices != slices_) slice_ = 0;
+  slices_ = slices;
+  if (least_slices > 1) flags |= kPutOff;
+  slice_ = (slice_ + 1) % slices_;
   found_ = worked_ = 0;
   crowded_ = false;
 }
@@ -202,7 +202,7 @@ void Brush::find(const Sides& sides, int side, double reach, const Wants& wants)
       for (int bi = box.lo.x(); bi <= box.hi.x(); ++bi) {
         if (!wants(bi, bj, bk)) continue;
         ++found_;
-        const unsigned layers = layers_of({bi, bj, bk}, half, turns_, turn_);
+        const unsigned layers = layers_of({bi, bj, bk}, half, slices_, slice_);
         if (layers == 0) continue;
         if (worked_ == most) {
           crowded_ = true;
@@ -216,7 +216,7 @@ void Brush::find(const Sides& sides, int side, double reach, const Wants& wants)
 }
 
 // Some of the one side and others of the other's would be no mirror: rather nothing, until there
-// are more turns.
+// are more slices.
 void Brush::end_finding(const Mirror& mirror, std::uint32_t& flags) BURR_RT {
   if (!mirror.on() || !crowded_) return;
   worked_ = 0;
@@ -224,12 +224,12 @@ void Brush::end_finding(const Mirror& mirror, std::uint32_t& flags) BURR_RT {
 }
 
 int Brush::units_a_tick(const Brushing& now) const BURR_RT {
-  const double voxels = kSpeed * now.strength * now.dt * turns_ / bone_.grid().voxel;
+  const double voxels = kSpeed * now.strength * now.dt * slices_ / bone_.grid().voxel;
   return static_cast<int>(std::clamp(std::ceil(voxels * volume::kFieldPerVoxel), 0.0, 65535.0));
 }
 
 void Brush::restore(const Brushing& now, std::uint32_t& flags) BURR_RT {
-  begin(now.turns, flags);
+  begin(now.slices, flags);
   const int most = units_a_tick(now);
   const double reach = now.radius + kReach;
   const Sides sides = sides_of(now.centre, now.mirror);
@@ -350,7 +350,7 @@ bool Brush::move(Patch& patch, const Half& half, float share, float anew, float 
 }
 
 void Brush::smooth(const Brushing& now, std::uint32_t& flags) BURR_RT {
-  begin(now.turns, flags);
+  begin(now.slices, flags);
   const double radius = kShare * now.radius;
   const Sides sides = sides_of(now.centre + now.radius * now.push, now.mirror);
   for (int side = 0; side < sides.count; ++side)
@@ -365,8 +365,8 @@ void Brush::smooth(const Brushing& now, std::uint32_t& flags) BURR_RT {
 
   const double h = bone_.grid().voxel;
   const auto share =
-      static_cast<float>(now.strength * std::min(kSpread * now.dt * turns_ / (h * h), kMostShare));
-  const auto anew = static_cast<float>(now.strength * std::min(kAnew * turns_, 1.0));
+      static_cast<float>(now.strength * std::min(kSpread * now.dt * slices_ / (h * h), kMostShare));
+  const auto anew = static_cast<float>(now.strength * std::min(kAnew * slices_, 1.0));
   const auto most = static_cast<float>(units_a_tick(now));
   for (int n = 0; n < worked_; ++n) {
     Patch& patch = patches_[static_cast<std::size_t>(n)];

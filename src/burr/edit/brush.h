@@ -22,7 +22,7 @@
 // own image: each side by its own surface, its own original and its own mean curvature.
 //
 // Thread: servo. Frame: p_grid [voxel]. Memory: 0.7 MB, at construction. Cost: kMostBricks bricks a
-// tick and side; more of them take turns, and each then goes as far as it would have gone
+// tick and side; more of them take slices of time, and each then goes as far as it would have gone
 // meanwhile.
 #pragma once
 
@@ -45,7 +45,7 @@ struct Brushing {
   double radius = 0;    // of the burr [voxel]
   double strength = 1;  // 0..1, by the pedal
   double dt = 1e-3;     // [s]
-  int turns = 1;        // at least so many; a power of two
+  int slices = 1;       // at least so many; a power of two
   Mirror mirror = {};   // the same is done across it
 };
 
@@ -95,8 +95,8 @@ class Brush {
                Sums& sums) const BURR_RT;
   [[nodiscard]] bool move(Patch& patch, const Half& half, float share, float anew, float mean,
                           float most) const BURR_RT;
-  void begin(int least_turns, std::uint32_t& flags) BURR_RT;
-  // Takes down the bricks of a side that want something, as `wants` says, and have their turn.
+  void begin(int least_slices, std::uint32_t& flags) BURR_RT;
+  // Takes down the bricks of a side that want something, as `wants` says, and have their slice.
   template <class Wants>
   void find(const Sides& sides, int side, double reach, const Wants& wants) BURR_RT;
   void end_finding(const Mirror& mirror, std::uint32_t& flags) BURR_RT;
@@ -106,10 +106,10 @@ class Brush {
   const UndoStore& undo_;
   Carver& carver_;
   std::vector<Patch> patches_;
-  int found_ = 0;             // bricks that wanted something in the last tick
-  int worked_ = 0;            // of them worked on
-  bool crowded_ = false;      // more of a side than may be
-  int turns_ = 1, turn_ = 0;  // this many; the present one
+  int found_ = 0;               // bricks that wanted something in the last tick
+  int worked_ = 0;              // of them worked on
+  bool crowded_ = false;        // more of a side than may be
+  int slices_ = 1, slice_ = 0;  // this many; the present one
 };
 
 }  // namespace burr::edit

@@ -20,7 +20,7 @@ using volume::kBrickEdge;
 using volume::kBrickVoxels;
 
 constexpr std::size_t kMostWork = 1024;  // bricks a side in one tick: 7 mm at 0.1 mm takes 400
-// Bricks in one tick from which on they are cut in turns though nobody is in a hurry: each of so
+// Bricks in one tick from which on they are cut in slices though nobody is in a hurry: each of so
 // many loses a hair a tick, and costs as much as if it lost four.
 constexpr double kManyBricks = 72;
 constexpr int kUsualTurns = 4;  // at most
@@ -118,7 +118,7 @@ Carver::Carver(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo
 
 // Finds in every brick that the ball meets what stands above it (or lacks below it).
 void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], bool deposit,
-                    int turns, const Half& half, std::uint32_t& flags) BURR_RT {
+                    int slices, const Half& half, std::uint32_t& flags) BURR_RT {
   const std::size_t most_work = work_count_ + kMostWork;
   const double reach = radius + volume::kRamp;
   math::Ijk lo, hi;
@@ -132,7 +132,7 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
   for (int bk = lo.z(); bk <= hi.z(); ++bk)
     for (int bj = lo.y(); bj <= hi.y(); ++bj)
       for (int bi = lo.x(); bi <= hi.x(); ++bi) {
-        const unsigned layers = layers_of({bi, bj, bk}, half, turns, turn_);
+        const unsigned layers = layers_of({bi, bj, bk}, half, slices, slice_);
         if (layers == 0) continue;
         const BrickIndex brick = bone_.brick_at(bi, bj, bk);
         if (!deposit && highest_[static_cast<std::size_t>(brick)] == 0) continue;
@@ -190,7 +190,7 @@ void Carver::begin_gathering() BURR_RT {
 }
 
 // Half of what the one side gave and all of the other's would be no mirror: rather nothing, until
-// there are more turns.
+// there are more slices.
 void Carver::end_gathering(const Mirror& mirror) BURR_RT {
   if (!mirror.on() || !crowded_) return;
   work_count_ = hand_count_ = 0;
@@ -255,47 +255,49 @@ Carver::Done Carver::apply(double share, bool deposit, volume::TissueId material
   return done;
 }
 
-// As many as wished, or as it takes for the bricks to fit into the list: no tick may take forever.
+// As many as requested, or as it takes for the bricks to fit into the list: no tick may take forever.
 int Carver::choose_turns(int wanted, std::uint32_t& flags) BURR_RT {
   if (crowded_) {
-    crowd_turns_ = std::min(2 * crowd_turns_, kMostTurns);
-  } else if (crowd_turns_ > 1 && std::max(hand_count_, work_count_ - hand_count_) < kMostWork / 4) {
-    crowd_turns_ /= 2;
+    crowd_slices_ = std::min(2 * crowd_slices_, kMostSlices);
+  } else if (crowd_slices_ > 1 &&
+             std::max(hand_count_, work_count_ - hand_count_) < kMostWork / 4) {
+    crowd_slices_ /= 2;
   }
   double bricks = 0;
-  for (int t = 0; t < turns_; ++t) bricks += parts_[t].bricks;
+  for (int t = 0; t < slices_; ++t) bricks += parts_[t].bricks;
   if (bricks > kManyBricks * usual_turns_ && usual_turns_ < kUsualTurns) usual_turns_ *= 2;
   if (bricks < 0.4 * kManyBricks * usual_turns_ && usual_turns_ > 1) usual_turns_ /= 2;
-  const int late = std::max(wanted, crowd_turns_);
+  const int late = std::max(wanted, crowd_slices_);
   if (late > 1) flags |= kPutOff;
-  const int turns = std::min(late * usual_turns_, kMostTurns);
-  if (turns != turns_) {
-    turns_ = turns;
-    turn_ = 0;
+  const int slices = std::min(late * usual_turns_, kMostSlices);
+  if (slices != slices_) {
+    slices_ = slices;
+    slice_ = 0;
     // nothing is known yet of the others' parts; the first is taken for the mean of all
-    std::fill_n(parts_, turns, Part{});
+    std::fill_n(parts_, slices, Part{});
   }
-  return turns;
+  return slices;
 }
 
-// What all turns together have to give, from what each found when it last came.  [units]
-double Carver::excess_of_all_turns() BURR_RT {
-  parts_[turn_] = {total_units_, static_cast<int>(work_count_), true};
-  turn_ = (turn_ + 1) % turns_;
+// What all slices together have to give, from what each found when it last came.  [units]
+double Carver::excess_of_all_slices() BURR_RT {
+  parts_[slice_] = {total_units_, static_cast<int>(work_count_), true};
+  slice_ = (slice_ + 1) % slices_;
   double sum = 0;
   int known = 0;
-  for (int t = 0; t < turns_; ++t) {
+  for (int t = 0; t < slices_; ++t) {
     sum += static_cast<double>(parts_[t].units);
     known += parts_[t].known ? 1 : 0;
   }
-  return sum * turns_ / known;
+  return sum * slices_ / known;
 }
 
 // A debt older than patience at the present rate of asking is not going to be cut.
-void Carver::write_off(double asked_units, double dt, int turns) BURR_RT {
+void Carver::write_off(double asked_units, double dt, int slices) BURR_RT {
   const double blend = std::min(1.0, dt / settings_.patience);
   rate_ += (asked_units / dt - rate_) * blend;
-  const double patience = settings_.patience + (turns - 1) * dt;  // until it is every brick's turn
+  const double patience =
+      settings_.patience + (slices - 1) * dt;  // until it is every brick's slice
   const double most = patience * std::max(rate_, asked_units / dt);
   if (debt_ > most) {
     not_cut_ += debt_ - most;
@@ -312,20 +314,20 @@ void Carver::take_account_of(const Done& removed) BURR_RT {
 
 void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
   constexpr float kNone[4] = {0, 0, 0, -1};
-  const int turns = choose_turns(cut.turns, flags);
+  const int slices = choose_turns(cut.slices, flags);
   const Sides sides = sides_of(cut.centre + advance_ * cut.push, cut.mirror);
   begin_gathering();
   for (int s = 0; s < sides.count; ++s)
-    gather(sides.centre[s], cut.radius + margin_, kNone, false, turns, sides.half[s], flags);
+    gather(sides.centre[s], cut.radius + margin_, kNone, false, slices, sides.half[s], flags);
   end_gathering(cut.mirror);
   last_energy_density_ = mean_energy();
   const double asked = cut.energy / last_energy_density_ / unit_m3_;
   asked_ += asked;
   debt_ += asked;
   energy_ += cut.energy;
-  // every brick gives the same share of its excess, whichever turn is its own: what is asked until
-  // the turn comes round again, and what is still owed
-  const double all = excess_of_all_turns(), owed = debt_ + (turns - 1) * asked;
+  // every brick gives the same share of its excess, whichever slice is its own: what is asked until
+  // the slice comes round again, and what is still owed
+  const double all = excess_of_all_slices(), owed = debt_ + (slices - 1) * asked;
   const bool blocked = all < owed;
   const Done removed = apply(share_of(owed, all, cut.mirror), false, 0, flags);
   take_account_of(removed);
@@ -334,13 +336,13 @@ void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
       std::clamp(margin_ + (blocked ? settings_.margin_rise : -settings_.margin_fall) * cut.dt,
                  least_margin_, std::max(least_margin_, settings_.margin_most));
   const double before = not_cut_;
-  write_off(asked, cut.dt, turns);
+  write_off(asked, cut.dt, slices);
   if (not_cut_ > before) flags |= kNotCut;
 }
 
 void Carver::deposit(const Cut& cut, std::uint32_t& flags) BURR_RT {
   const double radius = settings_.deposit_share * cut.radius;
-  const int turns = choose_turns(cut.turns, flags);
+  const int slices = choose_turns(cut.slices, flags);
   const Sides sides = sides_of(cut.centre + cut.radius * cut.push, cut.mirror);
   begin_gathering();
   for (int s = 0; s < sides.count; ++s) {
@@ -348,13 +350,13 @@ void Carver::deposit(const Cut& cut, std::uint32_t& flags) BURR_RT {
     const float keep_out[4] = {static_cast<float>(burr.x()), static_cast<float>(burr.y()),
                                static_cast<float>(burr.z()),
                                static_cast<float>(cut.radius + settings_.deposit_gap)};
-    gather(sides.centre[s], radius, keep_out, true, turns, sides.half[s], flags);
+    gather(sides.centre[s], radius, keep_out, true, slices, sides.half[s], flags);
   }
   end_gathering(cut.mirror);
-  const double patience = settings_.patience + (turns - 1) * cut.dt;
+  const double patience = settings_.patience + (slices - 1) * cut.dt;
   const double asked = cut.volume / unit_m3_;
   added_debt_ = std::min(added_debt_ + asked, asked * patience / cut.dt);
-  const double all = excess_of_all_turns(), owed = added_debt_ + (turns - 1) * asked;
+  const double all = excess_of_all_slices(), owed = added_debt_ + (slices - 1) * asked;
   const Done added = apply(share_of(owed, all, cut.mirror), true, cut.material, flags);
   added_ += added.hand + added.image;
   image_added_ += added.image;

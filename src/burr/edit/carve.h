@@ -60,13 +60,13 @@ struct Cut {
   double volume = 0;              // to be put on this tick [m^3] (deposit)
   volume::TissueId material = 1;  // deposit: what
   double dt = 1e-3;               // [s]
-  int turns = 1;                  // the bricks are cut in so many ticks, in turn; a power of two
+  int slices = 1;                 // the bricks are cut in so many ticks, in slice; a power of two
   Mirror mirror = {};             // the same is done across it
 };
 
 class Carver {
  public:
-  static constexpr int kMostTurns = 64;  // more than the largest burr on the finest voxel needs
+  static constexpr int kMostSlices = 64;  // more than the largest burr on the finest voxel needs
   // changed: every brick written is told to it; may be nullptr
   Carver(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo, ChangedQueue* changed,
          const CarveSettings& settings);
@@ -114,17 +114,17 @@ class Carver {
   };
   void begin_gathering() BURR_RT;
   void gather(const math::Vec3& centre, double radius, const float keep_out[4], bool deposit,
-              int turns, const Half& half, std::uint32_t& flags) BURR_RT;
+              int slices, const Half& half, std::uint32_t& flags) BURR_RT;
   void gather_inside(const math::Vec3& centre, double radius, int amount, const Half& half,
                      std::uint32_t& flags) BURR_RT;
   void end_gathering(const Mirror& mirror) BURR_RT;
   [[nodiscard]] int choose_turns(int wanted, std::uint32_t& flags) BURR_RT;
-  [[nodiscard]] double excess_of_all_turns() BURR_RT;
+  [[nodiscard]] double excess_of_all_slices() BURR_RT;
   [[nodiscard]] Done apply(double share, bool deposit, volume::TissueId material,
                            std::uint32_t& flags) BURR_RT;
   [[nodiscard]] double mean_energy() const BURR_RT;
   void take_account_of(const Done& removed) BURR_RT;
-  void write_off(double asked_units, double dt, int turns) BURR_RT;
+  void write_off(double asked_units, double dt, int slices) BURR_RT;
   void note_whole(volume::BrickIndex brick, const volume::BrickField& before,
                   const volume::BrickField& now) BURR_RT;
 
@@ -142,15 +142,15 @@ class Carver {
   std::vector<Work> work_;
   std::size_t work_count_ = 0, hand_count_ = 0;  // the hand's come first
   bool crowded_ = false;                         // more bricks than work_ holds
-  int crowd_turns_ = 1;                          // in how many turns they fit
+  int crowd_slices_ = 1;                         // in how many slices they fit
   int usual_turns_ = 1;                          // in how many it is worth the while
   struct Part {
-    std::int64_t units = 0;  // excess of the turn's bricks
+    std::int64_t units = 0;  // excess of the slice's bricks
     int bricks = 0;
     bool known = false;
   };
-  Part parts_[kMostTurns] = {};  // of each turn, when it last came
-  int turns_ = 1, turn_ = 0;     // this many; the next
+  Part parts_[kMostSlices] = {};  // of each slice, when it last came
+  int slices_ = 1, slice_ = 0;    // this many; the next
   std::int64_t total_units_ = 0;
 
   double asked_ = 0, debt_ = 0, not_cut_ = 0;           // [units]

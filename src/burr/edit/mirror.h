@@ -9,8 +9,8 @@
 // they do what the union of both would, and nothing twice. Voxels on the plane itself are the
 // hand's.
 //
-// Bricks are not mirrored by a plane that lies somewhere among them. Where bricks take turns, a
-// voxel of the image has the turn of the brick that its own image is in: by layers of a brick.
+// Bricks are not mirrored by a plane that lies somewhere among them. Where bricks take slices of time, a
+// voxel of the image has the slice of the brick that its own image is in: by layers of a brick.
 //
 // Thread: any. Frame: p_grid [voxel].
 #pragma once
@@ -94,20 +94,20 @@ struct Sides {
   return in ? at : half.mirror.image_of(at);
 }
 
-// Bricks work in turns where there are too many; odd steps: along every axis the next brick is
-// another turn's. turns: a power of two
-[[nodiscard]] inline bool has_turn(int bi, int bj, int bk, int turns, int turn) BURR_RT {
-  return static_cast<unsigned>(bi + 3 * bj + 5 * bk) % static_cast<unsigned>(turns) ==
-         static_cast<unsigned>(turn);
+// Bricks work in slices where there are too many; odd steps: along every axis the next brick is
+// of another slice. slices: a power of two
+[[nodiscard]] inline bool has_slice(int bi, int bj, int bk, int slices, int slice) BURR_RT {
+  return static_cast<unsigned>(bi + 3 * bj + 5 * bk) % static_cast<unsigned>(slices) ==
+         static_cast<unsigned>(slice);
 }
 
 inline constexpr unsigned kAllLayers = 0xFF;
 
-// Layers of a brick across the mirror's axis that are in the half and have their turn: bit n, the
+// Layers of a brick across the mirror's axis that are in the half and have their slice: bit n, the
 // n-th; all or none without a mirror.
-[[nodiscard]] inline unsigned layers_of(const math::Ijk& brick, const Half& half, int turns,
-                                        int turn) BURR_RT {
-  if (!half.is_image && !has_turn(brick.x(), brick.y(), brick.z(), turns, turn)) return 0;
+[[nodiscard]] inline unsigned layers_of(const math::Ijk& brick, const Half& half, int slices,
+                                        int slice) BURR_RT {
+  if (!half.is_image && !has_slice(brick.x(), brick.y(), brick.z(), slices, slice)) return 0;
   if (!half.mirror.on()) return kAllLayers;
   const int axis = half.mirror.axis;
   unsigned layers = 0;
@@ -117,7 +117,7 @@ inline constexpr unsigned kAllLayers = 0xFF;
     if (half.is_image) {
       math::Ijk of = brick;
       of[axis] = (half.mirror.twice - v) >> 3;
-      if (!has_turn(of.x(), of.y(), of.z(), turns, turn)) continue;
+      if (!has_slice(of.x(), of.y(), of.z(), slices, slice)) continue;
     }
     layers |= 1U << n;
   }

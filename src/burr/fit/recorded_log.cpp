@@ -101,14 +101,14 @@ Result<ForceLog> log_of_recording(record::Player& player, double window,
   double removed = 0, radius = law->radius;
   std::uint64_t removing = 0;
   while (steps.next(step)) {
-    for (const tick::Wish& wish : step.wishes) {
-      if (wish.kind == tick::WishKind::burr_radius) radius = wish.value;
-      if (wish.kind == tick::WishKind::burr_kind && (wish.value > 0) == law->fluted)
+    for (const tick::Command& command : step.commands) {
+      if (command.kind == tick::CommandKind::burr_radius) radius = command.value;
+      if (command.kind == tick::CommandKind::burr_kind && (command.value > 0) == law->fluted)
         return error(
             fmt::format("{}: the burr was changed between cutting and diamond on the way; record "
                         "one session for each",
                         file));
-      if (wish.kind == tick::WishKind::removal_law && wish.value == 1)
+      if (command.kind == tick::CommandKind::removal_law && command.value == 1)
         return error(
             fmt::format("{}: was milled in part by the thesis' removal, which knows no "
                         "force; record with --removal energy",

@@ -39,12 +39,12 @@ Result<std::unique_ptr<Player>> Player::open(const std::string& path) {
   player->notices_ = player->reader_->notices();
   const McapReader& file = *player->reader_;
   player->tick_channel_ = file.channel_of(kTicks.name);
-  player->wish_channel_ = file.channel_of(kWishes.name);
+  player->command_channel_ = file.channel_of(kCommands.name);
   player->event_channel_ = file.channel_of(kEvents.name);
   player->change_channel_ = file.channel_of(kChanges.name);
   player->keyframe_channel_ = file.channel_of(kKeyframes.name);
   if (Status read = player->read_session(); !read.ok()) return read.error();
-  player->step_chunks_ = player->chunks_with(player->tick_channel_, player->wish_channel_);
+  player->step_chunks_ = player->chunks_with(player->tick_channel_, player->command_channel_);
   player->change_chunks_ = player->chunks_with(player->change_channel_);
   player->keyframe_chunks_ = player->chunks_with(player->keyframe_channel_);
   player->read_events();
@@ -104,15 +104,15 @@ void Player::read_events() {
           to = std::max(to, at->get<std::uint64_t>());
       };
       count("dropped_ticks", dropped_ticks_);
-      count("dropped_wishes", dropped_wishes_);
+      count("dropped_wishes", dropped_commands_);
       count("dropped_bricks", dropped_bricks_);
     }
   }
-  if (dropped_ticks_ + dropped_wishes_ + dropped_bricks_ > 0)
+  if (dropped_ticks_ + dropped_commands_ + dropped_bricks_ > 0)
     notice(
-        fmt::format("{}: the disk could not keep up while recording, {} ticks, {} wishes and {} "
+        fmt::format("{}: the disk could not keep up while recording, {} ticks, {} commands and {} "
                     "changed bricks are missing",
-                    path_, dropped_ticks_, dropped_wishes_, dropped_bricks_));
+                    path_, dropped_ticks_, dropped_commands_, dropped_bricks_));
 }
 
 void Player::find_ends() {
@@ -120,7 +120,7 @@ void Player::find_ends() {
   StepCursor first = steps();
   if (!first.next(step)) return;
   first_tick_ = step.row.tick;
-  // each chunk is read once: there may be many with wishes alone
+  // each chunk is read once: there may be many with commands alone
   std::vector<tick::TickRow> rows;
   for (std::size_t c = step_chunks_.size(); c-- > 0 && rows.empty();) {
     const auto chunk = reader_->read_chunk(step_chunks_[c]);
@@ -150,18 +150,18 @@ bool StepCursor::fill() {
       continue;
     }
     for (const McapMessage& message : chunk->messages) {
-      tick::WishRow wish;
+      tick::CommandRow command;
       if (message.channel == player.tick_channel_ && !decode_ticks(message.data, rows_))
         player_->notice(
             fmt::format("{}: a message of ticks near {:.3f} s is malformed and was "
                         "left out",
                         player.path_, static_cast<double>(message.time_ns) * 1e-9));
-      if (message.channel == player.wish_channel_) {
-        if (wish_from_json(as_text(message.data), wish))
-          wishes_.push_back(wish);
+      if (message.channel == player.command_channel_) {
+        if (command_from_json(as_text(message.data), command))
+          commands_.push_back(command);
         else
           player_->notice(
-              fmt::format("{}: a wish near {:.3f} s is not understood and was left "
+              fmt::format("{}: a command near {:.3f} s is not understood and was left "
                           "out; was it recorded by a newer burr?",
                           player.path_, static_cast<double>(message.time_ns) * 1e-9));
       }
@@ -179,9 +179,9 @@ bool StepCursor::next(Step& step) {
     step.row = row;
     step.gap = row.tick != (last_tick_ ? *last_tick_ + 1 : first_tick_);
     last_tick_ = row.tick;
-    step.wishes.clear();
-    for (; !wishes_.empty() && wishes_.front().tick <= row.tick; wishes_.pop_front())
-      if (wishes_.front().tick == row.tick) step.wishes.push_back(wishes_.front().wish);
+    step.commands.clear();
+    for (; !commands_.empty() && commands_.front().tick <= row.tick; commands_.pop_front())
+      if (commands_.front().tick == row.tick) step.commands.push_back(commands_.front().command);
     return true;
   }
 }

@@ -2,7 +2,7 @@
 // scene at any moment, without simulating anything.
 //
 //     auto player = Player::open("s.mcap");
-//     StepCursor steps = (*player)->steps();       // for a replay: row and wishes, tick by tick
+//     StepCursor steps = (*player)->steps();       // for a replay: row and commands, tick by tick
 //     while (steps.next(step)) { ... }
 //     (*player)->bone_at(12.5, *bone);             // last keyframe, then the changes since
 //
@@ -30,8 +30,8 @@ namespace burr::record {
 
 // One tick as a replay needs it.
 struct Step {
-  tick::TickRow row;               // inputs, and what came of them
-  std::vector<tick::Wish> wishes;  // taken at the start of this tick, in order
+  tick::TickRow row;                    // inputs, and what came of them
+  std::vector<tick::Command> commands;  // taken at the start of this tick, in order
   bool gap = false;  // ticks before this one are missing: dropped, or in a damaged stretch
 };
 
@@ -54,7 +54,7 @@ class StepCursor {
   std::optional<std::uint64_t> last_tick_;
   std::vector<tick::TickRow> rows_;
   std::size_t row_ = 0;
-  std::deque<tick::WishRow> wishes_;
+  std::deque<tick::CommandRow> commands_;
 };
 
 // Goes through the changed bricks in order, as the servo pushed them: whole contents.
@@ -88,7 +88,7 @@ class Player {
   [[nodiscard]] double seconds() const { return static_cast<double>(end_tick_) / info_.rate_hz; }
   // rows the recorder had to drop, as far as the file says
   [[nodiscard]] std::uint64_t dropped_ticks() const { return dropped_ticks_; }
-  [[nodiscard]] std::uint64_t dropped_wishes() const { return dropped_wishes_; }
+  [[nodiscard]] std::uint64_t dropped_commands() const { return dropped_commands_; }
   [[nodiscard]] std::uint64_t dropped_bricks() const { return dropped_bricks_; }
 
   // ---- in order
@@ -137,13 +137,13 @@ class Player {
   std::unique_ptr<McapReader> reader_;
   SessionInfo info_;
   std::vector<std::string> notices_;
-  std::uint16_t tick_channel_ = 0, wish_channel_ = 0, event_channel_ = 0, change_channel_ = 0,
+  std::uint16_t tick_channel_ = 0, command_channel_ = 0, event_channel_ = 0, change_channel_ = 0,
                 keyframe_channel_ = 0;
   // which chunks have what; by their place in the file, and so in time
-  std::vector<std::size_t> step_chunks_;  // ticks or wishes
+  std::vector<std::size_t> step_chunks_;  // ticks or commands
   std::vector<std::size_t> change_chunks_, keyframe_chunks_;
   std::uint64_t first_tick_ = 0, end_tick_ = 0;
-  std::uint64_t dropped_ticks_ = 0, dropped_wishes_ = 0, dropped_bricks_ = 0;
+  std::uint64_t dropped_ticks_ = 0, dropped_commands_ = 0, dropped_bricks_ = 0;
 
   // the bone as far as bone_at() has come
   bool state_good_ = false;

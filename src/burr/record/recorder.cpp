@@ -62,7 +62,7 @@ class Recorder::Pen {
     for (std::size_t i = 0; i < kTopics.size(); ++i) {
       const std::string_view name = kTopics[i].name;
       if (name == kTicks.name) tick_channel_ = ids[i];
-      if (name == kWishes.name) wish_channel_ = ids[i];
+      if (name == kCommands.name) command_channel_ = ids[i];
       if (name == kEvents.name) event_channel_ = ids[i];
       if (name == kChanges.name) change_channel_ = ids[i];
       if (name == kKeyframes.name) keyframe_channel_ = ids[i];
@@ -70,7 +70,7 @@ class Recorder::Pen {
     last_write_ = Clock::now();
     syncer_ = std::thread([this] { sync_run(); });
     thread_ = std::make_unique<rt::Thread>(
-        rt::ThreadWish{.name = "pen", .realtime = recorder.realtime_, .priority = kPenPriority},
+        rt::ThreadRequest{.name = "pen", .realtime = recorder.realtime_, .priority = kPenPriority},
         [this] { run(); });
   }
   ~Pen() { stop(); }
@@ -102,7 +102,7 @@ class Recorder::Pen {
   }
 
   [[nodiscard]] bool crowded() const {
-    return half_full(recorder_.ticks_) || half_full(recorder_.wishes_) ||
+    return half_full(recorder_.ticks_) || half_full(recorder_.commands_) ||
            half_full(recorder_.bricks_);
   }
 
@@ -170,10 +170,10 @@ class Recorder::Pen {
   // after a failure: the rings must not look full for ever, wait_for_room() would not return
   void discard() {
     tick::TickRow tick;
-    tick::WishRow wish;
+    tick::CommandRow command;
     tick::BrickRow brick;
     while (recorder_.ticks_.pop(tick)) ++account_.dropped_ticks;
-    while (recorder_.wishes_.pop(wish)) ++account_.dropped_wishes;
+    while (recorder_.commands_.pop(command)) ++account_.dropped_commands;
     while (recorder_.bricks_.pop(brick)) ++account_.dropped_bricks;
   }
 
@@ -182,7 +182,7 @@ class Recorder::Pen {
     // newer waits for its tick, so that chunks follow each other in time.
     take_ticks();
     const std::uint64_t until = last ? std::numeric_limits<std::uint64_t>::max() : end_tick_;
-    take_wishes(until);
+    take_commands(until);
     take_bricks(until);
     note_dropped();
     Status written = write_chunk();
@@ -200,11 +200,11 @@ class Recorder::Pen {
     const auto number = [](std::uint64_t value) { return fmt::format("{}", value); };
     if (Status added = writer_->add_metadata("burr.account",
                                              {{"ticks", number(account_.ticks)},
-                                              {"wishes", number(account_.wishes)},
+                                              {"wishes", number(account_.commands)},
                                               {"brick_rows", number(account_.brick_rows)},
                                               {"keyframes", number(account_.keyframes)},
                                               {"dropped_ticks", number(account_.dropped_ticks)},
-                                              {"dropped_wishes", number(account_.dropped_wishes)},
+                                              {"dropped_wishes", number(account_.dropped_commands)},
                                               {"dropped_bricks", number(account_.dropped_bricks)}});
         !added.ok())
       return added;
@@ -278,11 +278,11 @@ class Recorder::Pen {
     return true;
   }
 
-  void take_wishes(std::uint64_t until) {
-    tick::WishRow row;
-    while (next_until(recorder_.wishes_, waiting_wish_, until, row)) {
-      put(wish_channel_, row.tick, as_bytes(to_json(row)));
-      ++account_.wishes;
+  void take_commands(std::uint64_t until) {
+    tick::CommandRow row;
+    while (next_until(recorder_.commands_, waiting_command_, until, row)) {
+      put(command_channel_, row.tick, as_bytes(to_json(row)));
+      ++account_.commands;
     }
   }
 
@@ -365,19 +365,19 @@ class Recorder::Pen {
 
   void note_dropped() {
     const auto before =
-        std::tuple(account_.dropped_ticks, account_.dropped_wishes, account_.dropped_bricks);
+        std::tuple(account_.dropped_ticks, account_.dropped_commands, account_.dropped_bricks);
     account_.dropped_ticks = recorder_.ticks_.dropped();
-    account_.dropped_wishes = recorder_.wishes_.dropped();
+    account_.dropped_commands = recorder_.commands_.dropped();
     account_.dropped_bricks = recorder_.bricks_.dropped();
     if (before !=
-        std::tuple(account_.dropped_ticks, account_.dropped_wishes, account_.dropped_bricks))
+        std::tuple(account_.dropped_ticks, account_.dropped_commands, account_.dropped_bricks))
       put_event("dropped");
   }
 
   void put_event(const char* event) {
     const std::string text = fmt::format(
-        R"({{"event":"{}","tick":{},"dropped_ticks":{},"dropped_wishes":{},"dropped_bricks":{}}})",
-        event, last_tick(), account_.dropped_ticks, account_.dropped_wishes,
+        R"({{"event":"{}","tick":{},"dropped_ticks":{},"dropped_commands":{},"dropped_bricks":{}}})",
+        event, last_tick(), account_.dropped_ticks, account_.dropped_commands,
         account_.dropped_bricks);
     put(event_channel_, last_tick(), as_bytes(text));
   }
@@ -408,7 +408,7 @@ class Recorder::Pen {
   Recorder& recorder_;
   std::unique_ptr<McapWriter> writer_;
   std::function<void(const Error&)> on_trouble_;
-  std::uint16_t tick_channel_ = 0, wish_channel_ = 0, event_channel_ = 0, change_channel_ = 0,
+  std::uint16_t tick_channel_ = 0, command_channel_ = 0, event_channel_ = 0, change_channel_ = 0,
                 keyframe_channel_ = 0;
   std::map<std::uint16_t, std::uint32_t> sequence_;
 
@@ -418,7 +418,7 @@ class Recorder::Pen {
   bool failed_ = false;
   Clock::time_point last_write_;
   std::uint64_t end_tick_ = 0;  // ticks before this one are taken
-  std::optional<tick::WishRow> waiting_wish_;
+  std::optional<tick::CommandRow> waiting_command_;
   std::optional<tick::BrickRow> waiting_brick_;
   std::unordered_map<volume::BrickIndex, BrickContent> mirror_;  // what the file says of the bone
   std::uint64_t batch_ = 0;
@@ -444,7 +444,7 @@ class Recorder::Pen {
 
 Recorder::Recorder(double rate_hz, std::size_t brick_rows, bool realtime)
     : ticks_(ring_rows(rate_hz)),
-      wishes_(1024),
+      commands_(1024),
       bricks_(brick_rows),
       rate_hz_(rate_hz),
       realtime_(realtime) {}

@@ -3,7 +3,7 @@
 //
 //     Recorder recorder(rate_hz);
 //     recorder.start("s.mcap", info, embed ? &bone : nullptr);
-//       servo, each tick:  wishes().push, bricks().push ..., then ticks().push     (wait-free)
+//       servo, each tick:  commands().push, bricks().push ..., then ticks().push     (wait-free)
 //       not paced by a clock: between ticks, wait_for_room()
 //     recorder.finish();
 //
@@ -37,13 +37,13 @@ namespace burr::record {
 
 // What was written, and what was not.
 struct RecordingAccount {
-  std::uint64_t ticks = 0, wishes = 0, brick_rows = 0, keyframes = 0;
-  std::uint64_t dropped_ticks = 0, dropped_wishes = 0, dropped_bricks = 0;
+  std::uint64_t ticks = 0, commands = 0, brick_rows = 0, keyframes = 0;
+  std::uint64_t dropped_ticks = 0, dropped_commands = 0, dropped_bricks = 0;
   std::uint64_t safe_ticks = 0;  // of these, handed to the kernel: what the file holds
   std::uint64_t bytes = 0;       // of the file
   double longest_pause_s = 0;    // between two chunks handed to the kernel; what a kill may lose
   [[nodiscard]] bool whole() const {
-    return dropped_ticks == 0 && dropped_wishes == 0 && dropped_bricks == 0;
+    return dropped_ticks == 0 && dropped_commands == 0 && dropped_bricks == 0;
   }
 };
 
@@ -66,9 +66,9 @@ class Recorder {
                              const volume::Bone* embed = nullptr,
                              std::function<void(const Error&)> on_trouble = {});
 
-  // ---- the servo's side; within a tick: wishes, bricks, then the tick
+  // ---- the servo's side; within a tick: commands, bricks, then the tick
   [[nodiscard]] rt::Ring<tick::TickRow>& ticks() BURR_RT { return ticks_; }
-  [[nodiscard]] rt::Ring<tick::WishRow>& wishes() BURR_RT { return wishes_; }
+  [[nodiscard]] rt::Ring<tick::CommandRow>& commands() BURR_RT { return commands_; }
   [[nodiscard]] rt::Ring<tick::BrickRow>& bricks() BURR_RT { return bricks_; }
 
   // For a session as fast as possible: call between ticks, on the servo's thread; waits (not
@@ -90,7 +90,7 @@ class Recorder {
  private:
   class Pen;
   rt::Ring<tick::TickRow> ticks_;
-  rt::Ring<tick::WishRow> wishes_;
+  rt::Ring<tick::CommandRow> commands_;
   rt::Ring<tick::BrickRow> bricks_;
   double rate_hz_;
   bool realtime_;

@@ -308,10 +308,10 @@ constexpr const char* kSessionSchema = R"({
  }
 })";
 
-constexpr const char* kWishSchema = R"({
+constexpr const char* kCommandSchema = R"({
  "$schema": "https://json-schema.org/draft/2020-12/schema",
  "title": "burr.Wish",
- "description": "A wish the servo obeyed at the start of a tick.",
+ "description": "A command that the servo took at the start of a tick.",
  "type": "object",
  "properties": {
   "tick": {"type": "integer"},
@@ -334,43 +334,43 @@ constexpr const char* kEventSchema = R"({
  }
 })";
 
-const char* wish_name(tick::WishKind kind) {
+const char* command_name(tick::CommandKind kind) {
   switch (kind) {
-    case tick::WishKind::spindle_speed:
+    case tick::CommandKind::spindle_speed:
       return "spindle_speed";
-    case tick::WishKind::burr_radius:
+    case tick::CommandKind::burr_radius:
       return "burr_radius";
-    case tick::WishKind::stiffness:
+    case tick::CommandKind::stiffness:
       return "stiffness";
-    case tick::WishKind::user_force:
+    case tick::CommandKind::user_force:
       return "user_force";
-    case tick::WishKind::tool_mode:
+    case tick::CommandKind::tool_mode:
       return "tool_mode";
-    case tick::WishKind::undo:
+    case tick::CommandKind::undo:
       return "undo";
-    case tick::WishKind::redo:
+    case tick::CommandKind::redo:
       return "redo";
-    case tick::WishKind::reset:
+    case tick::CommandKind::reset:
       return "reset";
-    case tick::WishKind::friction:
+    case tick::CommandKind::friction:
       return "friction";
-    case tick::WishKind::load:
+    case tick::CommandKind::shed:
       return "load";
-    case tick::WishKind::touch_method:
+    case tick::CommandKind::touch_method:
       return "touch_method";
-    case tick::WishKind::removal_law:
+    case tick::CommandKind::removal_law:
       return "removal_law";
-    case tick::WishKind::irrigation:
+    case tick::CommandKind::irrigation:
       return "irrigation";
-    case tick::WishKind::mirror_i:
+    case tick::CommandKind::mirror_i:
       return "mirror_i";
-    case tick::WishKind::mirror_j:
+    case tick::CommandKind::mirror_j:
       return "mirror_j";
-    case tick::WishKind::mirror_k:
+    case tick::CommandKind::mirror_k:
       return "mirror_k";
-    case tick::WishKind::mirror_off:
+    case tick::CommandKind::mirror_off:
       return "mirror_off";
-    case tick::WishKind::burr_kind:
+    case tick::CommandKind::burr_kind:
       return "burr_kind";
   }
   return "";
@@ -393,7 +393,7 @@ bool values_of(ByteSpan bytes, std::vector<T>& values) {
 
 std::string schema_data(std::string_view schema_name) {
   if (schema_name == kSession.schema_name) return kSessionSchema;
-  if (schema_name == kWishes.schema_name) return kWishSchema;
+  if (schema_name == kCommands.schema_name) return kCommandSchema;
   if (schema_name == kEvents.schema_name) return kEventSchema;
   if (schema_name == kChanges.schema_name) return descriptor("Bricks", kBrickFields);
   std::vector<FieldText> fields;
@@ -457,14 +457,15 @@ std::size_t tick_columns_size() {
   return size;
 }
 
-std::string to_json(const tick::WishRow& row) {
-  json object = {{"tick", row.tick}, {"kind", wish_name(row.wish.kind)}, {"value", row.wish.value}};
-  if (std::isnan(row.wish.value)) object["value"] = "nan";
-  if (std::isinf(row.wish.value)) object["value"] = row.wish.value > 0 ? "inf" : "-inf";
+std::string to_json(const tick::CommandRow& row) {
+  json object = {
+      {"tick", row.tick}, {"kind", command_name(row.command.kind)}, {"value", row.command.value}};
+  if (std::isnan(row.command.value)) object["value"] = "nan";
+  if (std::isinf(row.command.value)) object["value"] = row.command.value > 0 ? "inf" : "-inf";
   return object.dump();
 }
 
-bool wish_from_json(std::string_view text, tick::WishRow& row) {
+bool command_from_json(std::string_view text, tick::CommandRow& row) {
   const json object = json::parse(text, nullptr, false);
   if (!object.is_object()) return false;
   const auto tick = object.find("tick"), kind = object.find("kind"), value = object.find("value");
@@ -473,22 +474,22 @@ bool wish_from_json(std::string_view text, tick::WishRow& row) {
     return false;
   row.tick = tick->get<std::uint64_t>();
   if (value->is_number()) {
-    row.wish.value = value->get<double>();
+    row.command.value = value->get<double>();
   } else {
     const double infinity = std::numeric_limits<double>::infinity();
     if (*value == "nan")
-      row.wish.value = std::numeric_limits<double>::quiet_NaN();
+      row.command.value = std::numeric_limits<double>::quiet_NaN();
     else if (*value == "inf" || *value == "-inf")
-      row.wish.value = *value == "inf" ? infinity : -infinity;
+      row.command.value = *value == "inf" ? infinity : -infinity;
     else
       return false;
   }
   for (unsigned k = 0; k < 256; ++k) {
-    const auto known = static_cast<tick::WishKind>(k);
-    const std::string_view name = wish_name(known);
+    const auto known = static_cast<tick::CommandKind>(k);
+    const std::string_view name = command_name(known);
     if (name.empty()) break;
     if (*kind == name) {
-      row.wish.kind = known;
+      row.command.kind = known;
       return true;
     }
   }

@@ -30,11 +30,11 @@ struct Topic {
 };
 inline constexpr Topic kSession = {"/session", "json", "burr.Session", "jsonschema"};
 inline constexpr Topic kTicks = {"/ticks", "protobuf", "burr.Ticks", "protobuf"};
-inline constexpr Topic kWishes = {"/wishes", "json", "burr.Wish", "jsonschema"};
+inline constexpr Topic kCommands = {"/wishes", "json", "burr.Wish", "jsonschema"};
 inline constexpr Topic kEvents = {"/events", "json", "burr.Event", "jsonschema"};
 inline constexpr Topic kChanges = {"/bone/changes", "protobuf", "burr.Bricks", "protobuf"};
 inline constexpr Topic kKeyframes = {"/bone/keyframes", "protobuf", "burr.Bricks", "protobuf"};
-inline constexpr std::array<Topic, 6> kTopics = {kSession, kTicks,   kWishes,
+inline constexpr std::array<Topic, 6> kTopics = {kSession, kTicks,   kCommands,
                                                  kEvents,  kChanges, kKeyframes};
 inline constexpr const char* kBoneAttachment = "bone";
 inline constexpr const char* kBoneMediaType = "application/x-burr-bone";
@@ -49,9 +49,9 @@ void encode_ticks(std::span<const tick::TickRow> rows, BytesOut& out);
 // bytes of a row that are written; for the test that no field is forgotten
 [[nodiscard]] std::size_t tick_columns_size();
 
-// ---- wishes
-[[nodiscard]] std::string to_json(const tick::WishRow& row);
-[[nodiscard]] bool wish_from_json(std::string_view text, tick::WishRow& row);
+// ---- commands
+[[nodiscard]] std::string to_json(const tick::CommandRow& row);
+[[nodiscard]] bool command_from_json(std::string_view text, tick::CommandRow& row);
 
 // ---- bricks
 // What a brick is like; tissue only where it differs from the bone as it was opened.

@@ -19,11 +19,11 @@ double Timeline::force_in(double from_s, double to_s) const {
                         force.begin() + static_cast<std::ptrdiff_t>(last) + 1));
 }
 
-std::optional<double> Timeline::wished(tick::WishKind kind, double t_s) const {
+std::optional<double> Timeline::requested(tick::CommandKind kind, double t_s) const {
   std::optional<double> value;
   for (const TimelineEvent& event : events) {
     if (event.t_s > t_s) break;
-    if (event.wish.kind == kind) value = event.wish.value;
+    if (event.command.kind == kind) value = event.command.value;
   }
   return value;
 }
@@ -76,9 +76,9 @@ void TimelineMaker::add(const Step& step) {
       line_.work = {row.contact.proxy, outward};
   }
 
-  for (const tick::Wish& wish : step.wishes)
-    if (wish.kind != tick::WishKind::load)
-      line_.events.push_back({t, wish});  // that one is the servo's
+  for (const tick::Command& command : step.commands)
+    if (command.kind != tick::CommandKind::shed)
+      line_.events.push_back({t, command});  // that one is the servo's
 }
 
 Timeline TimelineMaker::finish() { return std::move(line_); }

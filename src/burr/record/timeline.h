@@ -1,12 +1,12 @@
 // record/timeline.h - a whole session on one line: when bone was cut, how hard the hand was pushed,
-// what was wished for, and where the work was.
+// what was requested for, and where the work was.
 //
 //     auto line = timeline_of(**player, progress);        // one pass over all ticks
 //     line->force_in(12.0, 12.1)                          // the most of that tenth of a second
 //
 // Force is kept as the largest of each of a fixed number of parts of the session: a peak of one
 // tick is seen however long the session was.
-// Thread: one. Memory: fixed, and the strokes and wishes.
+// Thread: one. Memory: fixed, and the strokes and commands.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct Stroke {
 
 struct TimelineEvent {
   double t_s = 0;
-  tick::Wish wish;
+  tick::Command command;
 };
 
 struct Timeline {
@@ -38,7 +38,7 @@ struct Timeline {
   double seconds = 0;
   std::vector<Stroke> strokes;        // in order, apart by more than kPause
   std::vector<float> force;           // (kParts) the largest of each part  [N]
-  std::vector<TimelineEvent> events;  // what people wished, in order
+  std::vector<TimelineEvent> events;  // what people requested, in order
   double peak_force = 0;              // [N]
   struct Work {
     math::Vec3 at, outward;  // the burr's centre; unit, out of the bone, or along the shaft
@@ -47,8 +47,8 @@ struct Timeline {
 
   // the largest force from one moment to another; of the part they lie in if that is longer
   [[nodiscard]] double force_in(double from_s, double to_s) const;
-  // what a wish of this kind set last, at or before t
-  [[nodiscard]] std::optional<double> wished(tick::WishKind kind, double t_s) const;
+  // what a command of this kind set last, at or before t
+  [[nodiscard]] std::optional<double> requested(tick::CommandKind kind, double t_s) const;
   // the stroke at t, or the next one before or after it: its begin; none: there is none
   [[nodiscard]] std::optional<double> stroke_after(double t_s) const;
   [[nodiscard]] std::optional<double> stroke_before(double t_s) const;

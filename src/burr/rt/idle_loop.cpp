@@ -4,8 +4,8 @@
 
 namespace burr::rt {
 
-IdleLoop::IdleLoop(double rate_hz, const ThreadWish& wish)
-    : thread_(wish, [this, rate_hz] {
+IdleLoop::IdleLoop(double rate_hz, const ThreadRequest& request)
+    : thread_(request, [this, rate_hz] {
         WallClock clock(rate_hz);
         while (!stop_.load(std::memory_order_relaxed)) {
           const TickTime time = clock.wait();

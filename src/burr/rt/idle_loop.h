@@ -18,7 +18,7 @@ namespace burr::rt {
 class IdleLoop {
  public:
   // Starts at once.
-  IdleLoop(double rate_hz, const ThreadWish& wish);
+  IdleLoop(double rate_hz, const ThreadRequest& request);
   ~IdleLoop() { static_cast<void>(stop()); }
   IdleLoop(const IdleLoop&) = delete;
   IdleLoop& operator=(const IdleLoop&) = delete;

@@ -17,9 +17,9 @@ Simd best() noexcept {
 }
 
 Simd at_start() noexcept {
-  const char* wish = std::getenv("BURR_SIMD");
+  const char* request = std::getenv("BURR_SIMD");
   for (const Simd one : {Simd::scalar, Simd::avx2, Simd::avx512})
-    if (wish != nullptr && std::string_view(wish) == name(one)) return std::min(one, best());
+    if (request != nullptr && std::string_view(request) == name(one)) return std::min(one, best());
   return best();
 }
 

@@ -42,7 +42,7 @@ bool lock_memory(std::string& why) {
   return false;
 }
 
-ThreadGrant ask(const ThreadWish& wish) {
+ThreadGrant ask(const ThreadRequest& request) {
   ThreadGrant grant;
   std::string missing;
   const auto miss = [&missing](const std::string& text) {
@@ -50,20 +50,20 @@ ThreadGrant ask(const ThreadWish& wish) {
     missing += text;
   };
 
-  if (wish.core >= 0) {
+  if (request.core >= 0) {
     int code = EINVAL;
-    if (wish.core < CPU_SETSIZE) {
+    if (request.core < CPU_SETSIZE) {
       cpu_set_t cores;
       CPU_ZERO(&cores);
-      CPU_SET(static_cast<unsigned>(wish.core), &cores);
+      CPU_SET(static_cast<unsigned>(request.core), &cores);
       code = pthread_setaffinity_np(pthread_self(), sizeof cores, &cores);
     }
     grant.pinned = code == 0;
-    if (code != 0) miss("not kept on core " + std::to_string(wish.core) + ": " + reason(code));
+    if (code != 0) miss("not kept on core " + std::to_string(request.core) + ": " + reason(code));
   }
-  if (wish.realtime) {
+  if (request.realtime) {
     sched_param param = {};
-    param.sched_priority = std::clamp(wish.priority, 1, 99);
+    param.sched_priority = std::clamp(request.priority, 1, 99);
     const int code = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
     grant.fifo = code == 0;
     if (code != 0) miss("ordinary priority instead of SCHED_FIFO: " + reason(code));
@@ -72,15 +72,15 @@ ThreadGrant ask(const ThreadWish& wish) {
     if (!grant.locked) miss("memory not locked: " + why);
   }
 
-  grant.sentence = wish.name + ": ";
+  grant.sentence = request.name + ": ";
   if (missing.empty()) {
-    grant.sentence += !wish.realtime
+    grant.sentence += !request.realtime
                           ? std::string("ordinary thread")
-                          : "SCHED_FIFO " + std::to_string(wish.priority) + ", memory locked";
-    if (grant.pinned) grant.sentence += ", core " + std::to_string(wish.core);
+                          : "SCHED_FIFO " + std::to_string(request.priority) + ", memory locked";
+    if (grant.pinned) grant.sentence += ", core " + std::to_string(request.core);
   } else {
     grant.sentence += missing;
-    if (wish.realtime)
+    if (request.realtime)
       grant.sentence +=
           " (ticks may come late; docs/realtime.md says how to allow it for your user)";
   }
@@ -97,14 +97,14 @@ struct Thread::Work {
   std::thread thread;
 };
 
-Thread::Thread(const ThreadWish& wish, std::function<void()> work)
+Thread::Thread(const ThreadRequest& request, std::function<void()> work)
     : work_(std::make_unique<Work>()) {
   Work& shared = *work_;
-  shared.thread = std::thread([&shared, wish, work = std::move(work)] {
-    pthread_setname_np(pthread_self(), wish.name.substr(0, 15).c_str());
-    ThreadGrant grant = ask(wish);
+  shared.thread = std::thread([&shared, request, work = std::move(work)] {
+    pthread_setname_np(pthread_self(), request.name.substr(0, 15).c_str());
+    ThreadGrant grant = ask(request);
     // the default stack is 8 MiB; leave room for the work itself
-    touch_stack(std::min<std::size_t>(wish.stack_bytes, 4 * 1024 * 1024));
+    touch_stack(std::min<std::size_t>(request.stack_bytes, 4 * 1024 * 1024));
     {
       const std::lock_guard lock(shared.mutex);
       shared.grant = std::move(grant);

@@ -15,7 +15,7 @@
 
 namespace burr::rt {
 
-struct ThreadWish {
+struct ThreadRequest {
   std::string name = "servo";            // as `top -H` shows it; at most 15 letters are kept
   bool realtime = false;                 // SCHED_FIFO and locked memory; false: an ordinary thread
   int priority = 80;                     // of SCHED_FIFO, 1..99; under the kernel's own threads
@@ -23,18 +23,18 @@ struct ThreadWish {
   std::size_t stack_bytes = 256 * 1024;  // touched before the work starts, so it never faults then
 };
 
-// What was given of what was wished.
+// What was given of what was requested.
 struct ThreadGrant {
   bool fifo = false;     // runs under SCHED_FIFO
   bool locked = false;   // memory touched once stays in RAM
-  bool pinned = false;   // stays on the wished core
+  bool pinned = false;   // stays on the requested core
   std::string sentence;  // "servo: SCHED_FIFO 80, memory locked" or what is missing, and the cure
 };
 
 class Thread {
  public:
   // Starts at once. work must not throw.
-  Thread(const ThreadWish& wish, std::function<void()> work);
+  Thread(const ThreadRequest& request, std::function<void()> work);
   ~Thread();  // joins
   Thread(const Thread&) = delete;
   Thread& operator=(const Thread&) = delete;

@@ -52,7 +52,7 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
                       step.row.tick);
       break;
     }
-    for (const tick::Wish& wish : step.wishes) servo.wishes().push(wish);
+    for (const tick::Command& command : step.commands) servo.commands().push(command);
     hand.set(step.row.hand);
     const tick::TickRow& row = servo.tick((step.row.contact.flags & haptics::kFlagWatchdog) != 0);
     servo.publish();

@@ -99,7 +99,7 @@ Status Session::join(std::unique_ptr<device::Device> device,
 void Session::set_recorder(record::Recorder* recorder) {
   recorder_ = recorder;
   tick::Diary diary;
-  if (recorder != nullptr) diary = {&recorder->ticks(), &recorder->wishes(), &recorder->bricks()};
+  if (recorder != nullptr) diary = {&recorder->ticks(), &recorder->commands(), &recorder->bricks()};
   servo_->set_diary(diary);
 }
 
@@ -111,9 +111,9 @@ void Session::loop(std::uint64_t ticks) {
                          : settings_.realtime ? static_cast<rt::TickClock&>(wall)
                                               : simulated;
   if (settings_.realtime) watchdog_->rearm(rt::monotonic_ns());
-  tick::LoadSettings load = settings_.load;
-  load.first_in_line = load.first_in_line || rt::goes_first();
-  tick::LoadGovernor governor(clock.period_ns(), load);
+  tick::ShedSettings shed = settings_.shed;
+  shed.first_in_line = shed.first_in_line || rt::goes_first();
+  tick::ShedGovernor governor(clock.period_ns(), shed);
   math::Vec3 last_force = math::Vec3::Zero(), last_torque = math::Vec3::Zero();
 
   for (std::uint64_t n = 0;
@@ -138,12 +138,12 @@ void Session::loop(std::uint64_t ticks) {
     servo_->publish();
 
     stats_.add(took);
-    ++load_ticks_[static_cast<std::size_t>(servo_->load())];
+    ++shed_ticks_[static_cast<std::size_t>(servo_->shed())];
     if (settings_.realtime) {
       stats_.add_lateness(time.late_ns, clock.period_ns(), time.missed);
       governor.note(rt::monotonic_ns() - began, time.late_ns, time.missed);
-      servo_->set_load(governor.load());
-      load_.store(governor.load(), std::memory_order_relaxed);
+      servo_->set_shed(governor.shed());
+      shed_.store(governor.shed(), std::memory_order_relaxed);
     }
     last_force = row.contact.force;
     last_torque = row.contact.torque;
@@ -201,14 +201,14 @@ void Session::take_ahead() {
 void Session::begin(std::uint64_t ticks) {
   stop_ = false;
   running_ = true;
-  thread_ =
-      std::make_unique<rt::Thread>(rt::ThreadWish{.name = "servo", .realtime = settings_.realtime},
-                                   [this, ticks] { loop(ticks); });
+  thread_ = std::make_unique<rt::Thread>(
+      rt::ThreadRequest{.name = "servo", .realtime = settings_.realtime},
+      [this, ticks] { loop(ticks); });
   grant_ = thread_->grant();
   if (settings_.realtime)
     guard_ = std::make_unique<rt::Thread>(
-        rt::ThreadWish{.name = "guard", .realtime = true, .priority = 85}, [this] { guard(); });
-  ahead_ = std::make_unique<rt::Thread>(rt::ThreadWish{.name = "ahead", .stack_bytes = 0},
+        rt::ThreadRequest{.name = "guard", .realtime = true, .priority = 85}, [this] { guard(); });
+  ahead_ = std::make_unique<rt::Thread>(rt::ThreadRequest{.name = "ahead", .stack_bytes = 0},
                                         [this] { take_ahead(); });
 }
 
@@ -270,10 +270,10 @@ Outcome Session::outcome() const {
   if (heat_) outcome.heat_rows_lost = heat_->dropped();
   outcome.timing = stats_.summary();
   outcome.scheduling = grant_.sentence;
-  outcome.load_ticks = load_ticks_;
-  for (int step = 0; step < tick::kLoads; ++step)
-    if (load_ticks_[static_cast<std::size_t>(step)] > 0)
-      outcome.most_load = static_cast<tick::Load>(step);
+  outcome.shed_ticks = shed_ticks_;
+  for (int step = 0; step < tick::kShedSteps; ++step)
+    if (shed_ticks_[static_cast<std::size_t>(step)] > 0)
+      outcome.most_shed = static_cast<tick::Shed>(step);
   return outcome;
 }
 

@@ -27,14 +27,14 @@
 #include "burr/thermal/settings.h"
 #include "burr/thermal/summary.h"
 #include "burr/thermal/worker.h"
-#include "burr/tick/load.h"
 #include "burr/tick/second_hand.h"
 #include "burr/tick/servo.h"
+#include "burr/tick/shed.h"
 
 namespace burr::sim {
 
 // How warm the bone gets is worked out beside the session, not in it: nothing felt depends on it.
-struct HeatWish {
+struct HeatRequest {
   math::Aabb work;  // bone outside keeps its temperature; world [m]
   thermal::HeatSettings settings;
 };
@@ -42,10 +42,10 @@ struct HeatWish {
 struct SessionSettings {
   tick::ServoSettings servo;
   volume::IsoSettings surface;
-  tick::LoadSettings load;  // by the clock only: what is too much for this machine
+  tick::ShedSettings shed;  // by the clock only: what is too much for this machine
   bool realtime = false;    // paced by the clock, watched by a watchdog; false: as fast as possible
   int threads = 2;          // for preparing the surface
-  std::optional<HeatWish> heat;
+  std::optional<HeatRequest> heat;
 };
 
 // What happened, so far.
@@ -59,8 +59,8 @@ struct Outcome {
   std::uint64_t heat_rows_lost = 0;  // too slow a machine: what they heated is missing
   rt::TickSummary timing;
   std::string scheduling;  // what the servo thread was given, one sentence
-  std::array<std::uint64_t, tick::kLoads> load_ticks = {};  // ticks at each step of tick/load.h
-  tick::Load most_load = tick::Load::none;                  // the highest step ever taken
+  std::array<std::uint64_t, tick::kShedSteps> shed_ticks = {};  // ticks at each step of tick/shed.h
+  tick::Shed most_shed = tick::Shed::none;                      // the highest step ever taken
 };
 
 class Session {
@@ -99,7 +99,9 @@ class Session {
   [[nodiscard]] bool running() const { return running_.load(std::memory_order_acquire); }
 
   // ---- doors
-  void wish(const tick::Wish& wish) { static_cast<void>(servo_->wishes().push(wish)); }
+  void command(const tick::Command& command) {
+    static_cast<void>(servo_->commands().push(command));
+  }
   [[nodiscard]] bool view(tick::TickRow& newest) { return servo_->view().take(newest); }
   [[nodiscard]] bool fault(tick::FaultReport& report) { return servo_->faults().take(report); }
   // How warm it is, ten times a second of the session's time; false: nothing new, or nobody asked.
@@ -107,8 +109,8 @@ class Session {
   // of the burr's head as it is now [m]; any thread
   [[nodiscard]] double burr_radius() const { return servo_->burr_radius(); }
   // What the machine cannot keep up with just now: pictures and surface are to be made less often
-  // from Load::picture and Load::mesh on. Any thread.
-  [[nodiscard]] tick::Load load() const { return load_.load(std::memory_order_relaxed); }
+  // from Shed::picture and Shed::mesh on. Any thread.
+  [[nodiscard]] tick::Shed shed() const { return shed_.load(std::memory_order_relaxed); }
 
   [[nodiscard]] volume::Bone& bone() { return *bone_; }
   [[nodiscard]] const volume::TissueTable& bone_tissues() const { return bone_->tissues(); }
@@ -145,11 +147,11 @@ class Session {
   std::unique_ptr<rt::Thread> thread_, guard_, ahead_;
   std::atomic<bool> running_ = false, stop_ = false;
   std::atomic<std::uint64_t> done_ = 0;
-  std::atomic<tick::Load> load_ = tick::Load::none;
+  std::atomic<tick::Shed> shed_ = tick::Shed::none;
 
   // the servo's own account
   rt::TickStats stats_;
-  std::array<std::uint64_t, tick::kLoads> load_ticks_ = {};
+  std::array<std::uint64_t, tick::kShedSteps> shed_ticks_ = {};
   double peak_force_ = 0, force_sum_ = 0;
   std::uint64_t touching_ = 0;
   std::uint32_t flags_ = 0;

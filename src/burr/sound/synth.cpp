@@ -90,14 +90,14 @@ Synth::Synth(const SynthSettings& settings) : settings_(settings) {
   coolant_tuned_ = std::tan(kPi * std::min(kCoolantHz * dt_, 0.4));
   coolant_gain_ = gain_of(coolant_tuned_, kCoolantQuality);
   untouched_ = kUntouched;
-  tissue_hz_.wish = tissue_hz_.between = tissue_hz_.now = cutting_hz(kUsualBone);
-  loudness_.wish = loudness_.between = loudness_.now = 1;
-  wish({});
+  tissue_hz_.request = tissue_hz_.between = tissue_hz_.now = cutting_hz(kUsualBone);
+  loudness_.request = loudness_.between = loudness_.now = 1;
+  request({});
 }
 
-void Synth::loudness(double wanted) BURR_RT { loudness_.wish = held(wanted, 0, 1, 0); }
+void Synth::loudness(double wanted) BURR_RT { loudness_.request = held(wanted, 0, 1, 0); }
 
-// ---- what is heard now, as wishes
+// ---- what is heard now, as commands
 
 void Synth::hear(const Heard& now) BURR_RT {
   // a knock starts from where the last one is: no step, and never louder than one
@@ -107,18 +107,18 @@ void Synth::hear(const Heard& now) BURR_RT {
   }
   if (now.touching) untouched_ = 0;
   touching_ = now.touching;
-  wish(now);
+  request(now);
 }
 
-void Synth::wish(const Heard& now) BURR_RT {
-  turns_hz_.wish = std::abs(held(now.spindle_rad_s, -kFastest, kFastest, 0)) / (2 * kPi);
+void Synth::request(const Heard& now) BURR_RT {
+  turns_hz_.request = std::abs(held(now.spindle_rad_s, -kFastest, kFastest, 0)) / (2 * kPi);
   const double torque = held(std::abs(now.cutting_nm), 0, 10, 0);
-  loaded_.wish = torque / (torque + settings_.half_torque);
+  loaded_.request = torque / (torque + settings_.half_torque);
   const double rate = held(now.removal_m3_s, 0, 1, 0);
-  removal_.wish = std::sqrt(rate / (rate + settings_.half_removal));
-  if (rate > 0) tissue_hz_.wish = cutting_hz(now.hardness_j_m3);
-  coolant_.wish = now.irrigated ? 1 : 0;
-  teeth_wished_ = static_cast<int>(held(now.teeth, 0, kMostTeeth, 0));
+  removal_.request = std::sqrt(rate / (rate + settings_.half_removal));
+  if (rate > 0) tissue_hz_.request = cutting_hz(now.hardness_j_m3);
+  coolant_.request = now.irrigated ? 1 : 0;
+  teeth_requested_ = static_cast<int>(held(now.teeth, 0, kMostTeeth, 0));
 
   const double every = beep_every(settings_, now.to_spare);
   warned_ = std::isfinite(every);
@@ -128,10 +128,10 @@ void Synth::wish(const Heard& now) BURR_RT {
 // ---- samples
 
 double Synth::Smooth::step(double share) BURR_RT {
-  between += share * (wish - between);
+  between += share * (request - between);
   now += share * (between - now);
   // without an end the last of a decay would be heard, and computed, for ever
-  if (std::abs(wish - now) + std::abs(wish - between) <= kNothing) now = between = wish;
+  if (std::abs(request - now) + std::abs(request - between) <= kNothing) now = between = request;
   return now;
 }
 
@@ -161,8 +161,8 @@ double Synth::spindle() BURR_RT {
   const double f = turns_hz_.step(usual_);
   const double loaded = loaded_.step(usual_);
   // another burr: the old one's teeth fade before the new one's are heard
-  tooth_.wish = teeth_ == teeth_wished_ && teeth_ > 0 ? 1 : 0;
-  if (tooth_.step(quick_) == 0 && teeth_ != teeth_wished_) teeth_ = teeth_wished_;
+  tooth_.request = teeth_ == teeth_requested_ && teeth_ > 0 ? 1 : 0;
+  if (tooth_.step(quick_) == 0 && teeth_ != teeth_requested_) teeth_ = teeth_requested_;
   if (f == 0) return 0;
   advance(turn_, f * dt_);
   advance(tooth_turn_, teeth_ * f * dt_);

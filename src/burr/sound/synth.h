@@ -14,7 +14,7 @@
 //
 // Nothing clicks: oscillators keep their phase, filters are of Zavalishin's kind, whose state stays
 // right while they are tuned ("The Art of VA Filter Design", 2018, ch. 4), and every number follows
-// its wish through two first-order lags, so that not even a slope steps.
+// its request through two first-order lags, so that not even a slope steps.
 //
 // The sum is left as it is up to 0.7 of full scale and bent from there on, so that it never exceeds
 // it. With nothing to be heard the samples become zeros, exactly.
@@ -71,9 +71,9 @@ class Synth {
   [[nodiscard]] const SynthSettings& settings() const BURR_RT { return settings_; }
 
  private:
-  // Two first-order lags in a row; ends in its wish, exactly.
+  // Two first-order lags in a row; ends in its request, exactly.
   struct Smooth {
-    double wish = 0, between = 0, now = 0;
+    double request = 0, between = 0, now = 0;
     double step(double share) BURR_RT;
   };
   // Zavalishin's state variable filter, the band of it: gain 1 at its middle.
@@ -82,7 +82,7 @@ class Synth {
     double step(double in, double tuned, double damping) BURR_RT;
   };
 
-  void wish(const Heard& now) BURR_RT;
+  void request(const Heard& now) BURR_RT;
   [[nodiscard]] double spindle() BURR_RT;
   [[nodiscard]] double cutting() BURR_RT;
   [[nodiscard]] double knock() BURR_RT;
@@ -100,7 +100,7 @@ class Synth {
 
   // what was asked for, on its way
   Smooth turns_hz_, loaded_, removal_, tissue_hz_, coolant_, loudness_, tooth_;
-  int teeth_ = 0, teeth_wished_ = 8;
+  int teeth_ = 0, teeth_requested_ = 8;
   bool touching_ = false;
   double untouched_;  // since the last contact [s]
 

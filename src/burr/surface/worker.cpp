@@ -104,7 +104,7 @@ struct Worker::Lane {
   rt::ChangedBits& changed;
   const std::atomic<bool>& held;
   int mine = 0, of = 1;
-  std::deque<int> due;              // patches to make, oldest wish first
+  std::deque<int> due;              // patches to make, oldest request first
   std::vector<bool> queued, shown;  // (patches) in due; taken last time with triangles
   std::vector<int> named;
   std::vector<std::unique_ptr<Patch>> all;

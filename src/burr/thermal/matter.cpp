@@ -42,10 +42,10 @@ struct Tally {
 
 }  // namespace
 
-CellBox cells_around(const volume::Grid& grid, const math::Aabb& work, double wished_edge) {
-  BURR_CHECK(!work.empty() && wished_edge > 0);
+CellBox cells_around(const volume::Grid& grid, const math::Aabb& work, double requested_edge) {
+  BURR_CHECK(!work.empty() && requested_edge > 0);
   CellBox box;
-  while (box.voxels < kBrickEdge && 2 * box.voxels * grid.voxel <= wished_edge * (1 + 1e-9))
+  while (box.voxels < kBrickEdge && 2 * box.voxels * grid.voxel <= requested_edge * (1 + 1e-9))
     box.voxels *= 2;
   box.edge = box.voxels * grid.voxel;
 

@@ -2,7 +2,7 @@
 //
 // A cell is a cube of 1, 2, 4 or 8 voxels an edge, aligned so that none lies across two bricks: a
 // brick that changed is read alone. With powers of two there always is a size between half of what
-// was wished and all of it. Around the box lies one more layer of cells: what the box borders on.
+// was requested and all of it. Around the box lies one more layer of cells: what the box borders on.
 //
 // Bone counts by its volume (volume/volume_of.h). Soft tissue, which no burr cuts, fills its
 // voxels: heat runs through a nerve as well as past it. Thread: any one; reads through copy_brick()
@@ -45,7 +45,7 @@ struct CellBox {
 
 // The cells that cover the part of `work` (world, [m]) within the bone's grid.
 [[nodiscard]] CellBox cells_around(const volume::Grid& grid, const math::Aabb& work,
-                                   double wished_edge);
+                                   double requested_edge);
 
 inline constexpr int kMostParts = 4;  // tissues a cell tells apart; of more the smallest count only
                                       // for its warmth

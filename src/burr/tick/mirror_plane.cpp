@@ -13,7 +13,7 @@ namespace burr::tick {
 namespace {
 
 using math::Vec3;
-using tick::WishKind;
+using tick::CommandKind;
 
 // axes[plane]: of all ways to give each plane an axis of its own, the one that fits best
 std::array<int, kPlanes> axes_of(const volume::Grid& grid) {
@@ -88,17 +88,17 @@ double offset_of(const volume::Grid& grid, const edit::Mirror& mirror) {
          (mirror.place() - middle(grid, mirror.axis)) * grid.voxel;
 }
 
-tick::Wish wish_for(const edit::Mirror& mirror) {
-  if (!mirror.on()) return {WishKind::mirror_off, 0};
-  return {static_cast<WishKind>(static_cast<int>(WishKind::mirror_i) + mirror.axis),
+tick::Command command_for(const edit::Mirror& mirror) {
+  if (!mirror.on()) return {CommandKind::mirror_off, 0};
+  return {static_cast<CommandKind>(static_cast<int>(CommandKind::mirror_i) + mirror.axis),
           mirror.place()};
 }
 
-std::optional<edit::Mirror> mirror_of(const tick::Wish& wish, const math::Ijk& size) BURR_RT {
-  if (wish.kind == WishKind::mirror_off) return edit::Mirror{};
-  const int axis = static_cast<int>(wish.kind) - static_cast<int>(WishKind::mirror_i);
-  if (axis < 0 || axis > 2 || !std::isfinite(wish.value)) return std::nullopt;
-  return edit::mirror_at(axis, wish.value, size);
+std::optional<edit::Mirror> mirror_of(const tick::Command& command, const math::Ijk& size) BURR_RT {
+  if (command.kind == CommandKind::mirror_off) return edit::Mirror{};
+  const int axis = static_cast<int>(command.kind) - static_cast<int>(CommandKind::mirror_i);
+  if (axis < 0 || axis > 2 || !std::isfinite(command.value)) return std::nullopt;
+  return edit::mirror_at(axis, command.value, size);
 }
 
 math::Pose image_of(const math::Pose& world_from_tool, const volume::Grid& grid,

@@ -3,7 +3,7 @@
 //
 // Frame: world (LPS). Units: SI.
 //
-// Order of writing, by the servo, within one tick: wishes taken, bricks changed, then the TickRow.
+// Order of writing, by the servo, within one tick: commands taken, bricks changed, then the TickRow.
 // So whoever holds the row of a tick holds everything that belongs to it.
 #pragma once
 
@@ -13,6 +13,7 @@
 #include "burr/device/hand.h"
 #include "burr/edit/ledger.h"
 #include "burr/haptics/contact.h"
+#include "burr/tick/command.h"
 #include "burr/volume/bone.h"
 
 namespace burr::tick {
@@ -31,34 +32,10 @@ struct TickRow {
   std::uint64_t hash = 0;
 };
 
-// Wishes of the people around: taken by the servo at the start of `tick`, in order.
-enum class WishKind : std::uint8_t {
-  spindle_speed,  // value: rad/s at full pedal
-  burr_radius,    // value: m
-  stiffness,      // value: N/m
-  user_force,     // value: N, the user's own limit
-  tool_mode,      // value: 0 cut, 1 add, 2 touch only, 3 back to the original, 4 smooth
-  undo,           // the last stroke
-  redo,           // the last undone stroke
-  reset,          // everything back to the start
-  friction,       // value: scale of the tissues' friction
-  load,           // value: tick/load.h, what the servo puts off; its own wish, first of its tick
-  touch_method,   // value: haptics/touch_method.h, Method
-  removal_law,    // value: edit/laws/removal.h, RemovalLaw
-  irrigation,     // value: 0 off, 1 on
-  mirror_i,       // value: of a plane across i, its place p_grid; what is done is mirrored by it
-  mirror_j,       // likewise across j
-  mirror_k,       // likewise across k
-  mirror_off,
-  burr_kind,  // value: 0 cutting, 1 diamond
-};
-struct Wish {
-  WishKind kind = WishKind::spindle_speed;
-  double value = 0;
-};
-struct WishRow {
+// A command, and the tick that obeyed it.
+struct CommandRow {
   std::uint64_t tick = 0;
-  Wish wish;
+  Command command;
 };
 
 // A brick's whole field as it is after `tick`. Every brick that changes is written again within 100

@@ -11,10 +11,10 @@ namespace burr::tick {
 namespace {
 
 using math::Vec3;
-using tick::Wish;
-using tick::WishKind;
+using tick::Command;
+using tick::CommandKind;
 
-constexpr int kWishesPerTick = 8;
+constexpr int kCommandsPerTick = 8;
 constexpr double kRestorePerSecond = 16e3;  // bricks; about as many as a deep cut changes
 constexpr double kRecovery = 5;  // of bone that grew under the burr pushes it out  [voxel/s]
 constexpr double kRefreshRate =
@@ -71,7 +71,7 @@ const tick::TickRow& Servo::tick(bool lost) BURR_RT {
   }
   if (!believed) faults_.raise();
 
-  take_wishes();
+  take_commands();
   spindle_.step(believed ? hand_.pedal : 0, cutting_.torque, dt_);
 
   // touch
@@ -104,7 +104,7 @@ const tick::TickRow& Servo::tick(bool lost) BURR_RT {
   // then the bone
   cut_bone(touched);
   // twice as much changes in a mirror, and the hand's side must not be later for it
-  surface_.refresh((mirror_.on() ? 2 : 1) * kRefreshRate * dt_ / turns_of(load_));
+  surface_.refresh((mirror_.on() ? 2 : 1) * kRefreshRate * dt_ / slices_of(shed_));
   tell_heat();
   remember_path();
 
@@ -122,7 +122,7 @@ const tick::TickRow& Servo::tick(bool lost) BURR_RT {
   if (touch_.lagging) flags |= haptics::kFlagLagging;
   if (touch_.overflow) flags |= haptics::kFlagCandidates;
   if (surface_.exhausted()) flags |= haptics::kFlagReserve;
-  if (load_ >= Load::removal_2) flags |= haptics::kFlagPutOff;
+  if (shed_ >= Shed::removal_2) flags |= haptics::kFlagPutOff;
   row_.ledger = carver_.ledger();
   if (spindle_.stalled()) flags |= haptics::kFlagStalled;
   row_.spindle_rad_s = spindle_.speed();
@@ -275,7 +275,7 @@ void Servo::cut_bone(const Vec3& force) BURR_RT {
   cut.push = grid.frame.q.conjugate() * (-touch_.normal);
   cut.radius = settings_.burr.radius / grid.voxel;
   cut.dt = dt_;
-  cut.turns = turns_of(load_);
+  cut.slices = slices_of(shed_);
   cut.mirror = mirror_;
   if (settings_.mode == ToolMode::cut && settings_.removal.law == edit::RemovalLaw::thesis) {
     const auto frame = static_cast<std::uint64_t>(std::max(1, settings_.removal.thesis_frame));
@@ -305,7 +305,7 @@ void Servo::brush_bone(const edit::Cut& cut) BURR_RT {
   now.radius = cut.radius;
   now.strength = std::clamp(hand_.pedal, 0.0, 1.0);
   now.dt = dt_;
-  now.turns = cut.turns;
+  now.slices = cut.slices;
   now.mirror = cut.mirror;
   carver_.idle(dt_);
   if (settings_.mode == ToolMode::smooth) {
@@ -347,81 +347,82 @@ void Servo::tell_heat() BURR_RT {
   heat_row_.start_over = false;
 }
 
-// ---- wishes
+// ---- commands
 
-void Servo::take_wishes() BURR_RT {
-  const auto take = [this](const Wish& wish) {
-    if (diary_.wishes != nullptr) diary_.wishes->push({row_.tick, wish});
-    obey(wish);
+void Servo::take_commands() BURR_RT {
+  const auto take = [this](const Command& command) {
+    if (diary_.commands != nullptr) diary_.commands->push({row_.tick, command});
+    obey(command);
   };
-  if (load_wished_ != load_) take({WishKind::load, static_cast<double>(load_wished_)});
-  Wish wish;
-  for (int taken = 0; taken < kWishesPerTick && wishes_.pop(wish);) {
-    take(wish);
-    if (wish.kind != WishKind::load)
+  if (shed_requested_ != shed_) take({CommandKind::shed, static_cast<double>(shed_requested_)});
+  Command command;
+  for (int taken = 0; taken < kCommandsPerTick && commands_.pop(command);) {
+    take(command);
+    if (command.kind != CommandKind::shed)
       ++taken;  // the servo's own, from a recording: beside the eight
   }
 }
 
-void Servo::obey(const Wish& wish) BURR_RT {
-  if (!std::isfinite(wish.value)) return;
-  switch (wish.kind) {
-    case WishKind::spindle_speed:
-      spindle_.full_speed = std::clamp(wish.value, -kFastest, kFastest);
+void Servo::obey(const Command& command) BURR_RT {
+  if (!std::isfinite(command.value)) return;
+  switch (command.kind) {
+    case CommandKind::spindle_speed:
+      spindle_.full_speed = std::clamp(command.value, -kFastest, kFastest);
       break;
-    case WishKind::burr_radius:
-      if (wish.value >= 2 * bone_.grid().voxel &&
-          wish.value <= 0.5 * tool::kLargestDiameter + 1e-12 && touch_by_.set_radius(wish.value)) {
-        settings_.burr.radius = wish.value;
-        burr_radius_.store(wish.value, std::memory_order_relaxed);
+    case CommandKind::burr_radius:
+      if (command.value >= 2 * bone_.grid().voxel &&
+          command.value <= 0.5 * tool::kLargestDiameter + 1e-12 &&
+          touch_by_.set_radius(command.value)) {
+        settings_.burr.radius = command.value;
+        burr_radius_.store(command.value, std::memory_order_relaxed);
       }
       break;
-    case WishKind::burr_kind:
-      settings_.burr.kind = wish.value > 0 ? tool::BurrKind::diamond : tool::BurrKind::cutting;
+    case CommandKind::burr_kind:
+      settings_.burr.kind = command.value > 0 ? tool::BurrKind::diamond : tool::BurrKind::cutting;
       break;
-    case WishKind::stiffness:
-      settings_.force.stiffness = std::clamp(wish.value, 0.0, device_.spec().max_stiffness);
+    case CommandKind::stiffness:
+      settings_.force.stiffness = std::clamp(command.value, 0.0, device_.spec().max_stiffness);
       break;
-    case WishKind::user_force:
-      limit_.set_user_force(wish.value);
-      guard_.set_largest_force(std::min(device_.spec().peak_force, wish.value));
+    case CommandKind::user_force:
+      limit_.set_user_force(command.value);
+      guard_.set_largest_force(std::min(device_.spec().peak_force, command.value));
       break;
-    case WishKind::tool_mode:
-      if (wish.value >= 0 && wish.value < kToolModes)
-        settings_.mode = static_cast<ToolMode>(static_cast<int>(wish.value));
+    case CommandKind::tool_mode:
+      if (command.value >= 0 && command.value < kToolModes)
+        settings_.mode = static_cast<ToolMode>(static_cast<int>(command.value));
       break;
-    case WishKind::friction:
-      settings_.friction_scale = std::clamp(wish.value, 0.0, 4.0);
+    case CommandKind::friction:
+      settings_.friction_scale = std::clamp(command.value, 0.0, 4.0);
       break;
-    case WishKind::load:
-      if (wish.value < 0 || wish.value >= kLoads) break;
-      load_ = load_wished_ = static_cast<Load>(static_cast<int>(wish.value));
+    case CommandKind::shed:
+      if (command.value < 0 || command.value >= kShedSteps) break;
+      shed_ = shed_requested_ = static_cast<Shed>(static_cast<int>(command.value));
       touch_by_.constraint().set_max_moves(
-          load_ == Load::touch ? kFewMoves : haptics::ProxySettings{}.max_moves);
+          shed_ == Shed::touch ? kFewMoves : haptics::ProxySettings{}.max_moves);
       break;
-    case WishKind::touch_method:
-      if (wish.value >= 0 && wish.value < haptics::kMethods) {
-        settings_.touch = static_cast<haptics::Method>(static_cast<int>(wish.value));
+    case CommandKind::touch_method:
+      if (command.value >= 0 && command.value < haptics::kMethods) {
+        settings_.touch = static_cast<haptics::Method>(static_cast<int>(command.value));
         if (!touch_by_.choose(settings_.touch)) let_go_in_bone();
       }
       break;
-    case WishKind::removal_law:
-      if (wish.value >= 0 && wish.value < edit::kLaws)
-        settings_.removal.law = static_cast<edit::RemovalLaw>(static_cast<int>(wish.value));
+    case CommandKind::removal_law:
+      if (command.value >= 0 && command.value < edit::kLaws)
+        settings_.removal.law = static_cast<edit::RemovalLaw>(static_cast<int>(command.value));
       break;
-    case WishKind::irrigation:
-      irrigated_ = wish.value > 0;
+    case CommandKind::irrigation:
+      irrigated_ = command.value > 0;
       break;
-    case WishKind::mirror_i:
-    case WishKind::mirror_j:
-    case WishKind::mirror_k:
-    case WishKind::mirror_off:
-      mirror_ = mirror_of(wish, bone_.grid().size).value_or(mirror_);
+    case CommandKind::mirror_i:
+    case CommandKind::mirror_j:
+    case CommandKind::mirror_k:
+    case CommandKind::mirror_off:
+      mirror_ = mirror_of(command, bone_.grid().size).value_or(mirror_);
       break;
-    case WishKind::undo:
-    case WishKind::redo:
-    case WishKind::reset:
-      begin_restore(wish.kind);
+    case CommandKind::undo:
+    case CommandKind::redo:
+    case CommandKind::reset:
+      begin_restore(command.kind);
       break;
   }
 }
@@ -430,13 +431,13 @@ void Servo::obey(const Wish& wish) BURR_RT {
 // then put the bricks back a few at a time, then let their surface settle; only then does the burr
 // follow the hand again
 
-void Servo::begin_restore(WishKind kind) BURR_RT {
+void Servo::begin_restore(CommandKind kind) BURR_RT {
   if (restore_ != Restore::none) return;
   if (undo_.stroke_open()) undo_.end_stroke();
-  if (kind == WishKind::undo) {
+  if (kind == CommandKind::undo) {
     if (!undo_.can_undo()) return;
     range_ = undo_.undo();
-  } else if (kind == WishKind::redo) {
+  } else if (kind == CommandKind::redo) {
     if (!undo_.can_redo()) return;
     range_ = undo_.redo();
   } else {
@@ -457,7 +458,7 @@ bool Servo::clear_of_what_returns(const Vec3& p) const BURR_RT {
   const double radius = settings_.burr.radius / bone_.grid().voxel;
   const Vec3 half = Vec3::Constant(volume::kBrickEdge / 2.0);
   for (std::uint64_t i = 0; i < range_.count; ++i) {
-    const edit::KeptBrick& kept = restore_kind_ == WishKind::reset
+    const edit::KeptBrick& kept = restore_kind_ == CommandKind::reset
                                       ? undo_.original(static_cast<std::size_t>(i))
                                       : undo_.entry(range_.first + i);
     const Vec3 middle = bone_.brick_ijk(kept.brick).cast<double>() + half;
@@ -498,7 +499,7 @@ void Servo::step_restore() BURR_RT {
   } else if (restore_ == Restore::restoring) {
     const auto most = static_cast<std::size_t>(std::max(1.0, std::ceil(kRestorePerSecond * dt_)));
     for (std::size_t n = 0; n < most && restored_ < range_.count; ++n, ++restored_) {
-      if (restore_kind_ == WishKind::reset) {
+      if (restore_kind_ == CommandKind::reset) {
         carver_.restore(undo_.original(static_cast<std::size_t>(restored_)));
       } else {
         carver_.swap(undo_.entry(range_.first + restored_));

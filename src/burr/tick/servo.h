@@ -1,10 +1,10 @@
 // tick/servo.h - the tick: the hand comes first, then the bone.
 //
-//     read the hand - obey wishes - step the proxy - force law - energy guard - drag of the bone on
+//     read the hand - obey commands - step the proxy - force law - energy guard - drag of the bone on
 //     the burr and vibration - limit - write the force
 //     - then carve - then tell the others
 //
-// A pure function of (bone, hand, buttons, wishes, lost): no clock, no random number, so that a
+// A pure function of (bone, hand, buttons, commands, lost): no clock, no random number, so that a
 // recording replays to the bit. Thread: tick() on one thread, the servo's, the only writer of the
 // bone. Memory: taken at construction. Cost: docs/realtime.md.
 #pragma once
@@ -31,8 +31,8 @@
 #include "burr/rt/ring.h"
 #include "burr/thermal/worker.h"
 #include "burr/tick/fault_report.h"
-#include "burr/tick/load.h"
 #include "burr/tick/rows.h"
+#include "burr/tick/shed.h"
 #include "burr/tick/touch_methods.h"
 #include "burr/tool/burr_tool.h"
 #include "burr/tool/spindle.h"
@@ -77,7 +77,7 @@ struct ServoSettings {
 // The diary's rings (record/recorder.h); nullptr: nobody writes.
 struct Diary {
   rt::Ring<tick::TickRow>* ticks = nullptr;
-  rt::Ring<tick::WishRow>* wishes = nullptr;
+  rt::Ring<tick::CommandRow>* commands = nullptr;
   rt::Ring<tick::BrickRow>* bricks = nullptr;
 };
 
@@ -89,16 +89,16 @@ class Servo {
   // One tick. lost: ticks were lost just before this one and the watchdog let go of the hand.
   const tick::TickRow& tick(bool lost) BURR_RT;
 
-  // What to put off from the next tick on; recorded as a wish when it changes. Between ticks, on
+  // What to put off from the next tick on; recorded as a command when it changes. Between ticks, on
   // the servo's thread.
-  void set_load(Load load) BURR_RT { load_wished_ = load; }
-  [[nodiscard]] Load load() const BURR_RT { return load_; }
+  void set_shed(Shed shed) BURR_RT { shed_requested_ = shed; }
+  [[nodiscard]] Shed shed() const BURR_RT { return shed_; }
 
   // ---- doors (architecture.md 4)
-  [[nodiscard]] rt::Ring<tick::Wish>& wishes() BURR_RT { return wishes_; }   // main -> servo
-  [[nodiscard]] rt::Latest<tick::TickRow>& view() BURR_RT { return view_; }  // servo -> main
+  [[nodiscard]] rt::Ring<tick::Command>& commands() BURR_RT { return commands_; }  // main -> servo
+  [[nodiscard]] rt::Latest<tick::TickRow>& view() BURR_RT { return view_; }        // servo -> main
   [[nodiscard]] rt::Latest<FaultReport>& faults() BURR_RT { return faults_.reports(); }  // likewise
-  // of the burr's head as it is now: a wish for a larger one is refused where it has no room [m]
+  // of the burr's head as it is now: a command for a larger one is refused where it has no room [m]
   [[nodiscard]] double burr_radius() const BURR_RT {
     return burr_radius_.load(std::memory_order_relaxed);
   }
@@ -139,9 +139,9 @@ class Servo {
  private:
   enum class Restore { none, lifting, restoring, settling };
 
-  void obey(const tick::Wish& wish) BURR_RT;
-  void take_wishes() BURR_RT;
-  void begin_restore(tick::WishKind kind) BURR_RT;
+  void obey(const tick::Command& command) BURR_RT;
+  void take_commands() BURR_RT;
+  void begin_restore(tick::CommandKind kind) BURR_RT;
   void step_restore() BURR_RT;
   [[nodiscard]] bool clear_of_what_returns(const math::Vec3& p) const BURR_RT;
   void touch_bone(const math::Vec3& hand) BURR_RT;
@@ -181,7 +181,7 @@ class Servo {
   haptics::Touch touch_;
   device::HandState hand_;
   math::Vec3 velocity_ = math::Vec3::Zero();
-  Load load_ = Load::none, load_wished_ = Load::none;
+  Shed shed_ = Shed::none, shed_requested_ = Shed::none;
   bool engaged_ = false;                  // the proxy is somewhere free and follows the hand
   bool irrigated_ = false;                // coolant runs: for the worker that knows the heat
   bool deposited_ = false;                // material was put on in this session
@@ -198,12 +198,12 @@ class Servo {
   std::vector<math::Vec3> path_;
   std::uint64_t path_end_ = 0;
   Restore restore_ = Restore::none;
-  tick::WishKind restore_kind_ = tick::WishKind::undo;
+  tick::CommandKind restore_kind_ = tick::CommandKind::undo;
   edit::UndoStore::Range range_;
   std::uint64_t restored_ = 0, path_at_ = 0;
   double lift_since_check_ = 0;
 
-  rt::Ring<tick::Wish> wishes_{256};
+  rt::Ring<tick::Command> commands_{256};
   rt::Latest<tick::TickRow> view_;
   FaultKeeper faults_;
   std::atomic<double> burr_radius_;

@@ -50,7 +50,7 @@ struct Offers {
 
 class FakeCrtkArm {
  public:
-  struct Wishes {
+  struct Commands {
     math::Pose place;
     math::Vec3 velocity = math::Vec3::Zero();
     bool stamped = true, silent = false;
@@ -72,12 +72,12 @@ class FakeCrtkArm {
     bool weightless = false, absolute = true;
   };
   explicit FakeCrtkArm(int domain, std::string name = "/arm", Offers offers = {})
-      : FakeCrtkArm(domain, Wishes(), std::move(name), offers) {}
-  FakeCrtkArm(int domain, Wishes begins, std::string name = "/arm", Offers offers = {})
+      : FakeCrtkArm(domain, Commands(), std::move(name), offers) {}
+  FakeCrtkArm(int domain, Commands begins, std::string name = "/arm", Offers offers = {})
       : offers_(offers),
         bus_(std::move(*device::crtk::Bus::open(domain))),
         name_(std::move(name)),
-        wishes_(std::move(begins)) {
+        commands_(std::move(begins)) {
     thread_ = std::thread([this] { run(); });
   }
   ~FakeCrtkArm() {
@@ -90,10 +90,10 @@ class FakeCrtkArm {
   template <class F>
   auto with(F look) {
     const std::lock_guard lock(mutex_);
-    return look(wishes_);
+    return look(commands_);
   }
   [[nodiscard]] math::Vec3 force() {
-    return with([](Wishes& w) { return w.force; });
+    return with([](Commands& w) { return w.force; });
   }
   void tread(const char* pedal, bool down) {
     const std::lock_guard lock(mutex_);
@@ -129,7 +129,7 @@ class FakeCrtkArm {
       double rate = 1000;
       {
         const std::lock_guard lock(mutex_);
-        Wishes& w = wishes_;
+        Commands& w = commands_;
         const auto take = [&w](const WrenchStamped& wrench) {
           w.force = vector_of(wrench.wrench_.force_);
           w.torque = vector_of(wrench.wrench_.torque_);
@@ -205,7 +205,7 @@ class FakeCrtkArm {
   Offers offers_;
   std::unique_ptr<device::crtk::Bus> bus_;
   std::string name_;
-  Wishes wishes_;
+  Commands commands_;
   std::mutex mutex_;
   std::vector<std::pair<std::string, bool>> trodden_;
   std::atomic<bool> stop_ = false;

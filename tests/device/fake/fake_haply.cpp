@@ -81,7 +81,7 @@ struct FakeHaply::Servers {
     boost::system::error_code trouble;
     http::read(socket, buffer, ask, trouble);
     if (trouble) return;
-    if (!beast::websocket::is_upgrade(ask) || !with([](Wishes& w) { return w.web_socket; }))
+    if (!beast::websocket::is_upgrade(ask) || !with([](Commands& w) { return w.web_socket; }))
       return answer_http(socket, std::string(ask.target()));
     beast::websocket::stream<Tcp::socket> stream(std::move(socket));
     stream.accept(ask, trouble);
@@ -97,7 +97,7 @@ struct FakeHaply::Servers {
   void converse(Stream& stream, std::set<std::string>& held) {
     namespace beast = boost::beast;
     boost::system::error_code trouble;
-    const std::string greets = with([](Wishes& w) { return w.greets; });
+    const std::string greets = with([](Commands& w) { return w.greets; });
     if (!send(stream, greets.empty() ? state(true) : greets)) return;
     while (!stop_) {
       beast::flat_buffer message;
@@ -108,7 +108,7 @@ struct FakeHaply::Servers {
       int stall = 0;
       bool silent = false, pings = false, hang_up = false;
       std::string answer;
-      with([&](Wishes& w) {
+      with([&](Commands& w) {
         std::swap(stall, w.stall_ms);
         stall += w.pace_ms;
         silent = w.silent;
@@ -133,13 +133,13 @@ struct FakeHaply::Servers {
     boost::system::error_code trouble;
     stream.accept(trouble);
     if (trouble) return;
-    std::size_t next = with([](Wishes& w) { return w.events.size(); });
+    std::size_t next = with([](Commands& w) { return w.events.size(); });
     ++fake.listeners;
     ++fake.listened;
     while (!stop_) {
       std::shared_ptr<const std::string> text;
       bool hang_up = false;
-      with([&](Wishes& w) {
+      with([&](Commands& w) {
         std::swap(hang_up, w.events_hang_up);
         if (next < w.events.size()) text = w.events[next++];
       });
@@ -154,7 +154,7 @@ struct FakeHaply::Servers {
 
   void answer_http(Tcp::socket& socket, const std::string& target) {
     namespace http = boost::beast::http;
-    const std::string version = with([](Wishes& w) { return w.version; });
+    const std::string version = with([](Commands& w) { return w.version; });
     http::response<http::string_body> answer;
     if (target == "/version" && !version.empty()) {
       answer.body() = Json{{"ok", true}, {"data", {{"project_version", version}}}}.dump();
@@ -169,7 +169,7 @@ struct FakeHaply::Servers {
   template <class Stream>
   bool send(Stream& stream, const std::string& text) {
     boost::system::error_code trouble;
-    const bool fragments = with([](Wishes& w) { return w.fragments; });
+    const bool fragments = with([](Commands& w) { return w.fragments; });
     stream.auto_fragment(fragments);
     stream.write_buffer_bytes(fragments ? 16 : 4096);
     stream.text(true);
@@ -180,7 +180,7 @@ struct FakeHaply::Servers {
   static Json xyz(const math::Vec3& v) { return {{"x", v.x()}, {"y", v.y()}, {"z", v.z()}}; }
 
   std::string state(bool first) {
-    return with([&](Wishes& w) {
+    return with([&](Commands& w) {
       Json all = {{"session_id", 7}, {"inverse3", Json::array()}};
       for (Arm& arm : w.arms) {
         arm.answers.tell(arm.place.data());
@@ -210,7 +210,7 @@ struct FakeHaply::Servers {
     });
   }
 
-  static Json grip_state(const Wishes& w, const Grip& grip, bool awake) {
+  static Json grip_state(const Commands& w, const Grip& grip, bool awake) {
     Json buttons;
     for (unsigned n = 0; n < 3; ++n)
       buttons[w.names_of_buttons == "abc" ? std::string(1, static_cast<char>('a' + n))
@@ -231,7 +231,7 @@ struct FakeHaply::Servers {
       ++fake.unreadable;
       return;
     }
-    with([&](Wishes& w) {
+    with([&](Commands& w) {
       for (const Json& asked : all["inverse3"])
         for (Arm& arm : w.arms) {
           if (asked.value("device_id", "") != arm.id) continue;
@@ -286,7 +286,7 @@ void FakeHaply::tell_safety(const std::string& type, const std::string& device) 
 void FakeHaply::tell_text(std::string text) {
   auto shared = std::make_shared<const std::string>(std::move(text));
   const std::lock_guard lock(mutex_);
-  wishes_.events.push_back(std::move(shared));
+  commands_.events.push_back(std::move(shared));
 }
 
 }  // namespace burr::test

@@ -1,5 +1,5 @@
 // An Inverse Service without a device: a WebSocket server that answers each message with one state,
-// and another that tells what happens, as the maker's pages say; both misbehave as a test wishes.
+// and another that tells what happens, as the maker's pages say; both misbehave as a test commands.
 #pragma once
 
 #include <atomic>
@@ -31,7 +31,7 @@ class FakeHaply {
     unsigned buttons = 0;
     bool connected = true;
   };
-  struct Wishes {
+  struct Commands {
     std::vector<Arm> arms = {{}};
     bool grip = true;  // "GRIP", the first one, and how it is held
     std::vector<Grip> more_grips;
@@ -65,7 +65,7 @@ class FakeHaply {
   template <class F>
   auto with(F change) {
     const std::lock_guard lock(mutex_);
-    return change(wishes_);
+    return change(commands_);
   }
   // Cuts every connection.
   void drop();
@@ -84,7 +84,7 @@ class FakeHaply {
   struct Servers;
 
   std::mutex mutex_;
-  Wishes wishes_;
+  Commands commands_;
   std::unique_ptr<Servers> servers_;
 };
 

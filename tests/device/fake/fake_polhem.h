@@ -24,7 +24,7 @@ namespace burr::test {
 
 class FakePolhem {
  public:
-  struct Wishes {
+  struct Commands {
     double mm[3] = {0, 0, 0};
     double turns[4] = {0, 0, 0, 0};
     int info = 0;
@@ -59,10 +59,10 @@ class FakePolhem {
   template <class F>
   auto with(F look) {
     const std::lock_guard lock(mutex_);
-    return look(wishes_);
+    return look(commands_);
   }
   math::Vec3 force() {
-    return with([](Wishes& w) { return w.force; });
+    return with([](Commands& w) { return w.force; });
   }
   // For ever.
   void unplug() {
@@ -89,7 +89,7 @@ class FakePolhem {
     bool pieces = false;
     {
       const std::lock_guard lock(mutex_);
-      Wishes& w = wishes_;
+      Commands& w = commands_;
       char text[128];
       const int n =
           std::snprintf(text, sizeof text, "% 8.3f % 8.3f % 8.3f % 7.4f % 7.4f % 7.4f % 7.4f %hd\n",
@@ -134,14 +134,14 @@ class FakePolhem {
           const std::lock_guard lock(mutex_);
           const bool good = end == 63 && std::sscanf(heard.c_str(), "%d %d %d %d %d %d %d", &x, &y,
                                                      &z, &command, &a, &b, &c) == 7;
-          ++(good && command == 2 ? wishes_.lines : wishes_.odd);
+          ++(good && command == 2 ? commands_.lines : commands_.odd);
           if (good && command == 2) {
-            wishes_.force = 1e-3 * math::Vec3(x, y, z);
-            wishes_.answers.take(wishes_.force.data());
-            wishes_.largest = std::max(wishes_.largest, wishes_.force.norm());
+            commands_.force = 1e-3 * math::Vec3(x, y, z);
+            commands_.answers.take(commands_.force.data());
+            commands_.largest = std::max(commands_.largest, commands_.force.norm());
           }
-          answers = !wishes_.swallow;
-          wishes_.swallow = false;
+          answers = !commands_.swallow;
+          commands_.swallow = false;
         }
         heard.erase(0, end + 1);
         if (answers) answer();
@@ -151,7 +151,7 @@ class FakePolhem {
 
   int master_ = -1, slave_ = -1;
   std::mutex mutex_;
-  Wishes wishes_;
+  Commands commands_;
   std::atomic<bool> stop_ = false;
   std::thread thread_;
 };

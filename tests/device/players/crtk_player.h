@@ -22,9 +22,9 @@ class CrtkPlayer final : public Player {
   }
 
   void hold(const math::Vec3& place, const math::Vec3& velocity) override {
-    arm_.with([&](FakeCrtkArm::Wishes& wishes) {
-      wishes.place = {place, turn_};
-      wishes.velocity = velocity;
+    arm_.with([&](FakeCrtkArm::Commands& commands) {
+      commands.place = {place, turn_};
+      commands.velocity = velocity;
     });
   }
   bool mill(bool down) override {
@@ -36,20 +36,20 @@ class CrtkPlayer final : public Player {
     return true;
   }
   void unplug() override {
-    arm_.with([](FakeCrtkArm::Wishes& wishes) { wishes.silent = true; });
+    arm_.with([](FakeCrtkArm::Commands& commands) { commands.silent = true; });
   }
   void plug_in() override {
-    arm_.with([](FakeCrtkArm::Wishes& wishes) { wishes.silent = false; });
+    arm_.with([](FakeCrtkArm::Commands& commands) { commands.silent = false; });
   }
 
   math::Vec3 force() override { return turn_ * arm_.force(); }
   double largest() override {
-    return arm_.with([](FakeCrtkArm::Wishes& wishes) { return wishes.largest; });
+    return arm_.with([](FakeCrtkArm::Commands& commands) { return commands.largest; });
   }
   std::vector<Felt> felt() override {
     std::vector<Felt> all;
     for (const Answer& one :
-         arm_.with([](FakeCrtkArm::Wishes& wishes) { return wishes.answers.look(); }))
+         arm_.with([](FakeCrtkArm::Commands& commands) { return commands.answers.look(); }))
       all.push_back({math::Vec3(one.told.data()), turn_ * math::Vec3(one.force.data())});
     return all;
   }
@@ -62,10 +62,10 @@ class CrtkPlayer final : public Player {
   const int domain_ = quiet_domain();
   FakeCrtkArm arm_{domain_, begins()};
 
-  [[nodiscard]] FakeCrtkArm::Wishes begins() const {
-    FakeCrtkArm::Wishes wishes;
-    wishes.place.q = turn_;
-    return wishes;
+  [[nodiscard]] FakeCrtkArm::Commands begins() const {
+    FakeCrtkArm::Commands commands;
+    commands.place.q = turn_;
+    return commands;
   }
 };
 

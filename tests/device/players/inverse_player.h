@@ -16,8 +16,8 @@ class InversePlayer final : public Player {
   using Arm = FakeHaply::Arm;
   template <class F>
   auto with(F look) {
-    return service_.with([&](FakeHaply::Wishes& wishes) {
-      return look(wishes.arms.empty() ? away_ : wishes.arms.front());
+    return service_.with([&](FakeHaply::Commands& commands) {
+      return look(commands.arms.empty() ? away_ : commands.arms.front());
     });
   }
 
@@ -38,14 +38,14 @@ class InversePlayer final : public Player {
   bool mill(bool down) override { return press(1U, down); }
   bool clutch(bool down) override { return press(2U, down); }
   void unplug() override {
-    service_.with([&](FakeHaply::Wishes& wishes) {
-      away_ = wishes.arms.front();
-      wishes.arms.clear();
+    service_.with([&](FakeHaply::Commands& commands) {
+      away_ = commands.arms.front();
+      commands.arms.clear();
       away_.force.setZero();  // what the service no longer hears of, it lets go
     });
   }
   void plug_in() override {
-    service_.with([&](FakeHaply::Wishes& wishes) { wishes.arms = {away_}; });
+    service_.with([&](FakeHaply::Commands& commands) { commands.arms = {away_}; });
   }
 
   math::Vec3 force() override {
@@ -68,8 +68,8 @@ class InversePlayer final : public Player {
  private:
   static math::Vec3 ours(const double* v) { return {v[0], v[2], -v[1]}; }
   bool press(unsigned button, bool down) {
-    service_.with([&](FakeHaply::Wishes& wishes) {
-      wishes.buttons = down ? wishes.buttons | button : wishes.buttons & ~button;
+    service_.with([&](FakeHaply::Commands& commands) {
+      commands.buttons = down ? commands.buttons | button : commands.buttons & ~button;
     });
     return true;
   }

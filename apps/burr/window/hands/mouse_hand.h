@@ -63,8 +63,8 @@ struct Hands {
   device::MappedHand* real = nullptr;  // a haptic device
   double max_force = 1e3;              // its user's own limit and its own [N]
   SuctionHand* suction = nullptr;      // in the other hand
-  std::string id = {};                 // of the device, in the book of what users wish of it
-  DeviceWishes wishes = {};            // what the book has for it
+  std::string id = {};                 // of the device, in the book of what users request of it
+  DevicePreferences preferences = {};  // what the book has for it
 };
 
 }  // namespace burr::app

@@ -70,51 +70,53 @@ std::string path_for(const std::string& path, ExportWhat what, const std::string
   return (ours ? whole.parent_path() / name_of(what) : whole).string() + ending;
 }
 
-bool already_there(const ExportWish& wish) {
+bool already_there(const ExportRequest& request) {
   std::error_code nobody_asks;
-  return wish.what == ExportWhat::film ? holds_film(wish.path) : fs::exists(wish.path, nobody_asks);
+  return request.what == ExportWhat::film ? holds_film(request.path)
+                                          : fs::exists(request.path, nobody_asks);
 }
 
-Status check_wish(const ExportWish& wish) {
-  if (wish.path.empty()) return error(Trouble::usage, "give the file a name");
+Status check_request(const ExportRequest& request) {
+  if (request.path.empty()) return error(Trouble::usage, "give the file a name");
   std::error_code nobody_asks;
-  if (wish.what == ExportWhat::film) {
-    if (fs::exists(wish.path, nobody_asks) && !fs::is_directory(wish.path, nobody_asks))
-      return error(Trouble::usage,
-                   wish.path + ": is a file; a film is a folder of pictures, give it another name");
-  } else if (fs::is_directory(wish.path, nobody_asks))
-    return error(Trouble::usage, wish.path + ": is a folder; add a name for the file");
-  if (wish.what == ExportWhat::picture) {
-    if (ending_of(wish.path, wish.what).empty())
-      return error(Trouble::usage, wish.path + ": unknown ending; use .png for a picture");
-  } else if (wish.what == ExportWhat::film) {
+  if (request.what == ExportWhat::film) {
+    if (fs::exists(request.path, nobody_asks) && !fs::is_directory(request.path, nobody_asks))
+      return error(
+          Trouble::usage,
+          request.path + ": is a file; a film is a folder of pictures, give it another name");
+  } else if (fs::is_directory(request.path, nobody_asks))
+    return error(Trouble::usage, request.path + ": is a folder; add a name for the file");
+  if (request.what == ExportWhat::picture) {
+    if (ending_of(request.path, request.what).empty())
+      return error(Trouble::usage, request.path + ": unknown ending; use .png for a picture");
+  } else if (request.what == ExportWhat::film) {
     // any name will do
-  } else if (const Status possible = io::check_export(wish.path, options_of(wish.what));
+  } else if (const Status possible = io::check_export(request.path, options_of(request.what));
              !possible) {
     return possible;
   }
-  const fs::path folder = fs::path(wish.path).parent_path();
+  const fs::path folder = fs::path(request.path).parent_path();
   if (!folder.empty() && !fs::is_directory(folder, nobody_asks))
     return error(Trouble::io, fmt::format("{}: there is no such folder; make it, or choose another",
                                           folder.string()));
   return fine();
 }
 
-Result<ExportDone> write_export(const ExportWish& wish, const volume::Bone& bone,
+Result<ExportDone> write_export(const ExportRequest& request, const volume::Bone& bone,
                                 rt::ChangedBits& changed, const volume::Bone* before,
                                 const render::Image* picture, Progress& progress) {
-  if (wish.what == ExportWhat::picture) {
-    const Status written =
-        picture != nullptr ? render::write_png(*picture, wish.path) : Status(error("no picture"));
+  if (request.what == ExportWhat::picture) {
+    const Status written = picture != nullptr ? render::write_png(*picture, request.path)
+                                              : Status(error("no picture"));
     if (!written) return written.error();
-    return ExportDone{.path = wish.path};
+    return ExportDone{.path = request.path};
   }
   const auto now = volume::shared_copy(bone, changed, progress);
   if (!now) return now.error();
-  const auto exported = io::export_part(before != nullptr ? *before : **now, **now, wish.path,
-                                        options_of(wish.what), progress);
+  const auto exported = io::export_part(before != nullptr ? *before : **now, **now, request.path,
+                                        options_of(request.what), progress);
   if (!exported) return exported.error();
-  return ExportDone{wish.path, exported->volume, exported->triangles, 0};
+  return ExportDone{request.path, exported->volume, exported->triangles, 0};
 }
 
 }  // namespace burr::app

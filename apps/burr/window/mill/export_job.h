@@ -18,7 +18,7 @@ namespace burr::app {
 
 enum class ExportWhat { bone, removed, picture, film };
 
-struct ExportWish {
+struct ExportRequest {
   ExportWhat what = ExportWhat::bone;
   std::string path;  // of a film: its folder
 };
@@ -32,10 +32,10 @@ struct ExportWish {
 [[nodiscard]] std::string ending_of(const std::string& path, ExportWhat what);
 
 // Something of that name is there already.
-[[nodiscard]] bool already_there(const ExportWish& wish);
+[[nodiscard]] bool already_there(const ExportRequest& request);
 
 // One sentence about why it cannot be: no such ending, no such folder, a folder itself.
-[[nodiscard]] Status check_wish(const ExportWish& wish);
+[[nodiscard]] Status check_request(const ExportRequest& request);
 
 // What was written, for a sentence.
 struct ExportDone {
@@ -48,8 +48,9 @@ struct ExportDone {
 // Copies the bone while the servo cuts it, and writes. before: at the first tick, only for what was
 // removed. changed: a watcher of the bone's, nobody else's. The bone outlives the work. For films:
 // film_job.h.
-[[nodiscard]] Result<ExportDone> write_export(const ExportWish& wish, const volume::Bone& bone,
-                                              rt::ChangedBits& changed, const volume::Bone* before,
+[[nodiscard]] Result<ExportDone> write_export(const ExportRequest& request,
+                                              const volume::Bone& bone, rt::ChangedBits& changed,
+                                              const volume::Bone* before,
                                               const render::Image* picture, Progress& progress);
 
 }  // namespace burr::app

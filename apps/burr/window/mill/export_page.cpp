@@ -23,9 +23,9 @@ ExportPage::ExportPage(Desk& desk, sim::Session* session, const render::Scene& s
   const fs::path where = folder.empty() ? fs::current_path(nobody_asks) : fs::path(folder);
   if (session_ != nullptr) {
     changed_ = &session_->bone().add_watcher();
-    wish_.path = (where / "bone.stl").string();
+    request_.path = (where / "bone.stl").string();
   } else {
-    wish_ = {ExportWhat::film, (where / "film").string()};
+    request_ = {ExportWhat::film, (where / "film").string()};
   }
 }
 
@@ -45,31 +45,31 @@ void ExportPage::show(bool shown) {
 std::string ExportPage::progress() const {
   if (!work_) return {};
   const SeenProgress::Now now = work_->progress().now();
-  return say(Word::export_writing, fs::path(wish_.path).filename().string(), 100 * now.fraction,
+  return say(Word::export_writing, fs::path(request_.path).filename().string(), 100 * now.fraction,
              now.stage);
 }
 
 // As the page says, if nothing speaks against it.
 void ExportPage::ask(bool may_replace) {
-  wish_.path = cleaned_path(wish_.path);
+  request_.path = cleaned_path(request_.path);
   trouble_.clear();
   replaces_ = false;
-  if (const Status possible = check_wish(wish_); !possible) {
+  if (const Status possible = check_request(request_); !possible) {
     trouble_ = possible.error().text;
     return;
   }
-  if (!may_replace && already_there(wish_)) {
+  if (!may_replace && already_there(request_)) {
     replaces_ = true;
     return;
   }
-  if (wish_.what == ExportWhat::film) {
+  if (request_.what == ExportWhat::film) {
     const std::optional<FilmSource> source = film_of_ ? film_of_() : std::nullopt;
     if (!source) {
       trouble_ = word(Word::film_of_nothing);
       return;
     }
     work_ = std::make_unique<Loading<ExportDone>>(
-        [source = *source, path = wish_.path](Progress& progress) -> Result<ExportDone> {
+        [source = *source, path = request_.path](Progress& progress) -> Result<ExportDone> {
           const Result<int> made = write_film(source, path, progress);
           if (!made) return made.error();
           return ExportDone{.path = path, .pictures = *made};
@@ -78,14 +78,14 @@ void ExportPage::ask(bool may_replace) {
     return;
   }
   before_.reset();
-  if (wish_.what == ExportWhat::removed) {
+  if (request_.what == ExportWhat::removed) {
     const bool ran = session_->running();
     session_->stop();
     before_ = session_->bone_before();
     if (ran) session_->start();
   }
   std::shared_ptr<const render::Image> picture;
-  if (wish_.what == ExportWhat::picture) {
+  if (request_.what == ExportWhat::picture) {
     render::Scene scene = scene_;
     scene.insets.clear();
     scene.quality = {};
@@ -96,27 +96,28 @@ void ExportPage::ask(bool may_replace) {
     }
     picture = std::make_shared<const render::Image>(std::move(*image));
   }
-  work_ = std::make_unique<Loading<ExportDone>>([this, wish = wish_,
-                                                 before = std::exchange(before_, nullptr), picture](
-                                                    Progress& progress) -> Result<ExportDone> {
-    if (session_ == nullptr) {
-      const Status written = render::write_png(*picture, wish.path);
-      return written ? Result<ExportDone>(ExportDone{.path = wish.path}) : written.error();
-    }
-    return write_export(wish, session_->bone(), *changed_, before.get(), picture.get(), progress);
-  });
+  work_ = std::make_unique<Loading<ExportDone>>(
+      [this, request = request_, before = std::exchange(before_, nullptr),
+       picture](Progress& progress) -> Result<ExportDone> {
+        if (session_ == nullptr) {
+          const Status written = render::write_png(*picture, request.path);
+          return written ? Result<ExportDone>(ExportDone{.path = request.path}) : written.error();
+        }
+        return write_export(request, session_->bone(), *changed_, before.get(), picture.get(),
+                            progress);
+      });
   show(false);
 }
 
 std::string ExportPage::step() {
-  if (const auto chosen = dialog_.answer(); chosen && !chosen->empty()) wish_.path = *chosen;
+  if (const auto chosen = dialog_.answer(); chosen && !chosen->empty()) request_.path = *chosen;
   if (!work_ || !work_->finished()) return {};
   const Result<ExportDone> done = work_->take();
   work_.reset();
   if (!done) {
     // back to where it can be put right, with the reason
     if (done.error().trouble == Trouble::interrupted)
-      return word(wish_.what == ExportWhat::film ? Word::film_stopped : Word::export_stopped);
+      return word(request_.what == ExportWhat::film ? Word::film_stopped : Word::export_stopped);
     show(true);
     trouble_ = done.error().text;
     return {};
@@ -154,41 +155,41 @@ void ExportPage::draw() {
                                    {ExportWhat::film, Word::export_film}}) {
     const ExportWhat one = what;  // a lambda may not take a structured binding
     if (session_ == nullptr && (one == ExportWhat::bone || one == ExportWhat::removed)) continue;
-    if (!choice(at, y + 66 * u, word(name), wish_.what == one, 158 * u)) continue;
-    std::string ending = ending_of(wish_.path, one);
+    if (!choice(at, y + 66 * u, word(name), request_.what == one, 158 * u)) continue;
+    std::string ending = ending_of(request_.path, one);
     if (ending.empty() && !endings_of(one).empty()) ending = endings_of(one).front();
-    wish_.what = one;
-    wish_.path = path_for(wish_.path, one, ending);
+    request_.what = one;
+    request_.path = path_for(request_.path, one, ending);
     replaces_ = false;
     trouble_.clear();
   }
   at = x + 28 * u;
-  for (const std::string& ending : endings_of(wish_.what))
-    if (choice(at, y + 112 * u, ending.c_str(), ending_of(wish_.path, wish_.what) == ending,
+  for (const std::string& ending : endings_of(request_.what))
+    if (choice(at, y + 112 * u, ending.c_str(), ending_of(request_.path, request_.what) == ending,
                (ending.size() > 5 ? 96 : 70) * u)) {
-      wish_.path = path_for(wish_.path, wish_.what, ending);
+      request_.path = path_for(request_.path, request_.what, ending);
       replaces_ = false;
       trouble_.clear();
     }
 
   ImGui::SetCursorScreenPos({x + 28 * u, y + 160 * u});
-  if (wish_.what == ExportWhat::film)
+  if (request_.what == ExportWhat::film)
     ui.write(x + 28 * u, y + 118 * u, Letter::body, ink::kDim, word(Word::film_told));
   const float other = FileDialog::there() ? 132 * u : 0;
-  const std::string was = wish_.path;
+  const std::string was = request_.path;
   const bool entered =
-      text_field("##where", word(Word::start_path), wish_.path, w - 56 * u - other);
-  if (wish_.path != was) replaces_ = false;
+      text_field("##where", word(Word::start_path), request_.path, w - 56 * u - other);
+  if (request_.path != was) replaces_ = false;
   if (other > 0) {
     ImGui::SetCursorScreenPos({x + w - 28 * u - 120 * u, y + 160 * u});
-    if (ImGui::Button(word(Word::start_file), {120 * u, 0})) dialog_.ask_where(wish_.path);
+    if (ImGui::Button(word(Word::start_file), {120 * u, 0})) dialog_.ask_where(request_.path);
   }
 
   // what speaks against it, or how far the last one is
-  const std::string& told = replaces_
-                                ? say(Word::export_exists, fs::path(wish_.path).filename().string())
-                            : trouble_.empty() ? progress()
-                                               : trouble_;
+  const std::string& told =
+      replaces_          ? say(Word::export_exists, fs::path(request_.path).filename().string())
+      : trouble_.empty() ? progress()
+                         : trouble_;
   if (!told.empty()) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     float from = x + 28 * u;

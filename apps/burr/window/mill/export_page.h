@@ -53,7 +53,7 @@ class ExportPage {
   FilmOf film_of_;
   rt::ChangedBits* changed_ = nullptr;
   bool shown_ = false, replaces_ = false;  // asks whether it may
-  ExportWish wish_;
+  ExportRequest request_;
   std::string trouble_;
   FileDialog dialog_;
   std::shared_ptr<const volume::Bone> before_;

@@ -28,7 +28,7 @@
 #include "window/mill/slices.h"
 #include "window/mill/toolbar.h"
 #include "window/mill/window.h"
-#include "window/shell/told.h"
+#include "window/shell/status_line.h"
 
 namespace burr::app {
 
@@ -36,7 +36,7 @@ inline constexpr double kHover = 3e-3;         // above the bone while not press
 inline constexpr double kPressLeast = 0.5e-3;  // how far below the surface the arm is aimed  [m]
 inline constexpr double kPressMost = 6e-3;
 
-class LiveBone;
+class LiveSurface;
 
 class Mill {
  public:
@@ -76,7 +76,7 @@ class Mill {
   void aim_at(const math::Vec3& tip, double pedal);
   void lay_real_hand();
   void let_go(bool gone);
-  void lead_suction(LiveBone& live);
+  void lead_suction(LiveSurface& live);
   void measure();
   void show_labels(bool shown);
   void toggle_sound();
@@ -135,7 +135,7 @@ class Mill {
 
   // ---- mill_told.cpp
   void look_at_session();
-  void keep_wishes_of_device();
+  void keep_device_preferences();
   void keep_fault_of(const device::Device& hand, const tick::FaultReport& fault);
   void look_at_burr();
   void tell();
@@ -189,16 +189,16 @@ class Mill {
   tick::ToolMode mode_ = tick::ToolMode::cut;
   Measuring measuring_;
   MirrorMode mirror_;
-  double full_speed_ = 0;              // wished [rad/s]
-  std::optional<double> burr_wished_;  // radius, until it is so or refused [m]
-  Clock::time_point burr_wished_at_{};
+  double full_speed_ = 0;                 // requested [rad/s]
+  std::optional<double> burr_requested_;  // radius, until it is so or refused [m]
+  Clock::time_point burr_requested_at_{};
   tick::TickRow row_;
   rt::TickStats stats_;
   std::optional<std::pair<std::uint64_t, Clock::time_point>> first_tick_;
   std::uint64_t missed_ = 0;
   Clock::time_point missed_at_{}, lost_at_{};
   std::optional<HudState::Nearest> nearest_;
-  Told told_;
+  StatusLine told_;
   std::string note_, warning_;  // as they are shown
   Clock::time_point said_{};
 };

@@ -14,7 +14,7 @@
 #include "window/mill/mill.h"
 #include "window/mill/see_through.h"
 #include "window/shell/words.h"
-#include "workshop/live_bone.h"
+#include "workshop/live_surface.h"
 #include "workshop/suction_hand.h"
 #include "workshop/work.h"
 
@@ -267,13 +267,13 @@ void Mill::keep() {
 }
 
 void Mill::act(Action action) {
-  const auto wish = [this](tick::WishKind kind, double value, Word says) {
-    session_.wish({kind, value});
+  const auto command = [this](tick::CommandKind kind, double value, Word says) {
+    session_.command({kind, value});
     note(word(says));
   };
   const auto mode = [&](tick::ToolMode to, Word says) {
     mode_ = to;
-    wish(tick::WishKind::tool_mode, static_cast<double>(to), says);
+    command(tick::CommandKind::tool_mode, static_cast<double>(to), says);
   };
   switch (action) {
     case Action::cut:
@@ -287,11 +287,11 @@ void Mill::act(Action action) {
     case Action::smooth:
       return mode(tick::ToolMode::smooth, Word::now_smooth);
     case Action::undo:
-      return wish(tick::WishKind::undo, 0, Word::undone);
+      return command(tick::CommandKind::undo, 0, Word::undone);
     case Action::redo:
-      return wish(tick::WishKind::redo, 0, Word::redone);
+      return command(tick::CommandKind::redo, 0, Word::redone);
     case Action::reset:
-      return wish(tick::WishKind::reset, 0, Word::back_to_start);
+      return command(tick::CommandKind::reset, 0, Word::back_to_start);
     case Action::measure:
       measuring_.next();
       lift();
@@ -335,9 +335,9 @@ void Mill::act(Action action) {
 // The next size, and after the largest the smallest: a foot has one button for it.
 void Mill::next_burr() {
   const double largest = *std::rbegin(kSizes);
-  const bool over = 2 * burr_wished_.value_or(session_.burr_radius()) > largest - 1e-9;
+  const bool over = 2 * burr_requested_.value_or(session_.burr_radius()) > largest - 1e-9;
   if (!over) return change_burr(1);
-  burr_wished_ = 0;
+  burr_requested_ = 0;
   change_burr(1);
 }
 
@@ -345,7 +345,7 @@ void Mill::next_burr() {
 void Mill::change_burr(int by) {
   const double least =
       std::max(tool::kSmallestDiameter, 4 * session_.bone().grid().voxel);  // as tick/servo.cpp
-  const double now = 2 * burr_wished_.value_or(session_.burr_radius());
+  const double now = 2 * burr_requested_.value_or(session_.burr_radius());
   std::optional<double> next;
   for (const double size : kSizes) {
     if (size < least - 1e-9) continue;
@@ -354,9 +354,9 @@ void Mill::change_burr(int by) {
   }
   if (!next)
     return note(say(Word::no_burr, std::ceil(1e4 * least) / 10, 1e3 * tool::kLargestDiameter));
-  burr_wished_ = 0.5 * *next;
-  burr_wished_at_ = Clock::now();
-  session_.wish({tick::WishKind::burr_radius, *burr_wished_});
+  burr_requested_ = 0.5 * *next;
+  burr_requested_at_ = Clock::now();
+  session_.command({tick::CommandKind::burr_radius, *burr_requested_});
 }
 
 void Mill::change_speed(double by) {
@@ -364,7 +364,7 @@ void Mill::change_speed(double by) {
   const double rpm =
       std::clamp(std::round(full_speed_ / kRpm / kRpmStep) * kRpmStep + by, kRpmStep, kRpmMost);
   full_speed_ = rpm * kRpm;
-  session_.wish({tick::WishKind::spindle_speed, full_speed_});
+  session_.command({tick::CommandKind::spindle_speed, full_speed_});
   note(say(Word::speed_now, rpm));
 }
 
@@ -532,7 +532,7 @@ void Mill::let_go(bool gone) {
 }
 
 // The tube in the other hand: a rod that comes from its handle, and what it takes away.
-void Mill::lead_suction(LiveBone& live) {
+void Mill::lead_suction(LiveSurface& live) {
   if (hands_.suction == nullptr) return;
   const Clock::time_point now = Clock::now();
   const double seconds =
@@ -600,17 +600,17 @@ void Mill::toggle_sound() {
 void Mill::toggle_kind() {
   bool& diamond = scene_.burr.diamond;
   diamond = !diamond;
-  const tick::Wish wish = {tick::WishKind::burr_kind, diamond ? 1.0 : 0.0};
-  session_.wish(wish);
-  if (options_.loudspeaker != nullptr) options_.loudspeaker->obey(wish);
+  const tick::Command command = {tick::CommandKind::burr_kind, diamond ? 1.0 : 0.0};
+  session_.command(command);
+  if (options_.loudspeaker != nullptr) options_.loudspeaker->obey(command);
   note(word(diamond ? Word::now_diamond : Word::now_fluted));
 }
 
 void Mill::toggle_coolant() {
   irrigated_ = !irrigated_;
-  const tick::Wish wish = {tick::WishKind::irrigation, irrigated_ ? 1.0 : 0.0};
-  session_.wish(wish);
-  if (options_.loudspeaker != nullptr) options_.loudspeaker->obey(wish);
+  const tick::Command command = {tick::CommandKind::irrigation, irrigated_ ? 1.0 : 0.0};
+  session_.command(command);
+  if (options_.loudspeaker != nullptr) options_.loudspeaker->obey(command);
   note(word(irrigated_ ? Word::coolant_on : Word::coolant_off));
 }
 
@@ -626,7 +626,7 @@ void Mill::mirror(const SDL_Keysym& pressed) {
 }
 
 void Mill::tell_mirror() {
-  session_.wish(tick::wish_for(mirror_.now()));
+  session_.command(tick::command_for(mirror_.now()));
   note(mirror_words(session_.bone().grid(), mirror_.now()));
 }
 

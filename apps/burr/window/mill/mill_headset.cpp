@@ -9,7 +9,7 @@
 
 namespace burr::app {
 
-// One is put on when it is wished for, once; what is wrong with it is said, and the window goes on.
+// One is put on when it is requested for, once; what is wrong with it is said, and the window goes on.
 void Mill::look_for_headset() {
   if (desk_.headset != nullptr && !desk_.headset_wanted) {
     take_off_headset();

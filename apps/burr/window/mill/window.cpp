@@ -10,8 +10,8 @@
 #include "commands/command.h"
 #include "window/mill/mill.h"
 #include "window/shell/words.h"
-#include "workshop/live_bone.h"
-#include "workshop/still.h"
+#include "workshop/live_surface.h"
+#include "workshop/work_view.h"
 
 namespace burr::app {
 
@@ -31,10 +31,10 @@ Result<Left> Mill::run() {
   help_ = desk_.settings.help;
   press_ = std::clamp(1e-3 * desk_.settings.press_mm, kPressLeast, kPressMost);
   if (user_limit() != session_.settings().servo.limit.user_force)
-    session_.wish({tick::WishKind::user_force, user_limit()});
+    session_.command({tick::CommandKind::user_force, user_limit()});
   for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
 
-  LiveBone live(session_, worker_, scene_, desk_.renderer().software());
+  LiveSurface live(session_, worker_, scene_, desk_.renderer().software());
   slices_.emplace(session_.bone(), options_.greys);
   const std::filesystem::path& state = desk_.places().state;
   saved_views_.emplace(state.empty() ? state : state / "views.toml",
@@ -85,7 +85,7 @@ Result<Left> Mill::run() {
     // where the driver does not wait for the screen: 60 pictures a second are enough; and fewer
     // where the machine does not keep up with the hand
     const auto pause =
-        std::chrono::microseconds(session_.load() >= tick::Load::picture ? 100'000 : 16'667);
+        std::chrono::microseconds(session_.shed() >= tick::Shed::picture ? 100'000 : 16'667);
     frame = std::max(frame + pause, Clock::now());
     const auto wait = std::chrono::duration_cast<std::chrono::milliseconds>(frame - Clock::now());
     const bool paced = desk_.headset != nullptr && desk_.headset->running();

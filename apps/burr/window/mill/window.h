@@ -17,7 +17,7 @@
 #include "window/replay/film_job.h"
 #include "window/shell/desk.h"
 #include "workshop/loudspeaker.h"
-#include "workshop/nearby.h"
+#include "workshop/spared_distance.h"
 
 namespace burr::app {
 
@@ -32,7 +32,7 @@ struct WindowOptions {
   std::function<bool()> keep = {};
   // the session's recording as it is now, for a film; none: it is not recorded
   std::function<std::optional<FilmSource>()> film_of = {};
-  const Nearby* nearby = nullptr;                   // what must not be cut; nullptr: nothing
+  const SparedDistance* spared_distance = nullptr;  // what must not be cut; nullptr: nothing
   Loudspeaker* loudspeaker = nullptr;               // nullptr: no sound
   std::shared_ptr<const volume::Greys> greys = {};  // of the scan; none: slices show the bone
 };

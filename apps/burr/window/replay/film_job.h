@@ -9,8 +9,8 @@
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/sim/session.h"
-#include "workshop/still.h"
 #include "workshop/volume_options.h"
+#include "workshop/work_view.h"
 
 namespace burr::app {
 

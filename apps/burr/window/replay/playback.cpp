@@ -10,7 +10,7 @@
 #include "burr/render/camera.h"
 #include "window/shell/words.h"
 #include "window/start/sessions.h"
-#include "workshop/live_bone.h"
+#include "workshop/live_surface.h"
 #include "workshop/recording.h"
 
 namespace burr::app {
@@ -130,7 +130,7 @@ void Playback::work() {
     lock.lock();
     working_ = false;
     if (fresh_ && !shown.told.anew) {  // nobody took the last: its ticks come first
-      Traces::Told both = std::move(newest_.told);
+      Traces::StatusLine both = std::move(newest_.told);
       both.ticks.insert(both.ticks.end(), shown.told.ticks.begin(), shown.told.ticks.end());
       shown.told = std::move(both);
     }

@@ -7,7 +7,7 @@
 //                   if (playback.take(shown)) ...               // what the bone is now
 //                   if (playback.behind()) "..."
 //
-// Only the newest wish counts: who scrubs does not wait for the moments passed over. The thread is
+// Only the newest request counts: who scrubs does not wait for the moments passed over. The thread is
 // the bone's one writer; the surface worker looks on as it does while milling.
 // Thread: main, except where said.
 #pragma once
@@ -59,10 +59,10 @@ struct Recorded {
 class Playback {
  public:
   struct Shown {
-    double t = 0;         // the moment that was wanted  [s]
-    tick::TickRow row;    // the last tick then
-    std::string trouble;  // "": the bone is as it was then; else why not
-    Traces::Told told;    // since what was taken before
+    double t = 0;             // the moment that was wanted  [s]
+    tick::TickRow row;        // the last tick then
+    std::string trouble;      // "": the bone is as it was then; else why not
+    Traces::StatusLine told;  // since what was taken before
   };
 
   // It outlives the playback; its player and bone belong to the playback's thread.

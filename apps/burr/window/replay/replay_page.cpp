@@ -15,8 +15,8 @@
 #include "window/mill/hud.h"
 #include "window/mill/mirror_mode.h"
 #include "window/mill/see_through.h"
-#include "window/replay/pair.h"
-#include "window/replay/side.h"
+#include "window/replay/replay_view.h"
+#include "window/replay/split_view.h"
 #include "window/replay/timeline_panel.h"
 #include "window/shell/file_dialog.h"
 #include "window/shell/help.h"
@@ -74,11 +74,11 @@ class Watch {
   const WatchOptions& options_;
 
   render::Camera first_view_;
-  std::optional<Side> first_;
+  std::optional<ReplayView> first_;
   std::unique_ptr<Recorded> beside_;  // watched by second_, if anything
-  std::optional<Side> second_;
+  std::optional<ReplayView> second_;
   render::Camera second_view_;
-  std::optional<Pair> pair_;
+  std::optional<SplitView> pair_;
   FileDialog dialog_;
   std::vector<std::string> dropped_;
   Watched now_;
@@ -422,7 +422,7 @@ void Watch::show_labels(bool shown) {
 
 namespace {
 
-TimelineMoment moment_of(const Side& side, double from) {
+TimelineMoment moment_of(const ReplayView& side, double from) {
   return {.line = &side.line(),
           .from = from,
           .force = side.force(),
@@ -441,7 +441,7 @@ void Watch::titles() const {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.AddRectFilled({middle - std::max(1.0F, u), 0}, {middle + std::max(1.0F, u), ui.height()},
                      ink::rgb(0, 0, 0));
-  const auto title = [&](const Side& side, float x) {
+  const auto title = [&](const ReplayView& side, float x) {
     const std::string& text = side.recorded().title;
     const float w = std::min(ui.width_of(Ui::Letter::strong, text) + 24 * u, middle - 24 * u);
     const float h = ui.height_of(Ui::Letter::strong) + 12 * u;

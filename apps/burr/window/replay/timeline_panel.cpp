@@ -23,26 +23,26 @@ std::string clock_of(double t) {
 }
 
 // the key that does it while milling
-std::string letter_of(const tick::Wish& wish) {
-  switch (wish.kind) {
-    case tick::WishKind::undo:
+std::string letter_of(const tick::Command& command) {
+  switch (command.kind) {
+    case tick::CommandKind::undo:
       return "U";
-    case tick::WishKind::redo:
+    case tick::CommandKind::redo:
       return "Y";
-    case tick::WishKind::reset:
+    case tick::CommandKind::reset:
       return "R";
-    case tick::WishKind::burr_radius:
+    case tick::CommandKind::burr_radius:
       return "[ ]";
-    case tick::WishKind::burr_kind:
+    case tick::CommandKind::burr_kind:
       return "K";
-    case tick::WishKind::spindle_speed:
+    case tick::CommandKind::spindle_speed:
       return "rpm";
-    case tick::WishKind::tool_mode:
-      return fmt::format("{:.0f}", std::clamp(wish.value, 0.0, tick::kToolModes - 1.0) + 1);
-    case tick::WishKind::mirror_i:
-    case tick::WishKind::mirror_j:
-    case tick::WishKind::mirror_k:
-    case tick::WishKind::mirror_off:
+    case tick::CommandKind::tool_mode:
+      return fmt::format("{:.0f}", std::clamp(command.value, 0.0, tick::kToolModes - 1.0) + 1);
+    case tick::CommandKind::mirror_i:
+    case tick::CommandKind::mirror_j:
+    case tick::CommandKind::mirror_k:
+    case tick::CommandKind::mirror_off:
       return "X";
     default:
       return "F2";
@@ -77,7 +77,7 @@ bool button(const char* id, ImVec2 p, ImVec2 size, float round) {
 
 constexpr float kCurve = 62, kBar = 10;  // [points]
 
-// Force as a curve, strokes as bars below it, wishes as marks with the letter of their key; along
+// Force as a curve, strokes as bars below it, commands as marks with the letter of their key; along
 // a clock that may begin before it and end after it.
 class Line {
  public:
@@ -145,7 +145,7 @@ class Line {
       const float px = std::round(at(event.t_s));
       draw.AddRectFilled({px, y_ + 14 * u_}, {px + std::max(1.0F, u_), y_ + curve_ * u_},
                          ink::rgb(238, 240, 242, 150));
-      const std::string letter = letter_of(event.wish);
+      const std::string letter = letter_of(event.command);
       const float wide = ui_.width_of(Letter::small, letter);
       const float left = std::min(px - wide / 2, x_ + w_ - wide);
       if (left < free || left < x_ + 120 * u_) continue;
@@ -200,7 +200,7 @@ class Line {
     for (const record::TimelineEvent& event : line_.events) {
       if (std::abs(event.t_s - t) > near) continue;
       if (++more > 6) continue;
-      text += fmt::format("\n{}  {}", letter_of(event.wish), told_wish(event.wish));
+      text += fmt::format("\n{}  {}", letter_of(event.command), command_text(event.command));
     }
     if (more > 6) text += fmt::format("\n+ {}", more - 6);
     ImGui::SetTooltip("%s", text.c_str());
@@ -217,34 +217,34 @@ class Line {
 
 }  // namespace
 
-std::string told_wish(const tick::Wish& wish) {
-  switch (wish.kind) {
-    case tick::WishKind::undo:
+std::string command_text(const tick::Command& command) {
+  switch (command.kind) {
+    case tick::CommandKind::undo:
       return word(Word::undone);
-    case tick::WishKind::redo:
+    case tick::CommandKind::redo:
       return word(Word::redone);
-    case tick::WishKind::reset:
+    case tick::CommandKind::reset:
       return word(Word::back_to_start);
-    case tick::WishKind::burr_radius:
-      return say(Word::burr_now, std::round(2e5 * wish.value) / 100);
-    case tick::WishKind::spindle_speed:
-      return say(Word::speed_now, wish.value * 60 / (2 * std::numbers::pi));
-    case tick::WishKind::burr_kind:
-      return word(wish.value > 0 ? Word::now_diamond : Word::now_fluted);
-    case tick::WishKind::tool_mode:
-      return word(wish.value == 1   ? Word::now_add
-                  : wish.value == 2 ? Word::now_touch
-                  : wish.value == 3 ? Word::now_back
-                  : wish.value == 4 ? Word::now_smooth
-                                    : Word::now_cut);
-    case tick::WishKind::mirror_i:
-    case tick::WishKind::mirror_j:
-    case tick::WishKind::mirror_k:
+    case tick::CommandKind::burr_radius:
+      return say(Word::burr_now, std::round(2e5 * command.value) / 100);
+    case tick::CommandKind::spindle_speed:
+      return say(Word::speed_now, command.value * 60 / (2 * std::numbers::pi));
+    case tick::CommandKind::burr_kind:
+      return word(command.value > 0 ? Word::now_diamond : Word::now_fluted);
+    case tick::CommandKind::tool_mode:
+      return word(command.value == 1   ? Word::now_add
+                  : command.value == 2 ? Word::now_touch
+                  : command.value == 3 ? Word::now_back
+                  : command.value == 4 ? Word::now_smooth
+                                       : Word::now_cut);
+    case tick::CommandKind::mirror_i:
+    case tick::CommandKind::mirror_j:
+    case tick::CommandKind::mirror_k:
       return word(Word::mirror);
-    case tick::WishKind::mirror_off:
+    case tick::CommandKind::mirror_off:
       return word(Word::mirror_off);
-    case tick::WishKind::user_force:
-      return say(Word::replay_limit, wish.value);
+    case tick::CommandKind::user_force:
+      return say(Word::replay_limit, command.value);
     default:
       return word(Word::replay_setting);
   }

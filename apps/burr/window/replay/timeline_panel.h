@@ -1,5 +1,5 @@
 // apps/burr/window/replay/timeline_panel.h - the strip below a watched session: numbers of the moment, and
-// the whole session as a line to scrub on, with force, strokes and wishes.
+// the whole session as a line to scrub on, with force, strokes and commands.
 //
 // Plain data in, what the user did comes back. Thread: main, between Ui::begin() and draw().
 #pragma once
@@ -42,7 +42,7 @@ struct TimelineDone {
 
 [[nodiscard]] TimelineDone draw_timeline(Ui& ui, const TimelineState& state);
 
-// What a wish says to people: "burr of 4 mm".
-[[nodiscard]] std::string told_wish(const tick::Wish& wish);
+// What a command says to people: "burr of 4 mm".
+[[nodiscard]] std::string command_text(const tick::Command& command);
 
 }  // namespace burr::app

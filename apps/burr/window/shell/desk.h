@@ -81,7 +81,7 @@ class Desk {
   std::unique_ptr<Ui> ui_;      // goes first
   bool keep_old_ = false;       // the settings' file had trouble
   bool minimised_ = false;      // nobody sees it: nothing is drawn
-  bool asked_quads_ = false;    // the window was made with a wish for a picture for each eye
+  bool asked_quads_ = false;    // the window was made with a request for a picture for each eye
   bool in_right_half_ = false;  // the mouse
   int pictures_ = 0, renewed_ = 0;
 };

@@ -44,12 +44,12 @@ Result<Ready> open_ready(WorkOptions options, Progress& progress) {
 
 Result<Left> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& window) {
   WindowOptions with = window;
-  with.nearby = ready.nearby.get();
+  with.spared_distance = ready.spared_distance.get();
   with.greys = ready.greys;
   std::unique_ptr<Loudspeaker> loudspeaker;
   if (window.sound) {
-    loudspeaker =
-        std::make_unique<Loudspeaker>(ready.session->settings().servo, ready.nearby->distances());
+    loudspeaker = std::make_unique<Loudspeaker>(ready.session->settings().servo,
+                                                ready.spared_distance->distances());
     if (!loudspeaker->trouble().empty()) fmt::print(stderr, "{}\n", loudspeaker->trouble());
     with.loudspeaker = loudspeaker.get();
   }

@@ -1,4 +1,4 @@
-// apps/burr/window/shell/settings.h - what the user wishes of the window, kept as one readable TOML file.
+// apps/burr/window/shell/settings.h - what the user commands of the window, kept as one readable TOML file.
 //
 //     SettingsRead read = read_settings(path);       // no file: the defaults, and no trouble
 //     Status kept = write_settings(read.settings, path, !read.troubles.empty());

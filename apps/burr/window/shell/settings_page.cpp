@@ -130,23 +130,23 @@ void pads_leaf(Lines& left, Lines& right, Settings& settings, DeviceLeaf* device
   left.number(Word::set_pad_dead, "pad_dead", settings.pad_dead, "%.2f");
   if (device != nullptr) {
     const bool before = left.changed();
-    DeviceWishes& wishes = device->wishes;
+    DevicePreferences& preferences = device->preferences;
     left.heading(device->id);
     // in the book 0 is "what the device can"; a slider at its left end is the smallest force
-    double force =
-        wishes.max_force_n > 0 ? std::min(wishes.max_force_n, device->peak) : device->peak;
+    double force = preferences.max_force_n > 0 ? std::min(preferences.max_force_n, device->peak)
+                                               : device->peak;
     const double shown = force;
     left.number(Word::set_device_force, "device_force", force, "%.1f N", {0.1, device->peak});
-    if (force != shown) wishes.max_force_n = force;
-    const auto wish = [&left](Word name, const char* key, double& value, const char* format) {
-      const WishRange range = range_of_wish(key);
+    if (force != shown) preferences.max_force_n = force;
+    const auto preference = [&left](Word name, const char* key, double& value, const char* format) {
+      const PreferenceRange range = range_of_preference(key);
       left.number(name, ("device_" + std::string(key)).c_str(), value, format,
                   {range.least, range.most});
     };
-    wish(Word::set_device_scale, "scale", wishes.mapping.scale, "%.2f x");
-    wish(Word::set_device_vibration, "vibration", wishes.vibration, "%.1f x");
-    if (device->turns) wish(Word::set_device_torque, "torque", wishes.torque, "%.1f x");
-    left.yes(Word::set_device_dead_man, "device_dead_man", wishes.mapping.dead_man);
+    preference(Word::set_device_scale, "scale", preferences.mapping.scale, "%.2f x");
+    preference(Word::set_device_vibration, "vibration", preferences.vibration, "%.1f x");
+    if (device->turns) preference(Word::set_device_torque, "torque", preferences.torque, "%.1f x");
+    left.yes(Word::set_device_dead_man, "device_dead_man", preferences.mapping.dead_man);
     left.remark(Word::set_device_next);
     device->changed = left.changed() && !before;
   }

@@ -17,7 +17,7 @@ struct DeviceLeaf {
   const std::string& id;
   double peak;  // that it can push [N]
   bool turns;   // it has torque
-  DeviceWishes& wishes;
+  DevicePreferences& preferences;
   bool changed = false;
 };
 

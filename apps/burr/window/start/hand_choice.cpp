@@ -22,11 +22,11 @@ bool homes(const std::string& device) {
 }
 
 // What may be chosen: as one writes it after --device; "" is the mouse.
-std::vector<std::string> choices(const std::string& wished) {
+std::vector<std::string> choices(const std::string& requested) {
   std::vector<std::string> all = {""};
   for (const HandKind& kind : hand_kinds()) {
     all.emplace_back(kind.name);
-    if (wished.starts_with(all.back() + ":")) all.push_back(wished);
+    if (requested.starts_with(all.back() + ":")) all.push_back(requested);
   }
   return all;
 }
@@ -41,12 +41,12 @@ std::string shown(const std::string& device) {
 
 }  // namespace
 
-HandChoice::HandChoice(HandWish wish) : wish_(std::move(wish)) { look(); }
+HandChoice::HandChoice(HandRequest request) : request_(std::move(request)) { look(); }
 
 void HandChoice::look() {
   looked_ = std::chrono::steady_clock::now();
-  if (wish_.device.empty()) return;
-  HandWish asked = wish_;
+  if (request_.device.empty()) return;
+  HandRequest asked = request_;
   asked.home = false;  // nothing moves before there is a bone
   looks_ = std::async(std::launch::async, [asked]() -> Found {
     auto device = make_hand(asked);
@@ -78,13 +78,13 @@ bool HandChoice::draw(Ui& ui, float x, float y, float w) {
   ImGui::SetCursorScreenPos({x + beside, y});
   ImGui::SetNextItemWidth(w - beside);
   bool changed = false;
-  const std::string preview = wish_.device.empty() ? shown({}) : wish_.device;
+  const std::string preview = request_.device.empty() ? shown({}) : request_.device;
   if (ImGui::BeginCombo("##hand", preview.c_str(), ImGuiComboFlags_PopupAlignLeft)) {
-    for (const std::string& device : choices(wish_.device))
-      if (ImGui::Selectable(shown(device).c_str(), device == wish_.device) &&
-          device != wish_.device) {
-        wish_ = HandWish();  // what was allowed to one arm is not allowed to another
-        wish_.device = device;
+    for (const std::string& device : choices(request_.device))
+      if (ImGui::Selectable(shown(device).c_str(), device == request_.device) &&
+          device != request_.device) {
+        request_ = HandRequest();  // what was allowed to one arm is not allowed to another
+        request_.device = device;
         changed = true;
       }
     ImGui::EndCombo();
@@ -96,12 +96,12 @@ bool HandChoice::draw(Ui& ui, float x, float y, float w) {
     look();
   }
   y += 36 * u;
-  if (homes(wish_.device)) {
+  if (homes(request_.device)) {
     ImGui::SetCursorScreenPos({x, y});
-    ImGui::Checkbox(word(Word::hand_home), &wish_.home);
+    ImGui::Checkbox(word(Word::hand_home), &request_.home);
     y += 32 * u;
   }
-  if (wish_.device.empty()) return changed;
+  if (request_.device.empty()) return changed;
 
   const std::string text = there_ ? words_ : word(Word::hand_looks);
   const ImFont* font = ui.font(Letter::small);

@@ -30,7 +30,7 @@ struct KeptSession {
   std::string when;            // "2026-11-22 19:31"
   WorkOptions options;         // as given at its start; volume.path as the user said it
   double seconds = 0, removed_mm3 = 0;
-  bool clean = false;  // it ended as the user wished
+  bool clean = false;  // it ended as the user requested
   bool keep = false;   // never thrown away
   std::uintmax_t bytes = 0;
 };

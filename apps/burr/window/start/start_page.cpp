@@ -51,11 +51,11 @@ std::string name_of_case(const std::string& name) {
   return name;
 }
 
-StartPage::StartPage(Desk& desk, const HandWish& hand)
+StartPage::StartPage(Desk& desk, const HandRequest& hand)
     : desk_(desk), thumbnails_(desk.places().cache, cases()), renewed_(desk.renewed()), hand_([&] {
-        HandWish wish = hand;
-        if (wish.device.empty()) wish.device = desk.settings.device;
-        return wish;
+        HandRequest request = hand;
+        if (request.device.empty()) request.device = desk.settings.device;
+        return request;
       }()) {}
 
 Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seconds) {
@@ -167,7 +167,7 @@ void StartPage::draw() {
   y += 12 * u;
   recents(right, y, w);
   if (hand_.draw(ui, right, top + 632 * u, w)) {
-    desk_.settings.device = hand_.wish().device;
+    desk_.settings.device = hand_.request().device;
     desk_.settings_changed();
   }
 

@@ -19,7 +19,7 @@ namespace burr::app {
 class StartPage {
  public:
   // hand: of the command line; without a device the settings say which one
-  StartPage(Desk& desk, const HandWish& hand);
+  StartPage(Desk& desk, const HandRequest& hand);
 
   // What the user chose; exactly one is set.
   struct Choice {
@@ -31,7 +31,7 @@ class StartPage {
   // trouble: a sentence about what went wrong before; "" for nothing.
   [[nodiscard]] Result<Choice> ask(const std::string& trouble, double seconds = 0);
   // What is to lead the burr; no device: the mouse.
-  [[nodiscard]] const HandWish& hand() const { return hand_.wish(); }
+  [[nodiscard]] const HandRequest& hand() const { return hand_.request(); }
 
  private:
   void take_events();

@@ -171,7 +171,7 @@ Result<std::unique_ptr<Arm>> Arm::open(const ArmSettings& settings) {
       new Arm(std::make_unique<Talk>(std::move(*bus), name, settings.middle)));
 }
 
-void Arm::tell(const ArmTold& told) {
+void Arm::tell(const ArmReport& told) {
   const std_msgs_msg_dds__Header_ header{now_stamp(), lent("world")};
   talk_->measured.write(PoseStamped{header, message_of(told.measured)});
   talk_->setpoint.write(PoseStamped{header, message_of(told.setpoint)});

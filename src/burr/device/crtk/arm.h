@@ -47,7 +47,7 @@ struct ArmGoal {
 };
 
 // What the arm says of itself.
-struct ArmTold {
+struct ArmReport {
   math::Pose measured, setpoint;
   math::Vec3 velocity = math::Vec3::Zero();  // [m/s]
   math::Vec3 force = math::Vec3::Zero();     // of the bone on the burr, at its centre [N]
@@ -63,7 +63,7 @@ class Arm {
   Arm(const Arm&) = delete;
   Arm& operator=(const Arm&) = delete;
 
-  void tell(const ArmTold& told);
+  void tell(const ArmReport& told);
   // False: nothing new.
   [[nodiscard]] bool take(ArmGoal& newest) BURR_RT;
   [[nodiscard]] int domain() const;

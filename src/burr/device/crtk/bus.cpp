@@ -151,19 +151,22 @@ namespace detail {
 
 dds_entity_t make_reader(dds_entity_t participant, const dds_topic_descriptor_t& type,
                          std::string_view topic, Keep keep) {
-  const Qos wish = qos(keep);
+  const Qos request = qos(keep);
   // what happened before can be had only from a writer that is reliable
-  dds_qset_reliability(
-      wish.get(), keep == Keep::last ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, 0);
-  return dds_create_reader(participant, make_topic(participant, type, topic), wish.get(), nullptr);
+  dds_qset_reliability(request.get(),
+                       keep == Keep::last ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
+                       0);
+  return dds_create_reader(participant, make_topic(participant, type, topic), request.get(),
+                           nullptr);
 }
 
 dds_entity_t make_writer(dds_entity_t participant, const dds_topic_descriptor_t& type,
                          std::string_view topic, Keep keep, std::string_view mark) {
-  const Qos wish = qos(keep);
-  if (!mark.empty()) dds_qset_userdata(wish.get(), mark.data(), mark.size());
-  dds_qset_reliability(wish.get(), DDS_RELIABILITY_RELIABLE, 0);  // no wait for who is slow
-  return dds_create_writer(participant, make_topic(participant, type, topic), wish.get(), nullptr);
+  const Qos request = qos(keep);
+  if (!mark.empty()) dds_qset_userdata(request.get(), mark.data(), mark.size());
+  dds_qset_reliability(request.get(), DDS_RELIABILITY_RELIABLE, 0);  // no wait for who is slow
+  return dds_create_writer(participant, make_topic(participant, type, topic), request.get(),
+                           nullptr);
 }
 
 bool take(dds_entity_t reader, void* sample) {

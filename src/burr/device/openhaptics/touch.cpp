@@ -65,7 +65,7 @@ Status Touch::open() {
   if (!started) return started.error();
   spec_ = std::move(*started);
   stop_ = false;
-  keeper_ = std::make_unique<rt::Thread>(rt::ThreadWish{.name = "touch", .stack_bytes = 0},
+  keeper_ = std::make_unique<rt::Thread>(rt::ThreadRequest{.name = "touch", .stack_bytes = 0},
                                          [this] { keep(); });
   return fine();
 }

@@ -240,7 +240,7 @@ vec3 srgb(vec3 c) {
 )";
 
 // Behind kColourFunctions, with PLAIN, or with HOLLOWS (and HALF: at half resolution), SHADOW (of
-// the tool) and OTHERS (than bone: tool and marks) as wished: a processor that draws takes both
+// the tool) and OTHERS (than bone: tool and marks) as requested: a processor that draws takes both
 // ways of every `if`, so what is not needed must not be there.
 inline constexpr const char* kLightFragment = R"(
 uniform sampler2D colour_map;

@@ -1,7 +1,7 @@
 // Too much at once, on purpose: a machine that is too slow, a burr that is too big. The force stays
 // bounded and grows no faster than it may, quality falls in the documented order, the account
 // holds.
-#include "burr/tick/load.h"
+#include "burr/tick/shed.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -36,89 +36,89 @@ constexpr std::int64_t kMs = 1'000'000;  // [ns]
 
 // ---- the governor alone
 
-TEST(LoadGovernor, PutsOffInTheDocumentedOrderAndTakesUpAgainOneByOne) {
-  LoadGovernor governor(kMs);
-  std::vector<Load> order = {Load::none};
+TEST(ShedGovernor, PutsOffInTheDocumentedOrderAndTakesUpAgainOneByOne) {
+  ShedGovernor governor(kMs);
+  std::vector<Shed> order = {Shed::none};
   const auto tick = [&](std::int64_t work) {
     governor.note(work, 0, 0);
-    if (governor.load() != order.back()) order.push_back(governor.load());
+    if (governor.shed() != order.back()) order.push_back(governor.shed());
   };
   int up = 0;
-  for (; up < 1000 && governor.load() != Load::touch; ++up) tick(2 * kMs);
-  EXPECT_EQ(order, (std::vector<Load>{Load::none, Load::picture, Load::mesh, Load::removal_2,
-                                      Load::removal_4, Load::removal_8, Load::touch}));
+  for (; up < 1000 && governor.shed() != Shed::touch; ++up) tick(2 * kMs);
+  EXPECT_EQ(order, (std::vector<Shed>{Shed::none, Shed::picture, Shed::mesh, Shed::removal_2,
+                                      Shed::removal_4, Shed::removal_8, Shed::touch}));
   EXPECT_LT(up, 200) << "the hand may not wait longer than that";
   tick(50 * kMs);
-  EXPECT_EQ(governor.load(), Load::touch) << "there is nothing after the last";
-  order = {Load::touch};
+  EXPECT_EQ(governor.shed(), Shed::touch) << "there is nothing after the last";
+  order = {Shed::touch};
   for (int n = 0; n < 10'000; ++n) tick(kMs / 10);
-  EXPECT_EQ(order, (std::vector<Load>{Load::touch, Load::removal_8, Load::removal_4,
-                                      Load::removal_2, Load::mesh, Load::picture, Load::none}));
-  EXPECT_EQ(governor.most(), Load::touch);
+  EXPECT_EQ(order, (std::vector<Shed>{Shed::touch, Shed::removal_8, Shed::removal_4,
+                                      Shed::removal_2, Shed::mesh, Shed::picture, Shed::none}));
+  EXPECT_EQ(governor.most(), Shed::touch);
 }
 
-TEST(LoadGovernor, LooksAtWorkAtLatenessAndAtWhatWasLeftOut) {
+TEST(ShedGovernor, LooksAtWorkAtLatenessAndAtWhatWasLeftOut) {
   const auto after = [](std::int64_t work, std::int64_t late, std::int64_t missed) {
-    LoadGovernor governor(kMs);
+    ShedGovernor governor(kMs);
     for (int n = 0; n < 100; ++n) governor.note(work, late, missed);
-    return governor.load();
+    return governor.shed();
   };
-  EXPECT_EQ(after(kMs / 2, kMs / 3, 0), Load::none);
-  EXPECT_GT(after(kMs * 7 / 10, 0, 0), Load::none);
-  EXPECT_GT(after(0, kMs * 6 / 10, 0), Load::none);
-  EXPECT_GT(after(0, 0, 1), Load::none);
+  EXPECT_EQ(after(kMs / 2, kMs / 3, 0), Shed::none);
+  EXPECT_GT(after(kMs * 7 / 10, 0, 0), Shed::none);
+  EXPECT_GT(after(0, kMs * 6 / 10, 0), Shed::none);
+  EXPECT_GT(after(0, 0, 1), Shed::none);
 }
 
-TEST(LoadGovernor, PutsNothingOffForATickThatNobodyHereKeptWaiting) {
-  LoadSettings settings;
+TEST(ShedGovernor, PutsNothingOffForATickThatNobodyHereKeptWaiting) {
+  ShedSettings settings;
   settings.first_in_line = true;
-  LoadGovernor late(kMs, settings), heavy(kMs, settings);
+  ShedGovernor late(kMs, settings), heavy(kMs, settings);
   for (int n = 0; n < 5000; ++n) {
     late.note(kMs / 10, 2 * kMs, 2);
     heavy.note(kMs * 7 / 10, 2 * kMs, 2);
   }
-  EXPECT_EQ(late.most(), Load::none);
-  EXPECT_EQ(heavy.load(), Load::touch);
+  EXPECT_EQ(late.most(), Shed::none);
+  EXPECT_EQ(heavy.shed(), Shed::touch);
 }
 
-TEST(LoadGovernor, TouchesLessWellOnlyWhereTheTickItselfIsTooHeavy) {
-  LoadGovernor late(kMs), heavy(kMs);
+TEST(ShedGovernor, TouchesLessWellOnlyWhereTheTickItselfIsTooHeavy) {
+  ShedGovernor late(kMs), heavy(kMs);
   for (int n = 0; n < 5000; ++n) {
     late.note(kMs / 10, 2 * kMs, 2);
     heavy.note(kMs * 7 / 10, 0, 0);
   }
-  EXPECT_EQ(late.load(), Load::removal_8);
-  EXPECT_EQ(heavy.load(), Load::touch);
+  EXPECT_EQ(late.shed(), Shed::removal_8);
+  EXPECT_EQ(heavy.shed(), Shed::touch);
 }
 
-TEST(LoadGovernor, AMishapIsNoOverload) {
-  LoadGovernor governor(kMs);
+TEST(ShedGovernor, AMishapIsNoOverload) {
+  ShedGovernor governor(kMs);
   for (int n = 0; n < 10'000; ++n) {
     const bool pause = n % 500 == 0;
     governor.note(pause ? 30 * kMs : kMs / 10, pause ? 30 * kMs : 0, pause ? 30 : 0);
-    ASSERT_EQ(governor.load(), Load::none) << n;
+    ASSERT_EQ(governor.shed(), Shed::none) << n;
   }
 }
 
-TEST(LoadGovernor, DoesNotSwingBetweenTwoStepsForEver) {
-  LoadGovernor governor(kMs);
+TEST(ShedGovernor, DoesNotSwingBetweenTwoStepsForEver) {
+  ShedGovernor governor(kMs);
   int steps = 0;
-  Load before = Load::none;
+  Shed before = Shed::none;
   for (int n = 0; n < 120'000; ++n) {  // two minutes on a machine for which removal_2 is right
-    governor.note(governor.load() >= Load::removal_2 ? kMs / 2 : kMs * 9 / 10, 0, 0);
-    steps += governor.load() != before ? 1 : 0;
-    before = governor.load();
+    governor.note(governor.shed() >= Shed::removal_2 ? kMs / 2 : kMs * 9 / 10, 0, 0);
+    steps += governor.shed() != before ? 1 : 0;
+    before = governor.shed();
   }
   EXPECT_LT(steps, 40) << "the wait for the next try doubles";
-  EXPECT_GE(before, Load::mesh);
+  EXPECT_GE(before, Shed::mesh);
 }
 
-TEST(LoadGovernor, TakesTheSameTimeAtAnyRate) {
+TEST(ShedGovernor, TakesTheSameTimeAtAnyRate) {
   const auto seconds_up = [](double rate) {
     const std::int64_t period = rt::period_from_rate(rate);
-    LoadGovernor governor(period);
+    ShedGovernor governor(period);
     int n = 0;
-    while (governor.load() != Load::touch && n < 100'000) {
+    while (governor.shed() != Shed::touch && n < 100'000) {
       governor.note(2 * period, 0, 0);
       ++n;
     }
@@ -206,13 +206,13 @@ TEST(Overload, AMachineTooSlowPutsOffPictureMeshAndRemovalAndTheTouchLast) {
   constexpr int kTicks = 6000;
   Bench b = bench("pocket", 20, 0.2);
   Servo& servo = *b.servo;
-  rt::Ring<tick::WishRow> wishes(1024);
-  servo.set_diary({nullptr, &wishes, nullptr});
+  rt::Ring<tick::CommandRow> commands(1024);
+  servo.set_diary({nullptr, &commands, nullptr});
   rt::VirtualClock clock(1000);
-  LoadGovernor governor(clock.period_ns());
+  ShedGovernor governor(clock.period_ns());
   SlowMachine machine;
   Watch watch(*b.bone);
-  std::vector<Load> order = {Load::none};
+  std::vector<Shed> order = {Shed::none};
   std::vector<device::HandState> hands;
   std::vector<std::uint64_t> hashes;
   std::int64_t missed_late = 0, cutting_ns = 0;
@@ -231,36 +231,36 @@ TEST(Overload, AMachineTooSlowPutsOffPictureMeshAndRemovalAndTheTouchLast) {
     if (n >= 500 && n < 1000) cutting_ns += took;
     clock.pass(took);
     governor.note(took, time.late_ns, time.missed);
-    servo.set_load(governor.load());
-    if (governor.load() != order.back()) order.push_back(governor.load());
+    servo.set_shed(governor.shed());
+    if (governor.shed() != order.back()) order.push_back(governor.shed());
     if (n < 1000) {
-      ASSERT_EQ(governor.load(), Load::none);
+      ASSERT_EQ(governor.shed(), Shed::none);
     }
     if (n >= kTicks - 1000) missed_late += time.missed;
-    EXPECT_EQ((row.contact.flags & haptics::kFlagPutOff) != 0, servo.load() >= Load::removal_2);
+    EXPECT_EQ((row.contact.flags & haptics::kFlagPutOff) != 0, servo.shed() >= Shed::removal_2);
   }
   watch.end();
   // each step up is to the next one
   for (std::size_t i = 1; i < order.size(); ++i)
     EXPECT_EQ(std::abs(static_cast<int>(order[i]) - static_cast<int>(order[i - 1])), 1);
-  EXPECT_GE(governor.most(), Load::removal_2) << "the machine is not slow enough to show anything";
+  EXPECT_GE(governor.most(), Shed::removal_2) << "the machine is not slow enough to show anything";
   // and it helps: without the governor every one of these ticks would leave out others
   EXPECT_LT(missed_late, 100);
   std::string steps;
-  for (const Load step : order) steps += std::to_string(static_cast<int>(step)) + " ";
+  for (const Shed step : order) steps += std::to_string(static_cast<int>(step)) + " ";
   RecordProperty("steps", steps);
 
   // the same again from what was recorded, without any clock
   Bench again = bench("pocket", 20, 0.2);
   device::ReplayedHand hand(b.hand->spec());
   Servo replayed(*again.bone, *again.surface, hand, again.settings);
-  tick::WishRow row;
-  bool waits = wishes.pop(row);
+  tick::CommandRow row;
+  bool waits = commands.pop(row);
   int changes = 0;
   for (int n = 0; n < kTicks; ++n) {
-    for (; waits && row.tick == static_cast<std::uint64_t>(n); waits = wishes.pop(row)) {
-      EXPECT_EQ(row.wish.kind, tick::WishKind::load);
-      replayed.wishes().push(row.wish);
+    for (; waits && row.tick == static_cast<std::uint64_t>(n); waits = commands.pop(row)) {
+      EXPECT_EQ(row.command.kind, tick::CommandKind::shed);
+      replayed.commands().push(row.command);
       ++changes;
     }
     hand.set(hands[static_cast<std::size_t>(n)]);
@@ -279,10 +279,10 @@ TEST(Overload, WhatIsCutInTurnIsCutWithinASixteenthOfTheSame) {
     double removed = 0, depth = 0, mean_force = 0;
     int bricks = 0;
   };
-  const auto cut_at = [](Load load) {
+  const auto cut_at = [](Shed shed) {
     // straight down; dragged aside too it is 6.3 %
     Bench b = bench("plunge", 20, 0.2, 2 * kMm, 0);
-    b.servo->set_load(load);
+    b.servo->set_shed(shed);
     Watch watch(*b.bone);
     Seen seen;
     for (int n = 0; n < 2500; ++n) {
@@ -297,12 +297,12 @@ TEST(Overload, WhatIsCutInTurnIsCutWithinASixteenthOfTheSame) {
     watch.end();
     return seen;
   };
-  const Seen at_once = cut_at(Load::none);
-  for (const Load load : {Load::removal_2, Load::removal_4, Load::removal_8}) {
-    const Seen in_turn = cut_at(load);
-    EXPECT_NEAR(in_turn.removed, at_once.removed, 0.0625 * at_once.removed) << name(load);
-    EXPECT_NEAR(in_turn.mean_force, at_once.mean_force, 0.05 * at_once.mean_force) << name(load);
-    EXPECT_LT(in_turn.bricks, 1.5 * at_once.bricks / turns_of(load) + 4) << name(load);
+  const Seen at_once = cut_at(Shed::none);
+  for (const Shed shed : {Shed::removal_2, Shed::removal_4, Shed::removal_8}) {
+    const Seen in_turn = cut_at(shed);
+    EXPECT_NEAR(in_turn.removed, at_once.removed, 0.0625 * at_once.removed) << name(shed);
+    EXPECT_NEAR(in_turn.mean_force, at_once.mean_force, 0.05 * at_once.mean_force) << name(shed);
+    EXPECT_LT(in_turn.bricks, 1.5 * at_once.bricks / slices_of(shed) + 4) << name(shed);
   }
 }
 
@@ -312,7 +312,7 @@ TEST(Overload, EveryStepFromOneTickToTheNextLeavesTheForceAsItWas) {
   unsigned state = 12345;
   for (int n = 0; n < 6000; ++n) {
     state = state * 1664525U + 1013904223U;
-    if (n % 7 == 0) b.servo->set_load(static_cast<Load>((state >> 16) % kLoads));
+    if (n % 7 == 0) b.servo->set_shed(static_cast<Shed>((state >> 16) % kShedSteps));
     watch.see(b.servo->tick(false));
     b.servo->publish();
   }
@@ -379,7 +379,7 @@ TEST(Overload, ASessionThatWasTooSlowForAWhileReplaysToTheBit) {
   const sim::Outcome outcome = session.outcome();
   EXPECT_EQ(outcome.ticks, 1500U);
   EXPECT_GE(outcome.timing.missed, 200U) << "400 ticks of two periods each";
-  EXPECT_GT(outcome.most_load, Load::mesh);
+  EXPECT_GT(outcome.most_shed, Shed::mesh);
   EXPECT_LE(outcome.peak_force, 3.3 + 1e-9);
   const edit::Ledger& ledger = outcome.ledger;
   EXPECT_NEAR(ledger.asked, ledger.removed + ledger.debt + ledger.not_cut, 1e-6 * ledger.asked);

@@ -1,4 +1,4 @@
-#include "workshop/arm_teller.h"
+#include "workshop/arm_publisher.h"
 
 #include <chrono>
 #include <utility>
@@ -6,8 +6,8 @@
 namespace burr::app {
 namespace {
 
-device::crtk::ArmTold told_of(const tick::TickRow& row) {
-  device::crtk::ArmTold told;
+device::crtk::ArmReport told_of(const tick::TickRow& row) {
+  device::crtk::ArmReport told;
   told.setpoint = row.hand.world_from_tool;
   told.measured = {row.contact.proxy, row.hand.world_from_tool.q};
   told.velocity = row.hand.velocity;
@@ -17,14 +17,15 @@ device::crtk::ArmTold told_of(const tick::TickRow& row) {
 
 }  // namespace
 
-ArmTeller::ArmTeller(sim::Session& session, device::crtk::Arm& arm, std::function<bool()> busy)
+ArmPublisher::ArmPublisher(sim::Session& session, device::crtk::Arm& arm,
+                           std::function<bool()> busy)
     : session_(session) {
   session_.set_watch(&rows_);
   thread_ = std::thread([this, &arm, busy = std::move(busy)] {
     tick::TickRow row;
     while (!stop_) {
       if (rows_.take(row)) {
-        device::crtk::ArmTold told = told_of(row);
+        device::crtk::ArmReport told = told_of(row);
         told.busy = busy && busy();
         told.let_go = session_.servo().let_go();
         arm.tell(told);
@@ -34,7 +35,7 @@ ArmTeller::ArmTeller(sim::Session& session, device::crtk::Arm& arm, std::functio
   });
 }
 
-ArmTeller::~ArmTeller() {
+ArmPublisher::~ArmPublisher() {
   stop_ = true;
   thread_.join();
   session_.set_watch(nullptr);

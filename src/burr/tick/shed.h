@@ -1,14 +1,14 @@
-// tick/load.h - a machine too slow for what is asked: what is left undone first, so that the hand is
+// tick/shed.h - a machine too slow for what is asked: what is left undone first, so that the hand is
 // last.
 //
-//     none -> picture -> mesh -> removal in 2, 4, 8 turns -> touch in fewer moves
+//     none -> picture -> mesh -> removal in 2, 4, 8 slices -> touch in fewer moves
 //
-//     LoadGovernor governor(period_ns);
-//     each tick:  servo.set_load(governor.load());  tick ...;  governor.note(wall_ns, late_ns,
+//     ShedGovernor governor(period_ns);
+//     each tick:  servo.set_shed(governor.shed());  tick ...;  governor.note(wall_ns, late_ns,
 //     missed);
 //
-// Picture and mesh are drawn and made less often: other threads look at Session::load(). What
-// changes the tick itself enters as a wish that is recorded (tick/rows.h, WishKind::load), so
+// Picture and mesh are drawn and made less often: other threads look at Session::shed(). What
+// changes the tick itself enters as a command that is recorded (tick/rows.h, CommandKind::shed), so
 // that a replay does the same without any clock. Up within a few hundredths of a second, down one
 // step a second at most, and slower where the step down had to be taken back.
 // Thread: servo. A pure function of the durations it is told. Memory: none.
@@ -20,7 +20,7 @@
 
 namespace burr::tick {
 
-enum class Load : std::uint8_t {
+enum class Shed : std::uint8_t {
   none,
   picture,    // drawn at most ten times a second
   mesh,       // ... and the surface follows the cut more slowly
@@ -29,20 +29,20 @@ enum class Load : std::uint8_t {
   removal_8,  // ... an eighth
   touch,      // ... and the burr may lag behind a fast hand
 };
-inline constexpr int kLoads = 7;
+inline constexpr int kShedSteps = 7;
 
-// In how many turns the bricks are cut, and their surface made anew.
-[[nodiscard]] constexpr int turns_of(Load load) BURR_RT {
-  return load >= Load::removal_8   ? 8
-         : load == Load::removal_4 ? 4
-         : load == Load::removal_2 ? 2
+// In how many slices of time the bricks are cut, and their surface made anew.
+[[nodiscard]] constexpr int slices_of(Shed shed) BURR_RT {
+  return shed >= Shed::removal_8   ? 8
+         : shed == Shed::removal_4 ? 4
+         : shed == Shed::removal_2 ? 2
                                    : 1;
 }
 
 // "nothing", "the picture" ...: what is put off.
-[[nodiscard]] const char* name(Load load) noexcept;
+[[nodiscard]] const char* name(Shed shed) noexcept;
 
-struct LoadSettings {
+struct ShedSettings {
   double work_share = 0.6;  // of the period a tick may take, from its begin to its end
   double late_share = 0.5;  // of the period it may begin late
   // The tick goes before everything else (SCHED_FIFO): what makes it late is then nobody's work
@@ -55,21 +55,21 @@ struct LoadSettings {
   double calm_most = 16.0;  // ... after steps down that had to be taken back         [s]
 };
 
-class LoadGovernor {
+class ShedGovernor {
  public:
-  explicit LoadGovernor(std::int64_t period_ns, const LoadSettings& settings = {});
+  explicit ShedGovernor(std::int64_t period_ns, const ShedSettings& settings = {});
 
   // One tick took `wall_ns` from begin to end and began `late_ns` after its time; `missed` periods
   // were left out before it.
   void note(std::int64_t wall_ns, std::int64_t late_ns, std::int64_t missed) BURR_RT;
 
-  [[nodiscard]] Load load() const BURR_RT { return load_; }
-  [[nodiscard]] Load most() const BURR_RT { return most_; }  // ever
+  [[nodiscard]] Shed shed() const BURR_RT { return shed_; }
+  [[nodiscard]] Shed most() const BURR_RT { return most_; }  // ever
 
  private:
-  LoadSettings settings_;
+  ShedSettings settings_;
   double period_s_;
-  Load load_ = Load::none, most_ = Load::none;
+  Shed shed_ = Shed::none, most_ = Shed::none;
   double share_ = 0;       // of ticks that were over, smoothed
   double heavy_ = 0;       // ... by their own work
   double since_step_ = 0;  // since the last step up or down                         [s]

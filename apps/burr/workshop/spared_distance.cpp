@@ -1,4 +1,4 @@
-#include "workshop/nearby.h"
+#include "workshop/spared_distance.h"
 
 #include <fmt/core.h>
 
@@ -52,21 +52,22 @@ Tissues read_spared(const record::SessionInfo& info) {
   return spared;
 }
 
-Result<Nearby> Nearby::make(const volume::Bone& bone, const Tissues& spared, Progress& progress) {
+Result<SparedDistance> SparedDistance::make(const volume::Bone& bone, const Tissues& spared,
+                                            Progress& progress) {
   auto distance = volume::DistanceTo::make(bone, spared, {}, progress);
   if (!distance) return distance.error();
-  Nearby made;
+  SparedDistance made;
   made.distance_ = std::move(*distance);
   made.table_ = bone.tissues();
   return made;
 }
 
-Hearing::ToSpare Nearby::distances() const {
+Hearing::ToSpare SparedDistance::distances() const {
   if (distance_.empty()) return {};
   return [this](const math::Vec3& p) { return distance_.at(p).distance; };
 }
 
-std::optional<Nearby::Near> Nearby::nearest(const math::Vec3& p) const {
+std::optional<SparedDistance::Near> SparedDistance::nearest(const math::Vec3& p) const {
   const volume::Nearest nearest = distance_.at(p);
   if (!std::isfinite(nearest.distance)) return std::nullopt;
   return Near{base::shown(table_[nearest.tissue].name, 30), nearest.distance};

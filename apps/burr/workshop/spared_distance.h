@@ -1,4 +1,4 @@
-// apps/burr/workshop/nearby.h - how near the burr is to what must not be cut, for the eye and the ear.
+// apps/burr/workshop/spared_distance.h - how near the burr is to what must not be cut, for the eye and the ear.
 //
 // Thread: main. Memory: volume/distance_to.h; where there is nothing to spare, none.
 #pragma once
@@ -26,12 +26,12 @@ using Tissues = std::vector<volume::TissueId>;
 void write_spared(const Tissues& spared, record::SessionInfo& info);
 [[nodiscard]] Tissues read_spared(const record::SessionInfo& info);
 
-class Nearby {
+class SparedDistance {
  public:
-  Nearby() = default;  // nothing is near
+  SparedDistance() = default;  // nothing is near
   // Before the first cut. Error: only Trouble::interrupted.
-  [[nodiscard]] static Result<Nearby> make(const volume::Bone& bone, const Tissues& spared,
-                                           Progress& progress);
+  [[nodiscard]] static Result<SparedDistance> make(const volume::Bone& bone, const Tissues& spared,
+                                                   Progress& progress);
 
   // From a point [m]; empty: there is nothing to spare. Good as long as this lives.
   [[nodiscard]] Hearing::ToSpare distances() const;

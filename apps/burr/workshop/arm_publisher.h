@@ -1,7 +1,7 @@
-// apps/burr/workshop/arm_teller.h - a session told to others as a CRTK arm: what the tick's newest row says,
+// apps/burr/workshop/arm_publisher.h - a session told to others as a CRTK arm: what the tick's newest row says,
 // up to a thousand times a second.
 //
-//     auto told = ArmTeller::begin(session, arm, [&] { return hand.busy(); });
+//     auto told = ArmPublisher::begin(session, arm, [&] { return hand.busy(); });
 //
 // Thread: main; begin before the session runs, end after it stands.
 #pragma once
@@ -16,13 +16,13 @@
 
 namespace burr::app {
 
-class ArmTeller {
+class ArmPublisher {
  public:
   // busy: whether it moves by itself just now; empty: never
-  ArmTeller(sim::Session& session, device::crtk::Arm& arm, std::function<bool()> busy = {});
-  ~ArmTeller();
-  ArmTeller(const ArmTeller&) = delete;
-  ArmTeller& operator=(const ArmTeller&) = delete;
+  ArmPublisher(sim::Session& session, device::crtk::Arm& arm, std::function<bool()> busy = {});
+  ~ArmPublisher();
+  ArmPublisher(const ArmPublisher&) = delete;
+  ArmPublisher& operator=(const ArmPublisher&) = delete;
 
  private:
   sim::Session& session_;

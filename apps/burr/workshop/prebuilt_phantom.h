@@ -1,4 +1,4 @@
-// apps/burr/workshop/ready_bone.h - the bones of the built-in cases, shaped when burr was built: a formula
+// apps/burr/workshop/prebuilt_phantom.h - the bones of the built-in cases, shaped when burr was built: a formula
 // takes seconds, a file does not. `burr phantom NAME --out NAME.bone` makes one; it is looked for
 // in bones/ beside the program, then in share/burr/bones of the same installation.
 //
@@ -15,9 +15,9 @@ namespace burr::app {
 
 // The phantom with its usual voxels, to the bit as its formula makes it; nothing where no file has
 // it or the file is damaged: the formula is always there.
-[[nodiscard]] std::unique_ptr<volume::Bone> ready_bone(const std::string& phantom,
-                                                       std::size_t reserve_bricks);
+[[nodiscard]] std::unique_ptr<volume::Bone> prebuilt_phantom(const std::string& phantom,
+                                                             std::size_t reserve_bricks);
 
-[[nodiscard]] Status write_ready_bone(const volume::Bone& bone, const std::string& path);
+[[nodiscard]] Status write_prebuilt_phantom(const volume::Bone& bone, const std::string& path);
 
 }  // namespace burr::app

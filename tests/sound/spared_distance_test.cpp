@@ -1,5 +1,5 @@
 // What is to be spared, in words and in a recording.
-#include "workshop/nearby.h"
+#include "workshop/spared_distance.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ volume::TissueTable table() {
   return tissues;
 }
 
-TEST(Nearby, ACaseNamesWhatToSpareElseTheTableDoes) {
+TEST(SparedDistance, ACaseNamesWhatToSpareElseTheTableDoes) {
   EXPECT_EQ(to_spare(table(), {}), Tissues{3});
   EXPECT_EQ(to_spare(table(), {"facial nerve"}), Tissues{2});
   EXPECT_EQ(to_spare(table(), {"dura", "facial nerve"}), (Tissues{3, 2}));
@@ -27,7 +27,7 @@ TEST(Nearby, ACaseNamesWhatToSpareElseTheTableDoes) {
   EXPECT_EQ(said.find('\x1b'), std::string::npos);
 }
 
-TEST(Nearby, ARecordingKeepsIt) {
+TEST(SparedDistance, ARecordingKeepsIt) {
   record::SessionInfo info;
   info.volume.tissues = table();
   info.volume.grid = phantom::cube_grid(20e-3, 16);
@@ -46,24 +46,24 @@ TEST(Nearby, ARecordingKeepsIt) {
   EXPECT_EQ(read_spared(info), Tissues{});
 }
 
-TEST(Nearby, SaysWhatIsNearAndHowFar) {
+TEST(SparedDistance, SaysWhatIsNearAndHowFar) {
   // a ball of bone of 6 mm, all of it to be spared
   auto bone =
       phantom::bone_from_distance(phantom::cube_grid(20e-3, 80), {}, phantom::ball(6e-3), 0);
   NoProgress quiet;
-  const auto nearby = Nearby::make(*bone, {1}, quiet);
-  ASSERT_TRUE(nearby);
+  const auto spared_distance = SparedDistance::make(*bone, {1}, quiet);
+  ASSERT_TRUE(spared_distance);
   const math::Vec3 centre = {0, 0, 9e-3};
-  const auto distances = nearby->distances();
+  const auto distances = spared_distance->distances();
   ASSERT_TRUE(distances);
   EXPECT_NEAR(distances(centre), 3e-3, 0.2e-3);
-  const auto near = nearby->nearest(centre);
+  const auto near = spared_distance->nearest(centre);
   ASSERT_TRUE(near);
   EXPECT_EQ(near->name, "bone");
   EXPECT_EQ(near->distance, distances(centre));
-  EXPECT_FALSE(nearby->nearest({0, 0, 1})) << "beyond the reach";
+  EXPECT_FALSE(spared_distance->nearest({0, 0, 1})) << "beyond the reach";
 
-  const auto nothing = Nearby::make(*bone, {}, quiet);
+  const auto nothing = SparedDistance::make(*bone, {}, quiet);
   ASSERT_TRUE(nothing);
   EXPECT_FALSE(nothing->distances()) << "nothing to ask";
   EXPECT_FALSE(nothing->nearest(centre));

@@ -1,4 +1,4 @@
-// apps/burr/workshop/still.h - how the program looks at work: the same view, size and tool in every picture
+// apps/burr/workshop/work_view.h - how the program looks at work: the same view, size and tool in every picture
 // it leaves.
 #pragma once
 

@@ -1,4 +1,4 @@
-// apps/burr/bench/whole_session.h - a session with everything at once: the servo by the clock, surface
+// apps/burr/bench/full_load_run.h - a session with everything at once: the servo by the clock, surface
 // worker, off-screen renderer, recorder, and other programs; for measuring what a machine bears.
 //
 // Main thread: it owns the renderer. What cannot be had (no OpenGL, no room to record) is left out
@@ -13,8 +13,8 @@
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
 #include "workshop/recording.h"
-#include "workshop/still.h"
 #include "workshop/volume_options.h"
+#include "workshop/work_view.h"
 
 namespace burr::app {
 
@@ -38,7 +38,7 @@ struct MemoryRow {
 
 struct WholeOutcome {
   sim::Outcome session;
-  rt::TickSummary waiting;  // of the loop beside, if wished
+  rt::TickSummary waiting;  // of the loop beside, if requested
   record::RecordingAccount recorded;
   std::uint64_t frames = 0, patches = 0;
   int patches_waiting_most = 0;  // of the surface, not yet made

@@ -1,5 +1,5 @@
 // The bones shaped at build time are those of their formulas, to the bit.
-#include "workshop/ready_bone.h"
+#include "workshop/prebuilt_phantom.h"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@
 namespace burr::app {
 namespace {
 
-TEST(ReadyBone, IsTheBoneOfItsFormulaToTheBit) {
+TEST(PrebuiltPhantom, IsTheBoneOfItsFormulaToTheBit) {
 #ifdef BURR_SANITIZED
   GTEST_SKIP() << "no bones are shaped beforehand in a build with a sanitizer";
 #endif
   for (const char* name : {"temporal-bone", "jaw", "tooth", "spine"}) {
     SCOPED_TRACE(name);
-    const auto ready = ready_bone(name, 100);
+    const auto ready = prebuilt_phantom(name, 100);
     ASSERT_NE(ready, nullptr) << "not there, or damaged";
     NoProgress quiet;
     const auto formula = phantom::phantom(name, 0, quiet, 100);
@@ -38,9 +38,9 @@ TEST(ReadyBone, IsTheBoneOfItsFormulaToTheBit) {
   }
 }
 
-TEST(ReadyBone, OfWhatIsNotThereThereIsNone) {
-  EXPECT_EQ(ready_bone("no-such-bone", 0), nullptr);
-  EXPECT_EQ(ready_bone("../README", 0), nullptr);
+TEST(PrebuiltPhantom, OfWhatIsNotThereThereIsNone) {
+  EXPECT_EQ(prebuilt_phantom("no-such-bone", 0), nullptr);
+  EXPECT_EQ(prebuilt_phantom("../README", 0), nullptr);
 }
 
 }  // namespace

@@ -1,35 +1,35 @@
-#include "burr/tick/load.h"
+#include "burr/tick/shed.h"
 
 #include <algorithm>
 
 namespace burr::tick {
 
-const char* name(Load load) noexcept {
-  switch (load) {
-    case Load::none:
+const char* name(Shed shed) noexcept {
+  switch (shed) {
+    case Shed::none:
       break;
-    case Load::picture:
+    case Shed::picture:
       return "the picture";
-    case Load::mesh:
+    case Shed::mesh:
       return "picture and mesh";
-    case Load::removal_2:
+    case Shed::removal_2:
       return "picture, mesh and half of the removal";
-    case Load::removal_4:
+    case Shed::removal_4:
       return "picture, mesh and three quarters of the removal";
-    case Load::removal_8:
+    case Shed::removal_8:
       return "picture, mesh and seven eighths of the removal";
-    case Load::touch:
+    case Shed::touch:
       return "all that can wait; the burr may lag behind a fast hand";
   }
   return "nothing";
 }
 
-LoadGovernor::LoadGovernor(std::int64_t period_ns, const LoadSettings& settings)
+ShedGovernor::ShedGovernor(std::int64_t period_ns, const ShedSettings& settings)
     : settings_(settings),
       period_s_(1e-9 * static_cast<double>(period_ns)),
       calm_wanted_(settings.calm) {}
 
-void LoadGovernor::note(std::int64_t wall_ns, std::int64_t late_ns, std::int64_t missed) BURR_RT {
+void ShedGovernor::note(std::int64_t wall_ns, std::int64_t late_ns, std::int64_t missed) BURR_RT {
   const double work = 1e-9 * static_cast<double>(wall_ns),
                late = 1e-9 * static_cast<double>(late_ns);
   const bool heavy = work > settings_.work_share * period_s_;
@@ -45,20 +45,20 @@ void LoadGovernor::note(std::int64_t wall_ns, std::int64_t late_ns, std::int64_t
   calm_for_ = share_ > settings_.seldom ? 0 : calm_for_ + passed;
 
   // a tick that comes late although it is light is not mended by touching less well
-  const Load last = heavy_ > settings_.often ? Load::touch : Load::removal_8;
-  if (share_ > settings_.often && since_step_ >= settings_.memory && load_ < last) {
+  const Shed last = heavy_ > settings_.often ? Shed::touch : Shed::removal_8;
+  if (share_ > settings_.often && since_step_ >= settings_.memory && shed_ < last) {
     // a step down that did not last: wait longer before the next one
     if (stepped_down_ && since_step_ < 2 * calm_wanted_)
       calm_wanted_ = std::min(2 * calm_wanted_, settings_.calm_most);
     stepped_down_ = false;
-    load_ = static_cast<Load>(static_cast<int>(load_) + 1);
-    most_ = std::max(most_, load_);
+    shed_ = static_cast<Shed>(static_cast<int>(shed_) + 1);
+    most_ = std::max(most_, shed_);
     since_step_ = calm_for_ = 0;
-  } else if (load_ != Load::none && calm_for_ >= calm_wanted_) {
-    load_ = static_cast<Load>(static_cast<int>(load_) - 1);
+  } else if (shed_ != Shed::none && calm_for_ >= calm_wanted_) {
+    shed_ = static_cast<Shed>(static_cast<int>(shed_) - 1);
     stepped_down_ = true;
     since_step_ = calm_for_ = 0;
-  } else if (load_ == Load::none && calm_for_ >= settings_.calm_most) {
+  } else if (shed_ == Shed::none && calm_for_ >= settings_.calm_most) {
     calm_wanted_ = settings_.calm;
   }
 }

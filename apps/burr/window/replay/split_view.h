@@ -1,4 +1,4 @@
-// apps/burr/window/replay/pair.h - two scenes in one window, left and right. Each is drawn without a
+// apps/burr/window/replay/split_view.h - two scenes in one window, left and right. Each is drawn without a
 // window, half as wide, and its picture laid into the window's; a half in which nothing moved costs
 // nothing.
 //
@@ -14,7 +14,7 @@
 
 namespace burr::app {
 
-class Pair {
+class SplitView {
  public:
   // Into both(), for a window of that size [pixel]. The window's context is to be made current
   // again.

@@ -1,5 +1,5 @@
 // An answer to a key and a force that was let go in the same moment are both to be read.
-#include "window/shell/told.h"
+#include "window/shell/status_line.h"
 
 #include <gtest/gtest.h>
 
@@ -7,30 +7,31 @@ namespace burr::app {
 namespace {
 
 using std::chrono::milliseconds;
-const Told::Clock::time_point kStart = Told::Clock::time_point() + std::chrono::hours(1);
+const StatusLine::Clock::time_point kStart =
+    StatusLine::Clock::time_point() + std::chrono::hours(1);
 
-TEST(Told, ForceThatWasLetGoDoesNotHideTheAnswerToAKey) {
-  Told told;
+TEST(StatusLine, ForceThatWasLetGoDoesNotHideTheAnswerToAKey) {
+  StatusLine told;
   told.note("no view is kept here", kStart);
   told.let_go("the force was let go", kStart + milliseconds(1));
   EXPECT_EQ(told.note(kStart + milliseconds(200), "exporting"), "no view is kept here");
   EXPECT_EQ(told.warning(kStart + milliseconds(200), ""), "the force was let go");
 }
 
-TEST(Told, WhatHoldsNowGoesBeforeWhatHasHappened) {
-  Told told;
+TEST(StatusLine, WhatHoldsNowGoesBeforeWhatHasHappened) {
+  StatusLine told;
   told.let_go("the force was let go", kStart);
   EXPECT_EQ(told.warning(kStart + milliseconds(1), "disk full"), "disk full");
   EXPECT_EQ(told.warning(kStart + milliseconds(2), ""), "the force was let go");
 }
 
-TEST(Told, IsGoneAfterItsTime) {
-  Told told;
+TEST(StatusLine, IsGoneAfterItsTime) {
+  StatusLine told;
   EXPECT_EQ(told.note(kStart, "exporting"), "exporting");
   EXPECT_EQ(told.warning(kStart, ""), "");
   told.note("sound off", kStart);
   told.let_go("the force was let go", kStart);
-  const auto after = kStart + Told::kShown + milliseconds(1);
+  const auto after = kStart + StatusLine::kShown + milliseconds(1);
   EXPECT_EQ(told.note(after, "exporting"), "exporting");
   EXPECT_EQ(told.warning(after, ""), "");
 }

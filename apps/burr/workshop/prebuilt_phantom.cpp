@@ -1,4 +1,4 @@
-#include "workshop/ready_bone.h"
+#include "workshop/prebuilt_phantom.h"
 
 #include <filesystem>
 #include <fstream>
@@ -10,7 +10,8 @@
 
 namespace burr::app {
 
-std::unique_ptr<volume::Bone> ready_bone(const std::string& phantom, std::size_t reserve_bricks) {
+std::unique_ptr<volume::Bone> prebuilt_phantom(const std::string& phantom,
+                                               std::size_t reserve_bricks) {
   std::error_code none;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
   for (const auto& folder : {program / "bones", program / "../share/burr/bones"}) {
@@ -24,7 +25,7 @@ std::unique_ptr<volume::Bone> ready_bone(const std::string& phantom, std::size_t
   return nullptr;
 }
 
-Status write_ready_bone(const volume::Bone& bone, const std::string& path) {
+Status write_prebuilt_phantom(const volume::Bone& bone, const std::string& path) {
   Result<base::NewFile> file = base::NewFile::beside(path);
   if (!file) return file.error();
   const std::vector<std::uint8_t> bytes = record::bone_to_blob(bone);

@@ -1,4 +1,4 @@
-#include "window/replay/pair.h"
+#include "window/replay/split_view.h"
 
 #include <algorithm>
 #include <chrono>
@@ -6,7 +6,7 @@
 
 namespace burr::app {
 
-Status Pair::draw(const std::array<const render::Scene*, 2>& scenes, int width, int height) {
+Status SplitView::draw(const std::array<const render::Scene*, 2>& scenes, int width, int height) {
   both_.insets.resize(2);
   const int middle = width / 2;
   for (std::size_t n = 0; n < 2; ++n) {
@@ -23,7 +23,7 @@ Status Pair::draw(const std::array<const render::Scene*, 2>& scenes, int width, 
   return fine();
 }
 
-Status Pair::half(Half& half, const render::Scene& scene, render::Inset& inset) const {
+Status SplitView::half(Half& half, const render::Scene& scene, render::Inset& inset) const {
   using Clock = std::chrono::steady_clock;
   if (!half.renderer) {
     auto made = render::Renderer::offscreen();

@@ -1,4 +1,4 @@
-#include "workshop/still.h"
+#include "workshop/work_view.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

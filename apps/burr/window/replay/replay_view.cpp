@@ -1,4 +1,4 @@
-#include "window/replay/side.h"
+#include "window/replay/replay_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "burr/sim/session_words.h"
 #include "commands/command.h"
 #include "window/mill/mirror_mode.h"
-#include "workshop/still.h"
+#include "workshop/work_view.h"
 
 namespace burr::app {
 namespace {
@@ -15,7 +15,7 @@ constexpr auto kPatience = std::chrono::milliseconds(150);  // before "..." is s
 
 }  // namespace
 
-Side::Side(Recorded& recorded, bool software)
+ReplayView::ReplayView(Recorded& recorded, bool software)
     : recorded_(recorded),
       colours_(recorded.scene.tissue_colours),
       live_(*recorded.bone, *recorded.worker, recorded.scene, software),
@@ -23,19 +23,19 @@ Side::Side(Recorded& recorded, bool software)
   scene().scale_bar = false;
 }
 
-Side::~Side() {
+ReplayView::~ReplayView() {
   scene().tissue_colours = colours_;
   scene().look.opacity = 1;
   live_.look_plain();
 }
 
-void Side::want(double t_s) {
+void ReplayView::want(double t_s) {
   const double t = std::clamp(t_s, 0.0, line().seconds);
   if (t == wanted_) return;
   playback_.want(wanted_ = t);
 }
 
-void Side::look(bool effects, bool playing) {
+void ReplayView::look(bool effects, bool playing) {
   if (playback_.take(shown_)) {
     if (effects) live_.see(shown_.told);
     if (shown_.trouble.empty()) {
@@ -62,37 +62,39 @@ void Side::look(bool effects, bool playing) {
   live_.update();
 }
 
-void Side::show_labels(bool shown) {
+void ReplayView::show_labels(bool shown) {
   scene().tissue_colours = shown ? colours_ : render::as_bone(colours_);
 }
 
-double Side::burr_radius() const {
-  // as wished: whether the servo had room for it stands nowhere in a recording
+double ReplayView::burr_radius() const {
+  // as requested: whether the servo had room for it stands nowhere in a recording
   const double first = recorded_.settings.settings.servo.burr.radius;
-  const double wished = line().wished(tick::WishKind::burr_radius, shown_.t).value_or(first);
-  return wished > 0 && wished <= 0.5 * tool::kLargestDiameter + 1e-12 ? wished : first;
+  const double requested =
+      line().requested(tick::CommandKind::burr_radius, shown_.t).value_or(first);
+  return requested > 0 && requested <= 0.5 * tool::kLargestDiameter + 1e-12 ? requested : first;
 }
 
-bool Side::diamond() const {
+bool ReplayView::diamond() const {
   const auto first = static_cast<double>(recorded_.settings.settings.servo.burr.kind);
-  return line().wished(tick::WishKind::burr_kind, shown_.t).value_or(first) > 0;
+  return line().requested(tick::CommandKind::burr_kind, shown_.t).value_or(first) > 0;
 }
 
-tick::ToolMode Side::mode() const {
-  const double wished = line()
-                            .wished(tick::WishKind::tool_mode, shown_.t)
-                            .value_or(static_cast<double>(recorded_.settings.settings.servo.mode));
-  return wished >= 0 && wished < tick::kToolModes
-             ? static_cast<tick::ToolMode>(static_cast<int>(wished))
+tick::ToolMode ReplayView::mode() const {
+  const double requested =
+      line()
+          .requested(tick::CommandKind::tool_mode, shown_.t)
+          .value_or(static_cast<double>(recorded_.settings.settings.servo.mode));
+  return requested >= 0 && requested < tick::kToolModes
+             ? static_cast<tick::ToolMode>(static_cast<int>(requested))
              : tick::ToolMode::cut;
 }
 
-edit::Mirror Side::mirror() const {
+edit::Mirror ReplayView::mirror() const {
   const math::Ijk& size = recorded_.bone->grid().size;
   edit::Mirror now;
   for (const record::TimelineEvent& event : line().events) {
     if (event.t_s > shown_.t) break;
-    now = tick::mirror_of(event.wish, size).value_or(now);
+    now = tick::mirror_of(event.command, size).value_or(now);
   }
   return now;
 }

@@ -1,4 +1,4 @@
-#include "bench/whole_session.h"
+#include "bench/full_load_run.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "burr/rt/idle_loop.h"
 #include "burr/surface/worker.h"
 #include "commands/command.h"
-#include "workshop/live_bone.h"
+#include "workshop/live_surface.h"
 
 namespace burr::app {
 namespace {
@@ -96,7 +96,7 @@ class Picture {
   std::unique_ptr<render::Renderer> renderer_;
   surface::Worker worker_;
   render::Scene scene_;
-  LiveBone live_;
+  LiveSurface live_;
 };
 
 }  // namespace
@@ -176,8 +176,8 @@ Result<WholeOutcome> run_whole(sim::Session& session, const surgeon::WorkPlace& 
 
   std::unique_ptr<rt::IdleLoop> waiting;
   if (options.waiting_beside)
-    waiting = std::make_unique<rt::IdleLoop>(session.settings().servo.rate_hz,
-                                             rt::ThreadWish{.name = "waiting", .realtime = true});
+    waiting = std::make_unique<rt::IdleLoop>(
+        session.settings().servo.rate_hz, rt::ThreadRequest{.name = "waiting", .realtime = true});
   auto busy = std::make_unique<BusyThreads>(options.busy);
 
   session.start();
@@ -190,7 +190,7 @@ Result<WholeOutcome> run_whole(sim::Session& session, const surgeon::WorkPlace& 
   while (session.running() && !interrupted() && seconds_since(start) < options.seconds) {
     static_cast<void>(session.view(row));
     if (static_cast<double>(row.tick) >= next_reset * rate) {
-      session.wish({tick::WishKind::reset, 0});
+      session.command({tick::CommandKind::reset, 0});
       next_reset += options.reset_every > 0 ? options.reset_every : 1e300;
     }
     if (picture != nullptr && shown) {
@@ -205,7 +205,7 @@ Result<WholeOutcome> run_whole(sim::Session& session, const surgeon::WorkPlace& 
       next_memory += options.memory_every;
     }
     progress.report(std::min(1.0, now / options.seconds), "milling");
-    const auto pause = session.load() >= tick::Load::picture ? kSlowFrame : kFrame;
+    const auto pause = session.shed() >= tick::Shed::picture ? kSlowFrame : kFrame;
     frame = std::max(frame + pause, Clock::now());
     std::this_thread::sleep_until(frame);
   }

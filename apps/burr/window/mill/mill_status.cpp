@@ -79,8 +79,8 @@ void Mill::look_at_session() {
   show_mirror(scene_, session_.bone().grid(), mirror_.now());
   plane_.show(scene_);
   nearest_.reset();
-  if (options_.nearby != nullptr)
-    if (auto near = options_.nearby->nearest(scene_.burr.world_from_tool.p))
+  if (options_.spared_distance != nullptr)
+    if (auto near = options_.spared_distance->nearest(scene_.burr.world_from_tool.p))
       nearest_ = {std::move(near->name), near->distance - scene_.burr.radius};
   tick::FaultReport fault;
   if (session_.fault(fault)) {
@@ -103,17 +103,17 @@ void Mill::keep_fault_of(const device::Device& hand, const tick::FaultReport& fa
   note(kept ? say(Word::fault_kept, kept->string()) : kept.error().text);
 }
 
-// The burr that is wished for, or the sentence why not.
+// The burr that is requested for, or the sentence why not.
 void Mill::look_at_burr() {
   const double radius = session_.burr_radius();
   if (radius != scene_.burr.radius && options_.loudspeaker != nullptr)
-    options_.loudspeaker->obey({tick::WishKind::burr_radius, radius});
+    options_.loudspeaker->obey({tick::CommandKind::burr_radius, radius});
   scene_.burr.radius = radius;
-  if (!burr_wished_) return;
-  const bool so = std::abs(scene_.burr.radius - *burr_wished_) < 1e-9;
-  if (!so && Clock::now() - burr_wished_at_ < std::chrono::milliseconds(300)) return;
+  if (!burr_requested_) return;
+  const bool so = std::abs(scene_.burr.radius - *burr_requested_) < 1e-9;
+  if (!so && Clock::now() - burr_requested_at_ < std::chrono::milliseconds(300)) return;
   note(so ? say(Word::burr_now, 2e3 * scene_.burr.radius) : std::string(word(Word::no_room)));
-  burr_wished_.reset();
+  burr_requested_.reset();
 }
 
 void Mill::note(std::string text) { told_.note(std::move(text), Clock::now()); }
@@ -169,11 +169,11 @@ HudState Mill::hud() const {
   s.removed = row_.ledger.removed;
   s.seconds = static_cast<double>(row_.tick) / settings.servo.rate_hz;
   s.nearest = nearest_;
-  s.spares = options_.nearby != nullptr && !options_.nearby->empty();
+  s.spares = options_.spared_distance != nullptr && !options_.spared_distance->empty();
   const Clock::time_point now = Clock::now();
   if (now - lost_at_ < std::chrono::seconds(5))
     s.ticks = TickHealth::lost;
-  else if (session_.load() != tick::Load::none || now - missed_at_ < std::chrono::seconds(3))
+  else if (session_.shed() != tick::Shed::none || now - missed_at_ < std::chrono::seconds(3))
     s.ticks = TickHealth::busy;
   const rt::TickSummary summary = stats_.summary();
   s.p99_us = summary.p99_us;
@@ -208,13 +208,13 @@ void Mill::panels() {
   const std::filesystem::path& config = desk_.places().config;
   const device::DeviceSpec spec =
       hands_.real != nullptr ? hands_.real->spec() : device::DeviceSpec();
-  DeviceLeaf device{hands_.id, spec.peak_force, spec.peak_torque > 0, hands_.wishes};
+  DeviceLeaf device{hands_.id, spec.peak_force, spec.peak_torque > 0, hands_.preferences};
   const SettingsPage page = draw_settings(
       ui, desk_.settings, config.empty() ? std::string() : (config / "settings.toml").string(),
       settings_pads_, hands_.real != nullptr ? &device : nullptr);
-  if (device.changed) keep_wishes_of_device();
+  if (device.changed) keep_device_preferences();
   if (desk_.settings.force_limit_n != limit)
-    session_.wish({tick::WishKind::user_force, user_limit()});
+    session_.command({tick::CommandKind::user_force, user_limit()});
   if (desk_.settings.headset != worn) desk_.headset_wanted = desk_.settings.headset;
   if (page.changed) {
     desk_.settings_changed();
@@ -225,12 +225,12 @@ void Mill::panels() {
 }
 
 // In its book; the force holds at once.
-void Mill::keep_wishes_of_device() {
-  const double peak = hands_.real->spec().peak_force, wished = hands_.wishes.max_force_n;
-  hands_.max_force = wished > 0 ? std::min(peak, wished) : peak;
-  session_.wish({tick::WishKind::user_force, user_limit()});
+void Mill::keep_device_preferences() {
+  const double peak = hands_.real->spec().peak_force, requested = hands_.preferences.max_force_n;
+  hands_.max_force = requested > 0 ? std::min(peak, requested) : peak;
+  session_.command({tick::CommandKind::user_force, user_limit()});
   DeviceBook book = DeviceBook::read(users_book());
-  book.put(hands_.id, hands_.wishes);
+  book.put(hands_.id, hands_.preferences);
   const Status kept = book.write(users_book());
   if (!kept) note(kept.error().text);
 }

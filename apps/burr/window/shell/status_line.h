@@ -1,4 +1,4 @@
-// apps/burr/window/shell/told.h - the two lines beside the picture while milling: a note of what was done
+// apps/burr/window/shell/status_line.h - the two lines beside the picture while milling: a note of what was done
 // last, and a warning of what must be known. A force that was let go is a warning, so that it does
 // not take the place of the answer to a key.
 // Thread: main.
@@ -9,7 +9,7 @@
 
 namespace burr::app {
 
-class Told {
+class StatusLine {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds kShown{6};

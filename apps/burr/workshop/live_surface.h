@@ -1,7 +1,7 @@
-// apps/burr/workshop/live_bone.h - what keeps the picture of a bone true and quick while it is milled: the
+// apps/burr/workshop/live_surface.h - what keeps the picture of a bone true and quick while it is milled: the
 // same for the window, a whole session without one, and the bench of frames.
 //
-//     LiveBone live(session, worker, scene, renderer.software());   // before the session starts
+//     LiveSurface live(session, worker, scene, renderer.software());   // before the session starts
 //     each frame:   live.update();                // patches, coarse blocks, what may be left out
 //                   renderer.show(scene);
 //                   live.drawn(took_s, renderer.figures().redrawn);
@@ -25,11 +25,12 @@ namespace burr::app {
 // A made patch into the scene.
 void put_skin(render::Scene& scene, const surface::Skin& skin);
 
-class LiveBone {
+class LiveSurface {
  public:
-  LiveBone(sim::Session& session, surface::Worker& worker, render::Scene& scene, bool software);
+  LiveSurface(sim::Session& session, surface::Worker& worker, render::Scene& scene, bool software);
   // A bone that no servo cuts: nothing is held back.
-  LiveBone(const volume::Bone& bone, surface::Worker& worker, render::Scene& scene, bool software);
+  LiveSurface(const volume::Bone& bone, surface::Worker& worker, render::Scene& scene,
+              bool software);
 
   // Patches that are ready go into the scene, as many as a frame bears; surface and coarse blocks
   // are held back where the machine does not keep up with the hand. eye: that looks in place of the
@@ -40,7 +41,7 @@ class LiveBone {
   void suck(const math::Vec3& mouth, double radius, double seconds) {
     wound_.suck(mouth, radius, seconds);
   }
-  void see(const Traces::Told& told) { told.show(wound_); }
+  void see(const Traces::StatusLine& told) { told.show(wound_); }
   void look_plain();
   // After the frame: how long it took, how much of the picture was drawn anew.
   void drawn(double took_s, double redrawn);
@@ -52,7 +53,7 @@ class LiveBone {
   [[nodiscard]] double now() const;  // since it was made [s]
 
  private:
-  [[nodiscard]] tick::Load load() const;
+  [[nodiscard]] tick::Shed shed() const;
 
   sim::Session* session_ = nullptr;
   surface::Worker& worker_;

@@ -1,4 +1,4 @@
-#include "workshop/live_bone.h"
+#include "workshop/live_surface.h"
 
 namespace burr::app {
 namespace {
@@ -12,30 +12,30 @@ void put_skin(render::Scene& scene, const surface::Skin& skin) {
   render::set_patch(scene, skin.patch, *skin.mesh);
 }
 
-LiveBone::LiveBone(sim::Session& session, surface::Worker& worker, render::Scene& scene,
-                   bool software)
-    : LiveBone(session.bone(), worker, scene, software) {
+LiveSurface::LiveSurface(sim::Session& session, surface::Worker& worker, render::Scene& scene,
+                         bool software)
+    : LiveSurface(session.bone(), worker, scene, software) {
   session_ = &session;
 }
 
-LiveBone::LiveBone(const volume::Bone& bone, surface::Worker& worker, render::Scene& scene,
-                   bool software)
+LiveSurface::LiveSurface(const volume::Bone& bone, surface::Worker& worker, render::Scene& scene,
+                         bool software)
     : worker_(worker),
       scene_(scene),
       coarse_(worker.patches(), bone.grid().voxel),
       governor_(software),
       wound_(bone.grid().voxel, render::bleeding_of(bone.tissues())) {}
 
-tick::Load LiveBone::load() const {
-  return session_ != nullptr ? session_->load() : tick::Load::none;
+tick::Shed LiveSurface::shed() const {
+  return session_ != nullptr ? session_->shed() : tick::Shed::none;
 }
 
-double LiveBone::now() const {
+double LiveSurface::now() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
 }
 
-void LiveBone::update(const render::Camera* eye) {
-  worker_.hold_back(load() >= tick::Load::mesh);
+void LiveSurface::update(const render::Camera* eye) {
+  worker_.hold_back(shed() >= tick::Shed::mesh);
   skins_.clear();
   surface::Skin skin;
   for (int i = 0; i < kPatchesPerFrame && worker_.take(skin); ++i) {
@@ -44,18 +44,18 @@ void LiveBone::update(const render::Camera* eye) {
     worker_.give_back(skin);
     skins_.push_back(skin);
   }
-  coarse_.hold_back(load() >= tick::Load::picture);
+  coarse_.hold_back(shed() >= tick::Shed::picture);
   coarse_.update(scene_, now());
   scene_.quality = governor_.begin(eye != nullptr ? *eye : scene_.camera, now());
   wound_.renew(scene_, now());
 }
 
-void LiveBone::look_plain() {
+void LiveSurface::look_plain() {
   if (!wound_.any()) return;
   wound_.forget();
   wound_.dress(scene_);
 }
 
-void LiveBone::drawn(double took_s, double redrawn) { governor_.end(took_s, redrawn, now()); }
+void LiveSurface::drawn(double took_s, double redrawn) { governor_.end(took_s, redrawn, now()); }
 
 }  // namespace burr::app

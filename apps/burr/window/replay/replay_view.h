@@ -1,7 +1,7 @@
-// apps/burr/window/replay/side.h - one recording as it is watched: its bone and tool at the moment asked
+// apps/burr/window/replay/replay_view.h - one recording as it is watched: its bone and tool at the moment asked
 // for, and the numbers of that moment. One fills the window, two share it.
 //
-//     Side side(recorded, software);
+//     ReplayView side(recorded, software);
 //     each frame:   side.want(t);
 //                   side.look(effects, playing);      // into recorded.scene
 //                   ... draw recorded.scene ...
@@ -16,17 +16,17 @@
 
 #include "burr/edit/mirror.h"
 #include "window/replay/playback.h"
-#include "workshop/live_bone.h"
+#include "workshop/live_surface.h"
 
 namespace burr::app {
 
-class Side {
+class ReplayView {
  public:
   // It outlives the side; its scene looks as before when the side is gone.
-  Side(Recorded& recorded, bool software);
-  ~Side();
-  Side(const Side&) = delete;
-  Side& operator=(const Side&) = delete;
+  ReplayView(Recorded& recorded, bool software);
+  ~ReplayView();
+  ReplayView(const ReplayView&) = delete;
+  ReplayView& operator=(const ReplayView&) = delete;
 
   // The moment to be shown, of its own clock; before its start or after its end: those.
   void want(double t_s);
@@ -54,7 +54,7 @@ class Side {
  private:
   Recorded& recorded_;
   std::vector<render::Colour> colours_;
-  LiveBone live_;
+  LiveSurface live_;
   Playback::Shown shown_;
   double wanted_ = -1, force_ = 0, removed_ = 0;
   bool behind_ = false;

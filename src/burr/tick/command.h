@@ -1,0 +1,37 @@
+// tick/command.h - what people and programs ask of a running session: another burr, undo, a mirror.
+//
+// The servo takes commands at the start of a tick, in the order in which they came. What became of
+// one is not here but in the rows that follow: a command that is refused changes nothing.
+// Units: SI.
+#pragma once
+
+#include <cstdint>
+
+namespace burr::tick {
+
+enum class CommandKind : std::uint8_t {
+  spindle_speed,  // value: rad/s at full pedal
+  burr_radius,    // value: m
+  stiffness,      // value: N/m
+  user_force,     // value: N, the user's own limit
+  tool_mode,      // value: 0 cut, 1 add, 2 touch only, 3 back to the original, 4 smooth
+  undo,           // the last stroke
+  redo,           // the last undone stroke
+  reset,          // everything back to the start
+  friction,       // value: scale of the tissues' friction
+  shed,           // value: tick/shed.h, what the servo puts off; its own command, first of its tick
+  touch_method,   // value: haptics/touch_method.h, Method
+  removal_law,    // value: edit/laws/removal.h, RemovalLaw
+  irrigation,     // value: 0 off, 1 on
+  mirror_i,       // value: of a plane across i, its place p_grid; what is done is mirrored by it
+  mirror_j,       // likewise across j
+  mirror_k,       // likewise across k
+  mirror_off,
+  burr_kind,  // value: 0 cutting, 1 diamond
+};
+struct Command {
+  CommandKind kind = CommandKind::spindle_speed;
+  double value = 0;
+};
+
+}  // namespace burr::tick
