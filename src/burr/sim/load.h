@@ -4,8 +4,8 @@
 //     none -> picture -> mesh -> removal in 2, 4, 8 turns -> touch in fewer moves
 //
 //     LoadGovernor governor(period_ns);
-//     each tick:  servo.set_load(governor.load());  tick ...;  governor.note(wall_ns, late_ns,
-//     missed);
+//     each tick:  servo.set_load(governor.load());  tick ...;
+//                 governor.note(wall_ns, late_ns, missed);
 //
 // Picture and mesh are drawn and made less often: other threads look at Session::load(). What
 // changes the tick itself enters as a wish that is recorded (record/rows.h, WishKind::load), so

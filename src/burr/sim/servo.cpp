@@ -17,8 +17,8 @@ using record::WishKind;
 constexpr int kWishesPerTick = 8;
 constexpr double kRestorePerSecond = 16e3;  // bricks; about as many as a deep cut changes
 constexpr double kRecovery = 5;  // of bone that grew under the burr pushes it out  [voxel/s]
-constexpr double kRefreshRate =
-    1e3;                          // of the budgets of IsoSettings: they are those of a millisecond
+// of the budgets of IsoSettings: they are those of a millisecond
+constexpr double kRefreshRate = 1e3;
 constexpr double kFastest = 1e5;  // spindle, either way  [rad/s]
 constexpr double kCarried = 0.4;  // of the tick rate: what a force can be made to swing with [-]
 constexpr double kHeatEvery = 10e-3;  // a row to the worker that knows the heat  [s]

@@ -1,7 +1,7 @@
 // sim/servo.h - the tick: the hand comes first, then the bone.
 //
-//     read the hand - obey wishes - step the proxy - force law - energy guard - drag of the bone on
-//     the burr and vibration - limit - write the force
+//     read the hand - obey wishes - step the proxy - force law - energy guard
+//     - drag of the bone on the burr and vibration - limit - write the force
 //     - then carve - then tell the others
 //
 // A pure function of (bone, hand, buttons, wishes, lost): no clock, no random number, so that a
