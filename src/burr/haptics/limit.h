@@ -5,9 +5,9 @@
 //     magnitude   device, user and the motors' heat budget, direction kept
 //     growth      slew bound
 //
-// In this order and after everything else (algorithms.md 3f). Fading is linear and done 5 ms after
-// detection; the way back is always waiting and the start ramp. Nothing here repeats a last force
-// or drops it at once on its own.
+// In this order and after everything else (docs/safety.md, "Limits"). Fading is linear and done 5
+// ms after detection; the way back is always waiting and the start ramp. Nothing here repeats a
+// last force or drops it at once on its own.
 //
 // A torque is bounded as the force is, in the same proportion to what the device can: in half the
 // user's force there is half the torque, and one grows as fast as the other.

@@ -94,7 +94,7 @@ class Servo {
   void set_load(Load load) BURR_RT { load_wished_ = load; }
   [[nodiscard]] Load load() const BURR_RT { return load_; }
 
-  // ---- doors (architecture.md 4)
+  // ---- doors (docs/realtime.md, "Doors")
   [[nodiscard]] rt::Ring<record::Wish>& wishes() BURR_RT { return wishes_; }   // main -> servo
   [[nodiscard]] rt::Latest<record::TickRow>& view() BURR_RT { return view_; }  // servo -> main
   [[nodiscard]] rt::Latest<FaultReport>& faults() BURR_RT { return faults_.reports(); }  // likewise
