@@ -1,11 +1,11 @@
 // scenes/strokes.h - hands over bones whose answer is known by heart: the ground truths of touch.
 //
-//     for (const Stroke& stroke : strokes(r, h)) ... step to stroke.hand(s), compare with
-//     stroke.place(hand)
+//     for (const Stroke& stroke : strokes(r, h))
+//       ... step to stroke.hand(s), compare with stroke.place(hand)
 //
-// algorithms.md 5. The bones' sizes are a few millimetres and never less than the burr needs; faces
-// of a box go through voxel centres, since between them a field knows no sharp edge. Frame: world.
-// Units: SI.
+// docs/touch.md, "Ground truths". The bones' sizes are a few millimetres and never less than the
+// burr needs; faces of a box go through voxel centres, since between them a field knows no sharp
+// edge. Frame: world. Units: SI.
 #pragma once
 
 #include <string>

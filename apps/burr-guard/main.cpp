@@ -1,8 +1,10 @@
 // burr-guard - outlives burr by a moment to let go of a device that would hold its last force
 // (src/burr/device/guardian.h, which starts it).
 //
-//     burr-guard line TEXT                 0: burr's life, 1: the answer, 3: the device, 4: the
-//     beats burr-guard crtk DOMAIN ARM ROUTE     likewise, without 3
+//     burr-guard line TEXT
+//         descriptors: 0 burr's life, 1 the answer, 3 the device, 4 the beats
+//     burr-guard crtk DOMAIN ARM ROUTE
+//         the same without 3
 #include <fmt/core.h>
 #include <poll.h>
 #include <sched.h>

@@ -2,8 +2,7 @@
 // tests' false devices, whose hand goes its own way into the bone each time somebody begins to
 // talk.
 //
-//     false_device haply | polhem | crtk          says what to give burr, and plays until it is
-//     killed
+//     false_device haply | polhem | crtk    says what to give burr, and plays until it is killed
 #include <fmt/core.h>
 
 #include <chrono>

@@ -1,5 +1,5 @@
-// Cutting against formulas: algorithms.md 5 (plunge, slot, scallop, ledger) with the burr moved by
-// hand, no touch involved.
+// Cutting against formulas: docs/cutting.md, "Ground truths" (plunge, slot, scallop, ledger) with
+// the burr moved by hand, no touch involved.
 #include "burr/edit/carve.h"
 
 #include <gtest/gtest.h>

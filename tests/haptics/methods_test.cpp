@@ -1,5 +1,5 @@
 // The methods ours is measured against do what their authors wrote, and fail where it was
-// predicted: algorithms.md 1.3 and 5.
+// predicted: docs/touch.md, "The seven methods".
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -51,7 +51,7 @@ TEST(Methods, NoneOfThemTakesMemoryInATick) {
   }
 }
 
-// ---- voxel springs: the closed form of algorithms.md 1.3 A
+// ---- voxel springs: the closed form of docs/touch.md, "Voxel springs"
 
 double half_space(double a, double r, double h) {  // for one newton a metre and voxel
   return M_PI / (h * h * h) *

@@ -11,8 +11,8 @@
 namespace burr::rt {
 namespace {
 
-rt::TickSummary ticks(double work_p999, double late_p999, double worst, std::uint64_t missed = 0) {
-  rt::TickSummary t;
+TickSummary ticks(double work_p999, double late_p999, double worst, std::uint64_t missed = 0) {
+  TickSummary t;
   t.ticks = 4000;
   t.p50_us = work_p999 / 3;
   t.p99_us = work_p999 / 2;
@@ -35,7 +35,7 @@ MachineSeen fine_machine() {
   seen.machine.clock_source = "tsc";
   seen.machine.governor = "performance";
   seen.machine.fifo_limit = 90;
-  seen.machine.locked_bytes = rt::kNoLimit;
+  seen.machine.locked_bytes = kNoLimit;
   seen.machine.fifo_share_us = 950'000;
   seen.machine.fifo_period_us = 1'000'000;
   seen.grant.fifo = seen.grant.locked = true;
@@ -125,7 +125,7 @@ TEST(MachineCheck, WhatTheMachineDoesNotTellIsNoFault) {
 
 TEST(MachineCheck, TheBarsDecideOnEachSide) {
   struct Case {
-    rt::TickSummary loaded;
+    TickSummary loaded;
     Verdict verdict;
     std::string reason;
   };

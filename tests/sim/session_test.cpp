@@ -119,7 +119,7 @@ TEST(Session, TheSameSessionGivesTheSameBitsOnEveryInstructionSet) {
   }
 }
 
-// A hand that presses with a constant force, straight down: as in algorithms.md 3g.
+// A hand that presses with a constant force, straight down: the plunge of docs/cutting.md.
 struct Plunge {
   double removed = 0, depth = 0, mean_force = 0;
 };

@@ -35,12 +35,12 @@ std::unique_ptr<volume::Bone> slab() {
 // A servo whose hand is held where it is told.
 struct Held {
   Held() : bone(slab()), surface(*bone, {}, 1, quiet), hand({}), servo(*bone, surface, hand, {}) {
-    servo.commands().push({tick::CommandKind::burr_radius, kRadius});
+    servo.commands().push({CommandKind::burr_radius, kRadius});
     state.world_from_tool.p = {0, 0, 5 * kMm};
     state.pedal = 1;
     for (int n = 0; n < 300; ++n) tick();
   }
-  const tick::TickRow& tick() {
+  const TickRow& tick() {
     hand.set(state);
     row = servo.tick(false);
     servo.publish();
@@ -55,7 +55,7 @@ struct Held {
     }
   }
   void mode(ToolMode to) {
-    servo.commands().push({tick::CommandKind::tool_mode, static_cast<double>(to)});
+    servo.commands().push({CommandKind::tool_mode, static_cast<double>(to)});
   }
 
   NoProgress quiet;
@@ -64,7 +64,7 @@ struct Held {
   device::ReplayedHand hand;
   Servo servo;
   device::HandState state;
-  tick::TickRow row;
+  TickRow row;
 };
 
 TEST(BackToTheOriginal, APressedBurrIsLiftedOutOfItsHoleAndLeavesTheOriginalBytes) {
@@ -95,14 +95,14 @@ TEST(BackToTheOriginal, APressedBurrIsLiftedOutOfItsHoleAndLeavesTheOriginalByte
   held.mode(ToolMode::touch);
   held.go({0, 0, 6 * kMm});
   for (int n = 0; n < 400; ++n) held.tick();
-  const auto settle = [&](tick::CommandKind kind) {
+  const auto settle = [&](CommandKind kind) {
     held.servo.commands().push({kind, 0});
     do held.tick();
     while (held.servo.restoring());
   };
-  settle(tick::CommandKind::undo);
+  settle(CommandKind::undo);
   EXPECT_NE(held.bone->content_hash(), hash);
-  settle(tick::CommandKind::redo);
+  settle(CommandKind::redo);
   EXPECT_EQ(held.bone->content_hash(), hash);
 }
 
@@ -113,8 +113,8 @@ class Recorded : public testing::Test {
                       ("burr_brush_" + std::to_string(getpid()) + ".mcap"))
                          .string();
   // Mills a pocket, then works on with these commands; recorded, replayed, compared.
-  void expect_same(const std::vector<tick::Command>& commands,
-                   const std::vector<tick::Command>& later = {}) {
+  void expect_same(const std::vector<Command>& commands,
+                   const std::vector<Command>& later = {}) {
     NoProgress quiet;
     sim::SessionSettings settings;
     settings.servo.burr.radius = kRadius;
@@ -138,9 +138,9 @@ class Recorded : public testing::Test {
     session.set_recorder(&recorder);
     session.run(1, quiet);
     const edit::Ledger milled = session.outcome().ledger;
-    for (const tick::Command& command : commands) session.command(command);
+    for (const Command& command : commands) session.command(command);
     session.run(0.5, quiet);
-    for (const tick::Command& command : later) session.command(command);
+    for (const Command& command : later) session.command(command);
     session.run(0.5, quiet);
     session.set_recorder(nullptr);
     ASSERT_TRUE(recorder.finish().ok());
@@ -158,17 +158,17 @@ class Recorded : public testing::Test {
 };
 
 TEST_F(Recorded, BackToTheOriginalReplaysToTheBit) {
-  expect_same({{tick::CommandKind::tool_mode, static_cast<double>(ToolMode::restore)}});
+  expect_same({{CommandKind::tool_mode, static_cast<double>(ToolMode::restore)}});
 }
 
 TEST_F(Recorded, SmoothingReplaysToTheBit) {
-  expect_same({{tick::CommandKind::tool_mode, static_cast<double>(ToolMode::smooth)}});
+  expect_same({{CommandKind::tool_mode, static_cast<double>(ToolMode::smooth)}});
 }
 
 TEST_F(Recorded, OneAfterTheOtherWithUndoReplaysToTheBit) {
-  expect_same({{tick::CommandKind::tool_mode, static_cast<double>(ToolMode::smooth)}},
-              {{tick::CommandKind::undo, 0},
-               {tick::CommandKind::tool_mode, static_cast<double>(ToolMode::restore)}});
+  expect_same({{CommandKind::tool_mode, static_cast<double>(ToolMode::smooth)}},
+              {{CommandKind::undo, 0},
+               {CommandKind::tool_mode, static_cast<double>(ToolMode::restore)}});
 }
 
 TEST(Smooth, APressedBurrTakesTheEdgeOffAHoleAndTheAccountHolds) {
@@ -189,7 +189,7 @@ TEST(Smooth, APressedBurrTakesTheEdgeOffAHoleAndTheAccountHolds) {
   EXPECT_NEAR(volume::volume_of(*held.bone) - before, is.added - is.removed, 1e-6 * is.removed);
   held.go({0, 0, 6 * kMm});
   for (int n = 0; n < 400; ++n) held.tick();
-  held.servo.commands().push({tick::CommandKind::undo, 0});
+  held.servo.commands().push({CommandKind::undo, 0});
   do held.tick();
   while (held.servo.restoring());
   EXPECT_EQ(held.bone->content_hash(), milled);

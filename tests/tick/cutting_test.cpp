@@ -63,7 +63,7 @@ std::unique_ptr<sim::Session> session(sim::SessionSettings settings,
 Vec3 settled_force(sim::Session& run, int ticks = 2900) {
   Vec3 sum = Vec3::Zero();
   for (int n = 0; n < ticks; ++n) {
-    const tick::TickRow& row = run.servo().tick(false);
+    const TickRow& row = run.servo().tick(false);
     if (n >= ticks - 300) sum += row.contact.force;
     run.servo().publish();
   }
@@ -109,7 +109,7 @@ TEST(Drag, IsNeverMoreThanThePushCausesAndGrowsWithoutAStep) {
   Vec3 last = Vec3::Zero();
   double steepest = 0, most = 0;
   for (int n = 0; n < 2900; ++n) {
-    const tick::TickRow& row = run->servo().tick(false);
+    const TickRow& row = run->servo().tick(false);
     const haptics::Contact& contact = row.contact;
     const Vec3 along = contact.force - contact.force.dot(contact.normal) * contact.normal;
     const double push = std::max(0.0, contact.force.dot(contact.normal));
@@ -155,7 +155,7 @@ TEST(Drag, FollowsSoSlowlyThatALightHandDoesNotWhirlInAHole) {
     EXPECT_TRUE(run.ok()) << run.error().text;
     double farthest = 0;
     for (int n = 0; n < 2900; ++n) {
-      const tick::TickRow& row = (*run)->servo().tick(false);
+      const TickRow& row = (*run)->servo().tick(false);
       const Vec3& at = row.hand.world_from_tool.p;
       if (n >= 2000) farthest = std::max(farthest, std::hypot(at.x(), at.y()));
       (*run)->servo().publish();
@@ -177,7 +177,7 @@ TEST(Spindle, GivesWayAndStallsUnderTheHandAndTheSessionSaysSo) {
   settings.servo.motor.friction = 0;
   const auto turning = session(settings, slab(kNever));
   turning->run(3, quiet);
-  tick::TickRow row;
+  TickRow row;
   static_cast<void>(turning->view(row));
   EXPECT_NEAR(row.cutting_nm, 0.8e-3, 0.03e-3);
   EXPECT_NEAR(row.spindle_rad_s / settings.servo.spindle_rad_s, 1 - 0.1 * 0.1, 0.003);
@@ -254,7 +254,7 @@ TEST(Twist, IsTheTorqueOfTheBoneAboutTheShaftAndOfTheRotorAsItStarts) {
     auto run = sim::Session::make(slab(kNever), std::move(owned), settings, quiet);
     ASSERT_TRUE(run.ok()) << run.error().text;
     (*run)->run(2.9, quiet);
-    tick::TickRow row;
+    TickRow row;
     ASSERT_TRUE((*run)->view(row));
     EXPECT_NEAR(row.cutting_nm, 0.25 * 0.8e-3, 0.02e-3) << "diamond bites a quarter as much";
     EXPECT_NEAR((row.contact.torque - way * row.cutting_nm * Vec3::UnitX()).norm(), 0, 5e-6);
@@ -320,7 +320,7 @@ TEST(ChipsLaw, ASlowSpindleBeatsOncePerToothAsFastAsTheTickCanCarry) {
     const auto run = session(settings, slab(kNever));
     std::vector<double> force;
     for (int n = 0; n < 2900; ++n) {
-      const tick::TickRow& row = run->servo().tick(false);
+      const TickRow& row = run->servo().tick(false);
       if (n >= 1900) force.push_back(row.contact.force.y());
       run->servo().publish();
     }
@@ -390,7 +390,7 @@ TEST(Heat, NothingFeltDependsOnIt) {
     }
     const auto run = session(settings, slab());
     run->run(2, quiet);
-    tick::TickRow row;
+    TickRow row;
     static_cast<void>(run->view(row));
     hash[heated ? 1 : 0] = row.hash;
   }

@@ -67,7 +67,7 @@ Felt felt(Motion motion, int ticks, bool guarded = false) {
   Felt seen;
   Vec3 last = Vec3::Zero();
   for (int n = 0; n < kComing + ticks; ++n) {
-    const tick::TickRow& row = servo.tick(false);
+    const TickRow& row = servo.tick(false);
     servo.publish();
     if (n > kComing) seen.most = std::max(seen.most, (row.contact.force - last).norm());
     if (n > kComing) seen.mean += row.contact.force.norm() / ticks;

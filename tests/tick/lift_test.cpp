@@ -20,7 +20,7 @@ constexpr double kMm = 1e-3;
 struct Bench {
   std::unique_ptr<sim::Session> session;
   device::ReplayedHand* hand = nullptr;
-  tick::TickRow row;
+  TickRow row;
 
   Bench() {
     NoProgress quiet;

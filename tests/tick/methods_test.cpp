@@ -90,8 +90,8 @@ TEST(MethodsInASession, AreChangedInItsMiddleAndTheForceGrowsNoFasterThanEver) {
     const int which = n / 100 % haptics::kMethods;
     if (n % 100 == 0)
       static_cast<void>(
-          servo.commands().push({tick::CommandKind::touch_method, static_cast<double>(which)}));
-    const tick::TickRow& row = servo.tick(false);
+          servo.commands().push({CommandKind::touch_method, static_cast<double>(which)}));
+    const TickRow& row = servo.tick(false);
     const double now = row.contact.force.norm();
     fastest = std::max(fastest, (now - last) * 1e3);
     last = now;
@@ -124,8 +124,8 @@ TEST(MethodsInASession, TheRecordingKnowsAndSimulatesToTheSameBits) {
   run->set_recorder(&recorder);
   for (int n = 0; n < 14; ++n) {
     run->run(0.2, quiet);
-    run->command({tick::CommandKind::touch_method, static_cast<double>(n % haptics::kMethods)});
-    run->command({tick::CommandKind::removal_law, static_cast<double>(n % edit::kLaws)});
+    run->command({CommandKind::touch_method, static_cast<double>(n % haptics::kMethods)});
+    run->command({CommandKind::removal_law, static_cast<double>(n % edit::kLaws)});
   }
   run->set_recorder(nullptr);
   ASSERT_TRUE(recorder.finish().ok());
@@ -178,7 +178,7 @@ TEST(Triangles, AreMissingForAMomentOfEveryFrameWhileMilling) {
     const auto run = session(settings, "plunge", 3);
     bool pressed = false;
     for (int k = 0; k < 2500; ++k) {
-      const tick::TickRow& row = run->servo().tick(false);
+      const TickRow& row = run->servo().tick(false);
       run->servo().publish();
       pressed |= row.contact.depth > 0.3 * kMm;
       silent[n] += pressed && !row.contact.touching ? 1 : 0;

@@ -97,7 +97,7 @@ struct Held {
   Servo servo;
   Mirror mirror;
   device::HandState state;
-  tick::TickRow row;
+  TickRow row;
   std::uint64_t start = 0;
   double before = 0;
 };

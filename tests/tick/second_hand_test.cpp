@@ -97,9 +97,9 @@ struct Bench {
     log.hand.buttons = buttons;
   }
   // As Session::loop() has it.
-  const tick::TickRow& tick(bool lost = false) const {
+  const TickRow& tick(bool lost = false) const {
     Servo& servo = session->servo();
-    const tick::TickRow& row = servo.tick(lost);
+    const TickRow& row = servo.tick(lost);
     if (SecondHand* second = session->second_hand()) second->step(lost, servo.restoring());
     servo.publish();
     return row;
@@ -107,7 +107,7 @@ struct Bench {
   void ticks(int count) const {
     for (int n = 0; n < count; ++n) tick();
   }
-  [[nodiscard]] const tick::TickRow& second() const { return session->second_hand()->row(); }
+  [[nodiscard]] const TickRow& second() const { return session->second_hand()->row(); }
 };
 
 TEST(SecondHand, FeelsAWallAsItsOwnSpringSays) {
@@ -164,7 +164,7 @@ TEST(SecondHand, NeitherTheBoneNorTheFirstHandKnowsOfIt) {
     alone.burr(way, 1);
     with.tube(way + Vec3(1.5 * kMm * std::cos(9 * t), 0, 0.5 * kMm * std::sin(31 * t)),
               n % 700 > 650 ? device::kLifted : 0);
-    const tick::TickRow &one = with.tick(), &other = alone.tick();
+    const TickRow &one = with.tick(), &other = alone.tick();
     ASSERT_EQ(one.hash, other.hash) << "tick " << n;
     removed = one.ledger.removed;
   }
@@ -252,7 +252,7 @@ TEST(SecondHand, AnUndoUnderItLetsItGo) {
   bench.ticks(500);
   bench.tube({0, 0, -0.5 * kMm});
   bench.ticks(50);
-  bench.session->command({tick::CommandKind::undo, 0});
+  bench.session->command({CommandKind::undo, 0});
   bench.tick();
   ASSERT_TRUE(bench.session->servo().restoring());
   double last = bench.log.force.norm();

@@ -141,7 +141,7 @@ class Watch {
  public:
   explicit Watch(const volume::Bone& bone) : bone_(bone), before_(volume::volume_of(bone)) {}
 
-  void see(const tick::TickRow& row) {
+  void see(const TickRow& row) {
     const Vec3& force = row.contact.force;
     const double square = last_.squaredNorm();
     const Vec3 kept =
@@ -206,7 +206,7 @@ TEST(Overload, AMachineTooSlowPutsOffPictureMeshAndRemovalAndTheTouchLast) {
   constexpr int kTicks = 6000;
   Bench b = bench("pocket", 20, 0.2);
   Servo& servo = *b.servo;
-  rt::Ring<tick::CommandRow> commands(1024);
+  rt::Ring<CommandRow> commands(1024);
   servo.set_diary({nullptr, &commands, nullptr});
   rt::VirtualClock clock(1000);
   ShedGovernor governor(clock.period_ns());
@@ -218,7 +218,7 @@ TEST(Overload, AMachineTooSlowPutsOffPictureMeshAndRemovalAndTheTouchLast) {
   std::int64_t missed_late = 0, cutting_ns = 0;
   for (int n = 0; n < kTicks; ++n) {
     const rt::TickTime time = clock.wait();
-    const tick::TickRow& row = servo.tick(false);
+    const TickRow& row = servo.tick(false);
     servo.publish();
     hands.push_back(row.hand);
     hashes.push_back(row.hash);
@@ -254,12 +254,12 @@ TEST(Overload, AMachineTooSlowPutsOffPictureMeshAndRemovalAndTheTouchLast) {
   Bench again = bench("pocket", 20, 0.2);
   device::ReplayedHand hand(b.hand->spec());
   Servo replayed(*again.bone, *again.surface, hand, again.settings);
-  tick::CommandRow row;
+  CommandRow row;
   bool waits = commands.pop(row);
   int changes = 0;
   for (int n = 0; n < kTicks; ++n) {
     for (; waits && row.tick == static_cast<std::uint64_t>(n); waits = commands.pop(row)) {
-      EXPECT_EQ(row.command.kind, tick::CommandKind::shed);
+      EXPECT_EQ(row.command.kind, CommandKind::shed);
       replayed.commands().push(row.command);
       ++changes;
     }
@@ -286,7 +286,7 @@ TEST(Overload, WhatIsCutInTurnIsCutWithinASixteenthOfTheSame) {
     Watch watch(*b.bone);
     Seen seen;
     for (int n = 0; n < 2500; ++n) {
-      const tick::TickRow& row = b.servo->tick(false);
+      const TickRow& row = b.servo->tick(false);
       b.servo->publish();
       watch.see(row);
       seen.removed = row.ledger.removed;

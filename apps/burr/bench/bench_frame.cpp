@@ -9,8 +9,8 @@
 //       touches is drawn. A watcher looks 1000 times a second; a change counts from its look before
 //       the one that found it, so the figure is up to 1 ms too long, never too short.
 //   VTK, where it is installed: all triangles of the whole bone, one light, no effects, in a
-//   program
-//       of its own beside the servo; it is not slowed by loading patches, and knows no hollows.
+//       program of its own beside the servo; it is not slowed by loading patches, and knows no
+//       hollows.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 

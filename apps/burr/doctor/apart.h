@@ -2,7 +2,7 @@
 // may crash or hang, and the doctor is to say so.
 //
 //     const Apart seen = apart([] { return std::string("what was found"); },
-//     std::chrono::seconds(10));
+//                              std::chrono::seconds(10));
 //
 // Thread: main, before any other thread was begun (fork).
 #pragma once

@@ -15,8 +15,7 @@ namespace {
 using math::Vec3;
 
 constexpr double kMm = 1e-3, kR = 2 * kMm;
-// as the prototype's of algorithms.md 3g: 4 mm3/s and newton, a hand of 0.2 N/mm, a second and a
-// half
+// docs/cutting.md, "Ground truths": 4 mm3/s and newton, a hand of 0.2 N/mm, a second and a half
 constexpr device::ArmSettings kSoft{.mass = 0.1, .damping = 10, .stiffness = 200};
 constexpr double kSoftEnergy = 0.838e9, kSoftTarget = 4e-3, kSoftSeconds = 1.5;
 constexpr device::ArmSettings kFirm{.mass = 0.1, .damping = 20, .stiffness = 500};

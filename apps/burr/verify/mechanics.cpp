@@ -63,7 +63,7 @@ Pressed press(tick::ServoSettings servo, double newton) {
 }
 
 // James et al. 2013, bovine cortical bone, resultants of 8 to 11 N on a kerf of 0.7 mm, read as
-// specific energies in algorithms.md 3e.
+// specific energies in docs/cutting.md, "Chips".
 void chips(Report::Part& part) {
   const volume::CuttingForce force = volume::Tissue{}.force;
   const auto energy = [&](double chip) {

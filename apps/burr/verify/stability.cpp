@@ -86,8 +86,8 @@ void borders(const Verify& verify, Report::Part& part) {
   }
 }
 
-// The devices of algorithms.md 4.1 whose stiffness a public library allows; masses of 0.1 kg and
-// b = 0.5 N s/m where nobody tells.
+// Devices with the stiffness that a public library allows them (docs/safety.md, "Devices and
+// hands"); masses of 0.1 kg and b = 0.5 N s/m where no figure is known.
 void devices(Report::Part& part) {
   struct Device {
     const char* name;

@@ -1,11 +1,13 @@
 // apps/burr/workshop/hand_device.h - the haptic device a user named, ready to be opened.
 //
-//     --device touch            the default Touch        --device "touch:Left one"   by its name
-//     --device force-dimension  the first                --device force-dimension:17 by its serial
-//     number
-//     --device haply            the first arm, the   --device haply:049D+GRIP   an arm and the grip
-//     first grip                                     that is held with it, each by its id
-//     --device crtk             the only arm on the bus  --device crtk:/MTMR         by its name
+//     --device touch               the default Touch
+//     --device "touch:Left one"    by its name
+//     --device force-dimension     the first
+//     --device force-dimension:17  by its serial number
+//     --device haply               the first arm, the first grip
+//     --device haply:049D+GRIP     an arm and the grip that is held with it, each by its id
+//     --device crtk                the only arm on the bus
+//     --device crtk:/MTMR          by its name
 //
 // Thread: main.
 #pragma once

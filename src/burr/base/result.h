@@ -2,8 +2,7 @@
 // wrong.
 //
 //     Result<Scan> scan = io::read_scan(path);
-//     if (!scan) return scan.error();                  // or: fmt::print(stderr, "{}\n",
-//     scan.error().text)
+//     if (!scan) return scan.error();     // or: fmt::print(stderr, "{}\n", scan.error().text)
 //
 // For files, devices and arguments; our own mistakes go to BURR_CHECK, trouble in the tick to
 // flags. Thread: any. Memory: the text; so never in the tick.

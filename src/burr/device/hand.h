@@ -33,13 +33,14 @@ struct DeviceSpec {
   int actuated = 3;                // that it pushes
   double peak_force = 3.3;         // never exceeded                                             [N]
   double continuous_force = 0.88;  // bearable for ever; the motors' heat budget starts here     [N]
-  double peak_torque = 0;  // about the tip; 0: none can be felt                         [N m]
-  double thermal_budget = 3.3 * 3.3 * 5;  // how long above that: integral of F^2 - F_cont^2 [N^2 s]
-  double max_stiffness = 1000;  // of a wall it can show without trembling                    [N/m]
-  double max_damping = 5;  // likewise                                                   [N s/m]
-  double workspace_radius = 75e-3;  // of the hand's own way about its middle [m]
-  double native_rate = 1000;    // ticks per second it likes best                             [Hz]
-  double loss_timeout = 20e-3;  // no tick for this long: fade to zero. Real devices: 5e-3    [s]
+  double peak_torque = 0;          // about the tip; 0: none can be felt                       [N m]
+  // how long above continuous_force: integral of F^2 - F_cont^2  [N^2 s]
+  double thermal_budget = 3.3 * 3.3 * 5;
+  double max_stiffness = 1000;      // of a wall it can show without trembling                 [N/m]
+  double max_damping = 5;           // likewise                                              [N s/m]
+  double workspace_radius = 75e-3;  // of the hand's own way about its middle                    [m]
+  double native_rate = 1000;        // ticks per second it likes best                           [Hz]
+  double loss_timeout = 20e-3;      // no tick for this long: fade to zero. Real devices: 5e-3   [s]
   bool simulated = true;
 };
 

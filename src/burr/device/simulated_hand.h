@@ -3,9 +3,10 @@
 //
 //     target(t) o--/\/\/--[ mass ]<-- force from the bone
 //
-// Values of a stylus held in the fingers: 0.03-0.1 kg, 2-5 N s/m, 100-300 N/m (algorithms.md 4.2);
-// the default is a firm grip. stiffness = infinity is a rigid hand: it is where the path says,
-// whatever pushes. Thread: state(), write_force() servo; hold() any. Frame: world. Units: SI.
+// Values of a stylus held in the fingers: 0.03-0.1 kg, 2-5 N s/m, 100-300 N/m (docs/safety.md,
+// "Devices and hands"); the default is a firm grip. stiffness = infinity is a rigid hand: it is
+// where the path says, whatever pushes.
+// Thread: state(), write_force() servo; hold() any. Frame: world. Units: SI.
 #pragma once
 
 #include <atomic>

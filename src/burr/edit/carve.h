@@ -1,15 +1,15 @@
 // edit/carve.h - the burr takes bone away, or puts material on, exactly as much as the ledger owes.
 //
-//     debt += asked;  share = debt / everything the ball stands in;  field -= share * excess;  debt
-//     -= really removed
+//     debt += asked;             share = debt / everything the ball stands in
+//     field -= share * excess;   debt -= really removed
 //
 // Anti-aliased (the ball's own ramp, not whole voxels), exact in volume (integers), independent of
-// order, tick rate and, to second order, of the voxel (algorithms.md 3g; volume by volume_of.h).
-// The ball is advanced a little along the push and is larger than the burr by a small, adaptive
-// margin, without which a burr wedges in its own hole (kernel.md, flaw 3). Were both a share of a
-// voxel, a coarse bone would be cut deeper under the burr than a fine one: that was the error of
-// first order in h that the prototype left open. What stays owed
-// longer than a few ticks is written off as "not cut", or a stalled burr would save up (flaw 4).
+// order, tick rate and, to second order, of the voxel (docs/cutting.md, "Carving"; volume by
+// volume_of.h). The ball is advanced a little along the push and is larger than the burr by a
+// small, adaptive margin, without which a burr wedges in its own hole. If both were a share of a
+// voxel, a coarse bone would be cut deeper under the burr than a fine one (an error of first order
+// in h). What stays owed longer than a few ticks is written off as "not cut", or a stalled burr
+// would save up.
 //
 // With a mirror the image of the ball takes the same share of what it stands in, tick by tick: on
 // bone that is its own image that is the same to the bit; on other bone it goes towards the same

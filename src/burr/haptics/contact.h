@@ -9,9 +9,8 @@ namespace burr::haptics {
 
 // Why the force is not simply the spring's; several may hold at once.
 enum Flag : std::uint32_t {
-  kFlagNotFinite =
-      1U
-      << 0,  // a hand or force was NaN, infinite or a kilometre away: zero, latched until the ramp
+  // a hand or force was NaN, infinite or a kilometre away: zero, latched until the ramp
+  kFlagNotFinite = 1U << 0,
   kFlagForceLimited = 1U << 1,  // shortened to the device's or the user's limit, direction kept
   kFlagSlewLimited = 1U << 2,   // grew too fast, was held back
   kFlagRamp = 1U << 3,          // start ramp
@@ -20,11 +19,9 @@ enum Flag : std::uint32_t {
   kFlagWatchdog = 1U << 6,      // ticks were lost: faded to zero
   kFlagJump = 1U << 7,          // the hand leapt more than 20 mm in a tick: not believed
   kFlagLagging = 1U << 8,       // proxy has not caught up with a fast hand yet
-  kFlagCandidates =
-      1U << 9,  // more contacts than the list holds; raise ProxySettings::max_candidates
-  kFlagReserve = 1U << 10,  // no brick left to add material to; raise reserve_bricks
-  kFlagUndoFull =
-      1U << 11,  // undo memory is full, the oldest stroke was forgotten; raise undo_bricks
+  kFlagCandidates = 1U << 9,  // more contacts than the list holds: a shorter move, the nearest kept
+  kFlagReserve = 1U << 10,    // no brick left to add material to; raise reserve_bricks
+  kFlagUndoFull = 1U << 11,   // undo memory is full, the oldest stroke forgotten; raise undo_bricks
   kFlagHandLost = 1U << 12,   // the device says its reading is not valid
   kFlagRestoring = 1U << 13,  // an undo or reset is under way: the burr is lifted, nothing is cut
   kFlagNotCut = 1U << 14,     // the debt reached its cap, the rest is counted as not cut

@@ -1,7 +1,7 @@
 // haptics/force_law.h - the stretch between hand and proxy becomes a force.
 //
-//     F = k (proxy - hand)  -  B v_n n      the second only while approaching, and never more than
-//     the spring
+//     F = k (proxy - hand)  -  B v_n n      the second only while approaching,
+//                                           and never more than the spring
 //
 // Zilles & Salisbury 1995 for the spring; damping along the normal only, so that sliding stays
 // free. Passive on a sampled device while k <= 2 (b - B) / T (Colgate & Schenkel 1994): `stiffness`

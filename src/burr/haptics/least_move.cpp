@@ -8,8 +8,8 @@ namespace {
 
 using math::Vec3;
 
-constexpr double kTolerance =
-    2e-6;  // a plane overstepped by less is kept  [voxel]; the gaps are floats
+// a plane overstepped by less is kept; the gaps are floats  [voxel]
+constexpr double kTolerance = 2e-6;
 constexpr double kSlack = 1e-7;  // rounding of a corner of nearly parallel planes  [voxel]
 constexpr int kPasses = 60;
 

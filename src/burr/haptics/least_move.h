@@ -4,8 +4,8 @@
 //     p = argmin |p - wanted|^2   subject to   n_j . p >= -gap_j   for all candidates
 //
 // Exact dual active set: add the most violated plane, project onto the at most four planes in hand
-// by closed form, keep the at most three that press, repeat (algorithms.md 3a as corrected by
-// kernel.md; Goldfarb & Idnani 1983 in three unknowns). With gaps >= 0, p = 0 is always allowed, so
+// by closed form, keep the at most three that press, repeat (docs/touch.md, "The proxy"; Goldfarb &
+// Idnani 1983 in three unknowns). With gaps >= 0, p = 0 is always allowed, so
 // it cannot fail; with gaps < 0 (bone that grew under the burr pushes it out) it may, says so, and
 // stays put.
 #pragma once

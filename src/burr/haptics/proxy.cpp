@@ -283,8 +283,8 @@ Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand,
                               double& pressing) const BURR_RT {
   constexpr int kRounds = 6;
   constexpr double kTurn = 1e-4;  // a normal that turns by less is found                      [rad]
-  constexpr double kFarthest =
-      0.35;  // from the discs' answer; beyond, the planes do not describe the place  [voxel]
+  // from the discs' answer; beyond, the planes do not describe the place  [voxel]
+  constexpr double kFarthest = 0.35;
   Candidates& few = *smooth_;
   Vec3 normals[3];
   for (int a = 0; a < last.active; ++a) {

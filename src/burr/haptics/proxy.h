@@ -7,7 +7,7 @@
 // times: gather the discs that the next short move could reach, find the shortest correction of
 // that move which keeps the ball off all of them (least_move.h), move. Distance to a disc is
 // convex, so the straight move between two free places is free: nothing is fallen through at any
-// speed.           algorithms.md 3a as corrected by kernel.md; friction: 3c (Harwin & Melder 2002)
+// speed. Mathematics: docs/touch.md, "The proxy" and "Friction" (Harwin & Melder 2002).
 //
 // Thread: servo. Frame: world at the door, p_grid inside. Memory: none taken after construction.
 // Cost: docs/realtime.md.

@@ -12,8 +12,8 @@
 
 namespace burr::haptics {
 
-inline constexpr double kThinAngle =
-    0.176;  // between two normals of one bin: atan(sqrt 2 / 8) [rad]
+// between two normals of one bin: atan(sqrt 2 / 8)  [rad]
+inline constexpr double kThinAngle = 0.176;
 
 // Keeps the first nearest of each direction, in the order they came.
 void thin(Candidates& all) BURR_RT;

@@ -4,7 +4,7 @@
 //     white noise --[ resonator at f_v, Q ]-- e, variance 1 --[ clamp 3 ]-- A e t_hat
 //
 // A burr at 80 000 rpm runs out at 1333 Hz and its teeth beat at 10 kHz: above the 500 Hz that a
-// 1 kHz loop can carry. So a band of noise stands for them (algorithms.md 3d):
+// 1 kHz loop can carry. So a band of noise stands for them (docs/touch.md, "Vibration"):
 //
 //     f_v = f_r / m, held to 60..250 Hz, where skin feels best; m the smallest whole number that
 //           brings f_r = speed / 2 pi down to 250 Hz

@@ -2,7 +2,7 @@
 // surface found between the voxels, its tissues named.
 //
 //     auto scan = io::read_scan(path, {}, progress);
-//     auto made = importing::import_bone(*scan, {}, progress);      // made->bone, made->summary
+//     auto made = import_bone(*scan, {}, progress);      // made->bone, made->summary
 //
 // Grey scans: the surface lies where linear interpolation of the (smoothed, cubic) values crosses
 // the iso-level. Label maps: halfway between a solid voxel and one that is not, smoothed over the

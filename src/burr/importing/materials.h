@@ -1,7 +1,7 @@
 // importing/materials.h - what tissues are made of: constants with their range, their source, and whether
 // anybody has measured them. Format of the file: docs/materials.md.
 //
-//     Result<Materials> materials = importing::read_materials("mine.toml");   // over the built-in ones
+//     Result<Materials> materials = read_materials("mine.toml");   // over the built-in ones
 //     materials->lay_over(tissue);                                     // chosen by its name
 //
 // Constants are SI; the file's keys carry the units it is written in. Thread: any.

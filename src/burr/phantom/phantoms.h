@@ -1,10 +1,13 @@
 // src/burr/phantom/phantoms.h - anatomy made by formula: bones of no patient, to practise and to measure on.
 //
 //     temporal-bone  right temporal bone, 58 x 64 x 58 mm, every structure of a mastoidectomy
-//     labelled jaw            left half of a lower jaw from premolar to second molar, with its
-//     nerve canal tooth          lower molar: enamel, dentine, pulp spine          third lumbar
-//     vertebra with canal and cord skull          vault and face, 190 mm long block          a
-//     block to sculpt ball           a ball
+//                    labelled
+//     jaw            left half of a lower jaw from premolar to second molar, with its nerve canal
+//     tooth          lower molar: enamel, dentine, pulp
+//     spine          third lumbar vertebra with canal and cord
+//     skull          vault and face, 190 mm long
+//     block          a block to sculpt
+//     ball           a ball
 //
 // Frame: LPS (x left, y back, z up), metres. Shapes and sizes follow textbooks, not a person.
 // Same name and voxel, same bits, whatever the number of threads.

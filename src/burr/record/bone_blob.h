@@ -3,8 +3,8 @@
 //     "BURRBON1" | u32 length, JSON {grid, tissues, has_intensity} | u32 CRC of the JSON
 //     then blocks of at most 4096 bricks, brick numbers rising:
 //       u32 n (0 ends) | u64 packed size | zstd of [ n x i32 brick | n x 512 x u16 field
-//                                                  | n x 512 x u8 tissue | n x 512 x i16 intensity?
-//                                                  ]
+//                                                  | n x 512 x u8 tissue
+//                                                  | n x 512 x i16 intensity? ]
 //       | u32 CRC of the unpacked block
 //
 // All little-endian; voxels x fastest. Thread: the bone must not be written meanwhile.

@@ -2,10 +2,9 @@
 // blood.
 //
 //     Wound wound(voxel, bleeding_of(bone.tissues()));
-//     each frame:   wound.see({t, tip, up, radius, removed, added, irrigated});  // as the servo
-//     told
-//                   wound.dress(scene, patch);                         // patches made anew
-//                   wound.renew(scene, now);                           // ... and all, at times
+//     each frame:   wound.see({t, tip, up, radius, removed, added, irrigated});  // a tick
+//                   wound.dress(scene, patch);                            // patches made anew
+//                   wound.renew(scene, now);                              // ... and all, at times
 //
 // A coarse grid around the tool, 64 x 64 x 64 cells; bone outside of it looks as ever.
 //   fresh   what is cut, dulls within kDulls

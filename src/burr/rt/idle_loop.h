@@ -1,9 +1,9 @@
 // rt/idle_loop.h - a loop that does nothing but be on time: how late this machine wakes a thread,
 // whatever the tick does.
 //
-//     rt::IdleLoop idle(1000, {.name = "idle", .realtime = true});
+//     IdleLoop idle(1000, {.name = "idle", .realtime = true});
 //     ...                                           // the sessions to compare with
-//     const rt::TickSummary waited = idle.stop();   // lateness and missed periods; work: next to 0
+//     const TickSummary waited = idle.stop();   // lateness and missed periods; work: next to 0
 //
 // Thread: construct and stop on one thread; the loop runs on its own.
 #pragma once

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kHow = "docs/realtime.md, \"Allowing real time\", has the two lines";
 
-CheckLine processor_line(const rt::Machine& machine) {
+CheckLine processor_line(const Machine& machine) {
   CheckLine line{"processor", machine.processor.empty() ? "not named" : machine.processor, ""};
   line.is += fmt::format(", {} core{} for burr", machine.cores, machine.cores == 1 ? "" : "s");
   if (machine.core_quota > 0) line.is += fmt::format(", limited to {:.2g}", machine.core_quota);
@@ -23,7 +23,7 @@ CheckLine processor_line(const rt::Machine& machine) {
   return line;
 }
 
-CheckLine simd_line(const rt::Machine& machine) {
+CheckLine simd_line(const Machine& machine) {
   CheckLine line{"instructions", machine.simd, ""};
   if (machine.simd == "scalar")
     line.change =
@@ -35,7 +35,7 @@ CheckLine simd_line(const rt::Machine& machine) {
 CheckLine priority_line(const MachineSeen& seen) {
   CheckLine line{"priority", "SCHED_FIFO: the tick goes before everything else", ""};
   if (seen.grant.fifo) {
-    const rt::Machine& m = seen.machine;
+    const Machine& m = seen.machine;
     if (m.fifo_share_us >= 0 && m.fifo_period_us > 0 && 10 * m.fifo_share_us < 9 * m.fifo_period_us)
       line.change = fmt::format(
           "the kernel gives SCHED_FIFO only {} of {} us; raise kernel.sched_rt_runtime_us with "
@@ -54,14 +54,14 @@ CheckLine priority_line(const MachineSeen& seen) {
 CheckLine memory_line(const MachineSeen& seen) {
   CheckLine line{"memory", "locked: what was touched once stays", ""};
   if (seen.grant.locked) return line;
-  line.is = seen.machine.locked_bytes == rt::kNoLimit
+  line.is = seen.machine.locked_bytes == kNoLimit
                 ? std::string("not locked")
                 : fmt::format("not locked: the limit is {} KiB", seen.machine.locked_bytes / 1024);
   line.change = fmt::format("allow memlock unlimited for your user; {}", kHow);
   return line;
 }
 
-CheckLine kernel_line(const rt::Machine& machine) {
+CheckLine kernel_line(const Machine& machine) {
   CheckLine line{"kernel", machine.kernel.empty() ? "not named" : machine.kernel, ""};
   if (!machine.preemption.empty()) line.is += ", " + machine.preemption;
   if (!machine.preempt_rt())
@@ -71,7 +71,7 @@ CheckLine kernel_line(const rt::Machine& machine) {
   return line;
 }
 
-CheckLine governor_line(const rt::Machine& machine) {
+CheckLine governor_line(const Machine& machine) {
   CheckLine line{"frequency", machine.governor.empty() ? "not told" : machine.governor, ""};
   if (!machine.governor.empty() && machine.governor != "performance")
     line.change =
@@ -80,7 +80,7 @@ CheckLine governor_line(const rt::Machine& machine) {
   return line;
 }
 
-CheckLine clock_line(const rt::Machine& machine) {
+CheckLine clock_line(const Machine& machine) {
   CheckLine line{"clock", machine.clock_source.empty() ? "not told" : machine.clock_source, ""};
   static constexpr std::array<std::string_view, 5> kSlow = {"hpet", "acpi_pm", "jiffies", "pit",
                                                             "refined-jiffies"};
@@ -91,14 +91,14 @@ CheckLine clock_line(const rt::Machine& machine) {
   return line;
 }
 
-CheckLine virtual_line(const rt::Machine& machine) {
+CheckLine virtual_line(const Machine& machine) {
   if (machine.virtual_machine.empty()) return {"virtual machine", "none seen", ""};
   return {"virtual machine", machine.virtual_machine,
           "the worst case belongs to the host; for a real device run burr on the machine itself"};
 }
 
 // Why these ticks do not meet the bars.
-void hold_against(const CheckBars& bars, const rt::TickSummary& ticks,
+void hold_against(const CheckBars& bars, const TickSummary& ticks,
                   std::vector<std::string>& why) {
   if (ticks.p999_us > bars.work_us)
     why.push_back(fmt::format("one tick in a thousand works {:.0f} us or longer ({:.0f} allowed)",
@@ -147,7 +147,7 @@ MachineJudged judge(const MachineSeen& seen) {
                   kernel_line(seen.machine),    governor_line(seen.machine),
                   clock_line(seen.machine),     virtual_line(seen.machine)};
 
-  const rt::TickSummary& ticks = seen.milling_loaded;
+  const TickSummary& ticks = seen.milling_loaded;
   std::vector<std::string> hard;
   hold_against(kUsable, ticks, hard);
   if (!hard.empty()) {

@@ -16,9 +16,9 @@ namespace burr::rt {
 // What was seen of 1000 ticks a second: a loop that only waits, and the real tick while milling,
 // each alone and with everything else at work.
 struct MachineSeen {
-  rt::Machine machine;
-  rt::ThreadGrant grant;  // of the servo's thread
-  rt::TickSummary waiting, milling, waiting_loaded, milling_loaded;
+  Machine machine;
+  ThreadGrant grant;  // of the servo's thread
+  TickSummary waiting, milling, waiting_loaded, milling_loaded;
 };
 
 enum class Verdict {

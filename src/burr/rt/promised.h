@@ -1,10 +1,9 @@
 // rt/promised.h - a long array whose room is promised at once and taken from the system ahead of
 // its use, page by page.
 //
-//     rt::Promised<KeptBrick> kept(bricks);      // addresses for all, memory for none
-//     kept.have(2048);                           // the first 2048 are there now
-//     kept[n] = ...                              // the tick; a helper calls have(n + 2048)
-//     meanwhile
+//     Promised<KeptBrick> kept(bricks);  // addresses for all, memory for none
+//     kept.have(2048);                       // the first 2048 are there now
+//     kept[n] = ...                          // the tick; meanwhile a helper calls have(n + 2048)
 //
 // What the tick might need in the worst case is far more than what it ever uses. A vector would
 // take all of it; growing one would allocate in the tick. Here the addresses never change, and a

@@ -1,6 +1,6 @@
 // rt/thread.h - a thread that the scheduler puts first, where the machine allows it.
 //
-//     rt::Thread servo({.name = "servo", .realtime = true}, [&] { ... });
+//     Thread servo({.name = "servo", .realtime = true}, [&] { ... });
 //     fmt::print("{}\n", servo.grant().sentence);      // what it got, or what is missing and why
 //
 // Asking never fails: without the right to it the work runs on an ordinary thread, and the sentence

@@ -1,7 +1,7 @@
 // sim/replay.h - a recording simulated again and held against itself: every tick's hash, every
 // brick as it was written.
 //
-// Same build, same bits, whichever instruction set the processor takes (architecture.md 6).
+// Same build, same bits, whichever instruction set the processor takes (docs/recording.md).
 // Thread: one.
 #pragma once
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::int64_t kFadeNs = 5'000'000;  // from detection of a loss to zero force
 constexpr std::int64_t kGuardNs = 500'000;   // between two looks of the guard
-constexpr std::uint64_t kHeatWait =
-    1000;  // ticks between two waits for the heat, when not by the clock
+// ticks between two waits for the heat, when not by the clock
+constexpr std::uint64_t kHeatWait = 1000;
 constexpr auto kAheadPause = std::chrono::milliseconds(5);  // between two of taking memory ahead
 
 }  // namespace

@@ -1,11 +1,10 @@
 // sim/session.h - the hall: a bone, a hand, the servo that brings them together, and the doors for
 // everyone else.
 //
-//     Result<std::unique_ptr<Session>> session = Session::make(std::move(bone), std::move(hand),
-//     settings, progress);
-//     (*session)->run(20.0, progress);                            // headless: to the end, or
-//     (*session)->start(); ... view().take(row) ...; stop();      // in the background, beside a
-//     window
+//     Result<std::unique_ptr<Session>> session =
+//         Session::make(std::move(bone), std::move(hand), settings, progress);
+//     (*session)->run(20.0, progress);                        // headless: to the end, or
+//     (*session)->start(); ... view().take(row) ...; stop();  // in the background, beside a window
 //
 // Thread: everything on the thread that made it, except where a door says otherwise. While it runs,
 // the bone is the servo's: others read it through copy_brick() and their own watcher.

@@ -23,7 +23,7 @@ struct FaultReport {
   static constexpr int kTicks = 200;
   std::uint32_t flags = 0;  // what happened, haptics/contact.h
   int count = 0;
-  std::array<tick::TickRow, kTicks> rows;
+  std::array<TickRow, kTicks> rows;
 };
 
 class FaultKeeper {
@@ -34,7 +34,7 @@ class FaultKeeper {
   void raise() BURR_RT { waits_ = true; }
   // The row of the newest tick; ticks count up by one. What was raised is copied out with the first
   // row whose force is zero: first it fades.
-  void note(const tick::TickRow& row) BURR_RT {
+  void note(const TickRow& row) BURR_RT {
     renew(row);
     report_.flags |= row.contact.flags & (haptics::kFlagNotFinite | haptics::kFlagWatchdog |
                                           haptics::kFlagJump | haptics::kFlagHandLost);
@@ -49,12 +49,12 @@ class FaultKeeper {
     report_.flags = 0;
   }
   // The same row once more, with what was only known later.
-  void renew(const tick::TickRow& row) BURR_RT { recent_[row.tick % FaultReport::kTicks] = row; }
+  void renew(const TickRow& row) BURR_RT { recent_[row.tick % FaultReport::kTicks] = row; }
 
   [[nodiscard]] rt::Latest<FaultReport>& reports() BURR_RT { return reports_; }
 
  private:
-  std::vector<tick::TickRow> recent_;  // ring
+  std::vector<TickRow> recent_;  // ring
   FaultReport report_;
   bool waits_ = false;
   rt::Latest<FaultReport> reports_;

@@ -88,13 +88,13 @@ double offset_of(const volume::Grid& grid, const edit::Mirror& mirror) {
          (mirror.place() - middle(grid, mirror.axis)) * grid.voxel;
 }
 
-tick::Command command_for(const edit::Mirror& mirror) {
+Command command_for(const edit::Mirror& mirror) {
   if (!mirror.on()) return {CommandKind::mirror_off, 0};
   return {static_cast<CommandKind>(static_cast<int>(CommandKind::mirror_i) + mirror.axis),
           mirror.place()};
 }
 
-std::optional<edit::Mirror> mirror_of(const tick::Command& command, const math::Ijk& size) BURR_RT {
+std::optional<edit::Mirror> mirror_of(const Command& command, const math::Ijk& size) BURR_RT {
   if (command.kind == CommandKind::mirror_off) return edit::Mirror{};
   const int axis = static_cast<int>(command.kind) - static_cast<int>(CommandKind::mirror_i);
   if (axis < 0 || axis > 2 || !std::isfinite(command.value)) return std::nullopt;

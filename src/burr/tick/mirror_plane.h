@@ -37,9 +37,9 @@ inline constexpr std::array<std::string_view, kPlanes> kPlaneNames = {"sagittal"
 [[nodiscard]] double offset_of(const volume::Grid& grid, const edit::Mirror& mirror);
 
 // What the servo is to be told.
-[[nodiscard]] tick::Command command_for(const edit::Mirror& mirror);
+[[nodiscard]] Command command_for(const edit::Mirror& mirror);
 // And back: nothing if it is no command for a mirror.
-[[nodiscard]] std::optional<edit::Mirror> mirror_of(const tick::Command& command,
+[[nodiscard]] std::optional<edit::Mirror> mirror_of(const Command& command,
                                                     const math::Ijk& size) BURR_RT;
 
 // The pose of a tool that is the other's image: its place and its axis +z.

@@ -42,8 +42,8 @@ class SecondHand {
   void step(bool lost, bool parted) BURR_RT;
 
   // Its hand and contact, as the servo's row has the burr's; the rest is as it begins.
-  [[nodiscard]] const tick::TickRow& row() const BURR_RT { return row_; }
-  [[nodiscard]] rt::Latest<tick::TickRow>& view() BURR_RT { return view_; }
+  [[nodiscard]] const TickRow& row() const BURR_RT { return row_; }
+  [[nodiscard]] rt::Latest<TickRow>& view() BURR_RT { return view_; }
   [[nodiscard]] rt::Latest<FaultReport>& faults() BURR_RT { return faults_.reports(); }
 
  private:
@@ -57,8 +57,8 @@ class SecondHand {
   math::Vec3 velocity_ = math::Vec3::Zero();
   bool engaged_ = false;  // the proxy is somewhere free and follows the hand
   std::uint64_t next_tick_ = 0;
-  tick::TickRow row_;
-  rt::Latest<tick::TickRow> view_;
+  TickRow row_;
+  rt::Latest<TickRow> view_;
   FaultKeeper faults_;
 };
 

@@ -17,8 +17,8 @@ using tick::CommandKind;
 constexpr int kCommandsPerTick = 8;
 constexpr double kRestorePerSecond = 16e3;  // bricks; about as many as a deep cut changes
 constexpr double kRecovery = 5;  // of bone that grew under the burr pushes it out  [voxel/s]
-constexpr double kRefreshRate =
-    1e3;                          // of the budgets of IsoSettings: they are those of a millisecond
+// of the budgets of IsoSettings: they are those of a millisecond
+constexpr double kRefreshRate = 1e3;
 constexpr double kFastest = 1e5;  // spindle, either way  [rad/s]
 constexpr double kCarried = 0.4;  // of the tick rate: what a force can be made to swing with [-]
 constexpr double kHeatEvery = 10e-3;  // a row to the worker that knows the heat  [s]
@@ -51,7 +51,7 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
   irrigated_ = settings.irrigated;
 }
 
-const tick::TickRow& Servo::tick(bool lost) BURR_RT {
+const TickRow& Servo::tick(bool lost) BURR_RT {
   row_ = {};
   row_.tick = next_tick_++;
   std::uint32_t& flags = row_.contact.flags;
@@ -544,7 +544,7 @@ void Servo::write_bricks(std::size_t most) BURR_RT {
     if (diary_.bricks->size() == diary_.bricks->capacity())
       return;  // it waits in the queue, nothing is lost
     const volume::BrickIndex brick = changed_.pop();
-    tick::BrickRow row;
+    BrickRow row;
     row.tick = row_.tick;
     row.brick = brick;
     std::memcpy(&row.field, bone_.brick_field(brick), sizeof row.field);

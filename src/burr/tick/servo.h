@@ -1,7 +1,7 @@
 // tick/servo.h - the tick: the hand comes first, then the bone.
 //
-//     read the hand - obey commands - step the proxy - force law - energy guard - drag of the bone on
-//     the burr and vibration - limit - write the force
+//     read the hand - obey commands - step the proxy - force law - energy guard
+//     - drag of the bone on the burr and vibration - limit - write the force
 //     - then carve - then tell the others
 //
 // A pure function of (bone, hand, buttons, commands, lost): no clock, no random number, so that a
@@ -76,9 +76,9 @@ struct ServoSettings {
 
 // The diary's rings (record/recorder.h); nullptr: nobody writes.
 struct Diary {
-  rt::Ring<tick::TickRow>* ticks = nullptr;
-  rt::Ring<tick::CommandRow>* commands = nullptr;
-  rt::Ring<tick::BrickRow>* bricks = nullptr;
+  rt::Ring<TickRow>* ticks = nullptr;
+  rt::Ring<CommandRow>* commands = nullptr;
+  rt::Ring<BrickRow>* bricks = nullptr;
 };
 
 class Servo {
@@ -87,16 +87,16 @@ class Servo {
         const ServoSettings& settings);
 
   // One tick. lost: ticks were lost just before this one and the watchdog let go of the hand.
-  const tick::TickRow& tick(bool lost) BURR_RT;
+  const TickRow& tick(bool lost) BURR_RT;
 
   // What to put off from the next tick on; recorded as a command when it changes. Between ticks, on
   // the servo's thread.
   void set_shed(Shed shed) BURR_RT { shed_requested_ = shed; }
   [[nodiscard]] Shed shed() const BURR_RT { return shed_; }
 
-  // ---- doors (architecture.md 4)
-  [[nodiscard]] rt::Ring<tick::Command>& commands() BURR_RT { return commands_; }  // main -> servo
-  [[nodiscard]] rt::Latest<tick::TickRow>& view() BURR_RT { return view_; }        // servo -> main
+  // ---- doors (docs/realtime.md, "Doors")
+  [[nodiscard]] rt::Ring<Command>& commands() BURR_RT { return commands_; }  // main -> servo
+  [[nodiscard]] rt::Latest<TickRow>& view() BURR_RT { return view_; }        // servo -> main
   [[nodiscard]] rt::Latest<FaultReport>& faults() BURR_RT { return faults_.reports(); }  // likewise
   // of the burr's head as it is now: a command for a larger one is refused where it has no room [m]
   [[nodiscard]] double burr_radius() const BURR_RT {
@@ -107,7 +107,7 @@ class Servo {
   [[nodiscard]] bool let_go() const BURR_RT { return let_go_.load(std::memory_order_relaxed); }
   void set_diary(const Diary& diary) { diary_ = diary; }  // before the session
   // One more who sees every row, on a thread of its own; before the session. nullptr: nobody.
-  void set_watch(rt::Latest<tick::TickRow>* watch) { watch_ = watch; }
+  void set_watch(rt::Latest<TickRow>* watch) { watch_ = watch; }
   void set_heat(thermal::Worker* heat) { heat_ = heat; }  // servo -> heat; before the session
 
   // How long the last tick took and how late it began, for the diary and the view; not part of the
@@ -139,9 +139,9 @@ class Servo {
  private:
   enum class Restore { none, lifting, restoring, settling };
 
-  void obey(const tick::Command& command) BURR_RT;
+  void obey(const Command& command) BURR_RT;
   void take_commands() BURR_RT;
-  void begin_restore(tick::CommandKind kind) BURR_RT;
+  void begin_restore(CommandKind kind) BURR_RT;
   void step_restore() BURR_RT;
   [[nodiscard]] bool clear_of_what_returns(const math::Vec3& p) const BURR_RT;
   void touch_bone(const math::Vec3& hand) BURR_RT;
@@ -167,7 +167,7 @@ class Servo {
   ServoSettings settings_;
   double dt_;
 
-  rt::Latest<tick::TickRow>* watch_ = nullptr;
+  rt::Latest<TickRow>* watch_ = nullptr;
   edit::ChangedQueue changed_;
   edit::UndoStore undo_;
   edit::Carver carver_;
@@ -198,20 +198,20 @@ class Servo {
   std::vector<math::Vec3> path_;
   std::uint64_t path_end_ = 0;
   Restore restore_ = Restore::none;
-  tick::CommandKind restore_kind_ = tick::CommandKind::undo;
+  CommandKind restore_kind_ = CommandKind::undo;
   edit::UndoStore::Range range_;
   std::uint64_t restored_ = 0, path_at_ = 0;
   double lift_since_check_ = 0;
 
-  rt::Ring<tick::Command> commands_{256};
-  rt::Latest<tick::TickRow> view_;
+  rt::Ring<Command> commands_{256};
+  rt::Latest<TickRow> view_;
   FaultKeeper faults_;
   std::atomic<double> burr_radius_;
   std::atomic<bool> let_go_ = false;
   Diary diary_;
   thermal::Worker* heat_ = nullptr;
   thermal::HeatRow heat_row_;
-  tick::TickRow row_;
+  TickRow row_;
   std::uint64_t next_tick_ = 0, last_hash_ = 0;
 };
 

@@ -4,8 +4,8 @@
 //     none -> picture -> mesh -> removal in 2, 4, 8 slices -> touch in fewer moves
 //
 //     ShedGovernor governor(period_ns);
-//     each tick:  servo.set_shed(governor.shed());  tick ...;  governor.note(wall_ns, late_ns,
-//     missed);
+//     each tick:  servo.set_shed(governor.shed());  tick ...;
+//                 governor.note(wall_ns, late_ns, missed);
 //
 // Picture and mesh are drawn and made less often: other threads look at Session::shed(). What
 // changes the tick itself enters as a command that is recorded (tick/rows.h, CommandKind::shed), so

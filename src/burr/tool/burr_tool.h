@@ -23,8 +23,8 @@ struct Burr {
 inline constexpr double kSmallestDiameter = 0.6e-3,
                         kLargestDiameter = 7e-3;  // of round burrs in use  [m]
 
-// How much of the friction power becomes cutting (algorithms.md 3e). Flutes cut one way only,
-// grains both.
+// How much of the friction power becomes cutting (docs/cutting.md, "Energy law"). Flutes cut one
+// way only, grains both.
 [[nodiscard]] inline double cutting_efficiency(BurrKind kind, double speed) BURR_RT {
   if (kind == BurrKind::diamond) return 0.25;
   return speed >= 0 ? 1.0 : 0.0;

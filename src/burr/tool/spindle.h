@@ -3,10 +3,10 @@
 //
 //     J dw/dt = tau_m - tau_cut - b w,    tau_m = K (w_set - w), at most `torque` either way
 //
-// A speed-controlled motor is a stiff spring about its set speed (algorithms.md 3d): at its whole
-// torque it has lost the share `droop` of the set speed. The bone's torque only ever brakes: where
-// it exceeds the motor's, the burr stands. Within a tick all are constant, so the step is exact and
-// stable however short J/K is.
+// A speed-controlled motor is a stiff spring about its set speed (docs/cutting.md, "Spindle"): at
+// its whole torque it has lost the share `droop` of the set speed. The bone's torque only ever
+// brakes: where it exceeds the motor's, the burr stands. Within a tick all are constant, so the
+// step is exact and stable however short J/K is.
 //
 // What the motor gives to the burr it takes from the handpiece: the hand feels
 //     tau_m - b w = tau_cut + J dw/dt        [N m]    about the shaft,

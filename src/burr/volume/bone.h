@@ -1,11 +1,10 @@
 // volume/bone.h - the bone: a sparse grid of bricks that one thread cuts while others look on.
 //
-//     per voxel    field    16 bit   how far into the material: 0 air .. 32768 surface .. 65535
-//     solid,
-//                                    a ramp of +-kRamp voxels around the true surface
-//                  tissue    8 bit   what it is made of (TissueTable)
-//                  intensity 16 bit  HU of the scan, only if the scan had them
-//     per brick    8 x 8 x 8 voxels, x fastest; a slot in one pool, or none where all is air
+//     per voxel   field     16 bit  depth into the material: 0 air .. 32768 surface .. 65535 solid,
+//                                   a ramp of +-kRamp voxels around the true surface
+//                 tissue     8 bit  what it is made of (TissueTable)
+//                 intensity 16 bit  HU of the scan, only if the scan had them
+//     per brick   8 x 8 x 8 voxels, x fastest; a slot in one pool, or none where all is air
 //
 //     directory:  [ -1 | 17 | -1 | 1 | ... ]  one entry per brick of the grid -> slot in the pool
 //     pool:       [ all 0 | all solid | bricks of their own ... | promised ]
@@ -47,10 +46,10 @@ inline constexpr int kBrickVoxels = kBrickEdge * kBrickEdge * kBrickEdge;  // 51
 inline constexpr int kBrickWords = kBrickVoxels * int{sizeof(Field)} / 8;  // 128 words of 64 bit
 inline constexpr Field kIso = 32768;  // the surface; >= is inside
 inline constexpr Field kSolid = 65535;
-inline constexpr double kRamp =
-    2.0;  // half width of the ramp; wide enough for exact central differences [voxel]
-inline constexpr double kFieldPerVoxel =
-    65536.0 / (2.0 * kRamp);  // field units a voxel of depth is worth
+// half width of the ramp; wide enough for exact central differences  [voxel]
+inline constexpr double kRamp = 2.0;
+// field units a voxel of depth is worth
+inline constexpr double kFieldPerVoxel = 65536.0 / (2.0 * kRamp);
 
 // depth below the surface [voxel], negative in air, as a field value
 [[nodiscard]] constexpr Field field_from_depth(double depth_voxel) {
@@ -77,9 +76,8 @@ class Bone {
   // ---- what and where
   [[nodiscard]] const Grid& grid() const BURR_RT { return grid_; }
   [[nodiscard]] const TissueTable& tissues() const BURR_RT { return tissues_; }
-  [[nodiscard]] const math::Ijk& bricks() const BURR_RT {
-    return bricks_;
-  }  // bricks along each axis
+  // bricks along each axis
+  [[nodiscard]] const math::Ijk& bricks() const BURR_RT { return bricks_; }
   [[nodiscard]] BrickIndex brick_count() const BURR_RT { return brick_count_; }
   // bricks that hold material, and how many more may
   [[nodiscard]] std::size_t used_slots() const BURR_RT { return used_; }
@@ -137,8 +135,8 @@ class Bone {
   std::int32_t ensure_slot(BrickIndex brick) BURR_RT;
   // Replaces a brick's field; the brick must have a slot. Marks it for all watchers.
   void write_brick(BrickIndex brick, const BrickField& content) BURR_RT;
-  void set_tissue(int i, int j, int k,
-                  TissueId tissue) BURR_RT;  // voxel must be in a brick with a slot
+  // The voxel must be in a brick with a slot.
+  void set_tissue(int i, int j, int k, TissueId tissue) BURR_RT;
 
   // Takes the memory that writing will need next; call it every few milliseconds while the servo
   // cuts, from one other thread.

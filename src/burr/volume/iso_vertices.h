@@ -31,13 +31,12 @@ struct BrickBall {
 };
 
 struct IsoSettings {
-  float disc = 0.3F;  // radius of the discs                                        [voxel]
-  int stale_units =
-      400;  // a brick that lost less in every voxel may wait             [field units]
+  float disc = 0.3F;        // radius of the discs                                   [voxel]
+  int stale_units = 400;    // a brick that lost less in every voxel may wait        [field units]
   int refresh_budget = 24;  // bricks made anew per call of refresh(), worst first
   int refresh_oldest = 8;   // of these, how many are taken by age even if they lost little
-  std::size_t reserve_blocks =
-      1 << 16;  // of 16 vertices: room for the surface that milling lays bare, promised, not taken
+  // of 16 vertices: room for the surface that milling lays bare, promised, not taken
+  std::size_t reserve_blocks = 1 << 16;
 };
 
 class IsoVertices {

@@ -18,8 +18,8 @@ struct PagesOptions {
   std::string folder = {};      // where P leaves pictures
   std::string screenshot = {};  // of the window as it was last
   bool sound = true;
-  WorkOptions led =
-      {};  // of it only what leads: hand, suction, told_as; without a hand the settings say
+  // of it only what leads: hand, suction, told_as; without a hand the settings say
+  WorkOptions led = {};
 };
 
 // Until the user has had enough. Trouble with one bone is told on the start page, and one goes on.

@@ -1,8 +1,8 @@
 // apps/burr/window/start/sessions.h - sessions at the window, kept by themselves so that one can go on.
 //
-//     state/sessions/session_20261122_193145.mcap     the recording, docs/recording.md
-//     state/sessions/session_20261122_193145.toml     what it was made from, and whether it ended
-//     well state/recent.toml                               scans opened lately
+//     state/sessions/session_20261122_193145.mcap  the recording, docs/recording.md
+//     state/sessions/session_20261122_193145.toml  what it was made from, and whether it ended well
+//     state/recent.toml                            scans opened lately
 //
 // The .toml names the user's own file, since the bone comes from there; it lies in the user's own
 // folder and can be read by nobody else. No name of a scan is shown unless settings say so.

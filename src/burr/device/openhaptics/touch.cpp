@@ -16,8 +16,8 @@ namespace {
 
 using math::Vec3;
 
-constexpr int kMostOldErrors =
-    32;                           // a library that errs without end is not listened to without end
+// a library that errs without end is not listened to without end
+constexpr int kMostOldErrors = 32;
 constexpr int kLostFrames = 500;  // bad ones in a row, and the device is opened anew
 constexpr std::int64_t kSilentNs = 1'000'000'000;  // likewise without a call
 constexpr int kCalibrationEvery = 100;             // frames between two looks while it is missing

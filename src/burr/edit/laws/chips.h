@@ -4,7 +4,7 @@
 //     dF_r = (K_rc t + K_re s(t)) db      out of the bone         s = 1 - exp(-t / onset)
 //
 // The mechanistic model of milling (Arbabtafti et al. 2011 for bone burrs; Altintas 2012, ch. 2;
-// algorithms.md 3e level 2). Teeth run from the pole to the shaft; a piece of them cuts where it is
+// docs/cutting.md, "Chips"). Teeth run from the pole to the shaft; a piece of them cuts where it is
 // in bone, a chip as thick as the feed per tooth f times the cosine of its angle to the push. The
 // mean over a turn is an integral over the part of the ball that is in bone, with z / (2 pi rho)
 // edges a metre across, rho: distance from the axis.

@@ -5,10 +5,10 @@
 //     F_t = P / (w r_eff)                                   [N]      torque = P / w
 //
 // Friction power at the contact, over the energy a volume of this tissue costs to cut (Agus et al.
-// 2003; Preston; Archard; algorithms.md 3e level 1). r_eff = r sin(theta), theta between the burr's
-// axis and the contact normal: the pole of a burr cuts least. No push, no speed: no cut. The bone
-// drags at the burr against the way its surface slides: F_t makes a burr walk, and walk the other
-// way when it turns backwards. Level 2 is chips.h; the thesis' law is what they are measured
+// 2003; Preston; Archard; docs/cutting.md, "Energy law"). r_eff = r sin(theta), theta between the
+// burr's axis and the contact normal: the pole of a burr cuts least. No push, no speed: no cut. The
+// bone drags at the burr against the way its surface slides: F_t makes a burr walk, and walk the
+// other way when it turns backwards. Level 2 is chips.h; the thesis' law is what they are measured
 // against. Thread: servo. Units: SI. Frame: world.
 #pragma once
 

@@ -5,10 +5,10 @@
 //     iso-surface: the new s;   c = s + r n
 //
 // M. Eriksson, Haptic and Visual Simulation of a Material Cutting Process, KTH 2006, 1.6.2, with
-// the readings of algorithms.md 1.5 where it is silent: contact begins where the way of the hand
-// crosses the surface, the march goes in fifths of a voxel and not farther than two radii, friction
-// is the cone of ours. Right on smooth convex bone. One gradient knows one wall only: in a groove
-// the burr stands in the other.
+// our readings where it is silent (docs/touch.md, "The seven methods"): contact begins where the
+// way of the hand crosses the surface, the march goes in fifths of a voxel and not farther than two
+// radii, friction is the cone of ours. Right on smooth convex bone. One gradient knows one wall
+// only: in a groove the burr stands in the other.
 #pragma once
 
 #include "burr/haptics/touch_method.h"

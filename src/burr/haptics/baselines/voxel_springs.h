@@ -5,8 +5,8 @@
 //
 // The method of the thesis' Fig. 9; k_i grows with how much of the voxel is bone. In a half-space
 // at distance a from the centre: F = k_i pi / h^3 (r^4/12 - a^2 r^2/2 + 2 r |a|^3/3 - a^4/4)
-// (algorithms.md 1.3 A). So it is eight times as stiff with voxels half as large, softens from half
-// immersion on, and gives no force at all to a burr that is wholly inside.
+// (docs/touch.md, "Voxel springs"). So it is eight times as stiff with voxels half as large,
+// softens from half immersion on, and gives no force at all to a burr that is wholly inside.
 #pragma once
 
 #include "burr/haptics/touch_method.h"

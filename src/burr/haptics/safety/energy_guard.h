@@ -1,7 +1,6 @@
 // haptics/safety/energy_guard.h - the virtual world may give the hand no more than it was given.
 //
-//     hand --- work done on the world ---> [ stored in the spring V ] --- what was lost ---> [ tank
-//     S ]
+//     hand --- work done on the world --> [ stored in the spring V ] --- losses --> [ tank S ]
 //                                                    | E < V: more is stored than was paid for
 //                                                    v
 //                                          a damper takes it back      F <- F - alpha v
@@ -61,7 +60,7 @@ struct EnergyGuardSettings {
   double count_force = 0.1;    // the damper's most for one step in a tick; the joints' dry
                                // friction hides it, 0.26 N in an Omni                        [N]
   double delay = 0;            // from hand to force, beyond the held tick; up to 7 ticks     [s]
-  double slack = 0;            // deficit that is let pass: see above                       [J]
+  double slack = 0;            // deficit that is let pass: see above                         [J]
   double least_speed = 2e-3;   // below it velocity is mostly noise; no damping             [m/s]
   double largest_force = 3.3;  // that is ever sent: of the device and of the user           [N]
   double free_time = 50e-3;    // in free air until a deficit is forgotten                   [s]
@@ -97,14 +96,14 @@ class EnergyGuard {
 
   void set_largest_force(double newton) BURR_RT;
 
-  [[nodiscard]] double energy() const BURR_RT { return energy_; }  // E, never above V      [J]
-  [[nodiscard]] double stored() const BURR_RT { return stored_; }  // V                     [J]
-  [[nodiscard]] double deficit() const BURR_RT { return stored_ - energy_; }  // >= 0         [J]
-  [[nodiscard]] double tank() const BURR_RT { return tank_; }        // S                     [J]
-  [[nodiscard]] double damping() const BURR_RT { return alpha_; }    // alpha, now        [N s/m]
-  [[nodiscard]] double work_in() const BURR_RT { return work_in_; }  // by the hand, so far    [J]
-  [[nodiscard]] double written_off() const BURR_RT { return written_off_; }        //        [J]
-  [[nodiscard]] double lost_in_device() const BURR_RT { return lost_in_device_; }  //        [J]
+  [[nodiscard]] double energy() const BURR_RT { return energy_; }             // E, at most V    [J]
+  [[nodiscard]] double stored() const BURR_RT { return stored_; }             // V               [J]
+  [[nodiscard]] double deficit() const BURR_RT { return stored_ - energy_; }  // V - E >= 0      [J]
+  [[nodiscard]] double tank() const BURR_RT { return tank_; }                 // S               [J]
+  [[nodiscard]] double damping() const BURR_RT { return alpha_; }             // alpha now [N s/m]
+  [[nodiscard]] double work_in() const BURR_RT { return work_in_; }  // by the hand, so far      [J]
+  [[nodiscard]] double written_off() const BURR_RT { return written_off_; }        //            [J]
+  [[nodiscard]] double lost_in_device() const BURR_RT { return lost_in_device_; }  //            [J]
 
  private:
   static constexpr std::size_t kSent = 8;  // forces remembered, for the delay

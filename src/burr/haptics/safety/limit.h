@@ -1,12 +1,13 @@
 // haptics/safety/limit.h - the last word before the hand: whatever was computed, this is what may be sent.
 //
-//     not finite, hand lost, leap -> fade to zero, wait      magnitude: device and user, direction
-//     kept waiting -> small force seen -> start ramp -> running   growth: slew bound     motors:
-//     heat budget
+//     state       not finite, hand lost, leap -> fade to zero -> waiting
+//                 waiting -> small force seen -> start ramp -> running
+//     magnitude   device, user and the motors' heat budget, direction kept
+//     growth      slew bound
 //
-// In this order and after everything else (algorithms.md 3f). Fading is linear and done 5 ms after
-// detection; the way back is always waiting and the start ramp. Nothing here repeats a last force
-// or drops it at once on its own.
+// In this order and after everything else (docs/safety.md, "Limits"). Fading is linear and done 5
+// ms after detection; the way back is always waiting and the start ramp. Nothing here repeats a
+// last force or drops it at once on its own.
 //
 // A torque is bounded as the force is, in the same proportion to what the device can: in half the
 // user's force there is half the torque, and one grows as fast as the other.
@@ -23,14 +24,14 @@
 namespace burr::haptics {
 
 struct LimitSettings {
-  double user_force = 3.3;  // the user's own maximum [N]
-  double slew = 300;  // fastest growth of the force                                         [N/s]
-  double ramp_slew = 60;  // the same during the start ramp [N/s]
-  double ramp_time =
-      0.5;  //                                                                     [s]
-  double small_force = 0.05;    // engaged only once the computed force has been this small [N]
-  double fade_time = 5e-3;      // from detection to zero [s]
-  double longest_leap = 20e-3;  // of the hand in one tick; beyond, the reading is not believed [m]
+  double user_force = 3.3;    // the user's own maximum                                     [N]
+  double slew = 300;          // fastest growth of the force                              [N/s]
+  double ramp_slew = 60;      // the same during the start ramp                           [N/s]
+  double ramp_time = 0.5;     // how long the start ramp lasts                              [s]
+  double small_force = 0.05;  // engaged only once the computed force has been this small   [N]
+  double fade_time = 5e-3;    // from detection to zero                                     [s]
+  // of the hand in one tick; beyond, the reading is not believed  [m]
+  double longest_leap = 20e-3;
 };
 
 class ForceLimit {
@@ -63,9 +64,8 @@ class ForceLimit {
   [[nodiscard]] bool engaged() const BURR_RT {
     return state_ == State::ramp || state_ == State::running;
   }
-  [[nodiscard]] double heat() const BURR_RT {
-    return force_.heat;
-  }  // of the motors above what is bearable  [N^2 s]
+  // of the motors above what is bearable  [N^2 s]
+  [[nodiscard]] double heat() const BURR_RT { return force_.heat; }
 
  private:
   enum class State { waiting, ramp, running, fading };

@@ -7,9 +7,9 @@
 // Between ticks the mass moves continuously (20 steps of the closed solution), so that the energy a
 // held force brings in is there as in a real device. The known borders:
 //
-//     linear        k < 2 (b + B) / T           Colgate & Schenkel 1994; delay: b + B > k (T/2 +
-//     t_d) with an encoder and dry friction          k <= min(2 b / T, 2 f_c / step)   Abbott &
-//     Okamura 2005
+//     linear                              k < 2 (b + B) / T                Colgate & Schenkel 1994
+//     linear, with delay                  b + B > k (T/2 + t_d)
+//     with an encoder and dry friction    k <= min(2 b / T, 2 f_c / step)  Abbott & Okamura 2005
 //
 // For tests and for the wall a new device may show; nothing of the tick uses it. Thread: any.
 // Frame: along the axis, bone below zero. Units: SI. Memory: little. Cost: 2 ms per second of hand.

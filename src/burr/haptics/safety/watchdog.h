@@ -3,7 +3,7 @@
 // The servo beats; a guard thread polls about every millisecond and multiplies what the device is
 // pushing by scale(). Once tripped it stays at zero until the servo is back and has put its own
 // force through the start ramp (rearm()). Time comes from outside, so tests run it on a virtual
-// clock.                             algorithms.md 3f
+// clock. All that stops a force: docs/safety.md, "Ticks that stop".
 //
 // Thread: beat(), rearm() servo; poll() guard. Wait-free.
 #pragma once

@@ -1,7 +1,7 @@
 // record/mcap/mcap.h - words of the MCAP container (mcap.dev/spec) that writer and reader share.
 //
-//     magic | Header | Schema, Channel, Metadata, Attachment ... | Chunk MessageIndex* ... |
-//     DataEnd
+//     magic | Header | Schema, Channel, Metadata, Attachment ...
+//           | Chunk MessageIndex* ... | DataEnd
 //           | summary: Schema, Channel, Statistics, indexes, SummaryOffset | Footer | magic
 //
 // A record is u8 kind, u64 length, content; all little-endian.
