@@ -113,8 +113,7 @@ class Recorded : public testing::Test {
                       ("burr_brush_" + std::to_string(getpid()) + ".mcap"))
                          .string();
   // Mills a pocket, then works on with these commands; recorded, replayed, compared.
-  void expect_same(const std::vector<Command>& commands,
-                   const std::vector<Command>& later = {}) {
+  void expect_same(const std::vector<Command>& commands, const std::vector<Command>& later = {}) {
     NoProgress quiet;
     sim::SessionSettings settings;
     settings.servo.burr.radius = kRadius;
@@ -166,9 +165,9 @@ TEST_F(Recorded, SmoothingReplaysToTheBit) {
 }
 
 TEST_F(Recorded, OneAfterTheOtherWithUndoReplaysToTheBit) {
-  expect_same({{CommandKind::tool_mode, static_cast<double>(ToolMode::smooth)}},
-              {{CommandKind::undo, 0},
-               {CommandKind::tool_mode, static_cast<double>(ToolMode::restore)}});
+  expect_same(
+      {{CommandKind::tool_mode, static_cast<double>(ToolMode::smooth)}},
+      {{CommandKind::undo, 0}, {CommandKind::tool_mode, static_cast<double>(ToolMode::restore)}});
 }
 
 TEST(Smooth, APressedBurrTakesTheEdgeOffAHoleAndTheAccountHolds) {

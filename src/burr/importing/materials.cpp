@@ -241,7 +241,7 @@ const Material& Materials::of(std::string_view tissue_name, volume::TissueKind k
 }
 
 void Materials::lay_over(volume::Tissue& tissue) const {
-  lay_over(of(tissue.name, tissue.kind), tissue);
+  importing::lay_over(of(tissue.name, tissue.kind), tissue);
 }
 
 void lay_over(const Material& material, volume::Tissue& tissue) {

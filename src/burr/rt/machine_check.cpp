@@ -98,8 +98,7 @@ CheckLine virtual_line(const Machine& machine) {
 }
 
 // Why these ticks do not meet the bars.
-void hold_against(const CheckBars& bars, const TickSummary& ticks,
-                  std::vector<std::string>& why) {
+void hold_against(const CheckBars& bars, const TickSummary& ticks, std::vector<std::string>& why) {
   if (ticks.p999_us > bars.work_us)
     why.push_back(fmt::format("one tick in a thousand works {:.0f} us or longer ({:.0f} allowed)",
                               ticks.p999_us, bars.work_us));
