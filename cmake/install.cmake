@@ -1,6 +1,6 @@
 # `cmake --install` gives others a library: find_package(burr), target burr::burr
 include(CMakePackageConfigHelpers)
-install(TARGETS burr EXPORT burrTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS burr_core burr EXPORT burrTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS burr_read burr_guard RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/burr)
 if(TARGET burr_program)
   set_target_properties(burr_program PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")

@@ -1,4 +1,4 @@
-# libburr: every room, one shared library.  A new .cpp in a room is found by itself.
+# libburr: every room. A new .cpp in a room is found by itself.
 file(GLOB_RECURSE BURR_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/*.cpp)
 file(GLOB_RECURSE BURR_HEADERS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/*.h)
 
@@ -22,45 +22,77 @@ file(READ ${BURR_MATERIALS} BURR_MATERIALS_TEXT)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_materials.cpp.in ${CMAKE_BINARY_DIR}/built_in_materials.cpp @ONLY)
 list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_materials.cpp)
 
-set(library_sources ${BURR_SOURCES})
-list(REMOVE_ITEM library_sources ${BURR_READERS})
-list(APPEND library_sources ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp)
-add_library(burr SHARED ${library_sources})
+# The library in parts, by what they need. Each part is compiled once; libburr.so is their sum.
+#
+#     burr_core          Eigen                                    a library of its own, libburr_core.so (core.cmake)
+#     burr_files         + zlib, bzip2, zstd, JSON, TOML, fmt     reads and writes scans, meshes, cases, recordings
+#     burr_session       + threads that go first                  a session by the clock, hands, experiments
+#     burr_render_gl     + OpenGL, SDL, OpenXR                    pictures
+#     burr_sound         + SDL                                    sound
+#     burr_device_...    + what its maker gives                   one each
+#
+# burr_part(NAME WITH TARGET... FROM GLOB...): the sources that match; each belongs to one part.
+set(rest ${BURR_SOURCES})
+list(REMOVE_ITEM rest ${BURR_READERS} ${BURR_CORE_SOURCES})
+list(FILTER rest EXCLUDE REGEX "_plain\\.cpp$")
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+  list(FILTER rest EXCLUDE REGEX "_avx(2|512)\\.cpp$")
+endif()
+set(BURR_PARTS "")
+function(burr_part name)
+  cmake_parse_arguments(part "" "" "WITH;FROM;MORE" ${ARGN})
+  list(TRANSFORM part_FROM PREPEND "/src/burr/")
+  list(JOIN part_FROM "|" pattern)
+  set(mine ${rest})
+  list(FILTER mine INCLUDE REGEX "${pattern}")
+  list(REMOVE_ITEM rest ${mine})
+  add_library(${name} OBJECT ${mine} ${part_MORE})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/third_party)
+  target_link_libraries(${name} PUBLIC burr_core PRIVATE burr_options fmt::fmt ${part_WITH})
+  burr_kernels(${mine})
+  set(rest ${rest} PARENT_SCOPE)
+  set(BURR_PARTS ${BURR_PARTS} ${name} PARENT_SCOPE)
+endfunction()
+foreach(vendor crtk forcedimension haply openhaptics polhem)
+  set(needs ${CMAKE_DL_LIBS})
+  if(vendor STREQUAL "crtk")
+    list(APPEND needs burr_crtk)
+  elseif(vendor STREQUAL "haply")
+    list(APPEND needs nlohmann_json::nlohmann_json)
+  endif()
+  burr_part(burr_device_${vendor} FROM device/${vendor}/ WITH ${needs})
+endforeach()
+burr_part(burr_render_gl FROM render/ WITH PkgConfig::EPOXY PkgConfig::SDL2 meshoptimizer::meshoptimizer ${CMAKE_DL_LIBS})
+burr_part(burr_sound FROM sound/ WITH PkgConfig::SDL2 ${CMAKE_DL_LIBS})
+burr_part(burr_session FROM device/ people/ fit/ surgeon/ sim/ WITH ${CMAKE_DL_LIBS})
+burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/
+  MORE ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp
+    ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp
+  WITH ZLIB::ZLIB BZip2::BZip2 PkgConfig::ZSTD nlohmann_json::nlohmann_json ${CMAKE_DL_LIBS})
+set(known ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp)
+list(REMOVE_ITEM rest ${known})
+if(rest)
+  message(FATAL_ERROR "in no part of the library (cmake/library.cmake): ${rest}")
+endif()
+set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/burr/base/helper_program.cpp APPEND PROPERTY
+  COMPILE_DEFINITIONS BURR_LIBEXEC_FROM_LIB="${BURR_LIBEXEC_FROM_LIB}")
+burr_common_headers(burr_files <fmt/format.h>)
+burr_common_headers(burr_session <fmt/format.h>)
+burr_common_headers(burr_render_gl <fmt/format.h>)
+
+add_library(burr SHARED)
+target_link_libraries(burr PUBLIC burr_core PRIVATE $<BUILD_INTERFACE:burr_options>)
+foreach(part ${BURR_PARTS})
+  target_link_libraries(burr PRIVATE $<BUILD_INTERFACE:${part}>)
+endforeach()
 add_dependencies(burr burr_read burr_guard)  # without them no scan can be read, no arm be guarded
 add_library(burr::burr ALIAS burr)
-set_target_properties(burr PROPERTIES OUTPUT_NAME burr VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
-target_include_directories(burr PUBLIC
-  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-target_include_directories(burr PRIVATE ${PROJECT_SOURCE_DIR}/third_party)
-target_compile_features(burr PUBLIC cxx_std_20)
-target_link_libraries(burr PUBLIC Eigen3::Eigen Threads::Threads)
-target_link_libraries(burr PRIVATE $<BUILD_INTERFACE:burr_options> fmt::fmt ZLIB::ZLIB BZip2::BZip2
-  PkgConfig::ZSTD
-  PkgConfig::EPOXY PkgConfig::SDL2 nlohmann_json::nlohmann_json spdlog::spdlog meshoptimizer::meshoptimizer
-  $<BUILD_INTERFACE:burr_crtk>)
-target_compile_definitions(burr PRIVATE BURR_VERSION="${PROJECT_VERSION}"
-  BURR_LIBEXEC_FROM_LIB="${BURR_LIBEXEC_FROM_LIB}")
-target_link_libraries(burr PRIVATE ${CMAKE_DL_LIBS})
-burr_common_headers(burr <fmt/format.h>)
+set_target_properties(burr PROPERTIES OUTPUT_NAME burr VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}
+  LINKER_LANGUAGE CXX INSTALL_RPATH "$ORIGIN")  # it finds libburr_core.so beside itself
 
 set(reading ${BURR_SOURCES} ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp)
 list(FILTER reading INCLUDE REGEX "/(base|io|importing|record|scenario|fit|third_party)/|/surgeon/motion[.]cpp$|/sim/(replay|session_words)[.]cpp$|/device/(haply/message|polhem/line)[.]cpp$")
 burr_reads_files(${reading})
-
-# Kernels exist once per instruction set, from one source, and are chosen at run time; the bits are the same.
-foreach(source ${BURR_SOURCES})
-  if(source MATCHES "_(avx2|avx512|scalar)\\.cpp$")
-    set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)  # other options, other headers
-  endif()
-  if(source MATCHES "_avx2\\.cpp$")
-    set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-mavx2;-O3")
-  elseif(source MATCHES "_avx512\\.cpp$")
-    set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS
-      "-mavx512f;-mavx512bw;-mavx512vl;-mavx512dq;-mprefer-vector-width=512;-O3")
-  elseif(source MATCHES "_scalar\\.cpp$")
-    set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-O3")
-  endif()
-endforeach()
 
 # what the built-in bones are shaped by (program.cmake)
 file(GLOB BURR_PHANTOMS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/phantom/*)

@@ -1,12 +1,19 @@
 // base/hash.h - a fast 64-bit hash for "are these the same bits", not for secrets.
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace burr::base {
+
+// The bits of a number, as std::bit_cast gives them, which not every standard library has yet.
+[[nodiscard]] constexpr std::uint64_t bits_of(double value) noexcept {
+  return __builtin_bit_cast(std::uint64_t, value);
+}
+[[nodiscard]] constexpr std::uint32_t bits_of(float value) noexcept {
+  return __builtin_bit_cast(std::uint32_t, value);
+}
 
 // Mixes one word into a running hash (the finaliser of SplitMix64, Steele et al. 2014).
 // Allocation-free.
@@ -17,7 +24,7 @@ constexpr std::uint64_t mix(std::uint64_t hash, std::uint64_t word) noexcept {
   return z ^ (z >> 31);
 }
 inline std::uint64_t mix(std::uint64_t hash, double value) noexcept {
-  return mix(hash, std::bit_cast<std::uint64_t>(value));
+  return mix(hash, bits_of(value));
 }
 inline std::uint64_t mix(std::uint64_t hash, std::span<const std::uint64_t> words) noexcept {
   for (const std::uint64_t word : words) hash = mix(hash, word);

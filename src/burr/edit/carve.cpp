@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "burr/base/check.h"
+#include "burr/math/sums.h"
 #include "burr/rt/simd.h"
 #include "burr/volume/volume_of.h"
 
@@ -74,13 +75,9 @@ Excess clipped(const Excess& found, const volume::Field* field, const Layers& la
 }  // namespace
 
 CarveKernel carve_kernel() noexcept {
-  switch (rt::simd()) {
-    case rt::Simd::avx512:
-      return {avx512::find_excess, avx512::apply_excess};
-    case rt::Simd::avx2:
-      return {avx2::find_excess, avx2::apply_excess};
-    case rt::Simd::scalar:
-      break;
+  if constexpr (rt::kWideKernels) {
+    if (rt::simd() == rt::Simd::avx512) return {avx512::find_excess, avx512::apply_excess};
+    if (rt::simd() == rt::Simd::avx2) return {avx2::find_excess, avx2::apply_excess};
   }
   return {scalar::find_excess, scalar::apply_excess};
 }
@@ -141,7 +138,7 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
         Vec3 nearest;
         for (int axis = 0; axis < 3; ++axis)
           nearest[axis] = std::clamp(centre[axis], first[axis], first[axis] + kBrickEdge - 1);
-        const double far = (nearest - centre).norm();
+        const double far = math::norm(nearest - centre);
         if (far > reach) continue;
         // the ball's floor is nowhere in the brick lower than what is left of it
         if (!deposit && highest_[static_cast<std::size_t>(brick)] <=
@@ -396,7 +393,7 @@ void Carver::gather_inside(const Vec3& centre, double radius, int amount, const 
         for (int v = 0; v < kBrickVoxels; ++v) {
           const Vec3 p = first + Vec3(v & 7, v >> 3 & 7, v >> 6);
           const bool in =
-              p.squaredNorm() <= radius * radius && in_layers(v, half.mirror.axis, layers);
+              math::squared_norm(p) <= radius * radius && in_layers(v, half.mirror.axis, layers);
           const int loses = in ? std::min(int{field[v]}, amount) : 0;
           out[v] = static_cast<std::uint16_t>(loses);
           if (loses == 0) continue;
@@ -507,7 +504,7 @@ bool Carver::clear_of(const KeptBrick& kept, const Vec3& centre, double radius) 
   for (int v = 0; v < kBrickVoxels; ++v) {
     if (kept.field.voxel[v] < volume::kIso / 2) continue;
     const Vec3 p = first + Vec3(v & 7, v >> 3 & 7, v >> 6);
-    if ((p - centre).squaredNorm() < (radius + 1) * (radius + 1)) return false;
+    if (math::squared_norm(p - centre) < (radius + 1) * (radius + 1)) return false;
   }
   return true;
 }

@@ -28,8 +28,9 @@ UndoStore::UndoStore(const volume::Bone& bone, std::size_t stroke_bricks)
 }
 
 void UndoStore::take_ahead() {
-  entries_.have(entries_told_.load(std::memory_order_relaxed) + kAhead);
-  originals_.have(originals_told_.load(std::memory_order_relaxed) + kAhead);
+  entries_.have(static_cast<std::size_t>(entries_told_.load(std::memory_order_relaxed)) + kAhead);
+  originals_.have(static_cast<std::size_t>(originals_told_.load(std::memory_order_relaxed)) +
+                  kAhead);
 }
 
 void UndoStore::copy(const volume::Bone& bone, BrickIndex brick, KeptBrick& to) BURR_RT {

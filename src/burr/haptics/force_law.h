@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "burr/haptics/touch_method.h"
+#include "burr/math/sums.h"
 #include "burr/math/vec3.h"
 #include "burr/rt/rt.h"
 
@@ -27,7 +28,7 @@ struct ForceSettings {
   if (!touch.touching) return math::Vec3::Zero();
   // the frictionless part along the smoothed normal, the friction as the proxy trails behind
   const double spring = settings.stiffness * touch.depth;
-  const double approach = std::max(0.0, -velocity.dot(touch.normal));
+  const double approach = std::max(0.0, -math::dot(velocity, touch.normal));
   const double damper = std::min(settings.damping * approach, spring);
   return (spring + damper) * touch.normal + settings.stiffness * touch.trail;
 }

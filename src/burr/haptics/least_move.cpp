@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burr/math/sums.h"
+
 namespace burr::haptics {
 namespace {
 
@@ -26,26 +28,26 @@ bool project(const Plane* const* planes, int count, const Vec3& wanted, Vec3& p,
              double* push) BURR_RT {
   const Vec3& n0 = planes[0]->n;
   if (count == 1) {
-    push[0] = (planes[0]->b - n0.dot(wanted)) / n0.squaredNorm();
+    push[0] = (planes[0]->b - math::dot(n0, wanted)) / math::squared_norm(n0);
     p = wanted + push[0] * n0;
   } else if (count == 2) {
     const Vec3& n1 = planes[1]->n;
-    const double det = n0.cross(n1).squaredNorm();
+    const double det = math::squared_norm(n0.cross(n1));
     if (det < 1e-13) return false;
-    const double c = n0.dot(n1), r0 = planes[0]->b - n0.dot(wanted),
-                 r1 = planes[1]->b - n1.dot(wanted);
-    push[0] = (r0 * n1.squaredNorm() - c * r1) / det;
-    push[1] = (r1 * n0.squaredNorm() - c * r0) / det;
+    const double c = math::dot(n0, n1), r0 = planes[0]->b - math::dot(n0, wanted),
+                 r1 = planes[1]->b - math::dot(n1, wanted);
+    push[0] = (r0 * math::squared_norm(n1) - c * r1) / det;
+    push[1] = (r1 * math::squared_norm(n0) - c * r0) / det;
     p = wanted + push[0] * n0 + push[1] * n1;
   } else {
     const Vec3 &n1 = planes[1]->n, &n2 = planes[2]->n;
     const Vec3 c0 = n1.cross(n2), c1 = n2.cross(n0), c2 = n0.cross(n1);
-    const double det = n0.dot(c0);
+    const double det = math::dot(n0, c0);
     if (std::abs(det) < 1e-10) return false;
     p = (planes[0]->b * c0 + planes[1]->b * c1 + planes[2]->b * c2) / det;
-    push[0] = (p - wanted).dot(c0) / det;
-    push[1] = (p - wanted).dot(c1) / det;
-    push[2] = (p - wanted).dot(c2) / det;
+    push[0] = math::dot(p - wanted, c0) / det;
+    push[1] = math::dot(p - wanted, c1) / det;
+    push[2] = math::dot(p - wanted, c2) / det;
   }
   for (int i = 0; i < count; ++i)
     if (!(push[i] >= -1e-12)) return false;
@@ -70,9 +72,9 @@ bool project_all(Plane* planes, int& count, const Vec3& wanted, LeastMove& best)
     double push[3] = {0, 0, 0};
     if (!project(chosen, size, wanted, p, push)) continue;
     bool allowed = true;
-    for (int i = 0; i < count; ++i) allowed &= planes[i].n.dot(p) >= planes[i].b - kSlack;
+    for (int i = 0; i < count; ++i) allowed &= math::dot(planes[i].n, p) >= planes[i].b - kSlack;
     if (!allowed) continue;
-    const double distance = (p - wanted).squaredNorm();
+    const double distance = math::squared_norm(p - wanted);
     if (found && distance >= best_distance) continue;
     found = true;
     best_distance = distance;

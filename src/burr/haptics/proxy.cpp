@@ -6,6 +6,7 @@
 
 #include "burr/haptics/soft_contact.h"
 #include "burr/haptics/thin.h"
+#include "burr/math/sums.h"
 #include "burr/rt/simd.h"
 #include "burr/volume/sample.h"
 
@@ -29,15 +30,13 @@ constexpr double kFarthestShare = 0.25;  // of the radius: from the proxy to the
 }  // namespace
 
 ScanKernel scan_kernel() noexcept {
-  switch (rt::simd()) {
-    case rt::Simd::avx512:
+  if constexpr (rt::kWideKernels) {
+    if (rt::simd() == rt::Simd::avx512)
       return {avx512::find_near,  avx512::scan_blocks,   avx512::take_discs,
               avx512::scan_discs, avx512::most_violated, avx512::soft_push};
-    case rt::Simd::avx2:
+    if (rt::simd() == rt::Simd::avx2)
       return {avx2::find_near,  avx2::scan_blocks,   avx2::take_discs,
               avx2::scan_discs, avx2::most_violated, avx2::soft_push};
-    case rt::Simd::scalar:
-      break;
   }
   return {scalar::find_near,  scalar::scan_blocks,   scalar::take_discs,
           scalar::scan_discs, scalar::most_violated, scalar::soft_push};
@@ -219,7 +218,7 @@ void Proxy::collect(const Vec3& centre, double within, bool crowded) BURR_RT {
     look_around(centre, within, true);
   } else {
     const bool seen = near_revision_ == surface_.revision() && near_radius_ == radius_ &&
-                      (centre - near_centre_).norm() + within <= near_reach_;
+                      math::norm(centre - near_centre_) + within <= near_reach_;
     const double beyond = std::min(kLookShare * within + kLookLeast, kLookMost);
     if (!seen) {
       look_around(centre, within + beyond, false);
@@ -262,7 +261,7 @@ LeastMove Proxy::move_toward(const Vec3& from, const Vec3& wanted, double longes
         candidates_->gap[j] = std::max(candidates_->gap[j], 0.0F);
       move = least_move(*candidates_, wanted, kernel_.most_violated);
     }
-    const double length = move.p.norm();
+    const double length = math::norm(move.p);
     if (length <= within) return move;
     if (within >= longest) {
       cut_short = true;
@@ -304,26 +303,27 @@ Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand,
       const Vec3 disc(static_cast<double>(candidates_->nx[j]),
                       static_cast<double>(candidates_->ny[j]),
                       static_cast<double>(candidates_->nz[j]));
-      const double disc_gap =
-          static_cast<double>(candidates_->gap[j]) + disc.dot(last.p) + disc.dot(place - c_);
+      const double disc_gap = static_cast<double>(candidates_->gap[j]) + math::dot(disc, last.p) +
+                              math::dot(disc, place - c_);
       const Vec3 foot = place - radius_ * normals[a];
       const volume::Sample there = volume::sample_with_slope(surface_.bone(), foot);
       const double depth = 2 * volume::kRamp * (there.value - volume::kIsoShare);
       const Vec3 slope = 2 * volume::kRamp * there.slope;
-      const double steep = slope.norm();  // 1 on a clean ramp
+      const double steep = math::norm(slope);  // 1 on a clean ramp
       const Vec3 faces = steep > 1e-6 ? Vec3(-slope / steep) : disc;
       const double clean = std::clamp((steep - 0.85) * 10.0, 0.0, 1.0) *
-                           std::clamp((faces.dot(disc) - 0.90) * 20.0, 0.0, 1.0);
+                           std::clamp((math::dot(faces, disc) - 0.90) * 20.0, 0.0, 1.0);
       // A foot off by an angle finds a normal that is off by -r/R of it on a hill, +r/R in a
       // hollow: the change seen between two rounds tells that ratio, and so where it all leads
       // (Aitken 1926).
-      const Vec3 change = ((1 - clean) * disc + clean * faces).normalized() - normals[a];
+      const Vec3 change = math::normalized((1 - clean) * disc + clean * faces) - normals[a];
       double ratio = -0.3;
-      if (round > 0 && last_change[a].squaredNorm() > 1e-14)
-        ratio = std::clamp(change.dot(last_change[a]) / last_change[a].squaredNorm(), -8.0, 0.7);
+      if (round > 0 && math::squared_norm(last_change[a]) > 1e-14)
+        ratio = std::clamp(math::dot(change, last_change[a]) / math::squared_norm(last_change[a]),
+                           -8.0, 0.7);
       last_change[a] = change / (1 - ratio);
-      settled &= last_change[a].squaredNorm() < kTurn * kTurn;
-      const Vec3 n = (normals[a] + last_change[a]).normalized();
+      settled &= math::squared_norm(last_change[a]) < kTurn * kTurn;
+      const Vec3 n = math::normalized(normals[a] + last_change[a]);
       const double gap = (1 - clean) * disc_gap - clean * depth;
       few.nx[a] = static_cast<float>(n.x());
       few.ny[a] = static_cast<float>(n.y());
@@ -338,7 +338,7 @@ Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand,
     pressing = 0;
     for (int a = 0; a < move.active; ++a) pressing += move.push[a];
     const Vec3 away = place - c_;
-    const double far = away.norm();
+    const double far = math::norm(away);
     if (far > kFarthest) place = c_ + away * (kFarthest / far);
   }
   return place;
@@ -372,14 +372,14 @@ bool Proxy::rest_softly(const Vec3& hand) BURR_RT {
     const SoftRest rest =
         soft_rest(*candidates_, hand - at, kLayer, soft_.support, kernel_.soft_push);
     soft_.pressing = rest.pressing;
-    const double length = rest.place.norm();
+    const double length = math::norm(rest.place);
     at += rest.place * std::min(1.0, beyond / std::max(length, 1e-9));
     if (length <= beyond) break;
     beyond *= 2;
   }
-  soft_.move = (at - soft_.place).norm();
+  soft_.move = math::norm(at - soft_.place);
   const Vec3 away = at - c_;
-  const double farthest = kFarthestShare * radius_, far = away.norm();
+  const double farthest = kFarthestShare * radius_, far = math::norm(away);
   soft_.place = far > farthest ? Vec3(c_ + away * (farthest / far)) : at;
   soft_.proxy = c_;
   return true;
@@ -414,7 +414,7 @@ LeastMove Proxy::settle(const Vec3& target, double guess, int moves, Touch& touc
     last = move_toward(c_, target - c_, stride, guess, cut_short);
     if (!last.solved) break;
     c_ += last.p;
-    const double length = last.p.norm();
+    const double length = math::norm(last.p);
     if (move == 0) first_move_ = length;
     guess = 1.3 * length;
     touch.candidates = std::max(touch.candidates, candidates_->count);
@@ -438,14 +438,14 @@ Touch Proxy::step(const Vec3& hand) BURR_RT {
   last_move_ = first_move_;
   touch.active = last.active;
 
-  touch.touching = (last.active > 0 || !last.solved) && (c_ - x).norm() > 1e-9;
+  touch.touching = (last.active > 0 || !last.solved) && math::norm(c_ - x) > 1e-9;
   if (touch.touching) {
     double pressing = 0;
     for (int a = 0; a < last.active; ++a) pressing += last.push[a];
     const Vec3 free_place = force_place(last, x, pressing);
     const Vec3 stretch = free_place - x;
-    const double depth = stretch.norm(), press = std::max(pressing, depth);
-    const Vec3 normal = depth > 1e-12 ? Vec3(stretch / depth) : Vec3((c_ - x).normalized());
+    const double depth = math::norm(stretch), press = std::max(pressing, depth);
+    const Vec3 normal = depth > 1e-12 ? Vec3(stretch / depth) : Vec3(math::normalized(c_ - x));
     touch.normal = grid_.frame.q * normal;
     touch.depth = depth * grid_.voxel;
     touch.pressing = press * grid_.voxel;
@@ -453,8 +453,8 @@ Touch Proxy::step(const Vec3& hand) BURR_RT {
     // friction: the proxy may trail behind by no more than the cone's rim
     if (settings_.friction_static > 0) {
       const Vec3 behind = before - free_place;
-      const Vec3 trail = behind - behind.dot(normal) * normal;
-      const double reach = trail.norm();
+      const Vec3 trail = behind - math::dot(behind, normal) * normal;
+      const double reach = math::norm(trail);
       if (!sliding_ && reach > settings_.friction_static * press) sliding_ = true;
       if (sliding_ && std::atan2(reach, press) < 0.6 * std::atan(settings_.friction_kinetic))
         sliding_ = false;
@@ -464,7 +464,7 @@ Touch Proxy::step(const Vec3& hand) BURR_RT {
         (void)settle(free_place + trail * (allowed / reach), allowed, 4, aside);
         touch.candidates = std::max(touch.candidates, aside.candidates);
         const Vec3 now = c_ - free_place;
-        touch.trail = grid_.frame.q * ((now - now.dot(normal) * normal) * grid_.voxel);
+        touch.trail = grid_.frame.q * ((now - math::dot(now, normal) * normal) * grid_.voxel);
       }
       touch.stuck = !sliding_;
     }

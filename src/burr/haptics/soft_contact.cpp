@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "burr/math/sums.h"
+
 namespace burr::haptics {
 namespace {
 
@@ -24,18 +26,18 @@ Vec3 push_of(const SoftSums& sums) BURR_RT { return {sums.push[0], sums.push[1],
 
 double soft_support(const Candidates& candidates, const math::Vec3& at, double layer,
                     SoftPush push) BURR_RT {
-  return push_of(sums_at(candidates, at, layer, push)).norm();
+  return math::norm(push_of(sums_at(candidates, at, layer, push)));
 }
 
 SoftRest soft_rest(const Candidates& candidates, const Vec3& wanted, double layer, double support,
                    SoftPush push) BURR_RT {
-  const double kappa = wanted.norm() / support;
+  const double kappa = math::norm(wanted) / support;
   SoftRest rest;
   Vec3 q = Vec3::Zero(), step = Vec3::Zero();
   double energy = 0;
   for (int round = 0; round < kRounds; ++round) {
     const SoftSums sums = sums_at(candidates, q, layer, push);
-    const double now = (q - wanted).squaredNorm() + kappa * sums.squares;
+    const double now = math::squared_norm(q - wanted) + kappa * sums.squares;
     if (round > 0 && now > energy) {  // too far: discs came in that were not felt before
       step *= 0.5;
       q -= step;
@@ -44,7 +46,7 @@ SoftRest soft_rest(const Candidates& candidates, const Vec3& wanted, double laye
     energy = now;
     rest.place = q;
     rest.pressing = kappa * sums.total;
-    if (round > 0 && step.squaredNorm() < kClose * kClose) break;
+    if (round > 0 && math::squared_norm(step) < kClose * kClose) break;
     math::Mat3 slope;
     slope << sums.stiff[0], sums.stiff[1], sums.stiff[2], sums.stiff[1], sums.stiff[3],
         sums.stiff[4], sums.stiff[2], sums.stiff[4], sums.stiff[5];

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "burr/base/hash.h"
+#include "burr/math/sums.h"
 
 namespace burr::haptics {
 namespace {
@@ -59,7 +60,7 @@ Vec3 Vibration::step(const Milling& now, double dt) BURR_RT {
 
   double wanted = 0;
   if (turns > 0) {
-    const bool cutting = now.normal.squaredNorm() > 0;
+    const bool cutting = math::squared_norm(now.normal) > 0;
     const double gain = settings_.device_gain * std::min(1.0, turns / kLowest);
     wanted =
         cutting
@@ -103,16 +104,18 @@ void Vibration::ring() BURR_RT {
 // Across shaft and normal, where the teeth run. Of the two ways the nearer one, for the noise has
 // no sign; slowly, so that a corner makes no step.
 void Vibration::turn(const Milling& now, double dt) BURR_RT {
-  const bool touching = now.normal.squaredNorm() > 0;
+  const bool touching = math::squared_norm(now.normal) > 0;
   const Vec3 normal = touching ? now.normal : now.axis;
   Vec3 across = touching ? Vec3(now.axis.cross(normal)) : Vec3(Vec3::Zero());
-  if (across.squaredNorm() < 0.01 * normal.squaredNorm())  // the pole cuts: any way will do
-    across = direction_ - normal * (normal.dot(direction_) / std::max(1e-12, normal.squaredNorm()));
-  if (across.squaredNorm() < 1e-6) across = normal.unitOrthogonal();
-  across.normalize();
-  if (across.dot(direction_) < 0) across = -across;
+  if (math::squared_norm(across) <
+      0.01 * math::squared_norm(normal))  // the pole cuts: any way will do
+    across = direction_ -
+             normal * (math::dot(normal, direction_) / std::max(1e-12, math::squared_norm(normal)));
+  if (math::squared_norm(across) < 1e-6) across = normal.unitOrthogonal();
+  across = math::normalized(across);
+  if (math::dot(across, direction_) < 0) across = -across;
   direction_ += (across - direction_) * std::min(1.0, dt / kTurnTime);
-  direction_.normalize();
+  direction_ = math::normalized(direction_);
 }
 
 SpindleLines Vibration::lines(const Milling& now, int teeth) const BURR_RT {
@@ -122,7 +125,7 @@ SpindleLines Vibration::lines(const Milling& now, int teeth) const BURR_RT {
   found.tooth_hz = std::max(0, teeth) * found.run_out_hz;
   if (found.run_out_hz <= 0) return found;
   found.run_out = settings_.base;
-  if (now.normal.squaredNorm() > 0)
+  if (math::squared_norm(now.normal) > 0)
     found.tooth = std::min(settings_.most, settings_.per_force * std::abs(now.cutting_force));
   return found;
 }

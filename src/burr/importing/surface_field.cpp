@@ -447,7 +447,9 @@ std::vector<std::uint8_t> bricks_needed(const InsideGrid& grid, const math::Ijk&
 }  // namespace
 
 SumPlanes sum_planes_kernel() noexcept {
-  return rt::simd() == rt::Simd::scalar ? scalar::sum_planes : avx2::sum_planes;
+  if constexpr (rt::kWideKernels)
+    if (rt::simd() != rt::Simd::scalar) return avx2::sum_planes;
+  return scalar::sum_planes;
 }
 
 std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueTable tissues,

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "burr/math/sums.h"
 #include "burr/math/vec3.h"
 
 namespace burr::math {
@@ -12,8 +13,8 @@ namespace burr::math {
 // Quaternion::FromTwoVectors does, whose singular values for that last case take a compiler some
 // twenty seconds in every file.
 inline Quat shortest_turn(const Vec3& from, const Vec3& to) {
-  const Vec3 a = from.normalized(), b = to.normalized();
-  const double cosine = a.dot(b);
+  const Vec3 a = normalized(from), b = normalized(to);
+  const double cosine = dot(a, b);
   Quat turn;
   if (cosine < -1 + 1e-12) {
     turn.w() = 0;
@@ -21,10 +22,10 @@ inline Quat shortest_turn(const Vec3& from, const Vec3& to) {
     return turn;
   }
   // by the sum: of nearly opposite directions 1 + cosine has lost its digits
-  const double s = (a + b).norm();
+  const double s = norm(a + b);
   turn.w() = 0.5 * s;
   turn.vec() = a.cross(b) * (1 / s);
-  return turn.normalized();
+  return normalized(turn);
 }
 
 }  // namespace burr::math

@@ -12,6 +12,17 @@
 
 namespace burr::rt {
 
+// One object of a block that nobody declared atomic, relaxed. Not std::atomic_ref: not every
+// standard library has it yet.
+template <class Value>
+void store_relaxed(Value& object, Value value) BURR_RT {
+  __atomic_store_n(&object, value, __ATOMIC_RELAXED);
+}
+template <class Value>
+[[nodiscard]] Value load_relaxed(const Value& object) BURR_RT {
+  return __atomic_load_n(&object, __ATOMIC_RELAXED);
+}
+
 struct StdAtoms {
   template <class Value>
   using Atomic = std::atomic<Value>;
@@ -20,12 +31,10 @@ struct StdAtoms {
 
   // one word of a block that nobody declared atomic; relaxed
   static void store(std::uint64_t& word, std::uint64_t value) BURR_RT {
-    std::atomic_ref<std::uint64_t>(word).store(value, std::memory_order_relaxed);
+    store_relaxed(word, value);
   }
   [[nodiscard]] static std::uint64_t load(const std::uint64_t& word) BURR_RT {
-    // atomic_ref wants a non-const object; it is only read
-    return std::atomic_ref<std::uint64_t>(const_cast<std::uint64_t&>(word))
-        .load(std::memory_order_relaxed);
+    return load_relaxed(word);
   }
 };
 

@@ -18,7 +18,7 @@ std::int64_t read_clock(clockid_t which) BURR_RT {
 
 void sleep_until(std::int64_t monotonic) BURR_RT {
   timespec t = {};
-  t.tv_sec = monotonic / kSecond;
+  t.tv_sec = static_cast<std::time_t>(monotonic / kSecond);
   t.tv_nsec = monotonic % kSecond;
   // a signal (Ctrl-C) wakes early; the time is absolute, so simply sleep on
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {

@@ -29,6 +29,7 @@ typedef float Floats __attribute__((vector_size(64), may_alias));
 typedef std::int32_t Ints __attribute__((vector_size(64), may_alias));
 typedef std::uint32_t Unsigneds __attribute__((vector_size(64), may_alias));
 typedef std::uint16_t Shorts __attribute__((vector_size(32), may_alias));
+typedef std::uint16_t EightShorts __attribute__((vector_size(16), may_alias));
 typedef std::int16_t SignedShorts __attribute__((vector_size(32), may_alias));
 
 namespace {
@@ -61,7 +62,7 @@ template <class Vector, class Number>
   std::memcpy(v, &lanes, sizeof v);
   return static_cast<unsigned>(_mm256_movemask_ps(v[0])) |
          static_cast<unsigned>(_mm256_movemask_ps(v[1])) << 8;
-#elif defined __SSE2__
+#elif defined __x86_64__
   __m128 v[4];
   std::memcpy(v, &lanes, sizeof v);
   unsigned bits = 0;
@@ -72,6 +73,27 @@ template <class Vector, class Number>
   for (int l = 0; l < kCount; ++l) bits |= (static_cast<unsigned>(lanes[l]) & 1U) << l;
   return bits;
 #endif
+}
+
+// Of sixteen numbers: a bit for each whose top bit is set, the first number the lowest bit.
+[[maybe_unused]] inline unsigned top_bits(const std::uint16_t* from) noexcept {
+#ifdef __x86_64__
+  __m128i low, high;
+  std::memcpy(&low, from, sizeof low);
+  std::memcpy(&high, from + 8, sizeof high);
+  return static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(low, high)));
+#else
+  unsigned bits = 0;
+  for (int l = 0; l < kCount; ++l) bits |= static_cast<unsigned>(from[l] >> 15) << l;
+  return bits;
+#endif
+}
+
+// Eight words, each of two numbers: low ones in the low half, high ones in the high half.
+[[maybe_unused]] inline void store_pairs(const EightShorts& low, const EightShorts& high,
+                                         std::uint32_t* to) noexcept {
+  store(__builtin_shufflevector(low, high, 0, 8, 1, 9, 2, 10, 3, 11), to);
+  store(__builtin_shufflevector(low, high, 4, 12, 5, 13, 6, 14, 7, 15), to + 4);
 }
 
 // Is any bit of any lane set? Of Ints: is any lane -1?

@@ -1,21 +1,29 @@
 #include "burr/rt/machine_check.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
+#include <concepts>
+#include <cstdio>
+#include <string>
 #include <string_view>
 
 namespace burr::rt {
 namespace {
 
+// This room does without fmt: it is part of burr_core, which needs Eigen alone.
+std::string number(double value, const char* format) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+std::string number(std::integral auto value) { return std::to_string(value); }
+
 constexpr const char* kHow = "docs/realtime.md, \"Allowing real time\", has the two lines";
 
 CheckLine processor_line(const Machine& machine) {
   CheckLine line{"processor", machine.processor.empty() ? "not named" : machine.processor, ""};
-  line.is += fmt::format(", {} core{} for burr", machine.cores, machine.cores == 1 ? "" : "s");
-  if (machine.core_quota > 0) line.is += fmt::format(", limited to {:.2g}", machine.core_quota);
+  line.is += ", " + number(machine.cores) + (machine.cores == 1 ? " core" : " cores") + " for burr";
+  if (machine.core_quota > 0) line.is += ", limited to " + number(machine.core_quota, "%.2g");
   if (machine.cores < 2)
     line.change = "the hand and the picture share one core; give burr two or more";
   else if (machine.core_quota > 0 && machine.core_quota < 2)
@@ -37,17 +45,15 @@ CheckLine priority_line(const MachineSeen& seen) {
   if (seen.grant.fifo) {
     const Machine& m = seen.machine;
     if (m.fifo_share_us >= 0 && m.fifo_period_us > 0 && 10 * m.fifo_share_us < 9 * m.fifo_period_us)
-      line.change = fmt::format(
-          "the kernel gives SCHED_FIFO only {} of {} us; raise kernel.sched_rt_runtime_us with "
-          "sysctl",
-          m.fifo_share_us, m.fifo_period_us);
+      line.change = "the kernel gives SCHED_FIFO only " + number(m.fifo_share_us) + " of " +
+                    number(m.fifo_period_us) + " us; raise kernel.sched_rt_runtime_us with sysctl";
     return line;
   }
   line.is = "ordinary: any busy program may delay the tick";
   line.change = seen.machine.fifo_limit > 0
-                    ? fmt::format("SCHED_FIFO is allowed up to {} but 80 is needed; {}",
-                                  seen.machine.fifo_limit, kHow)
-                    : fmt::format("allow SCHED_FIFO (rtprio) for your user; {}", kHow);
+                    ? "SCHED_FIFO is allowed up to " + number(seen.machine.fifo_limit) +
+                          " but 80 is needed; " + kHow
+                    : std::string("allow SCHED_FIFO (rtprio) for your user; ") + kHow;
   return line;
 }
 
@@ -56,8 +62,8 @@ CheckLine memory_line(const MachineSeen& seen) {
   if (seen.grant.locked) return line;
   line.is = seen.machine.locked_bytes == kNoLimit
                 ? std::string("not locked")
-                : fmt::format("not locked: the limit is {} KiB", seen.machine.locked_bytes / 1024);
-  line.change = fmt::format("allow memlock unlimited for your user; {}", kHow);
+                : "not locked: the limit is " + number(seen.machine.locked_bytes / 1024) + " KiB";
+  line.change = std::string("allow memlock unlimited for your user; ") + kHow;
   return line;
 }
 
@@ -100,18 +106,17 @@ CheckLine virtual_line(const Machine& machine) {
 // Why these ticks do not meet the bars.
 void hold_against(const CheckBars& bars, const TickSummary& ticks, std::vector<std::string>& why) {
   if (ticks.p999_us > bars.work_us)
-    why.push_back(fmt::format("one tick in a thousand works {:.0f} us or longer ({:.0f} allowed)",
-                              ticks.p999_us, bars.work_us));
+    why.push_back("one tick in a thousand works " + number(ticks.p999_us, "%.0f") +
+                  " us or longer (" + number(bars.work_us, "%.0f") + " allowed)");
   if (ticks.late_p999_us > bars.late_us)
-    why.push_back(
-        fmt::format("one tick in a thousand begins {:.0f} us late or later ({:.0f} allowed)",
-                    ticks.late_p999_us, bars.late_us));
+    why.push_back("one tick in a thousand begins " + number(ticks.late_p999_us, "%.0f") +
+                  " us late or later (" + number(bars.late_us, "%.0f") + " allowed)");
   if (ticks.worst_lateness_us > bars.worst_us)
-    why.push_back(fmt::format("the latest tick began {:.1f} ms late ({:.0f} allowed)",
-                              1e-3 * ticks.worst_lateness_us, 1e-3 * bars.worst_us));
+    why.push_back("the latest tick began " + number(1e-3 * ticks.worst_lateness_us, "%.1f") +
+                  " ms late (" + number(1e-3 * bars.worst_us, "%.0f") + " allowed)");
   const double all = static_cast<double>(ticks.ticks + ticks.missed);
   if (static_cast<double>(ticks.missed) > bars.missed_share * all)
-    why.push_back(fmt::format("{} of {:.0f} ticks were left out", ticks.missed, all));
+    why.push_back(number(ticks.missed) + " of " + number(all, "%.0f") + " ticks were left out");
 }
 
 // What only a real device needs.
@@ -163,8 +168,8 @@ MachineJudged judge(const MachineSeen& seen) {
                         ? "usable: to learn and to try; with a real device the "
                           "force may be let go of at times"
                         : "not good enough for a real device";
-  if (!judged.reasons.empty())
-    judged.sentence += fmt::format(": {}", fmt::join(judged.reasons, "; "));
+  for (std::size_t i = 0; i < judged.reasons.size(); ++i)
+    judged.sentence += (i == 0 ? ": " : "; ") + judged.reasons[i];
   // whose fault the lateness is
   const CheckBars& bars = hard.empty() ? kGood : kUsable;
   if (ticks.late_p999_us > bars.late_us || ticks.worst_lateness_us > bars.worst_us)

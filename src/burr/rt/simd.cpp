@@ -9,11 +9,15 @@ namespace burr::rt {
 namespace {
 
 Simd best() noexcept {
+#ifdef __x86_64__
   __builtin_cpu_init();
   if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
       __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("avx512dq") != 0)
     return Simd::avx512;
   return __builtin_cpu_supports("avx2") != 0 ? Simd::avx2 : Simd::scalar;
+#else
+  return Simd::scalar;
+#endif
 }
 
 Simd at_start() noexcept {

@@ -8,6 +8,14 @@
 
 namespace burr::rt {
 
+// Only for x86-64 are the kernels compiled more than once (cmake/library.cmake); for others
+// Simd::scalar is all there is.
+#ifdef __x86_64__
+inline constexpr bool kWideKernels = true;
+#else
+inline constexpr bool kWideKernels = false;
+#endif
+
 enum class Simd { scalar = 0, avx2 = 1, avx512 = 2 };
 
 // The best this processor has, or what was forced (environment BURR_SIMD=scalar|avx2|avx512, read

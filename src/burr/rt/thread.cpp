@@ -13,6 +13,7 @@
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace burr::rt {
 namespace {
@@ -124,6 +125,13 @@ void Thread::join() {
 }
 
 const ThreadGrant& Thread::grant() const { return work_->grant; }
+
+void on_threads(int count, const std::function<void(int)>& work) {
+  std::vector<std::thread> others;
+  for (int n = 1; n < count; ++n) others.emplace_back([&work, n] { work(n); });
+  work(0);
+  for (std::thread& other : others) other.join();
+}
 
 Ordinary::Ordinary() {
   int policy = SCHED_OTHER;

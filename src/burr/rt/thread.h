@@ -47,6 +47,10 @@ class Thread {
   std::unique_ptr<Work> work_;
 };
 
+// Calls work(0) to work(count - 1), each on a thread of its own, the first on the calling one; all
+// have ended when it returns. One or none: no thread is started. work must not throw.
+void on_threads(int count, const std::function<void(int)>& work);
+
 // The calling thread, and those it begins, run as ordinary ones while this lives; then it goes
 // first again if it did.
 class Ordinary {
@@ -57,7 +61,7 @@ class Ordinary {
   Ordinary& operator=(const Ordinary&) = delete;
 
  private:
-  int priority_ = 0;  // of SCHED_FIFO before; 0: it was ordinary
+  [[maybe_unused]] int priority_ = 0;  // of SCHED_FIFO before; 0: it was ordinary
 };
 
 // The calling thread runs under SCHED_FIFO.

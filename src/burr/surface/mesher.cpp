@@ -6,9 +6,10 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <thread>
 
 #include "burr/base/check.h"
+#include "burr/math/sums.h"
+#include "burr/rt/thread.h"
 #include "burr/surface/cases.h"
 
 namespace burr::surface {
@@ -316,7 +317,7 @@ void Mesher::Work::make_vertex(int x, int y, int z, const math::Ijk& first) {
     const float na = difference(a, kStep[d]), nb = difference(b, kStep[d]);
     n[d] = na + t * (nb - na);
   }
-  float length = n.squaredNorm();
+  float length = math::squared_norm(n);
   if (!(length > 0)) {  // a lone voxel: along the edge
     n = math::Vec3f::Unit(axis) * (fa < fb ? -1.0F : 1.0F);
     length = 1;
@@ -467,10 +468,7 @@ bool in_parallel(int count, int threads, Progress* progress, std::string_view st
       }
     }
   };
-  std::vector<std::thread> others;
-  for (int worker = 1; worker < threads; ++worker) others.emplace_back(work, worker);
-  work(0);
-  for (std::thread& other : others) other.join();
+  rt::on_threads(threads, work);
   if (progress != nullptr && !stop) progress->report(1, stage);
   return !stop;
 }

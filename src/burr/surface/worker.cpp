@@ -8,6 +8,7 @@
 
 #include "burr/base/check.h"
 #include "burr/rt/ring.h"
+#include "burr/rt/thread.h"
 
 namespace burr::surface {
 namespace {
@@ -118,7 +119,7 @@ struct Worker::Lane {
   std::atomic<unsigned> idle = 0;  // rounds that found nothing to do
   std::atomic<int> waiting = 0;
   std::atomic<bool> stop = false;
-  std::thread thread;
+  std::unique_ptr<rt::Thread> thread;
 };
 
 Worker::Worker(volume::Bone& bone, int threads) {
@@ -126,12 +127,15 @@ Worker::Worker(volume::Bone& bone, int threads) {
   for (int i = 0; i < threads; ++i)
     lanes_.push_back(std::make_unique<Lane>(bone, i, threads, held_));
   // all watchers are there before the first thread runs
-  for (auto& lane : lanes_) lane->thread = std::thread(&Lane::run, lane.get());
+  for (auto& lane : lanes_)
+    lane->thread =
+        std::make_unique<rt::Thread>(rt::ThreadRequest{.name = "surface", .stack_bytes = 0},
+                                     [work = lane.get()] { work->run(); });
 }
 
 Worker::~Worker() {
   for (auto& lane : lanes_) lane->stop = true;
-  for (auto& lane : lanes_) lane->thread.join();
+  for (auto& lane : lanes_) lane->thread->join();
 }
 
 math::Ijk Worker::patches() const { return lanes_.front()->mesher.patches(); }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "burr/base/check.h"
+#include "burr/math/sums.h"
 #include "burr/thermal/dose.h"
 
 namespace burr::thermal {
@@ -156,7 +157,7 @@ double HeatGrid::deposit(const Vec3& p, double radius, double energy) {
     for (int k = lo.z(); k <= hi.z(); ++k)
       for (int j = lo.y(); j <= hi.y(); ++j)
         for (int i = lo.x(); i <= hi.x(); ++i) {
-          const double far = (Vec3(i, j, k) - middle).squaredNorm() / (reach * reach);
+          const double far = math::squared_norm(Vec3(i, j, k) - middle) / (reach * reach);
           const std::size_t at = box_.at(i, j, k);
           if (far < 1 && capacity_[at] > 0) give(at, 1 - far);
         }
@@ -256,7 +257,7 @@ void HeatGrid::cool(double dt) {
     for (int j = lo.y(); j <= hi.y(); ++j)
       for (int i = lo.x(); i <= hi.x(); ++i) {
         const std::size_t at = box_.at(i, j, k);
-        if (film_[at] <= 0 || (Vec3(i, j, k) - nozzle_).squaredNorm() > reach * reach) continue;
+        if (film_[at] <= 0 || math::squared_norm(Vec3(i, j, k) - nozzle_) > reach * reach) continue;
         const double energy = dt * static_cast<double>(film_[at]) * (rise_[at] - coolant);
         next_[at] -= energy * warmth_[at];
         taken += energy;

@@ -1,12 +1,13 @@
 #include "burr/tick/mirror_plane.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
 
+#include "burr/math/sums.h"
 #include "burr/math/turn.h"
 
 namespace burr::tick {
@@ -37,11 +38,26 @@ double sign_of(const volume::Grid& grid, Plane plane, int axis) {
 
 double middle(const volume::Grid& grid, int axis) { return 0.5 * (grid.size[axis] - 1); }
 
+// The whole text as a number; false: it is none.
+bool number_from(std::string_view text, double& value) {
+#ifdef __cpp_lib_to_chars
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  return read.ec == std::errc() && read.ptr == text.data() + text.size();
+#else  // an older libc++
+  const std::string copy(text);
+  char* end = nullptr;
+  value = std::strtod(copy.c_str(), &end);
+  return !copy.empty() && end == copy.c_str() + copy.size();
+#endif
+}
+
 Error wrong(std::string_view text) {
+  std::string names;
+  for (const auto& name : kPlaneNames) names.append(names.empty() ? "" : ", ").append(name);
   return error(Trouble::usage,
-               fmt::format("--mirror: '{}' is no plane; give one of {}, and if it is not through "
-                           "the middle a comma and how far from it in mm: sagittal,-3.5",
-                           text, fmt::join(kPlaneNames, ", ")));
+               "--mirror: '" + std::string(text) + "' is no plane; give one of " + names +
+                   ", and if it is not through the middle a comma and how far from it in mm: "
+                   "sagittal,-3.5");
 }
 
 }  // namespace
@@ -70,16 +86,17 @@ Result<edit::Mirror> mirror_in_words(std::string_view text, const volume::Grid& 
   if (name.size() == text.size()) return mirror_plane(grid, plane);
   const std::string_view number = text.substr(name.size() + 1);
   double mm = 0;
-  const auto read = std::from_chars(number.data(), number.data() + number.size(), mm);
-  if (read.ec != std::errc() || read.ptr != number.data() + number.size() || !std::isfinite(mm))
-    return wrong(text);
+  if (!number_from(number, mm) || !std::isfinite(mm)) return wrong(text);
   const int axis = axis_of(grid, plane);
   const double place = middle(grid, axis) + sign_of(grid, plane, axis) * 1e-3 * mm / grid.voxel;
-  if (!(place >= 0 && place <= grid.size[axis] - 1.0))
-    return error(Trouble::usage,
-                 fmt::format("--mirror: {:g} mm from the middle is outside of the volume, which "
-                             "reaches {:.1f} mm to either side",
-                             mm, 1e3 * middle(grid, axis) * grid.voxel));
+  if (!(place >= 0 && place <= grid.size[axis] - 1.0)) {
+    char why[160];
+    std::snprintf(why, sizeof why,
+                  "--mirror: %g mm from the middle is outside of the volume, which reaches %.1f mm "
+                  "to either side",
+                  mm, 1e3 * middle(grid, axis) * grid.voxel);
+    return error(Trouble::usage, why);
+  }
   return edit::mirror_at(axis, place, grid.size);
 }
 
@@ -107,7 +124,7 @@ math::Pose image_of(const math::Pose& world_from_tool, const volume::Grid& grid,
   image.p = grid.world_from_grid(mirror.image_of(grid.grid_from_world(world_from_tool.p)));
   const Vec3 normal = grid.frame.q * Vec3(Vec3::Unit(mirror.axis));
   const Vec3 z = world_from_tool.q * Vec3::UnitZ();
-  image.q = math::shortest_turn(Vec3::UnitZ(), z - 2 * z.dot(normal) * normal);
+  image.q = math::shortest_turn(Vec3::UnitZ(), z - 2 * math::dot(z, normal) * normal);
   return image;
 }
 

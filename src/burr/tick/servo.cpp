@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "burr/math/sums.h"
 #include "burr/tick/mirror_plane.h"
 #include "burr/tick/tick_hash.h"
 
@@ -187,16 +188,17 @@ Vec3 Servo::turn(bool believed) BURR_RT {
 Vec3 Servo::drag(const Vec3& touched) BURR_RT {
   const double share = 1 - std::exp(-2 * M_PI * settings_.drag_hz * dt_);
   drag_ += share * (settings_.drag_gain * cutting_.drag - drag_);
-  const double ratio = last_push_ > 0 ? settings_.drag_gain * cutting_.drag.norm() / last_push_ : 0;
+  const double ratio =
+      last_push_ > 0 ? settings_.drag_gain * math::norm(cutting_.drag) / last_push_ : 0;
   drag_ratio_ += share * (ratio - drag_ratio_);
   // once per tooth, where the ticks are quick enough to carry it
   const double tooth = settings_.burr.teeth * spindle_.speed() * dt_;  // [rad] a tick
   tooth_phase_ = std::remainder(tooth_phase_ + tooth, 2 * M_PI);
   if (!touch_.touching) return Vec3::Zero();
 
-  const Vec3 along = drag_ - drag_.dot(touch_.normal) * touch_.normal;
-  const double is = along.norm();
-  const double most = drag_ratio_ * std::max(0.0, touched.dot(touch_.normal));
+  const Vec3 along = drag_ - math::dot(drag_, touch_.normal) * touch_.normal;
+  const double is = math::norm(along);
+  const double most = drag_ratio_ * std::max(0.0, math::dot(touched, touch_.normal));
   if (is <= 0 || most <= 0) return Vec3::Zero();
   double gain = std::min(1.0, most / is);
   if (tooth_is_carried())
@@ -251,7 +253,7 @@ void Servo::cut_bone(const Vec3& force) BURR_RT {
   std::uint32_t& flags = row_.contact.flags;
   const bool may =
       restore_ == Restore::none && touch_.touching && settings_.mode != ToolMode::touch;
-  const double push = may ? std::max(0.0, force.dot(touch_.normal)) : 0;
+  const double push = may ? std::max(0.0, math::dot(force, touch_.normal)) : 0;
   last_push_ = push;
   cutting_ = {};
   // what holds a standing burr is what would brake it if it crept
@@ -325,7 +327,7 @@ void Servo::tell_heat() BURR_RT {
     const Vec3 axis = hand_.world_from_tool.q * Vec3::UnitZ();
     power = settings_.friction_turning * last_push_ * std::abs(spindle_.speed()) *
             settings_.burr.radius *
-            std::max(touch_.normal.cross(axis).norm(), settings_.removal.pole);
+            std::max(math::norm(touch_.normal.cross(axis)), settings_.removal.pole);
   }
   if (power > 0) {
     using thermal::Edge;
@@ -462,7 +464,7 @@ bool Servo::clear_of_what_returns(const Vec3& p) const BURR_RT {
                                       ? undo_.original(static_cast<std::size_t>(i))
                                       : undo_.entry(range_.first + i);
     const Vec3 middle = bone_.brick_ijk(kept.brick).cast<double>() + half;
-    if ((middle - centre).norm() > radius + 9) continue;
+    if (math::norm(middle - centre) > radius + 9) continue;
     if (!carver_.clear_of(kept, centre, radius)) return false;
   }
   return true;
@@ -481,7 +483,7 @@ void Servo::step_restore() BURR_RT {
     const std::uint64_t oldest = path_end_ > kPath ? path_end_ - kPath : 0;
     while (!arrived && left > 0 && path_at_ > oldest) {
       const Vec3& goal = path_[(path_at_ - 1) % kPath];
-      const double far = (goal - at).norm();
+      const double far = math::norm(goal - at);
       const double go = std::min(far, left);
       if (far > 0) at += (goal - at) * (go / far);
       left -= go;
@@ -517,7 +519,7 @@ void Servo::step_restore() BURR_RT {
   touch_ = {};
   touch_.proxy = touch_by_.now().position();
   const Vec3 stretch = touch_.proxy - hand;
-  touch_.depth = stretch.norm();
+  touch_.depth = math::norm(stretch);
   if (engaged_ && touch_.depth > 1e-9) {
     touch_.normal = stretch / touch_.depth;
     touch_.touching = true;
@@ -527,7 +529,8 @@ void Servo::step_restore() BURR_RT {
 void Servo::remember_path() BURR_RT {
   if (!engaged_ || restore_ != Restore::none || touch_.lagging) return;
   const double step = bone_.grid().voxel / 2;
-  if (path_end_ > 0 && (path_[(path_end_ - 1) % kPath] - touch_by_.now().position()).norm() < step)
+  if (path_end_ > 0 &&
+      math::norm(path_[(path_end_ - 1) % kPath] - touch_by_.now().position()) < step)
     return;
   path_[path_end_++ % kPath] = touch_by_.now().position();
 }

@@ -5,6 +5,7 @@
 
 #include "burr/base/check.h"
 #include "burr/base/hash.h"
+#include "burr/rt/atoms.h"
 
 namespace burr::volume {
 namespace {
@@ -138,9 +139,7 @@ TissueId Bone::shared_tissue(int i, int j, int k) const BURR_RT {
   const std::int32_t slot =
       tissue_at_[static_cast<std::size_t>(brick)].load(std::memory_order_acquire);
   if (slot == kNoSlot) return 0;
-  // atomic_ref wants a non-const object; it is only read
-  auto& voxel = const_cast<TissueId&>(tissue_[at(slot) + inside_brick(i, j, k)]);
-  return std::atomic_ref<TissueId>(voxel).load(std::memory_order_relaxed);
+  return rt::load_relaxed(tissue_[at(slot) + inside_brick(i, j, k)]);
 }
 
 std::size_t Bone::memory_bytes() const {
@@ -215,8 +214,7 @@ void Bone::write_brick(BrickIndex brick, const BrickField& content) BURR_RT {
 void Bone::set_tissue(int i, int j, int k, TissueId tissue) BURR_RT {
   BURR_CHECK(grid_.contains({i, j, k}));
   const std::int32_t slot = own_tissue(brick_at(i >> 3, j >> 3, k >> 3));
-  std::atomic_ref<TissueId>(tissue_[at(slot) + inside_brick(i, j, k)])
-      .store(tissue, std::memory_order_relaxed);
+  rt::store_relaxed(tissue_[at(slot) + inside_brick(i, j, k)], tissue);
 }
 
 void Bone::take_ahead() {

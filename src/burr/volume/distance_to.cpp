@@ -4,8 +4,9 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <thread>
 #include <utility>
+
+#include "burr/rt/thread.h"
 
 namespace burr::volume {
 namespace {
@@ -96,10 +97,7 @@ bool in_parallel(int count, int threads, const Progress& progress, const Room& r
       if (asks && progress.cancelled()) stop = true;
     }
   };
-  std::vector<std::thread> helpers;
-  for (int t = 1; t < threads; ++t) helpers.emplace_back(take, false);
-  take(true);
-  for (std::thread& helper : helpers) helper.join();
+  rt::on_threads(threads, [&take](int thread) { take(thread == 0); });
   return !stop;
 }
 

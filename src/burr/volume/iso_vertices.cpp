@@ -6,10 +6,10 @@
 #include <cstring>
 #include <limits>
 #include <mutex>
-#include <thread>
 
 #include "burr/base/check.h"
 #include "burr/rt/simd.h"
+#include "burr/rt/thread.h"
 
 namespace burr::volume {
 namespace {
@@ -62,13 +62,9 @@ BrickBall ball_around(const VertexBlock* blocks, int count, const math::Ijk& fir
 }  // namespace
 
 ExtractVertices extract_vertices_kernel() noexcept {
-  switch (rt::simd()) {
-    case rt::Simd::avx512:
-      return avx512::extract_vertices;
-    case rt::Simd::avx2:
-      return avx2::extract_vertices;
-    case rt::Simd::scalar:
-      break;
+  if constexpr (rt::kWideKernels) {
+    if (rt::simd() == rt::Simd::avx512) return avx512::extract_vertices;
+    if (rt::simd() == rt::Simd::avx2) return avx2::extract_vertices;
   }
   return scalar::extract_vertices;
 }
@@ -146,10 +142,7 @@ IsoVertices::IsoVertices(const Bone& bone, const IsoSettings& settings, int thre
       }
     }
   };
-  std::vector<std::thread> helpers;
-  for (int t = 1; t < threads; ++t) helpers.emplace_back(work, false);
-  work(true);
-  for (std::thread& helper : helpers) helper.join();
+  rt::on_threads(threads, [&work](int thread) { work(thread == 0); });
 
   // so that every brick may grow once, and more
   pool_.grow(pool_used_ + regrown + settings_.reserve_blocks);

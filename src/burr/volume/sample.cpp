@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burr/math/sums.h"
+
 namespace burr::volume {
 namespace {
 
@@ -124,7 +126,7 @@ math::Vec3 gradient(const Bone& bone, const math::Vec3& p_grid) BURR_RT {
 
 math::Vec3 normal(const Bone& bone, const math::Vec3& p_grid) BURR_RT {
   const math::Vec3 inwards = gradient(bone, p_grid);
-  const double steepness = inwards.norm();
+  const double steepness = math::norm(inwards);
   if (!(steepness > 0)) return math::Vec3::Zero();
   return bone.grid().frame.q * (inwards / -steepness);
 }

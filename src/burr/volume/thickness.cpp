@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "burr/math/sums.h"
+
 namespace burr::volume {
 namespace {
 
@@ -62,11 +64,11 @@ std::optional<Span> thickness(const Bone& bone, const Vec3& from, const Vec3& di
   const Vec3 start = grid.grid_from_world(from);
   const Vec3 way = grid.frame.q.conjugate() * direction;
   const double near = reach / grid.voxel;
-  if (!start.allFinite() || !way.allFinite() || std::abs(way.norm() - 1) > 1e-6 || !(near > 0))
+  if (!start.allFinite() || !way.allFinite() || std::abs(math::norm(way) - 1) > 1e-6 || !(near > 0))
     return std::nullopt;
   const math::Aabb box = grid.bounds_grid();
   // no line is longer than from here through the whole grid
-  const double far = (start - 0.5 * (box.lo + box.hi)).norm() + (box.hi - box.lo).norm() + 2;
+  const double far = math::norm(start - 0.5 * (box.lo + box.hi)) + math::norm(box.hi - box.lo) + 2;
 
   Seen seen(bone);
   double before = seen.at(start), entered = before >= 0.5 ? 0 : -1;

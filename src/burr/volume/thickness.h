@@ -7,6 +7,7 @@
 
 #include <optional>
 
+#include "burr/math/sums.h"
 #include "burr/math/vec3.h"
 #include "burr/volume/bone.h"
 
@@ -14,7 +15,7 @@ namespace burr::volume {
 
 struct Span {
   math::Vec3 in = math::Vec3::Zero(), out = math::Vec3::Zero();  // where the line enters and leaves
-  [[nodiscard]] double length() const { return (out - in).norm(); }
+  [[nodiscard]] double length() const { return math::norm(out - in); }
 };
 
 // The first bone along the line from `from` in `direction` (unit) that begins within `reach`, up to

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burr/math/sums.h"
 #include "burr/volume/sample.h"
 
 namespace burr::edit {
@@ -80,8 +81,8 @@ void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& norma
   const double r = burr.radius, reach = std::max(kReach, kLeastReach * grid.voxel);
   const double steep = 2 * volume::kRamp * grid.voxel / reach, out = r / grid.voxel;
   // axes of the rings, which turn with the shaft and not by themselves; of the azimuth about it
-  const Vec3 side = axis - axis.dot(normal) * normal;
-  const Vec3 u = side.squaredNorm() > 0.01 ? side.normalized() : normal.unitOrthogonal();
+  const Vec3 side = axis - math::dot(axis, normal) * normal;
+  const Vec3 u = math::squared_norm(side) > 0.01 ? math::normalized(side) : normal.unitOrthogonal();
   const Vec3 v = normal.cross(u);
   const Vec3 x = axis.unitOrthogonal(), y = axis.cross(x);
   for (int k = 0; k < kRings; ++k) {
@@ -102,7 +103,7 @@ void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& norma
       const volume::Tissue& tissue = bone_.tissues()[bone_.tissue(cell.x(), cell.y(), cell.z())];
       if (tissue.kind != volume::TissueKind::solid) continue;
       const Vec3 sliding = axis.cross(way);
-      const double far = std::max(sliding.norm(), pole);  // from the axis, over r
+      const double far = std::max(math::norm(sliding), pole);  // from the axis, over r
       const double edge = in_bone * piece * burr.teeth / (2 * M_PI * r * far);
       ring.edge += edge;
       ring.cosine += edge * cosine;
@@ -117,7 +118,7 @@ void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& norma
       ring.drag += edge / far * sliding;
       if (!with_ripple) continue;
       // e^(i z phi) by multiplying z times
-      const double px = way.dot(x), py = way.dot(y), across = std::hypot(px, py);
+      const double px = math::dot(way, x), py = math::dot(way, y), across = std::hypot(px, py);
       if (across <= 0) continue;
       double re = 1, im = 0;
       for (int z = 0; z < burr.teeth; ++z) {
@@ -200,7 +201,7 @@ Cutting Chips::step(const tool::Burr& burr, const Vec3& centre, const Vec3& norm
   }
   cutting.drag = world_from_grid * cutting.drag;
   // the spring along the normal is the thrust already
-  cutting.drag -= cutting.drag.dot(normal) * normal;
+  cutting.drag -= math::dot(cutting.drag, normal) * normal;
   cutting.ripple = 2 * std::hypot(re, im);
   return cutting;
 }

@@ -18,6 +18,7 @@
 #include <optional>
 #include <string_view>
 
+#include "burr/math/sums.h"
 #include "burr/math/vec3.h"
 #include "burr/rt/rt.h"
 
@@ -65,7 +66,7 @@ struct Spin {
 [[nodiscard]] inline math::Vec3 drag_way(const math::Vec3& normal, const Spin& spin,
                                          double pole) BURR_RT {
   const math::Vec3 across = normal.cross(spin.axis);
-  return across * (std::copysign(1.0, spin.speed) / std::max(across.norm(), pole));
+  return across * (std::copysign(1.0, spin.speed) / std::max(math::norm(across), pole));
 }
 
 // Power that goes into cutting [W].  normal: unit contact normal; axis: unit, of the burr; force_n
@@ -75,7 +76,7 @@ struct Spin {
                                           double friction, const math::Vec3& normal,
                                           const math::Vec3& axis,
                                           const RemovalSettings& settings) BURR_RT {
-  const double sine = std::max(normal.cross(axis).norm(), settings.pole);
+  const double sine = std::max(math::norm(normal.cross(axis)), settings.pole);
   const double power = friction * force_n * std::abs(speed) * radius * sine;
   return std::clamp(power, 0.0, settings.max_power);
 }
@@ -89,7 +90,7 @@ struct Spin {
   if (cutting.power <= 0) return cutting;
   cutting.energy = cutting.power * dt;
   cutting.torque = cutting.power / std::abs(spin.speed);
-  const double sine = std::max(normal.cross(spin.axis).norm(), settings.pole);
+  const double sine = std::max(math::norm(normal.cross(spin.axis)), settings.pole);
   cutting.drag = cutting.torque / (radius * sine) * drag_way(normal, spin, settings.pole);
   return cutting;
 }

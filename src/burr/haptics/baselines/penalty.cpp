@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "burr/haptics/baselines/ball_points.h"
+#include "burr/math/sums.h"
 #include "burr/volume/sample.h"
 
 namespace burr::haptics {
@@ -65,7 +66,7 @@ Touch PenaltyProxy::step(const Vec3& hand) BURR_RT {
       ++pressed;
     }
     Vec3 move = stiff.inverse() * pull;
-    const double length = move.norm();
+    const double length = math::norm(move);
     if (length > kFarthest) move *= kFarthest / length;
     c_ += move;
     if (length < kBalanced) break;
@@ -73,7 +74,7 @@ Touch PenaltyProxy::step(const Vec3& hand) BURR_RT {
   proxy_ = grid.world_from_grid(c_);
   touch.proxy = proxy_;
   const Vec3 stretch = c_ - x;
-  const double depth = stretch.norm();
+  const double depth = math::norm(stretch);
   touch.active = pressed;
   touch.touching = pressed > 0 && depth > 1e-9;
   if (!touch.touching) return touch;

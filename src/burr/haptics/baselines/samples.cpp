@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "burr/haptics/baselines/ball_points.h"
+#include "burr/math/sums.h"
 #include "burr/volume/sample.h"
 
 namespace burr::haptics {
@@ -40,7 +41,7 @@ int SampleProxy::in_bone(const Vec3& p_grid, Vec3& sum) const BURR_RT {
     if (volume::sample(bone_, at) < volume::kIsoShare) continue;
     ++count;
     const Vec3 slope = volume::gradient(bone_, at);
-    const double steep = slope.norm();
+    const double steep = math::norm(slope);
     if (steep > kNoVote) sum -= slope / steep;
   }
   return count;
@@ -56,10 +57,10 @@ Touch SampleProxy::step(const Vec3& hand) BURR_RT {
   Vec3 move = x - p_;
   if (here > 0) {
     touching_ = true;
-    const double length = votes.norm();
+    const double length = math::norm(votes);
     if (length > kNoVote) {
       const Vec3 e0 = votes / length;
-      const double out = move.dot(e0);
+      const double out = math::dot(move, e0);
       move += (std::max(out, 0.0) - out) * e0;
     } else {
       move = Vec3::Zero();
@@ -83,7 +84,7 @@ Touch SampleProxy::step(const Vec3& hand) BURR_RT {
   proxy_ = grid.world_from_grid(p_);
   touch.proxy = proxy_;
   const Vec3 stretch = p_ - x;
-  const double depth = stretch.norm();
+  const double depth = math::norm(stretch);
   touch.touching = touching_ && depth > 1e-9;
   if (!touch.touching) return touch;
   touch.normal = grid.frame.q * (stretch / depth);

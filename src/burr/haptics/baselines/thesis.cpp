@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "burr/math/sums.h"
 #include "burr/volume/sample.h"
 
 namespace burr::haptics {
@@ -46,7 +47,7 @@ bool ThesisProxy::inside(const Vec3& p_grid) const BURR_RT {
 // Step 1, 3 and 6: minus the gradient; where there is none, the last one known.
 Vec3 ThesisProxy::normal_at(const Vec3& p_grid) const BURR_RT {
   const Vec3 slope = volume::gradient(bone_, p_grid);
-  const double steep = slope.norm();
+  const double steep = math::norm(slope);
   return steep > kLeastSlope ? Vec3(-slope / steep) : n_;
 }
 
@@ -96,14 +97,14 @@ Touch ThesisProxy::step(const Vec3& hand) BURR_RT {
   }
   const Vec3 was = s_;
   n_ = normal_at(s_);
-  Vec3 s = s_ + (x - s_) - n_.dot(x - s_) * n_;
+  Vec3 s = s_ + (x - s_) - math::dot(n_, x - s_) * n_;
   touch.lagging = !project(s);
   if (!touch.lagging) s_ = s;
   n_ = normal_at(s_);
 
   if (settings_.friction_static > 0) {
-    const Vec3 behind = was - s_, trail = behind - behind.dot(n_) * n_;
-    const double press = (s_ - x).norm(), reach = trail.norm();
+    const Vec3 behind = was - s_, trail = behind - math::dot(behind, n_) * n_;
+    const double press = math::norm(s_ - x), reach = math::norm(trail);
     if (!sliding_ && reach > settings_.friction_static * press) sliding_ = true;
     if (sliding_ && std::atan2(reach, press) < 0.6 * std::atan(settings_.friction_kinetic))
       sliding_ = false;
@@ -118,7 +119,7 @@ Touch ThesisProxy::step(const Vec3& hand) BURR_RT {
 
   const Vec3 c = s_ + settings_.radius / grid.voxel * n_;
   const Vec3 stretch = (literal_ ? c : s_) - x;
-  const double depth = stretch.norm();
+  const double depth = math::norm(stretch);
   proxy_ = grid.world_from_grid(c);
   touch.proxy = proxy_;
   touch.normal = grid.frame.q * (depth > 1e-12 ? Vec3(stretch / depth) : n_);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burr/math/sums.h"
+
 namespace burr::haptics {
 namespace {
 
@@ -16,15 +18,15 @@ constexpr double kClose = 0.02;  // a shorter move ends the search  [voxel]
 // that p projects to.
 Vec3f nearest_on(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   const Vec3f ab = b - a, ac = c - a, ap = p - a;
-  const float d1 = ab.dot(ap), d2 = ac.dot(ap);
+  const float d1 = math::dot(ab, ap), d2 = math::dot(ac, ap);
   if (d1 <= 0 && d2 <= 0) return a;
   const Vec3f bp = p - b;
-  const float d3 = ab.dot(bp), d4 = ac.dot(bp);
+  const float d3 = math::dot(ab, bp), d4 = math::dot(ac, bp);
   if (d3 >= 0 && d4 <= d3) return b;
   const float vc = d1 * d4 - d3 * d2;
   if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
   const Vec3f cp = p - c;
-  const float d5 = ab.dot(cp), d6 = ac.dot(cp);
+  const float d5 = math::dot(ab, cp), d6 = math::dot(ac, cp);
   if (d6 >= 0 && d5 <= d6) return c;
   const float vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
@@ -54,12 +56,12 @@ bool TriangleProxy::set_radius(double radius) BURR_RT {
 bool TriangleProxy::add(const Triangle& triangle) BURR_RT {
   if (triangles_.size() == kMost) return false;
   const Vec3f across = (triangle.b - triangle.a).cross(triangle.c - triangle.a);
-  const float twice = across.norm();
+  const float twice = math::norm(across);
   if (!(twice > 0)) return true;  // a line: its neighbours hold the burr
   const Vec3f middle = (triangle.a + triangle.b + triangle.c) / 3;
-  const float reach =
-      std::sqrt(std::max({(triangle.a - middle).squaredNorm(), (triangle.b - middle).squaredNorm(),
-                          (triangle.c - middle).squaredNorm()}));
+  const float reach = std::sqrt(
+      std::max({math::squared_norm(triangle.a - middle), math::squared_norm(triangle.b - middle),
+                math::squared_norm(triangle.c - middle)}));
   triangles_.push_back({triangle.a, triangle.b, triangle.c, across / twice, middle, reach});
   return true;
 }
@@ -74,10 +76,10 @@ void TriangleProxy::collect(double within) BURR_RT {
              h = static_cast<float>(voxel_);
   for (const Known& one : triangles_) {
     const float far = near + one.reach;
-    if ((p - one.middle).squaredNorm() > far * far) continue;
-    if (one.normal.dot(p - one.a) <= 0) continue;  // seen from behind: not rendered
+    if (math::squared_norm(p - one.middle) > far * far) continue;
+    if (math::dot(one.normal, p - one.a) <= 0) continue;  // seen from behind: not rendered
     const Vec3f away = p - nearest_on(p, one.a, one.b, one.c);
-    const float distance = away.norm();
+    const float distance = math::norm(away);
     if (distance > near || distance <= 0) continue;
     if (all.count == Candidates::kMost) {
       all.full = true;
@@ -96,7 +98,7 @@ Touch TriangleProxy::step(const Vec3& hand) BURR_RT {
   bool pressed = false;
   for (int n = 0; n < kMoves; ++n) {
     Vec3 move = hand - c_;
-    const double far = move.norm(), longest = 0.5 * radius_;
+    const double far = math::norm(move), longest = 0.5 * radius_;
     if (far > longest) move *= longest / far;
     collect(std::min(far, longest) + voxel_);
     const LeastMove least = least_move(*candidates_, move / voxel_, most_violated_);
@@ -105,12 +107,12 @@ Touch TriangleProxy::step(const Vec3& hand) BURR_RT {
     touch.active = least.active;
     touch.candidates = std::max(touch.candidates, candidates_->count);
     touch.overflow |= candidates_->full;
-    touch.lagging = least.p.norm() >= kClose;
+    touch.lagging = math::norm(least.p) >= kClose;
     if (!touch.lagging) break;
   }
   touch.proxy = c_;
   const Vec3 stretch = c_ - hand;
-  const double depth = stretch.norm();
+  const double depth = math::norm(stretch);
   touch.touching = pressed && depth > 1e-12;
   if (!touch.touching) return touch;
   touch.normal = stretch / depth;

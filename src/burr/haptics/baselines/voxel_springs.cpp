@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burr/math/sums.h"
+
 namespace burr::haptics {
 
 using math::Vec3;
@@ -39,17 +41,17 @@ Touch VoxelSprings::step(const Vec3& hand) BURR_RT {
         const double share = std::clamp(depth + 0.5, 0.0, 1.0);
         if (share == 0) continue;
         const Vec3 away(dx, dy, dz);
-        const double far = away.norm();
+        const double far = math::norm(away);
         if (far < 1e-9) continue;
         sum += share * (r - far) / far * away;
         ++voxels;
       }
     }
-  const double stretch = kShare * sum.norm() * grid.voxel;
+  const double stretch = kShare * math::norm(sum) * grid.voxel;
   touch.candidates = touch.active = voxels;
   touch.touching = stretch > 0;
   if (!touch.touching) return touch;
-  touch.normal = grid.frame.q * sum.normalized();
+  touch.normal = grid.frame.q * math::normalized(sum);
   touch.depth = touch.pressing = stretch;
   return touch;
 }

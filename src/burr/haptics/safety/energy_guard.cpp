@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burr/math/sums.h"
+
 namespace burr::haptics {
 namespace {
 
@@ -45,7 +47,7 @@ Vec3 EnergyGuard::step(const Exchange& now, double dt) BURR_RT {
     return now.force;
   }
 
-  const double square = velocity_.squaredNorm();
+  const double square = math::squared_norm(velocity_);
   const double owed = deficit() - settings_.slack;
   if (owed <= 0 || square < settings_.least_speed * settings_.least_speed || square == 0)
     return now.force;
@@ -71,7 +73,7 @@ Vec3 EnergyGuard::acting(double dt) const BURR_RT {
 // What the spring gives back on the way home. Where it asks for more than is ever sent, the force
 // is the largest one.
 double EnergyGuard::spring_energy(const Exchange& now) const BURR_RT {
-  const double stretch = now.stretch.norm();
+  const double stretch = math::norm(now.stretch);
   const double most = settings_.largest_force;
   if (now.stiffness * stretch <= most) return 0.5 * now.stiffness * stretch * stretch;
   return most * (stretch - 0.5 * most / now.stiffness);
@@ -87,12 +89,12 @@ void EnergyGuard::observe(const Exchange& now, double dt) BURR_RT {
   } else {
     const Vec3 way = now.hand - last_hand_;
     velocity_ = way / dt;
-    const double work = -acting(dt).dot(way);
+    const double work = -math::dot(acting(dt), way);
     work_in_ += work;
     energy_ += work;
     // the device lost at least b |dx|^2 / T on the way; that pays a debt, but fills no tank
     const double own =
-        std::min(settings_.device_damping * way.squaredNorm() / dt, std::max(0.0, deficit()));
+        std::min(settings_.device_damping * math::squared_norm(way) / dt, std::max(0.0, deficit()));
     energy_ += own;
     lost_in_device_ += own;
   }
@@ -118,7 +120,7 @@ void EnergyGuard::settle(double dt) BURR_RT {
 }
 
 void EnergyGuard::forget_when_free(const Exchange& now, double dt) BURR_RT {
-  const bool free = stored_ <= 0 && now.force.squaredNorm() <= 0;
+  const bool free = stored_ <= 0 && math::squared_norm(now.force) <= 0;
   free_ = free ? free_ + dt : 0;
   if (free_ < settings_.free_time) return;
   written_off_ += deficit();

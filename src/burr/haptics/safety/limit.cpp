@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "burr/haptics/contact.h"
+#include "burr/math/sums.h"
 
 namespace burr::haptics {
 namespace {
@@ -13,11 +14,11 @@ using math::Vec3;
 // The nearest force to `wanted` that is no further than `step` from what can be had by only letting
 // go of `sent`. Letting go is free, growing and turning are not.
 Vec3 slew_bound(const Vec3& wanted, const Vec3& sent, double step, bool& bounded) BURR_RT {
-  const double square = sent.squaredNorm();
-  const double keep = square > 0 ? std::clamp(wanted.dot(sent) / square, 0.0, 1.0) : 0.0;
+  const double square = math::squared_norm(sent);
+  const double keep = square > 0 ? std::clamp(math::dot(wanted, sent) / square, 0.0, 1.0) : 0.0;
   const Vec3 base = keep * sent;
   const Vec3 growth = wanted - base;
-  const double size = growth.norm();
+  const double size = math::norm(growth);
   bounded = size > step;
   return bounded ? Vec3(base + growth * (step / size)) : wanted;
 }
@@ -45,7 +46,7 @@ bool ForceLimit::believe(const device::HandState& hand, std::uint32_t& flags) BU
              hand.world_from_tool.p.cwiseAbs().maxCoeff() > kFarthestHand) {
     trouble = kFlagNotFinite;
   } else if (has_last_hand_ &&
-             (hand.world_from_tool.p - last_hand_).norm() > settings_.longest_leap) {
+             math::norm(hand.world_from_tool.p - last_hand_) > settings_.longest_leap) {
     trouble = kFlagJump;
   }
   if (trouble != 0) {
@@ -97,7 +98,7 @@ Vec3 ForceLimit::bound(Channel& channel, const Vec3& wanted, double dt,
     const double hot = std::clamp((channel.heat / device_.thermal_budget - 0.9) * 10.0, 0.0, 1.0);
     const double bearable = std::min(most, device_.continuous_force);
     if (hot > 0) most += hot * (bearable - most);
-    const double size = force.norm();
+    const double size = math::norm(force);
     if (size > most) {
       force *= most / size;
       flags |= hot > 0 ? kFlagThermal : kFlagForceLimited;
@@ -112,7 +113,8 @@ Vec3 ForceLimit::bound(Channel& channel, const Vec3& wanted, double dt,
   }
 
   const double bearable = device_.continuous_force;
-  channel.heat = std::max(0.0, channel.heat + (force.squaredNorm() - bearable * bearable) * dt);
+  channel.heat =
+      std::max(0.0, channel.heat + (math::squared_norm(force) - bearable * bearable) * dt);
   channel.sent = force;
   return force;
 }
@@ -124,7 +126,7 @@ Vec3 ForceLimit::apply(const Vec3& wanted, double dt, std::uint32_t& flags) BURR
   const Vec3 force = bound(force_, wanted, dt, flags);
   if (state_ == State::fading && left() <= 0) {
     restart();
-  } else if (state_ == State::waiting && wanted.norm() < settings_.small_force) {
+  } else if (state_ == State::waiting && math::norm(wanted) < settings_.small_force) {
     state_ = State::ramp;
     in_state_ = 0;
   }

@@ -1,0 +1,55 @@
+# burr_core: touching and cutting bone, and the surface of what is left. Needs Eigen, the C++ library and nothing else;
+# it starts no thread that its caller did not ask for. Compiled for x86-64, for ARM and for a browser
+# (cmake/portable.cmake), so nothing in these rooms may know more than rt/ does about the machine.
+set(BURR_CORE_SOURCES
+  base/check.cpp base/version.cpp device/hand_path.cpp device/simulated_hand.cpp)  # of rooms that are not core as a whole
+list(TRANSFORM BURR_CORE_SOURCES PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)
+foreach(room math rt volume tool edit haptics surface thermal tick)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/${room}/*.cpp)
+  list(APPEND BURR_CORE_SOURCES ${sources})
+endforeach()
+if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+  list(FILTER BURR_CORE_SOURCES EXCLUDE REGEX "_plain\\.cpp$")
+else()  # x_plain.cpp stands for x.cpp where the system has no memory calls and no scheduler like Linux's
+  set(plain ${BURR_CORE_SOURCES})
+  list(FILTER plain INCLUDE REGEX "_plain\\.cpp$")
+  list(TRANSFORM plain REPLACE "_plain\\.cpp$" ".cpp")
+  list(REMOVE_ITEM BURR_CORE_SOURCES ${plain})
+endif()
+
+# Kernels exist once per instruction set, from one source, and are chosen at run time; the bits are the same.
+# The wide ones are x86-64's (kWideKernels in rt/simd.h).
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+  list(FILTER BURR_CORE_SOURCES EXCLUDE REGEX "_avx(2|512)\\.cpp$")
+endif()
+function(burr_kernels)
+  foreach(source ${ARGN})
+    if(source MATCHES "_(avx2|avx512|scalar)\\.cpp$")
+      set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)  # other options, other headers
+    endif()
+    if(source MATCHES "_avx2\\.cpp$")
+      set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-mavx2;-O3")
+    elseif(source MATCHES "_avx512\\.cpp$")
+      set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS
+        "-mavx512f;-mavx512bw;-mavx512vl;-mavx512dq;-mprefer-vector-width=512;-O3")
+    elseif(source MATCHES "_scalar\\.cpp$")
+      set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-O3")
+    endif()
+  endforeach()
+endfunction()
+burr_kernels(${BURR_CORE_SOURCES})
+set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/burr/base/version.cpp APPEND PROPERTY
+  COMPILE_DEFINITIONS BURR_VERSION="${PROJECT_VERSION}")
+
+if(BURR_CORE_ONLY)
+  add_library(burr_core STATIC ${BURR_CORE_SOURCES})
+else()
+  add_library(burr_core SHARED ${BURR_CORE_SOURCES})
+endif()
+add_library(burr::core ALIAS burr_core)
+set_target_properties(burr_core PROPERTIES EXPORT_NAME core VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+target_include_directories(burr_core PUBLIC
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_compile_features(burr_core PUBLIC cxx_std_20)
+target_link_libraries(burr_core PUBLIC Eigen3::Eigen Threads::Threads PRIVATE $<BUILD_INTERFACE:burr_options>)
+burr_common_headers(burr_core)

@@ -1,0 +1,25 @@
+# burr_core alone, and what checks it: for other processors and for a browser. BURR_CORE_ONLY; presets `aarch64`, `web`.
+if(NOT EMSCRIPTEN)
+  find_package(Threads REQUIRED)
+else()  # one thread; none is ever started
+  add_library(burr_no_threads INTERFACE)
+  add_library(Threads::Threads ALIAS burr_no_threads)
+endif()
+# Eigen is headers, the same for every processor. Only its own folder: beside it lie the headers of this machine.
+set(BURR_EIGEN /usr/include/eigen3 CACHE PATH "the folder that holds Eigen/Core")
+if(NOT EXISTS ${BURR_EIGEN}/Eigen/Core)
+  message(FATAL_ERROR "no Eigen in ${BURR_EIGEN}; give -DBURR_EIGEN=FOLDER")
+endif()
+add_library(burr_eigen INTERFACE)
+target_include_directories(burr_eigen SYSTEM INTERFACE ${BURR_EIGEN})
+add_library(Eigen3::Eigen ALIAS burr_eigen)
+if(EMSCRIPTEN)
+  # Eigen 3.4 takes clang for WebAssembly for something that it is not; math/sums.h says the order of additions
+  target_compile_definitions(burr_eigen INTERFACE EIGEN_DONT_VECTORIZE)
+  target_compile_options(burr_options INTERFACE -msimd128)
+  target_link_options(burr_options INTERFACE -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=2GB -sNODERAWFS=1 -sEXIT_RUNTIME=1)
+endif()
+include(cmake/core.cmake)
+
+add_executable(portable_bits ${PROJECT_SOURCE_DIR}/tests/bits/portable_bits.cpp)
+target_link_libraries(portable_bits PRIVATE burr_core burr_options)
