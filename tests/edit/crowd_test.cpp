@@ -8,6 +8,7 @@
 #include "burr/haptics/contact.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
+#include "burr/rt/flags.h"
 #include "burr/volume/volume_of.h"
 
 namespace burr::edit {
@@ -63,7 +64,7 @@ TEST(Crowd, BricksThatAreTooManyForATickAreCutInTurnsAndEvenly) {
     std::uint32_t flags = 0;
     crowd.carver.carve(crowd.cut, flags);
     EXPECT_LE(crowd.carver.bricks_last(), kMostBricks);
-    turned += (flags & haptics::kFlagPutOff) != 0 ? 1 : 0;
+    turned += (flags & rt::kFlagPutOff) != 0 ? 1 : 0;
     const Ledger ledger = crowd.carver.ledger();
     EXPECT_NEAR(ledger.asked, ledger.removed + ledger.debt + ledger.not_cut, 1e-6 * ledger.asked);
   }
@@ -80,13 +81,13 @@ TEST(Crowd, TurnsEndWhenTheBurrStandsInFewAgain) {
   crowd.cut.energy = 1;
   std::uint32_t flags = 0;
   for (int n = 0; n < 10; ++n) crowd.carver.carve(crowd.cut, flags);
-  EXPECT_NE(flags & haptics::kFlagPutOff, 0U);
+  EXPECT_NE(flags & rt::kFlagPutOff, 0U);
   crowd.cut.radius = 10;
   crowd.cut.centre += Vec3(0, 0, 40);
   for (int n = 0; n < 10; ++n) crowd.carver.carve(crowd.cut, flags);
   flags = 0;
   crowd.carver.carve(crowd.cut, flags);
-  EXPECT_EQ(flags & haptics::kFlagPutOff, 0U);
+  EXPECT_EQ(flags & rt::kFlagPutOff, 0U);
 }
 
 }  // namespace

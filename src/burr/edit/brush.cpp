@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "burr/rt/flags.h"
+
 namespace burr::edit {
 namespace {
 
@@ -13,7 +15,6 @@ using volume::Field;
 using volume::kBrickEdge;
 using volume::kBrickVoxels;
 
-constexpr std::uint32_t kPutOff = 1U << 15;  // of haptics/contact.h, as in carve.cpp
 constexpr int kMostSlices = Carver::kMostSlices;
 constexpr int kRounding = 8;       // of a second difference: three of them, of rounded values
 constexpr int kMayDiffer = 4096;   // a quarter of a voxel
@@ -186,7 +187,7 @@ void Brush::begin(int least_slices, std::uint32_t& flags) BURR_RT {
   while (slices < kMostSlices && found_ > slices * kUsualBricks) slices *= 2;
   if (slices != slices_) slice_ = 0;
   slices_ = slices;
-  if (least_slices > 1) flags |= kPutOff;
+  if (least_slices > 1) flags |= rt::kFlagPutOff;
   slice_ = (slice_ + 1) % slices_;
   found_ = worked_ = 0;
   crowded_ = false;
@@ -220,7 +221,7 @@ void Brush::find(const Sides& sides, int side, double reach, const Wants& wants)
 void Brush::end_finding(const Mirror& mirror, std::uint32_t& flags) BURR_RT {
   if (!mirror.on() || !crowded_) return;
   worked_ = 0;
-  flags |= kPutOff;
+  flags |= rt::kFlagPutOff;
 }
 
 int Brush::units_a_tick(const Brushing& now) const BURR_RT {

@@ -62,7 +62,7 @@ class Brush {
   Brush(volume::Bone& bone, const UndoStore& undo, Carver& carver)
       : bone_(bone), undo_(undo), carver_(carver), patches_(2 * kMostBricks) {}
 
-  // Adds to `flags` (haptics/contact.h bits: reserve, undo full, put off).
+  // Adds to `flags` (rt/flags.h bits: reserve, undo full, put off).
   void restore(const Brushing& now, std::uint32_t& flags) BURR_RT;
   void smooth(const Brushing& now, std::uint32_t& flags) BURR_RT;
 

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "burr/base/check.h"
+#include "burr/rt/flags.h"
 #include "burr/rt/simd.h"
 #include "burr/volume/volume_of.h"
 
@@ -25,10 +26,6 @@ constexpr std::size_t kMostWork = 1024;  // bricks a side in one tick: 7 mm at 0
 constexpr double kManyBricks = 72;
 constexpr int kUsualTurns = 4;  // at most
 constexpr std::uint8_t kMixed = 255;
-
-// bits of haptics/contact.h; edit may not include haptics, tick/servo.cpp asserts that they agree
-constexpr std::uint32_t kReserve = 1U << 10, kUndoFull = 1U << 11, kNotCut = 1U << 14,
-                        kPutOff = 1U << 15;
 
 using Layers = std::array<unsigned, 3>;
 constexpr Layers kWholeBrick = {kAllLayers, kAllLayers, kAllLayers};
@@ -155,7 +152,7 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
         if (field == nullptr) {
           if (!deposit) continue;
           if (bone_.ensure_slot(brick) == volume::kNoSlot) {
-            flags |= kReserve;
+            flags |= rt::kFlagReserve;
             continue;
           }
           field = bone_.brick_field(brick);
@@ -236,7 +233,7 @@ Carver::Done Carver::apply(double share, bool deposit, volume::TissueId material
     const Applied applied = kernel_.apply(field, scratch_[w].voxel, work_[w].excess.pairs, fixed,
                                           deposit ? 1 : 0, now.voxel);
     if (applied.most == 0) continue;
-    if (undo_.keep(brick)) flags |= kUndoFull;
+    if (undo_.keep(brick)) flags |= rt::kFlagUndoFull;
     if (deposit) {
       const math::Ijk first = bone_.brick_ijk(brick);
       for (int v = 0; v < kBrickVoxels; ++v)
@@ -268,7 +265,7 @@ int Carver::choose_turns(int wanted, std::uint32_t& flags) BURR_RT {
   if (bricks > kManyBricks * usual_turns_ && usual_turns_ < kUsualTurns) usual_turns_ *= 2;
   if (bricks < 0.4 * kManyBricks * usual_turns_ && usual_turns_ > 1) usual_turns_ /= 2;
   const int late = std::max(wanted, crowd_slices_);
-  if (late > 1) flags |= kPutOff;
+  if (late > 1) flags |= rt::kFlagPutOff;
   const int slices = std::min(late * usual_turns_, kMostSlices);
   if (slices != slices_) {
     slices_ = slices;
@@ -337,7 +334,7 @@ void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
                  least_margin_, std::max(least_margin_, settings_.margin_most));
   const double before = not_cut_;
   write_off(asked, cut.dt, slices);
-  if (not_cut_ > before) flags |= kNotCut;
+  if (not_cut_ > before) flags |= rt::kFlagNotCut;
 }
 
 void Carver::deposit(const Cut& cut, std::uint32_t& flags) BURR_RT {
@@ -386,7 +383,7 @@ void Carver::gather_inside(const Vec3& centre, double radius, int amount, const 
         if (layers == 0 || highest_[static_cast<std::size_t>(brick)] == 0) continue;
         if (work_count_ == most_work) {
           crowded_ = true;
-          flags |= kPutOff;
+          flags |= rt::kFlagPutOff;
           return;
         }
         const volume::Field* field = bone_.brick_field(brick);
@@ -474,10 +471,10 @@ void Carver::restore(const KeptBrick& kept) BURR_RT {
 
 void Carver::rewrite(const KeptBrick& now, std::uint32_t& flags) BURR_RT {
   if (bone_.ensure_slot(now.brick) == volume::kNoSlot) {
-    flags |= kReserve;
+    flags |= rt::kFlagReserve;
     return;
   }
-  if (undo_.keep(now.brick)) flags |= kUndoFull;
+  if (undo_.keep(now.brick)) flags |= rt::kFlagUndoFull;
   const volume::Field* field = bone_.brick_field(now.brick);
   std::int64_t gone = 0;
   for (int v = 0; v < kBrickVoxels; ++v) {

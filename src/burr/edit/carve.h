@@ -71,7 +71,7 @@ class Carver {
   Carver(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo, ChangedQueue* changed,
          const CarveSettings& settings);
 
-  // Adds to `flags` (haptics/contact.h bits: not cut, reserve, undo full, put off).
+  // Adds to `flags` (rt/flags.h bits: not cut, reserve, undo full, put off).
   void carve(const Cut& cut, std::uint32_t& flags) BURR_RT;
   void deposit(const Cut& cut, std::uint32_t& flags) BURR_RT;
   // The thesis' removal: every voxel in the ball loses `amount` [field units], whatever that comes

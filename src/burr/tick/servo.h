@@ -215,13 +215,4 @@ class Servo {
   std::uint64_t next_tick_ = 0, last_hash_ = 0;
 };
 
-// Without what every good session raises: the start ramp, and waiting for it; the guard at work.
-[[nodiscard]] constexpr std::uint32_t worth_telling(std::uint32_t flags) {
-  return flags & ~(haptics::kFlagRamp | haptics::kFlagWaiting | haptics::kFlagSlewLimited |
-                   haptics::kFlagGuarded);
-}
-
-// In words, one sentence a flag, with the cure where there is one.
-[[nodiscard]] std::vector<std::string> words(std::uint32_t flags);
-
 }  // namespace burr::tick
