@@ -25,12 +25,12 @@ struct Crowd {
             phantom::slab({0, 0, 1}, {0, 0, 20 * kMm}))),
         surface(*bone, {}, 1, quiet),
         undo(*bone, 8192),
-        carver(*bone, surface, undo, nullptr,
-               {.advance_m = 0,
-                .advance_least = 0,
-                .margin_m = 0,
-                .margin_least = 0,
-                .margin_most = 0}) {
+        writer(*bone, surface, undo, nullptr),
+        carver(writer, {.advance_m = 0,
+                        .advance_least = 0,
+                        .margin_m = 0,
+                        .margin_least = 0,
+                        .margin_most = 0}) {
     undo.begin_stroke(0);
     cut.centre = bone->grid().grid_from_world({0.03 * kMm, -0.02 * kMm, 0.01 * kMm});
     cut.push = Vec3(0, 0, -1);
@@ -50,6 +50,7 @@ struct Crowd {
   std::unique_ptr<volume::Bone> bone;
   volume::IsoVertices surface;
   UndoStore undo;
+  BoneWriter writer;
   Carver carver;
   Cut cut;
 };

@@ -15,7 +15,7 @@ using volume::Field;
 using volume::kBrickEdge;
 using volume::kBrickVoxels;
 
-constexpr int kMostSlices = Carver::kMostSlices;
+constexpr int kMostSlices = 64;    // as the carver
 constexpr int kRounding = 8;       // of a second difference: three of them, of rounded values
 constexpr int kMayDiffer = 4096;   // a quarter of a voxel
 constexpr int kLeastSlope = 4096;  // of a ramp along its steepest axis, a voxel  [field units]
@@ -257,7 +257,7 @@ void Brush::restore(const Brushing& now, std::uint32_t& flags) BURR_RT {
     std::memcpy(content.tissue, bone_.brick_tissue(patch.brick), sizeof content.tissue);
     if (go_back(*undo_.original_of(patch.brick), ball, static_cast<float>(now.radius - kInto), most,
                 half.mirror.axis, patch.layers, content))
-      carver_.rewrite(content, flags);
+      writer_.rewrite(content, flags);
   }
 }
 
@@ -381,7 +381,7 @@ void Brush::smooth(const Brushing& now, std::uint32_t& flags) BURR_RT {
     Patch& patch = patches_[static_cast<std::size_t>(n)];
     if (patch.content.brick == volume::kNoBrick) continue;
     keep_other_layers(bone_, sides.half[patch.side].mirror.axis, patch.layers, patch.content);
-    carver_.rewrite(patch.content, flags);
+    writer_.rewrite(patch.content, flags);
   }
 }
 

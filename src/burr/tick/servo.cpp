@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "burr/edit/laws/thesis.h"
 #include "burr/rt/flags.h"
 #include "burr/tick/mirror_plane.h"
 #include "burr/tick/tick_hash.h"
@@ -36,8 +37,9 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       dt_(1.0 / settings.rate_hz),
       changed_(bone),
       undo_(bone, settings.undo_bricks),
-      carver_(bone, surface, undo_, &changed_, settings.carve),
-      brush_(bone, undo_, carver_),
+      writer_(bone, surface, undo_, &changed_),
+      carver_(writer_, settings.carve),
+      brush_(writer_),
       chips_(bone),
       touch_by_(surface, {.radius = settings.burr.radius, .recovery = kRecovery / settings.rate_hz},
                 settings.touch),
@@ -124,7 +126,7 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   if (touch_.overflow) flags |= rt::kFlagCandidates;
   if (surface_.exhausted()) flags |= rt::kFlagReserve;
   if (shed_ >= Shed::removal_2) flags |= rt::kFlagPutOff;
-  row_.ledger = carver_.ledger();
+  row_.ledger = writer_.ledger();
   if (spindle_.stalled()) flags |= rt::kFlagStalled;
   row_.spindle_rad_s = spindle_.speed();
   row_.cutting_nm = cutting_.torque;
@@ -281,8 +283,8 @@ void Servo::cut_bone(const Vec3& force) BURR_RT {
   if (settings_.mode == ToolMode::cut && settings_.removal.law == edit::RemovalLaw::thesis) {
     const auto frame = static_cast<std::uint64_t>(std::max(1, settings_.removal.thesis_frame));
     if (row_.tick % frame == 0)
-      carver_.lower(cut, 65536 * settings_.removal.thesis_rate * dt_ * static_cast<double>(frame),
-                    flags);
+      edit::lower(carver_, cut,
+                  65536 * settings_.removal.thesis_rate * dt_ * static_cast<double>(frame), flags);
     else
       carver_.idle(dt_);
   } else if (settings_.mode == ToolMode::cut) {
@@ -464,7 +466,7 @@ bool Servo::clear_of_what_returns(const Vec3& p) const BURR_RT {
                                       : undo_.entry(range_.first + i);
     const Vec3 middle = bone_.brick_ijk(kept.brick).cast<double>() + half;
     if ((middle - centre).norm() > radius + 9) continue;
-    if (!carver_.clear_of(kept, centre, radius)) return false;
+    if (!writer_.clear_of(kept, centre, radius)) return false;
   }
   return true;
 }
@@ -501,9 +503,9 @@ void Servo::step_restore() BURR_RT {
     const auto most = static_cast<std::size_t>(std::max(1.0, std::ceil(kRestorePerSecond * dt_)));
     for (std::size_t n = 0; n < most && restored_ < range_.count; ++n, ++restored_) {
       if (restore_kind_ == CommandKind::reset) {
-        carver_.restore(undo_.original(static_cast<std::size_t>(restored_)));
+        writer_.restore(undo_.original(static_cast<std::size_t>(restored_)));
       } else {
-        carver_.swap(undo_.entry(range_.first + restored_));
+        writer_.swap(undo_.entry(range_.first + restored_));
       }
     }
     if (restored_ == range_.count) restore_ = Restore::settling;

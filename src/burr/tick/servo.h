@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "burr/device/device.h"
+#include "burr/edit/bone_writer.h"
 #include "burr/edit/brush.h"
 #include "burr/edit/carve.h"
 #include "burr/edit/changed_queue.h"
@@ -170,6 +171,7 @@ class Servo {
   rt::Latest<TickRow>* watch_ = nullptr;
   edit::ChangedQueue changed_;
   edit::UndoStore undo_;
+  edit::BoneWriter writer_;
   edit::Carver carver_;
   edit::Brush brush_;
   edit::Chips chips_;
