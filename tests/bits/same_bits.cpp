@@ -28,6 +28,7 @@
 #include "burr/phantom/shapes.h"
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
+#include "burr/rt/flags.h"
 #include "burr/sim/replay.h"
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
@@ -138,7 +139,7 @@ void mill(const char* name, const Plan& plan, const std::function<Bone()>& make,
     give_up(fmt::format("{}: does not replay: {}", name, again.difference));
   const sim::Outcome outcome = session->outcome();
   const bool lost =
-      (outcome.flags & haptics::kFlagWatchdog) != 0 || outcome.most_shed != tick::Shed::none;
+      (outcome.flags & rt::kFlagWatchdog) != 0 || outcome.most_shed != tick::Shed::none;
   fmt::print("{} {:016x} {:016x}{}\n", name, row.hash, session->bone().content_hash(),
              lost ? " lost" : "");
 }

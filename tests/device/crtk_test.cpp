@@ -14,6 +14,7 @@
 #include "burr/device/crtk/leader.h"
 #include "burr/device/crtk/reading.h"
 #include "burr/haptics/contact.h"
+#include "burr/rt/flags.h"
 #include "device/fake/fake_crtk.h"
 #include "device/stand_in.h"
 #include "device/wild_forces.h"
@@ -314,7 +315,7 @@ TEST_F(LeaderTest, AStallOf50MsIsALostHandAndNotALostArm) {
   test::StandIn tick(*hand, [](const HandState&) { return Vec3(0, 0.04, 0); });
   ASSERT_TRUE(soon([&] { return arm.force().norm() > 0.03; }));
   arm.with([](Commands& w) { w.stall_ms = 50; });
-  EXPECT_TRUE(soon([&] { return (tick.flags() & haptics::kFlagHandLost) != 0; }));
+  EXPECT_TRUE(soon([&] { return (tick.flags() & rt::kFlagHandLost) != 0; }));
   EXPECT_TRUE(soon([&] { return tick.hand().valid && arm.force().norm() > 0.03; }));
   EXPECT_EQ(hand->returns(), 0);
 }

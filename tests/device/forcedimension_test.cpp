@@ -16,6 +16,7 @@
 
 #include "burr/device/forcedimension/omega.h"
 #include "burr/haptics/contact.h"
+#include "burr/rt/flags.h"
 #include "device/fake/fake_dhd.h"
 #include "device/stand_in.h"
 #include "support/rt_guard.h"
@@ -1021,9 +1022,9 @@ TEST_F(OmegaTest, AtAHundredHertzNothingIsPushed) {
   run(20, 1, 0);
   run(1000, 1, 2);
   EXPECT_NEAR(most, 2, 1e-9) << "at its own rate it pushes";
-  EXPECT_EQ(flags & haptics::kFlagHandLost, 0U);
+  EXPECT_EQ(flags & rt::kFlagHandLost, 0U);
   run(20, 10, 2);
-  EXPECT_NE(flags & haptics::kFlagHandLost, 0U);
+  EXPECT_NE(flags & rt::kFlagHandLost, 0U);
   most = 0;
   run(2000, 10, 2);
   EXPECT_EQ(most, 0);

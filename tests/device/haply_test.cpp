@@ -15,6 +15,7 @@
 #include "burr/device/haply/message.h"
 #include "burr/device/haply/web_socket.h"
 #include "burr/haptics/contact.h"
+#include "burr/rt/flags.h"
 #include "device/fake/fake_haply.h"
 #include "device/stand_in.h"
 #include "device/wild_forces.h"
@@ -301,7 +302,7 @@ TEST_F(InverseTest, AStallOf50MsIsALostHandAndNotALostService) {
   test::StandIn tick(*arm, [](const HandState&) { return Vec3(0, 0.04, 0); });
   ASSERT_TRUE(soon([&] { return asked().norm() > 0.03; }));
   service_.with([](Commands& w) { w.stall_ms = 50; });
-  EXPECT_TRUE(soon([&] { return (tick.flags() & haptics::kFlagHandLost) != 0; }));
+  EXPECT_TRUE(soon([&] { return (tick.flags() & rt::kFlagHandLost) != 0; }));
   EXPECT_TRUE(soon([&] { return tick.hand().valid && asked().norm() > 0.03; }));
   EXPECT_EQ(arm->returns(), 0);
 }
@@ -418,7 +419,7 @@ TEST_F(InverseTest, AtAHundredHertzNothingIsPushed) {
   test::StandIn tick(*arm, [](const HandState&) { return Vec3(0, 0.04, 0); });
   ASSERT_TRUE(soon([&] { return asked().norm() > 0.03; }));
   service_.with([](Commands& w) { w.pace_ms = 10; });
-  ASSERT_TRUE(soon([&] { return (tick.flags() & haptics::kFlagHandLost) != 0; }));
+  ASSERT_TRUE(soon([&] { return (tick.flags() & rt::kFlagHandLost) != 0; }));
   ASSERT_TRUE(soon([&] { return asked() == Vec3::Zero(); }));
   // a machine that stalls for long loses the service, which is asked by a tiny force then: again
   double most = 0;

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "burr/haptics/contact.h"
+#include "burr/rt/flags.h"
 #include "device/fake/fake_hd.h"
 #include "device/stand_in.h"
 #include "support/rt_guard.h"
@@ -435,7 +436,7 @@ TEST_F(TouchTest, AtAHundredHertzNothingIsPushed) {
   fake().hd->mutex.lock();
   fake().hd->rate = 100;
   fake().hd->mutex.unlock();
-  ASSERT_TRUE(test::soon([&] { return (tick.flags() & haptics::kFlagHandLost) != 0; }));
+  ASSERT_TRUE(test::soon([&] { return (tick.flags() & rt::kFlagHandLost) != 0; }));
   ASSERT_TRUE(test::soon([&] { return last_force() == Vec3::Zero(); }));
   const auto frames = frames_now();
   double most = 0;

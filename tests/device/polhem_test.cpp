@@ -13,6 +13,7 @@
 #include <string>
 
 #include "burr/haptics/contact.h"
+#include "burr/rt/flags.h"
 #include "device/fake/fake_polhem.h"
 #include "device/stand_in.h"
 #include "device/wild_forces.h"
@@ -206,7 +207,7 @@ TEST_F(PolhemTest, AStallOf50MsIsALostHandAndNotALostArm) {
   test::StandIn tick(*arm, [](const HandState&) { return Vec3(0, 0.04, 0); });
   ASSERT_TRUE(soon([&] { return arm_.force().norm() > 0.03; }));
   arm_.with([](Commands& w) { w.stall_ms = 50; });
-  EXPECT_TRUE(soon([&] { return (tick.flags() & haptics::kFlagHandLost) != 0; }));
+  EXPECT_TRUE(soon([&] { return (tick.flags() & rt::kFlagHandLost) != 0; }));
   EXPECT_TRUE(soon([&] { return tick.hand().valid && arm_.force().norm() > 0.03; }));
   EXPECT_EQ(arm->returns(), 0);
 }

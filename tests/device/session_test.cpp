@@ -12,6 +12,7 @@
 
 #include "burr/device/mapping.h"
 #include "burr/haptics/contact.h"
+#include "burr/rt/flags.h"
 #include "device/players/every.h"
 #include "device/slab.h"
 #include "device/stand_in.h"
@@ -117,10 +118,10 @@ TEST_P(WholeSession, PulledOutInContactTheSessionTellsAndGoesOnWhenItIsBack) {
   begin();
   ASSERT_TRUE(press());
   player_->unplug();
-  ASSERT_TRUE(raised(haptics::kFlagHandLost));
+  ASSERT_TRUE(raised(rt::kFlagHandLost));
   tick::FaultReport fault;
   ASSERT_TRUE(soon([&] { return session_->fault(fault); }));
-  EXPECT_TRUE((fault.flags & haptics::kFlagHandLost) != 0);
+  EXPECT_TRUE((fault.flags & rt::kFlagHandLost) != 0);
   EXPECT_EQ(fault.count, tick::FaultReport::kTicks);
   double pushed = 0;
   for (const tick::TickRow& one : fault.rows) pushed = std::max(pushed, one.contact.force.norm());
@@ -134,10 +135,10 @@ TEST_P(WholeSession, PulledOutInContactTheSessionTellsAndGoesOnWhenItIsBack) {
   player_->plug_in();
   ASSERT_TRUE(soon([&] { return row().hand.valid; }));
   ASSERT_TRUE(ticks(50));
-  EXPECT_TRUE((row().contact.flags & haptics::kFlagWaiting) != 0) << "it is still in the bone";
+  EXPECT_TRUE((row().contact.flags & rt::kFlagWaiting) != 0) << "it is still in the bone";
   for (const test::Felt& one : player_->felt()) ASSERT_LE(one.force.norm(), kUnfelt);
   go(4);
-  ASSERT_TRUE(raised(haptics::kFlagRamp));
+  ASSERT_TRUE(raised(rt::kFlagRamp));
   EXPECT_TRUE(soon([&] { return session_->hand().trouble().empty(); }));
   go(-6.5);
   EXPECT_TRUE(soon([&] { return player_->force().y() > 0.3; })) << "it pushes again";
@@ -209,7 +210,7 @@ TEST_P(WholeSession, NothingPassesTheDevicesLimit) {
   go(-11);
   ASSERT_TRUE(soon([&] { return player_->force().y() > 0.99 * player_->limit(); }))
       << player_->force().transpose();
-  EXPECT_TRUE(raised(haptics::kFlagForceLimited));
+  EXPECT_TRUE(raised(rt::kFlagForceLimited));
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, WholeSession, test::every_driver(), test::name_of);

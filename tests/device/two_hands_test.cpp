@@ -8,6 +8,7 @@
 #include "burr/device/mapping.h"
 #include "burr/device/openhaptics/touch.h"
 #include "burr/haptics/contact.h"
+#include "burr/rt/flags.h"
 #include "burr/sim/session.h"
 #include "device/fake/fake_hd.h"
 #include "device/slab.h"
@@ -111,13 +112,13 @@ TEST_F(TwoHands, TheLossOfOneIsNotTheOthers) {
     const std::lock_guard lock(hd_->mutex);
     hd_->touch[1].present = false;
   }
-  ASSERT_TRUE(soon([&] { return (second().contact.flags & haptics::kFlagHandLost) != 0; }));
+  ASSERT_TRUE(soon([&] { return (second().contact.flags & rt::kFlagHandLost) != 0; }));
   EXPECT_TRUE(soon([&] { return second().contact.force == Vec3::Zero(); }));
-  EXPECT_EQ(first().contact.flags & haptics::kFlagHandLost, 0U);
+  EXPECT_EQ(first().contact.flags & rt::kFlagHandLost, 0U);
   EXPECT_TRUE(soon([&] { return up(0) > 0.5; })) << "a frame begins with none";
   auto report = std::make_unique<tick::FaultReport>();
   EXPECT_TRUE(soon([&] { return session_->second_hand()->faults().take(*report); }));
-  EXPECT_NE(report->flags & haptics::kFlagHandLost, 0U);
+  EXPECT_NE(report->flags & rt::kFlagHandLost, 0U);
   EXPECT_FALSE(session_->fault(*report));
 }
 

@@ -11,13 +11,14 @@
 #include <sstream>
 
 #include "burr/haptics/contact.h"
+#include "burr/rt/flags.h"
 
 namespace burr::app {
 namespace {
 
 TEST(FaultFile, SaysWhatHappenedAndHoldsEveryTick) {
   auto report = std::make_unique<tick::FaultReport>();
-  report->flags = haptics::kFlagHandLost;
+  report->flags = rt::kFlagHandLost;
   report->count = 200;
   for (int n = 0; n < 200; ++n) {
     tick::TickRow& row = report->rows[static_cast<std::size_t>(n)];

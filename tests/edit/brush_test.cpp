@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "burr/base/progress.h"
+#include "burr/edit/carve.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "burr/volume/sample.h"
@@ -31,8 +32,9 @@ struct Work {
         surface(*bone, {}, 1, quiet),
         undo(*bone, 4096),
         changed(*bone),
-        carver(*bone, surface, undo, &changed, {}),
-        brush(*bone, undo, carver) {}
+        writer(*bone, surface, undo, &changed),
+        carver(writer, {}),
+        brush(writer) {}
 
   [[nodiscard]] Vec3 grid(const Vec3& world) const { return bone->grid().grid_from_world(world); }
   void cut(const Vec3& c, double energy = 4e-2) {
@@ -67,6 +69,7 @@ struct Work {
   volume::IsoVertices surface;
   UndoStore undo;
   ChangedQueue changed;
+  BoneWriter writer;
   Carver carver;
   Brush brush;
   std::uint32_t flags = 0;
@@ -111,11 +114,11 @@ TEST(BackToTheOriginal, BrushedAllOverItIsTheOriginalToTheByteTissueAndAll) {
   // and that is a stroke like any other
   UndoStore::Range range = work.undo.undo();
   for (std::uint64_t n = 0; n < range.count; ++n)
-    work.carver.swap(work.undo.entry(range.first + n));
+    work.writer.swap(work.undo.entry(range.first + n));
   EXPECT_EQ(work.bone->content_hash(), spoilt);
   range = work.undo.redo();
   for (std::uint64_t n = 0; n < range.count; ++n)
-    work.carver.swap(work.undo.entry(range.first + n));
+    work.writer.swap(work.undo.entry(range.first + n));
   EXPECT_EQ(work.bone->content_hash(), hash);
 }
 
@@ -338,7 +341,7 @@ TEST(Smooth, IsUndoneTakesNeitherMemoryNorLockAndStaysInItsBall) {
         }
   const UndoStore::Range range = work.undo.undo();
   for (std::uint64_t n = 0; n < range.count; ++n)
-    work.carver.swap(work.undo.entry(range.first + n));
+    work.writer.swap(work.undo.entry(range.first + n));
   EXPECT_EQ(work.bone->content_hash(), hash);
 }
 

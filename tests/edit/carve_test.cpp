@@ -31,13 +31,13 @@ struct Work {
         surface(*bone, {}, 1, quiet),
         undo(*bone, 4096),
         changed(*bone),
-        carver(*bone, surface, undo, &changed,
-               {.advance_m = 0,
-                .advance_least = 0,
-                .margin_m = 0,
-                .margin_least = 0,
-                .margin_most = 0,
-                .patience = 1e3}) {
+        writer(*bone, surface, undo, &changed),
+        carver(writer, {.advance_m = 0,
+                        .advance_least = 0,
+                        .margin_m = 0,
+                        .margin_least = 0,
+                        .margin_most = 0,
+                        .patience = 1e3}) {
     undo.begin_stroke(0);
   }
   // Everything inside a ball at c (world) goes, whatever it costs.
@@ -56,6 +56,7 @@ struct Work {
   volume::IsoVertices surface;
   UndoStore undo;
   ChangedQueue changed;
+  BoneWriter writer;
   Carver carver;
 };
 
@@ -177,7 +178,8 @@ TEST(Carver, HardTissueGivesLessForTheSameWork) {
     volume::IsoVertices surface(*bone, {}, 1, quiet);
     UndoStore undo(*bone, 1024);
     undo.begin_stroke(0);
-    Carver carver(*bone, surface, undo, nullptr, {});
+    BoneWriter writer(*bone, surface, undo, nullptr);
+    Carver carver(writer, {});
     std::uint32_t flags = 0;
     for (int n = 0; n < 100; ++n)
       carver.carve({.centre = grid.grid_from_world({0, 0, 1.5 * kMm}),
@@ -191,7 +193,8 @@ TEST(Carver, HardTissueGivesLessForTheSameWork) {
 
 TEST(Carver, ABlockedBurrDoesNotSaveUp) {
   Work work(phantom::slab(), 0.25);
-  Carver carver(*work.bone, work.surface, work.undo, nullptr, {});
+  BoneWriter writer(*work.bone, work.surface, work.undo, nullptr);
+  Carver carver(writer, {});
   std::uint32_t flags = 0;
   const Cut far{.centre = work.bone->grid().grid_from_world({0, 0, 4 * kMm}),
                 .push = {0, 0, -1},
@@ -239,7 +242,7 @@ TEST(UndoStore, BringsBackToTheBitAndForthAgain) {
 
   const auto swap_all = [&](UndoStore::Range range) {
     for (std::uint64_t n = 0; n < range.count; ++n)
-      work.carver.swap(work.undo.entry(range.first + n));
+      work.writer.swap(work.undo.entry(range.first + n));
   };
   ASSERT_TRUE(work.undo.can_undo());
   swap_all(work.undo.undo());
@@ -259,15 +262,15 @@ TEST(UndoStore, BringsBackToTheBitAndForthAgain) {
   EXPECT_FALSE(work.undo.can_redo());
   swap_all(work.undo.undo());
   EXPECT_EQ(work.bone->content_hash(), one);
-  for (std::size_t n = 0; n < work.undo.touched(); ++n) work.carver.restore(work.undo.original(n));
+  for (std::size_t n = 0; n < work.undo.touched(); ++n) work.writer.restore(work.undo.original(n));
   EXPECT_EQ(work.bone->content_hash(), start) << "reset";
 }
 
 TEST(UndoStore, ForgetsTheOldestWhenFullAndSaysSo) {
   Work work(phantom::slab(), 0.25);
   UndoStore small(*work.bone, 64);
-  Carver carver(*work.bone, work.surface, small, nullptr,
-                {.advance_m = 0, .advance_least = 0, .margin_m = 0, .margin_least = 0});
+  BoneWriter writer(*work.bone, work.surface, small, nullptr);
+  Carver carver(writer, {.advance_m = 0, .advance_least = 0, .margin_m = 0, .margin_least = 0});
   const std::uint64_t start = work.bone->content_hash();
   std::uint32_t flags = 0;
   for (int n = 0; n < 12; ++n) {
@@ -283,12 +286,12 @@ TEST(UndoStore, ForgetsTheOldestWhenFullAndSaysSo) {
   int strokes = 0;
   for (; small.can_undo(); ++strokes) {
     const UndoStore::Range range = small.undo();
-    for (std::uint64_t n = 0; n < range.count; ++n) carver.swap(small.entry(range.first + n));
+    for (std::uint64_t n = 0; n < range.count; ++n) writer.swap(small.entry(range.first + n));
   }
   EXPECT_GT(strokes, 0);
   EXPECT_LT(strokes, 12);
   EXPECT_NE(work.bone->content_hash(), start);
-  for (std::size_t n = 0; n < small.touched(); ++n) carver.restore(small.original(n));
+  for (std::size_t n = 0; n < small.touched(); ++n) writer.restore(small.original(n));
   EXPECT_EQ(work.bone->content_hash(), start) << "the start is never forgotten";
 }
 
@@ -311,7 +314,7 @@ TEST(Carver, TakesNeitherMemoryNorLock) {
       work.undo.end_stroke();
       const UndoStore::Range range = work.undo.undo();
       for (std::uint64_t e = 0; e < range.count; ++e)
-        work.carver.swap(work.undo.entry(range.first + e));
+        work.writer.swap(work.undo.entry(range.first + e));
       work.undo.begin_stroke(0);
     }
   }

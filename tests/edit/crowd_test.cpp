@@ -8,6 +8,7 @@
 #include "burr/haptics/contact.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
+#include "burr/rt/flags.h"
 #include "burr/volume/volume_of.h"
 
 namespace burr::edit {
@@ -24,12 +25,12 @@ struct Crowd {
             phantom::slab({0, 0, 1}, {0, 0, 20 * kMm}))),
         surface(*bone, {}, 1, quiet),
         undo(*bone, 8192),
-        carver(*bone, surface, undo, nullptr,
-               {.advance_m = 0,
-                .advance_least = 0,
-                .margin_m = 0,
-                .margin_least = 0,
-                .margin_most = 0}) {
+        writer(*bone, surface, undo, nullptr),
+        carver(writer, {.advance_m = 0,
+                        .advance_least = 0,
+                        .margin_m = 0,
+                        .margin_least = 0,
+                        .margin_most = 0}) {
     undo.begin_stroke(0);
     cut.centre = bone->grid().grid_from_world({0.03 * kMm, -0.02 * kMm, 0.01 * kMm});
     cut.push = Vec3(0, 0, -1);
@@ -49,6 +50,7 @@ struct Crowd {
   std::unique_ptr<volume::Bone> bone;
   volume::IsoVertices surface;
   UndoStore undo;
+  BoneWriter writer;
   Carver carver;
   Cut cut;
 };
@@ -63,7 +65,7 @@ TEST(Crowd, BricksThatAreTooManyForATickAreCutInTurnsAndEvenly) {
     std::uint32_t flags = 0;
     crowd.carver.carve(crowd.cut, flags);
     EXPECT_LE(crowd.carver.bricks_last(), kMostBricks);
-    turned += (flags & haptics::kFlagPutOff) != 0 ? 1 : 0;
+    turned += (flags & rt::kFlagPutOff) != 0 ? 1 : 0;
     const Ledger ledger = crowd.carver.ledger();
     EXPECT_NEAR(ledger.asked, ledger.removed + ledger.debt + ledger.not_cut, 1e-6 * ledger.asked);
   }
@@ -80,13 +82,13 @@ TEST(Crowd, TurnsEndWhenTheBurrStandsInFewAgain) {
   crowd.cut.energy = 1;
   std::uint32_t flags = 0;
   for (int n = 0; n < 10; ++n) crowd.carver.carve(crowd.cut, flags);
-  EXPECT_NE(flags & haptics::kFlagPutOff, 0U);
+  EXPECT_NE(flags & rt::kFlagPutOff, 0U);
   crowd.cut.radius = 10;
   crowd.cut.centre += Vec3(0, 0, 40);
   for (int n = 0; n < 10; ++n) crowd.carver.carve(crowd.cut, flags);
   flags = 0;
   crowd.carver.carve(crowd.cut, flags);
-  EXPECT_EQ(flags & haptics::kFlagPutOff, 0U);
+  EXPECT_EQ(flags & rt::kFlagPutOff, 0U);
 }
 
 }  // namespace

@@ -12,6 +12,8 @@
 #include "burr/base/hash.h"
 #include "burr/base/progress.h"
 #include "burr/edit/brush.h"
+#include "burr/edit/carve.h"
+#include "burr/edit/laws/thesis.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "burr/volume/volume_of.h"
@@ -68,8 +70,9 @@ struct Work {
         surface(*bone, {}, 1, quiet),
         undo(*bone, 4096),
         changed(*bone),
-        carver(*bone, surface, undo, &changed, settings),
-        brush(*bone, undo, carver) {
+        writer(*bone, surface, undo, &changed),
+        carver(writer, settings),
+        brush(writer) {
     undo.begin_stroke(0);
   }
   [[nodiscard]] double volume() const { return volume::volume_of(*bone); }
@@ -108,7 +111,7 @@ struct Work {
     cut.push = Vec3(0.1, 0.2, -1).normalized();
     cut.radius = 6;
     cut.mirror = mirror;
-    carver.lower(cut, 700, flags);
+    edit::lower(carver, cut, 700, flags);
     surface.refresh();
   }
   void add(const Vec3& at, int slices = 1) {
@@ -145,6 +148,7 @@ struct Work {
   volume::IsoVertices surface;
   UndoStore undo;
   ChangedQueue changed;
+  BoneWriter writer;
   Carver carver;
   Brush brush;
   std::uint32_t flags = 0;
@@ -253,7 +257,7 @@ TEST_P(InAMirror, ATangleOfEqualNeighboursIsSmoothedLikewise) {
           static_cast<volume::Field>(std::min<std::uint64_t>(hash % 9 * 8192, 65535));
       content.tissue[v] = static_cast<volume::TissueId>(hash >> 20 & 3);
     }
-    work.carver.rewrite(content, work.flags);
+    work.writer.rewrite(content, work.flags);
   }
   ASSERT_EQ(work.odd(), "");
   for (int n = 0; n < 30; ++n) {
@@ -369,12 +373,12 @@ TEST(Mirror, OneStrokeTakesBothSidesBackAndBringsThemAgain) {
   ASSERT_NE(cut, start);
   UndoStore::Range range = work.undo.undo();
   for (std::uint64_t n = 0; n < range.count; ++n)
-    work.carver.swap(work.undo.entry(range.first + n));
+    work.writer.swap(work.undo.entry(range.first + n));
   EXPECT_EQ(work.bone->content_hash(), start);
   EXPECT_FALSE(work.undo.can_undo()) << "it is one stroke";
   range = work.undo.redo();
   for (std::uint64_t n = 0; n < range.count; ++n)
-    work.carver.swap(work.undo.entry(range.first + n));
+    work.writer.swap(work.undo.entry(range.first + n));
   EXPECT_EQ(work.bone->content_hash(), cut);
 }
 

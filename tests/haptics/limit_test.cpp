@@ -11,6 +11,7 @@
 
 #include "burr/haptics/contact.h"
 #include "burr/haptics/safety/watchdog.h"
+#include "burr/rt/flags.h"
 
 namespace burr::haptics {
 namespace {
@@ -33,7 +34,7 @@ TEST(ForceLimit, WaitsForASmallForceAndThenRampsUp) {
   ForceLimit limit(touch(), {});
   std::uint32_t flags = 0;
   for (int n = 0; n < 100; ++n) EXPECT_EQ(limit.apply({0, 0, 2}, kTick, flags), Vec3::Zero());
-  EXPECT_TRUE(flags & kFlagWaiting);
+  EXPECT_TRUE(flags & rt::kFlagWaiting);
   EXPECT_FALSE(limit.engaged());
   EXPECT_EQ(limit.apply({0, 0, 0.04}, kTick, flags), Vec3::Zero());
   EXPECT_TRUE(limit.engaged());
@@ -54,7 +55,7 @@ TEST(ForceLimit, ShortensToTheDeviceAndTheUserWithTheDirectionKept) {
     for (int n = 0; n < 200; ++n) force = limit.apply({6, 0, 8}, kTick, flags);
     EXPECT_NEAR(force.norm(), std::min(3.3, user), 1e-12);
     EXPECT_NEAR(force.x() / force.z(), 0.75, 1e-12);
-    EXPECT_TRUE(flags & kFlagForceLimited);
+    EXPECT_TRUE(flags & rt::kFlagForceLimited);
   }
 }
 
@@ -88,7 +89,7 @@ TEST(ForceLimit, NotANumberFadesWithinFiveMillisecondsAndTheWayBackIsTheRamp) {
       last = force.norm();
       ASSERT_LE(++ticks, static_cast<int>(rate * 5e-3 + 1e-9));
     }
-    EXPECT_TRUE(flags & kFlagNotFinite);
+    EXPECT_TRUE(flags & rt::kFlagNotFinite);
     EXPECT_EQ(limit.apply({0, 0, 3}, 1 / rate, flags), Vec3::Zero());
     (void)limit.apply(Vec3::Zero(), 1 / rate, flags);
     EXPECT_LE(limit.apply({0, 0, 3}, 1 / rate, flags).norm(), 60 / rate + 1e-12);
@@ -104,7 +105,7 @@ TEST(ForceLimit, DoesNotBelieveALostHandANaNOrALeap) {
   EXPECT_TRUE(limit.believe(hand, flags));
   hand.world_from_tool.p.x() = 0.040;
   EXPECT_FALSE(limit.believe(hand, flags));
-  EXPECT_TRUE(flags & kFlagJump);
+  EXPECT_TRUE(flags & rt::kFlagJump);
   EXPECT_TRUE(limit.believe(hand, flags)) << "after a fault the next reading is a beginning";
   hand.world_from_tool.p.y() = kNaN;
   EXPECT_FALSE(limit.believe(hand, flags));
@@ -114,12 +115,12 @@ TEST(ForceLimit, DoesNotBelieveALostHandANaNOrALeap) {
     hand.world_from_tool.p.z() = far;
     flags = 0;
     EXPECT_FALSE(limit.believe(hand, flags)) << far;
-    EXPECT_TRUE(flags & kFlagNotFinite) << far;
+    EXPECT_TRUE(flags & rt::kFlagNotFinite) << far;
   }
   hand = {};
   hand.valid = false;
   EXPECT_FALSE(limit.believe(hand, flags));
-  EXPECT_TRUE(flags & kFlagHandLost);
+  EXPECT_TRUE(flags & rt::kFlagHandLost);
 }
 
 TEST(ForceLimit, WarmMotorsGetTheContinuousForceWithoutAStep) {
@@ -132,7 +133,7 @@ TEST(ForceLimit, WarmMotorsGetTheContinuousForceWithoutAStep) {
     last = now;
   }
   EXPECT_NEAR(last, 0.88, 0.1);
-  EXPECT_TRUE(flags & kFlagThermal);
+  EXPECT_TRUE(flags & rt::kFlagThermal);
   EXPECT_LT(biggest_drop, 0.05);
   EXPECT_LE(limit.heat(), touch().thermal_budget * 1.01);
 }
@@ -230,7 +231,7 @@ TEST(TorqueLimit, FadesAndComesBackWithTheForce) {
     std::vector<double> left;
     left.push_back(of_torque ? tick(2, no) : tick(no, 0.1));
     for (int n = 0; n < 6; ++n) left.push_back(tick(2, 0.1));
-    EXPECT_TRUE(flags & kFlagNotFinite);
+    EXPECT_TRUE(flags & rt::kFlagNotFinite);
     // linearly, from the tick of the fault or the one after it
     double is = of_torque ? 0.1 : 0.08;
     for (const double now : left) {
@@ -249,7 +250,7 @@ TEST(TorqueLimit, WhatCannotTurnTheHandIsNotAskedTo) {
   std::uint32_t flags = 0;
   EXPECT_EQ(limit.apply_torque({1, 2, 3}, kTick, flags), Vec3::Zero());
   EXPECT_EQ(limit.apply_torque({kNaN, 2, 3}, kTick, flags), Vec3::Zero());
-  EXPECT_EQ(flags & kFlagNotFinite, 0U);
+  EXPECT_EQ(flags & rt::kFlagNotFinite, 0U);
 }
 
 }  // namespace

@@ -9,8 +9,10 @@
 #include "burr/device/simulated_hand.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
+#include "burr/rt/flags.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
+#include "burr/tick/flag_words.h"
 #include "burr/volume/volume_of.h"
 
 namespace burr::tick {
@@ -182,13 +184,13 @@ TEST(Spindle, GivesWayAndStallsUnderTheHandAndTheSessionSaysSo) {
   EXPECT_NEAR(row.cutting_nm, 0.8e-3, 0.03e-3);
   EXPECT_NEAR(row.spindle_rad_s / settings.servo.spindle_rad_s, 1 - 0.1 * 0.1, 0.003);
   EXPECT_NEAR(row.cutting_w, row.cutting_nm * row.spindle_rad_s, 0.02 * row.cutting_w);
-  EXPECT_EQ(turning->outcome().flags & haptics::kFlagStalled, 0U);
+  EXPECT_EQ(turning->outcome().flags & rt::kFlagStalled, 0U);
 
   settings.servo.motor.torque = 0.4e-3;
   const auto stalled = session(settings, slab());
   stalled->run(3, quiet);
   static_cast<void>(stalled->view(row));
-  EXPECT_NE(stalled->outcome().flags & haptics::kFlagStalled, 0U);
+  EXPECT_NE(stalled->outcome().flags & rt::kFlagStalled, 0U);
   EXPECT_EQ(row.spindle_rad_s, 0);
   EXPECT_EQ(row.cutting_w, 0);
   ASSERT_FALSE(words(worth_telling(stalled->outcome().flags)).empty());

@@ -16,6 +16,7 @@
 #include "burr/haptics/contact.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
+#include "burr/rt/flags.h"
 #include "burr/sim/session.h"
 #include "support/rt_guard.h"
 
@@ -208,7 +209,7 @@ TEST(SecondHand, LostItFadesInFiveTicksIsKeptAndComesBackByTheRamp) {
   }
   bench.tick();
   ASSERT_TRUE(bench.session->second_hand()->faults().take(*report));
-  EXPECT_EQ(report->flags, haptics::kFlagHandLost);
+  EXPECT_EQ(report->flags, rt::kFlagHandLost);
   EXPECT_EQ(report->count, FaultReport::kTicks);
   EXPECT_NEAR(report->rows[100].contact.force.norm(), force, 1e-9);
   for (std::size_t n = 1; n < FaultReport::kTicks; ++n)
@@ -238,7 +239,7 @@ TEST(SecondHand, TicksThatWereLostLetItGoToo) {
   ASSERT_GT(bench.log.force.norm(), 1);
   bench.tick(true);
   EXPECT_EQ(bench.log.force, Vec3::Zero()) << "the watchdog has faded it at the device";
-  EXPECT_NE(bench.second().contact.flags & haptics::kFlagWatchdog, 0U);
+  EXPECT_NE(bench.second().contact.flags & rt::kFlagWatchdog, 0U);
 }
 
 // Bone comes back where the tube is: it is let go and takes part again from free air.
@@ -355,8 +356,8 @@ TEST(SecondHand, IsHeldBackByTheGuardWhileTheTickStands) {
   EXPECT_EQ(log.held_least, 0);
   auto report = std::make_unique<FaultReport>();
   ASSERT_TRUE((*made)->second_hand()->faults().take(*report));
-  EXPECT_NE(report->flags & haptics::kFlagWatchdog, 0U);
-  EXPECT_NE((*made)->outcome().flags & haptics::kFlagWatchdog, 0U);
+  EXPECT_NE(report->flags & rt::kFlagWatchdog, 0U);
+  EXPECT_NE((*made)->outcome().flags & rt::kFlagWatchdog, 0U);
 }
 
 TEST(SecondHand, GoesWithTheSessionAndIsLetGoWithIt) {

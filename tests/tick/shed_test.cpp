@@ -20,6 +20,7 @@
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
 #include "burr/rt/clock.h"
+#include "burr/rt/flags.h"
 #include "burr/sim/replay.h"
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
@@ -237,7 +238,7 @@ TEST(Overload, AMachineTooSlowPutsOffPictureMeshAndRemovalAndTheTouchLast) {
       ASSERT_EQ(governor.shed(), Shed::none);
     }
     if (n >= kTicks - 1000) missed_late += time.missed;
-    EXPECT_EQ((row.contact.flags & haptics::kFlagPutOff) != 0, servo.shed() >= Shed::removal_2);
+    EXPECT_EQ((row.contact.flags & rt::kFlagPutOff) != 0, servo.shed() >= Shed::removal_2);
   }
   watch.end();
   // each step up is to the next one

@@ -12,6 +12,7 @@
 #include "burr/haptics/contact.h"
 #include "burr/render/pick.h"
 #include "burr/render/stereo.h"
+#include "burr/rt/flags.h"
 #include "render/openxr/worn.h"
 #include "window/user.h"
 
@@ -266,7 +267,7 @@ TEST_F(Headset, WandIsTheHandThroughTheSafetyLayerUntilTheRuntimeGoes) {
               worn.change(
                   [](FakeXr& xr) { xr.wand.position.y = std::numeric_limits<float>::quiet_NaN(); });
             }},
-           {"a pose that is none, told by the safety layer", is_told(haptics::kFlagNotFinite),
+           {"a pose that is none, told by the safety layer", is_told(rt::kFlagNotFinite),
             [&] { gone = removed(); }},
            {"nothing moves", looks(20),
             [&] {
@@ -280,7 +281,7 @@ TEST_F(Headset, WandIsTheHandThroughTheSafetyLayerUntilTheRuntimeGoes) {
               told = 0;
               worn.change([](FakeXr& xr) { xr.wand_tracked = false; });
             }},
-           {"tracking lost, told by the safety layer", is_told(haptics::kFlagHandLost),
+           {"tracking lost, told by the safety layer", is_told(rt::kFlagHandLost),
             [&] {
               EXPECT_LT((burr() - place).norm(), 1e-3);
               put_wand(place + math::Vec3(0.02, 0, 0));

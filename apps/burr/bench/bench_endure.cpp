@@ -19,6 +19,7 @@
 #include "bench/full_load_run.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/rt/idle_loop.h"
+#include "burr/tick/flag_words.h"
 
 namespace burr::app {
 namespace {

@@ -120,7 +120,8 @@ Status bench_carve(const Options& options) {
   rt::ChangedBits& changed = bone->add_watcher();
   volume::IsoVertices vertices(*bone, {}, 2, progress());
   edit::UndoStore undo(*bone, 4096);
-  edit::Carver carver(*bone, vertices, undo, nullptr, {});
+  edit::BoneWriter writer(*bone, vertices, undo, nullptr);
+  edit::Carver carver(writer, {});
   surface::Mesher mesher(*bone);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(-1, 1);

@@ -14,6 +14,7 @@
 #include "burr/render/picture.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
+#include "burr/tick/flag_words.h"
 #include "burr/tick/mirror_plane.h"
 #include "commands/command.h"
 #include "workshop/recording.h"

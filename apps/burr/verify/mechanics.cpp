@@ -5,6 +5,7 @@
 #include "burr/device/simulated_hand.h"
 #include "burr/edit/laws/chips.h"
 #include "burr/phantom/build.h"
+#include "burr/rt/flags.h"
 #include "burr/sim/session.h"
 #include "verify.h"
 
@@ -164,8 +165,7 @@ void spindle(const Verify& verify, Report::Part& part) {
     theory.y.push_back(expected / full);
     if (newton == 3.0)
       part.at_least("spindle.stalls_and_says_so", 1,
-                    (out.flags & haptics::kFlagStalled) != 0 && out.last.spindle_rad_s == 0 ? 1 : 0,
-                    "");
+                    (out.flags & rt::kFlagStalled) != 0 && out.last.spindle_rad_s == 0 ? 1 : 0, "");
   }
   part.at_most("spindle.droop", 0.005, worst, "of full speed");
   part.plot(

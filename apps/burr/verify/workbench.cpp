@@ -18,7 +18,8 @@ Workbench::Workbench(std::unique_ptr<volume::Bone> bone, const WorkSettings& set
       bone_(std::move(bone)),
       surface_(*bone_, {}, 2, quiet_),
       undo_(*bone_, 64),
-      carver_(*bone_, surface_, undo_, nullptr, {}),
+      writer_(*bone_, surface_, undo_, nullptr),
+      carver_(writer_, {}),
       touch_by_(surface_, {.radius = settings.radius, .recovery = 5 / settings.rate_hz},
                 settings.touch) {}
 

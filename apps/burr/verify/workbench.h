@@ -59,6 +59,7 @@ class Workbench {
   std::unique_ptr<volume::Bone> bone_;
   volume::IsoVertices surface_;
   edit::UndoStore undo_;
+  edit::BoneWriter writer_;
   edit::Carver carver_;
   tick::TouchMethods touch_by_;
   std::uint64_t tick_ = 0;

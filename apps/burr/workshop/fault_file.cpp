@@ -10,6 +10,7 @@
 
 #include "burr/base/new_file.h"
 #include "burr/base/version.h"
+#include "burr/tick/flag_words.h"
 
 namespace burr::app {
 namespace {
@@ -37,9 +38,8 @@ std::string fault_text(const tick::FaultReport& report, const device::DeviceSpec
   for (const std::string& sentence : tick::words(report.flags))
     text += "# " + one_line(sentence) + "\n";
   if (!trouble.empty()) text += "# the device says: " + one_line(trouble) + "\n";
-  text += fmt::format(
-      "# the last {} ticks, {:g} a second, oldest first; flags as in haptics/contact.h\n",
-      report.count, rate_hz);
+  text += fmt::format("# the last {} ticks, {:g} a second, oldest first; flags as in rt/flags.h\n",
+                      report.count, rate_hz);
   text +=
       "tick,valid,hand_x_mm,hand_y_mm,hand_z_mm,velocity_x_mm_s,velocity_y_mm_s,velocity_z_mm_s,"
       "proxy_x_mm,proxy_y_mm,proxy_z_mm,force_x_n,force_y_n,force_z_n,torque_x_nm,torque_y_nm,"

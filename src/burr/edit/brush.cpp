@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "burr/rt/flags.h"
+
 namespace burr::edit {
 namespace {
 
@@ -13,8 +15,7 @@ using volume::Field;
 using volume::kBrickEdge;
 using volume::kBrickVoxels;
 
-constexpr std::uint32_t kPutOff = 1U << 15;  // of haptics/contact.h, as in carve.cpp
-constexpr int kMostSlices = Carver::kMostSlices;
+constexpr int kMostSlices = 64;    // as the carver
 constexpr int kRounding = 8;       // of a second difference: three of them, of rounded values
 constexpr int kMayDiffer = 4096;   // a quarter of a voxel
 constexpr int kLeastSlope = 4096;  // of a ramp along its steepest axis, a voxel  [field units]
@@ -186,7 +187,7 @@ void Brush::begin(int least_slices, std::uint32_t& flags) BURR_RT {
   while (slices < kMostSlices && found_ > slices * kUsualBricks) slices *= 2;
   if (slices != slices_) slice_ = 0;
   slices_ = slices;
-  if (least_slices > 1) flags |= kPutOff;
+  if (least_slices > 1) flags |= rt::kFlagPutOff;
   slice_ = (slice_ + 1) % slices_;
   found_ = worked_ = 0;
   crowded_ = false;
@@ -220,7 +221,7 @@ void Brush::find(const Sides& sides, int side, double reach, const Wants& wants)
 void Brush::end_finding(const Mirror& mirror, std::uint32_t& flags) BURR_RT {
   if (!mirror.on() || !crowded_) return;
   worked_ = 0;
-  flags |= kPutOff;
+  flags |= rt::kFlagPutOff;
 }
 
 int Brush::units_a_tick(const Brushing& now) const BURR_RT {
@@ -256,7 +257,7 @@ void Brush::restore(const Brushing& now, std::uint32_t& flags) BURR_RT {
     std::memcpy(content.tissue, bone_.brick_tissue(patch.brick), sizeof content.tissue);
     if (go_back(*undo_.original_of(patch.brick), ball, static_cast<float>(now.radius - kInto), most,
                 half.mirror.axis, patch.layers, content))
-      carver_.rewrite(content, flags);
+      writer_.rewrite(content, flags);
   }
 }
 
@@ -380,7 +381,7 @@ void Brush::smooth(const Brushing& now, std::uint32_t& flags) BURR_RT {
     Patch& patch = patches_[static_cast<std::size_t>(n)];
     if (patch.content.brick == volume::kNoBrick) continue;
     keep_other_layers(bone_, sides.half[patch.side].mirror.axis, patch.layers, patch.content);
-    carver_.rewrite(patch.content, flags);
+    writer_.rewrite(patch.content, flags);
   }
 }
 

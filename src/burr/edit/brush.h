@@ -29,7 +29,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "burr/edit/carve.h"
+#include "burr/edit/bone_writer.h"
 #include "burr/edit/mirror.h"
 #include "burr/edit/undo.h"
 #include "burr/math/vec3.h"
@@ -59,10 +59,10 @@ class Brush {
   static constexpr double kShare = 0.8;    // of the ball that is smoothed, over the burr's radius
   static constexpr int kMostBricks = 48;
 
-  Brush(volume::Bone& bone, const UndoStore& undo, Carver& carver)
-      : bone_(bone), undo_(undo), carver_(carver), patches_(2 * kMostBricks) {}
+  explicit Brush(BoneWriter& writer)
+      : writer_(writer), bone_(writer.bone()), undo_(writer.undo()), patches_(2 * kMostBricks) {}
 
-  // Adds to `flags` (haptics/contact.h bits: reserve, undo full, put off).
+  // Adds to `flags` (rt/flags.h bits: reserve, undo full, put off).
   void restore(const Brushing& now, std::uint32_t& flags) BURR_RT;
   void smooth(const Brushing& now, std::uint32_t& flags) BURR_RT;
 
@@ -102,9 +102,9 @@ class Brush {
   void end_finding(const Mirror& mirror, std::uint32_t& flags) BURR_RT;
   [[nodiscard]] int units_a_tick(const Brushing& now) const BURR_RT;
 
-  volume::Bone& bone_;
+  BoneWriter& writer_;
+  const volume::Bone& bone_;
   const UndoStore& undo_;
-  Carver& carver_;
   std::vector<Patch> patches_;
   int found_ = 0;               // bricks that wanted something in the last tick
   int worked_ = 0;              // of them worked on

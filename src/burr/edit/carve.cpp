@@ -4,10 +4,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "burr/base/check.h"
 #include "burr/math/sums.h"
+#include "burr/rt/flags.h"
 #include "burr/rt/simd.h"
 #include "burr/volume/volume_of.h"
 
@@ -20,16 +20,10 @@ using volume::BrickIndex;
 using volume::kBrickEdge;
 using volume::kBrickVoxels;
 
-constexpr std::size_t kMostWork = 1024;  // bricks a side in one tick: 7 mm at 0.1 mm takes 400
 // Bricks in one tick from which on they are cut in slices though nobody is in a hurry: each of so
 // many loses a hair a tick, and costs as much as if it lost four.
 constexpr double kManyBricks = 72;
-constexpr int kUsualTurns = 4;  // at most
-constexpr std::uint8_t kMixed = 255;
-
-// bits of haptics/contact.h; edit may not include haptics, tick/servo.cpp asserts that they agree
-constexpr std::uint32_t kReserve = 1U << 10, kUndoFull = 1U << 11, kNotCut = 1U << 14,
-                        kPutOff = 1U << 15;
+constexpr int kUsualSlices = 4;  // at most
 
 using Layers = std::array<unsigned, 3>;
 constexpr Layers kWholeBrick = {kAllLayers, kAllLayers, kAllLayers};
@@ -82,41 +76,22 @@ CarveKernel carve_kernel() noexcept {
   return {scalar::find_excess, scalar::apply_excess};
 }
 
-Carver::Carver(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo,
-               ChangedQueue* changed, const CarveSettings& settings)
-    : bone_(bone),
-      surface_(surface),
-      undo_(undo),
-      changed_(changed),
+Carver::Carver(BoneWriter& writer, const CarveSettings& settings)
+    : writer_(writer),
+      bone_(writer.bone()),
+      account_(writer.account()),
       settings_(settings),
       kernel_(carve_kernel()),
-      highest_(static_cast<std::size_t>(bone.brick_count())),
-      uniform_(static_cast<std::size_t>(bone.brick_count()), std::uint8_t{0}),
-      energy_of_(256, 1e9),
-      scratch_(2 * kMostWork),
-      work_(2 * kMostWork) {
-  const double h = bone.grid().voxel;
+      reached_(writer) {
+  const double h = bone_.grid().voxel;
   advance_ = std::max(settings.advance_m / h, settings.advance_least);
   least_margin_ = margin_ = std::max(settings.margin_m / h, settings.margin_least);
-  unit_m3_ = h * h * h / static_cast<double>(volume::kVoxelUnits);
-  for (std::size_t t = 0; t < bone.tissues().tissues.size(); ++t)
-    energy_of_[t] = bone.tissues().tissues[t].cutting_energy;
-  for (BrickIndex b = 0; b < bone.brick_count(); ++b) {
-    const volume::Field* field = bone.brick_field(b);
-    if (field == nullptr) continue;
-    highest_[static_cast<std::size_t>(b)] = *std::max_element(field, field + kBrickVoxels);
-    const volume::TissueId* tissue = bone.brick_tissue(b);
-    int one = -1;
-    for (int v = 0; v < kBrickVoxels; ++v)
-      if (field[v] != 0) one = one < 0 || one == tissue[v] ? tissue[v] : kMixed;
-    uniform_[static_cast<std::size_t>(b)] = static_cast<std::uint8_t>(std::max(one, 0));
-  }
 }
 
 // Finds in every brick that the ball meets what stands above it (or lacks below it).
 void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], bool deposit,
                     int slices, const Half& half, std::uint32_t& flags) BURR_RT {
-  const std::size_t most_work = work_count_ + kMostWork;
+  reached_.begin_side();
   const double reach = radius + volume::kRamp;
   math::Ijk lo, hi;
   for (int axis = 0; axis < 3; ++axis) {
@@ -132,7 +107,7 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
         const unsigned layers = layers_of({bi, bj, bk}, half, slices, slice_);
         if (layers == 0) continue;
         const BrickIndex brick = bone_.brick_at(bi, bj, bk);
-        if (!deposit && highest_[static_cast<std::size_t>(brick)] == 0) continue;
+        if (!deposit && writer_.highest(brick) == 0) continue;
         const Vec3 first(kBrickEdge * bi, kBrickEdge * bj, kBrickEdge * bk);
         // nearest voxel of the brick to the centre
         Vec3 nearest;
@@ -141,20 +116,14 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
         const double far = math::norm(nearest - centre);
         if (far > reach) continue;
         // the ball's floor is nowhere in the brick lower than what is left of it
-        if (!deposit && highest_[static_cast<std::size_t>(brick)] <=
-                            volume::kIso + (far - radius) * volume::kFieldPerVoxel)
+        if (!deposit &&
+            writer_.highest(brick) <= volume::kIso + (far - radius) * volume::kFieldPerVoxel)
           continue;
-        if (work_count_ == most_work) {
-          crowded_ = true;
-          return;
-        }
+        std::uint16_t* out = reached_.next();
+        if (out == nullptr) return;
         const volume::Field* field = bone_.brick_field(brick);
         if (field == nullptr) {
-          if (!deposit) continue;
-          if (bone_.ensure_slot(brick) == volume::kNoSlot) {
-            flags |= kReserve;
-            continue;
-          }
+          if (!deposit || !writer_.make_room(brick, flags)) continue;
           field = bone_.brick_field(brick);
         }
         const Vec3 offset = first - centre;
@@ -165,108 +134,31 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
           for (int axis = 0; axis < 3; ++axis)
             outside[axis] = static_cast<float>(first[axis]) - keep_out[axis];
         outside[3] = keep_out[3];
-        std::uint16_t* out = scratch_[work_count_].voxel;
         Excess excess = kernel_.find(field, ball, outside, deposit ? 1 : 0, out);
         Layers keep = deposit ? layers_inside({bi, bj, bk}, bone_.grid().size) : kWholeBrick;
         if (half.mirror.on()) keep[static_cast<std::size_t>(half.mirror.axis)] &= layers;
         if (keep != kWholeBrick && excess.most > 0)
           excess = clipped(excess, field, keep, deposit, out);
-        if (excess.most == 0) continue;
-        work_[work_count_++] = {brick, excess};
-        if (!half.is_image) {
-          total_units_ += excess.units;
-          ++hand_count_;
-        }
+        if (excess.most > 0) reached_.add(brick, excess, half);
       }
-}
-
-void Carver::begin_gathering() BURR_RT {
-  work_count_ = hand_count_ = 0;
-  crowded_ = false;
-  total_units_ = 0;
-}
-
-// Half of what the one side gave and all of the other's would be no mirror: rather nothing, until
-// there are more slices.
-void Carver::end_gathering(const Mirror& mirror) BURR_RT {
-  if (!mirror.on() || !crowded_) return;
-  work_count_ = hand_count_ = 0;
-  total_units_ = 0;
-}
-
-// Specific cutting energy of what the ball stands in, weighted by volume.  [J/m^3]
-double Carver::mean_energy() const BURR_RT {
-  double energy = 0, weight = 0;
-  for (std::size_t w = 0; w < hand_count_; ++w) {
-    const auto units = static_cast<double>(std::max<std::int64_t>(work_[w].excess.units, 0));
-    const std::uint8_t one = uniform_[static_cast<std::size_t>(work_[w].brick)];
-    double mean = energy_of_[one];
-    if (one == kMixed) {
-      const volume::TissueId* tissue = bone_.brick_tissue(work_[w].brick);
-      double sum = 0, all = 0;
-      for (std::uint32_t pairs = work_[w].excess.pairs; pairs != 0; pairs &= pairs - 1) {
-        const int first = 2 * kBrickEdge * std::countr_zero(pairs);
-        for (int v = first; v < first + 2 * kBrickEdge; ++v) {
-          const auto excess = static_cast<double>(scratch_[w].voxel[v]);
-          sum += excess * energy_of_[tissue[v]];
-          all += excess;
-        }
-      }
-      if (all > 0) mean = sum / all;
-    }
-    energy += units * mean;
-    weight += units;
-  }
-  return weight > 0 ? energy / weight : last_energy_density_;
-}
-
-// Takes (puts) `share` of the excess; returns how much that really was.
-Carver::Done Carver::apply(double share, bool deposit, volume::TissueId material,
-                           std::uint32_t& flags) BURR_RT {
-  Done done;
-  const auto fixed = static_cast<std::int32_t>(std::clamp(share, 0.0, 1.0) * 65536.0);
-  if (fixed == 0) return done;
-  BrickField now;
-  for (std::size_t w = 0; w < work_count_; ++w) {
-    const BrickIndex brick = work_[w].brick;
-    const volume::Field* field = bone_.brick_field(brick);
-    const Applied applied = kernel_.apply(field, scratch_[w].voxel, work_[w].excess.pairs, fixed,
-                                          deposit ? 1 : 0, now.voxel);
-    if (applied.most == 0) continue;
-    if (undo_.keep(brick)) flags |= kUndoFull;
-    if (deposit) {
-      const math::Ijk first = bone_.brick_ijk(brick);
-      for (int v = 0; v < kBrickVoxels; ++v)
-        if (now.voxel[v] != field[v] && field[v] < volume::kIso / 2)
-          bone_.set_tissue(first.x() + (v & 7), first.y() + (v >> 3 & 7), first.z() + (v >> 6),
-                           material);
-      std::uint8_t& one = uniform_[static_cast<std::size_t>(brick)];
-      one = highest_[static_cast<std::size_t>(brick)] == 0 || one == material ? material : kMixed;
-    }
-    bone_.write_brick(brick, now);
-    if (changed_ != nullptr) changed_->push(brick);
-    highest_[static_cast<std::size_t>(brick)] = static_cast<std::uint16_t>(applied.highest);
-    surface_.changed(brick, applied.most, applied.rows, applied.columns);
-    (w < hand_count_ ? done.hand : done.image) += applied.units;
-  }
-  return done;
 }
 
 // As many as requested, or as it takes for the bricks to fit into the list: no tick may take forever.
-int Carver::choose_turns(int wanted, std::uint32_t& flags) BURR_RT {
-  if (crowded_) {
+int Carver::choose_slices(int wanted, std::uint32_t& flags) BURR_RT {
+  if (reached_.crowded()) {
     crowd_slices_ = std::min(2 * crowd_slices_, kMostSlices);
   } else if (crowd_slices_ > 1 &&
-             std::max(hand_count_, work_count_ - hand_count_) < kMostWork / 4) {
+             std::max(reached_.hand_count(), reached_.count() - reached_.hand_count()) <
+                 Reached::kMostASide / 4) {
     crowd_slices_ /= 2;
   }
   double bricks = 0;
   for (int t = 0; t < slices_; ++t) bricks += parts_[t].bricks;
-  if (bricks > kManyBricks * usual_turns_ && usual_turns_ < kUsualTurns) usual_turns_ *= 2;
-  if (bricks < 0.4 * kManyBricks * usual_turns_ && usual_turns_ > 1) usual_turns_ /= 2;
+  if (bricks > kManyBricks * usual_slices_ && usual_slices_ < kUsualSlices) usual_slices_ *= 2;
+  if (bricks < 0.4 * kManyBricks * usual_slices_ && usual_slices_ > 1) usual_slices_ /= 2;
   const int late = std::max(wanted, crowd_slices_);
-  if (late > 1) flags |= kPutOff;
-  const int slices = std::min(late * usual_turns_, kMostSlices);
+  if (late > 1) flags |= rt::kFlagPutOff;
+  const int slices = std::min(late * usual_slices_, kMostSlices);
   if (slices != slices_) {
     slices_ = slices;
     slice_ = 0;
@@ -278,7 +170,7 @@ int Carver::choose_turns(int wanted, std::uint32_t& flags) BURR_RT {
 
 // What all slices together have to give, from what each found when it last came.  [units]
 double Carver::excess_of_all_slices() BURR_RT {
-  parts_[slice_] = {total_units_, static_cast<int>(work_count_), true};
+  parts_[slice_] = {reached_.hand_units(), static_cast<int>(reached_.count()), true};
   slice_ = (slice_ + 1) % slices_;
   double sum = 0;
   int known = 0;
@@ -296,52 +188,44 @@ void Carver::write_off(double asked_units, double dt, int slices) BURR_RT {
   const double patience =
       settings_.patience + (slices - 1) * dt;  // until it is every brick's slice
   const double most = patience * std::max(rate_, asked_units / dt);
-  if (debt_ > most) {
-    not_cut_ += debt_ - most;
-    debt_ = most;
+  if (account_.debt > most) {
+    account_.not_cut += account_.debt - most;
+    account_.debt = most;
   }
-}
-
-// What the image took was asked of nobody: it counts as asked for.
-void Carver::take_account_of(const Done& removed) BURR_RT {
-  removed_ += removed.hand + removed.image;
-  image_removed_ += removed.image;
-  asked_ += static_cast<double>(removed.image);
 }
 
 void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
   constexpr float kNone[4] = {0, 0, 0, -1};
-  const int slices = choose_turns(cut.slices, flags);
+  const int slices = choose_slices(cut.slices, flags);
   const Sides sides = sides_of(cut.centre + advance_ * cut.push, cut.mirror);
-  begin_gathering();
+  reached_.begin();
   for (int s = 0; s < sides.count; ++s)
     gather(sides.centre[s], cut.radius + margin_, kNone, false, slices, sides.half[s], flags);
-  end_gathering(cut.mirror);
-  last_energy_density_ = mean_energy();
-  const double asked = cut.energy / last_energy_density_ / unit_m3_;
-  asked_ += asked;
-  debt_ += asked;
-  energy_ += cut.energy;
+  reached_.end(cut.mirror);
+  const double asked = cut.energy / reached_.mean_energy() / writer_.unit_m3();
+  account_.asked += asked;
+  account_.debt += asked;
+  account_.energy += cut.energy;
   // every brick gives the same share of its excess, whichever slice is its own: what is asked until
   // the slice comes round again, and what is still owed
-  const double all = excess_of_all_slices(), owed = debt_ + (slices - 1) * asked;
+  const double all = excess_of_all_slices(), owed = account_.debt + (slices - 1) * asked;
   const bool blocked = all < owed;
-  const Done removed = apply(share_of(owed, all, cut.mirror), false, 0, flags);
-  take_account_of(removed);
-  debt_ -= static_cast<double>(removed.hand);
+  const Reached::Done removed = reached_.take(share_of(owed, all, cut.mirror), flags);
+  account_.took(removed.hand, removed.image);
+  account_.debt -= static_cast<double>(removed.hand);
   margin_ =
       std::clamp(margin_ + (blocked ? settings_.margin_rise : -settings_.margin_fall) * cut.dt,
                  least_margin_, std::max(least_margin_, settings_.margin_most));
-  const double before = not_cut_;
+  const double before = account_.not_cut;
   write_off(asked, cut.dt, slices);
-  if (not_cut_ > before) flags |= kNotCut;
+  if (account_.not_cut > before) flags |= rt::kFlagNotCut;
 }
 
 void Carver::deposit(const Cut& cut, std::uint32_t& flags) BURR_RT {
   const double radius = settings_.deposit_share * cut.radius;
-  const int slices = choose_turns(cut.slices, flags);
+  const int slices = choose_slices(cut.slices, flags);
   const Sides sides = sides_of(cut.centre + cut.radius * cut.push, cut.mirror);
-  begin_gathering();
+  reached_.begin();
   for (int s = 0; s < sides.count; ++s) {
     const Vec3 burr = folded(cut.centre, sides.half[s]);
     const float keep_out[4] = {static_cast<float>(burr.x()), static_cast<float>(burr.y()),
@@ -349,175 +233,24 @@ void Carver::deposit(const Cut& cut, std::uint32_t& flags) BURR_RT {
                                static_cast<float>(cut.radius + settings_.deposit_gap)};
     gather(sides.centre[s], radius, keep_out, true, slices, sides.half[s], flags);
   }
-  end_gathering(cut.mirror);
+  reached_.end(cut.mirror);
   const double patience = settings_.patience + (slices - 1) * cut.dt;
-  const double asked = cut.volume / unit_m3_;
+  const double asked = cut.volume / writer_.unit_m3();
   added_debt_ = std::min(added_debt_ + asked, asked * patience / cut.dt);
   const double all = excess_of_all_slices(), owed = added_debt_ + (slices - 1) * asked;
-  const Done added = apply(share_of(owed, all, cut.mirror), true, cut.material, flags);
-  added_ += added.hand + added.image;
-  image_added_ += added.image;
+  const Reached::Done added = reached_.put(share_of(owed, all, cut.mirror), cut.material, flags);
+  account_.put(added.hand, added.image);
   added_debt_ -= static_cast<double>(added.hand);
 }
 
-// As gather(), with the plain test "is the voxel inside the mill".
-void Carver::gather_inside(const Vec3& centre, double radius, int amount, const Half& half,
-                           std::uint32_t& flags) BURR_RT {
-  const std::size_t most_work = work_count_ + kMostWork;
-  const math::Ijk last = bone_.bricks().array() - 1;
-  const math::Ijk lo = ((centre.array() - radius) / kBrickEdge)
-                           .floor()
-                           .max(0)
-                           .min(last.cast<double>().array() + 1)
-                           .cast<int>();
-  const math::Ijk hi = ((centre.array() + radius) / kBrickEdge)
-                           .floor()
-                           .max(-1)
-                           .min(last.cast<double>().array())
-                           .cast<int>();
-  for (int bk = lo.z(); bk <= hi.z(); ++bk)
-    for (int bj = lo.y(); bj <= hi.y(); ++bj)
-      for (int bi = lo.x(); bi <= hi.x(); ++bi) {
-        const unsigned layers = layers_of({bi, bj, bk}, half, 1, 0);
-        const BrickIndex brick = bone_.brick_at(bi, bj, bk);
-        if (layers == 0 || highest_[static_cast<std::size_t>(brick)] == 0) continue;
-        if (work_count_ == most_work) {
-          crowded_ = true;
-          flags |= kPutOff;
-          return;
-        }
-        const volume::Field* field = bone_.brick_field(brick);
-        std::uint16_t* out = scratch_[work_count_].voxel;
-        const Vec3 first = Vec3(kBrickEdge * bi, kBrickEdge * bj, kBrickEdge * bk) - centre;
-        Excess excess;
-        for (int v = 0; v < kBrickVoxels; ++v) {
-          const Vec3 p = first + Vec3(v & 7, v >> 3 & 7, v >> 6);
-          const bool in =
-              math::squared_norm(p) <= radius * radius && in_layers(v, half.mirror.axis, layers);
-          const int loses = in ? std::min(int{field[v]}, amount) : 0;
-          out[v] = static_cast<std::uint16_t>(loses);
-          if (loses == 0) continue;
-          excess.most = std::max(excess.most, loses);
-          excess.pairs |= 1U << (v >> 4);
-          excess.units += volume::volume_units(std::int32_t{field[v]}) -
-                          volume::volume_units(int{field[v]} - loses);
-        }
-        if (excess.most == 0) continue;
-        work_[work_count_++] = {brick, excess};
-        hand_count_ += half.is_image ? 0 : 1;
-      }
-}
-
-void Carver::lower(const Cut& cut, double amount, std::uint32_t& flags) BURR_RT {
-  const Sides sides = sides_of(cut.centre + advance_ * cut.push, cut.mirror);
-  begin_gathering();
-  for (int s = 0; s < sides.count; ++s)
-    gather_inside(sides.centre[s], cut.radius + least_margin_,
-                  static_cast<int>(std::clamp(amount, 0.0, 65535.0)), sides.half[s], flags);
-  end_gathering(cut.mirror);
-  last_energy_density_ = mean_energy();
-  const Done removed = apply(1, false, 0, flags);
-  take_account_of(removed);
-  asked_ += static_cast<double>(removed.hand);
-  energy_ += static_cast<double>(removed.hand) * unit_m3_ * last_energy_density_;
-}
-
 void Carver::idle(double dt) BURR_RT {
-  work_count_ = hand_count_ = 0;
-  crowded_ = false;
+  reached_.begin();
   rate_ += (0 - rate_) * std::min(1.0, dt / settings_.patience);
   const double most = settings_.patience * rate_;
-  if (debt_ > most) {
-    not_cut_ += debt_ - most;
-    debt_ = most;
+  if (account_.debt > most) {
+    account_.not_cut += account_.debt - most;
+    account_.debt = most;
   }
-}
-
-void Carver::note_whole(BrickIndex brick, const BrickField& before, const BrickField& now) BURR_RT {
-  int most = 0, highest = 0;
-  std::uint64_t rows = 0;
-  unsigned columns = 0;
-  for (int v = 0; v < kBrickVoxels; ++v) {
-    const int change = std::abs(int{now.voxel[v]} - int{before.voxel[v]});
-    highest = std::max(highest, int{now.voxel[v]});
-    if (change == 0) continue;
-    most = std::max(most, change);
-    rows |= 1ULL << (v >> 3);
-    columns |= 1U << (v & 7);
-  }
-  highest_[static_cast<std::size_t>(brick)] = static_cast<std::uint16_t>(highest);
-  if (most > 0) surface_.changed(brick, most, rows, columns);
-}
-
-void Carver::restore(const KeptBrick& kept) BURR_RT {
-  if (bone_.ensure_slot(kept.brick) == volume::kNoSlot)
-    return;  // cannot be: it had one when it was kept
-  BrickField before;
-  std::memcpy(&before, bone_.brick_field(kept.brick), sizeof before);
-  const math::Ijk first = bone_.brick_ijk(kept.brick);
-  const volume::TissueId* tissue = bone_.brick_tissue(kept.brick);
-  bool same_tissue = true;
-  for (int v = 0; v < kBrickVoxels; ++v)
-    if (tissue[v] != kept.tissue[v]) {
-      same_tissue = false;
-      bone_.set_tissue(first.x() + (v & 7), first.y() + (v >> 3 & 7), first.z() + (v >> 6),
-                       kept.tissue[v]);
-    }
-  if (!same_tissue) uniform_[static_cast<std::size_t>(kept.brick)] = kMixed;
-  bone_.write_brick(kept.brick, kept.field);
-  if (changed_ != nullptr) changed_->push(kept.brick);
-  note_whole(kept.brick, before, kept.field);
-}
-
-void Carver::rewrite(const KeptBrick& now, std::uint32_t& flags) BURR_RT {
-  if (bone_.ensure_slot(now.brick) == volume::kNoSlot) {
-    flags |= kReserve;
-    return;
-  }
-  if (undo_.keep(now.brick)) flags |= kUndoFull;
-  const volume::Field* field = bone_.brick_field(now.brick);
-  std::int64_t gone = 0;
-  for (int v = 0; v < kBrickVoxels; ++v) {
-    const int before = field[v], after = now.field.voxel[v];
-    if (before == after) continue;
-    const std::int64_t by = volume::volume_units(after) - volume::volume_units(before);
-    (after < before ? gone : added_) += after < before ? -by : by;
-  }
-  removed_ += gone;
-  asked_ += static_cast<double>(gone);
-  restore(now);
-}
-
-void Carver::swap(KeptBrick& kept) BURR_RT {
-  KeptBrick now;
-  now.brick = kept.brick;
-  const volume::Field* field = bone_.brick_field(kept.brick);
-  if (field == nullptr) return;
-  std::memcpy(&now.field, field, sizeof now.field);
-  std::memcpy(now.tissue, bone_.brick_tissue(kept.brick), sizeof now.tissue);
-  restore(kept);
-  kept = now;
-}
-
-bool Carver::clear_of(const KeptBrick& kept, const Vec3& centre, double radius) const BURR_RT {
-  const Vec3 first = bone_.brick_ijk(kept.brick).cast<double>();
-  for (int v = 0; v < kBrickVoxels; ++v) {
-    if (kept.field.voxel[v] < volume::kIso / 2) continue;
-    const Vec3 p = first + Vec3(v & 7, v >> 3 & 7, v >> 6);
-    if (math::squared_norm(p - centre) < (radius + 1) * (radius + 1)) return false;
-  }
-  return true;
-}
-
-Ledger Carver::ledger() const BURR_RT {
-  Ledger ledger;
-  ledger.asked = asked_ * unit_m3_;
-  ledger.removed = static_cast<double>(removed_) * unit_m3_;
-  ledger.debt = debt_ * unit_m3_;
-  ledger.not_cut = not_cut_ * unit_m3_;
-  ledger.added = static_cast<double>(added_) * unit_m3_;
-  ledger.energy = energy_;
-  return ledger;
 }
 
 }  // namespace burr::edit

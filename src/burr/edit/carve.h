@@ -21,17 +21,15 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "burr/edit/bone_writer.h"
 #include "burr/edit/carve_kernel.h"
-#include "burr/edit/changed_queue.h"
 #include "burr/edit/ledger.h"
 #include "burr/edit/mirror.h"
-#include "burr/edit/undo.h"
+#include "burr/edit/reached.h"
 #include "burr/math/vec3.h"
 #include "burr/rt/rt.h"
 #include "burr/volume/bone.h"
-#include "burr/volume/iso_vertices.h"
 
 namespace burr::edit {
 
@@ -67,83 +65,47 @@ struct Cut {
 class Carver {
  public:
   static constexpr int kMostSlices = 64;  // more than the largest burr on the finest voxel needs
-  // changed: every brick written is told to it; may be nullptr
-  Carver(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo, ChangedQueue* changed,
-         const CarveSettings& settings);
+  Carver(BoneWriter& writer, const CarveSettings& settings);
 
-  // Adds to `flags` (haptics/contact.h bits: not cut, reserve, undo full, put off).
+  // Adds to `flags` (rt/flags.h bits: not cut, reserve, undo full, put off).
   void carve(const Cut& cut, std::uint32_t& flags) BURR_RT;
   void deposit(const Cut& cut, std::uint32_t& flags) BURR_RT;
-  // The thesis' removal: every voxel in the ball loses `amount` [field units], whatever that comes
-  // to. What is removed counts as asked for.
-  void lower(const Cut& cut, double amount, std::uint32_t& flags) BURR_RT;
   // Nothing touched this tick: what is still owed is written off as patience runs out.
   void idle(double dt) BURR_RT;
 
-  // Swaps a brick of the bone with a kept one (undo, redo).
-  void swap(KeptBrick& kept) BURR_RT;
-  // Puts a kept brick back (reset).
-  void restore(const KeptBrick& kept) BURR_RT;
-  // Other content for a brick (brush.h): kept for undo, told to all, and in the account. flags: as
-  // above.
-  void rewrite(const KeptBrick& now, std::uint32_t& flags) BURR_RT;
-  // Would a ball here be free of the kept brick's material?
-  [[nodiscard]] bool clear_of(const KeptBrick& kept, const math::Vec3& centre,
-                              double radius) const BURR_RT;
-
-  [[nodiscard]] Ledger ledger() const BURR_RT;
+  [[nodiscard]] Ledger ledger() const BURR_RT { return writer_.ledger(); }
   [[nodiscard]] double margin() const BURR_RT { return margin_; }  // [voxel]
   // Of what the ledger says was removed and added, that of the image.  [m^3]
   [[nodiscard]] double removed_by_image() const BURR_RT {
-    return static_cast<double>(image_removed_) * unit_m3_;
+    return static_cast<double>(account_.image_removed) * writer_.unit_m3();
   }
   [[nodiscard]] double added_by_image() const BURR_RT {
-    return static_cast<double>(image_added_) * unit_m3_;
+    return static_cast<double>(account_.image_added) * writer_.unit_m3();
   }
   // Bricks that the burr, and its image, stood in in the last tick; 0 while idle.
-  [[nodiscard]] int bricks_last() const BURR_RT { return static_cast<int>(work_count_); }
+  [[nodiscard]] int bricks_last() const BURR_RT { return static_cast<int>(reached_.count()); }
+
+  // ---- for other ways to carve with the same ball (laws/thesis.h)
+  [[nodiscard]] BoneWriter& writer() BURR_RT { return writer_; }
+  [[nodiscard]] Reached& reached() BURR_RT { return reached_; }
+  [[nodiscard]] double advance() const BURR_RT { return advance_; }            // [voxel]
+  [[nodiscard]] double least_margin() const BURR_RT { return least_margin_; }  // [voxel]
 
  private:
-  struct Work {
-    volume::BrickIndex brick = volume::kNoBrick;
-    Excess excess;
-  };
-  // What both sides took or put.  [units]
-  struct Done {
-    std::int64_t hand = 0, image = 0;
-  };
-  void begin_gathering() BURR_RT;
   void gather(const math::Vec3& centre, double radius, const float keep_out[4], bool deposit,
               int slices, const Half& half, std::uint32_t& flags) BURR_RT;
-  void gather_inside(const math::Vec3& centre, double radius, int amount, const Half& half,
-                     std::uint32_t& flags) BURR_RT;
-  void end_gathering(const Mirror& mirror) BURR_RT;
-  [[nodiscard]] int choose_turns(int wanted, std::uint32_t& flags) BURR_RT;
+  [[nodiscard]] int choose_slices(int wanted, std::uint32_t& flags) BURR_RT;
   [[nodiscard]] double excess_of_all_slices() BURR_RT;
-  [[nodiscard]] Done apply(double share, bool deposit, volume::TissueId material,
-                           std::uint32_t& flags) BURR_RT;
-  [[nodiscard]] double mean_energy() const BURR_RT;
-  void take_account_of(const Done& removed) BURR_RT;
   void write_off(double asked_units, double dt, int slices) BURR_RT;
-  void note_whole(volume::BrickIndex brick, const volume::BrickField& before,
-                  const volume::BrickField& now) BURR_RT;
 
-  volume::Bone& bone_;
-  volume::IsoVertices& surface_;
-  UndoStore& undo_;
-  ChangedQueue* changed_;
+  BoneWriter& writer_;
+  const volume::Bone& bone_;
+  Account& account_;  // the writer's
   CarveSettings settings_;
   CarveKernel kernel_;
-  double unit_m3_ = 0;                       // volume of one unit [m^3]
-  std::vector<std::uint16_t> highest_;       // (brick_count) largest field value of the brick
-  std::vector<std::uint8_t> uniform_;        // (brick_count) its one solid tissue, or 255: mixed
-  std::vector<double> energy_of_;            // (256) specific cutting energy by tissue [J/m^3]
-  std::vector<volume::BrickField> scratch_;  // excess of the bricks in work_
-  std::vector<Work> work_;
-  std::size_t work_count_ = 0, hand_count_ = 0;  // the hand's come first
-  bool crowded_ = false;                         // more bricks than work_ holds
-  int crowd_slices_ = 1;                         // in how many slices they fit
-  int usual_turns_ = 1;                          // in how many it is worth the while
+  Reached reached_;
+  int crowd_slices_ = 1;  // in how many slices the bricks fit into the list
+  int usual_slices_ = 1;  // in how many it is worth the while
   struct Part {
     std::int64_t units = 0;  // excess of the slice's bricks
     int bricks = 0;
@@ -151,15 +113,9 @@ class Carver {
   };
   Part parts_[kMostSlices] = {};  // of each slice, when it last came
   int slices_ = 1, slice_ = 0;    // this many; the next
-  std::int64_t total_units_ = 0;
 
-  double asked_ = 0, debt_ = 0, not_cut_ = 0;           // [units]
-  std::int64_t removed_ = 0, added_ = 0;                // [units]
-  std::int64_t image_removed_ = 0, image_added_ = 0;    // of these, the image's
   double added_debt_ = 0;                               // [units]
-  double energy_ = 0;                                   // [J]
   double rate_ = 0;                                     // smoothed rate of asking [units/s]
-  double last_energy_density_ = 1e9;                    // [J/m^3]
   double advance_ = 0, least_margin_ = 0, margin_ = 0;  // [voxel]
 };
 

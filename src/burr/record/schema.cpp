@@ -169,7 +169,7 @@ const TickColumn kTickColumns[] = {
     {{25, "active", Type::i32, "constraints the proxy rests on"}, BURR_AT(contact.active)},
     {{26, "candidates", Type::i32, "contacts looked at"}, BURR_AT(contact.candidates)},
     {{27, "touching", Type::flag, "the burr touches bone"}, BURR_AT(contact.touching)},
-    {{28, "flags", Type::u32, "why the force is not simply the spring's; haptics/contact.h"},
+    {{28, "flags", Type::u32, "why the force is not simply the spring's; rt/flags.h"},
      BURR_AT(contact.flags)},
     {{29, "asked_m3", Type::f64, "volume asked for by the removal law since the start [m^3]"},
      BURR_AT(ledger.asked)},

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "burr/device/replayed_hand.h"
+#include "burr/rt/flags.h"
 #include "burr/sim/session_words.h"
 
 namespace burr::sim {
@@ -54,7 +55,7 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
     }
     for (const tick::Command& command : step.commands) servo.commands().push(command);
     hand.set(step.row.hand);
-    const tick::TickRow& row = servo.tick((step.row.contact.flags & haptics::kFlagWatchdog) != 0);
+    const tick::TickRow& row = servo.tick((step.row.contact.flags & rt::kFlagWatchdog) != 0);
     servo.publish();
     ++outcome.ticks;
     if (row.hash != step.row.hash) {

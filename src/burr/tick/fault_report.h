@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "burr/haptics/contact.h"
+#include "burr/rt/flags.h"
 #include "burr/rt/latest.h"
 #include "burr/rt/rt.h"
 #include "burr/tick/rows.h"
@@ -21,7 +21,7 @@ namespace burr::tick {
 // Oldest first.
 struct FaultReport {
   static constexpr int kTicks = 200;
-  std::uint32_t flags = 0;  // what happened, haptics/contact.h
+  std::uint32_t flags = 0;  // what happened, rt/flags.h
   int count = 0;
   std::array<TickRow, kTicks> rows;
 };
@@ -36,8 +36,8 @@ class FaultKeeper {
   // row whose force is zero: first it fades.
   void note(const TickRow& row) BURR_RT {
     renew(row);
-    report_.flags |= row.contact.flags & (haptics::kFlagNotFinite | haptics::kFlagWatchdog |
-                                          haptics::kFlagJump | haptics::kFlagHandLost);
+    report_.flags |= row.contact.flags &
+                     (rt::kFlagNotFinite | rt::kFlagWatchdog | rt::kFlagJump | rt::kFlagHandLost);
     if (!waits_ || row.contact.force != math::Vec3::Zero()) return;
     waits_ = false;
     report_.count = static_cast<int>(std::min<std::uint64_t>(row.tick + 1, FaultReport::kTicks));

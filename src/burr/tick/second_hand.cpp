@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burr/rt/flags.h"
+
 namespace burr::tick {
 namespace {
 
@@ -42,7 +44,7 @@ void SecondHand::step(bool lost, bool parted) BURR_RT {
   row_.hand = device_.state(dt_);
   if (lost) {
     limit_.restart();
-    flags |= haptics::kFlagWatchdog;
+    flags |= rt::kFlagWatchdog;
     faults_.raise();
   }
   const bool believed = limit_.believe(row_.hand, flags);
@@ -72,8 +74,8 @@ void SecondHand::step(bool lost, bool parted) BURR_RT {
   contact.active = touched.active;
   contact.candidates = touched.candidates;
   contact.touching = touched.touching;
-  if (touched.lagging) flags |= haptics::kFlagLagging;
-  if (touched.overflow) flags |= haptics::kFlagCandidates;
+  if (touched.lagging) flags |= rt::kFlagLagging;
+  if (touched.overflow) flags |= rt::kFlagCandidates;
   faults_.note(row_);
   view_.publish(row_);
 }

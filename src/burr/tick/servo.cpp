@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include "burr/math/sums.h"
+#include "burr/edit/laws/thesis.h"
+#include "burr/rt/flags.h"
 #include "burr/tick/mirror_plane.h"
 #include "burr/tick/tick_hash.h"
 
@@ -36,8 +38,9 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       dt_(1.0 / settings.rate_hz),
       changed_(bone),
       undo_(bone, settings.undo_bricks),
-      carver_(bone, surface, undo_, &changed_, settings.carve),
-      brush_(bone, undo_, carver_),
+      writer_(bone, surface, undo_, &changed_),
+      carver_(writer_, settings.carve),
+      brush_(writer_),
       chips_(bone),
       touch_by_(surface, {.radius = settings.burr.radius, .recovery = kRecovery / settings.rate_hz},
                 settings.touch),
@@ -62,7 +65,7 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   row_.hand = hand_;
   if (lost) {
     limit_.restart();
-    flags |= haptics::kFlagWatchdog;
+    flags |= rt::kFlagWatchdog;
     faults_.raise();
   }
   const bool believed = limit_.believe(hand_, flags);
@@ -81,7 +84,7 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
     velocity_ += blend * (hand_.velocity - velocity_);
     if (restore_ != Restore::none) {
       step_restore();
-      flags |= haptics::kFlagRestoring;
+      flags |= rt::kFlagRestoring;
     } else {
       touch_bone(hand_.world_from_tool.p);
     }
@@ -120,12 +123,12 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   contact.active = touch_.active;
   contact.candidates = touch_.candidates;
   contact.touching = touch_.touching;
-  if (touch_.lagging) flags |= haptics::kFlagLagging;
-  if (touch_.overflow) flags |= haptics::kFlagCandidates;
-  if (surface_.exhausted()) flags |= haptics::kFlagReserve;
-  if (shed_ >= Shed::removal_2) flags |= haptics::kFlagPutOff;
-  row_.ledger = carver_.ledger();
-  if (spindle_.stalled()) flags |= haptics::kFlagStalled;
+  if (touch_.lagging) flags |= rt::kFlagLagging;
+  if (touch_.overflow) flags |= rt::kFlagCandidates;
+  if (surface_.exhausted()) flags |= rt::kFlagReserve;
+  if (shed_ >= Shed::removal_2) flags |= rt::kFlagPutOff;
+  row_.ledger = writer_.ledger();
+  if (spindle_.stalled()) flags |= rt::kFlagStalled;
   row_.spindle_rad_s = spindle_.speed();
   row_.cutting_nm = cutting_.torque;
   row_.cutting_w = cutting_.power;
@@ -159,7 +162,7 @@ Vec3 Servo::passive(const Vec3& wanted, bool begins_anew) BURR_RT {
   now.stiffness = settings_.force.stiffness;
   now.force = wanted;
   const Vec3 force = guard_.step(now, dt_);
-  if (guard_.damping() > 0) row_.contact.flags |= haptics::kFlagGuarded;
+  if (guard_.damping() > 0) row_.contact.flags |= rt::kFlagGuarded;
   return force;
 }
 
@@ -226,7 +229,7 @@ edit::Cutting Servo::cut_by_law(double push, double speed) BURR_RT {
 // The burr is in bone, where ours cannot begin: the force fades, and touch begins again in free
 // air.
 void Servo::let_go_in_bone() BURR_RT {
-  limit_.fault(haptics::kFlagWaiting, row_.contact.flags);
+  limit_.fault(rt::kFlagWaiting, row_.contact.flags);
   engaged_ = false;
 }
 
@@ -282,8 +285,8 @@ void Servo::cut_bone(const Vec3& force) BURR_RT {
   if (settings_.mode == ToolMode::cut && settings_.removal.law == edit::RemovalLaw::thesis) {
     const auto frame = static_cast<std::uint64_t>(std::max(1, settings_.removal.thesis_frame));
     if (row_.tick % frame == 0)
-      carver_.lower(cut, 65536 * settings_.removal.thesis_rate * dt_ * static_cast<double>(frame),
-                    flags);
+      edit::lower(carver_, cut,
+                  65536 * settings_.removal.thesis_rate * dt_ * static_cast<double>(frame), flags);
     else
       carver_.idle(dt_);
   } else if (settings_.mode == ToolMode::cut) {
@@ -465,7 +468,7 @@ bool Servo::clear_of_what_returns(const Vec3& p) const BURR_RT {
                                       : undo_.entry(range_.first + i);
     const Vec3 middle = bone_.brick_ijk(kept.brick).cast<double>() + half;
     if (math::norm(middle - centre) > radius + 9) continue;
-    if (!carver_.clear_of(kept, centre, radius)) return false;
+    if (!writer_.clear_of(kept, centre, radius)) return false;
   }
   return true;
 }
@@ -493,7 +496,7 @@ void Servo::step_restore() BURR_RT {
     touch_by_.now().place(at);
     if (!arrived &&
         path_at_ == oldest) {  // no way back is known: let go of the hand, engage again in free air
-      limit_.fault(haptics::kFlagRestoring, row_.contact.flags);
+      limit_.fault(rt::kFlagRestoring, row_.contact.flags);
       engaged_ = false;
       arrived = true;
     }
@@ -502,9 +505,9 @@ void Servo::step_restore() BURR_RT {
     const auto most = static_cast<std::size_t>(std::max(1.0, std::ceil(kRestorePerSecond * dt_)));
     for (std::size_t n = 0; n < most && restored_ < range_.count; ++n, ++restored_) {
       if (restore_kind_ == CommandKind::reset) {
-        carver_.restore(undo_.original(static_cast<std::size_t>(restored_)));
+        writer_.restore(undo_.original(static_cast<std::size_t>(restored_)));
       } else {
-        carver_.swap(undo_.entry(range_.first + restored_));
+        writer_.swap(undo_.entry(range_.first + restored_));
       }
     }
     if (restored_ == range_.count) restore_ = Restore::settling;
@@ -577,51 +580,5 @@ void Servo::note_timing(double took_us, double late_us) BURR_RT {
 
 // Chained, so that the first tick at which two runs part is the first whose hash differs.
 void Servo::hash_row() BURR_RT { row_.hash = last_hash_ = tick_hash(row_, last_hash_); }
-
-std::vector<std::string> words(std::uint32_t flags) {
-  static_assert(haptics::kFlagReserve == 1U << 10 && haptics::kFlagUndoFull == 1U << 11 &&
-                    haptics::kFlagNotCut == 1U << 14 && haptics::kFlagPutOff == 1U << 15,
-                "edit/carve.cpp sets these bits by number");
-  static const std::pair<std::uint32_t, const char*> kWords[] = {
-      {haptics::kFlagNotFinite,
-       "a hand position or a force was not a number; the force was let go and comes back by the "
-       "start ramp"},
-      {haptics::kFlagForceLimited, "the force was shortened to the device's or the user's limit"},
-      {haptics::kFlagSlewLimited, "the force grew faster than allowed and was held back"},
-      {haptics::kFlagRamp, "the start ramp was on"},
-      {haptics::kFlagWaiting, "not engaged: the hand has to be in free air once"},
-      {haptics::kFlagThermal, "the motors were warm: only the continuous force was given"},
-      {haptics::kFlagWatchdog,
-       "ticks were lost and the force was let go; close other programs or allow real-time "
-       "scheduling (docs/troubleshooting.md)"},
-      {haptics::kFlagJump,
-       "the hand leapt more than 20 mm in one tick and was not believed; check the device's cable "
-       "and calibration"},
-      {haptics::kFlagLagging,
-       "the burr had not come to rest within the tick: a very fast hand, or a tight hole"},
-      {haptics::kFlagCandidates,
-       "more contacts than the list holds; use a larger voxel or a smaller burr"},
-      {haptics::kFlagPutOff,
-       "the machine was too slow, or the burr too big, to cut every brick in every tick; they were "
-       "cut in turn (docs/realtime.md, \"Too much at once\")"},
-      {haptics::kFlagReserve,
-       "no room was left for new material or new surface; raise --reserve-bricks"},
-      {haptics::kFlagUndoFull,
-       "undo memory was full, the oldest stroke was forgotten; raise --undo-bricks"},
-      {haptics::kFlagHandLost, "the device lost the hand; the force was let go"},
-      {haptics::kFlagRestoring, "an undo or reset was under way"},
-      {haptics::kFlagGuarded,
-       "the energy guard braked the hand: the spring is stiffer than this device can show; lower "
-       "--stiffness"},
-      {haptics::kFlagStalled,
-       "the spindle stood still, held by the bone; press less, or give it more torque "
-       "(--torque-mnm)"},
-      {haptics::kFlagNotCut, "the burr was blocked and some of what was asked was not cut"},
-  };
-  std::vector<std::string> said;
-  for (const auto& [flag, text] : kWords)
-    if ((flags & flag) != 0) said.emplace_back(text);
-  return said;
-}
 
 }  // namespace burr::tick

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "burr/device/device.h"
+#include "burr/edit/bone_writer.h"
 #include "burr/edit/brush.h"
 #include "burr/edit/carve.h"
 #include "burr/edit/changed_queue.h"
@@ -170,6 +171,7 @@ class Servo {
   rt::Latest<TickRow>* watch_ = nullptr;
   edit::ChangedQueue changed_;
   edit::UndoStore undo_;
+  edit::BoneWriter writer_;
   edit::Carver carver_;
   edit::Brush brush_;
   edit::Chips chips_;
@@ -214,14 +216,5 @@ class Servo {
   TickRow row_;
   std::uint64_t next_tick_ = 0, last_hash_ = 0;
 };
-
-// Without what every good session raises: the start ramp, and waiting for it; the guard at work.
-[[nodiscard]] constexpr std::uint32_t worth_telling(std::uint32_t flags) {
-  return flags & ~(haptics::kFlagRamp | haptics::kFlagWaiting | haptics::kFlagSlewLimited |
-                   haptics::kFlagGuarded);
-}
-
-// In words, one sentence a flag, with the cure where there is one.
-[[nodiscard]] std::vector<std::string> words(std::uint32_t flags);
 
 }  // namespace burr::tick

@@ -9,6 +9,7 @@
 
 #include "burr/haptics/contact.h"
 #include "burr/render/scene.h"
+#include "burr/rt/flags.h"
 #include "window/mill/mill.h"
 #include "window/shell/help.h"
 #include "window/shell/settings_page.h"
@@ -20,18 +21,18 @@ namespace burr::app {
 namespace {
 
 constexpr std::pair<std::uint32_t, Word> kFlagWords[] = {
-    {haptics::kFlagNotFinite, Word::flag_not_finite},
-    {haptics::kFlagHandLost, Word::flag_hand_lost},
-    {haptics::kFlagWatchdog, Word::flag_watchdog},
-    {haptics::kFlagJump, Word::flag_jump},
-    {haptics::kFlagForceLimited, Word::flag_force_limited},
-    {haptics::kFlagThermal, Word::flag_thermal},
-    {haptics::kFlagCandidates, Word::flag_candidates},
-    {haptics::kFlagReserve, Word::flag_reserve},
-    {haptics::kFlagUndoFull, Word::flag_undo_full},
-    {haptics::kFlagRestoring, Word::flag_restoring},
-    {haptics::kFlagNotCut, Word::flag_not_cut},
-    {haptics::kFlagPutOff, Word::flag_put_off},
+    {rt::kFlagNotFinite, Word::flag_not_finite},
+    {rt::kFlagHandLost, Word::flag_hand_lost},
+    {rt::kFlagWatchdog, Word::flag_watchdog},
+    {rt::kFlagJump, Word::flag_jump},
+    {rt::kFlagForceLimited, Word::flag_force_limited},
+    {rt::kFlagThermal, Word::flag_thermal},
+    {rt::kFlagCandidates, Word::flag_candidates},
+    {rt::kFlagReserve, Word::flag_reserve},
+    {rt::kFlagUndoFull, Word::flag_undo_full},
+    {rt::kFlagRestoring, Word::flag_restoring},
+    {rt::kFlagNotCut, Word::flag_not_cut},
+    {rt::kFlagPutOff, Word::flag_put_off},
 };
 
 }  // namespace
@@ -40,7 +41,7 @@ constexpr std::pair<std::uint32_t, Word> kFlagWords[] = {
 // their own sign, that a limit holds by the force's bar.
 std::string told_flags(std::uint32_t flags) {
   std::string text;
-  flags &= ~(haptics::kFlagPutOff | haptics::kFlagForceLimited);
+  flags &= ~(rt::kFlagPutOff | rt::kFlagForceLimited);
   for (const auto& [flag, says] : kFlagWords)
     if ((flags & flag) != 0) text += (text.empty() ? "" : ", ") + std::string(word(says));
   return text;
@@ -64,7 +65,7 @@ void Mill::look_at_session() {
     render::show_contact(scene_, row_.hand.world_from_tool.p, row_.contact.proxy,
                          row_.contact.force);
     if (options_.loudspeaker != nullptr) options_.loudspeaker->hear(row_);
-    if ((row_.contact.flags & haptics::kFlagWatchdog) != 0) lost_at_ = now;
+    if ((row_.contact.flags & rt::kFlagWatchdog) != 0) lost_at_ = now;
 
     // ticks that are not there by now; two may be under way
     if (!first_tick_) first_tick_ = {row_.tick, now};

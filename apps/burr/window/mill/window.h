@@ -53,7 +53,7 @@ enum class Left {
 [[nodiscard]] Status run_window(sim::Session& session, const Hands& hands, surface::Worker& worker,
                                 render::Scene& scene, const WindowOptions& options);
 
-// The flags of haptics/contact.h that a user should know of, in a few words; "" if there is none.
+// The flags of rt/flags.h that a user should know of, in a few words; "" if there is none.
 [[nodiscard]] std::string flag_words(std::uint32_t flags);
 
 }  // namespace burr::app

@@ -354,7 +354,7 @@ enum class Word {
   session_kept,
   session_not_kept,
   key_save,
-  // flags of haptics/contact.h
+  // flags of rt/flags.h
   flag_not_finite,
   flag_hand_lost,
   flag_watchdog,

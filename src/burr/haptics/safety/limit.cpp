@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "burr/haptics/contact.h"
 #include "burr/math/sums.h"
+#include "burr/rt/flags.h"
 
 namespace burr::haptics {
 namespace {
@@ -40,14 +40,14 @@ void ForceLimit::set_user_force(double newton) BURR_RT {
 bool ForceLimit::believe(const device::HandState& hand, std::uint32_t& flags) BURR_RT {
   std::uint32_t trouble = 0;
   if (!hand.valid) {
-    trouble = kFlagHandLost;
+    trouble = rt::kFlagHandLost;
   } else if (!hand.world_from_tool.finite() || !hand.velocity.allFinite() ||
              !std::isfinite(hand.pedal) ||
              hand.world_from_tool.p.cwiseAbs().maxCoeff() > kFarthestHand) {
-    trouble = kFlagNotFinite;
+    trouble = rt::kFlagNotFinite;
   } else if (has_last_hand_ &&
              math::norm(hand.world_from_tool.p - last_hand_) > settings_.longest_leap) {
-    trouble = kFlagJump;
+    trouble = rt::kFlagJump;
   }
   if (trouble != 0) {
     fault(trouble, flags);
@@ -88,7 +88,7 @@ Vec3 ForceLimit::bound(Channel& channel, const Vec3& wanted, double dt,
   if (state_ == State::fading) {
     force = left() * channel.fading_from;
   } else if (state_ == State::waiting) {
-    flags |= kFlagWaiting;
+    flags |= rt::kFlagWaiting;
   } else {
     force = wanted;
 
@@ -101,15 +101,15 @@ Vec3 ForceLimit::bound(Channel& channel, const Vec3& wanted, double dt,
     const double size = math::norm(force);
     if (size > most) {
       force *= most / size;
-      flags |= hot > 0 ? kFlagThermal : kFlagForceLimited;
+      flags |= hot > 0 ? rt::kFlagThermal : rt::kFlagForceLimited;
     }
 
     bool bounded = false;
     force =
         slew_bound(force, channel.sent,
                    (state_ == State::ramp ? settings_.ramp_slew : settings_.slew) * dt, bounded);
-    if (bounded) flags |= kFlagSlewLimited;
-    if (state_ == State::ramp) flags |= kFlagRamp;
+    if (bounded) flags |= rt::kFlagSlewLimited;
+    if (state_ == State::ramp) flags |= rt::kFlagRamp;
   }
 
   const double bearable = device_.continuous_force;
@@ -120,7 +120,7 @@ Vec3 ForceLimit::bound(Channel& channel, const Vec3& wanted, double dt,
 }
 
 Vec3 ForceLimit::apply(const Vec3& wanted, double dt, std::uint32_t& flags) BURR_RT {
-  if (!wanted.allFinite()) fault(kFlagNotFinite, flags);
+  if (!wanted.allFinite()) fault(rt::kFlagNotFinite, flags);
   in_state_ += dt;
   if (state_ == State::ramp && in_state_ >= settings_.ramp_time) state_ = State::running;
   const Vec3 force = bound(force_, wanted, dt, flags);
@@ -135,7 +135,7 @@ Vec3 ForceLimit::apply(const Vec3& wanted, double dt, std::uint32_t& flags) BURR
 
 Vec3 ForceLimit::apply_torque(const Vec3& wanted, double dt, std::uint32_t& flags) BURR_RT {
   if (lever_ <= 0) return Vec3::Zero();
-  if (!wanted.allFinite()) fault(kFlagNotFinite, flags);
+  if (!wanted.allFinite()) fault(rt::kFlagNotFinite, flags);
   if (state_ == State::ramp && in_state_ <= 0) return Vec3::Zero();  // from the next tick on
   return lever_ * bound(torque_, wanted / lever_, dt, flags);
 }

@@ -39,7 +39,7 @@ class ForceLimit {
   ForceLimit(const device::DeviceSpec& device, const LimitSettings& settings);
 
   // What may be sent this tick. `wanted` may be anything, NaN too. dt > 0: this tick [s]. Adds to
-  // `flags` (contact.h).
+  // `flags` (rt/flags.h).
   [[nodiscard]] math::Vec3 apply(const math::Vec3& wanted, double dt, std::uint32_t& flags) BURR_RT;
 
   // The torque of the same tick, after apply(); none where the device has none [N m].
