@@ -120,6 +120,38 @@ TEST_F(Window, TabHidesThePanelsAndShowsThemAgain) {
   EXPECT_GT(differ(without, again, 100, 650, 1180, 712), 10'000);
 }
 
+TEST_F(Window, ShowsWhatIsToBeDoneUntilTheKeyHidesIt) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  ASSERT_TRUE(ready->work_case.has_value());
+  render::Image with, without, again;
+  const auto picture = [&](render::Image& image) {
+    return [&] {
+      image = desk_->renderer().shown();
+      press(SDLK_o);
+    };
+  };
+  Script script({{"the first picture", looks(10), picture(with)},
+                 {"no task", looks(5), picture(without)},
+                 {"the task", looks(5),
+                  [&] {
+                    again = desk_->renderer().shown();
+                    press(SDLK_ESCAPE);
+                  }}},
+                desk_->said);
+  desk_->after_frame = [&script] { script.look(); };
+  WindowOptions options;
+  options.work_case = ready->work_case;
+  const auto left =
+      mill(*desk_, *ready->session, ready->hands, *ready->worker, ready->scene, options);
+  desk_->after_frame = {};
+  ASSERT_TRUE(left) << left.error().text;
+  EXPECT_TRUE(script.finished());
+  EXPECT_GT(differ(with, without, 104, 10, 464, 60), 5000);
+  EXPECT_LT(differ(with, without, 500, 10, 1000, 200), 50);
+  EXPECT_GT(differ(without, again, 104, 10, 464, 60), 5000);
+}
+
 TEST_F(Window, ShowsSlicesThroughTheTipThatCanBeHidden) {
   auto ready = block();
   ASSERT_TRUE(ready) << ready.error().text;

@@ -51,8 +51,9 @@ Status run(const Options& options) {
   sim::Session& session = **made;
   Recording recording;
   if (!options.record.empty()) {
-    const Status started = recording.start(session, options.record, work->volume,
-                                           work->made.summary, "CRTK " + named.name, false);
+    const Status started = recording.start(
+        session, options.record, work->volume, work->made.summary, "CRTK " + named.name, false,
+        to_spare(session.bone_tissues(), requested.spare), requested.work_case);
     if (!started) return started;
   }
   fmt::print(

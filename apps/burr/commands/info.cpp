@@ -7,8 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "burr/base/shown.h"
 #include "burr/io/sandbox/fence.h"
+#include "burr/record/player.h"
 #include "commands/command.h"
+#include "window/replay/playback.h"
 #include "workshop/volume_options.h"
 
 namespace burr::app {
@@ -149,7 +152,52 @@ Result<importing::ImportSummary> look(const VolumeOptions& options) {
   return s;
 }
 
+// A recording: how long, of which bone, and what was to be done.
+Status run_recording(const Options& options) {
+  auto opened = record::Player::open(options.volume.path);
+  if (!opened) return opened.error();
+  const record::Player& player = **opened;
+  const record::SessionInfo& info = player.info();
+  const math::Ijk& size = info.volume.grid.size;
+  fmt::print("recording by burr {}: {:.1f} s at {:g} Hz{}\n", base::shown(info.burr_version),
+             player.seconds(), info.rate_hz, player.finished() ? "" : ", torn");
+  fmt::print("  bone of {} x {} x {} voxels of {:.5g} mm, {}in the file\n", size.x(), size.y(),
+             size.z(), 1e3 * info.volume.grid.voxel, info.embedded ? "" : "not ");
+  std::optional<scenario::Case> work_case;
+  if (info.work_case) {
+    auto read = record::case_of(*info.work_case);
+    if (!read) return read.error();
+    work_case = std::move(*read);
+    fmt::print("case {}: {}", base::shown(work_case->name), scenario::task_text(*work_case));
+  }
+  for (const std::string& notice : player.notices()) fmt::print("  note: {}\n", notice);
+  if (!options.json) return fine();
+  nlohmann::json out = {{"burr_version", info.burr_version},
+                        {"seconds", player.seconds()},
+                        {"rate_hz", info.rate_hz},
+                        {"finished", player.finished()},
+                        {"embedded", info.embedded},
+                        {"notices", player.notices()},
+                        {"case", nullptr}};
+  if (work_case) {
+    nlohmann::json targets = nlohmann::json::array();
+    for (const scenario::Target& target : work_case->targets)
+      targets.push_back({{"tissue", target.tissue},
+                         {"goal", scenario::word_of(target.goal)},
+                         {"share", target.share}});
+    out["case"] = {{"name", work_case->name},
+                   {"title", work_case->title},
+                   {"text_hash", record::hex(info.work_case->text_hash)},
+                   {"unchanged", info.work_case->unchanged()},
+                   {"targets", targets},
+                   {"spare", work_case->spare}};
+  }
+  fmt::print("{}\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  return fine();
+}
+
 Status run(const Options& options) {
+  if (is_recording(options.volume.path)) return run_recording(options);
   auto found = look(options.volume);
   if (!found) return found.error();
   print(*found);
@@ -162,9 +210,11 @@ Status run(const Options& options) {
 }
 
 void add(CLI::App& app, Todo& todo) {
-  auto* command = app.add_subcommand("info", "what a volume holds and what would be done to it");
+  auto* command = app.add_subcommand("info", "what a volume or a recording holds");
   auto options = std::make_shared<Options>();
-  command->add_option("volume", options->volume.path, "file, DICOM folder, or phantom:NAME")
+  command
+      ->add_option("volume", options->volume.path,
+                   "file, DICOM folder, phantom:NAME, or a recording (.mcap)")
       ->required();
   add_volume_options(*command, options->volume);
   command->add_flag("--json", options->json, "one JSON object as the last line");

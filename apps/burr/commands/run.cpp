@@ -104,7 +104,7 @@ Status run_headless(const Options& options) {
   const double seconds = requested.seconds > 0 ? requested.seconds : kHeadlessSeconds;
   Status made = make_folder(folder);
   if (!made) return made;
-  if (!requested.title.empty()) fmt::print(stderr, "{}\n", requested.title);
+  if (requested.work_case) fmt::print(stderr, "{}", scenario::task_text(*requested.work_case));
   auto opened = open_work(requested, progress());
   if (!opened) return opened.error();
   Work& work = *opened;
@@ -137,9 +137,9 @@ Status run_headless(const Options& options) {
   Status status = picture("before.png");
   if (!status) return status;
   Recording recording;
-  status =
-      recording.start(session, (folder / "session.mcap").string(), work.volume, work.made.summary,
-                      requested.motion, false, to_spare(session.bone_tissues(), requested.spare));
+  status = recording.start(session, (folder / "session.mcap").string(), work.volume,
+                           work.made.summary, requested.motion, false,
+                           to_spare(session.bone_tissues(), requested.spare), requested.work_case);
   if (!status) return status;
   session.run(0.5 * seconds, progress());
   put_tool_of(scene, session);
@@ -155,6 +155,7 @@ Status run_headless(const Options& options) {
   const Status recorded = recording.finish(session);
   if (!status) return status;
   Summary summary = summary_of(session, work.what, "simulated hand, " + requested.motion);
+  if (requested.work_case) summary.task = scenario::task_text(*requested.work_case);
   if (!recorded) fmt::print("{}", summary_text(summary));  // a disk that is full takes no picture
   status = picture("after.png");
   if (!status) return recorded ? status : recorded;
@@ -186,7 +187,7 @@ Status run_in_window(const Options& options) {
 
   WorkOptions work = options.work;
   if (const Status taken = take_case(work); !taken) return taken;
-  if (!work.title.empty()) fmt::print(stderr, "{}\n", work.title);
+  if (work.work_case) fmt::print(stderr, "{}", scenario::task_text(*work.work_case));
   bool closed = false;
   auto loaded = load<Ready>(
       **desk, say(Word::loading, work.title.empty() ? word(Word::start_scan) : work.title),
@@ -209,8 +210,9 @@ Status run_in_window(const Options& options) {
   }
 
   Recording recording;
-  Status status = recording.start(session, (folder / "session.mcap").string(), ready.volume,
-                                  ready.import, session.hand().spec().name, false, ready.spared);
+  Status status =
+      recording.start(session, (folder / "session.mcap").string(), ready.volume, ready.import,
+                      session.hand().spec().name, false, ready.spared, ready.work_case);
   if (!status) return status;
   WindowOptions told = window;
   told.warning = [&recording] { return recording.trouble(); };
@@ -226,6 +228,7 @@ Status run_in_window(const Options& options) {
   if (!status) return status;
 
   Summary summary = summary_of(session, ready.what, session.hand().spec().name);
+  if (ready.work_case) summary.task = scenario::task_text(*ready.work_case);
   if (!recorded) fmt::print("{}", summary_text(summary));  // a disk that is full takes no picture
   scene.burr.visible = false;
   scene.markers.clear();

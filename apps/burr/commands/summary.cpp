@@ -63,6 +63,9 @@ Status write_summary(const Summary& summary, const std::filesystem::path& folder
       "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\">"
       "<title>burr: a session</title><style>{}</style>\n<h1>A session on {}</h1>\n",
       kPageStyle, base::markup_text(summary.what));
+  if (!summary.task.empty())
+    page +=
+        fmt::format("<p style=\"white-space:pre-line\">{}</p>\n", base::markup_text(summary.task));
   for (const auto& [file, caption] : summary.pictures)
     page +=
         fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>\n",

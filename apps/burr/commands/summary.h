@@ -29,6 +29,7 @@ struct Summary {
   double voxel = 0;        // [m]
   double burr_radius = 0;  // [m]
   double rpm = 0;
+  std::string task;    // lines: what was to be done; empty: no case
   std::string hand;    // "simulated hand, pocket", "mouse"
   double seconds = 0;  // of simulated time
   double rate_hz = 0;

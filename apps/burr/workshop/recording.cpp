@@ -75,11 +75,13 @@ Result<VolumeOptions> options_of(const record::SessionInfo& session, const Volum
 
 Status Recording::start(sim::Session& session, const std::string& file, const VolumeOptions& volume,
                         const importing::ImportSummary& import, const std::string& motion,
-                        bool embed, const std::optional<Tissues>& spared) {
+                        bool embed, const std::optional<Tissues>& spared,
+                        const std::optional<scenario::Case>& work_case) {
   record::SessionInfo info;
   sim::describe(session.settings(), session.hand().spec(), info);
   info.words["motion"] = motion;
   if (spared) write_spared(*spared, info);
+  if (work_case) info.work_case = record::case_info(*work_case);
   const volume::Bone& bone = session.bone();
   info.volume.content_hash = bone.content_hash();
   if (!is_phantom(volume.path)) {

@@ -12,6 +12,7 @@
 #include "burr/base/result.h"
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
+#include "burr/scenario/case.h"
 #include "burr/sim/session.h"
 #include "burr/volume/greys.h"
 #include "workshop/spared_distance.h"
@@ -26,12 +27,14 @@ namespace burr::app {
 class Recording {
  public:
   // motion: in our words, "pocket" or "hand path". embed: the bone goes into the file. spared: what
-  // a case says must not be cut; none: what the table of tissues marks.
+  // a case says must not be cut; none: what the table of tissues marks. work_case: goes into the
+  // file, so that a score can be worked out from it.
   // Error: only what the user can put right before anything has begun (a folder that does not
   // exist, a name that another burr is recording to).
   Status start(sim::Session& session, const std::string& file, const VolumeOptions& volume,
                const importing::ImportSummary& import, const std::string& motion, bool embed,
-               const std::optional<Tissues>& spared = {});
+               const std::optional<Tissues>& spared = {},
+               const std::optional<scenario::Case>& work_case = {});
   // The Error says what is missing.
   [[nodiscard]] Status finish(sim::Session& session);
 

@@ -1,7 +1,5 @@
 #include "workshop/spared_distance.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -31,8 +29,6 @@ Tissues to_spare(const volume::TissueTable& table, const std::vector<std::string
                                     [&name](const volume::Tissue& t) { return t.name == name; });
     if (found != table.tissues.end())
       spared.push_back(static_cast<volume::TissueId>(found - table.tissues.begin()));
-    else
-      fmt::print(stderr, "this bone has no \"{}\" to spare\n", base::shown(name));
   }
   return spared;
 }

@@ -18,7 +18,7 @@ namespace burr::app {
 using Tissues = std::vector<volume::TissueId>;
 
 // What a case names, or, where nothing is named, what the table marks. Names the bone does not have
-// are left out, and told on stderr.
+// are left out: whoever opens a case checks them before (scenario::check_tissues()).
 [[nodiscard]] Tissues to_spare(const volume::TissueTable& table,
                                const std::vector<std::string>& named);
 

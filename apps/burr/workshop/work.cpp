@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "burr/math/turn.h"
-#include "burr/scenario/case.h"
 #include "workshop/live_surface.h"
 
 namespace burr::app {
@@ -49,21 +48,27 @@ Status take_case(WorkOptions& options) {
   if (names_a_case(volume.path)) {
     const auto read = scenario::read_case(volume.path);
     if (!read) return read.error();
-    volume.path = read->phantom.empty() ? read->volume : "phantom:" + read->phantom;
-    if (volume.voxel_mm == 0) volume.voxel_mm = 1e3 * read->voxel;
-    if (options.burr_mm == 0) options.burr_mm = 2e3 * read->burr.radius;
-    if (options.rpm == 0) options.rpm = read->full_speed * 60 / (2 * std::numbers::pi);
-    if (options.seconds == 0) options.seconds = read->seconds;
-    options.title = read->title;
-    options.at = read->at;
-    options.into = read->into;
-    options.motion = read->motion;
-    options.kind = read->burr.kind;
-    options.spare = read->spare;
+    take_case(options, *read);
   }
   if (options.burr_mm == 0) options.burr_mm = 5;
   if (options.rpm == 0) options.rpm = 40'000;
   return fine();
+}
+
+void take_case(WorkOptions& options, const scenario::Case& work) {
+  VolumeOptions& volume = options.volume;
+  volume.path = work.phantom.empty() ? work.volume : "phantom:" + work.phantom;
+  if (volume.voxel_mm == 0) volume.voxel_mm = 1e3 * work.voxel;
+  if (options.burr_mm == 0) options.burr_mm = 2e3 * work.burr.radius;
+  if (options.rpm == 0) options.rpm = work.full_speed * 60 / (2 * std::numbers::pi);
+  if (options.seconds == 0) options.seconds = work.seconds;
+  options.title = work.title;
+  options.at = work.at;
+  options.into = work.into;
+  options.motion = work.motion;
+  options.kind = work.burr.kind;
+  options.spare = work.spare;
+  options.work_case = work;
 }
 
 Result<Work> open_work(WorkOptions options, Progress& progress, const io::Scan* scan) {
@@ -72,6 +77,10 @@ Result<Work> open_work(WorkOptions options, Progress& progress, const io::Scan* 
   const bool phantom = is_phantom(volume.path);
   auto made = open_volume(volume, progress, scan);
   if (!made) return made.error();
+  if (options.work_case) {
+    const Status fits = scenario::check_tissues(*options.work_case, made->bone->tissues());
+    if (!fits) return fits.error();
+  }
 
   Work work;
   work.made = std::move(*made);
@@ -143,6 +152,7 @@ Result<Ready> make_ready(WorkOptions options, Work work, Progress& progress) {
   }
   ready.title = options.title.empty() ? work.what : options.title;
   ready.what = work.what;
+  ready.work_case = options.work_case;
   ready.volume = work.volume;
   ready.import = work.made.summary;
   ready.greys = std::move(work.made.greys);

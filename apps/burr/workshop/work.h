@@ -14,6 +14,7 @@
 #include "burr/importing/import.h"
 #include "burr/math/vec3.h"
 #include "burr/render/scene.h"
+#include "burr/scenario/case.h"
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
 #include "burr/surgeon/motion.h"
@@ -39,11 +40,14 @@ struct WorkOptions {
   std::string motion = "pocket";
   tool::BurrKind kind = tool::BurrKind::cutting;
   std::vector<std::string> spare;  // tissues that must not be cut
+  std::optional<scenario::Case> work_case;
 };
 
 // A built-in case or a .toml file says what is milled, where and with what; options given by hand
 // win. Anything else is left as it is.
 [[nodiscard]] Status take_case(WorkOptions& options);
+// The same with a case that was read already.
+void take_case(WorkOptions& options, const scenario::Case& work);
 
 // Before take_case(): neither a built-in case, nor a phantom, nor a .toml file.
 [[nodiscard]] bool names_a_scan(const WorkOptions& options);
@@ -54,7 +58,8 @@ struct Work {
   VolumeOptions volume;  // with the case's name as a phantom
   surgeon::WorkPlace place;
 };
-// After take_case(). scan: as open_volume() wants it.
+// After take_case(). scan: as open_volume() wants it. Error: also a tissue that the case names and
+// the bone lacks.
 [[nodiscard]] Result<Work> open_work(WorkOptions options, Progress& progress,
                                      const io::Scan* scan = nullptr);
 
@@ -79,6 +84,7 @@ struct Ready {
   render::Scene scene;                                    // with its surface and first view
   std::shared_ptr<const volume::Greys> greys;             // of a scan
   Tissues spared;                                         // that must not be cut
+  std::optional<scenario::Case> work_case;                // what is to be done
   std::unique_ptr<const SparedDistance> spared_distance;  // how far they are
 };
 // A hand's axes, x right, y up, z to the user, as one looks at the bone; world_from_view.

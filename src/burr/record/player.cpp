@@ -78,6 +78,10 @@ Status Player::read_session() {
       auto info = session_from_json(as_text(message.data), path_);
       if (!info) return info.error();
       info_ = std::move(*info);
+      if (info_.work_case && !info_.work_case->unchanged())
+        notice(path_ +
+               ": the case in this recording was changed after it was written; a score "
+               "worked out from it is not that of the session");
       return fine();
     }
   }

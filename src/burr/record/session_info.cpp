@@ -93,6 +93,54 @@ const json& part(const json& object, const char* name) {
   return at == object.end() ? nothing : *at;
 }
 
+bool get_case(const json& object, CaseInfo& info, std::string& missing) {
+  const auto wrong = [&missing](const char* field) {
+    missing = std::string("case.") + field;
+    return false;
+  };
+  if (!get_text(object, "name", info.name)) return wrong("name");
+  if (!get_hash(object, "text_hash", info.text_hash)) return wrong("text_hash");
+  if (!get_text(object, "text", info.text)) return wrong("text");
+  const json& spare = part(object, "spare");
+  if (!spare.is_array()) return wrong("spare");
+  for (const json& name : spare) {
+    if (!name.is_string()) return wrong("spare");
+    info.spare.push_back(name.get<std::string>());
+  }
+  const json& targets = part(object, "targets");
+  if (!targets.is_array()) return wrong("targets");
+  for (const json& one : targets) {
+    scenario::Target& target = info.targets.emplace_back();
+    std::string goal;
+    if (!one.is_object() || !get_text(one, "tissue", target.tissue) ||
+        !get_text(one, "goal", goal) || !part(one, "share").is_number())
+      return wrong("targets");
+    target.share = one["share"].get<double>();
+    using scenario::Goal;
+    bool known = false;
+    for (const Goal each : {Goal::open, Goal::expose, Goal::remove})
+      if (goal == scenario::word_of(each)) {
+        target.goal = each;
+        known = true;
+      }
+    if (!known) return wrong("targets");
+  }
+  return true;
+}
+
+json json_from_case(const CaseInfo& info) {
+  json targets = json::array();
+  for (const scenario::Target& target : info.targets)
+    targets.push_back({{"tissue", target.tissue},
+                       {"goal", scenario::word_of(target.goal)},
+                       {"share", target.share}});
+  return {{"name", info.name},
+          {"text_hash", hex(info.text_hash)},
+          {"text", info.text},
+          {"targets", std::move(targets)},
+          {"spare", info.spare}};
+}
+
 bool finite(const volume::CuttingForce& force) {
   return std::isfinite(force.chip_tangential) && std::isfinite(force.chip_radial) &&
          std::isfinite(force.edge_tangential) && std::isfinite(force.edge_radial) &&
@@ -103,11 +151,38 @@ bool finite(const volume::CuttingForce& force) {
 
 std::string hex(std::uint64_t value) { return fmt::format("0x{:016x}", value); }
 
+CaseInfo case_info(const scenario::Case& work) {
+  return {looks_private(work.name) ? "own" : work.name, scenario::text_hash(work.text), work.text,
+          work.targets, work.spare};
+}
+
+Result<scenario::Case> case_of(const CaseInfo& info) {
+  return scenario::parse_case(info.text, info.name + ".toml");
+}
+
+bool CaseInfo::unchanged() const {
+  if (text_hash != scenario::text_hash(text)) return false;
+  const auto read = case_of(*this);
+  return read && read->spare == spare &&
+         std::equal(targets.begin(), targets.end(), read->targets.begin(), read->targets.end(),
+                    [](const scenario::Target& a, const scenario::Target& b) {
+                      return a.tissue == b.tissue && a.goal == b.goal && a.share == b.share;
+                    });
+}
+
 Status check(const SessionInfo& info) {
   if (!(info.rate_hz > 0) || !std::isfinite(info.rate_hz))
     return error(Trouble::internal, "recording: the rate must be a positive number of ticks per s");
   if (Status good = check_fields(info.numbers, info.words); !good.ok()) return good;
   if (Status good = check_fields(info.volume.numbers, info.volume.words); !good.ok()) return good;
+  if (info.work_case) {
+    const auto read = case_of(*info.work_case);
+    if (!read) return read.error();
+    if (looks_private(info.work_case->name) ||
+        (!read->volume.empty() && read->volume != scenario::kOwnFile))
+      return error(Trouble::internal,
+                   "recording: the case holds a path, which must not be recorded");
+  }
   for (const volume::Tissue& tissue : info.volume.tissues.tissues)
     if (!std::isfinite(tissue.cutting_energy) || !std::isfinite(tissue.friction) ||
         !std::isfinite(tissue.cutting_friction) || !std::isfinite(tissue.bleeds) ||
@@ -129,14 +204,15 @@ std::string to_json(const SessionInfo& info) {
                  {"reserve_bricks", info.volume.reserve_bricks},
                  {"numbers", number_object(info.volume.numbers)},
                  {"words", info.volume.words}};
-  const json session = {{"burr_version", info.burr_version},
-                        {"build", info.build},
-                        {"rate_hz", info.rate_hz},
-                        {"seed", hex(info.seed)},
-                        {"numbers", number_object(info.numbers)},
-                        {"words", info.words},
-                        {"volume", std::move(volume)},
-                        {"embedded", info.embedded}};
+  json session = {{"burr_version", info.burr_version},
+                  {"build", info.build},
+                  {"rate_hz", info.rate_hz},
+                  {"seed", hex(info.seed)},
+                  {"numbers", number_object(info.numbers)},
+                  {"words", info.words},
+                  {"volume", std::move(volume)},
+                  {"embedded", info.embedded}};
+  if (info.work_case) session["case"] = json_from_case(*info.work_case);
   // names of tissues come from the user's file and may hold anything; broken UTF-8 is replaced
   return session.dump(1, ' ', false, json::error_handler_t::replace);
 }
@@ -163,6 +239,10 @@ Result<SessionInfo> session_from_json(std::string_view text, const std::string& 
   if (!get_word_object(part(object, "words"), info.words)) return missing("words");
   if (!get_flag(object, "embedded", info.embedded)) return missing("embedded");
 
+  if (const json& work = part(object, "case"); !work.is_null()) {
+    std::string field;
+    if (!get_case(work, info.work_case.emplace(), field)) return missing(field.c_str());
+  }
   const json& volume = part(object, "volume");
   if (!volume.is_object()) return missing("volume");
   if (!get_hash(volume, "content_hash", info.volume.content_hash))

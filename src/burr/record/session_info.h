@@ -7,10 +7,13 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "burr/base/result.h"
+#include "burr/scenario/case.h"
 #include "burr/volume/grid.h"
 #include "burr/volume/tissue.h"
 
@@ -31,6 +34,21 @@ struct VolumeInfo {
   Words words;      // "format": "NRRD", "phantom": "temporal-bone", "series_hash": "0x..." ...
 };
 
+// The case of the session, so that a score can be worked out from the recording and the bone alone.
+// Targets and spare are also in the text; they stand here for readers that know no TOML.
+struct CaseInfo {
+  std::string name;             // a built-in case, or the file's name without .toml
+  std::uint64_t text_hash = 0;  // scenario::text_hash() of the text as it was written
+  std::string text;             // scenario::Case::text
+  std::vector<scenario::Target> targets;
+  std::vector<std::string> spare;  // names of tissues
+  // The text has its hash, and says the same targets and spare: nobody changed the one or the other.
+  [[nodiscard]] bool unchanged() const;
+};
+[[nodiscard]] CaseInfo case_info(const scenario::Case& work);
+// The case as it was opened; its volume is scenario::kOwnFile where it named one.
+[[nodiscard]] Result<scenario::Case> case_of(const CaseInfo& info);
+
 struct SessionInfo {
   std::string burr_version;  // filled in by the Recorder
   std::string build;         // likewise: compiler and kind; replay is to the bit on the same build
@@ -39,7 +57,8 @@ struct SessionInfo {
   Numbers numbers;  // settings: "burr_radius_m", "spindle_rad_s", "stiffness_n_per_m" ...
   Words words;      // "device": "simulated hand", "motion": "pocket" ...
   VolumeInfo volume;
-  bool embedded = false;  // the bone lies in the file; filled in by the Recorder
+  std::optional<CaseInfo> work_case;  // none: no case, or recorded before cases were
+  bool embedded = false;              // the bone lies in the file; filled in by the Recorder
 };
 
 // Refuses what must not or cannot be written: paths, UIDs, numbers that are not finite.

@@ -196,6 +196,25 @@ void read_all(Reader& reader, Case& out) {
   });
 }
 
+// The text with the lines of `volume` replaced: where a file lies on somebody's disk, and what it
+// is called, must not be recorded.
+std::string without_path(std::string_view text, const toml::table& table) {
+  const toml::node* node = table.get("volume");
+  if (node == nullptr) return std::string(text);
+  const toml::source_region& at = node->source();
+  std::string out;
+  for (std::uint32_t line = 1; !text.empty(); ++line) {
+    const std::size_t end = text.find('\n');
+    const std::string_view piece = text.substr(0, end == std::string_view::npos ? end : end + 1);
+    if (line < at.begin.line || line > at.end.line)
+      out += piece;
+    else if (line == at.begin.line)
+      out += fmt::format("volume = \"{}\"\n", kOwnFile);
+    text.remove_prefix(piece.size());
+  }
+  return out;
+}
+
 std::string list_of(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
@@ -241,7 +260,44 @@ Result<Case> parse_case(std::string_view text, std::string_view file) {
   Reader reader(*table, std::string(file), "", wrong);
   read_all(reader, out);
   if (wrong) return *wrong;
+  out.text = without_path(text, *table);
   return out;
+}
+
+std::uint64_t text_hash(std::string_view text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return hash;
+}
+
+const char* word_of(Goal goal) {
+  switch (goal) {
+    case Goal::open:
+      break;
+    case Goal::expose:
+      return "expose";
+    case Goal::remove:
+      return "remove";
+  }
+  return "open";
+}
+
+std::string task_text(const Case& work) {
+  std::string text = base::shown(work.title) + "\n";
+  // line by line: base::shown() keeps a text of the file from moving the cursor
+  for (std::string_view rest = work.description; !rest.empty();) {
+    const std::size_t end = rest.find('\n');
+    text += base::shown(std::string(rest.substr(0, end)), 400) + "\n";
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+  }
+  for (const Target& target : work.targets)
+    text += target.goal == Goal::remove && target.share < 1
+                ? fmt::format("to do: remove {:.0f} % of {}\n", 100 * target.share,
+                              base::shown(target.tissue))
+                : fmt::format("to do: {} {}\n", word_of(target.goal), base::shown(target.tissue));
+  if (!work.spare.empty())
+    text += fmt::format("do not cut: {}\n", base::shown(list_of(work.spare), 400));
+  return text;
 }
 
 Status check_tissues(const Case& work, const volume::TissueTable& tissues) {

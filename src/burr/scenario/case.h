@@ -6,6 +6,7 @@
 // Thread: any. Errors: one sentence with file, field and remedy.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,7 +54,22 @@ struct Case {
   // what the simulated hand shows when nobody is there
   std::string motion = "pocket";
   double seconds = 20;
+
+  // The file's text, as a recording keeps it: where it names a volume, kOwnFile stands in place of
+  // the path. parse_case() reads it again.
+  std::string text;
 };
+
+inline constexpr const char* kOwnFile = "own file";
+
+// FNV-1a of 64 bits, so that other programs can work it out too. Shows a changed text; no secret.
+[[nodiscard]] std::uint64_t text_hash(std::string_view text);
+
+// "open", "expose", "remove": as the file says it.
+[[nodiscard]] const char* word_of(Goal goal);
+
+// What is to be done, for a terminal: title, description, targets, what must not be cut.
+[[nodiscard]] std::string task_text(const Case& work);
 
 [[nodiscard]] std::vector<std::string> built_in_cases();
 
@@ -63,7 +79,7 @@ struct Case {
 // The text of a case; `file` is what errors call it and gives the case its name.
 [[nodiscard]] Result<Case> parse_case(std::string_view text, std::string_view file);
 
-// Does the bone have the tissues the case speaks of?
+// The Error names the first tissue of the case that the bone lacks. Ask it where a case is opened.
 [[nodiscard]] Status check_tissues(const Case& work, const volume::TissueTable& tissues);
 
 }  // namespace burr::scenario

@@ -84,6 +84,7 @@ class Mill {
   void toggle_kind();
   void mirror(const SDL_Keysym& pressed);
   void tell_mirror();
+  void show_task();
   void saved_view(int slot, bool keep);
   void go_back();
   void keep();
@@ -162,6 +163,7 @@ class Mill {
   std::optional<ExportPage> export_;
   bool leaves_ = false;  // though a file is still being written
   bool irrigated_ = false;
+  bool task_ = true, task_read_ = false;  // what is to be done is shown; bone was removed since
   bool slices_shown_ = true, labels_ = true, pulls_window_ = false;
   bool headset_on_ = false, wand_ = false;    // it was there; the wand is the hand
   std::optional<render::Headset::Now> seen_;  // the frame begun

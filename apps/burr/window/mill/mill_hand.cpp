@@ -138,6 +138,9 @@ void Mill::key(const SDL_Keysym& pressed) {
     case SDLK_t:
       note(step_see_through(scene_, shift));
       break;
+    case SDLK_o:
+      show_task();
+      break;
     case SDLK_k:
       toggle_kind();
       break;
@@ -248,6 +251,11 @@ void Mill::key(const SDL_Keysym& pressed) {
     default:
       break;
   }
+}
+
+void Mill::show_task() {
+  task_ = options_.work_case && !task_;
+  if (!options_.work_case) note(word(Word::task_none));
 }
 
 // Closes what is open, last of all the page.

@@ -11,6 +11,7 @@
 #include "burr/render/scene.h"
 #include "burr/rt/flags.h"
 #include "window/mill/mill.h"
+#include "window/mill/task_panel.h"
 #include "window/shell/help.h"
 #include "window/shell/settings_page.h"
 #include "window/shell/words.h"
@@ -198,6 +199,9 @@ void Mill::panels() {
   if (panels_) {
     draw_hud(ui, hud());
     slices_->write_names(scene_, ui);
+    // it makes room for the work by itself; a key brings it back
+    if (row_.ledger.removed > 0 && !std::exchange(task_read_, true)) task_ = false;
+    if (task_ && options_.work_case) draw_task(ui, *options_.work_case);
     if (const auto pressed = draw_toolbar(ui, mode_, measuring_.on(), mirror_.now().on()))
       act(*pressed);
   }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "burr/render/scene.h"
+#include "burr/scenario/case.h"
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
 #include "burr/volume/greys.h"
@@ -35,6 +36,7 @@ struct WindowOptions {
   const SparedDistance* spared_distance = nullptr;  // what must not be cut; nullptr: nothing
   Loudspeaker* loudspeaker = nullptr;               // nullptr: no sound
   std::shared_ptr<const volume::Greys> greys = {};  // of the scan; none: slices show the bone
+  std::optional<scenario::Case> work_case = {};     // what is to be done; none: no case
 };
 
 // How the page was left.

@@ -94,6 +94,7 @@ bool draw_help(Ui& ui, bool left_handed, bool& pads) {
          {"I", Word::help_coolant}});
   block(ui, x + 480 * u, right, Word::help_program,
         {{"Tab", Word::help_hide},
+         {"O", Word::help_task},
          {"F2", Word::help_settings},
          {"F3", Word::help_stereo},
          {"S", Word::key_save},

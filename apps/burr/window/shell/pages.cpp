@@ -46,6 +46,7 @@ Result<Left> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& wind
   WindowOptions with = window;
   with.spared_distance = ready.spared_distance.get();
   with.greys = ready.greys;
+  with.work_case = ready.work_case;
   std::unique_ptr<Loudspeaker> loudspeaker;
   if (window.sound) {
     loudspeaker = std::make_unique<Loudspeaker>(ready.session->settings().servo,

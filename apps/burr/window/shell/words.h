@@ -354,6 +354,15 @@ enum class Word {
   session_kept,
   session_not_kept,
   key_save,
+  // what is to be done
+  task_open,
+  task_expose,
+  task_remove,
+  task_remove_share,
+  task_spare,
+  task_key,
+  task_none,
+  help_task,
   // flags of rt/flags.h
   flag_not_finite,
   flag_hand_lost,

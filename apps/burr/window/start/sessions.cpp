@@ -125,10 +125,17 @@ void throw_old_away(const fs::path& state, const Settings& settings) {
 
 Result<Ready> continue_session(const KeptSession& kept, Progress& progress) {
   WorkOptions options = kept.options;
-  const Status taken = take_case(options);
-  if (!taken) return taken.error();
   auto player = record::Player::open(kept.file.string());
   if (!player) return player.error();
+  // the case as it was, though its file may be changed or gone; only its volume is known by the file
+  const std::optional<record::CaseInfo>& recorded = (*player)->info().work_case;
+  Result<scenario::Case> work_case = recorded ? record::case_of(*recorded) : error("no case");
+  if (work_case && work_case->volume.empty()) {
+    take_case(options, *work_case);
+  } else {
+    const Status taken = take_case(options);
+    if (!taken) return taken.error();
+  }
 
   // a formula or an embedded bone is found by the recording, a scan by the user's own path
   std::error_code nobody_asks;
@@ -176,7 +183,7 @@ Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& optio
     for (int n = 2; fs::exists(kept_.file, nobody_asks); ++n)  // two within a second
       kept_.file = folder / fmt::format("{}_{}.mcap", name, n);
     made = recording_.start(session_, kept_.file.string(), ready.volume, ready.import,
-                            session_.hand().spec().name, embed);
+                            session_.hand().spec().name, embed, ready.spared, ready.work_case);
     recording_now_ = made.ok();
   }
   if (made) made = write_account();

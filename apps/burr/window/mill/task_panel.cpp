@@ -1,0 +1,85 @@
+#include "window/mill/task_panel.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <string>
+#include <vector>
+
+#include "window/mill/hud.h"
+#include "window/shell/words.h"
+
+namespace burr::app {
+namespace {
+
+struct Line {
+  Ui::Letter letter;
+  ImU32 ink;
+  std::string text;
+};
+
+Word word_of(const scenario::Target& target) {
+  switch (target.goal) {
+    case scenario::Goal::open:
+      break;
+    case scenario::Goal::expose:
+      return Word::task_expose;
+    case scenario::Goal::remove:
+      return target.share < 1 ? Word::task_remove_share : Word::task_remove;
+  }
+  return Word::task_open;
+}
+
+std::vector<Line> lines_of(const scenario::Case& work) {
+  using Letter = Ui::Letter;
+  std::vector<Line> lines;
+  lines.push_back({Letter::strong, ink::kAccent, work.title});
+  if (!work.description.empty()) lines.push_back({Letter::body, ink::kText, work.description});
+  for (const scenario::Target& target : work.targets) {
+    const Word says = word_of(target);
+    lines.push_back({Letter::body, ink::kText,
+                     says == Word::task_remove_share ? say(says, 100 * target.share, target.tissue)
+                                                     : say(says, target.tissue)});
+  }
+  if (!work.spare.empty()) {
+    std::string names;
+    for (const std::string& name : work.spare) names += (names.empty() ? "" : ", ") + name;
+    lines.push_back({Letter::body, ink::kWarn, say(Word::task_spare, names)});
+  }
+  lines.push_back({Letter::small, ink::kDim, word(Word::task_key)});
+  return lines;
+}
+
+// Line breaks within a description follow the width of the panel, not the file's.
+std::string flowing(std::string text) {
+  for (std::size_t n = 0; n + 1 < text.size(); ++n)
+    if (text[n] == '\n' && text[n + 1] != '\n' && (n == 0 || text[n - 1] != '\n')) text[n] = ' ';
+  return text;
+}
+
+}  // namespace
+
+void draw_task(const Ui& ui, const scenario::Case& work) {
+  const float u = ui.unit(), wide = 360 * u, inside = wide - 28 * u, gap = 6 * u;
+  std::vector<Line> lines = lines_of(work);
+  float high = 2 * 12 * u - gap;
+  for (Line& line : lines) {
+    line.text = flowing(std::move(line.text));
+    const ImFont* font = ui.font(line.letter);
+    high += gap + font->CalcTextSizeA(font->FontSize, FLT_MAX, inside, line.text.c_str()).y;
+  }
+  const float x = 104 * u, y = 10 * u;
+  const float room = ui.height() - hud_height(ui) - 2 * y;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.AddRectFilled({x, y}, {x + wide, y + std::min(high, room)}, ink::kPanel, 8 * u);
+  draw.PushClipRect({x, y}, {x + wide, y + std::min(high, room)}, true);
+  float at = y + 12 * u;
+  for (const Line& line : lines) {
+    const ImFont* font = ui.font(line.letter);
+    draw.AddText(font, font->FontSize, {x + 14 * u, at}, line.ink, line.text.c_str(), nullptr,
+                 inside);
+    at += gap + font->CalcTextSizeA(font->FontSize, FLT_MAX, inside, line.text.c_str()).y;
+  }
+  draw.PopClipRect();
+}
+
+}  // namespace burr::app
