@@ -97,7 +97,7 @@ CheckLine virtual_line(const Machine& machine) {
           "the worst case belongs to the host; for a real device run burr on the machine itself"};
 }
 
-// Why these ticks do not meet the bars.
+// Adds the reasons why these ticks do not meet the bars.
 void hold_against(const CheckBars& bars, const TickSummary& ticks, std::vector<std::string>& why) {
   if (ticks.p999_us > bars.work_us)
     why.push_back(fmt::format("one tick in a thousand works {:.0f} us or longer ({:.0f} allowed)",
@@ -114,7 +114,7 @@ void hold_against(const CheckBars& bars, const TickSummary& ticks, std::vector<s
     why.push_back(fmt::format("{} of {:.0f} ticks were left out", ticks.missed, all));
 }
 
-// What only a real device needs.
+// Adds the reasons that concern only a real device.
 void hold_against(const MachineSeen& seen, std::vector<std::string>& why) {
   if (!seen.grant.fifo) why.emplace_back("the tick has ordinary priority");
   if (!seen.grant.locked) why.emplace_back("memory is not locked");
@@ -165,7 +165,7 @@ MachineJudged judge(const MachineSeen& seen) {
                         : "not good enough for a real device";
   if (!judged.reasons.empty())
     judged.sentence += fmt::format(": {}", fmt::join(judged.reasons, "; "));
-  // whose fault the lateness is
+  // what causes the lateness
   const CheckBars& bars = hard.empty() ? kGood : kUsable;
   if (ticks.late_p999_us > bars.late_us || ticks.worst_lateness_us > bars.worst_us)
     judged.sentence +=
