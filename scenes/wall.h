@@ -7,8 +7,8 @@
 
 namespace burr::scenes {
 
-// 60 x 60 mm about the origin, 8 mm thick. Its one tissue rubs with coefficient 1, so that a scale
-// of friction is the coefficient itself.
+// 60 x 60 mm around the origin, 8 mm thick. Its one tissue has friction coefficient 1, so that a
+// friction scale equals the coefficient.
 [[nodiscard]] std::unique_ptr<volume::Bone> wall();
 
 }  // namespace burr::scenes

@@ -1,4 +1,4 @@
-// base/hash.h - a fast 64-bit hash for "are these the same bits", not for secrets.
+// base/hash.h - a fast 64-bit hash to compare data bit by bit; not for cryptography.
 #pragma once
 
 #include <cstddef>

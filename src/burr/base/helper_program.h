@@ -1,4 +1,4 @@
-// base/helper_program.h - a program of ours that does a part of the work in a process of its own.
+// base/helper_program.h - finds a program of burr that does part of the work in a separate process.
 //
 //     const std::string reader = helper_program("burr-read", "BURR_READ");
 //
@@ -9,8 +9,9 @@
 
 namespace burr::base {
 
-// Its path: where the environment variable says, else beside the library (a build tree), else where
-// an installation has its helpers; empty: nowhere.
+// The path of the program `name`. If the environment variable `variable` is set, only that path is
+// tried. Otherwise: the folder of the library (a build tree), then the libexec folder of the
+// installation. Empty: no program that can be run was found.
 [[nodiscard]] std::string helper_program(const char* name, const char* variable);
 
 }  // namespace burr::base

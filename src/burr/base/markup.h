@@ -1,5 +1,5 @@
-// base/markup.h - words that come from files, devices or people, made fit to stand between tags and
-// in quotes of HTML, SVG and XML.
+// base/markup.h - escapes text from files, devices or users so that it can stand between tags and
+// inside quotes of HTML, SVG and XML.
 //
 // Thread: any.
 #pragma once
@@ -9,7 +9,8 @@
 
 namespace burr::base {
 
-// Nothing of it becomes markup; control letters, which XML does not know, become spaces.
+// No part of the result is read as markup. Control characters, which XML does not allow, become
+// spaces.
 [[nodiscard]] std::string markup_text(std::string_view text);
 
 }  // namespace burr::base

@@ -33,7 +33,7 @@ std::string reason(int number) {
   }
 }
 
-// all of it, or errno
+// Writes everything; returns 0 or errno.
 int write_all(int file, const char* data, std::size_t size) {
   while (size > 0) {
     const ssize_t done = ::write(file, data, size);
@@ -48,7 +48,7 @@ int write_all(int file, const char* data, std::size_t size) {
 }  // namespace
 
 Result<NewFile> NewFile::beside(const std::string& path) {
-  // a link is followed, so that it stays one
+  // follow a link, so that it stays a link
   std::error_code ignored;
   std::filesystem::path place = path;
   if (std::filesystem::is_symlink(place, ignored))
@@ -58,7 +58,7 @@ Result<NewFile> NewFile::beside(const std::string& path) {
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     return error(Trouble::io, path + ": is no plain file; give the name of a file");
 
-  // a name nobody else has: a crashed run may have left one with our number behind
+  // a name that no one else uses: a crashed run may have left a file with our process number
   static std::atomic<unsigned> count = 0;
   std::string name;
   int file = -1;
@@ -124,7 +124,7 @@ Error NewFile::failed(const char* doing) const {
 Status NewFile::put_in_place() {
   BURR_CHECK(file_ >= 0);
   flush();
-  // some file systems tell only now that there was no room
+  // some file systems report only now that the disk is full
   if (trouble_ == 0 && ::fsync(file_) != 0 && errno != EINVAL) trouble_ = errno;
   if (trouble_ != 0) return failed("written");
   if (::rename(beside_.c_str(), place_.c_str()) != 0) {

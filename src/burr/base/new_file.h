@@ -1,14 +1,15 @@
-// base/new_file.h - a file that is there whole or not at all: written beside its place, then
-// renamed.
+// base/new_file.h - writes a file completely or not at all: into a temporary file in the same
+// folder, which is then renamed.
 //
 //     Result<base::NewFile> file = base::NewFile::beside(path);
 //     if (!file) return file.error();
-//     file->write(data, size);                         // trouble is remembered
-//     return file->put_in_place();                     // ... and told here
+//     file->write(data, size);                         // a failure is remembered
+//     return file->put_in_place();                     // ... and reported here
 //
-// What is not put in place vanishes with the object: a cancelled or failed export leaves nothing,
-// and an older file of that name stays as it was. Links are followed; devices, pipes and folders
-// are refused. Thread: one. Errors: Trouble::io with the path and the system's reason.
+// Without put_in_place() the temporary file is deleted with the object: a cancelled or failed
+// export leaves nothing behind, and an older file of that name stays unchanged. Symbolic links are
+// followed; devices, pipes and folders are refused. Thread: one. Errors: Trouble::io with the path
+// and the system's reason.
 #pragma once
 
 #include <cstddef>
@@ -31,15 +32,16 @@ class NewFile {
   NewFile& operator=(const NewFile&) = delete;
   ~NewFile();
 
-  // Appends. After the first failure nothing more is written; ok() says whether there was one.
+  // Appends. After the first failure nothing more is written; ok() then returns false.
   void write(const void* data, std::size_t size);
   void write(std::string_view text) { write(text.data(), text.size()); }
-  // Overwrites bytes written before, e.g. a count in a header known only at the end.
+  // Overwrites bytes written earlier, for example a count in a header that is known only at the
+  // end.
   void write_at(std::size_t offset, const void* data, std::size_t size);
   [[nodiscard]] bool ok() const { return trouble_ == 0; }
   [[nodiscard]] std::size_t size() const { return size_ + buffer_.size(); }  // so far  [byte]
 
-  // Flushes to the disk and renames. After it nothing may be written.
+  // Flushes to the disk and renames. Do not write afterwards.
   [[nodiscard]] Status put_in_place();
 
  private:

@@ -1,6 +1,6 @@
-// base/progress.h - long work says how far it is, and may be asked to stop.
+// base/progress.h - long work reports how far it is, and can be cancelled.
 //
-// Thread: called by whoever works, one at a time; cancelled() from any thread.
+// Thread: report() by the working threads, one call at a time; cancelled() from any thread.
 #pragma once
 
 #include <string_view>
@@ -14,16 +14,16 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   virtual ~Progress() = default;
 
-  // fraction: 0..1 of the present stage; stage: a few words ("reading slices"). Call as often as
+  // fraction: 0..1 of the present stage; stage: a few words ("reading slices"). Call it as often as
   // you like.
   virtual void report(double fraction, std::string_view stage) = 0;
 
-  // true: somebody wants to stop; return error(Trouble::interrupted, ...) soon, leave nothing
-  // half-written.
+  // true: the caller wants to stop. Return error(Trouble::interrupted, ...) soon, and leave no
+  // half-written file.
   [[nodiscard]] virtual bool cancelled() const = 0;
 };
 
-// For callers that do not care.
+// For callers that need neither progress nor cancelling.
 class NoProgress final : public Progress {
  public:
   void report(double, std::string_view) override {}

@@ -1,11 +1,11 @@
-// base/result.h - the answer of work the world may spoil: a value, or one sentence about what went
-// wrong.
+// base/result.h - the result of work that can fail from outside causes: a value, or one sentence
+// that says what went wrong.
 //
 //     Result<Scan> scan = io::read_scan(path);
 //     if (!scan) return scan.error();     // or: fmt::print(stderr, "{}\n", scan.error().text)
 //
-// For files, devices and arguments; our own mistakes go to BURR_CHECK, trouble in the tick to
-// flags. Thread: any. Memory: the text; so never in the tick.
+// For files, devices and arguments. Programming errors go to BURR_CHECK, trouble inside the tick to
+// flags. Thread: any. Memory: the text is allocated, so never use it inside the tick.
 #pragma once
 
 #include <string>
@@ -16,17 +16,17 @@
 
 namespace burr {
 
-// What kind of trouble; the number is the exit code of the program (sysexits.h).
+// The kind of trouble. The number is the exit code of the program (see sysexits.h).
 enum class Trouble {
-  failed = 1,         // a check that was asked for does not hold
-  usage = 2,          // the command line
-  data = 65,          // a file says what cannot be
-  internal = 70,      // our own mistake, caught late
+  failed = 1,         // a check that the user asked for did not pass
+  usage = 2,          // wrong arguments on the command line
+  data = 65,          // the content of a file is invalid
+  internal = 70,      // a programming error that was caught late
   io = 74,            // a file cannot be read or written
   interrupted = 130,  // the user asked to stop
 };
 
-// One sentence: what (file), where (field), what to do about it.
+// One sentence: what (file), where (field), and what to do about it.
 struct Error {
   Trouble trouble = Trouble::data;
   std::string text;

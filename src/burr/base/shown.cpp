@@ -5,8 +5,8 @@
 namespace burr::base {
 namespace {
 
-// bytes of the UTF-8 character that begins here; 0: none does (RFC 3629: no overlong forms, no
-// surrogates, nothing above U+10FFFF)
+// Bytes of the UTF-8 character that begins here; 0: none begins here (RFC 3629: no overlong forms,
+// no surrogates, nothing above U+10FFFF)
 std::size_t character(std::string_view text) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
@@ -36,7 +36,7 @@ std::string shown(std::string_view text, std::size_t most) {
     const std::size_t size = character(text);
     if (out.size() + std::max<std::size_t>(size, 1) > most) return out + "...";
     const auto first = static_cast<unsigned char>(text.front());
-    // C0, DEL, and C1, which is U+0080 to U+009F
+    // C0 and DEL; or C1, U+0080 to U+009F
     const bool control =
         size == 1 ? first < 0x20 || first == 0x7F
                   : size == 2 && first == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0;

@@ -1,5 +1,5 @@
-// base/shown.h - text out of a file, made fit to stand in a sentence: short, one line, nothing that
-// moves a terminal's cursor.
+// base/shown.h - makes text from a file safe to print inside a message: short, on one line, without
+// characters that move a terminal's cursor.
 //
 //     error(fmt::format("{}: type: \"{}\" is no number burr reads", file, base::shown(type)))
 //
@@ -12,8 +12,8 @@
 
 namespace burr::base {
 
-// At most `most` bytes of it, control characters and what is no UTF-8 as '?', "..." where it was
-// cut.
+// The first `most` bytes. Control characters and invalid UTF-8 become '?'; "..." marks where the
+// text was cut.
 [[nodiscard]] std::string shown(std::string_view text, std::size_t most = 60);
 
 }  // namespace burr::base

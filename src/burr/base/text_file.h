@@ -1,7 +1,7 @@
-// base/text_file.h - a small file of text, whole: a case, a table, a log.
+// base/text_file.h - reads a small text file whole: a case, a table, a log.
 //
-// Files that may be hostile (scans) are read behind the fence of io/, not here. Errors name the
-// file, not where on the disk it lies. Thread: any.
+// Files that may be hostile (scans) are read behind the fence of io/, not here. An error names the
+// file without its folder. Thread: any.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@
 
 namespace burr::base {
 
-// for_what: "a case; is this another file?", said of a file of more than `most` bytes.
+// for_what: a phrase for the error message when the file has more than `most` bytes ("{file}: {n}
+// bytes are too many for {for_what}"), for example "a case; is this another file?".
 [[nodiscard]] Result<std::string> text_of_file(const std::string& path, std::uintmax_t most,
                                                std::string_view for_what);
 

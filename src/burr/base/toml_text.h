@@ -1,4 +1,4 @@
-// base/toml_text.h - any text as a string of TOML, in quotes, so that it is read back as it was.
+// base/toml_text.h - quotes any text as a TOML string that is read back unchanged.
 //
 // Thread: any.
 #pragma once

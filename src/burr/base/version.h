@@ -1,4 +1,4 @@
-// base/version.h - which burr this is.
+// base/version.h - version and build of this burr.
 #pragma once
 
 namespace burr::base {

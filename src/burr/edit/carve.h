@@ -1,20 +1,21 @@
-// edit/carve.h - the burr takes bone away, or puts material on, exactly as much as the ledger owes.
+// edit/carve.h - removes bone with the burr, or adds material: exactly the volume that the ledger
+// owes.
 //
 //     debt += asked;             share = debt / everything the ball stands in
 //     field -= share * excess;   debt -= really removed
 //
-// Anti-aliased (the ball's own ramp, not whole voxels), exact in volume (integers), independent of
-// order, tick rate and, to second order, of the voxel (docs/cutting.md, "Carving"; volume by
-// volume_of.h). The ball is advanced a little along the push and is larger than the burr by a
-// small, adaptive margin, without which a burr wedges in its own hole. If both were a share of a
-// voxel, a coarse bone would be cut deeper under the burr than a fine one (an error of first order
-// in h). What stays owed longer than a few ticks is written off as "not cut", or a stalled burr
-// would save up.
+// Anti-aliased (with the ball's own ramp, not whole voxels), exact in volume (integers),
+// independent of order, of tick rate and, to second order, of the voxel size (docs/cutting.md,
+// "Carving"; volume by volume_of.h). The ball is moved forward a little along the push and is
+// larger than the burr by a small, adaptive margin; without it a burr gets stuck in its own hole.
+// Both are lengths of the tool: as a share of a voxel they would cut a coarse bone deeper than a
+// fine one (an error of first order in h). Debt that is older than a few ticks is written off as
+// "not cut"; otherwise a stalled burr would save it up.
 //
-// With a mirror the image of the ball takes the same share of what it stands in, tick by tick: on
-// bone that is its own image that is the same to the bit; on other bone it goes towards the same
-// shape at the same pace. The hand pays for its own side alone; what the image takes counts as
-// asked for and taken.
+// With a mirror the image of the ball takes, in every tick, the same share of the material it
+// stands in. On symmetric bone both sides are then equal to the bit; on other bone the image
+// approaches the same shape at the same pace. The debt counts the hand's side alone; what the image
+// removes is added to both `asked` and `removed`.
 //
 // Thread: servo, the one writer of the bone. Frame: p_grid [voxel]. Memory: none after
 // construction.
@@ -35,13 +36,13 @@ namespace burr::edit {
 
 struct CarveSettings {
   // How far the cutting ball reaches ahead along the push, and by how much it is larger than the
-  // burr: what its teeth do. Lengths of the tool, so that a hole does not depend on the voxel; but
-  // never less than a share of a voxel, or the burr wedges.
+  // burr: the effect of its teeth. Lengths of the tool, so that a hole does not depend on the
+  // voxel; but never less than a share of a voxel, or the burr gets stuck.
   double advance_m = 50e-6;     // [m]
   double advance_least = 0.25;  // [voxel]
   double margin_m = 10e-6;      // [m]
   double margin_least = 0.05;   // [voxel]
-  double margin_most = 0.5;     // when blocked [voxel]
+  double margin_most = 0.5;     // while the burr is blocked [voxel]
   double margin_rise = 20;      // while blocked [voxel/s]
   double margin_fall = 2;       // while cutting freely [voxel/s]
   double patience = 5e-3;       // how long a debt may wait, at the present rate of asking [s]
@@ -56,9 +57,9 @@ struct Cut {
   double radius = 0;              // of the burr [voxel]
   double energy = 0;              // to be spent this tick [J] (carve)
   double volume = 0;              // to be put on this tick [m^3] (deposit)
-  volume::TissueId material = 1;  // deposit: what
+  volume::TissueId material = 1;  // deposit: its tissue
   double dt = 1e-3;               // [s]
-  int slices = 1;                 // the bricks are cut in so many ticks, in slice; a power of two
+  int slices = 1;                 // the bricks are cut in this many ticks, in turn; a power of two
   Mirror mirror = {};             // the same is done across it
 };
 
@@ -67,7 +68,7 @@ class Carver {
   static constexpr int kMostSlices = 64;  // more than the largest burr on the finest voxel needs
   Carver(BoneWriter& writer, const CarveSettings& settings);
 
-  // Adds to `flags` (rt/flags.h bits: not cut, reserve, undo full, put off).
+  // Adds to `flags` (bits of rt/flags.h: not cut, reserve, undo full, put off).
   void carve(const Cut& cut, std::uint32_t& flags) BURR_RT;
   void deposit(const Cut& cut, std::uint32_t& flags) BURR_RT;
   // Nothing touched this tick: what is still owed is written off as patience runs out.
@@ -75,14 +76,14 @@ class Carver {
 
   [[nodiscard]] Ledger ledger() const BURR_RT { return writer_.ledger(); }
   [[nodiscard]] double margin() const BURR_RT { return margin_; }  // [voxel]
-  // Of what the ledger says was removed and added, that of the image.  [m^3]
+  // The image's part of the removed and added volume in the ledger.  [m^3]
   [[nodiscard]] double removed_by_image() const BURR_RT {
     return static_cast<double>(account_.image_removed) * writer_.unit_m3();
   }
   [[nodiscard]] double added_by_image() const BURR_RT {
     return static_cast<double>(account_.image_added) * writer_.unit_m3();
   }
-  // Bricks that the burr, and its image, stood in in the last tick; 0 while idle.
+  // Number of bricks that the burr and its image stood in during the last tick; 0 while idle.
   [[nodiscard]] int bricks_last() const BURR_RT { return static_cast<int>(reached_.count()); }
 
   // ---- for other ways to carve with the same ball (laws/thesis.h)
@@ -104,15 +105,15 @@ class Carver {
   CarveSettings settings_;
   CarveKernel kernel_;
   Reached reached_;
-  int crowd_slices_ = 1;  // in how many slices the bricks fit into the list
+  int crowd_slices_ = 1;  // number of slices in which they fit
   int usual_slices_ = 1;  // in how many it is worth the while
   struct Part {
     std::int64_t units = 0;  // excess of the slice's bricks
     int bricks = 0;
     bool known = false;
   };
-  Part parts_[kMostSlices] = {};  // of each slice, when it last came
-  int slices_ = 1, slice_ = 0;    // this many; the next
+  Part parts_[kMostSlices] = {};  // of each slice, from its last turn
+  int slices_ = 1, slice_ = 0;    // number of slices; the next one
 
   double added_debt_ = 0;                               // [units]
   double rate_ = 0;                                     // smoothed rate of asking [units/s]

@@ -1,4 +1,4 @@
-// edit/changed_queue.h - bricks that changed and have not been written down yet, each once, oldest
+// edit/changed_queue.h - bricks that changed and have not been recorded yet, each once, oldest
 // first.
 //
 // Thread: servo. Memory: 5 B a brick of the grid, at construction.
@@ -27,7 +27,7 @@ class ChangedQueue {
     ++size_;
   }
 
-  // kNoBrick: nothing waits
+  // kNoBrick: the queue is empty
   volume::BrickIndex pop() BURR_RT {
     if (size_ == 0) return volume::kNoBrick;
     const volume::BrickIndex brick = ring_[tail_];

@@ -1,4 +1,4 @@
-// edit/ledger.h - the account of removed volume: what was asked for, what was taken, what is owed.
+// edit/ledger.h - the account of removed volume: what was asked for, removed and still owed.
 //
 //     asked = removed + debt + not_cut          at every tick, to rounding of a double
 //
@@ -11,7 +11,7 @@ struct Ledger {
   double asked = 0;    // by the removal law, since the start
   double removed = 0;  // really taken out of the field
   double debt = 0;     // asked, not yet taken
-  double not_cut = 0;  // asked, but the burr was blocked longer than the debt may wait
+  double not_cut = 0;  // asked, but written off: blocked longer than a debt may wait
   double added = 0;    // deposited
   double energy = 0;   // spent on cutting  [J]
 };

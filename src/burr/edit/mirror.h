@@ -1,16 +1,18 @@
-// edit/mirror.h - a plane through the bone, across which whatever is done is done likewise.
+// edit/mirror.h - a plane through the bone: whatever is done on one side is done on the other side
+// too.
 //
-// The plane is square to an axis of the grid and lies on a voxel or midway between two, so that
-// every voxel has a voxel for its image: voxel v along the axis has that at twice - v. Centres of
-// balls are rounded to kStep: all differences from a voxel to a centre are then exact as floats,
-// and equal but for the sign on both sides, so that what comes of them is equal to the bit.
+// The plane is perpendicular to an axis of the grid and lies on a voxel or midway between two, so
+// that the image of a voxel is a voxel: v along the axis has the image `twice` - v. Centres of
+// balls are rounded to kStep: differences between a voxel and a centre are then exact in floats,
+// and equal up to their sign on both sides, so that the results are equal to the bit.
 //
-// Each ball works in its own half space alone, which is the half that is nearer to it: together
-// they do what the union of both would, and nothing twice. Voxels on the plane itself are the
-// hand's.
+// Each ball works only in the half space that is nearer to it: together they do what the union of
+// both balls would do, and no voxel is cut twice. Voxels on the plane itself belong to the hand's
+// side.
 //
-// Bricks are not mirrored by a plane that lies somewhere among them. Where bricks take slices of time, a
-// voxel of the image has the slice of the brick that its own image is in: by layers of a brick.
+// The plane may lie anywhere inside a brick, so the image of a brick is usually not a brick. Where
+// bricks take slices of time, a voxel on the image's side has the slice of the brick that holds its
+// own image; this is decided per layer of a brick.
 //
 // Thread: any. Frame: p_grid [voxel].
 #pragma once
@@ -28,7 +30,7 @@ namespace burr::edit {
 struct Mirror {
   static constexpr double kStep = 1.0 / 1024;  // [voxel]
   int axis = -1;                               // of the grid; below 0: no mirror
-  int twice = 0;                               // the plane's place along it [half voxel]
+  int twice = 0;                               // the plane's place along the axis [half voxel]
 
   [[nodiscard]] bool on() const BURR_RT { return axis >= 0; }
   [[nodiscard]] double place() const BURR_RT { return 0.5 * twice; }  // [voxel]
@@ -40,24 +42,24 @@ struct Mirror {
   [[nodiscard]] bool operator==(const Mirror&) const = default;
 };
 
-// The nearest plane that mirrors voxels onto voxels, inside the grid.
+// The nearest plane inside the grid that mirrors voxels onto voxels.
 [[nodiscard]] inline Mirror mirror_at(int axis, double place, const math::Ijk& size) BURR_RT {
   const double most = size[axis] - 1.0;
   return {axis, static_cast<int>(std::lround(2 * std::clamp(place, 0.0, most)))};
 }
 
-// Which part of the bone a ball works in.
+// The part of the bone that a ball works in.
 struct Half {
-  Mirror mirror;                                    // off: in all of it
+  Mirror mirror;                                    // off: the whole bone
   int lowest = INT_MIN / 2, highest = INT_MAX / 2;  // voxels along the axis
-  bool is_image = false;                            // across the plane from the hand
+  bool is_image = false;                            // on the other side of the plane from the hand
 };
 
-// A ball's centre and where it works: once, or on both sides.
+// A ball's centre and half: one entry, or the hand's and the image's.
 struct Sides {
   int count = 1;
   math::Vec3 centre[2];
-  Half half[2];  // the hand's first
+  Half half[2];  // the hand's comes first
 };
 
 [[nodiscard]] inline math::Vec3 rounded(const math::Vec3& p) BURR_RT {
@@ -85,7 +87,7 @@ struct Sides {
   return sides;
 }
 
-// Of a ball and its image the one that is in this half.
+// Of a ball's centre and its image, returns the one that lies in this half.
 [[nodiscard]] inline math::Vec3 folded(const math::Vec3& p, const Half& half) BURR_RT {
   if (!half.mirror.on()) return p;
   const math::Vec3 at = rounded(p);
@@ -94,8 +96,8 @@ struct Sides {
   return in ? at : half.mirror.image_of(at);
 }
 
-// Bricks work in slices where there are too many; odd steps: along every axis the next brick is
-// of another slice. slices: a power of two
+// Decides whether a brick is worked on in this slice. The odd steps put neighbouring bricks along
+// every axis into different slices. slices: a power of two
 [[nodiscard]] inline bool has_slice(int bi, int bj, int bk, int slices, int slice) BURR_RT {
   return static_cast<unsigned>(bi + 3 * bj + 5 * bk) % static_cast<unsigned>(slices) ==
          static_cast<unsigned>(slice);
@@ -103,8 +105,8 @@ struct Sides {
 
 inline constexpr unsigned kAllLayers = 0xFF;
 
-// Layers of a brick across the mirror's axis that are in the half and have their slice: bit n, the
-// n-th; all or none without a mirror.
+// The layers of a brick across the mirror's axis that are in the half and whose slice it is: bit n
+// for layer n. Without a mirror: all or none.
 [[nodiscard]] inline unsigned layers_of(const math::Ijk& brick, const Half& half, int slices,
                                         int slice) BURR_RT {
   if (!half.is_image && !has_slice(brick.x(), brick.y(), brick.z(), slices, slice)) return 0;
@@ -125,7 +127,7 @@ inline constexpr unsigned kAllLayers = 0xFF;
 }
 static_assert(volume::kBrickEdge == 8);
 
-// Is a voxel of a brick, x + 8 y + 64 z, in one of these layers?
+// True if voxel x + 8 y + 64 z of a brick is in one of these layers.
 [[nodiscard]] inline bool in_layers(int voxel, int axis, unsigned layers) BURR_RT {
   return layers == kAllLayers || (layers >> (voxel >> (3 * axis) & 7) & 1U) != 0;
 }

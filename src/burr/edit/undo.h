@@ -1,13 +1,13 @@
-// edit/undo.h - old bricks are kept: by stroke for undo and redo, and as they were at the start for
-// reset.
+// edit/undo.h - keeps the old content of bricks: per stroke for undo and redo, and from the start
+// of the session for reset.
 //
-// A brick is copied the first time a stroke touches it. Undo swaps the stroke's bricks with what is
-// in the bone now, so the same entries serve redo. When the memory is full the oldest stroke is
-// forgotten, and that is said. The start is never forgotten.
+// A brick is copied the first time a stroke touches it. Undo swaps the stroke's bricks with the
+// present content, so the same entries serve redo. When the memory is full the oldest stroke is
+// dropped, and keep() reports it. The content at the start is never dropped.
 //
-// Thread: servo; take_ahead() on any one other. Memory: 1.5 KiB for each brick ever changed and
-// each that a stroke remembers, taken a little ahead of use; addresses for all of them at
-// construction.
+// Thread: servo; take_ahead() on any one other. Memory: 1.5 KiB for each brick that was ever
+// changed and for each brick that a stroke remembers, taken a little ahead of use; addresses for
+// all of them are reserved at construction.
 #pragma once
 
 #include <atomic>
@@ -28,29 +28,29 @@ struct KeptBrick {
 
 class UndoStore {
  public:
-  // stroke_bricks: how many bricks all remembered strokes may touch together
+  // stroke_bricks: how many bricks all remembered strokes may touch in total
   UndoStore(const volume::Bone& bone, std::size_t stroke_bricks);
 
-  // Takes the memory the next strokes will need; call it every few milliseconds while the servo
-  // cuts, from another thread.
+  // Takes the memory that the next strokes will need. Call it every few milliseconds while the
+  // servo cuts, from another thread.
   void take_ahead();
 
   // ---- while cutting
-  void begin_stroke(std::uint64_t path_mark) BURR_RT;  // forgets what could have been redone
+  void begin_stroke(std::uint64_t path_mark) BURR_RT;  // drops the strokes that could be redone
   void end_stroke() BURR_RT { open_ = false; }
   [[nodiscard]] bool stroke_open() const BURR_RT { return open_; }
-  // Call before a brick is written. True: an older stroke had to be forgotten, or the stroke itself
-  // is too large.
+  // Call before a brick is written. True: an older stroke was dropped, or this stroke itself is too
+  // large.
   bool keep(volume::BrickIndex brick) BURR_RT;
 
-  // ---- going back and forth: entries of the stroke, to be swapped by the caller
+  // ---- undo and redo: entries of the stroke, which the caller must swap
   struct Range {
     std::uint64_t first = 0, count = 0;  // entry numbers; entry(i) for i in [first, first + count)
     std::uint64_t path_mark = 0;
   };
   [[nodiscard]] bool can_undo() const BURR_RT { return !open_ && done_ > oldest_; }
   [[nodiscard]] bool can_redo() const BURR_RT { return !open_ && done_ < newest_; }
-  [[nodiscard]] Range undo() BURR_RT;  // the last stroke; it is then the first to be redone
+  [[nodiscard]] Range undo() BURR_RT;  // the last stroke; redo() then returns it first
   [[nodiscard]] Range redo() BURR_RT;
   [[nodiscard]] const KeptBrick& entry(std::uint64_t number) const BURR_RT {
     return entries_[number % entries_.size()];
@@ -59,14 +59,14 @@ class UndoStore {
     return entries_[number % entries_.size()];
   }
 
-  // ---- the start
+  // ---- content at the start of the session
   [[nodiscard]] std::size_t touched() const BURR_RT {
     return originals_used_;
   }  // bricks ever changed
   [[nodiscard]] const KeptBrick& original(std::size_t number) const BURR_RT {
     return originals_[number];
   }
-  // nullptr: never changed
+  // nullptr: the brick was never changed
   [[nodiscard]] const KeptBrick* original_of(volume::BrickIndex brick) const BURR_RT;
   void forget_strokes() BURR_RT;
 
@@ -85,14 +85,14 @@ class UndoStore {
   std::vector<Stroke> strokes_;  // a ring
   std::uint64_t oldest_ = 0, done_ = 0,
                 newest_ = 0;  // strokes [oldest, done) can be undone, [done, newest) redone
-  std::uint64_t serial_ = 0;  // of the open stroke; never used twice
+  std::uint64_t serial_ = 0;  // of the open stroke; never reused
   bool open_ = false, overflowed_ = false;
   std::vector<std::uint64_t> kept_in_;  // (brick_count) serial of the stroke that kept it last
   rt::Promised<KeptBrick> originals_;
   std::size_t originals_used_ = 0;
   std::vector<std::int32_t> original_at_;  // (brick_count) -1: never changed
 
-  // how far the memory is used, told to whoever takes it ahead
+  // how much memory is used, for take_ahead()
   std::atomic<std::uint64_t> entries_told_ = 0, originals_told_ = 0;
 };
 

@@ -1,9 +1,9 @@
-// fit/force_log.h - what was measured while something was milled, one row a moment: forces, speed,
-// removal. From CSV (docs/fit.md) or from our own recordings (fit/recorded_log.h).
+// fit/force_log.h - measurements made while milling, one row per moment: forces, speed, removal.
+// From CSV (docs/fit.md) or from burr's recordings (fit/recorded_log.h).
 //
 //     Result<ForceLog> log = fit::read_force_log("bench.csv");
 //
-// Units: SI inside; the columns of the file carry theirs. Thread: any.
+// Units: SI inside; the file's columns have their units in their names. Thread: any.
 #pragma once
 
 #include <optional>
@@ -19,27 +19,27 @@ struct ForceRow {
   double time = 0;     // [s]
   double normal = 0;   // force of the burr on the bone, along the contact normal   [N]
   double speed = 0;    // of the burr                                              [rad/s]
-  double radius = 0;   // effective: of the teeth that cut, about the burr's axis  [m]
-  double removal = 0;  // volume removed a second                                  [m^3/s]
-  std::optional<double> tangential;  // force along the teeth's way                [N]
+  double radius = 0;   // effective: distance of the cutting teeth from the axis   [m]
+  double removal = 0;  // volume removed per second                                [m^3/s]
+  std::optional<double> tangential;  // force along the motion of the teeth        [N]
   std::optional<double> power;       // that goes into the bone                    [W]
   std::optional<double> edge;        // mean engaged length of cutting edge        [m]
   std::size_t material = 0;          // in ForceLog::materials
 };
 
 struct ForceLog {
-  std::vector<std::string> materials;  // "": the log does not say
+  std::vector<std::string> materials;  // "": the log does not name it
   std::vector<ForceRow> rows;
   std::vector<std::string> notices;
 
-  // The material's place in `materials`, made where it is new.
+  // Index of the material in `materials`; adds it if it is new.
   [[nodiscard]] std::size_t material(std::string_view name);
-  // The other log's rows after ours.
+  // Appends the rows of the other log.
   void append(const ForceLog& other);
 };
 
 [[nodiscard]] Result<ForceLog> read_force_log(const std::string& path);
-// `file`: the name for the error's sentence
+// file: name of the file in error messages
 [[nodiscard]] Result<ForceLog> parse_force_log(std::string_view text, std::string_view file);
 
 }  // namespace burr::fit

@@ -1,7 +1,7 @@
-// fit/recorded_log.h - a force log out of our own recordings.
+// fit/recorded_log.h - makes a force log from a recording of burr.
 //
-// At 1000 ticks a second what is removed in one tick is rough; each row is the mean over a window.
-// Thread: one.
+// At 1000 ticks a second the removal of a single tick is uneven; each row is the mean over a
+// window. Thread: one.
 #pragma once
 
 #include <string_view>
@@ -14,8 +14,8 @@ namespace burr::fit {
 
 // One row for each whole window [s] in which the burr cut from beginning to end. `material`: what
 // was cut; "": the bone's only solid tissue, or an Error if it has several. Power and tangential
-// force are those of the recording; where it has none, power is that of the removal law it was
-// made with, and tangential force is left out.
+// force are those of the recording. If it has none, power is computed by the removal law of the
+// recording, and tangential force is left out.
 [[nodiscard]] Result<ForceLog> log_of_recording(record::Player& player, double window,
                                                 std::string_view material);
 

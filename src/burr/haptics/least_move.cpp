@@ -10,9 +10,9 @@ namespace {
 
 using math::Vec3;
 
-// a plane overstepped by less is kept; the gaps are floats  [voxel]
+// a plane violated by less than this is accepted; the gaps are floats  [voxel]
 constexpr double kTolerance = 2e-6;
-constexpr double kSlack = 1e-7;  // rounding of a corner of nearly parallel planes  [voxel]
+constexpr double kSlack = 1e-7;  // rounding at a corner of nearly parallel planes  [voxel]
 constexpr int kPasses = 60;
 
 struct Plane {
@@ -21,9 +21,9 @@ struct Plane {
   int index = -1;
 };
 
-// Corrects `wanted` onto the planes of a subset (all with equality). False: singular, or one of
-// them would have to pull. Neighbouring discs are nearly parallel, so everything goes through cross
-// products, never through 1 - cos^2.
+// Projects `wanted` onto the planes of a subset (all with equality). False: singular, or one of
+// them would have to pull. Neighbouring discs are nearly parallel, so everything is computed with
+// cross products, never with 1 - cos^2.
 bool project(const Plane* const* planes, int count, const Vec3& wanted, Vec3& p,
              double* push) BURR_RT {
   const Vec3& n0 = planes[0]->n;
@@ -54,7 +54,7 @@ bool project(const Plane* const* planes, int count, const Vec3& wanted, Vec3& p,
   return true;
 }
 
-// The nearest point to `wanted` allowed by up to four planes; keeps the planes that press.
+// The point nearest to `wanted` that up to four planes allow; keeps the planes that press.
 bool project_all(Plane* planes, int& count, const Vec3& wanted, LeastMove& best) BURR_RT {
   bool found = false;
   double best_distance = 0;
@@ -109,13 +109,13 @@ LeastMove least_move(const Candidates& candidates, const Vec3& wanted,
     const int j = most_violated(candidates, p, worst);
     if (j < 0 || static_cast<double>(worst) > -kTolerance) return move;
     for (int i = 0; i < count; ++i)
-      if (planes[i].index == j) return move;  // as good as floats can tell
+      if (planes[i].index == j) return move;  // as exact as floats allow
     const Vec3 n(static_cast<double>(candidates.nx[j]), static_cast<double>(candidates.ny[j]),
                  static_cast<double>(candidates.nz[j]));
     planes[count++] = {n, -static_cast<double>(candidates.gap[j]), j};
     if (!project_all(planes, count, wanted, move)) break;
   }
-  // standing still is allowed by every plane that is not overstepped
+  // standing still is allowed by every plane that is not violated yet
   LeastMove still;
   still.solved = false;
   return still;

@@ -17,15 +17,16 @@ using math::Vec3;
 using volume::BrickIndex;
 using volume::kBrickEdge;
 
-// how much farther than asked one looks around: a tick's later moves, and a few ticks more [voxel]
+// how far beyond the request discs are collected, for later moves of the tick and the next ticks
+// [voxel]
 constexpr double kLookShare = 2.0, kLookLeast = 0.2, kLookMost = 1.5;
-constexpr double kLeastGuess = 0.02;  // discs this near are always looked at  [voxel]
+constexpr double kLeastGuess = 0.02;  // discs this near are always examined   [voxel]
 
-// the soft layer that is felt while bone is cut
-constexpr double kLayer = 0.15;          // its thickness: as deep as the surface hops  [voxel]
-constexpr double kFollow = 0.03;         // of its support's change is followed in a tick [-]
-constexpr double kSoftening = 0.0625;    // it comes and goes in so many parts, one a tick [-]
-constexpr double kFarthestShare = 0.25;  // of the radius: from the proxy to the place on it [-]
+// the soft layer, used for the force while bone is cut
+constexpr double kLayer = 0.15;          // thickness: the size of the surface's steps  [voxel]
+constexpr double kFollow = 0.03;         // share of its support's change followed per tick [-]
+constexpr double kSoftening = 0.0625;    // change of its share in the force per tick [-]
+constexpr double kFarthestShare = 0.25;  // of the radius: from the proxy to soft_.place [-]
 
 }  // namespace
 
@@ -86,9 +87,9 @@ bool Proxy::is_free(const Vec3& p) BURR_RT {
   return candidates_->count == 0;
 }
 
-// Remembers the blocks with a disc whose gap to a ball around `centre` may be below `reach`. One
-// look serves all the short moves of a tick, and the next ticks too while the surface stays as it
-// is.
+// Stores the blocks that have a disc whose gap to a ball around `centre` may be below `reach`. One
+// search serves all short moves of a tick, and the next ticks too while the surface does not
+// change.
 void Proxy::look_around(const Vec3& centre, double reach, bool crowded) BURR_RT {
   near_count_ = 0;
   near_centre_ = centre;
@@ -112,8 +113,8 @@ void Proxy::look_around(const Vec3& centre, double reach, bool crowded) BURR_RT 
              cz = static_cast<float>(centre.z());
   const auto near = static_cast<float>(far);
 
-  // Some are chosen, and what they hold is on its way, before the first is looked into: with cold
-  // caches that is most of the time.
+  // Some blocks are chosen, and their data prefetched, before the first is examined: with cold
+  // caches, waiting for memory takes most of the time.
   constexpr int kAtOnce = 64;
   struct Chosen {
     BrickIndex brick;
@@ -134,7 +135,7 @@ void Proxy::look_around(const Vec3& centre, double reach, bool crowded) BURR_RT 
       }
     }
     for (int b = 0; b < kept; ++b) {
-      if (near_count_ >= kMostNear) {  // more than can be remembered
+      if (near_count_ >= kMostNear) {  // more than can be stored
         near_reach_ = -1;
         full = !crowded;
         if (full) return;
@@ -177,8 +178,8 @@ void Proxy::look_around(const Vec3& centre, double reach, bool crowded) BURR_RT 
   look_into();
 }
 
-// Takes the discs of the blocks just found out of them, where they are few: the moves of this tick
-// and of the next then look at these alone.
+// If the blocks found are few, copies their discs; the moves of this tick and of the next then use
+// only the copies.
 void Proxy::take_discs() BURR_RT {
   constexpr int kFew = NearDiscs::kMost / volume::kLanes;
   taken_ =
@@ -187,9 +188,9 @@ void Proxy::take_discs() BURR_RT {
                    static_cast<float>(radius_ + near_reach_ + surface_.largest_disc()), *discs_);
 }
 
-// Adds the near discs whose gap is below `within` to the candidates.
+// Adds the near discs with a gap below `within` to the candidates.
 void Proxy::scan_near(const Vec3& centre, double within, bool crowded) BURR_RT {
-  constexpr int kChunk = 256;  // blocks; fewer discs than thinning leaves room for
+  constexpr int kChunk = 256;  // blocks; their discs fit into the room left by thinning
   Candidates& out = *candidates_;
   if (taken_ && !crowded) {
     const Vec3 offset = centre - near_centre_;
@@ -209,7 +210,8 @@ void Proxy::scan_near(const Vec3& centre, double within, bool crowded) BURR_RT {
 }
 
 // Fills the candidates with every disc whose gap to a ball around `centre` is below `within`.
-// crowded: they are known to be too many, so of those that face the same way the nearest is kept.
+// crowded: there are known to be too many, so of discs that face the same way only the nearest is
+// kept.
 void Proxy::collect(const Vec3& centre, double within, bool crowded) BURR_RT {
   Candidates& out = *candidates_;
   out.count = 0;
@@ -230,7 +232,7 @@ void Proxy::collect(const Vec3& centre, double within, bool crowded) BURR_RT {
   if (!out.full) scan_near(centre, within, crowded);
 }
 
-// What is overstepped (bone grew, or was made anew a hair higher) pushes out gently.
+// A violated disc (bone grew, or was rebuilt slightly higher) pushes the burr out slowly.
 void Proxy::be_gentle() BURR_RT {
   const float deepest = -static_cast<float>(settings_.recovery);
   Candidates& all = *candidates_;
@@ -238,25 +240,25 @@ void Proxy::be_gentle() BURR_RT {
 }
 
 // The best move from `from` that the discs allow, at most `longest` long. Only discs with gap <
-// |move| matter, so few are gathered, and more only if the move turns out longer than guessed.
+// |move| matter, so few are collected first, and more only if the move is longer than guessed.
 LeastMove Proxy::move_toward(const Vec3& from, const Vec3& wanted, double longest, double& guess,
                              bool& cut_short) BURR_RT {
   cut_short = false;
   double within = std::clamp(guess, kLeastGuess, std::max(longest, kLeastGuess));
   for (;;) {
     collect(from, within);
-    if (candidates_->full) {  // more than the list holds: a shorter move needs fewer
+    if (candidates_->full) {  // more than fit: a shorter move needs fewer
       if (within > kLeastGuess) {
         longest = within = std::max(within / 2, kLeastGuess);
         continue;
       }
-      collect(from, within, true);  // not even that: keep the nearest of each direction
-      candidates_->full = true;     // and say so
+      collect(from, within, true);  // still too many: keep the nearest of each direction
+      candidates_->full = true;     // and report it
       longest = within;
     }
     be_gentle();
     LeastMove move = least_move(*candidates_, wanted, kernel_.most_violated);
-    if (!move.solved) {  // overstepped discs on opposite sides: hold still rather than choose
+    if (!move.solved) {  // violated discs on opposite sides: stay here
       for (int j = 0; j < candidates_->count; ++j)
         candidates_->gap[j] = std::max(candidates_->gap[j], 0.0F);
       move = least_move(*candidates_, wanted, kernel_.most_violated);
@@ -268,21 +270,22 @@ LeastMove Proxy::move_toward(const Vec3& from, const Vec3& wanted, double longes
       move.p *= within / length;
       return move;
     }
-    // planes that were not gathered make the move look longer than it is, so feel the way forward
+    // without the missing planes the move looks longer than it is, so increase `within` step by
+    // step
     within = std::min({1.1 * length, 3 * within + 0.1, longest});
   }
 }
 
-// Where the proxy would rest on the smooth surface of which the discs are facets. At the foot of
-// each pressing contact the field itself says how far the surface is and which way it faces; the
-// same projection as for the discs, onto these at most three planes, gives a place that turns and
-// moves without hops. Where the field is no clean ramp (a sharp edge, noise, a thin wall) the
-// disc's own plane is kept, blended by how clean it is.
+// Where the proxy would rest on the smooth surface that the discs approximate. At the foot of each
+// pressing contact the field gives the distance and direction of the surface; the same projection
+// as for the discs, onto these at most three planes, gives a place that turns and moves without
+// jumps. Where the field is not a clean ramp (a sharp edge, noise, a thin wall) the disc's own
+// plane is used, blended by how clean the ramp is.
 Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand,
                               double& pressing) const BURR_RT {
   constexpr int kRounds = 6;
-  constexpr double kTurn = 1e-4;  // a normal that turns by less is found                      [rad]
-  // from the discs' answer; beyond, the planes do not describe the place  [voxel]
+  constexpr double kTurn = 1e-4;  // a normal that changes by less is final                    [rad]
+  // from the result with discs; farther away the planes are not valid  [voxel]
   constexpr double kFarthest = 0.35;
   Candidates& few = *smooth_;
   Vec3 normals[3];
@@ -334,7 +337,8 @@ Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand,
     const LeastMove move = least_move(few, hand - place, kernel_.most_violated);
     if (!move.solved) break;
     place += move.p;
-    // by the surface's own normals: between discs those of the contacts lean towards each other
+    // by the surface's own normals: between discs the normals of the contacts lean towards each
+    // other
     pressing = 0;
     for (int a = 0; a < move.active; ++a) pressing += move.push[a];
     const Vec3 away = place - c_;
@@ -344,14 +348,14 @@ Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand,
   return place;
 }
 
-// Where the burr rests on the soft layer (soft_contact.h): searched from where it rested a tick
-// ago, not from the proxy, which may hang on a rough place of the bone far from where it would like
-// to be. False: too many discs; soft_ is as it was, moved along with the proxy.
+// Where the burr rests on the soft layer (soft_contact.h). The search starts from the place of the
+// last tick, not from the proxy, which may be held by a rough place of the bone, far from the
+// layer's minimum. False: too many discs; soft_ keeps its values and moves along with the proxy.
 bool Proxy::rest_softly(const Vec3& hand) BURR_RT {
   constexpr int kRounds = 4;
   if (!soft_.known) soft_ = {c_, c_, 0, 0, soft_.share, true};
   Vec3 at = soft_.place;
-  // about what the last tick needed, and twice as much if that was too little  [voxel]
+  // slightly more than the last tick needed; doubled if that is too little  [voxel]
   double beyond = std::clamp(1.5 * soft_.move + 0.1, 0.2, 1.0);
   for (int round = 0; round < kRounds; ++round) {
     collect(at, kLayer + beyond);
@@ -361,7 +365,8 @@ bool Proxy::rest_softly(const Vec3& hand) BURR_RT {
       return false;
     }
     if (round == 0) {
-      // a burr rests on at least one disc; no layer may be twice too soft, or too stiff, for long
+      // a burr rests on at least one disc; the layer must not be more than twice too soft or too
+      // stiff
       const double now =
           std::max(kLayer, soft_support(*candidates_, c_ - at, kLayer, kernel_.soft_push));
       soft_.support =
@@ -385,8 +390,8 @@ bool Proxy::rest_softly(const Vec3& hand) BURR_RT {
   return true;
 }
 
-// The place whose stretch from the hand is felt. `pressing`: sum of the contacts' spring lengths
-// there.
+// The place whose stretch from the hand gives the force. `pressing`: sum of the contacts' spring
+// lengths there.
 Vec3 Proxy::force_place(const LeastMove& last, const Vec3& hand, double& pressing) BURR_RT {
   if (!settings_.smooth || last.active == 0) {
     soft_.known = false;
@@ -397,7 +402,7 @@ Vec3 Proxy::force_place(const LeastMove& last, const Vec3& hand, double& pressin
     soft_.known = false;
     return smooth;
   }
-  // too many discs to look at: what is known of the soft layer fades into what is known without it
+  // too many discs: fade from the place on the soft layer to the place without it
   if (!rest_softly(hand)) soft_.share = std::max(0.0, soft_.share - 2 * kSoftening);
   pressing = soft_.share * soft_.pressing + (1 - soft_.share) * pressing;
   return soft_.share * soft_.place + (1 - soft_.share) * smooth;
@@ -423,7 +428,7 @@ LeastMove Proxy::settle(const Vec3& target, double guess, int moves, Touch& touc
     left = cut_short ? 1.0 : length;
     if (last.active == 0) stride *= 2;
   }
-  touch.lagging &= left > 0.1;  // creeping by less than a tenth of a voxel is rest
+  touch.lagging &= left > 0.1;  // a move of less than a tenth of a voxel counts as rest
   return last;
 }
 
@@ -450,7 +455,7 @@ Touch Proxy::step(const Vec3& hand) BURR_RT {
     touch.depth = depth * grid_.voxel;
     touch.pressing = press * grid_.voxel;
 
-    // friction: the proxy may trail behind by no more than the cone's rim
+    // friction: the proxy may trail behind only within the friction cone
     if (settings_.friction_static > 0) {
       const Vec3 behind = before - free_place;
       const Vec3 trail = behind - math::dot(behind, normal) * normal;

@@ -1,5 +1,5 @@
-// haptics/scan_kernel.h - which little discs of bone are near the burr, once per instruction set.
-// Plain pointers only.
+// haptics/scan_kernel.h - finds the small discs of bone near the burr; compiled once per
+// instruction set. Plain pointers only.
 #pragma once
 
 #include <cstdint>
@@ -8,60 +8,60 @@
 
 namespace burr::haptics {
 
-// What the proxy may rest on: planes n . p >= -gap for its next move p, seen from where it is now.
-// [voxel]
+// The planes that the proxy may rest on: n . p >= -gap for its next move p, measured from its
+// present place. [voxel]
 struct Candidates {
   static constexpr int kMost = 16384;
   alignas(64) float nx[kMost + 16], ny[kMost + 16],
       nz[kMost + 16];                 // unit, from the disc to the burr's centre
-  alignas(64) float gap[kMost + 16];  // distance to the disc less the radius
+  alignas(64) float gap[kMost + 16];  // distance to the disc minus the radius
   int count = 0;
   bool full = false;
 };
 
-// A block of discs that lies near the burr, and the first voxel of its brick.
+// A block of discs near the burr, and the first voxel of its brick.
 struct NearBlock {
   const volume::VertexBlock* block = nullptr;
   std::int32_t x = 0, y = 0, z = 0;
   std::int32_t count = 0;  // discs in it, at most volume::kLanes
 };
 
-// Discs near the burr, taken out of their blocks: seen from where one looked around. [voxel]
+// Discs near the burr, copied out of their blocks, relative to the centre of the search. [voxel]
 struct NearDiscs {
   static constexpr int kMost = 8192;
-  alignas(64) float x[kMost + 16], y[kMost + 16], z[kMost + 16];     // the disc's middle
+  alignas(64) float x[kMost + 16], y[kMost + 16], z[kMost + 16];     // centre of the disc
   alignas(64) float mx[kMost + 16], my[kMost + 16], mz[kMost + 16];  // its normal, unit
   alignas(64) float rd[kMost + 16];                                  // its radius
   int count = 0;
 };
 
-// Which of a brick's blocks (count discs) have a disc whose middle is nearer than `reach` to the
-// burr's centre: written to `out`, which has room for all of them; returns how many. brick: its
-// first voxel. centre: p_grid.
+// Finds the blocks of a brick that have a disc with its centre nearer than `reach` to the burr's
+// centre. count: discs of the brick. out: receives the blocks; must have room for all of them.
+// Returns how many were found. brick: its first voxel. centre: p_grid.
 using FindNear = int (*)(const volume::VertexBlock* blocks, int count, const std::int32_t brick[3],
                          const double centre[3], float reach, NearBlock* out) noexcept;
 
-// The discs of `count` near blocks whose middle is nearer than `reach` to `centre`; false: they are
-// more than fit.
+// Copies the discs of `count` near blocks whose centre is nearer than `reach` to `centre`. False:
+// there are more than fit.
 using TakeDiscs = bool (*)(const NearBlock* near, int count, const double centre[3], float reach,
                            NearDiscs& out) noexcept;
 
-// As ScanBlocks, over discs that were taken; offset: of the burr's centre from where they were
-// taken.
+// Like ScanBlocks, for discs that were taken. offset: the burr's centre minus the centre at which
+// they were taken.
 using ScanDiscs = void (*)(const NearDiscs& near, const float offset[3], float radius, float within,
                            float disc, Candidates& out) noexcept;
 
-// Appends the discs of `count` near blocks with gap < within. disc: no disc is larger [voxel];
-// radius of the burr [voxel].
+// Appends to `out` the discs of `count` near blocks with gap < within. disc: upper bound of the
+// disc radii [voxel]; radius: of the burr [voxel].
 using ScanBlocks = void (*)(const NearBlock* near, int count, const double centre[3], float radius,
                             float within, float disc, Candidates& out) noexcept;
 
-// Index of the candidate that move p violates most, or -1; `worst` is then n . p + gap there,
-// negative. First one on ties.
+// Index of the candidate that the move p violates most, or -1. `worst` is n . p + gap there,
+// negative. Of equal ones the first.
 using MostViolated = int (*)(const Candidates& all, const float p[3], float& worst) noexcept;
 
-// What a soft layer on the discs does to a burr moved by p: with s_j = layer - gap_j - n_j . p,
-// over the candidates with s_j > 0.
+// What a soft layer on the discs does to a burr moved by p: sums over the candidates with s_j > 0,
+// s_j = layer - gap_j - n_j . p.
 struct SoftSums {
   double squares = 0;    // sum s^2                                          [voxel^2]
   double total = 0;      // sum s                                            [voxel]

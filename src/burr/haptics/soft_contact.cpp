@@ -38,7 +38,7 @@ SoftRest soft_rest(const Candidates& candidates, const Vec3& wanted, double laye
   for (int round = 0; round < kRounds; ++round) {
     const SoftSums sums = sums_at(candidates, q, layer, push);
     const double now = math::squared_norm(q - wanted) + kappa * sums.squares;
-    if (round > 0 && now > energy) {  // too far: discs came in that were not felt before
+    if (round > 0 && now > energy) {  // too far: discs came in that were not pressed before
       step *= 0.5;
       q -= step;
       continue;

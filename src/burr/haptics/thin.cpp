@@ -9,7 +9,7 @@ namespace {
 constexpr int kEdge = 16;  // bins along an edge of the cube of directions
 constexpr int kBins = 6 * kEdge * kEdge;
 
-// Which of the cube's six faces a direction leaves through, and where.
+// The bin of a direction: which face of the cube it passes through, and where.
 int bin_of(float x, float y, float z) BURR_RT {
   const float ax = std::abs(x), ay = std::abs(y), az = std::abs(z);
   int face = 0;

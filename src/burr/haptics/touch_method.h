@@ -1,8 +1,10 @@
-// haptics/touch_method.h - one way to turn a hand in bone into a force. Ours is `constraint`
-// (proxy.h); the others in methods/ are what it is measured against, on the same bone and the same
-// hand, with their faults.
+// haptics/touch_method.h - the interface of a method of touch: it turns the hand's position into a
+// place of the burr. burr's own method is `constraint` (proxy.h). Those in baselines/ are taken
+// from the literature, with their faults, and are compared with it on the same bone and the same
+// hand.
 //
-// Thread: servo. Frame: world at the door. Memory: taken at construction; step() takes none.
+// Thread: servo. Frame: world in arguments and results. Memory: allocated at construction; step()
+// allocates nothing.
 #pragma once
 
 #include <array>
@@ -20,11 +22,11 @@ namespace burr::haptics {
 enum class Method {
   constraint,      // proxy.h
   thesis,          // Eriksson 2006: two steps along the iso-surface, the spring ends on it
-  thesis_literal,  // the same with the spring ending a radius above it, as it is written
-  voxel_springs,   // a spring for every voxel in the burr, no proxy
-  samples,         // Vidholm & Agmund 2004: points on the burr vote for a direction
-  triangles,       // a god object on the picture's triangles
-  penalty,         // springs against the depth of points on the burr, in balance with the hand
+  thesis_literal,  // the same, but the spring ends a radius above it, as in the text
+  voxel_springs,   // a spring for every voxel of bone in the burr, no proxy
+  samples,         // Vidholm & Agmund 2004: points on the burr in bone give the direction
+  triangles,       // a god object on the triangles of the picture
+  penalty,         // springs at points on the burr, in balance with the hand's spring
 };
 inline constexpr int kMethods = 7;
 
@@ -37,20 +39,20 @@ inline constexpr std::array<std::string_view, kMethods> kMethodNames = {
 
 struct ProxySettings {
   double radius = 1.5e-3;  // of the burr head                                              [m]
-  double friction_static = 0.0;  // stick up to this; >= friction_kinetic [-]
+  double friction_static = 0.0;  // sticks up to this; >= friction_kinetic [-]
   double friction_kinetic = 0.0;
-  int max_moves = 12;      // in one tick; a hand faster than that is caught up later
+  int max_moves = 12;      // per tick; a faster hand is caught up with later
   double close = 0.02;     // a move shorter than this ends the search                      [voxel]
-  double recovery = 5e-3;  // bone that grew under the burr pushes it out this far a tick   [voxel]
+  double recovery = 5e-3;  // speed at which bone that grew pushes the burr out        [voxel/tick]
   bool smooth = true;      // force from the smooth surface (while cutting: from a soft layer), not
                            // from the discs' facets
 };
 
-// Where the proxy came to rest this tick. World.
+// Where the proxy came to rest in this tick. World frame.
 struct Touch {
-  math::Vec3 proxy = math::Vec3::Zero();   // centre of the burr head, never inside bone [m]
+  math::Vec3 proxy = math::Vec3::Zero();   // centre of the burr head, never in bone [m]
   math::Vec3 trail = math::Vec3::Zero();   // how friction holds it back, along the surface [m]
-  math::Vec3 normal = math::Vec3::Zero();  // unit, from the hand to its place on the smooth surface
+  math::Vec3 normal = math::Vec3::Zero();  // unit, from the hand to the smooth surface
   double depth = 0;     // between those two                                       [m]
   double pressing = 0;  // sum of the contacts' spring lengths; > depth in a wedge [m]
   int active = 0;
@@ -68,19 +70,19 @@ class TouchMethod {
   TouchMethod& operator=(const TouchMethod&) = delete;
   virtual ~TouchMethod() = default;
 
-  // Puts the burr somewhere; for the start, a clutch, a device that was lost, a change of method.
+  // Puts the burr somewhere: at the start, after a clutch, a lost device, or a change of method.
   virtual void place(const math::Vec3& p) BURR_RT = 0;
   // One tick. hand: world [m].
   [[nodiscard]] virtual Touch step(const math::Vec3& hand) BURR_RT = 0;
-  // Where it believes the burr to be. World [m].
+  // The method's centre of the burr. World [m].
   [[nodiscard]] virtual const math::Vec3& position() const BURR_RT = 0;
   virtual void set_friction(double mu_static, double mu_kinetic) BURR_RT = 0;
-  // False: it does not fit there, and nothing changed.
+  // False: it does not fit at its place, and nothing changes.
   [[nodiscard]] virtual bool set_radius(double radius) BURR_RT = 0;
 };
 
-// Of settings the radius and the friction count for all of them. Triangles have to be handed to
-// theirs (methods/triangles.h).
+// All methods use the radius and the friction of the settings. A triangle proxy must be given its
+// triangles (baselines/triangles.h).
 [[nodiscard]] std::unique_ptr<TouchMethod> make_method(Method method,
                                                        const volume::IsoVertices& surface,
                                                        const ProxySettings& settings,

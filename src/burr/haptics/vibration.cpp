@@ -13,8 +13,8 @@ using math::Vec3;
 
 constexpr double kLowest = 60, kHighest = 250;  // [Hz]
 constexpr double kFastestSpindle = 1e6;         // beyond any drill [rad/s]
-constexpr double kMostIdle = 0.01;   // times kLargest: 0.03 N, all that free air may have
-constexpr double kTurnTime = 50e-3;  // in which the direction follows [s]
+constexpr double kMostIdle = 0.01;              // times kLargest: 0.03 N, the limit in free air
+constexpr double kTurnTime = 50e-3;             // time constant of the direction [s]
 
 bool fine(const Milling& now, double dt) BURR_RT {
   return std::isfinite(now.spindle_rad_s) && now.axis.allFinite() && now.normal.allFinite() &&
@@ -48,7 +48,7 @@ Vibration::Vibration(const VibrationSettings& settings) : settings_(settings) {
 }
 
 Vec3 Vibration::step(const Milling& now, double dt) BURR_RT {
-  if (!fine(now, dt)) {  // the tick's other trouble; nothing is added to it
+  if (!fine(now, dt)) {  // invalid input is handled elsewhere in the tick: adds nothing
     amplitude_ = 0;
     return Vec3::Zero();
   }
@@ -73,7 +73,7 @@ Vec3 Vibration::step(const Milling& now, double dt) BURR_RT {
   return amplitude_ * noise_ * direction_;
 }
 
-// Uniform, variance 1. Random numbers are counted, not chained: the n-th is the n-th.
+// Uniform, variance 1. The n-th number depends on the seed and n only.
 double Vibration::white() BURR_RT {
   const std::uint64_t bits = base::mix(settings_.seed, count_++);
   const double unit = static_cast<double>(bits >> 11) * 0x1p-53;  // 0..1
@@ -88,7 +88,7 @@ void Vibration::tune(double frequency, double dt) BURR_RT {
   const double width = std::sin(angle) / (2 * settings_.quality);
   back_1_ = 2 * std::cos(angle) / (1 + width);
   back_2_ = (1 - width) / (1 + width);
-  gain_ = std::sqrt(width / (1 + width));  // of the peak a / (1 + a), of the variance its root
+  gain_ = std::sqrt(width / (1 + width));  // peak a / (1 + a), variance: its root
 }
 
 void Vibration::ring() BURR_RT {
@@ -101,8 +101,8 @@ void Vibration::ring() BURR_RT {
   noise_ = std::clamp(out, -kLargest, kLargest);
 }
 
-// Across shaft and normal, where the teeth run. Of the two ways the nearer one, for the noise has
-// no sign; slowly, so that a corner makes no step.
+// The direction across shaft and normal, in which the teeth run. The noise has no sign, so the
+// nearer of the two directions is used; it changes slowly, so that a corner causes no step.
 void Vibration::turn(const Milling& now, double dt) BURR_RT {
   const bool touching = math::squared_norm(now.normal) > 0;
   const Vec3 normal = touching ? now.normal : now.axis;

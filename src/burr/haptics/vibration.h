@@ -1,27 +1,28 @@
-// haptics/vibration.h - the buzz of a spindle in the hand: what a 1 kHz loop can honestly say of
-// it.
+// haptics/vibration.h - the vibration of the spindle in the hand, as far as a 1 kHz loop can
+// reproduce it.
 //
 //     white noise --[ resonator at f_v, Q ]-- e, variance 1 --[ clamp 3 ]-- A e t_hat
 //
-// A burr at 80 000 rpm runs out at 1333 Hz and its teeth beat at 10 kHz: above the 500 Hz that a
-// 1 kHz loop can carry. So a band of noise stands for them (docs/touch.md, "Vibration"):
+// A burr at 80 000 rpm has a run-out frequency of 1333 Hz and a tooth frequency of 10 kHz: above
+// the 500 Hz that a 1 kHz loop can carry. A band of noise replaces them (docs/touch.md,
+// "Vibration"):
 //
-//     f_v = f_r / m, held to 60..250 Hz, where skin feels best; m the smallest whole number that
-//           brings f_r = speed / 2 pi down to 250 Hz
-//     A   = min(0.15 N, a0 + a1 |F_c|) while cutting, 0.01 N as an idle hum, both by 50 ms ramps
+//     f_v = f_r / m, limited to 60..250 Hz, where skin is most sensitive; m is the smallest whole
+//           number that brings f_r = speed / 2 pi down to 250 Hz
+//     A   = min(0.15 N, a0 + a1 |F_c|) while cutting, 0.01 N while idling, both with 50 ms ramps
 //
-// A is the root mean square; |F_v| <= 3 A always (0.45 N; 0.03 N idle). e is clamped there, which
-// takes 0.5 % of its variance. The resonator is the band-pass (1 - z^-2) / (...) of
-// Bristow-Johnson's cookbook: it has a zero at 0 Hz, so the mean is zero, its peak is exactly at
-// f_v, and its variance for white noise is a / (1 + a), a = sin(2 pi f_v T) / (2 Q). Below 60 Hz of
-// run-out A fades with it: a burr that stands still is silent.
+// A is the root mean square; |F_v| <= 3 A always (0.45 N; 0.03 N while idling). e is clamped there,
+// which removes 0.5 % of its variance. The resonator is the band-pass (1 - z^-2) / (...) of
+// Bristow-Johnson's cookbook: it has a zero at 0 Hz, so the mean is zero; its peak is exactly at
+// f_v; its variance for white noise is a / (1 + a), a = sin(2 pi f_v T) / (2 Q). Where the run-out
+// frequency is below 60 Hz, A decreases with it: a burr that stands still does not vibrate.
 //
-// The force lies in the tangent plane, across the shaft, so that it does not hammer into the bone;
-// after a corner it turns there within 50 ms, without a step. What the true lines are is told for
-// sound, which can carry them.
+// The force lies in the tangent plane, perpendicular to the shaft, so that it does not press into
+// the bone. After a corner it turns to the new direction within 50 ms, without a step. lines()
+// returns the true frequencies for the sound, which can carry them.
 //
-// Thread: servo. Frame: world. Units: SI. Memory: none. Random: counted from the seed, so that a
-// recording replays to the bit. Cost: under 1 us a tick.
+// Thread: servo. Frame: world. Units: SI. Memory: none. Random numbers are counted from the seed,
+// so that a recording replays to the bit. Cost: under 1 us a tick.
 #pragma once
 
 #include <cstdint>
@@ -32,17 +33,17 @@
 namespace burr::haptics {
 
 struct VibrationSettings {
-  double base = 0.02;       // a0, while cutting with no force                                [N]
-  double per_force = 0.08;  // a1, more for each newton                                      [-]
-  double most = 0.15;       // root mean square                                               [N]
-  double idle = 0.01;       // likewise, spindle on and nothing touched; at most 0.01         [N]
+  double base = 0.02;       // a0: while cutting without force                                [N]
+  double per_force = 0.08;  // a1: increase per newton                                       [-]
+  double most = 0.15;       // upper limit, root mean square                                  [N]
+  double idle = 0.01;       // the same with the spindle on and no contact; at most 0.01      [N]
   double quality = 5;       // Q of the band, 3..8                                            [-]
-  double ramp = 50e-3;      // from nothing to `most`                                         [s]
-  double device_gain = 1;   // inverse of how well this device shows 60..250 Hz; before `most` [-]
+  double ramp = 50e-3;      // time from zero to `most`                                       [s]
+  double device_gain = 1;   // inverse of the device's gain in 60..250 Hz; before `most` [-]
   std::uint64_t seed = 1;
 };
 
-// What the drill does in this tick.
+// State of the drill in this tick.
 struct Milling {
   double spindle_rad_s = 0;
   math::Vec3 axis = math::Vec3::UnitZ();   // of the shaft, unit
@@ -50,7 +51,7 @@ struct Milling {
   double cutting_force = 0;                // |F_c|                                        [N]
 };
 
-// The true lines, for sound: a hand at 1 kHz cannot be given them.
+// The true frequencies, for sound: a hand at 1 kHz cannot be given them.
 struct SpindleLines {
   double run_out_hz = 0, tooth_hz = 0;  // f_r and z f_r
   double run_out = 0, tooth = 0;        // amplitudes [N]
@@ -58,11 +59,11 @@ struct SpindleLines {
 
 class Vibration {
  public:
-  static constexpr double kLargest = 3;  // times A: where e is clamped
+  static constexpr double kLargest = 3;  // in units of A: where e is clamped
 
   explicit Vibration(const VibrationSettings& settings = {});
 
-  // The force to add to touch's, before the limits. dt: this tick [s].
+  // Returns the force to add to touch's force, before the limits. dt: this tick [s].
   [[nodiscard]] math::Vec3 step(const Milling& now, double dt) BURR_RT;
 
   [[nodiscard]] SpindleLines lines(const Milling& now, int teeth) const BURR_RT;
@@ -78,15 +79,15 @@ class Vibration {
   void turn(const Milling& now, double dt) BURR_RT;
 
   VibrationSettings settings_;
-  std::uint64_t count_ = 0;             // of random numbers
-  double tuned_to_ = 0, tuned_dt_ = 0;  // the resonator is made for these
+  std::uint64_t count_ = 0;             // random numbers used so far
+  double tuned_to_ = 0, tuned_dt_ = 0;  // the resonator's coefficients are for these
   double gain_ = 0, back_1_ = 0, back_2_ = 0;
   double in_1_ = 0, in_2_ = 0, out_1_ = 0, out_2_ = 0;
   double frequency_ = 0, amplitude_ = 0, noise_ = 0;
   math::Vec3 direction_ = math::Vec3::UnitX();
 };
 
-// f_v of a run-out of f_r [Hz].
+// f_v for a run-out frequency f_r [Hz].
 [[nodiscard]] double felt_frequency(double run_out_hz) BURR_RT;
 
 }  // namespace burr::haptics

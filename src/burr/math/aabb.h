@@ -1,4 +1,4 @@
-// math/aabb.h - an axis-aligned box of real numbers, closed on both ends.
+// math/aabb.h - an axis-aligned box with real coordinates; both faces belong to it.
 #pragma once
 
 #include <limits>
@@ -21,7 +21,7 @@ struct Aabb {
   }
   [[nodiscard]] Vec3 centre() const { return 0.5 * (lo + hi); }
   [[nodiscard]] Vec3 extent() const { return hi - lo; }
-  // 0..7; bit 0 is x, 1 is y, 2 is z; set: hi
+  // which: 0..7; bit 0 is x, bit 1 is y, bit 2 is z. Bit set: the coordinate is that of hi.
   [[nodiscard]] Vec3 corner(int which) const {
     return {(which & 1) != 0 ? hi.x() : lo.x(), (which & 2) != 0 ? hi.y() : lo.y(),
             (which & 4) != 0 ? hi.z() : lo.z()};

@@ -1,5 +1,4 @@
-// math/pose.h - where a thing is and how it is turned. A Pose named a_from_b takes points of b into
-// a.
+// math/pose.h - position and orientation. A Pose named a_from_b converts points of b into a.
 #pragma once
 
 #include "burr/math/vec3.h"
@@ -7,7 +6,7 @@
 namespace burr::math {
 
 struct Pose {
-  Vec3 p = Vec3::Zero();      // origin of the inner frame, in the outer one  [m]
+  Vec3 p = Vec3::Zero();      // origin of the inner frame, in the outer frame  [m]
   Quat q = Quat::Identity();  // unit quaternion
 
   // p_outer = pose * p_inner

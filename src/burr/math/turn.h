@@ -1,4 +1,4 @@
-// math/turn.h - from one direction to another.
+// math/turn.h - the rotation from one direction to another.
 #pragma once
 
 #include <cmath>
@@ -8,10 +8,10 @@
 
 namespace burr::math {
 
-// The shortest turn that takes the direction of `from` to that of `to`; neither may be zero. Of
-// opposite directions: half a turn about one of the axes across. What Eigen's
-// Quaternion::FromTwoVectors does, whose singular values for that last case take a compiler some
-// twenty seconds in every file.
+// The shortest rotation that takes the direction of `from` to that of `to`; neither may be zero.
+// For opposite directions: half a turn about one of the perpendicular axes. The same as Eigen's
+// Quaternion::FromTwoVectors, which uses a singular value decomposition for opposite directions;
+// compiling that takes about twenty seconds in every file.
 inline Quat shortest_turn(const Vec3& from, const Vec3& to) {
   const Vec3 a = normalized(from), b = normalized(to);
   const double cosine = dot(a, b);

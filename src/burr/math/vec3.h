@@ -1,4 +1,4 @@
-// math/vec3.h - Eigen under our names. Metres unless a name says otherwise.
+// math/vec3.h - short names for Eigen's types. Lengths in metres unless a name says otherwise.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,5 @@
-// people/chance.h - random numbers that are the same on every machine and counted, not chained: the
-// n-th of a seed and stream is the n-th, so an interrupted experiment goes on as if it had not
-// been.
+// people/chance.h - random numbers that are the same on every machine. The n-th number depends only
+// on seed, stream and n, so an interrupted experiment can be continued as if it had not stopped.
 //
 // Thread: one. Memory: none.
 #pragma once

@@ -1,5 +1,5 @@
-// people/experiment.h - an experiment of two intervals, forced choice: what is shown next, in which
-// order, and what the answers say.
+// people/experiment.h - a two-interval forced-choice experiment: what is presented next, in which
+// order, and what follows from the answers.
 //
 //     Experiment experiment(plan);
 //     while (!experiment.finished()) {
@@ -10,8 +10,8 @@
 //     experiment.outcome().fit.threshold
 //
 // Everything but the answers follows from the plan and its seed, so answers read from a file bring
-// an experiment to where it was. In every ten trials the comparison comes first in five.
-// Thread: one. Memory: a row a trial.
+// an experiment back to its state. In every ten trials the comparison comes first five times.
+// Thread: one. Memory: one row per trial.
 #pragma once
 
 #include <array>
@@ -46,16 +46,16 @@ inline constexpr std::array<std::string_view, 3> kMethodNames = {"bayes", "stair
 
 struct Plan {
   Stimulus stimulus = Stimulus::stiffness;
-  // N/m, coefficient, or N root mean square; of vibration 0: the standard is silence
+  // N/m, coefficient, or N root mean square. For vibration, 0: the standard has none.
   double standard = 400;
-  // Levels: of stiffness and friction how much more the comparison has, as a share of the standard
-  // (Weber's fraction); of vibration what is added [N].
+  // Levels. Stiffness and friction: how much more the comparison has, as a share of the standard
+  // (Weber's fraction). Vibration: what is added [N].
   double smallest = 0.01, largest = 1;
   Method method = Method::bayes;
   Rule rule = Rule::one_up_two_down;  // of the staircase
   int trials = 300;                   // at most
-  double until = 0;  // ends once the interval reaches no further than this share; 0: all trials
-  int levels = 7;    // of constant stimuli, evenly in the logarithm over all that can be shown
+  double until = 0;  // ends when the interval is within this share of the threshold; 0: all trials
+  int levels = 7;    // of constant stimuli, evenly spaced in the logarithm from smallest to largest
   double guess = 0.5, lapse = 0.02;  // of the fitted function
   std::uint64_t seed = 1;
 };
@@ -65,7 +65,7 @@ struct Trial {
   double level = 0;
   double standard = 0, comparison = 0;
   bool comparison_first = false;
-  // What the first or second interval shows.
+  // The stimulus in the first or second interval.
   [[nodiscard]] double shown(int interval) const {
     return (interval == 1) == comparison_first ? comparison : standard;
   }
@@ -74,13 +74,13 @@ struct Trial {
 
 struct Answered {
   Trial trial;
-  int answer = 0;  // the interval that was said to be more: 1 or 2
+  int answer = 0;  // the interval that was named as more: 1 or 2
   [[nodiscard]] bool right() const { return answer == trial.right_answer(); }
 };
 
 struct Outcome {
   Fit fit;
-  std::vector<Tally> tallies;     // by rising level
+  std::vector<Tally> tallies;     // by increasing level
   std::optional<double> settled;  // of a staircase: at target_of(rule)
   int trials = 0, comparison_first = 0, said_first = 0;
 };
@@ -90,7 +90,7 @@ class Experiment {
   explicit Experiment(const Plan& plan);
 
   [[nodiscard]] bool finished() const { return finished_; }
-  [[nodiscard]] const Trial& next() const { return next_; }  // while it is not finished
+  [[nodiscard]] const Trial& next() const { return next_; }  // while the experiment is not finished
   void answer(int interval);
 
   [[nodiscard]] const Plan& plan() const { return plan_; }
@@ -103,7 +103,7 @@ class Experiment {
 
   Plan plan_;
   Chance order_, blocks_;
-  std::variant<Psi, Staircase, std::vector<double>> chooser_;  // of constant stimuli: all to come
+  std::variant<Psi, Staircase, std::vector<double>> chooser_;  // constant stimuli: levels to come
   std::vector<bool> orders_;
   std::vector<Answered> answered_;
   Trial next_;

@@ -1,8 +1,8 @@
-// people/felt.h - what a hand felt in an interval, and the number in it that is asked for.
+// people/felt.h - what a hand felt in an interval, and the quantity that the trial asks about.
 //
-// Only what a person has: where the hand was and how it was pushed, at the device, after every
-// limit. Nothing of the simulation's own proxy or settings. The first 0.7 s are left out: the start
-// ramp of the safety layer, and the hand that comes down.
+// Uses only what a person has: where the hand was and the force on it, at the device, after every
+// limit; not the proxy or the settings of the simulation. The first 0.7 s are left out: the start
+// ramp of the safety layer, and the hand coming down.
 //
 // Frame: one in which `outward` points out of the wall. Units: SI. Thread: any.
 #pragma once
@@ -15,16 +15,16 @@ namespace burr::people {
 
 struct Felt {
   double dt = 1e-3;                   // [s]
-  std::vector<math::Vec3> at, force;  // a row a tick [m], [N]
+  std::vector<math::Vec3> at, force;  // one row per tick [m], [N]
 };
 
-// How much more force a metre deeper gives: the slope of force over place while pressing. [N/m]
+// Increase of force per metre of depth: the slope of force over place while pressing. [N/m]
 [[nodiscard]] double felt_stiffness(const Felt& felt, const math::Vec3& outward);
 
-// Force along the wall over force out of it, while sliding. [-]
+// Force along the wall divided by force out of it, while sliding. [-]
 [[nodiscard]] double felt_friction(const Felt& felt, const math::Vec3& outward);
 
-// Root mean square of the force along the wall, its mean taken out. [N]
+// Root mean square of the force along the wall, without its mean. [N]
 [[nodiscard]] double felt_vibration(const Felt& felt, const math::Vec3& outward);
 
 }  // namespace burr::people

@@ -1,15 +1,15 @@
-// people/fit.h - the psychometric function that answers speak for, and how far off its threshold
-// may be.
+// people/fit.h - estimates the psychometric function from the answers, with an interval for its
+// threshold.
 //
-// The likelihood of the answers over threshold and slope, guess and lapse given, before it all
-// thresholds and all slopes (0.6 to 10) being equally believed in, in their logarithms. The
-// threshold is the median of what is believed after it, whatever the slope; the interval holds 95 %
-// of it. How levels were chosen does not matter to it. A profile likelihood instead of the sum over
-// slopes is too sure of itself: levels chosen near the threshold make the most likely slope too
-// steep (Kaernbach 2001), and its intervals held the truth 18 times of 20 instead of 19.
+// Bayesian: the likelihood of the answers over threshold and slope, with guess and lapse given, and
+// a prior that is flat in the logarithms of threshold and slope (0.6 to 10). The estimate is the
+// median of the posterior of the threshold, summed over slopes; the interval holds 95 % of it. It
+// does not matter how the levels were chosen. A profile likelihood instead of the sum over slopes
+// is too confident: levels chosen near the threshold make the most likely slope too steep
+// (Kaernbach 2001), and its intervals held the truth 18 times of 20 instead of 19.
 //
-// No threshold is found where the answers could as well be guessed, or where the interval leaves
-// the levels that could be shown: then a number would only be the border. Thread: any.
+// No threshold is found if the answers could be guesses, or if the interval leaves the levels that
+// could be presented: the number would then be only the border. Thread: any.
 #pragma once
 
 #include <span>
@@ -25,14 +25,14 @@ struct Tally {
 };
 
 struct FitSettings {
-  double smallest = 0.01, largest = 1;  // levels that could be shown
+  double smallest = 0.01, largest = 1;  // levels that could be presented
   double guess = 0.5, lapse = 0.02;
 };
 
 struct Fit {
   bool found = false;
-  std::string why;           // not found: a sentence
-  Psychometric best;         // found or not
+  std::string why;           // if not found: a sentence
+  Psychometric best;         // set in both cases
   double low = 0, high = 0;  // 95 % interval of the threshold
 };
 

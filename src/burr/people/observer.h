@@ -1,12 +1,13 @@
-// people/observer.h - an observer whose threshold is known, to see whether an experiment finds it.
+// people/observer.h - simulated observers with a known threshold, to check that an experiment finds
+// it.
 //
-// KnowingObserver answers by its psychometric function; it proves the estimator. FeelingObserver
-// is given what each interval felt like, adds noise of its own and says which was more; it proves
-// the stimuli too. Its noise is normal, of the logarithm for stiffness and friction (Weber), of
-// newtons for vibration, and such that without lapses half of what guessing leaves is right at the
-// threshold: 2 Phi(d / (sqrt(2) sigma)) - 1 = 1/2.
+// KnowingObserver answers by its psychometric function; it tests the estimator. FeelingObserver
+// gets what each interval felt like, adds its own noise and names the one that was more; it tests
+// the stimuli too. Its noise is normal: of the logarithm for stiffness and friction (Weber), in
+// newtons for vibration. It is set so that at the threshold, without lapses, half of the answers
+// beyond chance are right: 2 Phi(d / (sqrt(2) sigma)) - 1 = 1/2.
 //
-// Each trial has random numbers of its own, so an interrupted observer goes on as the same person.
+// Each trial has its own random numbers, so an interrupted observer continues as the same person.
 // Thread: any. Memory: none.
 #pragma once
 
@@ -18,7 +19,7 @@ class KnowingObserver {
  public:
   KnowingObserver(const Psychometric& truth, std::uint64_t seed) : truth_(truth), seed_(seed) {}
 
-  // The interval it says was more.
+  // The interval that it names as more.
   [[nodiscard]] int answer(const Trial& trial) const;
 
  private:
@@ -31,7 +32,7 @@ class FeelingObserver {
   // threshold: in units of the level; lapse: as of the psychometric function
   FeelingObserver(Stimulus stimulus, double threshold, double lapse, std::uint64_t seed);
 
-  // first, second: what the intervals felt like, people/felt.h.
+  // first, second: what was felt in the intervals, from people/felt.h.
   [[nodiscard]] int answer(const Trial& trial, double first, double second) const;
 
  private:

@@ -1,12 +1,13 @@
-// people/psi.h - asks what tells most: after each answer the level whose next answer is expected to
-// say most about the threshold (Kontsevich and Tyler 1999; the slope is believed in, but trials are
-// not spent on it: Prins 2013).
+// people/psi.h - chooses the next level so that the answer is expected to tell most about the
+// threshold (Kontsevich and Tyler 1999; the slope is estimated too, but no trials are spent on it:
+// Prins 2013).
 //
-// Belief is a table over thresholds and slopes, flat at first. What an answer will tell is its
-// entropy less the mean of its entropies where the threshold is known. Asking for the slope as well
-// costs a third of the trials: the threshold of one run of 400 scattered by 5.6 % instead of 4.6.
+// The belief is a table over thresholds and slopes, flat at first. The information of an answer is
+// its entropy minus the mean of its entropies for known thresholds. Choosing for the slope as well
+// would cost a third of the trials: the threshold of one run of 400 scattered by 5.6 % instead of
+// 4.6.
 //
-// Thread: one. Memory: some tables of numbers, taken at construction. Cost: 60 us an answer.
+// Thread: one. Memory: some tables of numbers, allocated at construction. Cost: 60 us an answer.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +17,8 @@
 namespace burr::people {
 
 struct PsiSettings {
-  double smallest = 0.01, largest = 1;  // levels that can be shown
-  int levels = 32, thresholds = 48;     // over that range, evenly in the logarithm
+  double smallest = 0.01, largest = 1;  // levels that can be presented
+  int levels = 32, thresholds = 48;     // over that range, evenly spaced in the logarithm
   double guess = 0.5, lapse = 0.02;
 };
 
@@ -26,7 +27,7 @@ class Psi {
   explicit Psi(const PsiSettings& settings);
 
   [[nodiscard]] double level() const { return levels_[next_]; }
-  // To the level that was asked for last.
+  // The answer to the last level from level().
   void answer(bool right);
 
  private:

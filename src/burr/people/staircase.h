@@ -1,15 +1,14 @@
-// people/staircase.h - a level that goes down after right answers and up after wrong ones settles
-// where both are equally likely.
+// people/staircase.h - a staircase: the level goes down after right answers and up after wrong
+// ones, and settles where both are equally likely.
 //
 //     one wrong up, two right down    p^2 = 1/2                    70.7 %   (Levitt 1971)
 //     one wrong up, three right down  p^3 = 1/2                    79.4 %
 //     weighted                        p down = (1 - p) up, 1 : 3   75.0 %   (Kaernbach 1991)
 //
-// Steps are factors: large ones until the level has turned round four times, then small ones. What
-// it found is the geometric mean of the levels at which it turned round after that, an even number
-// of them.
+// Steps are factors: large ones until the level has reversed four times, then small ones. The
+// result is the geometric mean of the levels at the reversals after that, an even number of them.
 //
-// Thread: one. Memory: the turns.
+// Thread: one. Memory: the reversals.
 #pragma once
 
 #include <array>
@@ -22,15 +21,15 @@ namespace burr::people {
 enum class Rule { one_up_two_down, one_up_three_down, weighted };
 inline constexpr std::array<std::string_view, 3> kRuleNames = {"1up2down", "1up3down", "weighted"};
 
-// The share of right answers at which it settles.
+// The share of right answers at which the staircase settles.
 [[nodiscard]] double target_of(Rule rule);
 
 struct StaircaseSettings {
   Rule rule = Rule::one_up_two_down;
   double start = 1, smallest = 0.01, largest = 1;
-  double first_step = 1.5;  // factor, until it has turned round so often:
+  double first_step = 1.5;  // factor, for the first coarse_turns reversals
   int coarse_turns = 4;
-  double step = 1.1;  // factor after that; of the weighted rule the one down
+  double step = 1.1;  // factor after that; for the weighted rule the one down
 };
 
 class Staircase {
@@ -40,9 +39,9 @@ class Staircase {
   [[nodiscard]] double level() const { return level_; }
   void answer(bool right);
 
-  // The fine turns so far.
+  // Number of reversals with small steps so far.
   [[nodiscard]] const std::vector<double>& turns() const { return turns_; }
-  // Where it settles; nothing before four fine turns.
+  // Where it settles; nothing before four reversals with small steps.
   [[nodiscard]] std::optional<double> found() const;
 
  private:
@@ -51,7 +50,7 @@ class Staircase {
   StaircaseSettings settings_;
   double level_;
   int right_in_a_row_ = 0;
-  int way_ = 0;  // last went: 1 up, -1 down
+  int way_ = 0;  // last direction: 1 up, -1 down
   int turned_ = 0;
   std::vector<double> turns_;
 };

@@ -1,4 +1,4 @@
-// src/burr/phantom/phantoms.h - anatomy made by formula: bones of no patient, to practise and to measure on.
+// phantom/phantoms.h - anatomy by formula: bones of no real patient, to practise and to measure on.
 //
 //     temporal-bone  right temporal bone, 58 x 64 x 58 mm, every structure of a mastoidectomy
 //                    labelled
@@ -9,8 +9,8 @@
 //     block          a block to sculpt
 //     ball           a ball
 //
-// Frame: LPS (x left, y back, z up), metres. Shapes and sizes follow textbooks, not a person.
-// Same name and voxel, same bits, whatever the number of threads.
+// Frame: LPS (x left, y back, z up), metres. Shapes and sizes follow textbooks, not a person. The
+// same name and voxel give the same bits for any number of threads.
 #pragma once
 
 #include <functional>
@@ -25,7 +25,7 @@
 
 namespace burr::phantom {
 
-// A phantom before it is voxels.
+// A phantom as a formula, before it becomes voxels.
 struct Phantom {
   volume::TissueTable tissues;
   Formula formula;
@@ -34,17 +34,17 @@ struct Phantom {
 
 [[nodiscard]] std::vector<std::string_view> phantom_names();
 
-// The voxel that shows a phantom well in moderate time [mm]; 0 for a name that is none.
+// A voxel size that shows this phantom well in moderate time [mm]; 0 for an unknown name.
 [[nodiscard]] double default_voxel_mm(std::string_view name);
 
-// The phantom in voxels of voxel_mm (0: its default), with room for `reserve_bricks` bricks of
-// added material. Errors: unknown name or a voxel that does not fit (usage), interrupted.
-// made_of: may give the tissues other constants than the phantom's own.
+// The phantom with voxels of voxel_mm (0: its default), and room for `reserve_bricks` bricks of
+// added material. made_of: may change the constants of the phantom's tissues. Errors: unknown name
+// or unsuitable voxel (usage), interrupted.
 [[nodiscard]] Result<std::unique_ptr<volume::Bone>> phantom(
     std::string_view name, double voxel_mm, Progress& progress, std::size_t reserve_bricks = 2048,
     int threads = 2, const std::function<void(volume::TissueTable&)>& made_of = {});
 
-// The makers, one file each; `voxel` [m] says how far labels reach into the ramp.
+// The phantoms, one file each. voxel [m]: sets how far labels reach into the ramp.
 [[nodiscard]] Phantom temporal_bone(double voxel);
 [[nodiscard]] Phantom jaw(double voxel);
 [[nodiscard]] Phantom tooth(double voxel);

@@ -1,8 +1,8 @@
-// src/burr/phantom/sculpt.h - what formula-made bones are modelled with: soft unions, tubes along curves, and
+// phantom/sculpt.h - tools for modelling bones by formula: soft unions, tubes along curves, and
 // noise that is the same on every machine.
 //
-// Depth is positive inside, as in shapes.h; everything here changes by no more than the distance
-// (Lipschitz 1) unless it says otherwise. Units: metres.
+// Depth is positive inside, as in shapes.h. All functions here have Lipschitz constant 1 (they
+// change by no more than the distance) unless their comment says otherwise. Units: metres.
 #pragma once
 
 #include <algorithm>
@@ -18,30 +18,32 @@ using math::Vec3;
 
 inline constexpr double kMm = 1e-3;  // [m]
 
-// a point given in millimetres
+// A point given in millimetres.
 [[nodiscard]] inline Vec3 at_mm(double x, double y, double z) { return Vec3(x, y, z) * kMm; }
 
-// The larger of two depths, rounded over a width: bone flows into bone. Never less than either.
+// The larger of two depths, with a transition of `width`: bone flows into bone. Never less than
+// either.
 [[nodiscard]] inline double blend(double a, double b, double width) {
   const double overlap = std::max(width - std::abs(a - b), 0.0) / width;
   return std::max(a, b) + overlap * overlap * width / 4;
 }
-// The smaller of two depths, rounded over a width: cuts with broken edges. Never more than either.
+// The smaller of two depths, with a transition of `width`: a cut with rounded edges. Never more
+// than either.
 [[nodiscard]] inline double carve_soft(double a, double b, double width) {
   return -blend(-a, -b, width);
 }
 
-// Depth in an ellipsoid about `centre`; first-order away from the surface, Lipschitz
+// Depth in an ellipsoid around `centre`; first-order away from the surface, Lipschitz
 // max(radius)/min(radius).
 [[nodiscard]] double ellipsoid(const Vec3& p, const Vec3& centre, const Vec3& radius);
 
-// Depth in the hull of two balls: a bone that tapers. Exact.
+// Depth in the convex hull of two balls: a bone that tapers. Exact.
 class RoundCone {
  public:
   RoundCone(const Vec3& a, const Vec3& b, double radius_a, double radius_b);
   [[nodiscard]] double depth(const Vec3& p) const;
 
-  // False where depth(p) is surely less than `level`: cheaper to know than how deep.
+  // False: depth(p) is certainly less than `level`. Cheaper than depth(p).
   [[nodiscard]] bool may_reach(const Vec3& p, double level) const {
     const double from_middle = reach_ - level;
     return from_middle > 0 && (p - middle_).squaredNorm() < from_middle * from_middle;
@@ -51,11 +53,11 @@ class RoundCone {
   Vec3 a_, b_, u_ = Vec3::Zero();
   double radius_a_, radius_b_, length_, sin_t_ = 0, cos_t_ = 1;
   Vec3 middle_;
-  double reach_;  // of a ball about the middle that holds it, and a hair more
+  double reach_;  // radius of a ball around middle_ that holds it, slightly enlarged
 };
 
-// blend(depth, cone.depth(p), width) and carve_soft(depth, -cone.depth(p), width), to the bit; a
-// cone that is too far away to matter costs next to nothing.
+// The same as blend(depth, cone.depth(p), width) and carve_soft(depth, -cone.depth(p), width), to
+// the bit; almost free for a cone that is too far away to matter.
 [[nodiscard]] inline double blend(double depth, const RoundCone& cone, const Vec3& p,
                                   double width) {
   return cone.may_reach(p, depth - width) ? blend(depth, cone.depth(p), width) : depth;
@@ -68,14 +70,14 @@ class RoundCone {
 // A smooth curve through points (Catmull-Rom): nerves, vessels, canals.
 class Curve {
  public:
-  // exact_within: how near the exact distance is needed [m]
+  // exact_within: up to this distance the result is exact [m]
   Curve(const std::vector<Vec3>& through, double exact_within, int steps = 6);
 
-  // Distance to the curve; from farther than exact_within a lower bound.
+  // Distance to the curve; beyond exact_within a lower bound.
   [[nodiscard]] double distance(const Vec3& p) const;
 
  private:
-  // a few pieces in a row and the ball that holds them, to skip them when they are far
+  // A few pieces in a row and a ball around them, to skip them when they are far away.
   struct Stretch {
     std::size_t first = 0, end = 0;  // pieces
     Vec3 centre = Vec3::Zero();
@@ -97,12 +99,12 @@ struct Circle {
   [[nodiscard]] double distance(const Vec3& p) const;
 };
 
-// Smooth noise, -1 .. 1, one bump every `wavelength`; slope at most 4 / wavelength.
+// Smooth noise, -1 .. 1, with one bump per `wavelength`; slope at most 4 / wavelength.
 [[nodiscard]] double noise(const Vec3& p, double wavelength, std::uint32_t seed);
 
-// Foam: space parted into cells of about `spacing`, as mastoid air cells or coarse trabeculae are.
-// Depth towards the middle of the cell, zero on the walls' mid-surfaces; `open` 0..1 is the share
-// of walls that are missing, so that cells communicate.
+// Foam: space divided into cells of about `spacing`, like mastoid air cells or coarse trabeculae.
+// Returns the depth towards the middle of the cell, zero on the mid-surfaces of the walls. `open`,
+// 0..1: share of walls that are missing, so that cells are connected.
 [[nodiscard]] double foam(const Vec3& p, double spacing, double open, std::uint32_t seed);
 
 }  // namespace burr::phantom

@@ -1,10 +1,9 @@
-// src/burr/phantom/shapes.h - bones so simple that the answer is known by heart; for tests, bench, samples.
+// phantom/shapes.h - simple shapes with known answers; for tests, benchmarks and samples.
 //
-// A shape is a function of a world point: how deep it lies below the surface [m], positive inside
-// the bone, negative in air - the sign of the field. Exact distances unless the comment says
-// otherwise, because the ground truths of touch lean on them. Without a frame in the call a shape
-// sits where its comment says; placed() takes it anywhere.
-// Thread: any number at once. Memory: none per call.
+// A shape is a function of a world point: its depth below the surface [m], positive inside the
+// bone, negative in air - the sign of the field. Distances are exact unless the comment says
+// otherwise, because the ground truths of touch depend on them. A shape lies where its comment
+// says; placed() moves it anywhere. Thread: any number at once. Memory: none per call.
 #pragma once
 
 #include <functional>
@@ -35,8 +34,8 @@ using Depth = std::function<double(const Vec3& p)>;  // [m], positive inside
 // All points nearer than `radius` to the segment from a to b.
 [[nodiscard]] Depth capsule(const Vec3& a, const Vec3& b, double radius);
 
-// Bone with a V cut into it along y: the V's tip is the origin, it opens towards +z, each wall
-// leans half_angle [rad] away from the z axis. 45 degrees is the 90-degree groove.
+// Bone with a V cut into it along y: the tip of the V is the origin, it opens towards +z, each wall
+// leans half_angle [rad] away from the z axis. 45 degrees gives the 90-degree groove.
 [[nodiscard]] Depth groove(double half_angle);
 
 // The bone that would fill that groove: a ridge pointing to -z with its tip at the origin.
@@ -45,7 +44,7 @@ using Depth = std::function<double(const Vec3& p)>;  // [m], positive inside
 // Ring about z: circle of radius `ring`, tube of radius `tube`.
 [[nodiscard]] Depth torus(double ring, double tube);
 
-// Endless plate through `point`, `thickness` measured along its normal.
+// Infinite plate through `point`; `thickness` is measured along its normal.
 [[nodiscard]] Depth plate(double thickness, const Vec3& normal = {0, 0, 1},
                           const Vec3& point = {0, 0, 0});
 
@@ -53,13 +52,13 @@ using Depth = std::function<double(const Vec3& p)>;  // [m], positive inside
 // it is a lower bound.
 [[nodiscard]] Depth two_balls(double radius, double half_distance);
 
-// Open porous bone, a gyroid of the given period; fill 0.2..0.8 is the share of bone. The surface
-// is exact (the zero of the gyroid), the depth a first-order estimate: Lipschitz kGyroidSteepness.
+// Open porous bone, a gyroid of the given period; fill: 0.2..0.8, the share of bone. The surface is
+// exact (the zero of the gyroid), the depth a first-order estimate: Lipschitz kGyroidSteepness.
 [[nodiscard]] Depth gyroid(double period, double fill = 0.5);
 inline constexpr double kGyroidSteepness = 8;
 
-// ---- putting them together: surfaces stay exact, depths become lower bounds inside a union and
-// upper bounds (in size) in the air of a cut
+// ---- combining shapes: surfaces stay exact; depths become lower bounds inside a union and upper
+// bounds (in size) in the air of a cut
 [[nodiscard]] Depth either(Depth a, Depth b);   // bone of both
 [[nodiscard]] Depth common(Depth a, Depth b);   // only where both are bone
 [[nodiscard]] Depth without(Depth a, Depth b);  // a with b cut out

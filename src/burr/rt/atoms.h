@@ -1,8 +1,8 @@
-// rt/atoms.h - what the doors between threads are made of: the atomics of the standard.
+// rt/atoms.h - the atomic operations that the doors between threads are built from.
 //
-// A parameter of every door (ring.h, latest.h, changed_bits.h, versioned.h), so that a test can put
-// other atomics in their place: some that dawdle between any two steps, some that try every order
-// of them (tests/rt/explore.h). The program uses these.
+// A template parameter of every door (ring.h, latest.h, changed_bits.h, versioned.h), so that a
+// test can replace them: by atomics that wait at random between steps, or by atomics that try every
+// order of the steps (tests/rt/explore.h). The program uses StdAtoms.
 #pragma once
 
 #include <atomic>
@@ -29,7 +29,7 @@ struct StdAtoms {
 
   static void fence(std::memory_order order) BURR_RT { std::atomic_thread_fence(order); }
 
-  // one word of a block that nobody declared atomic; relaxed
+  // Relaxed access to one word of a block that is not declared atomic.
   static void store(std::uint64_t& word, std::uint64_t value) BURR_RT {
     store_relaxed(word, value);
   }

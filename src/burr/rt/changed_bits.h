@@ -1,7 +1,7 @@
-// rt/changed_bits.h - which of many things changed since somebody last looked; one bit each.
+// rt/changed_bits.h - one bit per item: which items changed since the reader last looked.
 //
-// Guarantee: mark() and take() are wait-free. Marked twice before being taken is taken once.
-// Thread: any number of writers, one reader per object (one object per consumer).
+// Guarantee: mark() and take_all() are wait-free. An item marked twice before it is taken is
+// reported once. Thread: any number of writers, one reader per object (one object per consumer).
 #pragma once
 
 #include <atomic>
@@ -21,12 +21,12 @@ class ChangedBitsOf {
   explicit ChangedBitsOf(std::size_t count)
       : words_((count + 63) / 64), bits_(std::make_unique<Word[]>(words_)) {}
 
-  // release: whoever takes the bit sees what was written before it
+  // release: the reader that takes the bit sees everything written before mark()
   void mark(std::size_t index) BURR_RT {
     bits_[index / 64].fetch_or(1ULL << (index % 64), std::memory_order_release);
   }
 
-  // Calls found(index) for each marked one and clears it. Bounded by the number of words.
+  // Calls found(index) for each marked item and clears its mark. Bounded by the number of words.
   template <class Found>
   void take_all(Found&& found) {
     for (std::size_t w = 0; w < words_; ++w) {

@@ -20,7 +20,7 @@ void sleep_until(std::int64_t monotonic) BURR_RT {
   timespec t = {};
   t.tv_sec = static_cast<std::time_t>(monotonic / kSecond);
   t.tv_nsec = monotonic % kSecond;
-  // a signal (Ctrl-C) wakes early; the time is absolute, so simply sleep on
+  // a signal (Ctrl-C) wakes the thread early; the time is absolute, so just sleep again
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
   }
 }
@@ -37,7 +37,7 @@ std::int64_t period_from_rate(double rate_hz) BURR_RT {
 TickTime TickGrid::begin(std::int64_t now_ns) BURR_RT {
   TickTime time;
   time.now_ns = std::max(now_ns, due_ns_);
-  // the due time this tick stands for: the last one that is not in the future
+  // the due time that this tick belongs to: the last one that is not in the future
   time.missed = (time.now_ns - due_ns_) / period_ns_;
   time.due_ns = due_ns_;
   time.late_ns = time.now_ns - due_ns_;

@@ -1,11 +1,11 @@
-// rt/idle_loop.h - a loop that does nothing but be on time: how late this machine wakes a thread,
-// whatever the tick does.
+// rt/idle_loop.h - measures how late this computer wakes a thread: a loop without any work, as a
+// comparison for the real tick.
 //
 //     IdleLoop idle(1000, {.name = "idle", .realtime = true});
-//     ...                                           // the sessions to compare with
-//     const TickSummary waited = idle.stop();   // lateness and missed periods; work: next to 0
+//     ...                                          // the sessions to compare with
+//     const TickSummary waited = idle.stop();      // lateness and missed periods; almost no work
 //
-// Thread: construct and stop on one thread; the loop runs on its own.
+// Thread: construct and stop on one thread; the loop runs on a thread of its own.
 #pragma once
 
 #include <atomic>
@@ -23,13 +23,13 @@ class IdleLoop {
   IdleLoop(const IdleLoop&) = delete;
   IdleLoop& operator=(const IdleLoop&) = delete;
 
-  // Ends it; what it saw. Again: the same.
+  // Ends the loop and returns what it measured. Further calls return the same.
   [[nodiscard]] TickSummary stop();
   [[nodiscard]] const ThreadGrant& grant() const { return thread_.grant(); }
 
  private:
   std::atomic<bool> stop_ = false;
-  TickStats stats_;  // the loop's own until it is joined
+  TickStats stats_;  // used only by the loop's thread until that is joined
   Thread thread_;
 };
 

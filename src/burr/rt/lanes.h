@@ -1,12 +1,14 @@
-// rt/lanes.h - sixteen numbers at a time, for the kernels that exist once per instruction set.
-//
-// Vectors of the language (GCC and clang), which the compiler makes one, two or four registers of:
-// written as loops the same arithmetic costs up to three times as much, because sums of many lanes
-// then live in memory. Every lane does the same everywhere, so the bits cannot differ.
-//
-// Nothing here has external linkage: a kernel's translation unit has its own copy, in its own
-// instruction set. Vectors are passed by reference only; by value their passing would depend on the
+// rt/lanes.h - arithmetic on sixteen numbers at a time, for the kernels that are compiled once per
 // instruction set.
+//
+// Uses the vector extensions of GCC and clang, which the compiler turns into one, two or four
+// registers. The same arithmetic written as loops takes up to three times as long, because sums of
+// many lanes then live in memory. Each lane does the same operations on every instruction set, so
+// the results are the same bits.
+//
+// Nothing here has external linkage: each kernel's translation unit gets its own copy, compiled for
+// its own instruction set. Pass vectors by reference only: how they are passed by value depends on
+// the instruction set.
 #pragma once
 
 #include <bit>
@@ -51,7 +53,7 @@ template <class Vector, class Number>
   load(each, v);
 }
 
-// Of lanes that are 0 or -1: a bit for each that is -1, the first lane the lowest bit.
+// For lanes that are 0 or -1: one bit per lane, set for -1; the first lane is the lowest bit.
 [[maybe_unused]] inline unsigned bits_of(const Ints& lanes) noexcept {
 #if defined __AVX512F__
   __m512i v;
@@ -75,7 +77,7 @@ template <class Vector, class Number>
 #endif
 }
 
-// Of sixteen numbers: a bit for each whose top bit is set, the first number the lowest bit.
+// True if any bit of any lane is set; for Ints: if any lane is -1.
 [[maybe_unused]] inline unsigned top_bits(const std::uint16_t* from) noexcept {
 #ifdef __x86_64__
   __m128i low, high;
@@ -117,9 +119,9 @@ template <class Vector>
 #endif
 }
 
-// Whole numbers of 16 bits as such of 32, and back, where only their low half is kept: what the
-// language's conversion does too, but compilers take a detour. (Masked, as g++ 12 takes the others'
-// undefined lanes for a mistake.)
+// Converts lanes of 16 bits to 32 bits, and back (keeping the low half). __builtin_convertvector
+// gives the same, but compilers make slower code of it. (The masked form is used because g++ 12
+// warns about undefined lanes in the unmasked one.)
 [[maybe_unused]] inline void widen(const Shorts& from, Ints& to) noexcept {
 #ifdef __AVX512F__
   __m256i v;
@@ -152,13 +154,14 @@ template <class Narrow>
 #endif
 }
 
-// Writes the lanes that `which` names, in their order and without gaps, to `to`, which has room for
-// sixteen: what follows them is undefined.
+// Writes the lanes whose bit is set in `which` to `to`, in order and without gaps. `to` must have
+// room for sixteen numbers; those after the written ones are undefined.
 [[maybe_unused]] inline void pack(const Floats& from, unsigned which, float* to) noexcept {
 #if defined __AVX512F__
   __m512 v;
   std::memcpy(&v, &from, sizeof v);
-  // by way of a register: some processors take a hundred times as long to do it in memory
+  // first into a register: on some processors compressing straight into memory takes a hundred
+  // times as long
   _mm512_storeu_ps(to, _mm512_maskz_compress_ps(static_cast<__mmask16>(which), v));
 #else
   alignas(64) float each[kCount];

@@ -31,10 +31,10 @@ std::int64_t number(const std::string& text, std::int64_t otherwise) {
   return value;
 }
 
-// "model name : Xeon" -> "Xeon"; and whether the flags say that there is a hypervisor
+// "model name : Xeon" -> "Xeon"; also whether the flags report a hypervisor
 void read_processor(const fs::path& file, Machine& machine, bool& hypervisor) {
   std::ifstream in(file);
-  for (std::string line; std::getline(in, line) && !line.empty();) {  // the first core's
+  for (std::string line; std::getline(in, line) && !line.empty();) {  // only the first core
     const auto colon = line.find(':');
     if (colon == std::string::npos) continue;
     const std::string value = colon + 2 < line.size() ? line.substr(colon + 2) : "";
@@ -44,14 +44,14 @@ void read_processor(const fs::path& file, Machine& machine, bool& hypervisor) {
   }
 }
 
-// The makers of virtual machines name themselves where a mainboard would.
+// Virtual machines report their maker where a computer reports that of its mainboard.
 std::string maker_of(const fs::path& root, bool hypervisor) {
   const std::string vendor = first_line(root / "sys/class/dmi/id/sys_vendor"),
                     product = first_line(root / "sys/class/dmi/id/product_name");
   for (const char* name : {"QEMU", "KVM", "VMware", "VirtualBox", "Xen", "Microsoft Corporation",
                            "Amazon EC2", "Google Compute", "Parallels"})
     if (vendor.find(name) != std::string::npos || product.find(name) != std::string::npos) {
-      // a tablet of Microsoft's is no virtual machine; theirs have the flag
+      // Microsoft also makes tablets, which are real machines; its virtual machines have the flag
       if (hypervisor || std::string(name) != "Microsoft Corporation") return name;
     }
   const std::string type = first_line(root / "sys/hypervisor/type");
@@ -73,7 +73,7 @@ std::string governor_of(const fs::path& root) {
   return governor;
 }
 
-// "#1 SMP PREEMPT_RT Debian 6.1.76-1": the word itself
+// "#1 SMP PREEMPT_RT Debian 6.1.76-1": returns the word PREEMPT...
 std::string preemption_of(const fs::path& root) {
   if (first_line(root / "sys/kernel/realtime") == "1") return "PREEMPT_RT";
   std::istringstream words(first_line(root / "proc/version"));
@@ -82,7 +82,7 @@ std::string preemption_of(const fs::path& root) {
   return "";
 }
 
-// cgroup 2: "200000 100000", "max 100000"
+// cgroup 2: "200000 100000" or "max 100000"
 double quota_of(const fs::path& root) {
   std::istringstream words(first_line(root / "sys/fs/cgroup/cpu.max"));
   double quota = 0, period = 0;

@@ -103,7 +103,7 @@ CheckLine virtual_line(const Machine& machine) {
           "the worst case belongs to the host; for a real device run burr on the machine itself"};
 }
 
-// Why these ticks do not meet the bars.
+// Adds the reasons why these ticks do not meet the bars.
 void hold_against(const CheckBars& bars, const TickSummary& ticks, std::vector<std::string>& why) {
   if (ticks.p999_us > bars.work_us)
     why.push_back("one tick in a thousand works " + number(ticks.p999_us, "%.0f") +
@@ -119,7 +119,7 @@ void hold_against(const CheckBars& bars, const TickSummary& ticks, std::vector<s
     why.push_back(number(ticks.missed) + " of " + number(all, "%.0f") + " ticks were left out");
 }
 
-// What only a real device needs.
+// Adds the reasons that concern only a real device.
 void hold_against(const MachineSeen& seen, std::vector<std::string>& why) {
   if (!seen.grant.fifo) why.emplace_back("the tick has ordinary priority");
   if (!seen.grant.locked) why.emplace_back("memory is not locked");

@@ -1,7 +1,8 @@
-// rt/machine_check.h - is this computer good enough for a hand? Facts and measured tails become
-// sentences, and one verdict.
+// rt/machine_check.h - decides whether this computer is good enough for a haptic device: turns
+// facts and measured times into sentences and one verdict.
 //
-// Plain data in, plain data out: `burr check` measures, tests invent. Thread: any. Units in names.
+// A pure function of plain data: `burr check` measures, tests make the data up. Thread: any. Units
+// are in the names.
 #pragma once
 
 #include <string>
@@ -13,31 +14,31 @@
 
 namespace burr::rt {
 
-// What was seen of 1000 ticks a second: a loop that only waits, and the real tick while milling,
-// each alone and with everything else at work.
+// Measured at 1000 ticks a second: a loop that only waits, and the real tick while milling, each
+// alone and under full load (`_loaded`).
 struct MachineSeen {
   Machine machine;
-  ThreadGrant grant;  // of the servo's thread
+  ThreadGrant grant;  // what the servo's thread was granted
   TickSummary waiting, milling, waiting_loaded, milling_loaded;
 };
 
 enum class Verdict {
   good,        // for a real device
-  usable,      // to learn and to try; a real device may let go of the hand at times
+  usable,      // for learning and trying; a real device may lose its force now and then
   not_enough,  // not for a real device
 };
 
-// What decides, while everything else is at work. Lateness: how long after it was due a tick began.
+// Limits for the measurements under full load. Lateness: how long after its due time a tick began.
 struct CheckBars {
   double work_us = 500;     // p99.9: half of a tick's millisecond
-  double late_us = 100;     // p99.9: a tenth of it; a hand does not feel that
-  double worst_us = 1000;   // no tick is left out
-  double missed_share = 0;  // of all ticks
+  double late_us = 100;     // p99.9: a tenth of it; the hand does not feel that
+  double worst_us = 1000;   // longest lateness: no tick is left out
+  double missed_share = 0;  // missed ticks, as a share of all
 };
 inline constexpr CheckBars kGood = {};
-inline constexpr CheckBars kUsable = {900, 1000, 5000, 1e-3};  // 5 ms: the watchdog lets go
+inline constexpr CheckBars kUsable = {900, 1000, 5000, 1e-3};  // 5 ms: watchdog releases the force
 
-// One line: what, as it is, and what to change; `change` empty: nothing.
+// One line of the report: what was looked at, its value, and what to change (empty: nothing).
 struct CheckLine {
   std::string what, is, change;
 };
@@ -45,13 +46,13 @@ struct CheckLine {
 struct MachineJudged {
   Verdict verdict = Verdict::not_enough;
   std::string sentence;              // the verdict, with its reasons
-  std::vector<std::string> reasons;  // why it is not better; empty: good
+  std::vector<std::string> reasons;  // why it is not better; empty if good
   std::vector<CheckLine> lines;
 };
 
 [[nodiscard]] MachineJudged judge(const MachineSeen& seen);
 
-// "good", "usable", "not good enough"
+// "good", "usable" or "not good enough".
 [[nodiscard]] const char* name(Verdict verdict) noexcept;
 
 }  // namespace burr::rt

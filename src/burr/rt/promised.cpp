@@ -11,11 +11,11 @@ namespace burr::rt {
 namespace {
 
 #ifndef MADV_POPULATE_WRITE
-constexpr int kPopulateWrite = 23;  // of newer headers
+constexpr int kPopulateWrite = 23;  // MADV_POPULATE_WRITE of newer headers
 #else
 constexpr int kPopulateWrite = MADV_POPULATE_WRITE;
 #endif
-// Taken at a time: seldom enough to cost nothing, little enough to waste nothing.
+// Pages are taken in pieces of this size: large enough to be rare, small enough to waste little.
 constexpr std::size_t kStep = 256 * 1024;
 
 std::size_t up(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
@@ -61,7 +61,7 @@ PromisedBytes::~PromisedBytes() {
 void PromisedBytes::have(std::size_t bytes) {
   const std::size_t wanted = std::min(up(bytes, kStep), bytes_);
   if (wanted <= had_) return;
-  // without memory left this does nothing, and the first use decides
+  // if there is no memory left this does nothing, and the first use decides
   if (madvise(data_ + had_, wanted - had_, kPopulateWrite) == 0) had_ = wanted;
 }
 
@@ -87,7 +87,7 @@ void PromisedBytes::give_back(std::size_t from) {
   const std::size_t whole = up(from, page());
   std::memset(data_ + from, 0, std::min(whole, bytes_) - from);
   if (whole >= bytes_) return;
-  // memory that is locked (mlockall, a real-time session in this process) is not given back
+  // locked memory (mlockall, a real-time session in this process) is not given back
   if (kernel_can() && madvise(data_ + whole, bytes_ - whole, MADV_DONTNEED) == 0) {
     had_ = std::min(had_, whole);
   } else {

@@ -1,19 +1,19 @@
-// rt/promised.h - a long array whose room is promised at once and taken from the system ahead of
-// its use, page by page.
+// rt/promised.h - a large array whose addresses are reserved at once and whose memory is taken
+// ahead of use, page by page.
 //
-//     Promised<KeptBrick> kept(bricks);  // addresses for all, memory for none
-//     kept.have(2048);                       // the first 2048 are there now
-//     kept[n] = ...                          // the tick; meanwhile a helper calls have(n + 2048)
+//     Promised<KeptBrick> kept(bricks);      // addresses for all, memory for none
+//     kept.have(2048);                       // the first 2048 now have memory
+//     kept[n] = ...                          // the tick; another thread calls have(n + 2048)
 //
-// What the tick might need in the worst case is far more than what it ever uses. A vector would
-// take all of it; growing one would allocate in the tick. Here the addresses never change, and a
-// helper thread takes the pages before the tick comes to them. Should the helper be late, the tick
-// waits for the kernel to clear a page; nothing else is different.
+// In the worst case the tick needs far more memory than it ever uses in practice. A vector would
+// take all of it at the start, and a growing vector would allocate inside the tick. Here the
+// addresses never change, and another thread takes the pages before the tick reaches them. If that
+// thread is late, the tick waits while the kernel clears a page; nothing else differs.
 //
-// Bytes are zero at first. Where the kernel cannot take pages ahead (Linux before 5.14) all of them
-// are taken at construction. Thread: elements as in any array; have() on one thread at a time,
-// which may be another than the one that uses the elements. Errors: std::bad_alloc when the
-// addresses, not the memory, are refused.
+// All bytes are zero at first. If the kernel cannot take pages in advance (Linux before 5.14), all
+// pages are taken at construction. Thread: elements as in any array; have() on one thread at a
+// time, which need not be the thread that uses the elements. Errors: std::bad_alloc when the
+// addresses (not the memory) are refused.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@
 
 namespace burr::rt {
 
-// Untyped, whole pages.
+// The untyped part: whole pages.
 class PromisedBytes {
  public:
   PromisedBytes() = default;
@@ -34,9 +34,9 @@ class PromisedBytes {
   PromisedBytes& operator=(const PromisedBytes&) = delete;
 
   [[nodiscard]] std::byte* data() const BURR_RT { return data_; }
-  void have(std::size_t bytes);      // [0, bytes) are there
-  void grow(std::size_t bytes);      // more addresses; what is there moves
-  void give_back(std::size_t from);  // [from, end) are zero again and take no memory
+  void have(std::size_t bytes);      // [0, bytes) have memory when it returns
+  void grow(std::size_t bytes);      // reserves more addresses; the content moves
+  void give_back(std::size_t from);  // [from, end) become zero and take no memory
   [[nodiscard]] std::size_t had() const { return had_; }
 
  private:
@@ -61,15 +61,17 @@ class Promised {
   [[nodiscard]] T& operator[](std::size_t at) BURR_RT { return data()[at]; }
   [[nodiscard]] const T& operator[](std::size_t at) const BURR_RT { return data()[at]; }
 
-  // The first `count` elements (all, if there are fewer) are in memory when this returns.
+  // When this returns, the first `count` elements (or all, if there are fewer) have memory.
   void have(std::size_t count) { bytes_.have((count < count_ ? count : count_) * sizeof(T)); }
-  // Before the session: room for more; elements move, pointers to them end.
+  // Before the session only: reserves room for more. Elements move, so pointers to them become
+  // invalid.
   void grow(std::size_t count) {
     if (count <= count_) return;
     bytes_.grow(count * sizeof(T));
     count_ = count;
   }
-  // Before the session: the elements from `first` on are zero and take no memory until used again.
+  // Before the session only: the elements from `first` on become zero and take no memory until they
+  // are used again.
   void give_back(std::size_t first) { bytes_.give_back(first * sizeof(T)); }
 
  private:

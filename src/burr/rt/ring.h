@@ -1,8 +1,8 @@
 // rt/ring.h - a queue of fixed size from one writer to one reader, in order.
 //
-// Guarantee: push() and pop() are wait-free. A full ring refuses and counts: nothing waits, nothing
-// is lost unseen. Thread: exactly one writer thread, exactly one reader thread. Memory: taken at
-// construction.
+// Guarantee: push() and pop() are wait-free. A full ring refuses the value and counts it in
+// dropped(): no thread waits, and every loss is counted. Thread: exactly one writer thread, exactly
+// one reader thread. Memory: allocated at construction.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class Ring {
     BURR_CHECK(capacity > 0);
   }
 
-  // writer: false when full; the row is then counted in dropped()
+  // Writer: false if the ring is full; the value is then counted in dropped().
   bool push(const T& value) BURR_RT {
     const std::size_t head = head_.load(std::memory_order_relaxed);
     if (head - tail_.load(std::memory_order_acquire) == slots_.size()) {
@@ -38,7 +38,7 @@ class Ring {
     return true;
   }
 
-  // reader: false when empty
+  // Reader: false if the ring is empty.
   bool pop(T& out) BURR_RT {
     const std::size_t tail = tail_.load(std::memory_order_relaxed);
     if (tail == head_.load(std::memory_order_acquire)) return false;
@@ -47,10 +47,10 @@ class Ring {
     return true;
   }
 
-  // any thread; a snapshot, and exact on the side that asks about its own rows
+  // Any thread. A snapshot: the writer sees its own pushes exactly, the reader its own pops.
   [[nodiscard]] std::size_t size() const BURR_RT {
-    // the tail first: it never passes a head that was read later. A third thread that is held up
-    // between the two may see a head that ran on meanwhile.
+    // Load the tail first: it never passes a head that is loaded later. A third thread that is
+    // delayed between the two loads may see a head that has moved on; hence the min().
     const std::size_t tail = tail_.load(std::memory_order_acquire);
     return std::min(head_.load(std::memory_order_acquire) - tail, slots_.size());
   }

@@ -1,7 +1,7 @@
-// rt/simd.h - which instruction set the kernels use. The bits are the same on all of them; only the
-// time differs.
+// rt/simd.h - which instruction set the kernels use. Results are the same bits on all of them; only
+// the time differs.
 //
-// Thread: read anywhere; force() only before a session, by tests and benches.
+// Thread: simd() from any; force_simd() only before a session, by tests and benchmarks.
 #pragma once
 
 #include "burr/rt/rt.h"
@@ -18,11 +18,11 @@ inline constexpr bool kWideKernels = false;
 
 enum class Simd { scalar = 0, avx2 = 1, avx512 = 2 };
 
-// The best this processor has, or what was forced (environment BURR_SIMD=scalar|avx2|avx512, read
-// once).
+// The best set of this processor, or the forced one (environment variable
+// BURR_SIMD=scalar|avx2|avx512, read once).
 [[nodiscard]] Simd simd() BURR_RT;
 
-// Never above what the processor has.
+// Uses `wanted`, but never more than the processor has.
 void force_simd(Simd wanted) noexcept;
 
 [[nodiscard]] const char* name(Simd which) noexcept;

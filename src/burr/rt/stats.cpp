@@ -5,8 +5,8 @@
 
 namespace burr::rt {
 
-// The leading 1 + kBits bits of the value, and how far they were shifted: 0..127 stand for
-// themselves.
+// The leading 1 + kBits bits of the value, and by how much they were shifted; 0..127 have a bucket
+// each.
 std::size_t Durations::bucket(std::uint64_t ns) BURR_RT {
   ns = std::min(ns, (std::uint64_t{1} << kLargest) - 1);
   const int shift = std::max(0, static_cast<int>(std::bit_width(ns)) - (kBits + 1));

@@ -3,10 +3,10 @@
 //     stats.add(took_ns);  stats.add_lateness(time.late_ns, period_ns, time.missed);
 //     stats.summary().p99_us
 //
-// A histogram whose buckets grow with the value: 64 to each doubling, so a quantile is within 0.8 %
-// of the true one (half a bucket); under 128 ns it is exact. Guarantee: add() is wait-free and
-// allocation-free. Thread: one writer; read on the same thread, or after it has ended, or from a
-// copy handed through a door. Memory: all of it inside the object.
+// A histogram with buckets that grow with the value, 64 per doubling: a quantile is within 0.8 % of
+// the true one (half a bucket), and exact below 128 ns. Guarantee: add() is wait-free and allocates
+// nothing. Thread: one writer; read on the same thread, or after that thread has ended, or from a
+// copy passed through a door. Memory: all of it inside the object.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace burr::rt {
 
-// What is told about a session's ticks. Zero ticks: all zero.
+// Summary of the ticks of a session. Without any tick all values are zero.
 struct TickSummary {
   std::uint64_t ticks = 0;
   double p50_us = 0, p99_us = 0, p999_us = 0;  // nearest rank
@@ -26,7 +26,7 @@ struct TickSummary {
   std::uint64_t over_1ms = 0;                  // ticks that took longer than 1 ms, exact
   std::uint64_t late = 0;        // began more than a tenth of a period after they were due
   std::uint64_t missed = 0;      // periods in which no tick began
-  double worst_lateness_us = 0;  // of all begins
+  double worst_lateness_us = 0;  // largest lateness of all ticks
   double late_p50_us = 0, late_p99_us = 0, late_p999_us = 0;  // how late ticks began
 };
 
@@ -34,7 +34,7 @@ struct TickSummary {
 class Durations {
  public:
   void add(std::int64_t ns) BURR_RT;
-  // nearest rank; 0 when nothing was added  [us]
+  // Nearest rank; 0 if nothing was added  [us].
   [[nodiscard]] double quantile_us(double q) const BURR_RT;
   [[nodiscard]] std::uint64_t count() const BURR_RT { return all_; }
   [[nodiscard]] double max_us() const BURR_RT { return 1e-3 * static_cast<double>(max_ns_); }
@@ -43,8 +43,8 @@ class Durations {
   }
 
  private:
-  static constexpr int kBits = 6;      // 2^6 buckets to a doubling
-  static constexpr int kLargest = 42;  // longer than 2^42 ns = 73 min counts as that
+  static constexpr int kBits = 6;      // 2^6 buckets per doubling
+  static constexpr int kLargest = 42;  // longer than 2^42 ns = 73 min counts as 73 min
   static constexpr std::size_t kBuckets = std::size_t{kLargest - kBits + 1} << kBits;
 
   static std::size_t bucket(std::uint64_t ns) BURR_RT;
@@ -56,13 +56,13 @@ class Durations {
 
 class TickStats {
  public:
-  // One more tick took this long; below zero (a clock that went back) counts as zero.  [ns]
+  // Adds the duration of one tick. A negative one (a clock that went back) counts as zero.  [ns]
   void add(std::int64_t took_ns) BURR_RT;
 
-  // How late that tick began, and how many periods were skipped before it (see rt/clock.h).
+  // Adds how late that tick began, and how many periods were skipped before it (see rt/clock.h).
   void add_lateness(std::int64_t late_ns, std::int64_t period_ns, std::int64_t missed) BURR_RT;
 
-  // The duration that a share of the ticks did not exceed; q: 0..1, nearest rank.  [us]
+  // The duration that the share q (0..1) of the ticks did not exceed; nearest rank.  [us]
   [[nodiscard]] double quantile_us(double q) const BURR_RT { return took_.quantile_us(q); }
 
   [[nodiscard]] std::uint64_t ticks() const BURR_RT { return took_.count(); }

@@ -18,19 +18,19 @@
 namespace burr::rt {
 namespace {
 
-// Touch the pages the work will use, so that the first tick does not wait for them.
+// Touches the stack pages that the work will use, so that the first tick does not wait for them.
 __attribute__((noinline)) void touch_stack(std::size_t bytes) {
   constexpr std::size_t kChunk = 16 * 1024, kPage = 4096;
   volatile unsigned char chunk[kChunk];
   for (std::size_t i = 0; i < kChunk; i += kPage) chunk[i] = 1;
   if (bytes > kChunk) touch_stack(bytes - kChunk);
-  static_cast<void>(chunk[0]);  // read after the call: this frame stays, no tail call
+  static_cast<void>(chunk[0]);  // read after the call: keeps this frame, no tail call
 }
 
 std::string reason(int code) { return std::generic_category().message(code); }
 
-// Pages that are there stay there. ONFAULT: what nobody touches is not dragged in. With a limit set
-// and no right to ignore it, a lock on future memory would make later allocations fail: then not.
+// Keeps touched pages in RAM. ONFAULT: untouched pages are not loaded. If there is a limit and no
+// right to exceed it, locking future memory would make later allocations fail: then it is not done.
 bool lock_memory(std::string& why) {
   rlimit limit = {};
   getrlimit(RLIMIT_MEMLOCK, &limit);
@@ -104,7 +104,7 @@ Thread::Thread(const ThreadRequest& request, std::function<void()> work)
   shared.thread = std::thread([&shared, request, work = std::move(work)] {
     pthread_setname_np(pthread_self(), request.name.substr(0, 15).c_str());
     ThreadGrant grant = ask(request);
-    // the default stack is 8 MiB; leave room for the work itself
+    // the default stack is 8 MiB; leaves room for the work itself
     touch_stack(std::min<std::size_t>(request.stack_bytes, 4 * 1024 * 1024));
     {
       const std::lock_guard lock(shared.mutex);

@@ -1,9 +1,10 @@
-// rt/versioned.h - a block of words that one thread rewrites and others read whole: a sequence
-// lock.
+// rt/versioned.h - a block of words that one thread writes and other threads copy as a whole: a
+// sequence lock.
 //
-// Guarantee: the writer is wait-free; a reader that met a writer is told so and may try again
-// later. The words are relaxed atomics, so that ThreadSanitizer and the C++ memory model agree with
-// it (H.-J. Boehm, "Can seqlocks get along with programming language memory models?", MSPC 2012).
+// Guarantee: the writer is wait-free. A reader that overlapped a write gets false and may try again
+// later. The words are relaxed atomics, so that the code is correct in the C++ memory model and for
+// ThreadSanitizer (H.-J. Boehm, "Can seqlocks get along with programming language memory models?",
+// MSPC 2012).
 #pragma once
 
 #include <atomic>
@@ -16,10 +17,10 @@
 namespace burr::rt {
 
 template <class Atoms>
-using VersionOf = typename Atoms::template Atomic<std::uint32_t>;  // odd while being written
+using VersionOf = typename Atoms::template Atomic<std::uint32_t>;  // odd during a write
 using Version = VersionOf<StdAtoms>;
 
-// The one writer: words [0, count) of `shared` become those of `from`.
+// Writer (only one): copies words [0, count) of `from` to `shared`.
 template <class Atoms = StdAtoms>
 void versioned_write(VersionOf<Atoms>& version, std::uint64_t* shared, const std::uint64_t* from,
                      std::size_t count) BURR_RT {
@@ -30,8 +31,8 @@ void versioned_write(VersionOf<Atoms>& version, std::uint64_t* shared, const std
   version.store(before + 2, std::memory_order_release);
 }
 
-// Any reader: calls copy(), which takes what it wants of the words by Atoms::load. False when a
-// writer was at it, what was copied is then rubbish; try again.
+// Reader: calls copy(), which reads the words that it needs with Atoms::load. False: a write
+// overlapped, so what was copied is invalid; try again.
 template <class Atoms = StdAtoms, class Copy>
 bool versioned_read(const VersionOf<Atoms>& version, const Copy& copy) BURR_RT {
   const std::uint32_t before = version.load(std::memory_order_acquire);
@@ -41,7 +42,7 @@ bool versioned_read(const VersionOf<Atoms>& version, const Copy& copy) BURR_RT {
   return version.load(std::memory_order_relaxed) == before;
 }
 
-// The same for words [0, count).
+// The same for all words [0, count).
 template <class Atoms = StdAtoms>
 bool versioned_read(const VersionOf<Atoms>& version, const std::uint64_t* shared, std::uint64_t* to,
                     std::size_t count) BURR_RT {

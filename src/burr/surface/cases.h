@@ -1,8 +1,9 @@
-// surface/cases.h - the 256 ways the surface can pass through a cell, as lists of triangles.
+// surface/cases.h - the 256 ways in which the surface can pass through a cell, as lists of
+// triangles.
 //
-// Built once at run time from the one rule of mesher.h instead of typed in.
+// The table is built at run time from the one rule of mesher.h instead of being typed in.
 //
-//     corner c of a cell: x = c & 1, y = c >> 1 & 1, z = c >> 2; bit c of the case: solid
+// corner c of a cell: x = c & 1, y = c >> 1 & 1, z = c >> 2; bit c of the case is set: solid
 //     edge 4a + m: along axis a, from its m-th lower corner
 #pragma once
 
@@ -12,7 +13,7 @@
 namespace burr::surface {
 
 inline constexpr int kCellEdges = 12;
-inline constexpr int kMostTriangles = 5;  // per cell, shown by the test of the table
+inline constexpr int kMostTriangles = 5;  // per cell; the test of the table checks it
 
 struct CellEdge {
   int axis = 0;             // 0 x, 1 y, 2 z

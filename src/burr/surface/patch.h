@@ -1,4 +1,4 @@
-// surface/patch.h - the surface of one block of bone as triangles. Plain struct.
+// surface/patch.h - the surface of one block of bone, as triangles. Plain struct.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ struct Vertex {
   math::Vec3f p;  // world, LPS                                   [m]
   math::Vec3f n;  // unit, out of the bone, from the field's gradient
   volume::TissueId tissue = 1;
-  // what soft tissue lies under thin bone here, or fills the hollow this wall belongs to; 0: none
+  // Soft tissue under thin bone here, or filling the hollow that this wall belongs to; 0: none.
   volume::TissueId beneath = 0;
-  std::uint8_t through = 0;  // how much of it is seen, of 255
-  std::uint8_t wall = 0;     // how much of the hollow beside it such tissue fills, of 255
+  std::uint8_t through = 0;  // how much of it shows through, 0..255
+  std::uint8_t wall = 0;     // how much of the hollow at this wall it fills, 0..255
 };
 
-// Counter-clockwise seen from the air. Vertices are shared inside the patch and repeated bit for
-// bit at its seams.
+// Counter-clockwise seen from the air. Vertices are shared inside the patch; at its seams they are
+// repeated bit for bit.
 struct Patch {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> triangles;  // (n x 3)

@@ -1,28 +1,29 @@
-// thermal/heat_grid.h - the temperature of the bone around the work, and the dose it has had.
+// thermal/heat_grid.h - the temperature of the bone around the work, and its heat dose.
 //
 //     rho c dT/dt = div(k grad T) + Q
 //
-// Finite volumes on the cells of matter.h, explicit in time. Between two cells
+// Finite volumes on the cells of matter.h, explicit in time. The heat between two cells a and b is
 //
 //     heat = G (T_b - T_a) dt,   G = edge * 2 K_a K_b / (K_a + K_b),   K = share * k
 //
-// so nothing crosses air. Where bone lies open to the air it keeps its heat when dry, and when wet
-// gives some to the coolant, through half a cell and the film:
+// so no heat crosses air. Bone that is open to the air keeps its heat when dry; when wet it gives
+// heat to the coolant, through half a cell and the film of coolant:
 //
 //     G = A / (1 / h_c + edge / (2 K)),   A = edge^2 |one-sided differences of the share|
 //
-// A by the norm, not by counting open faces: a slanted plane has its own area, not that of its
-// stairs (up to 1.7 times as much). A step takes a cell no further than the mean of its neighbours,
-// dt sum G / C < 1, so it makes neither heat nor cold out of rounding: no new highest, no new
-// lowest. For equal materials sum G / C <= 12 alpha / edge^2, twice what whole cells have.
+// A is the norm of the differences, not a count of open faces: a slanted plane gets its own area,
+// not that of its stairs (up to 1.7 times as much). A step never moves a cell beyond the mean of
+// its neighbours, dt sum G / C < 1, so rounding creates neither heat nor cold: no new highest and
+// no new lowest temperature. For equal materials sum G / C <= 12 alpha / edge^2, twice the value of
+// whole cells.
 //
-// The box is fixed. Heat goes only a few cm in minutes, and a map of doses that moved with the burr
-// would forget what lies behind; bone around the box stays at the starting temperature, so let it
-// reach 10 mm further than the burr will.
+// The box is fixed. Heat moves only a few cm in minutes, and a dose map that moved with the burr
+// would lose the dose behind it. Bone around the box stays at the starting temperature, so let the
+// box reach 10 mm further than the burr will.
 //
-// Same bone, same calls: same bits. Thread: any one at a time, never the servo's; the bone may be
-// cut meanwhile. Frames: world. Memory: about 90 B a cell: 6 MB for 40 mm of 1 mm cells, 50 MB of
-// 0.5 mm. Cost: bench/thermal/heat_bench.cpp.
+// The same bone and the same calls give the same bits. Thread: any one at a time, never the
+// servo's; the bone may be cut meanwhile. Frame: world. Memory: about 90 B per cell: 6 MB for 40 mm
+// with cells of 1 mm, 50 MB with cells of 0.5 mm. Cost: bench/thermal/heat_bench.cpp.
 #pragma once
 
 #include <array>
@@ -40,25 +41,26 @@ namespace burr::thermal {
 
 class HeatGrid {
  public:
-  // Before the session: adds a watcher to the bone. work: world  [m]
+  // Construct before the session: adds a watcher to the bone. work: box, world  [m]
   HeatGrid(volume::Bone& bone, const math::Aabb& work, const HeatSettings& settings);
 
-  // Sees what was cut or put on since the last look. Bone that went takes its heat along; what came
-  // is as warm as everything was at the start. False: the servo was writing; look again.
+  // Reads what was cut or added since the last call. Removed bone takes its heat along; new
+  // material has the starting temperature. False: the servo was writing; call again.
   bool look();
 
-  // Heats what matter there is within `radius` (at least one cell) of p, by its capacity and less
-  // towards the edge. Returns what stayed: all of it, or nothing where there is no matter.  [J]
+  // Heats the matter within `radius` (at least one cell) of p, in proportion to its heat capacity
+  // and less towards the edge. Returns the heat put in: all of it, or nothing if there is no
+  // matter.  [J]
   double deposit(const math::Vec3& p, double radius, double energy);
 
-  // From now on the coolant runs over what is open within wet_radius of p; dry() ends it.
+  // From now on coolant runs over all open surface within wet_radius of p; dry() ends it.
   void irrigate(const math::Vec3& p);
   void dry() { wet_ = false; }
 
-  // In as many steps as it takes.  [s]
+  // Advances the time, in as many steps as stability needs.  [s]
   void advance(double seconds);
 
-  // All as at the start, the bone as it is.
+  // Sets all temperatures and doses back to the start; the bone stays as it is.
   void start_over();
 
   // ---- reading
@@ -66,13 +68,13 @@ class HeatGrid {
   [[nodiscard]] math::Vec3 centre(const math::Ijk& cell) const;  // world  [m]
   [[nodiscard]] math::Ijk cell_at(const math::Vec3& p) const;    // may lie outside the box
   [[nodiscard]] bool has_matter(const math::Ijk& cell) const;
-  // Of the cell; the starting temperature where there is no matter, or outside.  [deg C]
+  // Of the cell; the starting temperature if it has no matter or is outside.  [deg C]
   [[nodiscard]] double temperature_c(const math::Ijk& cell) const;
   [[nodiscard]] double cem43_min(const math::Ijk& cell) const;
   [[nodiscard]] double longest_stable_step() const;  // [s]
-  [[nodiscard]] HeatLedger ledger() const;           // all but what was spent
-  [[nodiscard]] double wet_area() const;             // of everything open to the air  [m^2]
-  // All but time, rows and what was spent.
+  [[nodiscard]] HeatLedger ledger() const;           // without `spent`
+  [[nodiscard]] double wet_area() const;             // of all surface open to the air [m^2]
+  // Fills in everything but time, rows and `spent`.
   void summarise(HeatSummary& out) const;
 
  private:
@@ -97,20 +99,20 @@ class HeatGrid {
   CellBox box_;
   MatterReader reader_;
   std::vector<MatterReader::Found> found_;
-  std::vector<volume::BrickIndex> due_;  // changed and not read yet
+  std::vector<volume::BrickIndex> due_;  // changed and not yet read
 
-  // one for each cell of the box and the layer around it, which stays at the start
+  // one entry per cell of the box and of the layer around it, which stays at the start temperature
   std::vector<double> rise_, next_;        // above start_c  [K]
-  std::vector<double> capacity_, warmth_;  // [J/K]; its inverse, or 0  [K/J]
+  std::vector<double> capacity_, warmth_;  // [J/K]; 1 / capacity, or 0 [K/J]
   std::vector<double> dose_;               // [min]
   std::vector<float> peak_;                // highest rise  [K]
   std::vector<float> k_, share_;           // share * k  [W/(m K)]; share  [-]
-  std::array<std::vector<float>, 3> g_;    // to the next along x, y, z  [W/K]
-  std::vector<float> area_, film_;         // open to the air  [m^2]; to the coolant, if wet  [W/K]
+  std::array<std::vector<float>, 3> g_;    // to the next cell along x, y, z [W/K]
+  std::vector<float> area_, film_;         // open to the air  [m^2]; to the coolant, when wet [W/K]
   std::vector<Parts> parts_;
-  std::vector<int> in_row_;  // (count.y x count.z) cells with matter
+  std::vector<int> in_row_;  // (count.y x count.z) number of cells with matter
 
-  double fastest_ = 0;  // largest sum G / C there ever was  [1/s]
+  double fastest_ = 0;  // largest sum G / C so far          [1/s]
   bool wet_ = false;
   math::Vec3 nozzle_ = math::Vec3::Zero();  // p_cell
   HeatLedger ledger_;

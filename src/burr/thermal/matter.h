@@ -1,12 +1,14 @@
-// thermal/matter.h - what the coarse cells of the heat grid are made of, read from the bone.
+// thermal/matter.h - what the coarse cells of the heat grid consist of, read from the bone.
 //
-// A cell is a cube of 1, 2, 4 or 8 voxels an edge, aligned so that none lies across two bricks: a
-// brick that changed is read alone. With powers of two there always is a size between half of what
-// was requested and all of it. Around the box lies one more layer of cells: what the box borders on.
+// A cell is a cube of 1, 2, 4 or 8 voxels per edge, aligned so that none crosses two bricks: a
+// changed brick can then be read alone. With powers of two there is always a size between half of
+// the requested one and all of it. Around the box lies one more layer of cells, for what the box
+// borders on.
 //
 // Bone counts by its volume (volume/volume_of.h). Soft tissue, which no burr cuts, fills its
-// voxels: heat runs through a nerve as well as past it. Thread: any one; reads through copy_brick()
-// while the servo cuts. Frames: cell ijk, `p_cell` with centres at whole numbers, p_grid, world.
+// voxels: heat flows through a nerve as well as past it. Thread: any one; reads through
+// copy_brick() while the servo cuts. Frames: cell ijk; `p_cell` with centres at whole numbers;
+// p_grid; world.
 #pragma once
 
 #include <array>
@@ -19,13 +21,13 @@
 
 namespace burr::thermal {
 
-// Where the cells lie; those from -1 to count, both included, have a place in the arrays.
+// Where the cells are. Cells from -1 to count, both included, have an entry in the arrays.
 struct CellBox {
-  int voxels = 1;                  // along an edge of a cell
+  int voxels = 1;                  // per edge of a cell
   double edge = 1e-3;              // of a cell                              [m]
-  math::Ijk first = {0, 0, 0};     // voxel in the corner of cell (0,0,0)
+  math::Ijk first = {0, 0, 0};     // voxel at the corner of cell (0,0,0)
   math::Ijk count = {0, 0, 0};     // cells
-  std::size_t row = 0, slice = 0;  // how far the next j and the next k are
+  std::size_t row = 0, slice = 0;  // array distance to the next j and to the next k
   [[nodiscard]] std::size_t size() const { return slice * static_cast<std::size_t>(count.z() + 2); }
   [[nodiscard]] std::size_t at(int i, int j, int k) const {
     return static_cast<std::size_t>(i + 1) + row * static_cast<std::size_t>(j + 1) +
@@ -51,23 +53,24 @@ inline constexpr int kMostParts = 4;  // tissues a cell tells apart; of more the
                                       // for its warmth
 
 struct Matter {
-  double share = 0;         // of the cell that is not air                         [-]
+  double share = 0;         // of the cell's volume that is not air                [-]
   double conductivity = 0;  // of the cell as a whole: sum of share * k            [W/(m K)]
   double capacity = 0;      // sum of volume * rho c; 0: no matter                 [J/K]
   std::array<volume::TissueId, kMostParts> tissue = {};  // largest first; 0: no more
-  std::array<float, kMostParts> part = {};               // of the cell  [-]
+  std::array<float, kMostParts> part = {};               // share of the cell [-]
 };
 
 class MatterReader {
  public:
   MatterReader(const volume::Bone& bone, const CellBox& box, const HeatSettings& settings);
 
-  // One cell read anew.
+  // A cell that was read again.
   struct Found {
     math::Ijk cell;
     Matter matter;
   };
-  // Replaces `found` by all cells of the brick that have a place. False: the servo was writing it.
+  // Replaces `found` by all cells of the brick that have an entry. False: the servo was writing the
+  // brick.
   [[nodiscard]] bool read(volume::BrickIndex brick, std::vector<Found>& found);
 
  private:

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "burr/math/sums.h"
 #include "burr/edit/laws/thesis.h"
+#include "burr/math/sums.h"
 #include "burr/rt/flags.h"
 #include "burr/tick/mirror_plane.h"
 #include "burr/tick/tick_hash.h"

@@ -23,7 +23,7 @@ std::unique_ptr<std::atomic<std::int32_t>[]> no_slots(BrickIndex bricks) {
   return made;
 }
 
-// Bricks that can be written for the first time before take_ahead() is called again.
+// How many bricks can be written for the first time between two calls of take_ahead().
 constexpr std::size_t kAhead = 1024;
 
 template <class T>
@@ -31,8 +31,8 @@ bool same_throughout(const T* brick) {
   return std::memcmp(brick, brick + 1, (kBrickVoxels - 1) * sizeof(T)) == 0;
 }
 
-// Moves the slots that bricks point to down over those that none does, in the order they lie, and
-// gives the rest back. Returns how many there are then.
+// Moves the slots in use down over the unused ones, keeping their order, and gives the rest back.
+// Returns the number of slots in use.
 template <class T>
 std::size_t close_gaps(std::atomic<std::int32_t>* slot_of, BrickIndex bricks, std::int32_t first,
                        std::size_t used, rt::Promised<T>& pool) {
@@ -143,7 +143,7 @@ TissueId Bone::shared_tissue(int i, int j, int k) const BURR_RT {
 }
 
 std::size_t Bone::memory_bytes() const {
-  // of the shared tissues only those of the table were ever written
+  // of the shared tissue slots only those of tissues in the table were ever written
   const std::size_t tissues = tissues_used_ - kFirstTissue + tissues_.tissues.size();
   return fields_ * (sizeof(BrickField) + sizeof(rt::Version)) + tissues * kBrickVoxels +
          (intensity_.empty() ? 0 : used_ * kBrickVoxels * sizeof(std::int16_t)) +
@@ -165,7 +165,7 @@ std::int32_t Bone::ensure_slot(BrickIndex brick) BURR_RT {
   if (!intensity_.empty())
     intensity_at_[b].store(static_cast<std::int32_t>(used_), std::memory_order_relaxed);
   ++used_;
-  // readers that see a slot see its zeros
+  // release: a reader that sees the slot sees its zeros
   tissue_at_[b].store(static_cast<std::int32_t>(tissues_used_++), std::memory_order_release);
   directory_[b].store(fresh, std::memory_order_release);
   fields_told_.store(fields_, std::memory_order_relaxed);
@@ -173,8 +173,8 @@ std::int32_t Bone::ensure_slot(BrickIndex brick) BURR_RT {
   return fresh;
 }
 
-// A slot of the brick's own. There is one for each: every brick that counts as used shares, or has,
-// at most one. keep: with the same content; otherwise the caller fills and publishes it.
+// Gives the brick a slot of its own. There is one for each brick: every used brick shares a slot or
+// has at most one. keep: copies the content; otherwise the caller fills and publishes the slot.
 std::int32_t Bone::own_field(BrickIndex brick, bool keep) BURR_RT {
   std::atomic<std::int32_t>& entry = directory_[static_cast<std::size_t>(brick)];
   const std::int32_t slot = entry.load(std::memory_order_relaxed);
@@ -260,7 +260,7 @@ void Bone::build_brick(BrickIndex brick, const Field* field, const TissueId* tis
 }
 
 void Bone::pack() {
-  // share what can be shared
+  // first share what can be shared
   for (std::size_t b = 0; b < static_cast<std::size_t>(brick_count_); ++b) {
     if (const std::int32_t slot = directory_[b]; slot >= kFirstField)
       if (const Field* field = field_.data() + at(slot); can_share(field))
@@ -269,7 +269,7 @@ void Bone::pack() {
       if (const TissueId* tissue = tissue_.data() + at(slot); can_share(tissue))
         tissue_at_[b] = tissue[0];
   }
-  // and close the gaps
+  // then close the gaps
   fields_ = close_gaps(directory_.get(), brick_count_, kFirstField, fields_, field_);
   tissues_used_ = close_gaps(tissue_at_.get(), brick_count_, kFirstTissue, tissues_used_, tissue_);
   for (std::size_t slot = 0; slot < kFirstField + capacity_; ++slot)
@@ -292,7 +292,7 @@ std::uint64_t Bone::content_hash() const {
     std::memcpy(words, field, sizeof words);
     std::uint64_t any = 0;
     for (const std::uint64_t word : words) any |= word;
-    if (any == 0) continue;  // a brick cut away whole is the same as none
+    if (any == 0) continue;  // a brick cut away entirely equals no brick
     hash = base::mix(hash, static_cast<std::uint64_t>(b));
     hash = base::mix(hash, words);
     std::memcpy(words, tissue, kBrickVoxels);
@@ -313,7 +313,7 @@ std::unique_ptr<Bone> bone_from_arrays(const Grid& grid, TissueTable tissues,
   BURR_CHECK(tissue.empty() || tissue.size() == field.size());
   BURR_CHECK(intensity.empty() || intensity.size() == field.size());
 
-  // first find the bricks that hold anything, then take exactly the room they need
+  // first find the bricks that hold something, then reserve exactly the memory they need
   const math::Ijk bricks = (grid.size.array() + kBrickEdge - 1) / kBrickEdge;
   std::vector<std::uint8_t> used(static_cast<std::size_t>(bricks.prod()));
   for (std::size_t k = 0, v = 0; k < nz; ++k)

@@ -1,4 +1,5 @@
-// volume/bone.h - the bone: a sparse grid of bricks that one thread cuts while others look on.
+// volume/bone.h - the bone: a sparse grid of bricks that one thread cuts while other threads read
+// it.
 //
 //     per voxel   field     16 bit  depth into the material: 0 air .. 32768 surface .. 65535 solid,
 //                                   a ramp of +-kRamp voxels around the true surface
@@ -10,18 +11,18 @@
 //     pool:       [ all 0 | all solid | bricks of their own ... | promised ]
 //     tissue:     the same again, with a shared slot for each tissue that fills whole bricks
 //
-// After pack() all bricks that are the same throughout share one slot; the first write of such a
-// brick gives it one of its own, whose addresses were promised before the session. Half of a real
-// temporal bone is like that.
+// After pack() all uniform bricks (one value in every voxel) share a slot. The first write to such
+// a brick gives it a slot of its own, whose address was reserved before the session. In a real
+// temporal bone half of the bricks are uniform.
 //
-// Outside the grid is air. Field below the surface may be cut or added to; tissue and intensity
-// stay, except under deposited material.
+// Outside the grid is air. Cutting and adding change the field alone; tissue and intensity stay,
+// except that added material sets the tissue.
 //
-// Thread: build it with one thread; then one writer (the servo), which reads plainly, and any
-// number of readers through copy_brick(), each told by its own ChangedBits what to look at again.
-// Memory: 1 KiB per brick of its own field, 0.5 KiB per brick of mixed tissue, 1 KiB per used brick
-// where intensity is kept; 8 B per brick of the grid. What deposits and first writes may need
-// beyond that is promised, and taken a little ahead of use (rt/promised.h).
+// Thread: build on one thread. After that: one writer (the servo), which reads directly, and any
+// number of readers through copy_brick(), each with its own ChangedBits that say which bricks to
+// read again. Memory: 1 KiB per brick with a field of its own, 0.5 KiB per brick of mixed tissue, 1
+// KiB per used brick if intensity is kept; 8 B per brick of the grid. The memory that adding
+// material and first writes may need is reserved, and taken a little ahead of use (rt/promised.h).
 #pragma once
 
 #include <atomic>
@@ -44,32 +45,33 @@ using Field = std::uint16_t;
 inline constexpr int kBrickEdge = 8;                                       // [voxel]
 inline constexpr int kBrickVoxels = kBrickEdge * kBrickEdge * kBrickEdge;  // 512
 inline constexpr int kBrickWords = kBrickVoxels * int{sizeof(Field)} / 8;  // 128 words of 64 bit
-inline constexpr Field kIso = 32768;  // the surface; >= is inside
+inline constexpr Field kIso = 32768;  // the surface; field >= kIso is inside
 inline constexpr Field kSolid = 65535;
-// half width of the ramp; wide enough for exact central differences  [voxel]
+// Half width of the ramp; wide enough for exact central differences  [voxel]
 inline constexpr double kRamp = 2.0;
-// field units a voxel of depth is worth
+// Field units per voxel of depth.
 inline constexpr double kFieldPerVoxel = 65536.0 / (2.0 * kRamp);
 
-// depth below the surface [voxel], negative in air, as a field value
+// Converts a depth below the surface [voxel], negative in air, to a field value.
 [[nodiscard]] constexpr Field field_from_depth(double depth_voxel) {
   const double f = 32768.0 + depth_voxel * kFieldPerVoxel;
   return f <= 0 ? Field{0} : f >= 65535.0 ? kSolid : static_cast<Field>(f + 0.5);
 }
 
-// A brick's whole content, for copies. alignas: read and written by the word.
+// The whole field of one brick, for copies. alignas: it is read and written in words of 64 bits.
 struct alignas(64) BrickField {
   Field voxel[kBrickVoxels];  // (8 x 8 x 8), x fastest
 };
 
-using BrickIndex = std::int32_t;  // which brick of the grid, x fastest
+using BrickIndex = std::int32_t;  // number of a brick in the grid, x fastest
 inline constexpr BrickIndex kNoBrick = -1;
-inline constexpr std::int32_t kNoSlot = -1;  // all air, or no room
+inline constexpr std::int32_t kNoSlot = -1;  // all air, or no room left
 
 class Bone {
  public:
   // reserve_bricks: how many bricks may be added later (deposit). with_intensity: keep the scan's
-  // values too. capacity_bricks: how many bricks hold material at the start; the builder knows.
+  // values as well. capacity_bricks: how many bricks hold material at the start; the builder must
+  // know it.
   Bone(const Grid& grid, TissueTable tissues, std::size_t capacity_bricks,
        std::size_t reserve_bricks, bool with_intensity);
 
@@ -79,11 +81,12 @@ class Bone {
   // bricks along each axis
   [[nodiscard]] const math::Ijk& bricks() const BURR_RT { return bricks_; }
   [[nodiscard]] BrickIndex brick_count() const BURR_RT { return brick_count_; }
-  // bricks that hold material, and how many more may
+  // Bricks that hold material, and how many more may be added.
   [[nodiscard]] std::size_t used_slots() const BURR_RT { return used_; }
   [[nodiscard]] std::size_t free_slots() const BURR_RT { return capacity_ - used_; }
   [[nodiscard]] bool has_intensity() const BURR_RT { return !intensity_.empty(); }
-  // of what is in use now, without what is promised; before the session or on the writer's thread
+  // Of what is in use, without reserved memory. Before the session, or on the writer's thread
+  // [byte]
   [[nodiscard]] std::size_t memory_bytes() const;
   [[nodiscard]] BrickIndex brick_at(int bi, int bj, int bk) const BURR_RT {
     return bi + bricks_.x() * (bj + bricks_.y() * bk);
@@ -94,18 +97,18 @@ class Bone {
   }
 
   // ---- reading, on the writer's thread or before the session
-  // one voxel; outside the grid is air
+  // One voxel; outside the grid is air.
   [[nodiscard]] Field field(int i, int j, int k) const BURR_RT;
   [[nodiscard]] TissueId tissue(int i, int j, int k) const BURR_RT;
   [[nodiscard]] std::int16_t intensity(int i, int j, int k) const BURR_RT;
-  // (8 x 8 x 8) of a brick, or nullptr: all air
+  // (8 x 8 x 8) of a brick; nullptr: all air. Valid until the brick is written.
   [[nodiscard]] const Field* brick_field(BrickIndex brick) const BURR_RT {
     const std::int32_t slot =
         directory_[static_cast<std::size_t>(brick)].load(std::memory_order_relaxed);
     return slot == kNoSlot ? nullptr
                            : field_.data() + static_cast<std::size_t>(slot) * kBrickVoxels;
-  }  // good until the brick is written
-  // known to be all 0 or all kSolid; false may still be
+  }
+  // True: the brick is certainly all 0 or all kSolid. False: it may still be uniform.
   [[nodiscard]] bool is_uniform(BrickIndex brick) const BURR_RT {
     const std::int32_t slot =
         directory_[static_cast<std::size_t>(brick)].load(std::memory_order_relaxed);
@@ -115,45 +118,46 @@ class Bone {
   [[nodiscard]] const std::int16_t* brick_intensity(BrickIndex brick) const BURR_RT;
 
   // ---- reading, from any other thread while the servo cuts
-  // Copies a brick's field whole. Wait-free; false: the writer was at it, try again. All air gives
-  // zeros.
+  // Copies the whole field of a brick; zeros for a brick of air. Wait-free. False: the writer was
+  // writing this brick; try again.
   [[nodiscard]] bool copy_brick(BrickIndex brick, BrickField& out) const BURR_RT;
-  // The same for a part: of slices z in [z.first, z.last) the rows y in [y.first, y.last); the rest
-  // of `out` stays as it is.
+  // Copies a part: rows y in [y.first, y.last) of slices z in [z.first, z.last). The rest of `out`
+  // is unchanged.
   struct Range {
     int first = 0, last = kBrickEdge;
   };
   [[nodiscard]] bool copy_rows(BrickIndex brick, Range y, Range z, BrickField& out) const BURR_RT;
-  // Tissue changes only under deposited material; read by relaxed atomics, one voxel at a time.
+  // Tissue changes only under added material. Reads one voxel with a relaxed atomic.
   [[nodiscard]] TissueId shared_tissue(int i, int j, int k) const BURR_RT;
 
-  // ---- who wants to know what changed: one each, made before the session
+  // ---- watching: one ChangedBits per reader, created before the session
   rt::ChangedBits& add_watcher();
 
   // ---- writing, on the one writer's thread
   // Gives the brick a slot if it has none. kNoSlot: the reserve is used up; raise reserve_bricks.
   std::int32_t ensure_slot(BrickIndex brick) BURR_RT;
-  // Replaces a brick's field; the brick must have a slot. Marks it for all watchers.
+  // Replaces the field of a brick, which must have a slot. Marks it for all watchers.
   void write_brick(BrickIndex brick, const BrickField& content) BURR_RT;
   // The voxel must be in a brick with a slot.
   void set_tissue(int i, int j, int k, TissueId tissue) BURR_RT;
 
-  // Takes the memory that writing will need next; call it every few milliseconds while the servo
+  // Takes the memory that writing will need next. Call it every few milliseconds while the servo
   // cuts, from one other thread.
   void take_ahead();
 
-  // ---- building, before the session; different bricks that have a slot on different threads
+  // ---- building, before the session; different bricks with slots may be built on different
+  // threads
   Field* build_field(BrickIndex brick);  // gives it a slot; (8 x 8 x 8)
   TissueId* build_tissue(BrickIndex brick);
   std::int16_t* build_intensity(BrickIndex brick);
-  // Gives the brick a slot and this content, (8 x 8 x 8) each; what is the same throughout takes no
-  // room. Not to be built again before pack().
+  // Gives the brick a slot and this content, (8 x 8 x 8) each; uniform content takes no memory. Do
+  // not build the same brick again before pack().
   void build_brick(BrickIndex brick, const Field* field, const TissueId* tissue);
-  // Afterwards, on one thread: uniform bricks share a slot, and the others move together.
+  // After building, on one thread: uniform bricks share slots, and the other slots close the gaps.
   void pack();
 
-  // Hash of the geometry, every field and tissue value; same bone, same number. Slow (a pass over
-  // all bricks).
+  // Hash of the geometry and of every field and tissue value: equal bones give equal numbers. Slow
+  // (reads all bricks).
   [[nodiscard]] std::uint64_t content_hash() const;
 
  private:
@@ -170,9 +174,9 @@ class Bone {
   TissueTable tissues_;
   math::Ijk bricks_;
   BrickIndex brick_count_ = 0;
-  std::size_t capacity_ = 0, used_ = 0;             // bricks
-  std::size_t fields_ = 0, tissues_used_ = 0;       // slots in use, the shared ones included
-  Directory directory_, tissue_at_, intensity_at_;  // the last only with intensity
+  std::size_t capacity_ = 0, used_ = 0;             // [brick]
+  std::size_t fields_ = 0, tissues_used_ = 0;       // slots in use, including the shared ones
+  Directory directory_, tissue_at_, intensity_at_;  // intensity_at_: only with intensity
   std::unique_ptr<rt::Version[]> versions_;         // (2 + capacity)
   rt::Promised<Field> field_;                       // (2 + capacity) x 512
   rt::Promised<TissueId> tissue_;                   // (256 + capacity) x 512
@@ -182,7 +186,7 @@ class Bone {
 };
 
 // Builds a sparse bone from whole arrays, x fastest, (size.x * size.y * size.z) each; tissue and
-// intensity may be empty. Bricks whose field is all zero and whose tissue is all air take no room.
+// intensity may be empty. Bricks with an all-zero field and no tissue but air take no memory.
 [[nodiscard]] std::unique_ptr<Bone> bone_from_arrays(const Grid& grid, TissueTable tissues,
                                                      std::span<const Field> field,
                                                      std::span<const TissueId> tissue,

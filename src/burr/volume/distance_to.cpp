@@ -12,18 +12,18 @@ namespace burr::volume {
 namespace {
 
 constexpr std::uint16_t kBeyond = 65535;
-constexpr int kFarthest = 255;  // voxels: its square is below kBeyond
+constexpr int kFarthest = 255;  // voxels; the square must be below kBeyond
 
-// Distances along one line of voxels, and whose they are.
+// Squared distances along one line of voxels, and the tissue that each belongs to.
 struct Line {
   explicit Line(std::size_t size) : square(size), tissue(size), parabola(size), from(size) {}
   std::vector<std::uint16_t> square;
   std::vector<TissueId> tissue;
-  // of the envelope: which parabolas it is made of, and from where on each is the lowest
+  // the envelope: its parabolas, and from where on each of them is the lowest
   std::vector<int> parabola, from;
 };
 
-// The nearest labelled voxel of a row, 0 being none: forward, then backward.
+// The nearest labelled voxel in a row (0: none): one pass forward, one backward.
 void nearest_in_row(const std::vector<TissueId>& labels, Line& line) {
   const int size = static_cast<int>(labels.size());
   int far = kFarthest + 1;
@@ -48,14 +48,14 @@ void nearest_in_row(const std::vector<TissueId>& labels, Line& line) {
   }
 }
 
-// The lower envelope of the parabolas (x - i)^2 + square[i], then put(n, square, tissue) at x = n
-// step for each of `kept`.
+// The lower envelope of the parabolas (x - i)^2 + square[i]; then calls put(n, square, tissue) for
+// the positions x = n step, n = 0 .. kept - 1.
 template <class Put>
 void envelope(Line& line, int size, int kept, int step, const Put& put) {
   const auto at = [&line](int x, int i) {
     return (x - i) * (x - i) + int{line.square[static_cast<std::size_t>(i)]};
   };
-  int last = -1;  // in the envelope
+  int last = -1;  // index in the envelope
   for (int i = 0; i < size; ++i) {
     if (line.square[static_cast<std::size_t>(i)] == kBeyond) continue;
     const auto top = [&] { return line.parabola[static_cast<std::size_t>(last)]; };
@@ -63,11 +63,11 @@ void envelope(Line& line, int size, int kept, int step, const Put& put) {
     while (last >= 0 && at(top_from(), top()) > at(top_from(), i)) --last;
     int from = 0;
     if (last >= 0) {
-      // the last whole x at which the top is not higher
+      // the last whole x at which the top parabola is not higher
       const int numerator = i * i - top() * top() + int{line.square[static_cast<std::size_t>(i)]} -
                             int{line.square[static_cast<std::size_t>(top())]};
       const int divisor = 2 * (i - top());
-      from = 1 + numerator / divisor;  // not below 0: the top is the lower one somewhere
+      from = 1 + numerator / divisor;  // not below 0: the top is lower somewhere
       if (from > (kept - 1) * step) continue;
     }
     ++last;
@@ -84,7 +84,7 @@ void envelope(Line& line, int size, int kept, int step, const Put& put) {
   }
 }
 
-// work(n) for all n in 0..count-1, each once, with room of each thread's own. False: cancelled.
+// Calls work(n) for n = 0..count-1, each once; each thread has its own room. False: cancelled.
 template <class Room, class Work>
 bool in_parallel(int count, int threads, const Progress& progress, const Room& room,
                  const Work& work) {
@@ -118,7 +118,7 @@ class DistanceTo::Maker {
     if (!any()) return DistanceTo();
     const math::Ijk size = bone_.grid().size;
     choose(settings);
-    // what the two first passes leave: few columns and rows, all slices
+    // the result of the first two passes: few columns and rows, all slices
     squares_.assign(in_slice_ * sized(size.z()), kBeyond);
     whose_.assign(squares_.size(), 0);
     made_.square_.assign(in_slice_ * sized(kept_.z()), kBeyond);
@@ -136,7 +136,7 @@ class DistanceTo::Maker {
   }
 
  private:
-  // of one slice
+  // buffers for one slice
   struct Room {
     explicit Room(const Maker& maker)
         : row(sized((maker.kept_.x() - 1) * maker.made_.step_ + 1)),
@@ -150,7 +150,7 @@ class DistanceTo::Maker {
     std::vector<TissueId> whose;
   };
 
-  // what voxel v of a brick counts as; 0: nothing
+  // the tissue that voxel v of a brick counts as; 0: none
   [[nodiscard]] TissueId counted(const TissueId* tissue, const Field* field, int v) const {
     if (!wanted_[tissue[v]]) return 0;
     return !solid_[tissue[v]] || (field != nullptr && field[v] >= kIso) ? tissue[v] : TissueId{0};
@@ -166,7 +166,7 @@ class DistanceTo::Maker {
     return false;
   }
 
-  // Which voxels are kept: every step-th, and one at the far border or beyond it.
+  // Decides which voxels are kept: every step-th, and one at the far border or beyond it.
   void choose(const DistanceSettings& settings) {
     const Grid& grid = bone_.grid();
     made_.grid_ = grid;
@@ -216,7 +216,7 @@ class DistanceTo::Maker {
     }
   }
 
-  // of all kept voxels with that j
+  // the third pass, for all kept voxels with index m along j
   void through_slices(int m, Line& line) {
     for (int n = 0; n < kept_.x(); ++n) {
       const std::size_t to = sized(m) * sized(kept_.x()) + sized(n);
@@ -236,7 +236,7 @@ class DistanceTo::Maker {
   std::array<bool, 256> wanted_ = {}, solid_ = {};
   DistanceTo made_;
   math::Ijk kept_ = {0, 0, 0};
-  std::size_t in_slice_ = 0;            // voxels kept of each
+  std::size_t in_slice_ = 0;            // kept voxels per slice
   std::vector<std::uint16_t> squares_;  // (columns kept x rows kept x slices)
   std::vector<TissueId> whose_;
 };
@@ -275,14 +275,15 @@ Nearest DistanceTo::at(const math::Vec3& p) const BURR_RT {
     if (square_[place] == kBeyond) return {};
     const double distance = std::sqrt(static_cast<double>(square_[place]));
     sum += weight * distance;
-    // whose it is: the corner that has the shortest way from here
+    // the tissue of the corner with the shortest path from here
     const double way = distance + step_ * (part - bit.cast<double>()).norm();
     if (way < nearest) {
       nearest = way;
       found.tissue = tissue_[place];
     }
   }
-  // from outside: the border is on no way shorter than this (Pythagoras, the grid being convex)
+  // outside the grid: no path to the border is shorter than this (Pythagoras, since the grid is
+  // convex)
   const double outside = step_ * (wanted - inside).norm();
   const double distance = grid_.voxel * (std::sqrt(sum * sum + outside * outside) - 0.5);
   if (distance > reach_) return {};

@@ -1,5 +1,5 @@
-// volume/greys.h - what a scan measured, kept to be looked at beside the bone that was made of it:
-// in the scan's own grid and values, not touched by any cut.
+// volume/greys.h - the grey values of a scan, kept to be shown beside the bone that was made from
+// it: in the scan's own grid and values, unchanged by any cut.
 //
 // Frame: world (LPS). Units: m; values in HU or the file's own unit. Thread: read by any.
 #pragma once
@@ -18,11 +18,11 @@ struct Greys {
   math::Vec3 origin = math::Vec3::Zero();    // centre of voxel (0,0,0)
   double least = 0, step = 1;                // value = least + step * stored
   double top = 0;                            // largest value
-  std::vector<std::uint16_t> stored;         // (x fastest)
-  double iso = 0;                            // where bone was made to begin
+  std::vector<std::uint16_t> stored;         // (size), x fastest
+  double iso = 0;                            // value of the bone's surface
   bool hounsfield = false;
 
-  // Linearly between voxels; false: outside of the scan, `value` is as it was.
+  // Interpolates linearly between voxels. False: outside the scan; `value` is unchanged.
   [[nodiscard]] bool at(const math::Vec3& world, double& value) const;
 };
 

@@ -1,7 +1,7 @@
-// volume/grid.h - where the voxels lie in the world.
+// volume/grid.h - where the voxels are in the world.
 //
-// Frames: `ijk` whole voxels; `p_grid` the same in real numbers, voxel centres at whole numbers
-// [voxel]; world: LPS  [m].
+// Frames: `ijk`: voxel indices; `p_grid`: real coordinates, voxel centres at whole numbers [voxel];
+// world: LPS [m].
 #pragma once
 
 #include "burr/math/aabb.h"
@@ -23,7 +23,7 @@ struct Grid {
   [[nodiscard]] bool contains(const math::Ijk& ijk) const {
     return (ijk.array() >= 0).all() && (ijk.array() < size.array()).all();
   }
-  // box of all voxel centres, in p_grid
+  // Box around all voxel centres, in p_grid.
   [[nodiscard]] math::Aabb bounds_grid() const {
     return {math::Vec3::Zero(), (size - math::Ijk::Ones()).cast<double>()};
   }

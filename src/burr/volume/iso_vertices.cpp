@@ -23,12 +23,12 @@ int class_of(int blocks) {
   return which;
 }
 
-// At least one, or a stale brick would stay so for ever.
+// At least one brick, or a stale brick would stay stale for ever.
 int part_of(int budget, double share) {
   return budget <= 0 ? 0 : std::max(1, static_cast<int>(std::ceil(share * budget)));
 }
-// Blocks that are there before the tick comes to them: a hundred milliseconds of the fastest
-// milling, and 1 MiB.
+// Blocks with memory ahead of the tick: enough for a hundred milliseconds of the fastest milling; 1
+// MiB.
 constexpr std::size_t kAhead = 4096;
 
 BrickBall ball_around(const VertexBlock* blocks, int count, const math::Ijk& first) {
@@ -80,7 +80,7 @@ IsoVertices::IsoVertices(const Bone& bone, const IsoSettings& settings, int thre
       balls_(static_cast<std::size_t>(bone.brick_count())),
       places_(balls_.size()),
       lost_(balls_.size()) {
-  // Workers take slabs of bricks; what they find is laid into one pool, slab after slab in order.
+  // Workers take slabs of bricks; the results go into one pool, slab by slab in order.
   const int slabs = bone.bricks().z();
   struct Found {
     std::vector<VertexBlock> blocks;
@@ -89,19 +89,19 @@ IsoVertices::IsoVertices(const Bone& bone, const IsoSettings& settings, int thre
   };
   std::vector<Found> found(static_cast<std::size_t>(slabs));
   std::mutex laying;
-  std::size_t laid = 0;  // slabs in the pool
+  std::size_t laid = 0;  // slabs already in the pool
   std::size_t regrown = 0, bricks = 0;
   const auto lay = [&](const Found& slab) {
     if (pool_.size() < pool_used_ + slab.blocks.size())
       pool_.grow(std::max(2 * pool_.size(), pool_used_ + slab.blocks.size()));
     const VertexBlock* from = slab.blocks.data();
     for (const auto& [brick, count] : slab.counts) {
-      // exactly what it needs; a brick that grows moves into the reserve
+      // exactly the room it needs; a brick that grows later moves into the reserve
       const int blocks = (count + kLanes - 1) / kLanes;
       places_[static_cast<std::size_t>(brick)] = {static_cast<std::uint32_t>(pool_used_), 0,
                                                   static_cast<std::uint16_t>(blocks)};
       pool_used_ += static_cast<std::size_t>(blocks);
-      BURR_CHECK(store(brick, from, count));  // its room was just given to it
+      BURR_CHECK(store(brick, from, count));  // it was given this room just now
       from += blocks;
       regrown += static_cast<std::size_t>(kClassBlocks[class_of(blocks)]);
       ++bricks;
@@ -117,7 +117,7 @@ IsoVertices::IsoVertices(const Bone& bone, const IsoSettings& settings, int thre
       for (int bj = 0; bj < bone_.bricks().y(); ++bj)
         for (int bi = 0; bi < bone_.bricks().x(); ++bi) {
           const BrickIndex brick = bone_.brick_at(bi, bj, slab);
-          // an air brick owns the edges that lead into material of its upper neighbours
+          // a brick of air owns the edges that lead into material of its upper neighbours
           bool any = false;
           for (int n = 0; n < 8 && !any; ++n) {
             const int x = bi + (n & 1), y = bj + ((n >> 1) & 1), z = slab + (n >> 2);
@@ -144,7 +144,7 @@ IsoVertices::IsoVertices(const Bone& bone, const IsoSettings& settings, int thre
   };
   rt::on_threads(threads, [&work](int thread) { work(thread == 0); });
 
-  // so that every brick may grow once, and more
+  // room for every brick to grow once, and more
   pool_.grow(pool_used_ + regrown + settings_.reserve_blocks);
   stale_.reserve(balls_.size());
   for (auto& list : free_) list.reserve(bricks + settings_.reserve_blocks / 4);
@@ -181,7 +181,7 @@ void IsoVertices::gather(BrickIndex brick, std::uint16_t* padded) const BURR_RT 
       std::uint16_t* to = padded + kPadRow * (y + 1) + kPadSlice * (z + 1);
       to[0] = row_of[0][offset + 7];
       std::memcpy(to + 1, row_of[1] + offset, 16);
-      std::memcpy(to + 9, row_of[2] + offset, 4);  // the rest of the row is never looked at
+      std::memcpy(to + 9, row_of[2] + offset, 4);  // the rest of the row is never read
     }
 }
 
@@ -199,7 +199,7 @@ bool IsoVertices::take_room(Place& place, int blocks) BURR_RT {
   } else {
     return false;
   }
-  // the first room of a brick may lie between two classes: it serves the lower one
+  // the first room of a brick may lie between two size classes: it then serves the lower one
   if (place.room >= kClassBlocks[0]) {
     int given = class_of(place.room);
     if (kClassBlocks[given] > place.room) --given;
@@ -252,8 +252,8 @@ void IsoVertices::note(BrickIndex brick, int units) BURR_RT {
 void IsoVertices::changed(BrickIndex brick, int units, std::uint64_t rows,
                           unsigned columns) BURR_RT {
   ++calls_;
-  // which neighbours see it: below, those whose edges reach voxel 0 (fully) or whose differences
-  // reach 0 or 1 (an eighth); above, those whose differences reach 7
+  // which neighbours are affected. Below: those whose edges reach voxel 0 (fully), or whose
+  // differences reach voxels 0 or 1 (one eighth). Above: those whose differences reach voxel 7.
   unsigned ys = 0, zs = 0;
   for (int z = 0; z < 8; ++z) {
     const auto slice = static_cast<unsigned>((rows >> (8 * z)) & 0xFFU);
@@ -262,7 +262,7 @@ void IsoVertices::changed(BrickIndex brick, int units, std::uint64_t rows,
   }
   const math::Ijk b = bone_.brick_ijk(brick) / kBrickEdge;
   const unsigned masks[3] = {columns, ys, zs};
-  int weight[3][3];  // [axis][side]: 8 whole, 1 an eighth, 0 not seen
+  int weight[3][3];  // [axis][side]: 8 fully, 1 one eighth, 0 not affected
   for (int axis = 0; axis < 3; ++axis) {
     weight[axis][0] = (masks[axis] & 1U) != 0 ? 8 : (masks[axis] & 2U) != 0 ? 1 : 0;
     weight[axis][1] = 8;
@@ -280,7 +280,7 @@ void IsoVertices::changed(BrickIndex brick, int units, std::uint64_t rows,
 }
 
 void IsoVertices::refresh(double share) BURR_RT {
-  // bring the worst to the front, ties by age and index so that every machine agrees
+  // move the worst to the front; ties by age and index, so that every machine does the same
   const std::size_t budget =
       std::min(stale_.size(), static_cast<std::size_t>(part_of(settings_.refresh_budget, share)));
   if (budget == 0) {
@@ -296,7 +296,7 @@ void IsoVertices::refresh(double share) BURR_RT {
                                                    : a.brick < b.brick;
                      });
   }
-  // among the chosen: all that lost much, and a few of the others so that everything is fresh in
+  // of these take all that lost much, and a few of the others, so that everything is refreshed in
   // the end
   std::sort(stale_.begin(), stale_.begin() + static_cast<std::ptrdiff_t>(budget),
             [](const Stale& a, const Stale& b) {

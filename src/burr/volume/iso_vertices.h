@@ -1,15 +1,16 @@
-// volume/iso_vertices.h - where the bone's surface crosses the voxel edges, kept per brick for
-// touch.
+// volume/iso_vertices.h - the points where the bone's surface crosses voxel edges, kept per brick,
+// for touch.
 //
-// Each brick owns the crossings of the +x, +y, +z edges of its voxels (and, at the grid's low
-// faces, those coming in from outside). A crossing is an oriented little disc: place, outward
-// normal from the field's central differences, radius. Only bricks whose field changed are made
-// anew. While milling that may be put off: the error of a stale brick is then on the safe side (the
-// bone only recedes) and bounded by what its field lost meanwhile.
+// Each brick owns the crossings on the +x, +y, +z edges of its voxels (and, at the grid's low
+// faces, on the edges that come in from outside). A crossing is a small oriented disc: place,
+// outward normal from the field's central differences, radius. Only bricks whose field changed are
+// recomputed. While milling this may be delayed: the error of a stale brick is on the safe side
+// (the bone only recedes) and not larger than what its field lost since then.
 //
 // Thread: the servo's (or one thread before the session); take_ahead() on any one other. Frame:
-// p_grid [voxel]. Memory: 14 B a vertex, 26 B a brick of the grid; more is taken a little ahead of
-// use where milling lays surface bare, its addresses at construction. Cost: see bench/volume.
+// p_grid [voxel]. Memory: 14 B per vertex, 26 B per brick of the grid; milling that lays new
+// surface bare needs more, whose addresses are reserved at construction and whose memory is taken a
+// little ahead of use. Cost: see bench/volume.
 #pragma once
 
 #include <atomic>
@@ -24,18 +25,18 @@
 
 namespace burr::volume {
 
-// Where a brick's vertices lie: the smallest of cheap balls.  p_grid
+// A ball that holds all vertices of a brick; cheap to compute.  p_grid
 struct BrickBall {
   float x = 0, y = 0, z = 0;
-  float radius = -1;  // < 0: none
+  float radius = -1;  // < 0: no vertices
 };
 
 struct IsoSettings {
   float disc = 0.3F;        // radius of the discs                                   [voxel]
-  int stale_units = 400;    // a brick that lost less in every voxel may wait        [field units]
-  int refresh_budget = 24;  // bricks made anew per call of refresh(), worst first
-  int refresh_oldest = 8;   // of these, how many are taken by age even if they lost little
-  // of 16 vertices: room for the surface that milling lays bare, promised, not taken
+  int stale_units = 400;    // a brick that lost less in every voxel may wait  [field units]
+  int refresh_budget = 24;  // bricks recomputed per call of refresh(), worst first
+  int refresh_oldest = 8;   // of these, how many go by age even if they lost little
+  // blocks of 16 vertices reserved for surface that milling lays bare; memory is not taken yet
   std::size_t reserve_blocks = 1 << 16;
 };
 
@@ -45,15 +46,14 @@ class IsoVertices {
 
   [[nodiscard]] const Bone& bone() const BURR_RT { return bone_; }
 
-  // ---- looking
-  // A brick owns at most this many blocks (three edges a voxel, and the incoming ones at the
-  // border).
+  // ---- reading
+  // Most blocks that a brick can own (three edges per voxel, and the incoming edges at the border).
   static constexpr int kMostBlocks = 108;
-  // Changes whenever any vertex may have changed; blocks() stay as they are until then.
+  // Changes whenever a vertex may have changed; until then blocks() stay as they are.
   [[nodiscard]] std::uint64_t revision() const BURR_RT { return revision_; }
   [[nodiscard]] float largest_disc() const BURR_RT { return settings_.disc; }  // [voxel]
-  // 64 bricks along x a word; bit set: the brick has vertices.  words_per_row() words for each (bj,
-  // bk)
+  // A word covers 64 bricks along x; bit set: the brick has vertices. Each (bj, bk) has
+  // words_per_row() words.
   [[nodiscard]] int words_per_row() const BURR_RT { return words_per_row_; }
   [[nodiscard]] const std::uint64_t* row(int bj, int bk) const BURR_RT {
     return &occupied_[static_cast<std::size_t>(words_per_row_) *
@@ -62,7 +62,7 @@ class IsoVertices {
   [[nodiscard]] const BrickBall& ball(BrickIndex brick) const BURR_RT {
     return balls_[static_cast<std::size_t>(brick)];
   }
-  // ball(), blocks() and count() of this brick will be asked for soon
+  // Hint: ball(), blocks() and count() of this brick will be read soon.
   void prefetch(BrickIndex brick) const BURR_RT {
     __builtin_prefetch(&balls_[static_cast<std::size_t>(brick)]);
     __builtin_prefetch(&places_[static_cast<std::size_t>(brick)]);
@@ -78,21 +78,21 @@ class IsoVertices {
 
   // ---- changing
   // The field of `brick` changed by at most `units` in the voxels named: bit (y + 8 z) of rows, bit
-  // x of columns. Remembers which bricks' vertices that makes stale.
+  // x of columns. Marks the bricks whose vertices are stale after that.
   void changed(BrickIndex brick, int units, std::uint64_t rows, unsigned columns) BURR_RT;
-  // Makes stale bricks anew: those beyond stale_units worst first, then the oldest, within `share`
-  // of the budgets (at least one brick). Deterministic.
+  // Recomputes stale bricks: first those beyond stale_units, worst first, then the oldest, within
+  // `share` of the budgets (at least one brick). Deterministic.
   void refresh(double share = 1) BURR_RT;
-  // All stale bricks at once; unbounded by the budget, so not while a hand is waiting.
+  // Recomputes all stale bricks at once, without a limit: not while a hand is being served.
   void refresh_all() BURR_RT;
   [[nodiscard]] std::size_t stale() const BURR_RT { return stale_.size(); }
-  // The largest loss any vertex may still be stale by.  [field units]
+  // The largest loss that is not yet in the vertices.  [field units]
   [[nodiscard]] int worst_staleness() const BURR_RT;
-  // true for ever once the pool was full: a brick kept its old vertices then, stays stale and is
-  // tried again, the youngest of all; raise reserve_blocks
+  // True for ever once the pool was full. The brick then kept its old vertices, stays stale, and is
+  // tried again after all others; raise reserve_blocks.
   [[nodiscard]] bool exhausted() const BURR_RT { return exhausted_; }
   [[nodiscard]] std::size_t memory_bytes() const;
-  // Takes the memory that milling will need next; call it every few milliseconds while the servo
+  // Takes the memory that milling will need next. Call it every few milliseconds while the servo
   // cuts, from another thread.
   void take_ahead();
   [[nodiscard]] int rebuilt_last() const BURR_RT { return rebuilt_last_; }
@@ -100,15 +100,15 @@ class IsoVertices {
  private:
   struct Place {
     std::uint32_t first = 0;  // block in the pool
-    std::uint16_t count = 0;  // vertices
-    std::uint16_t room = 0;   // blocks
+    std::uint16_t count = 0;  // vertices in use
+    std::uint16_t room = 0;   // blocks that fit
   };
   struct Stale {
     BrickIndex brick = kNoBrick;
-    std::uint32_t since = 0;  // call of changed() that first made it stale
+    std::uint32_t since = 0;  // the call of changed() that first made it stale
   };
 
-  // false: the pool has no room, and the brick keeps the vertices it had
+  // False: the pool has no room, and the brick keeps its old vertices.
   [[nodiscard]] bool rebuild(BrickIndex brick) BURR_RT;
   [[nodiscard]] bool store(BrickIndex brick, const VertexBlock* blocks, int count) BURR_RT;
   void gather(BrickIndex brick, std::uint16_t* padded) const BURR_RT;
@@ -127,8 +127,8 @@ class IsoVertices {
   std::atomic<std::size_t> pool_told_ = 0;  // pool_used_, for take_ahead()
   static constexpr int kClasses = 5;
   std::vector<std::uint32_t>
-      free_[kClasses];               // given-back runs by size class, reserved at construction
-  std::vector<std::uint16_t> lost_;  // (brick_count) largest change since made  [field units]
+      free_[kClasses];               // runs given back, by size class; reserved at construction
+  std::vector<std::uint16_t> lost_;  // (brick_count) largest change since recomputed  [field units]
   std::vector<Stale> stale_;         // in the order they became stale
   std::uint32_t calls_ = 0;
   std::uint64_t revision_ = 1;

@@ -12,21 +12,21 @@ namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-// floor as int, held to where an int and the grid are; NaN becomes lo
+// floor as int, clamped to [lo, hi]; NaN becomes lo
 int whole(double x, int lo, int hi) noexcept {
   const double f = std::floor(x);
   return !(f > lo) ? lo : f < hi ? static_cast<int>(f) : hi;
 }
 
-// First t in [0, end] where a + b t + c t^2 + d t^3 becomes >= 0. The cubic of a trilinear cell:
-// split where its slope is zero, so that each piece rises or falls, then halve.
+// The first t in [0, end] where a + b t + c t^2 + d t^3 becomes >= 0: the cubic along a ray in a
+// trilinear cell. Splits where the slope is zero, so that each piece is monotonic, then bisects.
 std::optional<double> first_crossing(double a, double b, double c, double d, double end) noexcept {
   const auto value = [&](double t) { return a + t * (b + t * (c + t * d)); };
   double knots[4] = {0, end, end, end};
   int count = 1;
   const double disc = c * c - 3 * d * b;
   if (disc > 0) {
-    // stable roots of 3 d t^2 + 2 c t + b
+    // numerically stable roots of 3 d t^2 + 2 c t + b
     const double q = -(c + std::copysign(std::sqrt(disc), c));
     double t1 = q / (3 * d), t2 = b / q;
     if (t1 > t2) std::swap(t1, t2);
@@ -105,7 +105,7 @@ void Pyramid::update(BrickIndex brick) BURR_RT {
     Level& nodes = levels_[level];
     Range& kept = nodes.nodes[static_cast<std::size_t>(
         at.x() + nodes.size.x() * (at.y() + nodes.size.y() * at.z()))];
-    if (kept.lowest == now.lowest && kept.highest == now.highest) return;  // nothing new above
+    if (kept.lowest == now.lowest && kept.highest == now.highest) return;  // no change further up
     kept = now;
     if (++level == levels_.size()) return;
     at /= 2;
@@ -113,7 +113,7 @@ void Pyramid::update(BrickIndex brick) BURR_RT {
   }
 }
 
-// ranges of the bricks first .. last, from this node down
+// Adds the ranges of the bricks first .. last, from this node down.
 void Pyramid::gather(const math::Ijk& first, const math::Ijk& last, std::size_t level,
                      const math::Ijk& at, Range& sum) const BURR_RT {
   const Range here = node(level, at.x(), at.y(), at.z());
@@ -145,14 +145,14 @@ Pyramid::Range Pyramid::range_in(const math::Aabb& box_grid) const BURR_RT {
   for (int a = 0; a < 3; ++a) {
     const int end = bone_.grid().size[a];
     const int lo = whole(box_grid.lo[a], -2, end + 1);
-    // the cell that holds `hi` ends at the voxel after it
+    // the cell that contains `hi` ends at the next voxel
     const int hi = whole(box_grid.hi[a], -2, end + 1) + 1;
     if (hi < 0 || lo >= end) return {};
     inside = inside && lo >= 0 && hi < end;
     first[a] = std::max(lo, 0) / kBrickEdge;
     last[a] = std::min(hi, end - 1) / kBrickEdge;
   }
-  if (!inside) sum.lowest = 0;  // it reaches into the air about the grid
+  if (!inside) sum.lowest = 0;  // the box reaches into the air around the grid
   gather(first, last, levels_.size() - 1, math::Ijk::Zero(), sum);
   return sum;
 }
@@ -170,7 +170,7 @@ std::optional<double> Pyramid::first_hit(const math::Vec3& origin_grid, const ma
                                          double length) const BURR_RT {
   if (!origin_grid.allFinite() || !direction.allFinite() || !(length >= 0)) return std::nullopt;
 
-  // the part of the way on which any cell has a voxel of the grid: all of -1 .. size
+  // the part of the ray on which a cell can contain a voxel of the grid: -1 .. size
   double t = 0, end = length;
   for (int a = 0; a < 3; ++a) {
     const double lo = -1, hi = bone_.grid().size[a];
@@ -184,15 +184,16 @@ std::optional<double> Pyramid::first_hit(const math::Vec3& origin_grid, const ma
     end = std::min(end, std::max(t1, t2));
   }
 
-  // every round leaves a cell or a whole node behind; the bound is for rounding at corners
+  // each round leaves at least one cell or node; the bound guards against rounding at corners
   const int rounds = 8 * (bone_.grid().size.sum() + 16);
   for (int round = 0; round < rounds && t <= end; ++round) {
-    // the cell just ahead, so that a way along a face does not stand still
+    // the cell just ahead, so that a ray along a face makes progress
     const math::Vec3 ahead = origin_grid + (t + 1e-9) * direction;
     math::Ijk cell;
     for (int a = 0; a < 3; ++a) cell[a] = whole(ahead[a], -1, bone_.grid().size[a] - 1);
 
-    // the largest node about it whose cells hold no bone: its own voxels and the next nodes' first
+    // the largest node around it whose cells hold no bone: its own voxels and the first ones of the
+    // next nodes
     int lo_shift = -1;
     for (std::size_t level = 0; level < levels_.size(); ++level) {
       const int shift = 3 + static_cast<int>(level);
@@ -206,7 +207,7 @@ std::optional<double> Pyramid::first_hit(const math::Vec3& origin_grid, const ma
       lo_shift = shift;
     }
 
-    // where the way leaves that node, or the one cell
+    // where the ray leaves that node, or the single cell
     const int shift = std::max(lo_shift, 0);
     double leave = kForever;
     for (int a = 0; a < 3; ++a) {
@@ -218,11 +219,11 @@ std::optional<double> Pyramid::first_hit(const math::Vec3& origin_grid, const ma
     leave = std::max(leave, t + 1e-9);
 
     if (lo_shift < 0) {
-      // the trilinear field along the way is a cubic in t; four values say which
+      // the trilinear field along the ray is a cubic in t; four values determine it
       const double stop = std::min(leave, end), step = (stop - t) / 3;
       double f[4];
       for (int n = 0; n < 4; ++n) {
-        // inside this very cell, whatever the rounding
+        // stay inside this cell in spite of rounding
         math::Vec3 p = origin_grid + (t + n * step) * direction;
         double v[8];
         for (int c = 0; c < 8; ++c)

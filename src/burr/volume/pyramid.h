@@ -1,14 +1,14 @@
-// volume/pyramid.h - the bone seen from afar: lowest and highest field of every brick, of every
-// eight bricks, and so on up to one number for the whole. Answers "is there surface near here"
-// without looking at voxels (the octree of the thesis).
+// volume/pyramid.h - lowest and highest field value of every brick, of every eight bricks, and so
+// on up to one node for the whole bone. Answers "is there surface in this box" without reading
+// voxels (the octree of the thesis).
 //
 //     level 0   1 brick      8 voxels a side
 //     level 1   8 bricks    16 voxels
 //     ...       top: one node
 //
-// Kept by the writer: after bone.write_brick(b, ...), pyramid.update(b).
-// Thread: the writer's, or before the session. Memory: 4 B per brick of the grid and a seventh
-// more. Frame: p_grid [voxel]. Everything after building is allocation-free.
+// The writer keeps it up to date: after bone.write_brick(b, ...), call pyramid.update(b).
+// Thread: the writer's, or before the session. Memory: 4 B per brick of the grid, plus one seventh.
+// Frame: p_grid [voxel]. Allocates nothing after construction.
 #pragma once
 
 #include <optional>
@@ -23,20 +23,19 @@ class Pyramid {
  public:
   explicit Pyramid(const Bone& bone);
 
-  // The brick was written: looks at its voxels and mends the path to the top.
+  // After the brick was written: reads its voxels and updates its nodes up to the top.
   void update(BrickIndex brick) BURR_RT;
 
-  // May the surface pass through the box? False is certain; true means that among the bricks its
-  // cells touch some voxel is air and some is bone.
+  // False: the surface certainly does not pass through the box. True: the bricks that the box's
+  // cells touch hold both air and bone.
   [[nodiscard]] bool surface_in(const math::Aabb& box_grid) const BURR_RT;
 
-  // Is there material, any field above zero, in the bricks that the box's cells touch? False is
-  // certain.
+  // False: the bricks that the box's cells touch certainly hold no material (field above zero).
   [[nodiscard]] bool material_in(const math::Aabb& box_grid) const BURR_RT;
 
-  // Where a straight way from `origin_grid` first enters bone: the exact crossing of the trilinear
-  // field. Distance along `direction` (unit, grid axes) [voxel], at most `length`; 0 if the origin
-  // is in bone; nothing if the way is free.
+  // Where a ray from `origin_grid` first enters bone: the exact crossing of the trilinear field.
+  // Returns the distance along `direction` (unit, grid axes) [voxel], at most `length`; 0 if the
+  // origin is in bone; nothing if the ray meets no bone.
   [[nodiscard]] std::optional<double> first_hit(const math::Vec3& origin_grid,
                                                 const math::Vec3& direction,
                                                 double length) const BURR_RT;

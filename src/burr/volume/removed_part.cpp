@@ -28,8 +28,8 @@ bool lowered(const Bone& before, const Bone& after, BrickIndex brick) {
   return false;
 }
 
-// -d_after where the field changed; an unchanged voxel: the cut as its changed neighbours continue
-// it
+// The cut at a voxel: -d_after where the field changed; otherwise continued from the changed
+// neighbours.
 Field cut_at(const Bone& before, const Bone& after, const math::Ijk& at) {
   const Field b = before.field(at.x(), at.y(), at.z()), now = after.field(at.x(), at.y(), at.z());
   if (now < b) return static_cast<Field>(kSolid - now);
@@ -48,7 +48,7 @@ Field cut_at(const Bone& before, const Bone& after, const math::Ijk& at) {
   return static_cast<Field>(std::min(best, static_cast<double>(kSolid - b)));
 }
 
-// How deep in the cut each voxel is, in the bricks that were cut and those around them.
+// The depth of each voxel inside the cut, for the bricks that were cut and those around them.
 class CutField {
  public:
   CutField(const Bone& before, const Bone& after)
@@ -120,11 +120,11 @@ std::unique_ptr<Bone> on_the_same_grid(const Bone& before, const CutField& cut, 
   return removed;
 }
 
-// The corners of one cell of the old grid, and what lies between them.
+// The corner values of one cell of the old grid, for interpolation.
 struct Cell {
   std::array<float, 8> b{}, c{};  // before, cut
 
-  // false: nothing was removed in it
+  // False: nothing was removed in this cell.
   bool fill(const Bone& before, const CutField& cut, const math::Ijk& at) {
     float most_b = 0, most_c = 0;
     for (int corner = 0; corner < 8; ++corner) {
@@ -144,7 +144,7 @@ struct Cell {
   }
 };
 
-// Calls each(cell's lower voxel) for every cell that has a corner in a touched brick.
+// Calls each(lower voxel of the cell) for every cell with a corner in a changed brick.
 template <class Each>
 void for_each_cell(const Bone& before, const CutField& cut, const Each& each) {
   for (const BrickIndex brick : cut.touched()) {
@@ -157,7 +157,7 @@ void for_each_cell(const Bone& before, const CutField& cut, const Each& each) {
 }
 
 Result<std::unique_ptr<Bone>> on_a_finer_grid(const Bone& before, const CutField& cut, int finer) {
-  // fine voxel (0,0,0) lies on old voxel (-1,-1,-1)
+  // fine voxel (0,0,0) lies at old voxel (-1,-1,-1)
   Grid grid = before.grid();
   grid.frame.p = grid.world_from_grid({-1, -1, -1});
   grid.voxel /= finer;
@@ -173,7 +173,7 @@ Result<std::unique_ptr<Bone>> on_a_finer_grid(const Bone& before, const CutField
                 static_cast<std::size_t>(bricks.y()) * static_cast<std::size_t>(at.z()));
   };
 
-  // first the bricks that will hold something, then exactly the room they need
+  // first find the bricks that will hold something, then reserve exactly the memory they need
   std::vector<bool> used(static_cast<std::size_t>(bricks.x()) *
                          static_cast<std::size_t>(bricks.y()) *
                          static_cast<std::size_t>(bricks.z()));
@@ -209,7 +209,7 @@ Result<std::unique_ptr<Bone>> on_a_finer_grid(const Bone& before, const CutField
           const auto brick = static_cast<BrickIndex>(brick_of(fine));
           const int v = (fine.x() & 7) + 8 * ((fine.y() & 7) + 8 * (fine.z() & 7));
           removed->build_field(brick)[v] = field;
-          // of the nearest old voxel, or of its neighbour where that one is air
+          // the tissue of the nearest old voxel, or of its neighbour if that one is air
           TissueId tissue = before.tissue(at.x() + (2 * x >= finer), at.y() + (2 * y >= finer),
                                           at.z() + (2 * z >= finer));
           for (int c = 0; c < 8 && tissue == 0; ++c)

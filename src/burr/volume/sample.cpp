@@ -8,17 +8,17 @@
 namespace burr::volume {
 namespace {
 
-// the cell a point lies in, and where in it
+// The cell that contains a point, and the place in it.
 struct Cell {
   int i = 0, j = 0, k = 0;     // its first voxel
   double u = 0, v = 0, w = 0;  // 0..1
-  bool near_grid = false;      // false: nothing but air about
+  bool near_grid = false;      // false: only air around
 };
 
 Cell cell_of(const Bone& bone, const math::Vec3& p_grid) noexcept {
   Cell cell;
   const math::Ijk& size = bone.grid().size;
-  // also false for NaN
+  // false for NaN too
   for (int a = 0; a < 3; ++a)
     if (!(p_grid[a] > -2.0 && p_grid[a] < size[a] + 1.0)) return cell;
   const double i = std::floor(p_grid.x()), j = std::floor(p_grid.y()), k = std::floor(p_grid.z());
@@ -32,8 +32,8 @@ Cell cell_of(const Bone& bone, const math::Vec3& p_grid) noexcept {
   return cell;
 }
 
-// The voxels from -1 to +2 about a cell, (4 x 4 x 4), x fastest, but for its outermost corners and
-// edges, which no central difference asks for: row by row from the at most eight bricks.
+// The voxels -1 .. +2 around a cell, (4 x 4 x 4), x fastest, without the outermost corners and
+// edges, which no central difference uses; read row by row from at most eight bricks.
 struct Neighbourhood {
   double voxel[64];
 
@@ -76,7 +76,7 @@ struct Neighbourhood {
 
 double mix(double a, double b, double t) noexcept { return a + t * (b - a); }
 
-// full scale is 65536: the surface, 32768, is a half exactly
+// full scale is 65536, so that the surface, 32768, is exactly one half
 constexpr double kShare = 1.0 / 65536.0;
 
 }  // namespace

@@ -1,14 +1,14 @@
-// volume/shared_copy.h - a whole bone copied while its writer goes on cutting it.
+// volume/shared_copy.h - copies a whole bone while its writer goes on cutting.
 //
 //     rt::ChangedBits& changed = bone.add_watcher();        // before the session
 //     ... the servo cuts ...
 //     auto copy = shared_copy(bone, changed, progress);      // any other thread
 //
-// Every brick once, then those that changed meanwhile, again and again, until in one look none had:
-// what is copied then is the bone as it was within the last tick. The writer is never waited for
-// and never made to wait.
-// Without intensity. Thread: any but the writer's, one at a time for one watcher. Memory: while it
-// works 1.5 KiB for each brick that is not the same throughout, besides the copy.
+// Copies every brick once, then those that changed meanwhile, again and again until a pass finds no
+// change: the copy is then the bone of at most one tick ago. The copy does not wait for the writer,
+// and the writer does not wait for the copy.
+// Without intensity. Thread: any but the writer's, one at a time per watcher. Memory, besides the
+// copy: 1.5 KiB per brick that is not uniform, while it works.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@
 
 namespace burr::volume {
 
-// Error: interrupted, or the writer changes all of it faster than it can be copied.
+// Errors: interrupted; or the writer changes bricks faster than they can be copied.
 [[nodiscard]] Result<std::unique_ptr<Bone>> shared_copy(const Bone& bone, rt::ChangedBits& changed,
                                                         Progress& progress);
 

@@ -11,14 +11,14 @@ namespace {
 using math::Vec3;
 
 constexpr double kStep = 0.25;  // [voxel]
-constexpr int kTries = 64;      // the writer is at a brick for less than a microsecond
+constexpr int kTries = 64;      // writing a brick takes less than a microsecond
 
-// The field as it is now, a few bricks at a time.
+// Reads the present field, keeping a few bricks.
 class Seen {
  public:
   explicit Seen(const Bone& bone) : bone_(bone) {}
 
-  // trilinear, as a share, like sample()
+  // Trilinear, as a share, like sample().
   double at(const Vec3& p) {
     const Vec3 low = p.array().floor();
     const Vec3 t = p - low;
@@ -37,7 +37,7 @@ class Seen {
   double voxel(int i, int j, int k) {
     if (!bone_.grid().contains({i, j, k})) return 0;
     const BrickIndex brick = bone_.brick_at(i >> 3, j >> 3, k >> 3);
-    // neighbours along each axis fall into different places
+    // neighbouring bricks along each axis use different entries
     Kept& kept =
         kept_[static_cast<std::size_t>((i >> 3 & 1) + 2 * (j >> 3 & 1) + 4 * (k >> 3 & 1))];
     if (kept.brick != brick) {
@@ -67,7 +67,7 @@ std::optional<Span> thickness(const Bone& bone, const Vec3& from, const Vec3& di
   if (!start.allFinite() || !way.allFinite() || std::abs(math::norm(way) - 1) > 1e-6 || !(near > 0))
     return std::nullopt;
   const math::Aabb box = grid.bounds_grid();
-  // no line is longer than from here through the whole grid
+  // longer than any line from here through the whole grid
   const double far = math::norm(start - 0.5 * (box.lo + box.hi)) + math::norm(box.hi - box.lo) + 2;
 
   Seen seen(bone);

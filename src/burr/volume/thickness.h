@@ -1,8 +1,8 @@
-// volume/thickness.h - how thick the bone is along a straight line, while its writer cuts it.
+// volume/thickness.h - the thickness of the bone along a straight line, while its writer cuts it.
 //
-// Frame: world, LPS. Units: m. Thread: any, by copy_brick(); the writer is never waited for.
-// Memory: one brick and what a brick's neighbour lends, on the stack of the caller. Cost: a sample
-// every quarter of a voxel, some 0.1 ms for 30 mm at 0.2 mm.
+// Frame: world, LPS. Units: m. Thread: any (reads by copy_brick(); the writer does not wait).
+// Memory: a few bricks, on the caller's stack. Cost: a sample every quarter of a voxel, some 0.1 ms
+// for 30 mm at 0.2 mm.
 #pragma once
 
 #include <optional>
@@ -19,8 +19,8 @@ struct Span {
 };
 
 // The first bone along the line from `from` in `direction` (unit) that begins within `reach`, up to
-// the air behind it. Outside the grid is air. Nothing: there is no bone so near, or no number was
-// given.
+// the air behind it. Outside the grid is air. Nothing: no bone within reach, or an argument is not
+// a number.
 [[nodiscard]] std::optional<Span> thickness(const Bone& bone, const math::Vec3& from,
                                             const math::Vec3& direction, double reach);
 

@@ -12,12 +12,12 @@ namespace {
 using math::Vec3;
 using volume::CuttingForce;
 
-// Bone this near to the burr is being cut: the proxy rests on the surface to a few hundredths of a
-// voxel, the cutting ball reaches ahead of it by as much (carve.h, advance).
+// Bone this near to the burr counts as being cut: the proxy rests on the surface to a few
+// hundredths of a voxel, and the cutting ball reaches ahead of it by as much (carve.h, advance).
 constexpr double kReach = 50e-6, kLeastReach = 0.5;  // [m], [voxel]
 constexpr double kGolden = 0.6180339887498949;
 constexpr int kRounds = 40;
-constexpr double kClose = 1e-9;  // of the push
+constexpr double kClose = 1e-9;  // accuracy, relative to the push
 
 double edge_share(double chip, const CuttingForce& force) BURR_RT {
   return 1 - std::exp(-chip / force.edge_onset);
@@ -41,8 +41,8 @@ double tangential_slope(double chip, const CuttingForce& force) BURR_RT {
          force.edge_tangential / force.edge_onset * std::exp(-chip / force.edge_onset);
 }
 
-// Where a rising, ever flatter function that is 0 at 0 reaches `wanted`: Newton from the left never
-// passes it.
+// Where a rising, concave function with value 0 at 0 reaches `wanted`: Newton's method from the
+// left never passes it.
 template <class Value, class Slope>
 double where(double wanted, const Value& value, const Slope& slope) BURR_RT {
   double at = 0;
@@ -56,8 +56,8 @@ double where(double wanted, const Value& value, const Slope& slope) BURR_RT {
 
 }  // namespace
 
-// A spiral of points, each as far from the others as can be (Fibonacci's; Vogel 1979), denser
-// towards the push: a contact of light pressure is a small cap.
+// A Fibonacci spiral of points, evenly spread (Vogel 1979), denser near the push, because with
+// light pressure the contact is a small cap.
 Chips::Chips(const volume::Bone& bone) : bone_(bone) {
   const auto cosine_of = [](double n) {
     const double share = n / kPoints;
@@ -73,14 +73,16 @@ Chips::Chips(const volume::Bone& bone) : bone_(bone) {
   }
 }
 
-// Which pieces of the teeth are in bone, ring by ring about the push. In grid axes.
+// Finds which pieces of the teeth are in bone, ring by ring around the push. Directions in grid
+// axes.
 void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& normal, const Vec3& axis,
                    double pole, bool with_ripple) BURR_RT {
   const volume::Grid& grid = bone_.grid();
   const Vec3 at = grid.grid_from_world(centre);
   const double r = burr.radius, reach = std::max(kReach, kLeastReach * grid.voxel);
   const double steep = 2 * volume::kRamp * grid.voxel / reach, out = r / grid.voxel;
-  // axes of the rings, which turn with the shaft and not by themselves; of the azimuth about it
+  // u, v: axes of the rings, fixed to the shaft and the normal; x, y: axes for the azimuth around
+  // the shaft
   const Vec3 side = axis - math::dot(axis, normal) * normal;
   const Vec3 u = math::squared_norm(side) > 0.01 ? math::normalized(side) : normal.unitOrthogonal();
   const Vec3 v = normal.cross(u);
@@ -97,7 +99,7 @@ void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& norma
       const double in_bone =
           std::clamp(1 + (volume::sample(bone_, p) - volume::kIsoShare) * steep, 0.0, 1.0);
       if (in_bone <= 0) continue;
-      // the tissue of what lies before it, not of the air it has made
+      // the tissue ahead of the piece, not of the air that it has made
       const Vec3 ahead = p + way;
       const math::Ijk cell = (ahead.array() + 0.5).floor().cast<int>();
       const volume::Tissue& tissue = bone_.tissues()[bone_.tissue(cell.x(), cell.y(), cell.z())];
@@ -117,7 +119,7 @@ void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& norma
       ring.force.edge_onset += edge * tissue.force.edge_onset;
       ring.drag += edge / far * sliding;
       if (!with_ripple) continue;
-      // e^(i z phi) by multiplying z times
+      // e^(i z phi), by multiplying z times
       const double px = math::dot(way, x), py = math::dot(way, y), across = std::hypot(px, py);
       if (across <= 0) continue;
       double re = 1, im = 0;
@@ -126,7 +128,7 @@ void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& norma
         im = (re * py + im * px) / across;
         re = next;
       }
-      // the piece is not a point: near the shaft it spans many teeth
+      // the piece has a width: near the shaft it spans many teeth
       const double span = 0.5 * burr.teeth * std::sqrt(piece) / (r * across);
       const double seen = span < M_PI ? edge * std::sin(span) / span : 0.0;
       ring.swing_re += seen * re;
@@ -200,7 +202,7 @@ Cutting Chips::step(const tool::Burr& burr, const Vec3& centre, const Vec3& norm
     im += force * ring.swing_im;
   }
   cutting.drag = world_from_grid * cutting.drag;
-  // the spring along the normal is the thrust already
+  // the force along the normal is already the thrust of the spring
   cutting.drag -= math::dot(cutting.drag, normal) * normal;
   cutting.ripple = 2 * std::hypot(re, im);
   return cutting;

@@ -1,4 +1,4 @@
-// haptics/baselines/ball_points.h - points spread evenly over the unit ball's surface.
+// haptics/baselines/ball_points.h - points spread evenly over the surface of the unit ball.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace burr::haptics {
 
-// A spiral by the golden angle (Vogel 1979): each stands for 4 pi / n of the surface.
+// A golden-angle spiral (Vogel 1979): each point stands for 4 pi / n of the surface.
 inline void spread_on_ball(std::span<math::Vec3> points) {
   const double golden = M_PI * (3 - std::sqrt(5.0));
   for (std::size_t n = 0; n < points.size(); ++n) {

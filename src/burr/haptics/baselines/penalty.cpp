@@ -15,9 +15,9 @@ using math::Vec3;
 
 constexpr int kRounds = 8;
 constexpr double kBalanced = 1e-3;  // a smaller correction ends the rounds      [voxel]
-constexpr double kFarthest = 1;     // one correction                            [voxel]
-// A cap of depth d on a ball of radius r pushes by q pi r d^2: this q lets it sink by so much when
-// the hand pulls by one voxel.
+constexpr double kFarthest = 1;     // largest correction in a round             [voxel]
+// A cap of depth d on a ball of radius r pushes by q pi r d^2. q is such that the ball sinks in by
+// kSinks when the hand pulls by one voxel.
 constexpr double kSinks = 0.05;  // [voxel]
 
 }  // namespace
@@ -42,7 +42,7 @@ bool PenaltyProxy::set_radius(double radius) BURR_RT {
   return true;
 }
 
-// Gauss and Newton from where the burr was: the depths' slopes are those of the field.
+// Gauss-Newton, starting where the burr was; the slopes of the depths are those of the field.
 Touch PenaltyProxy::step(const Vec3& hand) BURR_RT {
   const volume::Grid& grid = bone_.grid();
   const Vec3 x = grid.grid_from_world(hand);

@@ -1,12 +1,12 @@
-// haptics/baselines/penalty.h - the burr floats where the hand's spring and the springs of its
-// immersed points are in balance.
+// haptics/baselines/penalty.h - the burr floats where the hand's spring and the springs at its
+// points in bone are in balance.
 //
-//     least over c of  1/2 |x - c|^2 + 1/2 q sum_i w_i depth(c + r u_i)^2
+//     minimum over c of  1/2 |x - c|^2 + 1/2 q sum_i w_i depth(c + r u_i)^2
 //
 // After J. Barbic and D. James 2008 (points against a distance field, quasi-static coupling), here
-// with the points on the burr and the bone's own field as distance. It knows nothing of planes,
-// facets or candidates, so in shallow contact it is an independent judge of `constraint`: its place
-// is softer by a few hundredths of a voxel. The field tells distance to two voxels only; deeper
+// with the points on the burr and the bone's own field as the distance. It uses no planes, facets
+// or candidates, so in shallow contact it is an independent check of `constraint`: its contact is
+// softer by a few hundredths of a voxel. The field contains distances up to two voxels only: deeper
 // points are pushed no harder, and a fast hand falls through.
 #pragma once
 
@@ -23,7 +23,7 @@ class PenaltyProxy : public TouchMethod {
   void place(const math::Vec3& p) BURR_RT override;
   [[nodiscard]] Touch step(const math::Vec3& hand) BURR_RT override;
   [[nodiscard]] const math::Vec3& position() const BURR_RT override { return proxy_; }
-  void set_friction(double, double) BURR_RT override {}  // it has none
+  void set_friction(double, double) BURR_RT override {}  // has no friction
   [[nodiscard]] bool set_radius(double radius) BURR_RT override;
 
  private:

@@ -12,7 +12,7 @@ namespace {
 
 using math::Vec3;
 
-constexpr double kNoVote = 1e-6;  // a shorter sum of normals says nothing
+constexpr double kNoVote = 1e-6;  // a shorter sum of normals gives no direction
 
 }  // namespace
 
@@ -66,7 +66,7 @@ Touch SampleProxy::step(const Vec3& hand) BURR_RT {
       move = Vec3::Zero();
     }
   } else {
-    // free: straight to the hand, but no farther than to where the first point meets bone
+    // free: straight towards the hand, but no farther than where the first point meets bone
     Vec3 unused;
     double low = 0, high = 1;
     if (in_bone(x, unused) > 0) {

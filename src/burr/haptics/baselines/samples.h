@@ -1,12 +1,12 @@
-// haptics/baselines/samples.h - points on the burr's surface; those in bone vote by their gradients
-// for one direction, and the proxy steps square to it.
+// haptics/baselines/samples.h - points on the burr's surface: the gradients at those in bone are
+// summed to one direction, and the proxy moves perpendicular to it.
 //
 //     e0 = normalised sum of the normals at the points in bone;  e1 = (I - e0 e0^T)(x - p)
 //     p += e1, and along e0 only outward
 //
-// E. Vidholm and J. Agmund 2004 (the thesis' Fig. 10) with K. Lundin's law along e0. Nobody looks
-// whether the step led into bone: once all points are inside, their normals cancel or vanish, and
-// the proxy stays there for ever (Fig. 11).
+// E. Vidholm and J. Agmund 2004 (the thesis' Fig. 10) with K. Lundin's law along e0. The method
+// does not check whether a step leads into bone: once all points are inside, their normals cancel
+// or vanish, and the proxy stays there for ever (Fig. 11).
 #pragma once
 
 #include <array>
@@ -22,12 +22,12 @@ class SampleProxy : public TouchMethod {
   void place(const math::Vec3& p) BURR_RT override;
   [[nodiscard]] Touch step(const math::Vec3& hand) BURR_RT override;
   [[nodiscard]] const math::Vec3& position() const BURR_RT override { return proxy_; }
-  void set_friction(double, double) BURR_RT override {}  // it has none
+  void set_friction(double, double) BURR_RT override {}  // has no friction
   [[nodiscard]] bool set_radius(double radius) BURR_RT override;
 
  private:
   static constexpr int kSamples = 200;
-  // Those in bone when the burr is at p_grid; sum: of their normals, grid axes.
+  // Number of points in bone when the burr is at p_grid; sum: of their normals, grid axes.
   [[nodiscard]] int in_bone(const math::Vec3& p_grid, math::Vec3& sum) const BURR_RT;
 
   const volume::Bone& bone_;

@@ -11,7 +11,7 @@ namespace {
 using math::Vec3;
 
 constexpr double kMarch = 0.2;        // a step of the march                     [voxel]
-constexpr double kLeastSlope = 1e-3;  // below it the last normal stays           [1/voxel]
+constexpr double kLeastSlope = 1e-3;  // below it the last normal is kept         [1/voxel]
 constexpr int kHalvings = 30;
 
 }  // namespace
@@ -44,7 +44,7 @@ bool ThesisProxy::inside(const Vec3& p_grid) const BURR_RT {
   return volume::sample(bone_, p_grid) >= volume::kIsoShare;
 }
 
-// Step 1, 3 and 6: minus the gradient; where there is none, the last one known.
+// Steps 1, 3 and 6: minus the gradient; if it vanishes, the last normal.
 Vec3 ThesisProxy::normal_at(const Vec3& p_grid) const BURR_RT {
   const Vec3 slope = volume::gradient(bone_, p_grid);
   const double steep = math::norm(slope);
@@ -59,8 +59,8 @@ Vec3 ThesisProxy::crossing(Vec3 outside, Vec3 inside_at) const BURR_RT {
   return inside_at;
 }
 
-// Steps 4 and 5: along the normal there until inside and outside change, then between the last two
-// points. False: not within two radii.
+// Steps 4 and 5: along the normal there until inside changes to outside or back, then bisection
+// between the last two points. False: not found within two radii.
 bool ThesisProxy::project(Vec3& p_grid) const BURR_RT {
   const Vec3 n = normal_at(p_grid);
   double value = volume::sample(bone_, p_grid);

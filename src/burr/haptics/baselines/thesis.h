@@ -1,14 +1,14 @@
-// haptics/baselines/thesis.h - the proxy of the thesis this project began with: slide along the
-// tangent, come back to the iso-surface along the gradient, and rest a radius above.
+// haptics/baselines/thesis.h - the proxy of the thesis that this project began with: slide along
+// the tangent, return to the iso-surface along the gradient, and rest a radius above it.
 //
 //     n = normal at s;   s1 = s + (I - n n^T)(x - s);   march from s1 along +-normal(s1) to the
 //     iso-surface: the new s;   c = s + r n
 //
-// M. Eriksson, Haptic and Visual Simulation of a Material Cutting Process, KTH 2006, 1.6.2, with
-// our readings where it is silent (docs/touch.md, "The seven methods"): contact begins where the
-// way of the hand crosses the surface, the march goes in fifths of a voxel and not farther than two
-// radii, friction is the cone of ours. Right on smooth convex bone. One gradient knows one wall
-// only: in a groove the burr stands in the other.
+// M. Eriksson, Haptic and Visual Simulation of a Material Cutting Process, KTH 2006, 1.6.2. Where
+// the text leaves details open (docs/touch.md, "The seven methods"): contact begins where the path
+// of the hand crosses the surface; the march goes in fifths of a voxel, at most two radii; friction
+// is burr's own cone. Correct on smooth convex bone. One gradient represents one wall only: in a
+// groove the burr penetrates the other wall.
 #pragma once
 
 #include "burr/haptics/touch_method.h"
@@ -17,7 +17,7 @@ namespace burr::haptics {
 
 class ThesisProxy : public TouchMethod {
  public:
-  // literal: the force pulls to c, so that it jumps by k r at contact; else to s.
+  // literal: the force pulls to c, so that it jumps by k r at contact; otherwise to s.
   ThesisProxy(const volume::Bone& bone, const ProxySettings& settings, const math::Vec3& hand,
               bool literal);
 
@@ -37,7 +37,7 @@ class ThesisProxy : public TouchMethod {
   ProxySettings settings_;
   bool literal_;
   bool touching_ = false, sliding_ = false;
-  math::Vec3 last_;                    // hand of the last tick            p_grid
+  math::Vec3 last_;                    // hand of the last tick                     p_grid
   math::Vec3 s_ = math::Vec3::Zero();  // on the surface                   p_grid
   math::Vec3 n_ = math::Vec3::Zero();  // unit, out of the bone, grid axes
   math::Vec3 proxy_;                   // world [m]

@@ -11,11 +11,11 @@ namespace {
 using math::Vec3;
 using math::Vec3f;
 
-constexpr int kMoves = 4;        // in one tick
+constexpr int kMoves = 4;        // per tick
 constexpr double kClose = 0.02;  // a shorter move ends the search  [voxel]
 
-// C. Ericson, Real-Time Collision Detection, 2005, 5.1.5: by the region of the corner, edge or face
-// that p projects to.
+// The nearest point on a triangle: C. Ericson, Real-Time Collision Detection, 2005, 5.1.5, by the
+// region of the corner, edge or face that p projects to.
 Vec3f nearest_on(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   const Vec3f ab = b - a, ac = c - a, ap = p - a;
   const float d1 = math::dot(ab, ap), d2 = math::dot(ac, ap);
@@ -57,7 +57,7 @@ bool TriangleProxy::add(const Triangle& triangle) BURR_RT {
   if (triangles_.size() == kMost) return false;
   const Vec3f across = (triangle.b - triangle.a).cross(triangle.c - triangle.a);
   const float twice = math::norm(across);
-  if (!(twice > 0)) return true;  // a line: its neighbours hold the burr
+  if (!(twice > 0)) return true;  // degenerate to a line: its neighbours hold the burr
   const Vec3f middle = (triangle.a + triangle.b + triangle.c) / 3;
   const float reach = std::sqrt(
       std::max({math::squared_norm(triangle.a - middle), math::squared_norm(triangle.b - middle),
@@ -66,7 +66,7 @@ bool TriangleProxy::add(const Triangle& triangle) BURR_RT {
   return true;
 }
 
-// The triangles that a move of `within` could bring the ball to, as planes. [voxel]
+// Collects the triangles that a move of `within` could bring the ball to, as planes. [voxel]
 void TriangleProxy::collect(double within) BURR_RT {
   Candidates& all = *candidates_;
   all.count = 0;

@@ -36,7 +36,7 @@ Touch VoxelSprings::step(const Vec3& hand) BURR_RT {
       for (int i = lo.x(); i <= hi.x(); ++i) {
         const double dx = x.x() - i;
         if (dx * dx > left) continue;
-        // how much of the voxel is bone: the field's ramp is four voxels, its own is one
+        // the share of bone in the voxel: the field's ramp is four voxels wide, this one is one
         const double depth = 2 * volume::kRamp * (bone_.field(i, j, k) / 65536.0 - 0.5);
         const double share = std::clamp(depth + 0.5, 0.0, 1.0);
         if (share == 0) continue;

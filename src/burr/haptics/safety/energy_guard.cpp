@@ -10,9 +10,9 @@ namespace {
 
 using math::Vec3;
 
-constexpr double kMostTank = 10e-3;      // however it is set  [J]
-constexpr double kGrantLasts = 50e-3;    // bone that grows is felt within about this  [s]
-constexpr double kLargestAccount = 1e3;  // beyond, a number went wrong somewhere  [J]
+constexpr double kMostTank = 10e-3;      // upper limit of tank_full [J]
+constexpr double kGrantLasts = 50e-3;    // what is not used within about this time flows back [s]
+constexpr double kLargestAccount = 1e3;  // beyond it a number must be wrong       [J]
 
 bool fine(const Exchange& now, double dt) BURR_RT {
   return now.hand.allFinite() && now.stretch.allFinite() && now.force.allFinite() &&
@@ -60,7 +60,8 @@ void EnergyGuard::sent(const Vec3& force) BURR_RT {
   sent_[newest_] = force.allFinite() ? force : Vec3(Vec3::Zero());
 }
 
-// Since the tick before: with a delay of q ticks and a rest, first the force of one tick earlier.
+// The mean force that acted since the previous tick. With a delay of q whole ticks and a rest, the
+// force of one tick earlier acts first.
 Vec3 EnergyGuard::acting(double dt) const BURR_RT {
   const double ticks = std::min(settings_.delay / dt, static_cast<double>(kSent) - 1.001);
   const auto whole = static_cast<std::size_t>(ticks);
@@ -70,8 +71,8 @@ Vec3 EnergyGuard::acting(double dt) const BURR_RT {
   return (1 - rest) * late + rest * later;
 }
 
-// What the spring gives back on the way home. Where it asks for more than is ever sent, the force
-// is the largest one.
+// The energy that the spring can give back. Where the spring would give more than is ever sent, the
+// force counts as the largest one.
 double EnergyGuard::spring_energy(const Exchange& now) const BURR_RT {
   const double stretch = math::norm(now.stretch);
   const double most = settings_.largest_force;
@@ -92,7 +93,8 @@ void EnergyGuard::observe(const Exchange& now, double dt) BURR_RT {
     const double work = -math::dot(acting(dt), way);
     work_in_ += work;
     energy_ += work;
-    // the device lost at least b |dx|^2 / T on the way; that pays a debt, but fills no tank
+    // the device lost at least b |dx|^2 / T on the way; that reduces a deficit but does not fill
+    // the tank
     const double own =
         std::min(settings_.device_damping * math::squared_norm(way) / dt, std::max(0.0, deficit()));
     energy_ += own;
@@ -101,7 +103,7 @@ void EnergyGuard::observe(const Exchange& now, double dt) BURR_RT {
   last_hand_ = now.hand;
 }
 
-// Surplus is lost to the world for good: into the tank. A deficit that was allowed is paid by it.
+// Surplus leaves the account for the tank. A deficit that was allowed is covered by the grant.
 void EnergyGuard::settle(double dt) BURR_RT {
   if (energy_ > stored_) {
     tank_ = std::min(settings_.tank_full, tank_ + (energy_ - stored_));
@@ -110,7 +112,7 @@ void EnergyGuard::settle(double dt) BURR_RT {
   const double paid = std::min(granted_, deficit());
   granted_ -= paid;
   energy_ += paid;
-  // no more is remembered than a tank holds: it would make the hand feel heavy long afterwards
+  // a deficit above tank_full is written off: it would make the hand feel heavy long afterwards
   const double forgotten = std::max(0.0, deficit() - settings_.tank_full);
   energy_ += forgotten;
   written_off_ += forgotten;
@@ -127,8 +129,8 @@ void EnergyGuard::forget_when_free(const Exchange& now, double dt) BURR_RT {
   energy_ = stored_;
 }
 
-// A sampled damper alpha on a mass m is itself unstable beyond m / T; half of that, and less when
-// it acts late.
+// A sampled damper alpha on a mass m is itself unstable above m / T. Uses half of that, and less
+// with delay.
 double EnergyGuard::most_damping(double dt) const BURR_RT {
   const double most = 0.5 * settings_.device_mass / (dt + settings_.delay);
   const double quiet = settings_.count_force * dt;  // alpha step / T <= count_force

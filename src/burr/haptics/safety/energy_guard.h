@@ -1,44 +1,46 @@
-// haptics/safety/energy_guard.h - the virtual world may give the hand no more than it was given.
+// haptics/safety/energy_guard.h - the virtual world gives the hand no more energy than it received.
 //
 //     hand --- work done on the world --> [ stored in the spring V ] --- losses --> [ tank S ]
-//                                                    | E < V: more is stored than was paid for
+//                                                    | E < V: more is stored than was received
 //                                                    v
 //                                          a damper takes it back      F <- F - alpha v
 //
-// Observer (Hannaford & Ryu, IEEE Trans. Robot. Autom. 18, 2002): E += -F.dx, F the force that was
-// really sent for this dx. With a force held between ticks this is the exact work, not an estimate.
+// Observer (Hannaford & Ryu, IEEE Trans. Robot. Autom. 18, 2002): E += -F.dx, F: the force that was
+// really sent during dx. As a force is held between ticks, this is the exact work, not an estimate.
 //
 // Reference form (Ryu, Preusche, Hannaford & Hirzinger, IEEE Trans. Control Syst. Technol. 13,
-// 2005): E is compared with V, what the spring could give back now, not with zero. V = k s^2 / 2 up
-// to the largest force that is sent, a straight line beyond. The plain form acts only once E < 0,
-// and after a minute of friction and cutting E is so high that a wall may tremble for seconds
-// before anything happens. Here whatever is above V is lost for good: it leaves E for the tank
-// (which is small), so E never exceeds V and the first sample at which the wall gives too much is
-// seen. A sampled spring owes k dx^2 / 2 each tick; paying it is a damper of k T / 2, the one the
-// border k < 2 (b + B) / T asks for.
+// 2005): E is compared with V, the energy that the spring could give back now, not with zero. V = k
+// s^2 / 2 up to the largest force that is sent, linear beyond. The plain form acts only when E < 0;
+// after a minute of friction and cutting E is so high that a wall may tremble for seconds before
+// the guard acts. Here all energy above V counts as lost: it leaves E for the tank (which is
+// small), so E never exceeds V, and the guard sees the first sample at which the wall gives too
+// much. A sampled spring owes k dx^2 / 2 each tick; a damper of k T / 2 pays for it, the same that
+// the stability border k < 2 (b + B) / T requires.
 //
-// Controller: alpha = min((V - E) / (T |v|^2), alpha_max), none below least_speed; v is the way of
-// this tick, unfiltered, for a filter's lag would let the damper push where it should brake; an
-// encoder's steps are why alpha_max knows encoder_step. The work of this
-// damper comes back to E by the observer, for it is part of the force sent; adding alpha T |v|^2 by
-// hand as well, as where E is counted before the controller, would count it twice.
+// Controller: alpha = min((V - E) / (T |v|^2), alpha_max), zero below least_speed. v is the move of
+// this tick over T, unfiltered: with the lag of a filter the damper could push where it should
+// brake. The steps of an encoder are the reason why alpha_max depends on encoder_step. The observer
+// counts the work of this damper, because it is part of the force sent; adding alpha T |v|^2 to E
+// explicitly, as in formulations that compute E before the controller, would count it twice.
 //
 // Tank (Franken, Stramigioli et al., IEEE Trans. Robot. 27, 2011): S' = lost - given to active
-// terms, 0 <= S <= tank_full. Bone that grows under the burr, or guidance, asks allow() first.
+// terms, 0 <= S <= tank_full. Active terms (bone that grows under the burr, guidance) call allow()
+// first.
 //
-// Promise, at every tick, whatever the hand, the forces and the limits after the guard do:
+// Guarantee at every tick, whatever the hand, the forces and the limits after the guard do:
 //
 //     work done by the hand  >=  - deficit() - written_off() - lost in the device itself
 //
 // deficit() is k dx^2 / 2 of the last tick while alpha_max suffices and the hand moves faster than
-// least_speed; below that it may grow by k T v^2 / 2 per second, 2 uW for 1 kN/m. written_off() is
-// what was stored when the account began, a deficit after free_time in free air, and what is above
-// tank_full, so that no hand feels heavy for long.
-// slack: a deficit up to it is remembered and not acted on. While bone is cut, what is felt turns
-// by itself from tick to tick and owes some microjoules for a moment, which the cut then pays many
-// times over; a damper that takes each back at once is felt as blows. A wall that trembles owes
-// more and more. The promise is weaker by the slack. Vibration (vibration.h) stays out: sent() is
-// told the force without it.
+// least_speed; below that speed it may grow by k T v^2 / 2 per second, 2 uW for 1 kN/m.
+// written_off() is the sum of the energy stored when the account began, a deficit after free_time
+// in free air, and what is above tank_full; so no hand feels heavy for long.
+//
+// slack: a deficit up to this value is remembered but not acted on. While bone is cut, the force
+// changes direction by itself from tick to tick and owes some microjoules for a moment, which the
+// cut then pays back many times over; a damper that takes each of them back at once is felt as
+// blows. A wall that trembles owes more and more. The guarantee is weaker by the slack. Vibration
+// (vibration.h) is not counted: pass sent() the force without it.
 //
 // Thread: servo. Frame: world. Units: SI. Memory: none. Cost: under 0.2 us a tick.
 #pragma once
@@ -53,45 +55,46 @@ namespace burr::haptics {
 
 struct EnergyGuardSettings {
   // Of the device, as felt at the tip [kg]. 45 g is the maker's figure for the PHANToM Omni, the
-  // lightest in use; a heavier device allows more damping, so this default is safe for it.
+  // lightest device in use; a heavier device allows more damping, so this default is safe for it.
   double device_mass = 0.045;
-  double device_damping = 0;   // of the device's own joints, only if measured            [N s/m]
-  double encoder_step = 0;     // as seen at the tip; 0: finer than matters                   [m]
+  double device_damping = 0;   // of the device's own joints; set only if measured        [N s/m]
+  double encoder_step = 0;     // at the tip; 0: too fine to matter                           [m]
   double count_force = 0.1;    // the damper's most for one step in a tick; the joints' dry
                                // friction hides it, 0.26 N in an Omni                        [N]
   double delay = 0;            // from hand to force, beyond the held tick; up to 7 ticks     [s]
-  double slack = 0;            // deficit that is let pass: see above                         [J]
-  double least_speed = 2e-3;   // below it velocity is mostly noise; no damping             [m/s]
-  double largest_force = 3.3;  // that is ever sent: of the device and of the user           [N]
-  double free_time = 50e-3;    // in free air until a deficit is forgotten                   [s]
+  double slack = 0;            // deficit that is tolerated: see above                        [J]
+  double least_speed = 2e-3;   // below it the velocity is mostly noise: no damping         [m/s]
+  double largest_force = 3.3;  // that is ever sent: by the device's and the user's limit    [N]
+  double free_time = 50e-3;    // in free air until a deficit is written off                 [s]
   double tank_full = 2e-3;     // at most 10 mJ, a light tap                                 [J]
   double tank_low = 0.5e-3;    // active terms fade below this                               [J]
 };
 
-// What touch found out in this tick, before vibration and limits.
+// Result of touch in this tick, before vibration and limits.
 struct Exchange {
   math::Vec3 hand = math::Vec3::Zero();     // [m]
-  math::Vec3 stretch = math::Vec3::Zero();  // from hand to proxy, of the spring           [m]
+  math::Vec3 stretch = math::Vec3::Zero();  // from hand to proxy                          [m]
   double stiffness = 0;                     // of the spring                             [N/m]
-  math::Vec3 force = math::Vec3::Zero();    // that touch wants                            [N]
+  math::Vec3 force = math::Vec3::Zero();    // computed by touch                           [N]
 };
 
 class EnergyGuard {
  public:
   explicit EnergyGuard(const EnergyGuardSettings& settings = {});
 
-  // The force that is passive, as far as is known. dt: this tick [s]. What is not a number goes
-  // through untouched, for the safety layer to see, and the account begins anew.
+  // Returns a passive force, as far as can be known. dt: this tick [s]. If an input is not finite
+  // the force is returned unchanged, for the safety layer to handle, and the account starts again.
   [[nodiscard]] math::Vec3 step(const Exchange& now, double dt) BURR_RT;
 
-  // What the hand really got in this tick, after all limits, without vibration. Once a tick.
+  // The force the hand really got in this tick, after all limits, without vibration. Call once a
+  // tick.
   void sent(const math::Vec3& force) BURR_RT;
 
-  // How much of `wanted_energy` an active term may bring in now [J]; taken from the tank. Ask for
-  // no more than it raises the spring's energy by; what it does not use flows back.
+  // How much of `wanted_energy` an active term may add now [J]; it is taken from the tank. Request
+  // no more than the term raises the spring's energy by; what is not used flows back.
   [[nodiscard]] double allow(double wanted_energy) BURR_RT;
 
-  // The hand was lost or no force was sent: begin anew. The tank stays.
+  // The hand was lost or no force was sent: starts the account again. The tank keeps its content.
   void restart() BURR_RT;
 
   void set_largest_force(double newton) BURR_RT;
@@ -106,7 +109,7 @@ class EnergyGuard {
   [[nodiscard]] double lost_in_device() const BURR_RT { return lost_in_device_; }  //            [J]
 
  private:
-  static constexpr std::size_t kSent = 8;  // forces remembered, for the delay
+  static constexpr std::size_t kSent = 8;  // forces kept, for the delay
 
   [[nodiscard]] math::Vec3 acting(double dt) const BURR_RT;
   [[nodiscard]] double spring_energy(const Exchange& now) const BURR_RT;
@@ -122,8 +125,8 @@ class EnergyGuard {
   math::Vec3 velocity_ = math::Vec3::Zero();  // of the last tick [m/s]
   bool begun_ = false;
   double energy_ = 0, stored_ = 0, tank_ = 0, alpha_ = 0;
-  double granted_ = 0;  // allowed, not yet seen as a rise of V [J]
-  double free_ = 0;     // how long nothing was touched [s]
+  double granted_ = 0;  // allowed, not yet seen as an increase of V [J]
+  double free_ = 0;     // time without contact so far [s]
   double work_in_ = 0, written_off_ = 0, lost_in_device_ = 0;
 };
 

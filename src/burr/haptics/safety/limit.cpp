@@ -11,8 +11,8 @@ namespace {
 
 using math::Vec3;
 
-// The nearest force to `wanted` that is no further than `step` from what can be had by only letting
-// go of `sent`. Letting go is free, growing and turning are not.
+// The force nearest to `wanted` that differs by at most `step` from some reduced copy of `sent`.
+// Reducing is unlimited; growing and turning are limited.
 Vec3 slew_bound(const Vec3& wanted, const Vec3& sent, double step, bool& bounded) BURR_RT {
   const double square = math::squared_norm(sent);
   const double keep = square > 0 ? std::clamp(math::dot(wanted, sent) / square, 0.0, 1.0) : 0.0;
@@ -23,7 +23,7 @@ Vec3 slew_bound(const Vec3& wanted, const Vec3& sent, double step, bool& bounded
   return bounded ? Vec3(base + growth * (step / size)) : wanted;
 }
 
-// no bone lies beyond it, nor may a path of a hand; places further out fit no count of voxels  [m]
+// no bone or hand path may lie farther away; larger coordinates do not fit a voxel index  [m]
 constexpr double kFarthestHand = 1e3;
 
 }  // namespace
@@ -65,7 +65,7 @@ void ForceLimit::fault(std::uint32_t flag, std::uint32_t& flags) BURR_RT {
 }
 
 void ForceLimit::lift() BURR_RT {
-  if (state_ == State::fading) return;  // already on its way to zero
+  if (state_ == State::fading) return;  // already fading to zero
   state_ = State::fading;
   for (Channel* one : {&force_, &torque_}) one->fading_from = one->sent;
   in_state_ = 0;
@@ -81,7 +81,7 @@ double ForceLimit::left() const BURR_RT {
   return std::max(0.0, 1.0 - in_state_ / settings_.fade_time);
 }
 
-// What of `wanted` may go to these motors as things stand.
+// Limits `wanted` for this set of motors in the present state.
 Vec3 ForceLimit::bound(Channel& channel, const Vec3& wanted, double dt,
                        std::uint32_t& flags) const BURR_RT {
   Vec3 force = Vec3::Zero();
@@ -92,8 +92,8 @@ Vec3 ForceLimit::bound(Channel& channel, const Vec3& wanted, double dt,
   } else {
     force = wanted;
 
-    // the device, the user, and the motors' heat; direction kept. The heat limit closes gradually
-    // over its last tenth.
+    // limits of device, user and motor heat; direction kept. The heat limit closes gradually over
+    // the last tenth of the budget.
     double most = std::min(device_.peak_force, settings_.user_force);
     const double hot = std::clamp((channel.heat / device_.thermal_budget - 0.9) * 10.0, 0.0, 1.0);
     const double bearable = std::min(most, device_.continuous_force);
@@ -136,7 +136,7 @@ Vec3 ForceLimit::apply(const Vec3& wanted, double dt, std::uint32_t& flags) BURR
 Vec3 ForceLimit::apply_torque(const Vec3& wanted, double dt, std::uint32_t& flags) BURR_RT {
   if (lever_ <= 0) return Vec3::Zero();
   if (!wanted.allFinite()) fault(rt::kFlagNotFinite, flags);
-  if (state_ == State::ramp && in_state_ <= 0) return Vec3::Zero();  // from the next tick on
+  if (state_ == State::ramp && in_state_ <= 0) return Vec3::Zero();  // begins with the next tick
   return lever_ * bound(torque_, wanted / lever_, dt, flags);
 }
 

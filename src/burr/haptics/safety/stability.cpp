@@ -14,7 +14,7 @@ struct Motion {
   double place = 0, velocity = 0;
 };
 
-// Of a mass with viscous drag under a constant force, exactly.
+// Exact motion of a mass with viscous drag under a constant force.
 Motion glide(const Motion& from, double force, double mass, double drag, double time) {
   if (drag * time < 1e-9 * mass) {
     const double a = force / mass;
@@ -38,7 +38,7 @@ class Axis {
   [[nodiscard]] double place() const { return now_.place; }
 
   void advance(double motor, double time) {
-    // the arm's spring at the middle of the step, which keeps the second order
+    // the arm's spring at the middle of the step, which keeps second-order accuracy
     const double middle = now_.place + 0.5 * time * now_.velocity;
     const double force = motor - settings_.push - settings_.arm_stiffness * middle;
     const double dry = settings_.dry_friction;
@@ -52,7 +52,7 @@ class Axis {
           glide(now_, force - std::copysign(dry, now_.velocity), mass_, drag_, time);
       if (next.velocity * now_.velocity > 0) {
         now_ = next;
-      } else {  // friction stops, it never turns round
+      } else {  // friction stops a motion, it never reverses it
         const double share = now_.velocity / (now_.velocity - next.velocity);
         now_ = {now_.place + 0.5 * now_.velocity * share * time, 0};
       }

@@ -1,18 +1,19 @@
-// haptics/safety/stability.h - how stiff a wall may be before the hand trembles: one axis of a device, a
-// hand on it if wanted, and a wall that is sampled.
+// haptics/safety/stability.h - how stiff a wall may be before the hand trembles: a simulation of
+// one axis of a device, with a hand on it if wanted, against a sampled wall.
 //
 //     arm o--/\/\/--[ m ]--b, f_c      read: encoder step, backward difference, filter
 //                     ^  force held for a tick, delay t_d later
 //
-// Between ticks the mass moves continuously (20 steps of the closed solution), so that the energy a
-// held force brings in is there as in a real device. The known borders:
+// Between ticks the mass moves continuously (20 steps of the closed solution), so the energy that a
+// held force brings in is simulated as in a real device. The known stability borders:
 //
 //     linear                              k < 2 (b + B) / T                Colgate & Schenkel 1994
 //     linear, with delay                  b + B > k (T/2 + t_d)
 //     with an encoder and dry friction    k <= min(2 b / T, 2 f_c / step)  Abbott & Okamura 2005
 //
-// For tests and for the wall a new device may show; nothing of the tick uses it. Thread: any.
-// Frame: along the axis, bone below zero. Units: SI. Memory: little. Cost: 2 ms per second of hand.
+// For tests and for choosing the stiffness on a new device; the tick does not use it. Thread: any.
+// Frame: along the axis, bone below zero. Units: SI. Memory: little. Cost: 2 ms per simulated
+// second.
 #pragma once
 
 #include <functional>
@@ -26,20 +27,20 @@ struct AxisSettings {
   double damping = 0.5;           // b [N s/m]
   double dry_friction = 0;        // f_c [N]
   double encoder_step = 0;        // [m]; 0: as fine as a double
-  double delay = 0;               // t_d, from reading to force, in steps of the integration [s]
+  double delay = 0;               // t_d, from reading to force; rounded to integration steps [s]
   double rate_hz = 1000;          // of the ticks
-  int substeps = 20;              // of the integration in a tick
-  double velocity_filter_hz = 0;  // first order on the backward difference; 0: none
-  double push = 0;                // constant, of a finger, into the bone [N]
-  // an arm that holds the device: its mass moves with it, its spring pulls to zero
+  int substeps = 20;              // integration steps per tick
+  double velocity_filter_hz = 0;  // first order, on the backward difference; 0: none
+  double push = 0;                // constant force of a finger, into the bone [N]
+  // An arm that holds the device: its mass moves with the device, its spring pulls to zero.
   double arm_mass = 0;       // [kg]
   double arm_damping = 0;    // [N s/m]
   double arm_stiffness = 0;  // [N/m]
 };
 
-// What a controller is told each tick.
+// Input of a controller in one tick.
 struct Sensed {
-  double place = 0;     // as the encoder says [m]
+  double place = 0;     // from the encoder [m]
   double velocity = 0;  // backward difference, filtered [m/s]
   double dt = 0;        // [s]
 };
@@ -52,31 +53,31 @@ struct WallSettings {
                             // else a spring to zero, where linear theory holds
 };
 [[nodiscard]] Controller wall(const WallSettings& settings);
-// The same with an EnergyGuard behind it. `watched`: called each tick with the guard.
+// The same with an EnergyGuard behind it. `watched` is called with the guard in each tick.
 [[nodiscard]] Controller guarded_wall(const WallSettings& settings,
                                       const EnergyGuardSettings& guard,
                                       std::function<void(const EnergyGuard&)> watched = {});
 
 struct Swing {
-  double start = 1e-3;  // where the hand begins [m]
-  double speed = 0;     // and how fast [m/s]
+  double start = 1e-3;  // start of the hand [m]
+  double speed = 0;     // its speed there [m/s]
   double duration = 4;  // [s]
-  double too_far = 1;   // given up beyond [m]
+  double too_far = 1;   // the simulation ends beyond [m]
 };
 
-// What came of it. Ranges are highest minus lowest place.
+// The result. Ranges are highest minus lowest place.
 struct Swung {
   double early = 0, late = 0;  // range within the second and the last quarter of the time [m]
   double lowest = 0;           // deepest place [m]
   double largest_force = 0;    // [N]
-  double top_speed = 0;        // mean of a step of the integration [m/s]
-  // By the real motion between the ticks, from the first tick on [J]:
-  double least_work_in = 0;  // least ever of the work that the hand did on the wall
-  double work_in = 0;        // the same at the end
-  bool ran_away = false;     // went too_far, or was no longer a number
+  double top_speed = 0;        // mean over an integration step [m/s]
+  // Computed from the real motion between the ticks, from the first tick on [J]:
+  double least_work_in = 0;  // smallest value that the hand's work on the wall ever had
+  double work_in = 0;        // its value at the end
+  bool ran_away = false;     // went beyond too_far, or became NaN
 
-  // Trembling dies away: the range of the last quarter is less than that of the second, or below
-  // what an encoder of this step can tell.
+  // True if trembling dies away: the range of the last quarter is smaller than that of the second,
+  // or smaller than `quiet`, for example what the encoder can resolve.
   [[nodiscard]] bool stable(double quiet = 1e-9) const {
     return !ran_away && (late < early || late <= quiet);
   }
@@ -84,9 +85,9 @@ struct Swung {
 [[nodiscard]] Swung swing(const AxisSettings& axis, const Controller& controller,
                           const Swing& how = {});
 
-// The stiffness between `low`, at which it is stable, and `high`, at which it is not, at which that
-// changes, to 1 part in 1000. `make` gives the controller for a stiffness. Returns `low` or `high`
-// where there is no change between them.
+// The border between `low`, where the axis is stable, and `high`, where it is not, to 1 part in
+// 1000. `make` returns the controller for a stiffness. Returns `low` or `high` if there is no
+// border between them.
 [[nodiscard]] double stiffness_border(const AxisSettings& axis,
                                       const std::function<Controller(double)>& make, double low,
                                       double high, const Swing& how = {});

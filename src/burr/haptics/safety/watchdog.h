@@ -1,11 +1,12 @@
-// haptics/safety/watchdog.h - notices that the tick has died, and lets go of the hand.
+// haptics/safety/watchdog.h - notices that the tick has stopped, and releases the force.
 //
-// The servo beats; a guard thread polls about every millisecond and multiplies what the device is
-// pushing by scale(). Once tripped it stays at zero until the servo is back and has put its own
-// force through the start ramp (rearm()). Time comes from outside, so tests run it on a virtual
-// clock. All that stops a force: docs/safety.md, "Ticks that stop".
+// The servo calls beat() in every tick. A guard thread calls poll() about every millisecond and
+// multiplies the device's present force by the result. Once tripped, the scale stays at zero until
+// the servo runs again and has started its own ramp from zero force (rearm()). Times are arguments,
+// so tests can use a virtual clock. Everything that stops a force: docs/safety.md, "Ticks that
+// stop".
 //
-// Thread: beat(), rearm() servo; poll() guard. Wait-free.
+// Thread: beat() and rearm() servo; poll() guard. Wait-free.
 #pragma once
 
 #include <algorithm>
@@ -18,13 +19,13 @@ namespace burr::haptics {
 
 class Watchdog {
  public:
-  // timeout: no beat for this long is a loss [ns]; fade: from detection to zero [ns]
+  // timeout: this long without a beat is a loss [ns]; fade: time from detection to zero [ns]
   Watchdog(std::int64_t timeout_ns, std::int64_t fade_ns)
       : timeout_ns_(timeout_ns), fade_ns_(fade_ns) {}
 
   void beat(std::int64_t now_ns) BURR_RT { last_beat_.store(now_ns, std::memory_order_release); }
 
-  // What the device's present force is to be multiplied by, 0..1.
+  // The factor for the device's present force, 0..1.
   [[nodiscard]] double poll(std::int64_t now_ns) BURR_RT {
     std::int64_t detected = detected_.load(std::memory_order_acquire);
     if (detected == kNever) {
@@ -41,7 +42,7 @@ class Watchdog {
     return detected_.load(std::memory_order_acquire) != kNever;
   }
 
-  // the servo is alive again and sends zero
+  // The servo runs again and sends zero force.
   void rearm(std::int64_t now_ns) BURR_RT {
     beat(now_ns);
     detected_.store(kNever, std::memory_order_release);
