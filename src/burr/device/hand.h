@@ -34,13 +34,13 @@ struct DeviceSpec {
                                    // reported
   int sensed = 6;                  // degrees of freedom it reads: 3 position, 6 also orientation
   int actuated = 3;                // degrees of freedom it pushes
-  double peak_force = 3.3;         // never exceeded                                             [N]
+  double peak_force = 3.3;         // never exceeded [N]
   double continuous_force = 0.88;  // may last for ever; above it the motors heat up [N]
   double peak_torque = 0;          // about the tip; 0: it cannot give torque [N m]
   // limit on heating above continuous_force: integral of F^2 - F_cont^2 over time [N^2 s]
   double thermal_budget = 3.3 * 3.3 * 5;
   double max_stiffness = 1000;      // stiffest wall it can show without shaking [N/m]
-  double max_damping = 5;           // likewise                                              [N s/m]
+  double max_damping = 5;           // likewise [N s/m]
   double workspace_radius = 75e-3;  // radius of the hand's own movement about its middle [m]
   double native_rate = 1000;        // tick rate that suits it best [Hz]
   double loss_timeout = 20e-3;      // time without a tick after which the force fades to zero. Real

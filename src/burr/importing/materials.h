@@ -30,13 +30,13 @@ struct Material {
   std::string name;
   std::optional<Constant> cutting_energy;    // [J/m^3]
   std::optional<Constant> friction;          // steel on the material, wet, spindle off [-]
-  std::optional<Constant> cutting_friction;  // mu_c: tangential over normal force of a cut  [-]
-  std::optional<Constant> chip_tangential, chip_radial;  // volume::CuttingForce          [N/m^2]
-  std::optional<Constant> edge_tangential, edge_radial;  //                               [N/m]
-  std::optional<Constant> edge_onset;                    //                               [m]
-  std::optional<Constant> conductivity;                  //                               [W/(m K)]
+  std::optional<Constant> cutting_friction;  // mu_c: tangential over normal force of a cut [-]
+  std::optional<Constant> chip_tangential, chip_radial;  // volume::CuttingForce [N/m^2]
+  std::optional<Constant> edge_tangential, edge_radial;  // [N/m]
+  std::optional<Constant> edge_onset;                    // [m]
+  std::optional<Constant> conductivity;                  // [W/(m K)]
   std::optional<Constant> density;                       // pores included [kg/m^3]
-  std::optional<Constant> specific_heat;                 //                               [J/(kg K)]
+  std::optional<Constant> specific_heat;                 // [J/(kg K)]
 };
 
 // One constant of a Material: its key and its unit in the file.

@@ -29,7 +29,7 @@ struct ExportOptions {
 
 // What was written.
 struct Exported {
-  double volume = 0;          // of the part, volume_of()  [m^3]
+  double volume = 0;          // of the part, volume_of() [m^3]
   std::size_t triangles = 0;  // 0 for a volume
 };
 

@@ -37,7 +37,7 @@ struct Timeline {
 
   double seconds = 0;
   std::vector<Stroke> strokes;        // in order, apart by more than kPause
-  std::vector<float> force;           // (kParts) the largest of each part  [N]
+  std::vector<float> force;           // (kParts) the largest of each part [N]
   std::vector<TimelineEvent> events;  // what users requested, in order
   double peak_force = 0;              // [N]
   struct Work {

@@ -10,7 +10,7 @@
 namespace burr::io {
 
 struct FenceLimits {
-  std::uint64_t memory = 0;  // address space  [byte]
+  std::uint64_t memory = 0;  // address space [byte]
   double seconds = 0;        // of processor time of all threads together
 };
 

@@ -39,10 +39,10 @@ enum class Kind : std::uint8_t {
   data_end = 0x0F,
 };
 
-inline constexpr std::uint64_t kRecordHead = 9;  // kind and length                          [byte]
+inline constexpr std::uint64_t kRecordHead = 9;  // kind and length [byte]
 inline constexpr std::uint64_t kFooter = kRecordHead + 20;
 // more than any chunk that burr writes; a larger number is taken as damage
-inline constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 28;  // unpacked         [byte]
+inline constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 28;  // unpacked [byte]
 
 struct Schema {
   std::uint16_t id = 0;

@@ -65,7 +65,7 @@ class McapWriter {
   // Summary, footer, sync, close.
   [[nodiscard]] Status finish();
 
-  [[nodiscard]] std::uint64_t size() const { return size_; }  // of the file so far  [byte]
+  [[nodiscard]] std::uint64_t size() const { return size_; }  // of the file so far [byte]
 
  private:
   [[nodiscard]] Status append(ByteSpan bytes);
