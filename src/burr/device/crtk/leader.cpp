@@ -33,7 +33,7 @@ constexpr std::int64_t kOneReadingNs = 2'000'000;  // wait of read()
 constexpr std::int64_t kLastNs = 100'000'000;      // for the last force to arrive
 constexpr double kSlowest = 400;  // lowest rate of readings: after 5 ms without one the tick
                                   // releases the force [Hz]
-constexpr int kLookAtBus = 64;  // forces between two checks of who reads or writes them
+constexpr int kLookAtBus = 64;    // forces between two checks of who reads or writes them
 
 constexpr const char *kBody = "/body/servo_cf", *kSpatial = "/spatial/servo_cf";
 constexpr const char* kPlace = "/measured_cp";
