@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-// Something with a separator is a path; only digits and three dots or more is a UID.
+// A text with a separator is a path; one of digits with three dots or more is a UID.
 bool looks_private(const std::string& text) {
   if (text.find('/') != std::string::npos || text.find('\\') != std::string::npos) return true;
   return std::count(text.begin(), text.end(), '.') >= 3 &&
@@ -137,7 +137,7 @@ std::string to_json(const SessionInfo& info) {
                         {"words", info.words},
                         {"volume", std::move(volume)},
                         {"embedded", info.embedded}};
-  // names of tissues come from the user's file and may hold anything; broken UTF-8 is replaced
+  // tissue names come from the user's file and may contain anything; invalid UTF-8 is replaced
   return session.dump(1, ' ', false, json::error_handler_t::replace);
 }
 
