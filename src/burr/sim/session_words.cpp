@@ -17,8 +17,7 @@ struct Entry {
   bool newer = false;  // recordings of an older burr lack it: it then keeps its default
 };
 
-// NOLINTNEXTLINE(cppcoreguidelines-macro-usage): the only way to name a member once and use it
-// twice
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage): the one way to name a member once and use it twice
 #define BURR_ENTRY(name, member, ...)                                             \
   Entry {                                                                         \
     name, [](const Recorded& r) { return static_cast<double>(r.member); },        \

@@ -153,7 +153,7 @@ double Synth::white() BURR_RT {
   return std::sqrt(12.0) * (static_cast<double>(bits >> 11) * 0x1p-53 - 0.5);
 }
 
-// 1 for frequencies that the samples can carry, falling to 0 from nine tenths of half the rate on.
+// 1 for frequencies that the samples can carry, falling to 0 at nine tenths of half the rate.
 double Synth::below_half_rate(double hz) const BURR_RT {
   const double share = hz / (0.5 * settings_.rate_hz);
   return std::clamp((0.9 - share) / 0.2, 0.0, 1.0);
