@@ -1,5 +1,5 @@
-// burr-guard - outlives burr by a moment to let go of a device that would hold its last force
-// (src/burr/device/guardian.h, which starts it).
+// burr-guard - outlives burr by a moment, to release a device that would hold its last force
+// (src/burr/device/guardian.h starts it).
 //
 //     burr-guard line TEXT
 //         descriptors: 0 burr's life, 1 the answer, 3 the device, 4 the beats
@@ -29,10 +29,10 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr int kLife = 0, kAnswer = 1, kDevice = 3, kBeats = 4;
-constexpr milliseconds kLook(5);      // between two looks at burr
-constexpr milliseconds kAgain(2);     // between two times that no force is said
-constexpr milliseconds kLong(300);    // after burr's end
-constexpr milliseconds kFound(5000);  // a bus has so long to be found
+constexpr milliseconds kLook(5);      // between two checks of burr
+constexpr milliseconds kAgain(2);     // between two messages of "no force"
+constexpr milliseconds kLong(300);    // how long they are repeated after burr's end
+constexpr milliseconds kFound(5000);  // time to discover a bus
 
 void answer(const std::string& words) {
   static_cast<void>(::write(kAnswer, words.data(), words.size()));
@@ -110,7 +110,7 @@ int main(int count, char** words) {
   for (const int deaf : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT}) std::signal(deaf, SIG_IGN);
   sched_param first{};
   first.sched_priority = 83;
-  static_cast<void>(::sched_setscheduler(0, SCHED_FIFO, &first));  // where the machine allows it
+  static_cast<void>(::sched_setscheduler(0, SCHED_FIFO, &first));  // where this computer allows it
   const std::string kind = count > 1 ? words[1] : "";
   if (kind == "line" && count == 3) return guard_line(words[2]);
   if (kind == "crtk" && count == 5) return guard_arm(std::atoi(words[2]), words[3], words[4]);

@@ -1,4 +1,5 @@
-// burr-read - reads one scan for burr and nothing else: the process behind the fence (io/sandbox/fence.h).
+// burr-read - reads one scan for burr and does nothing else: the process behind the fence
+// (io/sandbox/fence.h).
 #include "burr/io/read/readers.h"
 #include "burr/io/sandbox/fence_child.h"
 

@@ -1,4 +1,4 @@
-// What a Polhem or a CRTK arm may do that is not to be believed.
+// Messages of a Polhem or a CRTK arm that must not be believed.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -37,7 +37,7 @@ TEST(PolhemDoubt, LinesThatAreNoneAreBorneForAMomentOnly) {
   EXPECT_NE(wire.why().find("cannot be read"), std::string::npos) << wire.why();
 }
 
-// A field of the arm holds 16 bits of millinewtons; more would turn round in it.
+// A field of the arm holds 16 bits of millinewtons; a larger number would wrap around.
 TEST(PolhemDoubt, ALineAsksForNoMoreThanItsFieldsHold) {
   for (const double newton : {33.0, 1e6, 1e300, std::numeric_limits<double>::infinity()}) {
     const polhem::Line line = polhem::force_line({newton, -newton, 0.5});
@@ -49,7 +49,7 @@ TEST(PolhemDoubt, ALineAsksForNoMoreThanItsFieldsHold) {
   }
 }
 
-// It tells no speed: how its place changes is one.
+// The arm reports no velocity; it is computed from the change of its position.
 TEST(PolhemDoubt, ItsSpeedGoesTheWayItGoes) {
   test::FakePolhem arm;
   arm.with([](test::FakePolhem::Commands& commands) { commands.rate_hz = 1000; });
@@ -71,9 +71,10 @@ TEST(PolhemDoubt, ItsSpeedGoesTheWayItGoes) {
     }
 }
 
-// burr and the arm stand still, the guardian asks meanwhile, and the arm comes to it late. None of
-// ours may wait behind those lines for ever. How many readings a force took from then on; nothing
-// when the machine stood longer than that, and the arm was lost.
+// burr and the arm stand still; meanwhile the guardian sends lines, and the arm answers late.
+// burr's lines must not stay behind those of the guardian for ever. Returns how many readings a
+// force took afterwards; nothing if the machine stood still for longer than that and the arm was
+// lost.
 std::optional<int> late_after_a_stall() {
   test::FakePolhem arm;
   arm.with([](test::FakePolhem::Commands& commands) { commands.rate_hz = 1000; });
@@ -111,7 +112,7 @@ TEST(PolhemDoubt, AForceIsNotLateForEverAfterAStall) {
   EXPECT_LE(*late, 3);
 }
 
-// It goes on as it was told last: that must not be the force of the moment when it fell silent.
+// The arm keeps its last force: that must not be the force of the moment when it fell silent.
 TEST(PolhemDoubt, WithoutAnAnswerItIsToldNoForce) {
   test::FakePolhem arm;
   polhem::Polhem wire({.port = arm.path, .system = "/nowhere"});
@@ -131,7 +132,7 @@ TEST(PolhemDoubt, WithoutAnAnswerItIsToldNoForce) {
   EXPECT_TRUE(pushed_until(1)) << "once it answers again";
 }
 
-// Its guardian has the port as well: what could not be opened is given back by both.
+// Its guardian has the port open too: if opening fails, both must close it.
 TEST(PolhemDoubt, UnpluggedWhileItIsOpenedNothingIsLeftOpen) {
   const int before = test::open_files();
   const auto slow = std::filesystem::temp_directory_path() /
@@ -155,7 +156,7 @@ TEST(PolhemDoubt, UnpluggedWhileItIsOpenedNothingIsLeftOpen) {
   EXPECT_EQ(test::open_files(), before);
 }
 
-// Whoever pushes an arm that nobody makes push has lost it.
+// An arm is lost when nobody reads the forces that are written to it.
 TEST(CrtkDoubt, AnArmThatTakesForcesNoMoreIsNotBelieved) {
   const int domain = test::quiet_domain();
   test::FakeCrtkArm arm(domain);

@@ -1,4 +1,4 @@
-// burr as a CRTK arm: somebody else on the bus drives it, and reads what it says.
+// burr as a CRTK arm: another program on the bus drives it and reads what it publishes.
 #include "burr/device/crtk/arm.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ using math::Vec3;
 using test::soon;
 constexpr double kMm = 1e-3;
 
-// Who drives and watches: as a node of somebody's own would.
+// The program that drives and watches, as a user's node would.
 struct Driver {
   explicit Driver(int domain)
       : bus(std::move(*Bus::open(domain))),
@@ -77,7 +77,7 @@ class ArmTest : public ::testing::Test {
     driver_ = std::make_unique<Driver>(domain_);
     ASSERT_TRUE(soon([&] { return driver_->heard(); }));
   }
-  // Ticks of a simulated clock until it is so; how many, or -1.
+  // Runs ticks of a simulated clock until so() is true; returns their number, or -1.
   int ticks(const std::function<bool(const HandState&)>& so, int most = 200'000) {
     for (int n = 1; n <= most; ++n) {
       now_ = hand_->state(1e-3);
@@ -113,7 +113,7 @@ TEST_F(ArmTest, AServoGoalIsFollowedNoFasterThanItsSpeed) {
   EXPECT_FALSE(hand_->busy());
 }
 
-// A line that begins and ends at rest: way, top speed and time of a trapezoid.
+// A line that begins and ends at rest: distance, top speed and time of a trapezoid.
 TEST_F(ArmTest, AMoveBeginsAndEndsAtRest) {
   const double way = 20 * kMm;
   driver_->go(driver_->move, {{0, 0, way}, Quat::Identity()});
@@ -152,7 +152,7 @@ TEST_F(ArmTest, StatesAreObeyed) {
 
   driver_->ask("disable");
   ASSERT_GT(ticks([](const HandState& hand) { return (hand.buttons & kLifted) != 0; }), 0);
-  driver_->ask("resume");  // only from a pause
+  driver_->ask("resume");  // is possible only from a pause
   ASSERT_TRUE(soon([&] { return arm_->left_aside() == 2; }));
   driver_->ask("enable");
   ASSERT_GT(ticks([](const HandState& hand) { return (hand.buttons & kLifted) == 0; }), 0);
@@ -251,8 +251,8 @@ TEST_F(ArmTest, OneThatWasLetGoSaysFaultWhileItIsEnabled) {
   EXPECT_TRUE(says("ENABLED"));
 }
 
-// A driven hand on a machine that stands still now and then, which lets no hand go; and once for
-// longer, when asked to.
+// A driven hand that does not release the force when the machine stands still now and then; it
+// stands still once for longer when asked to.
 class Unhurried final : public Device {
  public:
   Unhurried(std::unique_ptr<DrivenHand> hand, std::atomic<int>& stall_ms)
@@ -275,11 +275,11 @@ class Unhurried final : public Device {
   std::atomic<int>& stall_ms_;
 };
 
-// The whole: somebody drives the burr into a slab whose top is z = 0, as a program does: what it
-// waits for is what it is told.
+// The whole system: a program drives the burr into a slab whose top is z = 0. Like a real program,
+// it waits only for what is published.
 class DrivenArm : public ArmTest {
  protected:
-  static constexpr double kFree = 5 * kMm, kDeep = 1 * kMm;  // the middle of a ball of 2 mm
+  static constexpr double kFree = 5 * kMm, kDeep = 1 * kMm;  // centre of a ball of 2 mm
 
   void SetUp() override {
     ArmTest::SetUp();
@@ -353,7 +353,7 @@ TEST_F(DrivenArm, LetGoInBoneItSaysSoAndBeginsAgainInFreeAir) {
   EXPECT_EQ(row_.ledger.removed, 0);
   EXPECT_EQ(state_, "FAULT");
   driver_->press(0);
-  go(kFree);  // it goes where it is told meanwhile
+  go(kFree);  // meanwhile it follows its goals
   ASSERT_TRUE(there(kFree));
   ASSERT_TRUE(heard([&] { return state_ == "ENABLED"; }));
   go(kDeep);

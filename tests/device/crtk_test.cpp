@@ -1,4 +1,4 @@
-// A CRTK arm as the hand, against one that the test plays on the same bus (fake/fake_crtk.h).
+// A CRTK arm as the hand, against an arm that the test plays on the same bus (fake/fake_crtk.h).
 #include <dds/ddsi/ddsi_serdata.h>
 #include <gtest/gtest.h>
 
@@ -108,7 +108,8 @@ TEST_F(LeaderTest, TenMillimetresAreThoseAlongEveryAxis) {
   }
 }
 
-// The arm's end is turned: what it is told is in its own frame, what it pushes in the base's.
+// The arm's end is rotated: it receives forces in its own frame and reports poses in that of its
+// base.
 TEST_F(LeaderTest, TheForceIsTurnedIntoTheFrameOfTheArmsEnd) {
   FakeCrtkArm arm(domain_);
   const Quat turn(Eigen::AngleAxisd(1.1, Vec3(1, -2, 0.5).normalized()));
@@ -129,7 +130,7 @@ TEST_F(LeaderTest, TheForceIsTurnedIntoTheFrameOfTheArmsEnd) {
   }
 }
 
-// dVRK's spatial wrench is about the base: a force at the end is seen there with its moment.
+// dVRK's spatial wrench is about the base: a force at the arm's end appears there with its moment.
 TEST_F(LeaderTest, AnArmWithoutBodyForcesGetsTheWrenchAboutItsBase) {
   FakeCrtkArm arm(domain_, "/arm", {.body = false});
   const Vec3 place(0.1, 0.2, 0.3), force(1, -1, 0.5);
@@ -351,7 +352,7 @@ TEST_F(LeaderTest, AMillionForcesAndNonePassesTheLimit) {
   next(wire);
   const unsigned seed = std::random_device{}();
   test::WildForces forces(seed);
-  // whatever comes: each is read back on the bus, not only what the arm had time for
+  // whatever comes: each message is read back on the bus, not only those the arm had time for
   auto bus = Bus::open(domain_);
   ASSERT_TRUE(bus.ok());
   Reader<WrenchStamped> wrenches((*bus)->participant(), "/arm/body/servo_cf", Keep::all);
@@ -369,7 +370,7 @@ TEST_F(LeaderTest, AMillionForcesAndNonePassesTheLimit) {
   EXPECT_LE(largest, 3 + 1e-9) << "seed " << seed;
 }
 
-// Whatever bits a message has in place of its numbers.
+// Puts any bits in place of a message's numbers.
 class Odd {
  public:
   explicit Odd(unsigned seed) : random_(seed) {}
@@ -467,7 +468,7 @@ TEST_F(LeaderTest, WhateverNumbersComeTheForceIsBoundedAndTheHandCanBe) {
   EXPECT_TRUE(soon([&] { return tick.hand().valid; })) << "and it goes on; seed " << seed;
 }
 
-// ---- who else pushes
+// ---- other writers of forces
 
 TEST_F(LeaderTest, AnArmThatAnotherPushesIsLeftToHim) {
   FakeCrtkArm arm(domain_);
@@ -501,7 +502,7 @@ TEST_F(LeaderTest, ASecondBurrIsRefusedAndTheFirstGoesOn) {
   EXPECT_TRUE(soon([&] { return arm.force().y() == 0.5; }));
   done = true;
   goes_on.join();
-  // the second has a writer of its own while it looks around
+  // the second one has a writer of its own while it looks for others
   EXPECT_TRUE(soon([&] {
     static_cast<void>(first.write(Vec3::Zero()));
     return next(first).valid;
@@ -536,7 +537,7 @@ TEST_F(LeaderTest, AThousandTimesOpenedAndClosedNothingIsLeft) {
   FakeCrtkArm arm(domain_);
   const auto once = [&] {
     std::string trouble;
-    static_cast<void>(soon([&] {  // a busy machine may make the false arm too slow
+    static_cast<void>(soon([&] {  // on a busy machine the fake arm may be too slow
       Leader wire(here());
       const auto found = wire.connect();
       trouble = found.ok() ? "" : found.error().text;
@@ -544,18 +545,18 @@ TEST_F(LeaderTest, AThousandTimesOpenedAndClosedNothingIsLeft) {
     }));
     return trouble;
   };
-  for (int n = 0; n < 10; ++n) ASSERT_EQ(once(), "");  // what is taken for ever is taken
+  for (int n = 0; n < 10; ++n) ASSERT_EQ(once(), "");  // what is kept for ever is allocated now
   const int files = test::open_files();
   const std::size_t memory = test::memory_in_use();
   for (int n = 0; n < kRounds; ++n) ASSERT_EQ(once(), "") << n;
   EXPECT_TRUE(soon([&] { return test::open_files() <= files; }))
       << test::open_files() << " open, " << files << " before";
-  // Cyclone DDS itself keeps some kilobytes of every participant that has gone, with nothing of
-  // ours about it; one that was forgotten has hundreds
+  // Cyclone DDS itself keeps some kilobytes of every participant that has gone, without anything of
+  // ours; a participant that was not closed has hundreds
   EXPECT_LT(test::memory_in_use(), memory + kRounds * std::size_t{20'000});
 }
 
-// ---- names and bytes, against what ROS 2 lays down rather than against ourselves
+// ---- names and bytes, compared with what ROS 2 specifies rather than with our own code
 
 TEST_F(LeaderTest, NamesAndTypesAreThoseOfRos) {
   FakeCrtkArm arm(domain_);
@@ -584,8 +585,8 @@ TEST_F(LeaderTest, NamesAndTypesAreThoseOfRos) {
   EXPECT_TRUE(soon(look));
 }
 
-// PoseStamped as common_interfaces lays it down, in plain CDR, little-endian (RTPS 10.2): int32
-// sec, uint32 nanosec, string frame_id, 3 doubles of the place, 4 of the turn (x y z w).
+// PoseStamped as common_interfaces defines it, in plain CDR, little-endian (RTPS 10.2): int32 sec,
+// uint32 nanosec, string frame_id, 3 doubles of the position, 4 of the orientation (x y z w).
 TEST_F(LeaderTest, APlaceOnTheWireIsThatOfRosByteForByte) {
   auto bus = Bus::open(domain_);
   ASSERT_TRUE(bus.ok());
@@ -595,7 +596,7 @@ TEST_F(LeaderTest, APlaceOnTheWireIsThatOfRosByteForByte) {
   pose.header_.stamp_.sec_ = 7;
   pose.header_.stamp_.nanosec_ = 9;
   pose.header_.frame_id_ = lent("abc");
-  auto& place = pose.pose_.position_;  // each by its name, in the order of ROS below
+  auto& place = pose.pose_.position_;  // each by its name, in ROS' order below
   place.x_ = 1;
   place.y_ = 2;
   place.z_ = 3;
@@ -616,7 +617,7 @@ TEST_F(LeaderTest, APlaceOnTheWireIsThatOfRosByteForByte) {
   std::vector<unsigned char> expected = {0, 1, 0, 0, 7, 0, 0,   0,   9,   0,
                                          0, 0, 4, 0, 0, 0, 'a', 'b', 'c', 0};
   for (const double number : {1.0, 2.0, 3.0, 0.1, 0.2, 0.3, 0.4}) {
-    // doubles at multiples of eight after the four bytes of the heading
+    // doubles lie at multiples of eight after the four bytes of the header
     while ((expected.size() - 4) % 8 != 0) expected.push_back(0);
     unsigned char raw[8];
     std::memcpy(raw, &number, 8);
@@ -624,7 +625,7 @@ TEST_F(LeaderTest, APlaceOnTheWireIsThatOfRosByteForByte) {
   }
   ASSERT_GE(bytes.size(), expected.size());
   bytes.resize(expected.size());
-  bytes[2] = bytes[3] = 0;  // options of the heading: padding at the end
+  bytes[2] = bytes[3] = 0;  // options in the header: padding at the end
   EXPECT_EQ(bytes, expected);
 }
 

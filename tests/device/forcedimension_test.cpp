@@ -1,5 +1,5 @@
-// Force Dimension's arms against libraries that the test plays (fake/fake_dhd.h), loaded as the
-// real ones are.
+// Force Dimension's arms against libraries that the test plays (fake/fake_dhd.h), loaded like the
+// real ones.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -41,7 +41,7 @@ test::FakeDhd& fake() {
   return one;
 }
 
-// One arm is plugged in, two more are there to be.
+// One arm is plugged in; two more may be.
 void begin(test::FakeDhd& dhd) {
   dhd.arm = {};
   for (std::size_t n = 1; n < dhd.arm.size(); ++n) {
@@ -87,13 +87,13 @@ Vec3 last_force(std::size_t which = 0) {
 }
 double last_up(std::size_t which = 0) { return last_force(which).z(); }
 
-// A wire and its crossing without threads and with no time but the test's.
+// A wire and its link without threads; only the test advances time.
 struct ByHand {
   Omega omega;
   Link link{{.patience = 0}, &virtual_now};
   DeviceSpec spec;
-  HandState hand;     // as the tick saw it last
-  bool there = true;  // what the last exchange said
+  HandState hand;     // as the tick read it last
+  bool there = true;  // result of the last exchange
 
   explicit ByHand(OmegaSettings settings = by_itself()) : omega(at_a_clock(std::move(settings))) {
     const auto connected = omega.connect();
@@ -106,12 +106,12 @@ struct ByHand {
     settings.now = &virtual_now;
     return settings;
   }
-  // a millisecond: one exchange
+  // a millisecond with one exchange
   bool frame() {
     virtual_ns += 1'000'000;
     return there = exchange(omega, link);
   }
-  // and one tick
+  // the same and one tick
   void step(const Vec3& force = Vec3::Zero()) {
     frame();
     hand = link.state();
@@ -149,7 +149,7 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// ---- what it is
+// ---- properties
 
 TEST_F(OmegaTest, SaysWhatItIsAndWhatItCanBear) {
   struct {
@@ -226,7 +226,7 @@ TEST_F(OmegaTest, ARateIsTakenAsRequestedOrRefused) {
 
 // ---- axes and units
 
-// Three taps. The library: x to the user, y right, z up. Ours: x right, y up, z to the user.
+// Three movements. The library: x to the user, y right, z up. Ours: x right, y up, z to the user.
 TEST_F(OmegaTest, TenMillimetresAndANewtonAreThoseAlongEveryAxis) {
   ByHand by;
   const Vec3 ours[] = {Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitY()};
@@ -254,14 +254,15 @@ TEST_F(OmegaTest, TheHandleLiesAlongTheToolsZ) {
   by.step();
   EXPECT_NEAR((by.hand.world_from_tool.q * Vec3::UnitZ() - Vec3::UnitZ()).norm(), 0, 1e-15)
       << "to the user while nothing is turned";
-  // a quarter turn about the library's up, with the small errors it gives: to the right
+  // a quarter turn about the library's up axis, to the right, with small errors as the library has
+  // them
   set([](test::FakeArm& arm) { arm.frame = {1e-4, -1.0002, 0, 0.9999, 0, 1e-4, 0, 0, 1.0001}; });
   by.step();
   EXPECT_TRUE(by.hand.valid);
   EXPECT_NEAR((by.hand.world_from_tool.q * Vec3::UnitZ() - Vec3::UnitX()).norm(), 0, 1e-3);
   EXPECT_NEAR((by.hand.world_from_tool.q * Vec3::UnitY() - Vec3::UnitY()).norm(), 0, 1e-3);
   EXPECT_NEAR(by.hand.world_from_tool.q.norm(), 1, 1e-12);
-  // about its right: from the user down
+  // about its right axis: from the user downwards
   set([](test::FakeArm& arm) { arm.frame = {0, 0, 1, 0, 1, 0, -1, 0, 0}; });
   by.step();
   EXPECT_NEAR((by.hand.world_from_tool.q * Vec3::UnitZ() + Vec3::UnitY()).norm(), 0, 1e-12);
@@ -333,7 +334,7 @@ TEST_F(OmegaTest, TheEnvironmentNamesALibrary) {
   unsetenv("BURR_FORCEDIMENSION");
 }
 
-// Without status, serial number, name and the library's own bound on the force.
+// Without status, serial number, name and the library's own limit on the force.
 TEST_F(OmegaTest, AnOldLibraryServesAsFarAsItGoes) {
   test::FakeDhd& old = state_of(kFakes + "libdrd_old.so");
   begin(old);
@@ -359,7 +360,7 @@ TEST_F(OmegaTest, AnOldLibraryServesAsFarAsItGoes) {
   judge(old);
 }
 
-// With libdhd alone nobody knows whether the arm is homed: the user must.
+// With libdhd alone nobody knows whether the arm is homed, so the user must say it.
 TEST_F(OmegaTest, WithoutDrdTheUserMustSayThatItIsHomed) {
   test::FakeDhd& alone = state_of(kFakes + "libdhd.so");
   begin(alone);
@@ -420,7 +421,7 @@ TEST_F(OmegaTest, LibrariesAreLookedForWhereTheMakerPutsThemTheNewestFirst) {
   EXPECT_EQ(found[0], "libdrd.so.3") << "by name, for the loader";
 }
 
-// ---- which device
+// ---- choice of the device
 
 TEST_F(OmegaTest, NoDeviceIsSaid) {
   set([](test::FakeArm& arm) { arm.present = false; });
@@ -436,7 +437,7 @@ TEST_F(OmegaTest, ADeviceInUseIsRefusedInWords) {
   {
     Omega first(by_itself());
     ASSERT_TRUE(first.connect().ok());
-    // the library would give it out a second time
+    // the library would open it a second time
     const std::string text = refused(by_itself());
     EXPECT_TRUE(has(text, "burr itself")) << text;
     EXPECT_TRUE(of([](const test::FakeArm& arm) { return arm.open && arm.force_on; }))
@@ -529,7 +530,7 @@ TEST_F(OmegaTest, AHomingThatFailsIsSaidAndTheArmIsLetGo) {
   EXPECT_FALSE(of([](const test::FakeArm& arm) { return arm.force_on; }));
 }
 
-// In the middle of a session a hand may be at the arm.
+// During a session a person's hand may be on the arm.
 TEST_F(OmegaTest, AnArmThatLostItsHomeInASessionIsNotHomedByItself) {
   OmegaSettings settings = by_itself();
   settings.home_allowed = true;
@@ -543,7 +544,7 @@ TEST_F(OmegaTest, AnArmThatLostItsHomeInASessionIsNotHomedByItself) {
   EXPECT_EQ(of([](const test::FakeArm& arm) { return arm.homed; }), 0U);
 }
 
-// Homing takes seconds. Another arm that is let go meanwhile does not push so long.
+// Homing takes seconds. Another arm that is closed meanwhile must not keep its force for so long.
 TEST_F(OmegaTest, AnArmIsLetGoWhileAnotherOneHomes) {
   set([](test::FakeArm& arm) { arm.rate = 0; });
   set(
@@ -572,7 +573,7 @@ TEST_F(OmegaTest, AnArmIsLetGoWhileAnotherOneHomes) {
   EXPECT_EQ(trouble, "");
 }
 
-// ---- readings and forces that are none
+// ---- readings and forces that are not valid
 
 TEST_F(OmegaTest, TimeGuardAndSaturatedMotorsAreSuccesses) {
   for (const int code : {1, 2}) {
@@ -608,12 +609,12 @@ TEST_F(OmegaTest, WhatIsNoReadingIsNotBelieved) {
   bad([](test::FakeArm& arm) { arm.velocity[1] = kNan; });
   bad([](test::FakeArm& arm) { arm.frame[4] = kNan; });
   bad([](test::FakeArm& arm) { arm.frame = {}; });
-  bad([](test::FakeArm& arm) { arm.frame[0] = -1; });  // a mirror
+  bad([](test::FakeArm& arm) { arm.frame[0] = -1; });  // a mirror image
   bad([](test::FakeArm& arm) { arm.frame = {2, 0, 0, 0, 0.5, 0, 0, 0, 1}; });
   bad([](test::FakeArm& arm) { arm.frame[1] = 0.5; });  // sheared
 }
 
-// The library's estimate errs until it has two readings.
+// The library's estimate fails until it has two readings.
 TEST_F(OmegaTest, AVelocityThatIsNotKnownYetIsNoLoss) {
   ByHand by;
   set([](test::FakeArm& arm) {
@@ -688,7 +689,7 @@ TEST_F(OmegaTest, NoForceEverPassesTheArmsOwnLimit) {
 
 // ---- torque
 
-// The library: x to the user, y right, z up, for torques as for forces.
+// The library's frame is x to the user, y right, z up, for torques as for forces.
 TEST_F(OmegaTest, AWristWithMotorsIsTurnedAboutEveryAxisAndNoFurtherThanItMay) {
   set([](test::FakeArm& arm) {
     arm.type = 104;
@@ -720,7 +721,7 @@ TEST_F(OmegaTest, AWristWithMotorsIsTurnedAboutEveryAxisAndNoFurtherThanItMay) {
   EXPECT_NEAR(last_torque().y() / last_torque().x(), 0.75, 1e-12);
   tick({kNan, 0, 0});
   EXPECT_EQ(last_torque(), Vec3::Zero());
-  by.step({0, 1, 0});  // of a tick that says nothing of torque
+  by.step({0, 1, 0});  // of a tick that writes no torque
   by.frame();
   EXPECT_EQ(last_torque(), Vec3::Zero());
   tick(0.1 * Vec3::UnitX());
@@ -730,10 +731,10 @@ TEST_F(OmegaTest, AWristWithMotorsIsTurnedAboutEveryAxisAndNoFurtherThanItMay) {
 }
 
 TEST_F(OmegaTest, AWristWithoutMotorsIsNeverTurned) {
-  for (const bool wrist : {true, false}) {  // the fake calls a torque misuse then
+  for (const bool wrist : {true, false}) {  // the fake then counts a torque as misuse
     set([wrist](test::FakeArm& arm) {
       arm.wrist = wrist;
-      arm.active_wrist = !wrist;  // motors of what is not there
+      arm.active_wrist = !wrist;  // motors of a wrist that is not there
       arm.type = wrist ? 34 : 33;
     });
     ByHand by;
@@ -769,7 +770,7 @@ TEST_F(OmegaTest, WhyForcesAreOffIsToldAndNothingIsPushedMeanwhile) {
     EXPECT_LE(ticks, 51) << "looked at twenty times a second";
     EXPECT_TRUE(has(by.omega.why(), word)) << by.omega.why();
     EXPECT_TRUE(by.there);
-    by.step({0, 2, 0});  // a tick that does not care
+    by.step({0, 2, 0});  // a tick that ignores it
     EXPECT_EQ(last_up(), 0);
     set([](test::FakeArm& arm) { arm.off_cause = 0; });
     for (int n = 0; n < 60; ++n) by.step();
@@ -778,7 +779,7 @@ TEST_F(OmegaTest, WhyForcesAreOffIsToldAndNothingIsPushedMeanwhile) {
   }
 }
 
-// What lets go when burr dies or stands still: 30 ms, a closer one is left as it is.
+// It releases the force when burr dies or hangs: 30 ms; a shorter timeout is left as it is.
 TEST_F(OmegaTest, TheArmsOwnWatchdogIsSetAndTheExpertModeClosedAgain) {
   for (const bool guarded : {false, true})
     for (const auto& [was, is] : {std::pair{0, 240}, {250, 240}, {80, 80}}) {
@@ -826,7 +827,7 @@ TEST_F(OmegaTest, PowerThatFailsIsToldAndAConnectionThatFailsIsALoss) {
   EXPECT_TRUE(has(by.omega.why(), "not connected")) << by.omega.why();
 }
 
-// Some model may leave all of it at zero.
+// Some model may leave the whole status at zero.
 TEST_F(OmegaTest, AStatusThatNeverSaidAnythingIsNotBelieved) {
   set([](test::FakeArm& arm) { arm.tells = false; });
   ByHand by;
@@ -837,7 +838,7 @@ TEST_F(OmegaTest, AStatusThatNeverSaidAnythingIsNotBelieved) {
 
 // ---- time
 
-// The tick stands for 50 ms: the last force fades within 5 ms of the loss, once, to zero.
+// The tick stops for 50 ms: the last force fades to zero, once, within 5 ms of the loss.
 TEST_F(OmegaTest, AStalledTickIsLetGoLinearly) {
   ByHand by;
   by.step({0, 2, 0});
@@ -856,7 +857,7 @@ TEST_F(OmegaTest, AStalledTickIsLetGoLinearly) {
   EXPECT_NEAR(sent[7], 1.2, 1e-9);
   EXPECT_EQ(sent[10], 0);
   EXPECT_EQ(sent.back(), 0);
-  // it goes on: nothing until it was at zero itself
+  // the tick continues: no force until it has been at zero itself
   by.step({0, 2, 0});
   EXPECT_FALSE(by.hand.valid);
   by.step({0, 2, 0});
@@ -867,7 +868,7 @@ TEST_F(OmegaTest, AStalledTickIsLetGoLinearly) {
   EXPECT_EQ(last_up(), 0.5);
 }
 
-// The arm stands for 50 ms in a write: the tick is told within the timeout.
+// The arm stops for 50 ms in a write: the tick knows it within the timeout.
 TEST_F(OmegaTest, AWireThatStandsIsALostHand) {
   ByHand by;
   by.step({0, 2, 0});
@@ -900,7 +901,7 @@ TEST_F(OmegaTest, ARunningSessionPushesAndLetsGo) {
   EXPECT_GT(of([](const test::FakeArm& arm) { return arm.forces.back().ns; }), 0);
 }
 
-// Ended in contact, begun again: not with the force of before.
+// Ended in contact and started again: not with the old force.
 TEST_F(OmegaTest, ASecondSessionBeginsWithNoForce) {
   std::unique_ptr<WireDevice> kept;
   WireDevice& device = made(kept, by_itself());
@@ -910,7 +911,7 @@ TEST_F(OmegaTest, ASecondSessionBeginsWithNoForce) {
     ASSERT_TRUE(test::soon([] { return last_up() == 0.04; }));
     device.close();
   }
-  device.write_force({0, 2, 0});  // of a tick that ends later than the device
+  device.write_force({0, 2, 0});  // from a tick that ends after the device was closed
   set([](test::FakeArm& arm) { arm.largest_force = 0; });
   ASSERT_TRUE(device.open().ok());
   const auto reads = of([](const test::FakeArm& arm) { return arm.reads; });
@@ -949,7 +950,7 @@ TEST_F(OmegaTest, PulledOutInContactItLetsGoAndComesBackByTheRamp) {
   set([](test::FakeArm& arm) { arm.present = false; });
   ASSERT_TRUE(test::soon([&] { return !device.trouble().empty(); }));
   ASSERT_TRUE(test::soon([&] { return tick.invalid() > 0; }));
-  // looked for in vain
+  // not found yet
   ASSERT_TRUE(test::soon([&] { return has(device.trouble(), "plug it in"); })) << device.trouble();
   EXPECT_FALSE(tick.engaged());
   const auto writes = of([](const test::FakeArm& arm) { return arm.writes; });
@@ -1030,7 +1031,8 @@ TEST_F(OmegaTest, AtAHundredHertzNothingIsPushed) {
   EXPECT_EQ(most, 0);
 }
 
-// Time may pass between two ticks as the machine likes, but never less than the device's tick.
+// Between two ticks there may be as much time as the machine needs, but never less than the
+// device's period.
 TEST_F(OmegaTest, AtFourKilohertzTheTickKeepsItsPace) {
   set([](test::FakeArm& arm) { arm.rate = 4000; });
   std::unique_ptr<WireDevice> kept;
@@ -1063,7 +1065,7 @@ TEST_F(OmegaTest, TwoAtOnceEachHasItsOwnForceAndItsOwnLoss) {
     EXPECT_TRUE(test::soon([] { return last_up() == 0.04 && last_force(1) == Vec3(0, 0.03, 0); }));
     set([](test::FakeArm& arm) { arm.present = false; });
     EXPECT_TRUE(test::soon([&] { return !first.trouble().empty(); }));
-    // the second has another index now
+    // the second one has another index now
     const auto writes = of([](const test::FakeArm& arm) { return arm.writes; }, 1);
     EXPECT_TRUE(test::soon(
         [&] { return of([](const test::FakeArm& arm) { return arm.writes; }, 1) > writes + 50; }));
@@ -1077,9 +1079,10 @@ TEST_F(OmegaTest, TwoAtOnceEachHasItsOwnForceAndItsOwnLoss) {
   second.close();
 }
 
-// ---- for long
+// ---- long runs
 
-// Whatever is wanted, and whatever the hand does, the wire never has more than the device bears.
+// Whatever is requested and whatever the hand does, the force on the wire never exceeds the
+// device's limit.
 TEST_F(OmegaTest, AMillionWildTicksNeverPassTheLimit) {
   ByHand by;
   const unsigned seed = std::random_device{}();
@@ -1105,7 +1108,7 @@ TEST_F(OmegaTest, AMillionWildTicksNeverPassTheLimit) {
     for (int k = 0; k < frames; ++k) by.frame();
     const HandState hand = by.link.state();
     std::uint32_t flags = 0;
-    if (dice < 20)  // for some hundred ticks, or it never grows
+    if (dice < 20)  // for some hundred ticks, otherwise the force never grows
       pull = std::pow(10.0, 3 * any(random)) * Vec3(any(random), any(random), any(random));
     Vec3 wanted = pull;
     if (dice == 9) wanted.setConstant(kInf);
@@ -1139,7 +1142,7 @@ TEST_F(OmegaTest, TheExchangeTakesNoMemoryAndNoLock) {
   set([](test::FakeArm& arm) { arm.gripper = true; });
   ByHand by;
   by.step();
-  // the false library takes memory of its own when it errs for the first time on a thread
+  // the fake library allocates memory when it first fails on a thread
   set([](test::FakeArm& arm) { arm.read_error = 8; });
   by.step();
   set([](test::FakeArm& arm) { arm.read_error = 0; });

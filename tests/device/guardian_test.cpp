@@ -1,5 +1,5 @@
-// What becomes of a device's last force when burr dies, hangs, or just ends: burr is a process that
-// the test forks and kills.
+// What happens to a device's last force when burr dies, hangs, or just ends. Here burr is a process
+// that the test forks and kills.
 #include "burr/device/guardian.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ namespace {
 using math::Vec3;
 using test::soon;
 
-// A burr of the test's own; begun before the test has threads.
+// A burr made by the test; started before the test has threads.
 class Burr {
  public:
   explicit Burr(const std::function<void()>& life) : process_(::fork()) {
@@ -56,7 +56,7 @@ class Pipe {
     ::close(ends_[1]);
   }
   [[nodiscard]] int in() const { return ends_[1]; }
-  // What has come within so long.
+  // What arrives within this time.
   [[nodiscard]] std::string read(int longest_ms) const {
     pollfd waits{ends_[0], POLLIN, 0};
     if (::poll(&waits, 1, longest_ms) <= 0) return {};
@@ -69,7 +69,7 @@ class Pipe {
   int ends_[2] = {-1, -1};
 };
 
-constexpr int kLongMs = 20'000;  // no machine needs it
+constexpr int kLongMs = 20'000;  // no machine needs so long
 
 TEST(Guardian, SaysNoForceWhenBurrIsKilled) {
   const Pipe device, ready;
@@ -99,11 +99,11 @@ TEST(Guardian, SaysNoForceWhileBurrHangsAndNoLonger) {
   burr.send(SIGSTOP);
   EXPECT_TRUE(device.read(kLongMs).starts_with("none\n"));
   burr.send(SIGCONT);
-  // what was said until it was seen to beat again, then silence
+  // messages sent until its beats were seen again, then silence
   EXPECT_TRUE(soon([&] { return device.read(300).empty(); }));
 }
 
-// The best of some tries: a machine that stalls makes each later.
+// The best of several tries, because a machine that stalls makes each later.
 TEST(Guardian, SeesAHangWithinAFractionOfASecond) {
   const auto seen_after = [] {
     const Pipe device, ready;
@@ -136,7 +136,7 @@ TEST(Guardian, DismissedItSaysNothingAndIsGone) {
     ASSERT_TRUE(guardian.ok()) << guardian.error().text;
     process = (*guardian)->process();
     for (const int deaf : {SIGINT, SIGTERM, SIGHUP}) ::kill(process, deaf);
-    ::usleep(50'000);  // before the first beat, after which it would be missed
+    ::usleep(50'000);  // before the first beat, after which its absence would count
     EXPECT_EQ(::waitpid(process, nullptr, WNOHANG), 0) << "it lives on";
     (*guardian)->beat();
     EXPECT_NE(::getsid(process), ::getsid(0)) << "a Ctrl-C in burr's terminal is not for it";
@@ -164,7 +164,7 @@ TEST(Guardian, WhatCannotGuardIsSaid) {
   EXPECT_NE(none.error().text.find("install burr again"), std::string::npos) << none.error().text;
 }
 
-// A robot's arm holds the last force it was given for ever; burr is killed in the middle of it.
+// A robot arm holds its last force for ever; burr is killed during that.
 TEST(Guardian, AnArmOnTheBusIsLetGoWhenBurrIsKilledOrStopped) {
   const int domain = test::quiet_domain();
   for (const int end : {SIGKILL, SIGSEGV, SIGSTOP}) {
@@ -189,7 +189,7 @@ TEST(Guardian, AnArmOnTheBusIsLetGoWhenBurrIsKilledOrStopped) {
   }
 }
 
-// Stopped it hangs, and goes on; killed it does not.
+// When it is stopped it hangs and continues later; when it is killed it does not.
 TEST(Guardian, APolhemIsLetGoWhileBurrHangsAndWhenItIsKilled) {
   const Pipe path;
   Burr burr([&] {
@@ -214,7 +214,7 @@ TEST(Guardian, APolhemIsLetGoWhileBurrHangsAndWhenItIsKilled) {
   EXPECT_TRUE(soon(rests));
 }
 
-// The program itself, milling, and then no more: asked to end, or ended.
+// The program itself, while milling, ends: by request, or killed.
 TEST(Guardian, TheProgramLetsGoHoweverItEnds) {
   const std::string program = BURR_BUILD_DIR "/burr";
   if (::access(program.c_str(), X_OK) != 0) GTEST_SKIP() << program << " is not built here";
@@ -226,7 +226,7 @@ TEST(Guardian, TheProgramLetsGoHoweverItEnds) {
       ::execl(program.c_str(), program.c_str(), "bench", "device", "block", "--voxel-mm", "0.5",
               "--echo-seconds", "1", "--seconds", "600", "--device", device.c_str(), nullptr);
     });
-    // into the bone once it has begun: burr lays the tip two centimetres above it, whenever that is
+    // into the bone once it has started: burr places the tip two centimetres above it at any time
     double mm = 0;
     const bool pushed = soon([&] {
       mm -= 0.02;

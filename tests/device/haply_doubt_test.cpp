@@ -1,4 +1,4 @@
-// What Haply's service may say that is not to be believed, or is to be believed at once.
+// Messages of Haply's service that must not be believed, or must be believed at once.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -20,7 +20,7 @@ using Commands = FakeHaply::Commands;
 class HaplyDoubt : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(wire_.connect().ok()); }
-  // What the service said after it was told so.
+  // The reading after the service has been changed.
   HandState next(int readings = 2) {
     HandState hand;
     for (int n = 0; n < readings;) {
@@ -72,7 +72,7 @@ TEST_F(HaplyDoubt, AnArmThatIsNotInAMessageIsUnpluggedAtOnce) {
   EXPECT_NE(wire_.why().find("unplugged"), std::string::npos) << wire_.why();
 }
 
-// The service has several arms: in a session one is not taken for another.
+// The service has several arms: within a session one arm is never taken for another.
 TEST_F(HaplyDoubt, AnotherArmThanBeforeIsNotTaken) {
   wire_.disconnect();
   WireDevice device(std::make_unique<Inverse>(
@@ -87,7 +87,7 @@ TEST_F(HaplyDoubt, AnotherArmThanBeforeIsNotTaken) {
   EXPECT_TRUE(soon([&] { return device.returns() == 1; })) << device.trouble();
 }
 
-// However late it answers, it is asked once: each answer belongs to one message.
+// However late it answers, burr sends one message: each answer belongs to one message.
 TEST_F(HaplyDoubt, TwoMessagesAreNeverUnderWay) {
   next();
   const int before = service_.messages;

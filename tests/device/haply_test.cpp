@@ -1,5 +1,5 @@
-// Haply's arm against a service that the test plays (fake/fake_haply.h), over the loopback as the
-// real one.
+// Haply's arm against a service that the test plays (fake/fake_haply.h), over the loopback
+// interface like the real one.
 #include "burr/device/haply/inverse.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ class InverseTest : public ::testing::Test {
     link.loss_timeout = loss_timeout;
     return std::make_unique<WireDevice>(std::make_unique<Inverse>(here(id)), link);
   }
-  // One exchange on a wire by hand; waits for the reading.
+  // One exchange on a wire without its thread; waits for the reading.
   static HandState exchange(Inverse& wire, const Vec3& force = Vec3::Zero()) {
     HandState hand;
     Wire::Read read = Wire::Read::nothing;
@@ -83,7 +83,7 @@ TEST_F(InverseTest, SaysWhatItIsAndWhatItCanBear) {
   }
 }
 
-// Theirs is x right, y forward, z up; ours x right, y up, z to the user.
+// The service: x right, y forward, z up; ours: x right, y up, z to the user.
 TEST_F(InverseTest, TenMillimetresAndANewtonAreThoseAlongEveryAxis) {
   Inverse wire(here());
   ASSERT_TRUE(wire.connect().ok());
@@ -99,7 +99,7 @@ TEST_F(InverseTest, TenMillimetresAndANewtonAreThoseAlongEveryAxis) {
     EXPECT_TRUE(hand.valid);
     EXPECT_NEAR((hand.world_from_tool.p - 0.01 * ours).norm(), 0, 1e-12);
     EXPECT_NEAR((hand.velocity - 0.2 * ours).norm(), 0, 1e-12);
-    exchange(wire, Vec3::Zero());  // its answer shows that the force before has come
+    exchange(wire, Vec3::Zero());  // its answer shows that the previous force has arrived
   }
   exchange(wire, {0.5, 1, 2});
   ASSERT_TRUE(soon([&] { return asked().norm() > 1; }));
@@ -111,9 +111,9 @@ TEST_F(InverseTest, TheHandleIsTheGripsBackAndItsButtonsMillAndLift) {
   ASSERT_TRUE(wire.connect().ok());
   exchange(wire);
   HandState hand = exchange(wire);
-  // it points forward, away from the user: the handle comes to the user
+  // it points forward, away from the user: the handle points to the user
   EXPECT_NEAR((hand.world_from_tool.q * Vec3::UnitZ() - Vec3::UnitZ()).norm(), 0, 1e-12);
-  // pointing down, a quarter turn about x: y to -z
+  // pointing down, a quarter turn about x: y becomes -z
   service_.with([](Commands& w) {
     w.orientation = Quat(Eigen::AngleAxisd(-M_PI / 2, Vec3::UnitX()));
     w.buttons = 5;
@@ -142,8 +142,8 @@ TEST_F(InverseTest, WithoutAGripTheToolStandsUpright) {
   EXPECT_NEAR((hand.world_from_tool.q * Vec3::UnitZ() - Vec3::UnitY()).norm(), 0, 1e-12);
 }
 
-// 3.5 takes "vector", before it was "values"; where the version lies, or is not told, what comes
-// back decides.
+// Since 3.5 the key is "vector", before it was "values". Where the version is wrong or missing, the
+// force that is reported back decides.
 TEST_F(InverseTest, TheSpellingOfAForceIsTheOneThatIsObeyed) {
   for (const auto& [version, key] : {std::pair{"3.5.0", "vector"},
                                      {"3.1.2", "values"},
@@ -387,7 +387,7 @@ TEST_F(InverseTest, TwoAtOnceEachHasItsOwnGrip) {
   EXPECT_NE(none.find("knows no grip RIGHT; it knows GRIP, LEFT"), std::string::npos) << none;
 }
 
-// Its last word may have been that a button is down.
+// Its last message may have said that a button is pressed.
 TEST_F(InverseTest, AGripThatIsGoneHoldsNoButton) {
   service_.with([](Commands& w) { w.more_grips = {{.id = "LEFT", .buttons = 1}}; });
   Inverse wire(here("", "LEFT"));
@@ -421,7 +421,8 @@ TEST_F(InverseTest, AtAHundredHertzNothingIsPushed) {
   service_.with([](Commands& w) { w.pace_ms = 10; });
   ASSERT_TRUE(soon([&] { return (tick.flags() & rt::kFlagHandLost) != 0; }));
   ASSERT_TRUE(soon([&] { return asked() == Vec3::Zero(); }));
-  // a machine that stalls for long loses the service, which is asked by a tiny force then: again
+  // a machine that stalls for long loses the service, which is then asked with a tiny force: try
+  // again
   double most = 0;
   EXPECT_TRUE(soon([&] {
     const int before = service_.messages, returns = arm->returns();
@@ -435,7 +436,7 @@ TEST_F(InverseTest, AtAHundredHertzNothingIsPushed) {
   EXPECT_EQ(most, 0);
 }
 
-// The service adds up what all sessions ask for.
+// The service adds the forces of all sessions.
 TEST_F(InverseTest, AnArmThatIsInUseIsLeftToItsProgram) {
   service_.with([](Commands& w) { w.arms[0].in_use = true; });
   const std::string said = refusal(here());
@@ -494,11 +495,11 @@ TEST_F(InverseTest, AnOldServiceIsToldByItsVersion) {
   EXPECT_EQ(service_.messages, 0);
 }
 
-// ---- what it tells besides
+// ---- events
 
 class InverseEventsTest : public InverseTest {
  protected:
-  // With exchanges going on, so that what is told is seen.
+  // With exchanges going on, so that the event is seen.
   bool says(Inverse& wire, const std::string& words) {
     return soon([&] {
       valid_ = exchange(wire).valid;
@@ -568,7 +569,7 @@ TEST_F(InverseEventsTest, OnlyItsOwnDevicesCount) {
     service_.tell_safety("ebrake_triggered", other);
   }
   service_.tell("device-busy", "049D");
-  EXPECT_TRUE(soon([&] {  // in order: what came before it has been left aside by then
+  EXPECT_TRUE(soon([&] {  // in order: by then, what came before it has been ignored
     const bool valid = exchange(wire).valid;
     EXPECT_TRUE(valid);
     EXPECT_EQ(wire.why().find("battery"), std::string::npos) << wire.why();
@@ -604,7 +605,7 @@ TEST_F(InverseEventsTest, AnEmergencyBrakeLetsGoUntilItIsReleasedAndForceReturns
   EXPECT_TRUE(soon([&] { return tick.engaged(); }));
 }
 
-// Nobody told that it was released, so nobody knows.
+// Nobody has reported its release, so it counts as not released.
 TEST_F(InverseEventsTest, ABrakeOutlivesItsChannelAndTheConnection) {
   Inverse wire(here());
   ASSERT_TRUE(wire.connect().ok());
@@ -689,7 +690,7 @@ TEST_F(InverseTest, AThousandTimesOpenedAndClosedNothingIsLeft) {
     return wire.connect().ok();
   };
   const auto ended = [&] { return service_.listeners == 0; };
-  for (int n = 0; n < 20; ++n) ASSERT_TRUE(once());  // what is taken for ever is taken
+  for (int n = 0; n < 20; ++n) ASSERT_TRUE(once());  // what is kept for ever is allocated now
   ASSERT_TRUE(soon(ended));
   const int files = test::open_files();
   const std::size_t memory = test::memory_in_use();
@@ -697,11 +698,11 @@ TEST_F(InverseTest, AThousandTimesOpenedAndClosedNothingIsLeft) {
   EXPECT_TRUE(soon([&] { return ended() && test::open_files() <= files; }))
       << test::open_files() << " open, " << files << " before";
   EXPECT_GE(service_.sessions, 1020);
-  // the false service keeps a few hundred bytes of each; a leaked connection has some kilobytes
+  // the fake service keeps a few hundred bytes of each; a leaked connection has some kilobytes
   EXPECT_LT(test::memory_in_use(), memory + 2'000'000);
 }
 
-// ---- the line
+// ---- the connection
 
 TEST_F(InverseTest, ALineThatIsNotConnectedTakesAndGivesNothing) {
   WebSocket line(1000);

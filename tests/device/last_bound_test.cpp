@@ -1,5 +1,5 @@
-// A tick that is mistaken: whatever it asks for, no driver passes on more than its device may be
-// asked for, and each lets go when it is closed in the middle of it.
+// A faulty tick: whatever force it asks for, no driver gives its device more than the limit, and
+// each driver releases the force when it is closed meanwhile.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -31,7 +31,7 @@ class Mistaken {
  private:
   void run() {
     rt::TickClock* clock = device_.clock(1000);
-    // a hand that was lost at first is pushed once the tick itself was at zero
+    // a hand that was lost at first gets a force only after the tick itself was at zero
     for (int tick = 0; !stop_; ++tick) {
       static_cast<void>(clock->wait());
       static_cast<void>(device_.state(1e-3));

@@ -1,4 +1,4 @@
-// The crossing between a wire and the tick, mostly by a clock that the test turns.
+// The link between a wire and the tick, mostly with a clock that the test advances.
 #include "burr/device/link.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using math::Vec3;
 
 std::atomic<std::int64_t> virtual_ns;
 std::int64_t virtual_now() { return virtual_ns; }
-// as above, and a tenth of a millisecond passes whenever somebody looks
+// as above, but every look at the clock takes a tenth of a millisecond
 std::int64_t passing_now() { return virtual_ns += 100'000; }
 
 void at(double ms) { virtual_ns = std::llround(1e6 * ms); }
@@ -30,7 +30,7 @@ HandState hand_at(double x) {
   return hand;
 }
 
-// One that nobody waits in: readings and answers as the test gives them.
+// A link on which nobody waits: the test gives readings and answers.
 struct Still {
   Link link{{.patience = 0}, &virtual_now};
   Still() { at(1000); }
@@ -44,7 +44,7 @@ struct Still {
     at(ms);
     return link.push().z();
   }
-  // a tick: what the hand says, and the answer
+  // a tick: the state of the hand, and its answer
   bool tick(double newton) {
     const bool valid = link.state().valid;
     link.write_force({0, 0, newton});
@@ -63,7 +63,7 @@ TEST(Link, TheForceOfAReadingGoesOutWithItHoweverLongTheTickTakes) {
       link.write_force({hand.world_from_tool.p.x(), 0, 0});
     }
   });
-  while (link.exchange(hand_at(-1)).x() != -1) {  // until somebody answers
+  while (link.exchange(hand_at(-1)).x() != -1) {  // until the servo answers
   }
   int wrong = 0;
   for (int n = 1; n <= kReadings; ++n) wrong += link.exchange(hand_at(n)).x() != n;
@@ -78,7 +78,7 @@ TEST(Link, AForceWithoutAnswersStandsForAWhileAndThenFadesOnce) {
   EXPECT_TRUE(still.tick(2));
   EXPECT_EQ(still.exchange(1001), 2);
   EXPECT_EQ(still.exchange(1005.9), 2);  // taken at 1001
-  EXPECT_EQ(still.exchange(1006), 2);    // detected
+  EXPECT_EQ(still.exchange(1006), 2);    // loss detected
   EXPECT_NEAR(still.exchange(1007), 1.6, 1e-12);
   EXPECT_NEAR(still.push(1008.5), 1.0, 1e-12);
   EXPECT_NEAR(still.exchange(1010.75), 0.1, 1e-12);
@@ -92,8 +92,8 @@ TEST(Link, ForceComesBackOnlyAfterTheTickItselfWasAtZero) {
   still.tick(2);
   still.exchange(1001);
   still.exchange(1010);
-  still.exchange(1020);         // it has let go
-  EXPECT_FALSE(still.tick(2));  // the tick learns it, and comes down in its own time
+  still.exchange(1020);         // it has released the force
+  EXPECT_FALSE(still.tick(2));  // the tick sees the loss, and comes down at its own pace
   EXPECT_EQ(still.exchange(1021), 0);
   EXPECT_TRUE(still.tick(1.5));
   EXPECT_EQ(still.exchange(1022), 0);
@@ -103,19 +103,19 @@ TEST(Link, ForceComesBackOnlyAfterTheTickItselfWasAtZero) {
   EXPECT_NEAR(still.exchange(1024), 0.06, 1e-15);
 }
 
-// A zero that was written in ignorance, before the loss was known, is no sign of it.
+// A zero that was written before the loss was known does not show that the servo knows it.
 TEST(Link, AZeroFromBeforeTheLossDoesNotCount) {
   Still still;
   still.exchange(1000);
   still.tick(2);
   still.exchange(1001);
   still.link.lose();
-  still.tick(0);  // has seen it: the reading was invalid
+  still.tick(0);  // it has seen the loss: the reading was invalid
   still.exchange(1002);
   EXPECT_EQ(still.push(1002.5), 0);
   still.link.lose();
   EXPECT_EQ(still.push(1003), 0);
-  still.link.write_force({0, 0, 0});  // of the reading before
+  still.link.write_force({0, 0, 0});  // for the previous reading
   EXPECT_EQ(still.push(1003.1), 0);
   still.link.write_force({0, 0, 3});
   EXPECT_EQ(still.push(1003.2), 0) << "the tick has not seen the second loss yet";
@@ -211,7 +211,7 @@ TEST(LinkClock, BeginsWithTheReadingAndCountsWhatDidNotCome) {
   LinkClock clock(link, 1000);
   const double comes[] = {1000, 1001, 1002.2, 1006, 1007};
   const std::int64_t missed[] = {0, 0, 0, 3, 0};
-  const double after[] = {0, 0.1, 0, 0.3, 0};  // its reading came
+  const double after[] = {0, 0.1, 0, 0.3, 0};  // delay of its reading
   for (int n = 0; n < 5; ++n) {
     at(comes[n]);
     static_cast<void>(link.exchange(hand_at(n)));
@@ -223,8 +223,8 @@ TEST(LinkClock, BeginsWithTheReadingAndCountsWhatDidNotCome) {
   }
 }
 
-// More readings than ticks: a second of ticks is a second, each as long after the one before as
-// readings allow. One each, a little too fast: all are taken.
+// More readings than ticks: a second of ticks is a second, and ticks are as even as the readings
+// allow. One reading a tick, a little too fast: all are taken.
 TEST(LinkClock, ADeviceThatIsFasterThanTheTickGivesItWhatItCanUse) {
   for (const double rate : {8000.0, 4300.0, 4000.0, 2000.0, 1500.0, 1200.0, 1050.0, 1000.0}) {
     Link link({.patience = 0}, &virtual_now);
@@ -251,7 +251,7 @@ TEST(LinkClock, ADeviceThatIsFasterThanTheTickGivesItWhatItCanUse) {
   }
 }
 
-// A stall is not made up for by ticks in haste.
+// A stall is not made up for by faster ticks.
 TEST(LinkClock, AfterAStallItIsNoFaster) {
   Link link({.patience = 0}, &virtual_now);
   LinkClock clock(link, 1000);
@@ -267,7 +267,7 @@ TEST(LinkClock, AfterAStallItIsNoFaster) {
   EXPECT_NEAR(ticks, 100, 2);
 }
 
-// One reading a tick, now 0.6 ms after the one before and now 1.4: each begins one.
+// One reading a tick, 0.6 ms or 1.4 ms after the previous one: each begins a tick.
 TEST(LinkClock, ReadingsThatComeUnevenlyEachBeginATickOnceTheirPaceIsKnown) {
   Link link({.patience = 0}, &virtual_now);
   LinkClock clock(link, 1000);
@@ -298,7 +298,7 @@ TEST(LinkClock, GoesOnWithoutReadingsSoThatForceCanFade) {
   static_cast<void>(link.exchange(hand_at(1)));
   static_cast<void>(clock.wait());
   EXPECT_TRUE(link.state().valid);
-  const rt::TickTime first = clock.wait();  // waits out the timeout
+  const rt::TickTime first = clock.wait();  // waits for the timeout
   EXPECT_NEAR(1e-6 * static_cast<double>(first.since_last_ns), 5, 0.5);
   EXPECT_EQ(first.missed, 4);
   EXPECT_FALSE(link.state().valid);
@@ -309,7 +309,7 @@ TEST(LinkClock, GoesOnWithoutReadingsSoThatForceCanFade) {
   }
 }
 
-// ---- the last bound of a wire
+// ---- the last limit of a wire
 
 TEST(Bounded, AMillionForcesOfAnySizeKeepTheirDirectionOrAreNone) {
   const unsigned seed = std::random_device{}();
@@ -360,7 +360,7 @@ TEST(Link, ATorqueGoesWithItsForceAndFadesWithIt) {
   EXPECT_NEAR(twist(), 0.06, 1e-12);
   EXPECT_EQ(still.exchange(1011), 0);
   EXPECT_EQ(twist(), 0);
-  tick(0, 0.1);  // a torque alone is no letting go
+  tick(0, 0.1);  // a torque alone does not mean that the force was released
   EXPECT_EQ(still.exchange(1012), 0);
   EXPECT_EQ(twist(), 0);
   tick(0, 0);
@@ -368,7 +368,7 @@ TEST(Link, ATorqueGoesWithItsForceAndFadesWithIt) {
   tick(0, 0.1);
   still.exchange(1014);
   EXPECT_EQ(twist(), 0.1);
-  still.tick(1);  // that says nothing of torque
+  still.tick(1);  // writes no torque
   EXPECT_EQ(still.exchange(1015), 1);
   EXPECT_EQ(twist(), 0);
   tick(0, 0.1);

@@ -1,4 +1,4 @@
-// `burr devices` as a user runs it: the program itself, with false devices around it.
+// `burr devices` as a user runs it: the program itself with fake devices.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -20,7 +20,7 @@ using nlohmann::json;
 const std::string kProgram = BURR_BUILD_DIR "/burr";
 const std::string kFakes = BURR_BUILD_DIR "/fakes/";
 
-// A variable of the environment while this lives; the program inherits it.
+// An environment variable, set while this object lives; the program inherits it.
 class Variable {
  public:
   Variable(const char* name, const std::string& value) : name_(name) {
@@ -49,7 +49,7 @@ class ListingTest : public ::testing::Test {
   void SetUp() override {
     if (::access(kProgram.c_str(), X_OK) != 0) GTEST_SKIP() << kProgram << " is not built here";
   }
-  // Those of a kind, as the program has them.
+  // The devices of one kind, as the program names them.
   static json of_kind(const json& all, const std::string& kind) {
     json found = json::array();
     for (const json& one : all)

@@ -1,4 +1,4 @@
-// A real hand laid over the bone: axes, scale, clutch, and what touch may ask of it.
+// A real hand mapped into the world: axes, scale, clutch, and the limits for touch.
 #include "burr/device/mapping.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 using math::Quat;
 using math::Vec3;
 
-// Is where it is put, and remembers how it is pushed.
+// Stays where it is put, and remembers the force.
 class Stub final : public Device {
  public:
   Status open() override { return fine(); }
@@ -33,7 +33,8 @@ class Stub final : public Device {
 };
 
 const Vec3 kStart = {0.01, 0.02, 0.03};
-// from above, head up: right is right, the view's up is away from the viewer's feet
+// view from above with the head up: right is right, the view's up points away from the viewer's
+// feet
 const Quat kTurn = Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()));
 
 struct Laid {
@@ -68,7 +69,8 @@ TEST(MappedHand, TenMillimetresAreTenAlongTheAxesOfTheView) {
   }
 }
 
-// What the hand feels of a wall of k at the tip is k times the scale: never more than it bears.
+// The hand feels a wall of stiffness k at the tip as k times the scale: never more than the device
+// allows.
 TEST(MappedHand, AScaledHandFeelsNoWallStifferThanItCanShow) {
   for (const double scale : {0.25, 1.0, 4.0}) {
     Laid laid({.scale = scale});
@@ -116,7 +118,7 @@ TEST(MappedHand, LiftedTheTipStaysAndGoesOnFromThere) {
   EXPECT_TRUE((laid.hand->state(1e-3).buttons & kLifted) != 0);
 }
 
-// While something is pushed a turned view would turn the push at once.
+// While there is a force, turning the view would turn the force at once.
 TEST(MappedHand, TheAxesFollowTheViewOnlyInFreeAirAndTheTipStays) {
   Laid laid;
   const Vec3 before = laid.tip();
@@ -144,7 +146,7 @@ TEST(MappedHand, WhereverALostHandComesBackTheTipIsWhereItWas) {
   EXPECT_NEAR((laid.tip() - before).norm(), 0, 1e-12);
 }
 
-// Not mended here: the safety layer is to see it.
+// Not corrected here, because the safety layer must see it.
 TEST(MappedHand, WhatIsNoPlaceStaysNone) {
   Laid laid;
   laid.stub->hand.world_from_tool.p.x() = std::numeric_limits<double>::quiet_NaN();
@@ -177,7 +179,7 @@ TEST(MappedHand, ADevicesAxesAreAsItStands) {
     EXPECT_NEAR((laid.stub->pushed - 100 * by).norm(), 0, 1e-12);
     laid.hand->write_force(Vec3::Zero());
   }
-  laid.hand->lay(Quat::Identity());  // the view turned: the device stands as it stood
+  laid.hand->lay(Quat::Identity());  // the view was turned; the device has not moved
   static_cast<void>(laid.tip());
   const Vec3 before = laid.tip();
   laid.move({0.01, 0, 0});
@@ -234,7 +236,7 @@ TEST(MappedHand, OfTheFootAndTheDevicesOwnPedalTheLargerCounts) {
   EXPECT_EQ(pedal(), 0.8);
 }
 
-// Whoever presses, by whatever of the three, is there.
+// Pressing any of the three shows that the user is there.
 TEST(MappedHand, TheDeadManIsAwakeByButtonFootOrTheDevicesOwnPedal) {
   Laid laid({.dead_man = true});
   const auto lifted = [&] { return (laid.hand->state(1e-3).buttons & kLifted) != 0; };
@@ -251,7 +253,7 @@ TEST(MappedHand, TheDeadManIsAwakeByButtonFootOrTheDevicesOwnPedal) {
   EXPECT_FALSE(lifted());
 }
 
-// What fades goes on pushing the way it pushed, lifted or not.
+// A fading force keeps its direction, whether the hand is lifted or not.
 TEST(MappedHand, TheAxesOfAForceThatFadesAreThoseItBeganWith) {
   Laid laid;
   laid.tip();

@@ -1,4 +1,4 @@
-// The Touch against a libHD.so that the test plays (fake/fake_hd.h), loaded as the real one is.
+// The Touch against a libHD.so that the test plays (fake/fake_hd.h), loaded like the real one.
 #include "burr/device/openhaptics/touch.h"
 
 #include <dlfcn.h>
@@ -70,7 +70,7 @@ class TouchTest : public ::testing::Test {
     const std::lock_guard lock(fake().hd->mutex);
     return look(*fake().hd);
   }
-  // With no frames but those the test asks for, and no time but the test's.
+  // The test makes each frame and advances time.
   static TouchSettings by_hand() {
     with_hd([](test::FakeHd& hd) { hd.rate = 0; });
     virtual_ns = 1'000'000'000;
@@ -150,7 +150,7 @@ TEST_F(TouchTest, SaysWhatItIsAndWhatItCanBear) {
   EXPECT_EQ(touch.spec().software, "HD API 3.0");
 }
 
-// Three taps: 10 mm along each axis, and a push back along the same.
+// Three movements of 10 mm, one along each axis, each with a force back along that axis.
 TEST_F(TouchTest, TenMillimetresAndANewtonAreThoseAlongEveryAxis) {
   Touch touch(by_hand());
   ASSERT_TRUE(touch.open().ok());
@@ -191,7 +191,7 @@ TEST_F(TouchTest, APremiumWithSixMotorsIsTurnedInMillinewtonMetres) {
   EXPECT_NEAR(twisted({0, 3, 4}).norm(), 188, 1e-9);
   EXPECT_EQ(twisted(Vec3::Zero()), Vec3::Zero());
 
-  // one that counts six and takes none after all goes on without
+  // a device that reports six degrees of freedom but takes no torque works without
   set([](test::FakeTouch& one) {
     one.takes_torque = false;
     one.torques = 0;
@@ -222,7 +222,7 @@ TEST_F(TouchTest, WhatHasThreeMotorsOrDoesNotSayIsNotTurned) {
 TEST_F(TouchTest, ReadsHowItIsTurnedItsSpeedAndItsButtons) {
   Touch touch(by_hand());
   ASSERT_TRUE(touch.open().ok());
-  // a quarter turn about y, column after column, with the small errors such a library gives
+  // a quarter turn about y, column by column, with small errors as such a library has them
   set([](test::FakeTouch& one) {
     one.transform = {1e-4, 0, -1.0002, 0, 0, 0.9999, 0, 0, 1, 1e-4, 0, 0, 0, 0, 0, 1};
     one.velocity = {100, -50, 25};
@@ -238,7 +238,7 @@ TEST_F(TouchTest, ReadsHowItIsTurnedItsSpeedAndItsButtons) {
   });
 }
 
-// A whole session by the library's own thread, and the force of a reading on the wire in its frame.
+// A whole session on the library's own thread, with the force of a reading in the library's frame.
 TEST_F(TouchTest, ARunningSessionPushesAndLetsGo) {
   Touch touch(by_itself());
   ASSERT_TRUE(touch.open().ok());
@@ -331,7 +331,7 @@ TEST_F(TouchTest, WhatIsNoReadingIsNotBelieved) {
   bad([](test::FakeTouch& one) { one.velocity[1] = std::numeric_limits<double>::quiet_NaN(); });
 }
 
-// What the device cut off by itself comes back by the start ramp only.
+// A force that the device switched off returns only through the start ramp.
 TEST_F(TouchTest, AForceThatTheDeviceRefusedIsLetGo) {
   for (const unsigned code : {0x0201U, 0x0202U, 0x0203U, 0x0204U, 0x0300U, 0x0302U}) {
     Touch touch(by_hand());
@@ -349,7 +349,7 @@ TEST_F(TouchTest, AForceThatTheDeviceRefusedIsLetGo) {
     for (int n = 0; n < 10; ++n) {
       step(touch, [&](const HandState& hand) {
         learnt = learnt || !hand.valid;
-        return Vec3(0, 2, 0);  // a tick that does not care
+        return Vec3(0, 2, 0);  // a tick that ignores it
       });
       EXPECT_EQ(last_force(), Vec3::Zero());
     }
@@ -388,7 +388,7 @@ TEST_F(TouchTest, EveryErrorCodeHasWordsOfItsOwn) {
   EXPECT_EQ(words(0), "");
 }
 
-// A library that errs without end must not keep its own thread for ever.
+// A library that reports errors without end must not block its own thread.
 TEST_F(TouchTest, PulledOutInContactItLetsGoAndComesBackByTheRamp) {
   Touch touch(by_itself());
   ASSERT_TRUE(touch.open().ok());
@@ -400,7 +400,7 @@ TEST_F(TouchTest, PulledOutInContactItLetsGoAndComesBackByTheRamp) {
   set([](test::FakeTouch& one) { one.present = false; });
   ASSERT_TRUE(test::soon([&] { return tick.invalid() > 0; }));
   ASSERT_TRUE(test::soon([&] { return !touch.trouble().empty(); }));
-  // opened anew in vain, then found again
+  // tried in vain, then found again
   ASSERT_TRUE(test::soon([&] { return !is_open(0); }));
   EXPECT_FALSE(tick.engaged());
   const auto frames = frames_now();
@@ -449,7 +449,7 @@ TEST_F(TouchTest, AtAHundredHertzNothingIsPushed) {
   touch.close();
 }
 
-// The tick stands for 50 ms: the last force fades within 5 ms of the loss, once, to zero.
+// The tick stops for 50 ms: the last force fades to zero, once, within 5 ms of the loss.
 TEST_F(TouchTest, AStalledTickIsLetGoLinearly) {
   Touch touch(by_hand());
   ASSERT_TRUE(touch.open().ok());
@@ -520,7 +520,8 @@ TEST_F(TouchTest, TwoAtOnceEachHasItsOwnForce) {
   second.close();
 }
 
-// Whatever is wanted, and whatever the hand does, the wire never has more than the device bears.
+// Whatever is requested and whatever the hand does, the force on the wire never exceeds the
+// device's limit.
 TEST_F(TouchTest, AMillionWildTicksNeverPassTheLimit) {
   Touch touch(by_hand());
   ASSERT_TRUE(touch.open().ok());
@@ -545,7 +546,7 @@ TEST_F(TouchTest, AMillionWildTicksNeverPassTheLimit) {
     set([](test::FakeTouch& one) { one.frame_error = 0; });
     const HandState hand = touch.state(1e-3);
     std::uint32_t flags = 0;
-    if (dice < 20)  // for some fifty ticks, or it never grows
+    if (dice < 20)  // for some fifty ticks, otherwise the force never grows
       pull = std::pow(10.0, 3 * any(random)) * Vec3(any(random), any(random), any(random));
     Vec3 wanted = pull;
     if (dice == 7) wanted.setConstant(std::numeric_limits<double>::infinity());

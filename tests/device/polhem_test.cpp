@@ -64,11 +64,11 @@ TEST_F(PolhemTest, SaysWhatItIsAndWhatItCanBear) {
   EXPECT_EQ(arm->trouble(), "");
 }
 
-// Theirs is x to the user, y right, z up; ours x right, y up, z to the user.
+// The arm: x to the user, y right, z up; ours: x right, y up, z to the user.
 TEST_F(PolhemTest, TenMillimetresAndANewtonAreThoseAlongEveryAxis) {
   Polhem wire(here());
   ASSERT_TRUE(wire.connect().ok());
-  const Vec3 ways[] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};  // ours, of their x, y, z
+  const Vec3 ways[] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};  // ours, for its x, y, z
   for (int axis = 0; axis < 3; ++axis) {
     arm_.with([&](Commands& w) {
       for (int other = 0; other < 3; ++other) w.mm[other] = other == axis ? 10 : 0;
@@ -113,11 +113,12 @@ TEST_F(PolhemTest, TheHandleIsTheStylus) {
     for (int n = 0; n < 3; ++n) next(wire);
     return Vec3(next(wire).world_from_tool.q * Vec3::UnitZ());
   };
-  // a quarter about their z, up: from their x to their y, our right
+  // a quarter turn about its z, up: from its x to its y, our right
   EXPECT_NEAR((handle(1.5708, 0, 0, 0) - Vec3::UnitX()).norm(), 0, 1e-4);
-  // lambda lifts it: about y against its turn, their x to their z, our up
+  // lambda lifts it: about y in the negative direction, its x to its z, our up
   EXPECT_NEAR((handle(0, 1.5708, 0, 0) - Vec3::UnitY()).norm(), 0, 1e-4);
-  // tE sinks it, after tD has laid that to one side: -z about x by a quarter is y, our right
+  // tE lowers it, after tD has turned that to one side: -z rotated about x by a quarter is y, our
+  // right
   EXPECT_NEAR((handle(0, 0, 0, 1.5708) + Vec3::UnitY()).norm(), 0, 1e-4);
   EXPECT_NEAR((handle(0, 0, 1.5708, 1.5708) - Vec3::UnitX()).norm(), 0, 1e-4);
 }

@@ -24,8 +24,8 @@ using math::Quat;
 using math::Vec3;
 using test::soon;
 constexpr double kMm = 1e-3;
-constexpr double kWall = 400;      // that all of them can show [N/m]
-constexpr double kUnfelt = 0.021;  // by which Haply's service is asked how a force is spelt [N]
+constexpr double kWall = 400;      // stiffness that all of them can show [N/m]
+constexpr double kUnfelt = 0.021;  // force by which Haply's service is asked for its spelling [N]
 
 class WholeSession : public ::testing::TestWithParam<test::Driver> {
  protected:
@@ -35,7 +35,8 @@ class WholeSession : public ::testing::TestWithParam<test::Driver> {
     EXPECT_LE(player_->largest(), player_->limit() + 1e-3) << "a wire's last digit beyond";
   }
 
-  // A slab whose top is z = 0, seen from above: the hand's up is world z. The burr is 2 mm over it.
+  // A slab whose top is z = 0, seen from above: the hand's up is world z. The burr is 2 mm above
+  // it.
   void begin(double patience = LinkSettings().patience, double stiffness = kWall) {
     LinkSettings link;
     link.loss_timeout = test::kStallsAllowed;
@@ -46,7 +47,8 @@ class WholeSession : public ::testing::TestWithParam<test::Driver> {
     hand_ = hand.get();
     sim::SessionSettings requested = test::slab_settings();
     requested.servo.force.stiffness = stiffness;
-    requested.servo.limit.user_force = 100;  // the device's own limit is what is asked about
+    requested.servo.limit.user_force = 100;  // high, because the test is about the device's own
+                                             // limit
     auto made = test::slab_session(std::move(hand), requested);
     ASSERT_TRUE(made.ok()) << made.error().text;
     session_ = std::move(*made);
@@ -58,7 +60,7 @@ class WholeSession : public ::testing::TestWithParam<test::Driver> {
     static_cast<void>(session_->view(row_));
     return row_;
   }
-  // The hand goes up or down as a hand would, at 50 mm/s; its y, since the beginning.
+  // Moves the hand up or down at 50 mm/s; y_mm: from the start.
   void go(double y_mm) {
     const double step = y_mm > y_mm_ ? 0.05 : -0.05;
     const auto way = static_cast<int>(std::lround(std::abs(y_mm - y_mm_) / 0.05));
@@ -69,7 +71,7 @@ class WholeSession : public ::testing::TestWithParam<test::Driver> {
     }
     y_mm_ = y_mm;
   }
-  // To 2.5 mm in the bone: a newton.
+  // To 2.5 mm inside the bone: one newton.
   [[nodiscard]] bool press() {
     go(-4.5);
     return soon([&] { return player_->force().y() > 0.9; });
@@ -77,14 +79,14 @@ class WholeSession : public ::testing::TestWithParam<test::Driver> {
   [[nodiscard]] bool let_go() {
     return soon([&] { return player_->force() == Vec3::Zero(); });
   }
-  // By its own button, or by a pedal beside it.
+  // By its own button, or by a separate pedal.
   void mill(bool down) {
     if (!player_->mill(down)) hand_->press(down ? 1 : 0);
   }
   void clutch(bool down) {
     if (!player_->clutch(down)) hand_->lift(down);
   }
-  // So many ticks go by.
+  // Waits for this number of ticks.
   [[nodiscard]] bool ticks(std::uint64_t count) {
     const std::uint64_t now = row().tick;
     return soon([&] { return row().tick > now + count; });
@@ -174,8 +176,8 @@ TEST_P(WholeSession, AStopFromOutsideIsAsALift) {
   EXPECT_EQ(player_->force(), Vec3::Zero());
 }
 
-// The wire waits for its tick here, so that only readings between two ticks have no force of their
-// own: what is late in the middle of many steps is not the machine.
+// Here the wire waits for its tick, so that only readings between two ticks have no force of their
+// own: a force that is late for many readings is not the machine's fault.
 TEST_P(WholeSession, AForceIsOfTheReadingItGoesWith) {
   begin(test::kStallsAllowed / 2);
   ASSERT_TRUE(press());
@@ -203,7 +205,7 @@ TEST_P(WholeSession, AForceIsOfTheReadingItGoesWith) {
   EXPECT_LE(late[20], player_->most_late());
 }
 
-// As deep as a hand can go into the hardest wall that it can show.
+// As deep as a hand can go into the hardest wall that the device can show.
 TEST_P(WholeSession, NothingPassesTheDevicesLimit) {
   begin(LinkSettings().patience, 1e6);
   go(-3);

@@ -1,6 +1,5 @@
-// A device that says nothing any more is lost within a fifth of a second, whatever its wire.
-// Counted in readings that did not come, each waited for 2 ms: a machine that stalls makes them
-// fewer.
+// A device that has fallen silent is lost within 0.2 s, whatever its wire. Counted in readings that
+// did not come, each of which is awaited for 2 ms: a machine that stalls makes them fewer.
 #include "burr/device/silence.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +36,7 @@ TEST(Silence, IsWhatWasListenedToAndNotAMachineThatStoodStill) {
   }
 }
 
-// Until it is lost; how many readings did not come.
+// Runs until the device is lost; returns how many readings did not come.
 int readings_until_lost(Wire& wire, const char* words) {
   HandState hand;
   for (int nothing = 0; nothing < 10 * kReadings;) {

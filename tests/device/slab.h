@@ -1,4 +1,4 @@
-// A slab whose top is z = 0, and a session by the clock with a ball of 2 mm over it.
+// A slab whose top is z = 0, and a session in real time with a ball of 2 mm above it.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// A tick without bone: reads the hand, bounds the force it wants and writes it, at the device's own
-// pace and on a thread of its own, as a session would.
+// A tick without bone: reads the hand, limits the requested force and writes it, at the device's
+// own pace and on a thread of its own, as a session would.
 #pragma once
 
 #include <malloc.h>
@@ -17,13 +17,13 @@
 
 namespace burr::test {
 
-// For tests by the clock that are not about loss: a machine that stalls for a moment, as test
-// machines do, lets no hand go.
+// For tests in real time that are not about loss: a machine that stalls for a moment, as test
+// machines do, does not release the force.
 inline constexpr double kStallsAllowed = 0.5;  // [s]
 
 class StandIn {
  public:
-  using Want = std::function<math::Vec3(const device::HandState&)>;  // on the tick's thread
+  using Want = std::function<math::Vec3(const device::HandState&)>;  // called on the tick's thread
 
   StandIn(device::Device& device, Want want, haptics::LimitSettings limit = {})
       : device_(device),
@@ -46,7 +46,7 @@ class StandIn {
     return hand_;
   }
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
-  [[nodiscard]] std::uint64_t invalid() const { return invalid_; }  // readings
+  [[nodiscard]] std::uint64_t invalid() const { return invalid_; }  // number of invalid readings
   [[nodiscard]] std::uint32_t flags() const { return flags_; }
   [[nodiscard]] bool engaged() const { return engaged_; }
 
@@ -83,14 +83,14 @@ class StandIn {
   std::thread thread_;
 };
 
-// Forces that go over a real wire: a sanitizer makes each slow.
+// Number of forces over a real wire: a sanitizer makes each slow.
 #if defined(BURR_SANITIZED)
 inline constexpr int kForcesOnAWire = 50'000;
 #else
 inline constexpr int kForcesOnAWire = 1'000'000;
 #endif
 
-// Descriptors of this process.
+// Open file descriptors of this process.
 [[nodiscard]] inline int open_files() {
   int count = 0;
   for ([[maybe_unused]] const auto& one : std::filesystem::directory_iterator("/proc/self/fd"))
@@ -98,12 +98,12 @@ inline constexpr int kForcesOnAWire = 1'000'000;
   return count;
 }
 
-// Of malloc's, of this process [byte]; 0 where a sanitizer has its own.
+// Memory that malloc has given to this process [byte]; 0 where a sanitizer has its own malloc.
 [[nodiscard]] inline std::size_t memory_in_use() {
   return ::mallinfo2().uordblks + ::mallinfo2().hblkhd;
 }
 
-// Until it is so; false: not within a time that no machine needs.
+// Waits until so() is true; false: not within a time that every machine can keep.
 [[nodiscard]] inline bool soon(const std::function<bool()>& so,
                                std::chrono::seconds longest = std::chrono::seconds(60)) {
   const auto until = std::chrono::steady_clock::now() + longest;

@@ -1,4 +1,4 @@
-// What the Touch's library may do that its driver has to notice by itself.
+// Faults of the Touch's library that its driver must notice by itself.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -43,7 +43,7 @@ TEST_F(TouchDoubt, ALibraryThatCallsNoMoreIsOpenedAnew) {
   };
   ASSERT_EQ(with([](test::FakeHd& one) { return one.touch[0].opened; }), 1U);
   with([](test::FakeHd& one) { return one.rate = 0; });
-  // a second of silence, looked for twice a second
+  // a second of silence, checked twice a second
   EXPECT_TRUE(soon([&] { return with([](test::FakeHd& one) { return one.touch[0].opened; }) > 1; },
                    std::chrono::seconds(6)));
   with([](test::FakeHd& one) { return one.rate = 1000; });

@@ -1,4 +1,4 @@
-// Two false Touches in one session by the clock: the burr, and a second hand that feels the bone.
+// Two fake Touches in one session in real time: the burr, and a second hand that feels the bone.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ class TwoHands : public ::testing::Test {
     static_cast<void>(session_->second_hand()->view().take(second_));
     return second_;
   }
-  // Down by so much, at 50 mm/s.
+  // Down by this distance, at 50 mm/s.
   void down(std::size_t which, double mm) {
     for (double at = 0; at <= mm; at += 0.05) {
       {
@@ -93,10 +93,10 @@ class TwoHands : public ::testing::Test {
 };
 
 TEST_F(TwoHands, EachFeelsTheBoneWhereItIs) {
-  down(1, 4.5);  // a ball of 1.5 mm, 2 mm into the bone, 400 N/m
+  down(1, 4.5);  // a ball of 1.5 mm, 2 mm inside the bone, 400 N/m
   EXPECT_TRUE(soon([&] { return up(1) > 0.7 && up(1) < 0.9; })) << up(1);
   EXPECT_EQ(up(0), 0);
-  down(0, 3.5);  // one of 2 mm, 1.5 mm in
+  down(0, 3.5);  // a ball of 2 mm, 1.5 mm inside
   EXPECT_TRUE(soon([&] { return up(0) > 0.5 && up(0) < 0.7; })) << up(0);
   EXPECT_TRUE(soon([&] { return up(1) > 0.7 && up(1) < 0.9; })) << up(1);
   EXPECT_EQ(first().ledger.removed, 0);

@@ -1,4 +1,4 @@
-// Forces of any size, and some that are none at all, over a real wire.
+// Forces of any size, also infinite and NaN, over a real wire.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,8 +29,8 @@ class WildForces {
   int n_ = 0;
 };
 
-// So many of them, each with a reading of its own. A machine that stands still for longer than a
-// device may be silent loses it: then it is opened again, a few times.
+// Writes `count` of them, each after a reading. A machine that stands still for longer than a
+// device may be silent loses the device; then it is opened again, a few times.
 inline void push_wildly(device::Wire& wire, int count, WildForces& forces) {
   int lost = 0;
   for (int n = 0; n < count;) {

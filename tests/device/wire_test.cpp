@@ -1,4 +1,4 @@
-// What every device behind a wire of its own has in common (device/wire.h).
+// What all devices on a wire of their own have in common (device/wire.h).
 #include "burr/device/wire.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using test::soon;
 
 class EveryLoss : public ::testing::TestWithParam<test::Driver> {};
 
-// With a timeout that no test waits for: it is the driver that tells.
+// With a timeout longer than any test: the driver itself must report the loss.
 TEST_P(EveryLoss, IsToldAtOnceAndNotOnlyByTheTimeout) {
   const auto player = GetParam().player();
   LinkSettings link;
@@ -33,7 +33,7 @@ TEST_P(EveryLoss, IsToldAtOnceAndNotOnlyByTheTimeout) {
 
 INSTANTIATE_TEST_SUITE_P(Every, EveryLoss, test::every_driver(), test::name_of);
 
-// A device whose writing waits for nothing: the wire rests all the same.
+// A device whose write does not wait: the wire pauses all the same.
 class Hurried final : public Wire {
  public:
   explicit Hurried(std::atomic<int>& readings) : readings_(readings) {}

@@ -1,4 +1,4 @@
-// What a user preferences of each device, kept by its serial number.
+// The settings that a user keeps for each device, by its serial number.
 #include "workshop/device_book.h"
 
 #include "burr/device/axes.h"

@@ -1,4 +1,4 @@
-// The last ticks before a fault, on disk.
+// The ticks before a fault, as a file.
 #include "workshop/fault_file.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A device tried by a hand that does what it is told; the device is one that the test plays.
+// A device that is tried by a hand that follows the instructions; the test plays the device.
 #include "devices/trial.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace {
 
 using math::Vec3;
 
-// Moves as the last words ask, a tick at a time: no clock but the ticks'. `axes`: how it is wrongly
-// mounted.
+// Moves as the last instruction says, tick by tick, without another clock. `axes`: a wrong mounting
+// of the device.
 class Obedient final : public device::Device {
  public:
   explicit Obedient(const math::Mat3& axes) : axes_(axes) {}
@@ -35,7 +35,7 @@ class Obedient final : public device::Device {
     Vec3 to = from_;
     if (doing_ >= 1 && doing_ <= 3)
       to += std::min(0.04, 0.05 * std::max(0.0, t - 0.3)) * Vec3::Unit(doing_ - 1);
-    if (doing_ == 4 && t > 1.5)  // into the wall and out again, slowly
+    if (doing_ == 4 && t > 1.5)  // slowly into the wall and out again
       to.y() -= 0.006 * (1 - std::cos(2 * std::numbers::pi * 0.8 * (t - 1.5)));
     device::HandState hand;
     hand.velocity = axes_ * ((to - at_) / dt);

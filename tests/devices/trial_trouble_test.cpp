@@ -1,4 +1,5 @@
-// A device tried by a hand that does not do as it is told, and by one that presses too hard.
+// A device that is tried by a hand that does not follow the instructions, and by one that presses
+// too hard.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -15,7 +16,7 @@ namespace {
 
 using math::Vec3;
 
-// Where the hand is, and how fast, t seconds after the words n (0: rest, 1 to 3: an axis, 4: the
+// Position and velocity of the hand t seconds after instruction n (0: rest, 1 to 3: an axis, 4: the
 // wall).
 struct At {
   Vec3 place = Vec3::Zero(), velocity = Vec3::Zero();
@@ -69,7 +70,7 @@ TrialSeen tried(
       device, settings, [&](const std::string&) { device.words = told++; }, stop);
 }
 
-// Along an axis as it is told, and at rest there.
+// Along the axis as instructed, then at rest.
 At obeys(int words, double t) {
   At at;
   if (words >= 1 && words <= 3) at.place[words - 1] = std::min(0.04, 0.1 * std::max(0.0, t - 0.1));
@@ -87,7 +88,7 @@ TEST(TrialTrouble, AHandThatIsNeverFoundIsCountedAndLeftOut) {
 TEST(TrialTrouble, NoiseIsAboutTheMeanWhereverTheHandRests) {
   Clumsy device([](int words, double t) {
     At at = obeys(words, t);
-    if (words == 0 && t > 0.01) at.place.x() += 1e-3;  // a push at the beginning, then quiet
+    if (words == 0 && t > 0.01) at.place.x() += 1e-3;  // a push at the beginning, then rest
     return at;
   });
   const TrialSeen seen = tried(device, {.rest_s = 0.5, .longest_s = 0.05});
@@ -98,7 +99,7 @@ TEST(TrialTrouble, AnAxisBeginsWhereTheHandIsStill) {
   Clumsy device([](int words, double t) {
     At at = obeys(words, std::max(0.0, t - 0.3));
     if (words == 0) at.velocity.z() = 0.2;
-    if (words == 1 && t < 0.3) {  // first, fast, to where it likes to begin: near
+    if (words == 1 && t < 0.3) {  // first, fast, to its preferred starting place: near
       at.velocity.z() = 0.2;
       at.place.z() = 0.2 * t;
     } else if (words == 1) {
@@ -111,10 +112,10 @@ TEST(TrialTrouble, AnAxisBeginsWhereTheHandIsStill) {
   EXPECT_LT(seen.axes[0].off_deg, 1);
 }
 
-// Twice as deep as the force it may be pushed with.
+// Twice as deep as the largest force allows.
 At presses(int words, double t) {
   At at = obeys(words, t);
-  if (words == 4 && t > 0.7) {  // slowly: what counts for the stiffness
+  if (words == 4 && t > 0.7) {  // slowly: this part counts for the stiffness
     const double round = 2 * M_PI * 0.5 * (t - 0.7);
     at.place.y() = -0.01 * (1 - std::cos(round));
     at.velocity.y() = -0.01 * 2 * M_PI * 0.5 * std::sin(round);

@@ -1,4 +1,4 @@
-// The doctor at a computer made of files, and with libraries that misbehave.
+// The doctor on a computer made of files, and with libraries that crash or hang.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 
-// ---- apart
+// ---- a process apart
 
 TEST(Apart, GivesBackTheWords) {
   const Apart seen = apart([] { return std::string("all is well"); }, milliseconds(10'000));
@@ -97,7 +97,7 @@ TEST_F(DoctorNodes, NothingPluggedInIsNoTrouble) {
 TEST_F(DoctorNodes, KnowsMakersByTheirNumbersAndNoOthers) {
   plug("1-1", "1451", "0402", 7);
   plug("1-2", "0403", "cb48", 8);
-  plug("1-3", "0403", "6001", 9);  // another thing with the same maker's chip
+  plug("1-3", "0403", "6001", 9);  // another product with the same maker's chip
   plug("1-4", "16c0", "0483", 10);
   plug("1-5", "046d", "c077", 11);
   const auto findings = look_at_nodes(system_);
@@ -117,7 +117,7 @@ TEST_F(DoctorNodes, ANodeThatMayNotBeOpenedIsNamedWithTheCure) {
   EXPECT_EQ(findings[0].health, Health::trouble);
   EXPECT_NE(findings[0].is.find("/dev/bus/usb/001/007"), std::string::npos);
   EXPECT_NE(findings[0].todo.find("doctor --fix"), std::string::npos);
-  // the rule is there already: something else is to be done
+  // the rule exists already, so the advice is another one
   fs::create_directories(udev_file(system_).parent_path());
   std::ofstream(udev_file(system_)) << udev_rules();
   findings = look_at_nodes(system_);
@@ -196,8 +196,8 @@ TEST_F(DoctorDevices, ADeviceThatIsThereAndInTroubleIsToldAsThat) {
   void* loaded = dlopen(library.c_str(), RTLD_NOW | RTLD_GLOBAL);
   ASSERT_NE(loaded, nullptr);
   test::FakeHd& hd = *reinterpret_cast<test::FakeHdState>(dlsym(loaded, "fake_hd"))();
-  hd.touch[0].calibration = 0x5001;  // to be done, and only
-  hd.touch[0].style = 4;             // by the inkwell
+  hd.touch[0].calibration = 0x5001;  // must be calibrated, and only
+  hd.touch[0].style = 4;             // in the inkwell
   ::setenv("BURR_OPENHAPTICS", library.c_str(), 1);
   const Finding touch = of("touch");
   hd.touch[0] = {};
@@ -218,7 +218,7 @@ TEST_F(DoctorDevices, ALibraryThatCrashesOrHangsDoesSoAlone) {
   EXPECT_NE(touch.todo.find("install"), std::string::npos);
 }
 
-// ---- words
+// ---- texts
 
 TEST(Findings, ReadAsLinesAndAsJson) {
   const std::vector<Finding> findings = {

@@ -18,7 +18,7 @@ using math::Ijk;
 using math::Vec3;
 using volume::Bone;
 
-// A grey scan of a function of the place in mm; the middle of the grid is the origin.
+// A grey scan of a function of the position in mm; the origin is the middle of the grid.
 io::Scan grey_scan(const Ijk& size, const Vec3& spacing_mm,
                    const std::function<double(const Vec3&)>& value) {
   io::Scan scan;
@@ -64,8 +64,7 @@ double field(const Bone& bone, const Vec3& p_grid) {
   return sum;
 }
 
-// Where a ray from inside leaves the bone  [mm from `from_mm`], and how far the normal there is
-// off.
+// Where a ray from inside leaves the bone [mm from `from_mm`], and the error of the normal there.
 struct Exit {
   double at_mm = 0;
   Vec3 normal = Vec3::Zero();  // out of the bone
@@ -94,7 +93,7 @@ double angle_deg(const Vec3& a, const Vec3& b) {
   return std::acos(std::clamp(a.normalized().dot(b.normalized()), -1.0, 1.0)) * 180 / M_PI;
 }
 
-// a ball as a scanner shows it: a blurred step, -1000 to 1000 HU, half-way at the radius
+// a ball as in a scanner's picture: a blurred step, -1000 to 1000 HU, half-way at the radius
 double ct_ball(const Vec3& p, double radius, double blur) {
   return -1000.0 * std::erf((p.norm() - radius) / (std::sqrt(2.0) * blur));
 }
@@ -167,7 +166,7 @@ TEST(ImportGrey, NoiseIsMeasuredAndSmoothedUntilTouchIsSteady) {
   constexpr unsigned kSeed = 7;
   SCOPED_TRACE(kSeed);
   std::mt19937 random(kSeed);
-  std::uniform_real_distribution<double> noise(-200, 200);  // 10 % of the step, either way
+  std::uniform_real_distribution<double> noise(-200, 200);  // 10 % of the step, up and down
   const io::Scan scan = grey_scan({60, 60, 60}, {0.5, 0.5, 0.5}, [&](const Vec3& p) {
     return ct_ball(p, 10, 0.6) + noise(random);
   });
@@ -202,7 +201,7 @@ using ImportOwnMaterials = test::FolderTest;
 TEST(ImportGrey, HuDecidesTheTissueAndTheRimOfCortexStaysCortex) {
   const io::Scan scan = grey_scan({40, 40, 40}, {0.5, 0.5, 0.5}, [](const Vec3& p) {
     const double r = p.norm();
-    return r < 5 ? 450.0 : r < 7 ? 1200.0 : r < 7.5 ? 500.0 : -1000.0;  // rim half filled
+    return r < 5 ? 450.0 : r < 7 ? 1200.0 : r < 7.5 ? 500.0 : -1000.0;  // border half filled
   });
   const auto bone = import_or_fail(scan);
   ASSERT_TRUE(bone);
@@ -253,7 +252,7 @@ TEST(ImportGrey, ABoneThatIsTurnedStaysTurned) {
   options.iso = 0;
   const auto bone = import_or_fail(scan, options);
   ASSERT_TRUE(bone);
-  // the middle of the ball, as the scan has it
+  // the middle of the ball, in the scan's voxels
   const Vec3 ijk = (Vec3(1, 2, 3) - (-0.5 * (scan.size - Ijk::Ones()).cast<double>() * 0.5)) / 0.5;
   const Vec3 middle = scan.origin_mm + scan.axes * (ijk * 0.5);
   for (const Vec3& d : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0.6, 0, 0.8)})
@@ -267,7 +266,7 @@ TEST(ImportGrey, ARegionIsCountedAsTheFileCountsIt) {
   options.roi = Roi{{5, 14}, {6, 17}, {0, 9}};
   options.iso = 300;
   EXPECT_FALSE(plan_import(scan, options).ok()) << "only air there";
-  scan.k_reversed = true;  // slices 0..9 of the file are now the last ones
+  scan.k_reversed = true;  // slices 0..9 of the file are the last ones here
   const auto bone = import_or_fail(scan, options);
   ASSERT_TRUE(bone);
   EXPECT_EQ(bone->grid().size, Ijk(10, 12, 10));
@@ -350,7 +349,7 @@ TEST(ImportLabels, EveryShapeKeepsItsVolume) {
   }
 }
 
-// A staircase of voxels must not be felt as one: the surface of a ball and its normals.
+// The staircase of voxels must not be felt: the surface of a ball and its normals are smooth.
 TEST(ImportLabels, TheStaircaseIsSmoothed) {
   const io::Scan scan =
       label_scan({48, 48, 48}, {0.5, 0.5, 0.5}, [](const Vec3& p) { return p.norm() < 9 ? 1 : 0; });

@@ -1,4 +1,4 @@
-// What is kept of a scan against what it measured.
+// The kept values of a scan compared with the scan itself.
 #include "burr/importing/keep_greys.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 using math::Ijk;
 using math::Vec3;
 
-// 20 x 30 x 10 voxels, somewhere, askew
+// 20 x 30 x 10 voxels at some place, oblique
 io::Scan scan_of(const std::function<float(int, int, int)>& value) {
   io::Scan scan;
   scan.size = {20, 30, 10};
@@ -48,13 +48,13 @@ TEST(KeepGreys, KeepsWholeNumbersAndTheirPlaces) {
         ASSERT_TRUE(greys->at(world(scan, Vec3(i, j, k)), value));
         ASSERT_NEAR(value, static_cast<double>(scan.values[n]), 1e-6);
       }
-  // half a voxel around the outermost centres is still the scan
+  // half a voxel beyond the outermost centres still belongs to the scan
   EXPECT_TRUE(greys->at(world(scan, {-0.45, 29.45, 9.45}), value));
   EXPECT_FALSE(greys->at(world(scan, {-0.55, 10, 5}), value));
   EXPECT_FALSE(greys->at(world(scan, {10, 10, 9.55}), value));
 }
 
-// A field that is linear stays so between voxels, in steps, and where it is kept coarser.
+// A linear field stays linear between voxels, within the steps, even where it is kept coarser.
 TEST(KeepGreys, KeepsASlopeHoweverCoarse) {
   const auto slope = [](const Vec3& p) { return 3.7 * p.x() - 2.1 * p.y() + 11.3 * p.z() + 0.25; };
   const io::Scan scan =
@@ -73,12 +73,12 @@ TEST(KeepGreys, KeepsASlopeHoweverCoarse) {
     if (most == 3000) {
       EXPECT_TRUE((greys->size.array() == Ijk(10, 30, 10).array()).all());
     }
-    if (most == 700) {  // then the middle axis, then the first again
+    if (most == 700) {  // then the middle axis is halved, then the first again
       EXPECT_TRUE((greys->size.array() == Ijk(5, 15, 10).array()).all() ||
                   (greys->size.array() == Ijk(5, 8, 10).array()).all());
     }
     for (int n = 0; n < 500; ++n) {
-      // away from the rim by as much as one kept voxel is wide
+      // away from the border by the width of one kept voxel
       const Vec3 p(4 + 11 * any(random), 4 + 21 * any(random), 1 + 7 * any(random));
       double value = 0;
       ASSERT_TRUE(greys->at(world(scan, p), value));

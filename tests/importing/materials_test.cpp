@@ -1,4 +1,4 @@
-// The table of materials: the built-in one, a user's own, and what tissues become of it.
+// The table of materials: the built-in one, a user's own, and the constants that tissues get.
 #include "burr/importing/materials.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(Materials, TheBuiltInTableSaysOfEveryConstantHowSureItIs) {
     }
 }
 
-// what a tissue is without any table and what the table says of cortical bone must not part
+// a tissue without any table must equal the table's cortical bone
 TEST(Materials, CorticalBoneIsTheDefaultTissue) {
   volume::Tissue tissue;
   tissue.cutting_energy = tissue.friction = tissue.cutting_friction = 1;
@@ -122,7 +122,7 @@ TEST(HuTissues, TrabecularGoesWithTheSquareOfDensityAndCorticalIsAllOne) {
   EXPECT_EQ(table[hu_tissue(699)].name, "trabecular bone 575-700 HU");
 }
 
-// ---- a file of one's own
+// ---- a user's own file
 
 constexpr const char* kMine = R"(
 [[material]]

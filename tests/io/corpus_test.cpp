@@ -1,10 +1,10 @@
-// Every file of the corpus: it is described or refused with one sentence; nothing crashes, hangs or
-// takes what a header lies about, and the fence, which is there for what nobody has thought of, is
-// not needed for any of them. What is read looks to a second reader as it does to us.
+// Every file of the corpus is described or refused with one sentence. Nothing crashes or hangs, or
+// allocates what a false header claims, and none of the files needs the fence, which is for
+// problems that nobody has foreseen. A second reader must see the same in each file.
 //
-// Where we judge otherwise than the corpus or the second reader does, docs/corpus.md says why, in
-// tables that are read here: a difference that is not in them fails, and so does a row in them that
-// is no difference any more.
+// Where our result differs from that of the corpus or of the second reader, docs/corpus.md says
+// why, in tables that are read here. A difference that is not in them makes the test fail, and so
+// does a row for a difference that no longer exists.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -31,17 +31,17 @@
 namespace burr::io {
 namespace {
 
-constexpr int kHangs = 100;  // [s] of wall clock; the bar is in processor time
+constexpr int kHangs = 100;  // [s] of wall time; the limit itself is in processor time
 
 struct Outcome {
-  int code = -1;       // of the program; -1: killed
-  int signal = 0;      // that killed it
-  double seconds = 0;  // of processor time, with the reader behind the fence
-  double peak_mb = 0;  // of memory, of the larger of the two
+  int code = -1;       // exit code of the program; -1: killed
+  int signal = 0;      // signal that killed it
+  double seconds = 0;  // processor time, with the reader behind the fence
+  double peak_mb = 0;  // largest memory of either process
   std::string said;    // both outputs
 };
 
-// Runs the program on one path. It gets no limits from here: the fence has its own.
+// Runs the program on one path, without limits of this test: the fence has its own.
 Outcome info(const std::string& path) {
   int pipe_ends[2] = {};
   if (::pipe2(pipe_ends, O_CLOEXEC) != 0) return {};
@@ -91,7 +91,7 @@ struct Entry {
   std::string path, expect;
 };
 
-// Files one by one; the slices of a series as their folder.
+// Single files, and the slices of a series as their folder.
 std::vector<Entry> entries() {
   std::vector<Entry> all;
   std::set<std::string> folders;
@@ -113,7 +113,7 @@ std::vector<Entry> entries() {
   return all;
 }
 
-// Of docs/corpus.md, the table under a heading: for each path in a first column its whole row.
+// Reads a table of docs/corpus.md under a heading; for each path in the first column its whole row.
 // "| `a`, `b` | ... | why |"
 std::map<std::string, std::string> listed_under(const std::string& heading) {
   std::map<std::string, std::string> rows;
@@ -132,13 +132,13 @@ std::map<std::string, std::string> listed_under(const std::string& heading) {
   return rows;
 }
 
-// The last column: why.
+// The last column: the reason.
 std::string reason(const std::string& row) {
   const std::size_t end = row.rfind(" |"), begin = row.rfind("| ", end - 1);
   return row.substr(begin + 2, end - begin - 2);
 }
 
-// Sentences of the fence: for what the readers themselves did not see coming.
+// True for sentences of the fence: the readers themselves did not find the problem.
 bool said_by_the_fence(const std::string& text) {
   const std::array<const char*, 7> words = {
       "reading it crashed",      "processor time",       "stood still",
@@ -199,7 +199,7 @@ TEST(Corpus, EveryFileIsReadOrRefusedWithASentence) {
   EXPECT_GT(refused, 100);
 }
 
-// What a reader saw, of whatever kind.
+// What a reader of any kind found in a file.
 struct Seen {
   std::vector<int> size;
   std::vector<math::Vec3> corners;  // of the box of voxel centres, LPS mm, sorted
@@ -254,10 +254,10 @@ Seen seen(const nlohmann::json& found) {
   return out;
 }
 
-// Empty: the same.
+// Empty: there is no difference.
 std::string difference(const Scan& scan, const nlohmann::json& found) {
   Seen own = seen(scan), other = seen(found);
-  if (found["reader"] == "dcm2niix") {  // turns a stack into its own order of axes; see the corners
+  if (found["reader"] == "dcm2niix") {  // changes the order of a stack's axes; compare the corners
     std::sort(own.size.begin(), own.size.end());
     std::sort(other.size.begin(), other.size.end());
   }
@@ -270,9 +270,9 @@ std::string difference(const Scan& scan, const nlohmann::json& found) {
     farthest = std::max(farthest, (own.corners[n] - other.corners[n]).norm());
     longest = std::max(longest, own.corners[n].norm());
   }
-  // the other ones print six digits
+  // the other readers print six digits
   if (!(farthest < 2e-3 + 2e-5 * longest)) text << " a corner lies " << farthest << " mm apart";
-  // outside the scanner's view, and beyond, is air for us
+  // we replace values below the scanner's range, outside its view, by air
   const double floor = scan.format == "DICOM" && scan.hounsfield ? -1024.0 : other.low;
   const double low = std::max(other.low, floor), high = std::max(other.high, floor);
   const double close = 1e-5 * std::max({1.0, std::abs(low), std::abs(high)});
@@ -335,8 +335,8 @@ TEST_F(CorpusAgainst, ASecondReaderSeesTheSame) {
   std::printf("%zu compared, %zu of them different\n", compared, found.size());
 }
 
-// A name, an id or a date of a patient must not come out of a file through us: what the DICOM files
-// hold in those fields is looked for in all that burr says about them.
+// No name, id or date of a patient may come out of a file: the values of those DICOM fields are
+// searched in all of burr's output about the files.
 TEST(Corpus, NoPatientComesOutOfADicomFile) {
   BURR_NEEDS_DATA("skull_phantom/bone_1mm_jpegls");
   const auto data = test::data_dir();

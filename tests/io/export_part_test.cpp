@@ -13,7 +13,7 @@ namespace {
 
 using math::Vec3;
 
-// a slab, and the same after a ball was milled out of its top
+// a slab, and the same slab after a ball was milled out of its top
 class ExportPart : public test::FolderTest {
  protected:
   ExportPart() {

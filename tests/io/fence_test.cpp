@@ -1,6 +1,6 @@
-// The fence for real: a reader that crashes, hangs, eats memory, reaches for files, network and
-// other programs, or lies about what it read (naughty/naughty_reader.cpp), asked through
-// io::read_scan like any other. Each ends in its sentence, and nothing else happens.
+// The real fence: a reader that crashes, hangs, uses up memory, tries to reach files, the network
+// and other programs, or reports false results (naughty/naughty_reader.cpp), called through
+// io::read_scan like any other. Each case ends in its own sentence, and nothing else happens.
 #include "burr/io/sandbox/fence.h"
 
 #include <dirent.h>
@@ -46,13 +46,13 @@ class Fence : public test::FolderTest {
   Fence() { ::setenv("BURR_READ", (std::string(BURR_BUILD_DIR) + "/naughty_reader").c_str(), 1); }
   ~Fence() override { ::unsetenv("BURR_READ"); }
 
-  // What becomes of a file that tells the reader to do this.
+  // Reads a file that tells the reader to do `todo`.
   Result<Scan> ask(const std::string& todo, const ReadOptions& options = {}) {
     std::ofstream(path("todo.txt")) << todo;
     NoProgress progress;
     return read_scan(path("todo.txt"), options, progress);
   }
-  // The sentence of a refusal, which names the file.
+  // The sentence of the refusal, which names the file.
   std::string said(const std::string& todo, const ReadOptions& options = {}) {
     const auto start = Clock::now();
     auto scan = ask(todo, options);
@@ -96,7 +96,7 @@ TEST_F(Fence, HungerIsASentence) {
   options.memory_mb = 512;
   EXPECT_SAYS(said("eat", options), "more memory than it may take");
   EXPECT_SAYS(said("eat_quietly", options), "no more memory");
-  // pages that were touched, of all children so far: far below what was asked for
+  // pages that were touched, by all children so far: far less than was requested
   rusage usage{};
   ::getrusage(RUSAGE_CHILDREN, &usage);
   EXPECT_LT(usage.ru_maxrss, 700 * 1024) << "KiB";
@@ -121,7 +121,7 @@ TEST_F(Fence, OpensNothingOutsideItsFile) {
   EXPECT_SAYS(said("open " + outside), "refused");
   EXPECT_SAYS(said("open /proc/self/environ"), "refused");
   EXPECT_SAYS(said("list /"), "refused");
-  // a header may name what lies beside it, and no more
+  // a header may name a file beside it, and no other
   const auto header = [&](const std::string& other) {
     std::ofstream(path("x.mhd")) << "open " << other;
     NoProgress progress;
@@ -130,7 +130,7 @@ TEST_F(Fence, OpensNothingOutsideItsFile) {
   EXPECT_SAYS(header(path("beside.txt")), "it worked");
   EXPECT_SAYS(header(outside), "refused");
   EXPECT_SAYS(header("/etc/passwd"), "refused");
-  // a link that the user gave is followed, one that lies in the folder leads nowhere
+  // a link that the user names is followed; one inside the folder is not
   std::filesystem::create_symlink("/etc/passwd", folder / "link.txt");
   EXPECT_SAYS(header(path("link.txt")), "refused");
   std::filesystem::remove(outside);
@@ -166,7 +166,7 @@ TEST_F(Fence, LeavesNothingBehind) {
   EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "a child is left";
 }
 
-// Says what it heard, and can be told to stop.
+// Records the reports, and can be told to cancel.
 class Listener final : public Progress {
  public:
   void report(double fraction, std::string_view stage) override {
@@ -224,7 +224,7 @@ TEST_F(Fence, TheReaderDiesWithItsCaller) {
   ::close(ends[1]);
   char heard = 0;
   ASSERT_EQ(::read(ends[0], &heard, 1), 1) << "the reader reads";
-  // its one child, by the kernel's word
+  // its only child, according to the kernel
   std::ifstream children("/proc/" + std::to_string(caller) + "/task/" + std::to_string(caller) +
                          "/children");
   pid_t reader = 0;

@@ -1,4 +1,4 @@
-// tests/io/folder.h - a folder of its own for each test, gone afterwards.
+// tests/io/folder.h - a folder for each test, removed afterwards.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class FolderTest : public testing::Test {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
-  // what a command prints; "" if it cannot be run
+  // the output of a command; "" if it cannot be run
   static std::string output_of(const std::string& command) {
     std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
     std::string text;

@@ -1,5 +1,5 @@
-// Headers that lie: each was found by a fuzzer (docs/fuzzing.md) or while one was written, and is
-// made here by hand.
+// False headers: each was found by a fuzzer (docs/fuzzing.md) or while a fuzzer was written, and is
+// made by hand here.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ class OddHeader : public test::FolderTest {
     NoProgress progress;
     return read_scan(path, {}, progress);
   }
-  // the sentence it is refused with
+  // the sentence with which it is refused
   static std::string refusal(const std::string& path) {
     const auto scan = read(path);
     EXPECT_FALSE(scan.ok());
@@ -41,7 +41,7 @@ std::string nrrd(const std::string& more, const std::string& data = std::string(
   return "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n" + more + "\n" + data;
 }
 
-// A whole slice of 2 x 2 pixels with these facts, explicit little endian.
+// A complete slice of 2 x 2 pixels with these facts, explicit little endian.
 struct Slice {
   std::string position = "0\\0\\0", slope = "1", intercept = "0", modality = "CT";
 
@@ -81,7 +81,7 @@ struct Slice {
 };
 
 TEST_F(OddHeader, ARangeOfAllNumbersIsNoListOfFiles) {
-  // the difference of these two does not fit into 64 bits; it came out as one file
+  // the difference of these two does not fit into 64 bits; it was once taken as one file
   const std::string all = "data file: a%d 9223372036854775807 -9223372036854775808 ";
   for (const char* step : {"1", "-1", "-9223372036854775808"})
     EXPECT_TRUE(has(refusal(file("a.nhdr", nrrd(all + step + "\n"))), "the range of numbers"));
@@ -153,7 +153,7 @@ TEST_F(OddHeader, ARescaleThatMakesNoNumberIsRefused) {
   EXPECT_TRUE(read(file("a.dcm", slice.bytes())).ok());
 }
 
-// Moving leaning slices upright adds up weighted values: near a float's end the sum left it.
+// Straightening shifted slices adds weighted values: near the largest float the sum overflowed.
 TEST_F(OddHeader, ValuesNoScannerMakesAreAirAndStayFinite) {
   const std::vector<float> values = {3e38F, -3e38F, 3e38F, -3e38F, 7, -3e38F, 3e38F, 5};
   const std::string data(reinterpret_cast<const char*>(values.data()),

@@ -1,5 +1,5 @@
-// Nothing outside the given folder is opened, and nothing that is no plain file: by the readers
-// themselves, without the fence, so that it holds on a kernel without Landlock too.
+// Nothing outside the given folder is opened, and nothing but regular files: by the readers
+// themselves, without the fence, so that it also holds on a kernel without Landlock.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 class Paths : public test::FolderTest {
  protected:
   Paths() {
-    ::alarm(120);  // a pipe nobody writes into would be waited for without end
+    ::alarm(120);  // opening a pipe that nobody writes to would wait for ever
     fs::create_directory(folder / "in");
     write("outside.raw", std::string(8, 'x'));
     write("in/inside.raw", std::string(8, 'x'));
@@ -41,7 +41,7 @@ class Paths : public test::FolderTest {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(path(name), std::ios::binary) << text;
   }
-  // Empty: it was read.
+  // Empty: the file was read.
   [[nodiscard]] std::string refusal(const std::string& name) const {
     NoProgress progress;
     const auto bare = read_unfenced(path(name), {}, progress);
@@ -119,7 +119,7 @@ TEST_F(Paths, AFolderOfSlicesEndsAtItsEdge) {
   fs::create_directory_symlink(folder, folder / "study" / "up");
   EXPECT_EQ(::mkfifo(path("study/pipe.dcm").c_str(), 0600), 0);
   EXPECT_NE(refusal("study").find("links that lead out"), std::string::npos) << refusal("study");
-  // what is inside counts, and it is said what was left out
+  // what is inside counts; a notice says what was left out
   for (int n = 1; n <= 4; ++n) {
     const std::string name = "0" + std::to_string(n) + ".dcm";
     fs::remove(folder / "study" / name);
@@ -146,7 +146,7 @@ TEST_F(Paths, OnlyPlainFilesAreOpened) {
   EXPECT_EQ(refusal("x.nrrd"), "");
 }
 
-// A header may claim what it likes: without the bytes behind it nothing is taken.
+// A header may claim anything: without the bytes for it, no memory is allocated.
 TEST_F(Paths, AHeaderThatPromisesTooMuchIsRefusedBeforeMemoryIsTaken) {
   const std::string sizes = "20000 20000 5\n";
   write("in/a.nrrd", "NRRD0004\ntype: double\ndimension: 3\nsizes: " + sizes +

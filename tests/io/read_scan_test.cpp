@@ -36,7 +36,7 @@ Vec3 world_mm(const Scan& scan, const Vec3& ijk) {
   return scan.origin_mm + scan.axes * ijk.cwiseProduct(scan.spacing_mm);
 }
 
-// Value at a place in the world, of the nearest voxel.
+// The value at a position in the world, from the nearest voxel.
 float sample(const Scan& scan, const Vec3& p_mm) {
   const Vec3 ijk = (scan.axes.transpose() * (p_mm - scan.origin_mm)).cwiseQuotient(scan.spacing_mm);
   const Ijk n(static_cast<int>(std::lround(ijk.x())), static_cast<int>(std::lround(ijk.y())),
@@ -148,12 +148,12 @@ TEST(ReadScan, UndoesAGantryTilt) {
   ASSERT_TRUE(tilted.ok()) << tilted.error().text;
   EXPECT_TRUE(says(*tilted, "gantry tilt of 18.5 degrees"));
   expect_rotation(*tilted);
-  // along the normal: the table moved 2.5 mm
+  // along the normal: the table moved by 2.5 mm
   EXPECT_NEAR(tilted->spacing_mm.z(), 2.5 * std::cos(18.5 * M_PI / 180), 2e-3);
 }
 
-// The phantom lies still between its scans, so the tilted one and the straight one show the same
-// plastic at the same place of the world.
+// The phantom does not move between its scans, so the tilted scan and the straight one show the
+// same plastic at the same place in the world.
 TEST(ReadScan, ATiltedScanLiesWhereTheStraightOneDoes) {
   BURR_NEEDS_DATA("corpus/derived/dicom/series_gantry_tilt");
   const auto scan = read("corpus/derived/dicom/series_gantry_tilt");
@@ -172,7 +172,7 @@ TEST(ReadScan, ATiltedScanLiesWhereTheStraightOneDoes) {
         sum += std::abs(there - at(*slice, i, j, 0));
         ++n;
       }
-    // nearest voxel of a resampled plane: half a voxel of the noise pattern at most
+    // nearest voxel of a resampled plane: at most half a voxel of the noise pattern
     EXPECT_LT(sum / n, 200);
   }
 }
@@ -229,7 +229,7 @@ TEST(ReadScan, OneSliceEveryTransferSyntaxOneTruth) {
     ASSERT_TRUE(scan.ok()) << scan.error().text;
     EXPECT_EQ(scan->values, truth->values) << lossless;
   }
-  // what each of the others loses, in steps of its own numbers; 8 bit leave 256 of them
+  // error of each lossy format, in its own steps; 8 bit have 256 of them
   struct Lossy {
     const char* name;
     double step, mean, most;
@@ -266,7 +266,7 @@ TEST(ReadScan, TurnsObliqueNiftiIntoARotation) {
   const auto oblique = read("corpus/derived/nifti/sform_oblique30.nii");
   ASSERT_TRUE(straight.ok() && oblique.ok());
   expect_rotation(*oblique);
-  // the first axis is the one turned about; the others make 30 degrees with the world's
+  // the first axis is the axis of rotation; the others are at 30 degrees to the world's
   EXPECT_NEAR(std::abs(oblique->axes(0, 0)), 1, 1e-6);
   EXPECT_NEAR(std::abs(oblique->axes(2, 1)), 0.5, 1e-6);
   EXPECT_NEAR(std::abs(oblique->axes(1, 1)), std::sqrt(0.75), 1e-6);
@@ -302,8 +302,8 @@ TEST(ReadScan, RasIsTurnedIntoLps) {
   EXPECT_EQ(sample(*lps, p), sample(*ras, Vec3(-p.x(), -p.y(), p.z())));
 }
 
-// The .nhdr calls its space left-handed, the .mha turns the same voxels the other way round: so
-// they show the head mirrored left to right, and each must keep what it says.
+// The .nhdr calls its space left-handed, the .mha rotates the same voxels the other way: so they
+// show the head mirrored left to right, and each must be kept as its header says.
 TEST(ReadScan, ALeftHandedGridIsMirroredNotTurned) {
   BURR_NEEDS_DATA("headsq/headsq/quarter.nhdr");
   const auto nrrd = read("headsq/headsq/quarter.nhdr");
@@ -348,8 +348,8 @@ TEST(ReadScan, ASpacingThatLiesIsOverridden) {
   EXPECT_TRUE(says(*scan, "as asked"));
 }
 
-// dcm2niix decodes and sorts by itself; what it writes must show the same numbers at the same
-// places of the world.
+// dcm2niix decodes and sorts by itself; its output must show the same numbers at the same places in
+// the world.
 using ReadScanAgainst = test::FolderTest;
 
 TEST_F(ReadScanAgainst, AnotherReaderOfDicomVoxelByVoxel) {

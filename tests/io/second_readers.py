@@ -118,7 +118,7 @@ def read_nifti(path):
     sizes = [max(1, int(fields[n][0])) for n in ("nx", "ny", "nz")]
     if int(fields["nvox"][0]) != sizes[0] * sizes[1] * sizes[2]:
         raise Refuses("not three axes")
-    # which of the two it is, is for the reader of the file to say; the standard prefers sform
+    # the file must say which of the two it is; the standard prefers sform
     name = "sto_xyz" if number("sform_code") > 0 else "qto_xyz" if number("qform_code") > 0 else None
     scale = {1: 1000.0, 3: 0.001}.get(int(number("xyz_units")), 1.0)
     if name:
@@ -232,7 +232,7 @@ def read_dicom_folder(path):
     with tempfile.TemporaryDirectory() as folder:
         output_of("dcm2niix", "-z", "n", "-b", "n", "-f", "other%s_%d", "-w", "1", "-o", folder, path)
         made = sorted(pathlib.Path(folder).glob("*.nii"))
-        # of a leaning or uneven stack it keeps the raw one besides
+        # of a shifted or uneven stack it also writes the raw version
         made = [one for one in made if "Tilt" in one.name or "_Eq" in one.name] or made
         if not made:
             raise Refuses("no volume")
@@ -260,7 +260,7 @@ def look(root, name):
             found = read_dicom_file(path)
     except Refuses as why:
         found = {"refuses": str(why)}
-    except Exception as why:  # whatever a reader answers that is no scan
+    except Exception as why:  # any answer of a reader that is not a scan
         found = {"refuses": f"{type(why).__name__}: {why}"}
     found["path"] = name
     return found

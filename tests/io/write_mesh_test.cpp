@@ -27,7 +27,7 @@ constexpr double kRadius = 11.3, kVoxelMm = 0.5;
 class WriteMesh : public test::FolderTest {
  protected:
   WriteMesh() {
-    // a ball of two tissues, askew in the world
+    // a ball of two tissues, oblique in the world
     volume::Grid grid = test::askew({33, 31, 30});
     centre_mm = 1e3 * grid.world_from_grid({16, 15, 14.5});
     std::vector<volume::Field> field;
@@ -146,7 +146,7 @@ TEST_F(WriteMesh, AdmeshFindsNothingToRepairAndTheSameVolume) {
   }
 }
 
-// vertices crowd around voxel centres here; they must stay apart in every format
+// here many vertices lie close to voxel centres; they must stay apart in every format
 TEST_F(WriteMesh, NoiseStaysWatertightInAdmesh) {
   if (output_of("admesh --version").find("ADMesh") == std::string::npos)
     GTEST_SKIP() << "needs admesh, which is not installed";
@@ -207,7 +207,7 @@ TEST_F(WriteMesh, ThreeMfIsMillimetresWithMaterials) {
   EXPECT_EQ(read.corner.size(), mesh.triangles.size());
   EXPECT_NEAR(read.volume() / ball_mm3(), 1, 0.005);
   EXPECT_NEAR((read.box().centre() - centre_mm).norm(), 0, 0.02);
-  // the zip is whole, says an independent program
+  // an independent program confirms that the zip is complete
   if (output_of("python3 -c 'print(42)'") != "42\n")
     GTEST_SKIP() << "the rest needs python3, which is not installed";
   const auto python = [&](const std::string& what) {

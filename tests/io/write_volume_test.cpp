@@ -17,7 +17,7 @@ namespace {
 using math::Vec3;
 using volume::Field;
 
-// A reader of our own, for what these files hold and nothing else.
+// A reader of the test's own, only for these files.
 struct Nrrd {
   std::map<std::string, std::string> field, key;
   std::string data;

@@ -1,4 +1,5 @@
-// tests/record/made_up.h - rows, bones and sessions made up at random, and a folder that goes away.
+// tests/record/made_up.h - random rows, bones and sessions, and a folder that is removed
+// afterwards.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ namespace burr::record::test {
 
 using Random = std::mt19937_64;
 
-// A folder of its own for each test, gone afterwards.
+// A folder for each test, removed afterwards.
 class Folder {
  public:
   Folder() {
@@ -63,7 +64,7 @@ inline void write_file(const std::string& path, const std::vector<std::uint8_t>&
 }
 
 inline double any(Random& random) {
-  // now and then what breaks sloppy formats
+  // now and then values that break careless formats
   switch (random() % 64) {
     case 0:
       return std::numeric_limits<double>::quiet_NaN();
@@ -111,7 +112,7 @@ inline tick::TickRow any_tick(std::uint64_t tick, Random& random) {
   return row;
 }
 
-// the same bits, NaN included, whatever the padding
+// equal to the bit, NaN included, whatever the padding
 inline void expect_same(const tick::TickRow& a, const tick::TickRow& b) {
   const auto same = [](double x, double y) {
     return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
@@ -186,7 +187,7 @@ inline SessionInfo info_of(const volume::Bone& bone, Random& random) {
   return info;
 }
 
-// What the servo would do to a bone at one tick: nibble at some bricks, now and then deposit.
+// Changes a bone as the servo may in one tick: removes some of some bricks, sometimes deposits.
 inline std::vector<tick::BrickRow> nibble(volume::Bone& bone, std::uint64_t tick, Random& random) {
   std::vector<tick::BrickRow> rows;
   for (std::uint64_t i = random() % 3; i > 0; --i) {
@@ -215,7 +216,7 @@ inline std::vector<tick::BrickRow> nibble(volume::Bone& bone, std::uint64_t tick
   return rows;
 }
 
-// Everything a made-up session was, to compare with.
+// Everything that happened in a random session, to compare with.
 struct Truth {
   SessionInfo info;
   std::vector<tick::TickRow> ticks;
@@ -258,7 +259,7 @@ inline Random seeded(std::uint64_t seed) { return Random(seed); }
 
 }  // namespace burr::record::test
 
-// a random test says what it was made from
+// a random test prints its seed
 #define BURR_SEEDED(name, seed)                 \
   SCOPED_TRACE("seed " + std::to_string(seed)); \
   auto name = ::burr::record::test::seeded(seed)

@@ -1,5 +1,5 @@
-// The container, held against the specification by a second reading of the bytes that shares no
-// code with the first, and against the MCAP project's own reader where it is installed.
+// The container, compared with the specification by a second parser that shares no code with the
+// first, and with the MCAP project's own reader where it is installed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -25,7 +25,7 @@ namespace {
 using namespace test;
 using Bytes = std::vector<std::uint8_t>;
 
-// bit by bit, straight from the definition
+// bit by bit, directly from the definition
 std::uint32_t slow_crc(const std::uint8_t* p, std::size_t n) {
   std::uint32_t crc = 0xFFFFFFFFU;
   for (std::size_t i = 0; i < n; ++i) {
@@ -64,7 +64,7 @@ std::vector<Record> records_of(const Bytes& bytes, std::size_t at, std::size_t e
 }
 
 TEST(Crc32, IsTheOneOfZipAndPng) {
-  EXPECT_EQ(crc32(as_bytes("123456789")), 0xCBF43926U);  // the check value of the catalogue
+  EXPECT_EQ(crc32(as_bytes("123456789")), 0xCBF43926U);  // check value from the catalogue of CRCs
   BURR_SEEDED(random, 11);
   for (std::size_t size = 0; size < 70; ++size) {
     Bytes bytes(size);
@@ -93,7 +93,7 @@ TEST(Packed, ComesBackAndLiesAreFound) {
     packed.push_back(0);
     EXPECT_FALSE(unpack(packed, size, back)) << "something follows";
   }
-  // a header that promises 8 GiB over a few bytes takes no memory worth speaking of
+  // a header that promises 8 GiB over a few bytes takes hardly any memory
   Bytes packed, back;
   packer.pack(Bytes(100), packed);
   EXPECT_FALSE(unpack(packed, std::uint64_t{1} << 33, back));
@@ -203,11 +203,11 @@ TEST(Mcap, EveryByteIsWhereTheSpecificationWantsIt) {
   EXPECT_EQ(metadata.size(), 2U);
   EXPECT_GT(chunks.size(), 1U);
 
-  // DataEnd ends the data section, its CRC covers everything before it
+  // DataEnd ends the data section; its CRC covers everything before it
   EXPECT_EQ(records[at].end, summary);
   EXPECT_EQ(number(file, records[at].content, 4), slow_crc(file.data(), records[at].start));
 
-  // the summary: groups together, each with its SummaryOffset
+  // the summary: each group together, with its SummaryOffset
   std::map<int, std::pair<std::uint64_t, std::uint64_t>> groups;
   std::size_t indexed_chunks = 0, statistics = 0;
   for (++at; records[at].kind != 0x0E; ++at) {
@@ -292,7 +292,7 @@ TEST(Mcap, ALongRecordingTakesNoMoreMemoryThanAShortOne) {
     ASSERT_TRUE(writer.finish().ok());
   }
   EXPECT_LT(held[1], held[0] + 64 * 1024);
-  // and the index at its end knows every chunk, as whoever scans the file finds them
+  // and the index at its end knows every chunk that a scan of the file finds
   const auto index = McapReader::open(path),
              scan = McapReader::open(path, McapReader::Trust::nothing);
   ASSERT_TRUE(index.ok() && scan.ok());

@@ -1,4 +1,4 @@
-// Any moment of a recording, against the bone and the rows that really were.
+// Any moment of a recording, compared with the true bone and rows.
 #include "burr/record/player.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 
 using namespace test;
 
-// The bone as it was after a tick, from the truth.
+// The bone after a tick, from the truth.
 std::uint64_t hash_after(const Truth& truth, std::uint64_t tick, volume::Bone& bone) {
   for (const tick::BrickRow& row : truth.bricks) {
     if (row.tick > tick) break;
@@ -66,7 +66,7 @@ TEST(Player, ShowsTheBoneOfAnyMomentInAnyOrder) {
   ASSERT_TRUE((*player)->bone_at(1e6, *shown).ok());
   EXPECT_EQ(shown->content_hash(), cut->content_hash()) << "later than the end is the end";
 
-  // a cursor that begins in the middle gives the same rows
+  // a cursor that starts in the middle gives the same rows
   for (const std::uint64_t from : {1UL, 777UL, 12'345UL, 15'499UL}) {
     StepCursor steps = (*player)->steps(from);
     Step step;
@@ -136,7 +136,7 @@ TEST(Player, NeverShowsABoneThatDamageMadeWrong) {
         continue;
       }
       ++shown_right;
-      // where the last chunk is the damaged one the recording ends before it, and says so
+      // if the last chunk is the damaged one, the recording ends before it and says so
       const std::uint64_t end = (*fresh)->end_tick();
       if (end < 15'500) {
         EXPECT_FALSE((*fresh)->notices().empty());
@@ -195,11 +195,11 @@ TEST(Player, OpensAnyMomentOfTenMinutesAtOnce) {
   }
   std::printf("a moment of 10 minutes (%zu MiB) opens in at most %.3f s\n", bytes.size() >> 20,
               worst);
-  // no timing decides; but ten times the promise means that it scans what it should skip
+  // no timing decides here; but ten times the promise means that it reads what it should skip
   EXPECT_LT(worst, 10.0);
 }
 
-// ---- the bone inside
+// ---- an embedded bone
 
 TEST(BoneBlob, ComesBackToTheBit) {
   BURR_SEEDED(random, 51);
@@ -254,7 +254,7 @@ TEST(BoneBlob, PromisesOfMoreBricksThanThereAreCostNothing) {
   blob.raw(as_bytes("BURRBON1"));
   blob.text(head);
   blob.put(crc32(as_bytes(head)));
-  // bricks 0 to 4095, all air, pack to almost nothing; here they come 200 times
+  // bricks 0 to 4095, all air, compress to almost nothing; here they come 200 times
   constexpr std::uint32_t kBricks = 4096;
   for (std::uint32_t b = 0; b < kBricks; ++b) block.put(b);
   block.bytes().resize(block.size() + std::size_t{kBricks} * 512 * 3);
@@ -271,7 +271,7 @@ TEST(BoneBlob, PromisesOfMoreBricksThanThereAreCostNothing) {
   ::getrusage(RUSAGE_SELF, &before);
   EXPECT_FALSE(bone_from_blob(blob.span(), 10, "x.mcap").ok());
 
-  // nor does the room for deposits that a session's description asks for
+  // nor the room for deposits that the description of a session claims
   blob.bytes().resize(8 + 4 + head.size() + 4);
   blob.put(std::uint32_t{0});
   EXPECT_TRUE(bone_from_blob(blob.span(), ~std::size_t{0}, "x.mcap").ok());
@@ -283,7 +283,7 @@ TEST(BoneBlob, PromisesOfMoreBricksThanThereAreCostNothing) {
 }
 
 TEST(Player, OpensARecordingOfNothingButCommandsAtOnce) {
-  // made up: a session, one tick, and then commands, each in a chunk of its own
+  // invented: a session, one tick, and then commands, each in a chunk of its own
   BURR_SEEDED(random, 55);
   const Folder folder;
   const std::string path = folder / "s.mcap";
@@ -306,7 +306,7 @@ TEST(Player, OpensARecordingOfNothingButCommandsAtOnce) {
   }
   ASSERT_TRUE(writer.finish().ok());
 
-  // reading every later chunk again for each would be a hundred million chunks
+  // to read all later chunks again for each would be a hundred million chunks
   const auto start = std::chrono::steady_clock::now();
   const auto player = Player::open(path);
   ASSERT_TRUE(player.ok()) << player.error().text;
@@ -339,7 +339,7 @@ TEST(Player, FindsTheEmbeddedBone) {
   EXPECT_FALSE((*without)->embedded_bone(0).ok());
 }
 
-// ---- the bone elsewhere
+// ---- a bone in another file
 
 TEST(FindVolume, ByFingerprintWhateverItIsCalled) {
   BURR_SEEDED(random, 61);
@@ -373,7 +373,7 @@ TEST(FindVolume, ByFingerprintWhateverItIsCalled) {
   ASSERT_TRUE(search().ok());
   EXPECT_EQ(*search(), folder / "recordings/x.nii.gz");
 
-  // a series is its files, whatever their names; what burr left there does not count
+  // a series is made of its files, whatever their names; files that burr wrote there do not count
   wanted.source_fingerprint = *fingerprint(folder / "scans/series");
   std::filesystem::rename(folder / "scans/series/IM1", folder / "scans/series/z.dcm");
   put("scans/series/after.png", 10);
@@ -381,7 +381,7 @@ TEST(FindVolume, ByFingerprintWhateverItIsCalled) {
   ASSERT_TRUE(search().ok()) << search().error().text;
   EXPECT_EQ(*search(), folder / "scans/series");
 
-  // one byte more is another scan
+  // one byte more makes it another scan
   put("scans/series/IM3", 1);
   ASSERT_FALSE(search().ok());
   EXPECT_EQ(search().error().trouble, Trouble::io);

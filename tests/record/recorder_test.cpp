@@ -111,7 +111,7 @@ TEST(Recorder, TheSessionIsDescribedToTheBit) {
 }
 
 TEST(Recorder, EveryFieldOfATickHasAColumn) {
-  // what is in the structs but in no column would be lost in silence: sizes must add up
+  // a member of the structs without a column would be lost silently: the sizes must add up
   tick::TickRow row;
   std::size_t fields = sizeof row.tick + sizeof row.spindle_rad_s + sizeof row.cutting_nm +
                        sizeof row.cutting_w + sizeof row.took_us + sizeof row.late_us +
@@ -151,12 +151,12 @@ TEST(Recorder, RowsThatFindTheRingFullAreCountedInTheFile) {
   const auto bone = any_bone(random);
   const Folder folder;
   Recorder recorder(1000, 64);
-  // before start() nobody empties the rings: 4 s of ticks fit, rounded up to 4096
+  // before start() nobody empties the rings: they hold 4 s of ticks, rounded up to 4096
   for (std::uint64_t tick = 0; tick < 5000; ++tick) recorder.ticks().push(any_tick(tick, random));
   for (int i = 0; i < 100; ++i) recorder.bricks().push({.tick = 1, .brick = i % 7});
   for (int i = 0; i < 1030; ++i) recorder.commands().push({});
   ASSERT_TRUE(recorder.start(folder / "s.mcap", info_of(*bone, random)).ok());
-  // the recorder goes on afterwards, with a gap that can be seen
+  // the recorder goes on afterwards, with a visible gap
   while (recorder.ticks().size() > 0) std::this_thread::yield();
   recorder.ticks().push(any_tick(5000, random));
   const auto account = recorder.finish();
@@ -255,7 +255,7 @@ TEST(Recorder, AFullDiskIsSaidAndTheSessionGoesOn) {
   const auto bone = any_bone(random);
   const Folder folder;
   const std::string path = folder / "s.mcap";
-  // no file of this process may grow beyond this; stands for a full disk
+  // no file of this process may grow beyond this; in place of a full disk
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
   std::signal(SIGXFSZ, SIG_IGN);
@@ -280,7 +280,7 @@ TEST(Recorder, AFullDiskIsSaidAndTheSessionGoesOn) {
   EXPECT_FALSE(recorder.status().ok());
   EXPECT_EQ(told, 1) << "at once, and once";
   EXPECT_EQ(recorder.account().safe_ticks + recorder.account().dropped_ticks, 20'000U);
-  // what was written before is there, and ends cleanly
+  // what was written before is there and ends cleanly
   auto player = Player::open(path);
   ASSERT_TRUE(player.ok()) << player.error().text;
   EXPECT_FALSE((*player)->finished());
@@ -326,7 +326,8 @@ TEST(Recorder, PathsUidsAndNumbersThatAreNoneAreRefused) {
   EXPECT_FALSE(refused([](SessionInfo&) {}));
 }
 
-// A session as sim would hand it over holds no identifier anywhere in the unpacked file either.
+// A session as sim would give it to the recorder: the unpacked file has no identifier anywhere
+// either.
 TEST(Recorder, TheFileHoldsNoPathUserOrDate) {
   BURR_SEEDED(random, 8);
   const auto bone = any_bone(random);

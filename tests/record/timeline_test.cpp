@@ -1,4 +1,4 @@
-// A session on one line, against sessions whose strokes, peaks and commands are known.
+// The timeline of sessions whose strokes, peaks and commands are known.
 #include "burr/record/timeline.h"
 
 #include <gtest/gtest.h>

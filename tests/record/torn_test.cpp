@@ -1,5 +1,5 @@
-// Files that were cut off, damaged or made to lie: they open, say what is missing, and never crash.
-// What a kill leaves is in tests/sim/killed_test.cpp.
+// Files that are cut off, damaged or falsified: they open, say what is missing, and never crash.
+// For what a kill leaves behind see tests/sim/killed_test.cpp.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -17,7 +17,7 @@ namespace {
 using namespace test;
 using Bytes = std::vector<std::uint8_t>;
 
-// A short session in many small chunks, as a paced session makes them.
+// A short session in many small chunks, as in a session in real time.
 Truth record_in_chunks(const std::string& path, int chunks, std::uint64_t ticks_each,
                        volume::Bone& bone, Random& random, bool embed = false) {
   Truth truth;
@@ -42,7 +42,7 @@ Truth record_in_chunks(const std::string& path, int chunks, std::uint64_t ticks_
   return truth;
 }
 
-// The ticks a player finds are the first of the truth, without a gap. Returns how many.
+// Checks that the player's ticks are the first of the truth, without a gap. Returns how many.
 std::uint64_t expect_beginning(Player& player, const Truth& truth) {
   StepCursor steps = player.steps();
   Step step;
@@ -147,7 +147,7 @@ TEST(Repair, GivesAWholeFileWithTheSameContent) {
   EXPECT_TRUE((*player)->embedded_bone(0).ok());
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"s.mcap", "torn.mcap"}));
 
-  // a second time, and a file that was never torn: nothing is touched
+  // a second time, and a file that was complete: nothing is changed
   const Bytes repaired = bytes_of_file(torn);
   for (const std::string& path : {torn, folder / "s.mcap"}) {
     const auto again = repair(path, path, progress);
@@ -183,7 +183,7 @@ TEST(Repair, LeavesAFileAloneThatIsStillBeingRecorded) {
   const auto report = repair(folder / "s.mcap", folder / "s.mcap", progress);
   ASSERT_FALSE(report.ok());
   EXPECT_NE(report.error().text.find("right now"), std::string::npos);
-  // but it may be looked at meanwhile
+  // but it may be read meanwhile
   EXPECT_TRUE(Player::open(folder / "s.mcap").ok());
   EXPECT_TRUE(recorder.finish().ok());
 }
@@ -219,7 +219,7 @@ TEST(Damaged, InTheMiddleTheRestIsKeptAndTheHoleIsNamed) {
   const auto chunk = (*reader)->chunks()[3];
   ASSERT_GT((*reader)->chunks().size(), 5U);
 
-  // its content; its length; its kind; with the summary and without
+  // its content; its length; its kind; with and without the summary
   for (const std::uint64_t at : {chunk.offset + 60, chunk.offset + 3, chunk.offset}) {
     for (const bool torn : {false, true}) {
       Bytes bytes = whole;
@@ -271,7 +271,7 @@ TEST(Damaged, RandomBytesNeverCrashNorMakeUsTakeWhatTheyPromise) {
   for (int round = 0; round < 2000; ++round) {
     Bytes bytes = whole;
     for (std::uint64_t n = 1 + random() % 8; n > 0; --n) {
-      // half of them where the structure is: beginning and end
+      // half of the changes where the structure is: at the beginning and the end
       std::size_t at = random() % bytes.size();
       if (random() % 4 == 0)
         at = bytes.size() - 1 - random() % std::min<std::size_t>(2000, bytes.size());

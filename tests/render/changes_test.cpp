@@ -1,4 +1,4 @@
-// Who keeps copies of a scene's patches is told what changed, or that nobody knows.
+// A reader that keeps copies of a scene's patches learns what changed, or that this is not known.
 #include "burr/render/changes.h"
 
 #include <gtest/gtest.h>

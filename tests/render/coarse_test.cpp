@@ -1,5 +1,4 @@
-// Patches drawn with fewer triangles: no crack, no colour that wanders, no farther off than they
-// say.
+// Patches drawn with fewer triangles: no cracks, no colours that move, errors within the promise.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +28,7 @@ using math::Vec3;
 constexpr double kMm = 1e-3, kVoxel = 0.3 * kMm;
 constexpr double kErrors[] = {0.1 * kVoxel, 0.3 * kVoxel};
 
-// A block with a ball-shaped cave in it, closed: who stands in the cave sees bone everywhere. The
+// A block with a closed cave, shaped like a ball: from inside one sees bone in all directions. The
 // bone has two tissues, which meet in a slanted plane.
 Scene cave() {
   NoProgress quiet;
@@ -52,7 +51,7 @@ Scene cave() {
   return scene;
 }
 
-// patches of its grid along each axis
+// number of patches along each axis
 math::Ijk cave_patches() {
   const volume::Grid grid =
       phantom::box_grid(Vec3::Constant(-14 * kMm), Vec3::Constant(14 * kMm), kVoxel);
@@ -95,7 +94,7 @@ double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const V
   return std::abs(ap.dot(n));
 }
 
-// All patches whose number leaves `rest` when divided by `by`.
+// All patches whose number modulo `by` is `rest`.
 Joined joined(const Scene& scene, std::size_t by = 1, std::size_t rest = 0) {
   Joined all;
   for (std::size_t p = rest; p < scene.patches.size(); p += by)
@@ -110,11 +109,11 @@ TEST(CoarseMesh, KeepsTheRimTheTissuesAndTheShape) {
   const Scene scene = cave();
   double worst[2] = {};
   std::size_t full = 0, left[2] = {};
-  // every third patch: each is rim all around
+  // every third patch: each is border all around
   const Joined before = joined(scene, 3, 1);
   const CoarseMesh coarse = coarser(Joined(before), kErrors);
   ASSERT_EQ(coarse.levels.size(), 2U);
-  // vertices are known by their places, seams are closed
+  // vertices are identified by position; seams are closed
   const auto edges = [](const std::vector<SkinVertex>& vertices,
                         const std::vector<std::uint32_t>& triangles) {
     std::map<Place, std::uint32_t> number;
@@ -129,7 +128,7 @@ TEST(CoarseMesh, KeepsTheRimTheTissuesAndTheShape) {
     for (const auto& [a, b] : rim) named.insert({*place[a], *place[b]});
     return named;
   };
-  // triangles between tissues, by the places of their corners
+  // triangles between tissues, by the positions of their corners
   const auto mixed = [](const std::vector<SkinVertex>& vertices,
                         const std::vector<std::uint32_t>& triangles) {
     std::multiset<std::array<Place, 3>> found;
@@ -151,7 +150,7 @@ TEST(CoarseMesh, KeepsTheRimTheTissuesAndTheShape) {
     left[l] = indices.size() / 3;
     EXPECT_EQ(edges(coarse.vertices, indices), rim);
     EXPECT_EQ(mixed(coarse.vertices, indices), mixed(before.vertices, before.triangles));
-    // how far the old vertices, some of them, are from the new surface
+    // distance of some of the old vertices from the new surface
     const auto at = [&](std::uint32_t i) { return Vec3(coarse.vertices[i].p.cast<double>()); };
     for (std::size_t v = 0; v < before.vertices.size(); v += 97) {
       const Vec3 p = before.vertices[v].p.cast<double>();
@@ -174,7 +173,7 @@ TEST(CoarseMesh, KeepsTheRimTheTissuesAndTheShape) {
 
 TEST(CoarseMesh, OfNothingIsNothing) { EXPECT_TRUE(coarser(Joined{}, kErrors).levels.empty()); }
 
-// Of all patches together nothing is rim: far fewer triangles, and the surface is still closed.
+// For all patches together nothing is border: far fewer triangles, and the surface is still closed.
 TEST(CoarseMesh, SeamsBetweenWhatIsJoinedAreNoRim) {
   const Scene scene = cave();
   const CoarseMesh coarse = coarser(joined(scene), kErrors);
@@ -199,7 +198,7 @@ void settle(Coarsening& coarse, Scene& scene, double now) {
   coarse.update(scene, now);
 }
 
-// stands for its patches as they are
+// the block is valid for the present patches
 bool stands(const Scene& scene, const SceneBlock& block) {
   EXPECT_EQ(block.now, versions_of(scene, block));
   return block.mesh != nullptr && block.versions == versions_of(scene, block);
@@ -228,7 +227,7 @@ TEST(Coarsening, MakesAllOnceAndWhatIsMilledWhenItRests) {
   for (std::size_t b = 0; b < scene.blocks.size(); ++b)
     EXPECT_EQ(large[b], scene.blocks[b].outer < 0 ? 0 : 1);
 
-  // made anew, as if milled: no block stands for it until it has rested
+  // a patch made anew, as by milling: no block is valid for it until it has been at rest
   std::size_t some = 0;
   while (scene.patches[some].mesh == nullptr) ++some;
   const auto all_stand = [&](bool with, bool larger = false) {
@@ -247,12 +246,12 @@ TEST(Coarsening, MakesAllOnceAndWhatIsMilledWhenItRests) {
     settle(coarse, scene, now);
     EXPECT_TRUE(all_stand(false)) << now;
   }
-  settle(coarse, scene, 10.5);  // the smallest is there first
+  settle(coarse, scene, 10.5);  // the smallest one comes first
   EXPECT_FALSE(all_stand(false));
   EXPECT_TRUE(all_stand(false, true));
   settle(coarse, scene, 11.1);
   EXPECT_TRUE(all_stand(true));
-  // what changes while its coarse levels are being made does not get the old ones
+  // a patch that changes while its coarse levels are being made does not get the old ones
   set_patch(scene, static_cast<int>(some), ScenePatch(again));
   coarse.update(scene, 20);
   coarse.update(scene, 21.1);
@@ -273,7 +272,7 @@ TEST(CoarsePicture, OfAClosedCaveShowsNoBackground) {
   Scene scene = cave();
   Coarsening coarse(cave_patches(), kVoxel);
   settle(coarse, scene, 0);
-  // neighbours of every kind: no block around one of the patches stands
+  // neighbours of every kind: no block around one of the patches is valid
   const auto in_middle = [](const ScenePatch& patch) {
     return patch.mesh != nullptr && patch.box.centre().norm() < 10 * kMm;
   };
@@ -306,7 +305,7 @@ TEST(CoarsePicture, OfAClosedCaveShowsNoBackground) {
       through += image.rgb[i] > 200 && image.rgb[i + 1] < 60 && image.rgb[i + 2] > 200;
     EXPECT_EQ(through, 0) << "view " << view;
   }
-  // it was coarse at all
+  // it was drawn coarse at all
   scene.camera.distance = 80 * kMm;
   gpu.skip_hidden(false);
   ASSERT_TRUE(gpu.show(scene).ok());
@@ -317,8 +316,8 @@ TEST(CoarsePicture, OfAClosedCaveShowsNoBackground) {
   EXPECT_GT(gpu.figures().triangles_drawn, 2 * coarse_ones);
 }
 
-// Coarse levels stand for patches as they were: of what was milled, or carries dust or blood, not
-// one pixel may be missing because its block has an older picture of it.
+// Coarse levels show patches in an earlier state: of a patch that was milled, or has dust or blood
+// on it, not one pixel may come from the block's older state.
 TEST(CoarsePicture, DrawsWhatChangedOrIsDressedAsItIsAndNotAsItsBlockWas) {
   BURR_NEEDS_GPU(gpu);
   Scene scene = cave();
@@ -341,7 +340,7 @@ TEST(CoarsePicture, DrawsWhatChangedOrIsDressedAsItIsAndNotAsItsBlockWas) {
   const auto count = [&](double coarse_px, const auto& is) {
     scene.quality.coarse_px = coarse_px;
     scene.quality.refine = false;
-    orbit(scene.camera, 1e-4, 0);  // drawn whole
+    orbit(scene.camera, 1e-4, 0);  // draws everything
     EXPECT_TRUE(gpu.show(scene).ok());
     const Image image = gpu.shown();
     long found = 0;
@@ -360,7 +359,7 @@ TEST(CoarsePicture, DrawsWhatChangedOrIsDressedAsItIsAndNotAsItsBlockWas) {
   EXPECT_NEAR(static_cast<double>(count(1000, pink)), static_cast<double>(all),
               0.02 * static_cast<double>(all));
 
-  // as before again, its block stands again; then blood comes over it
+  // unchanged again, so its block is valid again; then blood comes over it
   set_patch(scene, nearest, ScenePatch(before));
   settle(coarse, scene, 10);
   settle(coarse, scene, 12);
@@ -377,7 +376,7 @@ TEST(CoarsePicture, DrawsWhatChangedOrIsDressedAsItIsAndNotAsItsBlockWas) {
               0.02 * static_cast<double>(bloody));
 }
 
-// What was left out while the eye moved is made good to the bit, in any order of events.
+// What was left out while the eye moved is drawn later, exact to the bit, in any order of events.
 TEST(CoarsePicture, AtRestBecomesThatOfAllTriangles) {
   BURR_NEEDS_GPU(gpu);
   Scene scene = cave();
@@ -415,7 +414,7 @@ TEST(CoarsePicture, AtRestBecomesThatOfAllTriangles) {
     int frames = 0;
     double most = 0;
     while (!gpu.refined() && ++frames < 200) {
-      // a busy hand meanwhile
+      // the hand moves meanwhile
       scene.burr.world_from_tool.p.x() = frames % 2 == 0 ? 0 : 2 * kMm;
       ASSERT_TRUE(gpu.show(scene).ok());
       if (!gpu.refined()) most = std::max(most, gpu.figures().redrawn);

@@ -1,4 +1,4 @@
-// What is left out of the picture when it does not keep up, on a clock of the test's own.
+// What is left out of the picture when the machine is too slow, with the test's own clock.
 #include "burr/render/governor.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace burr::render {
 namespace {
 
-// A machine: how long a frame takes at each step, at rest and moving.
+// A machine: frame time at each step, at rest and moving.
 struct Machine {
   double rest[FrameGovernor::kSteps], moving[FrameGovernor::kSteps];
 };
@@ -18,7 +18,7 @@ constexpr Machine kSlow = {{0.05, 0.03, 0.02, 0.018, 0.015}, {0.5, 0.4, 0.06, 0.
 class Loop {
  public:
   Loop(FrameGovernor& governor, const Machine& machine) : governor_(governor), machine_(machine) {}
-  // frames for so long
+  // draws frames for this time
   void run(double seconds, bool moving, double redrawn = 1) {
     for (const double end = now_ + seconds; now_ < end;) {
       if (moving) orbit(camera_, 0.01, 0);
@@ -89,7 +89,8 @@ TEST(FrameGovernor, ComesBackWhenThereIsRoomAndWaitsLongerWhenThatFailed) {
   EXPECT_EQ(governor.step(), 0);
   EXPECT_TRUE(whole(loop.quality()));
 
-  // a machine with room at one step and too little at the one before: it tries ever more seldom
+  // a machine with time to spare at one step and too little at the one before: it tries less and
+  // less often
   constexpr Machine kEdge = {{0.05, 0.005, 0.005, 0.005, 0.005}, {0.1, 0.005, 0.005, 0.005, 0.005}};
   FrameGovernor other(false);
   Loop edge(other, kEdge);

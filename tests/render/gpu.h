@@ -8,7 +8,7 @@
 #include "support/data.h"
 
 // First line of a test that draws: `gpu` is a Renderer. Skips with the reason where there is no
-// OpenGL, fails where CI demands it.
+// OpenGL, and fails where CI requires it.
 #define BURR_NEEDS_GPU(gpu)                                                     \
   auto gpu##_or_trouble = burr::render::Renderer::offscreen();                  \
   if (!gpu##_or_trouble) {                                                      \

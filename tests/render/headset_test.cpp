@@ -1,5 +1,5 @@
-// A headset against a runtime that demands what OpenXR's specification demands, and whose pictures
-// are compared with geometry and with the renderer's own.
+// A headset with a runtime that enforces OpenXR's specification; its pictures are compared with
+// geometry and with the renderer's own pictures.
 #include "burr/render/headset.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ using math::Vec3;
 using test::FakeXr;
 using test::Worn;
 
-// a small blue ball where the middle camera looks, and a larger one of bone behind it, to its left
+// a small blue ball where the middle camera looks, and a larger one of bone to the left behind it
 Scene two_balls() {
   Scene scene;
   scene.look.background_top = scene.look.background_bottom = {1, 1, 1};
@@ -44,7 +44,7 @@ class OnTheHead {
  public:
   OnTheHead(Headset& headset, const Scene& scene) : headset_(headset), scene_(scene) {}
 
-  // frames until it holds; false: it never does
+  // runs frames until it holds; false: it never does
   bool until(const std::function<bool()>& holds) {
     for (int n = 0; n < 400; ++n) {
       frame();
@@ -61,7 +61,7 @@ class OnTheHead {
     headset_.end(scene_, cameras_);
     return true;
   }
-  // as many with pictures more
+  // waits for this many more frames with pictures
   bool pictures(Worn& worn, int more) {
     const int from = worn.xr().with_pictures;
     return until([&] { return worn.xr().with_pictures >= from + more; });
@@ -76,7 +76,7 @@ class OnTheHead {
   std::array<Camera, 2> cameras_;
 };
 
-// middle of what is blue (or red), from the top left  [pixel]
+// middle of the blue (or red) pixels, from the top left [pixel]
 Eigen::Vector2d middle_of(const FakeXr::Picture& picture, std::size_t channel) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double count = 0;
@@ -92,7 +92,7 @@ Eigen::Vector2d middle_of(const FakeXr::Picture& picture, std::size_t channel) {
   return sum / count;
 }
 
-// where a point of the room lies in an eye's picture, by the angles the runtime gave
+// the position of a point of the room in an eye's picture, from the angles that the runtime gave
 Eigen::Vector2d seen(const FakeXr& xr, std::size_t eye, const XrPosef& pose, const Vec3& p) {
   const math::Quat q(pose.orientation.w, pose.orientation.x, pose.orientation.y,
                      pose.orientation.z);
@@ -105,7 +105,7 @@ Eigen::Vector2d seen(const FakeXr& xr, std::size_t eye, const XrPosef& pose, con
 // the balls of two_balls() in the room: half a metre ahead for 0.2 m
 const Vec3 kBlue(0, 0, -0.5), kRed(-0.03 * 2.5, 0, -0.5 - 0.06 * 2.5);
 
-// the worst difference of a colour
+// the largest difference of a colour
 int worst(const FakeXr::Picture& picture, const Image& image) {
   int most = 0;
   for (int y = 0; y < image.height; ++y)
@@ -124,7 +124,7 @@ int worst(const FakeXr::Picture& picture, const Image& image) {
   ASSERT_TRUE(headset##_or_why) << headset##_or_why.error().text; \
   Headset& headset = **headset##_or_why
 
-// ---- what is not there
+// ---- missing runtime or headset
 
 TEST(NoHeadset, IsSaidInOneSentenceWithTheRemedy) {
   BURR_NEEDS_GPU(gpu);
@@ -164,7 +164,7 @@ TEST(Headset, EachEyeSeesWhatStandsWhereTheRoomHasIt) {
   const Scene scene = two_balls();
   OnTheHead head(headset, scene);
   const FakeXr& xr = worn.xr();
-  // ahead; turned, tilted and elsewhere; upside down
+  // straight ahead; turned, tilted and elsewhere; upside down
   const float s = std::sqrt(0.5F);
   const XrPosef poses[] = {{{0, 0, 0, 1}, {0, 0, 0}},
                            {{0.05F, -0.1F, 0.15F, 0.98234414F}, {0.06F, 0.04F, -0.1F}},
@@ -183,7 +183,7 @@ TEST(Headset, EachEyeSeesWhatStandsWhereTheRoomHasIt) {
 TEST(Headset, EyesPartByTheRightParallaxAndAreNotSwapped) {
   BURR_NEEDS_GPU(gpu);
   Worn worn;
-  // the same angles for both eyes, so that the difference is parallax alone
+  // the same angles for both eyes, so that the only difference is parallax
   worn.xr().fov = {{{-0.7F, 0.7F, 0.7F, -0.7F}, {-0.7F, 0.7F, 0.7F, -0.7F}}};
   PUT_ON(headset);
   const Scene scene = two_balls();
@@ -211,7 +211,7 @@ TEST(Headset, PicturesAreTheRenderersOwnWhateverTheWindowShowsBetween) {
   auto other = Renderer::offscreen();
   ASSERT_TRUE(other);
   for (int n = 0; n < 3; ++n) {
-    // bone changes before a head that rests: only that part is drawn anew, for either eye
+    // bone changes in front of a head at rest: only that part is redrawn, for each eye
     if (n > 0) set_patch(scene, 0, test::ball(scene.camera.target, 0.004 + 0.002 * n, 24, 1));
     TwoEyes eyes;
     eyes.how = n == 1 ? Stereo::anaglyph : Stereo::off;
@@ -274,7 +274,7 @@ TEST(Headset, WandIsWhereTheRuntimeSaysAndItsTriggerPulls) {
   ASSERT_TRUE(head.until([&] { return head.now().wand.tracked; }));
   EXPECT_LT((head.now().wand.room_from_wand.p - Vec3(0.1, -0.1, -0.4)).norm(), 1e-6);
   EXPECT_NEAR(head.now().wand.trigger, 0.75, 1e-6);
-  // the same place in the world as in the picture: by the axes of the window's camera
+  // the same place in the world as in the picture: along the axes of the window's camera
   const Camera& c = scene.camera;
   const math::Pose world = placed(c, head.now().wand.room_from_wand);
   const Vec3 wanted = c.eye() + 0.4 * (0.1 * c.right() - 0.1 * c.above() - 0.4 * c.backward());
@@ -284,12 +284,12 @@ TEST(Headset, WandIsWhereTheRuntimeSaysAndItsTriggerPulls) {
   EXPECT_TRUE(head.until([&] { return !head.now().wand.tracked; }));
   worn.change([](FakeXr& xr) { xr.wand_tracked = true; });
   EXPECT_TRUE(head.until([&] { return head.now().wand.tracked; }));
-  // somebody else's menu has the hands
+  // another program's menu has the input of the hands
   worn.xr().happens(XR_SESSION_STATE_VISIBLE);
   EXPECT_TRUE(head.until([&] { return !head.now().wand.tracked; }));
 }
 
-// ---- coming and going
+// ---- connecting and disconnecting
 
 TEST(Headset, TakenOffAndPutOnAgain) {
   BURR_NEEDS_GPU(gpu);
@@ -347,7 +347,7 @@ TEST(Headset, RuntimeThatHangsHoldsNothingUp) {
     EXPECT_FALSE(head.frame());
     EXPECT_TRUE(gpu.show(scene));
   }
-  // generous: it must come back at all
+  // generous: it is enough that it comes back
   EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(60));
 }
 

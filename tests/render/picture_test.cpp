@@ -31,7 +31,7 @@ using math::Vec3;
 constexpr double kPi = std::numbers::pi;
 constexpr Colour kGrey = {0.6F, 0.6F, 0.6F};
 
-// only Lambert from the eye before black: what is drawn can be calculated
+// only Lambert with a light at the eye, on black: the picture can be calculated
 Look plain_look() {
   Look look;
   look.plain = true;
@@ -88,7 +88,7 @@ Difference difference(const Image& a, const Image& b) {
   return d;
 }
 
-// a folder of its own, gone afterwards
+// a folder that is removed afterwards
 struct Folder {
   std::filesystem::path path = std::filesystem::temp_directory_path() /
                                ("burr_render_" + std::to_string(std::random_device{}()));
@@ -228,7 +228,7 @@ TEST(Picture, TheBurrHidesWhatIsBehindItAndNothingElse) {
   Scene scene = ball_scene(Vec3::Zero(), 0.03, 200);
   const auto bare = gpu.image(scene, 400, 400);
 
-  // a burr that floats before the bone, its shaft towards the right
+  // a burr in free air in front of the bone, its shaft to the right
   scene.burr.visible = true;
   scene.burr.radius = 5e-3;
   scene.burr.world_from_tool.p = {0, -0.045, 0};
@@ -240,7 +240,7 @@ TEST(Picture, TheBurrHidesWhatIsBehindItAndNothingElse) {
   const auto inside = gpu.image(scene, 400, 400);
   ASSERT_TRUE(bare.ok() && before.ok() && behind.ok() && inside.ok());
 
-  // pixels that look at the head: closer to the middle than its outline
+  // pixels of the head: closer to the middle than its outline
   const double t = std::tan(scene.camera.field_of_view / 2);
   const double outline = std::tan(std::asin(5e-3 / (0.2 - 0.045))) / t * 200;
   const double bone = std::tan(std::asin(0.03 / 0.2)) / t * 200;
@@ -299,7 +299,7 @@ TEST(Picture, HollowsAreDarkerThanPlains) {
   scene.look.hollow = 0;
   const auto flat = gpu.image(scene, 400, 300);
   ASSERT_TRUE(flat.ok());
-  // left ball's middle, and near the meeting point
+  // the middle of the left ball, and a point near the contact
   const auto at = [&](const Image& in, double x) {
     return pixel(in, static_cast<int>(200 + (x - 0.02) / scene.camera.view_height() * 300), 150)[1];
   };
@@ -307,9 +307,10 @@ TEST(Picture, HollowsAreDarkerThanPlains) {
   EXPECT_LE(at(*image, 0.0185), at(*flat, 0.0185) - 25);
 }
 
-// ---- what is drawn again only where it changed
+// ---- redrawing only what changed
 
-// A scene that changes here and there, drawn as it changes and drawn whole each time.
+// Compares a scene that changes here and there, drawn as it changes, with the same scene drawn
+// whole each time.
 void expect_no_difference_is_seen(Renderer& gpu, double scale) {
   auto other = Renderer::offscreen();
   ASSERT_TRUE(other.ok());
@@ -333,11 +334,12 @@ void expect_no_difference_is_seen(Renderer& gpu, double scale) {
   scene.burr.radius = 4e-3;
   bool any_partial = false;
   for (int step = 0; step < 16; ++step) {
-    // the burr wanders, a patch here and there sinks a little or vanishes
+    // the burr moves; a patch here and there sinks a little or vanishes
     scene.burr.world_from_tool.p = Vec3(0.1 * uniform(random), -0.06, 0.1 * uniform(random));
     show_contact(scene, scene.burr.world_from_tool.p, scene.burr.world_from_tool.p,
                  Vec3(0, -1, uniform(random)));
-    // now and then the eye moves too, nearer and farther: sky that was bone, and bone that was sky
+    // now and then the eye moves too, nearer and farther: background becomes bone, and bone
+    // background
     if (step % 3 == 1) orbit(scene.camera, uniform(random), 0.3 * uniform(random));
     if (step % 4 == 2) zoom(scene.camera, step % 8 == 2 ? 0.5 : 2);
     const auto which = static_cast<std::size_t>(random() % scene.patches.size());
@@ -351,9 +353,10 @@ void expect_no_difference_is_seen(Renderer& gpu, double scale) {
     EXPECT_LE(gpu.figures().patches_uploaded, 1);
     any_partial = any_partial || gpu.figures().redrawn < 0.8;
 
-    ASSERT_TRUE((*other)->show(Scene{}).ok());  // forgets everything
+    ASSERT_TRUE((*other)->show(Scene{}).ok());  // the renderer keeps nothing
     ASSERT_TRUE((*other)->show(scene).ok());
-    // the depth's scale follows the bone's extent at the last whole drawing: rounding may differ
+    // the scale of the depth depends on the bone's extent at the last whole drawing: rounding may
+    // differ
     const Difference apart = difference(gpu.shown(), (*other)->shown());
     EXPECT_LE(apart.largest, 1) << "step " << step;
     EXPECT_LT(apart.mean, 5e-3) << "step " << step;
@@ -428,7 +431,7 @@ TEST(Picture, APngHoldsThePixelsAndNothingElse) {
   EXPECT_TRUE(std::equal(image.rgb.begin(), image.rgb.end(), back));
   stbi_image_free(back);
 
-  // chunks: length, name, data, check; only the three that make a picture
+  // chunks: length, name, data, checksum; only the three that a picture needs
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   std::string names;
@@ -453,7 +456,7 @@ TEST(Picture, AFileThatCannotBeWrittenIsToldAndNothingIsLeft) {
 }
 
 TEST(Picture, AFilmIsNumberedPictures) {
-  BURR_NEEDS_GPU(gpu);  // and a film beside it
+  BURR_NEEDS_GPU(gpu);  // and a film at the same time
   const Folder folder;
   auto film = Film::in(folder.path / "film", 64, 48);
   ASSERT_TRUE(film.ok()) << film.error().text;
@@ -489,7 +492,7 @@ TEST(Picture, TheMouseFindsTheBallToATenthOfAMillimetre) {
     const Vec3 from = ray.origin - Vec3(0.01, 0, 0.02);
     const double b = from.dot(ray.direction), c = from.squaredNorm() - 0.03 * 0.03;
     const auto hit = pick(scene, ray);
-    if (std::abs(b * b - c) < 1e-5) continue;  // grazes the edge
+    if (std::abs(b * b - c) < 1e-5) continue;  // only touches the edge
     ASSERT_EQ(hit.has_value(), b * b > c);
     if (!hit) continue;
     ++hits;

@@ -1,4 +1,4 @@
-// Bone that lets what lies in it be seen: held against the colours it must have.
+// Transparent bone, compared with the colours that it must have.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,11 +18,11 @@ using math::Vec3;
 
 constexpr int kWide = 320, kHigh = 240;
 constexpr double kVoxel = 0.5e-3;
-constexpr int kSize = 48;  // voxels along a side; bone 4 .. 44
+constexpr int kSize = 48;  // voxels along a side; bone from 4 to 44
 constexpr Colour kNerve = {0.9F, 0.8F, 0.1F}, kVessel = {0.2F, 0.2F, 0.8F};
 constexpr Colour kBone = {0.8F, 0.8F, 0.8F}, kBehind = {0.0F, 0.5F, 0.0F};
 
-// A block with a nerve along x, 5 mm under its top, and a vessel along y, 12 mm under it. Seen from
+// A block with a nerve along x, 5 mm below its top, and a vessel along y, 12 mm below it. Seen from
 // the top, +z.
 std::unique_ptr<volume::Bone> block() {
   const auto count = static_cast<std::size_t>(kSize * kSize * kSize);
@@ -72,7 +72,7 @@ Rgb at(const Image& image, int x, int y) {
   const auto from = static_cast<std::size_t>(3 * (y * image.width + x));
   return {image.rgb[from], image.rgb[from + 1], image.rgb[from + 2]};
 }
-// where a point of the world is in the picture
+// the position of a point of the world in the picture
 std::array<int, 2> place(const Scene& scene, const Vec3& p) {
   const Eigen::Vector4d c = clip_from_view(scene.camera, double{kWide} / kHigh, 0.01, 1) *
                             view_from_world(scene.camera) * p.homogeneous();
@@ -92,7 +92,7 @@ void expect_mixed(const Rgb& is, const Colour& front, const Colour& behind, doub
 TEST(SeeThrough, ShowsEachStructureByTheShareThatBoneLetsThrough) {
   BURR_NEEDS_GPU(gpu);
   Scene scene = seen_from_top();
-  // in the middle the nerve lies over the vessel; the others beside it
+  // in the middle the nerve lies over the vessel; the other points are beside it
   const Vec3 middle = scene.camera.target;
   const auto both = place(scene, middle + Vec3(0, 0, 7e-3)),
              nerve = place(scene, middle + Vec3(6e-3, 0, 7e-3)),
@@ -137,14 +137,14 @@ TEST(SeeThrough, TheToolIsSeenBehindBoneAndHidesWhatIsBehindIt) {
   ASSERT_TRUE(without.ok());
   scene.burr.visible = true;
   scene.burr.radius = 2e-3;
-  // behind the whole block, its shaft away from the eye
+  // behind the whole block, its shaft pointing away from the eye
   scene.burr.world_from_tool.p = middle + Vec3(6e-3, 6e-3, -14e-3);
   scene.burr.world_from_tool.q = Eigen::Quaterniond(0, 1, 0, 0);
   const auto behind = gpu.image(scene, kWide, kHigh);
   ASSERT_TRUE(behind.ok());
   EXPECT_NE(at(*behind, beside[0], beside[1]), at(*without, beside[0], beside[1]));
   EXPECT_EQ(at(*behind, nerve[0], nerve[1]), at(*without, nerve[0], nerve[1]));
-  // before it, over the nerve: as opaque as ever
+  // in front of it, over the nerve: opaque as usual
   scene.burr.world_from_tool.p = middle + Vec3(6e-3, 0, 14e-3);
   const auto before = gpu.image(scene, kWide, kHigh);
   ASSERT_TRUE(before.ok());

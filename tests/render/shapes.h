@@ -1,4 +1,4 @@
-// tests/render/shapes.h - surfaces by formula, so that this room is tested without any other.
+// tests/render/shapes.h - surfaces by formula, so that the tests of this room need no other room.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace burr::test {
 
-// A ball of triangles: longitude and latitude, `steps` from pole to pole. Error of the radius:
+// A ball of triangles by longitude and latitude, `steps` from pole to pole. Error of the radius:
 // about radius (pi / steps)^2 / 8.
 inline surface::Patch ball(const math::Vec3& centre, double radius, int steps,
                            volume::TissueId tissue = 1) {
@@ -36,7 +36,7 @@ inline surface::Patch ball(const math::Vec3& centre, double radius, int steps,
   return patch;
 }
 
-// A patch again from what a scene keeps of it.
+// Makes a patch from what a scene keeps of it.
 inline surface::Patch unpacked(const render::SkinMesh& mesh) {
   surface::Patch patch;
   for (const render::SkinVertex& v : mesh.vertices())
@@ -48,8 +48,8 @@ inline surface::Patch unpacked(const render::SkinMesh& mesh) {
   return patch;
 }
 
-// The same surface in n x n x n patches, as a mesher would cut it: each triangle where its middle
-// lies.
+// The same surface in n x n x n patches, as a mesher would divide it: each triangle belongs where
+// its middle lies.
 inline std::vector<surface::Patch> cut(const surface::Patch& whole, int n) {
   math::Aabb box;
   for (const auto& v : whole.vertices) box.extend(v.p.cast<double>());
@@ -76,8 +76,8 @@ inline std::vector<surface::Patch> cut(const surface::Patch& whole, int n) {
   return parts;
 }
 
-// A bumpy, hollowed ball of `radius`, like a bone in that nothing of it is flat: the radius varies
-// along each direction, normals by differences.
+// A bumpy, hollowed ball of `radius`; like bone, no part of it is flat. The radius varies with the
+// direction; normals by differences.
 inline surface::Patch bumpy(double radius, int steps) {
   const auto point = [radius](double lon, double lat) {
     const math::Vec3 d(std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat));

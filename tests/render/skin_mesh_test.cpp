@@ -18,7 +18,7 @@ TEST(SkinMesh, NormalsComeBackWithinSixHundredthsOfADegree) {
   double worst = 0;
   for (int n = 0; n < 100'000; ++n) {
     math::Vec3f wanted(any(random), any(random), any(random));
-    if (n % 3 == 0) wanted[n % 9 / 3] *= 1e-4F;  // near the folds
+    if (n % 3 == 0) wanted[n % 9 / 3] *= 1e-4F;  // near the folds of the octahedron
     wanted.normalize();
     const math::Vec3f seen = normal_of({math::Vec3f::Zero(), folded(wanted, 1)});
     EXPECT_NEAR(seen.norm(), 1, 1e-6);

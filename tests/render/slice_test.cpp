@@ -1,5 +1,5 @@
-// Slices against the shapes they cut: where things lie, how large they are, what they are made of,
-// and that they follow the cut.
+// Slices compared with the shapes they cut: positions, sizes, tissues, and that they follow the
+// cut.
 #include "burr/render/slice.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 using math::Vec3;
 constexpr double kMm = 1e-3;
 
-// A ball of 6 mm that lies to the left, in front and above.
+// A ball of 6 mm to the left, in front and above.
 const Vec3 kCentre = {5 * kMm, -4 * kMm, 3 * kMm};
 std::unique_ptr<volume::Bone> bone() {
   return phantom::bone_from_distance(phantom::cube_grid(30 * kMm, 100), {},
@@ -52,7 +52,7 @@ Seen look(const Image& image, const Slice& slice) {
 TEST(Slice, ShowsEachPlaneTheRightWayRound) {
   auto ball = bone();
   Slicer slicer(*ball);
-  // the ball's middle, seen from the origin: right and up in the picture, by the header's words
+  // the ball's middle, seen from the origin: right and up in the picture, as the header says
   const struct {
     Plane plane;
     double right, up, off;
@@ -67,10 +67,10 @@ TEST(Slice, ShowsEachPlaneTheRightWayRound) {
     const double per_mm = 360.0 / 24;
     EXPECT_NEAR(seen.middle.x(), 240 + per_mm * one.right, 1) << static_cast<int>(one.plane);
     EXPECT_NEAR(seen.middle.y(), 180 - per_mm * one.up, 1) << static_cast<int>(one.plane);
-    // a plane `off` from the middle of a ball cuts a smaller disc
+    // a plane at distance `off` from the middle of a ball cuts a smaller disc
     const double r2 = 36 - one.off * one.off;
     EXPECT_NEAR(seen.area, std::numbers::pi * r2 * kMm * kMm, 0.01 * r2 * 3 * kMm * kMm);
-    // where the pixels say they are
+    // the position that the pixels show
     const Vec3 middle = point_of(slice, seen.middle, image.width, image.height);
     const Eigen::Vector2d again = pixel_of(slice, middle, image.width, image.height);
     EXPECT_NEAR((again - seen.middle).norm(), 0, 1e-9);
@@ -86,7 +86,7 @@ TEST(Slice, FollowsTheCut) {
   slice.height = 20 * kMm;
   Image before{200, 200, {}}, after = before, again = before;
   EXPECT_TRUE(slicer.draw(slice, before));
-  // a brick within the ball is taken away
+  // a brick within the ball is removed
   const Vec3 at = ball->grid().grid_from_world(kCentre);
   const volume::BrickIndex brick = ball->brick_at(
       static_cast<int>(at.x()) / 8, static_cast<int>(at.y()) / 8, static_cast<int>(at.z()) / 8);
@@ -118,9 +118,8 @@ TEST(Slice, ColoursTissuesAndCanLeaveThatOut) {
   EXPECT_GT(image.rgb[middle], 200);
 }
 
-// While another thread writes, no brick is ever half old and half new.
-// Over the bone a scan of 1000 HU within 6 mm, 40 around it: what was measured is seen as it was,
-// but where bone is gone, and where some was added.
+// The scan has 1000 HU within 6 mm, 40 around it. It is shown as it was measured, except where bone
+// was removed and where some was added.
 TEST(Slice, ShowsWhatTheScanMeasuredAndWhatHasBecomeOfIt) {
   auto ball = bone();
   volume::Greys greys;
@@ -178,6 +177,7 @@ TEST(Slice, ShowsWhatTheScanMeasuredAndWhatHasBecomeOfIt) {
   EXPECT_NEAR(grey_at(kCentre - Vec3(4 * kMm, 0, 0)), 1, 0.01) << "the rest is as it was";
 }
 
+// While another thread writes, no brick is ever shown half old and half new.
 TEST(Slice, BesideAWriterEachBrickIsOneOrTheOther) {
   auto ball = bone();
   Slicer slicer(*ball);
@@ -188,7 +188,7 @@ TEST(Slice, BesideAWriterEachBrickIsOneOrTheOther) {
   std::jthread servo([&](const std::stop_token& stop) {
     volume::BrickField all = {}, none = {};
     std::fill(std::begin(all.voxel), std::end(all.voxel), volume::kSolid);
-    // without a breath now and then a reader on a core of its own might never find a whole brick
+    // without a pause now and then, a reader on another core might never find a complete brick
     bool solid = true;
     for (int n = 1; !stop.stop_requested(); ++n, solid = !solid) {
       ball->write_brick(brick, solid ? all : none);

@@ -1,4 +1,5 @@
-// A window for two eyes against the same pictures made one by one, as `burr picture` makes them.
+// A window for two eyes, compared with the same pictures made one by one, as `burr picture` makes
+// them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,7 +47,7 @@ Image one_by_one(Renderer& renderer, Scene scene, Stereo how, int width, int hei
   return joined(*left, *right, how);
 }
 
-// the worst difference of a colour; joining on the GPU rounds otherwise than the processor does
+// the largest difference of a colour; joining on the GPU rounds differently from the processor
 int worst(const Image& a, const Image& b) {
   if (a.width != b.width || a.height != b.height) return 255;
   int most = 0;
@@ -74,7 +75,7 @@ TEST(TwoEyes, TheWindowIsWhatIsMadeOneByOne) {
   }
 }
 
-// What is held of one eye is not taken for the other's: bone, tool, looks and size change while
+// The kept picture of one eye is never used for the other: bone, tool, look and size change while
 // both rest.
 TEST(TwoEyes, EachHoldsItsOwnPictureWhileOneMills) {
   BURR_NEEDS_GPU(gpu);
@@ -87,7 +88,7 @@ TEST(TwoEyes, EachHoldsItsOwnPictureWhileOneMills) {
                                Stereo::off,      Stereo::side_by_side, Stereo::side_by_side,
                                Stereo::anaglyph, Stereo::interleaved,  Stereo::interleaved};
   for (std::size_t n = 0; n < kinds.size(); ++n) {
-    // another bump in one patch, the tool elsewhere
+    // another bump in one patch, the tool at another place
     auto parts = test::cut(test::bumpy(0.03 - 0.0004 * static_cast<double>(n), 60), 3);
     const std::size_t which = 4 + n % 3;
     set_patch(scene, static_cast<int>(which), parts[which]);

@@ -1,4 +1,4 @@
-// Cut open, for two eyes, through a tube: against what geometry says.
+// Section, two eyes, and the view through a tube, compared with geometry.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +20,7 @@ using math::Vec3;
 
 constexpr int kWide = 600, kHigh = 400;
 
-// where a point appears  [pixel]
+// the position of a point in the picture [pixel]
 Eigen::Vector2d seen(const Camera& camera, const Vec3& p) {
   const Eigen::Vector4d c = clip_from_view(camera, double{kWide} / kHigh, 0.01, 1) *
                             view_from_world(camera) * p.homogeneous();
@@ -45,7 +45,7 @@ TEST(Stereo, EyesAgreeOnTheTargetsPlaneAndPartBeforeAndBehind) {
       const double pixel = kHigh / middle.view_height();
       EXPECT_NEAR(r.x() - l.x(), pixel * apart * deeper / (middle.distance + deeper), 1e-6);
       EXPECT_NEAR(0.5 * (l.x() + r.x()), m.x(), 1e-6);
-      // and the mouse points there
+      // and the mouse ray goes there
       const Ray ray = ray_through(eyes.left, l.x(), l.y(), kWide, kHigh);
       EXPECT_LT((p - ray.origin).cross(ray.direction).norm(), 1e-9);
     }
@@ -103,7 +103,7 @@ TEST(Clip, ClosesTheSectionWithAFlatFace) {
   BURR_NEEDS_GPU(gpu);
   const double radius = 0.03, off = 0.01;
   Scene scene = ball_scene(radius);
-  // the eye is at -y: what is nearer to it than `off` before the middle is gone
+  // the eye is at -y: everything nearer to it than `off` in front of the middle is removed
   scene.clip = ClipPlane{Vec3(0, -off, 0), Vec3(0, -1, 0)};
   const auto image = gpu.image(scene, kWide, kHigh);
   ASSERT_TRUE(image.ok()) << image.error().text;
@@ -124,19 +124,19 @@ TEST(Clip, ClosesTheSectionWithAFlatFace) {
     }
   EXPECT_EQ(background, 0);
   EXPECT_LE(worst, 2) << "flat: one brightness all over";
-  // nothing of the half before it: the outline is that of what is behind the plane
+  // nothing of the half in front of it: the outline is that of what is behind the plane
   scene.clip = ClipPlane{Vec3(0, -off, 0), Vec3(0, 1, 0)};
   const auto cap = gpu.image(scene, kWide, kHigh);
   ASSERT_TRUE(cap.ok());
   long drawn = 0;
   for (std::size_t i = 0; i < cap->rgb.size(); i += 3) drawn += cap->rgb[i + 2] < 250;
   const double outline = per_m * radius / std::sqrt(0.2 * 0.2 - radius * radius);
-  // a cap's outline is the sphere's as long as the plane lies behind the horizon, which is here
-  // r^2 / d = 4.5 mm before the middle; at 10 mm it is the section's edge
+  // The outline of a cap is that of the sphere as long as the plane lies behind the horizon, which
+  // is r^2 / d = 4.5 mm in front of the middle here; at 10 mm it is the edge of the section.
   EXPECT_LT(static_cast<double>(drawn), 0.99 * std::numbers::pi * outline * outline);
   EXPECT_NEAR(static_cast<double>(drawn), std::numbers::pi * section * section,
               0.02 * std::numbers::pi * section * section);
-  // the mouse does not touch what is not there
+  // the mouse does not hit what was removed
   const Ray ray = ray_through(scene.camera, kWide / 2.0, kHigh / 2.0, kWide, kHigh);
   scene.clip.reset();
   const auto front = pick(scene, ray);

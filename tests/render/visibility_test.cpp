@@ -1,4 +1,4 @@
-// What is left out because other bone hides it: never anything that could be seen.
+// What is skipped because other bone hides it: never anything that could be seen.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using math::Aabb;
 using math::Vec3;
 constexpr double kMm = 1e-3;
 
-// ---- by itself
+// ---- the depth map alone
 
 // Eye at the origin, looking along -z; near 1, far 10.
 Eigen::Matrix4d perspective() {
@@ -68,7 +68,7 @@ TEST(DepthTiles, NeverHideAPointThatTheSamplesShow) {
   };
   int hidden = 0;
   for (int round = 0; round < 300; ++round) {
-    // a window of which only a part was drawn anew, and some hills in it
+    // a window with some hills, of which only a part was redrawn
     const int wide = 40 + static_cast<int>(from(0, 60)), high = 40 + static_cast<int>(from(0, 60));
     const DepthTiles::Part part = {static_cast<int>(from(0, 20)), static_cast<int>(from(0, 20)),
                                    static_cast<int>(from(1, 20)), static_cast<int>(from(1, 20))};
@@ -99,9 +99,9 @@ TEST(DepthTiles, NeverHideAPointThatTheSamplesShow) {
 
 // ---- in pictures
 
-// Whether a triangle of the scene stands edge-on to the eye, narrower than the rasteriser's grid,
-// at the middle of this pixel (y down). Depth and colour of what is drawn of such a one are
-// anything: its plane is steeper than what single precision can follow.
+// Whether a triangle of the scene is edge-on to the eye, narrower than the rasterizer's grid, at
+// the middle of this pixel (y down). The depth and colour of such a triangle are arbitrary: its
+// plane is steeper than single precision can follow.
 class EdgeOn {
  public:
   EdgeOn(const Scene& scene, int width, int height)
@@ -128,9 +128,9 @@ class EdgeOn {
   }
 
  private:
-  static constexpr double kGrid = 1.0 / 128;  // OpenGL asks for 1/16 of a pixel, llvmpipe has 1/256
+  static constexpr double kGrid = 1.0 / 128;  // OpenGL requires 1/16 of a pixel, llvmpipe has 1/256
   struct Line {
-    Eigen::Vector2d a, b;  // [px]
+    Eigen::Vector2d a, b;  // [pixel]
   };
 
   template <class Index>
@@ -162,8 +162,9 @@ class EdgeOn {
   std::vector<Line> lines_;
 };
 
-// The picture without what is hidden is the whole one, but where a triangle that may be hidden
-// shows through what is before it: one in some ten million samples, not what the user should see.
+// The picture without hidden parts must equal the whole one. The exception: a triangle that may be
+// hidden can show through what is in front of it, in one of some ten million samples, and the user
+// should not see that.
 void expect_same(const Scene& scene, const Image& whole, const Image& seen) {
   ASSERT_EQ(whole.rgb.size(), seen.rgb.size());
   if (whole.rgb == seen.rgb) return;
@@ -179,7 +180,7 @@ void expect_same(const Scene& scene, const Image& whole, const Image& seen) {
     }
 }
 
-// A ball of sponge: every hole shows other holes.
+// A ball like a sponge: through every hole other holes are seen.
 Scene sponge() {
   NoProgress quiet;
   const double voxel = 0.25 * kMm;
@@ -204,7 +205,7 @@ TEST(Visibility, LeavesOutHiddenBoneAndThePictureIsTheSameFromEverywhere) {
   long all = 0, some = 0;
   for (int view = 0; view < 200; ++view) {
     scene.camera = whole_view(scene, 2 * M_PI * any(random), M_PI * (any(random) - 0.5), 1.3);
-    scene.camera.distance *= 0.15 + any(random);  // now and then from within
+    scene.camera.distance *= 0.15 + any(random);  // now and then from inside
     gpu.skip_hidden(false);
     const auto whole = gpu.image(scene, 260, 200);
     const int whole_patches = gpu.figures().patches_drawn;
@@ -213,7 +214,7 @@ TEST(Visibility, LeavesOutHiddenBoneAndThePictureIsTheSameFromEverywhere) {
     ASSERT_TRUE(whole.ok() && seen.ok());
     SCOPED_TRACE(view);
     ASSERT_NO_FATAL_FAILURE(expect_same(scene, *whole, *seen));
-    if (view % 10 != 0) continue;  // once more: what was seen the last time is what is seen
+    if (view % 10 != 0) continue;  // once more: what was visible last time is visible now
     const auto again = gpu.image(scene, 260, 200);
     ASSERT_TRUE(again.ok());
     ASSERT_NO_FATAL_FAILURE(expect_same(scene, *whole, *again)) << "again";
@@ -226,7 +227,7 @@ TEST(Visibility, LeavesOutHiddenBoneAndThePictureIsTheSameFromEverywhere) {
   }
 }
 
-// as a window does: the eye moves a little from picture to picture, and the bone changes
+// as in a window: the eye moves a little from picture to picture, and the bone changes
 TEST(Visibility, HoldsWhileTheEyeMovesAndBoneIsTakenAway) {
   BURR_NEEDS_GPU(gpu);
   Scene scene = sponge();
@@ -239,7 +240,7 @@ TEST(Visibility, HoldsWhileTheEyeMovesAndBoneIsTakenAway) {
   (*whole_gpu)->skip_hidden(false);
   for (int n = 0; n < 60; ++n) {
     if (n % 3 != 0) orbit(scene.camera, 0.07, 0.01);
-    if (n % 5 == 0 && !scene.patches.empty())  // a hole of a patch, from the front on
+    if (n % 5 == 0 && !scene.patches.empty())  // a patch removed, from the front on
       for (std::size_t p = 0; p < scene.patches.size(); ++p)
         if (scene.patches[p].mesh != nullptr && (p * 7 + static_cast<std::size_t>(n)) % 40 == 0)
           set_patch(scene, static_cast<int>(p), surface::Patch{});
@@ -250,14 +251,14 @@ TEST(Visibility, HoldsWhileTheEyeMovesAndBoneIsTakenAway) {
   }
 }
 
-// Every bone there is, whole and as a window draws it on a slow machine: in coarse blocks.
+// All bones, whole and as a window on a slow machine draws them: in coarse blocks.
 class VisibilityOf : public testing::TestWithParam<std::string> {};
 
 TEST_P(VisibilityOf, NoViewLacksWhatCouldBeSeen) {
   BURR_NEEDS_GPU(gpu);
   BURR_NEEDS_GPU(whole_gpu);
   NoProgress quiet;
-  const double coarser = GetParam() == "skull" ? 3 : 2;  // the largest
+  const double coarser = GetParam() == "skull" ? 3 : 2;  // the largest one
   const auto bone =
       phantom::phantom(GetParam(), coarser * phantom::default_voxel_mm(GetParam()), quiet);
   ASSERT_TRUE(bone.ok()) << bone.error().text;

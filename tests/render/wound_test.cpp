@@ -1,4 +1,4 @@
-// Fresh and wet bone, dust and blood: how long it lasts, where, and the colours it must have.
+// Fresh and wet bone, dust and blood: how long they last, where they are, and their colours.
 #include "burr/render/wound.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using math::Vec3;
 
 constexpr double kVoxel = 0.25e-3, kRadius = 2e-3;
 
-// A burr at `tip` that takes `removed` more, in steps as a window sees them.
+// A burr at `tip` that removes `removed` more, in steps as in a window.
 class Milling {
  public:
   explicit Milling(Wound& wound) : wound_(wound) {}
@@ -45,7 +45,7 @@ class Milling {
 
 TEST(Wound, WhatASuctionTubeComesNearIsDryAndCleanAndStillFresh) {
   Wound wound(kVoxel);
-  wound.suck(Vec3::Zero(), 1.5e-3, 1);  // nothing to take yet
+  wound.suck(Vec3::Zero(), 1.5e-3, 1);  // nothing to remove yet
   EXPECT_FALSE(wound.any());
   Milling milling(wound);
   const Vec3 tip(0.03, -0.02, 0.011), face = tip - Vec3(0, 0, kRadius);
@@ -60,7 +60,7 @@ TEST(Wound, WhatASuctionTubeComesNearIsDryAndCleanAndStillFresh) {
   wound.suck(face, 1.5e-3, 5);
   EXPECT_EQ(wound.at(face).wet, 0);
   EXPECT_EQ(wound.at(face).fresh, fresh);
-  // dry again: dust lies beside the cut, and goes
+  // dry again: dust lies beside the cut, and is sucked away
   milling.on(tip, 1, 2e-9, false);
   milling.on(tip + Vec3(0, 0, 0.01), 3, 0, false);
   const Vec3 beside = tip + Vec3(kRadius + 1.5e-3, 0, 0);
@@ -106,7 +106,7 @@ TEST(Wound, GoesAlongWithTheToolAndForgetsWhenTimeGoesBack) {
   Milling milling(wound);
   const Vec3 first(0, 0, 0), second(0.012, 0, 0);
   milling.on(first, 0.5, 1e-9, false);
-  milling.on(second + Vec3(0, 0, 0.01), 0.5, 0, false);  // over there without cutting
+  milling.on(second + Vec3(0, 0, 0.01), 0.5, 0, false);  // at another place, without cutting
   const float before = wound.at({0, 0, -kRadius}).fresh;
   milling.on(second, 0.5, 1e-9, false);
   EXPECT_NEAR(wound.at({0, 0, -kRadius}).fresh, before - 0.5 / Wound::kDulls, 1e-3);
@@ -136,7 +136,7 @@ void dress_all(Scene& scene, Dress dress) {
       std::make_shared<const std::vector<Dress>>(scene.patches[0].mesh->vertices().size(), dress));
 }
 
-// of the pixels that face the eye: their mean, and how far from it they are
+// the mean of the pixels that face the eye, and their spread
 struct Seen {
   double mean[3] = {}, least = 255, most = 0;
 };
@@ -227,7 +227,7 @@ TEST(Wound, DressesOnlyWhatItReachesAndAWindowDrawsItAnew) {
   const Image before = gpu.shown();
   Wound wound(kVoxel);
   Milling milling(wound);
-  milling.on(Vec3(0, -0.03 - kRadius, 0), 1, 1e-9, true);  // before the eye
+  milling.on(Vec3(0, -0.03 - kRadius, 0), 1, 1e-9, true);  // in front of the eye
   wound.dress(scene);
   int dressed = 0, with_surface = 0;
   for (const ScenePatch& patch : scene.patches) {
@@ -242,7 +242,7 @@ TEST(Wound, DressesOnlyWhatItReachesAndAWindowDrawsItAnew) {
   EXPECT_NE(after.rgb, before.rgb);
   ASSERT_TRUE(other.show(scene).ok());
   EXPECT_EQ(after.rgb, other.shown().rgb);
-  // all is dry and dull again: as it was
+  // everything is dry and dull again, as before
   milling.on(Vec3(0, -0.05, 0), 41, 0, false);
   wound.dress(scene);
   ASSERT_TRUE(gpu.show(scene).ok());
@@ -266,7 +266,7 @@ TEST(Wound, DustHangsInTheAirAndSettlesAroundTheToolInAConeOfItsVolume) {
   milling.on(tip, 5, 0, false);
   EXPECT_NEAR(wound.in_the_air(), 0, 1e-3 * loose);
 
-  // what lies hides the bone as a layer of that thickness does
+  // dust hides the bone as a layer of its thickness does
   const double reach = kRadius + Wound::kStrews;
   double total = 0;
   for (const double part : {0.45, 0.6, 0.75, 0.9}) {
@@ -275,7 +275,7 @@ TEST(Wound, DustHangsInTheAirAndSettlesAroundTheToolInAConeOfItsVolume) {
     EXPECT_NEAR(wound.at({d, 0, 0}).dust, 1 - std::exp(-thick / Wound::kCovers), 0.03) << part;
   }
   for (int n = 0; n < 1000;
-       ++n) {  // ... and all of it has come down: a cone's volume is its layers'
+       ++n) {  // ... and all of it has settled: the cone's volume is that of its layers
     const double d = (n + 0.5) / 1000 * reach;
     total += 3 * loose / (std::numbers::pi * reach * reach) * (1 - d / reach) * 2 *
              std::numbers::pi * d * reach / 1000;
@@ -309,7 +309,7 @@ TEST(Wound, CoolantWashesDustAwayAndLetsNoneSettle) {
 
 constexpr volume::TissueId kHard = 1, kVessel = 2, kMarrow = 3;
 
-// A flat surface of 20 x 20 mm through the origin, every 0.25 mm a vertex, facing n.
+// A flat surface of 20 x 20 mm through the origin, a vertex every 0.25 mm, facing n.
 surface::Patch flat(const Vec3& n, const std::function<surface::Vertex(const Vec3&)>& vertex) {
   const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
   surface::Patch patch;
@@ -343,7 +343,7 @@ Scene plate(volume::TissueId tissue, const Vec3& n = Vec3::UnitZ()) {
 }
 const std::vector<float> kBleeding = {0, 0, 1, 0.3F};
 
-// Seconds of a burr that rests where it just cut, the picture made anew ten times a second.
+// Lets a burr rest where it has just cut, for some seconds, with ten pictures a second.
 void watch(Wound& wound, Milling& milling, Scene& scene, const Vec3& tip, double seconds,
            bool irrigated = false, double added = 0) {
   for (int n = 0; n < std::lround(10 * seconds); ++n) {
@@ -379,7 +379,7 @@ TEST(Wound, OnlyWhatBleedsBleedsAndTheMoreTheFaster) {
 
 TEST(Wound, AVesselBleedsWhenItIsReachedNotThroughThinBone) {
   for (const bool reached : {true, false}) {
-    const double deep = reached ? 0.3e-3 : 0.4e-3;  // into the canal; of the bone that is left
+    const double deep = reached ? 0.3e-3 : 0.4e-3;  // inside the canal; or so much bone is left
     Wound wound(kVoxel, kBleeding);
     Milling milling(wound);
     Scene scene = scene_of(flat(Vec3::UnitZ(), [](const Vec3&) {

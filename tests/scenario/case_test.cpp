@@ -95,7 +95,7 @@ TEST(Case, MistakesAreNamedByFileAndField) {
 }
 
 TEST(Case, WhatTheLibraryTakesForGrantedIsRefusedToo) {
-  // three brackets end a debug build inside toml++ itself
+  // three brackets stop a debug build inside toml++ itself
   const auto read = parse_case("[[[", "a.toml");
   ASSERT_FALSE(read.ok());
   EXPECT_NE(read.error().text.find("a.toml: line 1"), std::string::npos) << read.error().text;
@@ -156,7 +156,7 @@ TEST(Case, TheBuiltInOnesAreThere) {
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
 }
 
-// every built-in case begins on bone that may be cut, and speaks of tissues its bone has
+// every built-in case begins on bone that may be cut, and names tissues that its bone has
 TEST(Case, TheBuiltInOnesFitTheirBones) {
   for (const std::string& name : built_in_cases()) {
     SCOPED_TRACE(name);

@@ -1,20 +1,21 @@
-// kill -9 at any moment: a child mills and records, the parent kills it, and what lies on the disk
-// must open, lack at most the last tenth of a second, and replay to its end to the bit.
+// kill -9 at any moment: a child process mills and records, the parent kills it. The file must
+// open, lack at most the last 0.1 s, and replay exactly to its end.
 //
 //     BURR_KILLS=1000 build/release/test_sim --gtest_filter='Killed.*'
 //
-// What a tenth of a second is measured against: the ticks that the servo had handed to the recorder
-// when the child died, counted by the hand, which is asked for its position at the start of every
-// tick. Paced children: lost ticks times the period, so that a machine that stood still as a whole
-// costs nothing. Children as fast as possible: the time in which the lost ticks were handed over.
+// The loss is measured against the number of ticks that the servo had given to the recorder when
+// the child died. The hand counts them, because it is asked for its position at the start of every
+// tick. Children in real time: lost ticks times the period, so that a machine that stands still as
+// a whole costs nothing. Children as fast as possible: the time in which the lost ticks were given
+// over.
 //
-// Every single kill is judged, on any machine. What the machine may take from it is measured, not
-// guessed: the pen asks for a processor every 40 ms; for how long the kernel let it wait is in the
-// kernel's own account (schedstat), which the child copies out while it lives; for how long a
-// virtual machine's host kept the processors for others is in the account of stolen time
-// (/proc/stat; a thread on a stolen processor does not wait, it "runs"). That long, no more, is
-// added to the tenth of a second. That the file holds whatever the recorder called safe, and that
-// it replays, has no excuse.
+// Every single kill is judged, on any machine. Delays that the machine causes are measured, not
+// guessed. The pen asks for a processor every 40 ms; how long the kernel let it wait is in the
+// kernel's own account (schedstat), which the child copies out while it lives. How long the host of
+// a virtual machine kept the processors for others is in the account of stolen time (/proc/stat; a
+// thread on a stolen processor does not wait, it "runs"). Exactly this time is added to the 0.1 s.
+// There is no excuse for a file that lacks ticks that the recorder called safe, or that does not
+// replay.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -57,17 +58,18 @@ using namespace std::chrono_literals;
 constexpr std::size_t kMostTicks = 1 << 18;
 constexpr double kPromised = 100;  // [ms]
 
-// What the child tells while it lives; memory of both.
+// What the child reports while it lives, in memory that both share.
 struct Told {
-  std::atomic<bool> started;            // the recording has its beginning
-  std::atomic<std::uint64_t> handed;    // ticks the servo has handed over
-  std::atomic<std::uint64_t> safe;      // of these, in the file, as the recorder says
+  std::atomic<bool> started;            // the file has its beginning
+  std::atomic<std::uint64_t> handed;    // ticks that the servo has given to the recorder
+  std::atomic<std::uint64_t> safe;      // of these, in the file according to the recorder
   std::atomic<std::uint64_t> refused;   // did not fit into a ring
-  std::atomic<std::int64_t> waited_ns;  // of the pen for a processor, in all
+  std::atomic<std::int64_t> waited_ns;  // total wait of the pen for a processor
   std::atomic<std::int64_t> handed_ns[kMostTicks];
 };
 
-// Forwards to a simulated hand and counts: asked for tick n + 1, tick n has been handed over.
+// Passes everything to a simulated hand and counts: when asked for tick n + 1, tick n has been
+// given to the recorder.
 class CountingHand final : public device::Device {
  public:
   CountingHand(device::HandPath path, Told& told) : hand_(std::move(path), {}), told_(told) {}
@@ -96,7 +98,7 @@ std::unique_ptr<volume::Bone> small_bone() {
   return phantom::bone_from_distance(phantom::cube_grid(16e-3, 48), {}, phantom::slab(), 64, 1);
 }
 
-// How long the thread named "pen" has waited for a processor so far  [ns]; -1: nobody says.
+// How long the thread named "pen" has waited for a processor so far [ns]; -1: not known.
 std::int64_t waited_by_pen() {
   static const std::string task = [] {
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
@@ -111,8 +113,8 @@ std::int64_t waited_by_pen() {
   return waited;
 }
 
-// How long the host has kept the processors of a virtual machine for others so far, of all of them
-// together  [ms]; it is counted in steps of 10 ms.
+// How long the host has kept the processors of a virtual machine for others so far, summed over all
+// processors [ms]; counted in steps of 10 ms.
 double stolen_ms() {
   std::ifstream stat("/proc/stat");
   std::string cpu;
@@ -121,10 +123,10 @@ double stolen_ms() {
   return 1e3 * stolen / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 
-// The child: mills, is requested at, records, until it is killed.
+// The child: mills, gets commands, records, until it is killed.
 [[noreturn]] void mill_until_killed(const std::string& file, bool realtime, bool humble,
                                     std::uint64_t seed, Told& told) {
-  // an ordinary user gets no priority from the kernel
+  // the kernel gives no priority to an ordinary user
   if (humble && (::setgid(65534) != 0 || ::setuid(65534) != 0)) ::_exit(10);
   Random random(seed);
   const auto names = surgeon::motion_names();
@@ -139,7 +141,7 @@ double stolen_ms() {
   auto path =
       surgeon::motion(names[random() % names.size()], *place, settings.servo.burr.radius, 200.0);
   if (!path) ::_exit(12);
-  // in the bone soon, not after the long way of a built-in motion
+  // reach the bone sooner than the long path of a built-in motion does
   for (device::PathPoint& point : path->points) point.t *= 0.25;
   NoProgress quiet;
   auto made = Session::make(std::move(bone), std::make_unique<CountingHand>(std::move(*path), told),
@@ -173,7 +175,7 @@ double stolen_ms() {
     }
     std::this_thread::sleep_for(2ms);
   }
-  ::_exit(15);  // nobody came: kMostTicks is too small
+  ::_exit(15);  // nobody killed it: kMostTicks is too small
 }
 
 struct Tally {
@@ -182,7 +184,7 @@ struct Tally {
   std::vector<double> lost_ms;
 };
 
-// What lies there after the kill.
+// Judges the file after the kill.
 void judge(const std::string& file, const Told& told, bool realtime, double stolen, bool again,
            Tally& tally) {
   NoProgress quiet;
@@ -205,7 +207,7 @@ void judge(const std::string& file, const Told& told, bool realtime, double stol
       << " ms";
   if (lost > kPromised) ++tally.excused;
 
-  // anybody can check the hashes of a recording without simulating it
+  // the hashes of a recording can be checked without simulating it
   record::StepCursor steps = (*opened)->steps();
   record::Step step;
   std::uint64_t hash = 0;
@@ -283,7 +285,8 @@ TEST(Killed, AtAnyMomentItOpensLacksATenthOfASecondAtMostAndReplaysToTheBit) {
     while (!early && !told.started && (ended = ::waitpid(child, &state, WNOHANG)) == 0 &&
            std::chrono::steady_clock::now() < patience)
       std::this_thread::sleep_for(1ms);
-    if (ended == child) {  // it could not begin: nothing to kill, and no more than a mishap
+    if (ended == child) {  // it could not start: there is nothing to kill, and this is only a
+                           // mishap
       std::printf("kill %d: the child could not begin, it ended with %d\n", n,
                   WIFEXITED(state) ? WEXITSTATUS(state) : -WTERMSIG(state));
       ASSERT_LE(++unborn, kills / 20) << "children cannot begin";

@@ -1,4 +1,4 @@
-// Recordings and hand paths that cannot be: refused in a sentence, never obeyed.
+// Impossible recordings and hand paths: refused with a sentence, never used.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -55,10 +55,10 @@ TEST_F(Odd, EverySettingThatNoSessionCanHaveHadIsNamed) {
   const record::SessionInfo info = usual(*slab());
   ASSERT_TRUE(settings_of(info, "s.mcap").ok());
   for (const auto& [name, value] : info.numbers) {
-    // what is written into whole numbers, counts and memory must not come from these
+    // integers, counts and memory sizes must not be taken from these values
     for (const double odd : {1e300, -1e300, -1.0, std::numeric_limits<double>::quiet_NaN(),
                              std::numeric_limits<double>::infinity()}) {
-      if (name == "spindle_rad_s" && odd == -1.0) continue;  // backwards
+      if (name == "spindle_rad_s" && odd == -1.0) continue;  // it means backwards
       record::SessionInfo wrong = info;
       wrong.numbers[name] = odd;
       const auto settings = settings_of(wrong, "s.mcap");
@@ -76,7 +76,7 @@ TEST_F(Odd, AReplayAsksForNoBrickThatIsNotThere) {
     const std::string file = (folder / "s.mcap").string();
     record::Recorder recorder(1000);
     ASSERT_TRUE(recorder.start(file, usual(*bone), nullptr).ok());
-    // one tick as it really was, so that the replay comes as far as the brick
+    // one real tick, so that the replay comes as far as the brick
     NoProgress quiet;
     const auto recorded = settings_of(usual(*bone), "");
     ASSERT_TRUE(recorded.ok());
@@ -112,7 +112,7 @@ TEST_F(Odd, APathThatCannotBeMeantIsRefusedWithItsLine) {
   for (const char* line : {"-1e308,0,0,0\n1e308,0,0,0\n", "0,1e300,0,0\n", "0,0,0,-5000\n"})
     EXPECT_NE(refusal(std::string("t,x,y,z\n") + line).find("line 2: a time beyond"),
               std::string::npos);
-  // a turn this long has no length that fits into a number
+  // a quaternion this long has no length that fits into a double
   EXPECT_NE(refusal("t,x,y,z,qw,qx,qy,qz\n0,0,0,0,1e200,1e200,0,0\n").find("line 2"),
             std::string::npos);
   const std::string head = refusal("a\x1B[2J" + std::string(100'000, 'x') + "\n");

@@ -1,4 +1,4 @@
-// Whole sessions: a simulated hand, the tick, the diary, the surface workers.
+// Whole sessions: a simulated hand, the tick, the recorder, the surface workers.
 #include "burr/sim/session.h"
 #include "burr/math/turn.h"
 
@@ -119,14 +119,14 @@ TEST(Session, TheSameSessionGivesTheSameBitsOnEveryInstructionSet) {
   }
 }
 
-// A hand that presses with a constant force, straight down: the plunge of docs/cutting.md.
+// A hand that presses straight down with a constant force: the plunge of docs/cutting.md.
 struct Plunge {
   double removed = 0, depth = 0, mean_force = 0;
 };
 Plunge plunge(double h_mm, double rate, double seconds = 1.5, double drag = 1) {
   NoProgress quiet;
   const double r = 2 * kMm;
-  // a soft spring far away is a constant force: 200 N/m, 5 mm below the surface
+  // a soft spring from far away is a constant force: 200 N/m, 5 mm below the surface
   device::HandPath path;
   const math::Quat across = math::shortest_turn(Vec3::UnitZ(), Vec3::UnitX());
   path.points = {{0, {{0, 0, r + 1 * kMm}, across}, 1},
@@ -168,7 +168,7 @@ TEST(Session, CutsTheSameAtAnyResolution) {
   const Plunge middle = plunge(0.25, 1000);
   EXPECT_NEAR(middle.removed, fine.removed, 0.01 * fine.removed);
   EXPECT_NEAR(middle.mean_force, fine.mean_force, 0.02 * fine.mean_force);
-  // a press straight down; dragged aside too, voxels of half a millimetre differ by 2.3 %
+  // pressed straight down; dragged sideways as well, voxels of half a millimetre differ by 2.3 %
   EXPECT_NEAR(plunge(0.5, 1000, 1.5, 0).removed, plunge(0.125, 1000, 1.5, 0).removed,
               0.02 * fine.removed);
 }
@@ -208,7 +208,7 @@ TEST(Session, UndoAndResetBringTheBoneBackWhileTheHandPressesAndNeverJump) {
   ASSERT_NE(session->bone().content_hash(), start);
   for (const auto kind : {tick::CommandKind::undo, tick::CommandKind::reset}) {
     session->command({kind, 0});
-    session->command({tick::CommandKind::tool_mode, 2});  // and do not cut again meanwhile
+    session->command({tick::CommandKind::tool_mode, 2});  // and does not cut again meanwhile
     int ticks = 0;
     do {
       const tick::TickRow row = tick();
@@ -360,14 +360,14 @@ TEST_F(Replay, ComesOutTheSameToTheBitWithCommandsAndUndo) {
     EXPECT_EQ(outcome->bone->content_hash(), end);
   }
   rt::force_simd(best);
-  // and the bone at the end without simulating
+  // and the bone at the end, without simulating
   auto player = record::Player::open(file);
   auto bone = (*player)->embedded_bone(256);
   ASSERT_TRUE((*player)->bone_at(4, **bone).ok());
   EXPECT_EQ((*bone)->content_hash(), end);
 }
 
-// What turned the hand is in the recording and comes out again, with the flags it set.
+// What turned the hand is recorded and replayed, with the flags it set.
 TEST_F(Replay, AHandThatIsTurnedComesOutTheSame) {
   SessionSettings settings;
   settings.servo.torque_gain = 3;

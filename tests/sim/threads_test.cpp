@@ -1,5 +1,5 @@
-// A whole session with every thread there is: the servo cuts, workers mesh what changed, the
-// recorder writes, somebody looks and commands. Run under ThreadSanitizer too, where silence is the
+// A whole session with all threads: the servo cuts, workers mesh what changed, the recorder writes,
+// another thread reads and sends commands. It also runs under ThreadSanitizer, where silence is the
 // test.
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -63,7 +63,7 @@ TEST(WholeSession, EveryThreadAtOnceEndsWithOneTruth) {
   ASSERT_TRUE(started) << started.error().text;
   session.set_recorder(&recorder);
 
-  // two seconds of looking on, and commanding
+  // two seconds of reading and sending commands
   session.start();
   tick::TickRow row;
   std::uint64_t seen = 0;
@@ -102,7 +102,7 @@ TEST(WholeSession, EveryThreadAtOnceEndsWithOneTruth) {
   EXPECT_TRUE(account->whole()) << account->dropped_ticks << " ticks dropped";
   EXPECT_EQ(account->ticks, outcome.ticks);
 
-  // what was recorded is what is there
+  // the recording equals the final state
   auto player = record::Player::open(file);
   ASSERT_TRUE(player) << player.error().text;
   auto again = (*player)->embedded_bone(64);

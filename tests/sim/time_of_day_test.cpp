@@ -1,4 +1,4 @@
-// The time of day may jump as it likes while a session is milled and recorded: nobody asks for it.
+// The time of day may jump in any way while a session is milled and recorded: nothing reads it.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -46,7 +46,7 @@ TEST(TimeOfDay, MayJumpWhileASessionIsRecordedAndNobodyAsksForIt) {
   ASSERT_TRUE(path);
   NoProgress quiet;
 
-  // the clock on the wall is set while all this goes on: back by hours, forward by years
+  // the time of day is set meanwhile: back by hours, forward by years
   const test::WallClock wall;
   std::atomic<bool> done = false;
   std::jthread somebody([&] {
@@ -89,7 +89,7 @@ TEST(TimeOfDay, MayJumpWhileASessionIsRecordedAndNobodyAsksForIt) {
   EXPECT_GT(outcome->ticks, 100U);
   done = true;
   EXPECT_EQ(test::WallClock::asked(), 0) << "somebody wants to know the time of day";
-  // and the stand-in does stand in
+  // and the replacement of the clock works
   const auto before = std::chrono::system_clock::now();
   test::WallClock::set_back(7200);
   EXPECT_LT(std::chrono::system_clock::now(), before - 1h);

@@ -1,4 +1,4 @@
-// tests/sound/ear.h - what is in some samples, measured without the synth's own formulas.
+// tests/sound/ear.h - measures samples without using the synth's own formulas.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace burr::test {
 
 inline constexpr double kRate = 48e3;  // [Hz]
 
-// Power in each bin of the discrete Fourier transform of all samples, Hann window; bin k is at
-// k kRate / size.
+// Power in each bin of the discrete Fourier transform of all samples, Hann window; bin k is at k
+// kRate / size.
 inline std::vector<double> spectrum(std::span<const float> samples) {
   const std::size_t size = samples.size();
   std::vector<double> windowed(size);
@@ -32,7 +32,7 @@ inline std::vector<double> spectrum(std::span<const float> samples) {
   return power;
 }
 
-// Where the most is, from `lowest` on  [Hz]
+// Frequency of the largest power, from `lowest` on [Hz]
 inline double peak_hz(std::span<const float> samples, double lowest = 20) {
   const std::vector<double> power = spectrum(samples);
   const double bin = kRate / static_cast<double>(samples.size());
@@ -41,7 +41,7 @@ inline double peak_hz(std::span<const float> samples, double lowest = 20) {
   return static_cast<double>(most - power.begin()) * bin;
 }
 
-// The middle of all its power  [Hz]
+// The centroid of its power [Hz]
 inline double centroid_hz(std::span<const float> samples) {
   const std::vector<double> power = spectrum(samples);
   double sum = 0, weighted = 0;
@@ -64,7 +64,7 @@ inline double largest(std::span<const float> samples) {
   return most;
 }
 
-// How sharply it bends at most: a click is a sample that does not go on from those before it.
+// Its sharpest bend: a click is a sample that does not continue those before it.
 inline double sharpest(std::span<const float> samples) {
   double most = 0;
   for (std::size_t n = 2; n < samples.size(); ++n)
@@ -80,7 +80,7 @@ inline std::vector<float> made(sound::Synth& synth, double seconds) {
   return samples;
 }
 
-// the last `count` of them
+// the last `count` samples
 inline std::vector<float> end_of(const std::vector<float>& samples, std::size_t count) {
   return {samples.end() - static_cast<std::ptrdiff_t>(count), samples.end()};
 }

@@ -1,4 +1,4 @@
-// From rows to what is heard of them.
+// From the rows of ticks to what is heard.
 #include "workshop/hearing.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ TEST(Hearing, HowFastAndHowHardIsTheDifferenceOfTwoRows) {
   for (const double rate : {1'000.0, 4'000.0}) {
     tick::ServoSettings settings;
     settings.rate_hz = rate;
-    // 3 mm3/s of 0.4 J/mm3; as a recording shows it, and as a window does
+    // 3 mm3/s of 0.4 J/mm3; at the steps of a recording and of a window
     for (const std::uint64_t step : {1U, 16U, 40U}) {
       Hearing hearing(settings);
       sound::Heard heard;

@@ -1,4 +1,4 @@
-// The key and the loudness of the window's sound, and that it goes on without a device.
+// The key and the loudness of the window's sound, and that the window works without a sound device.
 #include "workshop/loudspeaker.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST(Loudspeaker, WithoutADeviceItIsSilentAndTriesAgainWhenAsked) {
   EXPECT_EQ(loudspeaker.trouble(), "");
 }
 
-// The loudest of what was sounded since the last call: SDL's disk driver appends raw floats.
+// The loudest sample since the last call: SDL's disk driver appends raw floats.
 float loudest_since(const std::filesystem::path& file, std::streamoff& from) {
   std::ifstream in(file, std::ios::binary);
   in.seekg(from);
@@ -78,10 +78,10 @@ TEST(Loudspeaker, WarnsFromTheRimOfTheBurrThatIsThereNow) {
     std::streamoff heard = 0;
     const auto sounds = [&] {
       float most = 0;
-      for (int n = 0; n < 40; ++n) {  // of 10 ms
+      for (int n = 0; n < 40; ++n) {  // of 10 ms each
         loudspeaker.hear({});
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        // what was under way when it was asked does not count
+        // samples that were under way at the time of the request do not count
         const float now = loudest_since(file, heard);
         if (n >= 20) most = std::max(most, now);
       }

@@ -1,4 +1,4 @@
-// What is to be spared, in words and in a recording.
+// Distance to what must be spared, in words and in a recording.
 #include "workshop/spared_distance.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ TEST(SparedDistance, ARecordingKeepsIt) {
 }
 
 TEST(SparedDistance, SaysWhatIsNearAndHowFar) {
-  // a ball of bone of 6 mm, all of it to be spared
+  // a ball of bone of 6 mm, all of which must be spared
   auto bone =
       phantom::bone_from_distance(phantom::cube_grid(20e-3, 80), {}, phantom::ball(6e-3), 0);
   NoProgress quiet;

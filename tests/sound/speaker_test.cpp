@@ -1,4 +1,5 @@
-// The loudspeaker end to end, without one: SDL's own drivers that play to nobody and into a file.
+// The whole path of sound without a loudspeaker: SDL's own drivers, which play nothing or write to
+// a file.
 #include "burr/sound/speaker.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// An environment variable for as long as this lives.
+// An environment variable, set while this object lives.
 class Variable {
  public:
   Variable(const char* name, const std::string& value) : name_(name) {
@@ -36,7 +37,7 @@ class Variable {
   const char* name_;
 };
 
-// Speaks until the device has asked for so many more samples; false: it never does.
+// Plays until the device has taken this many more samples; false: it never does.
 bool speak(Speaker& speaker, const Heard& heard, double seconds) {
   const std::uint64_t until = speaker.made() + static_cast<std::uint64_t>(seconds * test::kRate);
   const auto given_up = std::chrono::steady_clock::now() + 120s;
@@ -51,7 +52,7 @@ bool speak(Speaker& speaker, const Heard& heard, double seconds) {
 TEST(Speaker, PlaysToNobody) {
   const Variable driver("SDL_AUDIODRIVER", "dummy");
   const Heard heard = {.spindle_rad_s = test::rad_s(40'000)};
-  for (int round = 0; round < 2; ++round) {  // and opens again
+  for (int round = 0; round < 2; ++round) {  // and opens it again
     auto speaker = Speaker::open();
     ASSERT_TRUE(speaker) << speaker.error().text;
     EXPECT_EQ((*speaker)->driver(), "dummy");

@@ -1,4 +1,4 @@
-// The drill as it sounds: where its lines are, what is louder than what, that nothing clicks.
+// The sound of the drill: where its lines are, which part is louder, and that nothing clicks.
 #include "burr/sound/synth.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using test::rad_s;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// After the lags have run out: 0.5 s of silence or whatever it is, then `seconds` to look at.
+// After the lags have ended: 0.5 s, then `seconds` of samples to measure.
 std::vector<float> steady(const Heard& heard, double seconds = 65536 / test::kRate,
                           const SynthSettings& settings = {}) {
   Synth synth(settings);
@@ -32,7 +32,7 @@ std::vector<float> steady(const Heard& heard, double seconds = 65536 / test::kRa
 
 Heard turning(double rpm) { return {.spindle_rad_s = rad_s(rpm)}; }
 
-// A burr that mills: everything on.
+// A burr that mills, with everything on.
 Heard milling(double mm3_s = 5) {
   Heard heard = turning(40'000);
   heard.cutting_nm = 3e-3;
@@ -58,7 +58,7 @@ TEST(Synth, ItIsHeardOnceATurnThroughTheCuttingToo) {
   }
 }
 
-// The motor's own droop, from its formula: K (w_set - w) = torque.
+// The motor's droop from its formula: K (w_set - w) = torque.
 TEST(Synth, UnderLoadTheSpindleIsLowerByWhatTheMotorGivesWay) {
   tool::Spindle spindle;
   spindle.full_speed = rad_s(40'000);
@@ -95,15 +95,16 @@ TEST(Synth, ATurnHasItsMultiplesAndItsTeeth) {
 }
 
 TEST(Synth, NothingIsHeardFoldedDownFromAboveHalfTheRate) {
-  // 400 000 rpm: the third multiple is at 20 kHz, the fourth would be at 26.7, its image at 21.3;
-  // eight teeth at 53.3 kHz, their image at 5.3
+  // 400 000 rpm: the third multiple is at 20 kHz; the fourth would be at 26.7, its alias at 21.3;
+  // eight teeth at 53.3 kHz, their alias at 5.3
   const std::vector<float> samples = steady(turning(400'000));
   const std::vector<double> power = test::spectrum(samples);
   const double bin = test::kRate / static_cast<double>(samples.size());
   double first = 0, elsewhere = 0;
   for (std::size_t k = 0; k < power.size(); ++k) {
     const double hz = static_cast<double>(k) * bin;
-    const bool line = std::abs(std::remainder(hz, 400'000 / 60.0)) < 50 * bin;  // its skirts
+    const bool line = std::abs(std::remainder(hz, 400'000 / 60.0)) < 50 * bin;  // with its side
+                                                                                // lobes
     double& most = line ? first : elsewhere;
     most = std::max(most, power[k]);
   }
@@ -121,7 +122,7 @@ TEST(Synth, TheMoreBoneTheLouder) {
 }
 
 TEST(Synth, CuttingIsAsLoudAsItsFormulaSays) {
-  // the noise alone: what the band takes away of white noise is given back, whatever the tissue
+  // the noise alone: the gain restores what the band takes from white noise, for every tissue
   for (const double hardness : {0.02e9, 0.1e9, 1e9, 10e9}) {
     Heard heard;
     heard.removal_m3_s = 5e-9;
@@ -134,7 +135,7 @@ TEST(Synth, CuttingIsAsLoudAsItsFormulaSays) {
 TEST(Synth, HarderTissueSoundsHigher) {
   double before = 0;
   for (const double hardness : {0.02e9, 0.1e9, 0.5e9, 1e9, 2e9, 10e9}) {
-    Heard heard;  // of the cutting alone: the spindle's lines do not depend on it
+    Heard heard;  // of the cutting alone: the lines of the spindle do not depend on it
     heard.removal_m3_s = 5e-9;
     heard.hardness_j_m3 = hardness;
     const double now = test::centroid_hz(steady(heard));
@@ -166,7 +167,7 @@ TEST(Synth, CoolantHisses) {
   EXPECT_GT(test::centroid_hz(samples), 4'000);
 }
 
-// How often it begins to beep in ten seconds: silence before it, of half the shortest gap.
+// Number of beeps in ten seconds; before each, silence of at least half the shortest gap.
 int beeps(double to_spare) {
   Heard heard;
   heard.to_spare = to_spare;
@@ -195,7 +196,7 @@ TEST(Synth, TheNearerTheFasterTheWarning) {
     EXPECT_NEAR(now, 10 / beep_every(usual, 1e-3 * mm), 1.01) << mm;
     before = now;
   }
-  // one tone at the end: never quiet
+  // one tone at the end: never silent
   Heard heard;
   for (const double to_spare : {0.5e-3, 0.0, -1e-3, -kInfinity}) {
     heard.to_spare = to_spare;
@@ -215,7 +216,7 @@ TEST(Synth, WhoTremblesAtTheBorderIsNotWarnedInAHurry) {
     const std::vector<float> some = made(synth, 0.01);
     all.insert(all.end(), some.begin(), some.end());
   }
-  // beeps of 60 ms every 0.8 s, in and out: at most that share of the time
+  // beeps of 60 ms every 0.8 s, in and out: loud for at most that share of the time
   double loud = 0;
   for (const float x : all) loud += std::abs(x) > 1e-3F ? 1 : 0;
   EXPECT_GT(loud, 0);
@@ -247,7 +248,7 @@ TEST(Synth, AContactKnocksOnceAndNotWhileItRattles) {
   EXPECT_LT(test::largest(test::end_of(all, all.size() / 2)), 1e-4) << "one knock, long over";
 }
 
-// A parameter that leaps must not click: from before the leap to half a second after, the sound
+// A parameter that jumps must not click: from before the jump to half a second after it, the sound
 // bends no more sharply than it does before or after by itself.
 TEST(Synth, NothingClicksWhateverLeaps) {
   const Heard quiet;
@@ -280,7 +281,7 @@ TEST(Synth, NothingClicksWhateverLeaps) {
   leaps.push_back({"contact", quiet, {.touching = true}});
   leaps.push_back({"first beep", quiet, {.to_spare = 2e-3}});
   for (const Leap& one : leaps)
-    for (std::size_t later = 0; later < 8; ++later) {  // wherever its oscillators happen to be
+    for (std::size_t later = 0; later < 8; ++later) {  // at any phase of its oscillators
       Synth synth;
       synth.hear(one.from);
       static_cast<void>(made(synth, 0.5 + static_cast<double>(7 * later) / test::kRate));
@@ -290,7 +291,7 @@ TEST(Synth, NothingClicksWhateverLeaps) {
       const std::vector<float> after = made(synth, 0.5);
       all.insert(all.end(), after.begin(), after.end());
       bends = std::max(bends, test::sharpest(test::end_of(after, after.size() / 2)));
-      // what is heard only for a moment bends as its own line does at its loudest
+      // a sound of a short moment bends like its own line at its loudest
       const auto line = [&bends](double loud, double hz) {
         bends = std::max(bends, loud * std::pow(2 * M_PI * hz / test::kRate, 2));
       };
@@ -298,7 +299,7 @@ TEST(Synth, NothingClicksWhateverLeaps) {
       if (std::isfinite(one.to.to_spare)) line(SynthSettings{}.warning, SynthSettings{}.warn_hz);
       EXPECT_LT(test::sharpest(all), 1.3 * bends) << one.what << ", " << later;
     }
-  // noise bends by chance: with cutting and coolant alone, fifty leaps of each
+  // noise bends by chance: with cutting and coolant alone, fifty jumps of each
   for (const bool coolant : {false, true}) {
     Synth synth;
     Heard heard, none;
@@ -328,7 +329,7 @@ TEST(Synth, LouderAndQuieterDoNotClick) {
   }
 }
 
-// A click is heard at all pitches at once: what a change of loudness or speed puts beyond 16 kHz,
+// A click contains all frequencies: measures what a change of loudness or speed puts above 16 kHz,
 // where neither has a line.
 TEST(Synth, NothingIsHeardWhereNothingIs) {
   const auto beyond = [](const std::vector<float>& samples) {
@@ -430,7 +431,7 @@ TEST(Synth, NeverLouderThanFullScaleAndNeverNotANumberWhateverItIsTold) {
     synth.loudness(any());
     std::vector<float> samples(random() % 700);
     synth.make(samples);
-    for (const float x : samples) ASSERT_LE(std::abs(x), 1.0F);  // false for what is not a number
+    for (const float x : samples) ASSERT_LE(std::abs(x), 1.0F);  // false for a NaN
   }
 }
 
@@ -451,7 +452,8 @@ TEST(Synth, OddSettingsAreHeldToWhatCanBe) {
 }
 
 TEST(Synth, WhatIsLoudIsBentAndWhatIsNotIsLeftAlone) {
-  // the warning alone is a sine: quiet ones keep their shape, loud ones bend, none reaches 1
+  // the warning alone is a sine: a quiet one keeps its shape, a loud one is compressed, none
+  // reaches 1
   for (const double loud : {0.1, 0.7, 1.0}) {
     SynthSettings settings;
     settings.warning = loud;

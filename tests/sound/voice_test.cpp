@@ -1,4 +1,5 @@
-// The door between whoever knows and whoever plays, and the loudspeaker behind it.
+// The door between the thread that sets the sound and the one that plays it, and the loudspeaker
+// behind it.
 #include "burr/sound/voice.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ namespace {
 
 Heard turning(double rpm) { return {.spindle_rad_s = test::rad_s(rpm)}; }
 
-// `seconds` of sound in blocks as a device asks for them; feeds before each, or not.
+// `seconds` of sound in blocks as a device asks for them; heard: set before each block, or nullptr.
 std::vector<float> played(Voice& voice, double seconds, const Heard* heard) {
   std::vector<float> all, block(512);
   while (static_cast<double>(all.size()) < seconds * test::kRate) {
@@ -36,7 +37,7 @@ TEST(Voice, FadesWhenNobodySpeaksAndComesBack) {
   const Heard heard = turning(40'000);
   const double loud = test::rms(test::end_of(played(voice, 1, &heard), 9'600));
   EXPECT_GT(loud, 0.05);
-  // 0.2 s without a word are nothing
+  // 0.2 s without hear() change nothing
   EXPECT_NEAR(test::rms(test::end_of(played(voice, 0.19, nullptr), 1'000)), loud, 0.1 * loud);
   const std::vector<float> fading = played(voice, 1, nullptr);
   EXPECT_EQ(test::largest(test::end_of(fading, 9'600)), 0) << "silent";
@@ -74,8 +75,8 @@ TEST(Voice, TakesNoMemoryAndNoLock) {
   EXPECT_EQ(guard.locks(), 0);
 }
 
-// One thread speaks, another plays, a third has the key: ThreadSanitizer looks on, and what is
-// played is never half of one word and half of another, which would be heard as a third speed.
+// One thread calls hear(), another plays, a third presses the key: ThreadSanitizer watches. The
+// sound is never a mixture of two settings, which would be heard as a third speed.
 TEST(Voice, ThreeThreadsAtOnce) {
   Voice voice;
   std::atomic<bool> done = false;
@@ -104,7 +105,7 @@ TEST(Voice, ThreeThreadsAtOnce) {
   done = true;
   feeder.join();
   key.join();
-  // on a machine that let the feeder speak at all
+  // if the machine let the feeding thread run at all
   if (test::largest(all) > 0) {
     EXPECT_NEAR(test::peak_hz(test::end_of(all, 65'536)), 666.7, 7);
   }

@@ -1,4 +1,4 @@
-// A .wav by its own words: read back byte by byte, by nobody's library.
+// A .wav file read back byte by byte, without a library.
 #include "burr/sound/wav.h"
 
 #include <gtest/gtest.h>

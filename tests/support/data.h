@@ -1,4 +1,4 @@
-// tests/support/data.h - the shared test data: where it is, and what to do when it is not there.
+// tests/support/data.h - the shared test data: where it is, and what to do when it is missing.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ inline bool data_required() {
 
 }  // namespace burr::test
 
-// First line of a test that needs a file of the shared data: skips without it, fails where CI
-// demands it.
+// First line of a test that needs a file of the shared data: skips without it, and fails where CI
+// requires it.
 #define BURR_NEEDS_DATA(relative)                                                               \
   do {                                                                                          \
     if (!std::filesystem::exists(burr::test::data_dir() / (relative))) {                        \

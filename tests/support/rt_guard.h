@@ -1,8 +1,8 @@
-// tests/support/rt_guard.h - counts heap calls and mutex locks on this thread while it lives.
+// tests/support/rt_guard.h - counts heap calls and mutex locks on this thread while it exists.
 //
 //     const test::RtGuard guard;  ...  EXPECT_EQ(guard.allocations(), 0);
 //
-// In sanitizer builds it counts nothing: they bring their own malloc.
+// In sanitizer builds it counts nothing, because they bring their own malloc.
 #pragma once
 
 namespace burr::test {

@@ -1,11 +1,11 @@
-// tests/support/wall_clock.h - the time of day as a test wants it, and who asks for it.
+// tests/support/wall_clock.h - replaces the time of day, and counts who reads it.
 //
-//     const test::WallClock wall;       // from here on
-//     wall.set_back(3600);              // somebody corrects the clock by an hour
-//     EXPECT_EQ(wall.asked(), 0);       // nobody cares
+//     const test::WallClock wall;   // from here on
+//     wall.set_back(3600);          // the clock is corrected by an hour
+//     EXPECT_EQ(wall.asked(), 0);   // nobody reads it
 //
-// Stands in for clock_gettime, gettimeofday and time in the whole process while one lives; the
-// monotonic clocks stay as they are. Not under sanitizers, which have stand-ins of their own.
+// Replaces clock_gettime, gettimeofday and time in the whole process while an object exists; the
+// monotonic clocks are not changed. Not under sanitizers, which have replacements of their own.
 #pragma once
 
 namespace burr::test {
@@ -18,7 +18,7 @@ class WallClock {
   WallClock& operator=(const WallClock&) = delete;
   // Any thread. Negative: forward.  [s]
   static void set_back(double seconds);
-  // How often anybody asked for the time of day since the WallClock began.
+  // How often the time of day was read since the WallClock was made.
   [[nodiscard]] static long asked();
   // false under sanitizers
   [[nodiscard]] static bool watching();

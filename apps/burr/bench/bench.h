@@ -1,5 +1,5 @@
-// apps/burr/bench/bench.h - `burr bench NAME`: what is fast enough and what is not; one file per
-// measurement, which registers itself.
+// apps/burr/bench/bench.h - `burr bench NAME`: measures how fast burr is; one file per measurement,
+// which registers itself.
 //
 //     namespace {
 //     void add(CLI::App& bench, burr::app::Todo& todo) {
@@ -21,7 +21,7 @@ struct BenchCommand {
   BenchCommand(int place, Command::Add add);
 };
 
-// The value below which a share q, 0..1, of them lies; of none 0.
+// The quantile q, 0..1: the value below which this share of them lies; 0 for no values.
 [[nodiscard]] double quantile(std::vector<double> values, double q);
 
 [[nodiscard]] inline double ms_since(std::chrono::steady_clock::time_point start) {

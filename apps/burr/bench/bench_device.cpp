@@ -1,7 +1,8 @@
-// burr bench device - from a pose on a device's wire to its force on the wire, through the whole of
-// burr, beside an idle echo on the same device in the same run.
+// burr bench device - time from a pose on a device's wire to its force on the wire, through the
+// whole of burr, compared with a tick that does nothing on the same device in the same run.
 //
-// Wall time, taken on the wire's side: a reading has arrived - its force is handed to the device.
+// Wall time on the wire's side, from the arrival of a reading until its force is given to the
+// device.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
@@ -26,7 +27,7 @@ struct Options {
   bool json = false;
 };
 
-// A tick that does nothing: what wire, wakening and scheduler take.
+// A tick that does nothing: measures wire, wake-up and scheduler.
 LinkAccount echo(device::Device& device, double rate_hz, double seconds) {
   std::atomic<bool> stop = false;
   {
@@ -88,11 +89,12 @@ Status run(const Options& options) {
   auto ready = make_ready(requested, std::move(*work), progress());
   if (!ready) return ready.error();
   sim::Session& session = *ready->session;
-  // straight down is into the bone
+  // straight down points into the bone
   ready->hands.real->lay(math::shortest_turn(math::Vec3::UnitZ(), outward));
-  // anew, so that a device that moves by itself begins its way with the session
+  // opened anew, so that a device that moves by itself starts its path with the session
   session.hand().close();
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // a pause that it can tell
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // a pause that the device can
+                                                                // notice
   const Status again = session.hand().open();
   if (!again) return again;
   const auto began = std::chrono::steady_clock::now();
@@ -102,8 +104,7 @@ Status run(const Options& options) {
   LinkAccount whole;
   static_cast<void>(session.hand().account(whole));
   const sim::Outcome outcome = session.outcome();
-  // what the clock of the wall would have had room for, and neither came nor was counted as left
-  // out
+  // ticks that had room in wall time, but neither came nor were counted as missed
   const double unaccounted = wall * session.settings().servo.rate_hz -
                              static_cast<double>(outcome.ticks + outcome.timing.missed);
   const double above = 1e-3 * (whole.answers.quantile_us(0.99) - idle.answers.quantile_us(0.99));

@@ -1,9 +1,9 @@
-// burr bench endure - a long session with everything running: is the tick in time, does memory
+// burr bench endure - a long session with everything running: are the ticks in time, does memory
 // grow?
 //
-// Milling by the clock with surface worker, off-screen renderer and recorder; beside it, before and
-// after it a loop that only waits. A pocket of 20 s is milled again and again on the same bone,
-// which is put back in between, so that every minute is like the one before.
+// Milling in real time with surface worker, off-screen renderer and recorder; during it, before and
+// after it a loop that only waits. The same pocket of 20 s is milled again and again on the same
+// bone, which is restored in between, so that every minute is like the one before.
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
@@ -25,8 +25,8 @@ namespace burr::app {
 namespace {
 
 constexpr double kPocket = 20;     // [s]
-constexpr double kAllowed = 1.10;  // lateness beside that of a loop that only waits, p99.9 ...
-constexpr double kResolved = 5;    // ... and what two such loops differ by   [us]
+constexpr double kAllowed = 1.10;  // p99.9 of lateness relative to a loop that only waits ...
+constexpr double kResolved = 5;    // ... and the difference between two such loops [us]
 
 struct Options {
   VolumeOptions volume;
@@ -112,7 +112,7 @@ void print(const Options& options, const WholeOutcome& out, const rt::TickSummar
 
 Status run(Options options) {
   if (options.volume.path.empty()) options.volume.path = "phantom:temporal-bone";
-  std::string scratch;  // a recording nobody asked to keep
+  std::string scratch;  // a recording that the user did not ask for
   if (options.whole.record.empty()) {
     std::error_code trouble;
     scratch = (std::filesystem::temp_directory_path(trouble) /

@@ -1,16 +1,16 @@
-// burr bench frame - how fast it is drawn while the servo mills at its rate: the work from near,
-// and the whole bone while it turns; as a window draws it, with a governor, and at full quality.
+// burr bench frame - frame times while the servo mills at its rate: the work from near, and the
+// whole bone while it turns; as the window draws it, with a governor, and at full quality.
 //
-// Off-screen, 1280 x 720 unless asked otherwise; a frame ends when it is drawn (glFinish).
-//   input to picture: from a movement of the mouse, 125 a second, until a picture that has it is
-//       drawn. One that turns the bone is in the picture begun next; one that moves the hand goes
-//       through the servo and is in the one after.
+// Off-screen, 1280 x 720 unless requested otherwise; a frame ends when it is drawn (glFinish).
+//   input to picture: from a movement of the mouse, 125 a second, until a picture that shows it is
+//     drawn. A movement that turns the bone is in the next picture; one that moves the hand goes
+//     through the servo and is in the picture after that.
 //   cut to picture: from the tick that changed a brick until the picture with all the patches it
-//       touches is drawn. A watcher looks 1000 times a second; a change counts from its look before
-//       the one that found it, so the figure is up to 1 ms too long, never too short.
+//     touches is drawn. A watcher looks 1000 times a second. A change counts from the look before
+//     the one that found it, so the figure is up to 1 ms too long, never too short.
 //   VTK, where it is installed: all triangles of the whole bone, one light, no effects, in a
-//       program of its own beside the servo; it is not slowed by loading patches, and knows no
-//       hollows.
+//     separate program while the servo runs. Loading patches does not slow it, and it has no
+//     ambient occlusion.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
@@ -52,11 +52,11 @@ struct Options {
   bool json = false;
 };
 
-// How long frames took, and what they drew.
+// Frame times, and what the frames drew.
 struct Frames {
   std::vector<double> ms;
   double patches = 0, triangles = 0;  // sums
-  double elapsed_s = 0;               // with all that goes on between two pictures
+  double elapsed_s = 0;               // including everything between two pictures
 
   void add(double took_ms, const render::Renderer::Figures& figures) {
     ms.push_back(took_ms);
@@ -74,10 +74,10 @@ struct Frames {
   }
 };
 
-// Movements of a mouse: a thread that stamps them.
+// Mouse movements: a thread that makes time stamps of them.
 class Inputs {
  public:
-  // those that came since the last call
+  // the movements since the last call
   std::vector<Clock::time_point> take() {
     const std::lock_guard lock(mutex_);
     return std::exchange(stamps_, {});
@@ -96,10 +96,10 @@ class Inputs {
   std::jthread thread_{[this](const std::stop_token& stop) { run(stop); }};
 };
 
-// When the servo changed what the patches show.
+// Times at which the servo changed what the patches show.
 class Cuts {
  public:
-  // before the session starts: adds a watcher
+  // adds a watcher; before the session starts
   explicit Cuts(volume::Bone& bone) : mesher_(bone), changed_(bone.add_watcher()) {
     first_.resize(static_cast<std::size_t>(mesher_.patch_count()));
   }
@@ -107,8 +107,8 @@ class Cuts {
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
   }
 
-  // These patches, with all that was known when their surface was made, are in a picture now.
-  // Appends how long each waited [ms].
+  // These patches, with everything known when their surface was made, are in a picture now. Appends
+  // how long each of them waited [ms].
   void shown(const std::vector<surface::Skin>& skins, std::vector<double>& ms) {
     const auto now = Clock::now();
     const std::lock_guard lock(mutex_);
@@ -139,23 +139,24 @@ class Cuts {
   surface::Mesher mesher_;
   rt::ChangedBits& changed_;
   std::mutex mutex_;
-  std::vector<std::optional<Clock::time_point>> first_;  // change not yet shown, by patch
+  std::vector<std::optional<Clock::time_point>> first_;  // by patch: a change that is not yet in a
+                                                         // picture
   std::jthread thread_;
 };
 
 struct Outcome {
   std::string gpu;
   double first_ms = 0;  // the first frame: all patches sent
-  double coarse_s = 0;  // until all coarser levels were there
-  // as a window draws; at full quality; at full quality with hidden bone too
+  double coarse_s = 0;  // until all coarser levels existed
+  // as a window draws; at full quality; at full quality including hidden bone
   Frames work, whole, work_full, whole_full, whole_all;
   std::vector<double> input_ms, cut_ms;
   std::array<std::uint64_t, render::FrameGovernor::kSteps> steps = {};
-  std::optional<double> vtk_ms;  // VTK, the whole bone turning, the servo milling beside it
+  std::optional<double> vtk_ms;  // VTK with the whole bone turning, while the servo mills
   sim::Outcome session;
 };
 
-// A bone on the desk, and all that keeps its picture true.
+// A session's bone with everything that keeps its picture up to date.
 class Desk {
  public:
   Desk(const Options& options, sim::Session& session, const surgeon::WorkPlace& place,
@@ -214,7 +215,7 @@ Status Desk::run(Outcome& out) {
   return done;
 }
 
-// The first picture, and all coarser levels.
+// Draws the first picture and makes all coarser levels.
 Status Desk::settle(Outcome& out) {
   const Status skinned =
       worker_.first(progress(), [&](const surface::Skin& skin) { put_skin(scene_, skin); });
@@ -234,7 +235,7 @@ Status Desk::settle(Outcome& out) {
   return fine();
 }
 
-// As the window does it.
+// Draws one frame as the window does.
 Status Desk::frame(Draw how, Frames& frames) {
   if (interrupted()) return error(Trouble::interrupted, "stopped");
   live_.update();
@@ -251,7 +252,7 @@ Status Desk::frame(Draw how, Frames& frames) {
   return fine();
 }
 
-// From near; the hand's inputs are in the picture after next.
+// From near; the hand's inputs are in the picture after the next one.
 Status Desk::work(Draw how, double seconds, Frames& frames, Outcome* out) {
   Inputs inputs;
   std::vector<Clock::time_point> handled;
@@ -271,7 +272,7 @@ Status Desk::work(Draw how, double seconds, Frames& frames, Outcome* out) {
   return fine();
 }
 
-// All of the bone, once around in twelve seconds; at most so many pictures.
+// The whole bone, one turn in twelve seconds; at most `most` pictures.
 Status Desk::turn(Draw how, double seconds, int most, Frames& frames, Outcome* out) {
   Inputs inputs;
   const auto start = Clock::now();
@@ -279,7 +280,8 @@ Status Desk::turn(Draw how, double seconds, int most, Frames& frames, Outcome* o
   for (int n = 0; n < most && session_.running() && ms_since(start) < 1e3 * seconds; ++n) {
     progress().report(ms_since(start) / (1e3 * seconds), "turning the bone");
     const std::vector<Clock::time_point> fresh = inputs.take();
-    // in one direction, a step at least, so that nothing drawn before is kept
+    // always in one direction and by at least a small step, so that nothing drawn before can be
+    // kept
     const double to = std::max(2 * M_PI / 12 * 1e-3 * ms_since(start), turned + 1e-3);
     render::orbit(scene_.camera, to - turned, 0);
     turned = to;

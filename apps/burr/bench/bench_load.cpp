@@ -1,5 +1,4 @@
-// burr bench load / memory - from a file on disk to the first whole surface: how long, and how much
-// memory.
+// burr bench load / memory - from a file on disk to the first whole surface: time and memory.
 #include <fmt/core.h>
 #include <sys/resource.h>
 #include <CLI/CLI.hpp>
@@ -33,8 +32,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// VmHWM (the most ever) or VmRSS (now) of this process, memory shared with others included  [MB];
-// 0 where the system does not say
+// VmHWM (largest so far) or VmRSS (now) of this process, including memory shared with others [MB];
+// 0 where the system does not report it.
 double memory_mb(const std::string& field) {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -69,12 +68,12 @@ Status load(const Options& options) {
   return fine();
 }
 
-// Passes progress on and notes how much memory there was when each stage ended.
+// Passes progress on and records the memory at the end of each stage.
 class Stages final : public Progress {
  public:
   struct Stage {
     std::string name;
-    double now_mb = 0, most_mb = 0;  // at its end; most_mb since the program began
+    double now_mb = 0, most_mb = 0;  // at its end; most_mb is the largest since the program started
   };
   void report(double fraction, std::string_view stage) override {
     app::progress().report(fraction, stage);
@@ -90,15 +89,15 @@ class Stages final : public Progress {
   }
   [[nodiscard]] const std::vector<Stage>& all() const { return all_; }
 
-  std::function<void()> meanwhile;  // what the caller's thread does besides
+  std::function<void()> meanwhile;  // work that the caller's thread does meanwhile
 
  private:
   std::string stage_;
   std::vector<Stage> all_;
 };
 
-// As a session with a picture has it: bone, surface for touch, undo memory, visible surface; a
-// second of milling. What a graphics card or its stand-in keeps comes on top.
+// As in a session with a picture: bone, surface for touch, undo memory, visible surface; one second
+// of milling. The memory of the graphics card, or of its software replacement, is not included.
 Status memory(const Options& options) {
   Stages stages;
   stages.report(0, "the program");
@@ -133,7 +132,7 @@ Status memory(const Options& options) {
   (*session)->run(1, stages);
   stages.end();
   const double peak = memory_mb("VmHWM"), steady = memory_mb("VmRSS");
-  rusage children = {};  // a reader in a process of its own, gone by now
+  rusage children = {};  // the reader was a process of its own, which has ended
   getrusage(RUSAGE_CHILDREN, &children);
   const double reader = static_cast<double>(children.ru_maxrss) / 1024;
   const double touch = 1e-6 * static_cast<double>((*session)->surface().memory_bytes());

@@ -1,8 +1,8 @@
-// apps/burr/bench/bench_shell.h - the bone that the surface benchmarks measure: a bumpy hollow shell like
-// a skull's vault, 3.6 million triangles at 512^3, 7 % of the voxels near its surface.
+// apps/burr/bench/bench_shell.h - the bone for the surface benchmarks: a bumpy hollow shell like
+// the vault of a skull, 3.6 million triangles at 512^3, 7 % of the voxels near its surface.
 //
-// Plain C++17 and no burr header: the independent program that is compared with makes the very same
-// numbers from it. Units: voxels, field values.
+// Plain C++17 without burr headers: the independent program used for comparison makes exactly the
+// same numbers from it. Units: voxels, field values.
 #pragma once
 
 #include <algorithm>

@@ -43,8 +43,8 @@ std::unique_ptr<volume::Bone> shell(int size) {
   return bone;
 }
 
-// The program burr_vtk_oracle beside this one runs vtkFlyingEdges3D on the same field; it is built
-// only where VTK is installed.
+// The program burr_vtk_oracle, beside this one, runs vtkFlyingEdges3D on the same field; it is
+// built only where VTK is installed.
 struct Oracle {
   double one_ms = 0, two_ms = 0;
   std::size_t triangles = 0;
@@ -127,10 +127,10 @@ Status bench_carve(const Options& options) {
   std::uniform_real_distribution<double> unit(-1, 1);
   std::vector<int> named;
   std::vector<surface::Patch> patches(static_cast<std::size_t>(mesher.patch_count()));
-  std::vector<double> took, carving;  // [ms] the whole, and of it the servo's work
+  std::vector<double> took, carving;  // [ms] in all, and the servo's share of it
   double patches_made = 0;
   for (int i = 0; i < options.cuts && !interrupted(); ++i) {
-    // a place on the outer surface, found from outside
+    // a place on the outer surface, found by a ray from outside
     math::Vec3 way(unit(random), unit(random), unit(random));
     if (way.norm() > 1 || way.norm() < 0.1) way = {0, 0, 1};
     way.normalize();
@@ -142,7 +142,7 @@ Status bench_carve(const Options& options) {
     };
     while (!inside() && (p - middle).norm() > 1) p -= 0.5 * way;
 
-    // a burr 12 voxels across takes away all that it stands in
+    // a burr of 12 voxels' diameter removes everything inside it
     edit::Cut cut;
     cut.centre = p;
     cut.push = -way;

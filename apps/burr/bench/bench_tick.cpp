@@ -1,9 +1,9 @@
-// burr bench tick - how long one tick takes, on the scene CHAI3D was measured with, and how right
-// its force is.
+// burr bench tick - time of one tick, on the scene with which CHAI3D was measured, and the error of
+// its force.
 //
 // Scene: cube of 49.2 mm in n^3 voxels, a ball of 19.7 mm radius, a rigid hand dragged along a
 // tilted great circle at a commanded depth, 1 kN/m, no friction. The clock is the thread's CPU time
-// round the whole tick; the wall's beside it.
+// for the whole tick; wall time is given too.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
@@ -35,11 +35,11 @@ struct Options {
   bool evict = false, json = false;
 };
 
-constexpr int kWarmUp = 400;           // ticks from the air into contact, not counted
-constexpr double kGathers = 0.1;       // until the hand has all its speed  [s]
-constexpr double kSurfaceSpeed = 8.4;  // of the burr; 3.4 mm^3/s per N in cortical bone  [m/s]
+constexpr int kWarmUp = 400;           // ticks from free air into contact, not counted
+constexpr double kGathers = 0.1;       // until the hand has its full speed [s]
+constexpr double kSurfaceSpeed = 8.4;  // of the burr; 3.4 mm^3/s per N in cortical bone [m/s]
 
-// Where the hand goes; `out` tells the true direction of the force at the same time.
+// The hand's path; `out` gets the true direction of the force at each time.
 device::HandPath hand_path(const Options& options) {
   const double dt = 1 / options.rate_hz, r = options.burr_mm * 0.5e-3,
                depth = options.depth_mm * 1e-3;
@@ -52,17 +52,18 @@ device::HandPath hand_path(const Options& options) {
     double sunk = depth, above = n < kWarmUp ? 3e-3 * (1 - static_cast<double>(n) / kWarmUp) : 0;
     if (options.mill == "plunge") sunk = std::min(options.sink_mm * 1e-3, 3e-3 * counted * dt);
     if (options.mill == "slot") sunk = std::min(options.sink_mm * 1e-3, 6e-3 * counted * dt);
-    // a hand gathers speed: from rest to all of it in a tenth of a second
+    // a hand needs time to gain speed: from rest to full speed in a tenth of a second
     const double begins = options.mill == "slot" ? 0.5 : 0;
     const double gathered = std::clamp((counted * dt - begins) / kGathers, 0.0, 1.0);
     if (options.mill != "plunge") angle += gathered * speed * dt / (ball + r - sunk);
     Vec3 at = (ball + r - sunk + above) * (std::cos(angle) * a + std::sin(angle) * b);
-    if (options.shape == "box") {  // along the top face of a box, through its edge region and back
+    if (options.shape == "box") {  // along the top face of a box, through the region near its edge
+                                   // and back
       const double half = 15e-3, way = std::fmod(speed * dt * counted, 4 * 0.8 * half);
       const double along = way < 2 * 0.8 * half ? way - 0.8 * half : 3 * 0.8 * half - way;
       at = Vec3(along, 0.3 * along, half + r - sunk + above);
     }
-    // the burr's axis lies along the surface, so that it cuts best
+    // the burr's axis lies along the surface, where it cuts best
     device::PathPoint point{n * dt, {at, math::shortest_turn(Vec3::UnitZ(), side)}, 1};
     point.pedal = options.mill.empty() ? 0 : 1;
     path.points.push_back(point);
@@ -70,7 +71,7 @@ device::HandPath hand_path(const Options& options) {
   return path;
 }
 
-// What peers do at each step of their march: look at every voxel in the burr's box.
+// What comparable programs do at each step of their march: look at every voxel in the burr's box.
 double reference_us(const volume::Bone& bone, double radius) {
   const int reach = static_cast<int>(std::ceil(radius / bone.grid().voxel)) + 1;
   const math::Ijk middle = bone.grid().size / 2;
@@ -147,7 +148,7 @@ Result<nlohmann::json> measure(const Options& options) {
     removed = row.ledger.removed;
     asked = row.ledger.asked;
   }
-  if (sink == 42) fmt::print("\n");  // keeps the walk from being optimised away
+  if (sink == 42) fmt::print("\n");  // keeps the compiler from removing the walk
 
   const double reference = reference_us(*bone, r), p50 = quantile(cpu_us, 0.5);
   nlohmann::json out;
@@ -204,7 +205,7 @@ Status run(const Options& options) {
   return fine();
 }
 
-// Every method of touch on one scene, by one hand: touching, then milling a slide.
+// All touch methods on one scene with one hand: touching, then milling a slide.
 Status run_methods(Options options) {
   const bool json = options.json;
   nlohmann::json all = nlohmann::json::array();

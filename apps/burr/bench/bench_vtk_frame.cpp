@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The layout that bench/render/vtk_frame.cpp reads.
+// Writes the format that bench/render/vtk_frame.cpp reads.
 bool write_scene(const render::Scene& scene, const fs::path& path) {
   std::ofstream out(path, std::ios::binary);
   const auto put = [&out](const auto& value) {

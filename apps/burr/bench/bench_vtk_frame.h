@@ -1,5 +1,5 @@
-// apps/burr/bench/bench_vtk_frame.h - how fast VTK draws the same bone, where burr_vtk_frame was built
-// (cmake/vtk_oracle.cmake) and there is a display.
+// apps/burr/bench/bench_vtk_frame.h - frame time of VTK for the same bone, where burr_vtk_frame was
+// built (cmake/vtk_oracle.cmake) and there is a display.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace burr::app {
 
-// Median of a frame while the bone turns before the scene's camera [ms]; all triangles, one light,
-// no effects, faces turned away left out. none: not built, no display, or it failed.
+// Median frame time while the bone turns in front of the scene's camera [ms]; all triangles, one
+// light, no effects, back faces left out. none: not built, no display, or it failed.
 [[nodiscard]] std::optional<double> vtk_frame_ms(const render::Scene& scene, int width, int height,
                                                  int frames);
 

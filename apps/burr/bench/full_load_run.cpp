@@ -21,16 +21,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using math::Vec3;
 
-constexpr auto kFrame = std::chrono::microseconds(16'667);  // as the window does
+constexpr auto kFrame = std::chrono::microseconds(16'667);  // as in the window
 constexpr auto kSlowFrame = std::chrono::microseconds(100'000);
-constexpr double kLift = 0.3, kBack = 0.3;  // between two pockets  [s]
+constexpr double kLift = 0.3, kBack = 0.3;  // between two pockets [s]
 constexpr double kLiftHeight = 5e-3;        // [m]
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Threads that take processor time and caches, as other programs do.
+// Threads that use processor time and caches, like other programs.
 class BusyThreads {
  public:
   explicit BusyThreads(int count) {
@@ -56,7 +56,7 @@ class BusyThreads {
   std::vector<std::thread> threads_;
 };
 
-// What is seen: worker, scene and renderer.
+// The picture's part: worker, scene and renderer.
 class Picture {
  public:
   static Result<std::unique_ptr<Picture>> make(sim::Session& session,
@@ -129,7 +129,7 @@ Result<PocketsAgain> pockets_again(const surgeon::WorkPlace& place, double burr_
   again.every = work + kLift + kBack;
   again.lifted = work + kLift;
   const device::PathPoint first = pocket->points.front(), last = pocket->points.back();
-  // as high as the pocket's approach begins, straight out of it
+  // straight out, to the height at which the pocket's approach begins
   device::PathPoint above = last;
   above.world_from_tool.p +=
       (kLiftHeight - (last.world_from_tool.p - place.at).dot(out) + burr_radius) * out;

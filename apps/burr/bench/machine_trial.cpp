@@ -20,9 +20,9 @@ namespace burr::app {
 namespace {
 
 constexpr double kRate = 1000;    // [Hz]
-constexpr double kBurr = 2.5e-3;  // radius  [m]
+constexpr double kBurr = 2.5e-3;  // radius [m]
 
-// A file that is gone when this is.
+// A file that is removed with this object.
 struct Scratch {
   std::string file;
   Scratch() {
@@ -38,7 +38,7 @@ struct Scratch {
   Scratch& operator=(const Scratch&) = delete;
 };
 
-// A session on the built-in bone, milling pockets.
+// A session on the built-in bone that mills pockets.
 struct Bench {
   std::unique_ptr<sim::Session> session;
   surgeon::WorkPlace place;

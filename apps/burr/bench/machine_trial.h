@@ -1,7 +1,7 @@
-// apps/burr/bench/machine_trial.h - this computer tried as the home of a haptic device: a loop that only
-// waits, the real tick while milling, and both with everything else at work.
+// apps/burr/bench/machine_trial.h - tests whether this computer is fast enough for a haptic device:
+// a loop that only waits, the real tick while milling, and both with full load.
 //
-// Main thread; takes its time and says how far it is.
+// Main thread; takes its time and reports progress.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ namespace burr::app {
 struct MachineTrial {
   double seconds = 12;    // in three equal parts
   double voxel_mm = 0.2;  // of the built-in bone that is milled
-  bool picture = true;    // drawn meanwhile
+  bool picture = true;    // draw a picture meanwhile
 };
 
 struct MachineMeasured {

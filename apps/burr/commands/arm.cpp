@@ -1,5 +1,5 @@
-// burr arm - burr as a robot's arm on the bus of ROS 2 (CRTK): others drive it into a bone, feel
-// what the bone answers, watch and record.
+// burr arm - burr as a robot arm on the bus of ROS 2 (CRTK): other programs drive it into a bone,
+// get the bone's force, watch and record.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
@@ -25,7 +25,7 @@ struct Options {
 };
 
 constexpr double kForGood = 1e9;  // [s]
-constexpr double kAbove = 20e-3;  // where it begins, over the work [m]
+constexpr double kAbove = 20e-3;  // start height above the work [m]
 
 Status run(const Options& options) {
   WorkOptions requested = options.work;

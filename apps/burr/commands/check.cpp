@@ -1,7 +1,8 @@
-// burr check - is this computer good enough? A thousand ticks a second, alone and with everything
-// else at work, beside a loop that only waits.
+// burr check - is this computer good enough? A thousand ticks a second, alone and with full load,
+// compared with a loop that only waits.
 //
-// Ends with 0 when it could measure, whatever the verdict: scripts read "verdict" from --json.
+// The exit code is 0 when it could measure, whatever the result: scripts read "verdict" from
+// --json.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 

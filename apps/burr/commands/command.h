@@ -1,4 +1,5 @@
-// apps/burr/commands/command.h - a subcommand of the program; one file each, which registers itself.
+// apps/burr/commands/command.h - a subcommand of the program; one file each, which registers
+// itself.
 //
 //     namespace {
 //     void add(CLI::App& app, burr::app::Todo& todo) {
@@ -22,8 +23,8 @@ class App;
 
 namespace burr::app {
 
-// What the chosen subcommand wants done after parsing. Its Error becomes one line on stderr and the
-// exit code.
+// The work of the chosen subcommand, done after parsing. Its Error becomes one line on stderr and
+// the exit code.
 struct Todo {
   std::function<Status()> work;
 };
@@ -33,11 +34,11 @@ struct Command {
   Command(int place, Add add);
 };
 
-// Progress of long work: with time left on a terminal, plain lines otherwise, nothing with --quiet.
-// Ctrl-C cancels it.
+// Progress of long work: with the remaining time on a terminal, plain lines otherwise, nothing with
+// --quiet. Ctrl-C cancels it.
 [[nodiscard]] Progress& progress();
 
-// true once Ctrl-C or SIGTERM came; long work ends cleanly and saves what it has.
+// True after Ctrl-C or SIGTERM; long work then ends cleanly and saves what it has.
 [[nodiscard]] bool interrupted() noexcept;
 
 }  // namespace burr::app

@@ -17,7 +17,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// On a terminal one line that rewrites itself, with the time left; elsewhere a line per stage.
+// On a terminal one line that is rewritten, with the remaining time; elsewhere a line per stage.
 class Console final : public Progress {
  public:
   void report(double fraction, std::string_view stage) override {

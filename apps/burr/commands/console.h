@@ -1,4 +1,4 @@
-// apps/burr/commands/console.h - what the terminal shows while long work goes on.
+// apps/burr/commands/console.h - what the terminal shows during long work.
 #pragma once
 
 namespace burr::app {

@@ -1,4 +1,4 @@
-// `burr export`: the bone or what was removed, as a mesh or a volume other programs open.
+// `burr export`: the bone, or what was removed, as a mesh or a volume for other programs.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
@@ -18,8 +18,8 @@ namespace {
 
 struct Options {
   std::string source, out;
-  VolumeOptions volume;  // path: --volume, of a recording
-  double at_s = -1;      // moment of a recording; below 0: its end
+  VolumeOptions volume;  // path: --volume, for a recording
+  double at_s = -1;      // moment in a recording; below 0: its end
   std::string part = "bone", frame = "lps";
   bool scan = false;
   bool json = false;
@@ -34,10 +34,10 @@ struct Options {
 };
 
 struct Bones {
-  std::unique_ptr<volume::Bone> before, now;  // now empty: the same
+  std::unique_ptr<volume::Bone> before, now;  // now empty: the same as before
 };
 
-// With room for deposits.
+// A copy with room for deposits.
 std::unique_ptr<volume::Bone> copy_of(const volume::Bone& from, std::size_t reserve_bricks) {
   auto copy = std::make_unique<volume::Bone>(from.grid(), from.tissues(), from.used_slots(),
                                              reserve_bricks, from.has_intensity());
@@ -55,7 +55,7 @@ bool is_recording(const std::string& path) {
   return path.size() > 5 && path.compare(path.size() - 5, 5, ".mcap") == 0;
 }
 
-// A volume as it is opened: nothing is removed from it.
+// A volume as it was opened: nothing has been removed from it.
 Result<Bones> open_plain(const Options& options) {
   if (options.part == "removed")
     return error(Trouble::usage, "nothing is removed from a volume yet; give a recording (.mcap)");
@@ -70,7 +70,7 @@ Result<Bones> open_plain(const Options& options) {
   return bones;
 }
 
-// The bone a recording began with, and as it was at the wanted moment.
+// The bone at the start of a recording, and its state at the wanted moment.
 Result<Bones> open_recording(const Options& options) {
   auto player = record::Player::open(options.source);
   if (!player) return player.error();

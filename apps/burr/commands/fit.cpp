@@ -47,7 +47,7 @@ std::string shown_name(const fit::MaterialFit& fit) {
   return fit.material.empty() ? "(material not named)" : base::shown(fit.material);
 }
 
-// "2026-11-22", or the sentence that says what is wrong
+// "2026-11-22"; Error: what is wrong with the date.
 Result<std::string> date_of(const std::string& given) {
   namespace time = std::chrono;
   const auto text = [](const time::year_month_day& day) {
@@ -73,7 +73,7 @@ Result<fit::ForceLog> read_log(const Options& options, const std::string& path) 
     return fit::log_of_recording(**player, 1e-3 * options.window_ms, options.material);
   }
   auto log = fit::read_force_log(path);
-  // rows that do not say what was cut are of the material that is said
+  // rows without a material get the one given on the command line
   if (log)
     for (std::string& name : log->materials)
       if (name.empty()) name = options.material;
@@ -121,8 +121,8 @@ nlohmann::json to_json(const Options& options, const fit::ForceLog& log,
   return out;
 }
 
-// What `burr materials --materials` and every volume read; constants that are not above 0 are
-// noise and stay out.
+// Writes a file that `burr materials --materials` and every volume can read. Constants that are not
+// above 0 are noise and are left out.
 Status write(const Options& options, const std::string& date,
              const std::vector<fit::MaterialFit>& fits) {
   std::string names;
@@ -148,7 +148,7 @@ Status write(const Options& options, const std::string& date,
                               fmt::format("burr fit {}, {}, {} rows", names, date, one.rows), true};
     }
   }
-  // what we write must be what we read
+  // check that burr can read what it writes
   const std::string text = importing::materials_toml(materials);
   const auto again =
       importing::parse_materials(text, short_name(options.out), importing::built_in_materials());

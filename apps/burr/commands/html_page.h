@@ -1,5 +1,5 @@
-// apps/burr/commands/html_page.h - what burr's pages for a browser have in common; words go through
-// base/markup.h.
+// apps/burr/commands/html_page.h - the common part of burr's pages for a browser; texts are escaped
+// by base/markup.h.
 #pragma once
 
 namespace burr::app {

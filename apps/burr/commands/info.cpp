@@ -1,5 +1,5 @@
-// `burr info`: what a file holds, and what would be done to it. No name, id, date or path of a
-// patient.
+// `burr info`: what a file contains, and what an import would do with it. No name, id, date or path
+// of a patient.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
@@ -108,7 +108,7 @@ nlohmann::json to_json(const importing::ImportSummary& s) {
   return out;
 }
 
-// How well this computer shuts a damaged file in (burr/io/sandbox/fence.h).
+// Adds how complete the fence around damaged files is on this computer (burr/io/sandbox/fence.h).
 nlohmann::json with_fence(nlohmann::json out) {
   const io::FenceState fence = io::fence_state();
   out["fence"] = {{"process", !fence.reader.empty()},
@@ -118,7 +118,7 @@ nlohmann::json with_fence(nlohmann::json out) {
   return out;
 }
 
-// What is in it; and, if it can be milled, what would become of it.
+// The content of the file and, if it can be milled, the plan of its import.
 Result<importing::ImportSummary> look(const VolumeOptions& options) {
   if (is_phantom(options.path)) {
     auto made = open_volume(options, progress());
@@ -133,7 +133,7 @@ Result<importing::ImportSummary> look(const VolumeOptions& options) {
   if (!scan) return scan.error();
   auto plan = importing::plan_import(*scan, *importing);
   if (plan || plan.error().trouble == Trouble::usage) return plan;
-  // a file that is read but cannot be milled is still described
+  // a file that can be read but not milled is still described
   importing::ImportSummary s;
   s.format = scan->format;
   s.scan_size = s.roi_size = scan->size;

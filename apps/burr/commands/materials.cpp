@@ -1,4 +1,4 @@
-// `burr materials`: what tissues are made of, how sure that is, and where it comes from.
+// `burr materials`: the constants of tissues, how certain they are, and their sources.
 #include "burr/importing/materials.h"
 
 #include <fmt/core.h>

@@ -1,5 +1,5 @@
-// burr mill - a simulated hand mills a bone from a file or a formula, and what happened is
-// measured, recorded and drawn.
+// burr mill - a simulated hand mills a bone from a file or a formula; the result is measured,
+// recorded and drawn.
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
@@ -67,7 +67,7 @@ Status draw(const Options& options, const surgeon::WorkPlace& place, sim::Sessio
   return render::render_png(scene, options.size.width, options.size.height, options.picture);
 }
 
-// Bone within 20 mm of the work: heat goes no further in minutes.
+// Bone within 20 mm of the work: heat does not go further within minutes.
 math::Aabb work_box(const volume::Bone& bone, const Vec3& at) {
   const volume::Grid& grid = bone.grid();
   math::Aabb box;
@@ -83,7 +83,7 @@ math::Aabb work_box(const volume::Bone& bone, const Vec3& at) {
   return box;
 }
 
-// How each tissue warms, by its name, from the table of materials.
+// The heat constants of each tissue, by its name, from the table of materials.
 Result<thermal::HeatSettings> heat_settings(const Options& options,
                                             const volume::TissueTable& tissues) {
   importing::Materials materials = importing::built_in_materials();

@@ -1,4 +1,4 @@
-// burr phantom - writes a bone made by formula to a file.
+// burr phantom - writes a bone that is made by formula to a file.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 

@@ -1,4 +1,4 @@
-// burr picture - a bone as a PNG, without a display: any of the views.
+// burr picture - draws a bone to a PNG, without a display, in any of the views.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
@@ -24,7 +24,7 @@ struct Options {
   std::vector<double> at_mm, greys;
 };
 
-// The view, with what the scan measured in it if that was asked for.
+// The view, with the scan's values in it if that was requested.
 Result<ViewOptions> view_of(const Options& options,
                             std::shared_ptr<const volume::Greys> of_the_scan) {
   ViewOptions view = options.view;
@@ -55,7 +55,7 @@ Status run(const Options& options) {
   const auto view = view_of(options, opened->greys);
   if (!view) return view.error();
   volume::Bone& bone = *opened->bone;
-  constexpr double kBurr = 2.5e-3;  // as wide as what the view is to show
+  constexpr double kBurr = 2.5e-3;  // the width that the view is to show
   std::optional<math::Vec3> at;
   if (options.at_mm.size() == 3)
     at = 1e-3 * math::Vec3(options.at_mm[0], options.at_mm[1], options.at_mm[2]);

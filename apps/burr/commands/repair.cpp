@@ -1,4 +1,4 @@
-// burr repair - a torn recording becomes a whole one.
+// burr repair - makes a complete recording from an incomplete one.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 

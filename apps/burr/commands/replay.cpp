@@ -1,5 +1,5 @@
-// burr replay - a recording opened again: what happened, the bone at any moment, and whether it
-// comes out the same.
+// burr replay - opens a recording: what happened, the bone at any moment, and whether a new
+// simulation gives the same result.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
@@ -36,11 +36,11 @@ struct Options {
   double at = -1, fps = 25;
   bool effects = false;
   bool check = false, json = false, window = false;
-  double seconds = 0;  // of the window
+  double seconds = 0;  // shown in the window
   std::string screenshot;
 };
 
-// The bone and the burr at one moment.
+// Draws the bone and the burr at one moment.
 Status draw(const Options& options, record::Player& player, const sim::Recorded& recorded) {
   auto bone = bone_of(player, options.volume, progress());
   if (!bone) return bone.error();
@@ -65,7 +65,7 @@ Status draw(const Options& options, record::Player& player, const sim::Recorded&
                    options.size, options.picture);
 }
 
-// The whole session as numbered pictures, seen from where it ended.
+// Draws the whole session as numbered pictures, from the viewpoint of its end.
 Status film(const Options& options, record::Player& player, const sim::Recorded& recorded) {
   auto bone = bone_of(player, options.volume, progress());
   if (!bone) return bone.error();
@@ -110,7 +110,7 @@ Status film(const Options& options, record::Player& player, const sim::Recorded&
   return fine();
 }
 
-// The whole session as it sounded, sample by sample at the time of its ticks.
+// Writes the sound of the whole session, each sample at the time of its tick.
 Status sound_of(const Options& options, record::Player& player, const sim::Recorded& recorded) {
   sound::Synth synth;
   auto file = sound::WavFile::create(options.sound, static_cast<int>(synth.settings().rate_hz));
@@ -141,7 +141,7 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
     }
     for (const tick::Command& command : step.commands) hearing.obey(command);
     synth.hear(hearing.hear(step.row));
-    // up to the end of this tick; where rows were lost, what was heard before goes on
+    // up to the end of this tick; where rows are missing, the last sound continues
     const double end = static_cast<double>(step.row.tick + 1 - player.first_tick()) * per_tick;
     if (end > static_cast<double>(sound::WavFile::kMostSamples))
       return error(Trouble::data,
@@ -163,7 +163,7 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
   return written;
 }
 
-// Watched in a window; what is wrong with the file is said here, not on a page.
+// Plays it in a window; errors of the file are reported here, not on a page.
 Status show(const Options& options) {
   auto desk = Desk::open(users_places());
   if (!desk) return desk.error();

@@ -1,5 +1,5 @@
 // `burr run`: the simulator in a window; or, without a display, a session that mills by itself and
-// leaves pictures, a recording and a page of figures.
+// writes pictures, a recording and a page of figures.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
@@ -34,7 +34,7 @@ namespace {
 
 using math::Vec3;
 
-constexpr int kWidth = 1280, kHeight = 720;  // of the pictures
+constexpr int kWidth = 1280, kHeight = 720;  // size of the pictures
 constexpr double kHeadlessSeconds = 20;
 
 struct Options {
@@ -44,7 +44,7 @@ struct Options {
   bool headless = false, no_sound = false, xr = false;
 };
 
-// A display that SDL could open a window on.
+// True: there is a display on which SDL could open a window.
 bool display_there() {
   for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"})
     if (const char* value = std::getenv(name); value != nullptr && *value != '\0') return true;
@@ -91,13 +91,13 @@ Summary summary_of(sim::Session& session, const std::string& what, const std::st
   return summary;
 }
 
-// the tool as the session last had it
+// the tool in its last state of the session
 void put_tool_of(render::Scene& scene, sim::Session& session) {
   tick::TickRow row;
   if (session.view(row)) put_tool(scene, row, session.settings().servo.burr.radius, true);
 }
 
-// Before, at half time with the burr in the bone, and after: the same view.
+// Before, at half time with the burr in the bone, and after, in the same view.
 Status run_headless(const Options& options) {
   const std::filesystem::path folder = options.out.empty() ? "burr-out" : options.out;
   WorkOptions requested = options.work;
@@ -156,7 +156,7 @@ Status run_headless(const Options& options) {
   if (!status) return status;
   Summary summary = summary_of(session, work.what, "simulated hand, " + requested.motion);
   if (requested.work_case) summary.task = scenario::task_text(*requested.work_case);
-  if (!recorded) fmt::print("{}", summary_text(summary));  // a disk that is full takes no picture
+  if (!recorded) fmt::print("{}", summary_text(summary));  // a full disk takes no picture
   status = picture("after.png");
   if (!status) return recorded ? status : recorded;
 
@@ -171,7 +171,7 @@ Status run_headless(const Options& options) {
   return fine();
 }
 
-// A person's session: the window, and what it leaves if a folder was named.
+// A session of a person: the window, and the files it writes if a folder was named.
 Status run_in_window(const Options& options) {
   const std::filesystem::path folder = options.out;
   if (!folder.empty()) {
@@ -216,7 +216,7 @@ Status run_in_window(const Options& options) {
   if (!status) return status;
   WindowOptions told = window;
   told.warning = [&recording] { return recording.trouble(); };
-  told.keep = [] { return true; };  // it is being kept already
+  told.keep = [] { return true; };  // the run is being kept already
   told.film_of = [&]() -> std::optional<FilmSource> {
     FilmSource source = film_of(session, (folder / "session.mcap").string(), ready.volume);
     source.effects = (*desk)->settings.effects;
@@ -229,7 +229,7 @@ Status run_in_window(const Options& options) {
 
   Summary summary = summary_of(session, ready.what, session.hand().spec().name);
   if (ready.work_case) summary.task = scenario::task_text(*ready.work_case);
-  if (!recorded) fmt::print("{}", summary_text(summary));  // a disk that is full takes no picture
+  if (!recorded) fmt::print("{}", summary_text(summary));  // a full disk takes no picture
   scene.burr.visible = false;
   scene.markers.clear();
   scene.rods.clear();

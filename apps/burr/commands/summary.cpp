@@ -16,7 +16,7 @@ namespace {
 
 using Row = std::pair<std::string, std::string>;
 
-// in the order people ask
+// in the order of interest
 std::vector<Row> rows_of(const Summary& s) {
   std::vector<Row> rows;
   const auto row = [&rows](std::string name, std::string value) {

@@ -1,7 +1,7 @@
-// apps/burr/commands/summary.h - what a session came to, on one page: pictures, figures, no names.
+// apps/burr/commands/summary.h - the result of a session on one page: pictures, figures, no names.
 //
-// Plain data in, a folder's worth of files out. Holds no patient name, id, date or path: `what` is
-// what the program calls the bone ("temporal-bone", "NIfTI scan"), never a file's name.
+// Plain data in, a folder of files out. Contains no patient name, id, date or path: `what` is the
+// program's own name for the bone ("temporal-bone", "NIfTI scan"), never a file's name.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct TissueLoss {
 };
 
 struct Summary {
-  std::string what;  // the bone, in our words
+  std::string what;  // the bone, in the program's words
   math::Ijk size = {0, 0, 0};
   double voxel = 0;        // [m]
   double burr_radius = 0;  // [m]
@@ -39,14 +39,14 @@ struct Summary {
   double peak_force = 0, mean_force = 0;                  // [N]
   double p50_us = 0, p99_us = 0, p999_us = 0, max_us = 0;
   std::uint64_t late = 0, missed = 0;
-  std::string flags;  // in words; empty: none
+  std::string flags;  // as text; empty: none
   std::uint64_t bone_hash = 0;
-  std::vector<TissueLoss> tissues;                            // those that changed
-  std::vector<std::pair<std::string, std::string>> pictures;  // file beside the page, caption
-  std::string recording;                                      // file beside the page, or empty
+  std::vector<TissueLoss> tissues;                            // only those that changed
+  std::vector<std::pair<std::string, std::string>> pictures;  // file in the page's folder, caption
+  std::string recording;                                      // file in the page's folder, or empty
 };
 
-// Tissues whose volume differs by more than a hundredth of a mm^3, most lost first.
+// Tissues whose volume differs by more than a hundredth of a mm^3, largest loss first.
 [[nodiscard]] std::vector<TissueLoss> losses(const volume::Bone& before, const volume::Bone& now);
 
 // folder/summary.html

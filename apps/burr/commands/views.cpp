@@ -38,7 +38,7 @@ std::vector<std::string> names_of(const std::vector<std::pair<std::string, T>>& 
   return names;
 }
 
-// towards whoever looks at that slice
+// direction to the viewer of that slice
 Vec3 towards_eye(Plane plane) { return render::right_of(plane).cross(render::up_of(plane)); }
 
 }  // namespace
@@ -74,7 +74,7 @@ void look(render::Scene& scene, const Vec3& at, const Vec3& ahead, const ViewOpt
   if (const auto plane = named(kPlanes, options.clip)) {
     const Vec3 n = towards_eye(*plane);
     scene.clip = render::ClipPlane{at, n};
-    // a section that is seen from the edge or from behind is none
+    // a section seen from its edge or from behind would not be visible
     constexpr double kFlattest = 0.5;
     if (camera.backward().dot(n) < kFlattest)
       camera = render::view_of_work(camera.target, n, camera.view_height());
@@ -83,16 +83,16 @@ void look(render::Scene& scene, const Vec3& at, const Vec3& ahead, const ViewOpt
   if (options.view == "whole")
     camera = render::whole_view(scene, camera.azimuth, camera.elevation, aspect);
   if (options.view == "microscope") {
-    // far away and narrow, as a microscope's eye is
+    // far away and narrow, like a microscope
     constexpr double kFar = 0.25, kField = 22e-3;
     camera.target = at;
     camera.distance = kFar;
     camera.field_of_view = 2 * std::atan(0.5 * kField / kFar);
   }
   if (options.view == "endoscope") {
-    constexpr double kBack = 6e-3;  // its tip, behind the burr's
+    constexpr double kBack = 6e-3;  // distance of its tip behind the burr's
     camera = render::endoscope_view(at - kBack * ahead.normalized(), ahead);
-    scene.burr.visible = false;  // it holds the eye
+    scene.burr.visible = false;  // the view is from the tool itself
   }
   if (options.view == "microscope" || options.view == "endoscope") {
     scene.round = true;

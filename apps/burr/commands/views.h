@@ -1,4 +1,4 @@
-// apps/burr/commands/views.h - the ways to look at a bone, as pictures: 3D, slices, microscope, endoscope;
+// apps/burr/commands/views.h - the views of a bone as pictures: 3D, slices, microscope, endoscope;
 // cut open, and for two eyes.
 #pragma once
 
@@ -16,15 +16,15 @@ class App;
 
 namespace burr::app {
 
-// As typed.
+// The options as typed.
 struct ViewOptions {
   std::string view = "work";   // see view_names()
-  std::string clip;            // axial, coronal or sagittal: cut open there; empty: whole
+  std::string clip;            // axial, coronal or sagittal: cut open in that plane; empty: whole
   std::string stereo = "off";  // side-by-side, anaglyph, interleaved
-  double height_mm = 0;        // of what is seen at the work; 0: what suits the view
+  double height_mm = 0;        // height of the picture at the work; 0: a value that suits the view
   bool labels = true;          // colours of tissues
-  double see_through = 0;      // of the bone [%]
-  // of slices: what the scan measured, in this window; not typed here
+  double see_through = 0;      // transparency of the bone [%]
+  // for slices: the scan's values, in this window; not an option on the command line
   std::shared_ptr<const volume::Greys> greys;
   double window = 0, grey_level = 0;
 };
@@ -34,13 +34,13 @@ void add_view_options(CLI::App& command, ViewOptions& options);
 
 [[nodiscard]] bool shows_slice(const ViewOptions& options);
 
-// Camera, clip plane and mask of a 3D view, for a film. The whole bone can only be fitted when its
-// surface is in the scene. Errors: Trouble::usage for a view that is not 3D or for two eyes.
+// Sets camera, clip plane and mask of a 3D view, for a film. The view of the whole bone needs its
+// surface in the scene. Errors: Trouble::usage for a view that is not 3D, or for two eyes.
 [[nodiscard]] Status set_view(render::Scene& scene, const math::Vec3& at, const math::Vec3& ahead,
                               const ViewOptions& options);
 
-// A PNG of the scene, whose camera looks at the work, and of the bone it is of, which is at rest.
-// at: where the work is; ahead: where the tool points [m], any length.
+// Writes a PNG of the scene, whose camera looks at the work, and of its bone, which must be at
+// rest. at: position of the work; ahead: direction of the tool [m], any length.
 [[nodiscard]] Status draw_view(render::Scene scene, volume::Bone& bone, const math::Vec3& at,
                                const math::Vec3& ahead, const ViewOptions& options,
                                PictureSize size, const std::string& file);

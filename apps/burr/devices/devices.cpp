@@ -1,5 +1,4 @@
-// burr devices - the haptic devices burr can drive: which are there, what each is to do, and a
-// trial.
+// burr devices - lists the haptic devices that burr can drive and their settings, and tries one.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -23,7 +22,7 @@ struct Options {
   bool json = false, yes = false;
 };
 
-// One that may be there, opened and closed, as JSON and as the user reads it.
+// One possible device: opened and closed, described as JSON and as text.
 Status tell(const HandKind& kind, const std::string& name, const DeviceBook& book,
             nlohmann::json& all, bool json) {
   HandRequest request;
@@ -74,7 +73,7 @@ Status tell(const HandKind& kind, const std::string& name, const DeviceBook& boo
   return fine();
 }
 
-// Every one that is there, by the name a user calls it; nothing moves and nothing is pushed.
+// All devices that are there, by the name that a user types; nothing moves and no force is sent.
 Status list(const Options& options) {
   nlohmann::json all = nlohmann::json::array();
   const DeviceBook book = DeviceBook::read(users_book());
@@ -99,7 +98,7 @@ Status list(const Options& options) {
 
 Result<std::unique_ptr<device::MappedHand>> take(const Options& options) {
   HandRequest request = options.request;
-  request.scale = 1;  // tried as it is
+  request.scale = 1;  // tried without scaling
   auto laid = lay_hand(request, {}, math::Quat::Identity());
   if (!laid) return laid.error();
   return std::move(laid->hand);

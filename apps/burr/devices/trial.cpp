@@ -18,17 +18,17 @@ namespace {
 using math::Vec3;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kStill = 0.02;      // slower than this is at rest  [m/s]
+constexpr double kStill = 0.02;      // slower than this counts as rest [m/s]
 constexpr double kTrialRate = 1000;  // [Hz]
 
-// What the ticks tell the caller.
+// What the ticks report to the caller.
 struct StatusLine {
   device::HandState hand;
   Vec3 force = Vec3::Zero();
   std::uint64_t tick = 0;
 };
 
-// What the caller wants of the ticks.
+// What the caller requests of the ticks.
 struct Wanted {
   bool wall = false;
   double height = 0;  // of the wall, along y [m]
@@ -88,7 +88,7 @@ class Ticks {
       told.tick = ticks;
       told_.publish(told);
     }
-    for (int n = 4; n >= 0; --n) {  // let go, not dropped
+    for (int n = 4; n >= 0; --n) {  // a fade, not a sudden drop
       static_cast<void>(clock.wait());
       device_.write_force(0.2 * n * force);
     }
@@ -103,7 +103,8 @@ class Ticks {
   std::unique_ptr<rt::Thread> thread_;
 };
 
-// Asks for what the ticks tell until `done` says so; false: the time was over, or the user stopped.
+// Reads the reports of the ticks until `done` is true. False: the time was over, or the user
+// stopped.
 template <class Done>
 bool watch(Ticks& ticks, double longest_s, const std::function<bool()>& stop, Done done) {
   const auto until = Clock::now() + std::chrono::duration<double>(longest_s);
@@ -186,7 +187,7 @@ void wall(Ticks& ticks, const TrialSettings& settings, const std::function<bool(
   const bool done = watch(ticks, 3 * settings.longest_s, stop, [&](const StatusLine& told) {
     const double depth = height - told.hand.world_from_tool.p.y();
     if (depth > 0 && told.force.y() > 0) {
-      // slowly, where the force is the spring's
+      // only slow movement, where the force is that of the spring
       if (told.hand.velocity.norm() < 0.1 && told.force.norm() < 0.98 * settings.most_force) {
         depth_force += depth * told.force.y();
         depth_square += depth * depth;
@@ -208,7 +209,7 @@ void wall(Ticks& ticks, const TrialSettings& settings, const std::function<bool(
     }
     return seen.presses >= settings.presses;
   });
-  // the wall stays until the ticks end: who stops in the middle of it is let go, not dropped
+  // the wall stays until the ticks end: a user who stops inside it gets a fade, not a sudden drop
   if (depth_square > 0) seen.stiffness = depth_force / depth_square;
   if (!done) seen.left_out.emplace_back("the wall: it was not pressed and left often enough");
 }

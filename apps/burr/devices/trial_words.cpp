@@ -1,4 +1,4 @@
-// What was seen in a trial, as a table for a terminal, a page to send, or JSON.
+// The results of a trial as a table for a terminal, a page to send, or JSON.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

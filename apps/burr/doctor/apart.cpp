@@ -14,9 +14,9 @@
 namespace burr::app {
 namespace {
 
-constexpr std::size_t kLongest = 4096;  // of the words  [byte]
+constexpr std::size_t kLongest = 4096;  // longest text [byte]
 
-// Words go first by their end: what dies on the way has said nothing.
+// The text is sent with an end mark: a process that dies earlier has sent nothing valid.
 [[noreturn]] void child(const std::function<std::string()>& work, int to) {
   std::string words;
   try {

@@ -1,10 +1,10 @@
-// apps/burr/doctor/apart.h - work in a process of its own, with an end in time: a maker's library
-// may crash or hang, and the doctor is to say so.
+// apps/burr/doctor/apart.h - runs work in a process of its own, with a time limit: a maker's
+// library may crash or hang, and the doctor must report that.
 //
 //     const Apart seen = apart([] { return std::string("what was found"); },
 //                              std::chrono::seconds(10));
 //
-// Thread: main, before any other thread was begun (fork).
+// Thread: main, before any other thread was started (fork).
 #pragma once
 
 #include <chrono>
@@ -14,8 +14,8 @@
 namespace burr::app {
 
 struct Apart {
-  bool ended = false;  // by itself, with words
-  std::string words;   // what the work gave back; else what became of it
+  bool ended = false;  // it ended by itself and gave a text
+  std::string words;   // the text that the work returned; otherwise what happened to it
 };
 
 [[nodiscard]] Apart apart(const std::function<std::string()>& work,

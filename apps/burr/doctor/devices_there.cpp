@@ -1,4 +1,4 @@
-// Haptic devices: what burr itself would find, tried in a process of its own.
+// Haptic devices: those that burr itself would find, tried in a process of its own.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kGroup = "haptic devices";
 
-// "+words" or "-words": what was found, or why not.
+// "+text" or "-text": what was found, or why not.
 std::string of_library(const std::string& kind) {
   if (kind == "touch") {
     const auto hd = device::openhaptics::load();
@@ -46,7 +46,7 @@ std::string of_device(const std::string& kind) {
   return trouble.empty() ? "+" + words : fmt::format("!{}. {}", words, trouble);
 }
 
-// Why, and what to do: a sentence of burr's has both, on either side of its semicolon.
+// Splits a sentence of burr into the reason and the advice, which its semicolon separates.
 void split(const std::string& sentence, Finding& finding) {
   const std::size_t cut = sentence.find("; ");
   finding.is = sentence.substr(0, cut);

@@ -1,7 +1,8 @@
-// burr doctor - why does my device not work, and what do I do about it? Every way to a hand is
-// looked at, then the computer, and each line ends in what to do.
+// burr doctor - why does my device not work, and what can I do? It checks every kind of hand, then
+// the computer, and each line ends with advice.
 //
-// Ends with 0 when it could look, whatever it saw. Nothing moves, and only --fix changes anything.
+// The exit code is 0 when it could check, whatever it found. Nothing moves, and only --fix changes
+// anything.
 #include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
@@ -27,7 +28,7 @@ Answer agreed(const std::string& rules) {
   return Answer::yes;
 }
 
-// At the terminal, where there is one.
+// Asks at the terminal, if there is one.
 Answer ask(const std::string& rules) {
   fmt::print("{}", rules);
   if (isatty(STDIN_FILENO) == 0) return Answer::nobody;
@@ -54,7 +55,7 @@ Status run(const Options& options) {
     fmt::print("{}\n", *said);
     return fine();
   }
-  std::vector<Finding> findings = look_at_devices(system);  // first: it forks
+  std::vector<Finding> findings = look_at_devices(system);  // first, because it forks
   for (auto* look : {&look_at_nodes, &look_at_pads, &look_at_screen, &look_at_machine})
     for (Finding& one : look(system)) findings.push_back(std::move(one));
 

@@ -8,7 +8,7 @@
 namespace burr::app {
 namespace {
 
-constexpr std::size_t kWide = 100;  // of a line
+constexpr std::size_t kWide = 100;  // width of a line
 
 const char* name_of(Health health) {
   switch (health) {
@@ -22,7 +22,7 @@ const char* name_of(Health health) {
   return "trouble";
 }
 
-// The words on lines of their own, none wider than it need be.
+// Wraps the text into lines of at most kWide characters.
 std::string wrapped(std::string_view words, std::size_t indent) {
   std::string out;
   std::size_t column = indent;

@@ -58,7 +58,7 @@ Result<std::string> write_rules(const System& system,
                      ? why
                      : fmt::format("{}; run it as root: sudo burr doctor --fix --seconds 0", why));
   };
-  // without udev there is no folder yet; the rule waits there for it
+  // without udev there is no folder yet; then the rule waits there for udev
   const bool no_udev = fs::create_directories(file.parent_path(), trouble);
   if (trouble)
     return cannot(fmt::format("{}: the folder cannot be made ({})", file.parent_path().string(),

@@ -1,5 +1,5 @@
-// apps/burr/doctor/fix.h - writes the udev rule that lets whoever sits at the computer open haptic
-// devices. Asks first; what the file held is kept beside as .old.
+// apps/burr/doctor/fix.h - writes the udev rule that lets the person at the computer open haptic
+// devices. Asks first; the file's old content is kept beside it as .old.
 //
 // Thread: main.
 #pragma once
@@ -14,8 +14,8 @@ namespace burr::app {
 
 enum class Answer { yes, no, nobody };  // nobody: there is no one to ask
 
-// ask: shown what the file is to hold. Gives back what was done and what to do next. Error: nobody
-// to ask, or it cannot be written; says how.
+// ask: is shown the new content of the file. Returns what was done and what to do next. Error:
+// there is nobody to ask, or the file cannot be written; says how to do it.
 [[nodiscard]] Result<std::string> write_rules(const System& system,
                                               const std::function<Answer(const std::string&)>& ask);
 

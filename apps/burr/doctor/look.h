@@ -1,7 +1,7 @@
-// apps/burr/doctor/look.h - what the doctor looks at, one function a part of the computer.
+// apps/burr/doctor/look.h - the checks of the doctor, one function for each part of the computer.
 //
-// Nothing is changed and nothing moves. Thread: main. `System` names where to look, so that tests
-// can build a computer of files.
+// Nothing is changed and nothing moves. Thread: main. `System` says where to look, so that tests
+// can make a computer out of files.
 #pragma once
 
 #include <chrono>
@@ -15,15 +15,15 @@
 namespace burr::app {
 
 struct System {
-  std::filesystem::path root = "/";            // where sys, dev and etc lie
-  std::chrono::milliseconds patience{10'000};  // with a maker's library
+  std::filesystem::path root = "/";            // folder that contains sys, dev and etc
+  std::chrono::milliseconds patience{10'000};  // time limit for a maker's library
   std::function<bool(const std::filesystem::path&)>
       may_use;  // read and write; empty: as the kernel says
 };
 
 // Haptic devices: library or service, then the device itself; each in a process of its own.
 [[nodiscard]] std::vector<Finding> look_at_devices(const System& system);
-// Their USB nodes: plugged in, and allowed to this user.
+// Their USB nodes: whether they are plugged in, and whether this user may open them.
 [[nodiscard]] std::vector<Finding> look_at_nodes(const System& system);
 // Gamepads, pedals, SpaceMouse.
 [[nodiscard]] std::vector<Finding> look_at_pads(const System& system);
@@ -32,7 +32,7 @@ struct System {
 // OpenGL, display, loudspeaker.
 [[nodiscard]] std::vector<Finding> look_at_screen(const System& system);
 
-// What /etc/udev/rules.d/70-burr.rules is to hold.
+// The wanted content of /etc/udev/rules.d/70-burr.rules.
 [[nodiscard]] std::string udev_rules();
 [[nodiscard]] std::filesystem::path udev_file(const System& system);
 

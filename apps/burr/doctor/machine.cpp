@@ -1,4 +1,4 @@
-// The computer itself: what the tick needs, what the picture needs, and other hands.
+// The computer itself: what the tick needs, what the picture needs, and gamepads and pedals.
 #include <SDL2/SDL.h>
 #include <dlfcn.h>
 #include <fmt/format.h>

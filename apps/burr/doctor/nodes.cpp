@@ -1,4 +1,5 @@
-// Devices on USB by their makers' numbers: plugged in, and allowed to this user.
+// USB devices, by their makers' numbers: whether they are plugged in, and whether this user may
+// open them.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -20,7 +21,7 @@ struct Known {
   const char* vendor;
   const char* product;  // "": any
   const char* what;
-  bool any_end;  // the product's first two digits only
+  bool any_end;  // only the first two digits of the product count
 };
 constexpr Known kKnown[] = {
     {"1451", "", "Force Dimension", false},
@@ -50,12 +51,12 @@ bool may_use(const System& system, const fs::path& node) {
   return access(node.c_str(), R_OK | W_OK) == 0;
 }
 
-// "3" as "003"
+// Pads with zeros: "3" becomes "003".
 std::string three(const std::string& number) {
   return number.size() < 3 ? std::string(3 - number.size(), '0') + number : number;
 }
 
-// Serial lines and raw HID below the same device.
+// Serial lines and raw HID nodes of a device.
 std::vector<fs::path> nodes_below(const System& system, const fs::path& device) {
   std::vector<fs::path> nodes;
   std::error_code nobody_asks;

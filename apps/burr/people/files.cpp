@@ -1,4 +1,4 @@
-// What a run leaves behind, and how it is taken up again.
+// The files of a run, and how an unfinished run is continued.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,7 +17,8 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kHead =
-    "trial,order,level,standard,comparison,answer,right,response_s";  // order: the comparison's
+    "trial,order,level,standard,comparison,answer,right,response_s";  // order: position of the
+                                                                      // comparison
 
 Status write_file(const std::filesystem::path& path, const std::string& text) {
   std::error_code trouble;

@@ -1,4 +1,4 @@
-// A run as one page: the psychometric function with the answers, and the levels trial by trial.
+// A run on one page: the psychometric function with the answers, and the level of each trial.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,8 +11,8 @@
 namespace burr::app {
 namespace {
 
-constexpr int kDot = 20;      // answers in a dot of the plot, at least
-constexpr int kPoints = 120;  // of a curve
+constexpr int kDot = 20;      // least number of answers in a dot of the plot
+constexpr int kPoints = 120;  // number of points of a curve
 
 constexpr const char* kHead = R"(<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>burr psychophysics</title>
@@ -23,7 +23,7 @@ td { border: 1px solid #ddd; padding: 2px 8px } figcaption { color: #444; max-wi
 </style></head><body>
 )";
 
-// Neighbouring levels together, so that a dot is more than a coin or two.
+// Joins neighbouring levels, so that a dot stands for more than one or two answers.
 Line dots(const std::vector<people::Tally>& tallies) {
   Line line{fmt::format("answers, {} or more a dot", kDot), {}, {}, false, true};
   double place = 0;

@@ -1,5 +1,5 @@
-// burr psychophysics - how small a difference of stiffness, friction or vibration is felt: two
-// intervals, one answer, some hundred times.
+// burr psychophysics - measures how small a difference of stiffness, friction or vibration a person
+// can feel: two intervals, one answer, some hundred times.
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <poll.h>
@@ -29,7 +29,7 @@ using people::Trial;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kSimulated = "simulated";
-constexpr double kAbove = 20e-3;  // the wall the tip begins [m]
+constexpr double kAbove = 20e-3;  // height above the wall at which the tip starts [m]
 
 struct Options {
   std::string stimulus, device = kSimulated, method = "bayes", rule = "1up2down", observer, subject,
@@ -39,7 +39,7 @@ struct Options {
   double until = 0, lapse = 0.02, seconds = 3, rate_hz = 1000;
   std::uint64_t seed = 1;
   bool json = false;
-  HandRequest hand;  // homing alone
+  HandRequest hand;  // only homing is used
 };
 
 template <class T, std::size_t N>
@@ -71,14 +71,14 @@ Result<PeopleRun> run_of(const Options& options) {
   return run;
 }
 
-// Shows the intervals and gets the answers; who answers makes no difference to the rest.
+// Shows the intervals and gets the answers, from a person or a simulated observer.
 class Lab {
  public:
-  // hand: of a device that is open; none: the simulated one
+  // hand: of an open device; nullptr: the simulated one
   Lab(const PeopleRun& run, device::MappedHand* hand)
       : run_(run), wall_(scenes::wall, run.wall), hand_(hand) {}
 
-  // Refuses, before the first trial, what this device could not show in one of them.
+  // Refuses the run before the first trial if this device could not show one of its intervals.
   Status possible() {
     const people::Plan& plan = run_.plan;
     const double most = plan.stimulus == Stimulus::vibration ? plan.standard + plan.largest
@@ -87,7 +87,7 @@ class Lab {
                           wall_.of(plan.stimulus, most));
   }
 
-  // 1 or 2; 0: nobody answers any more. took: of a person [s].
+  // 1 or 2; 0: there are no more answers. took: response time of a person [s].
   Result<int> ask(const Trial& trial, double& took) {
     took = -1;
     if (run_.observer && !run_.observer->feels) {
@@ -118,7 +118,7 @@ class Lab {
     return hand_ != nullptr ? show_to_hand(trial, interval) : show_to_simulated(trial, interval);
   }
 
-  // An interval in which the device let go is shown again.
+  // An interval in which the device released the force is shown again.
   Result<double> show_to_hand(const Trial& trial, int interval) {
     while (true) {
       auto felt = wall_.show(*hand_, wall_.of(run_.plan.stimulus, trial.shown(interval)),
@@ -131,7 +131,7 @@ class Lab {
     }
   }
 
-  // Each time a little differently.
+  // Each time with another gesture.
   Result<double> show_to_simulated(const Trial& trial, int interval) {
     const int gesture = (trial.number + 2 * interval) % sim::kGestures;
     device::SimulatedHand hand(
@@ -143,7 +143,7 @@ class Lab {
     return sim::sensed(run_.plan.stimulus, *felt);
   }
 
-  // A line was typed: the interval was long enough.
+  // A line was typed: the interval is over.
   static bool key() {
     pollfd in = {.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
     if (isatty(STDIN_FILENO) == 0 || poll(&in, 1, 0) <= 0) return false;
@@ -169,8 +169,8 @@ class Lab {
   device::MappedHand* hand_;
 };
 
-// The device of the run, laid over the wall: right is right, up is up. Its rate, its user's limit
-// and what stiffness it can show are the wall's from then on. nullptr: the simulated hand.
+// The device of the run, aligned with the wall: right is right, up is up. From then on the wall
+// uses its rate, its user's limit and its stiffness. nullptr: the simulated hand.
 Result<std::unique_ptr<device::MappedHand>> take_hand(const Options& options, PeopleRun& run) {
   if (run.device == kSimulated) return std::unique_ptr<device::MappedHand>();
   if (run.observer)
@@ -228,7 +228,7 @@ Status run(const Options& options) {
     if (Status done = save_trials(folder, experiment, seconds); !done) return done;
     return all ? save_result(folder, run, experiment) : fine();
   };
-  if (Status done = save(true); !done) return done;  // a folder that cannot be is told of now
+  if (Status done = save(true); !done) return done;  // a folder that cannot be made is reported now
 
   bool left = false;
   while (!experiment.finished() && !interrupted() && !left) {
@@ -239,7 +239,7 @@ Status run(const Options& options) {
     if (left) break;
     experiment.answer(*answer);
     seconds.push_back(took);
-    if (!run.observer)  // what a person answered is never lost
+    if (!run.observer)  // the answers of a person are never lost
       if (Status done = save(false); !done) return done;
     progress().report(static_cast<double>(seconds.size()) / run.plan.trials, "trials");
   }

@@ -1,8 +1,8 @@
-// apps/burr/people/run.h - one run of `burr psychophysics`: what was asked for, and the files in
-// which it is kept.
+// apps/burr/people/run.h - one run of `burr psychophysics`: its settings, and the files in which it
+// is kept.
 //
-//     DIR/trials.csv   a row a trial     DIR/result.json   what came out, and the run itself
-//     DIR/result.html  the same to look at
+//     DIR/trials.csv   a row per trial         DIR/result.json  the result, and the settings
+//     DIR/result.html  the same as a page
 //
 // Thread: one. No name, date or place of a person: at most a code.
 #pragma once
@@ -17,52 +17,52 @@
 
 namespace burr::app {
 
-// A simulated observer of known threshold.
+// A simulated observer with a known threshold.
 struct ObserverRequest {
   double threshold = 0.15, slope = 3.5, lapse = 0.02;
   std::uint64_t seed = 1;
-  bool feels = false;  // presses, rubs and holds instead of answering by formula
+  bool feels = false;  // presses, rubs and holds still, instead of answering by formula
 };
 
 struct PeopleRun {
   people::Plan plan;
   sim::WallSettings wall;
-  double seconds = 3;  // of an interval, at most
+  double seconds = 3;  // longest interval
   std::string device = "simulated", subject;
-  std::string device_id = {};               // name and serial number of a real one
+  std::string device_id = {};               // name and serial number of a real device
   std::optional<ObserverRequest> observer;  // none: a person answers
 };
 
 // "threshold=0.12,slope=3.5,lapse=0.02,seed=1,feels=yes"
 [[nodiscard]] Result<ObserverRequest> read_observer(const std::string& words);
 
-// What belongs to a stimulus: its unit, and what the person is asked.
+// The unit of a stimulus, and the question for the person.
 [[nodiscard]] const char* unit_of(people::Stimulus stimulus);
 [[nodiscard]] const char* question_of(people::Stimulus stimulus);
-// Of a level: a share, or newtons.
+// The unit of a level: a share, or newtons.
 [[nodiscard]] const char* level_unit_of(people::Stimulus stimulus);
 
-// Sensible standard and levels of a stimulus.
+// Sensible standard and levels for a stimulus.
 [[nodiscard]] people::Plan usual_plan(people::Stimulus stimulus);
-// Refuses what no experiment can be made of; names the option.
+// Refuses settings with which no experiment is possible; names the option.
 [[nodiscard]] Status check(const PeopleRun& run);
 
-// seconds[n]: how long the n-th answer took; below 0: no person.
+// seconds[n]: response time of the n-th answer; below 0: not a person.
 [[nodiscard]] Status save_trials(const std::string& folder, const people::Experiment& experiment,
                                  const std::vector<double>& seconds);
 [[nodiscard]] Status save_result(const std::string& folder, const PeopleRun& run,
                                  const people::Experiment& experiment);
 [[nodiscard]] std::string result_json(const PeopleRun& run, const people::Experiment& experiment);
-// One page that needs nothing beside it.
+// One page that needs no other file.
 [[nodiscard]] std::string result_page(const PeopleRun& run, const people::Experiment& experiment);
-// In a sentence.
+// The result in a sentence.
 [[nodiscard]] std::string result_words(const PeopleRun& run, const people::Experiment& experiment);
 
-// A run that was broken off, and its answers.
+// An interrupted run and its answers.
 struct Unfinished {
   PeopleRun run;
   std::vector<int> answers;
-  std::vector<double> levels;   // to be compared with what the plan gives
+  std::vector<double> levels;   // to be compared with those of the plan
   std::vector<double> seconds;  // as in save_trials
 };
 [[nodiscard]] Result<Unfinished> load_run(const std::string& folder);

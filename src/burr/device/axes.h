@@ -1,5 +1,6 @@
-// device/axes.h - which way a device's own x, y and z point as its user sits before the screen, in
-// words: "right up near" is a hand's frame, "far left up" a robot's that looks forward.
+// device/axes.h - the directions of a device's own x, y and z axes, in three words, as its user
+// sees them in front of the screen. "right up near" is the hand's frame; "far left up" is the frame
+// of a robot that looks forward.
 //
 // Thread: any.
 #pragma once
@@ -12,11 +13,12 @@
 
 namespace burr::device {
 
-// hand_from_device, the hand's frame being x right, y up, z to the user (near). nullopt: not three
-// words of right, left, up, down, near, far, or no right-handed frame.
+// Returns hand_from_device. The hand's frame is x right, y up, z towards the user (near). nullopt
+// unless the text is three of the words right, left, up, down, near, far, and they make a
+// right-handed frame.
 [[nodiscard]] std::optional<math::Quat> axes_from_words(std::string_view words);
 
-// The words nearest to a turn.
+// The three words nearest to a rotation.
 [[nodiscard]] std::string words_of_axes(const math::Quat& hand_from_device);
 
 }  // namespace burr::device

@@ -1,5 +1,5 @@
-// device/bounded.h - the last bound before a device, beside the tick's own, should that ever be
-// mistaken.
+// device/bounded.h - the last limit on a force before it reaches a device. It comes after the
+// limits of the tick and protects the hand if those are wrong.
 //
 // Thread: any. Units: those of peak. Memory: none.
 #pragma once
@@ -9,8 +9,8 @@
 
 namespace burr::device {
 
-// A force or a torque: what is no number is none, what is larger than peak is that, its direction
-// kept.
+// Limits a force or a torque. A vector that is not finite becomes zero. A vector longer than peak
+// is shortened to peak and keeps its direction.
 [[nodiscard]] inline math::Vec3 bounded(const math::Vec3& push, double peak) BURR_RT {
   if (!push.allFinite()) return math::Vec3::Zero();
   const double size = push.norm();

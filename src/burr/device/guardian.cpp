@@ -19,10 +19,10 @@
 namespace burr::device {
 namespace {
 
-constexpr int kReadyMs = 8000;  // with a bus to be found
+constexpr int kReadyMs = 8000;  // long enough to discover a bus
 constexpr std::size_t kPage = 4096;
 
-// Closed at the end of its scope.
+// A file descriptor that is closed at the end of its scope.
 class Descriptor {
  public:
   explicit Descriptor(int fd = -1) : fd_(fd) {}
@@ -56,7 +56,7 @@ Result<std::unique_ptr<Guardian>> Guardian::start(std::vector<std::string> words
                  "burr-guard, which lets go of this device should burr die, is not beside "
                  "libburr.so; install burr again or name it in BURR_GUARD");
 
-  int lives[2], says[2];  // its ends: lives[0], says[1]
+  int lives[2], says[2];  // the guardian's ends of the pipes: lives[0], says[1]
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, lives) != 0) return failed("socket");
   Descriptor theirs(lives[0]), ours(lives[1]);
   if (::pipe2(says, O_CLOEXEC) != 0) return failed("pipe");
@@ -67,8 +67,8 @@ Result<std::unique_ptr<Guardian>> Guardian::start(std::vector<std::string> words
   if (shared == MAP_FAILED) return failed("memory");
   auto* beats = new (shared) std::atomic<unsigned>(0);
 
-  // Its descriptors: 0 burr's life, 1 its answer, 3 the device, 4 the beats. First all are laid
-  // where none of them is in another's way.
+  // Its descriptors: 0 burr's life, 1 its answer, 3 the device, 4 the beats. First all of them are
+  // moved to numbers that do not collide with these.
   const std::array<std::pair<int, int>, 4> laid = {
       {{theirs.get(), 0}, {say.get(), 1}, {fd >= 0 ? fd : page.get(), 3}, {page.get(), 4}}};
   posix_spawn_file_actions_t actions;
@@ -81,7 +81,7 @@ Result<std::unique_ptr<Guardian>> Guardian::start(std::vector<std::string> words
   }
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  // of its own session: a Ctrl-C in burr's terminal is burr's alone
+  // in a session of its own, so that Ctrl-C in burr's terminal does not reach it
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
 
   words.insert(words.begin(), program);
@@ -102,7 +102,7 @@ Result<std::unique_ptr<Guardian>> Guardian::start(std::vector<std::string> words
   say.close();
   theirs.close();
 
-  // "+" ready, or a sentence
+  // "+": ready; otherwise an error message
   std::string answer;
   std::array<char, 256> some{};
   pollfd waits{hear.get(), POLLIN, 0};
@@ -120,7 +120,7 @@ Result<std::unique_ptr<Guardian>> Guardian::start(std::vector<std::string> words
 
 Guardian::~Guardian() {
   const char dismissed = 'q';
-  // it may have gone already: no signal for that
+  // it may have ended already; then no SIGPIPE
   static_cast<void>(::send(line_, &dismissed, 1, MSG_NOSIGNAL));
   ::close(line_);
   while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {

@@ -1,16 +1,17 @@
-// device/guardian.h - a small process that takes the force back when burr dies.
+// device/guardian.h - a small process that releases the force of a device when burr dies or hangs.
 //
-//     auto guardian = Guardian::start({"line", kNoCurrent}, tty);    // before the first force
-//     ... (*guardian)->beat() at every exchange ...                  // ends: it is dismissed
+//     auto guardian = Guardian::start({"line", kNoCurrent}, tty);   // before the first force
+//     ... (*guardian)->beat() at every exchange ...                 // the destructor ends it
 //
-// For devices that hold their last force for as long as nobody says otherwise and have no watchdog
-// of their own. It is burr-guard (apps/burr-guard), beside the library: it sees burr's end by a
-// line that the kernel cuts, whatever ended it, and a burr that hangs or is stopped by beats that
-// stop. Then it says "no force" to the device, again and again for a while; while burr hangs, until
-// it beats again. Signals for burr's terminal do not reach it.
+// For devices that hold their last force until a new one comes and have no watchdog of their own.
+// The process is burr-guard (apps/burr-guard), installed beside the library. It notices the end of
+// burr, whatever the cause, because the kernel then closes a pipe; it notices that burr hangs or is
+// stopped because the beats stop. In both cases it sends "no force" to the device repeatedly: for a
+// while after burr's end, and while burr hangs until the next beat. Signals sent to burr's terminal
+// do not reach it.
 //
-// Thread: start() and its end on one thread; beat() any, wait-free. Memory: one page shared with
-// it.
+// Thread: start() and the destructor on one thread; beat() any, wait-free. Memory: one page shared
+// with the process.
 #pragma once
 
 #include <sys/types.h>
@@ -27,15 +28,16 @@ namespace burr::device {
 
 class Guardian {
  public:
-  // words: the device's way, as burr-guard understands it. fd: what it is to write to, or -1. Once
-  // this returns it is ready. Error: it cannot be found, or not reach the device.
+  // words: how to reach the device, in the arguments of burr-guard. fd: the file it writes to, or
+  // -1. When this returns, the process is ready. Error: burr-guard is not found, or it cannot reach
+  // the device.
   [[nodiscard]] static Result<std::unique_ptr<Guardian>> start(std::vector<std::string> words,
                                                                int fd = -1);
-  ~Guardian();  // there is nothing to guard any more
+  ~Guardian();  // ends the process: there is nothing to guard any more
   Guardian(const Guardian&) = delete;
   Guardian& operator=(const Guardian&) = delete;
 
-  // burr is alive. From the first one on it is missed after kMissed.
+  // Says that burr is alive. After the first beat, a pause longer than kMissedMs counts as a hang.
   void beat() BURR_RT { beats_->fetch_add(1, std::memory_order_relaxed); }
   static constexpr int kMissedMs = 100;
 

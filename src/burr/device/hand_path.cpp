@@ -17,7 +17,7 @@ PathPoint at(const HandPath& path, double t, std::size_t& hint) noexcept {
   now.t = t;
   now.world_from_tool.p = a.world_from_tool.p + s * (b.world_from_tool.p - a.world_from_tool.p);
   now.world_from_tool.q = a.world_from_tool.q.slerp(s, b.world_from_tool.q);
-  now.pedal = s < 1 ? a.pedal : b.pedal;  // a pedal is pressed, not blended
+  now.pedal = s < 1 ? a.pedal : b.pedal;  // the pedal is not interpolated
   return now;
 }
 

@@ -1,4 +1,4 @@
-// device/hand_path.h - a way for a scripted hand to go: poses over time, straight in between.
+// device/hand_path.h - the path of a scripted hand: poses over time, interpolated linearly.
 //
 // Frame: world (LPS). Units: SI.
 #pragma once
@@ -10,7 +10,7 @@
 namespace burr::device {
 
 struct PathPoint {
-  double t = 0;  // since the start, never falling          [s]
+  double t = 0;  // since the start, never decreasing [s]
   math::Pose world_from_tool;
   double pedal = 1;  // 0..1
 };
@@ -21,8 +21,8 @@ struct HandPath {
   [[nodiscard]] double duration() const { return points.empty() ? 0 : points.back().t; }
 };
 
-// Where the path is at time t; `hint` remembers the segment so that going forward is cheap.
-// Allocation-free.
+// The point of the path at time t [s]. `hint` remembers the segment, so that going forward in time
+// is cheap. No allocation.
 [[nodiscard]] PathPoint at(const HandPath& path, double t, std::size_t& hint) noexcept;
 
 }  // namespace burr::device

@@ -14,8 +14,8 @@ namespace {
 using math::Vec3;
 
 constexpr std::uint64_t kTellEvery = 256;       // readings between two accounts
-constexpr std::int64_t kMean = 64;              // readings over which their pace is seen
-constexpr std::int64_t kLongestNs = 4'000'000;  // that counts for it: a stall is no pace
+constexpr std::int64_t kMean = 64;              // readings over which their period is averaged
+constexpr std::int64_t kLongestNs = 4'000'000;  // longest period that counts: a stall does not
 
 std::int64_t ns(double seconds) { return std::llround(1e9 * seconds); }
 
@@ -35,7 +35,7 @@ void Link::Bell::hear(std::int64_t until_ns) BURR_RT {
   until.tv_nsec = until_ns % kSecond;
   while (sem_clockwait(&sem_, CLOCK_MONOTONIC, &until) != 0)
     if (errno != EINTR) return;
-  // an exchange, so that what was struck for until now is seen by whoever goes on to look
+  // an exchange, so that the thread sees everything that was written before the ring
   static_cast<void>(struck_.exchange(false, std::memory_order_acq_rel));
 }
 
@@ -63,7 +63,7 @@ Vec3 Link::exchange(const HandState& hand) BURR_RT {
   }
   tell(hand, now);
   take_answers(now);
-  // nobody is there to answer, or nobody yet: waiting would only slow the device down
+  // nobody answers (any more, or yet): waiting would only slow the device down
   if (answered_ns_ == kNever || now - answered_ns_ >= timeout_ns_) return push();
   const std::int64_t patience = patience_ns_.load(std::memory_order_relaxed);
   if (patience <= 0) return push();
@@ -102,7 +102,7 @@ Vec3 Link::push() BURR_RT {
     let_go_.store(true, std::memory_order_release);
   }
   if (fading_) {
-    // done once the servo knows, and has let go as well
+    // done when the servo knows of the loss and has released the force as well
     if (answer_.number > fading_after_ && answer_.push.none()) fading_ = false;
     const double left =
         1 - static_cast<double>(now - faded_since_ns_) / static_cast<double>(fade_ns_);
@@ -118,7 +118,7 @@ void Link::lose() BURR_RT {
   HandState none;
   none.valid = false;
   tell(none, now);
-  fading_ = true;  // whoever is gone is not pushed; who comes back, not at once
+  fading_ = true;  // no force while the hand is gone, and none at once when it comes back
   faded_since_ns_ = now - fade_ns_;
   fading_from_ = pushed_ = {};
   fading_after_ = number_;
@@ -155,10 +155,10 @@ void Link::write_force(const Vec3& force) BURR_RT {
 
 // ---- the pace
 
-// The time from which on a reading may begin the next tick. Of a device that brings more readings
-// than ticks it is the one nearest to where the nominal rate would have it, so that a second of
-// ticks is a second. One that brings one each may bring it unevenly, and be a little faster than it
-// says; before its pace is known an eighth early is early enough for both.
+// The time from which a reading may begin the next tick. For a device with more readings than
+// ticks, the reading nearest to the nominal rate is taken, so that a second of ticks is a second. A
+// device with one reading a tick may be uneven, and a little faster than it says. Until the
+// device's rate is known, an eighth of a period early suits both kinds.
 std::int64_t LinkClock::next_after(std::int64_t began) BURR_RT {
   const std::int64_t reading = link_.reading_period_ns();
   if (reading > period_ns_ - period_ns_ / 8) {
@@ -170,14 +170,14 @@ std::int64_t LinkClock::next_after(std::int64_t began) BURR_RT {
     return began + period_ns_ - period_ns_ / 8;
   }
   due_ns_ += period_ns_;
-  if (std::abs(began - due_ns_) > period_ns_) due_ns_ = began;  // after a stall, not faster
+  if (std::abs(began - due_ns_) > period_ns_) due_ns_ = began;  // after a stall, do not catch up
   return due_ns_ + period_ns_ - reading / 2;
 }
 
 rt::TickTime LinkClock::wait() BURR_RT {
   const bool first = start_ns_ < 0;
   if (first) start_ns_ = last_ns_ = link_.now();
-  // long enough for a reading to be late, then once a period
+  // first long enough for a late reading, then once a period
   const std::int64_t patience =
       std::max(period_ns_, link_.arrived_ns() + link_.timeout_ns() - last_ns_);
   const bool fresh = link_.wait(last_ns_ + (first ? link_.timeout_ns() : patience));
@@ -187,7 +187,7 @@ rt::TickTime LinkClock::wait() BURR_RT {
   rt::TickTime time;
   time.now_ns = now - start_ns_;
   time.since_last_ns = first ? period_ns_ : now - last_ns_;
-  // due is when its reading came; without one it begins when it can
+  // due when its reading came; without a reading, when it begins
   time.late_ns = fresh ? std::max<std::int64_t>(0, now - link_.arrived_ns()) : 0;
   time.due_ns = time.now_ns - time.late_ns;
   time.missed = std::max<std::int64_t>(0, (time.since_last_ns + period_ns_ / 2) / period_ns_ - 1);

@@ -1,12 +1,14 @@
-// device/link.h - the crossing between a device's own thread, the wire, and the tick.
+// device/link.h - carries readings and forces between a device's own thread (the wire) and the
+// tick.
 //
-//     wire:  force = exchange(reading)      servo:  wait() - state() - tick - write_force()
+//     wire: force = exchange(reading)        servo: wait() - state() - tick - write_force()
 //
-// A reading begins a tick, and the wire waits for that tick's force, but never longer than its
-// patience: then the force before it stands, for a few milliseconds. No answer for loss_timeout,
-// and what is pushed fades linearly to zero; it stays there until the servo has seen the loss (an
-// invalid reading) and has itself come down to zero, so that force returns only by the start ramp.
-// The same when no reading comes. A last force is never repeated for longer than the timeout.
+// A reading begins a tick, and the wire waits for that tick's force, but no longer than its
+// patience; then the previous force stays, for a few milliseconds. If no answer comes for
+// loss_timeout, the force fades linearly to zero. It stays at zero until the servo has seen the
+// loss (an invalid reading) and has itself come down to zero, so that force returns only through
+// the start ramp. The same happens when no reading comes. An old force is never repeated for longer
+// than the timeout.
 //
 // Thread: exchange(), push(), torque(), lose() on the wire; wait(), state(), write_torque(),
 // write_force(), begin_at() on the servo; hold() any. Wait-free but for the two bounded waits.
@@ -26,14 +28,14 @@
 namespace burr::device {
 
 struct LinkSettings {
-  double patience = 0.5e-3;    // that the wire waits for the force of its reading [s]
+  double patience = 0.5e-3;    // how long the wire waits for the force of its reading [s]
   double loss_timeout = 5e-3;  // without an answer, or without a reading [s]
-  double fade = 5e-3;          // from then to no force [s]
+  double fade = 5e-3;          // time from then to zero force [s]
 };
 
 class Link {
  public:
-  using Now = std::int64_t (*)();  // [ns], never back
+  using Now = std::int64_t (*)();  // [ns], never decreasing
 
   explicit Link(const LinkSettings& settings = {}, Now clock = &rt::monotonic_ns);
   ~Link();
@@ -41,43 +43,44 @@ class Link {
   Link& operator=(const Link&) = delete;
 
   // ---- wire
-  // A reading of the hand, just arrived; the force to push it with [N]. One that comes before the
-  // next tick may begin (begin_at()) is passed over: the force before it stands.
+  // A reading of the hand has just arrived; returns the force to push it with [N]. A reading that
+  // comes before the next tick may begin (begin_at()) is passed over: the previous force stays.
   [[nodiscard]] math::Vec3 exchange(const HandState& hand) BURR_RT;
-  // The force just now, without a reading.
+  // The present force, without a new reading [N].
   [[nodiscard]] math::Vec3 push() BURR_RT;
-  // What goes with the force that was given last, held and faded as that [N m].
+  // The torque that goes with the force that was returned last, held and faded with it [N m].
   [[nodiscard]] const math::Vec3& torque() const BURR_RT { return pushed_.torque; }
-  // The device is gone, or says what cannot be: nothing is pushed, the tick learns it at once.
+  // The device is gone, or sends impossible values: the force is zero, and the next tick knows it.
   void lose() BURR_RT;
 
   // ---- servo
-  // Until a reading has come that has not been taken, or the time: whether there is one.
+  // Waits for a reading that has not been taken yet, or until the time. True: there is one.
   [[nodiscard]] bool wait(std::int64_t until_ns) BURR_RT;
-  // The newest reading; invalid when it is older than the timeout, or after the wire let go.
+  // The newest reading. Invalid when it is older than the timeout, or after the wire let go.
   [[nodiscard]] HandState state() BURR_RT;
-  // Of the next force; then none again.
+  // The torque of the next force; afterwards it is zero again [N m].
   void write_torque(const math::Vec3& torque) BURR_RT { torque_ = torque; }
   void write_force(const math::Vec3& force) BURR_RT;
-  // Readings before this time begin no tick.
+  // Readings before this time do not begin a tick.
   void begin_at(std::int64_t ns) BURR_RT { begin_ns_.store(ns, std::memory_order_relaxed); }
-  // When the newest reading that was taken arrived [ns]: after wait() the one that state() will
-  // give.
+  // When the newest reading arrived that was taken [ns]. After wait(): of the reading that state()
+  // will return.
   [[nodiscard]] std::int64_t arrived_ns() const BURR_RT { return reading_.arrived_ns; }
 
   // ---- one thread, any
-  // The account so far, every 256 readings; false: nothing new.
+  // The account so far, every 256 readings. False: nothing new.
   [[nodiscard]] bool account(LinkAccount& newest) { return told_.take(newest); }
 
-  // Between two readings, in the mean of some hundred; 0 at first [ns]. Any.
+  // Time between two readings, a mean over some hundred; 0 at first [ns]. Thread: any.
   [[nodiscard]] std::int64_t reading_period_ns() const BURR_RT {
     return reading_period_ns_.load(std::memory_order_relaxed);
   }
 
   // ---- any
-  // Ticks begin by another device's readings: waiting for one's own would only slow this one down.
+  // Another device's readings begin the ticks. This link stops waiting for them, because it would
+  // only slow its own device down.
   void never_wait() BURR_RT { patience_ns_.store(0, std::memory_order_relaxed); }
-  // Multiplies what is pushed, until the next write_force().
+  // Multiplies the force by scale until the next write_force().
   void hold(double scale) BURR_RT { scale_.store(scale, std::memory_order_relaxed); }
 
   [[nodiscard]] std::int64_t now() const BURR_RT { return now_(); }
@@ -87,7 +90,7 @@ class Link {
   struct Reading {
     HandState hand;
     std::int64_t arrived_ns = 0;
-    std::uint64_t number = 0;  // 0: there has been none
+    std::uint64_t number = 0;  // 0: there has been no reading
   };
   struct Push {
     math::Vec3 force = math::Vec3::Zero(), torque = math::Vec3::Zero();
@@ -101,7 +104,7 @@ class Link {
     std::uint64_t number = 0;  // of the reading it is for
   };
 
-  // A bell that rings once, however often it is struck before somebody hears it.
+  // A signal from one thread to another. Several rings before it is heard count as one.
   class Bell {
    public:
     Bell();
@@ -109,7 +112,7 @@ class Link {
     Bell(const Bell&) = delete;
     Bell& operator=(const Bell&) = delete;
     void strike() BURR_RT;
-    void hear(std::int64_t until_ns) BURR_RT;  // or until then
+    void hear(std::int64_t until_ns) BURR_RT;  // returns at a ring, or at this time
 
    private:
     sem_t sem_{};
@@ -130,11 +133,11 @@ class Link {
   std::atomic<std::int64_t> begin_ns_ = INT64_MIN;
   std::atomic<std::int64_t> reading_period_ns_ = 0;
   std::atomic<double> scale_ = 1.0;
-  std::atomic<bool> let_go_ = false;  // by the wire: the servo is to come down to zero
+  std::atomic<bool> let_go_ = false;  // set by the wire: the servo must come down to zero
 
   rt::Latest<LinkAccount> told_;
 
-  // the wire's own
+  // used only on the wire
   LinkAccount account_;
   std::uint64_t number_ = 0;
   Answer answer_;
@@ -144,17 +147,18 @@ class Link {
   bool fading_ = false;
   std::int64_t faded_since_ns_ = 0;
   Push fading_from_, pushed_;
-  std::uint64_t fading_after_ = 0;  // readings after this one have been answered in knowledge of it
+  std::uint64_t fading_after_ = 0;  // readings after this one were answered by a servo that knew of
+                                    // the loss
 
-  // the servo's own
+  // used only on the servo
   Reading reading_;
   bool fresh_ = false;
   math::Vec3 torque_ = math::Vec3::Zero();
 };
 
-// The pace of a link: a tick begins when its reading comes, and is as late as it begins after that.
-// Of more readings than ticks it takes those nearest to the nominal rate. Where none comes in time,
-// ticks go on once a period, so that force can fade.
+// The pace of a link: a tick begins when its reading comes; lateness counts from there. Where there
+// are more readings than ticks, it takes those nearest to the nominal rate. Where no reading comes
+// in time, ticks continue once a period, so that the force can fade.
 class LinkClock final : public rt::TickClock {
  public:
   LinkClock(Link& link, double rate_hz) : link_(link), period_ns_(rt::period_from_rate(rate_hz)) {}
@@ -166,7 +170,7 @@ class LinkClock final : public rt::TickClock {
   Link& link_;
   [[nodiscard]] std::int64_t next_after(std::int64_t began) BURR_RT;
   std::int64_t period_ns_, start_ns_ = -1, last_ns_ = 0;
-  std::int64_t due_ns_ = 0;  // of the last tick, at the nominal rate
+  std::int64_t due_ns_ = 0;  // when the last tick was due at the nominal rate
 };
 
 }  // namespace burr::device

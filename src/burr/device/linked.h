@@ -1,5 +1,5 @@
-// device/linked.h - a device behind a Link: the side that faces the tick, the same for every device
-// that has a wire or a library's thread of its own.
+// device/linked.h - base class of a device with a Link: the side that faces the tick, the same for
+// every device that has a wire or the thread of a maker's library.
 //
 // Thread: as Device.
 #pragma once
@@ -31,7 +31,7 @@ class LinkedDevice : public Device {
       : link_(settings, now) {}
 
   Link link_;
-  DeviceSpec spec_;  // once it is open
+  DeviceSpec spec_;  // valid while the device is open
 
  private:
   std::unique_ptr<LinkClock> clock_;

@@ -46,7 +46,7 @@ Status MappedHand::set(const MappingSettings& settings) {
 HandState MappedHand::state(double dt) BURR_RT {
   HandState hand = device_->state(dt);
   if (!hand.valid || !hand.world_from_tool.finite()) {
-    anchored_ = false;  // wherever it comes back, the tip is where it was
+    anchored_ = false;  // the tip stays where it is, wherever the hand comes back
     hand.world_from_tool.q = held_;
     if (hand.world_from_tool.p.allFinite()) hand.world_from_tool.p = tip_;
     return hand;

@@ -1,14 +1,15 @@
-// device/mapping.h - a real hand laid over the bone: its axes along those of the view, its way
-// larger or smaller than the tip's, laid elsewhere while it is lifted.
+// device/mapping.h - maps a real hand into the world: aligns its axes with the view, scales its
+// movement, and moves it elsewhere while it is lifted.
 //
 //     p = at + scale * turn * (hand - from)        force on the hand = turn^-1 * force at the tip
 //
-// A wall of k at the tip is felt as scale * k by the hand, so the specification that touch sees has
-// its stiffness and damping divided by scale: no wall is stiffer than the device can show.
-// Turning the view turns the hand's axes once nothing is pushed, and never moves the tip.
+// A wall of stiffness k at the tip is felt as scale * k by the hand. So the specification that
+// touch sees has its stiffness and damping divided by scale: no wall is stiffer than the device can
+// show. Turning the view turns the hand's axes as soon as the force is zero; it never moves the
+// tip.
 //
-// Thread: lay() main; lift() any; the rest as Device. Frames: the device's own as its driver states
-// it, x right, y up, z to the user; world (LPS) outside.
+// Thread: lay() main; lift() any; the rest as Device. Frames: inside, the device's own as its
+// driver states it, x right, y up, z to the user; outside, world (LPS).
 #pragma once
 
 #include <atomic>
@@ -21,30 +22,30 @@
 namespace burr::device {
 
 struct MappingSettings {
-  double scale = 1;                          // way of the tip over way of the hand; 0.1..10
-  math::Quat axes = math::Quat::Identity();  // hand_from_device, as it stands (axes.h)
-  int clutch_button = 1;                     // lifts the hand while it is down; -1: none
-  bool dead_man = false;  // lifted unless the mill button is down, or the foot presses
-  int mill_button = 0;    // full pedal while it is down; -1: none
+  double scale = 1;                          // movement of the tip / movement of the hand; 0.1..10
+  math::Quat axes = math::Quat::Identity();  // hand_from_device, as the device is set up (axes.h)
+  int clutch_button = 1;                     // lifts the hand while pressed; -1: none
+  bool dead_man = false;  // lifted unless the mill button or the foot pedal is pressed
+  int mill_button = 0;    // full pedal while pressed; -1: none
 };
 
 class MappedHand final : public Device {
  public:
-  // start: where the tip is when the session begins, in the air; world_from_hand: the axes of the
-  // view then
+  // start: pose of the tip when the session begins, in free air; world_from_hand: axes of the view
+  // at that time
   MappedHand(std::unique_ptr<Device> device, const math::Pose& start,
              const math::Quat& world_from_hand, const MappingSettings& settings = {});
 
-  // The hand's axes from now on, as soon as nothing is pushed.
+  // Sets the hand's axes; they apply as soon as the force is zero.
   void lay(const math::Quat& world_from_hand) { turns_.publish(world_from_hand); }
-  // Lifted from outside, beside the button: by a pedal, or a key.
+  // Lifts the hand from outside, in addition to the button: by a pedal or a key.
   void lift(bool lifted) BURR_RT { lifted_.store(lifted, std::memory_order_relaxed); }
-  // Of the pedal under a foot, 0..1; the larger of it and the mill button's counts.
+  // Sets the foot pedal, 0..1. The larger of it and the mill button's value counts.
   void press(double pedal) BURR_RT { pedal_.store(pedal, std::memory_order_relaxed); }
 
-  // Once it is open, again does nothing: its rate may be asked for before the session is made.
+  // A second open() does nothing, so the device may be opened early to ask for its rate.
   Status open() override;
-  // While it is open and before the session: other settings.
+  // Changes the settings. Only while the device is open, before the session.
   Status set(const MappingSettings& settings);
   void close() override {
     device_->close();
@@ -72,10 +73,10 @@ class MappedHand final : public Device {
   std::atomic<bool> lifted_ = false;
   std::atomic<double> pedal_ = 0;
 
-  // the servo's own
+  // used only on the servo
   math::Quat laid_;                            // world_from_hand, as last requested
   math::Quat turn_, requested_;                // world_from_device
-  math::Vec3 at_, from_ = math::Vec3::Zero();  // the tip, when the hand was there
+  math::Vec3 at_, from_ = math::Vec3::Zero();  // the tip and the hand at the same moment
   math::Vec3 tip_;
   math::Vec3 forced_ = math::Vec3::Zero();
   math::Quat held_ = math::Quat::Identity();

@@ -1,7 +1,7 @@
-// device/replayed_hand.h - a hand that does again what a recording says; whoever replays sets each
+// device/replayed_hand.h - a hand that repeats the readings of a recording; the caller sets each
 // reading.
 //
-// Thread: one. The force it is given goes nowhere.
+// Thread: one. The force it is given is ignored.
 #pragma once
 
 #include "burr/device/device.h"
@@ -10,7 +10,7 @@ namespace burr::device {
 
 class ReplayedHand final : public Device {
  public:
-  // spec: of the device that was recorded; its limits are part of what happened
+  // spec: of the device that was recorded; its limits had an effect on the recorded session
   explicit ReplayedHand(DeviceSpec spec) : spec_(std::move(spec)) {}
 
   Status open() override { return fine(); }
@@ -19,7 +19,7 @@ class ReplayedHand final : public Device {
   [[nodiscard]] HandState state(double) BURR_RT override { return now_; }
   void write_force(const math::Vec3&) BURR_RT override {}
 
-  // the reading the next tick gets
+  // the reading for the next tick
   void set(const HandState& hand) BURR_RT { now_ = hand; }
 
  private:

@@ -1,11 +1,11 @@
-// device/silence.h - for how long a wire has listened, and for how long in vain.
+// device/silence.h - measures for how long a wire has listened without an answer.
 //
 //     silence.ended(now);                          // a reading has come
 //     if (silence.lasts(now)) return Read::lost;   // none has
 //
-// A machine that stood still meanwhile has not listened: what its device said is still on its way,
-// so of the time between two calls no more than one reading's counts. Times are of a clock that
-// never goes back. Thread: its wire's.
+// Time in which the computer itself stood still does not count: what the device sent is still on
+// its way. So between two calls at most the time of one reading counts. Times are of a clock that
+// never goes back. Thread: the wire's.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,13 @@ namespace burr::device {
 
 class Listened {
  public:
-  static constexpr std::int64_t kOneReadingNs = 10'000'000;  // readings wait for 2 ms each
+  static constexpr std::int64_t kOneReadingNs = 10'000'000;  // a reading waits for 2 ms
 
   void begin(std::int64_t now_ns) BURR_RT {
     so_far_ns_ = 0;
     asked_ns_ = now_ns;
   }
-  // After every reading.
+  // Call after every reading. Returns the time listened since begin() [ns].
   [[nodiscard]] std::int64_t until(std::int64_t now_ns) BURR_RT {
     so_far_ns_ += std::min(now_ns - asked_ns_, kOneReadingNs);
     asked_ns_ = now_ns;
@@ -36,11 +36,11 @@ class Listened {
 
 class Silence {
  public:
-  static constexpr std::int64_t kLongestNs = 200'000'000;  // then nobody is there any more
+  static constexpr std::int64_t kLongestNs = 200'000'000;  // after this the device counts as lost
 
-  // Something has come, or one begins to listen.
+  // A reading has come, or listening begins.
   void ended(std::int64_t now_ns) BURR_RT { listened_.begin(now_ns); }
-  // After a reading that brought nothing: whether that has been so for too long.
+  // Call after a wait that brought no reading. True: this has lasted too long.
   [[nodiscard]] bool lasts(std::int64_t now_ns) BURR_RT {
     return listened_.until(now_ns) >= kLongestNs;
   }

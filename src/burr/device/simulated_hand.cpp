@@ -25,7 +25,7 @@ HandState SimulatedHand::state(double dt) BURR_RT {
     velocity_ = (target - position_) / dt;
     position_ = target;
   } else {
-    // semi-implicit Euler in four steps: stable while stiffness / mass * (dt/4)^2 < 4
+    // semi-implicit Euler in four substeps: stable while stiffness / mass * (dt/4)^2 < 4
     constexpr int kSteps = 4;
     const double step = dt / kSteps;
     const math::Vec3 pace = (target - target_) / dt;

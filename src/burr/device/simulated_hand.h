@@ -1,11 +1,11 @@
 // device/simulated_hand.h - a hand without a person: a mass on a spring and a damper, pulled along
-// a path, pushed by the bone.
+// a path and pushed by the bone.
 //
 //     target(t) o--/\/\/--[ mass ]<-- force from the bone
 //
-// Values of a stylus held in the fingers: 0.03-0.1 kg, 2-5 N s/m, 100-300 N/m (docs/safety.md,
-// "Devices and hands"); the default is a firm grip. stiffness = infinity is a rigid hand: it is
-// where the path says, whatever pushes.
+// Measured values for a stylus held in the fingers: 0.03-0.1 kg, 2-5 N s/m, 100-300 N/m
+// (docs/safety.md, "Devices and hands"); the default is a firm grip. stiffness = infinity is a
+// rigid hand: it follows the path, whatever pushes it.
 // Thread: state(), write_force() servo; hold() any. Frame: world. Units: SI.
 #pragma once
 

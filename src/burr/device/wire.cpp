@@ -7,11 +7,11 @@
 namespace burr::device {
 namespace {
 
-constexpr auto kComeBack = std::chrono::milliseconds(500);  // between two tries to find it again
+constexpr auto kComeBack = std::chrono::milliseconds(500);  // between two attempts to find it again
 constexpr auto kLook =
-    std::chrono::milliseconds(5);              // in which a request to stop is seen meanwhile
-constexpr std::int64_t kFastestNs = 200'000;   // a device that never waits is asked no more often
-constexpr std::int64_t kTellNs = 100'000'000;  // no oftener is what is wrong told
+    std::chrono::milliseconds(5);              // ... and between two checks of whether to stop
+constexpr std::int64_t kFastestNs = 200'000;   // shortest period for a device that never waits
+constexpr std::int64_t kTellNs = 100'000'000;  // shortest time between two texts of trouble
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void WireDevice::say(std::string trouble) {
   trouble_ = std::move(trouble);
 }
 
-// Another device of the kind is another hand: its limits are not those the session lives by.
+// Accepts only the same device: the session relies on the limits of the first one.
 bool WireDevice::come_back() {
   auto found = wire_->connect();
   if (!found) {
@@ -81,7 +81,7 @@ void WireDevice::work() {
   unsigned told = wire_->told();
   while (!stop_.load(std::memory_order_relaxed)) {
     if (!connected) {
-      const rt::Ordinary aside;  // looking for it may take its time, and begins other threads
+      const rt::Ordinary aside;  // the search may take long and starts other threads
       const auto until = std::chrono::steady_clock::now() + kComeBack;
       while (!stop_.load(std::memory_order_relaxed) && std::chrono::steady_clock::now() < until)
         std::this_thread::sleep_for(kLook);
@@ -113,7 +113,7 @@ void WireDevice::work() {
     static_cast<void>(wire_->write(math::Vec3::Zero()));
     wire_->disconnect();
   }
-  link_.lose();  // opened again, it begins with nothing, not with the last force of before
+  link_.lose();  // when it is opened again, it starts without the last force
 }
 
 }  // namespace burr::device

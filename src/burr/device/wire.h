@@ -1,13 +1,14 @@
-// device/wire.h - a device that is asked: a thread of its own reads the hand, waits for the tick's
+// device/wire.h - a device that is polled: a thread of its own reads the hand, waits for the tick's
 // force and writes it.
 //
 //     class Omega : public Wire { connect - read - write - ... - disconnect };
 //     Session::make(bone, std::make_unique<WireDevice>(std::make_unique<Omega>(...)), ...)
 //
-// A Wire knows one maker's way of speaking and nothing else; pace, loss, coming back and letting go
-// are here. Pulled out and plugged in again, the device is found again, twice a second, and its
-// force returns by the start ramp. Thread: open(), close(), trouble() main; the Wire's functions
-// only on the wire's thread, and connect() also in open().
+// A Wire knows only the protocol of one maker. The pace, the loss of the device, its return and the
+// release of the force are handled here. A device that was unplugged and plugged in again is found
+// again (two attempts a second), and its force returns through the start ramp. Thread: open(),
+// close(), trouble() main; the Wire's functions only on the wire's thread, and connect() also in
+// open().
 #pragma once
 
 #include <atomic>
@@ -27,7 +28,7 @@ class Wire {
   enum class Read {
     hand,     // a reading has come
     nothing,  // none within a few milliseconds
-    lost,     // none will come any more: connect() again
+    lost,     // no more will come: connect() again
   };
 
   Wire() = default;
@@ -35,26 +36,28 @@ class Wire {
   Wire& operator=(const Wire&) = delete;
   virtual ~Wire() = default;
 
-  // Finds the device and makes it ready, motors without force. loss_timeout is the link's to say.
-  // May take its time. The same device again after it was lost.
+  // Finds the device and makes it ready, with zero motor force. May take long. After a loss it must
+  // find the same device again. The spec's loss_timeout is overwritten by the link's. Error: what
+  // is missing and what to do.
   [[nodiscard]] virtual Result<DeviceSpec> connect() = 0;
-  // Waits for the next reading, for some milliseconds at most; in metres, in the device's own frame
-  // as the driver's header states it.
+  // Waits some milliseconds at most for the next reading; in metres, in the device's own frame as
+  // the driver's header states it.
   [[nodiscard]] virtual Read read(HandState& hand) BURR_RT = 0;
-  // Of the next force [N m], in that frame; zero unless its peak_torque is above 0.
+  // Torque that goes with the next force [N m], in that frame; zero unless its peak_torque is above
+  // 0.
   virtual void write_torque(const math::Vec3& torque) BURR_RT { static_cast<void>(torque); }
-  // [N], in that frame; false: lost.
+  // Force [N], in that frame. False: the device is lost.
   [[nodiscard]] virtual bool write(const math::Vec3& force) BURR_RT = 0;
-  // No force, motors off, all given back; also after it was lost.
+  // Sends zero force, switches the motors off and releases everything; also after a loss.
   virtual void disconnect() = 0;
-  // Why it was lost, or what is wrong though it goes on: one sentence, or empty. After read() or
-  // write().
+  // Why the device was lost, or what is wrong while it goes on: one sentence, or empty. Call it
+  // after read() or write().
   [[nodiscard]] virtual std::string why() const { return {}; }
-  // Another number whenever why() says something else: it is asked only then.
+  // Incremented when why() changes, so that callers poll the counter instead of the string.
   [[nodiscard]] virtual unsigned told() const BURR_RT { return 0; }
 };
 
-// One exchange: a reading, and the force of its tick. False: lost.
+// One exchange: a reading, and the force of its tick. False: the device is lost.
 [[nodiscard]] bool exchange(Wire& wire, Link& link) BURR_RT;
 
 class WireDevice final : public LinkedDevice {
@@ -66,7 +69,7 @@ class WireDevice final : public LinkedDevice {
   void close() override;
   [[nodiscard]] std::string trouble() const override;
 
-  // How often it was lost and found again.
+  // Number of times it was lost and found again.
   [[nodiscard]] int returns() const { return returns_.load(std::memory_order_relaxed); }
 
  private:
@@ -75,11 +78,11 @@ class WireDevice final : public LinkedDevice {
   void say(std::string trouble);
 
   std::unique_ptr<Wire> wire_;
-  double timeout_;  // of its link [s]
+  double timeout_;  // loss timeout of its link [s]
   std::unique_ptr<rt::Thread> thread_;
   std::atomic<bool> stop_ = false;
   std::atomic<int> returns_ = 0;
-  mutable std::mutex words_;  // never in an exchange, only when there is something to tell
+  mutable std::mutex words_;  // locked only when there is a text to report, never in an exchange
   std::string trouble_;
 };
 

@@ -29,7 +29,7 @@ double catmull_rom(double x) {
   return 0;
 }
 
-// Which old samples make one new sample, and how much of each.
+// The old samples that make one new sample, and their weights.
 struct Taps {
   int first = 0;
   std::vector<float> weights;
@@ -49,7 +49,7 @@ std::vector<Taps> taps(int from, int to, double scale, double first) {
     double total = 0;
     for (int s = lo; s <= hi; ++s) {
       const double w = catmull_rom((s - at) / wide);
-      // beyond the border the last sample goes on
+      // beyond the border the last sample is repeated
       sum[static_cast<std::size_t>(std::clamp(s, 0, from - 1) - tap.first)] += w;
       total += w;
     }
@@ -62,7 +62,7 @@ std::int16_t rounded(float value) {
   return static_cast<std::int16_t>(std::lrintf(std::clamp(value, -32768.0F, 32767.0F)));
 }
 
-// rows are weighted sums of rows: for the y and z axis
+// weighted sums of whole rows: for the y and z axis
 void sum_rows(const std::int16_t* const* rows, const float* weights, std::size_t n,
               std::size_t length, std::vector<float>& work, std::int16_t* out) {
   std::fill(work.begin(), work.begin() + static_cast<std::ptrdiff_t>(length), 0.0F);
@@ -103,7 +103,8 @@ Grey take_grey(const io::Scan& scan, const math::Ijk& from, const math::Ijk& siz
     });
   if (is_whole) return grey;
   grey.zero = 0.5 * (double{low} + double{high});
-  grey.step = std::max((double{high} - double{low}) / 40000.0, 1e-30);  // room for cubic overshoot
+  grey.step = std::max((double{high} - double{low}) / 40000.0, 1e-30);  // leaves room for cubic
+                                                                        // overshoot
   const double inverse = 1 / grey.step;
   for_each_row([&](const float* row, std::int16_t* to) {
     for (int i = 0; i < size.x(); ++i)
@@ -126,7 +127,8 @@ double measure_noise(const io::Scan& scan, const math::Ijk& from, const math::Ij
       for (int i = 1; i + 1 < size.x(); i += step) low = std::min(low, row[i]);
     }
   const float level = static_cast<float>(iso);
-  // air itself is often clipped and says nothing: "around" begins a third of the way up to the iso
+  // air itself is often clipped and shows no noise: "around" begins a third of the way up to the
+  // iso
   const float floor_value = low + (level - low) * 0.35F;
   for (int k = 1; k + 1 < size.z(); k += step)
     for (int j = 1; j + 1 < size.y(); j += step) {
@@ -147,8 +149,8 @@ double measure_noise(const io::Scan& scan, const math::Ijk& from, const math::Ij
         }
       }
     }
-  // the lower quartile is hardly moved by edges and texture; 0.3186 sigma for a normal
-  // distribution, and a difference to the mean of six has 7/6 of the variance
+  // Edges and texture hardly move the lower quartile. It is 0.3186 sigma for a normal distribution,
+  // and the difference to a mean of six has 7/6 of the variance.
   const auto sigma = [](std::vector<float>& found) {
     if (found.size() < 500) return std::numeric_limits<double>::infinity();
     const auto quarter = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 4);
@@ -183,7 +185,7 @@ double otsu(const io::Scan& scan, const math::Ijk& from, const math::Ijk& size) 
     total += bins[b];
     sum += bins[b] * static_cast<double>(b);
   }
-  // between classes the best split is often a plateau: its middle
+  // between classes the best split is often a plateau: take its middle
   double below = 0, sum_below = 0, best = -1, first = 0, last = 0;
   for (std::size_t b = 0; b + 1 < kBins; ++b) {
     below += bins[b];
@@ -211,7 +213,7 @@ bool smooth_near(Grey& grey, double iso_stored, double noise_stored, const math:
 
   struct Offset {
     std::ptrdiff_t move;
-    float weight, x, y, z;  // place in finest spacings
+    float weight, x, y, z;  // position in finest spacings
   };
   std::vector<Offset> offsets;
   for (int dz = -kReach; dz <= kReach; ++dz)
@@ -253,7 +255,7 @@ bool smooth_near(Grey& grey, double iso_stored, double noise_stored, const math:
                    (static_cast<float>(at[l - 2 * s]) >= iso) != in;
         }
         if (!near) continue;
-        // the slope of the values around, by least squares over all of them
+        // the local slope of the values, by least squares over all of them
         float gx[8] = {}, gy[8] = {}, gz[8] = {}, own[8] = {};
         for (int l = 0; l < lanes; ++l) own[l] = static_cast<float>(at[l]);
         for (const Offset& o : offsets)
@@ -273,7 +275,7 @@ bool smooth_near(Grey& grey, double iso_stored, double noise_stored, const math:
           gy[l] /= slope[l];
           gz[l] /= slope[l];
         }
-        // the mean along the surface, each value brought to this depth by the slope
+        // the mean along the surface, with each value shifted to this depth by the slope
         float sum[8] = {}, weights[8] = {};
         for (const Offset& o : offsets)
           for (int l = 0; l < lanes; ++l) {

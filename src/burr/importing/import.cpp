@@ -30,7 +30,7 @@ struct Plan {
   LabelTissues labels;
   volume::TissueTable grey_tissues;
   std::array<std::int64_t, 256> counts{};
-  Vec3 scale = Vec3::Ones();  // new voxels in old ones
+  Vec3 scale = Vec3::Ones();  // size of a new voxel, in old voxels
   Vec3 first = Vec3::Zero();  // centre of the first new voxel, in old voxels of the region
 };
 
@@ -57,7 +57,8 @@ Status set_region(const io::Scan& scan, const ImportOptions& options, ImportSumm
   return fine();
 }
 
-// Cubic voxels: the finest axis, or what was asked, or coarser where memory asks for it.
+// Sets the cubic voxels: as wide as the finest axis, or as requested, or wider to keep to the
+// memory budget.
 Status set_voxels(const io::Scan& scan, const ImportOptions& options, Plan& plan) {
   ImportSummary& out = plan.summary;
   const Vec3 spacing = scan.spacing_mm;
@@ -73,7 +74,8 @@ Status set_voxels(const io::Scan& scan, const ImportOptions& options, Plan& plan
     double voxels = 1;
     for (int a = 0; a < 3; ++a)
       voxels *= std::floor((out.roi_size[a] - 1) * spacing[a] / edge + 1e-6) + 1;
-    // work: 2 bytes a voxel twice (grey), then 3 or 5 bytes where bone is, taken for two thirds
+    // while working: 2 bytes a voxel twice (grey), then 3 or 5 bytes where there is bone (assumed
+    // to be two thirds)
     const double each = labels ? 2 + 2.0 : 4 + 3.4;
     return voxels * each / 1048576.0 +
            static_cast<double>(options.reserve_bricks) * 2560 / 1048576.0;
@@ -83,7 +85,7 @@ Status set_voxels(const io::Scan& scan, const ImportOptions& options, Plan& plan
       return error(Trouble::usage,
                    fmt::format("--voxel-mm: {} is not between 0.005 and 20", options.voxel_mm));
     voxel = options.voxel_mm;
-    // nearly cubic and wanted as it is: an axis off by less than a third of a voxel in all stays
+    // already nearly cubic: keep the grid if an axis is off by less than a third of a voxel in all
   } else {
     const double finest = voxel;
     while (memory_mb(voxel) > options.memory_budget_mb) voxel *= 1.02;
@@ -122,7 +124,7 @@ Status set_voxels(const io::Scan& scan, const ImportOptions& options, Plan& plan
     for (int a = 0; a < 3; ++a) {
       plan.scale[a] = voxel / spacing[a];
       if (std::abs(plan.scale[a] - 1) < 1e-9) plan.scale[a] = 1;
-      // the rest is shared by both ends
+      // both ends share the remainder
       plan.first[a] = plan.scale[a] == 1
                           ? 0
                           : 0.5 * ((out.roi_size[a] - 1) - (out.size[a] - 1) * plan.scale[a]);
@@ -247,8 +249,8 @@ Result<Plan> make_plan(const io::Scan& scan, const ImportOptions& options) {
     out.smooth = options.smooth;
   } else {
     const double noise = measure_noise(scan, out.roi_from, out.roi_size, out.iso);
-    // under half a percent of the step from air to bone the hand feels none of it; more than a
-    // tenth is structure
+    // Noise below half a percent of the step from air to bone cannot be felt; more than a tenth is
+    // structure.
     const double step = 2 * (out.iso - double{out.low});
     out.smooth = noise < 0.003 * step ? 0.0 : std::min(noise, 0.1 * step);
     if (out.smooth > 0)
@@ -269,7 +271,7 @@ volume::Grid grid_of(const io::Scan& scan, const Plan& plan) {
   volume::Grid grid;
   grid.size = out.size;
   grid.voxel = out.voxel_mm * 1e-3;
-  // the middle of the region stays where it is
+  // the middle of the region keeps its place
   const Vec3 middle_old =
       out.roi_from.cast<double>() + 0.5 * (out.roi_size - Ijk::Ones()).cast<double>();
   const Vec3 middle_mm = scan.origin_mm + scan.axes * middle_old.cwiseProduct(scan.spacing_mm);
@@ -279,7 +281,7 @@ volume::Grid grid_of(const io::Scan& scan, const Plan& plan) {
   return grid;
 }
 
-// Labels on the cubic grid: how much of each new voxel is solid, and whose it is.
+// Labels on the cubic grid: the solid share of each new voxel, and its label.
 struct CubicLabels {
   std::vector<std::uint8_t> labels, share;
 };
@@ -296,7 +298,7 @@ bool resample_labels(const io::Scan& scan, const Plan& plan, const std::array<bo
     int first = 0;
     std::vector<float> weights;
   };
-  // tents: linear between voxels, wider where the new grid is coarser
+  // tent weights: linear between voxels, wider where the new grid is coarser
   std::array<std::vector<Taps>, 3> taps;
   for (int a = 0; a < 3; ++a) {
     const double wide = std::max(1.0, plan.scale[a]);
@@ -371,7 +373,7 @@ Result<Imported> import_labels(const io::Scan& scan, const ImportOptions& option
     inside.solid[v] = id != 0 && plan.labels.table[id].kind == volume::TissueKind::solid;
     if (inside.solid[v]) wanted[id] = static_cast<double>(plan.counts[v]) * old_voxel / new_voxel;
   }
-  // the whole scan on its own grid is read in place
+  // the whole scan on its own grid is read without a copy
   CubicLabels cubic;
   const bool in_place = plan.scale.isOnes(0) && plan.summary.roi_size == scan.size;
   if (!in_place) {
@@ -381,7 +383,7 @@ Result<Imported> import_labels(const io::Scan& scan, const ImportOptions& option
     inside.share = cubic.share.empty() ? nullptr : cubic.share.data();
   } else {
     inside.labels = scan.labels.data();
-    // a nearly cubic grid is taken for cubic: the voxels count, not their rounding
+    // a nearly cubic grid is taken as cubic: voxels are counted, rounding is ignored
     for (double& voxels : wanted) voxels *= new_voxel / old_voxel;
   }
   Imported made;
@@ -407,7 +409,7 @@ Result<Imported> import_grey(const io::Scan& scan, const ImportOptions& options,
   inside.size = out.size;
   inside.grey = grey.voxels.data();
   inside.iso = static_cast<float>(iso);
-  // what noise the filter leaves is averaged over neighbouring points of the surface
+  // noise that the filter leaves is averaged over neighbouring points of the surface
   inside.soft = out.smooth > 0 ? 4.0F : 1.0F;
   const GreyTissue rule{grey.step, grey.zero, scan.hounsfield};
   Imported made;

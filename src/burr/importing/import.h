@@ -1,18 +1,18 @@
-// importing/import.h - a scan becomes bone: cropped, smoothed as far as touch needs it, made cubic, its
-// surface found between the voxels, its tissues named.
+// importing/import.h - makes bone from a scan: crops it, smooths it as far as touch needs, makes
+// the voxels cubic, finds the surface between the voxels and names the tissues.
 //
 //     auto scan = io::read_scan(path, {}, progress);
 //     auto made = import_bone(*scan, {}, progress);      // made->bone, made->summary
 //
 // Grey scans: the surface lies where linear interpolation of the (smoothed, cubic) values crosses
-// the iso-level. Label maps: halfway between a solid voxel and one that is not, smoothed over the
-// staircase, at fixed volume per label. The field is a ramp of the distance to that surface:
-// field = 32768 + depth * kFieldPerVoxel within kRamp voxels of it (volume/bone.h).
+// the iso-level. Label maps: the surface lies halfway between a solid voxel and one that is not,
+// with the staircase of the voxels smoothed and the volume of each label kept. The field is a ramp
+// of the distance to that surface: field = 32768 + depth * kFieldPerVoxel within kRamp voxels of it
+// (volume/bone.h).
 //
 // Units: mm for what people type and read, HU or the file's own unit for values; Bone is SI.
-// Thread: any; uses up to two workers. The result does not depend on how many.
-// Memory: beside the scan, 2 bytes a voxel twice while working, then the bone. See
-// memory_budget_mb.
+// Thread: any; uses up to two workers; the result does not depend on their number.
+// Memory: the scan, twice 2 bytes a voxel while working, then the bone. See memory_budget_mb.
 #pragma once
 
 #include <array>
@@ -30,24 +30,24 @@
 
 namespace burr::importing {
 
-// First and last voxel of a box, both inside, counted from 0 as the file does (slices as they lie
-// in the file, even where Scan::k_reversed).
+// First and last voxel of a box, both included, counted from 0 as in the file (also for slices that
+// Scan::k_reversed has put in reverse order).
 struct Roi {
   std::array<int, 2> i{}, j{}, k{};
 };
 
 struct ImportOptions {
-  double voxel_mm = 0;  // edge of the cubic voxels; 0: the finest axis of the scan, coarser
-                        // where the memory budget asks for it
-  double memory_budget_mb = 2048;  // of the work and the bone, for voxel_mm = 0
-  std::optional<double> iso;       // surface level, in HU or the file's unit; none: 300 HU, or Otsu
+  double voxel_mm = 0;  // edge of the cubic voxels [mm]; 0: the finest axis of the scan, coarser if
+                        // the memory budget demands it
+  double memory_budget_mb = 2048;  // for the work and the bone, if voxel_mm = 0 [MiB]
+  std::optional<double> iso;       // surface level [HU or the file's unit]; none: 300 HU, or Otsu
   std::optional<Roi> roi;
-  double smooth = -1;        // noise to remove, standard deviation in HU or the file's unit;
-                             // 0: none, below 0: as much as is measured in the scan
-  std::string tissue_table;  // path of a TOML file, see docs/labels.md; empty: by name
-  std::string materials;     // path of a TOML file, see docs/materials.md; empty: the built-in ones
+  double smooth = -1;        // noise to remove, standard deviation [HU or the file's unit]; 0:
+                             // none, below 0: as measured in the scan
+  std::string tissue_table;  // path of a TOML file (docs/labels.md); empty: by name
+  std::string materials;     // path of a TOML file (docs/materials.md); empty: built-in
   std::size_t reserve_bricks = 4096;  // room for deposited material
-  bool keep_greys = false;            // of a grey scan, to be looked at
+  bool keep_greys = false;            // keep the values of a grey scan, to show them
 };
 
 // One tissue of the result.
@@ -58,7 +58,7 @@ struct TissueFound {
   double volume_mm3 = 0;    // of those voxels
 };
 
-// What was, or would be, done.
+// What an import did, or would do.
 struct ImportSummary {
   std::string format;
   math::Ijk scan_size = {0, 0, 0};
@@ -66,15 +66,15 @@ struct ImportSummary {
   math::Mat3 axes = math::Mat3::Identity();
   math::Vec3 origin_mm = math::Vec3::Zero();
   bool labels = false, hounsfield = false;
-  float low = 0, high = 0;         // values of a grey scan
+  float low = 0, high = 0;         // lowest and highest value of a grey scan
   math::Ijk roi_from = {0, 0, 0};  // in Scan's voxels
   math::Ijk roi_size = {0, 0, 0};
   math::Ijk size = {0, 0, 0};  // voxels of the bone
   double voxel_mm = 0;
-  double iso = 0;  // grey scans
+  double iso = 0;  // of grey scans
   bool iso_by_otsu = false;
   double smooth = 0;     // noise removed, in the scan's unit; 0: none
-  double memory_mb = 0;  // estimate in a plan, as built in an import
+  double memory_mb = 0;  // estimate in a plan, real value in an import
   std::vector<TissueFound> tissues;
   double solid_mm3 = 0;              // volume_of the bone; 0 in a plan
   std::vector<std::string> notices;  // the scan's and the import's own
@@ -83,14 +83,14 @@ struct ImportSummary {
 struct Imported {
   std::unique_ptr<volume::Bone> bone;
   ImportSummary summary;
-  std::shared_ptr<const volume::Greys> greys;  // if they are to be kept
+  std::shared_ptr<const volume::Greys> greys;  // if keep_greys is set
 };
 
-// Everything decided, nothing built.
+// Makes all decisions of an import without building anything.
 [[nodiscard]] Result<ImportSummary> plan_import(const io::Scan& scan, const ImportOptions& options);
 
-// Every label that occurs anywhere in a label map, and what is decided about it; those taken for
-// air too, with id 0. Empty for a grey scan.
+// Every label that occurs in a label map, and the tissue it becomes; labels that become air have id
+// 0. Empty for a grey scan.
 [[nodiscard]] Result<std::vector<TissueFound>> labels_of(const io::Scan& scan,
                                                          const ImportOptions& options);
 

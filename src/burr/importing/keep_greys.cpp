@@ -17,7 +17,7 @@ std::shared_ptr<const volume::Greys> keep_greys(const io::Scan& scan, double iso
   greys->origin = 1e-3 * scan.origin_mm;
   greys->iso = iso;
   greys->hounsfield = scan.hounsfield;
-  // how many voxels of the scan one of these stands for, along each axis
+  // number of scan voxels for one of these, along each axis
   Ijk by = Ijk::Ones();
   const auto count = [&] { return static_cast<std::size_t>(greys->size.cast<long>().prod()); };
   while (count() > most) {
@@ -51,7 +51,7 @@ std::shared_ptr<const volume::Greys> keep_greys(const io::Scan& scan, double iso
     if (progress.cancelled()) return nullptr;
     for (int j = 0; j < greys->size.y(); ++j)
       for (int i = 0; i < greys->size.x(); ++i, ++out) {
-        // at the far rim fewer
+        // fewer at the far border
         const Ijk from = Ijk(i, j, k).cwiseProduct(by), to = (from + by).cwiseMin(scan.size);
         double sum = 0;
         for (int z = from.z(); z < to.z(); ++z)

@@ -20,7 +20,8 @@ namespace burr::importing {
 namespace {
 
 constexpr const char* kCortical = "cortical bone";
-constexpr std::size_t kLargestFile = std::size_t{1} << 20;  // a table is a page of text  [byte]
+constexpr std::size_t kLargestFile = std::size_t{1} << 20;  // a table is about a page of text
+                                                            // [byte]
 constexpr std::size_t kMostMaterials = 255;
 
 constexpr std::array<MaterialField, 11> kFields = {{
@@ -37,7 +38,7 @@ constexpr std::array<MaterialField, 11> kFields = {{
     {"specific_heat_J_kgK", "J/(kg K)", 1, 1e4, &Material::specific_heat},
 }};
 
-// Names are compared without case, and _ - + . / , count as a space.
+// Names are compared without case; _ - + . / , count as a space.
 std::string plain(std::string_view name) {
   std::string out = io::lower(name);
   for (char& c : out)
@@ -50,7 +51,8 @@ bool any_of(const std::string& name, std::initializer_list<const char*> parts) {
                      [&](const char* part) { return name.find(part) != std::string::npos; });
 }
 
-// What a name says of hard tissue; the rarer word first ("carious dentine", "enamel of dentine").
+// The material that a name of hard tissue contains; the rarer word first ("carious dentine",
+// "enamel of dentine").
 const char* material_named_in(const std::string& plain_name) {
   if (any_of(plain_name, {"caries", "carious", "decay"})) return "caries";
   if (any_of(plain_name, {"enamel"})) return "enamel";
@@ -61,10 +63,10 @@ const char* material_named_in(const std::string& plain_name) {
   return kCortical;
 }
 
-// Reads one file; the first thing that is wrong is kept, and nothing after it counts.
+// Reads one file. The first error is kept; nothing after it counts.
 class Reader {
  public:
-  // fills_gaps: what a new material does not say is taken from another
+  // fills_gaps: values that a new material lacks are taken from another one
   Reader(std::string_view file, bool fills_gaps) : file_(file), fills_gaps_(fills_gaps) {}
 
   void fail(const std::string& what) {
@@ -136,7 +138,7 @@ class Reader {
                        base::shown(out.name)));
   }
 
-  // The file laid over `out`.
+  // Applies the file to `out`.
   void all(const toml::table& table, Materials& out) {
     for (const auto& [key, node] : table)
       if (key.str() != "material")
@@ -205,14 +207,14 @@ class Reader {
   std::optional<Error> wrong_;
 };
 
-// A name and a source are told in one line.
+// Names and sources are shown in one line.
 std::string in_one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
   return text;
 }
 
-// A float of TOML: 1 would be a whole number; either is read, but a float says what is meant.
+// A TOML float: "1" would be an integer. Both are read, but a float shows that it is a measure.
 std::string number_text(double value) {
   std::string text = fmt::format("{:.9g}", value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
@@ -279,7 +281,7 @@ Result<Materials> parse_materials(std::string_view text, std::string_view file,
   const auto table = parse_toml(text, file);
   if (!table) return table.error();
   Materials out = base;
-  Reader reader(file, !base.all.empty());  // the built-in table says all it knows
+  Reader reader(file, !base.all.empty());  // the built-in table is complete as it is
   reader.all(*table, out);
   if (reader.wrong()) return *reader.wrong();
   return out;

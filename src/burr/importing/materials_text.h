@@ -1,5 +1,5 @@
-// importing/materials_text.h - the text of materials/materials.toml, made part of the library by
-// cmake/library.cmake; of this room only.
+// importing/materials_text.h - the text of materials/materials.toml, which cmake/library.cmake
+// makes part of the library. Of this room only.
 #pragma once
 
 namespace burr::importing {

@@ -22,26 +22,26 @@ using volume::Field;
 using volume::kBrickEdge;
 using volume::TissueId;
 
-// The neighbourhood of one brick that is looked at: 6 voxels on every side; of those 2 feed the
-// blur, 1 the gradient, and 3 may hold points that reach into the brick.
+// The neighbourhood of a brick: 6 voxels on every side. Of those, 2 are for the blur, 1 for the
+// gradient, and 3 may hold surface points that reach into the brick.
 constexpr int kHalo = 6, kBlock = kBrickEdge + 2 * kHalo, kPlane = kBlock * kBlock,
               kBlockVoxels = kPlane * kBlock;
-constexpr int kNoBlur = 2;  // grey is not blurred, so so much of the block's border is not needed
-constexpr float kReach = 3.0F;  // a point speaks to voxels this near [voxel]
+constexpr int kNoBlur = 2;      // grey is not blurred, so this border of the block is not needed
+constexpr float kReach = 3.0F;  // a point counts for voxels within this distance [voxel]
 
 constexpr int at(int x, int y, int z) { return x + kBlock * (y + kBlock * z); }
 
-// Everything one worker needs; made once, used for thousands of bricks.
+// Everything that one worker needs; made once, used for thousands of bricks.
 struct Desk {
-  std::array<float, kBlockVoxels> level;   // >= 0 inside, with the crossing by linear interpolation
-  std::array<float, kBlockVoxels> smooth;  // what gradients are taken of, in label maps
+  std::array<float, kBlockVoxels> level;   // >= 0 inside; linear interpolation gives the surface
+  std::array<float, kBlockVoxels> smooth;  // in label maps, the values whose gradient is taken
   std::array<float, kBlockVoxels> work;
   std::array<std::uint8_t, kBlockVoxels> labels;
   // bit x: voxel x of the row is inside; [z][y]
   std::array<std::array<std::uint32_t, kBlock>, kBlock> inside;
   std::vector<SurfacePoint> points;
-  std::vector<std::uint64_t> rows;  // that each point speaks to
-  // the points that speak to each row of the brick: which[starts[row]] and on
+  std::vector<std::uint64_t> rows;  // the rows that each point counts for
+  // the points that count for each row of the brick: which[starts[row]] and on
   std::array<std::uint32_t, kBrickEdge * kBrickEdge + 1> starts;
   std::vector<std::uint16_t> which;
   PlaneSums sums;
@@ -59,8 +59,8 @@ std::uint32_t not_below_zero(const float* row) {
   return rt::lanes::bits_of(low >= 0.0F) | rt::lanes::bits_of(high >= 0.0F) << (kBlock - 16);
 }
 
-// Reads the block around a brick, but for its outermost `skip` voxels; beyond the border of the
-// grid the last voxels go on. Returns: does it hold inside, outside voxels?
+// Reads the block around a brick, without its outermost `skip` voxels. Beyond the border of the
+// grid the last voxels are repeated. any_inside, any_outside: whether there are such voxels.
 void fetch(const InsideGrid& grid, const math::Ijk& first, int skip, Desk& desk, bool& any_inside,
            bool& any_outside) {
   const auto nx = static_cast<std::size_t>(grid.size.x()),
@@ -119,7 +119,7 @@ void blur(Desk& desk) {
   }
 }
 
-// The points of the surface on edges of the grid near the brick.
+// Finds the surface points on grid edges near the brick.
 void find_points(const InsideGrid& grid, const math::Ijk& first, Desk& desk) {
   desk.points.clear();
   const bool labels = grid.grey == nullptr;
@@ -136,7 +136,7 @@ void find_points(const InsideGrid& grid, const math::Ijk& first, Desk& desk) {
     };
     float nx = slope(1), ny = slope(kBlock), nz = slope(kPlane);
     float length = std::sqrt(nx * nx + ny * ny + nz * nz);
-    // a lone voxel has no slope: then the edge itself is the normal
+    // a single voxel has no slope: the edge itself is the normal then
     const float along = lb > la ? 1.0F : -1.0F;
     const float own = axis == 0 ? nx : axis == 1 ? ny : nz;
     if (!(length > 1e-6F) || own * along <= 0) {
@@ -153,7 +153,7 @@ void find_points(const InsideGrid& grid, const math::Ijk& first, Desk& desk) {
     p.z -= kHalo;
     if (p.x >= -kReach && p.x <= kBrickEdge - 1 + kReach) desk.points.push_back(p);
   };
-  // edges on the far side of the grid's border do not exist
+  // edges beyond the grid's border do not exist
   constexpr int kFrom = kHalo - 3, kTo = kHalo + kBrickEdge + 2;
   const math::Ijk last =
       grid.size - first - math::Ijk::Ones();  // last voxel, counted from the brick
@@ -178,7 +178,7 @@ void find_points(const InsideGrid& grid, const math::Ijk& first, Desk& desk) {
     }
 }
 
-// Which way the material lies, and how surely: 0 in the middle of a thin wall.
+// The direction towards the material; its length, the certainty, is 0 in the middle of a thin wall.
 void face(Desk& desk) {
   for (int z = 0, v = 0; z < kBrickEdge; ++z)
     for (int y = 0; y < kBrickEdge; ++y)
@@ -192,7 +192,7 @@ void face(Desk& desk) {
       }
 }
 
-// The rows of the brick that a point is within kReach of: bit y + 8 z.
+// The rows of the brick within kReach of a point: bit y + 8 z.
 std::uint64_t rows_near(const SurfacePoint& p) {
   std::uint64_t rows = 0;
   for (int z = 0; z < kBrickEdge; ++z) {
@@ -210,12 +210,12 @@ std::uint64_t rows_near(const SurfacePoint& p) {
   return rows;
 }
 
-// Sums up what the points say to every voxel. The softer, the more points are averaged: noise and
-// staircases ask for it, edges pay for it. by_normal: points that face the other way do not count
-// (thin walls of label maps).
+// Sums over the points for every voxel. The softer, the more points share: this removes noise and
+// staircases but blunts edges. by_normal: points that face the other way do not count (thin walls
+// of label maps).
 void measure(float soft, bool by_normal, SumPlanes sum_planes, Desk& desk) {
   if (by_normal) face(desk);
-  // point after point into the lists of the rows it speaks to
+  // put each point into the lists of the rows that it counts for
   desk.rows.clear();
   for (const SurfacePoint& p : desk.points) desk.rows.push_back(rows_near(p));
   desk.starts.fill(0);
@@ -239,17 +239,17 @@ void measure(float soft, bool by_normal, SumPlanes sum_planes, Desk& desk) {
     }
 }
 
-// Depth of a voxel from what the points said. The mean distance to tangent planes is too small by
-// l^2 / 2R on a surface of radius R; the distance along the mean normal from the mean point is too
-// large by as much: half of both is right to second order (a chord is square to the mean of the
-// normals at its ends).
+// Depth of a voxel from the sums. On a surface of radius R the mean distance to the tangent planes
+// is too small by l^2 / 2R; the distance from the mean point along the mean normal is too large by
+// the same amount. Half of both is right to second order (a chord is perpendicular to the mean of
+// the normals at its ends).
 double depth_of(const PlaneSums& sums, std::size_t v) {
   const double w = 1.0 / double{sums.weights[v]};
   const double planes = double{sums.depths[v]} * w;
   const double length =
       std::sqrt(double{sums.nx[v]} * double{sums.nx[v]} + double{sums.ny[v]} * double{sums.ny[v]} +
                 double{sums.nz[v]} * double{sums.nz[v]});
-  // in the middle of a thin wall the normals cancel and there is no mean one
+  // in the middle of a thin wall the normals cancel, and there is no mean normal
   const double sure = length * w;
   if (sure < 0.6) return planes;
   const double along =
@@ -260,7 +260,7 @@ double depth_of(const PlaneSums& sums, std::size_t v) {
   return planes + 0.5 * share * (along - planes);
 }
 
-// Neighbours within 2.5 voxels, the nearest first.
+// Neighbours within 2.5 voxels, nearest first.
 const std::vector<math::Ijk>& near_offsets() {
   static const std::vector<math::Ijk> all = [] {
     std::vector<math::Ijk> found;
@@ -282,7 +282,7 @@ struct Target {
   std::int16_t* intensity = nullptr;
 };
 
-// Tissue of labels: its own, or on the ramp in air that of the nearest solid.
+// Tissue of label maps: a voxel's own, or for air on the ramp that of the nearest solid voxel.
 void label_tissue(const InsideGrid& grid, const Desk& desk, const math::Ijk& room,
                   const Target& to) {
   for (int z = 0; z < room.z(); ++z)
@@ -303,11 +303,11 @@ void label_tissue(const InsideGrid& grid, const Desk& desk, const math::Ijk& roo
       }
 }
 
-// Near the surface a voxel is only partly bone and its HU too low: the densest within two voxels
-// counts there.
+// Near the surface a voxel is only partly bone and its HU is too low, so the densest value within
+// two voxels counts there.
 void grey_tissue_of(const InsideGrid& grid, const GreyTissue& rule, bool ramps, Desk& desk,
                     const math::Ijk& room, const Target& to) {
-  // densest within two voxels, one axis after the other; only a ramp asks for it
+  // densest value within two voxels, one axis after the other; only needed on a ramp
   std::array<float, kBlockVoxels>& most = desk.smooth;
   if (rule.by_hu && ramps) {
     const auto densest = [](const float* from, int stride, float* result) {
@@ -373,8 +373,8 @@ void fill_brick(const InsideGrid& grid, const GreyTissue& rule, SumPlanes sum_pl
         double depth = in ? 10 : -10;
         if (measured && desk.sums.weights[i] > 1e-12F) {
           depth = depth_of(desk.sums, i);
-          // where averaging would carry the surface past a voxel by much, a thin wall or gap is
-          // meant: that one stays
+          // If averaging would move the surface far beyond a voxel, there is a thin wall or gap:
+          // keep it.
           constexpr double kLeast = 0.02, kMuch = 0.4;
           if (in && depth < -kMuch) depth = kLeast;
           if (!in && depth > kMuch) depth = -kLeast;
@@ -387,12 +387,12 @@ void fill_brick(const InsideGrid& grid, const GreyTissue& rule, SumPlanes sum_pl
     grey_tissue_of(grid, rule, measured, desk, room, to);
 }
 
-// Bricks with an inside voxel in or within 3 voxels of them, or with a label to keep.
+// Bricks with an inside voxel in them or within 3 voxels, or with a label to keep.
 std::vector<std::uint8_t> bricks_needed(const InsideGrid& grid, const math::Ijk& bricks,
                                         Progress& progress, bool& cancelled) {
   const auto bx = static_cast<std::size_t>(bricks.x()), by = static_cast<std::size_t>(bricks.y()),
              bz = static_cast<std::size_t>(bricks.z());
-  // per layer of bricks, what it has itself and what its two outer thirds say to its neighbours
+  // for each layer of bricks: its own need, and what its two outer thirds mean for its neighbours
   std::vector<std::uint8_t> own(bx * by * bz), below(bx * by * bz), above(bx * by * bz);
   cancelled = !io::in_pieces(bricks.z(), progress, "looking for bone", [&](int layer) {
     std::vector<std::uint8_t> row(bx + 2);
@@ -417,8 +417,8 @@ std::vector<std::uint8_t> bricks_needed(const InsideGrid& grid, const math::Ijk&
           if (in == 0 && kept == 0) continue;
           any = true;
           row[b + 1] |= static_cast<std::uint8_t>((in != 0 ? 1 : 0) | (kept != 0 ? 2 : 0));
-          if ((in & 0x07U) != 0) row[b] |= 1;      // within three of the neighbour before
-          if ((in & 0xE0U) != 0) row[b + 2] |= 1;  // and of the one after
+          if ((in & 0x07U) != 0) row[b] |= 1;      // within three voxels of the previous brick
+          if ((in & 0xE0U) != 0) row[b + 2] |= 1;  // and of the next
         }
         if (!any) continue;
         const int brick_y = y / kBrickEdge, in_y = y % kBrickEdge, in_z = z % kBrickEdge;
@@ -464,7 +464,8 @@ std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueT
   auto bone = std::make_unique<Bone>(grid, std::move(tissues), used, reserve_bricks,
                                      inside.grey != nullptr);
 
-  // slots first and in order, so that the same scan gives the same bone whoever fills it
+  // assign the slots first and in order, so that the same scan gives the same bone whatever thread
+  // fills them
   std::vector<BrickIndex> list;
   list.reserve(used);
   for (BrickIndex b = 0; b < bone->brick_count(); ++b) {
@@ -481,10 +482,10 @@ std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueT
     for (std::size_t n = from; n < std::min(list.size(), from + kPortion); ++n) {
       const Target made = {desk->field.data(), desk->tissue.data(),
                            bone->has_intensity() ? bone->build_intensity(list[n]) : nullptr};
-      desk->field.fill(0);  // of voxels beyond the grid
+      desk->field.fill(0);  // for voxels beyond the grid
       desk->tissue.fill(0);
       fill_brick(inside, grey_tissue, sum_planes, bone->brick_ijk(list[n]), *desk, made);
-      // here, so that what is the same throughout never touches the room it was promised
+      // here, so that a uniform brick never touches its reserved memory
       bone->build_brick(list[n], made.field, made.tissue);
     }
   });
@@ -494,7 +495,7 @@ std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueT
 }
 
 std::vector<double> keep_volumes(Bone& bone, const std::vector<double>& wanted_voxels) {
-  // how many voxels of each tissue have which field, in steps of 16: 1/1024 of a voxel of depth
+  // count voxels by tissue and field, in steps of 16: 1/1024 of a voxel of depth
   constexpr int kStep = 16, kBins = 65536 / kStep;
   const std::size_t tissues = bone.tissues().tissues.size();
   std::vector<std::vector<std::int64_t>> bins(tissues);
@@ -518,7 +519,7 @@ std::vector<double> keep_volumes(Bone& bone, const std::vector<double>& wanted_v
     }
     return static_cast<double>(sum) / static_cast<double>(volume::kVoxelUnits);
   };
-  // volume grows with the shift: halve the interval
+  // volume grows with the shift: bisection
   std::vector<int> shifts(tissues);
   const int most = static_cast<int>(0.35 * volume::kFieldPerVoxel);
   std::size_t largest = 0;
@@ -535,7 +536,7 @@ std::vector<double> keep_volumes(Bone& bone, const std::vector<double>& wanted_v
                     ? lo
                     : hi;
   }
-  // the ramp reaching into soft labels moves with the largest solid, so that no step is left there
+  // the ramp that reaches into soft labels moves with the largest solid, so that there is no step
   for (std::size_t t = 1; t < tissues; ++t)
     if (bone.tissues()[static_cast<TissueId>(t)].kind == volume::TissueKind::soft)
       shifts[t] = shifts[largest];

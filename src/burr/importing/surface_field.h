@@ -1,11 +1,11 @@
-// importing/surface_field.h - from "which voxels are inside" to the bone's field: a ramp of the distance
-// to a surface that runs between the voxels. Private to io.
+// importing/surface_field.h - computes the bone's field from "which voxels are inside": a ramp of
+// the distance to a surface that runs between the voxels. Of this room only.
 //
-// Where an edge of the grid goes from inside to outside there is a point of the surface with a
-// normal. The distance of a voxel is the mean of its distances to the tangent planes there,
+// Where an edge of the grid goes from inside to outside, there is a surface point with a normal.
+// The distance of a voxel is the mean of its distances to the tangent planes of these points,
 // weighted by nearness (implicit moving least squares: Kolluri 2005, Shen et al. 2004). So the
-// surface goes through the points of a grey scan, and evens the staircase of a label map. Cost:
-// bricks near a surface only, two workers.
+// surface passes through the points of a grey scan, and the staircase of a label map is smoothed.
+// Cost: only bricks near a surface are computed, with two workers.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +19,17 @@
 
 namespace burr::importing {
 
-// One of the two: grey numbers with an iso-level, or labels with which of them are solid.
+// Either grey values with an iso-level, or labels with a list of the solid ones.
 struct InsideGrid {
   math::Ijk size = {0, 0, 0};
   const std::int16_t* grey = nullptr;  // (x fastest); inside: >= iso
   float iso = 0;
   const std::uint8_t* labels = nullptr;  // (x fastest)
-  const std::uint8_t* share = nullptr;  // how much of the voxel is solid, 0..255, or null: 0 or all
-  std::array<bool, 256> solid{};        // by label
+  const std::uint8_t* share = nullptr;   // solid share of the voxel, 0..255; null: all or nothing
+  std::array<bool, 256> solid{};         // by label
   std::array<volume::TissueId, 256> tissue{};  // by label; 0 is air
-  // how many points of the surface make one distance, see surface_field.cpp; labels 8, noisy grey
-  // 4, clean grey 1
+  // how many surface points share in one distance, see surface_field.cpp; labels 8, noisy grey 4,
+  // clean grey 1
   float soft = 8;
   [[nodiscard]] bool inside(std::size_t v) const {
     if (grey != nullptr) return static_cast<float>(grey[v]) >= iso;
@@ -37,19 +37,19 @@ struct InsideGrid {
   }
 };
 
-// What a grey voxel is made of and what number is kept of it.
+// Tissue and stored intensity of a grey voxel.
 struct GreyTissue {
   double step = 1, zero = 0;  // HU = stored * step + zero
-  bool by_hu = false;         // else everything is tissue 1
+  bool by_hu = false;         // tissue by HU class; false: everything is tissue 1
 };
 
-// Null: cancelled. Bricks that hold neither field nor tissue take no room.
+// nullptr: cancelled. Bricks without field and tissue take no memory.
 [[nodiscard]] std::unique_ptr<volume::Bone> bone_from_inside(
     const volume::Grid& grid, volume::TissueTable tissues, const InsideGrid& inside,
     const GreyTissue& grey_tissue, std::size_t reserve_bricks, Progress& progress);
 
-// Shifts the field of each tissue, by a fraction of a voxel, until its volume_of is the wanted one
-// [voxel]; wanted < 0: leave it. Tells the shifts [voxel].
+// Shifts the field of each tissue by a fraction of a voxel until its volume_of is the wanted one
+// [voxel]; wanted < 0: no shift. Returns the shifts [voxel].
 std::vector<double> keep_volumes(volume::Bone& bone, const std::vector<double>& wanted_voxels);
 
 }  // namespace burr::importing

@@ -16,13 +16,13 @@ namespace {
 using volume::Tissue;
 using volume::TissueKind;
 
-// The table's trabecular bone is that of the middle of its class.
+// The table's values for trabecular bone belong to the middle of its class.
 constexpr double kTrabecularHu = 450;
 
-// A guess, to look at: it oozes where a vessel runs.
+// A guess, for the picture only: it oozes where a vessel runs.
 constexpr double kTrabecularBleeds = 0.15;
 
-// Apparent density of trabecular bone (Rho et al. 1995), as far as there is such bone.  [kg/m^3]
+// Apparent density of trabecular bone (Rho et al. 1995), within the range of such bone. [kg/m^3]
 double density_of(double hu) { return std::clamp(131 + 1.067 * hu, 100.0, 2000.0); }
 
 bool any_of(const std::string& name, std::initializer_list<const char*> parts) {
@@ -145,7 +145,7 @@ Tissue tissue_by_name(const io::Label& label, bool named, const Materials& mater
   }
   const std::string name = plain(label.name);
 
-  // spaces with nothing in them
+  // empty spaces
   if (any_of(name, {"ear canal", "auditory canal ext", "external auditory", "air cell", "airway",
                     "trachea", "middle ear", "tympanic cavity", "background", "maxillary sinus",
                     "frontal sinus", "ethmoid", "sphenoid sinus"}) ||
@@ -153,7 +153,7 @@ Tissue tissue_by_name(const io::Label& label, bool named, const Materials& mater
     tissue.kind = TissueKind::air;
     return tissue;
   }
-  // what a name calls hard is hard, whatever it lies beside
+  // a name with a word for hard tissue is hard, whatever else it names
   const bool hard = any_of(
       name, {"bone",     "bony",     "ossicle",    "malleus",   "incus",   "stapes",   "tooth",
              "teeth",    "enamel",   "dentin",     "cement",    "skull",   "mandible", "maxilla",
@@ -167,7 +167,7 @@ Tissue tissue_by_name(const io::Label& label, bool named, const Materials& mater
                    "cord",    "eye",   "tongue",   "aqueduct"}) ||
            word_of(text, "iac") || word_of(text, "tmj") || word_of(text, "ica");
   };
-  // "vertebral artery": the last word is the thing
+  // "vertebral artery": the last word names the thing itself
   const std::vector<std::string> parts = io::words(name);
   const bool soft = is_soft(name) && (!hard || (!parts.empty() && is_soft(parts.back())));
   tissue.spare = any_of(name, {"nerve", "artery", "vein", "carotid", "jugular", "sinus", "dura",
@@ -206,7 +206,7 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
         named = !have.name.empty();
       }
     std::int64_t number = 0;
-    named = named && !io::to_number(label.name, number);  // "1" is no name
+    named = named && !io::to_number(label.name, number);  // "1" is not a name
     if (!named) ++unnamed;
     of_value[v] = tissue_by_name(label, named, materials);
     if (!named && different == 1) of_value[v].name = "bone";
@@ -251,7 +251,7 @@ volume::TissueTable hu_tissues(const Materials& materials) {
     tissue.colour = {0.86F, 0.76F, 0.62F};
     lay_over(materials.of("trabecular bone"), tissue);
     tissue.bleeds = kTrabecularBleeds;
-    // strength, and so what cutting costs, goes with the square of density (Carter & Hayes 1977)
+    // strength, and so the energy of cutting, goes with the square of density (Carter & Hayes 1977)
     const double share = density_of(0.5 * (from + to)) / density_of(kTrabecularHu);
     const double harder = share * share;
     tissue.cutting_energy *= harder;

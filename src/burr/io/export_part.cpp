@@ -22,8 +22,9 @@ bool ends_with(const std::string& path, const std::string& ending) {
          });
 }
 
-constexpr int kFinest = 6;            // times finer than the bone, at most
-constexpr double kVolumeFits = 0.02;  // of the removed mesh to the ledger's volume
+constexpr int kFinest = 6;            // at most so many times finer than the bone
+constexpr double kVolumeFits = 0.02;  // allowed difference between the mesh's volume and the
+                                      // ledger's
 
 // the volume a closed mesh encloses  [m^3]
 double enclosed(const surface::Mesh& mesh) {
@@ -70,7 +71,7 @@ Result<Exported> export_part(const volume::Bone& before, const volume::Bone& now
   if (options.part == Part::removed) {
     progress.report(0, "comparing before and after");
     auto made = volume::removed_part(before, now);
-    // on the bone's own grid there may be nothing left of a thin layer
+    // on the bone's own grid nothing may be left of a thin layer
     if (!made && is_mesh_path(path)) made = volume::removed_part(before, now, 2);
     if (!made) return made.error();
     removed = std::move(*made);
@@ -82,7 +83,8 @@ Result<Exported> export_part(const volume::Bone& before, const volume::Bone& now
   Status written = fine();
   if (is_mesh_path(path)) {
     auto mesh = surface::whole_surface(*bone, workers(), progress);
-    // a thin layer falls between the voxels: finer, until the mesh holds what was removed
+    // a thin layer falls between the voxels: use a finer grid until the mesh holds the removed
+    // volume
     for (int finer = 2; removed != nullptr && mesh.ok() && finer <= kFinest; ++finer) {
       if (std::abs(enclosed(*mesh) / exported.volume - 1) < kVolumeFits) break;
       auto made = volume::removed_part(before, now, finer);

@@ -1,12 +1,12 @@
-// io/export_part.h - the bone, or what was taken out of it, into one file; the ending says which
-// kind.
+// io/export_part.h - writes the bone, or the part that was removed, to one file; the file's ending
+// chooses the format.
 //
 //     .stl .ply .obj .3mf .glb    its closed surface            (io/write/write_mesh.h)
 //     .seg.nrrd                   a label per tissue            (io/write/write_volume.h)
 //     .nrrd                       the field, or the scan with the cut in it
 //
-// Both bones at rest. Thread: one; meshes on a few of its own. Memory: for a mesh about 130 bytes
-// per triangle, for the removed part its bricks.
+// Both bones must be at rest. Thread: one; meshes use a few more. Memory: for a mesh about 130
+// bytes per triangle, for the removed part its bricks.
 #pragma once
 
 #include <cstdint>
@@ -23,18 +23,18 @@ enum class Part : std::uint8_t { bone, removed };
 
 struct ExportOptions {
   Part part = Part::bone;
-  Frame frame = Frame::lps;  // of meshes except .glb; volumes are always LPS
+  Frame frame = Frame::lps;  // for meshes except .glb; volumes are always LPS
   bool scan = false;         // .nrrd of the bone: the scan's grey values instead of the field
 };
 
 // What was written.
 struct Exported {
-  double volume = 0;          // of the part, volume_of()  [m^3]
+  double volume = 0;          // of the part, volume_of() [m^3]
   std::size_t triangles = 0;  // 0 for a volume
 };
 
-// Trouble::usage if the ending is unknown or does not go with the options; asks nothing of the
-// disk, so that one may ask before long work.
+// Trouble::usage if the ending is unknown or does not fit the options. Does not touch the disk, so
+// it can be called before long work.
 [[nodiscard]] Status check_export(const std::string& path, const ExportOptions& options);
 
 // before: the bone as it was opened; now: the bone to export (may be the same object).

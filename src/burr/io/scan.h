@@ -1,7 +1,7 @@
-// io/scan.h - what a file held, before it becomes bone: a grid of numbers in the world, in memory
-// as read.
+// io/scan.h - the content of a file before it becomes bone: a grid of numbers in the world, in
+// memory as it was read.
 //
-// No patient name, id, date or path is kept: only what the geometry and the numbers need.
+// It holds no patient name, id, date or path: only what the geometry and the numbers need.
 #pragma once
 
 #include <array>
@@ -35,12 +35,12 @@ struct Scan {
   bool k_reversed = false;  // the slices were put in reverse order to make the axes right-handed:
                             // voxel k here is voxel size.z-1-k of the file
   std::string format;       // "DICOM", "NRRD" ...
-  // Where a DICOM folder holds several series: each in a line that names no patient, as info lists
-  // them, and the place of the one that is here.
+  // Where a DICOM folder holds several series: one line for each, without patient data, as `burr
+  // info` lists them, and the index of the one read here.
   std::vector<std::string> series;
   int series_taken = 0;
   std::vector<std::string>
-      notices;  // what was found odd and what was done about it, one sentence each
+      notices;  // oddities of the file and what was done about each, one sentence each
 };
 
 }  // namespace burr::io

@@ -1,9 +1,9 @@
-// io/voxels.h - a row of numbers, one a voxel: a std::vector that can also take over memory which
-// another process has filled.
+// io/voxels.h - an array with one number a voxel: a std::vector that can also take over memory
+// which another process has filled.
 //
-// Scans are read in a process of their own (read_scan.h). What it read is not copied: the vector
-// owns that memory from then on, and what it does not need any more goes back to the system at
-// once. In all else it is a std::vector.
+// Scans are read in a separate process (read_scan.h). The result is not copied: the vector owns
+// that memory from then on, and returns to the system at once what it no longer needs. In all else
+// it is a std::vector.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@
 
 namespace burr::io {
 
-// Where the memory of voxels comes from: the heap, or whoever lends it to a reader.
-// Throws std::bad_alloc.
+// Allocates memory for voxels: from the heap, or in a fenced reader from its lender. Throws
+// std::bad_alloc.
 [[nodiscard]] void* new_voxels(std::size_t bytes);
 void delete_voxels(void* at, std::size_t bytes) noexcept;
-// A mapping goes back to the system.
+// Returns a mapping to the system.
 void unmap_voxels(void* at, std::size_t bytes) noexcept;
 
 template <class T>
@@ -31,7 +31,7 @@ class VoxelMemory {
   // NOLINTEND(readability-identifier-naming)
 
   VoxelMemory() = default;
-  // Takes over a mapping of `bytes`, with what is in it: the first allocation gets it.
+  // Takes over a mapping of `bytes` with its content; the first allocation gets it.
   VoxelMemory(void* mapped, std::size_t bytes) : mapped_(mapped), bytes_(bytes) {}
   template <class U>
   VoxelMemory(const VoxelMemory<U>& /*other*/) {}  // NOLINT(google-explicit-constructor)
@@ -49,7 +49,7 @@ class VoxelMemory {
     else
       delete_voxels(at, n * sizeof(T));
   }
-  // What lies in a mapping stays as it is; elsewhere a voxel begins as 0.
+  // The content of a mapping stays; elsewhere a voxel begins as 0.
   template <class U>
   void construct(U* at) {
     if (!filled_) ::new (static_cast<void*>(at)) U();
@@ -64,13 +64,13 @@ class VoxelMemory {
   void* mapped_ = nullptr;
   std::size_t bytes_ = 0;
   bool taken_ = false;   // the mapping has been given away
-  bool filled_ = false;  // ... and is what the vector has now
+  bool filled_ = false;  // ... and is the vector's present memory
 };
 
 template <class T>
 using Voxels = std::vector<T, VoxelMemory<T>>;
 
-// The voxels that lie in a mapping already. n > 0, and the mapping has room for them.
+// An array of the n voxels that lie in a mapping. n > 0, and the mapping is large enough.
 template <class T>
 [[nodiscard]] Voxels<T> voxels_in(void* mapped, std::size_t bytes, std::size_t n) {
   Voxels<T> voxels(VoxelMemory<T>(mapped, bytes));

@@ -1,4 +1,4 @@
-// io/workers.h - the same work on two threads, in numbered pieces. Private to io.
+// io/workers.h - the same work on two threads, in numbered pieces. Of this room only.
 #pragma once
 
 #include <atomic>
@@ -8,8 +8,8 @@
 
 namespace burr::io {
 
-// Calls work(piece) for every piece of 0..count-1, each once, on this thread and one more. Reports
-// `stage` from this thread. False: cancelled, some pieces were left out. work must not throw.
+// Calls work(piece) once for every piece 0..count-1, on this thread and one more. Reports `stage`
+// from this thread. False: cancelled, some pieces were not done. work must not throw.
 template <class Work>
 [[nodiscard]] bool in_pieces(int count, Progress& progress, const char* stage, const Work& work) {
   std::atomic<int> next{0};

@@ -18,7 +18,7 @@ using volume::kBrickVoxels;
 
 constexpr std::string_view kMagic = "BURRBON1";
 constexpr std::size_t kBricksPerBlock = 4096;
-// a lying header shall not make us take gigabytes; deposits never fill more
+// a false header must not make us allocate gigabytes; deposits never need more
 constexpr std::size_t kMostReserve = std::size_t{1} << 17;
 
 std::size_t bytes_per_brick(bool with_intensity) {
@@ -93,7 +93,7 @@ Result<std::unique_ptr<volume::Bone>> bone_from_blob(ByteSpan blob, std::size_t 
   if (!read_head(in, head)) return damaged;
   const std::size_t per_brick = bytes_per_brick(head.with_intensity);
 
-  // first unpack every block once to see that the bricks it promises are really there, each once
+  // first unpack every block once to check that all promised bricks are there, each once
   const math::Ijk edges = (head.grid.size.array() + volume::kBrickEdge - 1) / volume::kBrickEdge;
   BrickIndex last = volume::kNoBrick;
   std::size_t total = 0;

@@ -7,7 +7,7 @@
 //                                                  | n x 512 x i16 intensity? ]
 //       | u32 CRC of the unpacked block
 //
-// All little-endian; voxels x fastest. Thread: the bone must not be written meanwhile.
+// All little-endian; voxels x fastest. Thread: nobody may write the bone meanwhile.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ namespace burr::record {
 [[nodiscard]] std::vector<std::uint8_t> bone_to_blob(const volume::Bone& bone);
 
 // The same bone (same content_hash), with room for reserve_bricks more. Error: which part is
-// damaged; `where` is the file, for the sentence.
+// damaged; `where` is the file's name for the message.
 [[nodiscard]] Result<std::unique_ptr<volume::Bone>> bone_from_blob(ByteSpan blob,
                                                                    std::size_t reserve_bricks,
                                                                    const std::string& where);

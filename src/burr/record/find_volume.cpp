@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kEnd = std::size_t{1} << 14;  // bytes looked at from each end
-constexpr std::size_t kMostFiles = 20'000;          // of a folder; more is no series
+constexpr std::size_t kEnd = std::size_t{1} << 14;  // bytes read from each end
+constexpr std::size_t kMostFiles = 20'000;          // of a folder; more is not a series
 constexpr std::size_t kMostCandidates = 5'000;
 constexpr int kLevels = 2;
 
@@ -76,7 +76,7 @@ Result<std::uint64_t> fingerprint_of_file(const std::string& path) {
   return hash == 0 ? 1 : hash;
 }
 
-// names of a folder, sorted; empty when it cannot be listed
+// names in a folder, sorted; empty when it cannot be listed
 std::vector<fs::path> entries(const fs::path& folder) {
   std::vector<fs::path> found;
   std::error_code problem;
@@ -96,7 +96,7 @@ bool looks_like_a_volume(const fs::path& path) {
   return kVolumes.contains(path.extension().string());
 }
 
-// the folder itself, the volumes in it, and so for the folders in it
+// adds the folder itself, the volumes in it, and the same for its subfolders
 void gather(const fs::path& folder, int levels, std::vector<fs::path>& candidates) {
   if (candidates.size() >= kMostCandidates) return;
   candidates.push_back(folder);

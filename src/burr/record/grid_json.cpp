@@ -94,7 +94,7 @@ json json_from_force(const volume::CuttingForce& force) {
   return object;
 }
 
-// Recordings from before the chips law have none: it was not used then.
+// Recordings from before the chips law have none; that law was not used then.
 bool force_from_json(const json& tissue, volume::CuttingForce& force) {
   const auto object = tissue.find("cutting_force");
   if (object == tissue.end()) return true;
@@ -138,7 +138,7 @@ bool tissues_from_json(const json& list, volume::TissueTable& tissues) {
         !number(object, "cutting_energy_j_per_m3", tissue.cutting_energy) ||
         !number(object, "friction", tissue.friction) || !force_from_json(object, tissue.force))
       return false;
-    // older recordings have one for all tissues, among the settings of the session
+    // older recordings have one value for all tissues, in the settings of the session
     if (object.contains("cutting_friction") &&
         !(number(object, "cutting_friction", tissue.cutting_friction) &&
           tissue.cutting_friction >= 0))

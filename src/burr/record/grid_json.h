@@ -1,4 +1,4 @@
-// record/grid_json.h - grid and tissue table as JSON; for .cpp files of this room only (it shows
+// record/grid_json.h - grid and tissue table as JSON. Of this room only, for .cpp files (it shows
 // nlohmann's types).
 #pragma once
 
@@ -12,8 +12,7 @@ namespace burr::record {
 [[nodiscard]] nlohmann::json json_from_grid(const volume::Grid& grid);
 [[nodiscard]] nlohmann::json json_from_tissues(const volume::TissueTable& tissues);
 
-// false: something is missing or cannot be. Sizes are bounded: at most 2048^3 voxels and 256
-// tissues.
+// False: something is missing or impossible. Sizes are limited to 2048^3 voxels and 256 tissues.
 [[nodiscard]] bool grid_from_json(const nlohmann::json& object, volume::Grid& grid);
 [[nodiscard]] bool tissues_from_json(const nlohmann::json& list, volume::TissueTable& tissues);
 

@@ -18,7 +18,7 @@ Status place_file(const std::string& beside, const std::string& path) {
   if (folder.empty()) folder = ".";
   const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file >= 0) {
-    // not every file system can; the file itself is safe either way
+    // not every file system supports this; the file itself is safe either way
     static_cast<void>(::fsync(file));
     ::close(file);
   }

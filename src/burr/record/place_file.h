@@ -1,5 +1,5 @@
-// record/place_file.h - a file written beside takes its final name, for good; and who is writing
-// it.
+// record/place_file.h - gives a finished file its final name on disk; tells whether a recording is
+// still being written.
 #pragma once
 
 #include <string>
@@ -8,10 +8,11 @@
 
 namespace burr::record {
 
-// Renames and brings the folder's entry to the disk. On failure both files stay as they were.
+// Renames the file and brings the folder's entry to the disk. On failure both files stay as they
+// were.
 [[nodiscard]] Status place_file(const std::string& beside, const std::string& path);
 
-// true: a recorder has it open (McapWriter holds a lock, which ends with its process).
+// True: a recorder has it open (McapWriter holds a lock, which ends with its process).
 [[nodiscard]] bool being_written(const std::string& path);
 
 }  // namespace burr::record

@@ -124,7 +124,7 @@ void Player::find_ends() {
   StepCursor first = steps();
   if (!first.next(step)) return;
   first_tick_ = step.row.tick;
-  // each chunk is read once: there may be many with commands alone
+  // each chunk is read once: many may hold only commands
   std::vector<tick::TickRow> rows;
   for (std::size_t c = step_chunks_.size(); c-- > 0 && rows.empty();) {
     const auto chunk = reader_->read_chunk(step_chunks_[c]);
@@ -248,7 +248,7 @@ std::uint64_t Player::start_tick(std::size_t chunk) const {
   return tick_of_ns(reader_->chunks()[chunk].start_ns);
 }
 
-// Which of step_chunks_ holds the tick, or the one before.
+// The index in step_chunks_ of the chunk that holds the tick, or of the one before.
 std::size_t Player::step_chunk_before(std::uint64_t tick) const {
   const auto after =
       std::partition_point(step_chunks_.begin(), step_chunks_.end(),
@@ -265,9 +265,9 @@ Result<tick::TickRow> Player::tick_at(double t_s) {
     Step step;
     while (cursor.next(step) && step.row.tick <= tick) found = step.row;
     if (found) return *found;
-    // a damaged stretch lies before it: what is the last good tick?
+    // a damaged part lies before it: search for the last good tick
     if (start == 0) break;
-    start = start > back ? start - back : 0;  // ever further, so that no chunk is read often
+    start = start > back ? start - back : 0;  // further each time, so that no chunk is read often
   }
   return error(fmt::format("{}: holds no tick at or before {} s", path_, t_s));
 }
@@ -285,12 +285,12 @@ Error Player::broken_before(std::uint64_t tick) const {
                   path_, static_cast<double>(tick) / info_.rate_hz, again));
 }
 
-// The newest whole keyframe at or before the tick becomes the state; false: there is none.
+// Loads the newest complete keyframe at or before the tick. False: there is none.
 bool Player::load_keyframe(std::uint64_t tick) {
   const auto& chunks = reader_->chunks();
-  std::optional<std::uint64_t> not_after;  // keyframes found wanting, and all later
+  std::optional<std::uint64_t> not_after;  // keyframes found incomplete, and all later ones
   for (;;) {
-    // its chunks are those of one time
+    // its chunks all have the same time
     std::vector<std::size_t> parts;
     std::optional<std::uint64_t> time;
     for (auto c = keyframe_chunks_.rbegin(); c != keyframe_chunks_.rend(); ++c) {
@@ -347,7 +347,7 @@ bool Player::load_keyframe(std::uint64_t tick) {
 Status Player::advance(std::uint64_t tick) {
   for (; place_.chunk < change_chunks_.size(); ++place_.chunk, place_.message = 0) {
     const auto chunk = reader_->read_chunk(change_chunks_[place_.chunk]);
-    if (!chunk) {  // what it held up to this tick is unknown; what begins later is not asked for
+    if (!chunk) {  // its content up to this tick is unknown; if it begins later, it is not needed
       notice(chunk.error().text);
       if (start_tick(change_chunks_[place_.chunk]) <= tick) return broken_before(tick);
       break;
@@ -395,7 +395,7 @@ Status Player::show(volume::Bone& bone) {
     if (bone.ensure_slot(brick) == volume::kNoSlot) return false;
     if (std::memcmp(bone.brick_field(brick), content.field.voxel, sizeof content.field.voxel) != 0)
       bone.write_brick(brick, content.field);
-    // tissue the recording says nothing of is that of the bone as it was opened
+    // where the recording has no tissue, that of the bone as it was opened counts
     const auto& tissue = content.has_tissue ? content.tissue : base.tissue;
     const math::Ijk first = bone.brick_ijk(brick);
     if (std::memcmp(bone.brick_tissue(brick), tissue.data(), tissue.size()) == 0) return true;
@@ -416,7 +416,7 @@ Status Player::show(volume::Bone& bone) {
                       "reserve_bricks {}",
                       path_, std::max<std::uint64_t>(info_.volume.reserve_bricks, 1)));
   }
-  // what an earlier call showed and this moment does not know yet
+  // bricks that an earlier call changed and that are unchanged at this moment
   for (const auto& [brick, content] : originals_)
     if (!state_.contains(brick) && !write(brick, content, content)) break;
   return fine();
@@ -431,7 +431,7 @@ Status Player::bone_at(double t_s, volume::Bone& bone) {
         bone.grid().size.x(), bone.grid().size.y(), bone.grid().size.z()));
   const std::uint64_t tick = tick_of(t_s);
 
-  // forward from where we are, unless a keyframe is nearer
+  // forward from the present state, unless a keyframe is nearer
   bool restart = !state_good_ || tick < state_tick_;
   if (!restart)
     for (const std::size_t c : keyframe_chunks_)

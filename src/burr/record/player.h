@@ -1,12 +1,12 @@
-// record/player.h - a recording opened again: its session, its ticks in order, and the bone and the
-// scene at any moment, without simulating anything.
+// record/player.h - opens a recording: its session, its ticks in order, and the bone and the scene
+// at any moment, without simulating anything.
 //
 //     auto player = Player::open("s.mcap");
 //     StepCursor steps = (*player)->steps();       // for a replay: row and commands, tick by tick
 //     while (steps.next(step)) { ... }
 //     (*player)->bone_at(12.5, *bone);             // last keyframe, then the changes since
 //
-// A torn file opens like any other, shortened; notices() says by how much.
+// An incomplete file opens like any other, but ends earlier; notices() says by how much.
 // Thread: one at a time. Memory: indexes, one or two chunks, the changed bricks twice.
 #pragma once
 
@@ -28,17 +28,17 @@
 
 namespace burr::record {
 
-// One tick as a replay needs it.
+// One tick, as a replay needs it.
 struct Step {
-  tick::TickRow row;                    // inputs, and what came of them
+  tick::TickRow row;                    // the inputs of the tick and their results
   std::vector<tick::Command> commands;  // taken at the start of this tick, in order
   bool gap = false;  // ticks before this one are missing: dropped, or in a damaged stretch
 };
 
 class Player;
 
-// Goes through the ticks in order. next() is false at the end; then notices() of the player say
-// whether damaged stretches were stepped over.
+// Goes through the ticks in order. next() is false at the end; the player's notices() then say
+// whether damaged parts were stepped over.
 class StepCursor {
  public:
   [[nodiscard]] bool next(Step& step);
@@ -49,7 +49,7 @@ class StepCursor {
       : player_(&player), chunk_(chunk), first_tick_(first_tick) {}
   bool fill();
   Player* player_;
-  std::size_t chunk_;  // in step_chunks_
+  std::size_t chunk_;  // index into step_chunks_
   std::uint64_t first_tick_;
   std::optional<std::uint64_t> last_tick_;
   std::vector<tick::TickRow> rows_;
@@ -57,7 +57,7 @@ class StepCursor {
   std::deque<tick::CommandRow> commands_;
 };
 
-// Goes through the changed bricks in order, as the servo pushed them: whole contents.
+// Goes through the changed bricks in the order in which the servo recorded them: whole contents.
 class BrickCursor {
  public:
   [[nodiscard]] bool next(tick::BrickRow& row);
@@ -77,16 +77,16 @@ class Player {
 
   [[nodiscard]] const SessionInfo& info() const { return info_; }
   [[nodiscard]] const std::string& path() const { return path_; }
-  // false: torn (killed, power cut, still being recorded) and opened as far as it goes
+  // False: incomplete (killed, power cut, or still being recorded) and opened as far as it goes.
   [[nodiscard]] bool finished() const { return reader_->finished(); }
   [[nodiscard]] std::uint64_t lost_bytes() const { return reader_->lost_bytes(); }
   [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
 
-  // first and one past the last tick; equal when there is none
+  // The first tick, and one past the last; equal when there is none.
   [[nodiscard]] std::uint64_t first_tick() const { return first_tick_; }
   [[nodiscard]] std::uint64_t end_tick() const { return end_tick_; }
   [[nodiscard]] double seconds() const { return static_cast<double>(end_tick_) / info_.rate_hz; }
-  // rows the recorder had to drop, as far as the file says
+  // rows that the recorder had to drop, as counted in the file
   [[nodiscard]] std::uint64_t dropped_ticks() const { return dropped_ticks_; }
   [[nodiscard]] std::uint64_t dropped_commands() const { return dropped_commands_; }
   [[nodiscard]] std::uint64_t dropped_bricks() const { return dropped_bricks_; }
@@ -96,11 +96,11 @@ class Player {
   [[nodiscard]] BrickCursor bricks();
 
   // ---- at a moment, t from the start of the session [s]; later than the end is the end
-  // Makes `bone` what it was: give it as it was opened, or as the last bone_at() of this player
-  // left it. Within 1 s, whatever the moment. Error: damage lies between the last keyframe and t,
-  // or the bone is another one (by size), or has no room for deposits (reserve_bricks).
+  // Gives `bone` its state at t. Pass it as it was opened, or as the last bone_at() of this player
+  // left it. Takes at most 1 s, whatever the moment. Error: damage lies between the last keyframe
+  // and t, or the bone is another one (by size), or it has no room for deposits (reserve_bricks).
   [[nodiscard]] Status bone_at(double t_s, volume::Bone& bone);
-  // the last tick at or before t: pose, proxy, force ... for a picture
+  // The last tick at or before t: pose, proxy, force ... for a picture.
   [[nodiscard]] Result<tick::TickRow> tick_at(double t_s);
 
   // The bone at the start, if the recording holds it (info().embedded).
@@ -111,7 +111,7 @@ class Player {
   friend class StepCursor;
   friend class BrickCursor;
   using State = std::unordered_map<volume::BrickIndex, BrickContent>;
-  // how far into the changes a state has come; chunk: in change_chunks_
+  // a position in the changes, for a state of the bone; chunk: index into change_chunks_
   struct Place {
     std::size_t chunk = 0, message = 0, row = 0;
     std::uint64_t next_batch = 1;
@@ -139,18 +139,19 @@ class Player {
   std::vector<std::string> notices_;
   std::uint16_t tick_channel_ = 0, command_channel_ = 0, event_channel_ = 0, change_channel_ = 0,
                 keyframe_channel_ = 0;
-  // which chunks have what; by their place in the file, and so in time
+  // which chunks hold what; in the order of the file, and so of time
   std::vector<std::size_t> step_chunks_;  // ticks or commands
   std::vector<std::size_t> change_chunks_, keyframe_chunks_;
   std::uint64_t first_tick_ = 0, end_tick_ = 0;
   std::uint64_t dropped_ticks_ = 0, dropped_commands_ = 0, dropped_bricks_ = 0;
 
-  // the bone as far as bone_at() has come
+  // state of the bone after the last bone_at()
   bool state_good_ = false;
   std::uint64_t state_tick_ = 0;
   State state_;
   Place place_;
-  std::unordered_map<volume::BrickIndex, BrickContent> originals_;  // before our first touch
+  std::unordered_map<volume::BrickIndex, BrickContent> originals_;  // before the first change by
+                                                                    // this player
 };
 
 }  // namespace burr::record

@@ -35,9 +35,9 @@ constexpr auto kShortPause = std::chrono::milliseconds(4);  // while parts of a 
 constexpr double kKeyframeEvery = 10;                       // [s] of the session
 constexpr double kRingDepth = 4;                            // [s]
 constexpr double kBatch = 10e-3;                            // ticks in one message [s]
-// small enough that writing one keeps the pen from the ticks for a few milliseconds only
+// small enough that writing one delays the ticks by only a few milliseconds
 constexpr std::size_t kBricksPerMessage = 1024;
-// of SCHED_FIFO: after servo and guard, before everybody who would keep the pen from its 40 ms
+// of SCHED_FIFO: below servo and guard, above everything else that could delay the 40 ms
 constexpr int kPenPriority = 10;
 
 std::size_t ring_rows(double rate_hz) {
@@ -52,7 +52,7 @@ bool half_full(const rt::Ring<T>& ring) {
 
 }  // namespace
 
-// ---- the pen: what runs on the recorder's threads
+// ---- the pen: the work of the recorder's threads
 
 class Recorder::Pen {
  public:
@@ -139,7 +139,7 @@ class Recorder::Pen {
   }
 
   void work(bool last) {
-    // out of memory is the one exception that may come up here; the session goes on without us
+    // running out of memory is the only exception possible here; the session goes on unrecorded
     try {
       Status done = failed_ ? fine() : drain(last);
       if (failed_) discard();
@@ -151,7 +151,7 @@ class Recorder::Pen {
 
   void fail(const Error& problem) {
     failed_ = true;
-    // taken from the ring and not written
+    // taken from the ring but not written
     account_.dropped_ticks += account_.ticks - safe_ticks_;
     account_.ticks = safe_ticks_;
     tell(problem);
@@ -167,7 +167,7 @@ class Recorder::Pen {
     if (on_trouble_) on_trouble_(problem);
   }
 
-  // after a failure: the rings must not look full for ever, wait_for_room() would not return
+  // after a failure: empties the rings, because wait_for_room() would never return from full ones
   void discard() {
     tick::TickRow tick;
     tick::CommandRow command;
@@ -178,8 +178,8 @@ class Recorder::Pen {
   }
 
   Status drain(bool last) {
-    // ticks first: what belongs to a tick was pushed before it, so it is found after it. What is
-    // newer waits for its tick, so that chunks follow each other in time.
+    // Ticks first: everything that belongs to a tick was pushed before it, so it is in the rings by
+    // now. Rows of a newer tick wait for it, so that chunks are in order of time.
     take_ticks();
     const std::uint64_t until = last ? std::numeric_limits<std::uint64_t>::max() : end_tick_;
     take_commands(until);
@@ -216,7 +216,7 @@ class Recorder::Pen {
   Status write_chunk() {
     const bool something = writer_->chunk_open();
     Status written = writer_->close_chunk();
-    // bytes that go into a file without a name are gone, whatever the kernel says
+    // bytes in a file that has been removed are lost, whatever the kernel says
     if (something && written.ok()) written = writer_->still_there();
     if (!written.ok()) return written;
     safe_ticks_.store(account_.ticks);
@@ -250,7 +250,7 @@ class Recorder::Pen {
         static_cast<std::size_t>(std::max(1.0, std::round(recorder_.rate_hz_ * kBatch)));
     std::vector<tick::TickRow> rows;
     tick::TickRow row;
-    // no more than there are now: a servo as fast as we are would keep us here
+    // at most as many as there are now: a servo as fast as this thread would keep it here for ever
     for (std::size_t left = recorder_.ticks_.size(); left > 0 && recorder_.ticks_.pop(row);
          --left) {
       rows.push_back(row);
@@ -264,7 +264,7 @@ class Recorder::Pen {
     }
   }
 
-  // The next row of a tick before `until`; one that is too new is kept for the next time.
+  // The next row of a tick before `until`; a newer one is kept for the next call.
   template <class Row>
   static bool next_until(rt::Ring<Row>& ring, std::optional<Row>& waiting, std::uint64_t until,
                          Row& row) {
@@ -290,14 +290,14 @@ class Recorder::Pen {
     Bricks bricks;
     tick::BrickRow row;
     while (next_until(recorder_.bricks_, waiting_brick_, until, row)) {
-      // what it is now goes to the mirror, what is different to the file
+      // the new content goes to the mirror, the difference to the file
       BrickContent& mirror = mirror_[row.brick];
       BrickContent change;
       change.field = row.field;
       change.tissue = row.tissue;
       change.has_tissue = row.has_tissue;
       apply_xor(change, mirror);
-      change.has_tissue = row.has_tissue;  // the mirror may have one, the row says nothing of it
+      change.has_tissue = row.has_tissue;  // the mirror may have tissue where the row has none
       apply_xor(mirror, change);
       bricks.tick.push_back(row.tick);
       bricks.brick.push_back(row.brick);
@@ -326,12 +326,12 @@ class Recorder::Pen {
            static_cast<double>(end_tick_ - keyframe_tick_) >= kKeyframeEvery * recorder_.rate_hz_;
   }
 
-  // The bone as it is now is copied, then written part by part between the ticks.
+  // Copies the present bone, then writes it part by part between the ticks.
   void begin_keyframe() {
     std::vector<volume::BrickIndex> order;
     order.reserve(mirror_.size());
     for (const auto& [brick, content] : mirror_) order.push_back(brick);
-    std::sort(order.begin(), order.end());  // the same session, the same file
+    std::sort(order.begin(), order.end());  // so that the same session gives the same file
     keyframe_.reserve(order.size());
     for (const volume::BrickIndex brick : order) keyframe_.emplace_back(brick, mirror_[brick]);
     keyframe_tick_ = last_tick();
@@ -382,7 +382,7 @@ class Recorder::Pen {
     put(event_channel_, last_tick(), as_bytes(text));
   }
 
-  // ---- the other thread: bringing it to the disk may take as long as the disk likes
+  // ---- the other thread: bringing data to the disk may take as long as the disk needs
 
   void sync_run() {
     std::unique_lock lock(sync_mutex_);
@@ -412,22 +412,23 @@ class Recorder::Pen {
                 keyframe_channel_ = 0;
   std::map<std::uint16_t, std::uint32_t> sequence_;
 
-  // the pen's own
+  // used only by the pen
   BytesOut message_;
   RecordingAccount account_;
   bool failed_ = false;
   Clock::time_point last_write_;
-  std::uint64_t end_tick_ = 0;  // ticks before this one are taken
+  std::uint64_t end_tick_ = 0;  // ticks before this one have been taken
   std::optional<tick::CommandRow> waiting_command_;
   std::optional<tick::BrickRow> waiting_brick_;
-  std::unordered_map<volume::BrickIndex, BrickContent> mirror_;  // what the file says of the bone
+  std::unordered_map<volume::BrickIndex, BrickContent> mirror_;  // state of the bone according to
+                                                                 // the file
   std::uint64_t batch_ = 0;
   std::vector<std::pair<volume::BrickIndex, BrickContent>> keyframe_;  // being written
   std::uint64_t keyframe_tick_ = 0, keyframe_batch_ = 0;
   std::size_t keyframe_done_ = 0;
   bool changed_since_keyframe_ = false;
 
-  // between threads
+  // shared between threads
   mutable std::mutex mutex_;
   std::condition_variable wake_, room_;
   bool stopping_ = false, hurry_ = false;
@@ -464,15 +465,15 @@ Status Recorder::start(const std::string& path, const SessionInfo& asked, const 
   if (being_written(path))
     return error(Trouble::io, path + ": another burr is recording to it; choose another name");
 
-  // beside, until it has a beginning; an older recording of this name is safe till then
+  // under another name until it has its beginning; until then an older recording is safe
   const std::string beside = path + ".part";
   const auto give_up = [&](const Error& problem) {
     ::unlink(beside.c_str());
     return problem;
   };
   auto writer = std::make_unique<McapWriter>();
-  // what another user's burr left there when it was killed, and this one may not write: rubbish, as
-  // far as it may be read, so that its lock is seen
+  // A file there that another user's burr left when it was killed, and that this user may not
+  // write, is rubbish. It must be readable, so that a lock on it can be seen.
   if (::access(beside.c_str(), R_OK) == 0 && ::access(beside.c_str(), W_OK) != 0 &&
       !being_written(beside))
     ::unlink(beside.c_str());

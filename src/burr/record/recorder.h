@@ -1,4 +1,4 @@
-// record/recorder.h - the diary's pen: takes rows from the servo through rings and brings them to
+// record/recorder.h - records a session: takes rows from the servo through rings and writes them to
 // disk on threads of its own.
 //
 //     Recorder recorder(rate_hz);
@@ -10,13 +10,13 @@
 //     servo --rings, 4 s deep--> pen: a chunk every 40 ms, keyframe of the bone every 10 s
 //                                 `--> syncer: fdatasync, so that a slow disk delays nobody
 //
-// A full ring drops the row and counts it; the count is written into the file. A process killed at
-// any moment loses at most the last 100 ms of ticks: the pen hands each chunk to the kernel in one
-// write. What it needs for that is a processor within 50 ms of asking; in a real-time session it
-// comes right after the servo, where the machine permits.
+// If a ring is full, the row is dropped and counted; the count is written to the file. A process
+// that is killed loses at most the last 100 ms of ticks: the pen gives each chunk to the kernel in
+// one write. For this the pen must get a processor within 50 ms of asking for it; in a real-time
+// session its priority comes directly after the servo's, where the machine permits.
 //
-// Trouble (disk full, file removed) ends the recording, not the session: it is told once, at once,
-// and again by finish(); what was written until then stays and opens.
+// An error (disk full, file removed) ends the recording, not the session. It is reported once, at
+// once, and again by finish(). What was written until then stays and can be opened.
 //
 // Thread: start, finish, status on one thread; the rings on the servo's; safe_ticks any. Memory:
 // rings (about 25 MiB at 1 kHz), a copy of the changed bricks, twice while a keyframe is written.
@@ -35,13 +35,13 @@
 
 namespace burr::record {
 
-// What was written, and what was not.
+// Counts of what was written and what was not.
 struct RecordingAccount {
   std::uint64_t ticks = 0, commands = 0, brick_rows = 0, keyframes = 0;
   std::uint64_t dropped_ticks = 0, dropped_commands = 0, dropped_bricks = 0;
-  std::uint64_t safe_ticks = 0;  // of these, handed to the kernel: what the file holds
+  std::uint64_t safe_ticks = 0;  // of the ticks, those given to the kernel: what the file holds
   std::uint64_t bytes = 0;       // of the file
-  double longest_pause_s = 0;    // between two chunks handed to the kernel; what a kill may lose
+  double longest_pause_s = 0;    // between two chunks given to the kernel; a kill may lose as much
   [[nodiscard]] bool whole() const {
     return dropped_ticks == 0 && dropped_commands == 0 && dropped_bricks == 0;
   }
@@ -49,42 +49,42 @@ struct RecordingAccount {
 
 class Recorder {
  public:
-  // rate_hz: of ticks. brick_rows: how many changed bricks may wait; a burst of more in 40 ms is
-  // refused by the ring, keep such a brick marked and push it at a later tick. realtime: the
+  // rate_hz: of ticks. brick_rows: how many changed bricks may wait. A larger burst within 40 ms
+  // does not fit into the ring; keep such a brick marked and push it at a later tick. realtime: the
   // session is paced by the clock, so the pen asks for a priority of its own.
   explicit Recorder(double rate_hz, std::size_t brick_rows = 8192, bool realtime = false);
-  // Not finished: as finish(), but nobody hears of trouble.
+  // Calls finish() if that was not done; errors are then not reported.
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  // Begins the file at `path` under its final name; a recording that was there is replaced only
-  // once the new one has its beginning. embed: this bone goes into the file, as it is now.
-  // Fills in burr_version, build and embedded of info.
-  // on_trouble: called at most once, on a thread of the recorder, as soon as something goes wrong.
+  // Begins the file at `path` under its final name; an existing recording is replaced only when the
+  // new one has its beginning. embed: this bone goes into the file in its present state. Fills in
+  // burr_version, build and embedded of info.
+  // on_trouble: called at most once, on a thread of the recorder, as soon as there is an error.
   [[nodiscard]] Status start(const std::string& path, const SessionInfo& info,
                              const volume::Bone* embed = nullptr,
                              std::function<void(const Error&)> on_trouble = {});
 
-  // ---- the servo's side; within a tick: commands, bricks, then the tick
+  // ---- for the servo; within a tick: commands, bricks, then the tick
   [[nodiscard]] rt::Ring<tick::TickRow>& ticks() BURR_RT { return ticks_; }
   [[nodiscard]] rt::Ring<tick::CommandRow>& commands() BURR_RT { return commands_; }
   [[nodiscard]] rt::Ring<tick::BrickRow>& bricks() BURR_RT { return bricks_; }
 
-  // For a session as fast as possible: call between ticks, on the servo's thread; waits (not
-  // real-time!) until no ring is more than half full. Paced sessions never call it.
+  // For a session that runs as fast as possible: call it between ticks on the servo's thread. Waits
+  // (not real-time!) until no ring is more than half full. Sessions in real time never call it.
   void wait_for_room();
 
-  // Trouble so far (disk full ...); the session goes on, the rows are counted as dropped.
+  // The error so far (disk full ...). The session goes on; its rows are counted as dropped.
   [[nodiscard]] Status status() const;
 
-  // How many ticks lie in the file already, as far as a kill is concerned.
+  // How many ticks the kernel already has: these survive a kill.
   [[nodiscard]] std::uint64_t safe_ticks() const;
 
-  // Everything pushed before this call is written, then summary and footer. The file is then
-  // complete, or the Error says what is missing.
+  // Writes everything pushed before this call, then summary and footer. The file is then complete,
+  // or the Error says what is missing.
   [[nodiscard]] Result<RecordingAccount> finish();
-  // The same after finish(), whether it went well or not.
+  // The account after finish(), successful or not.
   [[nodiscard]] RecordingAccount account() const;
 
  private:

@@ -73,7 +73,7 @@ Status copy(const McapReader& from, McapWriter& to, RepairReport& report, Progre
   return fine();
 }
 
-// Ticks per second, from the session's description; 0: not there any more.
+// Ticks per second, from the session's description; 0: the description is lost.
 double rate_of(const McapReader& file) {
   const std::uint16_t channel = file.channel_of(kSession.name);
   for (std::size_t i = 0; i < file.chunks().size(); ++i) {
@@ -109,7 +109,7 @@ Result<RepairReport> repair(const std::string& path, const std::string& out, Pro
   if (rate_hz == 0)
     return error(path + ": nothing can be saved, the description of the session is gone");
 
-  // what a link points at is repaired, the link stays
+  // the target of a link is repaired, the link stays
   std::filesystem::path target = std::filesystem::weakly_canonical(out, ignored);
   if (target.empty()) target = out;
   const std::string beside = target.string() + ".part";

@@ -1,5 +1,5 @@
-// record/repair.h - makes a torn or damaged recording whole again: everything that is good is kept,
-// the rest is named.
+// record/repair.h - makes a complete file from an incomplete or damaged recording: keeps everything
+// that is good and lists the rest.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace burr::record {
 
 struct RepairReport {
-  bool was_whole = false;    // nothing was done
+  bool was_whole = false;    // the file was complete; nothing was done
   std::uint64_t chunks = 0;  // kept
   std::uint64_t kept_bytes = 0, lost_bytes = 0;
   std::uint64_t ticks = 0;           // kept
@@ -20,8 +20,9 @@ struct RepairReport {
   std::vector<std::string> notices;  // what was lost, one sentence each
 };
 
-// Reads `path` distrusting everything, writes a whole file beside `out`, then renames. `out` may be
-// `path`. A file that is being recorded right now is refused. Cancelled or failed: nothing changed.
+// Reads `path` and trusts nothing in it, writes a complete file beside `out`, then renames it.
+// `out` may be `path`. A file that is being recorded is refused. Cancelled or failed: nothing is
+// changed.
 [[nodiscard]] Result<RepairReport> repair(const std::string& path, const std::string& out,
                                           Progress& progress);
 

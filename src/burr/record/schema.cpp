@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-// ---- Protocol Buffers, the little of it we need (protobuf.dev/programming-guides/encoding)
+// ---- the part of Protocol Buffers that is needed here (protobuf.dev/programming-guides/encoding)
 
 constexpr std::uint32_t kVarint = 0, kFixed64 = 1, kBlock = 2, kFixed32 = 5;
 
@@ -42,7 +42,7 @@ std::uint64_t get_varint(BytesIn& in) {
     value |= std::uint64_t{byte & 0x7FU} << shift;
     if ((byte & 0x80U) == 0) return value;
   }
-  in.take(std::numeric_limits<std::uint64_t>::max());  // too long: no longer ok()
+  in.take(std::numeric_limits<std::uint64_t>::max());  // too long: makes ok() false
   return 0;
 }
 
@@ -125,7 +125,7 @@ struct FieldText {
 
 struct TickColumn {
   FieldText text;
-  void* (*in)(tick::TickRow& row);  // where it lies in a row
+  void* (*in)(tick::TickRow& row);  // its place in a row
 };
 
 #define BURR_AT(member) [](tick::TickRow& row) -> void* { return &row.member; }
@@ -225,7 +225,7 @@ std::string descriptor(const char* message_name, std::span<const FieldText> fiel
     put_number(field, 5, proto_type(text.type));
     put_block(type, 2, field.span());
   }
-  // comments: path to the field [message_type, 0, field, i], a made-up place, and the text
+  // comments: path to the field [message_type, 0, field, i], an invented position, and the text
   BytesOut comments;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     BytesOut path, place, location;
@@ -403,7 +403,7 @@ std::string schema_data(std::string_view schema_name) {
 
 void encode_ticks(std::span<const tick::TickRow> rows, BytesOut& out) {
   BytesOut packed;
-  // the accessors want rows they could change
+  // the access functions need rows that are not const
   std::vector<tick::TickRow> mine(rows.begin(), rows.end());
   for (const TickColumn& column : kTickColumns) {
     packed.clear();
@@ -427,7 +427,7 @@ bool decode_ticks(ByteSpan message, std::vector<tick::TickRow>& rows) {
       }))
     return false;
 
-  // every column has a value for each row, or is from a burr that did not know it
+  // each column has one value per row, or is empty because the burr that wrote it did not know it
   const std::size_t count = columns[0].size() / sizeof(std::uint64_t);
   for (std::size_t c = 0; c < kColumns; ++c)
     if (!(columns[c].empty() && c > 0) &&

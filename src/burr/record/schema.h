@@ -1,11 +1,11 @@
-// record/schema.h - the channels of a recording: their names, their schemas, and rows to bytes and
-// back.
+// record/schema.h - the channels of a recording: their names, their schemas, and the conversion of
+// rows to bytes and back.
 //
-// Ticks and bricks are Protocol Buffers (proto3), several rows in one message as packed columns;
-// their schema in the file is a FileDescriptorSet whose comments say what each field is and its
-// unit. So any MCAP or protobuf tool reads them without burr. The rest is JSON with JSON Schema.
-// Field numbers are for ever: a field that goes leaves a gap, a new one takes a new number.
-// docs/recording.md is the table for people.
+// Ticks and bricks are Protocol Buffers (proto3), several rows in one message as packed columns.
+// Their schema in the file is a FileDescriptorSet whose comments give the meaning and unit of each
+// field, so that any MCAP or protobuf tool reads them without burr. The rest is JSON with JSON
+// Schema. A field number is never reused: a field that is dropped leaves a gap, a new one takes a
+// new number. docs/recording.md is the table for readers.
 #pragma once
 
 #include <array>
@@ -39,14 +39,14 @@ inline constexpr std::array<Topic, 6> kTopics = {kSession, kTicks,   kCommands,
 inline constexpr const char* kBoneAttachment = "bone";
 inline constexpr const char* kBoneMediaType = "application/x-burr-bone";
 
-// The text or bytes of a schema as it stands in the file.
+// The text or bytes of a schema, as written in the file.
 [[nodiscard]] std::string schema_data(std::string_view schema_name);
 
 // ---- ticks
 void encode_ticks(std::span<const tick::TickRow> rows, BytesOut& out);
-// appends; false: malformed, nothing appended
+// Appends the rows of a message. False: malformed, nothing is appended.
 [[nodiscard]] bool decode_ticks(ByteSpan message, std::vector<tick::TickRow>& rows);
-// bytes of a row that are written; for the test that no field is forgotten
+// Bytes of a row that are written; for the test that no field is forgotten.
 [[nodiscard]] std::size_t tick_columns_size();
 
 // ---- commands
@@ -54,12 +54,12 @@ void encode_ticks(std::span<const tick::TickRow> rows, BytesOut& out);
 [[nodiscard]] bool command_from_json(std::string_view text, tick::CommandRow& row);
 
 // ---- bricks
-// What a brick is like; tissue only where it differs from the bone as it was opened.
+// The content of a brick; tissue only where it differs from the bone as it was opened.
 struct BrickContent {
   volume::BrickField field = {};
   std::array<volume::TissueId, volume::kBrickVoxels> tissue = {};
   bool has_tissue = false;
-  [[nodiscard]] std::uint32_t crc() const;  // of field, then tissue if there is one
+  [[nodiscard]] std::uint32_t crc() const;  // of field, then of tissue if there is one
 };
 
 // A message of /bone/changes (contents XORed with what they were before, zero the first time) or
@@ -67,7 +67,7 @@ struct BrickContent {
 struct Bricks {
   std::uint64_t batch = 0;            // changes: 1, 2, 3 ...; keyframe: the last batch it contains
   std::uint32_t part = 0, parts = 1;  // keyframe: several messages make one
-  std::vector<std::uint64_t> tick;    // (n) as it is after this tick
+  std::vector<std::uint64_t> tick;    // (n) the state is that after this tick
   std::vector<std::int32_t> brick;    // (n)
   std::vector<std::uint32_t> crc;     // (n) BrickContent::crc() after the change
   std::vector<BrickContent> content;  // (n)

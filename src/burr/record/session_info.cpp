@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-// Something with a separator is a path; only digits and three dots or more is a UID.
+// A text with a separator is a path; one of digits with three dots or more is a UID.
 bool looks_private(const std::string& text) {
   if (text.find('/') != std::string::npos || text.find('\\') != std::string::npos) return true;
   return std::count(text.begin(), text.end(), '.') >= 3 &&

@@ -1,8 +1,8 @@
-// record/session_info.h - what a session was: everything a replay must know before its first tick,
-// as fields with names.
+// record/session_info.h - describes a session: everything that a replay must know before its first
+// tick, as named fields.
 //
-// Privacy: no patient name, id, date or path belongs here; a series UID goes in as a hash only.
-// check() refuses texts that look like a path or a UID, so a slip does not reach the disk.
+// Privacy: no patient name, id, date or path may be here; a series UID only as a hash. check()
+// refuses texts that look like a path or a UID, so that a mistake does not reach the disk.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +19,17 @@
 
 namespace burr::record {
 
-using Numbers = std::map<std::string, double>;  // units are in the names: "burr_radius_m"
+using Numbers = std::map<std::string, double>;  // units are part of the names: "burr_radius_m"
 using Words = std::map<std::string, std::string>;
 
-// The bone the session began with, and how to make it again from the user's own file.
+// The bone at the start of the session, and how to make it again from the user's own file.
 struct VolumeInfo {
   std::uint64_t content_hash = 0;        // Bone::content_hash() before the first tick
   std::uint64_t source_fingerprint = 0;  // record::fingerprint() of the file or folder; 0: none
   volume::Grid grid;
   volume::TissueTable tissues;
   bool has_intensity = false;
-  std::uint64_t reserve_bricks = 0;  // room for deposits the Bone was made with
+  std::uint64_t reserve_bricks = 0;  // room for deposits, as given when the Bone was made
   Numbers numbers;  // import options: "voxel_mm", "iso", "spacing_x_mm", "smoothing" ...
   Words words;      // "format": "NRRD", "phantom": "temporal-bone", "series_hash": "0x..." ...
 };
@@ -51,26 +51,26 @@ struct CaseInfo {
 
 struct SessionInfo {
   std::string burr_version;  // filled in by the Recorder
-  std::string build;         // likewise: compiler and kind; replay is to the bit on the same build
+  std::string build;         // likewise: compiler and kind; only the same build replays to the bit
   double rate_hz = 1000;
   std::uint64_t seed = 0;
   Numbers numbers;  // settings: "burr_radius_m", "spindle_rad_s", "stiffness_n_per_m" ...
   Words words;      // "device": "simulated hand", "motion": "pocket" ...
   VolumeInfo volume;
   std::optional<CaseInfo> work_case;  // none: no case, or recorded before cases were
-  bool embedded = false;              // the bone lies in the file; filled in by the Recorder
+  bool embedded = false;              // the file holds the bone; filled in by the Recorder
 };
 
 // Refuses what must not or cannot be written: paths, UIDs, numbers that are not finite.
 [[nodiscard]] Status check(const SessionInfo& info);
 
-// One JSON object; every double and hash comes back to the bit.
+// One JSON object; every double and hash is read back to the bit.
 [[nodiscard]] std::string to_json(const SessionInfo& info);
-// `where`: the file, for the error's sentence
+// where: the file's name for error messages
 [[nodiscard]] Result<SessionInfo> session_from_json(std::string_view text,
                                                     const std::string& where);
 
-// "0x0123456789abcdef", as hashes are written everywhere (JSON numbers end at 2^53)
+// "0x0123456789abcdef", the form of every hash (JSON numbers are exact only up to 2^53)
 [[nodiscard]] std::string hex(std::uint64_t value);
 
 }  // namespace burr::record

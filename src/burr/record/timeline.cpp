@@ -50,7 +50,7 @@ TimelineMaker::TimelineMaker(double rate_hz, std::uint64_t end_tick)
 void TimelineMaker::add(const Step& step) {
   const tick::TickRow& row = step.row;
   const double t = static_cast<double>(row.tick) / rate_hz_;
-  // a damaged row may say anything
+  // a damaged row may contain anything
   const double force = row.contact.force.norm();
   const auto part = static_cast<std::size_t>(
       std::min(static_cast<double>(row.tick) / static_cast<double>(end_tick_) * Timeline::kParts,
@@ -60,7 +60,7 @@ void TimelineMaker::add(const Step& step) {
     line_.peak_force = std::max(line_.peak_force, force);
   }
 
-  // what a gap hides may be of many strokes; it counts as the tick after it
+  // what a gap hides may belong to many strokes; it counts at the tick after the gap
   const bool cut =
       before_ && (row.ledger.removed > before_->removed || row.ledger.added > before_->added);
   before_ = row.ledger;
@@ -78,7 +78,7 @@ void TimelineMaker::add(const Step& step) {
 
   for (const tick::Command& command : step.commands)
     if (command.kind != tick::CommandKind::shed)
-      line_.events.push_back({t, command});  // that one is the servo's
+      line_.events.push_back({t, command});  // the servo made that command itself
 }
 
 Timeline TimelineMaker::finish() { return std::move(line_); }

@@ -1,12 +1,12 @@
-// record/timeline.h - a whole session on one line: when bone was cut, how hard the hand was pushed,
-// what was requested for, and where the work was.
+// record/timeline.h - a summary of a whole session over time: when bone was cut, how large the
+// force on the hand was, what was requested, and where the work was.
 //
-//     auto line = timeline_of(**player, progress);        // one pass over all ticks
-//     line->force_in(12.0, 12.1)                          // the most of that tenth of a second
+//     auto line = timeline_of(**player, progress);  // one pass over all ticks
+//     line->force_in(12.0, 12.1)                    // largest force in that 0.1 s
 //
-// Force is kept as the largest of each of a fixed number of parts of the session: a peak of one
-// tick is seen however long the session was.
-// Thread: one. Memory: fixed, and the strokes and commands.
+// The session is divided into a fixed number of parts; of each the largest force is kept, so a peak
+// of one tick is seen however long the session was.
+// Thread: one. Memory: fixed, plus the strokes and commands.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@
 
 namespace burr::record {
 
-// Bone was cut or material added, with pauses shorter than kPause.
+// Cutting or adding material, with pauses shorter than kPause.
 struct Stroke {
   double begin_s = 0, end_s = 0;
 };
@@ -33,28 +33,28 @@ struct TimelineEvent {
 
 struct Timeline {
   static constexpr std::size_t kParts = 4096;
-  static constexpr double kPause = 0.3;  // within a stroke  [s]
+  static constexpr double kPause = 0.3;  // longest pause within a stroke [s]
 
   double seconds = 0;
   std::vector<Stroke> strokes;        // in order, apart by more than kPause
-  std::vector<float> force;           // (kParts) the largest of each part  [N]
-  std::vector<TimelineEvent> events;  // what people requested, in order
+  std::vector<float> force;           // (kParts) the largest of each part [N]
+  std::vector<TimelineEvent> events;  // what users requested, in order
   double peak_force = 0;              // [N]
   struct Work {
-    math::Vec3 at, outward;  // the burr's centre; unit, out of the bone, or along the shaft
+    math::Vec3 at, outward;  // the burr's centre; unit vector out of the bone, or along the shaft
   };
-  std::optional<Work> work;  // where it first cut; none: it never did
+  std::optional<Work> work;  // where it first cut; none: it never cut
 
-  // the largest force from one moment to another; of the part they lie in if that is longer
+  // Largest force between two moments; if they lie in one part, that part's largest force.
   [[nodiscard]] double force_in(double from_s, double to_s) const;
-  // what a command of this kind set last, at or before t
+  // The value that the last command of this kind at or before t set.
   [[nodiscard]] std::optional<double> requested(tick::CommandKind kind, double t_s) const;
-  // the stroke at t, or the next one before or after it: its begin; none: there is none
+  // The beginning of the stroke at t, or of the next one after or before it; none: there is none.
   [[nodiscard]] std::optional<double> stroke_after(double t_s) const;
   [[nodiscard]] std::optional<double> stroke_before(double t_s) const;
 };
 
-// Built tick by tick, in order.
+// Builds a Timeline tick by tick, in order.
 class TimelineMaker {
  public:
   TimelineMaker(double rate_hz, std::uint64_t end_tick);

@@ -13,7 +13,7 @@ Status skin_bone(Scene& scene, const volume::Bone& bone, int threads, Progress& 
   const int count = surface::Mesher(bone).patch_count();
   std::vector<ScenePatch> patches(static_cast<std::size_t>(count));
 
-  // workers take patches in handfuls; the first one, this thread, reports
+  // workers take a group of patches at a time; the first worker, this thread, reports
   constexpr int kHandful = 64;
   std::atomic<int> next = 0;
   std::atomic<bool> stop = false;
@@ -24,7 +24,7 @@ Status skin_bone(Scene& scene, const volume::Bone& bone, int threads, Progress& 
       const int first = next.fetch_add(kHandful);
       if (first >= count) return;
       for (int patch = first; patch < std::min(first + kHandful, count); ++patch) {
-        // at rest nobody writes: this succeeds at once
+        // at rest nobody writes, so this succeeds at once
         while (!mesher.mesh_patch(patch, mesh)) {
         }
         patches[static_cast<std::size_t>(patch)] = packed(mesh);

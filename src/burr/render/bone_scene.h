@@ -1,5 +1,5 @@
-// render/bone_scene.h - a whole bone becomes a scene: for pictures of a bone at rest, and for the
-// first look of a session.
+// render/bone_scene.h - makes a scene from a whole bone: for pictures of a bone at rest, and for
+// the first picture of a session.
 #pragma once
 
 #include "burr/base/progress.h"
@@ -9,9 +9,10 @@
 
 namespace burr::render {
 
-// Surface and tissue colours of the bone into the scene, in patches numbered as by
-// surface::Mesher; camera and all else stay. The bone must be at rest. threads: workers, 1 or more.
-// Errors: Trouble::interrupted when `progress` was cancelled; the scene is then half skinned.
+// Puts the bone's surface and tissue colours into the scene, in patches numbered as by
+// surface::Mesher; camera and everything else stay. The bone must be at rest. threads: workers, 1
+// or more. Errors: Trouble::interrupted when `progress` was cancelled; the scene then has only a
+// part of the patches.
 [[nodiscard]] Status skin_bone(Scene& scene, const volume::Bone& bone, int threads,
                                Progress& progress);
 

@@ -9,8 +9,8 @@ namespace burr::render {
 using math::Vec3;
 
 namespace {
-constexpr double kPole = 89.0 * std::numbers::pi / 180;  // as far up or down as one may look
-constexpr double kNearest = 2e-3, kFarthest = 5;         // distance to the target  [m]
+constexpr double kPole = 89.0 * std::numbers::pi / 180;  // largest elevation
+constexpr double kNearest = 2e-3, kFarthest = 5;         // distance to the target [m]
 }  // namespace
 
 bool same(const PlacedEye& a, const PlacedEye& b) {
@@ -67,7 +67,7 @@ Camera fit(std::span<const math::Aabb> boxes, double azimuth, double elevation, 
   camera.elevation = std::clamp(elevation, -kPole, kPole);
   camera.target = all.centre();
 
-  // each corner must lie inside the cone of sight; the farthest demand wins
+  // each corner must lie inside the field of view; the largest distance counts
   const double tan_y = std::tan(camera.field_of_view / 2), tan_x = tan_y * aspect;
   const Vec3 right = camera.right(), above = camera.above(), backward = camera.backward();
   double distance = kNearest;
@@ -79,12 +79,12 @@ Camera fit(std::span<const math::Aabb> boxes, double azimuth, double elevation, 
       distance = std::max(distance, d.dot(backward) + std::abs(d.dot(right)) / tan_x);
     }
   }
-  camera.distance = std::min(1.04 * distance, kFarthest);  // a little air around it
+  camera.distance = std::min(1.04 * distance, kFarthest);  // with a small margin
   return camera;
 }
 
 Camera view_of_work(const Vec3& point, const Vec3& normal, double view_height) {
-  // the shaft leaves along the normal: look from 32 degrees beside it, and rather from above
+  // the shaft goes along the normal: look from 32 degrees beside it, and rather from above
   constexpr double kTilt = 32.0 * std::numbers::pi / 180;
   const Vec3 n = normal.squaredNorm() > 0 ? normal.normalized().eval() : Vec3(0, -1, 0);
   Vec3 aside = Vec3::UnitZ() - n.z() * n;

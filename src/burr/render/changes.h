@@ -1,11 +1,12 @@
-// render/changes.h - which patches of a scene changed last, so that whoever keeps copies need not
-// look at all of them for each picture: a fine scan has some ten thousand.
+// render/changes.h - lists the patches of a scene that changed last, so that a copy can be updated
+// without a look at all patches: a fine scan has some ten thousand.
 //
 //     if (!scene.changes.since(known, look_at)) look_at_all();
 //     known = scene.changes.newest();
 //
-// Changes are numbered over all scenes of the program, so a number stands for one history: of
-// another scene, or one that changed after it was copied, since() says that it does not know.
+// The numbers of changes are unique over all scenes of the program, so a number belongs to one
+// history. For a number of another scene, or of a scene that changed after it was copied, since()
+// returns false.
 // Thread: that of its scene.
 #pragma once
 
@@ -26,8 +27,8 @@ class Changes {
 
   [[nodiscard]] std::uint64_t newest() const { return log_.empty() ? 0 : log_.back().number; }
 
-  // Every patch that changed after `known`, an earlier newest(); one that changed twice comes
-  // twice. False: that is too long ago, or was another scene; nothing was visited.
+  // Visits every patch that changed after `known`, an earlier newest(); a patch that changed twice
+  // comes twice. False: `known` is too old or belongs to another scene; nothing was visited.
   template <class Visit>
   [[nodiscard]] bool since(std::uint64_t known, const Visit& visit) const {
     const auto at = std::ranges::lower_bound(log_, known, {}, &One::number);

@@ -12,7 +12,7 @@ using Indices = std::vector<std::uint32_t>;
 
 constexpr std::size_t kStride = sizeof(SkinVertex);
 
-// Vertices that are the same to the bit become one.
+// Joins vertices that are equal to the bit.
 void weld(Joined& all) {
   Indices to(all.vertices.size());
   const std::size_t different =
@@ -26,7 +26,7 @@ void weld(Joined& all) {
   all.vertices = std::move(vertices);
 }
 
-// Triangles of one tissue, and those between two or more, which are never changed.
+// The triangles of one tissue, and those between two or more, which are never changed.
 struct Groups {
   std::map<volume::TissueId, Indices> same;
   Indices mixed;
@@ -44,7 +44,7 @@ Groups by_tissue(const Joined& mesh) {
   return groups;
 }
 
-// Only the vertices that the finest of the levels needs, in the order they are needed.
+// Keeps only the vertices that the finest level needs, in the order in which it needs them.
 void drop_unused(CoarseMesh& mesh) {
   if (mesh.levels.empty() || mesh.levels.front().indices.empty()) {
     mesh.vertices.clear();
@@ -86,7 +86,7 @@ CoarseMesh coarser(Joined&& joined, std::span<const double> errors) {
   weld(all);
   const float* places = all.vertices.front().p.data();
   const std::size_t count = all.vertices.size();
-  // its errors are relative to the size of the mesh
+  // meshoptimizer's errors are relative to the size of the mesh
   const double scale = static_cast<double>(meshopt_simplifyScale(places, count, kStride));
   Groups groups = by_tissue(all);
   Indices simpler;
@@ -103,7 +103,7 @@ CoarseMesh coarser(Joined&& joined, std::span<const double> errors) {
       triangles.assign(simpler.begin(), simpler.begin() + static_cast<std::ptrdiff_t>(left));
       level.indices.insert(level.indices.end(), triangles.begin(), triangles.end());
     }
-    // a vertex that is still at hand is not transformed again
+    // an order in which the GPU transforms few vertices twice
     meshopt_optimizeVertexCache(level.indices.data(), level.indices.data(), level.indices.size(),
                                 count);
     out.levels.push_back(std::move(level));

@@ -1,13 +1,13 @@
-// render/coarse_mesh.h - several patches or blocks together, with fewer triangles.
+// render/coarse_mesh.h - joins several patches or blocks into one mesh with fewer triangles.
 //
 //     Joined all;
 //     for (patch) all.add(patch);
 //     CoarseMesh mesh = coarser(std::move(all), errors);
 //
-// Their rim stays as it is, edge by edge, and so does the border between two tissues: coarse
-// patches meet their neighbours, coarse or not, without a crack, and no colour wanders. By edge
-// collapses with quadric errors (Garland & Heckbert 1997), as meshoptimizer does them. Thread: any.
-// Units: m; frame: world.
+// The outer border of the joined mesh stays as it is, edge by edge, and so does the border between
+// two tissues: coarse blocks meet their neighbours, coarse or not, without a crack, and no colour
+// moves. Method: edge collapses with quadric errors (Garland & Heckbert 1997), as in meshoptimizer.
+// Thread: any. Units: m; frame: world.
 #pragma once
 
 #include <cstdint>
@@ -19,26 +19,28 @@
 namespace burr::render {
 
 struct CoarseLevel {
-  double error = 0;                    // about how far its surface is from what was joined  [m]
+  double error = 0;                    // approximate distance between its surface and the original
+                                       // one [m]
   std::vector<std::uint32_t> indices;  // (n x 3)
 };
 
-// Coarser and coarser, one for each of `errors` [m], which grow. All share the vertices.
+// Levels of decreasing detail, one for each of `errors` [m], which increase. All share the
+// vertices.
 struct CoarseMesh {
-  std::vector<SkinVertex> vertices;  // as they are in the patches
+  std::vector<SkinVertex> vertices;  // unchanged vertices of the patches
   std::vector<CoarseLevel> levels;
 };
 
-// Meshes one after the other.
+// Several meshes, one after the other.
 struct Joined {
   std::vector<SkinVertex> vertices;
   std::vector<std::uint32_t> triangles;  // (n x 3)
 
   void add(const SkinMesh& patch);
-  void add(const CoarseMesh& block);  // its finest level
+  void add(const CoarseMesh& block);  // takes its finest level
 };
 
-// Seams between what was joined are closed and no longer part of the rim.
+// Seams between the joined meshes are closed and are no longer part of the border.
 [[nodiscard]] CoarseMesh coarser(Joined&& all, std::span<const double> errors);
 
 }  // namespace burr::render

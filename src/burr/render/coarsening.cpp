@@ -16,10 +16,10 @@
 namespace burr::render {
 namespace {
 
-// a block is let be for so long; one of the smallest, which follow the burr                 [s]
+// rest before a block is made; for one of the smallest, which follow the burr [s]
 constexpr double kRest = 1, kSmallRest = 0.3;
-constexpr int kEdge = 2;  // of a block in patches, of a larger one in blocks
-// Errors of the two levels of each size of block, with those of what it is made of [voxel].
+constexpr int kEdge = 2;  // edge of a block in patches, of a larger one in blocks
+// Errors of the two levels for each size of block, including those of what it is made of [voxel].
 constexpr std::array<std::array<double, 2>, 4> kErrors = {
     {{0.5, 1.5}, {0.75, 1.75}, {1, 2}, {1.25, 2.5}}};
 constexpr std::size_t kHandedOutAtOnce = 32;
@@ -31,23 +31,23 @@ struct Coarsening::Work {
   struct Job {
     std::size_t block = 0, size = 0;
     std::uint64_t versions = 0;
-    std::vector<std::shared_ptr<const SkinMesh>> patches;   // to be made of these
-    std::vector<std::shared_ptr<const CoarseMesh>> blocks;  // ... or these
+    std::vector<std::shared_ptr<const SkinMesh>> patches;   // made from these patches
+    std::vector<std::shared_ptr<const CoarseMesh>> blocks;  // ... or from these blocks
     std::shared_ptr<const CoarseMesh> made;
   };
-  // when a block was last seen to change
+  // state of a block when it was last found changed
   struct Seen {
     std::uint64_t versions = 0;
     double since = 0;
     bool changed = false, handed_out = false;
   };
 
-  math::Ijk grid;  // patches along each axis
+  math::Ijk grid;  // number of patches along each axis
   double voxel = 0;
   bool held = false;
   std::vector<Seen> seen;
   std::vector<std::size_t> firsts;  // number of the first block of each size
-  std::size_t next = 0;             // block to look at
+  std::size_t next = 0;             // next block to check
   std::size_t out = 0;
 
   mutable std::mutex mutex;
@@ -63,7 +63,8 @@ struct Coarsening::Work {
   void run();
 };
 
-// Blocks as a mesher's patches lie, then larger and larger ones as the blocks do.
+// Lays out the smallest blocks like a mesher's patches, then larger and larger ones like the
+// blocks.
 void Coarsening::Work::lay_out(Scene& scene) {
   if (!seen.empty() && scene.blocks.size() == seen.size()) return;
   scene.blocks.clear();
@@ -116,7 +117,7 @@ void Coarsening::Work::take_back(Scene& scene) {
   }
 }
 
-// What the block is to be made of; false: its own blocks are not ready.
+// Collects what the block is made of. False: its own blocks are not ready.
 bool Coarsening::Work::collect(const Scene& scene, const SceneBlock& block, Job& job) const {
   for (const int inner : block.inner) {
     const SceneBlock& one = scene.blocks[static_cast<std::size_t>(inner)];
@@ -142,7 +143,7 @@ CoarseMesh Coarsening::Work::made_of(Joined&& all, std::size_t size) const {
 }
 
 void Coarsening::Work::run() {
-  // of this thread alone, on Linux
+  // on Linux this applies to this thread only
   setpriority(PRIO_PROCESS, 0, kNice);
   std::unique_lock lock(mutex);
   for (;;) {
@@ -188,7 +189,7 @@ void Coarsening::update(Scene& scene, double now) {
     const SceneBlock& block = scene.blocks[at];
     Work::Seen& seen = w.seen[at];
     const std::uint64_t versions = block.now;
-    // at the start nothing has changed yet: all of it is made at once
+    // at the start nothing has changed yet: everything is made at once
     if (seen.versions != versions) seen = {versions, now, seen.versions != 0, false};
     if (w.held || seen.handed_out || versions == 0) continue;
     const double rest = block.inner.empty() ? kSmallRest : kRest;

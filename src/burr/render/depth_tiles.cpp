@@ -8,8 +8,8 @@ namespace burr::render {
 namespace {
 
 constexpr int kTile = 8;             // samples along a side
-constexpr double kRounding = 2e-7;   // of a depth kept in 24 bit, and of our own arithmetic
-constexpr double kBeforeEye = 1e-9;  // least w that can be divided by
+constexpr double kRounding = 2e-7;   // of a depth stored in 24 bit, and of our own arithmetic
+constexpr double kBeforeEye = 1e-9;  // smallest w that can be divided by
 
 }  // namespace
 
@@ -20,7 +20,7 @@ void DepthTiles::look(const float* depth, const Part& part) {
   farthest_.assign(static_cast<std::size_t>(across_) * static_cast<std::size_t>(up_), 0.0F);
   std::vector<float> row(static_cast<std::size_t>(across_) * kTile);
   for (int v = 0; v < up_; ++v) {
-    // first the rows of a tile against each other, which a compiler does many at once
+    // first the rows of a tile against each other, which a compiler vectorizes
     std::fill(row.begin(), row.end(), 0.0F);
     const int last = std::min(part.height, (v + 1) * kTile);
     for (int y = v * kTile; y < last; ++y) {
@@ -43,14 +43,14 @@ bool DepthTiles::hide(const math::Aabb& box, const Eigen::Matrix4d& clip_from_wo
   Eigen::Vector2d lo(1e30, 1e30), hi(-1e30, -1e30);
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector4d c = clip_from_world * box.corner(corner).homogeneous();
-    // beside or behind the eye, or cut by the near plane: who knows
+    // beside or behind the eye, or cut by the near plane: not known
     if (!(c.w() > kBeforeEye) || c.z() < -c.w()) return false;
     nearest = std::min(nearest, c.z() / c.w());
     lo = lo.cwiseMin(c.head<2>() / c.w());
     hi = hi.cwiseMax(c.head<2>() / c.w());
   }
   const double depth = 0.5 * nearest + 0.5 - kRounding;
-  // tiles it may touch, a sample more to each side
+  // tiles that it may touch, with a margin of one sample on each side
   const auto tile = [](double clip, int size, int from, double more) {
     const double sample = (0.5 * clip + 0.5) * size - from + more;
     return static_cast<int>(std::floor(std::clamp(sample, -1e6, 1e6) / kTile));

@@ -1,14 +1,14 @@
-// render/depth_tiles.h - how deep a half-drawn picture is, coarsely, and so which boxes nothing of
-// can show in it.
+// render/depth_tiles.h - a coarse map of the depth of a half-drawn picture, which tells which boxes
+// cannot be seen in it.
 //
 //     DepthTiles tiles;
 //     tiles.look(depth, {x0, y0, width, height});        // what was drawn so far
 //     if (tiles.hide(box, clip_from_world, 1280, 720)) continue;
 //
-// Of each 8 x 8 samples the farthest depth is kept (Greene et al. 1993, one level of the pyramid):
-// a box all of which is behind the farthest depth of every tile it may touch is hidden. Never
-// wrong the other way: what could show is never said to be hidden. Depth: 0 near .. 1 far, as
-// glReadPixels gives it. Thread: one at a time.
+// Of each 8 x 8 samples the farthest depth is kept (Greene et al. 1993, one level of the pyramid).
+// A box is hidden if all of it lies behind the farthest depth of every tile that it may touch. The
+// test is conservative: a box that may be visible is never called hidden. Depth: 0 near .. 1 far,
+// as from glReadPixels. Thread: one at a time.
 #pragma once
 
 #include <vector>
@@ -26,14 +26,14 @@ class DepthTiles {
   // depth: row by row, from the part's lower left.
   void look(const float* depth, const Part& part);
 
-  // Could nothing of the box, in the world, be seen in that part of a window of this size? What is
-  // outside of the part is not asked for: a box beside it is hidden.
+  // True: nothing of the box (world) can be seen in that part of a window of this size. Only the
+  // part counts: a box beside it is hidden.
   [[nodiscard]] bool hide(const math::Aabb& box, const Eigen::Matrix4d& clip_from_world,
                           int window_width, int window_height) const;
 
  private:
   Part part_;
-  int across_ = 0, up_ = 0;  // tiles
+  int across_ = 0, up_ = 0;  // number of tiles
   std::vector<float> farthest_;
 };
 

@@ -5,9 +5,9 @@
 namespace burr::render {
 namespace {
 
-constexpr double kFollow = 0.3;  // of a frame's time in the smoothed one
-constexpr double kRoom = 0.45;   // of the budget: what a step back may cost
-constexpr int kSoftware = 2;     // where a processor that draws begins
+constexpr double kFollow = 0.3;  // share of a new frame's time in the mean
+constexpr double kRoom = 0.45;   // share of the budget; leaves room for what a step back may cost
+constexpr int kSoftware = 2;     // first step where the processor draws
 
 }  // namespace
 
@@ -40,18 +40,19 @@ Quality FrameGovernor::begin(const Camera& camera, double now) {
 
 void FrameGovernor::end(double took, double redrawn, double now) {
   Step& step = steps_[index()];
-  if (redrawn <= 0) return;  // nothing was drawn: nothing is known
+  if (redrawn <= 0) return;  // nothing was drawn, so nothing was measured
   ++frames_[static_cast<std::size_t>(step.at)];
-  if (first_at_rest_) return;  // it may have drawn anew what the movement left out
+  if (first_at_rest_) return;  // it may have redrawn what was left out during the movement
   const double budget = moving_ ? settings_.moving_s : settings_.work_s;
   step.smoothed += kFollow * (std::min(took, 8 * budget) - step.smoothed);
 
   if (step.smoothed > budget && step.at < settings_.most) {
-    // a step back that did not hold: wait longer before the next
+    // a step back that had to be undone: wait longer before the next
     if (now - step.back_at < 2 * settings_.calm_s)
       step.calm = std::min(2 * step.calm, settings_.calm_most_s);
     ++step.at;
-    step.smoothed = std::min(step.smoothed, 0.8 * budget);  // the new step has not been seen yet
+    step.smoothed = std::min(step.smoothed, 0.8 * budget);  // no frame at the new step has been
+                                                            // measured yet
     step.roomy_since = -1;
     return;
   }

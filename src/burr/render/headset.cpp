@@ -6,7 +6,7 @@
 namespace burr::render {
 namespace {
 
-constexpr double kArm = 0.5;  // how far before the head the work stands  [m of the room]
+constexpr double kArm = 0.5;  // distance of the work in front of the head, in the room [m]
 
 }  // namespace
 
@@ -23,7 +23,7 @@ Camera placed(const Camera& middle, const PlacedEye& room_from_eye) {
   camera.placed = room_from_eye;
   camera.placed->world_from_eye = placed(middle, room_from_eye.world_from_eye);
   camera.field_of_view = 2 * std::atan(0.5 * (room_from_eye.top - room_from_eye.bottom));
-  // whoever bends over the work wants to see what is near
+  // a person who bends over the work wants to see what is near
   camera.distance = std::clamp((middle.target - camera.eye()).norm(), 5e-3, 5.0);
   return camera;
 }

@@ -1,15 +1,16 @@
-// render/headset.h - a headset by OpenXR: where head and wand are, and a picture for each eye.
+// render/headset.h - a headset through OpenXR: pose of head and wand, and a picture for each eye.
 //
 //     auto headset = Headset::start(renderer, false);      // or one sentence why not
-//     each frame:  if (auto now = headset->begin(0.02))    // does not wait longer
+//     each frame:  if (auto now = headset->begin(0.02))      // waits no longer than that
 //                    headset->end(scene, cameras);         // always, once begun
 //                  if (headset->over()) ...               // why(): one sentence
 //
-// OpenXR's loader is opened at run time (libopenxr_loader.so.1, or what BURR_OPENXR_LOADER names)
-// and never linked. The runtime's own wait goes on in a thread of its own, so that a runtime that
-// hangs holds nothing up. Frame: the room as OpenXR's LOCAL space has it, +y up, -z ahead of
-// whoever put the headset on. Units: m. Thread: main, with the renderer, which outlives the
-// headset. Errors: Trouble::io, with what to install or to switch on.
+// OpenXR's loader is opened at run time (libopenxr_loader.so.1, or the one in BURR_OPENXR_LOADER)
+// and never linked. The runtime's own wait runs on a separate thread, so that a runtime that hangs
+// stops nothing else. Frame: the room in OpenXR's LOCAL space, +y up, -z ahead of the person when
+// the headset was put on. Units: m. Thread: main, with the renderer, which must outlive the
+// headset.
+// Errors: Trouble::io, with what to install or to switch on.
 #pragma once
 
 #include <array>
@@ -24,10 +25,10 @@
 
 namespace burr::render {
 
-// What a hand holds.
+// The controller in a hand.
 struct Wand {
-  bool tracked = false;       // else the rest is old or nothing
-  math::Pose room_from_wand;  // points along its -z; as the runtime says it, whatever that is
+  bool tracked = false;       // false: the other members are old or empty
+  math::Pose room_from_wand;  // points along its -z; as the runtime reports it
   double trigger = 0;         // 0..1
 };
 
@@ -40,17 +41,18 @@ class Headset {
 
   struct Now {
     std::array<PlacedEye, 2> room_from_eye;  // left, right; in the room
-    bool eyes = false;                       // the runtime knows where they are, and shows them
+    bool eyes = false;                       // the runtime knows where the eyes are and shows their
+                                             // pictures
     Wand wand;
-    double period = 0;  // of the headset's pictures  [s]
+    double period = 0;  // time between two pictures of the headset [s]
   };
-  // What the runtime has to say; then a frame, if it wants one within wait_s.
+  // Handles the runtime's events; then returns a frame, if it wants one within wait_s.
   [[nodiscard]] std::optional<Now> begin(double wait_s);
-  // Ends it: with the scene from these two cameras, or without a picture if there are no eyes.
+  // Ends the frame: with the scene from these two cameras, or without a picture if eyes is false.
   void end(const Scene& scene, const std::array<Camera, 2>& cameras);
 
   [[nodiscard]] bool running() const;  // it wants pictures
-  [[nodiscard]] bool over() const;     // there will be no more
+  [[nodiscard]] bool over() const;     // it will want no more pictures
   [[nodiscard]] const std::string& why() const;
   [[nodiscard]] const std::string& name() const;  // of the runtime's system
 
@@ -60,8 +62,8 @@ class Headset {
   std::unique_ptr<Work> work_;
 };
 
-// An eye of the room as a camera in the world: what the middle camera looks at stands an arm's
-// length (half a metre) before whoever wears the headset, as large as it is in the window then.
+// An eye of the room as a camera in the world. What the middle camera looks at stands half a metre
+// in front of the person, as large as it appears in the window at that time.
 [[nodiscard]] Camera placed(const Camera& middle, const PlacedEye& room_from_eye);
 [[nodiscard]] math::Pose placed(const Camera& middle, const math::Pose& in_room);
 

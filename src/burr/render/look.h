@@ -1,7 +1,7 @@
-// render/look.h - how a picture looks: lights, shadows in the hollows, background. Plain data.
+// render/look.h - the look of a picture: lights, ambient occlusion, background. Plain data.
 //
 // Colours are sRGB 0..1. Directions are in the eye's frame (x right, y up, z towards the eye): the
-// lights move with the head, as a surgeon's lamp does.
+// lights move with the viewer's head, like a surgeon's lamp.
 #pragma once
 
 #include <array>
@@ -19,23 +19,24 @@ struct Light {
 };
 
 struct Look {
-  Light key = {{-0.55, 0.55, 0.62}, {1.0F, 0.97F, 0.92F}, 1.15};   // makes the relief
-  Light fill = {{0.85, -0.25, 0.45}, {0.80F, 0.88F, 1.0F}, 0.20};  // opens the other side
-  double ambient = 0.22;                                           // from everywhere
-  double gloss = 0.10;         // bone is a little wet; 0 is chalk
+  Light key = {{-0.55, 0.55, 0.62}, {1.0F, 0.97F, 0.92F}, 1.15};   // main light; shows the relief
+  Light fill = {{0.85, -0.25, 0.45}, {0.80F, 0.88F, 1.0F}, 0.20};  // brightens the other side
+  double ambient = 0.22;                                           // light from all directions
+  double gloss = 0.10;         // bone is a little wet; 0 is like chalk
   double hollow = 1.0;         // ambient occlusion, 0 none .. 1 full
   double hollow_reach = 0.08;  // its radius, in heights of the picture at the target
-  int hollow_samples = 10;     // per pixel; 10 for a window without a GPU, 32 for a still
-  bool hollow_half = true;     // at half the resolution: four times cheaper, a little softer
+  int hollow_samples = 10;     // per pixel; 10 for a window without a GPU, 32 for a still picture
+  bool hollow_half = true;     // at half resolution: four times cheaper, a little softer
   int supersample = 1;         // n x n samples per pixel; 1 for a window without a GPU, 2 or 3 for
-                               // a still
-  double opacity = 1;          // of bone; below 1 what lies in it or behind it is seen
-  bool plain = false;          // only Lambert from the eye, no other light: to measure by
+                               // a still picture
+  double opacity = 1;          // of bone; below 1 shows what lies in it or behind it
+  bool plain = false;          // only Lambert with a light at the eye: for measurements in the
+                               // picture
   Colour background_top = {0.20F, 0.23F, 0.27F};
   Colour background_bottom = {0.09F, 0.10F, 0.12F};
 };
 
-// For stills: everything at full resolution.
+// For still pictures: everything at full resolution.
 [[nodiscard]] inline Look still_look() {
   Look look;
   look.hollow_samples = 24;

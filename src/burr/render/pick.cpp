@@ -8,13 +8,13 @@ using math::Vec3;
 
 namespace {
 
-// where the ray enters the box, or infinity; slabs (Kay & Kajiya 1986)
+// The distance at which the ray enters the box, or infinity; slabs (Kay & Kajiya 1986).
 double entry(const math::Aabb& box, const Ray& ray, const Vec3& inverse) {
   double in = 0, out = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
     const double a = (box.lo[axis] - ray.origin[axis]) * inverse[axis];
     const double b = (box.hi[axis] - ray.origin[axis]) * inverse[axis];
-    // written so that 0 * inf on a face of the box leaves in and out alone
+    // written so that 0 * inf on a face of the box changes neither in nor out
     in = std::max(in, std::min(a, b));
     out = std::min(out, std::max(a, b));
   }

@@ -1,8 +1,8 @@
-// render/pick.h - which point of the bone lies under the mouse.
+// render/pick.h - the point of the bone under the mouse.
 //
-// By ray against the scene's triangles, front faces only, nearest first; needs no GPU, and the burr
-// is never in the way, nor is what a clip plane hides; its section is not hit. Thread: any. Cost: a
-// box test per patch, triangles of those hit.
+// Tests a ray against the scene's triangles, front faces only, nearest first; needs no GPU. The
+// burr and what a clip plane hides are not hit, and neither is the flat face of the section.
+// Thread: any. Cost: a box test per patch, and the triangles of the patches that are hit.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,10 @@
 namespace burr::render {
 
 struct Hit {
-  math::Vec3 p = math::Vec3::Zero();  // on the surface                       [m]
+  math::Vec3 p = math::Vec3::Zero();  // on the surface [m]
   math::Vec3 n = math::Vec3::Zero();  // unit, out of the bone, interpolated from the vertices
   volume::TissueId tissue = 0;
-  double distance = 0;  // from the ray's origin                              [m]
+  double distance = 0;  // from the ray's origin [m]
 };
 
 [[nodiscard]] std::optional<Hit> pick(const Scene& scene, const Ray& ray);

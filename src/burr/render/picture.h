@@ -1,11 +1,12 @@
-// render/picture.h - scenes as PNG files: one picture of any size, or a film of many.
+// render/picture.h - writes scenes as PNG files: one picture of any size, or a film of many.
 //
 //     Status status = render_png(scene, 1280, 720, "bone.png");
 //     Film film = ...;  film.frame(scene);          // dir/frame_000001.png, 000002 ...
 //
-// Needs no display. Files are written beside and renamed; they hold the pixels and nothing else: no
-// time, no name, no path. Errors: Trouble::io when no picture can be drawn (no OpenGL; the sentence
-// says which packages help) or written, Trouble::usage for an impossible size.
+// Needs no display. A file is written under another name beside its final place and then renamed.
+// It holds the pixels and nothing else: no time, no name, no path. Errors: Trouble::io when no
+// picture can be drawn (no OpenGL; the message says which packages help) or written, Trouble::usage
+// for an impossible size.
 // Thread: main only (SDL). Cost: see bench/render.
 #pragma once
 
@@ -20,7 +21,7 @@ namespace burr::render {
 
 class Renderer;
 
-// Any size up to 65536 a side: what is larger than the GPU can hold at once is drawn in tiles.
+// Any size up to 65536 a side: a picture larger than the GPU can hold at once is drawn in tiles.
 [[nodiscard]] Result<Image> render_image(const Scene& scene, int width, int height);
 
 [[nodiscard]] Status write_png(const Image& image, const std::filesystem::path& path);
@@ -28,8 +29,8 @@ class Renderer;
 [[nodiscard]] Status render_png(const Scene& scene, int width, int height,
                                 const std::filesystem::path& path);
 
-// A film as a sequence of numbered pictures, for ffmpeg -i frame_%06d.png. Keeps the bone on the
-// GPU between frames, so that only what changed is sent again.
+// A film as a sequence of numbered pictures, for ffmpeg -i frame_%06d.png. The bone stays on the
+// GPU between frames, so that only changes are sent.
 class Film {
  public:
   // Makes the folder. An older film in it is overwritten frame by frame.

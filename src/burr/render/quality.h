@@ -1,25 +1,26 @@
-// render/quality.h - how much of a picture may be left out for speed, and made good later. Plain
-// data; what a Governor decides from (governor.h). An image() is never less than whole.
+// render/quality.h - what of a picture may be left out for speed and drawn later. Plain data, set
+// by the governor (governor.h). An image() is always complete.
 #pragma once
 
 namespace burr::render {
 
 struct Quality {
-  // of a picture drawn whole, as while the eye moves
+  // for a picture that is drawn whole, as while the eye moves
   bool hollows = true;   // false: no ambient occlusion
-  double coarse_px = 0;  // how far a coarser surface may be off, in pixels of the window; 0: none
+  double coarse_px = 0;  // largest error of a coarser surface, in pixels of the window; 0: full
+                         // detail
 
-  // where bone changes before an eye that rests
-  bool hollows_later = false;  // leaves the old ones there
+  // where the bone changes in front of an eye at rest
+  bool hollows_later = false;  // keep the old ones there for now
   double coarse_still_px = 0;
 
-  // how seldom what milling leaves on bone is drawn anew (wound.h)  [s]
+  // time between two updates of dust, water and blood on the bone (wound.h) [s]
   double dress_s = 0.1;
 
-  // makes good, piece by piece, what was left out before
+  // draw, piece by piece, what was left out before
   bool refine = true;
 
-  double scale = 1;  // samples over pixels, along a side; at most 1
+  double scale = 1;  // samples / pixels along a side; at most 1
 };
 
 }  // namespace burr::render

@@ -1,10 +1,10 @@
 // render/renderer.h - draws scenes: into a picture without a display, or into a window.
 //
-// Keeps what it drew: a patch of bone is sent to the GPU again only when its version changed, and a
-// window is drawn again only where something moved, so that milling before a resting eye is cheap
-// even without a GPU. OpenGL 3.3 core, or OpenGL ES 3.0 where there is nothing better; both look
-// the same. Thread: main only; one thread for all renderers (SDL). Errors: Trouble::io with what to
-// install or what to make smaller. Cost: see bench/render.
+// It keeps what it drew: a patch of bone is sent to the GPU again only when its version changed,
+// and a window is redrawn only where something moved, so milling in front of an eye at rest is
+// cheap even without a GPU. OpenGL 3.3 core, or OpenGL ES 3.0 where there is nothing better; both
+// give the same picture. Thread: main only; one thread for all renderers (SDL). Errors:
+// Trouble::io, with what to install or what to make smaller. Cost: see bench/render.
 #pragma once
 
 #include <functional>
@@ -26,10 +26,10 @@ enum class Api {
 
 class Renderer {
  public:
-  // Without a display, or beside one.
+  // For pictures without a display, or beside a window.
   [[nodiscard]] static Result<std::unique_ptr<Renderer>> offscreen(Api api = Api::any);
   // With a window of that size, which the user may resize. Its events come through SDL.
-  // quad_buffer: with a picture for each eye if the driver has such; see quad_buffer().
+  // quad_buffer: ask for a picture for each eye, if the driver has that; see quad_buffer().
   [[nodiscard]] static Result<std::unique_ptr<Renderer>> window(const std::string& title, int width,
                                                                 int height,
                                                                 bool quad_buffer = false);
@@ -37,22 +37,23 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // A picture of any size up to 65536 a side. tile: largest piece drawn at once, in pixels of the
-  // picture; 0: what the GPU can hold.
+  // A picture of any size up to 65536 a side. tile: largest piece that is drawn at once, in pixels
+  // of the picture; 0: as large as the GPU can hold.
   [[nodiscard]] Result<Image> image(const Scene& scene, int width, int height, int tile = 0);
 
-  // Draws into the window (at most as often as the screen shows) and shows it. Without a window:
-  // draws all the same, for benchmarks. over: draws on top before it is shown, with OpenGL of its
-  // own into the framebuffer then bound, which has the window's size; leaves bindings as found.
+  // Draws into the window (at most at the screen's rate) and shows it. Without a window it draws
+  // all the same, for benchmarks. over: draws on top, with its own OpenGL calls, before the picture
+  // is shown, into the framebuffer then bound, which has the window's size; it must leave the
+  // bindings as found.
   Status show(const Scene& scene, const std::function<void()>& over = {});
-  // The same for two eyes on both sides of the scene's camera, each with all that lies over it, so
-  // that `over` draws twice. A quad_buffer that is not there is shown as off.
+  // The same for two eyes to either side of the scene's camera. Each gets the overlay, so `over` is
+  // called twice. Stereo::quad_buffer without such a buffer is shown as off.
   Status show(const Scene& scene, const TwoEyes& eyes, const std::function<void()>& over = {});
   void title(const std::string& text);
-  // For whoever draws with OpenGL of its own.
+  // For a caller that draws with its own OpenGL calls.
   void make_current();
 
-  // Leave out patches of bone that others hide (on by default; only a software renderer does). The
+  // Skip patches of bone that others hide (on by default; only a software renderer does it). The
   // picture is the same either way.
   void skip_hidden(bool on);
 
@@ -61,33 +62,33 @@ class Renderer {
   [[nodiscard]] int height() const;
   void resize_offscreen(int width, int height);
 
-  // Into a texture of OpenGL's of that size, whose picture begins at the bottom: for a headset's
-  // left (0) and right (1) eye. Each has a held picture of its own, beside the window's.
+  // Draws into an OpenGL texture of that size, first row at the bottom: for a headset's left (0)
+  // and right (1) eye. Each keeps its own picture, separate from the window's.
   Status eye(const Scene& scene, int which, unsigned texture, int width, int height);
-  // Whether show() waits for the screen, as it does at first; a headset has a pace of its own.
+  // Whether show() waits for the screen; true at first. A headset has a rate of its own.
   void wait_for_screen(bool on);
 
-  // The window has a picture for each eye.
+  // True: the window has a picture for each eye.
   [[nodiscard]] bool quad_buffer() const;
 
   // "llvmpipe (LLVM 15.0.6, 256 bits)"
   [[nodiscard]] std::string gpu() const;
   [[nodiscard]] bool software() const;  // the processor draws
   [[nodiscard]] bool es() const;        // OpenGL ES, see Api
-  // Nothing is left to be made good of what scene.quality left out: the next picture of the same
-  // scene is this one.
+  // True: nothing that scene.quality left out remains to be drawn; the next picture of the same
+  // scene would be the same.
   [[nodiscard]] bool refined() const;
 
-  // What the last show() or image() did.
+  // Figures of the last show() or image().
   struct Figures {
     int patches_uploaded = 0;
     int patches_drawn = 0;
     long triangles_drawn = 0;
-    double redrawn = 0;  // part of the picture drawn anew, 0..1
+    double redrawn = 0;  // share of the picture that was redrawn, 0..1
   };
   [[nodiscard]] Figures figures() const;
 
-  // The picture of the last show() with all that was drawn over it, for tests and for pictures of a
+  // The picture of the last show() with everything drawn over it, for tests and for pictures of a
   // session.
   [[nodiscard]] Image shown();
 

@@ -1,11 +1,12 @@
-// render/scene.h - what there is to see: plain data, nothing of a GPU.
+// render/scene.h - everything that can be seen, as plain data without a GPU.
 //
 //     Scene scene;
 //     scene.tissue_colours = colours_of(bone.tissues());
 //     set_patch(scene, 17, patch);                       // again whenever the bone changed there
 //     scene.camera = whole_view(scene, 0, 0.3, 16.0 / 9);
 //
-// Frame: world (LPS). Units: m. Thread: one at a time; a copy is cheap, the patches are shared.
+// Frame: world (LPS). Units: m. Thread: one at a time. A copy is cheap, because the patches are
+// shared.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,7 @@
 
 namespace burr::render {
 
-// What milling left on a vertex for now (wound.h), of 255.
+// What milling left on a vertex for a while (wound.h), of 255.
 struct Dress {
   std::uint8_t fresh = 0;  // cut just now: pale and grainy
   std::uint8_t wet = 0;    // dark and glossy
@@ -37,34 +38,35 @@ struct Dress {
 };
 static_assert(sizeof(Dress) == 4, "goes to the GPU as it is");
 
-// One patch of surface. Whoever draws keeps its own copy and renews it when `version` differs.
+// One patch of surface. A renderer keeps its own copy and renews it when `version` differs.
 struct ScenePatch {
   std::shared_ptr<const SkinMesh> mesh;  // nullptr: no surface here
   std::uint64_t version = 0;
-  // one for each vertex; nullptr: bone as ever. Sent again when it is another one.
+  // one for each vertex; nullptr: plain bone. Sent again when the pointer changes.
   std::shared_ptr<const std::vector<Dress>> dress;
-  math::Aabb box;  // of its vertices
+  math::Aabb box;  // around its vertices
 };
 
-// Several patches with fewer triangles, drawn in their place where that is near enough and none of
-// them has changed since (coarsening.h). A large block holds smaller ones.
+// Several patches with fewer triangles. Drawn in place of the patches where its error is small
+// enough and none of the patches has changed since (coarsening.h). A large block contains smaller
+// ones.
 struct SceneBlock {
-  std::vector<int> patches;  // all that it stands for
-  std::vector<int> inner;  // numbers of the blocks it is made of, lower ones; none: of the patches
-  int outer = -1;          // number of the block it is part of; -1: of none
-  std::uint64_t now = 0;   // the patches' versions, added up
+  std::vector<int> patches;  // all patches that it replaces
+  std::vector<int> inner;    // numbers of the (lower) blocks it is made of; empty: made of patches
+  int outer = -1;            // number of the block that contains it; -1: none
+  std::uint64_t now = 0;     // sum of the patches' present versions
   std::shared_ptr<const CoarseMesh> mesh;  // nullptr: none made
-  std::uint64_t versions = 0;              // what `now` was when it was made
+  std::uint64_t versions = 0;              // value of `now` when the mesh was made
 };
 
-// The tool in the hand: a fluted or grainy ball on a shaft, which leaves along the tool's +z.
+// The tool in the hand: a fluted or grainy ball on a shaft, which extends along the tool's +z.
 struct Burr {
   bool visible = false;
   math::Pose world_from_tool;    // origin: centre of the head
-  double radius = 2.5e-3;        // of the head                                     [m]
+  double radius = 2.5e-3;        // of the head [m]
   double shaft_radius = 1.2e-3;  // [m]
   double shaft_length = 70e-3;   // [m]
-  double turn = 0;               // of the spindle                                  [rad]
+  double turn = 0;               // of the spindle [rad]
   bool diamond = false;          // grains in place of flutes
 };
 
@@ -72,7 +74,7 @@ struct Marker {
   math::Vec3 p = math::Vec3::Zero();
   double radius = 0.4e-3;  // [m]
   Colour colour = {1, 1, 1};
-  bool on_top = false;  // seen through everything
+  bool on_top = false;  // visible through everything
 };
 
 // A line as a thin rod; with a head at b if it is an arrow.
@@ -84,31 +86,33 @@ struct Rod {
   bool on_top = false;
 };
 
-// What mirror mode shows, as outlines over everything: a frame in the plane, and the burr's image.
+// Outlines of mirror mode, drawn over everything: a frame in the plane, and the burr's mirror
+// image.
 struct Mirrored {
   math::Pose world_from_tool;              // of the image
   std::array<math::Vec3, 4> corners = {};  // of the plane, around
-  double line = 0.15e-3;                   // radius of the lines                         [m]
+  double line = 0.15e-3;                   // radius of the lines [m]
 };
 
-// What lies on the side that n points to is not drawn; the bone's section is closed by a flat face.
+// Everything on the side that n points to is not drawn; a flat face closes the bone's section.
 struct ClipPlane {
   math::Vec3 p = math::Vec3::Zero();
   math::Vec3 n = math::Vec3::UnitZ();  // unit
 };
 
-// A picture in the picture, with a word in its corner.
+// A picture in the picture, with a text in its corner.
 struct Inset {
-  std::shared_ptr<const Image> image;  // sent again when this is another one
+  std::shared_ptr<const Image> image;  // sent again when the pointer changes
   int x = 0, y = 0, width = 0,
       height = 0;  // of the whole picture, from its top left corner [pixel]
 };
 
 struct Scene {
   std::vector<ScenePatch> patches;     // index: number of the patch, as surface/mesher.h counts
-  Changes changes;                     // of the patches; set_patch() and set_dress() tell it
-  std::vector<SceneBlock> blocks;      // none: nothing is drawn coarser
-  std::vector<int> block_of;           // (patches) the smallest block; short: of the rest none
+  Changes changes;                     // of the patches; kept by set_patch() and set_dress()
+  std::vector<SceneBlock> blocks;      // empty: nothing is drawn coarser
+  std::vector<int> block_of;           // (patches) the smallest block of each; patches beyond its
+                                       // end have none
   std::vector<Colour> tissue_colours;  // index: TissueId
   Burr burr;
   std::vector<Marker> markers;
@@ -118,40 +122,41 @@ struct Scene {
   Look look;
   Quality quality;                // of a window's picture
   std::optional<ClipPlane> clip;  // of the bone
-  bool round = false;             // only a circle is seen, as through a microscope or endoscope
+  bool round = false;             // only a circle is visible, as through a microscope or endoscope
   std::vector<Inset> insets;      // over it
-  bool scale_bar = false;         // bottom right; true at the depth of the camera's target
+  bool scale_bar = false;         // bottom right; its length is true at the depth of the camera's
+                                  // target
   std::vector<std::string> text;  // lines, top left; ASCII
 };
 
-// tissues' own colours, one per id
+// the tissues' own colours, one per id
 [[nodiscard]] std::vector<Colour> colours_of(const volume::TissueTable& tissues);
 
-// The same without labels: whatever it is, in the colour of bone.
+// Colours without labels: every tissue gets the colour of bone.
 [[nodiscard]] std::vector<Colour> as_bone(std::vector<Colour> colours);
 
-// Puts a patch at its place (grows the list if needed) and raises its version.
+// Puts a patch at its index (extends the list if needed) and raises its version.
 void set_patch(Scene& scene, int index, const surface::Patch& patch);
-// The same in two steps, the first of them on any thread.
+// The same in two steps; packed() may run on any thread.
 [[nodiscard]] ScenePatch packed(const surface::Patch& patch);
 void set_patch(Scene& scene, int index, ScenePatch&& patch);
-// Of a patch that is there.
+// Sets the dress of a patch that exists.
 void set_dress(Scene& scene, int index, std::shared_ptr<const std::vector<Dress>> dress);
 
-// The versions of a block's patches as they are now, added up: they only grow, so the same sum is
-// the same patches.
+// Sum of the present versions of a block's patches. Versions only grow, so equal sums mean equal
+// patches.
 [[nodiscard]] std::uint64_t versions_of(const Scene& scene, const SceneBlock& block);
 
-// All patches; empty if there is none.
+// The box around all patches; empty if there are none.
 [[nodiscard]] math::Aabb bounds(const Scene& scene);
 
-// All of the bone in the picture, as fit() in camera.h.
+// A camera with all of the bone in the picture, as fit() in camera.h.
 [[nodiscard]] Camera whole_view(const Scene& scene, double azimuth, double elevation,
                                 double aspect);
 
-// Hand and contact made visible: where the hand really is, a line to the burr that was held back,
-// and the force as an arrow of `length_per_newton`. Replaces earlier marks of this kind, which are
-// all marks of the scene.
+// Marks for hand and contact: the true position of the hand, a line from it to the burr that the
+// bone holds back, and the force as an arrow of `length_per_newton` [m/N]. They replace all marks
+// of the scene.
 void show_contact(Scene& scene, const math::Vec3& hand, const math::Vec3& proxy,
                   const math::Vec3& force, double length_per_newton = 8e-3);
 

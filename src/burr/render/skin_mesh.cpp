@@ -6,13 +6,14 @@
 namespace burr::render {
 namespace {
 
-// 4095 values, of which one is 0: what looks along an axis does so exactly
+// 4095 values, one of which is 0, so that a normal along an axis is exact
 constexpr float kHalf = 2047.0F;
 
 float sign(float v) { return v >= 0 ? 1.0F : -1.0F; }
 
 std::uint32_t step(float v) {
-  // never negative: cut off, a half above, is rounded, and many times as quick as std::lround
+  // The value is never negative: adding a half and truncating rounds it, many times faster than
+  // std::lround.
   return static_cast<std::uint32_t>(
       static_cast<int>((std::clamp(v, -1.0F, 1.0F) + 1.0F) * kHalf + 0.5F));
 }

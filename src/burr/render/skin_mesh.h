@@ -1,9 +1,9 @@
-// render/skin_mesh.h - a patch of surface as it is kept to be drawn and picked: 20 B a vertex and
-// 2 B an index, where surface::Patch has 28 and 4.
+// render/skin_mesh.h - a patch of surface in compact form for drawing and picking: 20 B a vertex
+// and 2 B an index, where surface::Patch has 28 and 4.
 //
-// Places are those of the patch to the bit, so that seams stay closed. Normals are folded into an
-// octahedron of 2 x 12 bit (Meyer et al. 2010): within 0.06 degrees. Exported meshes are made from
-// the field and never pass through here.
+// Positions are those of the patch to the bit, so that seams stay closed. Normals are stored as an
+// octahedron map of 2 x 12 bit (Meyer et al. 2010), exact to 0.06 degrees. Exported meshes are made
+// from the field and never use this form.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,10 @@
 namespace burr::render {
 
 struct SkinVertex {
-  math::Vec3f p;           // world, LPS                                   [m]
-  std::uint32_t rest = 0;  // tissue: 8 bit; the normal's fold along x, y: 12 bit each
-  // what shines through: tissue, how much of 255, and how far this is the wall of what it fills:
-  // 8 bit each
+  math::Vec3f p;           // world, LPS [m]
+  std::uint32_t rest = 0;  // tissue: 8 bit; x and y of the octahedron map: 12 bit each
+  // what shines through, 8 bit each: its tissue, its share of 255, and how far this vertex is part
+  // of the wall around it
   std::uint32_t under = 0;
 };
 static_assert(sizeof(SkinVertex) == 20, "goes to the GPU as it is");
@@ -41,7 +41,7 @@ class SkinMesh {
   [[nodiscard]] std::uint32_t index(std::size_t n) const {
     return large_.empty() ? small_[n] : large_[n];
   }
-  // One of them is empty: 16 bit unless there are too many vertices.
+  // One of the two is empty: 16 bit unless there are too many vertices.
   [[nodiscard]] const std::vector<std::uint16_t>& small_indices() const { return small_; }
   [[nodiscard]] const std::vector<std::uint32_t>& large_indices() const { return large_; }
   [[nodiscard]] bool has_walls() const { return walls_; }

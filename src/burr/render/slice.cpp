@@ -11,25 +11,25 @@ using volume::kBrickEdge;
 
 namespace {
 
-constexpr int kTries = 8;  // while the servo writes a brick
+constexpr int kTries = 8;  // while the servo is writing a brick
 constexpr Colour kAir = {0.03F, 0.03F, 0.04F};
 constexpr Colour kBone = {0.86F, 0.86F, 0.84F};
-constexpr float kSoft = 0.45F;    // of a soft tissue's colour
-constexpr float kTint = 0.2F;     // of a tissue's colour over what the scan measured
-constexpr double kClearly = 0.1;  // of the way from the least value to bone's
+constexpr float kSoft = 0.45F;    // factor for a soft tissue's colour
+constexpr float kTint = 0.2F;     // share of a tissue's colour over the scan's value
+constexpr double kClearly = 0.1;  // share of the way from the least value to that of bone
 
 std::uint8_t unorm(float v) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0F, 1.0F) * 255.0F));
 }
 
-// What the scan measured there, and what has become of it. solid: 0 air .. 1 bone, as it is now;
-// bone: its colour; what: its tissue, nullptr: not asked for.
+// The scan's value at a point, and the change since. solid: 0 air .. 1 bone, at present; bone: its
+// colour; what: its tissue, nullptr: not shown.
 Colour over_greys(const Slice& slice, double measured, float solid, const Colour& bone,
                   const volume::Tissue* what) {
   const volume::Greys& greys = *slice.greys;
   const auto grey = static_cast<float>(
       std::clamp((measured - slice.level) / std::max(slice.window, 1e-9) + 0.5, 0.0, 1.0));
-  // clearly bone, or clearly not, when it was scanned: noise at the level is neither
+  // clearly bone or clearly not, in the scan: noise around the level is neither
   const double edge = std::max(kClearly * (greys.iso - greys.least), 1e-9);
   const auto was = static_cast<float>(std::clamp((measured - greys.iso) / edge, 0.0, 1.0)),
              was_not = static_cast<float>(std::clamp((greys.iso - measured) / edge - 1, 0.0, 1.0));
@@ -130,7 +130,7 @@ bool Slicer::draw(const Slice& slice, Image& image) {
                          (o.z() != 0 ? part.z() : 1 - part.z());
         if (w > 0) value += w * field(at + o);
       }
-      // a voxel from air to bone
+      // the change from air to bone takes one voxel
       const auto solid = static_cast<float>(
           std::clamp((value - volume::kIso) / volume::kFieldPerVoxel + 0.5, 0.0, 1.0));
       Colour bone = kBone, air = kAir;

@@ -1,7 +1,7 @@
-// render/stereo.h - two eyes: the cameras, and their two pictures as one.
+// render/stereo.h - stereo: the cameras of two eyes, and the joining of their two pictures.
 //
-// Both eyes look at the same plane, that of the target, without turning in (off-axis frusta), so
-// that nothing is tilted. Frame: world. Units: m.
+// The eyes' axes are parallel, and both pictures show the same part of the target's plane (off-axis
+// frusta), so nothing is tilted. Frame: world. Units: m.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +14,30 @@ namespace burr::render {
 
 enum class Stereo : std::uint8_t {
   off,
-  side_by_side,  // left eye's picture at the left, both squeezed to half their width
-  anaglyph,      // red from the left eye, green and blue from the right; shades of grey, as
-                 // colours of their own would flicker
+  side_by_side,  // left eye's picture at the left, both compressed to half their width
+  anaglyph,      // red from the left eye, green and blue from the right; in grey, because colours
+                 // would flicker
   interleaved,   // even rows from the left eye, odd ones from the right
-  quad_buffer,   // a picture each, for a screen that shows them in turn; of windows only
+  quad_buffer,   // a picture for each eye, for a screen that alternates them; only for windows
 };
 
-// How a window is looked at with two eyes.
+// Settings of a window for two eyes.
 struct TwoEyes {
   Stereo how = Stereo::off;
-  double apart = 0;      // the eyes, see eyes_of()                                         [m]
-  bool swapped = false;  // left and right changed over, for screens that show them so
-  int first_row = 0;     // of the screen on which the window begins, for interleaved       [pixel]
+  double apart = 0;      // distance of the eyes, see eyes_of() [m]
+  bool swapped = false;  // left and right exchanged, for screens that need it
+  int first_row = 0;     // row of the screen on which the window begins, for interleaved [pixel]
 };
 
-// Eyes this far apart, as if one looked at the target from this camera. A share of the distance is
-// comfortable: 1/30.
+// The cameras of two eyes that look at the target from this camera. A comfortable distance between
+// the eyes is 1/30 of the distance to the target.
 inline constexpr double kComfortable = 1.0 / 30;
 struct Eyes {
   Camera left, right;
 };
 [[nodiscard]] Eyes eyes_of(const Camera& camera, double apart);
 
-// Both pictures are of the same size, and so is the result. off, quad_buffer: the left one.
+// Both pictures have the same size, and so has the result. off, quad_buffer: the left picture.
 [[nodiscard]] Image joined(const Image& left, const Image& right, Stereo how);
 
 }  // namespace burr::render

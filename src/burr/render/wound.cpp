@@ -1,4 +1,4 @@
-// The grid, and what time and tool do to it. How it comes to be seen: wound_dress.cpp.
+// The grid, and how time and tool change it. For how it is shown see wound_dress.cpp.
 #include "burr/render/wound.h"
 
 #include <algorithm>
@@ -15,12 +15,12 @@ using math::Vec3;
 
 namespace {
 
-constexpr int kRoom = 12;        // of the tool to the grid's side, at least  [cell]
-constexpr double kKnown = 0.3;   // where the tool was in between is known that long  [s]
-constexpr double kStep = 0.1;    // of the blood: a cell in each                      [s]
-constexpr float kLeast = 1e-3F;  // less of it is nothing
+constexpr int kRoom = 12;        // least distance of the tool from the border of the grid [cell]
+constexpr double kKnown = 0.3;   // longest pause across which the tool's path is interpolated [s]
+constexpr double kStep = 0.1;    // time step of the blood: one cell per step [s]
+constexpr float kLeast = 1e-3F;  // less than this counts as nothing
 
-// of a point from the line between two
+// Distance of a point from the line between two points.
 double distance(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 way = b - a;
   const double length = way.squaredNorm();
@@ -58,7 +58,7 @@ std::size_t Wound::index(int i, int j, int k) const {
   return static_cast<std::size_t>((k * kEdge + j) * kEdge + i);
 }
 
-// The grid goes along with the tool; what falls out of it is forgotten.
+// The grid moves with the tool; what leaves the grid is forgotten.
 void Wound::centre(const Vec3& p) {
   const Ijk at = (p / cell_).array().floor().cast<int>();
   if (cells_.empty()) {
@@ -106,7 +106,7 @@ void Wound::dull(double seconds) {
   high_ = high;
 }
 
-// change(cell, distance of its middle from the line a-b)
+// Calls change(cell, distance of its middle from the line a-b).
 template <class Change>
 void Wound::each_near(const Vec3& a, const Vec3& b, double reach, const Change& change) {
   const Vec3 lo = a.cwiseMin(b).array() - reach, hi = a.cwiseMax(b).array() + reach;
@@ -149,10 +149,10 @@ void Wound::cut(const Tick& tick, const Vec3& from, double removed) {
   airborne_ += removed / kSolid;
   each_near(from, tick.tip, tick.radius + (kFar - 1) * cell_, [&](Cell& cell, double d) {
     cell.off = std::min(cell.off, static_cast<float>((d - tick.radius) / cell_));
-    // a cell and a bit more, so that what is between cells is fresh all through
+    // a cell and a bit more, so that everything between cell centres is fresh
     if (d > tick.radius + 1.2 * cell_) return;
     cell.look.fresh = 1;
-    cell.look.dust = cell.look.blood = 0;  // swept
+    cell.look.dust = cell.look.blood = 0;  // swept away
   });
 }
 
@@ -168,7 +168,7 @@ void Wound::soak(const Tick& tick, const Vec3& from, double seconds) {
   const auto soaks = static_cast<float>(seconds / kSoaks);
   const float washed = left_after(seconds, kWashes);
   each_near(from, tick.tip, tick.radius + kSpray, [&](Cell& cell, double d) {
-    // less at the rim of the spray
+    // less at the edge of the spray
     const double rim = (tick.radius + kSpray - d) / (0.4 * kSpray);
     const auto most = static_cast<float>(std::min(1.0, rim));
     State& look = cell.look;
@@ -193,15 +193,15 @@ void Wound::suck(const Vec3& mouth, double radius, double seconds) {
   });
 }
 
-// Thickest under the tool, none at the rim: a cone of the volume that comes down.
+// Dust is thickest under the tool and zero at the edge: a cone with the volume that settles.
 void Wound::settle(const Tick& tick, double seconds) {
   const double down = airborne_ * (1 - std::exp(-seconds / kSettles));
   airborne_ = airborne_ - down < 1e-15 ? 0 : airborne_ - down;
-  if (tick.irrigated || cells_.empty() || down <= 0) return;  // water takes it along
+  if (tick.irrigated || cells_.empty() || down <= 0) return;  // water carries it away
   const double reach = tick.radius + kStrews,
                thickest = 3 * down / (std::numbers::pi * reach * reach);
   each_near(tick.tip, tick.tip, reach, [&](Cell& cell, double d) {
-    if (cell.off < 1.2F && d < tick.radius + 1.2 * cell_) return;  // where the burr is, it sweeps
+    if (cell.off < 1.2F && d < tick.radius + 1.2 * cell_) return;  // the burr sweeps where it is
     const double thick = thickest * (1 - d / reach);
     const auto hidden = static_cast<float>(1 - std::exp(-thick / kCovers));
     cell.look.dust += (1 - cell.look.dust) * hidden;
@@ -218,7 +218,7 @@ void Wound::bleed(double seconds) {
   }
 }
 
-// What is more than a cell holds goes on to the surface beside it, one cell in a step.
+// What is more than a cell can hold flows to the surface beside it, one cell per step.
 void Wound::flow(double seconds) {
   bleeds_ = false;
   running_.clear();
@@ -233,12 +233,12 @@ void Wound::flow(double seconds) {
         if (cell.look.blood > 1) running_.push_back(index(i, j, k));
       }
   const Vec3 down = -up_.value_or(Vec3::UnitZ());
-  constexpr double kUphill = 0.35;  // of the weight of a way that leads down
+  constexpr double kUphill = 0.35;  // share of the weight of a way that leads down
   for (const std::size_t from : running_) {
     const auto n = static_cast<int>(from);
     const Ijk at(n % kEdge, n / kEdge % kEdge, n / (kEdge * kEdge));
     if (at.minCoeff() < 1 || at.maxCoeff() + 1 >= kEdge) {
-      cells_[from].look.blood = 1;  // out of the grid
+      cells_[from].look.blood = 1;  // flows out of the grid
       continue;
     }
     std::array<std::pair<Cell*, float>, 26> ways;
@@ -249,7 +249,7 @@ void Wound::flow(double seconds) {
       if (way == 13) continue;
       Cell& to = cells_[index(at.x() + by.x(), at.y() + by.y(), at.z() + by.z())];
       const double falls = by.cast<double>().normalized().dot(down);
-      // what is full passes on, but what is empty takes more
+      // a full neighbour passes blood on, but an empty one takes more
       const double weight = std::max(0.0, falls + kUphill) * (1.1 - std::min(1.0F, to.look.blood));
       if (!to.skin || weight <= 0) continue;
       ways[count++] = {&to, static_cast<float>(weight)};
@@ -259,15 +259,15 @@ void Wound::flow(double seconds) {
     if (sum > 0)
       for (std::size_t w = 0; w < count; ++w)
         ways[w].first->look.blood += more * ways[w].second / sum;
-    cells_[from].look.blood = 1;  // where there is no way it runs off unseen
+    cells_[from].look.blood = 1;  // where there is no way on, it runs off unseen
     low_ = low_.cwiseMin(at - Ijk::Ones());
     high_ = high_.cwiseMax(at + Ijk::Constant(2));
   }
 }
 
-// ---- asked
+// ---- queries
 
-// Of the eight cells around a place.
+// The mean of the eight cells around a place.
 Wound::Cell Wound::mean_at(const Vec3& p) const {
   if (cells_.empty()) return {};
   const Vec3 q = p / cell_ - first_.cast<double>() - Vec3::Constant(0.5);

@@ -1,4 +1,5 @@
-// How a wound comes to be seen, and what the surface tells it: where it is, and what was opened.
+// How a wound is shown, and what it learns from the surface: where the surface is and which tissue
+// was opened.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -15,16 +16,19 @@ using math::Vec3;
 
 namespace {
 
-constexpr int kLevels = 32;           // a dress is told in: fewer are sent more seldom
-constexpr double kCutFace = 0.75;     // off the tool's way: the surface it left            [voxel]
-constexpr double kStillBleeds = 4.0;  // before a still                                     [s]
+constexpr int kLevels = 32;           // number of levels of a dress: with fewer levels it is sent
+                                      // less often
+constexpr double kCutFace = 0.75;     // within this distance of the tool's path a vertex belongs to
+                                      // the cut face [voxel]
+constexpr double kStillBleeds = 4.0;  // blood runs for so long before a still picture [s]
 
 std::uint8_t level(float v) {
   const auto step = static_cast<int>(std::lround(std::clamp(v, 0.0F, 1.0F) * kLevels));
   return static_cast<std::uint8_t>(step * 255 / kLevels);
 }
 
-// What bleeds there when it is opened: of a canal's wall, what fills the canal.
+// The tissue that bleeds when the bone is opened there: for the wall of a canal, what fills the
+// canal.
 volume::TissueId tissue_behind(const SkinVertex& vertex) {
   const bool wall = (vertex.under >> 16 & 0xFFU) >= 128;
   return wall ? static_cast<volume::TissueId>(vertex.under & 0xFFU) : tissue_of(vertex);
@@ -32,8 +36,9 @@ volume::TissueId tissue_behind(const SkinVertex& vertex) {
 
 }  // namespace
 
-// A vertex on the surface the tool left, of what bleeds: there it was opened. A canal that the tool
-// has not reached has none, however thin the bone before it.
+// Where a vertex of a bleeding tissue lies on the surface that the tool left, the tissue was
+// opened. A canal that the tool has not reached has no such vertex, however thin the bone in front
+// of it.
 void Wound::look_at(const SkinMesh& mesh) {
   const float cut_face = static_cast<float>(kCutFace * voxel_ / cell_);
   for (const SkinVertex& vertex : mesh.vertices()) {
@@ -69,7 +74,7 @@ void Wound::dress(Scene& scene, int patch) {
   bool any = false;
   for (const SkinVertex& vertex : entry.mesh->vertices()) {
     State state = at(vertex.p.cast<double>());
-    // dust slides off what is steep, and none lies under an edge
+    // dust slides off steep faces, and none lies under an overhang
     if (state.dust > 0)
       state.dust *= std::clamp(normal_of(vertex).dot(up) / 0.6F + 0.3F, 0.0F, 1.0F);
     dress.push_back({level(state.fresh), level(state.wet), level(state.dust), level(state.blood)});

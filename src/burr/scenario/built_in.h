@@ -1,5 +1,5 @@
-// scenario/built_in.h - the text of cases/*.toml, made part of the library by cmake/library.cmake;
-// of this room only.
+// scenario/built_in.h - the text of cases/*.toml, which cmake/library.cmake makes part of the
+// library. Of this room only.
 #pragma once
 
 #include <span>

@@ -16,10 +16,10 @@
 namespace burr::scenario {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 1U << 20;  // a case is a page of text  [byte]
-constexpr double kFastest = 500'000;               // turbines reach this        [1/min]
+constexpr std::uintmax_t kLargestFile = 1U << 20;  // a case is about a page of text [byte]
+constexpr double kFastest = 500'000;               // turbines reach this [1/min]
 
-// One table of the file; the first thing that is wrong is kept, and nothing after it counts.
+// One table of the file. The first error is kept; nothing after it counts.
 class Reader {
  public:
   Reader(const toml::table& table, std::string file, std::string place, std::optional<Error>& wrong)
@@ -69,7 +69,7 @@ class Reader {
     out = v;
   }
 
-  // which of several words stands there
+  // the value of the word in the file, one of several
   template <class Value>
   void choice(std::string_view key, Value& out,
               std::initializer_list<std::pair<std::string_view, Value>> words) {
@@ -87,7 +87,7 @@ class Reader {
     fail(key, fmt::format("\"{}\" is none of {}", base::shown(word), list));
   }
 
-  // [key], or nothing
+  // reads the table [key], if it is there
   template <class Do>
   void table(std::string_view key, Do&& read) {
     const toml::node* node = find(key, false, "");
@@ -100,7 +100,7 @@ class Reader {
     }
   }
 
-  // every [[key]]
+  // reads every [[key]]
   template <class Do>
   void each(std::string_view key, Do&& read) {
     const toml::node* node = find(key, false, "");
@@ -233,7 +233,7 @@ Result<Case> read_case(const std::string& name_or_path) {
   for (const BuiltIn& one : built_in_texts())
     if (name_or_path == one.name) return parse_case(one.toml, std::string(one.name) + ".toml");
 
-  // errors name the file, not where on the disk it lies
+  // errors name the file, not its folder
   const std::filesystem::path path(name_or_path);
   const std::string file = path.filename().string();
   if (path.extension() != ".toml")
@@ -245,7 +245,7 @@ Result<Case> read_case(const std::string& name_or_path) {
   if (!text) return text.error();
 
   Result<Case> read = parse_case(*text, file);
-  // a volume is named from where the case lies
+  // a volume's path is relative to the folder of the case
   if (read && !read->volume.empty() && std::filesystem::path(read->volume).is_relative())
     read->volume = (path.parent_path() / read->volume).string();
   return read;

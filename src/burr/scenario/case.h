@@ -1,9 +1,9 @@
-// scenario/case.h - a case: a bone, where to work on it, with what, what to reach and what to
+// scenario/case.h - a case: a bone, where to work on it, with which burr, what to reach and what to
 // spare.
 //
-// A TOML file, docs/cases.md. Units in the file: mm and revolutions per minute; here SI.
-// The built-in cases are part of the library, so they are there wherever it runs.
-// Thread: any. Errors: one sentence with file, field and remedy.
+// A TOML file (docs/cases.md). Units in the file: mm and revolutions per minute; here SI. The
+// built-in cases are part of the library, so they are always available. Thread: any. Errors: one
+// sentence with file, field and remedy.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +19,17 @@
 
 namespace burr::scenario {
 
-// What is to be done with a tissue.
+// The task for a tissue.
 enum class Goal {
-  open,    // reach it: take the bone in front of it
-  expose,  // lay it bare without touching it
-  remove,  // take it away
+  open,    // reach it: remove the bone in front of it
+  expose,  // uncover it without touching it
+  remove,  // remove it
 };
 
 struct Target {
   std::string tissue;
   Goal goal = Goal::open;
-  double share = 1;  // how much of it, 0..1
+  double share = 1;  // required share, 0..1
 };
 
 struct Case {
@@ -37,21 +37,22 @@ struct Case {
   std::string title;  // one line
   std::string description;
 
-  // the bone: a phantom's name, or a file (taken from where the case file lies)
+  // the bone: a phantom's name, or a file (relative to the folder of the case file)
   std::string phantom, volume;
-  double voxel = 0;  // edge of a voxel; 0: what suits the bone              [m]
+  double voxel = 0;  // edge of a voxel; 0: a value that suits the bone [m]
 
-  // where to begin: a point near the surface and the way in; none: the topmost bone
-  std::optional<math::Vec3> at;    // world, LPS                              [m]
+  // where to begin: a point near the surface and the direction into the bone; none: the topmost
+  // bone
+  std::optional<math::Vec3> at;    // world, LPS [m]
   std::optional<math::Vec3> into;  // unit
 
   tool::Burr burr;
-  double full_speed = 0;  // of the spindle                                   [rad/s]
+  double full_speed = 0;  // of the spindle [rad/s]
 
   std::vector<std::string> spare;  // tissues that must not be cut, by name
   std::vector<Target> targets;
 
-  // what the simulated hand shows when nobody is there
+  // the demonstration by the simulated hand when there is no device
   std::string motion = "pocket";
   double seconds = 20;
 
@@ -76,10 +77,10 @@ inline constexpr const char* kOwnFile = "own file";
 // A built-in case by name, or the TOML file at a path.
 [[nodiscard]] Result<Case> read_case(const std::string& name_or_path);
 
-// The text of a case; `file` is what errors call it and gives the case its name.
+// The text of a case. `file` appears in errors and gives the case its name.
 [[nodiscard]] Result<Case> parse_case(std::string_view text, std::string_view file);
 
-// The Error names the first tissue of the case that the bone lacks. Ask it where a case is opened.
+// Checks that the bone has the tissues that the case names.
 [[nodiscard]] Status check_tissues(const Case& work, const volume::TissueTable& tissues);
 
 }  // namespace burr::scenario

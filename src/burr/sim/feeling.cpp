@@ -10,11 +10,12 @@ namespace {
 using math::Vec3;
 using people::Stimulus;
 
-constexpr double kAbove = 3e-3;   // where it comes from                       [m]
-constexpr double kDown = 0.4;     // until it presses                          [s]
-constexpr double kDeep = 2.5e-3;  // how far it aims below the wall; its arm gives way to most of it
-constexpr double kRound = 4e-3;   // radius of the circles it rubs             [m]
-constexpr double kEach = 2e-3;    // between two points of the path            [s]
+constexpr double kAbove = 3e-3;   // height from which it comes [m]
+constexpr double kDown = 0.4;     // time until it presses [s]
+constexpr double kDeep = 2.5e-3;  // how far it aims below the wall; its arm gives way for most of
+                                  // this
+constexpr double kRound = 4e-3;   // radius of the circles it rubs [m]
+constexpr double kEach = 2e-3;    // time between two points of the path [s]
 
 }  // namespace
 

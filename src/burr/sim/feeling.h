@@ -1,8 +1,8 @@
-// sim/feeling.h - a simulated person's hand: it presses, rubs or holds as asked, and what it felt
-// becomes a number.
+// sim/feeling.h - a simulated person's hand for experiments: it presses, rubs or holds still, and
+// turns what it felt into a number.
 //
-// No two touches are the same: how deep, how fast and how long differ between kGestures ways of
-// doing it. Thread: any. Frame: world, the wall below z = 0. Units: SI.
+// No two touches are the same: there are kGestures variants, which differ in depth, speed and
+// duration. Thread: any. Frame: world, the wall below z = 0. Units: SI.
 #pragma once
 
 #include "burr/device/hand_path.h"
@@ -13,15 +13,15 @@ namespace burr::sim {
 
 inline constexpr int kGestures = 4;
 
-// Where the hand goes: presses up and down for stiffness, rubs in circles for friction, holds still
-// for vibration. gesture: 0 .. kGestures - 1.
+// The path of the hand: it presses up and down for stiffness, rubs in circles for friction, holds
+// still for vibration. gesture: 0 .. kGestures - 1.
 [[nodiscard]] device::HandPath gesture_for(people::Stimulus stimulus, int gesture,
                                            const WallSettings& wall, double seconds);
 
-// The number that is asked for, from what was felt.
+// The experiment's quantity, computed from what was felt.
 [[nodiscard]] double sensed(people::Stimulus stimulus, const people::Felt& felt);
 
-// A fresh simulated hand feels the value once.
+// A new simulated hand feels the value once.
 [[nodiscard]] Result<double> feel(Wall& wall, people::Stimulus stimulus, double value, int gesture,
                                   double seconds);
 

@@ -15,10 +15,10 @@ namespace {
 using math::Vec3;
 
 constexpr auto kLook = std::chrono::milliseconds(10);
-constexpr std::size_t kMostSeconds = 120;  // of an interval
+constexpr std::size_t kMostSeconds = 120;  // longest interval
 
-// Somebody else's hand for one interval: what goes through it is kept, the drill runs or stands as
-// the interval wants.
+// Lends a hand to one interval: keeps what it feels, and runs or stops the drill as the interval
+// needs.
 class LentHand final : public device::Device {
  public:
   LentHand(device::Device& hand, people::Felt& felt, bool spindle)
@@ -36,7 +36,7 @@ class LentHand final : public device::Device {
   void write_torque(const Vec3& torque) BURR_RT override { hand_.write_torque(torque); }
   void write_force(const Vec3& force) BURR_RT override {
     hand_.write_force(force);
-    // not the fade at the end, which follows no reading; room was taken before it began
+    // not the fade at the end, which has no reading; the memory was reserved before the start
     if (!read_ || felt_.at.size() == felt_.at.capacity()) return;
     read_ = false;
     felt_.at.push_back(at_);
@@ -66,7 +66,7 @@ tick::ServoSettings servo_of(const WallSettings& wall, const Shown& shown) {
   servo.friction_turning = 0;
   servo.kinetic_share = 1;
   servo.spindle_rad_s = wall.vibration_hz * 2 * std::numbers::pi;
-  // in touch alone nothing cuts: its base is all there is of vibration
+  // in touch alone nothing cuts; its base part is the only vibration
   servo.torque_gain = 0;
   servo.vibration_gain = shown.vibration / haptics::VibrationSettings{}.base;
   servo.limit.user_force = wall.user_force;
@@ -119,7 +119,7 @@ Result<people::Felt> Wall::show(device::Device& hand, const Shown& shown, double
   NoProgress quiet;
 
   if (hand.spec().simulated) {
-    if (bone_ == nullptr) {  // never cut, so one serves all intervals
+    if (bone_ == nullptr) {  // it is never cut, so one bone serves all intervals
       bone_ = make_();
       surface_ = std::make_unique<volume::IsoVertices>(*bone_, volume::IsoSettings{}, 1, quiet);
     }

@@ -1,15 +1,16 @@
-// sim/interval.h - one interval of an experiment with people: a wall of given stiffness, friction
-// or vibration in the hand for some seconds, through the whole servo.
+// sim/interval.h - one interval of an experiment with people: the hand feels a wall of given
+// stiffness, friction or vibration for some seconds, through the whole servo.
 //
 //     Wall wall([] { return scenes::wall(); }, WallSettings{});
 //     Result<people::Felt> felt = wall.show(hand, {.stiffness = 400}, 3.0, {});
 //
-// Touch only, nothing is cut. Each interval begins without force, waits for a hand in free air,
-// comes by the start ramp, passes every limit, and ends in a fade of 5 ms. A simulated hand is
-// ticked as fast as possible; a real one by the clock, in a Session of its own with its watchdog.
+// Touch only, no cutting. Each interval begins without force, waits until the hand is in free air,
+// raises the force by the start ramp, obeys every limit, and ends with a fade of 5 ms. A simulated
+// hand runs as fast as possible; a real one in real time, in a Session of its own with its
+// watchdog.
 //
-// Thread: one; with a real hand the session has its own. Memory: a bone and a servo for each
-// interval. Frame: world. Units: SI.
+// Thread: one; with a real hand the session has its own threads. Memory: a bone and a servo for
+// each interval. Frame: world. Units: SI.
 #pragma once
 
 #include <functional>
@@ -23,10 +24,10 @@
 
 namespace burr::sim {
 
-// What the wall does.
+// The properties of the wall.
 struct Shown {
   double stiffness = 500;  // [N/m]
-  double friction = 0;     // coefficient, sticking and sliding alike [-]
+  double friction = 0;     // coefficient, static and dynamic alike [-]
   double vibration = 0;    // root mean square [N]
 };
 
@@ -34,8 +35,9 @@ struct WallSettings {
   double rate_hz = 1000;
   double burr_radius = 2e-3;     // [m]
   double user_force = 3.3;       // the user's own limit [N]
-  double vibration_hz = 200;     // middle of its band; 60 to 250
-  double other_stiffness = 500;  // of the wall, where something else is asked [N/m]
+  double vibration_hz = 200;     // middle of its band; 60 to 250 [Hz]
+  double other_stiffness = 500;  // stiffness of the wall where the experiment is about another
+                                 // quantity [N/m]
 };
 
 class Wall {
@@ -46,14 +48,14 @@ class Wall {
   Wall(Bone bone, const WallSettings& settings);
   ~Wall();
 
-  // What an experiment's value means.
+  // The wall that shows an experiment's value.
   [[nodiscard]] Shown of(people::Stimulus stimulus, double value) const;
 
-  // Can this device show it? The sentence says what it can.
+  // Checks that this device can show it. The error says what it can show.
   [[nodiscard]] Status possible(const device::DeviceSpec& spec, const Shown& shown) const;
 
-  // The hand, open already, feels it for so long, or until enough() says so. What it felt is
-  // returned. Error: the device cannot, or the session could not be made.
+  // The hand, already open, feels the wall for `seconds`, or until enough() is true. Returns what
+  // it felt. Error: the device cannot show it, or the session could not be made.
   [[nodiscard]] Result<people::Felt> show(device::Device& hand, const Shown& shown, double seconds,
                                           const std::function<bool()>& enough);
 

@@ -11,7 +11,7 @@
 namespace burr::sim {
 namespace {
 
-// What first differs between two rows of the same tick.
+// The first thing that differs between two rows of the same tick.
 std::string difference(const tick::TickRow& was, const tick::TickRow& is) {
   if (was.contact.force != is.contact.force)
     return fmt::format("force ({:.6g}, {:.6g}, {:.6g}) N instead of ({:.6g}, {:.6g}, {:.6g}) N",

@@ -1,8 +1,8 @@
-// sim/replay.h - a recording simulated again and held against itself: every tick's hash, every
-// brick as it was written.
+// sim/replay.h - simulates a recording again and compares every tick's hash and every brick with
+// what was recorded.
 //
-// Same build, same bits, whichever instruction set the processor takes (docs/recording.md).
-// Thread: one.
+// The same build gives the same bits, whichever instruction set the processor has
+// (docs/recording.md). Thread: one.
 #pragma once
 
 #include <memory>
@@ -19,14 +19,15 @@ namespace burr::sim {
 struct ReplayOutcome {
   std::uint64_t ticks = 0;   // simulated again
   std::uint64_t bricks = 0;  // compared whole
-  std::uint64_t gaps = 0;    // places where recorded ticks are missing; comparing ends at the first
-  std::optional<std::uint64_t> parted_at;  // first tick that came out differently
+  std::uint64_t gaps = 0;    // places where recorded ticks are missing; the comparison ends at the
+                             // first
+  std::optional<std::uint64_t> parted_at;  // first tick with a different result
   std::string difference;                  // in words
   std::unique_ptr<volume::Bone> bone;      // at the end
 };
 
-// bone: as the session began. Error: the recording's settings cannot be understood, or progress was
-// cancelled.
+// bone: as at the start of the session. Error: the recording's settings cannot be understood, or
+// progress was cancelled.
 [[nodiscard]] Result<ReplayOutcome> replay(record::Player& player,
                                            std::unique_ptr<volume::Bone> bone, Progress& progress);
 

@@ -12,11 +12,11 @@
 namespace burr::sim {
 namespace {
 
-constexpr std::int64_t kFadeNs = 5'000'000;  // from detection of a loss to zero force
-constexpr std::int64_t kGuardNs = 500'000;   // between two looks of the guard
-// ticks between two waits for the heat, when not by the clock
+constexpr std::int64_t kFadeNs = 5'000'000;  // from the detection of a loss to zero force
+constexpr std::int64_t kGuardNs = 500'000;   // between two checks by the guard
+// ticks between two waits for the heat, when not in real time
 constexpr std::uint64_t kHeatWait = 1000;
-constexpr auto kAheadPause = std::chrono::milliseconds(5);  // between two of taking memory ahead
+constexpr auto kAheadPause = std::chrono::milliseconds(5);  // between two calls that reserve memory
 
 }  // namespace
 
@@ -77,7 +77,8 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
                                                        settings.heat->settings);
     session->servo_->set_heat(session->heat_.get());
   }
-  // a real hand's link lets go by itself after loss_timeout; the guard stands behind it
+  // a real hand's link releases the force itself after loss_timeout; the guard is a second
+  // protection
   const double timeout = (spec.simulated ? 1 : 2) * spec.loss_timeout;
   session->watchdog_ =
       std::make_unique<haptics::Watchdog>(static_cast<std::int64_t>(timeout * 1e9), kFadeNs);
@@ -159,7 +160,7 @@ void Session::loop(std::uint64_t ticks) {
     if (!settings_.realtime && recorder_ != nullptr) recorder_->wait_for_room();
     if (!settings_.realtime && heat_ && n % kHeatWait == 0) heat_->settle();
   }
-  // the last force is let go within five milliseconds, not dropped
+  // the last force fades within five milliseconds instead of dropping to zero at once
   const auto fade = static_cast<int>(std::ceil(5e-3 * settings_.servo.rate_hz));
   for (int n = 1; n <= fade; ++n) {
     static_cast<void>(clock.wait());
@@ -168,7 +169,8 @@ void Session::loop(std::uint64_t ticks) {
     device_->write_force(last_force * left);
     if (second_) second_device_->write_force(second_->row().contact.force * left);
   }
-  while (recorder_ != nullptr && servo_->bricks_to_write() > 0) {  // what the diary is still owed
+  while (recorder_ != nullptr && servo_->bricks_to_write() > 0) {  // rows that must still be
+                                                                   // recorded
     servo_->flush_bricks();
     recorder_->wait_for_room();
   }
@@ -176,7 +178,7 @@ void Session::loop(std::uint64_t ticks) {
   running_.store(false, std::memory_order_release);
 }
 
-// Lets go of the hand when the tick has died.
+// Releases the force when no tick has come in time.
 void Session::guard() {
   while (running_.load(std::memory_order_acquire)) {
     const double scale = watchdog_->poll(rt::monotonic_ns());
@@ -188,7 +190,7 @@ void Session::guard() {
   }
 }
 
-// The memory that cutting will need is there before the servo comes to it.
+// Reserves the memory that cutting will need before the servo needs it.
 void Session::take_ahead() {
   while (running_.load(std::memory_order_acquire)) {
     bone_->take_ahead();

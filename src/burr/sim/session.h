@@ -1,13 +1,14 @@
-// sim/session.h - the hall: a bone, a hand, the servo that brings them together, and the doors for
-// everyone else.
+// sim/session.h - a session: a bone, a hand, the servo that brings them together, and the doors
+// through which other threads see them.
 //
 //     Result<std::unique_ptr<Session>> session =
 //         Session::make(std::move(bone), std::move(hand), settings, progress);
 //     (*session)->run(20.0, progress);                        // headless: to the end, or
 //     (*session)->start(); ... view().take(row) ...; stop();  // in the background, beside a window
 //
-// Thread: everything on the thread that made it, except where a door says otherwise. While it runs,
-// the bone is the servo's: others read it through copy_brick() and their own watcher.
+// Thread: everything on the thread that made it, except where a door says otherwise. While the
+// session runs, only the servo may touch the bone; others read it through copy_brick() and their
+// own watcher.
 #pragma once
 
 #include <array>
@@ -32,7 +33,8 @@
 
 namespace burr::sim {
 
-// How warm the bone gets is worked out beside the session, not in it: nothing felt depends on it.
+// A request for the temperature of the bone. It is computed beside the session; no force depends on
+// it.
 struct HeatRequest {
   math::Aabb work;  // bone outside keeps its temperature; world [m]
   thermal::HeatSettings settings;
@@ -41,30 +43,32 @@ struct HeatRequest {
 struct SessionSettings {
   tick::ServoSettings servo;
   volume::IsoSettings surface;
-  tick::ShedSettings shed;  // by the clock only: what is too much for this machine
-  bool realtime = false;    // paced by the clock, watched by a watchdog; false: as fast as possible
+  tick::ShedSettings shed;  // what to leave out if this machine is too slow; real time only
+  bool realtime = false;    // paced by the clock and watched by a watchdog; false: as fast as
+                            // possible
   int threads = 2;          // for preparing the surface
   std::optional<HeatRequest> heat;
 };
 
-// What happened, so far.
+// Results so far.
 struct Outcome {
   std::uint64_t ticks = 0;
   double seconds = 0;     // of simulated time
-  double peak_force = 0;  // that reached the hand  [N]
-  double mean_force = 0;  // while touching         [N]
+  double peak_force = 0;  // largest force that reached the hand [N]
+  double mean_force = 0;  // while touching [N]
   edit::Ledger ledger;
-  std::uint32_t flags = 0;           // all that were ever raised
-  std::uint64_t heat_rows_lost = 0;  // too slow a machine: what they heated is missing
+  std::uint32_t flags = 0;           // all flags that were ever raised
+  std::uint64_t heat_rows_lost = 0;  // rows lost because the machine was too slow; their heat is
+                                     // missing
   rt::TickSummary timing;
-  std::string scheduling;  // what the servo thread was given, one sentence
+  std::string scheduling;  // the scheduling that the servo thread got, one sentence
   std::array<std::uint64_t, tick::kShedSteps> shed_ticks = {};  // ticks at each step of tick/shed.h
   tick::Shed most_shed = tick::Shed::none;                      // the highest step ever taken
 };
 
 class Session {
  public:
-  // Checks the settings against bone and device; errors name the option to change.
+  // Checks the settings against bone and device. Errors name the option to change.
   [[nodiscard]] static Result<std::unique_ptr<Session>> make(std::unique_ptr<volume::Bone> bone,
                                                              std::unique_ptr<device::Device> device,
                                                              const SessionSettings& settings,
@@ -73,26 +77,26 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  // One more device, in the other hand, which feels the bone and never changes it; nothing of it is
-  // recorded. Opens it. Before run() or start(), once. Error: as its open() says.
+  // Adds a device for the other hand, which feels the bone and never changes it; nothing of it is
+  // recorded. Opens the device. Call it once, before run() or start(). Error: as its open() says.
   [[nodiscard]] Status join(std::unique_ptr<device::Device> device,
                             const tick::SecondHandSettings& settings);
   // nullptr: there is none. Its view() and faults() are doors.
   [[nodiscard]] tick::SecondHand* second_hand() { return second_.get(); }
 
-  // Everything that happens goes to this recorder, already started; before run() or start().
-  // nullptr: nowhere.
+  // Sends everything that happens to this recorder, which must be started; call it before run() or
+  // start(). nullptr: no recorder.
   void set_recorder(record::Recorder* recorder);
 
-  // The newest row goes to one more reader, beside view(); before run() or start(), and it outlives
-  // the session's last tick. nullptr: nobody.
+  // Gives the newest row to one more reader, besides view(). Call it before run() or start();
+  // `watch` must outlive the session's last tick. nullptr: nobody.
   void set_watch(rt::Latest<tick::TickRow>* watch) { servo_->set_watch(watch); }
 
-  // Until the hand has finished, `seconds` of its time are over, or progress is cancelled; returns
-  // when the servo stands.
+  // Runs until the hand has finished, `seconds` of its time are over, or progress is cancelled;
+  // returns when the servo has stopped.
   void run(double seconds, Progress& progress);
 
-  // In the background, until stop(). Several times in a row is fine.
+  // Runs in the background, until stop(). May be repeated.
   void start();
   void stop();
   [[nodiscard]] bool running() const { return running_.load(std::memory_order_acquire); }
@@ -103,12 +107,13 @@ class Session {
   }
   [[nodiscard]] bool view(tick::TickRow& newest) { return servo_->view().take(newest); }
   [[nodiscard]] bool fault(tick::FaultReport& report) { return servo_->faults().take(report); }
-  // How warm it is, ten times a second of the session's time; false: nothing new, or nobody asked.
+  // The temperature, ten times a second of the session's time; false: nothing new, or not
+  // requested.
   [[nodiscard]] bool heat(thermal::HeatSummary& newest) { return heat_ && heat_->take(newest); }
-  // of the burr's head as it is now [m]; any thread
+  // present radius of the burr's head [m]; any thread
   [[nodiscard]] double burr_radius() const { return servo_->burr_radius(); }
-  // What the machine cannot keep up with just now: pictures and surface are to be made less often
-  // from Shed::picture and Shed::mesh on. Any thread.
+  // What this machine is too slow for at present: from Shed::picture and Shed::mesh on, the caller
+  // must make pictures and surface less often. Any thread.
   [[nodiscard]] tick::Shed shed() const { return shed_.load(std::memory_order_relaxed); }
 
   [[nodiscard]] volume::Bone& bone() { return *bone_; }
@@ -116,13 +121,13 @@ class Session {
   [[nodiscard]] device::Device& hand() { return *device_; }
   [[nodiscard]] const SessionSettings& settings() const { return settings_; }
   [[nodiscard]] const volume::IsoVertices& surface() const { return *surface_; }
-  // The servo itself; only while it stands.
+  // The servo itself; only while it is stopped.
   [[nodiscard]] tick::Servo& servo() { return *servo_; }
-  // The bone as it was before the first cut; only while the servo stands.
+  // The bone as it was before the first cut; only while the servo is stopped.
   [[nodiscard]] std::unique_ptr<volume::Bone> bone_before() const;
-  // Only while the servo stands.
+  // Only while the servo is stopped.
   [[nodiscard]] Outcome outcome() const;
-  // What the servo's thread was last given by the scheduler.
+  // The scheduling that the servo's thread got last.
   [[nodiscard]] const rt::ThreadGrant& grant() const { return grant_; }
 
  private:
@@ -148,7 +153,7 @@ class Session {
   std::atomic<std::uint64_t> done_ = 0;
   std::atomic<tick::Shed> shed_ = tick::Shed::none;
 
-  // the servo's own account
+  // used only by the servo
   rt::TickStats stats_;
   std::array<std::uint64_t, tick::kShedSteps> shed_ticks_ = {};
   double peak_force_ = 0, force_sum_ = 0;

@@ -7,14 +7,14 @@
 namespace burr::sim {
 namespace {
 
-// One setting: its name in the file, how to reach it, and what it can be at all (wider than what
-// the options take; a file may say anything).
+// One setting: its name in the file, how to reach it, and its possible range (wider than that of
+// the options, because a file may contain anything).
 struct Entry {
   const char* name;
   double (*get)(const Recorded&);
   void (*set)(Recorded&, double);
   double least, most;
-  bool newer = false;  // recordings of an older burr lack it: then it is as if never set
+  bool newer = false;  // recordings of an older burr lack it: it then keeps its default
 };
 
 // NOLINTNEXTLINE(cppcoreguidelines-macro-usage): the one way to name a member once and use it twice

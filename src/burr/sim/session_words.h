@@ -1,5 +1,5 @@
-// sim/session_words.h - the settings of a session as named numbers, into a recording and back; a
-// replay needs every one of them to the bit.
+// sim/session_words.h - writes the settings of a session as named numbers into a recording and
+// reads them back; a replay needs each of them exact to the bit.
 //
 // Thread: any. Names carry their units.
 #pragma once

@@ -12,11 +12,12 @@ namespace {
 
 void says_nothing(const char*, int, const char*, int, const char*, ...) {}
 
-// Where there is no sound card, ALSA's library says so on stderr in eight lines of its own; ours is
-// enough. SDL loads it only when it runs, and so do we.
+// Where there is no sound card, ALSA's library prints eight lines to stderr; our own message is
+// enough. SDL loads the library at run time, and so does this.
 void quieten_alsa() {
   using SetHandler = int (*)(decltype(&says_nothing));
-  void* alsa = dlopen("libasound.so.2", RTLD_NOW | RTLD_LOCAL);  // kept: the handler is its own
+  void* alsa = dlopen("libasound.so.2", RTLD_NOW | RTLD_LOCAL);  // not closed: the handler belongs
+                                                                 // to it
   if (alsa == nullptr) return;
   const auto set = reinterpret_cast<SetHandler>(dlsym(alsa, "snd_lib_error_set_handler"));
   if (set != nullptr) set(&says_nothing);
@@ -33,7 +34,7 @@ Result<std::unique_ptr<Speaker>> Speaker::open(const SpeakerSettings& settings) 
                     *why != '\0' ? why : "no sound device was found"));
   };
   SDL_SetMainReady();
-  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl-C belongs to the program
+  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl-C is handled by the program
   SDL_SetHint(SDL_HINT_APP_NAME, "burr");
   quieten_alsa();
   if (SDL_InitSubSystem(SDL_INIT_AUDIO) != 0) return none(SDL_GetError());
@@ -60,11 +61,11 @@ Result<std::unique_ptr<Speaker>> Speaker::open(const SpeakerSettings& settings) 
 
 Speaker::~Speaker() {
   if (device_ == 0) return;
-  SDL_CloseAudioDevice(device_);  // returns when fill() will not be called any more
+  SDL_CloseAudioDevice(device_);  // returns when fill() can no longer be called
   SDL_QuitSubSystem(SDL_INIT_AUDIO);
 }
 
-// SDL's thread.
+// Runs on SDL's thread.
 void Speaker::fill(void* speaker, std::uint8_t* bytes, int count) {
   auto& self = *static_cast<Speaker*>(speaker);
   const std::span<float> samples(static_cast<float*>(static_cast<void*>(bytes)),

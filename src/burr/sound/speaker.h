@@ -1,14 +1,13 @@
-// sound/speaker.h - the machine's loudspeaker, by SDL: a thread of SDL's asks the voice for
-// samples.
+// sound/speaker.h - the computer's loudspeaker, by SDL: a thread of SDL asks the voice for samples.
 //
 //     auto speaker = Speaker::open();
-//     if (!speaker) ...                                // no sound here; everything else goes on
-//     (*speaker)->voice().hear(now);                   // sixty times a second or so
+//     if (!speaker) ...                 // no sound on this computer; everything else works
+//     (*speaker)->voice().hear(now);    // about sixty times a second
 //
-// Environment: SDL_AUDIODRIVER chooses SDL's driver; "dummy" plays to nobody, "disk" into the file
-// SDL_DISKAUDIOFILE, raw 32-bit floats at `rate_hz`.
-// Thread: open and destroy on one; the rest as voice.h says. One channel; SDL converts to what the
-// device has. Errors: no device, one sentence.
+// Environment: SDL_AUDIODRIVER chooses SDL's driver; "dummy" plays nothing, "disk" writes to the
+// file SDL_DISKAUDIOFILE, raw 32-bit floats at `rate_hz`.
+// Thread: open and destroy on one; the rest as voice.h says. One channel; SDL converts it to the
+// device's format. Errors: no device, one sentence.
 #pragma once
 
 #include <atomic>
@@ -35,7 +34,7 @@ class Speaker {
 
   [[nodiscard]] Voice& voice() { return voice_; }
   [[nodiscard]] const std::string& driver() const { return driver_; }  // SDL's: "pulseaudio" ...
-  // Samples that the device has asked for so far; any thread.
+  // Samples that the device has taken so far; any thread.
   [[nodiscard]] std::uint64_t made() const { return made_.load(std::memory_order_acquire); }
 
  private:

@@ -9,17 +9,19 @@ namespace burr::sound {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kFastest = 1e5;      // spindle, either way                        [rad/s]
-constexpr double kUsualBone = 1e9;    // cortical; until another was cut              [J/m^3]
-constexpr double kMostTeeth = 64;     // more are not told apart
-constexpr double kBoneQuality = 1.5;  // of the band of cutting noise
+constexpr double kFastest = 1e5;      // spindle, either direction [rad/s]
+constexpr double kUsualBone = 1e9;    // cortical; until another bone is cut [J/m^3]
+constexpr double kMostTeeth = 64;     // more cannot be told apart
+constexpr double kBoneQuality = 1.5;  // Q of the band of cutting noise
 constexpr double kCoolantQuality = 0.7, kCoolantHz = 6e3;
-constexpr double kQuick = 4e-3, kUsual = 12e-3, kSlow = 60e-3;  // each of two lags        [s]
-constexpr double kRise = 2e-3, kRing = 25e-3;                   // of a knock              [s]
-constexpr double kSwell = 8e-3;                                 // of a beep               [s]
-constexpr double kUntouched = 50e-3;  // before a contact is a first one again: none rattles  [s]
-constexpr double kLoud = 0.7;      // of full scale: what is louder is bent                     [-]
-constexpr double kNothing = 1e-7;  // -140 dB: what is on its way to zero is there
+constexpr double kQuick = 4e-3, kUsual = 12e-3, kSlow = 60e-3;  // time constants of each of two
+                                                                // lags [s]
+constexpr double kRise = 2e-3, kRing = 25e-3;                   // of a knock [s]
+constexpr double kSwell = 8e-3;                                 // rise of a beep [s]
+constexpr double kUntouched = 50e-3;  // time without contact until a new contact knocks, so that
+                                      // bouncing does not rattle [s]
+constexpr double kLoud = 0.7;         // share of full scale above which the sum is compressed [-]
+constexpr double kNothing = 1e-7;     // -140 dB: a value this close to its target is set to it
 
 double held(double value, double low, double high, double otherwise) BURR_RT {
   return std::isfinite(value) ? std::clamp(value, low, high) : otherwise;
@@ -27,21 +29,21 @@ double held(double value, double low, double high, double otherwise) BURR_RT {
 
 double share_of(double time, double dt) { return 1 - std::exp(-dt / time); }
 
-// What brings white noise of variance 1 to variance 1 again behind a band: its variance there is
-// a / (1 + a), a = sin(w) / (2 Q), as of every such band (haptics/vibration.h); sin(w) = 2 g / (1 +
-// g^2).
+// Gain that gives white noise of variance 1 the variance 1 again behind a band. The variance there
+// is a / (1 + a), a = sin(w) / (2 Q), as for every such band (haptics/vibration.h); sin(w) = 2 g /
+// (1 + g^2).
 double gain_of(double tuned, double quality) BURR_RT {
   const double a = tuned / (1 + tuned * tuned) / quality;
   return std::sqrt((1 + a) / a);
 }
 
-// Itself up to kLoud, then bent towards 1, without a corner.
+// Unchanged up to kLoud, then compressed towards 1, without a corner.
 double bounded(double x) BURR_RT {
   const double over = (std::abs(x) - kLoud) / (1 - kLoud);
   return over <= 0 ? x : std::copysign(kLoud + (1 - kLoud) * over / (1 + over), x);
 }
 
-// Forward by some turns; the whole ones are dropped.
+// Advances a phase; whole turns are dropped.
 void advance(double& turn, double turns) BURR_RT {
   turn += turns;
   turn -= std::floor(turn);
@@ -97,10 +99,10 @@ Synth::Synth(const SynthSettings& settings) : settings_(settings) {
 
 void Synth::loudness(double wanted) BURR_RT { loudness_.request = held(wanted, 0, 1, 0); }
 
-// ---- what is heard now, as commands
+// ---- what is heard now, as requests
 
 void Synth::hear(const Heard& now) BURR_RT {
-  // a knock starts from where the last one is: no step, and never louder than one
+  // a knock starts from the level of the previous one: no step, and never louder than one knock
   if (now.touching && untouched_ >= kUntouched) {
     rise_ += 1 - ring_;
     ring_ = 1;
@@ -130,7 +132,7 @@ void Synth::request(const Heard& now) BURR_RT {
 double Synth::Smooth::step(double share) BURR_RT {
   between += share * (request - between);
   now += share * (between - now);
-  // without an end the last of a decay would be heard, and computed, for ever
+  // without an end, the rest of a decay would be computed for ever
   if (std::abs(request - now) + std::abs(request - between) <= kNothing) now = between = request;
   return now;
 }
@@ -146,12 +148,12 @@ double Synth::Band::step(double in, double tuned, double damping) BURR_RT {
 }
 
 double Synth::white() BURR_RT {
-  // counted, so that nothing but the seed and the place decides; variance 1
+  // counted, so that only the seed and the position decide; variance 1
   const std::uint64_t bits = base::mix(settings_.seed, ++count_);
   return std::sqrt(12.0) * (static_cast<double>(bits >> 11) * 0x1p-53 - 0.5);
 }
 
-// 1 for what the samples can carry, 0 from nine tenths of half their rate on.
+// 1 for frequencies that the samples can carry, falling to 0 at nine tenths of half the rate.
 double Synth::below_half_rate(double hz) const BURR_RT {
   const double share = hz / (0.5 * settings_.rate_hz);
   return std::clamp((0.9 - share) / 0.2, 0.0, 1.0);
@@ -160,7 +162,7 @@ double Synth::below_half_rate(double hz) const BURR_RT {
 double Synth::spindle() BURR_RT {
   const double f = turns_hz_.step(usual_);
   const double loaded = loaded_.step(usual_);
-  // another burr: the old one's teeth fade before the new one's are heard
+  // another burr: the teeth of the old one fade out before those of the new one fade in
   tooth_.request = teeth_ == teeth_requested_ && teeth_ > 0 ? 1 : 0;
   if (tooth_.step(quick_) == 0 && teeth_ != teeth_requested_) teeth_ = teeth_requested_;
   if (f == 0) return 0;
@@ -215,10 +217,10 @@ double Synth::warning() BURR_RT {
     on = warned_ && beep_at_ * beep_every_ < std::min(settings_.beep, 0.5 * beep_every_);
     const double before = beep_at_;
     advance(beep_at_, dt_ / beep_every_);
-    // to the end of the last one: else whoever trembles at the border would be warned in a hurry
+    // finish the last beep; otherwise a hand that trembles at the border would be warned hastily
     if (!warned_ && beep_at_ < before) beep_at_ = 0;
   }
-  // a swell of half a cosine: as smooth at both ends
+  // a swell of half a cosine: smooth at both ends
   beep_swell_ = std::clamp(beep_swell_ + (on ? dt_ : -dt_) / kSwell, 0.0, 1.0);
   if (beep_swell_ == 0) return 0;
   advance(warn_turn_, settings_.warn_hz * dt_);

@@ -1,10 +1,10 @@
-// sound/voice.h - the synth behind a door: one thread says what is to be heard, another, which must
+// sound/voice.h - a synth behind a door: one thread sets what is to be heard, another, which must
 // not wait, makes the samples.
 //
-// When nothing was said for a while - the program stands, or is busy with something else - it
-// fades, and comes back by itself. It begins silent.
-// Guarantee: hear(), on(), loudness() and make() are wait-free and take no memory.
-// Thread: hear() one feeder; make() one other, the audio's; on() and loudness() any.
+// When nothing was set for a while - the program has stopped, or is busy - the sound fades, and
+// comes back by itself. It begins silent.
+// Guarantee: hear(), on(), loudness() and make() are wait-free and allocate no memory.
+// Thread: hear() one; make() one other, that of the audio; on() and loudness() any.
 #pragma once
 
 #include <atomic>
@@ -18,7 +18,7 @@ namespace burr::sound {
 
 struct VoiceSettings {
   SynthSettings synth;
-  double silent_after = 0.2;  // without a word                                              [s]
+  double silent_after = 0.2;  // time without hear() until it fades [s]
 };
 
 class Voice {
@@ -35,7 +35,7 @@ class Voice {
  private:
   Synth synth_;
   double silent_after_;
-  double unheard_;  // since the last word [s]
+  double unheard_;  // time since the last hear() [s]
   rt::Latest<Heard> door_;
   std::atomic<bool> on_ = true;
   std::atomic<double> loudness_ = 1;

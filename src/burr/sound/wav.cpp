@@ -34,7 +34,7 @@ WavFile::WavFile(std::string path, base::NewFile file, int rate_hz)
 
 void WavFile::write(std::span<const float> samples) {
   samples_ += samples.size();
-  if (samples_ > kMostSamples) return;  // told at the end
+  if (samples_ > kMostSamples) return;  // reported at the end
   std::vector<char> bytes(2 * samples.size());
   for (std::size_t n = 0; n < samples.size(); ++n) {
     const float held = std::isnan(samples[n]) ? 0.0F : std::clamp(samples[n], -1.0F, 1.0F);
@@ -52,7 +52,7 @@ Status WavFile::put_in_place() {
   std::memcpy(header.data(), "RIFF", 4);
   put(header, 4, 4, kHeader - 8 + 2 * samples_);
   std::memcpy(header.data() + 8, "WAVEfmt ", 8);
-  put(header, 16, 4, 16);  // of this part
+  put(header, 16, 4, 16);  // size of this part
   put(header, 20, 2, 1);   // uncompressed
   put(header, 22, 2, 1);   // one channel
   const auto rate = static_cast<std::uint64_t>(rate_hz_);

@@ -1,14 +1,14 @@
-// sound/wav.h - samples into a .wav file: one channel, 16 bits, uncompressed.
+// sound/wav.h - writes samples into a .wav file: one channel, 16 bits, uncompressed.
 //
 //     auto file = WavFile::create("s.wav", 48'000);
 //     file->write(samples);  ...
 //     return file->put_in_place();
 //
-// The file is there whole or not at all (base/new_file.h). Format: RIFF/WAVE, PCM ("Multimedia
+// The file appears complete or not at all (base/new_file.h). Format: RIFF/WAVE, PCM ("Multimedia
 // Programming Interface and Data Specifications 1.0", IBM and Microsoft 1991). Samples outside
-// -1..1 are held there; what is not a number is 0.
-// Thread: one. Errors: the file cannot be written, or is longer than its format can say (12 h at
-// 48 kHz).
+// -1..1 are clipped; one that is not finite becomes 0.
+// Thread: one. Errors: the file cannot be written, or is longer than its format allows (12 h at 48
+// kHz).
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ class WavFile {
 
   void write(std::span<const float> samples);
   [[nodiscard]] std::uint64_t samples() const { return samples_; }
-  // After it nothing may be written.
+  // Completes the file; nothing may be written afterwards.
   [[nodiscard]] Status put_in_place();
 
  private:

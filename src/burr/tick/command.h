@@ -1,7 +1,8 @@
-// tick/command.h - what people and programs ask of a running session: another burr, undo, a mirror.
+// tick/command.h - commands of people and programs to a running session: another burr, undo, a
+// mirror.
 //
-// The servo takes commands at the start of a tick, in the order in which they came. What became of
-// one is not here but in the rows that follow: a command that is refused changes nothing.
+// The servo takes commands at the start of a tick, in the order in which they came. The result of a
+// command is not here but in the rows that follow; a command that is refused changes nothing.
 // Units: SI.
 #pragma once
 

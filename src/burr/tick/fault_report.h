@@ -1,9 +1,10 @@
-// tick/fault_report.h - the last ticks before a force was let go, for those who ask afterwards why.
+// tick/fault_report.h - keeps the last ticks before the force was released by a fault, to find out
+// why.
 //
 //     keeper.raise();  ...  keeper.note(row);          // each tick; once the force is zero:
 //     FaultReport report;  if (keeper.reports().take(report)) ...
 //
-// Thread: the servo; reports() has one reader, any. Memory: taken at construction.
+// Thread: the servo; reports() has one reader, any thread. Memory: allocated at construction.
 #pragma once
 
 #include <algorithm>

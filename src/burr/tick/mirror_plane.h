@@ -1,8 +1,8 @@
-// tick/mirror_plane.h - planes to sculpt across as people name them, and as the servo takes them.
+// tick/mirror_plane.h - the planes of mirror mode, as people name them and as the servo takes them.
 //
-// A plane of the patient (LPS) is taken by the axis of the grid that lies nearest to its normal; on
-// a scan that lies askew it is as much askew. edit/mirror.h says where along it a plane can be.
-// Thread: any.
+// A plane of the patient (LPS) is replaced by the grid plane whose axis is nearest to its normal;
+// on an oblique scan the plane is as oblique as the scan. edit/mirror.h says where along the axis a
+// plane can be. Thread: any.
 #pragma once
 
 #include <array>

@@ -1,10 +1,10 @@
-// tick/rows.h - what a session writes down. Plain structs; the file holds fields with names
-// (record/schema.cpp), not these bytes.
+// tick/rows.h - the rows of a recording. Plain structs; the file holds named fields
+// (record/schema.cpp), not the bytes of these structs.
 //
 // Frame: world (LPS). Units: SI.
 //
-// Order of writing, by the servo, within one tick: commands taken, bricks changed, then the TickRow.
-// So whoever holds the row of a tick holds everything that belongs to it.
+// Within one tick, the servo writes in this order: the commands taken, the bricks changed, then the
+// TickRow. So a reader that has the row of a tick has everything that belongs to it.
 #pragma once
 
 #include <array>

@@ -1,13 +1,13 @@
-// tick/second_hand.h - another device in the other hand, which feels the bone and never changes it:
-// a suction tube, a probe.
+// tick/second_hand.h - a device in the other hand that feels the bone and never changes it: a
+// suction tube, a probe.
 //
-// A ball at its tip rests on the bone as the burr does, with its own proxy, law of force and safety
-// layer (haptics/safety/limit.h). It is stepped in the servo's tick after the first hand's force has gone
-// out, and nothing of the bone or of the first hand depends on it: a recording replays to the bit
+// A ball at its tip touches the bone like the burr, with its own proxy, force law and safety layer
+// (haptics/safety/limit.h). It is stepped in the servo's tick after the first hand's force has gone
+// out, and neither the bone nor the first hand depends on it: a recording replays to the bit
 // without it. The two tools do not feel each other.
 //
-// Thread: step() on the servo; view(), faults() one reader each, any. Frame: world. Memory: taken
-// at construction. Cost: docs/realtime.md.
+// Thread: step() on the servo; view(), faults() one reader each, any thread. Frame: world. Memory:
+// allocated at construction. Cost: docs/realtime.md.
 #pragma once
 
 #include <cstdint>

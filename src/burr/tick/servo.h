@@ -1,12 +1,12 @@
-// tick/servo.h - the tick: the hand comes first, then the bone.
+// tick/servo.h - one tick of the simulation: the force for the hand first, then the bone.
 //
 //     read the hand - obey commands - step the proxy - force law - energy guard
 //     - drag of the bone on the burr and vibration - limit - write the force
-//     - then carve - then tell the others
+//     - then cut the bone - then publish the results
 //
 // A pure function of (bone, hand, buttons, commands, lost): no clock, no random number, so that a
-// recording replays to the bit. Thread: tick() on one thread, the servo's, the only writer of the
-// bone. Memory: taken at construction. Cost: docs/realtime.md.
+// recording replays to the bit. Thread: tick() on one thread, the servo's, the only one that writes
+// the bone. Memory: allocated at construction. Cost: docs/realtime.md.
 #pragma once
 
 #include <atomic>

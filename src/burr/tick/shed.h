@@ -1,5 +1,5 @@
-// tick/shed.h - a machine too slow for what is asked: what is left undone first, so that the hand is
-// last.
+// tick/shed.h - what the servo puts off when the machine is too slow, in fixed steps; the force on
+// the hand is touched last.
 //
 //     none -> picture -> mesh -> removal in 2, 4, 8 slices -> touch in fewer moves
 //
@@ -7,11 +7,11 @@
 //     each tick:  servo.set_shed(governor.shed());  tick ...;
 //                 governor.note(wall_ns, late_ns, missed);
 //
-// Picture and mesh are drawn and made less often: other threads look at Session::shed(). What
-// changes the tick itself enters as a command that is recorded (tick/rows.h, CommandKind::shed), so
-// that a replay does the same without any clock. Up within a few hundredths of a second, down one
-// step a second at most, and slower where the step down had to be taken back.
-// Thread: servo. A pure function of the durations it is told. Memory: none.
+// Picture and mesh are drawn and made less often: other threads read Session::shed(). A step that
+// changes the tick itself is recorded as a command (tick/rows.h, CommandKind::shed), so that a
+// replay does the same without a clock. It goes up within a few hundredths of a second, down one
+// step a second at most, and more slowly after a step down that had to be taken back.
+// Thread: servo. A pure function of the durations that it is given. Memory: none.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,8 @@
-// tick/tick_hash.h - one number for what a tick read and what came of it; a replay compares it.
+// tick/tick_hash.h - one number for the inputs and results of a tick; a replay compares it.
 //
-// Chained: `before` is the hash of the tick before, so the last one stands for the whole session.
-// Times (took_us, late_us) are left out, they differ from run to run; a torque of zero as well, so
-// that recordings from before there was one keep their hashes.
-// Allocation-free.
+// Chained: `before` is the hash of the previous tick, so the last hash covers the whole session.
+// The times (took_us, late_us) are left out, because they differ from run to run. A torque of zero
+// is left out too, so that recordings from before torque existed keep their hashes. No allocation.
 #pragma once
 
 #include <bit>

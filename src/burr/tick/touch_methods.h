@@ -1,12 +1,12 @@
-// tick/touch_methods.h - all ways of touching one bone, one of them in use; which one may change
+// tick/touch_methods.h - all touch methods for one bone, of which one is in use; it may be changed
 // between two ticks.
 //
-// The triangles of the method of that name are those a renderer would have: of the patches about
-// the burr as they were at the last frame: every 33rd tick those of a bone that changed are taken
-// away, and the new ones come a tick later.
+// The method "triangles" touches the triangles that a renderer would have: those of the patches
+// around the burr as they were at the last frame. Every 33rd tick the triangles of changed bone are
+// removed, and the new ones come one tick later.
 //
-// Thread: servo. Memory: taken at construction. Cost: the method's own; a frame of triangles some
-// milliseconds.
+// Thread: servo. Memory: allocated at construction. Cost: that of the method; a frame of triangles
+// takes some milliseconds.
 #pragma once
 
 #include <array>

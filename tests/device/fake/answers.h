@@ -1,6 +1,4 @@
-// What a false device told of its hand last, and the force that came next: one for each force.
-//
-// Frame and units: the device's own. Thread: under the lock of the fake it belongs to.
+// The readings that a fake device gave, each with the force that came next.
 #pragma once
 
 #include <array>
@@ -20,7 +18,7 @@ class Answers {
   void take(const double* force) {
     if (wanted_ && kept_.size() < kMost) kept_.push_back({told_, {force[0], force[1], force[2]}});
   }
-  // All since the last look; from the first one on.
+  // All answers since the last call; recording starts with the first call.
   [[nodiscard]] std::vector<Answer> look() {
     wanted_ = true;
     return std::exchange(kept_, {});

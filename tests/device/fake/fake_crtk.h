@@ -1,5 +1,5 @@
-// An arm that speaks CRTK, played by the test on a bus of its own: it tells its place at its rate,
-// holds the last force it was given for ever, as real ones do, and misbehaves when it is told to.
+// A CRTK arm that the test plays on a bus of its own: it publishes its pose at its rate, holds the
+// last force it was given for ever, as real ones do, and misbehaves on request.
 #pragma once
 
 #include <sys/socket.h>
@@ -20,7 +20,7 @@
 
 namespace burr::test {
 
-// Nothing goes beyond this computer, and other tests are on other domains.
+// A bus domain that is limited to this computer and that no other test uses.
 inline int quiet_domain() {
   ::setenv("CYCLONEDDS_URI",
            "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
@@ -29,13 +29,14 @@ inline int quiet_domain() {
            "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
            "</Discovery></Domain></CycloneDDS>",
            1);
-  static const int domain = [] {  // whose name on this computer nobody else has taken
+  static const int domain = [] {  // its socket name is free on this computer
     for (int n = 0; n < 200; ++n) {
       const int wanted = 20 + static_cast<int>((::getpid() + n) % 200);
       sockaddr_un name{.sun_family = AF_UNIX, .sun_path = {}};
       const std::string as = "burr test on domain " + std::to_string(wanted);
       as.copy(name.sun_path + 1, sizeof name.sun_path - 1);
-      const int held = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);  // until this process ends
+      const int held = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);  // held until this process
+                                                                         // ends
       if (::bind(held, reinterpret_cast<const sockaddr*>(&name), sizeof name) == 0) return wanted;
       ::close(held);
     }
@@ -54,16 +55,16 @@ class FakeCrtkArm {
     math::Pose place;
     math::Vec3 velocity = math::Vec3::Zero();
     bool stamped = true, silent = false;
-    bool deaf = false;  // from then on nobody takes forces
+    bool deaf = false;  // from now on it does not read forces
     int stall_ms = 0;   // once
     double rate_hz = 1000;
     std::string state = "ENABLED";
     bool homed = true, busy = false;
-    int home_ms = 50;  // that homing takes; below 0: it faults
-    // makes of what it is about to tell something else
+    int home_ms = 50;  // duration of homing; below 0: it reports a fault
+    // changes a message before it is sent
     std::function<void(device::crtk::PoseStamped&, device::crtk::TwistStamped&)> spoil;
-    std::uint64_t places = 0;  // told
-    // ---- what came
+    std::uint64_t places = 0;  // poses sent
+    // ---- received
     math::Vec3 force = math::Vec3::Zero(), torque = math::Vec3::Zero();
     double largest = 0;
     std::uint64_t forces = 0;

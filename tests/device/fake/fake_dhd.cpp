@@ -1,4 +1,4 @@
-// Built as four libraries: libdrd; with FAKE_DHD_OLD without GetStatus and what came with it; with
+// Built as four libraries: libdrd; with FAKE_DHD_OLD without GetStatus and newer functions; with
 // FAKE_DHD_ALONE a libdhd without drd; with FAKE_DHD_BROKEN without a function that is needed.
 #include "device/fake/fake_dhd.h"
 
@@ -13,9 +13,9 @@
 namespace burr::test {
 namespace {
 
-constexpr int kFirstId = 5;  // an id is no index, whatever the real library does
+constexpr int kFirstId = 5;  // an id is not an index, whatever the real library does
 
-// FAKE_DHD_SERIALS, "1001,1002": for a program that a test runs; those and no other are there.
+// FAKE_DHD_SERIALS, "1001,1002": for a program that a test runs; exactly these devices are there.
 void plug_in(FakeDhd& all) {
   const char* serials = std::getenv("FAKE_DHD_SERIALS");
   if (serials == nullptr) return;
@@ -52,7 +52,7 @@ std::int64_t now_ns() {
   return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
-// Those that are plugged in are counted without gaps.
+// Indices count the devices that are plugged in, without gaps.
 FakeArm* at_index(int index, int& id) {
   for (std::size_t n = 0; n < state().arm.size(); ++n)
     if (state().arm[n].present && index-- == 0) {
@@ -101,8 +101,9 @@ int close_id(int id) {
   return 0;
 }
 
-// For measuring with the whole program: FAKE_DHD_MOTION=1 goes its own way, pressing the button,
-// from the first reading since it was opened on; FAKE_DHD_RATE=4000 is that fast.
+// For measurements with the whole program: with FAKE_DHD_MOTION=1 the hand moves by itself and
+// presses the button, starting with the first reading after it was opened; FAKE_DHD_RATE=4000 sets
+// the rate.
 void move_by_itself(FakeArm& arm) {
   static const char* const motion = std::getenv("FAKE_DHD_MOTION");
   static const char* const rate = std::getenv("FAKE_DHD_RATE");

@@ -19,7 +19,7 @@ namespace burr::test {
 
 using Json = nlohmann::json;
 
-// Both servers, a thread for each and one for everybody who talks with them.
+// Both servers, with a thread for each and one for every client.
 struct FakeHaply::Servers {
   using Tcp = boost::asio::ip::tcp;
 
@@ -127,7 +127,7 @@ struct FakeHaply::Servers {
     }
   }
 
-  // What happens from now on, until the other end or the test has had enough.
+  // Sends the events from now on, until the client or the test ends.
   void tell_all(Tcp::socket socket) {
     boost::beast::websocket::stream<Tcp::socket> stream(std::move(socket));
     boost::system::error_code trouble;
@@ -237,7 +237,7 @@ struct FakeHaply::Servers {
           if (asked.value("device_id", "") != arm.id) continue;
           if (held.insert(arm.id).second) ++holders_[arm.id];
           const Json force = asked.value("/commands/set_cursor_force"_json_pointer, Json());
-          if (!force.is_object() || !force.contains(w.key)) continue;  // not obeyed
+          if (!force.is_object() || !force.contains(w.key)) continue;  // has no effect
           const Json& v = force[w.key];
           arm.force = {v.at("x").get<double>(), v.at("y").get<double>(), v.at("z").get<double>()};
           arm.answers.take(arm.force.data());
@@ -250,7 +250,7 @@ struct FakeHaply::Servers {
   FakeHaply& fake;
   boost::asio::io_context io_;
   Tcp::acceptor acceptor_, events_acceptor_;
-  std::map<std::string, int> holders_;  // sessions that command an arm
+  std::map<std::string, int> holders_;  // number of sessions that command an arm
   std::vector<int> open_;
   std::vector<std::thread> talks_;
   std::atomic<bool> stop_ = false;

@@ -29,7 +29,7 @@ std::vector<Loop> loops;
 [[maybe_unused]] unsigned long next_loop = 1;
 std::atomic<bool> runs = false;
 std::thread clock_thread;
-bool moves = false;  // by itself (own_way.h)
+bool moves = false;  // the hand moves by itself (own_way.h)
 
 void move_by_itself(double t) {
   FakeTouch& touch = state().touch[0];
@@ -86,7 +86,7 @@ void run_clock() {
       continue;
     }
     next += std::chrono::nanoseconds(1'000'000'000 / rate) + std::chrono::milliseconds(stall);
-    if (next < now - std::chrono::milliseconds(20)) next = now;  // never made up for in a burst
+    if (next < now - std::chrono::milliseconds(20)) next = now;  // no burst to catch up
     std::this_thread::sleep_until(next);
     if (moves) {
       const std::lock_guard lock(state().mutex);
@@ -259,7 +259,7 @@ HD void hdSetDoublev(unsigned what, const double* value) {
   std::copy_n(value, 3, touch->forces.back().begin());
   touch->answers.take(value);
   const double size = std::sqrt(value[0] * value[0] + value[1] * value[1] + value[2] * value[2]);
-  if (!(size <= touch->largest_force)) touch->largest_force = size;  // what is not a number stays
+  if (!(size <= touch->largest_force)) touch->largest_force = size;  // a NaN is kept
 }
 
 HD const char* hdGetString(unsigned what) {

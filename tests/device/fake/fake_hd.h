@@ -1,7 +1,7 @@
-// A libHD.so without a device: plays what a test says, and writes down what it was told.
+// A libHD.so without a device: plays what a test wants and records the calls.
 //
-// Loaded as the real one is. The test reaches its state by the exported fake_hd(). Frames come from
-// a thread of its own, `rate` a second, or one by one from fake_hd_frame().
+// It is loaded like the real one. The test reaches its state by the exported fake_hd(). Frames come
+// from a thread of its own, `rate` a second, or one by one from fake_hd_frame().
 #pragma once
 
 #include <array>
@@ -23,31 +23,31 @@ struct FakeTouch {
   std::array<double, 3> velocity{};                                                     // mm/s
   int buttons = 0;
   int output_dof = 3;        // -1: it does not know
-  bool tells_driver = true;  // its version
-  bool takes_torque = true;  // of six
+  bool tells_driver = true;  // the version of the driver
+  bool takes_torque = true;  // with six degrees of freedom
   unsigned calibration = 0x5000, style = 2;
-  unsigned frame_error = 0;  // of every frame from now on
+  unsigned frame_error = 0;  // error of every frame from now on
   bool force_on = false, open = false;
-  bool left_on = false;  // when it was disabled last
-  // what was told
-  std::vector<std::array<double, 3>> forces;  // of each frame, newest last; the newest 4096
+  bool left_on = false;  // state of the force when it was disabled last
+  // calls received
+  std::vector<std::array<double, 3>> forces;  // one per frame, newest last; the newest 4096
   double largest_force = 0;                   // of all frames
   Answers answers;                            // mm, N
-  std::array<double, 3> torque{};             // told last [mN m]
-  int torques = 0;                            // how often
+  std::array<double, 3> torque{};             // the last one [mN m]
+  int torques = 0;                            // number of calls
   std::uint64_t frames = 0, opened = 0, closed = 0;
-  std::uint64_t first_frame = 0;  // since it was opened last
+  std::uint64_t first_frame = 0;  // since it was opened
 };
 
 struct FakeHd {
-  std::mutex mutex;  // over all of it
+  std::mutex mutex;  // protects everything here
   std::array<FakeTouch, 2> touch;
-  int rate = 1000;          // of frames of its own; 0: only fake_hd_frame()
+  int rate = 1000;          // frames a second of its own; 0: only fake_hd_frame()
   int stall_ms = 0;         // the next frame comes so much later, once
   bool needs_name = false;  // an old driver: nullptr finds nothing
   bool no_room = false;     // the scheduler is full
-  unsigned misuse = 0;      // calls that the real library would have refused
-  std::string misused;      // the first of them
+  unsigned misuse = 0;      // calls that the real library would refuse
+  std::string misused;      // the first of those calls
   int starts = 0, stops = 0, loops = 0;
 };
 

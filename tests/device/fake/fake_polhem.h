@@ -1,5 +1,5 @@
-// A Polhem on a pseudo terminal, played by the test: it answers each line of ours with one of its
-// own, as the maker's program expects it to, and misbehaves when it is told to.
+// A Polhem that the test plays on a pseudo terminal: it answers each line of burr with one of its
+// own, as the maker's program expects, and misbehaves on request.
 #pragma once
 
 #include <fcntl.h>
@@ -28,11 +28,12 @@ class FakePolhem {
     double mm[3] = {0, 0, 0};
     double turns[4] = {0, 0, 0, 0};
     int info = 0;
-    bool silent = false, pieces = false, swallow = false;  // swallow: the next line, once
+    bool silent = false, pieces = false, swallow = false;  // swallow: drops the next line, once
     int stall_ms = 0;                                      // once
-    double rate_hz = 0;                                    // no faster; 0: as asked
-    std::vector<std::string> instead;                      // of the next lines
-    // ---- what came
+    double rate_hz = 0;                                    // largest rate of answers; 0: every line
+                                                           // is answered at once
+    std::vector<std::string> instead;                      // the next answers
+    // ---- received
     math::Vec3 force = math::Vec3::Zero();  // its own axes [N]
     double largest = 0;
     std::uint64_t lines = 0, odd = 0;
@@ -44,7 +45,7 @@ class FakePolhem {
     ::grantpt(master_);
     ::unlockpt(master_);
     path = ::ptsname(master_);
-    // held open, so that the line stays when burr closes its end
+    // kept open, so that the line survives when burr closes its end
     slave_ = ::open(path.c_str(), O_RDWR | O_NOCTTY);
     termios raw{};
     ::tcgetattr(slave_, &raw);
@@ -64,7 +65,7 @@ class FakePolhem {
   math::Vec3 force() {
     return with([](Commands& w) { return w.force; });
   }
-  // For ever.
+  // The line does not come back.
   void unplug() {
     stop_ = true;
     if (thread_.joinable()) thread_.join();
@@ -97,7 +98,7 @@ class FakePolhem {
                         static_cast<short>(w.info));
       line.assign(text, static_cast<std::size_t>(n));
       w.answers.tell(w.mm);
-      if (line.size() < 64) {  // filled up, with a second newline at its end
+      if (line.size() < 64) {  // padded, with a second newline at its end
         line.resize(64, ' ');
         line[63] = '\n';
       }

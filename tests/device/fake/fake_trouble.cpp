@@ -1,4 +1,4 @@
-// A library that crashes, or never comes back, when it is loaded.
+// A library that crashes, or never returns, when it is loaded.
 #include <unistd.h>
 
 #include <csignal>

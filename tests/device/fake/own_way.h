@@ -1,7 +1,8 @@
-// The way a false device's hand goes by itself, for measuring with the whole program: away from its
-// user into the bone in two seconds, then circles there, pressing, the mill button down.
+// The path of a fake device's hand that moves by itself, for measurements with the whole program:
+// away from its user into the bone within two seconds, then circles there, pressing, with the mill
+// button pressed.
 //
-// Frame: x right, y up, z to the user [m]; t: since it began [s].
+// Frame: x right, y up, z to the user [m]; t: since the start [s].
 #pragma once
 
 #include <algorithm>

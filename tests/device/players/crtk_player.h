@@ -1,5 +1,5 @@
-// A false CRTK arm (fake/fake_crtk.h) on a bus of this room, its end turned. It holds the last
-// force it was given for ever, and takes forces while its node is silent.
+// A fake CRTK arm (fake/fake_crtk.h) on a private bus, with its end rotated. It holds its last
+// force for ever, and accepts forces while its node is silent.
 #pragma once
 
 #include <memory>
@@ -54,7 +54,7 @@ class CrtkPlayer final : public Player {
     return all;
   }
   [[nodiscard]] double limit() const override { return 3; }
-  // One may be under way while the place is told.
+  // One force may be on its way while the pose is sent.
   [[nodiscard]] int most_late() const override { return 1; }
 
  private:

@@ -1,4 +1,4 @@
-// Every driver that burr has, each with a player of its own.
+// All drivers of burr, each with a player of its own.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// A false Inverse3 with a grip (fake/fake_haply.h), behind a service on the loopback. Its frame:
-// x right, y forward, z up.
+// A fake Inverse3 with a grip (fake/fake_haply.h), behind a service on the loopback interface. Its
+// frame: x right, y forward, z up.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@ class InversePlayer final : public Player {
     service_.with([&](FakeHaply::Commands& commands) {
       away_ = commands.arms.front();
       commands.arms.clear();
-      away_.force.setZero();  // what the service no longer hears of, it lets go
+      away_.force.setZero();  // the service releases a force that is not requested any more
     });
   }
   void plug_in() override {
@@ -61,8 +61,8 @@ class InversePlayer final : public Player {
     return all;
   }
   [[nodiscard]] double limit() const override { return 8; }
-  // It answers five thousand times a second at most, so only every fifth of its readings begins a
-  // tick: within that tick.
+  // It answers five thousand times a second at most, so only every fifth reading begins a tick: the
+  // force may be late by that many.
   [[nodiscard]] int most_late() const override { return 5; }
 
  private:

@@ -1,5 +1,5 @@
-// A false omega.6 (fake/fake_dhd.h), loaded as the maker's library is. Its frame: x to the user,
-// y right, z up.
+// A fake omega.6 (fake/fake_dhd.h), loaded like the maker's library. Its frame: x to the user, y
+// right, z up.
 #pragma once
 
 #include <dlfcn.h>
@@ -51,7 +51,7 @@ class OmegaPlayer final : public Player {
   void plug_in() override {
     with([](FakeArm& arm) {
       arm.present = true;
-      arm.forces.clear();  // what it was told before, its power took away
+      arm.forces.clear();  // switching it off removed its old forces
     });
   }
 

@@ -1,8 +1,8 @@
-// A test that plays a device's user, the same for every driver: moves the hand, presses its
-// buttons, pulls the plug, and feels what comes over the wire.
+// A test's model of a device's user, the same for every driver: moves the hand, presses its
+// buttons, unplugs the device, and reads the force on the wire.
 //
 // Frame: burr's for a device, x right, y up, z to the user. Units: SI. Thread: the test's; what the
-// false device shares with its own threads is under its own lock.
+// fake device shares with its own threads is protected by its own lock.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace burr::test {
 
-// A place that the device told, and the force that came next.
+// A position that the device reported, and the force that came next.
 struct Felt {
   math::Vec3 told, force;
 };
@@ -26,29 +26,29 @@ class Player {
   Player& operator=(const Player&) = delete;
   virtual ~Player() = default;
 
-  // The driver, with the false device behind it.
+  // The driver, connected to the fake device.
   [[nodiscard]] virtual std::unique_ptr<device::Device> device(
       const device::LinkSettings& link) = 0;
 
-  // The hand is there and goes so fast.
+  // Sets the hand's position and velocity.
   virtual void hold(const math::Vec3& place, const math::Vec3& velocity) = 0;
-  // False: it has no such button, or none that is read.
+  // False: the device has no such button, or the driver does not read it.
   [[nodiscard]] virtual bool mill(bool down) = 0;
   [[nodiscard]] virtual bool clutch(bool down) = 0;
   virtual void unplug() = 0;
   virtual void plug_in() = 0;
 
-  // On the wire just now, and the largest ever [N].
+  // Present force on the wire, and the largest so far [N].
   [[nodiscard]] virtual math::Vec3 force() = 0;
   [[nodiscard]] virtual double largest() = 0;
-  // All since it was asked last.
+  // All pairs since the last call.
   [[nodiscard]] virtual std::vector<Felt> felt() = 0;
 
-  // Never passed on the wire [N]; the maker's, written down once more.
+  // Never exceeded on the wire [N]; the maker's value, written here independently of the driver.
   [[nodiscard]] virtual double limit() const = 0;
-  // Forces that may still be of the place before, once the device told another.
+  // How many readings a force may be late.
   [[nodiscard]] virtual int most_late() const { return 0; }
-  // What the driver did that the real one forbids; empty: nothing.
+  // Calls of the driver that the real device forbids; empty: none.
   [[nodiscard]] virtual std::string misuse() { return {}; }
 };
 

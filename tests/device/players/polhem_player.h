@@ -1,6 +1,6 @@
-// A false Polhem (fake/fake_polhem.h) on a pseudo terminal. Its frame: x to the user, y right,
-// z up. Its button is not read, and a terminal whose other end was closed never comes back: it
-// falls silent instead, its motors going on as they were told.
+// A fake Polhem (fake/fake_polhem.h) on a pseudo terminal. Its frame: x to the user, y right, z up.
+// Its button is not read. A terminal whose other end was closed never comes back, so to be
+// unplugged it falls silent instead, while its motors continue.
 #pragma once
 
 #include <memory>

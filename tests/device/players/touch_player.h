@@ -1,4 +1,4 @@
-// A false Touch (fake/fake_hd.h), loaded as the maker's library is.
+// A fake Touch (fake/fake_hd.h), loaded like the maker's library.
 #pragma once
 
 #include <dlfcn.h>

@@ -1,5 +1,5 @@
-// A reader that misbehaves as its file tells it to, behind the very fence that burr-read has. The
-// file's first word is what to do. Only for tests/io/fence_test.cpp; never installed.
+// A reader that misbehaves as its file tells it to, behind the same fence as burr-read. The file's
+// first word says what to do. Only for tests/io/fence_test.cpp; never installed.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -65,7 +65,7 @@ Result<Scan> misbehave(const std::filesystem::path& path, const ReadOptions& /*o
     for (int n = 0; n <= 10; ++n) progress.report(n / 10.0, "working");
     return small_scan();
   }
-  // ---- ends and does not end
+  // ---- crashes and hangs
   if (what == "crash") {
     volatile int* nowhere = nullptr;
     *nowhere = 1;
@@ -82,7 +82,7 @@ Result<Scan> misbehave(const std::filesystem::path& path, const ReadOptions& /*o
       progress.report(0.5, "working on");
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-  // ---- hunger
+  // ---- memory
   if (what == "eat") {
     std::vector<std::vector<char>> all;
     while (true) all.emplace_back(std::size_t{32} << 20, 'x');
@@ -91,7 +91,7 @@ Result<Scan> misbehave(const std::filesystem::path& path, const ReadOptions& /*o
     std::vector<Voxels<float>> all;
     while (true) all.emplace_back(std::size_t{8} << 20);
   }
-  if (what == "eat_quietly") {  // what nobody looks at
+  if (what == "eat_quietly") {  // memory that the fence's protocol does not show
     while (::malloc(std::size_t{1} << 20) != nullptr) continue;
     return answer("no more memory");
   }
@@ -100,7 +100,7 @@ Result<Scan> misbehave(const std::filesystem::path& path, const ReadOptions& /*o
     while (::open(path.c_str(), O_RDONLY | O_CLOEXEC) >= 0 && n < 100000) ++n;
     return answer(n < 100 ? "few files" : "many files");
   }
-  // ---- out of the folder
+  // ---- files outside the folder
   if (what == "open") {
     auto text = first_bytes(other, 64);
     return text ? answer("it worked") : answer("refused: " + text.error().text);
@@ -109,7 +109,7 @@ Result<Scan> misbehave(const std::filesystem::path& path, const ReadOptions& /*o
   if (what == "write") return outcome_of(::open(other.c_str(), O_WRONLY | O_CREAT, 0600));
   if (what == "unlink") return outcome_of(::unlink(other.c_str()));
   if (what == "rename") return outcome_of(::rename(path.c_str(), other.c_str()));
-  // ---- the rest of the world
+  // ---- network, programs, processes
   if (what == "socket") return outcome_of(::socket(AF_INET, SOCK_STREAM, 0));
   if (what == "run") {
     ::execl("/bin/true", "true", nullptr);
@@ -122,7 +122,7 @@ Result<Scan> misbehave(const std::filesystem::path& path, const ReadOptions& /*o
     const rlimit all{RLIM_INFINITY, RLIM_INFINITY};
     return outcome_of(::setrlimit(RLIMIT_AS, &all));
   }
-  if (what == "code") {  // memory that is run
+  if (what == "code") {  // memory that can be executed
     void* at = ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE | PROT_EXEC,
                       MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     return outcome_of(at == MAP_FAILED ? -1 : 0);
@@ -133,7 +133,7 @@ Result<Scan> misbehave(const std::filesystem::path& path, const ReadOptions& /*o
     second.join();
     return answer(sum == 1 ? "threads work" : "threads do not work");
   }
-  // ---- lies about what it read
+  // ---- false results
   Scan scan = small_scan();
   if (what == "lie_size") scan.size = {2048, 2048, 500};
   if (what == "lie_negative") scan.size = {-2, -2, 2};
@@ -148,7 +148,8 @@ Result<Scan> misbehave(const std::filesystem::path& path, const ReadOptions& /*o
     ::_exit(0);
   }
   if (what == "lie_nothing") {
-    raw_message(FenceMessage::done, 0, 4096, sizeof(FenceMessage));  // the request, as an outcome
+    raw_message(FenceMessage::done, 0, 4096, sizeof(FenceMessage));  // the request, returned as an
+                                                                     // outcome
     ::_exit(0);
   }
   if (what == "lie_short") {

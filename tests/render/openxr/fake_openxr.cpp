@@ -19,7 +19,7 @@ using burr::test::FakeXr;
 
 namespace {
 
-// never destroyed: a wait that hangs may outlive the tests
+// never destroyed: a wait that hangs may last longer than the tests
 FakeXr* g_fake = new FakeXr;
 
 struct Chain {
@@ -30,10 +30,10 @@ struct Chain {
   bool waited = false;
 };
 
-// of the one instance and the one session
+// state of the one instance and the one session
 struct World {
   bool requirements = false, running = false, attached = false;
-  int frame_waited = 0;  // and not begun
+  int frame_waited = 0;  // waited for and not begun
   bool frame_begun = false;
   bool focused_told = false;
   XrTime time = 1'000'000'000;
@@ -511,7 +511,7 @@ XrResult xrSuggestInteractionProfileBindings(XrInstance,
   LOCKED;
   TYPED(info, XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
   DEMAND(!g_world->attached, XR_ERROR_ACTIONSETS_ALREADY_ATTACHED);
-  // it knows two kinds, as a runtime knows only some
+  // it knows two kinds; a real runtime also knows only some
   for (const char* known : {"/interaction_profiles/khr/simple_controller",
                             "/interaction_profiles/oculus/touch_controller"})
     if (g_world->paths[known] == info->interactionProfile) {
@@ -572,7 +572,7 @@ XrResult xrLocateSpace(XrSpace space, XrSpace base, XrTime time, XrSpaceLocation
 }  // namespace
 
 extern "C" FakeXr* fake_xr() { return g_fake; }
-// What an older test left hanging may still look at the old ones: they stay.
+// The old objects stay alive, because a hanging wait of an earlier test may still use them.
 extern "C" void fake_xr_forget() {
   g_fake = new FakeXr;
   g_world = new World;

@@ -1,10 +1,10 @@
-// tests/render/openxr/fake_openxr.h - an OpenXR loader and runtime that a test plays: what it says
-// of head and wand, and what it was told. A shared object of its own, opened as a real loader is
-// (BURR_OPENXR_LOADER); the test opens it as well and asks for fake_xr().
+// tests/render/openxr/fake_openxr.h - an OpenXR loader and runtime that the test plays: it sets the
+// poses of head and wand, and records the calls. It is a shared object of its own, opened like a
+// real loader (BURR_OPENXR_LOADER); the test opens it too and calls fake_xr().
 //
-// It demands what the specification demands, answers with the specification's errors, and notes
-// each breach. Its state is the process's: forget() before each test. Thread: any; `mutex` for the
-// rest.
+// It checks the rules of the specification, answers with the specification's errors, and records
+// each breach. Its state belongs to the process: call forget() before each test. Thread: any;
+// `mutex` protects the rest.
 #pragma once
 
 #include <array>
@@ -24,10 +24,10 @@ struct FakeXr {
   mutable std::mutex mutex;
   std::condition_variable told;
 
-  // ---- what it is
+  // ---- properties
   bool no_runtime = false, no_headset = false, no_opengl = false;
-  bool hangs = false;          // xrWaitFrame does not come back
-  bool instance_lost = false;  // nothing is left
+  bool hangs = false;          // xrWaitFrame does not return
+  bool instance_lost = false;  // the instance is lost
   std::uint32_t width = 320, height = 300;
   XrPosef head = {{0, 0, 0, 1}, {0, 0, 0}};
   float eyes_apart = 0.064F;
@@ -37,7 +37,7 @@ struct FakeXr {
   bool wand_tracked = true;
   float trigger = 0;
 
-  // ---- what happens: told by xrPollEvent, one after the other
+  // ---- events: reported by xrPollEvent in order
   void happens(XrSessionState next) {
     const std::lock_guard lock(mutex);
     events.push_back(next);
@@ -45,15 +45,15 @@ struct FakeXr {
   std::deque<XrSessionState> events;
   bool instance_loss_pending = false;
 
-  // ---- what it saw
+  // ---- calls received
   struct Picture {
     int width = 0, height = 0;
-    std::vector<std::uint8_t> rgba;  // from the bottom
+    std::vector<std::uint8_t> rgba;  // bottom row first
     XrPosef pose = {};
   };
-  std::array<Picture, 2> pictures;  // of the last frame that had any
+  std::array<Picture, 2> pictures;  // of the last frame with pictures
   int waited = 0, begun = 0, ended = 0, with_pictures = 0;
-  int instances = 0, sessions = 0;  // that are there
+  int instances = 0, sessions = 0;  // existing now
   std::vector<std::string> breaches;
   XrSessionState state = XR_SESSION_STATE_UNKNOWN;
 };

@@ -1,5 +1,5 @@
-// tests/render/openxr/worn.h - the fake runtime of fake_openxr.h, put on: opened, forgotten, named
-// by BURR_OPENXR_LOADER for as long as this lives.
+// tests/render/openxr/worn.h - puts on the headset of fake_openxr.h: opens the fake runtime, resets
+// it, and names it in BURR_OPENXR_LOADER while this object lives.
 #pragma once
 
 #include <gtest/gtest.h>

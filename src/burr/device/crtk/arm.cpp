@@ -22,13 +22,13 @@ using math::Vec3;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kHeard(300);             // for another of the same name
-constexpr std::int64_t kListenNs = 20'000'000;  // between two looks whether it is to end
-constexpr milliseconds kStateAgain(1000);       // operating_state, though nothing changed
-constexpr double kFarthest = 1;                 // from the middle [m]
+constexpr milliseconds kHeard(300);             // wait for another arm of the same name
+constexpr std::int64_t kListenNs = 20'000'000;  // between two checks of whether to stop
+constexpr milliseconds kStateAgain(1000);       // publish operating_state again, even if unchanged
+constexpr double kFarthest = 1;                 // distance of a goal from the middle [m]
 constexpr std::array<const char*, 3> kStates = {"ENABLED", "PAUSED", "DISABLED"};
 
-constexpr double kThere = 1e-9;  // [m]
+constexpr double kThere = 1e-9;  // closer than this counts as arrived [m]
 
 bool sound(const PoseStamped& goal, const Vec3& middle) {
   const Pose pose = pose_of(goal.pose_);
@@ -57,10 +57,10 @@ struct Arm::Talk {
   std::atomic<bool> homed = true, stop = false;
   std::thread listener;
 
-  // the listener's own
+  // used only by the listener
   ArmGoal goal;
 
-  // the teller's own
+  // used only by tell()
   int stated = -1;
   steady_clock::time_point stated_at;
 
@@ -212,7 +212,7 @@ void DrivenHand::step(double dt) BURR_RT {
   const double half = 0.5 * kMoveAcceleration * dt;
   if (servo)
     speed_ = kServoSpeed;
-  else  // no faster than from where it can stop
+  else  // no faster than the speed from which it can still stop
     speed_ = std::min({kMoveSpeed, speed_ + kMoveAcceleration * dt,
                        std::sqrt(2 * kMoveAcceleration * left + half * half) - half});
   const double reach = speed_ * dt;

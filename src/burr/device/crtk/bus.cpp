@@ -14,9 +14,9 @@
 namespace burr::device::crtk {
 namespace {
 
-constexpr int kMostDomains = 232;  // ports end there (RTPS 2.2, 9.6.1)
+constexpr int kMostDomains = 232;  // the highest domain with valid ports (RTPS 2.2, 9.6.1)
 constexpr std::string_view kPrefix = "rt";
-constexpr int kHistory = 10;  // as ROS keeps by default
+constexpr int kHistory = 10;  // as is ROS' default
 
 struct QosDeleter {
   void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
@@ -107,7 +107,7 @@ Result<std::unique_ptr<Bus>> Bus::open(int domain) {
 }
 
 void Bus::hear() {
-  // only where somebody asks: what is told and not taken stays in memory
+  // made only when needed: samples that nobody takes stay in memory
   if (publications_ <= 0)
     publications_ =
         dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
@@ -152,7 +152,7 @@ namespace detail {
 dds_entity_t make_reader(dds_entity_t participant, const dds_topic_descriptor_t& type,
                          std::string_view topic, Keep keep) {
   const Qos request = qos(keep);
-  // what happened before can be had only from a writer that is reliable
+  // samples from before can only be had from a reliable writer
   dds_qset_reliability(request.get(),
                        keep == Keep::last ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
                        0);
@@ -164,7 +164,8 @@ dds_entity_t make_writer(dds_entity_t participant, const dds_topic_descriptor_t&
                          std::string_view topic, Keep keep, std::string_view mark) {
   const Qos request = qos(keep);
   if (!mark.empty()) dds_qset_userdata(request.get(), mark.data(), mark.size());
-  dds_qset_reliability(request.get(), DDS_RELIABILITY_RELIABLE, 0);  // no wait for who is slow
+  dds_qset_reliability(request.get(), DDS_RELIABILITY_RELIABLE, 0);  // does not wait for slow
+                                                                     // readers
   return dds_create_writer(participant, make_topic(participant, type, topic), request.get(),
                            nullptr);
 }
@@ -202,7 +203,8 @@ math::Vec3 vector_of(const geometry_msgs_msg_dds__Vector3_& v) { return {v.x_, v
 std::string arm_name(std::string_view given) {
   while (given.ends_with('/')) given.remove_suffix(1);
   while (given.starts_with('/')) given.remove_prefix(1);
-  bool begins = true;  // a part of the name, which is never empty and begins with no digit
+  bool begins = true;  // start of a part of the name; a part is never empty and never begins with a
+                       // digit
   for (const char c : given) {
     const auto letter = static_cast<unsigned char>(c);
     if (c == '/'

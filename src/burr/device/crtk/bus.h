@@ -1,14 +1,15 @@
-// device/crtk/bus.h - the bus that CRTK arms speak on: DDS with the names of ROS 2, no ROS needed;
-// of this room only.
+// device/crtk/bus.h - the bus of CRTK arms: DDS with the topic names of ROS 2; ROS itself is not
+// needed. Of this room only.
 //
-//     auto bus = Bus::open(-1);                         // the domain of ROS_DOMAIN_ID
+//     auto bus = Bus::open(-1);                         // domain: ROS_DOMAIN_ID
 //     Reader<PoseStamped> place((*bus)->participant(), "/MTMR/measured_cp", Keep::newest);
 //     if (const PoseStamped* newest = place.take()) ...
 //
-// A topic /x of ROS is rt/x here, its type p::msg::dds_::T_ (crtk_messages.idl). Writers are
-// reliable, keep one sample and never wait; readers take what either kind of writer offers.
-// Thread: each Reader and each Writer on one thread at a time. Errors: a bus that cannot be opened
-// says why; after that a reader that could not be made reads nothing, a writer writes nothing.
+// The topic /x of ROS is rt/x here, its type p::msg::dds_::T_ (crtk_messages.idl). Writers are
+// reliable, keep one sample and never wait; readers accept reliable and best-effort writers.
+// Thread: each Reader and each Writer on one thread at a time. Errors: open() says why a bus cannot
+// be opened. After that there are no errors: a reader that could not be made reads nothing, a
+// writer that could not be made writes nothing.
 #pragma once
 
 #include <dds/dds.h>
@@ -38,15 +39,15 @@ using StringStamped = crtk_msgs_msg_dds__StringStamped_;
 template <class T>
 [[nodiscard]] const dds_topic_descriptor_t& described();
 
-// A topic somebody writes or reads, as its discovery tells it.
+// A topic that somebody writes or reads, as DDS discovery reports it.
 struct Topic {
-  std::string name;  // as ROS says it: /MTMR/measured_cp
+  std::string name;  // as in ROS: /MTMR/measured_cp
   std::string type;  // geometry_msgs::msg::dds_::PoseStamped_
 };
 
 class Bus {
  public:
-  // domain: 0..232; below 0: ROS_DOMAIN_ID, else 0
+  // domain: 0..232; below 0: ROS_DOMAIN_ID, else 0. Error: why the bus cannot be opened.
   [[nodiscard]] static Result<std::unique_ptr<Bus>> open(int domain);
   ~Bus();
   Bus(const Bus&) = delete;
@@ -54,10 +55,10 @@ class Bus {
 
   [[nodiscard]] dds_entity_t participant() const { return participant_; }
   [[nodiscard]] int domain() const { return domain_; }
-  // Topics of ROS that somebody writes, as far as heard by now; sorted.
+  // The ROS topics that somebody writes, as far as discovered by now; sorted.
   [[nodiscard]] std::vector<Topic> written();
-  // How many others write it, as far as heard by now; guardians: also those processes of burr's
-  // that say nothing but "no force" (device/guardian.h).
+  // Number of other writers of a topic, as far as discovered by now. guardians: count burr's own
+  // guardian processes too, which write nothing but "no force" (device/guardian.h).
   [[nodiscard]] int others_writing(std::string_view topic, bool guardians);
 
  private:
@@ -75,13 +76,13 @@ class Bus {
   std::vector<Writes> heard_;
 };
 
-// What a guardian's writer carries, so that it is known for one.
+// Mark of a guardian's writer, by which others recognize it.
 inline constexpr std::string_view kGuardian = "burr-guard";
 
 enum class Keep {
-  newest,  // one sample: what is measured
-  all,     // ten: what happens
-  last,    // likewise, and the last one from before we came
+  newest,  // keeps one sample: for measured values
+  all,     // keeps ten: for events
+  last,    // keeps ten, and gets the last one written before it joined
 };
 
 namespace detail {
@@ -104,7 +105,7 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  // The next sample, oldest first, until the next take(); nullptr: none.
+  // The next sample, oldest first; valid until the next take(). nullptr: there is none.
   [[nodiscard]] const T* take() { return detail::take(entity_, &sample_) ? &sample_ : nullptr; }
   [[nodiscard]] dds_entity_t entity() const { return entity_; }
 
@@ -116,7 +117,7 @@ class Reader {
 template <class T>
 class Writer {
  public:
-  // mark: that others may know it by
+  // mark: a text by which others recognize this writer
   Writer(dds_entity_t participant, std::string_view topic, Keep keep = Keep::newest,
          std::string_view mark = {})
       : entity_(detail::make_writer(participant, described<T>(), topic, keep, mark)) {}
@@ -124,23 +125,23 @@ class Writer {
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  // False: it went nowhere.
+  // False: the sample was not written.
   bool write(const T& sample) { return dds_write(entity_, &sample) == DDS_RETCODE_OK; }
-  // How many read it.
+  // Number of readers.
   [[nodiscard]] int readers() const { return dds_get_matched_subscriptions(entity_, nullptr, 0); }
-  // Until all who read it have it, or so long [ns].
+  // Waits until every reader has the samples, for at most `longest` [ns].
   void flush(std::int64_t longest) { dds_wait_for_acks(entity_, longest); }
 
  private:
   dds_entity_t entity_;
 };
 
-// The time of ROS: since 1970.
+// The time as ROS counts it: since 1970.
 [[nodiscard]] Stamp now_stamp();
 [[nodiscard]] inline bool is_zero(const Stamp& stamp) {
   return stamp.sec_ == 0 && stamp.nanosec_ == 0;
 }
-// A text of ours in a sample to be written, which reads it only.
+// Lends our text to a sample. The sample is only written to the bus, so the text is not changed.
 [[nodiscard]] inline char* lent(const char* text) { return const_cast<char*>(text); }
 
 [[nodiscard]] math::Pose pose_of(const geometry_msgs_msg_dds__Pose_& pose);
@@ -148,7 +149,7 @@ class Writer {
 [[nodiscard]] geometry_msgs_msg_dds__Vector3_ message_of(const math::Vec3& v);
 [[nodiscard]] math::Vec3 vector_of(const geometry_msgs_msg_dds__Vector3_& v);
 
-// A namespace of ROS as a user may write it, "MTMR" or "/MTMR/", as "/MTMR"; empty: it is none.
+// A ROS namespace as a user may write it, "MTMR" or "/MTMR/", as "/MTMR". Empty: not a valid one.
 [[nodiscard]] std::string arm_name(std::string_view given);
 
 }  // namespace burr::device::crtk

@@ -20,25 +20,27 @@ using math::Vec3;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kHeard(1500);    // for who is there to be heard of
-constexpr milliseconds kMatched(2000);  // for a topic to be joined
-constexpr milliseconds kStated(600);    // for an arm to say its state
+constexpr milliseconds kHeard(1500);    // to discover the arms
+constexpr milliseconds kMatched(2000);  // for the arm to join a topic
+constexpr milliseconds kStated(600);    // for an arm to report its state
 constexpr milliseconds kHomes(60'000);  // for an arm to home
-constexpr double kCounted = 0.4;        // in which its rate is seen [s]
-constexpr int kCountedPlaces = 100;     // likewise: so many are enough
-constexpr milliseconds kLeft(1000);     // for another's writer to go: our own of before
+constexpr double kCounted = 0.4;        // time over which its rate is measured [s]
+constexpr int kCountedPlaces = 100;     // ... but not more poses than this
+constexpr milliseconds kLeft(1000);     // for another writer to disappear: it may be our own
+                                        // earlier one
 constexpr milliseconds kLook(2);
-constexpr std::int64_t kOneReadingNs = 2'000'000;  // that read() waits
+constexpr std::int64_t kOneReadingNs = 2'000'000;  // wait of read()
 constexpr std::int64_t kLastNs = 100'000'000;      // for the last force to arrive
-constexpr double kSlowest = 400;  // readings a second: the tick lets go after 5 ms without [Hz]
-constexpr int kLookAtBus = 64;  // forces between two looks who takes them, and who else gives some
+constexpr double kSlowest = 400;  // lowest rate of readings: after 5 ms without one the tick
+                                  // releases the force [Hz]
+constexpr int kLookAtBus = 64;    // forces between two checks of who reads or writes them
 
 constexpr const char *kBody = "/body/servo_cf", *kSpatial = "/spatial/servo_cf";
 constexpr const char* kPlace = "/measured_cp";
 constexpr const char* kPoseType = "geometry_msgs::msg::dds_::PoseStamped_";
 
-// CRTK tells no limits. Cautious ones, for an arm of the size of dVRK's leaders: what the hand of
-// any of them can bear, not what the strongest could do.
+// CRTK has no way to report limits. These are cautious ones for an arm of the size of dVRK's
+// leaders: every such arm and every hand can bear them; the strongest arm could do more.
 constexpr double kPeak = 3, kContinuous = 1;      // [N]
 constexpr double kStiffness = 400, kDamping = 3;  // [N/m], [N s/m]
 constexpr double kRadius = 100e-3;                // [m]
@@ -56,7 +58,7 @@ bool is_pressed(const Joy& joy) { return joy.buttons_._length > 0 && joy.buttons
 
 }  // namespace
 
-// The connection, and what is known through it.
+// The connection and its state.
 struct Leader::Talk {
   std::unique_ptr<Bus> bus;
   std::string arm;
@@ -124,7 +126,7 @@ struct Leader::Talk {
     busy = told.is_busy_;
   }
 
-  // All that is told beside the place.
+  // Takes all messages except the pose.
   void listen() {
     if (!stated)
       while (const OperatingState* told = happened.take()) take_state(*told);
@@ -139,13 +141,13 @@ struct Leader::Talk {
     buttons = down ? buttons | bit : buttons & ~bit;
   }
 
-  // Until a place has come, or a few milliseconds.
+  // Waits for a pose, for a few milliseconds at most.
   const PoseStamped* next_place() {
     dds_attach_t found = 0;
     static_cast<void>(dds_waitset_wait(waits, &found, 1, kOneReadingNs));
     return place.take();
   }
-  // How often a place comes [Hz].
+  // The rate of the poses [Hz].
   double rate() {
     int places = 0;
     double seconds = 0;
@@ -159,7 +161,7 @@ struct Leader::Talk {
     return places / seconds;
   }
 
-  // Who else writes its forces.
+  // Number of other writers of the arm's forces.
   int others(bool guardians) {
     return bus->others_writing(arm + kBody, guardians) +
            bus->others_writing(arm + kSpatial, guardians);
@@ -175,7 +177,7 @@ struct Leader::Talk {
     command.write(message);
   }
 
-  // A pure force at the arm's end; p, q: where that is in the frame of the force.
+  // Publishes a pure force at the arm's end. p, q: the pose of that end in the frame of the force.
   bool push(const Vec3& wanted) {
     const math::Pose& end = hand.world_from_tool;
     wrench.header_.stamp_ = now_stamp();
@@ -192,7 +194,7 @@ namespace {
 
 struct Heard {
   std::vector<std::string> arms;
-  std::string old;  // one whose place is of a type of before 2022, and that type
+  std::string old;  // an arm whose pose has a message type from before 2022, and that type
 };
 Heard heard_on(Bus& bus) {
   Heard heard;
@@ -207,7 +209,7 @@ Heard heard_on(Bus& bus) {
   return heard;
 }
 
-// The arm to take; error: which there are.
+// Chooses the arm to use. Error: lists the arms that are there.
 Result<std::string> choose(Bus& bus, const std::string& given) {
   std::string wanted;
   if (!given.empty()) {
@@ -255,7 +257,7 @@ Result<std::vector<std::string>> arms_heard(const LeaderSettings& settings) {
   return heard_on(**bus).arms;
 }
 
-// Enabled and homed, by itself where that is allowed.
+// Makes sure that the arm is enabled and homed; does it where that is allowed.
 Status Leader::prepare(Talk& talk) {
   const auto stated = [&talk] {
     talk.listen();
@@ -307,7 +309,7 @@ Result<DeviceSpec> Leader::connect() {
         fmt::format("{0} takes no force: nobody listens to {0}{1} or {0}{2}; burr needs an "
                     "arm that can push",
                     *arm, kBody, kSpatial));
-  if (!talk->to_body)  // it may only not have been heard of yet
+  if (!talk->to_body)  // it may only be that the topic has not been discovered yet
     static_cast<void>(until(kStated, [&talk] { return talk->body.readers() > 0; }));
   static_cast<void>(taken());
   const Status prepared = prepare(*talk);
@@ -325,7 +327,7 @@ Result<DeviceSpec> Leader::connect() {
                              "set a shorter period where its node is started",
                              *arm, rate, kSlowest));
 
-  // Where the arm knows them: its weight carried, and forces as its end is turned.
+  // For arms that know these: carry their own weight, and take forces in the frame of their end.
   const Bool yes{true}, no{false};
   talk->weightless.write(yes);
   if (talk->to_body) talk->absolute.write(no);
@@ -389,7 +391,8 @@ Wire::Read Leader::read(HandState& hand) BURR_RT {
 
 bool Leader::write(const Vec3& force) BURR_RT {
   Talk& talk = *talk_;
-  static_cast<void>(talk.push(bounded(force, kPeak)));  // what went nowhere is followed by the next
+  static_cast<void>(talk.push(bounded(force, kPeak)));  // a force that was not sent is followed by
+                                                        // the next
   if (--talk.until_look <= 0) {
     talk.until_look = kLookAtBus;
     talk.taken = talk.force().readers() > 0;

@@ -1,20 +1,20 @@
-// device/crtk/leader.h - a robot's arm as the hand: any that speaks CRTK (dVRK's leader arms, a lab
-// device behind a CRTK node), on DDS with the names of ROS 2.
+// device/crtk/leader.h - a robot arm as the hand: any arm that speaks CRTK (leader arms of the
+// dVRK, a lab device behind a CRTK node), over DDS with the topic names of ROS 2.
 //
 //     <arm>/measured_cp -> the hand            the force -> <arm>/body/servo_cf, each reading
 //
-// Frame: the arm's own base, metres; how it lies before the view is the user's to say (mapping.h).
-// The force is turned into the frame of the arm's end, as body/servo_cf has it; an arm that takes
-// only spatial/servo_cf gets the wrench of that force about its base. An arm that is not enabled or
-// not homed is left so unless its owner allowed it to move. gripper/closed mills (button 0),
-// /footpedals/clutch lifts (button 1), /footpedals/coag is the pedal, and where
-// /console/operator_present speaks the hand is lifted while nobody is there.
-// Where somebody else writes the arm's forces it is left to him, and let go should he come later:
-// the arm would obey now one and now the other. CRTK knows no time limit on a force: a guardian
-// takes it back should burr die (guardian.h).
+// Frame: the arm's own base, metres. The user says how the base lies relative to the view
+// (mapping.h). The force is rotated into the frame of the arm's end, as body/servo_cf needs it. An
+// arm that takes only spatial/servo_cf gets the wrench of that force about its base. An arm that is
+// not enabled or not homed stays so, unless the user allowed it to move (home_allowed).
+// gripper/closed mills (button 0), /footpedals/clutch lifts the hand (button 1), /footpedals/coag
+// is the pedal. Where /console/operator_present is published, the hand is lifted while nobody is
+// there. If another program writes the arm's forces, this one does not; if another one starts
+// later, this one stops. Otherwise the arm would obey both in turn. CRTK has no time limit on a
+// force, so a guardian releases it if burr dies (guardian.h).
 //
-// Source: CRTK Robot API (operating state, motion), dVRK API 2.x. Thread: as Wire. Memory: the
-// wire's own, a message at a time; none in the tick.
+// Source: CRTK Robot API (operating state, motion), dVRK API 2.x. Thread: as Wire. Memory:
+// allocated on the wire's thread, one message at a time; none in the tick.
 #pragma once
 
 #include <memory>
@@ -26,12 +26,12 @@
 namespace burr::device::crtk {
 
 struct LeaderSettings {
-  std::string arm = {};       // its namespace, /MTMR; empty: the only one that is there
-  int domain = -1;            // of DDS; below 0: ROS_DOMAIN_ID, else 0
-  bool home_allowed = false;  // it may be enabled and home itself: it moves
+  std::string arm = {};       // its namespace, /MTMR; empty: the only arm on the bus
+  int domain = -1;            // DDS domain; below 0: ROS_DOMAIN_ID, else 0
+  bool home_allowed = false;  // the arm may be enabled and may home itself: it moves
 };
 
-// Every arm that is heard on the bus within a second and a half; nothing is said to any.
+// The arms that are heard on the bus within 1.5 seconds. Nothing is sent to any of them.
 [[nodiscard]] Result<std::vector<std::string>> arms_heard(const LeaderSettings& settings = {});
 
 class Leader final : public Wire {

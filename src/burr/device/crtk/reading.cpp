@@ -21,7 +21,7 @@ bool take_place(const PoseStamped& told, HandState& hand) BURR_RT {
 bool take_speed(const TwistStamped& told, HandState& hand) BURR_RT {
   const math::Vec3 speed = is_zero(told.header_.stamp_) ? math::Vec3(math::Vec3::Zero())
                                                         : vector_of(told.twist_.linear_);
-  if (!(speed.norm() < kFastest)) return false;  // what is no number is not less either
+  if (!(speed.norm() < kFastest)) return false;  // written so that a NaN is refused too
   hand.velocity = speed;
   return true;
 }

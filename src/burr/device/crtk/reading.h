@@ -1,5 +1,5 @@
-// device/crtk/reading.h - the hand that a CRTK arm's messages tell, and what is never believed of
-// them; of this room only.
+// device/crtk/reading.h - turns the messages of a CRTK arm into a reading of the hand, and refuses
+// values that cannot be true. Of this room only.
 //
 // Thread: any. Frame: the arm's own base, metres. Memory: none.
 #pragma once
@@ -10,10 +10,10 @@
 
 namespace burr::device::crtk {
 
-// False: no place where an arm's end can be, or one that CRTK calls not valid (a stamp of 0);
-// `hand` is as it was then.
+// False: the pose cannot be true, or CRTK marks it as not valid (its stamp is 0); `hand` is
+// unchanged.
 [[nodiscard]] bool take_place(const PoseStamped& told, HandState& hand) BURR_RT;
-// Likewise; a speed that is not valid is none.
+// Likewise for the velocity; a velocity that is not valid becomes zero.
 [[nodiscard]] bool take_speed(const TwistStamped& told, HandState& hand) BURR_RT;
 
 }  // namespace burr::device::crtk

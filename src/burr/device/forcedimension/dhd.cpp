@@ -24,12 +24,12 @@ bool find(void* library, const char* name, F& function) {
   return function != nullptr;
 }
 
-// nullptr, or the name that is missing.
+// nullptr: all found; else the name of the missing function.
 const char* find_all(void* library, Dhd& dhd) {
 #define BURR_NEEDED(name) \
   if (!find(library, "dhd" #name, dhd.name)) return "dhd" #name
 #define BURR_OR_NONE(name) static_cast<void>(find(library, "dhd" #name, dhd.name))
-  BURR_OR_NONE(GetSDKVersion);  // first, so that it can be told with what is missing
+  BURR_OR_NONE(GetSDKVersion);  // first, so that an error can name the version
   BURR_NEEDED(ErrorGetLast);
   BURR_NEEDED(GetDeviceCount);
   BURR_NEEDED(OpenID);
@@ -80,9 +80,9 @@ std::string version_of(const Dhd& dhd) {
   return fmt::format("{}.{}.{}", major, minor, release);
 }
 
-// ---- where it may be
+// ---- places to look
 
-// Of "libdhd.so.3.17.5": 3, 17, 5.
+// The numbers in a file name: "libdhd.so.3.17.5" gives 3, 17, 5.
 std::vector<int> numbers_in(std::string_view name) {
   std::vector<int> numbers;
   for (std::size_t n = 0; n < name.size(); ++n) {
@@ -95,7 +95,7 @@ std::vector<int> numbers_in(std::string_view name) {
   return numbers;
 }
 
-// The libraries in a folder: libdrd before libdhd, the newest first.
+// The libraries in a folder: libdrd before libdhd, newest first.
 void look_in(const std::filesystem::path& folder, std::vector<std::string>& found) {
   for (const std::string_view stem : {"libdrd.so", "libdhd.so"}) {
     std::vector<std::string> here;
@@ -127,7 +127,7 @@ std::vector<std::string> candidates() {
 
 Result<const Dhd*> load(const std::string& path) {
   static std::mutex one_at_a_time;
-  static std::map<std::string, std::unique_ptr<Dhd>> loaded;  // never given back, on purpose
+  static std::map<std::string, std::unique_ptr<Dhd>> loaded;  // never freed, on purpose
   const std::lock_guard lock(one_at_a_time);
 
   std::string wanted = path;
@@ -141,7 +141,7 @@ Result<const Dhd*> load(const std::string& path) {
     file = one;
     library = dlopen(one.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library != nullptr) break;
-    // of a file that is there, what it lacks says more than that another one is not
+    // report the first file that exists but cannot be loaded, rather than one that is absent
     const std::string said = loaders_words();
     const bool absent = said == one + ": cannot open shared object file: No such file or directory";
     if (trouble.empty() || !absent) trouble = said;

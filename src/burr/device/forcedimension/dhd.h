@@ -1,11 +1,11 @@
-// device/forcedimension/dhd.h - the part of Force Dimension's libraries that burr calls, found when
-// burr runs.
+// device/forcedimension/dhd.h - the functions of Force Dimension's libraries that burr calls,
+// loaded at run time.
 //
 // The declarations are our own, from published names and constants (SDK 3.17); nothing of the
-// maker's is shipped. libdrd is libdhd and what moves the arm by itself (homing); with libdhd alone
-// burr cannot know whether the arm is homed. Every call names its device: the library's own idea of
-// a current one is never used. What was loaded stays loaded. Thread: load() any; the functions as
-// the library says. Units: its own, which are SI.
+// maker's is shipped. libdrd contains libdhd and the functions that move the arm by itself
+// (homing). With libdhd alone burr cannot know whether the arm is homed. Every call names its
+// device; the library's "current device" is never used. A loaded library stays loaded. Thread:
+// load() any; the functions as the library says. Units: those of the library, which are SI.
 #pragma once
 
 #include <string>
@@ -15,11 +15,11 @@
 
 namespace burr::device::forcedimension {
 
-// What its functions give back.
+// Return values of its functions that are not failures.
 enum : int { kTimeGuard = 1, kMotorSaturated = 2 };  // successes, as 0 is
 [[nodiscard]] constexpr bool failed(int code) { return code < 0; }
 
-// What ErrorGetLast() says after a failure.
+// Results of ErrorGetLast() after a failure.
 enum Code : int {
   kNoError = 0,
   kErrorCom = 2,
@@ -34,12 +34,12 @@ enum Code : int {
   kErrorInUse = 20,
 };
 
-// Places in what GetStatus() fills in.
+// Indices into the array that GetStatus() fills in.
 enum : int { kStatusPower = 0, kStatusConnected = 1, kStatusForce = 5, kStatusForceOffCause = 14 };
-inline constexpr int kMostStatus = 64;  // it fills in 17; a newer one may fill in more
+inline constexpr int kMostStatus = 64;  // SDK 3.17 fills in 17; a newer one may fill in more
 
-// Its functions, by the library's own names without the prefix. nullptr where it has none: those
-// after the word "or none".
+// Its functions, by the library's names without the prefix. Those after the words "may be nullptr"
+// are nullptr where the library lacks them.
 struct Dhd {
   int (*ErrorGetLast)();
   int (*GetDeviceCount)();
@@ -56,13 +56,13 @@ struct Dhd {
                                         char id);
   int (*GetLinearVelocity)(double* x, double* y, double* z, char id);
   unsigned (*GetButtonMask)(char id);
-  // newtons, newton metres, newtons of the gripper; waits for a frame of the device
+  // [N], [N m], gripper force [N]; waits for one frame of the device
   int (*SetForceAndTorqueAndGripperForce)(double fx, double fy, double fz, double tx, double ty,
                                           double tz, double gripper, char id);
 
-  // or none
+  // may be nullptr
   void (*GetSDKVersion)(int* major, int* minor, int* release, int* revision);
-  int (*GetAvailableCount)();  // that no other program has
+  int (*GetAvailableCount)();  // devices that no other program has opened
   int (*GetSerialNumber)(unsigned short* serial, char id);
   const char* (*GetSystemName)(char id);
   int (*GetStatus)(int* status, char id);
@@ -71,13 +71,13 @@ struct Dhd {
   bool (*HasActiveWrist)(char id);
   int (*GetGripperAngleRad)(double* angle, char id);
   int (*GetGripperGap)(double* metres, char id);
-  // in eighths of a millisecond, 0: none; the arm's own, see Omega::watch()
+  // timeout in eighths of a millisecond, 0: off; of the arm itself, see Omega::watch()
   int (*SetWatchdog)(unsigned char eighths, char id);
   int (*GetWatchdog)(unsigned char* eighths, char id);
   int (*EnableExpertMode)();
   int (*DisableExpertMode)();
 
-  // of libdrd: all or none
+  // of libdrd: all of them are there, or none
   int (*DrdOpenID)(char index);
   int (*DrdClose)(char id);
   bool (*DrdIsInitialized)(char id);
@@ -85,24 +85,25 @@ struct Dhd {
   int (*DrdStop)(bool leave_force_on, char id);
 
   const void* library = nullptr;
-  std::string file;     // as it was found
+  std::string file;     // path of the library that was found
   std::string version;  // "3.17.5", or empty
   [[nodiscard]] bool homes() const { return DrdOpenID != nullptr; }
 };
 
-// path: of the library; empty: BURR_FORCEDIMENSION, else the first of candidates(). The same
-// pointer for the same file, for ever.
+// path: of the library; empty: BURR_FORCEDIMENSION, else the first of candidates() that exists. The
+// same file always gives the same pointer, which stays valid until the program ends. Error: what is
+// missing.
 [[nodiscard]] Result<const Dhd*> load(const std::string& path = {});
 
-// Where load() looks: by name for the loader, then in the folders that the maker and others use,
-// the newest version first.
+// Where load() looks: first by name through the loader, then in the folders that the maker and
+// others use, newest version first.
 [[nodiscard]] std::vector<std::string> candidates();
 
-// What an error code means and what to do, one sentence without a subject: "does not answer; ...".
-// For ever, so that the tick may point at it.
+// The meaning of an error code and what to do, as a sentence without subject: "does not answer;
+// ...". The text lives for ever, so that the tick may point to it.
 [[nodiscard]] const char* words(int code);
 
-// The device will not answer again before it is opened anew.
+// True: the device will not answer again until it is opened anew.
 [[nodiscard]] constexpr bool is_gone(int code) {
   return code == kErrorCom || code == kErrorNoDriver || code == kErrorNoDevice ||
          code == kErrorNotAvailable || code == kErrorTimeout;

@@ -16,21 +16,24 @@ using math::Mat3;
 using math::Vec3;
 
 constexpr double kFarthest = 1.0;                     // no arm is longer [m]
-constexpr int kMostErrors = 500;                      // of reading in a row: opened anew
-constexpr std::int64_t kLookEvery = 50'000'000;       // at what the device says of itself [ns]
-constexpr double kOpenAngle = 0.3, kOpenGap = 15e-3;  // a gripper opens at least so far [rad, m]
-constexpr double kRest = 0.8;                         // of the way open: no pedal from there on
+constexpr int kMostErrors = 500;                      // failed reads in a row until the device is
+                                                      // opened anew
+constexpr std::int64_t kLookEvery = 50'000'000;       // between two looks at the device's status
+                                                      // [ns]
+constexpr double kOpenAngle = 0.3, kOpenGap = 15e-3;  // a gripper opens at least this far [rad, m]
+constexpr double kRest = 0.8;                         // share of the opening above which the pedal
+                                                      // is zero
 constexpr int kMostDevices = 64;
-constexpr unsigned char kWatchdog = 240;  // 30 ms, of the 32 that its number can say [1/8 ms]
+constexpr unsigned char kWatchdog = 240;  // 30 ms, of the 32 ms that the number can hold [1/8 ms]
 
-// What the models can bear (chai3d's table). Makers' sheets call the peak of all but the Falcon
-// continuous. An unknown one is taken for the weakest.
+// Limits of the models (chai3d's table). For all but the Falcon, the makers' sheets call the peak
+// force continuous. An unknown model gets the limits of the weakest.
 struct Model {
   int type;
   const char* name;
   double peak, continuous, stiffness, damping, radius;
 };
-constexpr double kTorque = 0.2;  // of a wrist with motors; the table's, of the sigma.7       [N m]
+constexpr double kTorque = 0.2;  // of a wrist with motors; from the table, for the sigma.7 [N m]
 constexpr Model kModels[] = {
     {33, "omega.3", 12, 12, 5000, 30, 75e-3},    {34, "omega.6", 12, 12, 5000, 30, 75e-3},
     {36, "omega.6", 12, 12, 5000, 30, 75e-3},    {35, "omega.7", 12, 12, 5000, 30, 75e-3},
@@ -49,18 +52,18 @@ const Model& model_of(int type) {
   return known != std::end(kModels) ? *known : kUnknown;
 }
 
-// Which are open here: the library gives an open one out again as if it were not. Opening and
-// closing is one at a time, as it looks through all devices.
+// The devices that are open in this process: the library would open one a second time. Only one
+// thread at a time may open or close, because the library goes through all devices.
 std::mutex& opening() {
   static std::mutex one;
   return one;
 }
-std::set<std::pair<const void*, int>>& taken() {  // under it
+std::set<std::pair<const void*, int>>& taken() {  // protected by opening()
   static std::set<std::pair<const void*, int>> ids;
   return ids;
 }
 
-// Ours is x right, y up, z to the user; the library's x to the user, y right, z up.
+// From the library's frame (x to the user, y right, z up) to ours (x right, y up, z to the user).
 Vec3 ours(double x, double y, double z) BURR_RT { return {y, z, x}; }
 
 const char* force_off_words(int cause) BURR_RT {
@@ -85,7 +88,7 @@ const char* force_off_words(int cause) BURR_RT {
 
 }  // namespace
 
-// ---- found and made ready
+// ---- finding and preparing the device
 
 Result<DeviceSpec> Omega::connect() {
   disconnect();
@@ -106,7 +109,7 @@ Result<DeviceSpec> Omega::connect() {
   Status ready = home();
   if (ready) ready = prepare(spec);
   if (!ready) {
-    static_cast<void>(dhd_->EnableForce(0, static_cast<char>(id_)));  // homing leaves them on
+    static_cast<void>(dhd_->EnableForce(0, static_cast<char>(id_)));  // homing leaves the motors on
     let_go(id_);
     id_ = -1;
     return ready.error();
@@ -116,8 +119,8 @@ Result<DeviceSpec> Omega::connect() {
   return spec;
 }
 
-// The wanted one, open, in id_. The same as before where it has a serial number: an index is only
-// the order in which they were plugged in.
+// Opens the wanted device into id_. If it was open before and has a serial number, it must be the
+// same one: an index is only the order in which devices were plugged in.
 Status Omega::find() {
   const int count = std::min(dhd_->GetDeviceCount(), kMostDevices);
   if (count <= 0)
@@ -182,7 +185,7 @@ Result<Plugged> Omega::plugged(const OmegaSettings& settings) {
   return all;
 }
 
-// -1: it cannot be had.
+// Returns -1 if the device cannot be opened.
 int Omega::open(int index, const char*& why) const {
   const char which = static_cast<char>(index);
   const int id = dhd_->homes() ? dhd_->DrdOpenID(which) : dhd_->OpenID(which);
@@ -217,12 +220,12 @@ Status Omega::home() {
                              name_));
   const bool homed = !failed(dhd_->DrdAutoInit(id));
   const int trouble = homed ? kNoError : dhd_->ErrorGetLast();
-  const bool stopped = !failed(dhd_->DrdStop(true, id));  // whatever became of it: no regulation
+  const bool stopped = !failed(dhd_->DrdStop(true, id));  // stops the regulation in any case
   if (homed && stopped && dhd_->DrdIsInitialized(id)) return fine();
   return error(Trouble::io, fmt::format("{} could not be homed: it {}", name_, words(trouble)));
 }
 
-// Forces last, when all that bounds them stands.
+// Switches the forces on last, after all limits are set.
 Status Omega::prepare(const DeviceSpec& spec) {
   to_ = static_cast<char>(id_);
   peak_ = spec.peak_force;
@@ -242,7 +245,7 @@ Status Omega::prepare(const DeviceSpec& spec) {
   note(write_trouble_, nullptr);
   note(status_trouble_, nullptr);
 
-  // write() bounds as well; models without either go on
+  // write() limits too; models without these functions go on
   if (dhd_->SetMaxForce != nullptr) static_cast<void>(dhd_->SetMaxForce(peak_, to_));
   if (dhd_->SetMaxTorque != nullptr && peak_torque_ > 0)
     static_cast<void>(dhd_->SetMaxTorque(peak_torque_, to_));
@@ -254,9 +257,9 @@ Status Omega::prepare(const DeviceSpec& spec) {
   return fine();
 }
 
-// Should this program die or stand still, the arm's own firmware switches forces off when none has
-// been written for so long. One that watches closer already is left as it is. The call is behind
-// the library's expert mode in some versions, which is closed again at once.
+// If this program dies or hangs, the arm's own firmware switches the forces off when none has been
+// written for this time. A shorter watchdog that is already set stays. In some versions the call
+// needs the library's expert mode, which is switched off again at once.
 void Omega::watch() const {
   if (dhd_->SetWatchdog == nullptr) return;
   unsigned char is = 0;
@@ -302,7 +305,7 @@ int Omega::serial_of(int id) const {
   if (dhd_->GetSerialNumber == nullptr ||
       failed(dhd_->GetSerialNumber(&serial, static_cast<char>(id))))
     return -1;
-  return serial != 0 ? serial : -1;  // of one that was never given a number
+  return serial != 0 ? serial : -1;  // -1 for a device that was never given a number
 }
 
 void Omega::let_go(int id) {
@@ -315,7 +318,7 @@ void Omega::disconnect() {
   if (id_ < 0) return;
   static_cast<void>(dhd_->SetForceAndTorqueAndGripperForce(0, 0, 0, 0, 0, 0, 0, to_));
   static_cast<void>(dhd_->EnableForce(0, to_));
-  const std::lock_guard lock(opening());  // only now: another one may be homing
+  const std::lock_guard lock(opening());  // only now, because another device may be homing
   let_go(id_);
   id_ = -1;
 }
@@ -327,22 +330,22 @@ void Omega::note(const char*& what, const char* words) BURR_RT {
   what = words;
 }
 
-// Of a failed call: whether the device may still be there.
+// Handles a failed call. Returns whether the device may still be there.
 bool Omega::bear(const char*& trouble) BURR_RT {
   const int code = dhd_->ErrorGetLast();
   note(trouble, words(code));
   return !is_gone(code);
 }
 
-// What the device says of itself. What was never told as good is not told at all (a model that
-// fills in nothing). False: it says that it is gone.
+// Reads the device's status. A status bit that was never good is never reported (some models fill
+// in nothing). False: the device says that it is gone.
 bool Omega::look() BURR_RT {
   const std::int64_t now = settings_.now();
   if (dhd_->GetStatus == nullptr || (looked_ns_ != INT64_MIN && now - looked_ns_ < kLookEvery))
     return true;
   looked_ns_ = now;
   int status[kMostStatus] = {};
-  if (failed(dhd_->GetStatus(status, to_))) return true;  // reading says what is wrong
+  if (failed(dhd_->GetStatus(status, to_))) return true;  // read() will report what is wrong
   const int cause = status[kStatusForceOffCause];
   seen_power_ = seen_power_ || status[kStatusPower] != 0;
   seen_connected_ = seen_connected_ || status[kStatusConnected] != 0;
@@ -360,12 +363,12 @@ bool Omega::look() BURR_RT {
   return true;
 }
 
-// Closed is all of the pedal, open none; what is held closed from the start counts only after it
-// was opened.
+// The gripper as pedal: closed is full, open is none. A gripper that is closed from the start
+// counts only after it has been opened.
 void Omega::squeeze(HandState& hand) BURR_RT {
   double apart = 0;
   if (gripper_ == nullptr || failed(gripper_(&apart, to_)) || !std::isfinite(apart)) return;
-  apart = std::abs(apart);  // a left hand's counts the other way
+  apart = std::abs(apart);  // a left-handed device counts the other way
   open_ = std::max(open_, std::min(apart, 2.0));
   const double pedal = std::clamp(1 - apart / (kRest * open_), 0.0, 1.0);
   armed_ = armed_ || pedal == 0;
@@ -381,13 +384,13 @@ Wire::Read Omega::read(HandState& hand) BURR_RT {
   if (!look()) return Read::lost;
   errors_ = 0;
 
-  // rows and columns in our order: its y, z, x
+  // rows and columns in our order: the library's y, z, x
   Mat3 turn;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) turn(i, k) = frame[(i + 1) % 3][(k + 1) % 3];
   const Vec3 place = ours(x, y, z);
   double vx = 0, vy = 0, vz = 0;
-  // it errs until it has seen the hand twice: at rest then
+  // the function fails until it has read the hand twice; the velocity is zero until then
   const bool knows_speed = !failed(dhd_->GetLinearVelocity(&vx, &vy, &vz, to_));
   hand.velocity = knows_speed ? ours(vx, vy, vz) : Vec3(Vec3::Zero());
   hand.buttons = dhd_->GetButtonMask(to_) & ~kLifted;
@@ -409,7 +412,7 @@ bool Omega::write(const Vec3& force) BURR_RT {
   const Vec3 turn = off_ ? Vec3(Vec3::Zero()) : bounded(torque_, peak_torque_);
   const int code = dhd_->SetForceAndTorqueAndGripperForce(push.z(), push.x(), push.y(), turn.z(),
                                                           turn.x(), turn.y(), 0, to_);
-  // however long it lasts, it is not opened anew: that would switch on what the user switched off
+  // not opened anew, however long this lasts: that would switch on what the user switched off
   if (failed(code)) return bear(write_trouble_);
   note(write_trouble_, nullptr);
   return true;

@@ -10,13 +10,13 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kListen(500);             // at a time
-constexpr milliseconds kAgain(2000);             // between two looks whether it is there
-constexpr std::size_t kLargest = 1 << 16;        // of an event [byte]
-constexpr int kMostNonsense = 50;                // in a row: it is another's channel
-constexpr std::int64_t kSaidNs = 5'000'000'000;  // how long what was told is said
+constexpr milliseconds kListen(500);             // wait of one receive()
+constexpr milliseconds kAgain(2000);             // between two attempts to connect
+constexpr std::size_t kLargest = 1 << 16;        // longest event [byte]
+constexpr int kMostNonsense = 50;                // in a row: this is not the service's channel
+constexpr std::int64_t kSaidNs = 5'000'000'000;  // how long an event is shown [ns]
 
-// Without a subject, as the driver has it; nullptr: not for the user.
+// The text for an event, without its subject; nullptr: not for the user.
 const char* words_of(Told what) {
   switch (what) {
     case Told::disconnected:
@@ -84,7 +84,8 @@ const char* Events::words() const BURR_RT {
              : nullptr;
 }
 
-// The next message, however long it takes; false: the channel or this is at its end.
+// Waits for the next message, however long it takes. False: the channel is closed, or this object
+// is being destroyed.
 bool Events::hear() {
   WebSocket::Heard heard = WebSocket::Heard::nothing;
   while (heard == WebSocket::Heard::nothing) heard = line_.receive(kListen);
@@ -105,7 +106,7 @@ void Events::listen() {
         }
       }
     line_.close();
-    if (braked()) deaf_ = true;  // its release may have been told to nobody
+    if (braked()) deaf_ = true;  // its release may have been missed
     line_.rest(kAgain);
   }
 }

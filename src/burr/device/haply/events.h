@@ -1,12 +1,12 @@
-// device/haply/events.h - what Haply's service tells beside the states: an emergency brake, an
-// empty battery, a device that is busy.
+// device/haply/events.h - events that Haply's service reports beside the states: an emergency
+// brake, an empty battery, a device in use.
 //
-// A channel of its own that is only listened to, by a thread of its own: whatever comes there, the
-// exchange does not wait for it. A service without it tells nothing, and is looked at again every
-// other second. What is told of other devices is left aside. An emergency brake counts until its
-// release is told; everything else is said for some seconds.
-// Thread: one makes and ends it and says which grip; braked() and words() any, wait-free. Memory:
-// of the listening thread, a message of at most 64 KiB at a time.
+// They come over a connection of their own, read by a thread of its own, so that the exchange never
+// waits for it. A service without this connection reports no events; a new attempt is made every
+// two seconds. Events of other devices are ignored. An emergency brake counts until its release is
+// reported; every other event is shown for some seconds.
+// Thread: one thread makes it, ends it and calls follow_grip(); braked() and words() any,
+// wait-free. Memory: on the listening thread, one message of at most 64 KiB at a time.
 #pragma once
 
 #include <atomic>
@@ -23,17 +23,18 @@ namespace burr::device::haply {
 
 class Events {
  public:
-  // address: of the service, in numbers; arm: whose events count; braked: what is known of before
+  // address: numeric address of the service; arm: id of the arm whose events count; braked: state
+  // of the brake from an earlier connection
   Events(std::string address, int port, std::string arm, bool braked);
   ~Events();
   Events(const Events&) = delete;
   Events& operator=(const Events&) = delete;
 
-  // Of this grip as well.
+  // Events of this grip count too.
   void follow_grip(const std::string& id);
 
   [[nodiscard]] bool braked() const BURR_RT { return braked_.load(std::memory_order_relaxed); }
-  // What was told, a sentence without its subject; nullptr: nothing of late.
+  // The newest event as a sentence without its subject; nullptr: none recently.
   [[nodiscard]] const char* words() const BURR_RT;
 
  private:
@@ -45,12 +46,12 @@ class Events {
   std::string address_;
   int port_;
   std::string arm_;
-  std::mutex whose_;  // between the wire, when a grip comes, and the listening thread
+  std::mutex whose_;  // protects the ids: the wire sets the grip, the listening thread reads them
   std::string grip_;
   std::atomic<bool> braked_;
-  std::atomic<bool> deaf_ = false;  // the channel was lost after the brake was told
+  std::atomic<bool> deaf_ = false;  // the connection was lost after a brake was reported
   std::atomic<const char*> words_ = nullptr;
-  std::atomic<std::int64_t> until_ns_ = 0;  // that they are said
+  std::atomic<std::int64_t> until_ns_ = 0;  // end of the time for which the words are shown
   WebSocket line_;
   rt::Thread thread_;
 };

@@ -24,20 +24,23 @@ using math::Quat;
 using math::Vec3;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kPatience(500);         // with a service that is to answer
-constexpr milliseconds kOneReading(2);         // that read() waits
-constexpr std::size_t kLargest = 1 << 20;      // of a message  [byte]
+constexpr milliseconds kPatience(500);         // for an answer of the service
+constexpr milliseconds kOneReading(2);         // wait of read()
+constexpr std::size_t kLargest = 1 << 20;      // longest message [byte]
 constexpr int kMostNonsense = 50;              // messages in a row
-constexpr int kProbes = 20;                    // exchanges in which a tiny force must come back
-constexpr double kTiny = 0.02, kSeen = 0.005;  // that nobody feels; of it, to be believed  [N]
-constexpr double kFarthest = 1;                // no arm is longer  [m]
+constexpr int kProbes = 20;                    // exchanges in which a tiny test force must come
+                                               // back
+constexpr double kTiny = 0.02, kSeen = 0.005;  // test force that nobody feels; the part of it that
+                                               // must come back [N]
+constexpr double kFarthest = 1;                // no arm is longer [m]
 constexpr int kPorts[] = {10001, 10000};
 constexpr int kEventsPort = 10020;
-constexpr int kOldest = 301;            // of the service's versions, as read_version() has them
-constexpr milliseconds kLetGo(1000);    // for a session that ends just now, our own of before
-constexpr milliseconds kLookAgain(20);  // meanwhile
+constexpr int kOldest = 301;            // oldest version of the service, as in read_version()
+constexpr milliseconds kLetGo(1000);    // for a session that is just ending: it may be our own
+                                        // earlier one
+constexpr milliseconds kLookAgain(20);  // ... between two looks
 
-// Cautious choices: no published figures were at hand for stiffness and damping.
+// Cautious choices, because no published figures were at hand for stiffness and damping.
 struct Model {
   const char* type;
   double peak, continuous, stiffness, damping, radius;
@@ -58,7 +61,7 @@ std::string from_environment(const char* name, const char* otherwise) {
   return value != nullptr && *value != '\0' ? value : otherwise;
 }
 
-// 0: it says nothing.
+// 0: the variable is not set.
 Result<int> port_from_environment(const char* name) {
   const std::string given = from_environment(name, "");
   if (given.empty()) return 0;
@@ -69,10 +72,10 @@ Result<int> port_from_environment(const char* name) {
   return port;
 }
 
-// Said by the user, where a service calls its arms used though nobody uses them.
+// The user says so, where a service calls its arms used though nobody uses them.
 bool may_be_shared() { return from_environment("BURR_HAPLY_SHARED", "") == "1"; }
 
-// Our frame from the service's: a quarter turn about x.
+// Rotation from the service's frame to ours: a quarter turn about x.
 const Quat& turn() {
   static const Quat one(Eigen::AngleAxisd(-M_PI / 2, Vec3::UnitX()));
   return one;
@@ -82,23 +85,23 @@ Vec3 theirs(const Vec3& v) BURR_RT { return {v.x(), -v.z(), v.y()}; }
 
 }  // namespace
 
-// The connection, and what is known through it.
+// The connection and its state.
 struct Inverse::Talk {
   WebSocket line{kLargest};
-  bool asked = false;  // its answer is still to come
+  bool asked = false;  // the answer is still to come
   Silence silence;
   int nonsense = 0;
 
   State state;
   Found found;
-  std::string id;  // quoted
+  std::string id;  // with quotes, as JSON
   std::string wanted_grip;
   int version = 0;  // of the service, as read_version()
   const char* key = "vector";
   std::string out;
   double peak = 0;
   std::unique_ptr<Events> events;
-  std::string grip;  // whose events are followed
+  std::string grip;  // the grip whose events are shown
 
   bool send(const std::string& text) {
     if (!line.send(text)) return false;
@@ -114,7 +117,7 @@ struct Inverse::Talk {
   }
   bool hears() { return receive(kPatience) == WebSocket::Heard::message; }
 
-  // One exchange; false: the service is gone, or speaks nonsense.
+  // One exchange. False: the service is gone, or its answer is not valid.
   bool exchange(const Vec3& force) {
     write_force(id, key, force, out);
     return send(out) && hears() && take_state() == haply::Read::state;
@@ -128,7 +131,7 @@ struct Inverse::Talk {
     return read;
   }
 
-  // Whether the service gives back a force that is written with this key.
+  // True: the service reports back a force that is written with this key.
   bool obeys(const char* with) {
     key = with;
     for (int n = 0; n < kProbes; ++n) {
@@ -141,7 +144,7 @@ struct Inverse::Talk {
 
 namespace {
 
-// What the service says of its version over HTTP; 0: nothing.
+// The service's version as it reports it over HTTP; 0: none.
 int version_of(const std::string& host, int port) {
   return read_version(http_body(host, port, "/version"));
 }
@@ -151,7 +154,7 @@ int version_of(const std::string& host, int port) {
 Inverse::Inverse(InverseSettings settings) : settings_(std::move(settings)) {}
 Inverse::~Inverse() { disconnect(); }
 
-// The service's first message, in talk_.
+// Connects and puts the service's first message into talk_.
 Status Inverse::reach() {
   talk_.reset();
   host_ = settings_.host.empty() ? from_environment("HAPLY_WS_HOST", "127.0.0.1") : settings_.host;
@@ -161,7 +164,7 @@ Status Inverse::reach() {
   if (settings_.port > 0 || *told > 0) ports = {settings_.port > 0 ? settings_.port : *told};
 
   std::string trouble;
-  int answers = 0;  // the port at which something else does
+  int answers = 0;  // the port at which another program answers
   for (const int one : ports) {
     talk_ = std::make_unique<Talk>();
     const std::string why = talk_->line.connect(host_, one);
@@ -194,7 +197,7 @@ Status Inverse::reach() {
                   host_, answers));
 }
 
-// The arm and the grip that are wanted, as the first message tells them.
+// Finds the wanted arm and grip in the first message.
 Status Inverse::meet() {
   const Status reached = reach();
   if (!reached) return reached;
@@ -229,7 +232,7 @@ Status Inverse::meet() {
   return fine();
 }
 
-// Says who we are, and finds out how a force is spelled.
+// Names this program and finds out which spelling of a force the service takes.
 Status Inverse::greet() {
   const auto silent = [this] {
     return error(Trouble::io,
@@ -240,9 +243,9 @@ Status Inverse::greet() {
   const char* other = likely == key_of_force(305) ? key_of_force(301) : key_of_force(305);
   if (!talk_->send(greeting(talk_->id, likely)) || !talk_->hears()) return silent();
   if (!talk_->obeys(likely) && !talk_->obeys(other))
-    talk_->key = likely;  // an arm that rests gives nothing back
+    talk_->key = likely;  // an arm at rest reports nothing back
   if (!talk_->exchange(Vec3::Zero())) return silent();
-  // so that the first read() has its answer
+  // so that the first read() has an answer to take
   if (!talk_->send(greeting(talk_->id, talk_->key))) return silent();
   return fine();
 }
@@ -362,7 +365,7 @@ Wire::Read Inverse::read(HandState& hand) BURR_RT {
 
 bool Inverse::write(const Vec3& force) BURR_RT {
   Talk& talk = *talk_;
-  if (talk.asked) return true;  // its answer is still to come; never two under way
+  if (talk.asked) return true;  // answer still to come; never two messages under way
   write_force(talk.id, talk.key, theirs(bounded(force, talk.peak)), talk.out);
   if (talk.send(talk.out)) return true;
   note("cannot be reached any more; see that Haply's Inverse Service runs.");

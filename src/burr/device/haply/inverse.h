@@ -1,15 +1,17 @@
 // device/haply/inverse.h - Haply's Inverse3, Inverse3x and Minverse with a VerseGrip, through the
 // maker's Inverse Service on this computer.
 //
-// One message of ours, one state of its own, and never two under way; what we do not send the
-// device does not do, so it lets go by itself when burr stops. Its frame: x right, y forward, z up;
-// ours is x right, y up, z to the user. The grip points along its +y, so the tool's handle, our +z,
-// is its -y. Without a grip the tool stands upright. Button a mills, b lifts.
-// Which of two spellings of a force the service takes depends on its version; a force too small to
-// be felt shows which one it obeys. An arm that is in use before we have said a word is another
-// program's, and is left to it: two forces on one arm add up. What the service tells of besides
-// (haply/events.h) becomes words, and an emergency brake takes the force away until it is released.
-// Thread: as Wire (device/wire.h). Memory: the wire's own, a message at a time; none in the tick.
+// Each of our messages is answered by one state, and there is never more than one under way. The
+// device does only what we ask for in each message, so it releases the force by itself when burr
+// stops. Its frame: x right, y forward, z up; ours is x right, y up, z to the user. The grip points
+// along its +y, so the tool's handle, our +z, is its -y. Without a grip the tool stands upright.
+// Button a mills, b lifts. The service knows two spellings of a force, depending on its version; a
+// force too small to be felt shows which one it obeys. An arm that is in use before our first
+// message belongs to another program and is left alone, because two forces on one arm add up. Other
+// events of the service (haply/events.h) are shown as texts; an emergency brake removes the force
+// until it is released.
+// Thread: as Wire (device/wire.h). Memory: allocated on the wire's thread, one message at a time;
+// none in the tick.
 #pragma once
 
 #include <memory>
@@ -24,11 +26,11 @@ struct InverseSettings {
   std::string host = {};  // empty: HAPLY_WS_HOST, else 127.0.0.1
   int port = 0;           // 0: HAPLY_WS_PORT, else 10001, then 10000
   std::string id = {};    // of the arm; empty: the first
-  std::string grip = {};  // id of the grip that is held with it; empty: the first
+  std::string grip = {};  // id of the grip held with the arm; empty: the first
   int events_port = 0;    // 0: HAPLY_EVENTS_PORT, else 10020
 };
 
-// Every arm and every grip that the service knows, without a word to any of them.
+// Lists every arm and every grip that the service knows; sends nothing to any of them.
 struct Known {
   std::string id, type;
 };
@@ -62,7 +64,7 @@ class Inverse final : public Wire {
   std::string host_;
   int port_ = 0;
   std::unique_ptr<Talk> talk_;
-  bool braked_ = false;  // when it was last heard of
+  bool braked_ = false;  // state of the brake at the last connection
   std::string name_ = "the Inverse3";
   const char* trouble_ = nullptr;
   unsigned told_ = 0;

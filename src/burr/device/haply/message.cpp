@@ -25,7 +25,7 @@ std::string text_at(const json& in, const char* key) {
   return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
 }
 
-// False only where something is there that is no finite number.
+// False only if the value is there but is not a finite number.
 bool take(const json& in, const char* key, double& number) {
   const json* value = at(in, key);
   if (value == nullptr) return true;
@@ -67,7 +67,7 @@ bool take_buttons(const json& state, unsigned& buttons) {
   const json* value = at(state, "buttons");
   if (value == nullptr) return true;
   if (!value->is_object()) return false;
-  // "a", "b", "c" by the maker's pages, "button_0" ... as other clients read it
+  // "a", "b", "c" in the maker's pages; "button_0" ... in other clients
   static constexpr const char* kNames[][2] = {
       {"a", "button_0"}, {"b", "button_1"}, {"c", "button_2"}};
   for (unsigned n = 0; n < std::size(kNames); ++n)
@@ -89,7 +89,7 @@ const json* entry_of(const json& all, const std::string& id) {
 
 constexpr const char* kGrips[] = {"verse_grip", "wireless_verse_grip", "custom_verse_grip"};
 
-// `told`: whether the message speaks of grips at all.
+// told: set if the message contains grips at all.
 const json* grip_of(const json& all, const std::string& wanted, bool& told) {
   const json* away = nullptr;
   for (const char* kind : kGrips) {
@@ -184,7 +184,7 @@ Read read_state(std::string_view text, const std::string& id, const std::string&
   bool told = false;
   if (const json* held = grip_of(all, grip, told)) {
     if (!take_grip(*held, state)) return Read::nonsense;
-  } else if (told) {  // it was there, and is no longer: no button of it stays down
+  } else if (told) {  // it was there and is no longer: none of its buttons stays pressed
     state.grip_there = false;
     state.buttons = 0;
   }

@@ -23,7 +23,7 @@ using Tcp = net::ip::tcp;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kPatience(500);  // with an end that is to answer
+constexpr milliseconds kPatience(500);  // for an answer of the other end
 
 }  // namespace
 
@@ -34,13 +34,14 @@ struct WebSocket::Line {
   std::optional<websocket::stream<beast::tcp_stream>> stream;
   beast::flat_buffer buffer;
   std::string out;
-  bool reading = false, writing = false;  // under way
-  bool failed = true;                     // not connected, or not any more
+  bool reading = false, writing = false;  // an operation is under way
+  bool failed = true;                     // not connected, or no longer
   bool answered = false;
   beast::error_code read_error;
   std::atomic<bool> stop = false;
 
-  // Lets what is under way go on until `done`, or so long; what is not done then stays under way.
+  // Runs the operations under way until done() or for this time; what is not done then stays under
+  // way.
   template <class Done>
   bool run(milliseconds time, Done done) {
     const auto until = steady_clock::now() + time;
@@ -51,7 +52,7 @@ struct WebSocket::Line {
     }
     return true;
   }
-  // One step of a beginning. Empty: it is done.
+  // One step of connecting. Empty: it succeeded.
   template <class Begin>
   std::string step(const char* late, Begin begin) {
     bool done = false;
@@ -69,7 +70,7 @@ struct WebSocket::Line {
     if (!stream) return;
     failed = true;
     beast::get_lowest_layer(*stream).close();
-    while (reading || writing) io.run_one();  // what is closed ends at once
+    while (reading || writing) io.run_one();  // a closed operation ends at once
   }
 };
 
@@ -139,7 +140,7 @@ WebSocket::Heard WebSocket::receive(milliseconds longest) {
     line.failed = line.failed || line.read_error;
     return line.failed ? Heard::lost : Heard::message;
   }
-  // what is no message is hung up on; whether the other end agrees is not waited for
+  // hang up on data that is no message, without waiting for the other end to agree
   line.failed = line.failed || line.stop || !line.stream->is_open();
   return line.failed ? Heard::lost : Heard::nothing;
 }
@@ -156,7 +157,7 @@ void WebSocket::rest(milliseconds time) {
 }
 void WebSocket::stop() {
   line_->stop = true;
-  net::post(line_->io, [] {});  // wakes it
+  net::post(line_->io, [] {});  // wakes the waiting thread
 }
 bool WebSocket::stopped() const { return line_->stop; }
 

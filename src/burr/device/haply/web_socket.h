@@ -1,13 +1,14 @@
-// device/haply/web_socket.h - our end of a WebSocket, and of a question over HTTP: the two ways in
-// which Haply's service is spoken to.
+// device/haply/web_socket.h - a client for WebSocket and for one HTTP question: the two ways to
+// talk to Haply's service.
 //
 //     WebSocket line(1 << 20);
 //     if (!line.connect("127.0.0.1", 10001).empty()) return;
 //     if (line.send(text) && line.receive(2ms) == WebSocket::Heard::message) take(line.text());
 //
-// Every wait has an end. A message that has not come by then is not given up: the next receive()
-// goes on waiting for it. After `lost` nothing more comes; connect() begins anew.
-// Thread: one at a time, but stop(). Memory: a message at a time, its room kept for the next.
+// Every wait has a time limit. A message that has come only in part by then is kept; the next
+// receive() continues with it. After `lost` nothing more comes until connect() succeeds again.
+// Thread: one at a time; stop() any. Memory: one message at a time; its buffer is kept for the
+// next.
 #pragma once
 
 #include <chrono>
@@ -20,32 +21,32 @@ namespace burr::device::haply {
 
 class WebSocket {
  public:
-  // A longer message ends the connection [byte].
+  // longest: a longer message ends the connection [byte].
   explicit WebSocket(std::size_t longest);
   ~WebSocket();
   WebSocket(const WebSocket&) = delete;
   WebSocket& operator=(const WebSocket&) = delete;
 
-  // Half a second for each step. Empty: connected; else why not.
+  // At most half a second for each step. Empty: connected; otherwise the reason why not.
   [[nodiscard]] std::string connect(const std::string& host, int port);
-  // Somebody listens where connect() looked, whatever he speaks.
+  // True: something listened at the address of connect(), whatever its protocol.
   [[nodiscard]] bool answered() const;
-  // Who is at the other end, in numbers; empty: nobody.
+  // Numeric address of the other end; empty: not connected.
   [[nodiscard]] std::string peer() const;
 
-  // Half a second at most.
+  // Takes at most half a second. False: the connection is lost.
   [[nodiscard]] bool send(const std::string& text);
   enum class Heard { message, nothing, lost };
   [[nodiscard]] Heard receive(std::chrono::milliseconds longest);
-  // The message, until the next receive().
+  // The message that came last; valid until the next receive().
   [[nodiscard]] std::string_view text() const;
-  // Connected, and neither has failed since.
+  // True: connected, and nothing has failed since.
   [[nodiscard]] bool whole() const;
   void close();
 
-  // So long, or until stop().
+  // Waits for this time, or until stop().
   void rest(std::chrono::milliseconds time);
-  // Any thread: whatever waits returns at once, and nothing is waited for any more.
+  // Thread: any. Whatever waits returns at once, and nothing waits any more.
   void stop();
   [[nodiscard]] bool stopped() const;
 
@@ -54,7 +55,7 @@ class WebSocket {
   std::unique_ptr<Line> line_;
 };
 
-// The body of what is answered, within a second; empty: nothing is.
+// The body of the answer, within a second; empty: no answer.
 [[nodiscard]] std::string http_body(const std::string& host, int port, const std::string& target);
 
 }  // namespace burr::device::haply

@@ -13,14 +13,14 @@ namespace {
 
 constexpr const char* kNames[] = {"libHD.so", "libHD.so.3.0"};
 
-// The maker's symbols carry its prefix.
+// The maker's symbols have the prefix "hd".
 template <class F>
 bool find(void* library, const char* name, F& function) {
   function = reinterpret_cast<F>(dlsym(library, name));
   return function != nullptr;
 }
 
-// nullptr, or the name that is missing.
+// nullptr: all found; else the name of the missing function.
 const char* find_all(void* library, Hd& hd) {
 #define BURR_HD(name) \
   if (!find(library, "hd" #name, hd.name)) return "hd" #name
@@ -57,7 +57,7 @@ std::string loaders_words() {
 
 Result<const Hd*> load(const std::string& path) {
   static std::mutex one_at_a_time;
-  static std::map<std::string, std::unique_ptr<Hd>> loaded;  // never given back, on purpose
+  static std::map<std::string, std::unique_ptr<Hd>> loaded;  // never freed, on purpose
   const std::lock_guard lock(one_at_a_time);
 
   std::string wanted = path;

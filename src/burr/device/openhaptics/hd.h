@@ -1,10 +1,10 @@
-// device/openhaptics/hd.h - the part of OpenHaptics' HD library that burr calls, found when burr
-// runs.
+// device/openhaptics/hd.h - the functions of OpenHaptics' HD library that burr calls, loaded at run
+// time.
 //
 // The declarations are our own, from published constants and the library's exported names (version
 // 3.0); nothing of the maker's is shipped. The library stays loaded until the program ends: its
-// driver does not bear to be loaded twice. Thread: load() main; the functions as the library says.
-// Units: its own, mm and N.
+// driver fails if it is loaded twice. Thread: load() main; the functions as the library says.
+// Units: those of the library, mm and N.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@
 namespace burr::device::openhaptics {
 
 using Handle = unsigned;               // of a device
-using Code = unsigned;                 // of an error, an option, a value to ask for
-using Callback = unsigned (*)(void*);  // once a tick, on the library's own thread
+using Code = unsigned;                 // an error, an option or a parameter
+using Callback = unsigned (*)(void*);  // called once a tick on the library's own thread
 inline constexpr Handle kNoDevice = 0xFFFFFFFF;
 
 struct ErrorInfo {  // returned by value, twelve bytes
@@ -28,7 +28,7 @@ enum : Code {
   kButtons = 0x2000,
   kPosition = 0x2050,
   kVelocity = 0x2051,   // 3 double, mm/s
-  kTransform = 0x2052,  // 16 double, column after column, mm
+  kTransform = 0x2052,  // 16 double, column by column, mm
   kVersion = 0x2500,
   kModel = 0x2501,
   kDriver = 0x2502,
@@ -55,7 +55,7 @@ enum : Code {
   kAlreadyInitiated = 0x0301,
 };
 
-// Its functions, by the library's own names without the prefix.
+// Its functions, by the library's names without the prefix.
 struct Hd {
   Handle (*InitDevice)(const char* name);
   void (*DisableDevice)(Handle);
@@ -76,22 +76,23 @@ struct Hd {
   void (*StopScheduler)();
   Code (*CheckCalibration)();
   void (*UpdateCalibration)(Code style);
-  Code (*CheckCalibrationStyle)();  // nullptr where the library has none
+  Code (*CheckCalibrationStyle)();  // nullptr where the library lacks it
 
-  std::string file;  // as it was found
+  std::string file;  // path of the library that was found
 };
 
-// path: of the library; empty: BURR_OPENHAPTICS, else as the system finds libHD.so. The same
-// pointer for the same file, for ever.
+// path: of the library; empty: BURR_OPENHAPTICS, else the libHD.so that the system finds. The same
+// file always gives the same pointer, which stays valid until the program ends. Error: what is
+// missing.
 [[nodiscard]] Result<const Hd*> load(const std::string& path = {});
 
-// What an error code means and what to do, one sentence.
+// The meaning of an error code and what to do, in one sentence.
 [[nodiscard]] std::string words(Code code);
 
-// Only the force was refused or cut, by the device itself; the reading is good.
+// True: the device only refused or reduced the force; the reading is good.
 [[nodiscard]] constexpr bool is_about_force(Code code) { return code >> 8 == 0x02; }
 
-// A call that this library or device does not know.
+// True: this library or device does not know the call.
 [[nodiscard]] constexpr bool is_refused(Code code) { return code >> 8 == 0x01; }
 
 }  // namespace burr::device::openhaptics

@@ -16,18 +16,20 @@ namespace {
 
 using math::Vec3;
 
-// a library that errs without end is not listened to without end
+// a library may report errors without end; stop reading them after this many
 constexpr int kMostOldErrors = 32;
-constexpr int kLostFrames = 500;  // bad ones in a row, and the device is opened anew
-constexpr std::int64_t kSilentNs = 1'000'000'000;  // likewise without a call
-constexpr int kCalibrationEvery = 100;             // frames between two looks while it is missing
-constexpr int kWarmFrames = 1000;                  // for which the word about warm motors stays
-constexpr double kFarthest = 1.0;                  // no arm is longer  [m]
-constexpr double kPremiumTorque = 0.188;           // chai3d's table  [N m]
+constexpr int kLostFrames = 500;  // bad frames in a row until the device is opened anew
+constexpr std::int64_t kSilentNs = 1'000'000'000;  // time without a call until it is opened anew
+constexpr int kCalibrationEvery = 100;             // frames between two checks while the
+                                                   // calibration is missing
+constexpr int kWarmFrames = 1000;                  // frames for which the warning about warm motors
+                                                   // stays
+constexpr double kFarthest = 1.0;                  // no arm is longer [m]
+constexpr double kPremiumTorque = 0.188;           // chai3d's table [N m]
 constexpr auto kKeep = std::chrono::milliseconds(500);
 constexpr auto kLook = std::chrono::milliseconds(5);
 
-// What the models can bear (chai3d's table). An unknown one is taken for the weakest.
+// Limits of the models (chai3d's table). An unknown model gets the limits of the weakest.
 struct Model {
   const char* part_of_name;
   double peak, continuous, stiffness, damping, radius;
@@ -44,12 +46,12 @@ std::string string_of(const Hd& hd, Code what) {
   return said != nullptr ? said : "";
 }
 
-// The scheduler is one for all devices of a library: it runs while there are any.
+// The library has one scheduler for all devices; it runs while a device is open.
 std::mutex& scheduler() {
   static std::mutex one;
   return one;
 }
-int running = 0;  // under it
+int running = 0;  // protected by scheduler()
 
 }  // namespace
 
@@ -77,7 +79,7 @@ void Touch::close() {
   end();
 }
 
-// ---- the device, found and let go
+// ---- opening and closing the device
 
 Result<DeviceSpec> Touch::start() {
   const std::lock_guard lock(scheduler());
@@ -86,7 +88,7 @@ Result<DeviceSpec> Touch::start() {
   const char* name = settings_.name.empty() ? nullptr : settings_.name.c_str();
   handle_ = hd_->InitDevice(name);
   ErrorInfo told = hd_->GetError();
-  if (handle_ == kNoDevice && name == nullptr) {  // old drivers want it by its name
+  if (handle_ == kNoDevice && name == nullptr) {  // old drivers need the device's name
     handle_ = hd_->InitDevice("Default PHANToM");
     const ErrorInfo again = hd_->GetError();
     if (handle_ != kNoDevice) told = again;
@@ -140,9 +142,9 @@ void Touch::end() {
   handle_ = kNoDevice;
 }
 
-// From the table, and never more than the device itself says.
+// The limits from the table, but no more than the device itself reports.
 DeviceSpec Touch::describe() const {
-  const int axes = pushes();  // first: an error then is its own
+  const int axes = pushes();  // first, so that an error is its own
   const std::string model = string_of(*hd_, kModel);
   const Model* known = &kWeakest;
   for (const Model& one : kModels)
@@ -176,7 +178,8 @@ DeviceSpec Touch::describe() const {
   return spec;
 }
 
-// What an old library does not know of this is no trouble; a device that is gone says so again.
+// An old library may not know these parameters, which is no problem; a device that is gone reports
+// that again later.
 std::string Touch::versions() const {
   const std::string hd = string_of(*hd_, kVersion), driver = string_of(*hd_, kDriver);
   for (int n = 0; n < kMostOldErrors && is_refused(hd_->GetError().code); ++n) {
@@ -185,7 +188,7 @@ std::string Touch::versions() const {
                      driver.empty() ? "" : ", driver " + driver);
 }
 
-// Degrees of freedom with motors. One that cannot say has three.
+// Number of degrees of freedom with motors; three if the device cannot say.
 int Touch::pushes() const {
   int said = 0;
   hd_->GetIntegerv(kOutputDof, &said);
@@ -193,7 +196,7 @@ int Touch::pushes() const {
   return knows && said == 6 ? 6 : 3;
 }
 
-// Twice a second: is it still there? What was lost is opened anew.
+// Twice a second: checks that the device is there, and opens a lost one anew.
 void Touch::keep() {
   auto next = std::chrono::steady_clock::now() + kKeep;
   while (!stop_.load(std::memory_order_relaxed)) {
@@ -245,7 +248,7 @@ void Touch::calibrate() BURR_RT {
   calibration_ = hd_->CheckCalibration();
 }
 
-// False: what was read is no place where a hand could be.
+// False: the values read are no possible pose of a hand.
 bool Touch::read(HandState& hand) BURR_RT {
   double transform[16] = {}, velocity[3] = {};
   int buttons = 0;
@@ -261,7 +264,7 @@ bool Touch::read(HandState& hand) BURR_RT {
     return false;
   if (std::abs(turn.determinant() - 1) > 0.1 || hand.world_from_tool.p.norm() > kFarthest)
     return false;
-  hand.world_from_tool.q = math::Quat(turn).normalized();  // the library's has small errors
+  hand.world_from_tool.q = math::Quat(turn).normalized();  // the library's matrix has small errors
   return true;
 }
 
@@ -300,7 +303,7 @@ void Touch::exchange() BURR_RT {
   if (worst == kNoError || worst == kWarmMotors) {
     bad_frames_.store(0, std::memory_order_relaxed);
   } else {
-    // what the device let go of comes back by the ramp only, as with a hand that was lost
+    // a force that the device released returns only through the ramp, as with a lost hand
     bad_frames_.fetch_add(1, std::memory_order_relaxed);
     link_.lose();
   }

@@ -1,11 +1,12 @@
-// device/openhaptics/touch.h - 3D Systems' Touch, Touch X and Premium: six degrees of freedom in,
-// three out; the device of Eriksson's thesis.
+// device/openhaptics/touch.h - 3D Systems' Touch, Touch X and Premium: six sensed degrees of
+// freedom, three actuated; the device of Eriksson's thesis.
 //
-// The library calls us a thousand times a second: a reading, the tick's force, the next. Its frame
-// is ours: x right, y up, z to the user; the stylus' own z runs along it, away from the tip. Pulled
-// out, or a fault, the hand is lost; it is tried again twice a second. Thread: as Device; the
-// callback on the library's own. Two devices: one Touch each, by the names they were given in Touch
-// Setup.
+// The library calls us a thousand times a second: a reading, the tick's force, the next reading.
+// Its frame is ours: x right, y up, z to the user; the stylus' own z runs along it, away from the
+// tip. When it is unplugged or reports a fault, the hand is lost; a new attempt is made twice a
+// second.
+// Thread: as Device; the callback on the library's own thread. Two devices: one Touch each, by the
+// names given in Touch Setup.
 #pragma once
 
 #include <atomic>
@@ -20,7 +21,7 @@
 namespace burr::device::openhaptics {
 
 struct TouchSettings {
-  std::string hd_file = {};  // empty: BURR_OPENHAPTICS, or as the system finds it
+  std::string hd_file = {};  // empty: BURR_OPENHAPTICS, or the one the system finds
   std::string name = {};     // as in Touch Setup; empty: the default device
   LinkSettings link = {};
   Link::Now now = &rt::monotonic_ns;
@@ -54,19 +55,19 @@ class Touch final : public LinkedDevice {
   unsigned long loop_ = 0;
   std::unique_ptr<rt::Thread> keeper_;
   std::atomic<bool> stop_ = false;
-  std::string found_;  // why it could not be found again
+  std::string found_;  // why it could not be opened again
   mutable std::mutex words_;
 
-  // between the callback and the others
-  std::atomic<Code> trouble_ = kNoError;  // of the frame before
+  // shared between the callback and the other threads
+  std::atomic<Code> trouble_ = kNoError;  // of the previous frame
   std::atomic<int> bad_frames_ = 0;       // in a row
   std::atomic<Code> calibration_ = kCalibrationOk;
-  std::atomic<std::int64_t> called_ns_ = 0;  // when last
-  // the callback's own
+  std::atomic<std::int64_t> called_ns_ = 0;  // time of the last call
+  // used only in the callback
   std::uint64_t frames_ = 0;
   int warm_frames_ = 0;
   double peak_ = 0, peak_torque_ = 0;  // [N], [N m]
-  bool turns_ = false;                 // it takes torque
+  bool turns_ = false;                 // the device can give torque
 };
 
 }  // namespace burr::device::openhaptics

@@ -8,9 +8,10 @@
 namespace burr::device::polhem {
 namespace {
 
-constexpr double kMostNewton = 32;                    // a field holds 16 bits of millinewtons
-constexpr int kForce = 2;                             // the command: three forces
-constexpr double kFarthestMm = 1000, kMostTurn = 20;  // of a sound reading [mm], [rad]
+constexpr double kMostNewton = 32;                    // the field holds 16 bits of millinewtons
+constexpr int kForce = 2;                             // the command for three forces
+constexpr double kFarthestMm = 1000, kMostTurn = 20;  // largest values of a valid reading [mm],
+                                                      // [rad]
 
 }  // namespace
 
@@ -75,7 +76,7 @@ bool Lines::take(std::size_t came, State& state, int& nonsense) BURR_RT {
        stop = std::find(begin, end, '\n')) {
     const std::string_view line(begin, static_cast<std::size_t>(stop - begin));
     begin = stop + 1;
-    if (line.find_first_not_of(" \r") == std::string_view::npos) continue;  // what filled a line up
+    if (line.find_first_not_of(" \r") == std::string_view::npos) continue;  // padding of a line
     if (read_line(line, state))
       found = true;
     else
@@ -83,7 +84,7 @@ bool Lines::take(std::size_t came, State& state, int& nonsense) BURR_RT {
   }
   used_ = static_cast<std::size_t>(end - begin);
   std::memmove(bytes_.data(), begin, used_);
-  if (used_ == bytes_.size()) {  // no newline in all that: no line of an arm
+  if (used_ == bytes_.size()) {  // no newline in the whole buffer: not lines of an arm
     used_ = 0;
     ++nonsense;
   }

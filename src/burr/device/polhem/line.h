@@ -1,8 +1,8 @@
-// device/polhem/line.h - the lines that a Polhem speaks over its serial port: text of 64 bytes, the
-// last one a newline, one of its own for each of ours.
+// device/polhem/line.h - the lines that a Polhem exchanges over its serial port: text of 64 bytes
+// that ends with a newline; it sends one line for each of ours.
 //
-//     ours:  force x y z [mN], command 2, three attributes; the arm turns it into currents itself
-//     its:   place x y z [mm], angles tA lambda tD tE [rad], a number of its state
+//     to it:    force x y z [mN], command 2, three attributes; the arm computes the currents itself
+//     from it:  position x y z [mm], angles tA lambda tD tE [rad], a number for its state
 //
 // Source: uhaptikfabriken.h 0.2 of forsslund/haptikfabrikenapi (pc_to_hid_message,
 // position_hid_to_pc_message, setForce). Thread: any. Memory: none. Frame: the arm's own.
@@ -20,7 +20,8 @@ namespace burr::device::polhem {
 inline constexpr std::size_t kLine = 64;
 using Line = std::array<char, kLine>;
 
-// force: [N]; what is no number is none, and no component passes what the field holds.
+// force: [N]. A force that is not finite becomes zero; each component is limited to what its field
+// holds.
 [[nodiscard]] Line force_line(const math::Vec3& force) BURR_RT;
 
 struct State {
@@ -30,17 +31,17 @@ struct State {
   int info = 0;
 };
 
-// False: no line of an arm, or numbers that cannot be; `state` is left alone then.
+// False: not a line of an arm, or impossible numbers; `state` is then unchanged.
 [[nodiscard]] bool read_line(std::string_view line, State& state) BURR_RT;
 
-// Whole lines out of a stream that comes in pieces.
+// Collects whole lines from a stream that comes in pieces.
 class Lines {
  public:
-  // Room for what comes next.
+  // Buffer for the next bytes.
   [[nodiscard]] char* room() BURR_RT { return bytes_.data() + used_; }
   [[nodiscard]] std::size_t left() const BURR_RT { return bytes_.size() - used_; }
-  // So much has come: the newest whole line that is one, in `state`; lines that are none are
-  // counted.
+  // Tells how many bytes have come. Puts the newest valid whole line into `state`. Lines that are
+  // not valid are counted in `nonsense`.
   [[nodiscard]] bool take(std::size_t came, State& state, int& nonsense) BURR_RT;
   void clear() BURR_RT { used_ = 0; }
 

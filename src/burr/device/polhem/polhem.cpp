@@ -26,18 +26,20 @@ namespace fs = std::filesystem;
 using math::Quat;
 using math::Vec3;
 
-constexpr int kOneReadingMs = 2;               // that read() waits
-constexpr int kWakesMs = 1500, kWakeMs = 50;   // for an arm that begins to run when it is opened
-constexpr std::int64_t kAgainNs = 20'000'000;  // without an answer: its line or ours was lost
-// Beats so far apart, and the guardian has spoken to the arm meanwhile, or was about to.
+constexpr int kOneReadingMs = 2;               // wait of read()
+constexpr int kWakesMs = 1500, kWakeMs = 50;   // for an arm that starts when its port is opened
+constexpr std::int64_t kAgainNs = 20'000'000;  // without an answer for so long, a line was lost in
+                                               // one direction
+// After a pause this long between two beats, the guardian has written to the arm, or was about to.
 constexpr std::int64_t kGuardedNs = (Guardian::kMissedMs - 10) * std::int64_t{1'000'000};
-constexpr std::int64_t kQuietNs = 5'000'000;        // then no more answers are owed
-constexpr std::int64_t kCatchUpNs = 1'000'000'000;  // in which it has fallen quiet
-constexpr int kMostNonsense = 50;                   // lines without a good one between
+constexpr std::int64_t kQuietNs = 5'000'000;        // silence after which no more answers are
+                                                    // expected
+constexpr std::int64_t kCatchUpNs = 1'000'000'000;  // time in which the line must become silent
+constexpr int kMostNonsense = 50;                   // invalid lines in a row
 constexpr double kPeak = 5, kContinuous = 1.5;      // [N]; the former from the maker's polhem_v3
 constexpr double kStiffness = 2000, kDamping = 1;   // [N/m], [N s/m], likewise
 constexpr double kRadius = 150e-3;                  // [m], likewise
-constexpr double kSlowest = 1e-3;                   // time constant of the place's change  [s]
+constexpr double kSlowest = 1e-3;                   // time constant of the velocity filter [s]
 
 std::string text_of(const fs::path& file) {
   std::ifstream in(file);
@@ -46,19 +48,19 @@ std::string text_of(const fs::path& file) {
   return word;
 }
 
-// Ours from the arm's.
+// From the arm's frame to ours, and back.
 Vec3 ours(const Vec3& v) BURR_RT { return {v.y(), v.z(), v.x()}; }
 Vec3 theirs(const Vec3& v) BURR_RT { return {v.z(), v.x(), v.y()}; }
 
 Quat about(const Vec3& axis, double angle) BURR_RT { return Quat(Eigen::AngleAxisd(angle, axis)); }
 
-// How the tool is turned: the wrist's chain (uhaptikfabriken.h, getRot(), without the stylus' own
-// turn), its x becoming the tool's z.
+// The orientation of the tool: the wrist's chain (uhaptikfabriken.h, getRot(), without the stylus'
+// own rotation); its x becomes the tool's z.
 Quat turn_of(const State& state) BURR_RT {
   const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
   const Quat wrist = about(z, state.tA) * about(y, -state.lambda) * about(x, state.tD) *
                      about(y, state.tE) * about(y, M_PI / 2);
-  // x right, y up, z to the user of what is x to the user, y right, z up: a third of a turn
+  // from x to the user, y right, z up to x right, y up, z to the user: a third of a turn
   const Quat frame(0.5, -0.5, -0.5, -0.5);
   return frame * wrist;
 }
@@ -98,7 +100,7 @@ Result<DeviceSpec> Polhem::connect() {
       break;
     }
   const auto fail = [&](const std::string& why) {
-    guardian_.reset();  // it has the port too, and would keep it from the next try
+    guardian_.reset();  // it holds the port open and would block the next attempt
     if (port_ >= 0) ::close(port_);
     port_ = -1;
     return error(Trouble::io, why);
@@ -130,7 +132,7 @@ Result<DeviceSpec> Polhem::connect() {
   behind_ = false;
   name_ = "the Polhem at " + port.path;
 
-  // Asked without force until it answers; boards begin anew when their port is opened.
+  // Ask without force until it answers; boards restart when their port is opened.
   Heard heard = Heard::nothing;
   for (int waited = 0; heard == Heard::nothing && waited < kWakesMs; waited += kWakeMs) {
     if (waited > 0) fall_behind(rt::monotonic_ns());
@@ -185,14 +187,14 @@ Polhem::Heard Polhem::hear(int longest_ms) BURR_RT {
       const int before = nonsense_;
       if (!lines_.take(static_cast<std::size_t>(got), state_, nonsense_)) {
         if (nonsense_ == before) continue;  // a part of a line
-        asked_ = false;                     // an answer, though none that helps
+        asked_ = false;                     // an answer, but not a usable one
         return Heard::nothing;
       }
       nonsense_ = 0;
       asked_ = false;
       return Heard::state;
     }
-    // a terminal whose other end is closed reads as ended, or as broken
+    // a terminal whose other end is closed reads as end of file, or as an error
     if (got == 0 || (errno != EAGAIN && errno != EINTR)) return Heard::gone;
     const std::int64_t left = until - rt::monotonic_ns();
     if (left <= 0) return Heard::nothing;
@@ -209,7 +211,7 @@ bool Polhem::say(const Vec3& force) BURR_RT {
     out_ = force_line(force);
     unsaid_ = kLine;
   }
-  // a line half taken is ended first: the arm would read two as one
+  // finish a line that was sent in part: the arm would read two lines as one
   while (unsaid_ > 0) {
     const ssize_t put = ::write(port_, out_.data() + (kLine - unsaid_), unsaid_);
     if (put > 0)
@@ -224,8 +226,8 @@ bool Polhem::say(const Vec3& force) BURR_RT {
   return true;
 }
 
-// More was asked than was answered, by ourselves or by the guardian. Were the arm asked again at
-// each of those answers, every force would reach it so many lines late from then on.
+// More lines were sent than answered, by burr or by the guardian. If burr sent a new line for each
+// of those answers, every force would from then on reach the arm so many lines late.
 void Polhem::fall_behind(std::int64_t now) BURR_RT {
   if (behind_) return;
   behind_ = true;
@@ -241,7 +243,7 @@ Wire::Read Polhem::read(HandState& hand) BURR_RT {
   guardian_->beat();
   const Heard heard = hear(kOneReadingMs);
   const std::int64_t now = rt::monotonic_ns();
-  // quiet counts after an answer only: one that stands still has not said yet what it owes
+  // silence counts only after an answer: an arm that hangs has not sent yet what it owes
   if (heard == Heard::nothing && !asked_ && now - std::max(heard_ns_, behind_since_ns_) > kQuietNs)
     behind_ = false;
   if (behind_ && now - behind_since_ns_ > kCatchUpNs) {
@@ -276,7 +278,7 @@ Wire::Read Polhem::read(HandState& hand) BURR_RT {
 }
 
 bool Polhem::write(const Vec3& force) BURR_RT {
-  // its answer is still to come; where a line was lost on the way another is said
+  // the answer is still to come; if a line was lost on the way, send another
   const std::int64_t now = rt::monotonic_ns();
   if (asked_ && now - asked_ns_ < kAgainNs) return true;
   if (asked_) fall_behind(now);
@@ -292,7 +294,7 @@ bool Polhem::write(const Vec3& force) BURR_RT {
 
 void Polhem::disconnect() {
   if (port_ < 0) return;
-  static_cast<void>(say(Vec3::Zero()));  // the rest of a line that was under way, or no force
+  static_cast<void>(say(Vec3::Zero()));  // the rest of a line that was sent in part, or "no force"
   static_cast<void>(say(Vec3::Zero()));
   guardian_.reset();
   ::close(port_);

@@ -1,12 +1,12 @@
 // device/polhem/polhem.h - Haptikfabriken's Polhem, and WoodenHaptics with its electronics, over a
 // serial port.
 //
-// The arm answers each line of ours with one of its own. Its frame: x to the user, y right, z up;
-// ours is x right, y up, z to the user. The stylus lies along the x of its wrist, away from the
-// arm; how it is turned about itself and its button come by a radio of their own, which is not
-// read: the tool does not turn about its handle, and a pedal mills.
-// Nothing is known of a watchdog in the arm, so a guardian (guardian.h) says "no force" to it
-// should burr die. Thread: as Wire. Memory: none after connect().
+// The arm answers each of our lines with one of its own. Its frame: x to the user, y right, z up;
+// ours is x right, y up, z to the user. The stylus lies along the x axis of its wrist, away from
+// the arm. The rotation of the stylus about itself and its button come over a separate radio, which
+// burr does not read: the tool does not turn about its handle, and a pedal mills. The arm has no
+// watchdog that we know of, so a guardian (guardian.h) sends "no force" to it if burr dies. Thread:
+// as Wire. Memory: none after connect().
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@
 namespace burr::device::polhem {
 
 struct PolhemSettings {
-  std::string port = {};     // /dev/ttyACM0; empty: the first that is one
-  std::string system = "/";  // where sys and dev lie
+  std::string port = {};     // /dev/ttyACM0; empty: the first port of an arm
+  std::string system = "/";  // folder that contains sys and dev
 };
 
 class Polhem final : public Wire {
@@ -43,7 +43,7 @@ class Polhem final : public Wire {
   enum class Heard { state, nothing, gone };
   [[nodiscard]] Heard hear(int longest_ms) BURR_RT;
   void fall_behind(std::int64_t now) BURR_RT;
-  [[nodiscard]] bool say(const math::Vec3& force) BURR_RT;  // false: gone
+  [[nodiscard]] bool say(const math::Vec3& force) BURR_RT;  // false: the port is gone
 
   PolhemSettings settings_;
   std::unique_ptr<Guardian> guardian_;
@@ -52,13 +52,13 @@ class Polhem final : public Wire {
   Lines lines_;
   State state_;
   Line out_{};
-  std::size_t unsaid_ = 0;  // bytes of out_ that the port did not take yet
+  std::size_t unsaid_ = 0;  // bytes of out_ that the port has not taken yet
   bool asked_ = false;
   std::int64_t asked_ns_ = 0, heard_ns_ = 0;
   Silence silence_;
-  std::int64_t beaten_ns_ = 0;  // the guardian
-  bool behind_ = false;         // answers are owed: no force is said until they have come
-  bool stilled_ = false;        // and "no force" was said at the beginning of it
+  std::int64_t beaten_ns_ = 0;  // last beat to the guardian
+  bool behind_ = false;         // answers are late: no force is sent until they have come
+  bool stilled_ = false;        // "no force" was sent when the answers became late
   std::int64_t behind_since_ns_ = 0;
   math::Vec3 last_place_ = math::Vec3::Zero(), velocity_ = math::Vec3::Zero();
   int nonsense_ = 0;
@@ -66,8 +66,8 @@ class Polhem final : public Wire {
   unsigned told_ = 0;
 };
 
-// The serial ports that are an arm's, by what their USB says (16c0:04xx): /dev/ttyACM0 and serial
-// number; sorted.
+// The serial ports of arms, recognized by their USB ids (16c0:04xx): path, such as /dev/ttyACM0,
+// and serial number; sorted.
 struct Port {
   std::string path, serial;
 };

@@ -78,7 +78,7 @@ class FilesSource final : public ByteSource {
   std::unique_ptr<ByteSource> now_;
 };
 
-// zlib with any wrapping; several gzip members in a row are one stream, junk after them is ignored
+// zlib with any wrapping. Several gzip members in a row are one stream; junk after them is ignored.
 class Inflate final : public ByteSource {
  public:
   Inflate(std::unique_ptr<ByteSource> packed, int window_bits)
@@ -110,7 +110,7 @@ class Inflate final : public ByteSource {
         if (!members_ || inflateReset(&stream_) != Z_OK) done_ = true;
       } else if (state != Z_OK && state != Z_BUF_ERROR) {
         if (!between_members_) return error("the compressed data is damaged; copy the file again");
-        done_ = true;  // what follows the last member is no gzip
+        done_ = true;  // the last member is followed by something else than gzip
       } else {
         between_members_ = between_members_ && stream_.total_out == 0;
       }
@@ -198,13 +198,13 @@ Result<OpenFile> open_file(const std::filesystem::path& path, std::uint64_t offs
   const auto refused = [&](const char* why) {
     return error(Trouble::io, fmt::format("{}: {}", short_name(path), why));
   };
-  // looked at before it is opened: merely opening a device can do something
+  // check it before opening: merely opening a device can have an effect
   struct stat facts = {};
   if (::fstatat(AT_FDCWD, path.c_str(), &facts, follow_links ? 0 : AT_SYMLINK_NOFOLLOW) != 0)
     return refused(fmt::format("cannot be opened: {}", std::strerror(errno)).c_str());
   if (S_ISLNK(facts.st_mode)) return refused("cannot be opened: a link is not followed here");
   if (!S_ISREG(facts.st_mode)) return refused("is not a regular file");
-  // O_NONBLOCK: should it have become a pipe since, opening must not wait for its writer
+  // O_NONBLOCK: if it has become a pipe since, opening must not wait for a writer
   const int handle = ::open(
       path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (follow_links ? 0 : O_NOFOLLOW));
   if (handle < 0) return refused(fmt::format("cannot be opened: {}", std::strerror(errno)).c_str());
@@ -270,7 +270,7 @@ Result<std::filesystem::path> beside(const std::filesystem::path& header, const 
 }
 
 std::string short_name(const std::filesystem::path& path) {
-  constexpr std::size_t kLongestName = 255;  // of a file, on every system  [byte]
+  constexpr std::size_t kLongestName = 255;  // of a file name, on every system [byte]
   const auto name = path.filename().string();
   if (!name.empty() && name != ".") return base::shown(name, kLongestName);
   const auto parent = path.parent_path().filename().string();

@@ -1,8 +1,8 @@
-// io/read/bytes.h - where a format's bytes come from: a file, a member of a gzip or bzip2 stream,
-// several files in a row. Read once, front to back; never more memory than one block.
+// io/read/bytes.h - the source of a file format's bytes: a file, a gzip or bzip2 stream in it, or
+// several files in a row. Read once, from front to back; holds one block in memory at most.
 //
-// Only regular files are opened (no device, pipe or socket that never ends). Private to io.
-// Thread: one reader each.
+// Only regular files are opened (no device, pipe or socket, which may never end). Of this room
+// only. Thread: one reader each.
 #pragma once
 
 #include <cstddef>
@@ -23,32 +23,32 @@ class ByteSource {
   ByteSource& operator=(const ByteSource&) = delete;
   virtual ~ByteSource() = default;
 
-  // Up to n bytes; 0 is the end. Errors are sentences about the stream ("the gzip stream is
-  // damaged").
+  // Reads up to n bytes and returns how many; 0 is the end. Errors are sentences about the stream
+  // ("the gzip stream is damaged").
   [[nodiscard]] virtual Result<std::size_t> read(void* to, std::size_t n) = 0;
 };
 
-// n bytes or an error that says how many there were
+// Reads n bytes; the error says how many there were.
 [[nodiscard]] Status read_exactly(ByteSource& source, void* to, std::size_t n);
 [[nodiscard]] Status skip(ByteSource& source, std::uint64_t n);
 
-// What opening told about a file.
+// An open file and its size.
 struct OpenFile {
   std::unique_ptr<ByteSource> source;
   std::uint64_t size = 0;  // [byte]
 };
 
-// follow_links false: a symbolic link is refused (for names that came out of another file).
+// follow_links false: a symbolic link is refused (for names that come from another file).
 [[nodiscard]] Result<OpenFile> open_file(const std::filesystem::path& path,
                                          std::uint64_t offset = 0, bool follow_links = true);
 [[nodiscard]] std::unique_ptr<ByteSource> gunzip(std::unique_ptr<ByteSource> packed);
-// zlib's own wrapping, as MetaImage has it
+// a zlib stream, as in MetaImage
 [[nodiscard]] std::unique_ptr<ByteSource> inflate_zlib(std::unique_ptr<ByteSource> packed);
-// no wrapping at all, as deflated DICOM has it
+// a deflate stream without header, as in deflated DICOM
 [[nodiscard]] std::unique_ptr<ByteSource> inflate_raw(std::unique_ptr<ByteSource> packed);
 [[nodiscard]] std::unique_ptr<ByteSource> bunzip2(std::unique_ptr<ByteSource> packed);
 [[nodiscard]] std::unique_ptr<ByteSource> memory_source(std::vector<std::uint8_t> bytes);
-// opens one after the other as they are needed
+// opens each file when the one before it has ended
 [[nodiscard]] std::unique_ptr<ByteSource> files_in_a_row(std::vector<std::filesystem::path> paths,
                                                          std::uint64_t skip_each);
 
@@ -57,16 +57,16 @@ struct OpenFile {
                                                             std::size_t n,
                                                             bool follow_links = true);
 
-// A name that a header gave for its data file, beside the header: refused when it is absolute,
-// climbs or names another folder. `named_in` is the header's own name, for the sentence.
+// The path of a data file that a header names and that must lie beside the header. Refused: an
+// absolute name, a name with "..", a name in another folder. The error names the header.
 [[nodiscard]] Result<std::filesystem::path> beside(const std::filesystem::path& header,
                                                    const std::string& name);
 
-// A file's name without its folder, for error sentences: the folder may carry a patient's name.
+// The file's name without its folder, for error messages: the folder may carry a patient's name.
 [[nodiscard]] std::string short_name(const std::filesystem::path& path);
 
-// Deflate packs at most 1032 : 1, bzip2 about 45 000 : 1 on zeros; a header that promises more
-// lies.
+// Deflate packs at most 1032 : 1, bzip2 about 45 000 : 1 on zeros; a header that promises more is
+// false.
 inline constexpr std::uint64_t kMostGzip = 1032;
 inline constexpr std::uint64_t kMostBzip2 = 50000;
 

@@ -1,5 +1,5 @@
-// DICOM files after PS3.5 and PS3.10 of the standard: preamble or none, implicit or explicit value
-// representation, little or big endian, deflated.
+// DICOM files as in PS3.5 and PS3.10 of the standard: with or without preamble, implicit or
+// explicit value representation, little or big endian, deflated.
 #include "burr/io/read/dicom_header.h"
 
 #include <fmt/core.h>
@@ -19,7 +19,7 @@ using Tag = std::uint32_t;  // group << 16 | element
 constexpr std::uint32_t kUndefined = 0xFFFFFFFF;
 constexpr Tag kItem = 0xFFFEE000, kItemEnd = 0xFFFEE00D, kSequenceEnd = 0xFFFEE0DD;
 constexpr Tag kPixelData = 0x7FE00010, kShared = 0x52009229, kPerFrame = 0x52009230;
-constexpr int kDeepest = 24;  // sequences in sequences
+constexpr int kDeepest = 24;  // nesting of sequences
 
 using Values = std::map<Tag, std::string>;  // raw bytes of the wanted elements
 
@@ -62,7 +62,7 @@ bool wanted(Tag tag) {
 
 class Walker {
  public:
-  // total: bytes the data set really has, of which `bytes` are the first ones
+  // total: size of the data set, of which `bytes` is the beginning
   Walker(const std::vector<std::uint8_t>& bytes, std::uint64_t total)
       : bytes_(bytes), total_(total) {}
 
@@ -71,10 +71,10 @@ class Walker {
   std::vector<Values> frames;
   bool has_pixels = false, float_pixels = false, encapsulated = false, modality_lut = false;
   std::uint64_t pixels_at = 0, pixels_length = 0;
-  bool cut = false;     // the data set goes on behind `bytes`
-  std::string trouble;  // not empty: the structure is broken
+  bool cut = false;     // the data set continues beyond `bytes`
+  std::string trouble;  // not empty: the structure is invalid
 
-  // Elements from `at` to `end`; depth 0 is the data set itself.
+  // Walks the elements from `at` to `end`; depth 0 is the data set itself.
   std::uint64_t walk(std::uint64_t at, std::uint64_t end, int depth, Values* into, bool only_meta) {
     if (depth > kDeepest) return fail("sequences lie in each other without end");
     while (at + 8 <= end && trouble.empty() && !cut) {
@@ -137,7 +137,7 @@ class Walker {
           cut = true;
           return at;
         }
-        // of repeated ones the first holds
+        // of repeated elements the first counts
         into->emplace(tag, std::string(reinterpret_cast<const char*>(bytes_.data() + at + head),
                                        static_cast<std::size_t>(length)));
       }
@@ -194,7 +194,7 @@ class Walker {
           inside_ = before;
           return fail("an item is longer than its sequence");
         }
-        // only what is looked for is walked through; strange private items are stepped over whole
+        // only into wanted sequences; unknown private ones are skipped whole
         if (into != nullptr) walk(at + 8, at + 8 + item, depth + 1, into, false);
         at += 8 + item;
       }
@@ -240,7 +240,7 @@ void frame_facts(const Values& values, DicomFrame& frame) {
   if (orientation.size() == 6 && all_finite(orientation)) {
     const math::Vec3 row(orientation[0], orientation[1], orientation[2]),
         column(orientation[3], orientation[4], orientation[5]);
-    // unit and square to each other, or not to be believed
+    // not of unit length or not perpendicular: ignored
     if (std::abs(row.norm() - 1) < 0.01 && std::abs(column.norm() - 1) < 0.01 &&
         std::abs(row.dot(column)) < 0.01) {
       frame.row = row.normalized();
@@ -254,7 +254,7 @@ void frame_facts(const Values& values, DicomFrame& frame) {
     frame.has_spacing = true;
   }
   if (!thickness.empty() && thickness[0] > 0) frame.thickness_mm = thickness[0];
-  // a slope of 0 says nothing; then the intercept says nothing either
+  // a slope of 0 is meaningless, and then so is the intercept
   if (!slope.empty() && std::isfinite(slope[0]) && slope[0] != 0) {
     frame.slope = slope[0];
     if (!intercept.empty() && std::isfinite(intercept[0])) frame.intercept = intercept[0];
@@ -262,7 +262,7 @@ void frame_facts(const Values& values, DicomFrame& frame) {
   }
 }
 
-// does an element with a plausible tag and type stand here?
+// Is there an element with a plausible tag and type here?
 bool plausible(const std::vector<std::uint8_t>& bytes, std::size_t at) {
   if (bytes.size() < at + 8) return false;
   const int group = bytes[at] | bytes[at + 1] << 8;
@@ -276,7 +276,7 @@ Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
   const auto broken = [&](const std::string& why) {
     return error(fmt::format("{}: is a damaged DICOM file: {}; copy it again", file, why));
   };
-  // headers seldom need more than the first block; grow until they fit
+  // a header seldom needs more than the first block; read more until it fits
   std::size_t part = std::size_t{1} << 16;
   while (true) {
     auto bytes = first_bytes(path, part);
@@ -302,7 +302,7 @@ Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
       header.transfer_syntax = text_of(meta.top, 0x00020010);
     }
     if (header.transfer_syntax == "1.2.840.10008.1.2.1.99") {
-      // the data set itself is packed: unpack all of it, within what deflate can pack
+      // the data set itself is compressed: inflate all of it, within deflate's largest ratio
       auto source = open_file(path, at);
       if (!source) return source.error();
       const std::uint64_t most =
@@ -327,7 +327,7 @@ Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
     set.big_endian = header.transfer_syntax == "1.2.840.10008.1.2.2";
     set.explicit_vr = header.transfer_syntax != "1.2.840.10008.1.2";
     if (header.transfer_syntax.empty() || header.transfer_syntax == "1.2.840.10008.1.2") {
-      // no statement, or the usual lie: letters where the type would stand mean explicit
+      // No statement, or the usual wrong one: letters in the place of the type mean explicit.
       if (at + 6 > bytes->size()) return broken("it holds nothing");
       const auto letter = [&](std::uint64_t p) { return (*bytes)[p] >= 'A' && (*bytes)[p] <= 'Z'; };
       set.explicit_vr = letter(at + 4) && letter(at + 5);

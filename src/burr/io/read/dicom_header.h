@@ -1,7 +1,8 @@
-// io/read/dicom_header.h - the few facts of a DICOM file that burr needs, read by a parser that believes
-// no length: everything is checked against the file before memory is taken. Private to io.
+// io/read/dicom_header.h - reads the few facts of a DICOM file that burr needs. The parser trusts
+// no length: everything is checked against the file size before memory is allocated. Of this room
+// only.
 //
-// No patient name, id, date or institution is even looked at.
+// It does not read the patient's name, id, date or institution.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +15,13 @@
 
 namespace burr::io {
 
-// Numbers as the pixels of one frame need them.
+// Geometry and scale of one frame.
 struct DicomFrame {
   bool has_position = false, has_orientation = false, has_spacing = false;
   math::Vec3 position_mm = math::Vec3::Zero();  // centre of the first pixel, LPS
   math::Vec3 row = math::Vec3::UnitX();         // direction of a row: to the next column
   math::Vec3 column = math::Vec3::UnitY();
-  double row_gap_mm = 1, column_gap_mm = 1;  // between rows, between columns
+  double row_gap_mm = 1, column_gap_mm = 1;  // distance between rows, between columns
   double slope = 1, intercept = 0;
   bool has_rescale = false;
   double thickness_mm = 0;
@@ -43,12 +44,12 @@ struct DicomHeader {
   std::uint64_t pixels_at = 0, pixels_length = 0;  // in the file, or in the inflated data set
 };
 
-// An error when it is no DICOM image or its lengths contradict the file. A file that is no DICOM at
-// all gives an error too; a folder's reader skips those.
+// Error: not a DICOM image, or its lengths contradict the file. The reader of a folder skips files
+// that are not DICOM at all.
 [[nodiscard]] Result<DicomHeader> read_dicom_header(const std::filesystem::path& path);
 
-// The stored pixel values of all frames (columns x rows x frames), before rescaling. Packed pixels
-// are unpacked by GDCM.
+// The stored pixel values of all frames (columns x rows x frames), before rescaling. Compressed
+// pixels are decompressed by GDCM.
 [[nodiscard]] Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& header);
 
 }  // namespace burr::io

@@ -1,6 +1,6 @@
-// The pixels of one DICOM file. Plain ones are read here; packed ones (JPEG, JPEG-LS, JPEG 2000,
-// RLE) are unpacked by GDCM, which gets a small clean file made of the few facts we checked, so
-// that no odd private element and no lying length ever reaches it.
+// The pixels of one DICOM file. Uncompressed ones are read here; compressed ones (JPEG, JPEG-LS,
+// JPEG 2000, RLE) are decompressed by GDCM. GDCM gets a small clean file made of the few facts that
+// were checked, so that no odd private element and no false length ever reaches it.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -77,12 +77,13 @@ std::uint32_t little32(const std::uint8_t* p) {
          static_cast<std::uint32_t>(p[3]) << 24;
 }
 
-// The fragments in order; wrong structure gives a sentence. Trims what follows the end mark.
+// The fragments in order; the error names what is wrong with the structure. Cuts off what follows
+// the end mark.
 Result<std::vector<std::pair<std::size_t, std::size_t>>> fragments(
     std::vector<std::uint8_t>& bytes) {
-  std::vector<std::pair<std::size_t, std::size_t>> found;  // place, length
+  std::vector<std::pair<std::size_t, std::size_t>> found;  // position, length
   std::size_t at = 0;
-  bool table = true;  // the first item is the table of offsets
+  bool table = true;  // the first item is the offset table
   while (at + 8 <= bytes.size()) {
     const std::uint32_t group = little32(&bytes[at]), length = little32(&bytes[at + 4]);
     if (group == 0xE0DDFFFE) {
@@ -96,14 +97,14 @@ Result<std::vector<std::pair<std::size_t, std::size_t>>> fragments(
     table = false;
     at += 8 + length;
   }
-  // a missing end mark is common and harmless when the last fragment is whole
+  // a missing end mark is common, and harmless if the last fragment is complete
   if (at != bytes.size() || found.empty()) return error("its packed pixels are cut off");
   const std::uint8_t end[8] = {0xFE, 0xFF, 0xDD, 0xE0, 0, 0, 0, 0};
   bytes.insert(bytes.end(), end, end + 8);
   return found;
 }
 
-// Width and height as the packed picture itself states them, before an unpacker believes it.
+// Width and height as the compressed picture itself states them, before a decoder relies on them.
 bool picture_size(const std::uint8_t* p, std::size_t n, int& columns, int& rows, int& parts) {
   const auto be16 = [&](std::size_t at) { return p[at] << 8 | p[at + 1]; };
   const auto be32 = [&](std::size_t at) {
@@ -153,7 +154,7 @@ void widen(const std::uint8_t* from, std::vector<std::int32_t>& to) {
   }
 }
 
-// Only the stored bits count; the rest may hold old overlays. Signed values get their sign.
+// Only the stored bits count; the others may hold old overlays. Signed values get their sign.
 void keep_stored_bits(std::vector<std::int32_t>& values, int bits, int high_bit, bool is_signed) {
   if (bits >= 32 || bits < 1) return;
   const int shift = std::max(0, high_bit - bits + 1);
@@ -180,7 +181,7 @@ Result<std::vector<std::int32_t>> unpack(const DicomHeader& h, std::vector<std::
   if (!parts) return error(fmt::format("{}: {}", file, parts.error().text));
   const bool rle = h.transfer_syntax == "1.2.840.10008.1.2.5";
   if (!rle) {
-    // a picture may span fragments; its head is always at the beginning of one. A short first
+    // A picture may span fragments, but its header is always at the beginning of one. A short first
     // fragment is joined with what follows.
     std::vector<std::uint8_t> head;
     for (const auto& [at, length] : *parts) {
@@ -259,12 +260,12 @@ Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& h) {
                             static_cast<std::size_t>(h.frame_count);
   const auto width = static_cast<std::size_t>(h.bits_allocated / 8);
 
-  // the bytes, from the file or from its unpacked data set
+  // the bytes, from the file or from its inflated data set
   auto opened = open_file(h.path, h.deflated ? 0 : h.pixels_at);
   if (!opened) return opened.error();
   std::unique_ptr<ByteSource> source = std::move(opened->source);
   if (h.deflated) {
-    // find the packed part again: after the meta header
+    // find the compressed part again: after the meta header
     auto head = first_bytes(h.path, 65536);
     if (!head) return head.error();
     std::size_t at = 132;

@@ -35,7 +35,7 @@ float air_of(const Scan& scan) {
   return scan.values.empty() ? 0.0F : *std::min_element(scan.values.begin(), scan.values.end());
 }
 
-// Catmull-Rom weights for a place t in 0..1 between the second and the third sample
+// Catmull-Rom weights for a position t in 0..1 between the second and the third sample
 std::array<float, 4> cubic_weights(double t) {
   const double t2 = t * t, t3 = t2 * t;
   return {static_cast<float>(0.5 * (-t + 2 * t2 - t3)),
@@ -43,12 +43,12 @@ std::array<float, 4> cubic_weights(double t) {
           static_cast<float>(0.5 * (t + 4 * t2 - 3 * t3)), static_cast<float>(0.5 * (-t2 + t3))};
 }
 
-// One line moved by `shift` samples into a longer one; outside is `air`.
+// Shifts a line by `shift` samples into a longer one; outside is `air`.
 void shift_line(const float* from, int n, std::ptrdiff_t from_stride, float* to, int n_to,
                 std::ptrdiff_t to_stride, double shift, float air) {
   const int whole = static_cast<int>(std::floor(shift));
   const auto w = cubic_weights(1.0 - (shift - whole));
-  // sample at place i - shift = (i - whole - 1) + (1 - fraction)
+  // sample at position i - shift = (i - whole - 1) + (1 - fraction)
   for (int i = 0; i < n_to; ++i) {
     const int base = i - whole - 1;
     float sum = 0;
@@ -64,7 +64,7 @@ void shift_line(const float* from, int n, std::ptrdiff_t from_stride, float* to,
 
 bool usable(const Affine& affine) {
   if (!affine.step.allFinite() || !affine.origin.allFinite()) return false;
-  constexpr double kFarthest = 1e6;  // a kilometre; positions beyond it are no patient's    [mm]
+  constexpr double kFarthest = 1e6;  // a kilometre; no patient lies further away [mm]
   if (affine.origin.cwiseAbs().maxCoeff() > kFarthest) return false;
   const Vec3 length(affine.step.col(0).norm(), affine.step.col(1).norm(),
                     affine.step.col(2).norm());
@@ -85,7 +85,7 @@ Status straighten(Scan& scan, const std::vector<SlicePlace>& places, double gap_
     lo_y = std::min(lo_y, place.y_mm);
     hi_y = std::max(hi_y, place.y_mm);
   }
-  // before they are whole numbers: a lying header may shift a slice by anything
+  // checked before the conversion to integers: a false header may shift a slice by anything
   if (!((hi_x - lo_x) / dx <= 4.0 * nx) || !((hi_y - lo_y) / dy <= 4.0 * ny) ||
       !(places.back().z_mm / gap_mm <= 16.0 * nz))
     return error("the slices lie too far apart to be one volume; pick another series");
@@ -106,7 +106,7 @@ Status straighten(Scan& scan, const std::vector<SlicePlace>& places, double gap_
   Voxels<float> even(labels ? 0 : to_slice * static_cast<std::size_t>(to_z), air);
   Voxels<std::uint8_t> even_labels(labels ? to_slice * static_cast<std::size_t>(to_z) : 0);
 
-  // a slice moved into the larger plane
+  // moves a slice into the larger plane
   std::vector<float> line_buffer(static_cast<std::size_t>(to_x) * static_cast<std::size_t>(ny),
                                  air);
   const auto move = [&](int k, std::vector<float>& plane) {
@@ -133,7 +133,7 @@ Status straighten(Scan& scan, const std::vector<SlicePlace>& places, double gap_
     const double t =
         span > 0 ? std::clamp((z - places[static_cast<std::size_t>(lower)].z_mm) / span, 0.0, 1.0)
                  : 0;
-    if (labels) {  // the nearer slice, by whole voxels
+    if (labels) {  // labels: the nearer slice, moved by whole voxels
       const int near = t < 0.5 ? lower : upper;
       const SlicePlace& place = places[static_cast<std::size_t>(near)];
       const int si = static_cast<int>(std::lround((place.x_mm - start_x) / dx)),
@@ -166,7 +166,7 @@ Status straighten(Scan& scan, const std::vector<SlicePlace>& places, double gap_
     progress.report((k + 1.0) / to_z, "straightening the slices");
     if (progress.cancelled()) return error(Trouble::interrupted, "reading was stopped");
   }
-  // the cubic weights swing a little below air at sharp edges
+  // at sharp edges the cubic weights go a little below air
   if (scan.hounsfield)
     for (float& value : even) value = std::max(value, -1024.0F);
   scan.values = std::move(even);
@@ -192,11 +192,11 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
   }
   Vec3 origin = affine.origin;
 
-  // slices leaning over square planes can be moved back; other shears are no scanner's
+  // slices shifted over orthogonal planes can be moved back; a scanner makes no other shear
   const Vec3 normal = axes.col(0).cross(axes.col(1)).normalized();
   const double plane = std::abs(axes.col(0).dot(axes.col(1)));
   const double lean = std::abs(std::abs(axes.col(2).dot(normal)) - 1.0);
-  constexpr double kSquare = 2e-3;  // [rad]; headers round to this
+  constexpr double kSquare = 2e-3;  // [rad]; headers are rounded to this
   if (plane > kSquare)
     return error(
         fmt::format("{}: its rows and columns are not square to each other ({:.1f} "
@@ -205,7 +205,7 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
   bool leaning = lean > kSquare * kSquare;
   const double up = axes.col(2).dot(normal);
   if (leaning) {
-    // shear first in the stack's own frame; the normal may point backwards
+    // correct the shear in the stack's own frame; the normal may point backwards
     const Vec3 step = affine.step.col(2);
     std::vector<SlicePlace> places(static_cast<std::size_t>(scan.size.z()));
     for (std::size_t k = 0; k < places.size(); ++k) {
@@ -230,7 +230,7 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
     origin = scan.origin_mm;
   }
 
-  // the nearest exact rotation (polar decomposition), mirrored if the file's grid is
+  // the nearest exact rotation (polar decomposition); mirrored if the file's grid is left-handed
   const bool left_handed = axes.determinant() < 0;
   if (left_handed) {
     origin += axes.col(2) * length.z() * (scan.size.z() - 1);

@@ -1,5 +1,5 @@
-// io/read/geometry.h - where the voxels of a file lie: any affine becomes a right-handed, orthogonal
-// grid in LPS, or a sentence why not. Private to io.  Units: mm. Frame: LPS.
+// io/read/geometry.h - the geometry of a scan: turns any affine into a right-handed, orthogonal
+// grid in LPS, or says why it cannot. Of this room only. Units: mm. Frame: LPS.
 #pragma once
 
 #include <string_view>
@@ -10,30 +10,31 @@
 
 namespace burr::io {
 
-// What a header says: lps = step * ijk + origin. Columns of `step` are the moves of i, j, k  [mm].
+// The affine of a header: lps = step * ijk + origin. The columns of `step` are the steps along i,
+// j, k [mm].
 struct Affine {
   math::Mat3 step = math::Mat3::Identity();
   math::Vec3 origin = math::Vec3::Zero();
 };
 
-// Usable: finite, no move of zero length, and the three moves span space.
+// True: all numbers are finite, no step has length zero, and the three steps span space.
 [[nodiscard]] bool usable(const Affine& affine);
 
-// Puts a full scan (size and voxels set) into the world. A left-handed grid gets its slices
-// reversed; axes that are not square to each other are undone by resampling where only the slices
-// are sheared, else refused. spacing_mm > 0 in all three overrides what the file says.
+// Sets the scan's geometry (its size and voxels must be set). In a left-handed grid the order of
+// the slices is reversed. Axes that are not orthogonal are corrected by resampling if only the
+// slices are sheared; otherwise it is an error. spacing_mm > 0 in all three overrides the file.
 [[nodiscard]] Status place(Scan& scan, const Affine& affine, const math::Vec3& spacing_mm,
                            std::string_view file, Progress& progress);
 
-// Where one slice of a stack really lies, in the stack's own frame.
+// The true position of one slice, in the frame of the stack.
 struct SlicePlace {
   double x_mm = 0, y_mm = 0;  // in-plane offset from the first slice
-  double z_mm = 0;            // along the normal, from the first slice; rising
+  double z_mm = 0;            // along the normal, from the first slice; increasing
 };
 
-// Slices shifted against each other (gantry tilt) or unevenly spaced become an upright, even stack:
-// cubic interpolation in the plane, linear between slices. scan.size.z() = places.size(); spacing
-// x, y set; sets size, spacing z, origin. gap_mm: the spacing wanted.
+// Makes an upright stack of equal spacing from slices that are shifted (gantry tilt) or unevenly
+// spaced: cubic interpolation in the plane, linear between slices. Needs scan.size.z() =
+// places.size() and the spacing in x, y; sets size, spacing z, origin. gap_mm: the wanted spacing.
 [[nodiscard]] Status straighten(Scan& scan, const std::vector<SlicePlace>& places, double gap_mm,
                                 Progress& progress);
 

@@ -1,4 +1,4 @@
-// A DICOM folder or file becomes one upright, evenly spaced stack of slices.
+// Makes one upright stack of evenly spaced slices from a DICOM folder or file.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -29,11 +29,11 @@ constexpr std::size_t kMostFiles = 100000;
 constexpr int kDeepestFolder = 10;
 constexpr int kWorkers = 2;
 
-// One picture: a frame of a file.
+// One slice: a frame of a file.
 struct Slice {
-  std::size_t file = 0;  // in the series' files
-  int frame = 0;         // in the file
-  double along_mm = 0;   // place on the normal
+  std::size_t file = 0;  // index in the series' files
+  int frame = 0;         // index in the file
+  double along_mm = 0;   // position along the normal
 };
 
 struct Series {
@@ -52,7 +52,7 @@ bool has(const std::string& text, const char* part) {
   return lower(text).find(part) != std::string::npos;
 }
 
-// Why a file is no slice of grey values; empty: it is one.
+// Why a file is not a slice of grey values; empty: it is one.
 std::string not_a_slice(const DicomHeader& h) {
   if (!h.has_pixels) return "it holds no picture";
   const std::string& syntax = h.transfer_syntax;
@@ -83,7 +83,7 @@ std::string not_a_slice(const DicomHeader& h) {
     if (!(std::abs(frame.slope) < 1e6 && std::abs(frame.intercept) < 1e9))
       return fmt::format("a Rescale Slope of {:g} and an Intercept of {:g} cannot be", frame.slope,
                          frame.intercept);
-  // JPEG 2000 of an empty picture is tiny, but not that tiny
+  // JPEG 2000 of an empty picture is tiny, but not as tiny as that
   if (h.encapsulated && (bytes > h.pixels_length * 20000 || bytes > (std::uint64_t{1} << 33)))
     return fmt::format("{} bytes of packed pixels cannot hold {} pixels", h.pixels_length, pixels);
   return {};
@@ -91,9 +91,9 @@ std::string not_a_slice(const DicomHeader& h) {
 
 struct Found {
   std::vector<Series> series;
-  std::size_t others = 0;       // files that are no slices
+  std::size_t others = 0;       // files that are not slices
   std::size_t leading_out = 0;  // links to files outside the folder
-  std::string last_reason;      // why the last one was none
+  std::string last_reason;      // why the last such file is not one
   Trouble last_trouble = Trouble::data;
 };
 
@@ -119,7 +119,7 @@ void sort_in(Found& found, DicomHeader header) {
 bool lies_in(const std::filesystem::path& root, const std::filesystem::path& link) {
   std::error_code trouble;
   const auto target = std::filesystem::canonical(link, trouble);
-  if (trouble) return true;  // leads nowhere
+  if (trouble) return true;  // a dead link
   const auto rest = target.lexically_relative(root);
   return !rest.empty() && *rest.begin() != "..";
 }
@@ -136,7 +136,8 @@ Result<Found> search(const std::filesystem::path& path, Progress& progress) {
          walk.increment(trouble)) {
       if (walk.depth() >= kDeepestFolder) walk.disable_recursion_pending();
       std::error_code kind;
-      if (walk->is_symlink(kind)) {  // a slice under two names is one; others are not ours to open
+      if (walk->is_symlink(kind)) {  // a slice with two names counts once; links that lead out of
+                                     // the folder are not followed
         if (!lies_in(root, walk->path())) ++found.leading_out;
         continue;
       }
@@ -146,7 +147,7 @@ Result<Found> search(const std::filesystem::path& path, Progress& progress) {
         return error(fmt::format("{}: holds more than {} files; give the folder of one study",
                                  short_name(path), kMostFiles));
     }
-    std::sort(paths.begin(), paths.end());  // the order of the disk is no order
+    std::sort(paths.begin(), paths.end());  // the order on disk means nothing
     if (paths.empty() && found.leading_out > 0)
       return error(
           fmt::format("{}: holds only links that lead out of it; give the folder where the "
@@ -163,7 +164,7 @@ Result<Found> search(const std::filesystem::path& path, Progress& progress) {
       if (progress.cancelled()) return error(Trouble::interrupted, "reading was stopped");
     }
     if (short_name(paths[i]) == "DICOMDIR" && paths.size() > 1)
-      continue;  // an index, often a dead one
+      continue;  // an index, often out of date
     auto header = read_dicom_header(paths[i]);
     if (header) {
       sort_in(found, std::move(*header));
@@ -200,7 +201,8 @@ double thickness_mm(const Series& series) {
   return h.frames.front().thickness_mm > 0 ? h.frames.front().thickness_mm : 5.0;
 }
 
-// The one a surgeon would mean has the highest worth: CT, a stack and no scout, thin, many, bone.
+// The series that a surgeon would mean has the highest value: CT, a stack and no scout, thin
+// slices, many of them, a bone kernel.
 double worth(const Series& series) {
   const DicomHeader& h = series.first();
   double sum = 0;
@@ -213,7 +215,7 @@ double worth(const Series& series) {
   return sum;
 }
 
-// For people and machines; the description is free text that may hold a name, so it stays out.
+// For people and programs. The description is free text that may contain a name, so it is left out.
 std::string one_line(const Series& series, std::size_t place) {
   const DicomHeader& h = series.first();
   return fmt::format("#{}: {} {} pictures {} x {}, {:.3g} mm{}{}", place + 1,
@@ -248,7 +250,7 @@ Result<std::size_t> choose(const Found& found, const ReadOptions& options, const
   return best;
 }
 
-// Pictures of one size and orientation; the rest of a series is set aside or refused.
+// The pictures of one size and orientation; the rest of a series is left out or refused.
 Result<std::vector<Slice>> same_kind(const Series& series, const std::string& file, Scan& scan) {
   struct Kind {
     int rows, columns;
@@ -302,7 +304,7 @@ const DicomFrame& frame_of(const Series& series, const Slice& slice) {
   return series.files[slice.file].frames[static_cast<std::size_t>(slice.frame)];
 }
 
-// Sorted along the normal, one picture a place.
+// Sorts along the normal and keeps one picture per position.
 Status order(const Series& series, std::vector<Slice>& slices, const std::string& file,
              Scan& scan) {
   const DicomFrame& first = frame_of(series, slices.front());
@@ -355,7 +357,7 @@ Status order(const Series& series, std::vector<Slice>& slices, const std::string
   return fine();
 }
 
-// The voxels of all slices, rescaled one by one.
+// Reads the voxels of all slices, each with its own rescaling.
 Status read_slices(const Series& series, const std::vector<Slice>& slices, Scan& scan,
                    Progress& progress) {
   const std::size_t pixels =
@@ -367,7 +369,7 @@ Status read_slices(const Series& series, const std::vector<Slice>& slices, Scan&
   std::mutex lock;
   Status outcome = fine();
 
-  // a file with many frames is unpacked once, by one worker
+  // a file with many frames is decoded once, by one worker
   std::map<std::size_t, std::vector<std::size_t>> by_file;
   for (std::size_t k = 0; k < slices.size(); ++k) by_file[slices[k].file].push_back(k);
   std::vector<std::pair<std::size_t, std::vector<std::size_t>>> work(by_file.begin(),
@@ -451,7 +453,7 @@ Status read_slices(const Series& series, const std::vector<Slice>& slices, Scan&
   return fine();
 }
 
-// Where each slice lies against the first; says what is uneven.
+// The position of each slice relative to the first; a notice says what is uneven.
 Status stack(const Series& series, const std::vector<Slice>& slices, const std::string& file,
              Scan& scan, Progress& progress) {
   const std::size_t n = slices.size();
@@ -482,7 +484,7 @@ Status stack(const Series& series, const std::vector<Slice>& slices, const std::
   if (!(gap > 1e-3) || places.back().z_mm > 5000)
     return error(fmt::format("{}: the slices lie {:.3g} mm apart, which cannot be", file, gap));
 
-  // evenly spaced within a hundredth of a gap, against the rounding of positions in headers
+  // even to a hundredth of a gap, because headers round positions
   std::string where;
   int uneven = 0;
   for (std::size_t k = 0; k < gaps.size(); ++k) {
@@ -541,7 +543,7 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
         fmt::format("{} links lead out of the folder and were not followed.", found->leading_out));
   auto chosen = choose(*found, options, file, scan);
   if (!chosen) return chosen.error();
-  // more than anyone would look through: those are chosen by --series only
+  // more than anyone would look through; beyond this, choose with --series
   constexpr std::size_t kListed = 1000;
   if (found->series.size() > 1 && found->series.size() <= kListed) {
     for (std::size_t s = 0; s < found->series.size(); ++s)

@@ -128,7 +128,7 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
   }
   auto opened = open_file(data, own ? header.end : 0, own);
   if (!opened && own) return opened.error();
-  if (!opened)  // the header is wrong, or half of the pair was left behind
+  if (!opened)  // the header is wrong, or the data file was left behind
     return error(
         fmt::format("{}: its data file: {}; put it in the same folder", file, opened.error().text));
   const std::uint64_t needed = *count * bytes_of(format.type);

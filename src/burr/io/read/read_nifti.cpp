@@ -1,5 +1,5 @@
-// NIfTI-1 and NIfTI-2, one file or a pair, gzip or not, after https://nifti.nimh.nih.gov (nifti1.h,
-// nifti2.h). World is RAS there: x and y change their sign here.
+// NIfTI-1 and NIfTI-2, one file or a pair, with or without gzip, after https://nifti.nimh.nih.gov
+// (nifti1.h, nifti2.h). World is RAS there: x and y change sign here.
 #include <fmt/core.h>
 
 #include <array>
@@ -22,7 +22,7 @@ namespace {
 using math::Mat3;
 using math::Vec3;
 
-// The fields burr needs, of either version.
+// The fields that burr needs, of either version.
 struct Nifti {
   bool big_endian = false, pair = false;
   std::array<std::int64_t, 8> dim{};
@@ -153,7 +153,7 @@ std::string type_name(int datatype) {
   }
 }
 
-// ras = step * ijk + origin: sform, else qform, else the bare spacing
+// ras = step * ijk + origin: from sform, else qform, else the spacing alone
 Affine affine_of(const Nifti& n, Scan& scan) {
   const double unit = (n.units & 7) == 1 ? 1000.0 : (n.units & 7) == 3 ? 1e-3 : 1.0;
   Affine affine;
@@ -205,7 +205,7 @@ Affine affine_of(const Nifti& n, Scan& scan) {
   return affine;
 }
 
-// "x.hdr.gz" <-> "x.img.gz"; either part may be packed by itself
+// "x.hdr.gz" <-> "x.img.gz"; each part may be compressed or not
 std::filesystem::path partner(const std::filesystem::path& path, const char* from, const char* to) {
   std::string name = path.filename().string();
   const std::size_t at = lower(name).rfind(from);
@@ -222,10 +222,11 @@ std::filesystem::path partner(const std::filesystem::path& path, const char* fro
 
 struct Opened {
   std::unique_ptr<ByteSource> source;
-  std::uint64_t most = 0;  // bytes it can possibly give
+  std::uint64_t most = 0;  // largest number of bytes it can give
 };
 
-// packed or not, as the bytes say and not the name; the other half of a pair is no link
+// Whether it is compressed is decided by the bytes, not the name. The other half of a pair may not
+// be a link.
 Result<Opened> open_maybe_packed(const std::filesystem::path& path, bool follow_links) {
   auto head = first_bytes(path, 2, follow_links);
   if (!head) return head.error();
@@ -243,7 +244,7 @@ Result<Opened> open_maybe_packed(const std::filesystem::path& path, bool follow_
 Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& options,
                         Progress& progress) {
   const std::string file = short_name(given);
-  // of a pair the header is the one to read first
+  // of a pair, the header is read first
   std::filesystem::path path = given;
   if (lower(file).find(".img") != std::string::npos) {
     path = partner(given, ".img", ".hdr");
@@ -265,7 +266,7 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
   auto header = parse(head, file);
   if (!header) return header.error();
 
-  // axes beyond the third must be of length one
+  // axes beyond the third must have length one
   if (header->dim[0] < 1 || header->dim[0] > 7)
     return error(fmt::format("{}: dim[0] is {}, 3 expected", file, header->dim[0]));
   for (std::size_t a = 4; a <= static_cast<std::size_t>(header->dim[0]); ++a)

@@ -21,8 +21,8 @@ using math::Mat3;
 using math::Vec3;
 
 struct Header {
-  std::map<std::string, std::string> fields;  // by lower-case name without blanks
-  std::map<std::string, std::string> keys;    // key:=value, as written
+  std::map<std::string, std::string> fields;  // by lower-case name without spaces
+  std::map<std::string, std::string> keys;    // key:=value, as in the file
   std::vector<std::string> file_list;         // after "data file: LIST"
   std::size_t end = 0;                        // where attached data begins
 };
@@ -117,7 +117,7 @@ bool sample_type(const std::string& name, SampleType& type) {
   return true;
 }
 
-// "slice.%03d": one number, nothing else; never handed to printf
+// "slice.%03d": one number, nothing else; never passed to printf
 bool numbered_name(const std::string& pattern, std::int64_t number, std::string& name) {
   const std::size_t percent = pattern.find('%');
   if (percent == std::string::npos || pattern.find('%', percent + 1) != std::string::npos)
@@ -239,7 +239,7 @@ Result<Shape> shape_of(const Header& header, const std::string& file, bool segme
     const std::string kind = a < kinds.size() ? lower(kinds[a]) : "";
     const bool no_space = kind == "list" || kind == "vector" || kind == "time" ||
                           kind.find("color") != std::string::npos || kind == "3-vector";
-    if (all[a] == 1 && (all.size() > 3 || no_space)) continue;  // an axis of one does not matter
+    if (all[a] == 1 && (all.size() > 3 || no_space)) continue;  // length one: ignored
     if (no_space && segmentation)
       return error(
           fmt::format("{}: its segments overlap in {} layers; in 3D Slicer make one layer of them "
@@ -303,7 +303,7 @@ Affine affine_of(const Header& header, const Shape& shape, const std::string& fi
     moves.emplace_back(rest.substr(0, n));
     text = std::string(rest.substr(n));
   }
-  // some writers leave out what has no direction
+  // some writers leave out axes without direction
   const bool only_space = moves.size() == 3;
   bool directed = !moves.empty();
   for (std::size_t a = 0; a < 3 && directed; ++a) {
@@ -365,7 +365,7 @@ Status skip_lines(ByteSource& source, std::int64_t lines) {
   return fine();
 }
 
-// numbers as text, blanks and commas between
+// numbers as text, separated by spaces and commas
 Status read_ascii(ByteSource& source, std::size_t count, VoxelSink& sink) {
   std::string word;
   std::vector<float> values;
@@ -400,7 +400,7 @@ Status read_ascii(ByteSource& source, std::size_t count, VoxelSink& sink) {
   return fine();
 }
 
-// Data: opened, unpacked and brought to its first byte.
+// The data: opened, decompressed and positioned at its first byte.
 Result<std::unique_ptr<ByteSource>> data_source(const Header& header,
                                                 const std::filesystem::path& path,
                                                 const std::string& encoding, std::size_t bytes) {
@@ -430,7 +430,7 @@ Result<std::unique_ptr<ByteSource>> data_source(const Header& header,
   const std::uint64_t there = size > offset ? size - offset : 0;
   const std::uint64_t most = gzip ? there * kMostGzip : bzip ? there * kMostBzip2 : there;
   const std::uint64_t needed =
-      raw || gzip || bzip ? bytes : bytes / 8;  // text: at least a digit each
+      raw || gzip || bzip ? bytes : bytes / 8;  // text: at least one digit each
   if (needed > most)
     return error(
         fmt::format("{}: sizes promise {} bytes of data, the file holds {}; it is cut off or "
@@ -458,7 +458,7 @@ Result<std::unique_ptr<ByteSource>> data_source(const Header& header,
 
   if (*skip_bytes == -1 && raw && files->size() <= 1) return open(static_cast<std::int64_t>(bytes));
   if (*skip_bytes == -1 && files->size() <= 1) {
-    // the last `bytes` of what is unpacked: count first
+    // the last `bytes` of the decompressed data: count first
     auto counting = open(-1);
     if (!counting) return counting.error();
     std::vector<std::uint8_t> block(std::size_t{1} << 16);

@@ -1,5 +1,5 @@
-// The asking side of the fence: starts burr-read, lends it memory, watches it, and believes nothing
-// it says without looking.
+// The asking side of the fence: starts burr-read, lends it memory, watches it, and checks
+// everything that it says.
 #include "burr/io/read/read_scan.h"
 
 #include <fcntl.h>
@@ -35,7 +35,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t kLongestRequest = 16384;
 
-// An open file, out of the way of 0..3, which the reader is started with.
+// An open file whose number is not 0..3, which are those that the reader is started with.
 class Handle {
  public:
   Handle() = default;
@@ -63,7 +63,7 @@ class Handle {
   int number_ = -1;
 };
 
-// Memory of exactly this size: nobody can make it shorter under us, or longer.
+// Memory of exactly this size, sealed: nobody can make it shorter or longer.
 Handle sealed_memory(const char* name, std::size_t bytes) {
   Handle handle(::memfd_create(name, MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (!handle.open() || ::ftruncate(handle.get(), static_cast<off_t>(bytes)) != 0 ||
@@ -128,7 +128,7 @@ class Reader {
     socket_ = Handle(ends[0]);
     Handle theirs(ends[1]);
 
-    // posix_spawn, because a fork of a process with threads may only call a few functions
+    // posix_spawn, because after a fork a process with threads may only call a few functions
     posix_spawn_file_actions_t handles;
     posix_spawnattr_t attributes;
     posix_spawn_file_actions_init(&handles);
@@ -136,7 +136,7 @@ class Reader {
     posix_spawn_file_actions_adddup2(&handles, theirs.get(), kFenceSocket);
     posix_spawn_file_actions_adddup2(&handles, letter_.get(), kFenceLetter);
     posix_spawn_file_actions_addopen(&handles, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    if (kMemoryLimit)  // else: the report of a sanitizer must be seen
+    if (kMemoryLimit)  // otherwise a sanitizer's report must be visible
       posix_spawn_file_actions_addopen(&handles, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     sigset_t none, all;
     sigemptyset(&none);
@@ -156,7 +156,7 @@ class Reader {
     return fine();
   }
 
-  // Until the reader is gone.
+  // Watches the reader until it has ended.
   Status watch(Progress& progress) {
     constexpr int kTick = 50;  // [ms]
     mark_ = Clock::now();
@@ -167,15 +167,17 @@ class Reader {
       }
       pollfd waiting{socket_.get(), POLLIN, 0};
       ::poll(&waiting, 1, kTick);
-      const bool gone = reap(WNOHANG);  // asked before the socket is emptied: nothing gets lost
+      const bool gone = reap(WNOHANG);  // asked before the socket is emptied, so that no message is
+                                        // lost
       bool closed = !listen(progress);
       for (int n = 0; gone && !closed && n < 8; ++n) closed = !listen(progress);
       if (gone || closed) break;
       if (misbehaved_ || done_) break;
-      // work of a thousandth of the time is work, on the busiest computer; less is a nap
+      // at least a thousandth of the time must be work, even on a busy computer; less counts as
+      // standing still
       constexpr double kWork = 1e-3;
       const double work = processor_seconds();
-      // its own limit ends it long before: a second line, should the first not hold
+      // the reader's own limit ends it long before; this is the second line of defence
       constexpr double kGrace = 3;  // [s]
       if (work > limits_.seconds + kGrace) {
         stop();
@@ -207,7 +209,7 @@ class Reader {
     return why_it_ended();
   }
 
-  // All messages that are there; false: the other end is closed.
+  // Reads all messages that are there. False: the other end is closed.
   bool listen(Progress& progress) {
     for (int n = 0; n < 256 && !misbehaved_; ++n) {
       FenceMessage message;
@@ -225,7 +227,7 @@ class Reader {
   void take(FenceMessage& message, Progress& progress) {
     switch (message.kind) {
       case FenceMessage::ready:
-        // said before it opened the file, so it is believed
+        // sent before the reader opened the file, so it can be trusted
         limits_ = {message.bytes, message.value};
         mark_ = Clock::now();
         return;
@@ -291,7 +293,7 @@ class Reader {
       place->memory = std::move(memory);
       place->bytes = bytes;
     }
-    // it waits for this answer, so there is always room for it
+    // the reader waits for this answer, so there is always room for it
     const ssize_t sent = ::sendmsg(socket_.get(), &head, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent < 0 && errno != EPIPE && errno != ECONNRESET) misbehaved_ = true;
   }
@@ -303,7 +305,7 @@ class Reader {
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
   }
 
-  // True: it is gone. Somebody else in this process may have waited for it.
+  // True: the reader has ended. Other code in this process may have waited for it.
   bool reap(int how) {
     if (child_ < 0) return true;
     pid_t which = 0;
@@ -320,7 +322,7 @@ class Reader {
     ::kill(child_, SIGKILL);
     reap(0);
   }
-  // it has said its last word; a moment to leave
+  // The reader has sent its last message; gives it a moment to end.
   void end_soon() {
     for (int n = 0; n < 400 && !reap(WNOHANG); ++n) ::usleep(n < 50 ? 200 : 5000);
     stop();
@@ -386,14 +388,14 @@ class Reader {
     return std::move(scan);
   }
 
-  // The voxels of a loan become ours, without a copy.
+  // Takes over the voxels of a loan without a copy.
   template <class T>
   bool take_over(Voxels<T>& to, std::uint32_t number, std::uint64_t count) {
     if (count == 0) return true;
     if (number == 0 || number > loans_.size()) return false;
     Loan& loan = loans_[number - 1];
     if (!loan.memory.open() || count > loan.bytes / sizeof(T)) return false;
-    // nobody writes into it any more: refused while anyone still could
+    // after this nobody can write to it; refused while anyone still could
     if (::fcntl(loan.memory.get(), F_ADD_SEALS, F_SEAL_WRITE) != 0) return false;
     const auto bytes = static_cast<std::size_t>(loan.bytes);
     void* at = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE,
@@ -407,9 +409,9 @@ class Reader {
   std::string file_;
   Handle letter_, socket_;
   std::vector<Loan> loans_;
-  FenceLimits limits_{0, 60};  // until the reader has said them
-  Clock::time_point mark_;     // when it was last seen to have worked
-  double worked_at_mark_ = 0;  // processor time then  [s]
+  FenceLimits limits_{0, 60};  // until the reader has reported them
+  Clock::time_point mark_;     // when it was last seen to make progress
+  double worked_at_mark_ = 0;  // processor time then [s]
   pid_t child_ = -1;
   int status_ = 0;
   bool misbehaved_ = false;

@@ -1,4 +1,4 @@
-// Which reader a file gets: by its first bytes, else by its name.
+// Chooses the reader of a file: by its first bytes, else by its name.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -40,16 +40,16 @@ Result<Scan> read_by_content(const std::filesystem::path& path, const ReadOption
   if (ends_with(name, ".nrrd") || ends_with(name, ".nhdr"))
     return error(
         fmt::format("{}: does not begin with \"NRRD\"; it is no NRRD file", short_name(path)));
-  // NIfTI under another name: its header's length comes first
+  // NIfTI under another name: the header begins with its length
   const auto first = (*head)[0] | (*head)[1] << 8 | (*head)[2] << 16;
   if (head->size() > 4 && (first == 348 || first == 540))
     return read_nifti(path, options, progress);
   if (begins_with(*head, 0, "ObjectType")) return read_meta(path, options, progress);
-  // DICOM without its 128 byte preamble
+  // perhaps DICOM without its 128-byte preamble
   return read_dicom(path, options, progress);
 }
 
-// The only file in a folder, whatever it is; else the folder, which is a DICOM series then.
+// The only file in a folder, whatever it is; otherwise the folder itself, as a DICOM series.
 std::filesystem::path only_file_in(const std::filesystem::path& folder) {
   std::error_code trouble;
   std::filesystem::path only;
@@ -81,7 +81,7 @@ Result<Scan> read_unfenced(const std::filesystem::path& path, const ReadOptions&
         fmt::format("{}: reading it needs more memory than it may take; if you trust it, allow "
                     "more with --read-memory-mb",
                     short_name(path)));
-  } catch (const std::exception& problem) {  // a library under us
+  } catch (const std::exception& problem) {  // from a library used here
     return error(fmt::format("{}: cannot be read: {}", short_name(path), problem.what()));
   }
 }

@@ -1,5 +1,5 @@
-// io/read/readers.h - one reader per format; read_unfenced.cpp picks. They are in `burr-read`, behind
-// the fence, and not in libburr: a header of this room only.
+// io/read/readers.h - one reader per format; read_unfenced.cpp chooses. They are part of
+// `burr-read`, behind the fence, and not of libburr. Of this room only.
 #pragma once
 
 #include <filesystem>
@@ -10,19 +10,19 @@
 
 namespace burr::io {
 
-// Without the fence, in this process: what burr-read calls, and what fuzzers look at. A crash of a
-// library under us is a crash.
+// Reads without the fence, in this process: for burr-read and for the fuzzers. If a library that is
+// used here crashes, this process crashes.
 [[nodiscard]] Result<Scan> read_unfenced(const std::filesystem::path& path,
                                          const ReadOptions& options, Progress& progress);
 
-// Each knows its own files by their first bytes or their name.
+// Each one recognizes its files by their first bytes or their name.
 [[nodiscard]] Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& options,
                                      Progress& progress);
 [[nodiscard]] Result<Scan> read_nifti(const std::filesystem::path& path, const ReadOptions& options,
                                       Progress& progress);
 [[nodiscard]] Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& options,
                                      Progress& progress);
-// a folder, searched with its subfolders, or one file
+// path: one file, or a folder, which is searched with its subfolders
 [[nodiscard]] Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& options,
                                       Progress& progress);
 

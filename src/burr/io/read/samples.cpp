@@ -12,8 +12,8 @@
 namespace burr::io {
 namespace {
 
-// No scanner's number is beyond it, and what is reckoned from values up to it (the weighted sums of
-// a cubic along three axes) stays finite in a float.
+// Beyond the values of any scanner; results computed from values up to this (weighted sums of a
+// cubic along three axes) stay finite in a float.
 constexpr float kLargestValue = 1e30F;
 
 template <class T>
@@ -63,8 +63,8 @@ void convert(const std::uint8_t* bytes, std::size_t n, const SampleFormat& forma
   }
 }
 
-// Labels are flat: few different numbers, and most voxels have the same number as their neighbour.
-// Grey values, even of 8 bit, change from voxel to voxel inside the body.
+// Labels are flat: few different numbers, and most voxels have the number of their neighbour. Grey
+// values, even of 8 bit, change from voxel to voxel inside the body.
 bool looks_like_labels(const Voxels<std::uint8_t>& bytes) {
   std::array<std::size_t, 256> count{};
   for (const std::uint8_t b : bytes) ++count[b];
@@ -127,7 +127,7 @@ void VoxelSink::add(const float* values, std::size_t n) {
     widen();
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const bool good = std::abs(values[i]) <= kLargestValue;  // false for what is not a number
+    const bool good = std::abs(values[i]) <= kLargestValue;  // false for a NaN too
     broken_ += good ? 0 : 1;
     values_.push_back(good ? values[i] : std::numeric_limits<float>::quiet_NaN());
   }
@@ -161,7 +161,7 @@ Status VoxelSink::finish(Scan& scan, bool labels_for_sure) {
   }
   if (!(low <= high)) return error("no voxel holds a number");
 
-  // no other format says what its numbers are; CT is easily known by its air and its metal
+  // the other formats do not name their unit; CT is recognized by its air and its metal
   if (!scan.hounsfield && low <= -900 && low >= -3100 && high >= 300 && high <= 8000) {
     scan.hounsfield = true;
     scan.notices.push_back(

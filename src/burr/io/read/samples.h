@@ -1,7 +1,8 @@
-// io/read/samples.h - bytes of a file become voxels of a scan, whatever number type they have.
+// io/read/samples.h - turns the bytes of a file into voxels of a scan, for every number type.
 //
 // Small whole numbers (0..255) stay bytes as long as there is nothing else, so that a label map of
-// 512^3 takes 128 MiB and not 512; the first other value turns all into floats. Private to io.
+// 512^3 takes 128 MiB and not 512. The first other value turns all of them into floats. Of this
+// room only.
 #pragma once
 
 #include <cstddef>
@@ -19,22 +20,22 @@ namespace burr::io {
 enum class SampleType { u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 };
 [[nodiscard]] std::size_t bytes_of(SampleType type);
 
-// What the bytes mean.
+// The number type and its scale.
 struct SampleFormat {
   SampleType type = SampleType::i16;
   bool big_endian = false;
   double slope = 1, intercept = 0;
 };
 
-// Takes voxels in order and keeps them as small as they are.
+// Takes voxels in order and stores them in the smallest type that fits.
 class VoxelSink {
  public:
   explicit VoxelSink(std::size_t count) : count_(count) {}
 
   void add(const float* values, std::size_t n);
   void add_bytes(const std::uint8_t* values, std::size_t n);
-  // Into the scan: values, or labels where the numbers look like labels (or `labels_for_sure`).
-  // Not-a-number, infinity and what is beyond 1e30 become air, with a notice.
+  // Moves the voxels into the scan: as values, or as labels if the numbers look like labels or
+  // `labels_for_sure` is set. Values that are not finite or beyond 1e30 become air, with a notice.
   [[nodiscard]] Status finish(Scan& scan, bool labels_for_sure);
 
  private:
@@ -44,18 +45,17 @@ class VoxelSink {
   Voxels<std::uint8_t> bytes_;
   Voxels<float> values_;
   bool wide_ = false;
-  std::size_t broken_ = 0;  // not a number, infinite, or beyond any scanner's number
+  std::size_t broken_ = 0;  // values that are not finite, or beyond any scanner's range
 };
 
 // Reads `count` samples into the sink.
 [[nodiscard]] Status read_samples(ByteSource& source, const SampleFormat& format, std::size_t count,
                                   VoxelSink& sink, Progress& progress);
 
-// Largest number of voxels that is read at all; more is refused with a sentence that names --roi's
-// limits.
+// Largest number of voxels that is read; more is refused, and the error suggests --roi.
 inline constexpr std::int64_t kMostVoxels = std::int64_t{1} << 31;
 
-// Product of the sizes, or an error: none may be below 1, all together at most kMostVoxels.
+// The product of the sizes. Error: a size below 1, or a product above kMostVoxels.
 [[nodiscard]] Result<std::size_t> voxel_count(std::string_view file, std::int64_t nx,
                                               std::int64_t ny, std::int64_t nz);
 

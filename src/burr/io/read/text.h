@@ -1,4 +1,4 @@
-// io/read/text.h - small words for text headers. Private to io.
+// io/read/text.h - small functions for text headers. Of this room only.
 #pragma once
 
 #include <charconv>
@@ -15,10 +15,10 @@ namespace burr::io {
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 [[nodiscard]] std::vector<std::string> words(std::string_view text);
 [[nodiscard]] std::string lower(std::string_view text);
-// the whole text as a number, or false
+// The whole text as a number; false: it is not one.
 [[nodiscard]] bool to_number(std::string_view text, double& out);
 [[nodiscard]] bool to_number(std::string_view text, std::int64_t& out);
-// numbers separated by spaces, commas or brackets; empty where one is none
+// Numbers separated by spaces, commas or brackets; empty if one of them is not a number.
 [[nodiscard]] std::vector<double> numbers(std::string_view text);
 
 }  // namespace burr::io

@@ -26,7 +26,7 @@
 namespace burr::io {
 namespace {
 
-// False: nobody listens any more.
+// False: the asker is gone.
 bool say(const FenceMessage& message) {
   iovec part{const_cast<FenceMessage*>(&message), sizeof message};  // only read
   msghdr head{};
@@ -39,7 +39,7 @@ bool say(const FenceMessage& message) {
   return sent == static_cast<ssize_t>(sizeof message);
 }
 
-// The answer and the handle that comes along, or -1.
+// The answer, and the file descriptor that comes with it, or -1.
 bool hear(FenceMessage& message, int& handle) {
   handle = -1;
   iovec part{&message, sizeof message};
@@ -59,7 +59,7 @@ bool hear(FenceMessage& message, int& handle) {
   return got == static_cast<ssize_t>(sizeof message);
 }
 
-// Who waits for an answer holds the lock, so an answer is always one's own.
+// The thread that waits for an answer holds the lock, so the answer is always for itself.
 class Loans final : public VoxelLender {
  public:
   void* lend(std::size_t bytes) override {
@@ -88,7 +88,7 @@ class Loans final : public VoxelLender {
     loans_.erase(loan);
     return true;
   }
-  // Number of the loan, or 0.
+  // The number of the loan, or 0.
   [[nodiscard]] std::uint32_t number(const void* at) {
     const std::lock_guard guard(lock_);
     const auto loan = find(at);
@@ -114,7 +114,7 @@ class Loans final : public VoxelLender {
   std::vector<Loan> loans_;
 };
 
-// Passes on what people can see, not every slice.
+// Sends only as many reports as people can see, not one per slice.
 class Reports final : public Progress {
  public:
   void report(double fraction, std::string_view stage) override {
@@ -128,7 +128,7 @@ class Reports final : public Progress {
     stage.copy(message.words, sizeof message.words - 1);
     (void)say(message);
   }
-  // who wants to stop ends this process
+  // to cancel, the asker ends this process
   [[nodiscard]] bool cancelled() const override { return false; }
 
  private:
@@ -154,7 +154,7 @@ FenceOutcome read_all(FencedRead read, const FenceRequest& request) {
 
 int answer_one_request(FencedRead read) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // Ctrl-C goes to everybody at the terminal; whether to stop is for the asker to say
+  // Ctrl-C goes to every process at the terminal; the asker decides whether to stop
   for (const int number : {SIGINT, SIGQUIT, SIGHUP}) ::signal(number, SIG_IGN);
 #if defined(SYS_close_range)
   ::syscall(SYS_close_range, kFenceLetter + 1, ~0U, 0);
@@ -191,7 +191,7 @@ int answer_one_request(FencedRead read) {
   message.value = limits.seconds;
   if (!say(message)) return 1;
 
-  static Loans loans;  // outlives every voxel
+  static Loans loans;  // must outlive all voxels
   set_voxel_lender(&loans);
   FenceOutcome outcome = read_all(read, request);
   if (outcome.scan.ok()) {

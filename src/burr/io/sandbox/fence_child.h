@@ -1,4 +1,4 @@
-// io/sandbox/fence_child.h - the reader's side of the fence: what `burr-read` does. A header of this room
+// io/sandbox/fence_child.h - the reader's side of the fence: what `burr-read` does. Of this room
 // only.
 #pragma once
 
@@ -13,8 +13,8 @@ namespace burr::io {
 using FencedRead = Result<Scan> (*)(const std::filesystem::path& path, const ReadOptions& options,
                                     Progress& progress);
 
-// All that main() of a fenced reader does: takes the request, puts the walls up, reads, answers.
-// Returns the exit status. Started by hand it says so and does nothing.
+// The whole main() of a fenced reader: takes the request, limits its own process, reads, answers.
+// Returns the exit status. If a user starts the program by hand, it says so and does nothing.
 [[nodiscard]] int answer_one_request(FencedRead read);
 
 }  // namespace burr::io

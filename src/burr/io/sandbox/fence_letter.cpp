@@ -71,7 +71,7 @@ class Unpacker {
     at_ += n;
     return out;
   }
-  // for people: what would steer a terminal becomes a blank
+  // text for the user: terminal control characters become spaces
   std::string words() {
     std::string out = text();
     for (char& c : out)
@@ -102,7 +102,7 @@ class Unpacker {
   bool good_ = true;
 };
 
-// what both sides must agree about, structs included
+// both sides must agree about this, structs included
 std::string version() { return std::string("fence 2 of burr ") + base::version(); }
 
 Trouble trouble_of(std::int32_t number) {

@@ -1,5 +1,5 @@
-// Raw system calls, because Debian 12 has no library for Landlock and none is needed for seccomp.
-// Sources: landlock(7), seccomp(2), Documentation/userspace-api/landlock.rst.
+// Raw system calls, because Debian 12 has no library for Landlock, and seccomp needs none. Sources:
+// landlock(7), seccomp(2), Documentation/userspace-api/landlock.rst.
 #include "burr/io/sandbox/fence_walls.h"
 
 #include <fcntl.h>
@@ -32,13 +32,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ---- what the caller may expect
+// ---- the size of the limits
 
 constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
-constexpr std::size_t kMostEntries = 100000;  // as many as the reader of folders looks at
+constexpr std::size_t kMostEntries = 100000;  // as many as the reader of folders reads
 constexpr int kDeepest = 10;
 
-// Headers that may name a data file beside them, or have one by their name.
+// Headers that may name a data file beside them, or have one with a matching name.
 bool may_have_partner(const fs::path& path) {
   const std::string name = lower(path.filename().string());
   for (const char* part : {".hdr", ".img"})
@@ -94,7 +94,7 @@ std::uint64_t bytes_there(const fs::path& path) {
 
 // ---- limits of the system
 
-template <class Resource>  // whatever type the C library gives its names
+template <class Resource>  // whatever type the C library gives these names
 bool limit(Resource what, std::uint64_t soft, std::uint64_t hard) {
   rlimit now{};
   if (::getrlimit(what, &now) != 0) return false;
@@ -104,10 +104,11 @@ bool limit(Resource what, std::uint64_t soft, std::uint64_t hard) {
 
 bool raise_limits(const FenceLimits& limits) {
   const auto seconds = static_cast<std::uint64_t>(std::ceil(limits.seconds));
-  constexpr std::uint64_t kFiles = 64;  // one a worker, one a folder on the way down, some to spare
+  constexpr std::uint64_t kFiles = 64;  // one for each worker, one for each folder level, some to
+                                        // spare
   bool good = limit(RLIMIT_CORE, 0, 0) && limit(RLIMIT_NOFILE, kFiles, kFiles) &&
               limit(RLIMIT_CPU, seconds, seconds + 1);
-  // a sanitizer writes its report into whatever file stands behind stderr
+  // a sanitizer writes its report to the file behind stderr
   if (kMemoryLimit)
     good = good && limit(RLIMIT_FSIZE, 0, 0) && limit(RLIMIT_AS, limits.memory, limits.memory);
   return good;
@@ -115,7 +116,7 @@ bool raise_limits(const FenceLimits& limits) {
 
 // ---- Landlock: which files
 
-// as in linux/landlock.h, whatever kernel the headers are of
+// as in linux/landlock.h, independent of the version of the installed headers
 struct Ruleset {
   std::uint64_t files = 0, network = 0, scopes = 0;
 };
@@ -135,7 +136,7 @@ bool raise_landlock(const fs::path& path) {
   const int version = landlock_version();
   if (version == 0) return true;
   Ruleset rules;
-  rules.files = (1U << 13) - 1;               // everything version 1 knows
+  rules.files = (1U << 13) - 1;               // everything in version 1
   if (version >= 2) rules.files |= 1U << 13;  // moving between folders
   if (version >= 3) rules.files |= 1U << 14;  // truncating
   if (version >= 5) rules.files |= 1U << 15;  // ioctl of devices
@@ -146,7 +147,7 @@ bool raise_landlock(const fs::path& path) {
   if (set < 0) return false;
   const auto open_up = [set](const fs::path& where) {
     const int handle = ::open(where.c_str(), O_PATH | O_CLOEXEC);
-    if (handle < 0) return true;  // what is not there needs no rule; the reader says so
+    if (handle < 0) return true;  // what does not exist needs no rule; the reader reports it
     struct stat facts = {};
     bool good = ::fstat(handle, &facts) == 0;
     if (good && (S_ISREG(facts.st_mode) || S_ISDIR(facts.st_mode))) {
@@ -174,8 +175,8 @@ bool raise_landlock(const fs::path& path) {
 #endif
 
 #if defined(BURR_AUDIT_ARCH)
-// Three kinds of calls: what reading needs is let through; what no reader needs ends the process;
-// for all others the kernel acts as if it were older and did not know them.
+// Three kinds of calls: those that reading needs are allowed; those that no reader needs end the
+// process; for all others the kernel answers as if it were older and did not know them.
 class Filter {
  public:
   Filter() {
@@ -184,7 +185,7 @@ class Filter {
     end(SECCOMP_RET_KILL_PROCESS);
     load(offsetof(seccomp_data, nr));
 #if defined(__x86_64__)
-    put(BPF_JMP | BPF_JGE | BPF_K, 0x40000000, 0, 1);  // calls of the x32 kind
+    put(BPF_JMP | BPF_JGE | BPF_K, 0x40000000, 0, 1);  // calls of the x32 ABI
     end(SECCOMP_RET_KILL_PROCESS);
 #endif
   }
@@ -194,7 +195,7 @@ class Filter {
       end(answer);
     }
   }
-  // by the lower half of an argument: has one of these bits, or is one of these numbers
+  // by the lower half of an argument: whether it has one of these bits, or is one of these numbers
   void by_bits(long call, unsigned argument, std::uint32_t bits, std::uint32_t yes,
                std::uint32_t no) {
     put(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, 4);
@@ -212,7 +213,7 @@ class Filter {
     end(no);
     end(yes);
   }
-  // both halves of a pointer
+  // checks both halves of a pointer
   void by_null(long call, unsigned argument, std::uint32_t yes, std::uint32_t no) {
     put(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, 6);
     load(offsetof(seccomp_data, args) + 8 * argument);
@@ -247,7 +248,7 @@ constexpr std::uint32_t kUnknown = SECCOMP_RET_ERRNO | ENOSYS, kNo = SECCOMP_RET
 bool raise_seccomp() {
   if (!seccomp_offered()) return true;
   Filter filter;
-  // the most frequent ones first
+  // the most frequent first
   filter.always({SYS_read, SYS_futex, SYS_lseek, SYS_close, SYS_munmap, SYS_brk, SYS_madvise},
                 kLet);
   filter.by_bits(SYS_mmap, 2, PROT_EXEC, kNo, kLet);
@@ -272,14 +273,14 @@ bool raise_seccomp() {
 #if defined(__x86_64__)
   filter.always({SYS_stat, SYS_lstat, SYS_access, SYS_poll, SYS_readlink}, kLet);
 #endif
-  // threads yes, processes no; newer glibc falls back to clone when it is told clone3 is unknown
+  // threads yes, processes no; newer glibc uses clone when clone3 is reported as unknown
   filter.by_bits(SYS_clone, 0, CLONE_THREAD, kLet, kEnd);
-  // messages only through the socket it was started with
+  // messages only through the socket that it was started with
   filter.by_numbers(SYS_sendmsg, 0, {kFenceSocket}, kLet, kEnd);
   filter.by_numbers(SYS_recvmsg, 0, {kFenceSocket}, kLet, kEnd);
-  // abort() signals itself, and nobody else
+  // abort() sends a signal to this process only
   filter.by_numbers(SYS_tgkill, 0, {static_cast<std::uint32_t>(::getpid())}, kLet, kEnd);
-  filter.by_null(SYS_prlimit64, 2, kLet, kEnd);  // limits may be asked, not changed
+  filter.by_null(SYS_prlimit64, 2, kLet, kEnd);  // limits may be read, not changed
   filter.by_numbers(SYS_fcntl, 1, {F_GETFD, F_SETFD, F_GETFL}, kLet, kNo);
 
   filter.always({SYS_socket,
@@ -352,12 +353,13 @@ bool raise_seccomp() { return true; }
 FenceLimits fence_limits(const fs::path& path, const ReadOptions& options) {
   const std::uint64_t there = bytes_there(path);
   FenceLimits limits;
-  // Reading takes about 10 ms a MiB, packed pixels up to 100; a sanitized build ten times that.
+  // Reading takes about 10 ms a MiB, compressed pixels up to 100; a build with sanitizers ten times
+  // that.
   constexpr double kSeconds = 8, kSecondsPerMiB = 2, kMostSeconds = 24 * 3600;
   limits.seconds = kSeconds + kSecondsPerMiB * static_cast<double>(there) / double{kMiB};
   if (options.seconds > 0) limits.seconds = options.seconds;
   limits.seconds = std::clamp(limits.seconds, 1.0, kMostSeconds);
-  // Labels stay a byte a voxel, however well packed; other numbers become four bytes each.
+  // Labels stay one byte a voxel, however well compressed; other numbers become four bytes each.
   constexpr std::uint64_t kMemory = 1536 * kMiB, kMemoryPerByte = 32, kLeast = 256 * kMiB;
   const auto installed = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                          static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
@@ -368,7 +370,7 @@ FenceLimits fence_limits(const fs::path& path, const ReadOptions& options) {
   return limits;
 }
 
-// A sanitizer opens programs and starts one of its own to name the lines of its report.
+// A sanitizer opens programs, and starts one of its own to name the lines of its report.
 #if defined(BURR_SANITIZED)
 int landlock_version() { return 0; }
 bool seccomp_offered() { return false; }
@@ -390,7 +392,7 @@ bool seccomp_offered() {
 #endif
 
 bool raise_walls(const fs::path& path, const FenceLimits& limits) {
-  // needed by the other two; also: no program it could start would gain rights
+  // needed for the other two; also, no program that it could start would gain rights
   if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return false;
   return raise_limits(limits) && raise_landlock(path) && raise_seccomp();
 }

@@ -1,5 +1,5 @@
-// io/sandbox/voxel_lender.h - inside a fenced reader the memory of voxels is lent by the process that
-// asked for the scan, so that it has them without a copy. A header of this room only.
+// io/sandbox/voxel_lender.h - in a fenced reader the memory for voxels comes from the process that
+// asked for the scan, so that this process gets them without a copy. Of this room only.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@ class VoxelLender {
   VoxelLender& operator=(const VoxelLender&) = delete;
   virtual ~VoxelLender() = default;
 
-  // Memory full of zeros, or nullptr.
+  // Memory filled with zeros, or nullptr.
   [[nodiscard]] virtual void* lend(std::size_t bytes) = 0;
-  // False: it was not lent here.
+  // False: the memory did not come from here.
   virtual bool take_back(void* at) = 0;
 };
 
-// From now on new_voxels() asks this one. Set once, before anything is read and while there is one
-// thread; must outlive all voxels. nullptr: the heap.
+// Sets the source of new_voxels(). Call it once, before anything is read, with one thread; the
+// lender must outlive all voxels. nullptr: the heap.
 void set_voxel_lender(VoxelLender* lender);
 
 }  // namespace burr::io

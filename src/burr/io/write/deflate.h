@@ -1,6 +1,7 @@
-// io/write/deflate.h - bytes go through zlib into a file: gzip for NRRD, bare deflate for zip.
+// io/write/deflate.h - compresses bytes with zlib into a file: gzip for NRRD, deflate without
+// header for zip.
 //
-// Thread: one. Errors: those of the file, kept there; see base/new_file.h.
+// Thread: one. Errors: those of the file, which keeps them; see base/new_file.h.
 #pragma once
 
 #include <cstddef>
@@ -21,10 +22,10 @@ class Deflate {
   Deflate& operator=(const Deflate&) = delete;
 
   void write(const void* data, std::size_t size);
-  void finish();  // nothing may be written after it
+  void finish();  // no write() after it
 
   [[nodiscard]] std::uint64_t bytes_in() const { return in_; }
-  [[nodiscard]] std::uint32_t crc32() const { return crc_; }  // of what was written
+  [[nodiscard]] std::uint32_t crc32() const { return crc_; }  // of the bytes before compression
 
  private:
   struct Stream;

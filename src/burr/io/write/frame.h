@@ -1,4 +1,4 @@
-// io/write/frame.h - which axes a written file uses. Millimetres in all of them.
+// io/write/frame.h - the axes of a written file. Millimetres in all of them.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +6,9 @@
 namespace burr::io {
 
 enum class Frame : std::uint8_t {
-  lps,    // left, posterior, superior: as the scan, and what Slicer expects
+  lps,    // left, posterior, superior: as in the scan; 3D Slicer expects it
   ras,    // right, anterior, superior: x and y negated
-  print,  // z up (superior), standing on the bed at z = 0, centred at the origin in x and y
+  print,  // z up (superior), on the print bed at z = 0, centred at the origin in x and y
 };
 
 }  // namespace burr::io

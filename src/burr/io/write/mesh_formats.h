@@ -15,25 +15,25 @@
 
 namespace burr::io {
 
-// A mesh on its way out: places in millimetres in the file's frame.
+// A mesh to be written: positions in millimetres in the file's frame.
 struct MeshOut {
   const surface::Mesh& mesh;
   const volume::TissueTable& tissues;
   std::vector<math::Vec3f> p_mm;  // (vertices)
-  Eigen::Matrix3f turn;           // of normals, from LPS
+  Eigen::Matrix3f turn;           // for normals, from LPS
   Frame frame = Frame::lps;
 
   [[nodiscard]] math::Vec3f normal(std::size_t vertex) const {
     return turn * mesh.vertices[vertex].n;
   }
   [[nodiscard]] std::array<std::uint8_t, 3> colour(std::size_t vertex) const;  // sRGB
-  [[nodiscard]] const char* mark() const;  // "SPACE=LPS", or "" where none is true
+  [[nodiscard]] const char* mark() const;  // "SPACE=LPS", or "" in frame print
 };
 
 // 0..255
 [[nodiscard]] std::array<std::uint8_t, 3> bytes_of(const std::array<float, 3>& colour);
 
-// Reports every 64k items; false: stop.
+// Reports progress every 64k items; false: stop.
 [[nodiscard]] bool go_on(Progress& progress, std::size_t done, std::size_t of);
 [[nodiscard]] Error stopped_writing(const std::string& path);
 

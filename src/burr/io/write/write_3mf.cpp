@@ -1,7 +1,7 @@
 // 3MF: a zip of three small XML parts (3MF Core Specification 1.3, ECMA-376 part 2 for the zip).
 //
-// Written by us: the 3MF exporter of Debian's assimp 5.2 prints six digits, which folds vertices
-// that lie close together onto each other and tears the mesh.
+// Written here, because the 3MF exporter of Debian's assimp 5.2 prints six digits, which merges
+// vertices that lie close together and tears the mesh.
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 namespace burr::io {
 namespace {
 
-// One zip, entries one after another; no times, so that the same mesh gives the same file.
+// One zip, entries one after another; without times, so that the same mesh gives the same file.
 class Zip {
  public:
   explicit Zip(base::NewFile& file) : file_(file) {}
@@ -33,7 +33,7 @@ class Zip {
     entry.crc = deflate.crc32();
     entry.packed = file_.size() - start;
     entry.size = deflate.bytes_in();
-    // crc and sizes stand before the data but are known after it
+    // crc and sizes stand before the data but are known only after it
     const std::uint32_t known[3] = {entry.crc, static_cast<std::uint32_t>(entry.packed),
                                     static_cast<std::uint32_t>(entry.size)};
     file_.write_at(entry.offset + 14, known, sizeof known);
@@ -41,7 +41,7 @@ class Zip {
     return true;
   }
 
-  // false: larger than a plain zip can be
+  // False: larger than a zip without the 64-bit extension can be.
   bool finish() {
     const std::size_t start = file_.size();
     bool fits = start < kLimit;
@@ -76,7 +76,7 @@ class Zip {
     }
   };
 
-  // local and central headers share their middle
+  // The local and the central header have the middle part in common.
   void write_header(const Entry& entry, std::uint32_t signature) {
     const bool central = signature == 0x02014b50U;
     constexpr std::size_t kVersion = 20, kDeflated = 8, kFirstDay = 0x21;  // 1980-01-01

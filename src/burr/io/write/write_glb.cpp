@@ -1,6 +1,7 @@
 // GLB (glTF 2.0): a header, one chunk of JSON, one chunk of numbers. Metres, +Y up.
 //
-// Written by us: assimp takes 1.4 GB for what is written here in one pass (3 million triangles).
+// Written here, because assimp takes 1.4 GB for what is written in one pass here (3 million
+// triangles).
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -16,14 +17,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// glTF colours of vertices are linear (glTF 2.0, 3.7.2.1)
+// glTF's vertex colours are linear (glTF 2.0, 3.7.2.1)
 std::uint8_t linear(float srgb) {
   srgb = std::min(std::max(srgb, 0.0F), 1.0F);
   const float light = srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
   return static_cast<std::uint8_t>(std::lround(255 * light));
 }
 
-// left, superior, anterior: a rotation, so that the head stands upright and looks at the viewer
+// From LPS to left, superior, anterior: a rotation, so that the head is upright and faces the
+// viewer.
 math::Vec3f upright(const math::Vec3f& lps) { return {lps.x(), lps.z(), -lps.y()}; }
 
 struct Layout {

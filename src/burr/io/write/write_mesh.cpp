@@ -37,7 +37,7 @@ Writer writer_of(const std::string& path) {
   return nullptr;
 }
 
-// appends plain bytes
+// Appends the bytes of a value.
 template <class T>
 char* put(char* to, const T& value) {
   std::memcpy(to, &value, sizeof value);
@@ -89,7 +89,8 @@ Error stopped_writing(const std::string& path) {
   return error(Trouble::interrupted, path + ": stopped, nothing was written");
 }
 
-// 80 bytes of text, which must not begin with "solid"; count; per triangle normal, corners, 0
+// 80 bytes of text, which must not begin with "solid"; the count; for each triangle its normal, its
+// corners and 0.
 Status write_stl(const MeshOut& out, base::NewFile& file, const std::string& path,
                  Progress& progress) {
   const auto& index = out.mesh.triangles;
@@ -155,7 +156,7 @@ Status write_obj(const MeshOut& out, base::NewFile& file, const std::string& pat
     if (!go_on(progress, v, vertices + count)) return stopped_writing(path);
     const math::Vec3f &p = out.p_mm[v], n = out.normal(v);
     line.clear();
-    // the shortest digits that read back as the same number
+    // the shortest digits that are read back as the same number
     fmt::format_to(std::back_inserter(line), FMT_COMPILE("v {} {} {}\nvn {:.4f} {:.4f} {:.4f}\n"),
                    p.x(), p.y(), p.z(), n.x(), n.y(), n.z());
     file.write(line.data(), line.size());

@@ -1,4 +1,4 @@
-// io/write/write_mesh.h - a surface goes out as a file other programs open. Millimetres, except GLB.
+// io/write/write_mesh.h - writes a surface as a file for other programs. Millimetres, except GLB.
 //
 //     .stl   binary; SPACE=LPS or SPACE=RAS in the header, as 3D Slicer reads it
 //     .ply   binary little endian; the mark as a comment; normals and a colour per vertex
@@ -6,9 +6,10 @@
 //     .3mf   unit millimeter; one material with name and colour per tissue
 //     .glb   metres, +Y up (superior), +Z to the front (anterior); normals and a colour per vertex
 //
-// A mesh in the frame `print` carries no mark: it no longer lies where the patient lay. GLB has its
-// own axes and takes no frame. Files are written beside their place and renamed. Errors:
-// Trouble::usage for an ending not listed, Trouble::io, Trouble::interrupted. Thread: any.
+// A mesh in the frame `print` has no SPACE mark, because it no longer lies where the patient lay.
+// GLB has its own axes and ignores the frame. A file is written under another name beside its final
+// place and then renamed. Errors: Trouble::usage for an ending not listed, Trouble::io,
+// Trouble::interrupted. Thread: any.
 #pragma once
 
 #include <string>
@@ -21,7 +22,7 @@
 
 namespace burr::io {
 
-// true: the ending of this path is one of the above, in any case
+// True: the path ends in one of the above, in upper or lower case.
 [[nodiscard]] bool is_mesh_path(const std::string& path);
 
 // mesh: closed, world LPS in metres; its tissue ids index `tissues`.

@@ -20,7 +20,7 @@ using volume::kIso;
 using volume::TissueId;
 using volume::TissueKind;
 
-// no -0, and what is zero but for rounding is zero
+// Removes -0, and rounding errors around zero.
 double tidy(double value) { return std::abs(value) < 1e-12 ? 0.0 : value; }
 
 std::string triple(const math::Vec3& v) {
@@ -52,7 +52,7 @@ Status write_nrrd(const Bone& bone, const std::string& path, const std::string& 
   Deflate deflate(*file, Deflate::Kind::gzip, 3);
   const math::Ijk size = bone.grid().size;
   const auto nx = static_cast<std::size_t>(size.x()), ny = static_cast<std::size_t>(size.y());
-  std::vector<Value> slab(nx * ny * kBrickEdge);  // a layer of bricks
+  std::vector<Value> slab(nx * ny * kBrickEdge);  // one layer of bricks
   for (int bk = 0; bk < bone.bricks().z(); ++bk) {
     progress.report(static_cast<double>(bk) / bone.bricks().z(), "writing the volume");
     if (progress.cancelled())
@@ -72,7 +72,7 @@ Status write_nrrd(const Bone& bone, const std::string& path, const std::string& 
           }
       }
     deflate.write(slab.data(), nx * ny * static_cast<std::size_t>(layers) * sizeof(Value));
-    if (!file->ok()) break;  // the reason comes from put_in_place()
+    if (!file->ok()) break;  // put_in_place() gives the reason
   }
   deflate.finish();
   Status in_place = file->put_in_place();
@@ -80,7 +80,7 @@ Status write_nrrd(const Bone& bone, const std::string& path, const std::string& 
   return in_place;
 }
 
-// A value of a NRRD key: one line.
+// The value of an NRRD key: one line.
 std::string one_line(const std::string& text) {
   std::string line;
   for (const char c : text) line += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;

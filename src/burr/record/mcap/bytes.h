@@ -1,5 +1,5 @@
-// record/mcap/bytes.h - little-endian bytes out and in; reading never goes past the end, whatever a
-// header claims.
+// record/mcap/bytes.h - writes and reads little-endian bytes; reading never goes past the end,
+// whatever length a header claims.
 #pragma once
 
 #include <bit>
@@ -59,7 +59,7 @@ class BytesOut {
   std::vector<std::uint8_t> bytes_;
 };
 
-// After any read past the end ok() is false and everything read from then on is zero or empty.
+// After a read past the end ok() is false, and everything read from then on is zero or empty.
 class BytesIn {
  public:
   explicit BytesIn(ByteSpan bytes) : left_(bytes) {}

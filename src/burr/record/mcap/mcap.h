@@ -1,4 +1,5 @@
-// record/mcap/mcap.h - words of the MCAP container (mcap.dev/spec) that writer and reader share.
+// record/mcap/mcap.h - types and constants of the MCAP container (mcap.dev/spec), for writer and
+// reader.
 //
 //     magic | Header | Schema, Channel, Metadata, Attachment ...
 //           | Chunk MessageIndex* ... | DataEnd
@@ -38,10 +39,10 @@ enum class Kind : std::uint8_t {
   data_end = 0x0F,
 };
 
-inline constexpr std::uint64_t kRecordHead = 9;  // kind and length                          [byte]
+inline constexpr std::uint64_t kRecordHead = 9;  // kind and length [byte]
 inline constexpr std::uint64_t kFooter = kRecordHead + 20;
-// more than any chunk of ours holds; a larger one is not believed
-inline constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 28;  // unpacked         [byte]
+// more than any chunk that burr writes; a larger number is taken as damage
+inline constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 28;  // unpacked [byte]
 
 struct Schema {
   std::uint16_t id = 0;
@@ -53,7 +54,7 @@ struct Channel {
   std::string topic, encoding;
 };
 
-// Where a message lies: its time and its offset in the unpacked chunk.
+// The position of a message: its time and its offset in the unpacked chunk.
 using MessageAt = std::pair<std::uint64_t, std::uint64_t>;
 using MessageIndexes = std::map<std::uint16_t, std::vector<MessageAt>>;  // by channel
 

@@ -22,7 +22,7 @@ namespace {
 
 // start, end, unpacked size, crc, length of the compression's name
 constexpr std::uint64_t kChunkFixed = 8 + 8 + 8 + 4 + 4;
-// schemas, channels, indexes: nothing of ours is larger
+// schemas, channels, indexes: none that burr writes is larger
 constexpr std::uint64_t kLargestSmallRecord = std::uint64_t{1} << 28;
 
 bool get_counts(BytesIn& in, std::map<std::uint16_t, std::uint64_t>& counts) {
@@ -142,7 +142,7 @@ bool McapReader::read_at(std::uint64_t offset, void* to, std::size_t size) const
   return true;
 }
 
-// The content of the record at offset, if it is of this kind and lies within the file.
+// The content of the record at offset, if it has this kind and lies within the file.
 bool McapReader::read_content(std::uint64_t offset, Kind kind,
                               std::vector<std::uint8_t>& content) const {
   std::array<std::uint8_t, kRecordHead> head{};
@@ -231,7 +231,7 @@ bool McapReader::read_summary() {
   return true;
 }
 
-// Reads what stands before a chunk's packed bytes, and checks that all its lengths agree.
+// Reads the header of a chunk and checks that all its lengths agree.
 bool McapReader::read_chunk_head(std::uint64_t offset, mcap::ChunkAt& chunk, std::uint32_t& crc,
                                  std::uint64_t& body) const {
   std::array<std::uint8_t, kRecordHead + kChunkFixed + 16 + 8> head{};
@@ -268,7 +268,7 @@ bool McapReader::unpack_chunk(std::uint64_t offset, McapChunk& chunk) const {
   } else if (at.compression != "zstd" || !unpack(packed, at.unpacked_size, chunk.bytes)) {
     return false;
   }
-  // 0 in the file: its writer made none
+  // 0 in the file: its writer computed none
   if (chunk.crc != 0 && crc32(chunk.bytes) != chunk.crc) return false;
   return get_messages(chunk);
 }
@@ -331,7 +331,7 @@ Result<mcap::Pairs> McapReader::read_metadata(std::size_t index) const {
   return error(fmt::format("{}: the metadata \"{}\" is damaged", path_, base::shown(at.name)));
 }
 
-// Which channels a chunk has, from its messages; for chunks whose indexes are missing.
+// Finds out which channels a chunk has from its messages; for chunks without indexes.
 bool McapReader::index_by_content(std::size_t index) {
   McapChunk chunk;
   if (!unpack_chunk(chunks_[index].offset, chunk)) return false;
@@ -341,7 +341,7 @@ bool McapReader::index_by_content(std::size_t index) {
   return true;
 }
 
-// One record of the data section. false: nothing believable here.
+// Reads one record of the data section. False: nothing valid here.
 bool McapReader::scan_record(std::uint64_t offset, std::uint64_t& next, bool check_chunks) {
   std::array<std::uint8_t, kRecordHead> head{};
   if (!read_at(offset, head.data(), head.size())) return false;
@@ -406,9 +406,9 @@ bool McapReader::scan_record(std::uint64_t offset, std::uint64_t& next, bool che
   return true;
 }
 
-// The next place after offset where a whole, undamaged chunk begins; size() if there is none.
+// The next position after offset where a whole, undamaged chunk begins; size() if there is none.
 std::uint64_t McapReader::find_chunk_after(std::uint64_t offset) const {
-  // a chunk of ours shows itself by the length and name of its compression
+  // a chunk that burr wrote is recognized by the length and name of its compression
   constexpr std::array<std::uint8_t, 8> kMark = {4, 0, 0, 0, 'z', 's', 't', 'd'};
   constexpr std::uint64_t kMarkAt = kRecordHead + kChunkFixed - 4;
   constexpr std::size_t kBlock = std::size_t{1} << 20;
@@ -457,7 +457,7 @@ void McapReader::scan(bool check_chunks) {
   if (!finished_ && lost_bytes_ == 0)
     notices_.push_back(path_ + ": was not finished, but no record in it is torn");
 
-  // a power cut may leave a chunk of the right length with the wrong bytes, but only at the end
+  // after a power cut a chunk may have the right length and wrong bytes, but only at the end
   if (!ended && !check_chunks) {
     McapChunk chunk;
     while (!chunks_.empty() && !unpack_chunk(chunks_.back().offset, chunk)) {

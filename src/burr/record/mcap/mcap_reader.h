@@ -1,8 +1,8 @@
-// record/mcap/mcap_reader.h - reads an MCAP file: by its summary where there is a good one, else by a
-// scan that drops the torn tail and steps over damaged stretches, saying so.
+// record/mcap/mcap_reader.h - reads an MCAP file: by its summary if there is a good one; otherwise
+// by a scan, which drops an incomplete end, steps over damaged parts and reports both.
 //
-// Believes no number in the file: offsets are checked against its size, chunks against their CRC,
-// and memory grows only as data really comes.
+// No number in the file is trusted: offsets are checked against the file size, chunks against their
+// CRC, and memory grows only as data really comes.
 // Thread: one at a time. Memory: the indexes (about 150 byte a chunk), and one chunk at a time.
 #pragma once
 
@@ -20,7 +20,7 @@ struct McapMessage {
   std::uint32_t sequence = 0;
   std::uint64_t time_ns = 0;  // log_time
   std::uint64_t offset = 0;   // of its record in the unpacked chunk
-  ByteSpan data;              // into the chunk's bytes
+  ByteSpan data;              // points into the chunk's bytes
 };
 
 // One unpacked chunk and its messages, in order.
@@ -33,8 +33,8 @@ struct McapChunk {
 class McapReader {
  public:
   enum class Trust {
-    summary,  // believe a good summary; scan only without one
-    nothing,  // scan, and check every chunk; slow, for repair
+    summary,  // use a good summary; scan only without one
+    nothing,  // scan and check every chunk; slow, for repair
   };
 
   [[nodiscard]] static Result<std::unique_ptr<McapReader>> open(const std::string& path,
@@ -51,17 +51,17 @@ class McapReader {
   [[nodiscard]] const std::vector<mcap::AttachmentAt>& attachments() const { return attachments_; }
   [[nodiscard]] const std::vector<mcap::MetadataAt>& metadata() const { return metadata_; }
 
-  // has a good summary and footer
+  // has a good summary and a footer
   [[nodiscard]] bool finished() const { return finished_; }
-  // bytes after the last good record of an unfinished file, or in damaged stretches
+  // bytes after the last good record of an unfinished file, or in damaged parts
   [[nodiscard]] std::uint64_t lost_bytes() const { return lost_bytes_; }
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  // one sentence for each thing found odd
+  // one sentence for each oddity found
   [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
 
-  // Checks the CRC. An error is for this chunk alone; others may be read.
+  // Checks the CRC. An error concerns this chunk only; others may be read.
   [[nodiscard]] Result<McapChunk> read_chunk(std::size_t index) const;
-  // as it lies in the file, still packed; for repair
+  // as in the file, still packed; for repair
   [[nodiscard]] Result<std::vector<std::uint8_t>> read_packed(std::size_t index) const;
   [[nodiscard]] Result<std::vector<std::uint8_t>> read_attachment(std::size_t index) const;
   [[nodiscard]] Result<mcap::Pairs> read_metadata(std::size_t index) const;

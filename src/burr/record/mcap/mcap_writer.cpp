@@ -85,7 +85,7 @@ void put_channel(BytesOut& out, const mcap::Channel& channel) {
   mcap::put_pairs(out, {});
 }
 
-// array of (u16, u64), with its length in bytes in front
+// array of (u16, u64), preceded by its length in bytes
 void put_counts(BytesOut& out, const std::map<std::uint16_t, std::uint64_t>& counts) {
   out.put(static_cast<std::uint32_t>(counts.size() * 10));
   for (const auto& [channel, value] : counts) {
@@ -128,7 +128,8 @@ Status McapWriter::append(ByteSpan bytes) {
     if (n < 0 && errno == EINTR) continue;
     const Error problem = trouble(shown_, "write on");
     failed_ = true;
-    // a file torn in the middle of a record is readable, a clean end is better; try
+    // a file cut in the middle of a record can be read, but a clean end is better: try to cut it
+    // there
     static_cast<void>(::ftruncate(file_, static_cast<off_t>(size_)) == 0);
     return problem;
   }
@@ -184,7 +185,7 @@ Status McapWriter::add_attachment(const std::string& name, const std::string& me
                                   ByteSpan data) {
   BytesOut head;
   head.put(std::uint64_t{0});  // log_time: from the start of the session
-  head.put(std::uint64_t{0});  // create_time: unknown on purpose, no dates in recordings
+  head.put(std::uint64_t{0});  // create_time: unknown on purpose, recordings contain no dates
   head.text(name);
   head.text(media_type);
   head.put(std::uint64_t{data.size()});
@@ -250,7 +251,8 @@ Status McapWriter::add_chunk(const mcap::ChunkAt& from, std::uint32_t unpacked_c
   chunk.length = whole.size();
   chunk.packed_size = packed.size();
 
-  // the indexes ride in the same write, so that a killed writer leaves both or a torn tail
+  // the indexes are part of the same write, so that a killed writer leaves both or an incomplete
+  // end
   chunk.index_offsets.clear();
   for (const auto& [channel, messages] : indexes) {
     chunk.index_offsets[channel] = size_ + whole.size();
@@ -293,8 +295,8 @@ Status McapWriter::still_there() const {
                                 "gone; leave a recording alone until the session has ended");
 }
 
-// Where the chunks and their indexes lie, from the heads of their records: 25 chunks a second of a
-// session would be 300 bytes each to remember.
+// Positions of the chunks and their indexes, read back from the headers of their records: to keep
+// them in memory would cost 300 bytes for each of 25 chunks a second.
 Status McapWriter::read_back(BytesOut& chunk_indexes) const {
   std::array<std::uint8_t, 128> head{};
   mcap::ChunkAt chunk;
@@ -351,7 +353,7 @@ Status McapWriter::finish() {
   end.put(crc_);
   if (Status written = append_record(Kind::data_end, end.span()); !written.ok()) return written;
 
-  // the summary: each kind together, and where each kind begins
+  // the summary: records of each kind together, and where each kind begins
   const std::uint64_t summary_start = size_;
   BytesOut summary;
   BytesOut offsets;

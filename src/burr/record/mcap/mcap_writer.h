@@ -1,11 +1,11 @@
-// record/mcap/mcap_writer.h - writes an MCAP file (mcap.dev/spec) by appending only, a whole chunk at a
-// time, so that whoever is killed leaves a file whose beginning is good.
+// record/mcap/mcap_writer.h - writes an MCAP file (mcap.dev/spec) by appending only, one whole
+// chunk at a time, so that a killed process leaves a file that is good up to its last chunk.
 //
 //     writer.open(path) -> schema, channel, metadata, attachment
 //                       -> [ message, message ... close_chunk ]*  -> finish
 //
-// Thread: one at a time; sync() alone may be called from another. Memory: one chunk, however long
-// the recording; the summary's index of all chunks is read back from the file at its end.
+// Thread: one at a time; only sync() may be called from another. Memory: one chunk, however long
+// the recording; for the summary, the index of all chunks is read back from the file at the end.
 #pragma once
 
 #include <atomic>
@@ -22,22 +22,23 @@ namespace burr::record {
 class McapWriter {
  public:
   McapWriter() = default;
-  ~McapWriter();  // without finish(): the file stays as it is, torn but readable
+  ~McapWriter();  // without finish(): the file stays incomplete but readable
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
 
-  // Makes the file, empty but for its header; what was there is gone. `shown`: the name errors give
-  // it. The open file is locked (flock), so that `burr repair` knows it is still being written.
+  // Creates the file with its header; a file of this name is overwritten. `shown`: its name in
+  // errors. The open file is locked (flock), so that `burr repair` knows that it is still being
+  // written.
   [[nodiscard]] Status open(const std::string& path, const std::string& shown);
 
-  // Every id is handed out by us, from 1. Written at once, and again in the summary.
+  // The writer assigns the ids, from 1. Written at once, and again in the summary.
   [[nodiscard]] Result<std::uint16_t> add_schema(const std::string& name,
                                                  const std::string& encoding,
                                                  const std::string& data);
   [[nodiscard]] Result<std::uint16_t> add_channel(const std::string& topic,
                                                   const std::string& encoding,
                                                   std::uint16_t schema);
-  // with the ids they have; for repair
+  // with the ids that they have; for repair
   [[nodiscard]] Status add(const mcap::Schema& schema);
   [[nodiscard]] Status add(const mcap::Channel& channel);
 
@@ -45,25 +46,26 @@ class McapWriter {
   [[nodiscard]] Status add_attachment(const std::string& name, const std::string& media_type,
                                       ByteSpan data);
 
-  // Into the open chunk. time_ns: log_time and publish_time.
+  // Adds to the open chunk. time_ns: log_time and publish_time.
   void add_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns,
                    ByteSpan data);
   [[nodiscard]] bool chunk_open() const { return !chunk_.empty(); }
-  // Packs the open chunk and appends it with its indexes in one write. Nothing open: nothing done.
-  // After a failure the file is cut back to its last good chunk, and takes no more.
+  // Packs the open chunk and appends it with its indexes in one write. Does nothing if none is
+  // open. After a failure the file is cut back to its last good chunk, and nothing more can be
+  // added.
   [[nodiscard]] Status close_chunk();
-  // A chunk as it lies in another file, already checked; for repair.
+  // Appends a chunk of another file as it is, already checked; for repair.
   [[nodiscard]] Status add_chunk(const mcap::ChunkAt& chunk, std::uint32_t unpacked_crc,
                                  ByteSpan packed, const mcap::MessageIndexes& indexes);
 
-  // Everything appended so far reaches the disk, not only the kernel. Slow.
+  // Brings everything appended so far to the disk, not only to the kernel. Slow.
   [[nodiscard]] Status sync();
-  // Error: somebody removed the file meanwhile, what is written now is in no folder.
+  // Error: somebody has removed the file; what is written now belongs to no folder.
   [[nodiscard]] Status still_there() const;
   // Summary, footer, sync, close.
   [[nodiscard]] Status finish();
 
-  [[nodiscard]] std::uint64_t size() const { return size_; }  // of the file so far  [byte]
+  [[nodiscard]] std::uint64_t size() const { return size_; }  // of the file so far [byte]
 
  private:
   [[nodiscard]] Status append(ByteSpan bytes);
@@ -75,7 +77,7 @@ class McapWriter {
   int file_ = -1;
   bool failed_ = false;
   std::uint64_t size_ = 0;
-  std::uint32_t crc_ = 0;  // of everything so far
+  std::uint32_t crc_ = 0;  // of everything written so far
 
   Packer packer_;
   BytesOut chunk_;

@@ -23,7 +23,7 @@ void Packer::pack(ByteSpan bytes, std::vector<std::uint8_t>& out) {
   out.resize(before + ZSTD_compressBound(bytes.size()));
   const std::size_t took = ZSTD_compress2(context_->zstd, out.data() + before, out.size() - before,
                                           bytes.data(), bytes.size());
-  // with room for the bound, the only thing that can fail is memory
+  // with room for the bound, only a lack of memory can make it fail
   if (ZSTD_isError(took) != 0U) throw std::bad_alloc();
   out.resize(before + took);
 }
@@ -31,7 +31,7 @@ void Packer::pack(ByteSpan bytes, std::vector<std::uint8_t>& out) {
 bool unpack(ByteSpan packed, std::uint64_t size, std::vector<std::uint8_t>& out) {
   constexpr std::size_t kStep = std::size_t{1} << 20;
   constexpr std::uint64_t kMost = std::uint64_t{1} << 34;
-  constexpr int kWindowLog = 27;  // 128 MiB, zstd's own default bound
+  constexpr int kWindowLog = 27;  // 128 MiB, zstd's own default limit
   struct Free {
     void operator()(ZSTD_DCtx* zstd) const { ZSTD_freeDCtx(zstd); }
   };
@@ -44,7 +44,7 @@ bool unpack(ByteSpan packed, std::uint64_t size, std::vector<std::uint8_t>& out)
   ZSTD_inBuffer in{packed.data(), packed.size(), 0};
   std::size_t filled = 0;
   for (;;) {
-    // one byte more than promised, so that a frame that is too long gives itself away
+    // one byte more than promised, so that a frame that is too long is noticed
     if (filled == out.size())
       out.resize(std::min(static_cast<std::size_t>(size) + 1, std::max(2 * filled, kStep)));
     ZSTD_outBuffer to{out.data(), out.size(), filled};

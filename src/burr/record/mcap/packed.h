@@ -1,4 +1,4 @@
-// record/mcap/packed.h - zstd, with a bound on what a lying header can make us allocate.
+// record/mcap/packed.h - zstd, with a limit on the memory that a false header can make us allocate.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class Packer {
   std::unique_ptr<Context> context_;
 };
 
-// false: not zstd, damaged, or not exactly `size` bytes long. Memory grows only as bytes really
+// False: not zstd, damaged, or not exactly `size` bytes long. Memory grows only as bytes really
 // come out, so a header that promises gigabytes costs nothing.
 [[nodiscard]] bool unpack(ByteSpan packed, std::uint64_t size, std::vector<std::uint8_t>& out);
 

@@ -15,21 +15,21 @@ Error no_gl(const std::string& why) {
                            why));
 }
 
-// SDL's video is started once and counted: a hidden context may live beside a window
+// SDL's video is started once, with a count of users: a hidden context may exist beside a window.
 bool start_video(bool visible, std::string& why) {
   SDL_SetMainReady();
-  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl-C belongs to the program
+  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl-C is handled by the program
   if (SDL_WasInit(SDL_INIT_VIDEO) != 0 || visible) {
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) == 0) return true;
     why = SDL_GetError();
     return false;
   }
-  // no display is needed, and none is asked for; a user's own choice of driver is respected
+  // no display is needed or asked for; the user's own choice of driver is respected
   if (SDL_getenv("SDL_VIDEODRIVER") == nullptr) SDL_SetHint(SDL_HINT_VIDEODRIVER, "offscreen");
   const bool started = SDL_InitSubSystem(SDL_INIT_VIDEO) == 0;
   if (!started) why = SDL_GetError();
   SDL_ResetHint(SDL_HINT_VIDEODRIVER);
-  // an SDL without that driver: a hidden window will do where there is a display
+  // an SDL without that driver: use a hidden window where there is a display
   return started || SDL_InitSubSystem(SDL_INIT_VIDEO) == 0;
 }
 
@@ -66,7 +66,7 @@ Status Context::create(const std::string& title, int width, int height, bool vis
                         es ? SDL_GL_CONTEXT_PROFILE_ES : SDL_GL_CONTEXT_PROFILE_CORE);
     SDL_GL_SetAttribute(SDL_GL_DOUBLEBUFFER, 1);
     SDL_GL_SetAttribute(SDL_GL_STEREO, quads ? 1 : 0);
-    SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);  // drawing happens in our own framebuffers
+    SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);  // we draw into framebuffers of our own
     const Uint32 flags =
         SDL_WINDOW_OPENGL |
         (visible ? Uint32{SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI | SDL_WINDOW_SHOWN}
@@ -82,7 +82,7 @@ Status Context::create(const std::string& title, int width, int height, bool vis
     window_ = made;
     gl_ = gl;
     es_ = es;
-    // what was asked for is not always what was given
+    // the driver may give something else than was asked for
     GLboolean given = GL_FALSE;
     if (quads) glGetBooleanv(GL_STEREO, &given);
     quad_buffer_ = given == GL_TRUE;
@@ -93,7 +93,7 @@ Status Context::create(const std::string& title, int width, int height, bool vis
   if (epoxy_gl_version() < (es_ ? 30 : 33))
     return no_gl(fmt::format("the driver offers only version {}.{}", epoxy_gl_version() / 10,
                              epoxy_gl_version() % 10));
-  // show as fast as the screen, not faster; a driver that cannot wait is fine too
+  // show at the screen's rate; a driver that cannot wait for it is fine too
   if (visible) SDL_GL_SetSwapInterval(1);
   if (const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER))) gpu_ = name;
   return fine();

@@ -1,8 +1,7 @@
-// render/gl/context.h - an OpenGL context, with a window or without a display. SDL underneath.
+// render/gl/context.h - an OpenGL context, with a window or without a display, by SDL.
 //
-// Without a display SDL's `offscreen` driver is used (EGL); beside a window a hidden one. Thread:
-// main. Errors: Trouble::io, saying which packages bring OpenGL.
-// A header of this room only.
+// Without a display it uses SDL's `offscreen` driver (EGL); beside a window, a hidden window.
+// Thread: main. Errors: Trouble::io, with the packages that contain OpenGL. Of this room only.
 #pragma once
 
 #include <memory>
@@ -26,12 +25,12 @@ class Context {
   void swap();
   void wait_for_screen(bool on);
   void title(const std::string& text);
-  void size(int& width, int& height) const;  // of the drawing area  [pixel]
+  void size(int& width, int& height) const;  // of the drawing area [pixel]
 
   [[nodiscard]] bool visible() const { return visible_; }
   [[nodiscard]] bool quad_buffer() const { return quad_buffer_; }
   [[nodiscard]] bool es() const { return es_; }
-  [[nodiscard]] bool software() const;  // drawn by the processor
+  [[nodiscard]] bool software() const;  // the processor draws, without a graphics card
   [[nodiscard]] const std::string& gpu() const { return gpu_; }
 
  private:

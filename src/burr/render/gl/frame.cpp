@@ -8,7 +8,7 @@ using math::Aabb;
 using math::Vec3;
 
 void set_depths(Frame& frame, const Camera& camera, const Aabb& bone) {
-  constexpr double kRoom = 0.1;  // for what is in the hand  [m]
+  constexpr double kRoom = 0.1;  // space for the tool in the hand [m]
   frame.near = std::max(0.02 * camera.distance, 0.5e-3);
   double far = camera.distance;
   for (int corner = 0; corner < 8 && !bone.empty(); ++corner) {

@@ -1,5 +1,5 @@
-// OpenXR 1.0 as the specification has it: instance, system, session, two swapchains, one set of
-// actions. Each call's demands are checked by the runtime of tests/support/fake_openxr.cpp.
+// OpenXR 1.0 as in the specification: instance, system, session, two swapchains, one set of
+// actions. The runtime in tests/support/fake_openxr.cpp checks the rules of each call.
 #include "burr/render/headset.h"
 
 #include <dlfcn.h>
@@ -31,9 +31,10 @@ using math::Vec3;
 namespace {
 
 constexpr const char* kLoader = "libopenxr_loader.so.1";
-constexpr auto kPatience = std::chrono::seconds(2);  // with a runtime that does not come back
+constexpr auto kPatience = std::chrono::seconds(2);  // longest wait for a runtime that does not
+                                                     // return
 
-// What is called, found by name: the loader is not linked.
+// The functions of OpenXR, found by name: the loader is not linked.
 struct Calls {
 #define BURR_XR_CALLS(call) call(EnumerateInstanceExtensionProperties) call(CreateInstance)
 #define BURR_XR_INSTANCE_CALLS(call)                                                            \
@@ -104,17 +105,17 @@ struct Headset::Work {
     XrSwapchain chain = XR_NULL_HANDLE;
     int width = 0, height = 0;
     std::vector<XrSwapchainImageOpenGLKHR> images;
-    std::optional<std::uint32_t> acquired;  // and not released yet
+    std::optional<std::uint32_t> acquired;  // acquired and not yet released
   };
   std::array<Screen, 2> screens;
   bool running = false, focused = false, over = false, begun = false;
   std::string why, name;
-  XrTime due = 0;      // of the frame begun
-  bool shown = false;  // it will be seen
+  XrTime due = 0;      // display time of the present frame
+  bool shown = false;  // the frame will be shown
   std::array<XrView, 2> views = {};
-  bool eyes = false;  // the views are known
+  bool eyes = false;  // the poses of the eyes are known
 
-  // The runtime's wait, in a thread of its own, which may never come back: it knows only this.
+  // The runtime's wait on a thread of its own, which may never return: that thread uses only this.
   struct Waiter {
     std::mutex mutex;
     std::condition_variable told;
@@ -125,7 +126,7 @@ struct Headset::Work {
   };
   std::shared_ptr<Waiter> waiter = std::make_shared<Waiter>();
   std::thread thread;
-  bool waiting = false;  // a wait was asked for and not taken yet
+  bool waiting = false;  // a wait was requested and its result not taken yet
 
   Status open();
   Status find_system();
@@ -145,12 +146,12 @@ struct Headset::Work {
   void close();
 };
 
-// ---- starting
+// ---- start
 
 Status Headset::Work::open() {
   const char* given = std::getenv("BURR_OPENXR_LOADER");
   const char* file = given != nullptr && *given != '\0' ? given : kLoader;
-  // never closed again: a runtime may leave threads behind
+  // never closed again: a runtime may leave threads running
   void* const loader = dlopen(file, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (loader == nullptr)
     return no_headset(fmt::format(
@@ -225,7 +226,7 @@ Status Headset::Work::find_system() {
 }
 
 Status Headset::Work::make_session() {
-  // the runtime demands to be asked, whatever it answers
+  // the runtime demands this question, whatever the answer
   auto needs = made<XrGraphicsRequirementsOpenGLKHR>(XR_TYPE_GRAPHICS_REQUIREMENTS_OPENGL_KHR);
   XrResult code = xr.GetOpenGLGraphicsRequirementsKHR(instance, system, &needs);
   if (XR_FAILED(code)) return refused("GetOpenGLGraphicsRequirementsKHR", code);
@@ -274,7 +275,7 @@ Status Headset::Work::make_screens() {
   if (XR_SUCCEEDED(code))
     code = xr.EnumerateSwapchainFormats(session, count, &count, formats.data());
   if (XR_FAILED(code)) return refused("EnumerateSwapchainFormats", code);
-  // what is drawn is sRGB already
+  // the pictures are sRGB already
   std::int64_t format = 0;
   for (const std::int64_t wanted : {std::int64_t{GL_RGBA8}, std::int64_t{GL_SRGB8_ALPHA8}})
     if (std::find(formats.begin(), formats.end(), wanted) != formats.end()) format = wanted;
@@ -346,7 +347,7 @@ Status Headset::Work::make_actions(bool left_handed) {
     suggested.interactionProfile = path(std::string("/interaction_profiles/") + profile);
     suggested.countSuggestedBindings = static_cast<std::uint32_t>(bindings.size());
     suggested.suggestedBindings = bindings.data();
-    // a runtime need not know them all
+    // a runtime need not know all of them
     code = xr.SuggestInteractionProfileBindings(instance, &suggested);
     any = any || XR_SUCCEEDED(code);
   }
@@ -386,7 +387,7 @@ void Headset::Work::start_waiter() {
   });
 }
 
-// ---- what the runtime says
+// ---- events of the runtime
 
 void Headset::Work::lose(std::string because) {
   if (over) return;
@@ -437,7 +438,7 @@ void Headset::Work::changed(XrSessionState state) {
   }
 }
 
-// A wait that was asked for is over, and its frame forgotten; false: it does not come back.
+// Waits for the end of a requested wait and drops its frame. False: it does not return.
 bool Headset::Work::stop_waiting() {
   if (!waiting) return true;
   std::unique_lock lock(waiter->mutex);
@@ -480,7 +481,7 @@ void Headset::Work::locate(Headset::Now& now) {
     eye.right = std::tan(static_cast<double>(fov.angleRight));
     eye.bottom = std::tan(static_cast<double>(fov.angleDown));
     eye.top = std::tan(static_cast<double>(fov.angleUp));
-    // written so that what is no number is no eye either
+    // written so that a NaN is refused too
     const bool sees = eye.world_from_eye.finite() &&
                       std::abs(eye.world_from_eye.q.norm() - 1) < 0.01 &&
                       eye.right - eye.left > 1e-3 && eye.top - eye.bottom > 1e-3;
@@ -488,7 +489,7 @@ void Headset::Work::locate(Headset::Now& now) {
   }
   now.eyes = eyes;
 
-  if (!focused) return;  // the hands are somebody else's
+  if (!focused) return;  // another program has the input of the hands
   const XrActiveActionSet active = {actions, XR_NULL_PATH};
   auto sync = made<XrActionsSyncInfo>(XR_TYPE_ACTIONS_SYNC_INFO);
   sync.countActiveActionSets = 1;
@@ -539,7 +540,7 @@ std::optional<Headset::Now> Headset::begin(double wait_s) {
   return now;
 }
 
-// One eye's picture into the image that is free; false: there is none to show.
+// Draws one eye's picture into the free image. False: there is none to show.
 bool Headset::Work::draw(int eye, const Scene& scene) {
   Screen& screen = screens[static_cast<std::size_t>(eye)];
   if (!screen.acquired) {
@@ -552,7 +553,7 @@ bool Headset::Work::draw(int eye, const Scene& scene) {
   auto wait = made<XrSwapchainImageWaitInfo>(XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
   wait.timeout = 50'000'000;  // [ns]
   const XrResult free = xr.WaitSwapchainImage(screen.chain, &wait);
-  // it stays acquired, and is waited for again
+  // the image stays acquired; the next frame waits for it again
   if (!good("WaitSwapchainImage", free) || free == XR_TIMEOUT_EXPIRED) return false;
   const std::uint32_t index = *std::exchange(screen.acquired, std::nullopt);
   const bool drawn =
@@ -583,7 +584,7 @@ void Headset::end(const Scene& scene, const std::array<Camera, 2>& cameras) {
   if (!w.over) w.end_frame(drawn ? &parts : nullptr);
 }
 
-// Every frame begun is ended, whatever became of its pictures; nullptr: of nothing.
+// Ends the frame, with these pictures; nullptr: without. Every frame that was begun must be ended.
 void Headset::Work::end_frame(const std::array<XrCompositionLayerProjectionView, 2>* parts) {
   auto layer = made<XrCompositionLayerProjection>(XR_TYPE_COMPOSITION_LAYER_PROJECTION);
   layer.space = room;
@@ -627,7 +628,7 @@ void Headset::Work::close() {
     if (came_back)
       thread.join();
     else
-      thread.detach();  // what it waits for must stay, then
+      thread.detach();  // what the thread waits for must then stay alive
   }
   if (std::exchange(begun, false) && !over) end_frame(nullptr);
   if (!came_back || instance == XR_NULL_HANDLE || xr.DestroyInstance == nullptr) return;

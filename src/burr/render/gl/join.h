@@ -1,5 +1,5 @@
-// render/gl/join.h - two eyes' pictures as one, on the GPU: what joined() in stereo.h does.
-// A header of this room only.
+// render/gl/join.h - joins the pictures of two eyes on the GPU, as joined() in stereo.h does. Of
+// this room only.
 #pragma once
 
 #include "burr/render/gl/target.h"
@@ -10,8 +10,9 @@ namespace burr::render::gl {
 class Join {
  public:
   Status start(bool es);
-  // All of the same size; the array of a screen's triangle is bound. first_row: of the screen, of
-  // the picture's top one. how: one that is one picture.
+  // All sheets have the same size; the vertex array of the screen triangle must be bound.
+  // first_row: the row of the screen that holds the top row of the picture. how: a mode that makes
+  // one picture of two.
   void draw(const Sheet& left, const Sheet& right, const Sheet& to, Stereo how, int first_row);
 
  private:

@@ -13,10 +13,11 @@ using math::Vec3;
 
 namespace {
 
-// The tool's shadow reaches as far as a hand's breadth matters; bounded, so that it can be redrawn
-// where the tool moved and left elsewhere. gl/shaders.h, passes().
-constexpr double kShadowReach = 25e-3;  // from head and shaft along the light  [m]
-constexpr double kShadowShaft = 12e-3;  // of the shaft, from the head's centre [m]
+// The tool's shadow has a limited reach, so that it can be redrawn where the tool moved and kept
+// elsewhere. See passes() in gl/shaders.h.
+constexpr double kShadowReach = 25e-3;  // from head and shaft, along the light [m]
+constexpr double kShadowShaft = 12e-3;  // length of shaft that gives shadow, from the head's centre
+                                        // [m]
 
 float linear(float c) { return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F); }
 Eigen::Vector3f light_of(const Light& light) {
@@ -40,7 +41,8 @@ std::vector<Vec3> shadow_of(const Scene& scene) {
   const Vec3 light = scene.look.key.towards.normalized();
   const Vec3 towards = light.x() * scene.camera.right() + light.y() * scene.camera.above() +
                        light.z() * scene.camera.backward();
-  const double r = burr.radius + 0.12 * kShadowReach + 0.1 * burr.radius;  // with its soft edge
+  const double r = burr.radius + 0.12 * kShadowReach + 0.1 * burr.radius;  // with the soft edge of
+                                                                           // the shadow
   const Aabb box = {{-r, -r, -r}, {r, r, kShadowShaft + r}};
   std::vector<Vec3> points;
   for (int corner = 0; corner < 8; ++corner) {
@@ -135,7 +137,7 @@ void Lighting::paint(const Scene& scene, const Frame& frame, const Rect& r, cons
   light.set("gloss", static_cast<float>(look.gloss));
   light.set("hollow", static_cast<float>(look.hollow));
 
-  // head and shaft as the shader needs them for the shadow
+  // head and shaft in the form that the shader needs for the shadow
   const Burr& burr = scene.burr;
   const Vec3 centre = (frame.view * burr.world_from_tool.p.homogeneous()).head<3>();
   const Vec3 axis = frame.view.block<3, 3>(0, 0) * (burr.world_from_tool.q * Vec3::UnitZ());

@@ -1,7 +1,7 @@
-// render/gl/lighting.h - what is there becomes a picture: lights, hollows, the tool's shadow, and
-// the sky where there is nothing.
+// render/gl/lighting.h - lights the picture: lamps, ambient occlusion, the tool's shadow, and the
+// background.
 //
-// A header of this room only.
+// Of this room only.
 #pragma once
 
 #include <vector>
@@ -12,14 +12,14 @@
 
 namespace burr::render::gl {
 
-// What is lit, as the mesh shaders left it, and where the picture goes.
+// The maps to be lit, as the mesh shaders wrote them, and the destination of the picture.
 struct Unlit {
   const Texture* colour = nullptr;
   const Texture* normal = nullptr;
   const Texture* depth = nullptr;
   const Framebuffer* lit_at = nullptr;
 };
-// Hollows found for it; stride 1, or 2 for half resolution.
+// Its ambient occlusion; stride 1, or 2 for half resolution.
 struct Hollows {
   const Texture* map = nullptr;  // nullptr: none
   int width = 0, height = 0, stride = 1;
@@ -28,11 +28,11 @@ struct Hollows {
 class Lighting {
  public:
   Status start(bool es);
-  // What may be in a rectangle besides bone: the tool's shadow; tool and marks themselves.
+  // What a rectangle may contain besides bone: the tool's shadow; tool and marks.
   struct Besides {
     bool shadow = false, others = false;
   };
-  // The array of a screen's triangle is bound.
+  // The vertex array of the screen triangle must be bound.
   void paint(const Scene& scene, const Frame& frame, const Rect& r, const Unlit& what,
              const Hollows& hollows, const Besides& besides);
   void paint_sky(const Scene& scene, const Frame& frame, const Rect& r, const Framebuffer& lit_at);
@@ -42,10 +42,10 @@ class Lighting {
   Program lights_[3][2][2];  // [hollows: none, full, half resolution][shadow][others]
 };
 
-// Points around everything the tool's shadow may touch; none without a tool.
+// Points around everything that the tool's shadow may touch; empty without a tool.
 [[nodiscard]] std::vector<math::Vec3> shadow_of(const Scene& scene);
 
-// How far hollows see [m], and 1 / (depth difference that is another surface).
+// Reach of the ambient occlusion [m], and 1 / (depth difference that counts as another surface).
 [[nodiscard]] double hollow_reach(const Scene& scene);
 [[nodiscard]] float strict_of(const Scene& scene, const Frame& frame);
 

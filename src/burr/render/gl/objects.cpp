@@ -45,7 +45,7 @@ Result<Program> Program::link(bool es, std::initializer_list<const char*> vertex
   program.id_ = glCreateProgram();
   for (const GLuint shader : {*v, *f}) {
     glAttachShader(program.id_, shader);
-    glDeleteShader(shader);  // lives on while attached
+    glDeleteShader(shader);  // stays alive while it is attached
   }
   glLinkProgram(program.id_);
   GLint good = 0;

@@ -1,7 +1,6 @@
-// render/gl/objects.h - OpenGL's things with an owner: freed when they go out of scope.
+// render/gl/objects.h - owners of OpenGL objects: they free them when they go out of scope.
 //
-// Thread: main, with the context they were made in current.
-// A header of this room only.
+// Thread: main, with the context current in which they were made. Of this room only.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -16,7 +15,7 @@
 
 namespace burr::render::gl {
 
-// One name of OpenGL; 0 is nothing.
+// One OpenGL name; 0 is none.
 template <void (*Make)(GLuint&), void (*Free)(GLuint)>
 class Name {
  public:
@@ -54,8 +53,8 @@ using VertexArray = Name<make_array, free_array>;
 using Texture = Name<make_texture, free_texture>;
 using Framebuffer = Name<make_framebuffer, free_framebuffer>;
 
-// Vertex and fragment shader, linked. The sources lack the #version line, which depends on the API;
-// they may come in parts, and begin with the #defines that make them what they are.
+// A vertex and a fragment shader, linked. The sources lack the #version line, which depends on the
+// API. They may consist of several parts, which begin with the #defines of the wanted variant.
 class Program {
  public:
   Program() = default;
@@ -73,7 +72,7 @@ class Program {
   }
 
   void use() const { glUseProgram(id_); }
-  // of the program in use; a name the compiler found useless is ignored
+  // sets a uniform of the program in use; a name that the compiler removed is ignored
   void set(const char* name, int value) { glUniform1i(place(name), value); }
   void set(const char* name, float value) { glUniform1f(place(name), value); }
   void set(const char* name, int x, int y) { glUniform2i(place(name), x, y); }

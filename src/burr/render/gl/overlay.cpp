@@ -14,19 +14,19 @@ namespace burr::render::gl {
 
 namespace {
 
-// two triangles for the box from (x0, y0) to (x1, y1)
+// Adds two triangles for the box from (x0, y0) to (x1, y1).
 void add_box(std::vector<float>& xy, float x0, float y0, float x1, float y1) {
   xy.insert(xy.end(), {x0, y0, x1, y0, x1, y1, x0, y0, x1, y1, x0, y1});
 }
 
-// The letters of stb_easy_font are boxes already.
+// Adds a text; the letters of stb_easy_font are already boxes.
 void add_text(std::vector<float>& xy, const std::string& text, float x, float y, float size) {
   struct Corner {
     float x, y, z;
     std::array<unsigned char, 4> colour;
   };
   std::vector<Corner> corners(20 * text.size() + 64);
-  std::string copy = text;  // stb does not promise to leave it alone
+  std::string copy = text;  // stb does not promise to leave it unchanged
   const int count = stb_easy_font_print(0, 0, copy.data(), nullptr, corners.data(),
                                         static_cast<int>(corners.size() * sizeof(Corner)));
   for (int q = 0; q < count; ++q) {
@@ -46,7 +46,7 @@ std::vector<float> moved(std::vector<float> xy, float by) {
   return xy;
 }
 
-// all of the picture but a circle that fits into it
+// The picture without a circle that fits into it, as triangles.
 std::vector<float> around(int width, int height) {
   constexpr int kSteps = 180;
   const float x = 0.5F * static_cast<float>(width), y = 0.5F * static_cast<float>(height);
@@ -94,7 +94,7 @@ void Overlay::draw(const Scene& scene, int width, int height, int left, int top,
     y += 12 * size;
   }
   if (scene.scale_bar) {
-    const double pixel = scene.camera.view_height() / height;  // at the target  [m]
+    const double pixel = scene.camera.view_height() / height;  // at the target [m]
     const double length = bar_length(pixel * width);
     const auto w = static_cast<float>(length / pixel);
     const float x1 = static_cast<float>(width) - 12 * size, x0 = x1 - w;
@@ -112,7 +112,7 @@ void Overlay::draw(const Scene& scene, int width, int height, int left, int top,
   glDisable(GL_CULL_FACE);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  // y down in the words, y up in OpenGL
+  // y is down in the text, up in OpenGL
   const Eigen::Vector4f clip_from_pixel(
       2.0F / static_cast<float>(wide), -2.0F / static_cast<float>(high),
       -1.0F - 2.0F * static_cast<float>(left) / static_cast<float>(wide),

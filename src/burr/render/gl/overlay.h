@@ -1,6 +1,5 @@
-// render/gl/overlay.h - words, a scale bar and pictures over the picture.
-//
-// A header of this room only.
+// render/gl/overlay.h - draws text, a scale bar and inset pictures over the picture. Of this room
+// only.
 #pragma once
 
 #include "burr/render/gl/objects.h"
@@ -11,8 +10,8 @@ namespace burr::render::gl {
 class Overlay {
  public:
   Status make(bool es);
-  // Into the bound framebuffer of wide x high pixels, which is the part of a picture of width x
-  // height that starts at (left, top).
+  // Draws into the bound framebuffer of wide x high pixels; it holds the part of a picture of width
+  // x height that starts at (left, top).
   void draw(const Scene& scene, int width, int height, int left, int top, int wide, int high);
 
  private:
@@ -31,7 +30,7 @@ class Overlay {
   VertexArray array_;
 };
 
-// A round length that takes about a fifth of the picture's width: 1, 2, 5, 10, 20 ... [m]
+// A round length of about a fifth of the picture's width: 1, 2, 5, 10, 20 ... [m]
 [[nodiscard]] double bar_length(double picture_width);
 
 }  // namespace burr::render::gl

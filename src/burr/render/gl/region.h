@@ -1,5 +1,5 @@
-// render/gl/region.h - parts of a target, in samples: one rectangle, or several to be drawn anew.
-// A header of this room only.
+// render/gl/region.h - parts of a target, in samples: one rectangle, or several that must be
+// redrawn. Of this room only.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct Rect {
     if (o.empty()) return *this;
     return {std::min(x0, o.x0), std::min(y0, o.y0), std::max(x1, o.x1), std::max(y1, o.y1)};
   }
-  // what lies outside of the other: below, above, left and right of it
+  // the four parts outside the other rectangle: below, above, left and right of it
   [[nodiscard]] std::array<Rect, 4> without(const Rect& o) const {
     const Rect both = in(o);
     if (both.empty()) return {*this};
@@ -36,8 +36,8 @@ struct Rect {
   }
 };
 
-// Several rectangles to be drawn anew. They may overlap: each is drawn whole, so twice is only
-// slower.
+// Several rectangles to redraw. They may overlap: each is drawn whole, so an overlap only costs
+// time.
 class Region {
  public:
   void add(const Rect& rect) {
@@ -46,7 +46,7 @@ class Region {
   void add(const Region& other) {
     for (const Rect& rect : other.rects_) add(rect);
   }
-  // Joins what is cheaper together than apart.
+  // Joins rectangles that are cheaper to draw as one.
   void join() {
     for (std::size_t i = 0; i < rects_.size(); ++i)
       for (std::size_t j = i + 1; j < rects_.size(); ++j) {
@@ -54,7 +54,7 @@ class Region {
         if (both.area() > 1.15 * (rects_[i].area() + rects_[j].area())) continue;
         rects_[i] = both;
         rects_.erase(rects_.begin() + static_cast<std::ptrdiff_t>(j));
-        j = i;  // the larger one is compared with all again
+        j = i;  // the larger one is compared with all others again
       }
   }
   [[nodiscard]] Region grown(int by, const Rect& within) const {

@@ -1,4 +1,4 @@
-// The renderer as its users have it: programs, pictures of any size, the window's picture.
+// The public functions of the renderer: start, pictures of any size, the window's picture.
 #include "burr/render/renderer.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ constexpr int kMostPicture = 65536;
 
 }  // namespace
 
-// ---- starting
+// ---- start
 
 Status Renderer::Work::start() {
   constexpr const char *kColours = gl::kColourFunctions, *kClip = "#define CLIP\n",
@@ -114,7 +114,7 @@ void Renderer::Work::update(const Scene& scene) {
   std::vector<Aabb> sent;
   figures.patches_uploaded = skin.update(scene, sent);
   changed.insert(changed.end(), sent.begin(), sent.end());
-  for (Eye& other : others)  // who holds nothing is drawn whole
+  for (Eye& other : others)  // an eye without content is drawn whole
     if (other.held) other.changed.insert(other.changed.end(), sent.begin(), sent.end());
 }
 
@@ -142,7 +142,7 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
   const Aabb bone = bounds(scene);
   gl::set_depths(whole, scene.camera, bone);
 
-  // tiles overlap by as far as hollows reach, in steps that keep their pattern in place
+  // tiles overlap by the reach of the hollows, in steps that keep the sampling pattern in place
   const int margin = (margin_of(scene, whole) + 7) / 8 * 8;
   const auto step_for = [&](int size) {
     if (tile > 0) return (tile * factor + 8 * factor - 1) / (8 * factor) * (8 * factor);
@@ -234,7 +234,7 @@ Status Renderer::show(const Scene& scene, const TwoEyes& eyes, const std::functi
   if (how == Stereo::off) {
     if (w.others[0].held) w.others[0] = {};
     if (const Status drawn = w.draw(scene, wide, high); !drawn) return drawn;
-    if (over) over();  // the sheet is bound
+    if (over) over();  // the sheet is bound now
   } else {
     const Eyes cameras = eyes_of(scene.camera, eyes.apart);
     Scene seen = scene;
@@ -274,7 +274,7 @@ Status Renderer::eye(const Scene& scene, int which, unsigned texture, int width,
     glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, w.sheet.at.get());
     glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    // the texture is its owner's again
+    // detach the texture from our framebuffer: it belongs to the caller
     glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glFlush();

@@ -1,13 +1,12 @@
-// render/gl/see_through.h - bone that lets what is in it and behind it be seen: nerves, vessels,
-// dura, the tool.
+// render/gl/see_through.h - transparent bone that shows what is in it and behind it: nerves,
+// vessels, dura, the tool.
 //
-// One layer of bone over what is nearest of those, each lit by itself, blended where bone is in
-// front. That needs no order of triangles and no sieve of pixels, costs one more picture of few
-// triangles, and gives every depth right but bone behind bone, which is left out: what lies deeper
-// is not made darker by it. Nothing hides from it because bone hides it.
+// One layer of bone is blended over the nearest of those; each is lit by itself. This needs no
+// sorting of triangles and no discarding of pixels, and costs one more picture with few triangles.
+// Every depth is right except bone behind bone, which is left out: it does not darken what lies
+// deeper. Nothing is left out because bone hides it.
 //
-// Memory: 16 B per sample, from the first such picture on.
-// A header of this room only.
+// Memory: 16 B per sample, allocated with the first transparent picture. Of this room only.
 #pragma once
 
 #include <functional>
@@ -22,11 +21,11 @@ class SeeThrough {
   Status start(bool es);
   Status resize(int wide, int high);
 
-  // What is behind the bone. tool: draws it into the bound framebuffer.
+  // Draws what is behind the bone. tool: draws the tool into the bound framebuffer.
   Skin::Drawn paint(const Scene& scene, const Frame& frame, const Rect& r, Skin& skin,
                     const std::function<void()>& tool);
-  // ... lit, over the bone in `front`, which is lit already. The array of a screen's triangle is
-  // bound.
+  // Lights it and blends it over the bone in `front`, which is lit already. The vertex array of the
+  // screen triangle must be bound.
   void blend(const Scene& scene, const Frame& frame, const Rect& r, const Unlit& front,
              Lighting& lighting);
 

@@ -1,18 +1,17 @@
-// render/gl/shaders.h - what runs on the GPU, in the common part of GLSL 3.30 and GLSL ES 3.00.
+// render/gl/shaders.h - the programs for the GPU, in the common part of GLSL 3.30 and GLSL ES 3.00.
 //
-//     skin,     bone's triangles, folded normals and tissues
-//     mesh      triangles -> what is there: colour and kind, normal, depth        ("G-buffer")
-//     hollow    normal, depth -> how open the surface is to the light, at full or half resolution
-//     soften    the same, its noise smoothed within the surface
-//     light     all of it -> the picture
-//     sky       the same, where there is nothing
-//     through   what is behind the bone shows through it
-//     shrink    n x n samples -> one pixel
-//     flat      overlay: text and bars
-//     inset     overlay: a picture
+//     skin,    bone's triangles, folded normals and tissues
+//     mesh     triangles -> colour and kind, normal, depth ("G-buffer")
+//     hollow   normal, depth -> ambient occlusion, at full or half resolution
+//     soften   ambient occlusion -> the same without noise, smoothed within each surface
+//     light    all of these -> the picture
+//     sky      the background
+//     through  blends what is behind the bone with the bone
+//     shrink   n x n samples -> one pixel
+//     flat     overlay: text and bars
+//     inset    overlay: a picture
 //
-// Light is linear inside; colours go in and out as sRGB.
-// A header of this room only.
+// Light is linear in between; colours go in and out as sRGB. Of this room only.
 #pragma once
 
 namespace burr::render::gl {
@@ -32,7 +31,7 @@ void main() {
 }
 )";
 
-// The bone's: normal, tissue and what shines through it in 64 bits (render/skin_mesh.h).
+// For bone: normal, tissue and what shines through it, in 64 bits (render/skin_mesh.h).
 inline constexpr const char* kSkinVertex = R"(
 layout(location = 0) in vec3 at_p;
 layout(location = 1) in uvec2 at_rest;
@@ -90,9 +89,9 @@ void main() {
 }
 )";
 
-// kind: 0 nothing, 1 bone (wet down to 0.82), 2/3 tool, 1/3 mark; in the alpha of the colour.
-// Normals are written as they are, at 3 x 10 bit: to fold them here and back in each later step
-// cost a tenth of a picture where the processor draws.
+// kind, in the alpha of the colour: 0 nothing, 1 bone (wet down to 0.82), 2/3 tool, 1/3 mark.
+// Normals are written unfolded, at 3 x 10 bit: to fold them here and unfold them in each later step
+// cost a tenth of a picture's time where the processor draws.
 inline constexpr const char* kMeshFragment = R"(
 in vec3 n;
 in vec3 colour;
@@ -134,7 +133,7 @@ void main() {
 }
 )";
 
-// one triangle over everything
+// one triangle that covers the whole screen
 inline constexpr const char* kScreenVertex = R"(
 void main() {
   vec2 corner = vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID & 2) * 2 - 1);
@@ -143,7 +142,8 @@ void main() {
 )";
 
 // The "scalable ambient obscurance" estimator (McGuire, Mara, Luebke 2012) on full-resolution
-// depth, with true normals. Sample directions turn in a 4 x 4 pattern, which `soften` averages.
+// depth, with true normals. The sample directions rotate in a 4 x 4 pattern, which `soften`
+// averages out.
 inline constexpr const char* kHollowFragment = R"(
 uniform sampler2D depth_map;
 uniform sampler2D colour_map;
@@ -224,9 +224,9 @@ void main() {
 }
 )";
 
-// sRGB to linear light and back (IEC 61966-2-1), the powers by square roots: where the processor
-// draws, a power costs as much as all the rest of a pixel. Coefficients fitted; off by at most 0.01
-// and 0.2 of 255.
+// sRGB to linear light and back (IEC 61966-2-1), with powers replaced by square roots: where the
+// processor draws, one power costs as much as the rest of a pixel. Fitted coefficients; the error
+// is at most 0.01 and 0.2 of 255.
 inline constexpr const char* kColourFunctions = R"(
 vec3 linear(vec3 c) {
   return mix(c / 12.92, 0.000769 + c * (0.040096 + c * (0.323391 + 0.635813 * sqrt(c))), step(0.04045, c));
@@ -239,9 +239,9 @@ vec3 srgb(vec3 c) {
 }
 )";
 
-// Behind kColourFunctions, with PLAIN, or with HOLLOWS (and HALF: at half resolution), SHADOW (of
-// the tool) and OTHERS (than bone: tool and marks) as requested: a processor that draws takes both
-// ways of every `if`, so what is not needed must not be there.
+// Placed after kColourFunctions, with PLAIN, or with HOLLOWS (and HALF: at half resolution), SHADOW
+// (of the tool) and OTHERS (than bone: tool and marks) as requested. A processor that draws runs
+// both branches of every `if`, so code that is not needed must be left out.
 inline constexpr const char* kLightFragment = R"(
 uniform sampler2D colour_map;
 uniform sampler2D normal_map;
@@ -375,8 +375,8 @@ void main() {
 }
 )";
 
-// What is behind the bone over the bone, for blending. Where the bone is seen edge-on it stays, so
-// that its shape does; a bone of opacity 0 is gone.
+// Blends what is behind the bone with the bone. Where the bone is seen edge-on it stays opaque, so
+// that its shape can be seen; a bone of opacity 0 is invisible.
 inline constexpr const char* kThroughFragment = R"(
 uniform sampler2D colour_map;    // of the front
 uniform sampler2D normal_map;
@@ -396,7 +396,7 @@ void main() {
 }
 )";
 
-// Behind kColourFunctions.
+// Placed after kColourFunctions.
 inline constexpr const char* kShrinkFragment = R"(
 uniform sampler2D picture;
 uniform int factor;
@@ -411,7 +411,7 @@ void main() {
 }
 )";
 
-// What lies behind everything.
+// The background.
 inline constexpr const char* kSkyFragment = R"(
 uniform vec2 sky;          // height in the whole picture = y * sky.x + sky.y
 uniform vec3 sky_top;      // sRGB

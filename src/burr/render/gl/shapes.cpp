@@ -17,8 +17,8 @@ constexpr double kPi = std::numbers::pi;
 constexpr int kFlutes = 8;
 constexpr Colour kSteel = {0.58F, 0.60F, 0.63F}, kGrains = {0.42F, 0.38F, 0.30F};
 
-// A surface over (u, v) in [0, 1]^2, u once around +z counter-clockwise, v along -z to +z; normals
-// by differences, so that flutes shine as they should.
+// A surface over (u, v) in [0, 1]^2: u goes once around +z counter-clockwise, v from -z to +z.
+// Normals by differences, so that flutes reflect correctly.
 void send_round(Shape& shape, int around, int along,
                 const std::function<Vec3(double u, double v)>& point) {
   std::vector<Eigen::Vector3f> points, normals;
@@ -45,7 +45,7 @@ Vec3 on_circle(double u, double r, double z) {
   return {r * std::cos(2 * kPi * u), r * std::sin(2 * kPi * u), z};
 }
 
-// a lathe: r at each z along the profile
+// A turned shape: radius r at each z of the profile.
 void send_turned(Shape& shape, const std::vector<std::pair<double, double>>& z_r) {
   std::vector<Eigen::Vector3f> points, normals;
   std::vector<std::uint16_t> triangles;
@@ -116,15 +116,16 @@ void Shapes::make() {
   };
   send_round(ball_, 48, 24, sphere);
 
-  // Flutes wind a little around the head, are deepest at its equator and fade towards the poles;
-  // their edges lie on the ball itself.
+  // Flutes wind a little around the head. They are deepest at its equator and end towards the
+  // poles; their edges lie on the ball itself.
   send_round(head_, 96, 40, [&](double u, double v) {
     const double lat = (v - 0.5) * kPi, wave = u * kFlutes + 0.6 * (v - 0.5);
     const double saw = wave - std::floor(wave);
     const double depth = 0.16 * std::cos(lat) * std::cos(lat) * std::pow(1 - saw, 1.5);
     return Vec3(sphere(u, v) * (1 - depth));
   });
-  // Grains stand out of a diamond burr by a few hundredths of its radius, up to the ball itself.
+  // Grains of a diamond burr: their tips lie on the ball itself, the gaps a few hundredths of its
+  // radius below.
   send_round(grains_, 96, 48, [&](double u, double v) {
     const double waves = std::sin(2 * kPi * 31 * u + 7 * std::sin(40 * v)) *
                          std::sin(2 * kPi * 24 * v + 5 * std::sin(2 * kPi * 9 * u));
@@ -139,7 +140,7 @@ void Shapes::make_shaft(const Burr& burr) {
   if (std::equal(wanted, wanted + 3, shaft_of_)) return;
   std::copy(wanted, wanted + 3, shaft_of_);
 
-  // a neck thinner than the head, so that the head can cut sideways, widening to the shaft
+  // a neck thinner than the head, so that the head can cut sideways; it widens to the shaft
   const double neck = std::min(burr.shaft_radius, 0.55 * burr.radius);
   const double z0 = 0.8 * burr.radius, z1 = z0 + 3 * burr.radius;
   const double z2 = z1 + 4 * (burr.shaft_radius - neck) + 1e-6;
@@ -195,7 +196,7 @@ void Shapes::add_rod(const Rod& rod) {
   const double length = d.norm();
   if (!(length > 0) || !d.allFinite()) return;
   const math::Quat q = math::shortest_turn(Vec3::UnitZ(), d);
-  // an arrow's head takes its part of the length
+  // an arrow's head takes its share of the length
   const double head = rod.arrow ? std::min(6 * rod.radius, 0.6 * length) : 0;
   add(rod_, placed({rod.a, q}, rod.radius, length - head), rod.colour, false, rod.on_top, {tube});
   if (rod.arrow)
@@ -203,8 +204,8 @@ void Shapes::add_rod(const Rod& rod) {
         rod.on_top, {tube});
 }
 
-// Lines alone, so that nobody takes the image for the burr: rings around its head, a stick for its
-// shaft, a frame around the plane; light and dark in turn, to be seen on bone and on air.
+// Lines only, so that nobody takes the image for the burr: rings around its head, a line for its
+// shaft, a frame around the plane. Light and dark alternate, to be visible on bone and on air.
 void Shapes::add_mirrored(const Mirrored& mirrored, const Burr& burr) {
   constexpr Colour kInks[] = {{1.0F, 0.98F, 0.80F}, {0.05F, 0.06F, 0.10F}};
   constexpr int kAround = 20, kAlong = 6, kDashes = 18;

@@ -1,5 +1,5 @@
 // render/gl/shapes.h - tool and marks as triangles: fluted and grainy ball, turned shaft, ball,
-// rod, arrow head. A header of this room only.
+// rod, arrow head. Of this room only.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace burr::render::gl {
 
-// One mesh on the GPU, white; tinted when drawn.
+// One mesh on the GPU, white; it gets its colour when it is drawn.
 class Shape {
  public:
   // points, normals: (n); triangles: (m x 3), counter-clockwise from outside
@@ -24,14 +24,15 @@ class Shape {
   GLsizei count_ = 0;
 };
 
-// What is to be drawn besides bone: a shape, stretched and placed.
+// Something to draw besides bone: a shape, scaled and placed.
 struct Piece {
   const Shape* shape = nullptr;
   Eigen::Matrix4d world_from_shape = Eigen::Matrix4d::Identity();
   Colour colour = {1, 1, 1};
-  bool steel = false;  // a part of the tool, lit and shadowed; else a mark
+  bool steel = false;  // part of the tool, with light and shadow; else a mark
   bool on_top = false;
-  // what it fills: corners of slanted boxes in the world; several where one would be mostly empty
+  // the space it fills: corners of oriented boxes in the world; several where one would be mostly
+  // empty
   std::vector<std::array<math::Vec3, 8>> boxes;
 };
 
@@ -51,7 +52,7 @@ class Shapes {
 
   Shape ball_, head_, grains_, rod_, tip_, shaft_;
   bool made_ = false;
-  double shaft_of_[3] = {0, 0, 0};  // radius, shaft_radius, shaft_length it was made for
+  double shaft_of_[3] = {0, 0, 0};  // radius, shaft_radius, shaft_length of the present shaft
   std::vector<Piece> pieces_;
 };
 

@@ -12,15 +12,16 @@ using math::Vec3;
 
 namespace {
 
-constexpr std::size_t kWorthLooking = 30;  // patches; for fewer it costs more than it saves
-constexpr long kCall = 50;                 // to draw one part by itself costs so many triangles
+constexpr std::size_t kWorthLooking = 30;  // number of patches; for fewer the test costs more than
+                                           // it saves
+constexpr long kCall = 50;                 // cost of drawing one part by itself, in triangles
 
 std::uint8_t unorm(float v) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0F, 1.0F) * 255.0F));
 }
 
-// The narrowest cone we easily find around all triangles' own normals. In single precision: who
-// asks leaves a margin.
+// A narrow cone around the normals of all triangles, found at low cost (not the narrowest).
+// Computed in single precision, so the caller adds a margin.
 void find_cone(const SkinMesh& mesh, Vec3& facing, double& spread,
                std::vector<math::Vec3f>& normals) {
   normals.clear();
@@ -39,7 +40,7 @@ void find_cone(const SkinMesh& mesh, Vec3& facing, double& spread,
   for (const math::Vec3f& n : normals) sum += n;
   const math::Vec3f towards =
       sum.norm() > 0 ? sum.normalized().eval() : math::Vec3f::UnitZ().eval();
-  float least = 1;  // cosine; of squares, so that no root is drawn but of the widest
+  float least = 1;  // least cosine; compares squares, and takes a root only for the widest
   for (const math::Vec3f& n : normals) {
     const float along = n.dot(towards), length = n.squaredNorm();
     if (length > 0) least = std::min(least, along * std::abs(along) / length);
@@ -49,7 +50,7 @@ void find_cone(const SkinMesh& mesh, Vec3& facing, double& spread,
   spread = std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
-// true: no triangle of the patch can show its face to the eye
+// True: no triangle of the patch can face the eye.
 bool turned_away(const math::Aabb& box, const Vec3& facing, double spread, const Vec3& eye) {
   const Vec3 d = box.centre() - eye;
   const double far = d.norm(), radius = 0.5 * box.extent().norm();
@@ -114,7 +115,7 @@ int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
   return sent;
 }
 
-// They look the same as their patches, so nothing has changed by them.
+// Blocks look the same as their patches, so this changes nothing in the picture.
 void Skin::update_blocks(const Scene& scene) {
   if (blocks_.size() != scene.blocks.size()) {
     blocks_.clear();
@@ -155,7 +156,7 @@ void Skin::find_dressed(const Scene& scene) {
   }
 }
 
-// Those of its own blocks are known.
+// The boxes of its own blocks are known.
 void Skin::find_box(Block& part, const Scene& scene) const {
   part.box = {};
   const auto add = [&part](const math::Aabb& box) {
@@ -202,7 +203,7 @@ void fill_indices(const std::vector<Index>& all, const std::vector<Index>& walls
                   static_cast<GLsizeiptr>(more), walls.data());
 }
 
-// of the triangles that touch a wall
+// The triangles that touch a wall.
 template <class Index>
 std::vector<Index> walls_of(const SkinMesh& mesh, const std::vector<Index>& all) {
   std::vector<Index> walls;
@@ -214,7 +215,7 @@ std::vector<Index> walls_of(const SkinMesh& mesh, const std::vector<Index>& all)
   return walls;
 }
 
-// where places, normals and tissues lie in a vertex
+// The offsets of position, normal and tissue in a vertex.
 void lay_out() {
   constexpr GLsizei kStride = sizeof(SkinVertex);
   const auto* behind_p = reinterpret_cast<const void*>(sizeof(math::Vec3f));
@@ -256,7 +257,7 @@ void Skin::send(Patch& part, const ScenePatch& patch) {
   if (fresh) lay_out();
 }
 
-// Its array exists, unless it has no surface.
+// Sends the dress. The vertex array exists, unless the patch has no surface.
 void Skin::send_dress(Patch& part, const ScenePatch& patch) {
   part.dress = patch.dress;
   if (part.array.get() == 0) return;
@@ -273,7 +274,7 @@ void Skin::send_dress(Patch& part, const ScenePatch& patch) {
 }
 
 void Skin::send(Block& part, const CoarseMesh& mesh) {
-  part.spread = std::numbers::pi;  // so large a part faces every way
+  part.spread = std::numbers::pi;  // so large a part faces all directions
   part.type = GL_UNSIGNED_INT;
   part.levels.clear();
   std::vector<std::uint32_t> indices;
@@ -316,8 +317,8 @@ long Skin::ask(Patch& patch, const Vec3& eye, const Planes& planes) {
   return kCall + patch.levels.front().count / 3;
 }
 
-// The coarsest that is allowed: the block, or what it is made of. A block of which only a part is
-// in sight may be more than that part of what it is made of.
+// Draws at the coarsest allowed level: the block, or what it is made of. If only a part of the
+// block is in sight, the block may cost more than that part of what it is made of.
 long Skin::ask(Block& block, const Vec3& eye, const Planes& planes) {
   if (block.box.empty() || outside(block.box, planes)) return 0;
   const Part::Level* level = nullptr;
@@ -354,7 +355,7 @@ long Skin::ask_inside(Block& block, const Vec3& eye, const Planes& planes) {
 Skin::Drawn Skin::draw(const Vec3& eye, const Planes& planes, bool both_sides,
                        const Hidden* hidden) {
   Drawn drawn;
-  glVertexAttrib4f(2, 0, 0, 0, 0);  // of what is not dressed
+  glVertexAttrib4f(2, 0, 0, 0, 0);  // for patches without a dress
   both_sides_ = both_sides;
   asked_.clear();
   if (blocks_.empty() || error_share_ <= 0)
@@ -367,7 +368,7 @@ Skin::Drawn Skin::draw(const Vec3& eye, const Planes& planes, bool both_sides,
     return drawn;
   }
   if (std::none_of(asked_.begin(), asked_.end(), [](const Asked& a) { return a.part->seen; })) {
-    // nothing is known yet: what is nearest hides most
+    // nothing is known yet: the nearest parts hide most
     const auto third = asked_.begin() + static_cast<std::ptrdiff_t>(asked_.size() / 3);
     std::nth_element(asked_.begin(), third, asked_.end(), [&](const Asked& a, const Asked& b) {
       return (a.part->box.centre() - eye).squaredNorm() <

@@ -1,8 +1,8 @@
 // render/gl/skin.h - the bone's surface on the GPU: one vertex and index buffer per patch.
 //
-// Memory: 20 B a vertex, 2 B an index, as they are in the scene. A patch is sent when its version
-// changes and skipped when it is out of sight, wholly turned away or hidden. Where it is allowed, a
-// coarse block is drawn in the place of its patches. A header of this room only.
+// Memory: 20 B a vertex, 2 B an index, as in the scene. A patch is sent when its version changes.
+// It is skipped when it is out of sight, turned away as a whole, or hidden. Where allowed, a coarse
+// block is drawn instead of its patches. Of this room only.
 #pragma once
 
 #include <array>
@@ -16,50 +16,50 @@ namespace burr::render::gl {
 
 class Skin {
  public:
-  // Sends what changed since the last call; appends the boxes, before and after, of those patches.
-  // Returns how many were sent.
+  // Sends what changed since the last call. Appends the boxes of those patches, before and after
+  // the change. Returns how many were sent.
   int update(const Scene& scene, std::vector<math::Aabb>& changed);
-  // Any patch is dressed.
+  // True: at least one patch has a Dress (render/wound.h).
   [[nodiscard]] bool dressed() const { return dressed_; }
-  // One row of 256 colours, by tissue.
+  // One row of 256 colours, indexed by tissue.
   [[nodiscard]] GLuint colours() const { return colour_row_.get(); }
 
   struct Drawn {
     int patches = 0;
     long triangles = 0;
   };
-  // Whether nothing of a box can be seen behind what has been drawn since `look`.
+  // Tests whether a box is completely behind what has been drawn when `look` was called.
   struct Hidden {
     std::function<void()> look;
     std::function<bool(const math::Aabb& box)> is;
   };
-  // Blocks may be drawn for their patches: by an error of `error_share` times their distance.
+  // Allows blocks instead of patches, with an error of at most `error_share` times their distance.
   void allow(double error_share) { error_share_ = error_share; }
-  // Draws with the program in use what may be seen from `eye` inside the planes (nx, ny, nz, d:
-  // n . p + d >= 0 inside). With `hidden`: first what was seen the last time, then of the rest what
-  // is not hidden behind it (two passes: Hill & Collin, GPU Pro 2, 2011). The picture is the same.
+  // With the program in use, draws what may be seen from `eye` inside the planes (nx, ny, nz, d: n
+  // . p + d >= 0 inside). With `hidden`: first what was visible the last time, then what that does
+  // not hide (two passes: Hill & Collin, GPU Pro 2, 2011). The picture is the same.
   using Planes = std::array<Eigen::Vector4d, 6>;
-  // both_sides: what is turned away is seen too.
+  // both_sides: draw triangles that are turned away too.
   Drawn draw(const math::Vec3& eye, const Planes& planes, bool both_sides, const Hidden* hidden);
-  // The walls of what soft tissue fills, both sides of them, though bone hides them.
+  // Draws the walls of the space that soft tissue fills, both sides, even where bone hides them.
   Drawn draw_walls(const Planes& planes);
 
  private:
   struct Part {
     Buffer vertices, indices;
     VertexArray array;
-    // one after the other in `indices`, finest first
+    // the levels follow each other in `indices`, finest first
     struct Level {
       double error = 0;  // [m]
       GLsizei first = 0, count = 0;
     };
-    std::vector<Level> levels;  // none: nothing to draw
+    std::vector<Level> levels;  // empty: nothing to draw
     GLenum type = GL_UNSIGNED_SHORT;
-    Level walls;  // behind all levels in `indices`: triangles beside soft tissue
+    Level walls;  // after all levels in `indices`: triangles beside soft tissue
     math::Aabb box;
-    math::Vec3 facing = math::Vec3::Zero();  // middle of the cone of the triangles' normals
-    double spread = 0;                       // its half angle; pi: every way         [rad]
-    bool seen = false;                       // when it was last asked for
+    math::Vec3 facing = math::Vec3::Zero();  // axis of the cone of the triangles' normals
+    double spread = 0;                       // half angle of the cone; pi: all directions [rad]
+    bool seen = false;                       // was visible in the last draw
   };
   struct Patch : Part {
     std::uint64_t version = 0;
@@ -70,11 +70,11 @@ class Skin {
     std::vector<int> patches, inner;
     bool outermost = true, laid_out = false;
     std::shared_ptr<const CoarseMesh> mesh;
-    std::uint64_t now = 0;  // as the scene's block has it; its box is that of its patches
-    bool of_now = false;    // its mesh was made of the patches as they are now
-    bool dressed = false;   // one of them is: the mesh does not show it
+    std::uint64_t now = 0;  // SceneBlock::now; its box is that of its patches
+    bool of_now = false;    // its mesh was made from the present patches
+    bool dressed = false;   // one of its patches has a Dress, which the mesh does not show
   };
-  // A part with the level it is to be drawn at.
+  // A part and the level to draw it at.
   struct Asked {
     Part* part = nullptr;
     const Part::Level* level = nullptr;
@@ -84,7 +84,7 @@ class Skin {
   static void send_dress(Patch& part, const ScenePatch& patch);
   static void send(Block& part, const CoarseMesh& mesh);
   static void draw(const Part& part, const Part::Level& level, Drawn& drawn);
-  // Asks for what is to be drawn of it. What that costs, in triangles.
+  // Adds what must be drawn of it to asked_. Returns the cost in triangles.
   long ask(Patch& patch, const math::Vec3& eye, const Planes& planes);
   long ask(Block& block, const math::Vec3& eye, const Planes& planes);
   long ask_inside(Block& block, const math::Vec3& eye, const Planes& planes);
@@ -95,12 +95,12 @@ class Skin {
 
   std::vector<Patch> patches_;
   std::vector<Block> blocks_;
-  std::vector<Asked> asked_;          // of this draw
+  std::vector<Asked> asked_;          // parts of this draw
   std::vector<math::Vec3f> normals_;  // of the patch being sent
   double error_share_ = 0;
   bool dressed_ = false;
-  bool other_dresses_ = false;  // some patch has lost its dress, or got one
-  std::uint64_t known_ = 0;     // of the scene's changes
+  bool other_dresses_ = false;  // some patch has got or lost its Dress
+  std::uint64_t known_ = 0;     // last seen number of the scene's changes
   bool both_sides_ = false;     // in this draw
   std::vector<Colour> colours_;
   Texture colour_row_;

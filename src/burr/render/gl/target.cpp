@@ -65,7 +65,7 @@ Result<bool> Target::resize(int wide, int high, int hollow_stride) {
 void Target::copy_bone(int x0, int y0, int x1, int y1) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, bone.get());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, geometry.get());
-  // one output at a time: what is read goes to all that are on
+  // one output at a time: a blit writes to all that are enabled
   constexpr GLenum kColourOnly[] = {GL_COLOR_ATTACHMENT0, GL_NONE};
   constexpr GLenum kNormalOnly[] = {GL_NONE, GL_COLOR_ATTACHMENT1};
   constexpr GLenum kBoth[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};

@@ -1,5 +1,6 @@
-// What a renderer draws with and what it holds between pictures. Its functions are in renderer.cpp
-// (starting, pictures), work_paint.cpp (the five steps) and work_draw.cpp (only what changed).
+// render/gl/work.h - the members of a renderer, and what it keeps between two pictures. Its
+// functions are in renderer.cpp (start, pictures), work_paint.cpp (the five steps) and
+// work_draw.cpp (only what changed).
 #pragma once
 
 #include <algorithm>
@@ -23,80 +24,84 @@
 
 namespace burr::render {
 
-inline constexpr int kMostReach = 512;    // of the hollows in samples: bounds the margin of a tile
-inline constexpr int kMostTarget = 4096;  // samples along a side held at once
+inline constexpr int kMostReach = 512;    // limit on the hollows' reach, and so on the margin of a
+                                          // tile [sample]
+inline constexpr int kMostTarget = 4096;  // most samples along a side at once
 
-// How far the hollows of one sample see, in samples: their reach at the target, a quarter more for
-// what is nearer to the eye. Bounds what one change can touch.
+// Reach of the ambient occlusion of one sample, in samples: that at the target plus a quarter, for
+// what is nearer to the eye. It limits what one change can affect.
 inline double reach_of(const Scene& scene, const gl::Frame& frame) {
   return std::min<double>(1.25 * scene.look.hollow_reach * frame.picture_height, kMostReach);
 }
-// ... and the softening, and half resolution
+// adds the reach of the softening, and of half resolution
 inline int margin_of(const Scene& scene, const gl::Frame& frame) {
   return static_cast<int>(reach_of(scene, frame)) + 12;
 }
 
-// What pieces may cover.
+// The rectangle that the pieces may cover.
 [[nodiscard]] gl::Rect rect_around(const std::vector<gl::Piece>& pieces, const gl::Frame& frame);
 
 inline bool sees_through(const Look& look) { return look.opacity < 1; }
 inline bool has_hollows(const Look& look) { return look.hollow > 0 && !look.plain; }
 
 struct Renderer::Work {
-  // the context first: it is the last to go
+  // the context is first, because it must be destroyed last
   std::unique_ptr<gl::Context> context;
   gl::Skin skin;
   gl::Shapes shapes;
   gl::Overlay overlay;
   gl::Target target;
-  gl::Sheet sheet, stretched;  // the picture; what was lit, in its pixels where those are more
-  gl::Region lit_anew;         // samples, by the last paint()
-  gl::VertexArray nothing;     // a screen's triangle has no data, but wants an array
+  gl::Sheet sheet, stretched;  // the picture; the lit samples at pixel size, where there are more
+                               // pixels than samples
+  gl::Region lit_anew;         // redrawn by the last paint(), in samples
+  gl::VertexArray nothing;     // the screen triangle has no data, but OpenGL needs an array
   gl::Lighting lighting;
   gl::SeeThrough through;
   gl::Program skin_mesh, clipped_skin, dressed_skin, clipped_dressed_skin, mesh, hollow, soften,
       shrink;
-  int most = kMostTarget;                    // samples along a side
-  int idle_width = 1280, idle_height = 720;  // of show() without a window
+  int most = kMostTarget;                    // most samples along a side
+  int idle_width = 1280, idle_height = 720;  // size for show() without a window
   Figures figures;
-  bool reads_depth = false;  // cheaply: a graphics card waits for it, and OpenGL ES does not at all
+  bool reads_depth = false;  // depth is cheap to read back; with a graphics card it waits, and
+                             // OpenGL ES cannot
   bool skip_hidden = true;
   std::vector<float> depth;
   DepthTiles tiles;
 
-  // what the target holds, to draw only the difference next time
+  // the content of the target, so that the next picture draws only the difference
   struct Held {
     Camera camera;
     Look look;
     std::optional<ClipPlane> clip;
-    math::Aabb bone;    // when it was drawn whole
-    math::Aabb extent;  // ... and what was added since
+    math::Aabb bone;    // extent when it was drawn whole
+    math::Aabb extent;  // with what was added since
     std::vector<gl::Piece> pieces;
     std::vector<math::Vec3> shadow;
-    gl::Rect there;                // outside it there was but sky, all the time
-    gl::Region stale;              // where hollows are old or missing
-    std::vector<gl::Rect> coarse;  // pieces that were drawn coarser than a picture at rest
+    gl::Rect there;                // outside it there has only been background
+    gl::Region stale;              // where the hollows are old or missing
+    std::vector<gl::Rect> coarse;  // parts drawn coarser than in a picture at rest
   };
   std::optional<Held> held;
-  std::vector<math::Aabb> changed;  // boxes of patches sent since the target was drawn
+  std::vector<math::Aabb> changed;  // boxes of the patches sent since the target was drawn
 
-  // What is held belongs to one eye. The members above are those of the eye being drawn; those of
-  // the others wait here, and those of the first in the place of whoever is drawn instead.
+  // The target and its content belong to one eye. The members above belong to the eye being drawn;
+  // those of the other eyes are stored here, and those of the first eye take the place of the eye
+  // being drawn.
   struct Eye {
     gl::Target target;
     gl::SeeThrough through;
     gl::Sheet sheet, stretched;
     std::optional<Held> held;
     std::vector<math::Aabb> changed;
-    bool started = false;  // its programs are linked
+    bool started = false;  // its programs have been linked
   };
-  std::array<Eye, 3> others;  // the window's second, a headset's two
+  std::array<Eye, 3> others;  // the window's second eye, and two of a headset
   gl::Framebuffer headset;
   int eye = 0;
   bool started = false;
   gl::Join join;
-  gl::Sheet both;               // two eyes' pictures as one
-  gl::Sheet* on_show = &sheet;  // of the last show()
+  gl::Sheet both;               // the joined picture of two eyes
+  gl::Sheet* on_show = &sheet;  // the sheet of the last show()
 
   Status look_with(int which);
   Status draw(const Scene& scene, int wide, int high);
@@ -104,12 +109,12 @@ struct Renderer::Work {
 
   Status start();
   void update(const Scene& scene);
-  // What is to be drawn of a picture.
+  // The parts of a picture that must be drawn.
   struct Parts {
     gl::Region bone;     // where it changed
-    gl::Region tool;     // where tool or marks did
-    gl::Region shadow;   // where the tool's falls or fell
-    gl::Region hollows;  // of the bone, to be found
+    gl::Region tool;     // where tool or marks changed
+    gl::Region shadow;   // where the tool's shadow is or was
+    gl::Region hollows;  // where the bone's hollows must be computed
     bool light_hollows = true;
     math::Aabb extent;  // of all bone
   };

@@ -1,4 +1,4 @@
-// One eye's picture: only what differs from the one that is held is drawn.
+// Draws one eye's picture: only what differs from the one that is kept.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,7 +38,7 @@ bool same(const Piece& a, const Piece& b) {
          a.on_top == b.on_top;
 }
 
-// The picture in pieces, to be drawn one after the other.
+// Divides the picture into pieces, to be drawn one after the other.
 std::vector<Rect> pieces_of(const Rect& all) {
   constexpr int kAcross = 6, kUp = 4;
   std::vector<Rect> pieces;
@@ -51,7 +51,7 @@ std::vector<Rect> pieces_of(const Rect& all) {
 
 }  // namespace
 
-// What differs from the picture that is held; then that is what is held.
+// Finds what differs from the kept picture, and makes the new state the kept one.
 Renderer::Work::Parts Renderer::Work::compare(const Scene& scene, const Frame& frame,
                                               const std::vector<Piece>& pieces, bool all) {
   const Quality& quality = scene.quality;
@@ -59,7 +59,7 @@ Renderer::Work::Parts Renderer::Work::compare(const Scene& scene, const Frame& f
   std::vector<Vec3> shadow = gl::shadow_of(scene);
   const Rect there = rect_of(held->extent, frame).with(rect_around(pieces, frame));
   if (all) {
-    parts.bone.add(there.with(held->there));  // sky is the same from everywhere
+    parts.bone.add(there.with(held->there));  // the background looks the same from everywhere
   } else {
     for (const Aabb& box : changed) {
       parts.bone.add(rect_of(box, frame));
@@ -91,7 +91,7 @@ Renderer::Work::Parts Renderer::Work::compare(const Scene& scene, const Frame& f
   const Rect covered = all ? there : rect_of(held->extent, frame).with(rect_around(pieces, frame));
   held->there = all ? covered : held->there.with(covered);
 
-  // what changed darkens the hollows around it
+  // a change also darkens or lightens the hollows around it
   parts.light_hollows = has_hollows(scene.look);
   if (parts.light_hollows) {
     held->stale.add(parts.bone.grown(margin_of(scene, frame), frame.all()));
@@ -111,7 +111,7 @@ Renderer::Work::Parts Renderer::Work::compare(const Scene& scene, const Frame& f
   return parts;
 }
 
-// The scene as the eye that is drawn sees it, onto its sheet, which is bound then.
+// Draws the scene for the present eye into its sheet, which is then bound.
 Status Renderer::Work::draw(const Scene& scene, int wide, int high) {
   const Quality& quality = scene.quality;
   const int factor = std::clamp(scene.look.supersample, 1, 4);
@@ -127,7 +127,7 @@ Status Renderer::Work::draw(const Scene& scene, int wide, int high) {
   if (sees_through(scene.look))
     if (const Status more = through.resize(frame.width, frame.height); !more) return more;
 
-  // everything anew when the eye moved; else only where bone or tool did
+  // draw everything if the eye moved; otherwise only where bone or tool changed
   const bool all = *fresh || !held || !same(held->camera, scene.camera) ||
                    !same(held->look, scene.look) || !same(held->clip, scene.clip);
   if (all) {

@@ -1,5 +1,5 @@
-// The five steps of a picture: what is there, how open it is, softened, lit, and shrunk to pixels.
-// Each works inside a rectangle, which is the whole picture or only where something moved.
+// The five steps of a picture: surface maps, ambient occlusion, its softening, light, shrinking to
+// pixels. Each works inside a rectangle: the whole picture, or only where something moved.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kMostSamples = 48;  // of the hollows, see shaders.h
 
-constexpr float kBone = 1.0F, kSteel = 0.67F, kMark = 0.33F;  // kinds, as the shaders have them
+constexpr float kBone = 1.0F, kSteel = 0.67F, kMark = 0.33F;  // kinds, as in the shaders
 
 }  // namespace
 
@@ -40,7 +40,8 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
   glEnable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
   const Rect not_bone = rect_around(pieces, frame);
-  const Rect there = rect_of(parts.extent, frame).with(not_bone);  // all that is not sky
+  const Rect there = rect_of(parts.extent, frame).with(not_bone);  // everything that is not
+                                                                   // background
   for (const Rect& rect : parts.bone.rects()) paint_bone(scene, frame, rect);
   Region fresh = parts.bone;
   fresh.add(parts.tool);
@@ -137,7 +138,7 @@ void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Re
   figures.triangles_drawn += drawn.triangles;
 }
 
-// A copy of the bone, and what stands before it.
+// Copies the bone and draws the tool and marks in front of it.
 void Renderer::Work::paint_tool(const Frame& frame, const Rect& r,
                                 const std::vector<Piece>& pieces) {
   if (r.empty()) return;
@@ -152,7 +153,7 @@ void Renderer::Work::paint_tool(const Frame& frame, const Rect& r,
   draw_pieces(frame, r, pieces, true);
 }
 
-// Tool and, with_marks, what is drawn over everything, into the framebuffer that is bound.
+// Draws the tool and, with_marks, what is drawn over everything, into the bound framebuffer.
 void Renderer::Work::draw_pieces(const Frame& frame, const Rect& r,
                                  const std::vector<Piece>& pieces, bool with_marks) {
   mesh.use();
@@ -164,12 +165,12 @@ void Renderer::Work::draw_pieces(const Frame& frame, const Rect& r,
                     [&](const auto& corners) { return rect_of(corners, frame).in(r).empty(); }))
       continue;
     Eigen::Matrix4d m = clip_from_world * piece.world_from_shape;
-    // on top: pressed into the nearest hundredth of the depth, where nothing else is
+    // on top: moved into the nearest hundredth of the depth, where nothing else is
     if (piece.on_top) m.row(2) = 0.01 * m.row(2) - 0.985 * m.row(3);
     mesh.set("clip_from_model", Eigen::Matrix4f(m.cast<float>()));
     const Eigen::Matrix3d n =
         (turn * piece.world_from_shape.block<3, 3>(0, 0)).inverse().transpose();
-    // scaled, so that single precision does not run out on small tools
+    // scaled, so that single precision suffices for small tools
     mesh.set("view_from_model_n", Eigen::Matrix3f((n / n.norm()).cast<float>()));
     mesh.set("tint_kind", Eigen::Vector4f(piece.colour[0], piece.colour[1], piece.colour[2],
                                           piece.steel ? kSteel : kMark));
@@ -179,7 +180,7 @@ void Renderer::Work::draw_pieces(const Frame& frame, const Rect& r,
 
 namespace {
 
-// sample places within the unit disc, dense in the middle: a golden spiral
+// sample positions within the unit disc, dense in the middle: a golden spiral
 std::array<float, 2 * kMostSamples> spiral(int count) {
   std::array<float, 2 * kMostSamples> xy{};
   for (int s = 0; s < count; ++s) {
@@ -233,7 +234,8 @@ void Renderer::Work::paint_hollows(const Scene& scene, const Frame& frame, const
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-// All of the target in more pixels, anew only where it is: to stretch costs more than to light.
+// Enlarges the whole target to more pixels, but renews only what changed: enlarging costs more than
+// lighting.
 Status Renderer::Work::stretch(const Rect& from, int wide, int high) {
   const bool kept = stretched.width == wide && stretched.height == high;
   if (const Status sized = stretched.resize(wide, high); !sized) return sized;
@@ -261,8 +263,8 @@ Status Renderer::Work::stretch(const Rect& from, int wide, int high) {
   return fine();
 }
 
-// `from` of the target becomes the sheet of that size, shrunk by `factor` or stretched: the part of
-// a picture of width x height that starts at (left, top); words on top.
+// Shrinks `from` of the target by `factor`, or enlarges it, into a sheet of that size: the part of
+// a picture of width x height that starts at (left, top). Then draws the overlay.
 Status Renderer::Work::put_on_sheet(const Scene& scene, const Rect& from, int factor,
                                     const Size& size, int width, int height, int left, int top) {
   const auto [wide, high] = size;
@@ -293,7 +295,7 @@ Status Renderer::Work::put_on_sheet(const Scene& scene, const Rect& from, int fa
   return fine();
 }
 
-// the sheet into its place in a picture
+// Copies the sheet to its place in a picture.
 void Renderer::Work::read(const gl::Sheet& sheet, Image& image, int left, int top) {
   const auto wide = static_cast<std::size_t>(sheet.width);
   std::vector<std::uint8_t> rgba(wide * static_cast<std::size_t>(sheet.height) * 4);

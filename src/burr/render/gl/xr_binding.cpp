@@ -17,13 +17,13 @@
 namespace burr::render::gl {
 namespace {
 
-// Of a library that is loaded already: whoever made the context did so.
+// A function of a library that is loaded already, because the context was made with it.
 template <class Function>
 Function* loaded(const char* library, const char* name) {
   void* const handle = dlopen(library, RTLD_LAZY | RTLD_NOLOAD);
   if (handle == nullptr) return nullptr;
   void* const found = dlsym(handle, name);
-  dlclose(handle);  // only counted
+  dlclose(handle);  // only lowers its use count
   return reinterpret_cast<Function*>(found);
 }
 

@@ -1,6 +1,6 @@
-// render/gl/xr_binding.h - what OpenXR must know of the OpenGL context that is current: through GLX
-// (X11) or EGL. Apart from all else, because X11's headers take words such as Status for
-// themselves. A header of this room only.
+// render/gl/xr_binding.h - what OpenXR needs to know about the current OpenGL context: through GLX
+// (X11) or EGL. In a file of its own, because X11's headers define names such as Status as macros.
+// Of this room only.
 #pragma once
 
 #include <array>
@@ -9,9 +9,9 @@
 namespace burr::render::gl {
 
 struct XrBinding {
-  // the structure for XrSessionCreateInfo::next; nullptr: no context that OpenXR knows
+  // the structure for XrSessionCreateInfo::next; nullptr: no context that OpenXR supports
   [[nodiscard]] const void* next() const { return there ? bytes.data() : nullptr; }
-  const char* extension = nullptr;  // asked for besides XR_KHR_opengl_enable; nullptr: none
+  const char* extension = nullptr;  // needed besides XR_KHR_opengl_enable; nullptr: none
   bool there = false;
   alignas(std::max_align_t) std::array<std::byte, 96> bytes{};
 };
