@@ -1,6 +1,6 @@
-// src/burr/phantom/jaw.cpp - a piece of the left lower jaw with a gap to put an implant into, by formula.
+// phantom/jaw.cpp - a piece of the left lower jaw with a gap for an implant, by formula.
 //
-// Frame: LPS about the ridge at the gap: x outwards (to the cheek), y backwards, z up. Cortex 2.2
+// Frame: LPS around the ridge at the gap: x outwards (to the cheek), y backwards, z up. Cortex 2.2
 // mm, nerve canal 16 mm under the ridge: middle values of cone-beam studies.
 #include <algorithm>
 #include <array>
@@ -65,7 +65,7 @@ class Jaw {
     }
     s.nerve = nerve_.distance(p);
 
-    // spongy inside: plates and struts about marrow
+    // spongy inside: plates and struts around marrow
     const double inside = s.hull - (2.2 + 0.5 * noise(p, 8 * mm, 22)) * mm;
     const double keep = std::min({inside, s.nerve - kCanalRadius - kWall, -s.tooth - 0.5 * mm});
     s.marrow = keep > -1.5 * mm ? std::min(keep, foam(p, 2.3 * mm, 0.35, 23) - 0.22 * mm) : keep;
