@@ -124,7 +124,7 @@ TEST(Thesis, IsExactOnAPlaneAndOnABall) {
 TEST(Thesis, StandsInTheOtherWallOfAGroove) {
   const double r = 1.5 * kMm;
   Scene scene(phantom::groove(M_PI / 4), 0.25);
-  // pressed against the left wall near the bottom
+  // pressed against the left wall near the bottom of the groove
   double worst = 0;
   for (const double down : {1.5, 1.0, 0.5, 0.2}) {
     const auto method = scene.method(Method::thesis, r, {0, 0, 6 * kMm});

@@ -68,7 +68,7 @@ struct Cut {
 class Carver {
  public:
   static constexpr int kMostSlices = 64;  // more than the largest burr on the finest voxel needs
-  // changed: every brick written is told to it; may be nullptr
+  // changed: receives the number of every brick that is written; may be nullptr
   Carver(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo, ChangedQueue* changed,
          const CarveSettings& settings);
 

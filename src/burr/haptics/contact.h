@@ -19,13 +19,13 @@ enum Flag : std::uint32_t {
   kFlagWatchdog = 1U << 6,      // ticks were lost: the force faded to zero
   kFlagJump = 1U << 7,          // the hand moved more than 20 mm in a tick: reading rejected
   kFlagLagging = 1U << 8,       // the proxy has not caught up with a fast hand yet
-  kFlagCandidates = 1U << 9,  // more contacts than the list holds: a shorter move, the nearest kept
-  kFlagReserve = 1U << 10,    // no brick left to add material to; raise reserve_bricks
+  kFlagCandidates = 1U << 9,    // more contacts than fit: a shorter move, the nearest kept
+  kFlagReserve = 1U << 10,      // no brick left to add material to; raise reserve_bricks
   kFlagUndoFull = 1U << 11,   // undo memory was full, the oldest stroke dropped; raise undo_bricks
   kFlagHandLost = 1U << 12,   // the device reports that its reading is not valid
   kFlagRestoring = 1U << 13,  // an undo or reset is running: the burr is lifted, nothing is cut
   kFlagNotCut = 1U << 14,     // the debt reached its limit; the rest is counted as not cut
-  kFlagGuarded = 1U << 16,    // the energy guard braked the hand
+  kFlagGuarded = 1U << 16,    // the energy guard damped the hand
   kFlagStalled = 1U << 17,    // the spindle stands still: the bone holds it
   kFlagPutOff = 1U << 15,     // too much to cut in one tick: the bricks are cut in turn
 };

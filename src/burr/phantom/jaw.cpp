@@ -85,7 +85,7 @@ class Jaw {
     math::Pose place;
     ToothModel model;
   };
-  // the ridge has sunk where a tooth was lost
+  // the ridge is lower where a tooth was lost
   [[nodiscard]] static double gap(const Vec3& p) {
     const double y = p.y() / (5.5 * kMm), z = p.z() / (7 * kMm);
     return std::exp(-y * y - z * z);
@@ -153,7 +153,7 @@ Phantom jaw(double voxel) {
   phantom.formula.tissue = [model, ramp = volume::kRamp * voxel](const Vec3& p,
                                                                  double depth) -> TissueId {
     const Jaw::Parts s = model->parts(p);
-    if (depth < -1e-4 * ramp) {  // its field is below the surface, rounded
+    if (depth < -1e-4 * ramp) {  // outside, even after rounding
       if (s.nerve < kNerveRadius) return kNerve;
       if (s.tooth > 0 && s.pulp > 0) return kPulp;
       if (s.marrow > 0) return kMarrow;

@@ -123,7 +123,7 @@ Phantom spine(double voxel) {
   phantom.formula.tissue = [model, ramp = volume::kRamp * voxel](const Vec3& p,
                                                                  double depth) -> TissueId {
     const Vertebra::Parts s = model->parts(p);
-    if (depth < -1e-4 * ramp) {  // its field is below the surface, rounded
+    if (depth < -1e-4 * ramp) {  // outside, even after rounding
       if (s.sac > 0) return kSac;
       if (s.roots > 0) return kRoots;
       if (s.marrow > 0) return kMarrow;

@@ -167,7 +167,7 @@ Result<HandPath> motion(std::string_view name, const WorkPlace& place, double bu
       const double sunk = std::min(4e-3 * s, r + 1e-3);
       offset = std::min(5e-3 * std::max(0.0, s - 0.5), 12e-3) * u - sunk * out;
     } else if (name == "pocket") {
-      // circles at 30 mm/s, at most 4 mm wide, sinking steadily to 6 mm
+      // circles at 30 mm/s, at most 4 mm wide, going down at a constant rate to 6 mm
       const double wide = std::min(4e-3, 1e-3 + 3e-3 * share), angle = 30e-3 / 3e-3 * s;
       offset = wide * (std::cos(angle) - 1) * u + wide * std::sin(angle) * v -
                (1e-3 * std::min(1.0, 2 * s) + 5e-3 * share) * out;
