@@ -1,6 +1,6 @@
 // s02_mill_a_slot - a whole session without a person: a simulated hand mills a slot into a slab.
 //
-// Prints the account of removed volume, which must close: asked = removed + debt + not cut.
+// Prints the account of removed volume, which must balance: asked = removed + debt + not cut.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ int main() {
   using namespace burr;
   auto bone = phantom::bone_from_distance(phantom::cube_grid(30e-3, 75), {}, phantom::slab());
 
-  // where, which way, for how long
+  // where, in which direction, for how long
   sim::SessionSettings settings;
   settings.servo.burr.radius = 2e-3;
   const auto place = surgeon::find_work_place(*bone, settings.servo.burr.radius, {}, {});

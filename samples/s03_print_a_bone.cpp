@@ -1,4 +1,5 @@
-// s03_print_a_bone - a bone becomes a mesh for a printer: a ring, meshed, measured, written as STL.
+// s03_print_a_bone - makes a mesh for a 3D printer from a bone: a ring, meshed, measured, written
+// as STL.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -23,7 +24,7 @@ int main() {
     fmt::print("{}\n", mesh.error().text);
     return 1;
   }
-  // volume inside the triangles, by Gauss' theorem
+  // volume inside the triangles, by Gauss's theorem
   double inside = 0;
   const auto& points = mesh->vertices;
   for (std::size_t t = 0; t < mesh->triangles.size(); t += 3) {

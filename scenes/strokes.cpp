@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMm = 1e-3;
 
-// All that the burr reaches on its way, and what it stands on.
+// The grid that holds everything the burr can reach on its way, and the bone below it.
 volume::Grid about(const Stroke& stroke, double r, double h) {
   Vec3 lo = stroke.start, hi = stroke.start;
   for (int n = 0; n <= 100; ++n) {
@@ -19,7 +19,7 @@ volume::Grid about(const Stroke& stroke, double r, double h) {
     hi = hi.cwiseMax(at);
   }
   const Vec3 around = Vec3::Constant(r + 1.5 * kMm + 6 * h);
-  // voxel centres at whole multiples of h/2 from the origin, whatever the box
+  // voxel centres at whole multiples of h/2 from the origin, whatever the size of the box
   lo = ((lo - around) / h).array().floor() * h;
   hi = ((hi + around) / h).array().ceil() * h;
   return phantom::box_grid(lo, hi, h);
@@ -62,12 +62,12 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     one.start = Vec3::Zero();
     one.hand = [=](double s) { return Vec3((R - r + deep) * on(1.5 * s)); };
     one.place = [=](const Vec3& x) { return Vec3((R - r) * x.normalized()); };
-    // pressed against a wall that bends almost as the burr does, it is easily aside
+    // against a wall that curves almost like the burr, small errors move it far sideways
     one.leverage = R / (R - r);
     all.push_back(one);
   }
   {
-    // face, over the edge, down the side
+    // along a face, over the edge, down the side
     Stroke one;
     one.name = "edge";
     one.sharp = true;
@@ -129,7 +129,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     all.push_back(one);
   }
   {
-    // too large for the hole: rests on the ring
+    // larger than the hole: rests on the ring
     Stroke one;
     one.name = "hole";
     const double tube = 2 * kMm, ring = tube + 0.6 * r;

@@ -1,8 +1,8 @@
-// A device that is none, for `burr bench device` and for trying burr without hardware: one of the
-// tests' false devices, whose hand goes its own way into the bone each time somebody begins to
-// talk.
+// A simulated device, for `burr bench device` and for trying burr without hardware: one of the
+// false devices of the tests. Its hand moves into the bone along its own path, starting again each
+// time a program begins to talk to it.
 //
-//     false_device haply | polhem | crtk    says what to give burr, and plays until it is killed
+//     false_device haply | polhem | crtk    prints what to give burr; runs until it is killed
 #include <fmt/core.h>
 
 #include <chrono>
@@ -20,10 +20,10 @@ namespace {
 using namespace burr;
 using std::chrono::steady_clock;
 
-// told: how much burr has said so far; put: the hand, in its user's frame [m]
+// told: how many messages burr has sent so far; put: sets the hand, in its user's frame [m].
 template <class Told, class Put>
 [[noreturn]] void play(Told told, Put put) {
-  constexpr std::chrono::milliseconds kPause(300);  // then somebody new begins
+  constexpr std::chrono::milliseconds kPause(300);  // after such a pause a new program begins
   std::uint64_t known = told();
   auto heard = steady_clock::now() - kPause, began = heard;
   for (auto next = steady_clock::now();; next += std::chrono::microseconds(500)) {

@@ -1,5 +1,5 @@
-// bench/record - what a recording costs: ticks per second the pen can take, bytes a tick, and how
-// long a moment of ten minutes takes to open (worst of many).
+// bench/record - the cost of a recording: ticks per second that the writer can take, bytes per
+// tick, and the time to open a moment of a ten-minute recording (worst of many).
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using namespace burr;
 
-// a slab of 128^3 voxels, soft at the top
+// A slab of 128^3 voxels with a soft top.
 std::unique_ptr<volume::Bone> slab() {
   volume::Grid grid;
   grid.size = {128, 128, 128};
@@ -27,7 +27,7 @@ std::unique_ptr<volume::Bone> slab() {
   return volume::bone_from_arrays(grid, {}, field, {}, {}, 0);
 }
 
-// a hand that goes round and trembles, every number alive
+// A hand that moves in circles and trembles: no number stays constant.
 tick::TickRow tick_of(std::uint64_t tick, double rate_hz, std::mt19937_64& random) {
   const double t = static_cast<double>(tick) / rate_hz;
   std::normal_distribution<double> tremble(0, 2e-6);

@@ -1,8 +1,8 @@
-// bench/render/frame_bench.cpp - how long one picture takes, in a window's way and as a still.
+// bench/render/frame_bench.cpp - the time for one picture, as in the window and as a still.
 //
 // The bone is the bumpy shell of the surface benchmarks: 0.9 million triangles at 256^3, 2 million
-// at 384^3. Reported besides the time: triangles drawn, part of the picture drawn anew. On which
-// GPU is in the label.
+// at 384^3. Also reported: triangles drawn, share of the picture that was redrawn. The label names
+// the GPU.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ using namespace burr;
 using render::Renderer;
 using render::Scene;
 
-// made once, for the renderers of all benchmarks
+// Made once, for the renderers of all benchmarks.
 const Scene& shell_scene(int size) {
   static std::map<int, Scene> made;
   const auto [entry, fresh] = made.try_emplace(size);
@@ -62,11 +62,11 @@ void figures(benchmark::State& state, const Renderer& gpu) {
   state.counters["redrawn"] = gpu.figures().redrawn;
 }
 
-// the eye moves: everything is drawn anew
+// The eye moves: everything is redrawn.
 void orbit_whole(benchmark::State& state) {
   Scene scene = shell_scene(static_cast<int>(state.range(0)));
   const auto gpu = renderer(state);
-  if (gpu == nullptr || !gpu->show(scene)) return;  // the bone is sent before the clock starts
+  if (gpu == nullptr || !gpu->show(scene)) return;  // the bone is sent before timing begins
   for (auto _ : state) {
     render::orbit(scene.camera, 0.01, 0);
     if (!gpu->show(scene)) state.SkipWithError("not drawn");
@@ -78,7 +78,7 @@ void orbit_close(benchmark::State& state) {
   Scene scene = shell_scene(static_cast<int>(state.range(0)));
   look_at_work(scene, 0.045);
   const auto gpu = renderer(state);
-  if (gpu == nullptr || !gpu->show(scene)) return;  // the bone is sent before the clock starts
+  if (gpu == nullptr || !gpu->show(scene)) return;  // the bone is sent before timing begins
   for (auto _ : state) {
     render::orbit(scene.camera, 0.001, 0);
     if (!gpu->show(scene)) state.SkipWithError("not drawn");
@@ -86,7 +86,7 @@ void orbit_close(benchmark::State& state) {
   figures(state, *gpu);
 }
 
-// the eye rests, the burr moves and a patch changes: milling
+// The eye rests, the burr moves and a patch changes: milling.
 void mill_close(benchmark::State& state) {
   Scene scene = shell_scene(static_cast<int>(state.range(0)));
   look_at_work(scene, 0.045);
@@ -129,8 +129,8 @@ void picking(benchmark::State& state) {
   }
 }
 
-// CPU is that of all threads together: without a GPU it is what a frame costs, however busy the
-// machine; divided by its processors it is the least time a frame can take.
+// CPU time is the sum over all threads: without a GPU it is the cost of a frame, however busy the
+// machine is; divided by the number of processors it is the shortest possible time of a frame.
 void frames(benchmark::internal::Benchmark* bench) {
   bench->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(20);
 }

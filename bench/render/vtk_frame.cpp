@@ -1,8 +1,8 @@
 // burr_vtk_frame FILE WIDTH HEIGHT FRAMES - how fast VTK draws the same triangles from the same eye
-// while they turn, for `burr bench frame`. Prints the median ms of a frame. C++17: VTK 9.1 does not
-// compile as C++20. Needs a display (DISPLAY): Debian's VTK draws through X.
+// point while they rotate, for `burr bench frame`. Prints the median time per frame [ms]. C++17:
+// VTK 9.1 does not compile as C++20. Needs a display (DISPLAY): Debian's VTK draws through X.
 //
-// FILE, as this machine writes numbers: double eye[3], target[3], up[3], angle [deg];
+// FILE, in this machine's number format: double eye[3], target[3], up[3], angle [deg];
 // uint32 vertices, triangles; float p[3], n[3] per vertex; uint32 corner[3] per triangle.
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
   vtkNew<vtkActor> bone;
   bone->SetMapper(mapper);
   bone->GetProperty()->SetColor(0.9, 0.85, 0.75);
-  bone->GetProperty()->BackfaceCullingOn();  // what it is said to gain most by
+  bone->GetProperty()->BackfaceCullingOn();  // said to be VTK's largest gain
   vtkNew<vtkRenderer> renderer;
   renderer->AddActor(bone);
   vtkCamera* camera = renderer->GetActiveCamera();

@@ -1,4 +1,4 @@
-// bench/sound - what a second of sound costs, with nothing to be heard and with everything.
+// bench/sound - the cost of a second of sound, in silence and with all sounds.
 #include <benchmark/benchmark.h>
 
 #include <vector>

@@ -1,6 +1,6 @@
-// burr_vtk_oracle SIZE RUNS - an independent judge for `burr bench surface`: vtkFlyingEdges3D with
-// normals on the same field. Prints: median ms on 1 thread, on 2 threads, triangles. C++17: VTK 9.1
-// does not compile as C++20.
+// burr_vtk_oracle SIZE RUNS - an independent comparison for `burr bench surface`: vtkFlyingEdges3D
+// with normals on the same field. Prints: median ms on 1 thread, on 2 threads, triangles. C++17:
+// VTK 9.1 does not compile as C++20.
 #include <vtkFlyingEdges3D.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>

@@ -1,10 +1,10 @@
-// bench/thermal/heat_bench.cpp - what a second of warm bone costs its thread.
+// bench/thermal/heat_bench.cpp - the cost of computing one second of heat in bone.
 //
-// A cube of 40 mm, all bone but the upper quarter, of voxels of 0.25 mm; cells of 1 mm or 0.5 mm. A
-// burr mills in the middle of its surface, warm enough that doses are counted, and wet.
+// A cube of 40 mm with voxels of 0.25 mm, all bone except the upper quarter; cells of 1 mm or 0.5
+// mm. A burr mills wet in the middle of its surface, warm enough that doses are counted.
 //   second    one second of the session: twenty steps of 50 ms
-//   summary   one summary; ten a second
-//   look      four bricks that were cut, read again
+//   summary   one summary; there are ten per second
+//   look      reading four bricks that were cut
 #include <benchmark/benchmark.h>
 
 #include <memory>

@@ -1,14 +1,14 @@
-// bench/volume/brick_layout_bench.cpp - which brick size and which order inside a brick should bone
-// have?
+// bench/volume/brick_layout_bench.cpp - which brick size, and which order inside a brick, is best
+// for bone?
 //
-// One thread, one field: a bumpy shell like a skull, 512^3 voxels of 16 bit. Six ways to store it:
+// One thread, one field: a bumpy shell like a skull, 512^3 voxels of 16 bits. Six ways to store it:
 // dense without bricks; a table and a pool of bricks of 8^3 or 16^3, x fastest or in z-order
-// inside. Asked of each what burr does all day:
-//   walk      trilinear value and central-difference gradient at 64 points of a burr that strokes
-//             the surface, 0.1 voxel a tick (50 mm/s at 0.5 mm)
+// inside. Each is timed on the typical work of burr:
+//   walk      trilinear value and central-difference gradient at 64 points of a burr that moves
+//             along the surface, 0.1 voxel per tick (50 mm/s at 0.5 mm)
 //   surface   the same at random points of the surface: nothing is in the cache
-//   carve     lowers the field in a ball of 31 voxels, at the surface, whole bricks copied and
-//             written back as Bone::write_brick() must
+//   carve     lowers the field in a ball of 31 voxels at the surface; whole bricks are copied and
+//             written back, as Bone::write_brick() must do
 //   patch     copies 18^3 voxels around a block, as the mesher does
 // The answer and the figures are in bench/results/brick_layout.md.
 #include <benchmark/benchmark.h>
@@ -31,15 +31,15 @@ using Field = burr::volume::Field;
 
 constexpr int kEdge = 512;
 
-// depth below the surface of a bumpy shell  [voxel]
+// Depth below the surface of a bumpy shell  [voxel].
 double depth(double i, double j, double k) {
   const Vec3 p = Vec3(i, j, k) - Vec3::Constant(0.5 * kEdge);
   const double bumps = 6 * std::sin(0.07 * p.x()) * std::sin(0.05 * p.y()) * std::sin(0.06 * p.z());
   return 8 - std::abs(p.norm() - 215 - bumps);
 }
 
-// ---- ways to store: at() reads one voxel; block() gives a brick to write; both as fast as they
-// can
+// ---- ways to store: at() reads one voxel; block() returns a brick to write; both as fast as
+// possible
 
 struct Dense {
   static constexpr int kBrick = 0;
@@ -55,7 +55,7 @@ struct Dense {
   [[nodiscard]] double mebibytes() const { return static_cast<double>(voxel.size()) * 2 / 1048576; }
 };
 
-// 3 bits of a coordinate, spread out: bit n goes to 3 n
+// Spreads 3 bits of a coordinate: bit n goes to bit 3 n.
 constexpr unsigned spread(unsigned v) {
   return (v & 1U) | (v & 2U) << 2U | (v & 4U) << 4U | (v & 8U) << 6U;
 }
@@ -110,7 +110,7 @@ using Bricks8Z = Bricks<3, true>;
 using Bricks16 = Bricks<4, false>;
 using Bricks16Z = Bricks<4, true>;
 
-// made once for each layout, and only one kept: the dense one alone is 256 MiB
+// Made once for each layout, and only one is kept: the dense one alone takes 256 MiB.
 template <class Layout>
 Layout& bone() {
   static std::unique_ptr<Layout> made;
@@ -141,7 +141,7 @@ double sample(const Layout& bone, const Vec3& p) {
   return value;
 }
 
-// value and central-difference gradient: 7 trilinear samples
+// Value and central-difference gradient: 7 trilinear samples.
 template <class Layout>
 double look(const Layout& bone, const Vec3& p) {
   double sum = sample(bone, p);
@@ -166,7 +166,7 @@ Vec3 random_direction(std::mt19937_64& random) {
   return Vec3(normal(random), normal(random), normal(random));
 }
 
-// the same places for every layout, worked out beforehand
+// The same places for every layout, computed beforehand.
 const std::vector<Vec3>& places() {
   static const std::vector<Vec3> all = [] {
     std::mt19937_64 random(2);
@@ -217,8 +217,8 @@ void surface(benchmark::State& state) {
   state.SetItemsProcessed(static_cast<std::int64_t>(samples));
 }
 
-// All voxels of a ball are lowered by a little. Bricks are copied out, changed and written back
-// whole, because readers must see a brick whole; the dense field is changed in place.
+// Lowers all voxels of a ball a little. Bricks are copied, changed and written back as a whole,
+// because readers must see whole bricks; the dense field is changed in place.
 template <class Layout>
 void carve(benchmark::State& state) {
   Layout& field = bone<Layout>();

@@ -1,5 +1,5 @@
-// samples/installed/touch.cpp - an installed burr, used from a project of one's own: a ball of bone
-// is made, half a voxel of it is looked at, and its volume is compared with the formula.
+// samples/installed/touch.cpp - uses an installed burr from a separate project: makes a ball of
+// bone and compares its volume with the formula.
 #include <burr/base/version.h>
 #include <burr/volume/bone.h>
 #include <burr/volume/volume_of.h>
@@ -15,7 +15,7 @@ int main() {
   grid.size = {48, 48, 48};
   grid.voxel = 0.5e-3;
 
-  // the field: how deep each voxel lies in a ball of 10 mm radius
+  // the field: the depth of each voxel in a ball of 10 mm radius
   const double radius = 10e-3;
   const math::Vec3 centre = grid.world_from_grid({23.5, 23.5, 23.5});
   std::vector<volume::Field> field;

@@ -1,4 +1,4 @@
-// Words of strangers between tags.
+// Foreign text between tags.
 #include "burr/base/markup.h"
 
 #include <gtest/gtest.h>

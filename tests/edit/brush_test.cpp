@@ -1,4 +1,4 @@
-// Back to the original, and smooth: by hand, no touch involved.
+// Restore and smooth, with a burr moved by the test, without touch.
 #include "burr/edit/brush.h"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ struct Work {
     surface.refresh();
   }
   [[nodiscard]] double volume() const { return volume::volume_of(*bone); }
-  // what is there now against what was there, by the ledger
+  // Compares the present volume with the earlier one, by the ledger.
   void expect_balance(double before) const {
     const Ledger is = carver.ledger();
     EXPECT_NEAR(is.asked, is.removed + is.debt + is.not_cut, 1e-9 * is.asked);
@@ -75,7 +75,7 @@ struct Work {
   std::uint32_t flags = 0;
 };
 
-// a slot and a heap of something else beside it
+// Cuts a slot and adds a heap of another tissue beside it.
 void spoil(Work& work) {
   work.undo.begin_stroke(0);
   for (double x = -2; x <= 2; x += 0.05) work.cut({x * kMm, 0, 1 * kMm});
@@ -83,7 +83,7 @@ void spoil(Work& work) {
   work.undo.end_stroke();
 }
 
-// the burr above the original surface, everywhere
+// Moves the burr over the whole original surface.
 void brush_all(Work& work, int ticks) {
   for (double x = -4; x <= 4; x += 1)
     for (double y = -4; y <= 5; y += 1)
@@ -111,7 +111,7 @@ TEST(BackToTheOriginal, BrushedAllOverItIsTheOriginalToTheByteTissueAndAll) {
   work.expect_balance(before);
   EXPECT_EQ(work.flags & ~(1U << 14), 0U) << "nothing but what the burr was too blunt to cut";
 
-  // and that is a stroke like any other
+  // this is a stroke like any other
   UndoStore::Range range = work.undo.undo();
   for (std::uint64_t n = 0; n < range.count; ++n)
     work.writer.swap(work.undo.entry(range.first + n));
@@ -150,7 +150,7 @@ TEST(BackToTheOriginal, IsBoundedAndStaysWithinItsReachAndOutOfTheBurr) {
           if (by == 0) continue;
           ++changed;
           const double d = (Vec3(i, j, k) - centre).norm();
-          // where bricks take turns, some are up to so many ticks ahead
+          // where bricks take slices of time, some are up to that many ticks ahead
           ASSERT_LE(std::abs(now[v] - first[v]), (tick + 8) * most);
           ASSERT_LE(d, kRadius / kVoxel + Brush::kReach);
           if (by > 0) {
@@ -186,7 +186,7 @@ TEST(BackToTheOriginal, TakesNeitherMemoryNorLock) {
   EXPECT_EQ(locks, 0);
 }
 
-// ---- smoothing, by a burr that rests on a ball or a plane everywhere
+// ---- smoothing, with a burr that rests on all parts of a ball or a plane
 
 constexpr double kBall = 4.5 * kMm;
 
@@ -199,7 +199,7 @@ void smooth(Work& work, const Vec3& on_surface, const Vec3& outward, double dt =
   work.surface.refresh();
 }
 
-// directions evenly about a ball
+// Directions spread evenly around a ball.
 std::vector<Vec3> about(int count) {
   std::vector<Vec3> all;
   for (int n = 0; n < count; ++n) {
@@ -210,7 +210,7 @@ std::vector<Vec3> about(int count) {
   return all;
 }
 
-// where the surface lies in a direction from the middle  [m]
+// Distance of the surface from the middle, in a direction  [m]
 double radius_at(const Work& work, const Vec3& way) {
   double solid = 2 * kMm, air = 5.8 * kMm;
   for (int n = 0; n < 40; ++n) {
@@ -221,7 +221,7 @@ double radius_at(const Work& work, const Vec3& way) {
 }
 
 struct Shape {
-  double mean = 0, rough = 0;  // of the radius, and its root mean square about that  [m]
+  double mean = 0, rough = 0;  // of the radius, and root mean square around it       [m]
 };
 Shape shape_of(const Work& work) {
   Shape is;
@@ -236,7 +236,7 @@ Shape shape_of(const Work& work) {
   return is;
 }
 
-// a ball with hills and hollows of half a voxel, some two millimetres from one to the next
+// A ball with hills and hollows of half a voxel, about two millimetres apart.
 double rippled(const Vec3& p) {
   const double k = 2 * M_PI / (2 * kMm);
   return kBall - p.norm() +
@@ -285,7 +285,7 @@ TEST(Smooth, APlaneStaysToTheByteWhateverItsSlant) {
     const std::uint64_t hash = work.bone->content_hash();
     work.undo.begin_stroke(0);
     for (int n = 0; n < 1000; ++n)
-      // long ticks: the largest share that there is
+      // long ticks: the largest share that is possible
       smooth(work, 0.07 * kMm * out + 0.001 * n * kMm * out.unitOrthogonal(), out, 10e-3);
     EXPECT_EQ(work.bone->content_hash(), hash) << normal.transpose();
     EXPECT_EQ(work.carver.ledger().removed, 0);
@@ -294,13 +294,13 @@ TEST(Smooth, APlaneStaysToTheByteWhateverItsSlant) {
 }
 
 TEST(Smooth, AStepIsRoundedOverManyVoxelsAndTheRampComesAlong) {
-  // two planes, four voxels apart in height: what was air at the foot is to be bone
+  // two planes, four voxels apart in height: air at the foot of the step must become bone
   Work work([](const Vec3& p) { return std::max(-1 * kMm - p.z(), std::min(-p.z(), -p.x())); });
   const double before = work.volume();
   work.undo.begin_stroke(0);
   for (int n = 0; n < 4000; ++n)
     for (const double y : {-1.0, 0.0, 1.0}) smooth(work, {0, y * kMm, -0.5 * kMm}, {0, 0, 1});
-  const auto steep = [&](double x) {  // depth gained in a voxel, at the surface  [voxel]
+  const auto steep = [&](double x) {  // depth per voxel, at the surface          [voxel]
     double solid = -3 * kMm, air = 2 * kMm;
     for (int n = 0; n < 40; ++n) {
       const double z = 0.5 * (solid + air);

@@ -1,5 +1,5 @@
-// Cutting against formulas: docs/cutting.md, "Ground truths" (plunge, slot, scallop, ledger) with
-// the burr moved by hand, no touch involved.
+// Cutting compared with formulas: docs/cutting.md, "Ground truths" (plunge, slot, scallop, ledger),
+// with a burr moved by the test, without touch.
 #include "burr/edit/carve.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ struct Work {
                         .patience = 1e3}) {
     undo.begin_stroke(0);
   }
-  // Everything inside a ball at c (world) goes, whatever it costs.
+  // Removes everything inside a ball at c (world), whatever energy that takes.
   void cut_whole_ball(const Vec3& c, double r) {
     std::uint32_t flags = 0;
     Cut cut;
@@ -204,7 +204,7 @@ TEST(Carver, ABlockedBurrDoesNotSaveUp) {
   EXPECT_TRUE(flags & (1U << 14));
   const Ledger ledger = carver.ledger();
   EXPECT_EQ(ledger.removed, 0);
-  EXPECT_LE(ledger.debt, 6e-3 * 1e-3 / 1e9 / 1e-3);  // five ticks' worth, and one
+  EXPECT_LE(ledger.debt, 6e-3 * 1e-3 / 1e9 / 1e-3);  // debt of five ticks, and one more
   EXPECT_NEAR(ledger.asked, ledger.debt + ledger.not_cut, 1e-9 * ledger.asked);
 }
 
@@ -254,7 +254,7 @@ TEST(UndoStore, BringsBackToTheBitAndForthAgain) {
   swap_all(work.undo.redo());
   EXPECT_EQ(work.bone->content_hash(), two);
   EXPECT_FALSE(work.undo.can_redo());
-  // a new stroke after an undo forgets what could have been redone
+  // a new stroke after an undo drops the strokes that could be redone
   swap_all(work.undo.undo());
   work.undo.begin_stroke(0);
   work.cut_whole_ball({-1 * kMm, 0, 0}, 1 * kMm);

@@ -10,8 +10,8 @@
 namespace burr::edit {
 namespace {
 
-// The kernels hold a copy of volume_units() of their own, for each instruction set; the ledger is
-// only exact while it is the same.
+// The kernels contain their own copy of volume_units(), per instruction set; the ledger is exact
+// only if the copies agree with it.
 TEST(CarveUnits, AreThoseOfVolumeOf) {
   const std::uint64_t seed = 77;
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -28,7 +28,7 @@ TEST(CarveUnits, AreThoseOfVolumeOf) {
     const int deposit = round % 2;
 
     const Excess found = kernel.find(field, ball, nowhere, deposit, excess);
-    std::int64_t units = 0;  // by a straight ramp, one voxel to each side of the surface
+    std::int64_t units = 0;  // with a straight ramp, one voxel to each side of the surface
     std::uint32_t pairs = 0;
     const auto straight = [](int f) {
       return std::int64_t{volume::kVoxelUnits} * (std::clamp(f, 16384, 49152) - 16384) / 32768;

@@ -1,5 +1,5 @@
-// The chips law against its own integrals, done again finely and another way, and against what has
-// been measured on bone.
+// The chips law compared with its own integrals, computed again finely and in another way, and with
+// measurements on bone.
 #include "burr/edit/laws/chips.h"
 
 #include <gtest/gtest.h>
@@ -27,8 +27,8 @@ std::unique_ptr<volume::Bone> bone_of(const phantom::Depth& depth, double h_mm =
 const phantom::Depth kEverywhere = [](const Vec3&) { return 4 * kMm; };
 const volume::CuttingForce kForce = volume::Tissue{}.force;
 
-// The same integral by azimuth about the shaft and height along it, where a piece of the ball is
-// dA = r dz dphi, with the pieces in bone by the formula of the shape: no rings, no field.
+// The same integral by azimuth around the shaft and height along it, where a piece of the ball is
+// dA = r dz dphi. The pieces in bone follow from the shape's formula: no rings, no field.
 struct Fine {
   double thrust = 0, torque = 0, rate = 0, edge = 0;
   Vec3 drag = Vec3::Zero();
@@ -57,7 +57,7 @@ Fine fine(const tool::Burr& burr, const Vec3& centre, const Vec3& normal, const 
       all.thrust += edge * across * cosine;
       all.torque += edge * along * r * far;
       all.rate += edge * chip * r * far * spin.speed;
-      // the surface slides along w x p, w against the axis: the bone pulls the other way
+      // the surface slides along w x p, with w against the axis: the bone pulls the opposite way
       all.drag += edge * along / far * spin.axis.cross(way);
       all.swing += edge * along * std::polar(1.0, burr.teeth * phi);
     }
@@ -109,8 +109,8 @@ TEST(Chips, TheThrustOfAllTeethIsThePushAndTheRestFollows) {
   }
 }
 
-// Wholly in bone, the shaft along the push: z quarter circles of edge, and the ball's own shadow
-// swept at z w f / 2 pi.
+// Wholly in bone, with the shaft along the push: the edge is z quarter circles, and the rate is the
+// ball's projected area times z w f / 2 pi.
 TEST(Chips, InTheOpenTheIntegralsAreKnownByHeart) {
   const auto bone = bone_of(kEverywhere);
   Chips chips(*bone);
@@ -126,7 +126,7 @@ TEST(Chips, InTheOpenTheIntegralsAreKnownByHeart) {
   EXPECT_LT(cutting.drag.norm(), 1e-3) << "all around alike";
 }
 
-// The teeth stepped through a pitch one by one: the swing is the first harmonic of what they feel.
+// The teeth turned through one pitch in steps: the ripple is the first harmonic of their force.
 TEST(Chips, TheRippleIsWhatTheTeethFeelOneAfterTheOther) {
   const auto bone = bone_of(phantom::slab(), 0.1);
   const Vec3 normal(0, 0, 1), centre(0, 0, 1.2 * kMm);
@@ -135,7 +135,7 @@ TEST(Chips, TheRippleIsWhatTheTeethFeelOneAfterTheOther) {
     const Spin spin = {Vec3::UnitX(), 10000 * kRpm};
     Chips chips(*bone);
     const Cutting cutting = chips.step(burr, centre, normal, 1, spin, kDt, {});
-    // one meridian at azimuth phi: the force of its edge, by arc length
+    // one meridian at azimuth phi: the force on its edge, by arc length
     const Vec3 x = spin.axis.unitOrthogonal(), y = spin.axis.cross(x);
     const auto of_one = [&](double phi) {
       double force = 0;
@@ -164,7 +164,7 @@ TEST(Chips, TheRippleIsWhatTheTeethFeelOneAfterTheOther) {
   }
 }
 
-// James et al. 2013 on bovine cortical bone, as docs/cutting.md, "Chips" reads it: some 0.9 J/mm^3
+// James et al. 2013 on bovine cortical bone, as used in docs/cutting.md, "Chips": some 0.9 J/mm^3
 // for chips of 10 um and 3 for 2.5 um; speed has no effect.
 TEST(Chips, ThinChipsCostMoreAsMeasuredOnBone) {
   const auto energy = [](double chip) {
@@ -209,7 +209,7 @@ TEST(Chips, HarderBoneGivesThinnerChipsAndTissuesAreEachTheirOwn) {
   const Spin spin = {Vec3::UnitX(), 40000 * kRpm};
   const Cutting a = in_hard.step(burr, Vec3::Zero(), Vec3::UnitZ(), 3, spin, kDt, {});
   const Cutting b = in_soft.step(burr, Vec3::Zero(), Vec3::UnitZ(), 1, spin, kDt, {});
-  // thrice the constants and thrice the push: the same chips, thrice the price
+  // three times the constants and three times the push: the same chips, three times the energy
   EXPECT_NEAR(in_hard.feed_per_tooth(), in_soft.feed_per_tooth(), 1e-6 * in_soft.feed_per_tooth());
   EXPECT_NEAR(a.energy, 3 * b.energy, 1e-6 * a.energy);
   EXPECT_NEAR(a.torque, 3 * b.torque, 1e-6 * a.torque);
@@ -259,7 +259,7 @@ TEST(Chips, TakeNoMemory) {
   EXPECT_EQ(guard.locks(), 0);
 }
 
-// ---- level 1: what the bone does to the burr
+// ---- level 1: forces of the bone on the burr
 
 constexpr double kFriction = 0.35;
 

@@ -1,5 +1,5 @@
-// A burr that stands in more bricks than one tick may touch: they are cut in turns, none is
-// forgotten, and the account holds.
+// A burr that stands in more bricks than one tick may touch: they are cut in slices of time, none
+// is left out, and the account balances.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ struct Crowd {
     cut.push = Vec3(0, 0, -1);
     cut.radius = 60;
   }
-  // What is gone below and above the middle  [voxel]
+  // Material removed below and above the middle  [voxel]
   std::pair<double, double> gone_below_and_above() const {
     double below = 0, above = 0;
     const math::Ijk& n = bone->grid().size;
@@ -58,7 +58,7 @@ struct Crowd {
 TEST(Crowd, BricksThatAreTooManyForATickAreCutInTurnsAndEvenly) {
   Crowd crowd;
   const double before = volume::volume_of(*crowd.bone);
-  crowd.cut.energy = 1e9 * 4.0 / 3 * M_PI * 216e-9 / 100;  // a hundredth of the ball each tick
+  crowd.cut.energy = 1e9 * 4.0 / 3 * M_PI * 216e-9 / 100;  // a hundredth of the ball per tick
   int turned = 0;
   constexpr int kTicks = 60;
   for (int n = 0; n < kTicks; ++n) {

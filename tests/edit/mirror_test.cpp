@@ -1,5 +1,5 @@
-// What is done in a mirror: the same on both sides to the bit, in every tick, whatever the plane
-// does to the bricks and however many turns they take; nothing twice; and back by one stroke.
+// Work in a mirror: the same on both sides to the bit, in every tick, wherever the plane cuts the
+// bricks and however many slices they take; nothing is done twice; one undo takes both back.
 #include "burr/edit/mirror.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ volume::Grid grid() {
   return grid;
 }
 
-// A bone of two tissues that is its own image, to the bit: its formula is asked on one side.
+// A symmetric bone of two tissues, to the bit: its formula is evaluated on one side only.
 std::unique_ptr<volume::Bone> even_bone(const Mirror& mirror, std::size_t reserve = 512) {
   const auto fold = [mirror](const Vec3& p) {
     Vec3 q = (2 * p / kVoxel).array().round().matrix() / 2;
@@ -76,7 +76,7 @@ struct Work {
     undo.begin_stroke(0);
   }
   [[nodiscard]] double volume() const { return volume::volume_of(*bone); }
-  // the first voxel that is not its image, in words
+  // Describes the first voxel that differs from its image.
   [[nodiscard]] std::string odd() const {
     const math::Ijk& size = bone->grid().size;
     for (int k = 0; k < size.z(); ++k)
@@ -154,14 +154,14 @@ struct Work {
   std::uint32_t flags = 0;
 };
 
-// over the plane and away from it, on either side, and its image inside of the volume
+// Across the plane and away from it, on either side, with its image inside the volume.
 Vec3 place_of(const Mirror& mirror, int n) {
   Vec3 at(28.3 + 0.37 * (n % 11), 27.7 - 0.23 * (n % 7), 28.03 - 0.05 * (n % 50));
   at[mirror.axis] = mirror.place() + (mirror.axis == 2 ? 6 : 14) * std::sin(0.13 * n);
   return at;
 }
 
-// planes on a voxel and between two, on and off the bricks' own
+// Planes on a voxel and between two, on brick borders and elsewhere.
 std::vector<Mirror> planes() {
   std::vector<Mirror> planes;
   for (int axis = 0; axis < 3; ++axis)
@@ -239,7 +239,7 @@ TEST_P(InAMirror, SmoothingAndTheOriginalLikewise) {
   work.expect_balance(before);
 }
 
-// What a neighbour says often weighs as much as what the other does; the image must take the other.
+// Often two neighbours weigh the same; the image must then choose the other one.
 TEST_P(InAMirror, ATangleOfEqualNeighboursIsSmoothedLikewise) {
   const Mirror mirror = GetParam();
   Work work(mirror);
@@ -271,7 +271,8 @@ TEST(Mirror, BothSidesTogetherLoseExactlyTwiceWhatTheHandsSideLosesWithoutOne) {
   Work both(mirror), alone(mirror);
   for (int n = 0; n < 80; ++n) {
     Vec3 at = rounded({12.3 + 0.05 * n, 27.2, 27 - 0.04 * n});
-    // the ball of both: rounded where it ends up, so the push is one that rounds to nothing
+    // the same ball in both: with a mirror the advanced centre is rounded, and this push needs no
+    // rounding
     Cut cut;
     cut.centre = at;
     cut.push = Vec3(0, 0, -1);
@@ -293,7 +294,7 @@ TEST(Mirror, BothSidesTogetherLoseExactlyTwiceWhatTheHandsSideLosesWithoutOne) {
         ASSERT_EQ(both.bone->field(i, j, k), alone.bone->field(i, j, k));
 }
 
-// two balls of the same size, their middles `apart`  [any length]
+// The volume of the union of two equal balls, their centres `apart`  [any length]
 double union_of_balls(double r, double apart) {
   const double ball = 4.0 / 3 * M_PI * r * r * r;
   if (apart >= 2 * r) return 2 * ball;
@@ -332,7 +333,7 @@ TEST(Mirror, ABallOverThePlaneTakesTheUnionOfBothAndNothingTwice) {
 TEST(Mirror, MoreBricksThanATickBearsAreCutAndBroughtBackAlikeOnBothSides) {
   volume::Grid wide = grid();
   wide.size = {132, 132, 232};
-  const Mirror mirror = {2, 229};  // across the axis that bricks are gone through last
+  const Mirror mirror = {2, 229};  // across the axis along which bricks are visited last
   Work work(mirror, phantom::bone_from_distance(wide, {}, [](const Vec3&) { return 1.0; }), {});
   const double before = work.volume();
   Cut cut;
@@ -383,7 +384,7 @@ TEST(Mirror, OneStrokeTakesBothSidesBackAndBringsThemAgain) {
 }
 
 TEST(Mirror, WhereTheBoneIsAnotherTheSameShapeIsCutIntoIt) {
-  // the image's side stands four voxels higher
+  // the image's side is four voxels higher
   const Mirror mirror = {0, 57};
   Work work(
       mirror,
@@ -396,7 +397,7 @@ TEST(Mirror, WhereTheBoneIsAnotherTheSameShapeIsCutIntoIt) {
   for (int n = 0; n < 300; ++n) work.carve({14, 28, 28}, 1);
   work.expect_balance(before);
   EXPECT_GT(work.carver.removed_by_image(), 1.5 * 0.5 * work.carver.ledger().removed);
-  for (int n = -3; n <= 3; ++n)  // where there was bone on both sides the floor is the same
+  for (int n = -3; n <= 3; ++n)  // where both sides had bone the floor is equal
     for (int k = 0; k < 24; ++k)
       EXPECT_NEAR(work.bone->field(14 + n, 28, k), work.bone->field(57 - 14 - n, 28, k), 2);
 }

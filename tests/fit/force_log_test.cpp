@@ -1,4 +1,4 @@
-// Force logs as CSV: any order of columns, units in names, and a sentence for what is wrong.
+// Force logs as CSV: columns in any order, units in their names, and a sentence for each error.
 #include "burr/fit/force_log.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The constants a log tells, against those it was made with.
+// Constants estimated from a log, compared with those that the log was made with.
 #include "burr/fit/laws.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(Student, AsInTheTables) {
       {1, 12.7062047},  {2, 4.30265273},  {3, 3.18244631},  {4, 2.77644511},   {5, 2.57058184},
       {10, 2.22813885}, {29, 2.04522964}, {30, 2.04227246}, {100, 1.98397152}, {1000, 1.96233908}};
   for (const auto& [freedom, t] : table) EXPECT_NEAR(student_95(freedom), t, 1e-7) << freedom;
-  // series and expansion meet
+  // the series and the expansion agree where they meet
   EXPECT_NEAR(student_95(400), student_95(401), 2e-5);
   EXPECT_GT(student_95(400), student_95(401));
 }
@@ -99,7 +99,7 @@ TEST(Laws, WithoutPowerTheTangentialForceTimesSpeedServes) {
   for (ForceRow& row : log.rows) row.power.reset();
   const auto fit = fit_laws(log).at(0);
   EXPECT_NEAR(constant(fit, "cutting_energy_J_mm3")->value / truth.energy, 1, 1e-9);
-  // a power that was measured is believed before the force
+  // a measured power is preferred to the force
   for (ForceRow& row : log.rows) row.power = 2 * *row.tangential * row.speed * row.radius;
   EXPECT_NEAR(constant(fit_laws(log).at(0), "cutting_energy_J_mm3")->value / truth.energy, 2, 1e-9);
 }
@@ -152,7 +152,7 @@ TEST(Laws, TheErrorShrinksWithTheRootOfTheRows) {
       half[rows] += constant(one, "cutting_friction")->half / kLogs;
     }
   }
-  // a hundred logs tell an error to 7 %, their ratio to 10 %
+  // a hundred logs give an error to 7 %, the ratio of two to 10 %
   for (const std::size_t rows : {50U, 200U, 800U}) {
     EXPECT_NEAR(std::sqrt(error_1[rows] / error_1[4 * rows]), 2, 0.6) << rows;
     EXPECT_NEAR(std::sqrt(error_2[rows] / error_2[4 * rows]), 2, 0.6) << rows;
@@ -167,7 +167,7 @@ TEST(Laws, TheIntervalHoldsTheTruthNineteenTimesOfTwenty) {
       {"cutting_friction", truth.mu},      {"cutting_energy_J_mm3", truth.energy},
       {"chip_tangential_N_mm2", truth.tc}, {"edge_tangential_N_mm", truth.te},
       {"chip_radial_N_mm2", truth.rc},     {"edge_radial_N_mm", truth.re}};
-  for (const std::size_t rows : {6U, 60U}) {  // few rows: there Student's factor matters
+  for (const std::size_t rows : {6U, 60U}) {  // few rows: here Student's factor matters
     std::map<std::string, int> held;
     for (std::uint64_t n = 0; n < 1000; ++n) {
       BURR_SEEDED(random, 77'000 + 1'000'000 * rows + n);
@@ -187,13 +187,13 @@ TEST(Laws, TheIntervalHoldsTheTruthNineteenTimesOfTwenty) {
   }
 }
 
-// ---- logs that cannot tell
+// ---- logs without enough information
 
 TEST(Laws, ALogThatCannotTellTwoConstantsApartSaysSo) {
   BURR_SEEDED(random, 8);
   const Truth truth;
   ForceLog log = test::level_2(truth, 100, 0.05, random);
-  // the engaged edge grows with the chip, as at one feed and one depth
+  // the engaged edge grows with the chip, as with one feed and one depth
   for (ForceRow& row : log.rows) row.edge = 1e5 * row.removal / (row.speed * row.radius);
   const auto fit = fit_laws(log).at(0);
   EXPECT_EQ(constant(fit, "chip_tangential_N_mm2"), nullptr);
@@ -203,7 +203,7 @@ TEST(Laws, ALogThatCannotTellTwoConstantsApartSaysSo) {
             std::string::npos)
       << fit.not_told[0];
   EXPECT_NE(fit.not_told[0].find("cut at several feeds"), std::string::npos);
-  // nor one in which both stay as they are, or no edge is engaged at all
+  // nor one in which both are constant, or no edge is engaged at all
   for (ForceRow& row : log.rows) {
     row.removal = 4e-9;
     row.speed = 3000;

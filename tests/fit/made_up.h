@@ -1,4 +1,4 @@
-// tests/fit/made_up.h - force logs made up with known constants and known noise.
+// tests/fit/made_up.h - force logs with known constants and known noise.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ struct Truth {
   double rc = 90e6, re = 4e3;   // [N/m^2], [N/m]
 };
 
-// Level 1: normal force drawn, the rest by the laws, then noise on tangential force [N] and power
+// Level 1: random normal force, the rest by the laws, then noise on tangential force [N] and power
 // [W].
 inline ForceLog level_1(const Truth& truth, std::size_t rows, double noise_n, double noise_w,
                         Random& random) {
@@ -44,7 +44,7 @@ inline ForceLog level_1(const Truth& truth, std::size_t rows, double noise_n, do
   return log;
 }
 
-// Level 2: chip area [m^2] and engaged edge [m] drawn, forces by the laws.
+// Level 2: random chip area [m^2] and engaged edge [m], forces by the laws.
 inline ForceLog level_2(const Truth& truth, std::size_t rows, double noise_n, Random& random) {
   std::uniform_real_distribution<double> chip(1e-9, 2e-8), edge(2e-4, 2e-3), speed(1000, 6000);
   std::normal_distribution<double> noise;
@@ -67,7 +67,7 @@ inline ForceLog level_2(const Truth& truth, std::size_t rows, double noise_n, Ra
 
 }  // namespace burr::fit::test
 
-// a random test says what it was made from
+// A random test prints its seed when it fails.
 #define BURR_SEEDED(name, seed)                 \
   SCOPED_TRACE("seed " + std::to_string(seed)); \
   ::burr::fit::test::Random name(seed)

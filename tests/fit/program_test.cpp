@@ -1,5 +1,5 @@
-// `burr fit` from end to end: a log with known constants becomes a table that the reader of
-// materials reads.
+// `burr fit` as a whole: a log with known constants becomes a table that the reader of materials
+// accepts.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ class FitProgram : public burr::test::FolderTest {
     program_ = std::string(BURR_BUILD_DIR) + "/burr";
     ASSERT_TRUE(std::filesystem::exists(program_)) << "build the target burr first";
   }
-  // what it says, and "exit N" as the last line
+  // The program's output, with "exit N" as the last line.
   std::string burr(const std::string& words) {
     return output_of("cd " + folder.string() + " && " + program_ + " " + words +
                      " 2>&1; echo \"exit $?\"");

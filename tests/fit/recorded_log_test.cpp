@@ -1,4 +1,4 @@
-// A recording of the simulator gives back what its bone costs to cut.
+// From a recording of the simulator the cutting energy of its bone is found again.
 #include "burr/fit/recorded_log.h"
 
 #include <gtest/gtest.h>
@@ -118,7 +118,7 @@ TEST(RecordedLog, AWindowIsAMeanAndHoldsOnlyCutting) {
   ASSERT_TRUE(fine.ok() && rough.ok());
   EXPECT_GT(fine->rows.size(), 8 * rough->rows.size());
   ASSERT_FALSE(rough->rows.empty());
-  // ten fine rows are one rough one
+  // the mean of ten short windows equals one long window
   const ForceRow& one = rough->rows.back();
   double removal = 0, normal = 0;
   int found = 0;

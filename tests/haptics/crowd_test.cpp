@@ -1,4 +1,4 @@
-// More contacts than the list holds: the burr is held, and never glued.
+// More contacts than the list holds: the burr is held, and never gets stuck.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using math::Vec3;
 constexpr double kMm = 1e-3;
 
 TEST(Crowd, ABurrInASocketOfItsOwnSizeStaysInItAndComesOutAgain) {
-  // as when bone returned round the burr: some 30 000 contacts at once, the list holds 16 384
+  // as if bone had returned around the burr: some 30 000 contacts at once; the list holds 16 384
   const double r = 3.5 * kMm, h = 0.05 * kMm;
   NoProgress quiet;
   const auto bone = phantom::bone_from_distance(
@@ -61,7 +61,7 @@ TEST(Crowd, ThinningKeepsTheNearestOfEachDirectionAndForgetsOnlyItsLikes) {
   thin(*all);
   EXPECT_LE(all->count, 6 * 16 * 16);
   EXPECT_GT(all->count, 6 * 16 * 16 / 2);
-  for (int j = 0; j < before->count; ++j) {  // each has a like that is as near
+  for (int j = 0; j < before->count; ++j) {  // each is represented by one as near
     bool found = false;
     for (int k = 0; k < all->count && !found; ++k) {
       const float dot =

@@ -1,4 +1,5 @@
-// The energy guard on invented ticks: accounts that can be done by hand, and a hand that wanders.
+// The energy guard on made-up ticks: accounts that can be computed by hand, and a hand that moves
+// at random.
 #include "burr/haptics/safety/energy_guard.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ Exchange wall(double z, double stiffness = 1000) {
   return now;
 }
 
-// As the servo does it, with nothing after the guard.
+// As in the servo, with nothing after the guard.
 Vec3 tick(EnergyGuard& guard, const Exchange& now) {
   const Vec3 force = guard.step(now, kTick);
   guard.sent(force);
@@ -73,11 +74,11 @@ TEST(EnergyGuard, TheDamperOfKTOverTwoPaysItAndIsNotCountedTwice) {
 }
 
 TEST(EnergyGuard, DampsNoMoreThanTheDeviceBears) {
-  // half of m / T; less when the force comes late; less when an encoder step would be felt
+  // half of m / T; less with delay; less if one encoder step would be felt
   const auto damping_of = [](const EnergyGuardSettings& settings) {
     EnergyGuard guard(settings);
     (void)guard.step(wall(0), kTick);
-    guard.sent({0, 0, -3});  // a world that pulls, whatever the spring
+    guard.sent({0, 0, -3});  // a force that pulls, whatever the spring does
     Exchange now = wall(-3e-3, 100);
     (void)guard.step(now, kTick);
     guard.sent({0, 0, -3});
@@ -94,8 +95,8 @@ TEST(EnergyGuard, DampsNoMoreThanTheDeviceBears) {
   EXPECT_GT(damping_of({.least_speed = 2e-3}), 0) << "3 mm/s is above";
 }
 
-// A minute of rubbing with 0.5 N puts 1.5 J on a plain observer's account: it would let a world
-// give them all back before it acts.
+// A minute of rubbing with 0.5 N puts 1.5 J on the account of a plain observer: it would let the
+// world give all of it back before it acts.
 TEST(EnergyGuard, CreditOfALongContactHidesNothing) {
   EnergyGuard guard;
   double plain = 0;
@@ -108,13 +109,13 @@ TEST(EnergyGuard, CreditOfALongContactHidesNothing) {
   };
   Exchange now = wall(-1e-3);
   for (int n = 0; n < 60'000; ++n) {
-    const double speed = 50e-3 * ((n / 200) % 2 == 0 ? 1 : -1);  // to and fro
+    const double speed = 50e-3 * ((n / 200) % 2 == 0 ? 1 : -1);  // back and forth
     now.hand.x() += speed * kTick;
     now.force = Vec3(-std::copysign(0.5, speed), 0, 1);
     (void)go(now);
   }
   EXPECT_GT(plain, 1.0);
-  // now friction turns round and drives the hand
+  // now the friction force reverses and drives the hand
   double pushed_out = 0;
   int ticks = 0;
   while (guard.damping() == 0) {
@@ -163,7 +164,7 @@ TEST(EnergyGuard, ForgetsADeficitOnlyAfterFiftyMillisecondsInFreeAir) {
   EnergyGuard guard;
   (void)guard.step(wall(0), kTick);
   guard.sent({0, 0, 1});
-  (void)tick(guard, wall(1e-4));  // pushed out with 0.1 mJ that was never paid
+  (void)tick(guard, wall(1e-4));  // pushed out with 0.1 mJ that was never received
   const double owed = guard.deficit();
   EXPECT_NEAR(owed, 1e-4, 1e-9);
   for (int n = 2; n < 48; ++n) (void)tick(guard, wall(1e-4));
@@ -181,7 +182,7 @@ TEST(EnergyGuard, ARestartWritesOffWhatIsOwedAndWhatTheNextContactBeginsWith) {
   guard.restart();
   EXPECT_NEAR(guard.written_off(), 1e-4, 1e-12);
   EXPECT_EQ(guard.deficit(), 0);
-  (void)tick(guard, wall(-1e-3));  // 0.5 mJ nobody paid for, and nobody is asked for
+  (void)tick(guard, wall(-1e-3));  // 0.5 mJ that was never received; written off
   EXPECT_EQ(guard.deficit(), 0);
   EXPECT_NEAR(guard.written_off(), 6e-4, 1e-12);
 }
@@ -309,8 +310,9 @@ TEST(EnergyGuard, WhatIsNotANumberGoesThroughAndTheAccountBeginsAnew) {
   for (int n = 0; n < 10; ++n) EXPECT_TRUE(tick(guard, wall(-1e-4 * n)).allFinite());
 }
 
-// The promise of the header, with an account of our own, a hand that wanders, a spring that jumps,
-// growth that is allowed or not, limits after the guard and a device whose force comes late.
+// The guarantee of the header, with an account kept by the test: a hand that moves at random, a
+// spring that jumps, growth that is allowed or not, limits after the guard, and a device whose
+// force comes late.
 TEST(EnergyGuard, WhateverHappensNoMoreComesOutThanIsOnTheAccount) {
   for (const double delay : {0.0, 0.4e-3, 2.3e-3}) {
     constexpr unsigned kSeed = 20'05;
@@ -361,11 +363,12 @@ TEST(EnergyGuard, WhateverHappensNoMoreComesOutThanIsOnTheAccount) {
   }
 }
 
-// The same without beginnings, steps of stiffness or frees to write off: what comes out was never
-// there is bounded by the deficit alone, and allowing growth cannot be used to draw more.
+// The same without restarts, changes of stiffness or free air to write off: the energy that comes
+// out without having been received is bounded by the deficit alone, and allowed growth cannot be
+// used to draw more.
 TEST(EnergyGuard, AllowedGrowthComesFromWhatWasLostBefore) {
   EnergyGuard guard = filled(1e-3);
-  // asks each tick for more than it has, and pushes the hand with it
+  // requests more than there is in each tick, and pushes the hand with it
   Exchange now;
   now.hand.x() = 1e-3;
   double given = 0;

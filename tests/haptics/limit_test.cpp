@@ -1,5 +1,5 @@
-// The last word before the hand, on invented ticks: nothing unbounded, nothing sudden upward, and
-// always the way back by the start ramp.
+// The force limits on made-up ticks: nothing unbounded, no sudden increase, and the way back always
+// by the start ramp.
 #include "burr/haptics/safety/limit.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 device::DeviceSpec touch() { return {.peak_force = 3.3, .continuous_force = 0.88}; }
 
-// Engages and runs through the ramp.
+// Engages and completes the start ramp.
 ForceLimit running(const LimitSettings& settings = {}) {
   ForceLimit limit(touch(), settings);
   std::uint32_t flags = 0;
@@ -109,7 +109,7 @@ TEST(ForceLimit, DoesNotBelieveALostHandANaNOrALeap) {
   EXPECT_TRUE(limit.believe(hand, flags)) << "after a fault the next reading is a beginning";
   hand.world_from_tool.p.y() = kNaN;
   EXPECT_FALSE(limit.believe(hand, flags));
-  // a place may be finite and still be none: further out than any count of voxels reaches
+  // a finite position may still be invalid: farther away than voxel indices reach
   for (const double far : {1.1e3, -2e303}) {
     hand = {};
     hand.world_from_tool.p.z() = far;
@@ -159,7 +159,7 @@ TEST(ForceLimit, WhateverComesInTheHandIsSafe) {
     const Vec3 force = limit.apply(wanted, kTick, flags);
     ASSERT_TRUE(force.allFinite());
     ASSERT_LE(force.norm(), 3.3 + 1e-9);
-    // no further than the slew from what letting go could have left
+    // at most one slew step from a reduced copy of the last force
     const double square = last.squaredNorm();
     const Vec3 kept =
         square > 0 ? Vec3(std::clamp(force.dot(last) / square, 0.0, 1.0) * last) : Vec3::Zero();
@@ -191,7 +191,7 @@ TEST(Watchdog, LetsGoWithinFiveMillisecondsOfDetectionAndStaysThere) {
   EXPECT_EQ(dog.poll(last_beat + 12'500'000), 1.0);
 }
 
-// A device that turns the hand as well: 0.2 N m beside its 4 N, a lever of 50 mm.
+// A device with torque: 0.2 N m and 4 N, a lever of 50 mm.
 TEST(TorqueLimit, IsBoundedInTheProportionOfTheForce) {
   const device::DeviceSpec spec = {.peak_force = 4, .continuous_force = 4, .peak_torque = 0.2};
   for (const double user : {10.0, 1.0}) {

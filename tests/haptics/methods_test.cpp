@@ -1,5 +1,5 @@
-// The methods ours is measured against do what their authors wrote, and fail where it was
-// predicted: docs/touch.md, "The seven methods".
+// The baselines do what their authors wrote, and fail where predicted: docs/touch.md, "The seven
+// methods".
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ struct Scene : test::Scene {
   }
 };
 
-// From `from` to `to` at a steady pace, then still; what is felt in the end.
+// Moves from `from` to `to` at a constant speed, then rests; returns the last touch.
 Touch press(TouchMethod& method, const Vec3& from, const Vec3& to, int ticks = 400) {
   Touch touch;
   for (int n = 0; n <= ticks; ++n)
@@ -53,7 +53,7 @@ TEST(Methods, NoneOfThemTakesMemoryInATick) {
 
 // ---- voxel springs: the closed form of docs/touch.md, "Voxel springs"
 
-double half_space(double a, double r, double h) {  // for one newton a metre and voxel
+double half_space(double a, double r, double h) {  // for 1 N/m per voxel
   return M_PI / (h * h * h) *
          (std::pow(r, 4) / 12 - a * a * r * r / 2 + 2 * r * std::pow(std::abs(a), 3) / 3 -
           std::pow(a, 4) / 4);
@@ -124,7 +124,7 @@ TEST(Thesis, IsExactOnAPlaneAndOnABall) {
 TEST(Thesis, StandsInTheOtherWallOfAGroove) {
   const double r = 1.5 * kMm;
   Scene scene(phantom::groove(M_PI / 4), 0.25);
-  // pressed against the left wall near the bottom
+  // pressed against the left wall near the bottom of the groove
   double worst = 0;
   for (const double down : {1.5, 1.0, 0.5, 0.2}) {
     const auto method = scene.method(Method::thesis, r, {0, 0, 6 * kMm});
@@ -167,8 +167,9 @@ TEST(Samples, RestOnAPlaneAndStayInsideForEverRoundACorner) {
     ASSERT_TRUE(touch.touching);
     EXPECT_NEAR(touch.proxy.z(), r, 0.1 * kMm);
   }
-  // Fig. 11: along a floor into a wall. At half a metre a second the burr sinks in to its far side;
-  // at three millimetres a tick one step leads all its points into bone, and there it stays.
+  // Fig. 11: along a floor into a wall. At half a metre per second the burr sinks in up to its far
+  // side; at three millimetres per tick one step takes all its points into bone, and it stays
+  // there.
   for (const int ticks : {20, 3})
     for (const Method which : {Method::samples, Method::constraint}) {
       Scene scene(
@@ -194,7 +195,7 @@ TEST(Samples, RestOnAPlaneAndStayInsideForEverRoundACorner) {
     }
 }
 
-// ---- the independent judge
+// ---- the independent check
 
 TEST(Penalty, AgreesWithOursInShallowContact) {
   const double r = 1.5 * kMm;

@@ -1,5 +1,5 @@
-// The soft layer against formulas, against another way to find the same place, and at its work: no
-// hop of the surface under a milling burr may be felt.
+// The soft layer compared with formulas, with another way to find the same place, and in use: no
+// jump of the surface under a milling burr may be felt.
 #include "burr/haptics/soft_contact.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ Vec3 somewhere(std::mt19937& random) {
   return {any(random), any(random), any(random)};
 }
 
-// discs of a bowl that faces up, some of them standing out
+// Discs of a bowl that opens upwards; some of them stand out.
 std::unique_ptr<Candidates> bowl(std::mt19937& random, int count) {
   std::uniform_real_distribution<double> gap(0, 0.3);
   auto all = std::make_unique<Candidates>();
@@ -46,7 +46,7 @@ std::unique_ptr<Candidates> bowl(std::mt19937& random, int count) {
 }
 
 TEST(SoftContact, OnAFlatOfManyDiscsTheBurrRestsWhereItWouldWithout) {
-  // all discs bear the same: at the height where they bear the whole load
+  // all discs are loaded equally, at the height where they carry the whole load
   constexpr double kLayer = 0.15;
   const SoftPush push = scan_kernel().soft_push;
   for (const int count : {1, 7, 16, 1000}) {
@@ -72,13 +72,13 @@ TEST(SoftContact, OneDiscOfManyThatGoesAwayIsHardlyFelt) {
   const double before = soft_rest(*all, hand, kLayer, support, push).place.z();
   all->gap[3] = 0.1F;
   const double after = soft_rest(*all, hand, kLayer, support, push).place.z();
-  // 99 bear what 100 bore: the layer gives way by a hundredth of its thickness at most
+  // 99 discs carry what 100 carried: the burr sinks by at most a hundredth of the layer's thickness
   EXPECT_LT(std::abs(after - before), kLayer / 100);
   EXPECT_GT(std::abs(after - before), kLayer / 1000) << "nothing gave way: is anything soft?";
 }
 
-// The function whose least value soft_rest() promises, and a search for it that knows nothing of
-// how soft_rest() looks for it.
+// Compares soft_rest() with another search for the minimum of its function, which works in a
+// different way.
 TEST(SoftContact, IsTheLeastOfItsFunctionWhereverThatLies) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE(seed);
@@ -100,7 +100,7 @@ TEST(SoftContact, IsTheLeastOfItsFunctionWhereverThatLies) {
       }
       return sum;
     };
-    // by trying all around, ever nearer
+    // trial steps in all directions, smaller and smaller
     Vec3 best = Vec3::Zero();
     for (double step = 2; step > 1e-6;) {
       bool better = false;
@@ -114,7 +114,7 @@ TEST(SoftContact, IsTheLeastOfItsFunctionWhereverThatLies) {
       if (!better) step /= 2;
     }
     const Vec3 found = soft_rest(*all, wanted, kLayer, support, push).place;
-    // sums of floats: to six digits
+    // sums of floats: correct to six digits
     EXPECT_LT(value(found), value(best) * (1 + 1e-5) + 1e-5)
         << scene << ": " << found.transpose() << " or " << best.transpose();
   }
@@ -139,7 +139,7 @@ TEST(SoftContact, EveryInstructionSetPushesTheSame) {
   rt::force_simd(before);
 }
 
-// What is taken out of the blocks must be all that the blocks hold, and be seen the same.
+// Copied discs must be all discs of their blocks, and give the same candidates.
 TEST(Scan, DiscsThatWereTakenAreSeenAsTheirBlocksAre) {
   NoProgress quiet;
   const auto bone =

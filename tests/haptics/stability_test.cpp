@@ -1,4 +1,4 @@
-// The bench against theory, then the guard on the bench.
+// The simulated axis compared with theory, then the guard on that axis.
 #include "burr/haptics/safety/stability.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ double border(const AxisSettings& axis, double B, double high = 50'000) {
       axis, [&](double k) { return wall({.stiffness = k, .damping = B}); }, 10, high);
 }
 
-// ---- theory of its own: the sampled loop as a matrix, stable while its eigenvalues are within one
+// ---- independent theory: the sampled loop as a matrix, stable if its eigenvalues are within one
 
 // State: place, speed, the last reading, filtered speed, force of one tick and of two ticks ago.
 bool matrix_is_stable(const AxisSettings& axis, double stiffness, double B) {
@@ -51,7 +51,7 @@ bool matrix_is_stable(const AxisSettings& axis, double stiffness, double B) {
   last(4) = 1;
   Eigen::Matrix<double, 1, 6> before = Eigen::Matrix<double, 1, 6>::Zero();
   before(5) = 1;
-  // moves by `time` under the force row, all in terms of the state at the tick
+  // moves by `time` under the force row, everything as a function of the state at the tick
   Matrix rows = Matrix::Identity();
   const auto move = [&](const Eigen::Matrix<double, 1, 6>& push, double time) {
     const double faded = 1 - std::exp(-b * time / m);
@@ -65,7 +65,7 @@ bool matrix_is_stable(const AxisSettings& axis, double stiffness, double B) {
   rows.row(3) = speed;
   rows.row(4) = force;
   rows.row(5) = last;
-  // the 2^30th power grows or fades as the largest eigenvalue's does
+  // the 2^30th power grows or decays like the largest eigenvalue
   double logarithm = 0;
   for (int n = 0; n < 30; ++n) {
     const double size = rows.norm();
@@ -129,7 +129,7 @@ TEST(Stability, ADelayLowersTheBorderAsPredicted) {
 TEST(Stability, FinerStepsOfTheIntegrationChangeNothing) {
   const double coarse = border({.damping = 0.5}, 1);
   EXPECT_NEAR(border({.damping = 0.5, .substeps = 100}, 1), coarse, 2e-3 * coarse);
-  // with an arm, whose spring is not part of the closed solution
+  // with an arm, whose spring is not in the closed solution
   const AxisSettings arm = {
       .damping = 0.5, .arm_mass = 0.05, .arm_damping = 2, .arm_stiffness = 200};
   AxisSettings fine = arm;
@@ -159,7 +159,7 @@ TEST(Stability, TheControllerIsToldWholeStepsAndAFilteredSpeed) {
     return 0.0;
   };
   (void)swing({.damping = 0, .encoder_step = 55e-6}, listener, {.start = 0, .speed = 0.1});
-  // a step of speed through a first-order filter of 20 Hz
+  // a step of the speed through a first-order filter of 20 Hz
   double at_10_ms = 0;
   int n = 0;
   const Controller filtered = [&](const Sensed& hand) {
@@ -170,8 +170,8 @@ TEST(Stability, TheControllerIsToldWholeStepsAndAFilteredSpeed) {
   EXPECT_NEAR(at_10_ms, 0.1 * (1 - std::exp(-2 * M_PI * 20 * 10e-3)), 1e-6);
 }
 
-// Abbott & Okamura's bound is for passivity: below it no wall may begin to tremble, from any small
-// beginning. How far above it one still does not is for information.
+// Abbott & Okamura's bound is for passivity: below it no wall may begin to tremble from any small
+// motion. How far above it a wall still does not is printed for information.
 TEST(Stability, BelowTheBoundOfEncoderAndDryFrictionNothingBeginsToTremble) {
   struct Device {
     const char* name;
@@ -229,8 +229,8 @@ Guarded both(const Case& c, double times, const EnergyGuardSettings& settings, b
   return found;
 }
 
-// What is left is a swing just too slow for the damper: +- least_speed / omega. Twice that, and
-// what is moved in a tick, is the bound.
+// What remains is an oscillation just too slow for the damper: +- least_speed / omega. The bound is
+// twice that, plus the move of one tick.
 TEST(StabilityWithTheGuard, AWallOfTwiceAndFourTimesTheBorderStaysStillForAMinute) {
   for (const Case& c : kCases) {
     for (const double times : {2.0, 4.0}) {
@@ -258,9 +258,9 @@ TEST(StabilityWithTheGuard, AWallOfTwiceAndFourTimesTheBorderStaysStillForAMinut
   }
 }
 
-// Without the floor of least_speed, which is there for encoders, it comes to rest altogether. A
-// wall touched from outside may owe k (v T)^2 / 2 for the one tick in which the hand bounces off,
-// and takes it back in the next; otherwise it has never given what it did not get.
+// Without the limit least_speed, which is there for encoders, the hand comes fully to rest. A wall
+// touched from outside may owe k (v T)^2 / 2 for the one tick in which the hand bounces off, and
+// takes it back in the next; otherwise it never gives more than it received.
 TEST(StabilityWithTheGuard, NoEnergyComesFromNowhereInAMinute) {
   for (const Case& c : kCases) {
     for (const double times : {2.0, 4.0}) {
@@ -274,7 +274,7 @@ TEST(StabilityWithTheGuard, NoEnergyComesFromNowhereInAMinute) {
                   1e6 * found.on.work_in);
       EXPECT_GE(found.on.least_work_in,
                 -0.5 * stiffness * std::pow(found.on.top_speed * kTick, 2) - 1e-12);
-      if (stiffness <= 4000) {  // the walls that devices show
+      if (stiffness <= 4000) {  // the walls that devices offer
         EXPECT_GE(found.on.least_work_in, -1e-6);
       }
       EXPECT_GE(found.on.work_in, 0);
@@ -284,7 +284,8 @@ TEST(StabilityWithTheGuard, NoEnergyComesFromNowhereInAMinute) {
   }
 }
 
-// What the guard says of itself is true of the continuous motion, floor or not, hard taps too.
+// The guard's guarantee holds for the continuous motion, with least_speed or without, also for hard
+// taps.
 TEST(StabilityWithTheGuard, TheRealWorkKeepsTheGuardsPromise) {
   for (const Case& c : kCases) {
     for (const double times : {0.5, 2.0, 4.0}) {
@@ -316,7 +317,7 @@ TEST(StabilityWithTheGuard, AWallBelowTheBorderIsLeftAloneWhenTheDevicesDampingI
   }
 }
 
-// The observer must know of the delay: otherwise it counts work that was done by another force.
+// The observer must know the delay: otherwise it counts work with the wrong force.
 TEST(StabilityWithTheGuard, ADelayThatItKnowsOfIsPaidFor) {
   for (const double delay : {0.5e-3, 1e-3, 2e-3}) {
     const AxisSettings axis = {.mass = .045, .damping = 1, .delay = delay, .push = 0.5};
@@ -344,7 +345,7 @@ TEST(StabilityWithTheGuard, ADelayThatItKnowsOfIsPaidFor) {
 TEST(Stability, TableOfDevices) {
   struct Device {
     const char* name;
-    double stiffness, damping, resolution, mass;  // mass 0: not known, 0.1 kg is taken
+    double stiffness, damping, resolution, mass;  // mass 0: not known, 0.1 kg is used
   };
   std::printf("%-28s %6s %4s | %10s %18s | %20s\n", "device", "k", "B", "b it needs",
               "border at b = 0.5", "trembles at its k, um");
@@ -356,7 +357,7 @@ TEST(Stability, TableOfDevices) {
         Device{"Falcon", 3000, 20, 60e-6, 0}, Device{"WoodenHaptics", 1000, 8, 50e-6, 0},
         Device{"burr's own wall, Omni", 1000, 0.5, 55e-6, 0.045}}) {
     AxisSettings axis = {.mass = d.mass > 0 ? d.mass : 0.1, .velocity_filter_hz = 100};
-    const double alone = border(axis, 0);  // of a spring without damping of the wall's
+    const double alone = border(axis, 0);  // of a spring without wall damping
     const double found = border(axis, d.damping);
     EXPECT_NEAR(found, matrix_border(axis, d.damping), 0.01 * found) << d.name;
     EXPECT_NEAR(alone, 1000, 100);

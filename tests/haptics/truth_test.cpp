@@ -1,4 +1,4 @@
-// The proxy against bones whose answer is known by heart: docs/touch.md, "Ground truths".
+// The proxy on bones with known answers: docs/touch.md, "Ground truths".
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ double angle_deg(const Vec3& a, const Vec3& b) {
   return std::acos(std::clamp(a.normalized().dot(b.normalized()), -1.0, 1.0)) * 180 / M_PI;
 }
 
-// Strokes a hand along `path` (s in 0..1) at 50 mm/s or so and checks every tick against the true
+// Moves a hand along `path` (s in 0..1) at about 50 mm/s and compares every tick with the true
 // place of the proxy.
 struct Worst {
   double place = 0, direction_deg = 0;
@@ -111,13 +111,14 @@ TEST_P(Truth, ABallInACavityOfItsOwnSizeDoesNotMove) {
   }
 }
 
-// The field knows a sharp edge only where voxels lie on it: here faces go through voxel centres.
-// Between them the edge is chamfered by up to a third of a voxel, see
+// A field represents a sharp edge only where voxels lie on it: here faces go through voxel centres.
+// Between voxel centres the edge is chamfered by up to a third of a voxel, see
 // AnEdgeBetweenVoxelsIsChamferedByLessThanOne.
 TEST_P(Truth, TurnsRoundTheEdgeOfABoxContinuously) {
   const double b = 5 * kMm + GetParam() / 2 * kMm, r = 1.5 * kMm, deep = 0.3 * kMm;
   Scene scene(phantom::box(Vec3::Constant(b)), GetParam());
-  // from the top face over the edge x = z = b down the side, 0.3 mm inside the true rounded path
+  // from the top face over the edge x = z = b and down the side, 0.3 mm inside the true rounded
+  // path
   const double quarter = M_PI / 2 * r, total = 4 * kMm + quarter + 4 * kMm;
   const auto way = [&](double s, double radius) {
     const double at = s * total;
@@ -199,7 +200,7 @@ TEST_P(Truth, StrokesATorus) {
     return Vec3(ring * flat.normalized());
   };
   const auto hand = [&](double s) {
-    const double around = 1.2 * s, up = 0.5 + 1.0 * s;  // along the ring and over the tube at once
+    const double around = 1.2 * s, up = 0.5 + 1.0 * s;  // along the ring and over the tube
     const Vec3 out(std::cos(around), std::sin(around), 0);
     return Vec3(ring * out +
                 (tube + r - deep) * (std::cos(up) * out + std::sin(up) * Vec3::UnitZ()));
@@ -224,7 +225,7 @@ TEST_P(Truth, RestsInTheHoleOfATorus) {
     touch = proxy.step({0, 0, 8 * kMm - 6 * kMm * std::min(1.0, n / 400.0)});
   const double z = std::sqrt((tube + r) * (tube + r) - ring * ring);
   EXPECT_LT((touch.proxy - Vec3(0, 0, z)).norm(),
-            2 * scene.tolerance());  // flat walls: an error of the radius counts 1/sin
+            2 * scene.tolerance());  // flat walls: the error of the radius, times 1/sin
 }
 
 TEST_P(Truth, SitsBetweenTwoBallsSymmetrically) {
@@ -240,8 +241,8 @@ TEST_P(Truth, SitsBetweenTwoBallsSymmetrically) {
   EXPECT_NEAR(touch.proxy.z(), z, 2 * scene.tolerance());
 }
 
-// A deep push amplifies the facets on which the proxy itself rests; what the hand feels is the
-// smooth surface.
+// A deep push amplifies the facets on which the proxy itself rests; the force is that of the smooth
+// surface.
 TEST_P(Truth, TheForceOfADeepPushPullsToTheExactPlace) {
   const double R = 5 * kMm, r = 1.5 * kMm, deep = 1 * kMm;
   Scene scene(phantom::ball(R), GetParam());
@@ -300,7 +301,7 @@ TEST(Proxy, WandersOverPorousBoneAndIsNeverInside) {
   std::mt19937 random(kSeed);
   std::normal_distribution<double> stray(0, 0.4 * kMm);
   const double r = 0.6 * kMm;
-  // somewhere free to begin
+  // a free place to begin
   std::unique_ptr<Proxy> proxy;
   Vec3 hand;
   for (int n = 0; n < 5000 && !proxy; ++n) {
@@ -310,11 +311,11 @@ TEST(Proxy, WandersOverPorousBoneAndIsNeverInside) {
   }
   ASSERT_NE(proxy, nullptr);
   Proxy judge(scene.surface, {.radius = r - 0.05 * scene.h},
-              hand);  // a hair smaller: allows for the last tick's tolerance
+              hand);  // slightly smaller: tolerance of the last tick
   for (int tick = 0; tick < 50'000; ++tick) {
     hand = hand * 0.999 + Vec3(stray(random), stray(random), stray(random));
     const Touch touch = proxy->step(hand);
-    if (touch.proxy.cwiseAbs().maxCoeff() > 7 * kMm) continue;  // past the border of the volume
+    if (touch.proxy.cwiseAbs().maxCoeff() > 7 * kMm) continue;  // beyond the border of the volume
     ASSERT_TRUE(judge.is_free(touch.proxy)) << "tick " << tick;
   }
 }
@@ -400,7 +401,7 @@ TEST_F(Friction, AGrooveHoldsHarder) {  // |F_t| <= mu sum N_i = mu F / sin A
   EXPECT_NEAR(lag / deep, mu / std::sin(M_PI / 4), 0.03 * mu / std::sin(M_PI / 4));
 }
 
-// ---- the tick is sacred
+// ---- real-time rules of the tick
 
 TEST(Proxy, TakesNeitherMemoryNorLock) {
   Scene scene(phantom::ball(5 * kMm), 0.25);

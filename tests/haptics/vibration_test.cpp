@@ -1,4 +1,4 @@
-// The buzz in the hand, measured: where its band lies, how much it is, what it never exceeds.
+// The vibration in the hand, measured: the place of its band, its strength, its limits.
 #include "burr/haptics/vibration.h"
 
 #include <gtest/gtest.h>
@@ -186,7 +186,7 @@ TEST(Vibration, LiesAcrossTheShaftInTheTangentPlaneAndTurnsThereWithoutAStep) {
   Milling now = cutting(40'000, 3);
   Vec3 last = Vec3::Zero();
   for (int n = 0; n < 20'000; ++n) {
-    if (n % 1000 == 0) {  // a corner: the normal swings by 166 degrees, now and then into the shaft
+    if (n % 1000 == 0) {  // a corner: the normal turns by 166 degrees, sometimes into the shaft
       const double angle = 2.9 * (n / 1000);
       now.normal = Vec3(std::cos(angle), std::sin(angle), n % 3000 == 0 ? 0.5 : 0).normalized();
       if (n % 7000 == 0) now.normal = now.axis;

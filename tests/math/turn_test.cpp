@@ -18,14 +18,14 @@ TEST(ShortestTurn, TakesOneDirectionToTheOtherAboutTheAxisAcross) {
     const Quat turn = shortest_turn(from, to);
     EXPECT_NEAR(turn.norm(), 1, 1e-12);
     EXPECT_NEAR((turn * from.normalized() - to.normalized()).norm(), 0, 1e-10);
-    // no farther than the angle between them
+    // the rotation is no larger than the angle between them
     const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
     EXPECT_NEAR(2 * std::atan2(turn.vec().norm(), turn.w()), angle, 1e-7);
   }
 }
 
 TEST(ShortestTurn, OfNearlyOppositeDirectionsIsStillARotation) {
-  for (const double short_of : {0.1, 1e-2, 1e-3, 1e-4, 1e-5}) {  // of half a turn  [rad]
+  for (const double short_of : {0.1, 1e-2, 1e-3, 1e-4, 1e-5}) {  // less than half a turn [rad]
     const Vec3 from(0.3, -0.4, 1.2);
     const Vec3 across = from.unitOrthogonal();
     const Vec3 to =

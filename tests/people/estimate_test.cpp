@@ -1,5 +1,5 @@
-// Staircases against what Levitt (1971) and Kaernbach (1991) say of them, and the fit and the
-// adaptive method against observers whose threshold is known.
+// Staircases compared with Levitt (1971) and Kaernbach (1991); the fit and the adaptive method with
+// observers whose threshold is known.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr Psychometric kTruth{0.15, 3.5, 0.5, 0.02};
 
-// The answers of runs with seeds first, first + 1 ...
+// The results of runs with the seeds first, first + 1 ...
 struct Study {
   int runs = 0, found = 0, covered = 0, within = 0, guessed = 0;
   double log_sum = 0, log_squares = 0, settled_sum = 0, trials = 0;
@@ -50,7 +50,7 @@ TEST(Psychometric, IsHalfWayAtItsThresholdAndItsInverseLeadsBack) {
   for (const double share : {0.6, 0.7071, 0.75, 0.7937, 0.9})
     EXPECT_NEAR(kTruth.right(kTruth.level_for(share)), share, 1e-12);
   EXPECT_EQ((Psychometric{INFINITY, 3.5, 0.5, 0.02}).right(1), 0.5);
-  // the slope is what its comment says
+  // the slope has the meaning that its comment gives
   const double up = kTruth.right(0.15 * std::exp(1e-5)),
                down = kTruth.right(0.15 * std::exp(-1e-5));
   EXPECT_NEAR((up - down) / 2e-5, std::log(2.0) / 2 * 0.48 * 3.5, 1e-6);
@@ -79,13 +79,13 @@ TEST(Staircase, SettlesWhereItsRuleSays) {
 TEST(Staircase, StepsAsItsRuleSays) {
   Staircase stairs({.rule = Rule::one_up_two_down, .start = 0.5});
   stairs.answer(true);
-  EXPECT_EQ(stairs.level(), 0.5);  // one right is not enough
+  EXPECT_EQ(stairs.level(), 0.5);  // one right answer is not enough
   stairs.answer(true);
   EXPECT_NEAR(stairs.level(), 0.5 / 1.5, 1e-12);
   stairs.answer(false);
   EXPECT_NEAR(stairs.level(), 0.5, 1e-12);
   for (int n = 0; n < 100; ++n) stairs.answer(false);
-  EXPECT_EQ(stairs.level(), 1);  // never beyond what can be shown
+  EXPECT_EQ(stairs.level(), 1);  // never above the largest level
   EXPECT_FALSE(stairs.found());
 }
 
@@ -126,9 +126,9 @@ TEST(Estimate, TheIntervalHoldsTheTruthNineteenTimesOfTwenty) {
   const Study all = study(plan, kTruth, 200, 3000);
   const double share = static_cast<double>(all.covered) / all.found;
   EXPECT_EQ(all.found, all.runs);
-  EXPECT_NEAR(share, 0.95, 0.043);  // 2.8 standard deviations of 200 coins
-  // and scatters hardly more than it must: with the slope unknown no design says more about the
-  // threshold than n trials at the threshold itself, where the slope does not matter
+  EXPECT_NEAR(share, 0.95, 0.043);  // 2.8 standard deviations of 200 coin tosses
+  // The scatter is hardly larger than necessary: with an unknown slope no design tells more about
+  // the threshold than n trials at the threshold itself, where the slope does not matter.
   const double p = kTruth.right(kTruth.threshold);
   const double grows = (1 - kTruth.guess - kTruth.lapse) * std::log(2.0) / 2 * kTruth.slope;
   const double least = std::sqrt(p * (1 - p) / plan.trials) / grows;
@@ -155,7 +155,7 @@ TEST(Estimate, WhoGuessesHasNoThreshold) {
     plan.trials = 200;
     const Study all = study(plan, {INFINITY, 3.5, 0.5, 0.02}, 100, 5000);
     EXPECT_LE(all.found, 1) << name(method);
-    EXPECT_GE(all.guessed, 95) << name(method);  // and is told so
+    EXPECT_GE(all.guessed, 95) << name(method);  // and reports it
   }
 }
 
@@ -198,7 +198,7 @@ TEST(Experiment, OrdersAreBalancedAndNotToBeForeseen) {
     }
   }
   EXPECT_EQ(first, 150);
-  EXPECT_GT(changes, 120);  // neither always the other one nor runs: 166 expected
+  EXPECT_GT(changes, 120);  // neither strict alternation nor long runs: 166 expected
   EXPECT_LT(changes, 210);
 }
 

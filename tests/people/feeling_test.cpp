@@ -1,5 +1,5 @@
-// What an interval puts into the hand is what it says, through the whole servo; and an observer
-// that feels it is found at its threshold.
+// An interval gives the hand the stimulus that it names, through the whole servo; and the threshold
+// of an observer that feels it is found.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,19 +23,19 @@ TEST(Interval, StiffnessFrictionAndVibrationAreWhatWasAskedFor) {
       EXPECT_NEAR(*feel(wall, Stimulus::stiffness, k, gesture, kSeconds), k, 0.01 * k);
     for (const double mu : {0.1, 0.4, 1.0})
       EXPECT_NEAR(*feel(wall, Stimulus::friction, mu, gesture, kSeconds), mu, 0.02 * mu);
-    // a band of noise of some seconds is that much stronger or weaker
+    // the strength of a band of noise of some seconds varies by this much
     for (const double a : {0.01, 0.05, 0.15})
       EXPECT_NEAR(*feel(wall, Stimulus::vibration, a, gesture, kSeconds), a, 0.08 * a);
     EXPECT_LT(*feel(wall, Stimulus::vibration, 0, gesture, kSeconds), 1e-4);
   }
 }
 
-// Somebody else's hand. One that says it is real goes by the clock, in a session of its own.
+// A hand owned by another object. If it counts as real, the session runs in real time.
 class Watched final : public device::Device {
  public:
   Watched(device::Device& hand, bool real) : hand_(hand), spec_(hand.spec()) {
     spec_.simulated = !real;
-    spec_.loss_timeout = 10;  // a busy machine is not what is asked here
+    spec_.loss_timeout = 10;  // a busy machine is not the subject here
   }
   Status open() override {
     ++opened;
@@ -62,7 +62,7 @@ TEST(Interval, TheForceIsTheSpringAloneAndADrillRubsNot) {
   ASSERT_TRUE(hand.open().ok());
   const auto felt = wall.show(hand, {.stiffness = 400}, kSeconds, {});
   ASSERT_TRUE(felt.ok());
-  for (std::size_t n = 700; n < felt->at.size(); ++n)  // whether it comes or goes
+  for (std::size_t n = 700; n < felt->at.size(); ++n)  // while it increases or decreases
     ASSERT_NEAR(felt->force[n].z(),
                 400 * std::max(0.0, wall.settings().burr_radius - felt->at[n].z()), 2e-3);
   device::SimulatedHand rubbing(gesture_for(Stimulus::friction, 1, wall.settings(), kSeconds), {});
@@ -112,14 +112,14 @@ TEST(Interval, ARealDeviceIsTickedByTheClockAndStaysOpen) {
   ASSERT_TRUE(felt.ok());
   EXPECT_NEAR(sensed(Stimulus::stiffness, *felt), 400, 4);
   EXPECT_GT(felt->force.back().norm(), 0.1);
-  EXPECT_EQ(real.last.norm(), 0);           // let go at the end
-  EXPECT_EQ(real.opened + real.closed, 0);  // it belongs to who lent it
+  EXPECT_EQ(real.last.norm(), 0);           // released at the end
+  EXPECT_EQ(real.opened + real.closed, 0);  // opened and closed by its owner only
   const auto broken_off = wall.show(real, {.stiffness = 400}, 60, [] { return true; });
   ASSERT_TRUE(broken_off.ok());
   EXPECT_LT(broken_off->at.size(), 60000U);
 }
 
-// Each level is felt once with each gesture and remembered; the observer's noise is new each time.
+// Each level is felt once with each gesture and stored; the observer's noise is new each time.
 TEST(Feeling, AnObserverThatFeelsIsFoundAtItsThreshold) {
   SCOPED_TRACE("seeds from 100");
   struct Ask {

@@ -30,7 +30,8 @@ TEST(Build, EveryVoxelIsWhatTheFormulaSaysSkippedOrNot) {
       }
 }
 
-// A brick reaches beyond a grid that is no multiple of eight: there it held whatever memory held.
+// A brick reaches beyond a grid whose size is not a multiple of eight; the voxels there must be
+// air.
 TEST(Build, WhatLiesOutsideTheGridIsAir) {
   const volume::Grid grid = box_grid(Vec3::Constant(-1.5 * kMm), Vec3(1.5, 1.5, 9.5) * kMm, kMm);
   const auto bone = bone_from_distance(grid, {}, box(Vec3::Constant(1)));  // a metre: solid
@@ -105,7 +106,7 @@ TEST(Build, ACubeGridIsCentredAndFilled) {
             1e-15);
 }
 
-// ---- the field holds the volume the formula has: balls of R >= 3 h and plates of t >= 2 h to 1 %
+// ---- the field holds the formula's volume: balls of R >= 3 h and plates of t >= 2 h within 1 %
 
 TEST(FieldToVolume, OfBalls) {
   const std::uint64_t seed = 11;
@@ -122,8 +123,8 @@ TEST(FieldToVolume, OfBalls) {
   }
 }
 
-// share of a plate's true volume that the field holds, seen through a window that falls smoothly
-// to zero, so that its edge does not count; in voxels
+// Share of a plate's true volume that the field holds, weighted by a window that falls smoothly to
+// zero, so that its edge does not matter; in voxels.
 double share_of_plate(double thickness, const Vec3& normal, double offset) {
   constexpr double kWindow = 20;
   const auto bone = bone_from_distance(cube_grid(48 * kMm, 48), {},
@@ -163,7 +164,7 @@ TEST(FieldToVolume, OfPlates) {
     }
 }
 
-// Along a lattice diagonal all voxels of a layer err alike; that is the worst there is.
+// Along a diagonal of the grid all voxels of a layer have the same error: the worst case.
 TEST(FieldToVolume, OfPlatesAlongTheDiagonals) {
   const std::uint64_t seed = 13;
   SCOPED_TRACE("seed " + std::to_string(seed));

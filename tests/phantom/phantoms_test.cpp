@@ -48,7 +48,7 @@ const std::map<std::string_view, double> kTestVoxelMm = {
     {"temporal-bone", 0.4}, {"jaw", 0.4},   {"tooth", 0.2}, {"spine", 0.8},
     {"skull", 1.2},         {"block", 0.5}, {"ball", 0.5}};
 
-// made once, asked often
+// Made once, used often.
 const Bone& of(std::string_view name) {
   static std::map<std::string_view, std::unique_ptr<Bone>> made;
   std::unique_ptr<Bone>& bone = made[name];
@@ -84,7 +84,7 @@ TEST(Phantoms, EveryTissueIsThereAndHasItsOwnNameAndLabel) {
       const TissueId id = bone->tissue(v.x(), v.y(), v.z());
       ASSERT_LT(id, tissues.size());
       ++count[id];
-      // bone is bone, and what is not bone is not hard
+      // a voxel inside the surface must have a solid tissue
       if (bone->field(v.x(), v.y(), v.z()) >= volume::kIso) {
         ASSERT_EQ(tissues[id].kind, TissueKind::solid)
             << tissues[id].name << " at " << v.transpose();
@@ -100,7 +100,8 @@ TEST(Phantoms, EveryTissueIsThereAndHasItsOwnNameAndLabel) {
   }
 }
 
-// a phantom written as .seg.nrrd and read again is the same bone: names alone say what is hard
+// A phantom written as .seg.nrrd and read again is the same bone: the names alone decide what is
+// solid.
 TEST(Phantoms, NamesSayWhatIsSolidSoftAndAir) {
   for (const std::string_view name : phantom_names()) {
     const Phantom made = name == "temporal-bone" ? temporal_bone(1e-3)
@@ -125,8 +126,8 @@ TEST(Phantoms, SameBitsWhateverTheNumberOfThreads) {
   }
 }
 
-// bricks are skipped by a bound on how fast the formula changes; were the bound wrong, bone would
-// be missing
+// Bricks are skipped by a bound on the slope of the formula. If the bound were wrong, bone would be
+// missing.
 TEST(Phantoms, NoBrickIsSkippedThatHoldsBone) {
   for (const std::string_view name : phantom_names()) {
     SCOPED_TRACE(name);
@@ -169,7 +170,7 @@ TEST(Phantoms, TemporalBoneHasItsStructuresWhereTheyBelong) {
   });
   const double mm3 = std::pow(1e3 * bone.grid().voxel, 3);
 
-  // a right ear: x runs inwards, y back, z up; origin at the opening of the ear canal
+  // a right ear: x runs inwards, y back, z up; the origin is the opening of the ear canal
   EXPECT_LT(at["ear canal"].box.lo.x(), 1);
   EXPECT_GT(at["antrum air"].box.centre().y(), at["middle ear"].box.centre().y())
       << "antrum behind";
@@ -179,10 +180,10 @@ TEST(Phantoms, TemporalBoneHasItsStructuresWhereTheyBelong) {
   EXPECT_GT(at["bony dura plate (tegmen)"].box.centre().z(), 8) << "dura above";
   EXPECT_GT(at["labyrinth (otic capsule)"].box.lo.x(), at["antrum air"].box.centre().x());
   EXPECT_GT(at["cochlea (soft tissue)"].box.centre().x(), at["middle ear"].box.centre().x());
-  // the nerve runs from the inner meatus to the stylomastoid foramen
+  // the nerve runs from the internal auditory meatus to the stylomastoid foramen
   EXPECT_GT(at["facial nerve"].box.hi.x(), 33);
   EXPECT_LT(at["facial nerve"].box.lo.z(), -16);
-  // sizes that textbooks give, within a factor
+  // sizes from textbooks, within a factor
   const double antrum_ml = 1e-3 * mm3 * at["antrum air"].voxels;
   EXPECT_GT(antrum_ml, 0.1);
   EXPECT_LT(antrum_ml, 1.0);
@@ -195,7 +196,7 @@ TEST(Phantoms, TemporalBoneHasItsStructuresWhereTheyBelong) {
   }
 }
 
-// the surgeon meets bone before anything to be spared, seen from the side over the antrum
+// Seen from the side, over the antrum, a surgeon meets bone before any structure to spare.
 TEST(Phantoms, WhatMustBeSparedLiesUnderBone) {
   const Bone& bone = of("temporal-bone");
   const volume::Grid& grid = bone.grid();

@@ -52,8 +52,8 @@ Vec3 slope(const Depth& depth, const Vec3& p) {
   return g;
 }
 
-// A function with slope of length one, that never changes by more than the distance, and that is
-// zero at the foot point it points to, is the distance.
+// A function is the distance if its slope has length one, it never changes by more than the
+// distance, and it is zero at the foot point that its slope points to.
 TEST(Shapes, DepthIsTheExactDistanceToTheSurface) {
   const std::uint64_t seed = 2024;
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -67,7 +67,7 @@ TEST(Shapes, DepthIsTheExactDistanceToTheSurface) {
       ASSERT_LE(std::abs(depth - shape.depth(q)), (p - q).norm() * (1 + 1e-12) + 1e-15);
       if (!shape.exact_inside && depth > 0) continue;
       const Vec3 g = slope(shape.depth, p);
-      if (std::abs(g.norm() - 1) > 1e-4) {  // two foot points are equally near: no slope there
+      if (std::abs(g.norm() - 1) > 1e-4) {  // two foot points are equally near: no slope
         ++on_creases;
         continue;
       }

@@ -53,7 +53,7 @@ TEST(VirtualClock, AStallIsCountedAndNotMadeUpForInABurst) {
   VirtualClock clock(1000);
   TickStats stats;
   (void)clock.wait();
-  clock.pass(25'300'000);  // the machine slept
+  clock.pass(25'300'000);  // the machine was suspended
   const TickTime after = clock.wait();
   stats.add_lateness(after.late_ns, clock.period_ns(), after.missed);
   EXPECT_EQ(after.late_ns, 24'300'000);
@@ -86,7 +86,7 @@ TEST(WallClock, NeverBeginsATickBeforeItIsDueAndKeepsTheGrid) {
     before = time.now_ns;
     grid += time.missed + 1;
   }
-  // 40 ticks and the missed ones took at least their periods of real time
+  // 40 ticks and the missed ones took at least their periods in real time
   EXPECT_GE(monotonic_ns() - start, (grid - 41) * 500'000);
 }
 
@@ -102,7 +102,7 @@ TEST(WallClock, WaitTakesNoMemoryAndNoLock) {
 TEST(Clock, ThreadTimeCountsWorkNotWaiting) {
   const std::int64_t cpu = thread_cpu_ns();
   WallClock clock(500);
-  for (int tick = 0; tick < 10; ++tick) (void)clock.wait();  // 18 ms asleep
+  for (int tick = 0; tick < 10; ++tick) (void)clock.wait();  // sleeps for 18 ms
   EXPECT_LT(thread_cpu_ns() - cpu, 18'000'000);
   EXPECT_GE(thread_cpu_ns(), cpu);
 }

@@ -1,6 +1,6 @@
-// tests/rt/dawdling.h - atomics that take their time: before every step a thread may spin, give its
-// processor away or sleep, at random. So two cores meet in the few instructions between two steps
-// of a door, where otherwise they meet once in a million.
+// tests/rt/dawdling.h - slow atomics: before every step a thread may spin, yield or sleep, at
+// random. Two cores then often meet in the few instructions between two steps of a door, where
+// otherwise they meet once in a million.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@
 namespace burr::rt::test {
 
 struct DawdlingAtoms {
-  // Each thread once, before its first step.
+  // Call once per thread, before its first step.
   static void seed(std::uint64_t value) { random().seed(value); }
 
   static void dawdle() {

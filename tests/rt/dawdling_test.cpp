@@ -1,5 +1,5 @@
-// The doors between two threads that dawdle at random between the single steps, for half a second
-// each (BURR_DAWDLE_SECONDS for longer). What each header promises must hold all the while. Run
+// The doors between two threads that wait at random between single steps, for half a second each
+// (longer with BURR_DAWDLE_SECONDS). The guarantees of each header must hold all the time. Run
 // under ThreadSanitizer too.
 #include "rt/dawdling.h"
 
@@ -18,8 +18,7 @@
 namespace burr::rt::test {
 namespace {
 
-// Plain data whose copy dawdles in the middle: half of it old, half new, if a door lets that
-// happen.
+// Plain data whose copy pauses in the middle: if a door permits it, half of it is old and half new.
 struct Slow {
   std::uint64_t first = 0, second = 0;
   Slow() = default;
@@ -46,13 +45,13 @@ class Dawdling : public testing::Test {
     DawdlingAtoms::seed(seed_);
   }
   using Clock = std::chrono::steady_clock;
-  // Until the time is over, and what the test is about has happened; the minute is a guard.
+  // True until the time is over and `happened` is true; one minute is the upper limit.
   [[nodiscard]] bool go_on(bool happened) const {
     const auto now = Clock::now();
     return now < end_ || (!happened && now < end_ + std::chrono::minutes(1));
   }
 
-  // A second thread, with delays of its own.
+  // Starts a second thread, with its own delays.
   template <class Work>
   [[nodiscard]] std::jthread beside(Work work, std::uint64_t who = 1) const {
     return std::jthread([work, seed = seed_ + who]() mutable {

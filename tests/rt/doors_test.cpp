@@ -1,4 +1,4 @@
-// The doors between threads. Run under ThreadSanitizer too: there the silence is the test.
+// The doors between threads. Run under ThreadSanitizer too: a report is a failure.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -15,7 +15,7 @@
 namespace burr::rt {
 namespace {
 
-// wide enough that a torn copy would show
+// Wide enough that a torn copy shows.
 struct Wide {
   std::uint64_t word[24] = {};
   Wide() = default;
@@ -166,7 +166,7 @@ TEST(Versioned, AReaderSeesAWholeBlockOrIsToldToComeBack) {
 }
 
 TEST(Versioned, WhileItIsBeingWrittenReadersAreRefused) {
-  Version version = 3;  // odd: a writer is at it
+  Version version = 3;  // odd: a write is in progress
   std::uint64_t shared[2] = {1, 2}, to[2] = {};
   EXPECT_FALSE(versioned_read(version, shared, to, 2));
   version = 4;
@@ -184,7 +184,7 @@ TEST(Doors, TakeNoMemoryAndNoLock) {
   const test::RtGuard guard;
   latest.publish(Wide(1));
   (void)latest.take(out);
-  for (int i = 0; i < 20; ++i) (void)ring.push(Wide(2));  // runs full, and refuses
+  for (int i = 0; i < 20; ++i) (void)ring.push(Wide(2));  // fills up, and refuses
   (void)ring.pop(out);
   bits.mark(5);
   bits.take_all([](std::size_t) {});

@@ -1,5 +1,5 @@
-// tests/rt/explore.h - tries every order in which a few threads can take their steps, and every
-// value that an atomic load may then see: a small model checker for the doors of rt.
+// tests/rt/explore.h - a small model checker for the doors of rt: tries every order in which a few
+// threads can take their steps, and every value that an atomic load may then see.
 //
 //     const Explored all = explore([](Threads& threads) {
 //       auto door = std::make_shared<Latest<Cell, ModelAtoms>>();
@@ -9,19 +9,19 @@
 //     });
 //     EXPECT_EQ(all.trouble, "");
 //
-// Every execution is run from the start, one after the other, with the next untried choice: which
-// thread takes the next atomic step, and which of the stores that it may still see a load sees.
+// Each execution starts from the beginning and makes the next untried choices: which thread takes
+// the next atomic step, and which of the permitted stores a load sees.
 //
-// Memory is that of C++20 as "views" (Kang et al., "A promising semantics for relaxed-memory
-// concurrency", POPL 2017, without promises): relaxed, acquire, release, acq_rel and fences. A load
-// may see any store not older than what its thread knows of; release hands on what is known,
-// acquire takes it over. Plain data is checked for races by the same knowledge: whoever reads it
-// must know of its last write, whoever writes it of all reads and writes.
+// The memory model is C++20 in the form of "views" (Kang et al., "A promising semantics for
+// relaxed-memory concurrency", POPL 2017, without promises): relaxed, acquire, release, acq_rel and
+// fences. A load may see any store that is not older than what its thread knows of; release passes
+// this knowledge on, acquire takes it over. The same knowledge is used to check plain data for
+// races: a reader must know of the last write, a writer of all earlier reads and writes.
 //
-// What it does not cover: seq_cst (treated as acq_rel; the doors use none), stores to one place
-// from several threads that take effect in another order than they were made (each place but the
-// read-modify-write ones has one writer), loads that see stores their own future depends on (no
-// compiler does that), more threads and steps than a test gives it.
+// Not covered: seq_cst (treated as acq_rel; the doors do not use it); stores to one place by
+// several threads that take effect in another order than they were made (each place without
+// read-modify-write has one writer); loads that see stores that depend on the load (no compiler
+// does that); more threads and steps than the test has.
 #pragma once
 
 #include <ucontext.h>
@@ -40,13 +40,13 @@ namespace burr::rt::test {
 
 struct Explored {
   std::uint64_t executions = 0;
-  std::string trouble;    // the first, and the choices that lead there
+  std::string trouble;    // the first failure, and the choices that led to it
   bool complete = false;  // every order was tried
 };
 
 class Model {
  public:
-  static constexpr int kThreads = 5;  // the one that sets up and looks at the end is 0
+  static constexpr int kThreads = 5;  // thread 0 does setup and the final check
   static constexpr std::size_t kPlaces = 64;
   using View = std::array<std::uint16_t, kPlaces + kThreads>;  // stores known, steps known
 
@@ -55,7 +55,7 @@ class Model {
     return model;
   }
 
-  // ---- what the model's atomics do
+  // ---- operations of the model's atomics
 
   std::size_t place(std::uint64_t value) {
     if (places_.size() == kPlaces) std::abort();  // raise kPlaces
@@ -69,7 +69,7 @@ class Model {
   }
 
   std::uint64_t load(std::size_t at, std::memory_order order) {
-    // what only I write nobody can make me see otherwise: no need to let others come first
+    // other threads cannot change what only this thread writes: no need to let them run first
     Place& place = places_[at];
     if (place.writer == running_ && running_ != 0) {
       place.skipped = true;
@@ -79,7 +79,7 @@ class Model {
     Thread& me = self();
     const auto& stores = places_[at].stores;
     const std::size_t first = me.known[at];
-    // the newest first: the order of a machine without surprises
+    // the newest first: the usual order on a real machine
     const std::size_t seen = stores.size() - 1 - choose(stores.size() - first);
     me.known[at] = static_cast<std::uint16_t>(seen);
     join(me.seen, stores[seen].view);
@@ -96,7 +96,7 @@ class Model {
   std::uint64_t change(std::size_t at, Change&& changed, std::memory_order order) {
     step();
     Thread& me = self();
-    const Store before = places_[at].stores.back();  // it follows the last one, whatever is known
+    const Store before = places_[at].stores.back();  // follows the last store, whether known or not
     join(me.seen, before.view);
     if (acquires(order)) join(me.known, before.view);
     append(at, changed(before.value), order, before.view);
@@ -143,18 +143,18 @@ class Model {
 
   struct Store {
     std::uint64_t value;
-    View view;  // what an acquiring load learns
+    View view;  // what an acquire load learns
   };
   struct Place {
     std::vector<Store> stores;  // in the order in which they take effect
     std::array<std::uint16_t, kThreads> read_at{};
-    int writer = 0;  // the only thread that ever wrote, 0: none yet
+    int writer = 0;  // the only thread that has written; 0: none yet
     bool skipped = false;
   };
   struct Thread {
-    View known{};   // nothing older may be seen any more
+    View known{};   // older stores may no longer be seen
     View seen{};    // what an acquire fence would add
-    View fenced{};  // what a relaxed store hands on, since the last release fence
+    View fenced{};  // what a relaxed store passes on, from the last release fence
     std::function<void()> work;
     bool done = true, fresh = true;
     ucontext_t context{};
@@ -180,8 +180,8 @@ class Model {
     Place& place = places_[at];
     if (place.writer == 0) place.writer = running_;
     if (place.writer != running_ && running_ != 0) {
-      if (place.skipped) std::abort();  // not its only writer after all: load() must not skip
-      place.writer = kThreads;          // nobody's own
+      if (place.skipped) std::abort();  // it has a second writer: load() must not skip
+      place.writer = kThreads;          // no single writer
     }
     auto& stores = place.stores;
     me.known[at] = static_cast<std::uint16_t>(stores.size());
@@ -191,19 +191,18 @@ class Model {
     stores.push_back({value, view});
   }
 
-  // One of `of` ways on: as planned so far, then the first.
+  // Chooses one of `of` continuations: as planned so far, then the first.
   std::size_t choose(std::size_t of) {
     if (of < 2) return 0;
     if (at_choice_ == choices_.size()) choices_.push_back({0, of});
-    if (choices_[at_choice_].of != of)
-      std::abort();  // a test that is not a function of its choices
+    if (choices_[at_choice_].of != of) std::abort();  // the test depends on more than its choices
     return choices_[at_choice_++].taken;
   }
 
-  // Before every atomic step: somebody else may come first.
+  // Before every atomic step: another thread may run first.
   void step() {
     if (running_ == 0) return;
-    if (self().fresh) {  // it was just chosen to begin
+    if (self().fresh) {  // it was just chosen to start
       self().fresh = false;
       return;
     }
@@ -226,7 +225,7 @@ class Model {
     Model& model = *now();
     model.self().work();
     model.self().done = true;
-    // whoever is left; at the very end the one that set up
+    // the remaining threads; at the very end the one that did the setup
     std::array<int, kThreads> ready{};
     std::size_t n = 0;
     for (int t = 1; t < kThreads; ++t)
@@ -234,7 +233,7 @@ class Model {
     model.go_on_with(n == 0 ? 0 : ready[model.choose(n)]);
   }
 
-  // on its own, because getcontext() returns twice
+  // a separate function, because getcontext() returns twice
   static void prepare(Thread& thread, std::vector<char>& stack) {
     stack.resize(64 * 1024);
     ::getcontext(&thread.context);
@@ -250,7 +249,7 @@ class Model {
     for (int t = 1; t < kThreads; ++t) {
       Thread& thread = threads_[static_cast<std::size_t>(t)];
       if (!thread.work) continue;
-      thread.known = threads_[0].known;  // as std::thread's constructor hands it on
+      thread.known = threads_[0].known;  // as std::thread's constructor does
       thread.done = false;
       thread.fresh = true;
       prepare(thread, stacks_[static_cast<std::size_t>(t)]);
@@ -274,7 +273,7 @@ class Model {
     at_choice_ = 0;
   }
 
-  // false: there is no other way on
+  // False: no other choice is left.
   bool next_plan() {
     while (!choices_.empty() && choices_.back().taken + 1 == choices_.back().of)
       choices_.pop_back();
@@ -294,7 +293,7 @@ class Model {
   std::string trouble_;
 };
 
-// What the doors are made of under the model.
+// The atomics of the doors under the model.
 struct ModelAtoms {
   template <class Value>
   class Atomic {
@@ -335,7 +334,7 @@ struct ModelAtoms {
   }
 };
 
-// Plain data of two words, as wide as tearing needs.
+// Plain data of two words, so that it can be torn.
 class Cell {
  public:
   Cell() : first_(Model::now()->place(0)), second_(Model::now()->place(0)) {}
@@ -380,10 +379,10 @@ inline void expect(bool good, const std::string& otherwise) {
   if (!good) Model::now()->fail(otherwise);
 }
 
-// Runs `setup` and its threads once for every order there is.
+// Runs `setup` and its threads once for every possible order.
 template <class Setup>
 Explored explore(Setup&& setup) {
-  constexpr std::uint64_t kMost = 20'000'000;  // a guard against tests that are too large
+  constexpr std::uint64_t kMost = 20'000'000;  // stops tests that are too large
   auto model = std::make_unique<Model>();
   Model::now() = model.get();
   Explored all;

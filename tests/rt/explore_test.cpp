@@ -1,6 +1,6 @@
-// The doors in every order their steps can take, and with everything that C++ lets a load see.
-// tests/rt/explore.h says what that covers and what not. Not under sanitizers: they do not follow
-// threads that are not threads.
+// The doors in every order of their steps, and with every value that C++ permits a load to see.
+// tests/rt/explore.h says what this covers and what not. Not under sanitizers: they cannot follow
+// the model's simulated threads.
 #include "rt/explore.h"
 
 #include <gtest/gtest.h>
@@ -28,9 +28,9 @@ void expect_good(const Explored& all, const char* what) {
   EXPECT_TRUE(all.complete) << "too many orders";
 }
 
-// ---- the explorer itself: an explorer that sees nothing would make all the others silent
+// ---- the explorer itself: if it detected nothing, all other tests would pass in vain
 
-// x is written, then a flag; whoever sees the flag looks at x.
+// x is written, then a flag; a thread that sees the flag reads x.
 Explored message(std::memory_order write, std::memory_order read) {
   return explore([=](Threads& threads) {
     struct Shared {
@@ -78,14 +78,14 @@ TEST(Explorer, FindsThatBothMaySeeNothingOfTheOther) {
 
 TEST(Explorer, FindsRacesAndLostUpdates) {
   BURR_EXPLORES();
-  // written and read without a word between the two
+  // written and read without synchronisation
   EXPECT_NE(explore([](Threads& threads) {
               auto cell = std::make_shared<Cell>();
               threads.add([=] { *cell = Cell(1); });
               threads.add([=] { static_cast<void>(cell->value()); });
             }).trouble.find("race"),
             std::string::npos);
-  // one adds by load and store, one by one step
+  // one thread adds by load and store, one in a single step
   const auto add = [](bool in_one) {
     return explore([=](Threads& threads) {
       auto sum = std::make_shared<ModelAtoms::Atomic<unsigned>>(0U);

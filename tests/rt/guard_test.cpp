@@ -1,4 +1,4 @@
-// The guard itself: what it must see, it sees. A guard that is blind makes every other test silent.
+// The guard must detect what it is for; if it did not, all other tests would pass in vain.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -13,7 +13,7 @@
 namespace burr::test {
 namespace {
 
-// what the optimiser must not look through
+// Hides a value from the optimiser.
 void* volatile hold = nullptr;
 void keep(void* p) { hold = p; }
 

@@ -1,4 +1,4 @@
-// Every sentence and every verdict of `burr check`, from facts that are made up.
+// Every sentence and every verdict of `burr check`, from made-up facts.
 #include "burr/rt/machine_check.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ TickSummary ticks(double work_p999, double late_p999, double worst, std::uint64_
   return t;
 }
 
-// A machine that nothing is wrong with.
+// A machine without any fault.
 MachineSeen fine_machine() {
   MachineSeen seen;
   seen.machine.processor = "Some Core 7";

@@ -1,4 +1,4 @@
-// What the system says about itself, from a tree of made-up files and from this very machine.
+// What the system reports about itself, from made-up files and from this machine.
 #include "burr/rt/machine.h"
 
 #include <gtest/gtest.h>

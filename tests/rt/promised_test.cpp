@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMany = 16 * 1024 * 1024;  // elements of 8 bytes
 
-// Of the array's pages, how many the kernel says are in memory.
+// The bytes of the array that are in memory, according to the kernel.
 template <class T>
 std::size_t resident_bytes(const Promised<T>& array) {
   const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
@@ -27,7 +27,7 @@ std::size_t resident_bytes(const Promised<T>& array) {
   return count * page;
 }
 
-// Kernels before 5.14 cannot take pages ahead; then everything is there from the start.
+// Kernels before 5.14 cannot take pages ahead: all memory is then taken at the start.
 bool takes_ahead() { return resident_bytes(Promised<std::uint64_t>(kMany)) < 8 * kMany; }
 
 TEST(Promised, IsZeroAndTakesOnlyWhatItWasAskedToHave) {
@@ -81,8 +81,8 @@ TEST(Promised, GrowsAndGivesBackWithoutLosingAnything) {
   EXPECT_EQ(array[kMany - 1], 8U);
 }
 
-// A real-time session locks all memory of the program; the kernel gives none of that back, so what
-// is handed in must be wiped, or the next session's deposited bricks begin with old bone.
+// A real-time session locks all memory of the program, and the kernel takes none of it back. So
+// what is given back must be wiped, or added bricks of the next session would begin with old bone.
 TEST(Promised, WhatIsGivenBackIsZeroThoughItIsLocked) {
   Promised<std::uint64_t> array(4096);
   if (mlock(array.data(), 8 * array.size()) != 0) GTEST_SKIP() << "may not lock memory";

@@ -12,7 +12,7 @@
 namespace burr::rt {
 namespace {
 
-// nearest rank on the values themselves
+// Nearest rank, on the values themselves.
 double exact_us(std::vector<std::int64_t> values, double q) {
   std::sort(values.begin(), values.end());
   const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
@@ -84,7 +84,7 @@ TEST(TickStats, NothingMeasuredIsZero) {
 TEST(TickStats, CountsLateAndMissedTicks) {
   TickStats stats;
   stats.add_lateness(0, 1'000'000, 0);
-  stats.add_lateness(100'000, 1'000'000, 0);  // a tenth: still in time
+  stats.add_lateness(100'000, 1'000'000, 0);  // a tenth of a period: still in time
   stats.add_lateness(100'001, 1'000'000, 0);
   stats.add_lateness(3'200'000, 1'000'000, 3);
   const TickSummary s = stats.summary();
@@ -96,7 +96,7 @@ TEST(TickStats, CountsLateAndMissedTicks) {
 TEST(TickStats, TellsHowLateTicksBeganByTheSameQuantiles) {
   TickStats stats;
   for (std::int64_t i = 1; i <= 1000; ++i) {
-    stats.add(1);  // the work is another thing
+    stats.add(1);  // the duration is counted separately
     stats.add_lateness(i * 1000, 1'000'000, 0);
   }
   const TickSummary s = stats.summary();

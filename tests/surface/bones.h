@@ -1,4 +1,4 @@
-// tests/surface/bones.h - small bones from a formula, and what a closed surface must be.
+// tests/surface/bones.h - small bones from a formula, and the checks of a closed surface.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace burr::test {
 
-// depth: how far inside the material a point is, negative in air; p_grid and result in voxels
+// depth: how far inside the material a point is, negative in air; p_grid and result in voxels.
 inline std::unique_ptr<volume::Bone> bone_of(const volume::Grid& grid,
                                              const std::function<double(const math::Vec3&)>& depth,
                                              std::size_t reserve = 0) {
@@ -26,7 +26,7 @@ inline std::unique_ptr<volume::Bone> bone_of(const volume::Grid& grid,
   return volume::bone_from_arrays(grid, {}, field, {}, {}, reserve);
 }
 
-// a grid that lies askew in the world
+// A grid that is rotated in the world.
 inline volume::Grid askew(const math::Ijk& size, double voxel = 0.5e-3) {
   volume::Grid grid;
   grid.size = size;
@@ -38,15 +38,15 @@ inline volume::Grid askew(const math::Ijk& size, double voxel = 0.5e-3) {
 
 struct Shape {
   std::size_t vertices = 0, edges = 0, triangles = 0;
-  std::string trouble;  // the first thing that is not as in a closed, oriented manifold
+  std::string trouble;  // the first violation of a closed, oriented manifold
   double volume = 0;    // enclosed  [m^3]
   [[nodiscard]] long euler() const {
     return static_cast<long>(vertices) - static_cast<long>(edges) + static_cast<long>(triangles);
   }
 };
 
-// Every edge must be walked exactly once in each direction, every vertex have one fan, and no two
-// vertices lie at one place.
+// Every edge must be used exactly once in each direction, every vertex must have one fan of
+// triangles, and no two vertices may be at the same place.
 inline Shape shape_of(const surface::Mesh& mesh) {
   Shape shape;
   shape.vertices = mesh.vertices.size();

@@ -112,7 +112,7 @@ TEST(Mesher, BricksThatReachBeyondTheGridAreCutOff) {
   EXPECT_NEAR(shape.volume / (19 * 18 * 21 * std::pow(grid.voxel, 3)), 1, 0.01);
 }
 
-// every face and cell ambiguous in every way there is
+// All faces and cells, ambiguous in every possible way.
 TEST(Mesher, NoiseOfAnyKindIsAClosedManifold) {
   std::mt19937 random(20240817);
   for (int round = 0; round < 6; ++round) {
@@ -123,7 +123,7 @@ TEST(Mesher, NoiseOfAnyKindIsAClosedManifold) {
         case 0:
           voxel = static_cast<Field>(random());
           break;
-        case 1:  // near the iso-level, often right on it
+        case 1:  // near the iso-level, often exactly on it
           voxel = static_cast<Field>(volume::kIso - 2 + static_cast<int>(random() % 4));
           break;
         default:

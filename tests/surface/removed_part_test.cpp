@@ -1,4 +1,4 @@
-// the removed part is judged by its surface, so its test lives here
+// The removed part is checked by its surface, so the test is in this folder.
 #include "burr/volume/removed_part.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,8 @@ Mesh whole(const volume::Bone& bone) {
 }
 
 TEST(RemovedPart, OfABallMilledIntoASlabIsTheCap) {
-  // a slab up to z = 20.3, a ball of radius 9.1 whose centre lies 2.2 above: the lens below
+  // a slab up to z = 20.3; a ball of radius 9.1 with its centre 2.2 above it; the removed part is
+  // the lens below
   const double top = 20.3, radius = 9.1;
   const Vec3 centre(24.2, 23.7, 22.5);
   const auto slab = [&](const Vec3& p) { return top - p.z(); };
@@ -45,7 +46,7 @@ TEST(RemovedPart, OfABallMilledIntoASlabIsTheCap) {
       std::numbers::pi * height * height * (3 * radius - height) / 3 * std::pow(grid.voxel, 3);
   EXPECT_NEAR(shape.volume / truth, 1, 0.02);
 
-  // every vertex lies on the true lens: the ball below, the slab's old top above
+  // every vertex lies on the true lens: on the ball below, on the slab's old top above
   double worst = 0;
   for (const Vertex& v : mesh.vertices) {
     const Vec3 p = grid.grid_from_world(v.p.cast<double>());
@@ -53,7 +54,7 @@ TEST(RemovedPart, OfABallMilledIntoASlabIsTheCap) {
   }
   EXPECT_LT(worst, 0.35) << "voxels, at the sharp rim";
 
-  // what is left and what was taken make the whole
+  // the remaining and the removed part add up to the whole
   const double sum = shape_of(whole(**removed)).volume + shape_of(whole(*after)).volume;
   EXPECT_NEAR(sum / shape_of(whole(*before)).volume, 1, 0.001);
   EXPECT_NEAR(
@@ -62,11 +63,11 @@ TEST(RemovedPart, OfABallMilledIntoASlabIsTheCap) {
 }
 
 TEST(RemovedPart, ALayerThinnerThanAVoxelIsThereOnAFinerGrid) {
-  // a slab lying askew, lowered by 0.4 voxel inside a round patch
+  // an inclined slab, lowered by 0.4 voxel inside a round patch
   const Vec3 up = Vec3(0.3, -0.2, 1).normalized();
   const Vec3 middle(24, 24, 16);
   const auto slab = [&](const Vec3& p) { return (middle - p).dot(up); };
-  const auto patch = [&](const Vec3& p) {  // how deep inside a round pin along `up`
+  const auto patch = [&](const Vec3& p) {  // depth inside a round pin along `up`
     const Vec3 d = p - middle;
     return 14 - (d - up * d.dot(up)).norm();
   };

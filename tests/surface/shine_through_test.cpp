@@ -1,4 +1,4 @@
-// What shines through thin bone, against how thick that bone is made.
+// What shows through thin bone, for bone of known thickness.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,9 +15,9 @@ using volume::TissueId;
 using volume::TissueKind;
 
 constexpr TissueId kBone = 1, kNerve = 2, kCell = 3;
-constexpr double kTop = 30;  // where the bone ends [voxel]
+constexpr double kTop = 30;  // upper end of the bone [voxel]
 
-// Bone up to kTop; below `floor(x)` lies `filling`, two voxels of it, and then `behind`.
+// Bone up to kTop; below `floor(x)` two voxels of `filling`, and below those `behind`.
 std::unique_ptr<volume::Bone> plate(const volume::Grid& grid, TissueId filling, TissueId behind,
                                     const std::function<double(double x)>& floor,
                                     double top = kTop) {
@@ -47,7 +47,7 @@ void each_on_top(const volume::Bone& bone, Judge&& judge) {
   int seen = 0;
   for (const Vertex& v : mesh->vertices) {
     const math::Vec3 p = bone.grid().grid_from_world(v.p.cast<double>());
-    // not at the rim of the grid, where the surface turns down
+    // not at the border of the grid, where the surface turns down
     if (std::abs(p.z() - kTop) > 0.1 || p.x() < 3 || p.x() > bone.grid().size.x() - 4 ||
         p.y() < 3 || p.y() > bone.grid().size.y() - 4)
       continue;
@@ -78,12 +78,12 @@ TEST(ShineThrough, IsSeenTheMoreTheThinnerTheBone) {
   }
 }
 
-// Wherever bricks end, and however far the nerve is from them.
+// For every position of the brick borders, and every distance of the nerve from them.
 TEST(ShineThrough, IsFoundWhereverItLies) {
   for (int top = 24; top < 32; ++top)
     for (const int thick : {3, 6, 9, 11}) {
       SCOPED_TRACE(top * 100 + thick);
-      // a nerve along y, from x = 28 to 35; elsewhere bone as deep as the grid
+      // a nerve along y, from x = 28 to 35; elsewhere bone down to the end of the grid
       const auto floor = [&](double x) { return x >= 28 && x <= 35 ? top - thick : -9.0; };
       const auto bone = plate(test::askew({64, 16, 40}, 0.1e-3), kNerve, kNerve, floor, top);
       NoProgress quiet;

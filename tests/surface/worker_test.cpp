@@ -25,7 +25,7 @@ std::unique_ptr<volume::Bone> lumps() {
       100);
 }
 
-// what main would have on the screen
+// What the main thread would show on the screen.
 struct Screen {
   std::map<int, Patch> patches;
   void show(const Skin& skin) {
@@ -56,7 +56,7 @@ void expect_equals_full_extraction(const Screen& screen, const volume::Bone& bon
   }
 }
 
-// one random cut, deposit or erasure of a whole brick
+// One random cut, deposit or erasure of a whole brick.
 void edit(volume::Bone& bone, std::mt19937& random) {
   const auto brick =
       static_cast<volume::BrickIndex>(random() % static_cast<unsigned>(bone.brick_count()));
@@ -118,7 +118,7 @@ TEST(Worker, KeepsUpWithAServoThatCutsAllTheTime) {
   std::atomic<int> taken = 0;
   std::thread servo([&] {
     std::mt19937 random(17);
-    // until something was seen meanwhile, however slow the machine or the build; a minute at most
+    // until something was seen meanwhile, however slow the machine or the build; at most a minute
     const auto late = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     for (int tick = 0; tick < 3000 || (taken <= 10 && std::chrono::steady_clock::now() < late);
          ++tick) {
@@ -140,13 +140,13 @@ TEST(Worker, KeepsUpWithAServoThatCutsAllTheTime) {
 }
 
 TEST(Worker, WaitsForALazyMainAndLosesNothing) {
-  // more patches with surface than may be lent at once
+  // more patches with surface than may be lent at the same time
   const auto bone = bone_of(askew({150, 150, 150}), [](const math::Vec3& p) {
     return 3 * (std::sin(p.x() / 2) + std::sin(p.y() / 2) + std::sin(p.z() / 2));
   });
   Worker worker(*bone, 1);
   std::vector<Skin> kept;
-  for (int i = 0; i < 60000 && kept.size() < kLent; ++i) {  // a minute at most
+  for (int i = 0; i < 60000 && kept.size() < kLent; ++i) {  // at most a minute
     for (Skin skin; worker.take(skin);) kept.push_back(skin);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }

@@ -1,4 +1,4 @@
-// tests/thermal/blocks.h - bones of whole voxels whose heat is known by heart.
+// tests/thermal/blocks.h - bones of whole voxels with known heat conduction.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace burr::test {
 
-// tissue_at(i, j, k): 0 air, else full of that tissue; voxel edges lie at 0, voxel, 2 voxel ... of
-// the world
+// tissue_at(i, j, k): 0 air, otherwise a voxel full of that tissue; voxel faces lie at 0, voxel, 2
+// voxel ... of the world.
 inline std::unique_ptr<volume::Bone> block(
     const math::Ijk& size, double voxel,
     const std::function<int(int, int, int)>& tissue_at = [](int, int, int) { return 1; },
@@ -33,7 +33,7 @@ inline std::unique_ptr<volume::Bone> block(
   return volume::bone_from_arrays(grid, std::move(tissues), field, tissue, {}, 64);
 }
 
-// tissue 2 is like 1 but may be given a material of its own
+// Tissue 2 is like tissue 1, but may be given another material.
 inline volume::TissueTable two_bones() {
   volume::TissueTable tissues;
   tissues.tissues.push_back({.name = "other bone"});
@@ -61,7 +61,7 @@ inline void cut_out(volume::Bone& bone, const math::Ijk& lo, const math::Ijk& en
   }
 }
 
-// How far the account is from zero, of what was put in.
+// Error of the account, as a share of the heat put in.
 inline double imbalance(const thermal::HeatLedger& l) {
   return std::abs(l.into - l.stored - l.convected - l.conducted - l.removed) / std::abs(l.into);
 }

@@ -21,7 +21,7 @@ TEST(Cem43, BodyTemperatureDoesNoHarmHoweverLong) {
   EXPECT_GT(cem43_rate(39), 0);
 }
 
-// a lump that loses no heat keeps its temperature: the dose is the closed form
+// A lump that loses no heat keeps its temperature, so its dose has a closed form.
 TEST(Cem43, OfALumpThatStaysWarmIsTheClosedForm) {
   struct Case {
     double t_c, seconds, dose_min;

@@ -23,10 +23,10 @@ using test::imbalance;
 const Material kBone = HeatSettings{}.bone;
 const double kAlpha = kBone.diffusivity();
 
-// ---- against the books
+// ---- compared with textbook solutions
 
-// Rise at r from a source of 1 W at the origin that has burnt for `seconds`, in a cube -L/2 .. L/2
-// whose walls stay cold: the time integral of the product of three slabs, each a sum of images.
+// Rise at r from a source of 1 W at the origin after `seconds`, in a cube -L/2 .. L/2 with cold
+// walls: the time integral of the product of three slabs, each a sum of images.
 double rise_in_cold_cube(const Vec3& r, double edge, double seconds) {
   const auto slab = [&](double x, double t) {
     double sum = 0;
@@ -36,7 +36,7 @@ double rise_in_cold_cube(const Vec3& r, double edge, double seconds) {
     }
     return sum / std::sqrt(4 * pi * kAlpha * t);
   };
-  // in the logarithm of time, by Simpson
+  // over the logarithm of time, by Simpson's rule
   const double from = std::log(1e-3), to = std::log(seconds);
   constexpr int kParts = 4000;
   double integral = 0;
@@ -49,14 +49,15 @@ double rise_in_cold_cube(const Vec3& r, double edge, double seconds) {
 }
 
 struct PointSource {
-  // Rise over the infinite solid's P / (4 pi k R), and over the cube's, `cells` away.
+  // The measured rise `cells` away, P / (4 pi k R) of the infinite solid, and the solution in the
+  // cube.
   struct Seen {
     double rise = 0, infinite = 0, cube = 0;
   };
-  // half: cells on each side of the one that is heated
+  // half: cells on each side of the heated one.
   PointSource(int half, double cell, double seconds)
       : bone(block(Ijk::Constant(2 * half + 3), cell)),
-        // one voxel of bone beyond the box on each side: its layer of cells that stay cold
+        // one voxel of bone beyond the box on each side: the layer of cells that stay cold
         heat(*bone, everything(*bone).inflated(-cell), {.cell = cell, .longest_step = 1}),
         edge((2 * half + 2) * cell),
         middle(Ijk::Constant(half)),
@@ -90,8 +91,7 @@ TEST(HeatGrid, AroundASteadyPointSourceFallsOffAsOneOverTheDistance) {
     for (const int n : {2, 3, 4, 6, 8, 10, 12}) {
       const Ijk cells = n * direction;
       const auto seen = source.at(cells);
-      // the lattice's own error: along the axes a quarter of the square of the cells, and more
-      // terms
+      // discretisation error: along the axes a quarter of the square of the cells, and more terms
       EXPECT_NEAR(seen.rise, seen.cube, seen.infinite * (0.003 + 0.35 / cells.squaredNorm()))
           << cells.transpose();
       if (direction.x() == 1)
@@ -99,7 +99,8 @@ TEST(HeatGrid, AroundASteadyPointSourceFallsOffAsOneOverTheDistance) {
                     cells.cast<double>().norm(), seen.rise, seen.cube,
                     100 * (seen.rise / seen.cube - 1), seen.infinite);
     }
-  // the cold walls take away much the same everywhere near the source: differences are the book's
+  // near the source the cold walls lower all cells almost equally, so differences are those of the
+  // infinite solid
   const auto near = source.at({4, 0, 0}), far = source.at({8, 0, 0});
   EXPECT_NEAR(near.rise - far.rise, near.infinite - far.infinite,
               0.05 * (near.infinite - far.infinite));
@@ -114,7 +115,7 @@ TEST(HeatGrid, ComesNearerToThePointSourceWhenCellsAreHalved) {
     const double was = std::abs(a.rise / a.cube - 1), is = std::abs(b.rise / b.cube - 1);
     std::printf("%d mm away: off by %.3f %% with 1 mm, %.3f %% with 0.5 mm\n", mm, 100 * was,
                 100 * is);
-    EXPECT_LT(is, 0.4 * was) << mm;  // of second order it would be 0.25
+    EXPECT_LT(is, 0.4 * was) << mm;  // with second order it would be 0.25
   }
 }
 
@@ -125,7 +126,7 @@ double half_space_rise(double flux, double depth, double t) {
           depth / 2 * std::erfc(depth / (2 * root)));
 }
 
-// relative error of the surface after 20 s; checks the profile
+// Relative error of the surface after 20 s; also checks the profile.
 double heated_half_space(double cell, double allowed) {
   constexpr double kFlux = 2000;  // [W/m^2]
   const int deep = static_cast<int>(std::lround(30e-3 / cell));
@@ -145,7 +146,7 @@ double heated_half_space(double cell, double allowed) {
                 allowed * surface)
         << depth;
   }
-  // from the middle of the first cell to the surface the flux itself says how it goes on
+  // between the middle of the first cell and the surface the flux gives the temperature
   const double seen = heat.temperature_c({1, 1, 0}) - 37 + kFlux * cell / 2 / kBone.conductivity;
   std::printf("%.2f mm: surface %.4f K, book %.4f\n", 1e3 * cell, seen, surface);
   return std::abs(seen / surface - 1);
@@ -160,8 +161,8 @@ TEST(HeatGrid, AHalfSpaceUnderConstantFluxWarmsWithTheRootOfTime) {
 
 // ---- the coolant
 
-// A rod in a mould that does not conduct, heated at one end, with the coolant on the other. Mean of
-// the four rows of cells; the mould has tissue 2.
+// A rod in a mould that does not conduct, heated at one end, with the coolant at the other. Mean of
+// the four rows of cells; the mould is tissue 2.
 struct Rod {
   explicit Rod(double cell)
       : deep(static_cast<int>(std::lround(10e-3 / cell))),
@@ -195,7 +196,7 @@ TEST(HeatGrid, AWetRodComesToTheSteadyStateOfTheBook) {
   const HeatSettings settings;
   const double watt = 5e-3, area = std::pow(2 * rod.h, 2);
   rod.heat.irrigate(rod.wet_end());
-  // at 1 cell of reach the mould beside the rod is heated too; it keeps that
+  // with a radius of 1 cell the mould beside the rod is heated too, and keeps that heat
   rod.burn(watt, 3000);
   for (int k = 0; k < rod.deep - 1; ++k) {
     const double depth = (k + 0.5) * rod.h;
@@ -235,7 +236,7 @@ TEST(HeatGrid, OnlyWhatIsWithinReachOfTheCoolantIsCooled) {
   EXPECT_EQ(heat.temperature_c({0, 2, 2}), heat.temperature_c({0, 1, 2}));
 }
 
-// what is open is the plane's own area, whichever way it lies
+// The open area of a plane is its true area for any orientation.
 TEST(HeatGrid, ASlantedPlaneIsAsLargeAsItIs) {
   for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(1, 0, 1), Vec3(1, 1, 1), Vec3(1, 2, 3)}) {
     const Vec3 n = normal.normalized();
@@ -249,13 +250,13 @@ TEST(HeatGrid, ASlantedPlaneIsAsLargeAsItIs) {
           for (int i = 0; i < 64; ++i)
             field.push_back(volume::field_from_depth(-n.dot(Vec3(i - 31.7, j - 31.8, k - 31.6))));
       const auto bone = volume::bone_from_arrays(grid, {}, field, {}, {}, 0);
-      // a box in the middle of the plane: what is open in it is the plane's part
+      // a box in the middle of the plane: its open area is that part of the plane
       const double half = 8e-3;
       const Vec3 middle = grid.world_from_grid(Vec3::Constant(31.5));
       const HeatGrid heat(*bone, {middle - Vec3::Constant(half), middle + Vec3::Constant(half)},
                           {.cell = 1e-3});
       ASSERT_EQ(heat.box().count, Ijk::Constant(16));
-      // area of the plane within the cube, by points
+      // area of the plane within the cube, by counting points
       const double h = 2e-4;
       double inside = 0;
       const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
@@ -267,9 +268,9 @@ TEST(HeatGrid, ASlantedPlaneIsAsLargeAsItIs) {
   }
 }
 
-// ---- what must always hold
+// ---- invariants
 
-// lumps with caves, of two materials, in a box smaller than the bone
+// Lumps with cavities, of two materials, in a box smaller than the bone.
 std::unique_ptr<volume::Bone> lumps(std::mt19937& random) {
   volume::Grid grid;
   grid.size = {40, 33, 27};
@@ -302,7 +303,7 @@ math::Aabb middle_of(const volume::Bone& bone) {
   return {p - Vec3::Constant(6e-3), p + Vec3::Constant(6e-3)};
 }
 
-// milling without end: heat, coolant, cuts and material put back, in any order
+// Endless milling: heat, coolant, cuts and added material, in random order.
 void wander(HeatGrid& heat, volume::Bone& bone, std::mt19937& random, int rounds) {
   for (int n = 0; n < rounds; ++n) {
     heat.deposit(somewhere(bone, random), 2e-3, 0.05);
@@ -388,7 +389,7 @@ TEST(HeatGrid, TheSameCallsGiveTheSameBits) {
   EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(double)), 0);
 }
 
-// Seen in pieces while being cut, the cells are what they would be if read whole at the end.
+// Read in pieces while being cut, the cells equal those read as a whole at the end.
 TEST(HeatGrid, WhatIsCutMeanwhileIsAsIfItHadNeverBeenThere) {
   std::mt19937 random(5);
   const auto bone = lumps(random);
@@ -417,7 +418,7 @@ TEST(HeatGrid, WhatIsCutMeanwhileIsAsIfItHadNeverBeenThere) {
       }
 }
 
-// ---- bone that comes and goes
+// ---- removed and added bone
 
 TEST(HeatGrid, BoneThatIsCutTakesItsHeatAlong) {
   const auto bone = block({16, 8, 8}, 0.5e-3);
@@ -451,7 +452,7 @@ TEST(HeatGrid, HalfACellTakesHalfItsHeatAndIsNoWarmer) {
 TEST(HeatGrid, ASplinterIsHeatedAsMuchAsAWholeCell) {
   const auto bone = block({8, 8, 8}, 0.5e-3);
   cut_out(*bone, {0, 0, 0}, {2, 2, 1});
-  cut_out(*bone, {0, 0, 1}, {1, 2, 2});  // a quarter of cell (0,0,0) is left
+  cut_out(*bone, {0, 0, 1}, {1, 2, 2});  // a quarter of cell (0,0,0) remains
   HeatGrid heat(*bone, everything(*bone), {});
   const Vec3 between = 0.5 * (heat.centre({0, 0, 0}) + heat.centre({1, 1, 1}));
   EXPECT_EQ(heat.deposit(between, 1e-3, 0.05), 0.05);
@@ -486,12 +487,12 @@ TEST(HeatGrid, HeatDoesNotCrossAir) {
   EXPECT_NEAR(heat.ledger().stored, 0.5, 1e-12);
 }
 
-// two halves, each in its own steady state: the flux is that of two resistances in series
+// Two halves in steady state: the flux is that of two resistances in series.
 TEST(HeatGrid, TwoMaterialsConductOneAfterTheOther) {
   const auto bone = block(
       {26, 3, 3}, 1e-3, [](int i, int, int) { return i < 13 ? 1 : 2; }, test::two_bones());
   const Material other = {.conductivity = 2, .density = 3000, .specific_heat = 1500};
-  // the box ends one voxel before the bone on the right: cold there
+  // on the right the box ends one voxel before the bone: cold there
   const math::Aabb work = {Vec3::Zero(), {25e-3, 3e-3, 3e-3}};
   HeatGrid heat(*bone, work, {.special = {{2, other}}, .longest_step = 1});
   const double watt = 0.01, area = 9e-6;
@@ -500,7 +501,7 @@ TEST(HeatGrid, TwoMaterialsConductOneAfterTheOther) {
     heat.advance(0.3);
   }
   const auto rise = [&](int i) { return heat.temperature_c({i, 1, 1}) - 37; };
-  const double in_first = watt / area * 1e-3 / kBone.conductivity;  // a cell
+  const double in_first = watt / area * 1e-3 / kBone.conductivity;  // per cell
   const double in_second = watt / area * 1e-3 / other.conductivity;
   EXPECT_NEAR(rise(3) - rise(4), in_first, 1e-3 * in_first);
   EXPECT_NEAR(rise(20) - rise(21), in_second, 1e-3 * in_second);
@@ -508,7 +509,7 @@ TEST(HeatGrid, TwoMaterialsConductOneAfterTheOther) {
   EXPECT_NEAR(rise(24), in_second, 1e-3 * in_second);
 }
 
-// ---- what is told
+// ---- the summary
 
 TEST(HeatGrid, TellsEachTissueApart) {
   auto tissues = test::two_bones();
@@ -544,7 +545,7 @@ TEST(HeatGrid, TellsEachTissueApart) {
   EXPECT_NEAR(summary.tissue[3].ever_c, 57, 1e-3);
   EXPECT_GT(summary.tissue[3].cem43_min, 1);
 
-  // what was cut keeps its place in the history, not in the present
+  // removed bone counts in the history, not in the present
   const TissueHeat before = summary.tissue[1];
   cut_out(*bone, {0, 0, 0}, {8, 8, 8});
   EXPECT_TRUE(heat.look());

@@ -21,7 +21,7 @@ using test::everything;
 
 constexpr std::int64_t kTickNs = 1'000'000;
 
-// a burr that wanders over a slab for so many ticks, the coolant now and then
+// A burr that moves over a slab for this many ticks, with coolant now and then.
 std::vector<HeatRow> milling(int ticks, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<> step(-1e-4, 1e-4);
@@ -68,7 +68,7 @@ TEST(Heating, KeepsTheAccountOfTheBurr) {
     stays += row.energy * (row.edge == Edge::flute ? 0.25 : 0.5);
   }
   const HeatSummary& summary = heating.sum_up();
-  EXPECT_EQ(summaries, 29);  // the last tenth of a second is not over
+  EXPECT_EQ(summaries, 29);  // the last tenth of a second is not complete
   EXPECT_EQ(summary.rows, 3000U);
   EXPECT_NEAR(summary.ledger.spent, spent, 1e-12);
   EXPECT_NEAR(summary.ledger.into, stays, 1e-12);
@@ -102,7 +102,7 @@ TEST(Heating, StartsOverWhenToldTo) {
   static_cast<void>(heating.take({.time_ns = 0, .start_over = true}));
   EXPECT_EQ(heating.sum_up().hottest_c, 37);
   EXPECT_EQ(heating.summary().ledger.spent, 0);
-  // and is then as new
+  // and is then like a new one
   const auto other_bone = slab();
   Heating other(*other_bone, everything(*other_bone), {});
   for (HeatRow row : rows) {
@@ -170,7 +170,7 @@ TEST(HeatWorker, SeesWhatWasCutBetweenTheRows) {
   EXPECT_LT(test::imbalance(summary.ledger), 1e-6);
 }
 
-// no order to compare with: the account must close, and nobody hang
+// The order is not fixed, so only this is checked: the account balances and no thread hangs.
 TEST(HeatWorker, KeepsItsAccountWhileTheServoCuts) {
   const auto bone = slab();
   Worker worker(*bone, everything(*bone), {}, 1 << 14);
@@ -206,7 +206,7 @@ TEST(HeatWorker, AFullRingRefusesAndCounts) {
   int lost = 0;
   HeatRow row;
   for (int n = 0; n < 2000; ++n) {
-    row.time_ns = n * 50 * kTickNs;  // a step each: more than it can do
+    row.time_ns = n * 50 * kTickNs;  // one step each: more than it can process
     lost += worker.push(row) ? 0 : 1;
   }
   EXPECT_GT(lost, 0);

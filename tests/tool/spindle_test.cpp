@@ -1,4 +1,5 @@
-// The spindle against the equation of its motor, solved by hand: J dw/dt = torque - load - b w.
+// The spindle, compared with solutions by hand of its motor's equation: J dw/dt = torque - load - b
+// w.
 #include "burr/tool/spindle.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ TEST(Spindle, RunsUpWithItsWholeTorqueUntilItsSpringBegins) {
   EXPECT_NEAR(one.speed(), 0.5 * (1 - kFree.droop) * kFull, 0.01 * kFull);
   run(one, 0.5 * until, 1, 0);
   EXPECT_NEAR(one.speed(), (1 - kFree.droop) * kFull, 0.01 * kFull);
-  // then what is left of the way fades with J / K
+  // then the remaining difference decays with J / K
   run(one, kFree.inertia / kSteep, 1, 0);
   EXPECT_NEAR(one.speed(), kFull * (1 - kFree.droop * std::exp(-1)), 0.004 * kFull);
   run(one, 1, 1, 0);
@@ -45,7 +46,7 @@ TEST(Spindle, GivesWayInProportionToTheLoad) {
     EXPECT_NEAR(one.speed(), kFull - load / kSteep, 1e-6 * kFull) << load;
     EXPECT_FALSE(one.stalled());
   }
-  // with friction of its own: K (w_set - w) = load + b w
+  // with friction of the motor: K (w_set - w) = load + b w
   Motor rubbing = kFree;
   rubbing.friction = 1e-6;
   Spindle one = spindle(rubbing);
@@ -56,7 +57,7 @@ TEST(Spindle, GivesWayInProportionToTheLoad) {
 TEST(Spindle, StallsUnderMoreThanItsTorqueAndTurnsAgainWhenLetGo) {
   Spindle one = spindle();
   run(one, 1, 1, 0);
-  // brakes by load - torque from 0.9 w on: 1.2 J w / torque at the most
+  // slows down by load - torque from 0.9 w on: takes at most 1.2 J w / torque
   run(one, 1.2 * kFree.inertia * kFull / (0.04 - kFree.torque), 1, 0.04);
   EXPECT_EQ(one.speed(), 0);
   EXPECT_TRUE(one.stalled());
@@ -107,8 +108,8 @@ TEST(Spindle, WithoutAMotorGoesAsCommandedWhateverTheLoad) {
   EXPECT_EQ(one.speed(), 0.5 * kFull);
 }
 
-// What the hand feels of it is what the bone takes and what the rotor gains: over any time the
-// twist of the handpiece is the bone's plus J times the change of speed.
+// The hand feels the bone's torque plus the rotor's: over any time the angular impulse on the
+// handpiece is that of the bone plus J times the change of speed.
 TEST(Spindle, TheHandpieceTwistsAgainstWhatTheBurrMeets) {
   Motor rubbing = kFree;
   rubbing.friction = 1e-6;

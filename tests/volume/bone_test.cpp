@@ -69,7 +69,8 @@ TEST(Bone, HashSeesTheFieldAndForgetsEmptyBricks) {
   EXPECT_NE(one->content_hash(), two->content_hash());
 }
 
-// 4 x 4 x 4 bricks: solid but for two voxels, of tissue 2 with one voxel of 3, none to spare.
+// 4 x 4 x 4 bricks: solid except for two voxels, of tissue 2 with one voxel of tissue 3; only
+// `reserve` bricks may be added.
 std::unique_ptr<Bone> mostly_solid(std::size_t reserve) {
   Grid grid;
   grid.size = {32, 32, 32};
@@ -112,7 +113,7 @@ TEST(Bone, UniformBricksShareOneSlotUntilTheyAreWritten) {
   EXPECT_EQ(bone->shared_tissue(16, 0, 0), 3);
   EXPECT_EQ(bone->memory_bytes() - before, sizeof(BrickField) + sizeof(rt::Version) + kBrickVoxels);
 
-  // and back: the same bone, whatever is shared
+  // and back: the same bone, whichever bricks share slots
   std::fill_n(content.voxel, kBrickVoxels, kSolid);
   bone->write_brick(5, content);
   bone->set_tissue(16, 0, 0, 2);

@@ -1,4 +1,4 @@
-// How far it is to a tissue: against every voxel asked one by one, and against a ball.
+// The distance to a tissue, compared with a search over all voxels, and with a ball.
 #include "burr/volume/distance_to.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ std::size_t index_of(const Grid& grid, int i, int j, int k) {
               static_cast<std::size_t>(grid.size.y()) * static_cast<std::size_t>(k));
 }
 
-// Soft throughout: it is the labels that count, in bricks with and without material.
+// Soft tissue everywhere: only labels count, in bricks with and without material.
 template <class Label>
 Labelled labelled(const Ijk& size, double voxel, const Label& label) {
   Labelled made;
@@ -57,7 +57,7 @@ DistanceTo made(const Labelled& labelled, std::vector<TissueId> tissues,
   return std::move(*distance);
 }
 
-// Every voxel asked one by one: the nearest centre of each wanted tissue [m].
+// Search over all voxels: the distance to the nearest centre of each wanted tissue [m].
 std::vector<double> asked(const Labelled& labelled, const std::vector<TissueId>& tissues,
                           const Vec3& p) {
   std::vector<double> nearest(256, std::numeric_limits<double>::infinity());
@@ -83,7 +83,7 @@ std::uint64_t seed_of_test() {
   return seed;
 }
 
-// Few labels, so that most places are far from any; sizes that are no multiples of anything.
+// Few labels, so that most places are far from all of them; sizes without common factors.
 Labelled random_bone(std::mt19937_64& random) {
   const auto edge = [&] { return static_cast<int>(5 + random() % 30); };
   const Ijk size(edge(), edge(), edge());
@@ -118,7 +118,7 @@ TEST(DistanceTo, AtTheKeptVoxelsItIsTheNearestOfAll) {
         EXPECT_EQ(nearest.distance, least(truth));
         continue;
       }
-      // the pose's own rounding lets a few nanometres of a neighbour in
+      // rounding in the pose moves the point by a few nanometres
       EXPECT_NEAR(nearest.distance, least(truth) - voxel / 2, 1e-9) << ijk.transpose();
       EXPECT_NEAR(truth[nearest.tissue], least(truth), 1e-9) << "whose it is";
     }
@@ -179,7 +179,7 @@ TEST(DistanceTo, ABallIsAsFarAsItsFormulaSays) {
     }
     std::printf("step %d: off by %.3f to %.3f voxel, %.3f in the mean\n", distance.step(), shortest,
                 longest, sum / count);
-    // a voxel belongs to the ball when its centre does, so the nearest lies a little within
+    // a voxel belongs to the ball if its centre does, so the nearest centre lies slightly inside
     EXPECT_GT(shortest, -0.5 - 0.05 * distance.step());
     EXPECT_LT(longest, 0.45);
     EXPECT_NEAR(sum / count, -0.28, 0.05);
@@ -196,7 +196,7 @@ TEST(DistanceTo, AWallIsExact) {
   }
   EXPECT_NEAR(distance.at(bone.grid.world_from_grid({3.3, 4, 4})).distance, -0.25e-3, 1e-9)
       << "inside";
-  // beyond the grid it grows on, and is never longer than it is
+  // outside the grid the distance keeps growing and is never too long
   double before = 0;
   for (double x = 39; x < 80; x += 5) {
     const double now = distance.at(bone.grid.world_from_grid({x, 7.7, 11.2})).distance;

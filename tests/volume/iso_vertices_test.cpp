@@ -1,4 +1,4 @@
-// The vertices the proxy feels, when their room runs out.
+// The vertices that the proxy uses, when their memory runs out.
 #include "burr/volume/iso_vertices.h"
 
 #include <gtest/gtest.h>
@@ -11,14 +11,14 @@
 namespace burr::volume {
 namespace {
 
-// Writes a brick and says so as the carver does.
+// Writes a brick and reports the change, as the carver does.
 void write(Bone& bone, IsoVertices& surface, BrickIndex brick, const BrickField& content) {
   bone.write_brick(brick, content);
   surface.changed(brick, 65535, ~0ULL, 0xFFU);
 }
 
 TEST(IsoVertices, ABrickThatFindsNoRoomStaysStaleAndIsMadeAnewWhenItCan) {
-  // a slab: 64 vertices a brick; then noise, some 750 a brick, far beyond the room kept for it
+  // a slab: 64 vertices per brick; then noise, some 750 per brick, far more than the room reserved
   Grid grid;
   grid.size = {32, 32, 16};
   std::vector<Field> field(32 * 32 * 16);

@@ -40,7 +40,7 @@ struct Seen {
   bool air = false, bone = false, material = false;
 };
 
-// voxels lo .. hi, one by one
+// Voxels lo .. hi, one by one.
 Seen look(const Bone& bone, const math::Ijk& lo, const math::Ijk& hi) {
   Seen seen;
   for (int k = lo.z(); k <= hi.z(); ++k)
@@ -61,7 +61,7 @@ void compare_with_every_voxel(const Bone& bone, const Pyramid& pyramid, std::mt1
     const math::Ijk lo = box.lo.array().floor().cast<int>(),
                     hi = box.hi.array().floor().cast<int>() + 1;
     const Seen cells = look(bone, lo, hi);
-    // the same, widened to whole bricks of the grid
+    // the same for the box widened to whole bricks of the grid
     math::Ijk first = lo, last = hi;
     bool meets = true;
     for (int a = 0; a < 3; ++a) {
@@ -113,7 +113,8 @@ TEST(Pyramid, FollowsEveryWrite) {
   }
 }
 
-// walks in small steps; the crossing is between the last step in air and the first in bone
+// Compared with small steps along the ray: the crossing lies between the last step in air and the
+// first in bone.
 TEST(Pyramid, FirstHitIsTheFirstCrossingOfTheTrilinearField) {
   const std::uint64_t seed = 33;
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -141,7 +142,7 @@ TEST(Pyramid, FirstHitIsTheFirstCrossingOfTheTrilinearField) {
       ASSERT_NEAR(sample(*bone, from + *hit * way), kIsoShare, 1e-6);
     }
     ASSERT_LE(*hit, walked + 1e-9);
-    // a graze shorter than a step may be missed by walking, never by the pyramid
+    // the steps may miss a contact shorter than a step; the pyramid never does
     if (walked - *hit > 2 * kStep) {
       ASSERT_GE(sample(*bone, from + (*hit + 1e-7) * way), kIsoShare - 1e-7);
     }

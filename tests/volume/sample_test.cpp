@@ -23,7 +23,7 @@ std::unique_ptr<Bone> noisy_bone(const math::Ijk& size, std::uint64_t seed) {
   return bone_from_arrays(grid, {}, field, {}, {}, 0);
 }
 
-// the definition, straight: weights of the eight voxels
+// The definition itself: weights of the eight voxels.
 double by_weights(const Bone& bone, const Vec3& p) {
   double sum = 0;
   const int i = static_cast<int>(std::floor(p.x())), j = static_cast<int>(std::floor(p.y())),
@@ -59,7 +59,7 @@ TEST(Sample, SlopeIsTheBlendOfCentralDifferences) {
   std::uniform_real_distribution<double> u(-3, 27);
   for (int n = 0; n < 20000; ++n) {
     const Vec3 p(u(random), u(random), u(random));
-    // blending central differences is the same as the central difference of the blend
+    // interpolated central differences equal the central difference of the interpolation
     Vec3 expected;
     for (int a = 0; a < 3; ++a)
       expected[a] =
@@ -82,7 +82,7 @@ TEST(Sample, KnowsDepthAndNormalOfATurnedSlab) {
   for (int n = 0; n < 2000; ++n) {
     Vec3 p(u(random), u(random), u(random));
     p += (height(random) - outward.dot(p)) * outward;
-    // a plane is linear, and so is the blend: only rounding to 16 bits is left
+    // a plane is linear, and so is the interpolation: only rounding to 16 bits remains
     ASSERT_NEAR(depth_at(*bone, p), slab(p), 1e-4 * grid.voxel);
     ASSERT_LT((normal(*bone, grid.grid_from_world(p)) - outward).norm(), 5e-3);
   }

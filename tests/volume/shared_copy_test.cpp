@@ -1,4 +1,4 @@
-// A copy taken while the bone is cut: it is the bone at one moment, not a mixture of many.
+// A copy taken while the bone is cut is the bone at one moment, not a mixture of several.
 #include "burr/volume/shared_copy.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(SharedCopy, OfABoneAtRestIsTheSameBone) {
   EXPECT_LE((*copy)->memory_bytes(), bone->memory_bytes()) << "what is uniform takes no room";
 }
 
-// Nerves, pulp, named cavities: labels where there is no bone.
+// Nerves, pulp, named cavities: labels outside bone.
 TEST(SharedCopy, KeepsWhatHasANameWithoutBeingBone) {
   NoProgress quiet;
   auto made = phantom::phantom("tooth", 0.4, quiet);
@@ -51,9 +51,8 @@ TEST(SharedCopy, KeepsWhatHasANameWithoutBeingBone) {
   EXPECT_GT(named, 0);
 }
 
-// A writer that counts: in its n-th round every brick it has becomes n, one after the other. A copy
-// at one moment holds at most two neighbouring numbers, the larger ones in the bricks written
-// first.
+// In its n-th round the writer sets every brick to n, one after the other. A copy of one moment
+// contains at most two consecutive numbers, with the larger one in the bricks written first.
 TEST(SharedCopy, WhileItIsCutIsTheBoneOfOneMoment) {
   const auto bone = ball();
   rt::ChangedBits& changed = bone->add_watcher();
@@ -69,7 +68,7 @@ TEST(SharedCopy, WhileItIsCutIsTheBoneOfOneMoment) {
   write(1);
   std::atomic<bool> end = false;
   std::thread writer([&] {
-    // round after round as fast as a servo would at its worst, with a pause as between two ticks
+    // rounds as fast as a servo in the worst case, with a pause as between two ticks
     for (Field n = 2; !end && n < 60'000; ++n) {
       write(n);
       std::this_thread::sleep_for(std::chrono::microseconds(500));

@@ -1,4 +1,5 @@
-// How thick bone is along a line: plates and balls whose answer is known, and while it is cut.
+// The thickness of bone along a line: plates and balls with known answers, also while the bone is
+// cut.
 #include "burr/volume/thickness.h"
 
 #include <gtest/gtest.h>
@@ -49,13 +50,13 @@ TEST(Thickness, OfABallIsTheChord) {
 }
 
 TEST(Thickness, EndsAtTheNextAirAndAtTheEdgeOfTheGrid) {
-  // a ball hollow inside: the wall is measured, not the whole
+  // a hollow ball: the wall is measured, not the whole ball
   const auto hollow =
       bone_of([](const Vec3& p) { return std::min(6 * kMm - p.norm(), p.norm() - 4 * kMm); });
   const auto wall = thickness(*hollow, {0, 0, 7 * kMm}, {0, 0, -1}, 3 * kMm);
   ASSERT_TRUE(wall);
   EXPECT_NEAR(wall->length(), 2 * kMm, 0.1 * kVoxel);
-  // bone that goes on beyond the grid ends half-way to the first voxel beyond it
+  // bone that continues beyond the grid ends half-way to the first voxel outside
   const auto slab = bone_of(phantom::slab());
   const auto all = thickness(*slab, {0, 0, 1 * kMm}, {0, 0, -1}, 3 * kMm);
   ASSERT_TRUE(all);

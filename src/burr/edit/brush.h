@@ -42,7 +42,7 @@ namespace burr::edit {
 // One tick of brushing.
 struct Brushing {
   math::Vec3 centre;    // of the burr, p_grid
-  math::Vec3 push;      // unit, from burr into the bone, p_grid axes
+  math::Vec3 push;      // unit, from the burr into the bone, p_grid axes
   double radius = 0;    // of the burr [voxel]
   double strength = 1;  // 0..1, set by the pedal
   double dt = 1e-3;     // [s]

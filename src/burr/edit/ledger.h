@@ -1,6 +1,6 @@
 // edit/ledger.h - the account of removed volume: what was asked for, removed and still owed.
 //
-//     asked = removed + debt + not_cut          at every tick, to rounding of a double
+//     asked = removed + debt + not_cut          at every tick, up to rounding of a double
 //
 // Volumes are those of volume/volume_of.h.  [m^3]
 #pragma once
@@ -9,8 +9,8 @@ namespace burr::edit {
 
 struct Ledger {
   double asked = 0;    // by the removal law, since the start
-  double removed = 0;  // really taken out of the field
-  double debt = 0;     // asked, not yet taken
+  double removed = 0;  // actually removed from the field
+  double debt = 0;     // asked for, not yet removed
   double not_cut = 0;  // asked, but written off: blocked longer than a debt may wait
   double added = 0;    // deposited
   double energy = 0;   // spent on cutting  [J]

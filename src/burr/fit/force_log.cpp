@@ -15,7 +15,7 @@
 namespace burr::fit {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{512} << 20;  // an hour at 10 kHz  [byte]
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{512} << 20;  // one hour at 10 kHz [byte]
 constexpr std::size_t kMostMaterials = 100;
 
 enum Column { kTime, kNormal, kTangential, kRpm, kRadius, kRemoval, kPower, kEdge, kMaterial };
@@ -40,7 +40,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// The next piece up to `end`, which is taken off; false at the end of the text.
+// Removes the next piece, up to `end`, from the text; false at the end of the text.
 bool next(std::string_view& text, char end, std::string_view& piece) {
   if (text.data() == nullptr) return false;
   const std::size_t at = text.find(end);
@@ -61,7 +61,7 @@ std::string list_of_columns() {
   return list;
 }
 
-// Where each known column stands, -1: nowhere.
+// The column of each known quantity; -1: not present.
 using Places = std::array<int, kKnown.size()>;
 
 Result<Places> places_of(const std::vector<std::string_view>& names, const std::string& where,
@@ -114,7 +114,7 @@ Result<ForceLog> read_force_log(const std::string& path) {
 
 Result<ForceLog> parse_force_log(std::string_view text, std::string_view file) {
   ForceLog log;
-  if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);  // spreadsheets begin with it
+  if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);  // byte order mark
   Places places;
   places.fill(-1);
   std::size_t columns = 0, number = 0;

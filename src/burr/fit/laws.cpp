@@ -13,7 +13,7 @@ bool cuts(const ForceRow& row) {
   return row.normal >= kLeastPush && row.speed > 0 && row.radius > 0 && row.removal > 0;
 }
 
-// Fits y to the columns and puts the constants, or why there are none, into the answer.
+// Fits y to the columns and adds the constants, or the reason why there are none, to the answer.
 void tell(MaterialFit& answer, std::vector<const char*> keys,
           std::span<const std::vector<double>> columns, const std::vector<double>& y,
           const char* residual_unit, const char* cure) {
@@ -55,7 +55,7 @@ void fit_friction(const std::vector<ForceRow>& rows, MaterialFit& answer) {
   tell(answer, {"cutting_friction"}, std::span(&normal, 1), tangential, "N", "");
 }
 
-// P = u MRR. A power that was measured is believed before one made of the tangential force.
+// P = u MRR. A measured power is preferred to one computed from the tangential force.
 void fit_energy(const std::vector<ForceRow>& rows, MaterialFit& answer) {
   bool measured = false;
   for (const ForceRow& row : rows) measured = measured || row.power.has_value();
@@ -73,7 +73,7 @@ void fit_energy(const std::vector<ForceRow>& rows, MaterialFit& answer) {
   tell(answer, {"cutting_energy_J_mm3"}, std::span(&removal, 1), power, "W", "");
 }
 
-// F = K_c A + K_e L, once along the teeth's way and once against the bone
+// F = K_c A + K_e L, once along the motion of the teeth and once normal to the bone
 void fit_edges(const std::vector<ForceRow>& rows, MaterialFit& answer) {
   constexpr const char* kCure =
       "chip area and engaged edge must not rise and fall together: cut at several feeds and depths";
@@ -91,7 +91,7 @@ void fit_edges(const std::vector<ForceRow>& rows, MaterialFit& answer) {
     along[1].push_back(*row.edge);
     tangential.push_back(*row.tangential);
   }
-  if (!any_edge) return;  // level 2 was not asked for
+  if (!any_edge) return;  // the log has no data for level 2
   tell(answer, {"chip_tangential_N_mm2", "edge_tangential_N_mm"}, along, tangential, "N", kCure);
   tell(answer, {"chip_radial_N_mm2", "edge_radial_N_mm"}, against, normal, "N", kCure);
 }

@@ -10,8 +10,8 @@
 namespace burr::fit {
 namespace {
 
-// How often |T| stays below t: the finite series for whole degrees of freedom (Abramowitz & Stegun
-// 26.7.3 and 26.7.4).
+// Probability that |T| stays below t: the finite series for integer degrees of freedom (Abramowitz
+// & Stegun 26.7.3 and 26.7.4).
 double share_below(double t, std::size_t freedom) {
   const double angle = std::atan(t / std::sqrt(static_cast<double>(freedom)));
   const double sine = std::sin(angle), square = std::cos(angle) * std::cos(angle);
@@ -28,7 +28,7 @@ double share_below(double t, std::size_t freedom) {
 
 double student_95(std::size_t freedom) {
   BURR_CHECK(freedom > 0);
-  if (freedom > 400) {  // by powers of 1 / freedom from the normal distribution's (26.7.5)
+  if (freedom > 400) {  // expansion in 1 / freedom around the normal distribution (26.7.5)
     const double z = 1.959963984540054, f = static_cast<double>(freedom);
     const double z3 = z * z * z, z5 = z3 * z * z;
     return z + (z3 + z) / (4 * f) + (5 * z5 + 16 * z3 + 3 * z) / (96 * f * f);

@@ -14,11 +14,11 @@
 namespace burr::fit {
 namespace {
 
-// Settings of the session that the law of removal asks for.
+// The session's settings that the law of removal needs.
 struct Law {
   double radius = 0, pole = 0, max_power = 0;
-  double friction = 0;  // 0: of the tissues; then power is recorded
-  bool fluted = true;   // no diamond burr
+  double friction = 0;  // 0: from the tissues; then power is recorded
+  bool fluted = true;   // false: a diamond burr
 };
 
 Result<Law> law_of(const record::SessionInfo& info, const std::string& file) {

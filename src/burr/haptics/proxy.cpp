@@ -408,10 +408,10 @@ Vec3 Proxy::force_place(const LeastMove& last, const Vec3& hand, double& pressin
   return soft_.share * soft_.place + (1 - soft_.share) * smooth;
 }
 
-// Moves the proxy to the free place nearest to `target`, by short moves each of which is free.
+// Moves the proxy to the free place nearest to `target`, by short moves, each of which is free.
 LeastMove Proxy::settle(const Vec3& target, double guess, int moves, Touch& touch) BURR_RT {
   LeastMove last;
-  double stride = std::max(radius_ / 2, 2.0);  // bounded work; doubled while nothing is met
+  double stride = std::max(radius_ / 2, 2.0);  // bounds the work; doubled while nothing is touched
   touch.lagging = true;
   double left = 1.0;
   for (int move = 0; move < moves && touch.lagging; ++move) {

@@ -21,7 +21,7 @@ namespace burr::haptics {
 
 enum class Method {
   constraint,      // proxy.h
-  thesis,          // Eriksson 2006: two steps along the iso-surface, the spring ends on it
+  thesis,          // Eriksson 2006: two steps along the iso-surface; the spring ends on it
   thesis_literal,  // the same, but the spring ends a radius above it, as in the text
   voxel_springs,   // a spring for every voxel of bone in the burr, no proxy
   samples,         // Vidholm & Agmund 2004: points on the burr in bone give the direction

@@ -21,7 +21,7 @@ inline Quat shortest_turn(const Vec3& from, const Vec3& to) {
     turn.vec() = a.unitOrthogonal();
     return turn;
   }
-  // by the sum: of nearly opposite directions 1 + cosine has lost its digits
+  // computed from the sum: for nearly opposite directions 1 + cosine has lost its digits
   const double s = norm(a + b);
   turn.w() = 0.5 * s;
   turn.vec() = a.cross(b) * (1 / s);

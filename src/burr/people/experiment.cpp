@@ -9,9 +9,9 @@
 namespace burr::people {
 namespace {
 
-constexpr int kBlock = 10;      // trials in which each order comes equally often
-constexpr int kLookEvery = 10;  // trials between two looks whether the interval is narrow enough
-constexpr int kFewest = 60;     // answers before it is looked at all
+constexpr int kBlock = 10;      // trials in which both orders come equally often
+constexpr int kLookEvery = 10;  // trials between two checks of the interval's width
+constexpr int kFewest = 60;     // answers before the first check
 
 template <class T>
 void shuffle(std::vector<T>& list, std::size_t from, Chance& chance) {
@@ -23,7 +23,7 @@ void shuffle(std::vector<T>& list, std::size_t from, Chance& chance) {
   }
 }
 
-// Each level once in every block, in an order of its own.
+// Each level once in every block, in a random order of the block's own.
 std::vector<double> constant_levels(const Plan& plan, Chance& chance) {
   std::vector<double> all;
   while (static_cast<int>(all.size()) < plan.trials) {

@@ -8,8 +8,8 @@ namespace {
 
 using math::Vec3;
 
-constexpr double kSettled = 0.7;    // [s]
-constexpr double kPressing = 0.05;  // [N]
+constexpr double kSettled = 0.7;    // time left out at the start  [s]
+constexpr double kPressing = 0.05;  // smallest force that counts as contact  [N]
 
 std::size_t begin_of(const Felt& felt) {
   return static_cast<std::size_t>(std::ceil(kSettled / felt.dt));

@@ -11,12 +11,12 @@ namespace {
 
 constexpr int kThresholds = 101, kSlopes = 41;
 constexpr double kSlopeLow = 0.6, kSlopeHigh = 10;
-constexpr double kBeyond = 3;        // thresholds are looked for this factor beyond the levels
-constexpr double kNothing = 9;       // so far below the best a log likelihood counts no more
-constexpr double kSure = 10.83 / 2;  // 99.9 % of chi^2 with one degree, against guessing
+constexpr double kBeyond = 3;        // thresholds are searched up to this factor beyond the levels
+constexpr double kNothing = 9;       // a log likelihood this far below the best is ignored
+constexpr double kSure = 10.83 / 2;  // 99.9 % of chi^2 with one degree of freedom, against guessing
 
-// Logarithms of P and 1 - P depend on slope ln(level / threshold) alone: a table of them, read
-// straight between its rows.
+// Logarithms of P and 1 - P depend on slope ln(level / threshold) alone: a table of them, with
+// linear interpolation.
 class Logs {
  public:
   Logs(double guess, double lapse) {
@@ -37,11 +37,11 @@ class Logs {
 
  private:
   static constexpr int kRows = 3501;
-  static constexpr double kFirst = -30, kStep = 0.01;  // to z = 5, where nothing is left to doubt
+  static constexpr double kFirst = -30, kStep = 0.01;  // to z = 5, where P no longer changes
   std::vector<double> right_, wrong_;
 };
 
-// A threshold, given as its logarithm, and what the answers say of it.
+// A threshold, given as its logarithm, and its likelihood.
 struct Row {
   double place = 0;
   double weight = 0;  // logarithm of the likelihood, summed over slopes
@@ -91,7 +91,7 @@ double most(const std::vector<Row>& rows) {
       ->weight;
 }
 
-// Between the rows that still count, and one beyond on either side.
+// The same search between the rows that still count, and one row beyond on either side.
 std::vector<Row> closer(const Likelihood& likelihood, const std::vector<Row>& rows) {
   const double least = most(rows) - kNothing;
   std::size_t first = 0, last = rows.size() - 1;
@@ -100,10 +100,10 @@ std::vector<Row> closer(const Likelihood& likelihood, const std::vector<Row>& ro
   return likelihood.along(rows[first].place, rows[last].place);
 }
 
-// The logarithm of the threshold below which lies this share of what is believed.
+// The logarithm of the threshold below which this share of the posterior lies.
 double quantile(const std::vector<Row>& rows, double share) {
   const double top = most(rows);
-  std::vector<double> below = {0};  // by trapezia
+  std::vector<double> below = {0};  // by the trapezoidal rule
   for (std::size_t n = 1; n < rows.size(); ++n)
     below.push_back(below.back() +
                     0.5 * (std::exp(rows[n - 1].weight - top) + std::exp(rows[n].weight - top)));
@@ -123,7 +123,7 @@ Fit fit(std::span<const Tally> tallies, const FitSettings& settings) {
   Likelihood likelihood{tallies, {}, Logs(settings.guess, settings.lapse)};
   for (const Tally& one : tallies) likelihood.places.push_back(std::log(one.level));
 
-  // once over everything, once more where it is not far from the best
+  // once over the whole range, once more near the maximum
   const std::vector<Row> rows =
       closer(likelihood, likelihood.along(std::log(settings.smallest / kBeyond),
                                           std::log(settings.largest * kBeyond)));

@@ -30,7 +30,7 @@ FeelingObserver::FeelingObserver(Stimulus stimulus, double threshold, double lap
 
 int FeelingObserver::answer(const Trial& trial, double first, double second) const {
   Chance chance = chance_of(seed_, trial);
-  // who does not attend is right half the time
+  // an inattentive observer is right half the time
   if (chance.uniform() < 2 * lapse_) return 1 + chance.below(2);
   const auto sensed = [&](double felt) {
     const double size = stimulus_ == Stimulus::vibration ? felt : std::log(std::max(1e-9, felt));

@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::size_t kSlopes = 10;
 constexpr double kSlopeLow = 0.7, kSlopeHigh = 8;
-constexpr double kHardly = 1e-5;  // of all belief
+constexpr double kHardly = 1e-5;  // share of the whole belief that is ignored
 
-// Of a belief of this weight in which right answers have this share.
+// Entropy of an answer, for a belief of this weight in which right answers have this share.
 double entropy(double right, double weight) {
   const double p = right / weight;
   return -right * std::log(p) - (weight - right) * std::log1p(-p);
@@ -34,7 +34,7 @@ Psi::Psi(const PsiSettings& settings) {
   belief_.assign(known.size(), 1.0 / static_cast<double>(known.size()));
   for (int n = 0; n < settings.levels; ++n) {
     levels_.push_back(between(settings.smallest, settings.largest, n, settings.levels));
-    // never quite sure, so that no answer is impossible
+    // never exactly certain, so that no answer is impossible
     for (const Psychometric& one : known)
       right_.push_back(std::min(one.right(levels_.back()), 1 - 1e-9));
   }
@@ -42,7 +42,7 @@ Psi::Psi(const PsiSettings& settings) {
 }
 
 void Psi::choose() {
-  // thresholds that are hardly believed in tell nothing, and most soon are
+  // thresholds with almost no belief add no information, and most of them soon have almost none
   believed_.clear();
   double all = 0;
   for (std::size_t t = 0; t < belief_.size(); t += kSlopes) {

@@ -19,7 +19,7 @@ using volume::kBrickEdge;
 using volume::kBrickVoxels;
 using volume::TissueId;
 
-// what the formula says about a brick before its voxels are looked at
+// What the formula's bound says about a brick before its voxels are computed.
 enum class Kind : std::uint8_t { empty, solid, mixed };
 
 struct Sampled {
@@ -28,8 +28,8 @@ struct Sampled {
   TissueId tissue[kBrickVoxels];
 };
 
-// One pass over the bricks: sorts out the empty and the solid ones by the formula's Lipschitz
-// bound, samples the rest. Coarse blocks first, so that empty space costs next to nothing.
+// One pass over the bricks: finds the empty and the solid ones by the formula's Lipschitz bound,
+// and computes the others. Coarse blocks first, so that empty space costs almost nothing.
 class Sampler {
  public:
   Sampler(const volume::Grid& grid, const Formula& formula)
@@ -40,7 +40,7 @@ class Sampler {
                    static_cast<std::size_t>(bricks_.z()),
                Kind::empty) {}
 
-  // All bricks of one block of kBlock bricks a side; mixed ones go to `out`.
+  // Handles all bricks of one block of kBlock bricks per side; mixed bricks go to `out`.
   static constexpr int kBlock = 8;
   void sample_block(const math::Ijk& first, int edge, std::vector<Sampled>& out) {
     if ((first.array() >= bricks_.array()).any()) return;
@@ -53,9 +53,9 @@ class Sampler {
       sample_block(first + half * math::Ijk(c & 1, (c >> 1) & 1, c >> 2), half, out);
   }
 
-  // a brick the bound found to be solid throughout
+  // A brick that is solid throughout, by the bound.
   void fill_solid(BrickIndex brick, Field* field, TissueId* tissue) const {
-    std::fill_n(field, kBrickVoxels, Field{0});  // what lies outside the grid is air
+    std::fill_n(field, kBrickVoxels, Field{0});  // outside the grid is air
     std::fill_n(tissue, kBrickVoxels, TissueId{0});
     each_voxel(brick_ijk(brick) * kBrickEdge, [&](std::size_t v, const Vec3& p_grid) {
       field[v] = volume::kSolid;
@@ -78,7 +78,7 @@ class Sampler {
   }
 
   [[nodiscard]] Kind kind_of(const math::Ijk& first, int edge) const {
-    const double half = 0.5 * (kBrickEdge * edge - 1);  // from the middle to the outer centres
+    const double half = 0.5 * (kBrickEdge * edge - 1);  // from the middle to the outermost centres
     const Vec3 centre =
         grid_.world_from_grid((first * kBrickEdge).cast<double>() + Vec3::Constant(half));
     const double reach = formula_.lipschitz * std::sqrt(3.0) * half * grid_.voxel;
@@ -117,7 +117,7 @@ class Sampler {
       out.pop_back();
   }
 
-  // voxels of a brick that lie in the grid
+  // Calls what() for the voxels of a brick that lie in the grid.
   template <class Do>
   void each_voxel(const math::Ijk& at, Do&& what) const {
     const math::Ijk n = (grid_.size - at).cwiseMin(kBrickEdge);
@@ -134,7 +134,8 @@ class Sampler {
   std::vector<Kind> kinds_;  // (bricks); each entry is written by one worker only
 };
 
-// work(0) .. work(count - 1) on `threads` threads, in no order; the first thread reports
+// Runs work(0) .. work(count - 1) on `threads` threads, in any order; the first thread reports
+// progress.
 template <class Work>
 void share(int count, int threads, Progress& progress, std::string_view stage, Work&& work) {
   std::atomic<int> next = 0;
@@ -180,7 +181,7 @@ Result<std::unique_ptr<Bone>> bone_from_formula(const volume::Grid& grid,
   BURR_CHECK(formula.depth != nullptr && formula.lipschitz > 0 && threads > 0);
   Sampler sampler(grid, formula);
 
-  // look at everything once; each worker keeps the bricks it found
+  // compute everything once; each worker keeps the bricks it found
   const math::Ijk blocks = sampler.blocks();
   std::vector<std::vector<Sampled>> found(static_cast<std::size_t>(blocks.prod()));
   share(blocks.prod(), threads, progress, "shaping bone", [&](int n) {
@@ -190,7 +191,7 @@ Result<std::unique_ptr<Bone>> bone_from_formula(const volume::Grid& grid,
   });
   if (progress.cancelled()) return error(Trouble::interrupted, "stopped while shaping the bone");
 
-  // now the room needed is known
+  // now the memory needed is known
   const std::vector<Kind>& kinds = sampler.kinds();
   const auto count = static_cast<std::size_t>(
       std::count_if(kinds.begin(), kinds.end(), [](Kind kind) { return kind != Kind::empty; }));
@@ -202,7 +203,7 @@ Result<std::unique_ptr<Bone>> bone_from_formula(const volume::Grid& grid,
     if (kind == Kind::solid) solid.push_back(b);
   }
 
-  // every brick has its place, so workers may fill them at once
+  // every brick has its slot, so workers may fill them in parallel
   for (std::vector<Sampled>& block : found) {
     for (const Sampled& from : block) {
       bone->build_brick(from.brick, from.field, from.tissue);

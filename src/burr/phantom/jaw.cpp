@@ -1,6 +1,6 @@
-// src/burr/phantom/jaw.cpp - a piece of the left lower jaw with a gap to put an implant into, by formula.
+// phantom/jaw.cpp - a piece of the left lower jaw with a gap for an implant, by formula.
 //
-// Frame: LPS about the ridge at the gap: x outwards (to the cheek), y backwards, z up. Cortex 2.2
+// Frame: LPS around the ridge at the gap: x outwards (to the cheek), y backwards, z up. Cortex 2.2
 // mm, nerve canal 16 mm under the ridge: middle values of cone-beam studies.
 #include <algorithm>
 #include <array>
@@ -65,7 +65,7 @@ class Jaw {
     }
     s.nerve = nerve_.distance(p);
 
-    // spongy inside: plates and struts about marrow
+    // spongy inside: plates and struts around marrow
     const double inside = s.hull - (2.2 + 0.5 * noise(p, 8 * mm, 22)) * mm;
     const double keep = std::min({inside, s.nerve - kCanalRadius - kWall, -s.tooth - 0.5 * mm});
     s.marrow = keep > -1.5 * mm ? std::min(keep, foam(p, 2.3 * mm, 0.35, 23) - 0.22 * mm) : keep;
@@ -85,7 +85,7 @@ class Jaw {
     math::Pose place;
     ToothModel model;
   };
-  // the ridge has sunk where a tooth was lost
+  // the ridge is lower where a tooth was lost
   [[nodiscard]] static double gap(const Vec3& p) {
     const double y = p.y() / (5.5 * kMm), z = p.z() / (7 * kMm);
     return std::exp(-y * y - z * z);
@@ -153,7 +153,7 @@ Phantom jaw(double voxel) {
   phantom.formula.tissue = [model, ramp = volume::kRamp * voxel](const Vec3& p,
                                                                  double depth) -> TissueId {
     const Jaw::Parts s = model->parts(p);
-    if (depth < -1e-4 * ramp) {  // its field is below the surface, rounded
+    if (depth < -1e-4 * ramp) {  // outside, even after rounding
       if (s.nerve < kNerveRadius) return kNerve;
       if (s.tooth > 0 && s.pulp > 0) return kPulp;
       if (s.marrow > 0) return kMarrow;

@@ -8,7 +8,7 @@
 namespace burr::phantom {
 namespace {
 
-// a block of bone to sculpt, edges along the world's
+// A block of bone to sculpt, edges along the world's axes.
 Phantom block(double) {
   Phantom phantom;
   phantom.formula.depth = box({20e-3, 20e-3, 15e-3});
@@ -51,7 +51,7 @@ std::string list_of_names() {
   return list;
 }
 
-// more would not fit the memory of a common machine, fewer show nothing
+// more would not fit into the memory of a common computer; fewer show nothing
 constexpr double kMostVoxels = 1.2e9, kFewestAlong = 16;
 
 std::string in_mm(double mm) {

@@ -10,21 +10,21 @@
 namespace burr::phantom {
 namespace {
 
-// 64 fixed bits of a lattice point
+// 64 pseudo-random bits of a lattice point; always the same.
 std::uint64_t bits_at(int i, int j, int k, std::uint32_t seed) {
   const auto word = [](int n) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(n)); };
-  // 21 bits of each coordinate: unique within two million lattice points a side
+  // 21 bits of each coordinate: unique within two million lattice points per axis
   const std::uint64_t at = (word(i) & 0x1fffff) | (word(j) & 0x1fffff) << 21 | word(k) << 42;
   return base::mix(base::mix(seed, std::uint64_t{0}), at);
 }
 
-// 21 of them as 0..1
+// 21 of these bits as a number 0..1.
 double share(std::uint64_t bits, int which) {
   return static_cast<double>((bits >> (21 * which)) & 0x1fffff) / 0x1fffff;
 }
 
-// What a lattice point says, by cell: the next voxel asks for the same cell as a rule. A memory for
-// each of a few seeds; one that is taken by another seed's is filled again.
+// A cache of what a lattice cell gives, because the next voxel usually needs the same cell. One
+// entry for each of a few seeds; an entry that another seed uses is filled again.
 template <class Said>
 class Remembered {
  public:
@@ -74,13 +74,13 @@ RoundCone::RoundCone(const Vec3& a, const Vec3& b, double radius_a, double radiu
   cos_t_ = std::sqrt(1 - sin_t_ * sin_t_);
 }
 
-// after the closed form of Quilez, "Round cone", for balls neither of which holds the other
+// closed form of Quilez, "Round cone", for balls neither of which contains the other
 double RoundCone::depth(const Vec3& p) const {
   const Vec3 q = p - a_;
   if (length_ <= std::abs(radius_a_ - radius_b_))
     return std::max(radius_a_ - q.norm(), radius_b_ - (p - b_).norm());
   const double along = q.dot(u_), across = (q - along * u_).norm();
-  // in the plane of p and the axis, the mantle leans by the taper
+  // in the plane of p and the axis: the mantle is inclined by the taper
   const double foot = along - across * sin_t_ / cos_t_;
   if (foot < 0) return radius_a_ - q.norm();
   if (foot > length_) return radius_b_ - (p - b_).norm();
@@ -192,8 +192,8 @@ double foam(const Vec3& p, double spacing, double open, std::uint32_t seed) {
     distance[n] = (q - seeds[n].at).norm();
     if (distance[n] < distance[nearest]) nearest = n;
   }
-  // the two nearest walls that are there, their corner rounded; half the difference of two
-  // distances is continuous where a missing wall is crossed
+  // the two nearest walls that exist, with a rounded corner; half the difference of two distances
+  // is continuous across a missing wall
   double first = 1, second = 1;
   for (std::size_t n = 0; n < 27; ++n) {
     if (n == nearest) continue;

@@ -8,13 +8,13 @@
 namespace burr::phantom {
 namespace {
 
-// distance of (x, z), x >= 0, to the ray from the origin along (sin a, cos a)
+// Distance of (x, z), x >= 0, to the ray from the origin along (sin a, cos a).
 double to_wall(double x, double z, double sin_a, double cos_a) {
   const double along = x * sin_a + z * cos_a;
   return along > 0 ? std::abs(x * cos_a - z * sin_a) : std::hypot(x, z);
 }
 
-// exact distance to a box centred on the origin, negative inside; any dimension
+// Exact distance to a box centred on the origin, negative inside; any dimension.
 template <class Vector>
 double to_box(const Vector& p, const Vector& half) {
   const Vector out = p.cwiseAbs() - half;
@@ -93,8 +93,8 @@ Depth two_balls(double radius, double half_distance) {
 
 Depth gyroid(double period, double fill) {
   const double k = 2 * std::numbers::pi / period;
-  // share of space where g > level is 0.5 - level / 3.06 within 0.5 % of space for 0.2 .. 0.8
-  // (from a sampling of the unit cell)
+  // the share of space where g > level is 0.5 - level / 3.06, within 0.5 % of space for fill 0.2 ..
+  // 0.8 (from a sampling of the unit cell)
   const double level = 3.06 * (0.5 - fill);
   return [k, level](const Vec3& p) {
     const double sx = std::sin(k * p.x()), cx = std::cos(k * p.x());
@@ -102,7 +102,7 @@ Depth gyroid(double period, double fill) {
     const double sz = std::sin(k * p.z()), cz = std::cos(k * p.z());
     const double g = sx * cy + sy * cz + sz * cx - level;
     const Vec3 slope(cx * cy - sz * sx, cy * cz - sx * sy, cz * cx - sy * sz);
-    // first order, where the slope is not too small to trust
+    // first-order estimate, where the slope is large enough
     return g / (k * std::max(slope.norm(), 0.8));
   };
 }

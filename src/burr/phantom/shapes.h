@@ -22,7 +22,7 @@ using Depth = std::function<double(const Vec3& p)>;  // [m], positive inside
 
 [[nodiscard]] Depth ball(double radius, const Vec3& centre = {0, 0, 0});
 
-// Bone everywhere but inside a ball: a cavity.
+// Bone everywhere except inside a ball: a cavity.
 [[nodiscard]] Depth bowl(double radius, const Vec3& centre = {0, 0, 0});
 
 // Box about the origin; edges and corners sharp.

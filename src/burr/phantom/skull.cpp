@@ -1,7 +1,7 @@
-// src/burr/phantom/skull.cpp - a skull without lower jaw, by formula: vault of two tables with spongy bone
-// between, eye sockets, nose, cheekbones, upper teeth, base.
+// phantom/skull.cpp - a skull without lower jaw, by formula: vault of two tables with spongy bone
+// between them, eye sockets, nose, cheekbones, upper teeth, base.
 //
-// Frame: LPS about the middle of the vault's widest level: x left, y backwards, z up. Modelled by
+// Frame: LPS around the middle of the vault's widest level: x left, y backwards, z up. Modelled by
 // eye to the size of a small adult (150 x 185 x 145 mm).
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ struct Skull {
       return RoundCone{a, b, ra * mm, rb * mm}.depth(q);
     };
 
-    // brain case: an egg, broader behind, and the room in it
+    // brain case: an egg shape, broader behind, and the space inside it
     const double broad = 1 + 0.10 * std::clamp(p.y() / (90 * mm), -1.0, 1.0);
     const Vec3 egg(q.x() / broad, q.y(), q.z());
     const Vec3 middle = at_mm(0, 4, 12);
@@ -64,7 +64,7 @@ struct Skull {
       hull = blend(hull, cone(at_mm(x, y, -52), 6.5, at_mm(x, y, -64), 5.2), 5 * mm);
     }
     teeth = row;
-    // palate, sockets, nose, and what passes through
+    // palate, eye sockets, nose, and openings
     hull = carve_soft(hull, -cone(at_mm(0, -74, -68), 13, at_mm(0, -44, -66), 17), 4 * mm);
     hull = carve_soft(hull, -cone(at_mm(33, -98, -12), 18.5, at_mm(17, -58, -13), 3), 4 * mm);
     hull = carve_soft(hull, -cone(at_mm(4.5, -104, -36), 8.5, at_mm(4.5, -40, -36), 8), 4 * mm);
@@ -74,7 +74,7 @@ struct Skull {
     hull = blend(hull, cone(at_mm(51, -60, -25), 5.5, at_mm(68, -26, -25), 3.2), 4 * mm);  // arch
     hull = blend(hull, cone(at_mm(68, -26, -25), 3.2, at_mm(66, 2, -22), 4.2), 4 * mm);
     hull = carve_soft(hull, -cone(at_mm(0, 36, -62), 15.5, at_mm(0, 36, -28), 15.5),
-                      4 * mm);  // big hole
+                      4 * mm);  // foramen magnum
     hull =
         carve_soft(hull, -cone(at_mm(80, 7, -26), 4, at_mm(42, 4, -25), 3), 2 * mm);  // ear canals
     hull = carve_soft(hull, -room, 3 * mm);
@@ -90,7 +90,7 @@ struct Skull {
   }
 };
 
-// the last point is asked about twice: how deep, and what tissue
+// Caches the last point, because it is needed twice: for its depth and for its tissue.
 const Skull& remembered(const Vec3& p) {
   thread_local Vec3 at = Vec3::Zero();
   thread_local Skull last(at);

@@ -1,6 +1,6 @@
-// src/burr/phantom/spine.cpp - a third lumbar vertebra, by formula.
+// phantom/spine.cpp - a third lumbar vertebra, by formula.
 //
-// Frame: LPS about the middle of the body: x left, y backwards, z up. Sizes: Panjabi et al. 1992,
+// Frame: LPS around the middle of the body: x left, y backwards, z up. Sizes: Panjabi et al. 1992,
 // Spine 17(3) (body 46 x 34 x 28 mm, pedicle 10 mm wide, canal 23 x 18 mm).
 #include <algorithm>
 #include <cmath>
@@ -26,13 +26,13 @@ class Vertebra {
   [[nodiscard]] Parts parts(const Vec3& p) const {
     const double mm = kMm;
     Parts s;
-    // left and right are the same, but for the noise
+    // left and right are equal, except for the noise
     const Vec3 q(std::abs(p.x()), p.y(), p.z());
     const auto cone = [&](const Vec3& a, double ra, const Vec3& b, double rb) {
       return RoundCone{a, b, ra * mm, rb * mm}.depth(q);
     };
 
-    // body: an oval drum with a waist, rims a little raised, plates a little hollow
+    // body: an oval drum with a waist, slightly raised rims, slightly hollow end plates
     const double waist = 1 - 0.10 * (1 - std::pow(std::min(std::abs(q.z()) / (14 * mm), 1.0), 2));
     const double round =
         ellipsoid(Vec3(q.x(), q.y(), 0), Vec3::Zero(), at_mm(23 * waist, 17 * waist, 23));
@@ -55,7 +55,7 @@ class Vertebra {
     hull = blend(hull, cone(at_mm(16, 28, 4), 4.6, at_mm(41, 34, 6), 3.0), 4 * mm);
     hull = blend(hull, cone(at_mm(16.5, 29.5, 6), 5.0, at_mm(17.5, 30.5, 18), 4.6), 3 * mm);
     hull = blend(hull, cone(at_mm(12.5, 36, -6), 4.8, at_mm(12.5, 36.5, -19), 4.8), 3 * mm);
-    // facets: flat, the upper ones look inwards and back, the lower ones outwards and forwards
+    // facets: flat; the upper ones face inwards and back, the lower ones outwards and forwards
     const Vec3 upper = Vec3(-0.75, 0.66, 0.05).normalized(),
                lower = Vec3(0.8, -0.6, 0).normalized();
     if (q.z() > 8 * mm && q.y() > 20 * mm)
@@ -73,7 +73,7 @@ class Vertebra {
     s.roots = cone(at_mm(7.5, 23, 4), 1.7, at_mm(13, 20, -9), 1.9);
     s.roots = std::max(s.roots, cone(at_mm(13, 20, -9), 1.9, at_mm(24, 15, -21), 2.0));
 
-    // spongy inside; the shell is thicker in the arch than about the body
+    // spongy inside; the shell is thicker in the arch than around the body
     const double shell =
         (q.y() > 17 * mm ? 2.0 : 1.1 + 0.9 * std::clamp((q.y() - 8 * mm) / (9 * mm), 0.0, 1.0)) *
         mm;
@@ -123,7 +123,7 @@ Phantom spine(double voxel) {
   phantom.formula.tissue = [model, ramp = volume::kRamp * voxel](const Vec3& p,
                                                                  double depth) -> TissueId {
     const Vertebra::Parts s = model->parts(p);
-    if (depth < -1e-4 * ramp) {  // its field is below the surface, rounded
+    if (depth < -1e-4 * ramp) {  // outside, even after rounding
       if (s.sac > 0) return kSac;
       if (s.roots > 0) return kRoots;
       if (s.marrow > 0) return kMarrow;

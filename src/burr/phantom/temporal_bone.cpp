@@ -1,6 +1,6 @@
-// src/burr/phantom/temporal_bone.cpp - a right temporal bone, by formula.
+// phantom/temporal_bone.cpp - a right temporal bone, by formula.
 //
-// Frame: LPS about the opening of the ear canal; for a right ear x runs medially (deeper for the
+// Frame: LPS around the opening of the ear canal; in a right ear x runs medially (deeper for the
 // surgeon), y backwards, z up. Distances between landmarks follow Gulya & Schuknecht, Anatomy of
 // the Temporal Bone, 3rd ed., to a millimetre or two; the outer shape is modelled by eye.
 #include <algorithm>
@@ -132,7 +132,7 @@ volume::TissueTable table() {
   return t;
 }
 
-// everything the formula asks about one point, depths positive inside each thing [m]
+// Everything that the formula needs about one point; depths are positive inside each part [m]
 struct Parts {
   double hull = 0;    // the bone as a whole, without holes
   double fossa = 0;   // the inside of the skull
@@ -141,19 +141,19 @@ struct Parts {
   double middle = 0;  // tympanic cavity
   double antrum = 0;
   double cells = 0;   // air of the mastoid cells
-  double facial = 0;  // distance to the nerve's middle
-  double chorda = 0;  // likewise
-  double sinus = 0;   // distance to its middle line, bulb included
+  double facial = 0;  // distance to the nerve's centre line
+  double chorda = 0;  // the same for the chorda tympani
+  double sinus = 0;   // distance to its centre line, jugular bulb included
   double carotid = 0;
   double meatus = 0;
   double semicircular = 0;  // distance to the nearest canal's circle
-  double cochlea = 0;       // distance to the spiral, less its tube
+  double cochlea = 0;       // distance to the spiral minus its tube radius
   double capsule = 0;
   double malleus = 0, incus = 0, stapes = 0;
   double drum = 0;
 };
 
-// beyond this nothing has a name [m]
+// farther outside the bone than this nothing is labelled [m]
 constexpr double kSkin = 6e-3;
 
 class TemporalBone {
@@ -169,7 +169,7 @@ class TemporalBone {
 
  private:
   [[nodiscard]] Parts parts(const Vec3& p) const;
-  // the last point is asked about twice: how deep, and what tissue
+  // Caches the last point, because it is needed twice: for its depth and for its tissue.
   [[nodiscard]] const Parts& remembered(const Vec3& p) const {
     struct Memory {
       Vec3 p = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -190,7 +190,7 @@ class TemporalBone {
 
   double ramp_;  // [m]
 
-  // the inside of the skull: a ball, cut off below by the middle fossa's floor and in front by the
+  // inside of the skull: a ball, cut off below by the floor of the middle fossa and in front by the
   // back face of the pyramid
   Vec3 skull_ = at_mm(70, 6, 30);
   Vec3 back_face_ = Vec3(0.62, 0.77, 0.14).normalized();
@@ -221,7 +221,7 @@ class TemporalBone {
   Circle superior_{at_mm(25.4, -0.4, 7.0), Vec3(0.76, -0.62, -0.16).normalized(), 3.1 * kMm};
   Vec3 vestibule_ = at_mm(24.0, -1.2, 2.6);
 
-  // two and a half turns, the tip forwards and outwards
+  // two and a half turns, the tip pointing forwards and outwards
   static Curve spiral() {
     const Vec3 base = at_mm(27.8, -9.2, -0.4);
     const Vec3 axis = Vec3(-0.52, -0.78, -0.34).normalized();
@@ -237,29 +237,29 @@ class TemporalBone {
   }
 };
 
-// The outside, as one sees it before the first cut.
+// The outer surface, as seen before the first cut.
 double TemporalBone::outer(const Vec3& p, double canal_axis) const {
   const double mm = kMm;
 
-  // vault: the squama above and the wall behind, one shell of the skull
+  // vault: squama above and wall behind, one shell of the skull
   const double from_skull = (p - skull_).norm();
   const double thickness = (3.6 + 0.8 * noise(p, 14 * mm, 1)) * mm;
   double depth = std::min(70 * mm - from_skull, from_skull - (70 * mm - thickness));
-  // it ends at the skull's base: in front above the joint, behind at the occipital suture
+  // it ends at the skull's base: in front above the jaw joint, behind at the occipital suture
   const double base = p.z() - (p.y() < 4 * mm ? 5 * mm : 5 * mm - 1.1 * (p.y() - 4 * mm));
   depth = carve_soft(depth, 0.65 * base, 3 * mm);
 
-  // mastoid: broad above, tapering to a blunt tip that points down and a little forwards
+  // mastoid: broad above, tapering to a blunt tip that points down and slightly forwards
   static const RoundCone body{at_mm(12.5, 15, 2), at_mm(10.5, 12, -12), 14.2 * mm, 11.0 * mm};
   static const RoundCone tip{at_mm(10.5, 12.5, -10), at_mm(9.0, 7.2, -23), 10.2 * mm, 4.6 * mm};
   depth = blend(depth, body, p, 7 * mm);
   depth = blend(depth, tip, p, 5 * mm);
 
-  // pyramid: inwards and forwards, its top the floor of the middle fossa
+  // pyramid: inwards and forwards; its top is the floor of the middle fossa
   static const RoundCone pyramid{at_mm(16, 3, 0), at_mm(54, -21, -1), 13 * mm, 7.5 * mm};
   depth = blend(depth, pyramid, p, 6 * mm);
 
-  // root of the zygoma above the canal, running forwards as a bar; the temporal line behind it
+  // root of the zygoma above the canal, running forwards as a bar; behind it the temporal line
   static const RoundCone root{at_mm(3.2, -3, 8.6), at_mm(-0.6, -15, 7.0), 4.4 * mm, 2.8 * mm};
   static const RoundCone bar{at_mm(-0.6, -15, 7.0), at_mm(-4.2, -34, 4.8), 2.8 * mm, 2.0 * mm};
   static const RoundCone line{at_mm(3.0, -1, 9.8), at_mm(8.6, 27, 16.5), 2.8 * mm, 1.6 * mm};
@@ -267,7 +267,7 @@ double TemporalBone::outer(const Vec3& p, double canal_axis) const {
   depth = blend(depth, bar, p, 3 * mm);
   depth = blend(depth, line, p, 3.5 * mm);
 
-  // between the squama and the pyramid: the roof of the jaw's joint
+  // between squama and pyramid: the roof of the jaw joint
   const double roof = 2.4 * mm - std::abs(p.z() - 8.4 * mm + 0.04 * (p.x() - 10 * mm));
   const double around = 17 * mm - (p - at_mm(15, -13, 8)).norm();
   depth = blend(depth, std::min({roof, around, 70 * mm - from_skull}), 4 * mm);
@@ -278,7 +278,7 @@ double TemporalBone::outer(const Vec3& p, double canal_axis) const {
   static const RoundCone socket{at_mm(3, -12.5, -2.6), at_mm(17, -12, -3.4), 4.9 * mm, 4.9 * mm};
   depth = carve_soft(depth, socket, p, 3 * mm);
 
-  // tympanic bone: a gutter that makes the canal's front, floor and part of its back
+  // tympanic bone: a gutter that forms the front, the floor and part of the back of the canal
   const double ring = 7.0 * mm - canal_axis;
   const double reach = std::min(p.x() - 1.6 * mm + 0.12 * p.z(), 19 * mm - p.x());
   depth = blend(depth, std::min({ring, reach, 3.0 * mm - p.z()}), 2.2 * mm);
@@ -297,7 +297,7 @@ double TemporalBone::outer(const Vec3& p, double canal_axis) const {
 
   if (depth < -3 * mm) return depth;  // too far away for details to matter
 
-  // pits of the cribriform area over the antrum, and the emissary vein's hole
+  // pits of the cribriform area over the antrum, and the hole of the emissary vein
   const double area = 5.0 * mm - (p - at_mm(-1.5, 11, 6)).norm();
   if (area > -3 * mm) {
     const double pits =
@@ -305,7 +305,7 @@ double TemporalBone::outer(const Vec3& p, double canal_axis) const {
     depth = carve_soft(depth, -pits, 0.5 * mm);
   }
 
-  // no bone of a body is as smooth as a formula
+  // real bone is less smooth than a formula
   return depth + 0.35 * mm * noise(p, 7 * mm, 3) + 0.10 * mm * noise(p, 2.2 * mm, 4);
 }
 
@@ -313,7 +313,7 @@ Parts TemporalBone::parts(const Vec3& p) const {
   const double mm = kMm;
   Parts s;
 
-  // a specimen as it comes from the saw: rounded block around the bone
+  // a specimen as it comes from the saw: a rounded block around the bone
   const Vec3 half = 0.5 * (hi() - lo()) - Vec3::Constant(1.2 * mm);
   const Vec3 out = (p - 0.5 * (lo() + hi())).cwiseAbs() - (half - Vec3::Constant(2 * mm));
   const double block = 2 * mm - out.cwiseMax(0.0).norm() - std::min(out.maxCoeff(), 0.0);
@@ -325,7 +325,7 @@ Parts TemporalBone::parts(const Vec3& p) const {
       p.z() - (11.6 * mm - 0.09 * (p.x() - 14 * mm) + eminence + 0.5 * mm * noise(p, 8 * mm, 5));
   const double within_skull = 66.6 * mm - (p - skull_).norm();
   const double behind = (p - at_mm(26, 10.5, 0)).dot(back_face_) + 0.4 * mm * noise(p, 9 * mm, 6);
-  // the sinus lies in the corner and keeps its own bone in front
+  // the sinus lies in the corner and keeps a layer of bone in front of it
   s.sinus = std::min(sinus_.distance(p), (p - at_mm(24.4, 3.8, -10.6)).norm() - 0.6 * mm);
   const double over = std::min(s.tegmen, within_skull);
   const double back = std::min(behind, within_skull);
@@ -350,12 +350,12 @@ Parts TemporalBone::parts(const Vec3& p) const {
   s.cochlea = cochlea_.distance(p);
   const double vestibule = ellipsoid(p, vestibule_, at_mm(1.7, 2.2, 2.4));
 
-  // hard shell of the inner ear about its canals
+  // hard shell (otic capsule) around the canals of the inner ear
   s.capsule = blend(1.75 * mm - s.semicircular, vestibule + 1.9 * mm, 1.2 * mm);
   s.capsule = blend(s.capsule, 2.2 * mm - s.cochlea, 1.2 * mm);
   s.semicircular = std::min(s.semicircular - 0.55 * mm, -vestibule);
 
-  // middle ear: cavity, attic above it, and the way back to the antrum
+  // middle ear: tympanic cavity, attic above it, and the passage back to the antrum
   s.middle = ellipsoid(p, at_mm(19.9, -4.4, -0.2), at_mm(2.9, 5.6, 6.2));
   s.middle = blend(s.middle, ellipsoid(p, at_mm(19.2, -3.4, 6.2), at_mm(2.9, 4.8, 3.6)), 2 * mm);
   static const RoundCone aditus{at_mm(18.2, 0.5, 6.6), at_mm(16.0, 5.5, 6.6), 2.3 * mm, 2.8 * mm};
@@ -365,7 +365,7 @@ Parts TemporalBone::parts(const Vec3& p) const {
   s.antrum =
       ellipsoid(p, at_mm(13.6, 9.2, 6.0), at_mm(4.4, 4.6, 4.4)) + 0.3 * mm * noise(p, 3 * mm, 7);
 
-  // air cells: the mastoid's inside down to the tip, under a cortex, larger near the antrum
+  // air cells: the inside of the mastoid down to the tip, under a cortex; larger near the antrum
   const double cortex = (2.3 + 0.6 * noise(p, 9 * mm, 8)) * mm;
   const double field = std::min(
       s.hull - cortex, blend(ellipsoid(p, at_mm(10, 13, -1), at_mm(13, 15, 14)),
@@ -385,13 +385,13 @@ Parts TemporalBone::parts(const Vec3& p) const {
   return s;
 }
 
-// tubes in the bone: how wide the canal is, and what lies in it
+// tubes in the bone: the radius of the canal, and of what lies in it
 constexpr double kFacialCanalRadius = 1.25 * kMm, kFacialNerveRadius = 0.85 * kMm;
 constexpr double kChordaCanalRadius = 0.45 * kMm, kChordaRadius = 0.3 * kMm;
 constexpr double kSinusRadius = 4.3 * kMm, kCarotidRadius = 2.7 * kMm, kMeatusRadius = 2.1 * kMm;
 constexpr double kCochleaTube = 0.8 * kMm;
 
-// The little bones; from afar only how far they are at least.
+// The ossicles; from far away only a lower bound of their distance.
 void TemporalBone::ossicles(const Vec3& p, Parts& s) const {
   const double mm = kMm;
   const double outside = (p - at_mm(20, -2.5, 3)).norm() - 6.6 * mm;
@@ -428,12 +428,12 @@ double TemporalBone::bone(const Parts& s) const {
   const double mm = kMm;
   if (s.hull < -kSkin) return s.hull;
 
-  // the whole, hollowed by cells, cavities and the ear canal
+  // the whole bone, hollowed by cells, cavities and the ear canal
   double depth = std::min(s.hull, -s.cells);
   depth = carve_soft(depth, -s.antrum, 0.6 * mm);
   depth = carve_soft(depth, -s.middle, 0.6 * mm);
 
-  // shells that stay between the cells and what they protect
+  // walls that remain between the cells and the structures they protect
   const double facial =
       std::max(kFacialCanalRadius + 0.8 * mm - s.facial, kChordaCanalRadius + 0.5 * mm - s.chorda);
   double shells = std::max(s.capsule, facial);
@@ -454,10 +454,10 @@ double TemporalBone::bone(const Parts& s) const {
   return std::max({depth, s.malleus, s.incus, s.stapes});
 }
 
-// depth in the nearest thing that has a name without being bone
+// Depth in the nearest labelled structure that is not bone.
 double TemporalBone::labelled(const Parts& s) {
   if (s.hull < -kSkin) return s.hull + 5.5 * kMm;
-  const double in_bone = s.hull + 1.5 * kMm;  // the named part of a tube ends with the bone
+  const double in_bone = s.hull + 1.5 * kMm;  // the labelled part of a tube ends with the bone
   const double tubes = std::max({kFacialNerveRadius - s.facial, kSinusRadius - s.sinus,
                                  kCarotidRadius - s.carotid, kMeatusRadius - s.meatus});
   const double holes =
@@ -471,7 +471,8 @@ TissueId TemporalBone::tissue(const Vec3& p, double depth) const {
   const Parts& s = remembered(p);
   if (s.hull < -kSkin) return kAir;
 
-  // soft things fill their canals to the wall; the field is rounded, so a hair below the surface
+  // soft structures fill their canals to the wall; the field is rounded, so start slightly below
+  // the surface
   if (depth < -1e-4 * ramp_) {
     const TissueId soft = soft_tissue(s);
     if (soft != kAir) return soft;
@@ -479,7 +480,7 @@ TissueId TemporalBone::tissue(const Vec3& p, double depth) const {
   return depth > -ramp_ ? solid_tissue(s, p) : air_tissue(s, p);
 }
 
-// in the bone, and in the ramp above it: which bone
+// Inside the bone and in the ramp above it: which kind of bone.
 TissueId TemporalBone::solid_tissue(const Parts& s, const Vec3& p) const {
   const double mm = kMm;
   if (s.malleus > -ramp_ && s.malleus >= s.incus) return kMalleus;

@@ -1,4 +1,4 @@
-// src/burr/phantom/tooth.cpp - a lower molar with a carious fissure, by formula. Sizes: Nelson, Wheeler's
+// phantom/tooth.cpp - a lower molar with a carious fissure, by formula. Sizes: Nelson, Wheeler's
 // Dental Anatomy (crown 10 x 11 mm, 20 mm long).
 #include <algorithm>
 

@@ -29,7 +29,7 @@ double ToothModel::depth(const Vec3& p) const {
     return blend(depth, cone(p, at_mm(0, 0, 0.5), 3.1, at_mm(0, 0.7, -13.5), 0.9), 1.5 * mm);
   }
   double depth = rounded_box(p, at_mm(0, 0, 3.3), at_mm(4.9, 5.4, 3.7), 3.0 * mm);
-  // cusps, and the fissure that parts them
+  // cusps, and the fissure between them
   for (const Vec3& cusp : {at_mm(-2.6, -2.8, 0), at_mm(-2.6, 2.6, 0), at_mm(2.6, -3.2, 0),
                            at_mm(2.9, 0.3, 0), at_mm(2.4, 3.3, 0)})
     depth = blend(depth, cone(p, cusp + at_mm(0, 0, 5.2), 2.1, cusp * 0.92 + at_mm(0, 0, 6.5), 1.0),
@@ -65,7 +65,7 @@ double ToothModel::pulp(const Vec3& p) const {
 }
 
 double ToothModel::enamel(const Vec3& p) const {
-  // thins out to a knife's edge at the neck
+  // thins out to zero at the neck
   const double t = std::clamp((p.z() / kMm + 0.2) / 3.5, 0.0, 1.0);
   return 1.7 * kMm * t * (2 - t);
 }

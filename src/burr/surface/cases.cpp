@@ -29,7 +29,7 @@ int edge_between(int a, int b) {
   BURR_CHECK(false);
 }
 
-// corners of the 6 faces, counter-clockwise from outside the cell
+// corners of the 6 faces, counter-clockwise seen from outside the cell
 std::array<std::array<int, 4>, 6> make_faces() {
   std::array<std::array<int, 4>, 6> faces;
   for (int axis = 0; axis < 3; ++axis) {
@@ -42,7 +42,7 @@ std::array<std::array<int, 4>, 6> make_faces() {
 }
 
 bool share_a_face(int a, int b) {
-  const auto side = [](int e, int axis) {  // 0 or 1, or -1: runs along that axis
+  const auto side = [](int e, int axis) {  // 0 or 1; -1: runs along that axis
     const CellEdge& edge = cell_edges()[static_cast<std::size_t>(e)];
     return edge.axis == axis ? -1 : (edge.low >> axis) & 1;
   };
@@ -51,8 +51,9 @@ bool share_a_face(int a, int b) {
   return false;
 }
 
-// Each face is crossed by lines; each line leaves the solid run of corners it cuts off, so that
-// diagonal solid corners are kept apart. next[e]: where the line that starts at edge e ends.
+// Each face is crossed by lines. A line cuts off one run of solid corners and keeps it on one side,
+// so diagonal solid corners are kept apart. next[e]: the edge at which the line that starts at edge
+// e ends.
 std::array<int, kCellEdges> lines_of(int solid) {
   static const auto faces = make_faces();
   std::array<int, kCellEdges> next;
@@ -69,8 +70,8 @@ std::array<int, kCellEdges> lines_of(int solid) {
   return next;
 }
 
-// Cuts a loop into triangles none of whose inner edges lies in a face of the cell: there it could
-// meet the same edge of the neighbour, and four triangles would share it.
+// Cuts a loop into triangles so that no inner edge lies in a face of the cell: there it could
+// coincide with an edge of the neighbour, and four triangles would share it.
 bool triangulate(const Loop& loop, CellCase& out) {
   const std::size_t n = loop.size();
   if (n == 3) {

@@ -24,18 +24,18 @@ using volume::kIso;
 using volume::TissueId;
 
 constexpr int kCells = kPatchEdge;     // along each axis of a patch
-constexpr int kSamples = kCells + 1;   // voxels its cells stand on
-constexpr int kApron = kSamples + 2;   // and one more on each side, for gradients
-constexpr int kRow = 20;               // room for a row of kApron, a multiple of 4
-constexpr int kBricks = 4;             // along each axis, that hold these
-constexpr int kTries = 32;             // copies of one brick before the servo is left alone
+constexpr int kSamples = kCells + 1;   // voxels at the corners of its cells
+constexpr int kApron = kSamples + 2;   // plus one on each side, for gradients
+constexpr int kRow = 20;               // memory of a row of kApron, a multiple of 4
+constexpr int kBricks = 4;             // along each axis, that contain these voxels
+constexpr int kTries = 32;             // to copy one brick, before giving way to the servo
 constexpr float kCorner = 1.0F / 256;  // vertices stay this far from voxel centres  [voxel]
 
 constexpr int kMostVertices = 3 * kSamples * kSamples * kCells;
 constexpr int kMostIndices = 3 * kMostTriangles * kCells * kCells * kCells;
 constexpr int kIds = kSamples * kSamples * kSamples;  // of the edges along one axis, by low end
 
-// An edge of the lattice inside a patch, in the order the vertices are made.
+// An edge of the voxel grid inside a patch, in the order in which vertices are made.
 struct EdgeKey {
   int x, y, z, axis;
   [[nodiscard]] std::uint16_t packed() const {
@@ -47,7 +47,7 @@ struct EdgeKey {
   }
 };
 
-// top bits of 4 voxels -> 4 bits
+// the top bit of each of 4 voxels, as 4 bits
 std::uint32_t solid4(const Field* voxel) {
   std::uint64_t four = 0;
   std::memcpy(&four, voxel, sizeof four);
@@ -88,10 +88,10 @@ struct Mesher::Work {
 
   const volume::Bone& bone;
   std::vector<bool> soft;         // by TissueId
-  std::vector<bool> soft_bricks;  // that hold any, and those around them; empty: none does
-  bool soft_near = false;         // this patch
+  std::vector<bool> soft_bricks;  // that hold soft tissue, and their neighbours; empty: none
+  bool soft_near = false;         // in reach of this patch
   math::Ijk patches = {0, 0, 0};
-  math::Mat3 step;  // columns: world steps of one voxel  [m]
+  math::Mat3 step;  // columns: world step of one voxel along i, j, k [m]
   Eigen::Matrix3f turn;
   math::Vec3 origin;
   std::array<int, kCellEdges> id_offset{};
@@ -99,16 +99,16 @@ struct Mesher::Work {
   std::array<BrickField, kBricks * kBricks * kBricks> bricks;
   alignas(64) std::array<Field, kApron * kApron * kRow> field{};  // (19 x 19 x 20), x fastest
   std::array<std::uint32_t, kSamples * kSamples> solid{};         // (17 x 17) rows of 17 bits
-  std::array<std::uint16_t, 3 * kIds> id{};                       // vertex on an edge
-  std::array<std::uint16_t, kMostVertices> key{};                 // edge of a vertex, ascending
+  std::array<std::uint16_t, 3 * kIds> id{};                       // index of the vertex on an edge
+  std::array<std::uint16_t, kMostVertices> key{};                 // edge of each vertex, ascending
   std::array<Vertex, kMostVertices> vertex;
   std::array<std::uint32_t, kMostIndices> triangle{};
   int vertices = 0, indices = 0;
 };
 
-// Copies the voxels of a patch and its apron together. False: the servo was at it.
-// first: the patch's voxel (0,0,0) in the grid. Leaves vertices = indices = 0; `field` is filled
-// only where there may be surface, else solid stays all zero.
+// Copies the voxels of a patch and its apron. False: the servo was writing them. first: the patch's
+// voxel (0,0,0) in the grid. Sets vertices = indices = 0. `field` is filled only if there may be
+// surface, otherwise `solid` stays all zero.
 bool Mesher::Work::gather(const math::Ijk& first) {
   static const BrickField air{};
   const math::Ijk low = (first.array() + 1) / kBrickEdge - 1;  // first is 16 p - 1
@@ -118,7 +118,7 @@ bool Mesher::Work::gather(const math::Ijk& first) {
   const auto index = [](int a, int b, int c) {
     return static_cast<std::size_t>(a + kBricks * (b + kBricks * c));
   };
-  // of the bricks at the rim only the rows of the apron are wanted
+  // of the bricks at the rim only the rows of the apron are needed
   const auto rows = [](int brick) -> Bone::Range {
     return {brick == 0 ? kBrickEdge - 2 : 0, brick == kBricks - 1 ? 1 : kBrickEdge};
   };
@@ -138,7 +138,7 @@ bool Mesher::Work::gather(const math::Ijk& first) {
     return false;
   };
 
-  // the bricks the cells stand on; all air or all solid has no surface
+  // the bricks of the cells' corners: if all are air or all are solid there is no surface
   std::uint64_t any = 0, all = ~0ULL;
   for (int c = 0; c < 3; ++c)
     for (int b = 0; b < 3; ++b)
@@ -179,7 +179,7 @@ bool Mesher::Work::gather(const math::Ijk& first) {
       row[18] = line[3][inside];
     }
 
-  // a brick may reach beyond the grid; outside is air, whatever it holds there
+  // a brick may reach beyond the grid; outside the grid is air, whatever the brick holds there
   const math::Ijk end = bone.grid().size - first + math::Ijk::Ones();
   if ((end.array() < kApron).any()) {
     for (int z = 0; z < kApron; ++z)
@@ -203,7 +203,7 @@ void Mesher::Work::find_solid() {
     }
 }
 
-// Only deposited material changes tissues, and that is solid: what is soft is so for good.
+// Only added material changes tissues, and that is solid: soft tissue stays where it is.
 void Mesher::Work::find_soft() {
   if (std::find(soft.begin(), soft.end(), true) == soft.end()) return;
   std::vector<bool> wide(static_cast<std::size_t>(bone.brick_count()));
@@ -226,7 +226,7 @@ void Mesher::Work::find_soft() {
   if (any) soft_bricks = std::move(wide);
 }
 
-// Whether a look from this patch's vertices can meet soft tissue at all.
+// True if the search from this patch's vertices can meet soft tissue at all.
 bool Mesher::Work::any_soft_near(const math::Ijk& first) const {
   if (soft_bricks.empty()) return false;
   const math::Ijk low = ((first.array() - kShineSteps - 1) / kBrickEdge).max(0);
@@ -239,8 +239,8 @@ bool Mesher::Work::any_soft_near(const math::Ijk& first) const {
   return false;
 }
 
-// Along the normal, voxel by voxel: one step out of the bone for what fills a hollow, then inwards
-// for what lies under it. Air on the way hides what is behind.
+// Searches along the normal, voxel by voxel: one step out of the bone for tissue that fills a
+// hollow, then inwards for tissue under it. Air on the way hides what is behind it.
 void Mesher::Work::look_beneath(const math::Vec3& p_grid, const math::Vec3& n_grid,
                                 Vertex& v) const {
   const double voxel = bone.grid().voxel;
@@ -250,8 +250,8 @@ void Mesher::Work::look_beneath(const math::Vec3& p_grid, const math::Vec3& n_gr
     if ((at.array() < 0).any() || (at.array() >= size.array()).any()) return 0;
     return bone.shared_tissue(at.x(), at.y(), at.z());
   };
-  // nearly every vertex is far from everything soft: no part of the look is farther than half a
-  // brick from one of these, so what it could meet would be in their bricks or in those around them
+  // nearly every vertex is far from all soft tissue. No point of the search is farther than half a
+  // brick from one of these two points, so any soft tissue is in their bricks or in the neighbours
   const auto near_soft = [&](double out) {
     const math::Ijk at =
         (p_grid + out * n_grid).array().round().cast<int>().max(0).min(size.array() - 1);
@@ -259,7 +259,8 @@ void Mesher::Work::look_beneath(const math::Vec3& p_grid, const math::Vec3& n_gr
         bone.brick_at(at.x() / kBrickEdge, at.y() / kBrickEdge, at.z() / kBrickEdge))]);
   };
   if (!near_soft(0) && !near_soft(-8)) return;
-  // how much of the voxels about one point out of the bone, so that labels' stairs are softened
+  // share of soft voxels around one point outside the bone; interpolated, to smooth the labels'
+  // stairs
   const math::Vec3 out = p_grid + 1.5 * n_grid;
   const math::Ijk low = out.array().floor().cast<int>();
   const math::Vec3 part = out - low.cast<double>();
@@ -308,7 +309,7 @@ void Mesher::Work::make_vertex(int x, int y, int z, const math::Ijk& first) {
   const auto fa = static_cast<float>(*a), fb = static_cast<float>(*b);
   const float t = std::clamp((static_cast<float>(kIso) - fa) / (fb - fa), kCorner, 1.0F - kCorner);
 
-  // out of the bone is down the field
+  // outwards is where the field decreases
   const auto difference = [](const Field* at, int by) {
     return static_cast<float>(int{at[-by]} - int{at[by]});
   };
@@ -318,7 +319,7 @@ void Mesher::Work::make_vertex(int x, int y, int z, const math::Ijk& first) {
     n[d] = na + t * (nb - na);
   }
   float length = math::squared_norm(n);
-  if (!(length > 0)) {  // a lone voxel: along the edge
+  if (!(length > 0)) {  // a single voxel: along the edge
     n = math::Vec3f::Unit(axis) * (fa < fb ? -1.0F : 1.0F);
     length = 1;
   }
@@ -391,7 +392,7 @@ bool Mesher::Work::run(int patch) {
   return true;
 }
 
-// The tables of cases are made now, not by the first patch: that may be meshed in a tick.
+// Builds the tables of cases now, not at the first patch, which may be meshed inside a tick.
 Mesher::Mesher(const volume::Bone& bone) : work_(std::make_unique<Work>(bone)) {
   static_cast<void>(cell_edges());
   static_cast<void>(cell_cases());
@@ -402,7 +403,7 @@ math::Ijk Mesher::patches() const { return work_->patches; }
 int Mesher::patch_count() const { return work_->patches.prod(); }
 
 void Mesher::patches_of_brick(BrickIndex brick, std::vector<int>& out) const {
-  // patch p looks at voxels 16 p - 2 .. 16 p + 16
+  // patch p reads the voxels 16 p - 2 .. 16 p + 16
   const math::Ijk first = work_->bone.brick_ijk(brick);
   const math::Ijk low = ((first.array() - kCells + kCells - 1) / kCells).max(0);
   const math::Ijk high =
@@ -424,16 +425,16 @@ bool Mesher::mesh_patch(int patch, Patch& out) {
 
 namespace {
 
-// One patch on its way into the whole.
+// One patch, before it is merged into the whole.
 struct Piece {
   Patch mesh;
-  std::vector<std::uint16_t> key;     // (vertices) edge of the lattice, ascending
-  std::vector<std::uint32_t> index;   // (vertices) in the whole
-  std::uint32_t first = 0, mine = 0;  // its own vertices in the whole; the others are a neighbour's
+  std::vector<std::uint16_t> key;     // (vertices) edge of the grid, ascending
+  std::vector<std::uint32_t> index;   // (vertices) index in the whole
+  std::uint32_t first = 0, mine = 0;  // its own vertices in the whole; others belong to neighbours
 };
 
-// A vertex in a patch's low planes belongs to the neighbour there. (packed key) bit 0, 1, 2: the
-// owner is one patch lower along x, y, z.
+// A vertex in a patch's low planes belongs to the neighbour there. Entry per packed key: bit 0, 1,
+// 2 is set if the owner is one patch lower along x, y, z.
 using Owners = std::array<std::uint8_t, std::size_t{3} * kIds>;
 const Owners& owners() {
   static const Owners table = [] {
@@ -449,7 +450,8 @@ const Owners& owners() {
   return table;
 }
 
-// Runs work(worker, i) for i in 0..count on all threads; the caller is worker 0 and reports.
+// Runs work(worker, i) for i in 0..count-1 on all threads; the caller is worker 0 and reports
+// progress.
 // False: cancelled.
 template <class Each>
 bool in_parallel(int count, int threads, Progress* progress, std::string_view stage,
@@ -483,7 +485,7 @@ Result<Mesh> whole_surface(const volume::Bone& bone, int threads, Progress& prog
   const int count = patches.prod();
   const Owners& owner = owners();
 
-  // every patch by itself
+  // mesh each patch separately
   std::vector<std::unique_ptr<Piece>> pieces(static_cast<std::size_t>(count));
   std::atomic<bool> at_rest = true;
   const bool done = in_parallel(count, threads, &progress, "meshing", [&](int worker, int patch) {
@@ -501,7 +503,7 @@ Result<Mesh> whole_surface(const volume::Bone& bone, int threads, Progress& prog
   if (!at_rest)
     return error(Trouble::internal, "the bone was being cut while its whole surface was made");
 
-  // room for each piece in the whole
+  // the place of each piece in the whole
   std::vector<int> full;
   std::size_t vertices = 0, triangles = 0;
   std::vector<std::size_t> first_index;
@@ -520,7 +522,7 @@ Result<Mesh> whole_surface(const volume::Bone& bone, int threads, Progress& prog
   mesh.vertices.resize(vertices);
   mesh.triangles.resize(triangles);
 
-  // own vertices first, then those of the neighbours can be looked up, then the triangles
+  // copy own vertices first; then the neighbours' can be looked up, then come the triangles
   const int n = static_cast<int>(full.size());
   const auto piece_at = [&](int patch) { return pieces[static_cast<std::size_t>(patch)].get(); };
   in_parallel(n, threads, nullptr, "", [&](int, int i) {

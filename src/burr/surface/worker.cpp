@@ -13,10 +13,10 @@
 namespace burr::surface {
 namespace {
 
-constexpr std::size_t kSpare = 16;                    // patches a resting lane keeps room for
-constexpr auto kLook = std::chrono::milliseconds(5);  // well under a frame, and nearly no load
-// rest after each patch, when others are more urgent: a quarter of a core is left to it
-constexpr int kHeldTimes = 3;  // as long as it took
+constexpr std::size_t kSpare = 16;                    // patches whose memory an idle lane keeps
+constexpr auto kLook = std::chrono::milliseconds(5);  // well below a frame, and almost no load
+// pause after each patch while held back, so that meshing uses a quarter of a core
+constexpr int kHeldTimes = 3;  // times the duration of the patch
 constexpr auto kHeldMost = std::chrono::milliseconds(10);
 
 }  // namespace
@@ -55,7 +55,7 @@ struct Worker::Lane {
     }
   }
 
-  // what changed, what came back
+  // Collects changed bricks and returned patches.
   void look() {
     seen = std::chrono::steady_clock::now();
     changed.take_all([&](std::size_t brick) {
@@ -70,7 +70,7 @@ struct Worker::Lane {
     waiting.store(static_cast<int>(due.size()), std::memory_order_relaxed);
   }
 
-  // The first surface has many under way at once, milling few.
+  // Frees memory: the first surface has many patches in transit at once, milling few.
   void shed() {
     for (std::size_t n = 0; n + kSpare < free.size(); ++n) {
       if (free[n]->vertices.capacity() == 0) continue;
@@ -85,7 +85,7 @@ struct Worker::Lane {
     }
     Patch* mesh = free.back();
     due.pop_front();
-    if (!mesher.mesh_patch(patch, *mesh)) {  // the servo is at work there: later
+    if (!mesher.mesh_patch(patch, *mesh)) {  // the servo is writing there: later
       due.push_back(patch);
       std::this_thread::yield();
       return;
@@ -97,26 +97,26 @@ struct Worker::Lane {
     free.pop_back();
     ++lent;
     const bool pushed = out.push({patch, mesh, mine, seen});
-    BURR_CHECK(pushed);  // the ring holds all that may be lent
+    BURR_CHECK(pushed);  // the ring holds all patches that may be lent
   }
 
-  // this lane's thread only
+  // used by this lane's thread only
   Mesher mesher;
   rt::ChangedBits& changed;
   const std::atomic<bool>& held;
   int mine = 0, of = 1;
-  std::deque<int> due;              // patches to make, oldest request first
-  std::vector<bool> queued, shown;  // (patches) in due; taken last time with triangles
+  std::deque<int> due;              // patches to mesh, oldest request first
+  std::vector<bool> queued, shown;  // (patches) in `due`; last taken with triangles
   std::vector<int> named;
   std::vector<std::unique_ptr<Patch>> all;
   std::vector<Patch*> free;
   int lent = 0;
-  std::chrono::steady_clock::time_point seen;  // when it last looked
+  std::chrono::steady_clock::time_point seen;  // when it last looked for changes
 
-  // between this lane and main
+  // shared between this lane and main
   rt::Ring<Skin> out{kLent};
   rt::Ring<Patch*> back{kLent};
-  std::atomic<unsigned> idle = 0;  // rounds that found nothing to do
+  std::atomic<unsigned> idle = 0;  // number of rounds that found nothing to do
   std::atomic<int> waiting = 0;
   std::atomic<bool> stop = false;
   std::unique_ptr<rt::Thread> thread;
@@ -126,7 +126,7 @@ Worker::Worker(volume::Bone& bone, int threads) {
   BURR_CHECK(threads >= 1);
   for (int i = 0; i < threads; ++i)
     lanes_.push_back(std::make_unique<Lane>(bone, i, threads, held_));
-  // all watchers are there before the first thread runs
+  // all watchers exist before the first thread runs
   for (auto& lane : lanes_)
     lane->thread =
         std::make_unique<rt::Thread>(rt::ThreadRequest{.name = "surface", .stack_bytes = 0},
@@ -166,7 +166,7 @@ std::vector<unsigned> Worker::idle_rounds() const {
   return rounds;
 }
 
-// The round under way may have looked before the call; the one after it has not.
+// The present round may have looked before the call; the next one looks after it.
 bool Worker::idle_since(const std::vector<unsigned>& rounds) const {
   const std::vector<unsigned> now = idle_rounds();
   for (std::size_t i = 0; i < rounds.size(); ++i)
@@ -178,7 +178,7 @@ Status Worker::first(Progress& progress, const Show& show) {
   const std::vector<unsigned> before = idle_rounds();
   const int all = std::max(1, lanes_.front()->mesher.patch_count());
   for (;;) {
-    const bool idle = idle_since(before);  // asked first, so that nothing comes after the last take
+    const bool idle = idle_since(before);  // read first: nothing comes after the last take
     for (Skin skin; take(skin); give_back(skin)) show(skin);
     if (idle) break;
     progress.report(1 - static_cast<double>(std::min(waiting(), all)) / all, "making the surface");

@@ -29,7 +29,7 @@ bool inside(const Bone& bone, const Vec3& p) {
   return bone.field(at.x(), at.y(), at.z()) >= volume::kIso;
 }
 
-// First bone along a ray through the volume, by half-voxel steps refined by bisection.
+// First bone along a ray through the volume, by steps of half a voxel, refined by bisection.
 std::optional<Vec3> first_bone(const Bone& bone, const Vec3& from, const Vec3& direction,
                                double length) {
   const double step = 0.5 * bone.grid().voxel;
@@ -45,8 +45,8 @@ std::optional<Vec3> first_bone(const Bone& bone, const Vec3& from, const Vec3& d
   return std::nullopt;
 }
 
-// Outward normal of the surface around p: from the bone's centre of mass within `radius` to the
-// air's.
+// Outward normal of the surface around p: the direction from the bone's centre of mass within
+// `radius` to the air's.
 std::optional<Vec3> outward(const Bone& bone, const Vec3& p, double radius) {
   const double h = bone.grid().voxel;
   const Vec3 centre = bone.grid().grid_from_world(p);
@@ -91,7 +91,7 @@ Result<WorkPlace> find_work_place(const Bone& bone, double burr_radius,
 
   std::optional<Vec3> hit;
   if (at.has_value()) {
-    // stand back along the way in, then come forward to the first bone near the place
+    // go back along the way in, then forward to the first bone near the place
     hit = first_bone(bone, *at - 0.02 * place.into, place.into, 0.04);
     if (!hit) {
       hit = first_bone(bone, *at - diagonal * place.into, place.into, 2 * diagonal);
@@ -105,7 +105,7 @@ Result<WorkPlace> find_work_place(const Bone& bone, double burr_radius,
               1e3 * at->x(), 1e3 * at->y(), 1e3 * at->z(), 1e3 * world.lo.x(), 1e3 * world.lo.y(),
               1e3 * world.lo.z(), 1e3 * world.hi.x(), 1e3 * world.hi.y(), 1e3 * world.hi.z()));
   } else {
-    // straight down through the middle, else along lines ever further from it
+    // straight down through the middle, otherwise along lines farther and farther from it
     const Vec3 middle = world.centre();
     const double spacing = 0.02 * std::max(world.extent().x(), world.extent().y());
     for (int ring = 0; ring <= 25 && !hit; ++ring)
@@ -143,7 +143,7 @@ Result<HandPath> motion(std::string_view name, const WorkPlace& place, double bu
 
   const Vec3 out = -place.into;
   const Vec3 u = out.unitOrthogonal(), v = out.cross(u);
-  // the handle leans 30 degrees, as a hand holds it: the pole of a burr hardly cuts
+  // the handle leans 30 degrees, as a hand holds it, because the pole of a burr hardly cuts
   const math::Quat grip =
       handle_along((std::cos(M_PI / 6) * out + std::sin(M_PI / 6) * u).normalized());
   const double work = seconds - kApproachTime;
@@ -167,7 +167,7 @@ Result<HandPath> motion(std::string_view name, const WorkPlace& place, double bu
       const double sunk = std::min(4e-3 * s, r + 1e-3);
       offset = std::min(5e-3 * std::max(0.0, s - 0.5), 12e-3) * u - sunk * out;
     } else if (name == "pocket") {
-      // circles at 30 mm/s, at most 4 mm wide, sinking steadily to 6 mm
+      // circles at 30 mm/s, at most 4 mm wide, going down at a constant rate to 6 mm
       const double wide = std::min(4e-3, 1e-3 + 3e-3 * share), angle = 30e-3 / 3e-3 * s;
       offset = wide * (std::cos(angle) - 1) * u + wide * std::sin(angle) * v -
                (1e-3 * std::min(1.0, 2 * s) + 5e-3 * share) * out;

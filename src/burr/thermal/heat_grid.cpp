@@ -14,7 +14,7 @@ using math::Ijk;
 using math::Vec3;
 
 constexpr double kStepShare = 0.9;  // of the longest stable step; conductances are floats
-constexpr int kTries = 4;           // to read a brick that the servo writes, before the next look
+constexpr int kTries = 4;           // to read a brick that the servo is writing, in one look()
 
 double open_side(float share, float beside) {
   return std::max(0.0, static_cast<double>(share) - static_cast<double>(beside));
@@ -52,7 +52,7 @@ bool HeatGrid::read(volume::BrickIndex brick) {
 bool HeatGrid::look() {
   changed_.take_all(
       [&](std::size_t brick) { due_.push_back(static_cast<volume::BrickIndex>(brick)); });
-  // each once
+  // each brick once
   std::sort(due_.begin(), due_.end());
   due_.erase(std::unique(due_.begin(), due_.end()), due_.end());
   std::erase_if(due_, [&](volume::BrickIndex brick) {
@@ -71,7 +71,7 @@ void HeatGrid::set(const Ijk& cell, const Matter& matter) {
   const std::size_t at = box_.at(cell);
   k_[at] = static_cast<float>(matter.conductivity);
   share_[at] = static_cast<float>(matter.share);
-  if (!box_.contains(cell)) return;  // the layer around: no heat of its own
+  if (!box_.contains(cell)) return;  // the surrounding layer has no heat of its own
 
   remember(at);
   const double before = capacity_[at], now = matter.capacity;
@@ -88,7 +88,7 @@ void HeatGrid::set(const Ijk& cell, const Matter& matter) {
   parts_[at] = {matter.tissue, matter.part};
 }
 
-// What the tissues of a cell have seen, before some of them go.
+// Records the highest values of a cell's tissues before some of them are removed.
 void HeatGrid::remember(std::size_t cell) {
   const double ever = settings_.start_c + std::max(static_cast<double>(peak_[cell]), rise_[cell]);
   for (std::size_t p = 0; p < kMostParts && parts_[cell].tissue[p] != 0; ++p) {
@@ -99,7 +99,7 @@ void HeatGrid::remember(std::size_t cell) {
   }
 }
 
-// Conductances of the cells [lo, end) and of what they border on.
+// Computes the conductances of the cells [lo, end) and of those that they border on.
 void HeatGrid::link(const Ijk& lo, const Ijk& end) {
   const Ijk from = lo.cwiseMax(-Ijk::Ones()), to = end.cwiseMin(box_.count + Ijk::Ones());
   const std::array<std::size_t, 3> next = {1, box_.row, box_.slice};
@@ -168,7 +168,7 @@ double HeatGrid::deposit(const Vec3& p, double radius, double energy) {
     ledger_.missed += energy;
     return 0;
   }
-  // by capacity, so the same rise for a whole cell and for a splinter of one
+  // by heat capacity: the same temperature rise for a full cell and for one with little matter
   weigh([&](std::size_t at, double weight) { rise_[at] += energy * weight / all; });
   ledger_.into += energy;
   return energy;
@@ -223,7 +223,7 @@ void HeatGrid::conduct(double dt) {
     }
 }
 
-// The account of what conduct() let out through the six sides.
+// Counts the heat that conduct() let out through the six sides.
 void HeatGrid::leave_box(double dt) {
   double power = 0;
   const std::array<std::size_t, 3> next = {1, box_.row, box_.slice};

@@ -6,7 +6,7 @@
 namespace burr::thermal {
 namespace {
 
-constexpr std::int64_t kLatestNs = 4'000'000'000'000'000'000;  // a century; sums of two fit
+constexpr std::int64_t kLatestNs = 4'000'000'000'000'000'000;  // a century; twice that still fits
 
 double staying(const StayingShare& shares, Edge edge) {
   switch (edge) {
@@ -55,7 +55,8 @@ void Heating::start_over(std::int64_t time_ns) {
   spent_ = 0;
 }
 
-// Works off the whole steps before this time of the rows. Time that runs backwards stands still.
+// Computes the whole steps before this time of the rows. A time that runs backwards counts as no
+// time.
 bool Heating::pass(std::int64_t time_ns) {
   bool newer = false;
   skip_ns_ += std::max<std::int64_t>(0, time_ns - skip_ns_ - now_ns_ - kLongestGapNs);

@@ -15,16 +15,16 @@ using volume::kBrickEdge;
 using volume::TissueId;
 using volume::TissueKind;
 
-constexpr double kLeastShare = 1e-3;  // less is noise of the ramp, and would be hot in no time
+constexpr double kLeastShare = 1e-3;  // less is noise of the ramp, and would get hot at once
 
 std::size_t inside_brick(int i, int j, int k) {
   return static_cast<std::size_t>(i + kBrickEdge * (j + kBrickEdge * k));
 }
 
-// The few tissues of one cell and how much there is of each.
+// The tissues of one cell and the amount of each.
 struct Tally {
   std::array<TissueId, volume::kBrickVoxels> tissue;
-  std::array<std::int64_t, volume::kBrickVoxels> units;  // volume_of.h
+  std::array<std::int64_t, volume::kBrickVoxels> units;  // of volume_of.h
   int count = 0;
 
   void add(TissueId which, std::int64_t more) {
@@ -52,7 +52,7 @@ CellBox cells_around(const volume::Grid& grid, const math::Aabb& work, double re
   math::Aabb around;
   for (int which = 0; which < 8; ++which) around.extend(grid.grid_from_world(work.corner(which)));
   for (int axis = 0; axis < 3; ++axis) {
-    // a box meant to end between two cells shall not take one more for a rounding error
+    // a box meant to end between two cells must not get one more through a rounding error
     constexpr double kHair = 1e-6;
     const int all = (grid.size[axis] + box.voxels - 1) / box.voxels;
     const double lo = (around.lo[axis] + 0.5) / box.voxels + kHair;
@@ -100,7 +100,7 @@ bool MatterReader::read(volume::BrickIndex brick, std::vector<Found>& found) {
   return true;
 }
 
-// corner: the cell's first voxel within the brick
+// corner: the cell's first voxel inside the brick
 Matter MatterReader::matter_of(const Ijk& corner) const {
   const auto each_voxel = [&](const auto& look) {
     for (int k = 0; k < box_.voxels; ++k)
@@ -114,8 +114,8 @@ Matter MatterReader::matter_of(const Ijk& corner) const {
   Tally tally;
   each_voxel([&](std::size_t v) {
     const TissueId id = tissue_[v];
-    // Beside soft tissue bone ends between voxels: with its ramp a gap would be left along the
-    // border, open to the coolant.
+    // Beside soft tissue the bone ends between voxels: counted with its ramp, it would leave a gap
+    // along the border, open to the coolant.
     if (kind_[id] == TissueKind::soft)
       tally.add(id, volume::kVoxelUnits);
     else if (any_soft)
@@ -124,7 +124,7 @@ Matter MatterReader::matter_of(const Ijk& corner) const {
       tally.add(id, volume::volume_units(std::int32_t{field_.voxel[v]}));
   });
 
-  // near the surface a voxel may hold a little less than nothing, or more than all
+  // near the surface the volume of a voxel may be slightly negative or above one voxel
   std::int64_t units = 0;
   for (int n = 0; n < tally.count; ++n)
     units += std::max(std::int64_t{0}, tally.units[static_cast<std::size_t>(n)]);
@@ -143,7 +143,7 @@ Matter MatterReader::matter_of(const Ijk& corner) const {
     const TissueId id = tally.tissue[at];
     matter.conductivity += part * material_[id].conductivity;
     matter.capacity += part * material_[id].capacity() * cell_m3;
-    if (kind_[id] == TissueKind::air) continue;  // the bone's ramp beyond its own label
+    if (kind_[id] == TissueKind::air) continue;  // the bone's ramp outside its own label
     auto fresh = static_cast<float>(part);
     TissueId whose = id;
     for (std::size_t p = 0; p < kMostParts; ++p)

@@ -49,8 +49,9 @@ struct CellBox {
 [[nodiscard]] CellBox cells_around(const volume::Grid& grid, const math::Aabb& work,
                                    double requested_edge);
 
-inline constexpr int kMostParts = 4;  // tissues a cell tells apart; of more the smallest count only
-                                      // for its warmth
+// Most tissues that a cell stores by name. The smallest ones beyond that count only in its
+// conductivity and heat capacity.
+inline constexpr int kMostParts = 4;
 
 struct Matter {
   double share = 0;         // of the cell's volume that is not air                [-]

@@ -35,7 +35,7 @@ struct HeatSettings {
   // k: 0.55 +- 0.02 bovine cortical (Lee et al. 2018), 0.3 fresh human femur, 0.8 saturated equine;
   // rho 1900-2000, c 1100-1400: together alpha = 2.2e-7 m^2/s
   Material bone = {};
-  // nerve, dura, marrow: mostly water (the order of the IT'IS tissue tables)
+  // nerve, dura, marrow: mostly water (magnitudes of the IT'IS tissue tables)
   Material soft = {.conductivity = 0.5, .density = 1050, .specific_heat = 3600};
   std::vector<TissueMaterial> special = {};  // tissues that differ from both
 
@@ -51,7 +51,7 @@ struct HeatSettings {
   double spread = 0.5;  // heated ball's radius over the burr's; at least one cell       [-]
 
   double cell = 1e-3;          // longest edge of a cell: a power of two of voxels below it    [m]
-  double longest_step = 0.05;  // of time, where stability would allow more              [s]
+  double longest_step = 0.05;  // largest time step, if stability allows more            [s]
   double warm_c = 47;  // bone above it counts as warm (Eriksson & Albrektsson 1983)     [deg C]
 };
 

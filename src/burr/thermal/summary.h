@@ -1,7 +1,7 @@
 // thermal/summary.h - how warm it is and was, in few numbers: per tissue, and where the heat went.
 //
 //     spent = chips + missed + into           chips: the part that did not stay in the bone
-//     into  = stored + convected + conducted + removed      to rounding of a double
+//     into  = stored + convected + conducted + removed      up to rounding of a double
 //
 // Energies are counted from the starting temperature: bone that is cut while cooler than that takes
 // a negative amount with it. Plain values, to be copied through rt::Latest.

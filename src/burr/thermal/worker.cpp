@@ -6,7 +6,7 @@
 namespace burr::thermal {
 namespace {
 
-constexpr auto kLook = std::chrono::milliseconds(5);  // well under a step, and nearly no load
+constexpr auto kLook = std::chrono::milliseconds(5);  // well below a step, and almost no load
 
 }  // namespace
 

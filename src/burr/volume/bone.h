@@ -8,7 +8,7 @@
 //     per brick   8 x 8 x 8 voxels, x fastest; a slot in one pool, or none where all is air
 //
 //     directory:  [ -1 | 17 | -1 | 1 | ... ]  one entry per brick of the grid -> slot in the pool
-//     pool:       [ all 0 | all solid | bricks of their own ... | promised ]
+//     pool:       [ all 0 | all solid | bricks of their own ... | reserved ]
 //     tissue:     the same again, with a shared slot for each tissue that fills whole bricks
 //
 // After pack() all uniform bricks (one value in every voxel) share a slot. The first write to such

@@ -8,8 +8,8 @@
 namespace burr::volume {
 namespace {
 
-constexpr int kTries = 1 << 20;  // of one brick that its writer is at
-constexpr int kLooks = 100'000;  // for what changed; a tick changes far less than a look takes
+constexpr int kTries = 1 << 20;  // for one brick while its writer is writing it
+constexpr int kLooks = 100'000;  // passes; a tick changes far less than a pass copies
 
 struct Content {
   BrickField field = {};
@@ -54,14 +54,14 @@ Result<std::unique_ptr<Bone>> shared_copy(const Bone& bone, rt::ChangedBits& cha
   const auto keep = [&](BrickIndex brick, const Content& content) {
     mixed.erase(brick);
     solid.erase(brick);
-    if (empty(content)) return;  // a label may lie in air
+    if (empty(content)) return;  // air may carry a label
     if (all_solid(content))
       solid[brick] = content.tissue.front();
     else
       mixed[brick] = content;
   };
 
-  // what changed before this is in the first copy
+  // changes before this moment are in the first copy
   changed.take_all([](std::size_t) {});
   Content content;
   for (BrickIndex brick = 0; brick < bone.brick_count(); ++brick) {

@@ -14,7 +14,7 @@ namespace burr::volume {
 using TissueId = std::uint8_t;  // index into TissueTable; 0 is air
 
 enum class TissueKind : std::uint8_t {
-  air,    // nothing: neither seen, felt nor cut
+  air,    // nothing: not shown, felt or cut
   soft,   // shown as a label; neither felt nor cut by a burr
   solid,  // bone, tooth, cement: shown, felt, cut
 };

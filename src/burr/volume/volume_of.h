@@ -36,7 +36,7 @@ inline constexpr std::int64_t kVoxelUnits = 3 * 65536;
   const float y = d * d;
   float slope = 11141.0F - 1638.0F * y;  // c2, c3, in 1/16384
   slope = slope * y - 23425.0F;          // c1
-  slope = slope * y + 22114.0F;          // c0; all four sum to a half: full is full
+  slope = slope * y + 22114.0F;          // c0; the four sum to one half, so full is full
   return static_cast<std::int32_t>(98304.5F + 12.0F * (d * slope));
 }
 

@@ -43,8 +43,8 @@ struct RemovalSettings {
   RemovalLaw law = RemovalLaw::energy;
   double max_power = 60;    // of the motor at the burr                                   [W]
   double pole = 0.15;       // smallest sin(theta)                                        [-]
-  double thesis_rate = 10;  // of a voxel's density, 1 being solid; the thesis names none  [1/s]
-  int thesis_frame = 1;     // every so many ticks, then for all of them; its own graphics loop: 33
+  double thesis_rate = 10;  // loss of density, solid = 1; not given in the thesis         [1/s]
+  int thesis_frame = 1;     // cuts every so many ticks, for all of them; in the thesis: 33
 };
 
 // What the burr does to the bone in one tick, and the bone to the burr.
