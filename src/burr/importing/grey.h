@@ -1,5 +1,5 @@
 // importing/grey.h - grey scans: 16-bit values on the scan's grid, smoothed near the surface, then
-// resampled to a cubic grid. Of this room only.
+// resampled to a cubic grid. Internal to importing.
 #pragma once
 
 #include <cstdint>

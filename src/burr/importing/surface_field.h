@@ -1,5 +1,5 @@
 // importing/surface_field.h - computes the bone's field from "which voxels are inside": a ramp of
-// the distance to a surface that runs between the voxels. Of this room only.
+// the distance to a surface that runs between the voxels. Internal to importing.
 //
 // Where an edge of the grid goes from inside to outside, there is a surface point with a normal.
 // The distance of a voxel is the mean of its distances to the tangent planes of these points,

@@ -1,5 +1,5 @@
 // scenario/built_in.h - the text of cases/*.toml, which cmake/library.cmake makes part of the
-// library. Of this room only.
+// library. For use of this room only.
 #pragma once
 
 #include <span>

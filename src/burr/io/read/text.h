@@ -1,4 +1,4 @@
-// io/read/text.h - small functions for text headers. Of this room only.
+// io/read/text.h - small functions for text headers. Internal to io.
 #pragma once
 
 #include <charconv>

@@ -1,4 +1,5 @@
-// io/sandbox/fence_letter.h - the messages between the two sides of the fence. Of this room only.
+// io/sandbox/fence_letter.h - the messages between the two sides of the fence. For use of this room
+// only.
 //
 // The letter is a piece of shared memory of fixed size. It holds the request before the reader
 // starts, and the outcome when the reader is done. Voxels lie in further pieces of memory, which

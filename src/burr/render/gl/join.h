@@ -1,5 +1,5 @@
-// render/gl/join.h - joins the pictures of two eyes on the GPU, as joined() in stereo.h does. Of
-// this room only.
+// render/gl/join.h - joins the pictures of two eyes on the GPU, as joined() in stereo.h does. For
+// use of this room only.
 #pragma once
 
 #include "burr/render/gl/target.h"

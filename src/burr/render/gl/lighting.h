@@ -1,7 +1,7 @@
 // render/gl/lighting.h - lights the picture: lamps, ambient occlusion, the tool's shadow, and the
 // background.
 //
-// Of this room only.
+// For use of this room only.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// render/gl/overlay.h - draws text, a scale bar and inset pictures over the picture. Of this room
-// only.
+// render/gl/overlay.h - draws text, a scale bar and inset pictures over the picture. For use of
+// this room only.
 #pragma once
 
 #include "burr/render/gl/objects.h"

@@ -1,5 +1,5 @@
 // render/gl/region.h - parts of a target, in samples: one rectangle, or several that must be
-// redrawn. Of this room only.
+// redrawn. For use of this room only.
 #pragma once
 
 #include <algorithm>
