@@ -1,8 +1,8 @@
-# libburr: every room, one shared library.  A new .cpp in a room is found by itself.
+# libburr: every room in one shared library. A new .cpp in a room is found automatically.
 file(GLOB_RECURSE BURR_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/*.cpp)
 file(GLOB_RECURSE BURR_HEADERS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/*.h)
 
-# the built-in cases become part of the library: no search for files, wherever it is installed
+# the built-in cases become part of the library, so they are found wherever it is installed
 file(GLOB BURR_CASES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cases/*.toml)
 set(BURR_CASE_TEXTS "")
 foreach(case ${BURR_CASES})
@@ -26,7 +26,7 @@ set(library_sources ${BURR_SOURCES})
 list(REMOVE_ITEM library_sources ${BURR_READERS})
 list(APPEND library_sources ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp)
 add_library(burr SHARED ${library_sources})
-add_dependencies(burr burr_read burr_guard)  # without them no scan can be read, no arm be guarded
+add_dependencies(burr burr_read burr_guard)  # without them no scan can be read, and no arm guarded
 add_library(burr::burr ALIAS burr)
 set_target_properties(burr PROPERTIES OUTPUT_NAME burr VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
 target_include_directories(burr PUBLIC
@@ -47,10 +47,12 @@ set(reading ${BURR_SOURCES} ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp)
 list(FILTER reading INCLUDE REGEX "/(base|io|importing|record|scenario|fit|third_party)/|/surgeon/motion[.]cpp$|/sim/(replay|session_words)[.]cpp$|/device/(haply/message|polhem/line)[.]cpp$")
 burr_reads_files(${reading})
 
-# Kernels exist once per instruction set, from one source, and are chosen at run time; the bits are the same.
+# Kernels are compiled once per instruction set, from one source, and chosen at run time; the bits
+# are the same.
 foreach(source ${BURR_SOURCES})
   if(source MATCHES "_(avx2|avx512|scalar)\\.cpp$")
-    set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)  # other options, other headers
+    set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)  # other options,
+                                                                                  # other headers
   endif()
   if(source MATCHES "_avx2\\.cpp$")
     set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-mavx2;-O3")
@@ -62,10 +64,10 @@ foreach(source ${BURR_SOURCES})
   endif()
 endforeach()
 
-# what the built-in bones are shaped by (program.cmake)
+# the sources that shape the built-in bones (program.cmake)
 file(GLOB BURR_PHANTOMS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/phantom/*)
 
-# hands and bones with known answers: shared by the program, tests, benches and samples
+# hands and bones with known answers: for the program, tests, benches and samples
 file(GLOB BURR_SCENES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenes/*.cpp)
 if(BURR_SCENES)
   add_library(burr_scenes STATIC ${BURR_SCENES})
