@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What measures the machine says what it should: burr check, burr bench endure, burr mill --rate. Fields and sums, never times.
+"""Checks the output of the commands that measure the machine: burr check, burr bench endure, burr mill --rate. Fields and
+sums, never times.
 
     scripts/checks/measures.py BUILD
 """
@@ -46,7 +47,7 @@ if seen:
     holds("check: good if and only if there is no reason against it", (seen["verdict"] == "good") == (seen["reasons"] == []))
     for phase in ("waiting", "milling", "waiting_loaded", "milling_loaded"):
         part = seen[phase]
-        # four thirds of a second each; what was not ticked was left out
+        # four thirds of a second each; ticks that were not made were counted as missed
         holds(f"check: {phase} counts its ticks ({part['ticks']} and {part['missed']})", 700 <= part["ticks"] + part["missed"] <= 4000)
         holds(f"check: {phase} has rising tails", rises(part["late_us"]) and rises(part["work_us"]))
     holds("check: milling is work", seen["milling"]["work_us"]["p50"] > seen["waiting"]["work_us"]["p50"])
@@ -76,7 +77,8 @@ with tempfile.TemporaryDirectory() as folder:
         holds("endure: something was drawn, or it says why not", (seen["frames"] > 0 and seen["patches"] > 0) or seen["left_out"])
         owed = seen["asked_mm3"] - seen["removed_mm3"] - seen["not_cut_mm3"] - seen["owed_mm3"]
         holds(f"endure: the account balances ({owed})", abs(owed) <= 1e-6 * seen["asked_mm3"])
-        # after lost ticks the force is let go and comes back slowly: a machine that stalls mills little, and says so
+        # after lost ticks the force is released and returns slowly: a machine that stalls mills
+        # little, and the notes must say so
         let_go = any("the force was let go" in line for line in seen["noted"])
         holds(f"endure: it mills ({seen['removed_mm3']} mm3, noted: {seen['noted']})", seen["removed_mm3"] > (0 if let_go else 1))
         holds(f"endure: the force is let go for lost ticks only ({missed} missed)", missed > 0 or not let_go)
