@@ -6,6 +6,7 @@
 // weighted by nearness (implicit moving least squares: Kolluri 2005, Shen et al. 2004). So the
 // surface passes through the points of a grey scan, and the staircase of a label map is smoothed.
 // Cost: only bricks near a surface are computed, with two workers.
+// Units: voxels. Thread: any.
 #pragma once
 
 #include <cstdint>

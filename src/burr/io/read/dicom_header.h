@@ -3,6 +3,7 @@
 // io.
 //
 // It does not read the patient's name, id, date or institution.
+// Units: mm. Frame: LPS. Thread: any. Errors: one sentence that names the file without its folder.
 #pragma once
 
 #include <cstdint>

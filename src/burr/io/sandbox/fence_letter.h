@@ -6,6 +6,7 @@
 // the reader asks for. Everything else is a message of one fixed form over a socket, so that
 // neither side ever waits for a length that the other side claims. The asking side checks
 // everything it receives: every number, every size, every letter.
+// Thread: any.
 #pragma once
 
 #include <cstddef>

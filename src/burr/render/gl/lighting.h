@@ -2,6 +2,7 @@
 // background.
 //
 // For use of this room only.
+// Thread: main, with the context current.
 #pragma once
 
 #include <vector>

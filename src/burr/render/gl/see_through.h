@@ -7,6 +7,7 @@
 // deeper. Nothing is left out because bone hides it.
 //
 // Memory: 16 B per sample, allocated with the first transparent picture. For use of this room only.
+// Thread: main, with the context current.
 #pragma once
 
 #include <functional>

@@ -3,6 +3,7 @@
 // The bone is drawn into textures of its own and kept: where only the tool moved, it is copied
 // instead of drawn. Memory: about 38 B per sample, and 4 to 8 B per pixel of the sheets. For use of
 // this room only.
+// Thread: main, with the context current.
 #pragma once
 
 #include <initializer_list>
