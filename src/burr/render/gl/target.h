@@ -29,7 +29,7 @@ struct Target {
                                                  // pixels
   Framebuffer bone, geometry, hollow_at, soft_at, lit_at;
 
-  // True: everything was made anew and holds nothing yet.
+  // True: everything is new and holds nothing yet.
   Result<bool> resize(int wide, int high, int hollow_stride);
   // Replaces [x0, x1) x [y0, y1) of the picture by the bone alone.
   void copy_bone(int x0, int y0, int x1, int y1) const;
