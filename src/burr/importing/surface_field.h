@@ -29,8 +29,8 @@ struct InsideGrid {
   const std::uint8_t* share = nullptr;   // solid share of the voxel, 0..255; null: all or nothing
   std::array<bool, 256> solid{};         // by label
   std::array<volume::TissueId, 256> tissue{};  // by label; 0 is air
-  // how many surface points share in one distance, see surface_field.cpp; labels 8, noisy grey 4,
-  // clean grey 1
+  // softness of the weights: the larger, the more surface points share in one distance, see
+  // surface_field.cpp; labels 8, noisy grey 4, clean grey 1
   float soft = 8;
   [[nodiscard]] bool inside(std::size_t v) const {
     if (grey != nullptr) return static_cast<float>(grey[v]) >= iso;
