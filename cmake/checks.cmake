@@ -1,11 +1,11 @@
-# Everything ./test looks at besides the unit tests, as tests of ctest. Label `long`: left out by
-# ./test --quick. A test that builds takes all processors, so that it runs alone.
+# Every check of ./test besides the unit tests, as tests of ctest. Label `long`: left out by ./test
+# --quick. A test that builds uses all processors, so it runs alone.
 find_package(Python3 COMPONENTS Interpreter)
 include(ProcessorCount)
 ProcessorCount(BURR_PROCESSORS)
 set(checks ${PROJECT_SOURCE_DIR}/scripts/checks)
 
-# ---- the house
+# ---- source code and documents
 if(Python3_FOUND)
   add_test(NAME house.rooms COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/rooms.py)
   add_test(NAME house.rooms_are_watched COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/house/rooms_test.py)
@@ -33,8 +33,8 @@ add_test(NAME house.install COMMAND ${checks}/install.sh ${CMAKE_BINARY_DIR})
 set_tests_properties(house.tidy PROPERTIES PROCESSORS ${BURR_PROCESSORS} TIMEOUT 1200 LABELS long)
 set_tests_properties(house.install PROPERTIES LABELS long)
 
-# ---- each header compiles alone, with the warnings of the library. A header with a .cpp of its own, which
-# includes it before anything else, was seen to when that was compiled; the others are compiled here.
+# ---- Each header compiles alone, with the warnings of the library. A header whose own .cpp
+# includes it first has been tested by that; the others are compiled here.
 foreach(header ${BURR_HEADERS})
   string(REGEX REPLACE "\\.h$" ".cpp" own ${header})
   file(RELATIVE_PATH inside ${PROJECT_SOURCE_DIR}/src ${header})
@@ -66,9 +66,10 @@ foreach(sample ${BURR_SAMPLES})
   set_tests_properties(samples.${name} PROPERTIES TIMEOUT 300)
 endforeach()
 
-# ---- other builds; only from the release build, which is the one ./test makes
+# ---- Other builds; only from the release build, which is the one that ./test makes.
 if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
-  # burr_other_build(PRESET TARGET...): configures and builds a preset as a test others may depend on
+  # burr_other_build(PRESET TARGET...): configures and builds a preset, as a test on which others
+  # may depend
   function(burr_other_build preset)
     add_test(NAME ${preset}.configure COMMAND ${CMAKE_COMMAND} --preset ${preset}
       WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
@@ -77,7 +78,7 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
     set_tests_properties(${preset}.build PROPERTIES FIXTURES_REQUIRED ${preset}_tree FIXTURES_SETUP ${preset}_programs
       PROCESSORS ${BURR_PROCESSORS} TIMEOUT 3000 LABELS long)
   endfunction()
-  # burr_other_test(PRESET ROOM FILTER): the room's tests in that build; FILTER as for gtest
+  # burr_other_test(PRESET ROOM FILTER): runs the room's tests in that build; FILTER as for gtest
   function(burr_other_test preset room filter)
     set(by)
     if(preset STREQUAL tsan)
@@ -89,7 +90,8 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
       ENVIRONMENT "UBSAN_OPTIONS=print_stacktrace=1;TSAN_OPTIONS=halt_on_error=1 second_deadlock_stack=1;ASAN_OPTIONS=detect_stack_use_after_return=1")
   endfunction()
 
-  # burr_same_bits(PRESET NAME...): that build says the same numbers as this one, for these of its lines
+  # burr_same_bits(PRESET NAME...): that build prints the same numbers as this one, for these of its
+  # lines
   function(burr_same_bits preset)
     if(Python3_FOUND)
       list(TRANSFORM ARGN PREPEND --only= OUTPUT_VARIABLE lines)
@@ -103,12 +105,14 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   burr_other_build(clang burr burr_program same_bits)
   burr_same_bits(clang)
 
-  # AddressSanitizer and UndefinedBehaviorSanitizer: what reads files, and what moves memory. clang++ here
-  # compiles it in a third of g++'s time, and the fuzzers below share the library.
-  # Sanitized code is some times slower, so the longest wanderings are left to the release build.
+  # AddressSanitizer and UndefinedBehaviorSanitizer: code that reads files, and code that moves
+  # memory. clang++ compiles it in a third of g++'s time, and the fuzzers below use the same
+  # library. Sanitized code is several times slower, so the longest random tests run in the release
+  # build only.
   set(asan_rooms base rt math tool volume edit haptics device surface io record)
   set(asan_filter_haptics "-*Million*:*Random*")
-  set(asan_filter_io "-Corpus.*")  # asks the program, which is not built here; CorpusAgainst reads the same files
+  set(asan_filter_io "-Corpus.*")  # needs the program, which is not built here; CorpusAgainst reads
+                                   # the same files
   set(asan_targets)
   foreach(room ${asan_rooms})
     if(TARGET test_${room})
@@ -126,8 +130,8 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
     burr_other_test(asan ${room} "${filter}")
   endforeach()
 
-  # ThreadSanitizer: the doors; bone, mesh and recording while others look on; a whole session; the
-  # whole program, for minutes with scripts/tsan_long.sh
+  # ThreadSanitizer: the doors; bone, mesh and recording while other threads read; a whole session;
+  # the whole program, for minutes with scripts/tsan_long.sh
   burr_other_build(tsan test_rt test_volume test_surface test_sound test_record test_sim test_device test_window)
   burr_other_test(tsan rt "*")
   burr_other_test(tsan volume "Bone.*:SharedCopy.*")
@@ -136,16 +140,16 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   burr_other_test(tsan record "*Recorder*")
   burr_other_test(tsan sim "WholeSession.*")
   burr_other_test(tsan device "*-*Million*:*Thousand*:*Hundred*Times*")
-  # the program's threads; a press that goes on and on loses ticks there, and then the hand is not given back: WholeProgram
-  # undoes as well
+  # The program's threads. A press that lasts long loses ticks in this build, and then the hand does
+  # not get its force back; WholeProgram tests undo as well.
   burr_other_test(tsan window "WholeProgram.*:Window.*-Window.UndoByKey*")
   set(tsan_options "TSAN_OPTIONS=halt_on_error=1 second_deadlock_stack=1 suppressions=${PROJECT_SOURCE_DIR}/scripts/checks/tsan_suppressions.txt")
   set_property(TEST tsan.window PROPERTY ENVIRONMENT "${tsan_options};BURR_WINDOW_SECONDS=15")
   set_property(TEST tsan.device PROPERTY ENVIRONMENT "${tsan_options}")
-  # by the clock, and mostly waiting: beside anything but each other
+  # in real time, and mostly waiting: may run beside anything but each other
   set_tests_properties(asan.device tsan.device tsan.window PROPERTIES RESOURCE_LOCK clock)
 
-  # libFuzzer: 10 s for every reader; scripts/fuzz_night.sh gives them longer
+  # libFuzzer: 10 s for every reader; scripts/fuzz_night.sh runs longer
   add_test(NAME fuzz.seeds COMMAND ${checks}/fuzz.sh seeds)
   set_tests_properties(fuzz.seeds PROPERTIES FIXTURES_REQUIRED asan_programs FIXTURES_SETUP fuzz_seeds LABELS long)
   file(GLOB fuzz_targets CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/fuzz ${PROJECT_SOURCE_DIR}/fuzz/*_fuzz.cpp)
@@ -156,7 +160,7 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   endforeach()
 endif()
 
-# everything claimed about touch, within a minute; real bones where they are
+# every claim about touch, within a minute; real bones where they are available
 set(verify_data "")
 if(EXISTS ${PROJECT_SOURCE_DIR}/../shared/data)
   set(verify_data --data ${PROJECT_SOURCE_DIR}/../shared/data)
@@ -164,7 +168,7 @@ endif()
 add_test(NAME house.verify COMMAND burr_program --quiet verify --quick ${verify_data})
 set_tests_properties(house.verify PROPERTIES TIMEOUT 900)
 
-# The longest begin first, or one core waits at the end for the other: seconds, roughly.
+# The longest tests start first, so that no core waits at the end for the other. Rough seconds.
 set(costs house.same_bits 50 house.measures 30 house.recording_trouble 25 house.run 20 house.install 20 house.verify 40
   haptics.Proxy.AMillionTicksAtUpToTenMillimetresNeverCrossAThinPlate 70 io.Corpus.EveryFileIsReadOrRefusedWithASentence 40
   io.CorpusAgainst.ASecondReaderSeesTheSame 30
@@ -175,16 +179,16 @@ while(costs)
   list(POP_FRONT costs test seconds)
   string(APPEND orders "set_tests_properties(${test} PROPERTIES COST ${seconds})\n")
 endwhile()
-# of the rooms whose tests run alone (tests.cmake), what does not go by the clock
+# tests that do not depend on the clock, in the rooms whose tests run alone (tests.cmake)
 foreach(test InverseTest.AMillionForcesAndNonePassesTheLimit PolhemTest.AMillionForcesAndNonePassesTheLimit
     LeaderTest.AThousandTimesOpenedAndClosedNothingIsLeft InverseTest.AThousandTimesOpenedAndClosedNothingIsLeft
     TouchTest.AThousandTimesOpenedAndClosedNothingIsLeft PolhemTest.AThousandTimesOpenedAndClosedNothingIsLeft)
   string(APPEND orders "set_tests_properties(device.${test} PROPERTIES RUN_SERIAL FALSE COST 40)\n")
 endforeach()
 string(APPEND orders "set_tests_properties(device.LeaderTest.AThousandTimesOpenedAndClosedNothingIsLeft PROPERTIES COST 130)\n")
-# what is lost by a kill is judged in milliseconds of a clock, which another test must not take away
+# the loss by a kill is judged in milliseconds of a clock, so no other test may disturb it
 string(APPEND orders "set_tests_properties(sim.Killed.AtAnyMomentItOpensLacksATenthOfASecondAtMostAndReplaysToTheBit "
   "PROPERTIES RUN_SERIAL TRUE)\n")
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/costs.cmake CONTENT "${orders}")
-# read last, when ctest has asked the test programs what they hold
+# read last, after ctest has asked the test programs for their tests
 set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_BINARY_DIR}/costs.cmake)

@@ -1,4 +1,5 @@
-# All from Debian 12; scripts/packages.txt is the list, docs/decisions.md says why each.
+# Everything comes from Debian 12; scripts/packages.txt is the list, docs/decisions.md gives the
+# reasons.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)
@@ -10,13 +11,14 @@ find_package(ZLIB REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(SDL2 REQUIRED IMPORTED_TARGET sdl2)
-find_path(BURR_OPENXR_INCLUDE openxr/openxr.h REQUIRED)  # headers only: the loader is opened at run time
-pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)  # the window's panels; of the program only
+find_path(BURR_OPENXR_INCLUDE openxr/openxr.h REQUIRED)  # headers only: the loader is opened at run
+                                                         # time
+pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)  # the window's panels; for the program only
 find_package(tomlplusplus QUIET)
 if(NOT tomlplusplus_FOUND)
   pkg_check_modules(TOMLPP REQUIRED IMPORTED_TARGET tomlplusplus)
 endif()
-# reading scans: bzip2; GDCM unpacks DICOM pixels (its own config file drags VTK in)
+# reading scans: bzip2; GDCM decodes DICOM pixels (its own config file would pull in VTK)
 find_package(BZip2 REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_path(BURR_GDCM_INCLUDE gdcmImageReader.h PATH_SUFFIXES gdcm-3.0 REQUIRED)
@@ -26,6 +28,6 @@ find_library(BURR_GDCM_COMMON gdcmCommon REQUIRED)
 add_library(burr_gdcm INTERFACE)
 target_include_directories(burr_gdcm SYSTEM INTERFACE ${BURR_GDCM_INCLUDE})
 target_link_libraries(burr_gdcm INTERFACE ${BURR_GDCM_MSFF} ${BURR_GDCM_DSED} ${BURR_GDCM_COMMON})
-# the bus of ROS 2, on which CRTK arms speak; idlc makes C of the messages
+# the bus of ROS 2, which CRTK arms use; idlc generates C from the messages
 find_package(CycloneDDS REQUIRED)
 find_program(BURR_IDLC idlc REQUIRED)

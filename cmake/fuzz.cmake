@@ -1,10 +1,11 @@
-# fuzz/x_fuzz.cpp -> fuzz_x, one small program per reader that looks for inputs it cannot bear, and
-# fuzz_seeds, which makes inputs to begin with. docs/fuzzing.md. Only in the preset `asan`, whose library they share.
+# fuzz/x_fuzz.cpp -> fuzz_x: one small program per reader, which searches for inputs that break it;
+# and fuzz_seeds, which makes the first inputs. See docs/fuzzing.md. Only in the preset `asan`,
+# whose library they use.
 if(NOT BURR_SANITIZE MATCHES "address" OR NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   message(FATAL_ERROR "BURR_FUZZ needs clang++ (libFuzzer) and AddressSanitizer: cmake --preset asan")
 endif()
 
-# what all targets share; the readers and all a replay needs are the sanitized library's own
+# common to all targets; the readers and everything for a replay come from the sanitized library
 add_library(burr_fuzzed STATIC EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/fuzz/support.cpp)
 target_include_directories(burr_fuzzed PUBLIC ${PROJECT_SOURCE_DIR}/fuzz)
 target_link_libraries(burr_fuzzed PUBLIC burr burr_readers burr_options fmt::fmt PkgConfig::ZSTD nlohmann_json::nlohmann_json)
@@ -21,7 +22,7 @@ foreach(source ${fuzz_targets})
   add_dependencies(fuzzers ${name})
 endforeach()
 
-# of the program, not of the library
+# part of the program, not of the library
 target_sources(fuzz_device_book PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr/workshop/device_book.cpp ${PROJECT_SOURCE_DIR}/apps/burr/workshop/places.cpp)
 burr_reads_files(${PROJECT_SOURCE_DIR}/apps/burr/workshop/device_book.cpp)
 target_include_directories(fuzz_device_book PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${PROJECT_SOURCE_DIR}/third_party)

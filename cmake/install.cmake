@@ -8,7 +8,8 @@ if(TARGET burr_program)
   install(FILES ${BURR_BONES} DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/bones)
 endif()
 foreach(header ${BURR_HEADERS})
-  # a header whose greeting says "of this room only" stays at home; scripts/rooms.py holds the rooms to it
+  # a header whose first comment says "of this room only" is not installed; scripts/rooms.py checks
+  # that no other room includes it
   file(READ ${header} greeting LIMIT 600)
   string(REGEX REPLACE "[/ \n]+" " " greeting "${greeting}")
   if(NOT greeting MATCHES "of this room only")
@@ -23,5 +24,5 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/burrConfig.cmake.in ${
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/burrConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/burrConfig.cmake ${CMAKE_BINARY_DIR}/burrConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/burr)
-# to start one's own from; the program has them inside
+# examples to start from; the program contains them too
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/cases/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/cases FILES_MATCHING PATTERN "*.toml")

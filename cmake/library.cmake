@@ -2,7 +2,7 @@
 file(GLOB_RECURSE BURR_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/*.cpp)
 file(GLOB_RECURSE BURR_HEADERS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/*.h)
 
-# the built-in cases become part of the library: no search for files, wherever it is installed
+# the built-in cases become part of the library, so they are found wherever it is installed
 file(GLOB BURR_CASES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cases/*.toml)
 set(BURR_CASE_TEXTS "")
 foreach(case ${BURR_CASES})
@@ -97,7 +97,7 @@ burr_reads_files(${reading})
 # what the built-in bones are shaped by (program.cmake)
 file(GLOB BURR_PHANTOMS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/phantom/*)
 
-# hands and bones with known answers: shared by the program, tests, benches and samples
+# hands and bones with known answers: for the program, tests, benches and samples
 file(GLOB BURR_SCENES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenes/*.cpp)
 if(BURR_SCENES)
   add_library(burr_scenes STATIC ${BURR_SCENES})

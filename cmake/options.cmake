@@ -1,8 +1,9 @@
-# How everything is compiled.  Replay is to the bit, so no fused multiply-add and no fast-math anywhere.
+# Compiler options. A replay must be exact to the bit, so no fused multiply-add and no fast-math
+# anywhere.
 find_program(BURR_CCACHE ccache)
 if(BURR_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${BURR_CCACHE})
-  if(BURR_PCH)  # else ccache leaves alone what begins with a precompiled header
+  if(BURR_PCH)  # otherwise ccache does not cache files that use a precompiled header
     set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${BURR_CCACHE})
     if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
       add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-Xclang -fno-pch-timestamp>")
@@ -18,13 +19,13 @@ if(BURR_WERROR)
   target_compile_options(burr_options INTERFACE -Werror)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # inside the shared library our own calls stay direct
+  # inside the shared library, calls of our own functions stay direct
   target_compile_options(burr_options INTERFACE -fno-semantic-interposition)
-  # g++ 12 sees ghosts in optimised Eigen and std::string code (PR 105562, 105651)
+  # g++ 12 gives false warnings in optimised Eigen and std::string code (PR 105562, 105651)
   target_compile_options(burr_options INTERFACE -Wno-maybe-uninitialized -Wno-restrict)
 endif()
-# burr_common_headers(TARGET [HEADER...] or REUSE_FROM OTHER): parsed once, not once a file. Never in the
-# release build, which shows that each file includes what it uses.
+# burr_common_headers(TARGET [HEADER...] or REUSE_FROM OTHER): headers parsed once instead of once a
+# file. Never in the release build, which shows that each file includes what it uses.
 set(BURR_COMMON_HEADERS <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <atomic> <chrono> <cmath> <cstdint>
   <cstring> <filesystem> <fstream> <functional> <map> <memory> <mutex> <optional> <random> <span> <sstream> <string>
   <string_view> <thread> <utility> <vector>)
@@ -41,18 +42,19 @@ if(BURR_SANITIZE)
   target_link_options(burr_options INTERFACE -fsanitize=${BURR_SANITIZE})
   target_compile_definitions(burr_options INTERFACE BURR_SANITIZED=1)
   if(BURR_SANITIZE MATCHES "undefined")
-    # checks of every pointer followed: they take up to half of the compiler's time, AddressSanitizer sees what comes
-    # of most of them, and what reads files has them all (burr_reads_files)
+    # Checks of every pointer use: they take up to half of the compiler's time, and AddressSanitizer
+    # finds most of what they would find. Code that reads files has them all (burr_reads_files).
     target_compile_options(burr_options INTERFACE -fno-sanitize=null,alignment,vptr,object-size,pointer-overflow)
   endif()
   if(BURR_SANITIZE MATCHES "thread" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # it does not model fences (rt/versioned.h); the words they order are atomics, which never race
+    # ThreadSanitizer does not model fences (rt/versioned.h); the words that they order are atomics,
+    # which cannot race
     target_compile_options(burr_options INTERFACE -Wno-tsan)
   endif()
 endif()
 
-# burr_reads_files(SOURCE...): what strangers' files go through; in the build `asan` with every check, and with the
-# counters by which the fuzzers see which code an input reaches
+# burr_reads_files(SOURCE...): code that reads files of unknown origin; in the build `asan` with
+# every check, and with the counters that show the fuzzers which code an input reaches
 function(burr_reads_files)
   if(BURR_SANITIZE MATCHES "undefined")
     set(every "-fsanitize=null,alignment,object-size,pointer-overflow")
@@ -65,7 +67,8 @@ function(burr_reads_files)
   endif()
 endfunction()
 
-# burr_glue(TARGET): code that only calls the library, where the time goes. Compiles in a sixth to two fifths less time.
+# burr_glue(TARGET): code that only calls the library, which does the slow work. These options save
+# a sixth to two fifths of its compile time.
 function(burr_glue target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()

@@ -1,7 +1,7 @@
 # the program `burr`: one file per subcommand
 file(GLOB_RECURSE BURR_APP CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/*.cpp)
 if(BURR_APP)
-  # burr_of_program(TARGET): what all that is compiled of it have in common
+  # burr_of_program(TARGET): common settings of everything compiled from the program
   function(burr_of_program target)
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${PROJECT_SOURCE_DIR}/third_party)
     target_link_libraries(${target} PRIVATE burr burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
@@ -14,7 +14,7 @@ if(BURR_APP)
     endif()
   endfunction()
 
-  # the parts that tests look at as well, compiled once: the window, the doctor, what both stand on
+  # the parts that tests use as well, compiled once: the window, the doctor, and what both need
   set(BURR_APP_PARTS commands/html_page
     devices/trial devices/trial_words doctor/apart doctor/devices_there doctor/finding doctor/fix doctor/nodes)
   list(TRANSFORM BURR_APP_PARTS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/apps/burr/\\1.cpp")
@@ -29,14 +29,16 @@ if(BURR_APP)
   set_target_properties(burr_program PROPERTIES OUTPUT_NAME burr RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
   burr_of_program(burr_program)
   target_link_libraries(burr_program PRIVATE burr_app)
-  if(NOT BURR_WARNINGS_ONLY)  # holds the yardstick of `burr bench tick`, which is compiled as the library is
+  if(NOT BURR_WARNINGS_ONLY)  # it contains the reference code of `burr bench tick`, compiled like
+                              # the library
     set_source_files_properties(${PROJECT_SOURCE_DIR}/apps/burr/bench/bench_tick.cpp PROPERTIES
       COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>" SKIP_PRECOMPILE_HEADERS ON)
   endif()
 endif()
 
-# The bones of the built-in cases, shaped once here: their formulas take seconds (apps/burr/workshop/prebuilt_phantom.h).
-# Not where a sanitizer watches: there it takes minutes, and the program falls back on the formula.
+# The bones of the built-in cases, shaped once at build time: their formulas take seconds
+# (apps/burr/workshop/prebuilt_phantom.h). Not in sanitizer builds, where this takes minutes; there
+# the program uses the formula.
 if(BURR_APP AND NOT BURR_SANITIZE AND NOT BURR_WARNINGS_ONLY)
   foreach(phantom temporal-bone jaw tooth spine)
     set(bone ${CMAKE_BINARY_DIR}/bones/${phantom}.bone)

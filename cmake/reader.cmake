@@ -1,5 +1,6 @@
-# burr-read: reads one scan in a process of its own (src/burr/io/sandbox/fence.h). It holds the readers and what they
-# stand on, so it starts in milliseconds; libburr holds only what both sides need, and no codec at all.
+# burr-read: reads one scan in a process of its own (src/burr/io/sandbox/fence.h). It contains the
+# readers and what they need, so it starts in milliseconds. libburr contains only what both sides
+# need, and no codec.
 file(GLOB base CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/base/*.cpp)
 set(BURR_BOTH_SIDES
   io/read/bytes.cpp io/sandbox/fence_letter.cpp io/sandbox/fence_walls.cpp io/read/samples.cpp io/read/text.cpp io/voxels.cpp)
@@ -19,5 +20,5 @@ add_executable(burr_read ${PROJECT_SOURCE_DIR}/apps/burr-read/main.cpp)
 set_target_properties(burr_read PROPERTIES OUTPUT_NAME burr-read RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 target_link_libraries(burr_read PRIVATE burr_readers burr_options)
 
-# where an installation keeps it, seen from libburr.so
+# where an installation has it, relative to libburr.so
 file(RELATIVE_PATH BURR_LIBEXEC_FROM_LIB ${CMAKE_INSTALL_FULL_LIBDIR} ${CMAKE_INSTALL_FULL_LIBEXECDIR}/burr)

@@ -1,22 +1,22 @@
 # tests/<room>/x_test.cpp -> one test program per room
 find_package(GTest REQUIRED)
 include(GoogleTest)
-pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)  # reads back what we write
+pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)  # reads back what burr writes
 
 file(GLOB BURR_TEST_SUPPORT CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/support/*.cpp)
 add_library(burr_test_support STATIC ${BURR_TEST_SUPPORT})
 target_include_directories(burr_test_support PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(burr_test_support PUBLIC burr burr_scenes GTest::gtest fmt::fmt ${CMAKE_DL_LIBS} PRIVATE burr_options)
 
-# two false servers with all of Boost.Beast, compiled once
+# two fake servers with all of Boost.Beast, compiled once
 add_library(fake_haply STATIC EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/tests/device/fake/fake_haply.cpp)
 target_include_directories(fake_haply PRIVATE ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(fake_haply PUBLIC burr PRIVATE burr_options nlohmann_json::nlohmann_json)
 burr_glue(fake_haply)
 
 file(GLOB rooms CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/tests/*)
-# ThreadSanitizer is asked only about what has threads (cmake/checks.cmake), AddressSanitizer not about what is
-# arithmetic only
+# ThreadSanitizer tests only what has threads (cmake/checks.cmake), AddressSanitizer not pure
+# arithmetic
 set(with_threads "tests/(rt|device)/|(window/window|window/pages|sound/voice|sound/speaker|volume/bone|surface/mesher|surface/worker|record/recorder|sim/threads)_test.cpp$")
 foreach(room ${rooms})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${room}/*_test.cpp)
@@ -29,7 +29,7 @@ foreach(room ${rooms})
     add_executable(test_${room} ${sources})
     target_link_libraries(test_${room} PRIVATE burr_test_support burr_options GTest::gtest_main nlohmann_json::nlohmann_json
       ZLIB::ZLIB PkgConfig::ZSTD PkgConfig::ASSIMP PkgConfig::EPOXY PkgConfig::SDL2)
-    if(room MATCHES "^(window|sound|devices|doctor)$")  # of the program, not of the library
+    if(room MATCHES "^(window|sound|devices|doctor)$")  # part of the program, not of the library
       target_include_directories(test_${room} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${PROJECT_SOURCE_DIR}/third_party)
       target_link_libraries(test_${room} PRIVATE burr_app CLI11::CLI11 PkgConfig::IMGUI)
     endif()
@@ -39,16 +39,17 @@ foreach(room ${rooms})
     target_compile_definitions(test_${room} PRIVATE
       BURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" BURR_BUILD_DIR="${CMAKE_BINARY_DIR}")
     burr_glue(test_${room})
-    if(BURR_SANITIZE MATCHES "undefined")  # asked of the library, not of its tests
+    if(BURR_SANITIZE MATCHES "undefined")  # checks in the library only, not in its tests
       set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS -fno-sanitize=undefined,float-cast-overflow)
     endif()
-    if(first_room)  # the same options: one set of headers for all
+    if(first_room)  # the same options, so one set of headers for all
       burr_common_headers(test_${room} REUSE_FROM test_${first_room})
     else()
       set(first_room ${room})
       burr_common_headers(test_${room} <gtest/gtest.h>)
     endif()
-    # a hand at the window is let go when its ticks are late: nothing else may run beside it
+    # the window releases the force of a hand when its ticks are late, so nothing else may run
+    # meanwhile
     set(alone FALSE)
     if(room MATCHES "^(window|device)$")
       set(alone TRUE)
@@ -58,7 +59,7 @@ foreach(room ${rooms})
   endif()
 endforeach()
 
-# says its numbers in every kind of build, scripts/checks/same_bits.py compares them
+# prints its numbers in every kind of build; scripts/checks/same_bits.py compares them
 add_executable(same_bits ${PROJECT_SOURCE_DIR}/tests/bits/same_bits.cpp)
 target_link_libraries(same_bits PRIVATE burr burr_scenes burr_options fmt::fmt)
 
@@ -67,11 +68,11 @@ add_executable(naughty_reader ${PROJECT_SOURCE_DIR}/tests/io/naughty/naughty_rea
 set_target_properties(naughty_reader PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 target_link_libraries(naughty_reader PRIVATE burr_readers burr_options)
 if(TARGET test_io)
-  target_link_libraries(test_io PRIVATE burr_readers)  # what burr-read calls, without the fence
+  target_link_libraries(test_io PRIVATE burr_readers)  # the readers of burr-read, without the fence
   add_dependencies(test_io naughty_reader)
 endif()
 
-# an OpenXR loader and runtime that a test plays (tests/render/openxr/fake_openxr.h)
+# an OpenXR loader and runtime that the test plays (tests/render/openxr/fake_openxr.h)
 add_library(fake_openxr MODULE ${PROJECT_SOURCE_DIR}/tests/render/openxr/fake_openxr.cpp)
 set_target_properties(fake_openxr PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 target_link_libraries(fake_openxr PRIVATE burr_options PkgConfig::EPOXY PkgConfig::SDL2)
@@ -80,20 +81,20 @@ foreach(room render window)
     add_dependencies(test_${room} fake_openxr)
   endif()
 endforeach()
-# a libspnav without a daemon, loaded as the real one is (tests/window/hands_test.cpp)
+# a libspnav without a daemon, loaded like the real one (tests/window/hands_test.cpp)
 add_library(fake_spnav SHARED ${PROJECT_SOURCE_DIR}/tests/window/fake/fake_spnav.cpp)
 target_link_libraries(fake_spnav PRIVATE burr_options)
 set_target_properties(fake_spnav PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 if(TARGET test_window)
   add_dependencies(test_window fake_spnav)
 endif()
-# makers' libraries without a device, loaded as the real ones are (tests/device/fake/)
+# makers' libraries without a device, loaded like the real ones (tests/device/fake/)
 function(burr_fake_library target name source)
   add_library(${target} SHARED ${PROJECT_SOURCE_DIR}/tests/device/fake/${source})
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/src)
   target_compile_definitions(${target} PRIVATE ${ARGN})
   target_link_libraries(${target} PRIVATE Eigen3::Eigen burr_options)
-  if(BURR_SANITIZE MATCHES "undefined")  # types of their own, as a maker's library has
+  if(BURR_SANITIZE MATCHES "undefined")  # they have types of their own, as a maker's library has
     set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/device/fake/${source} PROPERTIES
       COMPILE_OPTIONS -fno-sanitize=function)
   endif()
@@ -122,12 +123,12 @@ if(EXISTS ${PROJECT_SOURCE_DIR}/cmake/checks.cmake)
   include(cmake/checks.cmake)
 endif()
 
-# a false device to measure with, or to try burr without hardware (bench/results/device.md)
+# a fake device for measurements, or to try burr without hardware (bench/results/device.md)
 add_executable(false_device EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/bench/device/false_device.cpp)
 target_include_directories(false_device PRIVATE ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(false_device PRIVATE burr burr_crtk fake_haply burr_options fmt::fmt)
 
-# bench/<room>/x_bench.cpp -> one Google Benchmark program each; never part of pass or fail
+# bench/<room>/x_bench.cpp -> one Google Benchmark program each; no test depends on them
 find_package(benchmark QUIET)
 if(benchmark_FOUND)
   file(GLOB_RECURSE benches CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/bench/*_bench.cpp)

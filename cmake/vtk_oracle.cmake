@@ -1,5 +1,5 @@
-# burr_vtk_oracle, burr_vtk_frame: only where VTK 9 is installed, only to be compared with by
-# `burr bench surface` and `burr bench frame`
+# burr_vtk_oracle, burr_vtk_frame: only where VTK 9 is installed, and only for comparisons by `burr
+# bench surface` and `burr bench frame`
 option(BURR_VTK_ORACLE "build burr_vtk_oracle and burr_vtk_frame if VTK is there" ON)
 if(BURR_VTK_ORACLE)
   find_package(VTK 9 QUIET COMPONENTS CommonCore CommonDataModel FiltersCore)

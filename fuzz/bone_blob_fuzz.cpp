@@ -1,5 +1,5 @@
-// The bone inside a recording. The first byte says: the bytes as they are, or a line of JSON and
-// blocks of bricks that get their packing and their checks (CRC) here.
+// The bone inside a recording. The first byte chooses: the bytes as they are, or a line of JSON and
+// blocks of bricks that are compressed and get their checksums (CRC) here.
 #include "burr/record/bone_blob.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ std::vector<std::uint8_t> blob_of(fuzz::Pieces& in) {
   static record::Packer packer(1);
   while (!in.empty()) {
     const std::size_t n = in.byte() % 8U;
-    // brick numbers, one byte of field and one of tissue for a whole brick
+    // brick numbers, and one byte of field and one of tissue for a whole brick
     record::BytesOut block;
     for (std::size_t i = 0; i < n; ++i) {
       const auto high = static_cast<std::int16_t>(in.word());
@@ -63,7 +63,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::look_at_error(bone);
   if (!bone) return 0;
   fuzz::look_at((*bone)->tissues());
-  // every brick can be reached, and it comes back the same
+  // every brick can be reached, and is the same after writing and reading
   for (volume::BrickIndex b = 0; b < (*bone)->brick_count(); ++b)
     if ((*bone)->brick_field(b) != nullptr)
       fuzz::must((*bone)->brick_tissue(b) != nullptr, "a brick has both or none");

@@ -1,4 +1,4 @@
-// A user's devices.toml, and one setting as it is written on the command line: the first line.
+// A user's devices.toml; the first line is one setting as on the command line.
 #include "workshop/device_book.h"
 
 #include "support.h"

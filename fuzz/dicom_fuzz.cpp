@@ -1,5 +1,5 @@
-// One DICOM file: the header's walk through any structure, plain and deflated pixels. Packed pixels
-// (JPEG and the like) are another library's, and behind the fence.
+// One DICOM file: the header with any structure, plain and deflated pixels. Compressed pixels (JPEG
+// and the like) are decoded by another library, behind the fence.
 #include "burr/io/read/dicom_header.h"
 #include "support.h"
 

@@ -1,6 +1,6 @@
-// A folder of DICOM slices whose files are whole but whose facts are not: places, directions,
-// spacings, numbers. Each line of the input sets one fact of the slice being made ("p=0\0\1.5"),
-// "x" ends a slice.
+// A folder of DICOM slices with valid files but invalid facts: positions, directions, spacings,
+// numbers. Each line of the input sets one fact of the present slice ("p=0\0\1.5"); "x" ends a
+// slice.
 #include <array>
 #include <filesystem>
 #include <map>

@@ -1,4 +1,4 @@
-// A force log (CSV), and the constants it tells.
+// A force log (CSV), and the constants that are fitted to it.
 #include "burr/fit/force_log.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The way of a hand (CSV), and the hand that goes it.
+// The path of a hand (CSV), and the hand that follows it.
 #include "burr/device/hand_path.h"
 #include "burr/surgeon/motion.h"
 #include "support.h"

@@ -1,5 +1,5 @@
-// What Haply's service may say: its first message, states one after another, its version, events.
-// Each line is one message to all of them.
+// Messages of Haply's service: its first message, a series of states, its version, events. Each
+// line is one message and is given to all readers.
 #include "burr/device/haply/message.h"
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// The table of materials (TOML), and what tissues become of it.
+// The table of materials (TOML), and the constants that tissues get.
 #include "burr/importing/materials.h"
 
 #include <cmath>

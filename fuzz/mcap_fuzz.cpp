@@ -1,5 +1,5 @@
-// The MCAP container: by its summary and by a scan, and repaired. Changed inputs get their checks
-// (CRC) mended most of the time, else the fuzzer would never come past them.
+// The MCAP container: read by its summary and by a scan, and repaired. In most changed inputs the
+// checksums (CRC) are corrected; otherwise the fuzzer would never get past them.
 #include <cstring>
 #include <vector>
 
@@ -21,7 +21,7 @@ T at(const std::uint8_t* from) {
   return value;
 }
 
-// Chunks and attachments say that they have no CRC, the footer has the right one.
+// Marks chunks and attachments as having no CRC, and gives the footer the right one.
 void mend(std::uint8_t* data, std::size_t size) {
   using record::mcap::Kind;
   constexpr std::size_t kHead = record::mcap::kRecordHead;

@@ -1,4 +1,4 @@
-// MetaImage: header, data after it or "beside" it (the file itself may be named as its data).
+// MetaImage: header, data after it or "beside" it (the file may be named as its own data).
 #include "support.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,6 @@
-// A recording whose container is right and whose content is odd: any settings, hands that are
-// nowhere, bricks that are not there, times that go back. It is opened, looked at at several
-// moments, and simulated again for as long as it is the same.
+// A recording with a valid container and odd content: any settings, impossible hands, bricks that
+// do not exist, times that go back. It is opened, shown at several moments, and simulated again for
+// as long as the result is the same.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,7 +41,7 @@ record::SessionInfo usual_session() {
   info.build = "0";
   sim::SessionSettings settings;
   settings.servo.burr.radius = 1.5e-3;
-  settings.servo.undo_bricks = 16;  // little memory, so that many replays go into a second
+  settings.servo.undo_bricks = 16;  // little memory, so that many replays run in a second
   settings.surface.reserve_blocks = 64;
   sim::describe(settings, {}, info);
   const auto bone = block();
@@ -133,7 +133,7 @@ void bricks(fuzz::Pieces& in, BytesOut& out) {
   record::encode_bricks(rows, out);
 }
 
-// Messages become a chunk with its indexes.
+// Puts messages into a chunk with its indexes.
 class File {
  public:
   File() {
@@ -173,7 +173,7 @@ class File {
     chunk.put(end_);
     chunk.put(std::uint64_t{chunk_.size()});
     chunk.put(std::uint32_t{0});  // no CRC
-    chunk.text("");               // not packed
+    chunk.text("");               // not compressed
     chunk.put(std::uint64_t{chunk_.size()});
     chunk.raw(chunk_.span());
     record::mcap::put_record(out_, Kind::chunk, chunk.span());
@@ -223,7 +223,7 @@ File file_of(fuzz::Pieces& in) {
     }
     time_ns = (what & 64U) != 0 ? count(in) * 1'000'000 : time_ns + 1'000'000;
     BytesOut data;
-    if ((what & 128U) != 0) {  // as it is
+    if ((what & 128U) != 0) {  // unchanged
       data.raw(in.take(in.byte()));
     } else if (topic == 0) {
       data.raw(record::as_bytes(session(in)));

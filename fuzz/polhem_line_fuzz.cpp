@@ -1,5 +1,5 @@
-// What a Polhem's serial port may bring: any bytes in any pieces. A byte says how long the next
-// piece is.
+// Input from a Polhem's serial port: any bytes in pieces of any length. One byte gives the length
+// of the next piece.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -18,7 +18,8 @@ void look_at(const State& state) {
     fuzz::must(std::abs(turn) <= 20, "an arm turns a few times at most");
 }
 
-// Three forces, a command, three attributes, and nothing that the arm would read as more.
+// Checks a line for the arm: three forces, a command, three attributes, and nothing that the arm
+// would read as more.
 void look_at(const device::polhem::Line& line) {
   fuzz::must(line.back() == '\n' && std::count(line.begin(), line.end(), '\n') == 1,
              "a line of ours is one line");

@@ -1,6 +1,6 @@
-// fuzz_seeds DIR [CORPUS]: something small and right of every kind for the fuzzers to begin with,
-// made by our own writers where we have one, in DIR/NAME/. Small files of a collection of test data
-// (CORPUS) are linked beside them, if it is there.
+// fuzz_seeds DIR [CORPUS]: writes small valid inputs of every kind, with which the fuzzers begin,
+// to DIR/NAME/, with our own writers where we have them. Small files of a collection of test data
+// (CORPUS), if it is there, are linked beside them.
 #include <bzlib.h>
 #include <zlib.h>
 
@@ -50,7 +50,7 @@ string content(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// window 31: gzip, 15: zlib, -15: bare
+// window 31: gzip, 15: zlib, -15: deflate without header
 string deflated(const string& bytes, int window) {
   z_stream stream{};
   fuzz::must(deflateInit2(&stream, 9, Z_DEFLATED, window, 8, Z_DEFAULT_STRATEGY) == Z_OK, "zlib");
@@ -246,7 +246,7 @@ string dicom_set(bool explicit_vr, bool big, bool packed, bool enhanced) {
   d.element(0x00080008, "CS", "ORIGINAL\\PRIMARY\\AXIAL");
   d.element(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.2");
   d.element(0x00080060, "CS", "CT");
-  d.head(0x00081140, "SQ", 0xFFFFFFFF);  // a sequence without length, in it an item with one
+  d.head(0x00081140, "SQ", 0xFFFFFFFF);  // a sequence without length, with one item in it
   d.mark(0xFFFEE000, 0xFFFFFFFF);
   d.element(0x00081150, "UI", "1.2.3");
   d.mark(0xFFFEE00D, 0);
@@ -396,7 +396,7 @@ record::SessionInfo session_of(const volume::Bone& bone) {
   return info;
 }
 
-// a container with one of everything; packed chunks or plain ones
+// a container with one record of every kind; chunks compressed or not
 string container(bool packed, bool finished) {
   const string path = fuzz::folder() + "/seed.mcap";
   record::McapWriter writer;
@@ -439,7 +439,7 @@ string container(bool packed, bool finished) {
   return content(path);
 }
 
-// What devices say, and what is requested of them.
+// messages of devices, and settings for them
 void devices() {
   const string first =
       R"({"session_id":7,"inverse3":[{"device_id":"049D","config":{"type":"inverse3",)"
@@ -502,7 +502,7 @@ void recordings() {
   seed("mcap", "not_finished", container(false, false));
   seed("mcap", "torn", whole.substr(0, whole.size() / 2));
   seed("mcap", "recorded", recorded());
-  // bytes as player_fuzz.cpp takes them: a session, ticks, commands, bricks, chunks
+  // bytes in the form of player_fuzz.cpp: a session, ticks, commands, bricks, chunks
   seed("player", "usual",
        string("\x00\x00\x06\x01\x04\x00\x00\x00\x00\x06\x01\x02\x00\x00\x06", 15));
   seed(

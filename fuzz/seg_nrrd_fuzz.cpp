@@ -1,11 +1,11 @@
-// .seg.nrrd all the way: segments with names and colours become tissues, labels become bone.
+// .seg.nrrd from file to bone: segments with names and colours become tissues, labels become bone.
 #include "burr/importing/import.h"
 #include "support.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace burr;
   const auto scan = fuzz::read_scan_bytes(io::read_nrrd, "a.seg.nrrd", {data, size});
-  // import is bounded by its own rules; here it need only be small enough to be done often
+  // the import has its own limits; here it must only be small enough to run often
   if (!scan || scan->labels.empty() || scan->size.maxCoeff() > 48) return 0;
   importing::ImportOptions options;
   options.reserve_bricks = 0;

@@ -1,4 +1,4 @@
-// The session's description (JSON) in a recording, and the settings a replay takes from it.
+// The description of a session (JSON) in a recording, and the settings that a replay takes from it.
 #include "burr/record/session_info.h"
 
 #include "burr/sim/session_words.h"
@@ -10,7 +10,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::look_at_error(info);
   if (!info) return 0;
   fuzz::look_at(info->volume.tissues);
-  // what was read can be written, and comes back the same
+  // what was read can be written, and is the same when it is read again
   const std::string again = record::to_json(*info);
   const auto twice = record::session_from_json(again, "a.mcap");
   fuzz::must(twice.ok() && record::to_json(*twice) == again, "JSON comes back the same");

@@ -1,8 +1,8 @@
-// fuzz/support.h - what all targets share: bytes become a file where a reader wants one, and what
-// comes back is looked at. docs/fuzzing.md says how to run and add targets.
+// fuzz/support.h - common to all targets: makes a file of the bytes where a reader needs one, and
+// checks the results. docs/fuzzing.md says how to run and add targets.
 //
-// The readers are called without the fence around them (a fence would only hide a crash); if their
-// names change, this is the place to follow.
+// The readers are called without the fence around them (a fence would only hide a crash). If they
+// are renamed, change the calls here.
 #pragma once
 
 #include <cstddef>
@@ -21,19 +21,20 @@ namespace burr::fuzz {
 
 using Bytes = std::span<const std::uint8_t>;
 
-// A folder in memory of this process alone, gone at its end.
+// A folder in memory, for this process only; removed at its end.
 [[nodiscard]] const std::string& folder();
 
-// Puts the bytes into folder()/name, whatever was there before. The path.
+// Writes the bytes to folder()/name, replacing what was there. Returns the path.
 const std::string& as_file(const std::string& name, Bytes bytes);
 
-// What must always be true; else the target stops here as if it had crashed.
+// What must always be true; otherwise the target stops here as if it had crashed.
 void must(bool holds, std::string_view what);
 
-// A sentence: there, one line, not longer than people read, whatever the file put into it.
+// Checks an error message: not empty, one line, not too long to read, whatever the file put into
+// it.
 void look_at(const Error& error);
-// A scan as the rest of burr may rely on it: as many voxels as it says, all finite, a right-handed
-// grid with a spacing, colours from 0 to 1.
+// Checks what the rest of burr relies on in a scan: as many voxels as it says, all finite, a
+// right-handed grid with a spacing, colours from 0 to 1.
 void look_at(const io::Scan& scan);
 void look_at(const volume::TissueTable& tissues);
 
@@ -44,17 +45,17 @@ void look_at_error(const Result<T>& result) {
 
 using Reader = Result<io::Scan> (*)(const std::filesystem::path&, const io::ReadOptions&,
                                     Progress&);
-// The bytes as a file of that name, through one reader.
+// Reads the bytes as a file of that name with one reader.
 Result<io::Scan> read_scan_bytes(Reader reader, const std::string& name, Bytes bytes);
 
-// Takes an input apart: numbers first, text after.
+// Divides an input into parts: numbers first, text after.
 class Pieces {
  public:
   explicit Pieces(Bytes bytes) : left_(bytes) {}
   [[nodiscard]] std::uint8_t byte();
   [[nodiscard]] std::uint16_t word();
   [[nodiscard]] Bytes take(std::size_t size);
-  [[nodiscard]] std::string_view line();  // up to the next line feed
+  [[nodiscard]] std::string_view line();  // up to the next newline
   [[nodiscard]] Bytes rest() { return take(left_.size()); }
   [[nodiscard]] bool empty() const { return left_.empty(); }
 
@@ -68,5 +69,5 @@ class Pieces {
 
 }  // namespace burr::fuzz
 
-// one input; the greeting libFuzzer knows
+// one input; the function that libFuzzer calls
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

@@ -1,4 +1,4 @@
-// The table of tissues (TOML), against a label map that has labels 1 to 3.
+// The table of tissues (TOML), with a label map that has labels 1 to 3.
 #include "burr/importing/tissues.h"
 
 #include "support.h"

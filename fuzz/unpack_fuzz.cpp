@@ -1,5 +1,5 @@
-// Unpacking: gzip, zlib, bare deflate, bzip2 and zstd. The first byte picks, and how much is asked
-// for at once; zstd is also told how long it will be.
+// Decompression: gzip, zlib, deflate without header, bzip2 and zstd. The first byte chooses, and
+// says how much is asked for at once; zstd also gets the expected length.
 #include <vector>
 
 #include "burr/io/read/bytes.h"
@@ -8,7 +8,7 @@
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace burr;
-  constexpr std::size_t kMost = std::size_t{1} << 24;  // more of a bomb tells nothing new
+  constexpr std::size_t kMost = std::size_t{1} << 24;  // to unpack more of a bomb shows nothing new
   fuzz::Pieces in({data, size});
   const std::uint8_t choice = in.byte();
   if (choice % 5 == 4) {

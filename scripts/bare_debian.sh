@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
-# Proves that a newcomer's two commands are enough: makes a bare Debian 12 in a folder (debootstrap, nothing but
-# the base system), clones this checkout into it as it is committed, and runs ./run or ./test there.
+# Proves that the two commands in README.md are enough for a newcomer: makes a bare Debian 12 in a
+# folder (debootstrap, nothing but the base system), clones this checkout into it as committed, and
+# runs ./run or ./test there.
 #
 #     sudo scripts/bare_debian.sh run|test|shell [--again]
 #
-#     shell      a prompt in there, in the clone
-#     --again    keeps the system of last time (its packages are then installed already); the clone is fresh
+#     shell      a prompt in that system, in the clone
+#     --again    keeps the system of the last run (with its packages); the clone is new
 #
-# The mirror, its keys and its proxy are those that apt is configured with on this machine. The folder is
-# $BURR_BARE, or /var/tmp/burr-bare-debian; it takes about 5 GB and may be removed at any time.
-# ../shared/data beside the checkout, if there is any, is shown to the clone read-only, at the same place.
+# The mirror, its keys and its proxy are those of apt on this machine. The folder is $BURR_BARE, or
+# /var/tmp/burr-bare-debian; it needs about 5 GB and may be removed at any time. If there is a
+# ../shared/data beside the checkout, the clone sees it read-only at the same place.
 set -euo pipefail
 
 what=${1:-} again=no
@@ -22,7 +23,7 @@ esac
 for tool in debootstrap git unshare; do
   command -v $tool >/dev/null || { echo "bare_debian.sh: needs $tool; apt-get install $tool" >&2; exit 1; }
 done
-# a mount namespace of our own: every mount is gone when this script is
+# a mount namespace of our own: every mount disappears when this script ends
 if [ -z "${BURR_BARE_INSIDE:-}" ]; then
   BURR_BARE_INSIDE=1 exec unshare --mount --propagation private "$0" "$@"
 fi
@@ -42,7 +43,7 @@ if [ -z "$mirror" ]; then
 fi
 
 if [ $again = no ] || [ ! -f "$bare/.burr-bare" ]; then
-  # only ever removes what it made itself
+  # removes only what it made itself
   if [ -e "$bare" ] && [ ! -f "$bare/.burr-bare" ] && [ -n "$(ls -A "$bare")" ]; then
     echo "bare_debian.sh: $bare is not empty and not ours; set BURR_BARE to another folder" >&2
     exit 1
@@ -50,7 +51,7 @@ if [ $again = no ] || [ ! -f "$bare/.burr-bare" ]; then
   rm -rf --one-file-system "$bare"
   mkdir -p "$bare"
   touch "$bare/.burr-bare"
-  # the proxy that apt uses; debootstrap fetches by itself
+  # the proxy of apt; debootstrap does its own downloads
   proxy=$(apt-config dump --format '%f=%v%n' Acquire::http::Proxy | sed -n 's/^Acquire::http::Proxy=//p')
   [ -z "$proxy" ] || export http_proxy="$proxy"
   echo "bare_debian.sh: making a bare Debian 12 in $bare ..."
@@ -61,7 +62,7 @@ fi
 sources | sed 's/^/deb /' >"$bare/etc/apt/sources.list"
 apt-config dump | grep -E '^Acquire::(http|https|Check-|Retries|ForceIPv)' >"$bare/etc/apt/apt.conf.d/99as-outside" || true
 cp /etc/resolv.conf /etc/hosts "$bare/etc/"
-# an archive over https may need a certificate that only this machine knows
+# an archive over https may need a certificate that only this machine has
 if [ -f /etc/ssl/certs/ca-certificates.crt ]; then
   mkdir -p "$bare/etc/ssl/certs"
   cp /etc/ssl/certs/ca-certificates.crt "$bare/etc/ssl/certs/"

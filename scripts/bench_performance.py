@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Measures every figure burr is held to and prints a Markdown table: bar, measured, met.
+"""Measures every figure that burr must meet and prints a Markdown table: limit, measured, met.
 
     scripts/bench_performance.py --runs 2 --out bench/results/performance.md
     scripts/bench_performance.py --only tick        one group: tick mill direction volume rates endure surface
                                                     load memory growth
     scripts/bench_performance.py --seconds 60       a shorter endurance run than its ten minutes
 
-Runs alone on a quiet machine, about 15 minutes a run, ten of them the endurance. Nothing here passes or fails a test.
+Run it alone on a quiet machine; about 15 minutes a run, ten of them for endurance. No test depends on it.
 """
 import argparse
 import json
@@ -36,7 +36,7 @@ cache = {}
 
 
 class Missing(Exception):
-    """What a row needs is not here; the text says what."""
+    """Something that a row needs is missing; the text says what."""
 
 
 def burr(command, simd=""):
@@ -62,7 +62,7 @@ def tick(extra="", simd=""):
     return burr(f"bench tick --ticks 3000 {extra}".strip(), simd)
 
 
-# ---- rows: (group, what, bar in words, function -> (text, met or None where nothing is asked))
+# ---- rows: (group, what, limit in words, function -> (text, met, or None without a limit))
 
 ROWS = []
 
@@ -201,7 +201,7 @@ def _():
     return f"{r['peak_MB']:.0f} / {r['steady_MB']:.0f} MB", r["peak_MB"] <= 700 and r["steady_MB"] <= 400
 
 
-# ---- how the tick grows
+# ---- how the time of a tick grows
 
 def growth():
     lines = ["| burr, voxels across | 256^3 | 512^3 | 1024^3 |", "|---|---|---|---|"]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures the tick on the peers' scene in all the ways that matter and prints a Markdown table.
+"""Measures the tick on the scene of comparable programs, with all important options, and prints a Markdown table.
 
     scripts/bench_tick.py [build/release/burr] > bench/results/tick.md
 """

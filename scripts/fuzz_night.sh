@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# A night of fuzzing: every reader for some minutes, what was learnt kept for the next night.
+# A night of fuzzing: every reader for some minutes; useful inputs are kept for the next night.
 #
 #     scripts/fuzz_night.sh [--minutes N] [NAME ...]      default: 10 minutes each of all targets
 #
-# What was learnt is kept in build/asan/fuzz/corpus/, what was found in build/asan/fuzz/found/.
+# Useful inputs are kept in build/asan/fuzz/corpus/; those that break a reader in .../found/.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 minutes=10
@@ -35,7 +35,7 @@ for name in "${names[@]}"; do
   touch build/asan/fuzz/began
   echo "== $name: $minutes minutes, seed $BURR_FUZZ_SEED"
   if scripts/checks/fuzz.sh "$name" $((minutes * 60)) "$corpus" >"$log" 2>&1; then
-    # of inputs that reach the same places the smallest stay
+    # of the inputs that reach the same code, the smallest are kept
     mkdir -p "$corpus.small"
     if "build/asan/fuzz/fuzz_$name" -merge=1 "$corpus.small" "$corpus" "build/asan/fuzz/seeds/$name" >/dev/null 2>&1; then
       rm -rf "$corpus" && mv "$corpus.small" "$corpus"

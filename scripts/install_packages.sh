@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Installs what is missing of scripts/packages.txt, and says what and why.
+# Installs the missing packages of scripts/packages.txt, and says which and why.
 #
 #     scripts/install_packages.sh run|test        test: everything of run as well
 #
-# Does nothing, and needs no network and no rights, when all of it is there.
+# Does nothing, and needs no network and no rights, if none is missing.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 

@@ -1,23 +1,23 @@
 #!/usr/bin/env python3
-"""The way of a hand that opens the mastoid of the built-in temporal bone, as CSV for `burr mill --path`.
+"""The path of a hand that opens the mastoid of the built-in temporal bone, as CSV for `burr mill --path`.
 
     scripts/mastoidectomy.py > path.csv
     burr mill phantom:temporal-bone --path path.csv --stiffness 2000 --arm rigid --undo-bricks 60000 \
         --record mastoid.mcap --embed
     burr replay mastoid.mcap --picture mastoid.png --height-mm 40
 
-Layer by layer from the cortex inwards in rows, a funnel as a surgeon makes it, then a fine pass over its walls; the middle of
-the burr (5 mm) keeps its distance from sinus, dura, ear canal, facial nerve and the lateral canal. These lie where
-src/burr/phantom/temporal_bone.cpp puts them. This makes the picture of README.md.
+The hand mills in rows, layer by layer from the cortex inwards, a funnel as a surgeon makes it, then a fine pass over its
+walls. The centre of the burr (5 mm) keeps its distance from sinus, dura, ear canal, facial nerve and the lateral canal,
+whose places are those of src/burr/phantom/temporal_bone.cpp. This makes the picture of README.md.
 """
 import math
 
-BURR, MARGIN, START = 2.5, 0.6, -9.0  # radius, bone left over what is to spare, first layer [mm]
-TOOL = (-0.86, -0.34, -0.30)          # from the head along the shaft
+BURR, MARGIN, START = 2.5, 0.6, -9.0  # radius, bone left over what must be spared, first layer [mm]
+TOOL = (-0.86, -0.34, -0.30)          # direction of the shaft, from the head
 
 
 def curve(through, steps=8):
-    """Catmull-Rom, as src/burr/phantom/sculpt.h draws them."""
+    """Catmull-Rom curves, as in src/burr/phantom/sculpt.h."""
     points, last = [], len(through) - 1
     for i in range(last):
         p = [through[min(max(i + by, 0), last)] for by in (-1, 0, 1, 2)]
@@ -33,7 +33,7 @@ SINUS = curve([(27, 44, 12), (18.5, 33.5, 9.5), (13.6, 26.5, 3.5), (12.2, 22.5, 
 CANAL = curve([(-9, 1, -1), (0, 0, 0), (7, -1.2, 0.6), (17.2, -4, -0.4)])
 FACIAL = curve([(25.2, -9, 5.2), (23.4, -6.4, 5), (21.8, -2.4, 4.4), (19.6, 1.4, 3.4), (17.6, 4, 1), (16.8, 4.8, -3),
                 (16.2, 5.2, -10), (15.6, 5.4, -18)])
-# what is opened, seen from the side: (y, z)
+# outline of the opening, seen from the side: (y, z)
 OPENING = [(4.5, 9.5), (8, 10.5), (21, 9.5), (23.5, 2), (20, -8), (14, -15), (9.5, -16), (7, -8)]
 
 
@@ -49,7 +49,7 @@ def to_curve(points, p):
 
 
 def inside(y, z):
-    """How far from the rim of the opening; negative outside."""
+    """Distance from the edge of the opening; negative outside."""
     rim, within = math.inf, False
     for a, b in zip(OPENING, OPENING[1:] + OPENING[:1]):
         rim = min(rim, to_segment((y, z), a, b))
@@ -65,7 +65,7 @@ def clear(p):
 
 
 def deepest(y, z, step):
-    """How far the burr may go at (y, z); None: nowhere."""
+    """How deep the burr may go at (y, z); None: not at all."""
     from_rim = inside(y, z)
     if from_rim < 0:
         return None
@@ -76,7 +76,7 @@ def deepest(y, z, step):
 
 
 def rows(spacing, step):
-    """Rows over the opening, there and back: lists of (deepest, y, z)."""
+    """Rows over the opening, forwards and backwards in turn: lists of (deepest, y, z)."""
     for n in range(int(29 / spacing)):
         z = -18 + n * spacing
         row = [(deepest(y, z, step), y, z) for y in (3 + m * spacing for m in range(int(23 / spacing)))]
@@ -104,7 +104,7 @@ def way():
 def main():
     length = math.hypot(*TOOL)
     tool = [v / length for v in TOOL]
-    turn = (1 + tool[2], -tool[1], tool[0], 0)  # takes z to the shaft
+    turn = (1 + tool[2], -tool[1], tool[0], 0)  # rotates z to the shaft
     turn = [v / math.hypot(*turn) for v in turn]
     print("t,x_mm,y_mm,z_mm,qw,qx,qy,qz")
     t, before = 0.0, None

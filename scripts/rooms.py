@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
-"""Draws who includes whom among the rooms of src/burr, and fails where the map in docs/architecture.md is broken.
+"""Prints which rooms of src/burr include which, and fails where this differs from docs/architecture.md.
 
     scripts/rooms.py [ROOT]               ROOT: the folder that holds src/burr; default: this checkout
 
-Fails on a room that is not listed, an arrow that is not listed, two rooms in a circle, and a third-party header
-where it does not belong: graphics and headsets only in render/gl, the loudspeaker only in sound, file formats only in io, a vendor's
-only in its own folder.
+Fails on a room that is not listed, an arrow that is not listed, rooms that include each other in a circle, and a
+third-party header in the wrong place: graphics and headsets only in render/gl, the loudspeaker only in sound, file
+formats only in io, a vendor's library only in its own folder.
 """
 import collections
 import pathlib
 import re
 import sys
 
-# Besides base and math, which everyone may include. A room that is not here is an error until it is added here,
-# in docs/architecture.md and in docs/decisions.md.
+# Besides base and math, which every room may include. A room that is missing here is an error until
+# it is added here, in docs/architecture.md and in docs/decisions.md.
 ALLOWED = {
     "base": "",
     "math": "",
@@ -38,9 +38,9 @@ ALLOWED = {
     "sim": "tick record device haptics thermal people volume tool rt",
     "fit": "record",
 }
-BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest floors know less than everyone
+BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest rooms, with shorter lists
 
-# Of these rooms only plain structs: (who, whom) -> headers.
+# Of these rooms only headers with plain structs: (from, to) -> headers.
 ONLY = {
     ("tool", "rt"): {"rt.h"},
     ("io", "rt"): {"lanes.h", "simd.h"},
@@ -62,17 +62,18 @@ ELSEWHERE = [
     (r"dds/|crtk_messages", ["device/crtk"], "the bus of ROS 2"),
     (r"HD/hd|HDU|openhaptics|dhdc|drdc|chai3d|haply", None, "a vendor's library"),  # device/<vendor> only
 ]
-# What headers may show to others: the standard library, Eigen, ourselves.
+# What headers may include: the standard library, Eigen, burr.
 PUBLIC = re.compile(r"^(Eigen/|burr/|[a-z_0-9]+$|sys/|unistd|pthread|sched|semaphore|[a-z]+intrin\.h$)")
 
-# A header whose greeting says this may show more, is not installed, and is known only to its room.
+# A header whose first comment says this may include more, is not installed, and belongs to its
+# room.
 PRIVATE = "of this room only"
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.M)
 
 
 def is_private(file):
-    """True: the header's greeting says that it is for its own room only."""
+    """True: the header's first comment says that it is for use of its own room only."""
     if not file.is_file():
         return False
     greeting = []
@@ -100,7 +101,7 @@ def may(room, other):
 
 
 def third_party(path, name):
-    """Says why this file may not include that third-party header, or nothing."""
+    """Returns why this file may not include that third-party header; empty: it may."""
     folder = path.parent.as_posix()
     for pattern, homes, what in ELSEWHERE:
         if not re.match(pattern, name):
@@ -159,7 +160,7 @@ def circles(doors):
     reach = collections.defaultdict(set)
     for a, b in doors:
         reach[a].add(b)
-    for _ in list(reach):  # transitive closure, enough rounds for the longest chain
+    for _ in list(reach):  # transitive closure; enough rounds for the longest chain
         for room in list(reach):
             reach[room] |= {far for near in list(reach[room]) for far in reach.get(near, ())}
     return sorted(room for room in reach if room in reach[room])

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# The whole program under ThreadSanitizer for minutes: the window's loop draws off-screen, the servo mills,
-# workers mesh, the recorder writes, and a user who never sits still mills, undoes, redoes and resets.
-# Silence is the test. ./test does the same for 15 seconds.
+# The whole program under ThreadSanitizer for minutes: the window's loop draws off-screen, the servo
+# mills, workers mesh, the recorder writes, and a simulated user mills, undoes, redoes and resets
+# without pause. The test passes if ThreadSanitizer reports nothing. ./test does the same for 15
+# seconds.
 #
 #     scripts/tsan_long.sh [SECONDS]      default: 300
 set -euo pipefail

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""What the documents name is there: links, pictures, files, and the program's commands and options.
+"""Checks that everything named in the documents exists: links, pictures, files, the program's commands and options.
 
-    scripts/checks/docs.py [BUILD]        BUILD: where the program lies; default build/release
+    scripts/checks/docs.py [BUILD]        BUILD: folder of the program; default build/release
 """
 import pathlib
 import re
@@ -51,7 +51,7 @@ def check_paths(name, text):
 
 
 def check_command(name, line):
-    """One line of a document that runs the program, ./run or ./test."""
+    """Checks one line of a document that runs the program, ./run or ./test."""
     line = line.split("  #")[0].strip()
     line = re.sub(r"^[\w$ ]*\$ ", "", line)
     try:

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every C++ file is laid out as .clang-format says.  Cure: clang-format -i FILE
+# Checks that every C++ file has the layout of .clang-format. To fix one: clang-format -i FILE
 set -euo pipefail
 source "$(dirname "$0")/files.sh"
 our_files '*.h' '*.cpp' | xargs -0 clang-format --dry-run -Werror

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Looks for inputs that one reader cannot bear. Needs what `cmake --preset asan` builds.
+# Searches for inputs that break one reader. Needs the build of `cmake --preset asan`.
 #
-#     scripts/checks/fuzz.sh NAME [SECONDS [CORPUS]]      NAME: of a target, as in fuzz/NAME_fuzz.cpp
-#     scripts/checks/fuzz.sh seeds                        makes inputs to begin with
+#     scripts/checks/fuzz.sh NAME [SECONDS [CORPUS]]     NAME: of a target, as in fuzz/NAME_fuzz.cpp
+#     scripts/checks/fuzz.sh seeds                       makes the first inputs
 #
-# CORPUS keeps what was learnt; without it each run begins with the seeds alone, and BURR_FUZZ_SEED
-# (default 1) chooses its way. What is found lies in build/asan/fuzz/found/.
+# CORPUS keeps the inputs found useful. Without it each run begins with the seeds alone, and
+# BURR_FUZZ_SEED (default 1) seeds the random numbers. Inputs that break a reader are in
+# build/asan/fuzz/found/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 name=${1:?which target?}
@@ -38,7 +39,7 @@ if [ "$code" -eq 0 ]; then
   grep -E '^#[0-9]+' "$log" | tail -n 1
   grep -E '^(Done|stat::)' "$log"
 else
-  # not the thousand lines of what was learnt: what went wrong, and the input itself
+  # not the thousand lines about progress: only what went wrong, and the input itself
   grep -vE '^(#[0-9]+|INFO:)' "$log" | cut -c1-400 | tail -n 120
   find "$build/found" -name "$name-*" -newer "$log.began" -size -16k -exec sh -c 'echo "-- $1 in base64:"; base64 "$1"' sh {} \;
   echo "fuzz.sh: $name cannot bear an input; see docs/fuzzing.md, \"Something was found\"" >&2

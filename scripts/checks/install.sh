@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# `cmake --install` gives a library that others can use: samples/installed builds against it alone.
+# Checks that `cmake --install` gives a usable library: samples/installed builds against it alone.
 #
 #     scripts/checks/install.sh BUILD
 set -euo pipefail
@@ -9,14 +9,14 @@ place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 
 cmake --install "$build" --prefix "$place/prefix" >"$place/log" || { cat "$place/log"; exit 1; }
-# copied away, so that nothing of this checkout can be found by accident
+# copied to another place, so that nothing of this checkout can be found by accident
 cp -r samples/installed "$place/sample"
 cmake -S "$place/sample" -B "$place/build" -DCMAKE_PREFIX_PATH="$place/prefix" -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror"
 cmake --build "$place/build"
 "$place/build/touch"
 "$place/prefix/bin/burr" --version
-# a scan is read by the helper of the installation
+# the installed burr-read reads a scan
 "$place/prefix/bin/burr" --quiet phantom ball --voxel-mm 1 --out "$place/ball.nrrd" >"$place/log"
 "$place/prefix/bin/burr" --quiet info "$place/ball.nrrd"
 mv "$place/prefix/libexec/burr/burr-read" "$place/burr-read"

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What measures the machine says what it should: burr check, burr bench endure, burr mill --rate. Fields and sums, never times.
+"""Checks the output of the commands that measure the machine: burr check, burr bench endure, burr mill --rate. Fields and
+sums, never times.
 
     scripts/checks/measures.py BUILD
 """
@@ -46,7 +47,7 @@ if seen:
     holds("check: good if and only if there is no reason against it", (seen["verdict"] == "good") == (seen["reasons"] == []))
     for phase in ("waiting", "milling", "waiting_loaded", "milling_loaded"):
         part = seen[phase]
-        # four thirds of a second each; what was not ticked was left out
+        # four thirds of a second each; ticks that were not made were counted as missed
         holds(f"check: {phase} counts its ticks ({part['ticks']} and {part['missed']})", 700 <= part["ticks"] + part["missed"] <= 4000)
         holds(f"check: {phase} has rising tails", rises(part["late_us"]) and rises(part["work_us"]))
     holds("check: milling is work", seen["milling"]["work_us"]["p50"] > seen["waiting"]["work_us"]["p50"])

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# A disk that refuses, or somebody who takes the file away: burr says so in one sentence at once, mills
-# on to the end, says it again, and exits with 74; what was written until then opens and replays.
+# The disk refuses, or somebody removes the file: burr says so at once in one sentence, mills on to
+# the end, says it again, and exits with 74; what was written until then opens and replays.
 #
 #     scripts/checks/recording_trouble.sh BUILD
 #
-# As root two small disks of their own are mounted (tmpfs): one full, one read-only. Elsewhere a limit on
-# the size of files stands for the full disk, and a folder without permission for the other.
+# As root, two small disks (tmpfs) are mounted: one full, one read-only. Otherwise a limit on the
+# size of files replaces the full disk, and a folder without permission the other.
 set -uo pipefail
 burr=$(realpath "$1")/burr
 place=$(mktemp -d)
@@ -25,7 +25,7 @@ fail() {
 block=(phantom:block --voxel-mm 0.5 --burr-mm 4 --motion pocket)
 goes_on='the session goes on without recording'
 
-# check NAME CODE SENTENCE: what the last burr said into NAME.err and NAME.out
+# check NAME CODE SENTENCE: the exit code and messages of the last burr, in NAME.err and NAME.out
 check() {
   local name=$1 code=$2 sentence=$3
   [ "$code" = 74 ] || fail "$name: exit code $code instead of 74"
@@ -35,7 +35,7 @@ check() {
     fail "$name: does not say it at the end"
   [ $bad = 0 ] || cat "$place/$name.err"
 }
-# account NAME SECONDS KEPT: the JSON says that all was milled, and whether something was kept
+# account NAME SECONDS KEPT: the JSON says that everything was milled, and whether a file was kept
 account() {
   python3 - "$place/$1.out" "$2" "$3" <<'END' || fail "$1: its figures are wrong"
 import json, sys
@@ -44,12 +44,12 @@ recording = said["recording"]
 print(sys.argv[1].split("/")[-1], recording)
 assert abs(said["seconds"] - float(sys.argv[2])) < 0.002, said["seconds"]
 assert recording["whole"] is False and recording["trouble"], recording
-if recording["bytes"] > 0:  # it began
+if recording["bytes"] > 0:  # the recording has a beginning
     assert recording["ticks"] + recording["dropped_ticks"] == said["ticks"], (recording, said["ticks"])
 assert (recording["ticks"] > 0) == (sys.argv[3] == "kept"), recording
 END
 }
-# replays NAME FILE: opens, and comes out the same as far as it goes
+# replays NAME FILE: opens, and replays with the same result as far as it goes
 replays() {
   "$burr" replay "$2" --check >"$place/replay.txt" 2>&1 || {
     fail "$1: what was kept does not replay"
@@ -87,7 +87,7 @@ if [ -d "$place/sealed" ] && ! touch "$place/sealed/probe" 2>/dev/null; then
   account sealed 2 nothing
 fi
 
-# ---- somebody takes the file away, or its folder, while it is being recorded
+# ---- somebody removes the file, or its folder, during the recording
 for what in file folder; do
   mkdir "$place/$what"
   "$burr" --quiet mill "${block[@]}" --seconds 3 --realtime --record "$place/$what/s.mcap" --json \
@@ -106,15 +106,15 @@ assert said["removed_mm3"] > 0 and not said["recording"]["whole"], said
 END
 done
 
-# ---- a name that cannot be meant is refused before anything is milled
+# ---- an impossible file name is refused before anything is milled
 "$burr" --quiet mill "${block[@]}" --seconds 2 --record "$place/no/such/s.mcap" >"$place/typo.out" 2>"$place/typo.err"
 [ $? = 74 ] || fail "a folder that is not there: not refused"
 grep -q 'no/such/s.mcap' "$place/typo.err" || fail "a folder that is not there is not named"
 [ -s "$place/typo.out" ] && fail "a folder that is not there: milled all the same"
 
-# ---- the page of figures: `burr run --headless`, its recording grows too large
+# ---- the page of figures: `burr run --headless`, whose recording becomes too large
 (
-  ulimit -f 600 # KiB: pictures fit
+  ulimit -f 600 # KiB: enough for the pictures
   exec "$burr" --quiet run block --headless --voxel-mm 0.5 --seconds 30 --out "$place/run" >"$place/run.out" 2>"$place/run.err"
 )
 check run $? 'session.mcap: cannot write on: File too large'

@@ -9,7 +9,7 @@ place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 bad=0
 
-# expect CODE WORDS COMMAND...: exits with CODE and says WORDS (a regular expression) on stderr
+# expect CODE WORDS COMMAND...: exits with CODE and prints WORDS (a regular expression) on stderr
 expect() {
   local code=$1 words=$2 got
   shift 2
@@ -34,7 +34,7 @@ expect 0 'examples' "$burr" help
 expect 0 'usage' "$burr" --help
 expect 2 'in a window' "$burr" run block --headless --device touch
 expect 2 'in a window' env -u DISPLAY -u WAYLAND_DISPLAY "$burr" run block --suction touch
-all=$("$burr" --help)  # once: grep -q goes away early
+all=$("$burr" --help)  # once, because grep -q closes the pipe early
 expect 2 '' "$burr" no-such-command
 expect 2 '' "$burr" --no-such-option
 for command in info mill export replay repair phantom run psychophysics; do
@@ -74,7 +74,8 @@ if grep -qE '^  psychophysics' <<<"$all"; then
   expect 74 'continue' "$burr" psychophysics --continue "$place/none"
 fi
 
-# whoever reads what burr says goes away early: it ends quietly, as other programs do; a full disk is told
+# When the reader of burr's output ends early, burr ends quietly like other programs; a full disk is
+# reported.
 reader_gone() {
   local got
   mkfifo "$place/pipe"

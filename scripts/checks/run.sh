@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# `burr run`: the window opens on a screen and closes by itself;
-# without a screen it mills alone and leaves what it says, and the recording replays to the bit.
+# `burr run`: with a screen the window opens and closes by itself; without a screen it mills alone
+# and writes the files that it names, and the recording replays to the bit.
 set -euo pipefail
 burr=$(realpath "$1")/burr
 folder=$(mktemp -d)

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The same session, the same bits: on every instruction set, with one thread and two, by the clock and
-as fast as possible; and in another build.
+"""Checks that the same session gives the same bits: on every instruction set, with one thread and two, in real time
+and as fast as possible; and in another build.
 
     scripts/checks/same_bits.py PROGRAM                       PROGRAM is tests/bits/same_bits, built
-    scripts/checks/same_bits.py PROGRAM --against OTHER       the same, built otherwise
+    scripts/checks/same_bits.py PROGRAM --against OTHER       OTHER: the same from another build
     [--only NAME]                                             one of its lines
 """
 import argparse
@@ -13,7 +13,7 @@ import sys
 
 
 def say(program, simd=None, threads=2, realtime=False, only=()):
-    """Its lines as {name: (ticks, bone)}; and the names that the watchdog made another session of."""
+    """Its lines as {name: (ticks, bone)}; and the names of sessions that the watchdog changed."""
     lines, lost = {}, set()
     for one in only or [None]:
         command = [program, "--threads", str(threads)]

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# The short list of .clang-tidy holds in the library.
+# Checks the library with the short list of .clang-tidy.
 #
 #     scripts/checks/tidy.sh [BUILD]         BUILD: has compile_commands.json; default build/release
 #
-# Left out: what includes ITK or GDCM (a minute a file), and a kernel's copies for other processors.
+# Left out: files that include ITK or GDCM (a minute a file), and a kernel's copies for other
+# processors.
 set -euo pipefail
 source "$(dirname "$0")/files.sh"
 build=${1:-build/release}

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Runs a test under ThreadSanitizer; once more when the sanitizer itself gave up.
+# Runs a test under ThreadSanitizer, and once more if the sanitizer itself failed.
 #
 #     scripts/checks/tsan.sh TEST [ARGUMENT...]
 #
-# Its runtime (seen with test_device, once in some runs) asked for half a petabyte for itself and ended the program:
-# "ThreadSanitizer failed to allocate". That says nothing about the program. A race, a failed test or a crash is
-# never run again.
+# Its runtime sometimes asks for half a petabyte and ends the program (seen with test_device in some
+# runs): "ThreadSanitizer failed to allocate". That says nothing about the program. A race, a failed
+# test or a crash is never run again.
 set -uo pipefail
 said=$(mktemp)
 trap 'rm -f "$said"' EXIT

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What must not be in a tracked file: paths of somebody's machine, unfinished work, large files.
+# What must not be in a tracked file: paths of somebody's computer, unfinished work, large files.
 set -euo pipefail
 source "$(dirname "$0")/files.sh"
 bad=0

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/rooms.py must be silent on a good tree and loud on each kind of bad one."""
+"""scripts/rooms.py must report nothing for a valid tree, and an error for each kind of invalid one."""
 import pathlib
 import subprocess
 import sys

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""What other programs see in a scan: size, place in the world, range of values.
+"""What other programs read in a scan: size, position in the world, range of values.
 
     second_readers.py ROOT < paths          paths relative to ROOT, one a line
 
 Prints one line of JSON for each path: {"path", "reader", "size": [nx, ny, nz], "step": [[x, y, z] of i, j, k],
 "origin": [x, y, z] (LPS, mm), "low", "high"}, or {"path", "reader", "refuses": why}.
 
-Who looks: NRRD teem's unu; NIfTI nifti_tool (geometry), and the bytes where it says they are; DICOM files gdcminfo
-and gdcmconv, folders dcm2niix and then nifti_tool; MetaImage has no small reader in Debian, so the few lines of
-read_meta below, written from its page and not from burr.
+The readers: for NRRD teem's unu; for NIfTI nifti_tool (geometry), and the bytes at the place it reports; for DICOM files
+gdcminfo and gdcmconv, for folders dcm2niix and then nifti_tool. Debian has no small reader of MetaImage, so the few
+lines of read_meta below read it; they follow its documentation, not burr.
 """
 import array
 import concurrent.futures
@@ -38,7 +38,7 @@ def floats(text):
 
 
 def spread(raw, code, big):
-    """Lowest and highest number; not-a-number is left out."""
+    """Lowest and highest number, without NaN."""
     numbers = array.array(code)
     numbers.frombytes(raw[: len(raw) - len(raw) % numbers.itemsize])
     if big != (sys.byteorder == "big"):
@@ -99,7 +99,7 @@ def unpacked(path):
 
 
 def other_half(path):
-    """Of a pair the file with the voxels."""
+    """For a pair, the file with the voxels."""
     for name in (re.sub(r"\.hdr(\.gz)?$", ".img", path.name), re.sub(r"\.hdr(\.gz)?$", ".img.gz", path.name)):
         if name != path.name and (path.parent / name).exists():
             return path.parent / name

@@ -1,5 +1,6 @@
-// tests/record/other_reader.cjs - reads a recording with the MCAP project's own reader and Google's
-// encoding by protobufjs, knowing nothing of burr. Exit code 77: they are not installed.
+// tests/record/other_reader.cjs - reads a recording with the MCAP project's own reader and
+// decodes Protocol Buffers with protobufjs, without any code of burr. Exit code 77: they are not
+// installed.
 //
 //     npm install @mcap/core @mcap/nodejs fzstd protobufjs;  NODE_PATH=node_modules node other_reader.cjs F.mcap
 let mcap, nodejs, fzstd, protobuf, fs;

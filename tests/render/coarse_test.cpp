@@ -227,7 +227,7 @@ TEST(Coarsening, MakesAllOnceAndWhatIsMilledWhenItRests) {
   for (std::size_t b = 0; b < scene.blocks.size(); ++b)
     EXPECT_EQ(large[b], scene.blocks[b].outer < 0 ? 0 : 1);
 
-  // a patch made anew, as by milling: no block is valid for it until it has been at rest
+  // a new patch, as after milling: no block is valid for it until it has been at rest
   std::size_t some = 0;
   while (scene.patches[some].mesh == nullptr) ++some;
   const auto all_stand = [&](bool with, bool larger = false) {

@@ -91,7 +91,7 @@ Status run(const Options& options) {
   sim::Session& session = *ready->session;
   // straight down points into the bone
   ready->hands.real->lay(math::shortest_turn(math::Vec3::UnitZ(), outward));
-  // opened anew, so that a device that moves by itself starts its path with the session
+  // opened again, so that a device that moves by itself starts its path with the session
   session.hand().close();
   std::this_thread::sleep_for(std::chrono::milliseconds(500));  // a pause that the device can
                                                                 // notice

@@ -2,6 +2,7 @@
 // of a device.
 //
 // Frame: world (LPS). Units: SI.
+// Thread: any; plain structs.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // device/hand_path.h - the path of a scripted hand: poses over time, interpolated linearly.
 //
 // Frame: world (LPS). Units: SI.
+// Thread: any; one hint per user of a path.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,8 @@
 // importing/grey.h - grey scans: 16-bit values on the scan's grid, smoothed near the surface, then
-// resampled to a cubic grid. Of this room only.
+// resampled to a cubic grid. Internal to importing.
+//
+// Units: mm for spacing; values in the scan's unit, or stored where the name says so. Thread: any;
+// smooth_near() and resample() use two threads.
 #pragma once
 
 #include <cstdint>

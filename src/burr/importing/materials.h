@@ -5,6 +5,7 @@
 //     materials->lay_over(tissue);                                // finds the material by its name
 //
 // Constants are SI; the keys in the file name the units of the file. Thread: any.
+// Errors: what is wrong in the file, one sentence.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // importing/materials_text.h - the text of materials/materials.toml, which cmake/library.cmake
-// makes part of the library. Of this room only.
+// makes part of the library. For use of this room only.
 #pragma once
 
 namespace burr::importing {

@@ -1,6 +1,8 @@
 // importing/planes_kernel.h - adds up, for one row of voxels, the distances to the tangent planes
 // of nearby surface points. Compiled once per instruction set, chosen at run time. Plain pointers
-// only. Of this room only.
+// only. Internal to importing.
+//
+// Units: voxels. Thread: any.
 #pragma once
 
 #include <cstdint>

@@ -1,11 +1,12 @@
 // importing/surface_field.h - computes the bone's field from "which voxels are inside": a ramp of
-// the distance to a surface that runs between the voxels. Of this room only.
+// the distance to a surface that runs between the voxels. Internal to importing.
 //
 // Where an edge of the grid goes from inside to outside, there is a surface point with a normal.
 // The distance of a voxel is the mean of its distances to the tangent planes of these points,
 // weighted by nearness (implicit moving least squares: Kolluri 2005, Shen et al. 2004). So the
 // surface passes through the points of a grey scan, and the staircase of a label map is smoothed.
 // Cost: only bricks near a surface are computed, with two workers.
+// Units: voxels. Thread: any.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +29,8 @@ struct InsideGrid {
   const std::uint8_t* share = nullptr;   // solid share of the voxel, 0..255; null: all or nothing
   std::array<bool, 256> solid{};         // by label
   std::array<volume::TissueId, 256> tissue{};  // by label; 0 is air
-  // how many surface points share in one distance, see surface_field.cpp; labels 8, noisy grey 4,
-  // clean grey 1
+  // softness of the weights: the larger, the more surface points share in one distance, see
+  // surface_field.cpp; labels 8, noisy grey 4, clean grey 1
   float soft = 8;
   [[nodiscard]] bool inside(std::size_t v) const {
     if (grey != nullptr) return static_cast<float>(grey[v]) >= iso;

@@ -1,6 +1,8 @@
 // importing/tissues.h - decides which labels are bone, which are soft and which are air: by name,
-// or by a TOML table (docs/labels.md). The constants of each: importing/materials.h. Of this room
-// only.
+// or by a TOML table (docs/labels.md). The constants of each: importing/materials.h. Internal to
+// importing.
+//
+// Thread: any. Errors: what is wrong in the table, one sentence.
 #pragma once
 
 #include <array>

@@ -2,6 +2,7 @@
 // memory as it was read.
 //
 // It holds no patient name, id, date or path: only what the geometry and the numbers need.
+// Units: mm. Frame: LPS. Thread: one at a time; plain data.
 #pragma once
 
 #include <array>

@@ -4,6 +4,7 @@
 // Scans are read in a separate process (read_scan.h). The result is not copied: the vector owns
 // that memory from then on, and returns to the system at once what it no longer needs. In all else
 // it is a std::vector.
+// Thread: as for std::vector.
 #pragma once
 
 #include <cstddef>

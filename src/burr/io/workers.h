@@ -1,4 +1,4 @@
-// io/workers.h - the same work on two threads, in numbered pieces. Of this room only.
+// io/workers.h - the same work on two threads, in numbered pieces. Internal to io and importing.
 #pragma once
 
 #include <atomic>

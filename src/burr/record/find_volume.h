@@ -2,6 +2,7 @@
 //
 // The content hash is that of the bone after import; it takes too long to compute it for every
 // file. So a cheap fingerprint of the raw file picks the candidates, and check_volume() decides.
+// Thread: any. Errors: one sentence for the user.
 #pragma once
 
 #include <string>

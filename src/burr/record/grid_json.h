@@ -1,5 +1,7 @@
-// record/grid_json.h - grid and tissue table as JSON. Of this room only, for .cpp files (it shows
-// nlohmann's types).
+// record/grid_json.h - grid and tissue table as JSON. For use of this room only, for .cpp files (it
+// shows nlohmann's types).
+//
+// Thread: any.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,5 +1,7 @@
 // record/place_file.h - gives a finished file its final name on disk; tells whether a recording is
 // still being written.
+//
+// Thread: any.
 #pragma once
 
 #include <string>

@@ -1,5 +1,7 @@
 // record/repair.h - makes a complete file from an incomplete or damaged recording: keeps everything
 // that is good and lists the rest.
+//
+// Thread: any. Errors: what could not be read or written, one sentence.
 #pragma once
 
 #include <cstdint>

@@ -6,6 +6,7 @@
 // field, so that any MCAP or protobuf tool reads them without burr. The rest is JSON with JSON
 // Schema. A field number is never reused: a field that is dropped leaves a gap, a new one takes a
 // new number. docs/recording.md is the table for readers.
+// Thread: any; functions without state.
 #pragma once
 
 #include <array>

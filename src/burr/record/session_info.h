@@ -3,6 +3,7 @@
 //
 // Privacy: no patient name, id, date or path may be here; a series UID only as a hash. check()
 // refuses texts that look like a path or a UID, so that a mistake does not reach the disk.
+// Thread: any.
 #pragma once
 
 #include <cstdint>

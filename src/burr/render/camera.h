@@ -3,6 +3,7 @@
 //
 // Units: m, rad. Frame: world (LPS), so in a picture from the front the patient's left is at the
 // right.
+// Thread: any.
 #pragma once
 
 #include <Eigen/Core>

@@ -4,6 +4,7 @@
 // Positions are those of the patch to the bit, so that seams stay closed. Normals are stored as an
 // octahedron map of 2 x 12 bit (Meyer et al. 2010), exact to 0.06 degrees. Exported meshes are made
 // from the field and never use this form.
+// Units: m. Frame: world (LPS). Thread: any; a mesh is never changed after it was made.
 #pragma once
 
 #include <cstddef>

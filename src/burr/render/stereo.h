@@ -2,6 +2,7 @@
 //
 // The eyes' axes are parallel, and both pictures show the same part of the target's plane (off-axis
 // frusta), so nothing is tilted. Frame: world. Units: m.
+// Thread: any.
 #pragma once
 
 #include <cstdint>

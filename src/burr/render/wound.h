@@ -3,8 +3,8 @@
 //
 //     Wound wound(voxel, bleeding_of(bone.tissues()));
 //     each frame:   wound.see({t, tip, up, radius, removed, added, irrigated});  // a tick
-//                   wound.dress(scene, patch);                            // patches made anew
-//                   wound.renew(scene, now);                              // ... and all, at times
+//                   wound.dress(scene, patch);                       // new patches
+//                   wound.renew(scene, now);                         // all patches, now and then
 //
 // A coarse grid around the tool, 64 x 64 x 64 cells; bone outside of it keeps its usual look.
 //   fresh   bone that was just cut; fades within kDulls

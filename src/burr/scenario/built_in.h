@@ -1,5 +1,7 @@
 // scenario/built_in.h - the text of cases/*.toml, which cmake/library.cmake makes part of the
-// library. Of this room only.
+// library. For use of this room only.
+//
+// Thread: any.
 #pragma once
 
 #include <span>

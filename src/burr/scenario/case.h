@@ -52,7 +52,7 @@ struct Case {
   std::vector<std::string> spare;  // tissues that must not be cut, by name
   std::vector<Target> targets;
 
-  // the demonstration by the simulated hand when there is no device
+  // what the simulated hand does where no person mills; seconds: for how long [s]
   std::string motion = "pocket";
   double seconds = 20;
 

@@ -2,7 +2,7 @@
 // it and record it, over DDS with the topic names of ROS 2.
 //
 //     auto arm = Arm::open({.name = "/burr"});
-//     arm->tell(told);                                            // as often as one likes
+//     arm->tell(report);                                          // at any rate
 //     Session::make(bone, std::make_unique<DrivenHand>(*arm, start), ...)  // others drive it
 //
 // Publishes: measured_cp (pose of the burr, kept outside the bone), setpoint_cp (pose that was

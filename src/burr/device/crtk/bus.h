@@ -1,5 +1,5 @@
 // device/crtk/bus.h - the bus of CRTK arms: DDS with the topic names of ROS 2; ROS itself is not
-// needed. Of this room only.
+// needed. For use of this room only.
 //
 //     auto bus = Bus::open(-1);                         // domain: ROS_DOMAIN_ID
 //     Reader<PoseStamped> place((*bus)->participant(), "/MTMR/measured_cp", Keep::newest);

@@ -1,5 +1,5 @@
 // device/crtk/reading.h - turns the messages of a CRTK arm into a reading of the hand, and refuses
-// values that cannot be true. Of this room only.
+// values that cannot be true. For use of this room only.
 //
 // Thread: any. Frame: the arm's own base, metres. Memory: none.
 #pragma once

@@ -103,7 +103,7 @@ struct Dhd {
 // ...". The text lives for ever, so that the tick may point to it.
 [[nodiscard]] const char* words(int code);
 
-// True: the device will not answer again until it is opened anew.
+// True: the device will not answer again until it is opened again.
 [[nodiscard]] constexpr bool is_gone(int code) {
   return code == kErrorCom || code == kErrorNoDriver || code == kErrorNoDevice ||
          code == kErrorNotAvailable || code == kErrorTimeout;

@@ -17,7 +17,7 @@ using math::Vec3;
 
 constexpr double kFarthest = 1.0;                     // no arm is longer [m]
 constexpr int kMostErrors = 500;                      // failed reads in a row until the device is
-                                                      // opened anew
+                                                      // opened again
 constexpr std::int64_t kLookEvery = 50'000'000;       // between two looks at the device's status
                                                       // [ns]
 constexpr double kOpenAngle = 0.3, kOpenGap = 15e-3;  // a gripper opens at least this far [rad, m]
@@ -412,7 +412,7 @@ bool Omega::write(const Vec3& force) BURR_RT {
   const Vec3 turn = off_ ? Vec3(Vec3::Zero()) : bounded(torque_, peak_torque_);
   const int code = dhd_->SetForceAndTorqueAndGripperForce(push.z(), push.x(), push.y(), turn.z(),
                                                           turn.x(), turn.y(), 0, to_);
-  // not opened anew, however long this lasts: that would switch on what the user switched off
+  // not opened again, however long this lasts: that would switch on what the user switched off
   if (failed(code)) return bear(write_trouble_);
   note(write_trouble_, nullptr);
   return true;

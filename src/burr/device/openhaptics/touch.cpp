@@ -18,8 +18,8 @@ using math::Vec3;
 
 // a library may report errors without end; stop reading them after this many
 constexpr int kMostOldErrors = 32;
-constexpr int kLostFrames = 500;  // bad frames in a row until the device is opened anew
-constexpr std::int64_t kSilentNs = 1'000'000'000;  // time without a call until it is opened anew
+constexpr int kLostFrames = 500;  // bad frames in a row until the device is opened again
+constexpr std::int64_t kSilentNs = 1'000'000'000;  // time without a call until it is opened again
 constexpr int kCalibrationEvery = 100;             // frames between two checks while the
                                                    // calibration is missing
 constexpr int kWarmFrames = 1000;                  // frames for which the warning about warm motors
@@ -196,7 +196,7 @@ int Touch::pushes() const {
   return knows && said == 6 ? 6 : 3;
 }
 
-// Twice a second: checks that the device is there, and opens a lost one anew.
+// Twice a second: checks that the device is there, and opens a lost one again.
 void Touch::keep() {
   auto next = std::chrono::steady_clock::now() + kKeep;
   while (!stop_.load(std::memory_order_relaxed)) {

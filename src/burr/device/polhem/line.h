@@ -40,8 +40,8 @@ class Lines {
   // Buffer for the next bytes.
   [[nodiscard]] char* room() BURR_RT { return bytes_.data() + used_; }
   [[nodiscard]] std::size_t left() const BURR_RT { return bytes_.size() - used_; }
-  // Tells how many bytes have come. Puts the newest valid whole line into `state`. Lines that are
-  // not valid are counted in `nonsense`.
+  // came: number of bytes that have been written to room(). Puts the newest valid line into
+  // `state`, and counts the lines that are not valid in `nonsense`. False: no valid line.
   [[nodiscard]] bool take(std::size_t came, State& state, int& nonsense) BURR_RT;
   void clear() BURR_RT { used_ = 0; }
 

@@ -1,8 +1,8 @@
 // io/read/bytes.h - the source of a file format's bytes: a file, a gzip or bzip2 stream in it, or
 // several files in a row. Read once, from front to back; holds one block in memory at most.
 //
-// Only regular files are opened (no device, pipe or socket, which may never end). Of this room
-// only. Thread: one reader each.
+// Only regular files are opened (no device, pipe or socket, which may never end). Internal to io.
+// Thread: one reader each.
 #pragma once
 
 #include <cstddef>

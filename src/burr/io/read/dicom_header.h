@@ -1,8 +1,9 @@
 // io/read/dicom_header.h - reads the few facts of a DICOM file that burr needs. The parser trusts
-// no length: everything is checked against the file size before memory is allocated. Of this room
-// only.
+// no length: everything is checked against the file size before memory is allocated. Internal to
+// io.
 //
 // It does not read the patient's name, id, date or institution.
+// Units: mm. Frame: LPS. Thread: any. Errors: one sentence that names the file without its folder.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,7 @@
 // io/read/geometry.h - the geometry of a scan: turns any affine into a right-handed, orthogonal
-// grid in LPS, or says why it cannot. Of this room only. Units: mm. Frame: LPS.
+// grid in LPS, or says why it cannot. Internal to io. Units: mm. Frame: LPS.
+//
+// Thread: any. Errors: one sentence.
 #pragma once
 
 #include <string_view>

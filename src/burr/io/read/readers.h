@@ -1,5 +1,5 @@
 // io/read/readers.h - one reader per format; read_unfenced.cpp chooses. They are part of
-// `burr-read`, behind the fence, and not of libburr. Of this room only.
+// `burr-read`, behind the fence, and not of libburr. For use of this room only.
 #pragma once
 
 #include <filesystem>

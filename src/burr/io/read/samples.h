@@ -1,8 +1,9 @@
 // io/read/samples.h - turns the bytes of a file into voxels of a scan, for every number type.
 //
 // Small whole numbers (0..255) stay bytes as long as there is nothing else, so that a label map of
-// 512^3 takes 128 MiB and not 512. The first other value turns all of them into floats. Of this
-// room only.
+// 512^3 takes 128 MiB and not 512. The first other value turns all of them into floats. Internal to
+// io.
+// Thread: one per sink. Errors: one sentence.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,6 @@
-// io/read/text.h - small functions for text headers. Of this room only.
+// io/read/text.h - small functions for text headers. Internal to io.
+//
+// Thread: any.
 #pragma once
 
 #include <charconv>

@@ -1,5 +1,5 @@
-// io/sandbox/fence_child.h - the reader's side of the fence: what `burr-read` does. Of this room
-// only.
+// io/sandbox/fence_child.h - the reader's side of the fence: what `burr-read` does. For use of this
+// room only.
 #pragma once
 
 #include <filesystem>

@@ -1,10 +1,12 @@
-// io/sandbox/fence_letter.h - the messages between the two sides of the fence. Of this room only.
+// io/sandbox/fence_letter.h - the messages between the two sides of the fence. For use of this room
+// only.
 //
 // The letter is a piece of shared memory of fixed size. It holds the request before the reader
 // starts, and the outcome when the reader is done. Voxels lie in further pieces of memory, which
 // the reader asks for. Everything else is a message of one fixed form over a socket, so that
 // neither side ever waits for a length that the other side claims. The asking side checks
 // everything it receives: every number, every size, every letter.
+// Thread: any.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // io/sandbox/fence_walls.h - the limits that a reader puts on its own process before it reads the
-// first byte of a file: rlimits, Landlock, seccomp. They cannot be taken back. Of this room only.
+// first byte of a file: rlimits, Landlock, seccomp. They cannot be taken back. For use of this room
+// only.
 #pragma once
 
 #include <cstdint>

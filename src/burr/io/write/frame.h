@@ -1,4 +1,6 @@
 // io/write/frame.h - the axes of a written file. Millimetres in all of them.
+//
+// Plain data.
 #pragma once
 
 #include <cstdint>

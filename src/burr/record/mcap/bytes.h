@@ -1,5 +1,7 @@
 // record/mcap/bytes.h - writes and reads little-endian bytes; reading never goes past the end,
 // whatever length a header claims.
+//
+// Thread: one per object.
 #pragma once
 
 #include <bit>

@@ -1,4 +1,6 @@
 // record/mcap/packed.h - zstd, with a limit on the memory that a false header can make us allocate.
+//
+// Thread: unpack() any.
 #pragma once
 
 #include <cstdint>

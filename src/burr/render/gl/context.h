@@ -1,7 +1,8 @@
 // render/gl/context.h - an OpenGL context, with a window or without a display, by SDL.
 //
 // Without a display it uses SDL's `offscreen` driver (EGL); beside a window, a hidden window.
-// Thread: main. Errors: Trouble::io, with the packages that contain OpenGL. Of this room only.
+// Thread: main. Errors: Trouble::io, with the packages that contain OpenGL. For use of this room
+// only.
 #pragma once
 
 #include <memory>

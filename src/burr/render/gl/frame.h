@@ -1,5 +1,7 @@
 // render/gl/frame.h - the position of the eye, and the part of its picture that a target holds.
-// Units: m; frame: world, LPS. Of this room only.
+// Units: m; frame: world, LPS. For use of this room only.
+//
+// Thread: any.
 #pragma once
 
 #include <array>

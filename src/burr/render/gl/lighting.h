@@ -1,7 +1,8 @@
 // render/gl/lighting.h - lights the picture: lamps, ambient occlusion, the tool's shadow, and the
 // background.
 //
-// Of this room only.
+// For use of this room only.
+// Thread: main, with the context current.
 #pragma once
 
 #include <vector>

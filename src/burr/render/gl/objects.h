@@ -1,6 +1,6 @@
 // render/gl/objects.h - owners of OpenGL objects: they free them when they go out of scope.
 //
-// Thread: main, with the context current in which they were made. Of this room only.
+// Thread: main, with the context current in which they were made. For use of this room only.
 #pragma once
 
 #include <epoxy/gl.h>

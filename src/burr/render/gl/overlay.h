@@ -1,5 +1,7 @@
-// render/gl/overlay.h - draws text, a scale bar and inset pictures over the picture. Of this room
-// only.
+// render/gl/overlay.h - draws text, a scale bar and inset pictures over the picture. For use of
+// this room only.
+//
+// Thread: main, with the context current.
 #pragma once
 
 #include "burr/render/gl/objects.h"

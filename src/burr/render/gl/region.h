@@ -1,5 +1,7 @@
 // render/gl/region.h - parts of a target, in samples: one rectangle, or several that must be
-// redrawn. Of this room only.
+// redrawn. For use of this room only.
+//
+// Thread: any.
 #pragma once
 
 #include <algorithm>

@@ -6,7 +6,8 @@
 // Every depth is right except bone behind bone, which is left out: it does not darken what lies
 // deeper. Nothing is left out because bone hides it.
 //
-// Memory: 16 B per sample, allocated with the first transparent picture. Of this room only.
+// Memory: 16 B per sample, allocated with the first transparent picture. For use of this room only.
+// Thread: main, with the context current.
 #pragma once
 
 #include <functional>

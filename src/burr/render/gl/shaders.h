@@ -1,6 +1,6 @@
 // render/gl/shaders.h - the programs for the GPU, in the common part of GLSL 3.30 and GLSL ES 3.00.
 //
-//     skin,    bone's triangles, folded normals and tissues
+//     skin     vertices of the bone, with folded normals and tissues, for mesh
 //     mesh     triangles -> colour and kind, normal, depth ("G-buffer")
 //     hollow   normal, depth -> ambient occlusion, at full or half resolution
 //     soften   ambient occlusion -> the same without noise, smoothed within each surface
@@ -11,7 +11,7 @@
 //     flat     overlay: text and bars
 //     inset    overlay: a picture
 //
-// Light is linear in between; colours go in and out as sRGB. Of this room only.
+// Light is linear in between; colours go in and out as sRGB. For use of this room only.
 #pragma once
 
 namespace burr::render::gl {

@@ -1,5 +1,7 @@
 // render/gl/shapes.h - tool and marks as triangles: fluted and grainy ball, turned shaft, ball,
-// rod, arrow head. Of this room only.
+// rod, arrow head. For use of this room only.
+//
+// Thread: main, with the context current. Units: m; frame: world.
 #pragma once
 
 #include <array>

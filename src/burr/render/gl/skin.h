@@ -2,7 +2,8 @@
 //
 // Memory: 20 B a vertex, 2 B an index, as in the scene. A patch is sent when its version changes.
 // It is skipped when it is out of sight, turned away as a whole, or hidden. Where allowed, a coarse
-// block is drawn instead of its patches. Of this room only.
+// block is drawn instead of its patches. For use of this room only.
+// Thread: main, with the context current. Units: m; frame: world.
 #pragma once
 
 #include <array>

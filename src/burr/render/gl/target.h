@@ -1,8 +1,9 @@
 // render/gl/target.h - the textures of one picture, and the framebuffers around them.
 //
 // The bone is drawn into textures of its own and kept: where only the tool moved, it is copied
-// instead of drawn. Memory: about 38 B per sample, and 4 to 8 B per pixel of the sheets. Of this
-// room only.
+// instead of drawn. Memory: about 38 B per sample, and 4 to 8 B per pixel of the sheets. For use of
+// this room only.
+// Thread: main, with the context current.
 #pragma once
 
 #include <initializer_list>
@@ -28,7 +29,7 @@ struct Target {
                                                  // pixels
   Framebuffer bone, geometry, hollow_at, soft_at, lit_at;
 
-  // True: everything was made anew and holds nothing yet.
+  // True: everything is new and holds nothing yet.
   Result<bool> resize(int wide, int high, int hollow_stride);
   // Replaces [x0, x1) x [y0, y1) of the picture by the bone alone.
   void copy_bone(int x0, int y0, int x1, int y1) const;

@@ -1,6 +1,8 @@
 // render/gl/work.h - the members of a renderer, and what it keeps between two pictures. Its
 // functions are in renderer.cpp (start, pictures), work_paint.cpp (the five steps) and
 // work_draw.cpp (only what changed).
+//
+// Thread: main, with the context current.
 #pragma once
 
 #include <algorithm>

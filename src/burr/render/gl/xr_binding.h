@@ -1,6 +1,8 @@
 // render/gl/xr_binding.h - what OpenXR needs to know about the current OpenGL context: through GLX
 // (X11) or EGL. In a file of its own, because X11's headers define names such as Status as macros.
-// Of this room only.
+// For use of this room only.
+//
+// Thread: main, with the context current.
 #pragma once
 
 #include <array>
