@@ -21,30 +21,35 @@ Workbench::Workbench(std::unique_ptr<volume::Bone> bone, const WorkSettings& set
       writer_(*bone_, surface_, undo_, nullptr),
       carver_(writer_, {}),
       touch_by_(surface_, {.radius = settings.radius, .recovery = 5 / settings.rate_hz},
-                settings.touch) {}
+                settings.touch),
+      force_{settings.stiffness, settings.damping},
+      hand_(arm_, touch_by_.constraint(), force_, {.rate_hz = settings.rate_hz}) {
+  hand_.use(touch_by_.now());
+}
 
 std::vector<Workbench::Row> Workbench::work(const device::HandPath& path,
                                             const device::ArmSettings& arm, bool cut) {
   const double dt = 1 / settings_.rate_hz;
-  device::SimulatedHand hand(path, arm);
+  arm_.follow_path(path, arm);
   std::vector<Row> rows;
   const auto ticks = static_cast<std::size_t>(std::llround(path.duration() / dt));
   double waiting = 0;  // energy for the next cut
   undo_.begin_stroke(0);
   for (std::size_t n = 0; n <= ticks; ++n) {
-    const device::HandState state = hand.state(dt);
+    std::uint32_t flags = 0;
+    static_cast<void>(hand_.read(false, flags));  // a simulated arm is believed
     Row row;
     row.t = static_cast<double>(n) * dt;
-    row.hand = state.world_from_tool.p;
-    if (!placed_) touch_by_.now().place(row.hand);
-    placed_ = true;
-    velocity_ += (1 - std::exp(-2 * M_PI * 100 * dt)) * (state.velocity - velocity_);
+    row.hand = hand_.state().world_from_tool.p;
+    if (!hand_.engaged()) hand_.begin_at(row.hand);
+    hand_.follow();
     touch_by_.show(tick_++);
-    const haptics::Touch touch = touch_by_.now().step(row.hand);
+    hand_.feel();
+    const haptics::Touch& touch = hand_.touch();
     row.proxy = touch.proxy;
     if (watch) watch(touch, row.hand);
-    row.force = haptics::force_law(touch, velocity_, {settings_.stiffness, settings_.damping});
-    hand.write_force(row.force);
+    row.force = hand_.wanted();
+    arm_.write_force(row.force);
     row.push = touch.touching ? std::max(0.0, row.force.dot(touch.normal)) : 0;
 
     if (cut && row.push > 0) {
@@ -55,7 +60,6 @@ std::vector<Workbench::Row> Workbench::work(const device::HandPath& path,
       energy_ += spent;
       waiting += spent;
     }
-    std::uint32_t flags = 0;
     if (cut && tick_ % static_cast<std::uint64_t>(settings_.carve_every) == 0 && waiting > 0 &&
         touch.touching) {
       const volume::Grid& grid = bone_->grid();

@@ -1,5 +1,6 @@
 // apps/burr/verify/workbench.h - one bone, one hand, one burr: a tick without devices, limits and
-// recordings, in which one thing at a time can be other than it is in the servo.
+// recordings, in which one thing at a time can be other than it is in the servo. The hand is the
+// servo's (tick/hand.h); its force goes to the simulated arm unbounded.
 //
 // Thread: one. Frame: world. Units: SI.
 #pragma once
@@ -8,11 +9,13 @@
 #include <memory>
 #include <vector>
 
+#include "burr/device/device.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/edit/carve.h"
 #include "burr/edit/laws/removal.h"
 #include "burr/haptics/force_law.h"
 #include "burr/phantom/build.h"
+#include "burr/tick/hand.h"
 #include "burr/tick/touch_methods.h"
 
 namespace burr::app {
@@ -26,6 +29,23 @@ struct WorkSettings {
   int carve_every = 1;       // ticks; then for all of them at once
   haptics::Method touch = haptics::Method::constraint;
   edit::RemovalSettings removal = {};
+};
+
+// An arm that can be handed another path; the hand of the bench stays the same.
+class BenchArm final : public device::Device {
+ public:
+  void follow_path(const device::HandPath& path, const device::ArmSettings& arm) {
+    now_ = std::make_unique<device::SimulatedHand>(path, arm);
+  }
+  Status open() override { return fine(); }
+  void close() override {}
+  [[nodiscard]] const device::DeviceSpec& spec() const override { return spec_; }
+  [[nodiscard]] device::HandState state(double dt) BURR_RT override { return now_->state(dt); }
+  void write_force(const math::Vec3& force) BURR_RT override { now_->write_force(force); }
+
+ private:
+  device::DeviceSpec spec_;
+  std::unique_ptr<device::SimulatedHand> now_;
 };
 
 class Workbench {
@@ -62,10 +82,11 @@ class Workbench {
   edit::BoneWriter writer_;
   edit::Carver carver_;
   tick::TouchMethods touch_by_;
+  haptics::ForceSettings force_;
+  BenchArm arm_;
+  tick::Hand hand_;
   std::uint64_t tick_ = 0;
-  math::Vec3 velocity_ = math::Vec3::Zero();
   double energy_ = 0;
-  bool placed_ = false;
 };
 
 // A path through points at these times, pedal down from the second on.

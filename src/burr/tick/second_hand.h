@@ -1,13 +1,13 @@
-// tick/second_hand.h - a device in the other hand that feels the bone and never changes it: a
-// suction tube, a probe.
+// tick/second_hand.h - another device in the other hand, which feels the bone and never changes it:
+// a suction tube, a probe.
 //
-// A ball at its tip touches the bone like the burr, with its own proxy, force law and safety layer
-// (haptics/safety/limit.h). It is stepped in the servo's tick after the first hand's force has gone
-// out, and neither the bone nor the first hand depends on it: a recording replays to the bit
-// without it. The two tools do not feel each other.
+// A ball at its tip rests on the bone as the burr does, with its own proxy, law of force and safety
+// layer (hand.h). It is stepped in the servo's tick after the first hand's force has gone out, and
+// nothing of the bone or of the first hand depends on it: a recording replays to the bit without
+// it. The two tools do not feel each other.
 //
-// Thread: step() on the servo; view(), faults() one reader each, any thread. Frame: world. Memory:
-// allocated at construction. Cost: docs/realtime.md.
+// Thread: step() on the servo; view(), faults() one reader each, any. Frame: world. Memory: taken
+// at construction. Cost: docs/realtime.md.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,7 @@
 #include "burr/rt/latest.h"
 #include "burr/rt/rt.h"
 #include "burr/tick/fault_report.h"
+#include "burr/tick/hand.h"
 #include "burr/tick/rows.h"
 
 namespace burr::tick {
@@ -38,28 +39,21 @@ class SecondHand {
              const SecondHandSettings& settings, double rate_hz);
 
   // One tick. lost: as Servo::tick(). parted: bone may come back where it is (an undo): the force
-  // is let go until the hand is in free air again.
+  // is released until the hand is in free air again.
   void step(bool lost, bool parted) BURR_RT;
 
   // Its hand and contact, as the servo's row has the burr's; the rest is as it begins.
   [[nodiscard]] const TickRow& row() const BURR_RT { return row_; }
   [[nodiscard]] rt::Latest<TickRow>& view() BURR_RT { return view_; }
-  [[nodiscard]] rt::Latest<FaultReport>& faults() BURR_RT { return faults_.reports(); }
+  [[nodiscard]] rt::Latest<FaultReport>& faults() BURR_RT { return hand_.faults().reports(); }
 
  private:
-  [[nodiscard]] haptics::Touch touch(const math::Vec3& hand) BURR_RT;
-
-  device::Device& device_;
   SecondHandSettings settings_;
-  double dt_;
   haptics::Proxy proxy_;
-  haptics::ForceLimit limit_;
-  math::Vec3 velocity_ = math::Vec3::Zero();
-  bool engaged_ = false;  // the proxy is somewhere free and follows the hand
+  Hand hand_;
   std::uint64_t next_tick_ = 0;
   TickRow row_;
   rt::Latest<TickRow> view_;
-  FaultKeeper faults_;
 };
 
 }  // namespace burr::tick

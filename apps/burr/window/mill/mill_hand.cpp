@@ -352,7 +352,7 @@ void Mill::next_burr() {
 // The next size of kSizes that the voxels bear; the servo has the last word.
 void Mill::change_burr(int by) {
   const double least =
-      std::max(tool::kSmallestDiameter, 4 * session_.bone().grid().voxel);  // as tick/servo.cpp
+      std::max(tool::kSmallestDiameter, 4 * session_.bone().grid().voxel);  // as tick/orders.cpp
   const double now = 2 * burr_requested_.value_or(session_.burr_radius());
   std::optional<double> next;
   for (const double size : kSizes) {

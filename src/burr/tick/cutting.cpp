@@ -1,0 +1,206 @@
+#include "burr/tick/cutting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "burr/edit/laws/thesis.h"
+#include "burr/math/sums.h"
+
+namespace burr::tick {
+namespace {
+
+using math::Vec3;
+
+constexpr double kCarried = 0.4;  // of the tick rate: what a force can be made to swing with [-]
+
+}  // namespace
+
+Cutting::Cutting(const volume::Bone& bone, edit::UndoStore& undo, edit::BoneWriter& writer,
+                 const Controls& controls, const Hand& hand)
+    : bone_(bone),
+      undo_(undo),
+      controls_(controls),
+      settings_(controls.settings),
+      hand_(hand),
+      dt_(1.0 / controls.settings.rate_hz),
+      carver_(writer, controls.settings.carve),
+      brush_(writer),
+      chips_(bone),
+      vibration_({.device_gain = controls.settings.vibration_gain}) {
+  spindle_.full_speed = settings_.spindle_rad_s;
+  spindle_.motor = settings_.motor;
+}
+
+// ---- before touch
+
+// What lies half a voxel under the point of contact.
+const volume::Tissue& Cutting::touched_tissue() const BURR_RT {
+  const haptics::Touch& touch = hand_.touch();
+  const Vec3 foot = touch.proxy - (settings_.burr.radius + 0.5 * bone_.grid().voxel) * touch.normal;
+  const math::Ijk at = (bone_.grid().grid_from_world(foot).array() + 0.5).floor().cast<int>();
+  return bone_.tissues()[bone_.tissue(at.x(), at.y(), at.z())];
+}
+
+// Bone rubs as its tissue says while the spindle stands; a turning burr hardly at all.
+double Cutting::friction() const BURR_RT {
+  if (spindle_.speed() != 0) return settings_.friction_turning;
+  return hand_.touch().touching ? touched_tissue().friction * settings_.friction_scale : 0;
+}
+
+// ---- on the hand
+
+// Can a force change from tick to tick as fast as one tooth follows the other?
+bool Cutting::tooth_is_carried() const BURR_RT {
+  return settings_.burr.teeth * std::abs(spindle_.speed()) * dt_ < kCarried * 2 * M_PI;
+}
+
+// Pressing and being dragged aside feed each other in a hole that fits the burr, and would whirl a
+// light device about: so the drag follows slowly, and goes with the push.
+Vec3 Cutting::drag(const Vec3& touched) BURR_RT {
+  const haptics::Touch& touch = hand_.touch();
+  const double share = 1 - std::exp(-2 * M_PI * settings_.drag_hz * dt_);
+  drag_ += share * (settings_.drag_gain * now_.drag - drag_);
+  const double ratio =
+      last_push_ > 0 ? settings_.drag_gain * math::norm(now_.drag) / last_push_ : 0;
+  drag_ratio_ += share * (ratio - drag_ratio_);
+  // once per tooth, where the ticks are quick enough to carry it
+  const double tooth = settings_.burr.teeth * spindle_.speed() * dt_;  // [rad] a tick
+  tooth_phase_ = std::remainder(tooth_phase_ + tooth, 2 * M_PI);
+  if (!touch.touching) return Vec3::Zero();
+
+  const Vec3 along = drag_ - math::dot(drag_, touch.normal) * touch.normal;
+  const double is = math::norm(along);
+  const double most = drag_ratio_ * std::max(0.0, math::dot(touched, touch.normal));
+  if (is <= 0 || most <= 0) return Vec3::Zero();
+  double gain = std::min(1.0, most / is);
+  if (tooth_is_carried())
+    gain *= 1 + std::min(1.0, settings_.drag_gain * now_.ripple / is) * std::cos(tooth_phase_);
+  return gain * along;
+}
+
+Vec3 Cutting::buzz() BURR_RT {
+  if (settings_.vibration_gain <= 0) return Vec3::Zero();
+  haptics::Milling now;
+  now.spindle_rad_s = spindle_.speed();
+  now.axis = hand_.axis();
+  if (hand_.touch().touching) now.normal = hand_.touch().normal;
+  now.cutting_force = last_push_;
+  return vibration_.step(now, dt_);
+}
+
+// tool/spindle.h; felt where the device can turn the hand: as the tip is where the device pushes,
+// the force itself has no lever.
+Vec3 Cutting::torque() const BURR_RT {
+  return settings_.torque_gain * spindle_.reaction() * hand_.axis();
+}
+
+// ---- the bone
+
+edit::Cutting Cutting::by_law(double push, double speed) BURR_RT {
+  const haptics::Touch& touch = hand_.touch();
+  const edit::Spin spin = {hand_.axis(), speed};
+  const tool::Burr& burr = settings_.burr;
+  if (settings_.removal.law == edit::RemovalLaw::chips && burr.kind == tool::BurrKind::cutting)
+    return chips_.step(burr, touch.proxy, touch.normal, push, spin, dt_, settings_.removal,
+                       tooth_is_carried());
+  return edit::energy_law(
+      push, spin, burr.radius,
+      tool::cutting_efficiency(burr.kind, speed) * touched_tissue().cutting_friction, touch.normal,
+      dt_, settings_.removal);
+}
+
+// Is the bone worked on in this tick? If not, the debt and the open stroke run out.
+bool Cutting::works(double push) BURR_RT {
+  const double pedal = hand_.state().pedal;
+  const bool works =
+      settings_.mode == ToolMode::cut ? spindle_.speed() != 0 && push > 0 : pedal > 0 && push > 0;
+  if (works) {
+    untouched_ = 0;
+    return true;
+  }
+  carver_.idle(dt_);
+  untouched_ += dt_;
+  if (undo_.stroke_open() && untouched_ > settings_.stroke_pause) undo_.end_stroke();
+  return false;
+}
+
+void Cutting::cut(std::uint64_t tick, const Vec3& touched, bool may, std::uint64_t path_mark,
+                  std::uint32_t& flags) BURR_RT {
+  const haptics::Touch& touch = hand_.touch();
+  const bool pushes = may && touch.touching && settings_.mode != ToolMode::touch;
+  const double push = pushes ? std::max(0.0, math::dot(touched, touch.normal)) : 0;
+  last_push_ = push;
+  now_ = {};
+  // what holds a standing burr is what would brake it if it crept
+  if (settings_.mode == ToolMode::cut && push > 0 && spindle_.speed() == 0 &&
+      hand_.state().pedal > 0 && settings_.removal.law != edit::RemovalLaw::thesis)
+    now_.torque = by_law(push, std::copysign(1.0, spindle_.full_speed)).torque;
+  if (!works(push)) return;
+  if (!undo_.stroke_open()) undo_.begin_stroke(path_mark);
+
+  const volume::Grid& grid = bone_.grid();
+  edit::Cut cut;
+  cut.centre = grid.grid_from_world(touch.proxy);
+  cut.push = grid.frame.q.conjugate() * (-touch.normal);
+  cut.radius = settings_.burr.radius / grid.voxel;
+  cut.dt = dt_;
+  cut.slices = slices_of(controls_.shed);
+  cut.mirror = controls_.mirror;
+  if (settings_.mode == ToolMode::cut && settings_.removal.law == edit::RemovalLaw::thesis) {
+    const auto frame = static_cast<std::uint64_t>(std::max(1, settings_.removal.thesis_frame));
+    if (tick % frame == 0)
+      edit::lower(carver_, cut,
+                  65536 * settings_.removal.thesis_rate * dt_ * static_cast<double>(frame), flags);
+    else
+      carver_.idle(dt_);
+  } else if (settings_.mode == ToolMode::cut) {
+    now_ = by_law(push, spindle_.speed());
+    cut.energy = now_.energy;
+    carver_.carve(cut, flags);
+  } else if (settings_.mode != ToolMode::add) {
+    brush(cut, flags);
+  } else {
+    cut.volume = settings_.deposit_rate * std::clamp(hand_.state().pedal, 0.0, 1.0) * dt_;
+    cut.material = settings_.deposit_tissue;
+    deposited_ = true;
+    carver_.deposit(cut, flags);
+  }
+}
+
+void Cutting::brush(const edit::Cut& cut, std::uint32_t& flags) BURR_RT {
+  edit::Brushing now;
+  now.centre = cut.centre;
+  now.push = cut.push;
+  now.radius = cut.radius;
+  now.strength = std::clamp(hand_.state().pedal, 0.0, 1.0);
+  now.dt = dt_;
+  now.slices = cut.slices;
+  now.mirror = cut.mirror;
+  carver_.idle(dt_);
+  if (settings_.mode == ToolMode::smooth) {
+    deposited_ = true;  // what grows into air gets a tissue
+    brush_.smooth(now, flags);
+  } else {
+    brush_.restore(now, flags);
+  }
+}
+
+Cutting::Warming Cutting::warming() const BURR_RT {
+  const haptics::Touch& touch = hand_.touch();
+  const bool rubs = settings_.mode == ToolMode::cut && now_.power <= 0 && last_push_ > 0;
+  Warming warming;
+  warming.power = now_.power;
+  if (rubs)
+    warming.power = settings_.friction_turning * last_push_ * std::abs(spindle_.speed()) *
+                    settings_.burr.radius *
+                    std::max(math::norm(touch.normal.cross(hand_.axis())), settings_.removal.pole);
+  warming.place = touch.proxy;
+  if (warming.power > 0) warming.place = touch.proxy - settings_.burr.radius * touch.normal;
+  using thermal::Edge;
+  warming.edge = rubs                                             ? Edge::rubbing
+                 : settings_.burr.kind == tool::BurrKind::diamond ? Edge::diamond
+                                                                  : Edge::flute;
+  return warming;
+}
+
+}  // namespace burr::tick

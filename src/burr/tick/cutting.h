@@ -1,0 +1,91 @@
+// tick/cutting.h - what the turning tool does to the bone, and the bone to the tool, in a tick.
+//
+//     spindle: turn()  ->  friction()         before touch
+//     drag(), buzz(), torque()                on the hand, from the cut of the tick before
+//     cut()                                   push -> energy (edit/laws/) -> carver, or brush
+//
+// Thread: servo. Frame: world. Units: SI. Memory: taken at construction.
+#pragma once
+
+#include <cstdint>
+
+#include "burr/edit/bone_writer.h"
+#include "burr/edit/brush.h"
+#include "burr/edit/carve.h"
+#include "burr/edit/laws/chips.h"
+#include "burr/edit/laws/removal.h"
+#include "burr/edit/undo.h"
+#include "burr/haptics/vibration.h"
+#include "burr/rt/rt.h"
+#include "burr/thermal/rows.h"
+#include "burr/tick/hand.h"
+#include "burr/tick/settings.h"
+#include "burr/tool/spindle.h"
+#include "burr/volume/bone.h"
+
+namespace burr::tick {
+
+class Cutting {
+ public:
+  Cutting(const volume::Bone& bone, edit::UndoStore& undo, edit::BoneWriter& writer,
+          const Controls& controls, const Hand& hand);
+
+  [[nodiscard]] tool::Spindle& spindle() BURR_RT { return spindle_; }
+  [[nodiscard]] const tool::Spindle& spindle() const BURR_RT { return spindle_; }
+  void turn(double pedal) BURR_RT { spindle_.step(pedal, now_.torque, dt_); }
+  // Coefficient of friction of the tool on the bone that it touched in the last tick [-].
+  [[nodiscard]] double friction() const BURR_RT;
+
+  // Of the bone on the burr, along its surface, as the hand gets it. touched: force of touch [N].
+  [[nodiscard]] math::Vec3 drag(const math::Vec3& touched) BURR_RT;
+  // Of the spindle's vibration [N].
+  [[nodiscard]] math::Vec3 buzz() BURR_RT;
+  // Of the motor on the handpiece [N m].
+  [[nodiscard]] math::Vec3 torque() const BURR_RT;
+
+  // The bone's part of the tick. touched: force of touch that was really sent [N]; may: false while
+  // bone is put back; path_mark: for the stroke that begins here (restore.h).
+  void cut(std::uint64_t tick, const math::Vec3& touched, bool may, std::uint64_t path_mark,
+           std::uint32_t& flags) BURR_RT;
+
+  // ---- as of the last cut
+  [[nodiscard]] const edit::Cutting& now() const BURR_RT { return now_; }
+  [[nodiscard]] int bricks_last() const BURR_RT { return carver_.bricks_last(); }
+  // Material was put on in this session, so that tissues have changed as well.
+  [[nodiscard]] bool deposited() const BURR_RT { return deposited_; }
+  // What warms the bone.
+  struct Warming {
+    double power = 0;                       // [W]
+    math::Vec3 place = math::Vec3::Zero();  // [m]
+    thermal::Edge edge = thermal::Edge::flute;
+  };
+  [[nodiscard]] Warming warming() const BURR_RT;
+
+ private:
+  [[nodiscard]] const volume::Tissue& touched_tissue() const BURR_RT;
+  [[nodiscard]] bool tooth_is_carried() const BURR_RT;
+  [[nodiscard]] edit::Cutting by_law(double push, double speed) BURR_RT;
+  [[nodiscard]] bool works(double push) BURR_RT;
+  void brush(const edit::Cut& cut, std::uint32_t& flags) BURR_RT;
+
+  const volume::Bone& bone_;
+  edit::UndoStore& undo_;
+  const Controls& controls_;
+  const ServoSettings& settings_;  // of the controls
+  const Hand& hand_;
+  double dt_;
+  edit::Carver carver_;
+  edit::Brush brush_;
+  edit::Chips chips_;
+  haptics::Vibration vibration_;
+  tool::Spindle spindle_;
+  edit::Cutting now_;                     // in the last tick
+  double last_push_ = 0;                  // of touch alone, along the normal [N]
+  math::Vec3 drag_ = math::Vec3::Zero();  // of the bone on the burr, as the hand gets it [N]
+  double drag_ratio_ = 0;                 // over the push, likewise
+  double tooth_phase_ = 0;                // [rad]
+  double untouched_ = 0;                  // since the last contact of the open stroke [s]
+  bool deposited_ = false;
+};
+
+}  // namespace burr::tick

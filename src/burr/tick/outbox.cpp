@@ -1,0 +1,78 @@
+#include "burr/tick/outbox.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace burr::tick {
+namespace {
+
+constexpr double kHeatEvery = 10e-3;  // a row to the worker that computes the heat  [s]
+constexpr double kQueueTime = 0.05;   // a tick writes dt / kQueueTime of the waiting bricks  [s]
+
+}  // namespace
+
+Outbox::Outbox(const volume::Bone& bone, edit::ChangedQueue& changed, const Controls& controls)
+    : bone_(bone),
+      changed_(changed),
+      controls_(controls),
+      dt_(1.0 / controls.settings.rate_hz),
+      burr_radius_(controls.settings.burr.radius) {}
+
+// What the burr spent meanwhile, and where last.
+void Outbox::note_heat(std::uint64_t tick, const Cutting& cutting) BURR_RT {
+  if (heat_ == nullptr) return;
+  const Cutting::Warming now = cutting.warming();
+  if (now.power > 0) {
+    heat_row_.energy += now.power * dt_;
+    heat_row_.place = now.place;
+    heat_row_.edge = now.edge;
+  } else if (heat_row_.energy <= 0) {
+    heat_row_.place = now.place;  // where the coolant runs
+  }
+  const auto every = static_cast<std::uint64_t>(std::max(1.0, std::round(kHeatEvery / dt_)));
+  if (tick % every != 0 && !heat_row_.start_over) return;
+  heat_row_.time_ns = std::llround(static_cast<double>(tick) * dt_ * 1e9);
+  heat_row_.radius = controls_.settings.burr.radius;
+  heat_row_.irrigated = controls_.irrigated;
+  static_cast<void>(heat_->push(heat_row_));
+  heat_row_.energy = 0;
+  heat_row_.start_over = false;
+}
+
+void Outbox::write_bricks(std::size_t most, std::uint64_t tick, bool with_tissue) BURR_RT {
+  if (diary_.bricks == nullptr) {
+    while (changed_.pop() != volume::kNoBrick) {
+    }
+    return;
+  }
+  for (std::size_t n = 0; n < most && changed_.size() > 0; ++n) {
+    if (diary_.bricks->size() == diary_.bricks->capacity())
+      return;  // it waits in the queue, nothing is lost
+    const volume::BrickIndex brick = changed_.pop();
+    BrickRow row;
+    row.tick = tick;
+    row.brick = brick;
+    std::memcpy(&row.field, bone_.brick_field(brick), sizeof row.field);
+    row.has_tissue = with_tissue;
+    if (row.has_tissue)
+      std::memcpy(row.tissue.data(), bone_.brick_tissue(brick), row.tissue.size());
+    diary_.bricks->push(row);
+  }
+}
+
+void Outbox::publish(const TickRow& row, bool with_tissue) BURR_RT {
+  // so each changed brick is written within 100 ms; at least one a tick
+  const auto ticks =
+      static_cast<std::size_t>(std::max(1.0, kQueueTime * controls_.settings.rate_hz));
+  write_bricks(changed_.size() / ticks + 1, row.tick, with_tissue);
+  if (diary_.ticks != nullptr) diary_.ticks->push(row);
+  view_.publish(row);
+  if (watch_ != nullptr) watch_->publish(row);
+}
+
+void Outbox::flush_bricks(std::uint64_t tick, bool with_tissue) BURR_RT {
+  write_bricks(changed_.size(), tick, with_tissue);
+}
+
+}  // namespace burr::tick

@@ -1,0 +1,62 @@
+// tick/settings.h - how a session is set: as it began, and as commands have changed it since.
+//
+// Plain structs. Units: SI.
+#pragma once
+
+#include <cstddef>
+
+#include "burr/edit/carve.h"
+#include "burr/edit/laws/removal.h"
+#include "burr/edit/mirror.h"
+#include "burr/haptics/force_law.h"
+#include "burr/haptics/safety/limit.h"
+#include "burr/haptics/touch_method.h"
+#include "burr/tick/shed.h"
+#include "burr/tool/burr_tool.h"
+#include "burr/tool/spindle.h"
+#include "burr/volume/bone.h"
+
+namespace burr::tick {
+
+// restore: back to what the bone was when the session began.
+enum class ToolMode { cut = 0, add = 1, touch = 2, restore = 3, smooth = 4 };
+inline constexpr int kToolModes = 5;
+
+struct ServoSettings {
+  double rate_hz = 1000;
+  haptics::Method touch = haptics::Method::constraint;
+  tool::Burr burr;
+  double spindle_rad_s = 4188.79;  // at full pedal: 40 000 rpm; below 0: backwards
+  tool::Motor motor;
+  haptics::ForceSettings force;
+  bool guarded = false;        // by the energy guard; not by default: docs/status.md
+  double guard_slack = 60e-6;  // that the guard lets pass, energy_guard.h               [J]
+  bool irrigated = false;      // coolant runs from the start
+  double drag_gain = 1;        // of the bone's drag on the turning burr in the hand
+  double drag_hz = 5;          // it follows no faster, first order: see docs/decisions.md
+  double vibration_gain = 0;   // of the spindle in the hand: 1 as haptics/vibration.h says, 0 none
+  double torque_gain = 1;      // of the motor on the hand, where the device can turn it
+  haptics::LimitSettings limit;
+  edit::RemovalSettings removal;
+  edit::CarveSettings carve;
+  ToolMode mode = ToolMode::cut;
+  double friction_scale = 1;        // of the tissues' own friction
+  double friction_turning = 0.05;   // what is left of it while the spindle turns            [-]
+  double kinetic_share = 0.9;       // sliding friction over sticking friction               [-]
+  double velocity_filter_hz = 100;  // of the hand's velocity, first order
+  double deposit_rate = 5e-9;  // at full pedal                                          [m^3/s]
+  volume::TissueId deposit_tissue = 1;
+  double stroke_pause = 0.3;        // a stroke ends after so long without contact           [s]
+  double lift_speed = 50e-3;        // of the burr before an undo                             [m/s]
+  std::size_t undo_bricks = 16384;  // that all remembered strokes may touch together
+};
+
+// What holds in this tick. The orders (orders.h) write it; the other parts of the servo read it.
+struct Controls {
+  ServoSettings settings;
+  Shed shed = Shed::none;
+  bool irrigated = false;    // coolant runs: for the worker that computes the heat
+  edit::Mirror mirror = {};  // everything is done to the bone on its other side too
+};
+
+}  // namespace burr::tick
