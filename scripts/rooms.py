@@ -65,7 +65,8 @@ ELSEWHERE = [
 # What headers may show to others: the standard library, Eigen, ourselves.
 PUBLIC = re.compile(r"^(Eigen/|burr/|[a-z_0-9]+$|sys/|unistd|pthread|sched|semaphore|[a-z]+intrin\.h$)")
 
-# A header whose greeting says this may show more, is not installed, and is known only to its room.
+# A header whose greeting says this may show more, and is known only to its room. It is never installed; which
+# headers are is a list in cmake/install.cmake.
 PRIVATE = "of this room only"
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.M)
