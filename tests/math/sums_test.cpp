@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace burr::math {
@@ -25,11 +26,18 @@ TEST(Sums, OfThreeFloatsAreAddedFromTheRight) {
 }
 
 TEST(Sums, OfAQuaternionAreAddedInPairsFarApart) {
-  // x and z first, then y and w: 2^53 + 1 loses the one, and 1 + 1 is added to 2^53 as two
-  const double root = 94906265.62425156;
-  const Quat q(1, root, 1, 1);  // w, x, y, z
-  const double square = (root * root + 1) + (1 + 1);
-  EXPECT_EQ(normalized(q).w(), 1 / std::sqrt(square));
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> any(0.5, 1);
+  int other_order = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double w = any(random), x = any(random), y = any(random), z = any(random);
+    const double square = (x * x + z * z) + (y * y + w * w);
+    const Quat q = normalized(Quat(w, x, y, z));
+    EXPECT_EQ(q.w(), w / std::sqrt(square));
+    EXPECT_EQ(q.y(), y / std::sqrt(square));
+    other_order += q.w() != w / std::sqrt((x * x + y * y) + (z * z + w * w)) ? 1 : 0;
+  }
+  EXPECT_GT(other_order, 10);
 }
 
 TEST(Sums, TakeExpressionsAndLeaveZeroAlone) {
