@@ -19,6 +19,9 @@ if(Python3_FOUND)
   add_test(NAME house.measures COMMAND ${Python3_EXECUTABLE} ${checks}/measures.py ${CMAKE_BINARY_DIR})
   set_tests_properties(house.measures PROPERTIES TIMEOUT 600)
 endif()
+if(NOT BURR_SANITIZE)
+  add_test(NAME house.core_is_light COMMAND ${checks}/core_is_light.sh ${CMAKE_BINARY_DIR})
+endif()
 add_test(NAME house.format COMMAND ${checks}/format.sh)
 add_test(NAME house.words COMMAND ${checks}/words.sh)
 add_test(NAME house.tidy COMMAND ${checks}/tidy.sh ${CMAKE_BINARY_DIR})
@@ -150,6 +153,12 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   set_property(TEST tsan.device PROPERTY ENVIRONMENT "${tsan_options}")
   # in real time, and mostly waiting: may run beside anything but each other
   set_tests_properties(asan.device tsan.device tsan.window PROPERTIES RESOURCE_LOCK clock)
+
+  # other processors: the core alone, and the same bits as here
+  foreach(processor aarch64 web)
+    add_test(NAME portable.${processor} COMMAND ${checks}/portable.sh ${processor} ${CMAKE_BINARY_DIR})
+    set_tests_properties(portable.${processor} PROPERTIES SKIP_RETURN_CODE 77 PROCESSORS ${BURR_PROCESSORS} TIMEOUT 1800 LABELS long)
+  endforeach()
 
   # libFuzzer: 10 s for every reader; scripts/fuzz_night.sh runs longer
   add_test(NAME fuzz.seeds COMMAND ${checks}/fuzz.sh seeds)

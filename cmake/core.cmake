@@ -52,4 +52,7 @@ target_include_directories(burr_core PUBLIC
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_compile_features(burr_core PUBLIC cxx_std_20)
 target_link_libraries(burr_core PUBLIC Eigen3::Eigen Threads::Threads PRIVATE $<BUILD_INTERFACE:burr_options>)
+if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT BURR_SANITIZE)
+  target_link_options(burr_core PRIVATE -Wl,-z,defs)  # nothing is left for others to bring
+endif()
 burr_common_headers(burr_core)

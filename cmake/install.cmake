@@ -1,4 +1,4 @@
-# `cmake --install` gives others a library: find_package(burr), target burr::burr
+# `cmake --install` gives others a library: find_package(burr), targets burr::burr and burr::core
 include(CMakePackageConfigHelpers)
 install(TARGETS burr_core burr EXPORT burrTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS burr_read burr_guard RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/burr)
@@ -7,16 +7,46 @@ if(TARGET burr_program)
   install(TARGETS burr_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(FILES ${BURR_BONES} DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/bones)
 endif()
-foreach(header ${BURR_HEADERS})
-  # a header whose first comment says "of this room only" is not installed; scripts/rooms.py checks
-  # that no other room includes it
-  file(READ ${header} greeting LIMIT 600)
-  string(REGEX REPLACE "[/ \n]+" " " greeting "${greeting}")
-  if(NOT greeting MATCHES "of this room only")
-    file(RELATIVE_PATH inside ${PROJECT_SOURCE_DIR}/src ${header})
-    get_filename_component(folder ${inside} DIRECTORY)
-    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+# Public headers: these, and what they include. Every other header may change from one version to the next, and stays here.
+set(BURR_PUBLIC base/check base/hash base/progress base/result base/version
+  math/*  tool/*  scenario/*  workshop/*
+  volume/bone volume/grid volume/tissue volume/sample volume/distance_to volume/thickness volume/volume_of
+  volume/iso_vertices haptics/proxy haptics/force_law surface/mesher  # to touch and to show a bone without a session
+  device/hand device/device device/simulated_hand
+  tick/rows tick/command tick/servo
+  phantom/build phantom/shapes phantom/phantoms io/read/read_scan importing/import io/write/write_mesh
+  surgeon/motion sim/session sim/replay
+  record/recorder record/player record/timeline)
+set(to_install "")
+foreach(name ${BURR_PUBLIC})
+  file(GLOB found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/${name}.h)
+  if(NOT found AND NOT name MATCHES "[*]$")
+    message(FATAL_ERROR "cmake/install.cmake: there is no public header burr/${name}.h")
   endif()
+  list(APPEND to_install ${found})
+endforeach()
+list(FILTER to_install EXCLUDE REGEX "/scenario/built_in[.]h$")  # between CMake and its own room
+set(BURR_INSTALLED "")
+while(to_install)
+  list(POP_FRONT to_install header)
+  list(APPEND BURR_INSTALLED ${header})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
+  file(STRINGS ${header} lines REGEX "^#include \"burr/|of this room only")
+  foreach(line ${lines})
+    if(line MATCHES "of this room only")
+      message(FATAL_ERROR "cmake/install.cmake: ${header} is for its own room only, and a public header shows it")
+    endif()
+    string(REGEX REPLACE "^#include \"(.*)\".*$" "${PROJECT_SOURCE_DIR}/src/\\1" included "${line}")
+    if(NOT included IN_LIST BURR_INSTALLED AND NOT included IN_LIST to_install)
+      list(APPEND to_install ${included})
+    endif()
+  endforeach()
+endwhile()
+list(REMOVE_DUPLICATES BURR_INSTALLED)
+foreach(header ${BURR_INSTALLED})
+  file(RELATIVE_PATH inside ${PROJECT_SOURCE_DIR}/src ${header})
+  get_filename_component(folder ${inside} DIRECTORY)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
 endforeach()
 install(EXPORT burrTargets NAMESPACE burr:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/burr)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/burrConfig.cmake.in ${CMAKE_BINARY_DIR}/burrConfig.cmake

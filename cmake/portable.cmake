@@ -23,3 +23,20 @@ include(cmake/core.cmake)
 
 add_executable(portable_bits ${PROJECT_SOURCE_DIR}/tests/bits/portable_bits.cpp)
 target_link_libraries(portable_bits PRIVATE burr_core burr_options)
+
+# The unit tests of the core's rooms that need nothing else. Not for a browser: gtest wants threads and files.
+set(BURR_GOOGLETEST /usr/src/googletest CACHE PATH "the sources of googletest; Debian's package `googletest`")
+if(NOT EMSCRIPTEN AND EXISTS ${BURR_GOOGLETEST}/CMakeLists.txt)
+  set(INSTALL_GTEST OFF)
+  set(BUILD_GMOCK OFF)
+  add_subdirectory(${BURR_GOOGLETEST} ${CMAKE_BINARY_DIR}/googletest EXCLUDE_FROM_ALL)
+  set(core_tests math/pose math/turn math/sums tool/spindle volume/bone volume/sample volume/iso_vertices volume/thickness
+    edit/carve edit/carve_units edit/brush edit/mirror haptics/limit haptics/energy_guard haptics/soft_contact)
+  list(TRANSFORM core_tests REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/tests/\\1_test.cpp")
+  # bones by formula for the tests; no more of that room is needed
+  add_executable(test_core ${core_tests} ${PROJECT_SOURCE_DIR}/tests/support/rt_guard.cpp
+    ${PROJECT_SOURCE_DIR}/src/burr/phantom/build.cpp ${PROJECT_SOURCE_DIR}/src/burr/phantom/shapes.cpp)
+  target_include_directories(test_core PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(test_core PRIVATE burr_core burr_options gtest_main ${CMAKE_DL_LIBS})
+  burr_glue(test_core)
+endif()

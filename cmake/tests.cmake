@@ -63,6 +63,10 @@ endforeach()
 add_executable(same_bits ${PROJECT_SOURCE_DIR}/tests/bits/same_bits.cpp)
 target_link_libraries(same_bits PRIVATE burr burr_scenes burr_options fmt::fmt)
 
+# the same for burr_core alone, on other processors too (cmake/portable.cmake, scripts/checks/portable.sh)
+add_executable(portable_bits ${PROJECT_SOURCE_DIR}/tests/bits/portable_bits.cpp)
+target_link_libraries(portable_bits PRIVATE burr_core burr_options)
+
 # a reader that misbehaves behind the same fence as burr-read (tests/io/fence_test.cpp)
 add_executable(naughty_reader ${PROJECT_SOURCE_DIR}/tests/io/naughty/naughty_reader.cpp)
 set_target_properties(naughty_reader PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})

@@ -3,6 +3,7 @@
 #
 #     scripts/install_packages.sh run|test        test: everything of run as well
 #
+# With BURR_REQUIRE_TOOLS=1 (CI), `test` also installs the large tools of section [tools].
 # Does nothing, and needs no network and no rights, if none is missing.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -24,9 +25,11 @@ while IFS= read -r line; do
   case $line in
     '[run]') section=run; continue ;;
     '[test]') section=test; continue ;;
+    '[tools]') section=tools; continue ;;
     '' | '#'*) continue ;;
   esac
   [ "$section" = run ] || [ "$wanted" = test ] || continue
+  [ "$section" != tools ] || [ "${BURR_REQUIRE_TOOLS:-0}" = 1 ] || continue
   package=${line%%[ #]*}
   grep -qxF "$package" <<<"$installed" && continue
   missing+=("$package")

@@ -65,8 +65,8 @@ ELSEWHERE = [
 # What headers may include: the standard library, Eigen, burr.
 PUBLIC = re.compile(r"^(Eigen/|burr/|[a-z_0-9]+$|sys/|unistd|pthread|sched|semaphore|[a-z]+intrin\.h$)")
 
-# A header whose first comment says this may include more, is not installed, and belongs to its
-# room.
+# A header whose first comment says this may include more and belongs to its room. It is never
+# installed; cmake/install.cmake lists the headers that are.
 PRIVATE = "of this room only"
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.M)

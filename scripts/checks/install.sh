@@ -15,6 +15,18 @@ cmake -S "$place/sample" -B "$place/build" -DCMAKE_PREFIX_PATH="$place/prefix" -
   -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror"
 cmake --build "$place/build"
 "$place/build/touch"
+"$place/build/core"
+if ldd "$place/build/core" | grep -vE '(linux-vdso|libburr_core|libstdc\+\+|libm|libgcc_s|libc)\.so|/ld-linux-'; then
+  echo "a program of burr::core loads the libraries above"
+  exit 1
+fi
+# the public headers are complete: all of them in one program, with what was installed alone
+(cd "$place/prefix/include" && find burr -name '*.h' | sort | sed 's/.*/#include <&>/') >"$place/all.cpp"
+echo "int main() {}" >>"$place/all.cpp"
+c++ -std=c++20 -fsyntax-only -Wall -Wextra -Werror -I"$place/prefix/include" -isystem /usr/include/eigen3 "$place/all.cpp"
+while read -r file name; do
+  [ -f "$place/prefix/include/$name" ] || { echo "$file includes $name, which is not installed"; exit 1; }
+done < <(cd "$place/prefix/include" && grep -rhoE --with-filename '^#include "burr/[^"]+"' burr | sed 's/:#include "\(.*\)"/ \1/')
 "$place/prefix/bin/burr" --version
 # the installed burr-read reads a scan
 "$place/prefix/bin/burr" --quiet phantom ball --voxel-mm 1 --out "$place/ball.nrrd" >"$place/log"

@@ -34,7 +34,8 @@ void on_threads(int count, const std::function<void(int)>& work) {
 }
 
 Ordinary::Ordinary() = default;
-Ordinary::~Ordinary() = default;
+Ordinary::~Ordinary() {  // there is nothing to give back
+}
 
 bool goes_first() { return false; }
 

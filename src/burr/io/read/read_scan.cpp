@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <bit>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -24,6 +23,7 @@
 #include <utility>
 #include <vector>
 
+#include "burr/base/hash.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/sandbox/fence.h"
 #include "burr/io/sandbox/fence_letter.h"
@@ -76,7 +76,7 @@ bool all_finite(const Voxels<float>& values) {
   constexpr std::uint32_t kExponent = 0x7F800000;
   std::uint32_t broken = 0;
   for (const float value : values) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t bits = base::bits_of(value);
     broken |= (bits & kExponent) == kExponent ? 1U : 0U;
   }
   return broken == 0;
