@@ -44,7 +44,8 @@ inline constexpr const char* kBoneMediaType = "application/x-burr-bone";
 
 // ---- ticks
 void encode_ticks(std::span<const tick::TickRow> rows, BytesOut& out);
-// appends; false: malformed, nothing appended
+// appends; false: malformed, nothing appended. Rows of a burr that did not record the tool have
+// tool.radius 0: Player fills them in.
 [[nodiscard]] bool decode_ticks(ByteSpan message, std::vector<tick::TickRow>& rows);
 // bytes of a row that are written; for the test that no field is forgotten
 [[nodiscard]] std::size_t tick_columns_size();

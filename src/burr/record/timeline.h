@@ -18,6 +18,7 @@
 #include "burr/math/vec3.h"
 #include "burr/record/player.h"
 #include "burr/tick/rows.h"
+#include "burr/tool/state.h"
 
 namespace burr::record {
 
@@ -29,6 +30,13 @@ struct Stroke {
 struct TimelineEvent {
   double t_s = 0;
   tick::Command command;
+  bool refused = false;  // a change of burr that the servo had no room for
+};
+
+// The tool in the hand, from t_s on.
+struct TimelineTool {
+  double t_s = 0;
+  tool::ToolState tool;
 };
 
 struct Timeline {
@@ -39,6 +47,7 @@ struct Timeline {
   std::vector<Stroke> strokes;        // in order, apart by more than kPause
   std::vector<float> force;           // (kParts) the largest of each part  [N]
   std::vector<TimelineEvent> events;  // what people requested, in order
+  std::vector<TimelineTool> tools;    // the first tick's, then each change
   double peak_force = 0;              // [N]
   struct Work {
     math::Vec3 at, outward;  // the burr's centre; unit, out of the bone, or along the shaft
@@ -47,8 +56,8 @@ struct Timeline {
 
   // the largest force from one moment to another; of the part they lie in if that is longer
   [[nodiscard]] double force_in(double from_s, double to_s) const;
-  // what a command of this kind set last, at or before t
-  [[nodiscard]] std::optional<double> requested(tick::CommandKind kind, double t_s) const;
+  // the tool at t; before the first tick that one's
+  [[nodiscard]] tool::ToolState tool_at(double t_s) const;
   // the stroke at t, or the next one before or after it: its begin; none: there is none
   [[nodiscard]] std::optional<double> stroke_after(double t_s) const;
   [[nodiscard]] std::optional<double> stroke_before(double t_s) const;

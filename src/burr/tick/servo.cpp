@@ -72,6 +72,7 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   if (!believed) faults_.raise();
 
   take_commands();
+  note_tool();
   spindle_.step(believed ? hand_.pedal : 0, cutting_.torque, dt_);
 
   // touch
@@ -361,6 +362,17 @@ void Servo::take_commands() BURR_RT {
     if (command.kind != CommandKind::shed)
       ++taken;  // the servo's own, from a recording: beside the eight
   }
+}
+
+// What is in the hand after this tick's commands, whether they were obeyed or refused.
+void Servo::note_tool() BURR_RT {
+  row_.tool.radius = settings_.burr.radius;
+  row_.tool.full_speed = spindle_.full_speed;
+  row_.tool.kind = settings_.burr.kind;
+  row_.tool.mode = settings_.mode;
+  row_.tool.mirror_axis = mirror_.axis;
+  row_.tool.mirror_twice = mirror_.twice;
+  row_.tool.irrigated = irrigated_;
 }
 
 void Servo::obey(const Command& command) BURR_RT {

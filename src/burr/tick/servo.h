@@ -36,14 +36,14 @@
 #include "burr/tick/touch_methods.h"
 #include "burr/tool/burr_tool.h"
 #include "burr/tool/spindle.h"
+#include "burr/tool/state.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/iso_vertices.h"
 
 namespace burr::tick {
 
-// restore: back to what the bone was when the session began.
-enum class ToolMode { cut = 0, add = 1, touch = 2, restore = 3, smooth = 4 };
-inline constexpr int kToolModes = 5;
+using ToolMode = tool::Mode;
+inline constexpr int kToolModes = tool::kModes;
 
 struct ServoSettings {
   double rate_hz = 1000;
@@ -141,6 +141,7 @@ class Servo {
 
   void obey(const Command& command) BURR_RT;
   void take_commands() BURR_RT;
+  void note_tool() BURR_RT;
   void begin_restore(CommandKind kind) BURR_RT;
   void step_restore() BURR_RT;
   [[nodiscard]] bool clear_of_what_returns(const math::Vec3& p) const BURR_RT;
