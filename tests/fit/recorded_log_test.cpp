@@ -156,8 +156,9 @@ TEST(RecordedLog, KnowsTheBurrThatTheServoHadNotTheOneItRefused) {
     }
     last[n] = log->rows.back().radius;
   }
-  EXPECT_EQ(mean[0], mean[1]);
-  EXPECT_EQ(last[0], last[1]);
+  // the look whether there is room changes the touch by far less than a micrometre
+  EXPECT_NEAR(mean[0], mean[1], 1e-6);
+  EXPECT_NEAR(last[0], last[1], 1e-6);
   RecordProperty("effective_radius_mm", std::to_string(1e3 * last[0]));
 }
 

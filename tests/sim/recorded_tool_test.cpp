@@ -104,11 +104,11 @@ TEST(RecordedTool, ChangesAtItsTickAndNotByAnUndo) {
 TEST(RecordedTool, AsTheSessionBegan) {
   const Folder folder;
   test::record_commanded(folder / "s.mcap", {.motion = "touch",
-                                             .seconds = 0.1,
                                              .burr_mm = 5,
                                              .kind = tool::BurrKind::diamond,
                                              .mode = tick::ToolMode::touch,
-                                             .irrigated = true});
+                                             .irrigated = true,
+                                             .stopped_after = 0.1});
   test::forget_tool(folder / "s.mcap", folder / "old.mcap");
   const ToolState expected{.radius = 2.5e-3,
                            .full_speed = tick::ServoSettings{}.spindle_rad_s,

@@ -376,7 +376,7 @@ class Recorder::Pen {
 
   void put_event(const char* event) {
     const std::string text = fmt::format(
-        R"({{"event":"{}","tick":{},"dropped_ticks":{},"dropped_commands":{},"dropped_bricks":{}}})",
+        R"({{"event":"{}","tick":{},"dropped_ticks":{},"dropped_wishes":{},"dropped_bricks":{}}})",
         event, last_tick(), account_.dropped_ticks, account_.dropped_commands,
         account_.dropped_bricks);
     put(event_channel_, last_tick(), as_bytes(text));
