@@ -83,7 +83,7 @@ TEST(RecordedTool, ChangesAtItsTickAndNotByAnUndo) {
   ASSERT_EQ(tools.size(), 3000U);
   for (std::uint64_t tick = 0; tick < tools.size(); ++tick)
     ASSERT_EQ(tools[tick], expected_at(tick)) << tick;
-  for (const std::uint64_t asked : {1400, 2500}) {  // they did happen
+  for (const std::uint64_t asked : {1400U, 2500U}) {  // they did happen
     bool restored = false;
     for (std::uint64_t tick = asked; tick < asked + 300; ++tick)
       restored = restored || (player->tick_at(1e-3 * static_cast<double>(tick))->contact.flags &
@@ -143,7 +143,7 @@ TEST(RecordedTool, OfAnOldRecordingIsAssumedFromSettingsAndCommands) {
   const auto player = opened(folder / "old.mcap");
   EXPECT_FALSE(player->tool_is_recorded());
   // a look at one moment needs no earlier one
-  for (const std::uint64_t tick : {2999, 0, 1899, 1900, 950})
+  for (const std::uint64_t tick : {2999U, 0U, 1899U, 1900U, 950U})
     EXPECT_EQ(player->tick_at(1e-3 * static_cast<double>(tick))->tool, expected_at(tick)) << tick;
   record::StepCursor late = player->steps(1850);
   record::Step step;
