@@ -30,7 +30,7 @@ struct Commanded {
   tool::BurrKind kind = tool::BurrKind::cutting;
   tick::ToolMode mode = tick::ToolMode::cut;
   bool irrigated = false;
-  double stopped_after = 60;  // [s]
+  double stopped_after = 60;                                           // [s]
   std::vector<std::pair<std::uint64_t, tick::Command>> commands = {};  // tick that takes it
 };
 
