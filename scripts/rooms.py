@@ -34,7 +34,7 @@ ALLOWED = {
     "render": "surface volume tool rt",
     "importing": "io scenario volume rt",
     "tick": "edit haptics surface thermal device tool volume rt",
-    "record": "tick scenario device haptics edit volume rt",
+    "record": "tick scenario device haptics edit volume tool rt",
     "sim": "tick record device haptics thermal people volume tool rt",
     "fit": "record",
 }
@@ -50,7 +50,8 @@ ONLY = {
     ("record", "tick"): {"rows.h", "command.h", "tick_hash.h"},
     ("record", "device"): {"hand.h"},
     ("record", "haptics"): {"contact.h"},
-    ("record", "edit"): {"ledger.h"},
+    ("record", "edit"): {"ledger.h", "mirror.h"},
+    ("record", "tool"): {"burr_tool.h", "state.h"},
 }
 
 # Third-party headers and the folders that may include them.

@@ -16,6 +16,7 @@
 #include "burr/sim/session_words.h"
 #include "burr/surgeon/motion.h"
 #include "record/made_up.h"
+#include "sim/commanded.h"
 
 namespace burr::fit {
 namespace {
@@ -132,6 +133,50 @@ TEST(RecordedLog, AWindowIsAMeanAndHoldsOnlyCutting) {
   EXPECT_NEAR(removal / one.removal, 1, 1e-6);
   EXPECT_NEAR(normal / one.normal, 1, 1e-6);
   for (const ForceRow& row : fine->rows) EXPECT_GT(row.normal, 0);
+}
+
+// The burr stays in its own hole: what is fitted is the burr that was there, not the one asked for.
+TEST(RecordedLog, KnowsTheBurrThatTheServoHadNotTheOneItRefused) {
+  const Folder folder;
+  auto plan = sim::test::in_its_own_hole();
+  ASSERT_EQ(sim::test::record_commanded(folder / "asked.mcap", plan), 2e-3) << "not refused";
+  plan.commands.clear();
+  sim::test::record_commanded(folder / "quiet.mcap", plan);
+  double mean[2] = {}, last[2] = {};
+  for (int n = 0; n < 2; ++n) {
+    auto player = record::Player::open(folder / (n == 0 ? "asked.mcap" : "quiet.mcap"));
+    ASSERT_TRUE(player.ok());
+    const auto log = log_of_recording(**player, 0.05, "");
+    ASSERT_TRUE(log.ok()) << log.error().text;
+    ASSERT_GT(log->rows.size(), 10U);
+    EXPECT_GT(log->rows.back().time, 1e-3 * static_cast<double>(sim::test::kAsked));
+    for (const ForceRow& row : log->rows) {
+      EXPECT_LE(row.radius, 2e-3) << row.time;
+      mean[n] += row.radius / static_cast<double>(log->rows.size());
+    }
+    last[n] = log->rows.back().radius;
+  }
+  // the look whether there is room changes the touch by far less than a micrometre
+  EXPECT_NEAR(mean[0], mean[1], 1e-6);
+  EXPECT_NEAR(mean[0], 0.964e-3, 0.02e-3) << "of 3.5 mm it would be 1.7 mm";
+  EXPECT_NEAR(last[0], last[1], 1e-6);
+  RecordProperty("effective_radius_mm", std::to_string(1e3 * last[0]));
+}
+
+TEST(RecordedLog, RefusesAChangeBetweenCuttingAndDiamond) {
+  const Folder folder;
+  auto plan = sim::test::in_its_own_hole();
+  plan.commands = {{1000, {tick::CommandKind::burr_kind, 0}}};
+  sim::test::record_commanded(folder / "same.mcap", plan);
+  plan.commands = {{1000, {tick::CommandKind::burr_kind, 1}}};
+  sim::test::record_commanded(folder / "changed.mcap", plan);
+  auto same = record::Player::open(folder / "same.mcap"),
+       changed = record::Player::open(folder / "changed.mcap");
+  ASSERT_TRUE(same.ok() && changed.ok());
+  EXPECT_TRUE(log_of_recording(**same, 0.05, "").ok()) << "it was a cutting burr already";
+  const auto log = log_of_recording(**changed, 0.05, "");
+  ASSERT_FALSE(log.ok());
+  EXPECT_NE(log.error().text.find("between cutting and diamond"), std::string::npos);
 }
 
 TEST(RecordedLog, RefusesASessionThatMillsNothing) {

@@ -106,6 +106,15 @@ inline tick::TickRow any_tick(std::uint64_t tick, Random& random) {
   row.spindle_rad_s = any(random);
   row.cutting_nm = any(random);
   row.cutting_w = any(random);
+  // the same for some ticks, as a tool is, then another
+  Random tools(tick / 64);
+  row.tool.radius = 1e-6 * static_cast<double>(1 + tools() % 3500);
+  row.tool.full_speed = std::normal_distribution<double>(0, 1e3)(tools);
+  row.tool.kind = static_cast<tool::BurrKind>(tools() % 2);
+  row.tool.mode = static_cast<tool::Mode>(tools() % tool::kModes);
+  row.tool.mirror_axis = static_cast<int>(tools() % 4) - 1;
+  row.tool.mirror_twice = static_cast<int>(tools() % 1000);
+  row.tool.irrigated = tools() % 2 == 0;
   row.took_us = static_cast<float>(any(random));
   row.late_us = static_cast<float>(any(random));
   row.hash = random();
@@ -143,6 +152,7 @@ inline void expect_same(const tick::TickRow& a, const tick::TickRow& b) {
       << a.tick;
   EXPECT_TRUE(same(a.spindle_rad_s, b.spindle_rad_s)) << a.tick;
   EXPECT_TRUE(same(a.cutting_nm, b.cutting_nm) && same(a.cutting_w, b.cutting_w)) << a.tick;
+  EXPECT_EQ(a.tool, b.tool) << a.tick;
   EXPECT_EQ(std::bit_cast<std::uint32_t>(a.took_us), std::bit_cast<std::uint32_t>(b.took_us));
   EXPECT_EQ(std::bit_cast<std::uint32_t>(a.late_us), std::bit_cast<std::uint32_t>(b.late_us));
   EXPECT_EQ(a.hash, b.hash);

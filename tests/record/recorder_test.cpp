@@ -119,10 +119,51 @@ TEST(Recorder, EveryFieldOfATickHasAColumn) {
   fields += sizeof(edit::Ledger);       // doubles only, no padding
   fields += sizeof(device::HandState);  // has 3 byte of padding after `valid`
   fields += sizeof(haptics::Contact);   // 3 byte after `touching`
+  fields += sizeof(tool::ToolState);    // 7 byte at its end
   EXPECT_EQ(fields, sizeof(tick::TickRow))
       << "a new field in TickRow: add its column in schema.cpp";
-  EXPECT_EQ(tick_columns_size(), sizeof(tick::TickRow) - 3 - 3)
-      << "a new field in HandState, Contact or Ledger: add its column in schema.cpp";
+  EXPECT_EQ(tick_columns_size(), sizeof(tick::TickRow) - 3 - 3 - 7)
+      << "a new field in HandState, Contact, Ledger or ToolState: add its column in schema.cpp";
+}
+
+TEST(Recorder, AToolThatStaysCostsAMessageOneValueAColumn) {
+  BURR_SEEDED(random, 22);
+  std::vector<tick::TickRow> rows;
+  for (std::uint64_t tick = 0; tick < 10; ++tick) rows.push_back(any_tick(tick, random));
+  const auto size = [&rows] {
+    BytesOut message;
+    encode_ticks(rows, message);
+    std::vector<tick::TickRow> back;
+    EXPECT_TRUE(decode_ticks(message.span(), back));
+    EXPECT_EQ(back.size(), rows.size());
+    for (std::size_t n = 0; n < back.size(); ++n) expect_same(back[n], rows[n]);
+    return message.size();
+  };
+  const std::size_t same = size();
+  rows[9].tool.irrigated = !rows[9].tool.irrigated;
+  const std::size_t changed = size();
+  EXPECT_EQ(changed - same, 9 * (8 + 8 + 4 * 4 + 1U)) << "then each row has its own";
+}
+
+TEST(Recorder, ToolsThatCannotBeMakeAMessageMalformed) {
+  BURR_SEEDED(random, 23);
+  const tick::TickRow good = any_tick(0, random);
+  std::vector<tick::TickRow> odd(8, good);
+  odd[0].tool.radius = -1e-3;
+  odd[1].tool.radius = std::numeric_limits<double>::quiet_NaN();
+  odd[2].tool.radius = 1;
+  odd[3].tool.full_speed = std::numeric_limits<double>::infinity();
+  odd[4].tool.kind = static_cast<tool::BurrKind>(2);
+  odd[5].tool.mode = static_cast<tool::Mode>(5);
+  odd[6].tool.mode = static_cast<tool::Mode>(-1);
+  odd[7].tool.mirror_axis = 3;
+  for (std::size_t n = 0; n < odd.size(); ++n) {
+    BytesOut message;
+    encode_ticks({&odd[n], 1}, message);
+    std::vector<tick::TickRow> back = {good};
+    EXPECT_FALSE(decode_ticks(message.span(), back)) << n;
+    EXPECT_EQ(back.size(), 1U) << "nothing is appended";
+  }
 }
 
 TEST(Recorder, ThePushesOfATickNeitherAllocateNorLock) {

@@ -17,6 +17,7 @@ Step step_at(std::uint64_t tick, double removed, double force) {
   step.row.tick = tick;
   step.row.ledger.removed = removed;
   step.row.contact.force = {0, 0, force};
+  step.row.tool.radius = 3e-3;
   step.row.contact.proxy = {1e-3 * static_cast<double>(tick), 0, 0};
   return step;
 }
@@ -73,18 +74,29 @@ TEST(Timeline, KeepsTheCommandsOfPeopleButNotWhatTheServoPutOff) {
     Step step = step_at(tick, 0, 0);
     if (tick == 100)
       step.commands = {{tick::CommandKind::shed, 2}, {tick::CommandKind::burr_radius, 2e-3}};
+    if (tick >= 100) step.row.tool.radius = 2e-3;
     if (tick == 400)
       step.commands = {{tick::CommandKind::undo, 0}, {tick::CommandKind::burr_radius, 1e-3}};
+    if (tick == 600)
+      step.commands = {{tick::CommandKind::burr_radius, 1e-3},
+                       {tick::CommandKind::burr_radius, 2e-3}};
     maker.add(step);
   }
   const Timeline line = maker.finish();
-  ASSERT_EQ(line.events.size(), 3U);
+  ASSERT_EQ(line.events.size(), 5U);
   EXPECT_DOUBLE_EQ(line.events[0].t_s, 0.2);
   EXPECT_EQ(line.events[1].command.kind, tick::CommandKind::undo);
-  EXPECT_FALSE(line.requested(tick::CommandKind::burr_radius, 0.19).has_value());
-  EXPECT_EQ(line.requested(tick::CommandKind::burr_radius, 0.2), 2e-3);
-  EXPECT_EQ(line.requested(tick::CommandKind::burr_radius, 0.799), 2e-3);
-  EXPECT_EQ(line.requested(tick::CommandKind::burr_radius, 1.9), 1e-3);
+  EXPECT_FALSE(line.events[0].refused);
+  EXPECT_FALSE(line.events[1].refused);
+  EXPECT_TRUE(line.events[2].refused) << "the burr stayed";
+  EXPECT_FALSE(line.events[3].refused) << "nobody knows: another one came in the same tick";
+  EXPECT_FALSE(line.events[4].refused);
+  ASSERT_EQ(line.tools.size(), 2U);
+  EXPECT_EQ(line.tool_at(-1).radius, 3e-3);
+  EXPECT_EQ(line.tool_at(0.199).radius, 3e-3);
+  EXPECT_EQ(line.tool_at(0.2).radius, 2e-3);
+  EXPECT_EQ(line.tool_at(1.9).radius, 2e-3);
+  EXPECT_EQ(Timeline().tool_at(1).radius, 0) << "not known";
   EXPECT_FALSE(line.work.has_value()) << "nothing was cut";
 }
 

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 
 namespace burr::app {
@@ -50,7 +49,6 @@ TEST(Hearing, AReturnToTheStartIsNoRemoval) {
 
 TEST(Hearing, TellsWhatTheRowTells) {
   tick::ServoSettings settings;
-  settings.burr.radius = 2e-3;
   settings.burr.teeth = 6;
   math::Vec3 asked = math::Vec3::Zero();
   Hearing hearing(settings, [&asked](const math::Vec3& p) {
@@ -58,6 +56,7 @@ TEST(Hearing, TellsWhatTheRowTells) {
     return 5e-3;
   });
   tick::TickRow one = row(0, 0, 0);
+  one.tool.radius = 2e-3;
   one.spindle_rad_s = -1'234;
   one.cutting_nm = 1e-3;
   one.contact.touching = true;
@@ -71,24 +70,20 @@ TEST(Hearing, TellsWhatTheRowTells) {
   EXPECT_EQ(asked, math::Vec3(1, 2, 3)) << "where the burr is";
   EXPECT_NEAR(heard.to_spare, 3e-3, 1e-15) << "from its surface";
 
-  hearing.obey({tick::CommandKind::irrigation, 1});
-  hearing.obey({tick::CommandKind::burr_radius, 1e-3});
+  one.tool.irrigated = true;
+  one.tool.radius = 1e-3;
   heard = hearing.hear(one);
   EXPECT_TRUE(heard.irrigated);
   EXPECT_NEAR(heard.to_spare, 4e-3, 1e-15);
-  hearing.obey({tick::CommandKind::irrigation, 0});
-  hearing.obey({tick::CommandKind::burr_radius, std::nan("")});
+  one.tool.irrigated = false;
   EXPECT_FALSE(hearing.hear(one).irrigated);
-  EXPECT_NEAR(hearing.hear(one).to_spare, 4e-3, 1e-15);
 
-  hearing.obey({tick::CommandKind::burr_kind, 1});
+  one.tool.kind = tool::BurrKind::diamond;
   EXPECT_EQ(hearing.hear(one).teeth, 0) << "it grinds";
-  hearing.obey({tick::CommandKind::burr_kind, 0});
+  one.tool.kind = tool::BurrKind::cutting;
   EXPECT_EQ(hearing.hear(one).teeth, 6);
 
-  settings.burr.kind = tool::BurrKind::diamond;
   Hearing without(settings);
-  EXPECT_EQ(without.hear(one).teeth, 0) << "it grinds";
   EXPECT_EQ(without.hear(one).to_spare, std::numeric_limits<double>::infinity());
 }
 

@@ -70,16 +70,16 @@ TEST(Loudspeaker, WarnsFromTheRimOfTheBurrThatIsThereNow) {
   const std::filesystem::path file = std::filesystem::temp_directory_path() /
                                      ("burr_loudspeaker_" + std::to_string(::getpid()) + ".raw");
   ::setenv("SDL_DISKAUDIOFILE", file.c_str(), 1);
-  tick::ServoSettings settings;
-  settings.burr.radius = 6e-3;
+  tick::TickRow row;
+  row.tool.radius = 6e-3;
   {
-    Loudspeaker loudspeaker(settings, [](const math::Vec3&) { return 6.01e-3; });
+    Loudspeaker loudspeaker({}, [](const math::Vec3&) { return 6.01e-3; });
     ASSERT_EQ(loudspeaker.trouble(), "");
     std::streamoff heard = 0;
     const auto sounds = [&] {
       float most = 0;
       for (int n = 0; n < 40; ++n) {  // of 10 ms each
-        loudspeaker.hear({});
+        loudspeaker.hear(row);
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
         // samples that were under way at the time of the request do not count
         const float now = loudest_since(file, heard);
@@ -88,7 +88,7 @@ TEST(Loudspeaker, WarnsFromTheRimOfTheBurrThatIsThereNow) {
       return most;
     };
     EXPECT_GT(sounds(), 1e-3F) << "a hundredth of a millimetre from what is to be spared";
-    loudspeaker.obey({tick::CommandKind::burr_radius, 0.5e-3});
+    row.tool.radius = 0.5e-3;
     EXPECT_LT(sounds(), 1e-6F) << "a smaller burr is 5.5 mm away from it";
   }
   ::unsetenv("SDL_DISKAUDIOFILE");

@@ -241,7 +241,7 @@ Status Desk::frame(Draw how, Frames& frames) {
   live_.update();
   if (how != Draw::governed) scene_.quality = {};
   tick::TickRow row;
-  if (session_.view(row)) put_tool(scene_, row, session_.settings().servo.burr.radius, true);
+  if (session_.view(row)) put_tool(scene_, row, true);
   const auto start = Clock::now();
   renderer_->skip_hidden(how != Draw::all);
   const Status drawn = renderer_->show(scene_);

@@ -76,11 +76,11 @@ class Picture {
     return picture;
   }
 
-  Status draw(sim::Session& session, const tick::TickRow& row, WholeOutcome& out) {
+  Status draw(const tick::TickRow& row, WholeOutcome& out) {
     live_.update();
     out.patches += live_.skins().size();
     out.patches_waiting_most = std::max(out.patches_waiting_most, worker_.waiting());
-    put_tool(scene_, row, session.settings().servo.burr.radius, true);
+    put_tool(scene_, row, true);
     ++out.frames;
     const Clock::time_point start = Clock::now();
     const Status shown = renderer_->show(scene_);
@@ -194,7 +194,7 @@ Result<WholeOutcome> run_whole(sim::Session& session, const surgeon::WorkPlace& 
       next_reset += options.reset_every > 0 ? options.reset_every : 1e300;
     }
     if (picture != nullptr && shown) {
-      shown = picture->draw(session, row, out);
+      shown = picture->draw(row, out);
       if (!shown) out.left_out.push_back("the picture stopped: " + shown.error().text);
       out.longest_frame_s = std::max(out.longest_frame_s, seconds_since(drawn));
       drawn = Clock::now();

@@ -41,7 +41,7 @@ struct Options {
 };
 
 // Draws the bone and the burr at one moment.
-Status draw(const Options& options, record::Player& player, const sim::Recorded& recorded) {
+Status draw(const Options& options, record::Player& player) {
   auto bone = bone_of(player, options.volume, progress());
   if (!bone) return bone.error();
   const double t = options.at < 0 ? player.seconds() : options.at;
@@ -50,15 +50,14 @@ Status draw(const Options& options, record::Player& player, const sim::Recorded&
   auto tick = player.tick_at(t);
   if (!tick) return tick.error();
 
-  const double radius = recorded.settings.servo.burr.radius;
   const math::Vec3 shaft = tick->hand.world_from_tool.q * math::Vec3::UnitZ();
-  render::Scene scene = scene_of_work(**bone, radius, tick->contact.proxy, shaft);
-  put_tool(scene, *tick, radius, false);
+  render::Scene scene = scene_of_work(**bone, tick->tool.radius, tick->contact.proxy, shaft);
+  put_tool(scene, *tick, false);
   const Status skinned = render::skin_bone(scene, **bone, 2, progress());
   if (!skinned) return skinned;
   if (options.effects) {
     render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
-    Traces(player, recorded.settings.servo).until(t).show(wound);
+    Traces(player).until(t).show(wound);
     wound.dress_still(scene);
   }
   return draw_view(std::move(scene), **bone, tick->contact.proxy, -shaft, options.view,
@@ -66,14 +65,13 @@ Status draw(const Options& options, record::Player& player, const sim::Recorded&
 }
 
 // Draws the whole session as numbered pictures, from the viewpoint of its end.
-Status film(const Options& options, record::Player& player, const sim::Recorded& recorded) {
+Status film(const Options& options, record::Player& player) {
   auto bone = bone_of(player, options.volume, progress());
   if (!bone) return bone.error();
   auto last = player.tick_at(player.seconds());
   if (!last) return last.error();
-  const double radius = recorded.settings.servo.burr.radius;
   const math::Vec3 shaft = last->hand.world_from_tool.q * math::Vec3::UnitZ();
-  render::Scene scene = scene_of_work(**bone, radius, last->contact.proxy, shaft);
+  render::Scene scene = scene_of_work(**bone, last->tool.radius, last->contact.proxy, shaft);
   scene.tissue_colours = render::colours_of((*bone)->tissues());
   const Status possible = set_view(scene, last->contact.proxy, -shaft, options.view);
   if (!possible) return possible;
@@ -86,7 +84,7 @@ Status film(const Options& options, record::Player& player, const sim::Recorded&
   auto reel = render::Film::in(options.film, options.size.width, options.size.height);
   if (!reel) return reel.error();
   render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
-  Traces traces(player, recorded.settings.servo);
+  Traces traces(player);
   const int frames = std::max(1, static_cast<int>(player.seconds() * options.fps));
   for (int n = 0; n < frames; ++n) {
     if (interrupted())
@@ -101,7 +99,7 @@ Status film(const Options& options, record::Player& player, const sim::Recorded&
     }
     auto tick = player.tick_at(n / options.fps);
     if (!tick) return tick.error();
-    put_tool(scene, *tick, radius, true);
+    put_tool(scene, *tick, true);
     Status written = reel->frame(scene);
     if (!written) return written;
   }
@@ -139,7 +137,6 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
       progress().report(static_cast<double>(step.row.tick) / static_cast<double>(player.end_tick()),
                         "listening");
     }
-    for (const tick::Command& command : step.commands) hearing.obey(command);
     synth.hear(hearing.hear(step.row));
     // up to the end of this tick; where rows are missing, the last sound continues
     const double end = static_cast<double>(step.row.tick + 1 - player.first_tick()) * per_tick;
@@ -189,6 +186,7 @@ Status run(const Options& options) {
     return error(Trouble::usage, fmt::format("--at {} is after the end; {} lasts {:.3f} s",
                                              options.at, options.file, player.seconds()));
 
+  double burr = recorded->settings.servo.burr.radius;  // the last
   nlohmann::json out;
   out["ticks"] = player.end_tick() - player.first_tick();
   out["seconds"] = player.seconds();
@@ -198,11 +196,12 @@ Status run(const Options& options) {
     if (!last) return last.error();
     out["removed_mm3"] = 1e9 * last->ledger.removed;
     out["asked_mm3"] = 1e9 * last->ledger.asked;
+    burr = last->tool.radius;
   }
   if (!options.json)
     fmt::print("{:.3f} s, {} ticks at {} Hz, burr {:.2f} mm; removed {:.3f} mm3\n",
-               player.seconds(), player.end_tick(), player.info().rate_hz,
-               2e3 * recorded->settings.servo.burr.radius, out.value("removed_mm3", 0.0));
+               player.seconds(), player.end_tick(), player.info().rate_hz, 2e3 * burr,
+               out.value("removed_mm3", 0.0));
 
   if (options.check) {
     const record::SessionInfo& info = player.info();
@@ -235,14 +234,14 @@ Status run(const Options& options) {
     fmt::print("{}\n", out.dump());
   }
   if (!options.picture.empty()) {
-    Status drawn = draw(options, player, *recorded);
+    Status drawn = draw(options, player);
     if (!drawn) return drawn;
   }
   if (!options.sound.empty()) {
     Status heard = sound_of(options, player, *recorded);
     if (!heard) return heard;
   }
-  return options.film.empty() ? fine() : film(options, player, *recorded);
+  return options.film.empty() ? fine() : film(options, player);
 }
 
 void add(CLI::App& app, Todo& todo) {

@@ -67,7 +67,7 @@ Summary summary_of(sim::Session& session, const std::string& what, const std::st
   summary.hand = hand;
   summary.size = session.bone().grid().size;
   summary.voxel = session.bone().grid().voxel;
-  summary.burr_radius = settings.servo.burr.radius;
+  summary.burr_radius = session.burr_radius();
   summary.rpm = settings.servo.spindle_rad_s * 60 / (2 * std::numbers::pi);
   summary.seconds = outcome.seconds;
   summary.rate_hz = settings.servo.rate_hz;
@@ -94,7 +94,7 @@ Summary summary_of(sim::Session& session, const std::string& what, const std::st
 // the tool in its last state of the session
 void put_tool_of(render::Scene& scene, sim::Session& session) {
   tick::TickRow row;
-  if (session.view(row)) put_tool(scene, row, session.settings().servo.burr.radius, true);
+  if (session.view(row)) put_tool(scene, row, true);
 }
 
 // Before, at half time with the burr in the bone, and after, in the same view.

@@ -23,8 +23,6 @@ class Hearing {
 
   explicit Hearing(const tick::ServoSettings& settings, ToSpare to_spare = {});
 
-  // A command as the servo obeyed it; some change what is heard.
-  void obey(const tick::Command& command);
   // The newest row, or the next one of a recording; rows may be left out.
   [[nodiscard]] const sound::Heard& hear(const tick::TickRow& row);
 
@@ -35,7 +33,7 @@ class Hearing {
   };
 
   int teeth_ = 0;  // of a cutting burr
-  double rate_hz_, radius_;
+  double rate_hz_;
   ToSpare to_spare_;
   std::optional<Account> before_;
   sound::Heard now_;

@@ -16,8 +16,6 @@ class Loudspeaker {
  public:
   Loudspeaker(const tick::ServoSettings& settings, Hearing::ToSpare to_spare);
 
-  // A command as the servo obeyed it: the warning distance, say, is from the burr's rim.
-  void obey(const tick::Command& command) { hearing_.obey(command); }
   void hear(const tick::TickRow& newest);
   void toggle();
   double louder(int steps);  // of 3 dB, below 0: quieter; how loud it is then [dB], 0 the loudest

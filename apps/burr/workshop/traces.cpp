@@ -15,25 +15,16 @@ constexpr std::uint64_t kEveryOfMany = 128;  // ... and still within what a Woun
 
 }  // namespace
 
-Traces::Traces(record::Player& player, const tick::ServoSettings& settings)
-    : player_(player),
-      settings_(settings),
-      steps_(player.steps()),
-      radius_(settings.burr.radius),
-      irrigated_(settings.irrigated) {}
+Traces::Traces(record::Player& player) : player_(player), steps_(player.steps()) {}
 
 double Traces::time_of(const tick::TickRow& row) const {
   return static_cast<double>(row.tick - player_.first_tick()) / player_.info().rate_hz;
 }
 
-void Traces::begin(double t, const record::Timeline& timeline) {
+void Traces::begin(double t) {
   const auto ticks = static_cast<std::uint64_t>(std::max(0.0, t) * player_.info().rate_hz);
   steps_ = player_.steps(player_.first_tick() + ticks);
   ahead_ = false;
-  radius_ = timeline.requested(tick::CommandKind::burr_radius, t).value_or(settings_.burr.radius);
-  if (!(radius_ > 0)) radius_ = settings_.burr.radius;
-  irrigated_ =
-      timeline.requested(tick::CommandKind::irrigation, t).value_or(settings_.irrigated) > 0;
 }
 
 Traces::StatusLine Traces::until(double t) {
@@ -42,10 +33,10 @@ Traces::StatusLine Traces::until(double t) {
   return told;
 }
 
-Traces::StatusLine Traces::until(double t, const record::Timeline& timeline) {
+Traces::StatusLine Traces::seek(double t) {
   StatusLine told;
   told.anew = t < asked_ || t > asked_ + kFar;
-  if (told.anew) begin(t - kAgo, timeline);
+  if (told.anew) begin(t - kAgo);
   tell(t, told.anew ? kEveryOfMany : kEvery, told);
   return told;
 }
@@ -56,13 +47,8 @@ void Traces::tell(double t, std::uint64_t every, StatusLine& told) {
     if (!ahead_ && !steps_.next(step_)) return;
     ahead_ = time_of(step_.row) > t;
     if (ahead_) return;
-    for (const tick::Command& command : step_.commands)
-      if (command.kind == tick::CommandKind::irrigation)
-        irrigated_ = command.value > 0;
-      else if (command.kind == tick::CommandKind::burr_radius && command.value > 0)
-        radius_ = command.value;
     if (step_.row.tick % every == 0)
-      told.ticks.push_back(wound_tick(step_.row, player_.info().rate_hz, radius_, irrigated_));
+      told.ticks.push_back(wound_tick(step_.row, player_.info().rate_hz));
   }
 }
 

@@ -1,7 +1,7 @@
 // apps/burr/workshop/traces.h - what milling left on the bone at a moment of a recording, told as a window
 // looking on would have seen it (render/wound.h).
 //
-//     Traces traces(player, recorded.settings.servo);
+//     Traces traces(player);
 //     traces.until(t).show(wound);
 //
 // Thread: the player's.
@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "burr/record/player.h"
-#include "burr/record/timeline.h"
 #include "burr/render/wound.h"
-#include "burr/tick/servo.h"
+#include "burr/tick/rows.h"
 
 namespace burr::app {
 
@@ -25,26 +24,23 @@ class Traces {
     void show(render::Wound& wound) const;
   };
 
-  Traces(record::Player& player, const tick::ServoSettings& settings);
+  explicit Traces(record::Player& player);
 
   // All that happened since the moment asked before, up to t [s], which is no earlier.
   [[nodiscard]] StatusLine until(double t);
   // The same for any t: a jump back, or far ahead, is told from a minute before t, in larger steps.
-  [[nodiscard]] StatusLine until(double t, const record::Timeline& timeline);
+  [[nodiscard]] StatusLine seek(double t);
 
  private:
-  void begin(double t, const record::Timeline& timeline);
+  void begin(double t);
   void tell(double t, std::uint64_t every, StatusLine& told);
   [[nodiscard]] double time_of(const tick::TickRow& row) const;
 
   record::Player& player_;
-  const tick::ServoSettings& settings_;
   record::StepCursor steps_;
   record::Step step_;
   bool ahead_ = false;  // step_ is the next one to be told
   double asked_ = 0;    // [s]
-  double radius_;       // of the burr [m]
-  bool irrigated_;
 };
 
 }  // namespace burr::app

@@ -33,20 +33,20 @@ render::Scene scene_of_work(const volume::Bone& bone, double burr_radius, const 
   return scene;
 }
 
-render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz, double burr_radius,
-                               bool irrigated) {
+render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz) {
   return {static_cast<double>(row.tick) / rate_hz,
           row.contact.proxy,
           row.hand.world_from_tool.q * math::Vec3::UnitZ(),
-          burr_radius,
+          row.tool.radius,
           row.ledger.removed,
           row.ledger.added,
-          irrigated};
+          row.tool.irrigated};
 }
 
-void put_tool(render::Scene& scene, const tick::TickRow& row, double burr_radius, bool contact) {
+void put_tool(render::Scene& scene, const tick::TickRow& row, bool contact) {
   scene.burr.visible = true;
-  scene.burr.radius = burr_radius;
+  scene.burr.radius = row.tool.radius;
+  scene.burr.diamond = row.tool.kind == tool::BurrKind::diamond;
   scene.burr.world_from_tool = {row.contact.proxy, row.hand.world_from_tool.q};
   if (contact)
     render::show_contact(scene, row.hand.world_from_tool.p, row.contact.proxy, row.contact.force);

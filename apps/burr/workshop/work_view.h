@@ -28,10 +28,9 @@ void add_picture_size(CLI::App& command, PictureSize& size);
                                           const math::Vec3& at, const math::Vec3& outward);
 
 // What a tick tells of the look of the bone.
-[[nodiscard]] render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz,
-                                             double burr_radius, bool irrigated);
+[[nodiscard]] render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz);
 
-// The burr as it was in this tick, and with `contact` hand, proxy and force too.
-void put_tool(render::Scene& scene, const tick::TickRow& row, double burr_radius, bool contact);
+// The burr as it was in this tick, size and kind too, and with `contact` hand, proxy and force.
+void put_tool(render::Scene& scene, const tick::TickRow& row, bool contact);
 
 }  // namespace burr::app

@@ -16,9 +16,8 @@ namespace {
 
 // The session's settings that the law of removal needs.
 struct Law {
-  double radius = 0, pole = 0, max_power = 0;
+  double pole = 0, max_power = 0;
   double friction = 0;  // 0: from the tissues; then power is recorded
-  bool fluted = true;   // false: a diamond burr
 };
 
 Result<Law> law_of(const record::SessionInfo& info, const std::string& file) {
@@ -28,8 +27,7 @@ Result<Law> law_of(const record::SessionInfo& info, const std::string& file) {
   };
   Law law;
   for (const auto& [name, place] :
-       {std::pair{"burr_radius_m", &law.radius}, std::pair{"pole_share", &law.pole},
-        std::pair{"max_power_w", &law.max_power}}) {
+       {std::pair{"pole_share", &law.pole}, std::pair{"max_power_w", &law.max_power}}) {
     const auto value = number(name);
     if (!value || !(*value >= 0))
       return error(
@@ -39,7 +37,6 @@ Result<Law> law_of(const record::SessionInfo& info, const std::string& file) {
     *place = *value;
   }
   law.friction = number("cutting_friction").value_or(0);
-  law.fluted = number("burr_kind").value_or(0) == 0;
   if (number("removal_law").value_or(0) == 1)
     return error(
         fmt::format("{}: was milled by the thesis' removal, which knows no force; record "
@@ -98,16 +95,11 @@ Result<ForceLog> log_of_recording(record::Player& player, double window,
   record::Step step;
   record::StepCursor steps = player.steps();
   Window now;
-  double removed = 0, radius = law->radius;
+  double removed = 0;
+  std::optional<tool::BurrKind> kind;  // of the whole session
   std::uint64_t removing = 0;
   while (steps.next(step)) {
     for (const tick::Command& command : step.commands) {
-      if (command.kind == tick::CommandKind::burr_radius) radius = command.value;
-      if (command.kind == tick::CommandKind::burr_kind && (command.value > 0) == law->fluted)
-        return error(
-            fmt::format("{}: the burr was changed between cutting and diamond on the way; record "
-                        "one session for each",
-                        file));
       if (command.kind == tick::CommandKind::removal_law && command.value == 1)
         return error(
             fmt::format("{}: was milled in part by the thesis' removal, which knows no "
@@ -115,6 +107,17 @@ Result<ForceLog> log_of_recording(record::Player& player, double window,
                         file));
     }
     const tick::TickRow& tick = step.row;
+    if (!(tick.tool.radius > 0))
+      return error(
+          fmt::format("{}: does not say how large the burr is; it was recorded by another "
+                      "version of burr ({})",
+                      file, base::shown(info.burr_version)));
+    if (tick.tool.kind != kind.value_or(tick.tool.kind))
+      return error(
+          fmt::format("{}: the burr was changed between cutting and diamond on the way; record "
+                      "one session for each",
+                      file));
+    kind = tick.tool.kind;
     if (now.ticks == 0) {
       now = {};
       now.removed_at_start = removed;
@@ -122,7 +125,7 @@ Result<ForceLog> log_of_recording(record::Player& player, double window,
     const math::Vec3& normal = tick.contact.normal;
     const math::Vec3 axis = tick.hand.world_from_tool.q * math::Vec3::UnitZ();
     const double push = std::max(0.0, tick.contact.force.dot(normal));
-    const double effective = radius * std::max(normal.cross(axis).norm(), law->pole);
+    const double effective = tick.tool.radius * std::max(normal.cross(axis).norm(), law->pole);
     const bool cuts = tick.contact.touching && push > 0 && tick.spindle_rad_s > 0;
     now.whole = now.whole && cuts && !step.gap && tick.ledger.removed >= removed;
     removed = tick.ledger.removed;
@@ -156,11 +159,11 @@ Result<ForceLog> log_of_recording(record::Player& player, double window,
   for (const std::string& notice : player.notices()) log.notices.push_back(notice);
   if (!any_removal)
     return error(fmt::format("{}: nothing is removed in it; record a session that mills", file));
-  if (!any_power && !(law->fluted && law->friction > 0))
+  const bool fluted = kind == tool::BurrKind::cutting;
+  if (!any_power && !(fluted && law->friction > 0))
     return error(fmt::format(
         "{}: holds no power of cutting, and {}; record it again with this version of burr", file,
-        law->fluted ? "does not say by which friction it was made"
-                    : "was made with a diamond burr"));
+        fluted ? "does not say by which friction it was made" : "was made with a diamond burr"));
   if (!any_power)
     log.notices.push_back(fmt::format(
         "{}: holds no power of cutting; that of the law it was made with is taken (mu_c {:g})",

@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "burr/record/assumed_tool.h"
 #include "burr/record/bone_blob.h"
 
 namespace burr::record {
@@ -124,7 +125,8 @@ void Player::find_ends() {
   StepCursor first = steps();
   if (!first.next(step)) return;
   first_tick_ = step.row.tick;
-  // each chunk is read once: many may hold only commands
+  tool_is_recorded_ = first.rows_.front().tool.radius > 0;
+  // each chunk is read once: there may be many with commands alone
   std::vector<tick::TickRow> rows;
   for (std::size_t c = step_chunks_.size(); c-- > 0 && rows.empty();) {
     const auto chunk = reader_->read_chunk(step_chunks_[c]);
@@ -139,6 +141,36 @@ void Player::find_ends() {
   constexpr std::uint64_t kLargest = std::numeric_limits<std::uint64_t>::max() - 1;
   first_tick_ = std::min(first_tick_, kLargest);
   end_tick_ = std::max(first_tick_, rows.empty() ? 0 : std::min(rows.back().tick, kLargest)) + 1;
+}
+
+// ---- the tool of recordings that do not say it
+
+void Player::read_assumed_tools() {
+  std::vector<tick::CommandRow> commands;
+  for (const std::size_t c : chunks_with(command_channel_)) {
+    const auto chunk = reader_->read_chunk(c);
+    if (!chunk) continue;  // the cursors say so
+    tick::CommandRow row;
+    for (const McapMessage& message : chunk->messages)
+      if (message.channel == command_channel_ && command_from_json(as_text(message.data), row))
+        commands.push_back(row);
+  }
+  std::stable_sort(commands.begin(), commands.end(),
+                   [](const auto& a, const auto& b) { return a.tick < b.tick; });
+  AssumedTool tool(info_);
+  assumed_tools_.emplace_back(0, tool.now());
+  for (const tick::CommandRow& row : commands) {
+    tool.obey(row.command);
+    if (tool.now() != assumed_tools_.back().second)
+      assumed_tools_.emplace_back(row.tick, tool.now());
+  }
+}
+
+tool::ToolState Player::assumed_tool(std::uint64_t tick) {
+  if (assumed_tools_.empty()) read_assumed_tools();
+  const auto after = std::partition_point(assumed_tools_.begin(), assumed_tools_.end(),
+                                          [tick](const auto& one) { return one.first <= tick; });
+  return std::prev(after)->second;
 }
 
 // ---- in order
@@ -181,6 +213,7 @@ bool StepCursor::next(Step& step) {
     const tick::TickRow& row = rows_[row_++];
     if (row.tick < first_tick_ || (last_tick_ && row.tick <= *last_tick_)) continue;
     step.row = row;
+    if (!(row.tool.radius > 0)) step.row.tool = player_->assumed_tool(row.tick);
     step.gap = row.tick != (last_tick_ ? *last_tick_ + 1 : first_tick_);
     last_tick_ = row.tick;
     step.commands.clear();

@@ -17,6 +17,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "burr/base/result.h"
@@ -24,6 +25,7 @@
 #include "burr/record/schema.h"
 #include "burr/record/session_info.h"
 #include "burr/tick/rows.h"
+#include "burr/tool/state.h"
 #include "burr/volume/bone.h"
 
 namespace burr::record {
@@ -85,6 +87,9 @@ class Player {
   // The first tick, and one past the last; equal when there is none.
   [[nodiscard]] std::uint64_t first_tick() const { return first_tick_; }
   [[nodiscard]] std::uint64_t end_tick() const { return end_tick_; }
+  // The ticks say which tool was in the hand. false: an older recording; row.tool of its ticks is
+  // then an assumption (record/assumed_tool.h).
+  [[nodiscard]] bool tool_is_recorded() const { return tool_is_recorded_; }
   [[nodiscard]] double seconds() const { return static_cast<double>(end_tick_) / info_.rate_hz; }
   // rows that the recorder had to drop, as counted in the file
   [[nodiscard]] std::uint64_t dropped_ticks() const { return dropped_ticks_; }
@@ -124,6 +129,8 @@ class Player {
   [[nodiscard]] std::vector<std::size_t> chunks_with(std::uint16_t channel,
                                                      std::uint16_t or_channel = 0) const;
   void notice(const std::string& sentence);
+  void read_assumed_tools();
+  [[nodiscard]] tool::ToolState assumed_tool(std::uint64_t tick);
   [[nodiscard]] std::uint64_t tick_of(double t_s) const;
   [[nodiscard]] std::uint64_t start_tick(std::size_t chunk) const;
   [[nodiscard]] std::uint64_t tick_of_ns(std::uint64_t time_ns) const;
@@ -144,6 +151,11 @@ class Player {
   std::vector<std::size_t> change_chunks_, keyframe_chunks_;
   std::uint64_t first_tick_ = 0, end_tick_ = 0;
   std::uint64_t dropped_ticks_ = 0, dropped_commands_ = 0, dropped_bricks_ = 0;
+
+  // Where the ticks do not hold the tool: the first tick of each assumed state, and the state.
+  // Filled when first needed.
+  bool tool_is_recorded_ = false;
+  std::vector<std::pair<std::uint64_t, tool::ToolState>> assumed_tools_;
 
   // state of the bone after the last bone_at()
   bool state_good_ = false;

@@ -1,5 +1,6 @@
 #include "burr/record/schema.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -126,6 +127,7 @@ struct FieldText {
 struct TickColumn {
   FieldText text;
   void* (*in)(tick::TickRow& row);  // its place in a row
+  bool rarely = false;              // changes rarely: one value where all rows of a message agree
 };
 
 #define BURR_AT(member) [](tick::TickRow& row) -> void* { return &row.member; }
@@ -188,6 +190,30 @@ const TickColumn kTickColumns[] = {
      BURR_AT(took_us)},
     {{37, "late_us", Type::f32, "start after its due time; not hashed [us]"}, BURR_AT(late_us)},
     {{38, "hash", Type::u64, "of the tick's inputs, outcome and ledger"}, BURR_AT(hash)},
+    // the tool in the hand
+    {{44, "tool_kind", Type::i32,
+      "after this tick's commands, obeyed or refused: 0 cutting burr, 1 diamond; like 45 to 50 not "
+      "hashed, and a single value is that of every row of the message"},
+     BURR_AT(tool.kind),
+     true},
+    {{45, "tool_radius_m", Type::f64, "of the burr's head; 0: not known [m]"},
+     BURR_AT(tool.radius),
+     true},
+    {{46, "tool_mode", Type::i32, "0 cut, 1 add, 2 touch, 3 back to the original, 4 smooth"},
+     BURR_AT(tool.mode),
+     true},
+    {{47, "tool_full_speed_rad_per_s", Type::f64,
+      "speed of the spindle at full pedal; below 0: backwards [rad/s]"},
+     BURR_AT(tool.full_speed),
+     true},
+    {{48, "coolant", Type::flag, "coolant runs over the burr"}, BURR_AT(tool.irrigated), true},
+    {{49, "mirror_axis", Type::i32,
+      "axis of the grid square to the mirror plane: 0 i, 1 j, 2 k; -1: no mirror"},
+     BURR_AT(tool.mirror_axis),
+     true},
+    {{50, "mirror_half_voxel", Type::i32, "place of the mirror plane along that axis [voxel / 2]"},
+     BURR_AT(tool.mirror_twice),
+     true},
 };
 #undef BURR_AT
 
@@ -210,6 +236,24 @@ const FieldText kBrickFields[] = {
     {kTissue, "tissue", Type::bytes,
      "per brick with has_tissue 512 uint8: index into the session's tissues; XORed likewise"},
 };
+
+// One value for all rows of the message, where its columns are such.
+bool agree(std::span<const tick::TickRow> rows) {
+  return std::all_of(rows.begin(), rows.end(),
+                     [&](const tick::TickRow& row) { return row.tool == rows.front().tool; });
+}
+
+// A file may say anything.
+bool possible(const tool::ToolState& tool) {
+  constexpr double kWidest = 0.05;  // [m]
+  const auto within = [](int value, int least, int most) {
+    return value >= least && value <= most;
+  };
+  return tool.radius >= 0 && tool.radius <= kWidest && std::isfinite(tool.full_speed) &&
+         within(static_cast<int>(tool.kind), 0, 1) &&
+         within(static_cast<int>(tool.mode), 0, tool::kModes - 1) &&
+         within(tool.mirror_axis, -1, 2);
+}
 
 // ---- FileDescriptorSet (google/protobuf/descriptor.proto), written by hand
 
@@ -405,9 +449,10 @@ void encode_ticks(std::span<const tick::TickRow> rows, BytesOut& out) {
   BytesOut packed;
   // the access functions need rows that are not const
   std::vector<tick::TickRow> mine(rows.begin(), rows.end());
+  const std::size_t few = agree(rows) ? std::min<std::size_t>(1, rows.size()) : rows.size();
   for (const TickColumn& column : kTickColumns) {
     packed.clear();
-    for (tick::TickRow& row : mine) {
+    for (tick::TickRow& row : std::span(mine).first(column.rarely ? few : mine.size())) {
       if (column.text.type == Type::flag)
         packed.put(static_cast<std::uint8_t>(*static_cast<bool*>(column.in(row)) ? 1 : 0));
       else
@@ -431,7 +476,8 @@ bool decode_ticks(ByteSpan message, std::vector<tick::TickRow>& rows) {
   const std::size_t count = columns[0].size() / sizeof(std::uint64_t);
   for (std::size_t c = 0; c < kColumns; ++c)
     if (!(columns[c].empty() && c > 0) &&
-        columns[c].size() != count * width(kTickColumns[c].text.type))
+        columns[c].size() != count * width(kTickColumns[c].text.type) &&
+        !(kTickColumns[c].rarely && columns[c].size() == width(kTickColumns[c].text.type)))
       return false;
 
   const std::size_t before = rows.size();
@@ -440,7 +486,7 @@ bool decode_ticks(ByteSpan message, std::vector<tick::TickRow>& rows) {
     if (columns[c].empty()) continue;
     const std::size_t size = width(kTickColumns[c].text.type);
     for (std::size_t r = 0; r < count; ++r) {
-      const std::uint8_t* from = columns[c].data() + r * size;
+      const std::uint8_t* from = columns[c].data() + (columns[c].size() == size ? 0 : r * size);
       void* to = kTickColumns[c].in(rows[before + r]);
       if (kTickColumns[c].text.type == Type::flag)
         *static_cast<bool*>(to) = *from != 0;
@@ -448,7 +494,11 @@ bool decode_ticks(ByteSpan message, std::vector<tick::TickRow>& rows) {
         std::memcpy(to, from, size);
     }
   }
-  return true;
+  if (std::all_of(rows.begin() + static_cast<std::ptrdiff_t>(before), rows.end(),
+                  [](const tick::TickRow& row) { return possible(row.tool); }))
+    return true;
+  rows.resize(before);
+  return false;
 }
 
 std::size_t tick_columns_size() {

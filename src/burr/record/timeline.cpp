@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace burr::record {
@@ -19,13 +20,11 @@ double Timeline::force_in(double from_s, double to_s) const {
                         force.begin() + static_cast<std::ptrdiff_t>(last) + 1));
 }
 
-std::optional<double> Timeline::requested(tick::CommandKind kind, double t_s) const {
-  std::optional<double> value;
-  for (const TimelineEvent& event : events) {
-    if (event.t_s > t_s) break;
-    if (event.command.kind == kind) value = event.command.value;
-  }
-  return value;
+tool::ToolState Timeline::tool_at(double t_s) const {
+  if (tools.empty()) return {};
+  const auto after = std::partition_point(
+      tools.begin(), tools.end(), [t_s](const TimelineTool& one) { return one.t_s <= t_s; });
+  return after == tools.begin() ? after->tool : std::prev(after)->tool;
 }
 
 std::optional<double> Timeline::stroke_after(double t_s) const {
@@ -76,9 +75,18 @@ void TimelineMaker::add(const Step& step) {
       line_.work = {row.contact.proxy, outward};
   }
 
-  for (const tick::Command& command : step.commands)
-    if (command.kind != tick::CommandKind::shed)
-      line_.events.push_back({t, command});  // the servo made that command itself
+  if (line_.tools.empty() || line_.tools.back().tool != row.tool)
+    line_.tools.push_back({t, row.tool});
+  // of several burrs asked for in one tick the row says what came of the last
+  const auto last = std::find_if(
+      step.commands.rbegin(), step.commands.rend(),
+      [](const tick::Command& one) { return one.kind == tick::CommandKind::burr_radius; });
+  for (const tick::Command& command : step.commands) {
+    if (command.kind == tick::CommandKind::shed) continue;  // that one is the servo's
+    const bool refused =
+        last != step.commands.rend() && &command == &*last && row.tool.radius != command.value;
+    line_.events.push_back({t, command, refused});
+  }
 }
 
 Timeline TimelineMaker::finish() { return std::move(line_); }

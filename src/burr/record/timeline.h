@@ -18,6 +18,7 @@
 #include "burr/math/vec3.h"
 #include "burr/record/player.h"
 #include "burr/tick/rows.h"
+#include "burr/tool/state.h"
 
 namespace burr::record {
 
@@ -29,6 +30,13 @@ struct Stroke {
 struct TimelineEvent {
   double t_s = 0;
   tick::Command command;
+  bool refused = false;  // a change of burr that the servo had no room for
+};
+
+// The tool in the hand, from t_s on.
+struct TimelineTool {
+  double t_s = 0;
+  tool::ToolState tool;
 };
 
 struct Timeline {
@@ -39,6 +47,7 @@ struct Timeline {
   std::vector<Stroke> strokes;        // in order, apart by more than kPause
   std::vector<float> force;           // (kParts) the largest of each part [N]
   std::vector<TimelineEvent> events;  // what users requested, in order
+  std::vector<TimelineTool> tools;    // the first tick's, then each change
   double peak_force = 0;              // [N]
   struct Work {
     math::Vec3 at, outward;  // the burr's centre; unit vector out of the bone, or along the shaft
@@ -47,8 +56,8 @@ struct Timeline {
 
   // Largest force between two moments; if they lie in one part, that part's largest force.
   [[nodiscard]] double force_in(double from_s, double to_s) const;
-  // The value that the last command of this kind at or before t set.
-  [[nodiscard]] std::optional<double> requested(tick::CommandKind kind, double t_s) const;
+  // The tool at t; before the first tick the tool of the first tick.
+  [[nodiscard]] tool::ToolState tool_at(double t_s) const;
   // The beginning of the stroke at t, or of the next one after or before it; none: there is none.
   [[nodiscard]] std::optional<double> stroke_after(double t_s) const;
   [[nodiscard]] std::optional<double> stroke_before(double t_s) const;

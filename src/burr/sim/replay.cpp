@@ -58,9 +58,10 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
     const tick::TickRow& row = servo.tick((step.row.contact.flags & rt::kFlagWatchdog) != 0);
     servo.publish();
     ++outcome.ticks;
-    if (row.hash != step.row.hash) {
+    const bool same_tool = !player.tool_is_recorded() || row.tool == step.row.tool;
+    if (row.hash != step.row.hash || !same_tool) {
       outcome.parted_at = row.tick;
-      outcome.difference = difference(step.row, row);
+      outcome.difference = same_tool ? difference(step.row, row) : "another tool in the hand";
     }
     for (; has_brick && !outcome.parted_at && brick.tick <= row.tick;
          has_brick = bricks.next(brick)) {

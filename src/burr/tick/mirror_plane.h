@@ -42,6 +42,11 @@ inline constexpr std::array<std::string_view, kPlanes> kPlaneNames = {"sagittal"
 [[nodiscard]] std::optional<edit::Mirror> mirror_of(const Command& command,
                                                     const math::Ijk& size) BURR_RT;
 
+// The plane of a tool's state, in a row.
+[[nodiscard]] inline edit::Mirror mirror_of(const tool::ToolState& tool) BURR_RT {
+  return {tool.mirror_axis, tool.mirror_twice};
+}
+
 // The pose of a tool that is the other's image: its place and its axis +z.
 [[nodiscard]] math::Pose image_of(const math::Pose& world_from_tool, const volume::Grid& grid,
                                   const edit::Mirror& mirror);

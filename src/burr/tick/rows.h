@@ -14,6 +14,7 @@
 #include "burr/edit/ledger.h"
 #include "burr/haptics/contact.h"
 #include "burr/tick/command.h"
+#include "burr/tool/state.h"
 #include "burr/volume/bone.h"
 
 namespace burr::tick {
@@ -27,6 +28,7 @@ struct TickRow {
   double spindle_rad_s = 0;  // speed of the burr now; below 0: turns backwards
   double cutting_nm = 0;     // torque of the bone on the burr        [N m]
   double cutting_w = 0;      // power that goes into the bone         [W]
+  tool::ToolState tool;      // in the hand, after this tick's commands; not part of the hash
   float took_us = 0;         // work of this tick, thread CPU time; not part of the hash
   float late_us = 0;         // after its due time; not part of the hash
   std::uint64_t hash = 0;

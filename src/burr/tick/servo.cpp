@@ -49,6 +49,7 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   const bool believed = hand_.read(lost, flags);
   row_.hand = hand_.state();
   orders_.take(row_.tick, flags);
+  note_tool();
   cutting_.turn(believed ? hand_.state().pedal : 0);
 
   // touch
@@ -92,6 +93,18 @@ void Servo::feel(bool believed) BURR_RT {
   touch_by_.now().set_friction(mu, controls_.settings.kinetic_share * mu);
   touch_by_.show(row_.tick);
   hand_.feel();
+}
+
+// What is in the hand after this tick's commands, obeyed or refused.
+void Servo::note_tool() BURR_RT {
+  const ServoSettings& now = controls_.settings;
+  row_.tool.radius = now.burr.radius;
+  row_.tool.full_speed = cutting_.spindle().full_speed;
+  row_.tool.kind = now.burr.kind;
+  row_.tool.mode = now.mode;
+  row_.tool.mirror_axis = controls_.mirror.axis;
+  row_.tool.mirror_twice = controls_.mirror.twice;
+  row_.tool.irrigated = controls_.irrigated;
 }
 
 void Servo::finish_row(const Hand::Sent& sent) BURR_RT {

@@ -94,6 +94,7 @@ class Servo {
 
  private:
   void feel(bool believed) BURR_RT;
+  void note_tool() BURR_RT;
   void finish_row(const Hand::Sent& sent) BURR_RT;
 
   // Members are destroyed in reverse order of declaration; each part uses only those above it.

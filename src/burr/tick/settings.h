@@ -14,13 +14,13 @@
 #include "burr/tick/shed.h"
 #include "burr/tool/burr_tool.h"
 #include "burr/tool/spindle.h"
+#include "burr/tool/state.h"
 #include "burr/volume/bone.h"
 
 namespace burr::tick {
 
-// restore: back to what the bone was when the session began.
-enum class ToolMode { cut = 0, add = 1, touch = 2, restore = 3, smooth = 4 };
-inline constexpr int kToolModes = 5;
+using ToolMode = tool::Mode;
+inline constexpr int kToolModes = tool::kModes;
 
 struct ServoSettings {
   double rate_hz = 1000;

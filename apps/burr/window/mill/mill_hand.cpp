@@ -608,17 +608,13 @@ void Mill::toggle_sound() {
 void Mill::toggle_kind() {
   bool& diamond = scene_.burr.diamond;
   diamond = !diamond;
-  const tick::Command command = {tick::CommandKind::burr_kind, diamond ? 1.0 : 0.0};
-  session_.command(command);
-  if (options_.loudspeaker != nullptr) options_.loudspeaker->obey(command);
+  session_.command({tick::CommandKind::burr_kind, diamond ? 1.0 : 0.0});
   note(word(diamond ? Word::now_diamond : Word::now_fluted));
 }
 
 void Mill::toggle_coolant() {
   irrigated_ = !irrigated_;
-  const tick::Command command = {tick::CommandKind::irrigation, irrigated_ ? 1.0 : 0.0};
-  session_.command(command);
-  if (options_.loudspeaker != nullptr) options_.loudspeaker->obey(command);
+  session_.command({tick::CommandKind::irrigation, irrigated_ ? 1.0 : 0.0});
   note(word(irrigated_ ? Word::coolant_on : Word::coolant_off));
 }
 

@@ -107,10 +107,7 @@ void Mill::keep_fault_of(const device::Device& hand, const tick::FaultReport& fa
 
 // The burr that is requested for, or the sentence why not.
 void Mill::look_at_burr() {
-  const double radius = session_.burr_radius();
-  if (radius != scene_.burr.radius && options_.loudspeaker != nullptr)
-    options_.loudspeaker->obey({tick::CommandKind::burr_radius, radius});
-  scene_.burr.radius = radius;
+  scene_.burr.radius = session_.burr_radius();
   if (!burr_requested_) return;
   const bool so = std::abs(scene_.burr.radius - *burr_requested_) < 1e-9;
   if (!so && Clock::now() - burr_requested_at_ < std::chrono::milliseconds(300)) return;

@@ -58,7 +58,7 @@ Result<Left> Mill::run() {
     if (!desk_.settings.effects)
       live.look_plain();
     else if (first_tick_)
-      live.see(wound_tick(row_, session_.settings().servo.rate_hz, scene_.burr.radius, irrigated_));
+      live.see(wound_tick(row_, session_.settings().servo.rate_hz));
     lead_suction(live);
     begin_headset(live.governor());
     point();

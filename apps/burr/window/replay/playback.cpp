@@ -81,8 +81,7 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
 Playback::Playback(Recorded& recorded)
     : player_(*recorded.player),
       bone_(*recorded.bone),
-      timeline_(recorded.timeline),
-      traces_(player_, recorded.settings.settings.servo),
+      traces_(player_),
       thread_([this] { work(); }) {}
 
 Playback::~Playback() {
@@ -126,7 +125,7 @@ void Playback::work() {
       shown.row = *row;
     else if (shown.trouble.empty())
       shown.trouble = row.error().text;
-    shown.told = traces_.until(shown.t, timeline_);
+    shown.told = traces_.seek(shown.t);
     lock.lock();
     working_ = false;
     if (fresh_ && !shown.told.anew) {  // nobody took the last: its ticks come first

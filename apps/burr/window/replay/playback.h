@@ -82,7 +82,6 @@ class Playback {
 
   record::Player& player_;
   volume::Bone& bone_;
-  const record::Timeline& timeline_;
   Traces traces_;
   mutable std::mutex mutex_;
   std::condition_variable wanted_changed_;

@@ -171,6 +171,7 @@ Status Watch::show() {
   now_.shown = first_->shown();
   now_.force = first_->force();
   now_.removed = first_->removed();
+  now_.diameter = 2 * first_->tool().radius;
   now_.behind = first_->behind() || (second_ && second_->behind());
   now_.beside = second_.has_value();
   now_.shown_beside = second_ ? second_->shown() : 0;
@@ -428,8 +429,8 @@ TimelineMoment moment_of(const ReplayView& side, double from) {
           .force = side.force(),
           .removed = side.removed(),
           .speed = side.speed(),
-          .burr_diameter = 2 * side.burr_radius(),
-          .mode = side.mode()};
+          .burr_diameter = 2 * side.tool().radius,
+          .mode = side.tool().mode};
 }
 
 }  // namespace
@@ -465,7 +466,7 @@ void Watch::panels() {
     s.playing = now_.playing;
     s.behind = now_.behind;
     s.pace = now_.pace;
-    if (const edit::Mirror now = first_->mirror(); now.on() && !second_)
+    if (const edit::Mirror now = tick::mirror_of(first_->tool()); now.on() && !second_)
       draw_mirror_sign(ui, mirror_words(recorded_.bone->grid(), now), 0);
     s.note = note_.empty() ? export_->progress() : note_;
     s.warning = !trouble_.empty()                      ? trouble_

@@ -23,6 +23,7 @@ struct Watched {
   bool behind = false;  // the picture is not there yet
   double force = 0;     // shown as a number        [N]
   double removed = 0;   // likewise                 [m^3]
+  double diameter = 0;  // of the burr, likewise    [m]
   // the recording beside it: is there one; what its half shows; how much later it begins
   bool beside = false;
   double shown_beside = 0, removed_beside = 0, shift = 0;  // [s], [m^3], [s]

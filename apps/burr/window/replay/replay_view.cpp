@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "burr/sim/session_words.h"
+#include "burr/tick/mirror_plane.h"
 #include "commands/command.h"
 #include "window/mill/mirror_mode.h"
 #include "workshop/work_view.h"
@@ -39,8 +40,7 @@ void ReplayView::look(bool effects, bool playing) {
   if (playback_.take(shown_)) {
     if (effects) live_.see(shown_.told);
     if (shown_.trouble.empty()) {
-      put_tool(scene(), shown_.row, burr_radius(), true);
-      scene().burr.diamond = diamond();
+      put_tool(scene(), shown_.row, true);
       const tool::Burr& burr = recorded_.settings.settings.servo.burr;
       scene().burr.shaft_radius = burr.shaft_radius;
       scene().burr.shaft_length = burr.shaft_length;
@@ -53,7 +53,7 @@ void ReplayView::look(bool effects, bool playing) {
   trouble_ = !shown_.trouble.empty()      ? shown_.trouble
              : !recorded_.notices.empty() ? recorded_.notices.front()
                                           : std::string();
-  show_mirror(scene(), recorded_.bone->grid(), mirror());
+  show_mirror(scene(), recorded_.bone->grid(), tick::mirror_of(tool()));
   // the picture is whole when bone, surface and GPU have it; while it plays a little lag is none
   const bool whole = !playback_.behind() && recorded_.worker->waiting() == 0;
   const auto now = std::chrono::steady_clock::now();
@@ -66,37 +66,9 @@ void ReplayView::show_labels(bool shown) {
   scene().tissue_colours = shown ? colours_ : render::as_bone(colours_);
 }
 
-double ReplayView::burr_radius() const {
-  // as requested: whether the servo had room for it stands nowhere in a recording
-  const double first = recorded_.settings.settings.servo.burr.radius;
-  const double requested =
-      line().requested(tick::CommandKind::burr_radius, shown_.t).value_or(first);
-  return requested > 0 && requested <= 0.5 * tool::kLargestDiameter + 1e-12 ? requested : first;
-}
-
-bool ReplayView::diamond() const {
-  const auto first = static_cast<double>(recorded_.settings.settings.servo.burr.kind);
-  return line().requested(tick::CommandKind::burr_kind, shown_.t).value_or(first) > 0;
-}
-
-tick::ToolMode ReplayView::mode() const {
-  const double requested =
-      line()
-          .requested(tick::CommandKind::tool_mode, shown_.t)
-          .value_or(static_cast<double>(recorded_.settings.settings.servo.mode));
-  return requested >= 0 && requested < tick::kToolModes
-             ? static_cast<tick::ToolMode>(static_cast<int>(requested))
-             : tick::ToolMode::cut;
-}
-
-edit::Mirror ReplayView::mirror() const {
-  const math::Ijk& size = recorded_.bone->grid().size;
-  edit::Mirror now;
-  for (const record::TimelineEvent& event : line().events) {
-    if (event.t_s > shown_.t) break;
-    now = tick::mirror_of(event.command, size).value_or(now);
-  }
-  return now;
+tool::ToolState ReplayView::tool() const {
+  // before the first moment is there, and where the ticks are damaged: what the time line knows
+  return shown_.row.tool.radius > 0 ? shown_.row.tool : line().tool_at(shown_.t);
 }
 
 }  // namespace burr::app

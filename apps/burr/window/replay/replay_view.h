@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "burr/edit/mirror.h"
+#include "burr/tool/state.h"
 #include "window/replay/playback.h"
 #include "workshop/live_surface.h"
 
@@ -45,10 +45,7 @@ class ReplayView {
   [[nodiscard]] double force() const { return force_; }      // [N]
   [[nodiscard]] double removed() const { return removed_; }  // [m^3]
   [[nodiscard]] double speed() const { return shown_.row.spindle_rad_s; }
-  [[nodiscard]] double burr_radius() const;  // [m]
-  [[nodiscard]] bool diamond() const;
-  [[nodiscard]] tick::ToolMode mode() const;
-  [[nodiscard]] edit::Mirror mirror() const;
+  [[nodiscard]] tool::ToolState tool() const;                            // in the hand then
   [[nodiscard]] const std::string& trouble() const { return trouble_; }  // "": none
 
  private:

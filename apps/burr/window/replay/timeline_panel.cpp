@@ -200,7 +200,7 @@ class Line {
     for (const record::TimelineEvent& event : line_.events) {
       if (std::abs(event.t_s - t) > near) continue;
       if (++more > 6) continue;
-      text += fmt::format("\n{}  {}", letter_of(event.command), command_text(event.command));
+      text += fmt::format("\n{}  {}", letter_of(event.command), command_text(event));
     }
     if (more > 6) text += fmt::format("\n+ {}", more - 6);
     ImGui::SetTooltip("%s", text.c_str());
@@ -217,7 +217,8 @@ class Line {
 
 }  // namespace
 
-std::string command_text(const tick::Command& command) {
+std::string command_text(const record::TimelineEvent& event) {
+  const tick::Command& command = event.command;
   switch (command.kind) {
     case tick::CommandKind::undo:
       return word(Word::undone);
@@ -226,7 +227,8 @@ std::string command_text(const tick::Command& command) {
     case tick::CommandKind::reset:
       return word(Word::back_to_start);
     case tick::CommandKind::burr_radius:
-      return say(Word::burr_now, std::round(2e5 * command.value) / 100);
+      return event.refused ? word(Word::no_room)
+                           : say(Word::burr_now, std::round(2e5 * command.value) / 100);
     case tick::CommandKind::spindle_speed:
       return say(Word::speed_now, command.value * 60 / (2 * std::numbers::pi));
     case tick::CommandKind::burr_kind:

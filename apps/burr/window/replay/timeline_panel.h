@@ -42,7 +42,7 @@ struct TimelineDone {
 
 [[nodiscard]] TimelineDone draw_timeline(Ui& ui, const TimelineState& state);
 
-// What a command says to people: "burr of 4 mm".
-[[nodiscard]] std::string command_text(const tick::Command& command);
+// What a command says to people: "burr of 4 mm", or that there was no room for it.
+[[nodiscard]] std::string command_text(const record::TimelineEvent& event);
 
 }  // namespace burr::app

@@ -1,0 +1,30 @@
+// record/assumed_tool.h - the tool in the hand, for recordings whose ticks do not say it: those made
+// before the columns 44 to 50 of burr.Ticks. This is the one place that works it out from commands.
+//
+// It is an ASSUMPTION: the session's settings, and then every command as if the servo had obeyed it.
+// A command outside of the servo's limits is left out here too. But the servo also refuses a larger
+// burr where the bone leaves no room for it; an old recording does not tell that, so the radius may
+// be too large from there to the next change of burr. Player::tool_is_recorded() says which it is.
+// Thread: any.
+#pragma once
+
+#include "burr/record/session_info.h"
+#include "burr/tick/command.h"
+#include "burr/tool/state.h"
+#include "burr/volume/grid.h"
+
+namespace burr::record {
+
+class AssumedTool {
+ public:
+  // As the session began; radius 0 where its settings lack it.
+  explicit AssumedTool(const SessionInfo& info);
+  void obey(const tick::Command& command);
+  [[nodiscard]] const tool::ToolState& now() const { return now_; }
+
+ private:
+  volume::Grid grid_;
+  tool::ToolState now_;
+};
+
+}  // namespace burr::record
