@@ -19,6 +19,7 @@
 #include "bench/full_load_run.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/rt/idle_loop.h"
+#include "commands/volume_words.h"
 
 namespace burr::app {
 namespace {
@@ -28,7 +29,7 @@ constexpr double kAllowed = 1.10;  // lateness beside that of a loop that only w
 constexpr double kResolved = 5;    // ... and what two such loops differ by   [us]
 
 struct Options {
-  VolumeOptions volume;
+  scenario::Recipe volume;
   WholeOptions whole;
   double burr_mm = 5, rate_hz = 1000, waiting_s = 10;
   bool json = false;
@@ -110,7 +111,7 @@ void print(const Options& options, const WholeOutcome& out, const rt::TickSummar
 }
 
 Status run(Options options) {
-  if (options.volume.path.empty()) options.volume.path = "phantom:temporal-bone";
+  if (options.volume.source.empty()) options.volume.source = "phantom:temporal-bone";
   std::string scratch;  // a recording nobody asked to keep
   if (options.whole.record.empty()) {
     std::error_code trouble;
@@ -157,7 +158,7 @@ void add(CLI::App& bench, Todo& todo) {
   auto options = std::make_shared<Options>();
   options->whole.seconds = 600;
   auto* command = bench.add_subcommand("endure", "a long session with everything running");
-  command->add_option("volume", options->volume.path,
+  command->add_option("volume", options->volume.source,
                       "file, DICOM folder, or phantom:NAME (default: phantom:temporal-bone)");
   command->add_option("--seconds", options->whole.seconds, "of milling")
       ->check(CLI::Range(4.0, 36'000.0))

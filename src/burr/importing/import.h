@@ -12,43 +12,22 @@
 // Units: mm for what people type and read, HU or the file's own unit for values; Bone is SI.
 // Thread: any; uses up to two workers. The result does not depend on how many.
 // Memory: beside the scan, 2 bytes a voxel twice while working, then the bone. See
-// memory_budget_mb.
+// Recipe::memory_mb.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/io/scan.h"
+#include "burr/scenario/recipe.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/greys.h"
 
 namespace burr::importing {
-
-// First and last voxel of a box, both inside, counted from 0 as the file does (slices as they lie
-// in the file, even where Scan::k_reversed).
-struct Roi {
-  std::array<int, 2> i{}, j{}, k{};
-};
-
-struct ImportOptions {
-  double voxel_mm = 0;  // edge of the cubic voxels; 0: the finest axis of the scan, coarser
-                        // where the memory budget asks for it
-  double memory_budget_mb = 2048;  // of the work and the bone, for voxel_mm = 0
-  std::optional<double> iso;       // surface level, in HU or the file's unit; none: 300 HU, or Otsu
-  std::optional<Roi> roi;
-  double smooth = -1;        // noise to remove, standard deviation in HU or the file's unit;
-                             // 0: none, below 0: as much as is measured in the scan
-  std::string tissue_table;  // path of a TOML file, see docs/labels.md; empty: by name
-  std::string materials;     // path of a TOML file, see docs/materials.md; empty: the built-in ones
-  std::size_t reserve_bricks = 4096;  // room for deposited material
-  bool keep_greys = false;            // of a grey scan, to be looked at
-};
 
 // One tissue of the result.
 struct TissueFound {
@@ -86,15 +65,18 @@ struct Imported {
   std::shared_ptr<const volume::Greys> greys;  // if they are to be kept
 };
 
+// Of the recipe, source, series, spacing and the limits of reading are for whoever reads the scan.
 // Everything decided, nothing built.
-[[nodiscard]] Result<ImportSummary> plan_import(const io::Scan& scan, const ImportOptions& options);
+[[nodiscard]] Result<ImportSummary> plan_import(const io::Scan& scan,
+                                                const scenario::Recipe& recipe);
 
 // Every label that occurs anywhere in a label map, and what is decided about it; those taken for
 // air too, with id 0. Empty for a grey scan.
 [[nodiscard]] Result<std::vector<TissueFound>> labels_of(const io::Scan& scan,
-                                                         const ImportOptions& options);
+                                                         const scenario::Recipe& recipe);
 
-[[nodiscard]] Result<Imported> import_bone(const io::Scan& scan, const ImportOptions& options,
-                                           Progress& progress);
+// keep_greys: of a grey scan, to be looked at.
+[[nodiscard]] Result<Imported> import_bone(const io::Scan& scan, const scenario::Recipe& recipe,
+                                           Progress& progress, bool keep_greys = false);
 
 }  // namespace burr::importing

@@ -414,7 +414,7 @@ Status Player::show(volume::Bone& bone) {
       return error(
           fmt::format("{}: the bone has no room for deposited material; open it with "
                       "reserve_bricks {}",
-                      path_, std::max<std::uint64_t>(info_.volume.reserve_bricks, 1)));
+                      path_, std::max<std::uint64_t>(info_.volume.recipe.reserve_bricks, 1)));
   }
   // what an earlier call showed and this moment does not know yet
   for (const auto& [brick, content] : originals_)
