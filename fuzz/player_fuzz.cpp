@@ -48,7 +48,7 @@ record::SessionInfo usual_session() {
   info.volume.content_hash = bone->content_hash();
   info.volume.grid = bone->grid();
   info.volume.tissues = bone->tissues();
-  info.volume.reserve_bricks = 4;
+  info.volume.recipe.reserve_bricks = 4;
   return info;
 }
 
@@ -82,7 +82,7 @@ std::string session(fuzz::Pieces& in) {
     if (which == 255) {
       info.rate_hz = value;
     } else if (which == 254) {
-      info.volume.reserve_bricks = count(in);
+      info.volume.recipe.reserve_bricks = count(in);
     } else if (which == 253) {
       info.embedded = true;
     } else {
@@ -262,10 +262,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::look_at_error(tick);
   }
   NoProgress progress;
-  auto start =
-      player.info().embedded
-          ? player.embedded_bone(static_cast<std::size_t>(player.info().volume.reserve_bricks))
-          : Result<std::unique_ptr<volume::Bone>>(block());
+  auto start = player.info().embedded ? player.embedded_bone(static_cast<std::size_t>(
+                                            player.info().volume.recipe.reserve_bricks))
+                                      : Result<std::unique_ptr<volume::Bone>>(block());
   fuzz::look_at_error(start);
   if (!start) return 0;
   const auto outcome = sim::replay(player, std::move(*start), progress);

@@ -390,9 +390,9 @@ record::SessionInfo session_of(const volume::Bone& bone) {
   info.volume.source_fingerprint = 0x123456789ABCDEF0;
   info.volume.grid = bone.grid();
   info.volume.tissues = bone.tissues();
-  info.volume.reserve_bricks = 4;
-  info.volume.numbers = {{"voxel_mm", 0.5}};
-  info.volume.words = {{"format", "NRRD"}};
+  info.volume.recipe.reserve_bricks = 4;
+  info.volume.format = "NRRD";
+  info.volume.recipe.voxel_mm = 0.5;
   return info;
 }
 

@@ -44,7 +44,7 @@ io::Scan label_scan(const Ijk& size, const Vec3& spacing_mm,
   return scan;
 }
 
-std::unique_ptr<Bone> import_or_fail(const io::Scan& scan, const ImportOptions& options = {}) {
+std::unique_ptr<Bone> import_or_fail(const io::Scan& scan, const scenario::Recipe& options = {}) {
   NoProgress progress;
   auto made = import_bone(scan, options, progress);
   EXPECT_TRUE(made.ok()) << made.error().text;
@@ -120,7 +120,7 @@ Errors ball_errors(const Bone& bone, double radius, unsigned seed) {
 TEST(ImportGrey, ABallOfCtKeepsItsSurfaceAndItsNormals) {
   const io::Scan scan =
       grey_scan({60, 60, 60}, {0.5, 0.5, 0.5}, [](const Vec3& p) { return ct_ball(p, 10, 0.6); });
-  ImportOptions options;
+  scenario::Recipe options;
   options.iso = 0;
   const auto bone = import_or_fail(scan, options);
   ASSERT_TRUE(bone);
@@ -135,7 +135,7 @@ TEST(ImportGrey, ABallOfCtKeepsItsSurfaceAndItsNormals) {
 TEST(ImportGrey, ThickSlicesBecomeCubicAndKeepTheSurface) {
   const io::Scan scan =
       grey_scan({60, 60, 30}, {0.5, 0.5, 1.0}, [](const Vec3& p) { return ct_ball(p, 10, 0.8); });
-  ImportOptions options;
+  scenario::Recipe options;
   options.iso = 0;
   const auto bone = import_or_fail(scan, options);
   ASSERT_TRUE(bone);
@@ -149,7 +149,7 @@ TEST(ImportGrey, ThickSlicesBecomeCubicAndKeepTheSurface) {
 TEST(ImportGrey, TheFieldIsTheDistanceWhateverTheContrast) {
   const io::Scan scan = grey_scan({50, 50, 50}, {0.5, 0.5, 0.5},
                                   [](const Vec3& p) { return 600 + 0.4 * ct_ball(p, 9, 0.7); });
-  ImportOptions options;
+  scenario::Recipe options;
   options.iso = 600;
   const auto bone = import_or_fail(scan, options);
   ASSERT_TRUE(bone);
@@ -170,7 +170,7 @@ TEST(ImportGrey, NoiseIsMeasuredAndSmoothedUntilTouchIsSteady) {
   const io::Scan scan = grey_scan({60, 60, 60}, {0.5, 0.5, 0.5}, [&](const Vec3& p) {
     return ct_ball(p, 10, 0.6) + noise(random);
   });
-  ImportOptions options;
+  scenario::Recipe options;
   options.iso = 0;
   options.smooth = 0;
   const auto rough = import_or_fail(scan, options);
@@ -216,7 +216,7 @@ TEST_F(ImportOwnMaterials, ReachEveryKindOfScan) {
   std::ofstream(path("m.toml")) << "[[material]]\nname = \"cortical bone\"\ncutting_energy_J_mm3 = "
                                    "{ value = 1.5, low = 1, high = 2, source = \"a test\", "
                                    "calibrated = true }\n";
-  ImportOptions options;
+  scenario::Recipe options;
   options.materials = path("m.toml");
   io::Scan ct = grey_scan({24, 24, 24}, {0.5, 0.5, 0.5},
                           [](const Vec3& p) { return p.norm() < 4 ? 1200.0 : -1000.0; });
@@ -248,7 +248,7 @@ TEST(ImportGrey, ABoneThatIsTurnedStaysTurned) {
   io::Scan scan = grey_scan({40, 44, 48}, {0.5, 0.5, 0.5},
                             [](const Vec3& p) { return ct_ball(p - Vec3(1, 2, 3), 6, 0.6); });
   scan.axes = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
-  ImportOptions options;
+  scenario::Recipe options;
   options.iso = 0;
   const auto bone = import_or_fail(scan, options);
   ASSERT_TRUE(bone);
@@ -262,8 +262,8 @@ TEST(ImportGrey, ABoneThatIsTurnedStaysTurned) {
 TEST(ImportGrey, ARegionIsCountedAsTheFileCountsIt) {
   io::Scan scan = grey_scan({30, 30, 30}, {1, 1, 1},
                             [](const Vec3& p) { return p.z() > 6 ? 1000.0 : -1000.0; });
-  ImportOptions options;
-  options.roi = Roi{{5, 14}, {6, 17}, {0, 9}};
+  scenario::Recipe options;
+  options.region = scenario::Region{{5, 14}, {6, 17}, {0, 9}};
   options.iso = 300;
   EXPECT_FALSE(plan_import(scan, options).ok()) << "only air there";
   scan.k_reversed = true;  // slices 0..9 of the file are the last ones here
@@ -273,7 +273,7 @@ TEST(ImportGrey, ARegionIsCountedAsTheFileCountsIt) {
   EXPECT_EQ(bone->field(5, 5, 8), volume::kSolid);
   const Vec3 first = scan.origin_mm + scan.axes * Vec3(5, 6, 20);
   EXPECT_LT((bone->grid().world_from_grid(Vec3::Zero()) * 1e3 - first).norm(), 1e-9);
-  options.roi->k = {0, 30};
+  options.region->k = {0, 30};
   const auto outside = plan_import(scan, options);
   ASSERT_FALSE(outside.ok());
   EXPECT_EQ(outside.error().trouble, Trouble::usage);
@@ -282,9 +282,9 @@ TEST(ImportGrey, ARegionIsCountedAsTheFileCountsIt) {
 TEST(ImportGrey, TheMemoryBudgetMakesVoxelsCoarserAndSaysSo) {
   const io::Scan scan = grey_scan({128, 128, 128}, {0.5, 0.5, 0.5},
                                   [](const Vec3& p) { return ct_ball(p, 20, 0.6); });
-  ImportOptions options;
+  scenario::Recipe options;
   options.reserve_bricks = 64;
-  options.memory_budget_mb = 4;
+  options.memory_mb = 4;
   const auto plan = plan_import(scan, options);
   ASSERT_TRUE(plan.ok());
   EXPECT_GT(plan->voxel_mm, 0.7);
@@ -303,7 +303,7 @@ TEST(ImportGrey, TheSameScanGivesTheSameBone) {
 TEST(ImportGrey, OneSliceOrNothingButAirIsASentence) {
   const io::Scan slice = grey_scan({30, 30, 1}, {1, 1, 1}, [](const Vec3&) { return 0.0; });
   EXPECT_NE(plan_import(slice, {}).error().text.find("no volume"), std::string::npos);
-  ImportOptions options;
+  scenario::Recipe options;
   options.iso = 5000;
   const io::Scan scan =
       grey_scan({30, 30, 30}, {1, 1, 1}, [](const Vec3& p) { return ct_ball(p, 9, 1); });
@@ -421,8 +421,8 @@ TEST_F(ImportLabelsTable, OverridesTheNames) {
     return p.norm() < 5 ? 7 : p.norm() < 10 ? 1 : 0;
   });
   scan.label_names = {{1, "Bone", {1, 1, 1}}, {7, "Facial_Nerve", {1, 1, 0}}};
-  ImportOptions options;
-  options.tissue_table = path;
+  scenario::Recipe options;
+  options.labels = path;
   const auto bone = import_or_fail(scan, options);
   ASSERT_TRUE(bone);
   EXPECT_EQ(bone->field(12, 12, 12), volume::kSolid);

@@ -104,8 +104,8 @@ TEST_F(OddHeader, AColourInATableOfTissuesMustBeNumbers) {
       file("a.nrrd",
            "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 16 16 16\nencoding: raw\n\n" + voxels));
   ASSERT_TRUE(scan.ok()) << scan.error().text;
-  importing::ImportOptions options;
-  options.tissue_table = file("t.toml", "[[label]]\nvalue = 1\ncolour = [nan, 0, inf]\n");
+  scenario::Recipe options;
+  options.labels = file("t.toml", "[[label]]\nvalue = 1\ncolour = [nan, 0, inf]\n");
   const auto plan = importing::plan_import(*scan, options);
   ASSERT_FALSE(plan.ok());
   EXPECT_TRUE(has(plan.error().text, "t.toml: label 1: colour needs three numbers"));

@@ -191,9 +191,11 @@ inline SessionInfo info_of(const volume::Bone& bone, Random& random) {
   info.volume.grid = bone.grid();
   info.volume.tissues = bone.tissues();
   info.volume.has_intensity = bone.has_intensity();
-  info.volume.reserve_bricks = bone.free_slots();
-  info.volume.numbers = {{"voxel_mm", 0.37}, {"iso", 300}};
-  info.volume.words = {{"format", "DICOM"}, {"series_hash", "0x0123456789abcdef"}};
+  info.volume.recipe.reserve_bricks = bone.free_slots();
+  info.volume.format = "DICOM";
+  info.volume.recipe.voxel_mm = 0.37;
+  info.volume.recipe.iso = 300;
+  info.volume.recipe.series = "#2";
   return info;
 }
 

@@ -325,7 +325,7 @@ TEST(Player, FindsTheEmbeddedBone) {
   auto player = Player::open(folder / "s.mcap");
   ASSERT_TRUE(player.ok());
   EXPECT_TRUE((*player)->info().embedded);
-  auto inside = (*player)->embedded_bone((*player)->info().volume.reserve_bricks);
+  auto inside = (*player)->embedded_bone((*player)->info().volume.recipe.reserve_bricks);
   ASSERT_TRUE(inside.ok()) << inside.error().text;
   EXPECT_EQ((*inside)->content_hash(), before);
   EXPECT_TRUE(check_volume((*player)->info().volume, **inside, "inside").ok());

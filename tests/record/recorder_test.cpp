@@ -95,9 +95,9 @@ TEST(Recorder, TheSessionIsDescribedToTheBit) {
   EXPECT_EQ(info.words, truth.info.words);
   EXPECT_EQ(info.volume.content_hash, truth.info.volume.content_hash);
   EXPECT_EQ(info.volume.source_fingerprint, truth.info.volume.source_fingerprint);
-  EXPECT_EQ(info.volume.numbers, truth.info.volume.numbers);
-  EXPECT_EQ(info.volume.words, truth.info.volume.words);
-  EXPECT_EQ(info.volume.reserve_bricks, truth.info.volume.reserve_bricks);
+  EXPECT_EQ(info.volume.format, truth.info.volume.format);
+  EXPECT_TRUE(info.volume.recipe == truth.info.volume.recipe);
+  EXPECT_EQ(info.volume.recipe.reserve_bricks, truth.info.volume.recipe.reserve_bricks);
   EXPECT_EQ(info.volume.grid.size, truth.info.volume.grid.size);
   EXPECT_EQ(info.volume.grid.voxel, truth.info.volume.grid.voxel);
   EXPECT_EQ(info.volume.grid.frame.p, truth.info.volume.grid.frame.p);
@@ -360,10 +360,11 @@ TEST(Recorder, PathsUidsAndNumbersThatAreNoneAreRefused) {
   EXPECT_TRUE(refused([](SessionInfo& info) { info.words["from"] = "/home/somebody/ct"; }));
   EXPECT_TRUE(refused([](SessionInfo& info) { info.words["from"] = "C:\\ct"; }));
   EXPECT_TRUE(refused([](SessionInfo& info) {
-    info.volume.words["series"] = "1.2.840.113619.2.55.3.604688119.971";
+    info.volume.recipe.series = "1.2.840.113619.2.55.3.604688119.971";
   }));
   EXPECT_TRUE(refused([](SessionInfo& info) { info.numbers["x"] = std::nan(""); }));
-  EXPECT_TRUE(refused([](SessionInfo& info) { info.volume.numbers["x"] = 1.0 / 0.0; }));
+  EXPECT_TRUE(refused([](SessionInfo& info) { info.volume.recipe.source = "/home/somebody/ct"; }));
+  EXPECT_TRUE(refused([](SessionInfo& info) { info.volume.recipe.iso = 1.0 / 0.0; }));
   EXPECT_FALSE(refused([](SessionInfo&) {}));
 }
 

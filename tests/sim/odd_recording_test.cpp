@@ -47,7 +47,7 @@ record::SessionInfo usual(const volume::Bone& bone) {
   info.volume.content_hash = bone.content_hash();
   info.volume.grid = bone.grid();
   info.volume.tissues = bone.tissues();
-  info.volume.reserve_bricks = 8;
+  info.volume.recipe.reserve_bricks = 8;
   return info;
 }
 

@@ -322,7 +322,7 @@ class Replay : public testing::Test {
     info.volume.content_hash = session.bone().content_hash();
     info.volume.grid = session.bone().grid();
     info.volume.tissues = session.bone().tissues();
-    info.volume.reserve_bricks = 256;
+    info.volume.recipe.reserve_bricks = 256;
     record::Recorder recorder(session.settings().servo.rate_hz);
     ASSERT_TRUE(recorder.start(file, info, &session.bone()).ok());
     session.set_recorder(&recorder);

@@ -131,7 +131,7 @@ class Recorded : public testing::Test {
     info.volume.content_hash = session.bone().content_hash();
     info.volume.grid = session.bone().grid();
     info.volume.tissues = session.bone().tissues();
-    info.volume.reserve_bricks = 256;
+    info.volume.recipe.reserve_bricks = 256;
     record::Recorder recorder(settings.servo.rate_hz);
     ASSERT_TRUE(recorder.start(file, info, &session.bone()).ok());
     session.set_recorder(&recorder);

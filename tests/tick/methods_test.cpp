@@ -118,7 +118,7 @@ TEST(MethodsInASession, TheRecordingKnowsAndSimulatesToTheSameBits) {
   info.volume.content_hash = run->bone().content_hash();
   info.volume.grid = run->bone().grid();
   info.volume.tissues = run->bone().tissues();
-  info.volume.reserve_bricks = 256;
+  info.volume.recipe.reserve_bricks = 256;
   record::Recorder recorder(1000);
   ASSERT_TRUE(recorder.start(file, info, &run->bone()).ok());
   run->set_recorder(&recorder);

@@ -40,7 +40,7 @@ class DeviceWindow : public Window {
   static Result<Ready> with_touch(const std::string& suction = {}) {
     WorkOptions options;
     options.suction = suction;
-    options.volume.path = "block";
+    options.volume.source = "block";
     options.volume.voxel_mm = 0.5;
     options.hand.device = "touch";
     NoProgress quiet;
@@ -49,7 +49,7 @@ class DeviceWindow : public Window {
   // Where the block's case has its work.
   static Result<surgeon::WorkPlace> work_place(sim::Session& session) {
     WorkOptions block;
-    block.volume.path = "block";
+    block.volume.source = "block";
     if (const Status taken = take_case(block); !taken) return taken.error();
     return surgeon::find_work_place(session.bone(), 0.5e-3 * block.burr_mm, block.at, block.into);
   }
@@ -283,7 +283,7 @@ TEST_F(DeviceWindow, ASecondOneLeadsTheSuctionAndFeelsTheBone) {
 TEST_F(DeviceWindow, TheStopStopsAMouseBesideASuctionToo) {
   WorkOptions options;
   options.suction = "touch";
-  options.volume.path = "block";
+  options.volume.source = "block";
   options.volume.voxel_mm = 0.5;
   NoProgress quiet;
   auto ready = open_ready(options, quiet);

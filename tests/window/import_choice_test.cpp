@@ -106,18 +106,19 @@ TEST(Preview, OutlinesWhatIsTinted) {
 
 TEST(Region, IsSaidInVoxelsOfTheFileAndReadBack) {
   io::Scan scan = box_scan({10, 20, 30});
-  EXPECT_EQ(roi_words(scan, whole(scan)), "");
+  EXPECT_FALSE(region_of(scan, whole(scan)).has_value());
   const Box box{{1, 2, 3}, {8, 17, 20}};
-  EXPECT_EQ(roi_words(scan, box), "1,8,2,17,3,20");
+  EXPECT_TRUE((*region_of(scan, box) == scenario::Region{{1, 8}, {2, 17}, {3, 20}}));
   scan.k_reversed = true;
-  EXPECT_EQ(roi_words(scan, box), "1,8,2,17,9,26");
+  EXPECT_TRUE((*region_of(scan, box) == scenario::Region{{1, 8}, {2, 17}, {9, 26}}));
   for (const Box& one : {box, whole(scan)}) {
-    const auto back = box_of(scan, roi_words(scan, one));
+    const auto back = box_of(scan, region_of(scan, one));
     ASSERT_TRUE(back);
     EXPECT_TRUE(*back == one);
   }
-  for (const char* wrong : {"1,2,3", "0,10,0,19,0,29", "5,4,0,19,0,29", "a,b,c,d,e,f"})
-    EXPECT_FALSE(box_of(scan, wrong)) << wrong;
+  for (const scenario::Region& wrong :
+       {scenario::Region{{0, 10}, {0, 19}, {0, 29}}, scenario::Region{{5, 4}, {0, 19}, {0, 29}}})
+    EXPECT_FALSE(box_of(scan, wrong)) << scenario::region_text(wrong);
 }
 
 TEST(LabelTable, SaysOnlyWhatDiffersAndNoNames) {
@@ -170,8 +171,8 @@ TEST_F(MemoryWindow, OfASessionIsAboutWhatWasSaid) {
                  static_cast<std::streamsize>(2 * slice.size()));
     }
   }
-  VolumeOptions volume;
-  volume.path = path.string();
+  scenario::Recipe volume;
+  volume.source = path.string();
   NoProgress quiet;
   SessionMemory said;
   {

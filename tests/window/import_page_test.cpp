@@ -24,7 +24,7 @@ void click_on(const Part& part) {
 }
 
 // The bone that the command line makes of the same words.
-std::uint64_t hash_of(const VolumeOptions& options) {
+std::uint64_t hash_of(const scenario::Recipe& options) {
   NoProgress quiet;
   auto made = open_volume(options, quiet);
   EXPECT_TRUE(made) << made.error().text;
@@ -94,15 +94,15 @@ TEST_F(ImportWindow, MakesTheBoneWithTheLevelAndRegionSetByMouse) {
       {"the region", looks(3), [] { press(SDLK_RETURN); }}},
      then_mills());
   const record::VolumeInfo info = begun();
-  ASSERT_TRUE(info.words.contains("iso") && info.words.contains("roi")) << "nothing was chosen";
+  ASSERT_TRUE(info.recipe.iso && info.recipe.region) << "nothing was chosen";
   // -1000 to 1500 HU lie along the plot
-  EXPECT_NEAR(std::stod(info.words.at("iso")), -1000 + 0.75 * 2500, 12);
-  EXPECT_EQ(info.words.at("roi"), "0,17,0,23,0,23");
-  VolumeOptions typed;
-  typed.path = file.string();
+  EXPECT_NEAR(*info.recipe.iso, -1000 + 0.75 * 2500, 12);
+  EXPECT_TRUE((*info.recipe.region == scenario::Region{{0, 17}, {0, 23}, {0, 23}}));
+  scenario::Recipe typed;
+  typed.source = file.string();
   const std::uint64_t by_itself = hash_of(typed);
-  typed.iso = info.words.at("iso");
-  typed.roi = info.words.at("roi");
+  typed.iso = info.recipe.iso;
+  typed.region = info.recipe.region;
   EXPECT_EQ(info.content_hash, hash_of(typed));
   EXPECT_NE(info.content_hash, by_itself);
 }
@@ -114,9 +114,9 @@ TEST_F(ImportWindow, OfADefaultScanChangesNothing) {
       {"a picture", looks(3), [] { click_on(layout().start); }}},
      then_mills());
   const record::VolumeInfo info = begun();
-  EXPECT_FALSE(info.words.contains("iso") || info.words.contains("roi"));
-  VolumeOptions typed;
-  typed.path = file.string();
+  EXPECT_FALSE(info.recipe.iso || info.recipe.region);
+  scenario::Recipe typed;
+  typed.source = file.string();
   EXPECT_EQ(info.content_hash, hash_of(typed));
 }
 
@@ -173,12 +173,12 @@ TEST_F(ImportWindow, MakesLabelsWhatTheyAreClickedToBe) {
   const std::vector<KeptSession> kept = kept_sessions(folder_ / "state");
   ASSERT_EQ(kept.size(), 1U) << "nothing was cut: the test shows nothing";
   const record::VolumeInfo info = begun();
-  VolumeOptions typed;
-  typed.path = file.string();
+  scenario::Recipe typed;
+  typed.source = file.string();
   const std::uint64_t by_itself = hash_of(typed);
   const fs::path table = folder_ / "typed.toml";
   std::ofstream(table) << "[[label]]\nvalue = 2\nkind = \"soft\"\n";
-  typed.tissues = table.string();
+  typed.labels = table.string();
   EXPECT_EQ(info.content_hash, hash_of(typed));
   EXPECT_NE(info.content_hash, by_itself);
   // and it goes on from there, with the table that the window wrote
@@ -251,17 +251,17 @@ TEST_F(ImportWindow, SaysWhatIsWrongWithANumberAndLosesNothing) {
   EXPECT_NE(told[4].find("5000"), std::string::npos) << told[4];
   EXPECT_EQ(told[5], "");
   const record::VolumeInfo info = begun();
-  ASSERT_TRUE(info.words.contains("roi") && info.words.contains("iso"));
-  EXPECT_EQ(info.words.at("roi"), "0,23,0,23,4,23");
-  EXPECT_EQ(info.words.at("iso"), "200");
+  ASSERT_TRUE(info.recipe.region && info.recipe.iso);
+  EXPECT_TRUE((*info.recipe.region == scenario::Region{{0, 23}, {0, 23}, {4, 23}}));
+  EXPECT_EQ(*info.recipe.iso, 200);
 }
 
 TEST_F(ImportWindow, ReadsAnotherSeriesThatIsChosen) {
   BURR_NEEDS_DATA("skull_phantom");
   const fs::path folder = test::data_dir() / "skull_phantom";
   NoProgress quiet;
-  VolumeOptions typed;
-  typed.path = folder.string();
+  scenario::Recipe typed;
+  typed.source = folder.string();
   const auto opened = open_scan(typed, quiet);
   ASSERT_TRUE(opened) << opened.error().text;
   const std::vector<std::string>& all = opened->scan->series;
@@ -308,8 +308,7 @@ TEST_F(ImportWindow, ReadsAnotherSeriesThatIsChosen) {
        }}},
      then_mills());
   const record::VolumeInfo info = begun();
-  ASSERT_TRUE(info.words.contains("series"));
-  EXPECT_EQ(info.words.at("series"), "#" + std::to_string(row + 1));
+  EXPECT_EQ(info.recipe.series, "#" + std::to_string(row + 1));
 }
 
 // W: the scan's own values in the slices; the button that turns pulls their window.
@@ -378,7 +377,7 @@ TEST_F(ImportWindow, WhatWasMeasuredIsThereWhenOneGoesOn) {
   ASSERT_NE(ready->greys, nullptr);
   EXPECT_EQ(ready->greys->stored, fresh->greys->stored);
   {  // another scan took its place
-    std::ofstream(kept[0].options.volume.path, std::ios::app) << "other";
+    std::ofstream(kept[0].options.volume.source, std::ios::app) << "other";
   }
   const auto player = record::Player::open(kept[0].file.string());
   ASSERT_TRUE(player);

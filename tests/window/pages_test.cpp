@@ -355,8 +355,8 @@ TEST_F(Window, TakesADroppedScanMillsItComesBackAndGoesOnWhereItWas) {
   auto first = record::Player::open(kept[1].file.string());
   auto second = record::Player::open(kept[0].file.string());
   ASSERT_TRUE(first && second);
-  VolumeOptions given;
-  given.path = file.string();
+  scenario::Recipe given;
+  given.source = file.string();
   auto bone = bone_of(**first, given, quiet);
   ASSERT_TRUE(bone) << bone.error().text;
   const std::uint64_t uncut = (*bone)->content_hash();
@@ -426,15 +426,15 @@ TEST_F(Window, OffersASessionThatEndedUnexpectedlyFirst) {
   ASSERT_EQ(kept.size(), 1U) << "nothing was cut: the test shows nothing";
   // as a crash leaves it: the account still open, the recording torn
   fs::path account = kept[0].file;
-  account.replace_extension(".toml");
+  account.replace_extension(".json");
   std::string text;
   {
     std::ifstream in(account);
     text.assign(std::istreambuf_iterator<char>(in), {});
   }
-  const std::size_t at = text.find("clean = true");
+  const std::size_t at = text.find("\"clean\": true");
   ASSERT_NE(at, std::string::npos);
-  text.replace(at, 12, "clean = false");
+  text.replace(at, 13, "\"clean\": false");
   std::ofstream(account) << text;
   fs::resize_file(kept[0].file, fs::file_size(kept[0].file) * 3 / 4);
 

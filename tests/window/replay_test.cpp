@@ -29,7 +29,7 @@ class Replay : public Window {
     Window::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
     WorkOptions options;
-    options.volume.path = "block";
+    options.volume.source = "block";
     options.volume.voxel_mm = 0.5;
     NoProgress quiet;
     ASSERT_TRUE(take_case(options));
@@ -495,7 +495,7 @@ TEST_F(Replay, TellsInOneSentenceWhatCannotBeWatched) {
   fs::create_directories(alone.parent_path());
   {
     WorkOptions options;
-    options.volume.path = scan().string();
+    options.volume.source = scan().string();
     NoProgress quiet;
     auto ready = open_ready(options, quiet);
     ASSERT_TRUE(ready) << ready.error().text;

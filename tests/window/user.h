@@ -178,7 +178,7 @@ class Window : public testing::Test {
   // a block by formula, coarse, ready to be milled
   static Result<Ready> block() {
     WorkOptions options;
-    options.volume.path = "block";
+    options.volume.source = "block";
     options.volume.voxel_mm = 0.5;
     NoProgress quiet;
     return open_ready(options, quiet);

@@ -10,7 +10,7 @@ namespace {
 
 Result<Ready> ball_of(double voxel_mm, double burr_mm) {
   WorkOptions options;
-  options.volume.path = "phantom:ball";
+  options.volume.source = "phantom:ball";
   options.volume.voxel_mm = voxel_mm;
   options.burr_mm = burr_mm;
   NoProgress quiet;

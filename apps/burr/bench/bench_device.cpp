@@ -14,6 +14,7 @@
 #include "burr/math/turn.h"
 #include "burr/rt/thread.h"
 #include "burr/sim/session.h"
+#include "commands/volume_words.h"
 #include "workshop/work.h"
 
 namespace burr::app {
@@ -146,7 +147,7 @@ void add(CLI::App& bench, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command =
       bench.add_subcommand("device", "from a pose on the wire to its force on the wire");
-  command->add_option("bone", options->work.volume.path,
+  command->add_option("bone", options->work.volume.source,
                       "a case or a scan (default: temporal-bone)");
   command->add_option("--seconds", options->seconds, "of the session")
       ->check(CLI::Range(1.0, 36'000.0))

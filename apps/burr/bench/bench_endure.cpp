@@ -20,6 +20,7 @@
 #include "burr/device/simulated_hand.h"
 #include "burr/rt/idle_loop.h"
 #include "burr/tick/flag_words.h"
+#include "commands/volume_words.h"
 
 namespace burr::app {
 namespace {
@@ -29,7 +30,7 @@ constexpr double kAllowed = 1.10;  // p99.9 of lateness relative to a loop that 
 constexpr double kResolved = 5;    // ... and the difference between two such loops [us]
 
 struct Options {
-  VolumeOptions volume;
+  scenario::Recipe volume;
   WholeOptions whole;
   double burr_mm = 5, rate_hz = 1000, waiting_s = 10;
   bool json = false;
@@ -111,8 +112,8 @@ void print(const Options& options, const WholeOutcome& out, const rt::TickSummar
 }
 
 Status run(Options options) {
-  if (options.volume.path.empty()) options.volume.path = "phantom:temporal-bone";
-  std::string scratch;  // a recording that the user did not ask for
+  if (options.volume.source.empty()) options.volume.source = "phantom:temporal-bone";
+  std::string scratch;  // a recording nobody asked to keep
   if (options.whole.record.empty()) {
     std::error_code trouble;
     scratch = (std::filesystem::temp_directory_path(trouble) /
@@ -158,7 +159,7 @@ void add(CLI::App& bench, Todo& todo) {
   auto options = std::make_shared<Options>();
   options->whole.seconds = 600;
   auto* command = bench.add_subcommand("endure", "a long session with everything running");
-  command->add_option("volume", options->volume.path,
+  command->add_option("volume", options->volume.source,
                       "file, DICOM folder, or phantom:NAME (default: phantom:temporal-bone)");
   command->add_option("--seconds", options->whole.seconds, "of milling")
       ->check(CLI::Range(4.0, 36'000.0))

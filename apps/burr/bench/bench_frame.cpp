@@ -33,8 +33,9 @@
 #include "burr/surface/mesher.h"
 #include "burr/surface/worker.h"
 #include "burr/surgeon/motion.h"
+#include "commands/volume_words.h"
 #include "workshop/live_surface.h"
-#include "workshop/volume_options.h"
+#include "workshop/open_volume.h"
 #include "workshop/work_view.h"
 
 namespace burr::app {
@@ -45,7 +46,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kPocket = 20;  // [s]
 
 struct Options {
-  VolumeOptions volume;
+  scenario::Recipe volume;
   PictureSize size;
   double burr_mm = 5, rate_hz = 1000, seconds = 10;
   int turns = 60;
@@ -369,7 +370,7 @@ void print(const Options& options, const Outcome& out) {
 }
 
 Status run(Options options) {
-  if (options.volume.path.empty()) options.volume.path = "phantom:temporal-bone";
+  if (options.volume.source.empty()) options.volume.source = "phantom:temporal-bone";
   auto opened = open_volume(options.volume, progress());
   if (!opened) return opened.error();
   const double radius = 0.5e-3 * options.burr_mm;
@@ -401,7 +402,7 @@ void add(CLI::App& bench, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command =
       bench.add_subcommand("frame", "how fast the bone is drawn, at rest and while it is milled");
-  command->add_option("volume", options->volume.path,
+  command->add_option("volume", options->volume.source,
                       "file, DICOM folder, or phantom:NAME (default: phantom:temporal-bone)");
   command->add_option("--seconds", options->seconds, "of each part")
       ->check(CLI::Range(1.0, 36'000.0))

@@ -16,14 +16,15 @@
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
 #include "burr/surgeon/motion.h"
-#include "workshop/volume_options.h"
+#include "commands/volume_words.h"
+#include "workshop/open_volume.h"
 
 namespace {
 
 using namespace burr;
 
 struct Options {
-  app::VolumeOptions volume;
+  scenario::Recipe volume;
   double burr_mm = 5;
   bool json = false;
 };
@@ -167,7 +168,7 @@ void add(CLI::App& bench, app::Todo& todo) {
   const auto one = [&](const char* name, const char* what, Status (*work)(const Options&)) {
     auto options = std::make_shared<Options>();
     auto* command = bench.add_subcommand(name, what);
-    command->add_option("volume", options->volume.path, "file, DICOM folder, or phantom:NAME")
+    command->add_option("volume", options->volume.source, "file, DICOM folder, or phantom:NAME")
         ->required();
     command->add_flag("--json", options->json, "one JSON object on the last line");
     app::add_volume_options(*command, options->volume);

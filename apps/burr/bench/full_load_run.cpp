@@ -151,8 +151,9 @@ Result<PocketsAgain> pockets_again(const surgeon::WorkPlace& place, double burr_
 }
 
 Result<WholeOutcome> run_whole(sim::Session& session, const surgeon::WorkPlace& place,
-                               const VolumeOptions& volume, const importing::ImportSummary& import,
-                               const WholeOptions& options, Progress& progress) {
+                               const scenario::Recipe& volume,
+                               const importing::ImportSummary& import, const WholeOptions& options,
+                               Progress& progress) {
   WholeOutcome out;
   std::unique_ptr<Picture> picture;
   if (options.picture) {

@@ -12,8 +12,8 @@
 #include "burr/rt/stats.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
+#include "workshop/open_volume.h"
 #include "workshop/recording.h"
-#include "workshop/volume_options.h"
 #include "workshop/work_view.h"
 
 namespace burr::app {
@@ -50,7 +50,7 @@ struct WholeOutcome {
 // Runs a session in real time. `import` and `volume` describe its bone in the recording. Error:
 // interrupted, or the recording could not be finished.
 [[nodiscard]] Result<WholeOutcome> run_whole(sim::Session& session, const surgeon::WorkPlace& place,
-                                             const VolumeOptions& volume,
+                                             const scenario::Recipe& volume,
                                              const importing::ImportSummary& import,
                                              const WholeOptions& options, Progress& progress);
 

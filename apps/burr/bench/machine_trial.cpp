@@ -14,7 +14,7 @@
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
 #include "commands/command.h"
-#include "workshop/volume_options.h"
+#include "workshop/open_volume.h"
 
 namespace burr::app {
 namespace {
@@ -43,12 +43,12 @@ struct Bench {
   std::unique_ptr<sim::Session> session;
   surgeon::WorkPlace place;
   importing::ImportSummary import;
-  VolumeOptions volume;
+  scenario::Recipe volume;
 };
 
 Result<Bench> make_bench(const MachineTrial& options, double seconds) {
   Bench bench;
-  bench.volume.path = "phantom:temporal-bone";
+  bench.volume.source = "phantom:temporal-bone";
   bench.volume.voxel_mm = options.voxel_mm;
   auto opened = open_volume(bench.volume, progress());
   if (!opened) return opened.error();

@@ -9,6 +9,7 @@
 #include "burr/device/crtk/arm.h"
 #include "burr/math/turn.h"
 #include "commands/command.h"
+#include "commands/volume_words.h"
 #include "workshop/arm_publisher.h"
 #include "workshop/recording.h"
 #include "workshop/work.h"
@@ -88,7 +89,7 @@ void add(CLI::App& app, Todo& todo) {
   options->seconds = 0;
   auto* command = app.add_subcommand(
       "arm", "burr as a CRTK robot arm (ROS 2 names, no ROS needed) that others drive and watch");
-  command->add_option("bone", options->work.volume.path,
+  command->add_option("bone", options->work.volume.source,
                       "a case or a scan (default: temporal-bone)");
   command->add_option("--name", options->arm.name, "of the arm, as ROS writes it")
       ->capture_default_str();

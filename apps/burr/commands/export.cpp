@@ -10,16 +10,17 @@
 #include "burr/io/export_part.h"
 #include "burr/record/player.h"
 #include "commands/command.h"
+#include "commands/volume_words.h"
+#include "workshop/open_volume.h"
 #include "workshop/recording.h"
-#include "workshop/volume_options.h"
 
 namespace burr::app {
 namespace {
 
 struct Options {
   std::string source, out;
-  VolumeOptions volume;  // path: --volume, for a recording
-  double at_s = -1;      // moment in a recording; below 0: its end
+  scenario::Recipe volume;  // path: --volume, of a recording
+  double at_s = -1;         // moment in a recording; below 0: its end
   std::string part = "bone", frame = "lps";
   bool scan = false;
   bool json = false;
@@ -59,8 +60,8 @@ bool is_recording(const std::string& path) {
 Result<Bones> open_plain(const Options& options) {
   if (options.part == "removed")
     return error(Trouble::usage, "nothing is removed from a volume yet; give a recording (.mcap)");
-  VolumeOptions volume = options.volume;
-  volume.path = options.source;
+  scenario::Recipe volume = options.volume;
+  volume.source = options.source;
   volume.reserve_bricks = 0;
   auto opened = open_volume(volume, progress());
   if (!opened) return opened.error();
@@ -78,7 +79,7 @@ Result<Bones> open_recording(const Options& options) {
   auto before = bone_of(**player, options.volume, progress());
   if (!before) return before.error();
   bones.before = std::move(*before);
-  bones.now = copy_of(*bones.before, (*player)->info().volume.reserve_bricks);
+  bones.now = copy_of(*bones.before, (*player)->info().volume.recipe.reserve_bricks);
   const double at_s = options.at_s < 0 ? (*player)->seconds() : options.at_s;
   const Status there = (*player)->bone_at(at_s, *bones.now);
   if (!there) return there.error();
@@ -135,7 +136,7 @@ void add(CLI::App& app, Todo& todo) {
                     "into .nrrd: the scan's grey values with the cut in them, not the field");
   command->add_option("--at", options->at_s, "moment of the recording [s]; default: its end")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--volume", options->volume.path,
+  command->add_option("--volume", options->volume.source,
                       "of a recording: the volume it was cut from (default: search for it)");
   add_volume_options(*command, options->volume);
   command->add_flag("--json", options->json, "one JSON object as the last line");

@@ -11,14 +11,15 @@
 #include "burr/io/sandbox/fence.h"
 #include "burr/record/player.h"
 #include "commands/command.h"
+#include "commands/volume_words.h"
 #include "window/replay/playback.h"
-#include "workshop/volume_options.h"
+#include "workshop/open_volume.h"
 
 namespace burr::app {
 namespace {
 
 struct Options {
-  VolumeOptions volume;
+  scenario::Recipe volume;
   bool json = false;
 };
 
@@ -119,19 +120,15 @@ nlohmann::json with_fence(nlohmann::json out) {
 }
 
 // The content of the file and, if it can be milled, the plan of its import.
-Result<importing::ImportSummary> look(const VolumeOptions& options) {
-  if (is_phantom(options.path)) {
-    auto made = open_volume(options, progress());
+Result<importing::ImportSummary> look(const scenario::Recipe& recipe) {
+  if (scenario::is_phantom(recipe.source)) {
+    auto made = open_volume(recipe, progress());
     if (!made) return made.error();
     return std::move(made->summary);
   }
-  const auto reading = read_options(options);
-  if (!reading) return reading.error();
-  const auto importing = import_options(options);
-  if (!importing) return importing.error();
-  auto scan = io::read_scan(options.path, *reading, progress());
+  auto scan = io::read_scan(recipe.source, read_options(recipe), progress());
   if (!scan) return scan.error();
-  auto plan = importing::plan_import(*scan, *importing);
+  auto plan = importing::plan_import(*scan, recipe);
   if (plan || plan.error().trouble == Trouble::usage) return plan;
   // a file that can be read but not milled is still described
   importing::ImportSummary s;
@@ -154,7 +151,7 @@ Result<importing::ImportSummary> look(const VolumeOptions& options) {
 
 // A recording: how long, of which bone, and what was to be done.
 Status run_recording(const Options& options) {
-  auto opened = record::Player::open(options.volume.path);
+  auto opened = record::Player::open(options.volume.source);
   if (!opened) return opened.error();
   const record::Player& player = **opened;
   const record::SessionInfo& info = player.info();
@@ -197,7 +194,7 @@ Status run_recording(const Options& options) {
 }
 
 Status run(const Options& options) {
-  if (is_recording(options.volume.path)) return run_recording(options);
+  if (is_recording(options.volume.source)) return run_recording(options);
   auto found = look(options.volume);
   if (!found) return found.error();
   print(*found);
@@ -213,7 +210,7 @@ void add(CLI::App& app, Todo& todo) {
   auto* command = app.add_subcommand("info", "what a volume or a recording holds");
   auto options = std::make_shared<Options>();
   command
-      ->add_option("volume", options->volume.path,
+      ->add_option("volume", options->volume.source,
                    "file, DICOM folder, phantom:NAME, or a recording (.mcap)")
       ->required();
   add_volume_options(*command, options->volume);

@@ -17,8 +17,9 @@
 #include "burr/tick/flag_words.h"
 #include "burr/tick/mirror_plane.h"
 #include "commands/command.h"
+#include "commands/volume_words.h"
+#include "workshop/open_volume.h"
 #include "workshop/recording.h"
-#include "workshop/volume_options.h"
 #include "workshop/work_view.h"
 
 namespace burr::app {
@@ -27,7 +28,7 @@ namespace {
 using math::Vec3;
 
 struct Options {
-  VolumeOptions volume;
+  scenario::Recipe volume;
   PictureSize size;
   std::string path_csv, motion_name, record, picture, arm = "firm", touch = "constraint",
                                                       removal = "energy", mirror;
@@ -269,7 +270,7 @@ Status run(const Options& options) {
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("mill", "a simulated hand mills a bone");
-  command->add_option("volume", options->volume.path, "file, DICOM folder, or phantom:NAME")
+  command->add_option("volume", options->volume.source, "file, DICOM folder, or phantom:NAME")
       ->required();
   command->add_option("--path", options->path_csv,
                       "CSV file t,x,y,z[,qw,qx,qy,qz][,spindle] of the hand (s, m; or x_mm ...)");

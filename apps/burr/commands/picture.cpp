@@ -11,13 +11,14 @@
 #include "burr/surgeon/motion.h"
 #include "commands/command.h"
 #include "commands/views.h"
-#include "workshop/volume_options.h"
+#include "commands/volume_words.h"
+#include "workshop/open_volume.h"
 
 namespace burr::app {
 namespace {
 
 struct Options {
-  VolumeOptions volume;
+  scenario::Recipe volume;
   ViewOptions view;
   PictureSize size;
   std::string out;
@@ -39,7 +40,7 @@ Result<ViewOptions> view_of(const Options& options,
                              "as in 4000,700",
                              options.greys[0]));
   if (of_the_scan == nullptr)
-    return error(Trouble::usage, "--greys: " + options.volume.path +
+    return error(Trouble::usage, "--greys: " + options.volume.source +
                                      " measured nothing: it is a formula or a label map");
   view.greys = std::move(of_the_scan);
   view.window = options.greys[0];
@@ -48,9 +49,7 @@ Result<ViewOptions> view_of(const Options& options,
 }
 
 Status run(const Options& options) {
-  VolumeOptions volume = options.volume;
-  volume.keep_greys = !options.greys.empty();
-  auto opened = open_volume(volume, progress());
+  auto opened = open_volume(options.volume, progress(), nullptr, !options.greys.empty());
   if (!opened) return opened.error();
   const auto view = view_of(options, opened->greys);
   if (!view) return view.error();
@@ -75,7 +74,7 @@ Status run(const Options& options) {
 void add(CLI::App& app, Todo& todo) {
   auto* command = app.add_subcommand("picture", "a bone as a PNG, in any view");
   auto options = std::make_shared<Options>();
-  command->add_option("volume", options->volume.path, "file, DICOM folder, or phantom:NAME")
+  command->add_option("volume", options->volume.source, "file, DICOM folder, or phantom:NAME")
       ->required();
   command->add_option("--out", options->out, "F.png")->required();
   command

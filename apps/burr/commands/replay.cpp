@@ -31,7 +31,7 @@ namespace {
 struct Options {
   std::string file, beside, picture, film, sound;
   ViewOptions view;
-  VolumeOptions volume;
+  scenario::Recipe volume;
   PictureSize size;
   double at = -1, fps = 25;
   bool effects = false;
@@ -205,8 +205,7 @@ Status run(const Options& options) {
 
   if (options.check) {
     const record::SessionInfo& info = player.info();
-    if (info.volume.words.contains("materials") && !info.embedded &&
-        options.volume.materials.empty())
+    if (!info.volume.recipe.materials.empty() && !info.embedded && options.volume.materials.empty())
       return error(
           Trouble::usage,
           fmt::format("{}: was made with an own table of materials; give it again with --materials",
@@ -272,11 +271,11 @@ void add(CLI::App& app, Todo& todo) {
                       "PNG of the window as it was when it closed, panels and all");
   command->add_option("--at", options->at, "seconds from the start (default: the end)")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--volume", options->volume.path,
+  command->add_option("--volume", options->volume.source,
                       "the scan it was made from, if it cannot be found");
   command->add_option("--series", options->volume.series,
                       "of a DICOM folder, if the recording was made with one");
-  command->add_option("--tissues", options->volume.tissues,
+  command->add_option("--tissues", options->volume.labels,
                       "TOML table, if the recording was made with one");
   command->add_option("--materials", options->volume.materials,
                       "TOML table of materials, if the recording was made with one");

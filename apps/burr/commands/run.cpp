@@ -20,6 +20,7 @@
 #include "burr/surgeon/motion.h"
 #include "commands/command.h"
 #include "commands/summary.h"
+#include "commands/volume_words.h"
 #include "window/mill/window.h"
 #include "window/shell/loading.h"
 #include "window/shell/pages.h"
@@ -181,7 +182,7 @@ Status run_in_window(const Options& options) {
   auto desk = Desk::open(users_places());
   if (!desk) return desk.error();
   (*desk)->headset_wanted = (*desk)->headset_wanted || options.xr;
-  if (options.work.volume.path.empty())
+  if (options.work.volume.source.empty())
     return run_pages(**desk, {options.seconds, options.out, options.screenshot, !options.no_sound,
                               options.work});
 
@@ -274,7 +275,7 @@ void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("run", "mill a bone in a window");
   command->add_option(
-      "bone", options->work.volume.path,
+      "bone", options->work.volume.source,
       "a case (temporal-bone, jaw, ... or a .toml file), or a scan: file or DICOM folder; without "
       "it: the start page, headless: temporal-bone");
   command->add_flag("--headless", options->headless,

@@ -12,7 +12,7 @@
 #include "commands/command.h"
 #include "verify.h"
 #include "workbench.h"
-#include "workshop/volume_options.h"
+#include "workshop/open_volume.h"
 
 namespace burr::app {
 namespace {
@@ -20,15 +20,16 @@ namespace {
 using math::Vec3;
 
 struct Subject {
-  const char *name, *file, *spacing_mm;
+  const char *name, *file;
+  double spacing_mm;  // of a file that states it wrongly; 0: the file's
   double minutes;
   bool smooth;  // at the size of a burr; a rough one lets it drop from edge to edge
 };
 constexpr Subject kSubjects[] = {
-    {"temporal bone", "temporal_bone/RT143_512.seg.nrrd", "", 10, false},
-    {"jaw", "jaw_cbct/jaw_cbct_half_0.4mm.nii.gz", "", 2, false},
-    {"tooth", "tooth_microct/tooth.nhdr", "0.1,0.1,0.1", 2, true},
-    {"plastic skull", "skull_phantom/bone_1mm_jpegls", "", 2, true},
+    {"temporal bone", "temporal_bone/RT143_512.seg.nrrd", 0, 10, false},
+    {"jaw", "jaw_cbct/jaw_cbct_half_0.4mm.nii.gz", 0, 2, false},
+    {"tooth", "tooth_microct/tooth.nhdr", 0.1, 2, true},
+    {"plastic skull", "skull_phantom/bone_1mm_jpegls", 0, 2, true},
 };
 
 constexpr double kNear = 0.3;      // a crossing nearer than its disc is wide may press      [voxel]
@@ -155,9 +156,9 @@ void bones(const Verify& verify, Report::Part& part) {
     }
     if (verify.quick && subject.minutes > 5) continue;
     if (interrupted()) return;
-    VolumeOptions options;
-    options.path = file.string();
-    options.spacing_mm = subject.spacing_mm;
+    scenario::Recipe options;
+    options.source = file.string();
+    options.spacing_mm = math::Vec3::Constant(subject.spacing_mm);
     auto opened = open_volume(options, progress());
     if (!opened) {
       part.cannot(fmt::format("{}: {}", subject.name, opened.error().text));

@@ -191,28 +191,22 @@ std::string number_text(double value) { return fmt::format("{}", value); }
 
 Box whole(const io::Scan& scan) { return {Ijk::Zero(), scan.size - Ijk::Ones()}; }
 
-std::string roi_words(const io::Scan& scan, const Box& box) {
-  if (box == whole(scan)) return "";
+std::optional<scenario::Region> region_of(const io::Scan& scan, const Box& box) {
+  if (box == whole(scan)) return std::nullopt;
   int first = box.from.z(), last = box.to.z();
   if (scan.k_reversed) {
     const int end = scan.size.z() - 1;
     first = end - box.to.z();
     last = end - box.from.z();
   }
-  return fmt::format("{},{},{},{},{},{}", box.from.x(), box.to.x(), box.from.y(), box.to.y(), first,
-                     last);
+  return scenario::Region{{box.from.x(), box.to.x()}, {box.from.y(), box.to.y()}, {first, last}};
 }
 
-Result<Box> box_of(const io::Scan& scan, const std::string& roi) {
-  if (roi.empty()) return whole(scan);
-  VolumeOptions options;
-  options.roi = roi;
-  const auto read = import_options(options);
-  if (!read) return read.error();
-  Box box{{read->roi->i[0], read->roi->j[0], read->roi->k[0]},
-          {read->roi->i[1], read->roi->j[1], read->roi->k[1]}};
+Result<Box> box_of(const io::Scan& scan, const std::optional<scenario::Region>& region) {
+  if (!region) return whole(scan);
+  Box box{{region->i[0], region->j[0], region->k[0]}, {region->i[1], region->j[1], region->k[1]}};
   for (int a = 0; a < 3; ++a)
-    if (box.from[a] > box.to[a] || box.to[a] >= scan.size[a])
+    if (box.from[a] < 0 || box.from[a] > box.to[a] || box.to[a] >= scan.size[a])
       return error(Trouble::usage, fmt::format("--roi: {} {}..{} does not lie in 0..{}", "ijk"[a],
                                                box.from[a], box.to[a], scan.size[a] - 1));
   if (scan.k_reversed) {
@@ -265,7 +259,7 @@ SessionMemory session_memory(const io::Scan& scan, const importing::ImportSummar
   constexpr double kSession = 20, kSpared = 40;                              // [MB]
   const Extent extent = extent_of(scan, plan);
   const double bone = (extent.bricks * (plan.labels ? kLabelBrick : kGreyBrick) +
-                       static_cast<double>(importing::ImportOptions{}.reserve_bricks) * kReserved) /
+                       static_cast<double>(scenario::Recipe{}.reserve_bricks) * kReserved) /
                       kMb;
   const double region = plan.roi_size.cast<double>().prod() / kMb,
                made = plan.size.cast<double>().prod() / kMb;
@@ -300,31 +294,25 @@ double free_memory_mb() {
   return free;
 }
 
-Result<Planned> plan_session(const io::Scan& scan, const VolumeOptions& options) {
-  const auto importing = import_options(options);
-  if (!importing) return importing.error();
-  auto plan = importing::plan_import(scan, *importing);
+Result<Planned> plan_session(const io::Scan& scan, const scenario::Recipe& recipe) {
+  auto plan = importing::plan_import(scan, recipe);
   if (!plan) return plan.error();
   Planned planned{std::move(*plan), {}};
   planned.memory = session_memory(scan, planned.import);
   return planned;
 }
 
-Result<OpenedScan> open_scan(const VolumeOptions& volume, Progress& progress) {
-  const auto reading = read_options(volume);
-  if (!reading) return reading.error();
-  const auto importing = import_options(volume);
-  if (!importing) return importing.error();
-  auto read = io::read_scan(volume.path, *reading, progress);
+Result<OpenedScan> open_scan(const scenario::Recipe& recipe, Progress& progress) {
+  auto read = io::read_scan(recipe.source, read_options(recipe), progress);
   if (!read) return read.error();
   auto scan = std::make_shared<const io::Scan>(std::move(*read));
   progress.report(1, "counting values");
-  auto planned = plan_session(*scan, volume);
+  auto planned = plan_session(*scan, recipe);
   if (!planned && scan->size.minCoeff() < 2) return planned.error();
-  auto labels = importing::labels_of(*scan, *importing);
+  auto labels = importing::labels_of(*scan, recipe);
   if (!labels) return labels.error();
   Greys greys = greys_of(*scan);
-  return OpenedScan{volume, std::move(scan), std::move(greys), std::move(*labels),
+  return OpenedScan{recipe, std::move(scan), std::move(greys), std::move(*labels),
                     std::move(planned)};
 }
 

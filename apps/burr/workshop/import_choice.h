@@ -1,9 +1,9 @@
-// apps/burr/workshop/import_choice.h - what is decided about a scan before it becomes bone, in numbers and
-// words of options: its greys, its directions, the region, the kinds of its labels, the memory.
+// apps/burr/workshop/import_choice.h - what is decided about a scan before it becomes bone, in the numbers
+// of a recipe: its greys, its directions, the region, the kinds of its labels, the memory.
 //
-//     auto opened = open_scan(volume, progress);             // reads it, once
-//     volume.roi = roi_words(*opened->scan, box);            // as if it had been typed
-//     auto planned = plan_session(*opened->scan, volume);    // what would be made of it
+//     auto opened = open_scan(recipe, progress);             // reads it, once
+//     recipe.region = region_of(*opened->scan, box);          // as the mouse pulled it
+//     auto planned = plan_session(*opened->scan, recipe);    // what would be made of it
 //
 // Thread: any.
 #pragma once
@@ -12,10 +12,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "workshop/volume_options.h"
+#include "workshop/open_volume.h"
 
 namespace burr::app {
 
@@ -48,10 +49,11 @@ struct Box {
   bool operator==(const Box& other) const { return from == other.from && to == other.to; }
 };
 [[nodiscard]] Box whole(const io::Scan& scan);
-// As --roi says it: voxels of the file. "" is the whole scan.
-[[nodiscard]] std::string roi_words(const io::Scan& scan, const Box& box);
-// Error: not six numbers, or not inside the scan.
-[[nodiscard]] Result<Box> box_of(const io::Scan& scan, const std::string& roi);
+// In voxels of the file; none: the whole scan.
+[[nodiscard]] std::optional<scenario::Region> region_of(const io::Scan& scan, const Box& box);
+// Error: not inside the scan.
+[[nodiscard]] Result<Box> box_of(const io::Scan& scan,
+                                 const std::optional<scenario::Region>& region);
 
 // A table for --tissues that says of each label what kind it is, where that differs from what burr
 // would take it for; "" where it nowhere does. Holds no name of a label.
@@ -81,16 +83,16 @@ struct Planned {
   importing::ImportSummary import;
   SessionMemory memory;
 };
-[[nodiscard]] Result<Planned> plan_session(const io::Scan& scan, const VolumeOptions& options);
+[[nodiscard]] Result<Planned> plan_session(const io::Scan& scan, const scenario::Recipe& recipe);
 
 struct OpenedScan {
-  VolumeOptions volume;  // as asked for
+  scenario::Recipe volume;  // as asked for
   std::shared_ptr<const io::Scan> scan;
   Greys greys;                                 // of a grey scan
   std::vector<importing::TissueFound> labels;  // of a label map
   Result<Planned> planned;                     // with `volume`
 };
 // Error: it cannot be read, or is a picture and no volume.
-[[nodiscard]] Result<OpenedScan> open_scan(const VolumeOptions& volume, Progress& progress);
+[[nodiscard]] Result<OpenedScan> open_scan(const scenario::Recipe& recipe, Progress& progress);
 
 }  // namespace burr::app

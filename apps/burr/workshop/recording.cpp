@@ -17,65 +17,35 @@
 namespace burr::app {
 namespace {
 
-constexpr const char* kPhantom = "phantom:";
 constexpr std::size_t kBrickRows = 8192;  // changed bricks that may wait for the disk
 
-// How the bone was made, without any path or identifier.
-void describe_volume(const VolumeOptions& options, const importing::ImportSummary& import,
-                     record::VolumeInfo& info) {
-  info.words["format"] = import.format;
-  if (is_phantom(options.path))
-    info.words["phantom"] = options.path.substr(std::string(kPhantom).size());
-  info.numbers["voxel_mm"] = options.voxel_mm;
-  info.numbers["smooth"] = options.smooth;
-  info.numbers["memory_mb"] = options.memory_mb;
-  if (!options.iso.empty()) info.words["iso"] = options.iso;
-  if (!options.roi.empty()) info.words["roi"] = options.roi;
-  if (!options.spacing_mm.empty()) info.words["spacing_mm"] = options.spacing_mm;
-  if (!options.series.empty())
-    info.words["series"] = options.series.front() == '#' ? options.series : "given by name";
-  if (!options.tissues.empty()) info.words["tissue_table"] = "own";
-  if (!options.materials.empty()) info.words["materials"] = "own";
-}
-
-Result<VolumeOptions> options_of(const record::SessionInfo& session, const VolumeOptions& given,
-                                 const std::string& where) {
-  const record::VolumeInfo& info = session.volume;
-  VolumeOptions options = given;
-  const auto number = [&info](const char* name, double otherwise) {
-    const auto found = info.numbers.find(name);
-    return found == info.numbers.end() ? otherwise : found->second;
-  };
-  const auto word = [&info](const char* name) {
-    const auto found = info.words.find(name);
-    return found == info.words.end() ? std::string() : found->second;
-  };
-  options.voxel_mm = number("voxel_mm", 0);
-  options.smooth = number("smooth", -1);
-  options.memory_mb = number("memory_mb", 0);
-  options.reserve_bricks = info.reserve_bricks;
-  options.iso = word("iso");
-  options.roi = word("roi");
-  options.spacing_mm = word("spacing_mm");
-  const std::string series = word("series");
-  if (!series.empty() && series.front() == '#') options.series = series;
-  if (!series.empty() && series.front() != '#' && given.series.empty())
+// How the bone was made, with what only the user has: the file, tables, a series by its UID.
+Result<scenario::Recipe> recipe_of(const scenario::Recipe& recorded, const scenario::Recipe& given,
+                                   const std::string& where) {
+  scenario::Recipe recipe = recorded;
+  recipe.source = given.source;
+  recipe.labels = given.labels;
+  recipe.materials = given.materials;
+  recipe.read_seconds = given.read_seconds;
+  recipe.read_memory_mb = given.read_memory_mb;
+  if (!recorded.series.starts_with('#')) recipe.series = given.series;
+  if (recorded.series == scenario::kOwn && given.series.empty())
     return error(Trouble::usage, fmt::format("{}: was made from a series chosen by its UID, which "
                                              "is not kept; give it again with --series",
                                              where));
-  if (!word("tissue_table").empty() && given.tissues.empty())
+  if (!recorded.labels.empty() && given.labels.empty())
     return error(
         Trouble::usage,
         fmt::format("{}: was made with an own table of tissues; give it again with --tissues",
                     where));
-  return options;
+  return recipe;
 }
 
 }  // namespace
 
-Status Recording::start(sim::Session& session, const std::string& file, const VolumeOptions& volume,
-                        const importing::ImportSummary& import, const std::string& motion,
-                        bool embed, const std::optional<Tissues>& spared,
+Status Recording::start(sim::Session& session, const std::string& file,
+                        const scenario::Recipe& volume, const importing::ImportSummary& import,
+                        const std::string& motion, bool embed, const std::optional<Tissues>& spared,
                         const std::optional<scenario::Case>& work_case) {
   record::SessionInfo info;
   sim::describe(session.settings(), session.hand().spec(), info);
@@ -84,15 +54,15 @@ Status Recording::start(sim::Session& session, const std::string& file, const Vo
   if (work_case) info.work_case = record::case_info(*work_case);
   const volume::Bone& bone = session.bone();
   info.volume.content_hash = bone.content_hash();
-  if (!is_phantom(volume.path)) {
-    auto print = record::fingerprint(volume.path);
+  if (!scenario::is_phantom(volume.source)) {
+    auto print = record::fingerprint(volume.source);
     if (print) info.volume.source_fingerprint = *print;
   }
   info.volume.grid = bone.grid();
   info.volume.tissues = bone.tissues();
   info.volume.has_intensity = bone.has_intensity();
-  info.volume.reserve_bricks = volume.reserve_bricks;
-  describe_volume(volume, import, info.volume);
+  info.volume.format = import.format;
+  info.volume.recipe = scenario::without_paths(volume);
   file_ = file;
   rate_hz_ = info.rate_hz;
   recorder_ =
@@ -171,39 +141,37 @@ nlohmann::json Recording::account() const {
 }
 
 Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,
-                                              const VolumeOptions& given, Progress& progress) {
+                                              const scenario::Recipe& given, Progress& progress) {
   const record::SessionInfo& info = player.info();
-  if (info.embedded && given.path.empty())
-    return player.embedded_bone(static_cast<std::size_t>(info.volume.reserve_bricks));
+  if (info.embedded && given.source.empty())
+    return player.embedded_bone(static_cast<std::size_t>(info.volume.recipe.reserve_bricks));
 
-  auto options = options_of(info, given, player.path());
-  if (!options) return options.error();
-  const auto phantom = info.volume.words.find("phantom");
-  if (phantom != info.volume.words.end() && given.path.empty()) {
-    options->path = kPhantom + phantom->second;
-  } else if (!is_phantom(given.path)) {
-    auto found =
-        record::find_volume(info.volume, {given.path, record::volume_search_path(), player.path()});
+  const scenario::Recipe& recorded = info.volume.recipe;
+  auto recipe = recipe_of(recorded, given, player.path());
+  if (!recipe) return recipe.error();
+  if (scenario::is_phantom(recorded.source) && given.source.empty()) {
+    recipe->source = recorded.source;
+  } else if (!scenario::is_phantom(given.source)) {
+    auto found = record::find_volume(info.volume,
+                                     {given.source, record::volume_search_path(), player.path()});
     if (!found) return found.error();
-    options->path = *found;
+    recipe->source = *found;
   }
-  auto made = open_volume(*options, progress);
+  auto made = open_volume(*recipe, progress);
   if (!made) return made.error();
-  Status same = record::check_volume(info.volume, *made->bone, options->path);
+  Status same = record::check_volume(info.volume, *made->bone, recipe->source);
   if (!same) return same.error();
   return std::move(made->bone);
 }
 
 std::shared_ptr<const volume::Greys> scan_greys_of(const record::Player& player,
-                                                   const VolumeOptions& given, Progress& progress) {
-  const auto print = record::fingerprint(given.path);
+                                                   const scenario::Recipe& given,
+                                                   Progress& progress) {
+  const auto print = record::fingerprint(given.source);
   if (!print || *print != player.info().volume.source_fingerprint) return nullptr;
-  const auto reading = read_options(given);
-  const auto importing = import_options(given);
-  if (!reading || !importing) return nullptr;
-  const auto scan = io::read_scan(given.path, *reading, progress);
+  const auto scan = io::read_scan(given.source, read_options(given), progress);
   if (!scan) return nullptr;
-  const auto plan = importing::plan_import(*scan, *importing);
+  const auto plan = importing::plan_import(*scan, given);
   return plan ? importing::keep_greys(*scan, plan->iso, progress) : nullptr;
 }
 

@@ -15,8 +15,8 @@
 #include "burr/scenario/case.h"
 #include "burr/sim/session.h"
 #include "burr/volume/greys.h"
+#include "workshop/open_volume.h"
 #include "workshop/spared_distance.h"
-#include "workshop/volume_options.h"
 
 namespace burr::app {
 
@@ -31,7 +31,7 @@ class Recording {
   // file, so that a score can be worked out from it.
   // Error: only what the user can put right before anything has begun (a folder that does not
   // exist, a name that another burr is recording to).
-  Status start(sim::Session& session, const std::string& file, const VolumeOptions& volume,
+  Status start(sim::Session& session, const std::string& file, const scenario::Recipe& volume,
                const importing::ImportSummary& import, const std::string& motion, bool embed,
                const std::optional<Tissues>& spared = {},
                const std::optional<scenario::Case>& work_case = {});
@@ -55,16 +55,16 @@ class Recording {
 };
 
 // The bone a recording began with: from inside the file, by formula, or from the user's own scan
-// (search: given.path, BURR_VOLUME_PATH, beside the recording). given: what the user said on the
+// (search: given.source, BURR_VOLUME_PATH, beside the recording). given: what the user said on the
 // command line; empty path: search.
 [[nodiscard]] Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,
-                                                            const VolumeOptions& given,
+                                                            const scenario::Recipe& given,
                                                             Progress& progress);
 
-// What the scan measured, for slices, read again from given.path. nullptr: no grey scan, not the
+// What the scan measured, for slices, read again from given.source. nullptr: no grey scan, not the
 // one the recording was made from, or it cannot be read.
 [[nodiscard]] std::shared_ptr<const volume::Greys> scan_greys_of(const record::Player& player,
-                                                                 const VolumeOptions& given,
+                                                                 const scenario::Recipe& given,
                                                                  Progress& progress);
 
 }  // namespace burr::app

@@ -31,22 +31,22 @@ bool names_a_case(const std::string& path) {
 // a phantom's bare name; a file of that name comes first
 bool bare_name(const std::string& path) {
   std::error_code nobody_asks;
-  return !is_phantom(path) && path.find_first_of("./") == std::string::npos &&
+  return !scenario::is_phantom(path) && path.find_first_of("./") == std::string::npos &&
          !std::filesystem::exists(path, nobody_asks);
 }
 
 }  // namespace
 
 bool names_a_scan(const WorkOptions& options) {
-  const std::string& path = options.volume.path;
-  return !path.empty() && !names_a_case(path) && !is_phantom(path) && !bare_name(path);
+  const std::string& path = options.volume.source;
+  return !path.empty() && !names_a_case(path) && !scenario::is_phantom(path) && !bare_name(path);
 }
 
 Status take_case(WorkOptions& options) {
-  VolumeOptions& volume = options.volume;
-  if (volume.path.empty()) volume.path = "temporal-bone";
-  if (names_a_case(volume.path)) {
-    const auto read = scenario::read_case(volume.path);
+  scenario::Recipe& volume = options.volume;
+  if (volume.source.empty()) volume.source = "temporal-bone";
+  if (names_a_case(volume.source)) {
+    const auto read = scenario::read_case(volume.source);
     if (!read) return read.error();
     take_case(options, *read);
   }
@@ -56,8 +56,8 @@ Status take_case(WorkOptions& options) {
 }
 
 void take_case(WorkOptions& options, const scenario::Case& work) {
-  VolumeOptions& volume = options.volume;
-  volume.path = work.phantom.empty() ? work.volume : "phantom:" + work.phantom;
+  scenario::Recipe& volume = options.volume;
+  volume.source = work.phantom.empty() ? work.volume : scenario::phantom_source(work.phantom);
   if (volume.voxel_mm == 0) volume.voxel_mm = 1e3 * work.voxel;
   if (options.burr_mm == 0) options.burr_mm = 2e3 * work.burr.radius;
   if (options.rpm == 0) options.rpm = work.full_speed * 60 / (2 * std::numbers::pi);
@@ -72,10 +72,10 @@ void take_case(WorkOptions& options, const scenario::Case& work) {
 }
 
 Result<Work> open_work(WorkOptions options, Progress& progress, const io::Scan* scan) {
-  VolumeOptions& volume = options.volume;
-  if (bare_name(volume.path)) volume.path = "phantom:" + volume.path;
-  const bool phantom = is_phantom(volume.path);
-  auto made = open_volume(volume, progress, scan);
+  scenario::Recipe& volume = options.volume;
+  if (bare_name(volume.source)) volume.source = scenario::phantom_source(volume.source);
+  const bool phantom = scenario::is_phantom(volume.source);
+  auto made = open_volume(volume, progress, scan, options.keep_greys);
   if (!made) return made.error();
   if (options.work_case) {
     const Status fits = scenario::check_tissues(*options.work_case, made->bone->tissues());
@@ -85,8 +85,7 @@ Result<Work> open_work(WorkOptions options, Progress& progress, const io::Scan* 
   Work work;
   work.made = std::move(*made);
   work.volume = volume;
-  work.what =
-      phantom ? volume.path.substr(volume.path.find(':') + 1) : work.made.summary.format + " scan";
+  work.what = phantom ? scenario::phantom_name(volume.source) : work.made.summary.format + " scan";
   auto place =
       surgeon::find_work_place(*work.made.bone, 0.5e-3 * options.burr_mm, options.at, options.into);
   if (!place) return place.error();

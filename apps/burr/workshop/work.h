@@ -21,14 +21,15 @@
 #include "window/hands/mouse_hand.h"
 #include "workshop/arm_publisher.h"
 #include "workshop/hand_device.h"
+#include "workshop/open_volume.h"
 #include "workshop/spared_distance.h"
 #include "workshop/suction_hand.h"
-#include "workshop/volume_options.h"
 
 namespace burr::app {
 
 struct WorkOptions {
-  VolumeOptions volume;         // path: a case, a .toml file, a phantom or a scan
+  scenario::Recipe volume;      // source: also a case or a .toml file, until take_case()
+  bool keep_greys = false;      // of a grey scan, for slices with its own values
   double burr_mm = 0, rpm = 0;  // 0: the case's, or 5 mm and 40 000
   double seconds = 0;           // of the demonstration; 0: the case's
   HandRequest hand;             // at the window
@@ -54,8 +55,8 @@ void take_case(WorkOptions& options, const scenario::Case& work);
 
 struct Work {
   importing::Imported made;
-  std::string what;      // in our words
-  VolumeOptions volume;  // with the case's name as a phantom
+  std::string what;  // in our words
+  scenario::Recipe volume;
   surgeon::WorkPlace place;
 };
 // After take_case(). scan: as open_volume() wants it. Error: also a tissue that the case names and
@@ -73,7 +74,7 @@ void fit_burr(WorkOptions& options, importing::Imported& made);
 // told last goes first.
 struct Ready {
   std::string title, what;  // one line; what it is in our words: neither names a patient
-  VolumeOptions volume;
+  scenario::Recipe volume;
   importing::ImportSummary import;
   std::unique_ptr<sim::Session> session;
   Hands hands;  // the session's

@@ -39,11 +39,12 @@ std::size_t product(const Ijk& n) {
          static_cast<std::size_t>(n.z());
 }
 
-Status set_region(const io::Scan& scan, const ImportOptions& options, ImportSummary& out) {
+Status set_region(const io::Scan& scan, const scenario::Recipe& recipe, ImportSummary& out) {
   out.roi_from = {0, 0, 0};
   out.roi_size = scan.size;
-  if (!options.roi) return fine();
-  const std::array<std::array<int, 2>, 3> box = {options.roi->i, options.roi->j, options.roi->k};
+  if (!recipe.region) return fine();
+  const std::array<std::array<int, 2>, 3> box = {recipe.region->i, recipe.region->j,
+                                                 recipe.region->k};
   constexpr const char* kAxes = "ijk";
   for (int a = 0; a < 3; ++a) {
     const auto& range = box[static_cast<std::size_t>(a)];
@@ -59,7 +60,7 @@ Status set_region(const io::Scan& scan, const ImportOptions& options, ImportSumm
 
 // Sets the cubic voxels: as wide as the finest axis, or as requested, or wider to keep to the
 // memory budget.
-Status set_voxels(const io::Scan& scan, const ImportOptions& options, Plan& plan) {
+Status set_voxels(const io::Scan& scan, const scenario::Recipe& recipe, Plan& plan) {
   ImportSummary& out = plan.summary;
   const Vec3 spacing = scan.spacing_mm;
   const bool labels = out.labels;
@@ -78,23 +79,23 @@ Status set_voxels(const io::Scan& scan, const ImportOptions& options, Plan& plan
     // to be two thirds)
     const double each = labels ? 2 + 2.0 : 4 + 3.4;
     return voxels * each / 1048576.0 +
-           static_cast<double>(options.reserve_bricks) * 2560 / 1048576.0;
+           static_cast<double>(recipe.reserve_bricks) * 2560 / 1048576.0;
   };
-  if (options.voxel_mm != 0) {
-    if (!(options.voxel_mm >= 0.005 && options.voxel_mm <= 20))
+  if (recipe.voxel_mm != 0) {
+    if (!(recipe.voxel_mm >= 0.005 && recipe.voxel_mm <= 20))
       return error(Trouble::usage,
-                   fmt::format("--voxel-mm: {} is not between 0.005 and 20", options.voxel_mm));
-    voxel = options.voxel_mm;
-    // already nearly cubic: keep the grid if an axis is off by less than a third of a voxel in all
+                   fmt::format("--voxel-mm: {} is not between 0.005 and 20", recipe.voxel_mm));
+    voxel = recipe.voxel_mm;
+    // nearly cubic and wanted as it is: an axis off by less than a third of a voxel in all stays
   } else {
     const double finest = voxel;
-    while (memory_mb(voxel) > options.memory_budget_mb) voxel *= 1.02;
+    while (memory_mb(voxel) > recipe.memory_mb) voxel *= 1.02;
     if (voxel > finest)
       out.notices.push_back(
           fmt::format("Voxels of {:.3g} mm would take {:.0f} MB, more than the budget of {:.0f} "
                       "MB: {:.3g} mm was taken; "
                       "crop with --roi or give --voxel-mm.",
-                      finest, memory_mb(finest), options.memory_budget_mb, voxel));
+                      finest, memory_mb(finest), recipe.memory_mb, voxel));
   }
   double voxels = 1;
   for (int a = 0; a < 3; ++a)
@@ -107,7 +108,7 @@ Status set_voxels(const io::Scan& scan, const ImportOptions& options, Plan& plan
 
   // a grid that is cubic but for rounding in its header is not resampled
   const double mean = spacing.mean();
-  bool nearly = options.voxel_mm == 0 || std::abs(options.voxel_mm - mean) < 0.002 * mean;
+  bool nearly = recipe.voxel_mm == 0 || std::abs(recipe.voxel_mm - mean) < 0.002 * mean;
   for (int a = 0; a < 3; ++a)
     nearly = nearly && std::abs(spacing[a] - mean) / mean * out.roi_size[a] < 0.6;
   if (nearly && voxel < 1.002 * mean) {
@@ -149,16 +150,16 @@ std::array<std::int64_t, 256> count_labels(const io::Scan& scan, const ImportSum
   return counts;
 }
 
-Result<Materials> materials_of(const ImportOptions& options) {
-  if (options.materials.empty()) return built_in_materials();
-  return read_materials(options.materials);
+Result<Materials> materials_of(const scenario::Recipe& recipe) {
+  if (recipe.materials.empty()) return built_in_materials();
+  return read_materials(recipe.materials);
 }
 
-Result<Plan> make_plan(const io::Scan& scan, const ImportOptions& options) {
+Result<Plan> make_plan(const io::Scan& scan, const scenario::Recipe& recipe) {
   if (scan.values.empty() == scan.labels.empty() ||
       std::max(scan.values.size(), scan.labels.size()) != product(scan.size))
     return error(Trouble::internal, "a scan needs values or labels, one for each voxel");
-  const auto given = materials_of(options);
+  const auto given = materials_of(recipe);
   if (!given) return given.error();
   const Materials& materials = *given;
   Plan plan;
@@ -171,18 +172,18 @@ Result<Plan> make_plan(const io::Scan& scan, const ImportOptions& options) {
   out.labels = scan.values.empty();
   out.hounsfield = scan.hounsfield;
   out.notices = scan.notices;
-  if (Status status = set_region(scan, options, out); !status) return status.error();
+  if (Status status = set_region(scan, recipe, out); !status) return status.error();
   if (out.roi_size.minCoeff() < 2)
     return error(
         fmt::format("{} x {} x {} voxels are no volume; give the folder of the whole series",
                     out.roi_size.x(), out.roi_size.y(), out.roi_size.z()));
-  if (Status status = set_voxels(scan, options, plan); !status) return status.error();
+  if (Status status = set_voxels(scan, recipe, plan); !status) return status.error();
 
   if (out.labels) {
     plan.counts = count_labels(scan, out);
     std::array<bool, 256> present{};
     for (std::size_t v = 1; v < 256; ++v) present[v] = plan.counts[v] > 0;
-    auto labels = label_tissues(scan, present, options.tissue_table, materials);
+    auto labels = label_tissues(scan, present, recipe.labels, materials);
     if (!labels) return labels.error();
     plan.labels = std::move(*labels);
     out.notices.insert(out.notices.end(), plan.labels.notices.begin(), plan.labels.notices.end());
@@ -202,7 +203,7 @@ Result<Plan> make_plan(const io::Scan& scan, const ImportOptions& options) {
     return plan;
   }
 
-  if (!options.tissue_table.empty())
+  if (!recipe.labels.empty())
     out.notices.emplace_back(
         "--tissues speaks of labels; this scan has grey values, the table was left out.");
   out.low = std::numeric_limits<float>::infinity();
@@ -224,8 +225,8 @@ Result<Plan> make_plan(const io::Scan& scan, const ImportOptions& options) {
       out.low = std::min(out.low, low);
       out.high = std::max(out.high, high);
     }
-  if (options.iso) {
-    out.iso = *options.iso;
+  if (recipe.iso) {
+    out.iso = *recipe.iso;
   } else if (scan.hounsfield && kBoneHu < double{out.high}) {
     out.iso = kBoneHu;
   } else {
@@ -245,8 +246,8 @@ Result<Plan> make_plan(const io::Scan& scan, const ImportOptions& options) {
         "the surface level {:.4g} does not lie between the values {:.4g} and {:.4g}: there is "
         "no bone; choose another with --iso",
         out.iso, out.low, out.high));
-  if (options.smooth >= 0) {
-    out.smooth = options.smooth;
+  if (recipe.smooth >= 0) {
+    out.smooth = recipe.smooth;
   } else {
     const double noise = measure_noise(scan, out.roi_from, out.roi_size, out.iso);
     // Noise below half a percent of the step from air to bone cannot be felt; more than a tenth is
@@ -361,7 +362,7 @@ bool resample_labels(const io::Scan& scan, const Plan& plan, const std::array<bo
   });
 }
 
-Result<Imported> import_labels(const io::Scan& scan, const ImportOptions& options, Plan plan,
+Result<Imported> import_labels(const io::Scan& scan, const scenario::Recipe& recipe, Plan plan,
                                Progress& progress) {
   InsideGrid inside;
   inside.size = plan.summary.size;
@@ -388,15 +389,15 @@ Result<Imported> import_labels(const io::Scan& scan, const ImportOptions& option
   }
   Imported made;
   made.bone = bone_from_inside(grid_of(scan, plan), std::move(plan.labels.table), inside, {},
-                               options.reserve_bricks, progress);
+                               recipe.reserve_bricks, progress);
   if (made.bone == nullptr) return error(Trouble::interrupted, "the import was stopped");
   keep_volumes(*made.bone, wanted);
   made.summary = std::move(plan.summary);
   return made;
 }
 
-Result<Imported> import_grey(const io::Scan& scan, const ImportOptions& options, Plan plan,
-                             Progress& progress) {
+Result<Imported> import_grey(const io::Scan& scan, const scenario::Recipe& recipe, Plan plan,
+                             bool with_greys, Progress& progress) {
   ImportSummary& out = plan.summary;
   Grey grey = take_grey(scan, out.roi_from, out.roi_size);
   const double iso = grey.stored(out.iso);
@@ -414,9 +415,9 @@ Result<Imported> import_grey(const io::Scan& scan, const ImportOptions& options,
   const GreyTissue rule{grey.step, grey.zero, scan.hounsfield};
   Imported made;
   made.bone = bone_from_inside(grid_of(scan, plan), std::move(plan.grey_tissues), inside, rule,
-                               options.reserve_bricks, progress);
+                               recipe.reserve_bricks, progress);
   if (made.bone == nullptr) return stopped();
-  if (options.keep_greys) {
+  if (with_greys) {
     made.greys = keep_greys(scan, out.iso, progress);
     if (made.greys == nullptr) return stopped();
   }
@@ -426,23 +427,23 @@ Result<Imported> import_grey(const io::Scan& scan, const ImportOptions& options,
 
 }  // namespace
 
-Result<ImportSummary> plan_import(const io::Scan& scan, const ImportOptions& options) {
-  auto plan = make_plan(scan, options);
+Result<ImportSummary> plan_import(const io::Scan& scan, const scenario::Recipe& recipe) {
+  auto plan = make_plan(scan, recipe);
   if (!plan) return plan.error();
   return std::move(plan->summary);
 }
 
-Result<std::vector<TissueFound>> labels_of(const io::Scan& scan, const ImportOptions& options) {
+Result<std::vector<TissueFound>> labels_of(const io::Scan& scan, const scenario::Recipe& recipe) {
   std::vector<TissueFound> all;
   if (scan.labels.empty()) return all;
-  const auto materials = materials_of(options);
+  const auto materials = materials_of(recipe);
   if (!materials) return materials.error();
   ImportSummary whole;
   whole.roi_size = scan.size;
   const std::array<std::int64_t, 256> counts = count_labels(scan, whole);
   std::array<bool, 256> present{};
   for (std::size_t v = 1; v < 256; ++v) present[v] = counts[v] > 0;
-  const auto labels = label_tissues(scan, present, options.tissue_table, *materials);
+  const auto labels = label_tissues(scan, present, recipe.labels, *materials);
   if (!labels) return labels.error();
   for (std::size_t v = 1; v < 256; ++v)
     if (const volume::TissueId id = labels->of_label[v]; id != 0)
@@ -457,13 +458,14 @@ Result<std::vector<TissueFound>> labels_of(const io::Scan& scan, const ImportOpt
   return all;
 }
 
-Result<Imported> import_bone(const io::Scan& scan, const ImportOptions& options,
-                             Progress& progress) {
+Result<Imported> import_bone(const io::Scan& scan, const scenario::Recipe& recipe,
+                             Progress& progress, bool with_greys) {
   try {
-    auto plan = make_plan(scan, options);
+    auto plan = make_plan(scan, recipe);
     if (!plan) return plan.error();
-    auto made = plan->summary.labels ? import_labels(scan, options, std::move(*plan), progress)
-                                     : import_grey(scan, options, std::move(*plan), progress);
+    auto made = plan->summary.labels
+                    ? import_labels(scan, recipe, std::move(*plan), progress)
+                    : import_grey(scan, recipe, std::move(*plan), with_greys, progress);
     if (!made) return made;
     const volume::Bone& bone = *made->bone;
     made->summary.solid_mm3 = volume::volume_of(bone) * 1e9;

@@ -12,43 +12,22 @@
 //
 // Units: mm for what people type and read, HU or the file's own unit for values; Bone is SI.
 // Thread: any; uses up to two workers; the result does not depend on their number.
-// Memory: the scan, twice 2 bytes a voxel while working, then the bone. See memory_budget_mb.
+// Memory: the scan, twice 2 bytes a voxel while working, then the bone. See Recipe::memory_mb.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/io/scan.h"
+#include "burr/scenario/recipe.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/greys.h"
 
 namespace burr::importing {
-
-// First and last voxel of a box, both included, counted from 0 as in the file (also for slices that
-// Scan::k_reversed has put in reverse order).
-struct Roi {
-  std::array<int, 2> i{}, j{}, k{};
-};
-
-struct ImportOptions {
-  double voxel_mm = 0;  // edge of the cubic voxels [mm]; 0: the finest axis of the scan, coarser if
-                        // the memory budget demands it
-  double memory_budget_mb = 2048;  // for the work and the bone, if voxel_mm = 0 [MiB]
-  std::optional<double> iso;       // surface level [HU or the file's unit]; none: 300 HU, or Otsu
-  std::optional<Roi> roi;
-  double smooth = -1;        // noise to remove, standard deviation [HU or the file's unit]; 0:
-                             // none, below 0: as measured in the scan
-  std::string tissue_table;  // path of a TOML file (docs/labels.md); empty: by name
-  std::string materials;     // path of a TOML file (docs/materials.md); empty: built-in
-  std::size_t reserve_bricks = 4096;  // room for deposited material
-  bool keep_greys = false;            // keep the values of a grey scan, to show them
-};
 
 // One tissue of the result.
 struct TissueFound {
@@ -87,14 +66,16 @@ struct Imported {
 };
 
 // Makes all decisions of an import without building anything.
-[[nodiscard]] Result<ImportSummary> plan_import(const io::Scan& scan, const ImportOptions& options);
+[[nodiscard]] Result<ImportSummary> plan_import(const io::Scan& scan,
+                                                const scenario::Recipe& recipe);
 
 // Every label that occurs in a label map, and the tissue it becomes; labels that become air have id
 // 0. Empty for a grey scan.
 [[nodiscard]] Result<std::vector<TissueFound>> labels_of(const io::Scan& scan,
-                                                         const ImportOptions& options);
+                                                         const scenario::Recipe& recipe);
 
-[[nodiscard]] Result<Imported> import_bone(const io::Scan& scan, const ImportOptions& options,
-                                           Progress& progress);
+// keep_greys: of a grey scan, to be looked at.
+[[nodiscard]] Result<Imported> import_bone(const io::Scan& scan, const scenario::Recipe& recipe,
+                                           Progress& progress, bool keep_greys = false);
 
 }  // namespace burr::importing

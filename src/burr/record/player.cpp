@@ -447,7 +447,7 @@ Status Player::show(volume::Bone& bone) {
       return error(
           fmt::format("{}: the bone has no room for deposited material; open it with "
                       "reserve_bricks {}",
-                      path_, std::max<std::uint64_t>(info_.volume.reserve_bricks, 1)));
+                      path_, std::max<std::uint64_t>(info_.volume.recipe.reserve_bricks, 1)));
   }
   // bricks that an earlier call changed and that are unchanged at this moment
   for (const auto& [brick, content] : originals_)

@@ -344,9 +344,37 @@ constexpr const char* kSessionSchema = R"({
      }
     },
     "has_intensity": {"type": "boolean"},
-    "reserve_bricks": {"type": "integer", "description": "room for deposits"},
-    "numbers": {"type": "object", "description": "how the file was imported", "additionalProperties": {"type": "number"}},
-    "words": {"type": "object", "description": "how the file was imported, in words", "additionalProperties": {"type": "string"}}
+    "format": {"type": "string", "description": "of the file; formula for a phantom"},
+    "recipe": {
+     "type": "object",
+     "description": "how the bone was made; lengths in mm, levels in HU or the file's unit; no paths",
+     "properties": {
+      "source": {"type": "string", "description": "phantom:NAME, or empty: the user's file"},
+      "series": {"type": "string", "description": "#2 as burr info lists them, or own: by its UID"},
+      "spacing_mm": {"type": "array", "items": {"type": "number"}, "description": "instead of the file's"},
+      "region": {"type": "array", "items": {"type": "integer"}, "description": "voxels of the file, first and last: i0, i1, j0, j1, k0, k1"},
+      "voxel_mm": {"type": "number", "description": "0: the finest axis"},
+      "iso": {"type": "number", "description": "level of the surface"},
+      "smooth": {"type": "number", "description": "noise removed; below 0: as measured"},
+      "labels": {"type": "string", "description": "own: a table of the user's"},
+      "materials": {"type": "string", "description": "own: a table of the user's"},
+      "memory_mb": {"type": "number"},
+      "read_seconds": {"type": "number"},
+      "read_memory_mb": {"type": "number"},
+      "reserve_bricks": {"type": "integer", "description": "room for deposits"}
+     }
+    }
+   }
+  },
+  "case": {
+   "type": "object",
+   "description": "the case of the session",
+   "properties": {
+    "name": {"type": "string"},
+    "text": {"type": "string", "description": "TOML; the path of a volume replaced by: own file"},
+    "text_hash": {"type": "string", "description": "FNV-1a, 64 bits, of text"},
+    "targets": {"type": "array", "items": {"type": "object", "properties": {"tissue": {"type": "string"}, "goal": {"enum": ["open", "expose", "remove"]}, "share": {"type": "number"}}}},
+    "spare": {"type": "array", "items": {"type": "string"}}
    }
   }
  }

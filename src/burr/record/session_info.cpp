@@ -141,6 +141,60 @@ json json_from_case(const CaseInfo& info) {
           {"spare", info.spare}};
 }
 
+// As burr wrote it before 2026-11-25: the options of the command line, numbers and texts.
+bool get_old_recipe(const json& volume, VolumeInfo& info, std::string& missing) {
+  Numbers numbers;
+  Words words;
+  std::uint64_t reserve = 0;
+  const auto wrong = [&missing](const char* field) {
+    missing = std::string("volume.") + field;
+    return false;
+  };
+  if (!get_count(volume, "reserve_bricks", reserve)) return wrong("reserve_bricks");
+  if (!get_number_object(part(volume, "numbers"), numbers)) return wrong("numbers");
+  if (!get_word_object(part(volume, "words"), words)) return wrong("words");
+  scenario::Recipe& recipe = info.recipe;
+  info.format = words["format"];
+  if (!words["phantom"].empty()) recipe.source = scenario::phantom_source(words["phantom"]);
+  if (numbers.contains("voxel_mm")) recipe.voxel_mm = numbers["voxel_mm"];
+  if (numbers.contains("smooth")) recipe.smooth = numbers["smooth"];
+  if (numbers["memory_mb"] > 0) recipe.memory_mb = numbers["memory_mb"];
+  recipe.reserve_bricks = static_cast<std::size_t>(reserve);
+  if (const std::string& series = words["series"]; !series.empty())
+    recipe.series = series.front() == '#' ? series : scenario::kOwn;
+  if (!words["tissue_table"].empty()) recipe.labels = scenario::kOwn;
+  if (!words["materials"].empty()) recipe.materials = scenario::kOwn;
+  if (const std::string& text = words["iso"]; !text.empty()) {
+    const auto level = scenario::parse_level(text);
+    if (!level || !std::isfinite(*level)) return wrong("words.iso");
+    recipe.iso = *level;
+  }
+  if (const std::string& text = words["roi"]; !text.empty()) {
+    const auto region = scenario::parse_region(text);
+    if (!region) return wrong("words.roi");
+    recipe.region = *region;
+  }
+  if (const std::string& text = words["spacing_mm"]; !text.empty()) {
+    const auto spacing = scenario::parse_spacing(text);
+    if (!spacing) return wrong("words.spacing_mm");
+    recipe.spacing_mm = *spacing;
+  }
+  return true;
+}
+
+bool get_recipe(const json& volume, VolumeInfo& info, const std::string& where,
+                std::string& missing) {
+  const json& object = part(volume, "recipe");
+  if (object.is_null()) return get_old_recipe(volume, info, missing);
+  missing = "volume.format";
+  if (!get_text(volume, "format", info.format)) return false;
+  auto recipe = scenario::recipe_from_json(object.dump(), where);
+  missing = "volume.recipe";
+  if (!recipe) return false;
+  info.recipe = std::move(*recipe);
+  return true;
+}
+
 bool finite(const volume::CuttingForce& force) {
   return std::isfinite(force.chip_tangential) && std::isfinite(force.chip_radial) &&
          std::isfinite(force.edge_tangential) && std::isfinite(force.edge_radial) &&
@@ -174,7 +228,19 @@ Status check(const SessionInfo& info) {
   if (!(info.rate_hz > 0) || !std::isfinite(info.rate_hz))
     return error(Trouble::internal, "recording: the rate must be a positive number of ticks per s");
   if (Status good = check_fields(info.numbers, info.words); !good.ok()) return good;
-  if (Status good = check_fields(info.volume.numbers, info.volume.words); !good.ok()) return good;
+  const scenario::Recipe& recipe = info.volume.recipe;
+  if (Status good = check_fields({{"voxel_mm", recipe.voxel_mm},
+                                  {"iso", recipe.iso.value_or(0)},
+                                  {"smooth", recipe.smooth},
+                                  {"memory_mb", recipe.memory_mb},
+                                  {"spacing_mm", recipe.spacing_mm.sum()}},
+                                 {{"format", info.volume.format},
+                                  {"source", recipe.source},
+                                  {"series", recipe.series},
+                                  {"tissues", recipe.labels},
+                                  {"materials", recipe.materials}});
+      !good.ok())
+    return good;
   if (info.work_case) {
     const auto read = case_of(*info.work_case);
     if (!read) return read.error();
@@ -201,9 +267,8 @@ std::string to_json(const SessionInfo& info) {
                  {"grid", json_from_grid(info.volume.grid)},
                  {"tissues", json_from_tissues(info.volume.tissues)},
                  {"has_intensity", info.volume.has_intensity},
-                 {"reserve_bricks", info.volume.reserve_bricks},
-                 {"numbers", number_object(info.volume.numbers)},
-                 {"words", info.volume.words}};
+                 {"format", info.volume.format},
+                 {"recipe", json::parse(scenario::to_json(info.volume.recipe))}};
   json session = {{"burr_version", info.burr_version},
                   {"build", info.build},
                   {"rate_hz", info.rate_hz},
@@ -254,11 +319,8 @@ Result<SessionInfo> session_from_json(std::string_view text, const std::string& 
     return missing("volume.tissues");
   if (!get_flag(volume, "has_intensity", info.volume.has_intensity))
     return missing("volume.has_intensity");
-  if (!get_count(volume, "reserve_bricks", info.volume.reserve_bricks))
-    return missing("volume.reserve_bricks");
-  if (!get_number_object(part(volume, "numbers"), info.volume.numbers))
-    return missing("volume.numbers");
-  if (!get_word_object(part(volume, "words"), info.volume.words)) return missing("volume.words");
+  std::string field;
+  if (!get_recipe(volume, info.volume, where, field)) return missing(field.c_str());
   return info;
 }
 

@@ -15,6 +15,7 @@
 
 #include "burr/base/result.h"
 #include "burr/scenario/case.h"
+#include "burr/scenario/recipe.h"
 #include "burr/volume/grid.h"
 #include "burr/volume/tissue.h"
 
@@ -30,9 +31,8 @@ struct VolumeInfo {
   volume::Grid grid;
   volume::TissueTable tissues;
   bool has_intensity = false;
-  std::uint64_t reserve_bricks = 0;  // room for deposits, as given when the Bone was made
-  Numbers numbers;  // import options: "voxel_mm", "iso", "spacing_x_mm", "smoothing" ...
-  Words words;      // "format": "NRRD", "phantom": "temporal-bone", "series_hash": "0x..." ...
+  std::string format;       // "NRRD", "formula"
+  scenario::Recipe recipe;  // scenario::without_paths(): how it was made
 };
 
 // The case of the session, so that a score can be worked out from the recording and the bone alone.

@@ -32,7 +32,7 @@ bool number_of(std::string text, double& value) {
 ImportPage::ImportPage(Desk& desk, OpenedScan opened)
     : desk_(desk), opened_(std::move(opened)), volume_(opened_.volume), renewed_(desk.renewed()) {
   const io::Scan& scan = *opened_.scan;
-  const auto box = box_of(scan, volume_.roi);
+  const auto box = box_of(scan, volume_.region);
   box_ = box ? *box : whole(scan);
   for (std::size_t a = 0; a < 3; ++a) slice_[a] = scan.size[static_cast<int>(a)] / 2;
   const std::array<PlaneView, 3> planes = planes_of(scan.axes);
@@ -42,8 +42,8 @@ ImportPage::ImportPage(Desk& desk, OpenedScan opened)
     planned_ = *opened_.planned;
   else
     plan_trouble_ = opened_.planned.error().text;
-  if (double given = 0; number_of(volume_.iso, given)) level_ = given;
-  roi_text_ = volume_.roi;
+  level_ = volume_.iso;
+  show_region();
   if (volume_.voxel_mm > 0) voxel_text_ = number_text(volume_.voxel_mm);
   if (const auto now = level()) iso_text_ = number_text(*now);
 }
@@ -76,7 +76,8 @@ void ImportPage::set_level(double wanted) {
   // 1300 * 0.001 is 1.3, not 1.3000000000000003
   level_ = step < 1 ? std::round(wanted / step) / std::round(1 / step)
                     : std::round(wanted / step) * step;
-  volume_.iso = iso_text_ = number_text(*level_);
+  volume_.iso = level_;
+  iso_text_ = number_text(*level_);
   for (View& view : views_) view.coloured = false;
   changed();
 }
@@ -88,7 +89,7 @@ void ImportPage::take_level() {
   if (!good) trouble_ = say(Word::import_no_number, iso_text_);
   if (good && wanted != now) {
     level_ = wanted;
-    volume_.iso = number_text(wanted);
+    volume_.iso = wanted;
     for (View& view : views_) view.coloured = false;
     changed();
   }
@@ -98,19 +99,31 @@ void ImportPage::take_level() {
 void ImportPage::set_box(const Box& box) {
   if (box == box_) return;
   box_ = box;
-  volume_.roi = roi_text_ = roi_words(*opened_.scan, box_);
+  volume_.region = region_of(*opened_.scan, box_);
+  show_region();
   changed();
 }
 
+void ImportPage::show_region() {
+  roi_text_ = volume_.region ? scenario::region_text(*volume_.region) : "";
+}
+
 void ImportPage::take_roi() {
-  const auto box = box_of(*opened_.scan, roi_text_);
-  if (!box) {
-    trouble_ = box.error().text;
-    roi_text_ = volume_.roi;
-    return;
+  std::optional<scenario::Region> region;
+  if (!roi_text_.empty()) {
+    const auto read = scenario::parse_region(roi_text_);
+    if (!read) {
+      trouble_ = read.error().text;
+      return show_region();
+    }
+    region = *read;
   }
-  set_box(*box);
-  roi_text_ = volume_.roi;
+  const auto box = box_of(*opened_.scan, region);
+  if (!box)
+    trouble_ = box.error().text;
+  else
+    set_box(*box);
+  show_region();
 }
 
 void ImportPage::take_voxel() {
@@ -129,7 +142,7 @@ void ImportPage::set_kind(std::size_t label, TissueKind kind) {
   std::vector<TissueKind> wanted = kinds_;
   wanted[label] = kind;
   const std::string table = table_of(opened_.labels, wanted);
-  KeptTable kept{opened_.volume.tissues, false};
+  KeptTable kept{opened_.volume.labels, false};
   if (!table.empty()) {
     std::error_code nobody_asks;
     const std::filesystem::path& state = desk_.places().state;
@@ -146,7 +159,7 @@ void ImportPage::set_kind(std::size_t label, TissueKind kind) {
   planning_.reset();  // it may read the table that goes now
   forget_table();
   if (kept.fresh) own_table_ = kept.path;
-  volume_.tissues = kept.path.string();
+  volume_.labels = kept.path.string();
   kinds_ = std::move(wanted);
   for (View& view : views_) view.coloured = false;
   changed();
@@ -241,15 +254,15 @@ void ImportPage::work() {
 
 namespace {
 
-Result<OpenedScan> read_by_page(Desk& desk, const VolumeOptions& volume, const std::string& title,
-                                bool& closed) {
+Result<OpenedScan> read_by_page(Desk& desk, const scenario::Recipe& volume,
+                                const std::string& title, bool& closed) {
   return load<OpenedScan>(
       desk, title, [volume](Progress& progress) { return open_scan(volume, progress); }, closed);
 }
 
 Result<Ready> ready_from(WorkOptions options, const io::Scan& scan, Progress& progress) {
   if (const Status taken = take_case(options); !taken) return taken.error();
-  options.volume.keep_greys = true;
+  options.keep_greys = true;
   auto work = open_work(options, progress, &scan);
   if (!work) return work.error();
   return make_ready(options, std::move(*work), progress);
@@ -275,7 +288,7 @@ Result<Ready> open_by_page(Desk& desk, WorkOptions& options, const std::string& 
     }
     if (*answer == ImportPage::Answer::back) return gone;
     if (*answer == ImportPage::Answer::other_series) {
-      VolumeOptions other = options.volume;
+      scenario::Recipe other = options.volume;
       other.series = page->series();
       auto reopened = read_by_page(desk, other, title, closed);
       if (closed) return gone;

@@ -1,7 +1,7 @@
 // apps/burr/window/import/import_page.h - a scan before it becomes bone: which series, where its surface
 // lies, which part, which labels, what it will take.
 //
-// Everything chosen ends up in WorkOptions as if it had been typed on the command line, so that
+// Everything chosen is a number of a scenario::Recipe, as the command line makes one, so that
 // recordings and kept sessions need to know nothing of this page.
 // Thread: main.
 #pragma once
@@ -47,7 +47,7 @@ class ImportPage {
   [[nodiscard]] Result<Answer> ask(const std::string& told, double seconds);
 
   // What was chosen.
-  [[nodiscard]] const VolumeOptions& volume() const { return volume_; }
+  [[nodiscard]] const scenario::Recipe& volume() const { return volume_; }
   [[nodiscard]] const std::string& series() const { return series_; }
   [[nodiscard]] const std::shared_ptr<const io::Scan>& scan() const { return opened_.scan; }
 
@@ -68,6 +68,7 @@ class ImportPage {
   void set_level(double level);
   void take_level();
   void take_roi();
+  void show_region();
   void take_voxel();
   void set_box(const Box& box);
   void forget_table();
@@ -87,7 +88,7 @@ class ImportPage {
 
   Desk& desk_;
   OpenedScan opened_;
-  VolumeOptions volume_;
+  scenario::Recipe volume_;
   std::string series_;  // wanted instead, "#2"
   std::optional<double> level_;
   Box box_;

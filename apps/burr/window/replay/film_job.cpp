@@ -43,9 +43,9 @@ std::vector<std::string> command_of(const FilmSource& source, const std::string&
     words.push_back(value);
   };
   if (source.effects) words.emplace_back("--effects");
-  add("--volume", source.volume.path);
+  add("--volume", source.volume.source);
   add("--series", source.volume.series);
-  add("--tissues", source.volume.tissues);
+  add("--tissues", source.volume.labels);
   add("--materials", source.volume.materials);
   return words;
 }
@@ -113,13 +113,13 @@ class Child {
 }  // namespace
 
 FilmSource film_of(sim::Session& session, const std::string& recording,
-                   const VolumeOptions& volume) {
+                   const scenario::Recipe& volume) {
   FilmSource source;
   source.recording = recording;
   source.volume = volume;
   std::error_code nobody_asks;  // of a case or a formula the recording knows more than the path
-  if (!fs::exists(volume.path, nobody_asks) || fs::path(volume.path).extension() == ".toml")
-    source.volume.path.clear();
+  if (!fs::exists(volume.source, nobody_asks) || fs::path(volume.source).extension() == ".toml")
+    source.volume.source.clear();
   tick::TickRow row;
   if (session.view(row))
     source.seconds = static_cast<double>(row.tick) / session.settings().servo.rate_hz;

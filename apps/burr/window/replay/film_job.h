@@ -9,23 +9,23 @@
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/sim/session.h"
-#include "workshop/volume_options.h"
+#include "workshop/open_volume.h"
 #include "workshop/work_view.h"
 
 namespace burr::app {
 
 struct FilmSource {
-  std::string recording;  // may still be going on: the film goes as far as it is by now
-  VolumeOptions volume;   // the scan it was made from; empty path: it is found by the recording
-  double seconds = 0;     // how long it is by now, to tell how far the film is
-  bool effects = true;    // burr replay --effects
+  std::string recording;    // may still be going on: the film goes as far as it is by now
+  scenario::Recipe volume;  // the scan it was made from; empty path: it is found by the recording
+  double seconds = 0;       // how long it is by now, to tell how far the film is
+  bool effects = true;      // burr replay --effects
   double fps = 25;
   PictureSize size = {};
 };
 
 // Of a session that goes on and is recorded.
 [[nodiscard]] FilmSource film_of(sim::Session& session, const std::string& recording,
-                                 const VolumeOptions& volume);
+                                 const scenario::Recipe& volume);
 
 // Into a folder, which is made; an older film in it goes first. How many pictures. Error:
 // Trouble::interrupted where progress was cancelled, and the pictures made until then are kept.

@@ -25,7 +25,7 @@ bool is_recording(const std::string& path) {
 }
 
 Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
-                               const VolumeOptions& given, Progress& progress) {
+                               const scenario::Recipe& given, Progress& progress) {
   auto player = record::Player::open(file);
   if (!player) return player.error();
   Recorded out;
@@ -38,15 +38,15 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
   out.settings = std::move(*settings);
 
   // a session that burr kept knows its title, and where its scan lies
-  VolumeOptions volume = given;
+  scenario::Recipe volume = given;
   out.title = fs::path(file).filename().string();
   std::error_code nobody_asks;
   for (const KeptSession& kept : kept_sessions(state)) {
     if (!fs::equivalent(kept.file, file, nobody_asks)) continue;
     out.title = kept.title;
-    if (given.path.empty() && !out.player->info().embedded &&
-        fs::exists(kept.options.volume.path, nobody_asks) &&
-        fs::path(kept.options.volume.path).extension() != ".toml")
+    if (given.source.empty() && !out.player->info().embedded &&
+        fs::exists(kept.options.volume.source, nobody_asks) &&
+        fs::path(kept.options.volume.source).extension() != ".toml")
       volume = kept.options.volume;
   }
   out.film.recording = file;

@@ -29,8 +29,8 @@
 #include "burr/surface/worker.h"
 #include "burr/volume/bone.h"
 #include "window/replay/film_job.h"
+#include "workshop/open_volume.h"
 #include "workshop/traces.h"
-#include "workshop/volume_options.h"
 
 namespace burr::app {
 
@@ -54,7 +54,7 @@ struct Recorded {
 // for `burr replay`. Error: not a recording, nothing in it, or its bone is not to be found.
 [[nodiscard]] Result<Recorded> open_recorded(const std::string& file,
                                              const std::filesystem::path& state,
-                                             const VolumeOptions& given, Progress& progress);
+                                             const scenario::Recipe& given, Progress& progress);
 
 class Playback {
  public:

@@ -19,7 +19,7 @@ namespace {
 
 // in words that name no patient
 std::string title_of(const WorkOptions& options, const Settings& settings) {
-  const std::string& path = options.volume.path;
+  const std::string& path = options.volume.source;
   const std::string known = name_of_case(path);
   if (known != path || path.find('/') == std::string::npos) return known;
   const std::filesystem::path file(path);
@@ -36,7 +36,7 @@ Status leave_screenshot(Desk& desk, const std::string& file) {
 Result<Ready> open_ready(WorkOptions options, Progress& progress) {
   const Status taken = take_case(options);
   if (!taken) return taken.error();
-  options.volume.keep_greys = true;
+  options.keep_greys = true;
   auto work = open_work(options, progress);
   if (!work) return work.error();
   return make_ready(options, std::move(*work), progress);
@@ -68,7 +68,7 @@ Result<Left> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options,
   with.keep = [&autosave] { return autosave != nullptr && autosave->keep(); };
   with.film_of = [&]() -> std::optional<FilmSource> {
     std::optional<FilmSource> source = autosave ? autosave->film_source() : std::nullopt;
-    if (source && embed) source->volume.path.clear();  // its bone is in the recording
+    if (source && embed) source->volume.source.clear();  // its bone is in the recording
     if (source) source->effects = desk.settings.effects;
     return source;
   };
@@ -82,7 +82,7 @@ Result<Left> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options,
   return left;
 }
 
-Result<Left> watch_file(Desk& desk, const std::string& file, const VolumeOptions& given,
+Result<Left> watch_file(Desk& desk, const std::string& file, const scenario::Recipe& given,
                         const WatchOptions& options) {
   bool closed = false;
   const auto open = [&desk, &given](const std::string& path, bool& shut) {
@@ -110,9 +110,9 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
     trouble.clear();
     if (choice->quit) return leave_screenshot(desk, options.screenshot);
 
-    if (choice->open && is_recording(choice->open->volume.path)) {
+    if (choice->open && is_recording(choice->open->volume.source)) {
       const Result<Left> left = watch_file(
-          desk, choice->open->volume.path, {},
+          desk, choice->open->volume.source, {},
           {.seconds = options.seconds, .folder = options.folder, .screenshot = options.screenshot});
       if (!left && left.error().trouble == Trouble::interrupted) continue;
       if (left && *left == Left::window) return fine();
@@ -147,8 +147,8 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
       continue;
     }
     std::error_code nobody_asks;
-    if (!goes_on && std::filesystem::exists(chosen.volume.path, nobody_asks))
-      remember(desk.places().state, chosen.volume.path, ready->title);
+    if (!goes_on && std::filesystem::exists(chosen.volume.source, nobody_asks))
+      remember(desk.places().state, chosen.volume.source, ready->title);
     for (const std::string& notice : ready->import.notices) desk.troubles.push_back(notice);
     const Result<Left> left = mill_and_keep(desk, *ready, chosen, goes_on,
                                             {.seconds = options.seconds,

@@ -31,7 +31,7 @@ struct PagesOptions {
 // A recording with the loading page, and the page it is watched on. given: what the user said of
 // its volume. Error: one sentence; Trouble::interrupted if the user cancelled.
 [[nodiscard]] Result<Left> watch_file(Desk& desk, const std::string& file,
-                                      const VolumeOptions& given, const WatchOptions& options);
+                                      const scenario::Recipe& given, const WatchOptions& options);
 
 // One session with its loudspeaker and what is near, if `window` wants to hear it.
 [[nodiscard]] Result<Left> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& window);

@@ -6,6 +6,7 @@
 #include <safe_toml.h>
 #include <algorithm>
 #include <ctime>
+#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
@@ -19,6 +20,7 @@ namespace burr::app {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 constexpr std::uintmax_t kLargestFile = 1U << 18;  // of an account or a list  [byte]
 constexpr std::size_t kRecent = 8;
 
@@ -53,12 +55,51 @@ Status make_folder(const fs::path& folder) {
                                         folder.string(), trouble.message()));
 }
 
-fs::path account_of(const fs::path& recording) {
+fs::path beside(const fs::path& recording, const char* ending) {
   fs::path account = recording;
-  return account.replace_extension(".toml");
+  return account.replace_extension(ending);
+}
+
+void remove_session(const fs::path& recording) {
+  std::error_code nobody_asks;
+  for (const fs::path& one : {recording, beside(recording, ".json"), beside(recording, ".toml")})
+    fs::remove(one, nobody_asks);
 }
 
 bool read_account(const fs::path& account, KeptSession& kept) {
+  const auto text = base::text_of_file(account.string(), kLargestFile, "an account of a session");
+  if (!text) return false;
+  const json object = json::parse(*text, nullptr, false);
+  if (!object.is_object() || !object.contains("recipe")) return false;
+  const auto recipe =
+      scenario::recipe_from_json(object["recipe"].dump(), account.filename().string());
+  if (!recipe) return false;
+  const auto word = [&object](const char* key) {
+    const auto at = object.find(key);
+    return at != object.end() && at->is_string() ? at->get<std::string>() : std::string();
+  };
+  const auto number = [&object](const char* key) {
+    const auto at = object.find(key);
+    return at != object.end() && at->is_number() ? at->get<double>() : 0.0;
+  };
+  const auto flag = [&object](const char* key) {
+    const auto at = object.find(key);
+    return at != object.end() && at->is_boolean() && at->get<bool>();
+  };
+  kept.title = word("title");
+  kept.when = word("when");
+  kept.seconds = number("seconds");
+  kept.removed_mm3 = number("removed_mm3");
+  kept.clean = flag("clean");
+  kept.keep = flag("keep");
+  kept.options.volume = *recipe;
+  kept.options.burr_mm = number("burr_mm");
+  kept.options.rpm = number("rpm");
+  return !recipe->source.empty();
+}
+
+// As burr wrote it before 2026-11-25: the options of the command line, as texts.
+bool read_old_account(const fs::path& account, KeptSession& kept) {
   const auto text = base::text_of_file(account.string(), kLargestFile, "an account of a session");
   if (!text) return false;
   const auto table = parse_toml(*text, account.filename().string());
@@ -69,18 +110,19 @@ bool read_account(const fs::path& account, KeptSession& kept) {
   kept.removed_mm3 = number_of(*table, "removed_mm3");
   kept.clean = (*table)["clean"].value_or(false);
   kept.keep = (*table)["keep"].value_or(false);
-  VolumeOptions& volume = kept.options.volume;
-  volume.path = word_of(*table, "source");
-  volume.series = word_of(*table, "series");
-  volume.spacing_mm = word_of(*table, "spacing_mm");
-  volume.roi = word_of(*table, "roi");
-  volume.iso = word_of(*table, "iso");
-  volume.tissues = word_of(*table, "tissues");
-  volume.materials = word_of(*table, "materials");
-  volume.voxel_mm = number_of(*table, "voxel_mm");
+  scenario::Recipe& recipe = kept.options.volume;
+  recipe.source = word_of(*table, "source");
+  recipe.series = word_of(*table, "series");
+  recipe.labels = word_of(*table, "tissues");
+  recipe.materials = word_of(*table, "materials");
+  recipe.voxel_mm = number_of(*table, "voxel_mm");
+  if (const auto spacing = scenario::parse_spacing(word_of(*table, "spacing_mm")))
+    recipe.spacing_mm = *spacing;
+  if (const auto region = scenario::parse_region(word_of(*table, "roi"))) recipe.region = *region;
+  if (const auto level = scenario::parse_level(word_of(*table, "iso"))) recipe.iso = *level;
   kept.options.burr_mm = number_of(*table, "burr_mm");
   kept.options.rpm = number_of(*table, "rpm");
-  return !volume.path.empty();
+  return !recipe.source.empty();
 }
 
 }  // namespace
@@ -96,7 +138,9 @@ std::vector<KeptSession> kept_sessions(const fs::path& state) {
     std::error_code nobody_asks;
     kept.bytes = fs::file_size(kept.file, nobody_asks);
     if (nobody_asks || record::being_written(kept.file.string())) continue;
-    if (read_account(account_of(kept.file), kept)) all.push_back(std::move(kept));
+    if (read_account(beside(kept.file, ".json"), kept) ||
+        read_old_account(beside(kept.file, ".toml"), kept))
+      all.push_back(std::move(kept));
   }
   // the names hold the time
   std::sort(all.begin(), all.end(), [](const KeptSession& a, const KeptSession& b) {
@@ -117,9 +161,7 @@ void throw_old_away(const fs::path& state, const Settings& settings) {
     // the newest stays whatever its size: it is the one to go on with
     if (kept.keep || count <= 1 || (count <= settings.sessions_kept && mb <= settings.sessions_mb))
       continue;
-    std::error_code nobody_asks;
-    fs::remove(kept.file, nobody_asks);
-    fs::remove(account_of(kept.file), nobody_asks);
+    remove_session(kept.file);
   }
 }
 
@@ -139,9 +181,9 @@ Result<Ready> continue_session(const KeptSession& kept, Progress& progress) {
 
   // a formula or an embedded bone is found by the recording, a scan by the user's own path
   std::error_code nobody_asks;
-  const bool scan = fs::exists(options.volume.path, nobody_asks);
-  VolumeOptions given = options.volume;
-  if ((*player)->info().embedded || !scan) given.path.clear();
+  const bool scan = fs::exists(options.volume.source, nobody_asks);
+  scenario::Recipe given = options.volume;
+  if ((*player)->info().embedded || !scan) given.source.clear();
   auto bone = bone_of(**player, given, progress);
   if (!bone) return bone.error();
   Work work;
@@ -153,9 +195,8 @@ Result<Ready> continue_session(const KeptSession& kept, Progress& progress) {
   if (!there) return there.error();
   work.made.bone = std::move(*bone);
   if (scan) work.made.greys = scan_greys_of(**player, options.volume, progress);
-  const auto& words = (*player)->info().volume.words;
-  const auto format = words.find("format");
-  work.made.summary.format = format == words.end() ? "recording" : format->second;
+  const std::string& format = (*player)->info().volume.format;
+  work.made.summary.format = format.empty() ? "recording" : format;
   work.volume = options.volume;
   work.what = kept.title;
   if (options.title.empty()) options.title = kept.title;
@@ -173,9 +214,9 @@ Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& optio
     kept_.title = ready.title;
     kept_.options = options;
     std::error_code nobody_asks;
-    if (const fs::path there = fs::absolute(options.volume.path, nobody_asks);
-        fs::exists(options.volume.path, nobody_asks))
-      kept_.options.volume.path = there.string();
+    if (const fs::path there = fs::absolute(options.volume.source, nobody_asks);
+        fs::exists(options.volume.source, nobody_asks))
+      kept_.options.volume.source = there.string();
     const std::tm now = local_now();
     kept_.when = fmt::format("{:%Y-%m-%d %H:%M}", now);
     const std::string name = fmt::format("session_{:%Y%m%d_%H%M%S}", now);
@@ -196,24 +237,17 @@ std::optional<FilmSource> Autosave::film_source() const {
 }
 
 Status Autosave::write_account() const {
-  const VolumeOptions& volume = kept_.options.volume;
-  std::string text = "# A session of burr, kept so that one can go on with it.\n";
-  for (const auto& [key, value] : {std::pair{"title", &kept_.title},
-                                   {"when", &kept_.when},
-                                   {"source", &volume.path},
-                                   {"series", &volume.series},
-                                   {"spacing_mm", &volume.spacing_mm},
-                                   {"roi", &volume.roi},
-                                   {"iso", &volume.iso},
-                                   {"tissues", &volume.tissues},
-                                   {"materials", &volume.materials}})
-    text += fmt::format("{} = {}\n", key, base::toml_text(*value));
-  text += fmt::format(
-      "voxel_mm = {}\nburr_mm = {}\nrpm = {}\nseconds = {:.3f}\nremoved_mm3 = {:.3f}\n"
-      "clean = {}\nkeep = {}\n",
-      volume.voxel_mm, kept_.options.burr_mm, kept_.options.rpm, kept_.seconds, kept_.removed_mm3,
-      kept_.clean, kept_.keep);
-  return write_text(account_of(kept_.file), text);
+  const json account = {{"title", kept_.title},
+                        {"when", kept_.when},
+                        {"recipe", json::parse(scenario::to_json(kept_.options.volume))},
+                        {"burr_mm", kept_.options.burr_mm},
+                        {"rpm", kept_.options.rpm},
+                        {"seconds", kept_.seconds},
+                        {"removed_mm3", kept_.removed_mm3},
+                        {"clean", kept_.clean},
+                        {"keep", kept_.keep}};
+  return write_text(beside(kept_.file, ".json"),
+                    account.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
 void Autosave::finish() {
@@ -229,10 +263,7 @@ void Autosave::finish() {
   else if (!written)
     trouble_ = written.error().text;
   if (outcome.ledger.removed > 0 || outcome.ledger.added > 0 || kept_.keep) return;
-  // nobody did anything: nothing to go on with
-  std::error_code nobody_asks;
-  fs::remove(kept_.file, nobody_asks);
-  fs::remove(account_of(kept_.file), nobody_asks);
+  remove_session(kept_.file);  // nobody did anything: nothing to go on with
 }
 
 bool Autosave::keep() {

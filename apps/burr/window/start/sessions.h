@@ -1,10 +1,10 @@
 // apps/burr/window/start/sessions.h - sessions at the window, kept by themselves so that one can go on.
 //
 //     state/sessions/session_20261122_193145.mcap  the recording, docs/recording.md
-//     state/sessions/session_20261122_193145.toml  what it was made from, and whether it ended well
+//     state/sessions/session_20261122_193145.json  its recipe, and whether it ended well
 //     state/recent.toml                            scans opened lately
 //
-// The .toml names the user's own file, since the bone comes from there; it lies in the user's own
+// The .json names the user's own file, since the bone comes from there; it lies in the user's own
 // folder and can be read by nobody else. No name of a scan is shown unless settings say so.
 // Thread: main; continue_session() any. Errors: sentences; trouble with what is kept never ends a
 // session.
@@ -28,7 +28,7 @@ struct KeptSession {
   std::filesystem::path file;  // the recording
   std::string title;           // one line that names no patient
   std::string when;            // "2026-11-22 19:31"
-  WorkOptions options;         // as given at its start; volume.path as the user said it
+  WorkOptions options;         // as given at its start; volume.source as the user said it
   double seconds = 0, removed_mm3 = 0;
   bool clean = false;  // it ended as the user requested
   bool keep = false;   // never thrown away

@@ -129,8 +129,8 @@ void StartPage::take_events() {
 
 void StartPage::open(std::string path) {
   WorkOptions options;
-  options.volume.path = cleaned_path(std::move(path));
-  if (!options.volume.path.empty())
+  options.volume.source = cleaned_path(std::move(path));
+  if (!options.volume.source.empty())
     choice_ = Choice{.open = std::move(options), .go_on = {}, .quit = false};
 }
 

@@ -22,7 +22,7 @@ constexpr const char* kHead = "P6\n472 270\n255\n";  // the whole head of such a
 // A case's bone, coarse enough to be there in a moment, seen from where one works.
 Result<render::Scene> scene_of(const std::string& name, Progress& progress) {
   WorkOptions options;
-  options.volume.path = name;
+  options.volume.source = name;
   const Status taken = take_case(options);
   if (!taken) return taken.error();
   options.volume.voxel_mm *= 2;

@@ -1,0 +1,76 @@
+#include "commands/volume_words.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace burr::app {
+namespace {
+
+// A text of the command line, or the complaint as CLI11 wants it: it writes the option before it.
+template <class Value>
+Value taken(const std::string& option, Result<Value> read) {
+  if (read) return std::move(*read);
+  std::string text = read.error().text;
+  const std::string before = option + ": ";
+  if (text.starts_with(before)) text.erase(0, before.size());
+  throw CLI::ValidationError(option, text);
+}
+
+}  // namespace
+
+void add_volume_options(CLI::App& command, scenario::Recipe& recipe) {
+  const auto words = [&command](const char* option, auto take, const char* help) {
+    command.add_option_function<std::string>(option, take, help)->type_name("TEXT");
+  };
+  const auto least = [](double most_wrong, const char* says) {
+    return CLI::Validator(
+        [=](const std::string& text) {
+          double value = 0;
+          return CLI::detail::lexical_cast(text, value) && value >= most_wrong ? std::string()
+                                                                               : says;
+        },
+        "", "least");
+  };
+  command.add_option(
+      "--series", recipe.series,
+      "of a DICOM folder: Series Instance UID, its beginning, or #2 as info lists them");
+  command.add_option("--voxel-mm", recipe.voxel_mm,
+                     "edge of the cubic voxels (default: the finest axis)");
+  words(
+      "--spacing-mm",
+      [&recipe](const std::string& text) {
+        recipe.spacing_mm = taken("--spacing-mm", scenario::parse_spacing(text));
+      },
+      "X,Y,Z: instead of a spacing the file states wrongly");
+  words(
+      "--iso",
+      [&recipe](const std::string& text) {
+        recipe.iso = taken("--iso", scenario::parse_level(text));
+      },
+      "surface level in HU or the file's unit (default: 300 HU, else Otsu)");
+  words(
+      "--roi",
+      [&recipe](const std::string& text) {
+        recipe.region = taken("--roi", scenario::parse_region(text));
+      },
+      "I0,I1,J0,J1,K0,K1: only these voxels of the file, first and last, from 0");
+  command.add_option("--tissues", recipe.labels, "TOML table: which labels are solid, soft or air");
+  command.add_option("--materials", recipe.materials,
+                     "TOML table: what tissues are made of (default: burr materials)");
+  command.add_option("--smooth", recipe.smooth,
+                     "noise to smooth, in HU or the file's unit; 0: none (default: as measured)");
+  command
+      .add_option("--memory-mb", recipe.memory_mb, "memory budget of the import (default: 2048)")
+      ->check(least(16, "at least 16 MB are needed"));
+  command
+      .add_option("--read-seconds", recipe.read_seconds,
+                  "processor time that reading may take (default: by the size of the files)")
+      ->check(least(0, "a number above 0 is needed"));
+  command
+      .add_option("--read-memory-mb", recipe.read_memory_mb,
+                  "memory that reading may take (default: by the size of the files)")
+      ->check(least(0, "a number above 0 is needed"));
+}
+
+}  // namespace burr::app

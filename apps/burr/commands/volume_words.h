@@ -1,0 +1,18 @@
+// apps/burr/commands/volume_words.h - the options of the command line that say how a bone is made.
+#pragma once
+
+#include "burr/scenario/recipe.h"
+
+namespace CLI {
+class App;
+}
+
+namespace burr::app {
+
+// Adds --series --voxel-mm --spacing-mm --iso --roi --tissues --materials --smooth --memory-mb
+// --read-seconds --read-memory-mb; the source itself is the subcommand's own positional, because
+// some take a CASE or a recording there. A text that is none of these is an error of the command
+// line.
+void add_volume_options(CLI::App& command, scenario::Recipe& recipe);
+
+}  // namespace burr::app

@@ -1,0 +1,210 @@
+#include "burr/scenario/recipe.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "burr/base/shown.h"
+
+namespace burr::scenario {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kPhantom = "phantom:";
+constexpr int kMostVoxels = 1'000'000;  // along an axis
+
+// "0.3,0.3,0.6"
+bool numbers(std::string_view text, std::vector<double>& out) {
+  for (std::size_t at = 0; at <= text.size();) {
+    std::size_t end = text.find(',', at);
+    if (end == std::string_view::npos) end = text.size();
+    double value = 0;
+    const auto result = std::from_chars(text.data() + at, text.data() + end, value);
+    if (result.ec != std::errc() || result.ptr != text.data() + end) return false;
+    out.push_back(value);
+    at = end + 1;
+  }
+  return true;
+}
+
+// One field of a JSON object; a field that is not there leaves `out` as it is.
+class Fields {
+ public:
+  explicit Fields(const json& object) : object_(object) {}
+
+  void text(const char* name, std::string& out) {
+    const json* found = find(name);
+    if (found == nullptr) return;
+    if (!found->is_string()) return fail(name);
+    out = found->get<std::string>();
+  }
+  void number(const char* name, double& out, double least) {
+    const json* found = find(name);
+    if (found == nullptr) return;
+    if (!found->is_number()) return fail(name);
+    const auto value = found->get<double>();
+    if (!std::isfinite(value) || value < least) return fail(name);
+    out = value;
+  }
+  void level(const char* name, std::optional<double>& out) {
+    if (find(name) != nullptr) number(name, out.emplace(), -1e300);
+  }
+  void spacing(const char* name, math::Vec3& out) {
+    const json* found = find(name);
+    if (found == nullptr) return;
+    if (!found->is_array() || found->size() != 3) return fail(name);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const json& one = (*found)[a];
+      if (!one.is_number() || !(one.get<double>() >= 0 && one.get<double>() <= 100))
+        return fail(name);
+      out[static_cast<Eigen::Index>(a)] = one.get<double>();
+    }
+  }
+  void region(const char* name, std::optional<Region>& out) {
+    const json* found = find(name);
+    if (found == nullptr) return;
+    if (!found->is_array() || found->size() != 6) return fail(name);
+    std::array<int, 6> box{};
+    for (std::size_t n = 0; n < 6; ++n) {
+      const json& one = (*found)[n];
+      if (!one.is_number_unsigned() || one.get<std::uint64_t>() >= kMostVoxels) return fail(name);
+      box[n] = one.get<int>();
+    }
+    out = Region{{box[0], box[1]}, {box[2], box[3]}, {box[4], box[5]}};
+  }
+  void count(const char* name, std::size_t& out) {
+    const json* found = find(name);
+    if (found == nullptr) return;
+    if (!found->is_number_unsigned()) return fail(name);
+    out = found->get<std::size_t>();
+  }
+  [[nodiscard]] const std::string& wrong() const { return wrong_; }
+
+ private:
+  const json* find(const char* name) const {
+    const auto at = object_.find(name);
+    return at == object_.end() || at->is_null() ? nullptr : &*at;
+  }
+  void fail(const char* name) {
+    if (wrong_.empty()) wrong_ = name;
+  }
+  const json& object_;
+  std::string wrong_;
+};
+
+}  // namespace
+
+bool Recipe::operator==(const Recipe& other) const {
+  return source == other.source && series == other.series && spacing_mm == other.spacing_mm &&
+         region == other.region && voxel_mm == other.voxel_mm && iso == other.iso &&
+         smooth == other.smooth && labels == other.labels && materials == other.materials &&
+         memory_mb == other.memory_mb && read_seconds == other.read_seconds &&
+         read_memory_mb == other.read_memory_mb && reserve_bricks == other.reserve_bricks;
+}
+
+bool is_phantom(const std::string& source) { return source.starts_with(kPhantom); }
+std::string phantom_name(const std::string& source) {
+  return is_phantom(source) ? source.substr(kPhantom.size()) : "";
+}
+std::string phantom_source(const std::string& name) { return std::string(kPhantom) + name; }
+
+Recipe without_paths(Recipe recipe) {
+  if (!is_phantom(recipe.source)) recipe.source.clear();
+  if (!recipe.series.empty() && recipe.series.front() != '#') recipe.series = kOwn;
+  if (!recipe.labels.empty()) recipe.labels = kOwn;
+  if (!recipe.materials.empty()) recipe.materials = kOwn;
+  return recipe;
+}
+
+std::string to_json(const Recipe& recipe) {
+  json out = {{"source", recipe.source},
+              {"voxel_mm", recipe.voxel_mm},
+              {"smooth", recipe.smooth},
+              {"memory_mb", recipe.memory_mb},
+              {"reserve_bricks", recipe.reserve_bricks}};
+  const auto text = [&out](const char* name, const std::string& value) {
+    if (!value.empty()) out[name] = value;
+  };
+  text("series", recipe.series);
+  text("labels", recipe.labels);
+  text("materials", recipe.materials);
+  if (!recipe.spacing_mm.isZero(0))
+    out["spacing_mm"] = {recipe.spacing_mm.x(), recipe.spacing_mm.y(), recipe.spacing_mm.z()};
+  if (recipe.region) {
+    const Region& r = *recipe.region;
+    out["region"] = {r.i[0], r.i[1], r.j[0], r.j[1], r.k[0], r.k[1]};
+  }
+  if (recipe.iso) out["iso"] = *recipe.iso;
+  if (recipe.read_seconds != 0) out["read_seconds"] = recipe.read_seconds;
+  if (recipe.read_memory_mb != 0) out["read_memory_mb"] = recipe.read_memory_mb;
+  // a file may be called what is no UTF-8
+  return out.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+Result<Recipe> recipe_from_json(std::string_view text, const std::string& where) {
+  const json object = json::parse(text, nullptr, false);
+  if (!object.is_object()) return error(where + ": the recipe of the bone is not JSON");
+  Recipe out;
+  Fields fields(object);
+  fields.text("source", out.source);
+  fields.text("series", out.series);
+  fields.spacing("spacing_mm", out.spacing_mm);
+  fields.region("region", out.region);
+  fields.number("voxel_mm", out.voxel_mm, 0);
+  fields.level("iso", out.iso);
+  fields.number("smooth", out.smooth, -1e300);
+  fields.text("labels", out.labels);
+  fields.text("materials", out.materials);
+  fields.number("memory_mb", out.memory_mb, 0);
+  fields.number("read_seconds", out.read_seconds, 0);
+  fields.number("read_memory_mb", out.read_memory_mb, 0);
+  fields.count("reserve_bricks", out.reserve_bricks);
+  if (!fields.wrong().empty())
+    return error(
+        fmt::format("{}: recipe.{} is of the wrong kind or out of range", where, fields.wrong()));
+  return out;
+}
+
+Result<Region> parse_region(std::string_view text) {
+  std::vector<double> box;
+  if (!numbers(text, box) || box.size() != 6)
+    return error(Trouble::usage,
+                 fmt::format("--roi: \"{}\" is not six whole numbers, as in 10,200,0,99,5,80",
+                             base::shown(text)));
+  std::array<int, 6> voxel{};
+  for (std::size_t n = 0; n < 6; ++n) {
+    if (!(box[n] >= 0 && box[n] < kMostVoxels))
+      return error(Trouble::usage, "--roi: voxels count from 0");
+    voxel[n] = static_cast<int>(box[n]);
+  }
+  return Region{{voxel[0], voxel[1]}, {voxel[2], voxel[3]}, {voxel[4], voxel[5]}};
+}
+
+Result<double> parse_level(std::string_view text) {
+  std::vector<double> level;
+  if (!numbers(text, level) || level.size() != 1)
+    return error(Trouble::usage, fmt::format("--iso: \"{}\" is no number", base::shown(text)));
+  return level[0];
+}
+
+Result<math::Vec3> parse_spacing(std::string_view text) {
+  std::vector<double> mm;
+  bool good = numbers(text, mm) && mm.size() == 3;
+  for (std::size_t a = 0; good && a < 3; ++a) good = mm[a] > 0 && mm[a] <= 100;
+  if (!good)
+    return error(Trouble::usage,
+                 fmt::format("--spacing-mm: \"{}\" is not three numbers above 0, as in 0.3,0.3,0.6",
+                             base::shown(text)));
+  return math::Vec3(mm[0], mm[1], mm[2]);
+}
+
+std::string region_text(const Region& region) {
+  return fmt::format("{},{},{},{},{},{}", region.i[0], region.i[1], region.j[0], region.j[1],
+                     region.k[0], region.k[1]);
+}
+
+}  // namespace burr::scenario

@@ -1,0 +1,75 @@
+// scenario/recipe.h - how a bone is made: of what, which part, how fine, where its surface lies, what
+// its tissues are. The same type at the command line, in the window, in kept sessions and recordings.
+//
+//     scenario::Recipe recipe;
+//     recipe.source = "ct_folder";
+//     recipe.region = scenario::Region{{0, 99}, {0, 99}, {10, 60}};
+//     auto made = importing::import_bone(*scan, recipe, progress);
+//
+// Texts become numbers where a person types them, with the parse functions below, and nowhere else.
+// Units: mm, and HU or the file's unit, as people type them; a bone is SI. The length stays in mm
+// because a round trip through metres would change its last bit.
+// Thread: any.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "burr/base/result.h"
+#include "burr/math/vec3.h"
+
+namespace burr::scenario {
+
+// First and last voxel of a box, both inside, counted from 0 as the file does (slices as they lie
+// in the file, even where Scan::k_reversed).
+struct Region {
+  std::array<int, 2> i{}, j{}, k{};
+  bool operator==(const Region&) const = default;
+};
+
+struct Recipe {
+  std::string source;  // a file, a DICOM folder, or phantom:NAME
+  std::string series;  // of a DICOM folder: a UID, its beginning, or "#2"; empty: the best one
+  math::Vec3 spacing_mm = {0, 0, 0};  // all > 0: overrides the file
+  std::optional<Region> region;       // none: the whole scan
+  double voxel_mm = 0;                // edge of the cubic voxels; 0: the finest axis of the scan,
+                                      // coarser where memory_mb asks for it
+  std::optional<double> iso;  // surface level, in HU or the file's unit; none: 300 HU, or Otsu
+  double smooth = -1;         // noise to remove, standard deviation in HU or the file's unit;
+                              // 0: none, below 0: as much as is measured in the scan
+  std::string labels;         // path of a TOML file, docs/labels.md; empty: by name
+  std::string materials;      // path of a TOML file, docs/materials.md; empty: built in
+  double memory_mb = 2048;    // budget of the work and the bone, for voxel_mm = 0
+  // Limits of reading a file; 0: by how large the files are.
+  double read_seconds = 0, read_memory_mb = 0;
+  std::size_t reserve_bricks = 4096;  // room for deposited material
+
+  bool operator==(const Recipe& other) const;
+};
+
+[[nodiscard]] bool is_phantom(const std::string& source);
+// "temporal-bone" of "phantom:temporal-bone"; empty: it is none.
+[[nodiscard]] std::string phantom_name(const std::string& source);
+[[nodiscard]] std::string phantom_source(const std::string& name);
+
+// As a recording may hold it: no path and no identifier. A file becomes "", an own table or a series
+// chosen by its UID becomes kOwn.
+inline constexpr const char* kOwn = "own";
+[[nodiscard]] Recipe without_paths(Recipe recipe);
+
+// One JSON object; every number comes back to the bit.
+[[nodiscard]] std::string to_json(const Recipe& recipe);
+// The Error names the field. where: the file, for its sentence.
+[[nodiscard]] Result<Recipe> recipe_from_json(std::string_view text, const std::string& where);
+
+// What a person types: "10,200,0,99,5,80", "1300", "0.3,0.3,0.6". The Error names the option.
+[[nodiscard]] Result<Region> parse_region(std::string_view text);
+[[nodiscard]] Result<double> parse_level(std::string_view text);
+[[nodiscard]] Result<math::Vec3> parse_spacing(std::string_view text);
+// To be shown; parse_region() reads it.
+[[nodiscard]] std::string region_text(const Region& region);
+
+}  // namespace burr::scenario

@@ -1,0 +1,103 @@
+// A recipe written and read again is the same to the bit; texts of a person become its numbers.
+#include "burr/scenario/recipe.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <string>
+
+namespace burr::scenario {
+namespace {
+
+TEST(Recipe, ComesBackToTheBitThroughJson) {
+  constexpr std::uint64_t kSeed = 21;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> share(0, 1);
+  const auto coin = [&] { return random() % 2 == 0; };
+  for (int n = 0; n < 2000; ++n) {
+    Recipe recipe;
+    if (coin()) recipe.source = coin() ? "phantom:jaw" : "/scans/\xc3\xa5 \"b\"\n.nrrd";
+    if (coin()) recipe.series = "#3";
+    if (coin()) recipe.spacing_mm = {1e-9 + share(random), 1e-9 + share(random), 1.0 / 3};
+    if (coin())
+      recipe.region = Region{{static_cast<int>(random() % 1000), 999'999},
+                             {0, static_cast<int>(random() % 1000)},
+                             {3, 4}};
+    if (coin()) recipe.voxel_mm = share(random);
+    if (coin()) recipe.iso = std::ldexp(share(random) - 0.5, static_cast<int>(random() % 40));
+    if (coin()) recipe.smooth = 100 * share(random);
+    if (coin()) recipe.labels = "labels.toml";
+    if (coin()) recipe.materials = "m.toml";
+    if (coin()) recipe.memory_mb = 16 + 1e4 * share(random);
+    if (coin()) recipe.read_seconds = share(random);
+    if (coin()) recipe.read_memory_mb = share(random);
+    if (coin()) recipe.reserve_bricks = random() % 100'000;
+    const auto back = recipe_from_json(to_json(recipe), "x");
+    ASSERT_TRUE(back) << back.error().text;
+    ASSERT_TRUE(*back == recipe) << to_json(recipe) << "\n" << to_json(*back);
+    if (recipe.iso) {
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(*back->iso),
+                std::bit_cast<std::uint64_t>(*recipe.iso));
+    }
+  }
+}
+
+TEST(Recipe, WithoutPathsNamesNobody) {
+  Recipe recipe;
+  recipe.source = "/home/anna/ct";
+  recipe.series = "1.2.840.113619";
+  recipe.labels = "/home/anna/l.toml";
+  recipe.materials = "m.toml";
+  recipe.iso = 300;
+  const Recipe bare = without_paths(recipe);
+  EXPECT_EQ(bare.source, "");
+  EXPECT_EQ(bare.series, kOwn);
+  EXPECT_EQ(bare.labels, kOwn);
+  EXPECT_EQ(bare.materials, kOwn);
+  EXPECT_EQ(bare.iso, recipe.iso);
+  recipe.source = phantom_source("jaw");
+  recipe.series = "#2";
+  EXPECT_EQ(without_paths(recipe).source, "phantom:jaw");
+  EXPECT_EQ(without_paths(recipe).series, "#2");
+  EXPECT_EQ(phantom_name(recipe.source), "jaw");
+  EXPECT_EQ(phantom_name("jaw"), "");
+}
+
+TEST(Recipe, OfTheWrongKindIsRefusedByField) {
+  for (const auto& [text, field] : std::initializer_list<std::pair<const char*, const char*>>{
+           {R"({"voxel_mm": "fine"})", "voxel_mm"},
+           {R"({"voxel_mm": -1})", "voxel_mm"},
+           {R"({"region": [1, 2, 3]})", "region"},
+           {R"({"region": [0, 1, 0, 1, 0, -1]})", "region"},
+           {R"({"region": [0, 1, 0, 1, 0, 1000000]})", "region"},
+           {R"({"spacing_mm": [1, 2, 1000]})", "spacing_mm"},
+           {R"({"reserve_bricks": 1.5})", "reserve_bricks"},
+           {R"({"source": 7})", "source"}}) {
+    const auto read = recipe_from_json(text, "f.json");
+    ASSERT_FALSE(read) << text;
+    EXPECT_NE(read.error().text.find(std::string("recipe.") + field), std::string::npos)
+        << read.error().text;
+  }
+  EXPECT_FALSE(recipe_from_json("[]", "f.json"));
+}
+
+TEST(Recipe, IsTypedInVoxelsLevelsAndMillimetres) {
+  const auto region = parse_region("10,200,0,99,5,80");
+  ASSERT_TRUE(region) << region.error().text;
+  EXPECT_TRUE((*region == Region{{10, 200}, {0, 99}, {5, 80}}));
+  EXPECT_EQ(region_text(*region), "10,200,0,99,5,80");
+  EXPECT_EQ(*parse_level("-12.5"), -12.5);
+  EXPECT_EQ(*parse_spacing("0.3,0.3,0.6"), math::Vec3(0.3, 0.3, 0.6));
+  for (const char* wrong : {"", "1,2,3", "a,b,c,d,e,f", "0,1,0,1,0,-1", "0,1,0,1,0,1e7"})
+    EXPECT_FALSE(parse_region(wrong)) << wrong;
+  for (const char* wrong : {"", "high", "1,2"}) EXPECT_FALSE(parse_level(wrong)) << wrong;
+  for (const char* wrong : {"", "0.3", "0,1,1", "1,1,101", "-1,1,1"})
+    EXPECT_FALSE(parse_spacing(wrong)) << wrong;
+}
+
+}  // namespace
+}  // namespace burr::scenario

@@ -1,0 +1,105 @@
+// What the window keeps of a session beside its recording: the recipe to the bit, and older accounts.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+
+#include "burr/base/progress.h"
+#include "window/start/sessions.h"
+
+namespace burr::app {
+namespace {
+
+namespace fs = std::filesystem;
+using scenario::Recipe;
+using scenario::Region;
+
+class Kept : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(state_ / "sessions"); }
+  void TearDown() override { fs::remove_all(state_); }
+  const fs::path state_ = fs::temp_directory_path() / "burr_kept_test";
+};
+
+TEST_F(Kept, RecipesComeBackToTheBit) {
+  constexpr std::uint64_t kSeed = 41;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> share(0, 1);
+  const auto coin = [&] { return random() % 2 == 0; };
+  WorkOptions ball;
+  ball.volume.source = "phantom:ball";
+  ball.volume.voxel_mm = 1;
+  NoProgress quiet;
+  ASSERT_TRUE(take_case(ball).ok());
+  auto work = open_work(ball, quiet);
+  ASSERT_TRUE(work) << work.error().text;
+  auto ready = make_ready(ball, std::move(*work), quiet);
+  ASSERT_TRUE(ready) << ready.error().text;
+  for (int n = 0; n < 12; ++n) {
+    WorkOptions options = ball;
+    Recipe& recipe = options.volume;
+    recipe = {};
+    recipe.source = "/nowhere/å \"b\".nrrd";
+    if (coin()) recipe.series = "1.2.840.113619";
+    if (coin()) recipe.spacing_mm = {share(random), 0.3, 1.0 / 3};
+    if (coin()) recipe.region = Region{{1, static_cast<int>(random() % 999)}, {0, 7}, {8, 9}};
+    if (coin()) recipe.voxel_mm = share(random);
+    if (coin()) recipe.iso = 3000 * (share(random) - 0.5);
+    if (coin()) recipe.smooth = share(random);
+    if (coin()) recipe.labels = "/nowhere/labels.toml";
+    if (coin()) recipe.materials = "/nowhere/m.toml";
+    if (coin()) recipe.memory_mb = 1000 * share(random);
+    {
+      Autosave autosave(state_, *ready, options, false);
+      ASSERT_TRUE(autosave.keep()) << autosave.trouble();
+      autosave.finish();
+      ASSERT_EQ(autosave.trouble(), "");
+    }
+    const std::vector<KeptSession> all = kept_sessions(state_);
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_TRUE(all[0].options.volume == recipe) << scenario::to_json(recipe);
+    EXPECT_TRUE(all[0].clean && all[0].keep);
+    fs::remove_all(state_ / "sessions");
+  }
+}
+
+TEST_F(Kept, AnOlderAccountIsStillRead) {
+  const fs::path folder = state_ / "sessions";
+  std::ofstream(folder / "session_20261122_193145.mcap") << "x";
+  std::ofstream(folder / "session_20261122_193145.toml")
+      << "# A session of burr, kept so that one can go on with it.\n"
+         "title = \"NRRD scan\"\nwhen = \"2026-11-22 19:31\"\nsource = \"/nowhere/a.nrrd\"\n"
+         "series = \"#2\"\nspacing_mm = \"0.3,0.3,0.6\"\nroi = \"0,17,0,23,4,23\"\niso = \"1300\"\n"
+         "tissues = \"/nowhere/l.toml\"\nmaterials = \"\"\nvoxel_mm = 0.25\nburr_mm = 4\n"
+         "rpm = 30000\nseconds = 1.500\nremoved_mm3 = 2.250\nclean = true\nkeep = true\n";
+  const std::vector<KeptSession> all = kept_sessions(state_);
+  ASSERT_EQ(all.size(), 1U);
+  Recipe wanted;
+  wanted.source = "/nowhere/a.nrrd";
+  wanted.series = "#2";
+  wanted.spacing_mm = {0.3, 0.3, 0.6};
+  wanted.region = Region{{0, 17}, {0, 23}, {4, 23}};
+  wanted.iso = 1300;
+  wanted.labels = "/nowhere/l.toml";
+  wanted.voxel_mm = 0.25;
+  EXPECT_TRUE(all[0].options.volume == wanted) << scenario::to_json(all[0].options.volume);
+  EXPECT_EQ(all[0].title, "NRRD scan");
+  EXPECT_EQ(all[0].options.burr_mm, 4);
+  EXPECT_TRUE(all[0].clean && all[0].keep);
+  Settings settings;
+  settings.sessions_kept = 0;
+  settings.sessions_mb = 0;
+  std::ofstream(folder / "session_20261123_193145.mcap") << "x";
+  std::ofstream(folder / "session_20261123_193145.toml") << "source = \"/nowhere/b.nrrd\"\n";
+  std::ofstream(folder / "session_20261121_193145.mcap") << "x";
+  std::ofstream(folder / "session_20261121_193145.toml") << "source = \"/nowhere/c.nrrd\"\n";
+  throw_old_away(state_, settings);
+  EXPECT_EQ(kept_sessions(state_).size(), 2U) << "the newest and the one kept for good";
+  EXPECT_FALSE(fs::exists(folder / "session_20261121_193145.toml"));
+}
+
+}  // namespace
+}  // namespace burr::app
