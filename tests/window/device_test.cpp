@@ -116,7 +116,7 @@ TEST_F(DeviceWindow, StopsByKeyAndGoesOnByTheSame) {
                       press(SDLK_BACKSPACE);
                     }},
                    {"stopped", [&] { return lifted(session); }, {}},
-                   {"and said", [&] { return desk_->said.find("stopped") != std::string::npos; },
+                   {"and said", [&] { return desk_->said.find("Stopped") != std::string::npos; },
                     [&] {
                       start = hand(session);
                       stylus({0, 20, 0}, 1);
@@ -373,7 +373,7 @@ TEST_F(DeviceWindow, PulledOutItIsSaidAndTheLastTicksAreKept) {
     std::ifstream file(entry.path());
     std::string first;
     std::getline(file, first);
-    EXPECT_NE(first.find("let go"), std::string::npos) << first;
+    EXPECT_NE(first.find("force released"), std::string::npos) << first;
     ++files;
   }
   EXPECT_GE(files, 1);

@@ -185,7 +185,7 @@ TEST(ExportRequest, IsRefusedInOneSentence) {
   EXPECT_NE(why(ExportWhat::bone, "/tmp").find("is a folder"), std::string::npos);
   EXPECT_NE(why(ExportWhat::bone, "/tmp/x.doc").find("unknown ending"), std::string::npos);
   EXPECT_NE(why(ExportWhat::picture, "/tmp/x.stl").find(".png"), std::string::npos);
-  EXPECT_NE(why(ExportWhat::bone, "/tmp/no/such/x.stl").find("no such folder"), std::string::npos);
+  EXPECT_NE(why(ExportWhat::bone, "/tmp/no/such/x.stl").find("does not exist"), std::string::npos);
   EXPECT_EQ(why(ExportWhat::removed, "/tmp/x.stl"), "");
   EXPECT_EQ(why(ExportWhat::picture, "/tmp/x.PNG"), "");
 }

@@ -32,7 +32,7 @@ Tissues to_spare(const volume::TissueTable& table, const std::vector<std::string
     if (found != table.tissues.end())
       spared.push_back(static_cast<volume::TissueId>(found - table.tissues.begin()));
     else
-      fmt::print(stderr, "this bone has no \"{}\" to spare\n", base::shown(name));
+      fmt::print(stderr, "this bone has no structure \"{}\" to spare\n", base::shown(name));
   }
   return spared;
 }

@@ -38,7 +38,7 @@ Result<importing::Imported> open_phantom(const VolumeOptions& options, Progress&
       !options.iso.empty() || !options.tissues.empty() || options.read_seconds != 0 ||
       options.read_memory_mb != 0)
     return error(Trouble::usage,
-                 "a phantom is a formula: only --voxel-mm and --materials change it");
+                 "a phantom is a formula: only --voxel-mm and --materials apply to it");
   std::function<void(volume::TissueTable&)> made_of;
   if (!options.materials.empty()) {
     auto materials = importing::read_materials(options.materials);
@@ -74,29 +74,32 @@ Result<importing::Imported> open_phantom(const VolumeOptions& options, Progress&
 }  // namespace
 
 void add_volume_options(CLI::App& command, VolumeOptions& options) {
-  command.add_option(
-      "--series", options.series,
-      "of a DICOM folder: Series Instance UID, its beginning, or #2 as info lists them");
+  command.add_option("--series", options.series,
+                     "series of a DICOM folder: Series Instance UID, its beginning, or #2 as in "
+                     "the list of burr info");
   command.add_option("--voxel-mm", options.voxel_mm,
                      "edge of the cubic voxels (default: the finest axis)");
   command.add_option("--spacing-mm", options.spacing_mm,
-                     "X,Y,Z: instead of a spacing the file states wrongly");
-  command.add_option("--iso", options.iso,
-                     "surface level in HU or the file's unit (default: 300 HU, else Otsu)");
-  command.add_option("--roi", options.roi,
-                     "I0,I1,J0,J1,K0,K1: only these voxels of the file, first and last, from 0");
+                     "X,Y,Z: replaces a wrong spacing in the file");
+  command.add_option(
+      "--iso", options.iso,
+      "level of the bone surface, in HU or the file's unit (default: 300 HU, otherwise by Otsu)");
+  command.add_option(
+      "--roi", options.roi,
+      "I0,I1,J0,J1,K0,K1: use only these voxels of the file (first and last, counted from 0)");
   command.add_option("--tissues", options.tissues,
                      "TOML table: which labels are solid, soft or air");
   command.add_option("--materials", options.materials,
-                     "TOML table: what tissues are made of (default: burr materials)");
-  command.add_option("--smooth", options.smooth,
-                     "noise to smooth, in HU or the file's unit; 0: none (default: as measured)");
+                     "TOML table: constants of the materials (default: burr materials)");
+  command.add_option(
+      "--smooth", options.smooth,
+      "noise to smooth, in HU or the file's unit; 0: no smoothing (default: as measured)");
   command.add_option("--memory-mb", options.memory_mb,
                      "memory budget of the import (default: 2048)");
   command.add_option("--read-seconds", options.read_seconds,
-                     "processor time that reading may take (default: by the size of the files)");
+                     "limit of the processor time for reading (default: by the size of the files)");
   command.add_option("--read-memory-mb", options.read_memory_mb,
-                     "memory that reading may take (default: by the size of the files)");
+                     "limit of the memory for reading (default: by the size of the files)");
 }
 
 bool is_phantom(const std::string& path) { return path.rfind(kPhantom, 0) == 0; }
@@ -105,7 +108,7 @@ Result<io::ReadOptions> read_options(const VolumeOptions& options) {
   io::ReadOptions out;
   out.series = options.series;
   if (!(options.read_seconds >= 0) || !(options.read_memory_mb >= 0))
-    return error(Trouble::usage, "--read-seconds and --read-memory-mb: numbers above 0 are needed");
+    return error(Trouble::usage, "--read-seconds and --read-memory-mb: must be numbers above 0");
   out.seconds = options.read_seconds;
   out.memory_mb = options.read_memory_mb;
   if (options.spacing_mm.empty()) return out;
@@ -130,13 +133,13 @@ Result<importing::ImportOptions> import_options(const VolumeOptions& options) {
   out.keep_greys = options.keep_greys;
   if (options.memory_mb != 0) {
     if (!(options.memory_mb >= 16))
-      return error(Trouble::usage, "--memory-mb: at least 16 MB are needed");
+      return error(Trouble::usage, "--memory-mb: must be at least 16 MB");
     out.memory_budget_mb = options.memory_mb;
   }
   if (!options.iso.empty()) {
     std::vector<double> iso;
     if (!numbers(options.iso, iso) || iso.size() != 1)
-      return error(Trouble::usage, fmt::format("--iso: \"{}\" is no number", options.iso));
+      return error(Trouble::usage, fmt::format("--iso: \"{}\" is not a number", options.iso));
     out.iso = iso[0];
   }
   if (!options.roi.empty()) {

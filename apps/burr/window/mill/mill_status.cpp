@@ -49,8 +49,7 @@ std::string told_flags(std::uint32_t flags) {
 std::string flag_words(std::uint32_t flags) {
   std::string text;
   for (const auto& [flag, says] : kFlagWords)
-    if ((flags & flag) != 0)
-      text += (text.empty() ? "" : ", ") + std::string(word(says, Language::english));
+    if ((flags & flag) != 0) text += (text.empty() ? "" : ", ") + std::string(english(says));
   return text;
 }
 

@@ -49,7 +49,7 @@ Status make_folder(const fs::path& folder) {
   fs::create_directories(folder, trouble);
   if (!trouble) fs::permissions(folder, fs::perms::owner_all, trouble);
   if (!trouble) return fine();
-  return error(Trouble::io, fmt::format("{}: cannot be made ({}); this session is not kept",
+  return error(Trouble::io, fmt::format("{}: cannot be made ({}); this session is not saved",
                                         folder.string(), trouble.message()));
 }
 
@@ -190,7 +190,7 @@ std::optional<FilmSource> Autosave::film_source() const {
 
 Status Autosave::write_account() const {
   const VolumeOptions& volume = kept_.options.volume;
-  std::string text = "# A session of burr, kept so that one can go on with it.\n";
+  std::string text = "# A session of burr, saved so that it can be continued.\n";
   for (const auto& [key, value] : {std::pair{"title", &kept_.title},
                                    {"when", &kept_.when},
                                    {"source", &volume.path},
