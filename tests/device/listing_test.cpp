@@ -114,9 +114,9 @@ TEST_F(ListingTest, AUserReadsWhatEachCanDoAndHowToNameIt) {
   const Variable events("HAPLY_EVENTS_PORT", std::to_string(service.events_port));
   const std::string said = said_by("devices");
   for (const char* words :
-       {"touch            ", "feels 6 axes and pushes 3", "touch:NAME", "haply:049D",
+       {"touch            ", "senses 6 axes, drives 3", "touch:NAME", "haply:049D",
         "8.0 N (3.00 N for long)", "damping to 4 N s/m, 120 mm about its middle",
-        "There are the grips GRIP, LEFT: haply:ARM+GRIP", "not there: no CRTK arm is heard"})
+        "Grips found: GRIP, LEFT. haply:ARM+GRIP", "not found: no CRTK arm is heard"})
     EXPECT_NE(said.find(words), std::string::npos) << words << "\nis not in\n" << said;
 }
 

@@ -230,11 +230,12 @@ void cutting(const Verify& verify, Report::Part& part) {
   laws(verify, part);
 }
 
-const VerifyPart part{30, "cutting", "Cutting",
-                      "Holes whose volume is a formula; the same hand at other tick rates and in "
-                      "other voxels; the energy law against the forces that were felt; and what "
-                      "removal 30 times a second, as the thesis does it, does to the hand.",
-                      cutting};
+const VerifyPart part{
+    30, "cutting", "Cutting",
+    "Holes whose volume is known by formula; the same hand motion at other tick rates and in other "
+    "voxel sizes; the energy law compared with the forces that were felt; and the effect on the "
+    "hand of removal 30 times a second, as in the thesis.",
+    cutting};
 
 }  // namespace
 }  // namespace burr::app
