@@ -107,7 +107,7 @@ TEST_F(MeasuringWindow, TwoClicksGiveTheirDistanceNothingIsCutAndEscapeEndsIt) {
                       press(SDLK_d);
                     }},
                    {"the angle's turn", says("three points"), [] { press(SDLK_d); }},
-                   {"the thickness' turn", says("thick"), [] { press(SDLK_ESCAPE); }},
+                   {"the thickness' turn", says("hick"), [] { press(SDLK_ESCAPE); }},
                    {"its end", says("ended"), [&] {
                       still_there = desk_->page == Page::milling;
                       press(SDLK_q);

@@ -267,6 +267,22 @@ Status run(const Options& options) {
   return fine();
 }
 
+void add_results(CLI::App* command, const std::shared_ptr<Options>& options) {
+  command->add_flag("--realtime", options->realtime,
+                    "run at the speed of the clock (default: as fast as possible)");
+  command->add_option("--record", options->record, "F.mcap: record the session");
+  command->add_flag("--embed", options->embed, "with --record: store the bone in the file");
+  command->add_option("--picture", options->picture, "F.png: picture of the bone afterwards");
+  command
+      ->add_option("--undo-bricks", options->undo_bricks, "memory for undo: bricks of 8^3 voxels")
+      ->capture_default_str();
+  command
+      ->add_option("--reserve-bricks", options->volume.reserve_bricks,
+                   "memory for added material: bricks of 8^3 voxels")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "one JSON object on the last line");
+}
+
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("mill", "mill a bone with a simulated hand");
@@ -351,19 +367,7 @@ void add(CLI::App& app, Todo& todo) {
                     "compute the temperature of the bone and the heat dose");
   command->add_flag("--irrigation", options->irrigated, "coolant runs over the burr")
       ->needs("--heat");
-  command->add_flag("--realtime", options->realtime,
-                    "run at the speed of the clock (default: as fast as possible)");
-  command->add_option("--record", options->record, "F.mcap: record the session");
-  command->add_flag("--embed", options->embed, "with --record: store the bone in the file");
-  command->add_option("--picture", options->picture, "F.png: picture of the bone afterwards");
-  command
-      ->add_option("--undo-bricks", options->undo_bricks, "memory for undo: bricks of 8^3 voxels")
-      ->capture_default_str();
-  command
-      ->add_option("--reserve-bricks", options->volume.reserve_bricks,
-                   "memory for added material: bricks of 8^3 voxels")
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "one JSON object on the last line");
+  add_results(command, options);
   add_picture_size(*command, options->size);
   add_volume_options(*command, options->volume);
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
