@@ -1,9 +1,34 @@
 # the program `burr`: one file per subcommand
 file(GLOB_RECURSE BURR_APP CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/*.cpp)
 if(BURR_APP)
-  # burr_of_program(TARGET): common settings of everything compiled from the program
+  # The texts of the window become part of the program: words/*.toml, one file for each language, English first.
+  # The keys of the English file are the enumerators of `Word`.
+  set(english ${PROJECT_SOURCE_DIR}/words/en.toml)
+  file(GLOB word_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/words/*.toml)
+  list(REMOVE_ITEM word_files ${english})
+  set(BURR_WORD_TEXTS "")
+  foreach(file ${english} ${word_files})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    get_filename_component(code ${file} NAME_WE)
+    file(READ ${file} text)
+    string(APPEND BURR_WORD_TEXTS "    {\"${code}\", R\"toml(${text})toml\"},\n")
+  endforeach()
+  file(READ ${english} text)
+  string(REGEX MATCHALL "\n[a-z][a-z_0-9]* =" keys "${text}")
+  set(BURR_WORD_KEYS "")
+  foreach(key ${keys})
+    string(REGEX REPLACE "[\n =]" "" key "${key}")
+    if(NOT key STREQUAL language)
+      string(APPEND BURR_WORD_KEYS "BURR_WORD(${key})\n")
+    endif()
+  endforeach()
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/words.h.in ${CMAKE_BINARY_DIR}/words/word_keys.h @ONLY)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/words.cpp.in ${CMAKE_BINARY_DIR}/words/word_texts.cpp @ONLY)
+
+  # burr_of_program(TARGET): what all that is compiled of it have in common
   function(burr_of_program target)
-    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${PROJECT_SOURCE_DIR}/third_party)
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${CMAKE_BINARY_DIR}/words
+      ${PROJECT_SOURCE_DIR}/third_party)
     target_link_libraries(${target} PRIVATE burr burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
       nlohmann_json::nlohmann_json PkgConfig::EPOXY PkgConfig::SDL2 PkgConfig::IMGUI)
     target_compile_definitions(${target} PRIVATE BURR_VERSION="${PROJECT_VERSION}")
@@ -22,7 +47,7 @@ if(BURR_APP)
     ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp ${PROJECT_SOURCE_DIR}/apps/burr/workshop/*.cpp)
   list(APPEND BURR_APP_PARTS ${window_and_workshop})
   list(REMOVE_ITEM BURR_APP ${BURR_APP_PARTS})
-  add_library(burr_app STATIC EXCLUDE_FROM_ALL ${BURR_APP_PARTS})
+  add_library(burr_app STATIC EXCLUDE_FROM_ALL ${BURR_APP_PARTS} ${CMAKE_BINARY_DIR}/words/word_texts.cpp)
   burr_of_program(burr_app)
 
   add_executable(burr_program ${BURR_APP})

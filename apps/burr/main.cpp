@@ -57,7 +57,7 @@ int end(int code) {
 constexpr const char* kExamples = R"(
 examples:
   burr run                                        mill the built-in temporal bone in a window
-  burr info ct_folder/                            what is in it and what would be done with it
+  burr info ct_folder/                            what the scan contains, and the bone burr would make
   burr mill ct_folder/ --motion pocket --burr-mm 5 --record s.mcap --picture after.png --json
   burr replay s.mcap --check                      simulate it again and compare every tick
   burr export s.mcap --part bone --out bone.stl   a mesh to print
@@ -87,17 +87,17 @@ int main(int argc, char** argv) {
   CLI::App program{"burr - cut bone by hand: touch, mill and print a patient's bone", "burr"};
   program.set_version_flag("--version",
                            fmt::format("burr {} ({})", base::version(), base::build()));
-  program.set_help_all_flag("--help-all", "help of every subcommand");
+  program.set_help_all_flag("--help-all", "show the help of all subcommands");
   program.require_subcommand(0, 1);
   program.footer(app::kExamples);
-  program.add_flag("--quiet", app::quiet(), "no progress lines");
+  program.add_flag("--quiet", app::quiet(), "print no progress lines");
 
   app::Todo todo;
   auto& commands = app::commands();
   std::stable_sort(commands.begin(), commands.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [place, add] : commands) add(program, todo);
-  program.add_subcommand("help", "this text, with examples")->callback([&todo, &program] {
+  program.add_subcommand("help", "show this text, with examples")->callback([&todo, &program] {
     todo.work = [&program] {
       program.clear();  // else CLI11 tells of the subcommand that was asked for, "help"
       fmt::print("{}", program.help());
@@ -116,7 +116,7 @@ int main(int argc, char** argv) {
       fmt::print("{}", program.help());
       return fine();
     };
-  Status status = error(Trouble::internal, "nothing was done");
+  Status status = error(Trouble::internal, "internal error: no command ran");
   try {
     status = todo.work();
   } catch (const std::bad_alloc&) {

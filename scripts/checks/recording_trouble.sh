@@ -23,7 +23,7 @@ fail() {
   bad=1
 }
 block=(phantom:block --voxel-mm 0.5 --burr-mm 4 --motion pocket)
-goes_on='the session goes on without recording'
+goes_on='the session continues without recording'
 
 # check NAME CODE SENTENCE: the exit code and messages of the last burr, in NAME.err and NAME.out
 check() {
@@ -31,7 +31,7 @@ check() {
   [ "$code" = 74 ] || fail "$name: exit code $code instead of 74"
   [ "$(grep -c "$goes_on" "$place/$name.err")" = 1 ] || fail "$name: does not say once that it goes on"
   grep -q "$sentence" "$place/$name.err" || fail "$name: does not say '$sentence'"
-  grep -q 'the session was finished, but its recording is not whole' "$place/$name.err" ||
+  grep -q 'the session ended normally, but its recording is incomplete' "$place/$name.err" ||
     fail "$name: does not say it at the end"
   [ $bad = 0 ] || cat "$place/$name.err"
 }

@@ -114,9 +114,10 @@ TEST_F(ListingTest, AUserReadsWhatEachCanDoAndHowToNameIt) {
   const Variable events("HAPLY_EVENTS_PORT", std::to_string(service.events_port));
   const std::string said = said_by("devices");
   for (const char* words :
-       {"touch            ", "feels 6 axes and pushes 3", "touch:NAME", "haply:049D",
-        "8.0 N (3.00 N for long)", "damping to 4 N s/m, 120 mm about its middle",
-        "There are the grips GRIP, LEFT: haply:ARM+GRIP", "not there: no CRTK arm is heard"})
+       {"touch            ", "senses 6 axes, drives 3", "touch:NAME", "haply:049D",
+        "8.0 N peak (3.00 N continuous)",
+        "damping up to 4 N s/m, workspace 120 mm about its middle",
+        "Grips found: GRIP, LEFT. haply:ARM+GRIP", "not found: no CRTK arm is heard"})
     EXPECT_NE(said.find(words), std::string::npos) << words << "\nis not in\n" << said;
 }
 
@@ -126,7 +127,7 @@ TEST_F(ListingTest, TheGripIsPartOfTheName) {
   const Variable port("HAPLY_WS_PORT", std::to_string(service.port));
   const Variable events("HAPLY_EVENTS_PORT", std::to_string(service.events_port));
   const Variable config("XDG_CONFIG_HOME", ::testing::TempDir() + "listing_test");
-  EXPECT_NE(said_by("devices set haply:049D+LEFT scale=0.5").find("inverse3 049D: kept in"),
+  EXPECT_NE(said_by("devices set haply:049D+LEFT scale=0.5").find("inverse3 049D: saved in"),
             std::string::npos);
   std::FILE* pipe =
       ::popen((kProgram + " devices set haply:049D+RIGHT scale=0.5 2>&1").c_str(), "r");

@@ -273,7 +273,7 @@ TEST_F(Rules, AreShownAskedForWrittenAndThenLeftAlone) {
     return Answer::no;
   });
   ASSERT_TRUE(again.ok());
-  EXPECT_NE(again->find("is as it should be"), std::string::npos);
+  EXPECT_NE(again->find("is already correct"), std::string::npos);
 }
 
 TEST_F(Rules, OfTheUsersOwnAreKeptBeside) {

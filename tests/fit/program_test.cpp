@@ -49,7 +49,8 @@ TEST_F(FitProgram, WhatItWritesIsReadAsMaterials) {
   write_log("bench.csv", test::level_2(truth, 400, 0.05, random), true);
   const std::string said = burr("fit bench.csv --material dentine --date 2026-11-22 --out d.toml");
   EXPECT_NE(said.find("exit 0"), std::string::npos) << said;
-  EXPECT_NE(said.find("dentine: 400 rows used, 0 left out"), std::string::npos) << said;
+  EXPECT_NE(said.find("dentine: 400 rows used, 0 rows without cutting left out"), std::string::npos)
+      << said;
   const auto read = importing::read_materials(path("d.toml"));
   ASSERT_TRUE(read.ok()) << read.error().text;
   const importing::Material& dentine = *read->find("dentine");
@@ -97,13 +98,13 @@ TEST_F(FitProgram, RefusesInOneSentence) {
     EXPECT_NE(said.find(std::string("exit ") + code), std::string::npos) << words << "\n" << said;
     EXPECT_NE(said.find(says), std::string::npos) << words << "\n" << said;
   };
-  expect("fit two.csv", "65", "two.csv: no constant can be told: cutting_friction: 2 rows");
+  expect("fit two.csv", "65", "two.csv: no constant can be determined: cutting_friction: 2 rows");
   expect("fit bad.csv", "65", "bad.csv: line 1: there is no column tangential_n");
   expect("fit none.csv", "74", "none.csv: cannot be read");
   expect("fit none.mcap", "74", "none.mcap");
-  expect("fit a.csv --out x.toml", "2", "say it with --material");
-  expect("fit a.csv --date yesterday", "2", "--date: \"yesterday\" is no day");
-  expect("fit a.csv --date 2026-02-30", "2", "is no day");
+  expect("fit a.csv --out x.toml", "2", "name it with --material");
+  expect("fit a.csv --date yesterday", "2", "--date: \"yesterday\" is not a date");
+  expect("fit a.csv --date 2026-02-30", "2", "is not a date");
   expect("materials --materials bad.csv", "65", "bad.csv: ");
   EXPECT_FALSE(std::filesystem::exists(path("x.toml")));
 }

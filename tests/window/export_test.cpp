@@ -74,7 +74,7 @@ TEST_F(Export, WritesTheBoneWhileTheSessionGoesOn) {
   bool running = false;
   auto steps = cuts(session);
   steps.push_back({"the page", looks(5), [] { write(); }});
-  steps.push_back({"the word that it is written", says("written: "), nullptr});
+  steps.push_back({"the word that it is written", says("Written: "), nullptr});
   steps.push_back({"... in triangles", says("triangles"), [&] {
                      running = session.running();
                      press(SDLK_q);
@@ -119,7 +119,7 @@ TEST_F(Export, AsksBeforeItReplacesAFile) {
                       before = bytes_of(folder_ / "picture.png");
                       write();  // now it says: replace it
                     }},
-                   {"the word that it is written", says("written: "), [] { press(SDLK_q); }}});
+                   {"the word that it is written", says("Written: "), [] { press(SDLK_q); }}});
   EXPECT_EQ(before, "mine");
   EXPECT_EQ(bytes_of(folder_ / "picture.png").substr(1, 3), "PNG");
 }
@@ -185,7 +185,7 @@ TEST(ExportRequest, IsRefusedInOneSentence) {
   EXPECT_NE(why(ExportWhat::bone, "/tmp").find("is a folder"), std::string::npos);
   EXPECT_NE(why(ExportWhat::bone, "/tmp/x.doc").find("unknown ending"), std::string::npos);
   EXPECT_NE(why(ExportWhat::picture, "/tmp/x.stl").find(".png"), std::string::npos);
-  EXPECT_NE(why(ExportWhat::bone, "/tmp/no/such/x.stl").find("no such folder"), std::string::npos);
+  EXPECT_NE(why(ExportWhat::bone, "/tmp/no/such/x.stl").find("does not exist"), std::string::npos);
   EXPECT_EQ(why(ExportWhat::removed, "/tmp/x.stl"), "");
   EXPECT_EQ(why(ExportWhat::picture, "/tmp/x.PNG"), "");
 }

@@ -138,7 +138,7 @@ TEST_F(HandsWindow, AGamepadThatIsPulledOutWhileItPressesLifts) {
   mill_by(*ready, {{"seen at rest", looks(20), [&] { pad.trigger(1); }},
                    {"pressing", [&] { return pedal() > 0.9; }, [&] { pad.pull_out(); }},
                    {"a picture or two", looks(3), [&] { EXPECT_EQ(pedal(), 0); }},
-                   {"told", [&] { return desk_->said.find("is gone") != std::string::npos; },
+                   {"told", [&] { return desk_->said.find("disconnected") != std::string::npos; },
                     [] { press(SDLK_q); }}});
 }
 

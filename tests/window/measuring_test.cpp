@@ -25,7 +25,7 @@ TEST(Measuring, KnowsDistancesAndAngles) {
   m.pick({0.004, 0.004, 0});
   ASSERT_TRUE(m.value());
   EXPECT_NEAR(*m.value(), 0.005, 1e-15);
-  EXPECT_EQ(m.words(), "distance 5.00 mm");
+  EXPECT_EQ(m.words(), "Distance: 5.00 mm");
   m.pick({0, 0, 0});
   EXPECT_FALSE(m.value()) << "the third click begins anew";
   m.next();
@@ -33,7 +33,7 @@ TEST(Measuring, KnowsDistancesAndAngles) {
   for (const Vec3& p : {Vec3(0.01, 0, 0), Vec3(0, 0, 0), Vec3(0.02, 0.02, 0)}) m.pick(p);
   ASSERT_TRUE(m.value());
   EXPECT_NEAR(*m.value(), std::numbers::pi / 4, 1e-12);
-  EXPECT_EQ(m.words(), "angle 45.0°");
+  EXPECT_EQ(m.words(), "Angle: 45.0°");
   m.next();
   ASSERT_EQ(m.what(), Measure::thickness);
   EXPECT_FALSE(m.picks());
@@ -107,7 +107,7 @@ TEST_F(MeasuringWindow, TwoClicksGiveTheirDistanceNothingIsCutAndEscapeEndsIt) {
                       press(SDLK_d);
                     }},
                    {"the angle's turn", says("three points"), [] { press(SDLK_d); }},
-                   {"the thickness' turn", says("thick"), [] { press(SDLK_ESCAPE); }},
+                   {"the thickness' turn", says("hick"), [] { press(SDLK_ESCAPE); }},
                    {"its end", says("ended"), [&] {
                       still_there = desk_->page == Page::milling;
                       press(SDLK_q);

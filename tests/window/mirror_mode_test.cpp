@@ -58,7 +58,7 @@ TEST_F(MirrorWindow, IsSwitchedOnSeenToldCutAcrossAndUndone) {
               EXPECT_FALSE(scene.mirrored);
               press(SDLK_x);
             }},
-           {"the mirror", said("mirror: sagittal, through the middle"), {}},
+           {"the mirror", said("Mirror: sagittal, through the middle"), {}},
            {"its picture", looks(3),
             [&] {
               ASSERT_TRUE(scene.mirrored);
@@ -74,7 +74,7 @@ TEST_F(MirrorWindow, IsSwitchedOnSeenToldCutAcrossAndUndone) {
               EXPECT_LT((middle.image_of(burr) - image).norm(), 1e-6);
               press(SDLK_x, KMOD_LCTRL);
             }},
-           {"another way", said("mirror: coronal, through the middle"),
+           {"another way", said("Mirror: coronal, through the middle"),
             [] {
               press(SDLK_x, KMOD_LCTRL);
               press(SDLK_x, KMOD_LCTRL);
@@ -108,7 +108,7 @@ TEST_F(MirrorWindow, IsSwitchedOnSeenToldCutAcrossAndUndone) {
                   << "to the nearest half voxel, and the burr goes on a little";
               press(SDLK_x);
             }},
-           // what must be known comes before what was done: it may stand where "mirror off" would
+           // what must be known comes before what was done: it may stand where "Mirror off" would
            {"off", [&] { return !scene.mirrored; }, {}},
            {"nothing of it left", looks(3), [&] {
               EXPECT_FALSE(scene.mirrored);
@@ -128,14 +128,14 @@ TEST(MirrorWords, TellWhereThePlaneIs) {
   const auto at = [&](const char* words) {
     return mirror_words(grid, *tick::mirror_in_words(words, grid));
   };
-  EXPECT_EQ(at("sagittal"), "mirror: sagittal, through the middle");
-  EXPECT_EQ(at("sagittal,3"), "mirror: sagittal, 3.0 mm left of the middle");
-  EXPECT_EQ(at("sagittal,-3"), "mirror: sagittal, 3.0 mm right of the middle");
-  EXPECT_EQ(at("coronal,2.5"), "mirror: coronal, 2.5 mm behind the middle");
-  EXPECT_EQ(at("coronal,-1"), "mirror: coronal, 1.0 mm in front of the middle");
-  EXPECT_EQ(at("axial,1"), "mirror: axial, 1.0 mm above the middle");
-  EXPECT_EQ(at("axial,-1"), "mirror: axial, 1.0 mm below the middle");
-  EXPECT_EQ(mirror_words(grid, {}), "mirror off");
+  EXPECT_EQ(at("sagittal"), "Mirror: sagittal, through the middle");
+  EXPECT_EQ(at("sagittal,3"), "Mirror: sagittal, 3.0 mm left of the middle");
+  EXPECT_EQ(at("sagittal,-3"), "Mirror: sagittal, 3.0 mm right of the middle");
+  EXPECT_EQ(at("coronal,2.5"), "Mirror: coronal, 2.5 mm behind the middle");
+  EXPECT_EQ(at("coronal,-1"), "Mirror: coronal, 1.0 mm in front of the middle");
+  EXPECT_EQ(at("axial,1"), "Mirror: axial, 1.0 mm above the middle");
+  EXPECT_EQ(at("axial,-1"), "Mirror: axial, 1.0 mm below the middle");
+  EXPECT_EQ(mirror_words(grid, {}), "Mirror off");
 }
 
 TEST(MirrorWords, TheOutlineStaysInsideTheVolumeAndOnThePlane) {

@@ -322,10 +322,10 @@ TEST_F(Headset, IsPutOnAndTakenOffBySettings) {
                    {"worn, and it is said",
                     [&] {
                       return worn.xr().with_pictures > 3 &&
-                             desk_->said.find("headset: Fake headset") != std::string::npos;
+                             desk_->said.find("Headset: Fake headset") != std::string::npos;
                     },
                     [&] { desk_->headset_wanted = false; }},
-                   {"off", [&] { return desk_->said.find("headset off") != std::string::npos; },
+                   {"off", [&] { return desk_->said.find("Headset off") != std::string::npos; },
                     [&] {
                       EXPECT_EQ(worn.xr().instances, 0);
                       desk_->headset_wanted = true;

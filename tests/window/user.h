@@ -172,7 +172,7 @@ class Window : public testing::Test {
   void TearDown() override {
     desk_.reset();
     fs::remove_all(folder_);
-    speak(Language::english);
+    speak("en");
   }
 
   // a block by formula, coarse, ready to be milled

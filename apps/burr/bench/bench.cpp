@@ -19,7 +19,8 @@ void add(CLI::App& app, Todo& todo) {
   if (all.empty()) return;
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  auto* bench = app.add_subcommand("bench", "measure how fast this machine does one thing");
+  auto* bench =
+      app.add_subcommand("bench", "measure the speed of one part of burr on this machine");
   bench->require_subcommand(1);
   for (const auto& [place, add_one] : all) add_one(*bench, todo);
 }

@@ -80,7 +80,7 @@ Status run(const Options& options) {
     const Status opened = (*device)->open();
     if (!opened) return opened;
     if ((*device)->clock(1000) == nullptr)
-      return error(Trouble::usage, "--device: this one has no wire to measure");
+      return error(Trouble::usage, "--device: this device has no wire to measure");
     idle = echo(**device, tick_rate((*device)->spec()), options.echo_s);
     (*device)->close();
   }
@@ -146,20 +146,21 @@ Status run(const Options& options) {
 void add(CLI::App& bench, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command =
-      bench.add_subcommand("device", "from a pose on the wire to its force on the wire");
+      bench.add_subcommand("device", "time from a pose on the wire to its force on the wire");
   command->add_option("bone", options->work.volume.source,
                       "a case or a scan (default: temporal-bone)");
-  command->add_option("--seconds", options->seconds, "of the session")
+  command->add_option("--seconds", options->seconds, "length of the session")
       ->check(CLI::Range(1.0, 36'000.0))
       ->capture_default_str();
-  command->add_option("--echo-seconds", options->echo_s, "of the idle echo before it")
+  command
+      ->add_option("--echo-seconds", options->echo_s, "length of the idle echo before the session")
       ->check(CLI::Range(1.0, 3600.0))
       ->capture_default_str();
   command->add_option("--burr-mm", options->work.burr_mm, "diameter of the burr");
   command->add_flag("--json", options->json, "one JSON object");
   add_hand_options(*command, options->work.hand);
   command->add_option("--suction", options->work.suction,
-                      "a second device beside it, as for burr run: what it adds to the tick");
+                      "a second device, as for burr run: measures what it adds to the tick");
   add_volume_options(*command, options->work.volume);
   command->callback([options, &todo] {
     if (options->work.hand.device.empty()) throw CLI::RequiredError("--device");

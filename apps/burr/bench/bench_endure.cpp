@@ -63,10 +63,10 @@ void print(const Options& options, const WholeOutcome& out, const rt::TickSummar
           one.late_p50_us, one.late_p99_us, one.late_p999_us, one.worst_lateness_us, one.missed);
     };
     row("the tick", t);
-    row("a loop that waits, beside", out.waiting);
-    row("the same alone, before", before);
-    row("the same alone, after", after);
-    fmt::print("memory {:.1f} MB at first, {:.1f} MB at last; grew by {:.1f} MB once settled\n",
+    row("a waiting loop, meanwhile", out.waiting);
+    row("waiting loop alone, before", before);
+    row("waiting loop alone, after", after);
+    fmt::print("memory {:.1f} MB at first, {:.1f} MB at last; grew by {:.1f} MB after settling\n",
                out.memory.front().mb, out.memory.back().mb, grew);
     fmt::print("{} pictures, the longest wait for one {:.2f} s; {} patches; removed {:.1f} mm3\n",
                out.frames, out.longest_frame_s, out.patches, 1e9 * out.session.ledger.removed);
@@ -158,29 +158,30 @@ Status run(Options options) {
 void add(CLI::App& bench, Todo& todo) {
   auto options = std::make_shared<Options>();
   options->whole.seconds = 600;
-  auto* command = bench.add_subcommand("endure", "a long session with everything running");
+  auto* command = bench.add_subcommand("endure", "run a long session with everything at work");
   command->add_option("volume", options->volume.source,
                       "file, DICOM folder, or phantom:NAME (default: phantom:temporal-bone)");
-  command->add_option("--seconds", options->whole.seconds, "of milling")
+  command->add_option("--seconds", options->whole.seconds, "length of milling")
       ->check(CLI::Range(4.0, 36'000.0))
       ->capture_default_str();
   command
       ->add_option("--waiting-seconds", options->waiting_s,
-                   "of the loop that only waits, before and after")
+                   "length of the loop that only waits, before and after")
       ->check(CLI::Range(0.5, 3600.0))
       ->capture_default_str();
   command
-      ->add_option("--memory-every", options->whole.memory_every, "seconds between rows of memory")
+      ->add_option("--memory-every", options->whole.memory_every, "seconds between memory readings")
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
-  command->add_option("--busy", options->whole.busy, "threads that only take processor time")
+  command->add_option("--busy", options->whole.busy, "threads that only use processor time")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   command->add_option("--burr-mm", options->burr_mm, "diameter of the burr")->capture_default_str();
   command->add_option("--rate", options->rate_hz, "ticks a second")->capture_default_str();
   command->add_option("--record", options->whole.record,
-                      "F.mcap: keep the recording (default: recorded and thrown away)");
-  command->add_flag("!--no-picture", options->whole.picture, "draw nothing meanwhile");
+                      "F.mcap: keep the recording (default: record and delete it)");
+  command->add_flag("!--no-picture", options->whole.picture,
+                    "draw no picture during the measurement");
   command->add_flag("--json", options->json, "one JSON object on the last line");
   add_picture_size(*command, options->whole.size);
   add_volume_options(*command, options->volume);

@@ -400,14 +400,14 @@ Status run(Options options) {
 
 void add(CLI::App& bench, Todo& todo) {
   auto options = std::make_shared<Options>();
-  auto* command =
-      bench.add_subcommand("frame", "how fast the bone is drawn, at rest and while it is milled");
+  auto* command = bench.add_subcommand(
+      "frame", "measure how fast the bone is drawn, at rest and while milling");
   command->add_option("volume", options->volume.source,
                       "file, DICOM folder, or phantom:NAME (default: phantom:temporal-bone)");
-  command->add_option("--seconds", options->seconds, "of each part")
+  command->add_option("--seconds", options->seconds, "length of each part")
       ->check(CLI::Range(1.0, 36'000.0))
       ->capture_default_str();
-  command->add_option("--turns", options->turns, "frames at full quality, at most")
+  command->add_option("--turns", options->turns, "largest number of frames at full quality")
       ->check(CLI::Range(2, 10'000))
       ->capture_default_str();
   command->add_option("--burr-mm", options->burr_mm, "diameter of the burr")->capture_default_str();

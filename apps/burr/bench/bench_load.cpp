@@ -63,7 +63,7 @@ Status load(const Options& options) {
                            .dump());
   } else {
     fmt::print(
-        "{:.2f} s to the first whole surface: {:.2f} s to the bone, {:.2f} s for {} triangles\n",
+        "{:.2f} s to the first complete surface: {:.2f} s to the bone, {:.2f} s for {} triangles\n",
         wall_s, bone_s, wall_s - bone_s, triangles);
   }
   return fine();
@@ -176,8 +176,8 @@ void add(CLI::App& bench, app::Todo& todo) {
         [options, &todo, work] { todo.work = [options, work] { return work(*options); }; });
     return command;
   };
-  one("load", "from disk to the first whole surface", load);
-  one("memory", "what a session of this bone takes", memory);
+  one("load", "measure the time from the file to the first complete surface", load);
+  one("memory", "measure the memory of a session with this bone", memory);
 }
 
 const app::BenchCommand command{40, add};

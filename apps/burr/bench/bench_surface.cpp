@@ -192,12 +192,13 @@ Status bench_carve(const Options& options) {
 }
 
 void add_surface(CLI::App& bench, Todo& todo) {
-  auto* command = bench.add_subcommand("surface", "make the whole surface of a 512^3 shell");
+  auto* command =
+      bench.add_subcommand("surface", "measure meshing the whole surface of a 512^3 shell");
   auto options = std::make_shared<Options>();
   command->add_option("--size", options->size, "voxels along each edge")
       ->check(CLI::Range(32, 1024))
       ->capture_default_str();
-  command->add_option("--runs", options->runs, "the median of so many")
+  command->add_option("--runs", options->runs, "number of runs; the median is shown")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_flag("--json", options->json, "one JSON object as the last line");
@@ -206,13 +207,14 @@ void add_surface(CLI::App& bench, Todo& todo) {
 }
 
 void add_carve(CLI::App& bench, Todo& todo) {
-  auto* command = bench.add_subcommand("carve", "cut the shell and mesh what changed");
+  auto* command =
+      bench.add_subcommand("carve", "measure cutting the shell and meshing what changed");
   auto options = std::make_shared<Options>();
   options->size = 256;
   command->add_option("--size", options->size, "voxels along each edge")
       ->check(CLI::Range(32, 1024))
       ->capture_default_str();
-  command->add_option("--cuts", options->cuts, "how many")
+  command->add_option("--cuts", options->cuts, "number of cuts")
       ->check(CLI::Range(10, 1000000))
       ->capture_default_str();
   command->add_flag("--json", options->json, "one JSON object as the last line");

@@ -233,21 +233,21 @@ Status run_methods(Options options) {
 void add_methods(CLI::App& bench, app::Todo& todo) {
   auto options = std::make_shared<Options>();
   options->size = 256;
-  auto* command = bench.add_subcommand("methods", "all methods of touch, on the scene of `tick`");
+  auto* command =
+      bench.add_subcommand("methods", "measure all methods of touch on the scene of `tick`");
   command->add_option("--size", options->size, "voxels along each edge of the cube")
       ->capture_default_str();
   command->add_option("--burr-mm", options->burr_mm, "diameter of the burr")
       ->check(CLI::Range(0.6, 20.0))
       ->capture_default_str();
-  command->add_option("--ticks", options->ticks, "counted ticks")->capture_default_str();
+  command->add_option("--ticks", options->ticks, "ticks to measure")->capture_default_str();
   command->add_flag("--json", options->json, "one JSON array on the last line");
   command->callback([options, &todo] { todo.work = [options] { return run_methods(*options); }; });
 }
 
 void add(CLI::App& bench, app::Todo& todo) {
   auto options = std::make_shared<Options>();
-  auto* command =
-      bench.add_subcommand("tick", "one tick of touch and cutting, on the peers' scene");
+  auto* command = bench.add_subcommand("tick", "measure one tick of touch and cutting");
   command->add_option("--size", options->size, "voxels along each edge of the cube")
       ->capture_default_str();
   command->add_option("--shape", options->shape, "ball or box")
@@ -255,27 +255,28 @@ void add(CLI::App& bench, app::Todo& todo) {
       ->capture_default_str();
   command->add_option("--mill", options->mill, "cut while moving")
       ->check(CLI::IsMember({"slide", "slot", "plunge"}));
-  command->add_option("--touch", options->touch, "the method of touch")
+  command->add_option("--touch", options->touch, "method of touch")
       ->check(CLI::IsMember(haptics::kMethodNames))
       ->capture_default_str();
-  command->add_option("--removal", options->removal, "the law of removal")
+  command->add_option("--removal", options->removal, "law of removal")
       ->check(CLI::IsMember(edit::kLawNames))
       ->capture_default_str();
-  command->add_option("--sink-mm", options->sink_mm, "how deep slot and plunge are pressed")
+  command->add_option("--sink-mm", options->sink_mm, "depth of slot and plunge")
       ->check(CLI::Range(0.01, 10.0))
       ->capture_default_str();
   command->add_option("--burr-mm", options->burr_mm, "diameter of the burr")
       ->check(CLI::Range(0.6, 20.0))
       ->capture_default_str();
-  command->add_option("--depth-mm", options->depth_mm, "of the hand below the surface")
+  command->add_option("--depth-mm", options->depth_mm, "depth of the hand below the surface")
       ->capture_default_str();
-  command->add_option("--speed-mm-s", options->speed_mm_s, "of the hand")->capture_default_str();
-  command->add_option("--ticks", options->ticks, "counted ticks")->capture_default_str();
+  command->add_option("--speed-mm-s", options->speed_mm_s, "speed of the hand")
+      ->capture_default_str();
+  command->add_option("--ticks", options->ticks, "ticks to measure")->capture_default_str();
   command->add_option("--rate", options->rate_hz, "ticks a second")
       ->check(CLI::Range(500.0, 10000.0))
       ->capture_default_str();
   command->add_flag("--evict", options->evict,
-                    "walk 64 MiB between ticks, so that the caches are cold");
+                    "read 64 MiB between ticks, so that the caches are cold");
   command->add_flag("--json", options->json, "one JSON object on the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

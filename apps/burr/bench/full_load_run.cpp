@@ -221,7 +221,7 @@ Result<WholeOutcome> run_whole(sim::Session& session, const surgeon::WorkPlace& 
     out.recorded = recording.written();
   }
   out.session = session.outcome();
-  if (interrupted()) return error(Trouble::interrupted, "stopped before the time was over");
+  if (interrupted()) return error(Trouble::interrupted, "stopped early");
   return out;
 }
 

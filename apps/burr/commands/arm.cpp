@@ -57,12 +57,11 @@ Status run(const Options& options) {
         to_spare(session.bone_tissues(), requested.spare), requested.work_case);
     if (!started) return started;
   }
-  fmt::print(
-      stderr,
-      "{0} is on DDS domain {1} (ROS_DOMAIN_ID): drive it by {0}/servo_cp or move_cp [m, LPS], "
-      "the spindle by {0}/spindle (Joy, axis 0); it begins at {2:.4f} {3:.4f} {4:.4f}. Ctrl-C "
-      "ends it.\n",
-      named.name, (*arm)->domain(), start.p.x(), start.p.y(), start.p.z());
+  fmt::print(stderr,
+             "{0} is on DDS domain {1} (ROS_DOMAIN_ID). Move it with {0}/servo_cp or move_cp [m, "
+             "LPS]; the spindle is {0}/spindle (Joy, axis 0). It starts at {2:.4f} {3:.4f} "
+             "{4:.4f}. Ctrl-C ends it.\n",
+             named.name, (*arm)->domain(), start.p.x(), start.p.y(), start.p.z());
   {
     const ArmPublisher teller(session, **arm, [&hand] { return hand.busy(); });
     session.run(options.seconds > 0 ? options.seconds : kForGood, progress());
@@ -78,30 +77,35 @@ Status run(const Options& options) {
                                        {"left_aside", (*arm)->left_aside()}})
                            .dump());
   else
-    fmt::print(
-        "{:.1f} s: removed {:.3f} mm3, {:.2f} N at the most; {} goals or commands left aside\n",
-        outcome.seconds, 1e9 * outcome.ledger.removed, outcome.peak_force, (*arm)->left_aside());
+    fmt::print("{:.1f} s: removed {:.3f} mm3, peak force {:.2f} N; {} goals or commands ignored\n",
+               outcome.seconds, 1e9 * outcome.ledger.removed, outcome.peak_force,
+               (*arm)->left_aside());
   return recorded;
 }
 
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
   options->seconds = 0;
-  auto* command = app.add_subcommand(
-      "arm", "burr as a CRTK robot arm (ROS 2 names, no ROS needed) that others drive and watch");
+  auto* command = app.add_subcommand("arm",
+                                     "act as a CRTK robot arm that other programs move and watch "
+                                     "(ROS 2 names; ROS itself is not needed)");
   command->add_option("bone", options->work.volume.source,
                       "a case or a scan (default: temporal-bone)");
-  command->add_option("--name", options->arm.name, "of the arm, as ROS writes it")
+  command->add_option("--name", options->arm.name, "name of the arm, in ROS form")
       ->capture_default_str();
-  command->add_option("--domain", options->arm.domain, "of DDS (default: ROS_DOMAIN_ID, else 0)")
+  command
+      ->add_option("--domain", options->arm.domain,
+                   "DDS domain (default: ROS_DOMAIN_ID, otherwise 0)")
       ->check(CLI::Range(0, 232));
-  command->add_option("--seconds", options->seconds, "until it ends (default: Ctrl-C)")
+  command
+      ->add_option("--seconds", options->seconds,
+                   "end after this many seconds (default: at Ctrl-C)")
       ->check(CLI::Range(0.1, 1e6));
-  command->add_option("--record", options->record, "F.mcap: write the session down");
+  command->add_option("--record", options->record, "F.mcap: record the session");
   command->add_option("--burr-mm", options->work.burr_mm,
-                      "diameter of the burr; default: the case's, else 5");
+                      "diameter of the burr (default: that of the case, otherwise 5)");
   command->add_option("--rpm", options->work.rpm,
-                      "of the spindle; default: the case's, else 40000");
+                      "speed of the spindle (default: that of the case, otherwise 40000)");
   command->add_flag("--json", options->json, "one JSON object on the last line");
   add_volume_options(*command, options->work.volume);
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });

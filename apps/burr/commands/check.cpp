@@ -45,7 +45,7 @@ void print(const rt::MachineSeen& seen, const rt::MachineJudged& judged,
     fmt::print("{:<16} {}\n", line.what, line.is);
     if (!line.change.empty()) fmt::print("{:<16}   change: {}\n", "", line.change);
   }
-  fmt::print("\n{:<26} {:^31}  {:^31} {:>8}\n", "1000 ticks a second, in us", "work of a tick",
+  fmt::print("\n{:<26} {:^31}  {:^31} {:>8}\n", "1000 ticks a second [us]", "work of a tick",
              "begins late by", "left out");
   fmt::print("{:<26} {:>7} {:>7} {:>7} {:>7}  {:>7} {:>7} {:>7} {:>7}\n", "", "p50", "p99", "p99.9",
              "worst", "p50", "p99", "p99.9", "worst");
@@ -105,13 +105,16 @@ Status run(const Options& options) {
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("check", "is this computer good enough for a haptic device?");
-  command->add_option("--seconds", options->seconds, "of measuring, in three equal parts")
+  command
+      ->add_option("--seconds", options->seconds, "length of the measurement, in three equal parts")
       ->check(CLI::Range(1.0, 3600.0))
       ->capture_default_str();
-  command->add_option("--voxel-mm", options->voxel_mm, "of the built-in bone that is milled")
+  command
+      ->add_option("--voxel-mm", options->voxel_mm,
+                   "voxel edge of the built-in bone that is milled")
       ->check(CLI::Range(0.1, 1.0))
       ->capture_default_str();
-  command->add_flag("!--no-picture", options->picture, "draw nothing meanwhile");
+  command->add_flag("!--no-picture", options->picture, "draw no picture during the measurement");
   command->add_flag("--json", options->json, "one JSON object on the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

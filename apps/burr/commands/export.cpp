@@ -59,7 +59,8 @@ bool is_recording(const std::string& path) {
 // A volume as it was opened: nothing has been removed from it.
 Result<Bones> open_plain(const Options& options) {
   if (options.part == "removed")
-    return error(Trouble::usage, "nothing is removed from a volume yet; give a recording (.mcap)");
+    return error(Trouble::usage,
+                 "nothing has been removed from this volume; give a recording (.mcap)");
   scenario::Recipe volume = options.volume;
   volume.source = options.source;
   volume.reserve_bricks = 0;
@@ -114,17 +115,18 @@ Status run(const Options& options) {
 }
 
 void add(CLI::App& app, Todo& todo) {
-  auto* command = app.add_subcommand("export", "write the bone, or what was removed, to a file");
+  auto* command = app.add_subcommand("export", "write the bone, or the removed part, to a file");
   auto options = std::make_shared<Options>();
   command
       ->add_option("source", options->source,
-                   "a recording (.mcap), or a volume as burr info takes it")
+                   "a recording (.mcap), or a volume (file, DICOM folder, phantom:NAME)")
       ->required();
   command
-      ->add_option("--out", options->out,
-                   "file to write; its ending says how: .stl .ply .obj .3mf .glb .seg.nrrd .nrrd")
+      ->add_option(
+          "--out", options->out,
+          "file to write; its ending decides the format: .stl .ply .obj .3mf .glb .seg.nrrd .nrrd")
       ->required();
-  command->add_option("--part", options->part, "bone, or removed")
+  command->add_option("--part", options->part, "what to write: bone or removed")
       ->check(CLI::IsMember({"bone", "removed"}))
       ->capture_default_str();
   command
@@ -133,11 +135,12 @@ void add(CLI::App& app, Todo& todo) {
       ->check(CLI::IsMember({"lps", "ras", "print"}))
       ->capture_default_str();
   command->add_flag("--scan", options->scan,
-                    "into .nrrd: the scan's grey values with the cut in them, not the field");
+                    "with .nrrd: write the scan's grey values with the cut in them, not the field");
   command->add_option("--at", options->at_s, "moment of the recording [s]; default: its end")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--volume", options->volume.source,
-                      "of a recording: the volume it was cut from (default: search for it)");
+  command->add_option(
+      "--volume", options->volume.source,
+      "for a recording: the volume it was made from (default: burr searches for it)");
   add_volume_options(*command, options->volume);
   command->add_flag("--json", options->json, "one JSON object as the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });

@@ -62,8 +62,8 @@ Result<std::string> date_of(const std::string& given) {
     const time::year_month_day date{time::year(year), time::month(month), time::day(day)};
     if (date.ok() && text(date) == given) return given;
   }
-  return error(Trouble::usage,
-               fmt::format("--date: \"{}\" is no day; write it as 2026-11-22", base::shown(given)));
+  return error(Trouble::usage, fmt::format("--date: \"{}\" is not a date; write it as 2026-11-22",
+                                           base::shown(given)));
 }
 
 Result<fit::ForceLog> read_log(const Options& options, const std::string& path) {
@@ -82,7 +82,7 @@ Result<fit::ForceLog> read_log(const Options& options, const std::string& path) 
 
 void print(const std::vector<fit::MaterialFit>& fits) {
   for (const fit::MaterialFit& fit : fits) {
-    fmt::print("{}: {} rows used, {} left out because nothing was cut\n", shown_name(fit), fit.rows,
+    fmt::print("{}: {} rows used, {} rows without cutting left out\n", shown_name(fit), fit.rows,
                fit.left_out);
     if (!fit.constants.empty())
       fmt::print("  {:<22} {:>10}  {:^23} {:<7} {:>7}  {}\n", "constant", "estimate",
@@ -94,7 +94,7 @@ void print(const std::vector<fit::MaterialFit>& fits) {
                  (one.value + one.half) / field.si, field.unit, one.rows, one.residual,
                  one.residual_unit);
     }
-    for (const std::string& sentence : fit.not_told) fmt::print("  not told: {}\n", sentence);
+    for (const std::string& sentence : fit.not_told) fmt::print("  not determined: {}\n", sentence);
   }
 }
 
@@ -133,7 +133,7 @@ Status write(const Options& options, const std::string& date,
     if (fit.constants.empty()) continue;
     if (fit.material.empty())
       return error(Trouble::usage,
-                   "--out: the log does not say what was cut; say it with --material");
+                   "--out: the log does not name the material; name it with --material");
     importing::Material& material = materials.emplace_back();
     material.name = fit.material;
     for (const fit::Fitted& one : fit.constants) {
@@ -152,7 +152,8 @@ Status write(const Options& options, const std::string& date,
   const std::string text = importing::materials_toml(materials);
   const auto again =
       importing::parse_materials(text, short_name(options.out), importing::built_in_materials());
-  if (!again) return error(fmt::format("what was found makes no material: {}", again.error().text));
+  if (!again)
+    return error(fmt::format("the fitted constants are no valid material: {}", again.error().text));
   auto file = base::NewFile::beside(options.out);
   if (!file) return file.error();
   file->write(text);
@@ -180,24 +181,26 @@ Status run(const Options& options) {
     print(fits);
   if (!any) {
     const std::string why = fits.empty() || fits.front().not_told.empty()
-                                ? std::string("nothing is cut in it")
+                                ? std::string("nothing was cut in it")
                                 : fits.front().not_told.front();
-    return error(
-        fmt::format("{}: no constant can be told: {}", short_name(options.logs.front()), why));
+    return error(fmt::format("{}: no constant can be determined: {}",
+                             short_name(options.logs.front()), why));
   }
   return options.out.empty() ? fine() : write(options, *date, fits);
 }
 
 void add(CLI::App& app, Todo& todo) {
-  auto* command = app.add_subcommand("fit", "constants of materials from force logs");
+  auto* command = app.add_subcommand("fit", "fit the constants of a material to force logs");
   auto options = std::make_shared<Options>();
   command->add_option("logs", options->logs, "force logs: .csv, or recordings .mcap")->required();
-  command->add_option("--out", options->out, "F.toml: what was found, as a table for --materials");
+  command->add_option("--out", options->out,
+                      "F.toml: write the constants as a table for --materials");
   command->add_option("--material", options->material,
-                      "what was cut, where the log does not say it");
-  command->add_option("--date", options->date, "day of the measurement (default: today)");
+                      "name of the material, if the log does not name it");
+  command->add_option("--date", options->date, "date of the measurement (default: today)");
   command
-      ->add_option("--window-ms", options->window_ms, "of recordings: rows are means over so long")
+      ->add_option("--window-ms", options->window_ms,
+                   "for recordings: length of the interval that one row averages")
       ->check(CLI::Range(1.0, 10000.0))
       ->capture_default_str();
   command->add_flag("--json", options->json, "one JSON object as the last line");

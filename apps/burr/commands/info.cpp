@@ -57,7 +57,7 @@ void print(const importing::ImportSummary& s) {
   if (s.roi_size != s.scan_size)
     fmt::print("  cropped to {} x {} x {} voxels\n", s.roi_size.x(), s.roi_size.y(),
                s.roi_size.z());
-  fmt::print("becomes bone of {} x {} x {} voxels of {:.5g} mm, about {:.0f} MB\n", s.size.x(),
+  fmt::print("makes a bone of {} x {} x {} voxels of {:.5g} mm, about {:.0f} MB\n", s.size.x(),
              s.size.y(), s.size.z(), s.voxel_mm, s.memory_mb);
   if (!s.labels)
     fmt::print("  surface at {:.5g}{}{}; noise smoothed: {:.3g}\n", s.iso,
@@ -145,7 +145,7 @@ Result<importing::ImportSummary> look(const scenario::Recipe& recipe) {
     s.high = *high;
   }
   s.notices = scan->notices;
-  s.notices.push_back("It cannot be milled: " + plan.error().text + ".");
+  s.notices.push_back("This volume cannot be milled: " + plan.error().text + ".");
   return s;
 }
 
@@ -207,7 +207,8 @@ Status run(const Options& options) {
 }
 
 void add(CLI::App& app, Todo& todo) {
-  auto* command = app.add_subcommand("info", "what a volume or a recording holds");
+  auto* command = app.add_subcommand(
+      "info", "show what a volume contains, and the bone burr would make from it");
   auto options = std::make_shared<Options>();
   command
       ->add_option("volume", options->volume.source,

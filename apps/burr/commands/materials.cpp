@@ -71,9 +71,11 @@ Status run(const Options& options) {
 }
 
 void add(CLI::App& app, Todo& todo) {
-  auto* command = app.add_subcommand("materials", "what tissues are made of, and how sure that is");
+  auto* command = app.add_subcommand(
+      "materials", "list the constants of the materials, with their ranges and sources");
   auto options = std::make_shared<Options>();
-  command->add_option("--materials", options->file, "TOML table, laid over the built-in one");
+  command->add_option("--materials", options->file,
+                      "TOML table whose values replace the built-in ones");
   command->add_flag("--json", options->json, "one JSON object as the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

@@ -121,7 +121,10 @@ void print_heat(const sim::Session& session, const thermal::HeatSummary& heat, s
         1e9 * one.warm_m3);
   }
   if (lost > 0)
-    fmt::print("  {} rows of heat were lost, this machine is too slow: it was warmer\n", lost);
+    fmt::print(
+        "  {} rows of heat were lost because this machine is too slow: the bone was warmer than "
+        "shown\n",
+        lost);
 }
 
 nlohmann::json heat_json(const sim::Session& session, const thermal::HeatSummary& heat,
@@ -161,7 +164,7 @@ void print(const Options& options, sim::Session& session, const Recording& recor
                    ? fmt::format("; {} late, {} missed; {}", t.late, t.missed, outcome.scheduling)
                    : "");
     if (outcome.most_shed != tick::Shed::none)
-      fmt::print("put off at times, because the machine could not keep up: {}\n",
+      fmt::print("put off at times because this machine is too slow: {}\n",
                  tick::name(outcome.most_shed));
     if (options.heat) print_heat(session, heat, outcome.heat_rows_lost);
     for (const std::string& sentence : tick::words(tick::worth_telling(outcome.flags)))
@@ -262,14 +265,29 @@ Status run(const Options& options) {
   }
   print(options, session, recording);
   if (!recorded) return recorded;
-  if (interrupted())
-    return error(Trouble::interrupted, "stopped; what was done until then is kept");
+  if (interrupted()) return error(Trouble::interrupted, "stopped; the results so far are kept");
   return fine();
+}
+
+void add_results(CLI::App* command, const std::shared_ptr<Options>& options) {
+  command->add_flag("--realtime", options->realtime,
+                    "run at the speed of the clock (default: as fast as possible)");
+  command->add_option("--record", options->record, "F.mcap: record the session");
+  command->add_flag("--embed", options->embed, "with --record: store the bone in the file");
+  command->add_option("--picture", options->picture, "F.png: picture of the bone afterwards");
+  command
+      ->add_option("--undo-bricks", options->undo_bricks, "memory for undo: bricks of 8^3 voxels")
+      ->capture_default_str();
+  command
+      ->add_option("--reserve-bricks", options->volume.reserve_bricks,
+                   "memory for added material: bricks of 8^3 voxels")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "one JSON object on the last line");
 }
 
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
-  auto* command = app.add_subcommand("mill", "a simulated hand mills a bone");
+  auto* command = app.add_subcommand("mill", "mill a bone with a simulated hand");
   command->add_option("volume", options->volume.source, "file, DICOM folder, or phantom:NAME")
       ->required();
   command->add_option("--path", options->path_csv,
@@ -278,90 +296,80 @@ void add(CLI::App& app, Todo& todo) {
                       fmt::format("built-in: {}", fmt::join(surgeon::motion_names(), ", ")));
   command
       ->add_option("--at", options->at_mm,
-                   "X,Y,Z [mm, LPS]: where to begin (default: topmost bone)")
+                   "X,Y,Z [mm, LPS]: where the motion begins (default: topmost bone)")
       ->delimiter(',')
       ->expected(3);
   command
       ->add_option("--into", options->into,
-                   "DX,DY,DZ: the way into the bone (default: against the surface normal)")
+                   "DX,DY,DZ: direction into the bone (default: against the surface normal)")
       ->delimiter(',')
       ->expected(3);
   command->add_option("--burr-mm", options->burr_mm, "diameter of the burr, 0.6 to 7")
       ->capture_default_str();
-  command->add_flag("--diamond", options->diamond, "a diamond burr: cuts a quarter as fast");
-  command->add_option("--rpm", options->rpm, "of the spindle; below 0 it turns backwards")
+  command->add_flag("--diamond", options->diamond, "diamond burr: a quarter of the removal rate");
+  command->add_option("--rpm", options->rpm, "speed of the spindle; below 0 it turns backwards")
       ->check(CLI::Range(-400000.0, 400000.0))
       ->capture_default_str();
   command
       ->add_option("--torque-mnm", options->torque_mnm,
-                   "that the spindle gives at most [mN m]; 0: never gives way")
+                   "largest torque of the spindle [mN m]; 0: unlimited")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
   command->add_option("--teeth", options->teeth, "cutting edges of the burr, for --removal chips")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   command
-      ->add_option("--drag", options->drag,
-                   "gain of the bone's pull along its surface at a turning burr; 0: none")
+      ->add_option(
+          "--drag", options->drag,
+          "gain of the force with which the bone pulls a turning burr along its surface; 0: none")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   command->add_option("--rate", options->rate_hz, "ticks a second, 500 to 10000")
       ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "of a built-in motion")->capture_default_str();
-  command
-      ->add_option("--stiffness", options->stiffness,
-                   "of the spring to the hand [N/m]; capped by the device")
+  command->add_option("--seconds", options->seconds, "duration of a built-in motion")
       ->capture_default_str();
   command
-      ->add_option("--arm", options->arm, "how the simulated hand holds on: firm, light or rigid")
+      ->add_option("--stiffness", options->stiffness,
+                   "stiffness of the spring to the hand [N/m], limited by the device")
+      ->capture_default_str();
+  command->add_option("--arm", options->arm, "grip of the simulated hand: firm, light or rigid")
       ->check(CLI::IsMember({"firm", "light", "rigid"}))
       ->capture_default_str();
   command
       ->add_option("--touch", options->touch,
-                   "the method of touch: ours, or one it is held against")
+                   "method of touch: constraint (burr's own), or another for comparison")
       ->check(CLI::IsMember(haptics::kMethodNames))
       ->capture_default_str();
-  command->add_option("--removal", options->removal, "the law by which bone is taken away")
+  command->add_option("--removal", options->removal, "law of removal")
       ->check(CLI::IsMember(edit::kLawNames))
       ->capture_default_str();
   command
       ->add_option("--thesis-rate", options->removing.thesis_rate,
-                   "with --removal thesis: of a voxel's density, 1 being solid [1/s]")
+                   "with --removal thesis: loss of a voxel's density, of which 1 is solid [1/s]")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   command
       ->add_option("--thesis-frame", options->removing.thesis_frame,
-                   "with --removal thesis: every so many ticks; its own picture loop: 33")
+                   "with --removal thesis: remove bone every so many ticks; the thesis' own "
+                   "picture loop: 33")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command
       ->add_option("--vibration", options->vibration,
-                   "gain of the spindle's buzz in the hand; 0: none, 1: as designed")
+                   "gain of the spindle's vibration in the hand; 0: none, 1: as designed")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
-  command->add_option(
-      "--mirror", options->mirror,
-      "sagittal, coronal or axial[,MM]: what is done on one side of a plane through "
-      "the volume's middle, or MM to its left, back or top, is done on the other");
+  command->add_option("--mirror", options->mirror,
+                      "sagittal, coronal or axial[,MM]: everything done on one side of a plane is "
+                      "also done on the other; the plane goes through the middle of the volume, or "
+                      "MM to the left of, behind or above it");
   command->add_flag("--guard", options->guarded,
-                    "with the energy guard: the hand gets back no more than it gave");
-  command->add_flag("--heat", options->heat, "how warm the bone gets, and what harm that does");
+                    "energy guard: the hand never gets back more energy than it gave");
+  command->add_flag("--heat", options->heat,
+                    "compute the temperature of the bone and the heat dose");
   command->add_flag("--irrigation", options->irrigated, "coolant runs over the burr")
       ->needs("--heat");
-  command->add_flag("--realtime", options->realtime,
-                    "paced by the clock (default: as fast as possible)");
-  command->add_option("--record", options->record, "F.mcap: write the session down");
-  command->add_flag("--embed", options->embed, "with --record: the bone goes into the file");
-  command->add_option("--picture", options->picture, "F.png: the bone afterwards");
-  command
-      ->add_option("--undo-bricks", options->undo_bricks,
-                   "bricks of 8^3 voxels that all strokes kept for undo may touch")
-      ->capture_default_str();
-  command
-      ->add_option("--reserve-bricks", options->volume.reserve_bricks,
-                   "bricks of room for added material")
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "one JSON object on the last line");
+  add_results(command, options);
   add_picture_size(*command, options->size);
   add_volume_options(*command, options->volume);
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });

@@ -76,12 +76,12 @@ Status run(const Options& options) {
 }
 
 void add(CLI::App& app, Todo& todo) {
-  auto* command = app.add_subcommand("phantom", "write a bone made by formula to a file");
+  auto* command = app.add_subcommand("phantom", "write a bone defined by a formula to a file");
   auto options = std::make_shared<Options>();
   command->add_option("name", options->name, "one of: " + names())->required();
   command
       ->add_option("--voxel-mm", options->voxel_mm,
-                   "edge of a voxel [mm]; without it what suits the phantom")
+                   "edge of a voxel [mm] (default: suited to the phantom)")
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--out", options->out,

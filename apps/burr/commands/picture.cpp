@@ -32,8 +32,7 @@ Result<ViewOptions> view_of(const Options& options,
   if (options.greys.empty()) return view;
   if (!shows_slice(view))
     return error(Trouble::usage,
-                 "--greys: only slices show what a scan measured; add --view axial, coronal or "
-                 "sagittal");
+                 "--greys: only slices show grey values; add --view axial, coronal or sagittal");
   if (!(options.greys[0] > 0))
     return error(Trouble::usage,
                  fmt::format("--greys: a window of {} shows nothing; width and level are needed, "
@@ -41,7 +40,7 @@ Result<ViewOptions> view_of(const Options& options,
                              options.greys[0]));
   if (of_the_scan == nullptr)
     return error(Trouble::usage, "--greys: " + options.volume.source +
-                                     " measured nothing: it is a formula or a label map");
+                                     " has no grey values: it is a formula or a label map");
   view.greys = std::move(of_the_scan);
   view.window = options.greys[0];
   view.grey_level = options.greys[1];
@@ -72,7 +71,7 @@ Status run(const Options& options) {
 }
 
 void add(CLI::App& app, Todo& todo) {
-  auto* command = app.add_subcommand("picture", "a bone as a PNG, in any view");
+  auto* command = app.add_subcommand("picture", "draw a bone as a PNG, in any view");
   auto options = std::make_shared<Options>();
   command->add_option("volume", options->volume.source, "file, DICOM folder, or phantom:NAME")
       ->required();
@@ -84,8 +83,9 @@ void add(CLI::App& app, Todo& todo) {
       ->expected(3);
   add_view_options(*command, options->view);
   command
-      ->add_option("--greys", options->greys,
-                   "W,L: slices show what the scan measured, W wide around L, as 4000,700")
+      ->add_option(
+          "--greys", options->greys,
+          "W,L: slices show the scan's grey values, with window W and level L, as in 4000,700")
       ->delimiter(',')
       ->expected(2);
   add_picture_size(*command, options->size);

@@ -22,7 +22,7 @@ Status run(const Options& options) {
   if (!report) return report.error();
   for (const std::string& notice : report->notices) fmt::print("{}\n", notice);
   if (report->was_whole) {
-    fmt::print("{}: is whole, nothing to repair ({} ticks, {:.3f} s)\n", options.path,
+    fmt::print("{}: is complete, nothing to repair ({} ticks, {:.3f} s)\n", options.path,
                report->ticks, report->seconds);
     return fine();
   }
@@ -32,11 +32,11 @@ Status run(const Options& options) {
 }
 
 void add(CLI::App& app, app::Todo& todo) {
-  auto* command = app.add_subcommand("repair", "make a torn recording whole again");
+  auto* command = app.add_subcommand("repair", "repair an incomplete recording");
   auto options = std::make_shared<Options>();
   command->add_option("recording", options->path, "the recording (.mcap)")->required();
   command->add_option("--out", options->out,
-                      "write the whole one here and leave the torn one as it is");
+                      "write the repaired recording here and leave the original unchanged");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }
 

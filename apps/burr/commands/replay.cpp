@@ -88,7 +88,7 @@ Status film(const Options& options, record::Player& player) {
   const int frames = std::max(1, static_cast<int>(player.seconds() * options.fps));
   for (int n = 0; n < frames; ++n) {
     if (interrupted())
-      return error(Trouble::interrupted, "stopped; the pictures made until then are kept");
+      return error(Trouble::interrupted, "stopped; the pictures made so far are kept");
     progress().report(static_cast<double>(n) / frames, "filming");
     Status there = player.bone_at(n / options.fps, **bone);
     if (!there) return there;
@@ -123,7 +123,7 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
     } else if (interrupted()) {
       return bone.error();
     } else {
-      fmt::print(stderr, "without warnings of what to spare: {}\n", bone.error().text);
+      fmt::print(stderr, "no warnings near structures to spare: {}\n", bone.error().text);
     }
   }
   Hearing hearing(recorded.settings.servo, spared_distance.distances());
@@ -135,7 +135,7 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
     if (step.row.tick % 1024 == 0) {
       if (interrupted()) return error(Trouble::interrupted, "stopped; no sound was written");
       progress().report(static_cast<double>(step.row.tick) / static_cast<double>(player.end_tick()),
-                        "listening");
+                        "computing the sound");
     }
     synth.hear(hearing.hear(step.row));
     // up to the end of this tick; where rows are missing, the last sound continues
@@ -152,7 +152,7 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
       file->write(some);
     }
   }
-  progress().report(1, "listening");
+  progress().report(1, "computing the sound");
   Status written = file->put_in_place();
   if (written && !options.json)
     fmt::print("{}: {:.3f} s of sound\n", options.sound,
@@ -174,8 +174,7 @@ Status show(const Options& options) {
 
 Status run(const Options& options) {
   if (options.window) return show(options);
-  if (!options.beside.empty())
-    return error(Trouble::usage, "--beside is for watching: give --window too");
+  if (!options.beside.empty()) return error(Trouble::usage, "--beside needs --window");
   auto opened = record::Player::open(options.file);
   if (!opened) return opened.error();
   record::Player& player = **opened;
@@ -208,7 +207,7 @@ Status run(const Options& options) {
     if (!info.volume.recipe.materials.empty() && !info.embedded && options.volume.materials.empty())
       return error(
           Trouble::usage,
-          fmt::format("{}: was made with an own table of materials; give it again with --materials",
+          fmt::format("{}: was made with a table of materials; give that table with --materials",
                       options.file));
     auto bone = bone_of(player, options.volume, progress());
     if (!bone) return bone.error();
@@ -245,40 +244,42 @@ Status run(const Options& options) {
 
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
-  auto* command =
-      app.add_subcommand("replay", "open a recording: what happened, any moment, the same again?");
+  auto* command = app.add_subcommand("replay",
+                                     "open a recording: figures, pictures, film, sound, or a check "
+                                     "that replay gives the same bits");
   command->add_option("recording", options->file, "F.mcap")->required();
   command->add_flag("--check", options->check,
                     "simulate it again and compare every tick and brick");
-  command->add_option("--picture", options->picture, "F.png: the bone and the burr at a moment");
+  command->add_option("--picture", options->picture,
+                      "F.png: picture of the bone and the burr (see --at)");
   command->add_option("--film", options->film, "DIR: the whole session as numbered pictures");
-  command->add_option("--sound", options->sound, "F.wav: the whole session as it sounded");
-  command->add_option("--fps", options->fps, "pictures a second of the film")
+  command->add_option("--sound", options->sound, "F.wav: the sound of the whole session");
+  command->add_option("--fps", options->fps, "pictures of the film per second")
       ->check(CLI::Range(0.1, 240.0))
       ->capture_default_str();
   add_view_options(*command, options->view);
-  command->add_flag(
-      "--effects", options->effects,
-      "what milling leaves is seen in picture and film: fresh bone, coolant, dust, blood");
+  command->add_flag("--effects", options->effects,
+                    "picture and film show fresh bone, coolant, dust and blood");
   add_picture_size(*command, options->size);
   command->add_flag("--window", options->window,
-                    "watch it: time line, bone, tool and force at any moment");
-  command->add_option("--beside", options->beside,
-                      "G.mcap: watched in the right half of the window, at the same moment");
-  command->add_option("--seconds", options->seconds, "close the window after so long")
+                    "play it in a window: time line, bone, tool and force at any moment");
+  command->add_option(
+      "--beside", options->beside,
+      "G.mcap: a second recording in the right half of the window, at the same moment");
+  command->add_option("--seconds", options->seconds, "close the window after this many seconds")
       ->check(CLI::Range(0.1, 36'000.0));
   command->add_option("--screenshot", options->screenshot,
-                      "PNG of the window as it was when it closed, panels and all");
+                      "PNG of the window when it closed, with panels");
   command->add_option("--at", options->at, "seconds from the start (default: the end)")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--volume", options->volume.source,
-                      "the scan it was made from, if it cannot be found");
+                      "the scan it was made from, if burr does not find it");
   command->add_option("--series", options->volume.series,
-                      "of a DICOM folder, if the recording was made with one");
+                      "series of the DICOM folder, if the recording was made with --series");
   command->add_option("--tissues", options->volume.labels,
-                      "TOML table, if the recording was made with one");
+                      "TOML table of tissues, if the recording was made with --tissues");
   command->add_option("--materials", options->volume.materials,
-                      "TOML table of materials, if the recording was made with one");
+                      "TOML table of materials, if the recording was made with --materials");
   command->add_flag("--json", options->json, "one JSON object on the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

@@ -261,11 +261,11 @@ Status run(Options options) {
                                       {"--tell-as", &options.work.told_as}})
     if (!given->empty())
       return error(Trouble::usage,
-                   fmt::format("{0} {1}: this is for a session in a window; sit at the computer's "
-                               "own display, or leave {0} away to mill by itself",
+                   fmt::format("{0} {1}: this needs a window. Use the computer's own display, or "
+                               "leave out {0}; burr then mills by itself",
                                option, *given));
   if (!options.headless)
-    fmt::print(stderr, "no display here: milling by itself, as with --headless\n");
+    fmt::print(stderr, "no display found: burr mills by itself, as with --headless\n");
   options.work.seconds = options.seconds;
   if (Status taken = take_case(options.work); !taken) return taken;
   return run_headless(options);
@@ -274,38 +274,37 @@ Status run(Options options) {
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("run", "mill a bone in a window");
-  command->add_option(
-      "bone", options->work.volume.source,
-      "a case (temporal-bone, jaw, ... or a .toml file), or a scan: file or DICOM folder; without "
-      "it: the start page, headless: temporal-bone");
-  command->add_flag("--headless", options->headless,
-                    "no window: mill by itself, leave pictures, a recording and a page of figures");
+  command->add_option("bone", options->work.volume.source,
+                      "a case (temporal-bone, jaw, ... or a .toml file), or a scan: file or DICOM "
+                      "folder (default: the start page; with --headless: temporal-bone)");
+  command->add_flag(
+      "--headless", options->headless,
+      "no window: burr mills by itself and writes pictures, a recording and a page of figures");
   command
-      ->add_option("--seconds", options->seconds,
-                   "close the window after so long; headless: simulated time (default: 20)")
+      ->add_option(
+          "--seconds", options->seconds,
+          "close the window after this many seconds; with --headless: simulated time (default: 20)")
       ->check(CLI::Range(0.1, 36'000.0));
-  command->add_option(
-      "--out", options->out,
-      "folder for pictures, recording and summary (headless: burr-out; window: none "
-      "of these without it)");
+  command->add_option("--out", options->out,
+                      "folder for pictures, recording and summary (default with --headless: "
+                      "burr-out; in a window: none of these is written)");
   command->add_option("--screenshot", options->screenshot,
-                      "PNG of the window as it was when it closed, panels and all");
+                      "PNG of the window when it closed, with panels");
   command->add_option("--burr-mm", options->work.burr_mm,
-                      "diameter of the burr; default: the case's, else 5");
+                      "diameter of the burr (default: that of the case, otherwise 5)");
   command->add_flag("--no-sound", options->no_sound, "the window makes no sound");
-  command->add_flag("--xr", options->xr, "wear a headset: OpenXR, where there is one")
-      ->excludes("--headless");
+  command->add_flag("--xr", options->xr, "use a headset through OpenXR")->excludes("--headless");
   command->add_option("--rpm", options->work.rpm,
-                      "of the spindle; default: the case's, else 40000");
+                      "speed of the spindle (default: that of the case, otherwise 40000)");
   add_hand_options(*command, options->work.hand);
   command
       ->add_option("--suction", options->work.suction,
-                   "a second haptic device in the other hand: a suction tube, which feels bone")
+                   "a second haptic device for the other hand: a suction tube that feels the bone")
       ->excludes("--headless");
   command
       ->add_option("--tell-as", options->work.told_as,
-                   "/burr: others may watch and record the window's session as a CRTK arm of that "
-                   "name (ROS 2)")
+                   "/NAME: publish the session as a CRTK arm of this name, so that other programs "
+                   "can watch and record it (ROS 2)")
       ->excludes("--headless");
   add_volume_options(*command, options->work.volume);
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });

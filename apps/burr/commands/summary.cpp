@@ -29,8 +29,8 @@ std::vector<Row> rows_of(const Summary& s) {
   row("time", fmt::format("{:.1f} s, {} ticks at {:.0f} Hz, {}", s.seconds, s.ticks, s.rate_hz,
                           s.realtime ? "paced by the clock" : "as fast as possible"));
   row("removed", fmt::format("{:.2f} mm\u00b3", 1e9 * s.removed));
-  row("asked by the force", fmt::format("{:.2f} mm\u00b3, of which {:.2f} could not be cut",
-                                        1e9 * s.asked, 1e9 * s.not_cut));
+  row("asked for by the force", fmt::format("{:.2f} mm\u00b3, of which {:.2f} could not be cut",
+                                            1e9 * s.asked, 1e9 * s.not_cut));
   if (s.added > 0) row("added", fmt::format("{:.2f} mm\u00b3", 1e9 * s.added));
   row("force", fmt::format("peak {:.2f} N, mean in contact {:.2f} N", s.peak_force, s.mean_force));
   row("work of a tick",

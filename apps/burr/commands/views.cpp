@@ -46,21 +46,22 @@ Vec3 towards_eye(Plane plane) { return render::right_of(plane).cross(render::up_
 void add_view_options(CLI::App& command, ViewOptions& options) {
   std::vector<std::string> views = {"work", "whole", "microscope", "endoscope"};
   for (const std::string& plane : names_of(kPlanes)) views.push_back(plane);
-  command.add_option("--view", options.view, "how to look at it")
+  command.add_option("--view", options.view, "the view")
       ->check(CLI::IsMember(views))
       ->capture_default_str();
-  command.add_option("--clip", options.clip, "cut open at the work: axial, coronal or sagittal")
+  command
+      .add_option("--clip", options.clip,
+                  "cut the bone open at the work: axial, coronal or sagittal")
       ->check(CLI::IsMember(names_of(kPlanes)));
-  command.add_option("--stereo", options.stereo, "for two eyes")
+  command.add_option("--stereo", options.stereo, "a picture for two eyes")
       ->check(CLI::IsMember(names_of(kStereo)))
       ->capture_default_str();
   command
-      .add_option("--height-mm", options.height_mm, "what is seen of the work from bottom to top")
+      .add_option("--height-mm", options.height_mm,
+                  "height of the part of the bone that the picture shows")
       ->check(CLI::Range(0.1, 2000.0));
-  command.add_flag("!--no-labels", options.labels, "bone in one colour, whatever its tissue");
-  command
-      .add_option("--see-through", options.see_through,
-                  "percent: how much of what lies in the bone and behind it is seen")
+  command.add_flag("!--no-labels", options.labels, "all tissues in the colour of bone");
+  command.add_option("--see-through", options.see_through, "transparency of the bone [%]")
       ->check(CLI::Range(0.0, 100.0));
 }
 

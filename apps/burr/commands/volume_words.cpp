@@ -32,9 +32,9 @@ void add_volume_options(CLI::App& command, scenario::Recipe& recipe) {
         },
         "", "least");
   };
-  command.add_option(
-      "--series", recipe.series,
-      "of a DICOM folder: Series Instance UID, its beginning, or #2 as info lists them");
+  command.add_option("--series", recipe.series,
+                     "series of a DICOM folder: Series Instance UID, its beginning, or #2 as in "
+                     "the list of burr info");
   command.add_option("--voxel-mm", recipe.voxel_mm,
                      "edge of the cubic voxels (default: the finest axis)");
   words(
@@ -42,35 +42,36 @@ void add_volume_options(CLI::App& command, scenario::Recipe& recipe) {
       [&recipe](const std::string& text) {
         recipe.spacing_mm = taken("--spacing-mm", scenario::parse_spacing(text));
       },
-      "X,Y,Z: instead of a spacing the file states wrongly");
+      "X,Y,Z: replaces a wrong spacing in the file");
   words(
       "--iso",
       [&recipe](const std::string& text) {
         recipe.iso = taken("--iso", scenario::parse_level(text));
       },
-      "surface level in HU or the file's unit (default: 300 HU, else Otsu)");
+      "level of the bone surface, in HU or the file's unit (default: 300 HU, otherwise by Otsu)");
   words(
       "--roi",
       [&recipe](const std::string& text) {
         recipe.region = taken("--roi", scenario::parse_region(text));
       },
-      "I0,I1,J0,J1,K0,K1: only these voxels of the file, first and last, from 0");
+      "I0,I1,J0,J1,K0,K1: use only these voxels of the file (first and last, counted from 0)");
   command.add_option("--tissues", recipe.labels, "TOML table: which labels are solid, soft or air");
   command.add_option("--materials", recipe.materials,
-                     "TOML table: what tissues are made of (default: burr materials)");
-  command.add_option("--smooth", recipe.smooth,
-                     "noise to smooth, in HU or the file's unit; 0: none (default: as measured)");
+                     "TOML table: constants of the materials (default: burr materials)");
+  command.add_option(
+      "--smooth", recipe.smooth,
+      "noise to smooth, in HU or the file's unit; 0: no smoothing (default: as measured)");
   command
       .add_option("--memory-mb", recipe.memory_mb, "memory budget of the import (default: 2048)")
-      ->check(least(16, "at least 16 MB are needed"));
+      ->check(least(16, "must be at least 16 MB"));
   command
       .add_option("--read-seconds", recipe.read_seconds,
-                  "processor time that reading may take (default: by the size of the files)")
-      ->check(least(0, "a number above 0 is needed"));
+                  "limit of the processor time for reading (default: by the size of the files)")
+      ->check(least(0, "must be a number above 0"));
   command
       .add_option("--read-memory-mb", recipe.read_memory_mb,
-                  "memory that reading may take (default: by the size of the files)")
-      ->check(least(0, "a number above 0 is needed"));
+                  "limit of the memory for reading (default: by the size of the files)")
+      ->check(least(0, "must be a number above 0"));
 }
 
 }  // namespace burr::app

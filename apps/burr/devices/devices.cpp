@@ -34,7 +34,7 @@ Status tell(const HandKind& kind, const std::string& name, const DeviceBook& boo
     all.push_back(
         {{"name", name}, {"kind", kind.name}, {"there", false}, {"why", opened.error().text}});
     if (!json)
-      fmt::print("{:<16} {}\n                 not there: {}\n", name, kind.makes,
+      fmt::print("{:<16} {}\n                 not found: {}\n", name, kind.makes,
                  opened.error().text);
     return fine();
   }
@@ -59,12 +59,12 @@ Status tell(const HandKind& kind, const std::string& name, const DeviceBook& boo
                  {"scale", preferences.mapping.scale},
                  {"max_force_N", preferences.max_force_n}});
   if (json) return fine();
-  fmt::print("{:<16} {}: feels {} axes and pushes {}, {:.1f} N ({:.2f} N for long){}\n", name,
+  fmt::print("{:<16} {}: senses {} axes, drives {}; {:.1f} N peak ({:.2f} N continuous){}\n", name,
              id_of(spec), spec.sensed, spec.actuated, spec.peak_force, spec.continuous_force,
              spec.peak_torque > 0 ? fmt::format(", {:g} N m", spec.peak_torque) : "");
   fmt::print(
-      "                 walls to {:.0f} N/m, damping to {:g} N s/m, {:.0f} mm about its "
-      "middle, {:.0f} Hz; scale {:g}{}\n",
+      "                 stiffness up to {:.0f} N/m, damping up to {:g} N s/m, workspace {:.0f} mm "
+      "about its middle, {:.0f} Hz; scale {:g}{}\n",
       spec.max_stiffness, spec.max_damping, 1e3 * spec.workspace_radius, spec.native_rate,
       preferences.mapping.scale,
       preferences.max_force_n > 0 ? fmt::format(", your limit {:g} N", preferences.max_force_n)
@@ -119,14 +119,15 @@ Status set(const Options& options) {
   }
   const Status kept = book.write(users_book());
   if (!kept) return kept;
-  fmt::print("{}: kept in {}\n", id, users_book().string());
+  fmt::print("{}: saved in {}\n", id, users_book().string());
   return fine();
 }
 
 Status test(const Options& options) {
   auto hand = take(options);
   if (!hand) return hand.error();
-  fmt::print(stderr, "{}: {:.1f} N at most. Ctrl-C ends it and lets go.\n", id_of((*hand)->spec()),
+  fmt::print(stderr, "{}: at most {:.1f} N. Ctrl-C ends the test and releases the force.\n",
+             id_of((*hand)->spec()),
              std::min(options.trial.most_force, (*hand)->spec().peak_force));
   const TrialSeen seen = try_device(
       **hand, options.trial, [](const std::string& words) { fmt::print(stderr, "{}\n", words); },
@@ -142,27 +143,27 @@ Status test(const Options& options) {
     file->write(trial_page(seen));
     const Status put = file->put_in_place();
     if (!put) return put;
-    fmt::print(stderr, "{}: the same as a page\n", options.out);
+    fmt::print(stderr, "{}: the same result as a page\n", options.out);
   }
-  if (seen.stopped)
-    return error(Trouble::interrupted, "stopped; what was measured until then is above");
+  if (seen.stopped) return error(Trouble::interrupted, "stopped; the results so far are above");
   if (!seen.left_out.empty())
-    return error(Trouble::failed, "not all was tried; what was left out is named above");
+    return error(Trouble::failed,
+                 "not everything was tested; the lines above name what was left out");
   return fine();
 }
 
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command =
-      app.add_subcommand("devices", "haptic devices: which are there, settings, a trial");
+      app.add_subcommand("devices", "list haptic devices, change their settings, test them");
   command->require_subcommand(0, 1);
-  command->add_flag("--json", options->json, "for programs");
+  command->add_flag("--json", options->json, "print JSON");
   command->callback([options, &todo, command] {
     if (command->get_subcommands().empty()) todo.work = [options] { return list(*options); };
   });
 
   auto* setting = command->add_subcommand(
-      "set", "what a device is to do from now on, kept by its serial number");
+      "set", "change the settings of a device; they are kept by its serial number");
   setting
       ->add_option("name", options->request.device,
                    kinds_known() + "; NAME:WHICH where there are several")
@@ -171,18 +172,19 @@ void add(CLI::App& app, Todo& todo) {
       ->required();
   setting->callback([options, &todo] { todo.work = [options] { return set(*options); }; });
 
-  auto* trial = command->add_subcommand(
-      "test", "first nothing moves, then a guided touch: rate, answer, noise, axes, a wall");
+  auto* trial = command->add_subcommand("test",
+                                        "test a device: first at rest, then a guided touch; "
+                                        "measures rate, response, noise, axes and a wall");
   trial
       ->add_option("name", options->request.device,
                    kinds_known() + "; NAME:WHICH where there are several")
       ->required();
   add_homing_options(*trial, options->request);
-  trial->add_option("--out", options->out, "F.html: the result as a page to send");
-  trial->add_option("--most-force", options->trial.most_force, "of the wall [N]")
+  trial->add_option("--out", options->out, "F.html: write the result as a page");
+  trial->add_option("--most-force", options->trial.most_force, "largest force of the wall [N]")
       ->check(CLI::Range(0.1, 5.0))
       ->capture_default_str();
-  trial->add_option("--wait", options->trial.longest_s, "for each thing you are asked to do [s]")
+  trial->add_option("--wait", options->trial.longest_s, "time limit of each step [s]")
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str();
   trial->add_flag("--json", options->json, "one JSON object");

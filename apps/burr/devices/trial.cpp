@@ -142,7 +142,7 @@ void at_rest(Ticks& ticks, const TrialSettings& settings, const std::function<bo
     return false;
   }));
   if (n < 2) {
-    seen.left_out.emplace_back("at rest: the device told no place of its hand");
+    seen.left_out.emplace_back("at rest: the device sent no position");
     return;
   }
   const Vec3 mean = sum / n;
@@ -176,7 +176,7 @@ void wall(Ticks& ticks, const TrialSettings& settings, const std::function<bool(
         height = told.hand.world_from_tool.p.y() - settings.below;
         return told.hand.velocity.norm() <= kStill;
       })) {
-    seen.left_out.emplace_back("the wall: the hand was not held still");
+    seen.left_out.emplace_back("the wall: the hand did not stay still");
     return;
   }
   ticks.want({true, height});
@@ -211,7 +211,7 @@ void wall(Ticks& ticks, const TrialSettings& settings, const std::function<bool(
   });
   // the wall stays until the ticks end: a user who stops inside it gets a fade, not a sudden drop
   if (depth_square > 0) seen.stiffness = depth_force / depth_square;
-  if (!done) seen.left_out.emplace_back("the wall: it was not pressed and left often enough");
+  if (!done) seen.left_out.emplace_back("the wall: it was not pressed and released often enough");
 }
 
 }  // namespace
@@ -222,16 +222,16 @@ TrialSeen try_device(device::Device& device, const TrialSettings& settings,
   TrialSeen seen;
   seen.spec = device.spec();
   Ticks ticks(device, settings);
-  tell("Hold the handle still, or leave it where it rests. Nothing is pushed.");
+  tell("Hold the handle still, or leave it where it rests. The device applies no force.");
   at_rest(ticks, settings, stop, seen);
 
   const struct {
     const char* name;
     Vec3 way;
     const char* words;
-  } axes[] = {{"right", {1, 0, 0}, "Now move it to the right, some 3 cm."},
-              {"up", {0, 1, 0}, "Now move it up, some 3 cm."},
-              {"to you", {0, 0, 1}, "Now move it towards you, some 3 cm."}};
+  } axes[] = {{"right", {1, 0, 0}, "Now move it about 3 cm to the right."},
+              {"up", {0, 1, 0}, "Now move it about 3 cm up."},
+              {"to you", {0, 0, 1}, "Now move it about 3 cm towards you."}};
   for (std::size_t n = 0; n < 3; ++n) {
     seen.axes[n].asked = axes[n].name;
     tell(axes[n].words);

@@ -20,18 +20,18 @@ std::vector<std::pair<std::string, std::string>> rows_of(const TrialSeen& s) {
   const device::DeviceSpec& spec = s.spec;
   row("device", spec.serial.empty() ? spec.name : spec.name + ", serial number " + spec.serial);
   if (!spec.software.empty()) row("its software", spec.software);
-  row("reads, pushes", fmt::format("{} and {} degrees of freedom", spec.sensed, spec.actuated));
+  row("senses, drives", fmt::format("{} and {} degrees of freedom", spec.sensed, spec.actuated));
   row("force",
-      fmt::format("{:.2f} N at most, {:.2f} N for long", spec.peak_force, spec.continuous_force));
-  row("wall", fmt::format("{:.0f} N/m at most", spec.max_stiffness));
-  row("rate",
-      fmt::format("{:.1f} readings used a second; it says {:.0f} Hz", s.rate_hz, spec.native_rate));
+      fmt::format("{:.2f} N peak, {:.2f} N continuous", spec.peak_force, spec.continuous_force));
+  row("wall", fmt::format("up to {:.0f} N/m", spec.max_stiffness));
+  row("rate", fmt::format("{:.1f} readings used per second; the device states {:.0f} Hz", s.rate_hz,
+                          spec.native_rate));
   row("between two ticks", fmt::format("{:.0f} us median, {:.0f} p99, {:.0f} longest",
                                        s.interval_p50_us, s.interval_p99_us, s.interval_max_us));
-  row("ticks", fmt::format("{}; {} left out, {} without a believable reading", s.ticks, s.missed,
-                           s.invalid));
+  row("ticks",
+      fmt::format("{}; {} left out, {} without a valid reading", s.ticks, s.missed, s.invalid));
   row("answered within",
-      fmt::format("{:.0f} us median, {:.0f} p99, {:.0f} longest, from a reading's arrival",
+      fmt::format("{:.0f} us median, {:.0f} p99, {:.0f} longest, from the arrival of a reading",
                   s.answer_p50_us, s.answer_p99_us, s.answer_max_us));
   row("noise at rest",
       fmt::format("{:.1f}, {:.1f}, {:.1f} um; its velocity {:.2f} mm/s", 1e6 * s.noise.x(),
@@ -39,14 +39,14 @@ std::vector<std::pair<std::string, std::string>> rows_of(const TrialSeen& s) {
   for (const AxisSeen& axis : s.axes)
     row(axis.asked.c_str(),
         axis.done
-            ? fmt::format("went {:.1f}, {:.1f}, {:.1f} mm: {:.0f} degrees off{}",
+            ? fmt::format("moved {:.1f}, {:.1f}, {:.1f} mm: {:.0f} degrees off{}",
                           1e3 * axis.went.x(), 1e3 * axis.went.y(), 1e3 * axis.went.z(),
                           axis.off_deg, axis.off_deg > 30 ? " - an axis is turned or mirrored" : "")
             : "not done");
-  row("pressed", fmt::format("{} times, {:.1f} mm deep, up to {:.2f} N; {:.0f} N/m as asked of the "
-                             "device; the hand came "
-                             "back {:.0f} degrees off the wall's normal at the most",
-                             s.presses, 1e3 * s.deepest, s.most_force, s.stiffness, s.aside_deg));
+  row("pressed",
+      fmt::format("{} times, {:.1f} mm deep, up to {:.2f} N; commanded stiffness {:.0f} N/m; on "
+                  "the way back the force was at most {:.0f} degrees off the wall's normal",
+                  s.presses, 1e3 * s.deepest, s.most_force, s.stiffness, s.aside_deg));
   for (const std::string& sentence : s.left_out) row("left out", sentence);
   return rows;
 }

@@ -64,7 +64,7 @@ std::vector<Finding> look_at_devices(const System& system) {
     const Apart library = apart([&name] { return of_library(name); }, system.patience);
     if (!library.ended) {
       finding.health = Health::trouble;
-      finding.is = "its library was loaded, and " + library.words;
+      finding.is = "its library was loaded, then " + library.words;
       finding.todo =
           fmt::format("install it anew as its maker says (docs/devices/{}.md)", kind.page);
     } else if (library.words.starts_with('-')) {
@@ -74,7 +74,7 @@ std::vector<Finding> look_at_devices(const System& system) {
       const Apart there = apart([&name] { return of_device(name); }, system.patience);
       if (!there.ended) {
         finding.health = Health::trouble;
-        finding.is = "it was opened, and " + there.words;
+        finding.is = "it was opened, then " + there.words;
         finding.todo =
             fmt::format("try the maker's own test program; docs/devices/{}.md", kind.page);
       } else if (there.words.starts_with('+')) {

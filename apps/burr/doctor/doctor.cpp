@@ -69,19 +69,19 @@ Status run(const Options& options) {
     if (!measured) {
       if (measured.error().trouble == Trouble::interrupted) return measured.error();
       tried.is = measured.error().text;
-      tried.todo = "burr check tries it again";
+      tried.todo = "burr check repeats the trial";
     } else {
       const rt::TickSummary& t = measured->seen.milling_loaded;
       const rt::MachineJudged judged = rt::judge(measured->seen);
       verdict = rt::name(judged.verdict);
       tried.health = judged.verdict == rt::Verdict::not_enough ? Health::trouble : Health::good;
       tried.is = fmt::format(
-          "milling with all else at work: a tick took {:.0f} us (p99.9), began {:.0f} us late "
-          "(p99.9), at the worst {:.1f} ms; {} of {} left out. {}",
+          "milling with everything else at work: a tick took {:.0f} us (p99.9), began {:.0f} us "
+          "late (p99.9), {:.1f} ms late at worst; {} of {} left out. {}",
           t.p999_us, t.late_p999_us, 1e-3 * t.worst_lateness_us, t.missed, t.ticks + t.missed,
           judged.sentence);
       if (judged.verdict != rt::Verdict::good)
-        tried.todo = "the lines marked !! above; burr check measures longer";
+        tried.todo = "see the lines marked !! above; burr check measures longer";
       trial = {{"ticks", t.ticks},
                {"missed", t.missed},
                {"work_p999_us", t.p999_us},
@@ -99,7 +99,7 @@ Status run(const Options& options) {
     return fine();
   }
   fmt::print(
-      "{}\nburr can be led here by: {}.{}\n", text_of(findings), usable(findings),
+      "{}\nburr can be controlled here with: {}.{}\n", text_of(findings), usable(findings),
       verdict.empty() ? "" : fmt::format(" This computer is {} for a haptic device.", verdict));
   return fine();
 }
@@ -107,12 +107,12 @@ Status run(const Options& options) {
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command =
-      app.add_subcommand("doctor", "why does my device not work, and what to do about it");
-  command->add_option("--seconds", options->seconds, "of a trial of the tick at the end; 0: none")
+      app.add_subcommand("doctor", "find out why a device does not work, and what to do");
+  command->add_option("--seconds", options->seconds, "length of the tick trial at the end; 0: none")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
   command->add_flag("--fix", options->fix,
-                    "write the udev rule that lets you open devices; asks first");
+                    "write the udev rule that allows you to open devices; burr asks first");
   command->add_flag("--yes", options->yes, "do not ask")->needs("--fix");
   command->add_flag("--json", options->json, "one JSON object on the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });

@@ -31,12 +31,12 @@ Result<std::string> write_rules(const System& system,
   std::error_code trouble;
   const bool there = fs::exists(file, trouble);
   if (there && text_of_file(file) == rules)
-    return fmt::format("{} is as it should be", file.string());
-  switch (ask(fmt::format("{} is to hold:\n\n{}\n", file.string(), rules))) {
+    return fmt::format("{} is already correct", file.string());
+  switch (ask(fmt::format("{} will contain:\n\n{}\n", file.string(), rules))) {
     case Answer::nobody:
       return error(Trouble::usage,
-                   "there is no terminal to ask at; burr doctor --fix --yes writes it without "
-                   "asking");
+                   "burr cannot ask, because there is no terminal; burr doctor --fix --yes writes "
+                   "it without asking");
     case Answer::no:
       return std::string("nothing was written");
     case Answer::yes:
@@ -50,7 +50,7 @@ Result<std::string> write_rules(const System& system,
     if (trouble)
       return error(Trouble::io, fmt::format("{}: cannot be kept as {} ({}); nothing was written",
                                             file.string(), old.string(), trouble.message()));
-    said = fmt::format("what it held is in {}\n", old.string());
+    said = fmt::format("its old content is in {}\n", old.string());
   }
   const auto cannot = [](const std::string& why) {
     return error(Trouble::io,

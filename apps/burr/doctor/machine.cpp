@@ -44,7 +44,7 @@ std::vector<Finding> look_at_screen(const System&) {
     display.health = Health::absent;
     display.is = "none: neither DISPLAY nor WAYLAND_DISPLAY is set";
     display.todo =
-        "sit at the computer itself, or come by ssh -X; ./run mills by itself without one";
+        "use the computer's own display, or ssh -X; without a display ./run mills by itself";
   } else {
     display.is = wayland.empty() ? "X11, " + x : "Wayland, " + wayland;
   }
@@ -59,7 +59,7 @@ std::vector<Finding> look_at_screen(const System&) {
   } else {
     picture.is = (*renderer)->gpu();
     if ((*renderer)->software())
-      picture.todo = "the processor draws; a graphics card with its driver would draw faster";
+      picture.todo = "the processor draws; a graphics card with its driver draws faster";
   }
   findings.push_back(std::move(picture));
 
@@ -67,14 +67,14 @@ std::vector<Finding> look_at_screen(const System&) {
   if (SDL_InitSubSystem(SDL_INIT_AUDIO) != 0) {
     sound.health = Health::absent;
     sound.is = fmt::format("none ({})", SDL_GetError());
-    sound.todo = "burr goes on without sound; see that pipewire or pulseaudio runs";
+    sound.todo = "burr runs without sound; check that pipewire or pulseaudio runs";
   } else {
     const int there = SDL_GetNumAudioDevices(0);
     sound.is =
         fmt::format("{}, {} output{}", SDL_GetCurrentAudioDriver(), there, there == 1 ? "" : "s");
     if (there == 0) {
       sound.health = Health::absent;
-      sound.todo = "no loudspeaker is plugged in; burr goes on without sound";
+      sound.todo = "no loudspeaker is plugged in; burr runs without sound";
     }
     SDL_QuitSubSystem(SDL_INIT_AUDIO);
   }
@@ -88,7 +88,7 @@ std::vector<Finding> look_at_pads(const System& system) {
   if (SDL_InitSubSystem(SDL_INIT_JOYSTICK) != 0) {
     pads.health = Health::trouble;
     pads.is = SDL_GetError();
-    pads.todo = "see that /dev/input may be read (group input)";
+    pads.todo = "check that you may read /dev/input (group input)";
   } else {
     for (int n = 0; n < SDL_NumJoysticks(); ++n) {
       const char* name = SDL_JoystickNameForIndex(n);
@@ -114,11 +114,11 @@ std::vector<Finding> look_at_pads(const System& system) {
     cap.is = dlerror();
     cap.todo = "apt install libspnav0 spacenavd, if you have one";
   } else if (!std::filesystem::exists(socket, nobody_asks)) {
-    cap.is = "libspnav is there, its service is not";
+    cap.is = "libspnav is installed, its service does not run";
     cap.todo = "apt install spacenavd; systemctl start spacenavd";
   } else {
     cap.health = Health::good;
-    cap.is = "libspnav and its service are there";
+    cap.is = "libspnav is installed and its service runs";
   }
   if (library != nullptr) dlclose(library);
   findings.push_back(std::move(cap));

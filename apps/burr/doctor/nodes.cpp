@@ -116,8 +116,8 @@ std::vector<Finding> look_at_nodes(const System& system) {
       finding.health = Health::trouble;
       finding.is = "plugged in, but you may not open " + closed;
       finding.todo = fs::exists(udev_file(system), nobody_asks)
-                         ? "the rule is there: unplug it, plug it in again; sit at the computer "
-                           "itself, not over ssh"
+                         ? "the rule exists: unplug the device and plug it in again, at the "
+                           "computer itself, not over ssh"
                          : "burr doctor --fix writes the rule that allows it";
     }
     findings.push_back(std::move(finding));
@@ -125,8 +125,7 @@ std::vector<Finding> look_at_nodes(const System& system) {
   if (findings.empty())
     findings.push_back(
         {kGroup, "haptic devices", Health::absent,
-         "none of Force Dimension, Falcon or Polhem is plugged in; a Touch is not told by its USB "
-         "number here, its own line above tells",
+         "no Force Dimension, Falcon or Polhem is plugged in (a Touch has a line of its own above)",
          ""});
   std::sort(findings.begin(), findings.end(),
             [](const Finding& a, const Finding& b) { return a.what < b.what; });

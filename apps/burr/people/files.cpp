@@ -71,7 +71,7 @@ T named(const std::array<std::string_view, N>& names, const json& value) {
   const auto text = value.get<std::string>();
   for (std::size_t n = 0; n < N; ++n)
     if (names[n] == text) return static_cast<T>(n);
-  throw std::invalid_argument("a name that is not known");
+  throw std::invalid_argument("unknown name");
 }
 
 PeopleRun run_of(const json& in) {
@@ -178,15 +178,14 @@ Result<Unfinished> load_run(const std::string& folder) {
   if (!file)
     return error(
         Trouble::io,
-        fmt::format("{}: cannot be read; --continue wants the folder of an earlier --out", result));
+        fmt::format("{}: cannot be read; --continue needs the folder of an earlier --out", result));
   Unfinished out;
   try {
     out.run = run_of(json::parse(file).at("run"));
   } catch (const std::exception&) {
-    return error(
-        fmt::format("{}: field run is not what burr psychophysics writes; start again "
-                    "without --continue",
-                    result));
+    return error(fmt::format(
+        "{}: the field run was not written by burr psychophysics; start again without --continue",
+        result));
   }
   std::ifstream rows(trials);
   std::string line;

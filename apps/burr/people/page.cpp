@@ -99,11 +99,12 @@ std::string result_page(const PeopleRun& run, const people::Experiment& experime
   std::string html = kHead;
   html += fmt::format("<h1>{}</h1>\n<p>{}.</p>\n<figure>{}<figcaption>", name(plan.stimulus),
                       base::markup_text(result_words(run, experiment)), svg(plot));
-  html += base::markup_text(fmt::format(
-      "Left: how often the comparison was told from the standard of {:g} {}, over how much more it "
-      "had; the threshold is half way between guessing (50 %) and never being wrong but by a lapse "
-      "({:g} %), the short line across it its 95 % interval. Right: what was shown in each trial.",
-      plan.standard, unit_of(plan.stimulus), 100 * plan.lapse));
+  html += base::markup_text(
+      fmt::format("Left: how often the answer was right, over the difference from the standard of "
+                  "{:g} {}. The threshold is half way between guessing (50 %) and the highest "
+                  "rate, which only lapses ({:g} %) limit; the short line across it is its 95 % "
+                  "interval. Right: the difference presented in each trial.",
+                  plan.standard, unit_of(plan.stimulus), 100 * plan.lapse));
   html += "</figcaption></figure>\n<table>\n";
   const auto row = [&](const char* what, const std::string& value) {
     html += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", what, base::markup_text(value));

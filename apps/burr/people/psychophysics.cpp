@@ -174,8 +174,7 @@ class Lab {
 Result<std::unique_ptr<device::MappedHand>> take_hand(const Options& options, PeopleRun& run) {
   if (run.device == kSimulated) return std::unique_ptr<device::MappedHand>();
   if (run.observer)
-    return error(Trouble::usage,
-                 "an --observer is shown the wall by the simulated hand; leave --device away");
+    return error(Trouble::usage, "an --observer works with the simulated hand; leave out --device");
   HandRequest request = options.hand;
   request.device = run.device;
   math::Pose above;
@@ -194,7 +193,7 @@ Result<std::unique_ptr<device::MappedHand>> take_hand(const Options& options, Pe
 Result<Unfinished> begin(const Options& options) {
   if (!options.go_on.empty()) return load_run(options.go_on);
   if (options.stimulus.empty())
-    return error(Trouble::usage, fmt::format("say what is to be felt: {}; or --continue DIR",
+    return error(Trouble::usage, fmt::format("name the stimulus: {}; or give --continue DIR",
                                              fmt::join(people::kStimulusNames, ", ")));
   auto run = run_of(options);
   if (!run) return run.error();
@@ -218,8 +217,8 @@ Status run(const Options& options) {
     if (experiment.finished() ||
         std::abs(experiment.next().level - begun->levels[n]) > 1e-9 * begun->levels[n])
       return error(
-          fmt::format("{}/trials.csv: trial {} is not what its plan shows then; it was "
-                      "changed, or made by another burr; start again without --continue",
+          fmt::format("{}/trials.csv: trial {} differs from the plan; the file was changed, or "
+                      "written by another version of burr; start again without --continue",
                       folder, n + 1));
     experiment.answer(begun->answers[n]);
   }
@@ -252,19 +251,20 @@ Status run(const Options& options) {
   return error(
       Trouble::interrupted,
       folder.empty()
-          ? fmt::format("stopped after {} trials; with --out they would have been kept",
+          ? fmt::format("stopped after {} trials; they were not kept, because --out was not given",
                         seconds.size())
-          : fmt::format("stopped after {} trials; go on with burr psychophysics --continue {}",
+          : fmt::format("stopped after {} trials; continue with burr psychophysics --continue {}",
                         seconds.size(), folder));
 }
 
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
-      "psychophysics", "how small a difference is felt: two intervals, one answer, many times");
+      "psychophysics",
+      "measure the smallest difference that a person feels: two intervals per trial, one answer");
   command
       ->add_option("stimulus", options->stimulus,
-                   "what differs: stiffness [N/m], friction, or vibration [N rms]")
+                   "the stimulus: stiffness [N/m], friction, or vibration [N rms]")
       ->check(CLI::IsMember(people::kStimulusNames));
   command
       ->add_option("--device", options->device,
@@ -274,37 +274,39 @@ void add(CLI::App& app, Todo& todo) {
   command->add_option("--observer", options->observer,
                       "threshold=T[,slope=S][,lapse=L][,seed=N][,feels=yes]: simulated; "
                       "default: a person answers 1 or 2");
-  command->add_option("--method", options->method, "how levels are chosen")
+  command->add_option("--method", options->method, "method that chooses the levels")
       ->check(CLI::IsMember(people::kMethodNames))
       ->capture_default_str();
-  command->add_option("--rule", options->rule, "of a staircase")
+  command->add_option("--rule", options->rule, "rule of the staircase")
       ->check(CLI::IsMember(people::kRuleNames))
       ->capture_default_str();
-  command->add_option("--trials", options->trials, "at most")->capture_default_str();
+  command->add_option("--trials", options->trials, "largest number of trials")
+      ->capture_default_str();
   command
-      ->add_option("--until", options->until,
-                   "end once the 95 % interval is narrower than this share either way; 0: never")
+      ->add_option(
+          "--until", options->until,
+          "end when the 95 % interval is narrower than this share to either side; 0: never")
       ->capture_default_str();
   command->add_option("--standard", options->standard,
-                      "what the comparison is held against (default: 400 N/m, 0.4, 0 N)");
+                      "the standard to compare with (default: 400 N/m, 0.4, 0 N)");
   command->add_option("--smallest", options->smallest,
-                      "difference, as a share of the standard; of vibration [N]");
+                      "smallest difference, as a share of the standard; for vibration [N]");
   command->add_option("--largest", options->largest,
-                      "likewise (default: 1 for stiffness, 1.5 for friction, 0.15 N)");
-  command->add_option("--lapse", options->lapse, "rate that is assumed of the person")
+                      "largest difference (default: 1 for stiffness, 1.5 for friction, 0.15 N)");
+  command->add_option("--lapse", options->lapse, "assumed lapse rate of the person")
       ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "of an interval, at most")
+  command->add_option("--seconds", options->seconds, "longest duration of an interval")
       ->capture_default_str();
   command->add_option("--rate", options->rate_hz, "ticks a second, 500 to 10000")
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "of orders and levels")->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of orders and levels")->capture_default_str();
   command->add_option("--subject", options->subject,
-                      "a code of at most 16 letters, digits, - and _; no name");
-  auto* out =
-      command->add_option("--out", options->out, "DIR: trials.csv, result.json, result.html");
+                      "code of the person: at most 16 letters, digits, - and _; not a name");
+  auto* out = command->add_option("--out", options->out,
+                                  "DIR: write trials.csv, result.json, result.html there");
   command
       ->add_option("--continue", options->go_on,
-                   "DIR: of an earlier --out that was broken off; the rest is taken from there")
+                   "DIR: continue an interrupted run; all other options are read from there")
       ->excludes(out);
   command->add_flag("--json", options->json, "one JSON object on the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });

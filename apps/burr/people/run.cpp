@@ -39,7 +39,7 @@ Result<ObserverRequest> read_observer(const std::string& words) {
     const std::string part = words.substr(from, to - from);
     from = to + 1;
     const std::size_t is = part.find('=');
-    if (is == std::string::npos) return bad_observer(part, "is no name=value");
+    if (is == std::string::npos) return bad_observer(part, "is not name=value");
     const std::string name = part.substr(0, is), value = part.substr(is + 1);
     if (name == "feels") {
       if (value != "yes" && value != "no") return bad_observer(part, "is neither yes nor no");
@@ -47,7 +47,7 @@ Result<ObserverRequest> read_observer(const std::string& words) {
       continue;
     }
     const std::optional<double> number = number_of(value);
-    if (!number) return bad_observer(part, "is no number");
+    if (!number) return bad_observer(part, "is not a number");
     if (name == "threshold") {
       if (!(*number > 0)) return bad_observer(part, "is not above 0");
       request.threshold = *number;
@@ -61,7 +61,7 @@ Result<ObserverRequest> read_observer(const std::string& words) {
       request.lapse = *number;
     } else if (name == "seed") {
       if (!(*number >= 0 && *number < 1e15 && *number == std::floor(*number)))
-        return bad_observer(part, "is no whole number from 0 on");
+        return bad_observer(part, "is not a whole number of at least 0");
       request.seed = static_cast<std::uint64_t>(*number);
     } else {
       return bad_observer(part, "is not known");
@@ -69,9 +69,9 @@ Result<ObserverRequest> read_observer(const std::string& words) {
   }
   if (!has_threshold) return bad_observer(words, "has no threshold");
   if (request.feels && has_slope)
-    return bad_observer(words, "has a slope, but one that feels gets it from its noise");
+    return bad_observer(words, "has a slope; with feels=yes the slope comes from the noise");
   if (request.feels && std::isinf(request.threshold))
-    return bad_observer(words, "feels nothing; leave out feels=yes for one who guesses");
+    return bad_observer(words, "feels nothing; for an observer that guesses, leave out feels=yes");
   return request;
 }
 
@@ -117,14 +117,13 @@ Status check(const PeopleRun& run) {
     return usage(fmt::format("--trials {} is out of range; take 10 to 5000", plan.trials));
   if (!(plan.smallest > 0 && plan.smallest < 0.5 * plan.largest && plan.largest < 100))
     return usage(
-        fmt::format("--smallest {:g} and --largest {:g} leave no room; take the smallest "
-                    "above 0 and the largest at least twice that",
+        fmt::format("--smallest {:g} and --largest {:g} are too close; the smallest must be above "
+                    "0 and the largest at least twice that",
                     plan.smallest, plan.largest));
   if (!(plan.standard >= 0 && std::isfinite(plan.standard)) ||
       (plan.standard == 0 && plan.stimulus != Stimulus::vibration))
     return usage(
-        fmt::format("--standard {:g} makes no sense; take what the comparison is held "
-                    "against, e.g. {:g}",
+        fmt::format("--standard {:g} is not possible; it is the value to compare with, e.g. {:g}",
                     plan.standard, usual_plan(plan.stimulus).standard));
   if (!(plan.until == 0 || (plan.until >= 0.02 && plan.until <= 1)))
     return usage(fmt::format("--until {:g} is out of range; take 0.02 to 1, or 0 for all trials",

@@ -143,12 +143,11 @@ void friction(const Verify& verify, Report::Part& part) {
   }
 }
 
-const VerifyPart part{
-    40, "friction", "Friction",
-    "The friction cone (Harwin and Melder 2002) at known coefficients: when a held "
-    "burr slips, how far a sliding one trails, slopes either side of the "
-    "threshold, grooves, drift, and energy.",
-    friction};
+const VerifyPart part{40, "friction", "Friction",
+                      "The friction cone (Harwin and Melder 2002) at known coefficients: when a "
+                      "held burr slips, how far a sliding burr lags behind, slopes on either side "
+                      "of the threshold, grooves, drift, and energy.",
+                      friction};
 
 }  // namespace
 }  // namespace burr::app

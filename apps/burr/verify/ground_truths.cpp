@@ -159,13 +159,10 @@ void truths(const Verify& verify, Report::Part& part) {
 
   Table table;
   table.caption =
-      "Methods by shapes, the worst over all voxels and burrs: how far what is felt is from the "
-      "true "
-      "place [voxel] / the force from its direction [degree] / how deep the drawn burr stands in "
-      "bone "
-      "[voxel] / share of pressing ticks without force. The springs have no proxy: of them only "
-      "the "
-      "direction counts.";
+      "Methods by shapes, the worst over all voxel sizes and burrs: distance of the felt position "
+      "from the true one [voxel] / angle between the force and its true direction [degree] / how "
+      "deep the drawn burr is in bone [voxel] / share of pressing ticks without force. "
+      "`voxel-springs` has no proxy: for it, only the direction counts.";
   table.head.push_back("shape");
   for (int m = 0; m < haptics::kMethods; ++m)
     table.head.emplace_back(haptics::name(static_cast<Method>(m)));
@@ -183,9 +180,9 @@ void truths(const Verify& verify, Report::Part& part) {
 
 const VerifyPart part{
     20, "truths", "Ground truths",
-    "A hand strokes each bone, pressing 0.3 mm deep, and the place of the burr is "
-    "compared with the formula, for every method: ours has to be right, the "
-    "thesis' on smooth convex bone; in a groove it is predicted to bury the burr.",
+    "A hand strokes each bone, pressing 0.3 mm deep, and the position of the burr is compared with "
+    "the formula, for every method. Our method has to be right everywhere, the thesis' on smooth "
+    "convex bone; in a groove the thesis' method is predicted to bury the burr.",
     truths};
 
 }  // namespace

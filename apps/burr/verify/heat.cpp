@@ -92,7 +92,8 @@ void heat(const Verify& verify, Report::Part& part) {
   part.near("cem43.47C_60s", 16, thermal::cem43_rate(47), 1e-9, "min");
   part.near("cem43.50C_30s", 64, 0.5 * thermal::cem43_rate(50), 1e-9, "min");
   part.cannot(
-      "that a burr warms bone by so much: the constants are the middle of what is published");
+      "that a real burr warms bone by this much; the constants are the middle of the published "
+      "ranges");
 }
 
 const VerifyPart part{

@@ -181,11 +181,11 @@ void mechanics(const Verify& verify, Report::Part& part) {
   spindle(verify, part);
 }
 
-const VerifyPart part{35, "mechanics", "Chips, drag, spindle",
-                      "The energy of cutting by chips against what was measured on bone; the pull "
-                      "of the bone at a turning burr; the spindle under load, stalled, and "
-                      "backwards.",
-                      mechanics};
+const VerifyPart part{
+    35, "mechanics", "Chips, drag, spindle",
+    "The cutting energy of the chips law compared with measurements on bone; the pull of the bone "
+    "on a turning burr; the spindle under load, stalled, and turning backwards.",
+    mechanics};
 
 }  // namespace
 }  // namespace burr::app

@@ -29,8 +29,9 @@ std::string page(const Report& report) {
                       base::version(), base::markup_text(base::build()), report.checks(),
                       report.failed());
   html +=
-      "<p>A check of ours passes when it holds; a check of a baseline passes when the baseline "
-      "does what was predicted of it, failures included.</p><ul>\n";
+      "<p>A check of our method passes if the stated bound holds. A check of a baseline (another "
+      "method, for comparison) passes if the baseline does what was predicted, including predicted "
+      "failures.</p><ul>\n";
   for (const Report::Part& part : report.parts())
     html += fmt::format("<li><a href=\"#{}\">{}</a>: {} of {} passed, {:.1f} s</li>\n", part.name,
                         base::markup_text(part.title),

@@ -115,10 +115,10 @@ void show(Report::Part& part, const Ask& ask, const people::Outcome& out) {
 
 void people_part(const Verify& verify, Report::Part& part) {
   Table table{
-      "The scatter is that of one run's threshold, as a standard deviation. What 300 answers can "
-      "tell at most leaves 4.4 % of an observer of slope 3.5, and 400 answers 11 % of one that "
-      "feels, whose slope is near 1.2. That one is found 1 to 2 % low besides: its function is "
-      "not quite the fitted one.",
+      "The scatter is the standard deviation of one run's threshold. The best that is possible is "
+      "4.4 % with 300 answers for an observer of slope 3.5, and 11 % with 400 answers for one that "
+      "feels, whose slope is near 1.2. The threshold of the latter is also found 1 to 2 % too low, "
+      "because its function is not quite the fitted one.",
       {"observer", "trials", "runs", "mean off", "scatter", "within 5 %", "in interval"},
       {}};
   for (const Ask& ask : kAsks) {
@@ -188,15 +188,16 @@ void people_part(const Verify& verify, Report::Part& part) {
     invented += answered_by_formula(plan_of(kAsks[0], seed), INFINITY).fit.found ? 1 : 0;
   part.at_most("guesser.thresholds_invented", verify.quick ? 0 : 1, invented, "");
   part.table(std::move(table));
-  part.cannot("what people feel: no person has been measured yet, on any device");
+  part.cannot("what people feel; no person has been measured yet, on any device");
 }
 
 const VerifyPart part{
     75, "people", "People",
-    "Whether burr psychophysics finds the threshold of a simulated observer whose threshold is "
-    "known (Weibull function; Gaussian noise for one that feels): for stiffness, friction and "
-    "vibration, by formula and by a simulated hand that presses, rubs and holds through the whole "
-    "force path. 'as_felt' compares what an interval claims with what reaches the hand.",
+    "Does `burr psychophysics` find the threshold of a simulated observer whose threshold is "
+    "known? It is checked for stiffness, friction and vibration, once with an observer that "
+    "answers by formula (Weibull function), and once with an observer that feels (Gaussian noise): "
+    "a simulated hand that presses, rubs and holds through the whole force path. 'as_felt' "
+    "compares what an interval is set to present with what reaches the hand.",
     people_part};
 
 }  // namespace

@@ -141,9 +141,9 @@ void bones(const Verify& verify, Report::Part& part) {
   Series series{"real_bones", {"bone", "tick", "overlap_voxel", "unbalanced_share"}, {}};
   Axes strokes{"a stroke without cutting", "time [s]", "force [N]", {}};
   Table strengths{
-      "The stroke: force, what flickers faster than a twentieth of a second, and the "
-      "largest step from one tick to the next. On smooth bone the force must be calm; on "
-      "rough bone a burr drops from edge to edge, and the table says by how much.",
+      "The stroke: the force, its noise (variations faster than a twentieth of a second), and its "
+      "largest step from one tick to the next. On smooth bone the force must be steady. On rough "
+      "bone a burr drops from edge to edge, and the table gives the size of these steps.",
       {"bone", "surface", "force [N]", "noise [%]", "step [N]"},
       {}};
   for (const Subject& subject : kSubjects) {
@@ -236,13 +236,12 @@ void bones(const Verify& verify, Report::Part& part) {
          {strokes}});
 }
 
-const VerifyPart part{
-    70, "bones", "Real bone",
-    "A hand wanders over real bones and mills them. Every 50th tick, and whenever "
-    "the force steps, every crossing of a voxel edge near the burr is looked at: "
-    "none may be inside the ball, and the contacts have to be able to bear the "
-    "spring. The proxy's centre is never in bone.",
-    bones};
+const VerifyPart part{70, "bones", "Real bone",
+                      "A hand moves over real bones and mills them. In every 50th tick, and "
+                      "whenever the force steps, every crossing of a voxel edge near the burr is "
+                      "checked: none may be inside the ball, and the contact forces must be able "
+                      "to balance the spring. The proxy's centre is never in bone.",
+                      bones};
 
 }  // namespace
 }  // namespace burr::app

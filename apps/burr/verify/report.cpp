@@ -116,16 +116,15 @@ std::string Report::json() const {
 std::string Report::markdown() const {
   std::string text =
       "# Validation\n\n"
-      "Made by `burr verify --out DIR --data DATA`; edits are lost. Each check compares what burr "
-      "does "
-      "with a formula, a theory or an independent reference; a check of a baseline passes when the "
-      "baseline does what was predicted of it, failures included. The plots are in "
-      "`DIR/report.html`, every series is a CSV beside it. What `./test` asks besides: "
-      "[tested.md](tested.md).\n\n"
-      "What is **not** validated: that it feels like bone. Cutting energies are the middle of "
-      "published ranges (cortical bone about 1 J/mm3), friction likewise; nobody has compared a "
-      "session with a drill in a hand yet. Until somebody has, burr is for learning how such a "
-      "simulator works, not for judging people, and no medical device.\n\n"
+      "`burr verify --out DIR --data DATA` writes this page; edits made by hand are lost. Each "
+      "check compares what burr does with a formula, a theory or an independent reference. A check "
+      "of a baseline (another method, for comparison) passes if the baseline does what was "
+      "predicted, including predicted failures. The plots are in `DIR/report.html`; every series "
+      "is a CSV file beside it. What `./test` checks in addition: [tested.md](tested.md).\n\n"
+      "**Not** validated: that it feels like bone. Cutting energies are the middle of published "
+      "ranges (cortical bone about 1 J/mm3), and so is friction. Nobody has compared a session "
+      "with a real drill in the hand yet. Until somebody has, burr is for learning how such a "
+      "simulator works. It is not for judging people, and it is no medical device.\n\n"
       "| part | checks | failed |\n|---|---|---|\n";
   for (const Part& part : parts_)
     text += row_of({part.title, std::to_string(part.checks.size()), std::to_string(part.failed())});
@@ -134,7 +133,7 @@ std::string Report::markdown() const {
     // of many checks of one kind the table says more
     const bool all = part.checks.size() <= kMostInPage;
     if (!all)
-      text += fmt::format("\n{} checks, {} failed; each stands in `report.html`.\n",
+      text += fmt::format("\n{} checks, {} failed; all of them are listed in `report.html`.\n",
                           part.checks.size(), part.failed());
     std::string rows;
     for (const Check& check : part.checks)

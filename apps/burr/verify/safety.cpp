@@ -204,15 +204,15 @@ void safety(const Verify& verify, Report::Part& part) {
   in_contact(part);
   growth(part);
   part.cannot(
-      "the watchdog's own thread: it is tested on a virtual clock (tests/rt), not by this report");
+      "the watchdog's own thread; it is tested on a virtual clock (tests/rt), not by this report");
 }
 
 const VerifyPart part{
     60, "safety", "Safety",
-    "The whole tick with a device that says anything: not-a-number, leaps, lost "
-    "ticks, senseless commands; changes of tool, method, stiffness and bone in "
-    "contact. Never above the user's limit, never faster than the slew, zero within "
-    "5 ms of a reading that cannot be.",
+    "The whole tick with a device that sends arbitrary values: not-a-number, leaps, lost ticks, "
+    "senseless commands; and with changes of tool, method, stiffness and bone during contact. The "
+    "force must never exceed the user's limit and never grow faster than the slew limit, and it "
+    "must be zero within 5 ms of an impossible reading.",
     safety};
 
 }  // namespace

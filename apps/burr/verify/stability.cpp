@@ -103,10 +103,10 @@ void devices(Report::Part& part) {
   };
   Table table;
   table.caption =
-      "Devices at the stiffness k and damping B that CHAI3D allows them, with velocity filtered at "
-      "100 Hz as burr does: how far the hand trembles at the end of four seconds without and with "
-      "the "
-      "guard. Mass 0.1 kg, b 0.5 N s/m and friction are assumed except for the Omni.";
+      "Devices at the stiffness k and damping B that CHAI3D allows for them, with the velocity "
+      "filtered at 100 Hz as in burr: how far the hand trembles at the end of four seconds, "
+      "without the guard (bare) and with it. Mass 0.1 kg, damping b 0.5 N s/m and friction are "
+      "assumed, except for the Omni.";
   table.head = {"device", "k [N/m]", "B [N s/m]", "bare [mm]", "guarded [mm]"};
   for (const Device& one : kDevices) {
     AxisSettings axis;
@@ -218,8 +218,9 @@ void lasting(const Verify& verify, Report::Part& part) {
   };
   Table table;
   table.caption = fmt::format(
-      "A hand presses for {:.0f} s: 60 g on 200 N/m, or a stiff one of 0.3 kg on 3 kN/m against 5 "
-      "kN/m. Energy it gave, at the least ever; how much the force wavers in the last second.",
+      "A hand presses for {:.0f} s: 60 g on 200 N/m, or a stiff hand of 0.3 kg on 3 kN/m against a "
+      "wall of 5 kN/m. The table gives the energy that the hand has given: its least value during "
+      "the run and its value at the end; and how much the force varies in the last second.",
       seconds);
   table.head = {"contact", "least energy [mJ]", "at the end [mJ]", "force [N]", "wavers by"};
   for (const Pressing& one : kAll) {
@@ -248,14 +249,14 @@ void stability(const Verify& verify, Report::Part& part) {
   borders(verify, part);
   devices(part);
   lasting(verify, part);
-  part.cannot("a real device: masses, damping and friction of all but one are assumed");
+  part.cannot("a real device; masses, damping and friction of all but one are assumed");
 }
 
 const VerifyPart part{
     50, "stability", "Stability",
-    "Simulated hands on simulated devices against a sampled wall: the stiffness at "
-    "which it begins to tremble, beside linear theory (Colgate and Schenkel 1994), "
-    "with delay, and beyond it with the energy guard.",
+    "Simulated hands on simulated devices press against a sampled wall. Compared with linear "
+    "theory (Colgate and Schenkel 1994): the stiffness at which the wall begins to tremble, also "
+    "with delay, and beyond that stiffness with the energy guard.",
     stability};
 
 }  // namespace

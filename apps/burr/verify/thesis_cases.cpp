@@ -152,11 +152,11 @@ void cases(const Verify&, Report::Part& part) {
 
 const VerifyPart part{
     10, "thesis", "The thesis' four cases",
-    "A cube of 10.25 mm (its own figures name no numbers), voxels of 0.25 mm, a burr of 3 mm that "
-    "is "
-    "pushed and dragged along one side, without milling and without vibration: stiff, soft, high "
-    "friction, low friction (M. Eriksson 2006, section 1.6.3), once by the thesis' own method and "
-    "once by ours.",
+    "A burr of 3 mm is pushed against one side of a cube and dragged along it, without milling and "
+    "without vibration, in four cases: stiff, soft, high friction, low friction (M. Eriksson 2006, "
+    "section 1.6.3; the thesis). The cube is 10.25 mm, with voxels of 0.25 mm; the thesis' own "
+    "figures give no numbers. Each case is run once with the thesis' own method and once with "
+    "ours.",
     cases};
 
 }  // namespace

@@ -63,8 +63,7 @@ Status run(const Options& options) {
     fmt::print("{} checks, {} failed{}\n", report.checks(), report.failed(),
                options.out.empty() ? "" : fmt::format("; {}/report.html", options.out));
   }
-  if (interrupted())
-    return error(Trouble::interrupted, "stopped; what was checked until then is kept");
+  if (interrupted()) return error(Trouble::interrupted, "stopped; the checks so far are kept");
   if (report.failed() > 0)
     return error(Trouble::failed,
                  fmt::format("{} of {} checks failed", report.failed(), report.checks()));
@@ -73,19 +72,21 @@ Status run(const Options& options) {
 
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
-  auto* command = app.add_subcommand("verify", "prove the touch: checks against known truths");
+  auto* command = app.add_subcommand("verify", "check touch and cutting against known results");
   std::vector<std::string> names;
   for (const Known& one : known()) names.emplace_back(one.name);
   std::sort(names.begin(), names.end());
   command
       ->add_option("names", options->names,
-                   fmt::format("which parts (default: all): {}", fmt::join(names, ", ")))
+                   fmt::format("parts to check (default: all): {}", fmt::join(names, ", ")))
       ->check(CLI::IsMember(names));
-  command->add_flag("--quick", options->quick, "within a minute: one resolution, short strokes");
+  command->add_flag("--quick", options->quick,
+                    "finish within a minute: one resolution, short strokes");
   command->add_option("--data", options->data,
-                      "DIR: where the real bones lie (docs/validation.md); default: none");
-  command->add_option("--out", options->out,
-                      "DIR: report.html, every series as CSV, verify.json, validation.md");
+                      "DIR: folder of the real bones (docs/validation.md); default: none");
+  command->add_option(
+      "--out", options->out,
+      "DIR: write report.html, every series as CSV, verify.json and validation.md there");
   command->add_flag("--json", options->json, "one JSON object on the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

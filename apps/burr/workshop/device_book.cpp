@@ -31,21 +31,22 @@ struct Field {
 };
 
 const std::array kFields = {
-    Field{"scale", "way of the tip over way of the hand", 0.1, 10,
+    Field{"scale", "travel of the tip / travel of the hand", 0.1, 10,
           [](DevicePreferences& w) -> double& { return w.mapping.scale; }},
-    Field{"max_force_n", "your own limit of its force [N]; 0: what the device can", 0, 40,
+    Field{"max_force_n", "your own limit of its force [N]; 0: the device's limit", 0, 40,
           [](DevicePreferences& w) -> double& { return w.max_force_n; }},
-    Field{"vibration", "gain of the spindle's buzz; 0: none, 1: as designed", 0, 4,
+    Field{"vibration", "gain of the spindle's vibration; 0: none, 1: as designed", 0, 4,
           [](DevicePreferences& w) -> double& { return w.vibration; }},
-    Field{"torque", "gain of the motor's twist, where the device can turn the hand; 0: none", 0, 4,
+    Field{"torque", "gain of the motor's torque, for devices that can turn the hand; 0: none", 0, 4,
           [](DevicePreferences& w) -> double& { return w.torque; }},
-    Field{"mill_button", "its button that mills, counted from 0; -1: none", -1, 30, nullptr,
+    Field{"mill_button", "the button that mills, counted from 0; -1: none", -1, 30, nullptr,
           [](DevicePreferences& w) -> int& { return w.mapping.mill_button; }},
-    Field{"clutch_button", "its button that lifts the hand to lay it elsewhere; -1: none", -1, 30,
+    Field{"clutch_button",
+          "the button that lifts the burr, so that the hand can move elsewhere; -1: none", -1, 30,
           nullptr, [](DevicePreferences& w) -> int& { return w.mapping.clutch_button; }},
-    Field{"dead_man", "it pushes only while the mill button or the pedal is down", 0, 1, nullptr,
+    Field{"dead_man", "force only while the mill button or the pedal is down", 0, 1, nullptr,
           nullptr, [](DevicePreferences& w) -> bool& { return w.mapping.dead_man; }},
-    Field{"axes", "where its x, y, z point: right, left, up, down, near or far", 0, 0, nullptr,
+    Field{"axes", "directions of its x, y, z: right, left, up, down, near or far", 0, 0, nullptr,
           nullptr, nullptr, [](DevicePreferences& w) -> math::Quat& { return w.mapping.axes; }},
 };
 
@@ -61,8 +62,8 @@ std::string take(const Field& field, const toml::node& node, DevicePreferences& 
     const auto words = node.value_exact<std::string>();
     const auto axes = words ? device::axes_from_words(*words) : std::nullopt;
     if (!axes)
-      return "must be three words of right, left, up, down, near, far in quotes, a right-handed "
-             "frame: \"right up near\" leaves it as it is";
+      return "must be three of the words right, left, up, down, near, far, in quotes, as a "
+             "right-handed frame; \"right up near\" changes nothing";
     field.axes(preferences) = *axes;
     return {};
   }
@@ -97,24 +98,24 @@ DeviceBook DeviceBook::parse(std::string_view text, std::string_view file) {
   DeviceBook book;
   const auto table = parse_toml(text, file);
   if (!table) {
-    book.troubles_.push_back(table.error().text + "; devices are used as they come");
+    book.troubles_.push_back(table.error().text + "; the default settings of the devices are used");
     return book;
   }
   for (const auto& [id, node] : *table) {
     const toml::table* device = node.as_table();
     if (device == nullptr) {
       book.troubles_.push_back(
-          fmt::format("{}: {}: is no [\"device\"]; it is left aside", file, base::shown(id.str())));
+          fmt::format("{}: {}: is not a [\"device\"]; it is ignored", file, base::shown(id.str())));
       continue;
     }
     DevicePreferences& preferences = book.preferences_[std::string(id.str())];
     for (const auto& [key, value] : *device) {
       const Field* field = field_named(key.str());
-      const std::string wrong = field == nullptr
-                                    ? fmt::format("is no setting; there are {}", known_keys())
-                                    : take(*field, value, preferences);
+      const std::string wrong =
+          field == nullptr ? fmt::format("is not a setting; the settings are {}", known_keys())
+                           : take(*field, value, preferences);
       if (!wrong.empty())
-        book.troubles_.push_back(fmt::format("{}: {}: {}: {}; it is left aside", file,
+        book.troubles_.push_back(fmt::format("{}: {}: {}: {}; it is ignored", file,
                                              base::shown(id.str()), base::shown(key.str()), wrong));
     }
   }
@@ -128,7 +129,7 @@ DeviceBook DeviceBook::read(const std::filesystem::path& path) {
       base::text_of_file(path.string(), kLargestFile, "a page of settings; is this another file?");
   if (text) return parse(*text, path.filename().string());
   DeviceBook book;
-  book.troubles_.push_back(text.error().text + "; devices are used as they come");
+  book.troubles_.push_back(text.error().text + "; the default settings of the devices are used");
   return book;
 }
 
@@ -143,7 +144,7 @@ Status DeviceBook::set(const std::string& id, std::string_view assignment) {
   const Field* field = field_named(key);
   if (field == nullptr || equals == std::string_view::npos)
     return error(Trouble::usage,
-                 fmt::format("{}: is no setting of a device; write one of {} with =VALUE",
+                 fmt::format("{}: is not a setting of a device; write one of {} with =VALUE",
                              base::shown(assignment), known_keys()));
   std::string written(assignment);
   if (field->axes != nullptr && written.find('"') == std::string::npos)  // the shell took them
@@ -151,8 +152,8 @@ Status DeviceBook::set(const std::string& id, std::string_view assignment) {
   const auto table = parse_toml(written, "the setting");
   const toml::node* value = table ? table->get(key) : nullptr;
   DevicePreferences preferences = of(id);
-  const std::string wrong = value == nullptr ? std::string("has no value that can be read")
-                                             : take(*field, *value, preferences);
+  const std::string wrong =
+      value == nullptr ? std::string("has no readable value") : take(*field, *value, preferences);
   if (!wrong.empty())
     return error(Trouble::usage, fmt::format("{}: {} {}", base::shown(assignment), key, wrong));
   preferences_[id] = preferences;
@@ -185,7 +186,7 @@ Status DeviceBook::write(const std::filesystem::path& path) const {
   std::filesystem::create_directories(path.parent_path(), trouble);
   if (trouble)
     return error(Trouble::io,
-                 fmt::format("{}: cannot make this folder ({}); the setting is not kept",
+                 fmt::format("{}: cannot make this folder ({}); the setting is not saved",
                              path.parent_path().string(), trouble.message()));
   if (!troubles_.empty() && std::filesystem::exists(path, trouble)) {
     std::filesystem::path old = path;
@@ -193,7 +194,7 @@ Status DeviceBook::write(const std::filesystem::path& path) const {
     std::filesystem::rename(path, old, trouble);
     if (trouble)
       return error(Trouble::io,
-                   fmt::format("{}: cannot be kept aside ({}); the setting is not kept",
+                   fmt::format("{}: the old file cannot be renamed ({}); the setting is not saved",
                                path.string(), trouble.message()));
   }
   auto file = base::NewFile::beside(path.string());

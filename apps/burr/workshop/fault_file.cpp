@@ -33,11 +33,11 @@ std::string one_line(std::string text) {
 std::string fault_text(const tick::FaultReport& report, const device::DeviceSpec& device,
                        double rate_hz, const std::string& trouble) {
   std::string text =
-      fmt::format("# burr {} ({}): the force was let go\n", base::version(), base::build());
+      fmt::format("# burr {} ({}): force released\n", base::version(), base::build());
   text += fmt::format("# device: {}\n", one_line(device.name + " " + device.serial));
   for (const std::string& sentence : tick::words(report.flags))
     text += "# " + one_line(sentence) + "\n";
-  if (!trouble.empty()) text += "# the device says: " + one_line(trouble) + "\n";
+  if (!trouble.empty()) text += "# message of the device: " + one_line(trouble) + "\n";
   text += fmt::format("# the last {} ticks, {:g} a second, oldest first; flags as in rt/flags.h\n",
                       report.count, rate_hz);
   text +=
@@ -63,7 +63,7 @@ Result<std::filesystem::path> keep_fault(const std::filesystem::path& folder,
   std::filesystem::create_directories(folder, trouble);
   if (trouble)
     return error(Trouble::io,
-                 fmt::format("{}: cannot make this folder ({}); the last ticks are not kept",
+                 fmt::format("{}: cannot make this folder ({}); the last ticks are not saved",
                              folder.string(), trouble.message()));
   const std::string name = fmt::format("fault-{:%Y%m%d-%H%M%S}", fmt::gmtime(std::time(nullptr)));
   std::filesystem::path path = folder / (name + ".csv");

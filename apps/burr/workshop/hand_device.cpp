@@ -54,23 +54,22 @@ NamesThere names_there(const HandKind& kind) {
   const auto add = [&](const std::string& which) { there.names.push_back(name + ":" + which); };
   if (name == "touch") {
     there.note =
-        "Of several each has the name that its setup program gave it: touch:NAME. Its library "
+        "If there are several, each has the name from its setup program: touch:NAME. The library "
         "cannot list them.";
   } else if (name == "force-dimension") {
     if (const auto plugged = device::forcedimension::Omega::plugged()) {
       for (const int serial : plugged->serials) add(std::to_string(serial));
       if (!plugged->serials.empty() && plugged->nameless > 0)
         there.note = fmt::format(
-            "{} more cannot be told by a serial number; another program may have it open.",
+            "{} more without a readable serial number; another program may have them open.",
             plugged->nameless);
     }
   } else if (name == "haply") {
     if (const auto known = device::haply::all_known({})) {
       for (const device::haply::Known& arm : known->arms) add(arm.id);
       if (known->grips.size() > 1)
-        there.note =
-            fmt::format("There are the grips {}: haply:ARM+GRIP says which is held with an arm.",
-                        fmt::join(known->grips, ", "));
+        there.note = fmt::format("Grips found: {}. haply:ARM+GRIP chooses the grip for an arm.",
+                                 fmt::join(known->grips, ", "));
     }
   } else if (name == "polhem") {
     for (const device::polhem::Port& port :
@@ -129,9 +128,9 @@ Result<std::unique_ptr<device::Device>> make_hand(const HandRequest& request) {
     return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
         std::make_unique<device::crtk::Leader>(std::move(settings))));
   }
-  return error(
-      Trouble::usage,
-      fmt::format("--device {}: burr drives no such device; take one of: {}", name, kinds_known()));
+  return error(Trouble::usage,
+               fmt::format("--device {}: burr does not know this device; use one of: {}", name,
+                           kinds_known()));
 }
 
 Result<LaidHand> lay_hand(const HandRequest& request, const math::Pose& start,
@@ -165,24 +164,24 @@ double tick_rate(const device::DeviceSpec& spec) {
 }
 
 void add_homing_options(CLI::App& command, HandRequest& request) {
-  command.add_flag(
-      "--home", request.home,
-      "a Force Dimension or CRTK arm may move by itself to find its home; keep the space free");
+  command.add_flag("--home", request.home,
+                   "allow a Force Dimension or CRTK arm to move by itself to its home position; "
+                   "keep its space free");
   command.add_flag("--is-homed", request.is_homed,
-                   "you homed the arm yourself, and its library cannot tell");
+                   "you have homed the arm yourself, and its library cannot report it");
 }
 
 void add_hand_options(CLI::App& command, HandRequest& request) {
   command.add_option(
       "--device", request.device,
-      fmt::format("a haptic device: {}; NAME:WHICH where there are several", kinds_known()));
+      fmt::format("a haptic device: {}; NAME:WHICH if there are several", kinds_known()));
   command
       .add_option("--device-scale", request.scale,
-                  "way of the tip over way of the hand; smaller: finer work, softer walls")
+                  "travel of the tip / travel of the hand; smaller: finer work, softer walls")
       ->check(CLI::Range(0.1, 10.0));
   add_homing_options(command, request);
   command.add_flag("--dead-man", request.dead_man,
-                   "the device pushes only while its mill button is held");
+                   "force only while the mill button of the device is held");
 }
 
 }  // namespace burr::app

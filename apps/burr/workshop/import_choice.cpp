@@ -239,9 +239,9 @@ Result<KeptTable> keep_table(const std::filesystem::path& folder, const std::str
   std::filesystem::create_directories(folder, trouble);
   if (!trouble) std::filesystem::permissions(folder, std::filesystem::perms::owner_all, trouble);
   if (trouble)
-    return error(Trouble::io, fmt::format("{}: cannot be made ({}); the kinds of the labels are "
-                                          "not kept",
-                                          folder.string(), trouble.message()));
+    return error(Trouble::io,
+                 fmt::format("{}: cannot be made ({}); the kinds of the labels are not saved",
+                             folder.string(), trouble.message()));
   KeptTable kept{folder / fmt::format("labels_{:016x}.toml", hash), false};
   kept.fresh = !std::filesystem::exists(kept.path, trouble);
   auto file = base::NewFile::beside(kept.path.string());

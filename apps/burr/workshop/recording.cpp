@@ -31,13 +31,12 @@ Result<scenario::Recipe> recipe_of(const scenario::Recipe& recorded, const scena
   if (!recorded.series.starts_with('#')) recipe.series = given.series;
   if (recorded.series == scenario::kOwn && given.series.empty())
     return error(Trouble::usage, fmt::format("{}: was made from a series chosen by its UID, which "
-                                             "is not kept; give it again with --series",
+                                             "recordings do not store; give it again with --series",
                                              where));
   if (!recorded.labels.empty() && given.labels.empty())
     return error(
         Trouble::usage,
-        fmt::format("{}: was made with an own table of tissues; give it again with --tissues",
-                    where));
+        fmt::format("{}: was made with a table of tissues; give that table with --tissues", where));
   return recipe;
 }
 
@@ -91,7 +90,7 @@ void Recording::tell(const Error& problem) {
     const std::lock_guard lock(mutex_);
     trouble_ = problem;
   }
-  fmt::print(stderr, "{}burr: {}; the session goes on without recording\n",
+  fmt::print(stderr, "{}burr: {}; the session continues without recording\n",
              isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "", problem.text);
 }
 
@@ -117,7 +116,7 @@ Status Recording::finish(sim::Session& session) {
   const bool there = std::filesystem::exists(file_, nobody_asks);
   const double kept = recorder_ ? static_cast<double>(recorder_->safe_ticks()) / rate_hz_ : 0;
   return error(trouble_->trouble,
-               fmt::format("{}; the session was finished, but its recording is not whole: {}",
+               fmt::format("{}; the session ended normally, but its recording is incomplete: {}",
                            trouble_->text,
                            there && kept > 0 ? fmt::format("it holds the first {:.3f} s", kept)
                                              : "nothing was kept"));

@@ -106,9 +106,8 @@ void fit_burr(WorkOptions& options, importing::Imported& made) {
   const double least_mm = std::ceil(4e4 * made.bone->grid().voxel - 1e-6) / 10;
   if (options.burr_mm >= least_mm || least_mm > 1e3 * tool::kLargestDiameter) return;
   made.summary.notices.push_back(
-      fmt::format("A burr of {:.2f} mm is too small for voxels of {:.2f} mm: one of {:.1f} mm is "
-                  "taken; a smaller one "
-                  "wants --voxel-mm {:.2f} or finer.",
+      fmt::format("A burr of {:.2f} mm is too small for voxels of {:.2f} mm: burr takes one of "
+                  "{:.1f} mm. A smaller burr needs --voxel-mm {:.2f} or finer.",
                   options.burr_mm, 1e3 * made.bone->grid().voxel, least_mm,
                   std::floor(25 * options.burr_mm) / 100));
   options.burr_mm = least_mm;

@@ -187,7 +187,7 @@ Result<Region> parse_region(std::string_view text) {
 Result<double> parse_level(std::string_view text) {
   std::vector<double> level;
   if (!numbers(text, level) || level.size() != 1)
-    return error(Trouble::usage, fmt::format("--iso: \"{}\" is no number", base::shown(text)));
+    return error(Trouble::usage, fmt::format("--iso: \"{}\" is not a number", base::shown(text)));
   return level[0];
 }
 

@@ -77,13 +77,13 @@ bool already_there(const ExportRequest& request) {
 }
 
 Status check_request(const ExportRequest& request) {
-  if (request.path.empty()) return error(Trouble::usage, "give the file a name");
+  if (request.path.empty()) return error(Trouble::usage, "enter a name for the file");
   std::error_code nobody_asks;
   if (request.what == ExportWhat::film) {
     if (fs::exists(request.path, nobody_asks) && !fs::is_directory(request.path, nobody_asks))
       return error(
           Trouble::usage,
-          request.path + ": is a file; a film is a folder of pictures, give it another name");
+          request.path + ": is a file; a film is a folder of pictures, choose another name");
   } else if (fs::is_directory(request.path, nobody_asks))
     return error(Trouble::usage, request.path + ": is a folder; add a name for the file");
   if (request.what == ExportWhat::picture) {
@@ -97,8 +97,9 @@ Status check_request(const ExportRequest& request) {
   }
   const fs::path folder = fs::path(request.path).parent_path();
   if (!folder.empty() && !fs::is_directory(folder, nobody_asks))
-    return error(Trouble::io, fmt::format("{}: there is no such folder; make it, or choose another",
-                                          folder.string()));
+    return error(
+        Trouble::io,
+        fmt::format("{}: this folder does not exist; make it, or choose another", folder.string()));
   return fine();
 }
 

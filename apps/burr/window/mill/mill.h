@@ -1,7 +1,10 @@
-// apps/burr/window/mill/mill.h - the page one works on, as one object: what a picture needs of the user,
-// the session and the bone. Its parts are window.cpp (picture after picture), mill_hand.cpp (what
-// the user does), mill_pads.cpp (the same with other hands than the mouse), mill_headset.cpp
-// (whoever wears one) and mill_told.cpp (what the user is told); nothing else includes this.
+// apps/burr/window/mill/mill.h - the page for milling, as one object: it brings user, session and bone
+// together, picture after picture.
+//
+// Its parts: window.cpp (the loop of pictures), mill_hand.cpp (the mouse as a hand, and what each
+// button does), mill_keys.cpp (the table of keys), mill_pads.cpp (gamepad, pedal, SpaceMouse),
+// mill_status.cpp (what the user reads). What has a state of its own is a class of its own: Drill,
+// Press, Pointer, OverPages, WornHeadset, TickWatch, SuctionTube. Nothing else includes this.
 //
 // Thread: main. Frame: world. Units: SI.
 #pragma once
@@ -12,31 +15,32 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "burr/render/governor.h"
-#include "burr/rt/stats.h"
-#include "window/mill/export_page.h"
+#include "window/mill/drill.h"
 #include "window/mill/hand_plane.h"
 #include "window/mill/hud.h"
 #include "window/mill/measuring.h"
 #include "window/mill/mirror_mode.h"
+#include "window/mill/over_pages.h"
+#include "window/mill/pointer.h"
+#include "window/mill/press.h"
 #include "window/mill/saved_views.h"
 #include "window/mill/slices.h"
+#include "window/mill/suction_tube.h"
+#include "window/mill/tick_watch.h"
 #include "window/mill/toolbar.h"
 #include "window/mill/window.h"
+#include "window/mill/worn_headset.h"
+#include "window/shell/help.h"
 #include "window/shell/status_line.h"
 
 namespace burr::app {
 
-inline constexpr double kHover = 3e-3;         // above the bone while not pressing           [m]
-inline constexpr double kPressLeast = 0.5e-3;  // how far below the surface the arm is aimed  [m]
-inline constexpr double kPressMost = 6e-3;
-
-class LiveSurface;
+inline constexpr double kHover = 3e-3;  // above the bone while not pressing  [m]
 
 class Mill {
  public:
@@ -49,24 +53,54 @@ class Mill {
         scene_(scene),
         options_(options),
         first_view_(scene.camera),
-        mirror_(session.bone().grid()) {}
+        panels_(desk.settings.panels),
+        headset_(desk),
+        pointer_(desk, scene),
+        mirror_(session.bone().grid()),
+        drill_(session, scene.burr) {}
 
   Result<Left> run();
+
+  [[nodiscard]] static std::vector<HelpRow> help_rows(bool left_handed);
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  // ---- window.cpp
+  void begin();  // the live surface stands
+  Status frame(LiveSurface& live);
+  void end(LiveSurface& live);
+
+  // ---- mill_keys.cpp
+  static constexpr double kDeeper = 1.25;  // factor of the press, by a key
+  struct Key {
+    SDL_Keycode code;
+    unsigned held;  // one of these modifiers; 0: with any or none
+    std::function<void(Mill&)> does;
+  };
+  struct KeyRow {
+    HelpBlock block;
+    std::string label;
+    Word says;
+    std::vector<Key> keys;
+  };
+  using KeyRows = std::vector<KeyRow>;
+  static KeyRows hand_keys(bool left_handed);
+  static KeyRows view_keys(bool left_handed);
+  static KeyRows tool_keys();
+  static KeyRows program_keys();
+  static KeyRows key_rows(bool left_handed);
+  void key(const SDL_Keysym& pressed);
+
   // ---- mill_hand.cpp
   void take_events();
-  void key(const SDL_Keysym& pressed);
   bool aim_key(const SDL_Keysym& pressed, bool down);
   void move(const SDL_MouseMotionEvent& motion);
   void button(const SDL_MouseButtonEvent& button);
   void wheel(const SDL_MouseWheelEvent& wheel);
   void turn_view(double right, double up, bool shift);
   void act(Action action);
-  void change_burr(int by);
-  void change_speed(double by);
+  void leave();
   void push(double factor);
   void deepen(double steps);
   void toggle_plane();
@@ -75,73 +109,47 @@ class Mill {
   void point_in_plane(const render::Ray& ray);
   void aim_at(const math::Vec3& tip, double pedal);
   void lay_real_hand();
-  void let_go(bool gone);
-  void lead_suction(LiveSurface& live);
+  void lift_real_hand();
+  void stop_or_go_on();
+  void next_measure();
   void measure();
   void show_labels(bool shown);
   void toggle_sound();
-  void toggle_coolant();
-  void toggle_kind();
-  void mirror(const SDL_Keysym& pressed);
+  void change_loudness(int by);
+  void mirror_at_tip();
+  void mirror_next_plane();
   void tell_mirror();
   void show_task();
   void saved_view(int slot, bool keep);
   void go_back();
   void keep();
   void pick_point();
-  void aim_at_mouse() {
-    aim_x_ = mouse_x_;
-    aim_y_ = mouse_y_;
-  }
-  [[nodiscard]] bool over_slices() const;
-  [[nodiscard]] bool page_open() const {
-    return help_ || settings_page_ || (export_ && export_->shown());
-  }
+  [[nodiscard]] bool page_open() const { return pages_->open(); }
   [[nodiscard]] bool pressing() const {
-    return !let_go_ && (pressing_ || held_ || depth_ > 0 || foot_ > 0) && !measuring_.picks() &&
-           !page_open() && !over_panel() && !over_slices();
-  }
-  // while a pad leads, the mouse may lie where it was left
-  [[nodiscard]] bool over_panel() const { return !leads_ && desk_.ui().over_panel(); }
-  // how far below the surface the arm is aimed while it presses, and the spindle's share  [m], [1]
-  [[nodiscard]] double depth() const {
-    const double share = pressing_ || held_ || foot_ > 0 ? 1 : depth_;
-    return kPressLeast + share * (press_ - kPressLeast);
+    return !lifts_.stopped && press_.on() && !measuring_.picks() && !page_open() &&
+           !pointer_.over_panel() && !pointer_.over_slices();
   }
   // of the settings, and what the user keeps for this device  [N]
   [[nodiscard]] double user_limit() const {
     return std::min(desk_.settings.force_limit_n, hands_.max_force);
   }
-  [[nodiscard]] double pedal() const {
-    return (pressing_ || held_ || depth_ > 0 ? 1 : foot_) * (1 - slowed_);
-  }
 
   // ---- mill_pads.cpp
   void take_hands();
   void look_for_hands();
-  void lead();
-  void mouse_leads();
-  void move_aim(double right, double up, double dt);
+  void take_pads(double dt);
   void pad_button(Uint8 button);
   void pedal_button(const SDL_Event& event);
-  void next_burr();
-  void draw_cursor() const;
 
-  // ---- mill_headset.cpp
-  void look_for_headset();
-  void begin_headset(render::FrameGovernor& governor);
-  void end_headset();
-  void take_off_headset();
-  void point_wand();
-
-  // ---- mill_told.cpp
+  // ---- mill_status.cpp
   void look_at_session();
   void keep_device_preferences();
   void keep_fault_of(const device::Device& hand, const tick::FaultReport& fault);
-  void look_at_burr();
   void tell();
-  void note(std::string text);
+  void note(std::string text);  // "": nothing
+  void note_troubles();
   void panels();
+  void pages();
   void leave_picture();
   [[nodiscard]] HudState hud() const;
 
@@ -153,52 +161,43 @@ class Mill {
   WindowOptions options_;
   render::Camera first_view_;
 
-  bool open_ = true, picture_ = false;
+  // the page
+  bool open_ = true, picture_ = false, panels_;
+  bool leaves_ = false;  // though a file is still being written
   Left left_ = Left::window;
-  bool panels_ = true, help_ = false, help_pads_ = false, settings_page_ = false,
-       settings_pads_ = false;
-  int picture_step_ = 0;
+  std::optional<OverPages> pages_;  // from begin() on, as the two below
   std::optional<Slices> slices_;
   std::optional<SavedViews> saved_views_;
-  std::optional<ExportPage> export_;
-  bool leaves_ = false;  // though a file is still being written
-  bool irrigated_ = false;
-  bool task_ = true, task_read_ = false;  // what is to be done is shown; bone was removed since
+  bool task_ = true, task_read_ = false;  // the task is shown; bone was removed since
   bool slices_shown_ = true, labels_ = true, pulls_window_ = false;
-  bool headset_on_ = false, wand_ = false;    // it was there; the wand is the hand
-  std::optional<render::Headset::Now> seen_;  // the frame begun
-  std::array<render::Camera, 2> headset_cameras_;
-  render::Wand wand_at_;
-  Clock::time_point window_drawn_{};
   std::vector<render::Colour> colours_;  // of the tissues, while labels are shown
-  // a haptic device: stopped; only laid elsewhere, by key and by foot
-  bool let_go_ = false, lifted_ = false, foot_lifts_ = false;
-  bool pressing_ = false, held_ = false;  // by the button; by the space bar
-  int mouse_x_ = 0, mouse_y_ = 0, width_ = 1, height_ = 1;
-  int aim_x_ = 0, aim_y_ = 0;  // where the mouse was last that was no slice
-  double press_ = 4e-3;
+  int picture_step_ = 0;
+  Clock::time_point window_drawn_{};
+
+  // the hand
+  WornHeadset headset_;
+  Pointer pointer_;
+  Press press_;
   HandPlane plane_;
+  struct Lifts {  // a haptic device: stopped by the user; only moved elsewhere, by key or by foot
+    bool stopped = false, by_key = false, by_foot = false;
+  } lifts_;
   std::array<bool, 4> aim_keys_ = {};  // left, right, down, up: held
-  // of pad, cap and pedal
-  double depth_ = 0, foot_ = 0, slowed_ = 0;  // share of the press, of the pedal; spindle held back
-  bool leads_ = false, pad_lifts_ = false, mouse_moved_ = false;
-  double pad_x_ = 0, pad_y_ = 0;  // its cursor
+  bool pad_lifts_ = false;
   int hands_there_ = -1;
-  Clock::time_point sucked_;  // until then the suction was led
   Clock::time_point hands_taken_{};
   math::Vec3 normal_ = math::Vec3::Zero();  // of the surface under the mouse, calmed
   std::optional<math::Vec3> point_;         // there
-  tick::ToolMode mode_ = tick::ToolMode::cut;
+  SuctionTube tube_;
+
+  // the work
   Measuring measuring_;
   MirrorMode mirror_;
-  double full_speed_ = 0;                 // requested [rad/s]
-  std::optional<double> burr_requested_;  // radius, until it is so or refused [m]
-  Clock::time_point burr_requested_at_{};
+  Drill drill_;
+
+  // what the user reads
   tick::TickRow row_;
-  rt::TickStats stats_;
-  std::optional<std::pair<std::uint64_t, Clock::time_point>> first_tick_;
-  std::uint64_t missed_ = 0;
-  Clock::time_point missed_at_{}, lost_at_{};
+  TickWatch ticks_;
   std::optional<HudState::Nearest> nearest_;
   StatusLine told_;
   std::string note_, warning_;  // as they are shown

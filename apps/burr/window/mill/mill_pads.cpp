@@ -33,18 +33,21 @@ void Mill::take_hands() {
       std::clamp(std::chrono::duration<double>(now - hands_taken_).count(), 0.0, kLongest);
   hands_taken_ = now;
   look_for_hands();
+  take_pads(dt);
+}
 
+void Mill::take_pads(double dt) {
   const Settings& settings = desk_.settings;
   const PadSticks pad = desk_.pads.now(settings.pad_dead);
   const CapMotion cap = desk_.cap.now(settings.pad_dead);
   const double foot = desk_.pedals.now(map_of(settings));
-  foot_lifts_ = desk_.pedals.clutched(map_of(settings));
+  lifts_.by_foot = desk_.pedals.clutched(map_of(settings));
   pad_lifts_ = pad.lifts;
   if (pad.lifts || page_open()) lift();
-  depth_ = foot_ = 0;
+  press_.rest_pads();
   if (page_open()) return;
 
-  for (const int button : cap.buttons) change_burr(button == 0 ? -1 : 1);
+  for (const int button : cap.buttons) note(drill_.change_burr(button == 0 ? -1 : 1));
   const auto sum = [](double a, double b) { return std::clamp(a + b, -1.0, 1.0); };
   // over the bone a cap's away is up, and down is in; before a plane it is a hand of three axes
   const bool in_plane = plane_.on();
@@ -52,8 +55,9 @@ void Mill::take_hands() {
   const auto held = [this](std::size_t back, std::size_t on) {
     return (aim_keys_[on] ? 1.0 : 0.0) - (aim_keys_[back] ? 1.0 : 0.0);
   };
-  move_aim(sum(sum(pad.aim_right, cap.right), held(0, 1)),
-           sum(sum(pad.aim_up, in_plane ? cap.up : cap.away), held(2, 3)), dt * settings.pad_pace);
+  const double by = kAimPace * dt * settings.pad_pace;
+  pointer_.move(by * sum(sum(pad.aim_right, cap.right), held(0, 1)),
+                by * sum(sum(pad.aim_up, in_plane ? cap.up : cap.away), held(2, 3)));
   const double turn_up = pad.lifts ? 0 : pad.turn_up;
   if (pad.lifts)
     render::zoom(scene_.camera, std::exp(kZoomPace * settings.zoom_pace * pad.turn_up * dt));
@@ -62,10 +66,10 @@ void Mill::take_hands() {
             kTurnPace * dt * sum(turn_up, cap.tilt), false);
 
   if (pad.lifts) return;
-  depth_ = std::max(pad.press, in_plane ? 0.0 : -std::min(cap.up, 0.0));
-  if (depth_ > 0) lead();
-  foot_ = foot;
-  slowed_ = pad.slow;
+  const double depth = std::max(pad.press, in_plane ? 0.0 : -std::min(cap.up, 0.0));
+  press_.trigger(depth);
+  if (depth > 0) pointer_.lead();
+  press_.pedal(foot, pad.slow);
 }
 
 // One that was pulled out while it pressed presses no more; nor does what was held on by it.
@@ -80,51 +84,6 @@ void Mill::look_for_hands() {
   hands_there_ = there;
 }
 
-// From the mouse to the cursor of the pad; where the mouse was, unless it was nowhere.
-void Mill::lead() {
-  if (leads_) return;
-  leads_ = true;
-  const bool nowhere =
-      !mouse_moved_ || aim_x_ < 0 || aim_y_ < 0 || aim_x_ >= width_ || aim_y_ >= height_ ||
-      desk_.ui().over_panel(static_cast<float>(aim_x_), static_cast<float>(aim_y_));
-  pad_x_ = nowhere ? 0.5 * width_ : aim_x_;
-  pad_y_ = nowhere ? 0.5 * height_ : aim_y_;
-  mouse_x_ = static_cast<int>(pad_x_);
-  mouse_y_ = static_cast<int>(pad_y_);
-  aim_at_mouse();
-  SDL_ShowCursor(SDL_DISABLE);
-}
-
-void Mill::mouse_leads() {
-  mouse_moved_ = true;
-  if (std::exchange(leads_, false)) SDL_ShowCursor(SDL_ENABLE);
-}
-
-// One way at a time, so that it slides along panels instead of sticking to them.
-void Mill::move_aim(double right, double up, double dt) {
-  if (right == 0 && up == 0) return;
-  lead();
-  const double by = kAimPace * height_ * dt;
-  const auto go = [this](double x, double y) {
-    x = std::clamp(x, 0.0, width_ - 1.0);
-    y = std::clamp(y, 0.0, height_ - 1.0);
-    if (desk_.ui().over_panel(static_cast<float>(x), static_cast<float>(y))) return;
-    const int was_x = mouse_x_, was_y = mouse_y_;
-    mouse_x_ = static_cast<int>(x);
-    mouse_y_ = static_cast<int>(y);
-    if (over_slices()) {
-      mouse_x_ = was_x;
-      mouse_y_ = was_y;
-      return;
-    }
-    pad_x_ = x;
-    pad_y_ = y;
-  };
-  go(pad_x_ + by * right, pad_y_);
-  go(pad_x_, pad_y_ - by * up);
-  aim_at_mouse();
-}
-
 void Mill::pad_button(Uint8 button) {
   constexpr Action kTools[] = {Action::cut, Action::add, Action::touch, Action::back,
                                Action::smooth};
@@ -132,8 +91,8 @@ void Mill::pad_button(Uint8 button) {
                                        tick::ToolMode::touch, tick::ToolMode::restore,
                                        tick::ToolMode::smooth};
   const auto tool = [&](int by) {
-    const int now = static_cast<int>(std::find(std::begin(kModes), std::end(kModes), mode_) -
-                                     std::begin(kModes));
+    const int now = static_cast<int>(
+        std::find(std::begin(kModes), std::end(kModes), drill_.mode()) - std::begin(kModes));
     act(kTools[(now + by + 5) % 5]);
   };
   if (button == SDL_CONTROLLER_BUTTON_BACK) return go_back();
@@ -143,32 +102,29 @@ void Mill::pad_button(Uint8 button) {
   }
   switch (button) {
     case SDL_CONTROLLER_BUTTON_START:
-      act(Action::help);
-      help_pads_ = true;
-      return;
+      return pages_->toggle_help(true);
     case SDL_CONTROLLER_BUTTON_A:
-      if (measuring_.picks()) lead(), pick_point();
+      if (measuring_.picks()) pointer_.lead(), pick_point();
       return;
     case SDL_CONTROLLER_BUTTON_X:
-      return pad_lifts_ ? toggle_coolant() : act(Action::undo);
+      return pad_lifts_ ? note(drill_.toggle_coolant()) : act(Action::undo);
     case SDL_CONTROLLER_BUTTON_Y:
       return act(pad_lifts_ ? Action::measure : Action::redo);
     case SDL_CONTROLLER_BUTTON_LEFTSHOULDER:
-      return change_burr(-1);
+      return act(Action::smaller);
     case SDL_CONTROLLER_BUTTON_RIGHTSHOULDER:
-      return change_burr(1);
+      return act(Action::larger);
     case SDL_CONTROLLER_BUTTON_DPAD_UP:
-      return push(1.25);
+      return push(kDeeper);
     case SDL_CONTROLLER_BUTTON_DPAD_DOWN:
-      return push(1 / 1.25);
+      return push(1 / kDeeper);
     case SDL_CONTROLLER_BUTTON_DPAD_LEFT:
       return tool(-1);
     case SDL_CONTROLLER_BUTTON_DPAD_RIGHT:
       return tool(1);
     case SDL_CONTROLLER_BUTTON_LEFTSTICK:
-      lead();
-      held_ = !held_;
-      return;
+      pointer_.lead();
+      return press_.toggle_hold();
     case SDL_CONTROLLER_BUTTON_RIGHTSTICK:
       return keep();
     default:
@@ -180,34 +136,12 @@ void Mill::pedal_button(const SDL_Event& event) {
   if (page_open()) return;
   switch (desk_.pedals.step(event, map_of(desk_.settings))) {
     case Pedals::Step::burr:
-      return next_burr();
+      return note(drill_.next_burr());
     case Pedals::Step::coolant:
-      return toggle_coolant();
+      return note(drill_.toggle_coolant());
     case Pedals::Step::none:
       return;
   }
-}
-
-// Where the pad points, in light and dark, so that it is seen on bone and beside it; a dot in it
-// while it presses.
-void Mill::draw_cursor() const {
-  if (!leads_ || page_open()) return;
-  const float u = desk_.ui().unit();
-  const float from_window =
-      static_cast<float>(desk_.renderer().width()) / static_cast<float>(std::max(1, width_));
-  const ImVec2 at = {static_cast<float>(pad_x_) * from_window,
-                     static_cast<float>(pad_y_) * from_window};
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  constexpr ImU32 kDark = ink::rgb(0, 0, 0, 200), kLight = ink::rgb(255, 255, 255);
-  for (const auto& [ink, wide] : {std::pair{kDark, 4 * u}, std::pair{kLight, 1.75F * u}}) {
-    list.AddCircle(at, 11 * u, ink, 32, wide);
-    for (const auto& [x, y] : {std::pair{1.F, 0.F}, {-1.F, 0.F}, {0.F, 1.F}, {0.F, -1.F}})
-      list.AddLine({at.x + 8 * u * x, at.y + 8 * u * y}, {at.x + 15 * u * x, at.y + 15 * u * y},
-                   ink, wide);
-  }
-  if (!pressing()) return;
-  list.AddCircleFilled(at, 4.5F * u, kDark);
-  list.AddCircleFilled(at, 3 * u, kLight);
 }
 
 }  // namespace burr::app

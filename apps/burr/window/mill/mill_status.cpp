@@ -12,8 +12,6 @@
 #include "burr/rt/flags.h"
 #include "window/mill/mill.h"
 #include "window/mill/task_panel.h"
-#include "window/shell/help.h"
-#include "window/shell/settings_page.h"
 #include "window/shell/words.h"
 #include "workshop/fault_file.h"
 #include "workshop/suction_hand.h"
@@ -51,33 +49,21 @@ std::string told_flags(std::uint32_t flags) {
 std::string flag_words(std::uint32_t flags) {
   std::string text;
   for (const auto& [flag, says] : kFlagWords)
-    if ((flags & flag) != 0)
-      text += (text.empty() ? "" : ", ") + std::string(word(says, Language::english));
+    if ((flags & flag) != 0) text += (text.empty() ? "" : ", ") + std::string(english(says));
   return text;
 }
 
 void Mill::look_at_session() {
   if (session_.view(row_)) {
-    const Clock::time_point now = Clock::now();
-    stats_.add(static_cast<std::int64_t>(1e3 * static_cast<double>(row_.took_us)));
+    ticks_.see(row_, session_.settings().servo.rate_hz, Clock::now());
     scene_.burr.world_from_tool = {row_.contact.proxy, row_.hand.world_from_tool.q};
     // turning is shown, not counted: 40 000 rpm are faster than any eye
     if (row_.spindle_rad_s > 0) scene_.burr.turn = std::remainder(scene_.burr.turn + 0.7, 6.2832);
     render::show_contact(scene_, row_.hand.world_from_tool.p, row_.contact.proxy,
                          row_.contact.force);
     if (options_.loudspeaker != nullptr) options_.loudspeaker->hear(row_);
-    if ((row_.contact.flags & rt::kFlagWatchdog) != 0) lost_at_ = now;
-
-    // ticks that are not there by now; two may be under way
-    if (!first_tick_) first_tick_ = {row_.tick, now};
-    const double due = std::chrono::duration<double>(now - first_tick_->second).count() *
-                       session_.settings().servo.rate_hz;
-    const double done = static_cast<double>(row_.tick - first_tick_->first);
-    const auto missed = static_cast<std::uint64_t>(std::max(0.0, due - done - 2));
-    if (missed > missed_ + 3) missed_at_ = now;
-    missed_ = std::max(missed_, missed);
   }
-  look_at_burr();
+  note(drill_.look());
   show_mirror(scene_, session_.bone().grid(), mirror_.now());
   plane_.show(scene_);
   nearest_.reset();
@@ -105,40 +91,37 @@ void Mill::keep_fault_of(const device::Device& hand, const tick::FaultReport& fa
   note(kept ? say(Word::fault_kept, kept->string()) : kept.error().text);
 }
 
-// The burr that is requested for, or the sentence why not.
-void Mill::look_at_burr() {
-  scene_.burr.radius = session_.burr_radius();
-  if (!burr_requested_) return;
-  const bool so = std::abs(scene_.burr.radius - *burr_requested_) < 1e-9;
-  if (!so && Clock::now() - burr_requested_at_ < std::chrono::milliseconds(300)) return;
-  note(so ? say(Word::burr_now, 2e3 * scene_.burr.radius) : std::string(word(Word::no_room)));
-  burr_requested_.reset();
+void Mill::note(std::string text) {
+  if (!text.empty()) told_.note(std::move(text), Clock::now());
 }
 
-void Mill::note(std::string text) { told_.note(std::move(text), Clock::now()); }
+void Mill::note_troubles() {
+  for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
+}
 
 void Mill::tell() {
   const Clock::time_point now = Clock::now();
   if (now - said_ < std::chrono::milliseconds(200)) return;
   said_ = now;
-  for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
+  note_troubles();
   const std::string flags = flag_words(row_.contact.flags);
   desk_.renderer().title(
       fmt::format("burr - removed {:.1f} mm^3 - force {:.2f} N - tick p99 {:.0f} us{}{}",
-                  1e9 * row_.ledger.removed, row_.contact.force.norm(), stats_.quantile_us(0.99),
-                  flags.empty() ? "" : " - ", flags));
+                  1e9 * row_.ledger.removed, row_.contact.force.norm(),
+                  ticks_.stats().quantile_us(0.99), flags.empty() ? "" : " - ", flags));
   std::string lasting = options_.warning ? options_.warning() : std::string();
-  if (lasting.empty() && let_go_) lasting = word(Word::stopped);
+  if (lasting.empty() && lifts_.stopped) lasting = word(Word::stopped);
   if (lasting.empty()) lasting = session_.hand().trouble();
   if (lasting.empty() && hands_.suction != nullptr) lasting = hands_.suction->hand().trouble();
   if (lasting.empty()) lasting = told_flags(row_.contact.flags);
   warning_ = told_.warning(now, lasting);
   // beside why it was let go: what to do
   if (lasting.empty() && session_.servo().let_go() && (row_.hand.buttons & device::kLifted) == 0)
-    warning_ += (warning_.empty() ? "" : "; ") + std::string(word(Word::begins_free));
-  note_ = told_.note(now, export_->progress());
+    warning_ += (warning_.empty() ? "" : ". ") + std::string(word(Word::begins_free));
+  note_ = told_.note(now, pages_->exporting().progress());
   if (note_.empty()) note_ = measuring_.words();
-  desk_.said = !export_->trouble().empty()         ? export_->trouble()
+  const std::string& trouble = pages_->exporting().trouble();
+  desk_.said = !trouble.empty()                    ? trouble
                : warning_.empty() || note_.empty() ? warning_ + note_
                                                    : warning_ + "; " + note_;
 }
@@ -149,35 +132,31 @@ HudState Mill::hud() const {
   s.force = row_.contact.force.norm();
   s.user_limit = user_limit();
   s.device_limit = session_.hand().spec().peak_force;
-  s.press = pressing() ? depth() : press_;
-  s.press_most = kPressMost;
+  s.press = pressing() ? press_.depth() : press_.full();
+  s.press_most = Press::kMost;
   s.pressing = hands_.real != nullptr ? row_.hand.pedal > 0
-               : wand_                ? wand_at_.tracked && wand_at_.trigger > 0
+               : headset_.wand()      ? headset_.trigger()
                                       : pressing();
-  if (plane_.on() && !wand_) {  // there the hand itself is in the bone
+  if (plane_.on() && !headset_.wand()) {  // there the hand itself is in the bone
     s.press = row_.contact.touching ? row_.contact.depth : 0;
     s.pressing = row_.contact.touching;
   }
   s.speed = row_.spindle_rad_s;
-  s.full_speed = full_speed_;
+  s.full_speed = drill_.full_speed();
   if (settings.servo.motor.torque > 0)
     s.load = std::clamp(row_.cutting_nm / settings.servo.motor.torque, 0.0, 1.0);
   s.burr_diameter = 2 * scene_.burr.radius;
-  s.mode = mode_;
+  s.mode = drill_.mode();
   s.diamond = scene_.burr.diamond;
   s.removed = row_.ledger.removed;
   s.seconds = static_cast<double>(row_.tick) / settings.servo.rate_hz;
   s.nearest = nearest_;
   s.spares = options_.spared_distance != nullptr && !options_.spared_distance->empty();
-  const Clock::time_point now = Clock::now();
-  if (now - lost_at_ < std::chrono::seconds(5))
-    s.ticks = TickHealth::lost;
-  else if (session_.shed() != tick::Shed::none || now - missed_at_ < std::chrono::seconds(3))
-    s.ticks = TickHealth::busy;
-  const rt::TickSummary summary = stats_.summary();
+  s.ticks = ticks_.health(session_.shed() != tick::Shed::none, Clock::now());
+  const rt::TickSummary summary = ticks_.stats().summary();
   s.p99_us = summary.p99_us;
   s.max_us = summary.max_us;
-  s.missed = missed_;
+  s.missed = ticks_.missed();
   s.picture_step = picture_step_;
   if (!scene_.insets.empty())
     s.column = static_cast<float>(desk_.renderer().width() - scene_.insets.front().x);
@@ -192,38 +171,29 @@ HudState Mill::hud() const {
 void Mill::panels() {
   Ui& ui = desk_.ui();
   measuring_.draw(ui, scene_.camera);
-  draw_cursor();
+  if (!page_open()) pointer_.draw(pressing());
   if (panels_) {
     draw_hud(ui, hud());
     slices_->write_names(scene_, ui);
-    // it makes room for the work by itself; a key brings it back
+    // the text disappears with the first bone that is removed; a key brings it back
     if (row_.ledger.removed > 0 && !std::exchange(task_read_, true)) task_ = false;
     if (task_ && options_.work_case) draw_task(ui, *options_.work_case);
-    if (const auto pressed = draw_toolbar(ui, mode_, measuring_.on(), mirror_.now().on()))
+    if (const auto pressed = draw_toolbar(ui, drill_.mode(), measuring_.on(), mirror_.now().on()))
       act(*pressed);
   }
-  if (help_) help_ = draw_help(ui, desk_.settings.left_handed, help_pads_);
-  if (export_->shown()) export_->draw();
-  if (!settings_page_) return;
-  const double limit = desk_.settings.force_limit_n;
-  const bool worn = desk_.settings.headset;
-  const std::filesystem::path& config = desk_.places().config;
+  pages();
+}
+
+void Mill::pages() {
   const device::DeviceSpec spec =
       hands_.real != nullptr ? hands_.real->spec() : device::DeviceSpec();
   DeviceLeaf device{hands_.id, spec.peak_force, spec.peak_torque > 0, hands_.preferences};
-  const SettingsPage page = draw_settings(
-      ui, desk_.settings, config.empty() ? std::string() : (config / "settings.toml").string(),
-      settings_pads_, hands_.real != nullptr ? &device : nullptr);
-  if (device.changed) keep_device_preferences();
-  if (desk_.settings.force_limit_n != limit)
-    session_.command({tick::CommandKind::user_force, user_limit()});
-  if (desk_.settings.headset != worn) desk_.headset_wanted = desk_.settings.headset;
-  if (page.changed) {
-    desk_.settings_changed();
-    press_ = std::clamp(1e-3 * desk_.settings.press_mm, kPressLeast, kPressMost);
-    for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
-  }
-  if (page.done) settings_page_ = false;
+  const OverPages::Changed changed = pages_->draw(hands_.real != nullptr ? &device : nullptr);
+  if (changed.device) keep_device_preferences();
+  if (changed.force_limit) session_.command({tick::CommandKind::user_force, user_limit()});
+  if (!changed.settings) return;
+  press_.begin_at(1e-3 * desk_.settings.press_mm);
+  note_troubles();
 }
 
 // In its book; the force holds at once.

@@ -76,14 +76,14 @@ void SavedViews::read() {
   if (file_.empty() || !std::filesystem::exists(file_, nobody_asks)) return;
   const auto text = base::text_of_file(file_.string(), kLargestFile, "views that were kept");
   if (!text) {
-    trouble_ = text.error().text + "; views kept before are not there";
+    trouble_ = text.error().text + "; the views kept before are not available";
     keep_old_ = true;
     return;
   }
   const std::string name = file_.filename().string();
   const auto table = parse_toml(*text, name);
   if (!table) {
-    trouble_ = table.error().text + "; views kept before are not there";
+    trouble_ = table.error().text + "; the views kept before are not available";
     keep_old_ = true;
     return;
   }
@@ -101,7 +101,7 @@ void SavedViews::read() {
       ++odd;
   }
   if (odd == 0) return;
-  trouble_ = fmt::format("{}: view: {} of them cannot be used and are left aside", name, odd);
+  trouble_ = fmt::format("{}: {} of the views cannot be used and are ignored", name, odd);
   keep_old_ = true;
 }
 
@@ -111,8 +111,7 @@ std::optional<SavedView> SavedViews::at(int slot) const {
 }
 
 std::string SavedViews::text() const {
-  std::string text =
-      "# Ways bones were looked at (Shift+F5 to F8 in burr's window). Angles in rad.\n";
+  std::string text = "# Views kept with Shift+F5 to F8 in burr's window. Angles in rad.\n";
   for (const auto& [of, view] : views_) {
     const render::Camera& c = view.camera;
     text += fmt::format(
@@ -141,9 +140,10 @@ Status SavedViews::keep(int slot, const SavedView& view) {
     old += ".old";
     std::filesystem::rename(file_, old, trouble);
     if (trouble)
-      return error(Trouble::io, fmt::format("{}: cannot be kept aside ({}); the view is kept until "
-                                            "burr ends",
-                                            file_.string(), trouble.message()));
+      return error(
+          Trouble::io,
+          fmt::format("{}: the old file cannot be renamed ({}); the view is kept until burr ends",
+                      file_.string(), trouble.message()));
   }
   auto file = base::NewFile::beside(file_.string());
   if (!file) return file.error();

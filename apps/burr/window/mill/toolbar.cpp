@@ -12,121 +12,177 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-// Drawn, not typed: no font of signs is needed. c: middle, r: half the size.
-void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
-  const float thick = 0.22F * r;
-  const auto ring = [&](float from, float to, float radius) {
+// What an icon is drawn with. c: middle, r: half the size.
+struct Pen {
+  ImDrawList& draw;
+  ImVec2 c;
+  float r;
+  ImU32 shade;
+  float thick = 0.22F * r;
+
+  void ring(float from, float to, float radius) const {
     draw.PathArcTo(c, radius, from, to, 24);
     draw.PathStroke(shade, 0, thick);
-  };
+  }
   // tip of an arrow at angle a of a ring, pointing on (or back) around it
-  const auto tip = [&](float a, float radius, float way) {
+  void tip(float a, float radius, float way) const {
     const ImVec2 p = {c.x + radius * std::cos(a), c.y + radius * std::sin(a)};
     const ImVec2 t = {-way * std::sin(a), way * std::cos(a)};
     const float s = 0.42F * r;
     draw.AddTriangleFilled({p.x + 1.3F * s * t.x, p.y + 1.3F * s * t.y},
                            {p.x + s * std::cos(a), p.y + s * std::sin(a)},
                            {p.x - s * std::cos(a), p.y - s * std::sin(a)}, shade);
-  };
+  }
+};
+
+// what the burr does, and its size and speed
+void burr_icon(const Pen& pen, Action action) {
+  const float r = pen.r;
   switch (action) {
     case Action::cut:  // a burr on its shaft
-      draw.AddLine({c.x + 0.9F * r, c.y - 0.9F * r}, {c.x, c.y}, shade, thick);
-      draw.AddCircleFilled({c.x - 0.25F * r, c.y + 0.25F * r}, 0.55F * r, shade, 20);
+      pen.draw.AddLine({pen.c.x + 0.9F * r, pen.c.y - 0.9F * r}, {pen.c.x, pen.c.y}, pen.shade,
+                       pen.thick);
+      pen.draw.AddCircleFilled({pen.c.x - 0.25F * r, pen.c.y + 0.25F * r}, 0.55F * r, pen.shade,
+                               20);
       break;
     case Action::add:
     case Action::larger:
     case Action::faster:
-      draw.AddLine({c.x, c.y - 0.8F * r}, {c.x, c.y + 0.8F * r}, shade, thick);
-      draw.AddLine({c.x - 0.8F * r, c.y}, {c.x + 0.8F * r, c.y}, shade, thick);
+      pen.draw.AddLine({pen.c.x, pen.c.y - 0.8F * r}, {pen.c.x, pen.c.y + 0.8F * r}, pen.shade,
+                       pen.thick);
+      pen.draw.AddLine({pen.c.x - 0.8F * r, pen.c.y}, {pen.c.x + 0.8F * r, pen.c.y}, pen.shade,
+                       pen.thick);
       break;
     case Action::smaller:
     case Action::slower:
-      draw.AddLine({c.x - 0.8F * r, c.y}, {c.x + 0.8F * r, c.y}, shade, thick);
+      pen.draw.AddLine({pen.c.x - 0.8F * r, pen.c.y}, {pen.c.x + 0.8F * r, pen.c.y}, pen.shade,
+                       pen.thick);
       break;
     case Action::touch:  // a ball on a line
-      draw.AddCircle({c.x, c.y - 0.1F * r}, 0.55F * r, shade, 20, thick);
-      draw.AddLine({c.x - r, c.y + 0.75F * r}, {c.x + r, c.y + 0.75F * r}, shade, thick);
+      pen.draw.AddCircle({pen.c.x, pen.c.y - 0.1F * r}, 0.55F * r, pen.shade, 20, pen.thick);
+      pen.draw.AddLine({pen.c.x - r, pen.c.y + 0.75F * r}, {pen.c.x + r, pen.c.y + 0.75F * r},
+                       pen.shade, pen.thick);
       break;
     case Action::back:  // a hollow that fills
-      ring(0, kPi, 0.75F * r);
-      draw.AddLine({c.x - 1.1F * r, c.y}, {c.x - 0.7F * r, c.y}, shade, thick);
-      draw.AddLine({c.x + 0.7F * r, c.y}, {c.x + 1.1F * r, c.y}, shade, thick);
-      draw.AddLine({c.x, c.y + 0.5F * r}, {c.x, c.y - 0.4F * r}, shade, thick);
-      draw.AddTriangleFilled({c.x + 0.4F * r, c.y - 0.3F * r}, {c.x - 0.4F * r, c.y - 0.3F * r},
-                             {c.x, c.y - 0.95F * r}, shade);
+      pen.ring(0, kPi, 0.75F * r);
+      pen.draw.AddLine({pen.c.x - 1.1F * r, pen.c.y}, {pen.c.x - 0.7F * r, pen.c.y}, pen.shade,
+                       pen.thick);
+      pen.draw.AddLine({pen.c.x + 0.7F * r, pen.c.y}, {pen.c.x + 1.1F * r, pen.c.y}, pen.shade,
+                       pen.thick);
+      pen.draw.AddLine({pen.c.x, pen.c.y + 0.5F * r}, {pen.c.x, pen.c.y - 0.4F * r}, pen.shade,
+                       pen.thick);
+      pen.draw.AddTriangleFilled({pen.c.x + 0.4F * r, pen.c.y - 0.3F * r},
+                                 {pen.c.x - 0.4F * r, pen.c.y - 0.3F * r},
+                                 {pen.c.x, pen.c.y - 0.95F * r}, pen.shade);
       break;
     case Action::smooth: {  // a wave above, a line below
       for (int n = 0; n < 16; ++n) {
         const auto wave = [&](int at) {
           const float t = static_cast<float>(at) / 16;
-          return ImVec2{c.x + (2 * t - 1) * r, c.y - 0.35F * r - 0.3F * r * std::sin(4 * kPi * t)};
+          return ImVec2{pen.c.x + (2 * t - 1) * r,
+                        pen.c.y - 0.35F * r - 0.3F * r * std::sin(4 * kPi * t)};
         };
-        draw.AddLine(wave(n), wave(n + 1), shade, 0.8F * thick);
+        pen.draw.AddLine(wave(n), wave(n + 1), pen.shade, 0.8F * pen.thick);
       }
-      draw.AddLine({c.x - r, c.y + 0.6F * r}, {c.x + r, c.y + 0.6F * r}, shade, thick);
+      pen.draw.AddLine({pen.c.x - r, pen.c.y + 0.6F * r}, {pen.c.x + r, pen.c.y + 0.6F * r},
+                       pen.shade, pen.thick);
       break;
     }
+    default:
+      break;
+  }
+}
+
+// what is done to the work
+void work_icon(const Pen& pen, Action action) {
+  const float r = pen.r;
+  switch (action) {
     case Action::undo:
-      ring(-0.95F * kPi, 0.35F * kPi, 0.7F * r);
-      tip(-0.95F * kPi, 0.7F * r, -1);
+      pen.ring(-0.95F * kPi, 0.35F * kPi, 0.7F * r);
+      pen.tip(-0.95F * kPi, 0.7F * r, -1);
       break;
     case Action::redo:
-      ring(0.65F * kPi, 1.95F * kPi, 0.7F * r);
-      tip(1.95F * kPi, 0.7F * r, 1);
+      pen.ring(0.65F * kPi, 1.95F * kPi, 0.7F * r);
+      pen.tip(1.95F * kPi, 0.7F * r, 1);
       break;
     case Action::reset:
-      ring(-0.4F * kPi, 1.35F * kPi, 0.7F * r);
-      tip(1.35F * kPi, 0.7F * r, 1);
-      draw.AddCircleFilled(c, 0.2F * r, shade, 12);
+      pen.ring(-0.4F * kPi, 1.35F * kPi, 0.7F * r);
+      pen.tip(1.35F * kPi, 0.7F * r, 1);
+      pen.draw.AddCircleFilled(pen.c, 0.2F * r, pen.shade, 12);
       break;
     case Action::measure:  // a ruler
-      draw.AddRect({c.x - 1.1F * r, c.y - 0.5F * r}, {c.x + 1.1F * r, c.y + 0.5F * r}, shade, 0, 0,
-                   0.8F * thick);
+      pen.draw.AddRect({pen.c.x - 1.1F * r, pen.c.y - 0.5F * r},
+                       {pen.c.x + 1.1F * r, pen.c.y + 0.5F * r}, pen.shade, 0, 0, 0.8F * pen.thick);
       for (int n = -1; n <= 1; ++n) {
-        const float x = c.x + 0.55F * static_cast<float>(n) * r;
-        draw.AddLine({x, c.y - 0.5F * r}, {x, c.y + (n == 0 ? 0.15F : -0.05F) * r}, shade,
-                     0.8F * thick);
+        const float x = pen.c.x + 0.55F * static_cast<float>(n) * r;
+        pen.draw.AddLine({x, pen.c.y - 0.5F * r}, {x, pen.c.y + (n == 0 ? 0.15F : -0.05F) * r},
+                         pen.shade, 0.8F * pen.thick);
       }
       break;
     case Action::mirror:  // two halves, a plane between them
       for (const float side : {-1.0F, 1.0F})
-        draw.AddTriangle({c.x + 0.3F * side * r, c.y - 0.7F * r},
-                         {c.x + 0.3F * side * r, c.y + 0.7F * r},
-                         {c.x + 1.1F * side * r, c.y + 0.7F * r}, shade, 0.8F * thick);
+        pen.draw.AddTriangle({pen.c.x + 0.3F * side * r, pen.c.y - 0.7F * r},
+                             {pen.c.x + 0.3F * side * r, pen.c.y + 0.7F * r},
+                             {pen.c.x + 1.1F * side * r, pen.c.y + 0.7F * r}, pen.shade,
+                             0.8F * pen.thick);
       for (const float y : {-1.0F, -0.35F, 0.3F, 0.95F})
-        draw.AddLine({c.x, c.y + (y - 0.1F) * r}, {c.x, c.y + (y + 0.2F) * r}, shade, 0.8F * thick);
+        pen.draw.AddLine({pen.c.x, pen.c.y + (y - 0.1F) * r}, {pen.c.x, pen.c.y + (y + 0.2F) * r},
+                         pen.shade, 0.8F * pen.thick);
       break;
+    default:
+      break;
+  }
+}
+
+// other pages
+void page_icon(const Pen& pen, Action action) {
+  const float r = pen.r;
+  switch (action) {
     case Action::export_:  // an arrow down into a tray
-      draw.AddLine({c.x, c.y - 0.9F * r}, {c.x, c.y}, shade, thick);
-      draw.AddTriangleFilled({c.x - 0.5F * r, c.y - 0.1F * r}, {c.x + 0.5F * r, c.y - 0.1F * r},
-                             {c.x, c.y + 0.5F * r}, shade);
+      pen.draw.AddLine({pen.c.x, pen.c.y - 0.9F * r}, {pen.c.x, pen.c.y}, pen.shade, pen.thick);
+      pen.draw.AddTriangleFilled({pen.c.x - 0.5F * r, pen.c.y - 0.1F * r},
+                                 {pen.c.x + 0.5F * r, pen.c.y - 0.1F * r},
+                                 {pen.c.x, pen.c.y + 0.5F * r}, pen.shade);
       for (const float side : {-0.85F, 0.85F})
-        draw.AddLine({c.x + side * r, c.y + 0.2F * r}, {c.x + side * r, c.y + 0.9F * r}, shade,
-                     thick);
-      draw.AddLine({c.x - 0.85F * r, c.y + 0.85F * r}, {c.x + 0.85F * r, c.y + 0.85F * r}, shade,
-                   thick);
+        pen.draw.AddLine({pen.c.x + side * r, pen.c.y + 0.2F * r},
+                         {pen.c.x + side * r, pen.c.y + 0.9F * r}, pen.shade, pen.thick);
+      pen.draw.AddLine({pen.c.x - 0.85F * r, pen.c.y + 0.85F * r},
+                       {pen.c.x + 0.85F * r, pen.c.y + 0.85F * r}, pen.shade, pen.thick);
       break;
     case Action::settings:  // three sliders
       for (int n = 0; n < 3; ++n) {
-        const float y = c.y + (static_cast<float>(n) - 1) * 0.65F * r;
+        const float y = pen.c.y + (static_cast<float>(n) - 1) * 0.65F * r;
         const float k = n == 1 ? 0.4F : -0.35F;
-        draw.AddLine({c.x - 0.9F * r, y}, {c.x + 0.9F * r, y}, shade, 0.7F * thick);
-        draw.AddCircleFilled({c.x + k * r, y}, 0.26F * r, shade, 12);
+        pen.draw.AddLine({pen.c.x - 0.9F * r, y}, {pen.c.x + 0.9F * r, y}, pen.shade,
+                         0.7F * pen.thick);
+        pen.draw.AddCircleFilled({pen.c.x + k * r, y}, 0.26F * r, pen.shade, 12);
       }
       break;
     case Action::help: {
       ImFont* font = ImGui::GetFont();
       const float size = 2.0F * r;
       const ImVec2 wide = font->CalcTextSizeA(size, 1e9F, 0, "?");
-      draw.AddText(font, size, {c.x - wide.x / 2, c.y - size / 2}, shade, "?");
+      pen.draw.AddText(font, size, {pen.c.x - wide.x / 2, pen.c.y - size / 2}, pen.shade, "?");
       break;
     }
     case Action::leave:  // a door and an arrow out of it
-      draw.AddLine({c.x + 0.8F * r, c.y}, {c.x - 0.3F * r, c.y}, shade, thick);
-      draw.AddTriangleFilled({c.x - 0.9F * r, c.y}, {c.x - 0.2F * r, c.y - 0.5F * r},
-                             {c.x - 0.2F * r, c.y + 0.5F * r}, shade);
+      pen.draw.AddLine({pen.c.x + 0.8F * r, pen.c.y}, {pen.c.x - 0.3F * r, pen.c.y}, pen.shade,
+                       pen.thick);
+      pen.draw.AddTriangleFilled({pen.c.x - 0.9F * r, pen.c.y},
+                                 {pen.c.x - 0.2F * r, pen.c.y - 0.5F * r},
+                                 {pen.c.x - 0.2F * r, pen.c.y + 0.5F * r}, pen.shade);
+      break;
+    default:
       break;
   }
+}
+
+// Drawn, not typed: no font of signs is needed. c: middle, r: half the size.
+void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
+  const Pen pen = {draw, c, r, shade};
+  burr_icon(pen, action);
+  work_icon(pen, action);
+  page_icon(pen, action);
 }
 
 struct Button {

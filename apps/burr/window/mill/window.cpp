@@ -16,87 +16,97 @@
 namespace burr::app {
 
 Result<Left> Mill::run() {
-  desk_.page = Page::milling;
-  scene_.scale_bar = false;  // the panels have one
-  scene_.burr.visible = true;
-  const tool::Burr& burr = session_.settings().servo.burr;
-  scene_.burr.radius = burr.radius;
-  scene_.burr.diamond = burr.kind == tool::BurrKind::diamond;
-  scene_.burr.shaft_radius = burr.shaft_radius;
-  scene_.burr.shaft_length = burr.shaft_length;
-  mode_ = session_.settings().servo.mode;
-  irrigated_ = session_.settings().servo.irrigated;
-  full_speed_ = session_.settings().servo.spindle_rad_s;
-  panels_ = desk_.settings.panels;
-  help_ = desk_.settings.help;
-  press_ = std::clamp(1e-3 * desk_.settings.press_mm, kPressLeast, kPressMost);
-  if (user_limit() != session_.settings().servo.limit.user_force)
-    session_.command({tick::CommandKind::user_force, user_limit()});
-  for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
-
   LiveSurface live(session_, worker_, scene_, desk_.renderer().software());
-  slices_.emplace(session_.bone(), options_.greys);
-  const std::filesystem::path& state = desk_.places().state;
-  saved_views_.emplace(state.empty() ? state : state / "views.toml",
-                       key_of(session_.bone().grid()));
-  if (!saved_views_->trouble().empty()) note(saved_views_->trouble());
-  export_.emplace(desk_, &session_, scene_, options_.folder, options_.film_of);
-  colours_ = scene_.tissue_colours;
-  desk_.mouse(mouse_x_, mouse_y_);  // before it moves
-  aim_at_mouse();
-  desk_.cap.open();
-  lift();
-  hands_taken_ = Clock::now();
-  session_.start();
+  begin();
   const Clock::time_point start = Clock::now();
-  Clock::time_point frame = start;
+  Clock::time_point frame_at = start;
   Status shown = fine();
   while (open_ && shown && !interrupted()) {
-    take_events();
-    take_hands();
-    look_at_session();
-    if (!desk_.settings.effects)
-      live.look_plain();
-    else if (first_tick_)
-      live.see(wound_tick(row_, session_.settings().servo.rate_hz));
-    lead_suction(live);
-    begin_headset(live.governor());
-    point();
-    measure();
-    if (std::string told = export_->step(); !told.empty()) note(std::move(told));
-    tell();
-    slices_->update(scene_, slices_shown_ && panels_, labels_, desk_.renderer().width(),
-                    desk_.renderer().height(), static_cast<int>(hud_height(desk_.ui())));
-    live.update(seen_ ? headset_cameras_.data() : nullptr);
-    const Clock::time_point drawing = Clock::now();
-    // whoever wears a headset comes first; the window follows thirty times a second
-    if (!seen_ || drawing - window_drawn_ > std::chrono::milliseconds(30)) {
-      window_drawn_ = drawing;
-      shown = desk_.show(scene_, panels_ || page_open() || measuring_.on() || leads_
-                                     ? [this] { panels(); }
-                                     : std::function<void()>());
-    }
-    end_headset();
-    live.drawn(std::chrono::duration<double>(Clock::now() - drawing).count(),
-               desk_.renderer().figures().redrawn);
-    picture_step_ = live.governor().step();
+    shown = frame(live);
     if (picture_) leave_picture();
 
     // where the driver does not wait for the screen: 60 pictures a second are enough; and fewer
     // where the machine does not keep up with the hand
     const auto pause =
         std::chrono::microseconds(session_.shed() >= tick::Shed::picture ? 100'000 : 16'667);
-    frame = std::max(frame + pause, Clock::now());
-    const auto wait = std::chrono::duration_cast<std::chrono::milliseconds>(frame - Clock::now());
+    frame_at = std::max(frame_at + pause, Clock::now());
+    const auto wait =
+        std::chrono::duration_cast<std::chrono::milliseconds>(frame_at - Clock::now());
     const bool paced = desk_.headset != nullptr && desk_.headset->running();
     if (wait.count() > 0 && !paced) SDL_Delay(static_cast<Uint32>(wait.count()));
     if (options_.seconds > 0 &&
         std::chrono::duration<double>(Clock::now() - start).count() >= options_.seconds)
       open_ = false;
   }
-  take_off_headset();
-  mouse_leads();
-  export_.reset();
+  end(live);
+  if (!shown) return shown.error();
+  if (!options_.screenshot.empty()) {
+    const Status kept = render::write_png(desk_.renderer().shown(), options_.screenshot);
+    if (!kept) return kept.error();
+  }
+  return left_;
+}
+
+void Mill::begin() {
+  desk_.page = Page::milling;
+  scene_.scale_bar = false;  // the panels have one
+  scene_.burr.visible = true;
+  press_.begin_at(1e-3 * desk_.settings.press_mm);
+  if (user_limit() != session_.settings().servo.limit.user_force)
+    session_.command({tick::CommandKind::user_force, user_limit()});
+  note_troubles();
+  slices_.emplace(session_.bone(), options_.greys);
+  const std::filesystem::path& state = desk_.places().state;
+  saved_views_.emplace(state.empty() ? state : state / "views.toml",
+                       key_of(session_.bone().grid()));
+  note(saved_views_->trouble());
+  pages_.emplace(desk_, session_, scene_, options_);
+  colours_ = scene_.tissue_colours;
+  pointer_.begin();
+  desk_.cap.open();
+  lift();
+  hands_taken_ = Clock::now();
+  session_.start();
+}
+
+// One picture: what the user did, what the session did, what is shown of both.
+Status Mill::frame(LiveSurface& live) {
+  take_events();
+  take_hands();
+  look_at_session();
+  if (!desk_.settings.effects)
+    live.look_plain();
+  else if (ticks_.begun())
+    live.see(wound_tick(row_, session_.settings().servo.rate_hz, scene_.burr.radius,
+                        drill_.irrigated()));
+  tube_.lead(hands_.suction, scene_, live, desk_.settings.effects);
+  note(headset_.begin(live.governor(), scene_.camera));
+  point();
+  measure();
+  note(pages_->exporting().step());
+  tell();
+  slices_->update(scene_, slices_shown_ && panels_, labels_, desk_.renderer().width(),
+                  desk_.renderer().height(), static_cast<int>(hud_height(desk_.ui())));
+  live.update(headset_.cameras());
+  const Clock::time_point drawing = Clock::now();
+  Status shown = fine();
+  // whoever wears a headset comes first; the window follows thirty times a second
+  if (!headset_.shows() || drawing - window_drawn_ > std::chrono::milliseconds(30)) {
+    window_drawn_ = drawing;
+    const bool says = panels_ || page_open() || measuring_.on() || pointer_.pad_leads();
+    shown = desk_.show(scene_, says ? [this] { panels(); } : std::function<void()>());
+  }
+  headset_.end(scene_);
+  live.drawn(std::chrono::duration<double>(Clock::now() - drawing).count(),
+             desk_.renderer().figures().redrawn);
+  picture_step_ = live.governor().step();
+  return shown;
+}
+
+void Mill::end(LiveSurface& live) {
+  headset_.take_off();
+  pointer_.mouse_leads();
+  pages_.reset();
   session_.stop();
   scene_.insets.clear();
   scene_.tissue_colours = colours_;
@@ -104,12 +114,6 @@ Result<Left> Mill::run() {
   live.look_plain();
   worker_.hold_back(false);
   worker_.settle([this](const surface::Skin& skin) { put_skin(scene_, skin); });
-  if (!shown) return shown.error();
-  if (!options_.screenshot.empty()) {
-    const Status kept = render::write_png(desk_.renderer().shown(), options_.screenshot);
-    if (!kept) return kept.error();
-  }
-  return left_;
 }
 
 Result<Left> mill(Desk& desk, sim::Session& session, const Hands& hands, surface::Worker& worker,

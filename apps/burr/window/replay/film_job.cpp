@@ -100,7 +100,7 @@ class Child {
     if (const auto at = line.rfind('\n'); at != std::string::npos) line.erase(0, at + 1);
     constexpr std::string_view kName = "burr: ";
     if (line.rfind(kName, 0) == 0) line.erase(0, kName.size());
-    return line.empty() ? "the film ended before its time, without a word why" : line;
+    return line.empty() ? "the film ended early, without a message" : line;
   }
 
  private:
@@ -139,9 +139,9 @@ Result<int> write_film(const FilmSource& source, const std::string& folder, Prog
 
   Child child(command_of(source, folder));
   if (!child.began())
-    return error(Trouble::io,
-                 "no second burr could be started to make the film; close other "
-                 "programs and try again");
+    return error(
+        Trouble::io,
+        "the process that makes the film could not be started; close other programs and try again");
   int made = 0;
   bool stopped = false;
   auto stopped_at = std::chrono::steady_clock::now();

@@ -31,8 +31,7 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
   Recorded out;
   out.player = std::move(*player);
   if (out.player->end_tick() == out.player->first_tick())
-    return error(
-        fmt::format("{}: nothing happened in this recording, not one tick is in it", file));
+    return error(fmt::format("{}: this recording holds no tick", file));
   auto settings = sim::settings_of(out.player->info(), file);
   if (!settings) return settings.error();
   out.settings = std::move(*settings);

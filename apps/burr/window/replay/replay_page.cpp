@@ -187,7 +187,7 @@ Status Watch::show() {
 
 Status Watch::open_beside(const std::string& file) {
   if (!options_.open)
-    return error(Trouble::usage, file + ": nothing here opens a second recording");
+    return error(Trouble::usage, file + ": a second recording cannot be opened here");
   bool closed = false;
   auto opened = options_.open(file, closed);
   desk_.page = Page::replay;

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "window/shell/words.h"
+
 namespace burr::app {
 
 Result<std::unique_ptr<Desk>> Desk::open(const DeskPlaces& places) {

@@ -45,7 +45,7 @@ void pad_rows(const Ui& ui, float x, float y) {
 
 }  // namespace
 
-bool draw_help(Ui& ui, bool left_handed, bool& pads) {
+bool draw_help(Ui& ui, const std::vector<HelpRow>& rows, bool& pads) {
   const float u = ui.unit(), w = 920 * u, h = 612 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
   ui.page("##help", x, y, w, h);
@@ -59,50 +59,17 @@ bool draw_help(Ui& ui, bool left_handed, bool& pads) {
     ImGui::End();
     return !close;
   }
-  const std::string mill = word(left_handed ? Word::key_right : Word::key_left);
-  const std::string turn = word(left_handed ? Word::key_left : Word::key_right);
   float left = y + 70 * u, right = left;
-  block(ui, x + 28 * u, left, Word::help_hand,
-        {{mill, Word::help_mill},
-         {word(Word::key_space), Word::help_hold},
-         {"+  -", Word::help_push},
-         {word(Word::key_ctrl_wheel), Word::help_push},
-         {"G", Word::help_plane},
-         {word(Word::key_ctrl_arrows), Word::help_aim}});
-  block(ui, x + 28 * u, left, Word::help_view,
-        {{turn, Word::help_turn},
-         {word(Word::key_arrows), Word::help_turn},
-         {word(Word::key_middle), Word::help_shift},
-         {word(Word::key_shift_arrows), Word::help_shift},
-         {word(Word::key_wheel), Word::help_zoom},
-         {"F", Word::help_first_view},
-         {"F5  F6  F7  F8", Word::help_views},
-         {"V  B  N", Word::help_slices},
-         {"W", Word::help_window},
-         {"L", Word::help_labels},
-         {"T", Word::help_see_through}});
-  block(ui, x + 480 * u, right, Word::help_tools,
-        {{"1  2  3  4  5", Word::help_modes},
-         {"[  ]", Word::help_sizes},
-         {word(Word::key_shift_wheel), Word::help_sizes},
-         {",  .", Word::help_speeds},
-         {"U  Y", Word::help_undo},
-         {"R", Word::help_reset},
-         {"D", Word::help_measure},
-         {"X", Word::help_mirror},
-         {"K", Word::help_kind},
-         {"I", Word::help_coolant}});
-  block(ui, x + 480 * u, right, Word::help_program,
-        {{"Tab", Word::help_hide},
-         {"O", Word::help_task},
-         {"F2", Word::help_settings},
-         {"F3", Word::help_stereo},
-         {"S", Word::key_save},
-         {"P", Word::help_picture},
-         {"E", Word::export_help},
-         {"M", Word::help_sound},
-         {"9  0", Word::help_loudness},
-         {"Esc  Q", Word::help_quit}});
+  const auto show = [&](float at, float& below, HelpBlock which, Word title) {
+    Rows of_block;
+    for (const HelpRow& row : rows)
+      if (row.block == which) of_block.emplace_back(row.keys, row.does);
+    block(ui, at, below, title, of_block);
+  };
+  show(x + 28 * u, left, HelpBlock::hand, Word::help_hand);
+  show(x + 28 * u, left, HelpBlock::view, Word::help_view);
+  show(x + 480 * u, right, HelpBlock::tools, Word::help_tools);
+  show(x + 480 * u, right, HelpBlock::program, Word::help_program);
   ui.write(x + 28 * u, y + h - 64 * u, Ui::Letter::body, ink::kDim, word(Word::help_ghost));
   ImGui::End();
   return !close;

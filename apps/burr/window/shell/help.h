@@ -1,13 +1,25 @@
 // apps/burr/window/shell/help.h - keys and mouse on one page.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "window/shell/ui.h"
+#include "window/shell/words.h"
 
 namespace burr::app {
 
-// false: the user has read enough. left_handed: the mouse's buttons are the other way round. pads:
-// the leaf about gamepad, pedal and SpaceMouse is shown; a button turns over.
-[[nodiscard]] bool draw_help(Ui& ui, bool left_handed, bool& pads);
+enum class HelpBlock { hand, view, tools, program };
+
+struct HelpRow {
+  HelpBlock block;
+  std::string keys;  // "U  Y"
+  Word does;
+};
+
+// false: the user closed the page. rows: keys and mouse, in the order they are shown. pads: the leaf
+// about gamepad, pedal and SpaceMouse is shown; a button turns over.
+[[nodiscard]] bool draw_help(Ui& ui, const std::vector<HelpRow>& rows, bool& pads);
 // The same for the page that shows a recording.
 [[nodiscard]] bool draw_replay_help(Ui& ui);
 

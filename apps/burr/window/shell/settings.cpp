@@ -14,6 +14,7 @@
 #include "burr/base/shown.h"
 #include "burr/base/text_file.h"
 #include "burr/base/toml_text.h"
+#include "window/shell/words.h"
 #include "workshop/hand_device.h"
 
 namespace burr::app {
@@ -26,32 +27,32 @@ struct Field {
   const char *key, *means;
   double Settings::*number = nullptr;
   bool Settings::*yes = nullptr;
-  Language Settings::*language = nullptr;
+  std::string Settings::*language = nullptr;
   double least = 0, most = 0;
   render::Stereo Settings::*stereo = nullptr;
   std::string Settings::*device = nullptr;
 };
 
 constexpr std::array kFields = {
-    Field{"language", "of the window: \"english\" or \"swedish\"", nullptr, nullptr,
-          &Settings::language},
-    Field{"scale", "of letters and panels, on top of the display's own", &Settings::scale, nullptr,
-          nullptr, 0.5, 3},
+    Field{"language", "of the window", nullptr, nullptr, &Settings::language},
+    Field{"scale", "size of letters and panels, on top of the display's own scale",
+          &Settings::scale, nullptr, nullptr, 0.5, 3},
     Field{"left_handed", "the right button mills and the left one turns; the handle leans left",
           nullptr, &Settings::left_handed},
     Field{"device",
-          "a haptic device that leads the burr, chosen on the start page; empty: the mouse",
+          "the haptic device that moves the burr, chosen on the start page; empty: the mouse",
           nullptr, nullptr, nullptr, 0, 0, nullptr, &Settings::device},
     Field{"force_limit_n", "your own limit of the force in the hand [N]", &Settings::force_limit_n,
           nullptr, nullptr, 0.2, 20},
     Field{"press_mm", "how deep the mouse presses at first [mm]", &Settings::press_mm, nullptr,
           nullptr, 0.5, 6},
-    Field{"turn_pace", "of the view, by mouse and arrows", &Settings::turn_pace, nullptr, nullptr,
-          0.1, 5},
-    Field{"zoom_pace", "by wheel and two fingers", &Settings::zoom_pace, nullptr, nullptr, 0.1, 5},
-    Field{"pad_pace", "of the point that a gamepad or SpaceMouse moves", &Settings::pad_pace,
+    Field{"turn_pace", "how fast mouse and arrows turn the view", &Settings::turn_pace, nullptr,
+          nullptr, 0.1, 5},
+    Field{"zoom_pace", "how fast wheel and two fingers zoom", &Settings::zoom_pace, nullptr,
+          nullptr, 0.1, 5},
+    Field{"pad_pace", "how fast a gamepad or SpaceMouse moves the ring", &Settings::pad_pace,
           nullptr, nullptr, 0.1, 5},
-    Field{"pad_dead", "share of a stick's way that counts as rest", &Settings::pad_dead, nullptr,
+    Field{"pad_dead", "share of a stick's travel that counts as rest", &Settings::pad_dead, nullptr,
           nullptr, 0.02, 0.6},
     Field{"pedal_mill", "button of a pedal that mills, counted from 0", &Settings::pedal_mill,
           nullptr, nullptr, 0, 31},
@@ -63,36 +64,46 @@ constexpr std::array kFields = {
           &Settings::pedal_clutch, nullptr, nullptr, 0, 31},
     Field{"pedal_rest", "where a pedal's axis is with no foot on it: -1, 0 in the middle, or 1",
           &Settings::pedal_rest, nullptr, nullptr, -1, 1},
-    Field{"effects", "what milling leaves on bone for a while: fresh faces, water, dust, blood",
+    Field{"effects",
+          "shows for a while what milling leaves on bone: fresh surfaces, water, dust, blood",
           nullptr, &Settings::effects},
     Field{"stereo",
           "two eyes: \"off\", \"side_by_side\", \"anaglyph\", \"line_interleaved\" or "
           "\"quad_buffer\"; F3 goes on to the next",
           nullptr, nullptr, nullptr, 0, 0, &Settings::stereo},
-    Field{"stereo_depth",
-          "how far the two eyes are apart; 1 is a thirtieth of the distance to what is looked at",
+    Field{"stereo_depth", "distance between the eyes; 1 is a thirtieth of the viewing distance",
           &Settings::stereo_depth, nullptr, nullptr, 0.1, 3},
-    Field{"swap_eyes", "left and right changed over, for screens that show them so", nullptr,
+    Field{"swap_eyes", "exchanges left and right, for screens that need it", nullptr,
           &Settings::swap_eyes},
-    Field{"headset", "a headset by OpenXR, where there is one; as `burr run --xr`", nullptr,
+    Field{"headset", "uses a headset through OpenXR, as `burr run --xr` does", nullptr,
           &Settings::headset},
     Field{"panels", "shown at the start; Tab hides them", nullptr, &Settings::panels},
-    Field{"help", "keys and mouse are shown at the start", nullptr, &Settings::help},
+    Field{"help", "shows keys and mouse at the start", nullptr, &Settings::help},
     Field{"autosave", "sessions at the window are recorded, so that they can be continued", nullptr,
           &Settings::autosave},
-    Field{"sessions_kept", "at most so many of them, the oldest go first", &Settings::sessions_kept,
-          nullptr, nullptr, 1, 1000},
-    Field{"sessions_mb", "... and together so large [MB]", &Settings::sessions_mb, nullptr, nullptr,
-          10, 1e6},
-    Field{"recent_names", "names of your own scans in lists and titles; they may be a patient's",
+    Field{"sessions_kept", "largest number of sessions kept; the oldest are deleted first",
+          &Settings::sessions_kept, nullptr, nullptr, 1, 1000},
+    Field{"sessions_mb", "largest size of all kept sessions together [MB]", &Settings::sessions_mb,
+          nullptr, nullptr, 10, 1e6},
+    Field{"recent_names",
+          "shows the names of your own scans in lists and titles; they may be names of patients",
           nullptr, &Settings::recent_names},
 };
 
 constexpr const char* kStereoNames[] = {"off", "side_by_side", "anaglyph", "line_interleaved",
                                         "quad_buffer"};
 
-const char* name_of(Language language) {
-  return language == Language::swedish ? "swedish" : "english";
+// "en" English, "de" Deutsch, ...
+std::string languages_known() {
+  std::string all;
+  for (const Language& one : languages())
+    all += fmt::format("{}\"{}\" {}", all.empty() ? "" : ", ", one.code, one.name);
+  return all;
+}
+
+// As written until 0.1.0: "english" and "swedish".
+std::string code_of_language(const std::string& value) {
+  return value == "english" ? "en" : value == "swedish" ? "sv" : value;
 }
 
 // "" when it is good
@@ -121,9 +132,9 @@ std::string take(const Field& field, const toml::node& node, Settings& settings)
     settings.*field.stereo = static_cast<render::Stereo>(found - std::begin(kStereoNames));
   } else {
     const auto value = node.value_exact<std::string>();
-    if (!value || (*value != "english" && *value != "swedish"))
-      return "must be \"english\" or \"swedish\"";
-    settings.*field.language = *value == "swedish" ? Language::swedish : Language::english;
+    const std::string code = code_of_language(value.value_or(""));
+    if (language_of(code) == nullptr) return "must be one of " + languages_known();
+    settings.*field.language = code;
   }
   return {};
 }
@@ -146,11 +157,11 @@ SettingsRead parse_settings(std::string_view text, std::string_view file) {
     for (const Field& field : kFields)
       if (key.str() == field.key) known = &field;
     const std::string wrong =
-        known == nullptr ? "is no setting of this version" : take(*known, node, read.settings);
+        known == nullptr ? "is not a setting of this version" : take(*known, node, read.settings);
     if (!wrong.empty())
       read.troubles.push_back(
           fmt::format("{}: {}: {}; {}", file, base::shown(key.str()), wrong,
-                      known == nullptr ? "it is left aside" : "the default is used"));
+                      known == nullptr ? "it is ignored" : "the default is used"));
   }
   return read;
 }
@@ -178,10 +189,11 @@ std::string settings_text(const Settings& settings) {
       text += fmt::format("\n{} = {}\n", field.key, settings.*field.yes);
     else if (field.device != nullptr)
       text += fmt::format("\n{} = {}\n", field.key, base::toml_text(settings.*field.device));
+    else if (field.stereo != nullptr)
+      text += fmt::format("\n{} = \"{}\"\n", field.key, name_of(settings.*field.stereo));
     else
-      text += fmt::format("\n{} = \"{}\"\n", field.key,
-                          field.stereo != nullptr ? name_of(settings.*field.stereo)
-                                                  : name_of(settings.*field.language));
+      text += fmt::format("; {}\n{} = \"{}\"\n", languages_known(), field.key,
+                          settings.*field.language);
   }
   return text;
 }
@@ -190,15 +202,17 @@ Status write_settings(const Settings& settings, const std::filesystem::path& pat
   std::error_code trouble;
   std::filesystem::create_directories(path.parent_path(), trouble);
   if (trouble)
-    return error(Trouble::io, fmt::format("{}: cannot make this folder ({}); settings are not kept",
-                                          path.parent_path().string(), trouble.message()));
+    return error(Trouble::io,
+                 fmt::format("{}: cannot make this folder ({}); settings are not saved",
+                             path.parent_path().string(), trouble.message()));
   if (keep_old && std::filesystem::exists(path, trouble)) {
     std::filesystem::path old = path;
     old += ".old";
     std::filesystem::rename(path, old, trouble);
     if (trouble)
-      return error(Trouble::io, fmt::format("{}: cannot be kept aside ({}); settings are not kept",
-                                            path.string(), trouble.message()));
+      return error(Trouble::io,
+                   fmt::format("{}: the old file cannot be renamed ({}); settings are not saved",
+                               path.string(), trouble.message()));
   }
   auto file = base::NewFile::beside(path.string());
   if (!file) return file.error();

@@ -15,22 +15,21 @@
 
 #include "burr/base/result.h"
 #include "burr/render/stereo.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 
 struct Settings {
-  Language language = Language::english;
-  double scale = 1;            // of letters and panels, on top of the display's own
-  bool left_handed = false;    // the right button mills, the handle leans left
-  std::string device = {};     // that leads the burr, as after --device; empty: the mouse
-  double force_limit_n = 3.3;  // the user's own limit of the force in the hand
-  double press_mm = 4;         // how deep the mouse presses at first
-  double turn_pace = 1;        // of the view, by mouse and arrows
-  double zoom_pace = 1;        // by wheel and two fingers
-  double pad_pace = 1;         // of the point that a gamepad or SpaceMouse moves
-  double pad_dead = 0.15;      // share of a stick's way that counts as rest
-  double pedal_mill = 0;       // buttons of a pedal, from 0
+  std::string language = "en";  // one of languages(): the name of its file in words/
+  double scale = 1;             // of letters and panels, on top of the display's own
+  bool left_handed = false;     // the right button mills, the handle leans left
+  std::string device = {};      // that leads the burr, as after --device; empty: the mouse
+  double force_limit_n = 3.3;   // the user's own limit of the force in the hand
+  double press_mm = 4;          // how deep the mouse presses at first
+  double turn_pace = 1;         // of the view, by mouse and arrows
+  double zoom_pace = 1;         // by wheel and two fingers
+  double pad_pace = 1;          // of the point that a gamepad or SpaceMouse moves
+  double pad_dead = 0.15;       // share of a stick's way that counts as rest
+  double pedal_mill = 0;        // buttons of a pedal, from 0
   double pedal_burr = 1;
   double pedal_coolant = 2;
   double pedal_clutch = 3;  // lifts a haptic device while it is down

@@ -60,13 +60,17 @@ class Lines {
     end();
   }
 
-  void language(Language& value) {
-    begin(Word::language);
-    int now = value == Language::swedish ? 1 : 0;
-    changed_ = ImGui::RadioButton("English", &now, 0) || changed_;
-    ImGui::SameLine();
-    changed_ = ImGui::RadioButton("Svenska", &now, 1) || changed_;
-    value = now == 1 ? Language::swedish : Language::english;
+  void language(std::string& value) {
+    begin(Word::set_language);
+    ImGui::SetNextItemWidth(200 * u_);
+    if (ImGui::BeginCombo("##language", spoken().name.c_str())) {
+      for (const Language& one : languages())
+        if (ImGui::Selectable(one.name.c_str(), one.code == value) && one.code != value) {
+          value = one.code;
+          changed_ = true;
+        }
+      ImGui::EndCombo();
+    }
     end();
   }
 

@@ -27,8 +27,9 @@ std::vector<char> bytes_of(const char* path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-// Latin, and the few signs the window uses: dashes, dots, arrows
-const ImWchar kGlyphs[] = {0x20, 0xFF, 0x2013, 0x2014, 0x2026, 0x2026, 0x2190, 0x2193, 0};
+// Latin with the letters of Europe's languages, and the few signs the window uses: dashes, dots,
+// arrows
+const ImWchar kGlyphs[] = {0x20, 0x17F, 0x2013, 0x2014, 0x2026, 0x2026, 0x2190, 0x2193, 0};
 
 ImVec4 colour(ImU32 c) { return ImGui::ColorConvertU32ToFloat4(c); }
 

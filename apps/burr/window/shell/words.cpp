@@ -1,473 +1,126 @@
 #include "window/shell/words.h"
 
+#include <safe_toml.h>
+#include <algorithm>
+#include <cstddef>
 #include <iterator>
 
 namespace burr::app {
 namespace {
 
-struct Entry {
-  Word which;
-  const char *english, *swedish;
+constexpr const char* kKeys[] = {
+#define BURR_WORD(key) #key,
+#include "word_keys.h"
+#undef BURR_WORD
 };
+static_assert(std::size(kKeys) == static_cast<std::size_t>(Word::count_));
 
-constexpr Entry kWords[] = {
-    Entry{Word::force, "Force", "Kraft"},
-    Entry{Word::limit_user, "yours", "din"},
-    Entry{Word::limit_device, "device", "don"},
-    Entry{Word::press, "Press", "Tryck"},
-    Entry{Word::pressing, "pressing", "trycker"},
-    Entry{Word::lifted, "lifted", "lyft"},
-    Entry{Word::speed, "Speed", "Varvtal"},
-    Entry{Word::load, "load {:.0f} %", "last {:.0f} %"},
-    Entry{Word::burr, "Burr", "Borr"},
-    Entry{Word::removed, "Removed", "Borttaget"},
-    Entry{Word::time, "Time", "Tid"},
-    Entry{Word::nearest, "To {}", "Till {}"},
-    Entry{Word::nearest_far, "To what to spare", "Till det som sparas"},
-    Entry{Word::ticks, "Ticks", "Takt"},
-    Entry{Word::ticks_good, "steady", "jämn"},
-    Entry{Word::ticks_busy, "busy", "pressad"},
-    Entry{Word::ticks_lost, "losing", "tappar"},
-    Entry{
-        Word::ticks_tail,
-        "One tick of touch each millisecond.\n99 of 100 took at most {:.0f} us, the longest {:.0f} "
-        "us.\n"
-        "{} missed since the start.",
-        "Ett känselsteg varje millisekund.\n99 av 100 tog högst {:.0f} us, det längsta {:.0f} us.\n"
-        "{} uteblev sedan starten."},
-    Entry{Word::picture_whole, "The picture is drawn whole.", "Bilden ritas hel."},
-    Entry{Word::picture_no_hollows, "The picture leaves out: shade in hollows.",
-          "Bilden utelämnar: skugga i gropar."},
-    Entry{Word::picture_coarser, "The picture leaves out: shade in hollows, fine detail.",
-          "Bilden utelämnar: skugga i gropar, fina detaljer."},
-    Entry{Word::picture_fewer,
-          "The picture leaves out: shade in hollows, fine detail, an eighth of its sharpness.",
-          "Bilden utelämnar: skugga i gropar, fina detaljer, en åttondel av skärpan."},
-    Entry{Word::picture_fewest,
-          "The picture leaves out: shade in hollows, fine detail, a quarter of its sharpness.",
-          "Bilden utelämnar: skugga i gropar, fina detaljer, en fjärdedel av skärpan."},
-    Entry{Word::cut, "Cut", "Fräs"},
-    Entry{Word::add, "Add", "Lägg på"},
-    Entry{Word::touch, "Touch", "Känn"},
-    Entry{Word::back, "Original", "Original"},
-    Entry{Word::smooth, "Smooth", "Jämna"},
-    Entry{Word::undo, "Undo", "Ångra"},
-    Entry{Word::redo, "Redo", "Gör om"},
-    Entry{Word::reset, "Reset", "Börja om"},
-    Entry{Word::measure, "Measure", "Mät"},
-    Entry{Word::mirror, "Mirror", "Spegel"},
-    Entry{Word::stroke, "Stroke", "Drag"},
-    Entry{Word::smaller, "Smaller burr", "Mindre borr"},
-    Entry{Word::larger, "Larger burr", "Större borr"},
-    Entry{Word::slower, "Slower", "Långsammare"},
-    Entry{Word::faster, "Faster", "Snabbare"},
-    Entry{Word::settings, "Settings", "Inställn."},
-    Entry{Word::help, "Help", "Hjälp"},
-    Entry{Word::leave, "Leave", "Lämna"},
-    Entry{Word::undone, "last stroke undone", "senaste draget ångrat"},
-    Entry{Word::redone, "stroke redone", "draget gjort om"},
-    Entry{Word::back_to_start, "everything back to the start", "allt som från början"},
-    Entry{Word::now_cut, "the burr cuts", "borren fräser"},
-    Entry{Word::now_add, "the burr adds material", "borren lägger på material"},
-    Entry{Word::now_touch, "the burr only touches", "borren bara känner"},
-    Entry{Word::now_diamond, "diamond burr: a quarter as fast", "diamantborr: fjärdedelens fart"},
-    Entry{Word::now_fluted, "cutting burr", "skärande borr"},
-    Entry{Word::diamond, "diamond", "diamant"},
-    Entry{Word::now_back, "the burr brings the original bone back",
-          "borren återställer det ursprungliga benet"},
-    Entry{Word::now_smooth, "the burr smooths the surface", "borren jämnar ytan"},
-    Entry{Word::measure_two, "distance: click two points on the bone; Esc ends it",
-          "avstånd: klicka på två punkter på benet; Esc avslutar"},
-    Entry{Word::measure_three, "angle: click three points on the bone, its tip second; Esc ends it",
-          "vinkel: klicka på tre punkter på benet, spetsen som den andra; Esc avslutar"},
-    Entry{Word::measure_none, "thickness: no bone under the tip; Esc ends it",
-          "tjocklek: inget ben under spetsen; Esc avslutar"},
-    Entry{Word::measured_distance, "distance {:.2f} mm", "avstånd {:.2f} mm"},
-    Entry{Word::measured_angle, "angle {:.1f}°", "vinkel {:.1f}°"},
-    Entry{Word::measured_thickness, "bone under the tip: {:.2f} mm thick",
-          "benet under spetsen: {:.2f} mm tjockt"},
-    Entry{Word::measure_off, "measuring ended", "mätningen avslutad"},
-    Entry{Word::mirror_off, "mirror off", "spegel av"},
-    Entry{Word::mirror_middle, "mirror: {}, through the middle", "spegel: {}, genom mitten"},
-    Entry{Word::mirror_left, "mirror: {}, {:.1f} mm left of the middle",
-          "spegel: {}, {:.1f} mm vänster om mitten"},
-    Entry{Word::mirror_right, "mirror: {}, {:.1f} mm right of the middle",
-          "spegel: {}, {:.1f} mm höger om mitten"},
-    Entry{Word::mirror_front, "mirror: {}, {:.1f} mm in front of the middle",
-          "spegel: {}, {:.1f} mm framför mitten"},
-    Entry{Word::mirror_back, "mirror: {}, {:.1f} mm behind the middle",
-          "spegel: {}, {:.1f} mm bakom mitten"},
-    Entry{Word::mirror_above, "mirror: {}, {:.1f} mm above the middle",
-          "spegel: {}, {:.1f} mm ovanför mitten"},
-    Entry{Word::mirror_below, "mirror: {}, {:.1f} mm below the middle",
-          "spegel: {}, {:.1f} mm nedanför mitten"},
-    Entry{Word::burr_now, "burr of {:g} mm", "borr på {:g} mm"},
-    Entry{Word::speed_now, "{:.0f} turns a minute", "{:.0f} varv i minuten"},
-    Entry{Word::no_room, "no room here for a larger burr: lift it first",
-          "här finns ingen plats för en större borr: lyft den först"},
-    Entry{Word::no_burr, "burrs go from {:g} to {:g} mm in this bone",
-          "i detta ben går borrar från {:g} till {:g} mm"},
-    Entry{Word::picture_left, "picture kept: {}", "bild sparad: {}"},
-    Entry{Word::let_go, "the force was let go: {}", "kraften släpptes: {}"},
-    Entry{Word::fault_kept, "the last ticks are kept: {}", "de sista takterna är sparade: {}"},
-    Entry{Word::stopped, "stopped: nothing is pushed or cut; Backspace goes on",
-          "stoppad: inget trycks eller fräses; backsteg fortsätter"},
-    Entry{Word::begins_free, "nothing is felt or cut until the burr was lifted off the bone",
-          "inget känns eller fräses förrän borren har lyfts från benet"},
-    Entry{Word::taken_again, "on again: begin in free air", "på igen: börja i fria luften"},
-    Entry{Word::key_real, "C  Backspace", "C  backsteg"},
-    Entry{Word::real_does, "haptic device: lay it elsewhere while held; stop it, go on",
-          "haptisk enhet: flytta den medan hållen; stoppa den, fortsätt"},
-    Entry{Word::help_title, "Keys and mouse", "Tangenter och mus"},
-    Entry{Word::help_hand, "The hand", "Handen"},
-    Entry{Word::help_view, "The view", "Vyn"},
-    Entry{Word::help_tools, "Tools", "Verktyg"},
-    Entry{Word::help_program, "Program", "Program"},
-    Entry{Word::help_mill, "press into the bone while held", "tryck mot benet så länge den hålls"},
-    Entry{Word::help_hold, "press on and off, without holding", "tryck på och av, utan att hålla"},
-    Entry{Word::help_push, "push deeper or less deep", "tryck djupare eller grundare"},
-    Entry{Word::help_plane, "the hand in a plane; the wheel: deeper",
-          "handen i ett plan; hjulet: djupare"},
-    Entry{Word::help_aim, "move the hand by keys", "flytta handen med tangenter"},
-    Entry{Word::plane_on,
-          "The hand goes in the plane that is drawn; the wheel moves that deeper, G ends it.",
-          "Handen går i planet som ritas; hjulet flyttar det djupare, G avslutar."},
-    Entry{Word::plane_off, "The hand follows the bone again.", "Handen följer benet igen."},
-    Entry{Word::help_turn, "turn the bone", "vrid benet"},
-    Entry{Word::help_shift, "shift it", "flytta det"},
-    Entry{Word::help_zoom, "nearer, farther", "närmare, längre bort"},
-    Entry{Word::help_first_view, "first view", "första vyn"},
-    Entry{Word::help_sizes, "smaller or larger burr", "mindre eller större borr"},
-    Entry{Word::help_speeds, "slower or faster", "långsammare eller snabbare"},
-    Entry{Word::help_modes, "cut, add, touch, original, smooth",
-          "fräs, lägg på, känn, original, jämna"},
-    Entry{Word::help_undo, "undo, redo a stroke", "ångra, gör om ett drag"},
-    Entry{Word::help_reset, "everything back", "allt tillbaka"},
-    Entry{Word::help_measure, "measure: distance, angle, thickness, off",
-          "mät: avstånd, vinkel, tjocklek, av"},
-    Entry{Word::help_mirror, "mirror; Shift: at the tip; Ctrl: next plane",
-          "spegel; Skift: vid spetsen; Ctrl: nästa plan"},
-    Entry{Word::help_hide, "hide or show all panels", "göm eller visa alla paneler"},
-    Entry{Word::help_settings, "settings", "inställningar"},
-    Entry{Word::help_picture, "keep a picture", "spara en bild"},
-    Entry{Word::help_quit, "leave", "lämna"},
-    Entry{Word::help_slices, "slices through the tip; nearer, farther",
-          "snitt genom spetsen; närmare, längre bort"},
-    Entry{Word::help_labels, "colours of tissues on, off", "vävnadernas färger på, av"},
-    Entry{Word::help_window, "the scan in the slices; pull there: window, level",
-          "bildserien i snitten; dra där: fönster, nivå"},
-    Entry{Word::help_views, "a view you kept; Shift keeps it", "en sparad vy; Skift sparar den"},
-    Entry{Word::view_kept, "this view is kept as number {}", "vyn är sparad som nummer {}"},
-    Entry{Word::view_shown, "view {}", "vy {}"},
-    Entry{Word::view_none, "no view {} of this bone yet; Shift+F{} keeps one",
-          "ingen vy {} av detta ben än; Skift+F{} sparar en"},
-    Entry{Word::slices_window, "W {:.0f}  L {:.0f}", "W {:.0f}  L {:.0f}"},
-    Entry{Word::slices_model, "slices show the bone as it is felt",
-          "snitten visar benet som det känns"},
-    Entry{Word::slices_no_scan, "only a scan that was opened here has greys to show",
-          "bara en bildserie som öppnats här har gråskala att visa"},
-    Entry{Word::help_coolant, "coolant on, off", "spolning på, av"},
-    Entry{Word::help_kind, "cutting or diamond burr", "skärande borr eller diamant"},
-    Entry{Word::coolant_on, "coolant on", "spolning på"},
-    Entry{Word::coolant_off, "coolant off", "spolning av"},
-    Entry{Word::set_effects, "Traces on cut bone", "Spår på fräst ben"},
-    Entry{Word::help_see_through, "bone seen through, in steps", "benet genomskinligt, i steg"},
-    Entry{Word::see_through, "bone seen through: {:.0f} %", "benet genomskinligt: {:.0f} %"},
-    Entry{Word::bone_whole, "bone not seen through", "benet ogenomskinligt"},
-    Entry{Word::axial, "axial", "axial"},
-    Entry{Word::coronal, "coronal", "koronal"},
-    Entry{Word::sagittal, "sagittal", "sagittal"},
-    Entry{Word::sound_on, "sound on", "ljud på"},
-    Entry{Word::sound_off, "sound off", "ljud av"},
-    Entry{Word::sound_loudness, "sound {:.0f} dB", "ljud {:.0f} dB"},
-    Entry{Word::help_sound, "sound on, off", "ljud på, av"},
-    Entry{Word::help_loudness, "quieter, louder", "tystare, högre"},
-    Entry{Word::help_ghost,
-          "The blue dot is your hand: where it would be if the bone\n"
-          "gave way. The farther it is from the burr, the harder you\n"
-          "press; the orange arrow is the bone's force on the hand.",
-          "Den blå pricken är din hand: där den vore om benet gav\n"
-          "vika. Ju längre från borren, desto hårdare trycker du;\n"
-          "den orange pilen är benets kraft på handen."},
-    Entry{Word::help_pad, "Gamepad, pedal, SpaceMouse", "Handkontroll, pedal, SpaceMouse"},
-    Entry{Word::pad_sticks, "move the burr over the bone; turn the view",
-          "flytta borret över benet; vrid vyn"},
-    Entry{Word::pad_trigger, "press: the farther, the deeper; A all the way",
-          "tryck: ju längre, desto djupare; A ända in"},
-    Entry{Word::pad_slow, "hold the spindle back", "håll spindeln tillbaka"},
-    Entry{Word::pad_lift, "lift; with it held: right stick nearer, X coolant, Y measure",
-          "lyft; medan den hålls: höger spak närmare, X spolning, Y mät"},
-    Entry{Word::pad_undo, "undo, redo a stroke", "ångra, gör om ett drag"},
-    Entry{Word::pad_shoulders, "smaller or larger burr", "mindre eller större borr"},
-    Entry{Word::pad_cross, "deeper, less deep; what the burr does",
-          "djupare, grundare; vad borret gör"},
-    Entry{Word::pad_clicks, "left: press on, off; right: keep this session",
-          "vänster: tryck på, av; höger: behåll passet"},
-    Entry{Word::pad_menu, "this page; back, leave", "den här sidan; tillbaka, lämna"},
-    Entry{Word::pedal_does, "down: mill, its way is the spindle's speed; next burr; coolant",
-          "ned: fräs, dess väg är varvtalet; nästa borr; spolning"},
-    Entry{Word::cap_does,
-          "slide: move; push down: press; twist, tilt: turn; buttons: smaller, larger burr",
-          "skjut: flytta; tryck ned: tryck; vrid, luta: vrid; knappar: mindre, större borr"},
-    Entry{Word::key_sticks, "left, right stick", "vänster, höger spak"},
-    Entry{Word::key_right_trigger, "right trigger, A", "höger avtryckare, A"},
-    Entry{Word::key_left_trigger, "left trigger", "vänster avtryckare"},
-    Entry{Word::key_shoulders, "shoulders", "axelknappar"},
-    Entry{Word::key_cross, "cross", "kryss"},
-    Entry{Word::key_clicks, "press on a stick", "tryck på en spak"},
-    Entry{Word::key_pedal, "pedal", "pedal"},
-    Entry{Word::hand_here, "a gamepad or pedal is here; F1 says what it does",
-          "en handkontroll eller pedal är här; F1 säger vad den gör"},
-    Entry{Word::hand_gone, "a gamepad or pedal is gone; the burr is lifted",
-          "en handkontroll eller pedal är borta; borret är lyft"},
-    Entry{Word::key_left, "left button", "vänster knapp"},
-    Entry{Word::key_right, "right button", "höger knapp"},
-    Entry{Word::key_middle, "middle button", "mittknapp"},
-    Entry{Word::key_wheel, "wheel, two fingers", "hjul, två fingrar"},
-    Entry{Word::key_ctrl_wheel, "Ctrl + wheel", "Ctrl + hjul"},
-    Entry{Word::key_shift_wheel, "Shift + wheel", "Skift + hjul"},
-    Entry{Word::key_space, "Space", "Mellanslag"},
-    Entry{Word::key_arrows, "arrows", "piltangenter"},
-    Entry{Word::key_shift_arrows, "Shift + arrows", "Skift + pilar"},
-    Entry{Word::replay_play, "Play", "Spela"},
-    Entry{Word::replay_pause, "Pause", "Pausa"},
-    Entry{Word::replay_pace, "Pace", "Tempo"},
-    Entry{Word::replay_stroke, "\na stroke, {} to {}", "\nett drag, {} till {}"},
-    Entry{Word::replay_limit, "force limit {:.1f} N", "kraftgräns {:.1f} N"},
-    Entry{Word::replay_setting, "a setting changed", "en inställning ändrad"},
-    Entry{Word::replay_help_title, "Watching a recording", "Titta på en inspelning"},
-    Entry{Word::replay_help_play, "play, pause", "spela, pausa"},
-    Entry{Word::replay_help_step, "a second back, on", "en sekund tillbaka, framåt"},
-    Entry{Word::replay_help_small, "a twentieth of a second", "en tjugondels sekund"},
-    Entry{Word::replay_help_stroke, "stroke before, after", "draget före, efter"},
-    Entry{Word::replay_help_ends, "to the start, to the end", "till början, till slutet"},
-    Entry{Word::replay_help_pace, "slower, faster", "långsammare, snabbare"},
-    Entry{Word::replay_help_drag, "go to that moment", "gå till det ögonblicket"},
-    Entry{Word::replay_help_beside, "another recording beside it", "en inspelning till bredvid"},
-    Entry{Word::replay_help_shift, "the right one earlier, later", "den högra tidigare, senare"},
-    Entry{Word::replay_drop_second, "drop another recording (.mcap) here to watch both",
-          "släpp en inspelning till (.mcap) här för att se båda"},
-    Entry{Word::replay_shifted, "the right one begins {:.2f} s after the left",
-          "den högra börjar {:.2f} s efter den vänstra"},
-    Entry{Word::replay_drag, "drag on the line", "dra på linjen"},
-    Entry{Word::key_ctrl_arrows, "Ctrl + arrows", "Ctrl + pilar"},
-    Entry{Word::export_word, "Export", "Exportera"},
-    Entry{Word::export_help, "bone, removed part, picture, film into files",
-          "ben, bortfräst del, bild, film till filer"},
-    Entry{Word::export_title, "Export", "Exportera"},
-    Entry{Word::export_bone, "The bone", "Benet"},
-    Entry{Word::export_removed, "What was removed", "Det bortfrästa"},
-    Entry{Word::export_picture, "A picture", "En bild"},
-    Entry{Word::export_film, "A film", "En film"},
-    Entry{Word::film_told, "a folder of numbered pictures, 25 a second, of the whole recording",
-          "en mapp med numrerade bilder, 25 per sekund, av hela inspelningen"},
-    Entry{Word::film_of_nothing,
-          "this session is not recorded, so there is nothing to film: switch autosave on (F2) "
-          "before the next",
-          "den här sessionen spelas inte in, så det finns inget att filma: slå på autosparning "
-          "(F2) före nästa"},
-    Entry{Word::film_done, "written: {}, {} pictures", "skriven: {}, {} bilder"},
-    Entry{Word::film_stopped, "film stopped; the pictures made until then are kept",
-          "filmen stoppad; bilderna som hann göras finns kvar"},
-    Entry{Word::film_help, "a picture, or a film of it all, into files",
-          "en bild, eller en film av allt, till filer"},
-    Entry{Word::export_write, "Write", "Skriv"},
-    Entry{Word::export_replace, "Replace it", "Ersätt den"},
-    Entry{Word::export_stop, "Stop", "Stoppa"},
-    Entry{Word::export_exists, "{} is there already. Replace it?", "{} finns redan. Ersätta den?"},
-    Entry{Word::export_writing, "writing {}: {:.0f} %, {}", "skriver {}: {:.0f} %, {}"},
-    Entry{Word::export_done, "written: {}", "skriven: {}"},
-    Entry{Word::export_mesh, "written: {}, {:.1f} mm³ in {} triangles",
-          "skriven: {}, {:.1f} mm³ i {} trianglar"},
-    Entry{Word::export_volume, "written: {}, {:.1f} mm³", "skriven: {}, {:.1f} mm³"},
-    Entry{Word::export_stopped, "export stopped, nothing was written",
-          "exporten stoppad, inget skrevs"},
-    Entry{Word::export_wait, "a file is still being written; once more leaves without it",
-          "en fil skrivs fortfarande; en gång till lämnar utan den"},
-    Entry{Word::settings_title, "Settings", "Inställningar"},
-    Entry{Word::language, "Language", "Språk"},
-    Entry{Word::set_look, "Look", "Utseende"},
-    Entry{Word::set_scale, "Size of letters", "Textstorlek"},
-    Entry{Word::set_panels, "Panels at the start", "Paneler från början"},
-    Entry{Word::set_help, "Help at the start", "Hjälp från början"},
-    Entry{Word::set_sessions, "Sessions", "Sessioner"},
-    Entry{Word::set_autosave, "Save by itself", "Spara av sig själv"},
-    Entry{Word::set_kept, "Keep at most", "Behåll högst"},
-    Entry{Word::set_mb, "... and at most", "... och högst"},
-    Entry{Word::set_hand, "Hand", "Hand"},
-    Entry{Word::set_left_handed, "Left-handed", "Vänsterhänt"},
-    Entry{Word::set_force, "Your force limit", "Din kraftgräns"},
-    Entry{Word::set_press, "Press of the mouse", "Musens tryck"},
-    Entry{Word::set_view, "View", "Vy"},
-    Entry{Word::set_turn, "Pace of turning", "Vridningens takt"},
-    Entry{Word::set_zoom, "Pace of zooming", "Zoomningens takt"},
-    Entry{Word::set_privacy, "Privacy", "Integritet"},
-    Entry{Word::set_two_eyes, "Two eyes", "Två ögon"},
-    Entry{Word::set_stereo, "Stereo  [F3]", "Stereo  [F3]"},
-    Entry{Word::set_stereo_depth, "Depth", "Djup"},
-    Entry{Word::set_swap_eyes, "Swap the eyes", "Byt ögonen"},
-    Entry{Word::set_headset, "Headset (OpenXR)", "Headset (OpenXR)"},
-    Entry{Word::set_sticks, "Gamepad and SpaceMouse", "Handkontroll och SpaceMouse"},
-    Entry{Word::set_pad_pace, "Pace of the point", "Punktens fart"},
-    Entry{Word::set_pad_dead, "Rest of a stick", "Spakens vila"},
-    Entry{Word::set_pedal, "Pedal", "Pedal"},
-    Entry{Word::set_pedal_mill, "Button that mills", "Knapp som fräser"},
-    Entry{Word::set_pedal_burr, "Next burr", "Nästa fräs"},
-    Entry{Word::set_pedal_coolant, "Coolant", "Kylning"},
-    Entry{Word::set_pedal_clutch, "Lift the device", "Lyft apparaten"},
-    Entry{Word::set_pedal_rest, "Axis at rest", "Axeln i vila"},
-    Entry{Word::set_device_scale, "Tip's way over hand's", "Spetsens väg per handens"},
-    Entry{Word::set_device_force, "Largest force", "Största kraft"},
-    Entry{Word::set_device_vibration, "Buzz of the spindle", "Spindelns surr"},
-    Entry{Word::set_device_torque, "Twist of the motor", "Motorns vridning"},
-    Entry{Word::set_device_dead_man, "Pushes while milling", "Kraft bara vid fräsning"},
-    Entry{Word::set_device_next, "The force at once, the rest from the next session.",
-          "Kraften genast, resten från nästa session."},
-    Entry{Word::headset_on, "headset: {}", "headset: {}"},
-    Entry{Word::headset_off, "headset off", "headset av"},
-    Entry{Word::stereo_off, "off", "av"},
-    Entry{Word::stereo_side_by_side, "side by side", "sida vid sida"},
-    Entry{Word::stereo_anaglyph, "red and cyan glasses", "röda och cyanblå glasögon"},
-    Entry{Word::stereo_interleaved, "every other line", "varannan rad"},
-    Entry{Word::stereo_quad_buffer, "shutter glasses", "slutarglasögon"},
-    Entry{Word::stereo_now, "two eyes: {}", "två ögon: {}"},
-    Entry{Word::stereo_no_quads,
-          "The graphics driver has no picture for each eye (quad_buffer), so one eye's is shown; "
-          "choose another kind of stereo with F3.",
-          "Grafikdrivrutinen har ingen bild för vart öga (quad_buffer), så det ena ögats visas; "
-          "välj ett annat slags stereo med F3."},
-    Entry{Word::help_stereo, "two eyes: side by side, glasses, off",
-          "två ögon: sida vid sida, glasögon, av"},
-    Entry{Word::set_recent_names, "Show names of scans", "Visa skanningars namn"},
-    Entry{Word::set_file, "Kept in {}", "Sparas i {}"},
-    Entry{Word::set_not_kept, "Not kept: there is no home folder",
-          "Sparas inte: det finns ingen hemmapp"},
-    Entry{Word::cancel, "Cancel", "Avbryt"},
-    Entry{Word::stopping, "stopping ...", "stannar ..."},
-    Entry{Word::loading, "Loading {}", "Läser in {}"},
-    Entry{Word::start_hello, "Cut bone by hand", "Fräs ben för hand"},
-    Entry{Word::start_cases, "Cases", "Fall"},
-    Entry{Word::start_own, "Your own CT", "Din egen CT"},
-    Entry{Word::start_drop, "Drop a file or a DICOM folder\nanywhere in this window",
-          "Släpp en fil eller en DICOM-mapp\nvar som helst i fönstret"},
-    Entry{Word::start_path, "or type its path here", "eller skriv sökvägen här"},
-    Entry{Word::start_open, "Open", "Öppna"},
-    Entry{Word::start_file, "File ...", "Fil ..."},
-    Entry{Word::start_folder, "Folder ...", "Mapp ..."},
-    Entry{Word::start_recent, "Recent", "Senaste"},
-    Entry{Word::start_sessions, "Continue a session", "Fortsätt en session"},
-    Entry{Word::start_none, "nothing yet", "inget ännu"},
-    Entry{Word::start_quit, "Quit", "Avsluta"},
-    Entry{Word::start_scan, "a scan", "en skanning"},
-    Entry{Word::start_case_file, "a case", "ett fall"},
-    Entry{Word::start_recording, "a recording", "en inspelning"},
-    Entry{Word::start_unclean, "ended unexpectedly", "slutade oväntat"},
-    Entry{Word::start_kept, "kept", "sparad"},
-    Entry{Word::start_trouble, "This did not work", "Det gick inte"},
-    Entry{Word::hand_title, "Led by", "Styrs med"},
-    Entry{Word::hand_mouse, "mouse, keys, gamepad, SpaceMouse",
-          "mus, tangenter, handkontroll, SpaceMouse"},
-    Entry{Word::hand_home, "It may move by itself to find its home; the space is free",
-          "Den får röra sig själv för att hitta hem; det är fritt"},
-    Entry{Word::hand_looks, "looking for it ...", "letar efter den ..."},
-    Entry{Word::import_title, "Your scan", "Din skanning"},
-    Entry{Word::import_hint,
-          "Wheel: next slice. Click: go there. Pull the white frame: only this part.",
-          "Hjulet: nästa snitt. Klick: gå dit. Dra i den vita ramen: bara denna del."},
-    Entry{Word::import_series, "Series", "Serie"},
-    Entry{Word::import_level, "Where bone begins", "Var benet börjar"},
-    Entry{Word::import_share, "{}{} or more is bone: {:.2g} % of the voxels",
-          "{}{} eller mer är ben: {:.2g} % av voxlarna"},
-    Entry{Word::import_labels, "What the labels are", "Vad etiketterna är"},
-    Entry{Word::import_scan, "The scan", "Skanningen"},
-    Entry{Word::import_voxels, "{}, {} × {} × {} voxels", "{}, {} × {} × {} voxlar"},
-    Entry{Word::import_spacing, "of {:.4g} × {:.4g} × {:.4g} mm", "om {:.4g} × {:.4g} × {:.4g} mm"},
-    Entry{Word::import_extent, "{:.3g} × {:.3g} × {:.3g} cm in all",
-          "{:.3g} × {:.3g} × {:.3g} cm i allt"},
-    Entry{Word::import_ways, "rows {}, columns {}, slices {}", "rader {}, kolumner {}, snitt {}"},
-    Entry{Word::import_about, "about: rows {}, columns {}, slices {}",
-          "ungefär: rader {}, kolumner {}, snitt {}"},
-    Entry{Word::import_values, "values {:.5g} to {:.5g}{}", "värden {:.5g} till {:.5g}{}"},
-    Entry{Word::import_bone, "The bone made of it", "Benet som blir av den"},
-    Entry{Word::import_region, "Region", "Område"},
-    Entry{Word::import_all, "all of it", "alltihop"},
-    Entry{Word::import_whole, "Whole scan", "Hela skanningen"},
-    Entry{Word::import_voxel, "Voxels of", "Voxlar om"},
-    Entry{Word::import_by_itself, "by itself", "självvalt"},
-    Entry{Word::import_counting, "counting ...", "räknar ..."},
-    Entry{Word::import_made, "{} × {} × {} voxels of {:.3g} mm",
-          "{} × {} × {} voxlar om {:.3g} mm"},
-    Entry{Word::import_memory, "about {} of memory while it is made, then {}",
-          "cirka {} minne medan det görs, sedan {}"},
-    Entry{Word::import_too_much,
-          "This computer has only {} left. Take a smaller region or larger voxels.",
-          "Datorn har bara {} kvar. Ta ett mindre område eller större voxlar."},
-    Entry{Word::import_no_number, "\"{}\" is no number that can be used here; nothing was changed.",
-          "\"{}\" är inget tal som går att använda här; inget ändrades."},
-    Entry{Word::import_back, "Back", "Tillbaka"},
-    Entry{Word::import_start, "Start", "Börja"},
-    Entry{Word::key_enter, "Enter", "Enter"},
-    Entry{Word::way_left, "to the left", "åt vänster"},
-    Entry{Word::way_right, "to the right", "åt höger"},
-    Entry{Word::way_backwards, "backwards", "bakåt"},
-    Entry{Word::way_forwards, "forwards", "framåt"},
-    Entry{Word::way_up, "upwards", "uppåt"},
-    Entry{Word::way_down, "downwards", "nedåt"},
-    Entry{Word::kind_solid, "solid", "hård"},
-    Entry{Word::kind_soft, "soft", "mjuk"},
-    Entry{Word::kind_air, "air", "luft"},
-    Entry{Word::case_temporal_bone, "Temporal bone", "Tinningben"},
-    Entry{Word::case_jaw, "Lower jaw", "Underkäke"},
-    Entry{Word::case_spine, "Lumbar vertebra", "Ländkota"},
-    Entry{Word::case_tooth, "Tooth", "Tand"},
-    Entry{Word::case_block, "Block to practise", "Övningsblock"},
-    Entry{Word::session_kept, "session kept: the start page can go on from here at any time",
-          "sessionen är sparad: startsidan kan fortsätta härifrån när som helst"},
-    Entry{Word::session_not_kept, "this session is not recorded, so it cannot be kept",
-          "denna session spelas inte in och kan inte sparas"},
-    Entry{Word::key_save, "keep this session", "spara sessionen"},
-    Entry{Word::task_open, "Open: {}", "Öppna: {}"},
-    Entry{Word::task_expose, "Expose without touching: {}", "Frilägg utan att röra: {}"},
-    Entry{Word::task_remove, "Remove: {}", "Ta bort: {}"},
-    Entry{Word::task_remove_share, "Remove {:.0f} % of: {}", "Ta bort {:.0f} % av: {}"},
-    Entry{Word::task_spare, "Do not cut: {}", "Fräs inte i: {}"},
-    Entry{Word::task_key, "O hides this and shows it again.", "O döljer detta och visar det igen."},
-    Entry{Word::task_none, "This bone was opened without a case; no task is given.",
-          "Detta ben öppnades utan fall; ingen uppgift är given."},
-    Entry{Word::help_task, "what is to be done", "vad som ska göras"},
-    Entry{Word::flag_not_finite, "number trouble", "taltrassel"},
-    Entry{Word::flag_hand_lost, "hand lost", "handen borta"},
-    Entry{Word::flag_watchdog, "ticks lost", "steg uteblev"},
-    Entry{Word::flag_jump, "hand leapt", "handen hoppade"},
-    Entry{Word::flag_force_limited, "force limited", "kraften begränsad"},
-    Entry{Word::flag_thermal, "motors warm", "motorerna varma"},
-    Entry{Word::flag_candidates, "too many contacts", "för många kontakter"},
-    Entry{Word::flag_reserve, "no room to add", "ingen plats att lägga på"},
-    Entry{Word::flag_undo_full, "undo full", "ångra fullt"},
-    Entry{Word::flag_restoring, "restoring", "återställer"},
-    Entry{Word::flag_not_cut, "not all cut", "allt fräses inte"},
-    Entry{Word::flag_put_off, "cutting in turns", "fräser i omgångar"},
-};
-static_assert(std::size(kWords) == static_cast<std::size_t>(Word::count_),
-              "every Word has its entry");
+const Language* now = nullptr;  // nullptr: English
 
-Language language_now = Language::english;
+std::vector<Language> read_all() {
+  std::vector<Language> all;
+  for (const WordFile& file : word_files())
+    all.push_back(read_language(file, all.empty() ? nullptr : &all.front()));
+  return all;
+}
+
+bool digit(char c) { return c >= '0' && c <= '9'; }
+
+// The printf conversion that begins at text[at], "%.1f" or "%d"; "" for "%" and "50 % of".
+std::string_view conversion(std::string_view text, std::size_t at) {
+  std::size_t end = at + 1;
+  while (end < text.size() && (digit(text[end]) || text[end] == '.' || text[end] == '-')) ++end;
+  if (end == text.size() || std::string_view("diuxeEfgGsc").find(text[end]) == text.npos) return {};
+  return text.substr(at, end + 1 - at);
+}
 
 }  // namespace
 
-void speak(Language language) { language_now = language; }
-Language spoken() { return language_now; }
-
-const char* word(Word which, Language language) {
-  const Entry& entry = kWords[static_cast<std::size_t>(which)];
-  return language == Language::swedish ? entry.swedish : entry.english;
+std::vector<std::string> placeholders(std::string_view text) {
+  const std::vector<std::string> broken = {"a brace without its other"};
+  std::vector<std::string> all;
+  int next = 0;
+  bool counted = false, numbered = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (const std::string_view printed = c == '%' ? conversion(text, at) : ""; !printed.empty())
+      all.emplace_back(printed);
+    if (c != '{' && c != '}') continue;
+    if (at + 1 < text.size() && text[at + 1] == c) {  // a brace to be shown
+      ++at;
+      continue;
+    }
+    const std::size_t end = text.find('}', at);
+    if (c == '}' || end == text.npos) return broken;
+    const std::string_view inside = text.substr(at + 1, end - at - 1);
+    const std::size_t colon = std::min(inside.find(':'), inside.size());
+    const std::string_view number = inside.substr(0, colon);
+    if (!std::all_of(number.begin(), number.end(), digit)) return broken;
+    (number.empty() ? counted : numbered) = true;
+    all.push_back(fmt::format("{{{}{}}}", number.empty() ? std::to_string(next++) : number,
+                              inside.substr(colon)));
+    at = end;
+  }
+  if (counted && numbered) return {"{} and {0} mixed"};
+  std::sort(all.begin(), all.end());
+  return all;
 }
-const char* word(Word which) { return word(which, language_now); }
 
-bool words_in_order() {
-  for (std::size_t n = 0; n < std::size(kWords); ++n)
-    if (kWords[n].which != static_cast<Word>(n)) return false;
-  return true;
+Language read_language(const WordFile& file, const Language* english) {
+  const std::string name = std::string("words/") + file.code + ".toml";
+  Language made{file.code, file.code, {}, {}};
+  // what stands in for a missing text; in English, where none may be missing, its key
+  for (std::size_t n = 0; n < std::size(kKeys); ++n)
+    made.texts.emplace_back(english != nullptr ? english->texts[n] : kKeys[n]);
+  const auto trouble = [&](const std::string& what) {
+    made.troubles.push_back(name + ": " + what);
+  };
+
+  const auto table = parse_toml(file.text, name);
+  if (!table) {
+    made.troubles.push_back(table.error().text);
+    return made;
+  }
+  if (const auto called = (*table)["language"].value_exact<std::string>())
+    made.name = *called;
+  else
+    trouble("language is missing: what the language calls itself");
+
+  for (std::size_t n = 0; n < std::size(kKeys); ++n) {
+    const auto text = (*table)[kKeys[n]].value_exact<std::string>();
+    if (!text || text->empty())
+      trouble(fmt::format("{} is missing", kKeys[n]));
+    else if (english != nullptr && placeholders(*text) != placeholders(english->texts[n]))
+      trouble(fmt::format("{} has other placeholders ({}) than the English text ({})", kKeys[n],
+                          fmt::join(placeholders(*text), " "),
+                          fmt::join(placeholders(english->texts[n]), " ")));
+    else
+      made.texts[n] = *text;
+  }
+  for (const auto& [key, node] : *table)
+    if (key.str() != "language" &&
+        std::find(std::begin(kKeys), std::end(kKeys), key.str()) == std::end(kKeys))
+      trouble(fmt::format("{} is not a key of words/en.toml", key.str()));
+  return made;
+}
+
+const std::vector<Language>& languages() {
+  static const std::vector<Language> all = read_all();
+  return all;
+}
+
+const Language* language_of(std::string_view code) {
+  for (const Language& one : languages())
+    if (one.code == code) return &one;
+  return nullptr;
+}
+
+void speak(std::string_view code) { now = language_of(code); }
+const Language& spoken() { return now == nullptr ? languages().front() : *now; }
+
+const char* word(Word which) { return spoken().texts[static_cast<std::size_t>(which)].c_str(); }
+const char* english(Word which) {
+  return languages().front().texts[static_cast<std::size_t>(which)].c_str();
 }
 
 }  // namespace burr::app

@@ -1,395 +1,63 @@
-// apps/burr/window/shell/words.h - all that the window says, in the user's language.
+// apps/burr/window/shell/words.h - every text of the window, in the language of the user.
 //
-//     speak(Language::swedish);
+//     speak("sv");
 //     word(Word::undo)                          "Ångra"
 //     say(Word::picture_left, "burr_001.png")   filled in, as fmt does
 //
-// Sentences of the library about files and options stay English: they name fields of files.
-// Thread: main. Text is UTF-8.
+// The texts are in words/*.toml, one file for each language, and are compiled in. The enumerators of
+// Word are the keys of words/en.toml. Sentences of the library about files and options stay
+// English: they name fields of files. Thread: main. Text is UTF-8.
 #pragma once
 
 #include <fmt/format.h>
 
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace burr::app {
 
-enum class Language { english, swedish };
-
-// One for each thing said; words.cpp has the table in the same order.
 enum class Word {
-  // while milling
-  force,
-  limit_user,
-  limit_device,
-  press,
-  pressing,
-  lifted,
-  speed,
-  load,
-  burr,
-  removed,
-  time,
-  nearest,
-  nearest_far,
-  ticks,
-  ticks_good,
-  ticks_busy,
-  ticks_lost,
-  ticks_tail,
-  picture_whole,
-  picture_no_hollows,
-  picture_coarser,
-  picture_fewer,
-  picture_fewest,
-  // tools
-  cut,
-  add,
-  touch,
-  back,
-  smooth,
-  undo,
-  redo,
-  reset,
-  measure,
-  mirror,
-  stroke,
-  smaller,
-  larger,
-  slower,
-  faster,
-  settings,
-  help,
-  leave,
-  // what was done
-  undone,
-  redone,
-  back_to_start,
-  now_cut,
-  now_add,
-  now_touch,
-  now_diamond,
-  now_fluted,
-  diamond,
-  now_back,
-  now_smooth,
-  measure_two,
-  measure_three,
-  measure_none,
-  measured_distance,
-  measured_angle,
-  measured_thickness,
-  measure_off,
-  mirror_off,
-  mirror_middle,
-  mirror_left,
-  mirror_right,
-  mirror_front,
-  mirror_back,
-  mirror_above,
-  mirror_below,
-  burr_now,
-  speed_now,
-  no_room,
-  no_burr,
-  picture_left,
-  let_go,
-  fault_kept,
-  stopped,
-  begins_free,
-  taken_again,
-  key_real,
-  real_does,
-  // help
-  help_title,
-  help_hand,
-  help_view,
-  help_tools,
-  help_program,
-  help_mill,
-  help_hold,
-  help_push,
-  help_plane,
-  help_aim,
-  plane_on,
-  plane_off,
-  help_turn,
-  help_shift,
-  help_zoom,
-  help_first_view,
-  help_sizes,
-  help_speeds,
-  help_modes,
-  help_undo,
-  help_reset,
-  help_measure,
-  help_mirror,
-  help_hide,
-  help_settings,
-  help_picture,
-  help_quit,
-  help_slices,
-  help_labels,
-  help_window,
-  help_views,
-  view_kept,
-  view_shown,
-  view_none,
-  slices_window,
-  slices_model,
-  slices_no_scan,
-  help_coolant,
-  help_kind,
-  coolant_on,
-  coolant_off,
-  set_effects,
-  help_see_through,
-  see_through,
-  bone_whole,
-  axial,
-  coronal,
-  sagittal,
-  sound_on,
-  sound_off,
-  sound_loudness,
-  help_sound,
-  help_loudness,
-  help_ghost,
-  // other hands than the mouse's
-  help_pad,
-  pad_sticks,
-  pad_trigger,
-  pad_slow,
-  pad_lift,
-  pad_undo,
-  pad_shoulders,
-  pad_cross,
-  pad_clicks,
-  pad_menu,
-  pedal_does,
-  cap_does,
-  key_sticks,
-  key_right_trigger,
-  key_left_trigger,
-  key_shoulders,
-  key_cross,
-  key_clicks,
-  key_pedal,
-  hand_here,
-  hand_gone,
-  // names of keys and of what a mouse has
-  key_left,
-  key_right,
-  key_middle,
-  key_wheel,
-  key_ctrl_wheel,
-  key_shift_wheel,
-  key_space,
-  key_arrows,
-  key_shift_arrows,
-  // watching a recording
-  replay_play,
-  replay_pause,
-  replay_pace,
-  replay_stroke,
-  replay_limit,
-  replay_setting,
-  replay_help_title,
-  replay_help_play,
-  replay_help_step,
-  replay_help_small,
-  replay_help_stroke,
-  replay_help_ends,
-  replay_help_pace,
-  replay_help_drag,
-  replay_help_beside,
-  replay_help_shift,
-  replay_drop_second,
-  replay_shifted,
-  replay_drag,
-  key_ctrl_arrows,
-  // out of the window
-  export_word,
-  export_help,
-  export_title,
-  export_bone,
-  export_removed,
-  export_picture,
-  export_film,
-  film_told,
-  film_of_nothing,
-  film_done,
-  film_stopped,
-  film_help,
-  export_write,
-  export_replace,
-  export_stop,
-  export_exists,
-  export_writing,
-  export_done,
-  export_mesh,
-  export_volume,
-  export_stopped,
-  export_wait,
-  // settings
-  settings_title,
-  language,
-  set_look,
-  set_scale,
-  set_panels,
-  set_help,
-  set_sessions,
-  set_autosave,
-  set_kept,
-  set_mb,
-  set_hand,
-  set_left_handed,
-  set_force,
-  set_press,
-  set_view,
-  set_turn,
-  set_zoom,
-  set_privacy,
-  set_two_eyes,
-  set_stereo,
-  set_stereo_depth,
-  set_swap_eyes,
-  set_headset,
-  set_sticks,
-  set_pad_pace,
-  set_pad_dead,
-  set_pedal,
-  set_pedal_mill,
-  set_pedal_burr,
-  set_pedal_coolant,
-  set_pedal_clutch,
-  set_pedal_rest,
-  set_device_scale,
-  set_device_force,
-  set_device_vibration,
-  set_device_torque,
-  set_device_dead_man,
-  set_device_next,
-  headset_on,
-  headset_off,
-  stereo_off,
-  stereo_side_by_side,
-  stereo_anaglyph,
-  stereo_interleaved,
-  stereo_quad_buffer,
-  stereo_now,
-  stereo_no_quads,
-  help_stereo,
-  set_recent_names,
-  set_file,
-  set_not_kept,
-  // loading and the start
-  cancel,
-  stopping,
-  loading,
-  start_hello,
-  start_cases,
-  start_own,
-  start_drop,
-  start_path,
-  start_open,
-  start_file,
-  start_folder,
-  start_recent,
-  start_sessions,
-  start_none,
-  start_quit,
-  start_scan,
-  start_case_file,
-  start_recording,
-  start_unclean,
-  start_kept,
-  start_trouble,
-  hand_title,
-  hand_mouse,
-  hand_home,
-  hand_looks,
-  // a scan before it becomes bone
-  import_title,
-  import_hint,
-  import_series,
-  import_level,
-  import_share,
-  import_labels,
-  import_scan,
-  import_voxels,
-  import_spacing,
-  import_extent,
-  import_ways,
-  import_about,
-  import_values,
-  import_bone,
-  import_region,
-  import_all,
-  import_whole,
-  import_voxel,
-  import_by_itself,
-  import_counting,
-  import_made,
-  import_memory,
-  import_too_much,
-  import_no_number,
-  import_back,
-  import_start,
-  key_enter,
-  way_left,
-  way_right,
-  way_backwards,
-  way_forwards,
-  way_up,
-  way_down,
-  kind_solid,
-  kind_soft,
-  kind_air,
-  case_temporal_bone,
-  case_jaw,
-  case_spine,
-  case_tooth,
-  case_block,
-  session_kept,
-  session_not_kept,
-  key_save,
-  // what is to be done
-  task_open,
-  task_expose,
-  task_remove,
-  task_remove_share,
-  task_spare,
-  task_key,
-  task_none,
-  help_task,
-  // flags of rt/flags.h
-  flag_not_finite,
-  flag_hand_lost,
-  flag_watchdog,
-  flag_jump,
-  flag_force_limited,
-  flag_thermal,
-  flag_candidates,
-  flag_reserve,
-  flag_undo_full,
-  flag_restoring,
-  flag_not_cut,
-  flag_put_off,
+#define BURR_WORD(key) key,
+#include "word_keys.h"
+#undef BURR_WORD
   count_,
 };
 
-void speak(Language language);
-[[nodiscard]] Language spoken();
+struct Language {
+  std::string code;                   // "sv": the name of its file
+  std::string name;                   // "Svenska": what the language calls itself
+  std::vector<std::string> texts;     // by Word; English where the file has no text that fits
+  std::vector<std::string> troubles;  // sentences: missing texts, unknown keys, other placeholders
+};
+
+// All that are compiled in, English first.
+[[nodiscard]] const std::vector<Language>& languages();
+[[nodiscard]] const Language* language_of(std::string_view code);  // none: nullptr
+
+void speak(std::string_view code);  // of an unknown language: English
+[[nodiscard]] const Language& spoken();
 
 [[nodiscard]] const char* word(Word which);
-[[nodiscard]] const char* word(Word which, Language language);
+[[nodiscard]] const char* english(Word which);
 template <class... Values>
 [[nodiscard]] std::string say(Word which, const Values&... values) {
   return fmt::format(fmt::runtime(word(which)), values...);
 }
 
-// For the test of the table: the place of each entry is its Word.
-[[nodiscard]] bool words_in_order();
+// ---- how a file becomes a language
+
+struct WordFile {
+  const char *code, *text;
+};
+[[nodiscard]] std::span<const WordFile> word_files();  // English first
+
+// english: whose texts stand in for missing ones; nullptr for English itself.
+[[nodiscard]] Language read_language(const WordFile& file, const Language* english);
+
+// "{:.1f}" and "%d" of a text, each with the number of the value it shows, sorted. Texts with the
+// same placeholders take the same values.
+[[nodiscard]] std::vector<std::string> placeholders(std::string_view text);
 
 }  // namespace burr::app

@@ -51,7 +51,7 @@ Status make_folder(const fs::path& folder) {
   fs::create_directories(folder, trouble);
   if (!trouble) fs::permissions(folder, fs::perms::owner_all, trouble);
   if (!trouble) return fine();
-  return error(Trouble::io, fmt::format("{}: cannot be made ({}); this session is not kept",
+  return error(Trouble::io, fmt::format("{}: cannot be made ({}); this session is not saved",
                                         folder.string(), trouble.message()));
 }
 

@@ -13,6 +13,7 @@
 #include "burr/scenario/case.h"
 #include "commands/command.h"
 #include "window/mill/hud.h"
+#include "window/mill/mill_keys.h"
 #include "window/shell/help.h"
 #include "window/shell/settings_page.h"
 #include "window/shell/typed_path.h"
@@ -139,7 +140,8 @@ void StartPage::open(std::string path) {
 void StartPage::draw() {
   Ui& ui = desk_.ui();
   const float u = ui.unit();
-  if (help_ && !draw_help(ui, desk_.settings.left_handed, help_pads_)) help_ = false;
+  if (help_ && !draw_help(ui, mill_help_rows(desk_.settings.left_handed), help_pads_))
+    help_ = false;
   if (settings_) {
     const fs::path& config = desk_.places().config;
     const SettingsPage page = draw_settings(

@@ -1,0 +1,115 @@
+#include "window/mill/drill.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "burr/tool/burr_tool.h"
+
+namespace burr::app {
+namespace {
+
+// diameters that burrs come in [m]
+constexpr double kSizes[] = {0.6e-3, 0.8e-3, 1e-3, 1.5e-3, 2e-3, 2.5e-3, 3e-3, 3.5e-3,
+                             4e-3,   4.5e-3, 5e-3, 5.5e-3, 6e-3, 6.5e-3, 7e-3};
+constexpr double kRpmStep = 5000, kRpmMost = 80'000;
+constexpr double kRpm = 2 * std::numbers::pi / 60;
+constexpr auto kRefused =
+    std::chrono::milliseconds(300);  // not there by then: the servo refused it
+
+Word says(tick::ToolMode mode) {
+  switch (mode) {
+    case tick::ToolMode::cut:
+      break;
+    case tick::ToolMode::add:
+      return Word::now_add;
+    case tick::ToolMode::touch:
+      return Word::now_touch;
+    case tick::ToolMode::restore:
+      return Word::now_back;
+    case tick::ToolMode::smooth:
+      return Word::now_smooth;
+  }
+  return Word::now_cut;
+}
+
+}  // namespace
+
+Drill::Drill(sim::Session& session, render::Burr& shown)
+    : session_(session),
+      shown_(shown),
+      mode_(session.settings().servo.mode),
+      full_speed_(session.settings().servo.spindle_rad_s),
+      irrigated_(session.settings().servo.irrigated) {
+  const tool::Burr& burr = session.settings().servo.burr;
+  shown_.radius = burr.radius;
+  shown_.diamond = burr.kind == tool::BurrKind::diamond;
+  shown_.shaft_radius = burr.shaft_radius;
+  shown_.shaft_length = burr.shaft_length;
+}
+
+std::string Drill::set_mode(tick::ToolMode mode) {
+  mode_ = mode;
+  session_.command({tick::CommandKind::tool_mode, static_cast<double>(mode)});
+  return word(says(mode));
+}
+
+std::string Drill::next_burr() {
+  const double largest = *std::rbegin(kSizes);
+  const bool over = 2 * requested_.value_or(session_.burr_radius()) > largest - 1e-9;
+  if (over) requested_ = 0;
+  return change_burr(1);
+}
+
+std::string Drill::change_burr(int by) {
+  const double least =
+      std::max(tool::kSmallestDiameter, 4 * session_.bone().grid().voxel);  // as tick/servo.cpp
+  const double now = 2 * requested_.value_or(session_.burr_radius());
+  std::optional<double> next;
+  for (const double size : kSizes) {
+    if (size < least - 1e-9) continue;
+    if (by > 0 && size > now + 1e-9 && !next) next = size;
+    if (by < 0 && size < now - 1e-9) next = size;
+  }
+  if (!next) return say(Word::no_burr, std::ceil(1e4 * least) / 10, 1e3 * tool::kLargestDiameter);
+  requested_ = 0.5 * *next;
+  requested_at_ = Clock::now();
+  session_.command({tick::CommandKind::burr_radius, *requested_});
+  return {};
+}
+
+std::string Drill::slower() { return change_speed(-kRpmStep); }
+std::string Drill::faster() { return change_speed(kRpmStep); }
+
+std::string Drill::change_speed(double by_rpm) {
+  const double rpm =
+      std::clamp(std::round(full_speed_ / kRpm / kRpmStep) * kRpmStep + by_rpm, kRpmStep, kRpmMost);
+  full_speed_ = rpm * kRpm;
+  session_.command({tick::CommandKind::spindle_speed, full_speed_});
+  return say(Word::speed_now, rpm);
+}
+
+std::string Drill::toggle_kind() {
+  shown_.diamond = !shown_.diamond;
+  session_.command({tick::CommandKind::burr_kind, shown_.diamond ? 1.0 : 0.0});
+  return word(shown_.diamond ? Word::now_diamond : Word::now_fluted);
+}
+
+std::string Drill::toggle_coolant() {
+  irrigated_ = !irrigated_;
+  session_.command({tick::CommandKind::irrigation, irrigated_ ? 1.0 : 0.0});
+  return word(irrigated_ ? Word::coolant_on : Word::coolant_off);
+}
+
+std::string Drill::look() {
+  const double radius = session_.burr_radius();
+  shown_.radius = radius;
+  if (!requested_) return {};
+  const bool there = std::abs(radius - *requested_) < 1e-9;
+  if (!there && Clock::now() - requested_at_ < kRefused) return {};
+  requested_.reset();
+  return there ? say(Word::burr_now, 2e3 * radius) : std::string(word(Word::no_room));
+}
+
+}  // namespace burr::app

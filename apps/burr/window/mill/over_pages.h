@@ -1,0 +1,46 @@
+// apps/burr/window/mill/over_pages.h - the pages that open over the bone: help, settings, export; one at a time.
+//
+// Thread: main; draw() between Ui::begin() and Ui::draw().
+#pragma once
+
+#include <string>
+
+#include "burr/render/scene.h"
+#include "burr/sim/session.h"
+#include "window/mill/export_page.h"
+#include "window/mill/window.h"
+#include "window/shell/settings_page.h"
+
+namespace burr::app {
+
+class OverPages {
+ public:
+  // Before the session starts, as ExportPage.
+  OverPages(Desk& desk, sim::Session& session, const render::Scene& scene,
+            const WindowOptions& options);
+
+  [[nodiscard]] bool open() const { return help_ || settings_ || export_.shown(); }
+  void close();
+  void toggle_help(bool pads);  // pads: the leaf of gamepad, pedal and SpaceMouse first
+  void toggle_settings();
+  void toggle_export();
+
+  [[nodiscard]] ExportPage& exporting() { return export_; }
+  [[nodiscard]] const ExportPage& exporting() const { return export_; }
+
+  // What changed on the settings page; already in desk.settings and device->preferences.
+  struct Changed {
+    bool settings = false, force_limit = false, device = false;
+  };
+  // device: the haptic device that moves the burr; nullptr: none
+  [[nodiscard]] Changed draw(DeviceLeaf* device);
+
+ private:
+  Changed draw_settings_page(DeviceLeaf* device);
+
+  Desk& desk_;
+  bool help_, help_pads_ = false, settings_ = false, settings_pads_ = false;
+  ExportPage export_;
+};
+
+}  // namespace burr::app

@@ -1,0 +1,79 @@
+#include "window/mill/worn_headset.h"
+
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "window/shell/words.h"
+
+namespace burr::app {
+
+// It is started once when it is requested; if that fails, the window goes on without it.
+std::string WornHeadset::look_for_it() {
+  if (desk_.headset != nullptr && !desk_.headset_wanted) {
+    take_off();
+    return word(Word::headset_off);
+  }
+  if (desk_.headset == nullptr && desk_.headset_wanted) {
+    auto made = render::Headset::start(desk_.renderer(), desk_.settings.left_handed);
+    if (made) {
+      desk_.headset = std::move(*made);
+      return say(Word::headset_on, desk_.headset->name());
+    }
+    desk_.headset_wanted = false;
+    fmt::print(stderr, "{}\n", made.error().text);
+    return made.error().text;
+  }
+  if (desk_.headset != nullptr && desk_.headset->over()) {
+    std::string why = desk_.headset->why();
+    desk_.headset_wanted = false;
+    take_off();
+    fmt::print(stderr, "{}\n", why);
+    return why;
+  }
+  return {};
+}
+
+void WornHeadset::take_off() {
+  desk_.headset.reset();
+  seen_.reset();
+  wand_ = false;
+  wand_at_ = {};
+}
+
+std::string WornHeadset::begin(render::FrameGovernor& governor, const render::Camera& camera) {
+  std::string told = look_for_it();
+  seen_.reset();
+  const bool runs = desk_.headset != nullptr && desk_.headset->running();
+  constexpr double kWait = 0.02;  // then the window is drawn without it  [s]
+  if (desk_.headset != nullptr) seen_ = desk_.headset->begin(kWait);
+  if (std::exchange(on_, runs) != runs) {
+    desk_.renderer().wait_for_screen(!runs);
+    governor.allow_moving(render::GovernorSettings().moving_s);
+    wand_ = wand_ && runs;  // the mouse's again
+  }
+  if (!seen_) return told;
+  if (seen_->period > 0) governor.allow_moving(seen_->period);
+  for (std::size_t eye = 0; eye < 2; ++eye)
+    cameras_[eye] = render::placed(camera, seen_->room_from_eye[eye]);
+  wand_at_ = seen_->wand;
+  wand_ = wand_ || wand_at_.tracked;
+  return told;
+}
+
+void WornHeadset::end(const render::Scene& scene) {
+  if (seen_ && desk_.headset != nullptr) desk_.headset->end(scene, cameras_);
+}
+
+std::optional<MouseHand::Aim> WornHeadset::aim(const render::Camera& camera, bool rests) const {
+  if (!seen_) return std::nullopt;
+  MouseHand::Aim aim;
+  aim.valid = wand_at_.tracked;
+  aim.pace = MouseHand::kWandPace;
+  aim.pedal = rests ? 0 : wand_at_.trigger;
+  if (aim.valid) aim.world_from_tool = render::placed(camera, wand_at_.room_from_wand);
+  return aim;
+}
+
+}  // namespace burr::app
