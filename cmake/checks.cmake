@@ -70,6 +70,8 @@ foreach(sample ${BURR_SAMPLES})
   add_test(NAME samples.${name} COMMAND ${name} WORKING_DIRECTORY ${CMAKE_BINARY_DIR}/samples)
   set_tests_properties(samples.${name} PROPERTIES TIMEOUT 300)
 endforeach()
+set_tests_properties(samples.s05_record_a_session PROPERTIES FIXTURES_SETUP a_recording)  # which these read
+set_tests_properties(samples.s06_read_a_recording samples.s07_score_a_recording PROPERTIES FIXTURES_REQUIRED a_recording)
 
 # ---- Other builds; only from the release build, which is the one that ./test makes.
 if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")

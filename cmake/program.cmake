@@ -80,5 +80,5 @@ file(GLOB BURR_SAMPLES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/samples/s[0-9]*.c
 foreach(sample ${BURR_SAMPLES})
   get_filename_component(name ${sample} NAME_WE)
   add_executable(${name} ${sample})
-  target_link_libraries(${name} PRIVATE burr burr_scenes burr_options fmt::fmt)
+  target_link_libraries(${name} PRIVATE burr burr_options)  # what an installation offers, samples/installed
 endforeach()

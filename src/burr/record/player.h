@@ -111,6 +111,10 @@ class Player {
   // The bone at the start, if the recording holds it (info().embedded).
   [[nodiscard]] Result<std::unique_ptr<volume::Bone>> embedded_bone(
       std::size_t reserve_bricks) const;
+  // with the room for deposits that it had
+  [[nodiscard]] Result<std::unique_ptr<volume::Bone>> embedded_bone() const {
+    return embedded_bone(static_cast<std::size_t>(info_.volume.reserve_bricks));
+  }
 
  private:
   friend class StepCursor;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/record/grid_json.h"
+#include "burr/volume/bone.h"
 
 namespace burr::record {
 namespace {
@@ -222,6 +223,16 @@ bool CaseInfo::unchanged() const {
                     [](const scenario::Target& a, const scenario::Target& b) {
                       return a.tissue == b.tissue && a.goal == b.goal && a.share == b.share;
                     });
+}
+
+VolumeInfo volume_info(const volume::Bone& bone) {
+  VolumeInfo info;
+  info.content_hash = bone.content_hash();
+  info.grid = bone.grid();
+  info.tissues = bone.tissues();
+  info.has_intensity = bone.has_intensity();
+  info.recipe.reserve_bricks = bone.free_slots();
+  return info;
 }
 
 Status check(const SessionInfo& info) {

@@ -19,6 +19,10 @@
 #include "burr/volume/grid.h"
 #include "burr/volume/tissue.h"
 
+namespace burr::volume {
+class Bone;
+}
+
 namespace burr::record {
 
 using Numbers = std::map<std::string, double>;  // units are part of the names: "burr_radius_m"
@@ -61,6 +65,10 @@ struct SessionInfo {
   std::optional<CaseInfo> work_case;  // none: no case, or recorded before cases were
   bool embedded = false;              // the file holds the bone; filled in by the Recorder
 };
+
+// The bone as it is now, before the first tick. How it was made (numbers, words) is added by the
+// caller; so is a number of reserve_bricks that is not simply its free slots.
+[[nodiscard]] VolumeInfo volume_info(const volume::Bone& bone);
 
 // Refuses what must not or cannot be written: paths, UIDs, numbers that are not finite.
 [[nodiscard]] Status check(const SessionInfo& info);
