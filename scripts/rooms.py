@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Prints which rooms of src/burr include which, and fails where this differs from docs/architecture.md.
 
-    scripts/rooms.py [ROOT]               ROOT: the folder that holds src/burr; default: this checkout
+    scripts/rooms.py [ROOT]               ROOT: the folder that holds src/burr and apps; default: this checkout
 
-Fails on a room that is not listed, an arrow that is not listed, rooms that include each other in a circle, and a
+Fails on a room that is not listed, an arrow that is not listed, rooms that include each other in a circle, files that
+include each other in a circle (in src/burr and in apps; a header and the source beside it count as one), and a
 third-party header in the wrong place: graphics and headsets only in render/gl, the loudspeaker only in sound, file
 formats only in io, a vendor's library only in its own folder.
 """
@@ -157,6 +158,39 @@ def look(root):
     return doors, wrong
 
 
+def file_arrows(root):
+    """{unit: units that it includes}; a unit is a header and its source: a path from ROOT without its suffix."""
+    known = {}
+    for folder in (root / "src" / "burr", root / "apps"):
+        for file in sorted(folder.rglob("*")):
+            if file.suffix in (".h", ".hpp", ".cpp", ".inl", ".inc", ".c", ".cc"):
+                known[file.relative_to(root)] = INCLUDE.findall(file.read_text(errors="replace"))
+    arrows = collections.defaultdict(set)
+    for path, names in known.items():
+        for quoted, angled in names:
+            name = quoted or angled
+            for place in (path.parent / name, pathlib.Path("src") / name, pathlib.Path("apps") / "burr" / name):
+                if place in known and place.with_suffix("") != path.with_suffix(""):
+                    arrows[path.with_suffix("").as_posix()].add(place.with_suffix("").as_posix())
+                    break
+    return arrows
+
+
+def file_circles(arrows):
+    """Groups of files each of which reaches all others of its group and itself."""
+    reach = {}
+    for start in arrows:
+        seen, todo = set(), [start]
+        while todo:
+            for near in arrows.get(todo.pop(), ()):
+                if near not in seen:
+                    seen.add(near)
+                    todo.append(near)
+        reach[start] = seen
+    groups = {frozenset(other for other in reach[file] if file in reach.get(other, ())) for file in reach if file in reach[file]}
+    return sorted(sorted(group) for group in groups)
+
+
 def circles(doors):
     reach = collections.defaultdict(set)
     for a, b in doors:
@@ -174,7 +208,7 @@ def main():
         print(__doc__, file=sys.stderr)
         return 2
     root = pathlib.Path(arguments[0]) if arguments else pathlib.Path(__file__).resolve().parent.parent
-    root = root / "src" / "burr"
+    checkout, root = root, root / "src" / "burr"
     if not root.is_dir():
         print(f"rooms.py: {root}: no such folder", file=sys.stderr)
         return 2
@@ -183,10 +217,14 @@ def main():
     for room in rooms:
         print(f"{room:9} -> " + (", ".join(f"{b} ({n})" for (a, b), n in sorted(doors.items()) if a == room) or "nobody"))
     round_trips = circles(doors)
-    print("circles: " + (", ".join(round_trips) or "none"))
+    file_trips = file_circles(file_arrows(checkout))
+    if round_trips or not file_trips:
+        print("circles: " + (", ".join(round_trips) or "none"))
+    for group in file_trips:
+        print("circle of files: " + ", ".join(group))
     for complaint in wrong:
         print("not allowed: " + complaint)
-    return 1 if wrong or round_trips else 0
+    return 1 if wrong or round_trips or file_trips else 0
 
 
 if __name__ == "__main__":

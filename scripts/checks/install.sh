@@ -1,9 +1,5 @@
 #!/usr/bin/env bash
-<<<<<<< HEAD
-# Checks that `cmake --install` gives a usable library: samples/installed builds against it alone.
-=======
-# `cmake --install` gives a library that others can use: all samples build and run against it alone.
->>>>>>> 1348b5f (samples: eight programs of one idea each, built against the installed package; volume_info() and embedded_bone() for who records and reads)
+# Checks that `cmake --install` gives a usable library: all samples build and run against it alone.
 #
 #     scripts/checks/install.sh BUILD
 set -euo pipefail
@@ -13,14 +9,12 @@ place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 
 cmake --install "$build" --prefix "$place/prefix" >"$place/log" || { cat "$place/log"; exit 1; }
-<<<<<<< HEAD
 # copied to another place, so that nothing of this checkout can be found by accident
-cp -r samples/installed "$place/sample"
-cmake -S "$place/sample" -B "$place/build" -DCMAKE_PREFIX_PATH="$place/prefix" -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror"
+cp -r samples "$place/samples"
+cmake -S "$place/samples/installed" -B "$place/build" -DCMAKE_PREFIX_PATH="$place/prefix" -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_CXX_FLAGS="-O1 -Wall -Wextra -Werror"
 cmake --build "$place/build"
-"$place/build/touch"
-"$place/build/core"
+ctest --test-dir "$place/build" --output-on-failure --no-tests=error
 if ldd "$place/build/core" | grep -vE '(linux-vdso|libburr_core|libstdc\+\+|libm|libgcc_s|libc)\.so|/ld-linux-'; then
   echo "a program of burr::core loads the libraries above"
   exit 1
@@ -32,14 +26,6 @@ c++ -std=c++20 -fsyntax-only -Wall -Wextra -Werror -I"$place/prefix/include" -is
 while read -r file name; do
   [ -f "$place/prefix/include/$name" ] || { echo "$file includes $name, which is not installed"; exit 1; }
 done < <(cd "$place/prefix/include" && grep -rhoE --with-filename '^#include "burr/[^"]+"' burr | sed 's/:#include "\(.*\)"/ \1/')
-=======
-# copied away, so that nothing of this checkout can be found by accident
-cp -r samples "$place/samples"
-cmake -S "$place/samples/installed" -B "$place/build" -DCMAKE_PREFIX_PATH="$place/prefix" -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_CXX_FLAGS="-O1 -Wall -Wextra -Werror"
-cmake --build "$place/build"
-ctest --test-dir "$place/build" --output-on-failure --no-tests=error
->>>>>>> 1348b5f (samples: eight programs of one idea each, built against the installed package; volume_info() and embedded_bone() for who records and reads)
 "$place/prefix/bin/burr" --version
 # the installed burr-read reads a scan
 "$place/prefix/bin/burr" --quiet phantom ball --voxel-mm 1 --out "$place/ball.nrrd" >"$place/log"

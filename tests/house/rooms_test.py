@@ -23,9 +23,10 @@ GOOD = {
 
 
 def run(files):
+    """files: {path inside src/burr, or beginning with apps/: text}"""
     with tempfile.TemporaryDirectory() as folder:
         for name, text in files.items():
-            file = pathlib.Path(folder) / "src" / "burr" / name
+            file = pathlib.Path(folder) / name if name.startswith("apps/") else pathlib.Path(folder) / "src" / "burr" / name
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_text(text)
         done = subprocess.run([sys.executable, SCRIPT, folder], capture_output=True, text=True)
@@ -58,6 +59,39 @@ class Rooms(unittest.TestCase):
         code, said = run({**GOOD, "volume/a.h": '#include "burr/edit/b.h"\n', "edit/b.h": '#include "burr/volume/a.h"\n'})
         self.assertEqual(code, 1)
         self.assertIn("circles: edit, volume", said)
+
+    def test_two_files_in_a_circle_fail(self):
+        code, said = run({**GOOD, "volume/a.h": '#include "burr/volume/b.h"\n', "volume/b.h": '#include "burr/volume/a.h"\n'})
+        self.assertEqual(code, 1)
+        self.assertIn("circle of files: src/burr/volume/a, src/burr/volume/b\n", said)
+        self.assertNotIn("circles: none", said)
+
+    def test_a_circle_through_the_sources_of_two_headers_fails(self):
+        code, said = run({**GOOD, "volume/a.h": "", "volume/b.h": "", "volume/c.h": '#include "burr/volume/a.h"\n',
+                          "volume/a.cpp": '#include "burr/volume/a.h"\n#include "burr/volume/b.h"\n',
+                          "volume/b.cpp": '#include "burr/volume/b.h"\n#include "burr/volume/c.h"\n'})
+        self.assertEqual(code, 1)
+        self.assertIn("circle of files: src/burr/volume/a, src/burr/volume/b, src/burr/volume/c\n", said)
+
+    def test_files_of_the_programs_are_looked_at_however_they_include(self):
+        page = '#include "page.h"\n#include "verify/report.h"\n'
+        code, said = run({**GOOD, "apps/burr/verify/page.h": "", "apps/burr/verify/page.cpp": page,
+                          "apps/burr/verify/report.h": "", "apps/burr/verify/report.cpp": '#include "page.h"\n'})
+        self.assertEqual(code, 1)
+        self.assertIn("circle of files: apps/burr/verify/page, apps/burr/verify/report\n", said)
+
+    def test_two_circles_are_two_lines(self):
+        both = {f"{room}/{one}.h": f'#include "burr/{room}/{other}.h"\n' for room in ("volume", "io") for one, other in ("ab", "ba")}
+        code, said = run({**GOOD, **both})
+        self.assertEqual(code, 1)
+        self.assertEqual(said.count("circle of files: "), 2, said)
+
+    def test_a_header_its_source_and_a_line_of_files_are_no_circle(self):
+        code, said = run({**GOOD, "volume/a.h": '#include "burr/volume/b.h"\n', "volume/a.cpp": '#include "burr/volume/a.h"\n',
+                          "volume/b.h": "", "volume/b.cpp": '#include "burr/volume/b.h"\n#include "burr/volume/bone.h"\n',
+                          "apps/burr/main.cpp": '#include "burr/volume/a.h"\n#include "burr/volume/b.h"\n'})
+        self.assertEqual(code, 0, said)
+        self.assertIn("circles: none", said)
 
     def test_an_unlisted_room_fails(self):
         self.bad("cellar/wine.h", "", "room 'cellar' is not listed")

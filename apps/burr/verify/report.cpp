@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/base/new_file.h"
-#include "page.h"
 
 namespace burr::app {
 namespace {
@@ -154,7 +153,7 @@ std::string Report::markdown() const {
   return text;
 }
 
-Status Report::write(const std::string& folder) const {
+Status Report::write(const std::string& folder, const std::string& html) const {
   std::error_code trouble;
   std::filesystem::create_directories(folder, trouble);
   if (trouble)
@@ -176,7 +175,7 @@ Status Report::write(const std::string& folder) const {
   }
   if (Status done = write_file((into / "validation.md").string(), markdown()); !done) return done;
   if (Status done = write_file((into / "verify.json").string(), json() + "\n"); !done) return done;
-  return write_file((into / "report.html").string(), page(*this));
+  return write_file((into / "report.html").string(), html);
 }
 
 }  // namespace burr::app

@@ -88,7 +88,8 @@ class Report {
   // The page for docs/validation.md; nothing in it depends on the hour or the machine.
   [[nodiscard]] std::string markdown() const;
   // FOLDER/<series>.csv, <part>_plot<n>_<axes>.csv, report.html, validation.md, verify.json.
-  [[nodiscard]] Status write(const std::string& folder) const;
+  // html: page(*this), what report.html holds.
+  [[nodiscard]] Status write(const std::string& folder, const std::string& html) const;
 
  private:
   std::vector<Part> parts_;

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "commands/command.h"
+#include "page.h"
 
 namespace burr::app {
 namespace {
@@ -39,7 +40,7 @@ Status run(const Options& options) {
   Report report;
   // a folder that cannot be written is told of now, not after minutes
   if (!options.out.empty())
-    if (Status written = report.write(options.out); !written) return written;
+    if (Status written = report.write(options.out, page(report)); !written) return written;
   for (const Known& one : parts) {
     if (!options.names.empty() &&
         std::find(options.names.begin(), options.names.end(), one.name) == options.names.end())
@@ -56,7 +57,7 @@ Status run(const Options& options) {
     std::fflush(stdout);
   }
   if (!options.out.empty())
-    if (Status written = report.write(options.out); !written) return written;
+    if (Status written = report.write(options.out, page(report)); !written) return written;
   if (options.json) {
     fmt::print("{}\n", report.json());
   } else {

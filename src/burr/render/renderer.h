@@ -12,7 +12,7 @@
 #include <string>
 
 #include "burr/base/result.h"
-#include "burr/render/picture.h"
+#include "burr/render/image.h"
 #include "burr/render/scene.h"
 #include "burr/render/stereo.h"
 

@@ -20,6 +20,9 @@
 #include <string>
 #include <vector>
 
+#include "burr/sim/session.h"
+#include "burr/surface/worker.h"
+#include "window/hands/mouse_hand.h"
 #include "window/mill/drill.h"
 #include "window/mill/hand_plane.h"
 #include "window/mill/hud.h"
@@ -33,8 +36,9 @@
 #include "window/mill/suction_tube.h"
 #include "window/mill/tick_watch.h"
 #include "window/mill/toolbar.h"
-#include "window/mill/window.h"
+#include "window/mill/window_options.h"
 #include "window/mill/worn_headset.h"
+#include "window/shell/desk.h"
 #include "window/shell/help.h"
 #include "window/shell/status_line.h"
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "burr/render/picture.h"
 #include "commands/command.h"
 #include "window/mill/mill.h"
 #include "window/shell/words.h"

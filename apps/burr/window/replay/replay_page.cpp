@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "burr/render/picture.h"
 #include "commands/command.h"
 #include "window/mill/export_page.h"
 #include "window/mill/hud.h"

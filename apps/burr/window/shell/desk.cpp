@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "burr/render/picture.h"
 #include "window/shell/words.h"
 
 namespace burr::app {

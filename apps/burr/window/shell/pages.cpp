@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "burr/render/picture.h"
 #include "commands/command.h"
 #include "window/import/import_page.h"
 #include "window/replay/playback.h"

@@ -18,23 +18,13 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
+#include "burr/io/read/read_options.h"
 #include "burr/io/scan.h"
 
 namespace burr::io {
-
-struct ReadOptions {
-  std::string series;                 // Series Instance UID, or its beginning, or the number shown
-                                      // by info ("#2"); empty: the best one
-  math::Vec3 spacing_mm = {0, 0, 0};  // all > 0: overrides the file
-  // Limits of the fence; 0: chosen from the size of the files. They are far above what reading
-  // needs; only a damaged or hostile file, or a very strongly compressed one, reaches them.
-  double seconds = 0;    // of processor time; also the longest time without progress [s]
-  double memory_mb = 0;  // of address space [MiB]
-};
 
 [[nodiscard]] Result<Scan> read_scan(const std::filesystem::path& path, const ReadOptions& options,
                                      Progress& progress);

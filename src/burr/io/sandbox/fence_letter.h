@@ -15,7 +15,7 @@
 #include <string>
 
 #include "burr/base/result.h"
-#include "burr/io/read/read_scan.h"
+#include "burr/io/read/read_options.h"
 #include "burr/io/scan.h"
 
 namespace burr::io {

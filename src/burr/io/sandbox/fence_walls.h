@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "burr/io/read/read_scan.h"
+#include "burr/io/read/read_options.h"
 
 namespace burr::io {
 
