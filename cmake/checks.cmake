@@ -24,7 +24,7 @@ if(NOT BURR_SANITIZE)
 endif()
 add_test(NAME house.format COMMAND ${checks}/format.sh)
 add_test(NAME house.words COMMAND ${checks}/words.sh)
-add_test(NAME house.tidy COMMAND ${checks}/tidy.sh ${CMAKE_BINARY_DIR})
+add_test(NAME house.tidy COMMAND ${checks}/tidy.py ${CMAKE_BINARY_DIR})
 add_test(NAME house.run COMMAND ${checks}/run.sh ${CMAKE_BINARY_DIR})
 set_tests_properties(house.run PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
 add_test(NAME house.refuses COMMAND ${checks}/refuses.sh ${CMAKE_BINARY_DIR})
@@ -116,7 +116,7 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # memory. clang++ compiles it in a third of g++'s time, and the fuzzers below use the same
   # library. Sanitized code is several times slower, so the longest random tests run in the release
   # build only.
-  set(asan_rooms base rt math tool volume edit haptics device surface io record)
+  set(asan_rooms base rt math tool volume edit haptics device surface io importing record tick)
   set(asan_filter_haptics "-*Million*:*Random*")
   set(asan_filter_io "-Corpus.*")  # needs the program, which is not built here; CorpusAgainst reads
                                    # the same files

@@ -1,4 +1,6 @@
-// io/read/read_options.h - what of a file is read, and within which limits.
+// io/read/read_options.h - which part of a file is read, and within which limits.
+//
+// Plain struct. Units in names.
 #pragma once
 
 #include <string>
@@ -8,13 +10,13 @@
 namespace burr::io {
 
 struct ReadOptions {
-  std::string series;                 // Series Instance UID or how it begins, or the number
-                                      // shown by info ("#2"); empty: the best one
+  std::string series;                 // Series Instance UID, or its beginning, or the number shown
+                                      // by info ("#2"); empty: the best one
   math::Vec3 spacing_mm = {0, 0, 0};  // all > 0: overrides the file
-  // Limits of the fence; 0: by how large the files are. They are far above what reading takes, so
-  // only a file that lies, or a very strongly packed one, meets them.
-  double seconds = 0;    // of processor time; also the longest it may stand still
-  double memory_mb = 0;  // of address space
+  // Limits of the fence; 0: chosen from the size of the files. They are far above what reading
+  // needs; only a damaged or hostile file, or a very strongly compressed one, reaches them.
+  double seconds = 0;    // of processor time; also the longest time without progress [s]
+  double memory_mb = 0;  // of address space [MiB]
 };
 
 }  // namespace burr::io

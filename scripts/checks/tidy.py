@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""The short list of .clang-tidy holds in the library.
+
+    scripts/checks/tidy.py [BUILD]         BUILD: has compile_commands.json; default build/release
+
+Most of clang-tidy's time goes into the headers of Eigen and of the standard library, once for each file. So the files of a
+room are looked at together, as one source that includes them. Where two of them cannot be compiled together (both have a
+constant of the same name), the group is halved until they are apart.
+
+Left out: what includes ITK or GDCM (a minute a file), and a kernel's copies for other processors.
+"""
+import collections
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+MOST = 8  # files in a group
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def commands(build):
+    """{file: how it is compiled, without its own name and what is written}"""
+    found = {}
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        file = pathlib.Path(entry["file"])
+        if file.is_relative_to(ROOT / "src" / "burr"):
+            words = shlex.split(entry["command"])
+            at = words.index("-o")
+            found[file] = tuple(word for word in words[:at] + words[at + 2:] if word not in ("-c", entry["file"]))
+    return found
+
+
+def groups(build):
+    """Lists of files of one room that are compiled alike, and how."""
+    alike = collections.defaultdict(list)
+    for file, command in sorted(commands(build).items()):
+        if file.suffix != ".cpp" or re.search(r"_avx(2|512)\.cpp$", file.name):
+            continue
+        if not re.search(r"#include <(itk|gdcm)", file.read_text(errors="replace")):
+            alike[file.relative_to(ROOT / "src" / "burr").parts[0], command].append(file)
+    for (_, command), files in alike.items():
+        count = -(-len(files) // MOST)
+        for first in range(count):
+            yield files[first::count], command
+
+
+def look(files, command, folder):
+    """What clang-tidy says about these files."""
+    place = pathlib.Path(tempfile.mkdtemp(dir=folder))
+    source = place / "together.cpp"
+    if len(files) == 1:
+        source = files[0]
+    else:
+        source.write_text("".join(f'#include "{file}"  // NOLINT\n' for file in files))
+    (place / "compile_commands.json").write_text(json.dumps(
+        [{"directory": str(place), "file": str(source), "command": shlex.join([*command, "-c", str(source)])}]))
+    done = subprocess.run(["clang-tidy", "-p", str(place), "--quiet", f"--config-file={ROOT / '.clang-tidy'}",
+                           f"--header-filter={ROOT}/src/burr/.*", "--extra-arg=-Wno-unknown-warning-option", str(source)],
+                          capture_output=True, text=True, check=False)
+    if done.returncode == 0:
+        return ""
+    if len(files) > 1:  # not together, or a finding: who it was is said of smaller groups
+        return look(files[::2], command, folder) + look(files[1::2], command, folder)
+    said = "\n".join(line for line in (done.stdout + done.stderr).splitlines() if not re.match(r"\d+ warnings? ", line))
+    return said + "\n" if said.strip() else f"clang-tidy ended with {done.returncode} at {files[0]}\n"
+
+
+def main():
+    build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build" / "release").resolve()
+    work = sorted(groups(build), key=lambda group: -sum(file.stat().st_size for file in group[0]))
+    if not work:
+        print(f"tidy.py: {build}/compile_commands.json names no file of src/burr", file=sys.stderr)
+        return 2
+    with tempfile.TemporaryDirectory() as folder:
+        workers = int(os.environ.get("BURR_CORES", 0)) or os.cpu_count()
+        with concurrent.futures.ThreadPoolExecutor(workers) as pool:  # the longest first
+            said = list(pool.map(lambda group: look(*group, folder), work))
+    sys.stdout.write("".join(said))
+    return 1 if any(said) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
