@@ -8,7 +8,7 @@
 #include "burr/render/scene.h"
 #include "burr/sim/session.h"
 #include "window/mill/export_page.h"
-#include "window/mill/window.h"
+#include "window/mill/window_options.h"
 #include "window/shell/settings_page.h"
 
 namespace burr::app {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "window/mill/window.h"
+#include "window/mill/window_options.h"
 #include "window/replay/playback.h"
 #include "window/shell/desk.h"
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "window/mill/window.h"
+#include "window/mill/window_options.h"
 #include "window/replay/replay_page.h"
 #include "window/shell/desk.h"
 #include "workshop/work.h"
