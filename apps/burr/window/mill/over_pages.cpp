@@ -3,14 +3,14 @@
 #include <filesystem>
 #include <utility>
 
-#include "window/mill/mill_keys.h"
 #include "window/shell/help.h"
 
 namespace burr::app {
 
 OverPages::OverPages(Desk& desk, sim::Session& session, const render::Scene& scene,
-                     const WindowOptions& options)
+                     const WindowOptions& options, HelpRows help_rows)
     : desk_(desk),
+      help_rows_(help_rows),
       help_(desk.settings.help),
       export_(desk, &session, scene, options.folder, options.film_of) {}
 
@@ -39,7 +39,7 @@ void OverPages::toggle_export() {
 }
 
 OverPages::Changed OverPages::draw(DeviceLeaf* device) {
-  if (help_) help_ = draw_help(desk_.ui(), mill_help_rows(desk_.settings.left_handed), help_pads_);
+  if (help_) help_ = draw_help(desk_.ui(), help_rows_(desk_.settings.left_handed), help_pads_);
   if (export_.shown()) export_.draw();
   return settings_ ? draw_settings_page(device) : Changed();
 }

@@ -4,20 +4,24 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "burr/render/scene.h"
 #include "burr/sim/session.h"
 #include "window/mill/export_page.h"
 #include "window/mill/window_options.h"
+#include "window/shell/help.h"
 #include "window/shell/settings_page.h"
 
 namespace burr::app {
 
 class OverPages {
  public:
+  // The rows of the help page; left_handed: the mouse's buttons are exchanged.
+  using HelpRows = std::vector<HelpRow> (*)(bool left_handed);
   // Before the session starts, as ExportPage.
   OverPages(Desk& desk, sim::Session& session, const render::Scene& scene,
-            const WindowOptions& options);
+            const WindowOptions& options, HelpRows help_rows);
 
   [[nodiscard]] bool open() const { return help_ || settings_ || export_.shown(); }
   void close();
@@ -39,6 +43,7 @@ class OverPages {
   Changed draw_settings_page(DeviceLeaf* device);
 
   Desk& desk_;
+  HelpRows help_rows_;
   bool help_, help_pads_ = false, settings_ = false, settings_pads_ = false;
   ExportPage export_;
 };

@@ -61,7 +61,7 @@ void Mill::begin() {
   saved_views_.emplace(state.empty() ? state : state / "views.toml",
                        key_of(session_.bone().grid()));
   note(saved_views_->trouble());
-  pages_.emplace(desk_, session_, scene_, options_);
+  pages_.emplace(desk_, session_, scene_, options_, &Mill::help_rows);
   colours_ = scene_.tissue_colours;
   pointer_.begin();
   desk_.cap.open();
