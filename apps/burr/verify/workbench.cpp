@@ -23,7 +23,7 @@ Workbench::Workbench(std::unique_ptr<volume::Bone> bone, const WorkSettings& set
       touch_by_(surface_, {.radius = settings.radius, .recovery = 5 / settings.rate_hz},
                 settings.touch),
       force_{settings.stiffness, settings.damping},
-      hand_(arm_, touch_by_.constraint(), force_, {.rate_hz = settings.rate_hz}) {
+      hand_(arm_, touch_by_.constraint(), force_, {.rate_hz = settings.rate_hz, .limit = {}}) {
   hand_.use(touch_by_.now());
 }
 
