@@ -7,6 +7,7 @@
 
 #include "burr/record/player.h"
 #include "burr/record/timeline.h"
+#include "burr/rt/flags.h"
 #include "burr/sim/replay.h"
 #include "burr/tick/mirror_plane.h"
 #include "record/made_up.h"
@@ -87,7 +88,7 @@ TEST(RecordedTool, ChangesAtItsTickAndNotByAnUndo) {
     bool restored = false;
     for (std::uint64_t tick = asked; tick < asked + 300; ++tick)
       restored = restored || (player->tick_at(1e-3 * static_cast<double>(tick))->contact.flags &
-                              haptics::kFlagRestoring) != 0;
+                              rt::kFlagRestoring) != 0;
     EXPECT_TRUE(restored) << asked;
   }
   expect_same_to_the_bit(*player);

@@ -113,7 +113,7 @@ class Player {
       std::size_t reserve_bricks) const;
   // with the room for deposits that it had
   [[nodiscard]] Result<std::unique_ptr<volume::Bone>> embedded_bone() const {
-    return embedded_bone(static_cast<std::size_t>(info_.volume.reserve_bricks));
+    return embedded_bone(static_cast<std::size_t>(info_.volume.recipe.reserve_bricks));
   }
 
  private:

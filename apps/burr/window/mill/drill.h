@@ -34,7 +34,6 @@ class Drill {
 
   [[nodiscard]] tick::ToolMode mode() const { return mode_; }
   [[nodiscard]] double full_speed() const { return full_speed_; }  // requested  [rad/s]
-  [[nodiscard]] bool irrigated() const { return irrigated_; }
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "burr/haptics/contact.h"
+#include "burr/rt/flags.h"
 
 namespace burr::app {
 
 void TickWatch::see(const tick::TickRow& row, double rate_hz, Clock::time_point now) {
   stats_.add(static_cast<std::int64_t>(1e3 * static_cast<double>(row.took_us)));
-  if ((row.contact.flags & haptics::kFlagWatchdog) != 0) lost_at_ = now;
+  if ((row.contact.flags & rt::kFlagWatchdog) != 0) lost_at_ = now;
 
   // ticks that are not there by now; two may be under way
   if (!first_) first_ = {row.tick, now};

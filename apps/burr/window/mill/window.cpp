@@ -78,8 +78,7 @@ Status Mill::frame(LiveSurface& live) {
   if (!desk_.settings.effects)
     live.look_plain();
   else if (ticks_.begun())
-    live.see(wound_tick(row_, session_.settings().servo.rate_hz, scene_.burr.radius,
-                        drill_.irrigated()));
+    live.see(wound_tick(row_, session_.settings().servo.rate_hz));
   tube_.lead(hands_.suction, scene_, live, desk_.settings.effects);
   note(headset_.begin(live.governor(), scene_.camera));
   point();

@@ -9,6 +9,7 @@
 #include "burr/render/picture.h"
 #include "commands/command.h"
 #include "window/import/import_page.h"
+#include "window/mill/window.h"
 #include "window/replay/playback.h"
 #include "window/shell/loading.h"
 #include "window/shell/words.h"
