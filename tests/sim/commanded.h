@@ -65,7 +65,7 @@ inline double record_commanded(const std::string& path, const Commanded& plan) {
   info.volume.content_hash = (*session)->bone().content_hash();
   info.volume.grid = (*session)->bone().grid();
   info.volume.tissues = (*session)->bone().tissues();
-  info.volume.reserve_bricks = 256;
+  info.volume.recipe.reserve_bricks = 256;
   record::Recorder recorder(info.rate_hz, 8192);
   const Status started = recorder.start(path, info, &(*session)->bone());
   EXPECT_TRUE(started.ok()) << started.error().text;

@@ -10,6 +10,7 @@
 #include "burr/render/pick.h"
 #include "burr/rt/changed_bits.h"
 #include "window/mill/see_through.h"
+#include "window/mill/window.h"
 #include "window/start/sessions.h"
 #include "window/user.h"
 #include "workshop/recording.h"

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "support/data.h"
+#include "window/mill/window.h"
 #include "window/shell/pages.h"
 #include "window/shell/words.h"
 
