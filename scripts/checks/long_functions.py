@@ -14,16 +14,12 @@ LIMITS = [("src/burr/tick/", 60), ("", 100)]
 
 # "file: function" -> most lines
 KNOWN = {
-    "recorded_log.cpp: log_of_recording": 104,
     "import.cpp: make_plan": 111,
     "dicom_header.cpp: read_dicom_header": 131,
     "geometry.cpp: straighten": 102,
     "read_meta.cpp: read_meta": 113,
     "iso_kernel.inc: extract_vertices": 109,
-    "cutting.cpp: laws": 104,
     "friction.cpp: friction": 104,
-    "mill_hand.cpp: Mill::key": 159,
-    "toolbar.cpp: icon": 115,
 }
 
 BLANK = re.compile(

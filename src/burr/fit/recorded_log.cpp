@@ -68,6 +68,28 @@ struct Window {
   double removed_at_start = 0;
 };
 
+// Refuses a tick from which no constant can be fitted. kind: of the burr in the ticks before.
+Status check_step(const record::Step& step, tool::BurrKind kind, const record::SessionInfo& info,
+                  const std::string& file) {
+  for (const tick::Command& command : step.commands)
+    if (command.kind == tick::CommandKind::removal_law && command.value == 1)
+      return error(
+          fmt::format("{}: was milled in part by the thesis' removal, which knows no "
+                      "force; record with --removal energy",
+                      file));
+  if (!(step.row.tool.radius > 0))
+    return error(
+        fmt::format("{}: does not say how large the burr is; it was recorded by another "
+                    "version of burr ({})",
+                    file, base::shown(info.burr_version)));
+  if (step.row.tool.kind != kind)
+    return error(
+        fmt::format("{}: the burr was changed between cutting and diamond on the way; record "
+                    "one session for each",
+                    file));
+  return fine();
+}
+
 }  // namespace
 
 Result<ForceLog> log_of_recording(record::Player& player, double window,
@@ -99,24 +121,9 @@ Result<ForceLog> log_of_recording(record::Player& player, double window,
   std::optional<tool::BurrKind> kind;  // of the whole session
   std::uint64_t removing = 0;
   while (steps.next(step)) {
-    for (const tick::Command& command : step.commands) {
-      if (command.kind == tick::CommandKind::removal_law && command.value == 1)
-        return error(
-            fmt::format("{}: was milled in part by the thesis' removal, which knows no "
-                        "force; record with --removal energy",
-                        file));
-    }
     const tick::TickRow& tick = step.row;
-    if (!(tick.tool.radius > 0))
-      return error(
-          fmt::format("{}: does not say how large the burr is; it was recorded by another "
-                      "version of burr ({})",
-                      file, base::shown(info.burr_version)));
-    if (tick.tool.kind != kind.value_or(tick.tool.kind))
-      return error(
-          fmt::format("{}: the burr was changed between cutting and diamond on the way; record "
-                      "one session for each",
-                      file));
+    const Status usable = check_step(step, kind.value_or(tick.tool.kind), info, file);
+    if (!usable) return usable.error();
     kind = tick.tool.kind;
     if (now.ticks == 0) {
       now = {};
