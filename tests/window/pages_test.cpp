@@ -149,7 +149,7 @@ TEST_F(Window, ShowsWhatIsToBeDoneUntilTheKeyHidesIt) {
   ASSERT_TRUE(left) << left.error().text;
   EXPECT_TRUE(script.finished());
   EXPECT_GT(differ(with, without, 104, 10, 464, 60), 5000);
-  EXPECT_LT(differ(with, without, 500, 10, 1000, 200), 50);
+  EXPECT_LT(differ(with, without, 700, 20, 1050, 200), 50);
   EXPECT_GT(differ(without, again, 104, 10, 464, 60), 5000);
 }
 
