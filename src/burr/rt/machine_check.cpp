@@ -4,6 +4,7 @@
 #include <array>
 #include <concepts>
 #include <cstdio>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,11 @@ std::string number(double value, const char* format) {
   return text;
 }
 std::string number(std::integral auto value) { return std::to_string(value); }
+std::string joined(std::initializer_list<std::string_view> parts) {
+  std::string all;
+  for (const std::string_view part : parts) all.append(part);
+  return all;
+}
 
 constexpr const char* kHow = "docs/realtime.md, \"Allowing real time\", has the two lines";
 
@@ -45,25 +51,26 @@ CheckLine priority_line(const MachineSeen& seen) {
   if (seen.grant.fifo) {
     const Machine& m = seen.machine;
     if (m.fifo_share_us >= 0 && m.fifo_period_us > 0 && 10 * m.fifo_share_us < 9 * m.fifo_period_us)
-      line.change = "the kernel gives SCHED_FIFO only " + number(m.fifo_share_us) + " of " +
-                    number(m.fifo_period_us) + " us; raise kernel.sched_rt_runtime_us with sysctl";
+      line.change =
+          joined({"the kernel gives SCHED_FIFO only ", number(m.fifo_share_us), " of ",
+                  number(m.fifo_period_us), " us; raise kernel.sched_rt_runtime_us with sysctl"});
     return line;
   }
   line.is = "ordinary: any busy program may delay the tick";
   line.change = seen.machine.fifo_limit > 0
-                    ? "SCHED_FIFO is allowed up to " + number(seen.machine.fifo_limit) +
-                          " but 80 is needed; " + kHow
-                    : std::string("allow SCHED_FIFO (rtprio) for your user; ") + kHow;
+                    ? joined({"SCHED_FIFO is allowed up to ", number(seen.machine.fifo_limit),
+                              " but 80 is needed; ", kHow})
+                    : joined({"allow SCHED_FIFO (rtprio) for your user; ", kHow});
   return line;
 }
 
 CheckLine memory_line(const MachineSeen& seen) {
   CheckLine line{"memory", "locked: what was touched once stays", ""};
   if (seen.grant.locked) return line;
-  line.is = seen.machine.locked_bytes == kNoLimit
-                ? std::string("not locked")
-                : "not locked: the limit is " + number(seen.machine.locked_bytes / 1024) + " KiB";
-  line.change = std::string("allow memlock unlimited for your user; ") + kHow;
+  line.is = "not locked";
+  if (seen.machine.locked_bytes != kNoLimit)
+    line.is += joined({": the limit is ", number(seen.machine.locked_bytes / 1024), " KiB"});
+  line.change = joined({"allow memlock unlimited for your user; ", kHow});
   return line;
 }
 
