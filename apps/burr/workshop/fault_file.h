@@ -1,5 +1,6 @@
-// apps/burr/workshop/fault_file.h - the last ticks before a haptic device's force was let go, as a table to
-// look at afterwards or to send: what happened in words, then a row a tick.
+// apps/burr/workshop/fault_file.h - the last ticks before a haptic device's force was released.
+//
+// A table to look at afterwards or to send: what happened in words, then one row for each tick.
 //
 // Holds no name of a patient or a file. Thread: main.
 #pragma once

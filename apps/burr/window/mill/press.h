@@ -24,7 +24,7 @@ class Press {
     foot_ = foot;
     slowed_ = slowed;
   }
-  // what pads and pedals say is said anew each picture
+  // Called in each picture, before the gamepad and the pedals report anew.
   void rest_pads() { trigger_ = foot_ = 0; }
   void lift() {
     button_ = held_ = false;
