@@ -35,7 +35,7 @@ if(BURR_APP)
   endif()
 endif()
 
-# The bones of the built-in cases, shaped once here: their formulas take seconds (apps/burr/workshop/prebuilt_phantom.h).
+# The bones of the built-in cases, shaped once here: their formulas take seconds (src/burr/workshop/prebuilt_phantom.h).
 # Not where a sanitizer watches: there it takes minutes, and the program falls back on the formula.
 if(BURR_APP AND NOT BURR_SANITIZE AND NOT BURR_WARNINGS_ONLY)
   foreach(phantom temporal-bone jaw tooth spine)

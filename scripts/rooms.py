@@ -37,6 +37,7 @@ ALLOWED = {
     "record": "tick scenario device haptics edit volume rt",
     "sim": "tick record device haptics thermal people volume tool rt",
     "fit": "record",
+    "workshop": "sim record importing io phantom surgeon scenario device volume tool rt",
 }
 BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest floors know less than everyone
 

@@ -19,6 +19,7 @@
 #include "bench/full_load_run.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/rt/idle_loop.h"
+#include "burr/workshop/prepare.h"
 #include "commands/volume_words.h"
 
 namespace burr::app {
@@ -132,10 +133,8 @@ Status run(Options options) {
   settings.realtime = true;
   settings.servo.rate_hz = options.rate_hz;
   settings.servo.burr.radius = radius;
-  auto made = sim::Session::make(
-      std::move(opened->bone),
-      std::make_unique<device::SimulatedHand>(std::move(pockets->path), device::ArmSettings{}),
-      settings, progress());
+  auto made = workshop::begin_by_itself(std::move(opened->bone), std::move(pockets->path), settings,
+                                        progress());
   if (!made) return made.error();
 
   progress().report(0, "a loop that only waits");

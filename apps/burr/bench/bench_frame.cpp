@@ -33,6 +33,7 @@
 #include "burr/surface/mesher.h"
 #include "burr/surface/worker.h"
 #include "burr/surgeon/motion.h"
+#include "burr/workshop/prepare.h"
 #include "commands/volume_words.h"
 #include "workshop/live_surface.h"
 #include "workshop/open_volume.h"
@@ -380,10 +381,8 @@ Status run(Options options) {
   settings.realtime = true;
   settings.servo.rate_hz = options.rate_hz;
   settings.servo.burr.radius = radius;
-  auto session = sim::Session::make(
-      std::move(opened->bone),
-      std::make_unique<device::SimulatedHand>(std::move(pockets->path), device::ArmSettings{}),
-      settings, progress());
+  auto session = workshop::begin_by_itself(std::move(opened->bone), std::move(pockets->path),
+                                           settings, progress());
   if (!session) return session.error();
   auto renderer = render::Renderer::offscreen();
   if (!renderer) return renderer.error();

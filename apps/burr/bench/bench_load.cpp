@@ -17,6 +17,7 @@
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
 #include "burr/surgeon/motion.h"
+#include "burr/workshop/prepare.h"
 #include "commands/volume_words.h"
 #include "workshop/open_volume.h"
 
@@ -113,9 +114,8 @@ Status memory(const Options& options) {
   if (!path) return path.error();
   sim::SessionSettings settings;
   settings.servo.burr.radius = radius;
-  auto session = sim::Session::make(
-      std::move(opened->bone),
-      std::make_unique<device::SimulatedHand>(*path, device::ArmSettings{}), settings, stages);
+  auto session =
+      workshop::begin_by_itself(std::move(opened->bone), std::move(*path), settings, stages);
   if (!session) return session.error();
   surface::Worker worker((*session)->bone(), 2);
   render::Scene scene;

@@ -13,6 +13,7 @@
 #include "burr/rt/idle_loop.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
+#include "burr/workshop/prepare.h"
 #include "commands/command.h"
 #include "workshop/open_volume.h"
 
@@ -62,10 +63,8 @@ Result<Bench> make_bench(const MachineTrial& options, double seconds) {
   settings.realtime = true;
   settings.servo.rate_hz = kRate;
   settings.servo.burr.radius = kBurr;
-  auto made = sim::Session::make(
-      std::move(opened->bone),
-      std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{}), settings,
-      progress());
+  auto made =
+      workshop::begin_by_itself(std::move(opened->bone), std::move(*path), settings, progress());
   if (!made) return made.error();
   bench.session = std::move(*made);
   return bench;

@@ -15,6 +15,7 @@
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
 #include "burr/tick/mirror_plane.h"
+#include "burr/workshop/prepare.h"
 #include "commands/command.h"
 #include "commands/volume_words.h"
 #include "workshop/open_volume.h"
@@ -240,8 +241,8 @@ Status run(const Options& options) {
   device::ArmSettings arm;
   if (options.arm == "rigid") arm.stiffness = INFINITY;
   if (options.arm == "light") arm = {.mass = 0.06, .damping = 5, .stiffness = 200};
-  auto hand = std::make_unique<device::SimulatedHand>(std::move(*path), arm);
-  auto made = sim::Session::make(std::move(opened->bone), std::move(hand), settings, progress());
+  auto made = workshop::begin_by_itself(std::move(opened->bone), std::move(*path), settings,
+                                        progress(), arm);
   if (!made) return made.error();
   sim::Session& session = **made;
   if (mirror.on()) session.command(tick::command_for(mirror));

@@ -18,6 +18,7 @@
 #include "burr/render/renderer.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
+#include "burr/workshop/prepare.h"
 #include "commands/command.h"
 #include "commands/summary.h"
 #include "commands/volume_words.h"
@@ -114,9 +115,8 @@ Status run_headless(const Options& options) {
   const sim::SessionSettings settings = settings_of(requested, false);
   auto path = surgeon::motion(requested.motion, work.place, settings.servo.burr.radius, seconds);
   if (!path) return path.error();
-  auto hand = std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{});
   auto started =
-      sim::Session::make(std::move(work.made.bone), std::move(hand), settings, progress());
+      workshop::begin_by_itself(std::move(work.made.bone), std::move(*path), settings, progress());
   if (!started) return started.error();
   sim::Session& session = **started;
 

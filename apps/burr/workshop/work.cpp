@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "burr/math/turn.h"
+#include "burr/workshop/prepare.h"
 #include "workshop/live_surface.h"
 
 namespace burr::app {
@@ -57,8 +58,7 @@ Status take_case(WorkOptions& options) {
 
 void take_case(WorkOptions& options, const scenario::Case& work) {
   scenario::Recipe& volume = options.volume;
-  volume.source = work.phantom.empty() ? work.volume : scenario::phantom_source(work.phantom);
-  if (volume.voxel_mm == 0) volume.voxel_mm = 1e3 * work.voxel;
+  volume = workshop::recipe_of(work, volume);
   if (options.burr_mm == 0) options.burr_mm = 2e3 * work.burr.radius;
   if (options.rpm == 0) options.rpm = work.full_speed * 60 / (2 * std::numbers::pi);
   if (options.seconds == 0) options.seconds = work.seconds;
@@ -74,22 +74,17 @@ void take_case(WorkOptions& options, const scenario::Case& work) {
 Result<Work> open_work(WorkOptions options, Progress& progress, const io::Scan* scan) {
   scenario::Recipe& volume = options.volume;
   if (bare_name(volume.source)) volume.source = scenario::phantom_source(volume.source);
-  const bool phantom = scenario::is_phantom(volume.source);
-  auto made = open_volume(volume, progress, scan, options.keep_greys);
-  if (!made) return made.error();
-  if (options.work_case) {
-    const Status fits = scenario::check_tissues(*options.work_case, made->bone->tissues());
-    if (!fits) return fits.error();
-  }
-
+  const workshop::Tool tool{options.burr_mm, options.rpm, options.kind};
+  auto prepared =
+      options.work_case
+          ? workshop::prepare(*options.work_case, progress, tool, volume, scan, options.keep_greys)
+          : workshop::prepare(volume, progress, tool, scan, options.keep_greys);
+  if (!prepared) return prepared.error();
   Work work;
-  work.made = std::move(*made);
-  work.volume = volume;
-  work.what = phantom ? scenario::phantom_name(volume.source) : work.made.summary.format + " scan";
-  auto place =
-      surgeon::find_work_place(*work.made.bone, 0.5e-3 * options.burr_mm, options.at, options.into);
-  if (!place) return place.error();
-  work.place = *place;
+  work.made = {std::move(prepared->bone), std::move(prepared->summary), std::move(prepared->greys)};
+  work.volume = std::move(prepared->recipe);
+  work.what = std::move(prepared->what);
+  work.place = prepared->place;
   return work;
 }
 
@@ -103,15 +98,11 @@ sim::SessionSettings settings_of(const WorkOptions& options, bool realtime) {
 }
 
 void fit_burr(WorkOptions& options, importing::Imported& made) {
-  const double least_mm = std::ceil(4e4 * made.bone->grid().voxel - 1e-6) / 10;
-  if (options.burr_mm >= least_mm || least_mm > 1e3 * tool::kLargestDiameter) return;
-  made.summary.notices.push_back(
-      fmt::format("A burr of {:.2f} mm is too small for voxels of {:.2f} mm: one of {:.1f} mm is "
-                  "taken; a smaller one "
-                  "wants --voxel-mm {:.2f} or finer.",
-                  options.burr_mm, 1e3 * made.bone->grid().voxel, least_mm,
-                  std::floor(25 * options.burr_mm) / 100));
-  options.burr_mm = least_mm;
+  std::vector<std::string> told, &notices = made.summary.notices;
+  workshop::fit_burr(options.burr_mm, made.bone->grid().voxel, told);
+  for (std::string& one : told)  // open_work() may have told it already
+    if (std::find(notices.begin(), notices.end(), one) == notices.end())
+      notices.push_back(std::move(one));
 }
 
 math::Quat view_of_hand(const render::Camera& camera) {

@@ -1,4 +1,4 @@
-#include "workshop/prebuilt_phantom.h"
+#include "burr/workshop/prebuilt_phantom.h"
 
 #include <filesystem>
 #include <fstream>
@@ -8,7 +8,7 @@
 #include "burr/base/new_file.h"
 #include "burr/record/bone_blob.h"
 
-namespace burr::app {
+namespace burr::workshop {
 
 std::unique_ptr<volume::Bone> prebuilt_phantom(const std::string& phantom,
                                                std::size_t reserve_bricks) {
@@ -33,4 +33,4 @@ Status write_prebuilt_phantom(const volume::Bone& bone, const std::string& path)
   return file->put_in_place();
 }
 
-}  // namespace burr::app
+}  // namespace burr::workshop

@@ -1,12 +1,12 @@
 // The bones shaped at build time are those of their formulas, to the bit.
-#include "workshop/prebuilt_phantom.h"
+#include "burr/workshop/prebuilt_phantom.h"
 
 #include <gtest/gtest.h>
 
 #include "burr/base/progress.h"
 #include "burr/phantom/phantoms.h"
 
-namespace burr::app {
+namespace burr::workshop {
 namespace {
 
 TEST(PrebuiltPhantom, IsTheBoneOfItsFormulaToTheBit) {
@@ -44,4 +44,4 @@ TEST(PrebuiltPhantom, OfWhatIsNotThereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace burr::app
+}  // namespace burr::workshop

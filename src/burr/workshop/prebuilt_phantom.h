@@ -1,4 +1,4 @@
-// apps/burr/workshop/prebuilt_phantom.h - the bones of the built-in cases, shaped when burr was built: a formula
+// workshop/prebuilt_phantom.h - the bones of the built-in cases, shaped when burr was built: a formula
 // takes seconds, a file does not. `burr phantom NAME --out NAME.bone` makes one; it is looked for
 // in bones/ beside the program, then in share/burr/bones of the same installation.
 //
@@ -11,7 +11,7 @@
 #include "burr/base/result.h"
 #include "burr/volume/bone.h"
 
-namespace burr::app {
+namespace burr::workshop {
 
 // The phantom with its usual voxels, to the bit as its formula makes it; nothing where no file has
 // it or the file is damaged: the formula is always there.
@@ -20,4 +20,4 @@ namespace burr::app {
 
 [[nodiscard]] Status write_prebuilt_phantom(const volume::Bone& bone, const std::string& path);
 
-}  // namespace burr::app
+}  // namespace burr::workshop
