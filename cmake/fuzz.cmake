@@ -22,11 +22,6 @@ foreach(source ${fuzz_targets})
   add_dependencies(fuzzers ${name})
 endforeach()
 
-# part of the program, not of the library
-target_sources(fuzz_device_book PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr/workshop/device_book.cpp ${PROJECT_SOURCE_DIR}/apps/burr/workshop/places.cpp)
-burr_reads_files(${PROJECT_SOURCE_DIR}/apps/burr/workshop/device_book.cpp)
-target_include_directories(fuzz_device_book PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${PROJECT_SOURCE_DIR}/third_party)
-
 add_executable(fuzz_seeds EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/fuzz/seeds.cpp)
 target_link_libraries(fuzz_seeds PRIVATE burr_fuzzed)
 target_compile_definitions(fuzz_seeds PRIVATE BURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

@@ -9,7 +9,7 @@ if(TARGET burr_program)
 endif()
 # Public headers: these, and what they include. Every other header may change from one version to the next, and stays here.
 set(BURR_PUBLIC base/check base/hash base/progress base/result base/version
-  math/*  tool/*  scenario/*  workshop/*
+  math/*  tool/*  scenario/*  workshop/prepare workshop/open_bone workshop/recording workshop/spared workshop/hand_device
   volume/bone volume/grid volume/tissue volume/sample volume/distance_to volume/thickness volume/volume_of
   volume/iso_vertices haptics/proxy haptics/touch_method haptics/force_law surface/mesher  # to touch and to show a bone without a session
   device/hand device/device device/simulated_hand device/replayed_hand

@@ -30,6 +30,7 @@ list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_materials.cpp)
 #     burr_render_gl     + OpenGL, SDL, OpenXR                    pictures
 #     burr_sound         + SDL                                    sound
 #     burr_device_...    + what its maker gives                   one each
+#     burr_workshop      + all of these                           opens things: bone, place, hand, recorder, live surface
 #
 # burr_part(NAME WITH TARGET... FROM GLOB...): the sources that match; each belongs to one part.
 set(rest ${BURR_SOURCES})
@@ -64,6 +65,7 @@ foreach(vendor crtk forcedimension haply openhaptics polhem)
 endforeach()
 burr_part(burr_render_gl FROM render/ WITH PkgConfig::EPOXY PkgConfig::SDL2 meshoptimizer::meshoptimizer ${CMAKE_DL_LIBS})
 burr_part(burr_sound FROM sound/ WITH PkgConfig::SDL2 ${CMAKE_DL_LIBS})
+burr_part(burr_workshop FROM workshop/)
 burr_part(burr_session FROM device/ people/ fit/ surgeon/ sim/ WITH ${CMAKE_DL_LIBS})
 burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/
   MORE ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp
@@ -91,7 +93,7 @@ set_target_properties(burr PROPERTIES OUTPUT_NAME burr VERSION ${PROJECT_VERSION
   LINKER_LANGUAGE CXX INSTALL_RPATH "$ORIGIN")  # it finds libburr_core.so beside itself
 
 set(reading ${BURR_SOURCES} ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp)
-list(FILTER reading INCLUDE REGEX "/(base|io|importing|record|scenario|fit|third_party)/|/surgeon/motion[.]cpp$|/sim/(replay|session_words)[.]cpp$|/device/(haply/message|polhem/line)[.]cpp$")
+list(FILTER reading INCLUDE REGEX "/(base|io|importing|record|scenario|fit|third_party)/|/workshop/device_book[.]cpp$|/surgeon/motion[.]cpp$|/sim/(replay|session_words)[.]cpp$|/device/(haply/message|polhem/line)[.]cpp$")
 burr_reads_files(${reading})
 
 # what the built-in bones are shaped by (program.cmake)

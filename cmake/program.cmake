@@ -40,12 +40,11 @@ if(BURR_APP)
   endfunction()
 
   # the parts that tests use as well, compiled once: the window, the doctor, and what both need
-  set(BURR_APP_PARTS commands/html_page
+  set(BURR_APP_PARTS commands/hand_options commands/html_page commands/picture_size commands/recording commands/work
     devices/trial devices/trial_words doctor/apart doctor/devices_there doctor/finding doctor/fix doctor/nodes)
   list(TRANSFORM BURR_APP_PARTS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/apps/burr/\\1.cpp")
-  file(GLOB_RECURSE window_and_workshop CONFIGURE_DEPENDS
-    ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp ${PROJECT_SOURCE_DIR}/apps/burr/workshop/*.cpp)
-  list(APPEND BURR_APP_PARTS ${window_and_workshop})
+  file(GLOB_RECURSE window CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp)
+  list(APPEND BURR_APP_PARTS ${window})
   list(REMOVE_ITEM BURR_APP ${BURR_APP_PARTS})
   add_library(burr_app STATIC EXCLUDE_FROM_ALL ${BURR_APP_PARTS} ${CMAKE_BINARY_DIR}/words/word_texts.cpp)
   burr_of_program(burr_app)
@@ -62,7 +61,7 @@ if(BURR_APP)
 endif()
 
 # The bones of the built-in cases, shaped once at build time: their formulas take seconds
-# (apps/burr/workshop/prebuilt_phantom.h). Not in sanitizer builds, where this takes minutes; there
+# (src/burr/workshop/prebuilt_phantom.h). Not in sanitizer builds, where this takes minutes; there
 # the program uses the formula.
 if(BURR_APP AND NOT BURR_SANITIZE AND NOT BURR_WARNINGS_ONLY)
   foreach(phantom temporal-bone jaw tooth spine)

@@ -1,19 +1,19 @@
 // A user's devices.toml; the first line is one setting as on the command line.
-#include "workshop/device_book.h"
 
+#include "burr/workshop/device_book.h"
 #include "support.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace burr;
   fuzz::Pieces in({data, size});
   const std::string_view assignment = in.line();
-  auto book = app::DeviceBook::parse(fuzz::text_of(in.rest()), "a.toml");
+  auto book = workshop::DeviceBook::parse(fuzz::text_of(in.rest()), "a.toml");
   for (const std::string& trouble : book.troubles()) fuzz::look_at(error(trouble));
   const Status set = book.set("Touch T-1", assignment);
   if (!set) fuzz::look_at(set.error());
-  const app::DevicePreferences preferences = book.of("Touch T-1");
+  const workshop::DevicePreferences preferences = book.of("Touch T-1");
   const auto within = [](std::string_view key, double value) {
-    const app::PreferenceRange range = app::range_of_preference(key);
+    const workshop::PreferenceRange range = workshop::range_of_preference(key);
     fuzz::must(value >= range.least && value <= range.most, "a preference is within its range");
   };
   within("scale", preferences.mapping.scale);
@@ -24,7 +24,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   within("clutch_button", preferences.mapping.clutch_button);
   fuzz::must(std::abs(preferences.mapping.axes.norm() - 1) < 1e-9, "a device stands somehow");
   const std::string written = book.text();
-  const auto again = app::DeviceBook::parse(written, "b.toml");
+  const auto again = workshop::DeviceBook::parse(written, "b.toml");
   fuzz::must(again.troubles().empty() && again.text() == written, "what is written is read");
   return 0;
 }

@@ -38,6 +38,7 @@ ALLOWED = {
     "record": "tick scenario device haptics edit volume tool rt",
     "sim": "tick record device haptics thermal people volume tool rt",
     "fit": "record",
+    "workshop": "sim tick record importing io phantom surgeon scenario surface render sound device volume tool rt",
 }
 BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest rooms, with shorter lists
 

@@ -29,7 +29,7 @@ done < <(objects burr_core)
 # names that a part defines for others, and that it needs of others; no templates and inline functions (W, V)
 names() { objects "$1" | xargs nm -g "$2" | awk -v kinds="$3" 'NF >= 2 && index(kinds, $(NF-1)) {print $NF}' | sort -u; }
 leaves=(burr_render_gl burr_sound burr_device_crtk burr_device_forcedimension burr_device_haply burr_device_openhaptics
-  burr_device_polhem)
+  burr_device_polhem burr_workshop)
 not_above() {  # PART ABOVE...
   local part=$1 above found
   shift

@@ -1,5 +1,5 @@
 // The key and the loudness of the window's sound, and that the window works without a sound device.
-#include "workshop/loudspeaker.h"
+#include "window/mill/loudspeaker.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -7,10 +7,13 @@
 #include <fstream>
 #include <optional>
 
+#include "burr/workshop/device_book.h"
+#include "burr/workshop/suction_hand.h"
+#include "commands/work.h"
 #include "device/fake/fake_hd.h"
+#include "window/mill/make_ready.h"
 #include "window/stick.h"
 #include "window/user.h"
-#include "workshop/suction_hand.h"
 
 namespace burr::app {
 namespace {
@@ -217,7 +220,7 @@ TEST_F(DeviceWindow, ASecondOneLeadsTheSuctionAndFeelsTheBone) {
     const math::Quat view = view_of_hand(ready->scene.camera);
     const auto tube = [&]() -> const render::Rod* {
       for (const render::Rod& rod : ready->scene.rods)
-        if (rod.radius == SuctionHand::kRadius) return &rod;
+        if (rod.radius == workshop::SuctionHand::kRadius) return &rod;
       return nullptr;
     };
     const auto stylus_goes = [&](const Vec3& mm) {
@@ -388,7 +391,7 @@ TEST_F(DeviceWindow, ItsSettingsAreChangedThereAndKeptInItsBook) {
   const std::string id = ready->hands.id;
   EXPECT_EQ(ready->hands.max_force, 3.3);
   const auto none = [] {};
-  const auto kept = [&] { return DeviceBook::read(users_book()).of(id); };
+  const auto kept = [&] { return workshop::DeviceBook::read(workshop::users_book()).of(id); };
   // below the two sliders of gamepad and SpaceMouse
   mill_by(*ready, {{"the first picture", looks(3), [] { press(SDLK_F2); }},
                    {"the page", looks(5), [] { click(1280 / 2 + 200, 83); }},

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "burr/io/export_part.h"
+#include "window/mill/make_ready.h"
 #include "window/mill/window.h"
 #include "window/user.h"
 

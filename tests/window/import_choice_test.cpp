@@ -1,5 +1,5 @@
 // What the import page works out: greys, directions, regions, tables, planes, memory.
-#include "workshop/import_choice.h"
+#include "window/import/import_choice.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 #include <fstream>
 #include <string>
 
+#include "window/import/import_preview.h"
 #include "window/user.h"
-#include "workshop/import_preview.h"
 
 namespace burr::app {
 namespace {

@@ -8,10 +8,11 @@
 #include <fstream>
 
 #include "burr/record/player.h"
+#include "burr/workshop/open_bone.h"
+#include "burr/workshop/recording.h"
 #include "window/shell/pages.h"
 #include "window/start/sessions.h"
 #include "window/user.h"
-#include "workshop/recording.h"
 
 namespace burr::app {
 namespace {
@@ -26,7 +27,7 @@ void click_on(const Part& part) {
 // The bone that the command line makes of the same words.
 std::uint64_t hash_of(const scenario::Recipe& options) {
   NoProgress quiet;
-  auto made = open_volume(options, quiet);
+  auto made = workshop::open_bone(options, quiet);
   EXPECT_TRUE(made) << made.error().text;
   return made ? made->bone->content_hash() : 0;
 }
@@ -381,7 +382,7 @@ TEST_F(ImportWindow, WhatWasMeasuredIsThereWhenOneGoesOn) {
   }
   const auto player = record::Player::open(kept[0].file.string());
   ASSERT_TRUE(player);
-  EXPECT_EQ(scan_greys_of(**player, kept[0].options.volume, quiet), nullptr);
+  EXPECT_EQ(workshop::greys_of(**player, kept[0].options.volume, quiet), nullptr);
 }
 
 TEST_F(ImportWindow, CanBeStoppedWhileItReadsAndWhileBoneIsMade) {

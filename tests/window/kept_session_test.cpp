@@ -7,6 +7,8 @@
 #include <string>
 
 #include "burr/base/progress.h"
+#include "commands/work.h"
+#include "window/mill/make_ready.h"
 #include "window/start/sessions.h"
 
 namespace burr::app {

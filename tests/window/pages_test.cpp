@@ -9,11 +9,11 @@
 #include "burr/record/player.h"
 #include "burr/render/pick.h"
 #include "burr/rt/changed_bits.h"
+#include "burr/workshop/recording.h"
 #include "window/mill/see_through.h"
 #include "window/mill/window.h"
 #include "window/start/sessions.h"
 #include "window/user.h"
-#include "workshop/recording.h"
 
 namespace burr::app {
 namespace {
@@ -358,7 +358,7 @@ TEST_F(Window, TakesADroppedScanMillsItComesBackAndGoesOnWhereItWas) {
   ASSERT_TRUE(first && second);
   scenario::Recipe given;
   given.source = file.string();
-  auto bone = bone_of(**first, given, quiet);
+  auto bone = workshop::bone_of(**first, given, quiet);
   ASSERT_TRUE(bone) << bone.error().text;
   const std::uint64_t uncut = (*bone)->content_hash();
   ASSERT_TRUE((*first)->bone_at(1e9, **bone));

@@ -14,13 +14,13 @@
 
 #include "burr/record/player.h"
 #include "burr/record/timeline.h"
+#include "burr/workshop/hearing.h"
+#include "burr/workshop/traces.h"
 #include "sim/commanded.h"
 #include "window/replay/playback.h"
 #include "window/replay/replay_page.h"
 #include "window/replay/timeline_panel.h"
 #include "window/user.h"
-#include "workshop/hearing.h"
-#include "workshop/traces.h"
 
 namespace burr::app {
 namespace {
@@ -91,7 +91,7 @@ class RecordedTool : public testing::Test {
 
 TEST_F(RecordedTool, IsHeard) {
   const auto player = opened(file("asked"));
-  Hearing hearing({}, [](const math::Vec3&) { return 5e-3; });
+  workshop::Hearing hearing({}, [](const math::Vec3&) { return 5e-3; });
   record::StepCursor steps = player->steps();
   for (record::Step step; steps.next(step);)
     ASSERT_EQ(hearing.hear(step.row).to_spare, 5e-3 - 2e-3) << step.row.tick;
@@ -99,7 +99,7 @@ TEST_F(RecordedTool, IsHeard) {
 
 TEST_F(RecordedTool, LeavesItsDust) {
   const auto player = opened(file("asked"));
-  Traces walked(*player), jumped(*player);
+  workshop::Traces walked(*player), jumped(*player);
   const auto all = walked.until(kLate).ticks;
   const auto some = jumped.seek(kLate).ticks;
   EXPECT_GT(all.size(), 100U);
@@ -111,7 +111,7 @@ TEST_F(RecordedTool, LeavesItsDust) {
   sim::test::record_commanded(
       file("wet"), {.stopped_after = 1, .commands = {{500, {tick::CommandKind::irrigation, 1}}}});
   const auto wet = opened(file("wet"));
-  Traces wetted(*wet);
+  workshop::Traces wetted(*wet);
   bool any = false;
   for (const render::Wound::Tick& tick : wetted.until(0.999).ticks) {
     EXPECT_EQ(tick.irrigated, tick.t > 0.4995) << tick.t;

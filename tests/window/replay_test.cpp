@@ -12,9 +12,10 @@
 
 #include "burr/render/bone_scene.h"
 #include "burr/surgeon/motion.h"
+#include "commands/recording.h"
+#include "commands/work.h"
 #include "window/shell/pages.h"
 #include "window/user.h"
-#include "workshop/recording.h"
 
 namespace burr::app {
 namespace {
@@ -35,18 +36,18 @@ class Replay : public Window {
     ASSERT_TRUE(take_case(options));
     auto work = open_work(options, quiet);
     ASSERT_TRUE(work) << work.error().text;
-    before_ = work->made.bone->content_hash();
+    before_ = work->bone->content_hash();
     const sim::SessionSettings settings = settings_of(options, false);
     auto path = surgeon::motion("pocket", work->place, settings.servo.burr.radius, kSeconds);
     ASSERT_TRUE(path) << path.error().text;
     auto session = sim::Session::make(
-        std::move(work->made.bone),
+        std::move(work->bone),
         std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{}), settings,
         quiet);
     ASSERT_TRUE(session) << session.error().text;
     Recording recording;
-    ASSERT_TRUE(recording.start(**session, file_.string(), work->volume, work->made.summary,
-                                "pocket", false));
+    ASSERT_TRUE(
+        recording.start(**session, file_.string(), work->recipe, work->summary, "pocket", false));
     (*session)->run(5, quiet);
     half_ = (*session)->bone().content_hash();
     (*session)->command({tick::CommandKind::undo, 0});

@@ -20,7 +20,9 @@
 #include <utility>
 #include <vector>
 
+#include "commands/work.h"
 #include "support/data.h"
+#include "window/mill/make_ready.h"
 #include "window/mill/window.h"
 #include "window/shell/pages.h"
 #include "window/shell/words.h"

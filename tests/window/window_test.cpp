@@ -35,9 +35,9 @@
 #include "burr/sim/session_words.h"
 #include "burr/surface/worker.h"
 #include "burr/surgeon/motion.h"
+#include "burr/workshop/live_surface.h"
 #include "commands/command.h"
 #include "support/data.h"
-#include "workshop/live_surface.h"
 
 namespace burr::app {
 
@@ -181,7 +181,8 @@ TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
   render::Scene scene;
   scene.tissue_colours = render::colours_of(session.bone().tissues());
   surface::Worker worker(session.bone(), 2);
-  ASSERT_TRUE(worker.first(quiet, [&](const surface::Skin& skin) { put_skin(scene, skin); }));
+  ASSERT_TRUE(
+      worker.first(quiet, [&](const surface::Skin& skin) { workshop::put_skin(scene, skin); }));
   scene.camera = render::view_of_work(place->at, -place->into, 30e-3);
 
   record::SessionInfo info;

@@ -1,9 +1,10 @@
 // What is milled, and with what, when a person asks for a bone.
-#include "workshop/work.h"
+#include "window/mill/make_ready.h"
 
 #include <gtest/gtest.h>
 
 #include "burr/base/progress.h"
+#include "commands/work.h"
 
 namespace burr::app {
 namespace {

@@ -14,8 +14,11 @@
 #include "burr/math/turn.h"
 #include "burr/rt/thread.h"
 #include "burr/sim/session.h"
+#include "burr/workshop/hand_device.h"
+#include "commands/hand_options.h"
 #include "commands/volume_words.h"
-#include "workshop/work.h"
+#include "commands/work.h"
+#include "window/mill/make_ready.h"
 
 namespace burr::app {
 namespace {
@@ -75,13 +78,13 @@ Status run(const Options& options) {
   if (const Status taken = take_case(requested); !taken) return taken;
   LinkAccount idle;
   {
-    auto device = make_hand(requested.hand);
+    auto device = workshop::make_hand(requested.hand);
     if (!device) return device.error();
     const Status opened = (*device)->open();
     if (!opened) return opened;
     if ((*device)->clock(1000) == nullptr)
       return error(Trouble::usage, "--device: this device has no wire to measure");
-    idle = echo(**device, tick_rate((*device)->spec()), options.echo_s);
+    idle = echo(**device, workshop::tick_rate((*device)->spec()), options.echo_s);
     (*device)->close();
   }
   auto work = open_work(requested, progress());

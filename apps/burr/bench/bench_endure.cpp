@@ -20,6 +20,9 @@
 #include "burr/device/simulated_hand.h"
 #include "burr/rt/idle_loop.h"
 #include "burr/tick/flag_words.h"
+#include "burr/workshop/open_bone.h"
+#include "burr/workshop/prepare.h"
+#include "commands/picture_size.h"
 #include "commands/volume_words.h"
 
 namespace burr::app {
@@ -121,7 +124,7 @@ Status run(Options options) {
                   .string();
     options.whole.record = scratch;
   }
-  auto opened = open_volume(options.volume, progress());
+  auto opened = workshop::open_bone(options.volume, progress());
   if (!opened) return opened.error();
   const double radius = 0.5e-3 * options.burr_mm;
   auto place = surgeon::find_work_place(*opened->bone, radius, {}, {});
@@ -133,10 +136,8 @@ Status run(Options options) {
   settings.realtime = true;
   settings.servo.rate_hz = options.rate_hz;
   settings.servo.burr.radius = radius;
-  auto made = sim::Session::make(
-      std::move(opened->bone),
-      std::make_unique<device::SimulatedHand>(std::move(pockets->path), device::ArmSettings{}),
-      settings, progress());
+  auto made = workshop::begin_by_itself(std::move(opened->bone), std::move(pockets->path), settings,
+                                        progress());
   if (!made) return made.error();
 
   progress().report(0, "a loop that only waits");

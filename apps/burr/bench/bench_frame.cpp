@@ -33,10 +33,12 @@
 #include "burr/surface/mesher.h"
 #include "burr/surface/worker.h"
 #include "burr/surgeon/motion.h"
+#include "burr/workshop/live_surface.h"
+#include "burr/workshop/open_bone.h"
+#include "burr/workshop/prepare.h"
+#include "burr/workshop/work_view.h"
+#include "commands/picture_size.h"
 #include "commands/volume_words.h"
-#include "workshop/live_surface.h"
-#include "workshop/open_volume.h"
-#include "workshop/work_view.h"
 
 namespace burr::app {
 namespace {
@@ -168,8 +170,8 @@ class Desk {
         worker_(session.bone(), 1),
         live_(session, worker_, scene_, renderer_->software()),
         cuts_(session.bone()) {
-    scene_ =
-        scene_of_work(session.bone(), session.settings().servo.burr.radius, place.at, -place.into);
+    scene_ = workshop::scene_of_work(session.bone(), session.settings().servo.burr.radius, place.at,
+                                     -place.into);
     scene_.look = {};
     scene_.tissue_colours = render::colours_of(session.bone().tissues());
   }
@@ -188,7 +190,7 @@ class Desk {
   std::unique_ptr<render::Renderer> renderer_;
   surface::Worker worker_;
   render::Scene scene_;
-  LiveSurface live_;
+  workshop::LiveSurface live_;
   Cuts cuts_;
 };
 
@@ -218,8 +220,8 @@ Status Desk::run(Outcome& out) {
 
 // Draws the first picture and makes all coarser levels.
 Status Desk::settle(Outcome& out) {
-  const Status skinned =
-      worker_.first(progress(), [&](const surface::Skin& skin) { put_skin(scene_, skin); });
+  const Status skinned = worker_.first(
+      progress(), [&](const surface::Skin& skin) { workshop::put_skin(scene_, skin); });
   if (!skinned) return skinned;
   auto start = Clock::now();
   const Status first = renderer_->show(scene_);
@@ -242,7 +244,7 @@ Status Desk::frame(Draw how, Frames& frames) {
   live_.update();
   if (how != Draw::governed) scene_.quality = {};
   tick::TickRow row;
-  if (session_.view(row)) put_tool(scene_, row, true);
+  if (session_.view(row)) workshop::put_tool(scene_, row, true);
   const auto start = Clock::now();
   renderer_->skip_hidden(how != Draw::all);
   const Status drawn = renderer_->show(scene_);
@@ -371,7 +373,7 @@ void print(const Options& options, const Outcome& out) {
 
 Status run(Options options) {
   if (options.volume.source.empty()) options.volume.source = "phantom:temporal-bone";
-  auto opened = open_volume(options.volume, progress());
+  auto opened = workshop::open_bone(options.volume, progress());
   if (!opened) return opened.error();
   const double radius = 0.5e-3 * options.burr_mm;
   auto place = surgeon::find_work_place(*opened->bone, radius, {}, {});
@@ -382,10 +384,8 @@ Status run(Options options) {
   settings.realtime = true;
   settings.servo.rate_hz = options.rate_hz;
   settings.servo.burr.radius = radius;
-  auto session = sim::Session::make(
-      std::move(opened->bone),
-      std::make_unique<device::SimulatedHand>(std::move(pockets->path), device::ArmSettings{}),
-      settings, progress());
+  auto session = workshop::begin_by_itself(std::move(opened->bone), std::move(pockets->path),
+                                           settings, progress());
   if (!session) return session.error();
   auto renderer = render::Renderer::offscreen();
   if (!renderer) return renderer.error();

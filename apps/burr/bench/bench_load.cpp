@@ -16,8 +16,9 @@
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
 #include "burr/surgeon/motion.h"
+#include "burr/workshop/open_bone.h"
+#include "burr/workshop/prepare.h"
 #include "commands/volume_words.h"
-#include "workshop/open_volume.h"
 
 namespace {
 
@@ -44,7 +45,7 @@ double memory_mb(const std::string& field) {
 
 Status load(const Options& options) {
   const auto start = std::chrono::steady_clock::now();
-  auto opened = app::open_volume(options.volume, app::progress());
+  auto opened = workshop::open_bone(options.volume, app::progress());
   if (!opened) return opened.error();
   const double bone_s = seconds_since(start);
   surface::Worker worker(*opened->bone, 2);
@@ -102,7 +103,7 @@ class Stages final : public Progress {
 Status memory(const Options& options) {
   Stages stages;
   stages.report(0, "the program");
-  auto opened = app::open_volume(options.volume, stages);
+  auto opened = workshop::open_bone(options.volume, stages);
   if (!opened) return opened.error();
   const double radius = 0.5e-3 * options.burr_mm;
   stages.report(0, "preparing the session");
@@ -112,9 +113,8 @@ Status memory(const Options& options) {
   if (!path) return path.error();
   sim::SessionSettings settings;
   settings.servo.burr.radius = radius;
-  auto session = sim::Session::make(
-      std::move(opened->bone),
-      std::make_unique<device::SimulatedHand>(*path, device::ArmSettings{}), settings, stages);
+  auto session =
+      workshop::begin_by_itself(std::move(opened->bone), std::move(*path), settings, stages);
   if (!session) return session.error();
   surface::Worker worker((*session)->bone(), 2);
   render::Scene scene;

@@ -12,8 +12,10 @@
 #include "burr/render/renderer.h"
 #include "burr/rt/idle_loop.h"
 #include "burr/surface/worker.h"
+#include "burr/workshop/live_surface.h"
+#include "burr/workshop/work_view.h"
 #include "commands/command.h"
-#include "workshop/live_surface.h"
+#include "commands/recording.h"
 
 namespace burr::app {
 namespace {
@@ -67,11 +69,11 @@ class Picture {
     auto picture = std::unique_ptr<Picture>(new Picture(session, std::move(*renderer)));
     picture->renderer_->resize_offscreen(size.width, size.height);
     const double radius = session.settings().servo.burr.radius;
-    picture->scene_ = scene_of_work(session.bone(), radius, place.at, -place.into);
+    picture->scene_ = workshop::scene_of_work(session.bone(), radius, place.at, -place.into);
     picture->scene_.look = {};
     picture->scene_.tissue_colours = render::colours_of(session.bone().tissues());
     const Status skinned = picture->worker_.first(
-        progress, [&](const surface::Skin& skin) { put_skin(picture->scene_, skin); });
+        progress, [&](const surface::Skin& skin) { workshop::put_skin(picture->scene_, skin); });
     if (!skinned) return skinned.error();
     return picture;
   }
@@ -80,7 +82,7 @@ class Picture {
     live_.update();
     out.patches += live_.skins().size();
     out.patches_waiting_most = std::max(out.patches_waiting_most, worker_.waiting());
-    put_tool(scene_, row, true);
+    workshop::put_tool(scene_, row, true);
     ++out.frames;
     const Clock::time_point start = Clock::now();
     const Status shown = renderer_->show(scene_);
@@ -96,7 +98,7 @@ class Picture {
   std::unique_ptr<render::Renderer> renderer_;
   surface::Worker worker_;
   render::Scene scene_;
-  LiveSurface live_;
+  workshop::LiveSurface live_;
 };
 
 }  // namespace

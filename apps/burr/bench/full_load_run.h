@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "burr/importing/import.h"
 #include "burr/record/recorder.h"
 #include "burr/rt/stats.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
-#include "workshop/open_volume.h"
-#include "workshop/recording.h"
-#include "workshop/work_view.h"
+#include "commands/picture_size.h"
 
 namespace burr::app {
 

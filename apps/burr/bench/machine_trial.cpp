@@ -13,8 +13,9 @@
 #include "burr/rt/idle_loop.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
+#include "burr/workshop/open_bone.h"
+#include "burr/workshop/prepare.h"
 #include "commands/command.h"
-#include "workshop/open_volume.h"
 
 namespace burr::app {
 namespace {
@@ -50,7 +51,7 @@ Result<Bench> make_bench(const MachineTrial& options, double seconds) {
   Bench bench;
   bench.volume.source = "phantom:temporal-bone";
   bench.volume.voxel_mm = options.voxel_mm;
-  auto opened = open_volume(bench.volume, progress());
+  auto opened = workshop::open_bone(bench.volume, progress());
   if (!opened) return opened.error();
   bench.import = opened->summary;
   auto place = surgeon::find_work_place(*opened->bone, kBurr, {}, {});
@@ -62,10 +63,8 @@ Result<Bench> make_bench(const MachineTrial& options, double seconds) {
   settings.realtime = true;
   settings.servo.rate_hz = kRate;
   settings.servo.burr.radius = kBurr;
-  auto made = sim::Session::make(
-      std::move(opened->bone),
-      std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{}), settings,
-      progress());
+  auto made =
+      workshop::begin_by_itself(std::move(opened->bone), std::move(*path), settings, progress());
   if (!made) return made.error();
   bench.session = std::move(*made);
   return bench;

@@ -8,11 +8,13 @@
 
 #include "burr/device/crtk/arm.h"
 #include "burr/math/turn.h"
+#include "burr/workshop/arm_publisher.h"
+#include "burr/workshop/prepare.h"
+#include "burr/workshop/spared.h"
 #include "commands/command.h"
+#include "commands/recording.h"
 #include "commands/volume_words.h"
-#include "workshop/arm_publisher.h"
-#include "workshop/recording.h"
-#include "workshop/work.h"
+#include "commands/work.h"
 
 namespace burr::app {
 namespace {
@@ -33,8 +35,7 @@ Status run(const Options& options) {
   if (const Status taken = take_case(requested); !taken) return taken;
   auto work = open_work(requested, progress());
   if (!work) return work.error();
-  fit_burr(requested, work->made);
-  for (const std::string& notice : work->made.summary.notices) fmt::print(stderr, "{}\n", notice);
+  for (const std::string& notice : work->summary.notices) fmt::print(stderr, "{}\n", notice);
   const sim::SessionSettings settings = settings_of(requested, true);
   math::Pose start;
   start.p = work->place.at - kAbove * work->place.into;
@@ -46,15 +47,14 @@ Status run(const Options& options) {
   if (!arm) return arm.error();
   auto driven = std::make_unique<device::crtk::DrivenHand>(**arm, start);
   device::crtk::DrivenHand& hand = *driven;
-  auto made =
-      sim::Session::make(std::move(work->made.bone), std::move(driven), settings, progress());
+  auto made = workshop::begin(*work, std::move(driven), settings, progress());
   if (!made) return made.error();
   sim::Session& session = **made;
   Recording recording;
   if (!options.record.empty()) {
     const Status started = recording.start(
-        session, options.record, work->volume, work->made.summary, "CRTK " + named.name, false,
-        to_spare(session.bone_tissues(), requested.spare), requested.work_case);
+        session, options.record, work->recipe, work->summary, "CRTK " + named.name, false,
+        workshop::to_spare(session.bone_tissues(), requested.spare), requested.work_case);
     if (!started) return started;
   }
   fmt::print(stderr,
@@ -63,7 +63,7 @@ Status run(const Options& options) {
              "{4:.4f}. Ctrl-C ends it.\n",
              named.name, (*arm)->domain(), start.p.x(), start.p.y(), start.p.z());
   {
-    const ArmPublisher teller(session, **arm, [&hand] { return hand.busy(); });
+    const workshop::ArmPublisher teller(session, **arm, [&hand] { return hand.busy(); });
     session.run(options.seconds > 0 ? options.seconds : kForGood, progress());
   }
   const Status recorded = options.record.empty() ? fine() : recording.finish(session);

@@ -9,10 +9,10 @@
 
 #include "burr/io/export_part.h"
 #include "burr/record/player.h"
+#include "burr/workshop/open_bone.h"
+#include "burr/workshop/recording.h"
 #include "commands/command.h"
 #include "commands/volume_words.h"
-#include "workshop/open_volume.h"
-#include "workshop/recording.h"
 
 namespace burr::app {
 namespace {
@@ -64,7 +64,7 @@ Result<Bones> open_plain(const Options& options) {
   scenario::Recipe volume = options.volume;
   volume.source = options.source;
   volume.reserve_bricks = 0;
-  auto opened = open_volume(volume, progress());
+  auto opened = workshop::open_bone(volume, progress());
   if (!opened) return opened.error();
   for (const std::string& notice : opened->summary.notices) fmt::print(stderr, "{}\n", notice);
   Bones bones;
@@ -77,7 +77,7 @@ Result<Bones> open_recording(const Options& options) {
   auto player = record::Player::open(options.source);
   if (!player) return player.error();
   Bones bones;
-  auto before = bone_of(**player, options.volume, progress());
+  auto before = workshop::bone_of(**player, options.volume, progress());
   if (!before) return before.error();
   bones.before = std::move(*before);
   bones.now = copy_of(*bones.before, (*player)->info().volume.recipe.reserve_bricks);

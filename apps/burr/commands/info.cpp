@@ -10,10 +10,10 @@
 #include "burr/base/shown.h"
 #include "burr/io/sandbox/fence.h"
 #include "burr/record/player.h"
+#include "burr/workshop/open_bone.h"
 #include "commands/command.h"
 #include "commands/volume_words.h"
 #include "window/replay/playback.h"
-#include "workshop/open_volume.h"
 
 namespace burr::app {
 namespace {
@@ -122,11 +122,11 @@ nlohmann::json with_fence(nlohmann::json out) {
 // The content of the file and, if it can be milled, the plan of its import.
 Result<importing::ImportSummary> look(const scenario::Recipe& recipe) {
   if (scenario::is_phantom(recipe.source)) {
-    auto made = open_volume(recipe, progress());
+    auto made = workshop::open_bone(recipe, progress());
     if (!made) return made.error();
     return std::move(made->summary);
   }
-  auto scan = io::read_scan(recipe.source, read_options(recipe), progress());
+  auto scan = io::read_scan(recipe.source, workshop::read_options(recipe), progress());
   if (!scan) return scan.error();
   auto plan = importing::plan_import(*scan, recipe);
   if (plan || plan.error().trouble == Trouble::usage) return plan;

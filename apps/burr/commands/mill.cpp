@@ -16,11 +16,13 @@
 #include "burr/surgeon/motion.h"
 #include "burr/tick/flag_words.h"
 #include "burr/tick/mirror_plane.h"
+#include "burr/workshop/open_bone.h"
+#include "burr/workshop/prepare.h"
+#include "burr/workshop/work_view.h"
 #include "commands/command.h"
+#include "commands/picture_size.h"
+#include "commands/recording.h"
 #include "commands/volume_words.h"
-#include "workshop/open_volume.h"
-#include "workshop/recording.h"
-#include "workshop/work_view.h"
 
 namespace burr::app {
 namespace {
@@ -62,7 +64,7 @@ Result<device::HandPath> hand_path(const Options& options, const volume::Bone& b
 
 Status draw(const Options& options, const surgeon::WorkPlace& place, sim::Session& session) {
   render::Scene scene =
-      scene_of_work(session.bone(), 0.5e-3 * options.burr_mm, place.at, -place.into);
+      workshop::scene_of_work(session.bone(), 0.5e-3 * options.burr_mm, place.at, -place.into);
   const Status skinned = render::skin_bone(scene, session.bone(), 2, progress());
   if (!skinned) return skinned;
   return render::render_png(scene, options.size.width, options.size.height, options.picture);
@@ -204,7 +206,7 @@ Status run(const Options& options) {
     return error(Trouble::usage,
                  fmt::format("give either --path FILE.csv or --motion NAME (one of {})",
                              fmt::join(surgeon::motion_names(), ", ")));
-  auto opened = open_volume(options.volume, progress());
+  auto opened = workshop::open_bone(options.volume, progress());
   if (!opened) return opened.error();
   for (const std::string& notice : opened->summary.notices) fmt::print(stderr, "{}\n", notice);
 
@@ -244,8 +246,8 @@ Status run(const Options& options) {
   device::ArmSettings arm;
   if (options.arm == "rigid") arm.stiffness = INFINITY;
   if (options.arm == "light") arm = {.mass = 0.06, .damping = 5, .stiffness = 200};
-  auto hand = std::make_unique<device::SimulatedHand>(std::move(*path), arm);
-  auto made = sim::Session::make(std::move(opened->bone), std::move(hand), settings, progress());
+  auto made = workshop::begin_by_itself(std::move(opened->bone), std::move(*path), settings,
+                                        progress(), arm);
   if (!made) return made.error();
   sim::Session& session = **made;
   if (mirror.on()) session.command(tick::command_for(mirror));

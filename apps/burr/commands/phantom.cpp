@@ -10,8 +10,8 @@
 #include "burr/io/write/write_volume.h"
 #include "burr/phantom/phantoms.h"
 #include "burr/volume/volume_of.h"
+#include "burr/workshop/prebuilt_phantom.h"
 #include "commands/command.h"
-#include "workshop/prebuilt_phantom.h"
 
 namespace burr::app {
 namespace {
@@ -34,7 +34,7 @@ std::string names() {
 }
 
 Status write(const volume::Bone& bone, const std::string& path) {
-  if (ends_with(path, ".bone")) return write_prebuilt_phantom(bone, path);
+  if (ends_with(path, ".bone")) return workshop::write_prebuilt_phantom(bone, path);
   return ends_with(path, ".seg.nrrd") ? io::write_labels(bone, path, progress())
                                       : io::write_field(bone, path, progress());
 }

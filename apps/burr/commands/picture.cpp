@@ -9,10 +9,12 @@
 
 #include "burr/render/bone_scene.h"
 #include "burr/surgeon/motion.h"
+#include "burr/workshop/open_bone.h"
+#include "burr/workshop/work_view.h"
 #include "commands/command.h"
+#include "commands/picture_size.h"
 #include "commands/views.h"
 #include "commands/volume_words.h"
-#include "workshop/open_volume.h"
 
 namespace burr::app {
 namespace {
@@ -48,7 +50,7 @@ Result<ViewOptions> view_of(const Options& options,
 }
 
 Status run(const Options& options) {
-  auto opened = open_volume(options.volume, progress(), nullptr, !options.greys.empty());
+  auto opened = workshop::open_bone(options.volume, progress(), nullptr, !options.greys.empty());
   if (!opened) return opened.error();
   const auto view = view_of(options, opened->greys);
   if (!view) return view.error();
@@ -60,7 +62,7 @@ Status run(const Options& options) {
   auto place = surgeon::find_work_place(bone, kBurr, {}, {});
   if (!place) return place.error();
   if (at) place->at = *at;
-  render::Scene scene = scene_of_work(bone, kBurr, place->at, -place->into);
+  render::Scene scene = workshop::scene_of_work(bone, kBurr, place->at, -place->into);
   const Status skinned = render::skin_bone(scene, bone, 2, progress());
   if (!skinned) return skinned;
   const Status drawn =

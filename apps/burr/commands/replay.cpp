@@ -16,14 +16,16 @@
 #include "burr/sound/synth.h"
 #include "burr/sound/wav.h"
 #include "burr/surface/worker.h"
+#include "burr/workshop/hearing.h"
+#include "burr/workshop/recording.h"
+#include "burr/workshop/spared.h"
+#include "burr/workshop/spared_distance.h"
+#include "burr/workshop/traces.h"
+#include "burr/workshop/work_view.h"
 #include "commands/command.h"
+#include "commands/picture_size.h"
 #include "commands/views.h"
 #include "window/shell/pages.h"
-#include "workshop/hearing.h"
-#include "workshop/recording.h"
-#include "workshop/spared_distance.h"
-#include "workshop/traces.h"
-#include "workshop/work_view.h"
 
 namespace burr::app {
 namespace {
@@ -42,7 +44,7 @@ struct Options {
 
 // Draws the bone and the burr at one moment.
 Status draw(const Options& options, record::Player& player) {
-  auto bone = bone_of(player, options.volume, progress());
+  auto bone = workshop::bone_of(player, options.volume, progress());
   if (!bone) return bone.error();
   const double t = options.at < 0 ? player.seconds() : options.at;
   Status there = player.bone_at(t, **bone);
@@ -51,13 +53,14 @@ Status draw(const Options& options, record::Player& player) {
   if (!tick) return tick.error();
 
   const math::Vec3 shaft = tick->hand.world_from_tool.q * math::Vec3::UnitZ();
-  render::Scene scene = scene_of_work(**bone, tick->tool.radius, tick->contact.proxy, shaft);
-  put_tool(scene, *tick, false);
+  render::Scene scene =
+      workshop::scene_of_work(**bone, tick->tool.radius, tick->contact.proxy, shaft);
+  workshop::put_tool(scene, *tick, false);
   const Status skinned = render::skin_bone(scene, **bone, 2, progress());
   if (!skinned) return skinned;
   if (options.effects) {
     render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
-    Traces(player).until(t).show(wound);
+    workshop::Traces(player).until(t).show(wound);
     wound.dress_still(scene);
   }
   return draw_view(std::move(scene), **bone, tick->contact.proxy, -shaft, options.view,
@@ -66,12 +69,13 @@ Status draw(const Options& options, record::Player& player) {
 
 // Draws the whole session as numbered pictures, from the viewpoint of its end.
 Status film(const Options& options, record::Player& player) {
-  auto bone = bone_of(player, options.volume, progress());
+  auto bone = workshop::bone_of(player, options.volume, progress());
   if (!bone) return bone.error();
   auto last = player.tick_at(player.seconds());
   if (!last) return last.error();
   const math::Vec3 shaft = last->hand.world_from_tool.q * math::Vec3::UnitZ();
-  render::Scene scene = scene_of_work(**bone, last->tool.radius, last->contact.proxy, shaft);
+  render::Scene scene =
+      workshop::scene_of_work(**bone, last->tool.radius, last->contact.proxy, shaft);
   scene.tissue_colours = render::colours_of((*bone)->tissues());
   const Status possible = set_view(scene, last->contact.proxy, -shaft, options.view);
   if (!possible) return possible;
@@ -84,7 +88,7 @@ Status film(const Options& options, record::Player& player) {
   auto reel = render::Film::in(options.film, options.size.width, options.size.height);
   if (!reel) return reel.error();
   render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
-  Traces traces(player);
+  workshop::Traces traces(player);
   const int frames = std::max(1, static_cast<int>(player.seconds() * options.fps));
   for (int n = 0; n < frames; ++n) {
     if (interrupted())
@@ -99,7 +103,7 @@ Status film(const Options& options, record::Player& player) {
     }
     auto tick = player.tick_at(n / options.fps);
     if (!tick) return tick.error();
-    put_tool(scene, *tick, true);
+    workshop::put_tool(scene, *tick, true);
     Status written = reel->frame(scene);
     if (!written) return written;
   }
@@ -113,11 +117,11 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
   sound::Synth synth;
   auto file = sound::WavFile::create(options.sound, static_cast<int>(synth.settings().rate_hz));
   if (!file) return file.error();
-  SparedDistance spared_distance;
-  if (const Tissues spared = read_spared(player.info()); !spared.empty()) {
-    auto bone = bone_of(player, options.volume, progress());
+  workshop::SparedDistance spared_distance;
+  if (const workshop::Tissues spared = workshop::read_spared(player.info()); !spared.empty()) {
+    auto bone = workshop::bone_of(player, options.volume, progress());
     if (bone) {
-      auto measured = SparedDistance::make(**bone, spared, progress());
+      auto measured = workshop::SparedDistance::make(**bone, spared, progress());
       if (!measured) return measured.error();
       spared_distance = std::move(*measured);
     } else if (interrupted()) {
@@ -126,7 +130,7 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
       fmt::print(stderr, "no warnings near structures to spare: {}\n", bone.error().text);
     }
   }
-  Hearing hearing(recorded.settings.servo, spared_distance.distances());
+  workshop::Hearing hearing(recorded.settings.servo, spared_distance.distances());
   const double per_tick = synth.settings().rate_hz / player.info().rate_hz;
   std::vector<float> samples(4096);
   record::StepCursor steps = player.steps();
@@ -209,7 +213,7 @@ Status run(const Options& options) {
           Trouble::usage,
           fmt::format("{}: was made with a table of materials; give that table with --materials",
                       options.file));
-    auto bone = bone_of(player, options.volume, progress());
+    auto bone = workshop::bone_of(player, options.volume, progress());
     if (!bone) return bone.error();
     auto outcome = sim::replay(player, std::move(*bone), progress());
     if (!outcome) return outcome.error();

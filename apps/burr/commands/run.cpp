@@ -18,17 +18,20 @@
 #include "burr/render/renderer.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
+#include "burr/workshop/prepare.h"
+#include "burr/workshop/spared.h"
+#include "burr/workshop/work_view.h"
 #include "commands/command.h"
+#include "commands/hand_options.h"
+#include "commands/recording.h"
 #include "commands/summary.h"
 #include "commands/volume_words.h"
+#include "commands/work.h"
+#include "window/mill/make_ready.h"
 #include "window/mill/window.h"
 #include "window/shell/loading.h"
 #include "window/shell/pages.h"
 #include "window/shell/words.h"
-#include "workshop/recording.h"
-#include "workshop/spared_distance.h"
-#include "workshop/work.h"
-#include "workshop/work_view.h"
 
 namespace burr::app {
 namespace {
@@ -95,7 +98,7 @@ Summary summary_of(sim::Session& session, const std::string& what, const std::st
 // the tool in its last state of the session
 void put_tool_of(render::Scene& scene, sim::Session& session) {
   tick::TickRow row;
-  if (session.view(row)) put_tool(scene, row, true);
+  if (session.view(row)) workshop::put_tool(scene, row, true);
 }
 
 // Before, at half time with the burr in the bone, and after, in the same view.
@@ -108,22 +111,20 @@ Status run_headless(const Options& options) {
   if (requested.work_case) fmt::print(stderr, "{}", scenario::task_text(*requested.work_case));
   auto opened = open_work(requested, progress());
   if (!opened) return opened.error();
-  Work& work = *opened;
-  fit_burr(requested, work.made);
-  for (const std::string& notice : work.made.summary.notices) fmt::print(stderr, "{}\n", notice);
+  workshop::Prepared& work = *opened;
+  for (const std::string& notice : work.summary.notices) fmt::print(stderr, "{}\n", notice);
   const sim::SessionSettings settings = settings_of(requested, false);
   auto path = surgeon::motion(requested.motion, work.place, settings.servo.burr.radius, seconds);
   if (!path) return path.error();
-  auto hand = std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{});
   auto started =
-      sim::Session::make(std::move(work.made.bone), std::move(hand), settings, progress());
+      workshop::begin_by_itself(std::move(work.bone), std::move(*path), settings, progress());
   if (!started) return started.error();
   sim::Session& session = **started;
 
   auto renderer = render::Renderer::offscreen();
   if (!renderer) return renderer.error();
-  render::Scene scene =
-      scene_of_work(session.bone(), settings.servo.burr.radius, work.place.at, -work.place.into);
+  render::Scene scene = workshop::scene_of_work(session.bone(), settings.servo.burr.radius,
+                                                work.place.at, -work.place.into);
   const auto picture = [&](const char* name) -> Status {
     const Status skinned = render::skin_bone(scene, session.bone(), settings.threads, progress());
     if (!skinned) return skinned;
@@ -138,9 +139,9 @@ Status run_headless(const Options& options) {
   Status status = picture("before.png");
   if (!status) return status;
   Recording recording;
-  status = recording.start(session, (folder / "session.mcap").string(), work.volume,
-                           work.made.summary, requested.motion, false,
-                           to_spare(session.bone_tissues(), requested.spare), requested.work_case);
+  status = recording.start(
+      session, (folder / "session.mcap").string(), work.recipe, work.summary, requested.motion,
+      false, workshop::to_spare(session.bone_tissues(), requested.spare), requested.work_case);
   if (!status) return status;
   session.run(0.5 * seconds, progress());
   put_tool_of(scene, session);

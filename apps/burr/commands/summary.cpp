@@ -8,8 +8,8 @@
 #include "burr/base/markup.h"
 #include "burr/base/new_file.h"
 #include "burr/base/version.h"
-#include "burr/volume/volume_of.h"
 #include "commands/html_page.h"
+#include "commands/recording.h"
 
 namespace burr::app {
 namespace {
@@ -43,20 +43,6 @@ std::vector<Row> rows_of(const Summary& s) {
 }
 
 }  // namespace
-
-std::vector<TissueLoss> losses(const volume::Bone& before, const volume::Bone& now) {
-  std::vector<TissueLoss> lost;
-  const auto& tissues = before.tissues().tissues;
-  for (std::size_t id = 1; id < tissues.size(); ++id) {
-    const auto tissue = static_cast<volume::TissueId>(id);
-    if (tissues[id].kind != volume::TissueKind::solid) continue;
-    const double by = volume::volume_of(before, tissue) - volume::volume_of(now, tissue);
-    if (std::abs(by) > 1e-11) lost.push_back({tissues[id].name, by, tissues[id].spare});
-  }
-  std::stable_sort(lost.begin(), lost.end(),
-                   [](const auto& a, const auto& b) { return a.removed > b.removed; });
-  return lost;
-}
 
 Status write_summary(const Summary& summary, const std::filesystem::path& folder) {
   std::string page = fmt::format(

@@ -13,15 +13,12 @@
 #include "burr/base/result.h"
 #include "burr/render/scene.h"
 #include "burr/volume/bone.h"
+#include "burr/workshop/recording.h"
 
 namespace burr::app {
 
-// One tissue that lost (or, negative, gained) volume.
-struct TissueLoss {
-  std::string name;
-  double removed = 0;  // [m^3]
-  bool spare = false;  // must not be cut
-};
+using workshop::losses;
+using workshop::TissueLoss;
 
 struct Summary {
   std::string what;  // the bone, in the program's words
@@ -45,9 +42,6 @@ struct Summary {
   std::vector<std::pair<std::string, std::string>> pictures;  // file in the page's folder, caption
   std::string recording;                                      // file in the page's folder, or empty
 };
-
-// Tissues whose volume differs by more than a hundredth of a mm^3, largest loss first.
-[[nodiscard]] std::vector<TissueLoss> losses(const volume::Bone& before, const volume::Bone& now);
 
 // folder/summary.html
 [[nodiscard]] Status write_summary(const Summary& summary, const std::filesystem::path& folder);

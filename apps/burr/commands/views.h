@@ -5,10 +5,11 @@
 #include <memory>
 #include <string>
 
+#include "burr/base/result.h"
 #include "burr/render/scene.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/greys.h"
-#include "workshop/work_view.h"
+#include "commands/picture_size.h"
 
 namespace CLI {
 class App;

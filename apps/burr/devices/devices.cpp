@@ -6,16 +6,17 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/base/new_file.h"
+#include "burr/workshop/device_book.h"
+#include "burr/workshop/hand_device.h"
 #include "commands/command.h"
+#include "commands/hand_options.h"
 #include "devices/trial.h"
-#include "workshop/device_book.h"
-#include "workshop/hand_device.h"
 
 namespace burr::app {
 namespace {
 
 struct Options {
-  HandRequest request;
+  workshop::HandRequest request;
   std::string out;
   std::vector<std::string> assignments;
   TrialSettings trial;
@@ -23,11 +24,11 @@ struct Options {
 };
 
 // One possible device: opened and closed, described as JSON and as text.
-Status tell(const HandKind& kind, const std::string& name, const DeviceBook& book,
-            nlohmann::json& all, bool json) {
-  HandRequest request;
+Status tell(const workshop::HandKind& kind, const std::string& name,
+            const workshop::DeviceBook& book, nlohmann::json& all, bool json) {
+  workshop::HandRequest request;
   request.device = name;
-  auto device = make_hand(request);
+  auto device = workshop::make_hand(request);
   if (!device) return device.error();
   const Status opened = (*device)->open();
   if (!opened) {
@@ -41,11 +42,11 @@ Status tell(const HandKind& kind, const std::string& name, const DeviceBook& boo
   const device::DeviceSpec spec = (*device)->spec();
   const std::string trouble = (*device)->trouble();
   (*device)->close();
-  const DevicePreferences preferences = book.of(id_of(spec));
+  const workshop::DevicePreferences preferences = book.of(workshop::id_of(spec));
   all.push_back({{"name", name},
                  {"kind", kind.name},
                  {"there", true},
-                 {"id", id_of(spec)},
+                 {"id", workshop::id_of(spec)},
                  {"sensed", spec.sensed},
                  {"actuated", spec.actuated},
                  {"peak_force_N", spec.peak_force},
@@ -60,7 +61,8 @@ Status tell(const HandKind& kind, const std::string& name, const DeviceBook& boo
                  {"max_force_N", preferences.max_force_n}});
   if (json) return fine();
   fmt::print("{:<16} {}: senses {} axes, drives {}; {:.1f} N peak ({:.2f} N continuous){}\n", name,
-             id_of(spec), spec.sensed, spec.actuated, spec.peak_force, spec.continuous_force,
+             workshop::id_of(spec), spec.sensed, spec.actuated, spec.peak_force,
+             spec.continuous_force,
              spec.peak_torque > 0 ? fmt::format(", {:g} N m", spec.peak_torque) : "");
   fmt::print(
       "                 stiffness up to {:.0f} N/m, damping up to {:g} N s/m, workspace {:.0f} mm "
@@ -76,12 +78,12 @@ Status tell(const HandKind& kind, const std::string& name, const DeviceBook& boo
 // All devices that are there, by the name that a user types; nothing moves and no force is sent.
 Status list(const Options& options) {
   nlohmann::json all = nlohmann::json::array();
-  const DeviceBook book = DeviceBook::read(users_book());
+  const workshop::DeviceBook book = workshop::DeviceBook::read(workshop::users_book());
   for (const std::string& trouble : book.troubles()) fmt::print(stderr, "{}\n", trouble);
   if (!options.json)
     fmt::print("mouse, gamepad, pedal, SpaceMouse  in the window, without force\n");
-  for (const HandKind& kind : hand_kinds()) {
-    const NamesThere there = names_there(kind);
+  for (const workshop::HandKind& kind : workshop::hand_kinds()) {
+    const workshop::NamesThere there = workshop::names_there(kind);
     const std::size_t before = all.size();
     for (const std::string& name : there.names) {
       const Status told = tell(kind, name, book, all, options.json);
@@ -97,29 +99,29 @@ Status list(const Options& options) {
 }
 
 Result<std::unique_ptr<device::MappedHand>> take(const Options& options) {
-  HandRequest request = options.request;
+  workshop::HandRequest request = options.request;
   request.scale = 1;  // tried without scaling
-  auto laid = lay_hand(request, {}, math::Quat::Identity());
+  auto laid = workshop::lay_hand(request, {}, math::Quat::Identity());
   if (!laid) return laid.error();
   return std::move(laid->hand);
 }
 
 Status set(const Options& options) {
-  auto device = make_hand(options.request);
+  auto device = workshop::make_hand(options.request);
   if (!device) return device.error();
   const Status opened = (*device)->open();
   if (!opened) return opened.error();
-  const std::string id = id_of((*device)->spec());
+  const std::string id = workshop::id_of((*device)->spec());
   (*device)->close();
-  DeviceBook book = DeviceBook::read(users_book());
+  workshop::DeviceBook book = workshop::DeviceBook::read(workshop::users_book());
   for (const std::string& trouble : book.troubles()) fmt::print(stderr, "{}\n", trouble);
   for (const std::string& assignment : options.assignments) {
     const Status taken = book.set(id, assignment);
     if (!taken) return taken;
   }
-  const Status kept = book.write(users_book());
+  const Status kept = book.write(workshop::users_book());
   if (!kept) return kept;
-  fmt::print("{}: saved in {}\n", id, users_book().string());
+  fmt::print("{}: saved in {}\n", id, workshop::users_book().string());
   return fine();
 }
 
@@ -127,7 +129,7 @@ Status test(const Options& options) {
   auto hand = take(options);
   if (!hand) return hand.error();
   fmt::print(stderr, "{}: at most {:.1f} N. Ctrl-C ends the test and releases the force.\n",
-             id_of((*hand)->spec()),
+             workshop::id_of((*hand)->spec()),
              std::min(options.trial.most_force, (*hand)->spec().peak_force));
   const TrialSeen seen = try_device(
       **hand, options.trial, [](const std::string& words) { fmt::print(stderr, "{}\n", words); },
@@ -166,7 +168,7 @@ void add(CLI::App& app, Todo& todo) {
       "set", "change the settings of a device; they are kept by its serial number");
   setting
       ->add_option("name", options->request.device,
-                   kinds_known() + "; NAME:WHICH where there are several")
+                   workshop::kinds_known() + "; NAME:WHICH where there are several")
       ->required();
   setting->add_option("settings", options->assignments, "scale=0.5 max_force_n=2 dead_man=true ...")
       ->required();
@@ -177,7 +179,7 @@ void add(CLI::App& app, Todo& todo) {
                                         "measures rate, response, noise, axes and a wall");
   trial
       ->add_option("name", options->request.device,
-                   kinds_known() + "; NAME:WHICH where there are several")
+                   workshop::kinds_known() + "; NAME:WHICH where there are several")
       ->required();
   add_homing_options(*trial, options->request);
   trial->add_option("--out", options->out, "F.html: write the result as a page");

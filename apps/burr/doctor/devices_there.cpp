@@ -5,10 +5,10 @@
 
 #include "burr/device/forcedimension/dhd.h"
 #include "burr/device/openhaptics/hd.h"
+#include "burr/workshop/device_book.h"
+#include "burr/workshop/hand_device.h"
 #include "doctor/apart.h"
 #include "doctor/look.h"
-#include "workshop/device_book.h"
-#include "workshop/hand_device.h"
 
 namespace burr::app {
 namespace {
@@ -31,9 +31,9 @@ std::string of_library(const std::string& kind) {
 }
 
 std::string of_device(const std::string& kind) {
-  HandRequest request;
+  workshop::HandRequest request;
   request.device = kind;
-  auto device = make_hand(request);
+  auto device = workshop::make_hand(request);
   if (!device) return "-" + device.error().text;
   const Status opened = (*device)->open();
   if (!opened) return "-" + opened.error().text;
@@ -41,8 +41,8 @@ std::string of_device(const std::string& kind) {
   const std::string trouble = (*device)->trouble();
   (*device)->close();
   const std::string words =
-      fmt::format("{}: {:.1f} N, {:.0f} Hz{}{}", id_of(spec), spec.peak_force, spec.native_rate,
-                  spec.software.empty() ? "" : "; ", spec.software);
+      fmt::format("{}: {:.1f} N, {:.0f} Hz{}{}", workshop::id_of(spec), spec.peak_force,
+                  spec.native_rate, spec.software.empty() ? "" : "; ", spec.software);
   return trouble.empty() ? "+" + words : fmt::format("!{}. {}", words, trouble);
 }
 
@@ -57,7 +57,7 @@ void split(const std::string& sentence, Finding& finding) {
 
 std::vector<Finding> look_at_devices(const System& system) {
   std::vector<Finding> findings;
-  for (const HandKind& kind : hand_kinds()) {
+  for (const workshop::HandKind& kind : workshop::hand_kinds()) {
     Finding finding{kGroup, kind.name, Health::absent, "", ""};
     const std::string name = kind.name;
     const std::string if_owned = fmt::format(", if you have one (docs/devices/{}.md)", kind.page);

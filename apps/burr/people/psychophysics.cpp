@@ -16,10 +16,11 @@
 
 #include "burr/people/observer.h"
 #include "burr/sim/feeling.h"
+#include "burr/workshop/hand_device.h"
 #include "commands/command.h"
+#include "commands/hand_options.h"
 #include "people/run.h"
 #include "scenes/wall.h"
-#include "workshop/hand_device.h"
 
 namespace burr::app {
 namespace {
@@ -39,7 +40,7 @@ struct Options {
   double until = 0, lapse = 0.02, seconds = 3, rate_hz = 1000;
   std::uint64_t seed = 1;
   bool json = false;
-  HandRequest hand;  // only homing is used
+  workshop::HandRequest hand;  // only homing is used
 };
 
 template <class T, std::size_t N>
@@ -175,16 +176,16 @@ Result<std::unique_ptr<device::MappedHand>> take_hand(const Options& options, Pe
   if (run.device == kSimulated) return std::unique_ptr<device::MappedHand>();
   if (run.observer)
     return error(Trouble::usage, "an --observer works with the simulated hand; leave out --device");
-  HandRequest request = options.hand;
+  workshop::HandRequest request = options.hand;
   request.device = run.device;
   math::Pose above;
   above.p = {0, 0, run.wall.burr_radius + kAbove};
-  auto laid =
-      lay_hand(request, above, math::Quat(Eigen::AngleAxisd(M_PI / 2, math::Vec3::UnitX())));
+  auto laid = workshop::lay_hand(request, above,
+                                 math::Quat(Eigen::AngleAxisd(M_PI / 2, math::Vec3::UnitX())));
   if (!laid) return laid.error();
   for (const std::string& notice : laid->notices) fmt::print(stderr, "{}\n", notice);
   run.device_id = laid->id;
-  run.wall.rate_hz = tick_rate(laid->hand->spec());
+  run.wall.rate_hz = workshop::tick_rate(laid->hand->spec());
   run.wall.user_force = laid->max_force;
   run.wall.other_stiffness = std::min(run.wall.other_stiffness, laid->hand->spec().max_stiffness);
   return std::move(laid->hand);
@@ -268,7 +269,7 @@ void add(CLI::App& app, Todo& todo) {
       ->check(CLI::IsMember(people::kStimulusNames));
   command
       ->add_option("--device", options->device,
-                   fmt::format("the hand: simulated, or one of {}", kinds_known()))
+                   fmt::format("the hand: simulated, or one of {}", workshop::kinds_known()))
       ->capture_default_str();
   add_homing_options(*command, options->hand);
   command->add_option("--observer", options->observer,

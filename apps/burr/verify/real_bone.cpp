@@ -9,10 +9,10 @@
 
 #include "burr/surgeon/motion.h"
 #include "burr/volume/sample.h"
+#include "burr/workshop/open_bone.h"
 #include "commands/command.h"
 #include "verify.h"
 #include "workbench.h"
-#include "workshop/open_volume.h"
 
 namespace burr::app {
 namespace {
@@ -159,7 +159,7 @@ void bones(const Verify& verify, Report::Part& part) {
     scenario::Recipe options;
     options.source = file.string();
     options.spacing_mm = math::Vec3::Constant(subject.spacing_mm);
-    auto opened = open_volume(options, progress());
+    auto opened = workshop::open_bone(options, progress());
     if (!opened) {
       part.cannot(fmt::format("{}: {}", subject.name, opened.error().text));
       continue;

@@ -1,6 +1,6 @@
 // sound/heard.h - what can be heard at one moment. Plain struct; SI.
 //
-// Filled in by the code that knows the session (apps/burr/workshop/hearing.h). A value that is not
+// Filled in by the code that knows the session (workshop/hearing.h). A value that is not
 // finite makes no sound.
 #pragma once
 

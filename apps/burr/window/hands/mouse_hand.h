@@ -15,7 +15,7 @@
 #include "burr/device/mapping.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/rt/latest.h"
-#include "workshop/device_book.h"
+#include "burr/workshop/device_book.h"
 
 namespace burr::app {
 
@@ -55,16 +55,20 @@ class MouseHand final : public device::Device {
   std::atomic<double> scale_ = 1.0;
 };
 
+}  // namespace burr::app
+namespace burr::workshop {
 class SuctionHand;
+}
+namespace burr::app {
 
 // The hand at the page, one of two, and what the other one may hold.
 struct Hands {
   MouseHand* mouse = nullptr;
-  device::MappedHand* real = nullptr;  // a haptic device
-  double max_force = 1e3;              // its user's own limit and its own [N]
-  SuctionHand* suction = nullptr;      // in the other hand
-  std::string id = {};                 // of the device, in the book of what users request of it
-  DevicePreferences preferences = {};  // what the book has for it
+  device::MappedHand* real = nullptr;        // a haptic device
+  double max_force = 1e3;                    // its user's own limit and its own [N]
+  workshop::SuctionHand* suction = nullptr;  // in the other hand
+  std::string id = {};  // of the device, in the book of what users request of it
+  workshop::DevicePreferences preferences = {};  // what the book has for it
 };
 
 }  // namespace burr::app

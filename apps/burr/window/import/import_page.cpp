@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "commands/command.h"
+#include "commands/work.h"
 #include "window/shell/words.h"
 
 namespace burr::app {

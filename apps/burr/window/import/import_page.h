@@ -13,12 +13,13 @@
 #include <string>
 #include <vector>
 
+#include "commands/work.h"
+#include "window/import/import_choice.h"
+#include "window/import/import_preview.h"
+#include "window/mill/make_ready.h"
 #include "window/shell/desk.h"
 #include "window/shell/loading.h"
 #include "window/shell/texture.h"
-#include "workshop/import_choice.h"
-#include "workshop/import_preview.h"
-#include "workshop/work.h"
 
 namespace burr::app {
 

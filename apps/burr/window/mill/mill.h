@@ -22,6 +22,7 @@
 
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
+#include "burr/workshop/live_surface.h"
 #include "window/hands/mouse_hand.h"
 #include "window/mill/drill.h"
 #include "window/mill/hand_plane.h"
@@ -72,8 +73,8 @@ class Mill {
 
   // ---- window.cpp
   void begin();  // the live surface stands
-  Status frame(LiveSurface& live);
-  void end(LiveSurface& live);
+  Status frame(workshop::LiveSurface& live);
+  void end(workshop::LiveSurface& live);
 
   // ---- mill_keys.cpp
   static constexpr double kDeeper = 1.25;  // factor of the press, by a key

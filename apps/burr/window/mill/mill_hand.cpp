@@ -10,10 +10,9 @@
 
 #include "burr/math/turn.h"
 #include "burr/render/pick.h"
+#include "window/mill/make_ready.h"
 #include "window/mill/mill.h"
 #include "window/shell/words.h"
-#include "workshop/suction_hand.h"
-#include "workshop/work.h"
 
 namespace burr::app {
 namespace {

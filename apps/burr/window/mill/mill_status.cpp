@@ -10,11 +10,11 @@
 #include "burr/haptics/contact.h"
 #include "burr/render/scene.h"
 #include "burr/rt/flags.h"
+#include "burr/workshop/device_book.h"
+#include "burr/workshop/fault_file.h"
 #include "window/mill/mill.h"
 #include "window/mill/task_panel.h"
 #include "window/shell/words.h"
-#include "workshop/fault_file.h"
-#include "workshop/suction_hand.h"
 
 namespace burr::app {
 namespace {
@@ -85,9 +85,9 @@ void Mill::look_at_session() {
 void Mill::keep_fault_of(const device::Device& hand, const tick::FaultReport& fault) {
   const std::filesystem::path& state = desk_.places().state;
   if (state.empty()) return;
-  const auto kept =
-      keep_fault(state / "faults",
-                 fault_text(fault, hand.spec(), session_.settings().servo.rate_hz, hand.trouble()));
+  const auto kept = workshop::keep_fault(
+      state / "faults",
+      workshop::fault_text(fault, hand.spec(), session_.settings().servo.rate_hz, hand.trouble()));
   note(kept ? say(Word::fault_kept, kept->string()) : kept.error().text);
 }
 
@@ -201,9 +201,9 @@ void Mill::keep_device_preferences() {
   const double peak = hands_.real->spec().peak_force, requested = hands_.preferences.max_force_n;
   hands_.max_force = requested > 0 ? std::min(peak, requested) : peak;
   session_.command({tick::CommandKind::user_force, user_limit()});
-  DeviceBook book = DeviceBook::read(users_book());
+  workshop::DeviceBook book = workshop::DeviceBook::read(workshop::users_book());
   book.put(hands_.id, hands_.preferences);
-  const Status kept = book.write(users_book());
+  const Status kept = book.write(workshop::users_book());
   if (!kept) note(kept.error().text);
 }
 

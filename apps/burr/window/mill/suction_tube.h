@@ -6,15 +6,16 @@
 #include <chrono>
 
 #include "burr/render/scene.h"
-#include "workshop/live_surface.h"
-#include "workshop/suction_hand.h"
+#include "burr/workshop/live_surface.h"
+#include "burr/workshop/suction_hand.h"
 
 namespace burr::app {
 
 class SuctionTube {
  public:
   // hand: nullptr where there is none. clears: what it sucks goes from the surface
-  void lead(SuctionHand* hand, render::Scene& scene, LiveSurface& live, bool clears);
+  void lead(workshop::SuctionHand* hand, render::Scene& scene, workshop::LiveSurface& live,
+            bool clears);
 
  private:
   std::chrono::steady_clock::time_point sucked_;  // until then it was led

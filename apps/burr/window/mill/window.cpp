@@ -8,16 +8,16 @@
 #include <utility>
 
 #include "burr/render/picture.h"
+#include "burr/workshop/live_surface.h"
+#include "burr/workshop/work_view.h"
 #include "commands/command.h"
 #include "window/mill/mill.h"
 #include "window/shell/words.h"
-#include "workshop/live_surface.h"
-#include "workshop/work_view.h"
 
 namespace burr::app {
 
 Result<Left> Mill::run() {
-  LiveSurface live(session_, worker_, scene_, desk_.renderer().software());
+  workshop::LiveSurface live(session_, worker_, scene_, desk_.renderer().software());
   begin();
   const Clock::time_point start = Clock::now();
   Clock::time_point frame_at = start;
@@ -71,14 +71,14 @@ void Mill::begin() {
 }
 
 // One picture: what the user did, what the session did, what is shown of both.
-Status Mill::frame(LiveSurface& live) {
+Status Mill::frame(workshop::LiveSurface& live) {
   take_events();
   take_hands();
   look_at_session();
   if (!desk_.settings.effects)
     live.look_plain();
   else if (ticks_.begun())
-    live.see(wound_tick(row_, session_.settings().servo.rate_hz));
+    live.see(workshop::wound_tick(row_, session_.settings().servo.rate_hz));
   tube_.lead(hands_.suction, scene_, live, desk_.settings.effects);
   note(headset_.begin(live.governor(), scene_.camera));
   point();
@@ -103,7 +103,7 @@ Status Mill::frame(LiveSurface& live) {
   return shown;
 }
 
-void Mill::end(LiveSurface& live) {
+void Mill::end(workshop::LiveSurface& live) {
   headset_.take_off();
   pointer_.mouse_leads();
   pages_.reset();
@@ -113,7 +113,7 @@ void Mill::end(LiveSurface& live) {
   scene_.look.opacity = 1;
   live.look_plain();
   worker_.hold_back(false);
-  worker_.settle([this](const surface::Skin& skin) { put_skin(scene_, skin); });
+  worker_.settle([this](const surface::Skin& skin) { workshop::put_skin(scene_, skin); });
 }
 
 Result<Left> mill(Desk& desk, sim::Session& session, const Hands& hands, surface::Worker& worker,

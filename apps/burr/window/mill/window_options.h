@@ -8,9 +8,9 @@
 
 #include "burr/scenario/case.h"
 #include "burr/volume/greys.h"
+#include "burr/workshop/spared_distance.h"
+#include "window/mill/loudspeaker.h"
 #include "window/replay/film_job.h"
-#include "workshop/loudspeaker.h"
-#include "workshop/spared_distance.h"
 
 namespace burr::app {
 
@@ -25,7 +25,8 @@ struct WindowOptions {
   std::function<bool()> keep = {};
   // the session's recording as it is now, for a film; none: it is not recorded
   std::function<std::optional<FilmSource>()> film_of = {};
-  const SparedDistance* spared_distance = nullptr;  // what must not be cut; nullptr: nothing
+  const workshop::SparedDistance* spared_distance =
+      nullptr;                                      // what must not be cut; nullptr: nothing
   Loudspeaker* loudspeaker = nullptr;               // nullptr: no sound
   std::shared_ptr<const volume::Greys> greys = {};  // of the scan; none: slices show the bone
   std::optional<scenario::Case> work_case = {};     // what is to be done; none: no case

@@ -9,8 +9,11 @@
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/sim/session.h"
-#include "workshop/open_volume.h"
-#include "workshop/work_view.h"
+#include "commands/picture_size.h"
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "burr/scenario/recipe.h"
 
 namespace burr::app {
 

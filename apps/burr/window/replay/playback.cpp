@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "burr/render/camera.h"
+#include "burr/workshop/live_surface.h"
+#include "burr/workshop/recording.h"
 #include "window/shell/words.h"
 #include "window/start/sessions.h"
-#include "workshop/live_surface.h"
-#include "workshop/recording.h"
 
 namespace burr::app {
 
@@ -30,11 +30,6 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
   if (!player) return player.error();
   Recorded out;
   out.player = std::move(*player);
-  if (out.player->end_tick() == out.player->first_tick())
-    return error(fmt::format("{}: this recording holds no tick", file));
-  auto settings = sim::settings_of(out.player->info(), file);
-  if (!settings) return settings.error();
-  out.settings = std::move(*settings);
 
   // a session that burr kept knows its title, and where its scan lies
   scenario::Recipe volume = given;
@@ -51,18 +46,17 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
   out.film.recording = file;
   out.film.volume = volume;
   out.film.seconds = out.player->seconds();
-  auto bone = bone_of(*out.player, volume, progress);
-  if (!bone) return bone.error();
-  out.bone = std::move(*bone);
-  auto line = record::timeline_of(*out.player, progress);
-  if (!line) return line.error();
-  out.timeline = std::move(*line);
+  auto watched = workshop::watch(*out.player, volume, progress);
+  if (!watched) return watched.error();
+  out.bone = std::move(watched->bone);
+  out.settings = std::move(watched->settings);
+  out.timeline = std::move(watched->timeline);
   out.notices = out.player->notices();
 
   out.scene.tissue_colours = render::colours_of(out.bone->tissues());
   out.worker = std::make_unique<surface::Worker>(*out.bone, 1);
-  const Status skinned =
-      out.worker->first(progress, [&out](const surface::Skin& skin) { put_skin(out.scene, skin); });
+  const Status skinned = out.worker->first(
+      progress, [&out](const surface::Skin& skin) { workshop::put_skin(out.scene, skin); });
   if (!skinned) return skinned.error();
   if (out.timeline.work) {
     const double height = std::clamp(30 * out.settings.settings.servo.burr.radius, 30e-3, 100e-3);
@@ -128,7 +122,7 @@ void Playback::work() {
     lock.lock();
     working_ = false;
     if (fresh_ && !shown.told.anew) {  // nobody took the last: its ticks come first
-      Traces::StatusLine both = std::move(newest_.told);
+      workshop::Traces::StatusLine both = std::move(newest_.told);
       both.ticks.insert(both.ticks.end(), shown.told.ticks.begin(), shown.told.ticks.end());
       shown.told = std::move(both);
     }

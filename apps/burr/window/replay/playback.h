@@ -28,9 +28,12 @@
 #include "burr/sim/session_words.h"
 #include "burr/surface/worker.h"
 #include "burr/volume/bone.h"
+#include "burr/workshop/traces.h"
 #include "window/replay/film_job.h"
-#include "workshop/open_volume.h"
-#include "workshop/traces.h"
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "burr/scenario/recipe.h"
 
 namespace burr::app {
 
@@ -59,10 +62,10 @@ struct Recorded {
 class Playback {
  public:
   struct Shown {
-    double t = 0;             // the moment that was wanted  [s]
-    tick::TickRow row;        // the last tick then
-    std::string trouble;      // "": the bone is as it was then; else why not
-    Traces::StatusLine told;  // since what was taken before
+    double t = 0;                       // the moment that was wanted  [s]
+    tick::TickRow row;                  // the last tick then
+    std::string trouble;                // "": the bone is as it was then; else why not
+    workshop::Traces::StatusLine told;  // since what was taken before
   };
 
   // It outlives the playback; its player and bone belong to the playback's thread.
@@ -82,7 +85,7 @@ class Playback {
 
   record::Player& player_;
   volume::Bone& bone_;
-  Traces traces_;
+  workshop::Traces traces_;
   mutable std::mutex mutex_;
   std::condition_variable wanted_changed_;
   double wanted_ = 0;

@@ -5,9 +5,9 @@
 
 #include "burr/sim/session_words.h"
 #include "burr/tick/mirror_plane.h"
+#include "burr/workshop/work_view.h"
 #include "commands/command.h"
 #include "window/mill/mirror_mode.h"
-#include "workshop/work_view.h"
 
 namespace burr::app {
 namespace {
@@ -40,7 +40,7 @@ void ReplayView::look(bool effects, bool playing) {
   if (playback_.take(shown_)) {
     if (effects) live_.see(shown_.told);
     if (shown_.trouble.empty()) {
-      put_tool(scene(), shown_.row, true);
+      workshop::put_tool(scene(), shown_.row, true);
       const tool::Burr& burr = recorded_.settings.settings.servo.burr;
       scene().burr.shaft_radius = burr.shaft_radius;
       scene().burr.shaft_length = burr.shaft_length;

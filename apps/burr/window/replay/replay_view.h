@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "burr/tool/state.h"
+#include "burr/workshop/live_surface.h"
 #include "window/replay/playback.h"
-#include "workshop/live_surface.h"
 
 namespace burr::app {
 
@@ -51,7 +51,7 @@ class ReplayView {
  private:
   Recorded& recorded_;
   std::vector<render::Colour> colours_;
-  LiveSurface live_;
+  workshop::LiveSurface live_;
   Playback::Shown shown_;
   double wanted_ = -1, force_ = 0, removed_ = 0;
   bool behind_ = false;

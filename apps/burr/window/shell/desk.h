@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "burr/base/places.h"
 #include "burr/base/result.h"
 #include "burr/render/headset.h"
 #include "burr/render/renderer.h"
@@ -18,7 +19,6 @@
 #include "window/hands/spacemouse.h"
 #include "window/shell/settings.h"
 #include "window/shell/ui.h"
-#include "workshop/places.h"
 
 namespace burr::app {
 

@@ -8,6 +8,7 @@
 
 #include "burr/render/picture.h"
 #include "commands/command.h"
+#include "commands/work.h"
 #include "window/import/import_page.h"
 #include "window/mill/window.h"
 #include "window/replay/playback.h"

@@ -6,10 +6,11 @@
 #include <functional>
 #include <string>
 
+#include "commands/work.h"
+#include "window/mill/make_ready.h"
 #include "window/mill/window_options.h"
 #include "window/replay/replay_page.h"
 #include "window/shell/desk.h"
-#include "workshop/work.h"
 
 namespace burr::app {
 

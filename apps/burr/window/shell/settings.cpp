@@ -14,8 +14,8 @@
 #include "burr/base/shown.h"
 #include "burr/base/text_file.h"
 #include "burr/base/toml_text.h"
+#include "burr/workshop/hand_device.h"
 #include "window/shell/words.h"
-#include "workshop/hand_device.h"
 
 namespace burr::app {
 namespace {
@@ -119,9 +119,9 @@ std::string take(const Field& field, const toml::node& node, Settings& settings)
     settings.*field.number = *value;
   } else if (field.device != nullptr) {
     const auto value = node.value_exact<std::string>();
-    if (!value || (!value->empty() && !is_hand_kind(*value)))
+    if (!value || (!value->empty() && !workshop::is_hand_kind(*value)))
       return fmt::format("must be empty, or one of {}, with :WHICH where there are several",
-                         kinds_known());
+                         workshop::kinds_known());
     settings.*field.device = *value;
   } else if (field.stereo != nullptr) {
     const std::string value = node.value_exact<std::string>().value_or("");

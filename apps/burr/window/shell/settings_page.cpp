@@ -134,7 +134,7 @@ void pads_leaf(Lines& left, Lines& right, Settings& settings, DeviceLeaf* device
   left.number(Word::set_pad_dead, "pad_dead", settings.pad_dead, "%.2f");
   if (device != nullptr) {
     const bool before = left.changed();
-    DevicePreferences& preferences = device->preferences;
+    workshop::DevicePreferences& preferences = device->preferences;
     left.heading(device->id);
     // in the book 0 is "what the device can"; a slider at its left end is the smallest force
     double force = preferences.max_force_n > 0 ? std::min(preferences.max_force_n, device->peak)
@@ -143,7 +143,7 @@ void pads_leaf(Lines& left, Lines& right, Settings& settings, DeviceLeaf* device
     left.number(Word::set_device_force, "device_force", force, "%.1f N", {0.1, device->peak});
     if (force != shown) preferences.max_force_n = force;
     const auto preference = [&left](Word name, const char* key, double& value, const char* format) {
-      const PreferenceRange range = range_of_preference(key);
+      const workshop::PreferenceRange range = workshop::range_of_preference(key);
       left.number(name, ("device_" + std::string(key)).c_str(), value, format,
                   {range.least, range.most});
     };

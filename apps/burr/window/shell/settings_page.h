@@ -1,9 +1,9 @@
 // apps/burr/window/shell/settings_page.h - the settings, changed while one looks.
 #pragma once
 
+#include "burr/workshop/device_book.h"
 #include "window/shell/settings.h"
 #include "window/shell/ui.h"
-#include "workshop/device_book.h"
 
 namespace burr::app {
 
@@ -17,7 +17,7 @@ struct DeviceLeaf {
   const std::string& id;
   double peak;  // that it can push [N]
   bool turns;   // it has torque
-  DevicePreferences& preferences;
+  workshop::DevicePreferences& preferences;
   bool changed = false;
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "burr/workshop/device_book.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -24,7 +25,7 @@ bool homes(const std::string& device) {
 // What may be chosen: as one writes it after --device; "" is the mouse.
 std::vector<std::string> choices(const std::string& requested) {
   std::vector<std::string> all = {""};
-  for (const HandKind& kind : hand_kinds()) {
+  for (const workshop::HandKind& kind : workshop::hand_kinds()) {
     all.emplace_back(kind.name);
     if (requested.starts_with(all.back() + ":")) all.push_back(requested);
   }
@@ -34,29 +35,29 @@ std::vector<std::string> choices(const std::string& requested) {
 std::string shown(const std::string& device) {
   if (device.empty()) return word(Word::hand_mouse);
   const std::string kind = device.substr(0, device.find(':'));
-  for (const HandKind& one : hand_kinds())
+  for (const workshop::HandKind& one : workshop::hand_kinds())
     if (kind == one.name) return fmt::format("{}: {}", device, one.makes);
   return device;
 }
 
 }  // namespace
 
-HandChoice::HandChoice(HandRequest request) : request_(std::move(request)) { look(); }
+HandChoice::HandChoice(workshop::HandRequest request) : request_(std::move(request)) { look(); }
 
 void HandChoice::look() {
   looked_ = std::chrono::steady_clock::now();
   if (request_.device.empty()) return;
-  HandRequest asked = request_;
+  workshop::HandRequest asked = request_;
   asked.home = false;  // nothing moves before there is a bone
   looks_ = std::async(std::launch::async, [asked]() -> Found {
-    auto device = make_hand(asked);
+    auto device = workshop::make_hand(asked);
     if (!device) return {false, device.error().text};
     const Status opened = (*device)->open();
     if (!opened) return {false, opened.error().text};
     const device::DeviceSpec spec = (*device)->spec();
     (*device)->close();
-    return {true,
-            fmt::format("{}: {:.1f} N, {:.0f} Hz", id_of(spec), spec.peak_force, spec.native_rate)};
+    return {true, fmt::format("{}: {:.1f} N, {:.0f} Hz", workshop::id_of(spec), spec.peak_force,
+                              spec.native_rate)};
   });
 }
 
@@ -83,7 +84,8 @@ bool HandChoice::draw(Ui& ui, float x, float y, float w) {
     for (const std::string& device : choices(request_.device))
       if (ImGui::Selectable(shown(device).c_str(), device == request_.device) &&
           device != request_.device) {
-        request_ = HandRequest();  // what was allowed to one arm is not allowed to another
+        request_ =
+            workshop::HandRequest();  // what was allowed to one arm is not allowed to another
         request_.device = device;
         changed = true;
       }

@@ -11,20 +11,20 @@
 #include <optional>
 #include <string>
 
+#include "burr/workshop/hand_device.h"
 #include "window/shell/ui.h"
-#include "workshop/hand_device.h"
 
 namespace burr::app {
 
 class HandChoice {
  public:
   // request: of the command line, or of the settings
-  explicit HandChoice(HandRequest request);
+  explicit HandChoice(workshop::HandRequest request);
 
   // A line to choose in, and what was found below it. True: something else was chosen.
   [[nodiscard]] bool draw(Ui& ui, float x, float y, float w);
 
-  [[nodiscard]] const HandRequest& request() const { return request_; }
+  [[nodiscard]] const workshop::HandRequest& request() const { return request_; }
   // In words, as shown last; empty for the mouse.
   [[nodiscard]] const std::string& found() const { return words_; }
   // Before a session opens it: the device is closed again.
@@ -37,7 +37,7 @@ class HandChoice {
   };
   void look();
 
-  HandRequest request_;
+  workshop::HandRequest request_;
   std::future<Found> looks_;
   std::chrono::steady_clock::time_point looked_;
   std::string words_;

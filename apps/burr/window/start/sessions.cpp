@@ -15,6 +15,9 @@
 #include "burr/base/toml_text.h"
 #include "burr/record/place_file.h"
 #include "burr/record/player.h"
+#include "burr/workshop/prepare.h"
+#include "burr/workshop/recording.h"
+#include "commands/work.h"
 
 namespace burr::app {
 namespace {
@@ -184,20 +187,21 @@ Result<Ready> continue_session(const KeptSession& kept, Progress& progress) {
   const bool scan = fs::exists(options.volume.source, nobody_asks);
   scenario::Recipe given = options.volume;
   if ((*player)->info().embedded || !scan) given.source.clear();
-  auto bone = bone_of(**player, given, progress);
+  auto bone = workshop::bone_of(**player, given, progress);
   if (!bone) return bone.error();
-  Work work;
+  workshop::Prepared work;
   // the place is that of the bone before it was cut
   auto place = surgeon::find_work_place(**bone, 0.5e-3 * options.burr_mm, options.at, options.into);
   if (!place) return place.error();
   work.place = *place;
   const Status there = (*player)->bone_at(1e9, **bone);
   if (!there) return there.error();
-  work.made.bone = std::move(*bone);
-  if (scan) work.made.greys = scan_greys_of(**player, options.volume, progress);
+  work.bone = std::move(*bone);
+  if (scan) work.greys = workshop::greys_of(**player, options.volume, progress);
   const std::string& format = (*player)->info().volume.format;
-  work.made.summary.format = format.empty() ? "recording" : format;
-  work.volume = options.volume;
+  work.summary.format = format.empty() ? "recording" : format;
+  work.recipe = options.volume;
+  workshop::fit_burr(options.burr_mm, work.bone->grid().voxel, work.summary.notices);
   work.what = kept.title;
   if (options.title.empty()) options.title = kept.title;
   return make_ready(options, std::move(work), progress);

@@ -17,10 +17,11 @@
 #include <vector>
 
 #include "burr/base/result.h"
+#include "commands/recording.h"
+#include "commands/work.h"
+#include "window/mill/make_ready.h"
 #include "window/replay/film_job.h"
 #include "window/shell/settings.h"
-#include "workshop/recording.h"
-#include "workshop/work.h"
 
 namespace burr::app {
 

@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "burr/scenario/case.h"
+#include "burr/workshop/hand_device.h"
 #include "commands/command.h"
+#include "commands/work.h"
 #include "window/mill/hud.h"
 #include "window/mill/mill_keys.h"
 #include "window/shell/help.h"
@@ -52,9 +54,9 @@ std::string name_of_case(const std::string& name) {
   return name;
 }
 
-StartPage::StartPage(Desk& desk, const HandRequest& hand)
+StartPage::StartPage(Desk& desk, const workshop::HandRequest& hand)
     : desk_(desk), thumbnails_(desk.places().cache, cases()), renewed_(desk.renewed()), hand_([&] {
-        HandRequest request = hand;
+        workshop::HandRequest request = hand;
         if (request.device.empty()) request.device = desk.settings.device;
         return request;
       }()) {}

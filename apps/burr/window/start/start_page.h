@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "burr/workshop/hand_device.h"
+#include "commands/work.h"
 #include "window/shell/desk.h"
 #include "window/shell/file_dialog.h"
 #include "window/start/hand_choice.h"
@@ -19,7 +21,7 @@ namespace burr::app {
 class StartPage {
  public:
   // hand: of the command line; without a device the settings say which one
-  StartPage(Desk& desk, const HandRequest& hand);
+  StartPage(Desk& desk, const workshop::HandRequest& hand);
 
   // What the user chose; exactly one is set.
   struct Choice {
@@ -31,7 +33,7 @@ class StartPage {
   // trouble: a sentence about what went wrong before; "" for nothing.
   [[nodiscard]] Result<Choice> ask(const std::string& trouble, double seconds = 0);
   // What is to lead the burr; no device: the mouse.
-  [[nodiscard]] const HandRequest& hand() const { return hand_.request(); }
+  [[nodiscard]] const workshop::HandRequest& hand() const { return hand_.request(); }
 
  private:
   void take_events();

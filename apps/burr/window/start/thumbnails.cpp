@@ -10,7 +10,7 @@
 #include "burr/base/new_file.h"
 #include "burr/base/version.h"
 #include "burr/render/bone_scene.h"
-#include "workshop/work.h"
+#include "commands/work.h"
 
 namespace burr::app {
 namespace {
@@ -29,8 +29,8 @@ Result<render::Scene> scene_of(const std::string& name, Progress& progress) {
   auto work = open_work(options, progress);
   if (!work) return work.error();
   render::Scene scene;
-  scene.tissue_colours = render::colours_of(work->made.bone->tissues());
-  const Status skinned = render::skin_bone(scene, *work->made.bone, 1, progress);
+  scene.tissue_colours = render::colours_of(work->bone->tissues());
+  const Status skinned = render::skin_bone(scene, *work->bone, 1, progress);
   if (!skinned) return skinned.error();
   const render::Camera near = render::view_of_work(work->place.at, -work->place.into, 0.1);
   scene.camera = render::whole_view(scene, near.azimuth, near.elevation,

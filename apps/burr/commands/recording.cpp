@@ -1,0 +1,96 @@
+#include "commands/recording.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "burr/record/place_file.h"
+#include "burr/workshop/recording.h"
+
+namespace burr::app {
+
+Status Recording::start(sim::Session& session, const std::string& file,
+                        const scenario::Recipe& volume, const importing::ImportSummary& import,
+                        const std::string& motion, bool embed,
+                        const std::optional<workshop::Tissues>& spared,
+                        const std::optional<scenario::Case>& work_case) {
+  const workshop::About about{volume, import.format, motion, embed, spared, work_case};
+  file_ = file;
+  rate_hz_ = session.settings().servo.rate_hz;
+  auto begun =
+      workshop::record(session, file, about, [this](const Error& problem) { tell(problem); });
+  if (begun) {
+    recorder_ = std::move(*begun);
+    return fine();
+  }
+  const Status started = begun.error();
+  // a name that cannot be meant is refused while nothing is lost; a disk that refuses is not the
+  // session's fault
+  std::error_code nobody_asks;
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  if (started.error().trouble != Trouble::io || record::being_written(file) ||
+      std::filesystem::is_directory(file, nobody_asks) ||
+      !(folder.empty() || std::filesystem::is_directory(folder, nobody_asks)))
+    return started;
+  tell(started.error());
+  return fine();
+}
+
+void Recording::tell(const Error& problem) {
+  {
+    const std::lock_guard lock(mutex_);
+    trouble_ = problem;
+  }
+  fmt::print(stderr, "{}burr: {}; the session continues without recording\n",
+             isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "", problem.text);
+}
+
+std::string Recording::trouble() const {
+  const std::lock_guard lock(mutex_);
+  return trouble_ ? "NOT RECORDED ANY MORE: " + trouble_->text : "";
+}
+
+Status Recording::finish(sim::Session& session) {
+  session.set_recorder(nullptr);
+  if (recorder_) {
+    const auto done = recorder_->finish();
+    if (done && !done->whole())
+      return error(
+          Trouble::io,
+          fmt::format("{}: {} ticks, {} commands and {} bricks could not be written in time "
+                      "and are missing; record to a faster disk",
+                      file_, done->dropped_ticks, done->dropped_commands, done->dropped_bricks));
+  }
+  const std::lock_guard lock(mutex_);
+  if (!trouble_) return fine();
+  std::error_code nobody_asks;
+  const bool there = std::filesystem::exists(file_, nobody_asks);
+  const double kept = recorder_ ? static_cast<double>(recorder_->safe_ticks()) / rate_hz_ : 0;
+  return error(trouble_->trouble,
+               fmt::format("{}; the session ended normally, but its recording is incomplete: {}",
+                           trouble_->text,
+                           there && kept > 0 ? fmt::format("it holds the first {:.3f} s", kept)
+                                             : "nothing was kept"));
+}
+
+record::RecordingAccount Recording::written() const {
+  return recorder_ ? recorder_->account() : record::RecordingAccount{};
+}
+
+nlohmann::json Recording::account() const {
+  const std::lock_guard lock(mutex_);
+  const record::RecordingAccount account = written();
+  nlohmann::json out;
+  out["file"] = file_;
+  out["whole"] = !trouble_ && account.whole();
+  out["ticks"] = account.safe_ticks;
+  out["dropped_ticks"] = account.dropped_ticks;
+  out["bytes"] = account.bytes;
+  if (trouble_) out["trouble"] = trouble_->text;
+  return out;
+}
+
+}  // namespace burr::app

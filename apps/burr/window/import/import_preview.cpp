@@ -1,0 +1,177 @@
+#include "window/import/import_preview.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burr::app {
+namespace {
+
+using Colour = std::array<std::uint8_t, 3>;
+
+constexpr Colour kOutline = {226, 88, 16}, kTint = {230, 159, 0};
+
+// The place of one pixel along an axis: two voxels and how much of the second.
+struct Tap {
+  std::size_t first = 0, second = 0;
+  float share = 0;
+};
+
+std::vector<Tap> taps(const io::Scan& scan, const PlaneView& view, bool down, int pixels) {
+  const int axis = down ? view.down : view.across;
+  const double last = scan.size[axis] - 1;
+  std::vector<Tap> out(static_cast<std::size_t>(pixels));
+  for (int n = 0; n < pixels; ++n) {
+    const double at = std::clamp(voxels_at(scan, view, down, (n + 0.5) / pixels) - 0.5, 0.0, last);
+    const double from = std::floor(at);
+    out[static_cast<std::size_t>(n)] = {static_cast<std::size_t>(from),
+                                        static_cast<std::size_t>(std::min(from + 1, last)),
+                                        static_cast<float>(at - from)};
+  }
+  return out;
+}
+
+void put(std::vector<std::uint8_t>& rgba, std::size_t pixel, const Colour& colour) {
+  for (std::size_t c = 0; c < 3; ++c) rgba[4 * pixel + c] = colour[c];
+  rgba[4 * pixel + 3] = 255;
+}
+
+// A line along the inner side of what is inside.
+template <class Inside>
+void outline(const PlaneValues& plane, int line, std::vector<std::uint8_t>& rgba, Inside inside) {
+  const int w = plane.width, h = plane.height;
+  const auto at = [w](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
+  };
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      if (!inside(plane.values[at(x, y)])) continue;
+      bool edge = false;
+      for (int d = 1; d <= line && !edge; ++d)
+        edge = (x >= d && !inside(plane.values[at(x - d, y)])) ||
+               (x + d < w && !inside(plane.values[at(x + d, y)])) ||
+               (y >= d && !inside(plane.values[at(x, y - d)])) ||
+               (y + d < h && !inside(plane.values[at(x, y + d)]));
+      if (edge) put(rgba, at(x, y), kOutline);
+    }
+}
+
+}  // namespace
+
+std::array<PlaneView, 3> planes_of(const math::Mat3& axes) {
+  // each of the patient's axes gets the scan's axis that lies nearest, the clearest case first
+  std::array<int, 3> of_patient = {-1, -1, -1};
+  std::array<bool, 3> taken = {false, false, false};
+  for (int round = 0; round < 3; ++round) {
+    int best_patient = 0, best_scan = 0;
+    double best = -1;
+    for (int p = 0; p < 3; ++p)
+      for (int s = 0; s < 3; ++s)
+        if (of_patient[static_cast<std::size_t>(p)] < 0 && !taken[static_cast<std::size_t>(s)] &&
+            std::abs(axes(p, s)) > best) {
+          best = std::abs(axes(p, s));
+          best_patient = p;
+          best_scan = s;
+        }
+    of_patient[static_cast<std::size_t>(best_patient)] = best_scan;
+    taken[static_cast<std::size_t>(best_scan)] = true;
+  }
+  const auto [x, y, z] = of_patient;
+  const bool flip_x = axes(0, x)<0, flip_y = axes(1, y) < 0, head_down = axes(2, z)> 0;
+  return {PlaneView{x, y, z, flip_x, flip_y, 'R', 'L', 'A', 'P'},
+          PlaneView{x, z, y, flip_x, head_down, 'R', 'L', 'S', 'I'},
+          PlaneView{y, z, x, flip_y, head_down, 'A', 'P', 'S', 'I'}};
+}
+
+std::array<double, 2> extent_mm(const io::Scan& scan, const PlaneView& view) {
+  return {scan.size[view.across] * scan.spacing_mm[view.across],
+          scan.size[view.down] * scan.spacing_mm[view.down]};
+}
+
+double voxels_at(const io::Scan& scan, const PlaneView& view, bool down, double place) {
+  const bool flip = down ? view.flip_down : view.flip_across;
+  return (flip ? 1 - place : place) * scan.size[down ? view.down : view.across];
+}
+
+double place_of(const io::Scan& scan, const PlaneView& view, bool down, double voxels) {
+  const bool flip = down ? view.flip_down : view.flip_across;
+  const double place = voxels / scan.size[down ? view.down : view.across];
+  return flip ? 1 - place : place;
+}
+
+void sample(const io::Scan& scan, const PlaneView& view, int slice, int width, int height,
+            PlaneValues& out) {
+  out.width = width;
+  out.height = height;
+  out.values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  const std::array<std::size_t, 3> stride = {
+      1, static_cast<std::size_t>(scan.size.x()),
+      static_cast<std::size_t>(scan.size.x()) * static_cast<std::size_t>(scan.size.y())};
+  const auto step = [&stride](int axis) { return stride[static_cast<std::size_t>(axis)]; };
+  const std::size_t across = step(view.across), down = step(view.down),
+                    base = step(view.through) * static_cast<std::size_t>(std::clamp(
+                                                    slice, 0, scan.size[view.through] - 1));
+  const std::vector<Tap> columns = taps(scan, view, false, width),
+                         rows = taps(scan, view, true, height);
+  const bool labels = scan.values.empty();
+  std::size_t pixel = 0;
+  for (const Tap& row : rows) {
+    const std::size_t upper = base + row.first * down, lower = base + row.second * down;
+    for (const Tap& column : columns) {
+      const std::size_t left = column.first * across, right = column.second * across;
+      if (labels) {
+        out.values[pixel++] = static_cast<float>(
+            scan.labels[(row.share < 0.5F ? upper : lower) + (column.share < 0.5F ? left : right)]);
+        continue;
+      }
+      const float above = scan.values[upper + left] +
+                          column.share * (scan.values[upper + right] - scan.values[upper + left]),
+                  below = scan.values[lower + left] +
+                          column.share * (scan.values[lower + right] - scan.values[lower + left]);
+      out.values[pixel++] = above + row.share * (below - above);
+    }
+  }
+}
+
+void draw_greys(const PlaneValues& plane, double black, double white, std::optional<double> level,
+                int line, std::vector<std::uint8_t>& rgba) {
+  rgba.resize(4 * plane.values.size());
+  const auto from = static_cast<float>(black);
+  const float scale = 255.0F / static_cast<float>(std::max(white - black, 1e-30));
+  const bool any = level.has_value();
+  const auto iso = static_cast<float>(level.value_or(0));
+  for (std::size_t n = 0; n < plane.values.size(); ++n) {
+    const float grey = std::clamp((plane.values[n] - from) * scale, 0.0F, 255.0F);
+    Colour colour;
+    const bool bone = any && plane.values[n] >= iso;
+    for (std::size_t c = 0; c < 3; ++c)
+      colour[c] = static_cast<std::uint8_t>(bone ? 0.62F * grey + 0.38F * kTint[c] : grey);
+    put(rgba, n, colour);
+  }
+  if (any) outline(plane, line, rgba, [iso](float value) { return value >= iso; });
+}
+
+void draw_labels(const PlaneValues& plane, const std::array<LabelLook, 256>& looks, int line,
+                 std::vector<std::uint8_t>& rgba) {
+  rgba.resize(4 * plane.values.size());
+  const auto look = [&looks](float value) -> const LabelLook& {
+    return looks[static_cast<std::size_t>(value)];
+  };
+  for (std::size_t n = 0; n < plane.values.size(); ++n) {
+    const LabelLook& one = look(plane.values[n]);
+    const int x = static_cast<int>(n % static_cast<std::size_t>(plane.width)),
+              y = static_cast<int>(n / static_cast<std::size_t>(plane.width));
+    constexpr int kHatch = 6;
+    float strength = 0.12F;
+    if (one.kind == volume::TissueKind::solid) strength = 1;
+    if (one.kind == volume::TissueKind::soft)
+      strength = (x + y) % kHatch < std::max(2, line) ? 1.0F : 0.35F;
+    Colour colour;
+    for (std::size_t c = 0; c < 3; ++c)
+      colour[c] = static_cast<std::uint8_t>(12 + strength * 235 * one.colour[c]);
+    put(rgba, n, colour);
+  }
+  outline(plane, line, rgba,
+          [&look](float value) { return look(value).kind == volume::TissueKind::solid; });
+}
+
+}  // namespace burr::app

@@ -1,0 +1,55 @@
+// apps/burr/window/import/import_preview.h - three planes through a scan as it is before it becomes bone, turned
+// as one is used to see them, with what would be bone tinted and outlined.
+//
+// Thread: any. Cost: one read and a few operations per pixel.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "burr/io/scan.h"
+#include "burr/volume/tissue.h"
+
+namespace burr::app {
+
+// Which axes of the scan lie along the picture's sides, by the patient's directions they are
+// nearest to: left right, front at the top of an axial slice, head at the top of the others.
+struct PlaneView {
+  int across = 0, down = 1, through = 2;  // axes of the scan
+  bool flip_across = false, flip_down = false;
+  char left = 'R', right = 'L', top = 'A', bottom = 'P';  // the patient's right, left, anterior ...
+};
+// axial, coronal, sagittal
+[[nodiscard]] std::array<PlaneView, 3> planes_of(const math::Mat3& axes);
+
+// Width and height of the plane.  [mm]
+[[nodiscard]] std::array<double, 2> extent_mm(const io::Scan& scan, const PlaneView& view);
+// Between a place in the picture, 0..1 from its left or top, and voxels; whole numbers are edges:
+// voxel n lies from n to n + 1.
+[[nodiscard]] double voxels_at(const io::Scan& scan, const PlaneView& view, bool down,
+                               double place);
+[[nodiscard]] double place_of(const io::Scan& scan, const PlaneView& view, bool down,
+                              double voxels);
+
+// A plane's values at the pixels: greys linearly between voxels, labels of the nearest.
+struct PlaneValues {
+  int width = 0, height = 0;
+  std::vector<float> values;  // (height x width)
+};
+void sample(const io::Scan& scan, const PlaneView& view, int slice, int width, int height,
+            PlaneValues& out);
+
+// Four bytes a pixel, top row first.
+void draw_greys(const PlaneValues& plane, double black, double white, std::optional<double> level,
+                int line, std::vector<std::uint8_t>& rgba);
+// by label: its kind and colour; soft ones are hatched, solid ones outlined
+struct LabelLook {
+  volume::TissueKind kind = volume::TissueKind::air;
+  std::array<float, 3> colour = {0, 0, 0};
+};
+void draw_labels(const PlaneValues& plane, const std::array<LabelLook, 256>& looks, int line,
+                 std::vector<std::uint8_t>& rgba);
+
+}  // namespace burr::app

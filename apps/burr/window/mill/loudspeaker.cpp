@@ -1,0 +1,49 @@
+#include "window/mill/loudspeaker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace burr::app {
+namespace {
+
+constexpr int kQuietest = -16;  // -48 dB
+constexpr double kStep = 3;     // [dB]
+
+}  // namespace
+
+Loudspeaker::Loudspeaker(const tick::ServoSettings& settings, workshop::Hearing::ToSpare to_spare)
+    : hearing_(settings, std::move(to_spare)) {
+  open();
+}
+
+void Loudspeaker::open() {
+  speaker_.reset();
+  auto opened = sound::Speaker::open();
+  trouble_ = opened ? "" : opened.error().text;
+  if (!opened) return;
+  speaker_ = std::move(*opened);
+  speaker_->voice().loudness(loudness());
+}
+
+double Loudspeaker::loudness() const { return std::pow(10, kStep * steps_ / 20); }
+
+void Loudspeaker::hear(const tick::TickRow& newest) {
+  const sound::Heard& now = hearing_.hear(newest);
+  if (speaker_) speaker_->voice().hear(now);
+}
+
+void Loudspeaker::toggle() {
+  if (is_on())
+    speaker_->voice().on(false);
+  else
+    open();
+}
+
+double Loudspeaker::louder(int steps) {
+  steps_ = std::clamp(steps_ + steps, kQuietest, 0);
+  if (speaker_) speaker_->voice().loudness(loudness());
+  return kStep * steps_;
+}
+
+}  // namespace burr::app

@@ -1,0 +1,95 @@
+#include "window/mill/make_ready.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "burr/math/turn.h"
+#include "burr/workshop/hand_device.h"
+#include "burr/workshop/live_surface.h"
+#include "burr/workshop/prepare.h"
+#include "burr/workshop/spared.h"
+
+namespace burr::app {
+namespace {
+
+using math::Vec3;
+
+// how much of the surroundings is seen: the pocket large, the anatomy around it still there
+double view_height(double burr_radius) { return std::clamp(20 * burr_radius, 20e-3, 70e-3); }
+
+}  // namespace
+
+math::Quat view_of_hand(const render::Camera& camera) {
+  math::Mat3 axes;
+  axes << camera.right(), camera.above(), camera.backward();
+  return math::Quat(axes).normalized();
+}
+
+Result<Ready> make_ready(const WorkOptions& options, workshop::Prepared prepared,
+                         Progress& progress) {
+  sim::SessionSettings settings = settings_of(options, true);
+  // the hand begins two centimetres above the work
+  math::Pose above;
+  above.p = prepared.place.at - 20e-3 * prepared.place.into;
+  above.q = math::shortest_turn(Vec3::UnitZ(), -prepared.place.into);
+  Ready ready;
+  ready.scene.camera = render::view_of_work(prepared.place.at, -prepared.place.into,
+                                            2 * view_height(settings.servo.burr.radius));
+  std::unique_ptr<device::Device> hand;
+  if (options.hand.device.empty()) {
+    auto mouse = std::make_unique<MouseHand>(above);
+    ready.hands.mouse = mouse.get();
+    hand = std::move(mouse);
+  } else {
+    auto laid = workshop::lay_hand(options.hand, above, view_of_hand(ready.scene.camera));
+    if (!laid) return laid.error();
+    settings.servo.rate_hz = workshop::tick_rate(laid->hand->spec());
+    settings.servo.limit.user_force = laid->max_force;
+    settings.servo.vibration_gain = laid->vibration;
+    settings.servo.torque_gain = laid->torque;
+    for (const std::string& notice : laid->notices) prepared.summary.notices.push_back(notice);
+    ready.hands.real = laid->hand.get();
+    ready.hands.max_force = laid->max_force;
+    ready.hands.id = laid->id;
+    ready.hands.preferences = laid->preferences;
+    hand = std::move(laid->hand);
+  }
+  ready.title = options.title.empty() ? prepared.what : options.title;
+  ready.what = prepared.what;
+  ready.work_case = options.work_case;
+  ready.volume = prepared.recipe;
+  ready.import = prepared.summary;
+  ready.greys = std::move(prepared.greys);
+  auto started = workshop::begin(prepared, std::move(hand), settings, progress);
+  if (!started) return started.error();
+  ready.session = std::move(*started);
+  if (!options.suction.empty()) {
+    // beside the burr, on the side of the other hand
+    const math::Quat view = view_of_hand(ready.scene.camera);
+    auto suction = workshop::SuctionHand::join(*ready.session, options.suction,
+                                               {above.p - view * Vec3(15e-3, 0, 0), above.q}, view);
+    if (!suction) return suction.error();
+    ready.suction = std::move(*suction);
+    ready.hands.suction = ready.suction.get();
+  }
+  if (!options.told_as.empty()) {
+    auto arm = device::crtk::Arm::open({.name = options.told_as, .middle = above.p});
+    if (!arm) return arm.error();
+    ready.arm = std::move(*arm);
+    ready.teller = std::make_unique<workshop::ArmPublisher>(*ready.session, *ready.arm);
+  }
+  volume::Bone& bone = ready.session->bone();
+  ready.spared = workshop::to_spare(bone.tissues(), options.spare);
+  auto spared_distance = workshop::SparedDistance::make(bone, ready.spared, progress);
+  if (!spared_distance) return spared_distance.error();
+  ready.spared_distance =
+      std::make_unique<const workshop::SparedDistance>(std::move(*spared_distance));
+  ready.scene.tissue_colours = render::colours_of(bone.tissues());
+  ready.worker = std::make_unique<surface::Worker>(bone, 1);
+  const Status status = ready.worker->first(
+      progress, [&ready](const surface::Skin& skin) { workshop::put_skin(ready.scene, skin); });
+  if (!status) return status.error();
+  return ready;
+}
+
+}  // namespace burr::app

@@ -1,0 +1,67 @@
+#include "burr/workshop/open_bone.h"
+
+#include <functional>
+#include <utility>
+
+#include "burr/importing/materials.h"
+#include "burr/phantom/phantoms.h"
+#include "burr/volume/volume_of.h"
+#include "burr/workshop/prebuilt_phantom.h"
+
+namespace burr::workshop {
+namespace {
+
+Result<importing::Imported> open_phantom(const scenario::Recipe& recipe, Progress& progress) {
+  const std::string name = scenario::phantom_name(recipe.source);
+  if (!recipe.series.empty() || !recipe.spacing_mm.isZero(0) || recipe.region || recipe.iso ||
+      !recipe.labels.empty() || recipe.read_seconds != 0 || recipe.read_memory_mb != 0)
+    return error(Trouble::usage,
+                 "a phantom is a formula: only --voxel-mm and --materials apply to it");
+  std::function<void(volume::TissueTable&)> made_of;
+  if (!recipe.materials.empty()) {
+    auto materials = importing::read_materials(recipe.materials);
+    if (!materials) return materials.error();
+    made_of = [all = std::move(*materials)](volume::TissueTable& table) {
+      for (std::size_t id = 1; id < table.tissues.size(); ++id) all.lay_over(table.tissues[id]);
+    };
+  }
+  importing::Imported made;
+  const bool usual = recipe.voxel_mm == 0 || recipe.voxel_mm == phantom::default_voxel_mm(name);
+  if (usual && !made_of) made.bone = prebuilt_phantom(name, recipe.reserve_bricks);
+  if (!made.bone) {
+    auto bone =
+        phantom::phantom(name, recipe.voxel_mm, progress, recipe.reserve_bricks, 2, made_of);
+    if (!bone) return bone.error();
+    made.bone = std::move(*bone);
+  }
+  importing::ImportSummary& s = made.summary;
+  s.format = "formula";
+  s.voxel_mm = made.bone->grid().voxel * 1e3;
+  s.size = s.scan_size = s.roi_size = made.bone->grid().size;
+  s.spacing_mm = math::Vec3::Constant(s.voxel_mm);
+  s.axes = made.bone->grid().frame.q.toRotationMatrix();
+  s.origin_mm = made.bone->grid().frame.p * 1e3;
+  s.labels = true;
+  const auto& table = made.bone->tissues().tissues;
+  for (std::size_t id = 1; id < table.size(); ++id)
+    s.tissues.push_back({static_cast<volume::TissueId>(id), table[id], 0, 0});
+  s.solid_mm3 = volume::volume_of(*made.bone) * 1e9;
+  return made;
+}
+
+}  // namespace
+
+io::ReadOptions read_options(const scenario::Recipe& recipe) {
+  return {recipe.series, recipe.spacing_mm, recipe.read_seconds, recipe.read_memory_mb};
+}
+
+Result<importing::Imported> open_bone(const scenario::Recipe& recipe, Progress& progress,
+                                      const io::Scan* scan, bool keep_greys) {
+  if (scenario::is_phantom(recipe.source)) return open_phantom(recipe, progress);
+  if (scan != nullptr) return importing::import_bone(*scan, recipe, progress, keep_greys);
+  auto read = io::read_scan(recipe.source, read_options(recipe), progress);
+  if (!read) return read.error();
+  return importing::import_bone(*read, recipe, progress, keep_greys);
+}
+
+}  // namespace burr::workshop

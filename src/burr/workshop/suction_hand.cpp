@@ -1,0 +1,35 @@
+#include "burr/workshop/suction_hand.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace burr::workshop {
+
+Result<std::unique_ptr<SuctionHand>> SuctionHand::join(sim::Session& session,
+                                                       const std::string& device,
+                                                       const math::Pose& start,
+                                                       const math::Quat& world_from_view) {
+  HandRequest request;
+  request.device = device;
+  auto laid = lay_hand(request, start, world_from_view);
+  if (!laid) return laid.error();
+  device::MappedHand& hand = *laid->hand;
+  tick::SecondHandSettings settings;
+  settings.radius = kRadius;
+  settings.force = session.settings().servo.force;
+  settings.limit.user_force = laid->max_force;
+  const Status joined = session.join(std::move(laid->hand), settings);
+  if (!joined) return joined.error();
+  return std::unique_ptr<SuctionHand>(new SuctionHand(session, hand));
+}
+
+SuctionHand::Seen SuctionHand::now() {
+  static_cast<void>(session_.second_hand()->view().take(row_));
+  const device::HandState& hand = row_.hand;
+  return {{row_.contact.proxy, hand.world_from_tool.q},
+          row_.contact.force,
+          hand.valid,
+          hand.valid && (hand.buttons & device::kLifted) == 0 && hand.pedal <= 0};
+}
+
+}  // namespace burr::workshop

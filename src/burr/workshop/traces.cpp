@@ -1,0 +1,60 @@
+#include "burr/workshop/traces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "burr/workshop/work_view.h"
+
+namespace burr::workshop {
+namespace {
+
+constexpr double kAgo = 60;           // what is older hardly shows                         [s]
+constexpr double kFar = 3;            // ahead: so much at once is told in larger steps     [s]
+constexpr std::uint64_t kEvery = 16;  // ticks: about as often as a window looks
+constexpr std::uint64_t kEveryOfMany = 128;  // ... and still within what a Wound follows
+
+}  // namespace
+
+Traces::Traces(record::Player& player) : player_(player), steps_(player.steps()) {}
+
+double Traces::time_of(const tick::TickRow& row) const {
+  return static_cast<double>(row.tick - player_.first_tick()) / player_.info().rate_hz;
+}
+
+void Traces::begin(double t) {
+  const auto ticks = static_cast<std::uint64_t>(std::max(0.0, t) * player_.info().rate_hz);
+  steps_ = player_.steps(player_.first_tick() + ticks);
+  ahead_ = false;
+}
+
+Traces::StatusLine Traces::until(double t) {
+  StatusLine told;
+  tell(t, kEvery, told);
+  return told;
+}
+
+Traces::StatusLine Traces::seek(double t) {
+  StatusLine told;
+  told.anew = t < asked_ || t > asked_ + kFar;
+  if (told.anew) begin(t - kAgo);
+  tell(t, told.anew ? kEveryOfMany : kEvery, told);
+  return told;
+}
+
+void Traces::tell(double t, std::uint64_t every, StatusLine& told) {
+  asked_ = t;
+  for (;;) {
+    if (!ahead_ && !steps_.next(step_)) return;
+    ahead_ = time_of(step_.row) > t;
+    if (ahead_) return;
+    if (step_.row.tick % every == 0)
+      told.ticks.push_back(wound_tick(step_.row, player_.info().rate_hz));
+  }
+}
+
+void Traces::StatusLine::show(render::Wound& wound) const {
+  if (anew) wound.forget();
+  for (const render::Wound::Tick& tick : ticks) wound.see(tick);
+}
+
+}  // namespace burr::workshop

@@ -1,0 +1,40 @@
+#include "burr/workshop/work_view.h"
+
+#include <algorithm>
+
+#include "burr/render/camera.h"
+#include "burr/render/look.h"
+
+namespace burr::workshop {
+
+render::Scene scene_of_work(const volume::Bone& bone, double burr_radius, const math::Vec3& at,
+                            const math::Vec3& outward) {
+  render::Scene scene;
+  scene.look = render::still_look();
+  scene.scale_bar = true;
+  const double bone_height = 1.2 * bone.grid().size.cast<double>().maxCoeff() * bone.grid().voxel;
+  const double height = std::min(std::clamp(20 * burr_radius, 20e-3, 70e-3), bone_height);
+  scene.camera = render::view_of_work(at, outward, height);
+  return scene;
+}
+
+render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz) {
+  return {static_cast<double>(row.tick) / rate_hz,
+          row.contact.proxy,
+          row.hand.world_from_tool.q * math::Vec3::UnitZ(),
+          row.tool.radius,
+          row.ledger.removed,
+          row.ledger.added,
+          row.tool.irrigated};
+}
+
+void put_tool(render::Scene& scene, const tick::TickRow& row, bool contact) {
+  scene.burr.visible = true;
+  scene.burr.radius = row.tool.radius;
+  scene.burr.diamond = row.tool.kind == tool::BurrKind::diamond;
+  scene.burr.world_from_tool = {row.contact.proxy, row.hand.world_from_tool.q};
+  if (contact)
+    render::show_contact(scene, row.hand.world_from_tool.p, row.contact.proxy, row.contact.force);
+}
+
+}  // namespace burr::workshop

@@ -1,0 +1,91 @@
+// From the rows of ticks to what is heard.
+#include "burr/workshop/hearing.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace burr::workshop {
+namespace {
+
+tick::TickRow row(std::uint64_t tick, double removed_mm3, double energy_j) {
+  tick::TickRow made;
+  made.tick = tick;
+  made.ledger.removed = 1e-9 * removed_mm3;
+  made.ledger.energy = energy_j;
+  return made;
+}
+
+TEST(Hearing, HowFastAndHowHardIsTheDifferenceOfTwoRows) {
+  for (const double rate : {1'000.0, 4'000.0}) {
+    tick::ServoSettings settings;
+    settings.rate_hz = rate;
+    // 3 mm3/s of 0.4 J/mm3; at the steps of a recording and of a window
+    for (const std::uint64_t step : {1U, 16U, 40U}) {
+      Hearing hearing(settings);
+      sound::Heard heard;
+      for (std::uint64_t tick = 500; tick < 700; tick += step) {
+        const double t = static_cast<double>(tick) / rate;
+        heard = hearing.hear(row(tick, 3 * t, 0.4 * 3 * t));
+        if (tick == 500) {
+          EXPECT_EQ(heard.removal_m3_s, 0) << "nothing to compare with yet";
+        }
+      }
+      EXPECT_NEAR(heard.removal_m3_s, 3e-9, 1e-15) << rate << " " << step;
+      EXPECT_NEAR(heard.hardness_j_m3, 0.4e9, 1) << rate << " " << step;
+    }
+  }
+}
+
+TEST(Hearing, AReturnToTheStartIsNoRemoval) {
+  Hearing hearing({});
+  static_cast<void>(hearing.hear(row(1'000, 50, 50)));
+  EXPECT_EQ(hearing.hear(row(1'100, 20, 20)).removal_m3_s, 0) << "less than before";
+  EXPECT_EQ(hearing.hear(row(10, 0, 0)).removal_m3_s, 0) << "an earlier row";
+  EXPECT_NEAR(hearing.hear(row(110, 1, 1)).removal_m3_s, 10e-9, 1e-15);
+  EXPECT_EQ(hearing.hear(row(210, 1, 1)).removal_m3_s, 0) << "no more";
+  EXPECT_NEAR(hearing.hear(row(210, 1, 1)).hardness_j_m3, 1e9, 1) << "it was that bone last";
+}
+
+TEST(Hearing, TellsWhatTheRowTells) {
+  tick::ServoSettings settings;
+  settings.burr.teeth = 6;
+  math::Vec3 asked = math::Vec3::Zero();
+  Hearing hearing(settings, [&asked](const math::Vec3& p) {
+    asked = p;
+    return 5e-3;
+  });
+  tick::TickRow one = row(0, 0, 0);
+  one.tool.radius = 2e-3;
+  one.spindle_rad_s = -1'234;
+  one.cutting_nm = 1e-3;
+  one.contact.touching = true;
+  one.contact.proxy = {1, 2, 3};
+  sound::Heard heard = hearing.hear(one);
+  EXPECT_EQ(heard.spindle_rad_s, -1'234);
+  EXPECT_EQ(heard.cutting_nm, 1e-3);
+  EXPECT_EQ(heard.teeth, 6);
+  EXPECT_TRUE(heard.touching);
+  EXPECT_FALSE(heard.irrigated);
+  EXPECT_EQ(asked, math::Vec3(1, 2, 3)) << "where the burr is";
+  EXPECT_NEAR(heard.to_spare, 3e-3, 1e-15) << "from its surface";
+
+  one.tool.irrigated = true;
+  one.tool.radius = 1e-3;
+  heard = hearing.hear(one);
+  EXPECT_TRUE(heard.irrigated);
+  EXPECT_NEAR(heard.to_spare, 4e-3, 1e-15);
+  one.tool.irrigated = false;
+  EXPECT_FALSE(hearing.hear(one).irrigated);
+
+  one.tool.kind = tool::BurrKind::diamond;
+  EXPECT_EQ(hearing.hear(one).teeth, 0) << "it grinds";
+  one.tool.kind = tool::BurrKind::cutting;
+  EXPECT_EQ(hearing.hear(one).teeth, 6);
+
+  Hearing without(settings);
+  EXPECT_EQ(without.hear(one).to_spare, std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+}  // namespace burr::workshop
