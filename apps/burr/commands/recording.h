@@ -1,5 +1,5 @@
-// apps/burr/commands/recording.h - a session recorded by a command: what the library's recorder reports goes
-// to stderr, into JSON and into the exit code.
+// apps/burr/commands/recording.h - a session recorded by a command: what the library's recorder
+// reports goes to stderr, into JSON and into the exit code.
 #pragma once
 
 #include <memory>

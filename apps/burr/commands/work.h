@@ -1,5 +1,6 @@
-// apps/burr/commands/work.h - what is milled, where and with what: a case or a scan as the user named it,
-// made ready for a session. Shared by the window's pages and `burr run` without a display.
+// apps/burr/commands/work.h - what is milled, where and with what: a case or a scan as the user
+// named it, made ready for a session. Shared by the window's pages and `burr run` without a
+// display.
 //
 // Thread: any, one at a time; takes seconds and says how far it is.
 #pragma once
@@ -44,9 +45,9 @@ void take_case(WorkOptions& options, const scenario::Case& work);
 // Before take_case(): neither a built-in case, nor a phantom, nor a .toml file.
 [[nodiscard]] bool names_a_scan(const WorkOptions& options);
 
-// After take_case(). burr_mm of the options becomes that of the burr that was taken, with a notice where it
-// differs (workshop/prepare.h). scan: as workshop::open_bone() takes it. Error: also a tissue that the case names
-// and the bone lacks.
+// After take_case(). burr_mm of the options becomes that of the burr that was taken, with a notice
+// where it differs (workshop/prepare.h). scan: as workshop::open_bone() takes it. Error: also a
+// tissue that the case names and the bone lacks.
 [[nodiscard]] Result<workshop::Prepared> open_work(WorkOptions& options, Progress& progress,
                                                    const io::Scan* scan = nullptr);
 

@@ -1,5 +1,5 @@
-// apps/burr/window/mill/make_ready.h - prepared work becomes a session at the window: with its hand, its surface and
-// the first view.
+// apps/burr/window/mill/make_ready.h - prepared work becomes a session at the window: with its
+// hand, its surface and the first view.
 //
 // Thread: any, one at a time; takes seconds and reports how far it is.
 #pragma once
