@@ -1,5 +1,5 @@
-// apps/burr/window/shell/texture.h - a picture on the graphics card for a page. Thread: main, with the
-// window's context.
+// apps/burr/window/shell/texture.h - a picture on the graphics card, for a page. Thread: main, with
+// the window's context.
 #pragma once
 
 #include <cstdint>
