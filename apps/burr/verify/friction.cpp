@@ -1,4 +1,5 @@
-// burr verify friction - the cone, what a groove makes of it, and that it never gives energy.
+// burr verify friction - the friction cone, its effect in a groove, and that friction never gives
+// energy.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +43,7 @@ void friction(const Verify& verify, Report::Part& part) {
   const Scene plane(phantom::slab());
   const Vec3 above(0, 0, 3 * kMm), down(0, 0, kRadius - kDeep);
 
-  // the hand is moved aside by 0.1 um a tick until the burr lets go
+  // the hand moves sideways by 0.1 um per tick until the burr slips
   Plot slip{
       "How far the burr trails behind the hand as this is moved aside at 0.1 mm/s: it sticks "
       "(slope 1) until the cone is reached at mu_s times the depth, then slides at mu_k.",
@@ -69,7 +70,7 @@ void friction(const Verify& verify, Report::Part& part) {
   }
   part.plot(std::move(slip));
 
-  // slopes either side of the threshold under a constant push straight down
+  // slopes just below and above the threshold, under a constant force straight down
   for (const double mu : {0.2, 0.5}) {
     for (const double share : {0.98, 1.02}) {
       const double slope = std::atan(share * mu);
@@ -78,7 +79,7 @@ void friction(const Verify& verify, Report::Part& part) {
       const Vec3 rest = kRadius * n;
       const auto proxy = press(tilted, mu, mu, rest + 3 * kMm * n, rest);
       Vec3 hand = rest;
-      const double spring = 0.5 * kMm;  // a push of constant force keeps the hand so far below
+      const double spring = 0.5 * kMm;  // at a constant force the hand stays this far below
       for (int t = 0; t < 4000; ++t) {
         hand = proxy->position() - Vec3(0, 0, spring * std::min(1.0, t / 500.0));
         (void)proxy->step(hand);
@@ -91,7 +92,7 @@ void friction(const Verify& verify, Report::Part& part) {
     }
   }
 
-  // a groove presses with more than the hand: mu / sin A
+  // a groove presses with more than the hand's force: the threshold is mu / sin A
   for (const double half_deg : {45.0, 30.0}) {
     const double mu = 0.3, half = half_deg * M_PI / 180, z = kRadius / std::sin(half);
     const Scene groove(phantom::groove(half));
@@ -105,7 +106,7 @@ void friction(const Verify& verify, Report::Part& part) {
               0.03 * mu / std::sin(half), "");
   }
 
-  // held for a minute below the threshold, with the tremor of a hand
+  // held below the threshold for a minute, with the tremor of a hand
   {
     const auto proxy = press(plane, 0.5, 0.45, above, down);
     const Vec3 began = proxy->position();
@@ -118,7 +119,7 @@ void friction(const Verify& verify, Report::Part& part) {
     part.at_most("drift", 1e-3, 1e3 * (proxy->position() - began).norm(), "mm");
   }
 
-  // round in circles: what friction takes is never negative, and without it nothing is taken
+  // in circles: the energy that friction takes is never negative; without friction it is zero
   for (const double mu : {0.0, 0.3}) {
     const auto proxy = press(plane, mu, mu, above, down);
     Vec3 last(0, 0, down.z()), felt(0, 0, 1000 * kDeep);
