@@ -241,7 +241,7 @@ Result<Case> read_case(const std::string& name_or_path) {
                  fmt::format("there is no built-in case \"{}\"; there are {}, or give a .toml file",
                              file, list_of(built_in_cases())));
   const auto text =
-      base::text_of_file(path.string(), kLargestFile, "a case; is this another file?");
+      base::text_of_file(path.string(), kLargestFile, "a case; check that this is the right file");
   if (!text) return text.error();
 
   Result<Case> read = parse_case(*text, file);
