@@ -176,7 +176,7 @@ TEST(Fit, AnIntervalThatLeavesWhatCouldBeShownIsNoThreshold) {
   const Fit found = fit(fine, settings);
   EXPECT_TRUE(found.found) << found.why;
   EXPECT_NEAR(found.best.threshold, 0.2, 0.01);
-  EXPECT_EQ(fit({}, settings).why, "no threshold found: nothing was answered");
+  EXPECT_EQ(fit({}, settings).why, "no threshold found: there are no answers");
 }
 
 TEST(Experiment, OrdersAreBalancedAndNotToBeForeseen) {
