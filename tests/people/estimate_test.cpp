@@ -33,7 +33,7 @@ Study study(Plan plan, const Psychometric& truth, int runs, std::uint64_t first)
     ++all.runs;
     all.trials += out.trials;
     if (out.settled) all.settled_sum += std::log(*out.settled);
-    if (out.fit.why.find("guessed") != std::string::npos) ++all.guessed;
+    if (out.fit.why.find("guessing") != std::string::npos) ++all.guessed;
     if (!out.fit.found) continue;
     ++all.found;
     const double off = std::log(out.fit.best.threshold / truth.threshold);

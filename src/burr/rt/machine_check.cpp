@@ -115,7 +115,7 @@ CheckLine virtual_line(const Machine& machine) {
 // Adds the reasons why these ticks do not meet the bars.
 void hold_against(const CheckBars& bars, const TickSummary& ticks, std::vector<std::string>& why) {
   if (ticks.p999_us > bars.work_us)
-    why.push_back("one tick in a thousand works " + number(ticks.p999_us, "%.0f") +
+    why.push_back("one tick in a thousand takes " + number(ticks.p999_us, "%.0f") +
                   " us or longer (" + number(bars.work_us, "%.0f") + " allowed)");
   if (ticks.late_p999_us > bars.late_us)
     why.push_back("one tick in a thousand begins " + number(ticks.late_p999_us, "%.0f") +

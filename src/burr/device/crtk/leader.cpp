@@ -324,7 +324,7 @@ Result<DeviceSpec> Leader::connect() {
   if (rate < kSlowest)
     return error(Trouble::io,
                  fmt::format("{} reports its position {:.0f} times a second, but burr needs {:.0f} "
-                             "or more: set a shorter period where its node is started",
+                             "or more; set a shorter period where its node is started",
                              *arm, rate, kSlowest));
 
   // For arms that know these: carry their own weight, and take forces in the frame of their end.
