@@ -131,12 +131,12 @@ TEST(MachineCheck, TheBarsDecideOnEachSide) {
   };
   const Case cases[] = {
       {ticks(500, 100, 1000), Verdict::good, ""},
-      {ticks(501, 100, 1000), Verdict::usable, "works 501 us"},
+      {ticks(501, 100, 1000), Verdict::usable, "takes 501 us"},
       {ticks(500, 101, 1000), Verdict::usable, "begins 101 us late"},
       {ticks(500, 100, 1100), Verdict::usable, "the latest tick began 1.1 ms late"},
       {ticks(500, 100, 1000, 1), Verdict::usable, "1 of 4001 ticks were skipped"},
       {ticks(900, 1000, 5000, 4), Verdict::usable, "4 of 4004"},
-      {ticks(901, 1000, 5000), Verdict::not_enough, "works 901 us"},
+      {ticks(901, 1000, 5000), Verdict::not_enough, "takes 901 us"},
       {ticks(900, 1001, 5000), Verdict::not_enough, "begins 1001 us late"},
       {ticks(900, 1000, 5100), Verdict::not_enough, "5.1 ms late"},
       {ticks(900, 1000, 5000, 5), Verdict::not_enough, "5 of 4005"},

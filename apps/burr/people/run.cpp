@@ -133,8 +133,7 @@ Status check(const PeopleRun& run) {
   if (!(run.seconds >= 1.5 && run.seconds <= 60))
     return usage(fmt::format("--seconds {:g} is out of range; use 1.5 to 60", run.seconds));
   if (!(run.wall.rate_hz >= 500 && run.wall.rate_hz <= 10000))
-    return usage(
-        fmt::format("--rate {:g} is out of range; use 500 to 10000 Hz", run.wall.rate_hz));
+    return usage(fmt::format("--rate {:g} is out of range; use 500 to 10000 Hz", run.wall.rate_hz));
   if (run.subject.size() > 16)
     return usage("--subject is longer than 16 characters; give a code, not a name");
   for (const char c : run.subject)

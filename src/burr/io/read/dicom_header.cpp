@@ -392,8 +392,7 @@ Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
     header.pixels_length = set.pixels_length;
 
     if (header.frame_count < 1 || header.frame_count > 100000)
-      return broken(
-          fmt::format("its number of frames, {}, is not from 1 to 100000", header.frame_count));
+      return broken(fmt::format("it states {} frames, not 1 to 100000", header.frame_count));
     DicomFrame common;
     frame_facts(top, common);
     frame_facts(set.shared, common);

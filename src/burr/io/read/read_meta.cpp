@@ -118,8 +118,7 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
   const std::string name = get({"ElementDataFile"});
   if (name.empty()) return bad("ElementDataFile", "is missing");
   if (words(name).size() > 1 || name.rfind("LIST", 0) == 0 || name.find('%') != std::string::npos)
-    return bad("ElementDataFile",
-               "burr does not read lists or patterns of files; save the scan as one file");
+    return bad("ElementDataFile", "burr reads no lists or patterns of files; save one file");
   const bool own = name == "LOCAL" || name == "Local" || name == "local";
   std::filesystem::path data = path;
   if (!own) {
