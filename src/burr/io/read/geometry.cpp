@@ -88,7 +88,7 @@ Status straighten(Scan& scan, const std::vector<SlicePlace>& places, double gap_
   // checked before the conversion to integers: a false header may shift a slice by anything
   if (!((hi_x - lo_x) / dx <= 4.0 * nx) || !((hi_y - lo_y) / dy <= 4.0 * ny) ||
       !(places.back().z_mm / gap_mm <= 16.0 * nz))
-    return error("the slices lie too far apart to be one volume; pick another series");
+    return error("the slices are too far apart to be one volume; choose another series");
   const int more_x = static_cast<int>(std::ceil(hi_x / dx - 1e-6) - std::floor(lo_x / dx + 1e-6));
   const int more_y = static_cast<int>(std::ceil(hi_y / dy - 1e-6) - std::floor(lo_y / dy + 1e-6));
   const double start_x = std::floor(lo_x / dx + 1e-6) * dx,
@@ -181,7 +181,7 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
              Progress& progress) {
   if (!usable(affine))
     return error(
-        fmt::format("{}: its voxel spacing, directions or place cannot be used; correct the header "
+        fmt::format("{}: its voxel spacing, directions or origin are not valid; correct the header "
                     "or give --spacing-mm",
                     file));
   Vec3 length;
@@ -199,8 +199,8 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
   constexpr double kSquare = 2e-3;  // [rad]; headers are rounded to this
   if (plane > kSquare)
     return error(
-        fmt::format("{}: its rows and columns are not square to each other ({:.1f} "
-                    "degrees); resample it to a square grid first",
+        fmt::format("{}: its rows and columns are not at right angles ({:.1f} degrees); resample "
+                    "it to a rectangular grid first",
                     file, std::acos(std::clamp(plane, 0.0, 1.0)) * 180 / M_PI));
   bool leaning = lean > kSquare * kSquare;
   const double up = axes.col(2).dot(normal);
@@ -222,9 +222,9 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
     scan.origin_mm = origin;
     const double gap = std::abs(step.dot(normal));
     if (Status status = straighten(scan, places, gap, progress); !status) return status;
-    scan.notices.push_back(
-        fmt::format("The slices lean by {:.1f} degrees; they were moved upright.",
-                    std::acos(std::clamp(std::abs(up), 0.0, 1.0)) * 180 / M_PI));
+    scan.notices.push_back(fmt::format(
+        "The stack of slices leans by {:.1f} degrees; the slices were shifted to make it upright.",
+        std::acos(std::clamp(std::abs(up), 0.0, 1.0)) * 180 / M_PI));
     axes = scan.axes;
     length = {length.x(), length.y(), gap};
     origin = scan.origin_mm;
@@ -246,9 +246,8 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
 
   if ((spacing_mm.array() > 0).all()) {
     scan.notices.push_back(fmt::format(
-        "Spacing {:.4g} x {:.4g} x {:.4g} mm as asked, instead of {:.4g} x {:.4g} x {:.4g} mm of "
-        "the "
-        "file.",
+        "The spacing is {:.4g} x {:.4g} x {:.4g} mm as given by --spacing-mm, instead of {:.4g} x "
+        "{:.4g} x {:.4g} mm in the file.",
         spacing_mm.x(), spacing_mm.y(), spacing_mm.z(), length.x(), length.y(), length.z()));
     scan.spacing_mm = spacing_mm;
   }

@@ -79,30 +79,30 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
   };
 
   std::int64_t dims = 0;
-  if (!to_number(get({"NDims"}), dims)) return bad("NDims", "is missing; this is no MetaImage");
+  if (!to_number(get({"NDims"}), dims)) return bad("NDims", "is missing; this is not a MetaImage");
   if (dims != 3)
     return bad("NDims", fmt::format("3 axes expected, {} found; burr reads single volumes", dims));
   const std::vector<double> size = numbers(get({"DimSize"}));
-  if (size.size() != 3) return bad("DimSize", "three sizes expected");
+  if (size.size() != 3) return bad("DimSize", "must be three sizes");
   for (const double n : size)
     if (!(n >= 1 && n <= 1e9) || n != std::floor(n))
-      return bad("DimSize", "a size is no whole number above 0");
+      return bad("DimSize", "must be whole numbers above 0");
   auto count = voxel_count(file, static_cast<std::int64_t>(size[0]),
                            static_cast<std::int64_t>(size[1]), static_cast<std::int64_t>(size[2]));
   if (!count) return count.error();
   std::int64_t channels = 1;
   const std::string channel_text = get({"ElementNumberOfChannels"});
   if (!channel_text.empty() && (!to_number(channel_text, channels) || channels != 1))
-    return bad("ElementNumberOfChannels", "burr reads one value a voxel, not colours or vectors");
+    return bad("ElementNumberOfChannels", "burr reads one value per voxel, not colours or vectors");
 
   SampleFormat format;
   const std::string type = get({"ElementType"});
   if (!sample_type(type, format.type))
-    return bad("ElementType", fmt::format("\"{}\" is not read", base::shown(type)));
+    return bad("ElementType", fmt::format("burr does not read \"{}\"", base::shown(type)));
   format.big_endian = is_true(get({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"}));
   const std::string binary = get({"BinaryData"});
   if (!binary.empty() && !is_true(binary))
-    return bad("BinaryData", "numbers as text are not read; save it as binary");
+    return bad("BinaryData", "burr does not read numbers as text; save the file as binary");
   double slope = 1, intercept = 0;
   if (to_number(get({"ElementToIntensityFunctionSlope"}), slope) && std::isfinite(slope) &&
       slope != 0)
@@ -118,7 +118,7 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
   const std::string name = get({"ElementDataFile"});
   if (name.empty()) return bad("ElementDataFile", "is missing");
   if (words(name).size() > 1 || name.rfind("LIST", 0) == 0 || name.find('%') != std::string::npos)
-    return bad("ElementDataFile", "lists and patterns of files are not read; save it as one file");
+    return bad("ElementDataFile", "burr reads no lists or patterns of files; save one file");
   const bool own = name == "LOCAL" || name == "Local" || name == "local";
   std::filesystem::path data = path;
   if (!own) {
@@ -137,13 +137,13 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
   std::int64_t header_size = 0;
   const std::string header_text = get({"HeaderSize"});
   if (!header_text.empty() && (!to_number(header_text, header_size) || header_size < -1))
-    return bad("HeaderSize", "is no number of bytes");
+    return bad("HeaderSize", "is not a number of bytes");
   if (header_size == -1)
     header_size = there >= needed && !packed ? static_cast<std::int64_t>(there - needed) : 0;
   if (needed > (packed ? there * kMostGzip : there))
     return error(
-        fmt::format("{}: DimSize promises {} bytes of voxels, the file holds {}; it is cut off "
-                    "or its header is wrong",
+        fmt::format("{}: DimSize needs {} bytes of voxels, but the file holds {}; it is cut off or "
+                    "its header is wrong",
                     file, needed, there));
   std::unique_ptr<ByteSource> source = std::move(opened->source);
   Status read = skip(*source, static_cast<std::uint64_t>(header_size));
@@ -165,7 +165,7 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
   if (!spaced) {
     spacing = {1, 1, 1};
     scan.notices.emplace_back(
-        "The file states no usable voxel spacing: taken for 1 mm; see --spacing-mm.");
+        "The file states no usable voxel spacing: 1 mm is assumed; see --spacing-mm.");
   }
   for (int a = 0; a < 3; ++a) affine.step.col(a) *= std::abs(spacing[static_cast<std::size_t>(a)]);
   const std::vector<double> origin = numbers(get({"Offset", "Position", "Origin"}));
