@@ -389,7 +389,7 @@ Status Player::advance(std::uint64_t tick) {
       if (message.channel != change_channel_) continue;
       Bricks bricks;
       if (!decode_bricks(message.data, bricks)) {
-        notice(path_ + ": a message of changed bricks is malformed");
+        notice(path_ + ": a message of changed bricks is not valid");
         return broken_before(tick);
       }
       if (bricks.batch < place_.next_batch) continue;  // already in the keyframe

@@ -185,7 +185,8 @@ const char* words(int code) {
     case kErrorGeometry:
       return "cannot compute the position of its handle; move it to the middle of its workspace.";
     case kErrorNotReady:
-      return "is not ready; wait for its lamp, and switch it off and on if it stays so.";
+      return "is not ready; wait for its lamp, and switch it off and on if it does not become "
+             "ready.";
     case kErrorConfiguration:
       return "has no valid configuration; run the maker's own test program.";
     case kErrorInUse:
