@@ -259,7 +259,7 @@ Status run(Options options) {
   if (!windowless) return run_in_window(options);
   for (const auto& [option, given] : {std::pair{"--device", &options.work.hand.device},
                                       {"--suction", &options.work.suction},
-                                      {"--tell-as", &options.work.told_as}})
+                                      {"--publish-as", &options.work.told_as}})
     if (!given->empty())
       return error(Trouble::usage,
                    fmt::format("{0} {1}: this needs a window. Use the computer's own display, or "
@@ -303,7 +303,7 @@ void add(CLI::App& app, Todo& todo) {
                    "a second haptic device for the other hand: a suction tube that feels the bone")
       ->excludes("--headless");
   command
-      ->add_option("--tell-as", options->work.told_as,
+      ->add_option("--publish-as", options->work.told_as,
                    "/NAME: publish the session as a CRTK arm of this name, so that other programs "
                    "can watch and record it (ROS 2)")
       ->excludes("--headless");

@@ -16,7 +16,7 @@ Result<std::string> text_of_file(const std::string& path, std::uintmax_t most,
   if (trouble)
     return error(Trouble::io, fmt::format("{}: cannot be read: {}", file, trouble.message()));
   if (size > most)
-    return error(fmt::format("{}: {} bytes are too many for {}", file, size, for_what));
+    return error(fmt::format("{}: the file is too large ({} bytes) for {}", file, size, for_what));
   std::ifstream stream(path, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
   if (!stream) return error(Trouble::io, fmt::format("{}: cannot be read", file));

@@ -145,7 +145,7 @@ class Recorder::Pen {
       if (failed_) discard();
       if (!done.ok()) fail(done.error());
     } catch (const std::bad_alloc&) {
-      fail(error(Trouble::io, "recording: not enough memory; the recording ends here"));
+      fail(error(Trouble::io, "recording: there is not enough memory; the recording ends here"));
     }
   }
 
@@ -463,7 +463,8 @@ Status Recorder::start(const std::string& path, const SessionInfo& asked, const 
   if (Status good = check(info); !good.ok()) return good;
 
   if (being_written(path))
-    return error(Trouble::io, path + ": another burr is recording to it; choose another name");
+    return error(Trouble::io,
+                 path + ": another burr is recording to this file; choose another name");
 
   // under another name until it has its beginning; until then an older recording is safe
   const std::string beside = path + ".part";

@@ -208,8 +208,9 @@ Result<Box> box_of(const io::Scan& scan, const std::optional<scenario::Region>& 
   Box box{{region->i[0], region->j[0], region->k[0]}, {region->i[1], region->j[1], region->k[1]}};
   for (int a = 0; a < 3; ++a)
     if (box.from[a] < 0 || box.from[a] > box.to[a] || box.to[a] >= scan.size[a])
-      return error(Trouble::usage, fmt::format("--roi: {} {}..{} does not lie in 0..{}", "ijk"[a],
-                                               box.from[a], box.to[a], scan.size[a] - 1));
+      return error(Trouble::usage,
+                   fmt::format("--roi: {} {}..{} is outside 0..{}; choose a smaller region",
+                               "ijk"[a], box.from[a], box.to[a], scan.size[a] - 1));
   if (scan.k_reversed) {
     const int end = scan.size.z() - 1, first = box.from.z();
     box.from.z() = end - box.to.z();

@@ -88,7 +88,8 @@ Status check_request(const ExportRequest& request) {
     return error(Trouble::usage, request.path + ": is a folder; add a name for the file");
   if (request.what == ExportWhat::picture) {
     if (ending_of(request.path, request.what).empty())
-      return error(Trouble::usage, request.path + ": unknown ending; use .png for a picture");
+      return error(Trouble::usage,
+                   request.path + ": unknown file extension; use .png for a picture");
   } else if (request.what == ExportWhat::film) {
     // a film: any name is possible
   } else if (const Status possible = io::check_export(request.path, options_of(request.what));

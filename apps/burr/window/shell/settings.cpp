@@ -169,8 +169,8 @@ SettingsRead parse_settings(std::string_view text, std::string_view file) {
 SettingsRead read_settings(const std::filesystem::path& path) {
   std::error_code nobody_asks;
   if (!std::filesystem::exists(path, nobody_asks)) return {};
-  const auto text =
-      base::text_of_file(path.string(), kLargestFile, "a page of settings; is this another file?");
+  const auto text = base::text_of_file(path.string(), kLargestFile,
+                                       "a settings file; check that this is the right file");
   if (text) return parse_settings(*text, path.filename().string());
   SettingsRead read;
   read.troubles.push_back(text.error().text + "; the default settings are used");

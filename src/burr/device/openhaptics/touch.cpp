@@ -101,7 +101,8 @@ Result<DeviceSpec> Touch::start() {
     return error(
         Trouble::io,
         told.code == kNoError
-            ? fmt::format("{} was not found; plug it in, and see that Touch Setup knows it", which)
+            ? fmt::format("{} was not found; plug it in, and check that Touch Setup lists it",
+                          which)
             : fmt::format("{} cannot be used: {}", which, words(told.code)));
   }
   hd_->MakeCurrentDevice(handle_);
@@ -214,8 +215,8 @@ void Touch::keep() {
     if (again && (again->serial != spec_.serial || again->peak_force != spec_.peak_force)) {
       end();
       trouble =
-          "Another Touch was plugged in than the one the session began with; plug that one in "
-          "again, or begin a new session.";
+          "Another Touch is plugged in now; plug in the one with which the session began, or begin "
+          "a new session.";
     }
     const std::lock_guard lock(words_);
     found_ = std::move(trouble);
@@ -319,9 +320,9 @@ std::string Touch::trouble() const {
   if (const Code code = trouble_.load(std::memory_order_relaxed); code != kNoError)
     return words(code);
   if (calibration_.load(std::memory_order_relaxed) == kCalibrationByHand)
-    return "The Touch wants to be calibrated: put its stylus into the inkwell for a moment.";
+    return "The Touch must be calibrated: put its stylus into the inkwell for a moment.";
   if (calibration_.load(std::memory_order_relaxed) == kCalibrationUpdate)
-    return "The Touch is being calibrated: move its stylus through the whole space.";
+    return "The Touch is being calibrated: move its stylus through its whole workspace.";
   return {};
 }
 

@@ -10,8 +10,8 @@ namespace {
 
 Error no_gl(const std::string& why) {
   return error(Trouble::io,
-               fmt::format("no OpenGL 3.3 or OpenGL ES 3.0 here ({}): install the packages "
-                           "libgl1-mesa-dri and libegl1, or your graphics card's driver",
+               fmt::format("OpenGL 3.3 or OpenGL ES 3.0 is not available ({}): install the "
+                           "packages libgl1-mesa-dri and libegl1, or your graphics card's driver",
                            why));
 }
 
