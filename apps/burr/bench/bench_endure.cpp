@@ -116,7 +116,7 @@ void print(const Options& options, const WholeOutcome& out, const rt::TickSummar
 
 Status run(Options options) {
   if (options.volume.source.empty()) options.volume.source = "phantom:temporal-bone";
-  std::string scratch;  // a recording nobody asked to keep
+  std::string scratch;  // a recording that the user did not request
   if (options.whole.record.empty()) {
     std::error_code trouble;
     scratch = (std::filesystem::temp_directory_path(trouble) /

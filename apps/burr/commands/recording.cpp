@@ -27,8 +27,8 @@ Status Recording::start(sim::Session& session, const std::string& file,
     return fine();
   }
   const Status started = begun.error();
-  // a name that cannot be meant is refused while nothing is lost; a disk that refuses is not the
-  // session's fault
+  // an impossible name is refused now, while nothing is lost; after a disk error the session runs
+  // without recording
   std::error_code nobody_asks;
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   if (started.error().trouble != Trouble::io || record::being_written(file) ||

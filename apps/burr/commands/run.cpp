@@ -218,7 +218,7 @@ Status run_in_window(const Options& options) {
   if (!status) return status;
   WindowOptions told = window;
   told.warning = [&recording] { return recording.trouble(); };
-  told.keep = [] { return true; };  // the run is being kept already
+  told.keep = [] { return true; };  // this run is recorded already
   told.film_of = [&]() -> std::optional<FilmSource> {
     FilmSource source = film_of(session, (folder / "session.mcap").string(), ready.volume);
     source.effects = (*desk)->settings.effects;
