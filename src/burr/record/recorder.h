@@ -8,7 +8,7 @@
 //     recorder.finish();
 //
 //     servo --rings, 4 s deep--> pen: a chunk every 40 ms, keyframe of the bone every 10 s
-//                                 `--> syncer: fdatasync, so that a slow disk delays nobody
+//                                 `--> syncer: fdatasync, so that a slow disk delays no one
 //
 // If a ring is full, the row is dropped and counted; the count is written to the file. A process
 // that is killed loses at most the last 100 ms of ticks: the pen gives each chunk to the kernel in
