@@ -2,7 +2,7 @@
 // on.
 //
 //     every write:  keep the old brick for undo -> write -> queue it for the diary
-//                   -> note the change for the surface -> bring the caches and the account up to date
+//                   -> note the change for the surface -> update the caches and the account
 //
 // The laws of cutting (carve.h, laws/thesis.h) and the brush compute what a brick becomes; undo,
 // redo and reset put old bricks back. All of them write here, so none can forget a step.

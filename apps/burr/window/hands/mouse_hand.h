@@ -69,7 +69,7 @@ struct Hands {
   device::MappedHand* real = nullptr;        // a haptic device
   double max_force = 1e3;                    // the lower of the user's limit for it and its own [N]
   workshop::SuctionHand* suction = nullptr;  // nullptr: none
-  std::string id = {};  // the device's key in the book of preferences
+  std::string id = {};                       // the device's key in the book of preferences
   workshop::DevicePreferences preferences = {};  // its preferences in that book
 };
 
