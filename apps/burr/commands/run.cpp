@@ -158,7 +158,7 @@ Status run_headless(const Options& options) {
   if (!status) return status;
   Summary summary = summary_of(session, work.what, "simulated hand, " + requested.motion);
   if (requested.work_case) summary.task = scenario::task_text(*requested.work_case);
-  if (!recorded) fmt::print("{}", summary_text(summary));  // a full disk takes no picture
+  if (!recorded) fmt::print("{}", summary_text(summary));  // the page may not fit on the disk
   status = picture("after.png");
   if (!status) return recorded ? status : recorded;
 
@@ -231,7 +231,7 @@ Status run_in_window(const Options& options) {
 
   Summary summary = summary_of(session, ready.what, session.hand().spec().name);
   if (ready.work_case) summary.task = scenario::task_text(*ready.work_case);
-  if (!recorded) fmt::print("{}", summary_text(summary));  // a full disk takes no picture
+  if (!recorded) fmt::print("{}", summary_text(summary));  // the page may not fit on the disk
   scene.burr.visible = false;
   scene.markers.clear();
   scene.rods.clear();
