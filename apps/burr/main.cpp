@@ -1,7 +1,9 @@
 // burr - the program. Each subcommand is a file of its own; this file parses the command line, runs
 // the subcommand and turns errors into exit codes.
+#include <fcntl.h>
 #include <fmt/core.h>
 #include <malloc.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -35,6 +37,34 @@ void on_signal(int number) {
     std::raise(number);
   }
   asked_to_stop = 1;
+}
+
+// A message to stderr that cannot be written must not end a session. fmt throws if a stream fails,
+// on any thread, so stderr becomes a stream that never fails. Descriptors 0, 1 and 2 that are
+// closed at the start are opened: otherwise the next file, perhaps a recording, would get the
+// number of stderr and with it all messages.
+void secure_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) < 0 && errno == EBADF)
+      // stdout opened for reading: writing to it is still an error, as without the file
+      static_cast<void>(open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY));
+  constexpr cookie_io_functions_t kDeaf = {
+      .read = nullptr,
+      .write = [](void*, const char* text, std::size_t size) -> ssize_t {
+        for (std::size_t done = 0; done < size;) {
+          const ssize_t some = write(STDERR_FILENO, text + done, size - done);
+          if (some < 0 && errno == EINTR) continue;
+          if (some <= 0) break;
+          done += static_cast<std::size_t>(some);
+        }
+        return static_cast<ssize_t>(size);
+      },
+      .seek = nullptr,
+      .close = nullptr};
+  if (std::FILE* deaf = fopencookie(nullptr, "w", kDeaf); deaf != nullptr) {
+    std::setvbuf(deaf, nullptr, _IONBF, 0);
+    stderr = deaf;
+  }
 }
 
 // The exit code of a program that SIGPIPE ended: the reader of the output is gone.
@@ -83,6 +113,7 @@ int main(int argc, char** argv) {
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
+  app::secure_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is reported as an error, like a full disk
 
   CLI::App program{"burr - cut bone by hand: touch, mill and print a patient's bone", "burr"};
@@ -98,10 +129,17 @@ int main(int argc, char** argv) {
   std::stable_sort(commands.begin(), commands.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [place, add] : commands) add(program, todo);
-  program.add_subcommand("help", "show this text, with examples")->callback([&todo, &program] {
-    todo.work = [&program] {
+  std::string about;
+  auto* help = program.add_subcommand("help", "show this text, or the help of a command");
+  help->add_option("command", about, "a command, as in `burr help mill`");
+  help->callback([&] {
+    todo.work = [&]() -> Status {
+      const CLI::App* one = about.empty() ? nullptr : program.get_subcommand_no_throw(about);
+      if (!about.empty() && one == nullptr)
+        return error(Trouble::usage,
+                     fmt::format("{}: there is no such command; `burr help` lists them", about));
       program.clear();  // otherwise CLI11 shows the help of the subcommand "help"
-      fmt::print("{}", program.help());
+      fmt::print("{}", one != nullptr ? one->help("burr") : program.help());
       return fine();
     };
   });

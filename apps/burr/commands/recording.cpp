@@ -9,6 +9,7 @@
 
 #include "burr/record/place_file.h"
 #include "burr/workshop/recording.h"
+#include "commands/command.h"
 
 namespace burr::app {
 
@@ -53,10 +54,11 @@ std::string Recording::trouble() const {
   return trouble_ ? "NOT RECORDED ANY MORE: " + trouble_->text : "";
 }
 
-Status Recording::finish(sim::Session& session) {
+Status Recording::finish(sim::Session& session, bool stopped) {
+  stopped_ = stopped;
   session.set_recorder(nullptr);
   if (recorder_) {
-    const auto done = recorder_->finish();
+    const auto done = recorder_->finish(stopped);
     if (done && !done->whole())
       return error(
           Trouble::io,
@@ -86,6 +88,7 @@ nlohmann::json Recording::account() const {
   nlohmann::json out;
   out["file"] = file_;
   out["whole"] = !trouble_ && account.whole();
+  out["finished"] = !trouble_ && account.whole() && !stopped_;
   out["ticks"] = account.safe_ticks;
   out["dropped_ticks"] = account.dropped_ticks;
   out["bytes"] = account.bytes;

@@ -14,6 +14,7 @@
 #include "burr/scenario/case.h"
 #include "burr/sim/session.h"
 #include "burr/workshop/spared.h"
+#include "commands/command.h"
 
 namespace burr::app {
 
@@ -33,7 +34,8 @@ class Recording {
                const std::optional<workshop::Tissues>& spared = {},
                const std::optional<scenario::Case>& work_case = {});
   // The Error says what is missing.
-  [[nodiscard]] Status finish(sim::Session& session);
+  // stopped: the session was ended before its time; the recording says so.
+  [[nodiscard]] Status finish(sim::Session& session, bool stopped = interrupted());
 
   // "" while there is no error, otherwise the error in a few words, for a window; any thread.
   [[nodiscard]] std::string trouble() const;
@@ -45,6 +47,7 @@ class Recording {
   void tell(const Error& problem);
 
   std::string file_;
+  bool stopped_ = false;
   std::unique_ptr<record::Recorder> recorder_;
   double rate_hz_ = 0;
   mutable std::mutex mutex_;  // trouble_ is set by the recorder's thread, read by main

@@ -82,8 +82,9 @@ class Recorder {
   [[nodiscard]] std::uint64_t safe_ticks() const;
 
   // Writes everything pushed before this call, then summary and footer. The file is then complete,
-  // or the Error says what is missing.
-  [[nodiscard]] Result<RecordingAccount> finish();
+  // or the Error says what is missing. stopped: the session was ended before its time, by a signal; the
+  // file says so (Player::finished()).
+  [[nodiscard]] Result<RecordingAccount> finish(bool stopped = false);
   // The account after finish(), successful or not.
   [[nodiscard]] RecordingAccount account() const;
 
