@@ -134,7 +134,9 @@ int main(int argc, char** argv) {
   help->add_option("command", about, "a command, as in `burr help mill`");
   help->callback([&] {
     todo.work = [&]() -> Status {
-      const CLI::App* one = about.empty() ? nullptr : program.get_subcommand_no_throw(about);
+      const CLI::App* one = nullptr;
+      for (const CLI::App* command : program.get_subcommands({}))
+        if (command->get_name() == about) one = command;
       if (!about.empty() && one == nullptr)
         return error(Trouble::usage,
                      fmt::format("{}: there is no such command; `burr help` lists them", about));

@@ -28,23 +28,23 @@ Scene bone() {
   return scene;
 }
 
-double apart(const Scene& scene) { return kComfortable * scene.camera.distance; }
+double eye_distance(const Scene& scene) { return kComfortable * scene.camera.distance; }
 
 TwoEyes eyes(const Scene& scene, Stereo how) {
   TwoEyes two;
   two.how = how;
-  two.apart = apart(scene);
+  two.eye_distance = eye_distance(scene);
   return two;
 }
 
 Image one_by_one(Renderer& renderer, Scene scene, Stereo how, int width, int height) {
-  const Eyes both = eyes_of(scene.camera, apart(scene));
+  const Eyes both = eyes_of(scene.camera, eye_distance(scene));
   scene.camera = both.left;
   const auto left = renderer.image(scene, width, height);
   scene.camera = both.right;
   const auto right = renderer.image(scene, width, height);
   EXPECT_TRUE(left && right);
-  return joined(*left, *right, how);
+  return join_eyes(*left, *right, how);
 }
 
 // the largest difference of a colour; joining on the GPU rounds differently from the processor

@@ -32,9 +32,9 @@ TEST(Stereo, EyesAgreeOnTheTargetsPlaneAndPartBeforeAndBehind) {
   middle.azimuth = 0.7;
   middle.elevation = 0.3;
   middle.target = {0.01, 0.02, 0.03};
-  const double apart = 8e-3;
-  const Eyes eyes = eyes_of(middle, apart);
-  EXPECT_NEAR((eyes.right.eye() - eyes.left.eye()).norm(), apart, 1e-12);
+  const double eye_distance = 8e-3;
+  const Eyes eyes = eyes_of(middle, eye_distance);
+  EXPECT_NEAR((eyes.right.eye() - eyes.left.eye()).norm(), eye_distance, 1e-12);
   for (const double right : {-0.02, 0.0, 0.03})
     for (const double deeper : {-0.05, 0.0, 0.08}) {
       const Vec3 p = middle.target + right * middle.right() - deeper * middle.backward() +
@@ -43,7 +43,7 @@ TEST(Stereo, EyesAgreeOnTheTargetsPlaneAndPartBeforeAndBehind) {
       EXPECT_NEAR(l.y(), r.y(), 1e-9) << "one eye higher than the other hurts";
       // similar triangles: behind the target the right eye sees it farther to the right
       const double pixel = kHigh / middle.view_height();
-      EXPECT_NEAR(r.x() - l.x(), pixel * apart * deeper / (middle.distance + deeper), 1e-6);
+      EXPECT_NEAR(r.x() - l.x(), pixel * eye_distance * deeper / (middle.distance + deeper), 1e-6);
       EXPECT_NEAR(0.5 * (l.x() + r.x()), m.x(), 1e-6);
       // and the mouse ray goes there
       const Ray ray = ray_through(eyes.left, l.x(), l.y(), kWide, kHigh);
@@ -62,20 +62,20 @@ TEST(Stereo, JoinsAsAskedFor) {
   const auto at = [](const Image& image, int x, int y, int c) {
     return int{image.rgb[static_cast<std::size_t>(3 * (y * image.width + x) + c)]};
   };
-  EXPECT_EQ(joined(left, right, Stereo::off).rgb, left.rgb);
-  const Image pair = joined(left, right, Stereo::side_by_side);
+  EXPECT_EQ(join_eyes(left, right, Stereo::off).rgb, left.rgb);
+  const Image pair = join_eyes(left, right, Stereo::side_by_side);
   EXPECT_EQ(at(pair, 3, 2, 0), 200);
   EXPECT_EQ(at(pair, 4, 2, 0), 0);
   EXPECT_EQ(at(pair, 4, 2, 1), 100);
-  const Image rows = joined(left, right, Stereo::interleaved);
+  const Image rows = join_eyes(left, right, Stereo::interleaved);
   EXPECT_EQ(at(rows, 5, 2, 0), 200);
   EXPECT_EQ(at(rows, 5, 3, 1), 100);
-  const Image ana = joined(left, right, Stereo::anaglyph);
+  const Image ana = join_eyes(left, right, Stereo::anaglyph);
   EXPECT_NEAR(at(ana, 1, 1, 0), 0.299 * 200, 1);
   EXPECT_NEAR(at(ana, 1, 1, 1), 0.587 * 100, 1);
   EXPECT_EQ(at(ana, 1, 1, 1), at(ana, 1, 1, 2));
   // an odd width loses nothing
-  EXPECT_EQ(joined(of(7, 3, 1, 2, 3), of(7, 3, 4, 5, 6), Stereo::side_by_side).rgb.size(), 63U);
+  EXPECT_EQ(join_eyes(of(7, 3, 1, 2, 3), of(7, 3, 4, 5, 6), Stereo::side_by_side).rgb.size(), 63U);
 }
 
 TEST(Endoscope, LooksAheadFromItsTip) {
