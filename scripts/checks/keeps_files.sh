@@ -20,7 +20,7 @@ refused() {
   code=$?
   rm -f .out.old
   after=$(find . -type f ! -name .out ! -name .err -exec sha256sum {} + | sort)
-  before=$(grep -v ' \./\.\(out\|err\)$' <<<"$before")
+  before=$(grep -av ' \./\.\(out\|err\)$' <<<"$before")
   [ "$code" = 2 ] || [ "$code" = 74 ] || complain "exit code $code: $*: $(head -2 .err)"
   grep -qE "$words" .err || complain "does not say '$words': $*: $(head -2 .err)"
   [ "$before" = "$after" ] || complain "changed a file: $*"
@@ -40,7 +40,7 @@ refused 'reads' $burr export scan.nrrd --out scan.nrrd
 refused 'reads' $burr export scan.nrrd --out link.nrrd
 refused 'reads' $burr export link.nrrd --out ./ct/../scan.nrrd
 refused 'reads' $burr export scan.nrrd --out hard.nrrd --force
-refused 'reads' $burr picture ct/scan.nrrd --out ct/scan.nrrd.png --out ct/005.png
+refused 'reads' $burr picture ct --out ct/005.png
 refused 'must end in .png' $burr picture scan.nrrd --out scan.nrrd
 refused 'must end in .png' $burr picture scan.nrrd --out picture.jpg
 refused 'must end in .mcap' $burr mill scan.nrrd --motion plunge --seconds 1 --record scan.nrrd

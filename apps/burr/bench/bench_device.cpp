@@ -16,6 +16,7 @@
 #include "burr/sim/session.h"
 #include "burr/workshop/hand_device.h"
 #include "commands/hand_options.h"
+#include "commands/json_line.h"
 #include "commands/volume_words.h"
 #include "commands/work.h"
 #include "window/mill/make_ready.h"
@@ -129,7 +130,7 @@ Status run(const Options& options) {
                       {"max", outcome.timing.max_us}};
     out["removed_mm3"] = 1e9 * outcome.ledger.removed;
     out["peak_force_N"] = outcome.peak_force;
-    fmt::print("{}\n", out.dump());
+    fmt::print("{}\n", json_line(out));
     return fine();
   }
   print("an idle echo", idle);

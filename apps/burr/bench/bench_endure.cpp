@@ -22,6 +22,7 @@
 #include "burr/tick/flag_words.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
+#include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "commands/picture_size.h"
 #include "commands/volume_words.h"
@@ -112,7 +113,7 @@ void print(const Options& options, const WholeOutcome& out, const rt::TickSummar
   json["peak_force_N"] = out.session.peak_force;
   json["scheduling"] = out.session.scheduling;
   json["left_out"] = out.left_out;
-  fmt::print("{}\n", json.dump());
+  fmt::print("{}\n", json_line(json));
 }
 
 Status run(Options options) {

@@ -37,6 +37,7 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/work_view.h"
+#include "commands/json_line.h"
 #include "commands/picture_size.h"
 #include "commands/volume_words.h"
 
@@ -332,7 +333,7 @@ void print(const Options& options, const Outcome& out) {
     json["ticks"] = tick.ticks;
     json["missed_ticks"] = tick.missed;
     json["removed_mm3"] = 1e9 * out.session.ledger.removed;
-    fmt::print("{}\n", json.dump());
+    fmt::print("{}\n", json_line(json));
     return;
   }
   fmt::print("{} x {} on {}\n", options.size.width, options.size.height, out.gpu);

@@ -61,7 +61,7 @@ Status load(const Options& options) {
                                       {"surface_s", wall_s - bone_s},
                                       {"triangles", triangles},
                                       {"voxel_mm", opened->summary.voxel_mm}}
-                           .dump());
+                           .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     fmt::print(
         "{:.2f} s to the first complete surface: {:.2f} s to the bone, {:.2f} s for {} triangles\n",
@@ -151,7 +151,7 @@ Status memory(const Options& options) {
                        {"touch_MB", touch},
                        {"triangles", triangles},
                        {"stages", table}}
-            .dump());
+            .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     for (const Stages::Stage& stage : stages.all())
       fmt::print("{:24} {:5.0f} MB, at most {:5.0f} MB so far\n", stage.name, stage.now_mb,

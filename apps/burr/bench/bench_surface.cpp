@@ -20,6 +20,7 @@
 #include "burr/edit/undo.h"
 #include "burr/surface/mesher.h"
 #include "burr/volume/iso_vertices.h"
+#include "commands/json_line.h"
 
 namespace burr::app {
 namespace {
@@ -101,7 +102,7 @@ Status bench_surface(const Options& options) {
   row["ratio_2t"] = or_null([&](const Oracle& o) { return ours[1] / o.two_ms; });
   row["triangles"] = triangles;
   if (options.json) {
-    fmt::print("{}\n", row.dump());
+    fmt::print("{}\n", json_line(row));
     return fine();
   }
   fmt::print("{}^3 shell, {} triangles, welded, with normals; median of {} runs\n", options.size,
@@ -182,7 +183,7 @@ Status bench_carve(const Options& options) {
   row["carve_p99_ms"] = quantile(carving, 0.99);
   row["patches_mean"] = patches_made;
   if (options.json)
-    fmt::print("{}\n", row.dump());
+    fmt::print("{}\n", json_line(row));
   else
     fmt::print(
         "{} cuts 12 voxels across, until their {:.1f} patches are meshed: p50 {:.2f} ms, "

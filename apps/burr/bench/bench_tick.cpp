@@ -19,6 +19,7 @@
 #include "burr/rt/clock.h"
 #include "burr/rt/simd.h"
 #include "burr/tick/servo.h"
+#include "commands/json_line.h"
 
 namespace {
 
@@ -188,7 +189,7 @@ Status run(const Options& options) {
   if (!measured) return measured.error();
   const nlohmann::json& out = *measured;
   if (options.json) {
-    fmt::print("{}\n", out.dump());
+    fmt::print("{}\n", app::json_line(out));
     return fine();
   }
   const auto of = [&out](const char* name) { return out.at(name).get<double>(); };
@@ -226,7 +227,7 @@ Status run_methods(Options options) {
                    of("max_us"), of("mean_force_N"),
                    measured->at("direction_error_deg").at("p50").get<double>());
     }
-  if (json) fmt::print("{}\n", all.dump());
+  if (json) fmt::print("{}\n", app::json_line(all));
   return fine();
 }
 

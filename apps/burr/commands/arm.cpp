@@ -84,7 +84,7 @@ Status run(const Options& options) {
                                        {"removed_mm3", 1e9 * outcome.ledger.removed},
                                        {"peak_force_N", outcome.peak_force},
                                        {"left_aside", (*arm)->ignored_goals()}})
-                           .dump());
+                           .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   else
     fmt::print("{:.1f} s: removed {:.3f} mm3, peak force {:.2f} N; {} goals or commands ignored\n",
                outcome.seconds, 1e9 * outcome.ledger.removed, outcome.peak_force,

@@ -11,6 +11,7 @@
 #include "bench/machine_trial.h"
 #include "burr/rt/machine_check.h"
 #include "commands/command.h"
+#include "commands/json_line.h"
 
 namespace burr::app {
 namespace {
@@ -87,7 +88,7 @@ void print_json(const rt::MachineMeasurements& seen, const rt::MachineReport& ju
   for (const rt::CheckLine& line : judged.lines)
     out["lines"].push_back({{"what", line.what}, {"is", line.value}, {"change", line.change}});
   out["left_out"] = left_out;
-  fmt::print("{}\n", out.dump());
+  fmt::print("{}\n", json_line(out));
 }
 
 Status run(const Options& options) {

@@ -12,6 +12,7 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/recording.h"
 #include "commands/command.h"
+#include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "commands/volume_words.h"
 
@@ -110,7 +111,7 @@ Status run(const Options& options) {
     row["part"] = options.part;
     row["volume_mm3"] = volume_mm3;
     row["triangles"] = exported.value().triangles;
-    fmt::print("{}\n", row.dump());
+    fmt::print("{}\n", json_line(row));
   } else if (exported.value().triangles > 0) {
     fmt::print("{}: {:.1f} mm^3 in {} triangles\n", options.out, volume_mm3,
                exported.value().triangles);

@@ -21,6 +21,7 @@
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/work_view.h"
 #include "commands/command.h"
+#include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "commands/picture_size.h"
 #include "commands/recording.h"
@@ -206,7 +207,7 @@ void print(const Options& options, sim::Session& session, const Recording& recor
   if (options.heat) out["heat"] = heat_json(session, heat, outcome.heat_rows_lost);
   if (options.realtime) out["scheduling"] = outcome.scheduling;
   if (!options.record.empty()) out["recording"] = recording.account();
-  fmt::print("{}\n", out.dump());
+  fmt::print("{}\n", json_line(out));
 }
 
 Status run(const Options& options) {

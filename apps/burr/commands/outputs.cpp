@@ -91,7 +91,8 @@ Status check_place(const Output& output) {
     return refused(output, Trouble::io,
                    fmt::format("the folder {} does not exist; create it first",
                                base::printable(folder.string())));
-  if (::access(folder.c_str(), W_OK) != 0)
+  // a recording that cannot be written does not stop a session: the recorder reports it
+  if (!output.path.ends_with(".mcap") && ::access(folder.c_str(), W_OK) != 0)
     return refused(output, Trouble::io, "no permission to write there; choose another folder");
   return fine();
 }

@@ -58,7 +58,7 @@ void say(const volume::Bone& bone, const Options& options) {
                                     {"volume_mm3", volume_mm3},
                                     {"tissues", tissues},
                                     {"bone_hash", fmt::format("{:016x}", bone.content_hash())}}
-                         .dump());
+                         .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 Status run(const Options& options) {

@@ -23,6 +23,7 @@
 #include "burr/workshop/traces.h"
 #include "burr/workshop/work_view.h"
 #include "commands/command.h"
+#include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "commands/picture_size.h"
 #include "commands/views.h"
@@ -237,7 +238,7 @@ Status run(const Options& options) {
     out["same"] = !outcome->first_different_tick && outcome->gaps == 0;
     out["bone_hash"] = record::hex(outcome->bone->content_hash());
     if (outcome->first_different_tick) out["parted_at"] = *outcome->first_different_tick;
-    if (options.json) fmt::print("{}\n", out.dump());
+    if (options.json) fmt::print("{}\n", json_line(out));
     if (outcome->first_different_tick)
       return error(
           fmt::format("{}: comes out differently at tick {} ({:.3f} s): {}; recorded by {}",
@@ -249,7 +250,7 @@ Status run(const Options& options) {
       fmt::print("the same to the bit: {} ticks and {} bricks simulated again and compared\n",
                  outcome->ticks, outcome->bricks);
   } else if (options.json) {
-    fmt::print("{}\n", out.dump());
+    fmt::print("{}\n", json_line(out));
   }
   if (!options.picture.empty()) {
     Status drawn = draw(options, player);

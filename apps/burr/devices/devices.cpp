@@ -10,6 +10,7 @@
 #include "burr/workshop/hand_device.h"
 #include "commands/command.h"
 #include "commands/hand_options.h"
+#include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "devices/trial.h"
 
@@ -95,7 +96,7 @@ Status list(const Options& options) {
     if (any && !there.note.empty() && !options.json)
       fmt::print("                 {}\n", there.note);
   }
-  if (options.json) fmt::print("{}\n", all.dump());
+  if (options.json) fmt::print("{}\n", json_line(all));
   return fine();
 }
 

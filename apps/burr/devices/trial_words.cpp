@@ -7,6 +7,7 @@
 #include "burr/base/markup.h"
 #include "burr/base/version.h"
 #include "commands/html_page.h"
+#include "commands/json_line.h"
 #include "devices/trial.h"
 
 namespace burr::app {
@@ -97,7 +98,7 @@ std::string trial_json(const TrialMeasurements& s) {
                  {"stiffness_N_m", s.stiffness},
                  {"aside_deg", s.aside_deg}};
   out["left_out"] = s.left_out;
-  return out.dump();
+  return json_line(out);
 }
 
 }  // namespace burr::app

@@ -12,6 +12,7 @@
 
 #include "bench/machine_trial.h"
 #include "commands/command.h"
+#include "commands/json_line.h"
 #include "doctor/fix.h"
 #include "doctor/look.h"
 
@@ -95,7 +96,7 @@ Status run(const Options& options) {
     out["findings"] = nlohmann::json::parse(json_of(findings));
     out["trial"] = trial;
     out["verdict"] = verdict;
-    fmt::print("{}\n", out.dump());
+    fmt::print("{}\n", json_line(out));
     return fine();
   }
   fmt::print(

@@ -19,6 +19,7 @@
 #include "burr/workshop/hand_device.h"
 #include "commands/command.h"
 #include "commands/hand_options.h"
+#include "commands/json_line.h"
 #include "people/run.h"
 #include "scenes/wall.h"
 
@@ -245,7 +246,7 @@ Status run(const Options& options) {
   }
   if (Status done = save(true); !done) return done;
   if (options.json)
-    fmt::print("{}\n", nlohmann::json::parse(result_json(run, experiment)).dump());
+    fmt::print("{}\n", json_line(nlohmann::json::parse(result_json(run, experiment))));
   else
     fmt::print("{}\n", result_words(run, experiment));
   if (experiment.finished()) return fine();

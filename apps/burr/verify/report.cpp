@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/base/new_file.h"
+#include "commands/json_line.h"
 
 namespace burr::app {
 namespace {
@@ -109,7 +110,7 @@ std::string Report::json() const {
                                {"pass", check.pass}});
     out["parts"].push_back(one);
   }
-  return out.dump();
+  return json_line(out);
 }
 
 std::string Report::markdown() const {

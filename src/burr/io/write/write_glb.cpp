@@ -77,7 +77,7 @@ std::string describe(const MeshOut& out, const Layout& layout) {
   colours["normalized"] = true;
   gltf["accessors"] = Json::array({positions, accessor(1, kFloat, layout.vertices, "VEC3"), colours,
                                    accessor(3, kUnsigned, layout.indices, "SCALAR")});
-  std::string text = gltf.dump();
+  std::string text = gltf.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   text.resize((text.size() + 3) / 4 * 4, ' ');
   return text;
 }
