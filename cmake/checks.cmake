@@ -192,7 +192,8 @@ set(costs house.same_bits 50 house.measures 30 house.recording_trouble 25 house.
   haptics.Proxy.AMillionTicksAtUpToTenMillimetresNeverCrossAThinPlate 70 io.Corpus.EveryFileIsReadOrRefusedWithASentence 40
   io.CorpusAgainst.ASecondReaderSeesTheSame 30
   asan.device 170 asan.io 160 tsan.device 130 tsan.window 120 asan.haptics 60 asan.volume 40 asan.edit 40 asan.record 40 asan.same_bits 40 tsan.sim 60 tsan.rt 40
-  clang.same_bits 30 portable.aarch64_tests 175)
+  clang.same_bits 30 portable.aarch64_tests 175
+  window.ImportWindow.SaysWhatIsWrongWithANumberAndLosesNothing 20)
 set(orders "")
 while(costs)
   list(POP_FRONT costs test seconds)
