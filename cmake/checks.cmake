@@ -109,8 +109,10 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
     endif()
   endfunction()
 
-  # the second compiler, optimised as for users, warnings as errors: library and program
-  burr_other_build(clang burr burr_program same_bits)
+  # The second compiler, warnings as errors: the part of the library whose bits are compared, optimised
+  # as for users, and the files that are only in the program. clang++ compiles all others for `asan`
+  # and `tsan`, with the same warnings.
+  burr_other_build(clang same_bits warnings_of_program)
   burr_same_bits(clang)
 
   # AddressSanitizer and UndefinedBehaviorSanitizer: code that reads files, and code that moves
@@ -160,8 +162,12 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # other processors: the core alone, and the same bits as here
   foreach(processor aarch64 web)
     add_test(NAME portable.${processor} COMMAND ${checks}/portable.sh ${processor} ${CMAKE_BINARY_DIR})
-    set_tests_properties(portable.${processor} PROPERTIES SKIP_RETURN_CODE 77 PROCESSORS ${BURR_PROCESSORS} TIMEOUT 1800 LABELS long)
+    set_tests_properties(portable.${processor} PROPERTIES SKIP_RETURN_CODE 77 PROCESSORS ${BURR_PROCESSORS} TIMEOUT 1800 LABELS long
+      FIXTURES_SETUP portable_${processor})
   endforeach()
+  # the unit tests of the core, three minutes on one processor: beside other tests
+  add_test(NAME portable.aarch64_tests COMMAND ${checks}/portable.sh aarch64 ${CMAKE_BINARY_DIR} tests)
+  set_tests_properties(portable.aarch64_tests PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long FIXTURES_REQUIRED portable_aarch64)
 
   # libFuzzer: 10 s for every reader; scripts/fuzz_night.sh runs longer
   add_test(NAME fuzz.seeds COMMAND ${checks}/fuzz.sh seeds)
@@ -187,7 +193,8 @@ set(costs house.same_bits 50 house.measures 30 house.recording_trouble 25 house.
   haptics.Proxy.AMillionTicksAtUpToTenMillimetresNeverCrossAThinPlate 70 io.Corpus.EveryFileIsReadOrRefusedWithASentence 40
   io.CorpusAgainst.ASecondReaderSeesTheSame 30
   asan.device 170 asan.io 160 tsan.device 130 tsan.window 120 asan.haptics 60 asan.volume 40 asan.edit 40 asan.record 40 asan.same_bits 40 tsan.sim 60 tsan.rt 40
-  clang.same_bits 30)
+  clang.same_bits 30 portable.aarch64_tests 175
+  window.ImportWindow.SaysWhatIsWrongWithANumberAndLosesNothing 20)
 set(orders "")
 while(costs)
   list(POP_FRONT costs test seconds)

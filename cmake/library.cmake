@@ -87,7 +87,9 @@ target_link_libraries(burr PUBLIC burr_core PRIVATE $<BUILD_INTERFACE:burr_optio
 foreach(part ${BURR_PARTS})
   target_link_libraries(burr PRIVATE $<BUILD_INTERFACE:${part}>)
 endforeach()
-add_dependencies(burr burr_read burr_guard)  # without them no scan can be read, no arm be guarded
+if(NOT BURR_WARNINGS_ONLY)  # nothing runs with that build's library
+  add_dependencies(burr burr_read burr_guard)  # without them no scan can be read, no arm be guarded
+endif()
 add_library(burr::burr ALIAS burr)
 set_target_properties(burr PROPERTIES OUTPUT_NAME burr VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}
   LINKER_LANGUAGE CXX INSTALL_RPATH "$ORIGIN")  # it finds libburr_core.so beside itself

@@ -53,6 +53,9 @@ if(BURR_APP)
   set_target_properties(burr_program PROPERTIES OUTPUT_NAME burr RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
   burr_of_program(burr_program)
   target_link_libraries(burr_program PRIVATE burr_app)
+  if(BURR_WARNINGS_ONLY)  # the files that are in no sanitizer's build, which clang++ compiles too
+    add_custom_target(warnings_of_program DEPENDS $<TARGET_OBJECTS:burr_program>)
+  endif()
   if(NOT BURR_WARNINGS_ONLY)  # it contains the reference code of `burr bench tick`, compiled like
                               # the library
     set_source_files_properties(${PROJECT_SOURCE_DIR}/apps/burr/bench/bench_tick.cpp PROPERTIES

@@ -2,18 +2,24 @@
 # burr_core on another processor gives the bits of this one: compiles it, replays 3000 ticks each of touch, slide and
 # slot there, and compares the hashes of ticks and bone with those of the native build.
 #
-#     scripts/checks/portable.sh aarch64|web BUILD
+#     scripts/checks/portable.sh aarch64|web BUILD [tests]
 #
-# aarch64: Debian's cross compiler and qemu-user, and the unit tests of the core's rooms too. web: Debian's emscripten
-# and node. These are large: where they are missing, the check is left out (exit 77), unless BURR_REQUIRE_TOOLS=1.
+# aarch64: Debian's cross compiler and qemu-user. web: Debian's emscripten and node. These are large: where they are
+# missing, the check is left out (exit 77), unless BURR_REQUIRE_TOOLS=1. `tests` compiles and compares nothing: it runs the
+# unit tests of the core's rooms that `portable.sh aarch64` has compiled.
 set -euo pipefail
 source "$(dirname "$0")/files.sh"
 where=$1
 build=$(realpath "$2")
+tests=${3:-}
 case $where in
   aarch64) tools=(aarch64-linux-gnu-g++ qemu-aarch64) ;;
   web) tools=(em++ node) ;;
-  *) echo "usage: scripts/checks/portable.sh aarch64|web BUILD" >&2; exit 2 ;;
+  *) tests=unknown ;;
+esac
+case $where:$tests in
+  aarch64: | web: | aarch64:tests) ;;
+  *) echo "usage: scripts/checks/portable.sh aarch64|web BUILD [tests]      (tests: of aarch64 only)" >&2; exit 2 ;;
 esac
 for tool in "${tools[@]}"; do
   if ! command -v "$tool" >/dev/null; then
@@ -23,15 +29,20 @@ for tool in "${tools[@]}"; do
   fi
 done
 
-export NODE_PATH=/usr/share/nodejs  # where emscripten's helpers find Debian's acorn
-cmake --preset "$where" >"$build/portable_$where.log" || { cat "$build/portable_$where.log"; exit 1; }
-cmake --build "build/$where" >"$build/portable_$where.log" || { tail -n 60 "$build/portable_$where.log"; exit 1; }
-
 case $where in
   aarch64) there() { qemu-aarch64 -L /usr/aarch64-linux-gnu "build/aarch64/$1" "${@:2}"; } ;;
   # emscripten 3.1.6 takes a node that has `fetch` for a browser
   web) there() { node --no-experimental-fetch "build/web/$1.js" "${@:2}"; } ;;
 esac
+if [ "$tests" = tests ]; then
+  there test_core --gtest_brief=1
+  exit
+fi
+
+export NODE_PATH=/usr/share/nodejs  # where emscripten's helpers find Debian's acorn
+cmake --preset "$where" >"$build/portable_$where.log" || { cat "$build/portable_$where.log"; exit 1; }
+cmake --build "build/$where" >"$build/portable_$where.log" || { tail -n 60 "$build/portable_$where.log"; exit 1; }
+
 paths=tests/bits/portable_paths.txt
 "$build/portable_bits" $paths >"$build/portable_native.txt"
 there portable_bits $paths >"$build/portable_$where.txt"
@@ -40,7 +51,4 @@ cat "$build/portable_$where.txt"
 if ! diff "$build/portable_native.txt" "$build/portable_$where.txt"; then
   echo "portable.$where: other bits than here (<: here, >: there); docs/architecture.md, section 5, says where they may part"
   exit 1
-fi
-if [ "$where" = aarch64 ]; then
-  there test_core --gtest_brief=1
 fi

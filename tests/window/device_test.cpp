@@ -236,53 +236,74 @@ TEST_F(DeviceWindow, ASecondOneLeadsTheSuctionAndFeelsTheBone) {
       return forces.empty() ? Vec3(Vec3::Zero())
                             : Vec3(forces.back()[0], forces.back()[1], forces.back()[2]);
     };
-    // by a millimetre a picture, as a hand goes; the tip begins 20 mm above the work
+    // By a millimetre a picture, as a hand goes; the tip begins 20 mm above the work. A machine that
+    // stalls loses the hand: the tube then stays where it is while the stylus moves on, and it has
+    // no force until it is in free air again. So the place of the tube is looked at, not that of
+    // the stylus; and where the hand was lost, it is lifted off and comes again.
     double deep = 0;
-    bool up = false;
-    Clock::time_point arrived;
-    const auto goes_to = [&](double mm) {
-      return [&, mm] {
-        deep = mm > deep ? std::min(mm, deep + 1) : std::max(mm, deep - 1);
-        stylus_goes(deep * place->into);
-        return deep == mm;
+    int steps = 0;
+    bool back = false;
+    Clock::time_point moved;
+    const auto by = [&](int mm) {
+      deep += mm;
+      stylus_goes(deep * place->into);
+      moved = Clock::now();
+    };
+    const auto still_for = [&](int ms) {
+      return Clock::now() - moved > std::chrono::milliseconds(ms);
+    };
+    Vec3 start = Vec3::Zero(), from = Vec3::Zero(), burr = Vec3::Zero(), force = Vec3::Zero();
+    const auto way_mm = [&] { return 1e3 * (tube()->a - start).dot(place->into); };
+    // Goes on by `mm` until it is `done`. If it is not within two seconds: back to `free` [mm of
+    // the tube's way], and once more.
+    const auto goes_by = [&](int mm, double free, auto done) {
+      return [&, mm, free, done] {
+        if (tube() == nullptr) return false;
+        if (back) {
+          if (way_mm() > free + 0.1) by(-1);
+          if (!still_for(200)) return false;
+          back = false;
+          steps = 0;
+        }
+        if (steps == 0) from = tube()->a;
+        if (steps < mm) {
+          ++steps;
+          by(1);
+          return false;
+        }
+        if (done()) {
+          steps = 0;
+          return true;
+        }
+        back = still_for(2000);
+        return false;
       };
     };
-    Vec3 start = Vec3::Zero(), burr = Vec3::Zero();
-    mill_by(*ready,
-            {{"the tube", [&] { return tube() != nullptr; },
-              [&] {
-                start = tube()->a;
-                burr = hand(session);
-              }},
-             {"it goes by itself", goes_to(15), {}},
-             {"as far as the hand",
-              [&] {  // a machine that stalls loses the hand, and with it the tube, for a while
-                return tube() != nullptr && (tube()->a - start - 15e-3 * place->into).norm() < 1e-6;
-              },
-              {}},
-             {"against the bone", goes_to(22), [&] { arrived = Clock::now(); }},
-             {"it rests on the bone, and the hand feels it",
-              [&] {
-                if (tube() == nullptr) return false;
-                const double way = (tube()->a - start).dot(place->into);
-                if (felt().norm() > 0.5 && way > 17e-3 && way < 20e-3) return true;
-                // once more where a machine that stalled lost the hand meanwhile
-                if (Clock::now() - arrived < std::chrono::seconds(2)) return false;
-                if (!up && !(up = goes_to(15)())) return false;
-                if (!goes_to(22)()) return false;
-                up = false;
-                arrived = Clock::now();
-                return false;
-              },
-              [&] {
-                const Vec3 push = view * felt().normalized();
-                EXPECT_LT(push.dot(place->into), -0.9) << "outwards";
-                EXPECT_EQ(hand(session), burr) << "the burr stays";
-                EXPECT_EQ(row_.ledger.removed, 0);
-                press(SDLK_BACKSPACE);
-              }},
-             {"the stop is one for both hands", [&] { return felt() == Vec3::Zero(); },
-              [] { press(SDLK_q); }}});
+    mill_by(
+        *ready,
+        {{"the tube", [&] { return tube() != nullptr; },
+          [&] {
+            start = tube()->a;
+            burr = hand(session);
+          }},
+         {"it goes by itself, as far as the hand",
+          goes_by(15, 0, [&] { return (tube()->a - from - 15e-3 * place->into).norm() < 1e-6; }),
+          {}},
+         {"it rests on the bone, and the hand feels it",
+          goes_by(7, 15,
+                  [&] {
+                    force = felt();
+                    return force.norm() > 0.5 && way_mm() > 17 && way_mm() < 20;
+                  }),
+          [&] {
+            const Vec3 push = view * force.normalized();
+            EXPECT_LT(push.dot(place->into), -0.9) << "outwards";
+            EXPECT_EQ(hand(session), burr) << "the burr stays";
+            EXPECT_EQ(row_.ledger.removed, 0);
+            press(SDLK_BACKSPACE);
+          }},
+         {"the stop is one for both hands", [&] { return felt() == Vec3::Zero(); },
+          [] { press(SDLK_q); }}});
   }
   const std::lock_guard lock(hd_->mutex);
   EXPECT_LE(hd_->touch[1].largest_force, 3.3 + 1e-9);
