@@ -37,6 +37,10 @@ function(burr_common_headers target)
   endif()
 endfunction()
 
+# CMake forgets the settings of a preset when the preset's compiler is not the one that the folder had.
+if(CMAKE_BINARY_DIR MATCHES "/build/(asan|tsan)$" AND NOT BURR_SANITIZE)
+  message(FATAL_ERROR "${CMAKE_BINARY_DIR} was made with another compiler; delete it and run cmake --preset ${CMAKE_MATCH_1} again")
+endif()
 if(BURR_SANITIZE)
   target_compile_options(burr_options INTERFACE -fsanitize=${BURR_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(burr_options INTERFACE -fsanitize=${BURR_SANITIZE})
