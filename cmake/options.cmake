@@ -3,11 +3,10 @@
 find_program(BURR_CCACHE ccache)
 if(BURR_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${BURR_CCACHE})
-  if(BURR_PCH)  # otherwise ccache does not cache files that use a precompiled header
-    set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${BURR_CCACHE})
-    if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-      add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-Xclang -fno-pch-timestamp>")
-    endif()
+  # otherwise ccache does not cache files that use a precompiled header
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${BURR_CCACHE})
+  if(BURR_PCH AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-Xclang -fno-pch-timestamp>")
   endif()
 endif()
 
@@ -25,14 +24,18 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(burr_options INTERFACE -Wno-maybe-uninitialized -Wno-restrict)
 endif()
 # burr_common_headers(TARGET [HEADER...] or REUSE_FROM OTHER): headers parsed once instead of once a
-# file. Never in the release build, which shows that each file includes what it uses.
+# file. In the release build only for tests: for library and program it shows that each file includes
+# what it uses.
 set(BURR_COMMON_HEADERS <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <atomic> <chrono> <cmath> <cstdint>
   <cstring> <filesystem> <fstream> <functional> <map> <memory> <mutex> <optional> <random> <span> <sstream> <string>
   <string_view> <thread> <utility> <vector>)
 function(burr_common_headers target)
-  if(BURR_PCH AND "${ARGV1}" STREQUAL "REUSE_FROM")
+  if(NOT BURR_PCH AND NOT target MATCHES "^test_")
+    return()
+  endif()
+  if("${ARGV1}" STREQUAL "REUSE_FROM")
     target_precompile_headers(${target} REUSE_FROM ${ARGV2})
-  elseif(BURR_PCH)
+  else()
     target_precompile_headers(${target} PRIVATE ${BURR_COMMON_HEADERS} ${ARGN})
   endif()
 endfunction()
