@@ -60,32 +60,35 @@ std::string not_a_slice(const DicomHeader& h) {
                      syntax == "1.2.840.10008.1.2.1" || syntax == "1.2.840.10008.1.2.2" ||
                      syntax == "1.2.840.10008.1.2.1.99";
   if (plain == h.encapsulated)
-    return plain ? "its pixels are packed though the transfer syntax says they are not"
-                 : "its pixels are not packed though the transfer syntax says they are";
-  if (h.float_pixels) return "it holds a map of real numbers, not a scan";
+    return plain ? "its pixels are compressed, although the transfer syntax says that they are not"
+                 : "its pixels are not compressed, although the transfer syntax says that they are";
+  if (h.float_pixels) return "it holds floating-point pixels, not a scan";
   if (h.rows < 1 || h.columns < 1) return "it holds no picture (Rows or Columns missing)";
   if (h.samples != 1) return "it is a colour picture; burr reads grey values";
   if (has(h.photometric, "palette"))
-    return "its colours come from a palette; burr reads grey values";
+    return "it is a colour picture with a palette; burr reads grey values";
   if (h.bits_allocated == 1) return "it is a DICOM segmentation; convert it to .seg.nrrd";
   if (h.bits_allocated != 8 && h.bits_allocated != 16 && h.bits_allocated != 32)
-    return fmt::format("{} bits allocated to a pixel cannot be", h.bits_allocated);
+    return fmt::format("Bits Allocated is {}, but burr reads 8, 16 or 32", h.bits_allocated);
   if (h.bits_stored < 1 || h.bits_stored > h.bits_allocated || h.high_bit >= h.bits_allocated ||
       h.high_bit < h.bits_stored - 1)
-    return fmt::format("{} stored bits in {} allocated cannot be", h.bits_stored, h.bits_allocated);
+    return fmt::format(
+        "Bits Stored is {} of {} allocated bits, or High Bit does not fit; the header is wrong",
+        h.bits_stored, h.bits_allocated);
   const auto pixels = static_cast<std::uint64_t>(h.rows) * static_cast<std::uint64_t>(h.columns) *
                       static_cast<std::uint64_t>(h.frame_count);
   const std::uint64_t bytes = pixels * static_cast<std::uint64_t>(h.bits_allocated / 8);
   if (!h.encapsulated && bytes > h.pixels_length)
-    return fmt::format("Pixel Data has {} bytes, {} are needed; the file is cut off",
+    return fmt::format("Pixel Data has {} bytes, but {} are needed; the file is cut off",
                        h.pixels_length, bytes);
   for (const DicomFrame& frame : h.frames)
     if (!(std::abs(frame.slope) < 1e6 && std::abs(frame.intercept) < 1e9))
-      return fmt::format("a Rescale Slope of {:g} and an Intercept of {:g} cannot be", frame.slope,
-                         frame.intercept);
+      return fmt::format("a Rescale Slope of {:g} or an Intercept of {:g} is out of range",
+                         frame.slope, frame.intercept);
   // JPEG 2000 of an empty picture is tiny, but not as tiny as that
   if (h.encapsulated && (bytes > h.pixels_length * 20000 || bytes > (std::uint64_t{1} << 33)))
-    return fmt::format("{} bytes of packed pixels cannot hold {} pixels", h.pixels_length, pixels);
+    return fmt::format("{} bytes of compressed pixels cannot hold {} pixels", h.pixels_length,
+                       pixels);
   return {};
 }
 
@@ -150,17 +153,19 @@ Result<Found> search(const std::filesystem::path& path, Progress& progress) {
     std::sort(paths.begin(), paths.end());  // the order on disk means nothing
     if (paths.empty() && found.leading_out > 0)
       return error(
-          fmt::format("{}: holds only links that lead out of it; give the folder where the "
-                      "files are, or copy them",
+          fmt::format("{}: holds only links that lead out of it; give the folder that holds the "
+                      "files, or copy them",
                       short_name(path)));
-    if (paths.empty()) return error(fmt::format("{}: the folder holds no file", short_name(path)));
+    if (paths.empty())
+      return error(fmt::format("{}: the folder holds no files; give the folder of the scan",
+                               short_name(path)));
   } else {
     paths.push_back(path);
   }
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (i % 32 == 0) {
       progress.report(static_cast<double>(i) / static_cast<double>(paths.size()),
-                      "looking through files");
+                      "searching the files");
       if (progress.cancelled()) return error(Trouble::interrupted, "reading was stopped");
     }
     if (short_name(paths[i]) == "DICOMDIR" && paths.size() > 1)
@@ -238,15 +243,16 @@ Result<std::size_t> choose(const Found& found, const ReadOptions& options, const
     for (std::size_t s = 0; s < all.size(); ++s)
       if (all[s].uid.rfind(options.series, 0) == 0) fits.push_back(s);
     if (fits.size() == 1) return fits.front();
-    return error(Trouble::usage, fmt::format("{}: {} series fit --series \"{}\"; there are {}",
+    return error(Trouble::usage, fmt::format("{}: {} series match --series \"{}\"; there are {}",
                                              file, fits.size(), options.series, list));
   }
   std::size_t best = 0;
   for (std::size_t s = 1; s < all.size(); ++s)
     if (worth(all[s]) > worth(all[best])) best = s;
   if (all.size() > 1)
-    scan.notices.push_back(fmt::format("{} series found ({}); #{} was taken, choose with --series.",
-                                       all.size(), list, best + 1));
+    scan.notices.push_back(
+        fmt::format("{} series found ({}); #{} is used, choose another with --series.", all.size(),
+                    list, best + 1));
   return best;
 }
 
@@ -289,8 +295,8 @@ Result<std::vector<Slice>> same_kind(const Series& series, const std::string& fi
   const std::size_t rest = series.pictures() - most->slices.size();
   if (rest > 0 && 5 * rest > series.pictures())
     return error(
-        fmt::format("{}: the series mixes {} orientations or picture sizes; it is no volume (a "
-                    "scout?), choose another with --series",
+        fmt::format("{}: the pictures of this series have {} different orientations or sizes, so "
+                    "it is not a volume (perhaps a scout); choose another with --series",
                     file, kinds.size()));
   if (rest > 0)
     scan.notices.push_back(
@@ -320,7 +326,7 @@ Status order(const Series& series, std::vector<Slice>& slices, const std::string
     if (!numbered)
       return error(
           fmt::format("{}: the pictures have neither positions (Image Position Patient) nor "
-                      "numbers; their order cannot be known",
+                      "numbers, so their order is unknown; export the series again",
                       file));
     std::stable_sort(slices.begin(), slices.end(), [&](const Slice& a, const Slice& b) {
       const int na = series.files[a.file].instance, nb = series.files[b.file].instance;
@@ -330,10 +336,9 @@ Status order(const Series& series, std::vector<Slice>& slices, const std::string
     for (std::size_t k = 0; k < slices.size(); ++k)
       slices[k].along_mm = gap * static_cast<double>(k);
     if (slices.size() > 1)
-      scan.notices.push_back(
-          fmt::format("The pictures have no positions: ordered by their numbers, "
-                      "{:.3g} mm apart.",
-                      gap));
+      scan.notices.push_back(fmt::format(
+          "The pictures have no positions: they are ordered by their numbers, {:.3g} mm apart.",
+          gap));
     return fine();
   }
   for (Slice& s : slices) s.along_mm = normal.dot(frame_of(series, s).position_mm);
@@ -349,11 +354,14 @@ Status order(const Series& series, std::vector<Slice>& slices, const std::string
                slices.end());
   if (before > 1 && slices.size() == 1)
     return error(
-        fmt::format("{}: all {} pictures lie at the same place; they are no volume", file, before));
+        fmt::format("{}: all {} pictures are at the same position, so they are not a volume; "
+                    "choose another series",
+                    file, before));
   if (slices.size() < before)
-    scan.notices.push_back(fmt::format(
-        "{} pictures lie where another one lies already ({} places); the first of each was taken.",
-        before - slices.size(), slices.size()));
+    scan.notices.push_back(
+        fmt::format("{} pictures are at the position of another one ({} positions); the first at "
+                    "each position is used.",
+                    before - slices.size(), slices.size()));
   return fine();
 }
 
@@ -414,13 +422,13 @@ Status read_slices(const Series& series, const std::vector<Slice>& slices, Scan&
       try {
         status = one_file(index);
       } catch (const std::bad_alloc&) {
-        status = error(
-            fmt::format("{}: reading it needs more memory than it may take; if you trust it, allow "
-                        "more with --read-memory-mb",
-                        short_name(series.files[work[index].first].path)));
+        status =
+            error(fmt::format("{}: reading it needs more memory than allowed; if you trust it, "
+                              "allow more with --read-memory-mb",
+                              short_name(series.files[work[index].first].path)));
       } catch (const std::exception& problem) {
         status =
-            error(fmt::format("{}: cannot be unpacked: {}",
+            error(fmt::format("{}: cannot be decompressed: {}",
                               short_name(series.files[work[index].first].path), problem.what()));
       }
       if (!status) {
@@ -445,10 +453,10 @@ Status read_slices(const Series& series, const std::vector<Slice>& slices, Scan&
   if (!outcome) return outcome;
   if (padded > 0)
     scan.notices.push_back(
-        fmt::format("{} voxels were padding and are air (-1024 HU) now.", padded.load()));
+        fmt::format("{} voxels were padding and are now air (-1024 HU).", padded.load()));
   if (below > 0)
     scan.notices.push_back(fmt::format(
-        "{} voxels lay below -1024 HU (outside the scanner's view) and are -1024 HU now.",
+        "{} voxels were below -1024 HU (outside the scanner's field of view) and are now -1024 HU.",
         below.load()));
   return fine();
 }
@@ -482,7 +490,9 @@ Status stack(const Series& series, const std::vector<Slice>& slices, const std::
   const double gap = sorted[sorted.size() / 2];
   const double even = places.back().z_mm / static_cast<double>(n - 1);
   if (!(gap > 1e-3) || places.back().z_mm > 5000)
-    return error(fmt::format("{}: the slices lie {:.3g} mm apart, which cannot be", file, gap));
+    return error(fmt::format(
+        "{}: the slices are {:.3g} mm apart, which is not possible; choose another series", file,
+        gap));
 
   // even to a hundredth of a gap, because headers round positions
   std::string where;
@@ -505,16 +515,16 @@ Status stack(const Series& series, const std::vector<Slice>& slices, const std::
   if (!shifted && uneven == 0 && !drifting) return fine();
 
   if (uneven > 0)
-    scan.notices.push_back(fmt::format(
-        "The slices are unevenly spaced: {} of {} gaps are not {:.3g} mm, between slices {}{}; "
-        "resampled to even spacing.",
-        uneven, gaps.size(), gap, where, uneven > 5 ? " and others" : ""));
+    scan.notices.push_back(
+        fmt::format("The slices are unevenly spaced: {} of {} gaps are not {:.3g} mm, between "
+                    "slices {}{}; they were resampled to an even spacing.",
+                    uneven, gaps.size(), gap, where, uneven > 5 ? " and others" : ""));
   if (shifted) {
     const double lean =
         std::atan2(std::hypot(places.back().x_mm, places.back().y_mm), places.back().z_mm);
     scan.notices.push_back(
         fmt::format("The slices are shifted against each other (gantry tilt of {:.1f} degrees); "
-                    "resampled upright.",
+                    "they were resampled upright.",
                     lean * 180 / M_PI));
   }
   const double wanted = uneven > 0 ? gap : even;
@@ -567,13 +577,13 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
                     (h.rescale_type.empty() || h.rescale_type == "HU");
   if (h.has_modality_lut)
     scan.notices.emplace_back(
-        "A table (Modality LUT) translates the values; it was left out, so they are "
+        "The file has a table of values (Modality LUT); burr does not apply it, so the values are "
         "not HU.");
   if (!first.has_spacing)
     scan.notices.emplace_back(
-        "The file states no Pixel Spacing: taken for 1 mm; see --spacing-mm.");
+        "The file states no Pixel Spacing: 1 mm is assumed; see --spacing-mm.");
   if (!first.has_orientation)
-    scan.notices.emplace_back("The file states no usable orientation: taken for axial slices.");
+    scan.notices.emplace_back("The file states no usable orientation: axial slices are assumed.");
   if (h.photometric == "MONOCHROME1")
     scan.notices.emplace_back("The picture is inverted (MONOCHROME1): dark is dense here.");
 
@@ -586,7 +596,7 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
   if (Status status = stack(series, *slices, file, scan, progress); !status) return status.error();
   if (slices->size() == 1)
     scan.notices.emplace_back(
-        "Only one slice: a picture, not a volume; give the folder of the series.");
+        "There is only one slice, which is not a volume; give the folder of the series.");
 
   Affine affine;
   affine.step = scan.axes * scan.spacing_mm.asDiagonal();
