@@ -401,6 +401,27 @@ TEST_F(Friction, AGrooveHoldsHarder) {  // |F_t| <= mu sum N_i = mu F / sin A
   EXPECT_NEAR(lag / deep, mu / std::sin(M_PI / 4), 0.03 * mu / std::sin(M_PI / 4));
 }
 
+// Between walls that are nearly parallel the load of both is 11 times the push (half-angle 5
+// degrees) and changes with every grain of the walls: friction counts twice the push at the most.
+TEST_F(Friction, AWedgeHoldsNoHarderThanTwiceThePush) {
+  const double half = 5 * M_PI / 180, mu = 0.3, z = r / std::sin(half);
+  Scene wedge(phantom::groove(half), 0.25, z / kMm + 3);
+  for (const double limit : {2.0, 0.0}) {
+    Proxy proxy(wedge.surface,
+                {.radius = r, .friction_static = mu, .friction_kinetic = mu, .wedge = limit},
+                {0, 0, z + kMm});
+    for (int n = 0; n <= 400; ++n) (void)proxy.step({0, 0, z + kMm - (deep + kMm) * (n / 400.0)});
+    Touch touch;
+    double y = 0;
+    for (int n = 0; n < 6000; ++n) touch = proxy.step({0, y += 1e-6, z - deep});
+    const double lag = (y - touch.proxy.y()) / deep;
+    if (limit > 0)
+      EXPECT_NEAR(lag, limit * mu, 0.03 * limit * mu);
+    else
+      EXPECT_GT(lag, 3.5 * mu);
+  }
+}
+
 // ---- real-time rules of the tick
 
 TEST(Proxy, TakesNeitherMemoryNorLock) {

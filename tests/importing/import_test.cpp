@@ -269,10 +269,10 @@ TEST(ImportGrey, ARegionIsCountedAsTheFileCountsIt) {
   scan.k_reversed = true;  // slices 0..9 of the file are the last ones here
   const auto bone = import_or_fail(scan, options);
   ASSERT_TRUE(bone);
-  EXPECT_EQ(bone->grid().size, Ijk(10, 12, 10));
-  EXPECT_EQ(bone->field(5, 5, 8), volume::kSolid);
+  EXPECT_EQ(bone->grid().size, Ijk(14, 16, 14)) << "two layers of air where the region cuts bone";
+  EXPECT_EQ(bone->field(7, 7, 9), volume::kSolid);
   const Vec3 first = scan.origin_mm + scan.axes * Vec3(5, 6, 20);
-  EXPECT_LT((bone->grid().world_from_grid(Vec3::Zero()) * 1e3 - first).norm(), 1e-9);
+  EXPECT_LT((bone->grid().world_from_grid({2, 2, 2}) * 1e3 - first).norm(), 1e-9);
   options.region->k = {0, 30};
   const auto outside = plan_import(scan, options);
   ASSERT_FALSE(outside.ok());
@@ -407,6 +407,73 @@ TEST(ImportLabels, FlatVoxelsBecomeCubicAtTheSameVolume) {
   const double truth =
       static_cast<double>(std::count(scan.labels.begin(), scan.labels.end(), 3)) * 0.5 * 0.5 * 1.5;
   EXPECT_NEAR(volume::volume_of(*bone) * 1e9 / truth, 1, 0.01);
+}
+
+// Bone that the border cuts ends in a flat face half a voxel beyond the last voxel, as a ramp; and
+// the volume stays that of the voxels.
+void expect_flat_face(const io::Scan& scan, double volume_mm3, double share) {
+  const auto bone = import_or_fail(scan);
+  ASSERT_TRUE(bone);
+  EXPECT_EQ(bone->grid().size, Ijk(24, 24, 24));
+  // the first voxel of the scan keeps its place
+  EXPECT_LT((bone->grid().world_from_grid({2, 2, 2}) - 1e-3 * scan.origin_mm).norm(), 1e-9);
+  constexpr double kClose = 0.01 * volume::kFieldPerVoxel;  // keeps the volume of a label
+  for (const int j : {10, 12, 15})
+    for (int out = 0; out < 4; ++out) {
+      // of the voxel second to last, and of the next
+      const double wanted = volume::field_from_depth(1.5 - out);
+      EXPECT_NEAR(bone->field(14, j, 20 + out), wanted, kClose) << j << " " << out;
+      EXPECT_NEAR(bone->field(14, 20 + out, 15), wanted, kClose) << j << " " << out;
+    }
+  EXPECT_NEAR(volume::volume_of(*bone) * 1e9, volume_mm3, share * volume_mm3);
+  EXPECT_NE(bone->tissue(12, 12, 22), 0);
+  scenario::Recipe before;
+  before.margin = false;
+  const auto old = import_or_fail(scan, before);
+  ASSERT_TRUE(old);
+  EXPECT_EQ(old->grid().size, scan.size);
+  EXPECT_EQ(old->field(10, 10, 19), volume::kSolid);
+}
+
+TEST(ImportBorder, CutsLabelsInAFlatFace) {
+  expect_flat_face(
+      label_scan({20, 20, 20}, {0.5, 0.5, 0.5}, [](const Vec3& p) { return p.x() > -2 ? 1 : 0; }),
+      20 * 20 * 14 * 0.125, 0.005);
+}
+
+TEST(ImportBorder, CutsGreyInAFlatFaceHoweverDenseTheBone) {
+  expect_flat_face(grey_scan({20, 20, 20}, {0.5, 0.5, 0.5},
+                             [](const Vec3& p) {
+                               return p.x() > -2 ? 1200 + 600 * std::sin(3 * p.y()) : -1800.0;
+                             }),
+                   20 * 20 * 14 * 0.125, 0.03);
+}
+
+// A scan written from the bone ends where the bone does: beyond the border the values are as far
+// below the level as the last ones are above it.
+TEST(ImportBorder, WritesValuesBelowTheLevelBeyondIt) {
+  const auto bone = import_or_fail(grey_scan(
+      {20, 20, 20}, {0.5, 0.5, 0.5}, [](const Vec3& p) { return p.x() > 0 ? 1000 : -1000; }));
+  ASSERT_TRUE(bone);
+  EXPECT_EQ(bone->intensity(18, 12, 21), 1000);
+  EXPECT_EQ(bone->intensity(18, 12, 22), -400);
+}
+
+// What is not solid ends with the scan, and a bone in the middle gets no margin.
+TEST(ImportBorder, LeavesSoftLabelsAndFreeBonesAlone) {
+  io::Scan scan = label_scan({20, 20, 20}, {1, 1, 1}, [](const Vec3& p) {
+    return p.y() > 4 ? 2 : p.x() > 3 ? 1 : 0;
+  });
+  scan.label_names = {{1, "bone", {1, 1, 1}}, {2, "nerve", {1, 1, 0}}};
+  const auto bone = import_or_fail(scan);
+  ASSERT_TRUE(bone);
+  EXPECT_EQ(bone->grid().size, Ijk(24, 24, 24));
+  EXPECT_NE(bone->tissue(10, 18, 21), 0);
+  EXPECT_EQ(bone->tissue(10, 18, 22), 0);
+  const auto ball = import_or_fail(
+      label_scan({20, 20, 20}, {1, 1, 1}, [](const Vec3& p) { return p.norm() < 6 ? 1 : 0; }));
+  ASSERT_TRUE(ball);
+  EXPECT_EQ(ball->grid().size, Ijk(20, 20, 20));
 }
 
 using ImportLabelsTable = test::FolderTest;

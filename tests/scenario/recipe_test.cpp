@@ -36,6 +36,7 @@ TEST(Recipe, ComesBackToTheBitThroughJson) {
     if (coin()) recipe.read_seconds = share(random);
     if (coin()) recipe.read_memory_mb = share(random);
     if (coin()) recipe.reserve_bricks = random() % 100'000;
+    if (coin()) recipe.margin = false;
     const auto back = recipe_from_json(to_json(recipe), "x");
     ASSERT_TRUE(back) << back.error().text;
     ASSERT_TRUE(*back == recipe) << to_json(recipe) << "\n" << to_json(*back);
@@ -44,6 +45,14 @@ TEST(Recipe, ComesBackToTheBitThroughJson) {
                 std::bit_cast<std::uint64_t>(*recipe.iso));
     }
   }
+}
+
+// A recording that does not name the margin is older, and its bone had none.
+TEST(Recipe, WithoutAWordOfTheMarginHasNone) {
+  const auto old = recipe_from_json(R"({"source": "", "voxel_mm": 0})", "x");
+  ASSERT_TRUE(old) << old.error().text;
+  EXPECT_FALSE(old->margin);
+  EXPECT_TRUE(Recipe{}.margin);
 }
 
 TEST(Recipe, WithoutPathsNamesNobody) {
@@ -76,6 +85,7 @@ TEST(Recipe, OfTheWrongKindIsRefusedByField) {
            {R"({"region": [0, 1, 0, 1, 0, 1000000]})", "region"},
            {R"({"spacing_mm": [1, 2, 1000]})", "spacing_mm"},
            {R"({"reserve_bricks": 1.5})", "reserve_bricks"},
+           {R"({"margin": 1})", "margin"},
            {R"({"source": 7})", "source"}}) {
     const auto read = recipe_from_json(text, "f.json");
     ASSERT_FALSE(read) << text;

@@ -70,6 +70,16 @@ TEST_F(Odd, EverySettingThatNoSessionCanHaveHadIsNamed) {
   }
 }
 
+// Recordings made before friction had a limit in a wedge are replayed without it.
+TEST_F(Odd, ARecordingWithoutAWordOfTheWedgeHasNoLimitThere) {
+  record::SessionInfo info = usual(*slab());
+  EXPECT_EQ(settings_of(info, "s.mcap")->settings.servo.wedge, tick::ServoSettings{}.wedge);
+  info.numbers.erase("wedge");
+  const auto old = settings_of(info, "s.mcap");
+  ASSERT_TRUE(old) << old.error().text;
+  EXPECT_EQ(old->settings.servo.wedge, 0);
+}
+
 TEST_F(Odd, AReplayAsksForNoBrickThatIsNotThere) {
   for (const volume::BrickIndex brick : {-7, 1'000'000}) {
     const auto bone = slab();

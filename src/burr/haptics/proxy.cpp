@@ -449,7 +449,9 @@ Touch Proxy::step(const Vec3& hand) BURR_RT {
     for (int a = 0; a < last.active; ++a) pressing += last.push[a];
     const Vec3 free_place = force_place(last, x, pressing);
     const Vec3 stretch = free_place - x;
-    const double depth = math::norm(stretch), press = std::max(pressing, depth);
+    const double depth = math::norm(stretch);
+    double press = std::max(pressing, depth);
+    if (settings_.wedge > 0) press = std::min(press, settings_.wedge * depth);
     const Vec3 normal = depth > 1e-12 ? Vec3(stretch / depth) : Vec3(math::normalized(c_ - x));
     touch.normal = grid_.frame.q * normal;
     touch.depth = depth * grid_.voxel;

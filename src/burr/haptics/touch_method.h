@@ -41,6 +41,9 @@ struct ProxySettings {
   double radius = 1.5e-3;  // of the burr head                                              [m]
   double friction_static = 0.0;  // sticks up to this; >= friction_kinetic [-]
   double friction_kinetic = 0.0;
+  // Friction counts the load of all contacts, but not more than so many times the spring's length:
+  // between two nearly parallel walls a rigid burr would press without bound; 0: no limit.
+  double wedge = 2;
   int max_moves = 12;   // per tick; a faster hand is caught up with later
   double close = 0.02;  // a move shorter than this ends the search                      [voxel]
   double push_out_speed = 5e-3;  // speed at which bone that grew pushes the burr out  [voxel/tick]

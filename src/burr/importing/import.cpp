@@ -299,16 +299,17 @@ Result<Plan> make_plan(const io::Scan& scan, const scenario::Recipe& recipe) {
   return plan;
 }
 
-volume::Grid grid_of(const io::Scan& scan, const Plan& plan) {
+// The bone's grid: the cubic voxels, and the layers of air around them.
+volume::Grid grid_of(const io::Scan& scan, const Plan& plan, const InsideGrid& inside) {
   const ImportSummary& out = plan.summary;
   volume::Grid grid;
-  grid.size = out.size;
+  grid.size = out.size + 2 * inside.margin;
   grid.voxel = out.voxel_mm * 1e-3;
   // the middle of the region keeps its place
   const Vec3 middle_old =
       out.roi_from.cast<double>() + 0.5 * (out.roi_size - Ijk::Ones()).cast<double>();
   const Vec3 middle_mm = scan.origin_mm + scan.axes * middle_old.cwiseProduct(scan.spacing_mm);
-  const Vec3 half_mm = 0.5 * (out.size - Ijk::Ones()).cast<double>() * out.voxel_mm;
+  const Vec3 half_mm = 0.5 * (grid.size - Ijk::Ones()).cast<double>() * out.voxel_mm;
   grid.frame.q = math::Quat(Eigen::Quaterniond(scan.axes).normalized());
   grid.frame.p = 1e-3 * (middle_mm - scan.axes * half_mm);
   return grid;
@@ -420,8 +421,9 @@ Result<Imported> import_labels(const io::Scan& scan, const scenario::Recipe& rec
     for (double& voxels : wanted) voxels *= new_voxel / old_voxel;
   }
   Imported made;
-  made.bone = bone_from_inside(grid_of(scan, plan), std::move(plan.labels.table), inside, {},
-                               recipe.reserve_bricks, progress);
+  if (recipe.margin) leave_margins(inside);
+  made.bone = bone_from_inside(grid_of(scan, plan, inside), std::move(plan.labels.table), inside,
+                               {}, recipe.reserve_bricks, progress);
   if (made.bone == nullptr) return error(Trouble::interrupted, "the import was stopped");
   restore_tissue_volumes(*made.bone, wanted);
   made.summary = std::move(plan.summary);
@@ -446,8 +448,9 @@ Result<Imported> import_grey(const io::Scan& scan, const scenario::Recipe& recip
   inside.soft = out.smooth > 0 ? 4.0F : 1.0F;
   const GreyTissue rule{grey.step, grey.zero, scan.hounsfield};
   Imported made;
-  made.bone = bone_from_inside(grid_of(scan, plan), std::move(plan.grey_tissues), inside, rule,
-                               recipe.reserve_bricks, progress);
+  if (recipe.margin) leave_margins(inside);
+  made.bone = bone_from_inside(grid_of(scan, plan, inside), std::move(plan.grey_tissues), inside,
+                               rule, recipe.reserve_bricks, progress);
   if (made.bone == nullptr) return stopped();
   if (with_greys) {
     made.greys = keep_greys(scan, out.iso, progress);

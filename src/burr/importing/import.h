@@ -8,7 +8,9 @@
 // the iso-level. Label maps: the surface lies halfway between a solid voxel and one that is not,
 // with the staircase of the voxels smoothed and the volume of each label kept. The field is a ramp
 // of the distance to that surface: field = 32768 + depth * kFieldPerVoxel within kRamp voxels of it
-// (volume/bone.h).
+// (volume/bone.h). Where the border of the scan or of the region cuts bone, the bone ends in a flat
+// face half a voxel beyond the last voxel, and layers of air lie behind that face: it is touched,
+// cut and drawn as any other.
 //
 // Units: mm for what people type and read, HU or the file's own unit for values; Bone is SI.
 // Thread: any; uses up to two workers; the result does not depend on their number.
@@ -48,7 +50,8 @@ struct ImportSummary {
   float low = 0, high = 0;         // lowest and highest value of a grey scan
   math::Ijk roi_from = {0, 0, 0};  // in Scan's voxels
   math::Ijk roi_size = {0, 0, 0};
-  math::Ijk size = {0, 0, 0};  // voxels of the bone
+  math::Ijk size = {0, 0, 0};  // cubic voxels of the region; the bone's grid has layers of air
+                               // around them where bone reaches the border (Recipe::margin)
   double voxel_mm = 0;
   double iso = 0;  // of grey scans
   bool iso_by_otsu = false;

@@ -276,6 +276,23 @@ const std::vector<math::Ijk>& near_offsets() {
   return all;
 }
 
+// Depth below the flat faces in which the bone ends where there are layers of air behind the last
+// voxel; outside an edge of two of them the distance is that to the edge. p: from the first voxel.
+double depth_below_cut(const InsideGrid& grid, const math::Ijk& p) {
+  double least = 10, outside = 0;
+  for (int a = 0; a < 3; ++a) {
+    if (grid.margin[a] == 0) continue;
+    const double depth = std::min(p[a] + 0.5, grid.size[a] - 0.5 - p[a]);
+    least = std::min(least, depth);
+    if (depth < 0) outside += depth * depth;
+  }
+  return least < 0 ? -std::sqrt(outside) : least;
+}
+
+bool is_beyond(const InsideGrid& grid, const math::Ijk& p) {
+  return p.minCoeff() < 0 || (p.array() >= grid.size.array()).any();
+}
+
 struct Target {
   Field* field = nullptr;
   TissueId* tissue = nullptr;
@@ -283,14 +300,17 @@ struct Target {
 };
 
 // Tissue of label maps: a voxel's own, or for air on the ramp that of the nearest solid voxel.
-void label_tissue(const InsideGrid& grid, const Desk& desk, const math::Ijk& room,
-                  const Target& to) {
+void label_tissue(const InsideGrid& grid, const math::Ijk& first, const Desk& desk,
+                  const math::Ijk& room, const Target& to) {
   for (int z = 0; z < room.z(); ++z)
     for (int y = 0; y < room.y(); ++y)
       for (int x = 0; x < room.x(); ++x) {
         const int v = x + kBrickEdge * (y + kBrickEdge * z),
                   a = at(x + kHalo, y + kHalo, z + kHalo);
-        TissueId id = grid.tissue[desk.labels[static_cast<std::size_t>(a)]];
+        const std::uint8_t own = desk.labels[static_cast<std::size_t>(a)];
+        TissueId id = grid.tissue[own];
+        // a label that is not solid ends with the scan
+        if (!grid.solid[own] && is_beyond(grid, first + math::Ijk(x, y, z))) id = 0;
         if (id == 0 && to.field[v] > 0)
           for (const math::Ijk& off : near_offsets()) {
             const std::uint8_t label =
@@ -305,8 +325,8 @@ void label_tissue(const InsideGrid& grid, const Desk& desk, const math::Ijk& roo
 
 // Near the surface a voxel is only partly bone and its HU is too low, so the densest value within
 // two voxels counts there.
-void grey_tissue_of(const InsideGrid& grid, const GreyTissue& rule, bool ramps, Desk& desk,
-                    const math::Ijk& room, const Target& to) {
+void grey_tissue_of(const InsideGrid& grid, const GreyTissue& rule, const math::Ijk& first,
+                    bool ramps, Desk& desk, const math::Ijk& room, const Target& to) {
   // densest value within two voxels, one axis after the other; only needed on a ramp
   std::array<float, kBlockVoxels>& most = desk.smooth;
   if (rule.by_hu && ramps) {
@@ -334,7 +354,11 @@ void grey_tissue_of(const InsideGrid& grid, const GreyTissue& rule, bool ramps, 
       for (int x = 0; x < room.x(); ++x) {
         const int v = x + kBrickEdge * (y + kBrickEdge * z);
         const auto a = static_cast<std::size_t>(at(x + kHalo, y + kHalo, z + kHalo));
-        const double stored = double{desk.level[a]} + double{grid.iso};
+        // beyond the scan the value lies as far below the level as that of the last voxel above
+        // it, so that a scan written from this bone ends in the same face
+        const bool beyond = is_beyond(grid, first + math::Ijk(x, y, z));
+        const double level = double{desk.level[a]},
+                     stored = double{grid.iso} + (beyond ? -std::abs(level) : level);
         if (to.intensity != nullptr)
           to.intensity[v] = static_cast<std::int16_t>(
               std::lround(std::clamp(stored * rule.step + rule.zero, -32768.0, 32767.0)));
@@ -350,13 +374,15 @@ void grey_tissue_of(const InsideGrid& grid, const GreyTissue& rule, bool ramps, 
       }
 }
 
+// first: of the brick, counted from the first voxel of the scan.
 void fill_brick(const InsideGrid& grid, const GreyTissue& rule, SumPlanes sum_planes,
                 const math::Ijk& first, Desk& desk, const Target& to) {
   bool any_inside = false, any_outside = false;
   const bool labels = grid.grey == nullptr;
   fetch(grid, first, labels ? 0 : kNoBlur, desk, any_inside, any_outside);
-  const math::Ijk room = (grid.size - first).cwiseMin(kBrickEdge);
-  bool measured = false;
+  const math::Ijk room = (grid.size + grid.margin - first).cwiseMin(kBrickEdge);
+  const bool cut = !grid.margin.isZero();
+  bool ramps = false, measured = false;
   if (any_inside && any_outside) {
     if (labels) blur(desk);
     find_points(grid, first, desk);
@@ -379,12 +405,14 @@ void fill_brick(const InsideGrid& grid, const GreyTissue& rule, SumPlanes sum_pl
           if (in && depth < -kMuch) depth = kLeast;
           if (!in && depth > kMuch) depth = -kLeast;
         }
+        if (cut) depth = std::min(depth, depth_below_cut(grid, first + math::Ijk(x, y, z)));
         to.field[v] = volume::field_from_depth(depth);
+        ramps = ramps || (to.field[v] > 0 && to.field[v] < volume::kSolid);
       }
   if (labels)
-    label_tissue(grid, desk, room, to);
+    label_tissue(grid, first, desk, room, to);
   else
-    grey_tissue_of(grid, rule, measured, desk, room, to);
+    grey_tissue_of(grid, rule, first, measured || ramps, desk, room, to);
 }
 
 // Bricks with an inside voxel in them or within 3 voxels, or with a label to keep.
@@ -396,7 +424,8 @@ std::vector<std::uint8_t> bricks_needed(const InsideGrid& grid, const math::Ijk&
   std::vector<std::uint8_t> own(bx * by * bz), below(bx * by * bz), above(bx * by * bz);
   cancelled = !io::in_pieces(bricks.z(), progress, "looking for bone", [&](int layer) {
     std::vector<std::uint8_t> row(bx + 2);
-    for (int z = layer * kBrickEdge; z < std::min((layer + 1) * kBrickEdge, grid.size.z()); ++z)
+    const int low = layer * kBrickEdge - grid.margin.z();
+    for (int z = std::max(low, 0); z < std::min(low + kBrickEdge, grid.size.z()); ++z)
       for (int y = 0; y < grid.size.y(); ++y) {
         std::fill(row.begin(), row.end(), std::uint8_t{0});
         const std::size_t base =
@@ -405,10 +434,10 @@ std::vector<std::uint8_t> bricks_needed(const InsideGrid& grid, const math::Ijk&
              static_cast<std::size_t>(grid.size.y()) * static_cast<std::size_t>(z));
         bool any = false;
         for (std::size_t b = 0; b < bx; ++b) {
-          const int from = static_cast<int>(b) * kBrickEdge,
+          const int from = static_cast<int>(b) * kBrickEdge - grid.margin.x(),
                     n = std::min(kBrickEdge, grid.size.x() - from);
           unsigned in = 0, kept = 0;
-          for (int x = 0; x < n; ++x) {
+          for (int x = std::max(0, -from); x < n; ++x) {
             const std::size_t v = base + static_cast<std::size_t>(from + x);
             in |= static_cast<unsigned>(grid.inside(v)) << x;
             if (grid.labels != nullptr)
@@ -421,7 +450,8 @@ std::vector<std::uint8_t> bricks_needed(const InsideGrid& grid, const math::Ijk&
           if ((in & 0xE0U) != 0) row[b + 2] |= 1;  // and of the next
         }
         if (!any) continue;
-        const int brick_y = y / kBrickEdge, in_y = y % kBrickEdge, in_z = z % kBrickEdge;
+        const int row_y = y + grid.margin.y(), brick_y = row_y / kBrickEdge,
+                  in_y = row_y % kBrickEdge, in_z = (z + grid.margin.z()) % kBrickEdge;
         for (int dy = -1; dy <= 1; ++dy) {
           if ((dy < 0 && in_y > 2) || (dy > 0 && in_y < 5)) continue;
           if (brick_y + dy < 0 || brick_y + dy >= bricks.y()) continue;
@@ -450,6 +480,29 @@ SumPlanes sum_planes_kernel() noexcept {
   if constexpr (rt::kWideKernels)
     if (rt::simd() != rt::Simd::scalar) return avx2::sum_planes;
   return scalar::sum_planes;
+}
+
+void leave_margins(InsideGrid& inside) {
+  // where the second layer is the first that is inside, the ramp still reaches beyond the border
+  constexpr int kLayers = 2;
+  const math::Ijk& n = inside.size;
+  const auto any = [&inside, &n](const math::Ijk& from, const math::Ijk& to) {
+    for (int z = from.z(); z < to.z(); ++z)
+      for (int y = from.y(); y < to.y(); ++y) {
+        const std::size_t row = static_cast<std::size_t>(n.x()) *
+                                (static_cast<std::size_t>(y) +
+                                 static_cast<std::size_t>(n.y()) * static_cast<std::size_t>(z));
+        for (int x = from.x(); x < to.x(); ++x)
+          if (inside.inside(row + static_cast<std::size_t>(x))) return true;
+      }
+    return false;
+  };
+  for (int a = 0; a < 3; ++a) {
+    math::Ijk low = n, high = math::Ijk::Zero();
+    low[a] = std::min(kLayers, n[a]);
+    high[a] = std::max(n[a] - kLayers, 0);
+    inside.margin[a] = any(math::Ijk::Zero(), low) || any(high, n) ? kMargin : 0;
+  }
 }
 
 std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueTable tissues,
@@ -484,7 +537,8 @@ std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueT
                            bone->has_intensity() ? bone->build_intensity(list[n]) : nullptr};
       desk->field.fill(0);  // for voxels beyond the grid
       desk->tissue.fill(0);
-      fill_brick(inside, grey_tissue, sum_planes, bone->brick_ijk(list[n]), *desk, made);
+      fill_brick(inside, grey_tissue, sum_planes, bone->brick_ijk(list[n]) - inside.margin, *desk,
+                 made);
       // here, so that a uniform brick never touches its reserved memory
       bone->build_brick(list[n], made.field, made.tissue);
     }

@@ -32,6 +32,9 @@ struct InsideGrid {
   // softness of the weights: the larger, the more surface points share in one distance, see
   // surface_field.cpp; labels 8, noisy grey 4, clean grey 1
   float soft = 8;
+  // Layers of air that the bone's grid has at both ends of each axis around these voxels. There the
+  // bone ends in a flat face half a voxel beyond the last voxel; without them the field breaks off.
+  math::Ijk margin = {0, 0, 0};
   [[nodiscard]] bool inside(std::size_t v) const {
     if (grey != nullptr) return static_cast<float>(grey[v]) >= iso;
     return share != nullptr ? share[v] >= 128 : solid[labels[v]];
@@ -44,7 +47,14 @@ struct GreyTissue {
   bool by_hu = false;         // tissue by HU class; false: everything is tissue 1
 };
 
-// nullptr: cancelled. Bricks without field and tissue take no memory.
+// The ramp of a face half a voxel beyond the last voxel ends in the second layer of air.
+inline constexpr int kMargin = 2;
+
+// Sets the margin of each axis: kMargin where the surface comes so near to one of its ends that the
+// ramp reaches it, otherwise 0. At both ends, so that the middle of the volume stays.
+void leave_margins(InsideGrid& inside);
+
+// grid: that of the bone, with its layers of air. nullptr: cancelled. Bricks without field and tissue take no memory.
 [[nodiscard]] std::unique_ptr<volume::Bone> bone_from_inside(
     const volume::Grid& grid, volume::TissueTable tissues, const InsideGrid& inside,
     const GreyTissue& grey_tissue, std::size_t reserve_bricks, Progress& progress);

@@ -362,7 +362,8 @@ constexpr const char* kSessionSchema = R"({
       "memory_mb": {"type": "number"},
       "read_seconds": {"type": "number"},
       "read_memory_mb": {"type": "number"},
-      "reserve_bricks": {"type": "integer", "description": "room for deposits"}
+      "reserve_bricks": {"type": "integer", "description": "room for deposits"},
+      "margin": {"type": "boolean", "description": "layers of air where the scan's border cuts bone; absent: false"}
      }
     }
    }

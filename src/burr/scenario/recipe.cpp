@@ -82,6 +82,12 @@ class Fields {
     if (!found->is_number_unsigned()) return fail(name);
     out = found->get<std::size_t>();
   }
+  void yes_or_no(const char* name, bool& out) {
+    const json* found = find(name);
+    if (found == nullptr) return;
+    if (!found->is_boolean()) return fail(name);
+    out = found->get<bool>();
+  }
   [[nodiscard]] const std::string& wrong() const { return wrong_; }
 
  private:
@@ -103,7 +109,8 @@ bool Recipe::operator==(const Recipe& other) const {
          region == other.region && voxel_mm == other.voxel_mm && iso == other.iso &&
          smooth == other.smooth && labels == other.labels && materials == other.materials &&
          memory_mb == other.memory_mb && read_seconds == other.read_seconds &&
-         read_memory_mb == other.read_memory_mb && reserve_bricks == other.reserve_bricks;
+         read_memory_mb == other.read_memory_mb && reserve_bricks == other.reserve_bricks &&
+         margin == other.margin;
 }
 
 bool is_phantom(const std::string& source) { return source.starts_with(kPhantom); }
@@ -125,7 +132,8 @@ std::string to_json(const Recipe& recipe) {
               {"voxel_mm", recipe.voxel_mm},
               {"smooth", recipe.smooth},
               {"memory_mb", recipe.memory_mb},
-              {"reserve_bricks", recipe.reserve_bricks}};
+              {"reserve_bricks", recipe.reserve_bricks},
+              {"margin", recipe.margin}};
   const auto text = [&out](const char* name, const std::string& value) {
     if (!value.empty()) out[name] = value;
   };
@@ -164,6 +172,8 @@ Result<Recipe> recipe_from_json(std::string_view text, const std::string& where)
   fields.number("read_seconds", out.read_seconds, 0);
   fields.number("read_memory_mb", out.read_memory_mb, 0);
   fields.count("reserve_bricks", out.reserve_bricks);
+  out.margin = false;
+  fields.yes_or_no("margin", out.margin);
   if (!fields.wrong().empty())
     return error(
         fmt::format("{}: recipe.{} has the wrong type or is out of range; the file is damaged",

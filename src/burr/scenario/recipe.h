@@ -47,6 +47,9 @@ struct Recipe {
   // Limits of reading a file; 0: by how large the files are.
   double read_seconds = 0, read_memory_mb = 0;
   std::size_t reserve_bricks = 4096;  // room for deposited material
+  // Layers of air behind the faces in which the border of the scan cuts bone. false: as burr built
+  // bones before 2026-11-25; a recipe in JSON that does not name it is of that time.
+  bool margin = true;
 
   bool operator==(const Recipe& other) const;
 };

@@ -14,7 +14,7 @@ struct Entry {
   double (*get)(const Recorded&);
   void (*set)(Recorded&, double);
   double least, most;
-  bool newer = false;  // recordings of an older burr lack it: it then keeps its default
+  bool newer = false;  // recordings of an older burr lack it: it then is as in older()
 };
 
 // NOLINTNEXTLINE(cppcoreguidelines-macro-usage): the one way to name a member once and use it twice
@@ -73,6 +73,7 @@ const Entry kEntries[] = {
     BURR_ENTRY("friction_scale", settings.servo.friction_scale, 0, 1e3),
     BURR_ENTRY("friction_turning", settings.servo.friction_turning, 0, 1e3),
     BURR_ENTRY("kinetic_share", settings.servo.kinetic_share, 0, 1),
+    BURR_ENTRY("wedge", settings.servo.wedge, 0, 1e6, true),
     BURR_ENTRY("velocity_filter_hz", settings.servo.velocity_filter_hz, 0, 1e6),
     BURR_ENTRY("deposit_rate_m3_per_s", settings.servo.deposit_rate, 0, 1),
     BURR_ENTRY("deposit_tissue", settings.servo.deposit_tissue, 0, 255),
@@ -93,6 +94,13 @@ const Entry kEntries[] = {
 };
 #undef BURR_ENTRY
 
+// What older recordings do not name had these values when they were made.
+Recorded older() {
+  Recorded all;
+  all.settings.servo.wedge = 0;  // no limit
+  return all;
+}
+
 }  // namespace
 
 void describe(const SessionSettings& settings, const device::DeviceSpec& device,
@@ -104,7 +112,7 @@ void describe(const SessionSettings& settings, const device::DeviceSpec& device,
 }
 
 Result<Recorded> settings_of(const record::SessionInfo& info, const std::string& where) {
-  Recorded all;
+  Recorded all = older();
   for (const Entry& entry : kEntries) {
     const auto found = info.numbers.find(entry.name);
     if (found == info.numbers.end() && entry.newer) continue;

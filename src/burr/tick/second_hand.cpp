@@ -29,6 +29,7 @@ SecondHand::SecondHand(const volume::IsoVertices& surface, device::Device& devic
              {.radius = settings_.radius,
               .friction_static = settings_.friction,
               .friction_kinetic = settings_.friction,
+              .wedge = 0,
               .max_moves = kMoves,
               .push_out_speed = 5 / rate_hz},
              surface.bone().grid().world_from_grid(Vec3::Constant(-1e4))),

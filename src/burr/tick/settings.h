@@ -40,9 +40,10 @@ struct ServoSettings {
   edit::RemovalSettings removal;
   edit::CarveSettings carve;
   ToolMode mode = ToolMode::cut;
-  double friction_scale = 1;        // of the tissues' own friction
-  double friction_turning = 0.05;   // what is left of it while the spindle turns            [-]
-  double kinetic_share = 0.9;       // sliding friction over sticking friction               [-]
+  double friction_scale = 1;       // of the tissues' own friction
+  double friction_turning = 0.05;  // what is left of it while the spindle turns            [-]
+  double kinetic_share = 0.9;      // sliding friction over sticking friction               [-]
+  double wedge = 2;  // friction counts at most so many times the push; 0: no limit  [-]
   double velocity_filter_hz = 100;  // of the hand's velocity, first order
   double deposit_rate = 5e-9;  // at full pedal                                          [m^3/s]
   volume::TissueId deposit_tissue = 1;
