@@ -8,6 +8,7 @@
 
 #include "burr/base/shown.h"
 #include "burr/base/text_file.h"
+#include "burr/importing/tissue_names.h"
 #include "burr/io/read/text.h"
 
 namespace burr::importing {
@@ -25,17 +26,6 @@ constexpr double kTrabecularBleeds = 0.15;
 // Apparent density of trabecular bone (Rho et al. 1995), within the range of such bone. [kg/m^3]
 double density_of(double hu) { return std::clamp(131 + 1.067 * hu, 100.0, 2000.0); }
 
-bool any_of(const std::string& name, std::initializer_list<const char*> parts) {
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](const char* part) { return name.find(part) != std::string::npos; });
-}
-
-bool word_of(const std::string& name, const char* word) {
-  for (const std::string& w : io::words(name))
-    if (w == word) return true;
-  return false;
-}
-
 std::string plain(const std::string& name) {
   std::string out = io::lower(name);
   for (char& c : out)
@@ -51,7 +41,8 @@ std::string names_of(const Materials& materials) {
 }
 
 Status read_table(const std::string& path, const Materials& materials,
-                  std::vector<Tissue>& of_value, std::array<bool, 256>& known) {
+                  std::vector<Tissue>& of_value, std::array<bool, 256>& known,
+                  std::array<bool, 256>& told) {
   const std::string file = io::short_name(path);
   const auto text = base::text_of_file(path, std::uintmax_t{1} << 20,
                                        "a table of labels; check that this is the right file");
@@ -82,6 +73,7 @@ Status read_table(const std::string& path, const Materials& materials,
     for (const std::size_t v : hits) {
       Tissue& tissue = of_value[v];
       known[v] = true;
+      told[v] = told[v] || entry->contains("kind") || entry->contains("material");
       if (name) tissue.name = *name;
       if (const auto kind = (*entry)["kind"].value<std::string>()) {
         if (*kind == "solid")
@@ -136,57 +128,48 @@ Status read_table(const std::string& path, const Materials& materials,
   return fine();
 }
 
+// Whether the label's name, or else its code, says what it is. Adds a notice where the two differ.
+bool understand(const io::Label& label, std::vector<std::string>& notices) {
+  const NamedTissue name = tissue_named(label.name), code = tissue_named(label.meaning);
+  if (name.known && code.known && name.kind != code.kind)
+    notices.push_back(
+        fmt::format("Label {} is named {}, but its code says {}: burr goes by the name; use "
+                    "--tissues if that is wrong.",
+                    label.value, base::shown(label.name), base::shown(label.meaning)));
+  return name.known || code.known;
+}
+
+std::string not_understood(const std::vector<std::string>& labels) {
+  constexpr std::size_t kShown = 6;
+  std::string list;
+  for (std::size_t n = 0; n < std::min(labels.size(), kShown); ++n)
+    list += (n == 0 ? "" : ", ") + labels[n];
+  if (labels.size() > kShown) list += fmt::format(" and {} more", labels.size() - kShown);
+  return fmt::format(
+      "burr does not understand the {} {} and treats {} as solid bone; use --tissues to mark what "
+      "is soft, air or to be spared.",
+      labels.size() == 1 ? "name of label" : "names of labels", list,
+      labels.size() == 1 ? "it" : "them");
+}
+
 }  // namespace
 
 Tissue tissue_by_name(const io::Label& label, bool named, const Materials& materials) {
   Tissue tissue;
-  tissue.name = named ? label.name : fmt::format("label {}", label.value);
+  tissue.name = named ? label.name
+                      : fmt::format("label {}", label.in_file != 0 ? label.in_file : label.value);
   tissue.colour = label.colour;
   tissue.label = label.value;
   if (!named) {
     lay_over(materials.of(""), tissue);
     return tissue;
   }
-  const std::string name = plain(label.name);
-
-  // empty spaces
-  if (any_of(name, {"ear canal", "auditory canal ext", "external auditory", "air cell", "airway",
-                    "trachea", "middle ear", "tympanic cavity", "background", "maxillary sinus",
-                    "frontal sinus", "ethmoid", "sphenoid sinus"}) ||
-      word_of(name, "eac") || word_of(name, "air") || name == "tympanum") {
-    tissue.kind = TissueKind::air;
-    return tissue;
-  }
-  // a name with a word for hard tissue is hard, whatever else it names
-  const bool hard = any_of(
-      name, {"bone",     "bony",     "ossicle",    "malleus",   "incus",   "stapes",   "tooth",
-             "teeth",    "enamel",   "dentin",     "cement",    "skull",   "mandible", "maxilla",
-             "vertebra", "cortical", "trabecular", "spongiosa", "implant", "screw",    "crown"});
-  const auto is_soft = [](const std::string& text) {
-    return any_of(text,
-                  {"canal",   "nerve", "vein",     "artery",  "arteries",  "vessel", "carotid",
-                   "jugular", "sinus", "dura",     "chorda",  "skin",      "muscle", "fat",
-                   "brain",   "pulp",  "ligament", "tendon",  "cartilage", "disc",   "membrane",
-                   "mucosa",  "gum",   "gingiva",  "soft",    "tissue",    "joint",  "bulb",
-                   "cord",    "eye",   "tongue",   "aqueduct"}) ||
-           word_of(text, "iac") || word_of(text, "tmj") || word_of(text, "ica");
-  };
-  // "vertebral artery": the last word names the thing itself
-  const std::vector<std::string> parts = io::words(name);
-  const bool soft = is_soft(name) && (!hard || (!parts.empty() && is_soft(parts.back())));
-  tissue.spare = any_of(name, {"nerve", "artery", "vein", "carotid", "jugular", "sinus", "dura",
-                               "chorda", "labyrinth", "cochlea", "vestib", "ossicle", "malleus",
-                               "incus", "stapes", "cord", "brain", "aqueduct"}) ||
-                 word_of(name, "iac") || word_of(name, "ica");
-  if (soft) tissue.kind = TissueKind::soft;
-  if (soft && (any_of(name, {"artery", "arteries", "vein", "vessel", "carotid", "jugular", "sinus",
-                             "bulb"}) ||
-               word_of(name, "ica")))
-    tissue.bleeds = 1;
-  else if (any_of(name, {"marrow", "pulp"}))
-    tissue.bleeds = 0.3;
-  else if (!soft && any_of(name, {"trabecular", "spongiosa", "cancellous"}))
-    tissue.bleeds = kTrabecularBleeds;
+  NamedTissue says = tissue_named(label.name);
+  if (!says.known) says = tissue_named(label.meaning);
+  tissue.kind = says.kind;
+  if (tissue.kind == TissueKind::air) return tissue;
+  tissue.spare = says.spare;
+  tissue.bleeds = says.bleeds;
   materials.lay_over(tissue);
   return tissue;
 }
@@ -195,6 +178,9 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
                                    const std::string& table_path, const Materials& materials) {
   std::vector<Tissue> of_value(256);
   std::array<bool, 256> known{};
+  std::array<bool, 256> told{};        // the table states its kind or its material
+  std::array<bool, 256> understood{};  // by its name
+  LabelTissues out;
   int different = 0, unnamed = 0;
   for (std::size_t v = 1; v < 256; ++v) different += present[v] ? 1 : 0;
   for (std::size_t v = 1; v < 256; ++v) {
@@ -211,14 +197,18 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
       }
     std::int64_t number = 0;
     named = named && !io::to_number(label.name, number);  // "1" is not a name
+    if (!named && !label.meaning.empty()) {
+      label.name = label.meaning;
+      named = true;
+    }
     if (!named) ++unnamed;
     of_value[v] = tissue_by_name(label, named, materials);
     if (!named && different == 1) of_value[v].name = "bone";
+    understood[v] = !named || understand(label, out.notices);
   }
-  LabelTissues out;
   out.table.tissues.resize(1);
   if (!table_path.empty()) {
-    if (Status status = read_table(table_path, materials, of_value, known); !status)
+    if (Status status = read_table(table_path, materials, of_value, known, told); !status)
       return status.error();
   } else if (unnamed > 0 && different > 1) {
     out.notices.push_back(
@@ -226,6 +216,11 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
                     "those that are not.",
                     unnamed, different));
   }
+  std::vector<std::string> doubts;
+  for (std::size_t v = 1; v < 256; ++v)
+    if (present[v] && !understood[v] && !told[v])
+      doubts.push_back(fmt::format("{} ({})", v, base::shown(of_value[v].name)));
+  if (!doubts.empty()) out.notices.push_back(not_understood(doubts));
   for (std::size_t v = 1; v < 256; ++v) {
     if (!present[v] || of_value[v].kind == TissueKind::air) continue;
     of_value[v].label = static_cast<int>(v);
