@@ -17,7 +17,7 @@ KNOWN = {
     "import.cpp: make_plan": 110,
     "dicom_header.cpp: read_dicom_header": 131,
     "geometry.cpp: straighten": 102,
-    "read_meta.cpp: read_meta": 113,
+    "read_meta.cpp: read_meta": 108,
     "iso_kernel.inc: extract_vertices": 109,
     "friction.cpp: friction": 104,
 }

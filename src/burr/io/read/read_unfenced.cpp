@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <new>
 #include <string>
 #include <system_error>
@@ -27,14 +28,21 @@ Result<Scan> read_by_content(const std::filesystem::path& path, const ReadOption
   std::string name = short_name(path);
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  auto head = first_bytes(path, 132);
+  auto head = first_unpacked_bytes(path, 132);
   if (!head) return head.error();
   if (head->empty())
     return error(fmt::format("{}: the file is empty; copy it again", short_name(path)));
 
   if (begins_with(*head, 0, "NRRD")) return read_nrrd(path, options, progress);
-  if (begins_with(*head, 128, "DICM")) return read_dicom(path, options, progress);
-  for (const char* end : {".nii", ".nii.gz", ".hdr", ".hdr.gz", ".img", ".img.gz"})
+  if (begins_with(*head, 128, "DICM")) {
+    if (auto own = first_bytes(path, 132); own && !begins_with(*own, 128, "DICM"))
+      return error(fmt::format("{}: is a packed DICOM file; unpack it first and give the result",
+                               short_name(path)));
+    return read_dicom(path, options, progress);
+  }
+  for (const char* packing : {".gz", ".bz2", ".bgz"})  // "x.nii.gz.gz"
+    while (ends_with(name, packing)) name.resize(name.size() - std::strlen(packing));
+  for (const char* end : {".nii", ".hdr", ".img"})
     if (ends_with(name, end)) return read_nifti(path, options, progress);
   if (ends_with(name, ".mha") || ends_with(name, ".mhd")) return read_meta(path, options, progress);
   if (ends_with(name, ".nrrd") || ends_with(name, ".nhdr"))
