@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "burr/importing/tissues.h"
+#include "io/folder.h"
 
 namespace burr::importing {
 namespace {
@@ -175,11 +176,38 @@ TEST(TissueNames, AreUnderstoodInSixLanguages) {
     }
 }
 
+using TissueNameFiles = test::FolderTest;
+
 TEST(TissueNames, AreNotInvented) {
   for (const char* name : {"", "Segment_1", "part 7", "label 12", "A1", "V2", "M3", "xyz", "7",
                            "\xFF\xFE", "Left", "***", "des"})
     EXPECT_FALSE(tissue_named(name).known) << name;
   EXPECT_FALSE(tissue_named(std::string(100000, 'a')).known);
+}
+
+TEST_F(TissueNameFiles, ListsOfOtherProgramsNameTheLabels) {
+  io::Scan scan;
+  scan.label_names = {{.value = 3, .name = "", .in_file = 2035}};
+  std::array<bool, 256> present{};
+  present[1] = present[2] = present[3] = true;
+  std::ofstream(path("snap.txt"))
+      << "# list\n0 0 0 0 0 0 0 \"Clear Label\"\n1 255 0 0 1 1 1 \"Unterkiefer\"\n"
+         "2 0 255 0 1 1 1 \"Nervus facialis\"\n2035 0 0 255 1 1 1 \"Kieferhöhle\"\n";
+  const auto read = label_tissues(scan, present, path("snap.txt"));
+  ASSERT_TRUE(read.ok()) << read.error().text;
+  EXPECT_EQ(read->table[1].name, "Unterkiefer");
+  EXPECT_EQ(read->table[1].colour[0], 1.0F);
+  EXPECT_EQ(read->table[2].kind, TissueKind::soft);
+  ASSERT_EQ(read->air.size(), 1U);
+  EXPECT_EQ(read->air[0].name, "Kieferhöhle");
+  std::ofstream(path("free.txt")) << "77 Left-Thalamus 0 118 14 0\n";
+  const auto wrong = label_tissues(scan, present, path("free.txt"));
+  ASSERT_FALSE(wrong.ok());
+  EXPECT_NE(wrong.error().text.find("free.txt: none of its labels occurs"), std::string::npos);
+  std::ofstream(path("t.toml")) << "[[label]]\nvalue = 2035\nkind = \"soft\"\n";
+  const auto table = label_tissues(scan, present, path("t.toml"));
+  ASSERT_TRUE(table.ok()) << table.error().text;
+  EXPECT_EQ(table->table[3].kind, TissueKind::soft);
 }
 
 TEST(TissueNames, ThatAreNotUnderstoodAreSaid) {

@@ -9,6 +9,7 @@
 #include "burr/base/shown.h"
 #include "burr/base/text_file.h"
 #include "burr/importing/tissue_names.h"
+#include "burr/io/read/label_lists.h"
 #include "burr/io/read/text.h"
 
 namespace burr::importing {
@@ -40,14 +41,18 @@ std::string names_of(const Materials& materials) {
   return list;
 }
 
-Status read_table(const std::string& path, const Materials& materials,
+// The number 1..255 of a label that the table gives by its value in the file; 0: out of range.
+std::size_t number_of(std::int64_t value, const std::vector<io::Label>& names) {
+  for (const io::Label& label : names)
+    if (label.in_file != 0 && label.in_file == value) return static_cast<std::size_t>(label.value);
+  return value >= 1 && value <= 255 ? static_cast<std::size_t>(value) : 0;
+}
+
+Status read_table(const std::string& text, const std::string& file,
+                  const std::vector<io::Label>& names, const Materials& materials,
                   std::vector<Tissue>& of_value, std::array<bool, 256>& known,
                   std::array<bool, 256>& told) {
-  const std::string file = io::short_name(path);
-  const auto text = base::text_of_file(path, std::uintmax_t{1} << 20,
-                                       "a table of labels; check that this is the right file");
-  if (!text) return text.error();
-  const auto read = parse_toml(*text, file);
+  const auto read = parse_toml(text, file);
   if (!read) return read.error();
   const auto* list = (*read)["label"].as_array();
   if (list == nullptr)
@@ -60,10 +65,11 @@ Status read_table(const std::string& path, const Materials& materials,
     const auto name = (*entry)["name"].value<std::string>();
     std::vector<std::size_t> hits;
     if (value) {
-      if (*value < 1 || *value > 255)
+      const std::size_t number = number_of(*value, names);
+      if (number == 0)
         return error(
             fmt::format("{}: label: value {} is out of range; use 1 to 255", file, *value));
-      hits.push_back(static_cast<std::size_t>(*value));
+      hits.push_back(number);
     } else if (name) {
       for (std::size_t v = 1; v < 256; ++v)
         if (known[v] && plain(of_value[v].name) == plain(*name)) hits.push_back(v);
@@ -139,6 +145,26 @@ bool understand(const io::Label& label, std::vector<std::string>& notices) {
   return name.known || code.known;
 }
 
+// Names and colours from a list of ITK-SNAP or FreeSurfer; they come before those of the scan.
+Status take_list(const std::vector<io::Label>& list, const std::string& file,
+                 const std::array<bool, 256>& present, std::vector<io::Label>& names) {
+  bool any = false;
+  for (const io::Label& one : list) {
+    const std::size_t number = number_of(one.value, names);
+    if (number == 0 || !present[number]) continue;
+    any = true;
+    io::Label label = one;
+    label.value = static_cast<int>(number);
+    for (const io::Label& have : names)
+      if (have.value == label.value) label.in_file = have.in_file;
+    std::erase_if(names, [&](const io::Label& have) { return have.value == label.value; });
+    names.push_back(std::move(label));
+  }
+  if (any) return fine();
+  return error(
+      fmt::format("{}: none of its labels occurs in the scan; check that it belongs to it", file));
+}
+
 std::string not_understood(const std::vector<std::string>& labels) {
   constexpr std::size_t kShown = 6;
   std::string list;
@@ -181,6 +207,18 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
   std::array<bool, 256> told{};        // the table states its kind or its material
   std::array<bool, 256> understood{};  // by its name
   LabelTissues out;
+  std::vector<io::Label> names = scan.label_names;
+  const std::string file = io::short_name(table_path);
+  std::string table;  // in TOML; empty: there is none, or it was a list of another program
+  if (!table_path.empty()) {
+    auto text = base::text_of_file(table_path, std::uintmax_t{1} << 20,
+                                   "a table of labels; check that this is the right file");
+    if (!text) return text.error();
+    const auto list = io::labels_in_lut(*text);
+    if (list.empty()) table = std::move(*text);
+    if (!list.empty())
+      if (Status status = take_list(list, file, present, names); !status) return status.error();
+  }
   int different = 0, unnamed = 0;
   for (std::size_t v = 1; v < 256; ++v) different += present[v] ? 1 : 0;
   for (std::size_t v = 1; v < 256; ++v) {
@@ -190,7 +228,7 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
     label.value = static_cast<int>(v);
     label.colour = Tissue{}.colour;
     bool named = false;
-    for (const io::Label& have : scan.label_names)
+    for (const io::Label& have : names)
       if (have.value == label.value) {
         label = have;
         named = !have.name.empty();
@@ -207,8 +245,8 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
     understood[v] = !named || understand(label, out.notices);
   }
   out.table.tissues.resize(1);
-  if (!table_path.empty()) {
-    if (Status status = read_table(table_path, materials, of_value, known, told); !status)
+  if (!table.empty()) {
+    if (Status status = read_table(table, file, names, materials, of_value, known, told); !status)
       return status.error();
   } else if (unnamed > 0 && different > 1) {
     out.notices.push_back(
