@@ -94,6 +94,43 @@ TEST_F(Labels, MoreThan255AreRefusedInOneSentence) {
       << scan.error().text;
 }
 
+TEST_F(Labels, MoreThan255WithoutNamesAreRefusedToo) {
+  const auto scan = read_file(nrrd<std::uint16_t>(
+      "ushort", "",
+      [](int, int j, int k, int) {
+        return static_cast<std::uint16_t>(j + 12 * k == 0 ? 0 : 2 * (j + 12 * k));
+      },
+      "many.nrrd", 1));
+  // 144 different values: they fit
+  ASSERT_TRUE(scan.ok()) << scan.error().text;
+  EXPECT_FALSE(scan->labels.empty());
+  const auto many = read_file(nrrd<std::uint16_t>(
+      "ushort", "",
+      [](int i, int j, int k, int) {
+        return static_cast<std::uint16_t>((i == 11 ? 1 : 0) + 2 * (j + 12 * k));
+      },
+      "more.nrrd", 1));
+  ASSERT_FALSE(many.ok());
+  EXPECT_NE(many.error().text.find("more than 255"), std::string::npos) << many.error().text;
+}
+
+TEST_F(Labels, OlderFilesHaveOneLayerForEachSegment) {
+  const auto scan = read_file(nrrd<std::uint8_t>(
+      "uchar", "Segment0_Name:=Bone\nSegment1_Name:=Nerve\n",
+      [](int i, int, int, int layer) { return static_cast<std::uint8_t>(i == 2 + layer ? 1 : 0); },
+      "a.seg.nrrd", 2));
+  ASSERT_TRUE(scan.ok()) << scan.error().text;
+  EXPECT_EQ(name_of(*scan, 1), "Bone");
+  EXPECT_EQ(name_of(*scan, 2), "Nerve");
+}
+
+TEST_F(Labels, OtherPackingsAreNamed) {
+  std::ofstream(path("a.nii.xz"), std::ios::binary) << std::string("\xFD\x37zXZ\0\0\0\0", 9);
+  const auto scan = read_file(path("a.nii.xz"));
+  ASSERT_FALSE(scan.ok());
+  EXPECT_NE(scan.error().text.find("packed with xz"), std::string::npos) << scan.error().text;
+}
+
 TEST_F(Labels, GreyValuesStayGrey) {
   // few values, but never flat; and flat ones without a background
   const auto noisy = read_file(nrrd<std::int16_t>(
@@ -183,6 +220,9 @@ TEST(LabelLists, AreReadInXmlJsonAndText) {
   EXPECT_EQ(snap[0].name, "Nervus facialis");
   EXPECT_EQ(snap[0].colour[0], 1.0F);
   const auto free = labels_in_lut("0 Unknown 0 0 0 0\n\n16  Brain-Stem  119 159 176 0\n");
+  const auto slicer = labels_in_lut("\xEF\xBB\xBF# Color table\n3 Facial nerve 1 2 3 255\r\n");
+  ASSERT_EQ(slicer.size(), 1U);
+  EXPECT_EQ(slicer[0].name, "Facial nerve");
   ASSERT_EQ(free.size(), 1U);
   EXPECT_EQ(free[0].value, 16);
   EXPECT_TRUE(labels_in_lut("[[label]]\nvalue = 1\n").empty());

@@ -93,6 +93,30 @@ void walk(const nlohmann::json& node, int depth, std::vector<Label>& labels) {
   for (const auto& child : node) walk(child, depth + 1, labels);
 }
 
+// One label; false: the line is none. In the lists of FreeSurfer and 3D Slicer the name may hold
+// blanks; the colour and the alpha are the last numbers.
+bool add_line(std::string_view line, std::vector<Label>& labels) {
+  std::vector<std::string> parts = words(line);
+  std::int64_t value = 0;
+  double number = 0;
+  if (parts.size() < 5 || !to_number(parts[0], value)) return false;
+  const bool colour_first = to_number(parts[1], number);  // ITK-SNAP
+  const std::size_t from = colour_first ? 1 : parts.size() - (parts.size() == 5 ? 3 : 4);
+  std::array<float, 3> colour{};
+  for (std::size_t c = 0; c < 3; ++c)
+    if (!to_number(parts[from + c], number) || !colour_part(number, colour[c])) return false;
+  const std::size_t open = line.find('"'), close = line.rfind('"');
+  std::string name;
+  if (open != std::string_view::npos && close > open)
+    name = line.substr(open + 1, close - open - 1);
+  else if (colour_first)
+    return false;
+  else
+    for (std::size_t word = 1; word < from; ++word) name += (word == 1 ? "" : " ") + parts[word];
+  add(labels, value, name, &colour);
+  return true;
+}
+
 }  // namespace
 
 std::vector<Label> labels_in_xml(std::string_view text) {
@@ -136,29 +160,13 @@ std::vector<Label> labels_in_json(std::string_view text) {
 
 std::vector<Label> labels_in_lut(std::string_view text) {
   std::vector<Label> labels;
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);  // byte-order mark
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::string_view line = trimmed(text.substr(at, end - at));
     at = end + 1;
     if (line.empty() || line.front() == '#') continue;
-    const std::vector<std::string> parts = words(line);
-    std::int64_t value = 0;
-    double part = 0;
-    if (parts.size() < 5 || !to_number(parts[0], value)) return {};
-    std::array<float, 3> colour{};
-    bool good = true;
-    if (to_number(parts[1], part)) {  // ITK-SNAP
-      for (std::size_t c = 0; c < 3; ++c)
-        good = good && to_number(parts[1 + c], part) && colour_part(part, colour[c]);
-      const std::size_t from = line.find('"'), to = line.rfind('"');
-      if (!good || from == std::string_view::npos || to == from) return {};
-      add(labels, value, line.substr(from + 1, to - from - 1), &colour);
-    } else {  // FreeSurfer
-      for (std::size_t c = 0; c < 3; ++c)
-        good = good && to_number(parts[2 + c], part) && colour_part(part, colour[c]);
-      if (!good) return {};
-      add(labels, value, parts[1], &colour);
-    }
+    if (!add_line(line, labels)) return {};
   }
   return labels;
 }

@@ -21,8 +21,8 @@ namespace burr::io {
 // "label": 1}, at any place in the JSON.
 [[nodiscard]] std::vector<Label> labels_in_json(std::string_view text);
 
-// The list of ITK-SNAP (number, red, green, blue, alpha, two switches, "name") or of FreeSurfer
-// (number, name, red, green, blue, alpha): one label a line, # begins a comment. Empty: it is
+// The list of ITK-SNAP (number, red, green, blue, alpha, switches, "name"), of FreeSurfer
+// and 3D Slicer (number, name, red, green, blue, alpha): one label a line, # begins a comment. Empty: it is
 // neither.
 [[nodiscard]] std::vector<Label> labels_in_lut(std::string_view text);
 

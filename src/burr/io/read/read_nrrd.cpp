@@ -220,6 +220,7 @@ std::string coded_meaning(const std::string& tags) {
 struct Segments {
   std::vector<Label> labels;  // their values as in the file
   std::vector<int> layers;    // of each
+  std::vector<bool> bare;     // it names neither value nor layer, as in older files: one layer each
 };
 
 // The numbers n of the keys Segment<n>_...: they need not begin at 0, nor follow each other.
@@ -282,6 +283,7 @@ Segments segments(const Header& header, std::vector<std::string>& notices) {
     if (twice) continue;
     out.labels.push_back(label);
     out.layers.push_back(static_cast<int>(layer));
+    out.bare.push_back(value.empty() && get("Layer").empty());
   }
   if (byte_colours > 0)
     notices.push_back(
@@ -633,6 +635,11 @@ Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& opt
         fmt::format("{}: {} layers of {} voxels are more than burr reads (2^31); crop or "
                     "shrink it first",
                     file, layers, *count));
+  for (std::size_t n = 0; n < named.labels.size() && layers > 1; ++n)
+    if (named.bare[n]) {
+      named.layers[n] = scan.label_names[n].value - 1;
+      scan.label_names[n].value = 1;
+    }
   const std::size_t samples = *count * layers;
   auto source = data_source(*header, path, encoding, samples * bytes_of(format.type));
   if (!source) return source.error();

@@ -6,7 +6,9 @@
 #include <cstring>
 #include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/readers.h"
@@ -20,7 +22,8 @@ bool ends_with(const std::string& text, const std::string& end) {
 
 bool begins_with(const std::vector<std::uint8_t>& bytes, std::size_t at, std::string_view text) {
   return bytes.size() >= at + text.size() &&
-         std::equal(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+         std::equal(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                    [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
 Result<Scan> read_by_content(const std::filesystem::path& path, const ReadOptions& options,
@@ -33,6 +36,13 @@ Result<Scan> read_by_content(const std::filesystem::path& path, const ReadOption
   if (head->empty())
     return error(fmt::format("{}: the file is empty; copy it again", short_name(path)));
 
+  using namespace std::string_view_literals;
+  constexpr std::pair<std::string_view, const char*> kOtherPackings[] = {
+      {"\xFD\x37zXZ"sv, "xz"}, {"\x28\xB5\x2F\xFD"sv, "zstd"}, {"7z\xBC\xAF\x27\x1C"sv, "7z"}};
+  for (const auto& [magic, packing] : kOtherPackings)
+    if (begins_with(*head, 0, magic))
+      return error(fmt::format("{}: is packed with {}, which burr does not unpack; unpack it first",
+                               short_name(path), packing));
   if (begins_with(*head, 0, "NRRD")) return read_nrrd(path, options, progress);
   if (begins_with(*head, 128, "DICM")) {
     if (auto own = first_bytes(path, 132); own && !begins_with(*own, 128, "DICM"))

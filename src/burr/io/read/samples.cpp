@@ -68,13 +68,13 @@ void convert(const std::uint8_t* bytes, std::size_t n, const SampleFormat& forma
 
 // Labels are flat: few different numbers, and most voxels have the number of their neighbour. Grey
 // values, even of 8 bit, change from voxel to voxel inside the body.
-bool looks_like_labels(const Voxels<std::uint8_t>& bytes) {
+bool looks_like_labels(const Voxels<std::uint8_t>& bytes, std::ptrdiff_t most_different) {
   std::array<std::size_t, 256> count{};
   for (const std::uint8_t b : bytes) ++count[b];
   const auto different =
       std::count_if(count.begin(), count.end(), [](std::size_t n) { return n > 0; });
   if (different <= 2) return different == 2;
-  if (different > 128) return false;
+  if (different > most_different) return false;
   std::size_t pairs = 0, same = 0;
   for (std::size_t v = 1; v < bytes.size(); ++v) {
     if (bytes[v] == 0 && bytes[v - 1] == 0) continue;
@@ -121,6 +121,23 @@ WholeNumbers whole_numbers(const Voxels<float>& values) {
     if (out.all.size() > kMostLabels + 1) return out;
   }
   return out;
+}
+
+// Whole numbers from 0 up that are the same in nearly all neighbours, as labels are however many.
+// The largest number does not count: a scan that is cut off there is flat too.
+bool flat_whole_numbers(const Voxels<float>& values) {
+  float most = 0;
+  for (const float value : values) {
+    if (!(value >= 0) || value != std::floor(value)) return false;
+    most = std::max(most, value);
+  }
+  std::size_t pairs = 0, same = 0;
+  for (std::size_t v = 1; v < values.size(); ++v) {
+    if (values[v] == values[v - 1] && (values[v] == 0 || values[v] == most)) continue;
+    ++pairs;
+    same += values[v] == values[v - 1] ? 1 : 0;
+  }
+  return pairs > 200 && same > pairs / 5 * 4;
 }
 
 // The numbers 1..255 that stand for the file's labels: those up to 255 keep theirs, the others get
@@ -276,6 +293,10 @@ Result<bool> VoxelSink::wide_labels(Scan& scan, bool labels_for_sure) {
       return error(
           fmt::format("a label is above {}; give the labels smaller numbers", kLargestLabel));
   }
+  if (whole.all.size() > kMostLabels + 1 && broken_ == 0 && flat_whole_numbers(values_))
+    return error(
+        "the values look like more than 255 different labels, and burr reads at most 255; "
+        "merge some of them");
   if (whole.all.empty() || whole.negative || whole.all.size() < 2 ||
       whole.all.size() > kMostLabels + 1)
     return false;
@@ -289,7 +310,7 @@ Result<bool> VoxelSink::wide_labels(Scan& scan, bool labels_for_sure) {
     if (place == whole.all.end()) return false;  // values_ ended early
     bytes.push_back(numbers[static_cast<std::size_t>(place - whole.all.begin())]);
   }
-  if (!labels_for_sure && !looks_like_labels(bytes)) return false;
+  if (!labels_for_sure && !looks_like_labels(bytes, 256)) return false;
   if (!whole.labels()) {
     scan.notices.push_back(fmt::format(
         "The values are few and near to whole numbers (off by up to {:.2g}), as in a label map "
@@ -317,7 +338,7 @@ Status VoxelSink::finish(Scan& scan, bool labels_for_sure) {
   }
   // values that do not occur
   std::erase_if(scan.label_names, [](const Label& label) { return label.value > 255; });
-  if (!wide_ && (labels_for_sure || looks_like_labels(bytes_))) {
+  if (!wide_ && (labels_for_sure || looks_like_labels(bytes_, 128))) {
     scan.labels = std::move(bytes_);
     scan.hounsfield = false;
     return fine();
