@@ -157,6 +157,10 @@ TEST_F(Labels, FloatsNearWholeNumbersAreRounded) {
   };
   const auto near = read_file(nrrd<float>("float", "", value(0.9996F), "near.nrrd"));
   ASSERT_TRUE(near.ok()) << near.error().text;
+  const auto absent = read_file(nrrd<float>(
+      "float", segment(0, "Bone", 1) + segment(1, "Absent", 1001), value(1), "absent.seg.nrrd"));
+  ASSERT_TRUE(absent.ok()) << absent.error().text;
+  EXPECT_EQ(absent->label_names.size(), 1U);
   EXPECT_EQ(counts(*near), (std::map<int, std::size_t>{{0, 864}, {1, 432}, {2, 432}}));
   EXPECT_TRUE(says(*near, "to within 0.001"));
   const auto off = read_file(nrrd<float>("float", "", value(0.99F), "off.nrrd"));

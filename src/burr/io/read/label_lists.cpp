@@ -20,7 +20,8 @@ void add(std::vector<Label>& labels, std::int64_t value, std::string_view name,
     if (label.value == value) return;
   Label label;
   label.value = static_cast<int>(value);
-  label.name = std::string(trimmed(name));
+  constexpr std::size_t kLongestName = 200;
+  label.name = std::string(trimmed(name).substr(0, kLongestName));
   if (colour != nullptr) label.colour = *colour;
   labels.push_back(std::move(label));
 }

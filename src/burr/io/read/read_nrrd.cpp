@@ -213,8 +213,10 @@ std::string coded_meaning(const std::string& tags) {
   // the default of every new segment, and the two words for "a part of the body"
   for (const char* nothing : {"85756007", "T-D0050", "123037004", "T-D000A"})
     if (code == nothing) return {};
-  if (code.empty()) return std::string(meaning);
-  return fmt::format("{}{}{} {}", meaning, meaning.empty() ? "" : " ", scheme, code);
+  constexpr std::size_t kLongest = 200;
+  std::string out(meaning);
+  if (!code.empty()) out += fmt::format("{}{} {}", out.empty() ? "" : " ", scheme, code);
+  return out.substr(0, kLongest);
 }
 
 struct Segments {

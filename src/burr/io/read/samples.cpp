@@ -161,6 +161,11 @@ std::vector<std::uint8_t> short_numbers(const std::vector<std::int64_t>& file) {
   return out;
 }
 
+// Names of values above 255, where no voxel has such a value.
+void drop_long_numbers(Scan& scan) {
+  std::erase_if(scan.label_names, [](const Label& label) { return label.value > 255; });
+}
+
 // Names follow their labels to the new numbers; labels without a name get an entry that knows the
 // number in the file.
 void renumber_names(Scan& scan, const std::vector<std::int64_t>& file,
@@ -324,6 +329,7 @@ Result<bool> VoxelSink::wide_labels(Scan& scan, bool labels_for_sure) {
     scan.notices.emplace_back(
         "The values are whole numbers to within 0.001: they are rounded and read as labels.");
   renumber_names(scan, whole.all, numbers);
+  drop_long_numbers(scan);
   scan.labels = std::move(bytes);
   Voxels<float>().swap(values_);
   scan.hounsfield = false;
@@ -336,8 +342,7 @@ Status VoxelSink::finish(Scan& scan, bool labels_for_sure) {
     if (!labels) return labels.error();
     if (*labels) return fine();
   }
-  // values that do not occur
-  std::erase_if(scan.label_names, [](const Label& label) { return label.value > 255; });
+  drop_long_numbers(scan);
   if (!wide_ && (labels_for_sure || looks_like_labels(bytes_, 128))) {
     scan.labels = std::move(bytes_);
     scan.hounsfield = false;
