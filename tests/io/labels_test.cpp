@@ -203,6 +203,21 @@ TEST_F(Labels, OfTwoLayersTheSmallerStructureStays) {
   EXPECT_TRUE(says(*scan, "in 144 voxels, the smaller one stays"));
 }
 
+TEST_F(Labels, BlanksAndPerCentSignsInNamesOfDataFiles) {
+  const std::string name = "a%d 1 2 1";
+  std::ofstream(path(name), std::ios::binary) << std::string(8, 'x');
+  std::ofstream(path("a.mhd")) << "ObjectType = Image\nNDims = 3\nDimSize = 2 2 2\nElementType = "
+                                  "MET_UCHAR\nElementDataFile = "
+                               << name << "\n";
+  std::ofstream(path("a.nhdr")) << "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: "
+                                   "raw\ndata file: "
+                                << name << "\n";
+  for (const char* header : {"a.mhd", "a.nhdr"}) {
+    const auto scan = read_file(path(header));
+    EXPECT_TRUE(scan.ok()) << scan.error().text;
+  }
+}
+
 TEST(LabelLists, AreReadInXmlJsonAndText) {
   const auto xml = labels_in_xml(
       "<LabelTable><Label Key=\"3\" Red=\"1\" Green=\"0.5\" Blue=\"0\" Alpha=\"1\"><![CDATA[a "
@@ -234,8 +249,9 @@ TEST(LabelLists, AreReadInXmlJsonAndText) {
 
 struct Row {
   const char* path;
-  std::map<int, std::size_t> counts;  // empty: grey, 1045.8 mm3 at 300 HU
+  std::map<int, std::size_t> counts;  // empty: a CT in HU
   std::vector<const char*> names;
+  friend void PrintTo(const Row& row, std::ostream* out) { *out << row.path; }
 };
 
 class LabelReports : public testing::TestWithParam<Row> {};
