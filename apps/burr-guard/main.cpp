@@ -1,8 +1,9 @@
-// burr-guard - outlives burr by a moment, to release a device that would hold its last force
+// burr-guard - runs a little longer than burr, to release a device that would hold its last force
 // (src/burr/device/guardian.h starts it).
 //
 //     burr-guard line TEXT
-//         descriptors: 0 burr's life, 1 the answer, 3 the device, 4 the beats
+//         descriptors: 0 a pipe that closes when burr ends, 1 the answer, 3 the device,
+//         4 shared memory with the count of burr's beats
 //     burr-guard crtk DOMAIN ARM ROUTE
 //         the same without 3
 #include <fmt/core.h>

@@ -11,6 +11,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "burr/base/inputs.h"
+
 namespace burr::base {
 namespace {
 
@@ -58,6 +60,7 @@ Result<NewFile> NewFile::beside(const std::string& path) {
     return error(Trouble::io, "the name of the file to write is empty; give a name");
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     return error(Trouble::io, path + ": is not a regular file; give the name of a file");
+  if (const Status allowed = check_not_input(place.string()); !allowed) return allowed.error();
 
   // a name that no one else uses: a crashed run may have left a file with our process number
   static std::atomic<unsigned> count = 0;

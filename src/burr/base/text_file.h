@@ -1,6 +1,6 @@
 // base/text_file.h - reads a small text file whole: a case, a table, a log.
 //
-// Files that may be hostile (scans) are read behind the fence of io/, not here. An error names the
+// A UTF-8 byte-order mark is removed; UTF-16 is refused. Files that may be hostile (scans) are read behind the fence of io/, not here. An error names the
 // file without its folder. Thread: any.
 #pragma once
 

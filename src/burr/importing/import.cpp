@@ -156,15 +156,9 @@ Result<Materials> materials_of(const scenario::Recipe& recipe) {
   return read_materials(recipe.materials);
 }
 
-Result<Plan> make_plan(const io::Scan& scan, const scenario::Recipe& recipe) {
-  if (scan.values.empty() == scan.labels.empty() ||
-      std::max(scan.values.size(), scan.labels.size()) != product(scan.size))
-    return error(Trouble::internal, "a scan needs values or labels, one for each voxel");
-  const auto given = materials_of(recipe);
-  if (!given) return given.error();
-  const Materials& materials = *given;
-  Plan plan;
-  ImportSummary& out = plan.summary;
+// What the file says.
+ImportSummary summary_of(const io::Scan& scan) {
+  ImportSummary out;
   out.format = scan.format;
   out.scan_size = scan.size;
   out.spacing_mm = scan.spacing_mm;
@@ -173,40 +167,36 @@ Result<Plan> make_plan(const io::Scan& scan, const scenario::Recipe& recipe) {
   out.labels = scan.values.empty();
   out.hounsfield = scan.hounsfield;
   out.notices = scan.notices;
-  if (Status status = set_region(scan, recipe, out); !status) return status.error();
-  if (out.roi_size.minCoeff() < 2)
-    return error(
-        fmt::format("{} x {} x {} voxels are not a volume; give the folder of the whole series",
-                    out.roi_size.x(), out.roi_size.y(), out.roi_size.z()));
-  if (Status status = set_voxels(scan, recipe, plan); !status) return status.error();
+  return out;
+}
 
-  if (out.labels) {
-    plan.counts = count_labels(scan, out);
-    std::array<bool, 256> present{};
-    for (std::size_t v = 1; v < 256; ++v) present[v] = plan.counts[v] > 0;
-    auto labels = label_tissues(scan, present, recipe.labels, materials);
-    if (!labels) return labels.error();
-    plan.labels = std::move(*labels);
-    out.notices.insert(out.notices.end(), plan.labels.notices.begin(), plan.labels.notices.end());
-    const double each = scan.spacing_mm.prod();
-    bool any_solid = false;
-    for (std::size_t v = 1; v < 256; ++v) {
-      const volume::TissueId id = plan.labels.of_label[v];
-      if (id == 0) continue;
-      const volume::Tissue& tissue = plan.labels.table[id];
-      any_solid = any_solid || tissue.kind == volume::TissueKind::solid;
-      out.tissues.push_back(
-          {id, tissue, plan.counts[v], static_cast<double>(plan.counts[v]) * each});
-    }
-    if (!any_solid)
-      return error(
-          "no label is solid, so there is nothing to mill; mark the solid labels with --tissues");
-    return plan;
+Status plan_labels(const io::Scan& scan, const scenario::Recipe& recipe, const Materials& materials,
+                   Plan& plan) {
+  ImportSummary& out = plan.summary;
+  plan.counts = count_labels(scan, out);
+  std::array<bool, 256> present{};
+  for (std::size_t v = 1; v < 256; ++v) present[v] = plan.counts[v] > 0;
+  auto labels = label_tissues(scan, present, recipe.labels, materials);
+  if (!labels) return labels.error();
+  plan.labels = std::move(*labels);
+  out.notices.insert(out.notices.end(), plan.labels.notices.begin(), plan.labels.notices.end());
+  const double each = scan.spacing_mm.prod();
+  bool any_solid = false;
+  for (std::size_t v = 1; v < 256; ++v) {
+    const volume::TissueId id = plan.labels.of_label[v];
+    if (id == 0) continue;
+    const volume::Tissue& tissue = plan.labels.table[id];
+    any_solid = any_solid || tissue.kind == volume::TissueKind::solid;
+    out.tissues.push_back({id, tissue, plan.counts[v], static_cast<double>(plan.counts[v]) * each});
   }
+  if (!any_solid)
+    return error(
+        "no label is solid, so there is nothing to mill; mark the solid labels with --tissues");
+  return fine();
+}
 
-  if (!recipe.labels.empty())
-    out.notices.emplace_back(
-        "--tissues is a table of labels, but this scan has grey values; the table was ignored.");
+// Sets the lowest and the highest value of the region.
+void set_range(const io::Scan& scan, ImportSummary& out) {
   out.low = std::numeric_limits<float>::infinity();
   out.high = -out.low;
   for (int k = 0; k < out.roi_size.z(); ++k)
@@ -226,6 +216,10 @@ Result<Plan> make_plan(const io::Scan& scan, const scenario::Recipe& recipe) {
       out.low = std::min(out.low, low);
       out.high = std::max(out.high, high);
     }
+}
+
+// Sets the surface level: as requested, or that of bone in HU, or Otsu's threshold.
+Status set_iso(const io::Scan& scan, const scenario::Recipe& recipe, ImportSummary& out) {
   if (recipe.iso) {
     out.iso = *recipe.iso;
   } else if (scan.hounsfield && kBoneHu < double{out.high}) {
@@ -246,24 +240,62 @@ Result<Plan> make_plan(const io::Scan& scan, const scenario::Recipe& recipe) {
         fmt::format("the surface level {:.4g} is outside the range of values, {:.4g} to {:.4g}, so "
                     "there is no bone; choose another level with --iso",
                     out.iso, out.low, out.high));
+  return fine();
+}
+
+// Sets the smoothing: as requested, or by the noise of the scan.
+void set_smooth(const io::Scan& scan, const scenario::Recipe& recipe, ImportSummary& out) {
   if (recipe.smooth >= 0) {
     out.smooth = recipe.smooth;
-  } else {
-    const double noise = measure_noise(scan, out.roi_from, out.roi_size, out.iso);
-    // Noise below half a percent of the step from air to bone cannot be felt; more than a tenth is
-    // structure.
-    const double step = 2 * (out.iso - double{out.low});
-    out.smooth = noise < 0.003 * step ? 0.0 : std::min(noise, 0.1 * step);
-    if (out.smooth > 0)
-      out.notices.push_back(
-          fmt::format("Noise of {:.3g} {} is smoothed out along the surface; see --smooth.",
-                      out.smooth, scan.hounsfield ? "HU" : "(the file's unit)"));
+    return;
   }
+  const double noise = measure_noise(scan, out.roi_from, out.roi_size, out.iso);
+  // Noise below half a percent of the step from air to bone cannot be felt; more than a tenth is
+  // structure.
+  const double step = 2 * (out.iso - double{out.low});
+  out.smooth = noise < 0.003 * step ? 0.0 : std::min(noise, 0.1 * step);
+  if (out.smooth > 0)
+    out.notices.push_back(
+        fmt::format("Noise of {:.3g} {} is smoothed out along the surface; see --smooth.",
+                    out.smooth, scan.hounsfield ? "HU" : "(the file's unit)"));
+}
+
+Status plan_grey(const io::Scan& scan, const scenario::Recipe& recipe, const Materials& materials,
+                 Plan& plan) {
+  ImportSummary& out = plan.summary;
+  if (!recipe.labels.empty())
+    out.notices.emplace_back(
+        "--tissues is a table of labels, but this scan has grey values; the table was ignored.");
+  set_range(scan, out);
+  if (Status status = set_iso(scan, recipe, out); !status) return status;
+  set_smooth(scan, recipe, out);
   if (scan.hounsfield) plan.grey_tissues = hu_tissues(materials);
   auto& tissues = plan.grey_tissues.tissues;
   if (!scan.hounsfield) materials.lay_over(tissues[1]);
   for (std::size_t id = 1; id < tissues.size(); ++id)
     out.tissues.push_back({static_cast<volume::TissueId>(id), tissues[id], 0, 0});
+  return fine();
+}
+
+Result<Plan> make_plan(const io::Scan& scan, const scenario::Recipe& recipe) {
+  if (scan.values.empty() == scan.labels.empty() ||
+      std::max(scan.values.size(), scan.labels.size()) != product(scan.size))
+    return error(Trouble::internal, "a scan needs values or labels, one for each voxel");
+  const auto materials = materials_of(recipe);
+  if (!materials) return materials.error();
+  Plan plan;
+  ImportSummary& out = plan.summary;
+  out = summary_of(scan);
+  if (Status status = set_region(scan, recipe, out); !status) return status.error();
+  if (out.roi_size.minCoeff() < 2)
+    return error(
+        fmt::format("{} x {} x {} voxels are not a volume; give the folder of the whole series",
+                    out.roi_size.x(), out.roi_size.y(), out.roi_size.z()));
+  if (Status status = set_voxels(scan, recipe, plan); !status) return status.error();
+  if (Status status = out.labels ? plan_labels(scan, recipe, *materials, plan)
+                                 : plan_grey(scan, recipe, *materials, plan);
+      !status)
+    return status.error();
   return plan;
 }
 

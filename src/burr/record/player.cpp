@@ -50,6 +50,7 @@ Result<std::unique_ptr<Player>> Player::open(const std::string& path) {
   player->keyframe_chunks_ = player->chunks_with(player->keyframe_channel_);
   player->read_events();
   player->find_ends();
+  player->find_holes();
   return player;
 }
 
@@ -102,6 +103,7 @@ void Player::read_events() {
       if (message.channel != event_channel_) continue;
       const auto event = nlohmann::json::parse(as_text(message.data), nullptr, false);
       if (!event.is_object()) continue;
+      stopped_ = stopped_ || event.value("event", nlohmann::json()) == "stopped";
       const auto count = [&](const char* name, std::uint64_t& to) {
         const auto at = event.find(name);
         if (at != event.end() && at->is_number_unsigned())
@@ -112,6 +114,7 @@ void Player::read_events() {
       count("dropped_bricks", dropped_bricks_);
     }
   }
+  if (stopped_) notice(path_ + ": the session was stopped before its end, by Ctrl-C or a signal");
   if (dropped_ticks_ + dropped_commands_ + dropped_bricks_ > 0)
     notice(
         fmt::format("{}: the disk was too slow while recording; {} ticks, {} commands and {} "
@@ -140,6 +143,33 @@ void Player::find_ends() {
   constexpr std::uint64_t kLargest = std::numeric_limits<std::uint64_t>::max() - 1;
   first_tick_ = std::min(first_tick_, kLargest);
   end_tick_ = std::max(first_tick_, rows.empty() ? 0 : std::min(rows.back().tick, kLargest)) + 1;
+}
+
+void Player::find_holes() {
+  std::optional<Hole> hole;
+  const auto close = [&](std::uint64_t end) {
+    if (!hole) return;
+    hole->end = std::max(hole->first, std::min(end, end_tick_));
+    holes_.push_back(*hole);
+    hole.reset();
+  };
+  for (const std::size_t c : step_chunks_) {
+    const std::uint64_t start = std::clamp(start_tick(c), first_tick_, end_tick_);
+    if (reader_->read_chunk(c)) {
+      close(start);
+    } else if (!hole) {
+      hole = Hole{start, start};
+    }
+  }
+  close(end_tick_);
+  const auto seconds = [this](std::uint64_t tick) {
+    return static_cast<double>(tick) / info_.rate_hz;
+  };
+  for (const Hole& one : holes_)
+    notice(
+        fmt::format("{}: is damaged from {:.3f} s to {:.3f} s: {} ticks are lost; `burr repair` "
+                    "keeps the rest",
+                    path_, seconds(one.first), seconds(one.end), one.end - one.first));
 }
 
 // ---- the tool of recordings that do not say it

@@ -399,7 +399,8 @@ constexpr const char* kEventSchema = R"({
  "description": "What happened to the recording itself.",
  "type": "object",
  "properties": {
-  "event": {"enum": ["dropped", "finished"]},
+  "event": {"enum": ["dropped", "finished", "stopped"],
+             "description": "stopped: the session was ended before its time, by a signal"},
   "tick": {"type": "integer", "description": "last tick written"},
   "dropped_ticks": {"type": "integer", "description": "rows lost so far because the ring was full"},
   "dropped_wishes": {"type": "integer"},

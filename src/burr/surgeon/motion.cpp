@@ -190,6 +190,7 @@ Result<HandPath> read_path(const std::string& file) {
   std::string line;
   if (!std::getline(in, line))
     return error(fmt::format("{}: is empty; the first line must be t,x,y,z", file));
+  if (line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // a byte-order mark, as Excel writes it
 
   const auto split = [](std::string text) {
     std::vector<std::string> cells;

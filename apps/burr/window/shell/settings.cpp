@@ -20,9 +20,9 @@
 namespace burr::app {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 1U << 16;  // a page of settings  [byte]
+constexpr std::uintmax_t kLargestFile = 1U << 16;  // far more than settings need  [byte]
 
-// One line of the file. Exactly one of the five is set.
+// One line of the file. Exactly one of the five pointers is set.
 struct Field {
   const char *key, *means;
   double Settings::*number = nullptr;
@@ -101,12 +101,12 @@ std::string languages_known() {
   return all;
 }
 
-// As written until 0.1.0: "english" and "swedish".
+// The values that burr wrote until 0.1.0: "english" and "swedish".
 std::string code_of_language(const std::string& value) {
   return value == "english" ? "en" : value == "swedish" ? "sv" : value;
 }
 
-// "" when it is good
+// Takes the value into `settings`; returns "" or what is wrong with it.
 std::string take(const Field& field, const toml::node& node, Settings& settings) {
   if (field.yes != nullptr) {
     const auto value = node.value_exact<bool>();

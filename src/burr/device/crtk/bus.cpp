@@ -106,7 +106,7 @@ Result<std::unique_ptr<Bus>> Bus::open(int domain) {
 }
 
 void Bus::hear() {
-  // made only when needed: samples that nobody takes stay in memory
+  // made only when needed: samples that are not read stay in memory
   if (publications_ <= 0)
     publications_ =
         dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);

@@ -30,7 +30,7 @@ constexpr std::size_t kLargest = 1 << 20;      // longest message [byte]
 constexpr int kMostNonsense = 50;              // messages in a row
 constexpr int kProbes = 20;                    // exchanges in which a tiny test force must come
                                                // back
-constexpr double kTiny = 0.02, kSeen = 0.005;  // test force that nobody feels; the part of it that
+constexpr double kTiny = 0.02, kSeen = 0.005;  // test force, too small to feel; the part of it that
                                                // must come back [N]
 constexpr double kFarthest = 1;                // no arm is longer [m]
 constexpr int kPorts[] = {10001, 10000};
@@ -72,7 +72,7 @@ Result<int> port_from_environment(const char* name) {
   return port;
 }
 
-// The user says so, where a service calls its arms used though nobody uses them.
+// The user sets this if a service reports its arms as used although no program uses them.
 bool may_be_shared() { return from_environment("BURR_HAPLY_SHARED", "") == "1"; }
 
 // Rotation from the service's frame to ours: a quarter turn about x.

@@ -25,11 +25,16 @@ constexpr int kCalibrationEvery = 100;             // frames between two checks 
 constexpr int kWarmFrames = 1000;                  // frames for which the warning about warm motors
                                                    // stays
 constexpr double kFarthest = 1.0;                  // no arm is longer [m]
-constexpr double kPremiumTorque = 0.188;           // chai3d's table [N m]
+constexpr double kPremiumTorque = 0.188;           // CHAI3D's table [N m]
 constexpr auto kKeep = std::chrono::milliseconds(500);
 constexpr auto kLook = std::chrono::milliseconds(5);
 
-// Limits of the models (chai3d's table). An unknown model gets the limits of the weakest.
+// Limits of the models; an unknown model gets those of the weakest. Peak force and stiffness:
+// CHAI3D, CPhantomDevices.cpp. Damping: CHAI3D's 4 N s/m for the Touch is used for all; CHAI3D
+// allows the others 5. A Premium of any kind gets the limits of the Premium 1.5 6DOF, the safe
+// side: CHAI3D allows a Premium 3.0 6DOF 22 N and 1000 N/m. Continuous force and radius: published
+// figures whose source is not recorded. The radius limits nothing. (CHAI3D has other radii: 100 mm
+// for Omni and Desktop, 120 mm for the Premium 1.5.)
 struct Model {
   const char* part_of_name;
   double peak, continuous, stiffness, damping, radius;

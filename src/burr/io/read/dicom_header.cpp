@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <optional>
 
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/text.h"
@@ -269,138 +270,164 @@ bool plausible(const std::vector<std::uint8_t>& bytes, std::size_t at) {
   return group == 2 || group == 8 || group == 0x10;
 }
 
+Error broken(const std::filesystem::path& path, const std::string& why) {
+  return error(
+      fmt::format("{}: is a damaged DICOM file ({}); copy it again", short_name(path), why));
+}
+
+// The data set of a deflated file, which is compressed from `at` on.
+Result<std::vector<std::uint8_t>> inflated(const std::filesystem::path& path, std::uint64_t at,
+                                           std::uint64_t file_size) {
+  auto source = open_file(path, at);
+  if (!source) return source.error();
+  // all of it, within deflate's largest ratio
+  const std::uint64_t most =
+      std::min<std::uint64_t>((file_size - at) * kMostGzip, std::uint64_t{1} << 30);
+  auto inflating = inflate_raw(std::move(source->source));
+  std::vector<std::uint8_t> bytes, block(std::size_t{1} << 16);
+  while (bytes.size() <= most) {
+    auto got = inflating->read(block.data(), block.size());
+    if (!got) return broken(path, "its compressed data cannot be decompressed");
+    if (*got == 0) break;
+    bytes.insert(bytes.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(*got));
+  }
+  if (bytes.size() < 8) return broken(path, "its compressed data is empty");
+  return bytes;
+}
+
+// Letters in the place of the type mean explicit.
+bool looks_explicit(const std::vector<std::uint8_t>& bytes, std::uint64_t at) {
+  const auto letter = [&](std::uint64_t p) { return bytes[p] >= 'A' && bytes[p] <= 'Z'; };
+  return letter(at + 4) && letter(at + 5);
+}
+
+// What the image is and which series it belongs to.
+void series_facts(const Values& top, DicomHeader& header) {
+  header.sop_class = text_of(top, 0x00080016);
+  header.series = text_of(top, 0x0020000E);
+  header.modality = text_of(top, 0x00080060);
+  header.image_type = text_of(top, 0x00080008);
+  header.kernel = text_of(top, 0x00181210);
+  header.description = text_of(top, 0x0008103E);
+  header.photometric = text_of(top, 0x00280004);
+  header.rescale_type = text_of(top, 0x00281054);
+  header.series_number = whole(top, 0x00200011, 0);
+  header.acquisition = whole(top, 0x00200012, 0);
+  header.instance = whole(top, 0x00200013, 0);
+  header.frame_count = whole(top, 0x00280008, 1);
+  const auto between = decimals(top, 0x00180088);
+  if (!between.empty() && std::isfinite(between[0]))
+    header.between_slices_mm = std::abs(between[0]);
+}
+
+// How the pixels are stored, and where.
+void pixel_facts(const Walker& set, DicomHeader& header) {
+  const Values& top = set.top;
+  const auto number = [&](Tag tag, int otherwise) {
+    const auto found = top.find(tag);
+    if (found == top.end() || found->second.size() < 2) return otherwise;
+    const auto a = static_cast<std::uint8_t>(found->second[0]),
+               b = static_cast<std::uint8_t>(found->second[1]);
+    return set.big_endian ? a << 8 | b : b << 8 | a;
+  };
+  header.rows = number(0x00280010, 0);
+  header.columns = number(0x00280011, 0);
+  header.samples = number(0x00280002, 1);
+  header.bits_allocated = number(0x00280100, 0);
+  header.bits_stored = number(0x00280101, header.bits_allocated);
+  header.high_bit = number(0x00280102, header.bits_stored - 1);
+  header.is_signed = number(0x00280103, 0) == 1;
+  header.has_padding = top.count(0x00280120) != 0 && top.at(0x00280120).size() >= 2;
+  if (header.has_padding) {
+    const auto sign = [&](int v) {
+      return header.is_signed ? int{static_cast<std::int16_t>(v)} : v;
+    };
+    header.padding = sign(number(0x00280120, 0));
+    header.padding_end = header.padding;
+    if (top.count(0x00280121) != 0) {
+      header.padding_range = true;
+      header.padding_end = sign(number(0x00280121, 0));
+      if (header.padding_end < header.padding) std::swap(header.padding, header.padding_end);
+    }
+  }
+  header.has_modality_lut = set.modality_lut;
+  header.big_endian = set.big_endian;
+  header.has_pixels = set.has_pixels;
+  header.float_pixels = set.float_pixels;
+  header.encapsulated = set.encapsulated;
+  header.pixels_at = set.pixels_at;
+  header.pixels_length = set.pixels_length;
+}
+
+// Reads the header from the first `part` bytes of the file. Nothing: it is longer than that.
+Result<std::optional<DicomHeader>> read_first(const std::filesystem::path& path, std::size_t part) {
+  auto bytes = first_bytes(path, part);
+  if (!bytes) return bytes.error();
+  auto opened = open_file(path);
+  if (!opened) return opened.error();
+  std::uint64_t total = opened->size;
+  const bool whole_file = bytes->size() >= total;
+
+  DicomHeader header;
+  header.path = path;
+  std::uint64_t at = 0;
+  const bool marked = bytes->size() >= 132 && std::memcmp(bytes->data() + 128, "DICM", 4) == 0;
+  if (marked) at = 132;
+  if (!plausible(*bytes, at))
+    return error(
+        fmt::format("{}: is not a file that burr reads; give DICOM, NRRD, NIfTI or MetaImage",
+                    short_name(path)));
+
+  Walker meta(*bytes, total);
+  if ((*bytes)[at] == 2) {
+    at = meta.walk(at, total, 0, &meta.top, true);
+    if (!meta.trouble.empty()) return broken(path, meta.trouble);
+    header.transfer_syntax = text_of(meta.top, 0x00020010);
+  }
+  if (header.transfer_syntax == "1.2.840.10008.1.2.1.99") {
+    auto unpacked = inflated(path, at, total);
+    if (!unpacked) return unpacked.error();
+    *bytes = std::move(*unpacked);
+    total = bytes->size();
+    at = 0;
+    header.deflated = true;
+  }
+
+  Walker set(*bytes, total);
+  set.big_endian = header.transfer_syntax == "1.2.840.10008.1.2.2";
+  set.explicit_vr = header.transfer_syntax != "1.2.840.10008.1.2";
+  if (header.transfer_syntax.empty() || header.transfer_syntax == "1.2.840.10008.1.2") {
+    // no statement, or the usual wrong one
+    if (at + 6 > bytes->size()) return broken(path, "it holds no data");
+    set.explicit_vr = looks_explicit(*bytes, at);
+  }
+  set.walk(at, total, 0, &set.top, false);
+  if (set.cut && !whole_file && !header.deflated) return std::optional<DicomHeader>();
+  if (!set.trouble.empty()) return broken(path, set.trouble);
+
+  series_facts(set.top, header);
+  pixel_facts(set, header);
+  if (header.frame_count < 1 || header.frame_count > 100000)
+    return broken(path, fmt::format("it states {} frames, not 1 to 100000", header.frame_count));
+  DicomFrame common;
+  frame_facts(set.top, common);
+  frame_facts(set.shared, common);
+  header.frames.assign(static_cast<std::size_t>(header.frame_count), common);
+  for (std::size_t f = 0; f < std::min(header.frames.size(), set.frames.size()); ++f)
+    frame_facts(set.frames[f], header.frames[f]);
+  return std::optional(std::move(header));
+}
+
 }  // namespace
 
 Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
-  const std::string file = short_name(path);
-  const auto broken = [&](const std::string& why) {
-    return error(fmt::format("{}: is a damaged DICOM file ({}); copy it again", file, why));
-  };
   // a header seldom needs more than the first block; read more until it fits
-  std::size_t part = std::size_t{1} << 16;
-  while (true) {
-    auto bytes = first_bytes(path, part);
-    if (!bytes) return bytes.error();
-    auto opened = open_file(path);
-    if (!opened) return opened.error();
-    std::uint64_t total = opened->size;
-    const bool whole_file = bytes->size() >= total;
-
-    DicomHeader header;
-    header.path = path;
-    std::uint64_t at = 0;
-    const bool marked = bytes->size() >= 132 && std::memcmp(bytes->data() + 128, "DICM", 4) == 0;
-    if (marked) at = 132;
-    if (!plausible(*bytes, at))
-      return error(fmt::format(
-          "{}: is not a file that burr reads; give DICOM, NRRD, NIfTI or MetaImage", file));
-
-    Walker meta(*bytes, total);
-    if ((*bytes)[at] == 2) {
-      at = meta.walk(at, total, 0, &meta.top, true);
-      if (!meta.trouble.empty()) return broken(meta.trouble);
-      header.transfer_syntax = text_of(meta.top, 0x00020010);
-    }
-    if (header.transfer_syntax == "1.2.840.10008.1.2.1.99") {
-      // the data set itself is compressed: inflate all of it, within deflate's largest ratio
-      auto source = open_file(path, at);
-      if (!source) return source.error();
-      const std::uint64_t most =
-          std::min<std::uint64_t>((total - at) * kMostGzip, std::uint64_t{1} << 30);
-      auto inflating = inflate_raw(std::move(source->source));
-      bytes->clear();
-      std::vector<std::uint8_t> block(std::size_t{1} << 16);
-      while (bytes->size() <= most) {
-        auto got = inflating->read(block.data(), block.size());
-        if (!got) return broken("its compressed data cannot be decompressed");
-        if (*got == 0) break;
-        bytes->insert(bytes->end(), block.begin(),
-                      block.begin() + static_cast<std::ptrdiff_t>(*got));
-      }
-      total = bytes->size();
-      at = 0;
-      header.deflated = true;
-      if (total < 8) return broken("its compressed data is empty");
-    }
-
-    Walker set(*bytes, total);
-    set.big_endian = header.transfer_syntax == "1.2.840.10008.1.2.2";
-    set.explicit_vr = header.transfer_syntax != "1.2.840.10008.1.2";
-    if (header.transfer_syntax.empty() || header.transfer_syntax == "1.2.840.10008.1.2") {
-      // No statement, or the usual wrong one: letters in the place of the type mean explicit.
-      if (at + 6 > bytes->size()) return broken("it holds no data");
-      const auto letter = [&](std::uint64_t p) { return (*bytes)[p] >= 'A' && (*bytes)[p] <= 'Z'; };
-      set.explicit_vr = letter(at + 4) && letter(at + 5);
-    }
-    set.walk(at, total, 0, &set.top, false);
-    if (set.cut && !whole_file && !header.deflated) {
-      part *= 8;
-      if (part > (std::size_t{1} << 31)) return broken("its header does not end");
-      continue;
-    }
-    if (!set.trouble.empty()) return broken(set.trouble);
-
-    const Values& top = set.top;
-    header.sop_class = text_of(top, 0x00080016);
-    header.series = text_of(top, 0x0020000E);
-    header.modality = text_of(top, 0x00080060);
-    header.image_type = text_of(top, 0x00080008);
-    header.kernel = text_of(top, 0x00181210);
-    header.description = text_of(top, 0x0008103E);
-    header.photometric = text_of(top, 0x00280004);
-    header.rescale_type = text_of(top, 0x00281054);
-    header.series_number = whole(top, 0x00200011, 0);
-    header.acquisition = whole(top, 0x00200012, 0);
-    header.instance = whole(top, 0x00200013, 0);
-    header.has_modality_lut = set.modality_lut;
-    const auto number = [&](Tag tag, int otherwise) {
-      const auto found = top.find(tag);
-      if (found == top.end() || found->second.size() < 2) return otherwise;
-      const auto a = static_cast<std::uint8_t>(found->second[0]),
-                 b = static_cast<std::uint8_t>(found->second[1]);
-      return set.big_endian ? a << 8 | b : b << 8 | a;
-    };
-    header.rows = number(0x00280010, 0);
-    header.columns = number(0x00280011, 0);
-    header.samples = number(0x00280002, 1);
-    header.bits_allocated = number(0x00280100, 0);
-    header.bits_stored = number(0x00280101, header.bits_allocated);
-    header.high_bit = number(0x00280102, header.bits_stored - 1);
-    header.is_signed = number(0x00280103, 0) == 1;
-    header.frame_count = whole(top, 0x00280008, 1);
-    header.has_padding = top.count(0x00280120) != 0 && top.at(0x00280120).size() >= 2;
-    if (header.has_padding) {
-      const auto sign = [&](int v) {
-        return header.is_signed ? int{static_cast<std::int16_t>(v)} : v;
-      };
-      header.padding = sign(number(0x00280120, 0));
-      header.padding_end = header.padding;
-      if (top.count(0x00280121) != 0) {
-        header.padding_range = true;
-        header.padding_end = sign(number(0x00280121, 0));
-        if (header.padding_end < header.padding) std::swap(header.padding, header.padding_end);
-      }
-    }
-    const auto between = decimals(top, 0x00180088);
-    if (!between.empty() && std::isfinite(between[0]))
-      header.between_slices_mm = std::abs(between[0]);
-    header.big_endian = set.big_endian;
-    header.has_pixels = set.has_pixels;
-    header.float_pixels = set.float_pixels;
-    header.encapsulated = set.encapsulated;
-    header.pixels_at = set.pixels_at;
-    header.pixels_length = set.pixels_length;
-
-    if (header.frame_count < 1 || header.frame_count > 100000)
-      return broken(fmt::format("it states {} frames, not 1 to 100000", header.frame_count));
-    DicomFrame common;
-    frame_facts(top, common);
-    frame_facts(set.shared, common);
-    header.frames.assign(static_cast<std::size_t>(header.frame_count), common);
-    for (std::size_t f = 0; f < std::min(header.frames.size(), set.frames.size()); ++f)
-      frame_facts(set.frames[f], header.frames[f]);
-    return header;
+  for (std::uint64_t part = std::uint64_t{1} << 16; part <= std::uint64_t{1} << 31; part *= 8) {
+    auto header = read_first(path, static_cast<std::size_t>(part));
+    if (!header) return header.error();
+    if (*header) return std::move(**header);
   }
+  return broken(path, "its header does not end");
 }
 
 }  // namespace burr::io

@@ -32,8 +32,21 @@ bool sample_type(const std::string& name, SampleType& type) {
 }
 
 struct Header {
+  std::string file;  // its name, for errors
   std::map<std::string, std::string> fields;
   std::size_t end = 0;  // where LOCAL data begins
+
+  // The first of these fields that is there; empty: none is.
+  [[nodiscard]] std::string get(std::initializer_list<const char*> names) const {
+    for (const char* name : names) {
+      const auto found = fields.find(name);
+      if (found != fields.end()) return found->second;
+    }
+    return {};
+  }
+  [[nodiscard]] Error bad(const char* field, const std::string& what) const {
+    return error(fmt::format("{}: {}: {}", file, field, what));
+  }
 };
 
 Header parse(const std::string& text) {
@@ -59,6 +72,46 @@ bool is_true(const std::string& text) {
   return !text.empty() && (text[0] == 'T' || text[0] == 't' || text[0] == '1');
 }
 
+Result<math::Ijk> size_of(const Header& header) {
+  std::int64_t dims = 0;
+  if (!to_number(header.get({"NDims"}), dims))
+    return header.bad("NDims", "is missing; this is not a MetaImage");
+  if (dims != 3)
+    return header.bad("NDims",
+                      fmt::format("3 axes expected, {} found; burr reads single volumes", dims));
+  const std::vector<double> size = numbers(header.get({"DimSize"}));
+  if (size.size() != 3) return header.bad("DimSize", "must be three sizes");
+  for (const double n : size)
+    if (!(n >= 1 && n <= 1e9) || n != std::floor(n))
+      return header.bad("DimSize", "must be whole numbers above 0");
+  return math::Ijk(static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2]));
+}
+
+Result<SampleFormat> format_of(const Header& header) {
+  std::int64_t channels = 1;
+  const std::string channel_text = header.get({"ElementNumberOfChannels"});
+  if (!channel_text.empty() && (!to_number(channel_text, channels) || channels != 1))
+    return header.bad("ElementNumberOfChannels",
+                      "burr reads one value per voxel, not colours or vectors");
+
+  SampleFormat format;
+  const std::string type = header.get({"ElementType"});
+  if (!sample_type(type, format.type))
+    return header.bad("ElementType", fmt::format("burr does not read \"{}\"", base::shown(type)));
+  format.big_endian = is_true(header.get({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"}));
+  const std::string binary = header.get({"BinaryData"});
+  if (!binary.empty() && !is_true(binary))
+    return header.bad("BinaryData", "burr does not read numbers as text; save the file as binary");
+  double slope = 1, intercept = 0;
+  if (to_number(header.get({"ElementToIntensityFunctionSlope"}), slope) && std::isfinite(slope) &&
+      slope != 0)
+    format.slope = slope;
+  if (to_number(header.get({"ElementToIntensityFunctionOffset"}), intercept) &&
+      std::isfinite(intercept))
+    format.intercept = intercept;
+  return format;
+}
+
 // The one file beside the header that holds the voxels. Its name may hold blanks and per cent signs;
 // where no such file is there, it is a list or a pattern.
 Result<std::filesystem::path> data_file(const std::filesystem::path& header,
@@ -77,7 +130,7 @@ Result<std::filesystem::path> data_file(const std::filesystem::path& header,
 
 // The file of the voxels, from offset on. Only the header's own file may be packed as a whole
 // ("x.mha.gz"): size is then the most that it can give.
-Result<OpenFile> open_data(const std::filesystem::path& path, std::uint64_t offset, bool own) {
+Result<OpenFile> open_voxels(const std::filesystem::path& path, std::uint64_t offset, bool own) {
   if (!own) return open_file(path, offset, false);
   auto packed = open_unpacked(path);
   if (!packed) return error(packed.error().trouble, short_name(path) + ": " + packed.error().text);
@@ -87,114 +140,96 @@ Result<OpenFile> open_data(const std::filesystem::path& path, std::uint64_t offs
   return OpenFile{std::move(packed->source), packed->most};
 }
 
-}  // namespace
-
-Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& options,
-                       Progress& progress) {
-  const std::string file = short_name(path);
-  auto head = first_unpacked_bytes(path, std::size_t{1} << 20);
-  if (!head) return head.error();
-  Header header = parse(std::string(head->begin(), head->end()));
-  const auto get = [&](std::initializer_list<const char*> names) {
-    for (const char* name : names) {
-      const auto found = header.fields.find(name);
-      if (found != header.fields.end()) return found->second;
-    }
-    return std::string();
-  };
-  const auto bad = [&](const char* field, const std::string& what) {
-    return error(fmt::format("{}: {}: {}", file, field, what));
-  };
-
-  std::int64_t dims = 0;
-  if (!to_number(get({"NDims"}), dims)) return bad("NDims", "is missing; this is not a MetaImage");
-  if (dims != 3)
-    return bad("NDims", fmt::format("3 axes expected, {} found; burr reads single volumes", dims));
-  const std::vector<double> size = numbers(get({"DimSize"}));
-  if (size.size() != 3) return bad("DimSize", "must be three sizes");
-  for (const double n : size)
-    if (!(n >= 1 && n <= 1e9) || n != std::floor(n))
-      return bad("DimSize", "must be whole numbers above 0");
-  auto count = voxel_count(file, static_cast<std::int64_t>(size[0]),
-                           static_cast<std::int64_t>(size[1]), static_cast<std::int64_t>(size[2]));
-  if (!count) return count.error();
-  std::int64_t channels = 1;
-  const std::string channel_text = get({"ElementNumberOfChannels"});
-  if (!channel_text.empty() && (!to_number(channel_text, channels) || channels != 1))
-    return bad("ElementNumberOfChannels", "burr reads one value per voxel, not colours or vectors");
-
-  SampleFormat format;
-  const std::string type = get({"ElementType"});
-  if (!sample_type(type, format.type))
-    return bad("ElementType", fmt::format("burr does not read \"{}\"", base::shown(type)));
-  format.big_endian = is_true(get({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"}));
-  const std::string binary = get({"BinaryData"});
-  if (!binary.empty() && !is_true(binary))
-    return bad("BinaryData", "burr does not read numbers as text; save the file as binary");
-  double slope = 1, intercept = 0;
-  if (to_number(get({"ElementToIntensityFunctionSlope"}), slope) && std::isfinite(slope) &&
-      slope != 0)
-    format.slope = slope;
-  if (to_number(get({"ElementToIntensityFunctionOffset"}), intercept) && std::isfinite(intercept))
-    format.intercept = intercept;
-
-  Scan scan;
-  scan.format = "MetaImage";
-  scan.size = {static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2])};
-
-  // the data: after the header, or in one file beside it
-  const std::string name = get({"ElementDataFile"});
-  if (name.empty()) return bad("ElementDataFile", "is missing");
+// Opens the data: after the header, or in one file beside it. The size is that of the data.
+Result<OpenFile> open_data(const std::filesystem::path& path, const Header& header) {
+  const std::string name = header.get({"ElementDataFile"});
+  if (name.empty()) return header.bad("ElementDataFile", "is missing");
   const bool own = name == "LOCAL" || name == "Local" || name == "local";
   const auto data = own ? Result<std::filesystem::path>(path) : data_file(path, name);
   if (!data) return data.error();
-  auto opened = open_data(*data, own ? header.end : 0, own);
+  auto opened = open_voxels(*data, own ? header.end : 0, own);
   if (!opened && own) return opened.error();
   if (!opened)  // the header is wrong, or the data file was left behind
-    return error(
-        fmt::format("{}: its data file: {}; put it in the same folder", file, opened.error().text));
-  const std::uint64_t needed = *count * bytes_of(format.type);
-  const std::uint64_t there =
-      opened->size - std::min<std::uint64_t>(opened->size, own ? header.end : 0);
-  const bool packed = is_true(get({"CompressedData"}));
+    return error(fmt::format("{}: its data file: {}; put it in the same folder", header.file,
+                             opened.error().text));
+  opened->size -= std::min<std::uint64_t>(opened->size, own ? header.end : 0);
+  return opened;
+}
+
+// Reads the voxels of an opened file into the scan.
+Status read_voxels(const Header& header, const SampleFormat& format, std::size_t count,
+                   OpenFile data, Scan& scan, Progress& progress) {
+  const std::uint64_t needed = count * bytes_of(format.type), there = data.size;
+  const bool packed = is_true(header.get({"CompressedData"}));
   std::int64_t header_size = 0;
-  const std::string header_text = get({"HeaderSize"});
+  const std::string header_text = header.get({"HeaderSize"});
   if (!header_text.empty() && (!to_number(header_text, header_size) || header_size < -1))
-    return bad("HeaderSize", "is not a number of bytes");
+    return header.bad("HeaderSize", "is not a number of bytes");
   if (header_size == -1)
     header_size = there >= needed && !packed ? static_cast<std::int64_t>(there - needed) : 0;
   if (needed > (packed ? there * kMostGzip : there))
     return error(
         fmt::format("{}: DimSize needs {} bytes of voxels, but the file holds {}; it is cut off or "
                     "its header is wrong",
-                    file, needed, there));
-  std::unique_ptr<ByteSource> source = std::move(opened->source);
+                    header.file, needed, there));
+  std::unique_ptr<ByteSource> source = std::move(data.source);
   Status read = skip(*source, static_cast<std::uint64_t>(header_size));
   if (packed) source = inflate_zlib(std::move(source));
-  VoxelSink sink(*count);
-  if (read) read = read_samples(*source, format, *count, sink, progress);
-  if (!read) return error(read.error().trouble, fmt::format("{}: {}", file, read.error().text));
+  VoxelSink sink(count);
+  if (read) read = read_samples(*source, format, count, sink, progress);
+  if (!read)
+    return error(read.error().trouble, fmt::format("{}: {}", header.file, read.error().text));
   if (Status status = sink.finish(scan, false); !status)
-    return error(fmt::format("{}: {}", file, status.error().text));
+    return error(fmt::format("{}: {}", header.file, status.error().text));
+  return fine();
+}
 
+// A spacing that cannot be used is taken for 1 mm, with a notice.
+Affine affine_of(const Header& header, std::vector<std::string>& notices) {
   Affine affine;
-  const std::vector<double> turn = numbers(get({"TransformMatrix", "Rotation", "Orientation"}));
+  const std::vector<double> turn =
+      numbers(header.get({"TransformMatrix", "Rotation", "Orientation"}));
   if (turn.size() == 9)  // the file lists the direction of i, then of j, then of k
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) affine.step(b, a) = turn[static_cast<std::size_t>(3 * a + b)];
-  std::vector<double> spacing = numbers(get({"ElementSpacing", "ElementSize"}));
+  std::vector<double> spacing = numbers(header.get({"ElementSpacing", "ElementSize"}));
   const bool spaced = spacing.size() == 3 && std::isfinite(spacing[0] + spacing[1] + spacing[2]) &&
                       spacing[0] * spacing[1] * spacing[2] != 0;
   if (!spaced) {
     spacing = {1, 1, 1};
-    scan.notices.emplace_back(
+    notices.emplace_back(
         "The file states no usable voxel spacing: 1 mm is assumed; see --spacing-mm.");
   }
   for (int a = 0; a < 3; ++a) affine.step.col(a) *= std::abs(spacing[static_cast<std::size_t>(a)]);
-  const std::vector<double> origin = numbers(get({"Offset", "Position", "Origin"}));
+  const std::vector<double> origin = numbers(header.get({"Offset", "Position", "Origin"}));
   if (origin.size() == 3) affine.origin = Vec3(origin[0], origin[1], origin[2]);
-  if (Status status = place(scan, affine, options.spacing_mm, file, progress); !status)
-    return status.error();
+  return affine;
+}
+
+}  // namespace
+
+Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& options,
+                       Progress& progress) {
+  auto head = first_unpacked_bytes(path, std::size_t{1} << 20);
+  if (!head) return head.error();
+  Header header = parse(std::string(head->begin(), head->end()));
+  header.file = short_name(path);
+  Scan scan;
+  scan.format = "MetaImage";
+  const auto size = size_of(header);
+  if (!size) return size.error();
+  scan.size = *size;
+  const auto count = voxel_count(header.file, size->x(), size->y(), size->z());
+  if (!count) return count.error();
+  const auto format = format_of(header);
+  if (!format) return format.error();
+  auto data = open_data(path, header);
+  if (!data) return data.error();
+  if (Status read = read_voxels(header, *format, *count, std::move(*data), scan, progress); !read)
+    return read.error();
+  const Affine affine = affine_of(header, scan.notices);
+  if (Status placed = place(scan, affine, options.spacing_mm, header.file, progress); !placed)
+    return placed.error();
   return scan;
 }
 

@@ -1,5 +1,5 @@
 // The asking side of the fence: starts burr-read, lends it memory, watches it, and checks
-// everything that it says.
+// everything that it sends.
 #include "burr/io/read/read_scan.h"
 
 #include <fcntl.h>
@@ -63,7 +63,7 @@ class Handle {
   int number_ = -1;
 };
 
-// Memory of exactly this size, sealed: nobody can make it shorter or longer.
+// Memory of exactly this size, sealed: its size cannot be changed.
 Handle sealed_memory(const char* name, std::size_t bytes) {
   Handle handle(::memfd_create(name, MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (!handle.open() || ::ftruncate(handle.get(), static_cast<off_t>(bytes)) != 0 ||
@@ -168,8 +168,7 @@ class Reader {
       }
       pollfd waiting{socket_.get(), POLLIN, 0};
       ::poll(&waiting, 1, kTick);
-      const bool gone = reap(WNOHANG);  // asked before the socket is emptied, so that no message is
-                                        // lost
+      const bool gone = reap(WNOHANG);  // before the socket is emptied, so that no message is lost
       bool closed = !listen(progress);
       for (int n = 0; gone && !closed && n < 8; ++n) closed = !listen(progress);
       if (gone || closed) break;
@@ -395,7 +394,7 @@ class Reader {
     if (number == 0 || number > loans_.size()) return false;
     Loan& loan = loans_[number - 1];
     if (!loan.memory.open() || count > loan.bytes / sizeof(T)) return false;
-    // after this nobody can write to it; refused while anyone still could
+    // after this it cannot be written; the kernel refuses while it is mapped for writing
     if (::fcntl(loan.memory.get(), F_ADD_SEALS, F_SEAL_WRITE) != 0) return false;
     const auto bytes = static_cast<std::size_t>(loan.bytes);
     void* at = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE,
