@@ -31,7 +31,7 @@ struct ImportLayout {
   std::array<Part, 3> views;          // axial, coronal, sagittal
   Part level, plot, facts, bone;      // below: histogram or labels, scan, planned bone
   Part series, iso, roi, voxel, all;  // fields and buttons
-  Part told, back, start;             // last line of the page
+  Part message, back, start;          // last line of the page
 };
 [[nodiscard]] ImportLayout import_layout(float width, float height, float unit);
 
@@ -45,7 +45,7 @@ class ImportPage {
   enum class Answer { start, back, other_series, closed };
   // Returns when the user has decided. told: a sentence about an earlier error; "" for none.
   // seconds: as in StartPage::ask.
-  [[nodiscard]] Result<Answer> ask(const std::string& told, double seconds);
+  [[nodiscard]] Result<Answer> ask(const std::string& ask, double seconds);
 
   // The recipe that the user chose.
   [[nodiscard]] const scenario::Recipe& volume() const { return volume_; }

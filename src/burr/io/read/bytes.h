@@ -49,8 +49,8 @@ struct OpenFile {
 [[nodiscard]] std::unique_ptr<ByteSource> bunzip2(std::unique_ptr<ByteSource> packed);
 [[nodiscard]] std::unique_ptr<ByteSource> memory_source(std::vector<std::uint8_t> bytes);
 // opens each file when the one before it has ended
-[[nodiscard]] std::unique_ptr<ByteSource> files_in_a_row(std::vector<std::filesystem::path> paths,
-                                                         std::uint64_t skip_each);
+[[nodiscard]] std::unique_ptr<ByteSource> concatenate_files(
+    std::vector<std::filesystem::path> paths, std::uint64_t skip_each);
 
 // A file whose bytes may be packed with gzip or bzip2, more than once: told by the bytes, not by the
 // name.

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <thread>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/dicom_header.h"
 #include "burr/io/read/geometry.h"
@@ -224,7 +224,7 @@ double worth(const Series& series) {
 std::string one_line(const Series& series, std::size_t place) {
   const DicomHeader& h = series.first();
   return fmt::format("#{}: {} {} pictures {} x {}, {:.3g} mm{}{}", place + 1,
-                     h.modality.empty() ? "unknown kind," : base::shown(h.modality, 16) + ",",
+                     h.modality.empty() ? "unknown kind," : base::printable(h.modality, 16) + ",",
                      series.pictures(), h.columns, h.rows, thickness_mm(series),
                      scout(h) ? ", scout" : "", bone_kernel(h) ? ", bone kernel" : "");
 }
@@ -530,7 +530,7 @@ Status stack(const Series& series, const std::vector<Slice>& slices, const std::
   const double wanted = uneven > 0 ? gap : even;
   if (!shifted)
     for (SlicePlace& place : places) place.x_mm = place.y_mm = 0;
-  return straighten(scan, places, wanted, progress);
+  return resample_upright(scan, places, wanted, progress);
 }
 
 }  // namespace

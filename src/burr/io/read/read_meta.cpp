@@ -5,7 +5,7 @@
 #include <map>
 #include <system_error>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/geometry.h"
 #include "burr/io/read/readers.h"
@@ -97,7 +97,8 @@ Result<SampleFormat> format_of(const Header& header) {
   SampleFormat format;
   const std::string type = header.get({"ElementType"});
   if (!sample_type(type, format.type))
-    return header.bad("ElementType", fmt::format("burr does not read \"{}\"", base::shown(type)));
+    return header.bad("ElementType",
+                      fmt::format("burr does not read \"{}\"", base::printable(type)));
   format.big_endian = is_true(header.get({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"}));
   const std::string binary = header.get({"BinaryData"});
   if (!binary.empty() && !is_true(binary))

@@ -10,7 +10,7 @@
 #include <limits>
 #include <string>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 
 namespace burr::io {
 namespace {
@@ -193,7 +193,7 @@ void renumber_names(Scan& scan, const std::vector<std::int64_t>& file,
     constexpr std::size_t kShown = 4;
     if (++changed <= kShown)
       list += fmt::format("{}{} is now {}{}", changed == 1 ? "" : ", ", file[n], numbers[n],
-                          name.empty() ? "" : " (" + base::shown(name) + ")");
+                          name.empty() ? "" : " (" + base::printable(name) + ")");
     else if (changed == kShown + 1)
       list += " ...";
   }
