@@ -179,6 +179,15 @@ void nifti() {
   seed("nifti", "two", nifti2(false));
   seed("nifti", "two_big_endian", nifti2(true));
   seed("nifti", "packed", deflated(nifti1(false, false), 31));
+  seed("nifti", "packed_twice", deflated(deflated(nifti1(false, false), 31), 31));
+  string names = nifti1(false, false);
+  names[348] = 1;
+  const string text = R"({"1": "bone", "2": "nerve"}     )";  // 32 bytes
+  string extension(8, '\0');
+  put(extension, 0, static_cast<std::int32_t>(8 + text.size()), false);
+  names.insert(352, extension + text);
+  put(names, 108, static_cast<float>(360 + text.size()), false);
+  seed("nifti", "names", names);
 }
 
 void meta() {
@@ -353,6 +362,14 @@ void texts() {
        "\"bone\"\n[[target]]\ntissue = \"bone\"\ngoal = \"open\"\nshare = 0.5\n");
   for (const fs::directory_entry& entry : fs::directory_iterator(BURR_SOURCE_DIR "/cases"))
     seed("case", entry.path().filename().string(), content(entry.path()));
+  seed("label_lists", "xml",
+       "<LabelTable><Label Key=\"1\" Red=\"1\" Green=\"0.5\" Blue=\"0\" "
+       "Alpha=\"1\"><![CDATA[nerve]]>"
+       "</Label><Label Key='2'>bone &amp; tooth</Label></LabelTable>");
+  seed("label_lists", "json",
+       R"({"labels": {"1": "bone", "2": {"name": "nerve"}}, "more": [{"name": "x", "label": 3}]})");
+  seed("label_lists", "snap", "# list\n1 255 0 0 1 1 1 \"Nervus facialis\"\n");
+  seed("label_lists", "free", "16 Brain-Stem 119 159 176 0\n");
   seed("materials", "built_in", content(BURR_SOURCE_DIR "/materials/materials.toml"));
   seed("materials", "own",
        "[[material]]\nname = \"Enamel\"\nfriction = { value = 0.3, low = 0, high = 2, source = "

@@ -297,7 +297,7 @@ void add(CLI::App& app, Todo& todo) {
                       "the scan it was made from, if burr does not find it");
   command->add_option("--series", options->volume.series,
                       "series of the DICOM folder, if the recording was made with --series");
-  command->add_option("--tissues", options->volume.labels,
+  command->add_option("--tissues,--labels", options->volume.labels,
                       "TOML table of tissues, if the recording was made with --tissues");
   command->add_option("--materials", options->volume.materials,
                       "TOML table of materials, if the recording was made with --materials");

@@ -56,7 +56,9 @@ void add_volume_options(CLI::App& command, scenario::Recipe& recipe) {
         recipe.region = taken("--roi", scenario::parse_region(text));
       },
       "I0,I1,J0,J1,K0,K1: use only these voxels of the file (first and last, counted from 0)");
-  command.add_option("--tissues", recipe.labels, "TOML table: which labels are solid, soft or air");
+  command.add_option("--tissues,--labels", recipe.labels,
+                     "which labels are solid, soft or air: a TOML table, or names as ITK-SNAP or "
+                     "FreeSurfer list them");
   command.add_option("--materials", recipe.materials,
                      "TOML table: constants of the materials (default: burr materials)");
   command.add_option(

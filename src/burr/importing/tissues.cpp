@@ -8,6 +8,8 @@
 
 #include "burr/base/printable.h"
 #include "burr/base/text_file.h"
+#include "burr/importing/tissue_names.h"
+#include "burr/io/read/label_lists.h"
 #include "burr/io/read/text.h"
 
 namespace burr::importing {
@@ -25,17 +27,6 @@ constexpr double kTrabecularBleeds = 0.15;
 // Apparent density of trabecular bone (Rho et al. 1995), within the range of such bone. [kg/m^3]
 double density_of(double hu) { return std::clamp(131 + 1.067 * hu, 100.0, 2000.0); }
 
-bool any_of(const std::string& name, std::initializer_list<const char*> parts) {
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](const char* part) { return name.find(part) != std::string::npos; });
-}
-
-bool word_of(const std::string& name, const char* word) {
-  for (const std::string& w : io::words(name))
-    if (w == word) return true;
-  return false;
-}
-
 std::string plain(const std::string& name) {
   std::string out = io::lower(name);
   for (char& c : out)
@@ -50,13 +41,18 @@ std::string names_of(const Materials& materials) {
   return list;
 }
 
-Status read_table(const std::string& path, const Materials& materials,
-                  std::vector<Tissue>& of_value, std::array<bool, 256>& known) {
-  const std::string file = io::short_name(path);
-  const auto text = base::text_of_file(path, std::uintmax_t{1} << 20,
-                                       "a table of labels; check that this is the right file");
-  if (!text) return text.error();
-  const auto read = parse_toml(*text, file);
+// The number 1..255 of a label that the table gives by its value in the file; 0: out of range.
+std::size_t number_of(std::int64_t value, const std::vector<io::Label>& names) {
+  for (const io::Label& label : names)
+    if (label.in_file != 0 && label.in_file == value) return static_cast<std::size_t>(label.value);
+  return value >= 1 && value <= 255 ? static_cast<std::size_t>(value) : 0;
+}
+
+Status read_table(const std::string& text, const std::string& file,
+                  const std::vector<io::Label>& names, const Materials& materials,
+                  std::vector<Tissue>& of_value, std::array<bool, 256>& known,
+                  std::array<bool, 256>& told) {
+  const auto read = parse_toml(text, file);
   if (!read) return read.error();
   const auto* list = (*read)["label"].as_array();
   if (list == nullptr)
@@ -69,10 +65,11 @@ Status read_table(const std::string& path, const Materials& materials,
     const auto name = (*entry)["name"].value<std::string>();
     std::vector<std::size_t> hits;
     if (value) {
-      if (*value < 1 || *value > 255)
+      const std::size_t number = number_of(*value, names);
+      if (number == 0)
         return error(
             fmt::format("{}: label: value {} is out of range; use 1 to 255", file, *value));
-      hits.push_back(static_cast<std::size_t>(*value));
+      hits.push_back(number);
     } else if (name) {
       for (std::size_t v = 1; v < 256; ++v)
         if (known[v] && plain(of_value[v].name) == plain(*name)) hits.push_back(v);
@@ -82,6 +79,7 @@ Status read_table(const std::string& path, const Materials& materials,
     for (const std::size_t v : hits) {
       Tissue& tissue = of_value[v];
       known[v] = true;
+      told[v] = told[v] || entry->contains("kind") || entry->contains("material");
       if (name) tissue.name = *name;
       if (const auto kind = (*entry)["kind"].value<std::string>()) {
         if (*kind == "solid")
@@ -136,57 +134,68 @@ Status read_table(const std::string& path, const Materials& materials,
   return fine();
 }
 
+// Whether the label's name, or else its code, says what it is. Adds a notice where the two differ.
+bool understand(const io::Label& label, std::vector<std::string>& notices) {
+  const NamedTissue name = tissue_named(label.name), code = tissue_named(label.meaning);
+  if (name.known && code.known && name.kind != code.kind)
+    notices.push_back(
+        fmt::format("Label {} is named {}, but its code says {}: burr goes by the name; use "
+                    "--tissues if that is wrong.",
+                    label.value, base::printable(label.name), base::printable(label.meaning)));
+  return name.known || code.known;
+}
+
+// Names and colours from a list of ITK-SNAP or FreeSurfer; they come before those of the scan.
+Status take_list(const std::vector<io::Label>& list, const std::string& file,
+                 const std::array<bool, 256>& present, std::vector<io::Label>& names) {
+  bool any = false;
+  for (const io::Label& one : list) {
+    const std::size_t number = number_of(one.value, names);
+    if (number == 0 || !present[number]) continue;
+    any = true;
+    io::Label label = one;
+    label.value = static_cast<int>(number);
+    for (const io::Label& have : names)
+      if (have.value == label.value) label.in_file = have.in_file;
+    std::erase_if(names, [&](const io::Label& have) { return have.value == label.value; });
+    names.push_back(std::move(label));
+  }
+  if (any) return fine();
+  return error(
+      fmt::format("{}: none of its labels occurs in the scan; check that it belongs to it", file));
+}
+
+std::string not_understood(const std::vector<std::string>& labels) {
+  constexpr std::size_t kShown = 6;
+  std::string list;
+  for (std::size_t n = 0; n < std::min(labels.size(), kShown); ++n)
+    list += (n == 0 ? "" : ", ") + labels[n];
+  if (labels.size() > kShown) list += fmt::format(" and {} more", labels.size() - kShown);
+  return fmt::format(
+      "burr does not understand the {} {} and treats {} as solid bone; use --tissues to mark what "
+      "is soft, air or to be spared.",
+      labels.size() == 1 ? "name of label" : "names of labels", list,
+      labels.size() == 1 ? "it" : "them");
+}
+
 }  // namespace
 
 Tissue tissue_by_name(const io::Label& label, bool named, const Materials& materials) {
   Tissue tissue;
-  tissue.name = named ? label.name : fmt::format("label {}", label.value);
+  tissue.name = named ? label.name
+                      : fmt::format("label {}", label.in_file != 0 ? label.in_file : label.value);
   tissue.colour = label.colour;
   tissue.label = label.value;
   if (!named) {
     apply_material(materials.of(""), tissue);
     return tissue;
   }
-  const std::string name = plain(label.name);
-
-  // empty spaces
-  if (any_of(name, {"ear canal", "auditory canal ext", "external auditory", "air cell", "airway",
-                    "trachea", "middle ear", "tympanic cavity", "background", "maxillary sinus",
-                    "frontal sinus", "ethmoid", "sphenoid sinus"}) ||
-      word_of(name, "eac") || word_of(name, "air") || name == "tympanum") {
-    tissue.kind = TissueKind::air;
-    return tissue;
-  }
-  // a name with a word for hard tissue is hard, whatever else it names
-  const bool hard = any_of(
-      name, {"bone",     "bony",     "ossicle",    "malleus",   "incus",   "stapes",   "tooth",
-             "teeth",    "enamel",   "dentin",     "cement",    "skull",   "mandible", "maxilla",
-             "vertebra", "cortical", "trabecular", "spongiosa", "implant", "screw",    "crown"});
-  const auto is_soft = [](const std::string& text) {
-    return any_of(text,
-                  {"canal",   "nerve", "vein",     "artery",  "arteries",  "vessel", "carotid",
-                   "jugular", "sinus", "dura",     "chorda",  "skin",      "muscle", "fat",
-                   "brain",   "pulp",  "ligament", "tendon",  "cartilage", "disc",   "membrane",
-                   "mucosa",  "gum",   "gingiva",  "soft",    "tissue",    "joint",  "bulb",
-                   "cord",    "eye",   "tongue",   "aqueduct"}) ||
-           word_of(text, "iac") || word_of(text, "tmj") || word_of(text, "ica");
-  };
-  // "vertebral artery": the last word names the thing itself
-  const std::vector<std::string> parts = io::words(name);
-  const bool soft = is_soft(name) && (!hard || (!parts.empty() && is_soft(parts.back())));
-  tissue.spare = any_of(name, {"nerve", "artery", "vein", "carotid", "jugular", "sinus", "dura",
-                               "chorda", "labyrinth", "cochlea", "vestib", "ossicle", "malleus",
-                               "incus", "stapes", "cord", "brain", "aqueduct"}) ||
-                 word_of(name, "iac") || word_of(name, "ica");
-  if (soft) tissue.kind = TissueKind::soft;
-  if (soft && (any_of(name, {"artery", "arteries", "vein", "vessel", "carotid", "jugular", "sinus",
-                             "bulb"}) ||
-               word_of(name, "ica")))
-    tissue.bleeds = 1;
-  else if (any_of(name, {"marrow", "pulp"}))
-    tissue.bleeds = 0.3;
-  else if (!soft && any_of(name, {"trabecular", "spongiosa", "cancellous"}))
-    tissue.bleeds = kTrabecularBleeds;
+  NamedTissue says = tissue_named(label.name);
+  if (!says.known) says = tissue_named(label.meaning);
+  tissue.kind = says.kind;
+  if (tissue.kind == TissueKind::air) return tissue;
+  tissue.spare = says.spare;
+  tissue.bleeds = says.bleeds;
   materials.apply_material(tissue);
   return tissue;
 }
@@ -195,6 +204,21 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
                                    const std::string& table_path, const Materials& materials) {
   std::vector<Tissue> of_value(256);
   std::array<bool, 256> known{};
+  std::array<bool, 256> told{};        // the table states its kind or its material
+  std::array<bool, 256> understood{};  // by its name
+  LabelTissues out;
+  std::vector<io::Label> names = scan.label_names;
+  const std::string file = io::short_name(table_path);
+  std::string table;  // in TOML; empty: there is none, or it was a list of another program
+  if (!table_path.empty()) {
+    auto text = base::text_of_file(table_path, std::uintmax_t{1} << 20,
+                                   "a table of labels; check that this is the right file");
+    if (!text) return text.error();
+    const auto list = io::labels_in_lut(*text);
+    if (list.empty()) table = std::move(*text);
+    if (!list.empty())
+      if (Status status = take_list(list, file, present, names); !status) return status.error();
+  }
   int different = 0, unnamed = 0;
   for (std::size_t v = 1; v < 256; ++v) different += present[v] ? 1 : 0;
   for (std::size_t v = 1; v < 256; ++v) {
@@ -204,21 +228,25 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
     label.value = static_cast<int>(v);
     label.colour = Tissue{}.colour;
     bool named = false;
-    for (const io::Label& have : scan.label_names)
+    for (const io::Label& have : names)
       if (have.value == label.value) {
         label = have;
         named = !have.name.empty();
       }
     std::int64_t number = 0;
     named = named && !io::to_number(label.name, number);  // "1" is not a name
+    if (!named && !label.meaning.empty()) {
+      label.name = label.meaning;
+      named = true;
+    }
     if (!named) ++unnamed;
     of_value[v] = tissue_by_name(label, named, materials);
     if (!named && different == 1) of_value[v].name = "bone";
+    understood[v] = !named || understand(label, out.notices);
   }
-  LabelTissues out;
   out.table.tissues.resize(1);
-  if (!table_path.empty()) {
-    if (Status status = read_table(table_path, materials, of_value, known); !status)
+  if (!table.empty()) {
+    if (Status status = read_table(table, file, names, materials, of_value, known, told); !status)
       return status.error();
   } else if (unnamed > 0 && different > 1) {
     out.notices.push_back(
@@ -226,6 +254,11 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
                     "those that are not.",
                     unnamed, different));
   }
+  std::vector<std::string> doubts;
+  for (std::size_t v = 1; v < 256; ++v)
+    if (present[v] && !understood[v] && !told[v])
+      doubts.push_back(fmt::format("{} ({})", v, base::printable(of_value[v].name)));
+  if (!doubts.empty()) out.notices.push_back(not_understood(doubts));
   for (std::size_t v = 1; v < 256; ++v) {
     if (!present[v] || of_value[v].kind == TissueKind::air) continue;
     of_value[v].label = static_cast<int>(v);

@@ -27,7 +27,8 @@ struct LabelTissues {
   std::vector<std::string> notices;
 };
 
-// present: which values occur in the map. table_path may be empty.
+// present: which values occur in the map. table_path: a table (docs/labels.md), or a list of ITK-SNAP
+// or FreeSurfer that names the labels; may be empty.
 [[nodiscard]] Result<LabelTissues> label_tissues(const io::Scan& scan,
                                                  const std::array<bool, 256>& present,
                                                  const std::string& table_path,

@@ -21,6 +21,8 @@ struct Label {
   int value = 0;
   std::string name;
   std::array<float, 3> colour = {0.8F, 0.8F, 0.8F};  // sRGB 0..1
+  std::string meaning{};     // what a code of the file says that it is ("Facial nerve"), or empty
+  std::int64_t in_file = 0;  // its value in the file, where that differs from `value`; else 0
 };
 
 struct Scan {

@@ -11,6 +11,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "burr/base/printable.h"
@@ -125,6 +126,25 @@ class Inflate final : public ByteSource {
   bool members_, ready_ = false, done_ = false, between_members_ = false;
 };
 
+// Gives some bytes that were read ahead, then the rest.
+class ReadAhead final : public ByteSource {
+ public:
+  ReadAhead(std::vector<std::uint8_t> first, std::unique_ptr<ByteSource> rest)
+      : first_(std::move(first)), rest_(std::move(rest)) {}
+  Result<std::size_t> read(void* to, std::size_t n) override {
+    if (at_ == first_.size()) return rest_->read(to, n);
+    const std::size_t take = std::min(n, first_.size() - at_);
+    std::memcpy(to, first_.data() + at_, take);
+    at_ += take;
+    return take;
+  }
+
+ private:
+  std::vector<std::uint8_t> first_;
+  std::size_t at_ = 0;
+  std::unique_ptr<ByteSource> rest_;
+};
+
 class Bunzip2 final : public ByteSource {
  public:
   explicit Bunzip2(std::unique_ptr<ByteSource> packed) : packed_(std::move(packed)) {
@@ -236,6 +256,53 @@ std::unique_ptr<ByteSource> memory_source(std::vector<std::uint8_t> bytes) {
 std::unique_ptr<ByteSource> concatenate_files(std::vector<std::filesystem::path> paths,
                                               std::uint64_t skip_each) {
   return std::make_unique<FilesSource>(std::move(paths), skip_each);
+}
+
+Result<UnpackedFile> open_unpacked(const std::filesystem::path& path, bool follow_links) {
+  constexpr int kMostLayers = 3;  // of packing; more is no accident
+  auto file = open_file(path, 0, follow_links);
+  if (!file) return file.error();
+  UnpackedFile out;
+  out.most = file->size;
+  out.source = std::move(file->source);
+  for (int layer = 0;; ++layer) {
+    std::vector<std::uint8_t> head(3);
+    std::size_t have = 0;
+    while (have < head.size()) {
+      auto got = out.source->read(head.data() + have, head.size() - have);
+      if (!got) return got.error();
+      if (*got == 0) break;
+      have += *got;
+    }
+    head.resize(have);
+    const bool gzip = have >= 2 && head[0] == 0x1F && head[1] == 0x8B;
+    const bool bzip = have == 3 && head[0] == 'B' && head[1] == 'Z' && head[2] == 'h';
+    out.source = std::make_unique<ReadAhead>(std::move(head), std::move(out.source));
+    if (!gzip && !bzip) return out;
+    if (layer == kMostLayers)
+      return error("the data is packed more than three times; unpack it first");
+    out.source = gzip ? gunzip(std::move(out.source)) : bunzip2(std::move(out.source));
+    const std::uint64_t ratio = gzip ? kMostGzip : kMostBzip2;
+    out.most = std::min(out.most, std::numeric_limits<std::uint64_t>::max() / ratio) * ratio;
+    out.packed = true;
+  }
+}
+
+Result<std::vector<std::uint8_t>> first_unpacked_bytes(const std::filesystem::path& path,
+                                                       std::size_t n) {
+  auto file = open_unpacked(path);
+  if (!file) return file.error();
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(std::min<std::uint64_t>(n, file->most)));
+  std::size_t have = 0;
+  while (have < bytes.size()) {
+    auto got = file->source->read(bytes.data() + have, bytes.size() - have);
+    if (!got)
+      return error(got.error().trouble, fmt::format("{}: {}", short_name(path), got.error().text));
+    if (*got == 0) break;
+    have += *got;
+  }
+  bytes.resize(have);
+  return bytes;
 }
 
 Result<std::vector<std::uint8_t>> first_bytes(const std::filesystem::path& path, std::size_t n,

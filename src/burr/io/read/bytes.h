@@ -52,6 +52,19 @@ struct OpenFile {
 [[nodiscard]] std::unique_ptr<ByteSource> concatenate_files(
     std::vector<std::filesystem::path> paths, std::uint64_t skip_each);
 
+// A file whose bytes may be packed with gzip or bzip2, more than once: told by the bytes, not by the
+// name.
+struct UnpackedFile {
+  std::unique_ptr<ByteSource> source;
+  std::uint64_t most = 0;  // largest number of bytes that it can give
+  bool packed = false;
+};
+[[nodiscard]] Result<UnpackedFile> open_unpacked(const std::filesystem::path& path,
+                                                 bool follow_links = true);
+// The first n bytes of it, or all of them if there are fewer.
+[[nodiscard]] Result<std::vector<std::uint8_t>> first_unpacked_bytes(
+    const std::filesystem::path& path, std::size_t n);
+
 // The first n bytes of a file, or all of them if it is shorter.
 [[nodiscard]] Result<std::vector<std::uint8_t>> first_bytes(const std::filesystem::path& path,
                                                             std::size_t n,

@@ -113,20 +113,42 @@ Result<SampleFormat> format_of(const Header& header) {
   return format;
 }
 
+// The one file beside the header that holds the voxels. Its name may hold blanks and per cent signs;
+// where no such file is there, it is a list or a pattern.
+Result<std::filesystem::path> data_file(const std::filesystem::path& header,
+                                        const std::string& name) {
+  std::error_code ignored;
+  auto exact = beside(header, name);
+  if (exact && std::filesystem::exists(*exact, ignored)) return exact;
+  const std::vector<std::string> parts = words(name);
+  if (parts.empty() || parts.front() == "LIST" ||
+      (parts.size() > 1 && name.find('%') != std::string::npos))
+    return error(
+        fmt::format("{}: ElementDataFile: burr reads no lists or patterns of files; save one file",
+                    short_name(header)));
+  return exact;
+}
+
+// The file of the voxels, from offset on. Only the header's own file may be packed as a whole
+// ("x.mha.gz"): size is then the most that it can give.
+Result<OpenFile> open_voxels(const std::filesystem::path& path, std::uint64_t offset, bool own) {
+  if (!own) return open_file(path, offset, false);
+  auto packed = open_unpacked(path);
+  if (!packed) return error(packed.error().trouble, short_name(path) + ": " + packed.error().text);
+  if (!packed->packed) return open_file(path, offset, true);
+  if (Status status = skip(*packed->source, offset); !status)
+    return error(short_name(path) + ": " + status.error().text);
+  return OpenFile{std::move(packed->source), packed->most};
+}
+
 // Opens the data: after the header, or in one file beside it. The size is that of the data.
 Result<OpenFile> open_data(const std::filesystem::path& path, const Header& header) {
   const std::string name = header.get({"ElementDataFile"});
   if (name.empty()) return header.bad("ElementDataFile", "is missing");
-  if (words(name).size() > 1 || name.rfind("LIST", 0) == 0 || name.find('%') != std::string::npos)
-    return header.bad("ElementDataFile", "burr reads no lists or patterns of files; save one file");
   const bool own = name == "LOCAL" || name == "Local" || name == "local";
-  std::filesystem::path data = path;
-  if (!own) {
-    auto other = beside(path, name);
-    if (!other) return other.error();
-    data = *other;
-  }
-  auto opened = open_file(data, own ? header.end : 0, own);
+  const auto data = own ? Result<std::filesystem::path>(path) : data_file(path, name);
+  if (!data) return data.error();
+  auto opened = open_voxels(*data, own ? header.end : 0, own);
   if (!opened && own) return opened.error();
   if (!opened)  // the header is wrong, or the data file was left behind
     return error(fmt::format("{}: its data file: {}; put it in the same folder", header.file,
@@ -189,7 +211,7 @@ Affine affine_of(const Header& header, std::vector<std::string>& notices) {
 
 Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& options,
                        Progress& progress) {
-  auto head = first_bytes(path, std::size_t{1} << 20);
+  auto head = first_unpacked_bytes(path, std::size_t{1} << 20);
   if (!head) return head.error();
   Header header = parse(std::string(head->begin(), head->end()));
   header.file = short_name(path);

@@ -12,6 +12,7 @@
 
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/geometry.h"
+#include "burr/io/read/label_lists.h"
 #include "burr/io/read/readers.h"
 #include "burr/io/read/samples.h"
 #include "burr/io/read/text.h"
@@ -21,6 +22,11 @@ namespace {
 
 using math::Mat3;
 using math::Vec3;
+
+// NIfTI-2 has 540 bytes, and says so in its first number.
+std::size_t header_size(const std::vector<std::uint8_t>& bytes) {
+  return bytes.size() >= 540 && (bytes[0] == 0x1C || bytes[3] == 0x1C) ? 540 : 348;
+}
 
 // The fields that burr needs, of either version.
 struct Nifti {
@@ -225,23 +231,35 @@ std::filesystem::path partner(const std::filesystem::path& path, const char* fro
   return std::filesystem::exists(other, trouble) ? other : std::filesystem::path();
 }
 
-struct Opened {
-  std::unique_ptr<ByteSource> source;
-  std::uint64_t most = 0;  // largest number of bytes it can give
-};
-
-// Whether it is compressed is decided by the bytes, not the name. The other half of a pair may not
-// be a link.
-Result<Opened> open_maybe_packed(const std::filesystem::path& path, bool follow_links) {
-  auto head = first_bytes(path, 2, follow_links);
-  if (!head) return head.error();
-  auto file = open_file(path, 0, follow_links);
-  if (!file) return file.error();
-  Opened opened;
-  const bool packed = head->size() == 2 && (*head)[0] == 0x1F && (*head)[1] == 0x8B;
-  opened.most = packed ? file->size * kMostGzip : file->size;
-  opened.source = packed ? gunzip(std::move(file->source)) : std::move(file->source);
-  return opened;
+// Names of labels in the extensions between the header and the voxels (nifti1.h, "extension"): 4
+// bytes that say whether there are any, then for each its size, its code and its text. head: the
+// file's first bytes, already read from the source; end: where the voxels begin.
+std::vector<Label> labels_in_extensions(const Nifti& header, std::size_t header_size,
+                                        std::vector<std::uint8_t> head, std::uint64_t end,
+                                        ByteSource& source) {
+  constexpr std::size_t kLongest = std::size_t{1} << 20;  // [byte]
+  if (head.size() < header_size + 4 || head[header_size] == 0) return {};
+  const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(end, kLongest));
+  std::size_t have = head.size();
+  if (wanted > have) head.resize(wanted);
+  while (have < head.size()) {
+    const auto got = source.read(head.data() + have, head.size() - have);
+    if (!got || *got == 0) break;
+    have += *got;
+  }
+  head.resize(std::min(have, wanted));
+  std::vector<Label> labels;
+  const bool swap = header.big_endian == (std::endian::native == std::endian::little);
+  for (std::size_t at = header_size + 4; at + 8 <= head.size();) {
+    const auto size = Fields(head, swap).get<std::int32_t>(at);
+    if (size <= 8 || static_cast<std::size_t>(size) > head.size() - at) break;
+    const std::string_view text(reinterpret_cast<const char*>(head.data()) + at + 8,
+                                static_cast<std::size_t>(size) - 8);
+    for (const auto& found : {labels_in_xml(text), labels_in_json(text)})
+      labels.insert(labels.end(), found.begin(), found.end());
+    at += static_cast<std::size_t>(size);
+  }
+  return labels;
 }
 
 }  // namespace
@@ -257,7 +275,7 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
       return error(
           fmt::format("{}: its header (.hdr) is missing; put it in the same folder", file));
   }
-  auto opened = open_maybe_packed(path, path == given);
+  auto opened = open_unpacked(path, path == given);
   if (!opened) return opened.error();
   std::vector<std::uint8_t> head(540);
   std::size_t have = 0;
@@ -304,15 +322,18 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
         fmt::format("{}: vox_offset is not a position in the file; its header is wrong", file));
   const double at = header->offset > 0 ? header->offset : first;
   const auto offset = static_cast<std::uint64_t>(at);
+  constexpr std::uint64_t kWhole = std::uint64_t{1} << 40;  // a header of its own: to its end
+  scan.label_names = labels_in_extensions(*header, header_size(head), head,
+                                          header->pair ? kWhole : offset, *opened->source);
 
   if (header->pair) {
     const auto image = partner(path, ".hdr", ".img");
     if (image.empty())
       return error(
           fmt::format("{}: its data file (.img) is missing; put it in the same folder", file));
-    opened = open_maybe_packed(image, image == given);
+    opened = open_unpacked(image, image == given);
   } else {
-    opened = open_maybe_packed(path, path == given);
+    opened = open_unpacked(path, path == given);
   }
   if (!opened) return opened.error();
   const std::uint64_t needed = *count * bytes_of(format.type);
@@ -325,8 +346,10 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
   Status read = skip(*opened->source, offset);
   if (read) read = read_samples(*opened->source, format, *count, sink, progress);
   if (!read) return error(read.error().trouble, fmt::format("{}: {}", file, read.error().text));
-  if (Status status = sink.finish(scan, false); !status)
+  const bool sure = !scan.label_names.empty() && sink.all_are_among(scan.label_names);
+  if (Status status = sink.finish(scan, sure); !status)
     return error(fmt::format("{}: {}", file, status.error().text));
+  if (scan.labels.empty()) scan.label_names.clear();
   const Affine affine = affine_of(*header, scan);
   if (Status status = place(scan, affine, options.spacing_mm, file, progress); !status)
     return status.error();

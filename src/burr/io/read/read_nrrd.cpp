@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <set>
 #include <system_error>
 
 #include "burr/base/printable.h"
@@ -145,7 +147,11 @@ Result<std::vector<std::filesystem::path>> data_files(const Header& header,
   std::vector<std::string> names;
   const std::vector<std::string> parts = words(field->second);
   std::int64_t from = 0, to = 0, step = 1;
-  if (!parts.empty() && parts[0] == "LIST") {
+  std::error_code ignored;
+  const auto exact = beside(path, field->second);  // a name may look like a pattern
+  if (exact && std::filesystem::exists(*exact, ignored)) {
+    names.push_back(field->second);
+  } else if (!parts.empty() && parts[0] == "LIST") {
     names = header.file_list;
   } else if (parts.size() >= 4 && parts[0].find('%') != std::string::npos &&
              to_number(parts[1], from) && to_number(parts[2], to) && to_number(parts[3], step)) {
@@ -184,36 +190,115 @@ std::map<std::string, double> unit_mm() {
           {"\xC2\xB5m", 1e-3}, {"micron", 1e-3}, {"microns", 1e-3}, {"nm", 1e-6}};
 }
 
+// What a segment is, by its code, from the tag that 3D Slicer writes:
+// "...|TerminologyEntry:LIST~SCT^123037004^Anatomical Structure~SCT^91609006^Mandible~...|...": the
+// third part is the type. "Mandible SCT 91609006", or empty where it says no more than "tissue".
+std::string coded_meaning(const std::string& tags) {
+  constexpr std::string_view kEntry = "TerminologyEntry:";
+  const std::size_t at = tags.find(kEntry);
+  if (at == std::string::npos) return {};
+  std::string_view entry = std::string_view(tags).substr(at + kEntry.size());
+  entry = entry.substr(0, entry.find('|'));
+  for (int skip = 0; skip < 2; ++skip) {
+    const std::size_t next = entry.find('~');
+    if (next == std::string_view::npos) return {};
+    entry.remove_prefix(next + 1);
+  }
+  entry = entry.substr(0, entry.find('~'));
+  const std::size_t first = entry.find('^'), second = entry.find('^', first + 1);
+  if (first == std::string_view::npos || second == std::string_view::npos) return {};
+  const std::string_view scheme = entry.substr(0, first),
+                         code = entry.substr(first + 1, second - first - 1),
+                         meaning = entry.substr(second + 1);
+  // the default of every new segment, and the two words for "a part of the body"
+  for (const char* nothing : {"85756007", "T-D0050", "123037004", "T-D000A"})
+    if (code == nothing) return {};
+  constexpr std::size_t kLongest = 200;
+  std::string out(meaning);
+  if (!code.empty()) out += fmt::format("{}{} {}", out.empty() ? "" : " ", scheme, code);
+  return out.substr(0, kLongest);
+}
+
+struct Segments {
+  std::vector<Label> labels;  // their values as in the file
+  std::vector<int> layers;    // of each
+  std::vector<bool> bare;     // it names neither value nor layer, as in older files: one layer each
+};
+
+// The numbers n of the keys Segment<n>_...: they need not begin at 0, nor follow each other.
+std::set<int> segment_numbers(const Header& header) {
+  constexpr std::string_view kSegment = "Segment";
+  constexpr std::size_t kMostSegments = 4096;
+  std::set<int> numbers;
+  for (const auto& [key, value] : header.keys) {
+    const std::size_t end = key.find('_');
+    std::int64_t number = 0;
+    if (key.rfind(kSegment, 0) == 0 && end != std::string::npos && end > kSegment.size() &&
+        to_number(key.substr(kSegment.size(), end - kSegment.size()), number) && number >= 0 &&
+        number < 1'000'000 && numbers.size() < kMostSegments)
+      numbers.insert(static_cast<int>(number));
+  }
+  return numbers;
+}
+
+// "0.5 0.5 0.5", or 0 to 255. True: it was 0 to 255.
+bool take_colour(const std::vector<double>& numbers, Label& label) {
+  if (numbers.size() < 3) return false;
+  const double most = std::max({numbers[0], numbers[1], numbers[2]});
+  const bool bytes = most >= 2 && most <= 255;
+  for (std::size_t c = 0; c < 3; ++c)
+    if (std::isfinite(numbers[c]))
+      label.colour[c] =
+          static_cast<float>(std::clamp(numbers[c] / (bytes ? 255.0 : 1.0), 0.0, 1.0));
+  return bytes;
+}
+
 // Segment0_Name:=... of a .seg.nrrd
-std::vector<Label> segments(const Header& header) {
-  std::vector<Label> labels;
-  for (int n = 0; n < 4096; ++n) {
+Segments segments(const Header& header, std::vector<std::string>& notices) {
+  Segments out;
+  int byte_colours = 0;
+  for (const int n : segment_numbers(header)) {
     const std::string prefix = fmt::format("Segment{}_", n);
     const auto get = [&](const char* what) {
       const auto found = header.keys.find(prefix + what);
       return found == header.keys.end() ? std::string() : found->second;
     };
     const std::string value = get("LabelValue"), name = get("Name"), id = get("ID");
-    if (value.empty() && name.empty() && id.empty()) break;
+    if (value.empty() && name.empty() && id.empty()) continue;
     Label label;
-    std::int64_t number = n + 1;
+    std::int64_t number = n + 1, layer = 0;
     if (!value.empty() && !to_number(value, number)) continue;
-    if (number < 1 || number > 255) continue;
+    if (number < 1 || number > std::numeric_limits<int>::max()) continue;
+    if (!to_number(get("Layer"), layer) || layer < 0 || layer > 4096) layer = 0;
     label.value = static_cast<int>(number);
     label.name = !name.empty() ? name : id;
-    const std::vector<double> colour = numbers(get("Color"));
-    if (colour.size() == 3)
-      for (std::size_t c = 0; c < 3; ++c)
-        if (std::isfinite(colour[c]))
-          label.colour[c] = static_cast<float>(std::clamp(colour[c], 0.0, 1.0));
-    labels.push_back(label);
+    label.meaning = coded_meaning(get("Tags"));
+    byte_colours += take_colour(numbers(get("Color")), label) ? 1 : 0;
+    bool twice = false;
+    for (std::size_t other = 0; other < out.labels.size() && !twice; ++other) {
+      twice = out.labels[other].value == label.value && out.layers[other] == layer;
+      if (twice)
+        notices.push_back(fmt::format(
+            "Two segments, {} and {}, have the same value {}: the first name is taken.",
+            base::printable(out.labels[other].name), base::printable(label.name), label.value));
+    }
+    if (twice) continue;
+    out.labels.push_back(label);
+    out.layers.push_back(static_cast<int>(layer));
+    out.bare.push_back(value.empty() && get("Layer").empty());
   }
-  return labels;
+  if (byte_colours > 0)
+    notices.push_back(
+        fmt::format("The colours of {} go beyond 1: they are read as 0 to 255.",
+                    byte_colours == 1 ? "one segment" : fmt::format("{} segments", byte_colours)));
+  return out;
 }
 
 struct Shape {
   std::vector<std::int64_t> sizes;  // of the three axes kept
   std::vector<std::size_t> axes;    // which of the file's axes they are
+  std::int64_t layers = 1;          // of a segmentation
+  bool layers_first = false;        // the layers of a voxel follow each other in the file
 };
 
 Result<Shape> shape_of(const Header& header, const std::string& file, bool segmentation) {
@@ -242,11 +327,17 @@ Result<Shape> shape_of(const Header& header, const std::string& file, bool segme
     const bool no_space = kind == "list" || kind == "vector" || kind == "time" ||
                           kind.find("color") != std::string::npos || kind == "3-vector";
     if (all[a] == 1 && (all.size() > 3 || no_space)) continue;  // length one: ignored
-    if (no_space && segmentation)
-      return error(
-          fmt::format("{}: its segments overlap in {} layers; merge them into one layer in 3D "
-                      "Slicer (Segmentations, Collapse segments) and save again",
-                      file, all[a]));
+    if (no_space && segmentation && all.size() == 4 && (a == 0 || a == 3)) {
+      constexpr std::int64_t kMostLayers = 64;
+      if (all[a] > kMostLayers)
+        return error(
+            fmt::format("{}: its segments overlap in {} layers, and burr reads at most {}; merge "
+                        "them in 3D Slicer (Segmentations, Collapse segments) and save again",
+                        file, all[a], kMostLayers));
+      shape.layers = all[a];
+      shape.layers_first = a == 0;
+      continue;
+    }
     if (no_space)
       return error(
           fmt::format("{}: axis {} is \"{}\" with {} entries, not an axis of space; burr reads one "
@@ -414,11 +505,13 @@ Result<std::unique_ptr<ByteSource>> data_source(const Header& header,
   if (!skip_bytes) return skip_bytes.error();
 
   std::uint64_t size = 0, offset = 0;
+  bool packed = false;  // the whole file, header and all
   if (files->empty()) {
-    auto own = open_file(path);
-    if (!own) return own.error();
+    auto own = open_unpacked(path);
+    if (!own) return error(own.error().trouble, fmt::format("{}: {}", file, own.error().text));
     offset = header.end;
-    size = own->size;
+    size = own->most;
+    packed = own->packed;
   } else {
     for (const auto& one : *files) {
       std::error_code trouble;
@@ -440,7 +533,12 @@ Result<std::unique_ptr<ByteSource>> data_source(const Header& header,
 
   const auto open = [&](std::int64_t from_end) -> Result<std::unique_ptr<ByteSource>> {
     std::unique_ptr<ByteSource> source;
-    if (files->empty() || files->size() == 1) {
+    if (packed) {
+      auto opened = open_unpacked(path);
+      if (!opened) return opened.error();
+      source = std::move(opened->source);
+      if (Status status = skip(*source, offset); !status) return status.error();
+    } else if (files->empty() || files->size() == 1) {
       const std::uint64_t at = from_end >= 0 ? size - static_cast<std::uint64_t>(from_end) : offset;
       auto opened = open_file(files->empty() ? path : files->front(), at, files->empty());
       if (!opened) return opened.error();
@@ -457,7 +555,8 @@ Result<std::unique_ptr<ByteSource>> data_source(const Header& header,
     return source;
   };
 
-  if (*skip_bytes == -1 && raw && files->size() <= 1) return open(static_cast<std::int64_t>(bytes));
+  if (*skip_bytes == -1 && raw && files->size() <= 1 && !packed)
+    return open(static_cast<std::int64_t>(bytes));
   if (*skip_bytes == -1 && files->size() <= 1) {
     // the last `bytes` of the decompressed data: count first
     auto counting = open(-1);
@@ -497,14 +596,15 @@ Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& opt
                        Progress& progress) {
   const std::string file = short_name(path);
   constexpr std::size_t kLongestHeader = std::size_t{4} << 20;
-  auto head = first_bytes(path, kLongestHeader);
+  auto head = first_unpacked_bytes(path, kLongestHeader);
   if (!head) return head.error();
   auto header = parse(std::string(head->begin(), head->end()), file);
   if (!header) return header.error();
 
   Scan scan;
   scan.format = "NRRD";
-  scan.label_names = segments(*header);
+  Segments named = segments(*header, scan.notices);
+  scan.label_names = named.labels;
   const bool segmentation = !scan.label_names.empty();
   if (segmentation) scan.format = "NRRD segmentation";
 
@@ -531,17 +631,30 @@ Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& opt
   if (encoding == "raw" && endian.empty() && bytes_of(format.type) > 1)
     scan.notices.emplace_back("The file does not state its byte order: little endian is assumed.");
 
-  auto source = data_source(*header, path, encoding, *count * bytes_of(format.type));
+  const auto layers = static_cast<std::size_t>(shape->layers);
+  if (*count > static_cast<std::size_t>(kMostVoxels) / layers)
+    return error(
+        fmt::format("{}: {} layers of {} voxels are more than burr reads (2^31); crop or "
+                    "shrink it first",
+                    file, layers, *count));
+  for (std::size_t n = 0; n < named.labels.size() && layers > 1; ++n)
+    if (named.bare[n]) {
+      named.layers[n] = scan.label_names[n].value - 1;
+      scan.label_names[n].value = 1;
+    }
+  const std::size_t samples = *count * layers;
+  auto source = data_source(*header, path, encoding, samples * bytes_of(format.type));
   if (!source) return source.error();
-  VoxelSink sink(*count);
-  Status read = text ? read_ascii(**source, *count, sink)
-                     : read_samples(**source, format, *count, sink, progress);
+  VoxelSink sink(samples);
+  Status read = text ? read_ascii(**source, samples, sink)
+                     : read_samples(**source, format, samples, sink, progress);
   if (!read) return error(read.error().trouble, fmt::format("{}: {}", file, read.error().text));
-  if (Status status = sink.finish(scan, segmentation); !status)
-    return error(fmt::format("{}: {}", file, status.error().text));
+  Status status = layers > 1 ? sink.finish_layers(scan, layers, shape->layers_first, named.layers)
+                             : sink.finish(scan, segmentation);
+  if (!status) return error(fmt::format("{}: {}", file, status.error().text));
   const Affine affine = affine_of(*header, *shape, file, scan);
-  if (Status status = place(scan, affine, options.spacing_mm, file, progress); !status)
-    return status.error();
+  status = place(scan, affine, options.spacing_mm, file, progress);
+  if (!status) return status.error();
   return scan;
 }
 

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/readers.h"
@@ -19,7 +22,8 @@ bool ends_with(const std::string& text, const std::string& end) {
 
 bool begins_with(const std::vector<std::uint8_t>& bytes, std::size_t at, std::string_view text) {
   return bytes.size() >= at + text.size() &&
-         std::equal(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+         std::equal(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                    [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
 Result<Scan> read_by_content(const std::filesystem::path& path, const ReadOptions& options,
@@ -27,14 +31,28 @@ Result<Scan> read_by_content(const std::filesystem::path& path, const ReadOption
   std::string name = short_name(path);
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  auto head = first_bytes(path, 132);
+  auto head = first_unpacked_bytes(path, 132);
   if (!head) return head.error();
   if (head->empty())
     return error(fmt::format("{}: the file is empty; copy it again", short_name(path)));
 
+  using namespace std::string_view_literals;
+  constexpr std::pair<std::string_view, const char*> kOtherPackings[] = {
+      {"\xFD\x37zXZ"sv, "xz"}, {"\x28\xB5\x2F\xFD"sv, "zstd"}, {"7z\xBC\xAF\x27\x1C"sv, "7z"}};
+  for (const auto& [magic, packing] : kOtherPackings)
+    if (begins_with(*head, 0, magic))
+      return error(fmt::format("{}: is packed with {}, which burr does not unpack; unpack it first",
+                               short_name(path), packing));
   if (begins_with(*head, 0, "NRRD")) return read_nrrd(path, options, progress);
-  if (begins_with(*head, 128, "DICM")) return read_dicom(path, options, progress);
-  for (const char* end : {".nii", ".nii.gz", ".hdr", ".hdr.gz", ".img", ".img.gz"})
+  if (begins_with(*head, 128, "DICM")) {
+    if (auto own = first_bytes(path, 132); own && !begins_with(*own, 128, "DICM"))
+      return error(fmt::format("{}: is a packed DICOM file; unpack it first and give the result",
+                               short_name(path)));
+    return read_dicom(path, options, progress);
+  }
+  for (const char* packing : {".gz", ".bz2", ".bgz"})  // "x.nii.gz.gz"
+    while (ends_with(name, packing)) name.resize(name.size() - std::strlen(packing));
+  for (const char* end : {".nii", ".hdr", ".img"})
     if (ends_with(name, end)) return read_nifti(path, options, progress);
   if (ends_with(name, ".mha") || ends_with(name, ".mhd")) return read_meta(path, options, progress);
   if (ends_with(name, ".nrrd") || ends_with(name, ".nhdr"))

@@ -8,6 +8,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
+
+#include "burr/base/printable.h"
 
 namespace burr::io {
 namespace {
@@ -65,13 +68,13 @@ void convert(const std::uint8_t* bytes, std::size_t n, const SampleFormat& forma
 
 // Labels are flat: few different numbers, and most voxels have the number of their neighbour. Grey
 // values, even of 8 bit, change from voxel to voxel inside the body.
-bool looks_like_labels(const Voxels<std::uint8_t>& bytes) {
+bool looks_like_labels(const Voxels<std::uint8_t>& bytes, std::ptrdiff_t most_different) {
   std::array<std::size_t, 256> count{};
   for (const std::uint8_t b : bytes) ++count[b];
   const auto different =
       std::count_if(count.begin(), count.end(), [](std::size_t n) { return n > 0; });
   if (different <= 2) return different == 2;
-  if (different > 128) return false;
+  if (different > most_different) return false;
   std::size_t pairs = 0, same = 0;
   for (std::size_t v = 1; v < bytes.size(); ++v) {
     if (bytes[v] == 0 && bytes[v - 1] == 0) continue;
@@ -79,6 +82,127 @@ bool looks_like_labels(const Voxels<std::uint8_t>& bytes) {
     same += bytes[v] == bytes[v - 1] ? 1 : 0;
   }
   return pairs > 200 && 10 * same > 7 * pairs;
+}
+
+constexpr std::size_t kMostLabels = 255;
+// Whole numbers that went through a float, a scale or a resampling that changed nothing else.
+constexpr double kWhole = 1e-3, kNearlyWhole = 0.05;
+constexpr std::int64_t kLargestLabel = std::int64_t{1} << 24;  // whole numbers are exact up to here
+
+// The whole numbers that the values are, or nearly are.
+struct WholeNumbers {
+  std::vector<std::int64_t> all;  // sorted; one more than kMostLabels + 1 where there are too many
+  double off = 0;                 // largest distance from a whole number, over its tolerance
+  bool negative = false;
+  [[nodiscard]] bool labels() const {
+    return off <= 1 && !negative && all.size() <= kMostLabels + 1 && all.back() <= kLargestLabel;
+  }
+};
+
+WholeNumbers whole_numbers(const Voxels<float>& values) {
+  WholeNumbers out;
+  float before = std::numeric_limits<float>::quiet_NaN();
+  for (const float value : values) {
+    if (value == before) continue;
+    before = value;
+    const double whole = std::round(double{value});
+    if (!(std::abs(whole) < 1e15)) {
+      out.off = std::numeric_limits<double>::infinity();
+      return out;
+    }
+    out.off = std::max(out.off,
+                       std::abs(double{value} - whole) / std::max(kWhole, 1e-6 * std::abs(whole)));
+    if (out.off > kNearlyWhole / kWhole) return out;
+    const auto number = static_cast<std::int64_t>(whole);
+    out.negative = out.negative || number < 0;
+    const auto place = std::lower_bound(out.all.begin(), out.all.end(), number);
+    if (place != out.all.end() && *place == number) continue;
+    out.all.insert(place, number);
+    if (out.all.size() > kMostLabels + 1) return out;
+  }
+  return out;
+}
+
+// Whole numbers from 0 up that are the same in nearly all neighbours, as labels are however many.
+// The largest number does not count: a scan that is cut off there is flat too.
+bool flat_whole_numbers(const Voxels<float>& values) {
+  float most = 0;
+  for (const float value : values) {
+    if (!(value >= 0) || value != std::floor(value)) return false;
+    most = std::max(most, value);
+  }
+  std::size_t pairs = 0, same = 0;
+  for (std::size_t v = 1; v < values.size(); ++v) {
+    if (values[v] == values[v - 1] && (values[v] == 0 || values[v] == most)) continue;
+    ++pairs;
+    same += values[v] == values[v - 1] ? 1 : 0;
+  }
+  return pairs > 200 && same > pairs / 5 * 4;
+}
+
+// The numbers 1..255 that stand for the file's labels: those up to 255 keep theirs, the others get
+// the lowest that are free.
+std::vector<std::uint8_t> short_numbers(const std::vector<std::int64_t>& file) {
+  std::array<bool, 256> taken{};
+  for (const std::int64_t value : file)
+    if (value <= 255) taken[static_cast<std::size_t>(value)] = true;
+  taken[0] = true;
+  std::vector<std::uint8_t> out;
+  std::size_t free = 0;
+  for (const std::int64_t value : file) {
+    if (value <= 255) {
+      out.push_back(static_cast<std::uint8_t>(value));
+      continue;
+    }
+    while (taken[free]) ++free;
+    taken[free] = true;
+    out.push_back(static_cast<std::uint8_t>(free));
+  }
+  return out;
+}
+
+// Names of values above 255, where no voxel has such a value.
+void drop_long_numbers(Scan& scan) {
+  std::erase_if(scan.label_names, [](const Label& label) { return label.value > 255; });
+}
+
+// Names follow their labels to the new numbers; labels without a name get an entry that knows the
+// number in the file.
+void renumber_names(Scan& scan, const std::vector<std::int64_t>& file,
+                    const std::vector<std::uint8_t>& numbers) {
+  std::vector<Label> names;
+  std::string list;
+  std::size_t changed = 0;
+  for (std::size_t n = 0; n < file.size(); ++n) {
+    if (file[n] == 0) continue;
+    bool named = false;
+    std::string name;
+    for (const Label& label : scan.label_names) {
+      if (label.value != file[n]) continue;
+      if (!named) name = label.name;
+      named = true;
+      names.push_back(label);
+      names.back().value = numbers[n];
+      names.back().in_file = file[n] > 255 ? file[n] : 0;
+    }
+    if (file[n] <= 255) continue;
+    if (!named) {
+      names.push_back({.value = numbers[n], .name = "", .colour = volume::Tissue{}.colour});
+      names.back().in_file = file[n];
+    }
+    constexpr std::size_t kShown = 4;
+    if (++changed <= kShown)
+      list += fmt::format("{}{} is now {}{}", changed == 1 ? "" : ", ", file[n], numbers[n],
+                          name.empty() ? "" : " (" + base::printable(name) + ")");
+    else if (changed == kShown + 1)
+      list += " ...";
+  }
+  if (changed > 0) {
+    scan.label_names = std::move(names);
+    scan.notices.push_back(
+        fmt::format("burr numbers labels up to 255, so {} of the file has a new number: {}.",
+                    changed == 1 ? "one label" : fmt::format("each of {} labels", changed), list));
+  }
 }
 
 }  // namespace
@@ -142,16 +266,88 @@ void VoxelSink::add_bytes(const std::uint8_t* values, std::size_t n) {
   }
 }
 
+bool VoxelSink::all_are_among(const std::vector<Label>& labels) const {
+  std::vector<std::int64_t> there;
+  if (wide_) {
+    const WholeNumbers whole = broken_ == 0 ? whole_numbers(values_) : WholeNumbers{};
+    if (whole.all.empty() || !whole.labels()) return false;
+    there = whole.all;
+  } else {
+    std::array<bool, 256> present{};
+    for (const std::uint8_t b : bytes_) present[b] = true;
+    for (std::size_t v = 0; v < present.size(); ++v)
+      if (present[v]) there.push_back(static_cast<std::int64_t>(v));
+  }
+  return std::all_of(there.begin(), there.end(), [&](std::int64_t value) {
+    return value == 0 || std::any_of(labels.begin(), labels.end(),
+                                     [&](const Label& one) { return one.value == value; });
+  });
+}
+
+// Wide values that are labels all the same: above 255, or floats beside whole numbers.
+Result<bool> VoxelSink::wide_labels(Scan& scan, bool labels_for_sure) {
+  const WholeNumbers whole = broken_ == 0 ? whole_numbers(values_) : WholeNumbers{};
+  if (labels_for_sure) {
+    if (broken_ > 0 || whole.off > 1 || whole.negative)
+      return error("a label is not a whole number from 0 up; save the labels as whole numbers");
+    if (whole.all.size() > kMostLabels + 1)
+      return error(
+          "there are more than 255 different labels, and burr reads at most 255; merge "
+          "some of them");
+    if (!whole.labels())
+      return error(
+          fmt::format("a label is above {}; give the labels smaller numbers", kLargestLabel));
+  }
+  if (whole.all.size() > kMostLabels + 1 && broken_ == 0 && flat_whole_numbers(values_))
+    return error(
+        "the values look like more than 255 different labels, and burr reads at most 255; "
+        "merge some of them");
+  if (whole.all.empty() || whole.negative || whole.all.size() < 2 ||
+      whole.all.size() > kMostLabels + 1)
+    return false;
+  if (!labels_for_sure && whole.all.front() != 0) return false;
+  const std::vector<std::uint8_t> numbers = short_numbers(whole.all);
+  Voxels<std::uint8_t> bytes;
+  bytes.reserve(values_.size());
+  for (const float value : values_) {
+    const auto number = static_cast<std::int64_t>(std::round(double{value}));
+    const auto place = std::lower_bound(whole.all.begin(), whole.all.end(), number);
+    if (place == whole.all.end()) return false;  // values_ ended early
+    bytes.push_back(numbers[static_cast<std::size_t>(place - whole.all.begin())]);
+  }
+  if (!labels_for_sure && !looks_like_labels(bytes, 256)) return false;
+  if (!whole.labels()) {
+    scan.notices.push_back(fmt::format(
+        "The values are few and near to whole numbers (off by up to {:.2g}), as in a label map "
+        "that was scaled, but they are read as grey values; if they are labels, round them to "
+        "whole "
+        "numbers and save the file again.",
+        whole.off * kWhole));
+    return false;
+  }
+  if (whole.off > 0)
+    scan.notices.emplace_back(
+        "The values are whole numbers to within 0.001: they are rounded and read as labels.");
+  renumber_names(scan, whole.all, numbers);
+  drop_long_numbers(scan);
+  scan.labels = std::move(bytes);
+  Voxels<float>().swap(values_);
+  scan.hounsfield = false;
+  return true;
+}
+
 Status VoxelSink::finish(Scan& scan, bool labels_for_sure) {
-  if (!wide_ && (labels_for_sure || looks_like_labels(bytes_))) {
+  if (wide_ && (labels_for_sure || !scan.hounsfield)) {
+    const auto labels = wide_labels(scan, labels_for_sure);
+    if (!labels) return labels.error();
+    if (*labels) return fine();
+  }
+  drop_long_numbers(scan);
+  if (!wide_ && (labels_for_sure || looks_like_labels(bytes_, 128))) {
     scan.labels = std::move(bytes_);
     scan.hounsfield = false;
     return fine();
   }
-  if (labels_for_sure)
-    return error(
-        "a label is not a whole number from 0 to 255; burr reads at most 255 labels, renumber "
-        "them");
   if (!wide_) widen();
 
   float low = std::numeric_limits<float>::infinity(), high = -low;
@@ -178,6 +374,78 @@ Status VoxelSink::finish(Scan& scan, bool labels_for_sure) {
         broken_, kLargestValue, air));
   }
   scan.values = std::move(values_);
+  return fine();
+}
+
+Status VoxelSink::finish_layers(Scan& scan, std::size_t layers, bool layers_first,
+                                const std::vector<int>& layer_of_name) {
+  const std::size_t voxels = count_ / layers;
+  struct Segment {
+    std::size_t layer = 0, count = 0;
+    std::int64_t value = 0;
+    std::uint8_t number = 0;
+  };
+  std::vector<Segment> all;  // few, so they are searched one after the other
+  const auto value_at = [&](std::size_t voxel, std::size_t layer) {
+    const std::size_t at = layers_first ? voxel * layers + layer : layer * voxels + voxel;
+    return wide_ ? double{values_[at]} : static_cast<double>(bytes_[at]);
+  };
+  // the last one found is mostly the next one too
+  std::vector<std::size_t> before(layers, 0);
+  const auto find = [&](std::size_t layer, std::int64_t value) -> Segment& {
+    std::size_t& at = before[layer];
+    if (at < all.size() && all[at].layer == layer && all[at].value == value) return all[at];
+    for (at = 0; at < all.size(); ++at)
+      if (all[at].layer == layer && all[at].value == value) return all[at];
+    return all.emplace_back(Segment{layer, 0, value, 0});
+  };
+  for (std::size_t voxel = 0; voxel < voxels; ++voxel)
+    for (std::size_t layer = 0; layer < layers; ++layer) {
+      const double value = value_at(voxel, layer);
+      if (value == 0) continue;
+      if (!(value > 0 && value <= static_cast<double>(kLargestLabel)) ||
+          std::abs(value - std::round(value)) > kWhole)
+        return error("a label is not a whole number from 0 up; save the labels as whole numbers");
+      ++find(layer, static_cast<std::int64_t>(std::round(value))).count;
+      if (all.size() > kMostLabels)
+        return error(
+            "there are more than 255 different labels, and burr reads at most 255; merge "
+            "some of them");
+    }
+  std::sort(all.begin(), all.end(), [](const Segment& a, const Segment& b) {
+    return a.layer != b.layer ? a.layer < b.layer : a.value < b.value;
+  });
+  std::vector<Label> names;
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    all[n].number = static_cast<std::uint8_t>(n + 1);
+    Label name{.value = static_cast<int>(n + 1), .name = "", .colour = volume::Tissue{}.colour};
+    for (std::size_t l = 0; l < scan.label_names.size() && l < layer_of_name.size(); ++l)
+      if (scan.label_names[l].value == all[n].value &&
+          layer_of_name[l] == static_cast<int>(all[n].layer))
+        name = scan.label_names[l];
+    name.value = static_cast<int>(n + 1);
+    names.push_back(std::move(name));
+  }
+  std::size_t shared = 0;
+  scan.labels.assign(voxels, 0);
+  for (std::size_t voxel = 0; voxel < voxels; ++voxel) {
+    std::size_t best = 0, there = 0;
+    for (std::size_t layer = 0; layer < layers; ++layer) {
+      const double value = value_at(voxel, layer);
+      if (value == 0) continue;
+      const Segment& one = find(layer, static_cast<std::int64_t>(std::round(value)));
+      if (++there > 1 && one.count > best) continue;
+      best = one.count;
+      scan.labels[voxel] = one.number;
+    }
+    shared += there > 1 ? 1 : 0;
+  }
+  scan.label_names = std::move(names);
+  scan.hounsfield = false;
+  scan.notices.push_back(fmt::format(
+      "The segments lie in {} layers: they are numbered 1 to {} here. Where they overlap, in {} "
+      "voxels, the smaller one stays.",
+      layers, all.size(), shared));
   return fine();
 }
 

@@ -35,12 +35,23 @@ class VoxelSink {
 
   void add(const float* values, std::size_t n);
   void add_bytes(const std::uint8_t* values, std::size_t n);
+  // Whether the values are whole numbers from 0 up and each above 0 is the value of one of these.
+  [[nodiscard]] bool all_are_among(const std::vector<Label>& labels) const;
   // Moves the voxels into the scan: as values, or as labels if the numbers look like labels or
-  // `labels_for_sure` is set. Values that are not finite or beyond 1e30 become air, with a notice.
+  // `labels_for_sure` is set. Labels above 255 get numbers up to 255, in scan.label_names too, and
+  // whole numbers within 0.001 are rounded; both with a notice. Values that are not finite or beyond
+  // 1e30 become air, with a notice.
   [[nodiscard]] Status finish(Scan& scan, bool labels_for_sure);
+
+  // The same for a segmentation whose segments lie in `layers` layers; layer_of_name: the layer of
+  // each of scan.label_names. Where segments overlap, the one with fewer voxels stays, of two equal
+  // ones the later; a notice states in how many voxels.
+  [[nodiscard]] Status finish_layers(Scan& scan, std::size_t layers, bool layers_first,
+                                     const std::vector<int>& layer_of_name);
 
  private:
   void widen();
+  [[nodiscard]] Result<bool> wide_labels(Scan& scan, bool labels_for_sure);
 
   std::size_t count_;
   Voxels<std::uint8_t> bytes_;

@@ -134,6 +134,8 @@ void pack_scan(Packer& to, const Scan& scan) {
     to.put(static_cast<std::int32_t>(label.value));
     to.put(label.name);
     for (const float c : label.colour) to.put(c);
+    to.put(label.meaning);
+    to.put(label.in_file);
   }
 }
 
@@ -167,6 +169,8 @@ void unpack_scan(Unpacker& from, Scan& scan) {
       c = from.get<float>();
       from.demand(c >= 0 && c <= 1);
     }
+    label.meaning = from.words();
+    label.in_file = from.get<std::int64_t>();
     scan.label_names.push_back(std::move(label));
   }
 }
