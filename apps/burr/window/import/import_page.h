@@ -31,7 +31,7 @@ struct ImportLayout {
   std::array<Part, 3> views;          // axial, coronal, sagittal
   Part level, plot, facts, bone;      // below: histogram or labels, the scan, what is made
   Part series, iso, roi, voxel, all;  // fields and buttons
-  Part told, back, start;             // last line
+  Part told, as_it_is, back, start;   // last line
 };
 [[nodiscard]] ImportLayout import_layout(float width, float height, float unit);
 
@@ -71,6 +71,8 @@ class ImportPage {
   void take_roi();
   void show_region();
   void take_voxel();
+  [[nodiscard]] bool asked() const;  // the scan leaves open what only the user can answer
+  void take_as_it_is();
   void set_box(const Box& box);
   void forget_table();
   void set_kind(std::size_t label, volume::TissueKind kind);

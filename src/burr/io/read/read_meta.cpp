@@ -59,6 +59,45 @@ bool is_true(const std::string& text) {
   return !text.empty() && (text[0] == 'T' || text[0] == 't' || text[0] == '1');
 }
 
+// The first of these fields that is there.
+std::string field_of(const Header& header, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    const auto found = header.fields.find(name);
+    if (found != header.fields.end()) return found->second;
+  }
+  return {};
+}
+
+Result<Affine> affine_of(const Header& header, const std::string& file, bool& commas, Scan& scan) {
+  Affine affine;
+  const auto vector = [&](std::initializer_list<const char*> names, std::size_t size_wanted) {
+    return numbers(field_of(header, names), size_wanted, commas);
+  };
+  const std::vector<double> turn = vector({"TransformMatrix", "Rotation", "Orientation"}, 9);
+  if (turn.size() == 9)  // the file lists the direction of i, then of j, then of k
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) affine.step(b, a) = turn[static_cast<std::size_t>(3 * a + b)];
+  const std::string spacing_text = field_of(header, {"ElementSpacing", "ElementSize"});
+  std::vector<double> spacing = vector({"ElementSpacing", "ElementSize"}, 3);
+  if (spacing.empty() && !spacing_text.empty())
+    return error(fmt::format("{}: ElementSpacing: \"{}\" is not three numbers; correct the header",
+                             file, base::shown(spacing_text)));
+  const bool spaced = spacing.size() == 3 && std::isfinite(spacing[0] + spacing[1] + spacing[2]) &&
+                      spacing[0] * spacing[1] * spacing[2] != 0;
+  if (!spaced) {
+    spacing = {1, 1, 1};
+    scan.notices.emplace_back(
+        "The file states no usable voxel spacing: taken for 1 mm; see --spacing-mm.");
+  }
+  for (int a = 0; a < 3; ++a) affine.step.col(a) *= std::abs(spacing[static_cast<std::size_t>(a)]);
+  const std::vector<double> origin = vector({"Offset", "Position", "Origin"}, 3);
+  if (origin.size() == 3) affine.origin = Vec3(origin[0], origin[1], origin[2]);
+  if (commas)
+    scan.notices.emplace_back(
+        "The file writes numbers with a decimal comma (\"0,5\"): read as decimal points.");
+  return affine;
+}
+
 }  // namespace
 
 Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& options,
@@ -68,11 +107,7 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
   if (!head) return head.error();
   Header header = parse(std::string(head->begin(), head->end()));
   const auto get = [&](std::initializer_list<const char*> names) {
-    for (const char* name : names) {
-      const auto found = header.fields.find(name);
-      if (found != header.fields.end()) return found->second;
-    }
-    return std::string();
+    return field_of(header, names);
   };
   const auto bad = [&](const char* field, const std::string& what) {
     return error(fmt::format("{}: {}: {}", file, field, what));
@@ -103,12 +138,21 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
   const std::string binary = get({"BinaryData"});
   if (!binary.empty() && !is_true(binary))
     return bad("BinaryData", "numbers as text are not read; save it as binary");
-  double slope = 1, intercept = 0;
-  if (to_number(get({"ElementToIntensityFunctionSlope"}), slope) && std::isfinite(slope) &&
-      slope != 0)
-    format.slope = slope;
-  if (to_number(get({"ElementToIntensityFunctionOffset"}), intercept) && std::isfinite(intercept))
-    format.intercept = intercept;
+  bool commas = false;
+  const auto scale = [&](const char* field, double& out) -> Status {
+    double value = 0;
+    const std::string text = get({field});
+    if (text.empty()) return fine();
+    if (!to_number(text, value, commas) || !std::isfinite(value))
+      return bad(field, fmt::format("\"{}\" is no number", base::shown(text)));
+    out = value;
+    return fine();
+  };
+  double slope = 1;
+  if (Status good = scale("ElementToIntensityFunctionSlope", slope); !good) return good.error();
+  if (slope != 0) format.slope = slope;
+  if (Status good = scale("ElementToIntensityFunctionOffset", format.intercept); !good)
+    return good.error();
 
   Scan scan;
   scan.format = "MetaImage";
@@ -154,23 +198,9 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
   if (Status status = sink.finish(scan, false); !status)
     return error(fmt::format("{}: {}", file, status.error().text));
 
-  Affine affine;
-  const std::vector<double> turn = numbers(get({"TransformMatrix", "Rotation", "Orientation"}));
-  if (turn.size() == 9)  // the file lists the direction of i, then of j, then of k
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) affine.step(b, a) = turn[static_cast<std::size_t>(3 * a + b)];
-  std::vector<double> spacing = numbers(get({"ElementSpacing", "ElementSize"}));
-  const bool spaced = spacing.size() == 3 && std::isfinite(spacing[0] + spacing[1] + spacing[2]) &&
-                      spacing[0] * spacing[1] * spacing[2] != 0;
-  if (!spaced) {
-    spacing = {1, 1, 1};
-    scan.notices.emplace_back(
-        "The file states no usable voxel spacing: taken for 1 mm; see --spacing-mm.");
-  }
-  for (int a = 0; a < 3; ++a) affine.step.col(a) *= std::abs(spacing[static_cast<std::size_t>(a)]);
-  const std::vector<double> origin = numbers(get({"Offset", "Position", "Origin"}));
-  if (origin.size() == 3) affine.origin = Vec3(origin[0], origin[1], origin[2]);
-  if (Status status = place(scan, affine, options.spacing_mm, file, progress); !status)
+  const auto affine = affine_of(header, file, commas, scan);
+  if (!affine) return affine.error();
+  if (Status status = place(scan, *affine, options.spacing_mm, file, progress); !status)
     return status.error();
   return scan;
 }
