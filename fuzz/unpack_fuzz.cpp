@@ -1,5 +1,5 @@
 // Decompression: gzip, zlib, deflate without header, bzip2 and zstd. The first byte chooses, and
-// says how much is asked for at once; zstd also gets the expected length.
+// sets how much is requested at once; zstd also gets the expected length.
 #include <vector>
 
 #include "burr/io/read/bytes.h"

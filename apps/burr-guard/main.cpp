@@ -1,8 +1,9 @@
-// burr-guard - outlives burr by a moment, to release a device that would hold its last force
+// burr-guard - runs a little longer than burr, to release a device that would hold its last force
 // (src/burr/device/guardian.h starts it).
 //
 //     burr-guard line TEXT
-//         descriptors: 0 burr's life, 1 the answer, 3 the device, 4 the beats
+//         descriptors: 0 a pipe that closes when burr ends, 1 the answer, 3 the device,
+//         4 shared memory with the count of burr's beats
 //     burr-guard crtk DOMAIN ARM ROUTE
 //         the same without 3
 #include <fmt/core.h>
@@ -49,7 +50,7 @@ Life look(milliseconds longest) {
 int guard(const std::function<void()>& let_go) {
   void* shared = ::mmap(nullptr, sizeof(std::atomic<unsigned>), PROT_READ, MAP_SHARED, kBeats, 0);
   if (shared == MAP_FAILED) {
-    answer("the guardian of the device has no memory to share; close other programs");
+    answer("burr-guard cannot open the shared memory; close other programs");
     return EXIT_FAILURE;
   }
   const auto& beats = *static_cast<const std::atomic<unsigned>*>(shared);
@@ -88,10 +89,9 @@ int guard_arm(int domain, const std::string& arm, const std::string& route) {
                                           crtk::kGuardian);
   for (const auto until = steady_clock::now() + kFound; force.readers() <= 0;) {
     if (steady_clock::now() > until) {
-      answer(
-          fmt::format("the guardian of {0} finds nobody who takes {0}{1}; see that the arm's node "
-                      "still runs",
-                      arm, route));
+      answer(fmt::format(
+          "burr-guard finds no subscriber of {0}{1}; check that the arm's node still runs", arm,
+          route));
       return EXIT_FAILURE;
     }
     std::this_thread::sleep_for(kLook);
@@ -114,6 +114,6 @@ int main(int count, char** words) {
   const std::string kind = count > 1 ? words[1] : "";
   if (kind == "line" && count == 3) return guard_line(words[2]);
   if (kind == "crtk" && count == 5) return guard_arm(std::atoi(words[2]), words[3], words[4]);
-  fmt::print(stderr, "burr-guard is started by burr, not by hand\n");
+  fmt::print(stderr, "burr-guard is started by burr; do not start it by hand\n");
   return 2;
 }

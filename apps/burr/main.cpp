@@ -1,7 +1,9 @@
-// burr - the program. Each subcommand is a file of its own; this one parses, runs and turns trouble
-// into exit codes.
+// burr - the program. Each subcommand is a file of its own; this file parses the command line, runs
+// the subcommand and turns errors into exit codes.
+#include <fcntl.h>
 #include <fmt/core.h>
 #include <malloc.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -28,7 +30,7 @@ std::vector<std::pair<int, Command::Add>>& commands() {
 
 volatile std::sig_atomic_t asked_to_stop = 0;
 
-// first time: stop cleanly; second time: stop now
+// first signal: stop cleanly; second signal: stop at once
 void on_signal(int number) {
   if (asked_to_stop != 0) {
     std::signal(number, SIG_DFL);
@@ -37,17 +39,46 @@ void on_signal(int number) {
   asked_to_stop = 1;
 }
 
-// As a shell sees a program that SIGPIPE ended: whoever read our words has gone, and wants no more.
+// A message to stderr that cannot be written must not end a session. fmt throws if a stream fails,
+// on any thread, so stderr becomes a stream that never fails. Descriptors 0, 1 and 2 that are
+// closed at the start are opened: otherwise the next file, perhaps a recording, would get the
+// number of stderr and with it all messages.
+void secure_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) < 0 && errno == EBADF)
+      // stdout opened for reading: writing to it is still an error, as without the file
+      static_cast<void>(open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY));
+  constexpr cookie_io_functions_t kDeaf = {
+      .read = nullptr,
+      .write = [](void*, const char* text, std::size_t size) -> ssize_t {
+        for (std::size_t done = 0; done < size;) {
+          const ssize_t some = write(STDERR_FILENO, text + done, size - done);
+          if (some < 0 && errno == EINTR) continue;
+          if (some <= 0) break;
+          done += static_cast<std::size_t>(some);
+        }
+        return static_cast<ssize_t>(size);
+      },
+      .seek = nullptr,
+      .close = nullptr};
+  if (std::FILE* deaf = fopencookie(nullptr, "w", kDeaf); deaf != nullptr) {
+    std::setvbuf(deaf, nullptr, _IONBF, 0);
+    stderr = deaf;
+  }
+}
+
+// The exit code of a program that SIGPIPE ended: the reader of the output is gone.
 constexpr int kReaderGone = 128 + SIGPIPE;
 
-// What could not be written to stdout or stderr, as an exit code; said where that is any use.
+// Output could not be written: returns the exit code; reports it on stderr, unless the reader is
+// gone.
 int unheard(int trouble) {
   if (trouble == EPIPE) return kReaderGone;
   std::fprintf(stderr, "burr: standard output cannot be written: %s\n", std::strerror(trouble));
   return static_cast<int>(Trouble::io);
 }
 
-// The last words, and the exit code: 0 only if all that was said arrived.
+// Flushes the output and returns the exit code: 0 only if all output was written.
 int end(int code) {
   errno = 0;
   const bool told = std::fflush(stdout) == 0 && std::cout.flush().good();
@@ -74,15 +105,16 @@ bool interrupted() noexcept { return asked_to_stop != 0; }
 
 int main(int argc, char** argv) {
   using namespace burr;
-  // One arena for all threads: a software renderer takes and gives back some 75 MB a
-  // picture, and each arena keeps its own high-water mark for ever (memory of a session is locked).
+  // One memory arena for all threads. A software renderer allocates and frees about 75 MB per
+  // picture, and each arena would keep its own peak until the end (memory of a session is locked).
   mallopt(M_ARENA_MAX, 1);
   struct sigaction action = {};
   action.sa_handler = app::on_signal;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on files is a sentence, like a full disk
+  app::secure_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is reported as an error, like a full disk
 
   CLI::App program{"burr - cut bone by hand: touch, mill and print a patient's bone", "burr"};
   program.set_version_flag("--version",
@@ -97,10 +129,17 @@ int main(int argc, char** argv) {
   std::stable_sort(commands.begin(), commands.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [place, add] : commands) add(program, todo);
-  program.add_subcommand("help", "show this text, with examples")->callback([&todo, &program] {
-    todo.work = [&program] {
-      program.clear();  // else CLI11 tells of the subcommand that was asked for, "help"
-      fmt::print("{}", program.help());
+  std::string about;
+  auto* help = program.add_subcommand("help", "show this text, or the help of a command");
+  help->add_option("command", about, "a command, as in `burr help mill`");
+  help->callback([&] {
+    todo.work = [&]() -> Status {
+      const CLI::App* one = about.empty() ? nullptr : program.get_subcommand_no_throw(about);
+      if (!about.empty() && one == nullptr)
+        return error(Trouble::usage,
+                     fmt::format("{}: there is no such command; `burr help` lists them", about));
+      program.clear();  // otherwise CLI11 shows the help of the subcommand "help"
+      fmt::print("{}", one != nullptr ? one->help("burr") : program.help());
       return fine();
     };
   });
@@ -122,7 +161,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     status = error(Trouble::data, "not enough memory; use a larger --voxel-mm or a smaller --roi");
   } catch (const std::system_error& problem) {
-    // fmt's words for what could not be written
+    // fmt throws this when output could not be written
     if (problem.code() == std::errc::broken_pipe) return app::kReaderGone;
     if (std::ferror(stdout) != 0) return app::unheard(problem.code().value());
     status =

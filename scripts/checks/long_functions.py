@@ -3,23 +3,13 @@
 
     scripts/checks/long_functions.py [ROOT]       ROOT: a checkout; default: this one
 
-Functions that are still longer are in KNOWN with the lines that they may have at most: a number there may only go
-down. A function counts from the first line of its head to its closing brace; lambdas inside count as part of it.
+A function counts from the first line of its head to its closing brace; lambdas inside count as part of it.
 """
 import pathlib
 import re
 import sys
 
 LIMITS = [("src/burr/tick/", 60), ("", 100)]
-
-# "file: function" -> most lines
-KNOWN = {
-    "import.cpp: make_plan": 111,
-    "geometry.cpp: straighten": 102,
-    "read_meta.cpp: read_meta": 104,
-    "iso_kernel.inc: extract_vertices": 109,
-    "friction.cpp: friction": 104,
-}
 
 BLANK = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"(?P<mark>[^()\\\s]*)\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\''
@@ -101,7 +91,7 @@ def functions(text):
 
 def main():
     root = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2]
-    wrong, seen, count = [], set(), 0
+    wrong, count = [], 0
     for folder in ("src", "apps"):
         for file in sorted((root / folder).rglob("*")):
             if file.suffix not in (".cpp", ".h", ".inc"):
@@ -110,17 +100,8 @@ def main():
             limit = next(most for start, most in LIMITS if path.startswith(start))
             for name, lines, first in functions(file.read_text(errors="replace")):
                 count += 1
-                key = f"{file.name}: {name}"
-                most = max(limit, KNOWN.get(key, 0))
-                if lines > most:
-                    wrong.append(f"{path}:{first}: {name} has {lines} lines, {most} are allowed")
-                elif key in KNOWN and lines > limit:
-                    seen.add(key)
-                    if lines < most:
-                        print(f"{key} has {lines} lines now: lower its number in KNOWN from {most}")
-    for key in KNOWN:
-        if key not in seen and not any(key.split(": ")[1] in one for one in wrong):
-            print(f"{key} is short enough or gone: take it out of KNOWN")
+                if lines > limit:
+                    wrong.append(f"{path}:{first}: {name} has {lines} lines, {limit} are allowed")
     if count == 0:
         wrong.append("no function found: is this a checkout?")
     for line in wrong:

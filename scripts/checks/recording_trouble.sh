@@ -61,7 +61,7 @@ replays() {
 if [ "$(id -u)" = 0 ] && mkdir "$place/small" && mount -t tmpfs -o size=1m tmpfs "$place/small" 2>/dev/null; then
   mounted+=("$place/small")
   "$burr" --quiet mill "${block[@]}" --seconds 12 --record "$place/small/s.mcap" --json >"$place/full.out" 2>"$place/full.err"
-  check full $? 'No space left on device; make room'
+  check full $? 'No space left on device; free some space'
   account full 12 kept
   replays full "$place/small/s.mcap"
 fi
@@ -69,7 +69,7 @@ fi
   ulimit -f 900 # KiB
   exec "$burr" --quiet mill "${block[@]}" --seconds 12 --record "$place/limit.mcap" --json >"$place/limit.out" 2>"$place/limit.err"
 )
-check limit $? 'limit.mcap: cannot write on: File too large; raise the limit'
+check limit $? 'limit.mcap: cannot be written further: File too large; raise the limit'
 account limit 12 kept
 replays limit "$place/limit.mcap"
 
@@ -83,7 +83,7 @@ else
 fi
 if [ -d "$place/sealed" ] && ! touch "$place/sealed/probe" 2>/dev/null; then
   "$burr" --quiet mill "${block[@]}" --seconds 2 --record "$place/sealed/s.mcap" --json >"$place/sealed.out" 2>"$place/sealed.err"
-  check sealed $? 's.mcap: cannot write here: .*; choose a folder'
+  check sealed $? 's.mcap: cannot be written: .*; choose a folder'
   account sealed 2 nothing
 fi
 
@@ -117,7 +117,7 @@ grep -q 'no/such/s.mcap' "$place/typo.err" || fail "a folder that is not there i
   ulimit -f 600 # KiB: enough for the pictures
   exec "$burr" --quiet run block --headless --voxel-mm 0.5 --seconds 30 --out "$place/run" >"$place/run.out" 2>"$place/run.err"
 )
-check run $? 'session.mcap: cannot write on: File too large'
+check run $? 'session.mcap: cannot be written further: File too large'
 grep -q '^removed ' "$place/run.out" || fail "run: the figures are not told"
 replays run "$place/run/session.mcap"
 exit $bad

@@ -63,9 +63,9 @@ TEST(Result, TroubleIsTheExitCodePeopleScriptAgainst) {
 
 TEST(ResultDeathTest, AskingForWhatIsNotThereIsLoud) {
   const Result<int> bad = whole("");
-  EXPECT_DEATH((void)bad.value(), "a mistake of ours: ok\\(\\)");
+  EXPECT_DEATH((void)bad.value(), "internal error: ok\\(\\)");
   const Result<int> good = whole("x");
-  EXPECT_DEATH((void)good.error(), "a mistake of ours: !ok\\(\\)");
+  EXPECT_DEATH((void)good.error(), "internal error: !ok\\(\\)");
 }
 
 TEST(Hash, KnownBits) {

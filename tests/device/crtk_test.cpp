@@ -170,12 +170,12 @@ TEST_F(LeaderTest, GripperAndPedalsMillAndLift) {
 }
 
 TEST_F(LeaderTest, WhatCannotServeAsAHandIsSaidWithItsRemedy) {
-  EXPECT_NE(refusal(here()).find("no CRTK arm /arm is heard on DDS domain"), std::string::npos);
-  EXPECT_NE(refusal(here("1/x")).find("is no name of an arm"), std::string::npos);
+  EXPECT_NE(refusal(here()).find("no CRTK arm /arm was found on DDS domain"), std::string::npos);
+  EXPECT_NE(refusal(here("1/x")).find("is not a valid name of an arm"), std::string::npos);
   {
     FakeCrtkArm one(domain_, "/one"), two(domain_, "/two");
     const std::string several = refusal(here(""));
-    EXPECT_NE(several.find("/one, /two; say which one"), std::string::npos) << several;
+    EXPECT_NE(several.find("/one, /two; choose one"), std::string::npos) << several;
     const std::string none = refusal(here("/three"));
     EXPECT_NE(none.find("there are /one, /two"), std::string::npos) << none;
   }
@@ -187,7 +187,7 @@ TEST_F(LeaderTest, WhatCannotServeAsAHandIsSaidWithItsRemedy) {
     FakeCrtkArm arm(domain_);
     arm.with([](Commands& w) { w.rate_hz = 100; });
     const std::string slow = refusal(here());
-    EXPECT_NE(slow.find("times a second; burr needs 400"), std::string::npos) << slow;
+    EXPECT_NE(slow.find("times a second, but burr needs 400"), std::string::npos) << slow;
   }
   ::setenv("ROS_DOMAIN_ID", "three", 1);
   EXPECT_NE(refusal({}).find("ROS_DOMAIN_ID is \"three\""), std::string::npos);
@@ -477,8 +477,8 @@ TEST_F(LeaderTest, AnArmThatAnotherPushesIsLeftToHim) {
     ASSERT_TRUE(bus.ok());
     const Writer<WrenchStamped> other((*bus)->participant(), route);
     const std::string said = refusal(here());
-    EXPECT_NE(said.find("/arm is pushed by another program"), std::string::npos) << said;
-    EXPECT_NE(said.find("end that one"), std::string::npos) << said;
+    EXPECT_NE(said.find("another program sends forces to /arm"), std::string::npos) << said;
+    EXPECT_NE(said.find("end that program"), std::string::npos) << said;
   }
   EXPECT_EQ(arm.with([](Commands& w) { return w.forces; }), 0U);
   EXPECT_TRUE(soon([&] { return refusal(here()) == "it connected"; })) << "once he has ended";
@@ -498,7 +498,7 @@ TEST_F(LeaderTest, ASecondBurrIsRefusedAndTheFirstGoesOn) {
     }
   });
   const std::string said = refusal(here());
-  EXPECT_NE(said.find("/arm is pushed by another program"), std::string::npos) << said;
+  EXPECT_NE(said.find("another program sends forces to /arm"), std::string::npos) << said;
   EXPECT_TRUE(soon([&] { return arm.force().y() == 0.5; }));
   done = true;
   goes_on.join();

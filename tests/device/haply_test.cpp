@@ -290,7 +290,7 @@ TEST_F(InverseTest, AServiceThatHangsUpIsNotTakenForOneThatSpeaksNonsense) {
   Wire::Read read = Wire::Read::nothing;
   EXPECT_TRUE(soon([&] {
     read = wire.read(hand);
-    EXPECT_EQ(wire.why().find("cannot be read"), std::string::npos);
+    EXPECT_EQ(wire.why().find("cannot read"), std::string::npos);
     return read == Wire::Read::lost;
   }));
   EXPECT_NE(wire.why().find("has gone silent"), std::string::npos) << wire.why();
@@ -345,7 +345,7 @@ TEST_F(InverseTest, OneNonsenseIsBorneManyAreNot) {
     static_cast<void>(wire.write(Vec3::Zero()));
   }
   EXPECT_EQ(read, Wire::Read::lost);
-  EXPECT_NE(wire.why().find("cannot be read"), std::string::npos) << wire.why();
+  EXPECT_NE(wire.why().find("cannot read"), std::string::npos) << wire.why();
 }
 
 TEST_F(InverseTest, TwoAtOnceEachHasItsOwnForce) {
@@ -384,7 +384,7 @@ TEST_F(InverseTest, TwoAtOnceEachHasItsOwnGrip) {
   EXPECT_NEAR((one.world_from_tool.q * Vec3::UnitZ() - Vec3::UnitZ()).norm(), 0, 1e-9);
   EXPECT_NEAR((two.world_from_tool.q * Vec3::UnitZ() - Vec3::UnitY()).norm(), 0, 1e-9);
   const std::string none = refusal(here("", "RIGHT"));
-  EXPECT_NE(none.find("knows no grip RIGHT; it knows GRIP, LEFT"), std::string::npos) << none;
+  EXPECT_NE(none.find("finds no grip RIGHT; it finds GRIP, LEFT"), std::string::npos) << none;
 }
 
 // Its last message may have said that a button is pressed.
@@ -440,7 +440,7 @@ TEST_F(InverseTest, AtAHundredHertzNothingIsPushed) {
 TEST_F(InverseTest, AnArmThatIsInUseIsLeftToItsProgram) {
   service_.with([](Commands& w) { w.arms[0].in_use = true; });
   const std::string said = refusal(here());
-  EXPECT_NE(said.find("inverse3 049D is in use by another program; close that one"),
+  EXPECT_NE(said.find("inverse3 049D is in use by another program; close that program"),
             std::string::npos)
       << said;
   EXPECT_EQ(service_.messages, 0) << "not a word to it";
@@ -472,7 +472,7 @@ TEST_F(InverseTest, AnOldServiceIsToldByItsVersion) {
     w.greets = R"({"devices":[{"device_id":"049D","cursor_position":{"x":0,"y":0,"z":0}}]})";
   });
   std::string said = refusal(here());
-  EXPECT_NE(said.find("is version 3.0, which speaks otherwise; install version 3.1 or later"),
+  EXPECT_NE(said.find("is version 3.0, which uses another protocol; install version 3.1 or later"),
             std::string::npos)
       << said;
   service_.with([](Commands& w) {
@@ -480,17 +480,19 @@ TEST_F(InverseTest, AnOldServiceIsToldByItsVersion) {
     w.version = "2.2.1";
   });
   said = refusal(here());
-  EXPECT_NE(said.find("is version 2.2, which speaks otherwise"), std::string::npos) << said;
+  EXPECT_NE(said.find("is version 2.2, which uses another protocol"), std::string::npos) << said;
   service_.with([](Commands& w) { w.version = ""; });
   said = refusal(here());
-  EXPECT_NE(said.find("is no Inverse Service of version 3.1 or later; update"), std::string::npos)
+  EXPECT_NE(said.find("is not an Inverse Service of version 3.1 or later; update"),
+            std::string::npos)
       << said;
   service_.with([](Commands& w) {
     w.web_socket = true;
     w.greets = "hello";
   });
   said = refusal(here());
-  EXPECT_NE(said.find("is no Inverse Service of version 3.1 or later; update"), std::string::npos)
+  EXPECT_NE(said.find("is not an Inverse Service of version 3.1 or later; update"),
+            std::string::npos)
       << said;
   EXPECT_EQ(service_.messages, 0);
 }
@@ -519,7 +521,7 @@ TEST_F(InverseEventsTest, WhatMattersIsSaidInWords) {
   for (const auto& [name, words] : {std::pair{"device-disconnected", "was disconnected"},
                                     {"device-battery-low", "battery is low"},
                                     {"device-battery-critical", "battery is nearly empty"},
-                                    {"device-sleep", "fell asleep"},
+                                    {"device-sleep", "went to sleep"},
                                     {"device-busy", "is busy; close other programs"},
                                     {"device-connection-loop", "again and again"},
                                     {"device-calibration-failed", "could not be calibrated"}}) {
@@ -528,15 +530,16 @@ TEST_F(InverseEventsTest, WhatMattersIsSaidInWords) {
     EXPECT_TRUE(wire.why().starts_with("inverse3 049D ")) << wire.why();
     EXPECT_TRUE(valid_) << name;
   }
-  for (const auto& [type, words] : {std::pair{"fod_stage_changed", "stage of its own guard"},
-                                    {"stall_detected", "motors stalled"},
-                                    {"stability_ceiling", "limit of stability"}}) {
+  for (const auto& [type, words] :
+       {std::pair{"fod_stage_changed", "stage of its own safety system"},
+        {"stall_detected", "motors stalled"},
+        {"stability_ceiling", "limit of stability"}}) {
     service_.tell_safety(type, "049D");
     EXPECT_TRUE(says(wire, words)) << type << ": " << wire.why();
     EXPECT_TRUE(valid_) << type;
   }
   service_.tell("device-meltdown", "049D", "critical");
-  EXPECT_TRUE(says(wire, "tells of trouble"));
+  EXPECT_TRUE(says(wire, "reports a fault"));
   const auto told = std::chrono::steady_clock::now();
   service_.tell("device-connected", "049D", "info");
   EXPECT_TRUE(says(wire, "")) << wire.why();
@@ -614,7 +617,7 @@ TEST_F(InverseEventsTest, ABrakeOutlivesItsChannelAndTheConnection) {
   ASSERT_TRUE(says(wire, "is held by its emergency brake"));
   EXPECT_FALSE(valid_);
   service_.with([](Commands& w) { w.events_hang_up = true; });
-  ASSERT_TRUE(says(wire, "when it was last heard of; release it, and begin again"));
+  ASSERT_TRUE(says(wire, "when it last sent anything; release the brake, and begin again"));
   EXPECT_FALSE(valid_);
   ASSERT_TRUE(wire.connect().ok());
   EXPECT_FALSE(exchange(wire).valid);

@@ -117,7 +117,7 @@ TEST_F(ListingTest, AUserReadsWhatEachCanDoAndHowToNameIt) {
        {"touch            ", "senses 6 axes, drives 3", "touch:NAME", "haply:049D",
         "8.0 N peak (3.00 N continuous)",
         "damping up to 4 N s/m, workspace 120 mm about its middle",
-        "Grips found: GRIP, LEFT. haply:ARM+GRIP", "not found: no CRTK arm is heard"})
+        "Grips found: GRIP, LEFT. haply:ARM+GRIP", "not found: no CRTK arm was found"})
     EXPECT_NE(said.find(words), std::string::npos) << words << "\nis not in\n" << said;
 }
 
@@ -134,7 +134,7 @@ TEST_F(ListingTest, TheGripIsPartOfTheName) {
   char some[512] = {};
   EXPECT_GT(std::fread(some, 1, sizeof some - 1, pipe), 0U);
   EXPECT_NE(::pclose(pipe), 0);
-  EXPECT_NE(std::string(some).find("knows no grip RIGHT; it knows GRIP, LEFT"), std::string::npos)
+  EXPECT_NE(std::string(some).find("finds no grip RIGHT; it finds GRIP, LEFT"), std::string::npos)
       << some;
 }
 

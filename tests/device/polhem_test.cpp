@@ -131,14 +131,14 @@ TEST_F(PolhemTest, WhatIsNoArmIsSaidWithItsRemedy) {
   };
   EXPECT_NE(refusal({.system = "/nowhere"}).find("no Polhem is plugged in"), std::string::npos);
   EXPECT_NE(refusal({.port = "/dev/none"}).find("cannot be opened"), std::string::npos);
-  EXPECT_NE(refusal({.port = "/dev/zero"}).find("is no serial port"), std::string::npos);
+  EXPECT_NE(refusal({.port = "/dev/zero"}).find("is not a serial port"), std::string::npos);
   arm_.with([](Commands& w) { w.silent = true; });
   EXPECT_NE(refusal(here()).find("does not answer"), std::string::npos);
   arm_.with([](Commands& w) {
     w.silent = false;
     w.instead.assign(1000, "hello, I am a thermometer: 21.5\n");
   });
-  EXPECT_NE(refusal(here()).find("does not speak as a Polhem"), std::string::npos);
+  EXPECT_NE(refusal(here()).find("does not answer as a Polhem"), std::string::npos);
 }
 
 TEST_F(PolhemTest, OnlyOneMayHoldIt) {

@@ -98,8 +98,9 @@ TEST_F(FitProgram, RefusesInOneSentence) {
     EXPECT_NE(said.find(std::string("exit ") + code), std::string::npos) << words << "\n" << said;
     EXPECT_NE(said.find(says), std::string::npos) << words << "\n" << said;
   };
-  expect("fit two.csv", "65", "two.csv: no constant can be determined: cutting_friction: 2 rows");
-  expect("fit bad.csv", "65", "bad.csv: line 1: there is no column tangential_n");
+  expect("fit two.csv", "65",
+         "two.csv: no constant can be determined: cutting_friction: only 2 rows");
+  expect("fit bad.csv", "65", "bad.csv: line 1: column tangential_n is missing");
   expect("fit none.csv", "74", "none.csv: cannot be read");
   expect("fit none.mcap", "74", "none.mcap");
   expect("fit a.csv --out x.toml", "2", "name it with --material");

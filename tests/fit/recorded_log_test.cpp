@@ -186,7 +186,7 @@ TEST(RecordedLog, RefusesASessionThatMillsNothing) {
   ASSERT_TRUE(player.ok());
   const auto log = log_of_recording(**player, 0.05, "");
   ASSERT_FALSE(log.ok());
-  EXPECT_NE(log.error().text.find("nothing is removed"), std::string::npos) << log.error().text;
+  EXPECT_NE(log.error().text.find("nothing was removed"), std::string::npos) << log.error().text;
 }
 
 }  // namespace

@@ -302,7 +302,7 @@ TEST(ImportGrey, TheSameScanGivesTheSameBone) {
 
 TEST(ImportGrey, OneSliceOrNothingButAirIsASentence) {
   const io::Scan slice = grey_scan({30, 30, 1}, {1, 1, 1}, [](const Vec3&) { return 0.0; });
-  EXPECT_NE(plan_import(slice, {}).error().text.find("no volume"), std::string::npos);
+  EXPECT_NE(plan_import(slice, {}).error().text.find("not a volume"), std::string::npos);
   scenario::Recipe options;
   options.iso = 5000;
   const io::Scan scan =

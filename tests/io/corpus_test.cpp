@@ -140,10 +140,10 @@ std::string reason(const std::string& row) {
 
 // True for sentences of the fence: the readers themselves did not find the problem.
 bool said_by_the_fence(const std::string& text) {
-  const std::array<const char*, 7> words = {
-      "reading it crashed",      "processor time",       "stood still",
-      "memory than it may take", "what no reader needs", "answered what cannot be",
-      "was ended by the system"};
+  const std::array<const char*, 7> words = {"reading it crashed",     "processor time",
+                                            "made no progress",       "memory than allowed",
+                                            "no reader needs",        "sent an invalid answer",
+                                            "was ended by the system"};
   return std::any_of(words.begin(), words.end(),
                      [&](const char* part) { return text.find(part) != std::string::npos; });
 }

@@ -87,14 +87,14 @@ TEST_F(Fence, AnEndlessLoopIsASentence) {
   ReadOptions options;
   options.seconds = 1;
   EXPECT_SAYS(said("loop", options), "took more than 1 s of processor time");
-  EXPECT_SAYS(said("sleep", options), "stood still for 1 s");
+  EXPECT_SAYS(said("sleep", options), "made no progress for 1 s");
 }
 
 TEST_F(Fence, HungerIsASentence) {
   if (!fence_state().memory_limit) GTEST_SKIP() << "no limit of memory in a sanitized build";
   ReadOptions options;
   options.memory_mb = 512;
-  EXPECT_SAYS(said("eat", options), "more memory than it may take");
+  EXPECT_SAYS(said("eat", options), "more memory than allowed");
   EXPECT_SAYS(said("eat_quietly", options), "no more memory");
   // pages that were touched, by all children so far: far less than was requested
   rusage usage{};
@@ -105,7 +105,7 @@ TEST_F(Fence, HungerIsASentence) {
 TEST_F(Fence, LentMemoryHasTheSameLimit) {
   ReadOptions options;
   options.memory_mb = 512;
-  EXPECT_SAYS(said("eat_voxels", options), "more memory than it may take");
+  EXPECT_SAYS(said("eat_voxels", options), "more memory than allowed");
 }
 
 TEST_F(Fence, OpensFewFiles) { EXPECT_SAYS(said("open_many"), "few files"); }
@@ -140,10 +140,10 @@ TEST_F(Fence, ReachesNobody) {
   if (!fence_state().seccomp) GTEST_SKIP() << "needs a kernel with seccomp";
   for (const std::string what :
        {"socket", "run", "fork", "trace", "kill", "raise_limit", "write /dev/null"})
-    EXPECT_SAYS(said(what), "tried what no reader needs") << what;
-  EXPECT_SAYS(said("write " + path("new")), "tried what no reader needs");
-  EXPECT_SAYS(said("unlink " + path("todo.txt")), "tried what no reader needs");
-  EXPECT_SAYS(said("rename " + path("new")), "tried what no reader needs");
+    EXPECT_SAYS(said(what), "tried something that no reader needs") << what;
+  EXPECT_SAYS(said("write " + path("new")), "tried something that no reader needs");
+  EXPECT_SAYS(said("unlink " + path("todo.txt")), "tried something that no reader needs");
+  EXPECT_SAYS(said("rename " + path("new")), "tried something that no reader needs");
   EXPECT_SAYS(said("code"), "refused");
   EXPECT_EQ(files(), 1) << "nothing was written";
 }
@@ -152,7 +152,7 @@ TEST_F(Fence, BelievesNoLie) {
   for (const char* lie :
        {"lie_size", "lie_negative", "lie_axes", "lie_spacing", "lie_values", "lie_label",
         "lie_both", "lie_letter", "lie_nothing", "lie_short", "lie_kind", "lie_back"})
-    EXPECT_SAYS(said(lie), "todo.txt: the reader answered what cannot be") << lie;
+    EXPECT_SAYS(said(lie), "todo.txt: the reader sent an invalid answer") << lie;
   const auto scan = ask("lie_words");
   ASSERT_TRUE(scan.ok());
   EXPECT_EQ(scan->notices.at(0), " [2Jgone  ") << "steers no terminal";
@@ -274,11 +274,11 @@ TEST_F(Fence, WithoutItsReaderNothingIsRead) {
 TEST(FenceHere, SaysHowHighItIs) {
   const FenceState state = fence_state();
   EXPECT_TRUE(std::filesystem::exists(state.reader)) << state.reader;
-  EXPECT_SAYS(fence_words(state), "in a process of their own");
+  EXPECT_SAYS(fence_words(state), "in a separate process");
 }
 
 TEST_F(Fence, StartedByHandTheReaderSaysSo) {
-  EXPECT_SAYS(output_of("'" BURR_BUILD_DIR "/burr-read' </dev/null"), "not started by hand");
+  EXPECT_SAYS(output_of("'" BURR_BUILD_DIR "/burr-read' </dev/null"), "do not start it by hand");
 }
 
 }  // namespace

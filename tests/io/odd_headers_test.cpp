@@ -108,7 +108,7 @@ TEST_F(OddHeader, AColourInATableOfTissuesMustBeNumbers) {
   options.labels = file("t.toml", "[[label]]\nvalue = 1\ncolour = [nan, 0, inf]\n");
   const auto plan = importing::plan_import(*scan, options);
   ASSERT_FALSE(plan.ok());
-  EXPECT_TRUE(has(plan.error().text, "t.toml: label 1: colour needs three numbers"));
+  EXPECT_TRUE(has(plan.error().text, "t.toml: label 1: colour must be three numbers"));
 }
 
 TEST_F(OddHeader, WhatAFileSaysStandsInASentenceAsOneShortLine) {
@@ -127,7 +127,7 @@ TEST_F(OddHeader, WhatAFileSaysStandsInASentenceAsOneShortLine) {
 TEST_F(OddHeader, APlaceWhereNoPatientLiesIsRefused) {
   for (const char* place : {"(1e300,0,0)", "(0,-1e7,0)"})
     EXPECT_TRUE(has(refusal(file("a.nrrd", nrrd(std::string("space origin: ") + place + "\n"))),
-                    "cannot be used"));
+                    "are not valid"));
 }
 
 TEST_F(OddHeader, SlicesShiftedOutOfSightAreNoVolume) {

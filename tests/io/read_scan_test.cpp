@@ -345,7 +345,7 @@ TEST(ReadScan, ASpacingThatLiesIsOverridden) {
   const auto scan = read("tooth_microct/tooth.nhdr", options);
   ASSERT_TRUE(scan.ok());
   EXPECT_EQ(scan->spacing_mm, Vec3(0.1, 0.1, 0.1));
-  EXPECT_TRUE(says(*scan, "as asked"));
+  EXPECT_TRUE(says(*scan, "as given"));
 }
 
 // dcm2niix decodes and sorts by itself; its output must show the same numbers at the same places in

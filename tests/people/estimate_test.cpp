@@ -33,7 +33,7 @@ Study study(Plan plan, const Psychometric& truth, int runs, std::uint64_t first)
     ++all.runs;
     all.trials += out.trials;
     if (out.settled) all.settled_sum += std::log(*out.settled);
-    if (out.fit.why.find("guessed") != std::string::npos) ++all.guessed;
+    if (out.fit.why.find("guessing") != std::string::npos) ++all.guessed;
     if (!out.fit.found) continue;
     ++all.found;
     const double off = std::log(out.fit.best.threshold / truth.threshold);
@@ -176,7 +176,7 @@ TEST(Fit, AnIntervalThatLeavesWhatCouldBeShownIsNoThreshold) {
   const Fit found = fit(fine, settings);
   EXPECT_TRUE(found.found) << found.why;
   EXPECT_NEAR(found.best.threshold, 0.2, 0.01);
-  EXPECT_EQ(fit({}, settings).why, "no threshold found: nothing was answered");
+  EXPECT_EQ(fit({}, settings).why, "no threshold found: there are no answers");
 }
 
 TEST(Experiment, OrdersAreBalancedAndNotToBeForeseen) {

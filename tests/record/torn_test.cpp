@@ -112,6 +112,54 @@ TEST(Torn, InItsBeginningItIsRefusedInOneSentence) {
   EXPECT_EQ(Player::open(folder.str()).error().trouble, Trouble::io);
 }
 
+// The summary of a recording knows nothing of damage in its middle: the player says what is lost.
+TEST(Torn, InItsMiddleTheHoleIsNamedAndTheRestIsPlayedAndRepaired) {
+  BURR_SEEDED(random, 29);
+  const Folder folder;
+  const auto bone = any_bone(random);
+  const Truth truth = record_in_chunks(folder / "s.mcap", 10, 50, *bone, random);
+  Bytes bytes = bytes_of_file(folder / "s.mcap");
+  std::uint64_t at = 0;
+  {
+    auto player = Player::open(folder / "s.mcap");
+    ASSERT_TRUE(player.ok());
+    EXPECT_TRUE((*player)->holes().empty());
+    auto reader = McapReader::open(folder / "s.mcap");
+    ASSERT_TRUE(reader.ok());
+    const std::uint16_t ticks = (*reader)->channel_of(kTicks.name);
+    for (const auto& chunk : (*reader)->chunks())
+      if (chunk.index_offsets.contains(ticks) && chunk.start_ns / 1'000'000 == 250)
+        at = chunk.offset + chunk.length / 2;
+  }
+  ASSERT_GT(at, 0U);
+  for (std::uint64_t byte = at; byte < at + 40; ++byte) bytes[byte] ^= 0x5A;
+  write_file(folder / "hole.mcap", bytes);
+
+  NoProgress progress;
+  ASSERT_TRUE(repair(folder / "hole.mcap", folder / "repaired.mcap", progress).ok());
+  for (const char* name : {"hole.mcap", "repaired.mcap"}) {
+    auto player = Player::open(folder / name);
+    ASSERT_TRUE(player.ok()) << player.error().text;
+    std::uint64_t played = 0, gaps = 0;
+    StepCursor steps = (*player)->steps();
+    for (Step step; steps.next(step); ++played) {
+      gaps += step.gap ? 1 : 0;
+      EXPECT_EQ(step.row.hash, truth.ticks[step.row.tick].hash);
+    }
+    EXPECT_EQ(played, 450U) << name;
+    EXPECT_EQ(gaps, 1U) << name;
+    EXPECT_EQ((*player)->end_tick(), 500U) << name;
+    if (std::string(name) == "repaired.mcap") continue;
+    ASSERT_EQ((*player)->holes().size(), 1U);
+    EXPECT_EQ((*player)->holes()[0].first, 250U);
+    EXPECT_EQ((*player)->holes()[0].end, 300U);
+    bool named = false;
+    for (const std::string& notice : (*player)->notices())
+      named = named || notice.find("from 0.250 s to 0.300 s: 50 ticks") != std::string::npos;
+    EXPECT_TRUE(named);
+  }
+}
+
 TEST(Repair, GivesAWholeFileWithTheSameContent) {
   BURR_SEEDED(random, 23);
   const Folder folder;

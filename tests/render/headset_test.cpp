@@ -137,7 +137,7 @@ TEST(NoHeadset, IsSaidInOneSentenceWithTheRemedy) {
             "no headset: /nowhere/libopenxr_loader.so.1 cannot be loaded; install "
             "libopenxr-loader1 and the headset's runtime, such as Monado");
   ::setenv("BURR_OPENXR_LOADER", "libm.so.6", 1);
-  EXPECT_NE(why().find("libm.so.6 is no OpenXR loader; install"), std::string::npos) << why();
+  EXPECT_NE(why().find("libm.so.6 is not an OpenXR loader; install"), std::string::npos) << why();
   ::unsetenv("BURR_OPENXR_LOADER");
   Worn worn;
   worn.xr().no_runtime = true;
@@ -147,7 +147,7 @@ TEST(NoHeadset, IsSaidInOneSentenceWithTheRemedy) {
   EXPECT_NE(why().find("does not offer XR_KHR_opengl_enable"), std::string::npos) << why();
   worn.xr().no_opengl = false;
   worn.xr().no_headset = true;
-  EXPECT_NE(why().find("finds none; connect it"), std::string::npos) << why();
+  EXPECT_NE(why().find("finds none; connect the headset"), std::string::npos) << why();
   EXPECT_EQ(worn.xr().instances, 0) << "left behind";
   worn.xr().no_headset = false;
   EXPECT_EQ(why(), "there is one");
@@ -327,7 +327,7 @@ TEST(Headset, LossIsTheEndOfItAndNothingElse) {
     ASSERT_TRUE(head.pictures(worn, 1));
     lose(worn);
     EXPECT_TRUE(head.until([&] { return headset.over(); }));
-    EXPECT_NE(headset.why().find("the window goes on"), std::string::npos) << headset.why();
+    EXPECT_NE(headset.why().find("the window continues"), std::string::npos) << headset.why();
     EXPECT_FALSE(head.frame());
     EXPECT_TRUE(gpu.show(scene));
   }

@@ -2,7 +2,7 @@
 //
 //     const test::WallClock wall;   // from here on
 //     wall.set_back(3600);          // the clock is corrected by an hour
-//     EXPECT_EQ(wall.asked(), 0);   // nobody reads it
+//     EXPECT_EQ(wall.asked(), 0);   // it was not read
 //
 // Replaces clock_gettime, gettimeofday and time in the whole process while an object exists; the
 // monotonic clocks are not changed. Not under sanitizers, which have replacements of their own.

@@ -141,7 +141,7 @@ TEST_F(Export, SaysWhatIsWrongAndOneGoesOn) {
            {"the field", looks(5), types(".doc")},
            {"the letters", looks(5), [] { press(SDLK_RETURN); }},
            {"the sentence",
-            [&] { return desk_->said.find(".stl.doc: unknown ending") != std::string::npos; },
+            [&] { return desk_->said.find(".stl.doc: unknown file ext") != std::string::npos; },
             [] { press(SDLK_ESCAPE); }},
            {"no page", looks(5), [] { press(SDLK_e); }},
            {"the page", looks(5),
@@ -185,7 +185,7 @@ TEST(ExportRequest, IsRefusedInOneSentence) {
   };
   EXPECT_NE(why(ExportWhat::bone, "").find("name"), std::string::npos);
   EXPECT_NE(why(ExportWhat::bone, "/tmp").find("is a folder"), std::string::npos);
-  EXPECT_NE(why(ExportWhat::bone, "/tmp/x.doc").find("unknown ending"), std::string::npos);
+  EXPECT_NE(why(ExportWhat::bone, "/tmp/x.doc").find("unknown file ext"), std::string::npos);
   EXPECT_NE(why(ExportWhat::picture, "/tmp/x.stl").find(".png"), std::string::npos);
   EXPECT_NE(why(ExportWhat::bone, "/tmp/no/such/x.stl").find("does not exist"), std::string::npos);
   EXPECT_EQ(why(ExportWhat::removed, "/tmp/x.stl"), "");

@@ -531,7 +531,7 @@ TEST_F(Replay, TellsInOneSentenceWhatCannotBeWatched) {
              }},
             {"a sentence", said(missing), [] { press(SDLK_ESCAPE); }}});
   EXPECT_NE(no_volume.find("was not found"), std::string::npos) << no_volume;
-  EXPECT_NE(no_volume.find("beside it"), std::string::npos) << no_volume;
+  EXPECT_NE(no_volume.find("beside the recording"), std::string::npos) << no_volume;
   EXPECT_NE(garbage.find("torn.mcap"), std::string::npos) << garbage;
   EXPECT_NE(missing.find("nowhere.mcap"), std::string::npos) << missing;
   for (const std::string* one : {&no_volume, &garbage, &missing})

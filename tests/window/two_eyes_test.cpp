@@ -294,7 +294,7 @@ TEST_F(Headset, WandIsTheHandThroughTheSafetyLayerUntilTheRuntimeGoes) {
            {"found again", [&] { return (burr() - place - math::Vec3(0.02, 0, 0)).norm() < 5e-4; },
             [&] { worn.change([](FakeXr& xr) { xr.instance_loss_pending = true; }); }},
            {"the headset gone, and said",
-            [this] { return desk_->said.find("the window goes on") != std::string::npos; },
+            [this] { return desk_->said.find("the window continues") != std::string::npos; },
             [&] {
               EXPECT_EQ(desk_->headset, nullptr);
               EXPECT_EQ(worn.xr().sessions, 0);

@@ -22,6 +22,7 @@
 #include "burr/tick/flag_words.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
+#include "commands/outputs.h"
 #include "commands/picture_size.h"
 #include "commands/volume_words.h"
 
@@ -116,7 +117,10 @@ void print(const Options& options, const WholeOutcome& out, const rt::TickSummar
 
 Status run(Options options) {
   if (options.volume.source.empty()) options.volume.source = "phantom:temporal-bone";
-  std::string scratch;  // a recording nobody asked to keep
+  const Status possible =
+      check_outputs({options.volume.source}, {{"--record", options.whole.record, {".mcap"}}});
+  if (!possible) return possible;
+  std::string scratch;  // a recording that the user did not request
   if (options.whole.record.empty()) {
     std::error_code trouble;
     scratch = (std::filesystem::temp_directory_path(trouble) /

@@ -91,8 +91,8 @@ double reference_us(const volume::Bone& bone, double radius) {
 
 Result<nlohmann::json> measure(const Options& options) {
   if (options.size < 32 || options.size > 1024)
-    return error(Trouble::usage, "--size is out of range; take 32 to 1024");
-  if (options.ticks < 10) return error(Trouble::usage, "--ticks is out of range; take 10 or more");
+    return error(Trouble::usage, "--size is out of range; use 32 to 1024");
+  if (options.ticks < 10) return error(Trouble::usage, "--ticks is out of range; use 10 or more");
   const volume::Grid grid = phantom::peers_grid(options.size);
   app::progress().report(0, "making the bone");
   std::unique_ptr<volume::Bone> bone =

@@ -12,6 +12,7 @@
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
 #include "commands/command.h"
+#include "commands/outputs.h"
 #include "commands/recording.h"
 #include "commands/volume_words.h"
 #include "commands/work.h"
@@ -24,7 +25,7 @@ struct Options {
   device::crtk::ArmSettings arm;
   std::string record;
   double seconds = 0;
-  bool json = false;
+  bool json = false, force = false;
 };
 
 constexpr double kForGood = 1e9;  // [s]
@@ -32,6 +33,9 @@ constexpr double kAbove = 20e-3;  // start height above the work [m]
 
 Status run(const Options& options) {
   WorkOptions requested = options.work;
+  const Status possible = check_outputs({requested.volume.source},
+                                        {{"--record", options.record, {".mcap"}}}, options.force);
+  if (!possible) return possible;
   if (const Status taken = take_case(requested); !taken) return taken;
   auto work = open_work(requested, progress());
   if (!work) return work.error();
@@ -66,10 +70,15 @@ Status run(const Options& options) {
     const workshop::ArmPublisher teller(session, **arm, [&hand] { return hand.busy(); });
     session.run(options.seconds > 0 ? options.seconds : kForGood, progress());
   }
-  const Status recorded = options.record.empty() ? fine() : recording.finish(session);
+  const Status recorded =
+      options.record.empty()
+          ? fine()
+          : recording.finish(session,
+                             options.seconds > 0 && interrupted());  // Ctrl-C is its usual end
   const sim::Outcome outcome = session.outcome();
   if (options.json)
-    fmt::print("{}\n", nlohmann::json({{"ticks", outcome.ticks},
+    fmt::print("{}\n", nlohmann::json({{"finished", options.seconds <= 0 || !interrupted()},
+                                       {"ticks", outcome.ticks},
                                        {"seconds", outcome.seconds},
                                        {"missed", outcome.timing.missed},
                                        {"removed_mm3", 1e9 * outcome.ledger.removed},
@@ -102,6 +111,7 @@ void add(CLI::App& app, Todo& todo) {
                    "end after this many seconds (default: at Ctrl-C)")
       ->check(CLI::Range(0.1, 1e6));
   command->add_option("--record", options->record, "F.mcap: record the session");
+  add_force(*command, options->force);
   command->add_option("--burr-mm", options->work.burr_mm,
                       "diameter of the burr (default: that of the case, otherwise 5)");
   command->add_option("--rpm", options->work.rpm,

@@ -12,6 +12,7 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/recording.h"
 #include "commands/command.h"
+#include "commands/outputs.h"
 #include "commands/volume_words.h"
 
 namespace burr::app {
@@ -23,7 +24,7 @@ struct Options {
   double at_s = -1;         // moment in a recording; below 0: its end
   std::string part = "bone", frame = "lps";
   bool scan = false;
-  bool json = false;
+  bool json = false, force = false;
 
   [[nodiscard]] io::ExportOptions what() const {
     return {part == "removed" ? io::Part::removed : io::Part::bone,
@@ -91,6 +92,11 @@ Result<Bones> open_recording(const Options& options) {
 Status run(const Options& options) {
   const Status possible = io::check_export(options.out, options.what());
   if (!possible) return possible;
+  const Status allowed = check_outputs(
+      {options.source, options.volume.source, options.volume.labels, options.volume.materials},
+      {{"--out", options.out, {".stl", ".ply", ".obj", ".3mf", ".glb", ".seg.nrrd", ".nrrd"}}},
+      options.force);
+  if (!allowed) return allowed;
   auto bones = is_recording(options.source) ? open_recording(options) : open_plain(options);
   if (!bones) return bones.error();
   const volume::Bone& before = *bones->before;
@@ -142,6 +148,7 @@ void add(CLI::App& app, Todo& todo) {
       "--volume", options->volume.source,
       "for a recording: the volume it was made from (default: burr searches for it)");
   add_volume_options(*command, options->volume);
+  add_force(*command, options->force);
   command->add_flag("--json", options->json, "one JSON object as the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

@@ -18,6 +18,7 @@
 #include "burr/fit/recorded_log.h"
 #include "burr/importing/materials.h"
 #include "commands/command.h"
+#include "commands/outputs.h"
 
 namespace burr::app {
 namespace {
@@ -163,6 +164,8 @@ Status write(const Options& options, const std::string& date,
 Status run(const Options& options) {
   auto date = date_of(options.date);
   if (!date) return date.error();
+  const Status possible = check_outputs(options.logs, {{"--out", options.out, {".toml"}}});
+  if (!possible) return possible;
   fit::ForceLog log;
   for (const std::string& path : options.logs) {
     auto one = read_log(options, path);

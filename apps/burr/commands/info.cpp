@@ -157,7 +157,10 @@ Status run_recording(const Options& options) {
   const record::SessionInfo& info = player.info();
   const math::Ijk& size = info.volume.grid.size;
   fmt::print("recording by burr {}: {:.1f} s at {:g} Hz{}\n", base::shown(info.burr_version),
-             player.seconds(), info.rate_hz, player.finished() ? "" : ", torn");
+             player.seconds(), info.rate_hz,
+             player.stopped()    ? ", stopped before its end"
+             : player.finished() ? ""
+                                 : ", cut off");
   fmt::print("  bone of {} x {} x {} voxels of {:.5g} mm, {}in the file\n", size.x(), size.y(),
              size.z(), 1e3 * info.volume.grid.voxel, info.embedded ? "" : "not ");
   std::optional<scenario::Case> work_case;

@@ -14,12 +14,14 @@
 #include "burr/render/picture.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
+#include "burr/surgeon/path_check.h"
 #include "burr/tick/flag_words.h"
 #include "burr/tick/mirror_plane.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/work_view.h"
 #include "commands/command.h"
+#include "commands/outputs.h"
 #include "commands/picture_size.h"
 #include "commands/recording.h"
 #include "commands/volume_words.h"
@@ -41,7 +43,7 @@ struct Options {
   double vibration = 0, torque_mnm = 1e3 * tool::Motor{}.torque, drag = 1;
   int teeth = tool::Burr{}.teeth;
   bool guarded = false, heat = false, irrigated = false;
-  bool realtime = false, embed = false, json = false, diamond = false;
+  bool realtime = false, embed = false, json = false, diamond = false, force = false;
 };
 
 Result<device::HandPath> hand_path(const Options& options, const volume::Bone& bone,
@@ -149,7 +151,8 @@ nlohmann::json heat_json(const sim::Session& session, const thermal::HeatSummary
           {"tissues", tissues}};
 }
 
-void print(const Options& options, sim::Session& session, const Recording& recording) {
+void print(const Options& options, sim::Session& session, const Recording& recording,
+           const std::vector<std::string>& doubts) {
   const sim::Outcome outcome = session.outcome();
   const rt::TickSummary& t = outcome.timing;
   thermal::HeatSummary heat;
@@ -169,11 +172,13 @@ void print(const Options& options, sim::Session& session, const Recording& recor
       fmt::print("put off at times because this machine is too slow: {}\n",
                  tick::name(outcome.most_shed));
     if (options.heat) print_heat(session, heat, outcome.heat_rows_lost);
+    for (const std::string& doubt : doubts) fmt::print("noted: {}\n", doubt);
     for (const std::string& sentence : tick::words(tick::worth_telling(outcome.flags)))
       fmt::print("noted: {}\n", sentence);
     return;
   }
   nlohmann::json out;
+  out["finished"] = !interrupted();
   out["ticks"] = outcome.ticks;
   out["seconds"] = outcome.seconds;
   out["removed_mm3"] = 1e9 * outcome.ledger.removed;
@@ -193,7 +198,10 @@ void print(const Options& options, sim::Session& session, const Recording& recor
   out["missed"] = t.missed;
   out["worst_lateness_us"] = t.worst_lateness_us;
   out["bone_hash"] = record::hex(session.bone().content_hash());
-  out["noted"] = tick::words(tick::worth_telling(outcome.flags));
+  std::vector<std::string> noted = doubts;
+  for (const std::string& sentence : tick::words(tick::worth_telling(outcome.flags)))
+    noted.push_back(sentence);
+  out["noted"] = noted;
   out["load_ticks"] = outcome.shed_ticks;
   if (options.heat) out["heat"] = heat_json(session, heat, outcome.heat_rows_lost);
   if (options.realtime) out["scheduling"] = outcome.scheduling;
@@ -206,6 +214,11 @@ Status run(const Options& options) {
     return error(Trouble::usage,
                  fmt::format("give either --path FILE.csv or --motion NAME (one of {})",
                              fmt::join(surgeon::motion_names(), ", ")));
+  const Status possible = check_outputs(
+      {options.volume.source, options.volume.labels, options.volume.materials, options.path_csv},
+      {{"--record", options.record, {".mcap"}}, {"--picture", options.picture, {".png"}}},
+      options.force);
+  if (!possible) return possible;
   auto opened = workshop::open_bone(options.volume, progress());
   if (!opened) return opened.error();
   for (const std::string& notice : opened->summary.notices) fmt::print(stderr, "{}\n", notice);
@@ -214,6 +227,10 @@ Status run(const Options& options) {
   auto path = hand_path(options, *opened->bone, place);
   if (!path) return path.error();
   const double seconds = options.path_csv.empty() ? options.seconds : path->duration();
+  std::vector<std::string> doubts;
+  if (!options.path_csv.empty())
+    doubts = surgeon::doubts(*path, *opened->bone, 0.5e-3 * options.burr_mm, options.path_csv);
+  for (const std::string& doubt : doubts) fmt::print(stderr, "{}\n", doubt);
 
   sim::SessionSettings settings;
   settings.realtime = options.realtime;
@@ -265,7 +282,7 @@ Status run(const Options& options) {
     Status drawn = draw(options, place, session);
     if (!drawn) return drawn;
   }
-  print(options, session, recording);
+  print(options, session, recording, doubts);
   if (!recorded) return recorded;
   if (interrupted()) return error(Trouble::interrupted, "stopped; the results so far are kept");
   return fine();
@@ -277,6 +294,7 @@ void add_results(CLI::App* command, const std::shared_ptr<Options>& options) {
   command->add_option("--record", options->record, "F.mcap: record the session");
   command->add_flag("--embed", options->embed, "with --record: store the bone in the file");
   command->add_option("--picture", options->picture, "F.png: picture of the bone afterwards");
+  add_force(*command, options->force);
   command
       ->add_option("--undo-bricks", options->undo_bricks, "memory for undo: bricks of 8^3 voxels")
       ->capture_default_str();
@@ -329,6 +347,7 @@ void add(CLI::App& app, Todo& todo) {
   command->add_option("--rate", options->rate_hz, "ticks a second, 500 to 10000")
       ->capture_default_str();
   command->add_option("--seconds", options->seconds, "duration of a built-in motion")
+      ->check(CLI::Range(1.0, 36'000.0))
       ->capture_default_str();
   command
       ->add_option("--stiffness", options->stiffness,

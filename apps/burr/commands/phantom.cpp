@@ -12,6 +12,7 @@
 #include "burr/volume/volume_of.h"
 #include "burr/workshop/prebuilt_phantom.h"
 #include "commands/command.h"
+#include "commands/outputs.h"
 
 namespace burr::app {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 struct Options {
   std::string name, out;
   double voxel_mm = 0;
-  bool json = false;
+  bool json = false, force = false;
 };
 
 bool ends_with(const std::string& text, const std::string& end) {
@@ -68,6 +69,9 @@ Status run(const Options& options) {
                     "the bone), .seg.nrrd (named structures) or .bone (both, as burr itself keeps "
                     "it); choose one of these endings",
                     options.out));
+  const Status possible =
+      check_outputs({}, {{"--out", options.out, {".nrrd", ".bone"}}}, options.force);
+  if (!possible) return possible;
   auto bone = phantom::phantom(options.name, options.voxel_mm, progress(), 0);
   if (!bone) return bone.error();
   if (Status written = write(**bone, options.out); !written) return written;
@@ -87,6 +91,7 @@ void add(CLI::App& app, Todo& todo) {
       ->add_option("--out", options->out,
                    ".nrrd: the field; .seg.nrrd: the structures; .bone: both, for burr itself")
       ->required();
+  add_force(*command, options->force);
   command->add_flag("--json", options->json, "print a JSON object as the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

@@ -12,6 +12,7 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/work_view.h"
 #include "commands/command.h"
+#include "commands/outputs.h"
 #include "commands/picture_size.h"
 #include "commands/views.h"
 #include "commands/volume_words.h"
@@ -50,6 +51,10 @@ Result<ViewOptions> view_of(const Options& options,
 }
 
 Status run(const Options& options) {
+  const Status possible =
+      check_outputs({options.volume.source, options.volume.labels, options.volume.materials},
+                    {{"--out", options.out, {".png"}}});
+  if (!possible) return possible;
   auto opened = workshop::open_bone(options.volume, progress(), nullptr, !options.greys.empty());
   if (!opened) return opened.error();
   const auto view = view_of(options, opened->greys);

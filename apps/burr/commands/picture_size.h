@@ -1,4 +1,5 @@
-// apps/burr/commands/picture_size.h - the option --picture-size W,H of every command that writes pictures.
+// apps/burr/commands/picture_size.h - the option --picture-size W,H of every command that writes
+// pictures.
 #pragma once
 
 namespace CLI {

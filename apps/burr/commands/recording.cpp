@@ -9,6 +9,7 @@
 
 #include "burr/record/place_file.h"
 #include "burr/workshop/recording.h"
+#include "commands/command.h"
 
 namespace burr::app {
 
@@ -27,8 +28,8 @@ Status Recording::start(sim::Session& session, const std::string& file,
     return fine();
   }
   const Status started = begun.error();
-  // a name that cannot be meant is refused while nothing is lost; a disk that refuses is not the
-  // session's fault
+  // an impossible name is refused now, while nothing is lost; after a disk error the session runs
+  // without recording
   std::error_code nobody_asks;
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   if (started.error().trouble != Trouble::io || record::being_written(file) ||
@@ -53,10 +54,11 @@ std::string Recording::trouble() const {
   return trouble_ ? "NOT RECORDED ANY MORE: " + trouble_->text : "";
 }
 
-Status Recording::finish(sim::Session& session) {
+Status Recording::finish(sim::Session& session, bool stopped) {
+  stopped_ = stopped;
   session.set_recorder(nullptr);
   if (recorder_) {
-    const auto done = recorder_->finish();
+    const auto done = recorder_->finish(stopped);
     if (done && !done->whole())
       return error(
           Trouble::io,
@@ -86,6 +88,7 @@ nlohmann::json Recording::account() const {
   nlohmann::json out;
   out["file"] = file_;
   out["whole"] = !trouble_ && account.whole();
+  out["finished"] = !trouble_ && account.whole() && !stopped_;
   out["ticks"] = account.safe_ticks;
   out["dropped_ticks"] = account.dropped_ticks;
   out["bytes"] = account.bytes;

@@ -1,5 +1,5 @@
-// apps/burr/commands/recording.h - a session recorded by a command: what the library's recorder reports goes
-// to stderr, into JSON and into the exit code.
+// apps/burr/commands/recording.h - a session recorded by a command: what the library's recorder
+// reports goes to stderr, into JSON and into the exit code.
 #pragma once
 
 #include <memory>
@@ -14,30 +14,32 @@
 #include "burr/scenario/case.h"
 #include "burr/sim/session.h"
 #include "burr/workshop/spared.h"
+#include "commands/command.h"
 
 namespace burr::app {
 
-// A session being written down. Make it before the first tick, finish() after the last.
+// Records a session. Call start() before the first tick and finish() after the last.
 //
-// A disk that refuses does not stop the session: it is said on stderr at once, the session goes on
-// without recording, and finish() says it again, for the exit code.
+// A disk error does not stop the session. It is reported on stderr at once, the session goes on
+// without recording, and finish() returns the error again, for the exit code.
 class Recording {
  public:
-  // motion: in our words, "pocket" or "hand path". embed: the bone goes into the file. spared: what
-  // a case says must not be cut; none: what the table of tissues marks. work_case: goes into the
-  // file, so that a score can be worked out from it.
-  // Error: only what the user can put right before anything has begun (a folder that does not
-  // exist, a name that another burr is recording to).
+  // motion: burr's own name, "pocket" or "hand path". embed: writes the bone into the file. spared:
+  // tissues that the case forbids to cut; none: those that the table of tissues marks. work_case:
+  // written into the file, so that a score can be computed from it.
+  // Error: only for what the user can correct before the session begins (the folder does not exist,
+  // or another burr is recording to this name).
   Status start(sim::Session& session, const std::string& file, const scenario::Recipe& volume,
                const importing::ImportSummary& import, const std::string& motion, bool embed,
                const std::optional<workshop::Tissues>& spared = {},
                const std::optional<scenario::Case>& work_case = {});
   // The Error says what is missing.
-  [[nodiscard]] Status finish(sim::Session& session);
+  // stopped: the session was ended before its time; the recording says so.
+  [[nodiscard]] Status finish(sim::Session& session, bool stopped = interrupted());
 
-  // "" while all is well, or the trouble in a few words for a window; any thread.
+  // "" while there is no error, otherwise the error in a few words, for a window; any thread.
   [[nodiscard]] std::string trouble() const;
-  // After finish(): the file, whether it is whole, how much of the session it holds.
+  // After finish(): the file, whether it is complete, how much of the session it contains.
   [[nodiscard]] nlohmann::json account() const;
   [[nodiscard]] record::RecordingAccount written() const;
 
@@ -45,9 +47,10 @@ class Recording {
   void tell(const Error& problem);
 
   std::string file_;
+  bool stopped_ = false;
   std::unique_ptr<record::Recorder> recorder_;
   double rate_hz_ = 0;
-  mutable std::mutex mutex_;  // the recorder's thread tells, main asks
+  mutable std::mutex mutex_;  // trouble_ is set by the recorder's thread, read by main
   std::optional<Error> trouble_;
 };
 

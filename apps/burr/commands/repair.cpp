@@ -7,6 +7,7 @@
 
 #include "burr/record/repair.h"
 #include "commands/command.h"
+#include "commands/outputs.h"
 
 namespace {
 
@@ -14,9 +15,14 @@ using namespace burr;
 
 struct Options {
   std::string path, out;
+  bool force = false;
 };
 
 Status run(const Options& options) {
+  if (const Status possible =
+          app::check_outputs({options.path}, {{"--out", options.out, {".mcap"}}}, options.force);
+      !possible)
+    return possible;
   const std::string& out = options.out.empty() ? options.path : options.out;
   const auto report = record::repair(options.path, out, app::progress());
   if (!report) return report.error();
@@ -37,6 +43,7 @@ void add(CLI::App& app, app::Todo& todo) {
   command->add_option("recording", options->path, "the recording (.mcap)")->required();
   command->add_option("--out", options->out,
                       "write the repaired recording here and leave the original unchanged");
+  app::add_force(*command, options->force);
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }
 

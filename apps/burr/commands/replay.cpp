@@ -23,6 +23,7 @@
 #include "burr/workshop/traces.h"
 #include "burr/workshop/work_view.h"
 #include "commands/command.h"
+#include "commands/outputs.h"
 #include "commands/picture_size.h"
 #include "commands/views.h"
 #include "window/shell/pages.h"
@@ -177,6 +178,12 @@ Status show(const Options& options) {
 }
 
 Status run(const Options& options) {
+  const Status possible = check_outputs({options.file, options.beside, options.volume.source,
+                                         options.volume.labels, options.volume.materials},
+                                        {{"--picture", options.picture, {".png"}},
+                                         {"--sound", options.sound, {".wav"}},
+                                         {"--screenshot", options.screenshot, {".png"}}});
+  if (!possible) return possible;
   if (options.window) return show(options);
   if (!options.beside.empty()) return error(Trouble::usage, "--beside needs --window");
   auto opened = record::Player::open(options.file);
@@ -191,7 +198,14 @@ Status run(const Options& options) {
 
   double burr = recorded->settings.servo.burr.radius;  // the last
   nlohmann::json out;
-  out["ticks"] = player.end_tick() - player.first_tick();
+  std::uint64_t lost = 0;
+  nlohmann::json holes = nlohmann::json::array();
+  for (const record::Player::Hole& hole : player.holes()) {
+    lost += hole.end - hole.first;
+    holes.push_back({hole.first, hole.end});
+  }
+  out["ticks"] = player.end_tick() - player.first_tick() - lost;
+  out["damaged_ticks"] = holes;
   out["seconds"] = player.seconds();
   out["finished"] = player.finished();
   if (player.end_tick() > player.first_tick()) {
@@ -202,9 +216,10 @@ Status run(const Options& options) {
     burr = last->tool.radius;
   }
   if (!options.json)
-    fmt::print("{:.3f} s, {} ticks at {} Hz, burr {:.2f} mm; removed {:.3f} mm3\n",
-               player.seconds(), player.end_tick(), player.info().rate_hz, 2e3 * burr,
-               out.value("removed_mm3", 0.0));
+    fmt::print("{:.3f} s, {} ticks{} at {} Hz, burr {:.2f} mm; removed {:.3f} mm3\n",
+               player.seconds(), player.end_tick() - lost,
+               lost > 0 ? fmt::format(" of {}", player.end_tick()) : "", player.info().rate_hz,
+               2e3 * burr, out.value("removed_mm3", 0.0));
 
   if (options.check) {
     const record::SessionInfo& info = player.info();

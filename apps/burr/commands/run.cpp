@@ -23,6 +23,7 @@
 #include "burr/workshop/work_view.h"
 #include "commands/command.h"
 #include "commands/hand_options.h"
+#include "commands/outputs.h"
 #include "commands/recording.h"
 #include "commands/summary.h"
 #include "commands/volume_words.h"
@@ -45,7 +46,7 @@ struct Options {
   WorkOptions work;
   std::string out, screenshot;
   double seconds = 0;
-  bool headless = false, no_sound = false, xr = false;
+  bool headless = false, no_sound = false, xr = false, force = false;
 };
 
 // True: there is a display on which SDL could open a window.
@@ -53,6 +54,17 @@ bool display_there() {
   for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"})
     if (const char* value = std::getenv(name); value != nullptr && *value != '\0') return true;
   return false;
+}
+
+// Before the work: the files that the session writes. burr-out, which nobody named, is replaced.
+Status check_folder(const Options& options, const std::filesystem::path& folder) {
+  std::vector<Output> outputs;
+  for (const char* name :
+       {"before.png", "working.png", "after.png", "session.mcap", "summary.html"})
+    outputs.push_back({"--out", (folder / name).string(), {}});
+  return check_outputs(
+      {options.work.volume.source, options.work.volume.labels, options.work.volume.materials},
+      outputs, options.force || options.out.empty());
 }
 
 Status make_folder(const std::filesystem::path& folder) {
@@ -107,6 +119,7 @@ Status run_headless(const Options& options) {
   WorkOptions requested = options.work;
   const double seconds = requested.seconds > 0 ? requested.seconds : kHeadlessSeconds;
   Status made = make_folder(folder);
+  if (made) made = check_folder(options, folder);
   if (!made) return made;
   if (requested.work_case) fmt::print(stderr, "{}", scenario::task_text(*requested.work_case));
   auto opened = open_work(requested, progress());
@@ -158,7 +171,7 @@ Status run_headless(const Options& options) {
   if (!status) return status;
   Summary summary = summary_of(session, work.what, "simulated hand, " + requested.motion);
   if (requested.work_case) summary.task = scenario::task_text(*requested.work_case);
-  if (!recorded) fmt::print("{}", summary_text(summary));  // a full disk takes no picture
+  if (!recorded) fmt::print("{}", summary_text(summary));  // the page may not fit on the disk
   status = picture("after.png");
   if (!status) return recorded ? status : recorded;
 
@@ -178,6 +191,7 @@ Status run_in_window(const Options& options) {
   const std::filesystem::path folder = options.out;
   if (!folder.empty()) {
     Status made = make_folder(folder);
+    if (made) made = check_folder(options, folder);
     if (!made) return made;
   }
   auto desk = Desk::open(users_places());
@@ -218,7 +232,7 @@ Status run_in_window(const Options& options) {
   if (!status) return status;
   WindowOptions told = window;
   told.warning = [&recording] { return recording.trouble(); };
-  told.keep = [] { return true; };  // the run is being kept already
+  told.keep = [] { return true; };  // this run is recorded already
   told.film_of = [&]() -> std::optional<FilmSource> {
     FilmSource source = film_of(session, (folder / "session.mcap").string(), ready.volume);
     source.effects = (*desk)->settings.effects;
@@ -231,7 +245,7 @@ Status run_in_window(const Options& options) {
 
   Summary summary = summary_of(session, ready.what, session.hand().spec().name);
   if (ready.work_case) summary.task = scenario::task_text(*ready.work_case);
-  if (!recorded) fmt::print("{}", summary_text(summary));  // a full disk takes no picture
+  if (!recorded) fmt::print("{}", summary_text(summary));  // the page may not fit on the disk
   scene.burr.visible = false;
   scene.markers.clear();
   scene.rods.clear();
@@ -255,11 +269,14 @@ Status run_in_window(const Options& options) {
 }
 
 Status run(Options options) {
+  const Status possible =
+      check_outputs({options.work.volume.source}, {{"--screenshot", options.screenshot, {".png"}}});
+  if (!possible) return possible;
   const bool windowless = options.headless || !display_there();
   if (!windowless) return run_in_window(options);
   for (const auto& [option, given] : {std::pair{"--device", &options.work.hand.device},
                                       {"--suction", &options.work.suction},
-                                      {"--tell-as", &options.work.told_as}})
+                                      {"--publish-as", &options.work.told_as}})
     if (!given->empty())
       return error(Trouble::usage,
                    fmt::format("{0} {1}: this needs a window. Use the computer's own display, or "
@@ -297,13 +314,14 @@ void add(CLI::App& app, Todo& todo) {
   command->add_flag("--xr", options->xr, "use a headset through OpenXR")->excludes("--headless");
   command->add_option("--rpm", options->work.rpm,
                       "speed of the spindle (default: that of the case, otherwise 40000)");
+  add_force(*command, options->force);
   add_hand_options(*command, options->work.hand);
   command
       ->add_option("--suction", options->work.suction,
                    "a second haptic device for the other hand: a suction tube that feels the bone")
       ->excludes("--headless");
   command
-      ->add_option("--tell-as", options->work.told_as,
+      ->add_option("--publish-as", options->work.told_as,
                    "/NAME: publish the session as a CRTK arm of this name, so that other programs "
                    "can watch and record it (ROS 2)")
       ->excludes("--headless");

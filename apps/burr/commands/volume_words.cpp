@@ -7,7 +7,8 @@
 namespace burr::app {
 namespace {
 
-// A text of the command line, or the complaint as CLI11 wants it: it writes the option before it.
+// Converts a text of the command line. An error is thrown in the form of CLI11, which writes the
+// name of the option before it.
 template <class Value>
 Value taken(const std::string& option, Result<Value> read) {
   if (read) return std::move(*read);

@@ -1,5 +1,6 @@
-// apps/burr/commands/work.h - what is milled, where and with what: a case or a scan as the user named it,
-// made ready for a session. Shared by the window's pages and `burr run` without a display.
+// apps/burr/commands/work.h - what is milled, where and with what: a case or a scan as the user
+// named it, made ready for a session. Shared by the window's pages and `burr run` without a
+// display.
 //
 // Thread: any, one at a time; takes seconds and says how far it is.
 #pragma once
@@ -20,33 +21,33 @@ namespace burr::app {
 
 struct WorkOptions {
   scenario::Recipe volume;      // source: also a case or a .toml file, until take_case()
-  bool keep_greys = false;      // of a grey scan, for slices with its own values
-  double burr_mm = 0, rpm = 0;  // 0: the case's, or 5 mm and 40 000
-  double seconds = 0;           // of the demonstration; 0: the case's
-  workshop::HandRequest hand;   // at the window
-  std::string suction;          // likewise: a second device for the other hand; empty: none
-  std::string told_as;          // likewise: a CRTK arm by which others may watch; empty: nobody may
-  // what only a case says
+  bool keep_greys = false;      // keep the values of a grey scan, for slices
+  double burr_mm = 0, rpm = 0;  // 0: those of the case, or 5 mm and 40 000
+  double seconds = 0;           // of the demonstration; 0: that of the case
+  workshop::HandRequest hand;   // in the window
+  std::string suction;          // in the window: a device for the other hand; empty: none
+  std::string told_as;          // in the window: name of the published CRTK arm; empty: none
+  // only from a case
   std::string title;                   // one line; empty for a scan
-  std::optional<math::Vec3> at, into;  // where it begins
+  std::optional<math::Vec3> at, into;  // where and how milling begins
   std::string motion = "pocket";
   tool::BurrKind kind = tool::BurrKind::cutting;
   std::vector<std::string> spare;  // tissues that must not be cut
   std::optional<scenario::Case> work_case;
 };
 
-// A built-in case or a .toml file says what is milled, where and with what; options given by hand
-// win. Anything else is left as it is.
+// If the source is a built-in case or a .toml file, fills the options from it: what is milled,
+// where and with what. Options that the user gave have priority. Any other source is left as it is.
 [[nodiscard]] Status take_case(WorkOptions& options);
 // The same with a case that was read already.
 void take_case(WorkOptions& options, const scenario::Case& work);
 
-// Before take_case(): neither a built-in case, nor a phantom, nor a .toml file.
+// Call it before take_case(). True: not a built-in case, a phantom or a .toml file.
 [[nodiscard]] bool names_a_scan(const WorkOptions& options);
 
-// After take_case(). burr_mm of the options becomes that of the burr that was taken, with a notice where it
-// differs (workshop/prepare.h). scan: as workshop::open_bone() takes it. Error: also a tissue that the case names
-// and the bone lacks.
+// Call it after take_case(). Sets burr_mm of the options to the size that is used, with a notice if
+// it differs (workshop/prepare.h). scan: as in workshop::open_bone(). Error: also if the case names
+// a tissue that the bone does not have.
 [[nodiscard]] Result<workshop::Prepared> open_work(WorkOptions& options, Progress& progress,
                                                    const io::Scan* scan = nullptr);
 

@@ -10,6 +10,7 @@
 #include "burr/workshop/hand_device.h"
 #include "commands/command.h"
 #include "commands/hand_options.h"
+#include "commands/outputs.h"
 #include "devices/trial.h"
 
 namespace burr::app {
@@ -126,6 +127,8 @@ Status set(const Options& options) {
 }
 
 Status test(const Options& options) {
+  if (const Status possible = check_outputs({}, {{"--out", options.out, {".html"}}}); !possible)
+    return possible;
   auto hand = take(options);
   if (!hand) return hand.error();
   fmt::print(stderr, "{}: at most {:.1f} N. Ctrl-C ends the test and releases the force.\n",

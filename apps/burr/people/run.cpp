@@ -114,7 +114,7 @@ Status check(const PeopleRun& run) {
   const people::Plan& plan = run.plan;
   const auto usage = [](std::string text) { return error(Trouble::usage, std::move(text)); };
   if (plan.trials < 10 || plan.trials > 5000)
-    return usage(fmt::format("--trials {} is out of range; take 10 to 5000", plan.trials));
+    return usage(fmt::format("--trials {} is out of range; use 10 to 5000", plan.trials));
   if (!(plan.smallest > 0 && plan.smallest < 0.5 * plan.largest && plan.largest < 100))
     return usage(
         fmt::format("--smallest {:g} and --largest {:g} are too close; the smallest must be above "
@@ -126,15 +126,14 @@ Status check(const PeopleRun& run) {
         fmt::format("--standard {:g} is not possible; it is the value to compare with, e.g. {:g}",
                     plan.standard, usual_plan(plan.stimulus).standard));
   if (!(plan.until == 0 || (plan.until >= 0.02 && plan.until <= 1)))
-    return usage(fmt::format("--until {:g} is out of range; take 0.02 to 1, or 0 for all trials",
+    return usage(fmt::format("--until {:g} is out of range; use 0.02 to 1, or 0 for all trials",
                              plan.until));
   if (!(plan.lapse >= 0 && plan.lapse <= 0.2))
-    return usage(fmt::format("--lapse {:g} is out of range; take 0 to 0.2", plan.lapse));
+    return usage(fmt::format("--lapse {:g} is out of range; use 0 to 0.2", plan.lapse));
   if (!(run.seconds >= 1.5 && run.seconds <= 60))
-    return usage(fmt::format("--seconds {:g} is out of range; take 1.5 to 60", run.seconds));
+    return usage(fmt::format("--seconds {:g} is out of range; use 1.5 to 60", run.seconds));
   if (!(run.wall.rate_hz >= 500 && run.wall.rate_hz <= 10000))
-    return usage(
-        fmt::format("--rate {:g} is out of range; take 500 to 10000 Hz", run.wall.rate_hz));
+    return usage(fmt::format("--rate {:g} is out of range; use 500 to 10000 Hz", run.wall.rate_hz));
   if (run.subject.size() > 16)
     return usage("--subject is longer than 16 characters; give a code, not a name");
   for (const char c : run.subject)

@@ -1,4 +1,4 @@
-// burr verify cutting - holes of known shape, and laws that are linear where they say so.
+// burr verify cutting - holes of known shape, and laws that must be linear.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 using math::Vec3;
 
 constexpr double kMm = 1e-3, kR = 2 * kMm;
-// docs/cutting.md, "Ground truths": 4 mm3/s and newton, a hand of 0.2 N/mm, a second and a half
+// docs/cutting.md, "Ground truths": 4 mm^3/s per newton, a hand of 0.2 N/mm, for 1.5 s
 constexpr device::ArmSettings kSoft{.mass = 0.1, .damping = 10, .stiffness = 200};
 constexpr double kSoftEnergy = 0.838e9, kSoftTarget = 4e-3, kSoftSeconds = 1.5;
 constexpr device::ArmSettings kFirm{.mass = 0.1, .damping = 20, .stiffness = 500};
@@ -24,7 +24,7 @@ volume::Grid block(double h, const Vec3& half) { return phantom::box_grid(-half,
 
 double cap(double depth) { return M_PI * depth * depth * (kR - depth / 3); }  // [m^3]
 
-// Pressed straight into a plane with the arm's 0.6 N or so for a second.
+// Presses straight into a plane with the arm's force of about 0.6 N, for about a second.
 struct Plunge {
   double depth = 0, removed = 0, really = 0, mean_force = 0, steady_force = 0;
   edit::Ledger ledger;
@@ -76,7 +76,7 @@ void holes(const Verify& verify, Report::Part& part) {
                  std::abs(l.asked - l.removed - l.debt - l.not_cut) / l.asked, "");
   }
 
-  // ---- slot and scallop: a rigid hand at a fixed depth, ample power
+  // ---- slot and scallop: a rigid hand at a fixed depth, with enough power
   const double h = 0.2 * kMm, deep = 0.2 * kMm, feed = 5 * kMm;
   constexpr device::ArmSettings kRigid{.mass = 0.1, .damping = 10, .stiffness = INFINITY};
   {
@@ -97,7 +97,7 @@ void holes(const Verify& verify, Report::Part& part) {
     part.near("slot.depth", 1e3 * deep, 1e3 * d, 0.1e3 * h + 0.06, "mm");
   }
   {
-    // the ridge lies over a row of voxel centres: between them a field knows no sharp one
+    // the ridge lies over a row of voxel centres: the field cannot hold a sharp ridge between them
     const double step = 1 * kMm, down = 0.3 * kMm, y0 = -step / 2 + h / 2, y1 = y0 + step;
     Workbench bench(phantom::slab(), block(h, Vec3(8, 5, 4) * kMm), phantom::bone_that_costs(1e8),
                     {.radius = kR, .spindle = 20000});
@@ -121,7 +121,7 @@ void holes(const Verify& verify, Report::Part& part) {
 }
 
 void laws(Report::Part& part) {
-  // ---- the same hand at other rates and in other voxels
+  // ---- the same hand at other tick rates and with other voxels
   const double h = 0.25 * kMm;
   const Plunge usual = soft(h, {.radius = kR});
   for (const double rate : {500.0, 4000.0}) {
@@ -137,10 +137,10 @@ void laws(Report::Part& part) {
   part.near("voxel.force", 1, usual.steady_force / fine.steady_force, 0.02,
             "of that at half the voxel");
 
-  // ---- linear in push and speed, inverse in the energy a volume costs: by the recorded forces
+  // ---- from the recorded forces: linear in push and speed, inverse to the energy per volume
   const auto share = [&](const WorkSettings& settings, double energy, double target) {
     const Plunge one = plunge(h, settings, energy, target, 0.4);
-    double asked = 0;  // mu F w r / u, from the forces that were felt
+    double asked = 0;  // mu F w r / u, from the recorded forces
     for (const auto& row : one.rows)
       asked += volume::Tissue{}.cutting_friction * row.push * settings.spindle * settings.radius /
                energy / settings.rate_hz;
@@ -170,7 +170,7 @@ void laws(Report::Part& part) {
   }
 }
 
-// Does the hand feel the loop that removes?  30 times a second compared with every tick.
+// Can the hand feel how often material is removed? 30 times a second compared with every tick.
 void removal_loop(const Verify& verify, Report::Part& part) {
   const double h = 0.25 * kMm;
   Plot plot{
@@ -223,7 +223,7 @@ void removal_loop(const Verify& verify, Report::Part& part) {
   part.at_most("step.every_tick", 0.01 * std::max(1.0, mean[0]), step[0], "N");
   part.at_most("spectrum.30Hz", 0.02, wave30[0], "of the mean");
   part.at_most("spectrum.voxel_crossing", 0.02, at_voxels, "of the mean");
-  // the baseline fails as predicted
+  // the baseline must fail as predicted
   part.at_least("step.30Hz_removal", 3 * step[0], step[1], "N");
   part.at_least("spectrum.30Hz_removal", 3 * wave30[0], wave30[1], "of the mean");
 }

@@ -1,4 +1,4 @@
-// burr verify truths - every method of touch over bones whose answer is known by heart.
+// burr verify truths - every touch method on bones for which the right answer is known exactly.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,8 +19,8 @@ using haptics::Method;
 using math::Vec3;
 
 constexpr double kMm = 1e-3;
-constexpr double kDeep = 0.3 * kMm;  // and no deeper than half the burr's radius
-// A field knows an edge to a quarter of a voxel: it lies between its samples.
+constexpr double kDeep = 0.3 * kMm;  // at most half of the burr's radius
+// The field resolves an edge to a quarter of a voxel, because the edge lies between its samples.
 constexpr double kEdge = 0.25;            // [voxel]
 constexpr int kDown = 200, kAlong = 400;  // ticks
 
@@ -28,16 +28,16 @@ double angle_deg(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / M_PI;
 }
 
-// The worst of one stroke.
+// The worst values of one stroke.
 struct Found {
-  double place = 0;      // of what is felt, from the true place [m]
-  double proxy = 0;      // of the burr that is drawn             [m]
-  double buried = 0;     // how far the drawn burr stands in bone [m]
-  double direction = 0;  // of the force                          [degree]
-  double silent = 0;     // share of the ticks that press and are not felt
+  double place = 0;      // felt place, distance from the true place [m]
+  double proxy = 0;      // the same for the burr that is drawn      [m]
+  double buried = 0;     // how deep the drawn burr lies in bone     [m]
+  double direction = 0;  // error of the force's direction      [degree]
+  double silent = 0;     // share of ticks with a press but without force
 };
 
-// Methods that ask whether the hand's own centre is in bone feel it a radius later.
+// Methods that test whether the centre of the hand is in bone feel it one radius too late.
 bool feels_its_centre(Method method) {
   return method == Method::thesis || method == Method::thesis_literal;
 }
@@ -138,14 +138,16 @@ void truths(const Verify& verify, Report::Part& part) {
             const double exact = std::max(0.02 * kMm, 0.1 * h) * stroke.leverage;
             const double allowed = stroke.sharp ? std::max(exact, kEdge * h) : exact;
             const double turned = std::atan2(kEdge * h, deep) * 180 / M_PI;
-            // a burr of two voxels rests on three or four of the surface's vertices
+            // a burr with a radius of two voxels rests on only three or four vertices of the
+            // surface
             const double smooth = r_h < 3 ? 0.75 : 0.5;
             part.at_most(which + ".place", 1e3 * allowed, 1e3 * found.place, "mm");
             part.at_most(which + ".direction", stroke.sharp ? turned : smooth, found.direction,
                          "deg");
             part.at_most(which + ".silent", 0, found.silent, "");
           }
-          // it stands a radius along one normal: an error of that counts r / R times
+          // its burr stands one radius away along one normal: an error of that normal counts r / R
+          // times
           if (method == Method::thesis && stroke.convex > 0)
             part.at_most(which + ".place",
                          1e3 * std::max(0.02 * kMm, 0.1 * h) * (1 + r / stroke.convex),

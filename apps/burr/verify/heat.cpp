@@ -1,4 +1,4 @@
-// burr verify heat - the temperature grid against the heat equation's own solutions.
+// burr verify heat - the temperature grid compared with exact solutions of the heat equation.
 #include <cmath>
 #include <numbers>
 
@@ -16,13 +16,14 @@ using thermal::HeatSettings;
 
 constexpr double kPi = std::numbers::pi;
 
-// Bone everywhere in the box and half a metre about it.
+// Bone everywhere in the box and half a metre around it.
 std::unique_ptr<volume::Bone> solid(const Vec3& half, double voxel) {
   return phantom::bone_from_distance(phantom::box_grid(-half, half, voxel), {},
                                      phantom::box(Vec3::Constant(0.5)));
 }
 
-// A watt held in the middle of a large block: T = P / (4 pi k R) once it is steady near by.
+// A constant half watt in the middle of a large block: T = P / (4 pi k R) when it is steady near
+// the source.
 void point_source(const Verify& verify, Report::Part& part) {
   const double cell = 1e-3, half = 20e-3, seconds = verify.quick ? 400 : 1200;
   const HeatSettings settings{.cell = cell, .longest_step = 1};
@@ -48,7 +49,7 @@ void point_source(const Verify& verify, Report::Part& part) {
     theory.x.push_back(1e3 * r);
     theory.y.push_back(kWatt / (4 * kPi * k * r));
   }
-  // between two distances the cold walls nearly cancel
+  // in the difference of two distances, the effect of the cold walls nearly cancels
   const auto drop = [&](int a, int b) {
     return heat.temperature_c(middle + math::Ijk(a, 0, 0)) -
            heat.temperature_c(middle + math::Ijk(b, 0, 0));
@@ -62,7 +63,7 @@ void point_source(const Verify& verify, Report::Part& part) {
        {{"point source", "distance [mm]", "rise [K]", {measured, theory}}}});
 }
 
-// A flux into the end of a long column that loses nothing: 2 q sqrt(t / (pi k rho c)).
+// A heat flux into the end of a long column without losses: 2 q sqrt(t / (pi k rho c)).
 void half_space(Report::Part& part) {
   constexpr double kFlux = 2000, kSeconds = 20, kEach = 0.02;
   const double cell = 1e-3;

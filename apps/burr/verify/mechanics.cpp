@@ -1,4 +1,5 @@
-// burr verify mechanics - chips, drag and spindle: what cutting does to the burr and to the hand.
+// burr verify mechanics - chips, drag and spindle: the effect of cutting on the burr and on the
+// hand.
 #include <cmath>
 #include <numbers>
 
@@ -14,7 +15,7 @@ namespace {
 
 using math::Vec3;
 constexpr double kMm = 1e-3, kRadius = 2 * kMm, kRpm = 2 * std::numbers::pi / 60;
-constexpr double kUncut = 1e18;  // bone that nothing cuts, so that the contact stays  [J/m^3]
+constexpr double kUncut = 1e18;  // bone that cannot be cut, so that the contact stays  [J/m^3]
 
 std::unique_ptr<volume::Bone> slab(double cutting_energy) {
   return phantom::bone_from_distance(
@@ -22,8 +23,8 @@ std::unique_ptr<volume::Bone> slab(double cutting_energy) {
       phantom::bone_that_costs(cutting_energy), phantom::slab(), 256);
 }
 
-// A rigid hand with its shaft along +x presses straight down, 1 N for every millimetre, for a
-// while.
+// A rigid hand with its shaft along +x presses straight down with 1 N per millimetre, for some
+// time.
 struct Pressed {
   Vec3 force = Vec3::Zero();  // mean of the last 0.2 s
   tick::TickRow last;
@@ -44,7 +45,7 @@ Pressed press(tick::ServoSettings servo, double newton) {
   sim::SessionSettings settings;
   settings.servo = servo;
   settings.servo.burr.radius = kRadius;
-  settings.servo.friction_turning = 0;  // the drag alone
+  settings.servo.friction_turning = 0;  // only the drag
   settings.servo.limit.user_force = 10;
   device::DeviceSpec strong;
   strong.peak_force = 10;
@@ -63,8 +64,8 @@ Pressed press(tick::ServoSettings servo, double newton) {
   return out;
 }
 
-// James et al. 2013, bovine cortical bone, resultants of 8 to 11 N on a kerf of 0.7 mm, read as
-// specific energies in docs/cutting.md, "Chips".
+// James et al. 2013: bovine cortical bone, resultants of 8 to 11 N on a kerf of 0.7 mm; as specific
+// energies in docs/cutting.md, "Chips".
 void chips(Report::Part& part) {
   const volume::CuttingForce force = volume::Tissue{}.force;
   const auto energy = [&](double chip) {
@@ -85,7 +86,7 @@ void chips(Report::Part& part) {
        1,
        {{"specific cutting energy", "chip [um]", "energy [J/mm3]", {law, seen}, true, true}}});
 
-  // the two laws side by side, and where the burr touches with its side, its belly, its pole
+  // the two laws compared, for a contact at the burr's side, its belly and its pole
   const auto bone = slab(1e9);
   const tool::Burr burr = {.radius = kRadius};
   const edit::RemovalSettings settings;
@@ -147,7 +148,7 @@ void spindle(const Verify& verify, Report::Part& part) {
   tick::ServoSettings settings;
   settings.motor.torque = 2e-3;
   settings.motor.friction = 0;
-  settings.motor.inertia = 5e-8;  // stands within the time
+  settings.motor.inertia = 5e-8;  // small, so that the final speed is reached in time
   const double mu = volume::Tissue{}.cutting_friction, full = settings.spindle_rad_s;
   Line measured{"measured", {}, {}, false, true}, theory{"formula", {}, {}, true};
   double worst = 0;

@@ -11,7 +11,7 @@ namespace burr::app {
 
 [[nodiscard]] std::string page(const Report& report);
 
-// One plot; its axes side by side.
+// One plot as SVG; its axes stand side by side.
 [[nodiscard]] std::string svg(const Plot& plot);
 
 }  // namespace burr::app

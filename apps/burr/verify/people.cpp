@@ -1,5 +1,5 @@
-// burr verify people - `burr psychophysics` against observers whose threshold is known, by formula
-// and by feeling.
+// burr verify people - `burr psychophysics` with observers whose threshold is known: by formula,
+// and by feeling the wall.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ people::Plan plan_of(const Ask& ask, std::uint64_t seed) {
   return plan;
 }
 
-// What some runs found, as logarithms of found over true.
+// Results of some runs, as logarithms of measured over true threshold.
 struct Runs {
   std::vector<double> off;
   int covered = 0, lost = 0;
@@ -159,7 +159,7 @@ void people_part(const Verify& verify, Report::Part& part) {
     Runs runs;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
       people::Plan plan = plan_of(ask, seed);
-      // few levels, each felt with every gesture once; the observer's noise is new in each trial
+      // few levels, each felt once with every gesture; the observer's noise is new in each trial
       plan.method = people::Method::constant;
       plan.smallest = ask.threshold / 3;
       plan.largest = 2.5 * ask.threshold;

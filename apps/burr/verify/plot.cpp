@@ -1,4 +1,4 @@
-// Lines over axes with units, ticks and a legend, as SVG.
+// Draws curves over axes with units, ticks and a legend, as SVG.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 namespace burr::app {
 namespace {
 
-constexpr double kWide = 520, kHigh = 330;  // of one pair of axes  [px]
+constexpr double kWide = 520, kHigh = 330;  // size of one pair of axes  [px]
 constexpr double kLeft = 62, kRight = 12, kTop = 30, kBottom = 46;
-constexpr std::size_t kMostPoints = 1200;  // of a line; more do not show
-// by K. Okabe and M. Ito, to be told apart by everybody
+constexpr std::size_t kMostPoints = 1200;  // of a curve; more are not visible
+// colours of K. Okabe and M. Ito, which colour-blind people can distinguish
 constexpr std::array<const char*, 7> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#e69f00", "#56b4e9", "#000000"};
 

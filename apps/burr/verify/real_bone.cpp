@@ -1,5 +1,5 @@
-// burr verify bones - real bone, wandered over and milled, judged by a reference that looks at
-// every voxel edge near the burr and shares no code with the proxy.
+// burr verify bones - real bone, touched and milled. The judge is a reference that looks at every
+// voxel edge near the burr and shares no code with the proxy.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,9 +21,9 @@ using math::Vec3;
 
 struct Subject {
   const char *name, *file;
-  double spacing_mm;  // of a file that states it wrongly; 0: the file's
+  double spacing_mm;  // for a file that states a wrong one; 0: the file's
   double minutes;
-  bool smooth;  // at the size of a burr; a rough one lets it drop from edge to edge
+  bool smooth;  // on the scale of a burr; on a rough bone it drops from edge to edge
 };
 constexpr Subject kSubjects[] = {
     {"temporal bone", "temporal_bone/RT143_512.seg.nrrd", 0, 10, false},
@@ -32,17 +32,18 @@ constexpr Subject kSubjects[] = {
     {"plastic skull", "skull_phantom/bone_1mm_jpegls", 0, 2, true},
 };
 
-constexpr double kNear = 0.3;      // a crossing nearer than its disc is wide may press      [voxel]
+constexpr double kNear = 0.3;      // a crossing with a smaller gap may press (disc's width) [voxel]
 constexpr double kBurrVoxels = 8;  // radius of the burr                                 [voxel]
 
-// What the field itself says of a burr at c held by a hand at x.
+// What the field itself says about a burr at c that a hand at x holds.
 struct Verdict {
-  double overlap = 0;     // deepest crossing in the ball                        [voxel]
-  double unbalanced = 0;  // part of the spring that no contact can bear         [voxel]
+  double overlap = 0;     // deepest crossing inside the ball               [voxel]
+  double unbalanced = 0;  // part of the spring that no contact can support [voxel]
 };
 
-// Every crossing of a voxel edge with the iso-surface near the ball: none may be inside, and those
-// at its surface have to be able to bear the spring (Kuhn and Tucker), by Hildreth's sweeps.
+// Finds every crossing of a voxel edge with the iso-surface near the ball. None may be inside, and
+// those at its surface must be able to support the spring (Kuhn and Tucker); solved by Hildreth's
+// sweeps.
 Verdict judge(const volume::Bone& bone, const Vec3& proxy, const Vec3& hand, double radius) {
   const volume::Grid& grid = bone.grid();
   const Vec3 c = grid.grid_from_world(proxy);
@@ -79,15 +80,15 @@ Verdict judge(const volume::Bone& bone, const Vec3& proxy, const Vec3& hand, dou
   return verdict;
 }
 
-// A hand that presses into the bone and wanders over it.
+// A hand that presses into the bone and moves over it at random.
 device::HandPath wander(const surgeon::WorkPlace& place, double r, double seconds, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> stray(0, 1);
   device::HandPath path;
   const Vec3 u = place.into.unitOrthogonal(), v = place.into.cross(u);
-  Vec3 request = Vec3::Zero();  // aside, aside, deep
+  Vec3 request = Vec3::Zero();  // along u, along v, depth
   for (double t = 0; t <= seconds; t += 0.05) {
-    // gathers and forgets within a second, a few burrs wide
+    // a random walk with a memory of about a second, a few burrs wide
     request += 0.05 * (-request) + 0.3 * Vec3(stray(random), stray(random), 0.4 * stray(random));
     device::PathPoint point;
     point.t = t;
@@ -101,10 +102,10 @@ device::HandPath wander(const surgeon::WorkPlace& place, double r, double second
   return path;
 }
 
-// A soft hand pulls the burr to the bone with some newton and draws it along at 10 mm/s: its force
-// should hardly change, and what changes within a twentieth of a second is noise of the voxels.
+// A soft hand presses the burr to the bone with some newtons and draws it along at 10 mm/s. The
+// force should hardly change; what changes within 1/20 s is noise of the voxels.
 struct Noise {
-  double mean = 0, rms = 0, step = 0;  // of the force, and of its change from tick to tick [N]
+  double mean = 0, rms = 0, step = 0;  // of the force; step: largest change per tick [N]
   std::vector<double> t, force;
 };
 Noise noise(Workbench& bench, const surgeon::WorkPlace& place, double r) {
@@ -122,7 +123,7 @@ Noise noise(Workbench& bench, const surgeon::WorkPlace& place, double r) {
       out.t.push_back(row.t);
       out.force.push_back(row.force.norm());
     }
-  constexpr std::size_t kHalf = 25;  // ticks of the running mean to each side
+  constexpr std::size_t kHalf = 25;  // half width of the running mean  [ticks]
   int count = 0;
   for (std::size_t n = 0; n < out.force.size(); ++n) {
     out.mean += out.force[n] / static_cast<double>(out.force.size());

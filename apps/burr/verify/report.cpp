@@ -31,7 +31,7 @@ std::string csv(const Series& series) {
   return text;
 }
 
-// What a pair of axes shows, a row a point.
+// The curves of a pair of axes, one row per point.
 std::string csv(const Axes& axes) {
   std::string text = fmt::format("line,{},{}\n", axes.x, axes.y);
   for (const Line& line : axes.lines)
@@ -129,7 +129,7 @@ std::string Report::markdown() const {
     text += row_of({part.title, std::to_string(part.checks.size()), std::to_string(part.failed())});
   for (const Part& part : parts_) {
     text += fmt::format("\n## {}\n\n{}\n", part.title, part.about);
-    // of many checks of one kind the table says more
+    // with many checks of one kind, the table says more than their lines
     const bool all = part.checks.size() <= kMostInPage;
     if (!all)
       text += fmt::format("\n{} checks, {} failed; all of them are listed in `report.html`.\n",

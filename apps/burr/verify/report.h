@@ -1,12 +1,13 @@
-// apps/burr/verify/report.h - what was expected, what was measured, and the series behind it.
+// apps/burr/verify/report.h - a report: what was expected, what was measured, and the series of
+// data.
 //
 //     Report::Part& part = report.begin("friction", "Friction", "what is asked here");
 //     part.near("stick-slip.threshold", 0.300, measured, 0.003, "");  // one line, one verdict
 //     part.plot({...});  part.table({...});  part.cannot("no data: ../shared/data is absent");
 //
-// A check names who is judged: ours has to hold, a baseline has to fail as it was predicted to, and
-// what is only information is never wrong. Thread: one. Numbers in SI unless the unit says
-// otherwise.
+// A check says what it judges. A check of burr's own method must hold. A check of a baseline must
+// fail as predicted. A check that is only information never counts as wrong. Thread: one. Numbers
+// in SI unless the unit says otherwise.
 #pragma once
 
 #include <string>
@@ -18,14 +19,14 @@
 namespace burr::app {
 
 struct Check {
-  std::string name;      // part.what.which
-  std::string expected;  // in words: "0.300 +- 0.003", "<= 0.5", "> 0.75"
+  std::string name;      // part.subject.case
+  std::string expected;  // as text: "0.300 +- 0.003", "<= 0.5", "> 0.75"
   double measured = 0;
   std::string unit;
   bool pass = true;
 };
 
-// Columns of numbers; the first is what the others are drawn over.
+// Columns of numbers; the others are drawn over the first.
 struct Series {
   std::string name;  // of the file, without .csv
   std::vector<std::string> columns;
@@ -35,7 +36,7 @@ struct Series {
 struct Line {
   std::string legend;
   std::vector<double> x, y;
-  bool dashed = false;  // what is expected
+  bool dashed = false;  // true: an expected value
   bool dots = false;
 };
 struct Axes {
@@ -43,7 +44,7 @@ struct Axes {
   std::vector<Line> lines;
   bool log_x = false, log_y = false;
 };
-// One or several axes side by side under one caption that says what to expect.
+// One or several axes side by side, with one caption that says what to expect.
 struct Plot {
   std::string caption;
   int columns = 1;
@@ -82,13 +83,13 @@ class Report {
   [[nodiscard]] int failed() const;
   [[nodiscard]] int checks() const;
 
-  // On one line, as it stands on the terminal.
+  // The check on one line, as on the terminal.
   [[nodiscard]] static std::string line(const Check& check);
   [[nodiscard]] std::string json() const;
-  // The page for docs/validation.md; nothing in it depends on the hour or the machine.
+  // The text of docs/validation.md; nothing in it depends on the time of day or the computer.
   [[nodiscard]] std::string markdown() const;
-  // FOLDER/<series>.csv, <part>_plot<n>_<axes>.csv, report.html, validation.md, verify.json.
-  // html: page(*this), what report.html holds.
+  // Writes FOLDER/<series>.csv, <part>_plot<n>_<axes>.csv, report.html, validation.md, verify.json.
+  // html: the content of report.html, from page(*this).
   [[nodiscard]] Status write(const std::string& folder, const std::string& html) const;
 
  private:

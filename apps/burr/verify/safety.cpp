@@ -1,4 +1,4 @@
-// burr verify safety - whatever the hand's numbers are, what reaches the hand is bounded.
+// burr verify safety - whatever the device reports, the force on the hand stays within its limits.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using math::Vec3;
 
 constexpr double kMm = 1e-3, kDt = 1e-3, kRadius = 1.5 * kMm;
 
-// A device that says whatever it is told to, and remembers what it was sent.
+// A device that reports what the test sets, and stores the force that it was sent.
 class Puppet final : public device::Device {
  public:
   device::HandState next;
@@ -73,9 +73,9 @@ struct Bench {
 };
 
 const Vec3 kAir(0, 0, 4 * kMm);
-const Vec3 kPressed(0, 0, kRadius - 1 * kMm);  // a newton deep
+const Vec3 kPressed(0, 0, kRadius - 1 * kMm);  // 1 mm deep: 1 N
 
-// Nothing that is no hand: numbers that are none, leaps, stalls, in any order.
+// Readings that no hand can give: NaN and infinity, jumps, stalls, in any order.
 void fuzzed(const Verify& verify, Report::Part& part) {
   const unsigned seed = 20261122;
   std::mt19937 random(seed);
@@ -102,7 +102,7 @@ void fuzzed(const Verify& verify, Report::Part& part) {
     if (what < 0.003) said[static_cast<int>(3 * share(random))] = bad[random() % std::size(bad)];
     if (what > 0.997) said += Vec3(stray(random), stray(random), stray(random)) * 0.1;
     if (what > 0.5 && what < 0.502) lost = true;
-    if (what > 0.6 && what < 0.6005) {  // commands of everybody, senseless ones too
+    if (what > 0.6 && what < 0.6005) {  // random commands, also with senseless values
       const auto kind = static_cast<tick::CommandKind>(random() % 12);
       static_cast<void>(bench.servo->commands().push(
           {kind, share(random) < 0.2 ? bad[random() % std::size(bad)] : 3 * stray(random)}));
@@ -110,7 +110,7 @@ void fuzzed(const Verify& verify, Report::Part& part) {
     (void)bench.step(said, lost);
     const bool was_bad = !said.allFinite() || (said - hand).norm() > 20e-3;
     if (!was_bad) continue;
-    // zero within 5 ms of detection
+    // the force must be zero within 5 ms of detection
     for (int k = 0; k < 6; ++k) (void)bench.step(said, false);
     late_zero += bench.puppet.sent.norm() > 1e-12 ? 1 : 0;
   }
@@ -121,7 +121,7 @@ void fuzzed(const Verify& verify, Report::Part& part) {
   part.at_most("fuzzed.not_zero_after_5ms", 0, late_zero, "times");
 }
 
-// In contact at a newton: what happens, and then how the force comes back.
+// In contact at 1 N: an event, and how the force returns after it.
 void in_contact(Report::Part& part) {
   struct Event {
     const char* name;
@@ -155,7 +155,7 @@ void in_contact(Report::Part& part) {
     Bench bench;
     bench.ease(kAir, kAir, 100);
     bench.ease(kAir, kPressed, 400);
-    // a cut, so that there is something to undo
+    // cut first, so that there is something to undo
     bench.puppet.next.pedal = 1;
     bench.ease(kPressed, kPressed, 300);
     bench.puppet.next.pedal = 0;
@@ -185,7 +185,7 @@ void in_contact(Report::Part& part) {
   part.plot(std::move(plot));
 }
 
-// Material put on under the tool: the burr is pushed out, no faster than the limits allow.
+// Material is added under the tool: the burr is pushed out, within the limits of the force.
 void growth(Report::Part& part) {
   tick::ServoSettings settings;
   settings.mode = tick::ToolMode::add;

@@ -1,5 +1,5 @@
-// burr verify stability - how stiff a wall a hand may hold, against theory; with and without the
-// energy guard.
+// burr verify stability - how stiff a wall can be before the hand trembles, compared with theory;
+// with and without the energy guard.
 #include "burr/haptics/safety/stability.h"
 
 #include <fmt/format.h>
@@ -67,7 +67,7 @@ void borders(const Verify& verify, Report::Part& part) {
   plot.axes[1].lines = {late, bound};
   part.plot(std::move(plot));
 
-  // twice and four times the border: the plain wall trembles, the guarded one is quiet
+  // at two and four times the border: the plain wall trembles, the guarded one does not
   for (const double times : {2.0, 4.0}) {
     AxisSettings axis;
     const double border = 2 * axis.damping / kT, k = times * border;
@@ -78,7 +78,7 @@ void borders(const Verify& verify, Report::Part& part) {
     const haptics::Swung kept = haptics::swing(axis, haptics::guarded_wall(wall, {}), how);
     const std::string which = fmt::format("guard.{:.0f}x", times);
     part.at_least(which + ".bare_trembles", 1, bare.ran_away ? 1e3 : 1e3 * bare.late, "mm");
-    // 4 v_min / omega + v_min T: what goes on below the guard's least speed
+    // 4 v_min / omega + v_min T: the motion that remains below the guard's least speed
     const double slow = 2e-3, omega = std::sqrt(k / axis.mass);
     part.at_most(which + ".guarded_range", 1e3 * (4 * slow / omega + slow * kT), 1e3 * kept.late,
                  "mm");
@@ -127,8 +127,8 @@ void devices(Report::Part& part) {
   part.table(std::move(table));
 }
 
-// Whole sessions: a hand presses, waits, and the energy it gave is counted, -F dx, with the force
-// that was held over each tick.
+// Whole sessions: a hand presses and waits. The energy that it gave is summed as -F dx, with the
+// force that was held during each tick.
 struct Pressing {
   const char* name;
   phantom::Depth bone;
@@ -140,9 +140,9 @@ struct Pressing {
   double drag = 1;
 };
 struct Lasting {
-  double least = 0, energy = 0;  // that the hand ever gave, and gave in the end [J]
+  double least = 0, energy = 0;  // lowest value during the run, and value at its end [J]
   double ripple = 0;  // standard deviation of the force in the last second, over its mean
-  double force = 0;   // its mean [N]
+  double force = 0;   // mean of the force in the last second [N]
   bool ok = false;
 };
 Lasting last(const Pressing& one, double seconds) {
@@ -226,8 +226,8 @@ void lasting(const Verify& verify, Report::Part& part) {
   for (const Pressing& one : kAll) {
     const Lasting out = last(one, seconds);
     const std::string name = fmt::format("lasting.{}", one.name);
-    const bool beyond = name == "lasting.beyond";  // 2.5 times the border: has to fail
-    // the guard's promise: its slack, and k T v^2 / 2 a second below its least speed
+    const bool beyond = name == "lasting.beyond";  // 2.5 times the border: must fail
+    // what the guard allows: its slack, and k T v^2 / 2 per second below its least speed
     const tick::ServoSettings usual;
     const double slow = haptics::EnergyGuardSettings{}.least_speed;
     const double allowed =

@@ -1,4 +1,5 @@
-// burr verify thesis - the four verification cases of the thesis, by its own method and by ours.
+// burr verify thesis - the four verification cases of the thesis, with its own method and with
+// burr's.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,13 +32,13 @@ constexpr std::array<Case, 4> kCases = {{{"1 stiff", 1000, 0.3},
                                          {"4 low friction", 500, 0.1}}};
 
 struct Row {
-  double t = 0, probe = 0, proxy = 0;  // above the side [m]
+  double t = 0, probe = 0, proxy = 0;  // height above the side [m]
   double spring = 0, depth = 0, force = 0, law = 0;
 };
 
-// A hand held firmly, lowered onto the side, pushed 2 mm beyond and dragged 6 mm along it.
+// A firmly held hand: lowered onto the side, pushed 2 mm beyond it and dragged 6 mm along it.
 std::vector<Row> drag(const Case& one, Method method, const volume::IsoVertices& surface) {
-  const double centre = method == Method::thesis ? 0 : kRadius;  // where it feels the side
+  const double centre = method == Method::thesis ? 0 : kRadius;  // its centre at the contact
   const double z = kSide + centre;
   device::HandPath path;
   const auto point = [&](double t, double x, double above) {
@@ -77,7 +78,7 @@ std::vector<Row> drag(const Case& one, Method method, const volume::IsoVertices&
   return rows;
 }
 
-// While it slides at full speed.
+// True while the hand slides at full speed.
 bool slides(const Row& row) { return row.t > 2.5 && row.t < 3.4; }
 
 void cases(const Verify&, Report::Part& part) {

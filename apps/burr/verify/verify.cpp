@@ -1,4 +1,5 @@
-// burr verify - everything burr claims about touch, measured: one line a check, all series as CSV,
+// burr verify - measures everything that burr claims about touch: one line per check, all series as
+// CSV, one report.
 // one report.
 #include "verify.h"
 
@@ -38,7 +39,7 @@ Status run(const Options& options) {
   std::sort(parts.begin(), parts.end(),
             [](const Known& a, const Known& b) { return a.place < b.place; });
   Report report;
-  // a folder that cannot be written is told of now, not after minutes
+  // report a folder that cannot be written now, not after minutes
   if (!options.out.empty())
     if (Status written = report.write(options.out, page(report)); !written) return written;
   for (const Known& one : parts) {

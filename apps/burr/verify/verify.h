@@ -11,7 +11,7 @@
 namespace burr::app {
 
 struct Verify {
-  bool quick = false;  // a minute for everything: one resolution, short strokes
+  bool quick = false;  // about a minute for everything: one resolution, short strokes
   std::string data;    // folder of real bones; empty: none
 };
 

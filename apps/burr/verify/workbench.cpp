@@ -33,11 +33,11 @@ std::vector<Workbench::Row> Workbench::work(const device::HandPath& path,
   arm_.follow_path(path, arm);
   std::vector<Row> rows;
   const auto ticks = static_cast<std::size_t>(std::llround(path.duration() / dt));
-  double waiting = 0;  // energy for the next cut
+  double waiting = 0;  // energy that the next cut will use
   undo_.begin_stroke(0);
   for (std::size_t n = 0; n <= ticks; ++n) {
     std::uint32_t flags = 0;
-    static_cast<void>(hand_.read(false, flags));  // a simulated arm is believed
+    static_cast<void>(hand_.read(false, flags));  // a simulated arm is always valid
     Row row;
     row.t = static_cast<double>(n) * dt;
     row.hand = hand_.state().world_from_tool.p;
@@ -111,7 +111,7 @@ double wave_at(const std::vector<double>& values, double rate_hz, double f) {
   mean /= static_cast<double>(values.size());
   double re = 0, im = 0, weight = 0;
   for (std::size_t n = 0; n < values.size(); ++n) {
-    // Hann, so that a slow drift does not leak into it
+    // Hann window, so that a slow drift does not leak into this frequency
     const double w = 0.5 - 0.5 * std::cos(2 * M_PI * (static_cast<double>(n) + 0.5) /
                                           static_cast<double>(values.size()));
     const double angle = 2 * M_PI * f * static_cast<double>(n) / rate_hz;

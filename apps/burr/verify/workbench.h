@@ -1,6 +1,6 @@
-// apps/burr/verify/workbench.h - one bone, one hand, one burr: a tick without devices, limits and
-// recordings, in which one thing at a time can be other than it is in the servo. The hand is the
-// servo's (tick/hand.h); its force goes to the simulated arm unbounded.
+// apps/burr/verify/workbench.h - one bone, one hand, one burr: a tick without devices, force limits
+// and recordings, in which one thing can be changed while the rest is as in the servo. The hand is
+// the servo's (tick/hand.h); its force goes to the simulated arm without a limit.
 //
 // Thread: one. Frame: world. Units: SI.
 #pragma once
@@ -26,12 +26,12 @@ struct WorkSettings {
   double spindle = 4188.79;  // [rad/s]
   double stiffness = 1000;   // [N/m]
   double damping = 0.5;      // [N s/m]
-  int carve_every = 1;       // ticks; then for all of them at once
+  int carve_every = 1;       // ticks between two cuts; a cut removes for all of them
   haptics::Method touch = haptics::Method::constraint;
   edit::RemovalSettings removal = {};
 };
 
-// An arm that can be handed another path; the hand of the bench stays the same.
+// A simulated arm whose path can be replaced; the hand of the bench stays the same.
 class BenchArm final : public device::Device {
  public:
   void follow_path(const device::HandPath& path, const device::ArmSettings& arm) {
@@ -50,13 +50,13 @@ class BenchArm final : public device::Device {
 
 class Workbench {
  public:
-  // One row a tick.
+  // One row per tick.
   struct Row {
     double t = 0;
     math::Vec3 hand, proxy, force = math::Vec3::Zero();
-    double push = 0;     // of the force along its normal [N]
-    double energy = 0;   // spent on cutting so far       [J]
-    double removed = 0;  // so far                        [m^3]
+    double push = 0;     // component along the contact normal [N]
+    double energy = 0;   // spent on cutting since the start [J]
+    double removed = 0;  // since the start                  [m^3]
   };
 
   Workbench(const phantom::Depth& depth, const volume::Grid& grid,
@@ -64,9 +64,9 @@ class Workbench {
 
   Workbench(std::unique_ptr<volume::Bone> bone, const WorkSettings& settings);
 
-  // Sees every tick between touch and cutting.
+  // Called in every tick between touch and cutting.
   std::function<void(const haptics::Touch&, const math::Vec3& hand)> watch;
-  // Along the path with this arm, cutting or not.
+  // Follows the path with this arm; cut: whether the burr cuts.
   std::vector<Row> work(const device::HandPath& path, const device::ArmSettings& arm, bool cut);
 
   [[nodiscard]] volume::Bone& bone() { return *bone_; }
@@ -89,17 +89,17 @@ class Workbench {
   double energy_ = 0;
 };
 
-// A path through points at these times, pedal down from the second on.
+// A path through points at these times; the pedal is down from the second point on.
 struct Knot {
   double t;
   math::Vec3 p;
 };
 [[nodiscard]] device::HandPath path_through(const std::vector<Knot>& knots);
 
-// Depth below z = top of the surface along the line (x, y), from the field. [m]
+// Depth of the hole below z = top on the line (x, y), from the field. [m]
 [[nodiscard]] double depth_of_hole(const volume::Bone& bone, double x, double y, double top);
 
-// Size of the wave of frequency f [Hz] in values taken rate times a second, their mean taken out.
+// Amplitude of frequency f [Hz] in values sampled at rate_hz, after subtracting their mean.
 [[nodiscard]] double wave_at(const std::vector<double>& values, double rate_hz, double f);
 
 }  // namespace burr::app

@@ -6,8 +6,8 @@
 namespace burr::base {
 
 void check_failed(const char* what, const char* file, int line) noexcept {
-  std::fprintf(stderr, "burr: a mistake of ours: %s does not hold (%s:%d); please report it\n",
-               what, file, line);
+  std::fprintf(stderr, "burr: internal error: %s is false (%s:%d); please report it\n", what, file,
+               line);
   std::abort();
 }
 

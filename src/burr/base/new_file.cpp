@@ -11,6 +11,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "burr/base/inputs.h"
+
 namespace burr::base {
 namespace {
 
@@ -20,11 +22,11 @@ std::string reason(int number) {
   switch (number) {
     case ENOSPC:
     case EDQUOT:
-      return "the disk is full; free some room or choose another folder";
+      return "the disk is full; free some space or choose another folder";
     case EACCES:
     case EPERM:
     case EROFS:
-      return "no permission to write there; choose another folder";
+      return "no permission to write in this folder; choose another folder";
     case ENOENT:
     case ENOTDIR:
       return "the folder does not exist; create it first";
@@ -54,9 +56,11 @@ Result<NewFile> NewFile::beside(const std::string& path) {
   if (std::filesystem::is_symlink(place, ignored))
     place = std::filesystem::weakly_canonical(place, ignored);
   const auto status = std::filesystem::status(place, ignored);
-  if (path.empty()) return error(Trouble::io, "cannot write a file without a name");
+  if (path.empty())
+    return error(Trouble::io, "the name of the file to write is empty; give a name");
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    return error(Trouble::io, path + ": is no plain file; give the name of a file");
+    return error(Trouble::io, path + ": is not a regular file; give the name of a file");
+  if (const Status allowed = check_not_input(place.string()); !allowed) return allowed.error();
 
   // a name that no one else uses: a crashed run may have left a file with our process number
   static std::atomic<unsigned> count = 0;
@@ -129,7 +133,7 @@ Status NewFile::put_in_place() {
   if (trouble_ != 0) return failed("written");
   if (::rename(beside_.c_str(), place_.c_str()) != 0) {
     trouble_ = errno;
-    return failed("put in its place");
+    return failed("renamed to its final name");
   }
   ::close(std::exchange(file_, -1));
   return fine();

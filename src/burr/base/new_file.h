@@ -8,7 +8,7 @@
 //
 // Without put_in_place() the temporary file is deleted with the object: a cancelled or failed
 // export leaves nothing behind, and an older file of that name stays unchanged. Symbolic links are
-// followed; devices, pipes and folders are refused. Thread: one. Errors: Trouble::io with the path
+// followed; devices, pipes, folders, and files that burr has read (base/inputs.h) are refused. Thread: one. Errors: Trouble::io with the path
 // and the system's reason.
 #pragma once
 

@@ -1,7 +1,7 @@
 // base/shown.h - makes text from a file safe to print inside a message: short, on one line, without
 // characters that move a terminal's cursor.
 //
-//     error(fmt::format("{}: type: \"{}\" is no number burr reads", file, base::shown(type)))
+//     error(fmt::format("{}: type: burr does not read \"{}\"", file, base::shown(type)))
 //
 // Thread: any.
 #pragma once

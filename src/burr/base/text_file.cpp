@@ -16,10 +16,13 @@ Result<std::string> text_of_file(const std::string& path, std::uintmax_t most,
   if (trouble)
     return error(Trouble::io, fmt::format("{}: cannot be read: {}", file, trouble.message()));
   if (size > most)
-    return error(fmt::format("{}: {} bytes are too many for {}", file, size, for_what));
+    return error(fmt::format("{}: the file is too large ({} bytes) for {}", file, size, for_what));
   std::ifstream stream(path, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
   if (!stream) return error(Trouble::io, fmt::format("{}: cannot be read", file));
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    return error(fmt::format("{}: is text in UTF-16; save it as UTF-8", file));
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);  // a byte-order mark, as Excel writes it
   return text;
 }
 

@@ -41,8 +41,8 @@ class Descriptor {
 };
 
 Error failed(const char* what) {
-  return error(Trouble::io, fmt::format("the guardian that lets go of the device should burr die "
-                                        "cannot be started ({}: {}); see burr doctor",
+  return error(Trouble::io, fmt::format("burr-guard, which releases the force if burr dies, cannot "
+                                        "be started ({}: {}); see burr doctor",
                                         what, std::strerror(errno)));
 }
 
@@ -53,8 +53,8 @@ Result<std::unique_ptr<Guardian>> Guardian::start(std::vector<std::string> words
   const std::string program = base::helper_program("burr-guard", "BURR_GUARD");
   if (program.empty())
     return error(Trouble::io,
-                 "burr-guard, which lets go of this device should burr die, is not beside "
-                 "libburr.so; install burr again or name it in BURR_GUARD");
+                 "burr-guard, which releases the force if burr dies, is not beside libburr.so; "
+                 "install burr again or give its path in BURR_GUARD");
 
   int lives[2], says[2];  // the guardian's ends of the pipes: lives[0], says[1]
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, lives) != 0) return failed("socket");
@@ -112,10 +112,11 @@ Result<std::unique_ptr<Guardian>> Guardian::start(std::vector<std::string> words
     answer.append(some.data(), static_cast<std::size_t>(got));
   }
   if (answer.starts_with('+')) return guardian;
-  return error(Trouble::io,
-               !answer.empty() ? answer
-                               : "the guardian that lets go of the device should burr die does not "
-                                 "answer; see burr doctor");
+  return error(
+      Trouble::io,
+      !answer.empty()
+          ? answer
+          : "burr-guard, which releases the force if burr dies, does not answer; see burr doctor");
 }
 
 Guardian::~Guardian() {

@@ -63,7 +63,7 @@ Vec3 Link::exchange(const HandState& hand) BURR_RT {
   }
   tell(hand, now);
   take_answers(now);
-  // nobody answers (any more, or yet): waiting would only slow the device down
+  // no answer comes (not yet, or no longer): waiting would only slow the device down
   if (answered_ns_ == kNever || now - answered_ns_ >= timeout_ns_) return push();
   const std::int64_t patience = patience_ns_.load(std::memory_order_relaxed);
   if (patience <= 0) return push();
@@ -102,7 +102,7 @@ Vec3 Link::push() BURR_RT {
     let_go_.store(true, std::memory_order_release);
   }
   if (fading_) {
-    // done when the servo knows of the loss and has released the force as well
+    // finished when the servo has noticed the loss and has released the force as well
     if (answer_.number > fading_after_ && answer_.push.none()) fading_ = false;
     const double left =
         1 - static_cast<double>(now - faded_since_ns_) / static_cast<double>(fade_ns_);

@@ -34,7 +34,7 @@ Status MappedHand::set(const MappingSettings& settings) {
   if (!(settings.scale >= 0.1 && settings.scale <= 10))
     return error(
         Trouble::usage,
-        fmt::format("a device's scale of {} is out of range; take 0.1 to 10", settings.scale));
+        fmt::format("a device's scale of {} is out of range; use 0.1 to 10", settings.scale));
   settings_ = settings;
   turn_ = requested_ = laid_ * settings_.axes;
   spec_ = device_->spec();

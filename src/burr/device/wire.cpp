@@ -69,8 +69,8 @@ bool WireDevice::come_back() {
     say({});
     return true;
   }
-  say("Another device was plugged in than the one the session began with (" + spec_.name + " " +
-      spec_.serial + "); plug that one in again, or begin a new session.");
+  say("Another device is plugged in now; the session began with " + spec_.name + " " +
+      spec_.serial + ": plug that one in again, or begin a new session.");
   wire_->disconnect();
   return false;
 }
@@ -93,7 +93,7 @@ void WireDevice::work() {
     if (!exchange(*wire_, link_)) {
       link_.lose();
       const std::string why = wire_->why();
-      say(!why.empty() ? why : spec_.name + " was lost; it is looked for.");
+      say(!why.empty() ? why : spec_.name + " was disconnected; burr is looking for it.");
       wire_->disconnect();
       connected = false;
       continue;

@@ -1,7 +1,7 @@
 // edit/account.h - running sums of what tools did to the bone, in the units of the field.
 //
-// Volumes that were taken or put are integers, so that their sums do not depend on the order; what
-// was only asked for is real. ledger.h is the same account in m^3.
+// Volumes that were removed or added are integers, so that their sums do not depend on the order;
+// volumes that were only asked for are real numbers. ledger.h is the same account in m^3.
 //
 // Thread: servo. Units: those of volume/volume_of.h. Memory: none.
 #pragma once
@@ -19,7 +19,8 @@ struct Account {
   std::int64_t image_removed = 0, image_added = 0;  // of these, at the mirror's image
   double energy = 0;                                // [J]
 
-  // A tick of carving took this much. Nobody asked for what the image took: it counts as asked for.
+  // Volumes that one tick of carving removed. The removal law asks only for the hand's side, so the
+  // volume at the image is added to `asked` here.
   void took(std::int64_t hand, std::int64_t image) BURR_RT {
     removed += hand + image;
     image_removed += image;

@@ -1,7 +1,8 @@
-// edit/bone_writer.h - the one place from which bricks of the bone are written while it is worked on.
+// edit/bone_writer.h - the one place from which bricks of the bone are written while it is worked
+// on.
 //
 //     every write:  keep the old brick for undo -> write -> queue it for the diary
-//                   -> note the change for the surface -> bring the caches and the account up to date
+//                   -> note the change for the surface -> update the caches and the account
 //
 // The laws of cutting (carve.h, laws/thesis.h) and the brush compute what a brick becomes; undo,
 // redo and reset put old bricks back. All of them write here, so none can forget a step.
@@ -58,8 +59,9 @@ class BoneWriter {
   void write_more(volume::BrickIndex brick, const volume::BrickField& now, const Applied& applied,
                   volume::TissueId material, std::uint32_t& flags) BURR_RT;
 
-  // Other content for a brick (brush.h): kept for undo, and in the account; what goes counts as
-  // asked for. Adds kFlagReserve and kFlagUndoFull.
+  // Replaces the content of a brick (brush.h). The old content is kept for undo, and the change is
+  // in the account; the removed volume is added to `asked`, too. Adds kFlagReserve and
+  // kFlagUndoFull.
   void rewrite(const KeptBrick& now, std::uint32_t& flags) BURR_RT;
   // Swaps a brick of the bone with a kept one (undo, redo). Not in the account.
   void swap(KeptBrick& kept) BURR_RT;

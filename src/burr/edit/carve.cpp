@@ -20,15 +20,17 @@ using volume::BrickIndex;
 using volume::kBrickEdge;
 using volume::kBrickVoxels;
 
-// Bricks in one tick from which on they are cut in slices though nobody is in a hurry: each of so
-// many loses a hair a tick, and costs as much as if it lost four.
+// From this number of bricks in one tick on, they are cut in slices even when the servo has time
+// enough. Each of so many bricks loses very little in a tick, but costs as much as if it lost four
+// times as much.
 constexpr double kManyBricks = 72;
 constexpr int kUsualSlices = 4;  // at most
 
 using Layers = std::array<unsigned, 3>;
 constexpr Layers kWholeBrick = {kAllLayers, kAllLayers, kAllLayers};
 
-// The grid may end within a brick; nothing grows beyond.
+// The layers of the brick that are inside the grid: the grid may end within a brick, and no bone is
+// added beyond its end.
 Layers layers_inside(const math::Ijk& brick, const math::Ijk& size) BURR_RT {
   Layers layers = kWholeBrick;
   for (int axis = 0; axis < 3; ++axis)
@@ -37,16 +39,17 @@ Layers layers_inside(const math::Ijk& brick, const math::Ijk& size) BURR_RT {
   return layers;
 }
 
-// Of the excess. Where the hand's side has none left, its image shall have none either.
+// The share of the excess to remove or add. If the hand's side has no excess left, the image's side
+// shall have none left either.
 double share_of(double owed, double all, const Mirror& mirror) BURR_RT {
   if (all <= 0) return mirror.on() && owed > 0 ? 1 : 0;
   return owed / all;
 }
 
-// As the kernels do, to a few per cent.
+// The volume of a voxel's field value, within a few per cent of what the kernels compute.  [units]
 std::int64_t rough_units(int field) { return 6 * std::clamp(field - 16384, 0, 32768); }
 
-// Of the excess that was found what is in these layers, along i, j, k.
+// The part of the excess found that is in these layers along i, j, k.
 Excess clipped(const Excess& found, const volume::Field* field, const Layers& layers, bool deposit,
                std::uint16_t* out) BURR_RT {
   Excess left;
@@ -88,7 +91,8 @@ Carver::Carver(BoneWriter& writer, const CarveSettings& settings)
   least_margin_ = margin_ = std::max(settings.margin_m / h, settings.margin_least);
 }
 
-// Finds in every brick that the ball meets what stands above it (or lacks below it).
+// Collects the bricks that the ball touches and the excess of each: the field above the limit that
+// the ball sets (or, to add material, what is missing below it).
 void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], bool deposit,
                     int slices, const Half& half, std::uint32_t& flags) BURR_RT {
   reached_.begin_side();
@@ -115,7 +119,7 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
           nearest[axis] = std::clamp(centre[axis], first[axis], first[axis] + kBrickEdge - 1);
         const double far = math::norm(nearest - centre);
         if (far > reach) continue;
-        // the ball's floor is nowhere in the brick lower than what is left of it
+        // nothing to cut: nowhere in the brick is the field above the limit that the ball sets
         if (!deposit &&
             writer_.highest(brick) <= volume::kIso + (far - radius) * volume::kFieldPerVoxel)
           continue;
@@ -143,7 +147,8 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
       }
 }
 
-// As many as requested, or as it takes for the bricks to fit into the list: no tick may take forever.
+// As many as requested, or as many as are needed so that the bricks fit into the list, which limits
+// the time of a tick.
 int Carver::choose_slices(int wanted, std::uint32_t& flags) BURR_RT {
   if (reached_.crowded()) {
     crowd_slices_ = std::min(2 * crowd_slices_, kMostSlices);
@@ -162,13 +167,13 @@ int Carver::choose_slices(int wanted, std::uint32_t& flags) BURR_RT {
   if (slices != slices_) {
     slices_ = slices;
     slice_ = 0;
-    // nothing is known yet of the others' parts; the first is taken for the mean of all
+    // the excess of the other slices is not known yet; the first slice counts as the mean of all
     std::fill_n(parts_, slices, Part{});
   }
   return slices;
 }
 
-// What all slices together have to give, from what each found when it last came.  [units]
+// The excess of all slices together, from what each slice found at its last turn.  [units]
 double Carver::excess_of_all_slices() BURR_RT {
   parts_[slice_] = {reached_.hand_units(), static_cast<int>(reached_.count()), true};
   slice_ = (slice_ + 1) % slices_;
@@ -181,12 +186,12 @@ double Carver::excess_of_all_slices() BURR_RT {
   return sum * slices_ / known;
 }
 
-// A debt older than patience at the present rate of asking is not going to be cut.
+// Debt that is older than `patience` at the present rate of removal is given up.
 void Carver::write_off(double asked_units, double dt, int slices) BURR_RT {
   const double blend = std::min(1.0, dt / settings_.patience);
   rate_ += (asked_units / dt - rate_) * blend;
   const double patience =
-      settings_.patience + (slices - 1) * dt;  // until it is every brick's slice
+      settings_.patience + (slices - 1) * dt;  // until every brick has had its slice
   const double most = patience * std::max(rate_, asked_units / dt);
   if (account_.debt > most) {
     account_.not_cut += account_.debt - most;
@@ -206,8 +211,8 @@ void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
   account_.asked += asked;
   account_.debt += asked;
   account_.energy += cut.energy;
-  // every brick gives the same share of its excess, whichever slice is its own: what is asked until
-  // the slice comes round again, and what is still owed
+  // every brick loses the same share of its excess, whatever its slice: enough for what is asked
+  // until the slice's next turn, and for the debt
   const double all = excess_of_all_slices(), owed = account_.debt + (slices - 1) * asked;
   const bool blocked = all < owed;
   const Reached::Done removed = reached_.take(share_of(owed, all, cut.mirror), flags);

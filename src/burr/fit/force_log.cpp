@@ -77,15 +77,14 @@ Result<Places> places_of(const std::vector<std::string_view>& names, const std::
     }
     int& place = places[static_cast<std::size_t>(known - kKnown.begin())];
     if (place >= 0)
-      return error(fmt::format("{}: column {} stands there twice; keep one", where, known->name));
+      return error(fmt::format("{}: column {} appears twice; keep one", where, known->name));
     place = static_cast<int>(n);
   }
   for (std::size_t c = 0; c < kKnown.size(); ++c)
     if (kKnown[c].needed && places[c] < 0)
-      return error(
-          fmt::format("{}: there is no column {}; the first line must name the columns "
-                      "with commas between them: {}",
-                      where, kKnown[c].name, list_of_columns()));
+      return error(fmt::format(
+          "{}: column {} is missing; the first line must name the columns, separated by commas: {}",
+          where, kKnown[c].name, list_of_columns()));
   return places;
 }
 
@@ -107,7 +106,8 @@ void ForceLog::append(const ForceLog& other) {
 }
 
 Result<ForceLog> read_force_log(const std::string& path) {
-  const auto text = base::text_of_file(path, kLargestFile, "a force log; give it in parts");
+  const auto text =
+      base::text_of_file(path, kLargestFile, "a force log; split it into several files");
   if (!text) return text.error();
   return parse_force_log(*text, std::filesystem::path(path).filename().string());
 }
@@ -133,8 +133,10 @@ Result<ForceLog> parse_force_log(std::string_view text, std::string_view file) {
       continue;
     }
     if (cells.size() != columns)
-      return error(fmt::format("{}: line {}: {} cells where the first line names {} columns", file,
-                               number, cells.size(), columns));
+      return error(
+          fmt::format("{}: line {}: {} values, but the first line names {} columns; correct the "
+                      "line or remove it",
+                      file, number, cells.size(), columns));
     std::array<double, kKnown.size()> value{};
     for (std::size_t c = 0; c < kMaterial; ++c) {
       if (places[c] < 0) continue;
@@ -142,18 +144,16 @@ Result<ForceLog> parse_force_log(std::string_view text, std::string_view file) {
       const auto result = std::from_chars(cell.data(), cell.data() + cell.size(), value[c]);
       if (cell.empty() || result.ec != std::errc() || result.ptr != cell.data() + cell.size() ||
           !std::isfinite(value[c]) || std::abs(value[c]) > 1e9)
-        return error(
-            fmt::format("{}: line {}: column {}: \"{}\" is no number; write it as 1.25, "
-                        "or leave the line out",
-                        file, number, kKnown[c].name, base::shown(cell)));
+        return error(fmt::format(
+            "{}: line {}: column {}: \"{}\" is not a number; write it as 1.25, or remove the line",
+            file, number, kKnown[c].name, base::shown(cell)));
     }
     if (!(value[kRadius] > 0))
-      return error(
-          fmt::format("{}: line {}: column radius_mm: {:g} is no radius; give the "
-                      "effective one, above 0",
-                      file, number, value[kRadius]));
+      return error(fmt::format(
+          "{}: line {}: column radius_mm: {:g} is not a radius; give the effective radius, above 0",
+          file, number, value[kRadius]));
     if (value[kEdge] < 0)
-      return error(fmt::format("{}: line {}: column edge_mm: {:g} is no length; give 0 or more",
+      return error(fmt::format("{}: line {}: column edge_mm: {:g} is not a length; give 0 or more",
                                file, number, value[kEdge]));
     ForceRow row;
     row.time = value[kTime];
@@ -167,8 +167,9 @@ Result<ForceLog> parse_force_log(std::string_view text, std::string_view file) {
     const std::string_view name =
         places[kMaterial] < 0 ? "" : cells[static_cast<std::size_t>(places[kMaterial])];
     if (name.size() > 100)
-      return error(fmt::format("{}: line {}: column material: a name has at most 100 letters", file,
-                               number));
+      return error(fmt::format(
+          "{}: line {}: column material: the name is longer than 100 letters; shorten it", file,
+          number));
     row.material = log.material(name);
     if (log.materials.size() > kMostMaterials)
       return error(
@@ -181,7 +182,8 @@ Result<ForceLog> parse_force_log(std::string_view text, std::string_view file) {
     return error(fmt::format("{}: is empty; the first line must name the columns: {}", file,
                              list_of_columns()));
   if (log.rows.empty())
-    return error(fmt::format("{}: has no rows under its first line; give one a moment", file));
+    return error(
+        fmt::format("{}: has no rows below its first line; give one row for each moment", file));
   return log;
 }
 

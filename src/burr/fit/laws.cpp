@@ -21,15 +21,14 @@ void tell(MaterialFit& answer, std::vector<const char*> keys,
   for (const char* key : keys) names += (names.empty() ? "" : " and ") + std::string(key);
   const LineFit fit = least_squares(columns, y);
   if (fit.state == LineFit::State::too_few_rows) {
-    answer.not_told.push_back(
-        fmt::format("{}: {} rows in which something is cut are too few, {} "
-                    "are needed",
-                    names, y.size(), columns.size() + 2));
+    answer.not_told.push_back(fmt::format(
+        "{}: only {} rows in which material is cut, but {} are needed; give a longer log", names,
+        y.size(), columns.size() + 2));
     return;
   }
   if (fit.state == LineFit::State::not_told_apart) {
     answer.not_told.push_back(
-        fmt::format("{}: this log cannot tell them apart (condition number "
+        fmt::format("{}: these constants cannot be separated from this log (condition number "
                     "{:.3g}, at most {:g}); {}",
                     names, fit.condition, kWorstCondition, cure));
     return;
@@ -76,7 +75,7 @@ void fit_energy(const std::vector<ForceRow>& rows, MaterialFit& answer) {
 // F = K_c A + K_e L, once along the motion of the teeth and once normal to the bone
 void fit_edges(const std::vector<ForceRow>& rows, MaterialFit& answer) {
   constexpr const char* kCure =
-      "chip area and engaged edge must not rise and fall together: cut at several feeds and depths";
+      "chip area and engaged edge length must vary independently: cut at several feeds and depths";
   bool any_edge = false;
   std::vector<double> against[2], along[2], tangential, normal;
   for (const ForceRow& row : rows) {

@@ -31,7 +31,7 @@ Result<Law> law_of(const record::SessionInfo& info, const std::string& file) {
     const auto value = number(name);
     if (!value || !(*value >= 0))
       return error(
-          fmt::format("{}: the session's settings lack {}; it was recorded by another "
+          fmt::format("{}: the setting {} is missing in this recording; it was recorded by another "
                       "version of burr ({})",
                       file, name, base::shown(info.burr_version)));
     *place = *value;
@@ -39,8 +39,8 @@ Result<Law> law_of(const record::SessionInfo& info, const std::string& file) {
   law.friction = number("cutting_friction").value_or(0);
   if (number("removal_law").value_or(0) == 1)
     return error(
-        fmt::format("{}: was milled by the thesis' removal, which knows no force; record "
-                    "with --removal energy",
+        fmt::format("{}: was milled with the removal law of the thesis, which does not depend on "
+                    "force; record with --removal energy",
                     file));
   return law;
 }
@@ -55,8 +55,8 @@ Result<std::string> only_solid(const volume::TissueTable& tissues, const std::st
   }
   if (solid == 1) return name;
   return error(Trouble::usage,
-               fmt::format("{}: the bone has {} solid tissues, and a recording does "
-                           "not say which was cut; say it with --material",
+               fmt::format("{}: the bone has {} solid tissues, and a recording does not say which "
+                           "one was cut; name it with --material",
                            file, solid));
 }
 
@@ -74,18 +74,18 @@ Status check_step(const record::Step& step, tool::BurrKind kind, const record::S
   for (const tick::Command& command : step.commands)
     if (command.kind == tick::CommandKind::removal_law && command.value == 1)
       return error(
-          fmt::format("{}: was milled in part by the thesis' removal, which knows no "
-                      "force; record with --removal energy",
+          fmt::format("{}: was partly milled with the removal law of the thesis, which does not "
+                      "depend on force; record with --removal energy",
                       file));
   if (!(step.row.tool.radius > 0))
     return error(
-        fmt::format("{}: does not say how large the burr is; it was recorded by another "
-                    "version of burr ({})",
+        fmt::format("{}: the size of the burr is missing in this recording; it was recorded by "
+                    "another version of burr ({})",
                     file, base::shown(info.burr_version)));
   if (step.row.tool.kind != kind)
     return error(
-        fmt::format("{}: the burr was changed between cutting and diamond on the way; record "
-                    "one session for each",
+        fmt::format("{}: the burr was changed between cutting and diamond during the session; "
+                    "record one session for each",
                     file));
   return fine();
 }
@@ -165,21 +165,24 @@ Result<ForceLog> log_of_recording(record::Player& player, double window,
   }
   for (const std::string& notice : player.notices()) log.notices.push_back(notice);
   if (!any_removal)
-    return error(fmt::format("{}: nothing is removed in it; record a session that mills", file));
+    return error(fmt::format(
+        "{}: nothing was removed in this session; record one in which the burr cuts", file));
   const bool fluted = kind == tool::BurrKind::cutting;
   if (!any_power && !(fluted && law->friction > 0))
     return error(fmt::format(
-        "{}: holds no power of cutting, and {}; record it again with this version of burr", file,
-        fluted ? "does not say by which friction it was made" : "was made with a diamond burr"));
+        "{}: the cutting power is missing, and the session {}; record it again with this version "
+        "of burr",
+        file,
+        fluted ? "does not state its coefficient of friction" : "was made with a diamond burr"));
   if (!any_power)
-    log.notices.push_back(fmt::format(
-        "{}: holds no power of cutting; that of the law it was made with is taken (mu_c {:g})",
-        file, law->friction));
+    log.notices.push_back(
+        fmt::format("{}: the cutting power is missing; it is computed with the friction law of the "
+                    "session (mu_c {:g})",
+                    file, law->friction));
   if (removing > rows.size())
     log.notices.push_back(
-        fmt::format("{}: {} windows are left out in which the burr did not cut "
-                    "all the time",
-                    file, removing - rows.size()));
+        fmt::format("{}: {} windows in which the burr did not cut all the time are left out", file,
+                    removing - rows.size()));
   for (Both& one : rows) {
     if (any_power) one.row.power = one.power;
     if (any_torque) one.row.tangential = one.torque_force;

@@ -316,9 +316,9 @@ Vec3 Proxy::on_smooth_surface(const LeastMove& last, const Vec3& hand,
       const Vec3 faces = steep > 1e-6 ? Vec3(-slope / steep) : disc;
       const double clean = std::clamp((steep - 0.85) * 10.0, 0.0, 1.0) *
                            std::clamp((math::dot(faces, disc) - 0.90) * 20.0, 0.0, 1.0);
-      // A foot off by an angle finds a normal that is off by -r/R of it on a hill, +r/R in a
-      // hollow: the change seen between two rounds tells that ratio, and so where it all leads
-      // (Aitken 1926).
+      // If the foot is off by an angle, the normal found there is off by -r/R of that angle on a
+      // hill, +r/R in a hollow. Two rounds give this ratio, and with it the limit to which the
+      // rounds converge (Aitken 1926).
       const Vec3 change = math::normalized((1 - clean) * disc + clean * faces) - normals[a];
       double ratio = -0.3;
       if (round > 0 && math::squared_norm(last_change[a]) > 1e-14)

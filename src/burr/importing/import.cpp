@@ -49,8 +49,9 @@ Status set_region(const io::Scan& scan, const scenario::Recipe& recipe, ImportSu
   for (int a = 0; a < 3; ++a) {
     const auto& range = box[static_cast<std::size_t>(a)];
     if (range[0] < 0 || range[1] >= scan.size[a] || range[0] > range[1])
-      return error(Trouble::usage, fmt::format("--roi: {} {}..{} does not lie in 0..{}", kAxes[a],
-                                               range[0], range[1], scan.size[a] - 1));
+      return error(Trouble::usage,
+                   fmt::format("--roi: {} {}..{} is outside 0..{}; choose a smaller region",
+                               kAxes[a], range[0], range[1], scan.size[a] - 1));
     out.roi_from[a] = range[0];
     out.roi_size[a] = range[1] - range[0] + 1;
   }
@@ -84,26 +85,25 @@ Status set_voxels(const io::Scan& scan, const scenario::Recipe& recipe, Plan& pl
   if (recipe.voxel_mm != 0) {
     if (!(recipe.voxel_mm >= 0.005 && recipe.voxel_mm <= 20))
       return error(Trouble::usage,
-                   fmt::format("--voxel-mm: {} is not between 0.005 and 20", recipe.voxel_mm));
+                   fmt::format("--voxel-mm: {} is out of range; use 0.005 to 20", recipe.voxel_mm));
     voxel = recipe.voxel_mm;
     // nearly cubic and wanted as it is: an axis off by less than a third of a voxel in all stays
   } else {
     const double finest = voxel;
     while (memory_mb(voxel) > recipe.memory_mb) voxel *= 1.02;
     if (voxel > finest)
-      out.notices.push_back(
-          fmt::format("Voxels of {:.3g} mm would take {:.0f} MB, more than the budget of {:.0f} "
-                      "MB: {:.3g} mm was taken; "
-                      "crop with --roi or give --voxel-mm.",
-                      finest, memory_mb(finest), recipe.memory_mb, voxel));
+      out.notices.push_back(fmt::format(
+          "Voxels of {:.3g} mm would need {:.0f} MB, more than the memory budget of {:.0f} MB: "
+          "voxels of {:.3g} mm are used instead; crop with --roi or give --voxel-mm.",
+          finest, memory_mb(finest), recipe.memory_mb, voxel));
   }
   double voxels = 1;
   for (int a = 0; a < 3; ++a)
     voxels *= std::floor((out.roi_size[a] - 1) * spacing[a] / voxel + 1e-6) + 1;
   if (voxels > 1.6e9)
     return error(Trouble::usage,
-                 fmt::format("voxels of {:.3g} mm make {:.1f} thousand million of them; use a "
-                             "larger --voxel-mm or a smaller --roi",
+                 fmt::format("voxels of {:.3g} mm make {:.1f} billion voxels, more than 1.6 "
+                             "billion; use a larger --voxel-mm or a smaller --roi",
                              voxel, voxels / 1e9));
 
   // a grid that is cubic but for rounding in its header is not resampled
@@ -117,8 +117,9 @@ Status set_voxels(const io::Scan& scan, const scenario::Recipe& recipe, Plan& pl
     plan.scale = Vec3::Ones();
     plan.first = Vec3::Zero();
     if ((spacing.array() - mean).abs().maxCoeff() / mean > 1e-4)
-      out.notices.push_back(fmt::format("The voxels are cubic within {:.1g}: taken for {:.6g} mm.",
-                                        (spacing.array() - mean).abs().maxCoeff() / mean, mean));
+      out.notices.push_back(
+          fmt::format("The voxels are cubic to within {:.1g}: cubes of {:.6g} mm are used.",
+                      (spacing.array() - mean).abs().maxCoeff() / mean, mean));
   } else {
     out.voxel_mm = voxel;
     out.size = size_at(voxel);
@@ -157,7 +158,6 @@ Result<Materials> materials_of(const scenario::Recipe& recipe) {
 
 // Questions of the reader that the recipe leaves open; what it answers becomes a notice.
 Status answer(const io::Scan& scan, const scenario::Recipe& recipe, ImportSummary& out) {
-  out.notices = scan.notices;
   for (const io::Question& question : scan.questions) {
     switch (question.ask) {
       case io::Ask::missing:
@@ -175,15 +175,9 @@ Status answer(const io::Scan& scan, const scenario::Recipe& recipe, ImportSummar
   return fine();
 }
 
-Result<Plan> make_plan(const io::Scan& scan, const scenario::Recipe& recipe) {
-  if (scan.values.empty() == scan.labels.empty() ||
-      std::max(scan.values.size(), scan.labels.size()) != product(scan.size))
-    return error(Trouble::internal, "a scan needs values or labels, one for each voxel");
-  const auto given = materials_of(recipe);
-  if (!given) return given.error();
-  const Materials& materials = *given;
-  Plan plan;
-  ImportSummary& out = plan.summary;
+// What the file says.
+ImportSummary summary_of(const io::Scan& scan) {
+  ImportSummary out;
   out.format = scan.format;
   out.scan_size = scan.size;
   out.spacing_mm = scan.spacing_mm;
@@ -191,41 +185,37 @@ Result<Plan> make_plan(const io::Scan& scan, const scenario::Recipe& recipe) {
   out.origin_mm = scan.origin_mm;
   out.labels = scan.values.empty();
   out.hounsfield = scan.hounsfield;
-  if (Status status = answer(scan, recipe, out); !status) return status.error();
-  if (Status status = set_region(scan, recipe, out); !status) return status.error();
-  if (out.roi_size.minCoeff() < 2)
-    return error(
-        fmt::format("{} x {} x {} voxels are no volume; give the folder of the whole series",
-                    out.roi_size.x(), out.roi_size.y(), out.roi_size.z()));
-  if (Status status = set_voxels(scan, recipe, plan); !status) return status.error();
+  out.notices = scan.notices;
+  return out;
+}
 
-  if (out.labels) {
-    plan.counts = count_labels(scan, out);
-    std::array<bool, 256> present{};
-    for (std::size_t v = 1; v < 256; ++v) present[v] = plan.counts[v] > 0;
-    auto labels = label_tissues(scan, present, recipe.labels, materials);
-    if (!labels) return labels.error();
-    plan.labels = std::move(*labels);
-    out.notices.insert(out.notices.end(), plan.labels.notices.begin(), plan.labels.notices.end());
-    const double each = scan.spacing_mm.prod();
-    bool any_solid = false;
-    for (std::size_t v = 1; v < 256; ++v) {
-      const volume::TissueId id = plan.labels.of_label[v];
-      if (id == 0) continue;
-      const volume::Tissue& tissue = plan.labels.table[id];
-      any_solid = any_solid || tissue.kind == volume::TissueKind::solid;
-      out.tissues.push_back(
-          {id, tissue, plan.counts[v], static_cast<double>(plan.counts[v]) * each});
-    }
-    if (!any_solid)
-      return error(
-          "no label is solid: there is nothing to mill; name the solid ones with --tissues");
-    return plan;
+Status plan_labels(const io::Scan& scan, const scenario::Recipe& recipe, const Materials& materials,
+                   Plan& plan) {
+  ImportSummary& out = plan.summary;
+  plan.counts = count_labels(scan, out);
+  std::array<bool, 256> present{};
+  for (std::size_t v = 1; v < 256; ++v) present[v] = plan.counts[v] > 0;
+  auto labels = label_tissues(scan, present, recipe.labels, materials);
+  if (!labels) return labels.error();
+  plan.labels = std::move(*labels);
+  out.notices.insert(out.notices.end(), plan.labels.notices.begin(), plan.labels.notices.end());
+  const double each = scan.spacing_mm.prod();
+  bool any_solid = false;
+  for (std::size_t v = 1; v < 256; ++v) {
+    const volume::TissueId id = plan.labels.of_label[v];
+    if (id == 0) continue;
+    const volume::Tissue& tissue = plan.labels.table[id];
+    any_solid = any_solid || tissue.kind == volume::TissueKind::solid;
+    out.tissues.push_back({id, tissue, plan.counts[v], static_cast<double>(plan.counts[v]) * each});
   }
+  if (!any_solid)
+    return error(
+        "no label is solid, so there is nothing to mill; mark the solid labels with --tissues");
+  return fine();
+}
 
-  if (!recipe.labels.empty())
-    out.notices.emplace_back(
-        "--tissues speaks of labels; this scan has grey values, the table was left out.");
+// Sets the lowest and the highest value of the region.
+void set_range(const io::Scan& scan, ImportSummary& out) {
   out.low = std::numeric_limits<float>::infinity();
   out.high = -out.low;
   for (int k = 0; k < out.roi_size.z(); ++k)
@@ -245,6 +235,10 @@ Result<Plan> make_plan(const io::Scan& scan, const scenario::Recipe& recipe) {
       out.low = std::min(out.low, low);
       out.high = std::max(out.high, high);
     }
+}
+
+// Sets the surface level: as requested, or that of bone in HU, or Otsu's threshold.
+Status set_iso(const io::Scan& scan, const scenario::Recipe& recipe, ImportSummary& out) {
   if (recipe.iso) {
     out.iso = *recipe.iso;
   } else if (scan.hounsfield && kBoneHu < double{out.high}) {
@@ -252,38 +246,76 @@ Result<Plan> make_plan(const io::Scan& scan, const scenario::Recipe& recipe) {
   } else {
     out.iso = otsu(scan, out.roi_from, out.roi_size);
     out.iso_by_otsu = true;
-    out.notices.push_back(scan.hounsfield
-                              ? fmt::format("No voxel reaches {:.0f} HU: the surface level {:.4g} "
-                                            "is Otsu's threshold; see --iso.",
-                                            kBoneHu, out.iso)
-                              : fmt::format("The values are not HU: the surface level {:.4g} is "
-                                            "Otsu's threshold between dark and "
-                                            "bright; see --iso.",
-                                            out.iso));
+    out.notices.push_back(
+        scan.hounsfield ? fmt::format("No voxel reaches {:.0f} HU: Otsu's threshold {:.4g} is used "
+                                      "as surface level; see --iso.",
+                                      kBoneHu, out.iso)
+                        : fmt::format("The values are not HU: Otsu's threshold {:.4g} between dark "
+                                      "and bright is used as surface level; see --iso.",
+                                      out.iso));
   }
   if (!(out.iso > double{out.low} && out.iso <= double{out.high}))
-    return error(fmt::format(
-        "the surface level {:.4g} does not lie between the values {:.4g} and {:.4g}: there is "
-        "no bone; choose another with --iso",
-        out.iso, out.low, out.high));
+    return error(
+        fmt::format("the surface level {:.4g} is outside the range of values, {:.4g} to {:.4g}, so "
+                    "there is no bone; choose another level with --iso",
+                    out.iso, out.low, out.high));
+  return fine();
+}
+
+// Sets the smoothing: as requested, or by the noise of the scan.
+void set_smooth(const io::Scan& scan, const scenario::Recipe& recipe, ImportSummary& out) {
   if (recipe.smooth >= 0) {
     out.smooth = recipe.smooth;
-  } else {
-    const double noise = measure_noise(scan, out.roi_from, out.roi_size, out.iso);
-    // Noise below half a percent of the step from air to bone cannot be felt; more than a tenth is
-    // structure.
-    const double step = 2 * (out.iso - double{out.low});
-    out.smooth = noise < 0.003 * step ? 0.0 : std::min(noise, 0.1 * step);
-    if (out.smooth > 0)
-      out.notices.push_back(
-          fmt::format("Noise of {:.3g} {} is smoothed along the surface; see --smooth.", out.smooth,
-                      scan.hounsfield ? "HU" : "(the file's unit)"));
+    return;
   }
+  const double noise = measure_noise(scan, out.roi_from, out.roi_size, out.iso);
+  // Noise below half a percent of the step from air to bone cannot be felt; more than a tenth is
+  // structure.
+  const double step = 2 * (out.iso - double{out.low});
+  out.smooth = noise < 0.003 * step ? 0.0 : std::min(noise, 0.1 * step);
+  if (out.smooth > 0)
+    out.notices.push_back(
+        fmt::format("Noise of {:.3g} {} is smoothed out along the surface; see --smooth.",
+                    out.smooth, scan.hounsfield ? "HU" : "(the file's unit)"));
+}
+
+Status plan_grey(const io::Scan& scan, const scenario::Recipe& recipe, const Materials& materials,
+                 Plan& plan) {
+  ImportSummary& out = plan.summary;
+  if (!recipe.labels.empty())
+    out.notices.emplace_back(
+        "--tissues is a table of labels, but this scan has grey values; the table was ignored.");
+  set_range(scan, out);
+  if (Status status = set_iso(scan, recipe, out); !status) return status;
+  set_smooth(scan, recipe, out);
   if (scan.hounsfield) plan.grey_tissues = hu_tissues(materials);
   auto& tissues = plan.grey_tissues.tissues;
   if (!scan.hounsfield) materials.lay_over(tissues[1]);
   for (std::size_t id = 1; id < tissues.size(); ++id)
     out.tissues.push_back({static_cast<volume::TissueId>(id), tissues[id], 0, 0});
+  return fine();
+}
+
+Result<Plan> make_plan(const io::Scan& scan, const scenario::Recipe& recipe) {
+  if (scan.values.empty() == scan.labels.empty() ||
+      std::max(scan.values.size(), scan.labels.size()) != product(scan.size))
+    return error(Trouble::internal, "a scan needs values or labels, one for each voxel");
+  const auto materials = materials_of(recipe);
+  if (!materials) return materials.error();
+  Plan plan;
+  ImportSummary& out = plan.summary;
+  out = summary_of(scan);
+  if (Status answered = answer(scan, recipe, out); !answered) return answered.error();
+  if (Status status = set_region(scan, recipe, out); !status) return status.error();
+  if (out.roi_size.minCoeff() < 2)
+    return error(
+        fmt::format("{} x {} x {} voxels are not a volume; give the folder of the whole series",
+                    out.roi_size.x(), out.roi_size.y(), out.roi_size.z()));
+  if (Status status = set_voxels(scan, recipe, plan); !status) return status.error();
+  if (Status status = out.labels ? plan_labels(scan, recipe, *materials, plan)
+                                 : plan_grey(scan, recipe, *materials, plan);
+      !status)
+    return status.error();
   return plan;
 }
 
@@ -491,7 +523,7 @@ Result<Imported> import_bone(const io::Scan& scan, const scenario::Recipe& recip
     made->summary.solid_mm3 = volume::volume_of(bone) * 1e9;
     made->summary.memory_mb = static_cast<double>(bone.memory_bytes()) / 1048576.0;
     if (made->summary.solid_mm3 <= 0)
-      return error("no bone is left at this surface level; choose another with --iso");
+      return error("there is no bone at this surface level; choose another with --iso");
     return made;
   } catch (const std::bad_alloc&) {
     return error("not enough memory for the bone; use a larger --voxel-mm or a smaller --roi");

@@ -84,7 +84,7 @@ class Reader {
       if (key.str() != "value" && key.str() != "low" && key.str() != "high" &&
           key.str() != "source" && key.str() != "calibrated")
         return fail(
-            fmt::format("{}: {} is not known here; there are value, low, high, source, calibrated",
+            fmt::format("{}: {} is not a known field; use value, low, high, source, calibrated",
                         where, base::shown(key.str())));
     Constant read;
     number(*table, where, "value", read.value);
@@ -94,19 +94,20 @@ class Reader {
     const auto text = source != nullptr ? source->value_exact<std::string>() : std::nullopt;
     if (!text || text->empty())
       fail(where +
-           ": source is missing; say in quotes where the number comes from, or \"assumed\"");
+           ": source is missing; write in quotes where the number comes from, or \"assumed\"");
     const toml::node* calibrated = table->get("calibrated");
     const auto yes = calibrated != nullptr ? calibrated->value_exact<bool>() : std::nullopt;
-    if (!yes) fail(where + ": calibrated must be true or false; false until it was measured");
+    if (!yes)
+      fail(where + ": calibrated must be true or false; write false until it has been measured");
     if (!wrong_ && !(read.value > 0 && read.value <= field.most))
-      fail(fmt::format("{}: value {:g} must be above 0 and not above {:g} {}", where, read.value,
+      fail(fmt::format("{}: value {:g} must be above 0 and at most {:g} {}", where, read.value,
                        field.most, field.unit));
     if (!wrong_ && !(read.low >= 0 && read.low <= read.value))
       fail(fmt::format("{}: low {:g} must be from 0 to the value {:g}", where, read.low,
                        read.value));
     if (!wrong_ && !(read.high >= read.value && read.high <= 1e3 * field.most))
-      fail(fmt::format("{}: high {:g} must not be below the value {:g} nor above {:g}", where,
-                       read.high, read.value, 1e3 * field.most));
+      fail(fmt::format("{}: high {:g} must be from the value {:g} to {:g}", where, read.high,
+                       read.value, 1e3 * field.most));
     if (wrong_) return;
     read.value *= field.si;
     read.low *= field.si;
@@ -124,7 +125,7 @@ class Reader {
           std::find_if(kFields.begin(), kFields.end(),
                        [name = key.str()](const auto& one) { return name == one.key; });
       if (field == kFields.end())
-        return fail(fmt::format("material {}: {} is not known here; there are {}", number,
+        return fail(fmt::format("material {}: {} is not a known field; use {}", number,
                                 base::shown(key.str()), keys()));
       constant(node,
                fmt::format("material \"{}\": {}", base::shown(out.name), std::string(key.str())),
@@ -134,7 +135,7 @@ class Reader {
     if (like == nullptr) return;
     const auto whom = like->value_exact<std::string>();
     if (!whom || before.find(*whom) == nullptr)
-      fail(fmt::format("material \"{}\": like: there is no such material above it",
+      fail(fmt::format("material \"{}\": like: must name a material defined above this one",
                        base::shown(out.name)));
   }
 
@@ -142,23 +143,22 @@ class Reader {
   void all(const toml::table& table, Materials& out) {
     for (const auto& [key, node] : table)
       if (key.str() != "material")
-        return fail(fmt::format("{} is not known here; there is only [[material]]",
+        return fail(fmt::format("{} is not a known field; only [[material]] is allowed",
                                 base::shown(key.str())));
     const toml::array* list = table["material"].as_array();
-    if (list == nullptr) return fail("no [[material]] in it; see docs/materials.md");
+    if (list == nullptr) return fail("there is no [[material]]; see docs/materials.md");
     std::vector<std::string> named;
     for (const toml::node& node : *list) {
       const toml::table* entry = node.as_table();
       const std::size_t number = named.size() + 1;
-      if (entry == nullptr) return fail("material: tables [[material]] are expected");
+      if (entry == nullptr) return fail("material: must be a list of tables, [[material]]");
       const toml::node* name_node = entry->get("name");
       const auto name = name_node != nullptr ? name_node->value_exact<std::string>() : std::nullopt;
       if (!name || io::trimmed(*name).empty() || name->size() > 100)
         return fail(fmt::format(
             "material {}: name is missing; give name = \"..\" of at most 100 letters", number));
       if (std::find(named.begin(), named.end(), plain(*name)) != named.end())
-        return fail(
-            fmt::format("material \"{}\" stands there twice; keep one", base::shown(*name)));
+        return fail(fmt::format("material \"{}\" appears twice; keep one", base::shown(*name)));
       named.push_back(plain(*name));
       const toml::node* like = entry->get("like");
       const auto found = std::find_if(out.all.begin(), out.all.end(), [&](const Material& have) {
@@ -167,8 +167,8 @@ class Reader {
       if (found != out.all.end()) {
         if (like != nullptr)
           return fail(
-              fmt::format("material \"{}\": like is for new materials; this one is built "
-                          "in, leave it out",
+              fmt::format("material \"{}\": like is only for new materials, and this one is built "
+                          "in; remove like",
                           base::shown(*name)));
         material(*entry, number, out, *found);
       } else {
@@ -178,7 +178,9 @@ class Reader {
         fresh.name = *name;
         material(*entry, number, out, fresh);
         if (out.all.size() >= kMostMaterials)
-          return fail(fmt::format("more than {} materials; keep those you use", kMostMaterials));
+          return fail(
+              fmt::format("there are more than {} materials; remove those that you do not use",
+                          kMostMaterials));
         out.all.push_back(std::move(fresh));
       }
       if (wrong_) return;
@@ -270,8 +272,8 @@ const Materials& built_in_materials() {
 }
 
 Result<Materials> read_materials(const std::string& path) {
-  const auto text =
-      base::text_of_file(path, kLargestFile, "a table of materials; is this another file?");
+  const auto text = base::text_of_file(path, kLargestFile,
+                                       "a table of materials; check that this is the right file");
   if (!text) return text.error();
   return parse_materials(*text, io::short_name(path), built_in_materials());
 }

@@ -53,30 +53,31 @@ std::string names_of(const Materials& materials) {
 Status read_table(const std::string& path, const Materials& materials,
                   std::vector<Tissue>& of_value, std::array<bool, 256>& known) {
   const std::string file = io::short_name(path);
-  const auto text =
-      base::text_of_file(path, std::uintmax_t{1} << 20, "a table of labels; is this another file?");
+  const auto text = base::text_of_file(path, std::uintmax_t{1} << 20,
+                                       "a table of labels; check that this is the right file");
   if (!text) return text.error();
   const auto read = parse_toml(*text, file);
   if (!read) return read.error();
   const auto* list = (*read)["label"].as_array();
   if (list == nullptr)
-    return error(fmt::format("{}: no [[label]] in it; see docs/labels.md", file));
+    return error(fmt::format("{}: there is no [[label]]; see docs/labels.md", file));
   for (const auto& node : *list) {
     const auto* entry = node.as_table();
     if (entry == nullptr)
-      return error(fmt::format("{}: label: tables [[label]] are expected", file));
+      return error(fmt::format("{}: label: must be a list of tables, [[label]]", file));
     const auto value = (*entry)["value"].value<std::int64_t>();
     const auto name = (*entry)["name"].value<std::string>();
     std::vector<std::size_t> hits;
     if (value) {
       if (*value < 1 || *value > 255)
-        return error(fmt::format("{}: label: value {} is not in 1..255", file, *value));
+        return error(
+            fmt::format("{}: label: value {} is out of range; use 1 to 255", file, *value));
       hits.push_back(static_cast<std::size_t>(*value));
     } else if (name) {
       for (std::size_t v = 1; v < 256; ++v)
         if (known[v] && plain(of_value[v].name) == plain(*name)) hits.push_back(v);
     } else {
-      return error(fmt::format("{}: label: \"value\" or \"name\" is missing", file));
+      return error(fmt::format("{}: label: value or name is missing; give one of them", file));
     }
     for (const std::size_t v : hits) {
       Tissue& tissue = of_value[v];
@@ -90,40 +91,43 @@ Status read_table(const std::string& path, const Materials& materials,
         else if (*kind == "air")
           tissue.kind = TissueKind::air;
         else
-          return error(fmt::format("{}: label {}: kind \"{}\" is none of solid, soft, air", file, v,
-                                   base::shown(*kind)));
+          return error(fmt::format("{}: label {}: kind \"{}\" is not known; use solid, soft or air",
+                                   file, v, base::shown(*kind)));
       }
       if (const auto wanted = (*entry)["material"].value<std::string>()) {
         const Material* material = materials.find(*wanted);
         if (material == nullptr)
-          return error(fmt::format("{}: label {}: material \"{}\" is not known; there are {}", file,
-                                   v, base::shown(*wanted), names_of(materials)));
+          return error(fmt::format("{}: label {}: material \"{}\" is not known; use one of {}",
+                                   file, v, base::shown(*wanted), names_of(materials)));
         lay_over(*material, tissue);
       }
       if (const auto energy = (*entry)["cutting_energy_J_mm3"].value<double>()) {
         if (!(*energy > 0 && *energy < 1e3))
-          return error(fmt::format("{}: label {}: cutting_energy_J_mm3 must be above 0", file, v));
+          return error(fmt::format(
+              "{}: label {}: cutting_energy_J_mm3 must be above 0 and below 1000", file, v));
         tissue.cutting_energy = *energy * 1e9;
       }
       if (const auto friction = (*entry)["friction"].value<double>()) {
         if (!(*friction >= 0 && *friction <= 2))
-          return error(fmt::format("{}: label {}: friction must be 0..2", file, v));
+          return error(fmt::format("{}: label {}: friction must be from 0 to 2", file, v));
         tissue.friction = *friction;
       }
       if (const auto spare = (*entry)["spare"].value<bool>()) tissue.spare = *spare;
       if (const auto bleeds = (*entry)["bleeds"].value<double>()) {
         if (!(*bleeds >= 0 && *bleeds <= 1))
-          return error(fmt::format("{}: label {}: bleeds must be 0 (not at all) to 1 (as a vessel)",
-                                   file, v));
+          return error(fmt::format(
+              "{}: label {}: bleeds must be from 0 (not at all) to 1 (as a vessel)", file, v));
         tissue.bleeds = *bleeds;
       }
       if (const auto* colour = (*entry)["colour"].as_array()) {
         if (colour->size() != 3)
-          return error(fmt::format("{}: label {}: colour needs three numbers 0..1", file, v));
+          return error(
+              fmt::format("{}: label {}: colour must be three numbers from 0 to 1", file, v));
         for (std::size_t c = 0; c < 3; ++c) {
           const double part = (*colour)[c].value_or(0.8);
           if (!std::isfinite(part))
-            return error(fmt::format("{}: label {}: colour needs three numbers 0..1", file, v));
+            return error(
+                fmt::format("{}: label {}: colour must be three numbers from 0 to 1", file, v));
           tissue.colour[c] = static_cast<float>(std::clamp(part, 0.0, 1.0));
         }
       }
@@ -217,14 +221,17 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
     if (Status status = read_table(table_path, materials, of_value, known); !status)
       return status.error();
   } else if (unnamed > 0 && different > 1) {
-    out.notices.push_back(fmt::format(
-        "{} of {} labels have no name: they are taken for solid; say which are not with --tissues.",
-        unnamed, different));
+    out.notices.push_back(
+        fmt::format("{} of {} labels have no name and are treated as solid; use --tissues to mark "
+                    "those that are not.",
+                    unnamed, different));
   }
   for (std::size_t v = 1; v < 256; ++v) {
     if (!present[v] || of_value[v].kind == TissueKind::air) continue;
     of_value[v].label = static_cast<int>(v);
-    if (out.table.tissues.size() > 255) return error("more than 255 labels; burr keeps 255");
+    if (out.table.tissues.size() > 255)
+      return error(
+          "there are more than 255 labels, and burr reads at most 255; merge some of them");
     out.of_label[v] = static_cast<volume::TissueId>(out.table.tissues.size());
     out.table.tissues.push_back(of_value[v]);
   }

@@ -47,16 +47,16 @@ Status check_export(const std::string& path, const ExportOptions& options) {
   const bool field = !labels && ends_with(path, ".nrrd");
   const bool mesh = is_mesh_path(path);
   if (!labels && !field && !mesh)
-    return error(Trouble::usage,
-                 path +
-                     ": unknown ending; use .stl, .ply, .obj, .3mf or .glb for a mesh, "
-                     ".seg.nrrd for labels, .nrrd for a volume");
+    return error(Trouble::usage, path +
+                                     ": unknown file extension; use .stl, .ply, .obj, .3mf or .glb "
+                                     "for a mesh, .seg.nrrd for labels, .nrrd for a volume");
   if (options.frame != Frame::lps && (!mesh || ends_with(path, ".glb")))
-    return error(Trouble::usage,
-                 path + ": a frame can be chosen for .stl, .ply, .obj and .3mf only");
+    return error(Trouble::usage, path +
+                                     ": the frame can be chosen only for .stl, .ply, .obj and "
+                                     ".3mf; use one of these, or keep the default frame");
   if (options.scan && (!field || options.part != Part::bone))
     return error(Trouble::usage,
-                 path + ": grey values are written only for the bone, into a .nrrd file");
+                 path + ": grey values can be written only for the bone, and only to a .nrrd file");
   return fine();
 }
 

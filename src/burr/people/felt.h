@@ -1,4 +1,4 @@
-// people/felt.h - what a hand felt in an interval, and the quantity that the trial asks about.
+// people/felt.h - what a hand felt in an interval, and the quantity that the trial is about.
 //
 // Uses only what a person has: where the hand was and the force on it, at the device, after every
 // limit; not the proxy or the settings of the simulation. The first 0.7 s are left out: the start

@@ -142,17 +142,17 @@ Fit fit(std::span<const Tally> tallies, const FitSettings& settings) {
                (one.trials - one.right) * std::log1p(-settings.guess);
   }
   if (trials == 0)
-    out.why = "no threshold found: nothing was answered";
+    out.why = "no threshold found: there are no answers";
   else if (best - guessed < kSure)
-    out.why = "no threshold found: the answers could as well have been guessed";
+    out.why = "no threshold found: the answers do not differ clearly from guessing";
   else if (!(out.high <= settings.largest))
     out.why =
-        "no threshold found: it may lie above the largest difference that was shown; raise "
-        "--largest or take more trials";
+        "no threshold found: it may be above the largest difference presented; raise --largest or "
+        "run more trials";
   else if (!(out.low >= settings.smallest))
     out.why =
-        "no threshold found: it may lie below the smallest difference that was shown; lower "
-        "--smallest or take more trials";
+        "no threshold found: it may be below the smallest difference presented; lower --smallest "
+        "or run more trials";
   else
     out.found = true;
   return out;

@@ -4,7 +4,7 @@
 //
 // A Weibull function, written so that `threshold` is the level half way between guessing and the
 // best possible rate (1 - lapse): 74 % right with two intervals and a lapse rate of 2 %. An
-// infinite threshold stands for an observer who guesses. Thread: any. Memory: none.
+// infinite threshold describes an observer who guesses. Thread: any. Memory: none.
 #pragma once
 
 #include <cmath>

@@ -79,13 +79,13 @@ Result<std::unique_ptr<volume::Bone>> phantom(
     int threads, const std::function<void(volume::TissueTable&)>& made_of) {
   const Known* known = find(name);
   if (known == nullptr)
-    return error(Trouble::usage, "there is no phantom named '" + std::string(name) +
-                                     "'; there are " + list_of_names());
+    return error(Trouble::usage,
+                 "unknown phantom '" + std::string(name) + "'; use one of " + list_of_names());
   if (voxel_mm == 0) voxel_mm = known->voxel_mm;
   if (!(voxel_mm > 0) || !std::isfinite(voxel_mm))
-    return error(Trouble::usage, "the voxel size must be a positive number of millimetres; " +
-                                     in_mm(known->voxel_mm) + " suits the phantom " +
-                                     std::string(name));
+    return error(Trouble::usage,
+                 "the voxel size must be a positive number of millimetres, for example " +
+                     in_mm(known->voxel_mm) + " for the phantom " + std::string(name));
   const double voxel = 1e-3 * voxel_mm;
   Phantom made = known->make(voxel);
   if (made_of) made_of(made.tissues);
@@ -94,12 +94,12 @@ Result<std::unique_ptr<volume::Bone>> phantom(
     return error(Trouble::usage, "voxels of " + in_mm(voxel_mm) +
                                      " are too coarse for the phantom " + std::string(name) +
                                      ", which is " + in_mm(1e3 * (made.hi - made.lo).minCoeff()) +
-                                     " thick; try " + in_mm(known->voxel_mm));
+                                     " thick; use " + in_mm(known->voxel_mm));
   if (along.prod() > kMostVoxels)
     return error(Trouble::usage, "voxels of " + in_mm(voxel_mm) + " would make more than " +
                                      std::to_string(static_cast<int>(kMostVoxels / 1e6)) +
-                                     " million of them; use a larger voxel, " +
-                                     in_mm(known->voxel_mm) + " suits the phantom " +
+                                     " million of them; use larger voxels, for example " +
+                                     in_mm(known->voxel_mm) + " for the phantom " +
                                      std::string(name));
   return bone_from_formula(box_grid(made.lo, made.hi, voxel), made.tissues, made.formula,
                            reserve_bricks, threads, progress);

@@ -7,7 +7,7 @@
 //                                                  | n x 512 x i16 intensity? ]
 //       | u32 CRC of the unpacked block
 //
-// All little-endian; voxels x fastest. Thread: nobody may write the bone meanwhile.
+// All little-endian; voxels x fastest. Thread: the bone must not be written meanwhile.
 #pragma once
 
 #include <cstdint>

@@ -72,7 +72,7 @@ Result<std::uint64_t> fingerprint_of_file(const std::string& path) {
     hash = hash_bytes(hash, ByteSpan(bytes).first(done));
   }
   ::close(file);
-  if (!good) return error(Trouble::io, path + ": cannot be read whole");
+  if (!good) return error(Trouble::io, path + ": cannot be read completely; copy it again");
   return hash == 0 ? 1 : hash;
 }
 
@@ -129,7 +129,8 @@ Result<std::uint64_t> fingerprint(const std::string& path) {
     if (!print) return print.error();
     prints.push_back(*print);
   }
-  if (prints.empty()) return error(Trouble::io, path + ": there is no file in this folder");
+  if (prints.empty())
+    return error(Trouble::io, path + ": the folder holds no files; give the folder of the scan");
   std::sort(prints.begin(), prints.end());  // names and their order do not matter
   const std::uint64_t hash = base::mix(prints.size(), prints);
   return hash == 0 ? 1 : hash;
@@ -144,12 +145,13 @@ Result<std::string> find_volume(const VolumeInfo& wanted, const VolumeHints& hin
   std::error_code problem;
   if (!hints.given.empty()) {
     if (fs::exists(hints.given, problem)) return hints.given;
-    return error(Trouble::io, hints.given + ": there is no such volume; look at --volume");
+    return error(Trouble::io,
+                 hints.given + ": this file or folder does not exist; correct --volume");
   }
   const Error lost = error(
       Trouble::io,
-      fmt::format("the bone of this recording ({}) was not found; put the scan it was made from "
-                  "beside it, or give it with --volume, or its folder in BURR_VOLUME_PATH",
+      fmt::format("the bone of this recording ({}) was not found; put its scan beside the "
+                  "recording, give the scan with --volume, or give its folder in BURR_VOLUME_PATH",
                   described(wanted)));
   if (wanted.source_fingerprint == 0) return lost;
 
@@ -173,14 +175,14 @@ Status check_volume(const VolumeInfo& wanted, const volume::Bone& bone, const st
   const volume::Grid& grid = bone.grid();
   if (grid.size != wanted.grid.size || grid.voxel != wanted.grid.voxel)
     return error(fmt::format(
-        "{}: becomes {} x {} x {} voxels of {:.4g} mm, but the recording was "
-        "cut from {}; is it the right scan?",
+        "{}: this bone has {} x {} x {} voxels of {:.4g} mm, but the bone of the recording has {}; "
+        "check that this is the right scan",
         where, grid.size.x(), grid.size.y(), grid.size.z(), grid.voxel * 1e3, described(wanted)));
   const std::uint64_t hash = bone.content_hash();
   if (hash != wanted.content_hash)
     return error(
-        fmt::format("{}: becomes a bone with content {}, but the recording was cut from "
-                    "{}; is it the right scan, imported by the same burr?",
+        fmt::format("{}: this bone has content {}, but the bone of the recording has {}; check "
+                    "that this is the right scan, imported by the same version of burr",
                     where, hex(hash), described(wanted)));
   return fine();
 }

@@ -50,6 +50,7 @@ Result<std::unique_ptr<Player>> Player::open(const std::string& path) {
   player->keyframe_chunks_ = player->chunks_with(player->keyframe_channel_);
   player->read_events();
   player->find_ends();
+  player->find_holes();
   return player;
 }
 
@@ -81,15 +82,14 @@ Status Player::read_session() {
       info_ = std::move(*info);
       if (info_.work_case && !info_.work_case->unchanged())
         notice(path_ +
-               ": the case in this recording was changed after it was written; a score "
-               "worked out from it is not that of the session");
+               ": the case in this recording was changed after it was recorded; a score computed "
+               "from it is not the score of the session");
       return fine();
     }
   }
-  return error(
-      path_ +
-      ": no description of a session in it; it is not a recording of burr, or its beginning "
-      "is damaged");
+  return error(path_ +
+               ": the description of the session is missing; this is not a recording of burr, or "
+               "its beginning is damaged");
 }
 
 void Player::read_events() {
@@ -103,6 +103,7 @@ void Player::read_events() {
       if (message.channel != event_channel_) continue;
       const auto event = nlohmann::json::parse(as_text(message.data), nullptr, false);
       if (!event.is_object()) continue;
+      stopped_ = stopped_ || event.value("event", nlohmann::json()) == "stopped";
       const auto count = [&](const char* name, std::uint64_t& to) {
         const auto at = event.find(name);
         if (at != event.end() && at->is_number_unsigned())
@@ -113,9 +114,10 @@ void Player::read_events() {
       count("dropped_bricks", dropped_bricks_);
     }
   }
+  if (stopped_) notice(path_ + ": the session was stopped before its end, by Ctrl-C or a signal");
   if (dropped_ticks_ + dropped_commands_ + dropped_bricks_ > 0)
     notice(
-        fmt::format("{}: the disk could not keep up while recording, {} ticks, {} commands and {} "
+        fmt::format("{}: the disk was too slow while recording; {} ticks, {} commands and {} "
                     "changed bricks are missing",
                     path_, dropped_ticks_, dropped_commands_, dropped_bricks_));
 }
@@ -141,6 +143,33 @@ void Player::find_ends() {
   constexpr std::uint64_t kLargest = std::numeric_limits<std::uint64_t>::max() - 1;
   first_tick_ = std::min(first_tick_, kLargest);
   end_tick_ = std::max(first_tick_, rows.empty() ? 0 : std::min(rows.back().tick, kLargest)) + 1;
+}
+
+void Player::find_holes() {
+  std::optional<Hole> hole;
+  const auto close = [&](std::uint64_t end) {
+    if (!hole) return;
+    hole->end = std::max(hole->first, std::min(end, end_tick_));
+    holes_.push_back(*hole);
+    hole.reset();
+  };
+  for (const std::size_t c : step_chunks_) {
+    const std::uint64_t start = std::clamp(start_tick(c), first_tick_, end_tick_);
+    if (reader_->read_chunk(c)) {
+      close(start);
+    } else if (!hole) {
+      hole = Hole{start, start};
+    }
+  }
+  close(end_tick_);
+  const auto seconds = [this](std::uint64_t tick) {
+    return static_cast<double>(tick) / info_.rate_hz;
+  };
+  for (const Hole& one : holes_)
+    notice(
+        fmt::format("{}: is damaged from {:.3f} s to {:.3f} s: {} ticks are lost; `burr repair` "
+                    "keeps the rest",
+                    path_, seconds(one.first), seconds(one.end), one.end - one.first));
 }
 
 // ---- the tool of recordings that do not say it
@@ -189,16 +218,15 @@ bool StepCursor::fill() {
       tick::CommandRow command;
       if (message.channel == player.tick_channel_ && !decode_ticks(message.data, rows_))
         player_->notice(
-            fmt::format("{}: a message of ticks near {:.3f} s is malformed and was "
-                        "left out",
+            fmt::format("{}: a message of ticks near {:.3f} s is not valid and was ignored",
                         player.path_, static_cast<double>(message.time_ns) * 1e-9));
       if (message.channel == player.command_channel_) {
         if (command_from_json(as_text(message.data), command))
           commands_.push_back(command);
         else
           player_->notice(
-              fmt::format("{}: a command near {:.3f} s is not understood and was left "
-                          "out; was it recorded by a newer burr?",
+              fmt::format("{}: a command near {:.3f} s is unknown and was ignored; it was perhaps "
+                          "recorded by a newer burr",
                           player.path_, static_cast<double>(message.time_ns) * 1e-9));
       }
     }
@@ -244,8 +272,7 @@ bool BrickCursor::next(tick::BrickRow& row) {
       if (message.channel != player_->change_channel_) continue;
       if (!decode_bricks(message.data, bricks)) {
         player_->notice(player_->path_ +
-                        ": a message of changed bricks is malformed and was left "
-                        "out");
+                        ": a message of changed bricks is not valid and was ignored");
         continue;
       }
       for (std::size_t i = 0; i < bricks.tick.size(); ++i) {
@@ -302,19 +329,21 @@ Result<tick::TickRow> Player::tick_at(double t_s) {
     if (start == 0) break;
     start = start > back ? start - back : 0;  // further each time, so that no chunk is read often
   }
-  return error(fmt::format("{}: holds no tick at or before {} s", path_, t_s));
+  return error(
+      fmt::format("{}: holds no tick at or before {} s; choose a later moment", path_, t_s));
 }
 
 Error Player::broken_before(std::uint64_t tick) const {
-  std::string again = "never again";
+  std::string again = "and there is no later keyframe";
   for (const std::size_t c : keyframe_chunks_) {
     if (start_tick(c) <= tick) continue;
-    again = fmt::format("again from {:.3f} s", static_cast<double>(start_tick(c)) / info_.rate_hz);
+    again = fmt::format("and the next keyframe is at {:.3f} s",
+                        static_cast<double>(start_tick(c)) / info_.rate_hz);
     break;
   }
   return error(
-      fmt::format("{}: the bone at {:.3f} s cannot be shown, because changes before it are "
-                  "damaged, {}; choose another moment, or replay",
+      fmt::format("{}: the bone at {:.3f} s cannot be shown, because earlier changes are damaged "
+                  "{}; choose another moment, or replay the session",
                   path_, static_cast<double>(tick) / info_.rate_hz, again));
 }
 
@@ -390,7 +419,7 @@ Status Player::advance(std::uint64_t tick) {
       if (message.channel != change_channel_) continue;
       Bricks bricks;
       if (!decode_bricks(message.data, bricks)) {
-        notice(path_ + ": a message of changed bricks is malformed");
+        notice(path_ + ": a message of changed bricks is not valid");
         return broken_before(tick);
       }
       if (bricks.batch < place_.next_batch) continue;  // already in the keyframe
@@ -441,13 +470,13 @@ Status Player::show(volume::Bone& bone) {
   };
   for (const auto& [brick, content] : state_) {
     if (brick < 0 || brick >= bone.brick_count())
-      return error(fmt::format("{}: changes brick {}, which the bone has not; it is another bone",
-                               path_, brick));
+      return error(fmt::format(
+          "{}: changes brick {}, which this bone does not have; give the right bone with --volume",
+          path_, brick));
     if (!write(brick, content, original(brick)))
-      return error(
-          fmt::format("{}: the bone has no room for deposited material; open it with "
-                      "reserve_bricks {}",
-                      path_, std::max<std::uint64_t>(info_.volume.recipe.reserve_bricks, 1)));
+      return error(fmt::format(
+          "{}: the bone has no space for deposited material; open it with reserve_bricks {}", path_,
+          std::max<std::uint64_t>(info_.volume.recipe.reserve_bricks, 1)));
   }
   // bricks that an earlier call changed and that are unchanged at this moment
   for (const auto& [brick, content] : originals_)
@@ -458,8 +487,8 @@ Status Player::show(volume::Bone& bone) {
 Status Player::bone_at(double t_s, volume::Bone& bone) {
   if (bone.grid().size != info_.volume.grid.size)
     return error(fmt::format(
-        "{}: was cut from a bone of {} x {} x {} voxels, this one has {} x {} x {}; give the right "
-        "one with --volume",
+        "{}: the bone of the recording has {} x {} x {} voxels, but this one has {} x {} x {}; "
+        "give the right bone with --volume",
         path_, info_.volume.grid.size.x(), info_.volume.grid.size.y(), info_.volume.grid.size.z(),
         bone.grid().size.x(), bone.grid().size.y(), bone.grid().size.z()));
   const std::uint64_t tick = tick_of(t_s);
@@ -490,7 +519,7 @@ Result<std::unique_ptr<volume::Bone>> Player::embedded_bone(std::size_t reserve_
     if (!blob) return blob.error();
     return bone_from_blob(*blob, reserve_bricks, path_);
   }
-  return error(path_ + ": holds no bone; give the scan it was made from with --volume");
+  return error(path_ + ": holds no bone; give the scan of the bone with --volume");
 }
 
 }  // namespace burr::record

@@ -79,10 +79,18 @@ class Player {
 
   [[nodiscard]] const SessionInfo& info() const { return info_; }
   [[nodiscard]] const std::string& path() const { return path_; }
-  // False: incomplete (killed, power cut, or still being recorded) and opened as far as it goes.
-  [[nodiscard]] bool finished() const { return reader_->finished(); }
+  // False: incomplete (killed, power cut, or still being recorded) and opened as far as it goes; or the
+  // session was stopped before its time by Ctrl-C or SIGTERM.
+  [[nodiscard]] bool finished() const { return reader_->finished() && !stopped_; }
+  [[nodiscard]] bool stopped() const { return stopped_; }
   [[nodiscard]] std::uint64_t lost_bytes() const { return reader_->lost_bytes(); }
   [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
+  // Parts of the ticks whose chunks are damaged; a notice names each. open() reads every chunk for
+  // this, because the summary of a file knows nothing of its damage.
+  struct Hole {
+    std::uint64_t first = 0, end = 0;  // ticks, end excluded
+  };
+  [[nodiscard]] const std::vector<Hole>& holes() const { return holes_; }
 
   // The first tick, and one past the last; equal when there is none.
   [[nodiscard]] std::uint64_t first_tick() const { return first_tick_; }
@@ -129,6 +137,7 @@ class Player {
   Player() = default;
   [[nodiscard]] Status read_session();
   void read_events();
+  void find_holes();
   void find_ends();
   [[nodiscard]] std::vector<std::size_t> chunks_with(std::uint16_t channel,
                                                      std::uint16_t or_channel = 0) const;
@@ -154,6 +163,8 @@ class Player {
   std::vector<std::size_t> step_chunks_;  // ticks or commands
   std::vector<std::size_t> change_chunks_, keyframe_chunks_;
   std::uint64_t first_tick_ = 0, end_tick_ = 0;
+  bool stopped_ = false;
+  std::vector<Hole> holes_;
   std::uint64_t dropped_ticks_ = 0, dropped_commands_ = 0, dropped_bricks_ = 0;
 
   // Where the ticks do not hold the tool: the first tick of each assumed state, and the state.

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "burr/base/check.h"
+#include "burr/base/inputs.h"
 #include "burr/base/version.h"
 #include "burr/record/bone_blob.h"
 #include "burr/record/mcap/mcap_writer.h"
@@ -77,10 +78,11 @@ class Recorder::Pen {
   Pen(const Pen&) = delete;
   Pen& operator=(const Pen&) = delete;
 
-  void stop() {
+  void stop(bool early = false) {
     {
       const std::lock_guard lock(mutex_);
       stopping_ = true;
+      stopped_early_ = stopped_early_ || early;
     }
     wake_.notify_all();
     thread_->join();
@@ -145,7 +147,7 @@ class Recorder::Pen {
       if (failed_) discard();
       if (!done.ok()) fail(done.error());
     } catch (const std::bad_alloc&) {
-      fail(error(Trouble::io, "recording: not enough memory; the recording ends here"));
+      fail(error(Trouble::io, "recording: there is not enough memory; the recording ends here"));
     }
   }
 
@@ -196,7 +198,7 @@ class Recorder::Pen {
     } while (last && written.ok());
     if (!written.ok() || !last) return written;
 
-    put_event("finished");
+    put_event(stopped_early_ ? "stopped" : "finished");
     const auto number = [](std::uint64_t value) { return fmt::format("{}", value); };
     if (Status added = writer_->add_metadata("burr.account",
                                              {{"ticks", number(account_.ticks)},
@@ -432,6 +434,7 @@ class Recorder::Pen {
   mutable std::mutex mutex_;
   std::condition_variable wake_, room_;
   bool stopping_ = false, hurry_ = false;
+  bool stopped_early_ = false;  // written before stopping_, read after it
   std::atomic<std::uint64_t> safe_ticks_ = 0;
   std::optional<Error> trouble_;
   std::mutex sync_mutex_;
@@ -462,8 +465,10 @@ Status Recorder::start(const std::string& path, const SessionInfo& asked, const 
   info.embedded = embed != nullptr;
   if (Status good = check(info); !good.ok()) return good;
 
+  if (const Status allowed = base::check_not_input(path); !allowed) return allowed;
   if (being_written(path))
-    return error(Trouble::io, path + ": another burr is recording to it; choose another name");
+    return error(Trouble::io,
+                 path + ": another burr is recording to this file; choose another name");
 
   // under another name until it has its beginning; until then an older recording is safe
   const std::string beside = path + ".part";
@@ -521,9 +526,9 @@ void Recorder::wait_for_room() {
 
 Status Recorder::status() const { return pen_ ? pen_->status() : fine(); }
 
-Result<RecordingAccount> Recorder::finish() {
+Result<RecordingAccount> Recorder::finish(bool stopped) {
   BURR_CHECK(pen_ != nullptr);
-  pen_->stop();
+  pen_->stop(stopped);
   if (Status done = pen_->status(); !done.ok()) return done.error();
   return pen_->account();
 }

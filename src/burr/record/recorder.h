@@ -8,7 +8,7 @@
 //     recorder.finish();
 //
 //     servo --rings, 4 s deep--> pen: a chunk every 40 ms, keyframe of the bone every 10 s
-//                                 `--> syncer: fdatasync, so that a slow disk delays nobody
+//                                 `--> syncer: fdatasync, so that a slow disk delays no one
 //
 // If a ring is full, the row is dropped and counted; the count is written to the file. A process
 // that is killed loses at most the last 100 ms of ticks: the pen gives each chunk to the kernel in
@@ -82,8 +82,9 @@ class Recorder {
   [[nodiscard]] std::uint64_t safe_ticks() const;
 
   // Writes everything pushed before this call, then summary and footer. The file is then complete,
-  // or the Error says what is missing.
-  [[nodiscard]] Result<RecordingAccount> finish();
+  // or the Error says what is missing. stopped: the session was ended before its time, by a signal; the
+  // file says so (Player::finished()).
+  [[nodiscard]] Result<RecordingAccount> finish(bool stopped = false);
   // The account after finish(), successful or not.
   [[nodiscard]] RecordingAccount account() const;
 

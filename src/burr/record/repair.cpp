@@ -51,7 +51,7 @@ Status copy(const McapReader& from, McapWriter& to, RepairReport& report, Progre
   for (std::size_t i = 0; i < count; ++i) {
     progress.report(static_cast<double>(i) / static_cast<double>(count), "repairing");
     if (progress.cancelled())
-      return error(Trouble::interrupted, "repair was stopped; the recording is as it was");
+      return error(Trouble::interrupted, "repair was stopped; the recording is unchanged");
     const auto chunk = from.read_chunk(i);
     const auto packed = from.read_packed(i);
     if (!chunk || !packed) {
@@ -94,9 +94,10 @@ double rate_of(const McapReader& file) {
 Result<RepairReport> repair(const std::string& path, const std::string& out, Progress& progress) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
-    return error(Trouble::io, path + ": there is no such file");
+    return error(Trouble::io, path + ": does not exist; check the name");
   if (being_written(path))
-    return error(Trouble::io, path + ": is being recorded right now; wait for its end");
+    return error(Trouble::io,
+                 path + ": is being recorded right now; wait until the session has ended");
   progress.report(0, "looking for damage");
   auto reader = McapReader::open(path, McapReader::Trust::nothing);
   if (!reader) return reader.error();
@@ -107,7 +108,7 @@ Result<RepairReport> repair(const std::string& path, const std::string& out, Pro
   report.lost_bytes = from.lost_bytes();
   const double rate_hz = rate_of(from);
   if (rate_hz == 0)
-    return error(path + ": nothing can be saved, the description of the session is gone");
+    return error(path + ": nothing can be saved, because the description of the session is lost");
 
   // the target of a link is repaired, the link stays
   std::filesystem::path target = std::filesystem::weakly_canonical(out, ignored);

@@ -300,8 +300,8 @@ Result<SessionInfo> session_from_json(std::string_view text, const std::string& 
   SessionInfo info;
   const auto missing = [&](const char* field) {
     return error(
-        fmt::format("{}: session field \"{}\" is missing or of the wrong kind; the "
-                    "recording is damaged or newer than this burr",
+        fmt::format("{}: session field \"{}\" is missing or has the wrong type; the recording is "
+                    "damaged or newer than this burr",
                     where, field));
   };
   if (!get_text(object, "burr_version", info.burr_version)) return missing("burr_version");

@@ -47,7 +47,7 @@ struct CaseInfo {
   std::string text;             // scenario::Case::text
   std::vector<scenario::Target> targets;
   std::vector<std::string> spare;  // names of tissues
-  // The text has its hash, and says the same targets and spare: nobody changed the one or the other.
+  // True if the text has its hash and gives the same targets and spare: neither was changed.
   [[nodiscard]] bool unchanged() const;
 };
 [[nodiscard]] CaseInfo case_info(const scenario::Case& work);

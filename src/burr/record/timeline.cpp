@@ -77,7 +77,7 @@ void TimelineMaker::add(const Step& step) {
 
   if (line_.tools.empty() || line_.tools.back().tool != row.tool)
     line_.tools.push_back({t, row.tool});
-  // of several burrs asked for in one tick the row says what came of the last
+  // if several burrs were requested in one tick, the row shows the outcome of the last
   const auto last = std::find_if(
       step.commands.rbegin(), step.commands.rend(),
       [](const tick::Command& one) { return one.kind == tick::CommandKind::burr_radius; });

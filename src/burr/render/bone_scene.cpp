@@ -24,7 +24,7 @@ Status skin_bone(Scene& scene, const volume::Bone& bone, int threads, Progress& 
       const int first = next.fetch_add(kHandful);
       if (first >= count) return;
       for (int patch = first; patch < std::min(first + kHandful, count); ++patch) {
-        // at rest nobody writes, so this succeeds at once
+        // a bone at rest is not written, so this succeeds at once
         while (!mesher.mesh_patch(patch, mesh)) {
         }
         patches[static_cast<std::size_t>(patch)] = packed(mesh);

@@ -1,7 +1,7 @@
 // render/bone_scene.h - makes a scene from a whole bone: for pictures of a bone at rest, and for
 // the first picture of a session.
 //
-// Thread: one; nobody else may use the scene meanwhile.
+// Thread: one; no other thread may use the scene meanwhile.
 #pragma once
 
 #include "burr/base/progress.h"

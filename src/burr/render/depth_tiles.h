@@ -1,4 +1,4 @@
-// render/depth_tiles.h - a coarse map of the depth of a half-drawn picture, which tells which boxes
+// render/depth_tiles.h - a coarse map of the depth of a half-drawn picture; it shows which boxes
 // cannot be seen in it.
 //
 //     DepthTiles tiles;

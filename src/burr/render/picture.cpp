@@ -35,7 +35,7 @@ Status write_png(const Image& image, const std::filesystem::path& path) {
   std::string bytes;
   if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(),
                              image.width * 3) == 0)
-    return error(Trouble::internal, "a picture could not be packed as PNG; please report it");
+    return error(Trouble::internal, "a picture could not be encoded as PNG; please report it");
 
   Result<base::NewFile> file = base::NewFile::beside(path.string());
   if (!file) return file.error();
@@ -53,8 +53,10 @@ Result<Film> Film::in(const std::filesystem::path& folder, int width, int height
   std::error_code trouble;
   std::filesystem::create_directories(folder, trouble);
   if (trouble)
-    return error(Trouble::io, fmt::format("{}: cannot make the film's folder: {}; choose another",
-                                          folder.string(), trouble.message()));
+    return error(
+        Trouble::io,
+        fmt::format("{}: the folder of the film cannot be created: {}; choose another folder",
+                    folder.string(), trouble.message()));
   auto renderer = Renderer::offscreen();
   if (!renderer) return renderer.error();
   return Film(folder, width, height, std::move(*renderer));

@@ -12,8 +12,8 @@
 
 namespace burr::rt {
 
-// One object of a block that nobody declared atomic, relaxed. Not std::atomic_ref: not every
-// standard library has it yet.
+// Relaxed atomic access to an object whose type is not atomic. std::atomic_ref is not used because
+// not every standard library has it yet.
 template <class Value>
 void store_relaxed(Value& object, Value value) BURR_RT {
   __atomic_store_n(&object, value, __ATOMIC_RELAXED);

@@ -82,7 +82,7 @@ class NoWaitClock final : public TickClock {
   TickGrid grid_;
 };
 
-// For tests: time advances only by pass(), which stands for the time of a tick's work or of a
+// For tests: time advances only by pass(), which simulates the duration of a tick's work or of a
 // stall.
 class VirtualClock final : public TickClock {
  public:

@@ -1,4 +1,5 @@
-// rt/flags.h - the bits of a tick: why its force, or its cut, is not what the laws alone would give.
+// rt/flags.h - the bits of a tick: why its force, or its cut, is not what the laws alone would
+// give.
 //
 // One enum for everybody who sets such a bit: haptics (safety layer, touch), edit (carver, brush)
 // and tick. Several bits may be set at once. Recordings hold these numbers: a bit keeps its number

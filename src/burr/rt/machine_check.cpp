@@ -24,16 +24,18 @@ std::string joined(std::initializer_list<std::string_view> parts) {
   return all;
 }
 
-constexpr const char* kHow = "docs/realtime.md, \"Allowing real time\", has the two lines";
+constexpr const char* kHow = "docs/realtime.md, \"Allowing real time\", shows how";
 
 CheckLine processor_line(const Machine& machine) {
-  CheckLine line{"processor", machine.processor.empty() ? "not named" : machine.processor, ""};
+  CheckLine line{"processor", machine.processor.empty() ? "unknown" : machine.processor, ""};
   line.is += ", " + number(machine.cores) + (machine.cores == 1 ? " core" : " cores") + " for burr";
   if (machine.core_quota > 0) line.is += ", limited to " + number(machine.core_quota, "%.2g");
   if (machine.cores < 2)
-    line.change = "the hand and the picture share one core; give burr two or more";
+    line.change = "the haptic loop and the picture share one core; give burr two cores or more";
   else if (machine.core_quota > 0 && machine.core_quota < 2)
-    line.change = "the container stops burr when its share is used up; give it two cores or more";
+    line.change =
+        "the container stops burr when its processor time is used up; give the container two cores "
+        "or more";
   return line;
 }
 
@@ -41,18 +43,18 @@ CheckLine simd_line(const Machine& machine) {
   CheckLine line{"instructions", machine.simd, ""};
   if (machine.simd == "scalar")
     line.change =
-        "no AVX2 is used, so large burrs on fine voxels cost more; take coarser voxels, or a newer "
-        "processor";
+        "AVX2 is not used, so large burrs on fine voxels need more time; use coarser voxels, or a "
+        "newer processor";
   return line;
 }
 
 CheckLine priority_line(const MachineSeen& seen) {
-  CheckLine line{"priority", "SCHED_FIFO: the tick goes before everything else", ""};
+  CheckLine line{"priority", "SCHED_FIFO: the tick runs before all ordinary programs", ""};
   if (seen.grant.fifo) {
     const Machine& m = seen.machine;
     if (m.fifo_share_us >= 0 && m.fifo_period_us > 0 && 10 * m.fifo_share_us < 9 * m.fifo_period_us)
       line.change =
-          joined({"the kernel gives SCHED_FIFO only ", number(m.fifo_share_us), " of ",
+          joined({"the kernel gives SCHED_FIFO threads only ", number(m.fifo_share_us), " of ",
                   number(m.fifo_period_us), " us; raise kernel.sched_rt_runtime_us with sysctl"});
     return line;
   }
@@ -65,7 +67,7 @@ CheckLine priority_line(const MachineSeen& seen) {
 }
 
 CheckLine memory_line(const MachineSeen& seen) {
-  CheckLine line{"memory", "locked: what was touched once stays", ""};
+  CheckLine line{"memory", "locked: pages stay in memory once used", ""};
   if (seen.grant.locked) return line;
   line.is = "not locked";
   if (seen.machine.locked_bytes != kNoLimit)
@@ -75,26 +77,26 @@ CheckLine memory_line(const MachineSeen& seen) {
 }
 
 CheckLine kernel_line(const Machine& machine) {
-  CheckLine line{"kernel", machine.kernel.empty() ? "not named" : machine.kernel, ""};
+  CheckLine line{"kernel", machine.kernel.empty() ? "unknown" : machine.kernel, ""};
   if (!machine.preemption.empty()) line.is += ", " + machine.preemption;
   if (!machine.preempt_rt())
     line.change =
-        "for a real device take a kernel with PREEMPT_RT (apt install linux-image-rt-amd64): it "
-        "bounds the worst tick";
+        "for a real device use a kernel with PREEMPT_RT (apt install linux-image-rt-amd64), which "
+        "limits the worst delay";
   return line;
 }
 
 CheckLine governor_line(const Machine& machine) {
-  CheckLine line{"frequency", machine.governor.empty() ? "not told" : machine.governor, ""};
+  CheckLine line{"frequency", machine.governor.empty() ? "unknown" : machine.governor, ""};
   if (!machine.governor.empty() && machine.governor != "performance")
     line.change =
-        "the processor slows down between ticks; cpupower frequency-set -g performance (package "
-        "linux-cpupower)";
+        "the processor slows down between ticks; run cpupower frequency-set -g performance "
+        "(package linux-cpupower)";
   return line;
 }
 
 CheckLine clock_line(const Machine& machine) {
-  CheckLine line{"clock", machine.clock_source.empty() ? "not told" : machine.clock_source, ""};
+  CheckLine line{"clock", machine.clock_source.empty() ? "unknown" : machine.clock_source, ""};
   static constexpr std::array<std::string_view, 5> kSlow = {"hpet", "acpi_pm", "jiffies", "pit",
                                                             "refined-jiffies"};
   if (std::find(kSlow.begin(), kSlow.end(), machine.clock_source) != kSlow.end())
@@ -105,15 +107,15 @@ CheckLine clock_line(const Machine& machine) {
 }
 
 CheckLine virtual_line(const Machine& machine) {
-  if (machine.virtual_machine.empty()) return {"virtual machine", "none seen", ""};
+  if (machine.virtual_machine.empty()) return {"virtual machine", "none found", ""};
   return {"virtual machine", machine.virtual_machine,
-          "the worst case belongs to the host; for a real device run burr on the machine itself"};
+          "the host decides the worst delay; for a real device run burr directly on a computer"};
 }
 
 // Adds the reasons why these ticks do not meet the bars.
 void hold_against(const CheckBars& bars, const TickSummary& ticks, std::vector<std::string>& why) {
   if (ticks.p999_us > bars.work_us)
-    why.push_back("one tick in a thousand works " + number(ticks.p999_us, "%.0f") +
+    why.push_back("one tick in a thousand takes " + number(ticks.p999_us, "%.0f") +
                   " us or longer (" + number(bars.work_us, "%.0f") + " allowed)");
   if (ticks.late_p999_us > bars.late_us)
     why.push_back("one tick in a thousand begins " + number(ticks.late_p999_us, "%.0f") +
@@ -123,18 +125,18 @@ void hold_against(const CheckBars& bars, const TickSummary& ticks, std::vector<s
                   " ms late (" + number(1e-3 * bars.worst_us, "%.0f") + " allowed)");
   const double all = static_cast<double>(ticks.ticks + ticks.missed);
   if (static_cast<double>(ticks.missed) > bars.missed_share * all)
-    why.push_back(number(ticks.missed) + " of " + number(all, "%.0f") + " ticks were left out");
+    why.push_back(number(ticks.missed) + " of " + number(all, "%.0f") + " ticks were skipped");
 }
 
 // Adds the reasons that concern only a real device.
 void hold_against(const MachineSeen& seen, std::vector<std::string>& why) {
   if (!seen.grant.fifo) why.emplace_back("the tick has ordinary priority");
   if (!seen.grant.locked) why.emplace_back("memory is not locked");
-  if (seen.machine.cores < 2) why.emplace_back("there is one core only");
+  if (seen.machine.cores < 2) why.emplace_back("there is only one core");
   if (seen.machine.core_quota > 0 && seen.machine.core_quota < 2)
     why.emplace_back("a container limits the processor");
   if (!seen.machine.virtual_machine.empty())
-    why.emplace_back("in a virtual machine the worst case is the host's");
+    why.emplace_back("in a virtual machine the host decides the worst delay");
 }
 
 }  // namespace
@@ -170,11 +172,11 @@ MachineJudged judge(const MachineSeen& seen) {
     judged.verdict = judged.reasons.empty() ? Verdict::good : Verdict::usable;
   }
 
-  judged.sentence = judged.verdict == Verdict::good ? "good: this computer can hold a real device"
-                    : judged.verdict == Verdict::usable
-                        ? "usable: to learn and to try; with a real device the "
-                          "force may be let go of at times"
-                        : "not good enough for a real device";
+  judged.sentence =
+      judged.verdict == Verdict::good     ? "good: this computer is fast enough for a real device"
+      : judged.verdict == Verdict::usable ? "usable: good enough to learn and to try; with a real "
+                                            "device the force may sometimes be released"
+                                          : "not good enough for a real device";
   for (std::size_t i = 0; i < judged.reasons.size(); ++i)
     judged.sentence += (i == 0 ? ": " : "; ") + judged.reasons[i];
   // whose fault the lateness is
@@ -183,9 +185,9 @@ MachineJudged judge(const MachineSeen& seen) {
     judged.sentence +=
         seen.waiting_loaded.late_p999_us > bars.late_us ||
                 seen.waiting_loaded.worst_lateness_us > bars.worst_us
-            ? "; a loop that only waits comes as late: it is the machine, not the tick"
-            : "; a loop that only waits is in time: close other programs, or take a "
-              "smaller burr or coarser voxels";
+            ? "; a loop that only waits is just as late: the computer is the cause, not the tick"
+            : "; a loop that only waits is on time: close other programs, or use a smaller burr or "
+              "coarser voxels";
   return judged;
 }
 

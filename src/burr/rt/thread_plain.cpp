@@ -14,7 +14,8 @@ struct Thread::Work {
 
 Thread::Thread(const ThreadRequest& request, std::function<void()> work)
     : work_(std::make_unique<Work>()) {
-  work_->grant.sentence = request.name + ": ordinary thread, as this system has no other";
+  work_->grant.sentence =
+      request.name + ": ordinary thread, because this system has no real-time threads";
   work_->thread = std::thread(std::move(work));
 }
 

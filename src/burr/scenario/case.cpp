@@ -33,7 +33,7 @@ class Reader {
         found = found || key.str() == name;
         list += (list.empty() ? "" : ", ") + std::string(name);
       }
-      if (!found) fail(key.str(), "is not known here; there are " + list);
+      if (!found) fail(key.str(), "is not a known field; use " + list);
     }
   }
 
@@ -41,7 +41,7 @@ class Reader {
     const toml::node* node = find(key, needed, "a text");
     if (node == nullptr) return;
     const auto value = node->value_exact<std::string>();
-    if (!value || value->empty()) return fail(key, "must be a text in quotes");
+    if (!value || value->empty()) return fail(key, "must be text in quotes");
     out = *value;
   }
 
@@ -50,7 +50,7 @@ class Reader {
     if (node == nullptr) return;
     const auto value = node->is_number() ? node->value<double>() : std::nullopt;
     if (!value || !(*value > above) || !(*value <= most))
-      return fail(key, fmt::format("must be a number above {:g} and not above {:g}", above, most));
+      return fail(key, fmt::format("must be a number above {:g} and at most {:g}", above, most));
     out = *value;
   }
 
@@ -84,7 +84,7 @@ class Reader {
       }
       list += (list.empty() ? "" : ", ") + std::string(name);
     }
-    fail(key, fmt::format("\"{}\" is none of {}", base::shown(word), list));
+    fail(key, fmt::format("\"{}\" is not known; use one of {}", base::shown(word), list));
   }
 
   // reads the table [key], if it is there
@@ -139,7 +139,7 @@ void read_burr(Reader& reader, Case& out) {
   reader.number("diameter_mm", diameter_mm, 0, 1e3 * tool::kLargestDiameter, true);
   if (diameter_mm < 1e3 * tool::kSmallestDiameter)
     reader.fail("diameter_mm",
-                fmt::format("there are no burrs under {:g} mm", 1e3 * tool::kSmallestDiameter));
+                fmt::format("must be at least {:g} mm", 1e3 * tool::kSmallestDiameter));
   out.burr.radius = 0.5e-3 * diameter_mm;
   reader.choice<tool::BurrKind>(
       "kind", out.burr.kind,
@@ -154,7 +154,7 @@ void read_work(Reader& reader, Case& out) {
   reader.vector("into", out.into);
   if (out.at) *out.at *= 1e-3;
   if (!out.into) return;
-  if (out.into->norm() < 1e-6) return reader.fail("into", "must point somewhere, not [0, 0, 0]");
+  if (out.into->norm() < 1e-6) return reader.fail("into", "must be a direction, not [0, 0, 0]");
   out.into->normalize();
 }
 
@@ -237,11 +237,12 @@ Result<Case> read_case(const std::string& name_or_path) {
   const std::filesystem::path path(name_or_path);
   const std::string file = path.filename().string();
   if (path.extension() != ".toml")
-    return error(Trouble::usage,
-                 fmt::format("there is no built-in case \"{}\"; there are {}, or give a .toml file",
-                             file, list_of(built_in_cases())));
+    return error(
+        Trouble::usage,
+        fmt::format("there is no built-in case \"{}\"; use one of {}, or give a .toml file", file,
+                    list_of(built_in_cases())));
   const auto text =
-      base::text_of_file(path.string(), kLargestFile, "a case; is this another file?");
+      base::text_of_file(path.string(), kLargestFile, "a case; check that this is the right file");
   if (!text) return text.error();
 
   Result<Case> read = parse_case(*text, file);

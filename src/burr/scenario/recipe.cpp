@@ -155,7 +155,8 @@ std::string to_json(const Recipe& recipe) {
 
 Result<Recipe> recipe_from_json(std::string_view text, const std::string& where) {
   const json object = json::parse(text, nullptr, false);
-  if (!object.is_object()) return error(where + ": the recipe of the bone is not JSON");
+  if (!object.is_object())
+    return error(where + ": the recipe of the bone is not JSON; the file is damaged");
   Recipe out;
   Fields fields(object);
   fields.text("source", out.source);
@@ -174,7 +175,8 @@ Result<Recipe> recipe_from_json(std::string_view text, const std::string& where)
   fields.count("reserve_bricks", out.reserve_bricks);
   if (!fields.wrong().empty())
     return error(
-        fmt::format("{}: recipe.{} is of the wrong kind or out of range", where, fields.wrong()));
+        fmt::format("{}: recipe.{} has the wrong type or is out of range; the file is damaged",
+                    where, fields.wrong()));
   return out;
 }
 
@@ -187,7 +189,7 @@ Result<Region> parse_region(std::string_view text) {
   std::array<int, 6> voxel{};
   for (std::size_t n = 0; n < 6; ++n) {
     if (!(box[n] >= 0 && box[n] < kMostVoxels))
-      return error(Trouble::usage, "--roi: voxels count from 0");
+      return error(Trouble::usage, "--roi: voxels are counted from 0; give numbers of 0 or more");
     voxel[n] = static_cast<int>(box[n]);
   }
   return Region{{voxel[0], voxel[1]}, {voxel[2], voxel[3]}, {voxel[4], voxel[5]}};

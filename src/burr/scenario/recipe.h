@@ -1,5 +1,6 @@
-// scenario/recipe.h - how a bone is made: of what, which part, how fine, where its surface lies, what
-// its tissues are. The same type at the command line, in the window, in kept sessions and recordings.
+// scenario/recipe.h - how a bone is made: of what, which part, how fine, where its surface lies,
+// what its tissues are. The same type at the command line, in the window, in kept sessions and
+// recordings.
 //
 //     scenario::Recipe recipe;
 //     recipe.source = "ct_folder";
@@ -37,7 +38,7 @@ struct Recipe {
   bool allow_missing = false;         // go on though slices could not be read
   std::optional<Region> region;       // none: the whole scan
   double voxel_mm = 0;                // edge of the cubic voxels; 0: the finest axis of the scan,
-                                      // coarser where memory_mb asks for it
+                                      // coarser if memory_mb requires it
   std::optional<double> iso;  // surface level, in HU or the file's unit; none: 300 HU, or Otsu
   double smooth = -1;         // noise to remove, standard deviation in HU or the file's unit;
                               // 0: none, below 0: as much as is measured in the scan
@@ -56,8 +57,8 @@ struct Recipe {
 [[nodiscard]] std::string phantom_name(const std::string& source);
 [[nodiscard]] std::string phantom_source(const std::string& name);
 
-// As a recording may hold it: no path and no identifier. A file becomes "", an own table or a series
-// chosen by its UID becomes kOwn.
+// As a recording may hold it: no path and no identifier. A file becomes "", an own table or a
+// series chosen by its UID becomes kOwn.
 inline constexpr const char* kOwn = "own";
 [[nodiscard]] Recipe without_paths(Recipe recipe);
 

@@ -90,19 +90,23 @@ Shown Wall::of(people::Stimulus stimulus, double value) const {
 
 Status Wall::possible(const device::DeviceSpec& spec, const Shown& shown) const {
   if (shown.stiffness > spec.max_stiffness)
-    return error(Trouble::usage,
-                 fmt::format("{} shows at most {:g} N/m and this needs {:g}; lower --standard or "
-                             "--largest",
-                             spec.name, spec.max_stiffness, shown.stiffness));
+    return error(
+        Trouble::usage,
+        fmt::format(
+            "{} can render at most {:g} N/m, but this needs {:g}; lower --standard or --largest",
+            spec.name, spec.max_stiffness, shown.stiffness));
   if (shown.friction > 4)
-    return error(Trouble::usage, fmt::format("a friction of {:g} is more than 4; lower --standard "
-                                             "or --largest",
-                                             shown.friction));
+    return error(
+        Trouble::usage,
+        fmt::format(
+            "a coefficient of friction of {:g} is more than 4; lower --standard or --largest",
+            shown.friction));
   if (shown.vibration > kMostVibration * (1 + 1e-9))
-    return error(Trouble::usage,
-                 fmt::format("a vibration of {:g} N is more than the {:g} N that are ever given; "
-                             "lower --standard or --largest",
-                             shown.vibration, kMostVibration));
+    return error(
+        Trouble::usage,
+        fmt::format(
+            "a vibration of {:g} N is more than the limit of {:g} N; lower --standard or --largest",
+            shown.vibration, kMostVibration));
   return fine();
 }
 

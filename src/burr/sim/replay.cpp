@@ -20,13 +20,13 @@ std::string difference(const tick::TickRow& was, const tick::TickRow& is) {
   if (was.contact.torque != is.contact.torque)
     return fmt::format("torque of {:.6g} N m instead of {:.6g} N m", is.contact.torque.norm(),
                        was.contact.torque.norm());
-  if (was.contact.proxy != is.contact.proxy) return "the burr is elsewhere";
+  if (was.contact.proxy != is.contact.proxy) return "another position of the burr";
   if (was.contact.flags != is.contact.flags)
     return fmt::format("flags {:#x} instead of {:#x}", is.contact.flags, was.contact.flags);
   if (was.ledger.removed != is.ledger.removed)
     return fmt::format("removed {:.9g} mm3 instead of {:.9g} mm3", 1e9 * is.ledger.removed,
                        1e9 * was.ledger.removed);
-  return "the hash alone: an earlier part of the tick or the ledger";
+  return "another hash, from an earlier part of the tick or the ledger";
 }
 
 }  // namespace
@@ -48,9 +48,9 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
   while (!outcome.parted_at && steps.next(step)) {
     if (step.gap || step.row.tick != outcome.ticks) {
       ++outcome.gaps;
-      outcome.difference =
-          fmt::format("ticks before {} are missing in the file; what follows cannot be compared",
-                      step.row.tick);
+      outcome.difference = fmt::format(
+          "ticks before {} are missing in the file; the ticks after them cannot be compared",
+          step.row.tick);
       break;
     }
     for (const tick::Command& command : step.commands) servo.commands().push(command);
@@ -61,14 +61,16 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
     const bool same_tool = !player.tool_is_recorded() || row.tool == step.row.tool;
     if (row.hash != step.row.hash || !same_tool) {
       outcome.parted_at = row.tick;
-      outcome.difference = same_tool ? difference(step.row, row) : "another tool in the hand";
+      outcome.difference = same_tool ? difference(step.row, row) : "another tool";
     }
     for (; has_brick && !outcome.parted_at && brick.tick <= row.tick;
          has_brick = bricks.next(brick)) {
       if (brick.tick != row.tick) continue;
       if (brick.brick < 0 || brick.brick >= bone->brick_count())
-        return error(fmt::format("{}: changes brick {}, which the bone has not; it is another bone",
-                                 player.path(), brick.brick));
+        return error(
+            fmt::format("{}: changes brick {}, which this bone does not have; give the right bone "
+                        "with --volume",
+                        player.path(), brick.brick));
       const volume::Field* field = bone->brick_field(brick.brick);
       ++outcome.bricks;
       if (field == nullptr || std::memcmp(field, &brick.field, sizeof brick.field) != 0) {
@@ -77,14 +79,13 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
       }
     }
     if (outcome.ticks % 1024 == 0) {
-      if (progress.cancelled())
-        return error(Trouble::interrupted, "stopped while simulating again");
+      if (progress.cancelled()) return error(Trouble::interrupted, "the replay was stopped");
       progress.report(static_cast<double>(outcome.ticks) /
                           static_cast<double>(std::max<std::uint64_t>(player.end_tick(), 1)),
-                      "simulating again");
+                      "replaying");
     }
   }
-  progress.report(1, "simulating again");
+  progress.report(1, "replaying");
   outcome.bone = std::move(bone);
   return outcome;
 }

@@ -38,24 +38,23 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
   const double h = bone->grid().voxel, r = servo.burr.radius;
   if (!(servo.rate_hz >= 500 && servo.rate_hz <= 10000))
     return error(Trouble::usage,
-                 fmt::format("--rate {} is out of range; take 500 to 10000 Hz", servo.rate_hz));
+                 fmt::format("--rate {} is out of range; use 500 to 10000 Hz", servo.rate_hz));
   if (!(2 * r >= tool::kSmallestDiameter - 1e-9 && 2 * r <= tool::kLargestDiameter + 1e-9))
-    return error(
-        Trouble::usage,
-        fmt::format("--burr-mm {:.2f} is out of range; round burrs have 0.6 to 7 mm", 2e3 * r));
+    return error(Trouble::usage,
+                 fmt::format("--burr-mm {:.2f} is out of range; use 0.6 to 7 mm", 2e3 * r));
   if (r < 2 * h)
     return error(
         Trouble::usage,
-        fmt::format(
-            "a burr of {:.2f} mm is smaller than 4 voxels of {:.3f} mm, too coarse to feel it; "
-            "take --voxel-mm {:.3f} or "
-            "finer (with --roi around the work, if memory is short), or --burr-mm {:.2f} or larger",
-            2e3 * r, 1e3 * h, std::floor(1e6 * r / 2) / 1e3, std::ceil(4e5 * h) / 100));
+        fmt::format("a burr of {:.2f} mm is smaller than 4 voxels of {:.3f} mm, so the voxels are "
+                    "too coarse for it; use --voxel-mm {:.3f} or finer (with --roi around the "
+                    "work, if memory is short), or --burr-mm {:.2f} or larger",
+                    2e3 * r, 1e3 * h, std::floor(1e6 * r / 2) / 1e3, std::ceil(4e5 * h) / 100));
   if (!(servo.force.stiffness > 0 && std::isfinite(servo.force.stiffness)))
-    return error(Trouble::usage, fmt::format("stiffness {} N/m makes no sense; take e.g. 1000",
-                                             servo.force.stiffness));
+    return error(Trouble::usage,
+                 fmt::format("a stiffness of {} N/m is not possible; use, for example, 1000",
+                             servo.force.stiffness));
   if (!(std::abs(servo.spindle_rad_s) < 1e5))
-    return error(Trouble::usage, "--rpm is out of range; take -400000 to 400000");
+    return error(Trouble::usage, "--rpm is out of range; use -400000 to 400000");
 
   Status opened = device->open();
   if (!opened) return opened.error();

@@ -89,7 +89,7 @@ class Session {
   void set_recorder(record::Recorder* recorder);
 
   // Gives the newest row to one more reader, besides view(). Call it before run() or start();
-  // `watch` must outlive the session's last tick. nullptr: nobody.
+  // `watch` must outlive the session's last tick. nullptr: none.
   void set_watch(rt::Latest<tick::TickRow>* watch) { servo_->set_watch(watch); }
 
   // Runs until the hand has finished, `seconds` of its time are over, or progress is cancelled;

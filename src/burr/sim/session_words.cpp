@@ -109,14 +109,15 @@ Result<Recorded> settings_of(const record::SessionInfo& info, const std::string&
     const auto found = info.numbers.find(entry.name);
     if (found == info.numbers.end() && entry.newer) continue;
     if (found == info.numbers.end())
-      return error(fmt::format(
-          "{}: the session's settings lack {}; it was recorded by another version of burr ({})",
-          where, entry.name, base::shown(info.burr_version)));
+      return error(
+          fmt::format("{}: the setting {} is missing in this recording; it was recorded by another "
+                      "version of burr ({})",
+                      where, entry.name, base::shown(info.burr_version)));
     if (!(found->second >= entry.least && found->second <= entry.most))
-      return error(fmt::format(
-          "{}: the session's setting {} is {}, which cannot be ({:g} to {:g}); the recording is "
-          "damaged",
-          where, entry.name, found->second, entry.least, entry.most));
+      return error(
+          fmt::format("{}: the session's setting {} is {}, which is out of range ({:g} to {:g}); "
+                      "the recording is damaged",
+                      where, entry.name, found->second, entry.least, entry.most));
     entry.set(all, found->second);
   }
   const auto name = info.words.find("device");

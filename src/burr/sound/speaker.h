@@ -22,7 +22,7 @@ namespace burr::sound {
 
 struct SpeakerSettings {
   VoiceSettings voice;
-  int samples = 512;  // asked for at once: 11 ms of delay at 48 kHz; a power of two
+  int samples = 512;  // per request of SDL: 11 ms of delay at 48 kHz; a power of two
 };
 
 class Speaker {

@@ -11,7 +11,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kFastest = 1e5;      // spindle, either direction [rad/s]
 constexpr double kUsualBone = 1e9;    // cortical; until another bone is cut [J/m^3]
-constexpr double kMostTeeth = 64;     // more cannot be told apart
+constexpr double kMostTeeth = 64;     // more cannot be distinguished
 constexpr double kBoneQuality = 1.5;  // Q of the band of cutting noise
 constexpr double kCoolantQuality = 0.7, kCoolantHz = 6e3;
 constexpr double kQuick = 4e-3, kUsual = 12e-3, kSlow = 60e-3;  // time constants of each of two

@@ -47,7 +47,7 @@ void WavFile::write(std::span<const float> samples) {
 
 Status WavFile::put_in_place() {
   if (samples_ > kMostSamples)
-    return error(Trouble::io, path_ + ": a .wav holds at most 4 GiB; write a shorter part");
+    return error(Trouble::io, path_ + ": a .wav file holds at most 4 GiB; export a shorter part");
   std::array<char, kHeader> header = {};
   std::memcpy(header.data(), "RIFF", 4);
   put(header, 4, 4, kHeader - 8 + 2 * samples_);

@@ -499,9 +499,9 @@ Result<Mesh> whole_surface(const volume::Bone& bone, int threads, Progress& prog
     for (const std::uint16_t key : piece->key) piece->mine += owner[key] == 0 ? 1U : 0U;
     pieces[static_cast<std::size_t>(patch)] = std::move(piece);
   });
-  if (!done) return error(Trouble::interrupted, "stopped while making the surface");
+  if (!done) return error(Trouble::interrupted, "stopped while computing the surface");
   if (!at_rest)
-    return error(Trouble::internal, "the bone was being cut while its whole surface was made");
+    return error(Trouble::internal, "the bone was cut while its whole surface was computed");
 
   // the place of each piece in the whole
   std::vector<int> full;
@@ -516,7 +516,9 @@ Result<Mesh> whole_surface(const volume::Bone& bone, int threads, Progress& prog
     vertices += piece->mine;
     triangles += piece->mesh.triangles.size();
     if (vertices > 0xFFFFFFFFULL)
-      return error("the surface has more than 4 billion vertices; use a larger --voxel-mm");
+      return error(
+          "the surface has more than 4 billion vertices; use a larger --voxel-mm or a smaller "
+          "--roi");
   }
   Mesh mesh;
   mesh.vertices.resize(vertices);

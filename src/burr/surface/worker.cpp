@@ -183,7 +183,7 @@ Status Worker::first(Progress& progress, const Show& show) {
     if (idle) break;
     progress.report(1 - static_cast<double>(std::min(waiting(), all)) / all, "making the surface");
     if (progress.cancelled())
-      return error(Trouble::interrupted, "stopped while making the surface");
+      return error(Trouble::interrupted, "stopped while computing the surface");
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   progress.report(1, "making the surface");

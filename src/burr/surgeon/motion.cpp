@@ -84,8 +84,9 @@ Result<WorkPlace> find_work_place(const Bone& bone, double burr_radius,
   WorkPlace place;
   if (into.has_value()) {
     if (!(into->norm() > 1e-9))
-      return error(Trouble::usage,
-                   "--into 0,0,0 is no direction; give the way into the bone, e.g. 0,0,-1");
+      return error(
+          Trouble::usage,
+          "--into 0,0,0 is not a direction; give the direction into the bone, for example 0,0,-1");
     place.into = into->normalized();
   }
 
@@ -100,8 +101,8 @@ Result<WorkPlace> find_work_place(const Bone& bone, double burr_radius,
       return error(
           Trouble::usage,
           fmt::format(
-              "no bone on the line through --at {:.1f},{:.1f},{:.1f} mm; the volume reaches from "
-              "{:.1f},{:.1f},{:.1f} to {:.1f},{:.1f},{:.1f} mm",
+              "there is no bone on the line through --at {:.1f},{:.1f},{:.1f} mm; give a point in "
+              "the bone (the volume reaches from {:.1f},{:.1f},{:.1f} to {:.1f},{:.1f},{:.1f} mm)",
               1e3 * at->x(), 1e3 * at->y(), 1e3 * at->z(), 1e3 * world.lo.x(), 1e3 * world.lo.y(),
               1e3 * world.lo.z(), 1e3 * world.hi.x(), 1e3 * world.hi.y(), 1e3 * world.hi.z()));
   } else {
@@ -117,8 +118,7 @@ Result<WorkPlace> find_work_place(const Bone& bone, double burr_radius,
       }
     if (!hit)
       return error(
-          "the volume holds no solid bone at all; check --iso, or the table of labels "
-          "(docs/labels.md)");
+          "the volume holds no solid bone; check --iso, or the table of labels (docs/labels.md)");
   }
   place.at = *hit;
   if (!into.has_value()) {
@@ -135,11 +135,11 @@ Result<HandPath> motion(std::string_view name, const WorkPlace& place, double bu
                         double seconds) {
   const std::vector<std::string> names = motion_names();
   if (std::find(names.begin(), names.end(), name) == names.end())
-    return error(Trouble::usage, fmt::format("--motion {} is not known; take one of {}", name,
+    return error(Trouble::usage, fmt::format("--motion {} is not known; use one of {}", name,
                                              fmt::join(names, ", ")));
   if (!(seconds >= 1) || seconds > 36000)
     return error(Trouble::usage,
-                 fmt::format("--seconds {} is out of range; take 1 to 36000", seconds));
+                 fmt::format("--seconds {} is out of range; use 1 to 36000", seconds));
 
   const Vec3 out = -place.into;
   const Vec3 u = out.unitOrthogonal(), v = out.cross(u);
@@ -186,10 +186,11 @@ Result<HandPath> read_path(const std::string& file) {
   std::ifstream in(file);
   if (!in ||
       (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::fifo))
-    return error(Trouble::io, fmt::format("{}: cannot be read; is the name right?", file));
+    return error(Trouble::io, fmt::format("{}: cannot be read; check the name", file));
   std::string line;
   if (!std::getline(in, line))
     return error(fmt::format("{}: is empty; the first line must be t,x,y,z", file));
+  if (line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // a byte-order mark, as Excel writes it
 
   const auto split = [](std::string text) {
     std::vector<std::string> cells;
@@ -221,7 +222,8 @@ Result<HandPath> read_path(const std::string& file) {
   const int q_at[4] = {column("qw"), column("qx"), column("qy"), column("qz")};
   const bool turned = q_at[0] >= 0;
   if (turned && (q_at[1] < 0 || q_at[2] < 0 || q_at[3] < 0))
-    return error(fmt::format("{}: the columns qw,qx,qy,qz go together; one is missing", file));
+    return error(
+        fmt::format("{}: give all of the columns qw,qx,qy,qz or none; one is missing", file));
   const int pedal_at = column("spindle");
 
   HandPath path;
@@ -249,20 +251,21 @@ Result<HandPath> read_path(const std::string& file) {
       if (pedal_at >= 0) point.pedal = std::clamp(cell(pedal_at), 0.0, 1.0);
     }
     if (!good)
-      return error(fmt::format("{}: line {} does not hold {} finite numbers; mend or remove it",
+      return error(fmt::format("{}: line {} does not hold {} finite numbers; correct or remove it",
                                file, number, header.size()));
     constexpr double kFarthest = 1e3, kLongest = 1e6;  // [m] [s]
     if (std::abs(point.t) > kLongest || point.world_from_tool.p.cwiseAbs().maxCoeff() > kFarthest)
       return error(
-          fmt::format("{}: line {}: a time beyond {:g} s or a place beyond {:g} m cannot be meant; "
-                      "are the units right?",
+          fmt::format("{}: line {}: the time is beyond {:g} s or the position is beyond {:g} m; "
+                      "check the units",
                       file, number, kLongest, kFarthest));
     if (!path.points.empty() && point.t <= path.points.back().t)
-      return error(fmt::format("{}: line {}: t must rise from line to line; it is {} after {}",
+      return error(fmt::format("{}: line {}: t must increase from line to line; it is {} after {}",
                                file, number, point.t, path.points.back().t));
     path.points.push_back(point);
   }
-  if (path.points.empty()) return error(fmt::format("{}: holds no poses after the header", file));
+  if (path.points.empty())
+    return error(fmt::format("{}: holds no poses below its first line", file));
   const double start = path.points.front().t;
   for (PathPoint& point : path.points) point.t -= start;
   return path;

@@ -72,7 +72,8 @@ class Hand {
   };
   Sent send(const math::Vec3& force, std::uint32_t& flags) BURR_RT;
   Sent send(const math::Vec3& force, const math::Vec3& torque, std::uint32_t& flags) BURR_RT;
-  // The part of the sent force that comes from touch; tells the guard. spindle: the rest of it.
+  // The part of the sent force that comes from touch; also passed to the energy guard. spindle: the
+  // rest of the sent force.
   math::Vec3 touch_part(const math::Vec3& sent, const math::Vec3& spindle) BURR_RT;
   // What touch found, for the row; adds its flags.
   void report(const Sent& sent, haptics::Contact& contact) const BURR_RT;

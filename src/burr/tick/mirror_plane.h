@@ -36,9 +36,9 @@ inline constexpr std::array<std::string_view, kPlanes> kPlaneNames = {"sagittal"
 // How far from the middle of the volume, to the left, back or top.  [m]
 [[nodiscard]] double offset_of(const volume::Grid& grid, const edit::Mirror& mirror);
 
-// What the servo is to be told.
+// The command that sets this mirror in the servo.
 [[nodiscard]] Command command_for(const edit::Mirror& mirror);
-// And back: nothing if it is no command for a mirror.
+// The mirror that a command sets; none if it is not a command for a mirror.
 [[nodiscard]] std::optional<edit::Mirror> mirror_of(const Command& command,
                                                     const math::Ijk& size) BURR_RT;
 

@@ -23,7 +23,7 @@
 
 namespace burr::tick {
 
-// The diary's rings (record/recorder.h); nullptr: nobody writes.
+// The diary's rings (record/recorder.h); nullptr: there is no recorder.
 struct Diary {
   rt::Ring<TickRow>* ticks = nullptr;
   rt::Ring<CommandRow>* commands = nullptr;

@@ -2,7 +2,7 @@
 //
 //     lifting     the tool goes back the way it came, until what returns cannot touch it
 //     restoring   bricks are put back, a few a tick
-//     settling    their surface is made anew; then the tool follows the hand again
+//     settling    their surface is made again; then the tool follows the hand again
 //
 // Thread: servo. Frame: world. Units: SI. Memory: the way of the tool, 1.5 MiB, at construction.
 #pragma once

@@ -45,7 +45,7 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   row_.tick = next_tick_++;
   std::uint32_t& flags = row_.contact.flags;
 
-  // the hand, and what it is asked to do
+  // the hand, and its commands
   const bool believed = hand_.read(lost, flags);
   row_.hand = hand_.state();
   orders_.take(row_.tick, flags);

@@ -62,7 +62,7 @@ class Servo {
   // it in contact, or it came back inside bone. As of the last tick; any thread.
   [[nodiscard]] bool let_go() const BURR_RT { return outbox_.released(); }
   void set_diary(const Diary& diary) { outbox_.set_diary(diary); }  // before the session
-  // One more who sees every row, on a thread of its own; before the session. nullptr: nobody.
+  // Gives every row to one more reader, on a thread of its own; before the session. nullptr: none.
   void set_watch(rt::Latest<TickRow>* watch) { outbox_.set_watch(watch); }
   void set_heat(thermal::Worker* heat) { outbox_.set_heat(heat); }  // before the session
 
@@ -76,7 +76,7 @@ class Servo {
   struct Work {
     int candidates = 0;  // contacts looked at
     int bricks = 0;      // that the burr stood in while cutting
-    int rebuilt = 0;     // bricks whose surface was made anew
+    int rebuilt = 0;     // bricks whose surface was made again
   };
   [[nodiscard]] Work work() const BURR_RT {
     return {row_.contact.candidates, cutting_.bricks_last(), surface_.rebuilt_last()};

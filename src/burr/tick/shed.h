@@ -31,7 +31,7 @@ enum class Shed : std::uint8_t {
 };
 inline constexpr int kShedSteps = 7;
 
-// In how many slices of time the bricks are cut, and their surface made anew.
+// Number of time slices over which the bricks are cut and their surface is made again.
 [[nodiscard]] constexpr int slices_of(Shed shed) BURR_RT {
   return shed >= Shed::removal_8   ? 8
          : shed == Shed::removal_4 ? 4
@@ -45,8 +45,9 @@ inline constexpr int kShedSteps = 7;
 struct ShedSettings {
   double work_share = 0.6;  // of the period a tick may take, from its begin to its end
   double late_share = 0.5;  // of the period it may begin late
-  // The tick goes before everything else (SCHED_FIFO): what makes it late is then nobody's work
-  // that could be put off, but the machine itself or what it runs on; only its own length counts.
+  // The tick has priority over everything else (SCHED_FIFO). Then a late tick is caused by the
+  // computer itself, or by the host of a virtual machine, and not by work that could be put off:
+  // only the duration of the tick counts.
   bool first_in_line = false;
   double often = 0.25;      // share of the last ticks over either, from which on it is too much
   double seldom = 0.02;     // ... up to which it is not

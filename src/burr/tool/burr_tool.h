@@ -20,6 +20,8 @@ struct Burr {
   double shaft_length = 60e-3;   // for display only                                  [m]
 };
 
+// A burr must also span four voxels to be felt: the servo ignores a command for a smaller one
+// (tick/orders.cpp), and workshop::fit_burr() enlarges it before a session.
 inline constexpr double kSmallestDiameter = 0.6e-3,
                         kLargestDiameter = 7e-3;  // of round burrs in use  [m]
 

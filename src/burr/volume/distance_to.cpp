@@ -123,7 +123,7 @@ class DistanceTo::Maker {
     whose_.assign(squares_.size(), 0);
     made_.square_.assign(in_slice_ * sized(kept_.z()), kBeyond);
     made_.tissue_.assign(made_.square_.size(), 0);
-    const char* stage = "measuring what to spare";
+    const char* stage = "measuring the distance to structures to spare";
     progress.report(0, stage);
     const bool flat = in_parallel(size.z(), settings.threads, progress, Room(*this),
                                   [this](int k, Room& room) { along_rows_and_columns(k, room); });

@@ -8,7 +8,7 @@ namespace burr::volume {
 
 // Sixteen vertices as a structure of arrays. Position = (value / kVertexScale - 1) voxel from the
 // brick's first voxel; normal = value / 32767, pointing out of the bone; rd = value / 65535 voxel,
-// the radius of the small disc that stands for the surface at the vertex.
+// the radius of the small disc that represents the surface at the vertex.
 struct alignas(32) VertexBlock {
   std::uint16_t x[16], y[16], z[16];
   std::int16_t nx[16], ny[16], nz[16];

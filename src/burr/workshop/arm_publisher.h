@@ -1,9 +1,9 @@
-// workshop/arm_publisher.h - a session told to others as a CRTK arm: what the tick's newest row says,
-// up to a thousand times a second.
+// workshop/arm_publisher.h - publishes a session as a CRTK arm: the newest row of the tick, up to a
+// thousand times a second.
 //
-//     auto told = ArmPublisher::begin(session, arm, [&] { return hand.busy(); });
+//     const ArmPublisher publisher(session, arm, [&] { return hand.busy(); });
 //
-// Thread: main; begin before the session runs, end after it stands.
+// Thread: main. Make it before the session runs; destroy it after the session has stopped.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@ namespace burr::workshop {
 
 class ArmPublisher {
  public:
-  // busy: whether it moves by itself just now; empty: never
+  // busy: returns true while the arm moves by itself; empty: it never does
   ArmPublisher(sim::Session& session, device::crtk::Arm& arm, std::function<bool()> busy = {});
   ~ArmPublisher();
   ArmPublisher(const ArmPublisher&) = delete;

@@ -125,8 +125,8 @@ DeviceBook DeviceBook::parse(std::string_view text, std::string_view file) {
 DeviceBook DeviceBook::read(const std::filesystem::path& path) {
   std::error_code nobody_asks;
   if (path.empty() || !std::filesystem::exists(path, nobody_asks)) return {};
-  const auto text =
-      base::text_of_file(path.string(), kLargestFile, "a page of settings; is this another file?");
+  const auto text = base::text_of_file(path.string(), kLargestFile,
+                                       "a settings file; check that this is the right file");
   if (text) return parse(*text, path.filename().string());
   DeviceBook book;
   book.troubles_.push_back(text.error().text + "; the default settings of the devices are used");

@@ -1,12 +1,12 @@
-// workshop/device_book.h - what a user preferences of each haptic device, kept by its serial number in
-// one readable TOML file.
+// workshop/device_book.h - the user's preferences for each haptic device, in one TOML file; a
+// device is known by its serial number.
 //
 //     ["Touch T-0001"]
 //     scale = 0.5
 //     max_force_n = 2
 //
-// A value that cannot be is left at its default, with one sentence that names file, device and
-// field; a file with such trouble is kept beside as devices.toml.old when it is written anew.
+// A value out of range is left at its default, with one sentence that names file, device and field.
+// A file with such a value is kept as devices.toml.old when the book is written again.
 // Units: as in the file. Thread: any.
 #pragma once
 
@@ -24,29 +24,29 @@ namespace burr::workshop {
 
 struct DevicePreferences {
   device::MappingSettings mapping;
-  double max_force_n = 0;  // the user's own, beside the device's; 0: the device's
-  double vibration = 0;    // gain of the spindle's buzz
-  double torque = 1;       // gain of its motor's twist, where the device can turn the hand
+  double max_force_n = 0;  // the user's own limit; 0: the limit of the device  [N]
+  double vibration = 0;    // gain of the spindle's vibration
+  double torque = 1;       // gain of the spindle's torque, for devices that can turn the hand
 };
 
 class DeviceBook {
  public:
-  // No file: an empty book, and no trouble.
+  // A file that does not exist gives an empty book and no error.
   [[nodiscard]] static DeviceBook read(const std::filesystem::path& path);
   [[nodiscard]] static DeviceBook parse(std::string_view text, std::string_view file);
   [[nodiscard]] const std::vector<std::string>& troubles() const { return troubles_; }
 
   [[nodiscard]] DevicePreferences of(const std::string& id) const;
-  // "scale=0.5"; error: no such field, or no such value.
+  // assignment: "scale=0.5". Error: an unknown field, or a value out of range.
   [[nodiscard]] Status set(const std::string& id, std::string_view assignment);
 
-  // All at once, as a page of settings has them; each within its range.
+  // Replaces all fields of one device. Each value must be within its range.
   void put(const std::string& id, const DevicePreferences& preferences) {
     preferences_[id] = preferences;
   }
 
   [[nodiscard]] std::string text() const;
-  // Makes the folder.
+  // Creates the folder if it is missing.
   [[nodiscard]] Status write(const std::filesystem::path& path) const;
 
  private:
@@ -54,13 +54,13 @@ class DeviceBook {
   std::vector<std::string> troubles_;
 };
 
-// What a number of it may be.
+// The range of a numeric field.
 struct PreferenceRange {
   double least, most;
 };
 [[nodiscard]] PreferenceRange range_of_preference(std::string_view key);
 
-// How a device is called in the book: its name and its serial number.
+// The key of a device in the book: its name and its serial number.
 [[nodiscard]] std::string id_of(const device::DeviceSpec& spec);
 
 // devices.toml in the user's folder.

@@ -1,8 +1,7 @@
 // workshop/fault_file.h - the last ticks before a haptic device's force was released.
 //
-// A table to look at afterwards or to send: what happened in words, then one row for each tick.
-//
-// Holds no name of a patient or a file. Thread: main.
+// A CSV table to look at afterwards or to send: first the cause in a sentence, then one row for
+// each tick. It holds no name of a patient and no file name. Thread: main.
 #pragma once
 
 #include <filesystem>
@@ -14,12 +13,13 @@
 
 namespace burr::workshop {
 
-// The table, CSV with the words before it behind '#'.
+// The table as CSV; the sentences before it stand in lines that begin with '#'.
 [[nodiscard]] std::string fault_text(const tick::FaultReport& report,
                                      const device::DeviceSpec& device, double rate_hz,
                                      const std::string& trouble);
 
-// folder/fault-YYYYMMDD-HHMMSS.csv (UTC), the newest 20 are kept; its path. Makes the folder.
+// Writes folder/fault-YYYYMMDD-HHMMSS.csv (UTC), keeps the newest 20, and returns the path. Creates
+// the folder if it is missing.
 [[nodiscard]] Result<std::filesystem::path> keep_fault(const std::filesystem::path& folder,
                                                        const std::string& text);
 

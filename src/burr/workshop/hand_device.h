@@ -1,4 +1,4 @@
-// workshop/hand_device.h - the haptic device a user named, ready to be opened.
+// workshop/hand_device.h - a name given by the user becomes a haptic device, ready to be opened.
 //
 //     --device touch               the default Touch
 //     --device "touch:Left one"    by its name
@@ -27,51 +27,54 @@ namespace burr::workshop {
 
 struct HandRequest {
   std::string device;  // empty: the mouse, or a simulated hand
-  // where given by hand, in place of what the book says (device_book.h)
+  // if set, replaces the value in the book (device_book.h)
   std::optional<double> scale;
   bool dead_man = false;
-  bool home = false;      // an arm may move by itself to find its home
-  bool is_homed = false;  // said where the library cannot tell
+  bool home = false;      // the arm may move by itself to find its home position
+  bool is_homed = false;  // the user has homed the arm, and its library cannot report it
 };
 
-// One kind of device burr can drive.
+// One kind of device that burr can drive.
 struct HandKind {
-  const char* name;   // as the user writes it
+  const char* name;   // as the user types it
   const char* makes;  // maker and models
   const char* page;   // of docs/devices/
 };
 [[nodiscard]] const std::vector<HandKind>& hand_kinds();
-// "touch", "touch:Left": of a kind that burr drives.
+// True for "touch" and "touch:Left": the part before the colon is a known kind.
 [[nodiscard]] bool is_hand_kind(std::string_view device);
 
-// Those of a kind that are there, as a user names them: "haply:049D". Nothing moves and nothing is
-// pushed. The kind's own name where none is there, or none can be told apart.
+// The connected devices of one kind, as the user names them: "haply:049D". No device moves or
+// applies a force. If none is connected, or the library cannot list them, the only name is that of
+// the kind.
 struct NamesThere {
   std::vector<std::string> names;
-  std::string note;  // what else is to be said of the names, a sentence; or empty
+  std::string note;  // one more sentence about the names, or empty
 };
 [[nodiscard]] NamesThere names_there(const HandKind& kind);
 
-// Error: no kind of that name; says which there are. The device itself is looked for by open().
+// Error: an unknown kind; the sentence lists the known ones. open() then looks for the device
+// itself.
 [[nodiscard]] Result<std::unique_ptr<device::Device>> make_hand(const HandRequest& request);
 
-// The same, open and laid over a bone as its user preferences: the tip begins at `start`, the axes are
-// those of the view.
+// Also opens the device and maps it with the user's preferences: the tip starts at `start`, and the
+// device's axes are those of the view.
 struct LaidHand {
   std::unique_ptr<device::MappedHand> hand;
-  double max_force = 0;              // the user's own and the device's [N]
+  double max_force = 0;              // the smaller of the user's and the device's limit  [N]
   double vibration = 0, torque = 1;  // gains
-  std::string id;                    // in the book
-  DevicePreferences preferences;     // as the book has them
-  std::vector<std::string> notices;  // of the book
+  std::string id;                    // key in the book
+  DevicePreferences preferences;     // from the book
+  std::vector<std::string> notices;  // about the book
 };
 [[nodiscard]] Result<LaidHand> lay_hand(const HandRequest& request, const math::Pose& start,
                                         const math::Quat& world_from_view);
 
-// The rate of ticks that suits a device: its own, or a whole part of it near a thousand [Hz].
+// The tick rate for a device: its own rate, or its own rate divided by a whole number so that the
+// result is near 1000 Hz.  [Hz]
 [[nodiscard]] double tick_rate(const device::DeviceSpec& spec);
 
-// "touch, force-dimension, ..."
+// The names of all kinds: "touch, force-dimension, ..."
 [[nodiscard]] std::string kinds_known();
 
 }  // namespace burr::workshop

@@ -6,7 +6,7 @@
 namespace burr::workshop {
 namespace {
 
-constexpr double kOver = 10e-3;  // removal is told over so long, or longer  [s]
+constexpr double kOver = 10e-3;  // shortest time over which removal is averaged  [s]
 
 }  // namespace
 

@@ -1,8 +1,8 @@
-// workshop/hearing.h - from the rows of a session to what is to be heard of it.
+// workshop/hearing.h - turns the rows of a session into the input of the sound synthesis.
 //
-// A row says what was removed since the start; how fast is the difference of two, over at least
-// 10 ms: in a single tick bricks may be cut in turn.
-// Thread: one. Memory: none after it was made.
+// A row holds the volume removed since the start. The rate of removal is the difference of two rows
+// that are at least 10 ms apart, because single ticks may cut bricks alternately.
+// Thread: one. Allocates nothing after construction.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +18,12 @@ namespace burr::workshop {
 
 class Hearing {
  public:
-  // From a point to the nearest structure to spare [m]; empty: there is none.
+  // Distance from a point to the nearest structure to spare  [m]; empty: there is none.
   using ToSpare = std::function<double(const math::Vec3&)>;
 
   explicit Hearing(const tick::ServoSettings& settings, ToSpare to_spare = {});
 
-  // The newest row, or the next one of a recording; rows may be left out.
+  // row: the newest row, or the next one of a recording; rows may be skipped.
   [[nodiscard]] const sound::Heard& hear(const tick::TickRow& row);
 
  private:

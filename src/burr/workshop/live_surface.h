@@ -1,8 +1,8 @@
-// workshop/live_surface.h - what keeps the picture of a bone true and quick while it is milled: the
-// same for the window, a whole session without one, and the bench of frames.
+// workshop/live_surface.h - keeps the surface in the picture up to date while a bone is milled,
+// within the time of a frame. The window, full_load_run and the bench of frames all use it.
 //
 //     LiveSurface live(session, worker, scene, renderer.software());   // before the session starts
-//     each frame:   live.update();                // patches, coarse blocks, what may be left out
+//     each frame:   live.update();                // patches, coarse blocks, what may be skipped
 //                   renderer.show(scene);
 //                   live.drawn(took_s, renderer.figures().redrawn);
 //
@@ -22,35 +22,36 @@
 
 namespace burr::workshop {
 
-// A made patch into the scene.
+// Puts a finished patch into the scene.
 void put_skin(render::Scene& scene, const surface::Skin& skin);
 
 class LiveSurface {
  public:
   LiveSurface(sim::Session& session, surface::Worker& worker, render::Scene& scene, bool software);
-  // A bone that no servo cuts: nothing is held back.
+  // For a bone that no servo cuts: nothing is delayed.
   LiveSurface(const volume::Bone& bone, surface::Worker& worker, render::Scene& scene,
               bool software);
 
-  // Patches that are ready go into the scene, as many as a frame bears; surface and coarse blocks
-  // are held back where the machine does not keep up with the hand. eye: that looks in place of the
-  // scene's camera, a headset's.
+  // Puts finished patches into the scene, as many as fit into a frame. Patches and coarse blocks
+  // wait while the machine cannot keep up with the hand. eye: a headset's camera, used instead of
+  // the scene's.
   void update(const render::Camera* eye = nullptr);
-  // What the tool does to the look of the bone; before update(). nothing: the bone as ever.
+  // What the tool does to the look of the bone (render/wound.h). Call it before update().
   void see(const render::Wound::Tick& tick) { wound_.see(tick); }
   void suck(const math::Vec3& mouth, double radius, double seconds) {
     wound_.suck(mouth, radius, seconds);
   }
   void see(const Traces::StatusLine& told) { told.show(wound_); }
   void look_plain();
-  // After the frame: how long it took, how much of the picture was drawn anew.
+  // Call it after the frame. took_s: how long the frame took  [s]; redrawn: share of the picture
+  // that was drawn again, 0..1.
   void drawn(double took_s, double redrawn);
 
   [[nodiscard]] render::FrameGovernor& governor() { return governor_; }
   [[nodiscard]] render::Coarsening& coarsening() { return coarse_; }
-  // Of the last update; their meshes are given back.
+  // The patches of the last update; their meshes have been given back to the worker.
   [[nodiscard]] const std::vector<surface::Skin>& skins() const { return skins_; }
-  [[nodiscard]] double now() const;  // since it was made [s]
+  [[nodiscard]] double now() const;  // time since construction  [s]
 
  private:
   [[nodiscard]] tick::Shed shed() const;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <utility>
 
+#include "burr/base/inputs.h"
 #include "burr/importing/materials.h"
 #include "burr/phantom/phantoms.h"
 #include "burr/volume/volume_of.h"
@@ -58,6 +59,8 @@ io::ReadOptions read_options(const scenario::Recipe& recipe) {
 
 Result<importing::Imported> open_bone(const scenario::Recipe& recipe, Progress& progress,
                                       const io::Scan* scan, bool keep_greys) {
+  for (const std::string& input : {recipe.source, recipe.labels, recipe.materials})
+    base::note_input(input);
   if (scenario::is_phantom(recipe.source)) return open_phantom(recipe, progress);
   if (scan != nullptr) return importing::import_bone(*scan, recipe, progress, keep_greys);
   auto read = io::read_scan(recipe.source, read_options(recipe), progress);

@@ -1,5 +1,5 @@
-// workshop/open_bone.h - a recipe becomes a bone, ready to be milled: a scan is read and imported, a
-// phantom shaped by its formula or taken from where it was shaped before.
+// workshop/open_bone.h - a recipe becomes a bone, ready to be milled: a scan is read and imported;
+// a phantom is computed from its formula, or read from a file if it was computed before.
 //
 //     auto made = workshop::open_bone(recipe, progress);     // made->bone, made->summary
 //
@@ -14,11 +14,11 @@
 
 namespace burr::workshop {
 
-// What of the recipe is for whoever reads the file.
+// The part of the recipe that the reader of the file needs.
 [[nodiscard]] io::ReadOptions read_options(const scenario::Recipe& recipe);
 
-// scan: what the source holds, where it was read before; it is not read again then. keep_greys: of
-// a grey scan, its values, to be looked at.
+// scan: the content of the source if it has been read before; it is then not read again.
+// keep_greys: keep the values of a grey scan, so that slices can be shown.
 [[nodiscard]] Result<importing::Imported> open_bone(const scenario::Recipe& recipe,
                                                     Progress& progress,
                                                     const io::Scan* scan = nullptr,

@@ -1,6 +1,7 @@
-// workshop/prebuilt_phantom.h - the bones of the built-in cases, shaped when burr was built: a formula
-// takes seconds, a file does not. `burr phantom NAME --out NAME.bone` makes one; it is looked for
-// in bones/ beside the program, then in share/burr/bones of the same installation.
+// workshop/prebuilt_phantom.h - the bones of the built-in cases, computed when burr was built,
+// because a formula takes seconds and a file does not. `burr phantom NAME --out NAME.bone` writes
+// one. burr looks for them in bones/ beside the program, then in share/burr/bones of the same
+// installation.
 //
 // Thread: any.
 #pragma once
@@ -13,8 +14,8 @@
 
 namespace burr::workshop {
 
-// The phantom with its usual voxels, to the bit as its formula makes it; nothing where no file has
-// it or the file is damaged: the formula is always there.
+// The phantom with its default voxels, identical to the bit to the result of its formula. nullptr
+// if there is no file or the file is damaged; the caller then uses the formula.
 [[nodiscard]] std::unique_ptr<volume::Bone> prebuilt_phantom(const std::string& phantom,
                                                              std::size_t reserve_bricks);
 

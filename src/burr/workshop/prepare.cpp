@@ -11,7 +11,7 @@
 namespace burr::workshop {
 namespace {
 
-constexpr double kDiameterMm = 5, kRpm = 40'000;  // where nobody says
+constexpr double kDiameterMm = 5, kRpm = 40'000;  // if neither user nor case gives them
 
 double rad_s(double rpm) { return rpm * 2 * std::numbers::pi / 60; }
 double rpm_of(double rad_s) { return rad_s * 60 / (2 * std::numbers::pi); }

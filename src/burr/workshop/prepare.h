@@ -1,12 +1,12 @@
-// workshop/prepare.h - a recipe or a case becomes what a session needs: the bone, the place where work
-// begins, the tool.
+// workshop/prepare.h - a recipe or a case becomes what a session needs: the bone, the place where
+// work begins, the tool.
 //
 //     auto prepared = workshop::prepare(*scenario::read_case("temporal-bone"), progress);
 //     auto session = workshop::begin_by_itself(*prepared, "pocket", 20, settings_of(*prepared), progress);
 //     auto recorder = workshop::record(**session, "s.mcap", about(*prepared, "pocket"));
 //
-// It prints nothing: what a user should know is in Prepared::summary.notices.
-// Thread: any, one at a time; takes seconds and reports how far it is. Errors: one sentence.
+// Nothing is printed: notices for the user are in Prepared::summary.notices.
+// Thread: any, one call at a time. It takes seconds and reports its progress. Errors: one sentence.
 #pragma once
 
 #include <memory>
@@ -26,50 +26,51 @@
 namespace burr::workshop {
 
 struct Tool {
-  double diameter_mm = 0;                         // 0: the case's, or 5
-  double rpm = 0;                                 // 0: the case's, or 40 000
-  tool::BurrKind kind = tool::BurrKind::cutting;  // without a case
+  double diameter_mm = 0;                         // 0: that of the case, otherwise 5
+  double rpm = 0;                                 // 0: that of the case, otherwise 40 000
+  tool::BurrKind kind = tool::BurrKind::cutting;  // used if there is no case
 };
 
 struct Prepared {
   std::unique_ptr<volume::Bone> bone;
   surgeon::WorkPlace place;
-  importing::ImportSummary summary;            // with notices
-  std::shared_ptr<const volume::Greys> greys;  // if they were to be kept
-  scenario::Recipe recipe;                     // as used: with the case's source and voxel size
+  importing::ImportSummary summary;            // with the notices
+  std::shared_ptr<const volume::Greys> greys;  // if keep_greys was set
+  scenario::Recipe recipe;                     // as used: with source and voxel size of the case
   std::optional<scenario::Case> work_case;
-  std::string what;  // the bone in our words, which name no patient: "temporal-bone", "NIfTI scan"
+  std::string what;  // names the bone without a patient: "temporal-bone", "NIfTI scan"
   double burr_mm =
       0;            // diameter; wide enough to be felt: a notice says where another one was taken
   tool::Burr burr;  // the same burr
   double spindle = 0;  // [rad/s]
 };
 
-// scan, keep_greys: as open_bone() takes them.
+// scan, keep_greys: see open_bone().
 [[nodiscard]] Result<Prepared> prepare(const scenario::Recipe& recipe, Progress& progress,
                                        const Tool& tool = {}, const io::Scan* scan = nullptr,
                                        bool keep_greys = false);
-// recipe: voxel size, materials and so on in place of the case's; its source is the case's. Error:
-// also a tissue that the case names and the bone lacks.
+// recipe: its voxel size, materials and so on replace those of the case; its source is ignored.
+// Error: also a tissue that the case names and the bone lacks.
 [[nodiscard]] Result<Prepared> prepare(const scenario::Case& work, Progress& progress,
                                        const Tool& tool = {}, scenario::Recipe recipe = {},
                                        const io::Scan* scan = nullptr, bool keep_greys = false);
 
-// The recipe of a case: its phantom or volume, and its voxel size where `recipe` has none.
+// The recipe of a case: its phantom or volume, and its voxel size if `recipe` has none.
 [[nodiscard]] scenario::Recipe recipe_of(const scenario::Case& work, scenario::Recipe recipe = {});
 
-// A burr needs four voxels to be felt. Where `diameter_mm` has less and a usual one has them, that
-// one is taken, and a notice says so.
+// A burr must span four voxels to be felt. If `diameter_mm` spans fewer, and a burr of up to
+// tool::kLargestDiameter would span four, diameter_mm becomes the smallest such size, and a notice
+// says so.
 void fit_burr(double& diameter_mm, double voxel, std::vector<std::string>& notices);
 
 [[nodiscard]] sim::SessionSettings settings_of(const Prepared& prepared, bool realtime = false);
 
-// The session; the bone goes into it.
+// Makes the session, which takes over the bone.
 [[nodiscard]] Result<std::unique_ptr<sim::Session>> begin(Prepared& prepared,
                                                           std::unique_ptr<device::Device> hand,
                                                           const sim::SessionSettings& settings,
                                                           Progress& progress);
-// With a simulated hand that makes a motion of surgeon/motion.h, or follows a path.
+// The same with a simulated hand that makes a motion of surgeon/motion.h or follows a path.
 [[nodiscard]] Result<std::unique_ptr<sim::Session>> begin_by_itself(
     Prepared& prepared, const std::string& motion, double seconds,
     const sim::SessionSettings& settings, Progress& progress);

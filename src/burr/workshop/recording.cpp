@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "burr/base/inputs.h"
 #include "burr/importing/keep_greys.h"
 #include "burr/record/find_volume.h"
 #include "burr/volume/volume_of.h"
@@ -101,6 +102,7 @@ Result<std::unique_ptr<record::Recorder>> record(sim::Session& session, const st
 
 Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,
                                               const scenario::Recipe& given, Progress& progress) {
+  base::note_input(player.path());
   const record::SessionInfo& info = player.info();
   if (info.embedded && given.source.empty())
     return player.embedded_bone(static_cast<std::size_t>(info.volume.recipe.reserve_bricks));

@@ -9,8 +9,8 @@
 //     auto bone = workshop::bone_of(**player, {}, progress);         // as it was before the first tick
 //     auto lost = workshop::removed_by_tissue(**player, progress);   // what the session took away
 //
-// Nothing is printed; a trouble of the disk comes to on_trouble. Thread: as record/recorder.h says;
-// a player on one thread at a time. Errors: one sentence that names the file.
+// Nothing is printed; a disk error is handed to on_trouble. Thread: see record/recorder.h; use a
+// player on one thread at a time. Errors: one sentence that names the file.
 #pragma once
 
 #include <functional>
@@ -34,39 +34,40 @@
 
 namespace burr::workshop {
 
-// What a recording says of its session beside what the session knows itself.
+// What goes into a recording and is not known to the session itself.
 struct About {
-  scenario::Recipe recipe;        // with its paths; they do not go into the file
+  scenario::Recipe recipe;        // its paths are not written into the file
   std::string format;             // of the source: importing::ImportSummary::format
-  std::string motion;             // in our words: "pocket", "hand path", a device's name
+  std::string motion;             // "pocket", "hand path", or the name of a device
   bool embed = false;             // the bone goes into the file
-  std::optional<Tissues> spared;  // none: what the table of tissues marks
+  std::optional<Tissues> spared;  // none: those marked in the table of tissues
   std::optional<scenario::Case> work_case;
 };
-// Of a session that prepare() began; with the tissues that its case spares. bone: the session's.
+// For a session that was made from `prepared`, with the tissues that its case spares. bone: that of
+// the session.
 [[nodiscard]] About about(const Prepared& prepared, const volume::Bone& bone,
                           const std::string& motion);
 
-// The session is recorded from its next tick on. on_trouble: called at most once, on a thread of
-// the recorder.
+// Records the session from its next tick on. on_trouble: called at most once, on the recorder's
+// thread.
 [[nodiscard]] Result<std::unique_ptr<record::Recorder>> record(
     sim::Session& session, const std::string& file, const About& about,
     std::function<void(const Error&)> on_trouble = {});
 
-// The bone a recording began with: from inside the file, by formula, or from the user's own scan
-// (search: given.source, BURR_VOLUME_PATH, beside the recording). given: what only the user has, the
-// source and tables; empty source: search.
+// The bone as it was before the first tick: from inside the file, from its formula, or from the
+// user's own scan. given: the source and the tables, which only the user has. If its source is
+// empty, the scan is searched for in BURR_VOLUME_PATH and beside the recording.
 [[nodiscard]] Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,
                                                             const scenario::Recipe& given,
                                                             Progress& progress);
 
-// What the scan measured, for slices, read again from given.source. nullptr: no grey scan, not the
-// one the recording was made from, or it cannot be read.
+// The grey values of the scan, for slices, read again from given.source. nullptr: it is not a grey
+// scan, not the scan of this recording, or cannot be read.
 [[nodiscard]] std::shared_ptr<const volume::Greys> greys_of(const record::Player& player,
                                                             const scenario::Recipe& given,
                                                             Progress& progress);
 
-// All that is needed to look at a recording: bone_at() of the player shows `bone` at any moment.
+// All that is needed to show a recording. player.bone_at(t, *bone) sets the bone to any moment.
 struct Watched {
   std::unique_ptr<volume::Bone> bone;  // as it was before the first tick
   sim::Recorded settings;
@@ -75,15 +76,15 @@ struct Watched {
 [[nodiscard]] Result<Watched> watch(record::Player& player, const scenario::Recipe& given,
                                     Progress& progress);
 
-// One tissue that lost (or, negative, gained) volume.
+// One tissue whose volume has changed.
 struct TissueLoss {
   std::string name;
-  double removed = 0;  // [m^3]
+  double removed = 0;  // negative: volume was added  [m^3]
   bool spare = false;  // must not be cut
 };
-// Tissues whose volume differs by more than a hundredth of a mm^3, most lost first.
+// Tissues whose volume differs by more than 0.01 mm^3, largest loss first.
 [[nodiscard]] std::vector<TissueLoss> losses(const volume::Bone& before, const volume::Bone& now);
-// The same of a whole recording; its bone is looked for as bone_of() does.
+// The same for a whole recording; bone_of() finds its bone.
 [[nodiscard]] Result<std::vector<TissueLoss>> removed_by_tissue(record::Player& player,
                                                                 Progress& progress,
                                                                 const scenario::Recipe& given = {});

@@ -1,5 +1,5 @@
-// workshop/spared.h - the tissues that must not be cut: named by a case, or marked in the bone's table;
-// by number in a recording.
+// workshop/spared.h - the tissues that must not be cut. A case names them, the bone's table of
+// tissues marks them, and a recording holds their numbers.
 //
 // Thread: any.
 #pragma once
@@ -14,12 +14,13 @@ namespace burr::workshop {
 
 using Tissues = std::vector<volume::TissueId>;
 
-// What a case names, or, where nothing is named, what the table marks. Names that the bone does not
-// have are left out: whoever opens a case checks them before (scenario::check_tissues()).
+// The named tissues; if `named` is empty, those marked in the table. Names that the bone lacks are
+// left out; scenario::check_tissues() reports them when a case is opened.
 [[nodiscard]] Tissues to_spare(const volume::TissueTable& table,
                                const std::vector<std::string>& named);
 
-// The same into a recording and out of it; one without the word: what its table marks.
+// Writes them into a recording, and reads them. A recording without them: those marked in its
+// table.
 void write_spared(const Tissues& spared, record::SessionInfo& info);
 [[nodiscard]] Tissues read_spared(const record::SessionInfo& info);
 

@@ -1,6 +1,7 @@
-// workshop/spared_distance.h - how near the burr is to what must not be cut, for the eye and the ear.
+// workshop/spared_distance.h - the distance from the burr to the tissues that must not be cut, for
+// the window and the sound.
 //
-// Thread: main. Memory: volume/distance_to.h; where there is nothing to spare, none.
+// Thread: main. Memory: see volume/distance_to.h; none if there is nothing to spare.
 #pragma once
 
 #include <optional>
@@ -16,19 +17,20 @@ namespace burr::workshop {
 
 class SparedDistance {
  public:
-  SparedDistance() = default;  // nothing is near
-  // Before the first cut. Error: only Trouble::interrupted.
+  SparedDistance() = default;  // nothing to spare
+  // Call it before the first cut. Error: only Trouble::interrupted.
   [[nodiscard]] static Result<SparedDistance> make(const volume::Bone& bone, const Tissues& spared,
                                                    Progress& progress);
 
-  // From a point [m]; empty: there is nothing to spare. Good as long as this lives.
+  // The distance from a point  [m]; empty: there is nothing to spare. Valid while this object
+  // lives.
   [[nodiscard]] Hearing::ToSpare distances() const;
   [[nodiscard]] bool empty() const { return distance_.empty(); }
   struct Near {
     std::string name;     // of the tissue
-    double distance = 0;  // of the point from it; 0 inside [m]
+    double distance = 0;  // from the point to it; 0 inside  [m]
   };
-  // Nothing within reach, or nothing to spare: none.
+  // nullopt: nothing to spare, or nothing within the range of volume/distance_to.h.
   [[nodiscard]] std::optional<Near> nearest(const math::Vec3& p) const;
 
  private:

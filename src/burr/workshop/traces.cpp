@@ -8,10 +8,10 @@
 namespace burr::workshop {
 namespace {
 
-constexpr double kAgo = 60;           // what is older hardly shows                         [s]
-constexpr double kFar = 3;            // ahead: so much at once is told in larger steps     [s]
-constexpr std::uint64_t kEvery = 16;  // ticks: about as often as a window looks
-constexpr std::uint64_t kEveryOfMany = 128;  // ... and still within what a Wound follows
+constexpr double kAgo = 60;           // older traces are hardly visible                    [s]
+constexpr double kFar = 3;            // a longer jump ahead is shown in larger steps       [s]
+constexpr std::uint64_t kEvery = 16;  // ticks: about once per picture of a window
+constexpr std::uint64_t kEveryOfMany = 128;  // ... and still fine enough for a Wound
 
 }  // namespace
 

@@ -1,10 +1,10 @@
-// workshop/traces.h - what milling left on the bone at a moment of a recording, told as a window
-// looking on would have seen it (render/wound.h).
+// workshop/traces.h - fresh cuts, water, dust and blood on the bone (render/wound.h) at any moment
+// of a recording, as the window showed them during the session.
 //
 //     Traces traces(player);
 //     traces.until(t).show(wound);
 //
-// Thread: the player's.
+// Thread: that of the player.
 #pragma once
 
 #include <cstdint>
@@ -19,16 +19,17 @@ namespace burr::workshop {
 class Traces {
  public:
   struct StatusLine {
-    bool anew = false;  // what was seen before does not count
+    bool anew = false;  // forget what was shown before
     std::vector<render::Wound::Tick> ticks;
     void show(render::Wound& wound) const;
   };
 
   explicit Traces(record::Player& player);
 
-  // All that happened since the moment asked before, up to t [s], which is no earlier.
+  // What happened since the previous call, up to t  [s]; t must not decrease.
   [[nodiscard]] StatusLine until(double t);
-  // The same for any t: a jump back, or far ahead, is told from a minute before t, in larger steps.
+  // The same for any t. After a jump back or far ahead it starts a minute before t, in larger
+  // steps.
   [[nodiscard]] StatusLine seek(double t);
 
  private:
@@ -39,8 +40,8 @@ class Traces {
   record::Player& player_;
   record::StepCursor steps_;
   record::Step step_;
-  bool ahead_ = false;  // step_ is the next one to be told
-  double asked_ = 0;    // [s]
+  bool ahead_ = false;  // step_ has not been used yet
+  double asked_ = 0;    // time of the previous call  [s]
 };
 
 }  // namespace burr::workshop

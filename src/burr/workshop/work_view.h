@@ -1,5 +1,5 @@
-// workshop/work_view.h - how the program looks at work: the same view, size and tool in every picture
-// it leaves.
+// workshop/work_view.h - the view of the work: the same camera and tool in every picture that burr
+// writes.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,16 @@
 
 namespace burr::workshop {
 
-// Lights and scale bar for a still; camera on the work, which shows the cut large and what is
-// around it, but no more air than a small bone leaves.
+// A scene with the lights and the scale bar of a picture. The camera looks at the work; its field
+// of view shows the cut large with its surroundings, and is not larger than a small bone needs.
 [[nodiscard]] render::Scene scene_of_work(const volume::Bone& bone, double burr_radius,
                                           const math::Vec3& at, const math::Vec3& outward);
 
-// What a tick tells of the look of the bone.
+// The part of a row that changes the look of the bone.
 [[nodiscard]] render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz);
 
-// The burr as it was in this tick, size and kind too, and with `contact` hand, proxy and force.
+// Puts the burr of this tick into the scene, with its size and kind; with `contact` also hand,
+// proxy and force.
 void put_tool(render::Scene& scene, const tick::TickRow& row, bool contact);
 
 }  // namespace burr::workshop

@@ -8,9 +8,9 @@ namespace burr::app {
 namespace {
 
 constexpr double kWhole = 32767;
-constexpr double kLetGo = 0.1;  // of a trigger's way: it counts as let go
+constexpr double kLetGo = 0.1;  // of a trigger's way; below it the trigger counts as released
 
-// squared: fine where the hand is fine
+// squared, so that small movements stay fine
 double eased(double share) { return share * share; }
 
 }  // namespace
@@ -18,7 +18,7 @@ double eased(double share) { return share * share; }
 double beyond_dead(double axis, double dead) {
   const double share = std::clamp(axis / kWhole, -1.0, 1.0);
   const double beyond = (std::abs(share) - dead) / (1 - dead);
-  return beyond > 0 ? std::copysign(eased(beyond), share) : 0;  // false for what is no number
+  return beyond > 0 ? std::copysign(eased(beyond), share) : 0;  // false for NaN, too
 }
 
 void calm_stick(double& right, double& up, double dead) {
@@ -45,10 +45,10 @@ void Gamepads::scan() {
     if (SDL_IsGameController(n) == SDL_TRUE)
       if (SDL_GameController* pad = SDL_GameControllerOpen(n)) found.push_back(pad);
   if (found != pads_) disarm();
-  // opened twice and closed once: those that stay are counted by SDL
+  // these were opened a second time above and are closed once here: SDL counts how often
   for (SDL_GameController* pad : pads_) SDL_GameControllerClose(pad);
   pads_ = std::move(found);
-  SDL_GameControllerUpdate();  // before that all is at rest, whatever is held
+  SDL_GameControllerUpdate();  // until this call SDL reports every button as released
 }
 
 PadSticks Gamepads::now(double dead) {

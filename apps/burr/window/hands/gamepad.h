@@ -1,12 +1,13 @@
-// apps/burr/window/hands/gamepad.h - game controllers as SDL knows them: plugged in and out at any time,
-// their sticks and triggers calmed, their buttons named.
+// apps/burr/window/hands/gamepad.h - game controllers through SDL. They may be plugged in and out
+// at any time. Sticks and triggers get a dead zone and a gentle start.
 //
 //     pads.scan();                         // at the start, and when something was plugged
 //     const PadSticks now = pads.now(0.15);
 //
-// Nothing presses that was not seen let go first: not what was held while it was plugged in, while
-// a page was open, or while another window had the keyboard. Several pads count as one. Thread:
-// main. Units: 1 is a stick or trigger all the way.
+// The press (right trigger or A) counts only after both have been seen released. So nothing is
+// milled by what was held down while the pad was plugged in, while a page was open, or while
+// another window had the keyboard. Several pads count as one. Thread: main. Units: 1 is a stick or
+// trigger moved all the way.
 #pragma once
 
 #include <SDL2/SDL.h>
@@ -23,10 +24,11 @@ struct PadSticks {
   bool lifts = false;                  // B is down
 };
 
-// What an axis of -32768..32767 says beyond `dead`, a share of it; begins gently. -1..1, and 0 at
-// rest whatever is wrong with the numbers.
+// The part of an axis value (-32768..32767) beyond the dead zone, squared, so that it starts
+// gently; -1..1. dead: the dead zone, a share of the full way. 0 at rest and for a value that is
+// not a number.
 [[nodiscard]] double beyond_dead(double axis, double dead);
-// The same for a stick, whose dead zone is round.
+// The same for a stick, whose dead zone is round: right and up together.
 void calm_stick(double& right, double& up, double dead);
 
 class Gamepads {
@@ -39,7 +41,7 @@ class Gamepads {
   void scan();
   [[nodiscard]] int count() const { return static_cast<int>(pads_.size()); }
   [[nodiscard]] PadSticks now(double dead);
-  // Nothing presses until all was let go.
+  // Ignores the press until trigger and A have been released.
   void disarm() { armed_ = false; }
 
  private:
@@ -47,11 +49,11 @@ class Gamepads {
   bool started_ = false, armed_ = false;
 };
 
-// Something was plugged in or out: scan().
+// A pad was plugged in or out: call scan().
 [[nodiscard]] bool plugs(const SDL_Event& event);
 
-// For pages that are walked through by keyboard: the key that a pad's button stands for there;
-// false: none. `event` becomes that key's.
+// For pages that are used with the keyboard: turns the event of a pad's button into the event of
+// the key with the same meaning. false: the button has none; `event` is unchanged.
 bool as_key(SDL_Event& event);
 
 }  // namespace burr::app

@@ -10,7 +10,7 @@ MouseHand::MouseHand(const math::Pose& start) : gliding_(start.p), q_(start.q), 
 
 device::HandState MouseHand::state(double dt) BURR_RT {
   static_cast<void>(aims_.take(aim_));
-  if (!aim_.valid || !aim_.world_from_tool.finite()) {  // the arm waits where it is
+  if (!aim_.valid || !aim_.world_from_tool.finite()) {  // the arm stays where it is
     velocity_.setZero();
     device::HandState hand;
     hand.world_from_tool = aim_.valid ? aim_.world_from_tool : math::Pose{p_, q_};

@@ -1,12 +1,12 @@
-// apps/burr/window/hands/mouse_hand.h - the hand at the window: an arm that follows where the mouse
-// points, or what a headset's wearer holds.
+// apps/burr/window/hands/mouse_hand.h - the simulated hand of the window: an arm that follows the
+// mouse, or the wand that the wearer of a headset holds.
 //
 //     main --aim(target)--> Latest --> servo: state() moves a mass on a spring and a damper
 //
-// The arm is that of device/simulated_hand.h; its aim glides no faster than a hand does, so that a
-// mouse that leaps over the picture does not throw the burr. What is not a place, or lost, is
-// handed on as such: the safety layer (haptics/safety/limit.h) judges it, not the hand. Thread: aim()
-// main; state() and write_force() servo. Frame: world. Units: SI.
+// The arm is that of device/simulated_hand.h. Its target moves no faster than a hand, so that a
+// mouse that jumps across the picture does not throw the burr. A pose that is not finite, or that
+// is marked as lost, is passed on as it is: the safety layer (haptics/safety/limit.h) judges it,
+// not this class. Thread: aim() main; state() and write_force() servo. Frame: world. Units: SI.
 #pragma once
 
 #include <atomic>
@@ -21,17 +21,18 @@ namespace burr::app {
 
 class MouseHand final : public device::Device {
  public:
-  // how fast the aim may glide: of a mouse, a brisk hand; what is held is where it is  [m/s]
+  // highest speed of the target: for a mouse, that of a brisk hand; a wand is followed as fast as
+  // it moves  [m/s]
   static constexpr double kMousePace = 0.25, kWandPace = 1.5;
-  // Where the arm is drawn to.
+  // The target of the arm.
   struct Aim {
     math::Pose world_from_tool;
     double pedal = 0;  // 0..1
     double pace = kMousePace;
-    bool valid = true;  // false: nobody knows where the hand is
+    bool valid = true;  // false: the position of the hand is not known
   };
 
-  // start: where the hand is when the session begins; in the air
+  // start: position of the hand when the session begins; it must be in the air
   explicit MouseHand(const math::Pose& start);
 
   void aim(const Aim& aim) { aims_.publish(aim); }
@@ -47,9 +48,9 @@ class MouseHand final : public device::Device {
   rt::Latest<Aim> aims_;
   device::ArmSettings arm_;
   device::DeviceSpec spec_;
-  // the servo's own
+  // used by the servo thread only
   Aim aim_;
-  math::Vec3 gliding_ = math::Vec3::Zero();  // the aim, at a hand's pace
+  math::Vec3 gliding_ = math::Vec3::Zero();  // the target, moving at the pace of a hand
   math::Quat q_ = math::Quat::Identity();
   math::Vec3 p_ = math::Vec3::Zero(), velocity_ = math::Vec3::Zero(), force_ = math::Vec3::Zero();
   std::atomic<double> scale_ = 1.0;
@@ -61,14 +62,15 @@ class SuctionHand;
 }
 namespace burr::app {
 
-// The hand at the page, one of two, and what the other one may hold.
+// The hand that the page uses: exactly one of `mouse` and `real` is set. `suction`: the second
+// hand.
 struct Hands {
   MouseHand* mouse = nullptr;
   device::MappedHand* real = nullptr;        // a haptic device
-  double max_force = 1e3;                    // its user's own limit and its own [N]
-  workshop::SuctionHand* suction = nullptr;  // in the other hand
-  std::string id = {};  // of the device, in the book of what users request of it
-  workshop::DevicePreferences preferences = {};  // what the book has for it
+  double max_force = 1e3;                    // the lower of the user's limit for it and its own [N]
+  workshop::SuctionHand* suction = nullptr;  // nullptr: none
+  std::string id = {};                       // the device's key in the book of preferences
+  workshop::DevicePreferences preferences = {};  // its preferences in that book
 };
 
 }  // namespace burr::app

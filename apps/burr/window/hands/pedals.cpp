@@ -7,7 +7,7 @@
 namespace burr::app {
 namespace {
 
-constexpr double kLetGo = 0.1;  // of its way
+constexpr double kLetGo = 0.1;  // of its way; below it the pedal counts as released
 constexpr int kMostAxes = 3;    // a heel plate and two toes
 
 bool may_be_pedal(SDL_Joystick* stick) {
@@ -47,9 +47,9 @@ void Pedals::scan() {
       SDL_JoystickClose(stick);
   }
   if (found != pedals_) disarm();
-  for (SDL_Joystick* pedal : pedals_) SDL_JoystickClose(pedal);  // each was opened once more
+  for (SDL_Joystick* pedal : pedals_) SDL_JoystickClose(pedal);  // each was opened a second time
   pedals_ = std::move(found);
-  SDL_JoystickUpdate();  // before that all is at rest, whatever is held
+  SDL_JoystickUpdate();  // until this call SDL reports everything as released
 }
 
 double Pedals::now(const PedalMap& map) {

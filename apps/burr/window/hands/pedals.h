@@ -1,9 +1,10 @@
-// apps/burr/window/hands/pedals.h - pedals under the desk: joysticks that are no game controllers.
+// apps/burr/window/hands/pedals.h - foot pedals: joysticks that are not game controllers.
 //
-// The first axis, or a button, mills; buttons change the burr, let the coolant run, and lift a
-// haptic device. Which is which stands in the settings, since no two pedals agree. As with
-// gamepad.h, what was held down when the pedal came mills only after it was let go. What has more
-// than three axes, or is a steering wheel or the like by its own word, is no pedal. Thread: main.
+// The first axis, or a button, mills. Other buttons change the burr, switch the coolant and lift a
+// haptic device. The settings say which button does what, because pedals differ. A milling pedal
+// that was down when it was plugged in mills only after it has been seen released (as in
+// gamepad.h). A joystick with more than three axes, or one that reports itself as a steering wheel
+// or another such device, is not taken for a pedal. Thread: main.
 #pragma once
 
 #include <SDL2/SDL.h>
@@ -12,10 +13,10 @@
 
 namespace burr::app {
 
-// Buttons by their number from 0.
+// Numbers of the buttons, from 0.
 struct PedalMap {
   int mill = 0, burr = 1, coolant = 2, clutch = 3;
-  int rest = -1;  // where the axis is while no foot is on it: -1, 0 or 1
+  int rest = -1;  // value of the axis with no foot on it: -1, 0 or 1
 };
 
 class Pedals {
@@ -29,11 +30,11 @@ class Pedals {
 
   void scan();
   [[nodiscard]] int count() const { return static_cast<int>(pedals_.size()); }
-  // How far down the milling pedal is  [0..1].
+  // How far the milling pedal is pressed  [0..1].
   [[nodiscard]] double now(const PedalMap& map);
-  // The clutch is down: a haptic device is lifted to be laid elsewhere.
+  // The clutch is down: the hand of a haptic device may be moved without moving the burr.
   [[nodiscard]] bool clutched(const PedalMap& map) const;
-  // What a button of a pedal asks for once, when it goes down.
+  // The step that this event requests, if it is a pedal's button going down.
   [[nodiscard]] Step step(const SDL_Event& event, const PedalMap& map) const;
   void disarm() { armed_ = false; }
 

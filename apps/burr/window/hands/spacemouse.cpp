@@ -12,9 +12,10 @@ namespace burr::app {
 namespace {
 
 constexpr int kMotion = 1, kButton = 2;
-constexpr double kFull = 350;  // what the cap gives all the way, about
+constexpr double kFull = 350;  // what libspnav reports for a cap moved all the way, about
 constexpr int kMostEvents = 256;
-// the cap tells of itself while it is held, and once when it is let go; a daemon that died does not
+// the daemon sends events while the cap is moved, and one when it is released; a daemon that died
+// sends none
 constexpr auto kStale = std::chrono::milliseconds(500);
 
 }  // namespace
@@ -54,7 +55,7 @@ CapMotion SpaceMouse::now(double dead) {
     std::fill(std::begin(axes_), std::end(axes_), 0);
   double* const to[] = {&cap.right, &cap.up, &cap.away, &cap.tilt, &cap.twist, &cap.roll};
   for (int n = 0; n < 6; ++n) *to[n] = beyond_dead(axes_[n] * (32767 / kFull), dead);
-  // as with gamepad.h: pushed in while something else was asked is let go first
+  // as in gamepad.h: a cap that was pushed down while a page was open must be released first
   if (cap.up >= 0) armed_ = true;
   if (!armed_) cap.up = std::max(cap.up, 0.0);
   return cap;

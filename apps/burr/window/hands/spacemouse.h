@@ -1,10 +1,12 @@
-// apps/burr/window/hands/spacemouse.h - a SpaceMouse through libspnav, found when burr runs and never
-// linked; without library or daemon there is none, and nothing is said.
+// apps/burr/window/hands/spacemouse.h - a SpaceMouse through libspnav. The library is loaded when
+// burr runs, never linked. Without the library or its daemon there is no SpaceMouse, and no
+// message.
 //
 //     spacenavd --socket--> libspnav.so.0 --now()--> the page one works on
 //
-// BURR_SPNAV names another library instead. The library stays loaded. Thread: main. Units: 1 is the
-// cap all the way.
+// The environment variable BURR_SPNAV names another library. The library stays loaded. As in
+// gamepad.h, a cap that was pushed down counts only after it has been released. Thread: main.
+// Units: 1 is the cap moved all the way.
 #pragma once
 
 #include <chrono>
@@ -12,11 +14,11 @@
 
 namespace burr::app {
 
-// Axes as libspnav gives them: right, up, away from the user; turns about them.
+// Axes as libspnav reports them: right, up, away from the user; and rotations about them.
 struct CapMotion {
   double right = 0, up = 0, away = 0;    // [-1..1]
   double tilt = 0, twist = 0, roll = 0;  // [-1..1]
-  std::vector<int> buttons = {};         // went down since the last now()
+  std::vector<int> buttons = {};         // pressed since the last call of now()
 };
 
 class SpaceMouse {
@@ -26,15 +28,15 @@ class SpaceMouse {
   SpaceMouse& operator=(const SpaceMouse&) = delete;
   ~SpaceMouse();
 
-  // Once more, where the daemon was not there before.
+  // Tries again, in case the daemon was not running before.
   void open();
   [[nodiscard]] bool there() const { return open_; }
-  // Takes what came since the last call.
+  // Returns what was reported since the last call.
   [[nodiscard]] CapMotion now(double dead);
   void disarm() { armed_ = false; }
 
  private:
-  // What libspnav writes; larger than any of its versions did so far.
+  // What libspnav writes; larger than the event of any of its versions so far.
   union Event {
     int type;
     struct {

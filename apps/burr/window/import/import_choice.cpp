@@ -19,7 +19,7 @@ namespace {
 using math::Ijk;
 
 constexpr double kMb = 1048576.0;
-// CT: what is air and what is denser than enamel tells nothing of where bone begins
+// CT: values of air, or above those of enamel, do not help to find where bone begins
 constexpr double kLeastHu = -1100, kMostHu = 3200;
 
 double mb_of(const io::Scan& scan) {
@@ -28,7 +28,7 @@ double mb_of(const io::Scan& scan) {
          kMb;
 }
 
-// "12.5 %"-wise: the value below which `share` of the counts lie
+// The quantile: the value below which this share (0..1) of the counts lies.
 double quantile(const std::vector<std::int64_t>& counts, double from, double step, double share) {
   std::int64_t total = 0, sum = 0;
   for (const std::int64_t n : counts) total += n;
@@ -50,22 +50,22 @@ std::vector<std::int64_t> count(const io::Scan& scan, double from, double to, in
   return counts;
 }
 
-// one number of a file such as /sys/fs/cgroup/memory.max; NaN where there is none
+// Reads one number from a file such as /sys/fs/cgroup/memory.max; NaN if there is none.
 double number_in(const char* path) {
   std::ifstream file(path);
   double number = 0;
   return file >> number ? number : std::numeric_limits<double>::quiet_NaN();
 }
 
-// How much bone there is, and how much surface, on the grid that it gets.
+// The amount of bone and of surface, on the grid of the plan.
 struct Extent {
-  double bricks = 0;  // with bone in them
-  double faces = 0;   // of voxels, between bone and what is none
+  double bricks = 0;  // that contain bone
+  double faces = 0;   // faces of voxels between bone and not bone
 };
 
 template <class Inside>
 Extent extent_of(const io::Scan& scan, const importing::ImportSummary& plan, Inside inside) {
-  const math::Vec3 fine = scan.spacing_mm / plan.voxel_mm;  // new voxels in an old one
+  const math::Vec3 fine = scan.spacing_mm / plan.voxel_mm;  // number of new voxels per old one
   const std::size_t nx = static_cast<std::size_t>(scan.size.x()),
                     ny = static_cast<std::size_t>(scan.size.y());
   std::array<std::size_t, 3> from{}, size{}, bricks{};
@@ -144,7 +144,7 @@ Greys greys_of(const io::Scan& scan, int steps) {
     greys.from = std::clamp(greys.from, kLeastHu, 0.0);
     greys.to = std::clamp(greys.to, 1000.0, kMostHu);
   } else {
-    // a few stray voxels must not press all others into one step
+    // a few voxels with extreme values must not squeeze all others into one step
     constexpr int kFine = 4096;
     constexpr double kStray = 1e-4;
     const std::vector<std::int64_t> fine = count(scan, greys.from, greys.to, kFine);
@@ -208,8 +208,9 @@ Result<Box> box_of(const io::Scan& scan, const std::optional<scenario::Region>& 
   Box box{{region->i[0], region->j[0], region->k[0]}, {region->i[1], region->j[1], region->k[1]}};
   for (int a = 0; a < 3; ++a)
     if (box.from[a] < 0 || box.from[a] > box.to[a] || box.to[a] >= scan.size[a])
-      return error(Trouble::usage, fmt::format("--roi: {} {}..{} does not lie in 0..{}", "ijk"[a],
-                                               box.from[a], box.to[a], scan.size[a] - 1));
+      return error(Trouble::usage,
+                   fmt::format("--roi: {} {}..{} is outside 0..{}; choose a smaller region",
+                               "ijk"[a], box.from[a], box.to[a], scan.size[a] - 1));
   if (scan.k_reversed) {
     const int end = scan.size.z() - 1, first = box.from.z();
     box.from.z() = end - box.to.z();
@@ -253,10 +254,10 @@ Result<KeptTable> keep_table(const std::filesystem::path& folder, const std::str
 }
 
 SessionMemory session_memory(const io::Scan& scan, const importing::ImportSummary& plan) {
-  // Measured on eight scans of 0.4 to 130 million voxels; a picture drawn by the processor, which
-  // keeps its triangles in the same memory.
+  // Measured on eight scans of 0.4 to 130 million voxels. The processor drew the pictures, so the
+  // triangles were in the same memory.
   constexpr double kGreyBrick = 2700, kLabelBrick = 1200, kReserved = 1100;  // [byte]
-  constexpr double kFace = 120;                                              // of its mesh  [byte]
+  constexpr double kFace = 120;                                              // in the mesh  [byte]
   constexpr double kSession = 20, kSpared = 40;                              // [MB]
   const Extent extent = extent_of(scan, plan);
   const double bone = (extent.bricks * (plan.labels ? kLabelBrick : kGreyBrick) +
@@ -288,7 +289,7 @@ double free_memory_mb() {
   double kb = 0;
   while (file >> name >> kb && std::getline(file, unit))
     if (name == "MemAvailable:") free = kb / 1024;
-  // a container may have less than the computer
+  // a container may be allowed less memory than the computer has
   const double limit = number_in("/sys/fs/cgroup/memory.max"),
                taken = number_in("/sys/fs/cgroup/memory.current");
   if (limit >= taken) free = std::min(free, (limit - taken) / kMb);

@@ -1,5 +1,5 @@
-// apps/burr/window/import/import_choice.h - what is decided about a scan before it becomes bone, in the numbers
-// of a recipe: its greys, its directions, the region, the kinds of its labels, the memory.
+// apps/burr/window/import/import_choice.h - what the user decides about a scan before it becomes
+// bone: grey level, directions, region, kinds of labels, memory; all as values of a recipe.
 //
 //     auto opened = open_scan(recipe, progress);             // reads it, once
 //     recipe.region = region_of(*opened->scan, box);          // as the mouse pulled it
@@ -24,19 +24,20 @@
 
 namespace burr::app {
 
-// How many voxels have which value.
+// A histogram of the scan's values.
 struct Greys {
-  double low = 0, high = 0;          // of all values
-  double from = 0, to = 1;           // of the counts; rarer values beyond are in the outer ones
-  std::vector<std::int64_t> counts;  // even steps
-  std::int64_t most = 0;             // of one step
+  double low = 0, high = 0;          // range of all values
+  double from = 0, to = 1;           // range of the steps; outer steps include values beyond
+  std::vector<std::int64_t> counts;  // equal steps
+  std::int64_t most = 0;             // largest count of one step
 
   [[nodiscard]] double share_from(double value) const;  // of the voxels at or above it, 0..1
-  [[nodiscard]] double step() const;                    // that a level is worth setting by
+  [[nodiscard]] double step() const;                    // a sensible step for changing a level
 };
 [[nodiscard]] Greys greys_of(const io::Scan& scan, int steps = 256);
 
-// Where a direction of the scan points in the patient, as seen by the patient; about: not exactly.
+// Direction in which an axis of the scan points in the patient, as the patient sees it. about: only
+// approximately.
 enum class Way { left, right, backwards, forwards, upwards, downwards };
 struct Direction {
   Way way = Way::left;
@@ -44,43 +45,45 @@ struct Direction {
 };
 [[nodiscard]] std::array<Direction, 3> directions(const math::Mat3& axes);
 
-// The shortest text that is this number, as options take it.
+// The shortest text for this number that an option of the command line reads back as the same
+// number.
 [[nodiscard]] std::string number_text(double value);
 
-// Voxels of a Scan, first and last, both inside.
+// A box of voxels of a Scan; first and last are both inside.
 struct Box {
   math::Ijk from = {0, 0, 0}, to = {0, 0, 0};
   bool operator==(const Box& other) const { return from == other.from && to == other.to; }
 };
 [[nodiscard]] Box whole(const io::Scan& scan);
-// In voxels of the file; none: the whole scan.
+// As voxels of the file; none: the box is the whole scan.
 [[nodiscard]] std::optional<scenario::Region> region_of(const io::Scan& scan, const Box& box);
-// Error: not inside the scan.
+// Error: the region is not inside the scan.
 [[nodiscard]] Result<Box> box_of(const io::Scan& scan,
                                  const std::optional<scenario::Region>& region);
 
-// A table for --tissues that says of each label what kind it is, where that differs from what burr
-// would take it for; "" where it nowhere does. Holds no name of a label.
+// A table for --tissues with the kind of each label whose kind differs from the one that burr would
+// assume; "" if none differs. It contains no name of a label.
 [[nodiscard]] std::string table_of(const std::vector<importing::TissueFound>& taken_for,
                                    const std::vector<volume::TissueKind>& wanted);
-// Kept in `folder` under a name made from its content, so that recordings find it again.
+// Saves the table in `folder` under a name made from its content, so that recordings can find it
+// again.
 struct KeptTable {
   std::filesystem::path path;
-  bool fresh = false;  // it was not there before
+  bool fresh = false;  // true: the file did not exist before
 };
 [[nodiscard]] Result<KeptTable> keep_table(const std::filesystem::path& folder,
                                            const std::string& table);
 
-// Of the whole program beside what it takes with no bone.  [MB = 2^20 bytes]
+// Memory of the whole program above its use without a bone.  [MB = 2^20 bytes]
 struct SessionMemory {
-  double making = 0;   // at its highest, the scan included
-  double working = 0;  // from then on
+  double making = 0;   // maximum during import, including the scan
+  double working = 0;  // after the import
 };
-// Estimated from how much bone and surface there is; good within a third of what a session in the
-// window takes (tests/window).
+// An estimate from the amount of bone and surface; within a third of what a session in the window
+// uses (tests/window).
 [[nodiscard]] SessionMemory session_memory(const io::Scan& scan,
                                            const importing::ImportSummary& plan);
-// What this computer still has to give, or this program may take.  [MB]
+// Memory that this computer still has free, or that this program may still use.  [MB]
 [[nodiscard]] double free_memory_mb();
 
 struct Planned {
@@ -90,13 +93,13 @@ struct Planned {
 [[nodiscard]] Result<Planned> plan_session(const io::Scan& scan, const scenario::Recipe& recipe);
 
 struct OpenedScan {
-  scenario::Recipe volume;  // as asked for
+  scenario::Recipe volume;  // as requested
   std::shared_ptr<const io::Scan> scan;
-  Greys greys;                                 // of a grey scan
-  std::vector<importing::TissueFound> labels;  // of a label map
-  Result<Planned> planned;                     // with `volume`
+  Greys greys;                                 // for a grey scan
+  std::vector<importing::TissueFound> labels;  // for a label map
+  Result<Planned> planned;                     // with the recipe `volume`
 };
-// Error: it cannot be read, or is a picture and no volume.
+// Error: the file cannot be read, or is a picture and not a volume.
 [[nodiscard]] Result<OpenedScan> open_scan(const scenario::Recipe& recipe, Progress& progress);
 
 }  // namespace burr::app

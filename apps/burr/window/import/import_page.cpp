@@ -28,7 +28,7 @@ bool number_of(std::string text, double& value) {
 
 }  // namespace
 
-// ---- what is chosen
+// ---- the choices
 
 ImportPage::ImportPage(Desk& desk, OpenedScan opened)
     : desk_(desk), opened_(std::move(opened)), volume_(opened_.volume), renewed_(desk.renewed()) {
@@ -58,7 +58,7 @@ std::optional<double> ImportPage::level() const {
   if (opened_.scan->values.empty()) return std::nullopt;
   if (level_) return level_;
   if (planned_) {
-    // Otsu's has more digits than anybody wants to see
+    // Otsu's level has more digits than are useful
     const double step = 0.01 * opened_.greys.step();
     return std::round(planned_->import.iso / step) * step;
   }
@@ -174,7 +174,7 @@ void ImportPage::set_kind(std::size_t label, TissueKind kind) {
     }
     kept = std::move(*written);
   }
-  planning_.reset();  // it may read the table that goes now
+  planning_.reset();  // it may still read the table that is removed next
   forget_table();
   if (kept.fresh) own_table_ = kept.path;
   volume_.labels = kept.path.string();
@@ -189,7 +189,7 @@ void ImportPage::forget_table() {
   own_table_.clear();
 }
 
-// ---- from picture to picture
+// ---- mouse positions become voxels
 
 Result<ImportPage::Answer> ImportPage::ask(const std::string& told, double seconds) {
   using Clock = std::chrono::steady_clock;
@@ -216,7 +216,7 @@ Result<ImportPage::Answer> ImportPage::ask(const std::string& told, double secon
           static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
   }
   SDL_StopTextInput();
-  if (*answer_ == Answer::start) own_table_.clear();  // a session needs it from now on
+  if (*answer_ == Answer::start) own_table_.clear();  // the session needs the file from now on
   desk_.told.clear();
   return *answer_;
 }
@@ -238,8 +238,8 @@ void ImportPage::decide(Answer answer) {
     answer_ = answer;
     return;
   }
-  starting_ = true;  // once it is known to go
-  trouble_.clear();  // a field with trouble was put back
+  starting_ = true;  // the session starts as soon as the plan is found to be possible
+  trouble_.clear();  // a field with an error has been set back
 }
 
 void ImportPage::work() {
@@ -253,7 +253,7 @@ void ImportPage::work() {
         iso_text_ = number_text(*now);
     }
   }
-  // not while something is drawn about with the mouse: the preview needs the processor
+  // not while the mouse drags something: the preview needs the processor
   if (stale_ && !planning_ && !ImGui::IsMouseDown(0)) {
     stale_ = false;
     planning_ = std::make_unique<Loading<Planned>>(
@@ -268,7 +268,7 @@ void ImportPage::work() {
   desk_.told = trouble_.empty() ? plan_trouble_ : trouble_;
 }
 
-// ---- the whole way
+// ---- all steps
 
 namespace {
 

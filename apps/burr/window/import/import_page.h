@@ -1,8 +1,8 @@
-// apps/burr/window/import/import_page.h - a scan before it becomes bone: which series, where its surface
-// lies, which part, which labels, what it will take.
+// apps/burr/window/import/import_page.h - the page on which the user prepares a scan: which series,
+// the grey level of the surface, the region, the labels, and how much memory it needs.
 //
-// Everything chosen is a number of a scenario::Recipe, as the command line makes one, so that
-// recordings and kept sessions need to know nothing of this page.
+// Every choice is a value of a scenario::Recipe, the same as from the command line. So recordings
+// and kept sessions do not depend on this page.
 // Thread: main.
 #pragma once
 
@@ -23,15 +23,15 @@
 
 namespace burr::app {
 
-// Where the page's parts lie, in pixels of the drawing area.
+// Position of the parts of the page, in pixels of the drawing area.
 struct ImportLayout {
   struct Part {
     float x = 0, y = 0, w = 0, h = 0;
   };
   std::array<Part, 3> views;          // axial, coronal, sagittal
-  Part level, plot, facts, bone;      // below: histogram or labels, the scan, what is made
+  Part level, plot, facts, bone;      // below: histogram or labels, scan, planned bone
   Part series, iso, roi, voxel, all;  // fields and buttons
-  Part told, as_it_is, back, start;   // last line
+  Part told, as_it_is, back, start;   // last line of the page
 };
 [[nodiscard]] ImportLayout import_layout(float width, float height, float unit);
 
@@ -43,11 +43,11 @@ class ImportPage {
   ImportPage& operator=(const ImportPage&) = delete;
 
   enum class Answer { start, back, other_series, closed };
-  // Until the user has decided. told: what went wrong before; "" for nothing. seconds: as of
-  // StartPage::ask.
+  // Returns when the user has decided. told: a sentence about an earlier error; "" for none.
+  // seconds: as in StartPage::ask.
   [[nodiscard]] Result<Answer> ask(const std::string& told, double seconds);
 
-  // What was chosen.
+  // The recipe that the user chose.
   [[nodiscard]] const scenario::Recipe& volume() const { return volume_; }
   [[nodiscard]] const std::string& series() const { return series_; }
   [[nodiscard]] const std::shared_ptr<const io::Scan>& scan() const { return opened_.scan; }
@@ -56,14 +56,14 @@ class ImportPage {
   struct View {
     PlaneView plane;
     PlaneValues values;
-    int sampled = -1;  // the slice in values
+    int sampled = -1;  // number of the slice that `values` holds
     bool coloured = false;
     Texture texture;
-    int grabbed = 0;  // sides of the frame in the hand: 1 left 2 right 4 top 8 bottom 16 none
+    int grabbed = 0;  // sides of the frame that are dragged: 1 left 2 right 4 top 8 bottom 16 none
   };
 
   void take_events();
-  void work();  // the plan, beside the window
+  void work();  // plans the import, on a thread of its own
   void changed();
   void decide(Answer answer);
   void set_level(double level);
@@ -92,26 +92,27 @@ class ImportPage {
   Desk& desk_;
   OpenedScan opened_;
   scenario::Recipe volume_;
-  std::string series_;  // wanted instead, "#2"
+  std::string series_;  // another series that the user wants, "#2"
   std::optional<double> level_;
   Box box_;
-  std::array<int, 3> slice_ = {0, 0, 0};  // by axis of the scan
+  std::array<int, 3> slice_ = {0, 0, 0};  // for each axis of the scan
   std::vector<volume::TissueKind> kinds_;
   std::string iso_text_, roi_text_, voxel_text_;
-  std::string trouble_;              // of a field, or of what was tried
-  std::string plan_trouble_;         // of what is chosen
-  std::filesystem::path own_table_;  // made here, of no use unless it is started with
+  std::string trouble_;              // about a field, or about something that failed
+  std::string plan_trouble_;         // why this choice cannot be imported
+  std::filesystem::path own_table_;  // written by this page; removed unless used at start
   std::optional<Planned> planned_;
   std::unique_ptr<Loading<Planned>> planning_;
   bool stale_ = false, starting_ = false;
   std::array<View, 3> views_;
-  int renewed_ = 0;  // as often as the desk had made its window anew when they were drawn
+  int renewed_ = 0;  // number of times the desk had renewed its window when the textures were made
   std::vector<std::uint8_t> pixels_;
   std::optional<Answer> answer_;
 };
 
-// The whole way from a path to a session: reading, this page, the bone. What was chosen is in
-// `options` then. Error: as of load(); Trouble::interrupted also when the user went back.
+// All steps from a path to a session: read the scan, show this page, make the bone. Afterwards
+// `options` contains what the user chose. Error: as load(); also Trouble::interrupted if the user
+// went back.
 [[nodiscard]] Result<Ready> open_by_page(Desk& desk, WorkOptions& options, const std::string& title,
                                          double seconds, bool& closed);
 

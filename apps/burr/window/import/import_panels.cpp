@@ -1,4 +1,4 @@
-// What the import page shows, and what the mouse does to it.
+// The panels of the import page, and what the mouse does on them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ using volume::TissueKind;
 using Part = ImportLayout::Part;
 
 constexpr Word kNames[] = {Word::axial, Word::coronal, Word::sagittal};
-constexpr int kMostPixels = 720;  // of a preview along a side; stretched to more
-constexpr int kFree = 16;         // grabbed: the slices, not the frame
+constexpr int kMostPixels = 720;  // longest side of a preview; a larger one is stretched
+constexpr int kFree = 16;         // value of `grabbed`: the mouse moves the slices, not the frame
 
 const char* way(Way which) {
   constexpr Word kWays[] = {Word::way_left,     Word::way_right, Word::way_backwards,
@@ -30,7 +30,7 @@ std::string memory_text(double mb) {
   return mb < 1000 ? fmt::format("{:.0f} MB", mb) : fmt::format("{:.1f} GB", mb / 1024);
 }
 
-// when Enter was pressed, or the user went elsewhere after typing
+// true when Enter was pressed, or when the user left the field after typing
 bool changed_field(const char* id, const char* hint, std::string& text, float width) {
   const bool entered = text_field(id, hint, text, width);
   return entered || ImGui::IsItemDeactivatedAfterEdit();
@@ -46,7 +46,7 @@ void warning_sign(const Ui& ui, float x, float y) {
                                                 ink::kWarn);
 }
 
-// several lines in a box, cut off below
+// several lines of text in a box; what does not fit is cut off
 void wrapped(const Ui& ui, Letter letter, ImU32 ink, const Part& part, const std::string& text) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImFont* font = ui.font(letter);
@@ -156,7 +156,7 @@ void ImportPage::draw_view(std::size_t which, const Part& part) {
   draw.AddRectFilled({part.x, part.y}, {part.x + part.w, part.y + part.h}, ink::rgb(0, 0, 0),
                      4 * u);
   const std::array<double, 2> mm = extent_mm(scan, view.plane);
-  // the letters of the patient's sides stay outside the picture
+  // the letters of the patient's sides are written outside the picture
   const float border = 24 * u, room_w = part.w - 2 * border, room_h = part.h - 2 * border;
   const auto ratio = static_cast<float>(mm[0] / mm[1]);
   const float w = std::floor(std::min(room_w, room_h * ratio)), h = std::floor(w / ratio);
@@ -173,7 +173,7 @@ void ImportPage::draw_view(std::size_t which, const Part& part) {
     return (down ? y : x) +
            (down ? h : w) * static_cast<float>(place_of(scan, view.plane, down, voxels));
   };
-  // where the other two planes cut this one
+  // lines where the other two planes cut this one
   const auto across = static_cast<std::size_t>(view.plane.across),
              down = static_cast<std::size_t>(view.plane.down);
   const float cx = side(false, slice_[across] + 0.5), cy = side(true, slice_[down] + 0.5);
@@ -204,7 +204,7 @@ void ImportPage::draw_view(std::size_t which, const Part& part) {
       const int a = vertical ? view.plane.down : view.plane.across;
       const bool flip = vertical ? view.plane.flip_down : view.plane.flip_across;
       const int edge = static_cast<int>(std::lround(voxels(vertical)));
-      // a frame keeps a little inside
+      // a frame always keeps a few voxels
       const int least = std::min(4, scan.size[a]);
       if (far_side != flip)
         box.to[a] =
@@ -235,7 +235,8 @@ void ImportPage::draw_view(std::size_t which, const Part& part) {
   letter(x + w / 2, y + h + 5 * u, view.plane.bottom);
 }
 
-// The region: its frame, what lies outside dimmed, handles. The sides under the mouse.
+// Draws the region: its frame, handles, and everything outside it dimmed. Returns the sides of the
+// frame under the mouse.
 int ImportPage::frame(View& view, float x, float y, float w, float h) {
   const float u = desk_.ui().unit();
   const io::Scan& scan = *opened_.scan;
@@ -381,7 +382,7 @@ void ImportPage::labels(const ImportLayout& at) {
       const bool on = kinds_[n] == kind;
       ImGui::SetCursorScreenPos({x, y + 1 * u});
       ImGui::PushStyleColor(ImGuiCol_Button, on ? ink::rgb(30, 96, 138) : ink::kButton);
-      // the one that holds has a dot as well
+      // the selected one also has a dot
       const std::string text =
           fmt::format("{}##{}{}", word(says), tissue.label, static_cast<int>(kind));
       if (ImGui::Button(text.c_str(), {62 * u, 28 * u})) set_kind(n, kind);
@@ -419,7 +420,8 @@ void ImportPage::facts(const Part& part) {
   if (!scan.values.empty())
     line(say(Word::import_values, opened_.greys.low, opened_.greys.high, unit_of_values()));
 
-  // the reader's own sentences; that of the series is the chooser above
+  // the sentences of the reader; the one about the series is left out, because the chooser above
+  // shows it
   std::string notices;
   const std::vector<std::string>& all = planned_ ? planned_->import.notices : scan.notices;
   for (const std::string& notice : all)

@@ -10,7 +10,7 @@ using Colour = std::array<std::uint8_t, 3>;
 
 constexpr Colour kOutline = {226, 88, 16}, kTint = {230, 159, 0};
 
-// The place of one pixel along an axis: two voxels and how much of the second.
+// Position of one pixel along an axis: two voxels, and the weight of the second.
 struct Tap {
   std::size_t first = 0, second = 0;
   float share = 0;
@@ -35,7 +35,7 @@ void put(std::vector<std::uint8_t>& rgba, std::size_t pixel, const Colour& colou
   rgba[4 * pixel + 3] = 255;
 }
 
-// A line along the inner side of what is inside.
+// Draws a line along the inner edge of the inside.
 template <class Inside>
 void outline(const PlaneValues& plane, int line, std::vector<std::uint8_t>& rgba, Inside inside) {
   const int w = plane.width, h = plane.height;
@@ -58,7 +58,7 @@ void outline(const PlaneValues& plane, int line, std::vector<std::uint8_t>& rgba
 }  // namespace
 
 std::array<PlaneView, 3> planes_of(const math::Mat3& axes) {
-  // each of the patient's axes gets the scan's axis that lies nearest, the clearest case first
+  // each axis of the patient gets the nearest axis of the scan; the best match is assigned first
   std::array<int, 3> of_patient = {-1, -1, -1};
   std::array<bool, 3> taken = {false, false, false};
   for (int round = 0; round < 3; ++round) {

@@ -1,5 +1,5 @@
-// apps/burr/window/import/import_preview.h - three planes through a scan as it is before it becomes bone, turned
-// as one is used to see them, with what would be bone tinted and outlined.
+// apps/burr/window/import/import_preview.h - three planes through a scan before it becomes bone, in
+// the usual orientation of radiology. What would become bone is tinted and outlined.
 //
 // Thread: any. Cost: one read and a few operations per pixel.
 #pragma once
@@ -14,8 +14,9 @@
 
 namespace burr::app {
 
-// Which axes of the scan lie along the picture's sides, by the patient's directions they are
-// nearest to: left right, front at the top of an axial slice, head at the top of the others.
+// Which axes of the scan lie along the sides of the picture. Each is the axis nearest to a
+// direction of the patient: left to right; front at the top of an axial slice, head at the top of
+// the others.
 struct PlaneView {
   int across = 0, down = 1, through = 2;  // axes of the scan
   bool flip_across = false, flip_down = false;
@@ -26,14 +27,15 @@ struct PlaneView {
 
 // Width and height of the plane.  [mm]
 [[nodiscard]] std::array<double, 2> extent_mm(const io::Scan& scan, const PlaneView& view);
-// Between a place in the picture, 0..1 from its left or top, and voxels; whole numbers are edges:
-// voxel n lies from n to n + 1.
+// Converts between a position in the picture, 0..1 from its left or top, and voxels. Whole numbers
+// are edges: voxel n lies from n to n + 1.
 [[nodiscard]] double voxels_at(const io::Scan& scan, const PlaneView& view, bool down,
                                double place);
 [[nodiscard]] double place_of(const io::Scan& scan, const PlaneView& view, bool down,
                               double voxels);
 
-// A plane's values at the pixels: greys linearly between voxels, labels of the nearest.
+// The values of a plane at the pixels: greys are interpolated linearly between voxels, a label is
+// that of the nearest voxel.
 struct PlaneValues {
   int width = 0, height = 0;
   std::vector<float> values;  // (height x width)
@@ -41,10 +43,10 @@ struct PlaneValues {
 void sample(const io::Scan& scan, const PlaneView& view, int slice, int width, int height,
             PlaneValues& out);
 
-// Four bytes a pixel, top row first.
+// Writes four bytes per pixel, top row first.
 void draw_greys(const PlaneValues& plane, double black, double white, std::optional<double> level,
                 int line, std::vector<std::uint8_t>& rgba);
-// by label: its kind and colour; soft ones are hatched, solid ones outlined
+// how a label is drawn, by its kind and colour; soft tissue is hatched, solid tissue outlined
 struct LabelLook {
   volume::TissueKind kind = volume::TissueKind::air;
   std::array<float, 3> colour = {0, 0, 0};

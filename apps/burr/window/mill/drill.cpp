@@ -10,13 +10,13 @@
 namespace burr::app {
 namespace {
 
-// diameters that burrs come in [m]
+// diameters of the burrs [m]
 constexpr double kSizes[] = {0.6e-3, 0.8e-3, 1e-3, 1.5e-3, 2e-3, 2.5e-3, 3e-3, 3.5e-3,
                              4e-3,   4.5e-3, 5e-3, 5.5e-3, 6e-3, 6.5e-3, 7e-3};
 constexpr double kRpmStep = 5000, kRpmMost = 80'000;
 constexpr double kRpm = 2 * std::numbers::pi / 60;
 constexpr auto kRefused =
-    std::chrono::milliseconds(300);  // not there by then: the servo refused it
+    std::chrono::milliseconds(300);  // after this time without it, the servo has refused it
 
 Word says(tick::ToolMode mode) {
   switch (mode) {

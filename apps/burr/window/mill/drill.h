@@ -1,7 +1,7 @@
-// apps/burr/window/mill/drill.h - what the user commands of the drill: the burr, its speed, its kind,
-// what it does, the coolant.
+// apps/burr/window/mill/drill.h - the user's commands for the drill: size, speed and kind of the
+// burr, tool mode, coolant.
 //
-// Each call sends its command to the servo and returns the sentence for the user. Thread: main.
+// Each call sends its command to the servo and returns a sentence for the user. Thread: main.
 // Units: SI.
 #pragma once
 
@@ -20,16 +20,17 @@ class Drill {
   Drill(sim::Session& session, render::Burr& shown);
 
   [[nodiscard]] std::string set_mode(tick::ToolMode mode);
-  // the next size of the list that the voxels allow; the servo has the last word
+  // the next size of the list that the voxels allow; the servo may still refuse it
   [[nodiscard]] std::string change_burr(int by);
-  // the next size, and after the largest the smallest: a foot has one button for it
+  // the next size; after the largest comes the smallest, because a pedal has one button for it
   [[nodiscard]] std::string next_burr();
   [[nodiscard]] std::string slower();
   [[nodiscard]] std::string faster();
   [[nodiscard]] std::string toggle_kind();
   [[nodiscard]] std::string toggle_coolant();
 
-  // Each picture: the burr as it is now; returns whether a requested one came, "" while that is open.
+  // Call it in each picture: returns whether a requested burr was accepted or refused; "" until
+  // that is known.
   [[nodiscard]] std::string look();
 
   [[nodiscard]] tick::ToolMode mode() const { return mode_; }
@@ -44,7 +45,7 @@ class Drill {
   tick::ToolMode mode_;
   double full_speed_;
   bool irrigated_;
-  std::optional<double> requested_;  // radius, until it is there or refused  [m]
+  std::optional<double> requested_;  // requested radius, until the servo has it or has refused [m]
   Clock::time_point requested_at_{};
 };
 

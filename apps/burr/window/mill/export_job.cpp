@@ -53,7 +53,7 @@ const std::vector<std::string>& endings_of(ExportWhat what) {
 }
 
 std::string ending_of(const std::string& path, ExportWhat what) {
-  for (const std::string& ending : endings_of(what))  // .seg.nrrd comes before .nrrd
+  for (const std::string& ending : endings_of(what))  // the order matters: .seg.nrrd before .nrrd
     if (ends_with(path, ending)) return ending;
   return {};
 }
@@ -88,9 +88,10 @@ Status check_request(const ExportRequest& request) {
     return error(Trouble::usage, request.path + ": is a folder; add a name for the file");
   if (request.what == ExportWhat::picture) {
     if (ending_of(request.path, request.what).empty())
-      return error(Trouble::usage, request.path + ": unknown ending; use .png for a picture");
+      return error(Trouble::usage,
+                   request.path + ": unknown file extension; use .png for a picture");
   } else if (request.what == ExportWhat::film) {
-    // any name will do
+    // a film: any name is possible
   } else if (const Status possible = io::check_export(request.path, options_of(request.what));
              !possible) {
     return possible;

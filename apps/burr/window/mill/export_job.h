@@ -1,7 +1,7 @@
-// apps/burr/window/mill/export_job.h - what may be written out of a session that goes on: the bone, what
-// was removed of it, a picture, or a film; asked and done without the window.
+// apps/burr/window/mill/export_job.h - what can be written from a running session: the bone, the
+// removed part, a picture, or a film; without any use of the window.
 //
-// Thread: any, except where said.
+// Thread: any, except where stated.
 #pragma once
 
 #include <memory>
@@ -20,34 +20,36 @@ enum class ExportWhat { bone, removed, picture, film };
 
 struct ExportRequest {
   ExportWhat what = ExportWhat::bone;
-  std::string path;  // of a film: its folder
+  std::string path;  // for a film: its folder
 };
 
-// ".stl", ... the first is the usual one. A film has none.
+// The possible endings, ".stl" for example; the first is the usual one. None for a film.
 [[nodiscard]] const std::vector<std::string>& endings_of(ExportWhat what);
-// The path with another of these endings; a name that burr gave is that of `what`.
+// The path with another of these endings. If the name was made by burr, it becomes the name for
+// `what`.
 [[nodiscard]] std::string path_for(const std::string& path, ExportWhat what,
                                    const std::string& ending);
-// The ending the path has, of endings_of(what); "": none of them.
+// The ending of the path, one of endings_of(what); "": it has none of them.
 [[nodiscard]] std::string ending_of(const std::string& path, ExportWhat what);
 
-// Something of that name is there already.
+// True: a file or film of this name exists.
 [[nodiscard]] bool already_there(const ExportRequest& request);
 
-// One sentence about why it cannot be: no such ending, no such folder, a folder itself.
+// Says in one sentence why the request is not possible: unknown ending, no such folder, or the path
+// is a folder.
 [[nodiscard]] Status check_request(const ExportRequest& request);
 
-// What was written, for a sentence.
+// What was written, for a sentence to the user.
 struct ExportDone {
   std::string path;
   double volume = 0;          // 0 for a picture  [m^3]
-  std::size_t triangles = 0;  // 0 for what is no mesh
-  int pictures = 0;           // of a film
+  std::size_t triangles = 0;  // 0 if it is not a mesh
+  int pictures = 0;           // in a film
 };
 
-// Copies the bone while the servo cuts it, and writes. before: at the first tick, only for what was
-// removed. changed: a watcher of the bone's, nobody else's. The bone outlives the work. For films:
-// film_job.h.
+// Copies the bone while the servo cuts it, and writes the file. before: the bone at the first tick;
+// needed only for the removed part. changed: a watcher of the bone that no one else uses. The bone
+// must outlive the work. For films see film_job.h.
 [[nodiscard]] Result<ExportDone> write_export(const ExportRequest& request,
                                               const volume::Bone& bone, rt::ChangedBits& changed,
                                               const volume::Bone* before,

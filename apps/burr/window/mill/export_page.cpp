@@ -49,7 +49,7 @@ std::string ExportPage::progress() const {
              now.stage);
 }
 
-// As the page says, if nothing speaks against it.
+// Starts what the page shows, if it is possible.
 void ExportPage::ask(bool may_replace) {
   request_.path = cleaned_path(request_.path);
   trouble_.clear();
@@ -115,7 +115,7 @@ std::string ExportPage::step() {
   const Result<ExportDone> done = work_->take();
   work_.reset();
   if (!done) {
-    // back to where it can be put right, with the reason
+    // shows the page again with the reason, so that the user can correct it
     if (done.error().trouble == Trouble::interrupted)
       return word(request_.what == ExportWhat::film ? Word::film_stopped : Word::export_stopped);
     show(true);
@@ -153,7 +153,7 @@ void ExportPage::draw() {
                                    {ExportWhat::removed, Word::export_removed},
                                    {ExportWhat::picture, Word::export_picture},
                                    {ExportWhat::film, Word::export_film}}) {
-    const ExportWhat one = what;  // a lambda may not take a structured binding
+    const ExportWhat one = what;  // a lambda may not capture a structured binding
     if (session_ == nullptr && (one == ExportWhat::bone || one == ExportWhat::removed)) continue;
     if (!choice(at, y + 66 * u, word(name), request_.what == one, 158 * u)) continue;
     std::string ending = ending_of(request_.path, one);
@@ -185,7 +185,7 @@ void ExportPage::draw() {
     if (ImGui::Button(word(Word::start_file), {120 * u, 0})) dialog_.ask_where(request_.path);
   }
 
-  // what speaks against it, or how far the last one is
+  // the reason against the request, or how far the export is
   const std::string& told =
       replaces_          ? say(Word::export_exists, fs::path(request_.path).filename().string())
       : trouble_.empty() ? progress()

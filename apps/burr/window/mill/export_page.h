@@ -1,9 +1,9 @@
-// apps/burr/window/mill/export_page.h - bone, removed part, picture or film into a file, while one mills
-// or watches a recording (then only picture and film): what and where is asked on a page, the work
-// goes on beside the session.
+// apps/burr/window/mill/export_page.h - writes bone, removed part, picture or film to a file while
+// the user mills, or picture or film while a recording is played. A page asks what to write and
+// where; the work is done beside the session.
 //
-// Thread: main. The servo stands for a moment when what was removed is asked for: only it knows
-// what was there before (Session::bone_before()).
+// Thread: main. The servo is stopped for a moment if the removed part is requested, because only
+// the session knows the bone as it was before (Session::bone_before()).
 #pragma once
 
 #include <functional>
@@ -23,25 +23,25 @@ namespace burr::app {
 
 class ExportPage {
  public:
-  // What a film is made of, now; none: nothing is recorded.
+  // Gives the source for a film of the session so far; none: nothing is recorded.
   using FilmOf = std::function<std::optional<FilmSource>()>;
 
-  // Before the session starts: it adds a watcher. nullptr: a recording is watched. folder: where
-  // files go at first; empty: where the program was started.
+  // Make it before the session starts, because it adds a watcher. session: nullptr if a recording
+  // is played. folder: where files go at first; empty: the folder in which burr was started.
   ExportPage(Desk& desk, sim::Session* session, const render::Scene& scene,
              const std::string& folder, FilmOf film_of);
-  ~ExportPage();  // an export that is under way is stopped, and leaves nothing
+  ~ExportPage();  // a running export is stopped and leaves no file
   ExportPage(const ExportPage&) = delete;
   ExportPage& operator=(const ExportPage&) = delete;
 
   [[nodiscard]] bool shown() const { return shown_; }
   void show(bool shown);
   void draw();
-  // Each frame: what is to be told now; "" for nothing.
+  // Call it in each frame: returns a message for the user; "" for none.
   [[nodiscard]] std::string step();
-  // How far it is, in words; "": nothing is being written.
+  // How far the export is, as text; "": nothing is being written.
   [[nodiscard]] std::string progress() const;
-  // What the page says speaks against it; "": nothing, or it is not shown.
+  // The reason that the page shows against the request; "": none, or the page is not shown.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
  private:
@@ -52,7 +52,7 @@ class ExportPage {
   const render::Scene& scene_;
   FilmOf film_of_;
   rt::ChangedBits* changed_ = nullptr;
-  bool shown_ = false, replaces_ = false;  // asks whether it may
+  bool shown_ = false, replaces_ = false;  // replaces_: the page asks whether it may
   ExportRequest request_;
   std::string trouble_;
   FileDialog dialog_;

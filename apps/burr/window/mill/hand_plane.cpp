@@ -8,7 +8,7 @@ namespace burr::app {
 using math::Vec3;
 
 Vec3 HandPlane::meet(const render::Ray& ray, const render::Camera& camera) {
-  constexpr double kFlat = 1e-3;  // a ray that hardly comes nearer
+  constexpr double kFlat = 1e-3;  // below this the ray is nearly parallel to the plane
   const Vec3 n = -camera.backward();
   const double along = ray.direction.dot(n), far = (at_ - ray.origin).dot(n);
   if (along > kFlat && far > 0) at_ = ray.origin + far / along * ray.direction;
@@ -16,8 +16,8 @@ Vec3 HandPlane::meet(const render::Ray& ray, const render::Camera& camera) {
 }
 
 void HandPlane::show(render::Scene& scene) {
-  constexpr render::Colour kColour = {0.25F, 0.65F, 1.0F};  // of the hand's own dot
-  constexpr int kLines = 2;                                 // to either side of the middle one
+  constexpr render::Colour kColour = {0.25F, 0.65F, 1.0F};  // as the dot that marks the hand
+  constexpr int kLines = 2;                                 // on each side of the middle line
   std::erase_if(scene.rods,
                 [this](const render::Rod& rod) { return shown_ > 0 && rod.radius == shown_; });
   shown_ = 0;

@@ -1,9 +1,10 @@
-// apps/burr/window/mill/hand_plane.h - the plane a mouse's hand goes in when it does not follow the
-// bone: square to the look, as deep as the wheel has moved it, drawn as a few crossed lines.
+// apps/burr/window/mill/hand_plane.h - a plane in which the hand moves with the mouse, instead of
+// following the bone. It is perpendicular to the view; the wheel changes its depth. It is drawn as
+// a few crossed lines.
 //
 //     G: begin(where the hand is)    mouse: meet(ray)    wheel: push(1 mm)    each picture: show()
 //
-// Turning the view turns it about the hand. Thread: main. Frame: world. Units: SI.
+// The plane turns with the view, about the hand. Thread: main. Frame: world. Units: SI.
 #pragma once
 
 #include "burr/render/camera.h"
@@ -20,19 +21,20 @@ class HandPlane {
   void end() { on_ = false; }
   [[nodiscard]] bool on() const { return on_; }
 
-  // Away from the eye [m]; below 0: nearer.
+  // Moves the plane away from the eye [m]; below 0: towards it.
   void push(double by, const render::Camera& camera) { at_ -= by * camera.backward(); }
 
-  // Where the hand is then: on the ray; where it was, for one that goes past.
+  // Position of the hand: where the ray meets the plane. If it does not, the hand stays where it
+  // was.
   math::Vec3 meet(const render::Ray& ray, const render::Camera& camera);
 
-  // Lines about the hand, or none.
+  // Draws the lines at the hand, or removes them.
   void show(render::Scene& scene);
 
  private:
   bool on_ = false;
   math::Vec3 at_ = math::Vec3::Zero();
-  double shown_ = 0;  // radius of the lines that are in the scene [m]
+  double shown_ = 0;  // radius of the lines in the scene [m]
 };
 
 }  // namespace burr::app

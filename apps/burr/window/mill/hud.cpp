@@ -14,7 +14,7 @@
 namespace burr::app {
 namespace {
 
-// What the picture leaves out, by the governor's step.
+// What the picture leaves out at this step of the governor.
 Word picture_word(int step) {
   constexpr Word kWords[] = {Word::picture_whole, Word::picture_no_hollows, Word::picture_coarser,
                              Word::picture_fewer, Word::picture_fewest};
@@ -26,12 +26,12 @@ using Letter = Ui::Letter;
 
 constexpr float kStrip = 58, kMargin = 10, kPad = 14;  // [points]
 
-// The strip, cell by cell from the left.
+// Draws the strip cell by cell, from the left.
 class Strip {
  public:
   Strip(const Ui& ui, float x, float y) : ui_(ui), u_(ui.unit()), x_(x), y_(y) {}
 
-  // heading small above, value large below, a few words beside the value
+  // a small heading above, a large value below, a few words beside the value
   void cell(float points, Word heading, const std::string& value, const std::string& beside = {},
             ImU32 beside_ink = ink::kDim) {
     title(word(heading));
@@ -61,7 +61,8 @@ class Strip {
   float u_, x_, y_;
 };
 
-// Bar with the user's and the device's limit as marks: a line with a roof, a line with a foot.
+// A bar; marks show the limits: the user's is a line with a roof, the device's is a line with a
+// foot.
 void force_cell(const Ui& ui, Strip& strip, const HudState& s) {
   const float u = ui.unit(), x = strip.x(), y = strip.y(), w = 200 * u;
   strip.title(word(Word::force));
@@ -96,7 +97,7 @@ void force_cell(const Ui& ui, Strip& strip, const HudState& s) {
   strip.next(298);
 }
 
-// how deep the press is, as a little gauge: surface above, the deeper the fuller
+// the depth of the press as a small gauge: the surface is at the top, a deeper press fills more
 void press_cell(const Ui& ui, Strip& strip, const HudState& s) {
   const float u = ui.unit(), x = strip.x(), y = strip.y();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -120,7 +121,7 @@ void tick_cell(const Ui& ui, Strip& strip, const HudState& s) {
   const float u = ui.unit(), x = strip.x() + 8 * u, y = strip.y() + 37 * u, r = 6 * u;
   strip.title(word(Word::ticks));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  // a shape of its own for each, not only a colour
+  // each state has a shape of its own, not only a colour
   Word says = Word::ticks_good;
   switch (s.ticks) {
     case TickHealth::good:
@@ -144,7 +145,7 @@ void tick_cell(const Ui& ui, Strip& strip, const HudState& s) {
                       word(picture_word(s.picture_step)));
 }
 
-// a round length of about a sixth of the picture's width, above the strip at the right
+// a scale bar of a round length, about a sixth of the picture's width, above the strip at the right
 void scale_bar(const Ui& ui, const HudState& s) {
   const float u = ui.unit();
   if (!(s.pixel > 0)) return;

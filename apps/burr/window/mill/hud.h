@@ -1,8 +1,8 @@
-// apps/burr/window/mill/hud.h - what one must know while milling, slim and at the edge of the picture: a
-// strip below and a line of words above it.
+// apps/burr/window/mill/hud.h - the values that the user needs while milling: a strip at the lower
+// edge of the picture and a line of text above it.
 //
-// Plain data in, nothing comes back. Units: SI; people read mm, N and rpm. Thread: main, between
-// Ui::begin() and draw().
+// Takes plain data and returns nothing. Units: SI; the user reads mm, N and rpm. Thread: main,
+// between Ui::begin() and draw().
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,18 @@
 
 namespace burr::app {
 
-// How well the ticks of touch come through.
+// How well the haptic loop keeps its ticks.
 enum class TickHealth {
   good,
-  busy,  // something is put off for them, or a few were missed lately
-  lost,  // the watchdog had to let go of the hand
+  busy,  // some work is put off, or a few ticks were missed recently
+  lost,  // the watchdog had to release the force
 };
 
 struct HudState {
-  double force = 0;         // that the hand gets                         [N]
+  double force = 0;         // on the hand                              [N]
   double user_limit = 0;    // [N]
   double device_limit = 0;  // [N]
-  double press = 0;         // how far below the surface the arm is aimed [m]
+  double press = 0;         // depth of the arm's target below the surface [m]
   double press_most = 1;    // [m]
   bool pressing = false;
   double speed = 0, full_speed = 0;  // of the spindle                    [rad/s]
@@ -40,28 +40,29 @@ struct HudState {
     std::string name;
     double distance = 0;  // from the burr's surface; below 0: inside     [m]
   };
-  std::optional<Nearest> nearest;  // of what is to be spared; none: farther than is looked
-  bool spares = false;             // there is something to spare
+  std::optional<Nearest> nearest;  // of the structures to spare; none: too far away
+  bool spares = false;             // there is a structure to spare
   TickHealth ticks = TickHealth::good;
   double p99_us = 0, max_us = 0;
   std::uint64_t missed = 0;
   int picture_step = 0;  // render::FrameGovernor's
-  float column = 0;      // at the right that is taken by slices  [pixel]
-  double pixel = 0;      // of the drawing area, at the depth of the camera's target  [m]
-  std::string mirror;    // which plane one sculpts across; "" for none
-  std::string note;      // the last thing done
-  std::string warning;   // what must be known; "" for nothing
+  float column = 0;      // width at the right that slices cover [pixel]
+  double pixel = 0;      // size of one at the camera's target  [m]
+  std::string mirror;    // the plane of the mirror; "" for none
+  std::string note;      // the last message
+  std::string warning;   // "" for none
 };
 
 void draw_hud(Ui& ui, const HudState& state);
-// The strip's and the line's own places are kept free by others: height from the bottom [pixel].
+// Height of the strip and the line, from the bottom [pixel]; nothing else is drawn there.
 [[nodiscard]] float hud_height(const Ui& ui);
 
-// Words in the middle above the strip, upwards from y; a sign before them where they warn.
+// Writes a centred line above the strip; `y` is moved up by its height. warns: a warning sign
+// before it.
 void line_above(const Ui& ui, float& y, const std::string& text, bool warns);
 
-// A word at the top, in the middle of what `column` at the right leaves: what is done here is done
-// elsewhere too. Nothing if there are no words.
+// Writes that a mirror is on, at the top, centred in the width that `column` at the right leaves.
+// Nothing for an empty text.
 void draw_mirror_sign(const Ui& ui, const std::string& words, float column);
 
 [[nodiscard]] Word name_of(tick::ToolMode mode);

@@ -1,7 +1,8 @@
-// apps/burr/window/mill/loudspeaker.h - the sound of a session in the window: on and off, louder and quieter.
+// apps/burr/window/mill/loudspeaker.h - the sound of a session in the window: on, off, louder,
+// quieter.
 //
-// Without a device it stays silent and says why. Switched on again it looks for the device anew:
-// one that was unplugged, or plugged in since. Main thread.
+// Without a sound device it stays silent and says why. Each time it is switched on it looks for a
+// device again, because one may have been plugged in or out. Thread: main.
 #pragma once
 
 #include <memory>
@@ -18,10 +19,10 @@ class Loudspeaker {
 
   void hear(const tick::TickRow& newest);
   void toggle();
-  double louder(int steps);  // of 3 dB, below 0: quieter; how loud it is then [dB], 0 the loudest
+  double louder(int steps);  // steps of 3 dB, below 0: quieter; the new level [dB], 0: loudest
   [[nodiscard]] bool is_on() const { return speaker_ && speaker_->voice().is_on(); }
 
-  // "" while there is a device, or the sentence that says why it does not.
+  // "" while there is a sound device; otherwise a sentence that says why there is no sound.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
  private:
@@ -31,7 +32,7 @@ class Loudspeaker {
   workshop::Hearing hearing_;
   std::unique_ptr<sound::Speaker> speaker_;
   std::string trouble_;
-  int steps_ = 0;  // from the loudest, 0 or less
+  int steps_ = 0;  // steps below the loudest, 0 or less
 };
 
 }  // namespace burr::app

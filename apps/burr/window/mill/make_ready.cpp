@@ -14,7 +14,7 @@ namespace {
 
 using math::Vec3;
 
-// how much of the surroundings is seen: the pocket large, the anatomy around it still there
+// height of the view: the pocket is large, and the anatomy around it is still visible
 double view_height(double burr_radius) { return std::clamp(20 * burr_radius, 20e-3, 70e-3); }
 
 }  // namespace
@@ -28,7 +28,7 @@ math::Quat view_of_hand(const render::Camera& camera) {
 Result<Ready> make_ready(const WorkOptions& options, workshop::Prepared prepared,
                          Progress& progress) {
   sim::SessionSettings settings = settings_of(options, true);
-  // the hand begins two centimetres above the work
+  // the hand starts 20 mm above the work
   math::Pose above;
   above.p = prepared.place.at - 20e-3 * prepared.place.into;
   above.q = math::shortest_turn(Vec3::UnitZ(), -prepared.place.into);
@@ -64,7 +64,7 @@ Result<Ready> make_ready(const WorkOptions& options, workshop::Prepared prepared
   if (!started) return started.error();
   ready.session = std::move(*started);
   if (!options.suction.empty()) {
-    // beside the burr, on the side of the other hand
+    // the suction tube starts beside the burr, on the side of the other hand
     const math::Quat view = view_of_hand(ready.scene.camera);
     auto suction = workshop::SuctionHand::join(*ready.session, options.suction,
                                                {above.p - view * Vec3(15e-3, 0, 0), above.q}, view);

@@ -1,7 +1,7 @@
-// apps/burr/window/mill/make_ready.h - prepared work becomes a session at the window: with its hand, its surface and
-// the first view.
+// apps/burr/window/mill/make_ready.h - prepared work becomes a session at the window: with its
+// hand, its surface and the first view.
 //
-// Thread: any, one at a time; takes seconds and reports how far it is.
+// Thread: any, one at a time; takes seconds and reports progress.
 #pragma once
 
 #include <memory>
@@ -20,28 +20,30 @@
 
 namespace burr::app {
 
-// Everything a session at the window needs, with the hand of the mouse or a haptic device. What is
-// told last goes first.
+// Everything that a session in the window needs, with a hand: the mouse or a haptic device. Members
+// are destroyed in reverse order of declaration; keep this order.
 struct Ready {
-  std::string title, what;  // one line; what it is in our words: neither names a patient
+  std::string title, what;  // title: one line; what: the bone; neither names a patient
   scenario::Recipe volume;
   importing::ImportSummary import;
   std::unique_ptr<sim::Session> session;
-  Hands hands;  // the session's
+  Hands hands;  // of the session
   std::unique_ptr<workshop::SuctionHand> suction;
   std::unique_ptr<device::crtk::Arm> arm;
   std::unique_ptr<workshop::ArmPublisher> teller;
   std::unique_ptr<surface::Worker> worker;
   render::Scene scene;                         // with its surface and first view
-  std::shared_ptr<const volume::Greys> greys;  // of a scan
+  std::shared_ptr<const volume::Greys> greys;  // of the scan
   workshop::Tissues spared;                    // that must not be cut
-  std::optional<scenario::Case> work_case;     // what is to be done
-  std::unique_ptr<const workshop::SparedDistance> spared_distance;  // how far they are
+  std::optional<scenario::Case> work_case;     // the task
+  std::unique_ptr<const workshop::SparedDistance> spared_distance;  // distances to `spared`
 };
-// A hand's axes, x right, y up, z to the user, as one looks at the bone; world_from_view.
+// Axes of a hand as the user sees the bone: x right, y up, z towards the user. Returns
+// world_from_view.
 [[nodiscard]] math::Quat view_of_hand(const render::Camera& camera);
 
-// After open_work(); its bone may be replaced before, by what an older session left.
+// Call it after open_work(). Before that, the bone may be replaced by the one that an older session
+// left.
 [[nodiscard]] Result<Ready> make_ready(const WorkOptions& options, workshop::Prepared prepared,
                                        Progress& progress);
 

@@ -11,9 +11,9 @@ namespace {
 
 using math::Vec3;
 
-constexpr double kNear = 1e-4, kFar = 10;  // of the eye, for the projection alone  [m]
+constexpr double kNear = 1e-4, kFar = 10;  // for the projection only  [m]
 
-// white on black, so that it stands out from bone and background alike
+// white with a black border, so that it is visible on bone and on background
 void line(ImDrawList& draw, const Ui& ui, ImVec2 a, ImVec2 b) {
   draw.AddLine(a, b, ink::rgb(0, 0, 0, 200), 4.5F * ui.unit());
   draw.AddLine(a, b, ink::kText, 2 * ui.unit());
@@ -99,11 +99,11 @@ void Measuring::draw(const Ui& ui, const render::Camera& camera) const {
   std::vector<ImVec2> seen;
   for (const Vec3& p : points)
     if (const auto at = on_picture(camera, p, ui.width(), ui.height())) seen.push_back(*at);
-  if (seen.size() < points.size()) return;  // behind the eye
+  if (seen.size() < points.size()) return;  // a point is behind the eye
   for (std::size_t n = 1; n < seen.size(); ++n) line(over, ui, seen[n - 1], seen[n]);
   for (const ImVec2& at : seen) ring(over, ui, at);
   if (!value()) return;
-  // beside the middle of the line, or the tip of the angle
+  // the text stands beside the middle of the line, or beside the vertex of the angle
   const ImVec2 at = what_ == Measure::angle ? seen[1]
                                             : ImVec2{0.5F * (seen.front().x + seen.back().x),
                                                      0.5F * (seen.front().y + seen.back().y)};

@@ -1,10 +1,10 @@
-// apps/burr/window/mill/mill.h - the page for milling, as one object: it brings user, session and bone
-// together, picture after picture.
+// apps/burr/window/mill/mill.h - the page for milling as one object: in each picture it connects
+// the user, the session and the bone.
 //
 // Its parts: window.cpp (the loop of pictures), mill_hand.cpp (the mouse as a hand, and what each
 // button does), mill_keys.cpp (the table of keys), mill_pads.cpp (gamepad, pedal, SpaceMouse),
-// mill_status.cpp (what the user reads). What has a state of its own is a class of its own: Drill,
-// Press, Pointer, OverPages, WornHeadset, TickWatch, SuctionTube. Nothing else includes this.
+// mill_status.cpp (what the user reads). Parts with a state of their own are classes: Drill, Press,
+// Pointer, OverPages, WornHeadset, TickWatch, SuctionTube. Only these files include this header.
 //
 // Thread: main. Frame: world. Units: SI.
 #pragma once
@@ -45,7 +45,7 @@
 
 namespace burr::app {
 
-inline constexpr double kHover = 3e-3;  // above the bone while not pressing  [m]
+inline constexpr double kHover = 3e-3;  // height over the bone while not pressing  [m]
 
 class Mill {
  public:
@@ -72,15 +72,15 @@ class Mill {
   using Clock = std::chrono::steady_clock;
 
   // ---- window.cpp
-  void begin();  // the live surface stands
+  void begin();  // call it when the live surface is complete
   Status frame(workshop::LiveSurface& live);
   void end(workshop::LiveSurface& live);
 
   // ---- mill_keys.cpp
-  static constexpr double kDeeper = 1.25;  // factor of the press, by a key
+  static constexpr double kDeeper = 1.25;  // a key changes the depth of the press by this factor
   struct Key {
     SDL_Keycode code;
-    unsigned held;  // one of these modifiers; 0: with any or none
+    unsigned held;  // modifiers, of which one must be down; 0: any or none
     std::function<void(Mill&)> does;
   };
   struct KeyRow {
@@ -134,7 +134,7 @@ class Mill {
     return !lifts_.stopped && press_.on() && !measuring_.picks() && !page_open() &&
            !pointer_.over_panel() && !pointer_.over_slices();
   }
-  // of the settings, and what the user keeps for this device  [N]
+  // the lower of the settings' limit and the user's limit for this device  [N]
   [[nodiscard]] double user_limit() const {
     return std::min(desk_.settings.force_limit_n, hands_.max_force);
   }
@@ -151,7 +151,7 @@ class Mill {
   void keep_device_preferences();
   void keep_fault_of(const device::Device& hand, const tick::FaultReport& fault);
   void tell();
-  void note(std::string text);  // "": nothing
+  void note(std::string text);  // "": no message
   void note_troubles();
   void panels();
   void pages();
@@ -168,12 +168,12 @@ class Mill {
 
   // the page
   bool open_ = true, picture_ = false, panels_;
-  bool leaves_ = false;  // though a file is still being written
+  bool leaves_ = false;  // leave, even if a file is still being written
   Left left_ = Left::window;
-  std::optional<OverPages> pages_;  // from begin() on, as the two below
+  std::optional<OverPages> pages_;  // these three: made by begin()
   std::optional<Slices> slices_;
   std::optional<SavedViews> saved_views_;
-  bool task_ = true, task_read_ = false;  // the task is shown; bone was removed since
+  bool task_ = true, task_read_ = false;  // task_read_: bone has been removed
   bool slices_shown_ = true, labels_ = true, pulls_window_ = false;
   std::vector<render::Colour> colours_;  // of the tissues, while labels are shown
   int picture_step_ = 0;
@@ -184,15 +184,15 @@ class Mill {
   Pointer pointer_;
   Press press_;
   HandPlane plane_;
-  struct Lifts {  // a haptic device: stopped by the user; only moved elsewhere, by key or by foot
+  struct Lifts {  // haptic device: stopped by the user; lifted by key or foot, to be moved
     bool stopped = false, by_key = false, by_foot = false;
   } lifts_;
-  std::array<bool, 4> aim_keys_ = {};  // left, right, down, up: held
+  std::array<bool, 4> aim_keys_ = {};  // these keys are held: left, right, down, up
   bool pad_lifts_ = false;
   int hands_there_ = -1;
   Clock::time_point hands_taken_{};
-  math::Vec3 normal_ = math::Vec3::Zero();  // of the surface under the mouse, calmed
-  std::optional<math::Vec3> point_;         // there
+  math::Vec3 normal_ = math::Vec3::Zero();  // of the surface under the mouse, smoothed
+  std::optional<math::Vec3> point_;         // on that surface
   SuctionTube tube_;
 
   // the work
@@ -205,11 +205,11 @@ class Mill {
   TickWatch ticks_;
   std::optional<HudState::Nearest> nearest_;
   StatusLine told_;
-  std::string note_, warning_;  // as they are shown
+  std::string note_, warning_;  // as shown
   Clock::time_point said_{};
 };
 
-// As flag_words(), but what has a sign of its own is left out, and in the user's language.
+// As flag_words(), in the user's language, without the flags that the page shows in other ways.
 [[nodiscard]] std::string told_flags(std::uint32_t flags);
 
 }  // namespace burr::app

@@ -1,4 +1,4 @@
-// What the user does at the page: keys, buttons, and the mouse as a hand.
+// The user's actions on the page: keys, buttons, and the mouse as a hand.
 #include <SDL2/SDL.h>
 
 #include <algorithm>
@@ -19,8 +19,8 @@ namespace {
 
 using math::Vec3;
 
-constexpr double kPlaneStep = 0.5e-3;  // of the plane, by a step of the wheel  [m]
-constexpr double kTurn = 0.006;        // of the view, by a pixel of the mouse  [rad]
+constexpr double kPlaneStep = 0.5e-3;  // of the plane, per step of the wheel  [m]
+constexpr double kTurn = 0.006;        // of the view, per pixel of the mouse  [rad]
 
 }  // namespace
 
@@ -66,8 +66,8 @@ void Mill::take_events() {
     }
 }
 
-// Keys that move the hand while they are held: Ctrl and an arrow, or the keypad's. Whether this one
-// is of them.
+// Handles the keys that move the hand while they are held: Ctrl and an arrow, or the keypad's.
+// False: this key is none of them.
 bool Mill::aim_key(const SDL_Keysym& pressed, bool down) {
   constexpr SDL_Keycode kArrows[] = {SDLK_LEFT, SDLK_RIGHT, SDLK_DOWN, SDLK_UP};
   constexpr SDL_Keycode kPad[] = {SDLK_KP_4, SDLK_KP_6, SDLK_KP_2, SDLK_KP_8};
@@ -87,7 +87,7 @@ void Mill::show_task() {
   if (!options_.work_case) note(word(Word::task_none));
 }
 
-// Closes what is open, last of all the page.
+// Closes what is open on the page; if nothing is, the page itself.
 void Mill::go_back() {
   if (page_open()) {
     pages_->close();
@@ -149,7 +149,7 @@ void Mill::act(Action action) {
   }
 }
 
-// A file that is still being written holds it up once.
+// Leaves the page. If a file is still being written, only the second call does.
 void Mill::leave() {
   if (!pages_->exporting().progress().empty() && !std::exchange(leaves_, true))
     return note(word(Word::export_wait));
@@ -163,7 +163,8 @@ void Mill::next_measure() {
   note(measuring_.on() ? measuring_.words() : word(Word::measure_off));
 }
 
-// Of a hand that follows the bone, how far it presses in; of one in its plane, where that is.
+// Changes the depth: of the press, if the hand follows the bone; of the plane, if it is in its
+// plane.
 void Mill::deepen(double steps) {
   if (plane_.on())
     plane_.push(kPlaneStep * steps, scene_.camera);
@@ -171,7 +172,7 @@ void Mill::deepen(double steps) {
     push(std::pow(1.1, steps));
 }
 
-// A haptic device and a wand point by themselves.
+// Not for a haptic device or a wand, because they have a position of their own.
 void Mill::toggle_plane() {
   if (hands_.real != nullptr || headset_.wand()) return;
   if (plane_.on())
@@ -210,7 +211,7 @@ void Mill::button(const SDL_MouseButtonEvent& button) {
     if (!down || page_open() || desk_.ui().over_panel() || pointer_.over_slices()) return;
     return pick_point();
   }
-  // what began on a panel is not for the bone
+  // a press that began on a panel does not mill
   press_.button(button.type == SDL_MOUSEBUTTONDOWN && !desk_.ui().over_panel());
 }
 
@@ -229,7 +230,7 @@ void Mill::wheel(const SDL_MouseWheelEvent& wheel) {
   }
 }
 
-// by pixels of the mouse, or what an arrow counts as
+// in pixels of the mouse; an arrow key counts as some of them
 void Mill::turn_view(double right, double up, bool shift) {
   if (shift)
     render::pan(scene_.camera, right / pointer_.height(), up / pointer_.height());
@@ -241,7 +242,7 @@ void Mill::turn_view(double right, double up, bool shift) {
 void Mill::move(const SDL_MouseMotionEvent& motion) {
   // over a panel the hand stays where it was
   if (page_open() || desk_.ui().over_panel()) return;
-  // a mouse that is knocked moves no pressing burr
+  // an accidental movement of the mouse must not move a burr that a pad presses
   if (pointer_.pad_leads() && press_.by_pad()) return;
   pointer_.moved_to(motion.x, motion.y);
   const Uint32 turns = desk_.settings.left_handed ? SDL_BUTTON_LMASK : SDL_BUTTON_RMASK;
@@ -253,7 +254,7 @@ void Mill::move(const SDL_MouseMotionEvent& motion) {
   if ((motion.state & SDL_BUTTON_MMASK) != 0) turn_view(-motion.xrel, motion.yrel, true);
 }
 
-// Aims the arm: above the bone under the mouse, or into it while the button is down.
+// Aims the arm: above the bone under the mouse, or into the bone while the button is down.
 void Mill::point() {
   if (hands_.real != nullptr) return lay_real_hand();
   if (headset_.wand()) {
@@ -267,12 +268,12 @@ void Mill::point() {
   const auto hit = render::pick(scene_, ray);
   Vec3 surface;
   if (hit) {
-    // calm the normal: a rough bone must not shake the hand
+    // smooth the normal: a rough bone must not shake the hand
     normal_ = (0.8 * normal_ + 0.2 * hit->n).normalized();
     surface = hit->p;
     point_ = hit->p;
   } else {
-    // beside the bone: over the background, as far away as the work was last
+    // the mouse is over the background: stay at the depth of the last work
     const Vec3 near = point_.value_or(scene_.camera.target);
     const double depth = (near - ray.origin).dot(-scene_.camera.backward()) /
                          ray.direction.dot(-scene_.camera.backward());
@@ -285,7 +286,8 @@ void Mill::point() {
   aim_at(surface + height * normal_, press ? press_.spindle() : 0);
 }
 
-// The hand where the mouse is, as deep as the plane; the bone holds the burr, not the hand.
+// Aims at the point of the plane under the mouse. The hand may be inside the bone; the bone stops
+// the burr.
 void Mill::point_in_plane(const render::Ray& ray) {
   const Vec3 out = row_.contact.touching ? row_.contact.normal : scene_.camera.backward();
   normal_ = (0.8 * normal_ + 0.2 * out).normalized();
@@ -293,7 +295,7 @@ void Mill::point_in_plane(const render::Ray& ray) {
   aim_at(*point_, pressing() ? press_.spindle() : 0);
 }
 
-// The handle leans out of the way, to the side of the hand that holds it.
+// Aims with the handle leaning away from the view, to the side of the user's hand.
 void Mill::aim_at(const Vec3& tip, double pedal) {
   const double side = desk_.settings.left_handed ? -0.7 : 0.7;
   const Vec3 handle =
@@ -305,7 +307,8 @@ void Mill::aim_at(const Vec3& tip, double pedal) {
   hands_.mouse->aim(aim);
 }
 
-// A haptic device points by itself; the view says where its right and up are, keys and feet help.
+// A haptic device has a position of its own. The view defines its right and up; keys and pedals add
+// the rest.
 void Mill::lay_real_hand() {
   device::MappedHand& hand = *hands_.real;
   hand.lay(view_of_hand(scene_.camera));
@@ -320,16 +323,16 @@ void Mill::lift_real_hand() {
   hands_.real->lift(lifts_.stopped || lifts_.by_key || lifts_.by_foot);
 }
 
-// The user's emergency stop, of both hands, and taking them again.
+// The user's emergency stop of both hands; called again, it ends the stop.
 void Mill::stop_or_go_on() {
   if (hands_.real == nullptr && hands_.suction == nullptr) return;
   lifts_.stopped = !lifts_.stopped;
-  if (hands_.real != nullptr) lift_real_hand();  // now, not with the next picture
+  if (hands_.real != nullptr) lift_real_hand();  // at once, not with the next picture
   if (hands_.suction != nullptr) hands_.suction->lift(lifts_.stopped);
   note(word(lifts_.stopped ? Word::stopped : Word::taken_again));
 }
 
-// The thickness goes with the burr: along its contact, or below where it hovers.
+// Measures the thickness at the burr: along the contact normal, or below the burr where it hovers.
 void Mill::measure() {
   const Vec3 inward = row_.contact.touching ? Vec3(-row_.contact.normal) : Vec3(-normal_);
   if (measuring_.what() == Measure::thickness)
@@ -337,13 +340,13 @@ void Mill::measure() {
                      scene_.burr.radius + 2 * kHover);
 }
 
-// Tissues in colours of their own, or all as bone.
+// Shows each tissue in its own colour, or all as bone.
 void Mill::show_labels(bool shown) {
   labels_ = shown;
   scene_.tissue_colours = shown ? colours_ : render::as_bone(colours_);
 }
 
-// Keeps how one looks, or looks so again.
+// Saves the present view, or returns to a saved one.
 void Mill::saved_view(int slot, bool keep) {
   if (keep) {
     const Status kept =

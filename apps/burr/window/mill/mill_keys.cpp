@@ -1,4 +1,4 @@
-// The table of keys: what each does, and its row on the help page.
+// The table of keys: the action of each key, and its row on the help page.
 #include "window/mill/mill_keys.h"
 
 #include <SDL2/SDL.h>
@@ -11,9 +11,9 @@
 
 namespace burr::app {
 
-// A row without a label is not on the help page; one without keys is the mouse's, or is obeyed
-// elsewhere. Of two entries of a key the first that fits counts: those with a modifier stand first.
-// The order of rows is that of the help page.
+// A row without a label is not on the help page. A row without keys is for the mouse, or its keys
+// are handled elsewhere. If a key has several entries, the first that fits is used, so entries with
+// a modifier stand first. The rows are in the order of the help page.
 Mill::KeyRows Mill::hand_keys(bool left_handed) {
   return {
       {HelpBlock::hand, word(left_handed ? Word::key_right : Word::key_left), Word::help_mill, {}},
@@ -38,7 +38,7 @@ Mill::KeyRows Mill::hand_keys(bool left_handed) {
         {SDLK_KP_3, 0, [](Mill& m) { m.deepen(-1); }}}},
       {HelpBlock::hand, "G", Word::help_plane, {{SDLK_g, 0, [](Mill& m) { m.toggle_plane(); }}}},
       {HelpBlock::hand, word(Word::key_ctrl_arrows), Word::help_aim, {}},
-      // of a haptic device: on the page about pads
+      // for a haptic device: shown on the help page about pads
       {HelpBlock::hand,
        "",
        Word::real_does,
@@ -49,7 +49,7 @@ Mill::KeyRows Mill::hand_keys(bool left_handed) {
 }
 
 Mill::KeyRows Mill::view_keys(bool left_handed) {
-  constexpr double kArrow = 12;  // as so many pixels of the mouse
+  constexpr double kArrow = 12;  // an arrow key counts as this many pixels of the mouse
   const auto turn = [](SDL_Keycode code, unsigned held, double right, double up) {
     return Key{code, held, [=](Mill& m) { m.turn_view(right, up, held != 0); }};
   };
@@ -156,7 +156,7 @@ Mill::KeyRows Mill::program_keys() {
       {HelpBlock::program, "", Word::help, {act(SDLK_F1, Action::help), act(SDLK_h, Action::help)}},
       {HelpBlock::program, "O", Word::help_task, {{SDLK_o, 0, [](Mill& m) { m.show_task(); }}}},
       {HelpBlock::program, "F2", Word::help_settings, {act(SDLK_F2, Action::settings)}},
-      {HelpBlock::program, "F3", Word::help_stereo, {}},  // on every page: desk.cpp
+      {HelpBlock::program, "F3", Word::help_stereo, {}},  // works on every page: desk.cpp
       {HelpBlock::program, "S", Word::key_save, {{SDLK_s, 0, [](Mill& m) { m.keep(); }}}},
       {HelpBlock::program,
        "P",

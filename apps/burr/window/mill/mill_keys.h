@@ -1,6 +1,6 @@
-// apps/burr/window/mill/mill_keys.h - the keys of the page for milling, as its help page shows them.
+// apps/burr/window/mill/mill_keys.h - the keys of the page for milling, for its help page.
 //
-// The table is in mill_keys.cpp; the keyboard obeys the same one.
+// The table is in mill_keys.cpp; the keyboard uses the same table.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace burr::app {
 
-// left_handed: the mouse's buttons are the other way round.
+// left_handed: the mouse buttons are exchanged.
 [[nodiscard]] std::vector<HelpRow> mill_help_rows(bool left_handed);
 
 }  // namespace burr::app

@@ -1,5 +1,5 @@
-// What hands other than the mouse's do at the page: gamepad, pedals, SpaceMouse. They move the
-// same point over the picture and press at it; what they ask for goes where keys go.
+// Input other than the mouse: gamepad, pedals, SpaceMouse. They move the same point over the
+// picture and press at it; their other buttons do the same as keys.
 #include <SDL2/SDL.h>
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 namespace burr::app {
 namespace {
 
-constexpr double kAimPace = 0.5;     // of a stick all the way  [heights of the picture / s]
-constexpr double kDeepPace = 20e-3;  // of a cap all the way, of the plane  [m/s]
+constexpr double kAimPace = 0.5;     // stick moved all the way  [heights of the picture / s]
+constexpr double kDeepPace = 20e-3;  // cap moved all the way, for the plane  [m/s]
 constexpr double kTurnPace = 300;    // the same for the view  [pixels of the mouse / s]
-constexpr double kZoomPace = 1.2;    // e-fold in a second
-constexpr double kLongest = 0.1;     // a picture that took longer moves no farther  [s]
+constexpr double kZoomPace = 1.2;    // the same for zooming  [factors of e / s]
+constexpr double kLongest = 0.1;     // a longer picture does not move the point farther  [s]
 
 PedalMap map_of(const Settings& settings) {
   const auto number = [](double value) { return static_cast<int>(std::lround(value)); };
@@ -49,7 +49,7 @@ void Mill::take_pads(double dt) {
 
   for (const int button : cap.buttons) note(drill_.change_burr(button == 0 ? -1 : 1));
   const auto sum = [](double a, double b) { return std::clamp(a + b, -1.0, 1.0); };
-  // over the bone a cap's away is up, and down is in; before a plane it is a hand of three axes
+  // over the bone, away means up, and down means press; in the plane the cap moves in three axes
   const bool in_plane = plane_.on();
   if (in_plane) plane_.push(kDeepPace * dt * settings.pad_pace * cap.away, scene_.camera);
   const auto held = [this](std::size_t back, std::size_t on) {
@@ -61,7 +61,7 @@ void Mill::take_pads(double dt) {
   const double turn_up = pad.lifts ? 0 : pad.turn_up;
   if (pad.lifts)
     render::zoom(scene_.camera, std::exp(kZoomPace * settings.zoom_pace * pad.turn_up * dt));
-  // the bone turns with the cap, the eye with the stick
+  // the cap turns the bone, the stick turns the view
   turn_view(kTurnPace * dt * sum(pad.turn_right, -cap.twist),
             kTurnPace * dt * sum(turn_up, cap.tilt), false);
 
@@ -72,7 +72,7 @@ void Mill::take_pads(double dt) {
   press_.pedal(foot, pad.slow);
 }
 
-// One that was pulled out while it pressed presses no more; nor does what was held on by it.
+// A device that was unplugged while it pressed stops pressing, also if it had switched on holding.
 void Mill::look_for_hands() {
   const int there = desk_.pads.count() + desk_.pedals.count();
   if (there < hands_there_) {

@@ -1,4 +1,4 @@
-// What the user is told at the page: the session as it is now, panels, words.
+// What the user reads on the page: the state of the session, panels, messages.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,8 +36,8 @@ constexpr std::pair<std::uint32_t, Word> kFlagWords[] = {
 
 }  // namespace
 
-// What a surgeon should see at once, in the user's language. That ticks are put off is told by
-// their own sign, that a limit holds by the force's bar.
+// The flags that a surgeon should see at once, in the user's language. Two are left out: work that
+// is put off has its own sign, and the force's bar shows the limit.
 std::string told_flags(std::uint32_t flags) {
   std::string text;
   flags &= ~(rt::kFlagPutOff | rt::kFlagForceLimited);
@@ -57,7 +57,7 @@ void Mill::look_at_session() {
   if (session_.view(row_)) {
     ticks_.see(row_, session_.settings().servo.rate_hz, Clock::now());
     scene_.burr.world_from_tool = {row_.contact.proxy, row_.hand.world_from_tool.q};
-    // turning is shown, not counted: 40 000 rpm are faster than any eye
+    // the picture shows that the burr turns, not how fast: 40 000 rpm are too fast to see
     if (row_.spindle_rad_s > 0) scene_.burr.turn = std::remainder(scene_.burr.turn + 0.7, 6.2832);
     render::show_contact(scene_, row_.hand.world_from_tool.p, row_.contact.proxy,
                          row_.contact.force);
@@ -73,7 +73,7 @@ void Mill::look_at_session() {
   tick::FaultReport fault;
   if (session_.fault(fault)) {
     told_.let_go(say(Word::let_go, told_flags(fault.flags)), Clock::now());
-    // a mouse that waits for a slow machine is no fault to look into; a device that let go is
+    // the force of a haptic device was released: write a fault file. A late mouse needs none
     if (hands_.real != nullptr) keep_fault_of(session_.hand(), fault);
   }
   if (hands_.suction != nullptr && session_.second_hand()->faults().take(fault)) {
@@ -115,7 +115,7 @@ void Mill::tell() {
   if (lasting.empty() && hands_.suction != nullptr) lasting = hands_.suction->hand().trouble();
   if (lasting.empty()) lasting = told_flags(row_.contact.flags);
   warning_ = told_.warning(now, lasting);
-  // beside why it was let go: what to do
+  // after the reason of the release: what the user should do
   if (lasting.empty() && session_.servo().let_go() && (row_.hand.buttons & device::kLifted) == 0)
     warning_ += (warning_.empty() ? "" : ". ") + std::string(word(Word::begins_free));
   note_ = told_.note(now, pages_->exporting().progress());
@@ -137,7 +137,7 @@ HudState Mill::hud() const {
   s.pressing = hands_.real != nullptr ? row_.hand.pedal > 0
                : headset_.wand()      ? headset_.trigger()
                                       : pressing();
-  if (plane_.on() && !headset_.wand()) {  // there the hand itself is in the bone
+  if (plane_.on() && !headset_.wand()) {  // in the plane the hand itself is inside the bone
     s.press = row_.contact.touching ? row_.contact.depth : 0;
     s.pressing = row_.contact.touching;
   }
@@ -175,7 +175,7 @@ void Mill::panels() {
   if (panels_) {
     draw_hud(ui, hud());
     slices_->write_names(scene_, ui);
-    // the text disappears with the first bone that is removed; a key brings it back
+    // the text disappears when the first bone is removed; a key shows it again
     if (row_.ledger.removed > 0 && !std::exchange(task_read_, true)) task_ = false;
     if (task_ && options_.work_case) draw_task(ui, *options_.work_case);
     if (const auto pressed = draw_toolbar(ui, drill_.mode(), measuring_.on(), mirror_.now().on()))
@@ -196,7 +196,7 @@ void Mill::pages() {
   note_troubles();
 }
 
-// In its book; the force holds at once.
+// Saves them in the book of devices; the new force limit is used at once.
 void Mill::keep_device_preferences() {
   const double peak = hands_.real->spec().peak_force, requested = hands_.preferences.max_force_n;
   hands_.max_force = requested > 0 ? std::min(peak, requested) : peak;

@@ -39,7 +39,7 @@ void show_mirror(render::Scene& scene, const volume::Grid& grid, const edit::Mir
   }
   render::Mirrored seen;
   seen.world_from_tool = tick::image_of(scene.burr.world_from_tool, grid, mirror);
-  // as much of the plane as is in the picture, about what one looks at
+  // the part of the plane that is in the picture, around the point that the camera looks at
   const Vec3 middle = grid.grid_from_world(scene.camera.target);
   const double reach = 0.42 * scene.camera.view_height() / grid.voxel;
   const int u = (mirror.axis + 1) % 3, v = (mirror.axis + 2) % 3;

@@ -1,5 +1,5 @@
-// apps/burr/window/mill/mirror_mode.h - the mirror one sculpts with: which plane, in words and in the
-// picture; the same while milling and while watching.
+// apps/burr/window/mill/mirror_mode.h - the mirror across which the user mills: its plane, as text
+// and in the picture. The same while milling and while a recording is played.
 //
 // Thread: main. Frame: world.
 #pragma once
@@ -18,8 +18,8 @@ class MirrorMode {
       : grid_(grid), plane_(tick::mirror_plane(grid, tick::Plane::sagittal)) {}
 
   void toggle() { on_ = !on_; }
-  void place_at(const math::Vec3& p);  // on, the same way, through p
-  void next_plane();                   // on, the next way, through the middle
+  void place_at(const math::Vec3& p);  // switches it on, same direction, through p
+  void next_plane();                   // switches it on, next direction, through the middle
   [[nodiscard]] edit::Mirror now() const { return on_ ? plane_ : edit::Mirror{}; }
 
  private:
@@ -28,10 +28,10 @@ class MirrorMode {
   bool on_ = false;
 };
 
-// "mirror: sagittal, 3.5 mm left of the middle"; that it is off
+// "mirror: sagittal, 3.5 mm left of the middle", or that it is off
 [[nodiscard]] std::string mirror_words(const volume::Grid& grid, const edit::Mirror& mirror);
 
-// Outlines of the plane and of the burr's image, or neither.
+// Draws the outlines of the plane and of the mirrored burr, or removes both.
 void show_mirror(render::Scene& scene, const volume::Grid& grid, const edit::Mirror& mirror);
 
 }  // namespace burr::app

@@ -1,4 +1,5 @@
-// apps/burr/window/mill/over_pages.h - the pages that open over the bone: help, settings, export; one at a time.
+// apps/burr/window/mill/over_pages.h - the pages that open over the bone, one at a time: help,
+// settings, export.
 //
 // Thread: main; draw() between Ui::begin() and Ui::draw().
 #pragma once
@@ -17,22 +18,23 @@ namespace burr::app {
 
 class OverPages {
  public:
-  // The rows of the help page; left_handed: the mouse's buttons are exchanged.
+  // The rows of the help page; left_handed: the mouse buttons are exchanged.
   using HelpRows = std::vector<HelpRow> (*)(bool left_handed);
-  // Before the session starts, as ExportPage.
+  // Make it before the session starts, like ExportPage.
   OverPages(Desk& desk, sim::Session& session, const render::Scene& scene,
             const WindowOptions& options, HelpRows help_rows);
 
   [[nodiscard]] bool open() const { return help_ || settings_ || export_.shown(); }
   void close();
-  void toggle_help(bool pads);  // pads: the leaf of gamepad, pedal and SpaceMouse first
+  void toggle_help(bool pads);  // pads: the page about gamepad, pedal and SpaceMouse first
   void toggle_settings();
   void toggle_export();
 
   [[nodiscard]] ExportPage& exporting() { return export_; }
   [[nodiscard]] const ExportPage& exporting() const { return export_; }
 
-  // What changed on the settings page; already in desk.settings and device->preferences.
+  // What the user changed on the settings page; it is already in desk.settings and
+  // device->preferences.
   struct Changed {
     bool settings = false, force_limit = false, device = false;
   };

@@ -50,7 +50,7 @@ void Pointer::move(double right, double up) {
   aim_at_mouse();
 }
 
-// Unless a panel or a slice is there.
+// Moves the point, unless a panel or a slice is there.
 void Pointer::step_to(double x, double y) {
   x = std::clamp(x, 0.0, width_ - 1.0);
   y = std::clamp(y, 0.0, height_ - 1.0);
@@ -74,7 +74,7 @@ bool Pointer::over_slices() const {
   });
 }
 
-// In light and dark, so that it is seen on bone and beside it.
+// In light and dark, so that it is visible on bone and on background.
 void Pointer::draw(bool pressing) const {
   if (!leads_) return;
   const float u = desk_.ui().unit();

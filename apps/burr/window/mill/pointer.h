@@ -1,5 +1,5 @@
-// apps/burr/window/mill/pointer.h - the point over the picture where the hand is aimed: the mouse's, or the
-// ring that a gamepad, SpaceMouse or arrows move in its place.
+// apps/burr/window/mill/pointer.h - the point in the picture at which the hand is aimed: the
+// mouse's, or a ring that a gamepad, a SpaceMouse or the arrow keys move instead.
 //
 // Thread: main. Units: pixels of the window.
 #pragma once
@@ -14,25 +14,27 @@ class Pointer {
  public:
   Pointer(Desk& desk, const render::Scene& scene) : desk_(desk), scene_(scene) {}
 
-  void begin();  // where the mouse is, before it moves
+  void begin();  // takes the mouse's position, before it moves
   void measure_window();
-  // The mouse moved: it leads.
+  // The mouse moved: from now on the mouse moves the point.
   void moved_to(int x, int y);
   void mouse_leads();
-  // A pad leads: from where the mouse was, unless it was nowhere.
+  // From now on a pad moves the point. It starts where the mouse was, or in the middle if the mouse
+  // has not moved or was outside or on a panel.
   void lead();
-  // heights of the picture; one way at a time, so that it slides along panels instead of sticking
+  // in heights of the picture; each direction on its own, so that the point slides along panels and
+  // does not stick
   void move(double right, double up);
 
   [[nodiscard]] bool pad_leads() const { return leads_; }
-  // while a pad leads, the mouse may lie where it was left
+  // while a pad moves the point, the mouse may lie over a panel
   [[nodiscard]] bool over_panel() const { return !leads_ && desk_.ui().over_panel(); }
   [[nodiscard]] bool over_slices() const;
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] render::Ray aim() const { return ray(aim_x_, aim_y_); }
   [[nodiscard]] render::Ray mouse() const { return ray(mouse_x_, mouse_y_); }
 
-  // The ring of the pad, a dot in it while it presses.
+  // Draws the ring of the pad, with a dot in it while it presses.
   void draw(bool pressing) const;
 
  private:
@@ -48,7 +50,7 @@ class Pointer {
   Desk& desk_;
   const render::Scene& scene_;
   int mouse_x_ = 0, mouse_y_ = 0, width_ = 1, height_ = 1;
-  int aim_x_ = 0, aim_y_ = 0;  // where the mouse was last that was no slice
+  int aim_x_ = 0, aim_y_ = 0;  // last position of the mouse outside the slices
   bool leads_ = false, mouse_moved_ = false;
   double pad_x_ = 0, pad_y_ = 0;
 };

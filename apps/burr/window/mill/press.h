@@ -1,7 +1,8 @@
-// apps/burr/window/mill/press.h - how a hand without force presses: button, space bar, trigger, pedal; how
-// deep, and how fast the spindle turns meanwhile.
+// apps/burr/window/mill/press.h - the press of a hand that measures no force (button, space bar,
+// trigger, pedal): its depth, and the speed of the spindle.
 //
-// Plain state, no events: mill_hand.cpp and mill_pads.cpp set it. Thread: main. Units: m; shares 0..1.
+// Plain state without events: mill_hand.cpp and mill_pads.cpp set it. Thread: main. Units: m;
+// shares 0..1.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace burr::app {
 
 class Press {
  public:
-  static constexpr double kLeast = 0.5e-3;  // how far below the surface the arm is aimed  [m]
+  static constexpr double kLeast = 0.5e-3;  // depth of the arm's target below the surface  [m]
   static constexpr double kMost = 6e-3;
 
   void begin_at(double depth) { full_ = std::clamp(depth, kLeast, kMost); }
@@ -18,13 +19,13 @@ class Press {
 
   void button(bool down) { button_ = down; }
   void toggle_hold() { held_ = !held_; }
-  // of a trigger or a cap: share of the full depth
+  // from a trigger or a SpaceMouse: share of the full depth
   void trigger(double share) { trigger_ = share; }
   void pedal(double foot, double slowed) {
     foot_ = foot;
     slowed_ = slowed;
   }
-  // Called in each picture, before the gamepad and the pedals report anew.
+  // Call it in each picture before the gamepad and the pedals are read.
   void rest_pads() { trigger_ = foot_ = 0; }
   void lift() {
     button_ = held_ = false;
@@ -32,7 +33,7 @@ class Press {
   }
 
   [[nodiscard]] bool on() const { return button_ || held_ || trigger_ > 0 || foot_ > 0; }
-  // while a pad presses, the mouse moves nothing
+  // while a pad presses, the mouse does not move the point
   [[nodiscard]] bool by_pad() const { return trigger_ > 0 || held_; }
   [[nodiscard]] double full() const { return full_; }
   [[nodiscard]] double depth() const {
@@ -43,7 +44,7 @@ class Press {
   [[nodiscard]] double spindle() const {
     return (button_ || held_ || trigger_ > 0 ? 1 : foot_) * (1 - slowed_);
   }
-  // the same for a haptic device, which has no other press than space bar and pedal
+  // the same for a haptic device, which presses with space bar and pedal only
   [[nodiscard]] double spindle_of_device() const { return (held_ ? 1 : foot_) * (1 - slowed_); }
 
  private:

@@ -13,13 +13,13 @@
 namespace burr::app {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 1U << 20;  // some thousand views  [byte]
+constexpr std::uintmax_t kLargestFile = 1U << 20;  // room for some thousand views  [byte]
 
 bool is_key(const std::string& text) {
   return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-// The entry of a file; nothing if any of it is missing or beyond reason.
+// Reads one entry of the file; none if a value is missing or out of range.
 std::optional<SavedView> view_of(const toml::table& entry) {
   constexpr double kFar = 10;  // [m]
   bool good = true;
@@ -59,7 +59,7 @@ std::string key_of(const volume::Grid& grid) {
   };
   for (int axis = 0; axis < 3; ++axis) {
     add(static_cast<std::uint64_t>(grid.size[axis]));
-    // in micrometres: the same bone, however its numbers were rounded
+    // in micrometres, so that rounding of the numbers does not change the key
     add(static_cast<std::uint64_t>(std::llround(1e6 * grid.frame.p[axis])));
   }
   add(static_cast<std::uint64_t>(std::llround(1e9 * grid.voxel)));

@@ -1,11 +1,11 @@
-// apps/burr/window/mill/saved_views.h - ways a bone was looked at that its user wants to come back to:
-// four of them for each bone, kept in a file of the user's.
+// apps/burr/window/mill/saved_views.h - views of a bone that the user saved: four per bone, in one
+// file of the user.
 //
 //     SavedViews views(state / "views.toml", key_of(bone.grid()));
 //     views.keep(1, {scene.camera, ...});      // a Status: a disk may be full
 //     if (const auto view = views.at(1)) ...
 //
-// A bone is known by where its grid lies, so the file names nobody. Thread: main.
+// A bone is identified by the position of its grid, so the file contains no names. Thread: main.
 #pragma once
 
 #include <filesystem>
@@ -27,20 +27,21 @@ struct SavedView {
   bool labels = true, slices = true;
 };
 
-inline constexpr int kSavedViews = 4;  // slots 1 to 4 of a bone
+inline constexpr int kSavedViews = 4;  // numbers 1 to 4
 
-// 16 hexadecimal digits.
+// The key of a bone: 16 hexadecimal digits.
 [[nodiscard]] std::string key_of(const volume::Grid& grid);
 
 class SavedViews {
  public:
-  // An empty path: kept as long as the program runs.
+  // An empty path: views are kept only until the program ends.
   SavedViews(std::filesystem::path file, std::string bone);
 
   [[nodiscard]] std::optional<SavedView> at(int slot) const;
-  // Of an older one nothing is left. Errors: io; the view is there until the program ends.
+  // Replaces the old view of this number. Error: io; the view is then kept only until the program
+  // ends.
   Status keep(int slot, const SavedView& view);
-  // What was wrong with the file, one sentence; "" if nothing.
+  // One sentence about an error in the file; "" for none.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
  private:
@@ -49,7 +50,7 @@ class SavedViews {
 
   std::filesystem::path file_;
   std::string bone_, trouble_;
-  bool keep_old_ = false;                                   // the file could not be read whole
+  bool keep_old_ = false;                                   // part of the file could not be read
   std::map<std::pair<std::string, int>, SavedView> views_;  // of all bones
 };
 

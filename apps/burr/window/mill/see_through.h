@@ -1,5 +1,5 @@
-// apps/burr/window/mill/see_through.h - the key that makes bone see-through, step by step; the same
-// while milling and while watching.
+// apps/burr/window/mill/see_through.h - the key that changes the transparency of the bone in steps.
+// The same while milling and while a recording is played.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace burr::app {
 
-// The next step, or with `back` the one before; what it is now, in words.
+// Takes the next step, or with `back` the previous one; returns a text about the new state.
 [[nodiscard]] std::string step_see_through(render::Scene& scene, bool back);
 
 }  // namespace burr::app

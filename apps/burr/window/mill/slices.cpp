@@ -19,7 +19,7 @@ using render::Slice;
 constexpr Plane kPlanes[] = {Plane::axial, Plane::coronal, Plane::sagittal};
 constexpr Word kNames[] = {Word::axial, Word::coronal, Word::sagittal};
 constexpr auto kPace = std::chrono::milliseconds(100);
-constexpr int kMost = 256;  // pixels along a side that are worth their time; stretched to more
+constexpr int kMost = 256;  // longest side in pixels; a larger slice is stretched
 
 void put(Image& image, int x, int y, const std::array<std::uint8_t, 3>& colour) {
   if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
@@ -27,7 +27,7 @@ void put(Image& image, int x, int y, const std::array<std::uint8_t, 3>& colour) 
             image.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * image.width + x));
 }
 
-// The burr's outline where the plane cuts it, and four ticks that point at its middle.
+// Draws the burr's outline in the plane, and four marks that point at its middle.
 void mark(Image& image, double radius_px) {
   constexpr std::array<std::uint8_t, 3> kRing = {86, 180, 233};
   const double x = 0.5 * image.width, y = 0.5 * image.height;
@@ -57,7 +57,7 @@ std::string Slices::next_window() {
   chosen_ = (chosen_ + 1) % 3;
   drawn_ = {};
   if (chosen_ == 0) return word(Word::slices_model);
-  // as usual for HU; else all there is, and its darker half
+  // the usual windows for HU; otherwise the whole range, and its darker half
   const double all = greys_->top - greys_->least;
   constexpr double kBoneWidth = 4000, kBoneLevel = 700, kSoftWidth = 400, kSoftLevel = 40;
   const bool bone = chosen_ == 1;
@@ -102,7 +102,7 @@ void Slices::update(render::Scene& scene, bool shown, bool labels, int width, in
   if (!shown) return;
   const int gap = std::max(6, height / 90);
   const int edge = (height - bottom - 4 * gap) / 3;
-  if (edge < 60) return;  // nothing could be seen
+  if (edge < 60) return;  // too small to see anything
   const int pixels = std::min(edge, kMost);
 
   const Clock::time_point now = Clock::now();

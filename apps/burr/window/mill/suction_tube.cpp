@@ -21,7 +21,7 @@ void SuctionTube::lead(workshop::SuctionHand* hand, render::Scene& scene,
     return rod.radius == workshop::SuctionHand::kRadius;
   });
   if (!seen.there) return;
-  constexpr double kLong = 60e-3;  // of the tube that is drawn [m]
+  constexpr double kLong = 60e-3;  // length of the part that is drawn [m]
   const Vec3& mouth = seen.world_from_tool.p;
   scene.rods.push_back({mouth,
                         mouth + seen.world_from_tool.q * Vec3(0, 0, kLong),

@@ -1,4 +1,5 @@
-// apps/burr/window/mill/suction_tube.h - the tube in the other hand: how it is drawn, and what it takes away.
+// apps/burr/window/mill/suction_tube.h - the suction tube in the other hand: draws it, and clears
+// the surface.
 //
 // Thread: main.
 #pragma once
@@ -13,12 +14,12 @@ namespace burr::app {
 
 class SuctionTube {
  public:
-  // hand: nullptr where there is none. clears: what it sucks goes from the surface
+  // hand: nullptr if there is none. clears: what is sucked disappears from the surface
   void lead(workshop::SuctionHand* hand, render::Scene& scene, workshop::LiveSurface& live,
             bool clears);
 
  private:
-  std::chrono::steady_clock::time_point sucked_;  // until then it was led
+  std::chrono::steady_clock::time_point sucked_;  // time of the last call of lead()
 };
 
 }  // namespace burr::app

@@ -49,7 +49,7 @@ std::vector<Line> lines_of(const scenario::Case& work) {
   return lines;
 }
 
-// Line breaks within a description follow the width of the panel, not the file's.
+// Joins the lines of a paragraph: the panel's width decides where lines break, not the file.
 std::string flowing(std::string text) {
   for (std::size_t n = 0; n + 1 < text.size(); ++n)
     if (text[n] == '\n' && text[n + 1] != '\n' && (n == 0 || text[n - 1] != '\n')) text[n] = ' ';

@@ -1,7 +1,8 @@
-// apps/burr/window/mill/task_panel.h - what is to be done, beside the tools: title, description, targets and
-// what must not be cut, as the case states them.
+// apps/burr/window/mill/task_panel.h - the task of the case, beside the tools: title, description,
+// targets, and what must not be cut.
 //
-// It lies behind everything and takes no mouse. Thread: main, between Ui::begin() and draw().
+// It is drawn behind everything else and does not react to the mouse. Thread: main, between
+// Ui::begin() and draw().
 #pragma once
 
 #include "burr/scenario/case.h"

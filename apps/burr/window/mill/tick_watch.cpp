@@ -10,7 +10,7 @@ void TickWatch::see(const tick::TickRow& row, double rate_hz, Clock::time_point 
   stats_.add(static_cast<std::int64_t>(1e3 * static_cast<double>(row.took_us)));
   if ((row.contact.flags & rt::kFlagWatchdog) != 0) lost_at_ = now;
 
-  // ticks that are not there by now; two may be under way
+  // number of ticks that should have arrived; two may still be on the way
   if (!first_) first_ = {row.tick, now};
   const double due = std::chrono::duration<double>(now - first_->second).count() * rate_hz;
   const double done = static_cast<double>(row.tick - first_->first);

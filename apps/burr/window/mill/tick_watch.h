@@ -1,4 +1,5 @@
-// apps/burr/window/mill/tick_watch.h - how well the ticks of touch keep up, from the rows that the window sees.
+// apps/burr/window/mill/tick_watch.h - tells from the rows that the window receives how well the
+// haptic loop keeps its ticks.
 //
 // Thread: main.
 #pragma once
@@ -21,7 +22,7 @@ class TickWatch {
   void see(const tick::TickRow& row, double rate_hz, Clock::time_point now);
 
   [[nodiscard]] bool begun() const { return first_.has_value(); }
-  // sheds: the servo puts something off
+  // sheds: the servo puts some work off
   [[nodiscard]] TickHealth health(bool sheds, Clock::time_point now) const;
   [[nodiscard]] const rt::TickStats& stats() const { return stats_; }
   [[nodiscard]] std::uint64_t missed() const { return missed_; }

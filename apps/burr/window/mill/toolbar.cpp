@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-// What an icon is drawn with. c: middle, r: half the size.
+// Draws an icon. c: its middle, r: half its size.
 struct Pen {
   ImDrawList& draw;
   ImVec2 c;
@@ -24,7 +24,7 @@ struct Pen {
     draw.PathArcTo(c, radius, from, to, 24);
     draw.PathStroke(shade, 0, thick);
   }
-  // tip of an arrow at angle a of a ring, pointing on (or back) around it
+  // the tip of an arrow on a ring at angle a; way: forward or back around the ring
   void tip(float a, float radius, float way) const {
     const ImVec2 p = {c.x + radius * std::cos(a), c.y + radius * std::sin(a)};
     const ImVec2 t = {-way * std::sin(a), way * std::cos(a)};
@@ -35,7 +35,7 @@ struct Pen {
   }
 };
 
-// what the burr does, and its size and speed
+// icons for what the burr does, its size and speed
 void burr_icon(const Pen& pen, Action action) {
   const float r = pen.r;
   switch (action) {
@@ -93,7 +93,7 @@ void burr_icon(const Pen& pen, Action action) {
   }
 }
 
-// what is done to the work
+// icons for work on the bone
 void work_icon(const Pen& pen, Action action) {
   const float r = pen.r;
   switch (action) {
@@ -134,7 +134,7 @@ void work_icon(const Pen& pen, Action action) {
   }
 }
 
-// other pages
+// icons for pages
 void page_icon(const Pen& pen, Action action) {
   const float r = pen.r;
   switch (action) {
@@ -177,7 +177,7 @@ void page_icon(const Pen& pen, Action action) {
   }
 }
 
-// Drawn, not typed: no font of signs is needed. c: middle, r: half the size.
+// Icons are drawn, so that no font with icons is needed. c: middle, r: half the size.
 void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
   const Pen pen = {draw, c, r, shade};
   burr_icon(pen, action);
@@ -195,7 +195,7 @@ class Bar {
  public:
   Bar(Ui& ui, std::optional<Action>& pressed) : ui_(ui), pressed_(pressed), u_(ui.unit()) {}
 
-  // icon above its name
+  // the icon above its name
   void tall(const Button& b, bool chosen = false) {
     const ImVec2 p = ImGui::GetCursorScreenPos(), size = {66 * u_, 42 * u_};
     body(b, p, size, chosen);
@@ -205,7 +205,7 @@ class Bar {
               word(b.name), 0.5F);
   }
 
-  // less and more beside each other, under what they change
+  // two buttons side by side, for less and more, below the name of what they change
   void pair(Word name, const Button& less, const Button& more, bool less_chosen = false,
             bool more_chosen = false) {
     const ImVec2 p = ImGui::GetCursorScreenPos();
@@ -235,7 +235,7 @@ class Bar {
     } else if (size.x < 40 * u_) {
       draw.AddRectFilled(p, q, ink::kButton, 6 * u_);
     }
-    if (chosen) {  // a frame, so that not colour alone tells
+    if (chosen) {  // a frame, so that not only colour shows the choice
       draw.AddRectFilled(p, q, ink::rgb(86, 180, 233, 40), 6 * u_);
       draw.AddRect(p, q, ink::kAccent, 6 * u_, 0, 1.5F * u_);
     }

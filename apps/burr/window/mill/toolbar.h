@@ -1,4 +1,5 @@
-// apps/burr/window/mill/toolbar.h - what one may do, as buttons at the left edge, and as keys.
+// apps/burr/window/mill/toolbar.h - the buttons at the left edge, and the keys for the same
+// actions.
 //
 // Thread: main, between Ui::begin() and draw().
 #pragma once
@@ -31,7 +32,7 @@ enum class Action {
   leave,
 };
 
-// The button pressed now, if one is.
+// Returns the button that was pressed, if any.
 [[nodiscard]] std::optional<Action> draw_toolbar(Ui& ui, tick::ToolMode mode, bool measures,
                                                  bool mirrors);
 

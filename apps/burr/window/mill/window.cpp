@@ -26,8 +26,8 @@ Result<Left> Mill::run() {
     shown = frame(live);
     if (picture_) leave_picture();
 
-    // where the driver does not wait for the screen: 60 pictures a second are enough; and fewer
-    // where the machine does not keep up with the hand
+    // where the driver does not wait for the screen: 60 pictures a second, and fewer where the
+    // computer is too slow for the haptic loop
     const auto pause =
         std::chrono::microseconds(session_.shed() >= tick::Shed::picture ? 100'000 : 16'667);
     frame_at = std::max(frame_at + pause, Clock::now());
@@ -50,7 +50,7 @@ Result<Left> Mill::run() {
 
 void Mill::begin() {
   desk_.page = Page::milling;
-  scene_.scale_bar = false;  // the panels have one
+  scene_.scale_bar = false;  // the page has its own
   scene_.burr.visible = true;
   press_.begin_at(1e-3 * desk_.settings.press_mm);
   if (user_limit() != session_.settings().servo.limit.user_force)
@@ -70,7 +70,7 @@ void Mill::begin() {
   session_.start();
 }
 
-// One picture: what the user did, what the session did, what is shown of both.
+// One picture: reads the user's input, reads the session, and draws.
 Status Mill::frame(workshop::LiveSurface& live) {
   take_events();
   take_hands();
@@ -90,7 +90,7 @@ Status Mill::frame(workshop::LiveSurface& live) {
   live.update(headset_.cameras());
   const Clock::time_point drawing = Clock::now();
   Status shown = fine();
-  // whoever wears a headset comes first; the window follows thirty times a second
+  // the headset has priority; the window is then drawn about thirty times a second
   if (!headset_.shows() || drawing - window_drawn_ > std::chrono::milliseconds(30)) {
     window_drawn_ = drawing;
     const bool says = panels_ || page_open() || measuring_.on() || pointer_.pad_leads();

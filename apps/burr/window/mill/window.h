@@ -1,7 +1,7 @@
-// apps/burr/window/mill/window.h - the page one works on: look around a bone and mill it with the mouse.
+// apps/burr/window/mill/window.h - the page on which the user looks at a bone and mills it.
 //
-// Main thread only: it owns window and GPU. The servo runs beside it; they meet at the doors of
-// sim/session.h, and through the mouse's hand.
+// Thread: main only, because it owns window and GPU. The servo runs beside it; they exchange data
+// through the doors of sim/session.h and through the mouse's hand.
 #pragma once
 
 #include <string>
@@ -15,17 +15,17 @@
 
 namespace burr::app {
 
-// Runs until it is left; then the servo stands. `scene` has the bone's surface as `worker` made it,
-// and the first view; it is left as last seen.
+// Runs until the user leaves; then the servo is stopped. `scene` must contain the bone's surface as
+// `worker` made it, and the first view; afterwards it contains the last view.
 [[nodiscard]] Result<Left> mill(Desk& desk, sim::Session& session, const Hands& hands,
                                 surface::Worker& worker, render::Scene& scene,
                                 const WindowOptions& options);
 
-// The same in a window of its own, which keeps nothing of the user's.
+// The same in a window of its own, without any files of the user.
 [[nodiscard]] Status run_window(sim::Session& session, const Hands& hands, surface::Worker& worker,
                                 render::Scene& scene, const WindowOptions& options);
 
-// The flags of rt/flags.h that a user should know of, in a few words; "" if there is none.
+// The flags of rt/flags.h that the user should know, in a few English words; "" if there are none.
 [[nodiscard]] std::string flag_words(std::uint32_t flags);
 
 }  // namespace burr::app

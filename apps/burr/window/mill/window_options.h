@@ -1,4 +1,5 @@
-// apps/burr/window/mill/window_options.h - what the page of the mill is opened with, and how it was left.
+// apps/burr/window/mill/window_options.h - the options of the page for milling, and how the user
+// left it.
 #pragma once
 
 #include <functional>
@@ -15,27 +16,27 @@
 namespace burr::app {
 
 struct WindowOptions {
-  double seconds = 0;           // closes by itself after so long; 0: when the user closes it
-  std::string folder = {};      // where P leaves pictures; empty: where the program was started
-  std::string screenshot = {};  // a PNG of the window, panels and all, as it was last; empty: none
-  bool sound = true;            // if there is a loudspeaker
-  // asked often; what the user must be told, "" for nothing
+  double seconds = 0;           // closes after this time; 0: when the user closes it
+  std::string folder = {};      // for pictures of the key P; empty: the start folder
+  std::string screenshot = {};  // PNG of the last picture with panels; empty: none
+  bool sound = true;            // if there is a sound device
+  // called often; returns a warning for the user, "" for none
   std::function<std::string()> warning = {};
-  // the user wants this session kept for good; false: there is nothing to keep
+  // marks this session as one to keep; false: there is nothing to keep
   std::function<bool()> keep = {};
-  // the session's recording as it is now, for a film; none: it is not recorded
+  // source for a film of the session so far; none: it is not recorded
   std::function<std::optional<FilmSource>()> film_of = {};
   const workshop::SparedDistance* spared_distance =
-      nullptr;                                      // what must not be cut; nullptr: nothing
+      nullptr;                                      // to what must not be cut; nullptr: none
   Loudspeaker* loudspeaker = nullptr;               // nullptr: no sound
-  std::shared_ptr<const volume::Greys> greys = {};  // of the scan; none: slices show the bone
-  std::optional<scenario::Case> work_case = {};     // what is to be done; none: no case
+  std::shared_ptr<const volume::Greys> greys = {};  // of the scan; nullptr: slices show the bone
+  std::optional<scenario::Case> work_case = {};     // the task; none: no case
 };
 
-// How the page was left.
+// How the user left the page.
 enum class Left {
-  page,    // the user is done with this bone
-  window,  // ... with burr, or the time is over
+  page,    // the user left this bone
+  window,  // the user left burr, or the time is over
 };
 
 }  // namespace burr::app

@@ -46,12 +46,12 @@ std::string WornHeadset::begin(render::FrameGovernor& governor, const render::Ca
   std::string told = look_for_it();
   seen_.reset();
   const bool runs = desk_.headset != nullptr && desk_.headset->running();
-  constexpr double kWait = 0.02;  // then the window is drawn without it  [s]
+  constexpr double kWait = 0.02;  // longest wait; then the window is drawn alone  [s]
   if (desk_.headset != nullptr) seen_ = desk_.headset->begin(kWait);
   if (std::exchange(on_, runs) != runs) {
     desk_.renderer().wait_for_screen(!runs);
     governor.allow_moving(render::GovernorSettings().moving_s);
-    wand_ = wand_ && runs;  // the mouse's again
+    wand_ = wand_ && runs;  // without a headset, the mouse is the hand
   }
   if (!seen_) return told;
   if (seen_->period > 0) governor.allow_moving(seen_->period);

@@ -1,4 +1,5 @@
-// apps/burr/window/mill/worn_headset.h - a headset at the page: both eyes' pictures, and a wand as the hand.
+// apps/burr/window/mill/worn_headset.h - a headset on the page for milling: pictures for both eyes,
+// and a wand as the hand.
 //
 // Thread: main. Frame: world. Units: SI.
 #pragma once
@@ -20,21 +21,22 @@ class WornHeadset {
  public:
   explicit WornHeadset(Desk& desk) : desk_(desk) {}
 
-  // Begins a frame: puts a headset on or takes it off as the settings want. Returns what is to be
-  // told of that, "" for nothing.
+  // Begins a frame. Starts or stops the headset as requested. Returns a message about that, "" for
+  // none.
   [[nodiscard]] std::string begin(render::FrameGovernor& governor, const render::Camera& camera);
   void end(const render::Scene& scene);
   void take_off();
 
   [[nodiscard]] bool shows() const { return seen_.has_value(); }
-  // of both eyes; nullptr: nobody looks
+  // cameras of both eyes; nullptr: the headset is not worn
   [[nodiscard]] const render::Camera* cameras() const {
     return shows() ? cameras_.data() : nullptr;
   }
-  [[nodiscard]] bool wand() const { return wand_; }  // it is the hand
+  [[nodiscard]] bool wand() const { return wand_; }  // the wand is the hand
   [[nodiscard]] bool trigger() const { return wand_at_.tracked && wand_at_.trigger > 0; }
-  // The wand's end is the burr's head, its back the handle; none while nothing is seen. What is not
-  // known of it goes to the servo as it is.
+  // The aim of the hand: the end of the wand is the head of the burr, its back is the handle. none:
+  // nothing was seen in this frame. A wand that is not tracked gives an invalid aim, which the
+  // servo judges.
   [[nodiscard]] std::optional<MouseHand::Aim> aim(const render::Camera& camera, bool rests) const;
 
  private:
@@ -42,7 +44,7 @@ class WornHeadset {
 
   Desk& desk_;
   bool on_ = false, wand_ = false;
-  std::optional<render::Headset::Now> seen_;  // the frame begun
+  std::optional<render::Headset::Now> seen_;  // of the frame begun
   std::array<render::Camera, 2> cameras_;
   render::Wand wand_at_;
 };

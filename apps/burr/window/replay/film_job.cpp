@@ -21,11 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kNice = 10;  // what is milled meanwhile comes first
+constexpr int kNice = 10;  // a lower priority than the running session
 constexpr auto kLook = std::chrono::milliseconds(100);
-constexpr auto kPatience = std::chrono::seconds(20);  // for a picture under way, when stopped
+constexpr auto kPatience = std::chrono::seconds(20);  // to end the current picture, when stopped
 
-fs::path picture(const fs::path& folder, int number) {  // render::Film names them so
+fs::path picture(const fs::path& folder, int number) {  // the names of render::Film
   return folder / fmt::format("frame_{:06d}.png", number);
 }
 
@@ -50,7 +50,7 @@ std::vector<std::string> command_of(const FilmSource& source, const std::string&
   return words;
 }
 
-// A program with its complaints read from a pipe.
+// A program whose error messages are read from a pipe.
 class Child {
  public:
   explicit Child(const std::vector<std::string>& words) {
@@ -93,7 +93,7 @@ class Child {
     return ended_;
   }
   [[nodiscard]] bool fine() const { return WIFEXITED(status_) && WEXITSTATUS(status_) == 0; }
-  // The last line of its complaints, without its name.
+  // The last line of the error messages, without the program's name.
   [[nodiscard]] std::string complaint() const {
     std::string line = said_;
     while (!line.empty() && line.back() == '\n') line.pop_back();
@@ -117,7 +117,7 @@ FilmSource film_of(sim::Session& session, const std::string& recording,
   FilmSource source;
   source.recording = recording;
   source.volume = volume;
-  std::error_code nobody_asks;  // of a case or a formula the recording knows more than the path
+  std::error_code nobody_asks;  // for a case or formula the recording knows more than the path
   if (!fs::exists(volume.source, nobody_asks) || fs::path(volume.source).extension() == ".toml")
     source.volume.source.clear();
   tick::TickRow row;

@@ -1,5 +1,6 @@
-// apps/burr/window/replay/film_job.h - a recording as a film, made by a burr of its own beside the window:
-// the same pictures as `burr replay --film`, and neither picture nor servo waits for them.
+// apps/burr/window/replay/film_job.h - makes a film of a recording in a process of its own, beside
+// the window. The pictures are those of `burr replay --film`, and neither the window nor the servo
+// waits for them.
 //
 // Thread: any.
 #pragma once
@@ -18,24 +19,25 @@
 namespace burr::app {
 
 struct FilmSource {
-  std::string recording;    // may still be going on: the film goes as far as it is by now
-  scenario::Recipe volume;  // the scan it was made from; empty path: it is found by the recording
-  double seconds = 0;       // how long it is by now, to tell how far the film is
+  std::string recording;    // it may still grow: the film ends where it is now
+  scenario::Recipe volume;  // of the scan; empty path: the recording finds it
+  double seconds = 0;       // length so far, to report the progress of the film
   bool effects = true;      // burr replay --effects
   double fps = 25;
   PictureSize size = {};
 };
 
-// Of a session that goes on and is recorded.
+// The source for a film of a running session that is recorded.
 [[nodiscard]] FilmSource film_of(sim::Session& session, const std::string& recording,
                                  const scenario::Recipe& volume);
 
-// Into a folder, which is made; an older film in it goes first. How many pictures. Error:
-// Trouble::interrupted where progress was cancelled, and the pictures made until then are kept.
+// Writes the film into a folder, which is made if needed; pictures of an older film in it are
+// deleted first. Returns the number of pictures. Error: Trouble::interrupted if progress was
+// cancelled; the pictures made so far are kept.
 [[nodiscard]] Result<int> write_film(const FilmSource& source, const std::string& folder,
                                      Progress& progress);
 
-// There is a film in this folder.
+// True: this folder contains a film.
 [[nodiscard]] bool holds_film(const std::string& folder);
 
 }  // namespace burr::app

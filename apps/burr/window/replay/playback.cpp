@@ -31,7 +31,7 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
   Recorded out;
   out.player = std::move(*player);
 
-  // a session that burr kept knows its title, and where its scan lies
+  // a kept session has a title, and it says where its scan is
   scenario::Recipe volume = given;
   out.title = fs::path(file).filename().string();
   std::error_code nobody_asks;
@@ -62,7 +62,7 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
     const double height = std::clamp(30 * out.settings.settings.servo.burr.radius, 30e-3, 100e-3);
     out.scene.camera =
         render::view_of_work(out.timeline.work->at, out.timeline.work->outward, height);
-    render::pan(out.scene.camera, 0, -0.1);  // the strip takes the lower fifth
+    render::pan(out.scene.camera, 0, -0.1);  // the lower fifth is covered by the strip
   } else {
     out.scene.camera = render::whole_view(out.scene, 0.3, 0.4, 16.0 / 9);
   }
@@ -121,7 +121,7 @@ void Playback::work() {
     shown.told = traces_.seek(shown.t);
     lock.lock();
     working_ = false;
-    if (fresh_ && !shown.told.anew) {  // nobody took the last: its ticks come first
+    if (fresh_ && !shown.told.anew) {  // the last result was not taken: keep its ticks, too
       workshop::Traces::StatusLine both = std::move(newest_.told);
       both.ticks.insert(both.ticks.end(), shown.told.ticks.begin(), shown.told.ticks.end());
       shown.told = std::move(both);

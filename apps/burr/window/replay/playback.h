@@ -1,5 +1,5 @@
-// apps/burr/window/replay/playback.h - a recording opened to be watched: its bone made what it was at any
-// moment, on a thread of its own, while the window goes on.
+// apps/burr/window/replay/playback.h - plays a recording: restores the bone at any moment, on a
+// thread of its own, while the window goes on.
 //
 //     auto opened = open_recorded(file, state, progress);       // seconds: as a Loading wants it
 //     Playback playback(*opened);
@@ -7,9 +7,9 @@
 //                   if (playback.take(shown)) ...               // what the bone is now
 //                   if (playback.behind()) "..."
 //
-// Only the newest request counts: who scrubs does not wait for the moments passed over. The thread is
-// the bone's one writer; the surface worker looks on as it does while milling.
-// Thread: main, except where said.
+// Only the newest request is carried out: a user who drags along the time line does not wait for
+// the moments in between. The thread is the only writer of the bone; the surface worker follows the
+// changes as in milling. Thread: main, except where stated.
 #pragma once
 
 #include <condition_variable>
@@ -37,24 +37,24 @@
 
 namespace burr::app {
 
-// What is told last goes first.
+// Members are destroyed in reverse order of declaration; keep this order.
 struct Recorded {
-  std::string title;  // one line that names no patient
+  std::string title;  // one line, without the name of a patient
   std::unique_ptr<record::Player> player;
   sim::Recorded settings;
   record::Timeline timeline;
-  std::vector<std::string> notices;  // what is missing of it
+  std::vector<std::string> notices;  // sentences about what is missing
   std::unique_ptr<volume::Bone> bone;
   std::unique_ptr<surface::Worker> worker;
-  FilmSource film;      // of it
+  FilmSource film;      // source for a film of it
   render::Scene scene;  // with the surface at the start, and a view of the work
 };
 
-// ".mcap", in any case of letters.
+// The name ends in ".mcap", in upper or lower case.
 [[nodiscard]] bool is_recording(const std::string& path);
 
-// state: where sessions keep themselves; one of those knows where its scan lies. given: as typed
-// for `burr replay`. Error: not a recording, nothing in it, or its bone is not to be found.
+// state: folder of the kept sessions, which know where their scan is. given: the volume options of
+// `burr replay`. Error: not a recording, an empty recording, or its bone cannot be found.
 [[nodiscard]] Result<Recorded> open_recorded(const std::string& file,
                                              const std::filesystem::path& state,
                                              const scenario::Recipe& given, Progress& progress);
@@ -62,22 +62,22 @@ struct Recorded {
 class Playback {
  public:
   struct Shown {
-    double t = 0;                       // the moment that was wanted  [s]
-    tick::TickRow row;                  // the last tick then
-    std::string trouble;                // "": the bone is as it was then; else why not
-    workshop::Traces::StatusLine told;  // since what was taken before
+    double t = 0;                       // the requested moment  [s]
+    tick::TickRow row;                  // the last tick before that moment
+    std::string trouble;                // "": the bone is as it was then; otherwise why not
+    workshop::Traces::StatusLine told;  // since the last take()
   };
 
-  // It outlives the playback; its player and bone belong to the playback's thread.
+  // `recorded` must outlive this object. Its player and bone are used by this object's thread.
   explicit Playback(Recorded& recorded);
   ~Playback();
   Playback(const Playback&) = delete;
   Playback& operator=(const Playback&) = delete;
 
   void want(double t_s);
-  // The newest; false: nothing new.
+  // Gets the newest result; false: there is nothing new.
   [[nodiscard]] bool take(Shown& shown);
-  // What was wanted last is not there yet.
+  // The last request is not done yet.
   [[nodiscard]] bool behind() const;
 
  private:
@@ -91,7 +91,7 @@ class Playback {
   double wanted_ = 0;
   bool asked_ = false, working_ = false, fresh_ = false, end_ = false;
   Shown newest_;
-  std::jthread thread_;  // last: begins when all else is there, ends before it
+  std::jthread thread_;  // last: starts after the other members, ends before them
 };
 
 }  // namespace burr::app

@@ -29,9 +29,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kPaces[] = {0.25, 0.5, 1, 2, 4, 8};
-constexpr double kStep = 1, kSmallStep = 0.05;  // of an arrow; with Shift  [s]
-constexpr double kTurn = 0.006;                 // of the view, by a pixel of the mouse  [rad]
-constexpr double kShift = 0.5;                  // of the second against the first, by a key  [s]
+constexpr double kStep = 1, kSmallStep = 0.05;  // by an arrow key; with Shift  [s]
+constexpr double kTurn = 0.006;                 // of the view, per pixel of the mouse  [rad]
+constexpr double kShift = 0.5;                  // of the second recording, per key press  [s]
 
 class Watch {
  public:
@@ -62,7 +62,7 @@ class Watch {
     noted_ = Clock::now();
   }
   [[nodiscard]] bool page_open() const { return help_ || (export_ && export_->shown()); }
-  // of the shared clock, until both are over  [s]
+  // on the shared clock, until both have ended  [s]
   [[nodiscard]] double seconds() const {
     return std::max(first_->line().seconds, second_ ? second_->line().seconds + now_.shift : 0.0);
   }
@@ -76,7 +76,7 @@ class Watch {
 
   render::Camera first_view_;
   std::optional<ReplayView> first_;
-  std::unique_ptr<Recorded> beside_;  // watched by second_, if anything
+  std::unique_ptr<Recorded> beside_;  // shown by second_, if there is one
   std::optional<ReplayView> second_;
   render::Camera second_view_;
   std::optional<SplitView> pair_;
@@ -84,10 +84,10 @@ class Watch {
   std::vector<std::string> dropped_;
   Watched now_;
   bool open_ = true, picture_ = false, panels_ = true, help_ = false, scrubbing_ = false;
-  bool labels_ = true, leaves_ = false;  // leaves though a film is still being made
+  bool labels_ = true, leaves_ = false;  // leaves_: leave, even if a film is being made
   std::optional<ExportPage> export_;
   Left left_ = Left::window;
-  std::string note_, trouble_;  // trouble: of a second recording, until a key is pressed
+  std::string note_, trouble_;  // trouble_: of the second recording, until a key
   Clock::time_point noted_{};
 };
 
@@ -113,7 +113,7 @@ Result<Left> Watch::run() {
   while (open_ && shown && !interrupted()) {
     const Clock::time_point began = Clock::now();
     take_events();
-    // time goes on, unless the user holds it
+    // playing continues, unless the user drags along the time line
     const double passed = std::chrono::duration<double>(began - last).count();
     last = began;
     if (now_.playing && !scrubbing_) now_.t += now_.pace * std::min(passed, 0.25);
@@ -121,7 +121,7 @@ Result<Left> Watch::run() {
       now_.t = seconds();
       if (!scrubbing_) now_.playing = false;
     }
-    // a machine that cannot follow shows fewer moments, not a longer session
+    // a slow computer shows fewer moments; the session does not take longer
     first_->want(now_.t);
     if (second_) second_->want(now_.t - now_.shift);
     if (std::string told = export_->step(); !told.empty()) note(std::move(told));
@@ -149,7 +149,7 @@ Result<Left> Watch::run() {
   return left_;
 }
 
-// One picture: of the one, or of both in halves of the window.
+// Draws one picture: of one recording, or of both in halves of the window.
 Status Watch::show() {
   first_->look(desk_.settings.effects, now_.playing);
   const auto over = panels_ || page_open() ? [this] { panels(); } : std::function<void()>();
@@ -184,7 +184,7 @@ Status Watch::show() {
   return shown;
 }
 
-// ---- the one beside it
+// ---- the second recording
 
 Status Watch::open_beside(const std::string& file) {
   if (!options_.open)
@@ -199,7 +199,7 @@ Status Watch::open_beside(const std::string& file) {
   second_.emplace(*beside_, desk_.renderer().software());
   second_->show_labels(labels_);
   second_view_ = beside_->scene.camera;
-  // of the same bone both are seen from the same place
+  // if both have the same bone, both are seen from the same viewpoint
   const volume::Grid &one = recorded_.bone->grid(), &other = beside_->bone->grid();
   if ((one.world_from_grid(math::Vec3::Zero()) - other.world_from_grid(math::Vec3::Zero())).norm() <
           1e-9 &&
@@ -226,18 +226,19 @@ void Watch::ask_beside() {
 
 void Watch::shift(double by) {
   if (!second_) return;
-  // one that begins before the first has its start at the first's end at most, and the other way
+  // limits: the second begins no later than the first ends, and ends no earlier than the first
+  // begins
   now_.shift = std::clamp(now_.shift + by, -second_->line().seconds, first_->line().seconds);
   note(say(Word::replay_shifted, now_.shift));
 }
 
-// The second is seen as the first is: turned, moved and nearer by as much.
+// Moves the second camera like the first: the same turn, shift and zoom since the start.
 void Watch::follow() {
   render::Camera camera = scene_.camera;
   camera.target = second_view_.target + (camera.target - first_view_.target);
   camera.distance *= second_view_.distance / first_view_.distance;
   camera.azimuth += second_view_.azimuth - first_view_.azimuth;
-  constexpr double kHighest = 1.55;  // short of the pole
+  constexpr double kHighest = 1.55;  // just below the pole
   camera.elevation = std::clamp(camera.elevation + second_view_.elevation - first_view_.elevation,
                                 -kHighest, kHighest);
   second_->scene().camera = camera;
@@ -266,7 +267,7 @@ void Watch::take_events() {
       case SDL_QUIT:
         open_ = false;
         break;
-      case SDL_WINDOWEVENT:  // SDL quits with the last window only, and the halves have hidden ones
+      case SDL_WINDOWEVENT:  // SDL_QUIT comes with the last window only, and the halves have others
         if (event.window.event == SDL_WINDOWEVENT_CLOSE) open_ = false;
         break;
       case SDL_DROPFILE:
@@ -386,7 +387,7 @@ void Watch::key(const SDL_Keysym& pressed) {
 void Watch::go(double t) { now_.t = std::clamp(t, 0.0, seconds()); }
 
 void Watch::play(bool playing) {
-  // at the end it begins again
+  // at the end, playing starts from the beginning
   if (playing && now_.t >= seconds()) now_.t = 0;
   now_.playing = playing;
 }
@@ -406,7 +407,7 @@ void Watch::turn_view(double right, double up, bool shift) {
                   kTurn * desk_.settings.turn_pace * up);
 }
 
-// Nothing is milled here, so both buttons turn.
+// Nothing is milled on this page, so both buttons turn the view.
 void Watch::move(const SDL_MouseMotionEvent& motion) {
   if (page_open() || scrubbing_ || desk_.ui().over_panel()) return;
   if ((motion.state & (SDL_BUTTON_LMASK | SDL_BUTTON_RMASK)) != 0)
@@ -420,7 +421,7 @@ void Watch::show_labels(bool shown) {
   if (second_) second_->show_labels(shown);
 }
 
-// ---- what is drawn
+// ---- drawing
 
 namespace {
 
@@ -436,7 +437,7 @@ TimelineMoment moment_of(const ReplayView& side, double from) {
 
 }  // namespace
 
-// Which half is whose.
+// Writes the title of each half.
 void Watch::titles() const {
   const Ui& ui = desk_.ui();
   const float u = ui.unit(), middle = std::floor(ui.width() / 2);

@@ -1,8 +1,8 @@
-// apps/burr/window/replay/replay_page.h - a recorded session watched again: the bone, the tool and the
-// force at any moment, over a line of the whole session. A second one, dropped on it, is watched
-// beside it: at the same moment and from the same side.
+// apps/burr/window/replay/replay_page.h - the page that plays a recording: bone, tool and force at
+// any moment, above a time line of the whole session. A second recording that is dropped on the
+// page is shown beside it, at the same moment and from the same viewpoint.
 //
-// Thread: main; the bone is made what it was on a thread of its own (playback.h).
+// Thread: main; the bone is restored on a thread of its own (playback.h).
 #pragma once
 
 #include <functional>
@@ -14,34 +14,34 @@
 
 namespace burr::app {
 
-// What is watched now, for whoever looks on.
+// The present state of the page, for tests and other observers.
 struct Watched {
-  double t = 0;      // wanted                       [s]
-  double shown = 0;  // that the picture is of       [s]
+  double t = 0;      // requested                    [s]
+  double shown = 0;  // moment that the picture shows [s]
   bool playing = false;
   double pace = 1;
-  bool behind = false;  // the picture is not there yet
-  double force = 0;     // shown as a number        [N]
-  double removed = 0;   // likewise                 [m^3]
-  double diameter = 0;  // of the burr, likewise    [m]
-  // the recording beside it: is there one; what its half shows; how much later it begins
+  bool behind = false;  // the picture of the requested moment is not ready yet
+  double force = 0;     // as shown              [N]
+  double removed = 0;   // as shown              [m^3]
+  double diameter = 0;  // of the burr, as shown [m]
+  // the second recording: whether there is one; what its half shows; how much later it begins
   bool beside = false;
   double shown_beside = 0, removed_beside = 0, shift = 0;  // [s], [m^3], [s]
-  std::string note;                                        // told last
+  std::string note;                                        // the last message
 };
 
 struct WatchOptions {
-  double seconds = 0;           // closes by itself after so long; 0: when the user closes it
-  std::string folder = {};      // where P leaves pictures; empty: where the program was started
-  std::string screenshot = {};  // a PNG of the window as it was last; empty: none
-  double from = -1;             // the moment first shown; below 0: the start, and it plays  [s]
-  std::string beside = {};      // another recording, watched in the right half; empty: none
-  // opens it, with a page meanwhile; closed: the window was
+  double seconds = 0;           // closes after this time; 0: when the user closes it
+  std::string folder = {};      // for pictures of the key P; empty: the start folder
+  std::string screenshot = {};  // PNG of the last picture; empty: none
+  double from = -1;             // first moment shown; below 0: plays from the start  [s]
+  std::string beside = {};      // a second recording for the right half; empty: none
+  // opens a recording while a loading page is shown; closed: set if the user closed the window
   std::function<Result<Recorded>(const std::string& file, bool& closed)> open = {};
-  Watched* seen = nullptr;  // kept true
+  Watched* seen = nullptr;  // updated in each picture
 };
 
-// Until it is left.
+// Runs until the user leaves the page.
 [[nodiscard]] Result<Left> watch(Desk& desk, Recorded& recorded, const WatchOptions& options);
 
 }  // namespace burr::app

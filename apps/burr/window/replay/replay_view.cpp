@@ -54,7 +54,8 @@ void ReplayView::look(bool effects, bool playing) {
              : !recorded_.notices.empty() ? recorded_.notices.front()
                                           : std::string();
   show_mirror(scene(), recorded_.bone->grid(), tick::mirror_of(tool()));
-  // the picture is whole when bone, surface and GPU have it; while it plays a little lag is none
+  // the picture is complete when bone, surface and GPU have it; a short lag while playing does not
+  // count
   const bool whole = !playback_.behind() && recorded_.worker->waiting() == 0;
   const auto now = std::chrono::steady_clock::now();
   if (whole) in_time_ = now;
@@ -67,7 +68,7 @@ void ReplayView::show_labels(bool shown) {
 }
 
 tool::ToolState ReplayView::tool() const {
-  // before the first moment is there, and where the ticks are damaged: what the time line knows
+  // before the first moment is ready, and where ticks are damaged: the tool from the time line
   return shown_.row.tool.radius > 0 ? shown_.row.tool : line().tool_at(shown_.t);
 }
 

@@ -1,5 +1,5 @@
-// apps/burr/window/replay/replay_view.h - one recording as it is watched: its bone and tool at the moment asked
-// for, and the numbers of that moment. One fills the window, two share it.
+// apps/burr/window/replay/replay_view.h - one recording as it is shown: bone and tool at the
+// requested moment, and the values of that moment. One fills the window, or two share it.
 //
 //     ReplayView side(recorded, software);
 //     each frame:   side.want(t);
@@ -7,7 +7,7 @@
 //                   ... draw recorded.scene ...
 //                   side.drawn(took_s, redrawn);
 //
-// Thread: main; the bone is made what it was on a thread of its own (playback.h).
+// Thread: main; the bone is restored on a thread of its own (playback.h).
 #pragma once
 
 #include <chrono>
@@ -22,16 +22,16 @@ namespace burr::app {
 
 class ReplayView {
  public:
-  // It outlives the side; its scene looks as before when the side is gone.
+  // `recorded` must outlive this object. The destructor restores the look of its scene.
   ReplayView(Recorded& recorded, bool software);
   ~ReplayView();
   ReplayView(const ReplayView&) = delete;
   ReplayView& operator=(const ReplayView&) = delete;
 
-  // The moment to be shown, of its own clock; before its start or after its end: those.
+  // Requests a moment, on the recording's own clock; limited to its start and end.
   void want(double t_s);
-  // What has come since goes into the scene. effects: what milling leaves is seen. playing: the
-  // burr turns.
+  // Puts what is ready into the scene. effects: show the traces of milling. playing: the burr
+  // turns.
   void look(bool effects, bool playing);
   void drawn(double took_s, double redrawn) { live_.drawn(took_s, redrawn); }
   void show_labels(bool shown);
@@ -40,8 +40,8 @@ class ReplayView {
   [[nodiscard]] const Recorded& recorded() const { return recorded_; }
   [[nodiscard]] const record::Timeline& line() const { return recorded_.timeline; }
   [[nodiscard]] double wanted() const { return wanted_; }    // [s]
-  [[nodiscard]] double shown() const { return shown_.t; }    // that the scene is of  [s]
-  [[nodiscard]] bool behind() const { return behind_; }      // for so long that it must be told
+  [[nodiscard]] double shown() const { return shown_.t; }    // moment that the scene shows  [s]
+  [[nodiscard]] bool behind() const { return behind_; }      // so long that the user should see it
   [[nodiscard]] double force() const { return force_; }      // [N]
   [[nodiscard]] double removed() const { return removed_; }  // [m^3]
   [[nodiscard]] double speed() const { return shown_.row.spindle_rad_s; }
@@ -57,7 +57,7 @@ class ReplayView {
   bool behind_ = false;
   std::string trouble_;
   std::chrono::steady_clock::time_point in_time_ = std::chrono::steady_clock::now();
-  Playback playback_;  // last: its thread ends before the rest
+  Playback playback_;  // last: its thread ends before the other members
 };
 
 }  // namespace burr::app

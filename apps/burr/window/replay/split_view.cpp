@@ -15,7 +15,7 @@ Status SplitView::draw(const std::array<const render::Scene*, 2>& scenes, int wi
     inset.width = std::max(1, n == 0 ? middle : width - middle);
     inset.height = std::max(1, height);
     const Status done = half(halves_[n], *scenes[n], inset);
-    if (!done) {  // a lost graphics card: by what there is at the next picture
+    if (!done) {  // a lost graphics card: the next picture makes a new renderer
       halves_[n].renderer.reset();
       return done;
     }

@@ -1,6 +1,6 @@
-// apps/burr/window/replay/split_view.h - two scenes in one window, left and right. Each is drawn without a
-// window, half as wide, and its picture laid into the window's; a half in which nothing moved costs
-// nothing.
+// apps/burr/window/replay/split_view.h - two scenes in one window, left and right. Each is drawn
+// off-screen, half as wide, and copied into the window's picture. A half in which nothing moved
+// costs nothing.
 //
 // Thread: main. Errors: as render/renderer.h.
 #pragma once
@@ -16,11 +16,11 @@ namespace burr::app {
 
 class SplitView {
  public:
-  // Into both(), for a window of that size [pixel]. The window's context is to be made current
-  // again.
+  // Draws the scenes into both(), for a window of this size [pixel]. Afterwards the caller must
+  // make the window's context current again.
   Status draw(const std::array<const render::Scene*, 2>& scenes, int width, int height);
   [[nodiscard]] const render::Scene& both() const { return both_; }
-  // Of the last draw: how long a half took, and how much of it was drawn anew (0..1).
+  // Of the last draw(): the time for a half, and the share of it that was drawn again (0..1).
   [[nodiscard]] double took_s(std::size_t side) const { return halves_[side].took_s; }
   [[nodiscard]] double redrawn(std::size_t side) const { return halves_[side].redrawn; }
 

@@ -22,7 +22,7 @@ std::string clock_of(double t) {
   return fmt::format("{}.{}", minutes(tenths / 10), static_cast<long>(tenths) % 10);
 }
 
-// the key that does it while milling
+// the letter of the key that gives this command while milling
 std::string letter_of(const tick::Command& command) {
   switch (command.kind) {
     case tick::CommandKind::undo:
@@ -49,7 +49,7 @@ std::string letter_of(const tick::Command& command) {
   }
 }
 
-// numbers of the moment, from the left
+// draws the values of the moment, from the left
 class Cells {
  public:
   Cells(const Ui& ui, float x, float y) : ui_(ui), u_(ui.unit()), x_(x), y_(y) {}
@@ -77,14 +77,14 @@ bool button(const char* id, ImVec2 p, ImVec2 size, float round) {
 
 constexpr float kCurve = 62, kBar = 10;  // [points]
 
-// Force as a curve, strokes as bars below it, commands as marks with the letter of their key; along
-// a clock that may begin before it and end after it.
+// Draws the force as a curve, strokes as bars below it, and commands as marks with the letter of
+// their key. The clock may begin before the recording and end after it.
 class Line {
  public:
   struct Place {
     float x, y, w;     // [pixel]
-    float curve, bar;  // how high  [points]
-    double peak;       // as high as the curve goes  [N]
+    float curve, bar;  // heights  [points]
+    double peak;       // force at the top of the curve  [N]
   };
   Line(const Ui& ui, const TimelineMoment& moment, double whole, const Place& place)
       : ui_(ui),
@@ -99,7 +99,7 @@ class Line {
         curve_(place.curve),
         bar_(place.bar) {}
 
-  // of its own time, of the clock's
+  // x of a time of the recording, and of a time of the clock
   [[nodiscard]] float at(double t) const { return at_clock(t + from_); }
   [[nodiscard]] float at_clock(double t) const {
     return x_ + w_ * static_cast<float>(whole_ > 0 ? std::clamp(t / whole_, 0.0, 1.0) : 0.0);
@@ -114,7 +114,7 @@ class Line {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float floor = y_ + curve_ * u_;
     draw.AddRectFilled({x_, y_}, {x_ + w_, floor}, ink::rgb(255, 255, 255, 14), 4 * u_);
-    const float room = curve_ < kCurve ? 2 : 14;  // for the words above
+    const float room = curve_ < kCurve ? 2 : 14;  // for the letters above
     const double full = std::max(0.5, 1.15 * peak_);
     for (float px = 0; px < w_; px += 1) {
       const double from = clock_at(x_ + px) - from_, to = clock_at(x_ + px + 0.999F) - from_;
@@ -140,7 +140,7 @@ class Line {
 
   void events() const {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    float free = x_ - 1;  // a letter only where the one before leaves room
+    float free = x_ - 1;  // a letter is drawn only where the one before leaves room
     for (const record::TimelineEvent& event : line_.events) {
       const float px = std::round(at(event.t_s));
       draw.AddRectFilled({px, y_ + 14 * u_}, {px + std::max(1.0F, u_), y_ + curve_ * u_},
@@ -154,7 +154,7 @@ class Line {
     }
   }
 
-  // round times below, as many as there is room for
+  // labels at round times below, as many as fit
   void scale() const {
     if (!(whole_ > 0)) return;
     double step = 0.5;
@@ -173,7 +173,7 @@ class Line {
     }
   }
 
-  // from above, down to `floor`
+  // the mark of the present moment, from the top down to `floor`
   void head(double t, float floor) const {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float px = std::round(at_clock(t)), half = std::max(1.0F, 1.0F * u_);
@@ -184,7 +184,7 @@ class Line {
                            {px, y_ + 1 * u_}, ink::kText);
   }
 
-  // what is under the mouse, in words
+  // describes what is under the mouse
   void told(double clock) const {
     const double t = clock - from_;
     if (t < 0 || t > line_.seconds) return;
@@ -259,7 +259,7 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
   ui.panel("##replay", x, y, w, kHigh * u);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
 
-  // play, or pause
+  // button: play or pause
   const ImVec2 p = {x + kPad * u, y + 12 * u};
   done.play = button("##play", p, {44 * u, 38 * u}, 6 * u);
   if (ImGui::IsItemHovered())
@@ -279,7 +279,7 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
   cells.cell(196, word(Word::time), clock_of(s.t),
              fmt::format("/ {}{}", clock_of(s.seconds), s.behind ? "   …" : ""));
   const bool two = s.second.line != nullptr;
-  // of both: the left one's, the right one's
+  // for two recordings: the left one's value, then the right one's
   const auto numbers = [&](const auto& number) {
     return two ? fmt::format("{} | {}", number(s.first), number(s.second)) : number(s.first);
   };
@@ -298,7 +298,7 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
              }),
              "rpm");
 
-  // slower, pace, faster
+  // buttons: slower, the speed, faster
   const float right = x + w - kPad * u;
   const std::string pace = fmt::format("{:g} x", s.pace);
   ui.write(right - 75 * u, y + 10 * u, Letter::small, ink::kDim, word(Word::replay_pace), 0.5F);
@@ -313,7 +313,7 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
   }
   ui.write(right - 75 * u, y + 28 * u, Letter::strong, ink::kText, pace, 0.5F);
 
-  // two curves of one scale
+  // both curves use the same scale
   const double peak = std::max(s.first.line->peak_force, two ? s.second.line->peak_force : 0.0);
   const Line::Place place = {x + kPad * u,         y + 64 * u,        w - 2 * kPad * u,
                              two ? 29.0F : kCurve, two ? 5.0F : kBar, peak};

@@ -1,7 +1,8 @@
-// apps/burr/window/replay/timeline_panel.h - the strip below a watched session: numbers of the moment, and
-// the whole session as a line to scrub on, with force, strokes and commands.
+// apps/burr/window/replay/timeline_panel.h - the strip below a recording that is played: values of
+// the moment, and a time line of the whole session with force, strokes and commands, on which the
+// user can drag.
 //
-// Plain data in, what the user did comes back. Thread: main, between Ui::begin() and draw().
+// Takes plain data, returns what the user did. Thread: main, between Ui::begin() and draw().
 #pragma once
 
 #include <optional>
@@ -13,9 +14,9 @@
 
 namespace burr::app {
 
-// Of one recording, now.
+// The values of one recording at this moment.
 struct TimelineMoment {
-  const record::Timeline* line = nullptr;  // none: no recording
+  const record::Timeline* line = nullptr;  // nullptr: no recording
   double from = 0;                         // its start on the shared clock  [s]
   double force = 0;                        // [N]
   double removed = 0;                      // [m^3]
@@ -25,24 +26,24 @@ struct TimelineMoment {
 };
 
 struct TimelineState {
-  TimelineMoment first, second;  // the second below the first, by the same clock
-  double seconds = 0;            // of that clock
+  TimelineMoment first, second;  // the second is drawn below the first, on the same clock
+  double seconds = 0;            // length on that clock
   double t = 0;
   bool playing = false, behind = false;
   double pace = 1;
-  std::string note;     // the last thing done
-  std::string warning;  // what must be known; "" for nothing
+  std::string note;     // the last message
+  std::string warning;  // "" for none
 };
 
 struct TimelineDone {
-  std::optional<double> scrubbed;  // to this moment, the button is still down
-  bool play = false;               // play or pause was pressed
-  int pace = 0;                    // slower -1, faster 1
+  std::optional<double> scrubbed;  // to this moment; the mouse button is still down
+  bool play = false;               // the button play or pause was pressed
+  int pace = 0;                    // -1: slower, 1: faster
 };
 
 [[nodiscard]] TimelineDone draw_timeline(Ui& ui, const TimelineState& state);
 
-// What a command says to people: "burr of 4 mm", or that there was no room for it.
+// A command as text for the user: "burr of 4 mm", or that there was no room for it.
 [[nodiscard]] std::string command_text(const record::TimelineEvent& event);
 
 }  // namespace burr::app

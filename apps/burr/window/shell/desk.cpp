@@ -94,7 +94,7 @@ int window_width() {
   return std::max(2, wide);
 }
 
-// of the whole picture, where x lies in one that is squeezed into half the window
+// x in the whole picture, for an x in one that is squeezed into half of the window
 int stretched(int x, bool right_half) {
   const int wide = window_width();
   return std::clamp(2 * (x - (right_half ? wide / 2 : 0)), 0, wide - 1);
@@ -102,7 +102,7 @@ int stretched(int x, bool right_half) {
 
 }  // namespace
 
-// What is pulled stays in the half where it was taken up.
+// While a button is down, the mouse stays in the half in which it was pressed.
 void Desk::into_half(SDL_Event& event) {
   if (event.type == SDL_MOUSEMOTION) {
     if (event.motion.state == 0) in_right_half_ = event.motion.x >= window_width() / 2;
@@ -125,7 +125,7 @@ render::TwoEyes Desk::eyes(const render::Camera& camera) const {
   eyes.swapped = settings.swap_eyes;
   SDL_Window* window = SDL_GL_GetCurrentWindow();
   if (eyes.how != render::Stereo::interleaved || window == nullptr) return eyes;
-  // which of a screen's rows is whose does not move with the window
+  // which row of the screen belongs to which eye does not change when the window moves
   int y = 0, wide = 0, high = 1;
   SDL_GetWindowPosition(window, nullptr, &y);
   SDL_GetWindowSize(window, &wide, &high);
@@ -136,7 +136,7 @@ render::TwoEyes Desk::eyes(const render::Camera& camera) const {
 Status Desk::renew() {
   int wide = 1280, high = 720;
   if (SDL_Window* window = SDL_GL_GetCurrentWindow()) SDL_GetWindowSize(window, &wide, &high);
-  // video stays while there is no window, and with it the events on their way
+  // keeps SDL's video part, and with it the waiting events, while there is no window
   const bool held = SDL_InitSubSystem(SDL_INIT_VIDEO) == 0;
   ui_.reset();
   headset.reset();
@@ -154,7 +154,7 @@ Status Desk::renew() {
 }
 
 Status Desk::show(const render::Scene& scene, const std::function<void()>& panels, bool keys) {
-  // a picture for each eye belongs to a window from its beginning
+  // quad buffers can only be requested when a window is made
   if (settings.stereo == render::Stereo::quad_buffer && !asked_quads_)
     if (const Status anew = renew(); !anew) return anew;
   int wide = renderer_->width(), high = renderer_->height();
@@ -165,7 +165,7 @@ Status Desk::show(const render::Scene& scene, const std::function<void()>& panel
     if (after_frame) after_frame();
     return done;
   }
-  ui_->own_pointer(halves());  // the desktop's would be there once only
+  ui_->own_pointer(halves());  // the desktop's pointer would be in one half only
   if (panels || halves()) {
     ui_->begin(wide, high, renderer_->width(), renderer_->height(), settings.scale, keys);
     if (panels) panels();
@@ -174,7 +174,7 @@ Status Desk::show(const render::Scene& scene, const std::function<void()>& panel
     ui_->forget_panels();
     done = renderer_->show(scene, eyes(scene.camera));
   }
-  // a lost graphics card does not end the session; the next picture is drawn by what there is then
+  // a lost graphics card does not end the session: the next picture uses what is there then
   if (!done) done = renew();
   if (after_frame) after_frame();
   return done;
@@ -185,7 +185,7 @@ Result<std::string> Desk::leave_picture(const std::string& into) {
   std::filesystem::path path;
   std::string name;
   std::error_code nobody_asks;
-  do {  // never over an older one
+  do {  // never overwrite an older picture
     name = fmt::format("burr_{:03d}.png", ++pictures_);
     path = std::filesystem::path(into) / name;
   } while (std::filesystem::exists(path, nobody_asks) && pictures_ < 100'000);

@@ -1,5 +1,5 @@
-// apps/burr/window/shell/desk.h - what all pages share: the window, what draws panels over it, and the
-// user's settings.
+// apps/burr/window/shell/desk.h - what all pages share: the window, the user interface drawn over
+// it, and the user's settings.
 //
 // Thread: main.
 #pragma once
@@ -36,39 +36,39 @@ class Desk {
   [[nodiscard]] const DeskPlaces& places() const { return places_; }
 
   Settings settings;
-  std::vector<std::string> troubles;  // of the settings' file and of stereo, to be told once
-  Page page = Page::none;             // the one shown
-  std::string told;                   // what went wrong, on the start and import pages
-  std::string said;                   // while milling: what must be known, what was done last
-  Gamepads pads;                      // hands other than the mouse's
+  std::vector<std::string> troubles;  // about the settings file and stereo; shown once
+  Page page = Page::none;             // the page that is shown now
+  std::string told;                   // start and import pages: the error that is shown
+  std::string said;                   // milling page: the warning and the last note
+  Gamepads pads;                      // input other than the mouse
   Pedals pedals;
   SpaceMouse cap;
-  std::function<void()> after_frame;  // whoever wants to look on, after each picture
-  // Worn while milling; gone when the window is made anew.
+  std::function<void()> after_frame;  // called after each picture, for tests and watchers
+  // Present while the user wears it for milling; destroyed when the window is renewed.
   std::unique_ptr<render::Headset> headset;
-  bool headset_wanted = false;  // by the settings or the command line, until one was tried in vain
-  // After a change: in effect, and written down.
+  bool headset_wanted = false;  // by settings or command line; false after a failed start
+  // Call it after a change: applies the settings and writes the file.
   void settings_changed();
 
-  // Window and everything on the GPU anew, as after a graphics card was lost; what is shown is sent
-  // again with the next picture. Error: none can be had any more.
+  // Makes the window and everything on the GPU again, for example after the graphics card was lost.
+  // The next picture loads its data again. Error: no new window could be made.
   [[nodiscard]] Status renew();
-  // How often that was done; what others keep on the GPU is gone each time.
+  // Number of calls of renew(); each call destroys what others keep on the GPU.
   [[nodiscard]] int renewed() const { return renewed_; }
 
-  // The next event, already known to the panels; false: none now.
-  // F3 is not among them: it goes on to the next way to show two eyes. Where the picture is there
-  // twice, side by side, the mouse comes as if there were one, of the window's size.
+  // Takes the next event, after the user interface has seen it; false: there is none. F3 is not
+  // returned: it changes to the next way to show two eyes. If the picture is shown twice, side by
+  // side, mouse positions are converted as if there were one picture as large as the window.
   [[nodiscard]] bool next(SDL_Event& event);
-  // Where it is now, in that way.
+  // Position of the mouse now, converted in the same way.
   void mouse(int& x, int& y) const;
-  // How the window is looked at: the setting, as far as the driver can.
+  // How two eyes are shown now: the setting, as far as the driver supports it.
   [[nodiscard]] render::TwoEyes eyes(const render::Camera& camera) const;
-  // One picture: the scene and, if `panels` is set, what it draws with ImGui over it. keys: the
-  // panels may be walked through by keyboard.
+  // Shows one picture: the scene and, if `panels` is set, what it draws with ImGui over it. keys:
+  // the panels can be used with the keyboard.
   [[nodiscard]] Status show(const render::Scene& scene, const std::function<void()>& panels,
                             bool keys = false);
-  // What the window shows now as a PNG in `folder`: burr_001.png, 002 ... The name, or the error.
+  // Writes the window's picture as a PNG into `folder`: burr_001.png, 002 ... Returns the name.
   [[nodiscard]] Result<std::string> leave_picture(const std::string& folder);
 
  private:
@@ -78,11 +78,11 @@ class Desk {
   [[nodiscard]] bool halves() const { return settings.stereo == render::Stereo::side_by_side; }
   DeskPlaces places_;
   std::unique_ptr<render::Renderer> renderer_;
-  std::unique_ptr<Ui> ui_;      // goes first
-  bool keep_old_ = false;       // the settings' file had trouble
-  bool minimised_ = false;      // nobody sees it: nothing is drawn
-  bool asked_quads_ = false;    // the window was made with a request for a picture for each eye
-  bool in_right_half_ = false;  // the mouse
+  std::unique_ptr<Ui> ui_;      // after renderer_, so that it is destroyed before it
+  bool keep_old_ = false;       // the settings file had an error: keep the old one
+  bool minimised_ = false;      // the window is not visible: nothing is drawn
+  bool asked_quads_ = false;    // the window was made with a picture for each eye requested
+  bool in_right_half_ = false;  // the mouse is in the right picture of two
   int pictures_ = 0, renewed_ = 0;
 };
 

@@ -17,7 +17,7 @@ extern char** environ;
 namespace burr::app {
 namespace {
 
-// where a program lies in PATH; "" if nowhere
+// full path of a program that is in PATH; "" if it is not
 std::string program(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::string folders = path != nullptr ? path : "";
@@ -50,7 +50,7 @@ std::vector<std::string> command_to_save(const std::string& suggested) {
   return {};
 }
 
-// What it prints; "" if it failed, was left, or `progress` is cancelled.
+// Returns what the program prints; "" if it failed, the user cancelled, or `progress` is cancelled.
 Result<std::string> ask_program(const std::vector<std::string>& words, Progress& progress) {
   std::array<int, 2> pipe{};
   if (words.empty() || ::pipe2(pipe.data(), O_CLOEXEC) != 0) return std::string();

@@ -1,5 +1,6 @@
-// apps/burr/window/shell/file_dialog.h - the desktop's own dialog for choosing a file or a folder, where
-// there is one (zenity, kdialog). It runs beside the window and is asked now and then.
+// apps/burr/window/shell/file_dialog.h - the desktop's own dialog to choose a file or a folder
+// (zenity or kdialog), if one is installed. It runs as a program of its own; call answer() from
+// time to time.
 #pragma once
 
 #include <memory>
@@ -12,12 +13,12 @@ namespace burr::app {
 
 class FileDialog {
  public:
-  [[nodiscard]] static bool there();  // on this machine
+  [[nodiscard]] static bool there();  // one is installed on this computer
 
   void ask(bool folder);
-  // For a file to be written; whether it may replace another is not asked here.
+  // For a file that will be written. The dialog does not ask whether it may replace another file.
   void ask_where(const std::string& suggested);
-  // The path chosen, once; "" when the user did not choose.
+  // Returns the chosen path once; "" if the user chose none.
   [[nodiscard]] std::optional<std::string> answer();
   [[nodiscard]] bool open() const { return asked_ != nullptr; }
 

@@ -26,7 +26,7 @@ void block(const Ui& ui, float x, float& y, Word title, const Rows& rows) {
   y += 14 * u;
 }
 
-// The other leaf: what gamepad, pedal and SpaceMouse do.
+// The second page: what gamepad, pedal and SpaceMouse do.
 void pad_rows(const Ui& ui, float x, float y) {
   block(ui, x, y, Word::help_pad,
         {{word(Word::key_sticks), Word::pad_sticks},

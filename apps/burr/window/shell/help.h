@@ -1,4 +1,4 @@
-// apps/burr/window/shell/help.h - keys and mouse on one page.
+// apps/burr/window/shell/help.h - the page that shows keys and mouse.
 #pragma once
 
 #include <string>
@@ -17,10 +17,10 @@ struct HelpRow {
   Word does;
 };
 
-// false: the user closed the page. rows: keys and mouse, in the order they are shown. pads: the leaf
-// about gamepad, pedal and SpaceMouse is shown; a button turns over.
+// Draws the page; false: the user closed it. rows: keys and mouse, in the order they are shown.
+// pads: true: the second page, about gamepad, pedal and SpaceMouse, is shown; a button switches it.
 [[nodiscard]] bool draw_help(Ui& ui, const std::vector<HelpRow>& rows, bool& pads);
-// The same for the page that shows a recording.
+// The same for the page that plays a recording.
 [[nodiscard]] bool draw_replay_help(Ui& ui);
 
 }  // namespace burr::app

@@ -23,7 +23,7 @@ SeenProgress::Now SeenProgress::now() const {
 
 namespace {
 
-// true: cancel
+// returns true if the user cancels
 bool draw_loading(Ui& ui, const std::string& title, const SeenProgress::Now& now, bool stopping) {
   const float u = ui.unit(), w = 520 * u, h = 170 * u;
   const float x = (ui.width() - w) / 2, y = (ui.height() - h) / 2;
@@ -71,7 +71,7 @@ Result<bool> watch_loading(Desk& desk, const std::string& title, SeenProgress& p
         true);
     if (!shown) return shown.error();
     if (stopping || interrupted()) progress.cancel();
-    // the work has priority: where the processor draws, each picture is taken from it
+    // the work has priority: where the processor draws, each picture takes its time
     for (int n = 0; n < 8 && !finished(); ++n) {
       SDL_Delay(30);
       SDL_PumpEvents();

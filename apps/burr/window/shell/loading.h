@@ -1,10 +1,11 @@
-// apps/burr/window/shell/loading.h - long work beside the window: how far it is, and a way to stop it.
+// apps/burr/window/shell/loading.h - long work in the background: reports how far it is, and can be
+// stopped.
 //
 //     Loading loading([=](Progress& progress) { return make(progress); });
 //     each frame:   if (loading.finished()) result = loading.take();
 //
-// The work runs on a thread of its own and touches nothing of the window's; destroying it asks the
-// work to stop and waits. Thread: main, except where the work runs.
+// The work runs on a thread of its own and must not use the window. The destructor asks the work to
+// stop and waits for it. Thread: main, except the work itself.
 #pragma once
 
 #include <atomic>
@@ -21,7 +22,7 @@
 
 namespace burr::app {
 
-// Progress that another thread looks at.
+// Progress that another thread may read.
 class SeenProgress final : public Progress {
  public:
   void report(double fraction, std::string_view stage) override;
@@ -54,7 +55,7 @@ class Loading {
 
   [[nodiscard]] bool finished() const { return finished_; }
   [[nodiscard]] SeenProgress& progress() { return progress_; }
-  // Once, after finished().
+  // Call it once, after finished() is true.
   [[nodiscard]] Result<Value> take() {
     thread_.join();
     return std::move(*result_);
@@ -64,17 +65,17 @@ class Loading {
   SeenProgress progress_;
   std::optional<Result<Value>> result_;
   std::atomic<bool> finished_ = false;
-  std::jthread thread_;  // last: begins when all else is there, ends before it
+  std::jthread thread_;  // last: starts after the other members, ends before them
 };
 
-// The loading page until finished(). false: the user wants no more of it, and the work was told.
-// closed: the window was.
+// Shows the loading page until finished(). false: the user cancelled, and `progress` was cancelled.
+// closed: set if the user closed the window.
 [[nodiscard]] Result<bool> watch_loading(Desk& desk, const std::string& title,
                                          SeenProgress& progress,
                                          const std::function<bool()>& finished, bool& closed);
 
-// The page shown until the bone, or what else takes long, is ready. Error: Trouble::interrupted if
-// the user cancelled; `closed` is true if the window was closed.
+// Shows the loading page until the work is done. Error: Trouble::interrupted if the user cancelled;
+// `closed` is true if the user closed the window.
 template <class Value>
 [[nodiscard]] Result<Value> load(Desk& desk, const std::string& title,
                                  typename Loading<Value>::Make make, bool& closed) {

@@ -20,7 +20,7 @@
 namespace burr::app {
 namespace {
 
-// in words that name no patient
+// a title without the name of a patient
 std::string title_of(const WorkOptions& options, const Settings& settings) {
   const std::string& path = options.volume.source;
   const std::string known = name_of_case(path);
@@ -71,7 +71,7 @@ Result<Left> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options,
   with.keep = [&autosave] { return autosave != nullptr && autosave->keep(); };
   with.film_of = [&]() -> std::optional<FilmSource> {
     std::optional<FilmSource> source = autosave ? autosave->film_source() : std::nullopt;
-    if (source && embed) source->volume.source.clear();  // its bone is in the recording
+    if (source && embed) source->volume.source.clear();  // the bone is in the recording
     if (source) source->effects = desk.settings.effects;
     return source;
   };

@@ -1,4 +1,4 @@
-// apps/burr/window/shell/pages.h - from page to page: start, loading, milling, and back.
+// apps/burr/window/shell/pages.h - the order of pages: start, loading, milling, and back.
 //
 // Thread: main.
 #pragma once
@@ -15,29 +15,29 @@
 namespace burr::app {
 
 struct PagesOptions {
-  double seconds = 0;           // closes by itself after so long on one page; 0: never
-  std::string folder = {};      // where P leaves pictures
-  std::string screenshot = {};  // of the window as it was last
+  double seconds = 0;           // closes after this time on one page; 0: never
+  std::string folder = {};      // where the key P saves pictures
+  std::string screenshot = {};  // PNG of the last picture of the window
   bool sound = true;
-  // of it only what leads: hand, suction, told_as; without a hand the settings say
+  // only hand, suction and told_as of it are used; without a hand, that of the settings is taken
   WorkOptions led = {};
 };
 
-// Until the user has had enough. Trouble with one bone is told on the start page, and one goes on.
+// Runs until the user leaves. An error with one bone is shown on the start page, and burr goes on.
 [[nodiscard]] Status run_pages(Desk& desk, const PagesOptions& options);
 
-// A case or a scan with the loading page; as a Loading wants it.
+// Opens a case or a scan; for use as the work of a Loading.
 [[nodiscard]] Result<Ready> open_ready(WorkOptions options, Progress& progress);
 
-// A recording with the loading page, and the page it is watched on. given: what the user said of
-// its volume. Error: one sentence; Trouble::interrupted if the user cancelled.
+// Opens a recording while the loading page is shown, then shows the page that plays it. given: what
+// the user said about its volume. Error: one sentence; Trouble::interrupted if the user cancelled.
 [[nodiscard]] Result<Left> watch_file(Desk& desk, const std::string& file,
                                       const scenario::Recipe& given, const WatchOptions& options);
 
-// One session with its loudspeaker and what is near, if `window` wants to hear it.
+// Runs one session, with the loudspeaker (if `window` wants sound) and the distances to structures.
 [[nodiscard]] Result<Left> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& window);
 
-// One session that keeps itself where the settings say so.
+// Runs one session and keeps its recording if the settings say so.
 [[nodiscard]] Result<Left> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options,
                                          bool embed, const WindowOptions& window);
 

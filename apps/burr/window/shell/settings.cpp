@@ -20,9 +20,9 @@
 namespace burr::app {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 1U << 16;  // a page of settings  [byte]
+constexpr std::uintmax_t kLargestFile = 1U << 16;  // far more than settings need  [byte]
 
-// One line of the file. Exactly one of the five is set.
+// One line of the file. Exactly one of the five pointers is set.
 struct Field {
   const char *key, *means;
   double Settings::*number = nullptr;
@@ -101,12 +101,12 @@ std::string languages_known() {
   return all;
 }
 
-// As written until 0.1.0: "english" and "swedish".
+// The values that burr wrote until 0.1.0: "english" and "swedish".
 std::string code_of_language(const std::string& value) {
   return value == "english" ? "en" : value == "swedish" ? "sv" : value;
 }
 
-// "" when it is good
+// Takes the value into `settings`; returns "" or what is wrong with it.
 std::string take(const Field& field, const toml::node& node, Settings& settings) {
   if (field.yes != nullptr) {
     const auto value = node.value_exact<bool>();
@@ -169,8 +169,8 @@ SettingsRead parse_settings(std::string_view text, std::string_view file) {
 SettingsRead read_settings(const std::filesystem::path& path) {
   std::error_code nobody_asks;
   if (!std::filesystem::exists(path, nobody_asks)) return {};
-  const auto text =
-      base::text_of_file(path.string(), kLargestFile, "a page of settings; is this another file?");
+  const auto text = base::text_of_file(path.string(), kLargestFile,
+                                       "a settings file; check that this is the right file");
   if (text) return parse_settings(*text, path.filename().string());
   SettingsRead read;
   read.troubles.push_back(text.error().text + "; the default settings are used");

@@ -10,7 +10,7 @@
 namespace burr::app {
 namespace {
 
-// One setting a line: its name left, what changes it right.
+// One setting per line: its name on the left, its control on the right.
 class Lines {
  public:
   Lines(const Ui& ui, float x, float y) : ui_(ui), u_(ui.unit()), x_(x), y_(y) {}
@@ -33,7 +33,8 @@ class Lines {
               const SettingRange& range) {
     begin(name);
     auto now = static_cast<float>(value);
-    // letters that grow under the mouse would move the slider: those when it is let go
+    // letters that grow would move the slider away from the mouse: take the value when it is
+    // released
     const bool later = std::string_view(key) == "scale";
     float* const kept =
         ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(key), static_cast<float>(value));
@@ -49,7 +50,7 @@ class Lines {
     }
     if (later && ImGui::IsItemDeactivatedAfterEdit()) value = static_cast<double>(*kept);
     if (!ImGui::IsItemActive()) *kept = static_cast<float>(value);
-    // written down when the slider is let go
+    // written to the file when the slider is released
     changed_ = changed_ || ImGui::IsItemDeactivatedAfterEdit();
     end();
   }
@@ -136,7 +137,8 @@ void pads_leaf(Lines& left, Lines& right, Settings& settings, DeviceLeaf* device
     const bool before = left.changed();
     workshop::DevicePreferences& preferences = device->preferences;
     left.heading(device->id);
-    // in the book 0 is "what the device can"; a slider at its left end is the smallest force
+    // in the book 0 means "as much as the device can"; the left end of the slider is the smallest
+    // force
     double force = preferences.max_force_n > 0 ? std::min(preferences.max_force_n, device->peak)
                                                : device->peak;
     const double shown = force;

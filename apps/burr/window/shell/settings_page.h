@@ -1,4 +1,5 @@
-// apps/burr/window/shell/settings_page.h - the settings, changed while one looks.
+// apps/burr/window/shell/settings_page.h - the page on which the user changes settings; a change is
+// visible at once.
 #pragma once
 
 #include "burr/workshop/device_book.h"
@@ -8,21 +9,21 @@
 namespace burr::app {
 
 struct SettingsPage {
-  bool changed = false;  // something; now in `settings`
-  bool done = false;     // the user is
+  bool changed = false;  // a setting changed; it is already in `settings`
+  bool done = false;     // the user closed the page
 };
 
-// The haptic device that is led just now, and what its book says of it.
+// The haptic device in use, and its preferences.
 struct DeviceLeaf {
   const std::string& id;
-  double peak;  // that it can push [N]
-  bool turns;   // it has torque
+  double peak;  // largest force that it can give [N]
+  bool turns;   // it can give torque
   workshop::DevicePreferences& preferences;
   bool changed = false;
 };
 
-// file: where they are kept, told below; "" if they are not. pads: the leaf of gamepad, pedal and
-// SpaceMouse, and of a haptic device, is shown; a button turns over.
+// file: the settings file, named at the bottom; "" if nothing is saved. pads: true: the second page
+// is shown, for gamepad, pedal, SpaceMouse and haptic device; a button switches it.
 [[nodiscard]] SettingsPage draw_settings(Ui& ui, Settings& settings, const std::string& file,
                                          bool& pads, DeviceLeaf* device = nullptr);
 

@@ -1,6 +1,6 @@
-// apps/burr/window/shell/status_line.h - the two lines beside the picture while milling: a note of what was done
-// last, and a warning of what must be known. A force that was let go is a warning, so that it does
-// not take the place of the answer to a key.
+// apps/burr/window/shell/status_line.h - the two lines beside the picture while milling: a note
+// about the last action, and a warning. That the force was released is shown as a warning, so that
+// it does not replace the answer to a key.
 // Thread: main.
 #pragma once
 
@@ -17,11 +17,11 @@ class StatusLine {
   void note(std::string text, Clock::time_point now) { note_ = {std::move(text), now}; }
   void let_go(std::string text, Clock::time_point now) { let_go_ = {std::move(text), now}; }
 
-  // `otherwise`: shown while nothing was done of late
+  // `otherwise`: shown when there is no recent note
   [[nodiscard]] std::string note(Clock::time_point now, const std::string& otherwise) const {
     return fresh(note_, now) ? note_.text : otherwise;
   }
-  // `lasting`: what holds now; it goes before what has happened
+  // `lasting`: a warning that is still true; it is shown instead of one about a past event
   [[nodiscard]] std::string warning(Clock::time_point now, const std::string& lasting) const {
     return !lasting.empty() || !fresh(let_go_, now) ? lasting : let_go_.text;
   }

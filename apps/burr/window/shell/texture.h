@@ -1,5 +1,5 @@
-// apps/burr/window/shell/texture.h - a picture on the graphics card for a page. Thread: main, with the
-// window's context.
+// apps/burr/window/shell/texture.h - a picture on the graphics card, for a page. Thread: main, with
+// the window's context.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ class Texture {
   Texture(const Texture&) = delete;
   Texture& operator=(const Texture&) = delete;
 
-  // Rows from the top, 3 (RGB) or 4 (RGBA) bytes a pixel.
+  // Rows from the top, 3 (RGB) or 4 (RGBA) bytes per pixel.
   void put(int width, int height, int bytes, std::span<const std::uint8_t> pixels);
-  // It went with its context; there is nothing to delete.
+  // The texture was destroyed with its context; nothing is deleted.
   void forget() { name_ = 0; }
-  // OpenGL's name; 0: nothing there yet.
+  // OpenGL's name; 0: there is no texture yet.
   [[nodiscard]] unsigned name() const { return name_; }
 
  private:

@@ -1,11 +1,11 @@
-// apps/burr/window/shell/typed_path.h - a path as people give it: typed, pasted or dropped.
+// apps/burr/window/shell/typed_path.h - cleans up a path that the user typed, pasted or dropped.
 #pragma once
 
 #include <string>
 
 namespace burr::app {
 
-// Without blanks around it, quotes and file://; ~ is the home folder.
+// Removes blanks around it, quotes and file://; replaces ~ by the home folder.
 [[nodiscard]] std::string cleaned_path(std::string path);
 
 }  // namespace burr::app

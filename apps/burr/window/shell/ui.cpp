@@ -15,7 +15,7 @@
 namespace burr::app {
 namespace {
 
-// Inter, else what nearly every Debian has; regular and bold
+// Inter, otherwise a font that nearly every Debian has; regular and bold
 constexpr std::pair<const char*, const char*> kFaces[] = {
     {"/usr/share/fonts/opentype/inter/Inter-Regular.otf",
      "/usr/share/fonts/opentype/inter/Inter-SemiBold.otf"},
@@ -27,7 +27,7 @@ std::vector<char> bytes_of(const char* path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-// Latin with the letters of Europe's languages, and the few signs the window uses: dashes, dots,
+// Latin letters of the languages of Europe, and the few signs that the window uses: dashes, dots,
 // arrows
 const ImWchar kGlyphs[] = {0x20, 0x17F, 0x2013, 0x2014, 0x2026, 0x2026, 0x2190, 0x2193, 0};
 
@@ -39,7 +39,7 @@ std::unique_ptr<Ui> Ui::make() {
   std::unique_ptr<Ui> ui(new Ui);
   ui->context_ = ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // panels stand where they stand
+  io.IniFilename = nullptr;  // positions of panels are fixed, not saved
   io.LogFilename = nullptr;
   io.BackendPlatformName = "burr";
   const std::pair<ImGuiKey, SDL_Scancode> keys[] = {
@@ -134,7 +134,7 @@ void Ui::event(const SDL_Event& event) {
 void Ui::begin(int window_width, int window_height, int width, int height, double user_scale,
                bool keys) {
   ImGuiIO& io = ImGui::GetIO();
-  // at least as large as the screen's own scale asks, and a large window gets larger letters
+  // at least the scale that the screen reports; a large window gets larger letters
   float dpi = 96;
   if (SDL_Window* window = SDL_GL_GetCurrentWindow()) {
     const int display = std::max(0, SDL_GetWindowDisplayIndex(window));
@@ -142,7 +142,7 @@ void Ui::begin(int window_width, int window_height, int width, int height, doubl
   }
   const float natural =
       std::clamp(std::max(dpi / 96, static_cast<float>(height) / 1080), 1.0F, 4.0F);
-  // a small window must still hold the panels, which are laid out for 1240 x 620 points
+  // also a small window must hold the panels, which are designed for 1240 x 620 points
   const float room = std::min(static_cast<float>(width) / 1240, static_cast<float>(height) / 620);
   float unit = std::min(natural * static_cast<float>(user_scale), std::max(room, 0.6F));
   unit = std::max(0.6F, std::round(unit * 8) / 8);
@@ -157,7 +157,7 @@ void Ui::begin(int window_width, int window_height, int width, int height, doubl
   io.MousePos = mouse_x_ < 0 ? ImVec2(-1e30F, -1e30F)
                              : ImVec2(mouse_x_ * from_window_, mouse_y_ * from_window_);
   for (int b = 0; b < 3; ++b) {
-    io.MouseDown[b] = down_[b] || pressed_[b];  // a click shorter than a frame is one too
+    io.MouseDown[b] = down_[b] || pressed_[b];  // also count a click shorter than a frame
     pressed_[b] = false;
   }
   for (const SDL_Scancode scancode : up_) io.KeysDown[scancode] = false;
@@ -176,7 +176,7 @@ void Ui::begin(int window_width, int window_height, int width, int height, doubl
 }
 
 void Ui::draw() {
-  if (ImGui::GetDrawData() == nullptr) ImGui::Render();  // once, for two eyes as well
+  if (ImGui::GetDrawData() == nullptr) ImGui::Render();  // once, even if two eyes are drawn
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
@@ -189,7 +189,8 @@ void Ui::own_pointer(bool on) {
 
 float Ui::width() const { return ImGui::GetIO().DisplaySize.x; }
 float Ui::height() const { return ImGui::GetIO().DisplaySize.y; }
-// WantTextInput speaks of the picture before: a field that was left in this one is no longer active
+// WantTextInput is that of the last picture: a field that has been left since is not active any
+// more
 bool Ui::typing() const { return ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive(); }
 bool Ui::over_panel(float window_x, float window_y) const {
   const float x = window_x * from_window_, y = window_y * from_window_;
@@ -198,7 +199,7 @@ bool Ui::over_panel(float window_x, float window_y) const {
   });
 }
 
-// ---- letters and style
+// ---- fonts and style
 
 void Ui::build_fonts() {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
@@ -225,7 +226,7 @@ void Ui::build_fonts() {
     }
     atlas.Clear();
   }
-  if (letters_.empty()) {  // no such font here: ImGui's own, drawn larger
+  if (letters_.empty()) {  // no such font on this computer: ImGui's own, larger
     ImFontConfig config;
     for (int n = 0; n < 5; ++n) {
       config.SizePixels = std::round(std::max(13.0F, sizes[n]) * unit_);
@@ -281,7 +282,7 @@ void Ui::style() const {
   set(ImGuiCol_TextSelectedBg, ink::rgb(86, 180, 233, 110));
 }
 
-// ---- what panels are made of
+// ---- parts of panels
 
 void Ui::panel(const char* name, float x, float y, float w, float h, bool plain) {
   if (!plain) boxes_.push_back({x, y, w, h});

@@ -1,16 +1,15 @@
-// apps/burr/window/shell/ui.h - panels, letters and colours over the picture: Dear ImGui, as burr uses
-// it.
+// apps/burr/window/shell/ui.h - panels, text and colours over the picture, with Dear ImGui.
 //
 //     ui->event(event);                                  // every SDL event, pages look after it
 //     ui->begin(window, renderer->width(), ...);  ... ImGui and the helpers below ...
 //     renderer->show(scene, [&] { ui->draw(); });
 //
-// Everything is in pixels of the drawing area; `unit()` of them are one point of the design, by the
-// display's scale. Where the mouse is comes from the events alone, so that a test that pushes
-// events is a user. Colours are told apart by people who are colour-blind too (Okabe and Ito), and
-// no colour says anything that a word or a shape beside it does not.
-// Thread: main, with the renderer's context; one at a time. Cost: panels only, a few thousand
-// triangles.
+// Sizes are in pixels of the drawing area; unit() is the number of pixels in one point of the
+// design and depends on the display's scale. The position of the mouse comes from events only, so
+// that a test can act as a user by pushing events. The colours can be distinguished by colour-blind
+// people (Okabe and Ito), and a colour never carries a meaning alone: a word or a shape shows the
+// same. Thread: main, with the renderer's context; one at a time. Cost: drawing of panels only, a
+// few thousand triangles.
 #pragma once
 
 #include <SDL2/SDL_events.h>
@@ -36,47 +35,47 @@ inline constexpr ImU32 kText = rgb(238, 240, 242), kDim = rgb(176, 182, 189),
 
 class Ui {
  public:
-  // The context of the renderer is current.
+  // The context of the renderer must be current.
   [[nodiscard]] static std::unique_ptr<Ui> make();
   ~Ui();
   Ui(const Ui&) = delete;
   Ui& operator=(const Ui&) = delete;
 
   void event(const SDL_Event& event);
-  // window_*: what SDL calls the window's size, in which mouse events come. keys: panels may be
-  // walked through by Tab and arrows.
+  // window_*: size of the window as SDL gives it, in the unit of mouse events. keys: panels can be
+  // used with Tab and arrow keys.
   void begin(int window_width, int window_height, int width, int height, double user_scale,
              bool keys);
-  void draw();  // inside Renderer::show(), where it may come twice
-  // A pointer drawn among the panels, in place of the desktop's.
+  void draw();  // inside Renderer::show(); may be called twice per picture
+  // Draws a mouse pointer among the panels instead of the desktop's.
   void own_pointer(bool on);
 
   [[nodiscard]] float unit() const { return unit_; }
   [[nodiscard]] float width() const;
   [[nodiscard]] float height() const;
-  // Somebody types into a field: keys are letters.
+  // The user types into a field: keys are letters, not commands.
   [[nodiscard]] bool typing() const;
-  // The mouse is over a panel, as last drawn. forget_panels(): none was drawn.
+  // The mouse is over a panel of the last picture. forget_panels(): that picture had none.
   [[nodiscard]] bool over_panel() const { return over_panel(mouse_x_, mouse_y_); }
-  // the same for any place  [window coordinates]
+  // the same for any position  [window coordinates]
   [[nodiscard]] bool over_panel(float window_x, float window_y) const;
   void forget_panels() { boxes_.clear(); }
 
-  // ---- what panels are made of
-  // A panel at a fixed place; end it with ImGui::End().
+  // ---- parts of panels
+  // Begins a panel at a fixed place; end it with ImGui::End().
   void panel(const char* name, float x, float y, float w, float h, bool plain = false);
-  // The same for a page in the middle, which takes the keyboard.
+  // The same for a page in the middle, which takes the keyboard input.
   void page(const char* name, float x, float y, float w, float h);
 
   enum class Letter { small, body, strong, large, title };
   [[nodiscard]] ImFont* font(Letter letter) const { return fonts_[static_cast<int>(letter)]; }
-  // One line with its top left corner at (x, y); aligned 0 left, 0.5 middle, 1 right of it.
+  // Writes one line; its top is at y. x is its left end, middle or right end for aligned 0, 0.5, 1.
   void write(float x, float y, Letter letter, ImU32 colour, const std::string& text,
              float aligned = 0) const;
   [[nodiscard]] float width_of(Letter letter, const std::string& text) const;
   [[nodiscard]] float height_of(Letter letter) const;
 
-  // "DejaVu Sans", "" for ImGui's own
+  // name of the font: "DejaVu Sans"; "" for ImGui's own
   [[nodiscard]] const std::string& letters() const { return letters_; }
 
  private:
@@ -95,12 +94,12 @@ class Ui {
   float mouse_x_ = -1, mouse_y_ = -1;
   bool down_[3] = {}, pressed_[3] = {};
   std::vector<Box> boxes_;
-  // a key let go within the frame that it was pressed in stays down for one
+  // a key that is released in the frame in which it was pressed stays down for one frame
   std::vector<SDL_Scancode> fresh_, let_go_, up_;
   Uint64 last_ = 0;
 };
 
-// ImGui's field over a std::string; true when Enter was pressed in it.
+// ImGui's field for a std::string; true when Enter was pressed in it.
 [[nodiscard]] bool text_field(const char* id, const char* hint, std::string& text, float width);
 
 }  // namespace burr::app

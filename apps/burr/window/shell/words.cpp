@@ -26,7 +26,7 @@ std::vector<Language> read_all() {
 
 bool digit(char c) { return c >= '0' && c <= '9'; }
 
-// The printf conversion that begins at text[at], "%.1f" or "%d"; "" for "%" and "50 % of".
+// The printf conversion that begins at text[at], such as "%.1f" or "%d"; "" for "%" and "50 % of".
 std::string_view conversion(std::string_view text, std::size_t at) {
   std::size_t end = at + 1;
   while (end < text.size() && (digit(text[end]) || text[end] == '.' || text[end] == '-')) ++end;
@@ -46,7 +46,7 @@ std::vector<std::string> placeholders(std::string_view text) {
     if (const std::string_view printed = c == '%' ? conversion(text, at) : ""; !printed.empty())
       all.emplace_back(printed);
     if (c != '{' && c != '}') continue;
-    if (at + 1 < text.size() && text[at + 1] == c) {  // a brace to be shown
+    if (at + 1 < text.size() && text[at + 1] == c) {  // a doubled brace: a brace as text
       ++at;
       continue;
     }
@@ -69,7 +69,7 @@ std::vector<std::string> placeholders(std::string_view text) {
 Language read_language(const WordFile& file, const Language* english) {
   const std::string name = std::string("words/") + file.code + ".toml";
   Language made{file.code, file.code, {}, {}};
-  // what stands in for a missing text; in English, where none may be missing, its key
+  // the text for a missing one; in English, where none may be missing, its key
   for (std::size_t n = 0; n < std::size(kKeys); ++n)
     made.texts.emplace_back(english != nullptr ? english->texts[n] : kKeys[n]);
   const auto trouble = [&](const std::string& what) {

@@ -14,15 +14,15 @@ namespace {
 
 using Letter = Ui::Letter;
 
-constexpr float kLines = 3;                // of what was found, at most
-constexpr std::chrono::seconds kAgain(3);  // between two looks for one that is not there
+constexpr float kLines = 3;                // most lines for the result
+constexpr std::chrono::seconds kAgain(3);  // between two checks for a device that was not found
 
-// Whether an arm of that kind may have to move by itself before it knows where it is.
+// True for a kind of device that may have to move by itself to find its position.
 bool homes(const std::string& device) {
   return device.starts_with("force-dimension") || device.starts_with("crtk");
 }
 
-// What may be chosen: as one writes it after --device; "" is the mouse.
+// The possible choices, as written after --device; "" is the mouse.
 std::vector<std::string> choices(const std::string& requested) {
   std::vector<std::string> all = {""};
   for (const workshop::HandKind& kind : workshop::hand_kinds()) {
@@ -48,7 +48,7 @@ void HandChoice::look() {
   looked_ = std::chrono::steady_clock::now();
   if (request_.device.empty()) return;
   workshop::HandRequest asked = request_;
-  asked.home = false;  // nothing moves before there is a bone
+  asked.home = false;  // no movement before there is a bone
   looks_ = std::async(std::launch::async, [asked]() -> Found {
     auto device = workshop::make_hand(asked);
     if (!device) return {false, device.error().text};
@@ -85,14 +85,14 @@ bool HandChoice::draw(Ui& ui, float x, float y, float w) {
       if (ImGui::Selectable(shown(device).c_str(), device == request_.device) &&
           device != request_.device) {
         request_ =
-            workshop::HandRequest();  // what was allowed to one arm is not allowed to another
+            workshop::HandRequest();  // permission to move is not passed on to another device
         request_.device = device;
         changed = true;
       }
     ImGui::EndCombo();
   }
   if (changed) {
-    rest();  // of the one before
+    rest();  // waits for the check of the earlier choice
     words_.clear();
     there_.reset();
     look();

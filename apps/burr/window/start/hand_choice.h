@@ -1,9 +1,10 @@
-// apps/burr/window/start/hand_choice.h - what leads the burr, chosen on the start page: the mouse, or a
-// haptic device, which is looked for at once so that one knows before a bone is open.
+// apps/burr/window/start/hand_choice.h - choice on the start page of what moves the burr: the mouse
+// or a haptic device. The device is looked for at once, so that the user knows before opening a
+// bone.
 //
-// Looking opens the device and closes it again, on a thread of its own; nothing moves and nothing
-// is pushed. One that is not there is looked for again while the page is shown: it may be plugged
-// in now. Thread: main.
+// The check opens the device and closes it again, on a thread of its own; nothing moves and no
+// force is sent. While the page is shown, a device that was not found is looked for again, because
+// it may be plugged in later. Thread: main.
 #pragma once
 
 #include <chrono>
@@ -18,16 +19,17 @@ namespace burr::app {
 
 class HandChoice {
  public:
-  // request: of the command line, or of the settings
+  // request: from the command line or the settings
   explicit HandChoice(workshop::HandRequest request);
 
-  // A line to choose in, and what was found below it. True: something else was chosen.
+  // Draws a line to choose in, and below it what was found. True: the user chose another one.
   [[nodiscard]] bool draw(Ui& ui, float x, float y, float w);
 
   [[nodiscard]] const workshop::HandRequest& request() const { return request_; }
-  // In words, as shown last; empty for the mouse.
+  // The result as it was shown last; empty for the mouse.
   [[nodiscard]] const std::string& found() const { return words_; }
-  // Before a session opens it: the device is closed again.
+  // Waits until the check is over, so that the device is closed. Call it before a session opens the
+  // device.
   void rest();
 
  private:

@@ -48,7 +48,7 @@ Status write_text(const fs::path& path, const std::string& text) {
   return file->put_in_place();
 }
 
-// A folder that only its owner can look into.
+// Creates a folder that only its owner can read.
 Status make_folder(const fs::path& folder) {
   std::error_code trouble;
   fs::create_directories(folder, trouble);
@@ -101,7 +101,7 @@ bool read_account(const fs::path& account, KeptSession& kept) {
   return !recipe->source.empty();
 }
 
-// As burr wrote it before 2026-11-25: the options of the command line, as texts.
+// The format of burr before 2026-11-25: the options of the command line, as texts.
 bool read_old_account(const fs::path& account, KeptSession& kept) {
   const auto text = base::text_of_file(account.string(), kLargestFile, "an account of a session");
   if (!text) return false;
@@ -145,7 +145,7 @@ std::vector<KeptSession> kept_sessions(const fs::path& state) {
         read_old_account(beside(kept.file, ".toml"), kept))
       all.push_back(std::move(kept));
   }
-  // the names hold the time
+  // the names contain the time
   std::sort(all.begin(), all.end(), [](const KeptSession& a, const KeptSession& b) {
     return a.clean != b.clean ? !a.clean : a.file.filename() > b.file.filename();
   });
@@ -161,7 +161,7 @@ void throw_old_away(const fs::path& state, const Settings& settings) {
   for (const KeptSession& kept : all) {
     count += 1;
     mb += 1e-6 * static_cast<double>(kept.bytes);
-    // the newest stays whatever its size: it is the one to go on with
+    // the newest stays whatever its size, because the user may want to continue it
     if (kept.keep || count <= 1 || (count <= settings.sessions_kept && mb <= settings.sessions_mb))
       continue;
     remove_session(kept.file);
@@ -172,7 +172,8 @@ Result<Ready> continue_session(const KeptSession& kept, Progress& progress) {
   WorkOptions options = kept.options;
   auto player = record::Player::open(kept.file.string());
   if (!player) return player.error();
-  // the case as it was, though its file may be changed or gone; only its volume is known by the file
+  // the case comes from the recording, because its file may have changed or be gone; only its
+  // volume is known by the file
   const std::optional<record::CaseInfo>& recorded = (*player)->info().work_case;
   Result<scenario::Case> work_case = recorded ? record::case_of(*recorded) : error("no case");
   if (work_case && work_case->volume.empty()) {
@@ -182,7 +183,7 @@ Result<Ready> continue_session(const KeptSession& kept, Progress& progress) {
     if (!taken) return taken.error();
   }
 
-  // a formula or an embedded bone is found by the recording, a scan by the user's own path
+  // the recording leads to a formula or an embedded bone; a scan is found by the user's own path
   std::error_code nobody_asks;
   const bool scan = fs::exists(options.volume.source, nobody_asks);
   scenario::Recipe given = options.volume;
@@ -190,7 +191,7 @@ Result<Ready> continue_session(const KeptSession& kept, Progress& progress) {
   auto bone = workshop::bone_of(**player, given, progress);
   if (!bone) return bone.error();
   workshop::Prepared work;
-  // the place is that of the bone before it was cut
+  // the work place is that of the bone before it was cut
   auto place = surgeon::find_work_place(**bone, 0.5e-3 * options.burr_mm, options.at, options.into);
   if (!place) return place.error();
   work.place = *place;
@@ -207,7 +208,7 @@ Result<Ready> continue_session(const KeptSession& kept, Progress& progress) {
   return make_ready(options, std::move(work), progress);
 }
 
-// ---- one being kept
+// ---- a session being kept
 
 Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& options, bool embed)
     : session_(*ready.session) {
@@ -225,7 +226,7 @@ Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& optio
     kept_.when = fmt::format("{:%Y-%m-%d %H:%M}", now);
     const std::string name = fmt::format("session_{:%Y%m%d_%H%M%S}", now);
     kept_.file = folder / (name + ".mcap");
-    for (int n = 2; fs::exists(kept_.file, nobody_asks); ++n)  // two within a second
+    for (int n = 2; fs::exists(kept_.file, nobody_asks); ++n)  // started in the same second
       kept_.file = folder / fmt::format("{}_{}.mcap", name, n);
     made = recording_.start(session_, kept_.file.string(), ready.volume, ready.import,
                             session_.hand().spec().name, embed, ready.spared, ready.work_case);
@@ -267,7 +268,7 @@ void Autosave::finish() {
   else if (!written)
     trouble_ = written.error().text;
   if (outcome.ledger.removed > 0 || outcome.ledger.added > 0 || kept_.keep) return;
-  remove_session(kept_.file);  // nobody did anything: nothing to go on with
+  remove_session(kept_.file);  // nothing was done: there is nothing to continue
 }
 
 bool Autosave::keep() {
@@ -280,7 +281,7 @@ std::string Autosave::trouble() const {
   return trouble_.empty() && recording_now_ ? recording_.trouble() : trouble_;
 }
 
-// ---- scans opened lately
+// ---- scans opened recently
 
 std::vector<Recent> recent(const fs::path& state) {
   std::vector<Recent> all;
@@ -311,7 +312,7 @@ void remember(const fs::path& state, const std::string& path, const std::string&
   for (const Recent& one : all)
     text += fmt::format("\n[[scan]]\npath = {}\ntitle = {}\nwhen = {}\n", base::toml_text(one.path),
                         base::toml_text(one.title), base::toml_text(one.when));
-  static_cast<void>(write_text(state / "recent.toml", text));  // a list less is no trouble
+  static_cast<void>(write_text(state / "recent.toml", text));  // a missing list does no harm
 }
 
 }  // namespace burr::app

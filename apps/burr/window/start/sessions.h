@@ -1,13 +1,14 @@
-// apps/burr/window/start/sessions.h - sessions at the window, kept by themselves so that one can go on.
+// apps/burr/window/start/sessions.h - sessions in the window, kept automatically so that the user
+// can continue one.
 //
 //     state/sessions/session_20261122_193145.mcap  the recording, docs/recording.md
 //     state/sessions/session_20261122_193145.json  its recipe, and whether it ended well
 //     state/recent.toml                            scans opened lately
 //
-// The .json names the user's own file, since the bone comes from there; it lies in the user's own
-// folder and can be read by nobody else. No name of a scan is shown unless settings say so.
-// Thread: main; continue_session() any. Errors: sentences; trouble with what is kept never ends a
-// session.
+// The .json contains the path of the user's own file, because the bone comes from there. It lies in
+// the user's own folder and only the user can read it. Names of scans are shown only if the
+// settings allow it. Thread: main; continue_session() any. Errors: sentences; an error with kept
+// files never ends a session.
 #pragma once
 
 #include <filesystem>
@@ -29,35 +30,36 @@ struct KeptSession {
   std::filesystem::path file;  // the recording
   std::string title;           // one line that names no patient
   std::string when;            // "2026-11-22 19:31"
-  WorkOptions options;         // as given at its start; volume.source as the user said it
+  WorkOptions options;         // as given at its start; volume.source as the user typed it
   double seconds = 0, removed_mm3 = 0;
-  bool clean = false;  // it ended as the user requested
-  bool keep = false;   // never thrown away
+  bool clean = false;  // it ended because the user ended it
+  bool keep = false;   // never deleted automatically
   std::uintmax_t bytes = 0;
 };
 
-// Newest first, those that ended unexpectedly before all others; without those going on now.
+// Newest first, but sessions that ended unexpectedly before all others. Sessions still running are
+// left out.
 [[nodiscard]] std::vector<KeptSession> kept_sessions(const std::filesystem::path& state);
 
-// Throws the oldest away until no more than the settings allow are left.
+// Deletes the oldest sessions until the number and size that the settings allow are kept.
 void throw_old_away(const std::filesystem::path& state, const Settings& settings);
 
-// The bone as that session left it, ready to be milled on. From the formula, the user's scan, or
-// the recording itself.
+// The bone as that session left it, ready to be milled further. It comes from the formula, the
+// user's scan, or the recording itself.
 [[nodiscard]] Result<Ready> continue_session(const KeptSession& kept, Progress& progress);
 
-// A session being kept.
+// Records the running session so that it is kept.
 class Autosave {
  public:
-  // options: as the user gave them. embed: the bone is none that a file or formula gives.
-  // Trouble is told by trouble(), and the session goes on.
+  // options: as the user gave them. embed: the bone is stored in the recording, because no file or
+  // formula gives it. After an error the session goes on; trouble() returns the error.
   Autosave(const std::filesystem::path& state, Ready& ready, const WorkOptions& options,
            bool embed);
-  // After the servo stands.
+  // Call it after the servo has stopped.
   void finish();
-  // What a film of it is made of, as it is now; none: it could not be kept.
+  // The source for a film of the session so far; none: it could not be recorded.
   [[nodiscard]] std::optional<FilmSource> film_source() const;
-  [[nodiscard]] bool keep();  // not to be thrown away; false: there is nothing
+  [[nodiscard]] bool keep();  // marks it as never to be deleted; false: there is nothing to keep
   [[nodiscard]] std::string trouble() const;
   [[nodiscard]] const std::filesystem::path& file() const { return kept_.file; }
 
@@ -70,7 +72,7 @@ class Autosave {
   std::string trouble_;
 };
 
-// Scans and case files opened lately, newest first.
+// Scans and case files that were opened recently, newest first.
 struct Recent {
   std::string path, title, when;
 };

@@ -29,7 +29,7 @@ using Letter = Ui::Letter;
 
 constexpr std::size_t kSessionsShown = 5, kRecentsShown = 3;
 
-// the cases in the order of their difficulty
+// the cases, easiest first
 std::vector<std::string> cases() {
   std::vector<std::string> names = {"temporal-bone", "jaw", "spine", "tooth", "block"};
   const std::vector<std::string> known = scenario::built_in_cases();
@@ -78,7 +78,7 @@ Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seco
   while (!choice_) {
     const Clock::time_point frame = Clock::now();
     take_events();
-    thumbnails_.step(desk_.renderer());  // first: what is shown last is the page itself
+    thumbnails_.step(desk_.renderer());  // before the page: the last picture stays visible
     const Status shown = desk_.show(
         empty, [this] { draw(); }, true);
     if (!shown) return shown.error();
@@ -86,7 +86,7 @@ Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seco
     if (const auto chosen = dialog_.answer(); chosen && !chosen->empty()) open(*chosen);
     const bool over = seconds > 0 && Clock::now() - start >= std::chrono::duration<double>(seconds);
     if (interrupted() || over) choice_ = Choice{.open = {}, .go_on = {}, .quit = true};
-    // nothing moves by itself here: thirty pictures a second are enough
+    // nothing moves by itself on this page: thirty pictures a second are enough
     const auto left = std::chrono::milliseconds(33) - (Clock::now() - frame);
     if (left.count() > 0)
       SDL_Delay(
@@ -123,7 +123,7 @@ void StartPage::take_events() {
         break;
     }
   if (dropped_.empty()) return;
-  // many slices at once are meant as their folder
+  // many slices dropped together: open their folder
   const std::string first = dropped_.front();
   const bool many = dropped_.size() > 1;
   dropped_.clear();
@@ -155,7 +155,7 @@ void StartPage::draw() {
   if (help_ || settings_) return;
 
   ui.page("##start", 0, 0, ui.width(), ui.height());
-  // everything in the middle of a large screen
+  // on a large screen everything is centred
   const float x = std::max(40 * u, (ui.width() - 1180 * u) / 2);
   const float top = std::max(0.0F, (ui.height() - 720 * u) / 2);
   ui.write(x, top + 30 * u, Letter::title, ink::kText, "burr");
@@ -218,7 +218,7 @@ void StartPage::own_scan(float x, float y, float w) {
   y += 28 * u;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled({x, y}, {x + w, y + high}, ink::rgb(30, 34, 39), 8 * u);
-  for (float at = 0; at < w; at += 12 * u)  // a dashed frame: here something may be put
+  for (float at = 0; at < w; at += 12 * u)  // a dashed frame: files may be dropped here
     for (const float edge : {y, y + high})
       draw.AddLine({x + at, edge}, {std::min(x + at + 7 * u, x + w), edge}, ink::kDim, 1.2F * u);
   for (float at = 0; at < high; at += 12 * u)
@@ -242,7 +242,7 @@ void StartPage::own_scan(float x, float y, float w) {
   if (ImGui::Button(word(Word::start_folder), {(w - 10 * u) / 2, 0})) dialog_.ask(true);
 }
 
-// a line one may click; mark: a triangle before it, something is the matter
+// A line that can be clicked; mark: a triangle before it, as a sign of a problem.
 bool StartPage::row(const char* id, float x, float& y, float w, const std::string& left,
                     const std::string& right, bool mark) {
   Ui& ui = desk_.ui();
@@ -300,7 +300,7 @@ void StartPage::recents(float x, float& y, float w) {
   y += 26 * u;
   for (std::size_t n = 0; n < std::min(recent_.size(), kRecentsShown); ++n) {
     const Recent& one = recent_[n];
-    // a file's name may be a patient's
+    // the name of a file may contain the name of a patient
     const std::string name =
         desk_.settings.recent_names ? fs::path(one.path).filename().string() : one.title;
     if (row(fmt::format("##recent{}", n).c_str(), x, y, w, name, one.when, false)) open(one.path);

@@ -1,5 +1,5 @@
-// apps/burr/window/start/start_page.h - where one begins: the built-in cases, a scan of one's own, a
-// session to go on with.
+// apps/burr/window/start/start_page.h - the first page: the built-in cases, the user's own scan, or
+// an earlier session to continue.
 //
 // Thread: main.
 #pragma once
@@ -20,7 +20,7 @@ namespace burr::app {
 
 class StartPage {
  public:
-  // hand: of the command line; without a device the settings say which one
+  // hand: from the command line; if it names no device, that of the settings is taken
   StartPage(Desk& desk, const workshop::HandRequest& hand);
 
   // What the user chose; exactly one is set.
@@ -29,10 +29,10 @@ class StartPage {
     std::optional<KeptSession> go_on;
     bool quit = false;
   };
-  // Until something is chosen, the program is interrupted, or `seconds` are over (0: never).
-  // trouble: a sentence about what went wrong before; "" for nothing.
+  // Returns when the user has chosen, the program is interrupted, or `seconds` have passed (0: no
+  // limit). trouble: a sentence about an earlier error; "" for none.
   [[nodiscard]] Result<Choice> ask(const std::string& trouble, double seconds = 0);
-  // What is to lead the burr; no device: the mouse.
+  // The hand that moves the burr; no device: the mouse.
   [[nodiscard]] const workshop::HandRequest& hand() const { return hand_.request(); }
 
  private:
@@ -49,7 +49,7 @@ class StartPage {
 
   Desk& desk_;
   Thumbnails thumbnails_;
-  int renewed_ = 0;  // as thumbnails_ knows it
+  int renewed_ = 0;  // desk_.renewed() when thumbnails_ was last made
   FileDialog dialog_;
   HandChoice hand_;
   std::vector<KeptSession> kept_;
@@ -60,7 +60,7 @@ class StartPage {
   bool help_ = false, help_pads_ = false, settings_ = false, settings_pads_ = false;
 };
 
-// "Temporal bone", in the user's language; the case's own name if it is not known.
+// "Temporal bone", in the user's language; an unknown case keeps its name.
 [[nodiscard]] std::string name_of_case(const std::string& name);
 
 }  // namespace burr::app

@@ -17,9 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kHead = "P6\n472 270\n255\n";  // the whole head of such a picture (PPM)
+constexpr const char* kHead = "P6\n472 270\n255\n";  // complete header of such a picture (PPM)
 
-// A case's bone, coarse enough to be there in a moment, seen from where one works.
+// The bone of a case, with voxels large enough to be made in a moment, seen from the work place.
 Result<render::Scene> scene_of(const std::string& name, Progress& progress) {
   WorkOptions options;
   options.volume.source = name;
@@ -55,7 +55,7 @@ void keep_picture(const fs::path& path, const render::Image& image) {
   std::error_code nobody_asks;
   fs::create_directories(path.parent_path(), nobody_asks);
   auto file = base::NewFile::beside(path.string());
-  if (!file) return;  // next time it is made again
+  if (!file) return;  // not kept; next time it is made again
   file->write(kHead);
   file->write(image.rgb.data(), image.rgb.size());
   static_cast<void>(file->put_in_place());
@@ -90,7 +90,7 @@ void Thumbnails::step(render::Renderer& renderer) {
   const Result<render::Scene> scene = loading_->take();
   loading_.reset();
   const std::size_t which = next_++;
-  if (!scene) return;  // a card without a picture is a card
+  if (!scene) return;  // the card of the case is then shown without a picture
   const auto image = renderer.image(*scene, kWidth, kHeight);
   if (!image) return;
   put(which, *image);

@@ -1,7 +1,8 @@
 // apps/burr/window/start/thumbnails.h - small pictures of the built-in cases for the start page.
 //
-// Made once from the formula, coarsely, and kept in the cache; the bone is made on a thread of its
-// own, the picture drawn on main between two frames. A damaged picture in the cache is made anew.
+// Each is made once from the formula with large voxels, and kept in the cache. The bone is made on
+// a thread of its own; the picture is drawn on the main thread between two frames. A damaged
+// picture in the cache is made again.
 // Thread: main.
 #pragma once
 
@@ -21,14 +22,14 @@ class Thumbnails {
  public:
   static constexpr int kWidth = 472, kHeight = 270;  // [pixel]
 
-  // cache: empty, nothing is kept
+  // cache: empty: nothing is kept
   Thumbnails(std::filesystem::path cache, std::vector<std::string> cases);
 
-  // Goes on a little with what is missing; each frame.
+  // Makes a little more of what is missing; call it in each frame.
   void step(render::Renderer& renderer);
-  // What was on the GPU is gone: everything from the start.
+  // Call it after the GPU was lost: all textures are made again.
   void forget();
-  // OpenGL's name of the texture; 0: not there yet.
+  // OpenGL's name of the texture; 0: not made yet.
   [[nodiscard]] unsigned texture(std::size_t which) const { return textures_[which].name(); }
   [[nodiscard]] bool finished() const { return next_ >= cases_.size(); }
 

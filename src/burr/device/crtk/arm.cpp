@@ -155,18 +155,18 @@ Result<std::unique_ptr<Arm>> Arm::open(const ArmSettings& settings) {
   if (name.empty())
     return error(
         Trouble::usage,
-        fmt::format("{}: is no name of an arm; write it as ROS does, /burr", settings.name));
+        fmt::format("{}: is not a valid name of an arm; write it as in ROS, for example /burr",
+                    settings.name));
   auto bus = Bus::open(settings.domain);
   if (!bus) return bus.error();
   for (const auto until = steady_clock::now() + kHeard; steady_clock::now() < until;
        std::this_thread::sleep_for(milliseconds(10)))
     for (const Topic& topic : (*bus)->written())
       if (topic.name == name + "/measured_cp")
-        return error(
-            Trouble::usage,
-            fmt::format("another arm {} is on DDS domain {} already; give this one another "
-                        "name, or set another ROS_DOMAIN_ID",
-                        name, (*bus)->domain()));
+        return error(Trouble::usage,
+                     fmt::format("there is already an arm {} on DDS domain {}; give this one "
+                                 "another name, or set another ROS_DOMAIN_ID",
+                                 name, (*bus)->domain()));
   return std::unique_ptr<Arm>(
       new Arm(std::make_unique<Talk>(std::move(*bus), name, settings.middle)));
 }
@@ -250,11 +250,12 @@ HandState DrivenHand::state(double dt) BURR_RT {
 
 std::string DrivenHand::trouble() const {
   const std::uint64_t count = arm_.left_aside();
-  return count == 0 ? std::string()
-                    : fmt::format(
-                          "{} goals or commands were left aside: disabled, paused or not "
-                          "homed, a stamp of 0, no numbers, or too far.",
-                          count);
+  return count == 0
+             ? std::string()
+             : fmt::format(
+                   "{} goals or commands were ignored: the arm was disabled, paused or not homed, "
+                   "or the goal had a stamp of 0, was not a number, or was too far away.",
+                   count);
 }
 
 }  // namespace burr::device::crtk

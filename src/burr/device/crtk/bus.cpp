@@ -99,15 +99,14 @@ Result<std::unique_ptr<Bus>> Bus::open(int domain) {
   const dds_entity_t participant =
       dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr);
   if (participant < 0)
-    return error(Trouble::io,
-                 fmt::format("DDS cannot be opened on domain {} ({}); see that a network interface "
-                             "is up and what CYCLONEDDS_URI says",
-                             domain, dds_strretcode(participant)));
+    return error(Trouble::io, fmt::format("DDS cannot be opened on domain {} ({}); check that a "
+                                          "network interface is up, and check CYCLONEDDS_URI",
+                                          domain, dds_strretcode(participant)));
   return std::unique_ptr<Bus>(new Bus(participant, domain));
 }
 
 void Bus::hear() {
-  // made only when needed: samples that nobody takes stay in memory
+  // made only when needed: samples that are not read stay in memory
   if (publications_ <= 0)
     publications_ =
         dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);

@@ -215,8 +215,10 @@ Result<std::string> choose(Bus& bus, const std::string& given) {
   if (!given.empty()) {
     wanted = arm_name(given);
     if (wanted.empty())
-      return error(Trouble::usage,
-                   fmt::format("{}: is no name of an arm; write it as ROS does, /MTMR", given));
+      return error(
+          Trouble::usage,
+          fmt::format("{}: is not a valid name of an arm; write it as in ROS, for example /MTMR",
+                      given));
   }
   Heard heard;
   const std::vector<std::string>& arms = heard.arms;
@@ -228,24 +230,23 @@ Result<std::string> choose(Bus& bus, const std::string& given) {
   if (until(kHeard, look)) return wanted;
   if (wanted.empty() && arms.size() == 1) return arms.front();
   if (!old.empty() && (wanted.empty() || old.starts_with(wanted + " ")))
-    return error(Trouble::io,
-                 fmt::format("{} is not what CRTK has said since 2022, a PoseStamped; update the "
-                             "arm's node",
-                             old));
-  const std::string where = fmt::format("on DDS domain {}", bus.domain());
-  if (arms.empty())
     return error(
         Trouble::io,
         fmt::format(
-            "no CRTK arm{}{} is heard {}; start its node, and see that ROS_DOMAIN_ID is the "
-            "same for both",
-            wanted.empty() ? "" : " ", wanted, where));
-  return error(Trouble::io,
-               wanted.empty()
-                   ? fmt::format("several CRTK arms are heard {}: {}; say which one, crtk:{}",
-                                 where, fmt::join(arms, ", "), arms.front())
-                   : fmt::format("no CRTK arm {} is heard {}; there are {}", wanted, where,
-                                 fmt::join(arms, ", ")));
+            "{} is not a PoseStamped, which CRTK has required since 2022; update the arm's node",
+            old));
+  const std::string where = fmt::format("on DDS domain {}", bus.domain());
+  if (arms.empty())
+    return error(Trouble::io, fmt::format("no CRTK arm{}{} was found {}; start its node, and check "
+                                          "that ROS_DOMAIN_ID is the same for both",
+                                          wanted.empty() ? "" : " ", wanted, where));
+  return error(
+      Trouble::io,
+      wanted.empty()
+          ? fmt::format("several CRTK arms were found {}: {}; choose one, for example crtk:{}",
+                        where, fmt::join(arms, ", "), arms.front())
+          : fmt::format("no CRTK arm {} was found {}; there are {}", wanted, where,
+                        fmt::join(arms, ", ")));
 }
 
 }  // namespace
@@ -274,7 +275,8 @@ Status Leader::prepare(Talk& talk) {
   };
   if (talk.state == "FAULT") return trouble("clear the fault at its console");
   if (!settings_.home_allowed)
-    return trouble("enable and home it at its console, or allow burr to by --home: it moves then");
+    return trouble(
+        "enable and home it at its console, or let burr do it with --home: the arm then moves");
   talk.ask(talk.state == "PAUSED" ? "resume" : "enable");
   static_cast<void>(until(kMatched, [&talk] {
     talk.listen();
@@ -285,7 +287,7 @@ Status Leader::prepare(Talk& talk) {
     talk.listen();
     return talk.ready() || talk.state == "FAULT";
   });
-  if (!came || !talk.ready()) return trouble("it did not home; see its console");
+  if (!came || !talk.ready()) return trouble("homing failed; see its console");
   return fine();
 }
 
@@ -304,11 +306,9 @@ Result<DeviceSpec> Leader::connect() {
     return talk->to_body || talk->spatial.readers() > 0;
   };
   if (!until(kMatched, taken))
-    return error(
-        Trouble::io,
-        fmt::format("{0} takes no force: nobody listens to {0}{1} or {0}{2}; burr needs an "
-                    "arm that can push",
-                    *arm, kBody, kSpatial));
+    return error(Trouble::io, fmt::format("{0} takes no force: nothing subscribes to {0}{1} or "
+                                          "{0}{2}; burr needs an arm that can exert a force",
+                                          *arm, kBody, kSpatial));
   if (!talk->to_body)  // it may only be that the topic has not been discovered yet
     static_cast<void>(until(kStated, [&talk] { return talk->body.readers() > 0; }));
   static_cast<void>(taken());
@@ -318,13 +318,13 @@ Result<DeviceSpec> Leader::connect() {
   const double rate = talk->rate();
   if (!until(kLeft, [&talk] { return talk->others(true) == 0; }))
     return error(Trouble::io,
-                 fmt::format("{0} is pushed by another program: somebody else writes {0}{1} or "
-                             "{0}{2}; end that one, two forces on one arm are dangerous",
+                 fmt::format("another program sends forces to {0}: it writes {0}{1} or {0}{2}; end "
+                             "that program, because two forces on one arm are dangerous",
                              *arm, kBody, kSpatial));
   if (rate < kSlowest)
     return error(Trouble::io,
-                 fmt::format("{} tells its place {:.0f} times a second; burr needs {:.0f} or more: "
-                             "set a shorter period where its node is started",
+                 fmt::format("{} reports its position {:.0f} times a second, but burr needs {:.0f} "
+                             "or more; set a shorter period where its node is started",
                              *arm, rate, kSlowest));
 
   // For arms that know these: carry their own weight, and take forces in the frame of their end.
@@ -367,7 +367,7 @@ Wire::Read Leader::read(HandState& hand) BURR_RT {
   talk.guardian->beat();
   if (newest == nullptr) {
     if (!talk.silence.lasts(rt::monotonic_ns())) return Read::nothing;
-    note("has gone silent; see that its node runs.");
+    note("has gone silent; check that its node runs.");
     return Read::lost;
   }
   talk.silence.ended(rt::monotonic_ns());
@@ -376,11 +376,11 @@ Wire::Read Leader::read(HandState& hand) BURR_RT {
     talk.sound_speed = take_speed(*speed, talk.hand);
   const bool sound = take_place(*newest, talk.hand) && talk.sound_speed;
   note(!talk.enabled()    ? "was disabled; enable it at its console."
-       : !talk.ready()    ? "homes or moves by itself just now; wait for it."
-       : !sound           ? "says that its place is not valid; see its console."
-       : !talk.alone      ? "is pushed by another program too; end that one."
-       : !talk.taken      ? "does not take forces; see that its node runs."
-       : !talk.is_present ? "waits for somebody at its console."
+       : !talk.ready()    ? "is homing or moving by itself; wait until it has finished."
+       : !sound           ? "reports that its position is not valid; see its console."
+       : !talk.alone      ? "also gets forces from another program; end that program."
+       : !talk.taken      ? "no longer takes forces; check that its node runs."
+       : !talk.is_present ? "sends no force until somebody is at its console."
                           : nullptr);
   hand = talk.hand;
   hand.buttons = talk.buttons | (talk.is_present ? 0 : kLifted);

@@ -8,8 +8,8 @@
 // arm that takes only spatial/servo_cf gets the wrench of that force about its base. An arm that is
 // not enabled or not homed stays so, unless the user allowed it to move (home_allowed).
 // gripper/closed mills (button 0), /footpedals/clutch lifts the hand (button 1), /footpedals/coag
-// is the pedal. Where /console/operator_present is published, the hand is lifted while nobody is
-// there. If another program writes the arm's forces, this one does not; if another one starts
+// is the pedal. Where /console/operator_present is published, the hand is lifted while no operator
+// is there. If another program writes the arm's forces, this one does not; if another one starts
 // later, this one stops. Otherwise the arm would obey both in turn. CRTK has no time limit on a
 // force, so a guardian releases it if burr dies (guardian.h).
 //

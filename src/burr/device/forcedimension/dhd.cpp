@@ -172,23 +172,25 @@ const char* words(int code) {
     case kErrorCom:
       return "does not answer; check its cable and its power.";
     case kErrorBusy:
-      return "is busy; wait a moment, and switch it off and on if it stays so.";
+      return "is busy; wait a moment, and switch it off and on if it stays busy.";
     case kErrorNoDriver:
-      return "has no driver here; let your user open it (docs/devices/force_dimension.md, udev).";
+      return "cannot be opened by your user; give permission with a udev rule "
+             "(docs/devices/force_dimension.md).";
     case kErrorNoDevice:
-      return "is not there any more; plug it in again.";
+      return "was disconnected; plug it in again.";
     case kErrorNotAvailable:
       return "is not available; close other programs that use it, and check its power.";
     case kErrorTimeout:
-      return "answers no more; check its cable and its power.";
+      return "no longer answers; check its cable and its power.";
     case kErrorGeometry:
-      return "cannot say where its hand is; move it to the middle of its space.";
+      return "cannot compute the position of its handle; move it to the middle of its workspace.";
     case kErrorNotReady:
-      return "is not ready; wait for its lamp, and switch it off and on if it stays so.";
+      return "is not ready; wait for its lamp, and switch it off and on if it does not become "
+             "ready.";
     case kErrorConfiguration:
       return "has no valid configuration; run the maker's own test program.";
     case kErrorInUse:
-      return "is in use by another program; close that one.";
+      return "is in use by another program; close that program.";
     default:
       return "reports an error; run the maker's own test program, and switch it off and on.";
   }

@@ -69,20 +69,22 @@ Vec3 ours(double x, double y, double z) BURR_RT { return {y, z, x}; }
 const char* force_off_words(int cause) BURR_RT {
   switch (cause) {
     case 1:
-      return "let go, as its force button was pressed; press it again.";
+      return "released the force because its force button was pressed; press it again.";
     case 2:
-      return "was moved too fast and let go; lift it from the bone and press its force button.";
+      return "was moved too fast and released the force; lift it from the bone and press its force "
+             "button.";
     case 3:
-      return "heard nothing for too long and let go (watchdog); press its force button, and give "
-             "burr a quieter computer (burr check).";
+      return "received no command for too long and released the force (watchdog); press its force "
+             "button, and close other programs (see burr check).";
     case 4:
-      return "was told by a program to let go; close others that use it, and begin again.";
+      return "released the force because a program asked for it; close other programs that use it, "
+             "and begin again.";
     case 5:
-      return "lost its USB connection for a moment and let go; press its force button.";
+      return "lost its USB connection for a moment and released the force; press its force button.";
     case 6:
-      return "feels no hand and let go (dead-man); take its handle.";
+      return "feels no hand and released the force (dead-man switch); hold its handle.";
     default:
-      return "let go; press its force button.";
+      return "released the force; press its force button.";
   }
 }
 
@@ -93,10 +95,10 @@ const char* force_off_words(int cause) BURR_RT {
 Result<DeviceSpec> Omega::connect() {
   disconnect();
   if (!(settings_.rate >= 500 && settings_.rate <= 4000))
-    return error(Trouble::usage,
-                 fmt::format("a rate of {} Hz is out of range for a Force Dimension device; take "
-                             "500 to 4000",
-                             settings_.rate));
+    return error(
+        Trouble::usage,
+        fmt::format("a rate of {} Hz is out of range for a Force Dimension device; use 500 to 4000",
+                    settings_.rate));
   auto dhd = load(settings_.dhd_file);
   if (!dhd) return dhd.error();
   dhd_ = *dhd;
@@ -125,8 +127,8 @@ Status Omega::find() {
   const int count = std::min(dhd_->GetDeviceCount(), kMostDevices);
   if (count <= 0)
     return error(Trouble::io,
-                 "no Force Dimension device was found; plug it in, switch it on, and let your user "
-                 "open it (docs/devices/force_dimension.md, udev)");
+                 "no Force Dimension device was found; plug it in, switch it on, and allow your "
+                 "user to open it with a udev rule (docs/devices/force_dimension.md)");
   const int serial = settings_.serial >= 0 ? settings_.serial : serial_;
   if (serial < 0) {
     if (settings_.index < 0 || settings_.index >= count)
@@ -140,10 +142,9 @@ Status Omega::find() {
     return error(Trouble::io, fmt::format("Force Dimension device {} {}", settings_.index, why));
   }
   if (dhd_->GetSerialNumber == nullptr)
-    return error(Trouble::io,
-                 fmt::format("{}: knows no serial numbers; leave the number away, or install a "
-                             "newer Force Dimension SDK",
-                             dhd_->file));
+    return error(Trouble::io, fmt::format("{}: this library does not report serial numbers; leave "
+                                          "out the number, or install a newer Force Dimension SDK",
+                                          dhd_->file));
   int locked = 0;
   for (int index = 0; index < count; ++index) {
     const char* why = nullptr;
@@ -194,7 +195,7 @@ int Omega::open(int index, const char*& why) const {
     return -1;
   }
   if (taken().emplace(dhd_->library, id).second) return id;
-  why = "is in use by burr itself; close that session, or name another device.";
+  why = "is already in use by this burr; close that session, or choose another device.";
   return -1;
 }
 
@@ -202,21 +203,23 @@ Status Omega::home() {
   const char id = static_cast<char>(id_);
   if (!dhd_->homes()) {
     if (settings_.is_homed) return fine();
-    return error(Trouble::io,
-                 fmt::format("{}: cannot say whether {} is homed (libdrd is missing); install "
-                             "libdrd of the same SDK beside it, or home the arm by hand and say so "
-                             "(is_homed)",
-                             dhd_->file, name_));
+    return error(
+        Trouble::io,
+        fmt::format("{}: burr cannot find out whether {} is homed (libdrd is missing); install "
+                    "libdrd of the same SDK beside it, or home the arm by hand and use --is-homed",
+                    dhd_->file, name_));
   }
   if (dhd_->DrdIsInitialized(id)) return fine();
   if (was_ready_)
-    return error(Trouble::io, fmt::format("{} has lost its home; begin a new session, with --home "
-                                          "where its arm may move by itself",
-                                          name_));
+    return error(
+        Trouble::io,
+        fmt::format(
+            "{} is no longer homed; begin a new session, with --home if its arm may move by itself",
+            name_));
   if (!settings_.home_allowed)
     return error(Trouble::io,
-                 fmt::format("{} is not homed: free the space around its arm, let it go, and allow "
-                             "it to move by itself with --home",
+                 fmt::format("{} is not homed: clear the space around its arm, take your hand off "
+                             "it, and allow it to move by itself with --home",
                              name_));
   const bool homed = !failed(dhd_->DrdAutoInit(id));
   const int trouble = homed ? kNoError : dhd_->ErrorGetLast();
@@ -351,7 +354,7 @@ bool Omega::look() BURR_RT {
   seen_connected_ = seen_connected_ || status[kStatusConnected] != 0;
   seen_force_ = seen_force_ || status[kStatusForce] != 0;
   if (seen_connected_ && status[kStatusConnected] == 0) {
-    note(status_trouble_, "is not connected any more; check its cable and its power.");
+    note(status_trouble_, "is no longer connected; check its cable and its power.");
     return false;
   }
   const bool unpowered = seen_power_ && status[kStatusPower] == 0;
@@ -400,7 +403,7 @@ Wire::Read Omega::read(HandState& hand) BURR_RT {
                      place.norm() < kFarthest && std::abs(turn.determinant() - 1) < 0.1 &&
                      (turn * turn.transpose() - Mat3::Identity()).cwiseAbs().maxCoeff() < 0.1;
   note(read_trouble_,
-       sound ? nullptr : "says what cannot be of its hand; move it, and home it again.");
+       sound ? nullptr : "reports an impossible position; move it, and home it again.");
   if (!sound) return Read::hand;
   hand.world_from_tool = {place, math::Quat(turn).normalized()};
   hand.valid = !off_ && write_trouble_ == nullptr;

@@ -20,27 +20,28 @@ constexpr std::int64_t kSaidNs = 5'000'000'000;  // how long an event is shown [
 const char* words_of(Told what) {
   switch (what) {
     case Told::disconnected:
-      return "has a part that was disconnected; see its cable, or wake its grip.";
+      return "has a part that was disconnected; check its cable, or wake its grip.";
     case Told::battery_low:
       return "has a grip whose battery is low; charge it soon.";
     case Told::battery_critical:
       return "has a grip whose battery is nearly empty; charge it.";
     case Told::sleeps:
-      return "fell asleep; move it, or press a button of its grip.";
+      return "went to sleep; move it, or press a button of its grip.";
     case Told::busy:
       return "is busy; close other programs that use it.";
     case Told::connection_loop:
-      return "connects again and again; take another cable or port.";
+      return "connects again and again; use another cable or port.";
     case Told::calibration_failed:
-      return "could not be calibrated; move it as its lights ask.";
+      return "could not be calibrated; move it as its lights show.";
     case Told::stalled:
-      return "was stopped by its own guard, as its motors stalled; lift it from the bone.";
+      return "was stopped by its own safety system because its motors stalled; lift it from the "
+             "bone.";
     case Told::unstable:
       return "is at its own limit of stability; set a smaller max_force_n or scale.";
     case Told::stage:
-      return "has changed the stage of its own guard; see Haply's window.";
+      return "changed the stage of its own safety system; see Haply's window.";
     case Told::trouble:
-      return "tells of trouble; see Haply's window.";
+      return "reports a fault; see Haply's window.";
     case Told::nothing:
     case Told::connected:
     case Told::brake:
@@ -76,9 +77,9 @@ bool Events::is_ours(const std::string& device) {
 const char* Events::words() const BURR_RT {
   if (braked())
     return deaf_.load(std::memory_order_relaxed)
-               ? "was held by its emergency brake when it was last heard of; release it, and begin "
-                 "again."
-               : "is held by its emergency brake; release it.";
+               ? "was held by its emergency brake when it last sent anything; release the brake, "
+                 "and begin again."
+               : "is held by its emergency brake; release the brake.";
   return rt::monotonic_ns() < until_ns_.load(std::memory_order_relaxed)
              ? words_.load(std::memory_order_relaxed)
              : nullptr;

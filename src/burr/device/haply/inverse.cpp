@@ -30,7 +30,7 @@ constexpr std::size_t kLargest = 1 << 20;      // longest message [byte]
 constexpr int kMostNonsense = 50;              // messages in a row
 constexpr int kProbes = 20;                    // exchanges in which a tiny test force must come
                                                // back
-constexpr double kTiny = 0.02, kSeen = 0.005;  // test force that nobody feels; the part of it that
+constexpr double kTiny = 0.02, kSeen = 0.005;  // test force, too small to feel; the part of it that
                                                // must come back [N]
 constexpr double kFarthest = 1;                // no arm is longer [m]
 constexpr int kPorts[] = {10001, 10000};
@@ -72,7 +72,7 @@ Result<int> port_from_environment(const char* name) {
   return port;
 }
 
-// The user says so, where a service calls its arms used though nobody uses them.
+// The user sets this if a service reports its arms as used although no program uses them.
 bool may_be_shared() { return from_environment("BURR_HAPLY_SHARED", "") == "1"; }
 
 // Rotation from the service's frame to ours: a quarter turn about x.
@@ -179,22 +179,20 @@ Status Inverse::reach() {
   if (talk_) answers = port_;
   talk_.reset();
   if (answers == 0)
-    return error(
-        Trouble::io,
-        fmt::format("Haply's Inverse Service does not answer ({}); install and start it, or "
-                    "say where it is by HAPLY_WS_HOST and HAPLY_WS_PORT",
-                    trouble));
+    return error(Trouble::io,
+                 fmt::format("Haply's Inverse Service does not answer ({}); install and start it, "
+                             "or give its address in HAPLY_WS_HOST and HAPLY_WS_PORT",
+                             trouble));
   const int version = version_of(host_, answers);
   if (version > 0 && version < kOldest)
     return error(Trouble::io,
-                 fmt::format("Haply's Inverse Service at {}:{} is version {}.{}, which speaks "
-                             "otherwise; install version 3.1 or later",
+                 fmt::format("Haply's Inverse Service at {}:{} is version {}.{}, which uses "
+                             "another protocol; install version 3.1 or later",
                              host_, answers, version / 100, version % 100));
-  return error(
-      Trouble::io,
-      fmt::format("{}:{} is no Inverse Service of version 3.1 or later; update Haply's, or "
-                  "say where it is by HAPLY_WS_PORT",
-                  host_, answers));
+  return error(Trouble::io,
+               fmt::format("{}:{} is not an Inverse Service of version 3.1 or later; update "
+                           "Haply's Inverse Service, or give its port in HAPLY_WS_PORT",
+                           host_, answers));
 }
 
 // Finds the wanted arm and grip in the first message.
@@ -210,19 +208,18 @@ Status Inverse::meet() {
     std::vector<std::string> known;
     for (const Found& one : all) known.push_back(one.id);
     return error(Trouble::io,
-                 all.empty()
-                     ? "Haply's Inverse Service knows no arm; plug it in, switch it on, and "
-                       "wait for its light"
-                     : fmt::format("Haply's Inverse Service knows no arm {}; it knows {}",
-                                   settings_.id, fmt::join(known, ", ")));
+                 all.empty() ? "Haply's Inverse Service finds no arm; plug it in, switch it on, "
+                               "and wait for its light"
+                             : fmt::format("Haply's Inverse Service finds no arm {}; it finds {}",
+                                           settings_.id, fmt::join(known, ", ")));
   }
   const std::vector<std::string> grips = grips_in(talk_->line.text());
   if (!settings_.grip.empty() &&
       std::find(grips.begin(), grips.end(), settings_.grip) == grips.end())
     return error(Trouble::io,
-                 fmt::format("Haply's Inverse Service knows no grip {}; {}", settings_.grip,
-                             grips.empty() ? std::string("wake one by its buttons")
-                                           : fmt::format("it knows {}", fmt::join(grips, ", "))));
+                 fmt::format("Haply's Inverse Service finds no grip {}; {}", settings_.grip,
+                             grips.empty() ? std::string("press a button of a grip to wake it")
+                                           : fmt::format("it finds {}", fmt::join(grips, ", "))));
   talk_->found = *wanted;
   talk_->id = as_json(wanted->id);
   talk_->wanted_grip = settings_.grip;
@@ -266,8 +263,8 @@ Result<DeviceSpec> Inverse::connect() {
   }
   if (anothers())
     met = error(Trouble::io,
-                fmt::format("{} is in use by another program; close that one, and see the sessions "
-                            "in Haply's window (docs/devices/haply.md)",
+                fmt::format("{} is in use by another program; close that program, and look at the "
+                            "sessions in Haply's window (docs/devices/haply.md)",
                             name_));
   if (met) {
     talk_->events =
@@ -327,7 +324,7 @@ Wire::Read Inverse::read(HandState& hand) BURR_RT {
   if (heard != WebSocket::Heard::message) {
     if (heard == WebSocket::Heard::nothing && !talk.silence.lasts(rt::monotonic_ns()))
       return Read::nothing;
-    note("has gone silent; see that Haply's Inverse Service runs.");
+    note("has gone silent; check that Haply's Inverse Service runs.");
     return Read::lost;
   }
   switch (talk.take_state()) {
@@ -335,7 +332,7 @@ Wire::Read Inverse::read(HandState& hand) BURR_RT {
       note("was unplugged; plug it in again.");
       return Read::lost;
     case haply::Read::nonsense:
-      note("says what cannot be read; update burr or Haply's Inverse Service.");
+      note("sends data that burr cannot read; update burr or Haply's Inverse Service.");
       return ++talk.nonsense > kMostNonsense ? Read::lost : Read::hand;
     case haply::Read::state:
       talk.nonsense = 0;
@@ -350,12 +347,13 @@ Wire::Read Inverse::read(HandState& hand) BURR_RT {
   hand.buttons = state.grip_there ? state.buttons : 0;
   const bool braked = talk.events->braked();
   const char* told = talk.events->words();
-  note(braked                                  ? told
-       : !state.calibrated                     ? "is not calibrated; move it as its lights ask."
-       : !state.powered                        ? "has no power; connect its supply."
-       : !state.ready                          ? "is not ready yet; wait for its light."
-       : told != nullptr                       ? told
-       : state.grip_there && !state.grip_awake ? "has a grip that sleeps; press one of its buttons."
+  note(braked              ? told
+       : !state.calibrated ? "is not calibrated; move it as its lights show."
+       : !state.powered    ? "has no power; connect its power supply."
+       : !state.ready      ? "is not ready yet; wait for its light."
+       : told != nullptr   ? told
+       : state.grip_there && !state.grip_awake
+           ? "has a grip that is asleep; press one of its buttons."
        : state.grip_there && state.battery < 0.1 ? "has a grip with an empty battery; charge it."
                                                  : nullptr);
   hand.valid = !braked && state.calibrated && state.powered && state.ready &&
@@ -368,7 +366,7 @@ bool Inverse::write(const Vec3& force) BURR_RT {
   if (talk.asked) return true;  // answer still to come; never two messages under way
   write_force(talk.id, talk.key, theirs(bounded(force, talk.peak)), talk.out);
   if (talk.send(talk.out)) return true;
-  note("cannot be reached any more; see that Haply's Inverse Service runs.");
+  note("can no longer be reached; check that Haply's Inverse Service runs.");
   return false;
 }
 

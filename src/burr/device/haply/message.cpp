@@ -89,7 +89,7 @@ const json* entry_of(const json& all, const std::string& id) {
 
 constexpr const char* kGrips[] = {"verse_grip", "wireless_verse_grip", "custom_verse_grip"};
 
-// told: set if the message contains grips at all.
+// told: set to true if the message contains any grips.
 const json* grip_of(const json& all, const std::string& wanted, bool& told) {
   const json* away = nullptr;
   for (const char* kind : kGrips) {

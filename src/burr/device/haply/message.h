@@ -80,11 +80,11 @@ struct Event {
 [[nodiscard]] constexpr const char* key_of_force(int version) {
   return version >= 305 ? "vector" : "values";
 }
-// Writes one message that asks for a force; the service answers it with one state. `text` keeps its
+// Writes one message that requests a force; the service answers it with one state. `text` keeps its
 // memory.
 void write_force(const std::string& json_id, const char* key, const math::Vec3& force,
                  std::string& text);
-// The first message of a session: it names this program and asks for no force.
+// The first message of a session: it names this program and requests no force.
 [[nodiscard]] std::string greeting(const std::string& json_id, const char* key);
 
 }  // namespace burr::device::haply

@@ -87,10 +87,9 @@ Result<const Hd*> load(const std::string& path) {
   auto hd = std::make_unique<Hd>();
   hd->file = file;
   if (const char* missing = find_all(library, *hd); missing != nullptr)
-    return error(Trouble::io,
-                 fmt::format("{}: has no {}, so it is not the HD library that burr knows "
-                             "(OpenHaptics 3.0 or later); install that one",
-                             file, missing));
+    return error(Trouble::io, fmt::format("{}: has no {}, so it is not the HD library that burr "
+                                          "needs (OpenHaptics 3.0 or later); install that one",
+                                          file, missing));
   return loaded.emplace(wanted, std::move(hd)).first->second.get();
 }
 
@@ -103,25 +102,26 @@ std::string words(Code code) {
     case 0x0102:
     case 0x0103:
       return fmt::format(
-          "The Touch's library refused a call (0x{:04x}); it may be older than what burr "
-          "was made for: install a newer OpenHaptics.",
+          "The Touch's library refused a call (0x{:04x}); it may be too old for burr: install a "
+          "newer OpenHaptics.",
           code);
     case 0x0104:
-      return "The Touch's library no longer knows the device; unplug it, plug it in again.";
+      return "The Touch's library has lost the device; unplug it and plug it in again.";
     case kWarmMotors:
-      return "The Touch's motors are warm; press less, or let it rest.";
+      return "The Touch's motors are warm; press less, or pause.";
     case 0x0201:
-      return "The Touch was asked for more force than it gives and let go.";
+      return "The Touch was asked for more force than it can give and released the force.";
     case 0x0202:
-      return "The Touch felt a blow and let go of the hand; lift it from the bone.";
+      return "The Touch felt a blow and released the force; lift it from the bone.";
     case 0x0203:
-      return "The Touch was moved too fast and let go; slow down and lift it from the bone.";
+      return "The Touch was moved too fast and released the force; slow down and lift it from the "
+             "bone.";
     case 0x0204:
-      return "The Touch could not make the force and let go; lift it from the bone.";
+      return "The Touch could not produce the force and released it; lift it from the bone.";
     case kDeviceFault:
       return "The Touch reports a fault; switch it off and on, and run its own diagnostic program.";
     case kAlreadyInitiated:
-      return "The Touch is in use by another program; close that one.";
+      return "The Touch is in use by another program; close that program.";
     case 0x0302:
       return "The Touch does not answer; check its cable and its power.";
     case 0x0303:
@@ -132,8 +132,8 @@ std::string words(Code code) {
     case 0x0401:
     case 0x0402:
       return fmt::format(
-          "The Touch's library lost count of its frames (0x{:04x}); begin the session "
-          "again, and report it if it stays.",
+          "The Touch's library lost count of its frames (0x{:04x}); begin the session again, and "
+          "report it if it happens again.",
           code);
     case 0x0500:
     case 0x0501:
@@ -142,7 +142,8 @@ std::string words(Code code) {
           "programs that use it.",
           code);
     case 0x0600:
-      return "The Touch's library has no licence here; install OpenHaptics as its maker says.";
+      return "The Touch's library has no licence on this computer; install OpenHaptics as its "
+             "maker describes.";
     default:
       return fmt::format("The Touch's library reports error 0x{:04x}.", code);
   }

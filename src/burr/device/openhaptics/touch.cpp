@@ -25,11 +25,16 @@ constexpr int kCalibrationEvery = 100;             // frames between two checks 
 constexpr int kWarmFrames = 1000;                  // frames for which the warning about warm motors
                                                    // stays
 constexpr double kFarthest = 1.0;                  // no arm is longer [m]
-constexpr double kPremiumTorque = 0.188;           // chai3d's table [N m]
+constexpr double kPremiumTorque = 0.188;           // CHAI3D's table [N m]
 constexpr auto kKeep = std::chrono::milliseconds(500);
 constexpr auto kLook = std::chrono::milliseconds(5);
 
-// Limits of the models (chai3d's table). An unknown model gets the limits of the weakest.
+// Limits of the models; an unknown model gets those of the weakest. Peak force and stiffness:
+// CHAI3D, CPhantomDevices.cpp. Damping: CHAI3D's 4 N s/m for the Touch is used for all; CHAI3D
+// allows the others 5. A Premium of any kind gets the limits of the Premium 1.5 6DOF, the safe
+// side: CHAI3D allows a Premium 3.0 6DOF 22 N and 1000 N/m. Continuous force and radius: published
+// figures whose source is not recorded. The radius limits nothing. (CHAI3D has other radii: 100 mm
+// for Omni and Desktop, 120 mm for the Premium 1.5.)
 struct Model {
   const char* part_of_name;
   double peak, continuous, stiffness, damping, radius;
@@ -101,7 +106,8 @@ Result<DeviceSpec> Touch::start() {
     return error(
         Trouble::io,
         told.code == kNoError
-            ? fmt::format("{} was not found; plug it in, and see that Touch Setup knows it", which)
+            ? fmt::format("{} was not found; plug it in, and check that Touch Setup lists it",
+                          which)
             : fmt::format("{} cannot be used: {}", which, words(told.code)));
   }
   hd_->MakeCurrentDevice(handle_);
@@ -214,8 +220,8 @@ void Touch::keep() {
     if (again && (again->serial != spec_.serial || again->peak_force != spec_.peak_force)) {
       end();
       trouble =
-          "Another Touch was plugged in than the one the session began with; plug that one in "
-          "again, or begin a new session.";
+          "Another Touch is plugged in now; plug in the one with which the session began, or begin "
+          "a new session.";
     }
     const std::lock_guard lock(words_);
     found_ = std::move(trouble);
@@ -319,9 +325,9 @@ std::string Touch::trouble() const {
   if (const Code code = trouble_.load(std::memory_order_relaxed); code != kNoError)
     return words(code);
   if (calibration_.load(std::memory_order_relaxed) == kCalibrationByHand)
-    return "The Touch wants to be calibrated: put its stylus into the inkwell for a moment.";
+    return "The Touch must be calibrated: put its stylus into the inkwell for a moment.";
   if (calibration_.load(std::memory_order_relaxed) == kCalibrationUpdate)
-    return "The Touch is being calibrated: move its stylus through the whole space.";
+    return "The Touch is being calibrated: move its stylus through its whole workspace.";
   return {};
 }
 

@@ -2,7 +2,8 @@
 // that ends with a newline; it sends one line for each of ours.
 //
 //     to it:    force x y z [mN], command 2, three attributes; the arm computes the currents itself
-//     from it:  position x y z [mm], angles tA lambda tD tE [rad], a number for its state
+//     from it:  position x y z [mm], angles tA lambda tD tE [rad], a number for its
+//               state; in the published firmwares 1: the calibration button was pressed, else 0
 //
 // Source: uhaptikfabriken.h 0.2 of forsslund/haptikfabrikenapi (pc_to_hid_message,
 // position_hid_to_pc_message, setForce). Thread: any. Memory: none. Frame: the arm's own.

@@ -108,7 +108,7 @@ Result<DeviceSpec> Polhem::connect() {
   port_ = ::open(port.path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (port_ < 0 && errno == EACCES)
     return fail(
-        fmt::format("{} is not open to you; run burr doctor --fix, or: sudo usermod -aG "
+        fmt::format("{}: your user may not open it; run burr doctor --fix, or: sudo usermod -aG "
                     "dialout $USER, and log in again",
                     port.path));
   if (port_ < 0)
@@ -116,9 +116,9 @@ Result<DeviceSpec> Polhem::connect() {
         fmt::format("{} cannot be opened ({}); see burr devices", port.path, std::strerror(errno)));
   termios raw{};
   if (::tcgetattr(port_, &raw) != 0)
-    return fail(fmt::format("{} is no serial port; name the one of the arm", port.path));
+    return fail(fmt::format("{} is not a serial port; give the port of the arm", port.path));
   if (::flock(port_, LOCK_EX | LOCK_NB) != 0 || ::ioctl(port_, TIOCEXCL) != 0)
-    return fail(fmt::format("{} is held by another program; close that one", port.path));
+    return fail(fmt::format("{} is in use by another program; close that program", port.path));
   ::cfmakeraw(&raw);
   raw.c_cflag |= CLOCAL | CREAD;
   ::cfsetspeed(&raw, B115200);
@@ -140,8 +140,8 @@ Result<DeviceSpec> Polhem::connect() {
   }
   if (heard != Heard::state)
     return fail(nonsense_ > 0
-                    ? fmt::format("{} does not speak as a Polhem does; name another port, or put "
-                                  "the maker's firmware of 2021 or later on it",
+                    ? fmt::format("{} does not answer as a Polhem does; give another port, or "
+                                  "install the maker's firmware of 2021 or later on the arm",
                                   port.path)
                     : fmt::format("{} does not answer; switch the arm on, unplug it and plug it in "
                                   "again",
@@ -247,7 +247,9 @@ Wire::Read Polhem::read(HandState& hand) BURR_RT {
   if (heard == Heard::nothing && !asked_ && now - std::max(heard_ns_, behind_since_ns_) > kQuietNs)
     behind_ = false;
   if (behind_ && now - behind_since_ns_ > kCatchUpNs) {
-    note("answers more than it is asked; unplug it and plug it in again.");
+    note(
+        "sends more answers than burr asked for, or sends them too late; unplug it and plug it in "
+        "again.");
     return Read::lost;
   }
   if (heard == Heard::gone) {
@@ -255,12 +257,12 @@ Wire::Read Polhem::read(HandState& hand) BURR_RT {
     return Read::lost;
   }
   if (nonsense_ > kMostNonsense) {
-    note("says what cannot be read; unplug it and plug it in again.");
+    note("sends data that burr cannot read; unplug it and plug it in again.");
     return Read::lost;
   }
   if (heard == Heard::nothing) {
     if (!silence_.lasts(now)) return Read::nothing;
-    note("has gone silent; see that it is switched on.");
+    note("has gone silent; check that it is switched on.");
     return Read::lost;
   }
   const double dt = 1e-9 * static_cast<double>(now - heard_ns_);
@@ -269,7 +271,8 @@ Wire::Read Polhem::read(HandState& hand) BURR_RT {
   velocity_ +=
       dt / (dt + kSlowest) * ((state_.place - last_place_) / std::max(dt, 1e-5) - velocity_);
   last_place_ = state_.place;
-  note(state_.info != 0 ? "tells of a state that is not known; see its maker's program." : nullptr);
+  note(state_.info != 0 ? "reports a state that burr does not know; see its maker's program."
+                        : nullptr);
   hand.world_from_tool = {ours(state_.place), turn_of(state_)};
   hand.velocity = ours(velocity_);
   hand.buttons = 0;

@@ -4,9 +4,11 @@
 // The arm answers each of our lines with one of its own. Its frame: x to the user, y right, z up;
 // ours is x right, y up, z to the user. The stylus lies along the x axis of its wrist, away from
 // the arm. The rotation of the stylus about itself and its button come over a separate radio, which
-// burr does not read: the tool does not turn about its handle, and a pedal mills. The arm has no
-// watchdog that we know of, so a guardian (guardian.h) sends "no force" to it if burr dies. Thread:
-// as Wire. Memory: none after connect().
+// burr does not read: the tool does not turn about its handle, and a pedal mills. Two
+// firmwares that the maker published stop the motors when no line comes: firmware/main.cpp of
+// haptikfabrikenapi, for the older HID boards, after 0.5 s, and polhem_teensy.ino (2020, serial)
+// after 100 ms. The firmware of the arms of 2021 is not published, so a guardian (guardian.h) sends
+// "no force" to every arm if burr dies. Thread: as Wire. Memory: none after connect().
 #pragma once
 
 #include <cstdint>

@@ -13,8 +13,8 @@
 
 namespace burr::edit {
 
-// One tick: every voxel in the ball loses `amount` [field units], whatever volume that is. What is
-// removed counts as asked for. Adds to `flags` (rt/flags.h: undo full, put off).
+// One tick: every voxel in the ball loses `amount` [field units], whatever volume that is. The
+// removed volume is added to `asked`, too. Adds to `flags` (rt/flags.h: undo full, put off).
 void lower(Carver& carver, const Cut& cut, double amount, std::uint32_t& flags) BURR_RT;
 
 }  // namespace burr::edit

@@ -9,7 +9,7 @@
 
 namespace burr::haptics {
 
-// A golden-angle spiral (Vogel 1979): each point stands for 4 pi / n of the surface.
+// A golden-angle spiral (Vogel 1979): each point has a share of 4 pi / n of the surface.
 inline void spread_on_ball(std::span<math::Vec3> points) {
   const double golden = M_PI * (3 - std::sqrt(5.0));
   for (std::size_t n = 0; n < points.size(); ++n) {

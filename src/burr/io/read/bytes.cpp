@@ -89,7 +89,7 @@ class Inflate final : public ByteSource {
   ~Inflate() override { inflateEnd(&stream_); }
 
   Result<std::size_t> read(void* to, std::size_t n) override {
-    if (!ready_) return error(Trouble::io, "no memory to unpack");
+    if (!ready_) return error(Trouble::io, "there is not enough memory to decompress the data");
     n = std::min(n, std::size_t{1} << 30);
     stream_.next_out = static_cast<Bytef*>(to);
     stream_.avail_out = static_cast<uInt>(n);
@@ -136,7 +136,7 @@ class Bunzip2 final : public ByteSource {
   }
 
   Result<std::size_t> read(void* to, std::size_t n) override {
-    if (!ready_) return error(Trouble::io, "no memory to unpack");
+    if (!ready_) return error(Trouble::io, "there is not enough memory to decompress the data");
     n = std::min(n, std::size_t{1} << 30);
     stream_.next_out = static_cast<char*>(to);
     stream_.avail_out = static_cast<unsigned>(n);
@@ -211,7 +211,8 @@ Result<OpenFile> open_file(const std::filesystem::path& path, std::uint64_t offs
   struct stat facts = {};
   if (::fstatat(AT_FDCWD, path.c_str(), &facts, follow_links ? 0 : AT_SYMLINK_NOFOLLOW) != 0)
     return refused(fmt::format("cannot be opened: {}", std::strerror(errno)).c_str());
-  if (S_ISLNK(facts.st_mode)) return refused("cannot be opened: a link is not followed here");
+  if (S_ISLNK(facts.st_mode))
+    return refused("cannot be opened: it is a link, and burr does not follow links in this place");
   if (!S_ISREG(facts.st_mode)) return refused("is not a regular file");
   // O_NONBLOCK: if it has become a pipe since, opening must not wait for a writer
   const int handle = ::open(
@@ -279,10 +280,10 @@ Result<std::filesystem::path> beside(const std::filesystem::path& header, const 
                    plain.find('/') != std::string::npos || plain.find('\\') != std::string::npos ||
                    plain.find('\0') != std::string::npos;
   if (bad)
-    return error(fmt::format(
-        "{}: its data file must lie in the same folder, but the header names another place; move "
-        "the file and correct the name",
-        short_name(header)));
+    return error(
+        fmt::format("{}: its data file must be in the same folder, but the header names another "
+                    "place; move the file and correct its name in the header",
+                    short_name(header)));
   return header.parent_path() / plain;
 }
 

@@ -57,7 +57,7 @@ class Walker {
 
   // Walks the elements from `at` to `end`; depth 0 is the data set itself.
   std::uint64_t walk(std::uint64_t at, std::uint64_t end, int depth, Values* into, bool only_meta) {
-    if (depth > kDeepest) return fail("sequences lie in each other without end");
+    if (depth > kDeepest) return fail("its sequences are nested too deeply");
     while (at + 8 <= end && trouble.empty() && !cut) {
       if (at + 12 > bytes_.size()) {
         cut = bytes_.size() < total_;
@@ -87,7 +87,7 @@ class Walker {
           head = 12;
         } else {
           if (vr[0] < 'A' || vr[0] > 'Z' || vr[1] < 'A' || vr[1] > 'Z')
-            return fail("an element has no known type");
+            return fail("an element has an unknown type");
           length = u16(at + 6);
         }
         sequence = vr == "SQ" || (length == kUndefined && (tag != kPixelData || depth > 0));
@@ -189,7 +189,7 @@ class Walker {
       const Tag tag = (std::uint32_t{u16(at)} << 16) | u16(at + 2);
       const std::uint64_t item = u32(at + 4);
       if (tag == kSequenceEnd) return at + 8;
-      if (tag != kItem) return fail("a sequence holds something that is no item");
+      if (tag != kItem) return fail("a sequence holds something that is not an item");
       Values* into = nullptr;
       if (depth == 0 && sequence == kShared) into = &shared;
       if (depth == 0 && sequence == kPerFrame) {
@@ -505,7 +505,7 @@ void take_facts(const Walker& set, DicomHeader& header) {
 
   if (header.frame_count < 1 || header.frame_count > 100000) {
     if (header.damage.empty())
-      header.damage = fmt::format("it promises {} frames", header.frame_count);
+      header.damage = fmt::format("it states {} frames, not 1 to 100000", header.frame_count);
     header.frame_count = 1;
   }
   Facts facts(header, set.big_endian);
@@ -532,11 +532,11 @@ Result<std::vector<std::uint8_t>> inflated(const std::filesystem::path& path, st
   std::vector<std::uint8_t> bytes, block(std::size_t{1} << 16);
   while (bytes.size() <= most) {
     auto got = inflating->read(block.data(), block.size());
-    if (!got) return error("its deflated data cannot be unpacked");
+    if (!got) return error("its compressed data cannot be decompressed");
     if (*got == 0) break;
     bytes.insert(bytes.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(*got));
   }
-  if (bytes.size() < 8) return error("its deflated data is empty");
+  if (bytes.size() < 8) return error("its compressed data is empty");
   return bytes;
 }
 
@@ -545,7 +545,7 @@ Result<std::vector<std::uint8_t>> inflated(const std::filesystem::path& path, st
 Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
   const std::string file = short_name(path);
   const auto broken = [&](const std::string& why) {
-    return error(fmt::format("{}: is a damaged DICOM file: {}; copy it again", file, why));
+    return error(fmt::format("{}: is a damaged DICOM file ({}); copy it again", file, why));
   };
   // a header seldom needs more than the first block; read more until it fits
   std::size_t part = std::size_t{1} << 16;
@@ -565,7 +565,8 @@ Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
     if (!plausible(*bytes, at))
       return marked ? broken("it holds nothing behind its mark")
                     : error(fmt::format(
-                          "{}: is no file burr reads (DICOM, NRRD, NIfTI or MetaImage)", file));
+                          "{}: is not a file that burr reads; give DICOM, NRRD, NIfTI or MetaImage",
+                          file));
 
     Walker meta(*bytes, total);
     if ((*bytes)[at] == 2) {
@@ -596,14 +597,14 @@ Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
     set.explicit_vr = syntax != "1.2.840.10008.1.2";
     if (syntax.empty() || !set.explicit_vr || syntax == kGePrivate) {
       // No statement, or the usual wrong one: letters in the place of the type mean explicit.
-      if (at + 6 > bytes->size()) return broken("it holds nothing");
+      if (at + 6 > bytes->size()) return broken("it holds no data");
       const auto letter = [&](std::uint64_t p) { return (*bytes)[p] >= 'A' && (*bytes)[p] <= 'Z'; };
       set.explicit_vr = letter(at + 4) && letter(at + 5);
     }
     set.walk(at, total, 0, &set.top, false);
     if (set.cut && !whole_file && !header.deflated) {
       part *= 8;
-      if (part > (std::size_t{1} << 31)) return broken("its header has no end");
+      if (part > (std::size_t{1} << 31)) return broken("its header does not end");
       continue;
     }
     header.damage = set.trouble;

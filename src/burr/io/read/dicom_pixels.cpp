@@ -90,15 +90,14 @@ Result<std::vector<std::pair<std::size_t, std::size_t>>> fragments(
       bytes.resize(at + 8);
       return found;
     }
-    if (group != 0xE000FFFE)
-      return error("its packed pixels are not in fragments as they should be");
-    if (length > bytes.size() - at - 8) return error("its packed pixels are cut off");
+    if (group != 0xE000FFFE) return error("its compressed pixels are not stored in fragments");
+    if (length > bytes.size() - at - 8) return error("its compressed pixels are cut off");
     if (!table) found.emplace_back(at + 8, length);
     table = false;
     at += 8 + length;
   }
   // a missing end mark is common, and harmless if the last fragment is complete
-  if (at != bytes.size() || found.empty()) return error("its packed pixels are cut off");
+  if (at != bytes.size() || found.empty()) return error("its compressed pixels are cut off");
   const std::uint8_t end[8] = {0xFE, 0xFF, 0xDD, 0xE0, 0, 0, 0, 0};
   bytes.insert(bytes.end(), end, end + 8);
   return found;
@@ -201,11 +200,14 @@ Result<std::vector<std::int32_t>> unpack(const DicomHeader& h, std::vector<std::
     }
     int columns = 0, rows = 0, colours = 0;
     if (!picture_size(head.data(), head.size(), columns, rows, colours))
-      return error(fmt::format("{}: its packed pixels are not what the transfer syntax says ({})",
-                               file, base::shown(h.transfer_syntax)));
+      return error(
+          fmt::format("{}: its compressed pixels do not have the format of the transfer syntax "
+                      "({}); export the scan again",
+                      file, base::shown(h.transfer_syntax)));
     if (columns != h.columns || rows != h.rows || colours != 1)
       return error(
-          fmt::format("{}: its packed picture is {} x {} with {} parts, the header says {} x {}",
+          fmt::format("{}: its compressed picture has {} x {} pixels of {} channels, but the "
+                      "header states {} x {} of one; export the scan again",
                       file, columns, rows, colours, h.columns, h.rows));
   }
 
@@ -234,8 +236,8 @@ Result<std::vector<std::int32_t>> unpack(const DicomHeader& h, std::vector<std::
   reader.SetStream(stream);
   const auto failed = [&] {
     return error(
-        fmt::format("{}: its packed pixels (transfer syntax {}) cannot be unpacked; they are "
-                    "damaged or of a kind burr does not know",
+        fmt::format("{}: its compressed pixels (transfer syntax {}) cannot be decompressed; they "
+                    "are damaged or in a format that burr does not read",
                     file, base::shown(h.transfer_syntax)));
   };
   if (!reader.Read()) return failed();
@@ -302,7 +304,8 @@ Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& h, std::s
 
   if (h.pixels_length < count * width)
     return error(
-        fmt::format("{}: Pixel Data has {} bytes, {} x {} pixels need {}; the file is cut off",
+        fmt::format("{}: Pixel Data has {} bytes, but {} x {} pixels need {}; the file is cut off, "
+                    "copy it again",
                     file, h.pixels_length, h.columns, h.rows, count * width));
   std::vector<std::uint8_t> bytes(count * width);
   if (Status status = read_exactly(*source, bytes.data(), bytes.size()); !status)

@@ -55,40 +55,45 @@ Verdict not_a_slice(const DicomHeader& h) {
                      syntax == "1.2.840.10008.1.2.1" || syntax == "1.2.840.10008.1.2.2" ||
                      syntax == "1.2.840.10008.1.2.1.99" || syntax == "1.2.840.113619.5.2";
   if (plain == h.encapsulated)
-    return {plain ? "its pixels are packed though the transfer syntax says they are not"
-                  : "its pixels are not packed though the transfer syntax says they are",
+    return {plain
+                ? "its pixels are compressed, although the transfer syntax says that they are not"
+                : "its pixels are not compressed, although the transfer syntax says that they are",
             true};
-  if (h.float_pixels) return {"it holds a map of real numbers, not a scan", false};
+  if (h.float_pixels) return {"it holds floating-point pixels, not a scan", false};
   if (h.rows < 1 || h.columns < 1)
     return {"it holds no picture (Rows or Columns missing)", slice_class};
   if (h.samples != 1) return {"it is a colour picture; burr reads grey values", false};
   if (has(h.photometric, "palette"))
-    return {"its colours come from a palette; burr reads grey values", false};
+    return {"it is a colour picture with a palette; burr reads grey values", false};
   if (h.bits_allocated == 1) return {"it is a DICOM segmentation; convert it to .seg.nrrd", false};
   if (h.bits_allocated != 8 && h.bits_allocated != 16 && h.bits_allocated != 32)
-    return {fmt::format("{} bits allocated to a pixel cannot be", h.bits_allocated), true};
+    return {fmt::format("Bits Allocated is {}, but burr reads 8, 16 or 32", h.bits_allocated),
+            true};
   if (h.bits_stored < 1 || h.bits_stored > h.bits_allocated || h.high_bit >= h.bits_allocated ||
       h.high_bit < h.bits_stored - 1)
     return {
-        fmt::format("{} stored bits in {} allocated cannot be", h.bits_stored, h.bits_allocated),
+        fmt::format(
+            "Bits Stored is {} of {} allocated bits, or High Bit does not fit; the header is wrong",
+            h.bits_stored, h.bits_allocated),
         true};
   const auto pixels = static_cast<std::uint64_t>(h.rows) * static_cast<std::uint64_t>(h.columns) *
                       static_cast<std::uint64_t>(h.frame_count);
   const std::uint64_t bytes = pixels * static_cast<std::uint64_t>(h.bits_allocated / 8);
   if (!h.encapsulated && bytes > h.pixels_length)
-    return {fmt::format("Pixel Data has {} bytes, {} are needed; the file is cut off",
+    return {fmt::format("Pixel Data has {} bytes, but {} are needed; the file is cut off",
                         h.pixels_length, bytes),
             true};
   if (!h.bad_scale.empty()) return {fmt::format("its {} is no number", h.bad_scale), true};
   for (const DicomFrame& frame : h.frames)
     if (!(std::abs(frame.slope) < 1e6 && std::abs(frame.intercept) < 1e9))
-      return {fmt::format("a Rescale Slope of {:g} and an Intercept of {:g} cannot be", frame.slope,
-                          frame.intercept),
+      return {fmt::format("a Rescale Slope of {:g} or an Intercept of {:g} is out of range",
+                          frame.slope, frame.intercept),
               true};
   // JPEG 2000 of an empty picture is tiny, but not as tiny as that
   if (h.encapsulated && (bytes > h.pixels_length * 20000 || bytes > (std::uint64_t{1} << 33)))
-    return {fmt::format("{} bytes of packed pixels cannot hold {} pixels", h.pixels_length, pixels),
-            true};
+    return {
+        fmt::format("{} bytes of compressed pixels cannot hold {} pixels", h.pixels_length, pixels),
+        true};
   return {};
 }
 
@@ -184,10 +189,12 @@ Result<std::vector<std::filesystem::path>> files_in(const std::filesystem::path&
   std::sort(paths.begin(), paths.end());  // the order on disk means nothing
   if (paths.empty() && found.leading_out > 0)
     return error(
-        fmt::format("{}: holds only links that lead out of it; give the folder where the "
-                    "files are, or copy them",
+        fmt::format("{}: holds only links that lead out of it; give the folder that holds the "
+                    "files, or copy them",
                     short_name(path)));
-  if (paths.empty()) return error(fmt::format("{}: the folder holds no file", short_name(path)));
+  if (paths.empty())
+    return error(fmt::format("{}: the folder holds no files; give the folder of the scan",
+                             short_name(path)));
   return paths;
 }
 
@@ -286,7 +293,7 @@ Result<Found> find_series(const std::filesystem::path& path, Progress& progress)
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (i % 32 == 0) {
       progress.report(static_cast<double>(i) / static_cast<double>(paths.size()),
-                      "looking through files");
+                      "searching the files");
       if (progress.cancelled()) return error(Trouble::interrupted, "reading was stopped");
     }
     if (lower(paths[i].filename().string()) == "dicomdir" && paths.size() > 1)

@@ -60,6 +60,132 @@ void shift_line(const float* from, int n, std::ptrdiff_t from_stride, float* to,
   }
 }
 
+// The upright grid that holds all slices of a stack.
+struct Upright {
+  int nx = 0, ny = 0, nz = 0;
+  double start_x = 0, start_y = 0;  // its first voxel, from that of the first slice [mm]
+  double depth = 0;                 // from the first slice to the last [mm]
+  std::size_t slice = 0;            // voxels in a slice
+};
+
+Result<Upright> upright_grid(const Scan& scan, const std::vector<SlicePlace>& places,
+                             double gap_mm) {
+  const int nx = scan.size.x(), ny = scan.size.y(), nz = scan.size.z();
+  const double dx = scan.spacing_mm.x(), dy = scan.spacing_mm.y();
+  double lo_x = 0, hi_x = 0, lo_y = 0, hi_y = 0;
+  for (const SlicePlace& place : places) {
+    lo_x = std::min(lo_x, place.x_mm);
+    hi_x = std::max(hi_x, place.x_mm);
+    lo_y = std::min(lo_y, place.y_mm);
+    hi_y = std::max(hi_y, place.y_mm);
+  }
+  // checked before the conversion to integers: a false header may shift a slice by anything
+  if (!((hi_x - lo_x) / dx <= 4.0 * nx) || !((hi_y - lo_y) / dy <= 4.0 * ny) ||
+      !(places.back().z_mm / gap_mm <= 16.0 * nz))
+    return error("the slices are too far apart to be one volume; choose another series");
+  const int more_x = static_cast<int>(std::ceil(hi_x / dx - 1e-6) - std::floor(lo_x / dx + 1e-6));
+  const int more_y = static_cast<int>(std::ceil(hi_y / dy - 1e-6) - std::floor(lo_y / dy + 1e-6));
+  Upright to;
+  to.start_x = std::floor(lo_x / dx + 1e-6) * dx;
+  to.start_y = std::floor(lo_y / dy + 1e-6) * dy;
+  to.nx = nx + more_x;
+  to.ny = ny + more_y;
+  to.depth = places.back().z_mm;
+  to.nz = nz == 1 ? 1 : static_cast<int>(std::lround(to.depth / gap_mm)) + 1;
+  if (auto count = voxel_count("the straightened volume", to.nx, to.ny, to.nz); !count)
+    return count.error();
+  to.slice = static_cast<std::size_t>(to.nx) * static_cast<std::size_t>(to.ny);
+  return to;
+}
+
+// The slices below and above a height, and how far it lies from the lower to the upper one (0..1).
+struct Neighbours {
+  int lower = 0, upper = 0;
+  double t = 0;
+};
+
+Neighbours slices_around(const std::vector<SlicePlace>& places, double z) {
+  const auto nz = static_cast<int>(places.size());
+  Neighbours found;
+  int& lower = found.lower;
+  while (lower + 2 < nz && places[static_cast<std::size_t>(lower) + 1].z_mm <= z) ++lower;
+  found.upper = std::min(lower + 1, nz - 1);
+  const double from = places[static_cast<std::size_t>(lower)].z_mm,
+               span = places[static_cast<std::size_t>(found.upper)].z_mm - from;
+  found.t = span > 0 ? std::clamp((z - from) / span, 0.0, 1.0) : 0;
+  return found;
+}
+
+// Puts slice k of the labels at its place in an upright slice, moved by whole voxels.
+void move_labels(const Scan& scan, int k, const SlicePlace& place, const Upright& grid,
+                 std::uint8_t* to) {
+  const int nx = scan.size.x(), ny = scan.size.y();
+  const int si = static_cast<int>(std::lround((place.x_mm - grid.start_x) / scan.spacing_mm.x())),
+            sj = static_cast<int>(std::lround((place.y_mm - grid.start_y) / scan.spacing_mm.y()));
+  const std::uint8_t* from = scan.labels.data() + static_cast<std::size_t>(k) * slice_voxels(scan);
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i)
+      if (i + si < grid.nx && j + sj < grid.ny)
+        to[static_cast<std::size_t>((j + sj) * grid.nx + i + si)] =
+            from[static_cast<std::size_t>(j * nx + i)];
+}
+
+// Grey slices moved to their places in the upright grid. The two used last are kept, because the
+// upright slices are made from below to above.
+class MovedSlices {
+ public:
+  MovedSlices(const Scan& scan, const std::vector<SlicePlace>& places, const Upright& grid,
+              float air)
+      : scan_(scan),
+        places_(places),
+        grid_(grid),
+        air_(air),
+        lines_(static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(scan.size.y()), air),
+        below_(grid.slice),
+        above_(grid.slice) {}
+
+  // Writes the upright slice between two neighbours.
+  void blend(const Neighbours& around, float* to) {
+    if (have_below_ != around.lower) {
+      if (have_above_ == around.lower) {
+        std::swap(below_, above_);
+        have_above_ = -1;
+      } else {
+        move(around.lower, below_);
+      }
+      have_below_ = around.lower;
+    }
+    if (have_above_ != around.upper) {
+      move(around.upper, above_);
+      have_above_ = around.upper;
+    }
+    const auto u = static_cast<float>(around.t);
+    for (std::size_t v = 0; v < grid_.slice; ++v) to[v] = below_[v] + u * (above_[v] - below_[v]);
+  }
+
+ private:
+  void move(int k, std::vector<float>& plane) {
+    const int nx = scan_.size.x(), ny = scan_.size.y();
+    const float* from = scan_.values.data() + static_cast<std::size_t>(k) * slice_voxels(scan_);
+    const SlicePlace& place = places_[static_cast<std::size_t>(k)];
+    for (int j = 0; j < ny; ++j)
+      shift_line(from + static_cast<std::ptrdiff_t>(j) * nx, nx, 1,
+                 lines_.data() + static_cast<std::ptrdiff_t>(j) * grid_.nx, grid_.nx, 1,
+                 (place.x_mm - grid_.start_x) / scan_.spacing_mm.x(), air_);
+    for (int i = 0; i < grid_.nx; ++i)
+      shift_line(lines_.data() + i, ny, grid_.nx, plane.data() + i, grid_.ny, grid_.nx,
+                 (place.y_mm - grid_.start_y) / scan_.spacing_mm.y(), air_);
+  }
+
+  const Scan& scan_;
+  const std::vector<SlicePlace>& places_;
+  const Upright& grid_;
+  float air_;
+  std::vector<float> lines_;  // a slice whose rows are moved and whose columns are not yet
+  std::vector<float> below_, above_;
+  int have_below_ = -1, have_above_ = -1;  // which slices they hold
+};
+
 }  // namespace
 
 bool usable(const Affine& affine) {
@@ -76,94 +202,27 @@ bool usable(const Affine& affine) {
 
 Status straighten(Scan& scan, const std::vector<SlicePlace>& places, double gap_mm,
                   Progress& progress) {
-  const int nx = scan.size.x(), ny = scan.size.y(), nz = scan.size.z();
-  const double dx = scan.spacing_mm.x(), dy = scan.spacing_mm.y();
-  double lo_x = 0, hi_x = 0, lo_y = 0, hi_y = 0;
-  for (const SlicePlace& place : places) {
-    lo_x = std::min(lo_x, place.x_mm);
-    hi_x = std::max(hi_x, place.x_mm);
-    lo_y = std::min(lo_y, place.y_mm);
-    hi_y = std::max(hi_y, place.y_mm);
-  }
-  // checked before the conversion to integers: a false header may shift a slice by anything
-  if (!((hi_x - lo_x) / dx <= 4.0 * nx) || !((hi_y - lo_y) / dy <= 4.0 * ny) ||
-      !(places.back().z_mm / gap_mm <= 16.0 * nz))
-    return error("the slices lie too far apart to be one volume; pick another series");
-  const int more_x = static_cast<int>(std::ceil(hi_x / dx - 1e-6) - std::floor(lo_x / dx + 1e-6));
-  const int more_y = static_cast<int>(std::ceil(hi_y / dy - 1e-6) - std::floor(lo_y / dy + 1e-6));
-  const double start_x = std::floor(lo_x / dx + 1e-6) * dx,
-               start_y = std::floor(lo_y / dy + 1e-6) * dy;
-  const int to_x = nx + more_x, to_y = ny + more_y;
-  const double depth = places.back().z_mm;
-  const int to_z = nz == 1 ? 1 : static_cast<int>(std::lround(depth / gap_mm)) + 1;
-  if (auto count = voxel_count("the straightened volume", to_x, to_y, to_z); !count)
-    return count.error();
-
+  const auto fits = upright_grid(scan, places, gap_mm);
+  if (!fits) return fits.error();
+  const Upright& grid = *fits;
   const bool labels = scan.values.empty();
   const float air = air_of(scan);
-  const std::size_t from_slice = slice_voxels(scan),
-                    to_slice = static_cast<std::size_t>(to_x) * static_cast<std::size_t>(to_y);
-  Voxels<float> even(labels ? 0 : to_slice * static_cast<std::size_t>(to_z), air);
-  Voxels<std::uint8_t> even_labels(labels ? to_slice * static_cast<std::size_t>(to_z) : 0);
-
-  // moves a slice into the larger plane
-  std::vector<float> line_buffer(static_cast<std::size_t>(to_x) * static_cast<std::size_t>(ny),
-                                 air);
-  const auto move = [&](int k, std::vector<float>& plane) {
-    const float* from = scan.values.data() + static_cast<std::size_t>(k) * from_slice;
-    const SlicePlace& place = places[static_cast<std::size_t>(k)];
-    for (int j = 0; j < ny; ++j)
-      shift_line(from + static_cast<std::ptrdiff_t>(j) * nx, nx, 1,
-                 line_buffer.data() + static_cast<std::ptrdiff_t>(j) * to_x, to_x, 1,
-                 (place.x_mm - start_x) / dx, air);
-    for (int i = 0; i < to_x; ++i)
-      shift_line(line_buffer.data() + i, ny, to_x, plane.data() + i, to_y, to_x,
-                 (place.y_mm - start_y) / dy, air);
-  };
-
-  std::vector<float> below(to_slice), above(to_slice);
-  int have_below = -1, have_above = -1;
-  for (int k = 0; k < to_z; ++k) {
-    const double z = to_z == 1 ? 0 : depth * k / (to_z - 1);
-    int lower = 0;
-    while (lower + 2 < nz && places[static_cast<std::size_t>(lower) + 1].z_mm <= z) ++lower;
-    const int upper = std::min(lower + 1, nz - 1);
-    const double span =
-        places[static_cast<std::size_t>(upper)].z_mm - places[static_cast<std::size_t>(lower)].z_mm;
-    const double t =
-        span > 0 ? std::clamp((z - places[static_cast<std::size_t>(lower)].z_mm) / span, 0.0, 1.0)
-                 : 0;
-    if (labels) {  // labels: the nearer slice, moved by whole voxels
-      const int near = t < 0.5 ? lower : upper;
-      const SlicePlace& place = places[static_cast<std::size_t>(near)];
-      const int si = static_cast<int>(std::lround((place.x_mm - start_x) / dx)),
-                sj = static_cast<int>(std::lround((place.y_mm - start_y) / dy));
-      for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i)
-          if (i + si < to_x && j + sj < to_y)
-            even_labels[static_cast<std::size_t>(k) * to_slice +
-                        static_cast<std::size_t>((j + sj) * to_x + i + si)] =
-                scan.labels[static_cast<std::size_t>(near) * from_slice +
-                            static_cast<std::size_t>(j * nx + i)];
+  const std::size_t voxels = grid.slice * static_cast<std::size_t>(grid.nz);
+  Voxels<float> even(labels ? 0 : voxels, air);
+  Voxels<std::uint8_t> even_labels(labels ? voxels : 0);
+  MovedSlices moved(scan, places, grid, air);
+  for (int k = 0; k < grid.nz; ++k) {
+    const double z = grid.nz == 1 ? 0 : grid.depth * k / (grid.nz - 1);
+    const Neighbours around = slices_around(places, z);
+    const std::size_t start = static_cast<std::size_t>(k) * grid.slice;
+    if (labels) {  // labels: the nearer slice
+      const int near = around.t < 0.5 ? around.lower : around.upper;
+      move_labels(scan, near, places[static_cast<std::size_t>(near)], grid,
+                  even_labels.data() + start);
     } else {
-      if (have_below != lower) {
-        if (have_above == lower) {
-          std::swap(below, above);
-          have_above = -1;
-        } else {
-          move(lower, below);
-        }
-        have_below = lower;
-      }
-      if (have_above != upper) {
-        move(upper, above);
-        have_above = upper;
-      }
-      float* to = even.data() + static_cast<std::size_t>(k) * to_slice;
-      const auto u = static_cast<float>(t);
-      for (std::size_t v = 0; v < to_slice; ++v) to[v] = below[v] + u * (above[v] - below[v]);
+      moved.blend(around, even.data() + start);
     }
-    progress.report((k + 1.0) / to_z, "straightening the slices");
+    progress.report((k + 1.0) / grid.nz, "straightening the slices");
     if (progress.cancelled()) return error(Trouble::interrupted, "reading was stopped");
   }
   // at sharp edges the cubic weights go a little below air
@@ -171,9 +230,9 @@ Status straighten(Scan& scan, const std::vector<SlicePlace>& places, double gap_
     for (float& value : even) value = std::max(value, -1024.0F);
   scan.values = std::move(even);
   scan.labels = std::move(even_labels);
-  scan.size = {to_x, to_y, to_z};
-  if (to_z > 1) scan.spacing_mm.z() = depth / (to_z - 1);
-  scan.origin_mm += scan.axes.col(0) * start_x + scan.axes.col(1) * start_y;
+  scan.size = {grid.nx, grid.ny, grid.nz};
+  if (grid.nz > 1) scan.spacing_mm.z() = grid.depth / (grid.nz - 1);
+  scan.origin_mm += scan.axes.col(0) * grid.start_x + scan.axes.col(1) * grid.start_y;
   return fine();
 }
 
@@ -181,7 +240,7 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
              Progress& progress) {
   if (!usable(affine))
     return error(
-        fmt::format("{}: its voxel spacing, directions or place cannot be used; correct the header "
+        fmt::format("{}: its voxel spacing, directions or origin are not valid; correct the header "
                     "or give --spacing-mm",
                     file));
   Vec3 length;
@@ -199,8 +258,8 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
   constexpr double kSquare = 2e-3;  // [rad]; headers are rounded to this
   if (plane > kSquare)
     return error(
-        fmt::format("{}: its rows and columns are not square to each other ({:.1f} "
-                    "degrees); resample it to a square grid first",
+        fmt::format("{}: its rows and columns are not at right angles ({:.1f} degrees); resample "
+                    "it to a rectangular grid first",
                     file, std::acos(std::clamp(plane, 0.0, 1.0)) * 180 / M_PI));
   bool leaning = lean > kSquare * kSquare;
   const double up = axes.col(2).dot(normal);
@@ -222,9 +281,9 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
     scan.origin_mm = origin;
     const double gap = std::abs(step.dot(normal));
     if (Status status = straighten(scan, places, gap, progress); !status) return status;
-    scan.notices.push_back(
-        fmt::format("The slices lean by {:.1f} degrees; they were moved upright.",
-                    std::acos(std::clamp(std::abs(up), 0.0, 1.0)) * 180 / M_PI));
+    scan.notices.push_back(fmt::format(
+        "The stack of slices leans by {:.1f} degrees; the slices were shifted to make it upright.",
+        std::acos(std::clamp(std::abs(up), 0.0, 1.0)) * 180 / M_PI));
     axes = scan.axes;
     length = {length.x(), length.y(), gap};
     origin = scan.origin_mm;
@@ -246,9 +305,8 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
 
   if ((spacing_mm.array() > 0).all()) {
     scan.notices.push_back(fmt::format(
-        "Spacing {:.4g} x {:.4g} x {:.4g} mm as asked, instead of {:.4g} x {:.4g} x {:.4g} mm of "
-        "the "
-        "file.",
+        "The spacing is {:.4g} x {:.4g} x {:.4g} mm as given by --spacing-mm, instead of {:.4g} x "
+        "{:.4g} x {:.4g} mm in the file.",
         spacing_mm.x(), spacing_mm.y(), spacing_mm.z(), length.x(), length.y(), length.z()));
     scan.spacing_mm = spacing_mm;
   }

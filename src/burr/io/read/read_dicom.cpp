@@ -59,9 +59,10 @@ Status order(const Series& series, Volume& volume, const std::string& file, Scan
                     "out.",
                     volume.left_out, series.pictures()));
   if (volume.same_place > 0)
-    scan.notices.push_back(fmt::format(
-        "{} pictures lie where another one lies already ({} places); the first of each was taken.",
-        volume.same_place, slices.size()));
+    scan.notices.push_back(
+        fmt::format("{} pictures are at the position of another one ({} positions); the first at "
+                    "each position is used.",
+                    volume.same_place, slices.size()));
   if (volume.order == Order::locations && slices.size() > 1)
     scan.notices.emplace_back(
         "The pictures have no positions of their own: placed by their Slice Location. Whether the "
@@ -80,7 +81,8 @@ Status order(const Series& series, Volume& volume, const std::string& file, Scan
                     gap));
   else if (stated > 0)
     scan.notices.push_back(fmt::format(
-        "The pictures have no positions: ordered by their numbers, {:.3g} mm apart.", gap));
+        "The pictures have no positions: they are ordered by their numbers, {:.3g} mm apart.",
+        gap));
   else
     scan.ask(Ask::spacing,
              fmt::format("{}: states neither positions of its slices nor their thickness, so their "
@@ -103,11 +105,11 @@ Status guarded(const std::filesystem::path& path, Work work) {
     return work();
   } catch (const std::bad_alloc&) {
     return error(
-        fmt::format("{}: reading it needs more memory than it may take; if you trust it, allow "
-                    "more with --read-memory-mb",
+        fmt::format("{}: reading it needs more memory than allowed; if you trust it, allow more "
+                    "with --read-memory-mb",
                     short_name(path)));
   } catch (const std::exception& problem) {
-    return error(fmt::format("{}: cannot be unpacked: {}", short_name(path), problem.what()));
+    return error(fmt::format("{}: cannot be decompressed: {}", short_name(path), problem.what()));
   }
 }
 
@@ -197,10 +199,10 @@ Status read_slices(const Series& series, const std::vector<Slice>& slices, Scan&
   reading.bits_stored = series.files[slices.front().file].bits_stored;
   if (padded > 0)
     scan.notices.push_back(
-        fmt::format("{} voxels were padding and are air (-1024 HU) now.", padded.load()));
+        fmt::format("{} voxels were padding and are now air (-1024 HU).", padded.load()));
   if (below > 0)
     scan.notices.push_back(fmt::format(
-        "{} voxels lay below -1024 HU (outside the scanner's view) and are -1024 HU now.",
+        "{} voxels were below -1024 HU (outside the scanner's field of view) and are now -1024 HU.",
         below.load()));
   return fine();
 }
@@ -235,7 +237,9 @@ Status stack(const Series& series, const std::vector<Slice>& slices, Order order
   const double gap = sorted[sorted.size() / 2];
   const double even = places.back().z_mm / static_cast<double>(n - 1);
   if (!(gap > 1e-3) || places.back().z_mm > 5000)
-    return error(fmt::format("{}: the slices lie {:.3g} mm apart, which cannot be", file, gap));
+    return error(fmt::format(
+        "{}: the slices are {:.3g} mm apart, which is not possible; choose another series", file,
+        gap));
 
   // even to a hundredth of a gap, because headers round positions
   std::string where;
@@ -258,16 +262,16 @@ Status stack(const Series& series, const std::vector<Slice>& slices, Order order
   if (!shifted && uneven == 0 && !drifting) return fine();
 
   if (uneven > 0)
-    scan.notices.push_back(fmt::format(
-        "The slices are unevenly spaced: {} of {} gaps are not {:.3g} mm, between slices {}{}; "
-        "resampled to even spacing.",
-        uneven, gaps.size(), gap, where, uneven > 5 ? " and others" : ""));
+    scan.notices.push_back(
+        fmt::format("The slices are unevenly spaced: {} of {} gaps are not {:.3g} mm, between "
+                    "slices {}{}; they were resampled to an even spacing.",
+                    uneven, gaps.size(), gap, where, uneven > 5 ? " and others" : ""));
   if (shifted) {
     const double lean =
         std::atan2(std::hypot(places.back().x_mm, places.back().y_mm), places.back().z_mm);
     scan.notices.push_back(
         fmt::format("The slices are shifted against each other (gantry tilt of {:.1f} degrees); "
-                    "resampled upright.",
+                    "they were resampled upright.",
                     lean * 180 / M_PI));
   }
   const double wanted = uneven > 0 ? gap : even;
@@ -343,9 +347,9 @@ void say_header(const Series& series, const std::vector<Slice>& slices, const st
                                        h.unreadable.empty() ? "" : " that can be read"));
   else if (!first.has_spacing)
     scan.notices.emplace_back(
-        "The file states no Pixel Spacing: taken for 1 mm; see --spacing-mm.");
+        "The file states no Pixel Spacing: 1 mm is assumed; see --spacing-mm.");
   if (!first.has_orientation)
-    scan.notices.emplace_back("The file states no usable orientation: taken for axial slices.");
+    scan.notices.emplace_back("The file states no usable orientation: axial slices are assumed.");
 }
 
 }  // namespace
@@ -395,7 +399,7 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
                     (h.rescale_type.empty() || h.rescale_type == "HU");
   if (h.has_modality_lut)
     scan.notices.emplace_back(
-        "A table (Modality LUT) translates the values; it was left out, so they are "
+        "The file has a table of values (Modality LUT); burr does not apply it, so the values are "
         "not HU.");
   say_header(series, slices, file, scan);
   if (h.photometric == "MONOCHROME1")
@@ -423,7 +427,7 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
     scan.notices.emplace_back(
         std::filesystem::is_directory(path)
             ? "Only one slice: a picture, not a volume; the folder holds no more slices of it."
-            : "Only one slice: a picture, not a volume; give the folder of the series.");
+            : "There is only one slice, which is not a volume; give the folder of the series.");
 
   Affine affine;
   affine.step = scan.axes * scan.spacing_mm.asDiagonal();

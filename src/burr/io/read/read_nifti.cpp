@@ -53,7 +53,8 @@ class Fields {
 
 Result<Nifti> parse(const std::vector<std::uint8_t>& bytes, const std::string& file) {
   if (bytes.size() < 348)
-    return error(fmt::format("{}: {} bytes are too few for a NIfTI header", file, bytes.size()));
+    return error(fmt::format("{}: the file has {} bytes, too few for a NIfTI header; copy it again",
+                             file, bytes.size()));
   bool swap = false;
   std::int32_t length = Fields(bytes, false).get<std::int32_t>(0);
   if (length != 348 && length != 540) {
@@ -62,9 +63,12 @@ Result<Nifti> parse(const std::vector<std::uint8_t>& bytes, const std::string& f
   }
   const bool two = length == 540;
   if (length != 348 && !two)
-    return error(fmt::format("{}: is no NIfTI file (header length {})", file, length));
+    return error(
+        fmt::format("{}: is not a NIfTI file (header length {}); check the name", file, length));
   if (two && bytes.size() < 540)
-    return error(fmt::format("{}: {} bytes are too few for a NIfTI-2 header", file, bytes.size()));
+    return error(
+        fmt::format("{}: the file has {} bytes, too few for a NIfTI-2 header; copy it again", file,
+                    bytes.size()));
   const Fields at(bytes, swap);
   Nifti n;
   n.big_endian = swap == (std::endian::native == std::endian::little);
@@ -72,9 +76,10 @@ Result<Nifti> parse(const std::vector<std::uint8_t>& bytes, const std::string& f
   if (magic == (two ? "ni2" : "ni1"))
     n.pair = true;
   else if (magic != (two ? "n+2" : "n+1"))
-    return error(fmt::format(
-        "{}: is no NIfTI file (its mark is missing; Analyze 7.5 is not read, convert it to NIfTI)",
-        file));
+    return error(
+        fmt::format("{}: is not a NIfTI file (its magic string is missing); burr does not read "
+                    "Analyze 7.5, convert it to NIfTI",
+                    file));
   for (std::size_t i = 0; i < 8; ++i) {
     n.dim[i] = two ? at.get<std::int64_t>(16 + 8 * i) : at.get<std::int16_t>(40 + 2 * i);
     n.pixdim[i] = two ? at.get<double>(104 + 8 * i) : double{at.get<float>(76 + 4 * i)};
@@ -147,7 +152,7 @@ std::string type_name(int datatype) {
     case 2304:
       return "colours";
     case 1536:
-      return "128 bit floats";
+      return "128-bit floats";
     default:
       return fmt::format("data type {}", datatype);
   }
@@ -164,7 +169,7 @@ Affine affine_of(const Nifti& n, Scan& scan) {
     affine.step *= unit;
     affine.origin *= unit;
     found = usable(affine);
-    if (!found) scan.notices.emplace_back("The sform of the file cannot be used and was left out.");
+    if (!found) scan.notices.emplace_back("The sform of the file is not valid and was ignored.");
   }
   Vec3 spacing(n.pixdim[1], n.pixdim[2], n.pixdim[3]);
   bool guessed = false;
@@ -194,11 +199,11 @@ Affine affine_of(const Nifti& n, Scan& scan) {
     affine.step = (unit * spacing).asDiagonal();
     affine.origin = Vec3::Zero();
     scan.notices.emplace_back(
-        "The file does not say how it lies in the body: taken for right, anterior, superior.");
+        "The file does not state its orientation: right, anterior, superior is assumed.");
   }
   if (guessed && !found)
     scan.notices.emplace_back(
-        "The file states no voxel spacing: taken for 1 mm; see --spacing-mm.");
+        "The file states no voxel spacing: 1 mm is assumed; see --spacing-mm.");
   const Mat3 lps_from_ras = Vec3(-1, -1, 1).asDiagonal();
   affine.step = lps_from_ras * affine.step;
   affine.origin = lps_from_ras * affine.origin;
@@ -250,7 +255,7 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
     path = partner(given, ".img", ".hdr");
     if (path.empty())
       return error(
-          fmt::format("{}: its header (.hdr) is not there; put it in the same folder", file));
+          fmt::format("{}: its header (.hdr) is missing; put it in the same folder", file));
   }
   auto opened = open_maybe_packed(path, path == given);
   if (!opened) return opened.error();
@@ -268,21 +273,21 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
 
   // axes beyond the third must have length one
   if (header->dim[0] < 1 || header->dim[0] > 7)
-    return error(fmt::format("{}: dim[0] is {}, 3 expected", file, header->dim[0]));
+    return error(fmt::format("{}: dim[0] is {}, but 3 was expected", file, header->dim[0]));
   for (std::size_t a = 4; a <= static_cast<std::size_t>(header->dim[0]); ++a)
     if (header->dim[a] > 1)
       return error(
           fmt::format("{}: 3 axes expected, axis {} has {} entries; is this a time series?", file,
                       a, header->dim[a]));
   if (header->dim[0] < 3)
-    return error(fmt::format("{}: 3 axes expected, {} found; a single picture is no volume", file,
-                             header->dim[0]));
+    return error(fmt::format("{}: 3 axes expected, {} found; a single picture is not a volume",
+                             file, header->dim[0]));
   auto count = voxel_count(file, header->dim[1], header->dim[2], header->dim[3]);
   if (!count) return count.error();
   SampleFormat format;
   if (!sample_type(header->datatype, format.type))
-    return error(fmt::format("{}: datatype: {} are not read; burr reads one number a voxel", file,
-                             type_name(header->datatype)));
+    return error(fmt::format("{}: datatype: burr does not read {}; it reads one number per voxel",
+                             file, type_name(header->datatype)));
   format.big_endian = header->big_endian;
   if (std::isfinite(header->slope) && header->slope != 0) {
     format.slope = header->slope;
@@ -295,7 +300,8 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
                static_cast<int>(header->dim[3])};
   const double first = header->pair ? 0 : have >= 540 && head[0] + head[3] != 92 ? 544 : 352;
   if (!std::isfinite(header->offset) || header->offset < 0 || header->offset > 1e12)
-    return error(fmt::format("{}: vox_offset is no place in the file; its header is wrong", file));
+    return error(
+        fmt::format("{}: vox_offset is not a position in the file; its header is wrong", file));
   const double at = header->offset > 0 ? header->offset : first;
   const auto offset = static_cast<std::uint64_t>(at);
 
@@ -303,7 +309,7 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
     const auto image = partner(path, ".hdr", ".img");
     if (image.empty())
       return error(
-          fmt::format("{}: its data file (.img) is not there; put it in the same folder", file));
+          fmt::format("{}: its data file (.img) is missing; put it in the same folder", file));
     opened = open_maybe_packed(image, image == given);
   } else {
     opened = open_maybe_packed(path, path == given);
@@ -312,8 +318,8 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
   const std::uint64_t needed = *count * bytes_of(format.type);
   if (offset > opened->most || needed > opened->most - offset)
     return error(
-        fmt::format("{}: the header promises {} bytes of voxels, the file cannot hold them; it "
-                    "is cut off or its header is wrong",
+        fmt::format("{}: the header needs {} bytes of voxels, but the file cannot hold them; it is "
+                    "cut off or its header is wrong",
                     file, needed));
   VoxelSink sink(*count);
   Status read = skip(*opened->source, offset);

@@ -157,8 +157,9 @@ Result<std::vector<std::filesystem::path>> data_files(const Header& header,
     for (std::int64_t n = from; step > 0 ? n <= to : n >= to; n += step) {
       std::string name;
       if (!numbered_name(parts[0], n, name))
-        return error(fmt::format("{}: data file: the pattern may hold one number such as %03d",
-                                 short_name(path)));
+        return error(
+            fmt::format("{}: data file: the pattern must hold exactly one number such as %03d",
+                        short_name(path)));
       names.push_back(name);
     }
   } else {
@@ -171,7 +172,7 @@ Result<std::vector<std::filesystem::path>> data_files(const Header& header,
     const auto kind = std::filesystem::symlink_status(*file, trouble).type();
     if (kind != std::filesystem::file_type::regular)
       return error(fmt::format(
-          "{}: its data file {} is not there or no plain file; put it in the same folder",
+          "{}: its data file {} is missing or not a regular file; put it in the same folder",
           short_name(path), short_name(*file)));
     files.push_back(*file);
   }
@@ -224,7 +225,8 @@ Result<Shape> shape_of(const Header& header, const std::string& file, bool segme
   for (const std::string& word : words(text->second)) {
     std::int64_t n = 0;
     if (!to_number(word, n) || n < 1)
-      return error(fmt::format("{}: sizes: \"{}\" is no size of an axis", file, base::shown(word)));
+      return error(
+          fmt::format("{}: sizes: \"{}\" is not a size of an axis", file, base::shown(word)));
     all.push_back(n);
   }
   std::int64_t dimension = 0;
@@ -242,14 +244,13 @@ Result<Shape> shape_of(const Header& header, const std::string& file, bool segme
     if (all[a] == 1 && (all.size() > 3 || no_space)) continue;  // length one: ignored
     if (no_space && segmentation)
       return error(
-          fmt::format("{}: its segments overlap in {} layers; in 3D Slicer make one layer of them "
-                      "(Segmentations, "
-                      "Collapse segments) and save again",
+          fmt::format("{}: its segments overlap in {} layers; merge them into one layer in 3D "
+                      "Slicer (Segmentations, Collapse segments) and save again",
                       file, all[a]));
     if (no_space)
       return error(
-          fmt::format("{}: axis {} is \"{}\" with {} entries, not space; burr reads one value "
-                      "a voxel",
+          fmt::format("{}: axis {} is \"{}\" with {} entries, not an axis of space; burr reads one "
+                      "value per voxel",
                       file, a, base::shown(kind), all[a]));
     shape.sizes.push_back(all[a]);
     shape.axes.push_back(a);
@@ -258,8 +259,8 @@ Result<Shape> shape_of(const Header& header, const std::string& file, bool segme
     return error(fmt::format("{}: 3 axes expected, {} found; is this a time series?", file,
                              shape.sizes.size()));
   if (shape.sizes.size() < 3)
-    return error(fmt::format("{}: 3 axes expected, {} found; a single picture is no volume", file,
-                             shape.sizes.size()));
+    return error(fmt::format("{}: 3 axes expected, {} found; a single picture is not a volume",
+                             file, shape.sizes.size()));
   return shape;
 }
 
@@ -275,12 +276,12 @@ Mat3 lps_from_space(const std::string& space, const std::string& file, Scan& sca
   if (is("left-anterior-superior", "las")) return Vec3(1, -1, 1).asDiagonal();
   if (name.rfind("3d-left-handed", 0) == 0) {
     scan.notices.emplace_back(
-        "The file's space is left-handed and does not name its directions: taken for rows to the "
-        "left, columns to the back, slices downwards.");
+        "The file's space is left-handed and does not name its directions: rows to the left, "
+        "columns to the back and slices downwards are assumed.");
     return Vec3(1, 1, -1).asDiagonal();
   }
   scan.notices.emplace_back(
-      "The file does not say how it lies in the body: taken for left, posterior, superior.");
+      "The file does not state its orientation: left, posterior, superior is assumed.");
   return Mat3::Identity();
 }
 
@@ -332,7 +333,7 @@ Affine affine_of(const Header& header, const Shape& shape, const std::string& fi
                                          file, base::shown(unread)));
     else if (!stated)
       scan.notices.emplace_back(
-          "The file states no voxel spacing: taken for 1 mm; see --spacing-mm.");
+          "The file states no voxel spacing: 1 mm is assumed; see --spacing-mm.");
   }
   const std::vector<double> origin = numbers(get("spaceorigin"), 3, commas);
   if (commas)
@@ -359,7 +360,7 @@ Result<std::int64_t> skip_field(const Header& header, const char* name, const st
   const auto found = header.fields.find(name);
   std::int64_t n = 0;
   if (found != header.fields.end() && (!to_number(found->second, n) || n < lowest))
-    return error(fmt::format("{}: {}: \"{}\" is no number of bytes or lines", file, name,
+    return error(fmt::format("{}: {}: \"{}\" is not a number of bytes or lines", file, name,
                              base::shown(found->second)));
   return n;
 }
@@ -396,14 +397,14 @@ Status read_ascii(ByteSource& source, std::size_t count, VoxelSink& sink) {
         word += c;
         if (word.size() < 64) continue;
       }
-      if (!take()) return error("a word that is no number stands in the text data");
+      if (!take()) return error("the text data holds a word that is not a number; correct it");
     }
   }
   if (values.size() < count && !take())
-    return error("a word that is no number stands in the text data");
+    return error("the text data holds a word that is not a number; correct it");
   if (values.size() < count)
-    return error(
-        fmt::format("{} numbers expected, {} found; the file is cut off", count, values.size()));
+    return error(fmt::format("{} numbers expected, {} found; the file is cut off, copy it again",
+                             count, values.size()));
   sink.add(values.data(), count);
   return fine();
 }
@@ -441,8 +442,8 @@ Result<std::unique_ptr<ByteSource>> data_source(const Header& header,
       raw || gzip || bzip ? bytes : bytes / 8;  // text: at least one digit each
   if (needed > most)
     return error(
-        fmt::format("{}: sizes promise {} bytes of data, the file holds {}; it is cut off or "
-                    "its header is wrong",
+        fmt::format("{}: sizes need {} bytes of data, but the file holds {}; it is cut off or its "
+                    "header is wrong",
                     file, needed, there));
 
   const auto open = [&](std::int64_t from_end) -> Result<std::unique_ptr<ByteSource>> {
@@ -477,10 +478,14 @@ Result<std::unique_ptr<ByteSource>> data_source(const Header& header,
       if (*got == 0) break;
       total += *got;
       if (total > (std::uint64_t{1} << 36))
-        return error(fmt::format("{}: unpacks without end", file));
+        return error(fmt::format(
+            "{}: its data decompresses to more than 64 GiB; the file is damaged or made to do harm",
+            file));
     }
     if (total < bytes)
-      return error(fmt::format("{}: holds {} bytes of voxels, {} are needed", file, total, bytes));
+      return error(fmt::format(
+          "{}: holds {} bytes of voxels, but {} are needed; the file is cut off, copy it again",
+          file, total, bytes));
     auto source = open(-1);
     if (!source) return source.error();
     if (Status status = skip(**source, total - bytes); !status) return status.error();
@@ -521,17 +526,18 @@ Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& opt
   SampleFormat format;
   const std::string type = lower(header->fields["type"]);
   if (!sample_type(type, format.type))
-    return error(fmt::format("{}: type: \"{}\" is no number burr reads", file, base::shown(type)));
+    return error(fmt::format("{}: type: burr does not read \"{}\"", file, base::shown(type)));
   const std::string endian = lower(header->fields["endian"]);
   format.big_endian = endian == "big";
   const std::string encoding = lower(header->fields["encoding"]);
   const bool text = encoding == "text" || encoding == "txt" || encoding == "ascii";
   if (!text && encoding != "raw" && encoding != "gzip" && encoding != "gz" && encoding != "bzip2" &&
       encoding != "bz2")
-    return error(fmt::format("{}: encoding: \"{}\" is not read; save it as raw or gzip", file,
-                             base::shown(encoding)));
+    return error(
+        fmt::format("{}: encoding: burr does not read \"{}\"; save the file as raw or gzip", file,
+                    base::shown(encoding)));
   if (encoding == "raw" && endian.empty() && bytes_of(format.type) > 1)
-    scan.notices.emplace_back("The file does not state its byte order: taken for little endian.");
+    scan.notices.emplace_back("The file does not state its byte order: little endian is assumed.");
 
   auto source = data_source(*header, path, encoding, *count * bytes_of(format.type));
   if (!source) return source.error();

@@ -1,5 +1,5 @@
 // The asking side of the fence: starts burr-read, lends it memory, watches it, and checks
-// everything that it says.
+// everything that it sends.
 #include "burr/io/read/read_scan.h"
 
 #include <fcntl.h>
@@ -63,7 +63,7 @@ class Handle {
   int number_ = -1;
 };
 
-// Memory of exactly this size, sealed: nobody can make it shorter or longer.
+// Memory of exactly this size, sealed: its size cannot be changed.
 Handle sealed_memory(const char* name, std::size_t bytes) {
   Handle handle(::memfd_create(name, MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (!handle.open() || ::ftruncate(handle.get(), static_cast<off_t>(bytes)) != 0 ||
@@ -108,23 +108,24 @@ class Reader {
     if (program.empty())
       return error(Trouble::io,
                    "the program burr-read, which reads scans, is not beside libburr.so; install "
-                   "burr again or name it in BURR_READ");
+                   "burr again or give its path in BURR_READ");
     const auto failed = [this](const char* what, int reason) {
       return error(Trouble::io,
                    fmt::format("{}: cannot be read: {}: {}", file_, what, std::strerror(reason)));
     };
     letter_ = sealed_memory("burr-letter", kLetterBytes);
-    if (!letter_.open()) return failed("no memory to share", errno);
+    if (!letter_.open()) return failed("shared memory cannot be created", errno);
     std::vector<std::uint8_t> request(kLongestRequest);
     const std::uint64_t length = pack(FenceRequest{path.string(), options}, request);
-    if (length == 0) return error(Trouble::usage, fmt::format("{}: its path is too long", file_));
+    if (length == 0)
+      return error(Trouble::usage, fmt::format("{}: its path is too long; move the file", file_));
     if (::pwrite(letter_.get(), &length, sizeof length, 0) != ssize_t{sizeof length} ||
         ::pwrite(letter_.get(), request.data(), length, sizeof length) !=
             static_cast<ssize_t>(length))
-      return failed("no memory to share", errno);
+      return failed("shared memory cannot be created", errno);
     int ends[2] = {-1, -1};
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
-      return failed("no socket", errno);
+      return failed("a socket cannot be opened", errno);
     socket_ = Handle(ends[0]);
     Handle theirs(ends[1]);
 
@@ -167,8 +168,7 @@ class Reader {
       }
       pollfd waiting{socket_.get(), POLLIN, 0};
       ::poll(&waiting, 1, kTick);
-      const bool gone = reap(WNOHANG);  // asked before the socket is emptied, so that no message is
-                                        // lost
+      const bool gone = reap(WNOHANG);  // before the socket is emptied, so that no message is lost
       bool closed = !listen(progress);
       for (int n = 0; gone && !closed && n < 8; ++n) closed = !listen(progress);
       if (gone || closed) break;
@@ -189,16 +189,16 @@ class Reader {
       } else if (Clock::now() - mark_ > std::chrono::duration<double>(limits_.seconds)) {
         stop();
         return error(
-            fmt::format("{}: reading it stood still for {:.0f} s and was stopped; copy it to a "
-                        "disk of this computer, or wait longer with --read-seconds",
+            fmt::format("{}: reading it made no progress for {:.0f} s and was stopped; copy it to "
+                        "a disk of this computer, or wait longer with --read-seconds",
                         file_, limits_.seconds));
       }
     }
     if (misbehaved_) {
       stop();
       return error(
-          fmt::format("{}: the reader answered what cannot be and was stopped; the file "
-                      "is damaged or made to do harm",
+          fmt::format("{}: the reader sent an invalid answer and was stopped; the file is damaged "
+                      "or made to do harm",
                       file_));
     }
     if (done_) {
@@ -330,46 +330,45 @@ class Reader {
 
   [[nodiscard]] Error took_too_long() const {
     return error(
-        fmt::format("{}: reading it took more than {:.0f} s of processor time, far more than "
-                    "its size explains; if you trust it, allow more with --read-seconds",
+        fmt::format("{}: reading it took more than {:.0f} s of processor time, far more than its "
+                    "size requires; if you trust it, allow more with --read-seconds",
                     file_, limits_.seconds));
   }
 
   Error why_it_ended() {
     if (refusal_ == FenceMessage::stranger)
       return error(Trouble::internal,
-                   "burr-read is of another version of burr; install burr again");
+                   "burr-read belongs to another version of burr; install burr again");
     if (refusal_ == FenceMessage::no_walls)
-      return error(Trouble::internal,
-                   "burr-read could not limit itself and has read nothing; see `burr check`");
+      return error(
+          Trouble::internal,
+          "burr-read could not set its own limits and therefore read nothing; see `burr check`");
     const int number = WIFSIGNALED(status_) ? WTERMSIG(status_) : 0;
     switch (number) {
       case SIGXCPU:
         return took_too_long();
       case SIGSYS:
         return error(
-            fmt::format("{}: reading it tried what no reader needs (the network, another program, "
-                        "writing) and was stopped; do not trust this file",
+            fmt::format("{}: reading it tried something that no reader needs (the network, another "
+                        "program, writing) and was stopped; do not trust this file",
                         file_));
       case SIGKILL:
         return error(
-            fmt::format("{}: reading it was ended by the system, most likely because "
-                        "memory ran out; close other programs or give a smaller scan",
+            fmt::format("{}: reading it was ended by the system, most likely because memory ran "
+                        "out; close other programs or use a smaller scan",
                         file_));
       default:
-        return error(fmt::format(
-            "{}: reading it crashed ({}), and nothing else did; the file is damaged in a way the "
-            "decoder does not survive, copy it again",
-            file_, number != 0 ? ::strsignal(number) : "no answer"));
+        return error(
+            fmt::format("{}: reading it crashed ({}), without harm to burr itself; the file is "
+                        "damaged, copy it again",
+                        file_, number != 0 ? ::strsignal(number) : "no answer"));
     }
   }
 
   Result<Scan> outcome() {
     const auto lies = [this] {
-      return error(
-          fmt::format("{}: the reader answered what cannot be; the file is damaged or "
-                      "made to do harm",
-                      file_));
+      return error(fmt::format(
+          "{}: the reader sent an invalid answer; the file is damaged or made to do harm", file_));
     };
     if (*done_ == 0 || *done_ > kLetterBytes) return lies();
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(*done_));
@@ -395,7 +394,7 @@ class Reader {
     if (number == 0 || number > loans_.size()) return false;
     Loan& loan = loans_[number - 1];
     if (!loan.memory.open() || count > loan.bytes / sizeof(T)) return false;
-    // after this nobody can write to it; refused while anyone still could
+    // after this it cannot be written; the kernel refuses while it is mapped for writing
     if (::fcntl(loan.memory.get(), F_ADD_SEALS, F_SEAL_WRITE) != 0) return false;
     const auto bytes = static_cast<std::size_t>(loan.bytes);
     void* at = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE,

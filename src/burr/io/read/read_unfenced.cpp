@@ -58,7 +58,8 @@ Result<Scan> read_by_content(const std::filesystem::path& path, const ReadOption
   if (ends_with(name, ".mha") || ends_with(name, ".mhd")) return read_meta(path, options, progress);
   if (ends_with(name, ".nrrd") || ends_with(name, ".nhdr"))
     return error(
-        fmt::format("{}: does not begin with \"NRRD\"; it is no NRRD file", short_name(path)));
+        fmt::format("{}: does not begin with \"NRRD\", so it is not an NRRD file; check the name",
+                    short_name(path)));
   // NIfTI under another name: the header begins with its length
   const auto first = (*head)[0] | (*head)[1] << 8 | (*head)[2] << 16;
   if (head->size() > 4 && (first == 348 || first == 540))
@@ -250,9 +251,9 @@ Result<Scan> read_unfenced(const std::filesystem::path& path, const ReadOptions&
   std::error_code trouble;
   const auto status = std::filesystem::status(path, trouble);
   if (trouble || status.type() == std::filesystem::file_type::not_found)
-    return error(Trouble::io, fmt::format("{}: is not there; check the name", short_name(path)));
+    return error(Trouble::io, fmt::format("{}: cannot be found; check the name", short_name(path)));
   if (!options.spacing_mm.isZero() && !(options.spacing_mm.array() > 0).all())
-    return error(Trouble::usage, "--spacing-mm: three numbers above 0 are needed");
+    return error(Trouble::usage, "--spacing-mm: must be three numbers above 0");
   try {
     set_files_inside(nullptr);
     bool zipped = false;
@@ -266,8 +267,8 @@ Result<Scan> read_unfenced(const std::filesystem::path& path, const ReadOptions&
     return scan;
   } catch (const std::bad_alloc&) {
     return error(
-        fmt::format("{}: reading it needs more memory than it may take; if you trust it, allow "
-                    "more with --read-memory-mb",
+        fmt::format("{}: reading it needs more memory than allowed; if you trust it, allow more "
+                    "with --read-memory-mb",
                     short_name(path)));
   } catch (const std::exception& problem) {  // from a library used here
     return error(fmt::format("{}: cannot be read: {}", short_name(path), problem.what()));

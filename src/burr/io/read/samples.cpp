@@ -150,7 +150,8 @@ Status VoxelSink::finish(Scan& scan, bool labels_for_sure) {
   }
   if (labels_for_sure)
     return error(
-        "a label is not a whole number from 0 to 255; burr keeps 255 labels, renumber them");
+        "a label is not a whole number from 0 to 255; burr reads at most 255 labels, renumber "
+        "them");
   if (!wide_) widen();
 
   float low = std::numeric_limits<float>::infinity(), high = -low;
@@ -164,16 +165,16 @@ Status VoxelSink::finish(Scan& scan, bool labels_for_sure) {
   // the other formats do not name their unit; CT is recognized by its air and its metal
   if (!scan.hounsfield && low <= -900 && low >= -3100 && high >= 300 && high <= 8000) {
     scan.hounsfield = true;
-    scan.notices.push_back(
-        fmt::format("The values run from {:.0f} to {:.0f}, as CT does: taken for Hounsfield units.",
-                    low, high));
+    scan.notices.push_back(fmt::format(
+        "The values range from {:.0f} to {:.0f}, as in a CT: Hounsfield units are assumed.", low,
+        high));
   }
   if (broken_ > 0) {
     const float air = scan.hounsfield ? -1024.0F : low;
     for (float& value : values_)
       if (std::isnan(value)) value = air;
     scan.notices.push_back(fmt::format(
-        "{} voxels hold no finite number, or one beyond {:.0e}; they are air ({:.0f}) now.",
+        "{} voxels hold no finite number, or one beyond {:.0e}; they are now air ({:.0f}).",
         broken_, kLargestValue, air));
   }
   scan.values = std::move(values_);
@@ -207,8 +208,9 @@ Status read_samples(ByteSource& source, const SampleFormat& format, std::size_t 
 Result<std::size_t> voxel_count(std::string_view file, std::int64_t nx, std::int64_t ny,
                                 std::int64_t nz) {
   if (nx < 1 || ny < 1 || nz < 1)
-    return error(fmt::format("{}: a size of {} x {} x {} voxels cannot be; the header is wrong",
-                             file, nx, ny, nz));
+    return error(
+        fmt::format("{}: a size of {} x {} x {} voxels is not possible; the header is wrong", file,
+                    nx, ny, nz));
   constexpr std::int64_t kLongest = 32768;
   if (nx > kLongest || ny > kLongest || nz > kLongest || nx * ny > kMostVoxels / nz)
     return error(fmt::format(

@@ -18,15 +18,18 @@ FenceState fence_state() {
 
 std::string fence_words(const FenceState& state) {
   if (state.reader.empty())
-    return "scans cannot be read: burr-read is not beside libburr.so; install burr again or name "
-           "it in BURR_READ";
-  std::string words = "scans are read in a process of their own, with limits of processor time";
-  words += state.memory_limit ? " and memory" : " (not of memory: this is a sanitized build)";
+    return "scans cannot be read: burr-read is not beside libburr.so; install burr again or give "
+           "its path in BURR_READ";
+  std::string words = "scans are read in a separate process with limits on processor time";
+  words +=
+      state.memory_limit ? " and memory" : " (not on memory, because this is a sanitized build)";
   words += state.landlock > 0
-               ? fmt::format("; other files are closed to it (Landlock {})", state.landlock)
-               : "; this kernel has no Landlock to close other files to it";
-  words += state.seccomp ? ", network and programs too (seccomp)"
-                         : ", and no seccomp to close network and programs";
+               ? fmt::format("; it can open no other files (Landlock {})", state.landlock)
+               : "; it can open other files, because this kernel has no Landlock";
+  words +=
+      state.seccomp
+          ? ", and can neither use the network nor start programs (seccomp)"
+          : ", and it can use the network and start programs, because this kernel has no seccomp";
   return words;
 }
 

@@ -142,8 +142,7 @@ FenceOutcome read_all(FencedRead read, const FenceRequest& request) {
   try {
     outcome.scan = read(request.path, request.options, reports);
   } catch (const std::bad_alloc&) {
-    outcome.scan =
-        error(short_name(request.path) + ": reading it needs more memory than it may take");
+    outcome.scan = error(short_name(request.path) + ": reading it needs more memory than allowed");
   } catch (const std::exception& problem) {
     outcome.scan = error(short_name(request.path) + ": reading it failed: " + problem.what());
   }
@@ -164,7 +163,7 @@ int answer_one_request(FencedRead read) {
   if (::fstat(kFenceLetter, &facts) == 0 && facts.st_size == off_t{kLetterBytes})
     letter = ::mmap(nullptr, kLetterBytes, PROT_READ | PROT_WRITE, MAP_SHARED, kFenceLetter, 0);
   if (letter == MAP_FAILED) {
-    std::fputs("burr-read reads scans for burr; it is not started by hand\n", stderr);
+    std::fputs("burr-read reads scans for burr; do not start it by hand\n", stderr);
     return 2;
   }
   ::close(kFenceLetter);
@@ -204,7 +203,7 @@ int answer_one_request(FencedRead read) {
   message.kind = FenceMessage::done;
   message.bytes = pack(outcome, {bytes, kLetterBytes});
   if (message.bytes == 0) {
-    outcome.scan = error("its header holds more words than burr keeps");
+    outcome.scan = error("its header holds more text than burr can keep");
     message.bytes = pack(outcome, {bytes, kLetterBytes});
   }
   (void)say(message);

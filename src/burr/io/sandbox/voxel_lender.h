@@ -1,5 +1,5 @@
 // io/sandbox/voxel_lender.h - in a fenced reader the memory for voxels comes from the process that
-// asked for the scan, so that this process gets them without a copy. For use of this room only.
+// requested the scan, so that this process gets them without a copy. For use of this room only.
 #pragma once
 
 #include <cstddef>

@@ -173,7 +173,8 @@ Status write_3mf(const MeshOut& out, base::NewFile& file, const std::string& pat
       zip.add("3D/3dmodel.model", [&](Deflate& to) { return write_model(out, to, progress); });
   if (!done) return stopped_writing(path);
   if (!zip.finish())
-    return error(path + ": the mesh is too large for 3MF (4 GB); use .stl, or a larger --voxel-mm");
+    return error(
+        path + ": the mesh is too large for 3MF (4 GB at most); use .stl, or a larger --voxel-mm");
   return fine();
 }
 

@@ -180,9 +180,9 @@ Status write_mesh(const surface::Mesh& mesh, const volume::TissueTable& tissues,
   const Writer writer = writer_of(path);
   if (writer == nullptr)
     return error(Trouble::usage,
-                 path + ": unknown ending; a mesh is written as .stl, .ply, .obj, .3mf or .glb");
+                 path + ": unknown file extension; use .stl, .ply, .obj, .3mf or .glb for a mesh");
   if (mesh.triangles.empty())
-    return error(path + ": not written, there is no surface; is anything left of the bone?");
+    return error(path + ": not written, because there is no surface; check that some bone is left");
   auto file = base::NewFile::beside(path);
   if (!file) return file.error();
   const MeshOut out = placed(mesh, tissues, writer == write_glb ? Frame::lps : frame);

@@ -118,11 +118,11 @@ Status write_field(const Bone& bone, const std::string& path, Progress& progress
 Status write_scan(const Bone& before, const Bone& now, const std::string& path,
                   Progress& progress) {
   if (!before.has_intensity())
-    return error(path +
-                 ": this bone was not made from a scan, it has no grey values to write; "
-                 "write the field instead");
+    return error(
+        path +
+        ": this bone was not made from a scan, so it has no grey values; write the field instead");
   if (before.grid().size != now.grid().size)
-    return error(path + ": the two bones do not lie on the same grid");
+    return error(path + ": the two bones are not on the same grid");
   constexpr double kAir = -1000;  // [HU]
   const std::string keys = "burr_quantity:=scan\n";
   return write_nrrd<std::int16_t>(

@@ -1,4 +1,5 @@
-// record/mcap/crc32.h - the checksum of MCAP (and zip, PNG, Ethernet): CRC-32, polynomial 0xEDB88320.
+// record/mcap/crc32.h - the checksum of MCAP (and zip, PNG, Ethernet): CRC-32, polynomial
+// 0xEDB88320.
 //
 // Thread: any.
 #pragma once

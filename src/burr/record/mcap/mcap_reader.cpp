@@ -101,12 +101,12 @@ Result<std::unique_ptr<McapReader>> McapReader::open(const std::string& path, Tr
   if (reader->file_ < 0 || ::fstat(reader->file_, &about) != 0)
     return error(Trouble::io, fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
   if (!S_ISREG(about.st_mode))
-    return error(Trouble::io, path + ": is not a file; give the recording itself (.mcap)");
+    return error(Trouble::io, path + ": is not a regular file; give the recording (.mcap)");
   reader->size_ = static_cast<std::uint64_t>(about.st_size);
 
   std::array<std::uint8_t, 8> magic{};
   if (!reader->read_at(0, magic.data(), magic.size()) || magic != mcap::kMagic)
-    return error(path + ": does not begin like an MCAP file; is this a recording of burr?");
+    return error(path + ": does not begin as an MCAP file does; give a recording of burr");
 
   if (trust == Trust::summary && reader->read_summary()) {
     reader->finished_ = true;
@@ -277,12 +277,12 @@ Result<McapChunk> McapReader::read_chunk(std::size_t index) const {
   const mcap::ChunkAt& at = chunks_.at(index);
   if (at.compression != "zstd" && !at.compression.empty())
     return error(
-        fmt::format("{}: chunk compression \"{}\" is not known here, only zstd; it was not "
-                    "written by burr",
+        fmt::format("{}: burr does not read the chunk compression \"{}\", only zstd; this file was "
+                    "not written by burr",
                     path_, base::shown(at.compression)));
   McapChunk chunk;
   if (!unpack_chunk(at.offset, chunk))
-    return error(fmt::format("{}: the chunk at byte {} is damaged; `burr repair` keeps the rest",
+    return error(fmt::format("{}: the chunk at byte {} is damaged; `burr repair` saves the rest",
                              path_, at.offset));
   return chunk;
 }
@@ -447,22 +447,22 @@ void McapReader::scan(bool check_chunks) {
     const std::uint64_t resumed = find_chunk_after(offset);
     lost_bytes_ += resumed - offset;
     if (resumed < size_)
-      notices_.push_back(fmt::format("{}: bytes {} to {} are damaged and were stepped over", path_,
-                                     offset, resumed));
+      notices_.push_back(
+          fmt::format("{}: bytes {} to {} are damaged and were skipped", path_, offset, resumed));
     else
-      notices_.push_back(fmt::format("{}: ends in a torn record; its last {} bytes were dropped",
+      notices_.push_back(fmt::format("{}: the last record is incomplete; its {} bytes were ignored",
                                      path_, size_ - offset));
     offset = resumed;
   }
   if (!finished_ && lost_bytes_ == 0)
-    notices_.push_back(path_ + ": was not finished, but no record in it is torn");
+    notices_.push_back(path_ + ": was not closed properly, but all its records are complete");
 
   // after a power cut a chunk may have the right length and wrong bytes, but only at the end
   if (!ended && !check_chunks) {
     McapChunk chunk;
     while (!chunks_.empty() && !unpack_chunk(chunks_.back().offset, chunk)) {
       lost_bytes_ += chunks_.back().length;
-      notices_.push_back(fmt::format("{}: the last chunk, at byte {}, is damaged and was dropped",
+      notices_.push_back(fmt::format("{}: the last chunk, at byte {}, is damaged and was ignored",
                                      path_, chunks_.back().offset));
       chunks_.pop_back();
     }

@@ -52,13 +52,13 @@ const char* remedy(int code) {
   switch (code) {
     case ENOSPC:
     case EDQUOT:
-      return "; make room or choose another disk";
+      return "; free some space or choose another disk";
     case EACCES:
     case EPERM:
     case EROFS:
-      return "; choose a folder you may write to";
+      return "; choose a folder that you may write to";
     case EFBIG:
-      return "; raise the limit on the size of files (ulimit -f)";
+      return "; raise the limit on file size (ulimit -f)";
     default:
       return "";
   }
@@ -104,10 +104,10 @@ Status McapWriter::open(const std::string& path, const std::string& shown) {
   BURR_CHECK(file_ < 0);
   shown_ = shown;
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file_ < 0) return trouble(shown_, "write here");
+  if (file_ < 0) return trouble(shown_, "be written");
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0)
-    return error(Trouble::io, shown_ + ": another burr is writing it; choose another name");
-  if (::ftruncate(file_, 0) != 0) return trouble(shown_, "write here");
+    return error(Trouble::io, shown_ + ": another burr is writing this file; choose another name");
+  if (::ftruncate(file_, 0) != 0) return trouble(shown_, "be written");
   if (Status written = append(mcap::kMagic); !written.ok()) return written;
   BytesOut header;
   header.text("burr");
@@ -117,7 +117,7 @@ Status McapWriter::open(const std::string& path, const std::string& shown) {
 
 Status McapWriter::append(ByteSpan bytes) {
   if (failed_)
-    return error(Trouble::io, shown_ + ": not written any more, after an earlier failure");
+    return error(Trouble::io, shown_ + ": is no longer written after an earlier failure");
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t n = ::write(file_, bytes.data() + done, bytes.size() - done);
@@ -126,7 +126,7 @@ Status McapWriter::append(ByteSpan bytes) {
       continue;
     }
     if (n < 0 && errno == EINTR) continue;
-    const Error problem = trouble(shown_, "write on");
+    const Error problem = trouble(shown_, "be written further");
     failed_ = true;
     // a file cut in the middle of a record can be read, but a clean end is better: try to cut it
     // there
@@ -282,17 +282,17 @@ void McapWriter::count(const mcap::MessageIndexes& indexes, const mcap::ChunkAt&
 }
 
 Status McapWriter::sync() {
-  if (::fdatasync(file_) != 0) return trouble(shown_, "bring it to the disk");
+  if (::fdatasync(file_) != 0) return trouble(shown_, "be flushed to the disk");
   return fine();
 }
 
 Status McapWriter::still_there() const {
   struct stat now = {};
-  if (::fstat(file_, &now) != 0) return trouble(shown_, "look at it");
+  if (::fstat(file_, &now) != 0) return trouble(shown_, "be examined");
   if (now.st_nlink > 0) return fine();
   return error(Trouble::io, shown_ +
-                                ": was removed while it was being recorded, and what it held is "
-                                "gone; leave a recording alone until the session has ended");
+                                ": was removed while it was being recorded, and its content is "
+                                "lost; do not touch a recording until the session has ended");
 }
 
 // Positions of the chunks and their indexes, read back from the headers of their records: to keep
@@ -316,7 +316,7 @@ Status McapWriter::read_back(BytesOut& chunk_indexes) const {
   for (std::uint64_t at = first_chunk_; chunks_ > 0 && at < size_;) {
     const ssize_t there = ::pread(file_, head.data(), head.size(), static_cast<off_t>(at));
     if (there < 0 && errno == EINTR) continue;
-    if (there < 0) return trouble(shown_, "read back what was written");
+    if (there < 0) return trouble(shown_, "be read back");
     BytesIn in(ByteSpan(head).first(static_cast<std::size_t>(there)));
     const auto kind = static_cast<Kind>(in.get<std::uint8_t>());
     const std::uint64_t length = mcap::kRecordHead + in.get<std::uint64_t>();
@@ -337,8 +337,8 @@ Status McapWriter::read_back(BytesOut& chunk_indexes) const {
     }
     if (!in.ok() || length > size_ - at)
       return error(Trouble::io, shown_ +
-                                    ": was changed by another program while it was being "
-                                    "recorded; `burr repair` keeps what is left of it");
+                                    ": was changed by another program while it was being recorded; "
+                                    "`burr repair` saves what is left of it");
     at += length;
   }
   if (chunks_ > 0) put();
@@ -427,7 +427,7 @@ Status McapWriter::finish() {
   if (Status synced = sync(); !synced.ok()) return synced;
   const int file = file_;
   file_ = -1;
-  if (::close(file) != 0) return trouble(shown_, "close it");
+  if (::close(file) != 0) return trouble(shown_, "be closed");
   return fine();
 }
 

@@ -10,8 +10,8 @@ namespace {
 
 Error no_gl(const std::string& why) {
   return error(Trouble::io,
-               fmt::format("no OpenGL 3.3 or OpenGL ES 3.0 here ({}): install the packages "
-                           "libgl1-mesa-dri and libegl1, or your graphics card's driver",
+               fmt::format("OpenGL 3.3 or OpenGL ES 3.0 is not available ({}): install the "
+                           "packages libgl1-mesa-dri and libegl1, or your graphics card's driver",
                            why));
 }
 
@@ -24,7 +24,7 @@ bool start_video(bool visible, std::string& why) {
     why = SDL_GetError();
     return false;
   }
-  // no display is needed or asked for; the user's own choice of driver is respected
+  // no display is needed or requested; the user's own choice of driver is respected
   if (SDL_getenv("SDL_VIDEODRIVER") == nullptr) SDL_SetHint(SDL_HINT_VIDEODRIVER, "offscreen");
   const bool started = SDL_InitSubSystem(SDL_INIT_VIDEO) == 0;
   if (!started) why = SDL_GetError();
@@ -82,7 +82,7 @@ Status Context::create(const std::string& title, int width, int height, bool vis
     window_ = made;
     gl_ = gl;
     es_ = es;
-    // the driver may give something else than was asked for
+    // the driver may give something else than requested
     GLboolean given = GL_FALSE;
     if (quads) glGetBooleanv(GL_STEREO, &given);
     quad_buffer_ = given == GL_TRUE;

@@ -62,8 +62,8 @@ Error no_headset(const std::string& why) { return error(Trouble::io, "no headset
 
 Error refused(const char* call, XrResult code) {
   return no_headset(
-      fmt::format("the runtime refuses xr{} ({}); start it anew, then switch the "
-                  "headset on again in the settings (F2)",
+      fmt::format("the runtime refuses xr{} ({}); restart the runtime, then switch the headset on "
+                  "again in the settings (F2)",
                   call, static_cast<int>(code)));
 }
 
@@ -161,14 +161,16 @@ Status Headset::Work::open() {
       reinterpret_cast<PFN_xrGetInstanceProcAddr>(dlsym(loader, "xrGetInstanceProcAddr"));
   if (find == nullptr)
     return no_headset(fmt::format(
-        "{} is no OpenXR loader; install libopenxr-loader1, or unset BURR_OPENXR_LOADER", file));
+        "{} is not an OpenXR loader; install libopenxr-loader1, or unset BURR_OPENXR_LOADER",
+        file));
   const auto get = [&](XrInstance of, const char* called, auto& to) {
     PFN_xrVoidFunction found = nullptr;
     if (XR_FAILED(find(of, called, &found)) || found == nullptr) return false;
     to = reinterpret_cast<std::remove_reference_t<decltype(to)>>(found);
     return true;
   };
-  const Error old = no_headset(fmt::format("{} knows no OpenXR 1.0; install a newer one", file));
+  const Error old =
+      no_headset(fmt::format("{} does not support OpenXR 1.0; install a newer one", file));
 #define BURR_XR_FIND(called) \
   if (!get(instance, "xr" #called, xr.called)) return old;
   BURR_XR_CALLS(BURR_XR_FIND)
@@ -178,8 +180,8 @@ Status Headset::Work::open() {
   if (binding.extension != nullptr) wanted.push_back(binding.extension);
   std::uint32_t count = 0;
   constexpr const char* kNoRuntime =
-      "OpenXR finds no runtime; install and start the headset's own, such as Monado or SteamVR, "
-      "then switch it on again (F2)";
+      "OpenXR finds no runtime; install and start the headset's runtime, such as Monado or "
+      "SteamVR, then switch the headset on again (F2)";
   if (XR_FAILED(xr.EnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr)))
     return no_headset(kNoRuntime);
   std::vector<XrExtensionProperties> offered(
@@ -216,8 +218,8 @@ Status Headset::Work::find_system() {
   const XrResult found = xr.GetSystem(instance, &info, &system);
   if (found == XR_ERROR_FORM_FACTOR_UNAVAILABLE || found == XR_ERROR_FORM_FACTOR_UNSUPPORTED)
     return no_headset(
-        "OpenXR's runtime finds none; connect it and switch it on, then switch it on again in the "
-        "settings (F2)");
+        "OpenXR's runtime finds none; connect the headset and power it on, then switch it on again "
+        "in the settings (F2)");
   if (XR_FAILED(found)) return refused("GetSystem", found);
   auto properties = made<XrSystemProperties>(XR_TYPE_SYSTEM_PROPERTIES);
   if (XR_SUCCEEDED(xr.GetSystemProperties(instance, system, &properties)))
@@ -232,13 +234,14 @@ Status Headset::Work::make_session() {
   if (XR_FAILED(code)) return refused("GetOpenGLGraphicsRequirementsKHR", code);
   if (renderer.es() || XR_MAKE_VERSION(epoxy_gl_version() / 10, epoxy_gl_version() % 10, 0) <
                            needs.minApiVersionSupported)
-    return no_headset(fmt::format(
-        "the runtime needs OpenGL {}.{}, and the graphics driver offers less; update the driver",
-        XR_VERSION_MAJOR(needs.minApiVersionSupported),
-        XR_VERSION_MINOR(needs.minApiVersionSupported)));
+    return no_headset(
+        fmt::format("the runtime needs OpenGL {}.{}, but the graphics driver offers an older "
+                    "version; update the driver",
+                    XR_VERSION_MAJOR(needs.minApiVersionSupported),
+                    XR_VERSION_MINOR(needs.minApiVersionSupported)));
   const gl::XrBinding binding = gl::xr_binding();
   if (!binding.there)
-    return no_headset("this window's OpenGL is neither GLX's nor EGL's; start burr under X11");
+    return no_headset("the OpenGL of this window uses neither GLX nor EGL; start burr under X11");
   auto info = made<XrSessionCreateInfo>(XR_TYPE_SESSION_CREATE_INFO);
   info.next = binding.next();
   info.systemId = system;
@@ -280,7 +283,8 @@ Status Headset::Work::make_screens() {
   for (const std::int64_t wanted : {std::int64_t{GL_RGBA8}, std::int64_t{GL_SRGB8_ALPHA8}})
     if (std::find(formats.begin(), formats.end(), wanted) != formats.end()) format = wanted;
   if (format == 0)
-    return no_headset("the runtime takes no pictures of 8 bits a colour; use another runtime");
+    return no_headset(
+        "the runtime accepts no pictures with 8 bits per colour; use another runtime");
 
   for (std::size_t eye = 0; eye < 2; ++eye) {
     Screen& screen = screens[eye];
@@ -400,11 +404,12 @@ bool Headset::Work::good(const char* call, XrResult code) {
   if (code == XR_SESSION_LOSS_PENDING || code == XR_ERROR_SESSION_LOST ||
       code == XR_ERROR_INSTANCE_LOST)
     lose(
-        "The headset is gone; the window goes on. Switch it on again in the settings (F2) when "
-        "it is back.");
+        "The headset was disconnected; the window continues. Connect it, then switch it on again "
+        "in the settings (F2).");
   else if (XR_FAILED(code))
-    lose(fmt::format("The headset's runtime refuses xr{} ({}); the window goes on without it.",
-                     call, static_cast<int>(code)));
+    lose(fmt::format(
+        "The headset's runtime refuses xr{} ({}); the window continues without the headset.", call,
+        static_cast<int>(code)));
   return !over;
 }
 
@@ -434,7 +439,7 @@ void Headset::Work::changed(XrSessionState state) {
   } else if (state == XR_SESSION_STATE_LOSS_PENDING) {
     static_cast<void>(good("PollEvent", XR_ERROR_SESSION_LOST));
   } else if (state == XR_SESSION_STATE_EXITING) {
-    lose("The headset's runtime has ended; the window goes on.");
+    lose("The headset's runtime has ended; the window continues without the headset.");
   }
 }
 
@@ -452,7 +457,7 @@ bool Headset::Work::stop_waiting() {
 void Headset::Work::end_session() {
   running = focused = false;
   if (!stop_waiting()) {
-    lose("The headset's runtime does not answer; the window goes on without it.");
+    lose("The headset's runtime does not answer; the window continues without the headset.");
     return;
   }
   static_cast<void>(good("EndSession", xr.EndSession(session)));

@@ -122,10 +122,11 @@ void Renderer::Work::update(const Scene& scene) {
 
 Result<Image> Renderer::image(const Scene& scene, int width, int height, int tile) {
   if (width < 1 || height < 1 || width > kMostPicture || height > kMostPicture)
-    return error(Trouble::usage,
-                 fmt::format("a picture of {} x {} pixels cannot be drawn; width and height go "
-                             "from 1 to {}",
-                             width, height, kMostPicture));
+    return error(
+        Trouble::usage,
+        fmt::format(
+            "a picture of {} x {} pixels cannot be drawn; use 1 to {} pixels for width and height",
+            width, height, kMostPicture));
   Work& w = *work_;
   w.context->make_current();
   w.update(scene);
@@ -258,7 +259,7 @@ Status Renderer::show(const Scene& scene, const TwoEyes& eyes, const std::functi
   }
   w.present(how);
   if (glGetError() == GL_CONTEXT_LOST)
-    return error(Trouble::io, "the graphics card was lost; start it anew");
+    return error(Trouble::io, "the connection to the graphics card was lost; start burr again");
   return fine();
 }
 

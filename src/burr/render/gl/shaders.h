@@ -71,7 +71,7 @@ void main() {
   colour = mix(bone, under, float(at_rest.y >> 8u & 255u) / 255.0);
 #endif
 #ifdef DRESSED
-  // fresh bone is paler, and its grain is seen: a number of its own for every grain
+  // fresh bone is paler and shows its grain: every grain gets its own pseudo-random number
   uvec3 q = uvec3(ivec3(floor(at_p * grains_per_m + 0.25)));
   uint h = q.x * 0x9E3779B1u ^ q.y * 0x85EBCA77u ^ q.z * 0xC2B2AE3Du;
   h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;
@@ -80,7 +80,7 @@ void main() {
   colour = mix(colour, vec3(1.0, 0.98, 0.94), 0.5 * at_dress.x);
   colour *= 1.0 + 0.07 * grain * at_dress.x;
   colour *= 1.0 - 0.22 * at_dress.y;
-  // dust lies in grains, more of them the more there is
+  // dust is drawn in grains: the more dust, the more grains
   float lies = smoothstep(0.0, 0.35, at_dress.z * 1.35 - float(h >> 8u & 255u) / 255.0);
   colour = mix(colour, vec3(0.96, 0.945, 0.91) * (1.0 + 0.05 * grain), 0.9 * lies);
   colour = mix(colour, vec3(0.40, 0.03, 0.03), 0.92 * smoothstep(0.0, 0.6, at_dress.w));
@@ -91,7 +91,7 @@ void main() {
 
 // kind, in the alpha of the colour: 0 nothing, 1 bone (wet down to 0.82), 2/3 tool, 1/3 mark.
 // Normals are written unfolded, at 3 x 10 bit: to fold them here and unfold them in each later step
-// cost a tenth of a picture's time where the processor draws.
+// cost a tenth of a picture's time with software rendering.
 inline constexpr const char* kMeshFragment = R"(
 in vec3 n;
 in vec3 colour;
@@ -114,12 +114,13 @@ void main() {
 #ifdef CLIP
   if (beyond > 0.0) discard;
 #endif
-  // bone's normal leads into the tissue: from outside it is the tissue's own, turned around
+  // n is the bone's normal, which points into the tissue; seen from the bone's side, the wall has
+  // the opposite normal
   if (wall < 0.2) discard;
   if (!gl_FrontFacing) k = -n;
 #elif defined(CLIP)
   if (beyond > 0.0) discard;
-  // what is seen from behind is seen through the section: it closes it
+  // a back face can be seen only through the section plane: it is drawn as the section's surface
   if (!gl_FrontFacing) {
     k = plane_n;
     c = mix(c, vec3(0.80, 0.55, 0.45), 0.5);
@@ -127,7 +128,7 @@ void main() {
 #endif
   out_colour = vec4(c * tint_kind.rgb, tint_kind.a);
 #ifdef DRESSED
-  out_colour.a -= 0.18 * wet;  // still bone, and the light knows how wet
+  out_colour.a -= 0.18 * wet;  // still bone; the lighting step reads the wetness
 #endif
   out_n = vec4(k * 0.5 + 0.5, 1.0);
 }
@@ -206,7 +207,7 @@ void main() {
 inline constexpr const char* kSoftenFragment = R"(
 uniform sampler2D hollow_map;
 uniform ivec2 size;    // of this map
-uniform float strict;  // 1 / (depth difference that is another surface), in depth keys
+uniform float strict;  // 1 / (depth difference that separates two surfaces), in depth keys
 out vec4 result;
 float key(vec4 t) { return t.g + t.b / 255.0; }
 void main() {
@@ -224,8 +225,8 @@ void main() {
 }
 )";
 
-// sRGB to linear light and back (IEC 61966-2-1), with powers replaced by square roots: where the
-// processor draws, one power costs as much as the rest of a pixel. Fitted coefficients; the error
+// sRGB to linear light and back (IEC 61966-2-1), with powers replaced by square roots: in
+// software rendering, one power costs as much as the rest of a pixel. Fitted coefficients; the error
 // is at most 0.01 and 0.2 of 255.
 inline constexpr const char* kColourFunctions = R"(
 vec3 linear(vec3 c) {
@@ -240,8 +241,8 @@ vec3 srgb(vec3 c) {
 )";
 
 // Placed after kColourFunctions, with PLAIN, or with HOLLOWS (and HALF: at half resolution), SHADOW
-// (of the tool) and OTHERS (than bone: tool and marks) as requested. A processor that draws runs
-// both branches of every `if`, so code that is not needed must be left out.
+// (of the tool) and OTHERS (than bone: tool and marks) as requested. Software
+// rendering runs both branches of every `if`, so code that is not needed must be left out.
 inline constexpr const char* kLightFragment = R"(
 uniform sampler2D colour_map;
 uniform sampler2D normal_map;
@@ -274,7 +275,7 @@ float key(vec4 t) { return t.g + t.b / 255.0; }
 #ifndef HOLLOWS
 float openness(ivec2 at, float z) { return 1.0; }
 #elif defined(HALF)
-// the nearest four, those of the same surface
+// mean of the nearest four values; those of another surface have a very small weight
 float openness(ivec2 at, float z) {
   float mine = clamp((z - planes.x) / (planes.y - planes.x), 0.0, 1.0);
   ivec2 low = at / 2;
@@ -295,8 +296,9 @@ float openness(ivec2 at, float z) { return texelFetch(hollow_map, at, 0).r; }
 #endif
 
 #ifdef SHADOW
-// How much of the key light passes head and shaft: distance of the light's ray from ball and line,
-// softened with the distance of whatever casts the shadow.
+// The share of the key light that is not blocked by head and shaft, from the distance between the
+// light's ray and the ball or the axis. The edge of the shadow is softer where the object is
+// farther away.
 float passes(vec3 p, vec3 to) {
   vec3 c = ball.xyz - p;
   float along = dot(c, to);
@@ -341,32 +343,32 @@ void main() {
 #else
   const bool bone = true;
 #endif
-  float open = bone ? mix(1.0, openness(at, z), hollow) : 1.0;  // only bone has hollows
+  float open = bone ? mix(1.0, openness(at, z), hollow) : 1.0;  // for bone only
 
   float lit = max(dot(n, key_towards), 0.0);
   if (bone) lit *= passes(along * z, key_towards);
   float side = max(dot(n, fill_towards), 0.0);
   vec3 direct = key_light * lit + fill_light * side;
   float around = ambient * (0.8 + 0.2 * n.y);
-  // hollows lose all of the light from around and some of the lamps'
+  // in hollows all of the ambient light and a part of the lamps' light is blocked
   vec3 light = direct * (0.4 + 0.6 * open) + around * open;
 
-  // to the power of 28 for bone, 60 for steel
+  // the exponent of the highlight is 28 for bone, 60 for steel
   float x = max(dot(n, normalize(key_towards + eye)), 0.0);
   float x4 = x * x * x * x, x12 = x4 * x4 * x4, x28 = x12 * x12 * x4;
   float shine = bone ? x28 : x28 * x28 * x4;
   float own = bone ? gloss : 0.45;
-  if (bone) {  // water: a sharper, stronger shine
+  if (bone) {  // wet: a sharper, stronger highlight
     float wet = (1.0 - c.a) / 0.18;
     own += 0.5 * wet;
     shine = mix(shine, x28 * x28 * x4, wet);
   }
   vec3 colour = albedo * light + key_light * (own * shine * step(1e-4, lit) * open);
 #ifdef OTHERS
-  // steel mirrors the room: bright above, dark below
+  // steel reflects the room: bright above, dark below
   float mirrored = smoothstep(-0.2, 0.9, 2.0 * dot(n, eye) * n.y - eye.y);
   colour += bone ? vec3(0.0) : albedo * (0.35 * mirrored * open);
-  // marks: readable rather than real
+  // marks are shaded to be readable, not realistic
   colour = c.a < 0.5 ? albedo * (0.55 + 0.45 * max(n.z, 0.0)) : colour;
 #endif
 #endif
@@ -378,9 +380,9 @@ void main() {
 // Blends what is behind the bone with the bone. Where the bone is seen edge-on it stays opaque, so
 // that its shape can be seen; a bone of opacity 0 is invisible.
 inline constexpr const char* kThroughFragment = R"(
-uniform sampler2D colour_map;    // of the front
+uniform sampler2D colour_map;    // the bone in front
 uniform sampler2D normal_map;
-uniform sampler2D behind;        // lit
+uniform sampler2D behind;        // the picture behind it, with light
 uniform vec4 ray;
 uniform ivec2 size;
 uniform float opacity;

@@ -204,7 +204,7 @@ void Shapes::add_rod(const Rod& rod) {
         rod.on_top, {tube});
 }
 
-// Lines only, so that nobody takes the image for the burr: rings around its head, a line for its
+// Only lines, so that the image is not mistaken for the burr: rings around its head, a line for its
 // shaft, a frame around the plane. Light and dark alternate, to be visible on bone and on air.
 void Shapes::add_mirrored(const Mirrored& mirrored, const Burr& burr) {
   constexpr Colour kInks[] = {{1.0F, 0.98F, 0.80F}, {0.05F, 0.06F, 0.10F}};

@@ -32,8 +32,9 @@ Status attach(Framebuffer& framebuffer, std::initializer_list<GLuint> colours, G
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE &&
       glGetError() != GL_OUT_OF_MEMORY)
     return fine();
-  return error(Trouble::io,
-               "the graphics card cannot hold a picture of this size; make it smaller");
+  return error(
+      Trouble::io,
+      "the graphics card has no memory for a picture of this size; make the picture smaller");
 }
 
 Result<bool> Target::resize(int wide, int high, int hollow_stride) {
