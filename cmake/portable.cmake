@@ -30,7 +30,7 @@ if(NOT EMSCRIPTEN AND EXISTS ${BURR_GOOGLETEST}/CMakeLists.txt)
   set(INSTALL_GTEST OFF)
   set(BUILD_GMOCK OFF)
   add_subdirectory(${BURR_GOOGLETEST} ${CMAKE_BINARY_DIR}/googletest EXCLUDE_FROM_ALL)
-  set(core_tests math/pose math/turn math/sums tool/spindle volume/bone volume/sample volume/iso_vertices volume/thickness
+  set(core_tests math/pose math/rotation math/sums tool/spindle volume/bone volume/sample volume/iso_vertices volume/thickness
     edit/carve edit/carve_units edit/brush edit/mirror haptics/limit haptics/energy_guard haptics/soft_contact)
   list(TRANSFORM core_tests REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/tests/\\1_test.cpp")
   # bones by formula for the tests; no more of that room is needed

@@ -41,7 +41,7 @@ if(BURR_APP)
 
   # the parts that tests use as well, compiled once: the window, the doctor, and what both need
   set(BURR_APP_PARTS commands/hand_options commands/html_page commands/outputs commands/picture_size commands/recording commands/work
-    devices/trial devices/trial_words doctor/apart doctor/devices_there doctor/finding doctor/fix doctor/nodes)
+    devices/trial devices/trial_words doctor/run_in_process doctor/devices_there doctor/finding doctor/fix doctor/nodes)
   list(TRANSFORM BURR_APP_PARTS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/apps/burr/\\1.cpp")
   file(GLOB_RECURSE window CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp)
   list(APPEND BURR_APP_PARTS ${window})

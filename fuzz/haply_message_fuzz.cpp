@@ -40,7 +40,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::must(version >= 0 && version < 101'000, "a version has two short numbers");
     haply::Event event;
     if (!haply::read_event(text, event))
-      fuzz::must(event.what == haply::Told::nothing && event.device.empty(), "no event, no news");
+      fuzz::must(event.what == haply::EventKind::nothing && event.device.empty(),
+                 "no event, no news");
   }
   return 0;
 }

@@ -21,7 +21,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   for (const char* name : {"bone", "enamel", "caries", "vein"}) {
     volume::Tissue tissue;
     tissue.name = name;
-    read->lay_over(tissue);
+    read->apply_material(tissue);
     table.tissues.push_back(tissue);
   }
   fuzz::look_at(table);

@@ -14,7 +14,7 @@ constexpr double kMm = 1e-3;
 volume::Grid about(const Stroke& stroke, double r, double h) {
   Vec3 lo = stroke.start, hi = stroke.start;
   for (int n = 0; n <= 100; ++n) {
-    const Vec3 at = stroke.place(stroke.hand(n / 100.0));
+    const Vec3 at = stroke.true_centre(stroke.hand(n / 100.0));
     lo = lo.cwiseMin(at);
     hi = hi.cwiseMax(at);
   }
@@ -39,7 +39,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     one.depth = phantom::slab(n);
     one.start = (r + above) * n;
     one.hand = [=](double s) { return Vec3((r - deep) * n + (8 * s - 4) * kMm * along); };
-    one.place = [=](const Vec3& x) { return Vec3(x + (r - n.dot(x)) * n); };
+    one.true_centre = [=](const Vec3& x) { return Vec3(x + (r - n.dot(x)) * n); };
     one.convex = INFINITY;
     all.push_back(one);
   }
@@ -50,7 +50,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     one.depth = phantom::ball(R);
     one.start = (R + r + above) * on(0);
     one.hand = [=](double s) { return Vec3((R + r - deep) * on(1.5 * s)); };
-    one.place = [=](const Vec3& x) { return Vec3((R + r) * x.normalized()); };
+    one.true_centre = [=](const Vec3& x) { return Vec3((R + r) * x.normalized()); };
     one.convex = R;
     all.push_back(one);
   }
@@ -61,9 +61,9 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     one.depth = phantom::bowl(R);
     one.start = Vec3::Zero();
     one.hand = [=](double s) { return Vec3((R - r + deep) * on(1.5 * s)); };
-    one.place = [=](const Vec3& x) { return Vec3((R - r) * x.normalized()); };
+    one.true_centre = [=](const Vec3& x) { return Vec3((R - r) * x.normalized()); };
     // against a wall that curves almost like the burr, small errors move it far sideways
-    one.leverage = R / (R - r);
+    one.radius_error_factor = R / (R - r);
     all.push_back(one);
   }
   {
@@ -83,7 +83,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     };
     one.start = way(0, r + above);
     one.hand = [=](double s) { return way(s, r - deep); };
-    one.place = [=](const Vec3& x) {
+    one.true_centre = [=](const Vec3& x) {
       const Vec3 foot(std::min(x.x(), side), x.y(), std::min(x.z(), side));
       return Vec3(foot + r * (x - foot).normalized());
     };
@@ -102,7 +102,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     };
     one.start = corner + (r + above) * out(0);
     one.hand = [=](double s) { return Vec3(corner + (r - deep) * out(s)); };
-    one.place = [=](const Vec3& x) { return Vec3(corner + r * (x - corner).normalized()); };
+    one.true_centre = [=](const Vec3& x) { return Vec3(corner + r * (x - corner).normalized()); };
     all.push_back(one);
   }
   {
@@ -121,7 +121,7 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     };
     one.hand = hand;
     one.start = hand(0) + (above + deep) * (hand(0) - middle(hand(0))).normalized();
-    one.place = [=](const Vec3& x) {
+    one.true_centre = [=](const Vec3& x) {
       const Vec3 q = middle(x);
       return Vec3(q + (tube + r) * (x - q).normalized());
     };
@@ -137,8 +137,8 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     const double z = std::sqrt((tube + r) * (tube + r) - ring * ring);
     one.start = {0, 0, z + above};
     one.hand = [=](double s) { return Vec3(0, 0, z - deep * (0.5 + s / 2)); };
-    one.place = [=](const Vec3&) { return Vec3(0, 0, z); };
-    one.leverage = (tube + r) / z;
+    one.true_centre = [=](const Vec3&) { return Vec3(0, 0, z); };
+    one.radius_error_factor = (tube + r) / z;
     all.push_back(one);
   }
   for (const double half : {45.0, 30.0}) {
@@ -148,11 +148,11 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     one.depth = phantom::groove(angle);
     one.start = {0, -3 * kMm, z + above};
     one.hand = [=](double s) { return Vec3(0, (6 * s - 3) * kMm, z - deep); };
-    one.place = [=](const Vec3& x) { return Vec3(0, x.y(), z); };
+    one.true_centre = [=](const Vec3& x) { return Vec3(0, x.y(), z); };
     one.centre_hand = [=](double s) {
       return Vec3(-0.1 * kMm - r * s * s, (6 * s - 3) * kMm, -deep);
     };
-    one.leverage = 1 / std::sin(angle);
+    one.radius_error_factor = 1 / std::sin(angle);
     all.push_back(one);
   }
   {
@@ -163,8 +163,8 @@ std::vector<Stroke> strokes(double r, double h, double deep) {
     const double z = std::sqrt((rho + r) * (rho + r) - apart * apart);
     one.start = {0, 0, z + above};
     one.hand = [=](double s) { return Vec3(0, 0, z - deep * (0.5 + s / 2)); };
-    one.place = [=](const Vec3&) { return Vec3(0, 0, z); };
-    one.leverage = (rho + r) / z;
+    one.true_centre = [=](const Vec3&) { return Vec3(0, 0, z); };
+    one.radius_error_factor = (rho + r) / z;
     all.push_back(one);
   }
   for (Stroke& one : all) one.grid = about(one, r, h);

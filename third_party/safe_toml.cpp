@@ -3,7 +3,7 @@
 
 #include <fmt/core.h>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 
 namespace burr {
 
@@ -12,7 +12,7 @@ Result<toml::table> parse_toml(std::string_view text, std::string_view file) {
     return toml::parse(text);
   } catch (const toml::parse_error& problem) {
     return error(fmt::format("{}: line {}: {}", file, problem.source().begin.line,
-                             base::shown(problem.description(), 300)));
+                             base::printable(problem.description(), 300)));
   }
 }
 

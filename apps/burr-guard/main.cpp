@@ -97,7 +97,7 @@ int guard_arm(int domain, const std::string& arm, const std::string& route) {
     std::this_thread::sleep_for(kLook);
   }
   crtk::WrenchStamped none{};
-  none.header_.frame_id_ = crtk::lent("");
+  none.header_.frame_id_ = crtk::as_sample_text("");
   return guard([&] {
     none.header_.stamp_ = crtk::now_stamp();
     force.write(none);

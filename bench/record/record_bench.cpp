@@ -56,7 +56,7 @@ tick::TickRow tick_of(std::uint64_t tick, double rate_hz, std::mt19937_64& rando
 
 // Records `seconds` of milling: every 50 ms the 27 bricks around the burr are written again.
 std::string record_session(const volume::Bone& base, double seconds, double rate_hz,
-                           record::RecordingAccount& account) {
+                           record::RecordingStats& account) {
   const auto path = (std::filesystem::temp_directory_path() / "burr_record_bench.mcap").string();
   std::mt19937_64 random(1);
   record::SessionInfo info;
@@ -97,7 +97,7 @@ std::string record_session(const volume::Bone& base, double seconds, double rate
 
 void record_ticks(benchmark::State& state) {
   const auto bone = slab();
-  record::RecordingAccount account;
+  record::RecordingStats account;
   for (auto _ : state) record_session(*bone, 60, 1000, account);
   state.SetItemsProcessed(state.iterations() * 60'000);
   state.counters["bytes_per_tick"] =
@@ -107,7 +107,7 @@ BENCHMARK(record_ticks)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void open_a_moment_of_ten_minutes(benchmark::State& state) {
   const auto base = slab();
-  record::RecordingAccount account;
+  record::RecordingStats account;
   const std::string path = record_session(*base, 600, 1000, account);
   std::mt19937_64 random(2);
   std::vector<double> took_ms;

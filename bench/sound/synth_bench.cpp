@@ -11,7 +11,7 @@ using namespace burr;
 
 void second_of_sound(benchmark::State& state) {
   sound::Synth synth;
-  sound::Heard heard;
+  sound::SoundState heard;
   if (state.range(0) != 0) {
     heard.spindle_rad_s = 4'189;
     heard.cutting_nm = 3e-3;
@@ -24,7 +24,7 @@ void second_of_sound(benchmark::State& state) {
   for (auto _ : state)
     for (int n = 0; n < 100; ++n) {
       heard.touching = n % 20 < 10;
-      synth.hear(heard);
+      synth.update(heard);
       synth.make(block);
       benchmark::DoNotOptimize(block.data());
     }

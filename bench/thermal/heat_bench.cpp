@@ -76,7 +76,7 @@ void look(benchmark::State& state) {
       volume::BrickField content;
       if (bone.copy_brick(brick, content)) bone.write_brick(brick, content);
     }
-    benchmark::DoNotOptimize(milling.heating.grid().look());
+    benchmark::DoNotOptimize(milling.heating.grid().read_changes());
   }
 }
 BENCHMARK(look)->Arg(1000)->Arg(500)->Unit(benchmark::kMillisecond);

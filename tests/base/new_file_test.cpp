@@ -37,7 +37,7 @@ class NewFileTest : public testing::Test {
 TEST_F(NewFileTest, IsThereWholeOnceItIsPutInPlace) {
   std::string large(5'000'000, 'x');
   {
-    auto file = NewFile::beside(path("a"));
+    auto file = NewFile::create(path("a"));
     ASSERT_TRUE(file.ok());
     file->write("head");
     file->write(large.data(), large.size());
@@ -53,7 +53,7 @@ TEST_F(NewFileTest, IsThereWholeOnceItIsPutInPlace) {
 TEST_F(NewFileTest, LeavesTheOldFileAndNothingElseWhenGivenUp) {
   std::ofstream(path("a")) << "old";
   {
-    auto file = NewFile::beside(path("a"));
+    auto file = NewFile::create(path("a"));
     ASSERT_TRUE(file.ok());
     file->write("new");
   }
@@ -69,7 +69,7 @@ TEST_F(NewFileTest, AFullDiskIsTroubleNotHalfAFile) {
   small.rlim_cur = 100'000;
   std::ofstream(path("a")) << "old";
   {
-    auto file = NewFile::beside(path("a"));
+    auto file = NewFile::create(path("a"));
     ASSERT_TRUE(file.ok());
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
     const std::string large(3'000'000, 'x');
@@ -86,17 +86,17 @@ TEST_F(NewFileTest, AFullDiskIsTroubleNotHalfAFile) {
 }
 
 TEST_F(NewFileTest, RefusesWhatIsNoPlainFileAndFollowsLinks) {
-  EXPECT_FALSE(NewFile::beside(folder.string()).ok());
-  EXPECT_FALSE(NewFile::beside("/dev/null").ok());
-  EXPECT_FALSE(NewFile::beside("").ok());
-  const auto missing = NewFile::beside(path("no/such/folder"));
+  EXPECT_FALSE(NewFile::create(folder.string()).ok());
+  EXPECT_FALSE(NewFile::create("/dev/null").ok());
+  EXPECT_FALSE(NewFile::create("").ok());
+  const auto missing = NewFile::create(path("no/such/folder"));
   ASSERT_FALSE(missing.ok());
   EXPECT_EQ(missing.error().trouble, Trouble::io);
 
   std::ofstream(path("real")) << "old";
   fs::create_symlink("real", path("link"));
   {
-    auto file = NewFile::beside(path("link"));
+    auto file = NewFile::create(path("link"));
     ASSERT_TRUE(file.ok());
     file->write("new");
     ASSERT_TRUE(file->put_in_place().ok());

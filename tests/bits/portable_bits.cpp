@@ -143,9 +143,9 @@ void replay(const Scene& scene) {
     row = &servo.tick(false);
     touching += row->contact.touching ? 1 : 0;
     servo.publish();
-    servo.take_ahead();
-    bone->take_ahead();
-    surface.take_ahead();
+    servo.commit_ahead();
+    bone->commit_ahead();
+    surface.commit_ahead();
   }
   std::printf("%s %016llx %016llx touching %d removed_mm3 %.6f\n", scene.name.c_str(),
               static_cast<unsigned long long>(row->hash),

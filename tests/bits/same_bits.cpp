@@ -79,7 +79,7 @@ class CommandingHand final : public device::Device {
     return hand_.state(dt);
   }
   void write_force(const Vec3& force) BURR_RT override { hand_.write_force(force); }
-  void hold(double scale) BURR_RT override { hand_.hold(scale); }
+  void scale_force(double scale) BURR_RT override { hand_.scale_force(scale); }
   [[nodiscard]] bool finished() const BURR_RT override { return hand_.finished(); }
 
  private:
@@ -134,7 +134,7 @@ void mill(const char* name, const Plan& plan, const std::function<Bone()>& make,
   auto player = take(record::Player::open(file));
   const auto again = take(sim::replay(*player, make(), quiet));
   std::filesystem::remove(file);
-  if (again.parted_at || again.gaps > 0 || again.ticks != row.tick + 1 ||
+  if (again.first_different_tick || again.gaps > 0 || again.ticks != row.tick + 1 ||
       again.bone->content_hash() != session->bone().content_hash())
     give_up(fmt::format("{}: does not replay: {}", name, again.difference));
   const sim::Outcome outcome = session->outcome();

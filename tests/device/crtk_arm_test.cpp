@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "burr/device/crtk/bus.h"
-#include "burr/math/turn.h"
+#include "burr/math/rotation.h"
 #include "burr/sim/session.h"
 #include "device/fake/fake_crtk.h"
 #include "device/slab.h"
@@ -41,13 +41,15 @@ struct Driver {
         state(bus->participant(), "/burr/operating_state", Keep::last) {}
 
   static PoseStamped goal(const Pose& pose) {
-    return {{now_stamp(), lent("world")}, message_of(pose)};
+    return {{now_stamp(), as_sample_text("world")}, message_of(pose)};
   }
   void go(Writer<PoseStamped>& by, const Pose& pose) const { by.write(goal(pose)); }
-  void ask(const char* word) { command.write({{now_stamp(), lent("")}, lent(word)}); }
+  void ask(const char* word) {
+    command.write({{now_stamp(), as_sample_text("")}, as_sample_text(word)});
+  }
   void press(float pedal) {
     Joy joy{};
-    joy.header_ = {now_stamp(), lent("")};
+    joy.header_ = {now_stamp(), as_sample_text("")};
     joy.axes_._buffer = &pedal;
     joy.axes_._length = joy.axes_._maximum = 1;
     spindle.write(joy);
@@ -146,23 +148,23 @@ TEST_F(ArmTest, StatesAreObeyed) {
   ASSERT_GT(ticks([](const HandState& hand) { return hand.pedal == 0; }), 0) << "spindle off";
   EXPECT_EQ(now_.buttons & kLifted, 0U) << "it still touches";
   driver_->go(driver_->servo, {{0, 0, 0}, Quat::Identity()});
-  ASSERT_TRUE(soon([&] { return arm_->left_aside() == 1; }));
+  ASSERT_TRUE(soon([&] { return arm_->ignored_goals() == 1; }));
   EXPECT_EQ(hand_->state(1e-3).world_from_tool.p.x(), 5 * kMm);
   EXPECT_FALSE(hand_->trouble().empty());
 
   driver_->ask("disable");
   ASSERT_GT(ticks([](const HandState& hand) { return (hand.buttons & kLifted) != 0; }), 0);
   driver_->ask("resume");  // is possible only from a pause
-  ASSERT_TRUE(soon([&] { return arm_->left_aside() == 2; }));
+  ASSERT_TRUE(soon([&] { return arm_->ignored_goals() == 2; }));
   driver_->ask("enable");
   ASSERT_GT(ticks([](const HandState& hand) { return (hand.buttons & kLifted) == 0; }), 0);
   EXPECT_EQ(now_.pedal, 0) << "it does not begin to turn by itself";
 
   driver_->ask("unhome");
   driver_->ask("dance");
-  ASSERT_TRUE(soon([&] { return arm_->left_aside() == 3; }));
+  ASSERT_TRUE(soon([&] { return arm_->ignored_goals() == 3; }));
   driver_->go(driver_->move, {{1 * kMm, 0, 0}, Quat::Identity()});
-  ASSERT_TRUE(soon([&] { return arm_->left_aside() == 4; })) << "not homed";
+  ASSERT_TRUE(soon([&] { return arm_->ignored_goals() == 4; })) << "not homed";
   driver_->ask("home");
   EXPECT_GT(until_at(Vec3::Zero()), 0);
 }
@@ -171,7 +173,7 @@ TEST_F(ArmTest, WhatCannotBeFollowedIsLeftAside) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const auto leave = [&](PoseStamped goal, std::uint64_t count) {
     driver_->servo.write(goal);
-    EXPECT_TRUE(soon([&] { return arm_->left_aside() == count; }));
+    EXPECT_TRUE(soon([&] { return arm_->ignored_goals() == count; }));
   };
   PoseStamped goal = Driver::goal({{kMm, 0, 0}, Quat::Identity()});
   goal.header_.stamp_ = {};
@@ -182,7 +184,7 @@ TEST_F(ArmTest, WhatCannotBeFollowedIsLeftAside) {
   goal.pose_.orientation_ = {0, 0, 0, 0};
   leave(goal, 4);
   driver_->press(static_cast<float>(kNan));
-  EXPECT_TRUE(soon([&] { return arm_->left_aside() == 5; }));
+  EXPECT_TRUE(soon([&] { return arm_->ignored_goals() == 5; }));
   EXPECT_EQ(hand_->state(1e-3).world_from_tool.p, Vec3::Zero());
   EXPECT_EQ(hand_->state(1e-3).pedal, 0);
 }
@@ -204,7 +206,7 @@ TEST_F(ArmTest, WhatIsToldIsReadByOthers) {
   told.busy = true;
   const OperatingState* state = nullptr;
   ASSERT_TRUE(soon([&] {
-    arm_->tell(told);
+    arm_->publish(told);
     return state != nullptr || (state = driver_->state.take()) != nullptr;
   }));
   EXPECT_STREQ(state->state_, "ENABLED");
@@ -212,7 +214,7 @@ TEST_F(ArmTest, WhatIsToldIsReadByOthers) {
   const auto told_now = [&](auto& reader) {
     const auto* newest = reader.take();
     EXPECT_TRUE(soon([&] {
-      arm_->tell(told);
+      arm_->publish(told);
       return newest != nullptr || (newest = reader.take()) != nullptr;
     }));
     return newest;
@@ -232,13 +234,13 @@ TEST_F(ArmTest, OneThatWasLetGoSaysFaultWhileItIsEnabled) {
   const auto says = [&](const std::string& word) {
     std::string said;
     return soon([&] {
-      arm_->tell(told);
+      arm_->publish(told);
       if (const OperatingState* state = driver_->state.take()) said = state->state_;
       return said == word;
     });
   };
   EXPECT_TRUE(says("ENABLED"));
-  told.let_go = true;
+  told.released = true;
   EXPECT_TRUE(says("FAULT"));
   driver_->ask("pause");
   EXPECT_TRUE(says("PAUSED"));
@@ -247,7 +249,7 @@ TEST_F(ArmTest, OneThatWasLetGoSaysFaultWhileItIsEnabled) {
   driver_->ask("disable");
   EXPECT_TRUE(says("DISABLED"));
   driver_->ask("enable");
-  told.let_go = false;
+  told.released = false;
   EXPECT_TRUE(says("ENABLED"));
 }
 
@@ -300,12 +302,12 @@ class DrivenArm : public ArmTest {
   bool heard(const std::function<bool()>& so) {
     return soon([&] {
       if (rows_.take(row_))
-        arm_->tell({{row_.contact.proxy, row_.hand.world_from_tool.q},
-                    row_.hand.world_from_tool,
-                    row_.hand.velocity,
-                    row_.contact.force,
-                    false,
-                    session_->servo().let_go()});
+        arm_->publish({{row_.contact.proxy, row_.hand.world_from_tool.q},
+                       row_.hand.world_from_tool,
+                       row_.hand.velocity,
+                       row_.contact.force,
+                       false,
+                       session_->servo().released()});
       if (const PoseStamped* newest = driver_->measured.take())
         measured_ = pose_of(newest->pose_).p;
       if (const PoseStamped* newest = driver_->setpoint.take())

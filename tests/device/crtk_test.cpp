@@ -302,7 +302,7 @@ TEST_F(LeaderTest, ANodeThatDiesInContactIsALostHandAndComesBackByTheRamp) {
   ASSERT_TRUE(soon([&] { return tick.invalid() > 0; }));
   ASSERT_TRUE(soon([&] { return !hand->trouble().empty(); }));
   arm = std::make_unique<FakeCrtkArm>(domain_);
-  ASSERT_TRUE(soon([&] { return hand->returns() == 1; })) << hand->trouble();
+  ASSERT_TRUE(soon([&] { return hand->reconnections() == 1; })) << hand->trouble();
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_EQ(arm->force(), Vec3::Zero()) << "the wall is still there: it waits for a small force";
   wall = false;
@@ -318,7 +318,7 @@ TEST_F(LeaderTest, AStallOf50MsIsALostHandAndNotALostArm) {
   arm.with([](Commands& w) { w.stall_ms = 50; });
   EXPECT_TRUE(soon([&] { return (tick.flags() & rt::kFlagHandLost) != 0; }));
   EXPECT_TRUE(soon([&] { return tick.hand().valid && arm.force().norm() > 0.03; }));
-  EXPECT_EQ(hand->returns(), 0);
+  EXPECT_EQ(hand->reconnections(), 0);
 }
 
 TEST_F(LeaderTest, ARateThatFallsLaterIsALostHandEachTime) {
@@ -530,7 +530,7 @@ TEST_F(LeaderTest, WhoComesLaterMakesItLetGo) {
   EXPECT_FALSE(tick.engaged()) << "the wall is still there: it waits for a small force";
   wall = false;
   EXPECT_TRUE(soon([&] { return tick.engaged(); }));
-  EXPECT_EQ(hand->returns(), 0);
+  EXPECT_EQ(hand->reconnections(), 0);
 }
 
 TEST_F(LeaderTest, AThousandTimesOpenedAndClosedNothingIsLeft) {
@@ -595,7 +595,7 @@ TEST_F(LeaderTest, APlaceOnTheWireIsThatOfRosByteForByte) {
   PoseStamped pose{};
   pose.header_.stamp_.sec_ = 7;
   pose.header_.stamp_.nanosec_ = 9;
-  pose.header_.frame_id_ = lent("abc");
+  pose.header_.frame_id_ = as_sample_text("abc");
   auto& place = pose.pose_.position_;  // each by its name, in ROS' order below
   place.x_ = 1;
   place.y_ = 2;

@@ -90,7 +90,7 @@ double last_up(std::size_t which = 0) { return last_force(which).z(); }
 // A wire and its link without threads; only the test advances time.
 struct ByHand {
   Omega omega;
-  Link link{{.patience = 0}, &virtual_now};
+  Link link{{.answer_timeout = 0}, &virtual_now};
   DeviceSpec spec;
   HandState hand;     // as the tick read it last
   bool there = true;  // result of the last exchange
@@ -935,7 +935,7 @@ TEST_F(OmegaTest, WhatIsWrongIsToldWhileTheSessionGoesOn) {
   EXPECT_TRUE(test::soon([&] { return tick.engaged(); }));
   tick.stop();
   device.close();
-  EXPECT_EQ(device.returns(), 0) << "it was never lost";
+  EXPECT_EQ(device.reconnections(), 0) << "it was never lost";
 }
 
 TEST_F(OmegaTest, PulledOutInContactItLetsGoAndComesBackByTheRamp) {
@@ -961,7 +961,7 @@ TEST_F(OmegaTest, PulledOutInContactItLetsGoAndComesBackByTheRamp) {
   });
   ASSERT_TRUE(test::soon(
       [&] { return of([](const test::FakeArm& arm) { return arm.writes; }) > writes + 50; }));
-  EXPECT_EQ(device.returns(), 1);
+  EXPECT_EQ(device.reconnections(), 1);
   EXPECT_EQ(device.trouble(), "");
   EXPECT_FALSE(tick.engaged()) << "the wall is still there: it waits for a small force";
   EXPECT_EQ(of([](const test::FakeArm& arm) { return arm.largest_force; }), 0);
@@ -982,7 +982,7 @@ TEST_F(OmegaTest, AnotherDeviceThanBeforeIsNotTaken) {
   EXPECT_FALSE(of([](const test::FakeArm& arm) { return arm.force_on; }, 1));
   set([](test::FakeArm& arm) { arm.present = true; });
   EXPECT_TRUE(test::soon([&] { return device.trouble().empty(); }));
-  EXPECT_EQ(device.returns(), 1);
+  EXPECT_EQ(device.reconnections(), 1);
   device.close();
 }
 
@@ -1001,7 +1001,7 @@ TEST_F(OmegaTest, AnotherModelWithoutASerialNumberIsNotTakenEither) {
   set([](test::FakeArm& arm) { arm.present = true; }, 1);
   EXPECT_TRUE(test::soon([&] { return has(device.trouble(), "Another device"); }))
       << device.trouble();
-  EXPECT_EQ(device.returns(), 0);
+  EXPECT_EQ(device.reconnections(), 0);
   device.close();
 }
 
@@ -1015,8 +1015,8 @@ TEST_F(OmegaTest, AtAHundredHertzNothingIsPushed) {
     for (int n = 0; n < milliseconds; ++n) {
       virtual_ns += 1'000'000;
       if (n % every == 0) by.there = exchange(by.omega, by.link);
-      const bool believed = limit.believe(by.link.state(), flags);
-      by.link.write_force(limit.apply({0, believed ? wanted : 0, 0}, 1e-3, flags));
+      const bool usable = limit.accept_reading(by.link.state(), flags);
+      by.link.write_force(limit.apply({0, usable ? wanted : 0, 0}, 1e-3, flags));
       most = std::max(most, last_up());
     }
   };
@@ -1070,7 +1070,7 @@ TEST_F(OmegaTest, TwoAtOnceEachHasItsOwnForceAndItsOwnLoss) {
     EXPECT_TRUE(test::soon(
         [&] { return of([](const test::FakeArm& arm) { return arm.writes; }, 1) > writes + 50; }));
     EXPECT_EQ(second.trouble(), "");
-    EXPECT_EQ(second.returns(), 0);
+    EXPECT_EQ(second.reconnections(), 0);
     one.stop();
     two.stop();
   }
@@ -1103,7 +1103,7 @@ TEST_F(OmegaTest, AMillionWildTicksNeverPassTheLimit) {
       arm.off_cause = dice == 4 ? 2 : 0;
       arm.code = static_cast<int>(dice % 3);
     });
-    if (dice == 5) by.link.hold(std::abs(any(random)));
+    if (dice == 5) by.link.scale_force(std::abs(any(random)));
     const int frames = dice < 8 ? static_cast<int>(dice) : 1;
     for (int k = 0; k < frames; ++k) by.frame();
     const HandState hand = by.link.state();
@@ -1114,7 +1114,7 @@ TEST_F(OmegaTest, AMillionWildTicksNeverPassTheLimit) {
     if (dice == 9) wanted.setConstant(kInf);
     if (dice == 10) wanted.setConstant(kNan);
     if (n % 1000 < 20) wanted.setZero();
-    if (!limit.believe(hand, flags)) wanted.setZero();
+    if (!limit.accept_reading(hand, flags)) wanted.setZero();
     by.link.write_force(limit.apply(wanted, 1e-3, flags));
   }
   const double largest = of([](const test::FakeArm& arm) { return arm.largest_force; });

@@ -81,10 +81,10 @@ TEST_F(HaplyDoubt, AnotherArmThanBeforeIsNotTaken) {
   service_.with([](Commands& w) { w.arms[0].id = "OTHER"; });
   EXPECT_TRUE(soon([&] { return device.trouble().find("Another device") != std::string::npos; }))
       << device.trouble();
-  EXPECT_EQ(device.returns(), 0);
+  EXPECT_EQ(device.reconnections(), 0);
   EXPECT_EQ(service_.with([](Commands& w) { return w.arms[0].force; }), Vec3::Zero());
   service_.with([](Commands& w) { w.arms[0].id = "049D"; });
-  EXPECT_TRUE(soon([&] { return device.returns() == 1; })) << device.trouble();
+  EXPECT_TRUE(soon([&] { return device.reconnections() == 1; })) << device.trouble();
 }
 
 // However late it answers, burr sends one message: each answer belongs to one message.

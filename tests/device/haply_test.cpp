@@ -259,7 +259,7 @@ TEST_F(InverseTest, UnpluggedInContactItLetsGoAndComesBackByTheRamp) {
       << arm->trouble();
   kept.force.setZero();
   service_.with([&](Commands& w) { w.arms = {kept}; });
-  ASSERT_TRUE(soon([&] { return arm->returns() == 1; }));
+  ASSERT_TRUE(soon([&] { return arm->reconnections() == 1; }));
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_LE(asked().norm(), 0.021) << "the wall is still there: it waits for a small force";
   EXPECT_FALSE(tick.engaged());
@@ -273,12 +273,12 @@ TEST_F(InverseTest, AServiceThatHangsUpOrFallsSilentIsSoughtAgain) {
   test::StandIn tick(*arm, [](const HandState&) { return Vec3(0, 0.04, 0); });
   ASSERT_TRUE(soon([&] { return asked().norm() > 0.03; }));
   service_.drop();
-  ASSERT_TRUE(soon([&] { return arm->returns() == 1; }));
+  ASSERT_TRUE(soon([&] { return arm->reconnections() == 1; }));
   ASSERT_TRUE(soon([&] { return tick.hand().valid; }));
   service_.with([](Commands& w) { w.silent = true; });
   ASSERT_TRUE(soon([&] { return arm->trouble().find("Inverse Service") != std::string::npos; }));
   service_.with([](Commands& w) { w.silent = false; });
-  EXPECT_TRUE(soon([&] { return arm->returns() == 2; }));
+  EXPECT_TRUE(soon([&] { return arm->reconnections() == 2; }));
 }
 
 TEST_F(InverseTest, AServiceThatHangsUpIsNotTakenForOneThatSpeaksNonsense) {
@@ -304,7 +304,7 @@ TEST_F(InverseTest, AStallOf50MsIsALostHandAndNotALostService) {
   service_.with([](Commands& w) { w.stall_ms = 50; });
   EXPECT_TRUE(soon([&] { return (tick.flags() & rt::kFlagHandLost) != 0; }));
   EXPECT_TRUE(soon([&] { return tick.hand().valid && asked().norm() > 0.03; }));
-  EXPECT_EQ(arm->returns(), 0);
+  EXPECT_EQ(arm->reconnections(), 0);
 }
 
 TEST_F(InverseTest, AnArmThatIsNotReadyIsNotBelievedAndSaysWhy) {
@@ -425,13 +425,13 @@ TEST_F(InverseTest, AtAHundredHertzNothingIsPushed) {
   // again
   double most = 0;
   EXPECT_TRUE(soon([&] {
-    const int before = service_.messages, returns = arm->returns();
+    const int before = service_.messages, returns = arm->reconnections();
     most = 0;
     while (service_.messages < before + 30) {
       most = std::max(most, asked().norm());
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    return arm->returns() == returns;
+    return arm->reconnections() == returns;
   })) << "slow, and not lost";
   EXPECT_EQ(most, 0);
 }
@@ -595,7 +595,7 @@ TEST_F(InverseEventsTest, AnEmergencyBrakeLetsGoUntilItIsReleasedAndForceReturns
   ASSERT_TRUE(soon([&] { return asked() == Vec3::Zero(); }));
   EXPECT_FALSE(tick.hand().valid);
   EXPECT_TRUE(soon([&] { return arm->trouble().find("emergency brake") != std::string::npos; }));
-  EXPECT_EQ(arm->returns(), 0);
+  EXPECT_EQ(arm->reconnections(), 0);
   service_.tell("device-battery-low", "049D");
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_EQ(asked(), Vec3::Zero());
@@ -652,7 +652,7 @@ TEST_F(InverseEventsTest, GarbageHugeMessagesAndHangUpsDisturbNothing) {
   EXPECT_TRUE(soon([&] { return service_.listened == 5; })) << "no text at all";
   service_.tell("device-busy", "049D");
   EXPECT_TRUE(soon([&] { return arm->trouble().find("busy") != std::string::npos; }));
-  EXPECT_EQ(arm->returns(), 0);
+  EXPECT_EQ(arm->reconnections(), 0);
   EXPECT_EQ(tick.invalid(), invalid);
   EXPECT_GT(asked().norm(), 0.03);
 }
@@ -711,7 +711,7 @@ TEST_F(InverseTest, ALineThatIsNotConnectedTakesAndGivesNothing) {
   WebSocket line(1000);
   const auto is_none = [&line] {
     return !line.whole() && !line.send("{}") &&
-           line.receive(std::chrono::milliseconds(1)) == WebSocket::Heard::lost;
+           line.receive(std::chrono::milliseconds(1)) == WebSocket::Received::lost;
   };
   EXPECT_TRUE(is_none()) << "not yet";
   EXPECT_NE(line.connect("", service_.port), "");
@@ -722,7 +722,7 @@ TEST_F(InverseTest, ALineThatIsNotConnectedTakesAndGivesNothing) {
   EXPECT_TRUE(line.whole());
   EXPECT_EQ(line.peer(), "127.0.0.1");
   EXPECT_TRUE(soon([&] {
-    return line.receive(std::chrono::milliseconds(1)) == WebSocket::Heard::message;
+    return line.receive(std::chrono::milliseconds(1)) == WebSocket::Received::message;
   })) << "its greeting";
   line.close();
   EXPECT_TRUE(is_none()) << "no more";
@@ -772,13 +772,13 @@ TEST(HaplyMessage, EventsAreWhatTheServiceTells) {
       read_event(R"({"name":"device-safety-triggered","category":"device","level":"critical",)"
                  R"("data":{"device_id":"049D","safety_type":"ebrake_triggered"}})",
                  event));
-  EXPECT_EQ(event.what, Told::brake);
+  EXPECT_EQ(event.what, EventKind::brake);
   EXPECT_EQ(event.device, "049D");
   ASSERT_TRUE(read_event(R"({"name":"http-route-deprecated","level":"warning","data":{}})", event));
-  EXPECT_EQ(event.what, Told::nothing);
+  EXPECT_EQ(event.what, EventKind::nothing);
   EXPECT_EQ(event.device, "");
   ASSERT_TRUE(read_event(R"({"name":"device-sleep"})", event));
-  EXPECT_EQ(event.what, Told::sleeps);
+  EXPECT_EQ(event.what, EventKind::sleeps);
   EXPECT_FALSE(read_event(R"({"message":"x"})", event));
 }
 

@@ -32,7 +32,7 @@ HandState hand_at(double x) {
 
 // A link on which nobody waits: the test gives readings and answers.
 struct Still {
-  Link link{{.patience = 0}, &virtual_now};
+  Link link{{.answer_timeout = 0}, &virtual_now};
   Still() { at(1000); }
   double x = 0;
 
@@ -53,7 +53,7 @@ struct Still {
 };
 
 TEST(Link, TheForceOfAReadingGoesOutWithItHoweverLongTheTickTakes) {
-  Link link({.patience = 10, .loss_timeout = 100});
+  Link link({.answer_timeout = 10, .loss_timeout = 100});
   constexpr int kReadings = 3000;
   std::atomic<bool> done = false;
   std::thread servo([&] {
@@ -109,11 +109,11 @@ TEST(Link, AZeroFromBeforeTheLossDoesNotCount) {
   still.exchange(1000);
   still.tick(2);
   still.exchange(1001);
-  still.link.lose();
+  still.link.mark_lost();
   still.tick(0);  // it has seen the loss: the reading was invalid
   still.exchange(1002);
   EXPECT_EQ(still.push(1002.5), 0);
-  still.link.lose();
+  still.link.mark_lost();
   EXPECT_EQ(still.push(1003), 0);
   still.link.write_force({0, 0, 0});  // for the previous reading
   EXPECT_EQ(still.push(1003.1), 0);
@@ -137,7 +137,7 @@ TEST(Link, ALostDeviceIsPushedNoMoreAndTheTickLearnsIt) {
   still.exchange(1000);
   still.tick(3);
   EXPECT_EQ(still.push(1001), 3);
-  still.link.lose();
+  still.link.mark_lost();
   EXPECT_EQ(still.push(1001), 0);
   EXPECT_FALSE(still.tick(3));
   EXPECT_EQ(still.push(1001.1), 0);
@@ -147,7 +147,7 @@ TEST(Link, ALossIsLearntEvenIfTheNextReadingIsGood) {
   Still still;
   still.exchange(1000);
   still.tick(3);
-  still.link.lose();
+  still.link.mark_lost();
   still.exchange(1001);
   EXPECT_FALSE(still.tick(3)) << "once, so that the tick comes down to zero";
   still.exchange(1002);
@@ -158,7 +158,7 @@ TEST(Link, WhatTheGuardHoldsBackIsHeldBackUntilTheNextForce) {
   Still still;
   still.exchange(1000);
   still.tick(2);
-  still.link.hold(0.25);
+  still.link.scale_force(0.25);
   EXPECT_NEAR(still.push(1001), 0.5, 1e-12);
   still.tick(2);
   EXPECT_NEAR(still.push(1002), 2, 1e-12);
@@ -178,7 +178,7 @@ TEST(Link, AReadingBeforeItsTickIsPassedOver) {
 
 // A second device beside the one whose readings begin the ticks.
 TEST(Link, WhereTicksGoByAnothersPaceNothingWaitsForThem) {
-  Link link({.patience = 20, .loss_timeout = 100});
+  Link link({.answer_timeout = 20, .loss_timeout = 100});
   link.never_wait();
   static_cast<void>(link.exchange(hand_at(0)));
   static_cast<void>(link.state());
@@ -189,17 +189,17 @@ TEST(Link, WhereTicksGoByAnothersPaceNothingWaitsForThem) {
 }
 
 TEST(Link, TakesNoMemoryAndNoLock) {
-  Link link({.patience = 1e-4});
+  Link link({.answer_timeout = 1e-4});
   const test::RtGuard guard;
   for (int n = 0; n < 100; ++n) {
     static_cast<void>(link.exchange(hand_at(n)));
     static_cast<void>(link.wait(rt::monotonic_ns()));
     static_cast<void>(link.state());
     link.write_force({0, 0, 1});
-    link.hold(0.5);
+    link.scale_force(0.5);
     static_cast<void>(link.push());
   }
-  link.lose();
+  link.mark_lost();
   EXPECT_EQ(guard.allocations(), 0);
   EXPECT_EQ(guard.locks(), 0);
 }
@@ -207,7 +207,7 @@ TEST(Link, TakesNoMemoryAndNoLock) {
 // ---- the pace
 
 TEST(LinkClock, BeginsWithTheReadingAndCountsWhatDidNotCome) {
-  Link link({.patience = 0}, &virtual_now);
+  Link link({.answer_timeout = 0}, &virtual_now);
   LinkClock clock(link, 1000);
   const double comes[] = {1000, 1001, 1002.2, 1006, 1007};
   const std::int64_t missed[] = {0, 0, 0, 3, 0};
@@ -227,7 +227,7 @@ TEST(LinkClock, BeginsWithTheReadingAndCountsWhatDidNotCome) {
 // allow. One reading a tick, a little too fast: all are taken.
 TEST(LinkClock, ADeviceThatIsFasterThanTheTickGivesItWhatItCanUse) {
   for (const double rate : {8000.0, 4300.0, 4000.0, 2000.0, 1500.0, 1200.0, 1050.0, 1000.0}) {
-    Link link({.patience = 0}, &virtual_now);
+    Link link({.answer_timeout = 0}, &virtual_now);
     LinkClock clock(link, 1000);
     int ticks = 0;
     constexpr int kReadings = 20'000, kKnown = 2000;
@@ -253,7 +253,7 @@ TEST(LinkClock, ADeviceThatIsFasterThanTheTickGivesItWhatItCanUse) {
 
 // A stall is not made up for by faster ticks.
 TEST(LinkClock, AfterAStallItIsNoFaster) {
-  Link link({.patience = 0}, &virtual_now);
+  Link link({.answer_timeout = 0}, &virtual_now);
   LinkClock clock(link, 1000);
   int ticks = 0;
   for (int n = 0; n < 8000; ++n) {
@@ -269,7 +269,7 @@ TEST(LinkClock, AfterAStallItIsNoFaster) {
 
 // One reading a tick, 0.6 ms or 1.4 ms after the previous one: each begins a tick.
 TEST(LinkClock, ReadingsThatComeUnevenlyEachBeginATickOnceTheirPaceIsKnown) {
-  Link link({.patience = 0}, &virtual_now);
+  Link link({.answer_timeout = 0}, &virtual_now);
   LinkClock clock(link, 1000);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uneven(-0.2, 0.2);
@@ -292,7 +292,7 @@ TEST(LinkClock, ReadingsThatComeUnevenlyEachBeginATickOnceTheirPaceIsKnown) {
 }
 
 TEST(LinkClock, GoesOnWithoutReadingsSoThatForceCanFade) {
-  Link link({.patience = 0}, &passing_now);
+  Link link({.answer_timeout = 0}, &passing_now);
   LinkClock clock(link, 1000);
   at(1000);
   static_cast<void>(link.exchange(hand_at(1)));
@@ -350,10 +350,10 @@ TEST(Link, ATorqueGoesWithItsForceAndFadesWithIt) {
   tick(2, 0.1);
   EXPECT_EQ(still.exchange(1001), 2);
   EXPECT_EQ(twist(), 0.1);
-  still.link.hold(0.5);
+  still.link.scale_force(0.5);
   EXPECT_EQ(still.exchange(1001.5), 1);
   EXPECT_EQ(twist(), 0.05);
-  still.link.hold(1);
+  still.link.scale_force(1);
   EXPECT_EQ(still.exchange(1002), 2);
   still.exchange(1006);  // nobody has answered for five milliseconds
   EXPECT_EQ(still.exchange(1008), 1.2);
@@ -376,7 +376,7 @@ TEST(Link, ATorqueGoesWithItsForceAndFadesWithIt) {
   still.exchange(1021);  // a torque without force fades as well
   still.exchange(1023.5);
   EXPECT_NEAR(twist(), 0.05, 1e-12);
-  still.link.lose();
+  still.link.mark_lost();
   EXPECT_EQ(twist(), 0);
 }
 

@@ -124,7 +124,7 @@ TEST(MappedHand, TheAxesFollowTheViewOnlyInFreeAirAndTheTipStays) {
   const Vec3 before = laid.tip();
   laid.hand->write_force({0, 0, 1});
   const Vec3 pushed = laid.stub->pushed;
-  laid.hand->lay(Quat::Identity());
+  laid.hand->set_axes(Quat::Identity());
   EXPECT_EQ(laid.tip(), before);
   laid.hand->write_force({0, 0, 1});
   EXPECT_EQ(laid.stub->pushed, pushed);
@@ -179,7 +179,7 @@ TEST(MappedHand, ADevicesAxesAreAsItStands) {
     EXPECT_NEAR((laid.stub->pushed - 100 * by).norm(), 0, 1e-12);
     laid.hand->write_force(Vec3::Zero());
   }
-  laid.hand->lay(Quat::Identity());  // the view was turned; the device has not moved
+  laid.hand->set_axes(Quat::Identity());  // the view was turned; the device has not moved
   static_cast<void>(laid.tip());
   const Vec3 before = laid.tip();
   laid.move({0.01, 0, 0});
@@ -261,7 +261,7 @@ TEST(MappedHand, TheAxesOfAForceThatFadesAreThoseItBeganWith) {
   const Vec3 pushed = laid.stub->pushed;
   ASSERT_EQ(pushed.norm(), 1);
   laid.hand->lift(true);
-  laid.hand->lay(kTurn * kTurn);
+  laid.hand->set_axes(kTurn * kTurn);
   laid.tip();
   laid.hand->write_force({0, 0, 0.5});
   EXPECT_NEAR((laid.stub->pushed - 0.5 * pushed).norm(), 0, 1e-12);
@@ -275,7 +275,7 @@ TEST(MappedHand, TakesNoMemory) {
   Laid laid;
   const test::RtGuard guard;
   for (int n = 0; n < 100; ++n) {
-    laid.hand->lay(n % 2 == 0 ? Quat(Quat::Identity()) : kTurn);
+    laid.hand->set_axes(n % 2 == 0 ? Quat(Quat::Identity()) : kTurn);
     static_cast<void>(laid.hand->state(1e-3));
     laid.hand->write_force({0, 0, 0.1 * (n % 3)});
   }

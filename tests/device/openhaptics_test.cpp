@@ -74,7 +74,7 @@ class TouchTest : public ::testing::Test {
   static TouchSettings by_hand() {
     with_hd([](test::FakeHd& hd) { hd.rate = 0; });
     virtual_ns = 1'000'000'000;
-    return {.hd_file = kLibrary, .link = {.patience = 0}, .now = &virtual_now};
+    return {.hd_file = kLibrary, .link = {.answer_timeout = 0}, .now = &virtual_now};
   }
   static TouchSettings by_itself(double loss_timeout = test::kStallsAllowed) {
     TouchSettings settings;
@@ -537,7 +537,7 @@ TEST_F(TouchTest, AMillionWildTicksNeverPassTheLimit) {
     if (dice == 0) x = 200 * any(random);
     place({dice == 1 ? std::numeric_limits<double>::quiet_NaN() : x, 0, 0});
     if (dice == 2) set([](test::FakeTouch& one) { one.frame_error = 0x0202; });
-    if (dice == 3) touch.hold(any(random));
+    if (dice == 3) touch.scale_force(any(random));
     const int frames = dice < 6 ? static_cast<int>(dice) : 1;
     for (int k = 0; k < frames; ++k) {
       virtual_ns += 1'000'000;
@@ -552,7 +552,7 @@ TEST_F(TouchTest, AMillionWildTicksNeverPassTheLimit) {
     if (dice == 7) wanted.setConstant(std::numeric_limits<double>::infinity());
     if (dice == 8) wanted.setConstant(std::numeric_limits<double>::quiet_NaN());
     if (n % 1000 < 20) wanted.setZero();
-    if (!limit.believe(hand, flags)) wanted.setZero();
+    if (!limit.accept_reading(hand, flags)) wanted.setZero();
     touch.write_force(limit.apply(wanted, 1e-3, flags));
   }
   const std::lock_guard lock(fake().hd->mutex);

@@ -195,7 +195,7 @@ TEST_F(PolhemTest, ASilentArmIsSoughtAgainAndComesBackByTheRamp) {
            arm->trouble().find("answer") != std::string::npos;
   }));
   arm_.with([](Commands& w) { w.silent = false; });
-  ASSERT_TRUE(soon([&] { return arm->returns() == 1; })) << arm->trouble();
+  ASSERT_TRUE(soon([&] { return arm->reconnections() == 1; })) << arm->trouble();
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_EQ(arm_.force(), Vec3::Zero()) << "the wall is still there: it waits for a small force";
   wall = false;
@@ -210,7 +210,7 @@ TEST_F(PolhemTest, AStallOf50MsIsALostHandAndNotALostArm) {
   arm_.with([](Commands& w) { w.stall_ms = 50; });
   EXPECT_TRUE(soon([&] { return (tick.flags() & rt::kFlagHandLost) != 0; }));
   EXPECT_TRUE(soon([&] { return tick.hand().valid && arm_.force().norm() > 0.03; }));
-  EXPECT_EQ(arm->returns(), 0);
+  EXPECT_EQ(arm->reconnections(), 0);
 }
 
 TEST_F(PolhemTest, AtAHundredHertzNothingIsHeldOver) {

@@ -37,10 +37,10 @@ class WholeSession : public ::testing::TestWithParam<test::Driver> {
 
   // A slab whose top is z = 0, seen from above: the hand's up is world z. The burr is 2 mm above
   // it.
-  void begin(double patience = LinkSettings().patience, double stiffness = kWall) {
+  void begin(double answer_timeout = LinkSettings().answer_timeout, double stiffness = kWall) {
     LinkSettings link;
     link.loss_timeout = test::kStallsAllowed;
-    link.patience = patience;
+    link.answer_timeout = answer_timeout;
     auto hand = std::make_unique<MappedHand>(player_->device(link),
                                              math::Pose{{0, 0, 4 * kMm}, Quat::Identity()},
                                              Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX())));
@@ -207,7 +207,7 @@ TEST_P(WholeSession, AForceIsOfTheReadingItGoesWith) {
 
 // As deep as a hand can go into the hardest wall that the device can show.
 TEST_P(WholeSession, NothingPassesTheDevicesLimit) {
-  begin(LinkSettings().patience, 1e6);
+  begin(LinkSettings().answer_timeout, 1e6);
   go(-3);
   go(-11);
   ASSERT_TRUE(soon([&] { return player_->force().y() > 0.99 * player_->limit(); }))

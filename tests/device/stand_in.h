@@ -59,8 +59,8 @@ class StandIn {
       if (const int stall = stall_ms_.exchange(0); stall > 0)
         std::this_thread::sleep_for(std::chrono::milliseconds(stall));
       std::uint32_t flags = 0;
-      const bool believed = limit_.believe(hand, flags);
-      const math::Vec3 wanted = believed ? want_(hand) : math::Vec3::Zero();
+      const bool usable = limit_.accept_reading(hand, flags);
+      const math::Vec3 wanted = usable ? want_(hand) : math::Vec3::Zero();
       device_.write_force(limit_.apply(wanted, 1e-3, flags));
       flags_ |= flags;
       engaged_ = limit_.engaged();

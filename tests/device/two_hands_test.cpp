@@ -41,7 +41,7 @@ class TwoHands : public ::testing::Test {
     auto made = test::slab_session(hand("", {-3 * kMm, 0, 4 * kMm}));
     ASSERT_TRUE(made.ok()) << made.error().text;
     session_ = std::move(*made);
-    const Status joined = session_->join(hand("Left", {3 * kMm, 0, 4 * kMm}), {});
+    const Status joined = session_->add_second_hand(hand("Left", {3 * kMm, 0, 4 * kMm}), {});
     ASSERT_TRUE(joined.ok()) << joined.error().text;
     session_->start();
     ASSERT_TRUE(soon([&] { return second().tick > 600; })) << "the start ramps are over";

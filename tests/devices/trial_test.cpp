@@ -62,7 +62,7 @@ class Obedient final : public device::Device {
   Vec3 at_ = Vec3::Zero(), from_ = Vec3::Zero();
 };
 
-TrialSeen tried(Obedient& device, const TrialSettings& settings = {.rest_s = 0.5}) {
+TrialMeasurements tried(Obedient& device, const TrialSettings& settings = {.rest_s = 0.5}) {
   int told = 0;
   return try_device(
       device, settings, [&](const std::string&) { device.asked = told++; }, [] { return false; });
@@ -70,9 +70,9 @@ TrialSeen tried(Obedient& device, const TrialSettings& settings = {.rest_s = 0.5
 
 TEST(Trial, AGoodDeviceIsFoundGood) {
   Obedient device(math::Mat3::Identity());
-  const TrialSeen seen = tried(device);
+  const TrialMeasurements seen = tried(device);
   EXPECT_TRUE(seen.left_out.empty()) << seen.left_out.front();
-  for (const AxisSeen& axis : seen.axes) {
+  for (const AxisMeasurement& axis : seen.axes) {
     EXPECT_TRUE(axis.done);
     EXPECT_LT(axis.off_deg, 1) << axis.asked;
   }
@@ -89,7 +89,7 @@ TEST(Trial, AMirroredAxisIsSeen) {
   math::Mat3 mirrored = math::Mat3::Identity();
   mirrored(2, 2) = -1;
   Obedient device(mirrored);
-  const TrialSeen seen = tried(device);
+  const TrialMeasurements seen = tried(device);
   EXPECT_LT(seen.axes[0].off_deg, 1);
   EXPECT_LT(seen.axes[1].off_deg, 1);
   EXPECT_NEAR(seen.axes[2].off_deg, 180, 1);
@@ -98,7 +98,7 @@ TEST(Trial, AMirroredAxisIsSeen) {
 
 TEST(Trial, WhatWasNotDoneIsNamed) {
   Obedient device(math::Mat3::Identity());
-  const TrialSeen seen = try_device(
+  const TrialMeasurements seen = try_device(
       device, {.rest_s = 0.05, .longest_s = 0.05}, [](const std::string&) {}, [] { return false; });
   EXPECT_EQ(seen.left_out.size(), 4U);
   EXPECT_FALSE(seen.axes[0].done);
@@ -106,7 +106,7 @@ TEST(Trial, WhatWasNotDoneIsNamed) {
 }
 
 TEST(Trial, ThePageHoldsNoMarkupFromTheDevice) {
-  TrialSeen seen;
+  TrialMeasurements seen;
   seen.spec.name = "<script>";
   EXPECT_EQ(trial_page(seen).find("<script>"), std::string::npos);
   EXPECT_NE(trial_page(seen).find("&lt;script&gt;"), std::string::npos);

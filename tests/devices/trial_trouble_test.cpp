@@ -62,7 +62,7 @@ class Clumsy final : public device::Device {
   std::vector<double> forces_;
 };
 
-TrialSeen tried(
+TrialMeasurements tried(
     Clumsy& device, const TrialSettings& settings,
     const std::function<bool()>& stop = [] { return false; }) {
   int told = 0;
@@ -79,7 +79,7 @@ At obeys(int words, double t) {
 
 TEST(TrialTrouble, AHandThatIsNeverFoundIsCountedAndLeftOut) {
   Clumsy device([](int, double) { return At{.valid = false}; });
-  const TrialSeen seen = tried(device, {.rest_s = 0.1, .longest_s = 0.05});
+  const TrialMeasurements seen = tried(device, {.rest_s = 0.1, .longest_s = 0.05});
   EXPECT_GT(seen.ticks, 0U);
   EXPECT_EQ(seen.invalid, seen.ticks);
   EXPECT_EQ(seen.left_out.size(), 5U) << "rest, three axes, the wall";
@@ -91,7 +91,7 @@ TEST(TrialTrouble, NoiseIsAboutTheMeanWhereverTheHandRests) {
     if (words == 0 && t > 0.01) at.place.x() += 1e-3;  // a push at the beginning, then rest
     return at;
   });
-  const TrialSeen seen = tried(device, {.rest_s = 0.5, .longest_s = 0.05});
+  const TrialMeasurements seen = tried(device, {.rest_s = 0.5, .longest_s = 0.05});
   EXPECT_LT(seen.noise.x(), 0.5e-3) << "it is a millimetre from where it was first seen";
 }
 
@@ -107,7 +107,7 @@ TEST(TrialTrouble, AnAxisBeginsWhereTheHandIsStill) {
     }
     return at;
   });
-  const TrialSeen seen = tried(device, {.rest_s = 0.05, .longest_s = 3, .presses = 0});
+  const TrialMeasurements seen = tried(device, {.rest_s = 0.05, .longest_s = 3, .presses = 0});
   EXPECT_TRUE(seen.axes[0].done);
   EXPECT_LT(seen.axes[0].off_deg, 1);
 }
@@ -125,7 +125,7 @@ At presses(int words, double t) {
 
 TEST(TrialTrouble, TheUsersLimitHoldsAndTheStiffnessIsMeasuredBelowIt) {
   Clumsy device(&presses);
-  const TrialSeen seen = tried(
+  const TrialMeasurements seen = tried(
       device, {.rest_s = 0.05, .below = 5e-3, .stiffness = 300, .most_force = 1, .presses = 1});
   EXPECT_NEAR(seen.deepest, 15e-3, 1e-3);
   EXPECT_NEAR(seen.most_force, 1, 1e-9);
@@ -139,7 +139,7 @@ TEST(TrialTrouble, StoppedInTheWallItLetsGoAndDoesNotDrop) {
     const std::vector<double> forces = device.forces();
     return !forces.empty() && forces.back() > 0.9;
   };
-  const TrialSeen seen =
+  const TrialMeasurements seen =
       tried(device,
             {.rest_s = 0.05, .below = 5e-3, .stiffness = 300, .most_force = 1, .presses = 1}, deep);
   EXPECT_TRUE(seen.stopped || !seen.left_out.empty());

@@ -12,10 +12,10 @@
 #include <thread>
 
 #include "device/fake/fake_hd.h"
-#include "doctor/apart.h"
 #include "doctor/finding.h"
 #include "doctor/fix.h"
 #include "doctor/look.h"
+#include "doctor/run_in_process.h"
 
 namespace burr::app {
 namespace {
@@ -25,14 +25,15 @@ using std::chrono::milliseconds;
 
 // ---- a process apart
 
-TEST(Apart, GivesBackTheWords) {
-  const Apart seen = apart([] { return std::string("all is well"); }, milliseconds(10'000));
+TEST(ProcessResult, GivesBackTheWords) {
+  const ProcessResult seen =
+      run_in_process([] { return std::string("all is well"); }, milliseconds(10'000));
   EXPECT_TRUE(seen.ended);
   EXPECT_EQ(seen.words, "all is well");
 }
 
-TEST(Apart, SurvivesACrashAnEndAndAHang) {
-  const Apart crash = apart(
+TEST(ProcessResult, SurvivesACrashAnEndAndAHang) {
+  const ProcessResult crash = run_in_process(
       []() -> std::string {
         std::signal(SIGABRT, SIG_DFL);
         std::abort();
@@ -40,10 +41,10 @@ TEST(Apart, SurvivesACrashAnEndAndAHang) {
       milliseconds(10'000));
   EXPECT_FALSE(crash.ended);
   EXPECT_NE(crash.words.find("crashed"), std::string::npos) << crash.words;
-  const Apart end = apart([]() -> std::string { _exit(3); }, milliseconds(10'000));
+  const ProcessResult end = run_in_process([]() -> std::string { _exit(3); }, milliseconds(10'000));
   EXPECT_FALSE(end.ended);
   EXPECT_NE(end.words.find("exit code 3"), std::string::npos) << end.words;
-  const Apart hang = apart(
+  const ProcessResult hang = run_in_process(
       [] {
         std::this_thread::sleep_for(std::chrono::hours(1));
         return std::string("late");
@@ -53,8 +54,9 @@ TEST(Apart, SurvivesACrashAnEndAndAHang) {
   EXPECT_NE(hang.words.find("hung"), std::string::npos) << hang.words;
 }
 
-TEST(Apart, WordsWithoutEndAreCut) {
-  const Apart seen = apart([] { return std::string(100'000, 'x'); }, milliseconds(10'000));
+TEST(ProcessResult, WordsWithoutEndAreCut) {
+  const ProcessResult seen =
+      run_in_process([] { return std::string(100'000, 'x'); }, milliseconds(10'000));
   EXPECT_TRUE(seen.ended);
   EXPECT_EQ(seen.words.size(), 4096U);
 }
@@ -106,7 +108,7 @@ TEST_F(DoctorNodes, KnowsMakersByTheirNumbersAndNoOthers) {
   EXPECT_EQ(findings[1].what, "Novint Falcon");
   EXPECT_EQ(findings[2].what, "Polhem, WoodenHaptics");
   for (const Finding& one : findings) EXPECT_EQ(one.health, Health::good);
-  EXPECT_NE(findings[0].is.find("/dev/bus/usb/001/007"), std::string::npos) << findings[0].is;
+  EXPECT_NE(findings[0].value.find("/dev/bus/usb/001/007"), std::string::npos) << findings[0].value;
 }
 
 TEST_F(DoctorNodes, ANodeThatMayNotBeOpenedIsNamedWithTheCure) {
@@ -115,7 +117,7 @@ TEST_F(DoctorNodes, ANodeThatMayNotBeOpenedIsNamedWithTheCure) {
   auto findings = look_at_nodes(system_);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].health, Health::trouble);
-  EXPECT_NE(findings[0].is.find("/dev/bus/usb/001/007"), std::string::npos);
+  EXPECT_NE(findings[0].value.find("/dev/bus/usb/001/007"), std::string::npos);
   EXPECT_NE(findings[0].todo.find("doctor --fix"), std::string::npos);
   // the rule exists already, so the advice is another one
   fs::create_directories(udev_file(system_).parent_path());
@@ -151,7 +153,7 @@ class DoctorDevices : public ::testing::Test {
   void SetUp() override {
     ::setenv("HAPLY_WS_PORT", "1", 1);
     ::setenv("BURR_FORCEDIMENSION", "/nowhere/libdrd.so", 1);
-    system_.patience = milliseconds(20'000);
+    system_.library_timeout = milliseconds(20'000);
   }
   void TearDown() override {
     for (const char* name : {"HAPLY_WS_PORT", "BURR_FORCEDIMENSION", "BURR_OPENHAPTICS"})
@@ -170,24 +172,24 @@ TEST_F(DoctorDevices, WhatIsMissingIsSaidWithTheLoadersWordsAndWhatToInstall) {
   ::setenv("BURR_OPENHAPTICS", "/nowhere/libHD.so", 1);
   const Finding touch = of("touch");
   EXPECT_EQ(touch.health, Health::absent);
-  EXPECT_NE(touch.is.find("No such file"), std::string::npos) << touch.is;
+  EXPECT_NE(touch.value.find("No such file"), std::string::npos) << touch.value;
   EXPECT_NE(touch.todo.find("install"), std::string::npos) << touch.todo;
   EXPECT_NE(touch.todo.find("docs/devices/touch.md"), std::string::npos);
   const Finding haply = of("haply");
   EXPECT_EQ(haply.health, Health::absent);
-  EXPECT_NE(haply.is.find(":1"), std::string::npos) << haply.is;
+  EXPECT_NE(haply.value.find(":1"), std::string::npos) << haply.value;
 }
 
 TEST_F(DoctorDevices, AMissingSymbolIsNamed) {
   ::setenv("BURR_OPENHAPTICS", BURR_BUILD_DIR "/fakes/libHD_old.so", 1);
-  EXPECT_NE(of("touch").is.find("hdScheduleAsynchronous"), std::string::npos);
+  EXPECT_NE(of("touch").value.find("hdScheduleAsynchronous"), std::string::npos);
 }
 
 TEST_F(DoctorDevices, ADeviceThatIsThereIsNamedAndCanBeTried) {
   ::setenv("BURR_OPENHAPTICS", BURR_BUILD_DIR "/fakes/libHD.so", 1);
   const Finding touch = of("touch");
   EXPECT_EQ(touch.health, Health::good);
-  EXPECT_NE(touch.is.find("T-0001"), std::string::npos) << touch.is;
+  EXPECT_NE(touch.value.find("T-0001"), std::string::npos) << touch.value;
   EXPECT_EQ(touch.todo, "burr devices test touch");
 }
 
@@ -202,19 +204,20 @@ TEST_F(DoctorDevices, ADeviceThatIsThereAndInTroubleIsToldAsThat) {
   const Finding touch = of("touch");
   hd.touch[0] = {};
   EXPECT_EQ(touch.health, Health::trouble);
-  EXPECT_NE(touch.is.find("T-0001"), std::string::npos) << touch.is;
-  EXPECT_NE((touch.is + touch.todo).find("inkwell"), std::string::npos) << touch.is << touch.todo;
+  EXPECT_NE(touch.value.find("T-0001"), std::string::npos) << touch.value;
+  EXPECT_NE((touch.value + touch.todo).find("inkwell"), std::string::npos)
+      << touch.value << touch.todo;
 }
 
 TEST_F(DoctorDevices, ALibraryThatCrashesOrHangsDoesSoAlone) {
   ::setenv("BURR_OPENHAPTICS", BURR_BUILD_DIR "/fakes/libHD_crash.so", 1);
   Finding touch = of("touch");
   EXPECT_EQ(touch.health, Health::trouble);
-  EXPECT_NE(touch.is.find("crashed"), std::string::npos) << touch.is;
+  EXPECT_NE(touch.value.find("crashed"), std::string::npos) << touch.value;
   ::setenv("BURR_OPENHAPTICS", BURR_BUILD_DIR "/fakes/libHD_hang.so", 1);
-  system_.patience = milliseconds(1500);
+  system_.library_timeout = milliseconds(1500);
   touch = of("touch");
-  EXPECT_NE(touch.is.find("hung"), std::string::npos) << touch.is;
+  EXPECT_NE(touch.value.find("hung"), std::string::npos) << touch.value;
   EXPECT_NE(touch.todo.find("install"), std::string::npos);
 }
 

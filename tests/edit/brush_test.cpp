@@ -154,8 +154,9 @@ TEST(BackToTheOriginal, IsBoundedAndStaysWithinItsReachAndOutOfTheBurr) {
           ASSERT_LE(std::abs(now[v] - first[v]), (tick + 8) * most);
           ASSERT_LE(d, kRadius / kVoxel + Brush::kReach);
           if (by > 0) {
-            ASSERT_LE(now[v],
-                      32768 + (d - kRadius / kVoxel + Brush::kInto) * volume::kFieldPerVoxel + 1);
+            ASSERT_LE(
+                now[v],
+                32768 + (d - kRadius / kVoxel + Brush::kOverlap) * volume::kFieldPerVoxel + 1);
           }
         }
     before = now;

@@ -37,7 +37,7 @@ struct Work {
                         .margin_m = 0,
                         .margin_least = 0,
                         .margin_most = 0,
-                        .patience = 1e3}) {
+                        .debt_timeout = 1e3}) {
     undo.begin_stroke(0);
   }
   // Removes everything inside a ball at c (world), whatever energy that takes.

@@ -308,7 +308,7 @@ TEST(Mirror, ABallOverThePlaneTakesTheUnionOfBothAndNothingTwice) {
                                .margin_m = 0,
                                .margin_least = 0,
                                .margin_most = 0,
-                               .patience = 1e3};
+                               .debt_timeout = 1e3};
   for (const double off : {0.0, 0.3, 2.5, 6.0, 9.9, 12.0})
     for (const int twice : {57, 58}) {
       const Mirror mirror = {0, twice};

@@ -81,7 +81,7 @@ TEST(Laws, ExactLogsGiveTheirConstantsBack) {
     ASSERT_EQ(one.constants.size(), 2U);
     EXPECT_NEAR(constant(one, "cutting_friction")->value / truth.mu, 1, 1e-9);
     EXPECT_NEAR(constant(one, "cutting_energy_J_mm3")->value / truth.energy, 1, 1e-9);
-    EXPECT_TRUE(one.not_told.empty());
+    EXPECT_TRUE(one.undetermined.empty());
     const auto two = fit_laws(test::level_2(truth, 50, 0, random)).at(0);
     ASSERT_EQ(two.constants.size(), 6U);
     EXPECT_NEAR(constant(two, "chip_tangential_N_mm2")->value / truth.tc, 1, 1e-9);
@@ -198,20 +198,21 @@ TEST(Laws, ALogThatCannotTellTwoConstantsApartSaysSo) {
   const auto fit = fit_laws(log).at(0);
   EXPECT_EQ(constant(fit, "chip_tangential_N_mm2"), nullptr);
   EXPECT_EQ(constant(fit, "edge_radial_N_mm"), nullptr);
-  ASSERT_EQ(fit.not_told.size(), 2U);
-  EXPECT_NE(fit.not_told[0].find("chip_tangential_N_mm2 and edge_tangential_N_mm: these constants"),
-            std::string::npos)
-      << fit.not_told[0];
-  EXPECT_NE(fit.not_told[0].find("cut at several feeds"), std::string::npos);
+  ASSERT_EQ(fit.undetermined.size(), 2U);
+  EXPECT_NE(
+      fit.undetermined[0].find("chip_tangential_N_mm2 and edge_tangential_N_mm: these constants"),
+      std::string::npos)
+      << fit.undetermined[0];
+  EXPECT_NE(fit.undetermined[0].find("cut at several feeds"), std::string::npos);
   // nor one in which both are constant, or no edge is engaged at all
   for (ForceRow& row : log.rows) {
     row.removal = 4e-9;
     row.speed = 3000;
     row.edge = 1e-3;
   }
-  EXPECT_EQ(fit_laws(log).at(0).not_told.size(), 2U);
+  EXPECT_EQ(fit_laws(log).at(0).undetermined.size(), 2U);
   for (ForceRow& row : log.rows) row.edge = 0;
-  EXPECT_EQ(fit_laws(log).at(0).not_told.size(), 2U);
+  EXPECT_EQ(fit_laws(log).at(0).undetermined.size(), 2U);
 }
 
 TEST(Laws, TooFewRowsTellNothing) {
@@ -220,8 +221,8 @@ TEST(Laws, TooFewRowsTellNothing) {
   for (const std::size_t rows : {0U, 1U, 2U}) {
     const auto fit = fit_laws(test::level_1(truth, rows, 0, 0, random)).at(0);
     EXPECT_TRUE(fit.constants.empty());
-    ASSERT_EQ(fit.not_told.size(), 2U) << rows;
-    EXPECT_NE(fit.not_told[0].find("are needed"), std::string::npos) << fit.not_told[0];
+    ASSERT_EQ(fit.undetermined.size(), 2U) << rows;
+    EXPECT_NE(fit.undetermined[0].find("are needed"), std::string::npos) << fit.undetermined[0];
   }
   EXPECT_EQ(fit_laws(test::level_1(truth, 3, 0, 0, random)).at(0).constants.size(), 2U);
   const auto three = fit_laws(test::level_2(truth, 3, 0, random)).at(0);
@@ -237,7 +238,7 @@ TEST(Laws, ALogWithoutTangentialForceStillTellsTheEnergy) {
   EXPECT_EQ(constant(fit, "cutting_friction"), nullptr);
   EXPECT_NEAR(constant(fit, "cutting_energy_J_mm3")->value / truth.energy, 1, 1e-9);
   for (ForceRow& row : log.rows) row.power.reset();
-  EXPECT_EQ(fit_laws(log).at(0).not_told.size(), 2U);
+  EXPECT_EQ(fit_laws(log).at(0).undetermined.size(), 2U);
 }
 
 }  // namespace

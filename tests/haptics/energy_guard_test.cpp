@@ -22,8 +22,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A wall below z = 0.
-Exchange wall(double z, double stiffness = 1000) {
-  Exchange now;
+SpringState wall(double z, double stiffness = 1000) {
+  SpringState now;
   now.hand = Vec3(0, 0, z);
   now.stretch = Vec3(0, 0, std::max(0.0, -z));
   now.stiffness = stiffness;
@@ -32,7 +32,7 @@ Exchange wall(double z, double stiffness = 1000) {
 }
 
 // As in the servo, with nothing after the guard.
-Vec3 tick(EnergyGuard& guard, const Exchange& now) {
+Vec3 tick(EnergyGuard& guard, const SpringState& now) {
   const Vec3 force = guard.step(now, kTick);
   guard.sent(force);
   return force;
@@ -42,7 +42,7 @@ TEST(EnergyGuard, CountsTheWorkOfTheForceThatWasReallySent) {
   EnergyGuard guard;
   (void)guard.step(wall(0), kTick);
   guard.sent({1, 2, 3});
-  Exchange now = wall(0);
+  SpringState now = wall(0);
   now.hand = Vec3(1e-4, -2e-4, 1e-4);
   (void)guard.step(now, kTick);
   EXPECT_NEAR(guard.work_in(), -(1 * 1e-4 - 2 * 2e-4 + 3 * 1e-4), 1e-18);
@@ -65,7 +65,7 @@ TEST(EnergyGuard, TheDamperOfKTOverTwoPaysItAndIsNotCountedTwice) {
   (void)tick(guard, wall(0));
   const double step = 5e-5;  // 50 mm/s
   for (int n = 1; n <= 20; ++n) {
-    const Exchange now = wall(-n * step);
+    const SpringState now = wall(-n * step);
     const Vec3 force = tick(guard, now);
     EXPECT_NEAR(guard.deficit(), 0.5 * 1000 * step * step, 1e-15) << "of the last tick only";
     EXPECT_NEAR(guard.damping(), 1000 * kTick / 2, 1e-9);
@@ -79,7 +79,7 @@ TEST(EnergyGuard, DampsNoMoreThanTheDeviceBears) {
     EnergyGuard guard(settings);
     (void)guard.step(wall(0), kTick);
     guard.sent({0, 0, -3});  // a force that pulls, whatever the spring does
-    Exchange now = wall(-3e-3, 100);
+    SpringState now = wall(-3e-3, 100);
     (void)guard.step(now, kTick);
     guard.sent({0, 0, -3});
     now.hand.z() -= 3e-6;
@@ -101,13 +101,13 @@ TEST(EnergyGuard, CreditOfALongContactHidesNothing) {
   EnergyGuard guard;
   double plain = 0;
   Vec3 last = Vec3::Zero(), held = Vec3::Zero();
-  const auto go = [&](const Exchange& now) {
+  const auto go = [&](const SpringState& now) {
     plain -= held.dot(now.hand - last);
     held = tick(guard, now);
     last = now.hand;
     return held;
   };
-  Exchange now = wall(-1e-3);
+  SpringState now = wall(-1e-3);
   for (int n = 0; n < 60'000; ++n) {
     const double speed = 50e-3 * ((n / 200) % 2 == 0 ? 1 : -1);  // back and forth
     now.hand.x() += speed * kTick;
@@ -134,7 +134,7 @@ TEST(EnergyGuard, APushDeeperThanTheLargestForceIsNoDeficit) {
   (void)tick(guard, wall(0));
   double worst = 0;
   for (int n = 1; n <= 3000; ++n) {
-    Exchange now = wall(-n * 2e-6);
+    SpringState now = wall(-n * 2e-6);
     if (now.force.z() > 2) now.force.z() = 2;
     (void)tick(guard, now);
     worst = std::max(worst, guard.deficit());
@@ -201,7 +201,7 @@ TEST(EnergyGuard, ADeficitIsRememberedUpToATankful) {
 // Loses `energy` by friction.
 EnergyGuard filled(double energy, const EnergyGuardSettings& settings = {}) {
   EnergyGuard guard(settings);
-  Exchange now;
+  SpringState now;
   (void)guard.step(now, kTick);
   for (int n = 0; n < 10; ++n) {
     guard.sent({-1, 0, 0});
@@ -245,7 +245,7 @@ TEST(EnergyTank, NoOddRequestEmptiesIt) {
 TEST(EnergyTank, GrowthThatWasPaidForIsNotDampedAndOtherGrowthIs) {
   for (const bool paid : {true, false}) {
     EnergyGuard guard = filled(1e-3);
-    Exchange now = wall(0);
+    SpringState now = wall(0);
     now.hand.x() = 1e-3;
     (void)tick(guard, now);
     // the surface rises by 1 um under a hand that slides with 10 mm/s
@@ -272,7 +272,7 @@ TEST(EnergyTank, WhatWasAllowedAndNotUsedFlowsBack) {
   EnergyGuard guard = filled(1e-3);
   EXPECT_NEAR(guard.allow(0.4e-3), 0.4e-3, 1e-12);
   EXPECT_NEAR(guard.tank(), 0.6e-3, 1e-12);
-  Exchange now;
+  SpringState now;
   now.hand.x() = 1e-3;
   for (int n = 0; n < 1000; ++n) (void)tick(guard, now);
   EXPECT_NEAR(guard.tank(), 1e-3, 1e-9);
@@ -284,7 +284,7 @@ TEST(EnergyGuard, WhatIsNotANumberGoesThroughAndTheAccountBeginsAnew) {
   for (const double odd : {kNaN, kInfinity}) {
     for (int which = 0; which < 5; ++which) {
       EnergyGuard guard = filled(1e-3);
-      Exchange now = wall(-1e-3);
+      SpringState now = wall(-1e-3);
       now.hand.x() = 1e-3;
       (void)tick(guard, now);
       double dt = kTick;
@@ -297,7 +297,7 @@ TEST(EnergyGuard, WhatIsNotANumberGoesThroughAndTheAccountBeginsAnew) {
       EXPECT_EQ(std::memcmp(force.data(), now.force.data(), sizeof(double) * 3), 0) << which;
       guard.sent({odd, odd, odd});
       for (int n = 0; n < 10; ++n) {
-        const Exchange next = wall(-1e-3 - 1e-5 * n);
+        const SpringState next = wall(-1e-3 - 1e-5 * n);
         EXPECT_TRUE(tick(guard, next).allFinite());
       }
       for (const double value : {guard.energy(), guard.stored(), guard.tank(), guard.work_in(),
@@ -333,7 +333,7 @@ TEST(EnergyGuard, WhateverHappensNoMoreComesOutThanIsOnTheAccount) {
       hand += speed * kTick;
       if (n % 1000 == 0) proxy = hand + 2e-3 * Vec3(any(random), any(random), any(random));
       const bool touching = (n / 1500) % 3 != 0;
-      Exchange now;
+      SpringState now;
       now.hand = hand;
       now.stiffness = touching ? 500 + 400 * any(random) * (n % 7 == 0) : 0;
       now.stretch = touching ? Vec3(proxy - hand) : Vec3(Vec3::Zero());
@@ -369,7 +369,7 @@ TEST(EnergyGuard, WhateverHappensNoMoreComesOutThanIsOnTheAccount) {
 TEST(EnergyGuard, AllowedGrowthComesFromWhatWasLostBefore) {
   EnergyGuard guard = filled(1e-3);
   // requests more than there is in each tick, and pushes the hand with it
-  Exchange now;
+  SpringState now;
   now.hand.x() = 1e-3;
   double given = 0;
   for (int n = 0; n < 20'000; ++n) {
@@ -385,9 +385,9 @@ TEST(EnergyGuard, TakesNoMemoryAndNoLockAndSaysTheSameBitsTwice) {
   EnergyGuard one, two;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1, 1);
-  std::vector<Exchange> ticks(5000);
+  std::vector<SpringState> ticks(5000);
   double z = 0;
-  for (Exchange& now : ticks) now = wall(z += 1e-4 * any(random));
+  for (SpringState& now : ticks) now = wall(z += 1e-4 * any(random));
   std::vector<Vec3> first(ticks.size());
   {
     const test::RtGuard guard;

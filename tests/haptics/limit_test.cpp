@@ -100,26 +100,26 @@ TEST(ForceLimit, DoesNotBelieveALostHandANaNOrALeap) {
   device::HandState hand;
   std::uint32_t flags = 0;
   ForceLimit limit = running();
-  EXPECT_TRUE(limit.believe(hand, flags));
+  EXPECT_TRUE(limit.accept_reading(hand, flags));
   hand.world_from_tool.p.x() = 0.019;
-  EXPECT_TRUE(limit.believe(hand, flags));
+  EXPECT_TRUE(limit.accept_reading(hand, flags));
   hand.world_from_tool.p.x() = 0.040;
-  EXPECT_FALSE(limit.believe(hand, flags));
+  EXPECT_FALSE(limit.accept_reading(hand, flags));
   EXPECT_TRUE(flags & rt::kFlagJump);
-  EXPECT_TRUE(limit.believe(hand, flags)) << "after a fault the next reading is a beginning";
+  EXPECT_TRUE(limit.accept_reading(hand, flags)) << "after a fault the next reading is a beginning";
   hand.world_from_tool.p.y() = kNaN;
-  EXPECT_FALSE(limit.believe(hand, flags));
+  EXPECT_FALSE(limit.accept_reading(hand, flags));
   // a finite position may still be invalid: farther away than voxel indices reach
   for (const double far : {1.1e3, -2e303}) {
     hand = {};
     hand.world_from_tool.p.z() = far;
     flags = 0;
-    EXPECT_FALSE(limit.believe(hand, flags)) << far;
+    EXPECT_FALSE(limit.accept_reading(hand, flags)) << far;
     EXPECT_TRUE(flags & rt::kFlagNotFinite) << far;
   }
   hand = {};
   hand.valid = false;
-  EXPECT_FALSE(limit.believe(hand, flags));
+  EXPECT_FALSE(limit.accept_reading(hand, flags));
   EXPECT_TRUE(flags & rt::kFlagHandLost);
 }
 
@@ -155,7 +155,7 @@ TEST(ForceLimit, WhateverComesInTheHandIsSafe) {
     device::HandState hand;
     hand.valid = odd != 2;
     hand.world_from_tool.p = Vec3::Constant(odd == 3 ? 1.0 : 0.0);
-    (void)limit.believe(hand, flags);
+    (void)limit.accept_reading(hand, flags);
     const Vec3 force = limit.apply(wanted, kTick, flags);
     ASSERT_TRUE(force.allFinite());
     ASSERT_LE(force.norm(), 3.3 + 1e-9);

@@ -371,7 +371,7 @@ TEST_F(Friction, SlidingLagIsMuTimesDepth) {
     double x = 0;
     for (int n = 0; n < 4000; ++n) touch = proxy.step({x += 1e-6, 0, r - deep});
     const Vec3 hand(x, 0, r - deep);
-    const double length = (touch.depth * touch.normal + touch.trail).norm();
+    const double length = (touch.depth * touch.normal + touch.tangential).norm();
     EXPECT_NEAR(length / deep, std::sqrt(1 + mu * mu), 0.01 * std::sqrt(1 + mu * mu))
         << "the thesis' cases, mu " << mu;
   }

@@ -40,7 +40,7 @@ TEST(Materials, CorticalBoneIsTheDefaultTissue) {
   tissue.force.chip_tangential = 1;
   tissue.force.chip_radial = tissue.force.edge_tangential = tissue.force.edge_radial = 1;
   tissue.force.edge_onset = 1;
-  lay_over(*built_in_materials().find("cortical bone"), tissue);
+  apply_material(*built_in_materials().find("cortical bone"), tissue);
   const volume::Tissue usual;
   const auto same = [](double a, double b) { EXPECT_NEAR(a, b, 1e-12 * b); };
   same(tissue.cutting_energy, usual.cutting_energy);

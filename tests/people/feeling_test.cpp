@@ -97,10 +97,10 @@ TEST(Interval, BeginsAndEndsWithoutForceAndNeverExceedsTheLimits) {
 TEST(Interval, WhatTheDeviceCannotShowIsRefusedWithASentence) {
   Wall wall(scenes::wall, {});
   const device::DeviceSpec spec;
-  EXPECT_TRUE(wall.possible(spec, {.stiffness = 1000}).ok());
-  EXPECT_FALSE(wall.possible(spec, {.stiffness = 1001}).ok());
-  EXPECT_FALSE(wall.possible(spec, {.vibration = 0.2}).ok());
-  EXPECT_FALSE(wall.possible(spec, {.friction = 5}).ok());
+  EXPECT_TRUE(wall.check_device(spec, {.stiffness = 1000}).ok());
+  EXPECT_FALSE(wall.check_device(spec, {.stiffness = 1001}).ok());
+  EXPECT_FALSE(wall.check_device(spec, {.vibration = 0.2}).ok());
+  EXPECT_FALSE(wall.check_device(spec, {.friction = 5}).ok());
 }
 
 TEST(Interval, ARealDeviceIsTickedByTheClockAndStaysOpen) {

@@ -234,7 +234,7 @@ struct Truth {
   std::vector<tick::TickRow> ticks;
   std::vector<tick::CommandRow> commands;
   std::vector<tick::BrickRow> bricks;
-  RecordingAccount account;
+  RecordingStats account;
 };
 
 // Records `count` ticks as fast as possible.

@@ -320,13 +320,13 @@ TEST(Recorder, AFullDiskIsSaidAndTheSessionGoesOn) {
   EXPECT_NE(account.error().text.find(path), std::string::npos) << account.error().text;
   EXPECT_FALSE(recorder.status().ok());
   EXPECT_EQ(told, 1) << "at once, and once";
-  EXPECT_EQ(recorder.account().safe_ticks + recorder.account().dropped_ticks, 20'000U);
+  EXPECT_EQ(recorder.stats().written_ticks + recorder.stats().dropped_ticks, 20'000U);
   // what was written before is there and ends cleanly
   auto player = Player::open(path);
   ASSERT_TRUE(player.ok()) << player.error().text;
   EXPECT_FALSE((*player)->finished());
   EXPECT_EQ((*player)->lost_bytes(), 0U);
-  EXPECT_EQ((*player)->end_tick(), recorder.account().safe_ticks);
+  EXPECT_EQ((*player)->end_tick(), recorder.stats().written_ticks);
   EXPECT_GT((*player)->end_tick(), 100U);
 }
 
@@ -338,7 +338,8 @@ TEST(Recorder, AFileThatIsRemovedOrReplacedMeanwhileIsNoticedEvenAtTheVeryEnd) {
     Recorder recorder(1000);
     ASSERT_TRUE(recorder.start(folder / "s.mcap", info_of(*bone, random)).ok());
     for (std::uint64_t tick = 0; tick < 100; ++tick) recorder.ticks().push(any_tick(tick, random));
-    while (recorder.safe_ticks() < 100) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    while (recorder.written_ticks() < 100)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::filesystem::remove(folder / "s.mcap");
     if (replaced) write_file(folder / "s.mcap", {1, 2, 3});
     const auto account = recorder.finish();

@@ -95,8 +95,8 @@ double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const V
 }
 
 // All patches whose number modulo `by` is `rest`.
-Joined joined(const Scene& scene, std::size_t by = 1, std::size_t rest = 0) {
-  Joined all;
+JoinedMesh joined(const Scene& scene, std::size_t by = 1, std::size_t rest = 0) {
+  JoinedMesh all;
   for (std::size_t p = rest; p < scene.patches.size(); p += by)
     if (scene.patches[p].mesh != nullptr) all.add(*scene.patches[p].mesh);
   return all;
@@ -110,8 +110,8 @@ TEST(CoarseMesh, KeepsTheRimTheTissuesAndTheShape) {
   double worst[2] = {};
   std::size_t full = 0, left[2] = {};
   // every third patch: each is border all around
-  const Joined before = joined(scene, 3, 1);
-  const CoarseMesh coarse = coarser(Joined(before), kErrors);
+  const JoinedMesh before = joined(scene, 3, 1);
+  const CoarseMesh coarse = coarser(JoinedMesh(before), kErrors);
   ASSERT_EQ(coarse.levels.size(), 2U);
   // vertices are identified by position; seams are closed
   const auto edges = [](const std::vector<SkinVertex>& vertices,
@@ -171,7 +171,7 @@ TEST(CoarseMesh, KeepsTheRimTheTissuesAndTheShape) {
   EXPECT_LT(worst[1], 2.5 * kErrors[1]);
 }
 
-TEST(CoarseMesh, OfNothingIsNothing) { EXPECT_TRUE(coarser(Joined{}, kErrors).levels.empty()); }
+TEST(CoarseMesh, OfNothingIsNothing) { EXPECT_TRUE(coarser(JoinedMesh{}, kErrors).levels.empty()); }
 
 // For all patches together nothing is border: far fewer triangles, and the surface is still closed.
 TEST(CoarseMesh, SeamsBetweenWhatIsJoinedAreNoRim) {
@@ -367,9 +367,9 @@ TEST(CoarsePicture, DrawsWhatChangedOrIsDressedAsItIsAndNotAsItsBlockWas) {
     return rgb[0] > 2 * rgb[1] && rgb[0] > 2 * rgb[2];
   };
   EXPECT_EQ(count(1000, red), 0);
-  set_dress(scene, nearest,
-            std::make_shared<const std::vector<Dress>>(before.mesh->vertices().size(),
-                                                       Dress{0, 0, 0, 255}));
+  set_stains(scene, nearest,
+             std::make_shared<const std::vector<Stain>>(before.mesh->vertices().size(),
+                                                        Stain{0, 0, 0, 255}));
   const long bloody = count(0, red);
   EXPECT_GT(bloody, 500);
   EXPECT_NEAR(static_cast<double>(count(1000, red)), static_cast<double>(bloody),
@@ -393,13 +393,13 @@ TEST(CoarsePicture, AtRestBecomesThatOfAllTriangles) {
   settle(coarse, scene, 0);
 
   Quality least;
-  least.hollows = false;
-  least.hollows_later = true;
+  least.ambient_occlusion = false;
+  least.ambient_occlusion_later = true;
   least.coarse_px = 3;
   least.refine = false;
-  for (const bool hollows_later : {false, true}) {
+  for (const bool ambient_occlusion_later : {false, true}) {
     scene.quality = least;
-    scene.quality.hollows_later = hollows_later;
+    scene.quality.ambient_occlusion_later = ambient_occlusion_later;
     orbit(scene.camera, 0.1, 0);
     ASSERT_TRUE(gpu.show(scene).ok());
     orbit(scene.camera, -0.1, 0);
@@ -424,7 +424,7 @@ TEST(CoarsePicture, AtRestBecomesThatOfAllTriangles) {
     EXPECT_TRUE(gpu.refined());
     EXPECT_GT(frames, 5) << "all at once makes a hand wait";
     EXPECT_LT(most, 0.9);
-    EXPECT_EQ(gpu.shown().rgb, full.rgb) << hollows_later;
+    EXPECT_EQ(gpu.shown().rgb, full.rgb) << ambient_occlusion_later;
   }
 
   // fewer samples: the same picture, softer; then sharp again

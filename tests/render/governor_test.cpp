@@ -41,8 +41,8 @@ class Loop {
 };
 
 bool whole(const Quality& q) {
-  return q.hollows && !q.hollows_later && q.coarse_px == 0 && q.coarse_still_px == 0 &&
-         q.scale == 1;
+  return q.ambient_occlusion && !q.ambient_occlusion_later && q.coarse_px == 0 &&
+         q.coarse_still_px == 0 && q.scale == 1;
 }
 
 TEST(FrameGovernor, LeavesNothingOutOnAFastMachine) {
@@ -61,7 +61,7 @@ TEST(FrameGovernor, GoesAsFarAsItMustAndNoFarther) {
   Loop loop(governor, kSlow);
   loop.run(4, true);
   EXPECT_EQ(governor.step(), 4);
-  EXPECT_FALSE(loop.quality().hollows);
+  EXPECT_FALSE(loop.quality().ambient_occlusion);
   EXPECT_EQ(loop.quality().coarse_px, 3);
   EXPECT_EQ(loop.quality().scale, 0.75);
   EXPECT_FALSE(loop.quality().refine) << "nothing is made good while the eye moves";
@@ -69,7 +69,7 @@ TEST(FrameGovernor, GoesAsFarAsItMustAndNoFarther) {
   loop.run(4, false);
   EXPECT_EQ(governor.step(), 2);
   EXPECT_EQ(loop.quality().scale, 1);
-  EXPECT_TRUE(loop.quality().hollows_later);
+  EXPECT_TRUE(loop.quality().ambient_occlusion_later);
   EXPECT_EQ(loop.quality().coarse_still_px, 1);
   EXPECT_TRUE(loop.quality().refine);
   for (const Quality& q : {loop.quality()}) {

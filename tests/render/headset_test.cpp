@@ -215,7 +215,7 @@ TEST(Headset, PicturesAreTheRenderersOwnWhateverTheWindowShowsBetween) {
     if (n > 0) set_patch(scene, 0, test::ball(scene.camera.target, 0.004 + 0.002 * n, 24, 1));
     TwoEyes eyes;
     eyes.how = n == 1 ? Stereo::anaglyph : Stereo::off;
-    eyes.apart = 0.01;
+    eyes.eye_distance = 0.01;
     ASSERT_TRUE(gpu.show(scene, eyes));
     ASSERT_TRUE(head.pictures(worn, 2));
     for (std::size_t eye = 0; eye < 2; ++eye) {

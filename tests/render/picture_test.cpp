@@ -17,7 +17,7 @@
 #include <optional>
 #include <random>
 
-#include "burr/math/turn.h"
+#include "burr/math/rotation.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/pick.h"
 #include "render/gpu.h"
@@ -192,7 +192,7 @@ TEST(Picture, TilesMeetWithoutASeam) {
   scene.text = {"a line that crosses a tile's edge"};
   for (const bool half : {false, true})
     for (const int supersample : {1, 2}) {
-      scene.look.hollow_half = half;
+      scene.look.occlusion_half = half;
       scene.look.supersample = supersample;
       const auto whole = gpu.image(scene, 450, 300), tiled = gpu.image(scene, 450, 300, 128);
       ASSERT_TRUE(whole.ok() && tiled.ok());
@@ -232,7 +232,7 @@ TEST(Picture, TheBurrHidesWhatIsBehindItAndNothingElse) {
   scene.burr.visible = true;
   scene.burr.radius = 5e-3;
   scene.burr.world_from_tool.p = {0, -0.045, 0};
-  scene.burr.world_from_tool.q = math::shortest_turn(Vec3::UnitZ(), Vec3::UnitX());
+  scene.burr.world_from_tool.q = math::shortest_rotation(Vec3::UnitZ(), Vec3::UnitX());
   const auto before = gpu.image(scene, 400, 400);
   scene.burr.world_from_tool.p = {0, 0.045, 0};
   const auto behind = gpu.image(scene, 400, 400);
@@ -291,12 +291,12 @@ TEST(Picture, HollowsAreDarkerThanPlains) {
   set_patch(scene, 1, test::ball({0.04, 0, 0}, 0.02, 200));
   scene.camera.target = {0.02, 0, 0};
   scene.look = Look{};
-  scene.look.hollow_half = false;
+  scene.look.occlusion_half = false;
   scene.look.key.strength = scene.look.fill.strength = 0;
   scene.look.ambient = 1;
   const auto image = gpu.image(scene, 400, 300);
   ASSERT_TRUE(image.ok());
-  scene.look.hollow = 0;
+  scene.look.occlusion = 0;
   const auto flat = gpu.image(scene, 400, 300);
   ASSERT_TRUE(flat.ok());
   // the middle of the left ball, and a point near the contact

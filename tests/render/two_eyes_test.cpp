@@ -28,12 +28,12 @@ Scene bone() {
   return scene;
 }
 
-double apart(const Scene& scene) { return kComfortable * scene.camera.distance; }
+double eye_distance(const Scene& scene) { return kComfortable * scene.camera.distance; }
 
 TwoEyes eyes(const Scene& scene, Stereo how) {
   TwoEyes two;
   two.how = how;
-  two.apart = apart(scene);
+  two.eye_distance = apart(scene);
   return two;
 }
 

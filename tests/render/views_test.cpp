@@ -32,7 +32,7 @@ TEST(Stereo, EyesAgreeOnTheTargetsPlaneAndPartBeforeAndBehind) {
   middle.azimuth = 0.7;
   middle.elevation = 0.3;
   middle.target = {0.01, 0.02, 0.03};
-  const double apart = 8e-3;
+  const double eye_distance = 8e-3;
   const Eyes eyes = eyes_of(middle, apart);
   EXPECT_NEAR((eyes.right.eye() - eyes.left.eye()).norm(), apart, 1e-12);
   for (const double right : {-0.02, 0.0, 0.03})

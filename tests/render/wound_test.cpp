@@ -55,7 +55,7 @@ TEST(Wound, WhatASuctionTubeComesNearIsDryAndCleanAndStillFresh) {
   const float before = wound.at(face).wet;
   wound.suck(face + Vec3(0, 0, 20e-3), 1.5e-3, 1);
   EXPECT_EQ(wound.at(face).wet, before) << "two centimetres off";
-  wound.suck(face, 1.5e-3, Wound::kSucks);
+  wound.suck(face, 1.5e-3, Wound::kSuctionTime);
   EXPECT_NEAR(wound.at(face).wet, before * std::exp(-1), 0.12) << "an e-th part in its time";
   wound.suck(face, 1.5e-3, 5);
   EXPECT_EQ(wound.at(face).wet, 0);
@@ -81,7 +81,7 @@ TEST(Wound, IsFreshWhereItWasCutAndDullsInItsTime) {
   EXPECT_EQ(wound.at(tip - Vec3(0, 0, kRadius + 2e-3)).fresh, 0);
   EXPECT_EQ(wound.at(face).wet, 0);
   milling.on(tip + Vec3(0, 0, 0.01), 10, 0, false);
-  EXPECT_NEAR(wound.at(face).fresh, 1 - 10 / Wound::kDulls, 1e-3);
+  EXPECT_NEAR(wound.at(face).fresh, 1 - 10 / Wound::kDullTime, 1e-3);
   milling.on(tip + Vec3(0, 0, 0.01), 10.1, 0, false);
   EXPECT_EQ(wound.at(face).fresh, 0);
 }
@@ -93,10 +93,10 @@ TEST(Wound, IsWetWhereCoolantRanAndDriesInItsTime) {
   milling.on(tip, 1, 0, true);
   EXPECT_NEAR(wound.at(face).wet, 1, 1e-5);
   EXPECT_EQ(wound.at(face).fresh, 0);
-  EXPECT_NEAR(wound.at({0, 0, -kRadius - 0.8 * Wound::kSpray}).wet, 0.5, 0.2) << "its rim";
-  EXPECT_EQ(wound.at({0, 0, -kRadius - Wound::kSpray - 1.2e-3}).wet, 0);
+  EXPECT_NEAR(wound.at({0, 0, -kRadius - 0.8 * Wound::kSprayReach}).wet, 0.5, 0.2) << "its rim";
+  EXPECT_EQ(wound.at({0, 0, -kRadius - Wound::kSprayReach - 1.2e-3}).wet, 0);
   milling.on(tip, 20, 0, false);
-  EXPECT_NEAR(wound.at(face).wet, 1 - 20 / Wound::kDries, 1e-3);
+  EXPECT_NEAR(wound.at(face).wet, 1 - 20 / Wound::kDryTime, 1e-3);
   milling.on(tip, 20.1, 0, false);
   EXPECT_EQ(wound.at(face).wet, 0);
 }
@@ -109,7 +109,7 @@ TEST(Wound, GoesAlongWithTheToolAndForgetsWhenTimeGoesBack) {
   milling.on(second + Vec3(0, 0, 0.01), 0.5, 0, false);  // at another place, without cutting
   const float before = wound.at({0, 0, -kRadius}).fresh;
   milling.on(second, 0.5, 1e-9, false);
-  EXPECT_NEAR(wound.at({0, 0, -kRadius}).fresh, before - 0.5 / Wound::kDulls, 1e-3);
+  EXPECT_NEAR(wound.at({0, 0, -kRadius}).fresh, before - 0.5 / Wound::kDullTime, 1e-3);
   EXPECT_NEAR(wound.at(second - Vec3(0, 0, kRadius)).fresh, 1, 1e-5);
   Wound::Tick back = milling.last();
   back.t = 0.1;
@@ -130,10 +130,10 @@ Scene ball() {
   scene.look.plain = true;
   return scene;
 }
-void dress_all(Scene& scene, Dress dress) {
-  set_dress(
+void stain_all(Scene& scene, Stain stains) {
+  set_stains(
       scene, 0,
-      std::make_shared<const std::vector<Dress>>(scene.patches[0].mesh->vertices().size(), dress));
+      std::make_shared<const std::vector<Stain>>(scene.patches[0].mesh->vertices().size(), stains));
 }
 
 // the mean of the pixels that face the eye, and their spread
@@ -158,8 +158,8 @@ Seen middle_of(const Image& image) {
 TEST(Wound, FreshBoneIsPalerByHalfAndGrainyAndWetBoneDarker) {
   BURR_NEEDS_GPU(gpu);
   Scene scene = ball();
-  const auto see = [&](Dress dress) {
-    dress_all(scene, dress);
+  const auto see = [&](Stain stains) {
+    stain_all(scene, stains);
     const auto image = gpu.image(scene, kWide, kHigh);
     EXPECT_TRUE(image.ok());
     return middle_of(*image);
@@ -183,8 +183,8 @@ TEST(Wound, WetBoneShines) {
   BURR_NEEDS_GPU(gpu);
   Scene scene = ball();
   scene.look = Look();
-  const auto brightest = [&](Dress dress) {
-    dress_all(scene, dress);
+  const auto brightest = [&](Stain stains) {
+    stain_all(scene, stains);
     const auto image = gpu.image(scene, kWide, kHigh);
     EXPECT_TRUE(image.ok());
     return int{*std::max_element(image->rgb.begin(), image->rgb.end())};
@@ -198,13 +198,13 @@ TEST(Wound, ADressOfNothingAndNoneAreTheSamePicture) {
   for (const bool plain : {true, false}) {
     scene.look = Look();
     scene.look.plain = plain;
-    set_dress(scene, 0, nullptr);
+    set_stains(scene, 0, nullptr);
     const auto none = gpu.image(scene, kWide, kHigh);
-    dress_all(scene, {});
+    stain_all(scene, {});
     const auto nothing = gpu.image(scene, kWide, kHigh);
-    dress_all(scene, {.fresh = 200, .wet = 90});
+    stain_all(scene, {.fresh = 200, .wet = 90});
     const auto some = gpu.image(scene, kWide, kHigh);
-    set_dress(scene, 0, nullptr);
+    set_stains(scene, 0, nullptr);
     const auto off = gpu.image(scene, kWide, kHigh);
     ASSERT_TRUE(none.ok() && nothing.ok() && some.ok() && off.ok());
     EXPECT_EQ(none->rgb, nothing->rgb);
@@ -228,14 +228,14 @@ TEST(Wound, DressesOnlyWhatItReachesAndAWindowDrawsItAnew) {
   Wound wound(kVoxel);
   Milling milling(wound);
   milling.on(Vec3(0, -0.03 - kRadius, 0), 1, 1e-9, true);  // in front of the eye
-  wound.dress(scene);
-  int dressed = 0, with_surface = 0;
+  wound.stain(scene);
+  int stained = 0, with_surface = 0;
   for (const ScenePatch& patch : scene.patches) {
-    dressed += patch.dress != nullptr;
+    stained += patch.stains != nullptr;
     with_surface += patch.mesh != nullptr;
   }
-  EXPECT_GE(dressed, 1);
-  EXPECT_LT(dressed, with_surface / 2);
+  EXPECT_GE(stained, 1);
+  EXPECT_LT(stained, with_surface / 2);
   ASSERT_TRUE(gpu.show(scene).ok());
   EXPECT_LT(gpu.figures().redrawn, 0.9);
   const Image after = gpu.shown();
@@ -244,7 +244,7 @@ TEST(Wound, DressesOnlyWhatItReachesAndAWindowDrawsItAnew) {
   EXPECT_EQ(after.rgb, other.shown().rgb);
   // everything is dry and dull again, as before
   milling.on(Vec3(0, -0.05, 0), 41, 0, false);
-  wound.dress(scene);
+  wound.stain(scene);
   ASSERT_TRUE(gpu.show(scene).ok());
   EXPECT_EQ(gpu.shown().rgb, before.rgb);
 }
@@ -258,21 +258,22 @@ TEST(Wound, DustHangsInTheAirAndSettlesAroundTheToolInAConeOfItsVolume) {
   constexpr double kRemoved = 2e-9;
   milling.on(tip, 1.0 / 60, 0, false);
   milling.on(tip, 1.0 / 60, kRemoved, false);
-  const double loose = kRemoved / Wound::kSolid;
+  const double loose = kRemoved / Wound::kSolidShare;
   EXPECT_NEAR(wound.in_the_air(), loose, 0.05 * loose);
   const double before = wound.in_the_air();
-  milling.on(tip, Wound::kSettles, 0, false);
+  milling.on(tip, Wound::kSettleTime, 0, false);
   EXPECT_NEAR(wound.in_the_air(), before / std::exp(1), 1e-3 * loose);
   milling.on(tip, 5, 0, false);
   EXPECT_NEAR(wound.in_the_air(), 0, 1e-3 * loose);
 
   // dust hides the bone as a layer of its thickness does
-  const double reach = kRadius + Wound::kStrews;
+  const double reach = kRadius + Wound::kDustReach;
   double total = 0;
   for (const double part : {0.45, 0.6, 0.75, 0.9}) {
     const double d = part * reach;
     const double thick = 3 * loose / (std::numbers::pi * reach * reach) * (1 - part);
-    EXPECT_NEAR(wound.at({d, 0, 0}).dust, 1 - std::exp(-thick / Wound::kCovers), 0.03) << part;
+    EXPECT_NEAR(wound.at({d, 0, 0}).dust, 1 - std::exp(-thick / Wound::kCoverThickness), 0.03)
+        << part;
   }
   for (int n = 0; n < 1000;
        ++n) {  // ... and all of it has settled: the cone's volume is that of its layers
@@ -297,7 +298,7 @@ TEST(Wound, CoolantWashesDustAwayAndLetsNoneSettle) {
   milling.on(Vec3::Zero(), 5, 0, false);
   const float lies = wound.at(beside).dust;
   ASSERT_GT(lies, 0.3F);
-  milling.on(Vec3::Zero(), Wound::kWashes, 0, true);
+  milling.on(Vec3::Zero(), Wound::kWashTime, 0, true);
   EXPECT_NEAR(wound.at(beside).dust, lies / std::exp(1), 0.02);
   milling.on(Vec3::Zero(), 2, 0, true);
   EXPECT_NEAR(wound.at(beside).dust, 0, 0.01);
@@ -348,7 +349,7 @@ void watch(Wound& wound, Milling& milling, Scene& scene, const Vec3& tip, double
            bool irrigated = false, double added = 0) {
   for (int n = 0; n < std::lround(10 * seconds); ++n) {
     milling.on(tip, 0.1, 0, irrigated, added / (10 * seconds));
-    wound.dress(scene);
+    wound.stain(scene);
   }
 }
 double blood_on(const Wound& wound) {
@@ -459,7 +460,7 @@ TEST(Wound, BloodClotsAndClears) {
   for (int second = 0; second < 900; ++second) {
     tick.t += 1;
     wound.see(tick);
-    if (second % 10 == 0) wound.dress(scene);
+    if (second % 10 == 0) wound.stain(scene);
   }
   EXPECT_LT(blood_on(wound), 0.01 * bled);
 }
@@ -473,11 +474,11 @@ TEST(Wound, AStillShowsWhatIsOpenThoughNobodyLookedOn) {
   milling.on(tip, 0.1, 1e-9, false);
   milling.on(tip + Vec3(0, 0, 5e-3), 5, 0, false);
   EXPECT_EQ(blood_on(wound), 0) << "no surface has told";
-  wound.dress_still(scene);
+  wound.stain_still(scene);
   EXPECT_GT(blood_on(wound), 3);
-  ASSERT_NE(scene.patches[0].dress, nullptr);
-  EXPECT_TRUE(std::any_of(scene.patches[0].dress->begin(), scene.patches[0].dress->end(),
-                          [](const Dress& dress) { return dress.blood > 200; }));
+  ASSERT_NE(scene.patches[0].stains, nullptr);
+  EXPECT_TRUE(std::any_of(scene.patches[0].stains->begin(), scene.patches[0].stains->end(),
+                          [](const Stain& stains) { return stains.blood > 200; }));
 }
 
 TEST(Wound, DustLiesOnWhatFacesUpNotUnderAnEdge) {
@@ -488,10 +489,10 @@ TEST(Wound, DustLiesOnWhatFacesUpNotUnderAnEdge) {
     milling.on({0, 0, kRadius}, 0.1, 0, false);
     milling.on({0, 0, kRadius}, 3, 5e-9, false);
     milling.on({0, 0, kRadius}, 3, 0, false);
-    wound.dress(scene);
-    ASSERT_NE(scene.patches[0].dress, nullptr);
-    const bool any = std::any_of(scene.patches[0].dress->begin(), scene.patches[0].dress->end(),
-                                 [](const Dress& dress) { return dress.dust > 40; });
+    wound.stain(scene);
+    ASSERT_NE(scene.patches[0].stains, nullptr);
+    const bool any = std::any_of(scene.patches[0].stains->begin(), scene.patches[0].stains->end(),
+                                 [](const Stain& stains) { return stains.dust > 40; });
     EXPECT_EQ(any, side > 0);
   }
 }
@@ -499,8 +500,8 @@ TEST(Wound, DustLiesOnWhatFacesUpNotUnderAnEdge) {
 TEST(Wound, BloodIsRedAndDustPaleAndInGrains) {
   BURR_NEEDS_GPU(gpu);
   Scene scene = ball();
-  const auto see = [&](Dress dress) {
-    dress_all(scene, dress);
+  const auto see = [&](Stain stains) {
+    stain_all(scene, stains);
     const auto image = gpu.image(scene, kWide, kHigh);
     EXPECT_TRUE(image.ok());
     return middle_of(*image);

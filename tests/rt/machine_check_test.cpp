@@ -25,8 +25,8 @@ TickSummary ticks(double work_p999, double late_p999, double worst, std::uint64_
 }
 
 // A machine without any fault.
-MachineSeen fine_machine() {
-  MachineSeen seen;
+MachineMeasurements fine_machine() {
+  MachineMeasurements seen;
   seen.machine.processor = "Some Core 7";
   seen.machine.cores = 8;
   seen.machine.simd = "avx2";
@@ -44,7 +44,7 @@ MachineSeen fine_machine() {
   return seen;
 }
 
-const CheckLine& line(const MachineJudged& judged, const std::string& what) {
+const CheckLine& line(const MachineReport& judged, const std::string& what) {
   const auto found = std::find_if(judged.lines.begin(), judged.lines.end(),
                                   [&](const CheckLine& one) { return one.what == what; });
   if (found == judged.lines.end()) throw std::runtime_error("no line " + what);
@@ -52,7 +52,7 @@ const CheckLine& line(const MachineJudged& judged, const std::string& what) {
 }
 
 TEST(MachineCheck, AMachineWithoutFaultIsGoodAndNothingIsToBeChanged) {
-  const MachineJudged judged = judge(fine_machine());
+  const MachineReport judged = judge(fine_machine());
   EXPECT_EQ(judged.verdict, Verdict::good) << judged.sentence;
   EXPECT_EQ(judged.sentence, "good: this computer is fast enough for a real device");
   EXPECT_TRUE(judged.reasons.empty());
@@ -62,8 +62,8 @@ TEST(MachineCheck, AMachineWithoutFaultIsGoodAndNothingIsToBeChanged) {
 
 TEST(MachineCheck, EachFaultHasItsLineAndItsCureAndOnlyThatLine) {
   struct Fault {
-    std::string what, is, change;  // parts of the line
-    std::function<void(MachineSeen&)> put;
+    std::string what, value, change;  // parts of the line
+    std::function<void(MachineMeasurements&)> put;
     Verdict verdict = Verdict::good;
   };
   const Fault faults[] = {
@@ -101,12 +101,12 @@ TEST(MachineCheck, EachFaultHasItsLineAndItsCureAndOnlyThatLine) {
        Verdict::usable},
   };
   for (const Fault& fault : faults) {
-    MachineSeen seen = fine_machine();
+    MachineMeasurements seen = fine_machine();
     fault.put(seen);
-    const MachineJudged judged = judge(seen);
+    const MachineReport judged = judge(seen);
     EXPECT_EQ(judged.verdict, fault.verdict) << fault.change << ": " << judged.sentence;
     const CheckLine& named = line(judged, fault.what);
-    EXPECT_NE(named.is.find(fault.is), std::string::npos) << named.is;
+    EXPECT_NE(named.value.find(fault.value), std::string::npos) << named.value;
     EXPECT_NE(named.change.find(fault.change), std::string::npos) << named.change;
     for (const CheckLine& other : judged.lines)
       if (other.what != fault.what) {
@@ -116,11 +116,11 @@ TEST(MachineCheck, EachFaultHasItsLineAndItsCureAndOnlyThatLine) {
 }
 
 TEST(MachineCheck, WhatTheMachineDoesNotTellIsNoFault) {
-  MachineSeen seen = fine_machine();
+  MachineMeasurements seen = fine_machine();
   seen.machine.governor = seen.machine.clock_source = seen.machine.processor = "";
-  const MachineJudged judged = judge(seen);
+  const MachineReport judged = judge(seen);
   EXPECT_EQ(judged.verdict, Verdict::good);
-  EXPECT_EQ(line(judged, "frequency").is, "unknown");
+  EXPECT_EQ(line(judged, "frequency").value, "unknown");
 }
 
 TEST(MachineCheck, TheBarsDecideOnEachSide) {
@@ -142,9 +142,9 @@ TEST(MachineCheck, TheBarsDecideOnEachSide) {
       {ticks(900, 1000, 5000, 5), Verdict::not_enough, "5 of 4005"},
   };
   for (const Case& one : cases) {
-    MachineSeen seen = fine_machine();
+    MachineMeasurements seen = fine_machine();
     seen.milling_loaded = one.loaded;
-    const MachineJudged judged = judge(seen);
+    const MachineReport judged = judge(seen);
     EXPECT_EQ(judged.verdict, one.verdict) << judged.sentence;
     EXPECT_NE(judged.sentence.find(one.reason), std::string::npos) << judged.sentence;
     EXPECT_EQ(judged.reasons.empty(), one.verdict == Verdict::good);
@@ -152,13 +152,13 @@ TEST(MachineCheck, TheBarsDecideOnEachSide) {
 }
 
 TEST(MachineCheck, OnlyWhatIsMeasuredUnderLoadDecides) {
-  MachineSeen seen = fine_machine();
+  MachineMeasurements seen = fine_machine();
   seen.waiting = seen.milling = ticks(5000, 5000, 50'000, 100);
   EXPECT_EQ(judge(seen).verdict, Verdict::good);
 }
 
 TEST(MachineCheck, SaysWhetherTheMachineOrTheTickIsLate) {
-  MachineSeen seen = fine_machine();
+  MachineMeasurements seen = fine_machine();
   seen.milling_loaded = ticks(100, 3000, 9000);
   EXPECT_NE(judge(seen).sentence.find("close other programs"), std::string::npos);
   seen.waiting_loaded = ticks(1, 3000, 9000);

@@ -71,14 +71,14 @@ TEST(Thread, ACoreThatIsNotThereIsSaidAndTheWorkRunsAnyway) {
 TEST(Thread, ThatGoesFirstStepsAsideForAWhile) {
   bool first = false, aside = true, heir = true, again = false;
   Thread thread({.name = "first", .realtime = true}, [&] {
-    first = goes_first();
+    first = has_realtime_priority();
     {
-      const Ordinary ordinary;
-      aside = goes_first();
-      std::thread begun([&] { heir = goes_first(); });
+      const NormalPriority normal;
+      aside = has_realtime_priority();
+      std::thread begun([&] { heir = has_realtime_priority(); });
       begun.join();
     }
-    again = goes_first();
+    again = has_realtime_priority();
   });
   thread.join();
   if (!thread.grant().fifo) GTEST_SKIP() << "this machine lets nobody go first";

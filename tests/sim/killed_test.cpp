@@ -85,7 +85,7 @@ class CountingHand final : public device::Device {
     return hand_.state(dt);
   }
   void write_force(const math::Vec3& force) BURR_RT override { hand_.write_force(force); }
-  void hold(double scale) BURR_RT override { hand_.hold(scale); }
+  void scale_force(double scale) BURR_RT override { hand_.scale_force(scale); }
   [[nodiscard]] bool finished() const BURR_RT override { return asked_ >= kMostTicks; }
 
  private:
@@ -162,7 +162,7 @@ double stolen_ms() {
       tick::CommandKind::undo,      tick::CommandKind::redo,      tick::CommandKind::reset,
       tick::CommandKind::stiffness, tick::CommandKind::tool_mode, tick::CommandKind::spindle_speed};
   while (session.running()) {
-    told.safe = recorder.safe_ticks();
+    told.safe = recorder.written_ticks();
     told.refused = recorder.ticks().dropped();
     told.waited_ns = waited_by_pen();
     if (random() % 16 == 0) {
@@ -223,7 +223,7 @@ void judge(const std::string& file, const Told& told, bool realtime, double stol
     ASSERT_EQ(bone->content_hash(), (*player)->info().volume.content_hash);
     const auto outcome = replay(**player, std::move(bone), quiet);
     ASSERT_TRUE(outcome) << outcome.error().text;
-    EXPECT_FALSE(outcome->parted_at.has_value()) << what << ": " << outcome->difference;
+    EXPECT_FALSE(outcome->first_different_tick.has_value()) << what << ": " << outcome->difference;
     EXPECT_EQ(outcome->gaps, 0U) << what;
     EXPECT_EQ(outcome->ticks, kept) << what;
     tally.ticks += outcome->ticks;

@@ -39,7 +39,7 @@ void expect_same_to_the_bit(record::Player& player) {
   ASSERT_TRUE(bone.ok()) << bone.error().text;
   const auto outcome = replay(player, std::move(*bone), quiet);
   ASSERT_TRUE(outcome.ok()) << outcome.error().text;
-  EXPECT_FALSE(outcome->parted_at.has_value()) << outcome->difference;
+  EXPECT_FALSE(outcome->first_different_tick.has_value()) << outcome->difference;
   EXPECT_EQ(outcome->gaps, 0U);
   EXPECT_EQ(outcome->ticks, player.end_tick());
 }

@@ -1,6 +1,6 @@
 // Whole sessions: a simulated hand, the tick, the recorder, the surface workers.
 #include "burr/sim/session.h"
-#include "burr/math/turn.h"
+#include "burr/math/rotation.h"
 
 #include <gtest/gtest.h>
 
@@ -128,7 +128,7 @@ Plunge plunge(double h_mm, double rate, double seconds = 1.5, double drag = 1) {
   const double r = 2 * kMm;
   // a soft spring from far away is a constant force: 200 N/m, 5 mm below the surface
   device::HandPath path;
-  const math::Quat across = math::shortest_turn(Vec3::UnitZ(), Vec3::UnitX());
+  const math::Quat across = math::shortest_rotation(Vec3::UnitZ(), Vec3::UnitX());
   path.points = {{0, {{0, 0, r + 1 * kMm}, across}, 1},
                  {0.3, {{0, 0, r + 1 * kMm}, across}, 1},
                  {0.5, {{0, 0, r - 5 * kMm}, across}, 1},
@@ -353,8 +353,8 @@ TEST_F(Replay, ComesOutTheSameToTheBitWithCommandsAndUndo) {
     ASSERT_TRUE(bone.ok());
     auto outcome = replay(**player, std::move(*bone), quiet);
     ASSERT_TRUE(outcome.ok()) << outcome.error().text;
-    EXPECT_FALSE(outcome->parted_at)
-        << "tick " << *outcome->parted_at << ": " << outcome->difference;
+    EXPECT_FALSE(outcome->first_different_tick)
+        << "tick " << *outcome->first_different_tick << ": " << outcome->difference;
     EXPECT_EQ(outcome->ticks, 4000U);
     EXPECT_GT(outcome->bricks, 100U);
     EXPECT_EQ(outcome->bone->content_hash(), end);
@@ -379,7 +379,8 @@ TEST_F(Replay, AHandThatIsTurnedComesOutTheSame) {
   auto player = record::Player::open(file);
   auto outcome = replay(**player, std::move(*(*player)->embedded_bone(256)), quiet);
   ASSERT_TRUE(outcome.ok());
-  EXPECT_FALSE(outcome->parted_at) << *outcome->parted_at << ": " << outcome->difference;
+  EXPECT_FALSE(outcome->first_different_tick)
+      << *outcome->first_different_tick << ": " << outcome->difference;
   record::StepCursor steps = (*player)->steps();
   record::Step step;
   double most = 0;
@@ -403,8 +404,8 @@ TEST_F(Replay, NamesTheTickAtWhichItParts) {
   (*bone)->write_brick(brick, content);
   auto outcome = replay(**player, std::move(*bone), quiet);
   ASSERT_TRUE(outcome.ok());
-  ASSERT_TRUE(outcome->parted_at.has_value());
-  EXPECT_GT(*outcome->parted_at, 100U);
+  ASSERT_TRUE(outcome->first_different_tick.has_value());
+  EXPECT_GT(*outcome->first_different_tick, 100U);
   EXPECT_FALSE(outcome->difference.empty());
 }
 

@@ -85,7 +85,7 @@ TEST(TimeOfDay, MayJumpWhileASessionIsRecordedAndNobodyAsksForIt) {
   ASSERT_TRUE(player) << player.error().text;
   const auto outcome = replay(**player, slab(), quiet);
   ASSERT_TRUE(outcome) << outcome.error().text;
-  EXPECT_FALSE(outcome->parted_at.has_value()) << outcome->difference;
+  EXPECT_FALSE(outcome->first_different_tick.has_value()) << outcome->difference;
   EXPECT_GT(outcome->ticks, 100U);
   done = true;
   EXPECT_EQ(test::WallClock::asked(), 0) << "somebody wants to know the time of day";

@@ -27,11 +27,11 @@ TEST(Loudspeaker, ObeysItsKeys) {
   const Driver driver("dummy");
   Loudspeaker loudspeaker({}, {});
   EXPECT_EQ(loudspeaker.trouble(), "");
-  loudspeaker.hear({});
+  loudspeaker.update({});
   EXPECT_TRUE(loudspeaker.is_on());
   loudspeaker.toggle();
   EXPECT_FALSE(loudspeaker.is_on());
-  loudspeaker.hear({});
+  loudspeaker.update({});
   loudspeaker.toggle();
   EXPECT_TRUE(loudspeaker.is_on());
   EXPECT_EQ(loudspeaker.louder(1), 0) << "it is the loudest already";
@@ -44,7 +44,7 @@ TEST(Loudspeaker, WithoutADeviceItIsSilentAndTriesAgainWhenAsked) {
   Driver none("no-such-driver");
   Loudspeaker loudspeaker({}, {});
   EXPECT_NE(loudspeaker.trouble(), "");
-  loudspeaker.hear({});
+  loudspeaker.update({});
   loudspeaker.toggle();
   EXPECT_FALSE(loudspeaker.is_on());
   EXPECT_NE(loudspeaker.trouble(), "");
@@ -79,7 +79,7 @@ TEST(Loudspeaker, WarnsFromTheRimOfTheBurrThatIsThereNow) {
     const auto sounds = [&] {
       float most = 0;
       for (int n = 0; n < 40; ++n) {  // of 10 ms each
-        loudspeaker.hear(row);
+        loudspeaker.update(row);
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
         // samples that were under way at the time of the request do not count
         const float now = loudest_since(file, heard);

@@ -38,12 +38,12 @@ class Variable {
 };
 
 // Plays until the device has taken this many more samples; false: it never does.
-bool speak(Speaker& speaker, const Heard& heard, double seconds) {
+bool speak(Speaker& speaker, const SoundState& heard, double seconds) {
   const std::uint64_t until = speaker.made() + static_cast<std::uint64_t>(seconds * test::kRate);
   const auto given_up = std::chrono::steady_clock::now() + 120s;
   while (speaker.made() < until) {
     if (std::chrono::steady_clock::now() > given_up) return false;
-    speaker.voice().hear(heard);
+    speaker.voice().update(heard);
     std::this_thread::sleep_for(5ms);
   }
   return true;
@@ -51,7 +51,7 @@ bool speak(Speaker& speaker, const Heard& heard, double seconds) {
 
 TEST(Speaker, PlaysToNobody) {
   const Variable driver("SDL_AUDIODRIVER", "dummy");
-  const Heard heard = {.spindle_rad_s = test::rad_s(40'000)};
+  const SoundState heard = {.spindle_rad_s = test::rad_s(40'000)};
   for (int round = 0; round < 2; ++round) {  // and opens it again
     auto speaker = Speaker::open();
     ASSERT_TRUE(speaker) << speaker.error().text;

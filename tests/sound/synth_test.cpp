@@ -22,19 +22,19 @@ using test::rad_s;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // After the lags have ended: 0.5 s, then `seconds` of samples to measure.
-std::vector<float> steady(const Heard& heard, double seconds = 65536 / test::kRate,
+std::vector<float> steady(const SoundState& heard, double seconds = 65536 / test::kRate,
                           const SynthSettings& settings = {}) {
   Synth synth(settings);
-  synth.hear(heard);
+  synth.update(heard);
   static_cast<void>(made(synth, 0.5));
   return made(synth, seconds);
 }
 
-Heard turning(double rpm) { return {.spindle_rad_s = rad_s(rpm)}; }
+SoundState turning(double rpm) { return {.spindle_rad_s = rad_s(rpm)}; }
 
 // A burr that mills, with everything on.
-Heard milling(double mm3_s = 5) {
-  Heard heard = turning(40'000);
+SoundState milling(double mm3_s = 5) {
+  SoundState heard = turning(40'000);
   heard.cutting_nm = 3e-3;
   heard.removal_m3_s = 1e-9 * mm3_s;
   heard.hardness_j_m3 = 1e9;
@@ -51,7 +51,7 @@ TEST(Synth, TheSpindleIsHeardOnceATurn) {
 
 TEST(Synth, ItIsHeardOnceATurnThroughTheCuttingToo) {
   for (const double rpm : {20'000.0, 40'000.0, 80'000.0}) {
-    Heard heard = milling(20);
+    SoundState heard = milling(20);
     heard.spindle_rad_s = rad_s(rpm);
     heard.irrigated = true;
     EXPECT_NEAR(test::peak_hz(steady(heard)), rpm / 60, 0.01 * rpm / 60) << rpm;
@@ -66,14 +66,14 @@ TEST(Synth, UnderLoadTheSpindleIsLowerByWhatTheMotorGivesWay) {
   for (int tick = 0; tick < 2'000; ++tick) spindle.step(1, torque, 1e-3);
   // half its torque costs half of its droop, and a little friction
   const double expected = 40'000 / 60.0 * (1 - 0.5 * spindle.motor.droop);
-  Heard heard = turning(0);
+  SoundState heard = turning(0);
   heard.spindle_rad_s = spindle.speed();
   heard.cutting_nm = torque;
   EXPECT_NEAR(test::peak_hz(steady(heard)), expected, 0.01 * expected);
 }
 
 TEST(Synth, ATurnHasItsMultiplesAndItsTeeth) {
-  Heard heard = turning(30'000);
+  SoundState heard = turning(30'000);
   heard.teeth = 7;
   const std::vector<float> samples = steady(heard);
   const std::vector<double> power = test::spectrum(samples);
@@ -114,7 +114,7 @@ TEST(Synth, NothingIsHeardFoldedDownFromAboveHalfTheRate) {
 TEST(Synth, TheMoreBoneTheLouder) {
   double before = 0;
   for (const double mm3_s : {0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0}) {
-    Heard heard = milling(mm3_s);
+    SoundState heard = milling(mm3_s);
     const double now = test::rms(steady(heard));
     EXPECT_GT(now, 1.01 * before) << mm3_s;
     before = now;
@@ -124,7 +124,7 @@ TEST(Synth, TheMoreBoneTheLouder) {
 TEST(Synth, CuttingIsAsLoudAsItsFormulaSays) {
   // the noise alone: the gain restores what the band takes from white noise, for every tissue
   for (const double hardness : {0.02e9, 0.1e9, 1e9, 10e9}) {
-    Heard heard;
+    SoundState heard;
     heard.removal_m3_s = 5e-9;
     heard.hardness_j_m3 = hardness;
     const double expected = SynthSettings{}.cutting * std::sqrt(0.5);
@@ -135,7 +135,7 @@ TEST(Synth, CuttingIsAsLoudAsItsFormulaSays) {
 TEST(Synth, HarderTissueSoundsHigher) {
   double before = 0;
   for (const double hardness : {0.02e9, 0.1e9, 0.5e9, 1e9, 2e9, 10e9}) {
-    Heard heard;  // of the cutting alone: the lines of the spindle do not depend on it
+    SoundState heard;  // of the cutting alone: the lines of the spindle do not depend on it
     heard.removal_m3_s = 5e-9;
     heard.hardness_j_m3 = hardness;
     const double now = test::centroid_hz(steady(heard));
@@ -147,7 +147,7 @@ TEST(Synth, HarderTissueSoundsHigher) {
 
 TEST(Synth, LoadMakesTheTeethLouder) {
   const auto teeth = [](double torque) {
-    Heard heard = turning(40'000);
+    SoundState heard = turning(40'000);
     heard.cutting_nm = torque;
     const std::vector<float> samples = steady(heard);
     const std::vector<double> power = test::spectrum(samples);
@@ -160,7 +160,7 @@ TEST(Synth, LoadMakesTheTeethLouder) {
 }
 
 TEST(Synth, CoolantHisses) {
-  Heard heard;
+  SoundState heard;
   heard.irrigated = true;
   const std::vector<float> samples = steady(heard);
   EXPECT_NEAR(test::rms(samples), SynthSettings{}.coolant, 0.1 * SynthSettings{}.coolant);
@@ -169,7 +169,7 @@ TEST(Synth, CoolantHisses) {
 
 // Number of beeps in ten seconds; before each, silence of at least half the shortest gap.
 int beeps(double to_spare) {
-  Heard heard;
+  SoundState heard;
   heard.to_spare = to_spare;
   const std::vector<float> samples = steady(heard, 10);
   int count = 0;
@@ -197,7 +197,7 @@ TEST(Synth, TheNearerTheFasterTheWarning) {
     before = now;
   }
   // one tone at the end: never silent
-  Heard heard;
+  SoundState heard;
   for (const double to_spare : {0.5e-3, 0.0, -1e-3, -kInfinity}) {
     heard.to_spare = to_spare;
     const std::vector<float> samples = steady(heard);
@@ -208,11 +208,11 @@ TEST(Synth, TheNearerTheFasterTheWarning) {
 
 TEST(Synth, WhoTremblesAtTheBorderIsNotWarnedInAHurry) {
   Synth synth;
-  Heard heard;
+  SoundState heard;
   std::vector<float> all;
   for (int n = 0; n < 1'000; ++n) {  // ten seconds, in and out every 10 ms
     heard.to_spare = 5e-3 + (n % 2 == 0 ? 1e-5 : -1e-5);
-    synth.hear(heard);
+    synth.update(heard);
     const std::vector<float> some = made(synth, 0.01);
     all.insert(all.end(), some.begin(), some.end());
   }
@@ -224,12 +224,12 @@ TEST(Synth, WhoTremblesAtTheBorderIsNotWarnedInAHurry) {
 }
 
 TEST(Synth, AContactKnocksOnceAndNotWhileItRattles) {
-  Heard heard;
+  SoundState heard;
   Synth synth;
-  synth.hear(heard);
+  synth.update(heard);
   static_cast<void>(made(synth, 0.2));
   heard.touching = true;
-  synth.hear(heard);
+  synth.update(heard);
   const std::vector<float> knock = made(synth, 0.1);
   EXPECT_GT(test::largest(knock), 0.3 * SynthSettings{}.knock);
   EXPECT_LT(std::abs(knock[3]), 0.1 * test::largest(knock)) << "it begins softly";
@@ -241,7 +241,7 @@ TEST(Synth, AContactKnocksOnceAndNotWhileItRattles) {
   std::vector<float> all;
   for (int n = 0; n < 500; ++n) {
     heard.touching = n % 2 == 0;
-    rattled.hear(heard);
+    rattled.update(heard);
     const std::vector<float> some = made(rattled, 1e-3);
     all.insert(all.end(), some.begin(), some.end());
   }
@@ -251,43 +251,43 @@ TEST(Synth, AContactKnocksOnceAndNotWhileItRattles) {
 // A parameter that jumps must not click: from before the jump to half a second after it, the sound
 // bends no more sharply than it does before or after by itself.
 TEST(Synth, NothingClicksWhateverLeaps) {
-  const Heard quiet;
-  const Heard busy = [] {
-    Heard heard = milling(20);
+  const SoundState quiet;
+  const SoundState busy = [] {
+    SoundState heard = milling(20);
     heard.irrigated = true;
     heard.to_spare = 0;
     return heard;
   }();
   struct Leap {
     const char* what;
-    Heard from, to;
+    SoundState from, to;
   };
   std::vector<Leap> leaps = {{"all on", quiet, busy}, {"all off", busy, quiet}};
   const auto leap = [&leaps](const char* what, auto change) {
-    Heard from = turning(40'000), to = from;
+    SoundState from = turning(40'000), to = from;
     change(to);
     leaps.push_back({what, from, to});
     leaps.push_back({what, to, from});
   };
-  leap("stop", [](Heard& h) { h.spindle_rad_s = 0; });
-  leap("backwards", [](Heard& h) { h.spindle_rad_s *= -1; });
-  leap("half speed", [](Heard& h) { h.spindle_rad_s /= 2; });
-  leap("teeth", [](Heard& h) { h.teeth = 12; });
-  leap("no teeth", [](Heard& h) { h.teeth = 0; });
-  leap("load", [](Heard& h) { h.cutting_nm = 30e-3; });
-  leap("contact", [](Heard& h) { h.touching = true; });
-  leap("warning", [](Heard& h) { h.to_spare = 0; });
-  leap("beeps", [](Heard& h) { h.to_spare = 2e-3; });
+  leap("stop", [](SoundState& h) { h.spindle_rad_s = 0; });
+  leap("backwards", [](SoundState& h) { h.spindle_rad_s *= -1; });
+  leap("half speed", [](SoundState& h) { h.spindle_rad_s /= 2; });
+  leap("teeth", [](SoundState& h) { h.teeth = 12; });
+  leap("no teeth", [](SoundState& h) { h.teeth = 0; });
+  leap("load", [](SoundState& h) { h.cutting_nm = 30e-3; });
+  leap("contact", [](SoundState& h) { h.touching = true; });
+  leap("warning", [](SoundState& h) { h.to_spare = 0; });
+  leap("beeps", [](SoundState& h) { h.to_spare = 2e-3; });
   leaps.push_back({"contact", quiet, {.touching = true}});
   leaps.push_back({"first beep", quiet, {.to_spare = 2e-3}});
   for (const Leap& one : leaps)
     for (std::size_t later = 0; later < 8; ++later) {  // at any phase of its oscillators
       Synth synth;
-      synth.hear(one.from);
+      synth.update(one.from);
       static_cast<void>(made(synth, 0.5 + static_cast<double>(7 * later) / test::kRate));
       std::vector<float> all = made(synth, 0.5);
       double bends = test::sharpest(all);
-      synth.hear(one.to);
+      synth.update(one.to);
       const std::vector<float> after = made(synth, 0.5);
       all.insert(all.end(), after.begin(), after.end());
       bends = std::max(bends, test::sharpest(test::end_of(after, after.size() / 2)));
@@ -302,16 +302,16 @@ TEST(Synth, NothingClicksWhateverLeaps) {
   // noise bends by chance: with cutting and coolant alone, fifty jumps of each
   for (const bool coolant : {false, true}) {
     Synth synth;
-    Heard heard, none;
+    SoundState heard, none;
     heard.removal_m3_s = coolant ? 0 : 20e-9;
     heard.hardness_j_m3 = 1e9;
     heard.irrigated = coolant;
-    synth.hear(heard);
+    synth.update(heard);
     static_cast<void>(made(synth, 1));
     const double bends = test::sharpest(made(synth, 10));
     double leapt = 0;
     for (int n = 0; n < 50; ++n) {
-      synth.hear(n % 2 == 0 ? none : heard);
+      synth.update(n % 2 == 0 ? none : heard);
       leapt = std::max(leapt, test::sharpest(made(synth, 0.2)));
     }
     EXPECT_LT(leapt, 1.1 * bends) << coolant;
@@ -320,7 +320,7 @@ TEST(Synth, NothingClicksWhateverLeaps) {
 
 TEST(Synth, LouderAndQuieterDoNotClick) {
   Synth synth;
-  synth.hear(milling(0));
+  synth.update(milling(0));
   static_cast<void>(made(synth, 0.5));
   const double bends = test::sharpest(made(synth, 1));
   for (const double loud : {0.0, 1.0, 0.1, 1.0}) {
@@ -342,16 +342,16 @@ TEST(Synth, NothingIsHeardWhereNothingIs) {
     }
     return 10 * std::log10(high / all);  // [dB]
   };
-  Heard heard = turning(40'000);
+  SoundState heard = turning(40'000);
   heard.teeth = 0;
   for (const bool speed : {false, true}) {
     Synth synth;
-    synth.hear(heard);
+    synth.update(heard);
     static_cast<void>(made(synth, 0.5));
     std::vector<float> samples;
     for (int n = 0; n < 8; ++n) {
       heard.spindle_rad_s = test::rad_s(speed && n % 2 == 0 ? 20'000 : 40'000);
-      synth.hear(heard);
+      synth.update(heard);
       synth.loudness(!speed && n % 2 == 0 ? 0 : 1);
       const std::vector<float> some = made(synth, 0.2);
       samples.insert(samples.end(), some.begin(), some.end());
@@ -368,17 +368,17 @@ TEST(Synth, WithNothingToBeHeardItIsSilentExactly) {
     return zeros;
   };
   EXPECT_TRUE(silent(1)) << "at the start";
-  synth.hear({});
+  synth.update({});
   EXPECT_TRUE(silent(1)) << "nothing";
-  Heard busy = milling();
+  SoundState busy = milling();
   busy.irrigated = true;
   busy.to_spare = 1e-3;
-  synth.hear(busy);
+  synth.update(busy);
   EXPECT_FALSE(silent(1));
-  synth.hear({});
+  synth.update({});
   static_cast<void>(made(synth, 3));
   EXPECT_TRUE(silent(1)) << "again";
-  synth.hear(busy);
+  synth.update(busy);
   synth.loudness(0);
   static_cast<void>(made(synth, 3));
   EXPECT_TRUE(silent(1)) << "off";
@@ -389,9 +389,9 @@ TEST(Synth, TheSameWordsAreTheSameSamples) {
     Synth synth;
     std::vector<float> all;
     for (int n = 0; n < 20; ++n) {
-      Heard heard = milling(n);
+      SoundState heard = milling(n);
       heard.to_spare = 1e-3 * n / 4;
-      synth.hear(heard);
+      synth.update(heard);
       for (std::size_t left = 960; left > 0;) {
         std::vector<float> part(std::min(block, left));
         synth.make(part);
@@ -418,7 +418,7 @@ TEST(Synth, NeverLouderThanFullScaleAndNeverNotANumberWhateverItIsTold) {
                                    1e300, 1e-300, 4'000, 1e-9,      1e9,        -1e-3};
   const auto any = [&] { return odd[random() % odd.size()]; };
   for (int n = 0; n < 2'000; ++n) {
-    Heard heard;
+    SoundState heard;
     heard.spindle_rad_s = any();
     heard.teeth = static_cast<int>(random());
     heard.cutting_nm = any();
@@ -427,7 +427,7 @@ TEST(Synth, NeverLouderThanFullScaleAndNeverNotANumberWhateverItIsTold) {
     heard.touching = random() % 2 == 0;
     heard.irrigated = random() % 2 == 0;
     heard.to_spare = any();
-    synth.hear(heard);
+    synth.update(heard);
     synth.loudness(any());
     std::vector<float> samples(random() % 700);
     synth.make(samples);
@@ -445,9 +445,9 @@ TEST(Synth, OddSettingsAreHeldToWhatCanBe) {
   odd.beep_fast = odd.beep_slow = odd.beep = 0;
   odd.warn_hz = kInfinity;
   Synth synth(odd);
-  Heard heard = milling();
+  SoundState heard = milling();
   heard.to_spare = 0.1e-3;
-  synth.hear(heard);
+  synth.update(heard);
   for (const float x : made(synth, 1)) ASSERT_LE(std::abs(x), 1.0F);
 }
 
@@ -457,7 +457,7 @@ TEST(Synth, WhatIsLoudIsBentAndWhatIsNotIsLeftAlone) {
   for (const double loud : {0.1, 0.7, 1.0}) {
     SynthSettings settings;
     settings.warning = loud;
-    Heard heard;
+    SoundState heard;
     heard.to_spare = 0;
     const std::vector<float> samples = steady(heard, 65536 / test::kRate, settings);
     const std::vector<double> power = test::spectrum(samples);
@@ -477,14 +477,14 @@ TEST(Synth, WhatIsLoudIsBentAndWhatIsNotIsLeftAlone) {
 TEST(Synth, TakesNoMemoryAndNoLock) {
   Synth synth;
   std::vector<float> samples(512);
-  Heard heard = milling();
+  SoundState heard = milling();
   heard.irrigated = true;
   heard.to_spare = 1e-3;
   const test::RtGuard guard;
   for (int n = 0; n < 200; ++n) {
     heard.touching = n % 20 < 10;
     heard.teeth = n % 12;
-    synth.hear(heard);
+    synth.update(heard);
     synth.loudness(n % 3 == 0 ? 0 : 1);
     synth.make(samples);
   }

@@ -14,13 +14,13 @@
 namespace burr::sound {
 namespace {
 
-Heard turning(double rpm) { return {.spindle_rad_s = test::rad_s(rpm)}; }
+SoundState turning(double rpm) { return {.spindle_rad_s = test::rad_s(rpm)}; }
 
 // `seconds` of sound in blocks as a device asks for them; heard: set before each block, or nullptr.
-std::vector<float> played(Voice& voice, double seconds, const Heard* heard) {
+std::vector<float> played(Voice& voice, double seconds, const SoundState* heard) {
   std::vector<float> all, block(512);
   while (static_cast<double>(all.size()) < seconds * test::kRate) {
-    if (heard != nullptr) voice.hear(*heard);
+    if (heard != nullptr) voice.update(*heard);
     voice.make(block);
     all.insert(all.end(), block.begin(), block.end());
   }
@@ -34,10 +34,10 @@ TEST(Voice, IsSilentUntilItIsToldSomething) {
 
 TEST(Voice, FadesWhenNobodySpeaksAndComesBack) {
   Voice voice;
-  const Heard heard = turning(40'000);
+  const SoundState heard = turning(40'000);
   const double loud = test::rms(test::end_of(played(voice, 1, &heard), 9'600));
   EXPECT_GT(loud, 0.05);
-  // 0.2 s without hear() change nothing
+  // 0.2 s without update() change nothing
   EXPECT_NEAR(test::rms(test::end_of(played(voice, 0.19, nullptr), 1'000)), loud, 0.1 * loud);
   const std::vector<float> fading = played(voice, 1, nullptr);
   EXPECT_EQ(test::largest(test::end_of(fading, 9'600)), 0) << "silent";
@@ -51,7 +51,7 @@ TEST(Voice, FadesWhenNobodySpeaksAndComesBack) {
 
 TEST(Voice, OffIsSilentAndOnIsBack) {
   Voice voice;
-  const Heard heard = turning(40'000);
+  const SoundState heard = turning(40'000);
   const double loud = test::rms(test::end_of(played(voice, 1, &heard), 9'600));
   voice.on(false);
   EXPECT_FALSE(voice.is_on());
@@ -67,7 +67,7 @@ TEST(Voice, TakesNoMemoryAndNoLock) {
   std::vector<float> block(512);
   const test::RtGuard guard;
   for (int n = 0; n < 100; ++n) {
-    voice.hear(turning(1'000.0 * n));
+    voice.update(turning(1'000.0 * n));
     voice.on(n % 7 != 0);
     voice.make(block);
   }
@@ -82,10 +82,10 @@ TEST(Voice, ThreeThreadsAtOnce) {
   std::atomic<bool> done = false;
   std::thread feeder([&] {
     for (int n = 0; !done; ++n) {
-      Heard heard = turning(40'000);
+      SoundState heard = turning(40'000);
       heard.touching = n % 2 == 0;
       heard.cutting_nm = n % 3 == 0 ? 1e-3 : 0;
-      voice.hear(heard);
+      voice.update(heard);
       std::this_thread::yield();
     }
   });

@@ -321,7 +321,7 @@ void wander(HeatGrid& heat, volume::Bone& bone, std::mt19937& random, int rounds
       std::fill_n(full.voxel, volume::kBrickVoxels, volume::Field{50000});
       if (bone.ensure_slot(brick) != volume::kNoSlot) bone.write_brick(brick, full);
     }
-    EXPECT_TRUE(heat.look());
+    EXPECT_TRUE(heat.read_changes());
     heat.advance(0.11);
   }
 }
@@ -398,7 +398,7 @@ TEST(HeatGrid, WhatIsCutMeanwhileIsAsIfItHadNeverBeenThere) {
     const Ijk at(static_cast<int>(random() % 40), static_cast<int>(random() % 33),
                  static_cast<int>(random() % 27));
     cut_out(*bone, at, at + Ijk::Constant(5));
-    EXPECT_TRUE(heat.look());
+    EXPECT_TRUE(heat.read_changes());
   }
   HeatGrid fresh(*bone, middle_of(*bone), {});
   EXPECT_EQ(heat.wet_area(), fresh.wet_area());
@@ -428,7 +428,7 @@ TEST(HeatGrid, BoneThatIsCutTakesItsHeatAlong) {
   heat.deposit(heat.centre({6, 1, 1}), 0, 0.3);
   const double other = heat.temperature_c({6, 1, 1});
   cut_out(*bone, {0, 0, 0}, {8, 8, 8});
-  EXPECT_TRUE(heat.look());
+  EXPECT_TRUE(heat.read_changes());
   EXPECT_FALSE(heat.has_matter({1, 1, 1}));
   EXPECT_EQ(heat.temperature_c({1, 1, 1}), 37);
   EXPECT_EQ(heat.temperature_c({6, 1, 1}), other);
@@ -444,7 +444,7 @@ TEST(HeatGrid, HalfACellTakesHalfItsHeatAndIsNoWarmer) {
   heat.deposit(heat.centre({1, 1, 1}), 0, 0.1);
   const double t = heat.temperature_c({1, 1, 1});
   cut_out(*bone, {2, 2, 2}, {3, 4, 4});
-  EXPECT_TRUE(heat.look());
+  EXPECT_TRUE(heat.read_changes());
   EXPECT_NEAR(heat.temperature_c({1, 1, 1}), t, 1e-12);
   EXPECT_NEAR(heat.ledger().removed, 0.05, 1e-12);
 }
@@ -468,9 +468,9 @@ TEST(HeatGrid, WhatIsPutBackIsAsWarmAsAtTheStart) {
   HeatGrid heat(*bone, everything(*bone), {});
   heat.deposit(heat.centre({1, 1, 1}), 0, 0.1);
   cut_out(*bone, {0, 0, 0}, {4, 8, 8});
-  EXPECT_TRUE(heat.look());
+  EXPECT_TRUE(heat.read_changes());
   bone->write_brick(0, before);
-  EXPECT_TRUE(heat.look());
+  EXPECT_TRUE(heat.read_changes());
   EXPECT_TRUE(heat.has_matter({1, 1, 1}));
   EXPECT_EQ(heat.temperature_c({1, 1, 1}), 37);
   EXPECT_EQ(heat.cem43_min({1, 1, 1}), 0);
@@ -548,7 +548,7 @@ TEST(HeatGrid, TellsEachTissueApart) {
   // removed bone counts in the history, not in the present
   const TissueHeat before = summary.tissue[1];
   cut_out(*bone, {0, 0, 0}, {8, 8, 8});
-  EXPECT_TRUE(heat.look());
+  EXPECT_TRUE(heat.read_changes());
   heat.summarise(summary);
   EXPECT_EQ(summary.tissue[1].ever_c, before.ever_c);
   EXPECT_EQ(summary.tissue[1].cem43_min, before.cem43_min);

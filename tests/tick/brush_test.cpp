@@ -152,7 +152,8 @@ class Recorded : public testing::Test {
     EXPECT_EQ(kept->content_hash(), session.bone().content_hash()) << "what was written down";
     const auto again = sim::replay(**player, slab(), quiet);
     ASSERT_TRUE(again) << again.error().text;
-    EXPECT_FALSE(again->parted_at.has_value()) << *again->parted_at << ": " << again->difference;
+    EXPECT_FALSE(again->first_different_tick.has_value())
+        << *again->first_different_tick << ": " << again->difference;
   }
 };
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "burr/device/simulated_hand.h"
-#include "burr/math/turn.h"
+#include "burr/math/rotation.h"
 #include "burr/phantom/build.h"
 #include "burr/tick/servo.h"
 
@@ -45,7 +45,7 @@ Felt felt(Motion motion, int ticks, bool guarded = false) {
     const Vec3 at = (phantom::kPeersBall + kRadius - sunk + above) *
                     Vec3(std::cos(angle), 0.8 * std::sin(angle), 0.6 * std::sin(angle));
     device::PathPoint point{
-        n * kDt, {at, math::shortest_turn(Vec3::UnitZ(), Vec3(0, -0.6, 0.8))}, 1};
+        n * kDt, {at, math::shortest_rotation(Vec3::UnitZ(), Vec3(0, -0.6, 0.8))}, 1};
     point.pedal = 1;
     path.points.push_back(point);
   }

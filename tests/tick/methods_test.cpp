@@ -135,7 +135,8 @@ TEST(MethodsInASession, TheRecordingKnowsAndSimulatesToTheSameBits) {
   ASSERT_TRUE(bone.ok());
   const auto again = sim::replay(**player, std::move(*bone), quiet);
   ASSERT_TRUE(again.ok()) << again.error().text;
-  EXPECT_FALSE(again->parted_at) << "tick " << *again->parted_at << ": " << again->difference;
+  EXPECT_FALSE(again->first_different_tick)
+      << "tick " << *again->first_different_tick << ": " << again->difference;
   EXPECT_EQ(again->ticks, 2800U);
   EXPECT_EQ(again->bone->content_hash(), run->bone().content_hash());
   std::filesystem::remove(file);
@@ -150,7 +151,7 @@ TEST(ThesisRemoval, GoesByTimeAloneAndTheLedgerKnows) {
   for (const int frame : {1, 1, 33}) {
     sim::SessionSettings settings;
     settings.servo.removal.law = edit::RemovalLaw::thesis;
-    settings.servo.removal.thesis_frame = frame;
+    settings.servo.removal.thesis_frame_ticks = frame;
     if (n == 1) settings.servo.spindle_rad_s /= 4;
     const auto run = session(settings);
     const double before = volume::volume_of(run->bone());

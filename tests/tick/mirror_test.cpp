@@ -218,7 +218,8 @@ TEST(MirrorMode, ARecordingReplaysToTheBitAndHoldsEveryMoment) {
   EXPECT_EQ(kept->content_hash(), session.bone().content_hash()) << "what was written down";
   const auto again = sim::replay(**player, slab(), quiet);
   ASSERT_TRUE(again) << again.error().text;
-  EXPECT_FALSE(again->parted_at.has_value()) << *again->parted_at << ": " << again->difference;
+  EXPECT_FALSE(again->first_different_tick.has_value())
+      << *again->first_different_tick << ": " << again->difference;
   EXPECT_EQ(again->bone->content_hash(), session.bone().content_hash());
   std::filesystem::remove(file);
 }

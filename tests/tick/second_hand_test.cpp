@@ -48,10 +48,10 @@ class Pushed final : public device::Device {
     log_.force = force;
     log_.largest = std::max(log_.largest, force.norm());
   }
-  void hold(double scale) BURR_RT override {
+  void scale_force(double scale) BURR_RT override {
     log_.held_least = std::min(log_.held_least.load(), scale);
   }
-  void follow() override { log_.follows = true; }
+  void stop_pacing() override { log_.follows = true; }
 
  private:
   Log& log_;
@@ -81,7 +81,7 @@ struct Bench {
     EXPECT_TRUE(made.ok());
     session = std::move(*made);
     if (joined) {
-      EXPECT_TRUE(session->join(std::make_unique<Pushed>(log, spec), requested).ok());
+      EXPECT_TRUE(session->add_second_hand(std::make_unique<Pushed>(log, spec), requested).ok());
     }
     burr({0, 0, 6 * kMm}, 0);
     tube({0, 0, 5 * kMm});
@@ -350,7 +350,8 @@ TEST(SecondHand, IsHeldBackByTheGuardWhileTheTickStands) {
   ASSERT_TRUE(made.ok());
   Pushed::Log log;
   log.hand.world_from_tool.p = {0, 0, 5 * kMm};
-  ASSERT_TRUE((*made)->join(std::make_unique<Pushed>(log, device::DeviceSpec{}), {}).ok());
+  ASSERT_TRUE(
+      (*made)->add_second_hand(std::make_unique<Pushed>(log, device::DeviceSpec{}), {}).ok());
   EXPECT_TRUE(log.follows) << "its wire does not wait for ticks that another one begins";
   (*made)->run(0.5, quiet);
   EXPECT_EQ(log.held_least, 0);

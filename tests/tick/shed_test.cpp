@@ -72,7 +72,7 @@ TEST(ShedGovernor, LooksAtWorkAtLatenessAndAtWhatWasLeftOut) {
 
 TEST(ShedGovernor, PutsNothingOffForATickThatNobodyHereKeptWaiting) {
   ShedSettings settings;
-  settings.first_in_line = true;
+  settings.has_realtime_priority = true;
   ShedGovernor late(kMs, settings), heavy(kMs, settings);
   for (int n = 0; n < 5000; ++n) {
     late.note(kMs / 10, 2 * kMs, 2);
@@ -208,7 +208,7 @@ TEST(Overload, AMachineTooSlowPutsOffPictureMeshAndRemovalAndTheTouchLast) {
   Bench b = bench("pocket", 20, 0.2);
   Servo& servo = *b.servo;
   rt::Ring<CommandRow> commands(1024);
-  servo.set_diary({nullptr, &commands, nullptr});
+  servo.set_recorder_rings({nullptr, &commands, nullptr});
   rt::VirtualClock clock(1000);
   ShedGovernor governor(clock.period_ns());
   SlowMachine machine;
@@ -337,7 +337,7 @@ class HeavyHand final : public device::Device {
     return hand_->state(dt);
   }
   void write_force(const Vec3& force) BURR_RT override { hand_->write_force(force); }
-  void hold(double scale) BURR_RT override { hand_->hold(scale); }
+  void scale_force(double scale) BURR_RT override { hand_->scale_force(scale); }
   [[nodiscard]] bool finished() const BURR_RT override { return hand_->finished(); }
 
  private:
@@ -391,7 +391,8 @@ TEST(Overload, ASessionThatWasTooSlowForAWhileReplaysToTheBit) {
   ASSERT_TRUE(bone.ok());
   auto again = sim::replay(**player, std::move(*bone), quiet);
   ASSERT_TRUE(again.ok()) << again.error().text;
-  EXPECT_FALSE(again->parted_at) << *again->parted_at << ": " << again->difference;
+  EXPECT_FALSE(again->first_different_tick)
+      << *again->first_different_tick << ": " << again->difference;
   EXPECT_EQ(again->ticks, 1500U);
   EXPECT_EQ(again->bone->content_hash(), session.bone().content_hash());
   std::filesystem::remove(file);

@@ -113,29 +113,30 @@ TEST_F(DeviceWindow, StopsByKeyAndGoesOnByTheSame) {
   ASSERT_TRUE(ready) << ready.error().text;
   sim::Session& session = *ready->session;
   Vec3 start = Vec3::Zero();
-  mill_by(*ready, {{"at rest", looks(20),
-                    [&] {
-                      EXPECT_FALSE(lifted(session));
-                      press(SDLK_BACKSPACE);
-                    }},
-                   {"stopped", [&] { return lifted(session); }, {}},
-                   {"and said", [&] { return desk_->said.find("Stopped") != std::string::npos; },
-                    [&] {
-                      start = hand(session);
-                      stylus({0, 20, 0}, 1);
-                    }},
-                   {"nothing moves, nothing mills", looks(20),
-                    [&] {
-                      EXPECT_EQ(hand(session), start);
-                      EXPECT_EQ(row_.hand.pedal, 0);
-                      stylus({0, 20, 0}, 0);
-                      press(SDLK_BACKSPACE);
-                    }},
-                   {"on again", [&] { return !lifted(session); },
-                    [&] {
-                      EXPECT_NEAR((hand(session) - start).norm(), 0, 1e-6);
-                      press(SDLK_q);
-                    }}});
+  mill_by(*ready,
+          {{"at rest", looks(20),
+            [&] {
+              EXPECT_FALSE(lifted(session));
+              press(SDLK_BACKSPACE);
+            }},
+           {"stopped", [&] { return lifted(session); }, {}},
+           {"and said", [&] { return desk_->status_text.find("Stopped") != std::string::npos; },
+            [&] {
+              start = hand(session);
+              stylus({0, 20, 0}, 1);
+            }},
+           {"nothing moves, nothing mills", looks(20),
+            [&] {
+              EXPECT_EQ(hand(session), start);
+              EXPECT_EQ(row_.hand.pedal, 0);
+              stylus({0, 20, 0}, 0);
+              press(SDLK_BACKSPACE);
+            }},
+           {"on again", [&] { return !lifted(session); },
+            [&] {
+              EXPECT_NEAR((hand(session) - start).norm(), 0, 1e-6);
+              press(SDLK_q);
+            }}});
 }
 
 TEST_F(DeviceWindow, TakenAgainInBoneItSaysToLiftFirst) {
@@ -150,8 +151,10 @@ TEST_F(DeviceWindow, TakenAgainInBoneItSaysToLiftFirst) {
     deep += mm;
     stylus(view.conjugate() * (deep * place->into));
   };
-  const auto said = [&] { return desk_->said.find(word(Word::begins_free)) != std::string::npos; };
-  mill_by(*ready, {{"at rest", looks(20), [&] { EXPECT_FALSE(said()) << desk_->said; }},
+  const auto said = [&] {
+    return desk_->status_text.find(word(Word::begins_free)) != std::string::npos;
+  };
+  mill_by(*ready, {{"at rest", looks(20), [&] { EXPECT_FALSE(said()) << desk_->status_text; }},
                    {"in contact",
                     [&] {
                       static_cast<void>(hand(session));
@@ -334,7 +337,7 @@ TEST_F(DeviceWindow, IsChosenOnTheStartPageAndKept) {
             {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
   EXPECT_TRUE(led);
   EXPECT_FALSE(taken());
-  EXPECT_EQ(desk_->told, "");
+  EXPECT_EQ(desk_->message, "");
   const SettingsRead kept = read_settings(desk_->places().config / "settings.toml");
   EXPECT_EQ(kept.settings.device, "touch");
 }
@@ -348,9 +351,9 @@ TEST_F(DeviceWindow, OneThatIsNotThereIsToldAndTheMouseStaysAWay) {
   std::string told;
   pages_by({{"the start page", on(Page::start), nullptr},
             {"its pictures", looks(5), [] { click(200, 240); }},
-            {"the sentence", [&] { return desk_->page == Page::start && !desk_->told.empty(); },
+            {"the sentence", [&] { return desk_->page == Page::start && !desk_->message.empty(); },
              [&] {
-               told = desk_->told;
+               told = desk_->message;
                desk_->settings.device.clear();
                press(SDLK_ESCAPE);
              }}});
@@ -364,17 +367,18 @@ TEST_F(DeviceWindow, PulledOutItIsSaidAndTheLastTicksAreKept) {
     const std::lock_guard lock(hd_->mutex);
     hd_->touch[0].present = there;
   };
-  mill_by(
-      *ready,
-      {{"at rest", looks(20), [&] { set_there(false); }},
-       {"said, with the cure", [&] { return desk_->said.find("cable") != std::string::npos; }, {}},
-       {"kept", [&] { return fs::exists(folder_ / "state" / "faults"); }, [&] { set_there(true); }},
-       {"there again",
-        [&] {
-          static_cast<void>(hand(*ready->session));
-          return row_.hand.valid;
-        },
-        [] { press(SDLK_q); }}});
+  mill_by(*ready, {{"at rest", looks(20), [&] { set_there(false); }},
+                   {"said, with the cure",
+                    [&] { return desk_->status_text.find("cable") != std::string::npos; },
+                    {}},
+                   {"kept", [&] { return fs::exists(folder_ / "state" / "faults"); },
+                    [&] { set_there(true); }},
+                   {"there again",
+                    [&] {
+                      static_cast<void>(hand(*ready->session));
+                      return row_.hand.valid;
+                    },
+                    [] { press(SDLK_q); }}});
   int files = 0;
   for (const auto& entry : fs::directory_iterator(folder_ / "state" / "faults")) {
     std::ifstream file(entry.path());

@@ -33,7 +33,7 @@ class Export : public Window {
     };
   }
   [[nodiscard]] std::function<bool()> says(const std::string& words) const {
-    return [this, words] { return desk_->said.find(words) != std::string::npos; };
+    return [this, words] { return desk_->status_text.find(words) != std::string::npos; };
   }
   // the middle of what the page has, at 1280 x 720
   static constexpr int kX = 280, kY = 155;
@@ -42,7 +42,7 @@ class Export : public Window {
   static void write() { click(kX + 612, kY + 288); }
   // writes into folder_ by the path that stands there when the page opens
   void mill_in(Ready& ready, std::vector<Script::Step> steps) {
-    Script script(std::move(steps), desk_->said);
+    Script script(std::move(steps), desk_->status_text);
     desk_->after_frame = [&script] { script.look(); };
     const auto left = mill(*desk_, *ready.session, ready.hands, *ready.worker, ready.scene,
                            {.folder = folder_.string()});
@@ -102,9 +102,9 @@ TEST_F(Export, WritesWhatWasRemovedAndItsVolumeIsThatOfTheLedger) {
   mill_in(*ready, std::move(steps));
   const double removed = session.outcome().ledger.removed;
   ASSERT_GT(removed, 0) << "nothing was cut: the test shows nothing";
-  EXPECT_NE(desk_->said.find("removed.stl"), std::string::npos) << desk_->said;
-  EXPECT_NE(desk_->said.find(fmt::format("{:.1f} mm", 1e9 * removed)), std::string::npos)
-      << desk_->said << " but removed were " << 1e9 * removed;
+  EXPECT_NE(desk_->status_text.find("removed.stl"), std::string::npos) << desk_->status_text;
+  EXPECT_NE(desk_->status_text.find(fmt::format("{:.1f} mm", 1e9 * removed)), std::string::npos)
+      << desk_->status_text << " but removed were " << 1e9 * removed;
   EXPECT_GT(fs::file_size(folder_ / "removed.stl"), 1000U);
 }
 
@@ -135,29 +135,30 @@ TEST_F(Export, SaysWhatIsWrongAndOneGoesOn) {
   std::string full;
   // a disk that takes no more than 4 kB of a file
   const auto was = std::signal(SIGXFSZ, SIG_IGN);
-  mill_in(*ready,
-          {{"the first picture", looks(3), [] { press(SDLK_e); }},
-           {"the page", looks(5), [] { into_path(); }},
-           {"the field", looks(5), types(".doc")},
-           {"the letters", looks(5), [] { press(SDLK_RETURN); }},
-           {"the sentence",
-            [&] { return desk_->said.find(".stl.doc: unknown file ext") != std::string::npos; },
-            [] { press(SDLK_ESCAPE); }},
-           {"no page", looks(5), [] { press(SDLK_e); }},
-           {"the page", looks(5),
-            [&] {
-              const rlimit little = {4096, old.rlim_max};
-              ::setrlimit(RLIMIT_FSIZE, &little);
-              choose(0);
-            }},
-           {"its path anew", looks(5), [] { write(); }},
-           {"the sentence about the disk",
-            [&] {
-              full = desk_->said;
-              return full.find("File too large") != std::string::npos;
-            },
-            [] { press(SDLK_ESCAPE); }},
-           {"no page", looks(5), [] { press(SDLK_q); }}});
+  mill_in(
+      *ready,
+      {{"the first picture", looks(3), [] { press(SDLK_e); }},
+       {"the page", looks(5), [] { into_path(); }},
+       {"the field", looks(5), types(".doc")},
+       {"the letters", looks(5), [] { press(SDLK_RETURN); }},
+       {"the sentence",
+        [&] { return desk_->status_text.find(".stl.doc: unknown file ext") != std::string::npos; },
+        [] { press(SDLK_ESCAPE); }},
+       {"no page", looks(5), [] { press(SDLK_e); }},
+       {"the page", looks(5),
+        [&] {
+          const rlimit little = {4096, old.rlim_max};
+          ::setrlimit(RLIMIT_FSIZE, &little);
+          choose(0);
+        }},
+       {"its path anew", looks(5), [] { write(); }},
+       {"the sentence about the disk",
+        [&] {
+          full = desk_->status_text;
+          return full.find("File too large") != std::string::npos;
+        },
+        [] { press(SDLK_ESCAPE); }},
+       {"no page", looks(5), [] { press(SDLK_q); }}});
   ::setrlimit(RLIMIT_FSIZE, &old);
   std::signal(SIGXFSZ, was);
   EXPECT_NE(full.find("bone"), std::string::npos) << full;

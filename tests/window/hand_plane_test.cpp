@@ -101,7 +101,7 @@ TEST_F(PlaneWindow, TheWheelPutsTheHandIntoTheBoneWhichHoldsTheBurr) {
     return row.hand.world_from_tool.p;
   };
   const auto said = [&](const char* words) {
-    return [this, words] { return desk_->said.find(words) != std::string::npos; };
+    return [this, words] { return desk_->status_text.find(words) != std::string::npos; };
   };
   Vec3 was = Vec3::Zero();
   double distance = 0;

@@ -113,8 +113,8 @@ TEST_F(HandsWindow, AWholeSessionByGamepadAlone) {
   tap(steps, pad, SDL_CONTROLLER_BUTTON_DPAD_RIGHT);
   steps.push_back({"it adds now",
                    [&] {
-                     return desk_->said.find("add") != std::string::npos ||
-                            desk_->said.find("Add") != std::string::npos;
+                     return desk_->status_text.find("add") != std::string::npos ||
+                            desk_->status_text.find("Add") != std::string::npos;
                    },
                    {}});
   tap(steps, pad, SDL_CONTROLLER_BUTTON_START);
@@ -135,11 +135,12 @@ TEST_F(HandsWindow, AGamepadThatIsPulledOutWhileItPressesLifts) {
     static_cast<void>(session.view(row));
     return row.hand.pedal;
   };
-  mill_by(*ready, {{"seen at rest", looks(20), [&] { pad.trigger(1); }},
-                   {"pressing", [&] { return pedal() > 0.9; }, [&] { pad.pull_out(); }},
-                   {"a picture or two", looks(3), [&] { EXPECT_EQ(pedal(), 0); }},
-                   {"told", [&] { return desk_->said.find("disconnected") != std::string::npos; },
-                    [] { press(SDLK_q); }}});
+  mill_by(*ready,
+          {{"seen at rest", looks(20), [&] { pad.trigger(1); }},
+           {"pressing", [&] { return pedal() > 0.9; }, [&] { pad.pull_out(); }},
+           {"a picture or two", looks(3), [&] { EXPECT_EQ(pedal(), 0); }},
+           {"told", [&] { return desk_->status_text.find("disconnected") != std::string::npos; },
+            [] { press(SDLK_q); }}});
 }
 
 TEST_F(HandsWindow, ATriggerThatIsHeldFromTheStartPressesOnlyAfterItWasLetGo) {
@@ -182,31 +183,32 @@ TEST_F(HandsWindow, APedalMillsByItsWayChangesTheBurrAndLetsTheCoolantRun) {
     static_cast<void>(session.view(row));
     return row.hand.pedal;
   };
-  mill_by(*ready, {{"at rest", looks(20),
-                    [&] {
-                      EXPECT_EQ(pedal(), 0);
-                      move_to(640, 330);
-                      stick.axis(0, 0);
-                    }},
-                   {"half down", [&] { return pedal() > 0.3 && pedal() < 0.6; },
-                    [&] { stick.axis(0, 32767); }},
-                   {"down",
-                    pressing_until([&] { return pedal() > 0.99 && row.ledger.removed > 1e-9; },
-                                   [&](bool down) { stick.axis(0, down ? 32767 : -32768); }),
-                    [&] { stick.axis(0, -32768); }},
-                   {"up", [&] { return pedal() == 0; }, [&] { stick.button(2, true); }},
-                   {"the next burr",
-                    asking_until([&] { return session.burr_radius() > radius + 1e-5; },
-                                 [&, down = true]() mutable { stick.button(2, down = !down); }),
-                    {}},
-                   {"told", looks(20), [&] { stick.button(1, true); }},
-                   {"coolant", [&] { return desk_->said.find("oolant") != std::string::npos; },
-                    [&] { stick.button(0, true); }},
-                   {"by button", [&] { return pedal() > 0.99; }, [&] { stick.pull_out(); }},
-                   {"pulled out", looks(3), [&] {
-                      EXPECT_EQ(pedal(), 0);
-                      press(SDLK_q);
-                    }}});
+  mill_by(
+      *ready,
+      {{"at rest", looks(20),
+        [&] {
+          EXPECT_EQ(pedal(), 0);
+          move_to(640, 330);
+          stick.axis(0, 0);
+        }},
+       {"half down", [&] { return pedal() > 0.3 && pedal() < 0.6; }, [&] { stick.axis(0, 32767); }},
+       {"down",
+        pressing_until([&] { return pedal() > 0.99 && row.ledger.removed > 1e-9; },
+                       [&](bool down) { stick.axis(0, down ? 32767 : -32768); }),
+        [&] { stick.axis(0, -32768); }},
+       {"up", [&] { return pedal() == 0; }, [&] { stick.button(2, true); }},
+       {"the next burr",
+        asking_until([&] { return session.burr_radius() > radius + 1e-5; },
+                     [&, down = true]() mutable { stick.button(2, down = !down); }),
+        {}},
+       {"told", looks(20), [&] { stick.button(1, true); }},
+       {"coolant", [&] { return desk_->status_text.find("oolant") != std::string::npos; },
+        [&] { stick.button(0, true); }},
+       {"by button", [&] { return pedal() > 0.99; }, [&] { stick.pull_out(); }},
+       {"pulled out", looks(3), [&] {
+          EXPECT_EQ(pedal(), 0);
+          press(SDLK_q);
+        }}});
 }
 
 TEST_F(HandsWindow, AFlightStickIsNoPedal) {

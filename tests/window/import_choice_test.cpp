@@ -51,9 +51,9 @@ TEST(Directions, SayWhereEachAxisPointsInThePatient) {
   axes << 0, -1, 0, -1, 0, 0, 0, 0, -1;
   axes.col(2) = axes.col(0).cross(axes.col(1));
   const auto ways = directions(axes);
-  EXPECT_EQ(ways[0].way, Way::forwards);
-  EXPECT_EQ(ways[1].way, Way::right);
-  EXPECT_EQ(ways[2].way, axes(2, 2) > 0 ? Way::upwards : Way::downwards);
+  EXPECT_EQ(ways[0].way, PatientDirection::forwards);
+  EXPECT_EQ(ways[1].way, PatientDirection::right);
+  EXPECT_EQ(ways[2].way, axes(2, 2) > 0 ? PatientDirection::upwards : PatientDirection::downwards);
   EXPECT_FALSE(ways[0].about);
   const math::Mat3 turned = Eigen::AngleAxisd(0.2, math::Vec3::UnitX()).toRotationMatrix();
   EXPECT_FALSE(directions(turned)[0].about);

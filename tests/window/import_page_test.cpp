@@ -131,7 +131,7 @@ TEST_F(ImportWindow, DoesNotReadTheScanTwice) {
              }},
             {"milling", on(Page::milling), [] { press(SDLK_q); }},
             {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
-  EXPECT_EQ(desk_->told, "");
+  EXPECT_EQ(desk_->message, "");
 }
 
 TEST_F(ImportWindow, GoesBackWithoutComplaint) {
@@ -139,7 +139,7 @@ TEST_F(ImportWindow, GoesBackWithoutComplaint) {
             {"the import page", on(Page::import), [] { press(SDLK_ESCAPE); }},
             {"the start page again", on(Page::start), nullptr},
             {"a few pictures", looks(5), [] { press(SDLK_ESCAPE); }}});
-  EXPECT_EQ(desk_->told, "");
+  EXPECT_EQ(desk_->message, "");
 }
 
 // ---- labels, series, trouble
@@ -226,7 +226,7 @@ TEST_F(ImportWindow, SaysWhatIsWrongWithANumberAndLosesNothing) {
          },
          [text] { type(text); }},
         {"the letters", looks(static_cast<int>(text.size()) + 10), [] { press(SDLK_RETURN); }},
-        {"what it says", looks(15), [&] { told.push_back(desk_->told); }}};
+        {"what it says", looks(15), [&] { told.push_back(desk_->message); }}};
   };
   std::vector<Script::Step> steps = {{"the start page", on(Page::start), [&] { drop(file); }},
                                      {"the import page", on(Page::import), nullptr}};
@@ -304,7 +304,7 @@ TEST_F(ImportWindow, ReadsAnotherSeriesThatIsChosen) {
       {"the page of the other", on(Page::import), nullptr},
       {"a picture", looks(3),
        [&] {
-         EXPECT_EQ(desk_->told, "");
+         EXPECT_EQ(desk_->message, "");
          press(SDLK_RETURN);
        }}},
      then_mills());
@@ -412,7 +412,7 @@ TEST_F(ImportWindow, CanBeStoppedWhileItReadsAndWhileBoneIsMade) {
                press(SDLK_ESCAPE);
              }},
             {"the start page once more", on(Page::start), [] { press(SDLK_ESCAPE); }}});
-  EXPECT_EQ(desk_->told, "");
+  EXPECT_EQ(desk_->message, "");
   ASSERT_EQ(chosen.width, again.width);
   EXPECT_LT(differ(chosen, again, 0, 60, 1280, 640), 20) << "what was chosen is kept";
 }

@@ -83,7 +83,7 @@ TEST_F(MeasuringWindow, TwoClicksGiveTheirDistanceNothingIsCutAndEscapeEndsIt) {
   tick::TickRow row;
   bool still_there = false;
   const auto says = [this](const std::string& word) {
-    return [this, word] { return desk_->said.find(word) != std::string::npos; };
+    return [this, word] { return desk_->status_text.find(word) != std::string::npos; };
   };
   mill_by(*ready, {{"the first picture", looks(3),
                     [&] {
@@ -94,7 +94,7 @@ TEST_F(MeasuringWindow, TwoClicksGiveTheirDistanceNothingIsCutAndEscapeEndsIt) {
                    {"a picture", looks(3), [] { click(700, 400); }},
                    {"the distance", says(" mm"),
                     [&] {
-                      told = desk_->said;
+                      told = desk_->status_text;
                       truth = (at(600, 330) - at(700, 400)).norm();
                       const render::Image now = desk_->renderer().shown();
                       drawn = differ(before, now, 610, 340, 690, 390);

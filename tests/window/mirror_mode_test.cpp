@@ -45,7 +45,7 @@ TEST_F(MirrorWindow, IsSwitchedOnSeenToldCutAcrossAndUndone) {
     return 1e9 * row.ledger.removed;
   };
   const auto said = [&](const char* words) {
-    return [this, words] { return desk_->said.find(words) != std::string::npos; };
+    return [this, words] { return desk_->status_text.find(words) != std::string::npos; };
   };
   render::Image without;
   const edit::Mirror middle = tick::mirror_plane(grid, tick::Plane::sagittal);

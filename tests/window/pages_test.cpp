@@ -42,18 +42,19 @@ TEST_F(Window, TakesADiamondBurrByKeyAndBack) {
   auto ready = block();
   ASSERT_TRUE(ready) << ready.error().text;
   render::Image fluted;
-  mill_by(*ready, {{"the first picture", looks(3), [] { move_to(640, 340); }},
-                   {"the burr over the bone", looks(40),
-                    [&] {
-                      fluted = desk_->renderer().shown();
-                      press(SDLK_k);
-                    }},
-                   {"told", [&] { return desk_->said.find("Diamond") != std::string::npos; }, {}},
-                   {"another burr is seen", looks(10), [&] {
-                      EXPECT_TRUE(ready->scene.burr.diamond);
-                      EXPECT_GT(differ(fluted, desk_->renderer().shown(), 120, 40, 1040, 600), 60);
-                      press(SDLK_q);
-                    }}});
+  mill_by(*ready,
+          {{"the first picture", looks(3), [] { move_to(640, 340); }},
+           {"the burr over the bone", looks(40),
+            [&] {
+              fluted = desk_->renderer().shown();
+              press(SDLK_k);
+            }},
+           {"told", [&] { return desk_->status_text.find("Diamond") != std::string::npos; }, {}},
+           {"another burr is seen", looks(10), [&] {
+              EXPECT_TRUE(ready->scene.burr.diamond);
+              EXPECT_GT(differ(fluted, desk_->renderer().shown(), 120, 40, 1040, 600), 60);
+              press(SDLK_q);
+            }}});
   EXPECT_EQ(ready->session->servo().settings().burr.kind, tool::BurrKind::diamond);
 }
 
@@ -139,7 +140,7 @@ TEST_F(Window, ShowsWhatIsToBeDoneUntilTheKeyHidesIt) {
                     again = desk_->renderer().shown();
                     press(SDLK_ESCAPE);
                   }}},
-                desk_->said);
+                desk_->status_text);
   desk_->after_frame = [&script] { script.look(); };
   WindowOptions options;
   options.work_case = ready->work_case;
@@ -337,7 +338,7 @@ TEST_F(Window, TakesADroppedScanMillsItComesBackAndGoesOnWhereItWas) {
             {"a while", a_while, [] { press(SDLK_s); }},
             {"the word about it", looks(5), [] { press(SDLK_q); }},
             {"the start page at last", on(Page::start), [] { press(SDLK_ESCAPE); }}});
-  EXPECT_EQ(desk_->told, "");
+  EXPECT_EQ(desk_->message, "");
   const std::vector<KeptSession> kept = kept_sessions(folder_ / "state");
   ASSERT_EQ(kept.size(), 2U) << "nothing was cut: the test shows nothing";
   EXPECT_TRUE(kept[0].clean && kept[1].clean);
@@ -375,16 +376,16 @@ TEST_F(Window, TellsWhatIsWrongWithABrokenFileAndGoesOn) {
             {"the field", looks(4), [&] { type(broken.string()); }},
             {"the letters", looks(4), [] { press(SDLK_RETURN); }},
             {"loading", on(Page::loading), nullptr},
-            {"the sentence", [&] { return desk_->page == Page::start && !desk_->told.empty(); },
+            {"the sentence", [&] { return desk_->page == Page::start && !desk_->message.empty(); },
              [&] {
-               told = desk_->told;
+               told = desk_->message;
                drop(scan());
              }},
             {"its import page", on(Page::import), [] { press(SDLK_RETURN); }},
             {"milling all the same", on(Page::milling), [] { press(SDLK_q); }},
             {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
   EXPECT_NE(told.find("broken.nrrd"), std::string::npos) << told;
-  EXPECT_EQ(desk_->told, "") << "an old sentence stayed";
+  EXPECT_EQ(desk_->message, "") << "an old sentence stayed";
 }
 
 TEST_F(Window, TellsWhatIsWrongWithAFileOfTheCorpusAndGoesOn) {
@@ -398,9 +399,9 @@ TEST_F(Window, TellsWhatIsWrongWithAFileOfTheCorpusAndGoesOn) {
   ASSERT_FALSE(files.empty()) << "the corpus has no truncated file";
   pages_by({{"the start page", on(Page::start), [&] { drop(files.front()); }},
             {"loading", on(Page::loading), nullptr},
-            {"the sentence", [&] { return desk_->page == Page::start && !desk_->told.empty(); },
+            {"the sentence", [&] { return desk_->page == Page::start && !desk_->message.empty(); },
              [] { press(SDLK_ESCAPE); }}});
-  EXPECT_FALSE(desk_->told.empty());
+  EXPECT_FALSE(desk_->message.empty());
 }
 
 TEST_F(Window, CancelsLoadingAndIsBackAtTheStartWithoutComplaint) {
@@ -409,7 +410,7 @@ TEST_F(Window, CancelsLoadingAndIsBackAtTheStartWithoutComplaint) {
             {"loading", on(Page::loading), [] { press(SDLK_ESCAPE); }},
             {"the start page again", on(Page::start), nullptr},
             {"a few pictures", looks(5), [] { press(SDLK_ESCAPE); }}});
-  EXPECT_EQ(desk_->told, "");
+  EXPECT_EQ(desk_->message, "");
   EXPECT_TRUE(kept_sessions(folder_ / "state").empty());
 }
 

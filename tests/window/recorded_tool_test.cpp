@@ -14,7 +14,7 @@
 
 #include "burr/record/player.h"
 #include "burr/record/timeline.h"
-#include "burr/workshop/hearing.h"
+#include "burr/workshop/sound_tracker.h"
 #include "burr/workshop/traces.h"
 #include "sim/commanded.h"
 #include "window/replay/playback.h"
@@ -91,10 +91,10 @@ class RecordedTool : public testing::Test {
 
 TEST_F(RecordedTool, IsHeard) {
   const auto player = opened(file("asked"));
-  workshop::Hearing hearing({}, [](const math::Vec3&) { return 5e-3; });
+  workshop::SoundTracker tracker({}, [](const math::Vec3&) { return 5e-3; });
   record::StepCursor steps = player->steps();
   for (record::Step step; steps.next(step);)
-    ASSERT_EQ(hearing.hear(step.row).to_spare, 5e-3 - 2e-3) << step.row.tick;
+    ASSERT_EQ(tracker.update(step.row).to_spare, 5e-3 - 2e-3) << step.row.tick;
 }
 
 TEST_F(RecordedTool, LeavesItsDust) {

@@ -486,7 +486,7 @@ TEST_F(Replay, OpensADroppedRecordingAndComesBack) {
             {"the help", looks(5), [] { press(SDLK_ESCAPE); }},
             {"no help", looks(5), [] { press(SDLK_ESCAPE); }},
             {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
-  EXPECT_EQ(desk_->told, "");
+  EXPECT_EQ(desk_->message, "");
 }
 
 TEST_F(Replay, TellsInOneSentenceWhatCannotBeWatched) {
@@ -514,19 +514,19 @@ TEST_F(Replay, TellsInOneSentenceWhatCannotBeWatched) {
   fs::resize_file(torn, 900);  // in the middle of its beginning
   const auto said = [&](std::string& into) {
     return [&] {
-      into = desk_->told;
+      into = desk_->message;
       return desk_->page == Page::start && !into.empty();
     };
   };
   pages_by({{"the start page", on(Page::start), [&] { drop(alone); }},
             {"a sentence", said(no_volume),
              [&] {
-               desk_->told.clear();
+               desk_->message.clear();
                drop(torn);
              }},
             {"a sentence", said(garbage),
              [&] {
-               desk_->told.clear();
+               desk_->message.clear();
                drop(folder_ / "nowhere.mcap");
              }},
             {"a sentence", said(missing), [] { press(SDLK_ESCAPE); }}});

@@ -119,29 +119,30 @@ TEST_F(SavedViewsWindow, ComeBackByKeyAndInTheNextSession) {
   ASSERT_TRUE(ready) << ready.error().text;
   render::Scene& scene = ready->scene;
   render::Camera kept, turned;
-  mill_by(*ready, {{"the first picture", looks(3), [] { press(SDLK_F6); }},
-                   {"no such view", [&] { return desk_->said.find("F6") != std::string::npos; },
-                    [] {
-                      press(SDLK_LEFT);
-                      press(SDLK_UP);
-                    }},
-                   {"another view", looks(3),
-                    [&] {
-                      kept = scene.camera;
-                      press(SDLK_F6, KMOD_LSHIFT);
-                      press(SDLK_RIGHT);
-                      press(SDLK_RIGHT);
-                      press(SDLK_l);
-                    }},
-                   {"yet another", looks(3),
-                    [&] {
-                      turned = scene.camera;
-                      press(SDLK_F6);
-                    }},
-                   {"the one before", looks(3), [&] {
-                      EXPECT_TRUE(same(scene.camera, kept));
-                      press(SDLK_q);
-                    }}});
+  mill_by(*ready,
+          {{"the first picture", looks(3), [] { press(SDLK_F6); }},
+           {"no such view", [&] { return desk_->status_text.find("F6") != std::string::npos; },
+            [] {
+              press(SDLK_LEFT);
+              press(SDLK_UP);
+            }},
+           {"another view", looks(3),
+            [&] {
+              kept = scene.camera;
+              press(SDLK_F6, KMOD_LSHIFT);
+              press(SDLK_RIGHT);
+              press(SDLK_RIGHT);
+              press(SDLK_l);
+            }},
+           {"yet another", looks(3),
+            [&] {
+              turned = scene.camera;
+              press(SDLK_F6);
+            }},
+           {"the one before", looks(3), [&] {
+              EXPECT_TRUE(same(scene.camera, kept));
+              press(SDLK_q);
+            }}});
   EXPECT_FALSE(same(turned, kept)) << "nothing was turned: the test shows nothing";
   auto later = block();
   ASSERT_TRUE(later) << later.error().text;

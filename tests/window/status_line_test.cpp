@@ -13,14 +13,14 @@ const StatusLine::Clock::time_point kStart =
 TEST(StatusLine, ForceThatWasLetGoDoesNotHideTheAnswerToAKey) {
   StatusLine told;
   told.note("no view is kept here", kStart);
-  told.let_go("Force released", kStart + milliseconds(1));
+  told.warn_released("Force released", kStart + milliseconds(1));
   EXPECT_EQ(told.note(kStart + milliseconds(200), "exporting"), "no view is kept here");
   EXPECT_EQ(told.warning(kStart + milliseconds(200), ""), "Force released");
 }
 
 TEST(StatusLine, WhatHoldsNowGoesBeforeWhatHasHappened) {
   StatusLine told;
-  told.let_go("Force released", kStart);
+  told.warn_released("Force released", kStart);
   EXPECT_EQ(told.warning(kStart + milliseconds(1), "disk full"), "disk full");
   EXPECT_EQ(told.warning(kStart + milliseconds(2), ""), "Force released");
 }
@@ -30,7 +30,7 @@ TEST(StatusLine, IsGoneAfterItsTime) {
   EXPECT_EQ(told.note(kStart, "exporting"), "exporting");
   EXPECT_EQ(told.warning(kStart, ""), "");
   told.note("sound off", kStart);
-  told.let_go("Force released", kStart);
+  told.warn_released("Force released", kStart);
   const auto after = kStart + StatusLine::kShown + milliseconds(1);
   EXPECT_EQ(told.note(after, "exporting"), "exporting");
   EXPECT_EQ(told.warning(after, ""), "");

@@ -205,7 +205,7 @@ TEST_F(Survival, AFullDiskIsSaidInTheWindowAndTheSessionGoesOn) {
              }},
             {"the sentence",
              [&] {
-               said = desk_->said;
+               said = desk_->status_text;
                return said.find("NOT RECORDED ANY MORE") != std::string::npos;
              },
              [&] { full = Clock::now(); }},

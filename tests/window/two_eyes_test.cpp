@@ -42,7 +42,7 @@ class TwoEyes : public Window {
     render::Image wanted;
     const render::TwoEyes eyes = desk_->eyes(scene.camera);
     const render::Eyes cameras = render::eyes_of(scene.camera, scene.camera.distance / 30);
-    EXPECT_NEAR(eyes.apart, scene.camera.distance / 30, 1e-12) << "as burr picture has it";
+    EXPECT_NEAR(eyes.eye_distance, scene.camera.distance / 30, 1e-12) << "as burr picture has it";
     if (how == Stereo::off) {
       wanted = made(scene.camera);
     } else {
@@ -171,7 +171,8 @@ TEST_F(TwoEyes, QuadBufferThatIsNotThereIsSaidAndOneEyeShown) {
   mill_by(*ready,
           {{"the sentence",
             [this] {
-              return desk_->said.find("no picture for each eye (quad_buffer)") != std::string::npos;
+              return desk_->status_text.find("no picture for each eye (quad_buffer)") !=
+                     std::string::npos;
             },
             [this] {
               EXPECT_EQ(desk_->renewed(), 1) << "asked for once";
@@ -203,9 +204,10 @@ TEST_F(Headset, ThatIsNotThereIsSaidOnceAndTheWindowGoesOn) {
   ::setenv("BURR_OPENXR_LOADER", "/nowhere/libopenxr_loader.so.1", 1);
   desk_->headset_wanted = true;
   mill_by(*ready, {{"the sentence",
-                    [this] { return desk_->said.find("no headset: ") != std::string::npos; },
+                    [this] { return desk_->status_text.find("no headset: ") != std::string::npos; },
                     [this] {
-                      EXPECT_NE(desk_->said.find("install libopenxr-loader1"), std::string::npos);
+                      EXPECT_NE(desk_->status_text.find("install libopenxr-loader1"),
+                                std::string::npos);
                       EXPECT_FALSE(desk_->headset_wanted);
                     }},
                    {"the window as ever", looks(5), [] { close_window(); }}});
@@ -294,7 +296,7 @@ TEST_F(Headset, WandIsTheHandThroughTheSafetyLayerUntilTheRuntimeGoes) {
            {"found again", [&] { return (burr() - place - math::Vec3(0.02, 0, 0)).norm() < 5e-4; },
             [&] { worn.change([](FakeXr& xr) { xr.instance_loss_pending = true; }); }},
            {"the headset gone, and said",
-            [this] { return desk_->said.find("the window continues") != std::string::npos; },
+            [this] { return desk_->status_text.find("the window continues") != std::string::npos; },
             [&] {
               EXPECT_EQ(desk_->headset, nullptr);
               EXPECT_EQ(worn.xr().sessions, 0);
@@ -314,26 +316,27 @@ TEST_F(Headset, IsPutOnAndTakenOffBySettings) {
   auto ready = block();
   ASSERT_TRUE(ready) << ready.error().text;
   Worn worn;
-  mill_by(*ready, {{"the window", looks(3),
-                    [&] {
-                      EXPECT_EQ(worn.xr().instances, 0) << "nobody asked for one";
-                      desk_->headset_wanted = true;
-                    }},
-                   {"worn, and it is said",
-                    [&] {
-                      return worn.xr().with_pictures > 3 &&
-                             desk_->said.find("Headset: Fake headset") != std::string::npos;
-                    },
-                    [&] { desk_->headset_wanted = false; }},
-                   {"off", [&] { return desk_->said.find("Headset off") != std::string::npos; },
-                    [&] {
-                      EXPECT_EQ(worn.xr().instances, 0);
-                      desk_->headset_wanted = true;
-                    }},
-                   {"worn again", [&] { return worn.xr().sessions == 1; },
-                    [this] { ASSERT_TRUE(desk_->renew()) << "the graphics card lost"; }},
-                   {"and in the new window", [&] { return worn.xr().with_pictures > 20; },
-                    [] { close_window(); }}});
+  mill_by(*ready,
+          {{"the window", looks(3),
+            [&] {
+              EXPECT_EQ(worn.xr().instances, 0) << "nobody asked for one";
+              desk_->headset_wanted = true;
+            }},
+           {"worn, and it is said",
+            [&] {
+              return worn.xr().with_pictures > 3 &&
+                     desk_->status_text.find("Headset: Fake headset") != std::string::npos;
+            },
+            [&] { desk_->headset_wanted = false; }},
+           {"off", [&] { return desk_->status_text.find("Headset off") != std::string::npos; },
+            [&] {
+              EXPECT_EQ(worn.xr().instances, 0);
+              desk_->headset_wanted = true;
+            }},
+           {"worn again", [&] { return worn.xr().sessions == 1; },
+            [this] { ASSERT_TRUE(desk_->renew()) << "the graphics card lost"; }},
+           {"and in the new window", [&] { return worn.xr().with_pictures > 20; },
+            [] { close_window(); }}});
   EXPECT_EQ(worn.xr().instances, 0) << "off when the page is left";
 }
 

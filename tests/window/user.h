@@ -187,7 +187,7 @@ class Window : public testing::Test {
     return open_ready(options, quiet);
   }
   void mill_by(Ready& ready, std::vector<Script::Step> steps) {
-    Script script(std::move(steps), desk_->said);
+    Script script(std::move(steps), desk_->status_text);
     desk_->after_frame = [&script] { script.look(); };
     const auto left = mill(*desk_, *ready.session, ready.hands, *ready.worker, ready.scene, {});
     desk_->after_frame = {};
@@ -195,7 +195,7 @@ class Window : public testing::Test {
     EXPECT_TRUE(script.finished());
   }
   void pages_by(std::vector<Script::Step> steps) {
-    Script script(std::move(steps), desk_->said);
+    Script script(std::move(steps), desk_->status_text);
     desk_->after_frame = [&script] { script.look(); };
     const Status done = run_pages(*desk_, {});
     desk_->after_frame = {};

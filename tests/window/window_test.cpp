@@ -230,7 +230,7 @@ TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
   EXPECT_GT(sounded, 0) << "nothing was to be heard of it";
   EXPECT_TRUE(account->whole());
   EXPECT_EQ(account->ticks, outcome.ticks);
-  EXPECT_EQ(account->safe_ticks, outcome.ticks);
+  EXPECT_EQ(account->written_ticks, outcome.ticks);
   EXPECT_GT(account->commands, 0U) << "no command was given: the test shows nothing";
   EXPECT_GT(account->brick_rows, 0U) << "nothing was cut: the test shows nothing";
 
@@ -244,8 +244,8 @@ TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
   if (seconds <= 30) {
     const auto replayed = sim::replay(**player, make(), quiet);
     ASSERT_TRUE(replayed) << replayed.error().text;
-    EXPECT_FALSE(replayed->parted_at.has_value())
-        << *replayed->parted_at << ": " << replayed->difference;
+    EXPECT_FALSE(replayed->first_different_tick.has_value())
+        << *replayed->first_different_tick << ": " << replayed->difference;
     EXPECT_EQ(replayed->ticks, outcome.ticks);
   }
   if (HasFailure())

@@ -1,5 +1,5 @@
 // From the rows of ticks to what is heard.
-#include "burr/workshop/hearing.h"
+#include "burr/workshop/sound_tracker.h"
 
 #include <gtest/gtest.h>
 
@@ -16,17 +16,17 @@ tick::TickRow row(std::uint64_t tick, double removed_mm3, double energy_j) {
   return made;
 }
 
-TEST(Hearing, HowFastAndHowHardIsTheDifferenceOfTwoRows) {
+TEST(SoundTracker, HowFastAndHowHardIsTheDifferenceOfTwoRows) {
   for (const double rate : {1'000.0, 4'000.0}) {
     tick::ServoSettings settings;
     settings.rate_hz = rate;
     // 3 mm3/s of 0.4 J/mm3; at the steps of a recording and of a window
     for (const std::uint64_t step : {1U, 16U, 40U}) {
-      Hearing hearing(settings);
-      sound::Heard heard;
+      SoundTracker tracker(settings);
+      sound::SoundState heard;
       for (std::uint64_t tick = 500; tick < 700; tick += step) {
         const double t = static_cast<double>(tick) / rate;
-        heard = hearing.hear(row(tick, 3 * t, 0.4 * 3 * t));
+        heard = tracker.update(row(tick, 3 * t, 0.4 * 3 * t));
         if (tick == 500) {
           EXPECT_EQ(heard.removal_m3_s, 0) << "nothing to compare with yet";
         }
@@ -37,21 +37,21 @@ TEST(Hearing, HowFastAndHowHardIsTheDifferenceOfTwoRows) {
   }
 }
 
-TEST(Hearing, AReturnToTheStartIsNoRemoval) {
-  Hearing hearing({});
-  static_cast<void>(hearing.hear(row(1'000, 50, 50)));
-  EXPECT_EQ(hearing.hear(row(1'100, 20, 20)).removal_m3_s, 0) << "less than before";
-  EXPECT_EQ(hearing.hear(row(10, 0, 0)).removal_m3_s, 0) << "an earlier row";
-  EXPECT_NEAR(hearing.hear(row(110, 1, 1)).removal_m3_s, 10e-9, 1e-15);
-  EXPECT_EQ(hearing.hear(row(210, 1, 1)).removal_m3_s, 0) << "no more";
-  EXPECT_NEAR(hearing.hear(row(210, 1, 1)).hardness_j_m3, 1e9, 1) << "it was that bone last";
+TEST(SoundTracker, AReturnToTheStartIsNoRemoval) {
+  SoundTracker tracker({});
+  static_cast<void>(tracker.update(row(1'000, 50, 50)));
+  EXPECT_EQ(tracker.update(row(1'100, 20, 20)).removal_m3_s, 0) << "less than before";
+  EXPECT_EQ(tracker.update(row(10, 0, 0)).removal_m3_s, 0) << "an earlier row";
+  EXPECT_NEAR(tracker.update(row(110, 1, 1)).removal_m3_s, 10e-9, 1e-15);
+  EXPECT_EQ(tracker.update(row(210, 1, 1)).removal_m3_s, 0) << "no more";
+  EXPECT_NEAR(tracker.update(row(210, 1, 1)).hardness_j_m3, 1e9, 1) << "it was that bone last";
 }
 
-TEST(Hearing, TellsWhatTheRowTells) {
+TEST(SoundTracker, TellsWhatTheRowTells) {
   tick::ServoSettings settings;
   settings.burr.teeth = 6;
   math::Vec3 asked = math::Vec3::Zero();
-  Hearing hearing(settings, [&asked](const math::Vec3& p) {
+  SoundTracker tracker(settings, [&asked](const math::Vec3& p) {
     asked = p;
     return 5e-3;
   });
@@ -61,7 +61,7 @@ TEST(Hearing, TellsWhatTheRowTells) {
   one.cutting_nm = 1e-3;
   one.contact.touching = true;
   one.contact.proxy = {1, 2, 3};
-  sound::Heard heard = hearing.hear(one);
+  sound::SoundState heard = tracker.update(one);
   EXPECT_EQ(heard.spindle_rad_s, -1'234);
   EXPECT_EQ(heard.cutting_nm, 1e-3);
   EXPECT_EQ(heard.teeth, 6);
@@ -72,19 +72,19 @@ TEST(Hearing, TellsWhatTheRowTells) {
 
   one.tool.irrigated = true;
   one.tool.radius = 1e-3;
-  heard = hearing.hear(one);
+  heard = tracker.update(one);
   EXPECT_TRUE(heard.irrigated);
   EXPECT_NEAR(heard.to_spare, 4e-3, 1e-15);
   one.tool.irrigated = false;
-  EXPECT_FALSE(hearing.hear(one).irrigated);
+  EXPECT_FALSE(tracker.update(one).irrigated);
 
   one.tool.kind = tool::BurrKind::diamond;
-  EXPECT_EQ(hearing.hear(one).teeth, 0) << "it grinds";
+  EXPECT_EQ(tracker.update(one).teeth, 0) << "it grinds";
   one.tool.kind = tool::BurrKind::cutting;
-  EXPECT_EQ(hearing.hear(one).teeth, 6);
+  EXPECT_EQ(tracker.update(one).teeth, 6);
 
-  Hearing without(settings);
-  EXPECT_EQ(without.hear(one).to_spare, std::numeric_limits<double>::infinity());
+  SoundTracker without(settings);
+  EXPECT_EQ(without.update(one).to_spare, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

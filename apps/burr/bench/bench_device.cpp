@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "bench/bench.h"
-#include "burr/math/turn.h"
+#include "burr/math/rotation.h"
 #include "burr/rt/thread.h"
 #include "burr/sim/session.h"
 #include "burr/workshop/hand_device.h"
@@ -23,7 +23,7 @@
 namespace burr::app {
 namespace {
 
-using device::LinkAccount;
+using device::LinkStats;
 
 struct Options {
   WorkOptions work;
@@ -32,7 +32,7 @@ struct Options {
 };
 
 // A tick that does nothing: measures wire, wake-up and scheduler.
-LinkAccount echo(device::Device& device, double rate_hz, double seconds) {
+LinkStats echo(device::Device& device, double rate_hz, double seconds) {
   std::atomic<bool> stop = false;
   {
     rt::Thread thread({.name = "servo", .realtime = true}, [&] {
@@ -48,12 +48,12 @@ LinkAccount echo(device::Device& device, double rate_hz, double seconds) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     stop = true;
   }
-  LinkAccount account;
-  static_cast<void>(device.account(account));
+  LinkStats account;
+  static_cast<void>(device.take_stats(account));
   return account;
 }
 
-nlohmann::json json_of(const LinkAccount& account) {
+nlohmann::json json_of(const LinkStats& account) {
   return {{"readings", account.readings},
           {"passed_over", account.passed_over},
           {"unanswered", account.unanswered},
@@ -63,7 +63,7 @@ nlohmann::json json_of(const LinkAccount& account) {
           {"max", account.answers.max_us()}};
 }
 
-void print(const char* what, const LinkAccount& account) {
+void print(const char* what, const LinkStats& account) {
   fmt::print(
       "{:<20} p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, worst {:.0f} us; {} readings, {} not answered "
       "in "
@@ -76,7 +76,7 @@ void print(const char* what, const LinkAccount& account) {
 Status run(const Options& options) {
   WorkOptions requested = options.work;
   if (const Status taken = take_case(requested); !taken) return taken;
-  LinkAccount idle;
+  LinkStats idle;
   {
     auto device = workshop::make_hand(requested.hand);
     if (!device) return device.error();
@@ -94,7 +94,7 @@ Status run(const Options& options) {
   if (!ready) return ready.error();
   sim::Session& session = *ready->session;
   // straight down points into the bone
-  ready->hands.real->lay(math::shortest_turn(math::Vec3::UnitZ(), outward));
+  ready->hands.real->set_axes(math::shortest_rotation(math::Vec3::UnitZ(), outward));
   // opened again, so that a device that moves by itself starts its path with the session
   session.hand().close();
   std::this_thread::sleep_for(std::chrono::milliseconds(500));  // a pause that the device can
@@ -105,8 +105,8 @@ Status run(const Options& options) {
   session.run(options.seconds, progress());
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  LinkAccount whole;
-  static_cast<void>(session.hand().account(whole));
+  LinkStats whole;
+  static_cast<void>(session.hand().take_stats(whole));
   const sim::Outcome outcome = session.outcome();
   // ticks that had room in wall time, but neither came nor were counted as missed
   const double unaccounted = wall * session.settings().servo.rate_hz -

@@ -14,7 +14,7 @@
 
 #include "bench/bench.h"
 #include "burr/device/simulated_hand.h"
-#include "burr/math/turn.h"
+#include "burr/math/rotation.h"
 #include "burr/phantom/build.h"
 #include "burr/rt/clock.h"
 #include "burr/rt/simd.h"
@@ -64,7 +64,7 @@ device::HandPath hand_path(const Options& options) {
       at = Vec3(along, 0.3 * along, half + r - sunk + above);
     }
     // the burr's axis lies along the surface, where it cuts best
-    device::PathPoint point{n * dt, {at, math::shortest_turn(Vec3::UnitZ(), side)}, 1};
+    device::PathPoint point{n * dt, {at, math::shortest_rotation(Vec3::UnitZ(), side)}, 1};
     point.pedal = options.mill.empty() ? 0 : 1;
     path.points.push_back(point);
   }

@@ -38,7 +38,7 @@ struct MemoryRow {
 struct WholeOutcome {
   sim::Outcome session;
   rt::TickSummary waiting;  // of the loop that only waits, if requested
-  record::RecordingAccount recorded;
+  record::RecordingStats recorded;
   std::uint64_t frames = 0, patches = 0;
   int patches_waiting_most = 0;  // patches of the surface that were not made yet, largest number
   double longest_frame_s = 0;    // between two pictures

@@ -80,10 +80,10 @@ rt::TickSummary wait_only(double seconds) {
 
 }  // namespace
 
-Result<MachineMeasured> measure_machine(const MachineTrial& options) {
+Result<MachineTrialResult> measure_machine(const MachineTrial& options) {
   const double each = options.seconds / 3;
-  MachineMeasured out;
-  rt::MachineSeen& seen = out.seen;
+  MachineTrialResult out;
+  rt::MachineMeasurements& seen = out.seen;
   seen.machine = rt::read_machine();
 
   progress().report(0, "a loop that only waits");

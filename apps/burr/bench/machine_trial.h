@@ -18,11 +18,11 @@ struct MachineTrial {
   bool picture = true;    // draw a picture meanwhile
 };
 
-struct MachineMeasured {
-  rt::MachineSeen seen;
+struct MachineTrialResult {
+  rt::MachineMeasurements seen;
   std::vector<std::string> left_out;  // sentences
 };
 
-[[nodiscard]] Result<MachineMeasured> measure_machine(const MachineTrial& trial);
+[[nodiscard]] Result<MachineTrialResult> measure_machine(const MachineTrial& trial);
 
 }  // namespace burr::app

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/device/crtk/arm.h"
-#include "burr/math/turn.h"
+#include "burr/math/rotation.h"
 #include "burr/workshop/arm_publisher.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
@@ -43,7 +43,7 @@ Status run(const Options& options) {
   const sim::SessionSettings settings = settings_of(requested, true);
   math::Pose start;
   start.p = work->place.at - kAbove * work->place.into;
-  start.q = math::shortest_turn(math::Vec3::UnitZ(), -work->place.into);
+  start.q = math::shortest_rotation(math::Vec3::UnitZ(), -work->place.into);
 
   device::crtk::ArmSettings named = options.arm;
   named.middle = start.p;
@@ -83,12 +83,12 @@ Status run(const Options& options) {
                                        {"missed", outcome.timing.missed},
                                        {"removed_mm3", 1e9 * outcome.ledger.removed},
                                        {"peak_force_N", outcome.peak_force},
-                                       {"left_aside", (*arm)->left_aside()}})
+                                       {"left_aside", (*arm)->ignored_goals()}})
                            .dump());
   else
     fmt::print("{:.1f} s: removed {:.3f} mm3, peak force {:.2f} N; {} goals or commands ignored\n",
                outcome.seconds, 1e9 * outcome.ledger.removed, outcome.peak_force,
-               (*arm)->left_aside());
+               (*arm)->ignored_goals());
   return recorded;
 }
 

@@ -39,10 +39,10 @@ void print_row(const char* what, const rt::TickSummary& t, bool works) {
              t.late_p99_us, t.late_p999_us, t.worst_lateness_us, t.missed);
 }
 
-void print(const rt::MachineSeen& seen, const rt::MachineJudged& judged,
+void print(const rt::MachineMeasurements& seen, const rt::MachineReport& judged,
            const std::vector<std::string>& left_out) {
   for (const rt::CheckLine& line : judged.lines) {
-    fmt::print("{:<16} {}\n", line.what, line.is);
+    fmt::print("{:<16} {}\n", line.what, line.value);
     if (!line.change.empty()) fmt::print("{:<16}   change: {}\n", "", line.change);
   }
   fmt::print("\n{:<26} {:^31}  {:^31} {:>8}\n", "1000 ticks a second [us]", "work of a tick",
@@ -57,7 +57,7 @@ void print(const rt::MachineSeen& seen, const rt::MachineJudged& judged,
   fmt::print("\n{}\n", judged.sentence);
 }
 
-void print_json(const rt::MachineSeen& seen, const rt::MachineJudged& judged,
+void print_json(const rt::MachineMeasurements& seen, const rt::MachineReport& judged,
                 const std::vector<std::string>& left_out) {
   const rt::Machine& m = seen.machine;
   nlohmann::json out;
@@ -85,7 +85,7 @@ void print_json(const rt::MachineSeen& seen, const rt::MachineJudged& judged,
   out["waiting_loaded"] = json_of(seen.waiting_loaded);
   out["milling_loaded"] = json_of(seen.milling_loaded);
   for (const rt::CheckLine& line : judged.lines)
-    out["lines"].push_back({{"what", line.what}, {"is", line.is}, {"change", line.change}});
+    out["lines"].push_back({{"what", line.what}, {"is", line.value}, {"change", line.change}});
   out["left_out"] = left_out;
   fmt::print("{}\n", out.dump());
 }
@@ -93,7 +93,7 @@ void print_json(const rt::MachineSeen& seen, const rt::MachineJudged& judged,
 Status run(const Options& options) {
   auto measured = measure_machine(options);
   if (!measured) return measured.error();
-  const rt::MachineJudged judged = rt::judge(measured->seen);
+  const rt::MachineReport judged = rt::judge(measured->seen);
   if (options.json) {
     print_json(measured->seen, judged, measured->left_out);
   } else {

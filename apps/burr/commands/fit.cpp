@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "burr/base/new_file.h"
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/fit/laws.h"
 #include "burr/fit/recorded_log.h"
 #include "burr/importing/materials.h"
@@ -45,7 +45,7 @@ const importing::MaterialField& field_of(const fit::Fitted& constant) {
 }
 
 std::string shown_name(const fit::MaterialFit& fit) {
-  return fit.material.empty() ? "(material not named)" : base::shown(fit.material);
+  return fit.material.empty() ? "(material not named)" : base::printable(fit.material);
 }
 
 // "2026-11-22"; Error: what is wrong with the date.
@@ -64,7 +64,7 @@ Result<std::string> date_of(const std::string& given) {
     if (date.ok() && text(date) == given) return given;
   }
   return error(Trouble::usage, fmt::format("--date: \"{}\" is not a date; write it as 2026-11-22",
-                                           base::shown(given)));
+                                           base::printable(given)));
 }
 
 Result<fit::ForceLog> read_log(const Options& options, const std::string& path) {
@@ -95,7 +95,8 @@ void print(const std::vector<fit::MaterialFit>& fits) {
                  (one.value + one.half) / field.si, field.unit, one.rows, one.residual,
                  one.residual_unit);
     }
-    for (const std::string& sentence : fit.not_told) fmt::print("  not determined: {}\n", sentence);
+    for (const std::string& sentence : fit.undetermined)
+      fmt::print("  not determined: {}\n", sentence);
   }
 }
 
@@ -109,7 +110,7 @@ nlohmann::json to_json(const Options& options, const fit::ForceLog& log,
                           {"rows_used", fit.rows},
                           {"rows_left_out", fit.left_out},
                           {"constants", nlohmann::json::object()},
-                          {"not_told", fit.not_told}};
+                          {"not_told", fit.undetermined}};
     for (const fit::Fitted& c : fit.constants) {
       const double si = field_of(c).si;
       one["constants"][c.key] = {
@@ -128,7 +129,7 @@ Status write(const Options& options, const std::string& date,
              const std::vector<fit::MaterialFit>& fits) {
   std::string names;
   for (const std::string& path : options.logs)
-    names += (names.empty() ? "" : ", ") + base::shown(short_name(path));
+    names += (names.empty() ? "" : ", ") + base::printable(short_name(path));
   std::vector<importing::Material> materials;
   for (const fit::MaterialFit& fit : fits) {
     if (fit.constants.empty()) continue;
@@ -155,7 +156,7 @@ Status write(const Options& options, const std::string& date,
       importing::parse_materials(text, short_name(options.out), importing::built_in_materials());
   if (!again)
     return error(fmt::format("the fitted constants are no valid material: {}", again.error().text));
-  auto file = base::NewFile::beside(options.out);
+  auto file = base::NewFile::create(options.out);
   if (!file) return file.error();
   file->write(text);
   return file->put_in_place();
@@ -183,9 +184,9 @@ Status run(const Options& options) {
   else
     print(fits);
   if (!any) {
-    const std::string why = fits.empty() || fits.front().not_told.empty()
+    const std::string why = fits.empty() || fits.front().undetermined.empty()
                                 ? std::string("nothing was cut in it")
-                                : fits.front().not_told.front();
+                                : fits.front().undetermined.front();
     return error(fmt::format("{}: no constant can be determined: {}",
                              short_name(options.logs.front()), why));
   }

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/io/sandbox/fence.h"
 #include "burr/record/player.h"
 #include "burr/workshop/open_bone.h"
@@ -156,7 +156,7 @@ Status run_recording(const Options& options) {
   const record::Player& player = **opened;
   const record::SessionInfo& info = player.info();
   const math::Ijk& size = info.volume.grid.size;
-  fmt::print("recording by burr {}: {:.1f} s at {:g} Hz{}\n", base::shown(info.burr_version),
+  fmt::print("recording by burr {}: {:.1f} s at {:g} Hz{}\n", base::printable(info.burr_version),
              player.seconds(), info.rate_hz,
              player.stopped()    ? ", stopped before its end"
              : player.finished() ? ""
@@ -168,7 +168,7 @@ Status run_recording(const Options& options) {
     auto read = record::case_of(*info.work_case);
     if (!read) return read.error();
     work_case = std::move(*read);
-    fmt::print("case {}: {}", base::shown(work_case->name), scenario::task_text(*work_case));
+    fmt::print("case {}: {}", base::printable(work_case->name), scenario::task_text(*work_case));
   }
   for (const std::string& notice : player.notices()) fmt::print("  note: {}\n", notice);
   if (!options.json) return fine();

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "commands/command.h"
 
 namespace burr::app {
@@ -22,7 +22,7 @@ struct Options {
 void print(const importing::Materials& materials) {
   std::size_t calibrated = 0, all = 0;
   for (const importing::Material& material : materials.all) {
-    fmt::print("{}\n", base::shown(material.name));
+    fmt::print("{}\n", base::printable(material.name));
     for (const importing::MaterialField& field : importing::material_fields()) {
       const auto& constant = material.*(field.place);
       if (!constant) continue;
@@ -33,7 +33,7 @@ void print(const importing::Materials& materials) {
       fmt::print("  {:<22} {:>8.4g}  {:<16} {:<9} {:<14} {}\n", field.key,
                  constant->value / field.si, range, field.unit,
                  constant->calibrated ? "calibrated" : "not calibrated",
-                 base::shown(constant->source, 300));
+                 base::printable(constant->source, 300));
     }
   }
   fmt::print("{} of {} constants are calibrated\n", calibrated, all);

@@ -370,7 +370,7 @@ void add(CLI::App& app, Todo& todo) {
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   command
-      ->add_option("--thesis-frame", options->removing.thesis_frame,
+      ->add_option("--thesis-frame", options->removing.thesis_frame_ticks,
                    "with --removal thesis: remove bone every so many ticks; the thesis' own "
                    "picture loop: 33")
       ->check(CLI::Range(1, 100000))

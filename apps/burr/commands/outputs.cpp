@@ -15,7 +15,7 @@
 #include <system_error>
 
 #include "burr/base/inputs.h"
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 
 namespace burr::app {
 namespace {
@@ -72,7 +72,7 @@ bool is_kept(std::string_view ending) {
 }
 
 Error refused(const Output& output, Trouble trouble, const std::string& why) {
-  return error(trouble, fmt::format("{} {}: {}", output.option, base::shown(output.path), why));
+  return error(trouble, fmt::format("{} {}: {}", output.option, base::printable(output.path), why));
 }
 
 Status check_place(const Output& output) {
@@ -88,9 +88,9 @@ Status check_place(const Output& output) {
   if (fs::is_symlink(place, trouble)) place = fs::weakly_canonical(place, trouble);
   const fs::path folder = place.has_parent_path() ? place.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, trouble))
-    return refused(
-        output, Trouble::io,
-        fmt::format("the folder {} does not exist; create it first", base::shown(folder.string())));
+    return refused(output, Trouble::io,
+                   fmt::format("the folder {} does not exist; create it first",
+                               base::printable(folder.string())));
   if (::access(folder.c_str(), W_OK) != 0)
     return refused(output, Trouble::io, "no permission to write there; choose another folder");
   return fine();
@@ -112,7 +112,7 @@ Status check_one(const Output& output, const std::vector<std::string>& inputs, b
       return refused(output, Trouble::usage,
                      fmt::format("exists in the folder {}, which this command reads; choose a name "
                                  "outside of it",
-                                 base::shown(input)));
+                                 base::printable(input)));
   }
   if (!is_what_it_says(output.path))
     return refused(

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "burr/record/place_file.h"
+#include "burr/record/rename_and_sync.h"
 #include "burr/workshop/recording.h"
 #include "commands/command.h"
 
@@ -70,7 +70,7 @@ Status Recording::finish(sim::Session& session, bool stopped) {
   if (!trouble_) return fine();
   std::error_code nobody_asks;
   const bool there = std::filesystem::exists(file_, nobody_asks);
-  const double kept = recorder_ ? static_cast<double>(recorder_->safe_ticks()) / rate_hz_ : 0;
+  const double kept = recorder_ ? static_cast<double>(recorder_->written_ticks()) / rate_hz_ : 0;
   return error(trouble_->trouble,
                fmt::format("{}; the session ended normally, but its recording is incomplete: {}",
                            trouble_->text,
@@ -78,18 +78,18 @@ Status Recording::finish(sim::Session& session, bool stopped) {
                                              : "nothing was kept"));
 }
 
-record::RecordingAccount Recording::written() const {
-  return recorder_ ? recorder_->account() : record::RecordingAccount{};
+record::RecordingStats Recording::written() const {
+  return recorder_ ? recorder_->account() : record::RecordingStats{};
 }
 
 nlohmann::json Recording::account() const {
   const std::lock_guard lock(mutex_);
-  const record::RecordingAccount account = written();
+  const record::RecordingStats account = written();
   nlohmann::json out;
   out["file"] = file_;
   out["whole"] = !trouble_ && account.whole();
   out["finished"] = !trouble_ && account.whole() && !stopped_;
-  out["ticks"] = account.safe_ticks;
+  out["ticks"] = account.written_ticks;
   out["dropped_ticks"] = account.dropped_ticks;
   out["bytes"] = account.bytes;
   if (trouble_) out["trouble"] = trouble_->text;

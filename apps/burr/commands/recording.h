@@ -41,7 +41,7 @@ class Recording {
   [[nodiscard]] std::string trouble() const;
   // After finish(): the file, whether it is complete, how much of the session it contains.
   [[nodiscard]] nlohmann::json account() const;
-  [[nodiscard]] record::RecordingAccount written() const;
+  [[nodiscard]] record::RecordingStats written() const;
 
  private:
   void tell(const Error& problem);

@@ -16,8 +16,8 @@
 #include "burr/sound/synth.h"
 #include "burr/sound/wav.h"
 #include "burr/surface/worker.h"
-#include "burr/workshop/hearing.h"
 #include "burr/workshop/recording.h"
+#include "burr/workshop/sound_tracker.h"
 #include "burr/workshop/spared.h"
 #include "burr/workshop/spared_distance.h"
 #include "burr/workshop/traces.h"
@@ -62,7 +62,7 @@ Status draw(const Options& options, record::Player& player) {
   if (options.effects) {
     render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
     workshop::Traces(player).until(t).show(wound);
-    wound.dress_still(scene);
+    wound.stain_still(scene);
   }
   return draw_view(std::move(scene), **bone, tick->contact.proxy, -shaft, options.view,
                    options.size, options.picture);
@@ -100,7 +100,7 @@ Status film(const Options& options, record::Player& player) {
     worker.settle(show);
     if (options.effects) {
       traces.until(n / options.fps).show(wound);
-      wound.dress(scene);
+      wound.stain(scene);
     }
     auto tick = player.tick_at(n / options.fps);
     if (!tick) return tick.error();
@@ -131,7 +131,7 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
       fmt::print(stderr, "no warnings near structures to spare: {}\n", bone.error().text);
     }
   }
-  workshop::Hearing hearing(recorded.settings.servo, spared_distance.distances());
+  workshop::SoundTracker tracker(recorded.settings.servo, spared_distance.distances());
   const double per_tick = synth.settings().rate_hz / player.info().rate_hz;
   std::vector<float> samples(4096);
   record::StepCursor steps = player.steps();
@@ -142,7 +142,7 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
       progress().report(static_cast<double>(step.row.tick) / static_cast<double>(player.end_tick()),
                         "computing the sound");
     }
-    synth.hear(hearing.hear(step.row));
+    synth.update(tracker.update(step.row));
     // up to the end of this tick; where rows are missing, the last sound continues
     const double end = static_cast<double>(step.row.tick + 1 - player.first_tick()) * per_tick;
     if (end > static_cast<double>(sound::WavFile::kMostSamples))
@@ -234,15 +234,16 @@ Status run(const Options& options) {
     if (!outcome) return outcome.error();
     out["checked_ticks"] = outcome->ticks;
     out["checked_bricks"] = outcome->bricks;
-    out["same"] = !outcome->parted_at && outcome->gaps == 0;
+    out["same"] = !outcome->first_different_tick && outcome->gaps == 0;
     out["bone_hash"] = record::hex(outcome->bone->content_hash());
-    if (outcome->parted_at) out["parted_at"] = *outcome->parted_at;
+    if (outcome->first_different_tick) out["parted_at"] = *outcome->first_different_tick;
     if (options.json) fmt::print("{}\n", out.dump());
-    if (outcome->parted_at)
-      return error(fmt::format(
-          "{}: comes out differently at tick {} ({:.3f} s): {}; recorded by {}", options.file,
-          *outcome->parted_at, static_cast<double>(*outcome->parted_at) / player.info().rate_hz,
-          outcome->difference, player.info().build));
+    if (outcome->first_different_tick)
+      return error(
+          fmt::format("{}: comes out differently at tick {} ({:.3f} s): {}; recorded by {}",
+                      options.file, *outcome->first_different_tick,
+                      static_cast<double>(*outcome->first_different_tick) / player.info().rate_hz,
+                      outcome->difference, player.info().build));
     if (outcome->gaps > 0) return error(fmt::format("{}: {}", options.file, outcome->difference));
     if (!options.json)
       fmt::print("the same to the bit: {} ticks and {} bricks simulated again and compared\n",

@@ -77,7 +77,7 @@ Status write_summary(const Summary& summary, const std::filesystem::path& folder
   page += fmt::format("<footer>burr {} ({})</footer></html>\n", base::version(),
                       base::markup_text(base::build()));
 
-  Result<base::NewFile> file = base::NewFile::beside((folder / "summary.html").string());
+  Result<base::NewFile> file = base::NewFile::create((folder / "summary.html").string());
   if (!file) return file.error();
   file->write(page);
   return file->put_in_place();

@@ -151,7 +151,7 @@ Status draw_view(render::Scene scene, volume::Bone& bone, const Vec3& at, const 
   scene.camera = eyes.right;
   const auto right = render::render_image(scene, size.width, size.height);
   if (!right) return right.error();
-  return render::write_png(render::joined(*left, *right, stereo), file);
+  return render::write_png(render::join_eyes(*left, *right, stereo), file);
 }
 
 }  // namespace burr::app

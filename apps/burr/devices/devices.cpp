@@ -102,7 +102,7 @@ Status list(const Options& options) {
 Result<std::unique_ptr<device::MappedHand>> take(const Options& options) {
   workshop::HandRequest request = options.request;
   request.scale = 1;  // tried without scaling
-  auto laid = workshop::lay_hand(request, {}, math::Quat::Identity());
+  auto laid = workshop::open_hand(request, {}, math::Quat::Identity());
   if (!laid) return laid.error();
   return std::move(laid->hand);
 }
@@ -134,7 +134,7 @@ Status test(const Options& options) {
   fmt::print(stderr, "{}: at most {:.1f} N. Ctrl-C ends the test and releases the force.\n",
              workshop::id_of((*hand)->spec()),
              std::min(options.trial.most_force, (*hand)->spec().peak_force));
-  const TrialSeen seen = try_device(
+  const TrialMeasurements seen = try_device(
       **hand, options.trial, [](const std::string& words) { fmt::print(stderr, "{}\n", words); },
       [] { return interrupted(); });
   (*hand)->close();
@@ -143,7 +143,7 @@ Status test(const Options& options) {
   else
     fmt::print("{}", trial_text(seen));
   if (!options.out.empty()) {
-    auto file = base::NewFile::beside(options.out);
+    auto file = base::NewFile::create(options.out);
     if (!file) return file.error();
     file->write(trial_page(seen));
     const Status put = file->put_in_place();

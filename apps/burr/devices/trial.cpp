@@ -22,7 +22,7 @@ constexpr double kStill = 0.02;      // slower than this counts as rest [m/s]
 constexpr double kTrialRate = 1000;  // [Hz]
 
 // What the ticks report to the caller.
-struct StatusLine {
+struct TrialSample {
   device::HandState hand;
   Vec3 force = Vec3::Zero();
   std::uint64_t tick = 0;
@@ -52,7 +52,7 @@ class Ticks {
     thread_->join();
   }
   void want(const Wanted& wanted) { wanted_.publish(wanted); }
-  bool now(StatusLine& told) { return told_.take(told); }
+  bool now(TrialSample& sample) { return samples_.take(sample); }
   [[nodiscard]] double stiffness() const { return stiffness_; }
 
   // after end()
@@ -66,27 +66,27 @@ class Ticks {
     rt::TickClock& clock = own != nullptr ? *own : wall;
     Wanted wanted;
     Vec3 force = Vec3::Zero();
-    StatusLine told;
+    TrialSample sample;
     while (!stop_.load(std::memory_order_relaxed)) {
       const rt::TickTime time = clock.wait();
       static_cast<void>(wanted_.take(wanted));
-      told.hand = device_.state(1 / kTrialRate);
+      sample.hand = device_.state(1 / kTrialRate);
       std::uint32_t flags = 0;
-      const bool believed = limit_.believe(told.hand, flags);
+      const bool usable = limit_.accept_reading(sample.hand, flags);
       Vec3 push = Vec3::Zero();
-      if (believed && wanted.wall)
-        push.y() = stiffness_ * std::max(0.0, wanted.height - told.hand.world_from_tool.p.y());
+      if (usable && wanted.wall)
+        push.y() = stiffness_ * std::max(0.0, wanted.height - sample.hand.world_from_tool.p.y());
       force = limit_.apply(push, 1 / kTrialRate, flags);
       device_.write_force(force);
-      if (const std::int64_t arrived = device_.arrived_ns(); arrived > 0 && told.hand.valid)
+      if (const std::int64_t arrived = device_.arrived_ns(); arrived > 0 && sample.hand.valid)
         answers.add(rt::monotonic_ns() - arrived);
       if (ticks > 0) intervals.add(time.since_last_ns);
       ++ticks;
       missed += static_cast<std::uint64_t>(time.missed);
-      if (!told.hand.valid) ++invalid;
-      told.force = force;
-      told.tick = ticks;
-      told_.publish(told);
+      if (!sample.hand.valid) ++invalid;
+      sample.force = force;
+      sample.tick = ticks;
+      samples_.publish(sample);
     }
     for (int n = 4; n >= 0; --n) {  // a fade, not a sudden drop
       static_cast<void>(clock.wait());
@@ -98,7 +98,7 @@ class Ticks {
   haptics::ForceLimit limit_;
   double stiffness_ = 0;
   rt::Latest<Wanted> wanted_;
-  rt::Latest<StatusLine> told_;
+  rt::Latest<TrialSample> samples_;
   std::atomic<bool> stop_ = false;
   std::unique_ptr<rt::Thread> thread_;
 };
@@ -108,36 +108,36 @@ class Ticks {
 template <class Done>
 bool watch(Ticks& ticks, double longest_s, const std::function<bool()>& stop, Done done) {
   const auto until = Clock::now() + std::chrono::duration<double>(longest_s);
-  StatusLine told;
+  TrialSample sample;
   while (Clock::now() < until && !stop()) {
-    if (!ticks.now(told)) {
+    if (!ticks.now(sample)) {
       std::this_thread::sleep_for(std::chrono::microseconds(300));
       continue;
     }
-    if (told.hand.valid && done(told)) return true;
+    if (sample.hand.valid && done(sample)) return true;
   }
   return false;
 }
 
 void at_rest(Ticks& ticks, const TrialSettings& settings, const std::function<bool()>& stop,
-             TrialSeen& seen) {
+             TrialMeasurements& seen) {
   Vec3 sum = Vec3::Zero(), squares = Vec3::Zero(), first = Vec3::Zero();
   double speeds = 0;
   double n = 0;
   std::uint64_t begin = 0, end = 0;
   const auto began = Clock::now();
   Clock::time_point last = began;
-  static_cast<void>(watch(ticks, settings.rest_s, stop, [&](const StatusLine& told) {
+  static_cast<void>(watch(ticks, settings.rest_s, stop, [&](const TrialSample& sample) {
     if (n == 0) {
-      first = told.hand.world_from_tool.p;
-      begin = told.tick;
+      first = sample.hand.world_from_tool.p;
+      begin = sample.tick;
     }
-    const Vec3 at = told.hand.world_from_tool.p - first;
+    const Vec3 at = sample.hand.world_from_tool.p - first;
     sum += at;
     squares += at.cwiseAbs2();
-    speeds += told.hand.velocity.squaredNorm();
+    speeds += sample.hand.velocity.squaredNorm();
     ++n;
-    end = told.tick;
+    end = sample.tick;
     last = Clock::now();
     return false;
   }));
@@ -153,16 +153,16 @@ void at_rest(Ticks& ticks, const TrialSettings& settings, const std::function<bo
 }
 
 void along(Ticks& ticks, const TrialSettings& settings, const Vec3& way,
-           const std::function<bool()>& stop, AxisSeen& seen) {
+           const std::function<bool()>& stop, AxisMeasurement& seen) {
   bool has_start = false;
   Vec3 start = Vec3::Zero();
-  seen.done = watch(ticks, settings.longest_s, stop, [&](const StatusLine& told) {
+  seen.done = watch(ticks, settings.longest_s, stop, [&](const TrialSample& sample) {
     if (!has_start) {
-      if (told.hand.velocity.norm() > kStill) return false;
-      start = told.hand.world_from_tool.p;
+      if (sample.hand.velocity.norm() > kStill) return false;
+      start = sample.hand.world_from_tool.p;
       has_start = true;
     }
-    seen.went = told.hand.world_from_tool.p - start;
+    seen.went = sample.hand.world_from_tool.p - start;
     return seen.went.norm() >= settings.way;
   });
   const double cosine = seen.went.norm() > 0 ? seen.went.normalized().dot(way) : -1;
@@ -170,11 +170,11 @@ void along(Ticks& ticks, const TrialSettings& settings, const Vec3& way,
 }
 
 void wall(Ticks& ticks, const TrialSettings& settings, const std::function<bool()>& stop,
-          TrialSeen& seen) {
+          TrialMeasurements& seen) {
   double height = 0;
-  if (!watch(ticks, settings.longest_s, stop, [&](const StatusLine& told) {
-        height = told.hand.world_from_tool.p.y() - settings.below;
-        return told.hand.velocity.norm() <= kStill;
+  if (!watch(ticks, settings.longest_s, stop, [&](const TrialSample& sample) {
+        height = sample.hand.world_from_tool.p.y() - settings.below;
+        return sample.hand.velocity.norm() <= kStill;
       })) {
     seen.left_out.emplace_back("the wall: the hand did not stay still");
     return;
@@ -184,26 +184,26 @@ void wall(Ticks& ticks, const TrialSettings& settings, const std::function<bool(
   double depth_force = 0, depth_square = 0;
   Vec3 deepest_at = Vec3::Zero();
   double deepest = 0;
-  const bool done = watch(ticks, 3 * settings.longest_s, stop, [&](const StatusLine& told) {
-    const double depth = height - told.hand.world_from_tool.p.y();
-    if (depth > 0 && told.force.y() > 0) {
+  const bool done = watch(ticks, 3 * settings.longest_s, stop, [&](const TrialSample& sample) {
+    const double depth = height - sample.hand.world_from_tool.p.y();
+    if (depth > 0 && sample.force.y() > 0) {
       // only slow movement, where the force is that of the spring
-      if (told.hand.velocity.norm() < 0.1 && told.force.norm() < 0.98 * settings.most_force) {
-        depth_force += depth * told.force.y();
+      if (sample.hand.velocity.norm() < 0.1 && sample.force.norm() < 0.98 * settings.most_force) {
+        depth_force += depth * sample.force.y();
         depth_square += depth * depth;
       }
       if (!inside) deepest = 0;
       inside = true;
       if (depth > deepest) {
         deepest = depth;
-        deepest_at = told.hand.world_from_tool.p;
+        deepest_at = sample.hand.world_from_tool.p;
       }
       seen.deepest = std::max(seen.deepest, depth);
-      seen.most_force = std::max(seen.most_force, told.force.norm());
+      seen.most_force = std::max(seen.most_force, sample.force.norm());
     } else if (inside && depth < -1e-3) {
       inside = false;
       ++seen.presses;
-      const Vec3 back = told.hand.world_from_tool.p - deepest_at;
+      const Vec3 back = sample.hand.world_from_tool.p - deepest_at;
       seen.aside_deg = std::max(
           seen.aside_deg, std::acos(std::clamp(back.normalized().y(), -1.0, 1.0)) * 180 / M_PI);
     }
@@ -216,10 +216,10 @@ void wall(Ticks& ticks, const TrialSettings& settings, const std::function<bool(
 
 }  // namespace
 
-TrialSeen try_device(device::Device& device, const TrialSettings& settings,
-                     const std::function<void(const std::string&)>& tell,
-                     const std::function<bool()>& stop) {
-  TrialSeen seen;
+TrialMeasurements try_device(device::Device& device, const TrialSettings& settings,
+                             const std::function<void(const std::string&)>& tell,
+                             const std::function<bool()>& stop) {
+  TrialMeasurements seen;
   seen.spec = device.spec();
   Ticks ticks(device, settings);
   tell("Hold the handle still, or leave it where it rests. The device applies no force.");

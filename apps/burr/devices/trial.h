@@ -28,14 +28,14 @@ struct TrialSettings {
   int presses = 3;
 };
 
-struct AxisSeen {
+struct AxisMeasurement {
   std::string asked;  // requested direction: "right"
   bool done = false;
   math::Vec3 went = math::Vec3::Zero();  // movement, in the frame of device/mapping.h [m]
   double off_deg = 0;                    // angle to the requested direction
 };
 
-struct TrialSeen {
+struct TrialMeasurements {
   device::DeviceSpec spec;
   // at rest
   double rate_hz = 0;
@@ -45,7 +45,7 @@ struct TrialSeen {
   double speed_noise = 0;                 // of the velocity it reports, root mean square [m/s]
   // during all parts: from a reading's arrival until its force is given over, without the wire
   double answer_p50_us = 0, answer_p99_us = 0, answer_max_us = 0;
-  std::array<AxisSeen, 3> axes;
+  std::array<AxisMeasurement, 3> axes;
   // the wall
   int presses = 0;
   double deepest = 0;     // [m]
@@ -57,13 +57,13 @@ struct TrialSeen {
 };
 
 // The device must be open. tell: shows the person what to do now; stop: called often.
-[[nodiscard]] TrialSeen try_device(device::Device& device, const TrialSettings& settings,
-                                   const std::function<void(const std::string&)>& tell,
-                                   const std::function<bool()>& stop);
+[[nodiscard]] TrialMeasurements try_device(device::Device& device, const TrialSettings& settings,
+                                           const std::function<void(const std::string&)>& tell,
+                                           const std::function<bool()>& stop);
 
 // One page to send to a colleague, and the same for a terminal.
-[[nodiscard]] std::string trial_page(const TrialSeen& seen);
-[[nodiscard]] std::string trial_text(const TrialSeen& seen);
-[[nodiscard]] std::string trial_json(const TrialSeen& seen);
+[[nodiscard]] std::string trial_page(const TrialMeasurements& seen);
+[[nodiscard]] std::string trial_text(const TrialMeasurements& seen);
+[[nodiscard]] std::string trial_json(const TrialMeasurements& seen);
 
 }  // namespace burr::app

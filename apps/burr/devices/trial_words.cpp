@@ -12,7 +12,7 @@
 namespace burr::app {
 namespace {
 
-std::vector<std::pair<std::string, std::string>> rows_of(const TrialSeen& s) {
+std::vector<std::pair<std::string, std::string>> rows_of(const TrialMeasurements& s) {
   std::vector<std::pair<std::string, std::string>> rows;
   const auto row = [&rows](const char* what, std::string is) {
     rows.emplace_back(what, std::move(is));
@@ -36,7 +36,7 @@ std::vector<std::pair<std::string, std::string>> rows_of(const TrialSeen& s) {
   row("noise at rest",
       fmt::format("{:.1f}, {:.1f}, {:.1f} um; its velocity {:.2f} mm/s", 1e6 * s.noise.x(),
                   1e6 * s.noise.y(), 1e6 * s.noise.z(), 1e3 * s.speed_noise));
-  for (const AxisSeen& axis : s.axes)
+  for (const AxisMeasurement& axis : s.axes)
     row(axis.asked.c_str(),
         axis.done
             ? fmt::format("moved {:.1f}, {:.1f}, {:.1f} mm: {:.0f} degrees off{}",
@@ -53,13 +53,13 @@ std::vector<std::pair<std::string, std::string>> rows_of(const TrialSeen& s) {
 
 }  // namespace
 
-std::string trial_text(const TrialSeen& seen) {
+std::string trial_text(const TrialMeasurements& seen) {
   std::string text;
   for (const auto& [name, value] : rows_of(seen)) text += fmt::format("{:<18} {}\n", name, value);
   return text;
 }
 
-std::string trial_page(const TrialSeen& seen) {
+std::string trial_page(const TrialMeasurements& seen) {
   std::string page = fmt::format(
       "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>burr: a device tried</title>"
       "<style>{}</style>\n<h1>{}</h1>\n<table>\n",
@@ -71,7 +71,7 @@ std::string trial_page(const TrialSeen& seen) {
                             base::markup_text(base::build()));
 }
 
-std::string trial_json(const TrialSeen& s) {
+std::string trial_json(const TrialMeasurements& s) {
   nlohmann::json out;
   out["device"] = s.spec.name;
   out["serial"] = s.spec.serial;
@@ -85,7 +85,7 @@ std::string trial_json(const TrialSeen& s) {
   out["invalid"] = s.invalid;
   out["noise_um"] = {1e6 * s.noise.x(), 1e6 * s.noise.y(), 1e6 * s.noise.z()};
   out["speed_noise_mm_s"] = 1e3 * s.speed_noise;
-  for (const AxisSeen& axis : s.axes)
+  for (const AxisMeasurement& axis : s.axes)
     out["axes"].push_back(
         {{"asked", axis.asked},
          {"done", axis.done},

@@ -7,8 +7,8 @@
 #include "burr/device/openhaptics/hd.h"
 #include "burr/workshop/device_book.h"
 #include "burr/workshop/hand_device.h"
-#include "doctor/apart.h"
 #include "doctor/look.h"
+#include "doctor/run_in_process.h"
 
 namespace burr::app {
 namespace {
@@ -49,7 +49,7 @@ std::string of_device(const std::string& kind) {
 // Splits a sentence of burr into the reason and the advice, which its semicolon separates.
 void split(const std::string& sentence, Finding& finding) {
   const std::size_t cut = sentence.find("; ");
-  finding.is = sentence.substr(0, cut);
+  finding.value = sentence.substr(0, cut);
   finding.todo = cut == std::string::npos ? "see docs/devices.md" : sentence.substr(cut + 2);
 }
 
@@ -61,25 +61,27 @@ std::vector<Finding> look_at_devices(const System& system) {
     Finding finding{kGroup, kind.name, Health::absent, "", ""};
     const std::string name = kind.name;
     const std::string if_owned = fmt::format(", if you have one (docs/devices/{}.md)", kind.page);
-    const Apart library = apart([&name] { return of_library(name); }, system.patience);
+    const ProcessResult library =
+        run_in_process([&name] { return of_library(name); }, system.library_timeout);
     if (!library.ended) {
       finding.health = Health::trouble;
-      finding.is = "its library was loaded, then " + library.words;
+      finding.value = "its library was loaded, then " + library.words;
       finding.todo =
           fmt::format("install it anew as its maker says (docs/devices/{}.md)", kind.page);
     } else if (library.words.starts_with('-')) {
       split(library.words.substr(1), finding);
       finding.todo += if_owned;
     } else {
-      const Apart there = apart([&name] { return of_device(name); }, system.patience);
+      const ProcessResult there =
+          run_in_process([&name] { return of_device(name); }, system.library_timeout);
       if (!there.ended) {
         finding.health = Health::trouble;
-        finding.is = "it was opened, then " + there.words;
+        finding.value = "it was opened, then " + there.words;
         finding.todo =
             fmt::format("try the maker's own test program; docs/devices/{}.md", kind.page);
       } else if (there.words.starts_with('+')) {
         finding.health = Health::good;
-        finding.is = there.words.substr(1);
+        finding.value = there.words.substr(1);
         finding.todo = fmt::format("burr devices test {}", kind.name);
       } else {
         split(there.words.substr(1), finding);
@@ -89,7 +91,7 @@ std::vector<Finding> look_at_devices(const System& system) {
           finding.todo += if_owned;
       }
       const std::string file = library.words.substr(1);
-      if (!file.empty()) finding.is = fmt::format("{} is there; {}", file, finding.is);
+      if (!file.empty()) finding.value = fmt::format("{} is there; {}", file, finding.value);
     }
     findings.push_back(std::move(finding));
   }

@@ -68,14 +68,14 @@ Status run(const Options& options) {
     Finding tried{"trial", fmt::format("{:g} seconds", options.seconds), Health::trouble, "", ""};
     if (!measured) {
       if (measured.error().trouble == Trouble::interrupted) return measured.error();
-      tried.is = measured.error().text;
+      tried.value = measured.error().text;
       tried.todo = "burr check repeats the trial";
     } else {
       const rt::TickSummary& t = measured->seen.milling_loaded;
-      const rt::MachineJudged judged = rt::judge(measured->seen);
+      const rt::MachineReport judged = rt::judge(measured->seen);
       verdict = rt::name(judged.verdict);
       tried.health = judged.verdict == rt::Verdict::not_enough ? Health::trouble : Health::good;
-      tried.is = fmt::format(
+      tried.value = fmt::format(
           "milling with everything else at work: a tick took {:.0f} us (p99.9), began {:.0f} us "
           "late (p99.9), {:.1f} ms late at worst; {} of {} left out. {}",
           t.p999_us, t.late_p999_us, 1e-3 * t.worst_lateness_us, t.missed, t.ticks + t.missed,

@@ -54,7 +54,7 @@ std::string text_of(const std::vector<Finding>& findings) {
     const char* sign = one.health == Health::good     ? "ok"
                        : one.health == Health::absent ? "--"
                                                       : "!!";
-    text += fmt::format("  {} {:<18} {}\n", sign, one.what, wrapped(one.is, kIndent));
+    text += fmt::format("  {} {:<18} {}\n", sign, one.what, wrapped(one.value, kIndent));
     if (!one.todo.empty())
       text += fmt::format("{:{}}{}\n", "", kIndent, wrapped("-> " + one.todo, kIndent));
   }
@@ -67,7 +67,7 @@ std::string json_of(const std::vector<Finding>& findings) {
     out.push_back({{"group", one.group},
                    {"what", one.what},
                    {"health", name_of(one.health)},
-                   {"is", one.is},
+                   {"is", one.value},
                    {"todo", one.todo}});
   return out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

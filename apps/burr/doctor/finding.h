@@ -15,8 +15,8 @@ enum class Health {
 struct Finding {
   std::string group, what;  // "devices", "Touch"
   Health health = Health::good;
-  std::string is;    // what was found
-  std::string todo;  // what to do; empty: nothing
+  std::string value;  // what was found
+  std::string todo;   // what to do; empty: nothing
 };
 
 // A table for people: group by group, with the advice below each line.

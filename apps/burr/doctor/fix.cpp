@@ -63,7 +63,7 @@ Result<std::string> write_rules(const System& system,
   if (trouble)
     return cannot(fmt::format("{}: the folder cannot be made ({})", file.parent_path().string(),
                               trouble.message()));
-  auto out = base::NewFile::beside(file.string());
+  auto out = base::NewFile::create(file.string());
   if (!out) return cannot(out.error().text);
   out->write(rules);
   const Status put = out->put_in_place();

@@ -15,8 +15,8 @@
 namespace burr::app {
 
 struct System {
-  std::filesystem::path root = "/";            // folder that contains sys, dev and etc
-  std::chrono::milliseconds patience{10'000};  // time limit for a maker's library
+  std::filesystem::path root = "/";                   // folder that contains sys, dev and etc
+  std::chrono::milliseconds library_timeout{10'000};  // time limit for a maker's library
   std::function<bool(const std::filesystem::path&)>
       may_use;  // read and write; empty: as the kernel says
 };

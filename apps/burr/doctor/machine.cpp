@@ -23,7 +23,7 @@ std::string from_environment(const char* name) {
 }  // namespace
 
 std::vector<Finding> look_at_machine(const System& system) {
-  rt::MachineSeen seen;
+  rt::MachineMeasurements seen;
   seen.machine = rt::read_machine(system.root);
   {
     rt::Thread tried({.name = "doctor", .realtime = true}, [] {});
@@ -32,7 +32,7 @@ std::vector<Finding> look_at_machine(const System& system) {
   std::vector<Finding> findings;
   for (const rt::CheckLine& line : rt::judge(seen).lines)
     findings.push_back({"computer", line.what, line.change.empty() ? Health::good : Health::trouble,
-                        line.is, line.change});
+                        line.value, line.change});
   return findings;
 }
 
@@ -42,11 +42,11 @@ std::vector<Finding> look_at_screen(const System&) {
   const std::string x = from_environment("DISPLAY"), wayland = from_environment("WAYLAND_DISPLAY");
   if (x.empty() && wayland.empty()) {
     display.health = Health::absent;
-    display.is = "none: neither DISPLAY nor WAYLAND_DISPLAY is set";
+    display.value = "none: neither DISPLAY nor WAYLAND_DISPLAY is set";
     display.todo =
         "use the computer's own display, or ssh -X; without a display ./run mills by itself";
   } else {
-    display.is = wayland.empty() ? "X11, " + x : "Wayland, " + wayland;
+    display.value = wayland.empty() ? "X11, " + x : "Wayland, " + wayland;
   }
   findings.push_back(std::move(display));
 
@@ -54,10 +54,10 @@ std::vector<Finding> look_at_screen(const System&) {
   const auto renderer = render::Renderer::offscreen();
   if (!renderer) {
     picture.health = Health::trouble;
-    picture.is = renderer.error().text;
+    picture.value = renderer.error().text;
     picture.todo = "apt install libgl1-mesa-dri libegl1, or the driver of your graphics card";
   } else {
-    picture.is = (*renderer)->gpu();
+    picture.value = (*renderer)->gpu();
     if ((*renderer)->software())
       picture.todo = "the processor draws; a graphics card with its driver draws faster";
   }
@@ -66,11 +66,11 @@ std::vector<Finding> look_at_screen(const System&) {
   Finding sound{"screen and sound", "loudspeaker", Health::good, "", ""};
   if (SDL_InitSubSystem(SDL_INIT_AUDIO) != 0) {
     sound.health = Health::absent;
-    sound.is = fmt::format("none ({})", SDL_GetError());
+    sound.value = fmt::format("none ({})", SDL_GetError());
     sound.todo = "burr runs without sound; check that pipewire or pulseaudio runs";
   } else {
     const int there = SDL_GetNumAudioDevices(0);
-    sound.is =
+    sound.value =
         fmt::format("{}, {} output{}", SDL_GetCurrentAudioDriver(), there, there == 1 ? "" : "s");
     if (there == 0) {
       sound.health = Health::absent;
@@ -87,17 +87,17 @@ std::vector<Finding> look_at_pads(const System& system) {
   Finding pads{"other hands", "gamepads, pedals", Health::good, "", ""};
   if (SDL_InitSubSystem(SDL_INIT_JOYSTICK) != 0) {
     pads.health = Health::trouble;
-    pads.is = SDL_GetError();
+    pads.value = SDL_GetError();
     pads.todo = "check that you may read /dev/input (group input)";
   } else {
     for (int n = 0; n < SDL_NumJoysticks(); ++n) {
       const char* name = SDL_JoystickNameForIndex(n);
-      pads.is +=
-          (pads.is.empty() ? "" : ", ") + std::string(name != nullptr ? name : "without a name");
+      pads.value +=
+          (pads.value.empty() ? "" : ", ") + std::string(name != nullptr ? name : "without a name");
     }
-    if (pads.is.empty()) {
+    if (pads.value.empty()) {
       pads.health = Health::absent;
-      pads.is = "none is plugged in";
+      pads.value = "none is plugged in";
     }
     SDL_QuitSubSystem(SDL_INIT_JOYSTICK);
   }
@@ -111,14 +111,14 @@ std::vector<Finding> look_at_pads(const System& system) {
       named.empty() ? system.root / "var/run/spnav.sock" : std::filesystem::path(named);
   std::error_code nobody_asks;
   if (library == nullptr) {
-    cap.is = dlerror();
+    cap.value = dlerror();
     cap.todo = "apt install libspnav0 spacenavd, if you have one";
   } else if (!std::filesystem::exists(socket, nobody_asks)) {
-    cap.is = "libspnav is installed, its service does not run";
+    cap.value = "libspnav is installed, its service does not run";
     cap.todo = "apt install spacenavd; systemctl start spacenavd";
   } else {
     cap.health = Health::good;
-    cap.is = "libspnav is installed and its service runs";
+    cap.value = "libspnav is installed and its service runs";
   }
   if (library != nullptr) dlclose(library);
   findings.push_back(std::move(cap));

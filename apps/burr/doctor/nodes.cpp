@@ -109,12 +109,12 @@ std::vector<Finding> look_at_nodes(const System& system) {
     std::string closed;
     for (const fs::path& node : nodes) {
       const std::string shown = "/" + node.lexically_relative(system.root).string();
-      finding.is += (finding.is.empty() ? "" : ", ") + shown;
+      finding.value += (finding.value.empty() ? "" : ", ") + shown;
       if (!may_use(system, node)) closed += (closed.empty() ? "" : ", ") + shown;
     }
     if (!closed.empty()) {
       finding.health = Health::trouble;
-      finding.is = "plugged in, but you may not open " + closed;
+      finding.value = "plugged in, but you may not open " + closed;
       finding.todo = fs::exists(udev_file(system), nobody_asks)
                          ? "the rule exists: unplug the device and plug it in again, at the "
                            "computer itself, not over ssh"

@@ -26,7 +26,7 @@ Status write_file(const std::filesystem::path& path, const std::string& text) {
   if (trouble)
     return error(Trouble::io, fmt::format("{}: cannot be made: {}; choose another folder",
                                           path.parent_path().string(), trouble.message()));
-  auto file = base::NewFile::beside(path.string());
+  auto file = base::NewFile::create(path.string());
   if (!file) return file.error();
   file->write(text);
   return file->put_in_place();

@@ -84,8 +84,8 @@ class Lab {
     const people::Plan& plan = run_.plan;
     const double most = plan.stimulus == Stimulus::vibration ? plan.standard + plan.largest
                                                              : plan.standard * (1 + plan.largest);
-    return wall_.possible(hand_ != nullptr ? hand_->spec() : device::DeviceSpec{},
-                          wall_.of(plan.stimulus, most));
+    return wall_.check_device(hand_ != nullptr ? hand_->spec() : device::DeviceSpec{},
+                              wall_.of(plan.stimulus, most));
   }
 
   // 1 or 2; 0: there are no more answers. took: response time of a person [s].
@@ -180,8 +180,8 @@ Result<std::unique_ptr<device::MappedHand>> take_hand(const Options& options, Pe
   request.device = run.device;
   math::Pose above;
   above.p = {0, 0, run.wall.burr_radius + kAbove};
-  auto laid = workshop::lay_hand(request, above,
-                                 math::Quat(Eigen::AngleAxisd(M_PI / 2, math::Vec3::UnitX())));
+  auto laid = workshop::open_hand(request, above,
+                                  math::Quat(Eigen::AngleAxisd(M_PI / 2, math::Vec3::UnitX())));
   if (!laid) return laid.error();
   for (const std::string& notice : laid->notices) fmt::print(stderr, "{}\n", notice);
   run.device_id = laid->id;

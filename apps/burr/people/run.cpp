@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 
 namespace burr::app {
 namespace {
@@ -26,7 +26,7 @@ Error bad_observer(const std::string& part, const char* what) {
   return error(Trouble::usage,
                fmt::format("--observer: '{}' {}; give e.g. threshold=0.12,slope=3.5,lapse=0.02,"
                            "seed=1,feels=yes",
-                           base::shown(part), what));
+                           base::printable(part), what));
 }
 
 }  // namespace

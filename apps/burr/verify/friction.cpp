@@ -59,12 +59,12 @@ void stick_and_slip(const Scene& plane, Report::Part& part) {
       if (slipped == 0 && !touch.stuck) slipped = x;
       if (n % 10 == 0) {
         line.x.push_back(x / kDeep);
-        line.y.push_back(touch.trail.norm() / kDeep);
+        line.y.push_back(touch.tangential.norm() / kDeep);
       }
     }
     part.near(fmt::format("threshold.mu{}", mu), mu, slipped / kDeep, 0.01 * mu, "");
-    part.near(fmt::format("sliding_lag.mu{}", mu), 0.9 * mu, touch.trail.norm() / kDeep, 0.01 * mu,
-              "");
+    part.near(fmt::format("sliding_lag.mu{}", mu), 0.9 * mu, touch.tangential.norm() / kDeep,
+              0.01 * mu, "");
     slip.axes[0].lines.push_back(std::move(line));
   }
   part.plot(std::move(slip));
@@ -137,7 +137,7 @@ void energy(const Scene& plane, Report::Part& part) {
       const Vec3 force = haptics::force_law(touch, Vec3::Zero(), {1000, 0});
       taken -= 0.5 * (force + felt).dot(hand - last);
       felt = force;
-      const double stored = 500 * (touch.depth * touch.depth + touch.trail.squaredNorm());
+      const double stored = 500 * (touch.depth * touch.depth + touch.tangential.squaredNorm());
       lowest = std::min(lowest, taken - stored + 500 * kDeep * kDeep);
       most = std::max(most, stored);
       last = hand;

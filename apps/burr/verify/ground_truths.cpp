@@ -52,7 +52,7 @@ Found stroke_with(const scenes::Stroke& stroke, const volume::IsoVertices& surfa
     if (!feels_its_centre(method)) return stroke.hand(s);
     if (stroke.centre_hand) return stroke.centre_hand(s);
     const Vec3 x = stroke.hand(s);
-    return Vec3(x - r * (stroke.place(x) - x).normalized());
+    return Vec3(x - r * (stroke.true_centre(x) - x).normalized());
   };
   Found found;
   std::uint64_t tick = 0;
@@ -67,7 +67,7 @@ Found stroke_with(const scenes::Stroke& stroke, const volume::IsoVertices& surfa
   int silent = 0;
   for (int n = 0; n <= kAlong; ++n) {
     const double s = static_cast<double>(n) / kAlong;
-    const Vec3 x = hand(s), truth = stroke.place(stroke.hand(s));
+    const Vec3 x = hand(s), truth = stroke.true_centre(stroke.hand(s));
     const haptics::Touch touch = step(x);
     const Vec3 force = haptics::force_law(touch, Vec3::Zero(), {1000, 0});
     if (force.norm() < 1e-6) {
@@ -135,7 +135,7 @@ void truths(const Verify& verify, Report::Part& part) {
               fmt::format("{}.{}.h{}.r{}", stroke.name, haptics::name(method), h_mm, r_h);
           if (method == Method::constraint) {
             // 0.02 mm or a tenth of a voxel, half a degree (docs/touch.md, "Ground truths")
-            const double exact = std::max(0.02 * kMm, 0.1 * h) * stroke.leverage;
+            const double exact = std::max(0.02 * kMm, 0.1 * h) * stroke.radius_error_factor;
             const double allowed = stroke.sharp ? std::max(exact, kEdge * h) : exact;
             const double turned = std::atan2(kEdge * h, deep) * 180 / M_PI;
             // a burr with a radius of two voxels rests on only three or four vertices of the

@@ -18,7 +18,7 @@ constexpr std::size_t kMostInPage = 80;
 std::string number(double value) { return fmt::format("{:.4g}", value); }
 
 Status write_file(const std::string& path, const std::string& text) {
-  auto file = base::NewFile::beside(path);
+  auto file = base::NewFile::create(path);
   if (!file) return file.error();
   file->write(text);
   return file->put_in_place();

@@ -29,7 +29,7 @@ class Puppet final : public device::Device {
   [[nodiscard]] const device::DeviceSpec& spec() const override { return spec_; }
   [[nodiscard]] device::HandState state(double) BURR_RT override { return next; }
   void write_force(const Vec3& force) BURR_RT override { sent = force; }
-  void hold(double) BURR_RT override {}
+  void scale_force(double) BURR_RT override {}
   [[nodiscard]] bool finished() const BURR_RT override { return false; }
 
  private:

@@ -68,7 +68,7 @@ std::vector<Row> drag(const Case& one, Method method, const volume::IsoVertices&
     row.t = n * kDt;
     row.probe = x.z() - kSide - centre;
     row.proxy = touch.proxy.z() - kSide - kRadius;
-    const Vec3 spring = touch.depth * touch.normal + touch.trail;
+    const Vec3 spring = touch.depth * touch.normal + touch.tangential;
     row.spring = spring.norm();
     row.depth = touch.touching ? std::max(0.0, -row.probe) : 0;
     row.force = force.norm();

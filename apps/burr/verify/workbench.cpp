@@ -20,7 +20,7 @@ Workbench::Workbench(std::unique_ptr<volume::Bone> bone, const WorkSettings& set
       undo_(*bone_, 64),
       writer_(*bone_, surface_, undo_, nullptr),
       carver_(writer_, {}),
-      touch_by_(surface_, {.radius = settings.radius, .recovery = 5 / settings.rate_hz},
+      touch_by_(surface_, {.radius = settings.radius, .push_out_speed = 5 / settings.rate_hz},
                 settings.touch),
       force_{settings.stiffness, settings.damping},
       hand_(arm_, touch_by_.constraint(), force_, {.rate_hz = settings.rate_hz, .limit = {}}) {
@@ -42,7 +42,7 @@ std::vector<Workbench::Row> Workbench::work(const device::HandPath& path,
     row.t = static_cast<double>(n) * dt;
     row.hand = hand_.state().world_from_tool.p;
     if (!hand_.engaged()) hand_.begin_at(row.hand);
-    hand_.follow();
+    hand_.filter_velocity();
     touch_by_.show(tick_++);
     hand_.feel();
     const haptics::Touch& touch = hand_.touch();

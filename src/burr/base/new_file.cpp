@@ -49,7 +49,7 @@ int write_all(int file, const char* data, std::size_t size) {
 
 }  // namespace
 
-Result<NewFile> NewFile::beside(const std::string& path) {
+Result<NewFile> NewFile::create(const std::string& path) {
   // follow a link, so that it stays a link
   std::error_code ignored;
   std::filesystem::path place = path;

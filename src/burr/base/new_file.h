@@ -1,7 +1,7 @@
 // base/new_file.h - writes a file completely or not at all: into a temporary file in the same
 // folder, which is then renamed.
 //
-//     Result<base::NewFile> file = base::NewFile::beside(path);
+//     Result<base::NewFile> file = base::NewFile::create(path);
 //     if (!file) return file.error();
 //     file->write(data, size);                         // a failure is remembered
 //     return file->put_in_place();                     // ... and reported here
@@ -24,7 +24,7 @@ namespace burr::base {
 class NewFile {
  public:
   // Opens an empty file in the folder of `path`.
-  [[nodiscard]] static Result<NewFile> beside(const std::string& path);
+  [[nodiscard]] static Result<NewFile> create(const std::string& path);
 
   NewFile(NewFile&& other) noexcept;
   NewFile& operator=(NewFile&&) = delete;

@@ -18,10 +18,10 @@
 namespace burr::device {
 
 // How the readings of a link were answered with forces, and how long that took.
-struct LinkAccount {
+struct LinkStats {
   std::uint64_t readings = 0;     // readings that could begin a tick, while there are ticks
   std::uint64_t passed_over = 0;  // readings that came before the next tick was due
-  std::uint64_t unanswered = 0;   // readings whose force came after the link's patience
+  std::uint64_t unanswered = 0;   // readings whose force came after the link's answer timeout
   rt::Durations answers;          // time from reading to force, of all that could begin a tick
 };
 
@@ -51,7 +51,7 @@ class Device {
 
   // The tick has stopped: multiply the present force by scale, 0..1, until the next write_force().
   // Thread: any.
-  virtual void hold(double scale) BURR_RT { static_cast<void>(scale); }
+  virtual void scale_force(double scale) BURR_RT { static_cast<void>(scale); }
 
   // The device's own clock: a tick begins with a fresh reading, and its force goes out in the same
   // exchange. nullptr: the device has none and takes any rate. Only for sessions in real time, and
@@ -63,7 +63,7 @@ class Device {
 
   // From now on another device sets the pace of the ticks: the exchanges of this one do not wait
   // for them. Thread: main.
-  virtual void follow() {}
+  virtual void stop_pacing() {}
 
   // When the reading that state() gave last arrived at this computer, CLOCK_MONOTONIC [ns]; 0: not
   // known. Thread: servo.
@@ -71,7 +71,7 @@ class Device {
 
   // How the readings were answered, as of some tenths of a second ago. False: nothing new, or the
   // device keeps no such account. Thread: one, any.
-  [[nodiscard]] virtual bool account(LinkAccount& newest) {
+  [[nodiscard]] virtual bool take_stats(LinkStats& newest) {
     static_cast<void>(newest);
     return false;
   }

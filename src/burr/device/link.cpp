@@ -21,14 +21,14 @@ std::int64_t ns(double seconds) { return std::llround(1e9 * seconds); }
 
 }  // namespace
 
-Link::Bell::Bell() { BURR_CHECK(sem_init(&sem_, 0, 0) == 0); }
-Link::Bell::~Bell() { sem_destroy(&sem_); }
+Link::Signal::Signal() { BURR_CHECK(sem_init(&sem_, 0, 0) == 0); }
+Link::Signal::~Signal() { sem_destroy(&sem_); }
 
-void Link::Bell::strike() BURR_RT {
-  if (!struck_.exchange(true, std::memory_order_acq_rel)) sem_post(&sem_);
+void Link::Signal::notify() BURR_RT {
+  if (!notified_.exchange(true, std::memory_order_acq_rel)) sem_post(&sem_);
 }
 
-void Link::Bell::hear(std::int64_t until_ns) BURR_RT {
+void Link::Signal::wait_until(std::int64_t until_ns) BURR_RT {
   constexpr std::int64_t kSecond = 1'000'000'000;
   timespec until = {};
   until.tv_sec = until_ns / kSecond;
@@ -36,12 +36,12 @@ void Link::Bell::hear(std::int64_t until_ns) BURR_RT {
   while (sem_clockwait(&sem_, CLOCK_MONOTONIC, &until) != 0)
     if (errno != EINTR) return;
   // an exchange, so that the thread sees everything that was written before the ring
-  static_cast<void>(struck_.exchange(false, std::memory_order_acq_rel));
+  static_cast<void>(notified_.exchange(false, std::memory_order_acq_rel));
 }
 
 Link::Link(const LinkSettings& settings, Now clock)
     : now_(clock),
-      patience_ns_(ns(settings.patience)),
+      answer_timeout_ns_(ns(settings.answer_timeout)),
       timeout_ns_(ns(settings.loss_timeout)),
       fade_ns_(ns(settings.fade)) {}
 
@@ -49,32 +49,32 @@ Link::~Link() = default;
 
 // ---- wire
 
-void Link::tell(const HandState& hand, std::int64_t now) BURR_RT {
+void Link::publish_reading(const HandState& hand, std::int64_t now) BURR_RT {
   readings_.publish({hand, now, ++number_});
-  read_.strike();
+  read_.notify();
 }
 
 Vec3 Link::exchange(const HandState& hand) BURR_RT {
   const std::int64_t now = now_();
   count_readings(now);
   if (now < begin_ns_.load(std::memory_order_relaxed)) {
-    ++account_.passed_over;
+    ++stats_.passed_over;
     return push();
   }
-  tell(hand, now);
+  publish_reading(hand, now);
   take_answers(now);
   // no answer comes (not yet, or no longer): waiting would only slow the device down
   if (answered_ns_ == kNever || now - answered_ns_ >= timeout_ns_) return push();
-  const std::int64_t patience = patience_ns_.load(std::memory_order_relaxed);
-  if (patience <= 0) return push();
-  const std::int64_t until = now + patience;
+  const std::int64_t answer_timeout = answer_timeout_ns_.load(std::memory_order_relaxed);
+  if (answer_timeout <= 0) return push();
+  const std::int64_t until = now + answer_timeout;
   while (answer_.number != number_ && now_() < until) {
-    answered_.hear(until);
+    answered_.wait_until(until);
     take_answers(now_());
   }
-  if (answer_.number != number_) ++account_.unanswered;
-  account_.answers.add(now_() - now);
-  if (++account_.readings % kTellEvery == 0) told_.publish(account_);
+  if (answer_.number != number_) ++stats_.unanswered;
+  stats_.answers.add(now_() - now);
+  if (++stats_.readings % kTellEvery == 0) newest_stats_.publish(stats_);
   return push();
 }
 
@@ -99,7 +99,7 @@ Vec3 Link::push() BURR_RT {
     faded_since_ns_ = now;
     fading_from_ = pushed_;
     fading_after_ = number_;
-    let_go_.store(true, std::memory_order_release);
+    released_.store(true, std::memory_order_release);
   }
   if (fading_) {
     // finished when the servo has noticed the loss and has released the force as well
@@ -113,16 +113,16 @@ Vec3 Link::push() BURR_RT {
   return pushed_.force;
 }
 
-void Link::lose() BURR_RT {
+void Link::mark_lost() BURR_RT {
   const std::int64_t now = now_();
   HandState none;
   none.valid = false;
-  tell(none, now);
+  publish_reading(none, now);
   fading_ = true;  // no force while the hand is gone, and none at once when it comes back
   faded_since_ns_ = now - fade_ns_;
   fading_from_ = pushed_ = {};
   fading_after_ = number_;
-  let_go_.store(true, std::memory_order_release);
+  released_.store(true, std::memory_order_release);
 }
 
 // ---- servo
@@ -130,7 +130,7 @@ void Link::lose() BURR_RT {
 bool Link::wait(std::int64_t until_ns) BURR_RT {
   fresh_ = fresh_ || readings_.take(reading_);
   while (!fresh_ && now_() < until_ns) {
-    read_.hear(until_ns);
+    read_.wait_until(until_ns);
     fresh_ = readings_.take(reading_);
   }
   return fresh_;
@@ -141,7 +141,7 @@ HandState Link::state() BURR_RT {
   fresh_ = false;
   HandState hand = reading_.hand;
   if (reading_.number == 0 || now_() - reading_.arrived_ns >= timeout_ns_ ||
-      let_go_.exchange(false, std::memory_order_acq_rel))
+      released_.exchange(false, std::memory_order_acq_rel))
     hand.valid = false;
   return hand;
 }
@@ -150,7 +150,7 @@ void Link::write_force(const Vec3& force) BURR_RT {
   scale_.store(1.0, std::memory_order_relaxed);
   answers_.publish({{force, torque_}, reading_.number});
   torque_ = Vec3::Zero();
-  answered_.strike();
+  answered_.notify();
 }
 
 // ---- the pace
@@ -178,9 +178,9 @@ rt::TickTime LinkClock::wait() BURR_RT {
   const bool first = start_ns_ < 0;
   if (first) start_ns_ = last_ns_ = link_.now();
   // first long enough for a late reading, then once a period
-  const std::int64_t patience =
+  const std::int64_t answer_timeout =
       std::max(period_ns_, link_.arrived_ns() + link_.timeout_ns() - last_ns_);
-  const bool fresh = link_.wait(last_ns_ + (first ? link_.timeout_ns() : patience));
+  const bool fresh = link_.wait(last_ns_ + (first ? link_.timeout_ns() : answer_timeout));
   const std::int64_t now = link_.now();
   link_.begin_at(next_after(fresh ? link_.arrived_ns() : now));
 

@@ -4,14 +4,15 @@
 //     wire: force = exchange(reading)        servo: wait() - state() - tick - write_force()
 //
 // A reading begins a tick, and the wire waits for that tick's force, but no longer than its
-// patience; then the previous force stays, for a few milliseconds. If no answer comes for
+// answer timeout; then the previous force stays, for a few milliseconds. If no answer comes for
 // loss_timeout, the force fades linearly to zero. It stays at zero until the servo has seen the
 // loss (an invalid reading) and has itself come down to zero, so that force returns only through
 // the start ramp. The same happens when no reading comes. An old force is never repeated for longer
 // than the timeout.
 //
-// Thread: exchange(), push(), torque(), lose() on the wire; wait(), state(), write_torque(),
-// write_force(), begin_at() on the servo; hold() any. Wait-free but for the two bounded waits.
+// Thread: exchange(), push(), torque(), mark_lost() on the wire; wait(), state(), write_torque(),
+// write_force(), begin_at() on the servo; scale_force() any. Wait-free but for the two bounded
+// waits.
 // Memory: none. Units: SI, ns.
 #pragma once
 
@@ -28,9 +29,9 @@
 namespace burr::device {
 
 struct LinkSettings {
-  double patience = 0.5e-3;    // how long the wire waits for the force of its reading [s]
-  double loss_timeout = 5e-3;  // without an answer, or without a reading [s]
-  double fade = 5e-3;          // time from then to zero force [s]
+  double answer_timeout = 0.5e-3;  // how long the wire waits for the force of its reading [s]
+  double loss_timeout = 5e-3;      // without an answer, or without a reading [s]
+  double fade = 5e-3;              // time from then to zero force [s]
 };
 
 class Link {
@@ -51,7 +52,7 @@ class Link {
   // The torque that goes with the force that was returned last, held and faded with it [N m].
   [[nodiscard]] const math::Vec3& torque() const BURR_RT { return pushed_.torque; }
   // The device is gone, or sends impossible values: the force is zero, and the next tick knows it.
-  void lose() BURR_RT;
+  void mark_lost() BURR_RT;
 
   // ---- servo
   // Waits for a reading that has not been taken yet, or until the time. True: there is one.
@@ -69,7 +70,7 @@ class Link {
 
   // ---- one thread, any
   // The account so far, every 256 readings. False: nothing new.
-  [[nodiscard]] bool account(LinkAccount& newest) { return told_.take(newest); }
+  [[nodiscard]] bool take_stats(LinkStats& newest) { return newest_stats_.take(newest); }
 
   // Time between two readings, a mean over some hundred; 0 at first [ns]. Thread: any.
   [[nodiscard]] std::int64_t reading_period_ns() const BURR_RT {
@@ -79,9 +80,9 @@ class Link {
   // ---- any
   // Another device's readings begin the ticks. This link stops waiting for them, because it would
   // only slow its own device down.
-  void never_wait() BURR_RT { patience_ns_.store(0, std::memory_order_relaxed); }
+  void never_wait() BURR_RT { answer_timeout_ns_.store(0, std::memory_order_relaxed); }
   // Multiplies the force by scale until the next write_force().
-  void hold(double scale) BURR_RT { scale_.store(scale, std::memory_order_relaxed); }
+  void scale_force(double scale) BURR_RT { scale_.store(scale, std::memory_order_relaxed); }
 
   [[nodiscard]] std::int64_t now() const BURR_RT { return now_(); }
   [[nodiscard]] std::int64_t timeout_ns() const BURR_RT { return timeout_ns_; }
@@ -104,41 +105,41 @@ class Link {
     std::uint64_t number = 0;  // of the reading it is for
   };
 
-  // A signal from one thread to another. Several rings before it is heard count as one.
-  class Bell {
+  // A signal from one thread to another. Several notifications before the wait count as one.
+  class Signal {
    public:
-    Bell();
-    ~Bell();
-    Bell(const Bell&) = delete;
-    Bell& operator=(const Bell&) = delete;
-    void strike() BURR_RT;
-    void hear(std::int64_t until_ns) BURR_RT;  // returns at a ring, or at this time
+    Signal();
+    ~Signal();
+    Signal(const Signal&) = delete;
+    Signal& operator=(const Signal&) = delete;
+    void notify() BURR_RT;
+    void wait_until(std::int64_t until_ns) BURR_RT;  // returns when notified, or at this time
 
    private:
     sem_t sem_{};
-    std::atomic<bool> struck_ = false;
+    std::atomic<bool> notified_ = false;
   };
 
   void count_readings(std::int64_t now) BURR_RT;
-  void tell(const HandState& hand, std::int64_t now) BURR_RT;
+  void publish_reading(const HandState& hand, std::int64_t now) BURR_RT;
   void take_answers(std::int64_t now) BURR_RT;
 
   Now now_;
-  std::atomic<std::int64_t> patience_ns_;
+  std::atomic<std::int64_t> answer_timeout_ns_;
   std::int64_t timeout_ns_, fade_ns_;
 
   rt::Latest<Reading> readings_;
   rt::Latest<Answer> answers_;
-  Bell read_, answered_;
+  Signal read_, answered_;
   std::atomic<std::int64_t> begin_ns_ = INT64_MIN;
   std::atomic<std::int64_t> reading_period_ns_ = 0;
   std::atomic<double> scale_ = 1.0;
-  std::atomic<bool> let_go_ = false;  // set by the wire: the servo must come down to zero
+  std::atomic<bool> released_ = false;  // set by the wire: the servo must come down to zero
 
-  rt::Latest<LinkAccount> told_;
+  rt::Latest<LinkStats> newest_stats_;
 
   // used only on the wire
-  LinkAccount account_;
+  LinkStats stats_;
   std::uint64_t number_ = 0;
   Answer answer_;
   static constexpr std::int64_t kNever = INT64_MIN;

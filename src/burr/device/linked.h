@@ -17,14 +17,14 @@ class LinkedDevice : public Device {
   [[nodiscard]] HandState state(double) BURR_RT final { return link_.state(); }
   void write_torque(const math::Vec3& torque) BURR_RT final { link_.write_torque(torque); }
   void write_force(const math::Vec3& force) BURR_RT final { link_.write_force(force); }
-  void hold(double scale) BURR_RT final { link_.hold(scale); }
+  void scale_force(double scale) BURR_RT final { link_.scale_force(scale); }
   [[nodiscard]] rt::TickClock* clock(double rate_hz) final {
     clock_ = std::make_unique<LinkClock>(link_, rate_hz);
     return clock_.get();
   }
-  void follow() final { link_.never_wait(); }
+  void stop_pacing() final { link_.never_wait(); }
   [[nodiscard]] std::int64_t arrived_ns() const BURR_RT final { return link_.arrived_ns(); }
-  [[nodiscard]] bool account(LinkAccount& newest) final { return link_.account(newest); }
+  [[nodiscard]] bool take_stats(LinkStats& newest) final { return link_.take_stats(newest); }
 
  protected:
   explicit LinkedDevice(const LinkSettings& settings, Link::Now now = &rt::monotonic_ns)

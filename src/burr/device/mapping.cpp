@@ -15,7 +15,7 @@ MappedHand::MappedHand(std::unique_ptr<Device> device, const math::Pose& start,
                        const Quat& world_from_hand, const MappingSettings& settings)
     : device_(std::move(device)),
       settings_(settings),
-      laid_(world_from_hand),
+      requested_axes_(world_from_hand),
       turn_(world_from_hand * settings.axes),
       requested_(turn_),
       at_(start.p),
@@ -36,7 +36,7 @@ Status MappedHand::set(const MappingSettings& settings) {
         Trouble::usage,
         fmt::format("a device's scale of {} is out of range; use 0.1 to 10", settings.scale));
   settings_ = settings;
-  turn_ = requested_ = laid_ * settings_.axes;
+  turn_ = requested_ = requested_axes_ * settings_.axes;
   spec_ = device_->spec();
   spec_.max_stiffness /= settings_.scale;
   spec_.max_damping /= settings_.scale;
@@ -60,7 +60,7 @@ HandState MappedHand::state(double dt) BURR_RT {
       settings_.dead_man && !down(settings_.mill_button) && foot <= 0 && hand.pedal <= 0;
   const bool lifted = asleep || (hand.buttons & kLifted) != 0 ||
                       lifted_.load(std::memory_order_relaxed) || down(settings_.clutch_button);
-  if (turns_.take(laid_)) requested_ = laid_ * settings_.axes;
+  if (turns_.take(requested_axes_)) requested_ = requested_axes_ * settings_.axes;
   const bool turns = forced_ == Vec3::Zero() && turn_.coeffs() != requested_.coeffs();
   if (lifted || !anchored_ || turns) {
     at_ = tip_;

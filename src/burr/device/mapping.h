@@ -8,7 +8,7 @@
 // show. Turning the view turns the hand's axes as soon as the force is zero; it never moves the
 // tip.
 //
-// Thread: lay() main; lift() any; the rest as Device. Frames: inside, the device's own as its
+// Thread: set_axes() main; lift() any; the rest as Device. Frames: inside, the device's own as its
 // driver states it, x right, y up, z to the user; outside, world (LPS).
 #pragma once
 
@@ -37,7 +37,7 @@ class MappedHand final : public Device {
              const math::Quat& world_from_hand, const MappingSettings& settings = {});
 
   // Sets the hand's axes; they apply as soon as the force is zero.
-  void lay(const math::Quat& world_from_hand) { turns_.publish(world_from_hand); }
+  void set_axes(const math::Quat& world_from_hand) { turns_.publish(world_from_hand); }
   // Lifts the hand from outside, in addition to the button: by a pedal or a key.
   void lift(bool lifted) BURR_RT { lifted_.store(lifted, std::memory_order_relaxed); }
   // Sets the foot pedal, 0..1. The larger of it and the mill button's value counts.
@@ -57,11 +57,11 @@ class MappedHand final : public Device {
   void write_torque(const math::Vec3& torque) BURR_RT override {
     device_->write_torque(turn_.conjugate() * torque);
   }
-  void hold(double scale) BURR_RT override { device_->hold(scale); }
+  void scale_force(double scale) BURR_RT override { device_->scale_force(scale); }
   [[nodiscard]] rt::TickClock* clock(double rate_hz) override { return device_->clock(rate_hz); }
-  void follow() override { device_->follow(); }
+  void stop_pacing() override { device_->stop_pacing(); }
   [[nodiscard]] std::int64_t arrived_ns() const BURR_RT override { return device_->arrived_ns(); }
-  [[nodiscard]] bool account(LinkAccount& newest) override { return device_->account(newest); }
+  [[nodiscard]] bool take_stats(LinkStats& newest) override { return device_->take_stats(newest); }
   [[nodiscard]] std::string trouble() const override { return device_->trouble(); }
   [[nodiscard]] bool finished() const BURR_RT override { return device_->finished(); }
 
@@ -74,7 +74,7 @@ class MappedHand final : public Device {
   std::atomic<double> pedal_ = 0;
 
   // used only on the servo
-  math::Quat laid_;                            // world_from_hand, as last requested
+  math::Quat requested_axes_;                  // world_from_hand, as last requested
   math::Quat turn_, requested_;                // world_from_device
   math::Vec3 at_, from_ = math::Vec3::Zero();  // the tip and the hand at the same moment
   math::Vec3 tip_;

@@ -15,7 +15,7 @@
 
 namespace burr::device {
 
-class Listened {
+class ListeningTime {
  public:
   static constexpr std::int64_t kOneReadingNs = 10'000'000;  // a reading waits for 2 ms
 
@@ -39,14 +39,14 @@ class Silence {
   static constexpr std::int64_t kLongestNs = 200'000'000;  // after this the device counts as lost
 
   // A reading has come, or listening begins.
-  void ended(std::int64_t now_ns) BURR_RT { listened_.begin(now_ns); }
+  void ended(std::int64_t now_ns) BURR_RT { listening_time_.begin(now_ns); }
   // Call after a wait that brought no reading. True: this has lasted too long.
   [[nodiscard]] bool lasts(std::int64_t now_ns) BURR_RT {
-    return listened_.until(now_ns) >= kLongestNs;
+    return listening_time_.until(now_ns) >= kLongestNs;
   }
 
  private:
-  Listened listened_;
+  ListeningTime listening_time_;
 };
 
 }  // namespace burr::device

@@ -6,7 +6,7 @@
 // Measured values for a stylus held in the fingers: 0.03-0.1 kg, 2-5 N s/m, 100-300 N/m
 // (docs/safety.md, "Devices and hands"); the default is a firm grip. stiffness = infinity is a
 // rigid hand: it follows the path, whatever pushes it.
-// Thread: state(), write_force() servo; hold() any. Frame: world. Units: SI.
+// Thread: state(), write_force() servo; scale_force() any. Frame: world. Units: SI.
 #pragma once
 
 #include <atomic>
@@ -31,7 +31,9 @@ class SimulatedHand final : public Device {
   [[nodiscard]] const DeviceSpec& spec() const override { return spec_; }
   [[nodiscard]] HandState state(double dt) BURR_RT override;
   void write_force(const math::Vec3& force) BURR_RT override;
-  void hold(double scale) BURR_RT override { scale_.store(scale, std::memory_order_relaxed); }
+  void scale_force(double scale) BURR_RT override {
+    scale_.store(scale, std::memory_order_relaxed);
+  }
   [[nodiscard]] bool finished() const BURR_RT override { return time_ > path_.duration(); }
 
  private:

@@ -34,7 +34,7 @@ Status WireDevice::open() {
   spec_ = std::move(*found);
   spec_.loss_timeout = timeout_;
   stop_ = false;
-  say({});
+  report({});
   thread_ = std::make_unique<rt::Thread>(
       rt::ThreadRequest{.name = "wire", .realtime = true, .priority = 82}, [this] { work(); });
   return fine();
@@ -47,30 +47,30 @@ void WireDevice::close() {
 }
 
 std::string WireDevice::trouble() const {
-  const std::lock_guard lock(words_);
+  const std::lock_guard lock(trouble_mutex_);
   return trouble_;
 }
 
-void WireDevice::say(std::string trouble) {
-  const std::lock_guard lock(words_);
+void WireDevice::report(std::string trouble) {
+  const std::lock_guard lock(trouble_mutex_);
   trouble_ = std::move(trouble);
 }
 
 // Accepts only the same device: the session relies on the limits of the first one.
-bool WireDevice::come_back() {
+bool WireDevice::reconnect() {
   auto found = wire_->connect();
   if (!found) {
-    say(found.error().text);
+    report(found.error().text);
     return false;
   }
   if (found->serial == spec_.serial && found->peak_force == spec_.peak_force &&
       found->peak_torque == spec_.peak_torque) {
-    returns_.fetch_add(1, std::memory_order_relaxed);
-    say({});
+    reconnections_.fetch_add(1, std::memory_order_relaxed);
+    report({});
     return true;
   }
-  say("Another device is plugged in now; the session began with " + spec_.name + " " +
-      spec_.serial + ": plug that one in again, or begin a new session.");
+  report("Another device is plugged in now; the session began with " + spec_.name + " " +
+         spec_.serial + ": plug that one in again, or begin a new session.");
   wire_->disconnect();
   return false;
 }
@@ -78,22 +78,22 @@ bool WireDevice::come_back() {
 void WireDevice::work() {
   bool connected = true;
   std::int64_t asked = rt::monotonic_ns(), said = asked;
-  unsigned told = wire_->told();
+  unsigned revision = wire_->why_revision();
   while (!stop_.load(std::memory_order_relaxed)) {
     if (!connected) {
-      const rt::Ordinary aside;  // the search may take long and starts other threads
+      const rt::NormalPriority aside;  // the search may take long and starts other threads
       const auto until = std::chrono::steady_clock::now() + kComeBack;
       while (!stop_.load(std::memory_order_relaxed) && std::chrono::steady_clock::now() < until)
         std::this_thread::sleep_for(kLook);
       if (stop_.load(std::memory_order_relaxed)) return;
-      connected = come_back();
-      told = wire_->told();
+      connected = reconnect();
+      revision = wire_->why_revision();
       continue;
     }
     if (!exchange(*wire_, link_)) {
-      link_.lose();
+      link_.mark_lost();
       const std::string why = wire_->why();
-      say(!why.empty() ? why : spec_.name + " was disconnected; burr is looking for it.");
+      report(!why.empty() ? why : spec_.name + " was disconnected; burr is looking for it.");
       wire_->disconnect();
       connected = false;
       continue;
@@ -102,10 +102,10 @@ void WireDevice::work() {
     if (now - asked < kFastestNs)
       std::this_thread::sleep_for(std::chrono::nanoseconds(kFastestNs - (now - asked)));
     asked = rt::monotonic_ns();
-    if (wire_->told() != told && asked - said >= kTellNs) {
-      told = wire_->told();
+    if (wire_->why_revision() != revision && asked - said >= kTellNs) {
+      revision = wire_->why_revision();
       said = asked;
-      say(wire_->why());
+      report(wire_->why());
     }
   }
   if (connected) {
@@ -113,7 +113,7 @@ void WireDevice::work() {
     static_cast<void>(wire_->write(math::Vec3::Zero()));
     wire_->disconnect();
   }
-  link_.lose();  // when it is opened again, it starts without the last force
+  link_.mark_lost();  // when it is opened again, it starts without the last force
 }
 
 }  // namespace burr::device

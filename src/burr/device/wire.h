@@ -54,7 +54,7 @@ class Wire {
   // after read() or write().
   [[nodiscard]] virtual std::string why() const { return {}; }
   // Incremented when why() changes, so that callers poll the counter instead of the string.
-  [[nodiscard]] virtual unsigned told() const BURR_RT { return 0; }
+  [[nodiscard]] virtual unsigned why_revision() const BURR_RT { return 0; }
 };
 
 // One exchange: a reading, and the force of its tick. False: the device is lost.
@@ -70,19 +70,20 @@ class WireDevice final : public LinkedDevice {
   [[nodiscard]] std::string trouble() const override;
 
   // Number of times it was lost and found again.
-  [[nodiscard]] int returns() const { return returns_.load(std::memory_order_relaxed); }
+  [[nodiscard]] int reconnections() const { return reconnections_.load(std::memory_order_relaxed); }
 
  private:
   void work();
-  bool come_back();
-  void say(std::string trouble);
+  bool reconnect();
+  void report(std::string trouble);
 
   std::unique_ptr<Wire> wire_;
   double timeout_;  // loss timeout of its link [s]
   std::unique_ptr<rt::Thread> thread_;
   std::atomic<bool> stop_ = false;
-  std::atomic<int> returns_ = 0;
-  mutable std::mutex words_;  // locked only when there is a text to report, never in an exchange
+  std::atomic<int> reconnections_ = 0;
+  // locked only when there is a text to report, never in an exchange
+  mutable std::mutex trouble_mutex_;
   std::string trouble_;
 };
 

@@ -1,7 +1,7 @@
 // edit/bone_writer.h - the one place from which bricks of the bone are written while it is worked
 // on.
 //
-//     every write:  keep the old brick for undo -> write -> queue it for the diary
+//     every write:  keep the old brick for undo -> write -> queue it for the recorder
 //                   -> note the change for the surface -> update the caches and the account
 //
 // The laws of cutting (carve.h, laws/thesis.h) and the brush compute what a brick becomes; undo,

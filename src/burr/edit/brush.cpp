@@ -255,8 +255,8 @@ void Brush::restore(const Brushing& now, std::uint32_t& flags) BURR_RT {
     content.brick = patch.brick;
     std::memcpy(&content.field, bone_.brick_field(patch.brick), sizeof content.field);
     std::memcpy(content.tissue, bone_.brick_tissue(patch.brick), sizeof content.tissue);
-    if (go_back(*undo_.original_of(patch.brick), ball, static_cast<float>(now.radius - kInto), most,
-                half.mirror.axis, patch.layers, content))
+    if (go_back(*undo_.original_of(patch.brick), ball, static_cast<float>(now.radius - kOverlap),
+                most, half.mirror.axis, patch.layers, content))
       writer_.rewrite(content, flags);
   }
 }
@@ -264,7 +264,7 @@ void Brush::restore(const Brushing& now, std::uint32_t& flags) BURR_RT {
 // ---- smooth
 
 // Nothing but air, or nothing but solid, in the brick and beside it: no surface to smooth.
-bool Brush::flat_about(int bi, int bj, int bk) const BURR_RT {
+bool Brush::is_flat_around(int bi, int bj, int bk) const BURR_RT {
   const auto kind = [this](int i, int j, int k) {
     const math::Ijk& all = bone_.bricks();
     if (i < 0 || j < 0 || k < 0 || i >= all.x() || j >= all.y() || k >= all.z()) return 0;
@@ -356,7 +356,7 @@ void Brush::smooth(const Brushing& now, std::uint32_t& flags) BURR_RT {
   const Sides sides = sides_of(now.centre + now.radius * now.push, now.mirror);
   for (int side = 0; side < sides.count; ++side)
     find(sides, side, radius,
-         [this](int bi, int bj, int bk) BURR_RT { return !flat_about(bi, bj, bk); });
+         [this](int bi, int bj, int bk) BURR_RT { return !is_flat_around(bi, bj, bk); });
   end_finding(now.mirror, flags);
   Sums sums[2];
   for (int n = 0; n < worked_; ++n) {

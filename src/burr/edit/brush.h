@@ -54,7 +54,7 @@ class Brush {
  public:
   static constexpr double kSpeed = 2e-3;   // of the surface, at full pedal                 [m/s]
   static constexpr double kReach = 6;      // of restore beyond the burr's surface        [voxel]
-  static constexpr double kInto = 0.5;     // bone may come back this far into the burr   [voxel]
+  static constexpr double kOverlap = 0.5;  // bone may come back this far into the burr  [voxel]
   static constexpr double kSpread = 1e-6;  // of smoothing: a ripple of wavelength l fades at
                                            // kSpread (2 pi / l)^2                         [m^2/s]
   static constexpr double kShare = 0.8;    // of the ball that is smoothed, over the burr's radius
@@ -91,7 +91,7 @@ class Brush {
   struct Sums {
     std::int64_t flow = 0, weight = 0;
   };
-  [[nodiscard]] bool flat_about(int bi, int bj, int bk) const BURR_RT;
+  [[nodiscard]] bool is_flat_around(int bi, int bj, int bk) const BURR_RT;
   void look_at(Patch& patch, const math::Vec3& centre, double radius, const Half& half,
                Sums& sums) const BURR_RT;
   [[nodiscard]] bool move(Patch& patch, const Half& half, float share, float anew, float mean,

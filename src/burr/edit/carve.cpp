@@ -24,7 +24,7 @@ using volume::kBrickVoxels;
 // enough. Each of so many bricks loses very little in a tick, but costs as much as if it lost four
 // times as much.
 constexpr double kManyBricks = 72;
-constexpr int kUsualSlices = 4;  // at most
+constexpr int kPreferredSlices = 4;  // at most
 
 using Layers = std::array<unsigned, 3>;
 constexpr Layers kWholeBrick = {kAllLayers, kAllLayers, kAllLayers};
@@ -154,16 +154,18 @@ int Carver::choose_slices(int wanted, std::uint32_t& flags) BURR_RT {
     crowd_slices_ = std::min(2 * crowd_slices_, kMostSlices);
   } else if (crowd_slices_ > 1 &&
              std::max(reached_.hand_count(), reached_.count() - reached_.hand_count()) <
-                 Reached::kMostASide / 4) {
+                 Reached::kMostBricksPerSide / 4) {
     crowd_slices_ /= 2;
   }
   double bricks = 0;
   for (int t = 0; t < slices_; ++t) bricks += parts_[t].bricks;
-  if (bricks > kManyBricks * usual_slices_ && usual_slices_ < kUsualSlices) usual_slices_ *= 2;
-  if (bricks < 0.4 * kManyBricks * usual_slices_ && usual_slices_ > 1) usual_slices_ /= 2;
+  if (bricks > kManyBricks * preferred_slices_ && preferred_slices_ < kPreferredSlices)
+    preferred_slices_ *= 2;
+  if (bricks < 0.4 * kManyBricks * preferred_slices_ && preferred_slices_ > 1)
+    preferred_slices_ /= 2;
   const int late = std::max(wanted, crowd_slices_);
   if (late > 1) flags |= rt::kFlagPutOff;
-  const int slices = std::min(late * usual_slices_, kMostSlices);
+  const int slices = std::min(late * preferred_slices_, kMostSlices);
   if (slices != slices_) {
     slices_ = slices;
     slice_ = 0;
@@ -186,13 +188,13 @@ double Carver::excess_of_all_slices() BURR_RT {
   return sum * slices_ / known;
 }
 
-// Debt that is older than `patience` at the present rate of removal is given up.
+// Debt that is older than `debt_timeout` at the present rate of removal is given up.
 void Carver::write_off(double asked_units, double dt, int slices) BURR_RT {
-  const double blend = std::min(1.0, dt / settings_.patience);
+  const double blend = std::min(1.0, dt / settings_.debt_timeout);
   rate_ += (asked_units / dt - rate_) * blend;
-  const double patience =
-      settings_.patience + (slices - 1) * dt;  // until every brick has had its slice
-  const double most = patience * std::max(rate_, asked_units / dt);
+  const double debt_timeout =
+      settings_.debt_timeout + (slices - 1) * dt;  // until every brick has had its slice
+  const double most = debt_timeout * std::max(rate_, asked_units / dt);
   if (account_.debt > most) {
     account_.not_cut += account_.debt - most;
     account_.debt = most;
@@ -239,9 +241,9 @@ void Carver::deposit(const Cut& cut, std::uint32_t& flags) BURR_RT {
     gather(sides.centre[s], radius, keep_out, true, slices, sides.half[s], flags);
   }
   reached_.end(cut.mirror);
-  const double patience = settings_.patience + (slices - 1) * cut.dt;
+  const double debt_timeout = settings_.debt_timeout + (slices - 1) * cut.dt;
   const double asked = cut.volume / writer_.unit_m3();
-  added_debt_ = std::min(added_debt_ + asked, asked * patience / cut.dt);
+  added_debt_ = std::min(added_debt_ + asked, asked * debt_timeout / cut.dt);
   const double all = excess_of_all_slices(), owed = added_debt_ + (slices - 1) * asked;
   const Reached::Done added = reached_.put(share_of(owed, all, cut.mirror), cut.material, flags);
   account_.put(added.hand, added.image);
@@ -250,8 +252,8 @@ void Carver::deposit(const Cut& cut, std::uint32_t& flags) BURR_RT {
 
 void Carver::idle(double dt) BURR_RT {
   reached_.begin();
-  rate_ += (0 - rate_) * std::min(1.0, dt / settings_.patience);
-  const double most = settings_.patience * rate_;
+  rate_ += (0 - rate_) * std::min(1.0, dt / settings_.debt_timeout);
+  const double most = settings_.debt_timeout * rate_;
   if (account_.debt > most) {
     account_.not_cut += account_.debt - most;
     account_.debt = most;

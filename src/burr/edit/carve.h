@@ -45,7 +45,7 @@ struct CarveSettings {
   double margin_most = 0.5;     // while the burr is blocked [voxel]
   double margin_rise = 20;      // while blocked [voxel/s]
   double margin_fall = 2;       // while cutting freely [voxel/s]
-  double patience = 5e-3;       // how long a debt may wait, at the present rate of asking [s]
+  double debt_timeout = 5e-3;   // how long a debt may wait, at the present rate of asking [s]
   double deposit_share = 0.8;   // radius of the deposited ball over the burr's [-]
   double deposit_gap = 0.5;     // kept between burr and deposited material [voxel]
 };
@@ -71,7 +71,7 @@ class Carver {
   // Adds to `flags` (bits of rt/flags.h: not cut, reserve, undo full, put off).
   void carve(const Cut& cut, std::uint32_t& flags) BURR_RT;
   void deposit(const Cut& cut, std::uint32_t& flags) BURR_RT;
-  // Nothing touched this tick: what is still owed is written off as patience runs out.
+  // Nothing touched this tick: what is still owed is written off as the debt timeout passes.
   void idle(double dt) BURR_RT;
 
   [[nodiscard]] Ledger ledger() const BURR_RT { return writer_.ledger(); }
@@ -105,8 +105,8 @@ class Carver {
   CarveSettings settings_;
   CarveKernel kernel_;
   Reached reached_;
-  int crowd_slices_ = 1;  // number of slices in which they fit
-  int usual_slices_ = 1;  // in how many it is worth the while
+  int crowd_slices_ = 1;      // number of slices in which they fit
+  int preferred_slices_ = 1;  // in how many it is worth the while
   struct Part {
     std::int64_t units = 0;  // excess of the slice's bricks
     int bricks = 0;

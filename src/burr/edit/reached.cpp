@@ -13,8 +13,8 @@ Reached::Reached(BoneWriter& writer)
     : writer_(writer),
       kernel_(carve_kernel()),
       energy_of_(256, 1e9),
-      excess_(2 * kMostASide),
-      bricks_(2 * kMostASide) {
+      excess_(2 * kMostBricksPerSide),
+      bricks_(2 * kMostBricksPerSide) {
   const std::vector<volume::Tissue>& tissues = writer.bone().tissues().tissues;
   for (std::size_t t = 0; t < tissues.size(); ++t) energy_of_[t] = tissues[t].cutting_energy;
 }

@@ -27,7 +27,7 @@ namespace burr::edit {
 
 class Reached {
  public:
-  static constexpr std::size_t kMostASide = 1024;  // bricks: 7 mm at 0.1 mm takes 400
+  static constexpr std::size_t kMostBricksPerSide = 1024;  // bricks: 7 mm at 0.1 mm takes 400
 
   // What both sides took or put.  [units]
   struct Done {
@@ -42,7 +42,7 @@ class Reached {
     crowded_ = false;
     total_units_ = 0;
   }
-  void begin_side() BURR_RT { most_ = count_ + kMostASide; }
+  void begin_side() BURR_RT { most_ = count_ + kMostBricksPerSide; }
   // Where the excess of the next brick goes (8 x 8 x 8); nullptr: the side's list is full.
   [[nodiscard]] std::uint16_t* next() BURR_RT {
     if (count_ < most_) return excess_[count_].voxel;

@@ -24,13 +24,14 @@ UndoStore::UndoStore(const volume::Bone& bone, std::size_t stroke_bricks)
       kept_in_(static_cast<std::size_t>(bone.brick_count())),
       originals_(bone.used_slots() + bone.free_slots()),
       original_at_(static_cast<std::size_t>(bone.brick_count()), -1) {
-  take_ahead();
+  commit_ahead();
 }
 
-void UndoStore::take_ahead() {
-  entries_.have(static_cast<std::size_t>(entries_told_.load(std::memory_order_relaxed)) + kAhead);
-  originals_.have(static_cast<std::size_t>(originals_told_.load(std::memory_order_relaxed)) +
+void UndoStore::commit_ahead() {
+  entries_.commit(static_cast<std::size_t>(entries_published_.load(std::memory_order_relaxed)) +
                   kAhead);
+  originals_.commit(static_cast<std::size_t>(originals_published_.load(std::memory_order_relaxed)) +
+                    kAhead);
 }
 
 void UndoStore::copy(const volume::Bone& bone, BrickIndex brick, KeptBrick& to) BURR_RT {
@@ -63,7 +64,7 @@ bool UndoStore::keep(BrickIndex brick) BURR_RT {
     BURR_CHECK(originals_used_ < originals_.size());  // one for every brick that can hold anything
     original_at_[at] = static_cast<std::int32_t>(originals_used_);
     copy(bone_, brick, originals_[originals_used_++]);
-    originals_told_.store(originals_used_, std::memory_order_relaxed);
+    originals_published_.store(originals_used_, std::memory_order_relaxed);
   }
   Stroke& now = stroke(done_ - 1);
   if (kept_in_[at] == serial_ || overflowed_) return overflowed_;
@@ -81,7 +82,7 @@ bool UndoStore::keep(BrickIndex brick) BURR_RT {
   kept_in_[at] = serial_;
   copy(bone_, brick, entry(next_entry_));
   ++next_entry_;
-  entries_told_.store(next_entry_, std::memory_order_relaxed);
+  entries_published_.store(next_entry_, std::memory_order_relaxed);
   ++now.count;
   return forgot;
 }

@@ -5,7 +5,7 @@
 // present content, so the same entries serve redo. When the memory is full the oldest stroke is
 // dropped, and keep() reports it. The content at the start is never dropped.
 //
-// Thread: servo; take_ahead() on any one other. Memory: 1.5 KiB for each brick that was ever
+// Thread: servo; commit_ahead() on any one other. Memory: 1.5 KiB for each brick that was ever
 // changed and for each brick that a stroke remembers, taken a little ahead of use; addresses for
 // all of them are reserved at construction.
 #pragma once
@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "burr/rt/promised.h"
+#include "burr/rt/reserved.h"
 #include "burr/rt/rt.h"
 #include "burr/volume/bone.h"
 
@@ -33,7 +33,7 @@ class UndoStore {
 
   // Takes the memory that the next strokes will need. Call it every few milliseconds while the
   // servo cuts, from another thread.
-  void take_ahead();
+  void commit_ahead();
 
   // ---- while cutting
   void begin_stroke(std::uint64_t path_mark) BURR_RT;  // drops the strokes that could be redone
@@ -80,7 +80,7 @@ class UndoStore {
   }
 
   const volume::Bone& bone_;
-  rt::Promised<KeptBrick> entries_;  // a ring
+  rt::ReservedArray<KeptBrick> entries_;  // a ring
   std::uint64_t next_entry_ = 0;
   std::vector<Stroke> strokes_;  // a ring
   std::uint64_t oldest_ = 0, done_ = 0,
@@ -88,12 +88,12 @@ class UndoStore {
   std::uint64_t serial_ = 0;  // of the open stroke; never reused
   bool open_ = false, overflowed_ = false;
   std::vector<std::uint64_t> kept_in_;  // (brick_count) serial of the stroke that kept it last
-  rt::Promised<KeptBrick> originals_;
+  rt::ReservedArray<KeptBrick> originals_;
   std::size_t originals_used_ = 0;
   std::vector<std::int32_t> original_at_;  // (brick_count) -1: never changed
 
-  // how much memory is used, for take_ahead()
-  std::atomic<std::uint64_t> entries_told_ = 0, originals_told_ = 0;
+  // how much memory is used, for commit_ahead()
+  std::atomic<std::uint64_t> entries_published_ = 0, originals_published_ = 0;
 };
 
 }  // namespace burr::edit

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/base/text_file.h"
 
 namespace burr::fit {
@@ -72,7 +72,8 @@ Result<Places> places_of(const std::vector<std::string_view>& names, const std::
     const auto known = std::find_if(kKnown.begin(), kKnown.end(),
                                     [&](const Known& one) { return names[n] == one.name; });
     if (known == kKnown.end()) {
-      notices.push_back(fmt::format("{}: column \"{}\" is not used", where, base::shown(names[n])));
+      notices.push_back(
+          fmt::format("{}: column \"{}\" is not used", where, base::printable(names[n])));
       continue;
     }
     int& place = places[static_cast<std::size_t>(known - kKnown.begin())];
@@ -146,7 +147,7 @@ Result<ForceLog> parse_force_log(std::string_view text, std::string_view file) {
           !std::isfinite(value[c]) || std::abs(value[c]) > 1e9)
         return error(fmt::format(
             "{}: line {}: column {}: \"{}\" is not a number; write it as 1.25, or remove the line",
-            file, number, kKnown[c].name, base::shown(cell)));
+            file, number, kKnown[c].name, base::printable(cell)));
     }
     if (!(value[kRadius] > 0))
       return error(fmt::format(

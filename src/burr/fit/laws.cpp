@@ -21,13 +21,13 @@ void tell(MaterialFit& answer, std::vector<const char*> keys,
   for (const char* key : keys) names += (names.empty() ? "" : " and ") + std::string(key);
   const LineFit fit = least_squares(columns, y);
   if (fit.state == LineFit::State::too_few_rows) {
-    answer.not_told.push_back(fmt::format(
+    answer.undetermined.push_back(fmt::format(
         "{}: only {} rows in which material is cut, but {} are needed; give a longer log", names,
         y.size(), columns.size() + 2));
     return;
   }
-  if (fit.state == LineFit::State::not_told_apart) {
-    answer.not_told.push_back(
+  if (fit.state == LineFit::State::indistinguishable) {
+    answer.undetermined.push_back(
         fmt::format("{}: these constants cannot be separated from this log (condition number "
                     "{:.3g}, at most {:g}); {}",
                     names, fit.condition, kWorstCondition, cure));
@@ -47,7 +47,7 @@ void fit_friction(const std::vector<ForceRow>& rows, MaterialFit& answer) {
     tangential.push_back(*row.tangential);
   }
   if (normal.empty() && !rows.empty()) {
-    answer.not_told.emplace_back(
+    answer.undetermined.emplace_back(
         "cutting_friction: the log has neither tangential force nor torque");
     return;
   }
@@ -65,7 +65,7 @@ void fit_energy(const std::vector<ForceRow>& rows, MaterialFit& answer) {
     power.push_back(measured ? *row.power : *row.tangential * row.speed * row.radius);
   }
   if (removal.empty() && !rows.empty()) {
-    answer.not_told.emplace_back(
+    answer.undetermined.emplace_back(
         "cutting_energy_J_mm3: the log has neither power nor tangential force");
     return;
   }

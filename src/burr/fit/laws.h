@@ -27,7 +27,8 @@ struct MaterialFit {
   std::string material;                // "": the log does not name it
   std::size_t rows = 0, left_out = 0;  // left out: rows in which nothing was cut
   std::vector<Fitted> constants;
-  std::vector<std::string> not_told;  // a sentence for each constant (or two) that was not found
+  // a sentence for each constant (or two) that was not found
+  std::vector<std::string> undetermined;
 };
 
 // Below this force nothing is cut.  [N]

@@ -67,7 +67,7 @@ LineFit least_squares(std::span<const std::vector<double>> columns, std::span<co
   fit.condition = singular[count - 1] > 0 ? singular[0] / singular[count - 1]
                                           : std::numeric_limits<double>::infinity();
   if (!(fit.condition <= kWorstCondition)) {
-    fit.state = LineFit::State::not_told_apart;
+    fit.state = LineFit::State::indistinguishable;
     return fit;
   }
   const Eigen::VectorXd scaled = qr.solve(measured);

@@ -16,12 +16,12 @@ namespace burr::fit {
 inline constexpr double kWorstCondition = 100;
 
 struct LineFit {
-  enum class State { good, too_few_rows, not_told_apart };
+  enum class State { good, too_few_rows, indistinguishable };
   State state = State::good;
   std::vector<double> value;  // one per column; only if good, as all below
   std::vector<double> half;   // value +- half holds the truth 95 times of 100
   double residual = 0;        // standard deviation of y around the law
-  double condition = 1;       // of the columns, each scaled to length 1; also if not_told_apart
+  double condition = 1;       // of the columns, each scaled to length 1; also if indistinguishable
 };
 
 // columns: each as long as y. Needs at least two rows more than columns.

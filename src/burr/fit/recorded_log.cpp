@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/math/vec3.h"
 
 namespace burr::fit {
@@ -33,7 +33,7 @@ Result<Law> law_of(const record::SessionInfo& info, const std::string& file) {
       return error(
           fmt::format("{}: the setting {} is missing in this recording; it was recorded by another "
                       "version of burr ({})",
-                      file, name, base::shown(info.burr_version)));
+                      file, name, base::printable(info.burr_version)));
     *place = *value;
   }
   law.friction = number("cutting_friction").value_or(0);
@@ -81,7 +81,7 @@ Status check_step(const record::Step& step, tool::BurrKind kind, const record::S
     return error(
         fmt::format("{}: the size of the burr is missing in this recording; it was recorded by "
                     "another version of burr ({})",
-                    file, base::shown(info.burr_version)));
+                    file, base::printable(info.burr_version)));
   if (step.row.tool.kind != kind)
     return error(
         fmt::format("{}: the burr was changed between cutting and diamond during the session; "

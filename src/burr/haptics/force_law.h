@@ -33,7 +33,7 @@ struct ForceSettings {
   const double spring = settings.stiffness * touch.depth;
   const double approach = std::max(0.0, -math::dot(velocity, touch.normal));
   const double damper = std::min(settings.damping * approach, spring);
-  return (spring + damper) * touch.normal + settings.stiffness * touch.trail;
+  return (spring + damper) * touch.normal + settings.stiffness * touch.tangential;
 }
 
 }  // namespace burr::haptics

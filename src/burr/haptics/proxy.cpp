@@ -234,7 +234,7 @@ void Proxy::collect(const Vec3& centre, double within, bool crowded) BURR_RT {
 
 // A violated disc (bone grew, or was rebuilt slightly higher) pushes the burr out slowly.
 void Proxy::be_gentle() BURR_RT {
-  const float deepest = -static_cast<float>(settings_.recovery);
+  const float deepest = -static_cast<float>(settings_.push_out_speed);
   Candidates& all = *candidates_;
   for (int j = 0; j < all.count; ++j) all.gap[j] = std::max(all.gap[j], deepest);
 }
@@ -469,7 +469,7 @@ Touch Proxy::step(const Vec3& hand) BURR_RT {
         (void)settle(free_place + trail * (allowed / reach), allowed, 4, aside);
         touch.candidates = std::max(touch.candidates, aside.candidates);
         const Vec3 now = c_ - free_place;
-        touch.trail = grid_.frame.q * ((now - math::dot(now, normal) * normal) * grid_.voxel);
+        touch.tangential = grid_.frame.q * ((now - math::dot(now, normal) * normal) * grid_.voxel);
       }
       touch.stuck = !sliding_;
     }

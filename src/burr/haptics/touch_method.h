@@ -41,18 +41,18 @@ struct ProxySettings {
   double radius = 1.5e-3;  // of the burr head                                              [m]
   double friction_static = 0.0;  // sticks up to this; >= friction_kinetic [-]
   double friction_kinetic = 0.0;
-  int max_moves = 12;      // per tick; a faster hand is caught up with later
-  double close = 0.02;     // a move shorter than this ends the search                      [voxel]
-  double recovery = 5e-3;  // speed at which bone that grew pushes the burr out        [voxel/tick]
-  bool smooth = true;      // force from the smooth surface (while cutting: from a soft layer), not
-                           // from the discs' facets
+  int max_moves = 12;   // per tick; a faster hand is caught up with later
+  double close = 0.02;  // a move shorter than this ends the search                      [voxel]
+  double push_out_speed = 5e-3;  // speed at which bone that grew pushes the burr out  [voxel/tick]
+  bool smooth = true;  // force from the smooth surface (while cutting: from a soft layer), not
+                       // from the discs' facets
 };
 
 // Where the proxy came to rest in this tick. World frame.
 struct Touch {
-  math::Vec3 proxy = math::Vec3::Zero();   // centre of the burr head, never in bone [m]
-  math::Vec3 trail = math::Vec3::Zero();   // how friction holds it back, along the surface [m]
-  math::Vec3 normal = math::Vec3::Zero();  // unit, from the hand to the smooth surface
+  math::Vec3 proxy = math::Vec3::Zero();       // centre of the burr head, never in bone [m]
+  math::Vec3 tangential = math::Vec3::Zero();  // how friction holds it back, along the surface [m]
+  math::Vec3 normal = math::Vec3::Zero();      // unit, from the hand to the smooth surface
   double depth = 0;     // between those two                                       [m]
   double pressing = 0;  // sum of the contacts' spring lengths; > depth in a wedge [m]
   int active = 0;

@@ -290,7 +290,7 @@ Status plan_grey(const io::Scan& scan, const scenario::Recipe& recipe, const Mat
   set_smooth(scan, recipe, out);
   if (scan.hounsfield) plan.grey_tissues = hu_tissues(materials);
   auto& tissues = plan.grey_tissues.tissues;
-  if (!scan.hounsfield) materials.lay_over(tissues[1]);
+  if (!scan.hounsfield) materials.apply_material(tissues[1]);
   for (std::size_t id = 1; id < tissues.size(); ++id)
     out.tissues.push_back({static_cast<volume::TissueId>(id), tissues[id], 0, 0});
   return fine();
@@ -443,7 +443,7 @@ Result<Imported> import_labels(const io::Scan& scan, const scenario::Recipe& rec
   made.bone = bone_from_inside(grid_of(scan, plan), std::move(plan.labels.table), inside, {},
                                recipe.reserve_bricks, progress);
   if (made.bone == nullptr) return error(Trouble::interrupted, "the import was stopped");
-  keep_volumes(*made.bone, wanted);
+  restore_tissue_volumes(*made.bone, wanted);
   made.summary = std::move(plan.summary);
   return made;
 }

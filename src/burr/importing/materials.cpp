@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "burr/base/check.h"
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/base/text_file.h"
 #include "burr/base/toml_text.h"
 #include "burr/importing/materials_text.h"
@@ -85,7 +85,7 @@ class Reader {
           key.str() != "source" && key.str() != "calibrated")
         return fail(
             fmt::format("{}: {} is not a known field; use value, low, high, source, calibrated",
-                        where, base::shown(key.str())));
+                        where, base::printable(key.str())));
     Constant read;
     number(*table, where, "value", read.value);
     number(*table, where, "low", read.low);
@@ -126,17 +126,18 @@ class Reader {
                        [name = key.str()](const auto& one) { return name == one.key; });
       if (field == kFields.end())
         return fail(fmt::format("material {}: {} is not a known field; use {}", number,
-                                base::shown(key.str()), keys()));
-      constant(node,
-               fmt::format("material \"{}\": {}", base::shown(out.name), std::string(key.str())),
-               *field, out.*(field->place));
+                                base::printable(key.str()), keys()));
+      constant(
+          node,
+          fmt::format("material \"{}\": {}", base::printable(out.name), std::string(key.str())),
+          *field, out.*(field->place));
     }
     const toml::node* like = table.get("like");
     if (like == nullptr) return;
     const auto whom = like->value_exact<std::string>();
     if (!whom || before.find(*whom) == nullptr)
       fail(fmt::format("material \"{}\": like: must name a material defined above this one",
-                       base::shown(out.name)));
+                       base::printable(out.name)));
   }
 
   // Applies the file to `out`.
@@ -144,7 +145,7 @@ class Reader {
     for (const auto& [key, node] : table)
       if (key.str() != "material")
         return fail(fmt::format("{} is not a known field; only [[material]] is allowed",
-                                base::shown(key.str())));
+                                base::printable(key.str())));
     const toml::array* list = table["material"].as_array();
     if (list == nullptr) return fail("there is no [[material]]; see docs/materials.md");
     std::vector<std::string> named;
@@ -158,7 +159,7 @@ class Reader {
         return fail(fmt::format(
             "material {}: name is missing; give name = \"..\" of at most 100 letters", number));
       if (std::find(named.begin(), named.end(), plain(*name)) != named.end())
-        return fail(fmt::format("material \"{}\" appears twice; keep one", base::shown(*name)));
+        return fail(fmt::format("material \"{}\" appears twice; keep one", base::printable(*name)));
       named.push_back(plain(*name));
       const toml::node* like = entry->get("like");
       const auto found = std::find_if(out.all.begin(), out.all.end(), [&](const Material& have) {
@@ -169,7 +170,7 @@ class Reader {
           return fail(
               fmt::format("material \"{}\": like is only for new materials, and this one is built "
                           "in; remove like",
-                          base::shown(*name)));
+                          base::printable(*name)));
         material(*entry, number, out, *found);
       } else {
         const auto whom = like != nullptr ? like->value_exact<std::string>() : std::nullopt;
@@ -244,11 +245,11 @@ const Material& Materials::of(std::string_view tissue_name, volume::TissueKind k
   return *hard;
 }
 
-void Materials::lay_over(volume::Tissue& tissue) const {
-  importing::lay_over(of(tissue.name, tissue.kind), tissue);
+void Materials::apply_material(volume::Tissue& tissue) const {
+  importing::apply_material(of(tissue.name, tissue.kind), tissue);
 }
 
-void lay_over(const Material& material, volume::Tissue& tissue) {
+void apply_material(const Material& material, volume::Tissue& tissue) {
   const auto take = [](const std::optional<Constant>& from, double& to) {
     if (from) to = from->value;
   };

@@ -2,7 +2,7 @@
 // whether they were measured. File format: docs/materials.md.
 //
 //     Result<Materials> materials = read_materials("mine.toml");  // added to the built-in ones
-//     materials->lay_over(tissue);                                // finds the material by its name
+//     materials->apply_material(tissue);                          // finds the material by its name
 //
 // Constants are SI; the keys in the file name the units of the file. Thread: any.
 // Errors: what is wrong in the file, one sentence.
@@ -61,11 +61,11 @@ struct Materials {
   [[nodiscard]] const Material& of(std::string_view tissue_name,
                                    volume::TissueKind kind = volume::TissueKind::solid) const;
   // Gives the tissue the constants of the material of(its name, its kind).
-  void lay_over(volume::Tissue& tissue) const;
+  void apply_material(volume::Tissue& tissue) const;
 };
 
 // Gives the tissue the constants that the material has; the others stay as they are.
-void lay_over(const Material& material, volume::Tissue& tissue);
+void apply_material(const Material& material, volume::Tissue& tissue);
 
 [[nodiscard]] const Materials& built_in_materials();
 

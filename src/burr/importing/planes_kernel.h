@@ -26,24 +26,25 @@ struct PlaneSums {
 };
 
 // Label maps: the direction towards the material at each voxel; its length says how certain it is.
-struct Facing {
+struct MaterialDirections {
   alignas(64) float x[PlaneSums::kVoxels], y[PlaneSums::kVoxels], z[PlaneSums::kVoxels];
 };
 
 // Writes the sums for the voxels of row (y, z) over the `count` points listed in `which`, in that
-// order. Weight 1 / (r^2 + soft)^4, r in voxels. facing: points that face the other way count less;
-// null: all count fully. The vector lanes never mix, so the bits are the same on every instruction
-// set.
+// order. Weight 1 / (r^2 + soft)^4, r in voxels. directions: points that face the other way count
+// less; null: all count fully. The vector lanes never mix, so the bits are the same on every
+// instruction set.
 using SumPlanes = void (*)(const SurfacePoint* points, const std::uint16_t* which, int count, int y,
-                           int z, float soft, const Facing* facing, PlaneSums& sums) noexcept;
+                           int z, float soft, const MaterialDirections* directions,
+                           PlaneSums& sums) noexcept;
 
 namespace scalar {
-void sum_planes(const SurfacePoint*, const std::uint16_t*, int, int, int, float, const Facing*,
-                PlaneSums&) noexcept;
+void sum_planes(const SurfacePoint*, const std::uint16_t*, int, int, int, float,
+                const MaterialDirections*, PlaneSums&) noexcept;
 }
 namespace avx2 {
-void sum_planes(const SurfacePoint*, const std::uint16_t*, int, int, int, float, const Facing*,
-                PlaneSums&) noexcept;
+void sum_planes(const SurfacePoint*, const std::uint16_t*, int, int, int, float,
+                const MaterialDirections*, PlaneSums&) noexcept;
 }
 
 [[nodiscard]] SumPlanes sum_planes_kernel() noexcept;

@@ -45,7 +45,7 @@ struct Desk {
   std::array<std::uint32_t, kBrickEdge * kBrickEdge + 1> starts;
   std::vector<std::uint16_t> which;
   PlaneSums sums;
-  Facing facing;
+  MaterialDirections directions;
   std::array<Field, volume::kBrickVoxels> field;  // the brick being made
   std::array<TissueId, volume::kBrickVoxels> tissue;
 };
@@ -186,9 +186,9 @@ void face(Desk& desk) {
         const float* s = desk.smooth.data() + at(x + kHalo, y + kHalo, z + kHalo);
         const float gx = s[1] - s[-1], gy = s[kBlock] - s[-kBlock], gz = s[kPlane] - s[-kPlane];
         const float scale = 1.0F / std::max(std::sqrt(gx * gx + gy * gy + gz * gz), 30.0F);
-        desk.facing.x[v] = gx * scale;
-        desk.facing.y[v] = gy * scale;
-        desk.facing.z[v] = gz * scale;
+        desk.directions.x[v] = gx * scale;
+        desk.directions.y[v] = gy * scale;
+        desk.directions.z[v] = gz * scale;
       }
 }
 
@@ -235,7 +235,7 @@ void measure(float soft, bool by_normal, SumPlanes sum_planes, Desk& desk) {
       const auto row = static_cast<std::size_t>(y + kBrickEdge * z);
       sum_planes(desk.points.data(), desk.which.data() + desk.starts[row],
                  static_cast<int>(desk.starts[row + 1] - desk.starts[row]), y, z, soft,
-                 by_normal ? &desk.facing : nullptr, desk.sums);
+                 by_normal ? &desk.directions : nullptr, desk.sums);
     }
 }
 
@@ -494,7 +494,7 @@ std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueT
   return bone;
 }
 
-std::vector<double> keep_volumes(Bone& bone, const std::vector<double>& wanted_voxels) {
+std::vector<double> restore_tissue_volumes(Bone& bone, const std::vector<double>& wanted_voxels) {
   // count voxels by tissue and field, in steps of 16: 1/1024 of a voxel of depth
   constexpr int kStep = 16, kBins = 65536 / kStep;
   const std::size_t tissues = bone.tissues().tissues.size();

@@ -51,6 +51,7 @@ struct GreyTissue {
 
 // Shifts the field of each tissue by a fraction of a voxel until its volume_of is the wanted one
 // [voxel]; wanted < 0: no shift. Returns the shifts [voxel].
-std::vector<double> keep_volumes(volume::Bone& bone, const std::vector<double>& wanted_voxels);
+std::vector<double> restore_tissue_volumes(volume::Bone& bone,
+                                           const std::vector<double>& wanted_voxels);
 
 }  // namespace burr::importing

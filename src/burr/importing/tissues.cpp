@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/base/text_file.h"
 #include "burr/io/read/text.h"
 
@@ -46,7 +46,7 @@ std::string plain(const std::string& name) {
 std::string names_of(const Materials& materials) {
   std::string list;
   for (const Material& one : materials.all)
-    list += (list.empty() ? "" : ", ") + base::shown(one.name);
+    list += (list.empty() ? "" : ", ") + base::printable(one.name);
   return list;
 }
 
@@ -92,14 +92,14 @@ Status read_table(const std::string& path, const Materials& materials,
           tissue.kind = TissueKind::air;
         else
           return error(fmt::format("{}: label {}: kind \"{}\" is not known; use solid, soft or air",
-                                   file, v, base::shown(*kind)));
+                                   file, v, base::printable(*kind)));
       }
       if (const auto wanted = (*entry)["material"].value<std::string>()) {
         const Material* material = materials.find(*wanted);
         if (material == nullptr)
           return error(fmt::format("{}: label {}: material \"{}\" is not known; use one of {}",
-                                   file, v, base::shown(*wanted), names_of(materials)));
-        lay_over(*material, tissue);
+                                   file, v, base::printable(*wanted), names_of(materials)));
+        apply_material(*material, tissue);
       }
       if (const auto energy = (*entry)["cutting_energy_J_mm3"].value<double>()) {
         if (!(*energy > 0 && *energy < 1e3))
@@ -144,7 +144,7 @@ Tissue tissue_by_name(const io::Label& label, bool named, const Materials& mater
   tissue.colour = label.colour;
   tissue.label = label.value;
   if (!named) {
-    lay_over(materials.of(""), tissue);
+    apply_material(materials.of(""), tissue);
     return tissue;
   }
   const std::string name = plain(label.name);
@@ -187,7 +187,7 @@ Tissue tissue_by_name(const io::Label& label, bool named, const Materials& mater
     tissue.bleeds = 0.3;
   else if (!soft && any_of(name, {"trabecular", "spongiosa", "cancellous"}))
     tissue.bleeds = kTrabecularBleeds;
-  materials.lay_over(tissue);
+  materials.apply_material(tissue);
   return tissue;
 }
 
@@ -239,7 +239,8 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
     if (present[v] && of_value[v].kind == TissueKind::air) {
       of_value[v].label = static_cast<int>(v);
       out.air.push_back(of_value[v]);
-      out.notices.push_back(fmt::format("Label {} ({}) is air.", v, base::shown(of_value[v].name)));
+      out.notices.push_back(
+          fmt::format("Label {} ({}) is air.", v, base::printable(of_value[v].name)));
     }
   return out;
 }
@@ -256,7 +257,7 @@ volume::TissueTable hu_tissues(const Materials& materials) {
     Tissue tissue;
     tissue.name = fmt::format("trabecular bone {:.0f}-{:.0f} HU", from, to);
     tissue.colour = {0.86F, 0.76F, 0.62F};
-    lay_over(materials.of("trabecular bone"), tissue);
+    apply_material(materials.of("trabecular bone"), tissue);
     tissue.bleeds = kTrabecularBleeds;
     // strength, and so the energy of cutting, goes with the square of density (Carter & Hayes 1977)
     const double share = density_of(0.5 * (from + to)) / density_of(kTrabecularHu);
@@ -269,10 +270,10 @@ volume::TissueTable hu_tissues(const Materials& materials) {
     add(std::move(tissue));
   }
   Tissue cortical{.name = "cortical bone or dentine"};
-  lay_over(materials.of("cortical bone"), cortical);
+  apply_material(materials.of("cortical bone"), cortical);
   add(std::move(cortical));
   Tissue enamel{.name = "enamel or metal", .colour = {0.96F, 0.96F, 0.93F}};
-  lay_over(materials.of("enamel"), enamel);
+  apply_material(materials.of("enamel"), enamel);
   add(std::move(enamel));
   return table;
 }

@@ -14,9 +14,9 @@ constexpr int kLookEvery = 10;  // trials between two checks of the interval's w
 constexpr int kFewest = 60;     // answers before the first check
 
 template <class T>
-void shuffle(std::vector<T>& list, std::size_t from, Chance& chance) {
+void shuffle(std::vector<T>& list, std::size_t from, RandomStream& random) {
   for (std::size_t n = list.size(); n > from + 1; --n) {
-    const auto other = from + static_cast<std::size_t>(chance.below(static_cast<int>(n - from)));
+    const auto other = from + static_cast<std::size_t>(random.below(static_cast<int>(n - from)));
     const T kept = list[n - 1];
     list[n - 1] = list[other];
     list[other] = kept;
@@ -24,19 +24,19 @@ void shuffle(std::vector<T>& list, std::size_t from, Chance& chance) {
 }
 
 // Each level once in every block, in a random order of the block's own.
-std::vector<double> constant_levels(const Plan& plan, Chance& chance) {
+std::vector<double> constant_levels(const Plan& plan, RandomStream& random) {
   std::vector<double> all;
   while (static_cast<int>(all.size()) < plan.trials) {
     const std::size_t from = all.size();
     for (int n = 0; n < plan.levels; ++n)
       all.push_back(plan.smallest * std::pow(plan.largest / plan.smallest,
                                              static_cast<double>(n) / (plan.levels - 1)));
-    shuffle(all, from, chance);
+    shuffle(all, from, random);
   }
   return all;
 }
 
-std::variant<Psi, Staircase, std::vector<double>> chooser(const Plan& plan, Chance& chance) {
+std::variant<Psi, Staircase, std::vector<double>> chooser(const Plan& plan, RandomStream& random) {
   if (plan.method == Method::staircase) {
     StaircaseSettings settings;
     settings.rule = plan.rule;
@@ -44,7 +44,7 @@ std::variant<Psi, Staircase, std::vector<double>> chooser(const Plan& plan, Chan
     settings.largest = settings.start = plan.largest;
     return Staircase(settings);
   }
-  if (plan.method == Method::constant) return constant_levels(plan, chance);
+  if (plan.method == Method::constant) return constant_levels(plan, random);
   PsiSettings settings;
   settings.smallest = plan.smallest;
   settings.largest = plan.largest;

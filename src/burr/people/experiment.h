@@ -21,9 +21,9 @@
 #include <variant>
 #include <vector>
 
-#include "burr/people/chance.h"
 #include "burr/people/fit.h"
 #include "burr/people/psi.h"
+#include "burr/people/random_stream.h"
 #include "burr/people/staircase.h"
 
 namespace burr::people {
@@ -102,7 +102,7 @@ class Experiment {
   [[nodiscard]] double level();
 
   Plan plan_;
-  Chance order_, blocks_;
+  RandomStream order_, blocks_;
   std::variant<Psi, Staircase, std::vector<double>> chooser_;  // constant stimuli: levels to come
   std::vector<bool> orders_;
   std::vector<Answered> answered_;

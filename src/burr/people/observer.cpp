@@ -9,15 +9,15 @@ namespace {
 // sqrt(2) times the 75 % point of the normal distribution
 constexpr double kAtThreshold = 1.4142135623730951 * 0.6744897501960817;
 
-Chance chance_of(std::uint64_t seed, const Trial& trial) {
-  return Chance(seed, 1000 + static_cast<std::uint64_t>(trial.number));
+RandomStream random_stream_of(std::uint64_t seed, const Trial& trial) {
+  return RandomStream(seed, 1000 + static_cast<std::uint64_t>(trial.number));
 }
 
 }  // namespace
 
 int KnowingObserver::answer(const Trial& trial) const {
-  Chance chance = chance_of(seed_, trial);
-  const bool right = chance.uniform() < truth_.right(trial.level);
+  RandomStream random = random_stream_of(seed_, trial);
+  const bool right = random.uniform() < truth_.right(trial.level);
   return right ? trial.right_answer() : 3 - trial.right_answer();
 }
 
@@ -29,12 +29,12 @@ FeelingObserver::FeelingObserver(Stimulus stimulus, double threshold, double lap
       seed_(seed) {}
 
 int FeelingObserver::answer(const Trial& trial, double first, double second) const {
-  Chance chance = chance_of(seed_, trial);
+  RandomStream random = random_stream_of(seed_, trial);
   // an inattentive observer is right half the time
-  if (chance.uniform() < 2 * lapse_) return 1 + chance.below(2);
+  if (random.uniform() < 2 * lapse_) return 1 + random.below(2);
   const auto sensed = [&](double felt) {
     const double size = stimulus_ == Stimulus::vibration ? felt : std::log(std::max(1e-9, felt));
-    return size + sigma_ * chance.normal();
+    return size + sigma_ * random.normal();
   };
   const double one = sensed(first), two = sensed(second);
   return one > two ? 1 : 2;

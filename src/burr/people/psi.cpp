@@ -71,10 +71,10 @@ void Psi::choose() {
 }
 
 void Psi::answer(bool right) {
-  const double* chance = &right_[next_ * belief_.size()];
+  const double* random = &right_[next_ * belief_.size()];
   double sum = 0;
   for (std::size_t k = 0; k < belief_.size(); ++k)
-    sum += belief_[k] *= right ? chance[k] : 1 - chance[k];
+    sum += belief_[k] *= right ? random[k] : 1 - random[k];
   for (double& one : belief_) one /= sum;
   choose();
 }

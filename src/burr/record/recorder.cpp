@@ -22,7 +22,7 @@
 #include "burr/base/version.h"
 #include "burr/record/bone_blob.h"
 #include "burr/record/mcap/mcap_writer.h"
-#include "burr/record/place_file.h"
+#include "burr/record/rename_and_sync.h"
 #include "burr/record/schema.h"
 #include "burr/rt/thread.h"
 
@@ -55,10 +55,11 @@ bool half_full(const rt::Ring<T>& ring) {
 
 // ---- the pen: the work of the recorder's threads
 
-class Recorder::Pen {
+class Recorder::WriterThread {
  public:
-  Pen(Recorder& recorder, std::unique_ptr<McapWriter> writer,
-      const std::array<std::uint16_t, 6>& ids, std::function<void(const Error&)> on_trouble)
+  WriterThread(Recorder& recorder, std::unique_ptr<McapWriter> writer,
+               const std::array<std::uint16_t, 6>& ids,
+               std::function<void(const Error&)> on_trouble)
       : recorder_(recorder), writer_(std::move(writer)), on_trouble_(std::move(on_trouble)) {
     for (std::size_t i = 0; i < kTopics.size(); ++i) {
       const std::string_view name = kTopics[i].name;
@@ -74,9 +75,9 @@ class Recorder::Pen {
         rt::ThreadRequest{.name = "pen", .realtime = recorder.realtime_, .priority = kPenPriority},
         [this] { run(); });
   }
-  ~Pen() { stop(); }
-  Pen(const Pen&) = delete;
-  Pen& operator=(const Pen&) = delete;
+  ~WriterThread() { stop(); }
+  WriterThread(const WriterThread&) = delete;
+  WriterThread& operator=(const WriterThread&) = delete;
 
   void stop(bool early = false) {
     {
@@ -113,12 +114,12 @@ class Recorder::Pen {
     return trouble_ ? Status(*trouble_) : fine();
   }
 
-  [[nodiscard]] std::uint64_t safe_ticks() const { return safe_ticks_.load(); }
+  [[nodiscard]] std::uint64_t written_ticks() const { return written_ticks_.load(); }
 
   // after stop()
-  [[nodiscard]] RecordingAccount account() const {
-    RecordingAccount account = account_;
-    account.safe_ticks = safe_ticks_.load();
+  [[nodiscard]] RecordingStats stats() const {
+    RecordingStats account = account_;
+    account.written_ticks = written_ticks_.load();
     account.bytes = writer_->size();
     return account;
   }
@@ -154,8 +155,8 @@ class Recorder::Pen {
   void fail(const Error& problem) {
     failed_ = true;
     // taken from the ring but not written
-    account_.dropped_ticks += account_.ticks - safe_ticks_;
-    account_.ticks = safe_ticks_;
+    account_.dropped_ticks += account_.ticks - written_ticks_;
+    account_.ticks = written_ticks_;
     tell(problem);
   }
 
@@ -221,7 +222,7 @@ class Recorder::Pen {
     // bytes in a file that has been removed are lost, whatever the kernel says
     if (something && written.ok()) written = writer_->still_there();
     if (!written.ok()) return written;
-    safe_ticks_.store(account_.ticks);
+    written_ticks_.store(account_.ticks);
     const Clock::time_point now = Clock::now();
     if (!something) {
       last_write_ = now;  // nothing waits, so nothing could be lost
@@ -416,7 +417,7 @@ class Recorder::Pen {
 
   // used only by the pen
   BytesOut message_;
-  RecordingAccount account_;
+  RecordingStats account_;
   bool failed_ = false;
   Clock::time_point last_write_;
   std::uint64_t end_tick_ = 0;  // ticks before this one have been taken
@@ -435,7 +436,7 @@ class Recorder::Pen {
   std::condition_variable wake_, room_;
   bool stopping_ = false, hurry_ = false;
   bool stopped_early_ = false;  // written before stopping_, read after it
-  std::atomic<std::uint64_t> safe_ticks_ = 0;
+  std::atomic<std::uint64_t> written_ticks_ = 0;
   std::optional<Error> trouble_;
   std::mutex sync_mutex_;
   std::condition_variable sync_wake_;
@@ -457,7 +458,7 @@ Recorder::~Recorder() = default;
 
 Status Recorder::start(const std::string& path, const SessionInfo& asked, const volume::Bone* embed,
                        std::function<void(const Error&)> on_trouble) {
-  BURR_CHECK(pen_ == nullptr);
+  BURR_CHECK(writer_thread_ == nullptr);
   SessionInfo info = asked;
   info.burr_version = base::version();
   info.build = base::build();
@@ -514,27 +515,32 @@ Status Recorder::start(const std::string& path, const SessionInfo& asked, const 
   writer->add_message(ids[0], 1, 0, as_bytes(to_json(info)));
   if (Status written = writer->close_chunk(); !written.ok()) return give_up(written.error());
   if (Status synced = writer->sync(); !synced.ok()) return give_up(synced.error());
-  if (Status placed = place_file(beside, path); !placed.ok()) return give_up(placed.error());
+  if (Status placed = rename_and_sync(beside, path); !placed.ok()) return give_up(placed.error());
 
-  pen_ = std::make_unique<Pen>(*this, std::move(writer), ids, std::move(on_trouble));
+  writer_thread_ =
+      std::make_unique<WriterThread>(*this, std::move(writer), ids, std::move(on_trouble));
   return fine();
 }
 
 void Recorder::wait_for_room() {
-  if (pen_ && pen_->crowded()) pen_->wait_for_room();
+  if (writer_thread_ && writer_thread_->crowded()) writer_thread_->wait_for_room();
 }
 
-Status Recorder::status() const { return pen_ ? pen_->status() : fine(); }
+Status Recorder::status() const { return writer_thread_ ? writer_thread_->status() : fine(); }
 
-Result<RecordingAccount> Recorder::finish(bool stopped) {
-  BURR_CHECK(pen_ != nullptr);
-  pen_->stop(stopped);
-  if (Status done = pen_->status(); !done.ok()) return done.error();
-  return pen_->account();
+Result<RecordingStats> Recorder::finish(bool stopped) {
+  BURR_CHECK(writer_thread_ != nullptr);
+  writer_thread_->stop(stopped);
+  if (Status done = writer_thread_->status(); !done.ok()) return done.error();
+  return writer_thread_->stats();
 }
 
-std::uint64_t Recorder::safe_ticks() const { return pen_ ? pen_->safe_ticks() : 0; }
+std::uint64_t Recorder::written_ticks() const {
+  return writer_thread_ ? writer_thread_->written_ticks() : 0;
+}
 
-RecordingAccount Recorder::account() const { return pen_ ? pen_->account() : RecordingAccount{}; }
+RecordingStats Recorder::stats() const {
+  return writer_thread_ ? writer_thread_->stats() : RecordingStats{};
+}
 
 }  // namespace burr::record

@@ -18,7 +18,7 @@
 // An error (disk full, file removed) ends the recording, not the session. It is reported once, at
 // once, and again by finish(). What was written until then stays and can be opened.
 //
-// Thread: start, finish, status on one thread; the rings on the servo's; safe_ticks any. Memory:
+// Thread: start, finish, status on one thread; the rings on the servo's; written_ticks any. Memory:
 // rings (about 25 MiB at 1 kHz), a copy of the changed bricks, twice while a keyframe is written.
 #pragma once
 
@@ -36,12 +36,12 @@
 namespace burr::record {
 
 // Counts of what was written and what was not.
-struct RecordingAccount {
+struct RecordingStats {
   std::uint64_t ticks = 0, commands = 0, brick_rows = 0, keyframes = 0;
   std::uint64_t dropped_ticks = 0, dropped_commands = 0, dropped_bricks = 0;
-  std::uint64_t safe_ticks = 0;  // of the ticks, those given to the kernel: what the file holds
-  std::uint64_t bytes = 0;       // of the file
-  double longest_pause_s = 0;    // between two chunks given to the kernel; a kill may lose as much
+  std::uint64_t written_ticks = 0;  // of the ticks, those given to the kernel: what the file holds
+  std::uint64_t bytes = 0;          // of the file
+  double longest_pause_s = 0;  // between two chunks given to the kernel; a kill may lose as much
   [[nodiscard]] bool whole() const {
     return dropped_ticks == 0 && dropped_commands == 0 && dropped_bricks == 0;
   }
@@ -79,23 +79,23 @@ class Recorder {
   [[nodiscard]] Status status() const;
 
   // How many ticks the kernel already has: these survive a kill.
-  [[nodiscard]] std::uint64_t safe_ticks() const;
+  [[nodiscard]] std::uint64_t written_ticks() const;
 
   // Writes everything pushed before this call, then summary and footer. The file is then complete,
   // or the Error says what is missing. stopped: the session was ended before its time, by a signal; the
   // file says so (Player::finished()).
-  [[nodiscard]] Result<RecordingAccount> finish(bool stopped = false);
+  [[nodiscard]] Result<RecordingStats> finish(bool stopped = false);
   // The account after finish(), successful or not.
-  [[nodiscard]] RecordingAccount account() const;
+  [[nodiscard]] RecordingStats stats() const;
 
  private:
-  class Pen;
+  class WriterThread;
   rt::Ring<tick::TickRow> ticks_;
   rt::Ring<tick::CommandRow> commands_;
   rt::Ring<tick::BrickRow> bricks_;
   double rate_hz_;
   bool realtime_;
-  std::unique_ptr<Pen> pen_;
+  std::unique_ptr<WriterThread> writer_thread_;
 };
 
 }  // namespace burr::record

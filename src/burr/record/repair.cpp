@@ -8,7 +8,7 @@
 
 #include "burr/record/mcap/mcap_reader.h"
 #include "burr/record/mcap/mcap_writer.h"
-#include "burr/record/place_file.h"
+#include "burr/record/rename_and_sync.h"
 #include "burr/record/schema.h"
 #include "burr/record/session_info.h"
 
@@ -131,7 +131,7 @@ Result<RepairReport> repair(const std::string& path, const std::string& out, Pro
   }
   if (Status finished = writer.finish(); !finished.ok()) return give_up(finished.error());
   report.kept_bytes = writer.size();
-  if (Status placed = place_file(beside, target.string()); !placed.ok())
+  if (Status placed = rename_and_sync(beside, target.string()); !placed.ok())
     return give_up(placed.error());
   return report;
 }

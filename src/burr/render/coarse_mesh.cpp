@@ -13,7 +13,7 @@ using Indices = std::vector<std::uint32_t>;
 constexpr std::size_t kStride = sizeof(SkinVertex);
 
 // Joins vertices that are equal to the bit.
-void weld(Joined& all) {
+void weld(JoinedMesh& all) {
   Indices to(all.vertices.size());
   const std::size_t different =
       meshopt_generateVertexRemap(to.data(), all.triangles.data(), all.triangles.size(),
@@ -32,7 +32,7 @@ struct Groups {
   Indices mixed;
 };
 
-Groups by_tissue(const Joined& mesh) {
+Groups by_tissue(const JoinedMesh& mesh) {
   Groups groups;
   for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
     const std::uint32_t a = mesh.triangles[t], b = mesh.triangles[t + 1], c = mesh.triangles[t + 2];
@@ -66,22 +66,22 @@ void drop_unused(CoarseMesh& mesh) {
 
 }  // namespace
 
-void Joined::add(const SkinMesh& patch) {
+void JoinedMesh::add(const SkinMesh& patch) {
   const auto base = static_cast<std::uint32_t>(vertices.size());
   vertices.insert(vertices.end(), patch.vertices().begin(), patch.vertices().end());
   for (std::size_t n = 0; n < patch.index_count(); ++n) triangles.push_back(base + patch.index(n));
 }
 
-void Joined::add(const CoarseMesh& block) {
+void JoinedMesh::add(const CoarseMesh& block) {
   if (block.levels.empty()) return;
   const auto base = static_cast<std::uint32_t>(vertices.size());
   vertices.insert(vertices.end(), block.vertices.begin(), block.vertices.end());
   for (const std::uint32_t index : block.levels.front().indices) triangles.push_back(base + index);
 }
 
-CoarseMesh coarser(Joined&& joined, std::span<const double> errors) {
+CoarseMesh coarser(JoinedMesh&& joined, std::span<const double> errors) {
   CoarseMesh out;
-  Joined all = std::move(joined);
+  JoinedMesh all = std::move(joined);
   if (all.triangles.empty()) return out;
   weld(all);
   const float* places = all.vertices.front().p.data();

@@ -1,6 +1,6 @@
 // render/coarse_mesh.h - joins several patches or blocks into one mesh with fewer triangles.
 //
-//     Joined all;
+//     JoinedMesh all;
 //     for (patch) all.add(patch);
 //     CoarseMesh mesh = coarser(std::move(all), errors);
 //
@@ -32,7 +32,7 @@ struct CoarseMesh {
 };
 
 // Several meshes, one after the other.
-struct Joined {
+struct JoinedMesh {
   std::vector<SkinVertex> vertices;
   std::vector<std::uint32_t> triangles;  // (n x 3)
 
@@ -41,6 +41,6 @@ struct Joined {
 };
 
 // Seams between the joined meshes are closed and are no longer part of the border.
-[[nodiscard]] CoarseMesh coarser(Joined&& all, std::span<const double> errors);
+[[nodiscard]] CoarseMesh coarser(JoinedMesh&& all, std::span<const double> errors);
 
 }  // namespace burr::render

@@ -59,7 +59,7 @@ struct Coarsening::Work {
   void lay_out(Scene& scene);
   void take_back(Scene& scene);
   [[nodiscard]] bool collect(const Scene& scene, const SceneBlock& block, Job& job) const;
-  [[nodiscard]] CoarseMesh made_of(Joined&& all, std::size_t size) const;
+  [[nodiscard]] CoarseMesh made_of(JoinedMesh&& all, std::size_t size) const;
   void run();
 };
 
@@ -133,7 +133,7 @@ bool Coarsening::Work::collect(const Scene& scene, const SceneBlock& block, Job&
   return true;
 }
 
-CoarseMesh Coarsening::Work::made_of(Joined&& all, std::size_t size) const {
+CoarseMesh Coarsening::Work::made_of(JoinedMesh&& all, std::size_t size) const {
   std::array<double, 2> errors = kErrors[size];
   const double before = size == 0 ? 0 : kErrors[size - 1][0];
   for (double& error : errors) error = (error - before) * voxel;
@@ -152,7 +152,7 @@ void Coarsening::Work::run() {
     Job job = std::move(jobs.front());
     jobs.pop_front();
     lock.unlock();
-    Joined all;
+    JoinedMesh all;
     for (const auto& patch : job.patches) all.add(*patch);
     for (const auto& block : job.blocks) all.add(*block);
     job.made = std::make_shared<const CoarseMesh>(made_of(std::move(all), job.size));

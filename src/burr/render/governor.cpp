@@ -27,12 +27,12 @@ Quality FrameGovernor::begin(const Camera& camera, double now) {
 
   const int moving = steps_[1].at, still = steps_[0].at;
   Quality quality;
-  quality.hollows = moving < 1;
+  quality.ambient_occlusion = moving < 1;
   quality.coarse_px = moving < 2 ? 0 : 3;
-  quality.hollows_later = still >= 1;
+  quality.ambient_occlusion_later = still >= 1;
   quality.coarse_still_px = still < 2 ? 0 : 1;
   quality.refine = !moving_;
-  quality.dress_s = still < 1 && moving < 1 ? 0.1 : still < 2 ? 0.5 : 2;
+  quality.stain_s = still < 1 && moving < 1 ? 0.1 : still < 2 ? 0.5 : 2;
   const int step = steps_[index()].at;
   quality.scale = step < 3 ? 1 : step < 4 ? 0.87 : 0.75;
   return quality;

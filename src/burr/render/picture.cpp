@@ -37,7 +37,7 @@ Status write_png(const Image& image, const std::filesystem::path& path) {
                              image.width * 3) == 0)
     return error(Trouble::internal, "a picture could not be encoded as PNG; please report it");
 
-  Result<base::NewFile> file = base::NewFile::beside(path.string());
+  Result<base::NewFile> file = base::NewFile::create(path.string());
   if (!file) return file.error();
   file->write(bytes);
   return file->put_in_place();

@@ -6,16 +6,16 @@ namespace burr::render {
 
 struct Quality {
   // for a picture that is drawn whole, as while the eye moves
-  bool hollows = true;   // false: no ambient occlusion
+  bool ambient_occlusion = true;  // false: no ambient occlusion
   double coarse_px = 0;  // largest error of a coarser surface, in pixels of the window; 0: full
                          // detail
 
   // where the bone changes in front of an eye at rest
-  bool hollows_later = false;  // keep the old ones there for now
+  bool ambient_occlusion_later = false;  // keep the old ones there for now
   double coarse_still_px = 0;
 
   // time between two updates of dust, water and blood on the bone (wound.h) [s]
-  double dress_s = 0.1;
+  double stain_s = 0.1;
 
   // draw, piece by piece, what was left out before
   bool refine = true;

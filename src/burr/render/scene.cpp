@@ -55,10 +55,10 @@ void set_patch(Scene& scene, int index, const surface::Patch& patch) {
   set_patch(scene, index, packed(patch));
 }
 
-void set_dress(Scene& scene, int index, std::shared_ptr<const std::vector<Dress>> dress) {
+void set_stains(Scene& scene, int index, std::shared_ptr<const std::vector<Stain>> stains) {
   ScenePatch& patch = scene.patches[static_cast<std::size_t>(index)];
-  if (patch.dress == dress) return;
-  patch.dress = std::move(dress);
+  if (patch.stains == stains) return;
+  patch.stains = std::move(stains);
   scene.changes.add(index);
 }
 

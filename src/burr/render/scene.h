@@ -29,21 +29,21 @@
 namespace burr::render {
 
 // What milling left on a vertex for a while (wound.h), of 255.
-struct Dress {
+struct Stain {
   std::uint8_t fresh = 0;  // cut just now: pale and grainy
   std::uint8_t wet = 0;    // dark and glossy
   std::uint8_t dust = 0;   // pale grains lie on it
   std::uint8_t blood = 0;
-  [[nodiscard]] bool operator==(const Dress&) const = default;
+  [[nodiscard]] bool operator==(const Stain&) const = default;
 };
-static_assert(sizeof(Dress) == 4, "goes to the GPU as it is");
+static_assert(sizeof(Stain) == 4, "goes to the GPU as it is");
 
 // One patch of surface. A renderer keeps its own copy and renews it when `version` differs.
 struct ScenePatch {
   std::shared_ptr<const SkinMesh> mesh;  // nullptr: no surface here
   std::uint64_t version = 0;
   // one for each vertex; nullptr: plain bone. Sent again when the pointer changes.
-  std::shared_ptr<const std::vector<Dress>> dress;
+  std::shared_ptr<const std::vector<Stain>> stains;
   math::Aabb box;  // around its vertices
 };
 
@@ -109,7 +109,7 @@ struct Inset {
 
 struct Scene {
   std::vector<ScenePatch> patches;     // index: number of the patch, as surface/mesher.h counts
-  Changes changes;                     // of the patches; kept by set_patch() and set_dress()
+  Changes changes;                     // of the patches; kept by set_patch() and set_stains()
   std::vector<SceneBlock> blocks;      // empty: nothing is drawn coarser
   std::vector<int> block_of;           // (patches) the smallest block of each; patches beyond its
                                        // end have none
@@ -140,8 +140,8 @@ void set_patch(Scene& scene, int index, const surface::Patch& patch);
 // The same in two steps; packed() may run on any thread.
 [[nodiscard]] ScenePatch packed(const surface::Patch& patch);
 void set_patch(Scene& scene, int index, ScenePatch&& patch);
-// Sets the dress of a patch that exists.
-void set_dress(Scene& scene, int index, std::shared_ptr<const std::vector<Dress>> dress);
+// Sets the stains of a patch that exists.
+void set_stains(Scene& scene, int index, std::shared_ptr<const std::vector<Stain>> stains);
 
 // Sum of the present versions of a block's patches. Versions only grow, so equal sums mean equal
 // patches.

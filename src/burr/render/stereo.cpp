@@ -15,14 +15,14 @@ std::uint8_t grey(const std::uint8_t* rgb) {
 
 }  // namespace
 
-Eyes eyes_of(const Camera& camera, double apart) {
+Eyes eyes_of(const Camera& camera, double eye_distance) {
   Eyes eyes = {camera, camera};
-  eyes.left.aside -= apart / 2;
-  eyes.right.aside += apart / 2;
+  eyes.left.aside -= eye_distance / 2;
+  eyes.right.aside += eye_distance / 2;
   return eyes;
 }
 
-Image joined(const Image& left, const Image& right, Stereo how) {
+Image join_eyes(const Image& left, const Image& right, Stereo how) {
   BURR_CHECK(left.width == right.width && left.height == right.height);
   Image out = left;
   const auto wide = static_cast<std::size_t>(left.width);

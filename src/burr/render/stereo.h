@@ -25,9 +25,9 @@ enum class Stereo : std::uint8_t {
 // Settings of a window for two eyes.
 struct TwoEyes {
   Stereo how = Stereo::off;
-  double apart = 0;      // distance of the eyes, see eyes_of() [m]
-  bool swapped = false;  // left and right exchanged, for screens that need it
-  int first_row = 0;     // row of the screen on which the window begins, for interleaved [pixel]
+  double eye_distance = 0;  // distance of the eyes, see eyes_of() [m]
+  bool swapped = false;     // left and right exchanged, for screens that need it
+  int first_row = 0;        // row of the screen on which the window begins, for interleaved [pixel]
 };
 
 // The cameras of two eyes that look at the target from this camera. A comfortable distance between
@@ -36,9 +36,9 @@ inline constexpr double kComfortable = 1.0 / 30;
 struct Eyes {
   Camera left, right;
 };
-[[nodiscard]] Eyes eyes_of(const Camera& camera, double apart);
+[[nodiscard]] Eyes eyes_of(const Camera& camera, double eye_distance);
 
 // Both pictures have the same size, and so has the result. off, quad_buffer: the left picture.
-[[nodiscard]] Image joined(const Image& left, const Image& right, Stereo how);
+[[nodiscard]] Image join_eyes(const Image& left, const Image& right, Stereo how);
 
 }  // namespace burr::render

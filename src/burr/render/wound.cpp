@@ -1,4 +1,4 @@
-// The grid, and how time and tool change it. For how it is shown see wound_dress.cpp.
+// The grid, and how time and tool change it. For how it is shown see wound_stain.cpp.
 #include "burr/render/wound.h"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ void Wound::forget() {
   up_.reset();
   airborne_ = flowed_ = 0;
   bleeds_ = false;
-  dressed_at_ = -1e9;
+  stained_at_ = -1e9;
 }
 
 std::size_t Wound::index(int i, int j, int k) const {
@@ -82,9 +82,9 @@ void Wound::centre(const Vec3& p) {
 }
 
 void Wound::dull(double seconds) {
-  const auto fresh = static_cast<float>(seconds / kDulls),
-             wet = static_cast<float>(seconds / kDries);
-  const float clears = left_after(seconds, kClears), clots = left_after(seconds, kClots);
+  const auto fresh = static_cast<float>(seconds / kDullTime),
+             wet = static_cast<float>(seconds / kDryTime);
+  const float clears = left_after(seconds, kClearTime), clots = left_after(seconds, kClotTime);
   Ijk low = high_, high = low_;
   for (int k = low_.z(); k < high_.z(); ++k)
     for (int j = low_.y(); j < high_.y(); ++j)
@@ -146,7 +146,7 @@ void Wound::see(const Tick& tick) {
 
 void Wound::cut(const Tick& tick, const Vec3& from, double removed) {
   if (!up_) up_ = tick.up.norm() > 0 ? tick.up.normalized().eval() : Vec3::UnitZ();
-  airborne_ += removed / kSolid;
+  airborne_ += removed / kSolidShare;
   each_near(from, tick.tip, tick.radius + (kFar - 1) * cell_, [&](Cell& cell, double d) {
     cell.off = std::min(cell.off, static_cast<float>((d - tick.radius) / cell_));
     // a cell and a bit more, so that everything between cell centres is fresh
@@ -165,11 +165,11 @@ void Wound::cover(const Tick& tick, const Vec3& from) {
 }
 
 void Wound::soak(const Tick& tick, const Vec3& from, double seconds) {
-  const auto soaks = static_cast<float>(seconds / kSoaks);
-  const float washed = left_after(seconds, kWashes);
-  each_near(from, tick.tip, tick.radius + kSpray, [&](Cell& cell, double d) {
+  const auto soaks = static_cast<float>(seconds / kSoakTime);
+  const float washed = left_after(seconds, kWashTime);
+  each_near(from, tick.tip, tick.radius + kSprayReach, [&](Cell& cell, double d) {
     // less at the edge of the spray
-    const double rim = (tick.radius + kSpray - d) / (0.4 * kSpray);
+    const double rim = (tick.radius + kSprayReach - d) / (0.4 * kSprayReach);
     const auto most = static_cast<float>(std::min(1.0, rim));
     State& look = cell.look;
     look.wet = std::max(look.wet, std::min(most, look.wet + soaks));
@@ -182,9 +182,10 @@ void Wound::soak(const Tick& tick, const Vec3& from, double seconds) {
 
 void Wound::suck(const Vec3& mouth, double radius, double seconds) {
   if (cells_.empty() || !mouth.allFinite() || !(seconds > 0)) return;
-  const float left = left_after(seconds, kSucks);
-  each_near(mouth, mouth, radius + kDraws, [&](Cell& cell, double d) {
-    const auto most = static_cast<float>(std::min(1.0, (radius + kDraws - d) / kDraws));
+  const float left = left_after(seconds, kSuctionTime);
+  each_near(mouth, mouth, radius + kSuctionReach, [&](Cell& cell, double d) {
+    const auto most =
+        static_cast<float>(std::min(1.0, (radius + kSuctionReach - d) / kSuctionReach));
     State& look = cell.look;
     for (float* goes : {&look.wet, &look.dust, &look.blood}) {
       *goes *= 1 - most * (1 - left);
@@ -195,15 +196,15 @@ void Wound::suck(const Vec3& mouth, double radius, double seconds) {
 
 // Dust is thickest under the tool and zero at the edge: a cone with the volume that settles.
 void Wound::settle(const Tick& tick, double seconds) {
-  const double down = airborne_ * (1 - std::exp(-seconds / kSettles));
+  const double down = airborne_ * (1 - std::exp(-seconds / kSettleTime));
   airborne_ = airborne_ - down < 1e-15 ? 0 : airborne_ - down;
   if (tick.irrigated || cells_.empty() || down <= 0) return;  // water carries it away
-  const double reach = tick.radius + kStrews,
+  const double reach = tick.radius + kDustReach,
                thickest = 3 * down / (std::numbers::pi * reach * reach);
   each_near(tick.tip, tick.tip, reach, [&](Cell& cell, double d) {
     if (cell.off < 1.2F && d < tick.radius + 1.2 * cell_) return;  // the burr sweeps where it is
     const double thick = thickest * (1 - d / reach);
-    const auto hidden = static_cast<float>(1 - std::exp(-thick / kCovers));
+    const auto hidden = static_cast<float>(1 - std::exp(-thick / kCoverThickness));
     cell.look.dust += (1 - cell.look.dust) * hidden;
   });
 }
@@ -228,7 +229,7 @@ void Wound::flow(double seconds) {
         Cell& cell = cells_[index(i, j, k)];
         if (cell.open > 0) {
           bleeds_ = true;
-          cell.look.blood += static_cast<float>(seconds / kFills) * cell.open;
+          cell.look.blood += static_cast<float>(seconds / kFillTime) * cell.open;
         }
         if (cell.look.blood > 1) running_.push_back(index(i, j, k));
       }

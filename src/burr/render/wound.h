@@ -3,17 +3,17 @@
 //
 //     Wound wound(voxel, bleeding_of(bone.tissues()));
 //     each frame:   wound.see({t, tip, up, radius, removed, added, irrigated});  // a tick
-//                   wound.dress(scene, patch);                       // new patches
+//                   wound.stain(scene, patch);                       // new patches
 //                   wound.renew(scene, now);                         // all patches, now and then
 //
 // A coarse grid around the tool, 64 x 64 x 64 cells; bone outside of it keeps its usual look.
-//   fresh   bone that was just cut; fades within kDulls
-//   wet     bone that coolant reaches; dries within kDries
-//   dust    bone that is cut dry goes into the air as dust and settles within kStrews of the tool
+//   fresh   bone that was just cut; fades within kDullTime
+//   wet     bone that coolant reaches; dries within kDryTime
+//   dust   bone that is cut dry goes into the air as dust and settles within kDustReach of the tool
 //           on faces that point up; coolant washes it away; the burr sweeps its own cut clean
 //   blood   comes where a bleeding tissue was opened, runs from cell to cell along the surface,
 //           downwards rather than up, and dries; coolant washes it away and it comes again, less
-//           and less (kClots). Wax or cement on it stops it
+//           and less (kClotTime). Wax or cement on it stops it
 // These are for the eye, not for measurement: the rates are choices, and nothing in the bone is
 // changed. Where blood runs depends on the patches it is shown on; all else is the same for the
 // same ticks. Going back in time clears everything.
@@ -34,24 +34,24 @@ namespace burr::render {
 
 class Wound {
  public:
-  static constexpr double kDulls = 20, kDries = 40;  // until it is gone completely [s]
-  static constexpr double kSoaks = 0.25;             // until wet under the coolant [s]
-  static constexpr double kSpray = 5e-3;             // reach of the coolant from the head's surface
-                                                     // [m]
-  static constexpr double kSolid = 0.4;              // solid share of dust at rest: the rest is air
-  static constexpr double kSettles = 0.5;            // until 1/e of it is still in the air [s]
-  static constexpr double kStrews = 6e-3;            // reach of the dust from the head's surface
-                                                     // [m]
-  static constexpr double kCovers = 0.05e-3;         // thickness that hides all but 1/e of the bone
-                                                     // [m]
-  static constexpr double kWashes = 0.3;             // until 1/e is left under coolant [s]
-  static constexpr double kDraws = 3e-3;             // reach of suction from the tube's mouth,
-                                                     // beyond its radius [m]
-  static constexpr double kSucks = 0.15;             // until 1/e is left at the mouth [s]
-  static constexpr double kFills = 0.4;              // time to fill a cell that contains an open
-                                                     // vessel [s]
-  static constexpr double kClots = 60;               // until the flow is 1/e [s]
-  static constexpr double kClears = 90;              // until 1/e of the blood is left [s]
+  static constexpr double kDullTime = 20, kDryTime = 40;  // until it is gone completely [s]
+  static constexpr double kSoakTime = 0.25;               // until wet under the coolant [s]
+  static constexpr double kSprayReach = 5e-3;  // reach of the coolant from the head's surface
+                                               // [m]
+  static constexpr double kSolidShare = 0.4;   // solid share of dust at rest: the rest is air
+  static constexpr double kSettleTime = 0.5;   // until 1/e of it is still in the air [s]
+  static constexpr double kDustReach = 6e-3;   // reach of the dust from the head's surface
+                                               // [m]
+  // thickness that hides all but 1/e of the bone [m]
+  static constexpr double kCoverThickness = 0.05e-3;
+  static constexpr double kWashTime = 0.3;       // until 1/e is left under coolant [s]
+  static constexpr double kSuctionReach = 3e-3;  // reach of suction from the tube's mouth,
+                                                 // beyond its radius [m]
+  static constexpr double kSuctionTime = 0.15;   // until 1/e is left at the mouth [s]
+  static constexpr double kFillTime = 0.4;       // time to fill a cell that contains an open
+                                                 // vessel [s]
+  static constexpr double kClotTime = 60;        // until the flow is 1/e [s]
+  static constexpr double kClearTime = 90;       // until 1/e of the blood is left [s]
 
   explicit Wound(double voxel, std::vector<float> bleeding = {});
 
@@ -80,14 +80,14 @@ class Wound {
   [[nodiscard]] double in_the_air() const { return airborne_; }  // dust that has not settled [m^3]
 
   // Gives a patch its present look; opened tissue that it shows bleeds from now on.
-  void dress(Scene& scene, int patch);
-  // All patches, at most every scene.quality.dress_s; now: any clock [s].
+  void stain(Scene& scene, int patch);
+  // All patches, at most every scene.quality.stain_s; now: any clock [s].
   void renew(Scene& scene, double now);
   // All patches at once.
-  void dress(Scene& scene);
-  // All patches for a still picture. No patch was dressed while blood ran, so it first lets blood
+  void stain(Scene& scene);
+  // All patches for a still picture. No patch was stained while blood ran, so it first lets blood
   // run for a few seconds.
-  void dress_still(Scene& scene);
+  void stain_still(Scene& scene);
 
  private:
   struct Cell {
@@ -128,7 +128,7 @@ class Wound {
   bool bleeds_ = false;               // some cell is open
   double flowed_ = 0;                 // time for which blood must still be moved [s]
   std::vector<std::size_t> running_;  // cells, for flow()
-  double dressed_at_ = -1e9;
+  double stained_at_ = -1e9;
 };
 
 }  // namespace burr::render

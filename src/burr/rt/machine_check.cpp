@@ -28,8 +28,9 @@ constexpr const char* kHow = "docs/realtime.md, \"Allowing real time\", shows ho
 
 CheckLine processor_line(const Machine& machine) {
   CheckLine line{"processor", machine.processor.empty() ? "unknown" : machine.processor, ""};
-  line.is += ", " + number(machine.cores) + (machine.cores == 1 ? " core" : " cores") + " for burr";
-  if (machine.core_quota > 0) line.is += ", limited to " + number(machine.core_quota, "%.2g");
+  line.value +=
+      ", " + number(machine.cores) + (machine.cores == 1 ? " core" : " cores") + " for burr";
+  if (machine.core_quota > 0) line.value += ", limited to " + number(machine.core_quota, "%.2g");
   if (machine.cores < 2)
     line.change = "the haptic loop and the picture share one core; give burr two cores or more";
   else if (machine.core_quota > 0 && machine.core_quota < 2)
@@ -48,7 +49,7 @@ CheckLine simd_line(const Machine& machine) {
   return line;
 }
 
-CheckLine priority_line(const MachineSeen& seen) {
+CheckLine priority_line(const MachineMeasurements& seen) {
   CheckLine line{"priority", "SCHED_FIFO: the tick runs before all ordinary programs", ""};
   if (seen.grant.fifo) {
     const Machine& m = seen.machine;
@@ -58,7 +59,7 @@ CheckLine priority_line(const MachineSeen& seen) {
                   number(m.fifo_period_us), " us; raise kernel.sched_rt_runtime_us with sysctl"});
     return line;
   }
-  line.is = "ordinary: any busy program may delay the tick";
+  line.value = "ordinary: any busy program may delay the tick";
   line.change = seen.machine.fifo_limit > 0
                     ? joined({"SCHED_FIFO is allowed up to ", number(seen.machine.fifo_limit),
                               " but 80 is needed; ", kHow})
@@ -66,19 +67,19 @@ CheckLine priority_line(const MachineSeen& seen) {
   return line;
 }
 
-CheckLine memory_line(const MachineSeen& seen) {
+CheckLine memory_line(const MachineMeasurements& seen) {
   CheckLine line{"memory", "locked: pages stay in memory once used", ""};
   if (seen.grant.locked) return line;
-  line.is = "not locked";
+  line.value = "not locked";
   if (seen.machine.locked_bytes != kNoLimit)
-    line.is += joined({": the limit is ", number(seen.machine.locked_bytes / 1024), " KiB"});
+    line.value += joined({": the limit is ", number(seen.machine.locked_bytes / 1024), " KiB"});
   line.change = joined({"allow memlock unlimited for your user; ", kHow});
   return line;
 }
 
 CheckLine kernel_line(const Machine& machine) {
   CheckLine line{"kernel", machine.kernel.empty() ? "unknown" : machine.kernel, ""};
-  if (!machine.preemption.empty()) line.is += ", " + machine.preemption;
+  if (!machine.preemption.empty()) line.value += ", " + machine.preemption;
   if (!machine.preempt_rt())
     line.change =
         "for a real device use a kernel with PREEMPT_RT (apt install linux-image-rt-amd64), which "
@@ -113,7 +114,8 @@ CheckLine virtual_line(const Machine& machine) {
 }
 
 // Adds the reasons why these ticks do not meet the bars.
-void hold_against(const CheckBars& bars, const TickSummary& ticks, std::vector<std::string>& why) {
+void compare_with(const CheckLimits& bars, const TickSummary& ticks,
+                  std::vector<std::string>& why) {
   if (ticks.p999_us > bars.work_us)
     why.push_back("one tick in a thousand takes " + number(ticks.p999_us, "%.0f") +
                   " us or longer (" + number(bars.work_us, "%.0f") + " allowed)");
@@ -129,7 +131,7 @@ void hold_against(const CheckBars& bars, const TickSummary& ticks, std::vector<s
 }
 
 // Adds the reasons that concern only a real device.
-void hold_against(const MachineSeen& seen, std::vector<std::string>& why) {
+void compare_with(const MachineMeasurements& seen, std::vector<std::string>& why) {
   if (!seen.grant.fifo) why.emplace_back("the tick has ordinary priority");
   if (!seen.grant.locked) why.emplace_back("memory is not locked");
   if (seen.machine.cores < 2) why.emplace_back("there is only one core");
@@ -153,8 +155,8 @@ const char* name(Verdict verdict) noexcept {
   return "not good enough";
 }
 
-MachineJudged judge(const MachineSeen& seen) {
-  MachineJudged judged;
+MachineReport judge(const MachineMeasurements& seen) {
+  MachineReport judged;
   judged.lines = {processor_line(seen.machine), simd_line(seen.machine),
                   priority_line(seen),          memory_line(seen),
                   kernel_line(seen.machine),    governor_line(seen.machine),
@@ -162,13 +164,13 @@ MachineJudged judge(const MachineSeen& seen) {
 
   const TickSummary& ticks = seen.milling_loaded;
   std::vector<std::string> hard;
-  hold_against(kUsable, ticks, hard);
+  compare_with(kUsable, ticks, hard);
   if (!hard.empty()) {
     judged.reasons = hard;
     judged.verdict = Verdict::not_enough;
   } else {
-    hold_against(kGood, ticks, judged.reasons);
-    hold_against(seen, judged.reasons);
+    compare_with(kGood, ticks, judged.reasons);
+    compare_with(seen, judged.reasons);
     judged.verdict = judged.reasons.empty() ? Verdict::good : Verdict::usable;
   }
 
@@ -180,7 +182,7 @@ MachineJudged judge(const MachineSeen& seen) {
   for (std::size_t i = 0; i < judged.reasons.size(); ++i)
     judged.sentence += (i == 0 ? ": " : "; ") + judged.reasons[i];
   // whose fault the lateness is
-  const CheckBars& bars = hard.empty() ? kGood : kUsable;
+  const CheckLimits& bars = hard.empty() ? kGood : kUsable;
   if (ticks.late_p999_us > bars.late_us || ticks.worst_lateness_us > bars.worst_us)
     judged.sentence +=
         seen.waiting_loaded.late_p999_us > bars.late_us ||

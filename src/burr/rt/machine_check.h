@@ -16,7 +16,7 @@ namespace burr::rt {
 
 // Measured at 1000 ticks a second: a loop that only waits, and the real tick while milling, each
 // alone and under full load (`_loaded`).
-struct MachineSeen {
+struct MachineMeasurements {
   Machine machine;
   ThreadGrant grant;  // what the servo's thread was granted
   TickSummary waiting, milling, waiting_loaded, milling_loaded;
@@ -29,28 +29,29 @@ enum class Verdict {
 };
 
 // Limits for the measurements under full load. Lateness: how long after its due time a tick began.
-struct CheckBars {
+struct CheckLimits {
   double work_us = 500;     // p99.9: half of a tick's millisecond
   double late_us = 100;     // p99.9: a tenth of it; the hand does not feel that
   double worst_us = 1000;   // longest lateness: no tick is left out
   double missed_share = 0;  // missed ticks, as a share of all
 };
-inline constexpr CheckBars kGood = {};
-inline constexpr CheckBars kUsable = {900, 1000, 5000, 1e-3};  // 5 ms: watchdog releases the force
+inline constexpr CheckLimits kGood = {};
+// 5 ms: watchdog releases the force
+inline constexpr CheckLimits kUsable = {900, 1000, 5000, 1e-3};
 
 // One line of the report: what was looked at, its value, and what to change (empty: nothing).
 struct CheckLine {
-  std::string what, is, change;
+  std::string what, value, change;
 };
 
-struct MachineJudged {
+struct MachineReport {
   Verdict verdict = Verdict::not_enough;
   std::string sentence;              // the verdict, with its reasons
   std::vector<std::string> reasons;  // why it is not better; empty if good
   std::vector<CheckLine> lines;
 };
 
-[[nodiscard]] MachineJudged judge(const MachineSeen& seen);
+[[nodiscard]] MachineReport judge(const MachineMeasurements& seen);
 
 // "good", "usable" or "not good enough".
 [[nodiscard]] const char* name(Verdict verdict) noexcept;

@@ -133,7 +133,7 @@ void on_threads(int count, const std::function<void(int)>& work) {
   for (std::thread& other : others) other.join();
 }
 
-Ordinary::Ordinary() {
+NormalPriority::NormalPriority() {
   int policy = SCHED_OTHER;
   sched_param param = {};
   if (pthread_getschedparam(pthread_self(), &policy, &param) != 0 || policy != SCHED_FIFO) return;
@@ -142,14 +142,14 @@ Ordinary::Ordinary() {
     priority_ = param.sched_priority;
 }
 
-Ordinary::~Ordinary() {
+NormalPriority::~NormalPriority() {
   if (priority_ == 0) return;
   sched_param param = {};
   param.sched_priority = priority_;
   static_cast<void>(pthread_setschedparam(pthread_self(), SCHED_FIFO, &param));
 }
 
-bool goes_first() {
+bool has_realtime_priority() {
   int policy = SCHED_OTHER;
   sched_param param = {};
   return pthread_getschedparam(pthread_self(), &policy, &param) == 0 && policy == SCHED_FIFO;

@@ -53,18 +53,18 @@ void on_threads(int count, const std::function<void(int)>& work);
 
 // The calling thread, and those it begins, run as ordinary ones while this lives; then it goes
 // first again if it did.
-class Ordinary {
+class NormalPriority {
  public:
-  Ordinary();
-  ~Ordinary();
-  Ordinary(const Ordinary&) = delete;
-  Ordinary& operator=(const Ordinary&) = delete;
+  NormalPriority();
+  ~NormalPriority();
+  NormalPriority(const NormalPriority&) = delete;
+  NormalPriority& operator=(const NormalPriority&) = delete;
 
  private:
-  [[maybe_unused]] int priority_ = 0;  // of SCHED_FIFO before; 0: it was ordinary
+  [[maybe_unused]] int priority_ = 0;  // of SCHED_FIFO before; 0: it was normal
 };
 
 // True if the calling thread runs under SCHED_FIFO.
-[[nodiscard]] bool goes_first();
+[[nodiscard]] bool has_realtime_priority();
 
 }  // namespace burr::rt

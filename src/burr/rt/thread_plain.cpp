@@ -34,10 +34,10 @@ void on_threads(int count, const std::function<void(int)>& work) {
   for (std::thread& other : others) other.join();
 }
 
-Ordinary::Ordinary() = default;
-Ordinary::~Ordinary() {  // there is nothing to give back
+NormalPriority::NormalPriority() = default;
+NormalPriority::~NormalPriority() {  // there is nothing to give back
 }
 
-bool goes_first() { return false; }
+bool has_realtime_priority() { return false; }
 
 }  // namespace burr::rt

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/base/text_file.h"
 #include "burr/scenario/built_in.h"
 
@@ -84,7 +84,7 @@ class Reader {
       }
       list += (list.empty() ? "" : ", ") + std::string(name);
     }
-    fail(key, fmt::format("\"{}\" is not known; use one of {}", base::shown(word), list));
+    fail(key, fmt::format("\"{}\" is not known; use one of {}", base::printable(word), list));
   }
 
   // reads the table [key], if it is there
@@ -118,7 +118,7 @@ class Reader {
 
   void fail(std::string_view key, const std::string& what) {
     if (!wrong_)
-      wrong_ = burr::error(fmt::format("{}: {}{}: {}", file_, place_, base::shown(key), what));
+      wrong_ = burr::error(fmt::format("{}: {}{}: {}", file_, place_, base::printable(key), what));
   }
 
  private:
@@ -284,20 +284,21 @@ const char* word_of(Goal goal) {
 }
 
 std::string task_text(const Case& work) {
-  std::string text = base::shown(work.title) + "\n";
-  // line by line: base::shown() keeps a text of the file from moving the cursor
+  std::string text = base::printable(work.title) + "\n";
+  // line by line: base::printable() keeps a text of the file from moving the cursor
   for (std::string_view rest = work.description; !rest.empty();) {
     const std::size_t end = rest.find('\n');
-    text += base::shown(std::string(rest.substr(0, end)), 400) + "\n";
+    text += base::printable(std::string(rest.substr(0, end)), 400) + "\n";
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
   }
   for (const Target& target : work.targets)
-    text += target.goal == Goal::remove && target.share < 1
-                ? fmt::format("to do: remove {:.0f} % of {}\n", 100 * target.share,
-                              base::shown(target.tissue))
-                : fmt::format("to do: {} {}\n", word_of(target.goal), base::shown(target.tissue));
+    text +=
+        target.goal == Goal::remove && target.share < 1
+            ? fmt::format("to do: remove {:.0f} % of {}\n", 100 * target.share,
+                          base::printable(target.tissue))
+            : fmt::format("to do: {} {}\n", word_of(target.goal), base::printable(target.tissue));
   if (!work.spare.empty())
-    text += fmt::format("do not cut: {}\n", base::shown(list_of(work.spare), 400));
+    text += fmt::format("do not cut: {}\n", base::printable(list_of(work.spare), 400));
   return text;
 }
 
@@ -312,7 +313,7 @@ Status check_tissues(const Case& work, const volume::TissueTable& tissues) {
   };
   const auto problem = [&](const char* field, const std::string& name) {
     return error(fmt::format("{}.toml: {}: the bone has no tissue \"{}\"; it has {}", work.name,
-                             field, base::shown(name), list_of(names)));
+                             field, base::printable(name), list_of(names)));
   };
   for (const std::string& name : work.spare)
     if (missing(name)) return problem("spare", name);

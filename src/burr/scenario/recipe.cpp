@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 
 namespace burr::scenario {
 namespace {
@@ -185,7 +185,7 @@ Result<Region> parse_region(std::string_view text) {
   if (!numbers(text, box) || box.size() != 6)
     return error(Trouble::usage,
                  fmt::format("--roi: \"{}\" is not six whole numbers, as in 10,200,0,99,5,80",
-                             base::shown(text)));
+                             base::printable(text)));
   std::array<int, 6> voxel{};
   for (std::size_t n = 0; n < 6; ++n) {
     if (!(box[n] >= 0 && box[n] < kMostVoxels))
@@ -198,7 +198,8 @@ Result<Region> parse_region(std::string_view text) {
 Result<double> parse_level(std::string_view text) {
   std::vector<double> level;
   if (!numbers(text, level) || level.size() != 1)
-    return error(Trouble::usage, fmt::format("--iso: \"{}\" is not a number", base::shown(text)));
+    return error(Trouble::usage,
+                 fmt::format("--iso: \"{}\" is not a number", base::printable(text)));
   return level[0];
 }
 
@@ -209,7 +210,7 @@ Result<math::Vec3> parse_spacing(std::string_view text) {
   if (!good)
     return error(Trouble::usage,
                  fmt::format("--spacing-mm: \"{}\" is not three numbers above 0, as in 0.3,0.3,0.6",
-                             base::shown(text)));
+                             base::printable(text)));
   return math::Vec3(mm[0], mm[1], mm[2]);
 }
 

@@ -42,10 +42,12 @@ class LentHand final : public device::Device {
     felt_.at.push_back(at_);
     felt_.force.push_back(force);
   }
-  void hold(double scale) BURR_RT override { hand_.hold(scale); }
+  void scale_force(double scale) BURR_RT override { hand_.scale_force(scale); }
   [[nodiscard]] rt::TickClock* clock(double rate_hz) override { return hand_.clock(rate_hz); }
   [[nodiscard]] std::int64_t arrived_ns() const BURR_RT override { return hand_.arrived_ns(); }
-  [[nodiscard]] bool account(device::LinkAccount& newest) override { return hand_.account(newest); }
+  [[nodiscard]] bool take_stats(device::LinkStats& newest) override {
+    return hand_.take_stats(newest);
+  }
   [[nodiscard]] std::string trouble() const override { return hand_.trouble(); }
   [[nodiscard]] bool finished() const BURR_RT override { return hand_.finished(); }
 
@@ -56,7 +58,7 @@ class LentHand final : public device::Device {
   Vec3 at_ = Vec3::Zero();
 };
 
-tick::ServoSettings servo_of(const WallSettings& wall, const Shown& shown) {
+tick::ServoSettings servo_of(const WallSettings& wall, const WallProperties& shown) {
   tick::ServoSettings servo;
   servo.rate_hz = wall.rate_hz;
   servo.burr.radius = wall.burr_radius;
@@ -79,8 +81,8 @@ tick::ServoSettings servo_of(const WallSettings& wall, const Shown& shown) {
 Wall::Wall(Bone bone, const WallSettings& settings) : make_(std::move(bone)), settings_(settings) {}
 Wall::~Wall() = default;
 
-Shown Wall::of(people::Stimulus stimulus, double value) const {
-  Shown shown;
+WallProperties Wall::of(people::Stimulus stimulus, double value) const {
+  WallProperties shown;
   shown.stiffness = settings_.other_stiffness;
   if (stimulus == people::Stimulus::stiffness) shown.stiffness = value;
   if (stimulus == people::Stimulus::friction) shown.friction = value;
@@ -88,7 +90,7 @@ Shown Wall::of(people::Stimulus stimulus, double value) const {
   return shown;
 }
 
-Status Wall::possible(const device::DeviceSpec& spec, const Shown& shown) const {
+Status Wall::check_device(const device::DeviceSpec& spec, const WallProperties& shown) const {
   if (shown.stiffness > spec.max_stiffness)
     return error(
         Trouble::usage,
@@ -110,9 +112,9 @@ Status Wall::possible(const device::DeviceSpec& spec, const Shown& shown) const 
   return fine();
 }
 
-Result<people::Felt> Wall::show(device::Device& hand, const Shown& shown, double seconds,
+Result<people::Felt> Wall::show(device::Device& hand, const WallProperties& shown, double seconds,
                                 const std::function<bool()>& enough) {
-  if (Status can = possible(hand.spec(), shown); !can) return can.error();
+  if (Status can = check_device(hand.spec(), shown); !can) return can.error();
   const auto ticks = static_cast<std::size_t>(
       std::ceil(std::min<double>(seconds, kMostSeconds) * settings_.rate_hz));
   people::Felt felt;

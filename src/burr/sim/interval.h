@@ -25,7 +25,7 @@
 namespace burr::sim {
 
 // The properties of the wall.
-struct Shown {
+struct WallProperties {
   double stiffness = 500;  // [N/m]
   double friction = 0;     // coefficient, static and dynamic alike [-]
   double vibration = 0;    // root mean square [N]
@@ -49,15 +49,16 @@ class Wall {
   ~Wall();
 
   // The wall that shows an experiment's value.
-  [[nodiscard]] Shown of(people::Stimulus stimulus, double value) const;
+  [[nodiscard]] WallProperties of(people::Stimulus stimulus, double value) const;
 
   // Checks that this device can show it. The error says what it can show.
-  [[nodiscard]] Status possible(const device::DeviceSpec& spec, const Shown& shown) const;
+  [[nodiscard]] Status check_device(const device::DeviceSpec& spec,
+                                    const WallProperties& shown) const;
 
   // The hand, already open, feels the wall for `seconds`, or until enough() is true. Returns what
   // it felt. Error: the device cannot show it, or the session could not be made.
-  [[nodiscard]] Result<people::Felt> show(device::Device& hand, const Shown& shown, double seconds,
-                                          const std::function<bool()>& enough);
+  [[nodiscard]] Result<people::Felt> show(device::Device& hand, const WallProperties& shown,
+                                          double seconds, const std::function<bool()>& enough);
 
   [[nodiscard]] const WallSettings& settings() const { return settings_; }
 

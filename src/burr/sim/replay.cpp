@@ -45,7 +45,7 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
   record::Step step;
   tick::BrickRow brick;
   bool has_brick = bricks.next(brick);
-  while (!outcome.parted_at && steps.next(step)) {
+  while (!outcome.first_different_tick && steps.next(step)) {
     if (step.gap || step.row.tick != outcome.ticks) {
       ++outcome.gaps;
       outcome.difference = fmt::format(
@@ -60,10 +60,10 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
     ++outcome.ticks;
     const bool same_tool = !player.tool_is_recorded() || row.tool == step.row.tool;
     if (row.hash != step.row.hash || !same_tool) {
-      outcome.parted_at = row.tick;
+      outcome.first_different_tick = row.tick;
       outcome.difference = same_tool ? difference(step.row, row) : "another tool";
     }
-    for (; has_brick && !outcome.parted_at && brick.tick <= row.tick;
+    for (; has_brick && !outcome.first_different_tick && brick.tick <= row.tick;
          has_brick = bricks.next(brick)) {
       if (brick.tick != row.tick) continue;
       if (brick.brick < 0 || brick.brick >= bone->brick_count())
@@ -74,7 +74,7 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
       const volume::Field* field = bone->brick_field(brick.brick);
       ++outcome.bricks;
       if (field == nullptr || std::memcmp(field, &brick.field, sizeof brick.field) != 0) {
-        outcome.parted_at = row.tick;
+        outcome.first_different_tick = row.tick;
         outcome.difference = fmt::format("brick {} holds other values", brick.brick);
       }
     }

@@ -21,9 +21,9 @@ struct ReplayOutcome {
   std::uint64_t bricks = 0;  // compared whole
   std::uint64_t gaps = 0;    // places where recorded ticks are missing; the comparison ends at the
                              // first
-  std::optional<std::uint64_t> parted_at;  // first tick with a different result
-  std::string difference;                  // in words
-  std::unique_ptr<volume::Bone> bone;      // at the end
+  std::optional<std::uint64_t> first_different_tick;  // first tick with a different result
+  std::string difference;                             // in words
+  std::unique_ptr<volume::Bone> bone;                 // at the end
 };
 
 // bone: as at the start of the session. Error: the recording's settings cannot be understood, or

@@ -84,13 +84,13 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
   return session;
 }
 
-Status Session::join(std::unique_ptr<device::Device> device,
-                     const tick::SecondHandSettings& settings) {
+Status Session::add_second_hand(std::unique_ptr<device::Device> device,
+                                const tick::SecondHandSettings& settings) {
   BURR_CHECK(second_ == nullptr && !running());
   const Status opened = device->open();
   if (!opened) return opened;
   second_device_ = std::move(device);
-  second_device_->follow();
+  second_device_->stop_pacing();
   second_ = std::make_unique<tick::SecondHand>(*surface_, *second_device_, settings,
                                                settings_.servo.rate_hz);
   return fine();
@@ -98,9 +98,9 @@ Status Session::join(std::unique_ptr<device::Device> device,
 
 void Session::set_recorder(record::Recorder* recorder) {
   recorder_ = recorder;
-  tick::Diary diary;
-  if (recorder != nullptr) diary = {&recorder->ticks(), &recorder->commands(), &recorder->bricks()};
-  servo_->set_diary(diary);
+  tick::RecorderRings rings;
+  if (recorder != nullptr) rings = {&recorder->ticks(), &recorder->commands(), &recorder->bricks()};
+  servo_->set_recorder_rings(rings);
 }
 
 void Session::loop(std::uint64_t ticks) {
@@ -112,7 +112,7 @@ void Session::loop(std::uint64_t ticks) {
                                               : simulated;
   if (settings_.realtime) watchdog_->rearm(rt::monotonic_ns());
   tick::ShedSettings shed = settings_.shed;
-  shed.first_in_line = shed.first_in_line || rt::goes_first();
+  shed.has_realtime_priority = shed.has_realtime_priority || rt::has_realtime_priority();
   tick::ShedGovernor governor(clock.period_ns(), shed);
   math::Vec3 last_force = math::Vec3::Zero(), last_torque = math::Vec3::Zero();
 
@@ -182,19 +182,19 @@ void Session::guard() {
   while (running_.load(std::memory_order_acquire)) {
     const double scale = watchdog_->poll(rt::monotonic_ns());
     if (scale < 1) {
-      device_->hold(scale);
-      if (second_) second_device_->hold(scale);
+      device_->scale_force(scale);
+      if (second_) second_device_->scale_force(scale);
     }
     std::this_thread::sleep_for(std::chrono::nanoseconds(kGuardNs));
   }
 }
 
 // Reserves the memory that cutting will need before the servo needs it.
-void Session::take_ahead() {
+void Session::commit_ahead() {
   while (running_.load(std::memory_order_acquire)) {
-    bone_->take_ahead();
-    surface_->take_ahead();
-    servo_->take_ahead();
+    bone_->commit_ahead();
+    surface_->commit_ahead();
+    servo_->commit_ahead();
     std::this_thread::sleep_for(kAheadPause);
   }
 }
@@ -210,7 +210,7 @@ void Session::begin(std::uint64_t ticks) {
     guard_ = std::make_unique<rt::Thread>(
         rt::ThreadRequest{.name = "guard", .realtime = true, .priority = 85}, [this] { guard(); });
   ahead_ = std::make_unique<rt::Thread>(rt::ThreadRequest{.name = "ahead", .stack_bytes = 0},
-                                        [this] { take_ahead(); });
+                                        [this] { commit_ahead(); });
 }
 
 void Session::run(double seconds, Progress& progress) {

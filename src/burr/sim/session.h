@@ -79,8 +79,8 @@ class Session {
 
   // Adds a device for the other hand, which feels the bone and never changes it; nothing of it is
   // recorded. Opens the device. Call it once, before run() or start(). Error: as its open() says.
-  [[nodiscard]] Status join(std::unique_ptr<device::Device> device,
-                            const tick::SecondHandSettings& settings);
+  [[nodiscard]] Status add_second_hand(std::unique_ptr<device::Device> device,
+                                       const tick::SecondHandSettings& settings);
   // nullptr: there is none. Its view() and faults() are doors.
   [[nodiscard]] tick::SecondHand* second_hand() { return second_.get(); }
 
@@ -136,7 +136,7 @@ class Session {
   void begin(std::uint64_t ticks);
   void loop(std::uint64_t ticks);
   void guard();
-  void take_ahead();
+  void commit_ahead();
 
   std::unique_ptr<volume::Bone> bone_;
   std::unique_ptr<device::Device> device_, second_device_;

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 
 namespace burr::sim {
 namespace {
@@ -52,10 +52,10 @@ const Entry kEntries[] = {
     BURR_ENTRY("ramp_time_s", settings.servo.limit.ramp_time, 0, 1e6),
     BURR_ENTRY("small_force_n", settings.servo.limit.small_force, 0, 1e3),
     BURR_ENTRY("fade_time_s", settings.servo.limit.fade_time, 0, 1e6),
-    BURR_ENTRY("longest_leap_m", settings.servo.limit.longest_leap, 0, 1e3),
+    BURR_ENTRY("longest_leap_m", settings.servo.limit.largest_jump, 0, 1e3),
     BURR_ENTRY("removal_law", settings.servo.removal.law, 0, edit::kLaws - 1),
     BURR_ENTRY("thesis_rate_per_s", settings.servo.removal.thesis_rate, 0, 1e6),
-    BURR_ENTRY("thesis_frame_ticks", settings.servo.removal.thesis_frame, 1, 1e6),
+    BURR_ENTRY("thesis_frame_ticks", settings.servo.removal.thesis_frame_ticks, 1, 1e6),
     BURR_ENTRY("max_power_w", settings.servo.removal.max_power, 0, 1e6),
     BURR_ENTRY("pole_share", settings.servo.removal.pole, 0, 1),
     BURR_ENTRY("carve_advance_m", settings.servo.carve.advance_m, 0, 1e-2),
@@ -65,7 +65,7 @@ const Entry kEntries[] = {
     BURR_ENTRY("carve_margin_most_voxel", settings.servo.carve.margin_most, 0, 4),
     BURR_ENTRY("carve_margin_rise_voxel_per_s", settings.servo.carve.margin_rise, 0, 1e6),
     BURR_ENTRY("carve_margin_fall_voxel_per_s", settings.servo.carve.margin_fall, 0, 1e6),
-    BURR_ENTRY("carve_patience_s", settings.servo.carve.patience, 0, 1e6),
+    BURR_ENTRY("carve_patience_s", settings.servo.carve.debt_timeout, 0, 1e6),
     BURR_ENTRY("deposit_share", settings.servo.carve.deposit_share, 0, 1),
     BURR_ENTRY("deposit_gap_voxel", settings.servo.carve.deposit_gap, 0, 64),
     BURR_ENTRY("tool_mode", settings.servo.mode, 0, tick::kToolModes - 1),
@@ -112,7 +112,7 @@ Result<Recorded> settings_of(const record::SessionInfo& info, const std::string&
       return error(
           fmt::format("{}: the setting {} is missing in this recording; it was recorded by another "
                       "version of burr ({})",
-                      where, entry.name, base::shown(info.burr_version)));
+                      where, entry.name, base::printable(info.burr_version)));
     if (!(found->second >= entry.least && found->second <= entry.most))
       return error(
           fmt::format("{}: the session's setting {} is {}, which is out of range ({:g} to {:g}); "

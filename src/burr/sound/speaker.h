@@ -2,7 +2,7 @@
 //
 //     auto speaker = Speaker::open();
 //     if (!speaker) ...                 // no sound on this computer; everything else works
-//     (*speaker)->voice().hear(now);    // about sixty times a second
+//     (*speaker)->voice().update(now);  // about sixty times a second
 //
 // Environment: SDL_AUDIODRIVER chooses SDL's driver; "dummy" plays nothing, "disk" writes to the
 // file SDL_DISKAUDIOFILE, raw 32-bit floats at `rate_hz`.

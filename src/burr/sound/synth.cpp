@@ -101,7 +101,7 @@ void Synth::loudness(double wanted) BURR_RT { loudness_.request = held(wanted, 0
 
 // ---- what is heard now, as requests
 
-void Synth::hear(const Heard& now) BURR_RT {
+void Synth::update(const SoundState& now) BURR_RT {
   // a knock starts from the level of the previous one: no step, and never louder than one knock
   if (now.touching && untouched_ >= kUntouched) {
     rise_ += 1 - ring_;
@@ -112,7 +112,7 @@ void Synth::hear(const Heard& now) BURR_RT {
   request(now);
 }
 
-void Synth::request(const Heard& now) BURR_RT {
+void Synth::request(const SoundState& now) BURR_RT {
   turns_hz_.request = std::abs(held(now.spindle_rad_s, -kFastest, kFastest, 0)) / (2 * kPi);
   const double torque = held(std::abs(now.cutting_nm), 0, 10, 0);
   loaded_.request = torque / (torque + settings_.half_torque);

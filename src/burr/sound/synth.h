@@ -1,4 +1,4 @@
-// sound/synth.h - synthesizes the sound of the drill: turns a Heard into samples.
+// sound/synth.h - synthesizes the sound of the drill: turns a SoundState into samples.
 //
 //     spindle   lines at f_r = |w| / 2 pi and its multiples, and at z f_r, the teeth
 //     cutting   white noise --[ band at f_c, Q ]-- times sqrt(q / (q + q_half))
@@ -29,7 +29,7 @@
 #include <span>
 
 #include "burr/rt/rt.h"
-#include "burr/sound/heard.h"
+#include "burr/sound/sound_state.h"
 
 namespace burr::sound {
 
@@ -65,7 +65,7 @@ class Synth {
   explicit Synth(const SynthSettings& settings = {});
 
   // Takes effect from the next sample on.
-  void hear(const Heard& now) BURR_RT;
+  void update(const SoundState& now) BURR_RT;
   // Loudness of everything, 0..1; follows within 30 ms.
   void loudness(double wanted) BURR_RT;
   // Fills `samples`, one channel, each within -1..1.
@@ -85,7 +85,7 @@ class Synth {
     double step(double in, double tuned, double damping) BURR_RT;
   };
 
-  void request(const Heard& now) BURR_RT;
+  void request(const SoundState& now) BURR_RT;
   [[nodiscard]] double spindle() BURR_RT;
   [[nodiscard]] double cutting() BURR_RT;
   [[nodiscard]] double knock() BURR_RT;

@@ -7,18 +7,18 @@ namespace burr::sound {
 Voice::Voice(const VoiceSettings& settings)
     : synth_(settings.synth),
       silent_after_(settings.silent_after),
-      unheard_(std::numeric_limits<double>::infinity()) {}
+      since_update_(std::numeric_limits<double>::infinity()) {}
 
 void Voice::make(std::span<float> samples) BURR_RT {
-  Heard now;
+  SoundState now;
   if (door_.take(now)) {
-    synth_.hear(now);
-    unheard_ = 0;
+    synth_.update(now);
+    since_update_ = 0;
   }
-  const bool heard = on_.load(std::memory_order_relaxed) && unheard_ <= silent_after_;
+  const bool heard = on_.load(std::memory_order_relaxed) && since_update_ <= silent_after_;
   synth_.loudness(heard ? loudness_.load(std::memory_order_relaxed) : 0);
   synth_.make(samples);
-  unheard_ += static_cast<double>(samples.size()) / synth_.settings().rate_hz;
+  since_update_ += static_cast<double>(samples.size()) / synth_.settings().rate_hz;
 }
 
 }  // namespace burr::sound

@@ -3,29 +3,29 @@
 //
 // When nothing was set for a while - the program has stopped, or is busy - the sound fades, and
 // comes back by itself. It begins silent.
-// Guarantee: hear(), on(), loudness() and make() are wait-free and allocate no memory.
-// Thread: hear() one; make() one other, that of the audio; on() and loudness() any.
+// Guarantee: update(), on(), loudness() and make() are wait-free and allocate no memory.
+// Thread: update() one; make() one other, that of the audio; on() and loudness() any.
 #pragma once
 
 #include <atomic>
 #include <span>
 
 #include "burr/rt/latest.h"
-#include "burr/sound/heard.h"
+#include "burr/sound/sound_state.h"
 #include "burr/sound/synth.h"
 
 namespace burr::sound {
 
 struct VoiceSettings {
   SynthSettings synth;
-  double silent_after = 0.2;  // time without hear() until it fades [s]
+  double silent_after = 0.2;  // time without update() until it fades [s]
 };
 
 class Voice {
  public:
   explicit Voice(const VoiceSettings& settings = {});
 
-  void hear(const Heard& now) BURR_RT { door_.publish(now); }
+  void update(const SoundState& now) BURR_RT { door_.publish(now); }
   void on(bool wanted) BURR_RT { on_.store(wanted, std::memory_order_relaxed); }
   [[nodiscard]] bool is_on() const BURR_RT { return on_.load(std::memory_order_relaxed); }
   void loudness(double wanted) BURR_RT { loudness_.store(wanted, std::memory_order_relaxed); }
@@ -35,8 +35,8 @@ class Voice {
  private:
   Synth synth_;
   double silent_after_;
-  double unheard_;  // time since the last hear() [s]
-  rt::Latest<Heard> door_;
+  double since_update_;  // time since the last update() [s]
+  rt::Latest<SoundState> door_;
   std::atomic<bool> on_ = true;
   std::atomic<double> loudness_ = 1;
 };

@@ -21,7 +21,7 @@ void put(std::array<char, kHeader>& header, std::size_t at, std::size_t bytes,
 }  // namespace
 
 Result<WavFile> WavFile::create(const std::string& path, int rate_hz) {
-  auto file = base::NewFile::beside(path);
+  auto file = base::NewFile::create(path);
   if (!file) return file.error();
   WavFile wav(path, std::move(*file), rate_hz);
   const std::array<char, kHeader> empty = {};

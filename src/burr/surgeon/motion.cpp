@@ -9,8 +9,8 @@
 #include <fstream>
 #include <system_error>
 
-#include "burr/base/shown.h"
-#include "burr/math/turn.h"
+#include "burr/base/printable.h"
+#include "burr/math/rotation.h"
 
 namespace burr::surgeon {
 namespace {
@@ -66,7 +66,7 @@ std::optional<Vec3> outward(const Bone& bone, const Vec3& p, double radius) {
 }
 
 math::Quat handle_along(const Vec3& outward_axis) {
-  return math::shortest_turn(Vec3::UnitZ(), outward_axis);
+  return math::shortest_rotation(Vec3::UnitZ(), outward_axis);
 }
 
 }  // namespace
@@ -218,7 +218,7 @@ Result<HandPath> read_path(const std::string& file) {
     return error(
         fmt::format("{}: the first line must name the columns t,x,y,z (metres) or "
                     "t,x_mm,y_mm,z_mm; it says \"{}\"",
-                    file, base::shown(line)));
+                    file, base::printable(line)));
   const int q_at[4] = {column("qw"), column("qx"), column("qy"), column("qz")};
   const bool turned = q_at[0] >= 0;
   if (turned && (q_at[1] < 0 || q_at[2] < 0 || q_at[3] < 0))

@@ -49,7 +49,7 @@ bool HeatGrid::read(volume::BrickIndex brick) {
   return true;
 }
 
-bool HeatGrid::look() {
+bool HeatGrid::read_changes() {
   changed_.take_all(
       [&](std::size_t brick) { due_.push_back(static_cast<volume::BrickIndex>(brick)); });
   // each brick once
@@ -92,7 +92,7 @@ void HeatGrid::set(const Ijk& cell, const Matter& matter) {
 void HeatGrid::remember(std::size_t cell) {
   const double ever = settings_.start_c + std::max(static_cast<double>(peak_[cell]), rise_[cell]);
   for (std::size_t p = 0; p < kMostParts && parts_[cell].tissue[p] != 0; ++p) {
-    TissueHeat& gone = gone_[parts_[cell].tissue[p]];
+    TissueHeat& gone = removed_peak_[parts_[cell].tissue[p]];
     gone.ever_c = gone.there ? std::max(gone.ever_c, ever) : ever;
     gone.cem43_min = std::max(gone.cem43_min, dose_[cell]);
     gone.there = true;
@@ -282,7 +282,7 @@ void HeatGrid::start_over() {
   for (auto* each : {&rise_, &next_, &dose_}) std::fill(each->begin(), each->end(), 0.0);
   std::fill(peak_.begin(), peak_.end(), 0.0F);
   ledger_ = {};
-  gone_ = {};
+  removed_peak_ = {};
   wet_ = false;
 }
 
@@ -323,7 +323,7 @@ HeatLedger HeatGrid::ledger() const {
 
 void HeatGrid::summarise(HeatSummary& out) const {
   out.ledger = ledger_;
-  out.tissue = gone_;
+  out.tissue = removed_peak_;
   for (TissueHeat& tissue : out.tissue) tissue.now_c = settings_.start_c;
   std::array<bool, 256> now = {};
   const double warm = settings_.warm_c - settings_.start_c;

@@ -46,7 +46,7 @@ class HeatGrid {
 
   // Reads what was cut or added since the last call. Removed bone takes its heat along; new
   // material has the starting temperature. False: the servo was writing; call again.
-  bool look();
+  bool read_changes();
 
   // Heats the matter within `radius` (at least one cell) of p, in proportion to its heat capacity
   // and less towards the edge. Returns the heat put in: all of it, or nothing if there is no
@@ -116,7 +116,8 @@ class HeatGrid {
   bool wet_ = false;
   math::Vec3 nozzle_ = math::Vec3::Zero();  // p_cell
   HeatLedger ledger_;
-  std::array<TissueHeat, 256> gone_;  // highest of what was cut; only ever_c, cem43_min, there
+  // highest of what was cut; only ever_c, cem43_min, there
+  std::array<TissueHeat, 256> removed_peak_;
 };
 
 }  // namespace burr::thermal

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int64_t kLatestNs = 4'000'000'000'000'000'000;  // a century; twice that still fits
 
-double staying(const StayingShare& shares, Edge edge) {
+double heat_share_of(const HeatShare& shares, Edge edge) {
   switch (edge) {
     case Edge::flute:
       return shares.flute;
@@ -39,15 +39,15 @@ bool Heating::take(const HeatRow& row) {
     grid_.dry();
   if (row.energy > 0 && std::isfinite(row.energy)) {
     spent_ += row.energy;
-    grid_.deposit(row.place, settings_.spread * row.radius,
-                  staying(settings_.stays, row.edge) * row.energy);
+    grid_.deposit(row.place, settings_.heat_ball_ratio * row.radius,
+                  heat_share_of(settings_.heat_share, row.edge) * row.energy);
   }
   return newer;
 }
 
 void Heating::start_over(std::int64_t time_ns) {
   begun_ = true;
-  grid_.look();
+  grid_.read_changes();
   grid_.start_over();
   now_ns_ = time_ns;
   skip_ns_ = 0;
@@ -61,7 +61,7 @@ bool Heating::pass(std::int64_t time_ns) {
   bool newer = false;
   skip_ns_ += std::max<std::int64_t>(0, time_ns - skip_ns_ - now_ns_ - kLongestGapNs);
   while (time_ns - skip_ns_ - now_ns_ >= kHeatStepNs) {
-    grid_.look();
+    grid_.read_changes();
     grid_.advance(1e-9 * static_cast<double>(kHeatStepNs));
     now_ns_ += kHeatStepNs;
     if (++steps_ < kStepsPerSummary) continue;

@@ -10,7 +10,7 @@
 
 namespace burr::thermal {
 
-// What the heat comes from; decides how much of it stays in the bone (StayingShare).
+// What the heat comes from; decides how much of it stays in the bone (HeatShare).
 enum class Edge : std::uint8_t { flute, diamond, rubbing };
 
 struct HeatRow {

@@ -25,7 +25,7 @@ struct TissueMaterial {
 };
 
 // Share of a burr's power that stays in the bone; the rest leaves with chips, mist and burr.
-struct StayingShare {
+struct HeatShare {
   double flute = 0.25;   // chips carry most of it away: 0.1 .. 0.4                    [-]
   double diamond = 0.5;  // fine dust carries less                                     [-]
   double rubbing = 0.5;  // nothing is removed; the other half goes into the burr      [-]
@@ -47,8 +47,8 @@ struct HeatSettings {
   double coolant_film = 2000;  // h_c of a film of running water, 1000 .. 5000    [W/(m^2 K)]
   double wet_radius = 8e-3;    // of the ball that is wetted                             [m]
 
-  StayingShare stays = {};
-  double spread = 0.5;  // heated ball's radius over the burr's; at least one cell       [-]
+  HeatShare heat_share = {};
+  double heat_ball_ratio = 0.5;  // heated ball's radius over the burr's; at least one cell  [-]
 
   double cell = 1e-3;          // longest edge of a cell: a power of two of voxels below it    [m]
   double longest_step = 0.05;  // largest time step, if stability allows more            [s]

@@ -78,7 +78,7 @@ Vec3 Cutting::drag(const Vec3& touched) BURR_RT {
   return gain * along;
 }
 
-Vec3 Cutting::buzz() BURR_RT {
+Vec3 Cutting::vibration() BURR_RT {
   if (settings_.vibration_gain <= 0) return Vec3::Zero();
   haptics::Milling now;
   now.spindle_rad_s = spindle_.speed();
@@ -147,7 +147,8 @@ void Cutting::cut(std::uint64_t tick, const Vec3& touched, bool may, std::uint64
   cut.slices = slices_of(controls_.shed);
   cut.mirror = controls_.mirror;
   if (settings_.mode == ToolMode::cut && settings_.removal.law == edit::RemovalLaw::thesis) {
-    const auto frame = static_cast<std::uint64_t>(std::max(1, settings_.removal.thesis_frame));
+    const auto frame =
+        static_cast<std::uint64_t>(std::max(1, settings_.removal.thesis_frame_ticks));
     if (tick % frame == 0)
       edit::lower(carver_, cut,
                   65536 * settings_.removal.thesis_rate * dt_ * static_cast<double>(frame), flags);

@@ -1,7 +1,7 @@
 // tick/cutting.h - what the turning tool does to the bone, and the bone to the tool, in a tick.
 //
 //     spindle: turn()  ->  friction()         before touch
-//     drag(), buzz(), torque()                on the hand, from the cut of the tick before
+//     drag(), vibration(), torque()           on the hand, from the cut of the tick before
 //     cut()                                   push -> energy (edit/laws/) -> carver, or brush
 //
 // Thread: servo. Frame: world. Units: SI. Memory: taken at construction.
@@ -39,7 +39,7 @@ class Cutting {
   // Of the bone on the burr, along its surface, as the hand gets it. touched: force of touch [N].
   [[nodiscard]] math::Vec3 drag(const math::Vec3& touched) BURR_RT;
   // Of the spindle's vibration [N].
-  [[nodiscard]] math::Vec3 buzz() BURR_RT;
+  [[nodiscard]] math::Vec3 vibration() BURR_RT;
   // Of the motor on the handpiece [N m].
   [[nodiscard]] math::Vec3 torque() const BURR_RT;
 

@@ -30,10 +30,10 @@ bool Hand::read(bool lost, std::uint32_t& flags) BURR_RT {
     flags |= rt::kFlagWatchdog;
     faults_.raise();
   }
-  const bool believed = limit_.believe(state_, flags);
+  const bool usable = limit_.accept_reading(state_, flags);
   if ((state_.buttons & device::kLifted) != 0) lift();
-  if (!believed) faults_.raise();
-  return believed;
+  if (!usable) faults_.raise();
+  return usable;
 }
 
 bool Hand::engage() BURR_RT {
@@ -46,7 +46,7 @@ bool Hand::engage() BURR_RT {
   return true;
 }
 
-void Hand::hold() BURR_RT {
+void Hand::feel_held_tool() BURR_RT {
   touch_ = {};
   touch_.proxy = method_->position();
   const Vec3 stretch = touch_.proxy - state_.world_from_tool.p;
@@ -57,18 +57,18 @@ void Hand::hold() BURR_RT {
   }
 }
 
-void Hand::rest() BURR_RT {
+void Hand::skip_touch() BURR_RT {
   touch_ = {};
   touch_.proxy = method_->position();
   velocity_ = Vec3::Zero();
 }
 
-Vec3 Hand::passive(const Vec3& wanted, bool begins_anew, std::uint32_t& flags) BURR_RT {
+Vec3 Hand::limit_energy(const Vec3& wanted, bool begins_anew, std::uint32_t& flags) BURR_RT {
   if (!guarded_) return wanted;
   if (begins_anew) guard_.restart();
-  haptics::Exchange now;
+  haptics::SpringState now;
   now.hand = state_.world_from_tool.p;
-  if (touch_.touching) now.stretch = touch_.depth * touch_.normal + touch_.trail;
+  if (touch_.touching) now.stretch = touch_.depth * touch_.normal + touch_.tangential;
   now.stiffness = force_.stiffness;
   now.force = wanted;
   const Vec3 force = guard_.step(now, dt_);

@@ -1,10 +1,10 @@
 // tick/hand.h - one hand of a session, either one: its device, touch, force law, guard and limit.
 //
 //     used = hand.read(lost, flags)          the reading of this tick; may it be used?
-//     used:   hand.follow();                 velocity
-//             if (hand.engage()) hand.feel();      or hold(), while the servo holds the tool
-//     else:   hand.rest();
-//     force = hand.passive(hand.wanted(), ...)     optional: the energy guard
+//     used:   hand.filter_velocity();        velocity
+//             if (hand.engage()) hand.feel();      or feel_held_tool(), while the servo holds the
+//     tool else:   hand.skip_touch();
+//     force = hand.limit_energy(hand.wanted(), ...)  optional: the energy guard
 //     sent  = hand.send(force, flags)        bounded, to the device
 //     hand.report(contact, flags)
 //
@@ -51,21 +51,21 @@ class Hand {
   // ---- the steps of a tick
   // False: the reading cannot be used, the force fades. lost: as Servo::tick().
   [[nodiscard]] bool read(bool lost, std::uint32_t& flags) BURR_RT;
-  void follow() BURR_RT { velocity_ += blend_ * (state_.velocity - velocity_); }
+  void filter_velocity() BURR_RT { velocity_ += blend_ * (state_.velocity - velocity_); }
   // False: not engaged, and the tool is not in free air.
   [[nodiscard]] bool engage() BURR_RT;
   void feel() BURR_RT { touch_ = method_->step(state_.world_from_tool.p); }
   // Instead of feel(): the hand feels a spring to the tool, which others hold.
-  void hold() BURR_RT;
+  void feel_held_tool() BURR_RT;
   // Instead of all these: no usable reading.
-  void rest() BURR_RT;
+  void skip_touch() BURR_RT;
   // The force of touch, unbounded.
   [[nodiscard]] math::Vec3 wanted() const BURR_RT {
     return haptics::force_law(touch_, velocity_, force_);
   }
   // What of it may be sent without giving the hand more energy than it gave.
-  [[nodiscard]] math::Vec3 passive(const math::Vec3& wanted, bool begins_anew,
-                                   std::uint32_t& flags) BURR_RT;
+  [[nodiscard]] math::Vec3 limit_energy(const math::Vec3& wanted, bool begins_anew,
+                                        std::uint32_t& flags) BURR_RT;
   // Bounded (haptics/safety/limit.h) and to the device; what the device got.
   struct Sent {
     math::Vec3 force = math::Vec3::Zero(), torque = math::Vec3::Zero();

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "burr/math/rotation.h"
 #include "burr/math/sums.h"
-#include "burr/math/turn.h"
 
 namespace burr::tick {
 namespace {
@@ -124,7 +124,7 @@ math::Pose image_of(const math::Pose& world_from_tool, const volume::Grid& grid,
   image.p = grid.world_from_grid(mirror.image_of(grid.grid_from_world(world_from_tool.p)));
   const Vec3 normal = grid.frame.q * Vec3(Vec3::Unit(mirror.axis));
   const Vec3 z = world_from_tool.q * Vec3::UnitZ();
-  image.q = math::shortest_turn(Vec3::UnitZ(), z - 2 * math::dot(z, normal) * normal);
+  image.q = math::shortest_rotation(Vec3::UnitZ(), z - 2 * math::dot(z, normal) * normal);
   return image;
 }
 

@@ -41,13 +41,13 @@ void Outbox::note_heat(std::uint64_t tick, const Cutting& cutting) BURR_RT {
 }
 
 void Outbox::write_bricks(std::size_t most, std::uint64_t tick, bool with_tissue) BURR_RT {
-  if (diary_.bricks == nullptr) {
+  if (recorder_rings_.bricks == nullptr) {
     while (changed_.pop() != volume::kNoBrick) {
     }
     return;
   }
   for (std::size_t n = 0; n < most && changed_.size() > 0; ++n) {
-    if (diary_.bricks->size() == diary_.bricks->capacity())
+    if (recorder_rings_.bricks->size() == recorder_rings_.bricks->capacity())
       return;  // it waits in the queue, nothing is lost
     const volume::BrickIndex brick = changed_.pop();
     BrickRow row;
@@ -57,7 +57,7 @@ void Outbox::write_bricks(std::size_t most, std::uint64_t tick, bool with_tissue
     row.has_tissue = with_tissue;
     if (row.has_tissue)
       std::memcpy(row.tissue.data(), bone_.brick_tissue(brick), row.tissue.size());
-    diary_.bricks->push(row);
+    recorder_rings_.bricks->push(row);
   }
 }
 
@@ -66,7 +66,7 @@ void Outbox::publish(const TickRow& row, bool with_tissue) BURR_RT {
   const auto ticks =
       static_cast<std::size_t>(std::max(1.0, kQueueTime * controls_.settings.rate_hz));
   write_bricks(changed_.size() / ticks + 1, row.tick, with_tissue);
-  if (diary_.ticks != nullptr) diary_.ticks->push(row);
+  if (recorder_rings_.ticks != nullptr) recorder_rings_.ticks->push(row);
   view_.publish(row);
   if (watch_ != nullptr) watch_->publish(row);
 }

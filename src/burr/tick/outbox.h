@@ -1,4 +1,5 @@
-// tick/outbox.h - what leaves the tick: rows and bricks to the diary, views to other threads, heat.
+// tick/outbox.h - what leaves the tick: rows and bricks to the recorder, views to other threads,
+// heat.
 //
 // Doors: docs/realtime.md, "Doors". Nothing here may make the servo wait: what finds no room is
 // counted as dropped, or stays in its queue.
@@ -23,8 +24,8 @@
 
 namespace burr::tick {
 
-// The diary's rings (record/recorder.h); nullptr: there is no recorder.
-struct Diary {
+// The recorder's rings (record/recorder.h); nullptr: there is no recorder.
+struct RecorderRings {
   rt::Ring<TickRow>* ticks = nullptr;
   rt::Ring<CommandRow>* commands = nullptr;
   rt::Ring<BrickRow>* bricks = nullptr;
@@ -36,13 +37,13 @@ class Outbox {
   Outbox(const volume::Bone& bone, edit::ChangedQueue& changed, const Controls& controls);
 
   // ---- before the session
-  void set_diary(const Diary& diary) { diary_ = diary; }
+  void set_recorder_rings(const RecorderRings& rings) { recorder_rings_ = rings; }
   void set_watch(rt::Latest<TickRow>* watch) { watch_ = watch; }
   void set_heat(thermal::Worker* heat) { heat_ = heat; }
 
   // ---- in the tick
   void note(const CommandRow& command) BURR_RT {
-    if (diary_.commands != nullptr) diary_.commands->push(command);
+    if (recorder_rings_.commands != nullptr) recorder_rings_.commands->push(command);
   }
   void note_radius(double radius) BURR_RT { burr_radius_.store(radius, std::memory_order_relaxed); }
   void note_released(bool released) BURR_RT {
@@ -73,7 +74,7 @@ class Outbox {
   edit::ChangedQueue& changed_;
   const Controls& controls_;
   double dt_;
-  Diary diary_;
+  RecorderRings recorder_rings_;
   rt::Latest<TickRow>* watch_ = nullptr;
   thermal::Worker* heat_ = nullptr;
   thermal::HeatRow heat_row_;

@@ -77,7 +77,7 @@ void Restore::step(std::uint32_t& flags) BURR_RT {
   } else {
     settle();
   }
-  hand_.hold();  // the hand feels the tool where it is held
+  hand_.feel_held_tool();  // the hand feels the tool where it is held
 }
 
 void Restore::lift(std::uint32_t& flags) BURR_RT {

@@ -30,7 +30,7 @@ SecondHand::SecondHand(const volume::IsoVertices& surface, device::Device& devic
               .friction_static = settings_.friction,
               .friction_kinetic = settings_.friction,
               .max_moves = kMoves,
-              .recovery = 5 / rate_hz},
+              .push_out_speed = 5 / rate_hz},
              surface.bone().grid().world_from_grid(Vec3::Constant(-1e4))),
       hand_(device, proxy_, settings_.force,
             {.rate_hz = rate_hz,
@@ -41,14 +41,14 @@ void SecondHand::step(bool lost, bool parted) BURR_RT {
   row_ = {};
   row_.tick = next_tick_++;
   std::uint32_t& flags = row_.contact.flags;
-  const bool believed = hand_.read(lost, flags);
+  const bool usable = hand_.read(lost, flags);
   row_.hand = hand_.state();
   if (parted) hand_.lift();
-  if (believed) {
-    hand_.follow();
+  if (usable) {
+    hand_.filter_velocity();
     if (hand_.engage()) hand_.feel();
   } else {
-    hand_.rest();
+    hand_.skip_touch();
   }
   hand_.report(hand_.send(hand_.wanted(), flags), row_.contact);
   hand_.faults().note(row_);

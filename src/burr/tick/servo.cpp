@@ -30,7 +30,8 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       changed_(bone),
       undo_(bone, settings.undo_bricks),
       writer_(bone, surface, undo_, &changed_),
-      touch_by_(surface, {.radius = settings.burr.radius, .recovery = kRecovery / settings.rate_hz},
+      touch_by_(surface,
+                {.radius = settings.burr.radius, .push_out_speed = kRecovery / settings.rate_hz},
                 settings.touch),
       hand_(device, touch_by_.constraint(), controls_.settings.force, hand_settings(settings)),
       cutting_(bone, undo_, writer_, controls_, hand_),
@@ -46,19 +47,19 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   std::uint32_t& flags = row_.contact.flags;
 
   // the hand, and its commands
-  const bool believed = hand_.read(lost, flags);
+  const bool usable = hand_.read(lost, flags);
   row_.hand = hand_.state();
   orders_.take(row_.tick, flags);
   note_tool();
-  cutting_.turn(believed ? hand_.state().pedal : 0);
+  cutting_.turn(usable ? hand_.state().pedal : 0);
 
   // touch
-  feel(believed);
+  feel(usable);
 
   // force, bounded, to the hand
-  const Vec3 guarded = hand_.passive(hand_.wanted(), lost || !believed, flags);
-  const Vec3 spinning = cutting_.drag(guarded) + cutting_.buzz();
-  const Vec3 torque = believed ? cutting_.torque() : Vec3(Vec3::Zero());
+  const Vec3 guarded = hand_.limit_energy(hand_.wanted(), lost || !usable, flags);
+  const Vec3 spinning = cutting_.drag(guarded) + cutting_.vibration();
+  const Vec3 torque = usable ? cutting_.torque() : Vec3(Vec3::Zero());
   const Hand::Sent sent = hand_.send(guarded + spinning, torque, flags);
   const Vec3 touched = hand_.touch_part(sent.force, spinning);
 
@@ -77,12 +78,12 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   return row_;
 }
 
-void Servo::feel(bool believed) BURR_RT {
-  if (!believed) {
-    hand_.rest();
+void Servo::feel(bool usable) BURR_RT {
+  if (!usable) {
+    hand_.skip_touch();
     return;
   }
-  hand_.follow();
+  hand_.filter_velocity();
   if (restore_.active()) {
     restore_.step(row_.contact.flags);
     row_.contact.flags |= rt::kFlagRestoring;

@@ -60,16 +60,17 @@ class Servo {
   [[nodiscard]] double burr_radius() const BURR_RT { return outbox_.burr_radius(); }
   // The hand neither feels nor cuts, and will not until it was in free air once: a fault released
   // it in contact, or it came back inside bone. As of the last tick; any thread.
-  [[nodiscard]] bool let_go() const BURR_RT { return outbox_.released(); }
-  void set_diary(const Diary& diary) { outbox_.set_diary(diary); }  // before the session
+  [[nodiscard]] bool released() const BURR_RT { return outbox_.released(); }
+  // before the session
+  void set_recorder_rings(const RecorderRings& rings) { outbox_.set_recorder_rings(rings); }
   // Gives every row to one more reader, on a thread of its own; before the session. nullptr: none.
   void set_watch(rt::Latest<TickRow>* watch) { outbox_.set_watch(watch); }
   void set_heat(thermal::Worker* heat) { outbox_.set_heat(heat); }  // before the session
 
-  // How long the last tick took and how late it began, for the diary and the view; not part of the
-  // truth.
+  // How long the last tick took and how late it began, for the recorder and the view; not part of
+  // the truth.
   void note_timing(double took_us, double late_us) BURR_RT;
-  // Hands the finished row to the diary and the view.
+  // Hands the finished row to the recorder and the view.
   void publish() BURR_RT { outbox_.publish(row_, cutting_.deposited()); }
 
   // What the last tick had to do, in counts that are the same on every machine.
@@ -86,14 +87,14 @@ class Servo {
   [[nodiscard]] const edit::UndoStore& undo_store() const BURR_RT { return undo_; }
   [[nodiscard]] std::size_t bricks_to_write() const BURR_RT { return changed_.size(); }
   [[nodiscard]] bool restoring() const BURR_RT { return restore_.active(); }
-  // Everything still owed to the diary, regardless of budget; after the last tick.
+  // Everything still owed to the recorder, regardless of budget; after the last tick.
   void flush_bricks() BURR_RT { outbox_.flush_bricks(row_.tick, cutting_.deposited()); }
   // Takes the memory that undo will need next; every few milliseconds while it ticks, from one
   // other thread.
-  void take_ahead() { undo_.take_ahead(); }
+  void commit_ahead() { undo_.commit_ahead(); }
 
  private:
-  void feel(bool believed) BURR_RT;
+  void feel(bool usable) BURR_RT;
   void note_tool() BURR_RT;
   void finish_row(const Hand::Sent& sent) BURR_RT;
 

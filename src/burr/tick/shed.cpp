@@ -34,7 +34,7 @@ void ShedGovernor::note(std::int64_t wall_ns, std::int64_t late_ns, std::int64_t
                late = 1e-9 * static_cast<double>(late_ns);
   const bool heavy = work > settings_.work_share * period_s_;
   const bool kept_waiting = missed > 0 || late > settings_.late_share * period_s_;
-  const bool over = heavy || (kept_waiting && !settings_.first_in_line);
+  const bool over = heavy || (kept_waiting && !settings_.has_realtime_priority);
   // time goes on in the periods that were left out, too
   const double passed = period_s_ * static_cast<double>(1 + std::max<std::int64_t>(missed, 0));
   // ... but one long pause is one mishap, however many it took along

@@ -48,7 +48,7 @@ struct ShedSettings {
   // The tick has priority over everything else (SCHED_FIFO). Then a late tick is caused by the
   // computer itself, or by the host of a virtual machine, and not by work that could be put off:
   // only the duration of the tick counts.
-  bool first_in_line = false;
+  bool has_realtime_priority = false;
   double often = 0.25;      // share of the last ticks over either, from which on it is too much
   double seldom = 0.02;     // ... up to which it is not
   double memory = 0.02;     // over how long that share is taken                      [s]

@@ -23,7 +23,7 @@ std::unique_ptr<std::atomic<std::int32_t>[]> no_slots(BrickIndex bricks) {
   return made;
 }
 
-// How many bricks can be written for the first time between two calls of take_ahead().
+// How many bricks can be written for the first time between two calls of commit_ahead().
 constexpr std::size_t kAhead = 1024;
 
 template <class T>
@@ -35,7 +35,7 @@ bool same_throughout(const T* brick) {
 // Returns the number of slots in use.
 template <class T>
 std::size_t close_gaps(std::atomic<std::int32_t>* slot_of, BrickIndex bricks, std::int32_t first,
-                       std::size_t used, rt::Promised<T>& pool) {
+                       std::size_t used, rt::ReservedArray<T>& pool) {
   std::vector<BrickIndex> owner(used, kNoBrick);
   for (BrickIndex b = 0; b < bricks; ++b)
     if (const std::int32_t slot = slot_of[b]; slot >= first)
@@ -48,7 +48,7 @@ std::size_t close_gaps(std::atomic<std::int32_t>* slot_of, BrickIndex bricks, st
                   kBrickVoxels * sizeof(T));
     slot_of[owner[slot]].store(static_cast<std::int32_t>(next++), std::memory_order_relaxed);
   }
-  pool.give_back(next * kBrickVoxels);
+  pool.decommit(next * kBrickVoxels);
   return next;
 }
 
@@ -168,8 +168,8 @@ std::int32_t Bone::ensure_slot(BrickIndex brick) BURR_RT {
   // release: a reader that sees the slot sees its zeros
   tissue_at_[b].store(static_cast<std::int32_t>(tissues_used_++), std::memory_order_release);
   directory_[b].store(fresh, std::memory_order_release);
-  fields_told_.store(fields_, std::memory_order_relaxed);
-  tissues_told_.store(tissues_used_, std::memory_order_relaxed);
+  fields_published_.store(fields_, std::memory_order_relaxed);
+  tissues_published_.store(tissues_used_, std::memory_order_relaxed);
   return fresh;
 }
 
@@ -182,7 +182,7 @@ std::int32_t Bone::own_field(BrickIndex brick, bool keep) BURR_RT {
   if (slot >= kFirstField) return slot;
   BURR_CHECK(fields_ < kFirstField + capacity_);
   const auto fresh = static_cast<std::int32_t>(fields_++);
-  fields_told_.store(fields_, std::memory_order_relaxed);
+  fields_published_.store(fields_, std::memory_order_relaxed);
   if (!keep) return fresh;
   std::memcpy(field_.data() + at(fresh), field_.data() + at(slot), sizeof(BrickField));
   entry.store(fresh, std::memory_order_release);
@@ -196,7 +196,7 @@ std::int32_t Bone::own_tissue(BrickIndex brick) BURR_RT {
   if (slot >= kFirstTissue) return slot;
   BURR_CHECK(tissues_used_ < kFirstTissue + capacity_);
   const auto fresh = static_cast<std::int32_t>(tissues_used_++);
-  tissues_told_.store(tissues_used_, std::memory_order_relaxed);
+  tissues_published_.store(tissues_used_, std::memory_order_relaxed);
   std::memcpy(tissue_.data() + at(fresh), tissue_.data() + at(slot), kBrickVoxels);
   entry.store(fresh, std::memory_order_release);  // readers that see the slot see its tissue
   return fresh;
@@ -217,9 +217,9 @@ void Bone::set_tissue(int i, int j, int k, TissueId tissue) BURR_RT {
   rt::store_relaxed(tissue_[at(slot) + inside_brick(i, j, k)], tissue);
 }
 
-void Bone::take_ahead() {
-  field_.have((fields_told_.load(std::memory_order_relaxed) + kAhead) * kBrickVoxels);
-  tissue_.have((tissues_told_.load(std::memory_order_relaxed) + kAhead) * kBrickVoxels);
+void Bone::commit_ahead() {
+  field_.commit((fields_published_.load(std::memory_order_relaxed) + kAhead) * kBrickVoxels);
+  tissue_.commit((tissues_published_.load(std::memory_order_relaxed) + kAhead) * kBrickVoxels);
 }
 
 Field* Bone::build_field(BrickIndex brick) {
@@ -274,9 +274,9 @@ void Bone::pack() {
   tissues_used_ = close_gaps(tissue_at_.get(), brick_count_, kFirstTissue, tissues_used_, tissue_);
   for (std::size_t slot = 0; slot < kFirstField + capacity_; ++slot)
     versions_[slot].store(0, std::memory_order_relaxed);
-  fields_told_ = fields_;
-  tissues_told_ = tissues_used_;
-  take_ahead();
+  fields_published_ = fields_;
+  tissues_published_ = tissues_used_;
+  commit_ahead();
 }
 
 std::uint64_t Bone::content_hash() const {

@@ -22,7 +22,7 @@
 // number of readers through copy_brick(), each with its own ChangedBits that say which bricks to
 // read again. Memory: 1 KiB per brick with a field of its own, 0.5 KiB per brick of mixed tissue, 1
 // KiB per used brick if intensity is kept; 8 B per brick of the grid. The memory that adding
-// material and first writes may need is reserved, and taken a little ahead of use (rt/promised.h).
+// material and first writes may need is reserved, and taken a little ahead of use (rt/reserved.h).
 #pragma once
 
 #include <atomic>
@@ -32,7 +32,7 @@
 #include <vector>
 
 #include "burr/rt/changed_bits.h"
-#include "burr/rt/promised.h"
+#include "burr/rt/reserved.h"
 #include "burr/rt/rt.h"
 #include "burr/rt/versioned.h"
 #include "burr/volume/grid.h"
@@ -143,7 +143,7 @@ class Bone {
 
   // Takes the memory that writing will need next. Call it every few milliseconds while the servo
   // cuts, from one other thread.
-  void take_ahead();
+  void commit_ahead();
 
   // ---- building, before the session; different bricks with slots may be built on different
   // threads
@@ -178,10 +178,10 @@ class Bone {
   std::size_t fields_ = 0, tissues_used_ = 0;       // slots in use, including the shared ones
   Directory directory_, tissue_at_, intensity_at_;  // intensity_at_: only with intensity
   std::unique_ptr<rt::Version[]> versions_;         // (2 + capacity)
-  rt::Promised<Field> field_;                       // (2 + capacity) x 512
-  rt::Promised<TissueId> tissue_;                   // (256 + capacity) x 512
-  rt::Promised<std::int16_t> intensity_;            // (capacity x 512) or empty
-  std::atomic<std::size_t> fields_told_ = 0, tissues_told_ = 0;  // for take_ahead()
+  rt::ReservedArray<Field> field_;                  // (2 + capacity) x 512
+  rt::ReservedArray<TissueId> tissue_;              // (256 + capacity) x 512
+  rt::ReservedArray<std::int16_t> intensity_;       // (capacity x 512) or empty
+  std::atomic<std::size_t> fields_published_ = 0, tissues_published_ = 0;  // for commit_ahead()
   std::vector<std::unique_ptr<rt::ChangedBits>> watchers_;
 };
 

@@ -148,12 +148,14 @@ IsoVertices::IsoVertices(const Bone& bone, const IsoSettings& settings, int thre
   pool_.grow(pool_used_ + regrown + settings_.reserve_blocks);
   stale_.reserve(balls_.size());
   for (auto& list : free_) list.reserve(bricks + settings_.reserve_blocks / 4);
-  pool_told_ = pool_used_;
-  take_ahead();
+  pool_published_ = pool_used_;
+  commit_ahead();
   progress.report(1, "finding the surface");
 }
 
-void IsoVertices::take_ahead() { pool_.have(pool_told_.load(std::memory_order_relaxed) + kAhead); }
+void IsoVertices::commit_ahead() {
+  pool_.commit(pool_published_.load(std::memory_order_relaxed) + kAhead);
+}
 
 unsigned IsoVertices::low_border(BrickIndex brick) const BURR_RT {
   const math::Ijk first = bone_.brick_ijk(brick);
@@ -195,7 +197,7 @@ bool IsoVertices::take_room(Place& place, int blocks) BURR_RT {
   } else if (pool_used_ + static_cast<std::size_t>(kClassBlocks[wanted]) <= pool_.size()) {
     first = static_cast<std::uint32_t>(pool_used_);
     pool_used_ += static_cast<std::size_t>(kClassBlocks[wanted]);
-    pool_told_.store(pool_used_, std::memory_order_relaxed);
+    pool_published_.store(pool_used_, std::memory_order_relaxed);
   } else {
     return false;
   }

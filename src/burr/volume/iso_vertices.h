@@ -7,7 +7,7 @@
 // recomputed. While milling this may be delayed: the error of a stale brick is on the safe side
 // (the bone only recedes) and not larger than what its field lost since then.
 //
-// Thread: the servo's (or one thread before the session); take_ahead() on any one other. Frame:
+// Thread: the servo's (or one thread before the session); commit_ahead() on any one other. Frame:
 // p_grid [voxel]. Memory: 14 B per vertex, 26 B per brick of the grid; milling that lays new
 // surface bare needs more, whose addresses are reserved at construction and whose memory is taken a
 // little ahead of use. Cost: see bench/volume.
@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "burr/base/progress.h"
-#include "burr/rt/promised.h"
+#include "burr/rt/reserved.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/iso_kernel.h"
 
@@ -94,7 +94,7 @@ class IsoVertices {
   [[nodiscard]] std::size_t memory_bytes() const;
   // Takes the memory that milling will need next. Call it every few milliseconds while the servo
   // cuts, from another thread.
-  void take_ahead();
+  void commit_ahead();
   [[nodiscard]] int rebuilt_last() const BURR_RT { return rebuilt_last_; }
 
  private:
@@ -122,9 +122,9 @@ class IsoVertices {
   std::vector<std::uint64_t> occupied_;  // (bricks.z x bricks.y x words_per_row)
   std::vector<BrickBall> balls_;         // (brick_count)
   std::vector<Place> places_;            // (brick_count)
-  rt::Promised<VertexBlock> pool_;
+  rt::ReservedArray<VertexBlock> pool_;
   std::size_t pool_used_ = 0;
-  std::atomic<std::size_t> pool_told_ = 0;  // pool_used_, for take_ahead()
+  std::atomic<std::size_t> pool_published_ = 0;  // pool_used_, for commit_ahead()
   static constexpr int kClasses = 5;
   std::vector<std::uint32_t>
       free_[kClasses];               // runs given back, by size class; reserved at construction

@@ -6,13 +6,13 @@
 namespace burr::workshop {
 namespace {
 
-device::crtk::ArmReport told_of(const tick::TickRow& row) {
-  device::crtk::ArmReport told;
-  told.setpoint = row.hand.world_from_tool;
-  told.measured = {row.contact.proxy, row.hand.world_from_tool.q};
-  told.velocity = row.hand.velocity;
-  told.force = row.contact.force;
-  return told;
+device::crtk::ArmReport report_of(const tick::TickRow& row) {
+  device::crtk::ArmReport report;
+  report.setpoint = row.hand.world_from_tool;
+  report.measured = {row.contact.proxy, row.hand.world_from_tool.q};
+  report.velocity = row.hand.velocity;
+  report.force = row.contact.force;
+  return report;
 }
 
 }  // namespace
@@ -25,10 +25,10 @@ ArmPublisher::ArmPublisher(sim::Session& session, device::crtk::Arm& arm,
     tick::TickRow row;
     while (!stop_) {
       if (rows_.take(row)) {
-        device::crtk::ArmReport told = told_of(row);
-        told.busy = busy && busy();
-        told.let_go = session_.servo().let_go();
-        arm.tell(told);
+        device::crtk::ArmReport report = report_of(row);
+        report.busy = busy && busy();
+        report.released = session_.servo().released();
+        arm.publish(report);
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

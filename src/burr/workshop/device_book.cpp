@@ -10,7 +10,7 @@
 
 #include "burr/base/new_file.h"
 #include "burr/base/places.h"
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/base/text_file.h"
 #include "burr/base/toml_text.h"
 #include "burr/device/axes.h"
@@ -104,8 +104,8 @@ DeviceBook DeviceBook::parse(std::string_view text, std::string_view file) {
   for (const auto& [id, node] : *table) {
     const toml::table* device = node.as_table();
     if (device == nullptr) {
-      book.troubles_.push_back(
-          fmt::format("{}: {}: is not a [\"device\"]; it is ignored", file, base::shown(id.str())));
+      book.troubles_.push_back(fmt::format("{}: {}: is not a [\"device\"]; it is ignored", file,
+                                           base::printable(id.str())));
       continue;
     }
     DevicePreferences& preferences = book.preferences_[std::string(id.str())];
@@ -116,7 +116,8 @@ DeviceBook DeviceBook::parse(std::string_view text, std::string_view file) {
                            : take(*field, value, preferences);
       if (!wrong.empty())
         book.troubles_.push_back(fmt::format("{}: {}: {}: {}; it is ignored", file,
-                                             base::shown(id.str()), base::shown(key.str()), wrong));
+                                             base::printable(id.str()), base::printable(key.str()),
+                                             wrong));
     }
   }
   return book;
@@ -145,7 +146,7 @@ Status DeviceBook::set(const std::string& id, std::string_view assignment) {
   if (field == nullptr || equals == std::string_view::npos)
     return error(Trouble::usage,
                  fmt::format("{}: is not a setting of a device; write one of {} with =VALUE",
-                             base::shown(assignment), known_keys()));
+                             base::printable(assignment), known_keys()));
   std::string written(assignment);
   if (field->axes != nullptr && written.find('"') == std::string::npos)  // the shell took them
     written = key + "=" + base::toml_text(written.substr(equals + 1));
@@ -155,7 +156,7 @@ Status DeviceBook::set(const std::string& id, std::string_view assignment) {
   const std::string wrong =
       value == nullptr ? std::string("has no readable value") : take(*field, *value, preferences);
   if (!wrong.empty())
-    return error(Trouble::usage, fmt::format("{}: {} {}", base::shown(assignment), key, wrong));
+    return error(Trouble::usage, fmt::format("{}: {} {}", base::printable(assignment), key, wrong));
   preferences_[id] = preferences;
   return fine();
 }
@@ -197,7 +198,7 @@ Status DeviceBook::write(const std::filesystem::path& path) const {
                    fmt::format("{}: the old file cannot be renamed ({}); the setting is not saved",
                                path.string(), trouble.message()));
   }
-  auto file = base::NewFile::beside(path.string());
+  auto file = base::NewFile::create(path.string());
   if (!file) return file.error();
   file->write(text());
   return file->put_in_place();

@@ -69,7 +69,7 @@ Result<std::filesystem::path> keep_fault(const std::filesystem::path& folder,
   std::filesystem::path path = folder / (name + ".csv");
   for (int n = 2; std::filesystem::exists(path, trouble); ++n)  // another one in the same second
     path = folder / fmt::format("{}.{}.csv", name, n);
-  auto file = base::NewFile::beside(path.string());
+  auto file = base::NewFile::create(path.string());
   if (!file) return file.error();
   file->write(text);
   const Status put = file->put_in_place();

@@ -56,7 +56,7 @@ NamesThere names_there(const HandKind& kind) {
         "If there are several, each has the name from its setup program: touch:NAME. The library "
         "cannot list them.";
   } else if (name == "force-dimension") {
-    if (const auto plugged = device::forcedimension::Omega::plugged()) {
+    if (const auto plugged = device::forcedimension::Omega::list_devices()) {
       for (const int serial : plugged->serials) add(std::to_string(serial));
       if (!plugged->serials.empty() && plugged->nameless > 0)
         there.note = fmt::format(
@@ -64,8 +64,8 @@ NamesThere names_there(const HandKind& kind) {
             plugged->nameless);
     }
   } else if (name == "haply") {
-    if (const auto known = device::haply::all_known({})) {
-      for (const device::haply::Known& arm : known->arms) add(arm.id);
+    if (const auto known = device::haply::list_devices({})) {
+      for (const device::haply::DeviceId& arm : known->arms) add(arm.id);
       if (known->grips.size() > 1)
         there.note = fmt::format("Grips found: {}. haply:ARM+GRIP chooses the grip for an arm.",
                                  fmt::join(known->grips, ", "));
@@ -75,7 +75,7 @@ NamesThere names_there(const HandKind& kind) {
          device::polhem::ports_of_arms(device::polhem::PolhemSettings{}.system))
       add(port.path);
   } else if (name == "crtk") {
-    if (const auto arms = device::crtk::arms_heard())
+    if (const auto arms = device::crtk::list_arms())
       for (const std::string& arm : *arms) add(arm);
   }
   if (there.names.empty()) there.names.push_back(name);
@@ -132,11 +132,11 @@ Result<std::unique_ptr<device::Device>> make_hand(const HandRequest& request) {
                            kinds_known()));
 }
 
-Result<LaidHand> lay_hand(const HandRequest& request, const math::Pose& start,
-                          const math::Quat& world_from_view) {
+Result<OpenedHand> open_hand(const HandRequest& request, const math::Pose& start,
+                             const math::Quat& world_from_view) {
   auto device = make_hand(request);
   if (!device) return device.error();
-  LaidHand laid;
+  OpenedHand laid;
   laid.hand = std::make_unique<device::MappedHand>(std::move(*device), start, world_from_view);
   Status opened = laid.hand->open();
   if (!opened) return opened.error();

@@ -59,7 +59,7 @@ struct NamesThere {
 
 // Also opens the device and maps it with the user's preferences: the tip starts at `start`, and the
 // device's axes are those of the view.
-struct LaidHand {
+struct OpenedHand {
   std::unique_ptr<device::MappedHand> hand;
   double max_force = 0;              // the smaller of the user's and the device's limit  [N]
   double vibration = 0, torque = 1;  // gains
@@ -67,8 +67,8 @@ struct LaidHand {
   DevicePreferences preferences;     // from the book
   std::vector<std::string> notices;  // about the book
 };
-[[nodiscard]] Result<LaidHand> lay_hand(const HandRequest& request, const math::Pose& start,
-                                        const math::Quat& world_from_view);
+[[nodiscard]] Result<OpenedHand> open_hand(const HandRequest& request, const math::Pose& start,
+                                           const math::Quat& world_from_view);
 
 // The tick rate for a device: its own rate, or its own rate divided by a whole number so that the
 // result is near 1000 Hz.  [Hz]

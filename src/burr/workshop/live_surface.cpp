@@ -40,7 +40,7 @@ void LiveSurface::update(const render::Camera* eye) {
   surface::Skin skin;
   for (int i = 0; i < kPatchesPerFrame && worker_.take(skin); ++i) {
     put_skin(scene_, skin);
-    wound_.dress(scene_, skin.patch);
+    wound_.stain(scene_, skin.patch);
     worker_.give_back(skin);
     skins_.push_back(skin);
   }
@@ -53,7 +53,7 @@ void LiveSurface::update(const render::Camera* eye) {
 void LiveSurface::look_plain() {
   if (!wound_.any()) return;
   wound_.forget();
-  wound_.dress(scene_);
+  wound_.stain(scene_);
 }
 
 void LiveSurface::drawn(double took_s, double redrawn) { governor_.end(took_s, redrawn, now()); }

@@ -41,7 +41,7 @@ class LiveSurface {
   void suck(const math::Vec3& mouth, double radius, double seconds) {
     wound_.suck(mouth, radius, seconds);
   }
-  void see(const Traces::StatusLine& told) { told.show(wound_); }
+  void see(const Traces::Changes& changes) { changes.show(wound_); }
   void look_plain();
   // Call it after the frame. took_s: how long the frame took  [s]; redrawn: share of the picture
   // that was drawn again, 0..1.

@@ -24,7 +24,8 @@ Result<importing::Imported> open_phantom(const scenario::Recipe& recipe, Progres
     auto materials = importing::read_materials(recipe.materials);
     if (!materials) return materials.error();
     made_of = [all = std::move(*materials)](volume::TissueTable& table) {
-      for (std::size_t id = 1; id < table.tissues.size(); ++id) all.lay_over(table.tissues[id]);
+      for (std::size_t id = 1; id < table.tissues.size(); ++id)
+        all.apply_material(table.tissues[id]);
     };
   }
   importing::Imported made;

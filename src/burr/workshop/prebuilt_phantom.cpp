@@ -26,7 +26,7 @@ std::unique_ptr<volume::Bone> prebuilt_phantom(const std::string& phantom,
 }
 
 Status write_prebuilt_phantom(const volume::Bone& bone, const std::string& path) {
-  Result<base::NewFile> file = base::NewFile::beside(path);
+  Result<base::NewFile> file = base::NewFile::create(path);
   if (!file) return file.error();
   const std::vector<std::uint8_t> bytes = record::bone_to_blob(bone);
   file->write(bytes.data(), bytes.size());

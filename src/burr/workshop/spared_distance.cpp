@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 
 namespace burr::workshop {
 
@@ -17,7 +17,7 @@ Result<SparedDistance> SparedDistance::make(const volume::Bone& bone, const Tiss
   return made;
 }
 
-Hearing::ToSpare SparedDistance::distances() const {
+SoundTracker::ToSpare SparedDistance::distances() const {
   if (distance_.empty()) return {};
   return [this](const math::Vec3& p) { return distance_.at(p).distance; };
 }
@@ -25,7 +25,7 @@ Hearing::ToSpare SparedDistance::distances() const {
 std::optional<SparedDistance::Near> SparedDistance::nearest(const math::Vec3& p) const {
   const volume::Nearest nearest = distance_.at(p);
   if (!std::isfinite(nearest.distance)) return std::nullopt;
-  return Near{base::shown(table_[nearest.tissue].name, 30), nearest.distance};
+  return Near{base::printable(table_[nearest.tissue].name, 30), nearest.distance};
 }
 
 }  // namespace burr::workshop

@@ -10,7 +10,7 @@
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/volume/distance_to.h"
-#include "burr/workshop/hearing.h"
+#include "burr/workshop/sound_tracker.h"
 #include "burr/workshop/spared.h"
 
 namespace burr::workshop {
@@ -24,7 +24,7 @@ class SparedDistance {
 
   // The distance from a point  [m]; empty: there is nothing to spare. Valid while this object
   // lives.
-  [[nodiscard]] Hearing::ToSpare distances() const;
+  [[nodiscard]] SoundTracker::ToSpare distances() const;
   [[nodiscard]] bool empty() const { return distance_.empty(); }
   struct Near {
     std::string name;     // of the tissue

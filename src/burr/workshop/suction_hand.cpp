@@ -5,20 +5,20 @@
 
 namespace burr::workshop {
 
-Result<std::unique_ptr<SuctionHand>> SuctionHand::join(sim::Session& session,
-                                                       const std::string& device,
-                                                       const math::Pose& start,
-                                                       const math::Quat& world_from_view) {
+Result<std::unique_ptr<SuctionHand>> SuctionHand::add(sim::Session& session,
+                                                      const std::string& device,
+                                                      const math::Pose& start,
+                                                      const math::Quat& world_from_view) {
   HandRequest request;
   request.device = device;
-  auto laid = lay_hand(request, start, world_from_view);
+  auto laid = open_hand(request, start, world_from_view);
   if (!laid) return laid.error();
   device::MappedHand& hand = *laid->hand;
   tick::SecondHandSettings settings;
   settings.radius = kRadius;
   settings.force = session.settings().servo.force;
   settings.limit.user_force = laid->max_force;
-  const Status joined = session.join(std::move(laid->hand), settings);
+  const Status joined = session.add_second_hand(std::move(laid->hand), settings);
   if (!joined) return joined.error();
   return std::unique_ptr<SuctionHand>(new SuctionHand(session, hand));
 }

@@ -2,8 +2,8 @@
 // which touches the bone (tick/second_hand.h) and removes water, dust and blood near its mouth
 // (render/wound.h). It never changes bone, and it is not recorded.
 //
-//     auto hand = SuctionHand::join(*session, "touch:Left", start, view);
-//     each frame:   hand->lay(view);  const SuctionHand::Seen seen = hand->now();
+//     auto hand = SuctionHand::add(*session, "touch:Left", start, view);
+//     each frame:   hand->set_axes(view);  const SuctionHand::Seen seen = hand->now();
 //
 // Thread: main.
 #pragma once
@@ -24,11 +24,11 @@ class SuctionHand {
 
   // start: where its tip starts; world_from_view: the axes of the view. Its mill button stops the
   // suction while it is pressed; its clutch button lifts the tube. Call it before the session
-  // starts; the session owns the device. Error: see lay_hand().
-  [[nodiscard]] static Result<std::unique_ptr<SuctionHand>> join(sim::Session& session,
-                                                                 const std::string& device,
-                                                                 const math::Pose& start,
-                                                                 const math::Quat& world_from_view);
+  // starts; the session owns the device. Error: see open_hand().
+  [[nodiscard]] static Result<std::unique_ptr<SuctionHand>> add(sim::Session& session,
+                                                                const std::string& device,
+                                                                const math::Pose& start,
+                                                                const math::Quat& world_from_view);
 
   struct Seen {
     math::Pose world_from_tool;  // where the bone stops it
@@ -37,7 +37,7 @@ class SuctionHand {
     bool sucks = false;
   };
   [[nodiscard]] Seen now();
-  void lay(const math::Quat& world_from_view) { hand_.lay(world_from_view); }
+  void set_axes(const math::Quat& world_from_view) { hand_.set_axes(world_from_view); }
   // Called by the emergency stop.
   void lift(bool lifted) { hand_.lift(lifted); }
   [[nodiscard]] const device::Device& hand() const { return hand_; }

@@ -27,32 +27,32 @@ void Traces::begin(double t) {
   ahead_ = false;
 }
 
-Traces::StatusLine Traces::until(double t) {
-  StatusLine told;
-  tell(t, kEvery, told);
-  return told;
+Traces::Changes Traces::until(double t) {
+  Changes changes;
+  collect(t, kEvery, changes);
+  return changes;
 }
 
-Traces::StatusLine Traces::seek(double t) {
-  StatusLine told;
-  told.anew = t < asked_ || t > asked_ + kFar;
-  if (told.anew) begin(t - kAgo);
-  tell(t, told.anew ? kEveryOfMany : kEvery, told);
-  return told;
+Traces::Changes Traces::seek(double t) {
+  Changes changes;
+  changes.anew = t < asked_ || t > asked_ + kFar;
+  if (changes.anew) begin(t - kAgo);
+  collect(t, changes.anew ? kEveryOfMany : kEvery, changes);
+  return changes;
 }
 
-void Traces::tell(double t, std::uint64_t every, StatusLine& told) {
+void Traces::collect(double t, std::uint64_t every, Changes& changes) {
   asked_ = t;
   for (;;) {
     if (!ahead_ && !steps_.next(step_)) return;
     ahead_ = time_of(step_.row) > t;
     if (ahead_) return;
     if (step_.row.tick % every == 0)
-      told.ticks.push_back(wound_tick(step_.row, player_.info().rate_hz));
+      changes.ticks.push_back(wound_tick(step_.row, player_.info().rate_hz));
   }
 }
 
-void Traces::StatusLine::show(render::Wound& wound) const {
+void Traces::Changes::show(render::Wound& wound) const {
   if (anew) wound.forget();
   for (const render::Wound::Tick& tick : ticks) wound.see(tick);
 }

@@ -18,7 +18,7 @@ namespace burr::workshop {
 
 class Traces {
  public:
-  struct StatusLine {
+  struct Changes {
     bool anew = false;  // forget what was shown before
     std::vector<render::Wound::Tick> ticks;
     void show(render::Wound& wound) const;
@@ -27,14 +27,14 @@ class Traces {
   explicit Traces(record::Player& player);
 
   // What happened since the previous call, up to t  [s]; t must not decrease.
-  [[nodiscard]] StatusLine until(double t);
+  [[nodiscard]] Changes until(double t);
   // The same for any t. After a jump back or far ahead it starts a minute before t, in larger
   // steps.
-  [[nodiscard]] StatusLine seek(double t);
+  [[nodiscard]] Changes seek(double t);
 
  private:
   void begin(double t);
-  void tell(double t, std::uint64_t every, StatusLine& told);
+  void collect(double t, std::uint64_t every, Changes& changes);
   [[nodiscard]] double time_of(const tick::TickRow& row) const;
 
   record::Player& player_;

@@ -164,14 +164,15 @@ class FakeCrtkArm {
         }
         const std::string tells = w.state + (w.homed ? "h" : "") + (w.busy ? "b" : "");
         if (states && tells != told) {
-          OperatingState state{{now_stamp(), lent("")}, lent(w.state.c_str()), w.homed, w.busy};
+          OperatingState state{
+              {now_stamp(), as_sample_text("")}, as_sample_text(w.state.c_str()), w.homed, w.busy};
           states->write(state);
           told = tells;
         }
         for (const auto& [pedal, down] : trodden_) {
           std::int32_t button = down ? 1 : 0;
           Joy joy{};
-          joy.header_ = {now_stamp(), lent("")};
+          joy.header_ = {now_stamp(), as_sample_text("")};
           joy.buttons_._buffer = &button;
           joy.buttons_._length = joy.buttons_._maximum = 1;
           if (pedal == "gripper") gripper.write(Bool{down});
@@ -183,9 +184,9 @@ class FakeCrtkArm {
         if (!w.silent) {
           const Stamp stamp = w.stamped ? now_stamp() : Stamp{};
           TwistStamped twist{};
-          twist.header_ = {stamp, lent("")};
+          twist.header_ = {stamp, as_sample_text("")};
           twist.twist_.linear_ = message_of(w.velocity);
-          PoseStamped pose{{stamp, lent("base")}, message_of(w.place)};
+          PoseStamped pose{{stamp, as_sample_text("base")}, message_of(w.place)};
           if (w.spoil) w.spoil(pose, twist);
           speed.write(twist);
           w.answers.tell(w.place.p.data());

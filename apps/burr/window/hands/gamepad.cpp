@@ -87,7 +87,7 @@ PadSticks Gamepads::now(double dead) {
   return all;
 }
 
-bool plugs(const SDL_Event& event) {
+bool is_plug_event(const SDL_Event& event) {
   return event.type == SDL_JOYDEVICEADDED || event.type == SDL_JOYDEVICEREMOVED ||
          event.type == SDL_CONTROLLERDEVICEADDED || event.type == SDL_CONTROLLERDEVICEREMOVED;
 }

@@ -50,7 +50,7 @@ class Gamepads {
 };
 
 // A pad was plugged in or out: call scan().
-[[nodiscard]] bool plugs(const SDL_Event& event);
+[[nodiscard]] bool is_plug_event(const SDL_Event& event);
 
 // For pages that are used with the keyboard: turns the event of a pad's button into the event of
 // the key with the same meaning. false: the button has none; `event` is unchanged.

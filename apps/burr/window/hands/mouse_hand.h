@@ -42,7 +42,9 @@ class MouseHand final : public device::Device {
   [[nodiscard]] const device::DeviceSpec& spec() const override { return spec_; }
   [[nodiscard]] device::HandState state(double dt) BURR_RT override;
   void write_force(const math::Vec3& force) BURR_RT override;
-  void hold(double scale) BURR_RT override { scale_.store(scale, std::memory_order_relaxed); }
+  void scale_force(double scale) BURR_RT override {
+    scale_.store(scale, std::memory_order_relaxed);
+  }
 
  private:
   rt::Latest<Aim> aims_;

@@ -175,8 +175,10 @@ double Greys::step() const {
 }
 
 std::array<Direction, 3> directions(const math::Mat3& axes) {
-  constexpr Way kWays[3][2] = {
-      {Way::left, Way::right}, {Way::backwards, Way::forwards}, {Way::upwards, Way::downwards}};
+  constexpr PatientDirection kWays[3][2] = {
+      {PatientDirection::left, PatientDirection::right},
+      {PatientDirection::backwards, PatientDirection::forwards},
+      {PatientDirection::upwards, PatientDirection::downwards}};
   constexpr double kExact = 0.9998;  // within a degree
   std::array<Direction, 3> out;
   for (int a = 0; a < 3; ++a) {
@@ -246,7 +248,7 @@ Result<KeptTable> keep_table(const std::filesystem::path& folder, const std::str
                              folder.string(), trouble.message()));
   KeptTable kept{folder / fmt::format("labels_{:016x}.toml", hash), false};
   kept.fresh = !std::filesystem::exists(kept.path, trouble);
-  auto file = base::NewFile::beside(kept.path.string());
+  auto file = base::NewFile::create(kept.path.string());
   if (!file) return file.error();
   file->write(table);
   if (const Status put = file->put_in_place(); !put) return put.error();

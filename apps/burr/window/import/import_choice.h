@@ -38,9 +38,9 @@ struct Greys {
 
 // Direction in which an axis of the scan points in the patient, as the patient sees it. about: only
 // approximately.
-enum class Way { left, right, backwards, forwards, upwards, downwards };
+enum class PatientDirection { left, right, backwards, forwards, upwards, downwards };
 struct Direction {
-  Way way = Way::left;
+  PatientDirection way = PatientDirection::left;
   bool about = false;
 };
 [[nodiscard]] std::array<Direction, 3> directions(const math::Mat3& axes);

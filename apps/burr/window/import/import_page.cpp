@@ -191,9 +191,9 @@ void ImportPage::forget_table() {
 
 // ---- mouse positions become voxels
 
-Result<ImportPage::Answer> ImportPage::ask(const std::string& told, double seconds) {
+Result<ImportPage::Answer> ImportPage::ask(const std::string& ask, double seconds) {
   using Clock = std::chrono::steady_clock;
-  trouble_ = told;
+  trouble_ = ask;
   answer_.reset();
   starting_ = false;
   series_.clear();
@@ -217,7 +217,7 @@ Result<ImportPage::Answer> ImportPage::ask(const std::string& told, double secon
   }
   SDL_StopTextInput();
   if (*answer_ == Answer::start) own_table_.clear();  // the session needs the file from now on
-  desk_.told.clear();
+  desk_.message.clear();
   return *answer_;
 }
 
@@ -265,7 +265,7 @@ void ImportPage::work() {
     starting_ = false;
     if (plan_trouble_.empty()) answer_ = Answer::start;
   }
-  desk_.told = trouble_.empty() ? plan_trouble_ : trouble_;
+  desk_.message = trouble_.empty() ? plan_trouble_ : trouble_;
 }
 
 // ---- all steps

@@ -28,10 +28,10 @@ struct ImportLayout {
   struct Part {
     float x = 0, y = 0, w = 0, h = 0;
   };
-  std::array<Part, 3> views;          // axial, coronal, sagittal
-  Part level, plot, facts, bone;      // below: histogram or labels, scan, planned bone
-  Part series, iso, roi, voxel, all;  // fields and buttons
-  Part told, as_it_is, back, start;   // last line of the page
+  std::array<Part, 3> views;            // axial, coronal, sagittal
+  Part level, plot, facts, bone;        // below: histogram or labels, scan, planned bone
+  Part series, iso, roi, voxel, all;    // fields and buttons
+  Part message, as_it_is, back, start;  // last line of the page
 };
 [[nodiscard]] ImportLayout import_layout(float width, float height, float unit);
 
@@ -45,7 +45,7 @@ class ImportPage {
   enum class Answer { start, back, other_series, closed };
   // Returns when the user has decided. told: a sentence about an earlier error; "" for none.
   // seconds: as in StartPage::ask.
-  [[nodiscard]] Result<Answer> ask(const std::string& told, double seconds);
+  [[nodiscard]] Result<Answer> ask(const std::string& ask, double seconds);
 
   // The recipe that the user chose.
   [[nodiscard]] const scenario::Recipe& volume() const { return volume_; }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "window/import/import_page.h"
 #include "window/shell/words.h"
 
@@ -20,7 +20,7 @@ constexpr Word kNames[] = {Word::axial, Word::coronal, Word::sagittal};
 constexpr int kMostPixels = 720;  // longest side of a preview; a larger one is stretched
 constexpr int kFree = 16;         // value of `grabbed`: the mouse moves the slices, not the frame
 
-const char* way(Way which) {
+const char* way(PatientDirection which) {
   constexpr Word kWays[] = {Word::way_left,     Word::way_right, Word::way_backwards,
                             Word::way_forwards, Word::way_up,    Word::way_down};
   return word(kWays[static_cast<std::size_t>(which)]);
@@ -78,7 +78,7 @@ ImportLayout import_layout(float width, float height, float unit) {
   at.start = {margin + wide - 210 * u, last, 210 * u, 36 * u};
   at.back = {at.start.x - 150 * u - gap, last, 150 * u, 36 * u};
   at.as_it_is = {at.back.x - 200 * u - gap, last, 200 * u, 36 * u};
-  at.told = {margin, last, at.back.x - margin - gap, 46 * u};
+  at.message = {margin, last, at.back.x - margin - gap, 46 * u};
   return at;
 }
 
@@ -359,7 +359,7 @@ void ImportPage::labels(const ImportLayout& at) {
   for (std::size_t n = 0; n < kinds_.size(); ++n) {
     const volume::Tissue& tissue = opened_.labels[n].tissue;
     const float y = from.y + high * static_cast<float>(n);
-    const std::string name = base::shown(tissue.name, 60);
+    const std::string name = base::printable(tissue.name, 60);
     const auto part = [](float c) {
       return static_cast<unsigned>(255 * std::clamp(c, 0.0F, 1.0F));
     };
@@ -481,15 +481,15 @@ void ImportPage::last_line(const ImportLayout& at) {
   Ui& ui = desk_.ui();
   const float u = ui.unit();
   const bool asks = asked();
-  if (!desk_.told.empty()) {
+  if (!desk_.message.empty()) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    Part p = at.told;
+    Part p = at.message;
     if (asks) p.w = at.as_it_is.x - p.x - 14 * u;
     draw.AddRectFilled({p.x, p.y}, {p.x + p.w, p.y + p.h}, ink::rgb(50, 38, 22), 6 * u);
     draw.AddRect({p.x, p.y}, {p.x + p.w, p.y + p.h}, ink::kWarn, 6 * u, 0, 1.2F * u);
     warning_sign(ui, p.x + 10 * u, p.y + 10 * u);
     wrapped(ui, Letter::body, ink::kText, {p.x + 34 * u, p.y + 4 * u, p.w - 44 * u, p.h - 4 * u},
-            desk_.told);
+            desk_.message);
   }
   if (asks) {
     ImGui::SetCursorScreenPos({at.as_it_is.x, at.as_it_is.y});

@@ -44,7 +44,7 @@ void ExportPage::show(bool shown) {
 
 std::string ExportPage::progress() const {
   if (!work_) return {};
-  const SeenProgress::Now now = work_->progress().now();
+  const SharedProgress::Now now = work_->progress().now();
   return say(Word::export_writing, fs::path(request_.path).filename().string(), 100 * now.fraction,
              now.stage);
 }

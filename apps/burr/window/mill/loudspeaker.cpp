@@ -12,7 +12,8 @@ constexpr double kStep = 3;     // [dB]
 
 }  // namespace
 
-Loudspeaker::Loudspeaker(const tick::ServoSettings& settings, workshop::Hearing::ToSpare to_spare)
+Loudspeaker::Loudspeaker(const tick::ServoSettings& settings,
+                         workshop::SoundTracker::ToSpare to_spare)
     : hearing_(settings, std::move(to_spare)) {
   open();
 }
@@ -28,9 +29,9 @@ void Loudspeaker::open() {
 
 double Loudspeaker::loudness() const { return std::pow(10, kStep * steps_ / 20); }
 
-void Loudspeaker::hear(const tick::TickRow& newest) {
-  const sound::Heard& now = hearing_.hear(newest);
-  if (speaker_) speaker_->voice().hear(now);
+void Loudspeaker::update(const tick::TickRow& newest) {
+  const sound::SoundState& now = hearing_.update(newest);
+  if (speaker_) speaker_->voice().update(now);
 }
 
 void Loudspeaker::toggle() {

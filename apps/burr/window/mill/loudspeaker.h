@@ -9,15 +9,15 @@
 #include <string>
 
 #include "burr/sound/speaker.h"
-#include "burr/workshop/hearing.h"
+#include "burr/workshop/sound_tracker.h"
 
 namespace burr::app {
 
 class Loudspeaker {
  public:
-  Loudspeaker(const tick::ServoSettings& settings, workshop::Hearing::ToSpare to_spare);
+  Loudspeaker(const tick::ServoSettings& settings, workshop::SoundTracker::ToSpare to_spare);
 
-  void hear(const tick::TickRow& newest);
+  void update(const tick::TickRow& newest);
   void toggle();
   double louder(int steps);  // steps of 3 dB, below 0: quieter; the new level [dB], 0: loudest
   [[nodiscard]] bool is_on() const { return speaker_ && speaker_->voice().is_on(); }
@@ -29,7 +29,7 @@ class Loudspeaker {
   void open();
   [[nodiscard]] double loudness() const;
 
-  workshop::Hearing hearing_;
+  workshop::SoundTracker hearing_;
   std::unique_ptr<sound::Speaker> speaker_;
   std::string trouble_;
   int steps_ = 0;  // steps below the loudest, 0 or less

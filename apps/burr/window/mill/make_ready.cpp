@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "burr/math/turn.h"
+#include "burr/math/rotation.h"
 #include "burr/workshop/hand_device.h"
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/prepare.h"
@@ -31,7 +31,7 @@ Result<Ready> make_ready(const WorkOptions& options, workshop::Prepared prepared
   // the hand starts 20 mm above the work
   math::Pose above;
   above.p = prepared.place.at - 20e-3 * prepared.place.into;
-  above.q = math::shortest_turn(Vec3::UnitZ(), -prepared.place.into);
+  above.q = math::shortest_rotation(Vec3::UnitZ(), -prepared.place.into);
   Ready ready;
   ready.scene.camera = render::view_of_work(prepared.place.at, -prepared.place.into,
                                             2 * view_height(settings.servo.burr.radius));
@@ -41,7 +41,7 @@ Result<Ready> make_ready(const WorkOptions& options, workshop::Prepared prepared
     ready.hands.mouse = mouse.get();
     hand = std::move(mouse);
   } else {
-    auto laid = workshop::lay_hand(options.hand, above, view_of_hand(ready.scene.camera));
+    auto laid = workshop::open_hand(options.hand, above, view_of_hand(ready.scene.camera));
     if (!laid) return laid.error();
     settings.servo.rate_hz = workshop::tick_rate(laid->hand->spec());
     settings.servo.limit.user_force = laid->max_force;
@@ -66,8 +66,8 @@ Result<Ready> make_ready(const WorkOptions& options, workshop::Prepared prepared
   if (!options.suction.empty()) {
     // the suction tube starts beside the burr, on the side of the other hand
     const math::Quat view = view_of_hand(ready.scene.camera);
-    auto suction = workshop::SuctionHand::join(*ready.session, options.suction,
-                                               {above.p - view * Vec3(15e-3, 0, 0), above.q}, view);
+    auto suction = workshop::SuctionHand::add(*ready.session, options.suction,
+                                              {above.p - view * Vec3(15e-3, 0, 0), above.q}, view);
     if (!suction) return suction.error();
     ready.suction = std::move(*suction);
     ready.hands.suction = ready.suction.get();

@@ -64,7 +64,7 @@ class Mill {
         mirror_(session.bone().grid()),
         drill_(session, scene.burr) {}
 
-  Result<Left> run();
+  Result<Closed> run();
 
   [[nodiscard]] static std::vector<HelpRow> help_rows(bool left_handed);
 
@@ -113,7 +113,7 @@ class Mill {
   void point();
   void point_in_plane(const render::Ray& ray);
   void aim_at(const math::Vec3& tip, double pedal);
-  void lay_real_hand();
+  void align_real_hand();
   void lift_real_hand();
   void stop_or_go_on();
   void next_measure();
@@ -123,7 +123,7 @@ class Mill {
   void change_loudness(int by);
   void mirror_at_tip();
   void mirror_next_plane();
-  void tell_mirror();
+  void note_mirror();
   void show_task();
   void saved_view(int slot, bool keep);
   void go_back();
@@ -150,7 +150,7 @@ class Mill {
   void look_at_session();
   void keep_device_preferences();
   void keep_fault_of(const device::Device& hand, const tick::FaultReport& fault);
-  void tell();
+  void update_status();
   void note(std::string text);  // "": no message
   void note_troubles();
   void panels();
@@ -169,7 +169,7 @@ class Mill {
   // the page
   bool open_ = true, picture_ = false, panels_;
   bool leaves_ = false;  // leave, even if a file is still being written
-  Left left_ = Left::window;
+  Closed closed_ = Closed::window;
   std::optional<OverPages> pages_;  // these three: made by begin()
   std::optional<Slices> slices_;
   std::optional<SavedViews> saved_views_;
@@ -204,12 +204,12 @@ class Mill {
   tick::TickRow row_;
   TickWatch ticks_;
   std::optional<HudState::Nearest> nearest_;
-  StatusLine told_;
+  StatusLine status_;
   std::string note_, warning_;  // as shown
   Clock::time_point said_{};
 };
 
 // As flag_words(), in the user's language, without the flags that the page shows in other ways.
-[[nodiscard]] std::string told_flags(std::uint32_t flags);
+[[nodiscard]] std::string flag_texts(std::uint32_t flags);
 
 }  // namespace burr::app

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "burr/math/turn.h"
+#include "burr/math/rotation.h"
 #include "burr/render/pick.h"
 #include "window/mill/make_ready.h"
 #include "window/mill/mill.h"
@@ -129,7 +129,7 @@ void Mill::act(Action action) {
       return next_measure();
     case Action::mirror:
       mirror_.toggle();
-      return tell_mirror();
+      return note_mirror();
     case Action::smaller:
       return note(drill_.change_burr(-1));
     case Action::larger:
@@ -153,7 +153,7 @@ void Mill::act(Action action) {
 void Mill::leave() {
   if (!pages_->exporting().progress().empty() && !std::exchange(leaves_, true))
     return note(word(Word::export_wait));
-  left_ = Left::page;
+  closed_ = Closed::page;
   open_ = false;
 }
 
@@ -256,7 +256,7 @@ void Mill::move(const SDL_MouseMotionEvent& motion) {
 
 // Aims the arm: above the bone under the mouse, or into the bone while the button is down.
 void Mill::point() {
-  if (hands_.real != nullptr) return lay_real_hand();
+  if (hands_.real != nullptr) return align_real_hand();
   if (headset_.wand()) {
     const auto aim = headset_.aim(scene_.camera, page_open() || measuring_.picks());
     if (aim) hands_.mouse->aim(*aim);
@@ -302,16 +302,16 @@ void Mill::aim_at(const Vec3& tip, double pedal) {
       (normal_ + side * scene_.camera.right() + 0.2 * scene_.camera.above()).normalized();
   MouseHand::Aim aim;
   aim.world_from_tool.p = tip;
-  aim.world_from_tool.q = math::shortest_turn(Vec3::UnitZ(), handle);
+  aim.world_from_tool.q = math::shortest_rotation(Vec3::UnitZ(), handle);
   aim.pedal = pedal;
   hands_.mouse->aim(aim);
 }
 
 // A haptic device has a position of its own. The view defines its right and up; keys and pedals add
 // the rest.
-void Mill::lay_real_hand() {
+void Mill::align_real_hand() {
   device::MappedHand& hand = *hands_.real;
-  hand.lay(view_of_hand(scene_.camera));
+  hand.set_axes(view_of_hand(scene_.camera));
   const bool rests = page_open() || measuring_.picks();
   hand.press(rests ? 0 : press_.spindle_of_device());
   lift_real_hand();
@@ -376,15 +376,15 @@ void Mill::change_loudness(int by) {
 
 void Mill::mirror_at_tip() {
   mirror_.place_at(scene_.burr.world_from_tool.p);
-  tell_mirror();
+  note_mirror();
 }
 
 void Mill::mirror_next_plane() {
   mirror_.next_plane();
-  tell_mirror();
+  note_mirror();
 }
 
-void Mill::tell_mirror() {
+void Mill::note_mirror() {
   session_.command(tick::command_for(mirror_.now()));
   note(mirror_words(session_.bone().grid(), mirror_.now()));
 }

@@ -38,7 +38,7 @@ constexpr std::pair<std::uint32_t, Word> kFlagWords[] = {
 
 // The flags that a surgeon should see at once, in the user's language. Two are left out: work that
 // is put off has its own sign, and the force's bar shows the limit.
-std::string told_flags(std::uint32_t flags) {
+std::string flag_texts(std::uint32_t flags) {
   std::string text;
   flags &= ~(rt::kFlagPutOff | rt::kFlagForceLimited);
   for (const auto& [flag, says] : kFlagWords)
@@ -61,7 +61,7 @@ void Mill::look_at_session() {
     if (row_.spindle_rad_s > 0) scene_.burr.turn = std::remainder(scene_.burr.turn + 0.7, 6.2832);
     render::show_contact(scene_, row_.hand.world_from_tool.p, row_.contact.proxy,
                          row_.contact.force);
-    if (options_.loudspeaker != nullptr) options_.loudspeaker->hear(row_);
+    if (options_.loudspeaker != nullptr) options_.loudspeaker->update(row_);
   }
   note(drill_.look());
   show_mirror(scene_, session_.bone().grid(), mirror_.now());
@@ -72,12 +72,12 @@ void Mill::look_at_session() {
       nearest_ = {std::move(near->name), near->distance - scene_.burr.radius};
   tick::FaultReport fault;
   if (session_.fault(fault)) {
-    told_.let_go(say(Word::let_go, told_flags(fault.flags)), Clock::now());
+    status_.warn_released(say(Word::let_go, flag_texts(fault.flags)), Clock::now());
     // the force of a haptic device was released: write a fault file. A late mouse needs none
     if (hands_.real != nullptr) keep_fault_of(session_.hand(), fault);
   }
   if (hands_.suction != nullptr && session_.second_hand()->faults().take(fault)) {
-    told_.let_go(say(Word::let_go, told_flags(fault.flags)), Clock::now());
+    status_.warn_released(say(Word::let_go, flag_texts(fault.flags)), Clock::now());
     keep_fault_of(hands_.suction->hand(), fault);
   }
 }
@@ -92,14 +92,14 @@ void Mill::keep_fault_of(const device::Device& hand, const tick::FaultReport& fa
 }
 
 void Mill::note(std::string text) {
-  if (!text.empty()) told_.note(std::move(text), Clock::now());
+  if (!text.empty()) status_.note(std::move(text), Clock::now());
 }
 
 void Mill::note_troubles() {
   for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
 }
 
-void Mill::tell() {
+void Mill::update_status() {
   const Clock::time_point now = Clock::now();
   if (now - said_ < std::chrono::milliseconds(200)) return;
   said_ = now;
@@ -113,17 +113,17 @@ void Mill::tell() {
   if (lasting.empty() && lifts_.stopped) lasting = word(Word::stopped);
   if (lasting.empty()) lasting = session_.hand().trouble();
   if (lasting.empty() && hands_.suction != nullptr) lasting = hands_.suction->hand().trouble();
-  if (lasting.empty()) lasting = told_flags(row_.contact.flags);
-  warning_ = told_.warning(now, lasting);
+  if (lasting.empty()) lasting = flag_texts(row_.contact.flags);
+  warning_ = status_.warning(now, lasting);
   // after the reason of the release: what the user should do
-  if (lasting.empty() && session_.servo().let_go() && (row_.hand.buttons & device::kLifted) == 0)
+  if (lasting.empty() && session_.servo().released() && (row_.hand.buttons & device::kLifted) == 0)
     warning_ += (warning_.empty() ? "" : ". ") + std::string(word(Word::begins_free));
-  note_ = told_.note(now, pages_->exporting().progress());
+  note_ = status_.note(now, pages_->exporting().progress());
   if (note_.empty()) note_ = measuring_.words();
   const std::string& trouble = pages_->exporting().trouble();
-  desk_.said = !trouble.empty()                    ? trouble
-               : warning_.empty() || note_.empty() ? warning_ + note_
-                                                   : warning_ + "; " + note_;
+  desk_.status_text = !trouble.empty()                    ? trouble
+                      : warning_.empty() || note_.empty() ? warning_ + note_
+                                                          : warning_ + "; " + note_;
 }
 
 HudState Mill::hud() const {

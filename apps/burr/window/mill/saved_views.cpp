@@ -145,7 +145,7 @@ Status SavedViews::keep(int slot, const SavedView& view) {
           fmt::format("{}: the old file cannot be renamed ({}); the view is kept until burr ends",
                       file_.string(), trouble.message()));
   }
-  auto file = base::NewFile::beside(file_.string());
+  auto file = base::NewFile::create(file_.string());
   if (!file) return file.error();
   file->write(text());
   const Status put = file->put_in_place();

@@ -15,7 +15,7 @@ void SuctionTube::lead(workshop::SuctionHand* hand, render::Scene& scene,
   const auto now = std::chrono::steady_clock::now();
   const double seconds =
       std::min(0.1, std::chrono::duration<double>(now - std::exchange(sucked_, now)).count());
-  hand->lay(view_of_hand(scene.camera));
+  hand->set_axes(view_of_hand(scene.camera));
   const workshop::SuctionHand::Seen seen = hand->now();
   std::erase_if(scene.rods, [](const render::Rod& rod) {
     return rod.radius == workshop::SuctionHand::kRadius;

@@ -16,7 +16,7 @@
 
 namespace burr::app {
 
-Result<Left> Mill::run() {
+Result<Closed> Mill::run() {
   workshop::LiveSurface live(session_, worker_, scene_, desk_.renderer().software());
   begin();
   const Clock::time_point start = Clock::now();
@@ -45,7 +45,7 @@ Result<Left> Mill::run() {
     const Status kept = render::write_png(desk_.renderer().shown(), options_.screenshot);
     if (!kept) return kept.error();
   }
-  return left_;
+  return closed_;
 }
 
 void Mill::begin() {
@@ -84,7 +84,7 @@ Status Mill::frame(workshop::LiveSurface& live) {
   point();
   measure();
   note(pages_->exporting().step());
-  tell();
+  update_status();
   slices_->update(scene_, slices_shown_ && panels_, labels_, desk_.renderer().width(),
                   desk_.renderer().height(), static_cast<int>(hud_height(desk_.ui())));
   live.update(headset_.cameras());
@@ -116,8 +116,8 @@ void Mill::end(workshop::LiveSurface& live) {
   worker_.settle([this](const surface::Skin& skin) { workshop::put_skin(scene_, skin); });
 }
 
-Result<Left> mill(Desk& desk, sim::Session& session, const Hands& hands, surface::Worker& worker,
-                  render::Scene& scene, const WindowOptions& options) {
+Result<Closed> mill(Desk& desk, sim::Session& session, const Hands& hands, surface::Worker& worker,
+                    render::Scene& scene, const WindowOptions& options) {
   return Mill(desk, session, hands, worker, scene, options).run();
 }
 
@@ -125,7 +125,7 @@ Status run_window(sim::Session& session, const Hands& hands, surface::Worker& wo
                   render::Scene& scene, const WindowOptions& options) {
   auto desk = Desk::open({});
   if (!desk) return desk.error();
-  const Result<Left> left = mill(**desk, session, hands, worker, scene, options);
+  const Result<Closed> left = mill(**desk, session, hands, worker, scene, options);
   if (!left) return left.error();
   return fine();
 }

@@ -17,9 +17,9 @@ namespace burr::app {
 
 // Runs until the user leaves; then the servo is stopped. `scene` must contain the bone's surface as
 // `worker` made it, and the first view; afterwards it contains the last view.
-[[nodiscard]] Result<Left> mill(Desk& desk, sim::Session& session, const Hands& hands,
-                                surface::Worker& worker, render::Scene& scene,
-                                const WindowOptions& options);
+[[nodiscard]] Result<Closed> mill(Desk& desk, sim::Session& session, const Hands& hands,
+                                  surface::Worker& worker, render::Scene& scene,
+                                  const WindowOptions& options);
 
 // The same in a window of its own, without any files of the user.
 [[nodiscard]] Status run_window(sim::Session& session, const Hands& hands, surface::Worker& worker,

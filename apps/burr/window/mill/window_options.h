@@ -34,7 +34,7 @@ struct WindowOptions {
 };
 
 // How the user left the page.
-enum class Left {
+enum class Closed {
   page,    // the user left this bone
   window,  // the user left burr, or the time is over
 };

@@ -118,13 +118,13 @@ void Playback::work() {
       shown.row = *row;
     else if (shown.trouble.empty())
       shown.trouble = row.error().text;
-    shown.told = traces_.seek(shown.t);
+    shown.changes = traces_.seek(shown.t);
     lock.lock();
     working_ = false;
-    if (fresh_ && !shown.told.anew) {  // the last result was not taken: keep its ticks, too
-      workshop::Traces::StatusLine both = std::move(newest_.told);
-      both.ticks.insert(both.ticks.end(), shown.told.ticks.begin(), shown.told.ticks.end());
-      shown.told = std::move(both);
+    if (fresh_ && !shown.changes.anew) {  // the last result was not taken: keep its ticks, too
+      workshop::Traces::Changes both = std::move(newest_.changes);
+      both.ticks.insert(both.ticks.end(), shown.changes.ticks.begin(), shown.changes.ticks.end());
+      shown.changes = std::move(both);
     }
     newest_ = std::move(shown);
     fresh_ = true;

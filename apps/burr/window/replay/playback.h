@@ -65,7 +65,7 @@ class Playback {
     double t = 0;                       // the requested moment  [s]
     tick::TickRow row;                  // the last tick before that moment
     std::string trouble;                // "": the bone is as it was then; otherwise why not
-    workshop::Traces::StatusLine told;  // since the last take()
+    workshop::Traces::Changes changes;  // since the last take()
   };
 
   // `recorded` must outlive this object. Its player and bone are used by this object's thread.

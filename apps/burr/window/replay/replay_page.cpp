@@ -38,7 +38,7 @@ class Watch {
   Watch(Desk& desk, Recorded& recorded, const WatchOptions& options)
       : desk_(desk), recorded_(recorded), scene_(recorded.scene), options_(options) {}
 
-  Result<Left> run();
+  Result<Closed> run();
 
  private:
   void take_events();
@@ -86,12 +86,12 @@ class Watch {
   bool open_ = true, picture_ = false, panels_ = true, help_ = false, scrubbing_ = false;
   bool labels_ = true, leaves_ = false;  // leaves_: leave, even if a film is being made
   std::optional<ExportPage> export_;
-  Left left_ = Left::window;
+  Closed closed_ = Closed::window;
   std::string note_, trouble_;  // trouble_: of the second recording, until a key
   Clock::time_point noted_{};
 };
 
-Result<Left> Watch::run() {
+Result<Closed> Watch::run() {
   desk_.page = Page::replay;
   desk_.renderer().title("burr");
   export_.emplace(desk_, nullptr, scene_, options_.folder, [this] {
@@ -146,7 +146,7 @@ Result<Left> Watch::run() {
     const Status kept = render::write_png(desk_.renderer().shown(), options_.screenshot);
     if (!kept) return kept.error();
   }
-  return left_;
+  return closed_;
 }
 
 // Draws one picture: of one recording, or of both in halves of the window.
@@ -313,7 +313,7 @@ void Watch::key(const SDL_Keysym& pressed) {
         note(word(Word::export_wait));
         break;
       }
-      left_ = Left::page;
+      closed_ = Closed::page;
       open_ = false;
       break;
     case SDLK_SPACE:
@@ -487,7 +487,7 @@ void Watch::panels() {
 
 }  // namespace
 
-Result<Left> watch(Desk& desk, Recorded& recorded, const WatchOptions& options) {
+Result<Closed> watch(Desk& desk, Recorded& recorded, const WatchOptions& options) {
   return Watch(desk, recorded, options).run();
 }
 

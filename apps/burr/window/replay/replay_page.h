@@ -42,6 +42,6 @@ struct WatchOptions {
 };
 
 // Runs until the user leaves the page.
-[[nodiscard]] Result<Left> watch(Desk& desk, Recorded& recorded, const WatchOptions& options);
+[[nodiscard]] Result<Closed> watch(Desk& desk, Recorded& recorded, const WatchOptions& options);
 
 }  // namespace burr::app

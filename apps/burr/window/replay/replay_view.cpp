@@ -38,7 +38,7 @@ void ReplayView::want(double t_s) {
 
 void ReplayView::look(bool effects, bool playing) {
   if (playback_.take(shown_)) {
-    if (effects) live_.see(shown_.told);
+    if (effects) live_.see(shown_.changes);
     if (shown_.trouble.empty()) {
       workshop::put_tool(scene(), shown_.row, true);
       const tool::Burr& burr = recorded_.settings.settings.servo.burr;

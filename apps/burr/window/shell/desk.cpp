@@ -51,7 +51,7 @@ bool Desk::next(SDL_Event& event) {
     next_stereo();
   } while (true);
   if (halves()) into_half(event);
-  if (plugs(event)) {
+  if (is_plug_event(event)) {
     pads.scan();
     pedals.scan();
   }
@@ -121,7 +121,7 @@ void Desk::mouse(int& x, int& y) const {
 render::TwoEyes Desk::eyes(const render::Camera& camera) const {
   render::TwoEyes eyes;
   eyes.how = settings.stereo;
-  eyes.apart = settings.stereo_depth * render::kComfortable * camera.distance;
+  eyes.eye_distance = settings.stereo_depth * render::kComfortable * camera.distance;
   eyes.swapped = settings.swap_eyes;
   SDL_Window* window = SDL_GL_GetCurrentWindow();
   if (eyes.how != render::Stereo::interleaved || window == nullptr) return eyes;

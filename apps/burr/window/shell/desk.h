@@ -38,8 +38,8 @@ class Desk {
   Settings settings;
   std::vector<std::string> troubles;  // about the settings file and stereo; shown once
   Page page = Page::none;             // the page that is shown now
-  std::string told;                   // start and import pages: the error that is shown
-  std::string said;                   // milling page: the warning and the last note
+  std::string message;                // start and import pages: the error that is shown
+  std::string status_text;            // milling page: the warning and the last note
   Gamepads pads;                      // input other than the mouse
   Pedals pedals;
   SpaceMouse cap;

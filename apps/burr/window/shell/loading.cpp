@@ -10,13 +10,13 @@
 
 namespace burr::app {
 
-void SeenProgress::report(double fraction, std::string_view stage) {
+void SharedProgress::report(double fraction, std::string_view stage) {
   const std::lock_guard lock(mutex_);
   now_.fraction = fraction;
   if (now_.stage != stage) now_.stage = stage;
 }
 
-SeenProgress::Now SeenProgress::now() const {
+SharedProgress::Now SharedProgress::now() const {
   const std::lock_guard lock(mutex_);
   return now_;
 }
@@ -24,7 +24,7 @@ SeenProgress::Now SeenProgress::now() const {
 namespace {
 
 // returns true if the user cancels
-bool draw_loading(Ui& ui, const std::string& title, const SeenProgress::Now& now, bool stopping) {
+bool draw_loading(Ui& ui, const std::string& title, const SharedProgress::Now& now, bool stopping) {
   const float u = ui.unit(), w = 520 * u, h = 170 * u;
   const float x = (ui.width() - w) / 2, y = (ui.height() - h) / 2;
   ui.page("##loading", x, y, w, h);
@@ -48,7 +48,7 @@ bool draw_loading(Ui& ui, const std::string& title, const SeenProgress::Now& now
 
 }  // namespace
 
-Result<bool> watch_loading(Desk& desk, const std::string& title, SeenProgress& progress,
+Result<bool> watch_loading(Desk& desk, const std::string& title, SharedProgress& progress,
                            const std::function<bool()>& finished, bool& closed) {
   const render::Scene empty;
   bool stopping = false;

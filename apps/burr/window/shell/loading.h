@@ -23,7 +23,7 @@
 namespace burr::app {
 
 // Progress that another thread may read.
-class SeenProgress final : public Progress {
+class SharedProgress final : public Progress {
  public:
   void report(double fraction, std::string_view stage) override;
   [[nodiscard]] bool cancelled() const override { return cancel_.load(); }
@@ -54,7 +54,7 @@ class Loading {
   Loading& operator=(const Loading&) = delete;
 
   [[nodiscard]] bool finished() const { return finished_; }
-  [[nodiscard]] SeenProgress& progress() { return progress_; }
+  [[nodiscard]] SharedProgress& progress() { return progress_; }
   // Call it once, after finished() is true.
   [[nodiscard]] Result<Value> take() {
     thread_.join();
@@ -62,7 +62,7 @@ class Loading {
   }
 
  private:
-  SeenProgress progress_;
+  SharedProgress progress_;
   std::optional<Result<Value>> result_;
   std::atomic<bool> finished_ = false;
   std::jthread thread_;  // last: starts after the other members, ends before them
@@ -71,7 +71,7 @@ class Loading {
 // Shows the loading page until finished(). false: the user cancelled, and `progress` was cancelled.
 // closed: set if the user closed the window.
 [[nodiscard]] Result<bool> watch_loading(Desk& desk, const std::string& title,
-                                         SeenProgress& progress,
+                                         SharedProgress& progress,
                                          const std::function<bool()>& finished, bool& closed);
 
 // Shows the loading page until the work is done. Error: Trouble::interrupted if the user cancelled;

@@ -45,7 +45,7 @@ Result<Ready> open_ready(WorkOptions options, Progress& progress) {
   return make_ready(options, std::move(*work), progress);
 }
 
-Result<Left> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& window) {
+Result<Closed> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& window) {
   WindowOptions with = window;
   with.spared_distance = ready.spared_distance.get();
   with.greys = ready.greys;
@@ -60,8 +60,8 @@ Result<Left> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& wind
   return mill(desk, *ready.session, ready.hands, *ready.worker, ready.scene, with);
 }
 
-Result<Left> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options, bool embed,
-                           const WindowOptions& window) {
+Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options, bool embed,
+                             const WindowOptions& window) {
   std::unique_ptr<Autosave> autosave;
   if (desk.settings.autosave && !desk.places().state.empty()) {
     throw_old_away(desk.places().state, desk.settings);
@@ -80,13 +80,13 @@ Result<Left> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options,
     if (warning.empty() && autosave) warning = autosave->trouble();
     return warning;
   };
-  Result<Left> left = mill_with_sound(desk, ready, with);
+  Result<Closed> left = mill_with_sound(desk, ready, with);
   if (autosave) autosave->finish();
   return left;
 }
 
-Result<Left> watch_file(Desk& desk, const std::string& file, const scenario::Recipe& given,
-                        const WatchOptions& options) {
+Result<Closed> watch_file(Desk& desk, const std::string& file, const scenario::Recipe& given,
+                          const WatchOptions& options) {
   bool closed = false;
   const auto open = [&desk, &given](const std::string& path, bool& shut) {
     return load<Recorded>(
@@ -97,7 +97,7 @@ Result<Left> watch_file(Desk& desk, const std::string& file, const scenario::Rec
         shut);
   };
   auto recorded = open(file, closed);
-  if (closed) return Left::window;
+  if (closed) return Closed::window;
   if (!recorded) return recorded.error();
   WatchOptions with = options;
   with.open = open;
@@ -114,11 +114,11 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
     if (choice->quit) return leave_screenshot(desk, options.screenshot);
 
     if (choice->open && is_recording(choice->open->volume.source)) {
-      const Result<Left> left = watch_file(
+      const Result<Closed> left = watch_file(
           desk, choice->open->volume.source, {},
           {.seconds = options.seconds, .folder = options.folder, .screenshot = options.screenshot});
       if (!left && left.error().trouble == Trouble::interrupted) continue;
-      if (left && *left == Left::window) return fine();
+      if (left && *left == Closed::window) return fine();
       if (!left) trouble = left.error().text;
       continue;
     }
@@ -153,13 +153,13 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
     if (!goes_on && std::filesystem::exists(chosen.volume.source, nobody_asks))
       remember(desk.places().state, chosen.volume.source, ready->title);
     for (const std::string& notice : ready->import.notices) desk.troubles.push_back(notice);
-    const Result<Left> left = mill_and_keep(desk, *ready, chosen, goes_on,
-                                            {.seconds = options.seconds,
-                                             .folder = options.folder,
-                                             .screenshot = options.screenshot,
-                                             .sound = options.sound});
+    const Result<Closed> left = mill_and_keep(desk, *ready, chosen, goes_on,
+                                              {.seconds = options.seconds,
+                                               .folder = options.folder,
+                                               .screenshot = options.screenshot,
+                                               .sound = options.sound});
     if (!left) return left.error();
-    if (*left == Left::window) return fine();
+    if (*left == Closed::window) return fine();
   }
 }
 

@@ -31,14 +31,14 @@ struct PagesOptions {
 
 // Opens a recording while the loading page is shown, then shows the page that plays it. given: what
 // the user said about its volume. Error: one sentence; Trouble::interrupted if the user cancelled.
-[[nodiscard]] Result<Left> watch_file(Desk& desk, const std::string& file,
-                                      const scenario::Recipe& given, const WatchOptions& options);
+[[nodiscard]] Result<Closed> watch_file(Desk& desk, const std::string& file,
+                                        const scenario::Recipe& given, const WatchOptions& options);
 
 // Runs one session, with the loudspeaker (if `window` wants sound) and the distances to structures.
-[[nodiscard]] Result<Left> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& window);
+[[nodiscard]] Result<Closed> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& window);
 
 // Runs one session and keeps its recording if the settings say so.
-[[nodiscard]] Result<Left> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options,
-                                         bool embed, const WindowOptions& window);
+[[nodiscard]] Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options,
+                                           bool embed, const WindowOptions& window);
 
 }  // namespace burr::app

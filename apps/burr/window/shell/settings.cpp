@@ -11,7 +11,7 @@
 
 #include "burr/base/check.h"
 #include "burr/base/new_file.h"
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/base/text_file.h"
 #include "burr/base/toml_text.h"
 #include "burr/workshop/hand_device.h"
@@ -160,7 +160,7 @@ SettingsRead parse_settings(std::string_view text, std::string_view file) {
         known == nullptr ? "is not a setting of this version" : take(*known, node, read.settings);
     if (!wrong.empty())
       read.troubles.push_back(
-          fmt::format("{}: {}: {}; {}", file, base::shown(key.str()), wrong,
+          fmt::format("{}: {}: {}; {}", file, base::printable(key.str()), wrong,
                       known == nullptr ? "it is ignored" : "the default is used"));
   }
   return read;
@@ -214,7 +214,7 @@ Status write_settings(const Settings& settings, const std::filesystem::path& pat
                    fmt::format("{}: the old file cannot be renamed ({}); settings are not saved",
                                path.string(), trouble.message()));
   }
-  auto file = base::NewFile::beside(path.string());
+  auto file = base::NewFile::create(path.string());
   if (!file) return file.error();
   file->write(settings_text(settings));
   return file->put_in_place();

@@ -15,7 +15,9 @@ class StatusLine {
   static constexpr std::chrono::seconds kShown{6};
 
   void note(std::string text, Clock::time_point now) { note_ = {std::move(text), now}; }
-  void let_go(std::string text, Clock::time_point now) { let_go_ = {std::move(text), now}; }
+  void warn_released(std::string text, Clock::time_point now) {
+    released_ = {std::move(text), now};
+  }
 
   // `otherwise`: shown when there is no recent note
   [[nodiscard]] std::string note(Clock::time_point now, const std::string& otherwise) const {
@@ -23,7 +25,7 @@ class StatusLine {
   }
   // `lasting`: a warning that is still true; it is shown instead of one about a past event
   [[nodiscard]] std::string warning(Clock::time_point now, const std::string& lasting) const {
-    return !lasting.empty() || !fresh(let_go_, now) ? lasting : let_go_.text;
+    return !lasting.empty() || !fresh(released_, now) ? lasting : released_.text;
   }
 
  private:
@@ -34,7 +36,7 @@ class StatusLine {
   static bool fresh(const Line& line, Clock::time_point now) {
     return !line.text.empty() && now - line.at <= kShown;
   }
-  Line note_, let_go_;
+  Line note_, released_;
 };
 
 }  // namespace burr::app

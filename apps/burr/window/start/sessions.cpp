@@ -13,8 +13,8 @@
 #include "burr/base/new_file.h"
 #include "burr/base/text_file.h"
 #include "burr/base/toml_text.h"
-#include "burr/record/place_file.h"
 #include "burr/record/player.h"
+#include "burr/record/rename_and_sync.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/recording.h"
 #include "commands/work.h"
@@ -42,7 +42,7 @@ double number_of(const toml::table& table, const char* key) {
 }
 
 Status write_text(const fs::path& path, const std::string& text) {
-  auto file = base::NewFile::beside(path.string());
+  auto file = base::NewFile::create(path.string());
   if (!file) return file.error();
   file->write(text);
   return file->put_in_place();

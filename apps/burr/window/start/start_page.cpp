@@ -63,9 +63,9 @@ StartPage::StartPage(Desk& desk, const workshop::HandRequest& hand)
 
 Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seconds) {
   using Clock = std::chrono::steady_clock;
-  desk_.told = trouble;
+  desk_.message = trouble;
   for (const std::string& one : std::exchange(desk_.troubles, {}))
-    desk_.told += (desk_.told.empty() ? "" : "\n") + one;
+    desk_.message += (desk_.message.empty() ? "" : "\n") + one;
   choice_.reset();
   kept_ = kept_sessions(desk_.places().state);
   recent_ = recent(desk_.places().state);
@@ -162,7 +162,7 @@ void StartPage::draw() {
   ui.write(x + 86 * u, top + 45 * u, Letter::body, ink::kDim, word(Word::start_hello));
   ui.write(x, top + 96 * u, Letter::strong, ink::kAccent, word(Word::start_cases));
   cards(x, top + 124 * u);
-  told(x, top + 528 * u, 752 * u);
+  draw_message(x, top + 528 * u, 752 * u);
 
   const float right = x + 788 * u, w = 392 * u;
   own_scan(right, top + 96 * u, w);
@@ -307,14 +307,14 @@ void StartPage::recents(float x, float& y, float w) {
   }
 }
 
-void StartPage::told(float x, float y, float w) {
-  if (desk_.told.empty()) return;
+void StartPage::draw_message(float x, float y, float w) {
+  if (desk_.message.empty()) return;
   Ui& ui = desk_.ui();
   const float u = ui.unit();
   const ImFont* font = ui.font(Letter::body);
   const float pad = 14 * u;
   const ImVec2 size =
-      font->CalcTextSizeA(font->FontSize, 1e9F, w - 2 * pad - 40 * u, desk_.told.c_str());
+      font->CalcTextSizeA(font->FontSize, 1e9F, w - 2 * pad - 40 * u, desk_.message.c_str());
   const float h = std::min(size.y, 70 * u) + 2 * pad + 22 * u;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled({x, y}, {x + w, y + h}, ink::rgb(50, 38, 22), 8 * u);
@@ -324,11 +324,11 @@ void StartPage::told(float x, float y, float w) {
                          ink::kWarn);
   ui.write(x + pad + 24 * u, y + pad, Letter::strong, ink::kText, word(Word::start_trouble));
   draw.PushClipRect({x, y}, {x + w, y + h}, true);
-  draw.AddText(font, font->FontSize, {x + pad, y + pad + 22 * u}, ink::kText, desk_.told.c_str(),
+  draw.AddText(font, font->FontSize, {x + pad, y + pad + 22 * u}, ink::kText, desk_.message.c_str(),
                nullptr, w - 2 * pad - 40 * u);
   draw.PopClipRect();
   ImGui::SetCursorScreenPos({x + w - 50 * u, y + pad - 4 * u});
-  if (ImGui::Button("x##told", {34 * u, 0})) desk_.told.clear();
+  if (ImGui::Button("x##told", {34 * u, 0})) desk_.message.clear();
 }
 
 }  // namespace burr::app

@@ -42,7 +42,7 @@ class StartPage {
   void own_scan(float x, float y, float w);
   void sessions(float x, float& y, float w);
   void recents(float x, float& y, float w);
-  void told(float x, float y, float w);
+  void draw_message(float x, float y, float w);
   [[nodiscard]] bool row(const char* id, float x, float& y, float w, const std::string& left,
                          const std::string& right, bool mark);
   void open(std::string path);

@@ -54,7 +54,7 @@ bool read_picture(const fs::path& path, render::Image& image) {
 void keep_picture(const fs::path& path, const render::Image& image) {
   std::error_code nobody_asks;
   fs::create_directories(path.parent_path(), nobody_asks);
-  auto file = base::NewFile::beside(path.string());
+  auto file = base::NewFile::create(path.string());
   if (!file) return;  // not kept; next time it is made again
   file->write(kHead);
   file->write(image.rgb.data(), image.rgb.size());

@@ -39,7 +39,7 @@ bool sound(const PoseStamped& goal, const Vec3& middle) {
 
 }  // namespace
 
-struct Arm::Talk {
+struct Arm::Connection {
   std::unique_ptr<Bus> bus;
   Vec3 middle;
   Writer<PoseStamped> measured, setpoint;
@@ -52,7 +52,7 @@ struct Arm::Talk {
   dds_entity_t waits;
 
   rt::Latest<ArmGoal> goals;
-  std::atomic<std::uint64_t> left_aside = 0;
+  std::atomic<std::uint64_t> ignored_goals = 0;
   std::atomic<ArmState> state = ArmState::enabled;
   std::atomic<bool> homed = true, stop = false;
   std::thread listener;
@@ -60,11 +60,11 @@ struct Arm::Talk {
   // used only by the listener
   ArmGoal goal;
 
-  // used only by tell()
+  // used only by publish()
   int stated = -1;
   steady_clock::time_point stated_at;
 
-  Talk(std::unique_ptr<Bus> on, const std::string& name, const Vec3& about)
+  Connection(std::unique_ptr<Bus> on, const std::string& name, const Vec3& about)
       : bus(std::move(on)),
         middle(about),
         measured(bus->participant(), name + "/measured_cp"),
@@ -83,13 +83,13 @@ struct Arm::Talk {
       dds_waitset_attach(waits, dds_create_readcondition(reader, DDS_ANY_STATE), 0);
     listener = std::thread([this] { listen(); });
   }
-  ~Talk() {
+  ~Connection() {
     stop = true;
     listener.join();
     dds_delete(waits);
   }
-  Talk(const Talk&) = delete;
-  Talk& operator=(const Talk&) = delete;
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
 
   void begin(ArmGoal::Kind kind) {
     goal.kind = kind;
@@ -111,7 +111,7 @@ struct Arm::Talk {
       homed = true;
       begin(ArmGoal::Kind::home);
     } else {
-      ++left_aside;
+      ++ignored_goals;
     }
     if (next != goal.state && next != ArmState::enabled) begin(ArmGoal::Kind::stay);
     if (next != ArmState::enabled) goal.spindle = 0;
@@ -120,7 +120,7 @@ struct Arm::Talk {
   }
   void follow(const PoseStamped& wanted, ArmGoal::Kind kind) {
     if (goal.state != ArmState::enabled || !homed || !sound(wanted, middle)) {
-      ++left_aside;
+      ++ignored_goals;
       return;
     }
     goal.goal = pose_of(wanted.pose_);
@@ -140,14 +140,14 @@ struct Arm::Talk {
         if (std::isfinite(pedal) && goal.state == ArmState::enabled)
           goal.spindle = std::clamp(pedal, 0.0, 1.0);
         else
-          ++left_aside;
+          ++ignored_goals;
       }
       goals.publish(goal);
     }
   }
 };
 
-Arm::Arm(std::unique_ptr<Talk> talk) : talk_(std::move(talk)) {}
+Arm::Arm(std::unique_ptr<Connection> connection) : connection_(std::move(connection)) {}
 Arm::~Arm() = default;
 
 Result<std::unique_ptr<Arm>> Arm::open(const ArmSettings& settings) {
@@ -168,34 +168,35 @@ Result<std::unique_ptr<Arm>> Arm::open(const ArmSettings& settings) {
                                  "another name, or set another ROS_DOMAIN_ID",
                                  name, (*bus)->domain()));
   return std::unique_ptr<Arm>(
-      new Arm(std::make_unique<Talk>(std::move(*bus), name, settings.middle)));
+      new Arm(std::make_unique<Connection>(std::move(*bus), name, settings.middle)));
 }
 
-void Arm::tell(const ArmReport& told) {
-  const std_msgs_msg_dds__Header_ header{now_stamp(), lent("world")};
-  talk_->measured.write(PoseStamped{header, message_of(told.measured)});
-  talk_->setpoint.write(PoseStamped{header, message_of(told.setpoint)});
-  talk_->velocity.write(TwistStamped{header, {message_of(told.velocity), {}}});
-  const Quat& q = told.measured.q;
-  talk_->body.write(WrenchStamped{header, {message_of(Vec3(q.conjugate() * told.force)), {}}});
-  talk_->spatial.write(WrenchStamped{
-      header, {message_of(told.force), message_of(Vec3(told.measured.p.cross(told.force)))}});
-  const auto state = talk_->state.load();
-  const bool homed = talk_->homed;
-  const bool fault = told.let_go && state == ArmState::enabled;
+void Arm::publish(const ArmReport& report) {
+  const std_msgs_msg_dds__Header_ header{now_stamp(), as_sample_text("world")};
+  connection_->measured.write(PoseStamped{header, message_of(report.measured)});
+  connection_->setpoint.write(PoseStamped{header, message_of(report.setpoint)});
+  connection_->velocity.write(TwistStamped{header, {message_of(report.velocity), {}}});
+  const Quat& q = report.measured.q;
+  connection_->body.write(
+      WrenchStamped{header, {message_of(Vec3(q.conjugate() * report.force)), {}}});
+  connection_->spatial.write(WrenchStamped{
+      header, {message_of(report.force), message_of(Vec3(report.measured.p.cross(report.force)))}});
+  const auto state = connection_->state.load();
+  const bool homed = connection_->homed;
+  const bool fault = report.released && state == ArmState::enabled;
   const int stated =
-      8 * static_cast<int>(state) + (fault ? 4 : 0) + (homed ? 2 : 0) + (told.busy ? 1 : 0);
+      8 * static_cast<int>(state) + (fault ? 4 : 0) + (homed ? 2 : 0) + (report.busy ? 1 : 0);
   const auto now = steady_clock::now();
-  if (stated == talk_->stated && now - talk_->stated_at < kStateAgain) return;
+  if (stated == connection_->stated && now - connection_->stated_at < kStateAgain) return;
   const char* word = fault ? "FAULT" : kStates[static_cast<std::size_t>(state)];
-  talk_->states.write(OperatingState{header, lent(word), homed, told.busy});
-  talk_->stated = stated;
-  talk_->stated_at = now;
+  connection_->states.write(OperatingState{header, as_sample_text(word), homed, report.busy});
+  connection_->stated = stated;
+  connection_->stated_at = now;
 }
 
-bool Arm::take(ArmGoal& newest) BURR_RT { return talk_->goals.take(newest); }
-int Arm::domain() const { return talk_->bus->domain(); }
-std::uint64_t Arm::left_aside() const { return talk_->left_aside; }
+bool Arm::take(ArmGoal& newest) BURR_RT { return connection_->goals.take(newest); }
+int Arm::domain() const { return connection_->bus->domain(); }
+std::uint64_t Arm::ignored_goals() const { return connection_->ignored_goals; }
 
 // ---- the hand
 
@@ -208,7 +209,7 @@ void DrivenHand::step(double dt) BURR_RT {
   const Vec3 before = at_.p;
   const Vec3 way = goal_.p - at_.p;
   const double left = way.norm();
-  const bool servo = told_.kind == ArmGoal::Kind::servo;
+  const bool servo = command_.kind == ArmGoal::Kind::servo;
   const double half = 0.5 * kMoveAcceleration * dt;
   if (servo)
     speed_ = kServoSpeed;
@@ -233,23 +234,24 @@ void DrivenHand::step(double dt) BURR_RT {
 }
 
 HandState DrivenHand::state(double dt) BURR_RT {
-  const std::uint64_t number = told_.number;
-  if (arm_.take(told_) && told_.number != number) {
-    if (told_.kind == ArmGoal::Kind::stay) goal_ = at_;
-    if (told_.kind == ArmGoal::Kind::home) goal_ = home_;
-    if (told_.kind == ArmGoal::Kind::servo || told_.kind == ArmGoal::Kind::move) goal_ = told_.goal;
+  const std::uint64_t number = command_.number;
+  if (arm_.take(command_) && command_.number != number) {
+    if (command_.kind == ArmGoal::Kind::stay) goal_ = at_;
+    if (command_.kind == ArmGoal::Kind::home) goal_ = home_;
+    if (command_.kind == ArmGoal::Kind::servo || command_.kind == ArmGoal::Kind::move)
+      goal_ = command_.goal;
   }
   if (dt > 0) step(dt);
   HandState hand;
   hand.world_from_tool = at_;
   hand.velocity = velocity_;
-  hand.pedal = told_.spindle;
-  hand.buttons = told_.state == ArmState::disabled ? kLifted : 0;
+  hand.pedal = command_.spindle;
+  hand.buttons = command_.state == ArmState::disabled ? kLifted : 0;
   return hand;
 }
 
 std::string DrivenHand::trouble() const {
-  const std::uint64_t count = arm_.left_aside();
+  const std::uint64_t count = arm_.ignored_goals();
   return count == 0
              ? std::string()
              : fmt::format(

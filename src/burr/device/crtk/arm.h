@@ -2,7 +2,7 @@
 // it and record it, over DDS with the topic names of ROS 2.
 //
 //     auto arm = Arm::open({.name = "/burr"});
-//     arm->tell(report);                                          // at any rate
+//     arm->publish(report);                                       // at any rate
 //     Session::make(bone, std::make_unique<DrivenHand>(*arm, start), ...)  // others drive it
 //
 // Publishes: measured_cp (pose of the burr, kept outside the bone), setpoint_cp (pose that was
@@ -16,8 +16,8 @@
 //
 // Frame: the bone's world (LPS) [m] for everything; the handle is the tool's +z. Source: CRTK Robot
 // API.
-// Thread: open() and the destructor on main; tell() on one thread; take() on one thread, wait-free.
-// The listener has a thread of its own.
+// Thread: open() and the destructor on main; publish() on one thread; take() on one thread,
+// wait-free. The listener has a thread of its own.
 #pragma once
 
 #include <atomic>
@@ -54,7 +54,7 @@ struct ArmReport {
   math::Vec3 velocity = math::Vec3::Zero();  // [m/s]
   math::Vec3 force = math::Vec3::Zero();     // of the bone on the burr, at its centre [N]
   bool busy = false;                         // a move is under way
-  bool let_go = false;                       // no contact until it has been in free air
+  bool released = false;                     // no contact until it has been in free air
 };
 
 class Arm {
@@ -65,17 +65,17 @@ class Arm {
   Arm(const Arm&) = delete;
   Arm& operator=(const Arm&) = delete;
 
-  void tell(const ArmReport& told);
+  void publish(const ArmReport& report);
   // False: there is nothing new.
   [[nodiscard]] bool take(ArmGoal& newest) BURR_RT;
   [[nodiscard]] int domain() const;
   // Number of goals ignored so far. Thread: any.
-  [[nodiscard]] std::uint64_t left_aside() const;
+  [[nodiscard]] std::uint64_t ignored_goals() const;
 
  private:
-  struct Talk;
-  explicit Arm(std::unique_ptr<Talk> talk);
-  std::unique_ptr<Talk> talk_;
+  struct Connection;
+  explicit Arm(std::unique_ptr<Connection> connection);
+  std::unique_ptr<Connection> connection_;
 };
 
 // A hand that follows the goals of an arm: servo_cp at no more than kServoSpeed [m/s]; move_cp and
@@ -93,7 +93,7 @@ class DrivenHand final : public Device {
   void close() override {}
   [[nodiscard]] const DeviceSpec& spec() const override { return spec_; }
   [[nodiscard]] HandState state(double dt) BURR_RT override;
-  void write_force(const math::Vec3&) BURR_RT override {}  // published by Arm::tell() instead
+  void write_force(const math::Vec3&) BURR_RT override {}  // published by Arm::publish() instead
   [[nodiscard]] std::string trouble() const override;
   [[nodiscard]] bool busy() const BURR_RT { return busy_.load(std::memory_order_relaxed); }
 
@@ -103,7 +103,7 @@ class DrivenHand final : public Device {
   Arm& arm_;
   DeviceSpec spec_;
   math::Pose home_, at_, goal_;
-  ArmGoal told_;
+  ArmGoal command_;
   math::Vec3 velocity_ = math::Vec3::Zero();
   double speed_ = 0;  // along a move [m/s]
   std::atomic<bool> busy_ = false;

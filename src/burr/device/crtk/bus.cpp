@@ -105,7 +105,7 @@ Result<std::unique_ptr<Bus>> Bus::open(int domain) {
   return std::unique_ptr<Bus>(new Bus(participant, domain));
 }
 
-void Bus::hear() {
+void Bus::update_writers() {
   // made only when needed: samples that are not read stay in memory
   if (publications_ <= 0)
     publications_ =
@@ -117,14 +117,15 @@ void Bus::hear() {
   while (dds_take(publications_, &sample, &info, 1, 1) > 0) {
     const auto& point = *static_cast<const dds_builtintopic_endpoint_t*>(sample);
     const std::string key(reinterpret_cast<const char*>(&point.key), sizeof point.key);
-    std::erase_if(heard_, [&key](const Writes& one) { return one.key == key; });
+    std::erase_if(writers_, [&key](const WriterInfo& one) { return one.key == key; });
     if (info.instance_state == DDS_IST_ALIVE && info.valid_data) {
       const std::string_view name = point.topic_name;
       if (name.starts_with("rt/"))
-        heard_.push_back({key,
-                          {std::string(name.substr(kPrefix.size())), std::string(point.type_name)},
-                          std::memcmp(&point.participant_key, &own, sizeof own) == 0,
-                          mark_of(point.qos) == kGuardian});
+        writers_.push_back(
+            {key,
+             {std::string(name.substr(kPrefix.size())), std::string(point.type_name)},
+             std::memcmp(&point.participant_key, &own, sizeof own) == 0,
+             mark_of(point.qos) == kGuardian});
     }
     dds_return_loan(publications_, &sample, 1);
     sample = nullptr;
@@ -132,18 +133,19 @@ void Bus::hear() {
 }
 
 std::vector<Topic> Bus::written() {
-  hear();
+  update_writers();
   std::vector<Topic> all;
-  for (const Writes& one : heard_) all.push_back(one.topic);
+  for (const WriterInfo& one : writers_) all.push_back(one.topic);
   std::sort(all.begin(), all.end(), [](const Topic& a, const Topic& b) { return a.name < b.name; });
   return all;
 }
 
 int Bus::others_writing(std::string_view topic, bool guardians) {
-  hear();
-  return static_cast<int>(std::count_if(heard_.begin(), heard_.end(), [&](const Writes& one) {
-    return one.topic.name == topic && !one.ours && (guardians || !one.guardian);
-  }));
+  update_writers();
+  return static_cast<int>(
+      std::count_if(writers_.begin(), writers_.end(), [&](const WriterInfo& one) {
+        return one.topic.name == topic && !one.ours && (guardians || !one.guardian);
+      }));
 }
 
 namespace detail {

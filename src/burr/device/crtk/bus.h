@@ -64,16 +64,16 @@ class Bus {
  private:
   Bus(dds_entity_t participant, int domain);
 
-  struct Writes {
+  struct WriterInfo {
     std::string key;  // of the writer
     Topic topic;
     bool ours = false, guardian = false;
   };
-  void hear();
+  void update_writers();
 
   dds_entity_t participant_, publications_ = 0;
   int domain_;
-  std::vector<Writes> heard_;
+  std::vector<WriterInfo> writers_;
 };
 
 // Mark of a guardian's writer, by which others recognize it.
@@ -142,7 +142,7 @@ class Writer {
   return stamp.sec_ == 0 && stamp.nanosec_ == 0;
 }
 // Lends our text to a sample. The sample is only written to the bus, so the text is not changed.
-[[nodiscard]] inline char* lent(const char* text) { return const_cast<char*>(text); }
+[[nodiscard]] inline char* as_sample_text(const char* text) { return const_cast<char*>(text); }
 
 [[nodiscard]] math::Pose pose_of(const geometry_msgs_msg_dds__Pose_& pose);
 [[nodiscard]] geometry_msgs_msg_dds__Pose_ message_of(const math::Pose& pose);

@@ -59,7 +59,7 @@ bool is_pressed(const Joy& joy) { return joy.buttons_._length > 0 && joy.buttons
 }  // namespace
 
 // The connection and its state.
-struct Leader::Talk {
+struct Leader::Connection {
   std::unique_ptr<Bus> bus;
   std::string arm;
   Reader<PoseStamped> place;
@@ -88,7 +88,7 @@ struct Leader::Talk {
   std::uint32_t buttons = 0;
   double pedal = 0;
 
-  Talk(std::unique_ptr<Bus> on, const std::string& name)
+  Connection(std::unique_ptr<Bus> on, const std::string& name)
       : bus(std::move(on)),
         arm(name),
         place(bus->participant(), name + kPlace, Keep::newest),
@@ -107,15 +107,15 @@ struct Leader::Talk {
         waits(dds_create_waitset(bus->participant())),
         comes(dds_create_readcondition(place.entity(), DDS_ANY_STATE)) {
     dds_waitset_attach(waits, comes, 0);
-    wrench.header_.frame_id_ = lent("");
+    wrench.header_.frame_id_ = as_sample_text("");
   }
-  ~Talk() {
+  ~Connection() {
     guardian.reset();
     dds_delete(waits);
     dds_delete(comes);
   }
-  Talk(const Talk&) = delete;
-  Talk& operator=(const Talk&) = delete;
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
 
   Writer<WrenchStamped>& force() { return to_body ? body : spatial; }
 
@@ -151,7 +151,7 @@ struct Leader::Talk {
   double rate() {
     int places = 0;
     double seconds = 0;
-    Listened listened;
+    ListeningTime listened;
     listened.begin(rt::monotonic_ns());
     const auto good = [&] { return places >= kCountedPlaces && places >= kSlowest * seconds; };
     while (!good() && seconds < kCounted) {
@@ -172,8 +172,8 @@ struct Leader::Talk {
 
   void ask(const char* words) {
     StringStamped message{};
-    message.header_ = {now_stamp(), lent("")};
-    message.string_ = lent(words);
+    message.header_ = {now_stamp(), as_sample_text("")};
+    message.string_ = as_sample_text(words);
     command.write(message);
   }
 
@@ -192,12 +192,12 @@ Leader::~Leader() { disconnect(); }
 
 namespace {
 
-struct Heard {
+struct ArmsOnBus {
   std::vector<std::string> arms;
   std::string old;  // an arm whose pose has a message type from before 2022, and that type
 };
-Heard heard_on(Bus& bus) {
-  Heard heard;
+ArmsOnBus arms_on(Bus& bus) {
+  ArmsOnBus heard;
   for (const Topic& topic : bus.written()) {
     if (!topic.name.ends_with(kPlace) || topic.name.find("/local/") != std::string::npos) continue;
     const std::string arm = topic.name.substr(0, topic.name.size() - std::string(kPlace).size());
@@ -220,11 +220,11 @@ Result<std::string> choose(Bus& bus, const std::string& given) {
           fmt::format("{}: is not a valid name of an arm; write it as in ROS, for example /MTMR",
                       given));
   }
-  Heard heard;
+  ArmsOnBus heard;
   const std::vector<std::string>& arms = heard.arms;
   const std::string& old = heard.old;
   const auto look = [&] {
-    heard = heard_on(bus);
+    heard = arms_on(bus);
     return !wanted.empty() && std::find(arms.begin(), arms.end(), wanted) != arms.end();
   };
   if (until(kHeard, look)) return wanted;
@@ -251,43 +251,43 @@ Result<std::string> choose(Bus& bus, const std::string& given) {
 
 }  // namespace
 
-Result<std::vector<std::string>> arms_heard(const LeaderSettings& settings) {
+Result<std::vector<std::string>> list_arms(const LeaderSettings& settings) {
   auto bus = Bus::open(settings.domain);
   if (!bus) return bus.error();
   std::this_thread::sleep_for(kHeard);
-  return heard_on(**bus).arms;
+  return arms_on(**bus).arms;
 }
 
 // Makes sure that the arm is enabled and homed; does it where that is allowed.
-Status Leader::prepare(Talk& talk) {
-  const auto stated = [&talk] {
-    talk.listen();
-    return talk.stated;
+Status Leader::prepare(Connection& connection) {
+  const auto stated = [&connection] {
+    connection.listen();
+    return connection.stated;
   };
   static_cast<void>(until(kStated, stated));
-  if (talk.ready()) return fine();
-  const auto trouble = [&talk](const char* todo) {
-    return error(Trouble::io, fmt::format("{} is {}{}; {}", talk.arm, talk.state,
-                                          talk.busy    ? " and busy"
-                                          : talk.homed ? ""
-                                                       : " and not homed",
+  if (connection.ready()) return fine();
+  const auto trouble = [&connection](const char* todo) {
+    return error(Trouble::io, fmt::format("{} is {}{}; {}", connection.arm, connection.state,
+                                          connection.busy    ? " and busy"
+                                          : connection.homed ? ""
+                                                             : " and not homed",
                                           todo));
   };
-  if (talk.state == "FAULT") return trouble("clear the fault at its console");
+  if (connection.state == "FAULT") return trouble("clear the fault at its console");
   if (!settings_.home_allowed)
     return trouble(
         "enable and home it at its console, or let burr do it with --home: the arm then moves");
-  talk.ask(talk.state == "PAUSED" ? "resume" : "enable");
-  static_cast<void>(until(kMatched, [&talk] {
-    talk.listen();
-    return talk.enabled();
+  connection.ask(connection.state == "PAUSED" ? "resume" : "enable");
+  static_cast<void>(until(kMatched, [&connection] {
+    connection.listen();
+    return connection.enabled();
   }));
-  if (!talk.homed) talk.ask("home");
-  const bool came = until(kHomes, [&talk] {
-    talk.listen();
-    return talk.ready() || talk.state == "FAULT";
+  if (!connection.homed) connection.ask("home");
+  const bool came = until(kHomes, [&connection] {
+    connection.listen();
+    return connection.ready() || connection.state == "FAULT";
   });
-  if (!came || !talk.ready()) return trouble("homing failed; see its console");
+  if (!came || !connection.ready()) return trouble("homing failed; see its console");
   return fine();
 }
 
@@ -298,25 +298,25 @@ Result<DeviceSpec> Leader::connect() {
   const auto arm = choose(**bus, settings_.arm);
   if (!arm) return arm.error();
   const int domain = (*bus)->domain();
-  auto talk = std::make_unique<Talk>(std::move(*bus), *arm);
+  auto connection = std::make_unique<Connection>(std::move(*bus), *arm);
   name_ = *arm;
 
-  const auto taken = [&talk] {
-    talk->to_body = talk->body.readers() > 0;
-    return talk->to_body || talk->spatial.readers() > 0;
+  const auto taken = [&connection] {
+    connection->to_body = connection->body.readers() > 0;
+    return connection->to_body || connection->spatial.readers() > 0;
   };
   if (!until(kMatched, taken))
     return error(Trouble::io, fmt::format("{0} takes no force: nothing subscribes to {0}{1} or "
                                           "{0}{2}; burr needs an arm that can exert a force",
                                           *arm, kBody, kSpatial));
-  if (!talk->to_body)  // it may only be that the topic has not been discovered yet
-    static_cast<void>(until(kStated, [&talk] { return talk->body.readers() > 0; }));
+  if (!connection->to_body)  // it may only be that the topic has not been discovered yet
+    static_cast<void>(until(kStated, [&connection] { return connection->body.readers() > 0; }));
   static_cast<void>(taken());
-  const Status prepared = prepare(*talk);
+  const Status prepared = prepare(*connection);
   if (!prepared) return prepared.error();
 
-  const double rate = talk->rate();
-  if (!until(kLeft, [&talk] { return talk->others(true) == 0; }))
+  const double rate = connection->rate();
+  if (!until(kLeft, [&connection] { return connection->others(true) == 0; }))
     return error(Trouble::io,
                  fmt::format("another program sends forces to {0}: it writes {0}{1} or {0}{2}; end "
                              "that program, because two forces on one arm are dangerous",
@@ -329,14 +329,14 @@ Result<DeviceSpec> Leader::connect() {
 
   // For arms that know these: carry their own weight, and take forces in the frame of their end.
   const Bool yes{true}, no{false};
-  talk->weightless.write(yes);
-  if (talk->to_body) talk->absolute.write(no);
-  auto guardian =
-      Guardian::start({"crtk", std::to_string(domain), *arm, talk->to_body ? kBody : kSpatial});
+  connection->weightless.write(yes);
+  if (connection->to_body) connection->absolute.write(no);
+  auto guardian = Guardian::start(
+      {"crtk", std::to_string(domain), *arm, connection->to_body ? kBody : kSpatial});
   if (!guardian) return guardian.error();
-  talk->guardian = std::move(*guardian);
-  talk->silence.ended(rt::monotonic_ns());
-  talk_ = std::move(talk);
+  connection->guardian = std::move(*guardian);
+  connection->silence.ended(rt::monotonic_ns());
+  connection_ = std::move(connection);
 
   trouble_ = nullptr;
   DeviceSpec spec;
@@ -356,56 +356,56 @@ Result<DeviceSpec> Leader::connect() {
 }
 
 void Leader::note(const char* words) BURR_RT {
-  if (trouble_ != words) ++told_;
+  if (trouble_ != words) ++why_revision_;
   trouble_ = words;
 }
 
 Wire::Read Leader::read(HandState& hand) BURR_RT {
-  Talk& talk = *talk_;
+  Connection& connection = *connection_;
   hand.valid = false;
-  const PoseStamped* newest = talk.next_place();
-  talk.guardian->beat();
+  const PoseStamped* newest = connection.next_place();
+  connection.guardian->beat();
   if (newest == nullptr) {
-    if (!talk.silence.lasts(rt::monotonic_ns())) return Read::nothing;
+    if (!connection.silence.lasts(rt::monotonic_ns())) return Read::nothing;
     note("has gone silent; check that its node runs.");
     return Read::lost;
   }
-  talk.silence.ended(rt::monotonic_ns());
-  talk.listen();
-  while (const TwistStamped* speed = talk.speed.take())
-    talk.sound_speed = take_speed(*speed, talk.hand);
-  const bool sound = take_place(*newest, talk.hand) && talk.sound_speed;
-  note(!talk.enabled()    ? "was disabled; enable it at its console."
-       : !talk.ready()    ? "is homing or moving by itself; wait until it has finished."
-       : !sound           ? "reports that its position is not valid; see its console."
-       : !talk.alone      ? "also gets forces from another program; end that program."
-       : !talk.taken      ? "no longer takes forces; check that its node runs."
-       : !talk.is_present ? "sends no force until somebody is at its console."
-                          : nullptr);
-  hand = talk.hand;
-  hand.buttons = talk.buttons | (talk.is_present ? 0 : kLifted);
-  hand.pedal = talk.pedal;
-  hand.valid = sound && talk.alone && talk.taken && talk.ready();
+  connection.silence.ended(rt::monotonic_ns());
+  connection.listen();
+  while (const TwistStamped* speed = connection.speed.take())
+    connection.sound_speed = take_speed(*speed, connection.hand);
+  const bool sound = take_place(*newest, connection.hand) && connection.sound_speed;
+  note(!connection.enabled()    ? "was disabled; enable it at its console."
+       : !connection.ready()    ? "is homing or moving by itself; wait until it has finished."
+       : !sound                 ? "reports that its position is not valid; see its console."
+       : !connection.alone      ? "also gets forces from another program; end that program."
+       : !connection.taken      ? "no longer takes forces; check that its node runs."
+       : !connection.is_present ? "sends no force until somebody is at its console."
+                                : nullptr);
+  hand = connection.hand;
+  hand.buttons = connection.buttons | (connection.is_present ? 0 : kLifted);
+  hand.pedal = connection.pedal;
+  hand.valid = sound && connection.alone && connection.taken && connection.ready();
   return Read::hand;
 }
 
 bool Leader::write(const Vec3& force) BURR_RT {
-  Talk& talk = *talk_;
-  static_cast<void>(talk.push(bounded(force, kPeak)));  // a force that was not sent is followed by
-                                                        // the next
-  if (--talk.until_look <= 0) {
-    talk.until_look = kLookAtBus;
-    talk.taken = talk.force().readers() > 0;
-    talk.alone = talk.others(false) == 0;
+  Connection& connection = *connection_;
+  // a force that was not sent is followed by the next
+  static_cast<void>(connection.push(bounded(force, kPeak)));
+  if (--connection.until_look <= 0) {
+    connection.until_look = kLookAtBus;
+    connection.taken = connection.force().readers() > 0;
+    connection.alone = connection.others(false) == 0;
   }
   return true;
 }
 
 void Leader::disconnect() {
-  if (!talk_) return;
-  static_cast<void>(talk_->push(Vec3::Zero()));
-  talk_->force().flush(kLastNs);
-  talk_.reset();
+  if (!connection_) return;
+  static_cast<void>(connection_->push(Vec3::Zero()));
+  connection_->force().flush(kLastNs);
+  connection_.reset();
 }
 
 std::string Leader::why() const {

@@ -32,7 +32,7 @@ struct LeaderSettings {
 };
 
 // The arms that are heard on the bus within 1.5 seconds. Nothing is sent to any of them.
-[[nodiscard]] Result<std::vector<std::string>> arms_heard(const LeaderSettings& settings = {});
+[[nodiscard]] Result<std::vector<std::string>> list_arms(const LeaderSettings& settings = {});
 
 class Leader final : public Wire {
  public:
@@ -44,18 +44,18 @@ class Leader final : public Wire {
   [[nodiscard]] bool write(const math::Vec3& force) BURR_RT override;
   void disconnect() override;
   [[nodiscard]] std::string why() const override;
-  [[nodiscard]] unsigned told() const BURR_RT override { return told_; }
+  [[nodiscard]] unsigned why_revision() const BURR_RT override { return why_revision_; }
 
  private:
-  struct Talk;
+  struct Connection;
   void note(const char* words) BURR_RT;
-  [[nodiscard]] Status prepare(Talk& talk);
+  [[nodiscard]] Status prepare(Connection& connection);
 
   LeaderSettings settings_;
-  std::unique_ptr<Talk> talk_;
+  std::unique_ptr<Connection> connection_;
   std::string name_ = "the arm";
   const char* trouble_ = nullptr;
-  unsigned told_ = 0;
+  unsigned why_revision_ = 0;
 };
 
 }  // namespace burr::device::crtk

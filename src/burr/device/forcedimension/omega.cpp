@@ -112,7 +112,7 @@ Result<DeviceSpec> Omega::connect() {
   if (ready) ready = prepare(spec);
   if (!ready) {
     static_cast<void>(dhd_->EnableForce(0, static_cast<char>(id_)));  // homing leaves the motors on
-    let_go(id_);
+    release_force(id_);
     id_ = -1;
     return ready.error();
   }
@@ -154,7 +154,7 @@ Status Omega::find() {
       continue;
     }
     if (serial_of(id_) == serial) return fine();
-    let_go(id_);
+    release_force(id_);
     id_ = -1;
   }
   return error(
@@ -165,19 +165,19 @@ Status Omega::find() {
                   locked > 0 ? fmt::format(" ({} of {} cannot be opened)", locked, count) : ""));
 }
 
-Result<Plugged> Omega::plugged(const OmegaSettings& settings) {
+Result<DeviceList> Omega::list_devices(const OmegaSettings& settings) {
   auto dhd = load(settings.dhd_file);
   if (!dhd) return dhd.error();
   Omega one(settings);
   one.dhd_ = *dhd;
   const std::lock_guard lock(opening());
-  Plugged all;
+  DeviceList all;
   const int count = std::min(one.dhd_->GetDeviceCount(), kMostDevices);
   for (int index = 0; index < count; ++index) {
     const char* why = nullptr;
     const int id = one.open(index, why);
     const int serial = id >= 0 ? one.serial_of(id) : -1;
-    if (id >= 0) one.let_go(id);
+    if (id >= 0) one.release_force(id);
     if (serial >= 0)
       all.serials.push_back(serial);
     else
@@ -311,7 +311,7 @@ int Omega::serial_of(int id) const {
   return serial != 0 ? serial : -1;  // -1 for a device that was never given a number
 }
 
-void Omega::let_go(int id) {
+void Omega::release_force(int id) {
   static_cast<void>(dhd_->homes() ? dhd_->DrdClose(static_cast<char>(id))
                                   : dhd_->Close(static_cast<char>(id)));
   taken().erase({dhd_->library, id});
@@ -322,19 +322,19 @@ void Omega::disconnect() {
   static_cast<void>(dhd_->SetForceAndTorqueAndGripperForce(0, 0, 0, 0, 0, 0, 0, to_));
   static_cast<void>(dhd_->EnableForce(0, to_));
   const std::lock_guard lock(opening());  // only now, because another device may be homing
-  let_go(id_);
+  release_force(id_);
   id_ = -1;
 }
 
 // ---- the exchange
 
 void Omega::note(const char*& what, const char* words) BURR_RT {
-  if (what != words) ++told_;
+  if (what != words) ++why_revision_;
   what = words;
 }
 
 // Handles a failed call. Returns whether the device may still be there.
-bool Omega::bear(const char*& trouble) BURR_RT {
+bool Omega::tolerate(const char*& trouble) BURR_RT {
   const int code = dhd_->ErrorGetLast();
   note(trouble, words(code));
   return !is_gone(code);
@@ -342,7 +342,7 @@ bool Omega::bear(const char*& trouble) BURR_RT {
 
 // Reads the device's status. A status bit that was never good is never reported (some models fill
 // in nothing). False: the device says that it is gone.
-bool Omega::look() BURR_RT {
+bool Omega::read_status() BURR_RT {
   const std::int64_t now = settings_.now();
   if (dhd_->GetStatus == nullptr || (looked_ns_ != INT64_MIN && now - looked_ns_ < kLookEvery))
     return true;
@@ -368,7 +368,7 @@ bool Omega::look() BURR_RT {
 
 // The gripper as pedal: closed is full, open is none. A gripper that is closed from the start
 // counts only after it has been opened.
-void Omega::squeeze(HandState& hand) BURR_RT {
+void Omega::read_gripper(HandState& hand) BURR_RT {
   double apart = 0;
   if (gripper_ == nullptr || failed(gripper_(&apart, to_)) || !std::isfinite(apart)) return;
   apart = std::abs(apart);  // a left-handed device counts the other way
@@ -383,8 +383,9 @@ Wire::Read Omega::read(HandState& hand) BURR_RT {
   const int code = wrist_ ? dhd_->GetPositionAndOrientationFrame(&x, &y, &z, frame, to_)
                           : dhd_->GetPosition(&x, &y, &z, to_);
   hand.valid = false;
-  if (failed(code)) return bear(read_trouble_) && ++errors_ < kMostErrors ? Read::hand : Read::lost;
-  if (!look()) return Read::lost;
+  if (failed(code))
+    return tolerate(read_trouble_) && ++errors_ < kMostErrors ? Read::hand : Read::lost;
+  if (!read_status()) return Read::lost;
   errors_ = 0;
 
   // rows and columns in our order: the library's y, z, x
@@ -397,7 +398,7 @@ Wire::Read Omega::read(HandState& hand) BURR_RT {
   const bool knows_speed = !failed(dhd_->GetLinearVelocity(&vx, &vy, &vz, to_));
   hand.velocity = knows_speed ? ours(vx, vy, vz) : Vec3(Vec3::Zero());
   hand.buttons = dhd_->GetButtonMask(to_) & ~kLifted;
-  squeeze(hand);
+  read_gripper(hand);
 
   const bool sound = turn.allFinite() && place.allFinite() && hand.velocity.allFinite() &&
                      place.norm() < kFarthest && std::abs(turn.determinant() - 1) < 0.1 &&
@@ -416,7 +417,7 @@ bool Omega::write(const Vec3& force) BURR_RT {
   const int code = dhd_->SetForceAndTorqueAndGripperForce(push.z(), push.x(), push.y(), turn.z(),
                                                           turn.x(), turn.y(), 0, to_);
   // not opened again, however long this lasts: that would switch on what the user switched off
-  if (failed(code)) return bear(write_trouble_);
+  if (failed(code)) return tolerate(write_trouble_);
   note(write_trouble_, nullptr);
   return true;
 }

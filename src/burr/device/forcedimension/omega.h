@@ -37,7 +37,7 @@ struct OmegaSettings {
 };
 
 // The devices that are plugged in.
-struct Plugged {
+struct DeviceList {
   std::vector<int> serials;  // of those that can be opened and have one
   int nameless = 0;          // number of devices without a serial number
 };
@@ -45,7 +45,7 @@ struct Plugged {
 class Omega final : public Wire {
  public:
   // Opens and closes each device; nothing moves and no force is sent.
-  [[nodiscard]] static Result<Plugged> plugged(const OmegaSettings& settings = {});
+  [[nodiscard]] static Result<DeviceList> list_devices(const OmegaSettings& settings = {});
 
   explicit Omega(OmegaSettings settings = {}) : settings_(std::move(settings)) {}
   ~Omega() override { disconnect(); }
@@ -56,7 +56,7 @@ class Omega final : public Wire {
   [[nodiscard]] bool write(const math::Vec3& force) BURR_RT override;
   void disconnect() override;
   [[nodiscard]] std::string why() const override;
-  [[nodiscard]] unsigned told() const BURR_RT override { return told_; }
+  [[nodiscard]] unsigned why_revision() const BURR_RT override { return why_revision_; }
 
  private:
   [[nodiscard]] Status find();
@@ -66,12 +66,12 @@ class Omega final : public Wire {
   [[nodiscard]] DeviceSpec describe() const;
   void watch() const;
   [[nodiscard]] int serial_of(int id) const;
-  void let_go(int id);
+  void release_force(int id);
 
-  [[nodiscard]] bool bear(const char*& trouble) BURR_RT;
+  [[nodiscard]] bool tolerate(const char*& trouble) BURR_RT;
   void note(const char*& what, const char* words) BURR_RT;
-  [[nodiscard]] bool look() BURR_RT;
-  void squeeze(HandState& hand) BURR_RT;
+  [[nodiscard]] bool read_status() BURR_RT;
+  void read_gripper(HandState& hand) BURR_RT;
 
   OmegaSettings settings_;
   const Dhd* dhd_ = nullptr;
@@ -87,7 +87,7 @@ class Omega final : public Wire {
   char to_ = 0;
   const char *read_trouble_ = nullptr, *write_trouble_ = nullptr, *status_trouble_ = nullptr;
   int errors_ = 0;  // failed reads in a row
-  unsigned told_ = 0;
+  unsigned why_revision_ = 0;
   bool off_ = false;
   bool seen_power_ = false, seen_connected_ = false, seen_force_ = false;
   std::int64_t looked_ns_ = INT64_MIN;

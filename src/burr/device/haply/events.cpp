@@ -17,35 +17,35 @@ constexpr int kMostNonsense = 50;                // in a row: this is not the se
 constexpr std::int64_t kSaidNs = 5'000'000'000;  // how long an event is shown [ns]
 
 // The text for an event, without its subject; nullptr: not for the user.
-const char* words_of(Told what) {
+const char* words_of(EventKind what) {
   switch (what) {
-    case Told::disconnected:
+    case EventKind::disconnected:
       return "has a part that was disconnected; check its cable, or wake its grip.";
-    case Told::battery_low:
+    case EventKind::battery_low:
       return "has a grip whose battery is low; charge it soon.";
-    case Told::battery_critical:
+    case EventKind::battery_critical:
       return "has a grip whose battery is nearly empty; charge it.";
-    case Told::sleeps:
+    case EventKind::sleeps:
       return "went to sleep; move it, or press a button of its grip.";
-    case Told::busy:
+    case EventKind::busy:
       return "is busy; close other programs that use it.";
-    case Told::connection_loop:
+    case EventKind::connection_loop:
       return "connects again and again; use another cable or port.";
-    case Told::calibration_failed:
+    case EventKind::calibration_failed:
       return "could not be calibrated; move it as its lights show.";
-    case Told::stalled:
+    case EventKind::stalled:
       return "was stopped by its own safety system because its motors stalled; lift it from the "
              "bone.";
-    case Told::unstable:
+    case EventKind::unstable:
       return "is at its own limit of stability; set a smaller max_force_n or scale.";
-    case Told::stage:
+    case EventKind::stage:
       return "changed the stage of its own safety system; see Haply's window.";
-    case Told::trouble:
+    case EventKind::trouble:
       return "reports a fault; see Haply's window.";
-    case Told::nothing:
-    case Told::connected:
-    case Told::brake:
-    case Told::brake_released:
+    case EventKind::nothing:
+    case EventKind::connected:
+    case EventKind::brake:
+    case EventKind::brake_released:
       break;
   }
   return nullptr;
@@ -58,25 +58,25 @@ Events::Events(std::string address, int port, std::string arm, bool braked)
       port_(port),
       arm_(std::move(arm)),
       braked_(braked),
-      deaf_(braked),
+      may_have_missed_release_(braked),
       line_(kLargest),
       thread_({.name = "haply events", .stack_bytes = 0}, [this] { listen(); }) {}
 
 Events::~Events() { line_.stop(); }
 
 void Events::follow_grip(const std::string& id) {
-  const std::lock_guard lock(whose_);
+  const std::lock_guard lock(ids_mutex_);
   grip_ = id;
 }
 
 bool Events::is_ours(const std::string& device) {
-  const std::lock_guard lock(whose_);
+  const std::lock_guard lock(ids_mutex_);
   return device.empty() || device == arm_ || device == grip_;
 }
 
 const char* Events::words() const BURR_RT {
   if (braked())
-    return deaf_.load(std::memory_order_relaxed)
+    return may_have_missed_release_.load(std::memory_order_relaxed)
                ? "was held by its emergency brake when it last sent anything; release the brake, "
                  "and begin again."
                : "is held by its emergency brake; release the brake.";
@@ -87,17 +87,17 @@ const char* Events::words() const BURR_RT {
 
 // Waits for the next message, however long it takes. False: the channel is closed, or this object
 // is being destroyed.
-bool Events::hear() {
-  WebSocket::Heard heard = WebSocket::Heard::nothing;
-  while (heard == WebSocket::Heard::nothing) heard = line_.receive(kListen);
-  return heard == WebSocket::Heard::message;
+bool Events::read_event_message() {
+  WebSocket::Received heard = WebSocket::Received::nothing;
+  while (heard == WebSocket::Received::nothing) heard = line_.receive(kListen);
+  return heard == WebSocket::Received::message;
 }
 
 void Events::listen() {
   while (!line_.stopped()) {
     int nonsense = 0;
     if (line_.connect(address_, port_).empty())
-      while (nonsense < kMostNonsense && hear()) {
+      while (nonsense < kMostNonsense && read_event_message()) {
         Event event;
         if (read_event(line_.text(), event)) {
           nonsense = 0;
@@ -107,18 +107,18 @@ void Events::listen() {
         }
       }
     line_.close();
-    if (braked()) deaf_ = true;  // its release may have been missed
+    if (braked()) may_have_missed_release_ = true;  // its release may have been missed
     line_.rest(kAgain);
   }
 }
 
 void Events::take(const Event& event) {
   if (!is_ours(event.device)) return;
-  if (event.what == Told::brake || event.what == Told::brake_released) {
-    deaf_ = false;
-    braked_ = event.what == Told::brake;
+  if (event.what == EventKind::brake || event.what == EventKind::brake_released) {
+    may_have_missed_release_ = false;
+    braked_ = event.what == EventKind::brake;
   }
-  if (event.what == Told::connected) until_ns_ = 0;
+  if (event.what == EventKind::connected) until_ns_ = 0;
   if (const char* words = words_of(event.what)) {
     words_ = words;
     until_ns_ = rt::monotonic_ns() + kSaidNs;

@@ -39,17 +39,19 @@ class Events {
 
  private:
   void listen();
-  [[nodiscard]] bool hear();
+  [[nodiscard]] bool read_event_message();
   void take(const Event& event);
   [[nodiscard]] bool is_ours(const std::string& device);
 
   std::string address_;
   int port_;
   std::string arm_;
-  std::mutex whose_;  // protects the ids: the wire sets the grip, the listening thread reads them
+  // protects the ids: the wire sets the grip, the listening thread reads them
+  std::mutex ids_mutex_;
   std::string grip_;
   std::atomic<bool> braked_;
-  std::atomic<bool> deaf_ = false;  // the connection was lost after a brake was reported
+  // the connection was lost after a brake was reported
+  std::atomic<bool> may_have_missed_release_ = false;
   std::atomic<const char*> words_ = nullptr;
   std::atomic<std::int64_t> until_ns_ = 0;  // end of the time for which the words are shown
   WebSocket line_;

@@ -86,7 +86,7 @@ Vec3 theirs(const Vec3& v) BURR_RT { return {v.x(), -v.z(), v.y()}; }
 }  // namespace
 
 // The connection and its state.
-struct Inverse::Talk {
+struct Inverse::Connection {
   WebSocket line{kLargest};
   bool asked = false;  // the answer is still to come
   Silence silence;
@@ -108,14 +108,14 @@ struct Inverse::Talk {
     asked = true;
     return true;
   }
-  WebSocket::Heard receive(milliseconds longest) {
-    const WebSocket::Heard what = line.receive(longest);
-    if (what != WebSocket::Heard::message) return what;
+  WebSocket::Received receive(milliseconds longest) {
+    const WebSocket::Received what = line.receive(longest);
+    if (what != WebSocket::Received::message) return what;
     silence.ended(rt::monotonic_ns());
     asked = false;
     return what;
   }
-  bool hears() { return receive(kPatience) == WebSocket::Heard::message; }
+  bool hears() { return receive(kPatience) == WebSocket::Received::message; }
 
   // One exchange. False: the service is gone, or its answer is not valid.
   bool exchange(const Vec3& force) {
@@ -154,9 +154,9 @@ int version_of(const std::string& host, int port) {
 Inverse::Inverse(InverseSettings settings) : settings_(std::move(settings)) {}
 Inverse::~Inverse() { disconnect(); }
 
-// Connects and puts the service's first message into talk_.
+// Connects and puts the service's first message into connection_.
 Status Inverse::reach() {
-  talk_.reset();
+  connection_.reset();
   host_ = settings_.host.empty() ? from_environment("HAPLY_WS_HOST", "127.0.0.1") : settings_.host;
   std::vector<int> ports(std::begin(kPorts), std::end(kPorts));
   const auto told = port_from_environment("HAPLY_WS_PORT");
@@ -166,18 +166,19 @@ Status Inverse::reach() {
   std::string trouble;
   int answers = 0;  // the port at which another program answers
   for (const int one : ports) {
-    talk_ = std::make_unique<Talk>();
-    const std::string why = talk_->line.connect(host_, one);
+    connection_ = std::make_unique<Connection>();
+    const std::string why = connection_->line.connect(host_, one);
     port_ = one;
     if (why.empty()) break;
-    if (talk_->line.answered()) answers = one;
+    if (connection_->line.answered()) answers = one;
     trouble += fmt::format("{}{}:{}: {}", trouble.empty() ? "" : ", ", host_, one, why);
-    talk_.reset();
+    connection_.reset();
   }
   std::vector<Found> nobody_asks;
-  if (talk_ && talk_->hears() && read_found(talk_->line.text(), nobody_asks)) return fine();
-  if (talk_) answers = port_;
-  talk_.reset();
+  if (connection_ && connection_->hears() && read_found(connection_->line.text(), nobody_asks))
+    return fine();
+  if (connection_) answers = port_;
+  connection_.reset();
   if (answers == 0)
     return error(Trouble::io,
                  fmt::format("Haply's Inverse Service does not answer ({}); install and start it, "
@@ -196,11 +197,11 @@ Status Inverse::reach() {
 }
 
 // Finds the wanted arm and grip in the first message.
-Status Inverse::meet() {
+Status Inverse::read_first_state() {
   const Status reached = reach();
   if (!reached) return reached;
   std::vector<Found> all;
-  static_cast<void>(read_found(talk_->line.text(), all));
+  static_cast<void>(read_found(connection_->line.text(), all));
   const auto wanted = std::find_if(all.begin(), all.end(), [this](const Found& one) {
     return settings_.id.empty() || one.id == settings_.id;
   });
@@ -213,37 +214,38 @@ Status Inverse::meet() {
                              : fmt::format("Haply's Inverse Service finds no arm {}; it finds {}",
                                            settings_.id, fmt::join(known, ", ")));
   }
-  const std::vector<std::string> grips = grips_in(talk_->line.text());
+  const std::vector<std::string> grips = grips_in(connection_->line.text());
   if (!settings_.grip.empty() &&
       std::find(grips.begin(), grips.end(), settings_.grip) == grips.end())
     return error(Trouble::io,
                  fmt::format("Haply's Inverse Service finds no grip {}; {}", settings_.grip,
                              grips.empty() ? std::string("press a button of a grip to wake it")
                                            : fmt::format("it finds {}", fmt::join(grips, ", "))));
-  talk_->found = *wanted;
-  talk_->id = as_json(wanted->id);
-  talk_->wanted_grip = settings_.grip;
-  talk_->peak = model_of(wanted->type).peak;
+  connection_->found = *wanted;
+  connection_->id = as_json(wanted->id);
+  connection_->wanted_grip = settings_.grip;
+  connection_->peak = model_of(wanted->type).peak;
   name_ = wanted->type + " " + wanted->id;
-  static_cast<void>(talk_->take_state());
+  static_cast<void>(connection_->take_state());
   return fine();
 }
 
 // Names this program and finds out which spelling of a force the service takes.
-Status Inverse::greet() {
+Status Inverse::find_force_key() {
   const auto silent = [this] {
     return error(Trouble::io,
                  fmt::format("{} does not answer; restart Haply's Inverse Service", name_));
   };
-  talk_->version = version_of(host_, port_);
-  const char* likely = key_of_force(talk_->version);
+  connection_->version = version_of(host_, port_);
+  const char* likely = key_of_force(connection_->version);
   const char* other = likely == key_of_force(305) ? key_of_force(301) : key_of_force(305);
-  if (!talk_->send(greeting(talk_->id, likely)) || !talk_->hears()) return silent();
-  if (!talk_->obeys(likely) && !talk_->obeys(other))
-    talk_->key = likely;  // an arm at rest reports nothing back
-  if (!talk_->exchange(Vec3::Zero())) return silent();
+  if (!connection_->send(greeting(connection_->id, likely)) || !connection_->hears())
+    return silent();
+  if (!connection_->obeys(likely) && !connection_->obeys(other))
+    connection_->key = likely;  // an arm at rest reports nothing back
+  if (!connection_->exchange(Vec3::Zero())) return silent();
   // so that the first read() has an answer to take
-  if (!talk_->send(greeting(talk_->id, talk_->key))) return silent();
+  if (!connection_->send(greeting(connection_->id, connection_->key))) return silent();
   return fine();
 }
 
@@ -254,11 +256,11 @@ Result<DeviceSpec> Inverse::connect() {
   const int events_port = settings_.events_port > 0 ? settings_.events_port
                           : *told > 0               ? *told
                                                     : kEventsPort;
-  Status met = meet();
-  const auto anothers = [&] { return met.ok() && talk_->state.in_use && !may_be_shared(); };
+  Status met = read_first_state();
+  const auto anothers = [&] { return met.ok() && connection_->state.in_use && !may_be_shared(); };
   for (const auto until = std::chrono::steady_clock::now() + kLetGo;
-       anothers() && std::chrono::steady_clock::now() < until; met = meet()) {
-    talk_.reset();
+       anothers() && std::chrono::steady_clock::now() < until; met = read_first_state()) {
+    connection_.reset();
     std::this_thread::sleep_for(kLookAgain);
   }
   if (anothers())
@@ -267,23 +269,23 @@ Result<DeviceSpec> Inverse::connect() {
                             "sessions in Haply's window (docs/devices/haply.md)",
                             name_));
   if (met) {
-    talk_->events =
-        std::make_unique<Events>(talk_->line.peer(), events_port, talk_->found.id, braked_);
-    met = greet();
+    connection_->events = std::make_unique<Events>(connection_->line.peer(), events_port,
+                                                   connection_->found.id, braked_);
+    met = find_force_key();
   }
   if (!met) {
-    talk_.reset();
+    connection_.reset();
     return met.error();
   }
 
   trouble_ = nullptr;
-  const Found& arm = talk_->found;
+  const Found& arm = connection_->found;
   const Model& model = model_of(arm.type);
   DeviceSpec spec;
   spec.name = arm.type + (arm.left_handed ? " (left hand)" : "");
   spec.serial = arm.id;
   spec.simulated = false;
-  spec.sensed = talk_->state.grip_there ? 6 : 3;
+  spec.sensed = connection_->state.grip_there ? 6 : 3;
   spec.actuated = 3;
   spec.peak_force = model.peak;
   spec.continuous_force = model.continuous;
@@ -292,61 +294,62 @@ Result<DeviceSpec> Inverse::connect() {
   spec.max_damping = model.damping;
   spec.workspace_radius = model.radius;
   spec.native_rate = 1000;
-  spec.software = talk_->version > 0 ? fmt::format("Inverse Service {}.{}", talk_->version / 100,
-                                                   talk_->version % 100)
-                                     : "Inverse Service";
+  spec.software = connection_->version > 0
+                      ? fmt::format("Inverse Service {}.{}", connection_->version / 100,
+                                    connection_->version % 100)
+                      : "Inverse Service";
   if (!arm.firmware.empty()) spec.software += ", firmware " + arm.firmware;
   return spec;
 }
 
-Result<AllKnown> all_known(const InverseSettings& settings) {
+Result<DeviceList> list_devices(const InverseSettings& settings) {
   Inverse wire(settings);
   const Status reached = wire.reach();
   if (!reached) return reached.error();
   std::vector<Found> found;
-  static_cast<void>(read_found(wire.talk_->line.text(), found));
-  AllKnown all;
+  static_cast<void>(read_found(wire.connection_->line.text(), found));
+  DeviceList all;
   for (const Found& one : found) all.arms.push_back({one.id, one.type});
-  all.grips = grips_in(wire.talk_->line.text());
-  wire.talk_.reset();
+  all.grips = grips_in(wire.connection_->line.text());
+  wire.connection_.reset();
   return all;
 }
 
 void Inverse::note(const char* words) BURR_RT {
-  if (trouble_ != words) ++told_;
+  if (trouble_ != words) ++why_revision_;
   trouble_ = words;
 }
 
 Wire::Read Inverse::read(HandState& hand) BURR_RT {
-  Talk& talk = *talk_;
+  Connection& connection = *connection_;
   hand.valid = false;
-  const WebSocket::Heard heard = talk.receive(kOneReading);
-  if (heard != WebSocket::Heard::message) {
-    if (heard == WebSocket::Heard::nothing && !talk.silence.lasts(rt::monotonic_ns()))
+  const WebSocket::Received heard = connection.receive(kOneReading);
+  if (heard != WebSocket::Received::message) {
+    if (heard == WebSocket::Received::nothing && !connection.silence.lasts(rt::monotonic_ns()))
       return Read::nothing;
     note("has gone silent; check that Haply's Inverse Service runs.");
     return Read::lost;
   }
-  switch (talk.take_state()) {
+  switch (connection.take_state()) {
     case haply::Read::gone:
       note("was unplugged; plug it in again.");
       return Read::lost;
     case haply::Read::nonsense:
       note("sends data that burr cannot read; update burr or Haply's Inverse Service.");
-      return ++talk.nonsense > kMostNonsense ? Read::lost : Read::hand;
+      return ++connection.nonsense > kMostNonsense ? Read::lost : Read::hand;
     case haply::Read::state:
-      talk.nonsense = 0;
+      connection.nonsense = 0;
       break;
   }
-  const State& state = talk.state;
+  const State& state = connection.state;
   hand.world_from_tool.p = ours(state.place);
   hand.velocity = ours(state.velocity);
   static const Quat upright = turn(), handle = turn().conjugate();
   hand.world_from_tool.q =
       state.grip_there ? Quat((turn() * state.grip * handle).normalized()) : upright;
   hand.buttons = state.grip_there ? state.buttons : 0;
-  const bool braked = talk.events->braked();
-  const char* told = talk.events->words();
+  const bool braked = connection.events->braked();
+  const char* told = connection.events->words();
   note(braked              ? told
        : !state.calibrated ? "is not calibrated; move it as its lights show."
        : !state.powered    ? "has no power; connect its power supply."
@@ -362,23 +365,24 @@ Wire::Read Inverse::read(HandState& hand) BURR_RT {
 }
 
 bool Inverse::write(const Vec3& force) BURR_RT {
-  Talk& talk = *talk_;
-  if (talk.asked) return true;  // answer still to come; never two messages under way
-  write_force(talk.id, talk.key, theirs(bounded(force, talk.peak)), talk.out);
-  if (talk.send(talk.out)) return true;
+  Connection& connection = *connection_;
+  if (connection.asked) return true;  // answer still to come; never two messages under way
+  write_force(connection.id, connection.key, theirs(bounded(force, connection.peak)),
+              connection.out);
+  if (connection.send(connection.out)) return true;
   note("can no longer be reached; check that Haply's Inverse Service runs.");
   return false;
 }
 
 void Inverse::disconnect() {
-  if (!talk_) return;
-  Talk& talk = *talk_;
-  if (talk.events) braked_ = talk.events->braked();
-  if (talk.line.whole()) {
-    write_force(talk.id, talk.key, Vec3::Zero(), talk.out);
-    static_cast<void>(talk.send(talk.out));
+  if (!connection_) return;
+  Connection& connection = *connection_;
+  if (connection.events) braked_ = connection.events->braked();
+  if (connection.line.whole()) {
+    write_force(connection.id, connection.key, Vec3::Zero(), connection.out);
+    static_cast<void>(connection.send(connection.out));
   }
-  talk_.reset();
+  connection_.reset();
 }
 
 std::string Inverse::why() const {

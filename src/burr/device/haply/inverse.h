@@ -31,14 +31,14 @@ struct InverseSettings {
 };
 
 // Lists every arm and every grip that the service knows; sends nothing to any of them.
-struct Known {
+struct DeviceId {
   std::string id, type;
 };
-struct AllKnown {
-  std::vector<Known> arms;
+struct DeviceList {
+  std::vector<DeviceId> arms;
   std::vector<std::string> grips;
 };
-[[nodiscard]] Result<AllKnown> all_known(const InverseSettings& settings);
+[[nodiscard]] Result<DeviceList> list_devices(const InverseSettings& settings);
 
 class Inverse final : public Wire {
  public:
@@ -50,24 +50,24 @@ class Inverse final : public Wire {
   [[nodiscard]] bool write(const math::Vec3& force) BURR_RT override;
   void disconnect() override;
   [[nodiscard]] std::string why() const override;
-  [[nodiscard]] unsigned told() const BURR_RT override { return told_; }
+  [[nodiscard]] unsigned why_revision() const BURR_RT override { return why_revision_; }
 
  private:
-  friend Result<AllKnown> all_known(const InverseSettings&);
-  struct Talk;
+  friend Result<DeviceList> list_devices(const InverseSettings&);
+  struct Connection;
   [[nodiscard]] Status reach();
-  [[nodiscard]] Status meet();
-  [[nodiscard]] Status greet();
+  [[nodiscard]] Status read_first_state();
+  [[nodiscard]] Status find_force_key();
   void note(const char* words) BURR_RT;
 
   InverseSettings settings_;
   std::string host_;
   int port_ = 0;
-  std::unique_ptr<Talk> talk_;
+  std::unique_ptr<Connection> connection_;
   bool braked_ = false;  // state of the brake at the last connection
   std::string name_ = "the Inverse3";
   const char* trouble_ = nullptr;
-  unsigned told_ = 0;
+  unsigned why_revision_ = 0;
 };
 
 }  // namespace burr::device::haply

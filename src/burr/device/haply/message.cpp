@@ -193,26 +193,26 @@ Read read_state(std::string_view text, const std::string& id, const std::string&
 }
 
 bool read_event(std::string_view text, Event& event) {
-  static constexpr std::pair<const char*, Told> kNames[] = {
-      {"device-connected", Told::connected},
-      {"device-disconnected", Told::disconnected},
-      {"device-battery-low", Told::battery_low},
-      {"device-battery-critical", Told::battery_critical},
-      {"device-sleep", Told::sleeps},
-      {"device-busy", Told::busy},
-      {"device-connection-loop", Told::connection_loop},
-      {"device-calibration-failed", Told::calibration_failed},
+  static constexpr std::pair<const char*, EventKind> kNames[] = {
+      {"device-connected", EventKind::connected},
+      {"device-disconnected", EventKind::disconnected},
+      {"device-battery-low", EventKind::battery_low},
+      {"device-battery-critical", EventKind::battery_critical},
+      {"device-sleep", EventKind::sleeps},
+      {"device-busy", EventKind::busy},
+      {"device-connection-loop", EventKind::connection_loop},
+      {"device-calibration-failed", EventKind::calibration_failed},
   };
-  static constexpr std::pair<const char*, Told> kSafety[] = {
-      {"ebrake_triggered", Told::brake},     {"ebrake_released", Told::brake_released},
-      {"fod_stage_changed", Told::stage},    {"stall_detected", Told::stalled},
-      {"stability_ceiling", Told::unstable},
+  static constexpr std::pair<const char*, EventKind> kSafety[] = {
+      {"ebrake_triggered", EventKind::brake},     {"ebrake_released", EventKind::brake_released},
+      {"fod_stage_changed", EventKind::stage},    {"stall_detected", EventKind::stalled},
+      {"stability_ceiling", EventKind::unstable},
   };
   const json all = json::parse(text, nullptr, false);
   const std::string name = text_at(all, "name"), level = text_at(all, "level");
   if (name.empty()) return false;
   event = {};
-  if (level == "critical" || level == "panic") event.what = Told::trouble;
+  if (level == "critical" || level == "panic") event.what = EventKind::trouble;
   const json* data = at(all, "data");
   if (data != nullptr) event.device = text_at(*data, "device_id");
   for (const auto& [known, what] : kNames)

@@ -46,7 +46,7 @@ enum class Read { state, gone, nonsense };
                               State& known);
 
 // The events of the service that matter to a hand.
-enum class Told {
+enum class EventKind {
   nothing,
   connected,
   disconnected,
@@ -64,7 +64,7 @@ enum class Told {
   trouble,  // of an unknown kind, which the service calls critical or worse
 };
 struct Event {
-  Told what = Told::nothing;
+  EventKind what = EventKind::nothing;
   std::string device;  // its id; empty: not in the message
 };
 // False: not an event.

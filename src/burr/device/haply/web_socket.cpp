@@ -125,9 +125,9 @@ bool WebSocket::send(const std::string& text) {
   return line.run(kPatience, [&line] { return !line.writing; }) && !line.failed;
 }
 
-WebSocket::Heard WebSocket::receive(milliseconds longest) {
+WebSocket::Received WebSocket::receive(milliseconds longest) {
   Line& line = *line_;
-  if (line.failed) return Heard::lost;
+  if (line.failed) return Received::lost;
   if (!line.reading) {
     line.buffer.consume(line.buffer.size());
     line.reading = true;
@@ -138,11 +138,11 @@ WebSocket::Heard WebSocket::receive(milliseconds longest) {
   }
   if (line.run(longest, [&line] { return !line.reading; })) {
     line.failed = line.failed || line.read_error;
-    return line.failed ? Heard::lost : Heard::message;
+    return line.failed ? Received::lost : Received::message;
   }
   // hang up on data that is no message, without waiting for the other end to agree
   line.failed = line.failed || line.stop || !line.stream->is_open();
-  return line.failed ? Heard::lost : Heard::nothing;
+  return line.failed ? Received::lost : Received::nothing;
 }
 
 std::string_view WebSocket::text() const {

@@ -3,7 +3,7 @@
 //
 //     WebSocket line(1 << 20);
 //     if (!line.connect("127.0.0.1", 10001).empty()) return;
-//     if (line.send(text) && line.receive(2ms) == WebSocket::Heard::message) take(line.text());
+//     if (line.send(text) && line.receive(2ms) == WebSocket::Received::message) take(line.text());
 //
 // Every wait has a time limit. A message that has come only in part by then is kept; the next
 // receive() continues with it. After `lost` nothing more comes until connect() succeeds again.
@@ -36,8 +36,8 @@ class WebSocket {
 
   // Takes at most half a second. False: the connection is lost.
   [[nodiscard]] bool send(const std::string& text);
-  enum class Heard { message, nothing, lost };
-  [[nodiscard]] Heard receive(std::chrono::milliseconds longest);
+  enum class Received { message, nothing, lost };
+  [[nodiscard]] Received receive(std::chrono::milliseconds longest);
   // The message that came last; valid until the next receive().
   [[nodiscard]] std::string_view text() const;
   // True: connected, and nothing has failed since.

@@ -72,15 +72,15 @@ Status Touch::open() {
   if (!started) return started.error();
   spec_ = std::move(*started);
   stop_ = false;
-  keeper_ = std::make_unique<rt::Thread>(rt::ThreadRequest{.name = "touch", .stack_bytes = 0},
-                                         [this] { keep(); });
+  watch_thread_ = std::make_unique<rt::Thread>(rt::ThreadRequest{.name = "touch", .stack_bytes = 0},
+                                               [this] { keep(); });
   return fine();
 }
 
 void Touch::close() {
   stop_ = true;
-  if (keeper_) keeper_->join();
-  keeper_.reset();
+  if (watch_thread_) watch_thread_->join();
+  watch_thread_.reset();
   end();
 }
 
@@ -214,7 +214,7 @@ void Touch::keep() {
         bad_frames_.load(std::memory_order_relaxed) < kLostFrames)
       continue;
     end();
-    link_.lose();
+    link_.mark_lost();
     const auto again = start();
     std::string trouble = again ? "" : again.error().text;
     if (again && (again->serial != spec_.serial || again->peak_force != spec_.peak_force)) {
@@ -223,7 +223,7 @@ void Touch::keep() {
           "Another Touch is plugged in now; plug in the one with which the session began, or begin "
           "a new session.";
     }
-    const std::lock_guard lock(words_);
+    const std::lock_guard lock(trouble_mutex_);
     found_ = std::move(trouble);
   }
 }
@@ -311,7 +311,7 @@ void Touch::exchange() BURR_RT {
   } else {
     // a force that the device released returns only through the ramp, as with a lost hand
     bad_frames_.fetch_add(1, std::memory_order_relaxed);
-    link_.lose();
+    link_.mark_lost();
   }
 }
 
@@ -319,7 +319,7 @@ void Touch::exchange() BURR_RT {
 
 std::string Touch::trouble() const {
   {
-    const std::lock_guard lock(words_);
+    const std::lock_guard lock(trouble_mutex_);
     if (!found_.empty()) return found_;
   }
   if (const Code code = trouble_.load(std::memory_order_relaxed); code != kNoError)

@@ -53,10 +53,10 @@ class Touch final : public LinkedDevice {
   const Hd* hd_ = nullptr;
   Handle handle_ = kNoDevice;
   unsigned long loop_ = 0;
-  std::unique_ptr<rt::Thread> keeper_;
+  std::unique_ptr<rt::Thread> watch_thread_;
   std::atomic<bool> stop_ = false;
   std::string found_;  // why it could not be opened again
-  mutable std::mutex words_;
+  mutable std::mutex trouble_mutex_;
 
   // shared between the callback and the other threads
   std::atomic<Code> trouble_ = kNoError;  // of the previous frame

@@ -127,19 +127,19 @@ Result<DeviceSpec> Polhem::connect() {
                             std::strerror(errno)));
   ::tcflush(port_, TCIOFLUSH);
   lines_.clear();
-  unsaid_ = 0;
-  nonsense_ = 0;
-  behind_ = false;
+  unsent_bytes_ = 0;
+  invalid_lines_ = 0;
+  answers_late_ = false;
   name_ = "the Polhem at " + port.path;
 
   // Ask without force until it answers; boards restart when their port is opened.
-  Heard heard = Heard::nothing;
-  for (int waited = 0; heard == Heard::nothing && waited < kWakesMs; waited += kWakeMs) {
-    if (waited > 0) fall_behind(rt::monotonic_ns());
-    heard = say(Vec3::Zero()) ? hear(kWakeMs) : Heard::gone;
+  Received heard = Received::nothing;
+  for (int waited = 0; heard == Received::nothing && waited < kWakesMs; waited += kWakeMs) {
+    if (waited > 0) note_late_answer(rt::monotonic_ns());
+    heard = send(Vec3::Zero()) ? receive(kWakeMs) : Received::gone;
   }
-  if (heard != Heard::state)
-    return fail(nonsense_ > 0
+  if (heard != Received::state)
+    return fail(invalid_lines_ > 0
                     ? fmt::format("{} does not answer as a Polhem does; give another port, or "
                                   "install the maker's firmware of 2021 or later on the arm",
                                   port.path)
@@ -150,10 +150,10 @@ Result<DeviceSpec> Polhem::connect() {
   auto guardian = Guardian::start({"line", std::string(none.data(), none.size())}, port_);
   if (!guardian) return fail(guardian.error().text);
   guardian_ = std::move(*guardian);
-  if (!say(Vec3::Zero())) return fail(port.path + " was unplugged; plug it in again");
-  heard_ns_ = rt::monotonic_ns();
-  silence_.ended(heard_ns_);
-  beaten_ns_ = heard_ns_;
+  if (!send(Vec3::Zero())) return fail(port.path + " was unplugged; plug it in again");
+  answered_ns_ = rt::monotonic_ns();
+  silence_.ended(answered_ns_);
+  last_beat_ns_ = answered_ns_;
   last_place_ = state_.place;
   velocity_.setZero();
   trouble_ = nullptr;
@@ -175,98 +175,99 @@ Result<DeviceSpec> Polhem::connect() {
 }
 
 void Polhem::note(const char* words) BURR_RT {
-  if (trouble_ != words) ++told_;
+  if (trouble_ != words) ++why_revision_;
   trouble_ = words;
 }
 
-Polhem::Heard Polhem::hear(int longest_ms) BURR_RT {
+Polhem::Received Polhem::receive(int longest_ms) BURR_RT {
   const std::int64_t until = rt::monotonic_ns() + std::int64_t{1'000'000} * longest_ms;
   for (;;) {
     const ssize_t got = ::read(port_, lines_.room(), lines_.left());
     if (got > 0) {
-      const int before = nonsense_;
-      if (!lines_.take(static_cast<std::size_t>(got), state_, nonsense_)) {
-        if (nonsense_ == before) continue;  // a part of a line
-        asked_ = false;                     // an answer, but not a usable one
-        return Heard::nothing;
+      const int before = invalid_lines_;
+      if (!lines_.take(static_cast<std::size_t>(got), state_, invalid_lines_)) {
+        if (invalid_lines_ == before) continue;  // a part of a line
+        awaits_answer_ = false;                  // an answer, but not a usable one
+        return Received::nothing;
       }
-      nonsense_ = 0;
-      asked_ = false;
-      return Heard::state;
+      invalid_lines_ = 0;
+      awaits_answer_ = false;
+      return Received::state;
     }
     // a terminal whose other end is closed reads as end of file, or as an error
-    if (got == 0 || (errno != EAGAIN && errno != EINTR)) return Heard::gone;
+    if (got == 0 || (errno != EAGAIN && errno != EINTR)) return Received::gone;
     const std::int64_t left = until - rt::monotonic_ns();
-    if (left <= 0) return Heard::nothing;
+    if (left <= 0) return Received::nothing;
     pollfd waits{port_, POLLIN, 0};
     const timespec longest{left / 1'000'000'000, left % 1'000'000'000};
-    if (::ppoll(&waits, 1, &longest, nullptr) == 0) return Heard::nothing;
+    if (::ppoll(&waits, 1, &longest, nullptr) == 0) return Received::nothing;
     if ((waits.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0 && (waits.revents & POLLIN) == 0)
-      return Heard::gone;
+      return Received::gone;
   }
 }
 
-bool Polhem::say(const Vec3& force) BURR_RT {
-  if (unsaid_ == 0) {
+bool Polhem::send(const Vec3& force) BURR_RT {
+  if (unsent_bytes_ == 0) {
     out_ = force_line(force);
-    unsaid_ = kLine;
+    unsent_bytes_ = kLine;
   }
   // finish a line that was sent in part: the arm would read two lines as one
-  while (unsaid_ > 0) {
-    const ssize_t put = ::write(port_, out_.data() + (kLine - unsaid_), unsaid_);
+  while (unsent_bytes_ > 0) {
+    const ssize_t put = ::write(port_, out_.data() + (kLine - unsent_bytes_), unsent_bytes_);
     if (put > 0)
-      unsaid_ -= static_cast<std::size_t>(put);
+      unsent_bytes_ -= static_cast<std::size_t>(put);
     else if (errno == EAGAIN || errno == EINTR)
       return true;
     else
       return false;
   }
-  asked_ = true;
-  asked_ns_ = rt::monotonic_ns();
+  awaits_answer_ = true;
+  sent_ns_ = rt::monotonic_ns();
   return true;
 }
 
 // More lines were sent than answered, by burr or by the guardian. If burr sent a new line for each
 // of those answers, every force would from then on reach the arm so many lines late.
-void Polhem::fall_behind(std::int64_t now) BURR_RT {
-  if (behind_) return;
-  behind_ = true;
-  stilled_ = false;
-  behind_since_ns_ = now;
+void Polhem::note_late_answer(std::int64_t now) BURR_RT {
+  if (answers_late_) return;
+  answers_late_ = true;
+  zero_was_sent_ = false;
+  late_since_ns_ = now;
 }
 
 Wire::Read Polhem::read(HandState& hand) BURR_RT {
   hand.valid = false;
   const std::int64_t begun = rt::monotonic_ns();
-  if (begun - beaten_ns_ > kGuardedNs) fall_behind(begun);
-  beaten_ns_ = begun;
+  if (begun - last_beat_ns_ > kGuardedNs) note_late_answer(begun);
+  last_beat_ns_ = begun;
   guardian_->beat();
-  const Heard heard = hear(kOneReadingMs);
+  const Received heard = receive(kOneReadingMs);
   const std::int64_t now = rt::monotonic_ns();
   // silence counts only after an answer: an arm that hangs has not sent yet what it owes
-  if (heard == Heard::nothing && !asked_ && now - std::max(heard_ns_, behind_since_ns_) > kQuietNs)
-    behind_ = false;
-  if (behind_ && now - behind_since_ns_ > kCatchUpNs) {
+  if (heard == Received::nothing && !awaits_answer_ &&
+      now - std::max(answered_ns_, late_since_ns_) > kQuietNs)
+    answers_late_ = false;
+  if (answers_late_ && now - late_since_ns_ > kCatchUpNs) {
     note(
         "sends more answers than burr asked for, or sends them too late; unplug it and plug it in "
         "again.");
     return Read::lost;
   }
-  if (heard == Heard::gone) {
+  if (heard == Received::gone) {
     note("was unplugged; plug it in again.");
     return Read::lost;
   }
-  if (nonsense_ > kMostNonsense) {
+  if (invalid_lines_ > kMostNonsense) {
     note("sends data that burr cannot read; unplug it and plug it in again.");
     return Read::lost;
   }
-  if (heard == Heard::nothing) {
+  if (heard == Received::nothing) {
     if (!silence_.lasts(now)) return Read::nothing;
     note("has gone silent; check that it is switched on.");
     return Read::lost;
   }
-  const double dt = 1e-9 * static_cast<double>(now - heard_ns_);
-  heard_ns_ = now;
+  const double dt = 1e-9 * static_cast<double>(now - answered_ns_);
+  answered_ns_ = now;
   silence_.ended(now);
   velocity_ +=
       dt / (dt + kSlowest) * ((state_.place - last_place_) / std::max(dt, 1e-5) - velocity_);
@@ -283,22 +284,22 @@ Wire::Read Polhem::read(HandState& hand) BURR_RT {
 bool Polhem::write(const Vec3& force) BURR_RT {
   // the answer is still to come; if a line was lost on the way, send another
   const std::int64_t now = rt::monotonic_ns();
-  if (asked_ && now - asked_ns_ < kAgainNs) return true;
-  if (asked_) fall_behind(now);
-  const bool whole = unsaid_ == 0;
-  if (behind_ && stilled_ && !asked_ && whole) return true;
-  if (!say(behind_ ? Vec3::Zero() : theirs(bounded(force, kPeak)))) {
+  if (awaits_answer_ && now - sent_ns_ < kAgainNs) return true;
+  if (awaits_answer_) note_late_answer(now);
+  const bool whole = unsent_bytes_ == 0;
+  if (answers_late_ && zero_was_sent_ && !awaits_answer_ && whole) return true;
+  if (!send(answers_late_ ? Vec3::Zero() : theirs(bounded(force, kPeak)))) {
     note("was unplugged; plug it in again.");
     return false;
   }
-  stilled_ = behind_ && whole;
+  zero_was_sent_ = answers_late_ && whole;
   return true;
 }
 
 void Polhem::disconnect() {
   if (port_ < 0) return;
-  static_cast<void>(say(Vec3::Zero()));  // the rest of a line that was sent in part, or "no force"
-  static_cast<void>(say(Vec3::Zero()));
+  static_cast<void>(send(Vec3::Zero()));  // the rest of a line that was sent in part, or "no force"
+  static_cast<void>(send(Vec3::Zero()));
   guardian_.reset();
   ::close(port_);
   port_ = -1;

@@ -38,14 +38,14 @@ class Polhem final : public Wire {
   [[nodiscard]] bool write(const math::Vec3& force) BURR_RT override;
   void disconnect() override;
   [[nodiscard]] std::string why() const override;
-  [[nodiscard]] unsigned told() const BURR_RT override { return told_; }
+  [[nodiscard]] unsigned why_revision() const BURR_RT override { return why_revision_; }
 
  private:
   void note(const char* words) BURR_RT;
-  enum class Heard { state, nothing, gone };
-  [[nodiscard]] Heard hear(int longest_ms) BURR_RT;
-  void fall_behind(std::int64_t now) BURR_RT;
-  [[nodiscard]] bool say(const math::Vec3& force) BURR_RT;  // false: the port is gone
+  enum class Received { state, nothing, gone };
+  [[nodiscard]] Received receive(int longest_ms) BURR_RT;
+  void note_late_answer(std::int64_t now) BURR_RT;
+  [[nodiscard]] bool send(const math::Vec3& force) BURR_RT;  // false: the port is gone
 
   PolhemSettings settings_;
   std::unique_ptr<Guardian> guardian_;
@@ -54,18 +54,18 @@ class Polhem final : public Wire {
   Lines lines_;
   State state_;
   Line out_{};
-  std::size_t unsaid_ = 0;  // bytes of out_ that the port has not taken yet
-  bool asked_ = false;
-  std::int64_t asked_ns_ = 0, heard_ns_ = 0;
+  std::size_t unsent_bytes_ = 0;  // bytes of out_ that the port has not taken yet
+  bool awaits_answer_ = false;
+  std::int64_t sent_ns_ = 0, answered_ns_ = 0;
   Silence silence_;
-  std::int64_t beaten_ns_ = 0;  // last beat to the guardian
-  bool behind_ = false;         // answers are late: no force is sent until they have come
-  bool stilled_ = false;        // "no force" was sent when the answers became late
-  std::int64_t behind_since_ns_ = 0;
+  std::int64_t last_beat_ns_ = 0;  // last beat to the guardian
+  bool answers_late_ = false;      // answers are late: no force is sent until they have come
+  bool zero_was_sent_ = false;     // "no force" was sent when the answers became late
+  std::int64_t late_since_ns_ = 0;
   math::Vec3 last_place_ = math::Vec3::Zero(), velocity_ = math::Vec3::Zero();
-  int nonsense_ = 0;
+  int invalid_lines_ = 0;
   const char* trouble_ = nullptr;
-  unsigned told_ = 0;
+  unsigned why_revision_ = 0;
 };
 
 // The serial ports of arms, recognized by their USB ids (16c0:04xx): path, such as /dev/ttyACM0,

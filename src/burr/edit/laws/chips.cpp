@@ -91,7 +91,7 @@ void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& norma
     Ring& ring = rings_[static_cast<std::size_t>(k)];
     ring = {};
     ring.force = {0, 0, 0, 0, 0};
-    for (int n = k * kAround; n < (k + 1) * kAround; ++n) {
+    for (int n = k * kPiecesPerRing; n < (k + 1) * kPiecesPerRing; ++n) {
       const Point& point = points_[static_cast<std::size_t>(n)];
       const double cosine = point.cosine, piece = r * r * point.area;  // [m^2]
       const Vec3 way = point.u * u + point.v * v - cosine * normal;

@@ -51,8 +51,8 @@ class Chips {
   [[nodiscard]] double removal_rate() const BURR_RT { return rate_; }    // [m^3/s]
 
  private:
-  static constexpr int kRings = 14;   // around the push, denser near it
-  static constexpr int kAround = 22;  // pieces per ring
+  static constexpr int kRings = 14;          // around the push, denser near it
+  static constexpr int kPiecesPerRing = 22;  // pieces per ring
   // The edges of one ring taken together: all have the same chip thickness.
   struct Ring {
     double cosine = 0;                              // of alpha
@@ -66,7 +66,7 @@ class Chips {
   struct Point {
     double cosine = 0, u = 0, v = 0, area = 0;
   };
-  static constexpr int kPoints = kRings * kAround;
+  static constexpr int kPoints = kRings * kPiecesPerRing;
   void gather(const tool::Burr& burr, const math::Vec3& centre, const math::Vec3& normal,
               const math::Vec3& axis, double pole, bool with_ripple) BURR_RT;
 

@@ -41,10 +41,10 @@ inline constexpr std::array<std::string_view, kLaws> kLawNames = {"energy", "the
 
 struct RemovalSettings {
   RemovalLaw law = RemovalLaw::energy;
-  double max_power = 60;    // of the motor at the burr                                   [W]
-  double pole = 0.15;       // smallest sin(theta)                                        [-]
-  double thesis_rate = 10;  // loss of density, solid = 1; not given in the thesis         [1/s]
-  int thesis_frame = 1;     // cuts every so many ticks, for all of them; in the thesis: 33
+  double max_power = 60;       // of the motor at the burr                                   [W]
+  double pole = 0.15;          // smallest sin(theta)                                        [-]
+  double thesis_rate = 10;     // loss of density, solid = 1; not given in the thesis         [1/s]
+  int thesis_frame_ticks = 1;  // cuts every so many ticks, for all of them; in the thesis: 33
 };
 
 // What the burr does to the bone in one tick, and the bone to the burr.
@@ -65,8 +65,8 @@ struct Spin {
 
 // Direction against which the burr's surface slides on bone that lies along `normal`. Shorter than
 // 1 near the pole, where the surface hardly slides.
-[[nodiscard]] inline math::Vec3 drag_way(const math::Vec3& normal, const Spin& spin,
-                                         double pole) BURR_RT {
+[[nodiscard]] inline math::Vec3 drag_direction(const math::Vec3& normal, const Spin& spin,
+                                               double pole) BURR_RT {
   const math::Vec3 across = normal.cross(spin.axis);
   return across * (std::copysign(1.0, spin.speed) / std::max(math::norm(across), pole));
 }
@@ -93,7 +93,7 @@ struct Spin {
   cutting.energy = cutting.power * dt;
   cutting.torque = cutting.power / std::abs(spin.speed);
   const double sine = std::max(math::norm(normal.cross(spin.axis)), settings.pole);
-  cutting.drag = cutting.torque / (radius * sine) * drag_way(normal, spin, settings.pole);
+  cutting.drag = cutting.torque / (radius * sine) * drag_direction(normal, spin, settings.pole);
   return cutting;
 }
 

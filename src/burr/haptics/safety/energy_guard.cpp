@@ -14,7 +14,7 @@ constexpr double kMostTank = 10e-3;      // upper limit of tank_full [J]
 constexpr double kGrantLasts = 50e-3;    // what is not used within about this time flows back [s]
 constexpr double kLargestAccount = 1e3;  // beyond it a number must be wrong       [J]
 
-bool fine(const Exchange& now, double dt) BURR_RT {
+bool fine(const SpringState& now, double dt) BURR_RT {
   return now.hand.allFinite() && now.stretch.allFinite() && now.force.allFinite() &&
          std::isfinite(now.stiffness) && now.stiffness >= 0 && std::isfinite(dt) && dt > 0;
 }
@@ -33,7 +33,7 @@ EnergyGuard::EnergyGuard(const EnergyGuardSettings& settings) : settings_(settin
   sent_.fill(Vec3::Zero());
 }
 
-Vec3 EnergyGuard::step(const Exchange& now, double dt) BURR_RT {
+Vec3 EnergyGuard::step(const SpringState& now, double dt) BURR_RT {
   alpha_ = 0;
   if (!fine(now, dt)) {
     restart();
@@ -73,14 +73,14 @@ Vec3 EnergyGuard::acting(double dt) const BURR_RT {
 
 // The energy that the spring can give back. Where the spring would give more than is ever sent, the
 // force counts as the largest one.
-double EnergyGuard::spring_energy(const Exchange& now) const BURR_RT {
+double EnergyGuard::spring_energy(const SpringState& now) const BURR_RT {
   const double stretch = math::norm(now.stretch);
   const double most = settings_.largest_force;
   if (now.stiffness * stretch <= most) return 0.5 * now.stiffness * stretch * stretch;
   return most * (stretch - 0.5 * most / now.stiffness);
 }
 
-void EnergyGuard::observe(const Exchange& now, double dt) BURR_RT {
+void EnergyGuard::observe(const SpringState& now, double dt) BURR_RT {
   stored_ = spring_energy(now);
   if (!begun_) {
     begun_ = true;
@@ -121,7 +121,7 @@ void EnergyGuard::settle(double dt) BURR_RT {
   tank_ = std::min(settings_.tank_full, tank_ + back);
 }
 
-void EnergyGuard::forget_when_free(const Exchange& now, double dt) BURR_RT {
+void EnergyGuard::forget_when_free(const SpringState& now, double dt) BURR_RT {
   const bool free = stored_ <= 0 && math::squared_norm(now.force) <= 0;
   free_ = free ? free_ + dt : 0;
   if (free_ < settings_.free_time) return;

@@ -71,7 +71,7 @@ struct EnergyGuardSettings {
 };
 
 // Result of touch in this tick, before vibration and limits.
-struct Exchange {
+struct SpringState {
   math::Vec3 hand = math::Vec3::Zero();     // [m]
   math::Vec3 stretch = math::Vec3::Zero();  // from hand to proxy                          [m]
   double stiffness = 0;                     // of the spring                             [N/m]
@@ -84,7 +84,7 @@ class EnergyGuard {
 
   // Returns a passive force, as far as can be known. dt: this tick [s]. If an input is not finite
   // the force is returned unchanged, for the safety layer to handle, and the account starts again.
-  [[nodiscard]] math::Vec3 step(const Exchange& now, double dt) BURR_RT;
+  [[nodiscard]] math::Vec3 step(const SpringState& now, double dt) BURR_RT;
 
   // The force the hand really got in this tick, after all limits, without vibration. Call once a
   // tick.
@@ -112,10 +112,10 @@ class EnergyGuard {
   static constexpr std::size_t kSent = 8;  // forces kept, for the delay
 
   [[nodiscard]] math::Vec3 acting(double dt) const BURR_RT;
-  [[nodiscard]] double spring_energy(const Exchange& now) const BURR_RT;
-  void observe(const Exchange& now, double dt) BURR_RT;
+  [[nodiscard]] double spring_energy(const SpringState& now) const BURR_RT;
+  void observe(const SpringState& now, double dt) BURR_RT;
   void settle(double dt) BURR_RT;
-  void forget_when_free(const Exchange& now, double dt) BURR_RT;
+  void forget_when_free(const SpringState& now, double dt) BURR_RT;
   [[nodiscard]] double most_damping(double dt) const BURR_RT;
 
   EnergyGuardSettings settings_;

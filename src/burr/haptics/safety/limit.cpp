@@ -37,7 +37,7 @@ void ForceLimit::set_user_force(double newton) BURR_RT {
   if (std::isfinite(newton) && newton >= 0) settings_.user_force = newton;
 }
 
-bool ForceLimit::believe(const device::HandState& hand, std::uint32_t& flags) BURR_RT {
+bool ForceLimit::accept_reading(const device::HandState& hand, std::uint32_t& flags) BURR_RT {
   std::uint32_t trouble = 0;
   if (!hand.valid) {
     trouble = rt::kFlagHandLost;
@@ -46,7 +46,7 @@ bool ForceLimit::believe(const device::HandState& hand, std::uint32_t& flags) BU
              hand.world_from_tool.p.cwiseAbs().maxCoeff() > kFarthestHand) {
     trouble = rt::kFlagNotFinite;
   } else if (has_last_hand_ &&
-             math::norm(hand.world_from_tool.p - last_hand_) > settings_.longest_leap) {
+             math::norm(hand.world_from_tool.p - last_hand_) > settings_.largest_jump) {
     trouble = rt::kFlagJump;
   }
   if (trouble != 0) {

@@ -33,7 +33,7 @@ struct LimitSettings {
   double small_force = 0.05;  // engages only after the computed force has been this small  [N]
   double fade_time = 5e-3;    // from detection to zero                                     [s]
   // Largest move of the hand in one tick; a longer one is rejected as a wrong reading  [m]
-  double longest_leap = 20e-3;
+  double largest_jump = 20e-3;
 };
 
 class ForceLimit {
@@ -51,7 +51,7 @@ class ForceLimit {
   // Checks the hand's reading before touch uses it. False, and the force starts to fade: the
   // reading is lost, not finite, or jumped. The first reading after a start or a fault never counts
   // as a jump.
-  [[nodiscard]] bool believe(const device::HandState& hand, std::uint32_t& flags) BURR_RT;
+  [[nodiscard]] bool accept_reading(const device::HandState& hand, std::uint32_t& flags) BURR_RT;
 
   // Ticks or the device were lost: fades the force, then waits for a small force and ramps up.
   void fault(std::uint32_t flag, std::uint32_t& flags) BURR_RT;

@@ -116,7 +116,7 @@ Controller guarded_wall(const WallSettings& settings, const EnergyGuardSettings&
                         std::function<void(const EnergyGuard&)> watched) {
   const auto kept = std::make_shared<EnergyGuard>(guard);
   return [settings, kept, watched = std::move(watched)](const Sensed& hand) {
-    Exchange now;
+    SpringState now;
     now.hand.x() = hand.place;
     now.stretch.x() = settings.one_sided && hand.place >= 0 ? 0 : -hand.place;
     now.stiffness = settings.stiffness;

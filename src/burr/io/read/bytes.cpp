@@ -14,7 +14,7 @@
 #include <string_view>
 #include <utility>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 
 namespace burr::io {
 namespace {
@@ -242,8 +242,8 @@ std::unique_ptr<ByteSource> bunzip2(std::unique_ptr<ByteSource> packed) {
 std::unique_ptr<ByteSource> memory_source(std::vector<std::uint8_t> bytes) {
   return std::make_unique<MemorySource>(std::move(bytes));
 }
-std::unique_ptr<ByteSource> files_in_a_row(std::vector<std::filesystem::path> paths,
-                                           std::uint64_t skip_each) {
+std::unique_ptr<ByteSource> concatenate_files(std::vector<std::filesystem::path> paths,
+                                              std::uint64_t skip_each) {
   return std::make_unique<FilesSource>(std::move(paths), skip_each);
 }
 
@@ -290,9 +290,9 @@ Result<std::filesystem::path> beside(const std::filesystem::path& header, const 
 std::string short_name(const std::filesystem::path& path) {
   constexpr std::size_t kLongestName = 255;  // of a file name, on every system [byte]
   const auto name = path.filename().string();
-  if (!name.empty() && name != ".") return base::shown(name, kLongestName);
+  if (!name.empty() && name != ".") return base::printable(name, kLongestName);
   const auto parent = path.parent_path().filename().string();
-  return base::shown(parent.empty() ? path.string() : parent, kLongestName);
+  return base::printable(parent.empty() ? path.string() : parent, kLongestName);
 }
 
 }  // namespace burr::io

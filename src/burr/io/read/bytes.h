@@ -56,8 +56,8 @@ void set_files_inside(OpenInside open);
 [[nodiscard]] std::unique_ptr<ByteSource> bunzip2(std::unique_ptr<ByteSource> packed);
 [[nodiscard]] std::unique_ptr<ByteSource> memory_source(std::vector<std::uint8_t> bytes);
 // opens each file when the one before it has ended
-[[nodiscard]] std::unique_ptr<ByteSource> files_in_a_row(std::vector<std::filesystem::path> paths,
-                                                         std::uint64_t skip_each);
+[[nodiscard]] std::unique_ptr<ByteSource> concatenate_files(
+    std::vector<std::filesystem::path> paths, std::uint64_t skip_each);
 
 // The first n bytes of a file, or all of them if it is shorter.
 [[nodiscard]] Result<std::vector<std::uint8_t>> first_bytes(const std::filesystem::path& path,

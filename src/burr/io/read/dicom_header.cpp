@@ -11,7 +11,7 @@
 #include <map>
 #include <utility>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/text.h"
 
@@ -327,7 +327,7 @@ class Facts {
       std::string& where =
           tag == 0x00281052 || tag == 0x00281053 ? header_.bad_scale : header_.unreadable;
       if (where.empty())
-        where = fmt::format("{} \"{}\"", name, base::shown(trimmed(found->second), 40));
+        where = fmt::format("{} \"{}\"", name, base::printable(trimmed(found->second), 40));
     }
     return std::move(read.values);
   }
@@ -580,7 +580,7 @@ Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
       return error(fmt::format(
           "{}: is DICOM of a transfer syntax that burr does not read: {}{}; export the scan again "
           "as Explicit VR Little Endian",
-          file, base::shown(syntax),
+          file, base::printable(syntax),
           maker != nullptr ? fmt::format(", private to {}", maker) : ""));
     }
     if (syntax == "1.2.840.10008.1.2.1.99") {

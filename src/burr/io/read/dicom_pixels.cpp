@@ -24,7 +24,7 @@
 #pragma GCC diagnostic pop
 #endif
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/dicom_header.h"
 
@@ -203,7 +203,7 @@ Result<std::vector<std::int32_t>> unpack(const DicomHeader& h, std::vector<std::
       return error(
           fmt::format("{}: its compressed pixels do not have the format of the transfer syntax "
                       "({}); export the scan again",
-                      file, base::shown(h.transfer_syntax)));
+                      file, base::printable(h.transfer_syntax)));
     if (columns != h.columns || rows != h.rows || colours != 1)
       return error(
           fmt::format("{}: its compressed picture has {} x {} pixels of {} channels, but the "
@@ -238,7 +238,7 @@ Result<std::vector<std::int32_t>> unpack(const DicomHeader& h, std::vector<std::
     return error(
         fmt::format("{}: its compressed pixels (transfer syntax {}) cannot be decompressed; they "
                     "are damaged or in a format that burr does not read",
-                    file, base::shown(h.transfer_syntax)));
+                    file, base::printable(h.transfer_syntax)));
   };
   if (!reader.Read()) return failed();
   const gdcm::Image& image = reader.GetImage();

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <tuple>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/io/read/archive.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/foreign.h"

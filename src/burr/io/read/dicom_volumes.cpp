@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/io/read/dicom_series.h"
 #include "burr/io/read/text.h"
 
@@ -625,9 +625,9 @@ std::string one_line(const Series& series, const Volume& volume, std::size_t pla
   const DicomFrame& frame = frame_of(series, slice);
   const double gap = gap_of(volume) > 0 ? gap_of(volume) : thickness_mm(series, slice);
   std::string kernel = frame.phase.kernel.substr(0, frame.phase.kernel.find('\\'));
-  if (!kernel.empty()) kernel = ", kernel " + base::shown(trimmed(kernel), 16);
+  if (!kernel.empty()) kernel = ", kernel " + base::printable(trimmed(kernel), 16);
   return fmt::format("#{}: {} {} pictures {} x {}, {}{}{}{}{}{}", place + 1,
-                     h.modality.empty() ? "unknown kind," : base::shown(h.modality, 16) + ",",
+                     h.modality.empty() ? "unknown kind," : base::printable(h.modality, 16) + ",",
                      volume.slices.size(), h.columns, h.rows,
                      gap > 0 ? fmt::format("{:.3g} mm", gap) : std::string("thickness unknown"),
                      plane_of(frame), kernel, volume.part.empty() ? "" : ", " + volume.part,

@@ -200,8 +200,8 @@ bool usable(const Affine& affine) {
   return std::abs(unit.determinant()) > 0.05;
 }
 
-Status straighten(Scan& scan, const std::vector<SlicePlace>& places, double gap_mm,
-                  Progress& progress) {
+Status resample_upright(Scan& scan, const std::vector<SlicePlace>& places, double gap_mm,
+                        Progress& progress) {
   const auto fits = upright_grid(scan, places, gap_mm);
   if (!fits) return fits.error();
   const Upright& grid = *fits;
@@ -280,7 +280,7 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
     scan.spacing_mm = length;
     scan.origin_mm = origin;
     const double gap = std::abs(step.dot(normal));
-    if (Status status = straighten(scan, places, gap, progress); !status) return status;
+    if (Status status = resample_upright(scan, places, gap, progress); !status) return status;
     scan.notices.push_back(fmt::format(
         "The stack of slices leans by {:.1f} degrees; the slices were shifted to make it upright.",
         std::acos(std::clamp(std::abs(up), 0.0, 1.0)) * 180 / M_PI));

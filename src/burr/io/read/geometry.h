@@ -37,7 +37,7 @@ struct SlicePlace {
 // Makes an upright stack of equal spacing from slices that are shifted (gantry tilt) or unevenly
 // spaced: cubic interpolation in the plane, linear between slices. Needs scan.size.z() =
 // places.size() and the spacing in x, y; sets size, spacing z, origin. gap_mm: the wanted spacing.
-[[nodiscard]] Status straighten(Scan& scan, const std::vector<SlicePlace>& places, double gap_mm,
-                                Progress& progress);
+[[nodiscard]] Status resample_upright(Scan& scan, const std::vector<SlicePlace>& places,
+                                      double gap_mm, Progress& progress);
 
 }  // namespace burr::io

@@ -277,7 +277,7 @@ Status stack(const Series& series, const std::vector<Slice>& slices, Order order
   const double wanted = uneven > 0 ? gap : even;
   if (!shifted)
     for (SlicePlace& place : places) place.x_mm = place.y_mm = 0;
-  return straighten(scan, places, wanted, progress);
+  return resample_upright(scan, places, wanted, progress);
 }
 
 // Takes out the slices whose files could not be read.

@@ -5,7 +5,7 @@
 #include <map>
 #include <system_error>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/geometry.h"
 #include "burr/io/read/readers.h"
@@ -94,7 +94,7 @@ Status read_factor(const Header& header, const char* field, double& out) {
   const std::string text = header.get({field});
   if (text.empty()) return fine();
   if (!to_number(text, value, header.commas) || !std::isfinite(value))
-    return header.bad(field, fmt::format("\"{}\" is not a number", base::shown(text)));
+    return header.bad(field, fmt::format("\"{}\" is not a number", base::printable(text)));
   out = value;
   return fine();
 }
@@ -109,7 +109,8 @@ Result<SampleFormat> format_of(const Header& header) {
   SampleFormat format;
   const std::string type = header.get({"ElementType"});
   if (!sample_type(type, format.type))
-    return header.bad("ElementType", fmt::format("burr does not read \"{}\"", base::shown(type)));
+    return header.bad("ElementType",
+                      fmt::format("burr does not read \"{}\"", base::printable(type)));
   format.big_endian = is_true(header.get({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"}));
   const std::string binary = header.get({"BinaryData"});
   if (!binary.empty() && !is_true(binary))
@@ -187,9 +188,9 @@ Result<Affine> affine_of(const Header& header, std::vector<std::string>& notices
   const std::string spacing_text = header.get({"ElementSpacing", "ElementSize"});
   std::vector<double> spacing = vector({"ElementSpacing", "ElementSize"}, 3);
   if (spacing.empty() && !spacing_text.empty())
-    return header.bad(
-        "ElementSpacing",
-        fmt::format("\"{}\" is not three numbers; correct the header", base::shown(spacing_text)));
+    return header.bad("ElementSpacing",
+                      fmt::format("\"{}\" is not three numbers; correct the header",
+                                  base::printable(spacing_text)));
   const bool spaced = spacing.size() == 3 && std::isfinite(spacing[0] + spacing[1] + spacing[2]) &&
                       spacing[0] * spacing[1] * spacing[2] != 0;
   if (!spaced) {

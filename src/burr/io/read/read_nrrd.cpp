@@ -7,7 +7,7 @@
 #include <map>
 #include <system_error>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/geometry.h"
 #include "burr/io/read/readers.h"
@@ -226,7 +226,7 @@ Result<Shape> shape_of(const Header& header, const std::string& file, bool segme
     std::int64_t n = 0;
     if (!to_number(word, n) || n < 1)
       return error(
-          fmt::format("{}: sizes: \"{}\" is not a size of an axis", file, base::shown(word)));
+          fmt::format("{}: sizes: \"{}\" is not a size of an axis", file, base::printable(word)));
     all.push_back(n);
   }
   std::int64_t dimension = 0;
@@ -251,7 +251,7 @@ Result<Shape> shape_of(const Header& header, const std::string& file, bool segme
       return error(
           fmt::format("{}: axis {} is \"{}\" with {} entries, not an axis of space; burr reads one "
                       "value per voxel",
-                      file, a, base::shown(kind), all[a]));
+                      file, a, base::printable(kind), all[a]));
     shape.sizes.push_back(all[a]);
     shape.axes.push_back(a);
   }
@@ -330,7 +330,7 @@ Affine affine_of(const Header& header, const Shape& shape, const std::string& fi
     if (!stated && !unread.empty() && unread.find("nan") == std::string::npos)
       scan.ask(Ask::spacing, fmt::format("{}: its voxel spacing \"{}\" cannot be read as numbers "
                                          "(taken for 1 mm)",
-                                         file, base::shown(unread)));
+                                         file, base::printable(unread)));
     else if (!stated)
       scan.notices.emplace_back(
           "The file states no voxel spacing: 1 mm is assumed; see --spacing-mm.");
@@ -361,7 +361,7 @@ Result<std::int64_t> skip_field(const Header& header, const char* name, const st
   std::int64_t n = 0;
   if (found != header.fields.end() && (!to_number(found->second, n) || n < lowest))
     return error(fmt::format("{}: {}: \"{}\" is not a number of bytes or lines", file, name,
-                             base::shown(found->second)));
+                             base::printable(found->second)));
   return n;
 }
 
@@ -454,8 +454,8 @@ Result<std::unique_ptr<ByteSource>> data_source(const Header& header,
       if (!opened) return opened.error();
       source = std::move(opened->source);
     } else {
-      source = files_in_a_row(*files,
-                              raw && *skip_bytes > 0 ? static_cast<std::uint64_t>(*skip_bytes) : 0);
+      source = concatenate_files(
+          *files, raw && *skip_bytes > 0 ? static_cast<std::uint64_t>(*skip_bytes) : 0);
       return source;
     }
     if (from_end < 0)
@@ -526,7 +526,7 @@ Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& opt
   SampleFormat format;
   const std::string type = lower(header->fields["type"]);
   if (!sample_type(type, format.type))
-    return error(fmt::format("{}: type: burr does not read \"{}\"", file, base::shown(type)));
+    return error(fmt::format("{}: type: burr does not read \"{}\"", file, base::printable(type)));
   const std::string endian = lower(header->fields["endian"]);
   format.big_endian = endian == "big";
   const std::string encoding = lower(header->fields["encoding"]);
@@ -535,7 +535,7 @@ Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& opt
       encoding != "bz2")
     return error(
         fmt::format("{}: encoding: burr does not read \"{}\"; save the file as raw or gzip", file,
-                    base::shown(encoding)));
+                    base::printable(encoding)));
   if (encoding == "raw" && endian.empty() && bytes_of(format.type) > 1)
     scan.notices.emplace_back("The file does not state its byte order: little endian is assumed.");
 

@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 #include "burr/record/mcap/crc32.h"
 #include "burr/record/mcap/packed.h"
 
@@ -279,7 +279,7 @@ Result<McapChunk> McapReader::read_chunk(std::size_t index) const {
     return error(
         fmt::format("{}: burr does not read the chunk compression \"{}\", only zstd; this file was "
                     "not written by burr",
-                    path_, base::shown(at.compression)));
+                    path_, base::printable(at.compression)));
   McapChunk chunk;
   if (!unpack_chunk(at.offset, chunk))
     return error(fmt::format("{}: the chunk at byte {} is damaged; `burr repair` saves the rest",
@@ -303,7 +303,7 @@ Result<std::vector<std::uint8_t>> McapReader::read_attachment(std::size_t index)
   const mcap::AttachmentAt& at = attachments_.at(index);
   const Error damaged =
       error(fmt::format("{}: the attachment \"{}\" is damaged; give the bone with --volume", path_,
-                        base::shown(at.name)));
+                        base::printable(at.name)));
   std::vector<std::uint8_t> content;
   if (!read_content(at.offset, Kind::attachment, content)) return damaged;
   BytesIn in(content);
@@ -328,7 +328,7 @@ Result<mcap::Pairs> McapReader::read_metadata(std::size_t index) const {
     in.text();
     if (mcap::get_pairs(in, pairs)) return pairs;
   }
-  return error(fmt::format("{}: the metadata \"{}\" is damaged", path_, base::shown(at.name)));
+  return error(fmt::format("{}: the metadata \"{}\" is damaged", path_, base::printable(at.name)));
 }
 
 // Finds out which channels a chunk has from its messages; for chunks without indexes.

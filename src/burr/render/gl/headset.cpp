@@ -138,7 +138,7 @@ struct Headset::Work {
   void changed(XrSessionState state);
   void end_session();
   bool good(const char* call, XrResult code);
-  void lose(std::string because);
+  void end_with(std::string because);
   void locate(Headset::Now& now);
   bool draw(int eye, const Scene& scene);
   void end_frame(const std::array<XrCompositionLayerProjectionView, 2>* parts);
@@ -393,7 +393,7 @@ void Headset::Work::start_waiter() {
 
 // ---- events of the runtime
 
-void Headset::Work::lose(std::string because) {
+void Headset::Work::end_with(std::string because) {
   if (over) return;
   over = true;
   running = focused = false;
@@ -403,11 +403,11 @@ void Headset::Work::lose(std::string because) {
 bool Headset::Work::good(const char* call, XrResult code) {
   if (code == XR_SESSION_LOSS_PENDING || code == XR_ERROR_SESSION_LOST ||
       code == XR_ERROR_INSTANCE_LOST)
-    lose(
+    end_with(
         "The headset was disconnected; the window continues. Connect it, then switch it on again "
         "in the settings (F2).");
   else if (XR_FAILED(code))
-    lose(fmt::format(
+    end_with(fmt::format(
         "The headset's runtime refuses xr{} ({}); the window continues without the headset.", call,
         static_cast<int>(code)));
   return !over;
@@ -439,7 +439,7 @@ void Headset::Work::changed(XrSessionState state) {
   } else if (state == XR_SESSION_STATE_LOSS_PENDING) {
     static_cast<void>(good("PollEvent", XR_ERROR_SESSION_LOST));
   } else if (state == XR_SESSION_STATE_EXITING) {
-    lose("The headset's runtime has ended; the window continues without the headset.");
+    end_with("The headset's runtime has ended; the window continues without the headset.");
   }
 }
 
@@ -457,7 +457,7 @@ bool Headset::Work::stop_waiting() {
 void Headset::Work::end_session() {
   running = focused = false;
   if (!stop_waiting()) {
-    lose("The headset's runtime does not answer; the window continues without the headset.");
+    end_with("The headset's runtime does not answer; the window continues without the headset.");
     return;
   }
   static_cast<void>(good("EndSession", xr.EndSession(session)));

@@ -38,14 +38,15 @@ static_assert(static_cast<int>(Stereo::side_by_side) == 1 &&
 
 }  // namespace
 
-Status Join::start(bool es) {
+Status EyeJoiner::start(bool es) {
   Result<Program> linked = Program::link(es, {kScreenVertex}, {kJoinFragment});
   if (!linked) return linked.error();
   program_ = std::move(*linked);
   return fine();
 }
 
-void Join::draw(const Sheet& left, const Sheet& right, const Sheet& to, Stereo how, int first_row) {
+void EyeJoiner::draw(const PictureBuffer& left, const PictureBuffer& right, const PictureBuffer& to,
+                     Stereo how, int first_row) {
   glBindFramebuffer(GL_FRAMEBUFFER, to.at.get());
   glViewport(0, 0, to.width, to.height);
   glDisable(GL_BLEND);

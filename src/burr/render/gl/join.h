@@ -1,5 +1,5 @@
-// render/gl/join.h - joins the pictures of two eyes on the GPU, as joined() in stereo.h does. For
-// use of this room only.
+// render/gl/join.h - joins the pictures of two eyes on the GPU, as join_eyes() in stereo.h does.
+// For use of this room only.
 //
 // Thread: main, with the context current.
 #pragma once
@@ -9,13 +9,14 @@
 
 namespace burr::render::gl {
 
-class Join {
+class EyeJoiner {
  public:
   Status start(bool es);
   // All sheets have the same size; the vertex array of the screen triangle must be bound.
   // first_row: the row of the screen that holds the top row of the picture. how: a mode that makes
   // one picture of two.
-  void draw(const Sheet& left, const Sheet& right, const Sheet& to, Stereo how, int first_row);
+  void draw(const PictureBuffer& left, const PictureBuffer& right, const PictureBuffer& to,
+            Stereo how, int first_row);
 
  private:
   Program program_;

@@ -53,11 +53,11 @@ std::vector<Vec3> shadow_of(const Scene& scene) {
   return points;
 }
 
-double hollow_reach(const Scene& scene) {
-  return scene.look.hollow_reach * scene.camera.view_height();
+double occlusion_reach(const Scene& scene) {
+  return scene.look.occlusion_reach * scene.camera.view_height();
 }
 float strict_of(const Scene& scene, const Frame& frame) {
-  return static_cast<float>((frame.far - frame.near) / (0.5 * hollow_reach(scene)));
+  return static_cast<float>((frame.far - frame.near) / (0.5 * occlusion_reach(scene)));
 }
 
 void bind(GLuint unit, const Texture& texture) {
@@ -77,16 +77,16 @@ Status Lighting::start(bool es) {
   linked = Program::link(es, {kScreenVertex}, {kSkyFragment});
   if (!linked) return linked.error();
   sky_ = std::move(*linked);
-  constexpr const char* kHollows[] = {"", "#define HOLLOWS\n", "#define HOLLOWS\n#define HALF\n"};
-  for (std::size_t hollows = 0; hollows < 3; ++hollows)
+  constexpr const char* kOcclusion[] = {"", "#define HOLLOWS\n", "#define HOLLOWS\n#define HALF\n"};
+  for (std::size_t ambient_occlusion = 0; ambient_occlusion < 3; ++ambient_occlusion)
     for (const bool shadow : {false, true})
       for (const bool others : {false, true}) {
         linked =
             Program::link(es, {kScreenVertex},
-                          {kHollows[hollows], shadow ? "#define SHADOW\n" : "",
+                          {kOcclusion[ambient_occlusion], shadow ? "#define SHADOW\n" : "",
                            others ? "#define OTHERS\n" : "", kColourFunctions, kLightFragment});
         if (!linked) return linked.error();
-        lights_[hollows][shadow ? 1 : 0][others ? 1 : 0] = std::move(*linked);
+        lights_[ambient_occlusion][shadow ? 1 : 0][others ? 1 : 0] = std::move(*linked);
       }
   return fine();
 }
@@ -103,10 +103,12 @@ void Lighting::paint_sky(const Scene& scene, const Frame& frame, const Rect& r,
 }
 
 void Lighting::paint(const Scene& scene, const Frame& frame, const Rect& r, const Unlit& what,
-                     const Hollows& hollows, const Besides& besides) {
+                     const OcclusionMaps& ambient_occlusion, const Besides& besides) {
   if (r.empty()) return;
   const Look& look = scene.look;
-  const std::size_t kind = hollows.map == nullptr ? 0 : hollows.stride == 1 ? 1 : 2;
+  const std::size_t kind = ambient_occlusion.map == nullptr ? 0
+                           : ambient_occlusion.stride == 1  ? 1
+                                                            : 2;
   Program& light =
       look.plain ? plain_ : lights_[kind][besides.shadow ? 1 : 0][besides.others ? 1 : 0];
   glBindFramebuffer(GL_FRAMEBUFFER, what.lit_at->get());
@@ -115,18 +117,18 @@ void Lighting::paint(const Scene& scene, const Frame& frame, const Rect& r, cons
   bind(0, *what.colour);
   bind(1, *what.normal);
   bind(2, *what.depth);
-  if (hollows.map != nullptr) bind(3, *hollows.map);
+  if (ambient_occlusion.map != nullptr) bind(3, *ambient_occlusion.map);
 
   light.use();
   light.set("colour_map", 0);
   light.set("normal_map", 1);
   light.set("depth_map", 2);
-  light.set("hollow_map", 3);
+  light.set("occlusion_map", 3);
   light.set("ray", ray_of(frame));
   light.set("planes",
             Eigen::Vector2f(static_cast<float>(frame.near), static_cast<float>(frame.far)));
   light.set("size", frame.width, frame.height);
-  light.set("hollow_size", hollows.width, hollows.height);
+  light.set("occlusion_size", ambient_occlusion.width, ambient_occlusion.height);
   light.set("strict", strict_of(scene, frame));
   set_sky(light, look, frame);
   light.set("key_towards", Eigen::Vector3f(look.key.towards.normalized().cast<float>()));
@@ -135,7 +137,7 @@ void Lighting::paint(const Scene& scene, const Frame& frame, const Rect& r, cons
   light.set("fill_light", light_of(look.fill));
   light.set("ambient", static_cast<float>(look.ambient));
   light.set("gloss", static_cast<float>(look.gloss));
-  light.set("hollow", static_cast<float>(look.hollow));
+  light.set("occlusion", static_cast<float>(look.occlusion));
 
   // head and shaft in the form that the shader needs for the shadow
   const Burr& burr = scene.burr;

@@ -21,7 +21,7 @@ struct Unlit {
   const Framebuffer* lit_at = nullptr;
 };
 // Its ambient occlusion; stride 1, or 2 for half resolution.
-struct Hollows {
+struct OcclusionMaps {
   const Texture* map = nullptr;  // nullptr: none
   int width = 0, height = 0, stride = 1;
 };
@@ -35,7 +35,7 @@ class Lighting {
   };
   // The vertex array of the screen triangle must be bound.
   void paint(const Scene& scene, const Frame& frame, const Rect& r, const Unlit& what,
-             const Hollows& hollows, const Besides& besides);
+             const OcclusionMaps& ambient_occlusion, const Besides& besides);
   void paint_sky(const Scene& scene, const Frame& frame, const Rect& r, const Framebuffer& lit_at);
 
  private:
@@ -47,7 +47,7 @@ class Lighting {
 [[nodiscard]] std::vector<math::Vec3> shadow_of(const Scene& scene);
 
 // Reach of the ambient occlusion [m], and 1 / (depth difference that counts as another surface).
-[[nodiscard]] double hollow_reach(const Scene& scene);
+[[nodiscard]] double occlusion_reach(const Scene& scene);
 [[nodiscard]] float strict_of(const Scene& scene, const Frame& frame);
 
 void bind(GLuint unit, const Texture& texture);

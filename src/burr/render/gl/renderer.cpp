@@ -29,18 +29,18 @@ constexpr int kMostPicture = 65536;
 
 Status Renderer::Work::start() {
   constexpr const char *kColours = gl::kColourFunctions, *kClip = "#define CLIP\n",
-                       *kDressed = "#define DRESSED\n";
+                       *kStained = "#define STAINED\n";
   const struct {
     Program* program;
     std::initializer_list<const char*> vertex, fragment;
   } all[] = {{&skin_mesh, {gl::kSkinVertex}, {gl::kMeshFragment}},
              {&clipped_skin, {kClip, gl::kSkinVertex}, {kClip, gl::kMeshFragment}},
-             {&dressed_skin, {kDressed, gl::kSkinVertex}, {kDressed, gl::kMeshFragment}},
-             {&clipped_dressed_skin,
-              {kClip, kDressed, gl::kSkinVertex},
-              {kClip, kDressed, gl::kMeshFragment}},
+             {&stained_skin, {kStained, gl::kSkinVertex}, {kStained, gl::kMeshFragment}},
+             {&clipped_stained_skin,
+              {kClip, kStained, gl::kSkinVertex},
+              {kClip, kStained, gl::kMeshFragment}},
              {&mesh, {gl::kMeshVertex}, {gl::kMeshFragment}},
-             {&hollow, {gl::kScreenVertex}, {gl::kHollowFragment}},
+             {&occlusion, {gl::kScreenVertex}, {gl::kOcclusionFragment}},
              {&soften, {gl::kScreenVertex}, {gl::kSoftenFragment}},
              {&shrink, {gl::kScreenVertex}, {kColours, gl::kShrinkFragment}}};
   for (const auto& one : all) {
@@ -135,7 +135,7 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
   w.skin.allow(0);
 
   const int factor = std::clamp(scene.look.supersample, 1, 8);
-  const int stride = scene.look.hollow_half ? 2 : 1;
+  const int stride = scene.look.occlusion_half ? 2 : 1;
   Frame whole;
   whole.picture_width = width * factor;
   whole.picture_height = height * factor;
@@ -178,8 +178,8 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
       Work::Parts parts;
       parts.extent = bone;
       parts.bone.add(frame.all());
-      parts.light_hollows = has_hollows(scene.look);
-      if (parts.light_hollows) parts.hollows.add(frame.all());
+      parts.light_occlusion = has_occlusion(scene.look);
+      if (parts.light_occlusion) parts.ambient_occlusion.add(frame.all());
       w.paint(scene, frame, parts, pieces);
       const int left = inner.x0 / factor, top = height - inner.y1 / factor;
       const Status done = w.put_on_sheet(
@@ -202,7 +202,7 @@ void Renderer::Work::present(Stereo how) {
     glFinish();
     return;
   }
-  const auto put = [](const gl::Sheet& from) {
+  const auto put = [](const gl::PictureBuffer& from) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, from.at.get());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     glBlitFramebuffer(0, 0, from.width, from.height, 0, 0, from.width, from.height,
@@ -237,7 +237,7 @@ Status Renderer::show(const Scene& scene, const TwoEyes& eyes, const std::functi
     if (const Status drawn = w.draw(scene, wide, high); !drawn) return drawn;
     if (over) over();  // the sheet is bound now
   } else {
-    const Eyes cameras = eyes_of(scene.camera, eyes.apart);
+    const Eyes cameras = eyes_of(scene.camera, eyes.eye_distance);
     Scene seen = scene;
     for (const int which : {0, 1}) {
       seen.camera = (which == 0) != eyes.swapped ? cameras.left : cameras.right;
@@ -326,7 +326,7 @@ Renderer::Figures Renderer::figures() const { return work_->figures; }
 Image Renderer::shown() {
   Work& w = *work_;
   w.context->make_current();
-  const gl::Sheet& sheet = *w.on_show;
+  const gl::PictureBuffer& sheet = *w.on_show;
   Image image{sheet.width, sheet.height, {}};
   image.rgb.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
                    3);

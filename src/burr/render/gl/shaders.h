@@ -43,8 +43,8 @@ out vec3 colour;
 #ifdef WALLS
 out float wall;
 #endif
-#ifdef DRESSED
-layout(location = 2) in vec4 at_dress;  // fresh, wet, dust, blood
+#ifdef STAINED
+layout(location = 2) in vec4 at_stain;  // fresh, wet, dust, blood
 uniform float grains_per_m;
 out float wet;
 #endif
@@ -70,21 +70,21 @@ void main() {
 #else
   colour = mix(bone, under, float(at_rest.y >> 8u & 255u) / 255.0);
 #endif
-#ifdef DRESSED
+#ifdef STAINED
   // fresh bone is paler and shows its grain: every grain gets its own pseudo-random number
   uvec3 q = uvec3(ivec3(floor(at_p * grains_per_m + 0.25)));
   uint h = q.x * 0x9E3779B1u ^ q.y * 0x85EBCA77u ^ q.z * 0xC2B2AE3Du;
   h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;
   h ^= h >> 12u;
   float grain = float(h & 255u) / 127.5 - 1.0;
-  colour = mix(colour, vec3(1.0, 0.98, 0.94), 0.5 * at_dress.x);
-  colour *= 1.0 + 0.07 * grain * at_dress.x;
-  colour *= 1.0 - 0.22 * at_dress.y;
+  colour = mix(colour, vec3(1.0, 0.98, 0.94), 0.5 * at_stain.x);
+  colour *= 1.0 + 0.07 * grain * at_stain.x;
+  colour *= 1.0 - 0.22 * at_stain.y;
   // dust is drawn in grains: the more dust, the more grains
-  float lies = smoothstep(0.0, 0.35, at_dress.z * 1.35 - float(h >> 8u & 255u) / 255.0);
+  float lies = smoothstep(0.0, 0.35, at_stain.z * 1.35 - float(h >> 8u & 255u) / 255.0);
   colour = mix(colour, vec3(0.96, 0.945, 0.91) * (1.0 + 0.05 * grain), 0.9 * lies);
-  colour = mix(colour, vec3(0.40, 0.03, 0.03), 0.92 * smoothstep(0.0, 0.6, at_dress.w));
-  wet = max(at_dress.y * (1.0 - lies), 0.8 * at_dress.w);
+  colour = mix(colour, vec3(0.40, 0.03, 0.03), 0.92 * smoothstep(0.0, 0.6, at_stain.w));
+  wet = max(at_stain.y * (1.0 - lies), 0.8 * at_stain.w);
 #endif
 }
 )";
@@ -105,7 +105,7 @@ uniform vec3 plane_n;  // view
 #ifdef WALLS
 in float wall;
 #endif
-#ifdef DRESSED
+#ifdef STAINED
 in float wet;
 #endif
 void main() {
@@ -127,7 +127,7 @@ void main() {
   }
 #endif
   out_colour = vec4(c * tint_kind.rgb, tint_kind.a);
-#ifdef DRESSED
+#ifdef STAINED
   out_colour.a -= 0.18 * wet;  // still bone; the lighting step reads the wetness
 #endif
   out_n = vec4(k * 0.5 + 0.5, 1.0);
@@ -145,7 +145,7 @@ void main() {
 // The "scalable ambient obscurance" estimator (McGuire, Mara, Luebke 2012) on full-resolution
 // depth, with true normals. The sample directions rotate in a 4 x 4 pattern, which `soften`
 // averages out.
-inline constexpr const char* kHollowFragment = R"(
+inline constexpr const char* kOcclusionFragment = R"(
 uniform sampler2D depth_map;
 uniform sampler2D colour_map;
 uniform sampler2D normal_map;
@@ -205,18 +205,18 @@ void main() {
 )";
 
 inline constexpr const char* kSoftenFragment = R"(
-uniform sampler2D hollow_map;
+uniform sampler2D occlusion_map;
 uniform ivec2 size;    // of this map
 uniform float strict;  // 1 / (depth difference that separates two surfaces), in depth keys
 out vec4 result;
 float key(vec4 t) { return t.g + t.b / 255.0; }
 void main() {
   ivec2 here = ivec2(gl_FragCoord.xy);
-  vec4 mine = texelFetch(hollow_map, here, 0);
+  vec4 mine = texelFetch(occlusion_map, here, 0);
   float z = key(mine), sum = 0.0, weights = 0.0;
   for (int y = -1; y <= 2; ++y)
     for (int x = -1; x <= 2; ++x) {
-      vec4 t = texelFetch(hollow_map, clamp(here + ivec2(x, y), ivec2(0), size - 1), 0);
+      vec4 t = texelFetch(occlusion_map, clamp(here + ivec2(x, y), ivec2(0), size - 1), 0);
       float w = max(0.001, 1.0 - abs(key(t) - z) * strict);
       sum += w * t.r;
       weights += w;
@@ -247,11 +247,11 @@ inline constexpr const char* kLightFragment = R"(
 uniform sampler2D colour_map;
 uniform sampler2D normal_map;
 uniform sampler2D depth_map;
-uniform sampler2D hollow_map;
+uniform sampler2D occlusion_map;
 uniform vec4 ray;
 uniform vec2 planes;
 uniform ivec2 size;
-uniform ivec2 hollow_size;
+uniform ivec2 occlusion_size;
 uniform float strict;
 uniform vec2 sky;          // height in the whole picture = y * sky.x + sky.y
 uniform vec3 sky_top;      // sRGB
@@ -262,7 +262,7 @@ uniform vec3 fill_towards;
 uniform vec3 fill_light;
 uniform float ambient;
 uniform float gloss;
-uniform float hollow;
+uniform float occlusion;
 uniform vec4 ball;         // burr head: centre in view, radius
 uniform vec3 shaft;        // unit, from the centre along the shaft, in view
 uniform vec2 shaft_size;   // radius, length
@@ -283,7 +283,7 @@ float openness(ivec2 at, float z) {
   float sum = 0.0, weights = 0.0;
   for (int i = 0; i < 4; ++i) {
     ivec2 o = ivec2(i & 1, i >> 1);
-    vec4 t = texelFetch(hollow_map, min(low + o, hollow_size - 1), 0);
+    vec4 t = texelFetch(occlusion_map, min(low + o, occlusion_size - 1), 0);
     vec2 b = mix(1.0 - part, part, vec2(o));
     float w = b.x * b.y * max(0.001, 1.0 - abs(key(t) - mine) * strict) + 1e-6;
     sum += w * t.r;
@@ -292,7 +292,7 @@ float openness(ivec2 at, float z) {
   return sum / weights;
 }
 #else
-float openness(ivec2 at, float z) { return texelFetch(hollow_map, at, 0).r; }
+float openness(ivec2 at, float z) { return texelFetch(occlusion_map, at, 0).r; }
 #endif
 
 #ifdef SHADOW
@@ -343,7 +343,7 @@ void main() {
 #else
   const bool bone = true;
 #endif
-  float open = bone ? mix(1.0, openness(at, z), hollow) : 1.0;  // for bone only
+  float open = bone ? mix(1.0, openness(at, z), occlusion) : 1.0;  // for bone only
 
   float lit = max(dot(n, key_towards), 0.0);
   if (bone) lit *= passes(along * z, key_towards);

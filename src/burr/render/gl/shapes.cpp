@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "burr/math/turn.h"
+#include "burr/math/rotation.h"
 
 namespace burr::render::gl {
 
@@ -195,7 +195,7 @@ void Shapes::add_rod(const Rod& rod) {
   const Vec3 d = rod.b - rod.a;
   const double length = d.norm();
   if (!(length > 0) || !d.allFinite()) return;
-  const math::Quat q = math::shortest_turn(Vec3::UnitZ(), d);
+  const math::Quat q = math::shortest_rotation(Vec3::UnitZ(), d);
   // an arrow's head takes its share of the length
   const double head = rod.arrow ? std::min(6 * rod.radius, 0.6 * length) : 0;
   add(rod_, placed({rod.a, q}, rod.radius, length - head), rod.colour, false, rod.on_top, {tube});

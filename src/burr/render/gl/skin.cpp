@@ -89,20 +89,20 @@ int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
   }
   const bool other_size = patches_.size() != scene.patches.size();
   patches_.resize(scene.patches.size());
-  other_dresses_ = other_dresses_ || other_size;
+  other_stains_ = other_stains_ || other_size;
 
   int sent = 0;
   const auto look_at = [&](int index) {
     const auto i = static_cast<std::size_t>(index);
     const ScenePatch& patch = scene.patches[i];
     Patch& part = patches_[i];
-    const bool anew = part.version != patch.version, dress = part.dress != patch.dress;
-    if (!anew && !dress && !recolour) return;
-    other_dresses_ = other_dresses_ || (part.dress == nullptr) != (patch.dress == nullptr);
+    const bool anew = part.version != patch.version, stains = part.stains != patch.stains;
+    if (!anew && !stains && !recolour) return;
+    other_stains_ = other_stains_ || (part.stains == nullptr) != (patch.stains == nullptr);
     part.version = patch.version;
     if (!part.levels.empty()) changed.push_back(part.box);
     if (anew) send(part, patch);
-    if (anew || dress) send_dress(part, patch);
+    if (anew || stains) send_stains(part, patch);
     if (anew && !part.levels.empty()) changed.push_back(part.box);
     sent += anew ? 1 : 0;
   };
@@ -120,9 +120,9 @@ void Skin::update_blocks(const Scene& scene) {
   if (blocks_.size() != scene.blocks.size()) {
     blocks_.clear();
     blocks_.resize(scene.blocks.size());
-    other_dresses_ = true;
+    other_stains_ = true;
   }
-  if (std::exchange(other_dresses_, false)) find_dressed(scene);
+  if (std::exchange(other_stains_, false)) find_stained(scene);
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const SceneBlock& block = scene.blocks[i];
     Block& part = blocks_[i];
@@ -144,15 +144,15 @@ void Skin::update_blocks(const Scene& scene) {
   }
 }
 
-void Skin::find_dressed(const Scene& scene) {
-  dressed_ = false;
-  for (Block& part : blocks_) part.dressed = false;
+void Skin::find_stained(const Scene& scene) {
+  stained_ = false;
+  for (Block& part : blocks_) part.stained = false;
   for (std::size_t i = 0; i < patches_.size(); ++i) {
-    if (patches_[i].dress == nullptr) continue;
-    dressed_ = true;
+    if (patches_[i].stains == nullptr) continue;
+    stained_ = true;
     int b = i < scene.block_of.size() ? scene.block_of[i] : -1;
     for (; b >= 0; b = scene.blocks[static_cast<std::size_t>(b)].outer)
-      blocks_[static_cast<std::size_t>(b)].dressed = true;
+      blocks_[static_cast<std::size_t>(b)].stained = true;
   }
 }
 
@@ -257,20 +257,20 @@ void Skin::send(Patch& part, const ScenePatch& patch) {
   if (fresh) lay_out();
 }
 
-// Sends the dress. The vertex array exists, unless the patch has no surface.
-void Skin::send_dress(Patch& part, const ScenePatch& patch) {
-  part.dress = patch.dress;
+// Sends the stains. The vertex array exists, unless the patch has no surface.
+void Skin::send_stains(Patch& part, const ScenePatch& patch) {
+  part.stains = patch.stains;
   if (part.array.get() == 0) return;
   glBindVertexArray(part.array.get());
-  if (patch.mesh == nullptr || part.dress == nullptr ||
-      part.dress->size() != patch.mesh->vertices().size()) {
+  if (patch.mesh == nullptr || part.stains == nullptr ||
+      part.stains->size() != patch.mesh->vertices().size()) {
     glDisableVertexAttribArray(2);
     return;
   }
-  glBindBuffer(GL_ARRAY_BUFFER, part.dress_values.make());
-  fill(GL_ARRAY_BUFFER, part.dress->data(), part.dress->size() * sizeof(Dress));
+  glBindBuffer(GL_ARRAY_BUFFER, part.stain_values.make());
+  fill(GL_ARRAY_BUFFER, part.stains->data(), part.stains->size() * sizeof(Stain));
   glEnableVertexAttribArray(2);
-  glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Dress), nullptr);
+  glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Stain), nullptr);
 }
 
 void Skin::send(Block& part, const CoarseMesh& mesh) {
@@ -322,7 +322,7 @@ long Skin::ask(Patch& patch, const Vec3& eye, const Planes& planes) {
 long Skin::ask(Block& block, const Vec3& eye, const Planes& planes) {
   if (block.box.empty() || outside(block.box, planes)) return 0;
   const Part::Level* level = nullptr;
-  if (block.mesh != nullptr && block.of_now && !block.dressed) {
+  if (block.mesh != nullptr && block.of_now && !block.stained) {
     if (block.levels.empty()) return 0;
     const double nearest =
         std::max(0.0, (block.box.centre() - eye).norm() - 0.5 * block.box.extent().norm());
@@ -355,7 +355,7 @@ long Skin::ask_inside(Block& block, const Vec3& eye, const Planes& planes) {
 Skin::Drawn Skin::draw(const Vec3& eye, const Planes& planes, bool both_sides,
                        const Hidden* hidden) {
   Drawn drawn;
-  glVertexAttrib4f(2, 0, 0, 0, 0);  // for patches without a dress
+  glVertexAttrib4f(2, 0, 0, 0, 0);  // for patches without stains
   both_sides_ = both_sides;
   asked_.clear();
   if (blocks_.empty() || error_share_ <= 0)

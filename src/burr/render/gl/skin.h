@@ -20,8 +20,8 @@ class Skin {
   // Sends what changed since the last call. Appends the boxes of those patches, before and after
   // the change. Returns how many were sent.
   int update(const Scene& scene, std::vector<math::Aabb>& changed);
-  // True: at least one patch has a Dress (render/wound.h).
-  [[nodiscard]] bool dressed() const { return dressed_; }
+  // True: at least one patch has a Stain (render/wound.h).
+  [[nodiscard]] bool stained() const { return stained_; }
   // One row of 256 colours, indexed by tissue.
   [[nodiscard]] GLuint colours() const { return colour_row_.get(); }
 
@@ -64,8 +64,8 @@ class Skin {
   };
   struct Patch : Part {
     std::uint64_t version = 0;
-    std::shared_ptr<const std::vector<Dress>> dress;
-    Buffer dress_values;
+    std::shared_ptr<const std::vector<Stain>> stains;
+    Buffer stain_values;
   };
   struct Block : Part {
     std::vector<int> patches, inner;
@@ -73,7 +73,7 @@ class Skin {
     std::shared_ptr<const CoarseMesh> mesh;
     std::uint64_t now = 0;  // SceneBlock::now; its box is that of its patches
     bool of_now = false;    // its mesh was made from the present patches
-    bool dressed = false;   // one of its patches has a Dress, which the mesh does not show
+    bool stained = false;   // one of its patches has a Stain, which the mesh does not show
   };
   // A part and the level to draw it at.
   struct Asked {
@@ -82,7 +82,7 @@ class Skin {
   };
 
   void send(Patch& part, const ScenePatch& patch);
-  static void send_dress(Patch& part, const ScenePatch& patch);
+  static void send_stains(Patch& part, const ScenePatch& patch);
   static void send(Block& part, const CoarseMesh& mesh);
   static void draw(const Part& part, const Part::Level& level, Drawn& drawn);
   // Adds what must be drawn of it to asked_. Returns the cost in triangles.
@@ -90,7 +90,7 @@ class Skin {
   long ask(Block& block, const math::Vec3& eye, const Planes& planes);
   long ask_inside(Block& block, const math::Vec3& eye, const Planes& planes);
   void update_blocks(const Scene& scene);
-  void find_dressed(const Scene& scene);
+  void find_stained(const Scene& scene);
   void find_box(Block& part, const Scene& scene) const;
   void send_colours();
 
@@ -99,10 +99,10 @@ class Skin {
   std::vector<Asked> asked_;          // parts of this draw
   std::vector<math::Vec3f> normals_;  // of the patch being sent
   double error_share_ = 0;
-  bool dressed_ = false;
-  bool other_dresses_ = false;  // some patch has got or lost its Dress
-  std::uint64_t known_ = 0;     // last seen number of the scene's changes
-  bool both_sides_ = false;     // in this draw
+  bool stained_ = false;
+  bool other_stains_ = false;  // some patch has got or lost its Stain
+  std::uint64_t known_ = 0;    // last seen number of the scene's changes
+  bool both_sides_ = false;    // in this draw
   std::vector<Colour> colours_;
   Texture colour_row_;
 };

@@ -37,11 +37,11 @@ Status attach(Framebuffer& framebuffer, std::initializer_list<GLuint> colours, G
       "the graphics card has no memory for a picture of this size; make the picture smaller");
 }
 
-Result<bool> Target::resize(int wide, int high, int hollow_stride) {
-  if (wide == width && high == height && hollow_stride == stride) return false;
+Result<bool> Target::resize(int wide, int high, int occlusion_stride) {
+  if (wide == width && high == height && occlusion_stride == stride) return false;
   width = height = stride = 0;  // in case it fails half-way
-  hollow_width = (wide + hollow_stride - 1) / hollow_stride;
-  hollow_height = (high + hollow_stride - 1) / hollow_stride;
+  occlusion_width = (wide + occlusion_stride - 1) / occlusion_stride;
+  occlusion_height = (high + occlusion_stride - 1) / occlusion_stride;
 
   for (Texture* one : {&bone_colour, &colour})
     shape(*one, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);
@@ -50,16 +50,16 @@ Result<bool> Target::resize(int wide, int high, int hollow_stride) {
   for (Texture* one : {&bone_depth, &depth})
     shape(*one, GL_DEPTH_COMPONENT24, wide, high, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
   shape(lit, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);
-  shape(hollow, GL_RGBA8, hollow_width, hollow_height, GL_RGBA, GL_UNSIGNED_BYTE);
-  shape(soft, GL_RGBA8, hollow_width, hollow_height, GL_RGBA, GL_UNSIGNED_BYTE);
+  shape(occlusion, GL_RGBA8, occlusion_width, occlusion_height, GL_RGBA, GL_UNSIGNED_BYTE);
+  shape(soft, GL_RGBA8, occlusion_width, occlusion_height, GL_RGBA, GL_UNSIGNED_BYTE);
   for (const Status& made : {attach(bone, {bone_colour.get(), bone_normal.get()}, bone_depth.get()),
                              attach(geometry, {colour.get(), normal.get()}, depth.get()),
-                             attach(hollow_at, {hollow.get()}, 0), attach(soft_at, {soft.get()}, 0),
-                             attach(lit_at, {lit.get()}, 0)})
+                             attach(occlusion_at, {occlusion.get()}, 0),
+                             attach(soft_at, {soft.get()}, 0), attach(lit_at, {lit.get()}, 0)})
     if (!made) return made.error();
   width = wide;
   height = high;
-  stride = hollow_stride;
+  stride = occlusion_stride;
   return true;
 }
 
@@ -81,13 +81,13 @@ void Target::copy_bone(int x0, int y0, int x1, int y1) const {
   glDrawBuffers(2, kBoth);
 }
 
-void Target::clear_hollows() const {
+void Target::clear_occlusion() const {
   glBindFramebuffer(GL_FRAMEBUFFER, soft_at.get());
   constexpr float kOpen[] = {1, 0, 0, 1};
   glClearBufferfv(GL_COLOR, 0, kOpen);
 }
 
-Status Sheet::resize(int wide, int high) {
+Status PictureBuffer::resize(int wide, int high) {
   if (wide == width && high == height) return fine();
   width = height = 0;
   shape(colour, GL_RGBA8, wide, high, GL_RGBA, GL_UNSIGNED_BYTE);

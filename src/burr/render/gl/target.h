@@ -20,25 +20,25 @@ Status attach(Framebuffer& framebuffer, std::initializer_list<GLuint> colours, G
 // All maps are width x height samples; the hollows' maps are the same or half of it.
 struct Target {
   int width = 0, height = 0, stride = 0;
-  int hollow_width = 0, hollow_height = 0;
+  int occlusion_width = 0, occlusion_height = 0;
 
   Texture bone_colour, bone_normal, bone_depth;  // the bone, alone
   Texture colour, normal, depth;                 // the bone with tool and marks in front of it
-  Texture hollow, soft;                          // ambient occlusion of the bone; raw and softened
+  Texture occlusion, soft;                       // ambient occlusion of the bone; raw and softened
   Texture lit;                                   // the picture in samples, before it is shrunk to
                                                  // pixels
-  Framebuffer bone, geometry, hollow_at, soft_at, lit_at;
+  Framebuffer bone, geometry, occlusion_at, soft_at, lit_at;
 
   // True: everything is new and holds nothing yet.
-  Result<bool> resize(int wide, int high, int hollow_stride);
+  Result<bool> resize(int wide, int high, int occlusion_stride);
   // Replaces [x0, x1) x [y0, y1) of the picture by the bone alone.
   void copy_bone(int x0, int y0, int x1, int y1) const;
   // Sets the ambient occlusion to none.
-  void clear_hollows() const;
+  void clear_occlusion() const;
 };
 
 // The pixels of a picture.
-struct Sheet {
+struct PictureBuffer {
   int width = 0, height = 0;
   Texture colour;
   Framebuffer at;

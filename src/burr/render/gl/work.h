@@ -33,7 +33,7 @@ inline constexpr int kMostTarget = 4096;  // most samples along a side at once
 // Reach of the ambient occlusion of one sample, in samples: that at the target plus a quarter, for
 // what is nearer to the eye. It limits what one change can affect.
 inline double reach_of(const Scene& scene, const gl::Frame& frame) {
-  return std::min<double>(1.25 * scene.look.hollow_reach * frame.picture_height, kMostReach);
+  return std::min<double>(1.25 * scene.look.occlusion_reach * frame.picture_height, kMostReach);
 }
 // adds the reach of the softening, and of half resolution
 inline int margin_of(const Scene& scene, const gl::Frame& frame) {
@@ -44,7 +44,7 @@ inline int margin_of(const Scene& scene, const gl::Frame& frame) {
 [[nodiscard]] gl::Rect rect_around(const std::vector<gl::Piece>& pieces, const gl::Frame& frame);
 
 inline bool sees_through(const Look& look) { return look.opacity < 1; }
-inline bool has_hollows(const Look& look) { return look.hollow > 0 && !look.plain; }
+inline bool has_occlusion(const Look& look) { return look.occlusion > 0 && !look.plain; }
 
 struct Renderer::Work {
   // the context is first, because it must be destroyed last
@@ -53,13 +53,13 @@ struct Renderer::Work {
   gl::Shapes shapes;
   gl::Overlay overlay;
   gl::Target target;
-  gl::Sheet sheet, stretched;  // the picture; the lit samples at pixel size, where there are more
-                               // pixels than samples
-  gl::Region lit_anew;         // redrawn by the last paint(), in samples
-  gl::VertexArray nothing;     // the screen triangle has no data, but OpenGL needs an array
+  // the picture; the lit samples at pixel size, where there are more pixels than samples
+  gl::PictureBuffer sheet, stretched;
+  gl::Region lit_anew;      // redrawn by the last paint(), in samples
+  gl::VertexArray nothing;  // the screen triangle has no data, but OpenGL needs an array
   gl::Lighting lighting;
   gl::SeeThrough through;
-  gl::Program skin_mesh, clipped_skin, dressed_skin, clipped_dressed_skin, mesh, hollow, soften,
+  gl::Program skin_mesh, clipped_skin, stained_skin, clipped_stained_skin, mesh, occlusion, soften,
       shrink;
   int most = kMostTarget;                    // most samples along a side
   int idle_width = 1280, idle_height = 720;  // size for show() without a window
@@ -92,7 +92,7 @@ struct Renderer::Work {
   struct Eye {
     gl::Target target;
     gl::SeeThrough through;
-    gl::Sheet sheet, stretched;
+    gl::PictureBuffer sheet, stretched;
     std::optional<Held> held;
     std::vector<math::Aabb> changed;
     bool started = false;  // its programs have been linked
@@ -101,9 +101,9 @@ struct Renderer::Work {
   gl::Framebuffer headset;
   int eye = 0;
   bool started = false;
-  gl::Join join;
-  gl::Sheet both;               // the joined picture of two eyes
-  gl::Sheet* on_show = &sheet;  // the sheet of the last show()
+  gl::EyeJoiner join;
+  gl::PictureBuffer both;               // the joined picture of two eyes
+  gl::PictureBuffer* on_show = &sheet;  // the sheet of the last show()
 
   Status look_with(int which);
   Status draw(const Scene& scene, int wide, int high);
@@ -113,11 +113,11 @@ struct Renderer::Work {
   void update(const Scene& scene);
   // The parts of a picture that must be drawn.
   struct Parts {
-    gl::Region bone;     // where it changed
-    gl::Region tool;     // where tool or marks changed
-    gl::Region shadow;   // where the tool's shadow is or was
-    gl::Region hollows;  // where the bone's hollows must be computed
-    bool light_hollows = true;
+    gl::Region bone;               // where it changed
+    gl::Region tool;               // where tool or marks changed
+    gl::Region shadow;             // where the tool's shadow is or was
+    gl::Region ambient_occlusion;  // where the bone's hollows must be computed
+    bool light_occlusion = true;
     math::Aabb extent;  // of all bone
   };
   void paint(const Scene& scene, const gl::Frame& frame, const Parts& parts,
@@ -126,7 +126,7 @@ struct Renderer::Work {
   void paint_tool(const gl::Frame& frame, const gl::Rect& r, const std::vector<gl::Piece>& pieces);
   void draw_pieces(const gl::Frame& frame, const gl::Rect& r, const std::vector<gl::Piece>& pieces,
                    bool with_marks);
-  void paint_hollows(const Scene& scene, const gl::Frame& frame, const gl::Rect& r);
+  void paint_occlusion(const Scene& scene, const gl::Frame& frame, const gl::Rect& r);
   struct Size {
     int width = 0, height = 0;
   };
@@ -135,7 +135,7 @@ struct Renderer::Work {
                       int width, int height, int left, int top);
   Parts compare(const Scene& scene, const gl::Frame& frame, const std::vector<gl::Piece>& pieces,
                 bool all);
-  static void read(const gl::Sheet& sheet, Image& image, int left, int top);
+  static void read(const gl::PictureBuffer& sheet, Image& image, int left, int top);
 };
 
 }  // namespace burr::render

@@ -24,10 +24,11 @@ bool same(const Light& a, const Light& b) {
 }
 bool same(const Look& a, const Look& b) {
   return same(a.key, b.key) && same(a.fill, b.fill) && a.ambient == b.ambient &&
-         a.gloss == b.gloss && a.hollow == b.hollow && a.hollow_reach == b.hollow_reach &&
-         a.hollow_samples == b.hollow_samples && a.hollow_half == b.hollow_half &&
-         a.supersample == b.supersample && a.opacity == b.opacity && a.plain == b.plain &&
-         a.background_top == b.background_top && a.background_bottom == b.background_bottom;
+         a.gloss == b.gloss && a.occlusion == b.occlusion &&
+         a.occlusion_reach == b.occlusion_reach && a.occlusion_samples == b.occlusion_samples &&
+         a.occlusion_half == b.occlusion_half && a.supersample == b.supersample &&
+         a.opacity == b.opacity && a.plain == b.plain && a.background_top == b.background_top &&
+         a.background_bottom == b.background_bottom;
 }
 bool same(const std::optional<ClipPlane>& a, const std::optional<ClipPlane>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
@@ -92,20 +93,20 @@ Renderer::Work::Parts Renderer::Work::compare(const Scene& scene, const Frame& f
   held->there = all ? covered : held->there.with(covered);
 
   // a change also darkens or lightens the hollows around it
-  parts.light_hollows = has_hollows(scene.look);
-  if (parts.light_hollows) {
+  parts.light_occlusion = has_occlusion(scene.look);
+  if (parts.light_occlusion) {
     held->stale.add(parts.bone.grown(margin_of(scene, frame), frame.all()));
     held->stale.join();
     if (held->stale.rects().size() > 32) {
       held->stale = {};
       held->stale.add(frame.all());
     }
-    const bool now = all ? quality.hollows : !quality.hollows_later;
+    const bool now = all ? quality.ambient_occlusion : !quality.ambient_occlusion_later;
     const bool later = quality.refine && held->coarse.empty() && parts.bone.empty();
-    if (now || later) parts.hollows = std::exchange(held->stale, {});
+    if (now || later) parts.ambient_occlusion = std::exchange(held->stale, {});
     if (all && !now) {
-      target.clear_hollows();
-      parts.light_hollows = false;
+      target.clear_occlusion();
+      parts.light_occlusion = false;
     }
   }
   return parts;
@@ -122,7 +123,7 @@ Status Renderer::Work::draw(const Scene& scene, int wide, int high) {
   frame.view = view_from_world(scene.camera);
   const std::vector<Piece>& pieces = shapes.pieces(scene);
   const Result<bool> fresh =
-      target.resize(frame.width, frame.height, scene.look.hollow_half ? 2 : 1);
+      target.resize(frame.width, frame.height, scene.look.occlusion_half ? 2 : 1);
   if (!fresh) return fresh.error();
   if (sees_through(scene.look))
     if (const Status more = through.resize(frame.width, frame.height); !more) return more;
@@ -149,7 +150,7 @@ Status Renderer::Work::draw(const Scene& scene, int wide, int high) {
   held->look = scene.look;
   held->clip = scene.clip;
   held->pieces = pieces;
-  if (!parts.bone.empty() || !parts.tool.empty() || !parts.hollows.empty())
+  if (!parts.bone.empty() || !parts.tool.empty() || !parts.ambient_occlusion.empty())
     paint(scene, frame, parts, pieces);
   if (all) figures.redrawn = 1;
 

@@ -59,22 +59,24 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glBindVertexArray(nothing.get());
-  for (const Rect& rect : parts.hollows.rects()) paint_hollows(scene, frame, rect.in(there));
+  for (const Rect& rect : parts.ambient_occlusion.rects())
+    paint_occlusion(scene, frame, rect.in(there));
   Region lit = fresh;
-  lit.add(parts.hollows);
+  lit.add(parts.ambient_occlusion);
   lit.add(parts.shadow);
   lit.join();
   const std::vector<Vec3> shade = gl::shadow_of(scene);
   const Rect shaded = shade.empty() || scene.look.plain ? Rect{} : rect_of(shade, frame);
   const gl::Unlit what = {&target.colour, &target.normal, &target.depth, &target.lit_at};
-  const gl::Hollows hollows = {parts.light_hollows ? &target.soft : nullptr, target.hollow_width,
-                               target.hollow_height, target.stride};
+  const gl::OcclusionMaps ambient_occlusion = {parts.light_occlusion ? &target.soft : nullptr,
+                                               target.occlusion_width, target.occlusion_height,
+                                               target.stride};
   for (const Rect& rect : lit.rects()) {
     const Rect some = rect.in(there);
     const auto light = [&](const Rect& part, bool shadow) {
-      lighting.paint(scene, frame, part.in(not_bone), what, hollows, {shadow, true});
+      lighting.paint(scene, frame, part.in(not_bone), what, ambient_occlusion, {shadow, true});
       for (const Rect& bone : part.without(not_bone))
-        lighting.paint(scene, frame, bone, what, hollows, {shadow, false});
+        lighting.paint(scene, frame, bone, what, ambient_occlusion, {shadow, false});
     };
     light(some.in(shaded), true);
     for (const Rect& rest : some.without(shaded)) light(rest, false);
@@ -102,7 +104,7 @@ void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Re
   glDepthFunc(GL_LESS);
   glEnable(GL_CULL_FACE);
 
-  Program& program = skin.dressed() ? (scene.clip ? clipped_dressed_skin : dressed_skin)
+  Program& program = skin.stained() ? (scene.clip ? clipped_stained_skin : stained_skin)
                                     : (scene.clip ? clipped_skin : skin_mesh);
   program.use();
   const Eigen::Matrix4d clip_from_world = frame.clip * frame.view;
@@ -193,42 +195,43 @@ std::array<float, 2 * kMostSamples> spiral(int count) {
 
 }  // namespace
 
-void Renderer::Work::paint_hollows(const Scene& scene, const Frame& frame, const Rect& r) {
+void Renderer::Work::paint_occlusion(const Scene& scene, const Frame& frame, const Rect& r) {
   if (r.empty()) return;
   const int stride = target.stride;
-  const int count = std::clamp(scene.look.hollow_samples, 1, kMostSamples);
+  const int count = std::clamp(scene.look.occlusion_samples, 1, kMostSamples);
   const Rect low = Rect{r.x0 / stride, r.y0 / stride, (r.x1 + stride - 1) / stride,
                         (r.y1 + stride - 1) / stride};
-  glViewport(0, 0, target.hollow_width, target.hollow_height);
+  glViewport(0, 0, target.occlusion_width, target.occlusion_height);
   gl::scissor(low);
   gl::bind(0, target.bone_depth);
   gl::bind(1, target.bone_colour);
   gl::bind(2, target.bone_normal);
 
-  hollow.use();
-  hollow.set("depth_map", 0);
-  hollow.set("colour_map", 1);
-  hollow.set("normal_map", 2);
-  hollow.set("ray", gl::ray_of(frame));
-  hollow.set("planes",
-             Eigen::Vector2f(static_cast<float>(frame.near), static_cast<float>(frame.far)));
-  hollow.set("size", frame.width, frame.height);
-  hollow.set("stride", stride);
-  hollow.set("reach", static_cast<float>(gl::hollow_reach(scene)));
+  occlusion.use();
+  occlusion.set("depth_map", 0);
+  occlusion.set("colour_map", 1);
+  occlusion.set("normal_map", 2);
+  occlusion.set("ray", gl::ray_of(frame));
+  occlusion.set("planes",
+                Eigen::Vector2f(static_cast<float>(frame.near), static_cast<float>(frame.far)));
+  occlusion.set("size", frame.width, frame.height);
+  occlusion.set("stride", stride);
+  occlusion.set("reach", static_cast<float>(gl::occlusion_reach(scene)));
   const double per_m =
       frame.picture_height / (2 * std::tan(scene.camera.field_of_view / 2));  // at 1 m
-  hollow.set("pixels_per_m", static_cast<float>(per_m));
-  hollow.set("most_pixels", static_cast<float>(std::min<double>(
-                                2 * scene.look.hollow_reach * frame.picture_height, kMostReach)));
-  hollow.set("samples", count);
-  hollow.set_pairs("spiral", count, spiral(count).data());
-  glBindFramebuffer(GL_FRAMEBUFFER, target.hollow_at.get());
+  occlusion.set("pixels_per_m", static_cast<float>(per_m));
+  occlusion.set("most_pixels",
+                static_cast<float>(std::min<double>(
+                    2 * scene.look.occlusion_reach * frame.picture_height, kMostReach)));
+  occlusion.set("samples", count);
+  occlusion.set_pairs("spiral", count, spiral(count).data());
+  glBindFramebuffer(GL_FRAMEBUFFER, target.occlusion_at.get());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 
-  gl::bind(0, target.hollow);
+  gl::bind(0, target.occlusion);
   soften.use();
-  soften.set("hollow_map", 0);
-  soften.set("size", target.hollow_width, target.hollow_height);
+  soften.set("occlusion_map", 0);
+  soften.set("size", target.occlusion_width, target.occlusion_height);
   soften.set("strict", gl::strict_of(scene, frame));
   glBindFramebuffer(GL_FRAMEBUFFER, target.soft_at.get());
   glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -296,7 +299,7 @@ Status Renderer::Work::put_on_sheet(const Scene& scene, const Rect& from, int fa
 }
 
 // Copies the sheet to its place in a picture.
-void Renderer::Work::read(const gl::Sheet& sheet, Image& image, int left, int top) {
+void Renderer::Work::read(const gl::PictureBuffer& sheet, Image& image, int left, int top) {
   const auto wide = static_cast<std::size_t>(sheet.width);
   std::vector<std::uint8_t> rgba(wide * static_cast<std::size_t>(sheet.height) * 4);
   glBindFramebuffer(GL_FRAMEBUFFER, sheet.at.get());

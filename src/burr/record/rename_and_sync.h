@@ -1,5 +1,5 @@
-// record/place_file.h - gives a finished file its final name on disk; tells whether a recording is
-// still being written.
+// record/rename_and_sync.h - gives a finished file its final name on disk; tells whether a
+// recording is still being written.
 //
 // Thread: any.
 #pragma once
@@ -12,7 +12,7 @@ namespace burr::record {
 
 // Renames the file and brings the folder's entry to the disk. On failure both files stay as they
 // were.
-[[nodiscard]] Status place_file(const std::string& beside, const std::string& path);
+[[nodiscard]] Status rename_and_sync(const std::string& beside, const std::string& path);
 
 // True: a recorder has it open (McapWriter holds a lock, which ends with its process).
 [[nodiscard]] bool being_written(const std::string& path);

@@ -1,4 +1,4 @@
-// tests/rt/dawdling.h - slow atomics: before every step a thread may spin, yield or sleep, at
+// tests/rt/slow_atoms.h - slow atomics: before every step a thread may spin, yield or sleep, at
 // random. Two cores then often meet in the few instructions between two steps of a door, where
 // otherwise they meet once in a million.
 #pragma once
@@ -13,11 +13,11 @@
 
 namespace burr::rt::test {
 
-struct DawdlingAtoms {
+struct SlowAtoms {
   // Call once per thread, before its first step.
   static void seed(std::uint64_t value) { random().seed(value); }
 
-  static void dawdle() {
+  static void pause_at_random() {
     const std::uint64_t what = random()();
     if (what % 4 != 0) return;
     for (std::uint64_t n = (what >> 8) % 256; n > 0; --n)
@@ -31,23 +31,23 @@ struct DawdlingAtoms {
    public:
     Atomic(Value value = {}) : value_(value) {}  // NOLINT(google-explicit-constructor): as std's
     [[nodiscard]] Value load(std::memory_order order) const {
-      dawdle();
+      pause_at_random();
       return value_.load(order);
     }
     void store(Value value, std::memory_order order) {
-      dawdle();
+      pause_at_random();
       value_.store(value, order);
     }
     Value exchange(Value value, std::memory_order order) {
-      dawdle();
+      pause_at_random();
       return value_.exchange(value, order);
     }
     Value fetch_add(Value value, std::memory_order order) {
-      dawdle();
+      pause_at_random();
       return value_.fetch_add(value, order);
     }
     Value fetch_or(Value value, std::memory_order order) {
-      dawdle();
+      pause_at_random();
       return value_.fetch_or(value, order);
     }
 
@@ -56,15 +56,15 @@ struct DawdlingAtoms {
   };
 
   static void fence(std::memory_order order) {
-    dawdle();
+    pause_at_random();
     StdAtoms::fence(order);
   }
   static void store(std::uint64_t& word, std::uint64_t value) {
-    dawdle();
+    pause_at_random();
     StdAtoms::store(word, value);
   }
   static std::uint64_t load(const std::uint64_t& word) {
-    dawdle();
+    pause_at_random();
     return StdAtoms::load(word);
   }
 

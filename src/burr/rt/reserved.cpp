@@ -1,4 +1,4 @@
-#include "burr/rt/promised.h"
+#include "burr/rt/reserved.h"
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -44,28 +44,28 @@ bool kernel_can() {
 
 }  // namespace
 
-PromisedBytes::PromisedBytes(std::size_t bytes) {
+ReservedBytes::ReservedBytes(std::size_t bytes) {
   if (bytes == 0) return;
   bytes_ = up(bytes, page());
   data_ = addresses(bytes_);
   if (!kernel_can()) {
     std::memset(data_, 0, bytes_);
-    had_ = bytes_;
+    committed_ = bytes_;
   }
 }
 
-PromisedBytes::~PromisedBytes() {
+ReservedBytes::~ReservedBytes() {
   if (data_ != nullptr) munmap(data_, bytes_);
 }
 
-void PromisedBytes::have(std::size_t bytes) {
+void ReservedBytes::commit(std::size_t bytes) {
   const std::size_t wanted = std::min(up(bytes, kStep), bytes_);
-  if (wanted <= had_) return;
+  if (wanted <= committed_) return;
   // if there is no memory left this does nothing, and the first use decides
-  if (madvise(data_ + had_, wanted - had_, kPopulateWrite) == 0) had_ = wanted;
+  if (madvise(data_ + committed_, wanted - committed_, kPopulateWrite) == 0) committed_ = wanted;
 }
 
-void PromisedBytes::grow(std::size_t bytes) {
+void ReservedBytes::grow(std::size_t bytes) {
   const std::size_t wanted = up(bytes, page());
   if (wanted <= bytes_) return;
   if (data_ == nullptr) {
@@ -77,19 +77,19 @@ void PromisedBytes::grow(std::size_t bytes) {
   }
   if (!kernel_can()) {
     std::memset(data_ + bytes_, 0, wanted - bytes_);
-    had_ = wanted;
+    committed_ = wanted;
   }
   bytes_ = wanted;
 }
 
-void PromisedBytes::give_back(std::size_t from) {
+void ReservedBytes::decommit(std::size_t from) {
   if (from >= bytes_) return;
   const std::size_t whole = up(from, page());
   std::memset(data_ + from, 0, std::min(whole, bytes_) - from);
   if (whole >= bytes_) return;
   // locked memory (mlockall, a real-time session in this process) is not given back
   if (kernel_can() && madvise(data_ + whole, bytes_ - whole, MADV_DONTNEED) == 0) {
-    had_ = std::min(had_, whole);
+    committed_ = std::min(committed_, whole);
   } else {
     std::memset(data_ + whole, 0, bytes_ - whole);
   }

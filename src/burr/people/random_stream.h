@@ -1,5 +1,6 @@
-// people/chance.h - random numbers that are the same on every machine. The n-th number depends only
-// on seed, stream and n, so an interrupted experiment can be continued as if it had not stopped.
+// people/random_stream.h - random numbers that are the same on every machine. The n-th number
+// depends only on seed, stream and n, so an interrupted experiment can be continued as if it had
+// not stopped.
 //
 // Thread: one. Memory: none.
 #pragma once
@@ -12,9 +13,9 @@
 
 namespace burr::people {
 
-class Chance {
+class RandomStream {
  public:
-  explicit Chance(std::uint64_t seed, std::uint64_t stream = 0)
+  explicit RandomStream(std::uint64_t seed, std::uint64_t stream = 0)
       : seed_(base::mix(base::mix(std::uint64_t{0x70656f706c65}, seed), stream)) {}
 
   // 0 <= u < 1

@@ -1,4 +1,4 @@
-#include "doctor/apart.h"
+#include "doctor/run_in_process.h"
 
 #include <fmt/core.h>
 #include <poll.h>
@@ -42,7 +42,8 @@ std::string how_it_ended(int status) {
 
 }  // namespace
 
-Apart apart(const std::function<std::string()>& work, std::chrono::milliseconds longest) {
+ProcessResult run_in_process(const std::function<std::string()>& work,
+                             std::chrono::milliseconds longest) {
   int ends[2] = {};
   if (pipe(ends) != 0)
     return {false, fmt::format("it could not be tried ({})", std::strerror(errno))};

@@ -1,10 +1,10 @@
-// Where addresses cannot be promised without memory behind them (a browser): all of it is taken at
-// once. rt/promised.cpp is the one for Linux.
+// Where addresses cannot be reserved without memory behind them (a browser): all of it is taken at
+// once. rt/reserved.cpp is the one for Linux.
 #include <cstdlib>
 #include <cstring>
 #include <new>
 
-#include "burr/rt/promised.h"
+#include "burr/rt/reserved.h"
 
 namespace burr::rt {
 namespace {
@@ -19,27 +19,27 @@ std::size_t up(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
 
 }  // namespace
 
-PromisedBytes::PromisedBytes(std::size_t bytes) {
+ReservedBytes::ReservedBytes(std::size_t bytes) {
   if (bytes == 0) return;
-  had_ = bytes_ = up(bytes);
+  committed_ = bytes_ = up(bytes);
   data_ = zeroed(bytes_);
 }
 
-PromisedBytes::~PromisedBytes() { std::free(data_); }
+ReservedBytes::~ReservedBytes() { std::free(data_); }
 
-void PromisedBytes::have(std::size_t) {}
+void ReservedBytes::commit(std::size_t) {}
 
-void PromisedBytes::grow(std::size_t bytes) {
+void ReservedBytes::grow(std::size_t bytes) {
   const std::size_t wanted = up(bytes);
   if (wanted <= bytes_) return;
   std::byte* larger = zeroed(wanted);
   if (data_ != nullptr) std::memcpy(larger, data_, bytes_);
   std::free(data_);
   data_ = larger;
-  had_ = bytes_ = wanted;
+  committed_ = bytes_ = wanted;
 }
 
-void PromisedBytes::give_back(std::size_t from) {
+void ReservedBytes::decommit(std::size_t from) {
   if (from < bytes_) std::memset(data_ + from, 0, bytes_ - from);
 }
 

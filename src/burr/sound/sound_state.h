@@ -1,6 +1,6 @@
-// sound/heard.h - what can be heard at one moment. Plain struct; SI.
+// sound/sound_state.h - what can be heard at one moment. Plain struct; SI.
 //
-// Filled in by the code that knows the session (workshop/hearing.h). A value that is not
+// Filled in by the code that knows the session (workshop/sound_tracker.h). A value that is not
 // finite makes no sound.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace burr::sound {
 
-struct Heard {
+struct SoundState {
   double spindle_rad_s = 0;  // present speed, so it drops when the burr does; below 0: backwards
   int teeth = 8;             // of the burr; 0: none, it grinds [-]
   double cutting_nm = 0;     // torque of the bone on the burr [N m]

@@ -1,4 +1,4 @@
-#include "burr/base/shown.h"
+#include "burr/base/printable.h"
 
 #include <algorithm>
 
@@ -30,7 +30,7 @@ std::size_t character(std::string_view text) {
 
 }  // namespace
 
-std::string shown(std::string_view text, std::size_t most) {
+std::string printable(std::string_view text, std::size_t most) {
   std::string out;
   while (!text.empty()) {
     const std::size_t size = character(text);

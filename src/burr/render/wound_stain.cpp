@@ -16,7 +16,7 @@ using math::Vec3;
 
 namespace {
 
-constexpr int kLevels = 32;           // number of levels of a dress: with fewer levels it is sent
+constexpr int kLevels = 32;           // number of levels of stains: with fewer levels they are sent
                                       // less often
 constexpr double kCutFace = 0.75;     // within this distance of the tool's path a vertex belongs to
                                       // the cut face [voxel]
@@ -61,48 +61,48 @@ bool Wound::reached(const ScenePatch& patch) const {
          (patch.box.hi.array() >= box.lo.array()).all();
 }
 
-void Wound::dress(Scene& scene, int patch) {
+void Wound::stain(Scene& scene, int patch) {
   ScenePatch& entry = scene.patches[static_cast<std::size_t>(patch)];
   if (!reached(entry)) {
-    set_dress(scene, patch, nullptr);
+    set_stains(scene, patch, nullptr);
     return;
   }
   look_at(*entry.mesh);
   const math::Vec3f up = up_.value_or(Vec3::UnitZ()).cast<float>();
-  std::vector<Dress> dress;
-  dress.reserve(entry.mesh->vertices().size());
+  std::vector<Stain> stains;
+  stains.reserve(entry.mesh->vertices().size());
   bool any = false;
   for (const SkinVertex& vertex : entry.mesh->vertices()) {
     State state = at(vertex.p.cast<double>());
     // dust slides off steep faces, and none lies under an overhang
     if (state.dust > 0)
       state.dust *= std::clamp(normal_of(vertex).dot(up) / 0.6F + 0.3F, 0.0F, 1.0F);
-    dress.push_back({level(state.fresh), level(state.wet), level(state.dust), level(state.blood)});
-    any = any || dress.back() != Dress{};
+    stains.push_back({level(state.fresh), level(state.wet), level(state.dust), level(state.blood)});
+    any = any || stains.back() != Stain{};
   }
   if (!any)
-    set_dress(scene, patch, nullptr);
-  else if (entry.dress == nullptr || *entry.dress != dress)
-    set_dress(scene, patch, std::make_shared<const std::vector<Dress>>(std::move(dress)));
+    set_stains(scene, patch, nullptr);
+  else if (entry.stains == nullptr || *entry.stains != stains)
+    set_stains(scene, patch, std::make_shared<const std::vector<Stain>>(std::move(stains)));
 }
 
-void Wound::dress(Scene& scene) {
+void Wound::stain(Scene& scene) {
   for (Cell& cell : cells_) cell.skin = false;
   for (std::size_t patch = 0; patch < scene.patches.size(); ++patch)
-    dress(scene, static_cast<int>(patch));
+    stain(scene, static_cast<int>(patch));
 }
 
-void Wound::dress_still(Scene& scene) {
-  dress(scene);
+void Wound::stain_still(Scene& scene) {
+  stain(scene);
   if (!bleeds_) return;
   for (double t = 0; t < kStillBleeds; t += 0.1) flow(0.1);
-  dress(scene);
+  stain(scene);
 }
 
 void Wound::renew(Scene& scene, double now) {
-  if (now - dressed_at_ < scene.quality.dress_s) return;
-  dressed_at_ = now;
-  dress(scene);
+  if (now - stained_at_ < scene.quality.stain_s) return;
+  stained_at_ = now;
+  stain(scene);
 }
 
 }  // namespace burr::render

@@ -1,4 +1,4 @@
-// math/turn.h - the rotation from one direction to another.
+// math/rotation.h - the rotation from one direction to another.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace burr::math {
 // For opposite directions: half a turn about one of the perpendicular axes. The same as Eigen's
 // Quaternion::FromTwoVectors, which uses a singular value decomposition for opposite directions;
 // compiling that takes about twenty seconds in every file.
-inline Quat shortest_turn(const Vec3& from, const Vec3& to) {
+inline Quat shortest_rotation(const Vec3& from, const Vec3& to) {
   const Vec3 a = normalized(from), b = normalized(to);
   const double cosine = dot(a, b);
   Quat turn;

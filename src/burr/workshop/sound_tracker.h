@@ -1,4 +1,4 @@
-// workshop/hearing.h - turns the rows of a session into the input of the sound synthesis.
+// workshop/sound_tracker.h - turns the rows of a session into the input of the sound synthesis.
 //
 // A row holds the volume removed since the start. The rate of removal is the difference of two rows
 // that are at least 10 ms apart, because single ticks may cut bricks alternately.
@@ -10,21 +10,21 @@
 #include <optional>
 
 #include "burr/math/vec3.h"
-#include "burr/sound/heard.h"
+#include "burr/sound/sound_state.h"
 #include "burr/tick/rows.h"
 #include "burr/tick/servo.h"
 
 namespace burr::workshop {
 
-class Hearing {
+class SoundTracker {
  public:
   // Distance from a point to the nearest structure to spare  [m]; empty: there is none.
   using ToSpare = std::function<double(const math::Vec3&)>;
 
-  explicit Hearing(const tick::ServoSettings& settings, ToSpare to_spare = {});
+  explicit SoundTracker(const tick::ServoSettings& settings, ToSpare to_spare = {});
 
   // row: the newest row, or the next one of a recording; rows may be skipped.
-  [[nodiscard]] const sound::Heard& hear(const tick::TickRow& row);
+  [[nodiscard]] const sound::SoundState& update(const tick::TickRow& row);
 
  private:
   struct Account {
@@ -36,7 +36,7 @@ class Hearing {
   double rate_hz_;
   ToSpare to_spare_;
   std::optional<Account> before_;
-  sound::Heard now_;
+  sound::SoundState now_;
 };
 
 }  // namespace burr::workshop

@@ -1,7 +1,7 @@
 // The doors between two threads that wait at random between single steps, for half a second each
-// (longer with BURR_DAWDLE_SECONDS). The guarantees of each header must hold all the time. Run
+// (longer with BURR_SLOW_ATOMS_SECONDS). The guarantees of each header must hold all the time. Run
 // under ThreadSanitizer too.
-#include "rt/dawdling.h"
+#include "rt/slow_atoms.h"
 
 #include <gtest/gtest.h>
 
@@ -27,22 +27,22 @@ struct Slow {
   Slow& operator=(const Slow& other) {
     if (this == &other) return *this;
     first = other.first;
-    DawdlingAtoms::dawdle();
+    SlowAtoms::pause_at_random();
     second = other.second;
     return *this;
   }
 };
 
-class Dawdling : public testing::Test {
+class SlowAtomsTest : public testing::Test {
  protected:
-  Dawdling() {
+  SlowAtomsTest() {
     const char* given = std::getenv("BURR_SEED");
     seed_ = given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
     std::printf("BURR_SEED=%llu\n", static_cast<unsigned long long>(seed_));
-    const char* request = std::getenv("BURR_DAWDLE_SECONDS");
+    const char* request = std::getenv("BURR_SLOW_ATOMS_SECONDS");
     end_ = Clock::now() + std::chrono::milliseconds(static_cast<int>(
                               1e3 * (request != nullptr ? std::atof(request) : 0.5)));
-    DawdlingAtoms::seed(seed_);
+    SlowAtoms::seed(seed_);
   }
   using Clock = std::chrono::steady_clock;
   // True until the time is over and `happened` is true; one minute is the upper limit.
@@ -55,7 +55,7 @@ class Dawdling : public testing::Test {
   template <class Work>
   [[nodiscard]] std::jthread beside(Work work, std::uint64_t who = 1) const {
     return std::jthread([work, seed = seed_ + who]() mutable {
-      DawdlingAtoms::seed(seed);
+      SlowAtoms::seed(seed);
       work();
     });
   }
@@ -65,8 +65,8 @@ class Dawdling : public testing::Test {
   Clock::time_point end_;
 };
 
-TEST_F(Dawdling, RingKeepsOrderAndLosesNothingUncounted) {
-  Ring<Slow, DawdlingAtoms> ring(4);
+TEST_F(SlowAtomsTest, RingKeepsOrderAndLosesNothingUncounted) {
+  Ring<Slow, SlowAtoms> ring(4);
   std::atomic<bool> done = false;
   std::uint64_t pushed = 0, refused = 0;
   std::jthread writer = beside([&] {
@@ -102,8 +102,8 @@ TEST_F(Dawdling, RingKeepsOrderAndLosesNothingUncounted) {
   EXPECT_GT(refused, 0U) << "it was never full: the test shows nothing";
 }
 
-TEST_F(Dawdling, LatestIsNeverTornNeverOlderAndTheLastArrives) {
-  Latest<Slow, DawdlingAtoms> door;
+TEST_F(SlowAtomsTest, LatestIsNeverTornNeverOlderAndTheLastArrives) {
+  Latest<Slow, SlowAtoms> door;
   std::atomic<bool> done = false;
   std::uint64_t published = 0;
   std::atomic<std::uint64_t> taken = 0;
@@ -129,9 +129,9 @@ TEST_F(Dawdling, LatestIsNeverTornNeverOlderAndTheLastArrives) {
   EXPECT_GT(taken, 100U) << "hardly anything arrived: the test shows nothing";
 }
 
-TEST_F(Dawdling, VersionedGivesWholeBlocksOrRefuses) {
+TEST_F(SlowAtomsTest, VersionedGivesWholeBlocksOrRefuses) {
   constexpr std::size_t kWords = 6;
-  VersionOf<DawdlingAtoms> version = 0U;
+  VersionOf<SlowAtoms> version = 0U;
   std::array<std::uint64_t, kWords> shared{};
   std::atomic<bool> done = false;
   std::uint64_t written = 0;
@@ -140,8 +140,8 @@ TEST_F(Dawdling, VersionedGivesWholeBlocksOrRefuses) {
     std::array<std::uint64_t, kWords> from{};
     while (go_on(refused > 10 && seen > 100)) {
       from.fill(++written);
-      versioned_write<DawdlingAtoms>(version, shared.data(), from.data(), kWords);
-      for (int i = 0; i < 16; ++i) DawdlingAtoms::dawdle();
+      versioned_write<SlowAtoms>(version, shared.data(), from.data(), kWords);
+      for (int i = 0; i < 16; ++i) SlowAtoms::pause_at_random();
     }
     done = true;
   });
@@ -149,7 +149,7 @@ TEST_F(Dawdling, VersionedGivesWholeBlocksOrRefuses) {
   for (bool last = false; !last;) {
     last = done;
     std::array<std::uint64_t, kWords> to{};
-    if (!versioned_read<DawdlingAtoms>(version, shared.data(), to.data(), kWords)) {
+    if (!versioned_read<SlowAtoms>(version, shared.data(), to.data(), kWords)) {
       ASSERT_FALSE(last) << "refused without a writer";
       ++refused;
       continue;
@@ -165,9 +165,9 @@ TEST_F(Dawdling, VersionedGivesWholeBlocksOrRefuses) {
   EXPECT_GT(seen, 100U);
 }
 
-TEST_F(Dawdling, ChangedBitsTellOfEveryChangeAndNeverBeforeIt) {
+TEST_F(SlowAtomsTest, ChangedBitsTellOfEveryChangeAndNeverBeforeIt) {
   constexpr std::size_t kThings = 3;  // in one word
-  ChangedBitsOf<DawdlingAtoms> bits(kThings);
+  ChangedBitsOf<SlowAtoms> bits(kThings);
   std::array<std::atomic<std::uint64_t>, kThings> value{};
   std::atomic<int> done = 0;
   std::atomic<std::uint64_t> found = 0;

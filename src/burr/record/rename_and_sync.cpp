@@ -1,4 +1,4 @@
-#include "burr/record/place_file.h"
+#include "burr/record/rename_and_sync.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -11,7 +11,7 @@
 
 namespace burr::record {
 
-Status place_file(const std::string& beside, const std::string& path) {
+Status rename_and_sync(const std::string& beside, const std::string& path) {
   if (std::rename(beside.c_str(), path.c_str()) != 0)
     return error(Trouble::io, path + ": cannot take this name: " + std::strerror(errno));
   std::string folder = std::filesystem::path(path).parent_path().string();

@@ -1,4 +1,4 @@
-#include "burr/workshop/hearing.h"
+#include "burr/workshop/sound_tracker.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,10 +10,10 @@ constexpr double kOver = 10e-3;  // shortest time over which removal is averaged
 
 }  // namespace
 
-Hearing::Hearing(const tick::ServoSettings& settings, ToSpare to_spare)
+SoundTracker::SoundTracker(const tick::ServoSettings& settings, ToSpare to_spare)
     : teeth_(settings.burr.teeth), rate_hz_(settings.rate_hz), to_spare_(std::move(to_spare)) {}
 
-const sound::Heard& Hearing::hear(const tick::TickRow& row) {
+const sound::SoundState& SoundTracker::update(const tick::TickRow& row) {
   now_.spindle_rad_s = row.spindle_rad_s;
   now_.cutting_nm = row.cutting_nm;
   now_.touching = row.contact.touching;

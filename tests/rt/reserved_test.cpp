@@ -1,4 +1,4 @@
-#include "burr/rt/promised.h"
+#include "burr/rt/reserved.h"
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -17,7 +17,7 @@ constexpr std::size_t kMany = 16 * 1024 * 1024;  // elements of 8 bytes
 
 // The bytes of the array that are in memory, according to the kernel.
 template <class T>
-std::size_t resident_bytes(const Promised<T>& array) {
+std::size_t resident_bytes(const ReservedArray<T>& array) {
   const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   const std::size_t pages = (array.size() * sizeof(T) + page - 1) / page;
   std::vector<unsigned char> there(pages);
@@ -28,34 +28,34 @@ std::size_t resident_bytes(const Promised<T>& array) {
 }
 
 // Kernels before 5.14 cannot take pages ahead: all memory is then taken at the start.
-bool takes_ahead() { return resident_bytes(Promised<std::uint64_t>(kMany)) < 8 * kMany; }
+bool takes_ahead() { return resident_bytes(ReservedArray<std::uint64_t>(kMany)) < 8 * kMany; }
 
-TEST(Promised, IsZeroAndTakesOnlyWhatItWasAskedToHave) {
+TEST(ReservedArray, IsZeroAndTakesOnlyWhatItWasAskedToHave) {
   if (!takes_ahead()) GTEST_SKIP() << "this kernel takes everything at once";
-  Promised<std::uint64_t> array(kMany);
+  ReservedArray<std::uint64_t> array(kMany);
   EXPECT_EQ(resident_bytes(array), 0U);
-  array.have(100'000);
+  array.commit(100'000);
   EXPECT_GE(resident_bytes(array), 800'000U);
   EXPECT_LE(resident_bytes(array), 2'000'000U);
   const std::uint64_t* before = array.data();
-  array.have(kMany / 2);
+  array.commit(kMany / 2);
   EXPECT_EQ(array.data(), before) << "the tick holds on to addresses";
   EXPECT_EQ(array[99'999], 0U);
   EXPECT_EQ(array[kMany - 1], 0U) << "what nobody asked for is there all the same";
 }
 
-TEST(Promised, WhatIsHadIsWrittenWithoutTheKernel) {
+TEST(ReservedArray, WhatIsHadIsWrittenWithoutTheKernel) {
 #if defined(BURR_SANITIZED)
   GTEST_SKIP() << "a sanitizer's own books beside the array are written too, and counted";
 #endif
   if (!takes_ahead()) GTEST_SKIP() << "this kernel takes everything at once";
-  Promised<std::uint64_t> array(kMany);
+  ReservedArray<std::uint64_t> array(kMany);
   const auto faults = [] {
     rusage usage = {};
     getrusage(RUSAGE_THREAD, &usage);
     return usage.ru_minflt;
   };
-  array.have(kMany / 4);
+  array.commit(kMany / 4);
   long before = faults();
   for (std::size_t n = 0; n < kMany / 4; n += 64) array[n] = n;
   const long had = faults() - before;
@@ -66,14 +66,14 @@ TEST(Promised, WhatIsHadIsWrittenWithoutTheKernel) {
   EXPECT_LE(had, not_had / 100);
 }
 
-TEST(Promised, GrowsAndGivesBackWithoutLosingAnything) {
-  Promised<std::uint64_t> array(1000);
+TEST(ReservedArray, GrowsAndGivesBackWithoutLosingAnything) {
+  ReservedArray<std::uint64_t> array(1000);
   for (std::size_t n = 0; n < array.size(); ++n) array[n] = n + 1;
   array.grow(kMany);
   EXPECT_EQ(array.size(), kMany);
   for (std::size_t n = 0; n < 1000; ++n) ASSERT_EQ(array[n], n + 1);
   array[kMany - 1] = 7;
-  array.give_back(500);
+  array.decommit(500);
   for (std::size_t n = 0; n < 500; ++n) ASSERT_EQ(array[n], n + 1);
   for (std::size_t n = 500; n < 2000; ++n) ASSERT_EQ(array[n], 0U);
   EXPECT_EQ(array[kMany - 1], 0U);
@@ -83,23 +83,23 @@ TEST(Promised, GrowsAndGivesBackWithoutLosingAnything) {
 
 // A real-time session locks all memory of the program, and the kernel takes none of it back. So
 // what is given back must be wiped, or added bricks of the next session would begin with old bone.
-TEST(Promised, WhatIsGivenBackIsZeroThoughItIsLocked) {
-  Promised<std::uint64_t> array(4096);
+TEST(ReservedArray, WhatIsGivenBackIsZeroThoughItIsLocked) {
+  ReservedArray<std::uint64_t> array(4096);
   if (mlock(array.data(), 8 * array.size()) != 0) GTEST_SKIP() << "may not lock memory";
   for (std::size_t n = 0; n < array.size(); ++n) array[n] = n + 1;
-  array.give_back(100);
+  array.decommit(100);
   EXPECT_EQ(array[99], 100U);
   for (std::size_t n = 100; n < array.size(); ++n) ASSERT_EQ(array[n], 0U) << n;
   munlock(array.data(), 8 * array.size());
 }
 
-TEST(Promised, AHelperTakesAheadWhileTheOwnerWrites) {
-  Promised<std::uint64_t> array(1'000'000);
+TEST(ReservedArray, AHelperTakesAheadWhileTheOwnerWrites) {
+  ReservedArray<std::uint64_t> array(1'000'000);
   std::atomic<std::size_t> used = 0;
   std::thread helper([&] {
     for (std::size_t seen = 0; seen < array.size();) {
       seen = used.load(std::memory_order_relaxed);
-      array.have(seen + 4096);
+      array.commit(seen + 4096);
     }
   });
   for (std::size_t n = 0; n < array.size(); ++n) {
