@@ -19,7 +19,7 @@ struct Element {
   char key;
   const char* value;
 };
-constexpr std::array<Element, 17> kElements = {{
+constexpr std::array<Element, 25> kElements = {{
     {0x00080008, "CS", 'y', "ORIGINAL\\PRIMARY\\AXIAL"},
     {0x00080060, "CS", 'n', "CT"},
     {0x0008103E, "LO", 'd', ""},
@@ -37,6 +37,14 @@ constexpr std::array<Element, 17> kElements = {{
     {0x00280030, "DS", 's', "0.5\\0.5"},
     {0x00281052, "DS", 'c', "-1024"},
     {0x00281053, "DS", 'm', "1"},
+    {0x00080018, "UI", 'g', ""},
+    {0x00080032, "TM", 'w', ""},
+    {0x00181060, "DS", 'r', ""},
+    {0x00182005, "DS", 'v', ""},
+    {0x00200052, "UI", 'j', ""},
+    {0x00200100, "IS", 'q', ""},
+    {0x00201041, "DS", 'l', ""},
+    {0x00209157, "UL", 'z', ""},
 }};
 constexpr int kRows = 2, kColumns = 3, kMostSlices = 6, kMostFrames = 8;
 

@@ -322,6 +322,9 @@ void dicom() {
        dicom_file(uid + ".1.99", deflated(dicom_set(true, false, false, false), -15)));
   seed("dicom", "packed", dicom_file(uid + ".5", dicom_set(true, false, true, false)));
   seed("dicom", "enhanced", dicom_file(uid + ".1", dicom_set(true, false, false, true)));
+  seed("dicom", "enhanced_implicit", dicom_file(uid, dicom_set(false, false, false, true)));
+  seed("dicom", "ge_private",
+       dicom_file("1.2.840.113619.5.2", dicom_set(false, false, false, false)));
   seed("dicom", "no_preamble", dicom_set(false, false, false, false));
   seed("dicom_series", "even", "p=0\\0\\0\nx\np=0\\0\\1.5\ni=2\nx\np=0\\0\\3\ni=3\n");
   seed("dicom_series", "tilted", "p=0\\0\\0\nx\np=0\\0.4\\1.5\nx\np=0\\0.8\\3\nx\np=0\\1.2\\4.5\n");
@@ -330,11 +333,58 @@ void dicom() {
   seed("dicom_series", "numbered", "p=\ni=1\nx\ni=3\nx\ni=2\nb=0.7\n");
   seed("dicom_series", "frames", "f=3\np=1\\2\\3\n");
   seed("dicom_series", "two", "u=1\ny=LOCALIZER\nx\nu=2\nk=B60\nx\np=0\\0\\2\nh=MONOCHROME1\n");
+  seed("dicom_series", "phases",
+       "a=1\np=0\\0\\0\nx\np=0\\0\\1\nx\np=0\\0\\2\nx\na=2\np=0\\0\\0\nx\np=0\\0\\1\nx\n"
+       "p=0\\0\\2\n");
+  seed("dicom_series", "times",
+       "w=101000.5\np=0\\0\\0\nx\np=0\\0\\1\nx\nw=101001,5\np=0\\0\\0\nx\np=0\\0\\1\n");
+  seed("dicom_series", "joined", "u=1.1\np=0\\0\\0\nx\nu=1.2\np=0\\0\\1\nx\nu=1.3\np=0\\0\\2\n");
+  seed("dicom_series", "location", "l=0\nx\nl=1,5\nx\nl=3\n");
+  seed("dicom_series", "blocks",
+       "p=0\\0\\0\nx\np=0\\0\\1\nx\np=0\\0\\2\nx\np=0\\0\\90\nx\np=0\\0\\91\nx\np=0\\0\\92\n");
   seed("dicom_series", "oblique",
        "o=0.8\\0.6\\0\\-0.6\\0.8\\0\ns=0.3\\0.4\nx\np=0\\0\\2\nx\np=0\\0\\4\n");
 }
 
+// A zip archive of one file.
+string zipped(const string& name, const string& content, bool deflate_it) {
+  const string packed = deflate_it ? deflated(content, -15) : content;
+  Dicom d;  // for its little-endian numbers
+  const auto facts = [&] {
+    d.put16(deflate_it ? 8 : 0);
+    d.put32(0);  // time
+    d.put32(static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(content.data()),
+                                             static_cast<uInt>(content.size()))));
+    d.put32(static_cast<std::uint32_t>(packed.size()));
+    d.put32(static_cast<std::uint32_t>(content.size()));
+    d.put16(static_cast<std::uint32_t>(name.size()));
+    d.put16(0);
+  };
+  d.put32(0x04034B50);
+  d.put16(20);
+  d.put16(0);
+  facts();
+  d.out.raw(record::as_bytes(name + packed));
+  const auto table = static_cast<std::uint32_t>(30 + name.size() + packed.size());
+  d.put32(0x02014B50);
+  d.put32(20U << 16 | 20U);
+  d.put16(0);
+  facts();
+  for (int n = 0; n < 7; ++n) d.put16(0);
+  d.out.raw(record::as_bytes(name));
+  d.put32(0x06054B50);
+  d.put32(0);
+  d.put32(1U << 16 | 1U);
+  d.put32(static_cast<std::uint32_t>(46 + name.size()));
+  d.put32(table);
+  d.put16(0);
+  return text(d.out);
+}
+
 void unpacking() {
+  seed("zip", "stored", zipped("a.raw", voxels(20), false));
+  seed("zip", "deflated", zipped("ct/b.raw", voxels(300), true));
+  seed("zip", "way_out", zipped("../b.raw", voxels(20), true));
   const string bytes = voxels(300);
   seed("unpack", "gzip", '\x50' + deflated(bytes, 31));
   seed("unpack", "gzip_twice", '\x50' + deflated(bytes, 31) + deflated(bytes, 31) + "junk");

@@ -27,6 +27,7 @@ TEST(Recipe, ComesBackToTheBitThroughJson) {
       recipe.region = Region{{static_cast<int>(random() % 1000), 999'999},
                              {0, static_cast<int>(random() % 1000)},
                              {3, 4}};
+    if (coin()) recipe.allow_missing = true;
     if (coin()) recipe.voxel_mm = share(random);
     if (coin()) recipe.iso = std::ldexp(share(random) - 0.5, static_cast<int>(random() % 40));
     if (coin()) recipe.smooth = 100 * share(random);

@@ -34,8 +34,10 @@ void add_volume_options(CLI::App& command, scenario::Recipe& recipe) {
         "", "least");
   };
   command.add_option("--series", recipe.series,
-                     "series of a DICOM folder: Series Instance UID, its beginning, or #2 as in "
-                     "the list of burr info");
+                     "volume of a DICOM folder: #2 as in the list of burr info, a Series Instance "
+                     "UID or its beginning, or UID#2 for the second volume of that series");
+  command.add_flag("--allow-missing", recipe.allow_missing,
+                   "make bone of a scan though some of its files cannot be read");
   command.add_option("--voxel-mm", recipe.voxel_mm,
                      "edge of the cubic voxels (default: the finest axis)");
   words(

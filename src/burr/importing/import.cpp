@@ -156,6 +156,25 @@ Result<Materials> materials_of(const scenario::Recipe& recipe) {
   return read_materials(recipe.materials);
 }
 
+// Questions of the reader that the recipe leaves open; what it answers becomes a notice.
+Status answer(const io::Scan& scan, const scenario::Recipe& recipe, ImportSummary& out) {
+  for (const io::Question& question : scan.questions) {
+    switch (question.ask) {
+      case io::Ask::missing:
+        if (!recipe.allow_missing)
+          return error(question.text +
+                       "; copy the files again, or go on without these slices with "
+                       "--allow-missing");
+        out.notices.push_back(question.text + "; used all the same (--allow-missing).");
+        break;
+      case io::Ask::spacing:
+        if ((recipe.spacing_mm.array() > 0).all()) break;
+        return error(question.text + "; give the size of a voxel with --spacing-mm X,Y,Z");
+    }
+  }
+  return fine();
+}
+
 // What the file says.
 ImportSummary summary_of(const io::Scan& scan) {
   ImportSummary out;
@@ -286,6 +305,7 @@ Result<Plan> make_plan(const io::Scan& scan, const scenario::Recipe& recipe) {
   Plan plan;
   ImportSummary& out = plan.summary;
   out = summary_of(scan);
+  if (Status answered = answer(scan, recipe, out); !answered) return answered.error();
   if (Status status = set_region(scan, recipe, out); !status) return status.error();
   if (out.roi_size.minCoeff() < 2)
     return error(

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "burr/io/voxels.h"
@@ -23,6 +24,16 @@ struct Label {
   std::array<float, 3> colour = {0.8F, 0.8F, 0.8F};  // sRGB 0..1
   std::string meaning{};     // what a code of the file says that it is ("Facial nerve"), or empty
   std::int64_t in_file = 0;  // its value in the file, where that differs from `value`; else 0
+};
+
+// What the file leaves open and the user must answer before bone is made of the scan.
+enum class Ask : std::uint8_t {
+  missing = 1,  // slices that could not be read; --allow-missing answers
+  spacing,      // a distance that is not stated, or that no scan has; --spacing-mm answers
+};
+struct Question {
+  Ask ask = Ask::missing;
+  std::string text;  // a sentence without its full stop; names the file
 };
 
 struct Scan {
@@ -44,6 +55,9 @@ struct Scan {
   int series_taken = 0;
   std::vector<std::string>
       notices;  // oddities of the file and what was done about each, one sentence each
+  std::vector<Question> questions;  // at most a few; importing refuses until they are answered
+
+  void ask(Ask what, std::string text) { questions.push_back({what, std::move(text)}); }
 };
 
 }  // namespace burr::io

@@ -354,6 +354,7 @@ constexpr const char* kSessionSchema = R"({
       "series": {"type": "string", "description": "#2 as burr info lists them, or own: by its UID"},
       "spacing_mm": {"type": "array", "items": {"type": "number"}, "description": "instead of the file's"},
       "region": {"type": "array", "items": {"type": "integer"}, "description": "voxels of the file, first and last: i0, i1, j0, j1, k0, k1"},
+      "allow_missing": {"type": "boolean", "description": "made though slices could not be read"},
       "voxel_mm": {"type": "number", "description": "0: the finest axis"},
       "iso": {"type": "number", "description": "level of the surface"},
       "smooth": {"type": "number", "description": "noise removed; below 0: as measured"},

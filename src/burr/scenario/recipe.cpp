@@ -76,6 +76,12 @@ class Fields {
     }
     out = Region{{box[0], box[1]}, {box[2], box[3]}, {box[4], box[5]}};
   }
+  void yes(const char* name, bool& out) {
+    const json* found = find(name);
+    if (found == nullptr) return;
+    if (!found->is_boolean()) return fail(name);
+    out = found->get<bool>();
+  }
   void count(const char* name, std::size_t& out) {
     const json* found = find(name);
     if (found == nullptr) return;
@@ -106,11 +112,11 @@ class Fields {
 
 bool Recipe::operator==(const Recipe& other) const {
   return source == other.source && series == other.series && spacing_mm == other.spacing_mm &&
-         region == other.region && voxel_mm == other.voxel_mm && iso == other.iso &&
-         smooth == other.smooth && labels == other.labels && materials == other.materials &&
-         memory_mb == other.memory_mb && read_seconds == other.read_seconds &&
-         read_memory_mb == other.read_memory_mb && reserve_bricks == other.reserve_bricks &&
-         margin == other.margin;
+         allow_missing == other.allow_missing && region == other.region &&
+         voxel_mm == other.voxel_mm && iso == other.iso && smooth == other.smooth &&
+         labels == other.labels && materials == other.materials && memory_mb == other.memory_mb &&
+         read_seconds == other.read_seconds && read_memory_mb == other.read_memory_mb &&
+         reserve_bricks == other.reserve_bricks && margin == other.margin;
 }
 
 bool is_phantom(const std::string& source) { return source.starts_with(kPhantom); }
@@ -142,6 +148,7 @@ std::string to_json(const Recipe& recipe) {
   text("materials", recipe.materials);
   if (!recipe.spacing_mm.isZero(0))
     out["spacing_mm"] = {recipe.spacing_mm.x(), recipe.spacing_mm.y(), recipe.spacing_mm.z()};
+  if (recipe.allow_missing) out["allow_missing"] = true;
   if (recipe.region) {
     const Region& r = *recipe.region;
     out["region"] = {r.i[0], r.i[1], r.j[0], r.j[1], r.k[0], r.k[1]};
@@ -162,6 +169,7 @@ Result<Recipe> recipe_from_json(std::string_view text, const std::string& where)
   fields.text("source", out.source);
   fields.text("series", out.series);
   fields.spacing("spacing_mm", out.spacing_mm);
+  fields.yes("allow_missing", out.allow_missing);
   fields.region("region", out.region);
   fields.number("voxel_mm", out.voxel_mm, 0);
   fields.level("iso", out.iso);

@@ -35,6 +35,7 @@ struct Recipe {
   std::string source;  // a file, a DICOM folder, or phantom:NAME
   std::string series;  // of a DICOM folder: a UID, its beginning, or "#2"; empty: the best one
   math::Vec3 spacing_mm = {0, 0, 0};  // all > 0: overrides the file
+  bool allow_missing = false;         // go on though slices could not be read
   std::optional<Region> region;       // none: the whole scan
   double voxel_mm = 0;                // edge of the cubic voxels; 0: the finest axis of the scan,
                                       // coarser if memory_mb requires it

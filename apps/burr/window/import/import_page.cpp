@@ -138,6 +138,23 @@ void ImportPage::take_voxel() {
   voxel_text_ = volume_.voxel_mm > 0 ? number_text(volume_.voxel_mm) : "";
 }
 
+bool ImportPage::asked() const {
+  for (const io::Question& question : opened_.scan->questions)
+    if (question.ask == io::Ask::missing ? !volume_.allow_missing
+                                         : !(volume_.spacing_mm.array() > 0).all())
+      return true;
+  return false;
+}
+
+void ImportPage::take_as_it_is() {
+  for (const io::Question& question : opened_.scan->questions)
+    if (question.ask == io::Ask::missing)
+      volume_.allow_missing = true;
+    else
+      volume_.spacing_mm = opened_.scan->spacing_mm;
+  changed();
+}
+
 void ImportPage::set_kind(std::size_t label, TissueKind kind) {
   if (kinds_[label] == kind) return;
   std::vector<TissueKind> wanted = kinds_;

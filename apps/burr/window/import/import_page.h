@@ -28,10 +28,10 @@ struct ImportLayout {
   struct Part {
     float x = 0, y = 0, w = 0, h = 0;
   };
-  std::array<Part, 3> views;          // axial, coronal, sagittal
-  Part level, plot, facts, bone;      // below: histogram or labels, scan, planned bone
-  Part series, iso, roi, voxel, all;  // fields and buttons
-  Part message, back, start;          // last line of the page
+  std::array<Part, 3> views;            // axial, coronal, sagittal
+  Part level, plot, facts, bone;        // below: histogram or labels, scan, planned bone
+  Part series, iso, roi, voxel, all;    // fields and buttons
+  Part message, as_it_is, back, start;  // last line of the page
 };
 [[nodiscard]] ImportLayout import_layout(float width, float height, float unit);
 
@@ -71,6 +71,8 @@ class ImportPage {
   void take_roi();
   void show_region();
   void take_voxel();
+  [[nodiscard]] bool asked() const;  // the scan leaves open what only the user can answer
+  void take_as_it_is();
   void set_box(const Box& box);
   void forget_table();
   void set_kind(std::size_t label, volume::TissueKind kind);

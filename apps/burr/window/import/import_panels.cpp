@@ -77,6 +77,7 @@ ImportLayout import_layout(float width, float height, float unit) {
   const float last = height - foot + 4 * u;
   at.start = {margin + wide - 210 * u, last, 210 * u, 36 * u};
   at.back = {at.start.x - 150 * u - gap, last, 150 * u, 36 * u};
+  at.as_it_is = {at.back.x - 200 * u - gap, last, 200 * u, 36 * u};
   at.message = {margin, last, at.back.x - margin - gap, 46 * u};
   return at;
 }
@@ -479,14 +480,20 @@ void ImportPage::bone(const ImportLayout& at) {
 void ImportPage::last_line(const ImportLayout& at) {
   Ui& ui = desk_.ui();
   const float u = ui.unit();
+  const bool asks = asked();
   if (!desk_.message.empty()) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const Part& p = at.message;
+    Part p = at.message;
+    if (asks) p.w = at.as_it_is.x - p.x - 14 * u;
     draw.AddRectFilled({p.x, p.y}, {p.x + p.w, p.y + p.h}, ink::rgb(50, 38, 22), 6 * u);
     draw.AddRect({p.x, p.y}, {p.x + p.w, p.y + p.h}, ink::kWarn, 6 * u, 0, 1.2F * u);
     warning_sign(ui, p.x + 10 * u, p.y + 10 * u);
     wrapped(ui, Letter::body, ink::kText, {p.x + 34 * u, p.y + 4 * u, p.w - 44 * u, p.h - 4 * u},
             desk_.message);
+  }
+  if (asks) {
+    ImGui::SetCursorScreenPos({at.as_it_is.x, at.as_it_is.y});
+    if (ImGui::Button(word(Word::import_as_it_is), {at.as_it_is.w, at.as_it_is.h})) take_as_it_is();
   }
   ImGui::SetCursorScreenPos({at.back.x, at.back.y});
   if (ImGui::Button(fmt::format("{}  [Esc]", word(Word::import_back)).c_str(),

@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cstring>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "burr/base/printable.h"
@@ -213,8 +214,16 @@ Status skip(ByteSource& source, std::uint64_t n) {
   return fine();
 }
 
+namespace {
+OpenInside open_inside = nullptr;
+}  // namespace
+
+void set_files_inside(OpenInside open) { open_inside = open; }
+
 Result<OpenFile> open_file(const std::filesystem::path& path, std::uint64_t offset,
                            bool follow_links) {
+  if (open_inside != nullptr)
+    if (auto inside = open_inside(path, offset)) return std::move(*inside);
   const auto refused = [&](const char* why) {
     return error(Trouble::io, fmt::format("{}: {}", short_name(path), why));
   };
@@ -321,6 +330,14 @@ Result<std::vector<std::uint8_t>> first_bytes(const std::filesystem::path& path,
   }
   bytes.resize(have);
   return bytes;
+}
+
+bool is_dicomdir(const std::filesystem::path& path) {
+  constexpr std::size_t kHead = 512;
+  const auto head = first_bytes(path, kHead);
+  if (!head || head->size() < 132 || std::memcmp(head->data() + 128, "DICM", 4) != 0) return false;
+  const std::string_view bytes(reinterpret_cast<const char*>(head->data()), head->size());
+  return bytes.find("1.2.840.10008.1.3.10") != std::string_view::npos;
 }
 
 Result<std::filesystem::path> beside(const std::filesystem::path& header, const std::string& name) {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,12 @@ struct OpenFile {
   std::unique_ptr<ByteSource> source;
   std::uint64_t size = 0;  // [byte]
 };
+
+// Files inside an archive, which open_file() asks before the disk: the file from that offset on, or
+// nothing if it is none of these. Set before reading begins, from one thread.
+using OpenInside = std::optional<Result<OpenFile>> (*)(const std::filesystem::path& path,
+                                                       std::uint64_t offset);
+void set_files_inside(OpenInside open);
 
 // follow_links false: a symbolic link is refused (for names that come from another file).
 [[nodiscard]] Result<OpenFile> open_file(const std::filesystem::path& path,
@@ -69,6 +76,9 @@ struct UnpackedFile {
 [[nodiscard]] Result<std::vector<std::uint8_t>> first_bytes(const std::filesystem::path& path,
                                                             std::size_t n,
                                                             bool follow_links = true);
+
+// An index of DICOM files (DICOMDIR), by its first bytes: the files lie in its folder.
+[[nodiscard]] bool is_dicomdir(const std::filesystem::path& path);
 
 // The path of a data file that a header names and that must lie beside the header. Refused: an
 // absolute name, a name with "..", a name in another folder. The error names the header.

@@ -16,9 +16,21 @@
 
 namespace burr::io {
 
+// What tells apart the volumes that share a series: two phases, two kernels, two energies. A fact
+// that the file does not state keeps its default.
+struct DicomPhase {
+  static constexpr double kUnknown = -1e30;
+  int acquisition = 0, temporal = 0;
+  double cardiac_percent = kUnknown, trigger_ms = kUnknown, time_s = kUnknown, kvp = kUnknown,
+         echo_ms = kUnknown;
+  std::string kernel, type, stack;
+  std::vector<std::uint32_t> index;  // Dimension Index Values
+};
+
 // Geometry and scale of one frame.
 struct DicomFrame {
   bool has_position = false, has_orientation = false, has_spacing = false;
+  bool has_location = false;
   math::Vec3 position_mm = math::Vec3::Zero();  // centre of the first pixel, LPS
   math::Vec3 row = math::Vec3::UnitX();         // direction of a row: to the next column
   math::Vec3 column = math::Vec3::UnitY();
@@ -26,12 +38,20 @@ struct DicomFrame {
   double slope = 1, intercept = 0;
   bool has_rescale = false;
   double thickness_mm = 0;
+  double location_mm = 0;  // Slice Location, if has_location
+  DicomPhase phase;
 };
 
 struct DicomHeader {
   std::filesystem::path path;
-  std::string transfer_syntax, sop_class, series, modality, image_type, kernel, description,
-      photometric, rescale_type;
+  std::string transfer_syntax, sop_class, sop_instance, study, series, frame_of_reference, modality,
+      image_type, kernel, description, photometric, rescale_type;
+  // Not empty: the file ends early or its structure is broken. The facts before that place are here.
+  std::string damage;
+  std::string unreadable;       // a number of the geometry that is none, as "Pixel Spacing \"x\""
+  std::string bad_scale;        // the same of Rescale Slope or Intercept
+  bool decimal_commas = false;  // a number is written as "0,5"
+  int own_positions = 0;        // frames that state a position of their own
   int series_number = 0, instance = 0, acquisition = 0;
   int rows = 0, columns = 0, frame_count = 1, samples = 1;
   int bits_allocated = 0, bits_stored = 0, high_bit = 0;
@@ -40,17 +60,19 @@ struct DicomHeader {
   double between_slices_mm = 0;
   std::vector<DicomFrame> frames;  // (frame_count)
 
-  bool big_endian = false, deflated = false;
+  bool big_endian = false, deflated = false;  // big_endian: the pixels
   bool has_pixels = false, float_pixels = false, encapsulated = false;
   std::uint64_t pixels_at = 0, pixels_length = 0;  // in the file, or in the inflated data set
 };
 
-// Error: not a DICOM image, or its lengths contradict the file. The reader of a folder skips files
-// that are not DICOM at all.
+// Error: not a DICOM file, or of an unknown transfer syntax. A damaged DICOM file is no error here:
+// see DicomHeader::damage.
 [[nodiscard]] Result<DicomHeader> read_dicom_header(const std::filesystem::path& path);
 
 // The stored pixel values of all frames (columns x rows x frames), before rescaling. Compressed
-// pixels are decompressed by GDCM.
-[[nodiscard]] Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& header);
+// pixels are decompressed by GDCM. beyond: how many pixels of an uncompressed file have bits beyond
+// Bits Stored that are no sign.
+[[nodiscard]] Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& header,
+                                                                  std::size_t* beyond = nullptr);
 
 }  // namespace burr::io

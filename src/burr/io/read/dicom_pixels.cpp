@@ -154,15 +154,25 @@ void widen(const std::uint8_t* from, std::vector<std::int32_t>& to) {
 }
 
 // Only the stored bits count; the others may hold old overlays. Signed values get their sign.
-void keep_stored_bits(std::vector<std::int32_t>& values, int bits, int high_bit, bool is_signed) {
-  if (bits >= 32 || bits < 1) return;
+// Returns how many values had other bits that are neither a sign nor empty.
+std::size_t keep_stored_bits(std::vector<std::int32_t>& values, int bits, int high_bit,
+                             bool is_signed, int allocated) {
+  if (bits >= 32 || bits < 1) return 0;
   const int shift = std::max(0, high_bit - bits + 1);
   const std::uint32_t mask = (std::uint32_t{1} << bits) - 1, sign = std::uint32_t{1} << (bits - 1);
+  const std::uint32_t whole =
+      allocated >= 32 ? ~std::uint32_t{0} : (std::uint32_t{1} << allocated) - 1;
+  const std::uint32_t above = (whole >> shift) & ~mask;
+  std::size_t beyond = 0;
   for (std::int32_t& value : values) {
-    std::uint32_t v = (static_cast<std::uint32_t>(value) >> shift) & mask;
-    if (is_signed && (v & sign) != 0) v |= ~mask;
+    const std::uint32_t all = static_cast<std::uint32_t>(value) >> shift, over = all & above;
+    std::uint32_t v = all & mask;
+    const bool negative = is_signed && (v & sign) != 0;
+    beyond += over != 0 && !(negative && over == above) ? 1U : 0U;
+    if (negative) v |= ~mask;
     value = static_cast<std::int32_t>(v);
   }
+  return beyond;
 }
 
 void quiet_gdcm() {
@@ -250,13 +260,14 @@ Result<std::vector<std::int32_t>> unpack(const DicomHeader& h, std::vector<std::
     is_signed ? widen<std::int16_t>(from, values) : widen<std::uint16_t>(from, values);
   else
     widen<std::int32_t>(from, values);
-  keep_stored_bits(values, format.GetBitsStored(), format.GetBitsStored() - 1, is_signed);
+  (void)keep_stored_bits(values, format.GetBitsStored(), format.GetBitsStored() - 1, is_signed,
+                         static_cast<int>(8 * width));
   return values;
 }
 
 }  // namespace
 
-Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& h) {
+Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& h, std::size_t* beyond) {
   const std::string file = short_name(h.path);
   const std::size_t count = static_cast<std::size_t>(h.rows) * static_cast<std::size_t>(h.columns) *
                             static_cast<std::size_t>(h.frame_count);
@@ -310,7 +321,9 @@ Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& h) {
     widen<std::uint16_t>(bytes.data(), values);
   else
     widen<std::int32_t>(bytes.data(), values);
-  keep_stored_bits(values, h.bits_stored, h.high_bit, h.is_signed);
+  const std::size_t over =
+      keep_stored_bits(values, h.bits_stored, h.high_bit, h.is_signed, h.bits_allocated);
+  if (beyond != nullptr) *beyond = over;
   return values;
 }
 

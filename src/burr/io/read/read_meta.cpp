@@ -34,7 +34,8 @@ bool sample_type(const std::string& name, SampleType& type) {
 struct Header {
   std::string file;  // its name, for errors
   std::map<std::string, std::string> fields;
-  std::size_t end = 0;  // where LOCAL data begins
+  mutable bool commas = false;  // a number had a decimal comma
+  std::size_t end = 0;          // where LOCAL data begins
 
   // The first of these fields that is there; empty: none is.
   [[nodiscard]] std::string get(std::initializer_list<const char*> names) const {
@@ -87,6 +88,17 @@ Result<math::Ijk> size_of(const Header& header) {
   return math::Ijk(static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2]));
 }
 
+// A factor of the values, if the file gives one.
+Status read_factor(const Header& header, const char* field, double& out) {
+  double value = 0;
+  const std::string text = header.get({field});
+  if (text.empty()) return fine();
+  if (!to_number(text, value, header.commas) || !std::isfinite(value))
+    return header.bad(field, fmt::format("\"{}\" is not a number", base::printable(text)));
+  out = value;
+  return fine();
+}
+
 Result<SampleFormat> format_of(const Header& header) {
   std::int64_t channels = 1;
   const std::string channel_text = header.get({"ElementNumberOfChannels"});
@@ -103,13 +115,13 @@ Result<SampleFormat> format_of(const Header& header) {
   const std::string binary = header.get({"BinaryData"});
   if (!binary.empty() && !is_true(binary))
     return header.bad("BinaryData", "burr does not read numbers as text; save the file as binary");
-  double slope = 1, intercept = 0;
-  if (to_number(header.get({"ElementToIntensityFunctionSlope"}), slope) && std::isfinite(slope) &&
-      slope != 0)
-    format.slope = slope;
-  if (to_number(header.get({"ElementToIntensityFunctionOffset"}), intercept) &&
-      std::isfinite(intercept))
-    format.intercept = intercept;
+  double slope = 1;
+  if (Status good = read_factor(header, "ElementToIntensityFunctionSlope", slope); !good)
+    return good.error();
+  if (slope != 0) format.slope = slope;
+  if (Status good = read_factor(header, "ElementToIntensityFunctionOffset", format.intercept);
+      !good)
+    return good.error();
   return format;
 }
 
@@ -185,15 +197,22 @@ Status read_voxels(const Header& header, const SampleFormat& format, std::size_t
   return fine();
 }
 
-// A spacing that cannot be used is taken for 1 mm, with a notice.
-Affine affine_of(const Header& header, std::vector<std::string>& notices) {
+// Without a spacing it is taken for 1 mm, with a notice.
+Result<Affine> affine_of(const Header& header, std::vector<std::string>& notices) {
   Affine affine;
-  const std::vector<double> turn =
-      numbers(header.get({"TransformMatrix", "Rotation", "Orientation"}));
+  const auto vector = [&](std::initializer_list<const char*> names, std::size_t count) {
+    return numbers(header.get(names), count, header.commas);
+  };
+  const std::vector<double> turn = vector({"TransformMatrix", "Rotation", "Orientation"}, 9);
   if (turn.size() == 9)  // the file lists the direction of i, then of j, then of k
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) affine.step(b, a) = turn[static_cast<std::size_t>(3 * a + b)];
-  std::vector<double> spacing = numbers(header.get({"ElementSpacing", "ElementSize"}));
+  const std::string spacing_text = header.get({"ElementSpacing", "ElementSize"});
+  std::vector<double> spacing = vector({"ElementSpacing", "ElementSize"}, 3);
+  if (spacing.empty() && !spacing_text.empty())
+    return header.bad("ElementSpacing",
+                      fmt::format("\"{}\" is not three numbers; correct the header",
+                                  base::printable(spacing_text)));
   const bool spaced = spacing.size() == 3 && std::isfinite(spacing[0] + spacing[1] + spacing[2]) &&
                       spacing[0] * spacing[1] * spacing[2] != 0;
   if (!spaced) {
@@ -202,8 +221,11 @@ Affine affine_of(const Header& header, std::vector<std::string>& notices) {
         "The file states no usable voxel spacing: 1 mm is assumed; see --spacing-mm.");
   }
   for (int a = 0; a < 3; ++a) affine.step.col(a) *= std::abs(spacing[static_cast<std::size_t>(a)]);
-  const std::vector<double> origin = numbers(header.get({"Offset", "Position", "Origin"}));
+  const std::vector<double> origin = vector({"Offset", "Position", "Origin"}, 3);
   if (origin.size() == 3) affine.origin = Vec3(origin[0], origin[1], origin[2]);
+  if (header.commas)
+    notices.emplace_back(
+        "The file writes numbers with a decimal comma (\"0,5\"): read as decimal points.");
   return affine;
 }
 
@@ -228,8 +250,9 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
   if (!data) return data.error();
   if (Status read = read_voxels(header, *format, *count, std::move(*data), scan, progress); !read)
     return read.error();
-  const Affine affine = affine_of(header, scan.notices);
-  if (Status placed = place(scan, affine, options.spacing_mm, header.file, progress); !placed)
+  const auto affine = affine_of(header, scan.notices);
+  if (!affine) return affine.error();
+  if (Status placed = place(scan, *affine, options.spacing_mm, header.file, progress); !placed)
     return placed.error();
   return scan;
 }

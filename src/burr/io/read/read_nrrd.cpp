@@ -397,11 +397,11 @@ Affine affine_of(const Header& header, const Shape& shape, const std::string& fi
   }
   // some writers leave out axes without direction
   const bool only_space = moves.size() == 3;
-  bool directed = !moves.empty();
+  bool directed = !moves.empty(), commas = false;
   for (std::size_t a = 0; a < 3 && directed; ++a) {
     const std::size_t axis = only_space ? a : shape.axes[a];
     const std::vector<double> move =
-        axis < moves.size() ? numbers(moves[axis]) : std::vector<double>();
+        axis < moves.size() ? numbers(moves[axis], 3, commas) : std::vector<double>();
     directed = move.size() == 3;
     if (directed) affine.step.col(static_cast<Eigen::Index>(a)) = Vec3(move[0], move[1], move[2]);
   }
@@ -411,17 +411,25 @@ Affine affine_of(const Header& header, const Shape& shape, const std::string& fi
     bool stated = false;
     for (std::size_t a = 0; a < 3; ++a) {
       double step = 0;
-      if (shape.axes[a] < spacings.size() && to_number(spacings[shape.axes[a]], step) &&
+      if (shape.axes[a] < spacings.size() && to_number(spacings[shape.axes[a]], step, commas) &&
           std::isfinite(step) && step != 0) {
         affine.step(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(a)) = std::abs(step);
         stated = true;
       }
     }
-    if (!stated)
+    const std::string unread = moves.empty() ? get("spacings") : get("spacedirections");
+    if (!stated && !unread.empty() && unread.find("nan") == std::string::npos)
+      scan.ask(Ask::spacing, fmt::format("{}: its voxel spacing \"{}\" cannot be read as numbers "
+                                         "(taken for 1 mm)",
+                                         file, base::printable(unread)));
+    else if (!stated)
       scan.notices.emplace_back(
           "The file states no voxel spacing: 1 mm is assumed; see --spacing-mm.");
   }
-  const std::vector<double> origin = numbers(get("spaceorigin"));
+  const std::vector<double> origin = numbers(get("spaceorigin"), 3, commas);
+  if (commas)
+    scan.notices.emplace_back(
+        "The file writes numbers with a decimal comma (\"0,5\"): read as decimal points.");
   if (origin.size() == 3) affine.origin = Vec3(origin[0], origin[1], origin[2]);
 
   std::string unit = get("spaceunits");

@@ -69,4 +69,40 @@ std::vector<double> numbers(std::string_view text) {
   return out;
 }
 
+std::vector<double> numbers(std::string_view text, std::size_t count, bool& commas) {
+  std::vector<double> plain = numbers(text);
+  if (plain.size() == count) return plain;
+  std::string spaced(text);
+  if (spaced.find(',') == std::string::npos || spaced.find('.') != std::string::npos) return {};
+  for (char& c : spaced)
+    if (c == '(' || c == ')' || c == '[' || c == ']') c = ' ';
+  std::vector<std::string> pieces = words(spaced);
+  if (pieces.size() == 1) {  // "1,5,2,5": every second comma is a decimal one
+    std::size_t n = 0;
+    for (char& c : spaced)
+      if (c == ',' && n++ % 2 == 1) c = ' ';
+    pieces = words(spaced);
+  }
+  std::vector<double> out;
+  bool decimal = false;
+  for (const std::string& piece : pieces) {
+    double value = 0;
+    if (!to_number(piece, value, decimal)) return {};
+    out.push_back(value);
+  }
+  if (out.size() != count) return {};
+  commas = commas || decimal;
+  return out;
+}
+
+bool to_number(std::string_view text, double& out, bool& commas) {
+  std::string point(text);
+  const bool comma =
+      std::count(point.begin(), point.end(), ',') == 1 && point.find('.') == std::string::npos;
+  if (comma) point[point.find(',')] = '.';
+  if (!to_number(point, out)) return false;
+  commas = commas || comma;
+  return true;
+}
+
 }  // namespace burr::io

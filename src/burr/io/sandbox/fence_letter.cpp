@@ -12,7 +12,8 @@ namespace burr::io {
 namespace {
 
 constexpr std::size_t kLongestText = std::size_t{1} << 16;
-constexpr std::size_t kMostLabels = 4096, kMostNotices = 4096, kMostSeries = 4096;
+constexpr std::size_t kMostLabels = 4096, kMostNotices = 4096, kMostSeries = 4096,
+                      kMostQuestions = 16;
 
 class Packer {
  public:
@@ -103,7 +104,7 @@ class Unpacker {
 };
 
 // both sides must agree about this, structs included
-std::string version() { return std::string("fence 2 of burr ") + base::version(); }
+std::string version() { return std::string("fence 3 of burr ") + base::version(); }
 
 Trouble trouble_of(std::int32_t number) {
   switch (static_cast<Trouble>(number)) {
@@ -129,6 +130,11 @@ void pack_scan(Packer& to, const Scan& scan) {
   to.put(static_cast<std::uint32_t>(scan.series.size()));
   for (const std::string& series : scan.series) to.put(series);
   to.put(static_cast<std::int32_t>(scan.series_taken));
+  to.put(static_cast<std::uint32_t>(scan.questions.size()));
+  for (const Question& question : scan.questions) {
+    to.put(static_cast<std::uint8_t>(question.ask));
+    to.put(question.text);
+  }
   to.put(static_cast<std::uint32_t>(scan.label_names.size()));
   for (const Label& label : scan.label_names) {
     to.put(static_cast<std::int32_t>(label.value));
@@ -160,6 +166,11 @@ void unpack_scan(Unpacker& from, Scan& scan) {
   scan.series_taken = from.get<std::int32_t>();
   from.demand(scan.series_taken >= 0 &&
               static_cast<std::size_t>(scan.series_taken) < std::max<std::size_t>(series, 1));
+  for (std::size_t n = from.count(kMostQuestions); n > 0 && from.good(); --n) {
+    const auto ask = static_cast<Ask>(from.get<std::uint8_t>());
+    from.demand(ask == Ask::missing || ask == Ask::spacing);
+    scan.ask(ask, from.words());
+  }
   for (std::size_t n = from.count(kMostLabels); n > 0 && from.good(); --n) {
     Label label;
     label.value = from.get<std::int32_t>();

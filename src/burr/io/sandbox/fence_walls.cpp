@@ -86,6 +86,8 @@ std::uint64_t bytes_there(const fs::path& path) {
   if (fs::is_directory(path, trouble))
     return bytes_in(fs::recursive_directory_iterator(path, kSkip, trouble), trouble);
   if (!fs::is_regular_file(path, trouble)) return 0;
+  if (is_dicomdir(path))
+    return bytes_in(fs::recursive_directory_iterator(folder_of(path), kSkip, trouble), trouble);
   if (may_have_partner(path))
     return bytes_in(fs::directory_iterator(folder_of(path), kSkip, trouble), trouble);
   const std::uint64_t size = fs::file_size(path, trouble);
@@ -159,7 +161,7 @@ bool raise_landlock(const fs::path& path) {
   };
   std::error_code trouble;
   bool good = open_up(path);
-  if (!fs::is_directory(path, trouble) && may_have_partner(path))
+  if (!fs::is_directory(path, trouble) && (is_dicomdir(path) || may_have_partner(path)))
     good = good && open_up(folder_of(path));
   good = good && ::syscall(kRestrictSelf, set, 0) == 0;
   ::close(set);
