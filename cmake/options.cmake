@@ -34,7 +34,7 @@ function(burr_common_headers target)
     return()
   endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # of a precompiled header g++ 12 warns as if it were ours: false alarms in <string>
-    target_compile_options(${target} PRIVATE -Wno-array-bounds)
+    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
   endif()
   if("${ARGV1}" STREQUAL "REUSE_FROM")
     target_precompile_headers(${target} REUSE_FROM ${ARGV2})
