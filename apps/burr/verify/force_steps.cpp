@@ -1,5 +1,6 @@
 // burr verify steps - what the hand feels from one tick to the next beyond its own move: on
-// formulas, on bone that the border of a scan cuts, in a slot as wide as the burr, and on real bone.
+// formulas, on bone that the border of a scan cuts, and on real bone. The slot as wide as the burr is in
+// tests/workshop/touch_reports_test.cpp.
 #include "burr/haptics/force_steps.h"
 
 #include <fmt/format.h>
