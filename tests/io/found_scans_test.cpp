@@ -164,7 +164,7 @@ TEST_F(FoundScans, PartsOfALongScanThatMeetAreOneVolume) {
   const auto scan = read_path(folder);
   ASSERT_TRUE(scan.ok()) << scan.error().text;
   EXPECT_EQ(scan->size.z(), 17) << all_of(*scan);
-  EXPECT_TRUE(says(*scan, "1 pictures lie where another one lies")) << all_of(*scan);
+  EXPECT_TRUE(says(*scan, "1 pictures are at the position of another one")) << all_of(*scan);
 }
 
 TEST_F(FoundScans, PhasesThatNothingTellsApartAreRefused) {
