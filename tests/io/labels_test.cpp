@@ -147,6 +147,15 @@ TEST_F(Labels, GreyValuesStayGrey) {
       "offset.nrrd"));
   ASSERT_TRUE(offset.ok()) << offset.error().text;
   EXPECT_TRUE(offset->labels.empty());
+  // whole numbers first, then one that no integer holds
+  const auto huge = read_file(nrrd<float>(
+      "float", "", [](int, int, int k, int) { return k < 3   ? 0.0F
+                                                     : k < 6 ? 1.0F
+                                                             : 1.8e19F; },
+      "huge.nrrd"));
+  ASSERT_TRUE(huge.ok()) << huge.error().text;
+  EXPECT_TRUE(huge->labels.empty());
+  EXPECT_FALSE(says(*huge, "near to whole numbers"));
 }
 
 TEST_F(Labels, FloatsNearWholeNumbersAreRounded) {

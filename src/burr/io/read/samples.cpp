@@ -94,6 +94,7 @@ struct WholeNumbers {
   std::vector<std::int64_t> all;  // sorted; one more than kMostLabels + 1 where there are too many
   double off = 0;                 // largest distance from a whole number, over its tolerance
   bool negative = false;
+  bool complete = false;  // all values were looked at: none is far from a whole number
   [[nodiscard]] bool labels() const {
     return off <= 1 && !negative && all.size() <= kMostLabels + 1 && all.back() <= kLargestLabel;
   }
@@ -120,6 +121,7 @@ WholeNumbers whole_numbers(const Voxels<float>& values) {
     out.all.insert(place, number);
     if (out.all.size() > kMostLabels + 1) return out;
   }
+  out.complete = true;
   return out;
 }
 
@@ -302,7 +304,7 @@ Result<bool> VoxelSink::wide_labels(Scan& scan, bool labels_for_sure) {
     return error(
         "the values look like more than 255 different labels, and burr reads at most 255; "
         "merge some of them");
-  if (whole.all.empty() || whole.negative || whole.all.size() < 2 ||
+  if (!whole.complete || whole.all.empty() || whole.negative || whole.all.size() < 2 ||
       whole.all.size() > kMostLabels + 1)
     return false;
   if (!labels_for_sure && whole.all.front() != 0) return false;
