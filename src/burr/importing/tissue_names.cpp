@@ -37,6 +37,7 @@ struct Rows {
 
 // The table. Longer phrases count before shorter ones; within a word the part that ends last counts
 // ("Kieferhöhle" is a Höhle).
+// NOLINTBEGIN(bugprone-suspicious-missing-comma): long lists of words are broken over two lines
 const std::initializer_list<Rows> kTable = {
     // English
     {What::hard,
@@ -266,6 +267,7 @@ const std::initializer_list<Rows> kTable = {
      {"sct 84301002, sct 15924003, sct 55060009, sct 54215007, sct 24999009",
       "sct 25342003, sct 44567001"}},
 };
+// NOLINTEND(bugprone-suspicious-missing-comma)
 
 // Words that say only which one, or nothing.
 constexpr auto kFillers = std::to_array<std::string_view>(
