@@ -153,7 +153,7 @@ class DoctorDevices : public ::testing::Test {
   void SetUp() override {
     ::setenv("HAPLY_WS_PORT", "1", 1);
     ::setenv("BURR_FORCEDIMENSION", "/nowhere/libdrd.so", 1);
-    system_.library_timeout = milliseconds(20'000);
+    system_.maker_timeout = milliseconds(20'000);
   }
   void TearDown() override {
     for (const char* name : {"HAPLY_WS_PORT", "BURR_FORCEDIMENSION", "BURR_OPENHAPTICS"})
@@ -215,7 +215,7 @@ TEST_F(DoctorDevices, ALibraryThatCrashesOrHangsDoesSoAlone) {
   EXPECT_EQ(touch.health, Health::trouble);
   EXPECT_NE(touch.value.find("crashed"), std::string::npos) << touch.value;
   ::setenv("BURR_OPENHAPTICS", BURR_BUILD_DIR "/fakes/libHD_hang.so", 1);
-  system_.library_timeout = milliseconds(1500);
+  system_.maker_timeout = milliseconds(1500);
   touch = of("touch");
   EXPECT_NE(touch.value.find("hung"), std::string::npos) << touch.value;
   EXPECT_NE(touch.todo.find("install"), std::string::npos);

@@ -1,17 +1,18 @@
-// apps/burr/commands/outputs.h - checks, before the work begins, that a command may write where it
-// is told to: nothing that the user has is lost.
+// apps/burr/commands/outputs.h - checks, before the work begins, that a command may write its output
+// files without destroying a file of the user.
 //
 //     const Status possible = check_outputs({options.volume.source, options.path_csv},
 //                                           {{"--record", options.record, {".mcap"}},
 //                                            {"--picture", options.picture, {".png"}}});
 //
-// An Error, Trouble::usage or Trouble::io, names the option and the file: - the ending is not one
-// that this command writes; - the folder does not exist, or the name is a folder, a pipe or a
-// device; - the file is one that the command reads, also through links, or lies in a folder that it
-// reads; - the file exists and holds something else than its ending says; - two options name the
-// same file; - a recording or a volume exists, and --force was not given. Pictures, meshes, sounds,
-// tables and pages
-//   are replaced: burr can make them again from the scan and the recording.
+// An Error, Trouble::usage or Trouble::io, names the option and the file. Reasons:
+//   ending   the command does not write files with this ending
+//   place    the folder does not exist, or the name is a folder, a pipe or a device
+//   input    the command reads this file, also through a link, or it lies in a folder that it reads
+//   kind     the file exists, and its content is not what its ending says
+//   twice    two options name the same file
+//   kept     a recording or a volume exists, and --force was not given
+// Pictures, meshes, sounds, tables and pages are replaced: burr can make them again.
 // Thread: main.
 #pragma once
 

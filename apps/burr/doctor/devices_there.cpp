@@ -62,7 +62,7 @@ std::vector<Finding> look_at_devices(const System& system) {
     const std::string name = kind.name;
     const std::string if_owned = fmt::format(", if you have one (docs/devices/{}.md)", kind.page);
     const ProcessResult library =
-        run_in_process([&name] { return of_library(name); }, system.library_timeout);
+        run_in_process([&name] { return of_library(name); }, system.maker_timeout);
     if (!library.ended) {
       finding.health = Health::trouble;
       finding.value = "its library was loaded, then " + library.words;
@@ -73,7 +73,7 @@ std::vector<Finding> look_at_devices(const System& system) {
       finding.todo += if_owned;
     } else {
       const ProcessResult there =
-          run_in_process([&name] { return of_device(name); }, system.library_timeout);
+          run_in_process([&name] { return of_device(name); }, system.maker_timeout);
       if (!there.ended) {
         finding.health = Health::trouble;
         finding.value = "it was opened, then " + there.words;
