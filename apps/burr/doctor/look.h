@@ -15,7 +15,7 @@
 namespace burr::app {
 
 struct System {
-  std::filesystem::path root = "/";                   // folder that contains sys, dev and etc
+  std::filesystem::path root = "/";                 // folder that contains sys, dev and etc
   std::chrono::milliseconds maker_timeout{10'000};  // time limit for a maker's library
   std::function<bool(const std::filesystem::path&)>
       may_use;  // read and write; empty: as the kernel says
