@@ -422,6 +422,83 @@ TEST_F(Friction, AWedgeHoldsNoHarderThanTwiceThePush) {
   }
 }
 
+// ---- slips
+
+Vec3 stretch_of(const Touch& touch) {
+  return touch.touching ? Vec3(touch.depth * touch.normal + touch.tangential) : Vec3::Zero();
+}
+
+// A hand that is drawn to and fro over rough bone slips off again and again. The stretch, and with
+// it the force, changes by the hand's own move and the allowed part; without a limit it leaps.
+TEST(Slip, NeverChangesTheStretchFasterThanAllowed) {
+  constexpr double kSlip = 30e-6;  // 30 mm/s at 1 kHz
+  const Scene scene(phantom::gyroid(6 * kMm), 0.3, 9);
+  for (const double slip : {kSlip, 0.0}) {
+    Proxy proxy(scene.surface,
+                {.radius = 1 * kMm, .friction_static = 0.4, .friction_kinetic = 0.36, .slip = slip},
+                {0, 0, 14 * kMm});
+    Vec3 hand(0, 0, 14 * kMm), last = Vec3::Zero();
+    double most = 0;
+    int touching = 0;
+    for (int n = 0; n < 20'000; ++n) {
+      const double t = n * 1e-3;
+      const Vec3 next = n < 400 ? Vec3(0, 0, (14 - 6.5 * n / 400) * kMm)
+                                : Vec3(5 * std::sin(4 * t), 5 * std::sin(2.7 * t), 7.5) * kMm;
+      const Touch touch = proxy.step(next);
+      const Vec3 stretch = stretch_of(touch);
+      if (n > 0) most = std::max(most, (stretch - last).norm() - (next - hand).norm());
+      touching += touch.touching ? 1 : 0;
+      hand = next;
+      last = stretch;
+    }
+    EXPECT_GT(touching, 2000);
+    if (slip > 0)
+      EXPECT_LE(most, kSlip * (1 + 1e-9));
+    else
+      EXPECT_GT(most, 10 * kSlip);
+  }
+}
+
+// On a ball of radius R the place of a burr of radius r moves less than twice as far as a hand that is
+// less than (R + r) / 2 deep, so the limit has nothing to do; slips over the facets of the voxels are
+// left, of less than a tenth of a voxel. The burr itself is never held back.
+TEST(Slip, HardlyAnythingChangesOnABall) {
+  const Scene scene(phantom::ball(6 * kMm), 0.3);
+  Proxy limited(scene.surface, {.radius = 1.5 * kMm, .slip = 30e-6}, {0, 0, 10 * kMm}),
+      free(scene.surface, {.radius = 1.5 * kMm}, {0, 0, 10 * kMm});
+  double sum = 0;
+  for (int n = 0; n < 4000; ++n) {
+    const double t = n * 1e-3;
+    const Vec3 way(std::sin(3 * t), std::sin(2 * t), 1);
+    const Vec3 hand = (6.5 + 1.5 * std::cos(5 * t)) * kMm * way.normalized();
+    const Touch a = limited.step(hand), b = free.step(hand);
+    const double apart = (stretch_of(a) - stretch_of(b)).norm();
+    ASSERT_LT(apart, 0.1 * 0.3 * kMm) << n;
+    sum += apart;
+    ASSERT_EQ(a.proxy, b.proxy);
+  }
+  EXPECT_LT(sum / 4000, 0.5e-6);
+}
+
+// When the bone is gone the force fades at the allowed speed and then is exactly 0; a new place
+// begins without memory of the old one.
+TEST(Slip, FadesAfterASlipAndForgetsWithANewPlace) {
+  constexpr double kSlip = 30e-6;
+  const Scene scene(phantom::box(Vec3(4, 4, 4) * kMm), 0.25);
+  Proxy proxy(scene.surface, {.radius = 1 * kMm, .slip = kSlip}, {0, 0, 8 * kMm});
+  Touch touch;
+  for (int n = 0; n <= 400; ++n) touch = proxy.step({3.9 * kMm, 0, (8 - 4.0 * n / 400) * kMm});
+  ASSERT_GT(touch.depth, 0.8 * kMm);  // the edge is near
+  // off the edge: the burr leaps to the hand, the spring follows
+  for (int n = 1; n <= 400 && touch.touching; ++n)
+    touch = proxy.step({(3.9 + 0.004 * n) * kMm, 0, 4 * kMm});
+  EXPECT_FALSE(touch.touching);
+  proxy.place({0, 0, 8 * kMm});
+  touch = proxy.step({0, 0, 8 * kMm});
+  EXPECT_FALSE(touch.touching);
+  EXPECT_EQ(stretch_of(touch), Vec3(Vec3::Zero()));
+}
+
 // ---- real-time rules of the tick
 
 TEST(Proxy, TakesNeitherMemoryNorLock) {

@@ -20,7 +20,10 @@ Workbench::Workbench(std::unique_ptr<volume::Bone> bone, const WorkSettings& set
       undo_(*bone_, 64),
       writer_(*bone_, surface_, undo_, nullptr),
       carver_(writer_, {}),
-      touch_by_(surface_, {.radius = settings.radius, .push_out_speed = 5 / settings.rate_hz},
+      touch_by_(surface_,
+                {.radius = settings.radius,
+                 .slip = settings.slip_m_s / settings.rate_hz,
+                 .push_out_speed = 5 / settings.rate_hz},
                 settings.touch),
       force_{settings.stiffness, settings.damping},
       hand_(arm_, touch_by_.constraint(), force_, {.rate_hz = settings.rate_hz, .limit = {}}) {

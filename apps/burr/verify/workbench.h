@@ -26,6 +26,7 @@ struct WorkSettings {
   double spindle = 4188.79;  // [rad/s]
   double stiffness = 1000;   // [N/m]
   double damping = 0.5;      // [N s/m]
+  double slip_m_s = 30e-3;   // as the servo's [m/s]
   int carve_every = 1;       // ticks between two cuts; a cut removes for all of them
   haptics::Method touch = haptics::Method::constraint;
   edit::RemovalSettings removal = {};

@@ -3,8 +3,8 @@
 //
 //     excess = |F - F before| - k |hand - hand before|      never below 0
 //
-// On bone that stands still and is convex, the spring alone gives 0: the nearest place of a convex
-// shape moves no farther than the hand. What is left comes from the bone's grain, from a slip over
+// On bone that stands still the spring alone gives 0 on a wall, in a hollow, and on a ball of radius
+// R under a burr of radius r while the hand is less than (R + r) / 2 deep. What is left comes from the bone's grain, from a slip over
 // an edge, from friction that lets go, or from a fault.
 //
 // Thread: one. Frame: any. Units: SI. Cost: a few operations; allocates nothing.

@@ -77,6 +77,7 @@ void Proxy::place(const Vec3& p) BURR_RT {
   last_move_ = 0;
   sliding_ = false;
   soft_ = {};
+  last_stretch_.known = false;
 }
 
 bool Proxy::is_free(const Vec3& p) BURR_RT {
@@ -432,6 +433,34 @@ LeastMove Proxy::settle(const Vec3& target, double guess, int moves, Touch& touc
   return last;
 }
 
+// On a wall, in a hollow, and on a ball less than half its radius deep, the stretch changes no
+// farther than the hand moves: only a slip, or bone that grows or vanishes, changes it faster.
+// Bounding the change bounds the step of the force:
+//     |F - F before| <= k (|hand - hand before| + slip)
+void Proxy::limit_slip(const Vec3& hand, Touch& touch) BURR_RT {
+  const bool holds = touch.touching || touch.active > 0;
+  const Vec3 stretch =
+      touch.touching ? Vec3(touch.depth * touch.normal + touch.tangential) : Vec3(Vec3::Zero());
+  const Stretch last = last_stretch_;
+  last_stretch_ = {hand, stretch, true};
+  if (!last.known || settings_.slip <= 0) return;
+  const Vec3 change = stretch - last.stretch;
+  const double most = math::norm(hand - last.hand) + settings_.slip, length = math::norm(change);
+  if (length <= most) return;
+  const Vec3 limited = last.stretch + change * (most / length);
+  last_stretch_.stretch = limited;
+  const double along = holds ? math::dot(limited, touch.normal) : 0;
+  touch.touching = true;
+  if (along > 0) {
+    touch.depth = along;
+    touch.tangential = limited - along * touch.normal;
+  } else {
+    touch.depth = math::norm(limited);
+    touch.normal = limited / std::max(touch.depth, 1e-12);
+    touch.tangential = Vec3::Zero();
+  }
+}
+
 Touch Proxy::step(const Vec3& hand) BURR_RT {
   const Vec3 x = grid_.grid_from_world(hand);
   const Vec3 before = c_;
@@ -482,6 +511,7 @@ Touch Proxy::step(const Vec3& hand) BURR_RT {
   }
   proxy_ = grid_.world_from_grid(c_);
   touch.proxy = proxy_;
+  limit_slip(hand, touch);
   return touch;
 }
 

@@ -61,6 +61,7 @@ class Proxy : public TouchMethod {
   [[nodiscard]] math::Vec3 on_smooth_surface(const LeastMove& last, const math::Vec3& hand,
                                              double& pressing) const BURR_RT;
   [[nodiscard]] bool rest_softly(const math::Vec3& hand) BURR_RT;
+  void limit_slip(const math::Vec3& hand, Touch& touch) BURR_RT;
   [[nodiscard]] math::Vec3 force_place(const LeastMove& last, const math::Vec3& hand,
                                        double& pressing) BURR_RT;
 
@@ -85,6 +86,10 @@ class Proxy : public TouchMethod {
   double first_move_ = 0;               // length of the first move of the last settle() [voxel]
   double last_move_ = 0;                // length of the last tick's first move [voxel]
   bool sliding_ = false;
+  struct Stretch {
+    math::Vec3 hand = math::Vec3::Zero(), stretch = math::Vec3::Zero();  // of the last tick [m]
+    bool known = false;
+  } last_stretch_;
   std::uint64_t revision_ = 0;  // of the surface, at the last tick
   struct {
     math::Vec3 place = math::Vec3::Zero();  // where the burr rests on the soft layer       p_grid

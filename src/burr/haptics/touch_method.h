@@ -44,6 +44,10 @@ struct ProxySettings {
   // Friction counts the load of all contacts, but not more than so many times the spring's length:
   // between two nearly parallel walls a rigid burr would press without bound; 0: no limit.
   double wedge = 2;
+  // The stretch between hand and burr may change in a tick by the hand's own move and so much more;
+  // 0: no limit. A burr that slips off a rough place would otherwise leap within one tick, which
+  // no tool that has mass can do.                                                     [m/tick]
+  double slip = 0;
   int max_moves = 12;   // per tick; a faster hand is caught up with later
   double close = 0.02;  // a move shorter than this ends the search                      [voxel]
   double push_out_speed = 5e-3;  // speed at which bone that grew pushes the burr out  [voxel/tick]

@@ -74,6 +74,7 @@ const Entry kEntries[] = {
     BURR_ENTRY("friction_turning", settings.servo.friction_turning, 0, 1e3),
     BURR_ENTRY("kinetic_share", settings.servo.kinetic_share, 0, 1),
     BURR_ENTRY("wedge", settings.servo.wedge, 0, 1e6, true),
+    BURR_ENTRY("slip_m_per_s", settings.servo.slip_m_s, 0, 1e6, true),
     BURR_ENTRY("velocity_filter_hz", settings.servo.velocity_filter_hz, 0, 1e6),
     BURR_ENTRY("deposit_rate_m3_per_s", settings.servo.deposit_rate, 0, 1),
     BURR_ENTRY("deposit_tissue", settings.servo.deposit_tissue, 0, 255),
@@ -97,7 +98,8 @@ const Entry kEntries[] = {
 // What older recordings do not name had these values when they were made.
 Recorded older() {
   Recorded all;
-  all.settings.servo.wedge = 0;  // no limit
+  all.settings.servo.wedge = 0;     // no limit
+  all.settings.servo.slip_m_s = 0;  // no limit
   return all;
 }
 

@@ -30,6 +30,7 @@ SecondHand::SecondHand(const volume::IsoVertices& surface, device::Device& devic
               .friction_static = settings_.friction,
               .friction_kinetic = settings_.friction,
               .wedge = 0,
+              .slip = settings_.slip_m_s / rate_hz,
               .max_moves = kMoves,
               .push_out_speed = 5 / rate_hz},
              surface.bone().grid().world_from_grid(Vec3::Constant(-1e4))),

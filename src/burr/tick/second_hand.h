@@ -28,6 +28,7 @@ struct SecondHandSettings {
   double radius = 1.5e-3;        // of the ball at its tip, at least two voxels            [m]
   haptics::ForceSettings force;  // capped by the device's own
   double friction = 0.1;         // of metal on wet bone: hardly any                       [-]
+  double slip_m_s = 30e-3;       // as ServoSettings::slip_m_s                           [m/s]
   double velocity_filter_hz = 100;
   haptics::LimitSettings limit;
 };

@@ -33,6 +33,7 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       touch_by_(surface,
                 {.radius = settings.burr.radius,
                  .wedge = settings.wedge,
+                 .slip = settings.slip_m_s / settings.rate_hz,
                  .push_out_speed = kRecovery / settings.rate_hz},
                 settings.touch),
       hand_(device, touch_by_.constraint(), controls_.settings.force, hand_settings(settings)),

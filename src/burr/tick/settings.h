@@ -44,6 +44,10 @@ struct ServoSettings {
   double friction_turning = 0.05;  // what is left of it while the spindle turns            [-]
   double kinetic_share = 0.9;      // sliding friction over sticking friction               [-]
   double wedge = 2;  // friction counts at most so many times the push; 0: no limit  [-]
+  // The stretch of the spring changes by the hand's own move and so much more; 0: no limit. A
+  // handpiece of 100 g on a spring of 1000 N/m that slips off swings over in 31 ms, so it moves
+  // about so fast.
+  double slip_m_s = 30e-3;          //                                  [m/s]
   double velocity_filter_hz = 100;  // of the hand's velocity, first order
   double deposit_rate = 5e-9;  // at full pedal                                          [m^3/s]
   volume::TissueId deposit_tissue = 1;
