@@ -66,7 +66,7 @@ const std::vector<Box>& boxes() {
         Word::set_stereo_depth,
         Word::set_swap_eyes,
         Word::set_headset,
-        Word::set_recent_names,
+        Word::set_recent_names, Word::set_remember_scans,
         Word::set_pad_pace,
         Word::set_pad_dead,
         Word::set_pedal_mill,

@@ -21,6 +21,7 @@ using math::Vec3;
 
 constexpr double kPlaneStep = 0.5e-3;  // of the plane, per step of the wheel  [m]
 constexpr double kTurn = 0.006;        // of the view, per pixel of the mouse  [rad]
+constexpr Uint32 kSameClick = 50;      // a press this soon after the window came to the front [ms]
 
 }  // namespace
 
@@ -60,6 +61,7 @@ void Mill::take_events() {
         if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST ||
             event.window.event == SDL_WINDOWEVENT_MINIMIZED)
           lift();
+        if (event.window.event == SDL_WINDOWEVENT_FOCUS_GAINED) to_front_ = event.window.timestamp;
         break;
       default:
         break;
@@ -211,8 +213,10 @@ void Mill::button(const SDL_MouseButtonEvent& button) {
     if (!down || page_open() || desk_.ui().over_panel() || pointer_.over_slices()) return;
     return pick_point();
   }
-  // a press that began on a panel does not mill
-  press_.button(button.type == SDL_MOUSEBUTTONDOWN && !desk_.ui().over_panel());
+  // The click that brought the window to the front does not mill, nor a press that began on a
+  // panel. Every later press counts.
+  const bool same_click = to_front_ && button.timestamp - *to_front_ < kSameClick;
+  press_.button(button.type == SDL_MOUSEBUTTONDOWN && !same_click && !desk_.ui().over_panel());
 }
 
 void Mill::wheel(const SDL_MouseWheelEvent& wheel) {

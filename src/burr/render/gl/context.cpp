@@ -19,6 +19,8 @@ Error no_gl(const std::string& why) {
 bool start_video(bool visible, std::string& why) {
   SDL_SetMainReady();
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl-C is handled by the program
+  // otherwise SDL drops the first press after the window came to the front, however late it is
+  SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
   if (SDL_WasInit(SDL_INIT_VIDEO) != 0 || visible) {
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) == 0) return true;
     why = SDL_GetError();
