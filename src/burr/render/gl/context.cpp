@@ -4,6 +4,8 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "burr/render/gl/x_errors.h"
 
 namespace burr::render::gl {
@@ -35,6 +37,19 @@ Error no_display(const std::string& why) {
                            why, display(), kWithoutWindow));
 }
 
+bool on_x_server() {
+  const char* driver = SDL_GetCurrentVideoDriver();
+  return driver != nullptr && std::string_view(driver) == "x11";
+}
+
+// SDL takes a driver that shows nothing if no other works. For a window that is an error, unless
+// the user asked for it.
+bool nothing_is_seen() {
+  const char* driver = SDL_GetCurrentVideoDriver();
+  if (driver == nullptr || SDL_getenv("SDL_VIDEODRIVER") != nullptr) return false;
+  return std::string_view(driver) == "offscreen" || std::string_view(driver) == "dummy";
+}
+
 // SDL's video is started once, with a count of users: a hidden context may exist beside a window.
 bool start_video(bool visible, std::string& why) {
   SDL_SetMainReady();
@@ -42,8 +57,13 @@ bool start_video(bool visible, std::string& why) {
   // otherwise SDL drops the first press after the window came to the front, however late it is
   SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
   if (SDL_WasInit(SDL_INIT_VIDEO) != 0 || visible) {
-    if (SDL_InitSubSystem(SDL_INIT_VIDEO) == 0) return true;
-    why = SDL_GetError();
+    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) {
+      why = SDL_GetError();
+      return false;
+    }
+    if (!visible || !nothing_is_seen()) return true;
+    SDL_QuitSubSystem(SDL_INIT_VIDEO);
+    why = "nothing answers there";
     return false;
   }
   // no display is needed or requested; the user's own choice of driver is respected
@@ -80,9 +100,26 @@ Status Context::create(const std::string& title, int width, int height, bool vis
   sdl_ = true;
   visible_ = visible;
 
-  const struct { bool es, quad_buffer; } tries[] = {{false, true}, {false, false}, {true, false}};
-  for (const auto& [es, quads] : tries) {
+  // by EGL: an X server without GLX, or one that is far away (ssh -X), may still show pictures
+  const struct {
+    bool es, quad_buffer, egl;
+  } tries[] = {{false, true, false},
+               {false, false, false},
+               {true, false, false},
+               {false, false, true},
+               {true, false, true}};
+  for (const auto& [es, quads, egl] : tries) {
     if ((es && api == Api::core) || (!es && api == Api::es) || (quads && !quad_buffer)) continue;
+    if (egl && !on_x_server()) continue;
+    SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, egl ? "1" : "0");
+    if (egl && !es) {  // SDL does not let go of a GLX that it could not use
+      SDL_QuitSubSystem(SDL_INIT_VIDEO);
+      SDL_SetHint(SDL_HINT_VIDEODRIVER, "x11");  // and no driver that shows nothing
+      sdl_ = SDL_InitSubSystem(SDL_INIT_VIDEO) == 0;
+      SDL_ResetHint(SDL_HINT_VIDEODRIVER);
+      if (!sdl_) break;
+      catch_x_errors();
+    }
     forget_x_error();
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, es ? 0 : 3);
@@ -104,7 +141,7 @@ Status Context::create(const std::string& title, int width, int height, bool vis
       gl = nullptr;
     }
     if (gl == nullptr) {
-      why = refused.empty() ? SDL_GetError() : refused;
+      if (why.empty()) why = refused.empty() ? SDL_GetError() : refused;
       if (made != nullptr) SDL_DestroyWindow(made);
       continue;
     }
