@@ -16,7 +16,7 @@ fail() {
 list=$place/state/burr/scans.txt
 mkdir -p "$place/Svensson Karin" "$place/work" "$place/elsewhere" "$place/config/burr"
 cd "$place/work" || exit 1
-scan="$place/Svensson Karin/ct.nrrd"
+scan="$place/Svensson Karin/ct.seg.nrrd"
 "$burr" --quiet phantom block --voxel-mm 0.5 --out "$scan" || fail "no scan"
 record() { # FILE
   "$burr" --quiet mill "$scan" --burr-mm 4 --motion pocket --seconds 1 --record "$1" >/dev/null || fail "not recorded"
@@ -44,19 +44,19 @@ BURR_REMEMBER_SCANS=0 replays s.mcap && fail "the list is used although it is of
 
 # ---- the scan moves: not found, and the entry is forgotten; beside the recording it is found
 mkdir "$place/new"
-mv "$scan" "$place/new/ct.nrrd"
+mv "$scan" "$place/new/ct.seg.nrrd"
 replays s.mcap
 [ $? = 74 ] || fail "the scan is gone, and the exit code is not 74"
 grep -q "was not found; put its scan beside the recording, give the scan with --volume" "$place/said" ||
   fail "does not say what to do: $(cat "$place/said")"
 grep -q "Svensson" "$list" && fail "the entry of a scan that is gone was kept"
-mv "$place/new/ct.nrrd" .
+mv "$place/new/ct.seg.nrrd" .
 replays s.mcap || fail "beside the recording it is not found: $(cat "$place/said")"
 
 # ---- a folder of scans, packed; a state folder that cannot be written
 scan=$place/new/ct.zip
-python3 -c "import sys, zipfile; zipfile.ZipFile(sys.argv[1], 'w').write(sys.argv[2], 'ct.nrrd')" "$scan" ct.nrrd
-rm ct.nrrd
+python3 -c "import sys, zipfile; zipfile.ZipFile(sys.argv[1], 'w').write(sys.argv[2], 'ct.seg.nrrd')" "$scan" ct.seg.nrrd
+rm ct.seg.nrrd
 record z.mcap
 mv z.mcap "$place/work/"
 replays "$place/work/z.mcap" || fail "a zip archive is not found: $(cat "$place/said")"

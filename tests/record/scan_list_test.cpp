@@ -87,7 +87,7 @@ TEST(ScanList, HoldsAThousandTheOldestGo) {
 TEST(ScanList, ProcessesAtTheSameTimeKeepEachOthersEntries) {
   const Folder folder;
   const std::string list = folder / "scans.txt";
-  constexpr unsigned kProcesses = 4, kEach = 15;
+  constexpr unsigned kProcesses = 4, kEach = 6;
   std::vector<pid_t> children;
   for (unsigned p = 0; p < kProcesses; ++p) {
     const pid_t child = ::fork();

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostScans = 1000;
 constexpr std::uintmax_t kLargestFile = 8U << 20;       // [byte]
-constexpr int kTries = 50;                              // for the lock ...
+constexpr int kTries = 150;                             // for the lock ...
 constexpr auto kPause = std::chrono::milliseconds(20);  // ... with this pause between them
 
 // "0x" and 16 hexadecimal digits, as hex() writes them
