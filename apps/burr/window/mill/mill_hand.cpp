@@ -21,7 +21,12 @@ using math::Vec3;
 
 constexpr double kPlaneStep = 0.5e-3;  // of the plane, per step of the wheel  [m]
 constexpr double kTurn = 0.006;        // of the view, per pixel of the mouse  [rad]
-constexpr Uint32 kSameClick = 50;      // a press this soon after the window came to the front [ms]
+constexpr Uint32 kSameClick = 50;      // after the window came to the front [ms]
+
+// True: the window came to the front so short a time before that this is the same click.
+bool same_click(const std::optional<std::uint32_t>& to_front, Uint32 now) {
+  return to_front && now - *to_front < kSameClick;
+}
 
 }  // namespace
 
@@ -32,6 +37,10 @@ void Mill::take_events() {
         open_ = false;
         break;
       case SDL_KEYDOWN:
+        // Space that is held: once, and not if it was held when the window came to the front
+        if (event.key.keysym.sym == SDLK_SPACE &&
+            (event.key.repeat != 0 || same_click(to_front_, event.key.timestamp)))
+          break;
         if (!desk_.ui().typing() && !aim_key(event.key.keysym, true)) key(event.key.keysym);
         break;
       case SDL_KEYUP:
@@ -215,8 +224,8 @@ void Mill::button(const SDL_MouseButtonEvent& button) {
   }
   // The click that brought the window to the front does not mill, nor a press that began on a
   // panel. Every later press counts.
-  const bool same_click = to_front_ && button.timestamp - *to_front_ < kSameClick;
-  press_.button(button.type == SDL_MOUSEBUTTONDOWN && !same_click && !desk_.ui().over_panel());
+  press_.button(button.type == SDL_MOUSEBUTTONDOWN && !same_click(to_front_, button.timestamp) &&
+                !desk_.ui().over_panel());
 }
 
 void Mill::wheel(const SDL_MouseWheelEvent& wheel) {
