@@ -162,7 +162,17 @@ TEST_F(KeysWindow, TheFirstPressAfterAnotherWindowCounts) {
               button(SDL_BUTTON_LEFT, false);
               button(SDL_BUTTON_LEFT, true);
             }},
-           {"the press", [&] { return pedal() == 1; }, [] { press(SDLK_q); }}});
+           {"the press", [&] { return pedal() == 1; }, [&] { button(SDL_BUTTON_LEFT, false); }},
+           {"the lift", [&] { return pedal() == 0; },
+            [] {  // Space is held: the keyboard repeats it
+              SDL_Event event = {};
+              event.type = SDL_KEYDOWN;
+              event.key.keysym.sym = SDLK_SPACE;
+              SDL_PushEvent(&event);
+              event.key.repeat = 1;
+              SDL_PushEvent(&event);
+            }},
+           {"the press, once", [&] { return pedal() == 1; }, [] { press(SDLK_q); }}});
 }
 
 }  // namespace
