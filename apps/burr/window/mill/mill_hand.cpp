@@ -80,7 +80,10 @@ void Mill::take_events() {
         if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST ||
             event.window.event == SDL_WINDOWEVENT_MINIMIZED)
           lift();
-        if (event.window.event == SDL_WINDOWEVENT_FOCUS_GAINED) to_front_ = event.window.timestamp;
+        if (event.window.event == SDL_WINDOWEVENT_FOCUS_GAINED) {
+          lift();  // a button that went down before needs a fresh press
+          to_front_ = event.window.timestamp;
+        }
         break;
       default:
         break;
