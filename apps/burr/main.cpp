@@ -20,6 +20,7 @@
 #include "burr/base/version.h"
 #include "commands/command.h"
 #include "commands/console.h"
+#include "commands/limits.h"
 
 namespace burr::app {
 namespace {
@@ -109,6 +110,7 @@ int main(int argc, char** argv) {
   // One memory arena for all threads. A software renderer allocates and frees about 75 MB per
   // picture, and each arena would keep its own peak until the end (memory of a session is locked).
   mallopt(M_ARENA_MAX, 1);
+  const Status limits = app::raise_limits();
   struct sigaction action = {};
   action.sa_handler = app::on_signal;
   sigaction(SIGINT, &action, nullptr);
@@ -158,17 +160,21 @@ int main(int argc, char** argv) {
       fmt::print("{}", program.help());
       return fine();
     };
-  Status status = error(Trouble::internal, "internal error: no command ran");
+  Status status = limits;
   try {
-    status = todo.work();
+    if (status) status = todo.work();
   } catch (const std::bad_alloc&) {
     status = error(Trouble::data, "not enough memory; use a larger --voxel-mm or a smaller --roi");
   } catch (const std::system_error& problem) {
     // fmt throws this when output could not be written
     if (problem.code() == std::errc::broken_pipe) return app::kReaderGone;
     if (std::ferror(stdout) != 0) return app::unheard(problem.code().value());
-    status =
-        error(Trouble::internal, fmt::format("unexpected: {}; please report it", problem.what()));
+    status = problem.code() == std::errc::resource_unavailable_try_again
+                 ? error(
+                       "the system starts no further thread: raise the limit on processes "
+                       "(`ulimit -u`) or on memory (`ulimit -v`), or end other programs")
+                 : error(Trouble::internal,
+                         fmt::format("unexpected: {}; please report it", problem.what()));
   } catch (const std::exception& problem) {
     status =
         error(Trouble::internal, fmt::format("unexpected: {}; please report it", problem.what()));

@@ -26,7 +26,7 @@ if ! command -v Xvfb >/dev/null; then
   echo "without xvfb the window is not tested"
   exit 77
 fi
-Xvfb -displayfd 3 -screen 0 1300x800x24 3>"$folder/display" 2>/dev/null &
+Xvfb -noreset -displayfd 3 -screen 0 1300x800x24 3>"$folder/display" 2>/dev/null &
 screen=$!
 for _ in $(seq 100); do [ -s "$folder/display" ] && break; sleep 0.1; done
 [ -s "$folder/display" ] || fail "Xvfb does not start"
@@ -36,3 +36,29 @@ has "$folder/window" before.png after.png session.mcap summary.html
 DISPLAY=:$(cat "$folder/display") "$burr" run block --voxel-mm 0.5 --seconds 1 || fail "without --out"
 DISPLAY=:$(cat "$folder/display") "$burr" run --seconds 2 --screenshot "$folder/start.png" || fail "the start page"
 has "$folder" start.png
+
+# a display that burr cannot draw on: a sentence, the way without a window, and 74
+refused() { # SENTENCE VARIABLE=VALUE...
+  local sentence=$1 code=0
+  shift
+  env "$@" "$burr" run block --voxel-mm 0.5 --seconds 1 >/dev/null 2>"$folder/refused.txt" || code=$?
+  [ $code = 74 ] || fail "$*: exit code $code"
+  grep -q "^burr: $sentence.*burr run --headless, burr mill or burr picture" "$folder/refused.txt" || fail "$*: does not say what to do: $(cat "$folder/refused.txt")"
+  grep -q "X Error" "$folder/refused.txt" && fail "$*: the X server's own error is shown"
+  return 0
+}
+refused 'no window can be opened' DISPLAY=:987
+refused 'OpenGL 3.3 or OpenGL ES 3.0 is not available' DISPLAY=":$(cat "$folder/display")" LIBGL_DRIVERS_PATH=/nowhere
+# over ssh -X, GLX often makes no context; EGL does
+DISPLAY=:$(cat "$folder/display") LIBGL_ALWAYS_INDIRECT=1 "$burr" run block --voxel-mm 0.5 --seconds 1 || fail "no window without a context of GLX"
+# the display ends during a session: 74, and the recording is there
+DISPLAY=:$(cat "$folder/display") "$burr" run block --voxel-mm 0.5 --out "$folder/lost" >/dev/null 2>"$folder/lost.txt" &
+session=$!
+for _ in $(seq 300); do [ -s "$folder/lost/session.mcap" ] && break; sleep 0.1; done
+sleep 1
+kill "$screen"
+code=0
+wait $session || code=$?
+[ $code = 74 ] || fail "the display is lost: exit code $code: $(cat "$folder/lost.txt")"
+grep -q '^burr: the connection to the display has ended' "$folder/lost.txt" || fail "the display is lost, and burr does not say so"
+"$burr" replay "$folder/lost/session.mcap" --check >/dev/null || fail "what was recorded until the display was lost does not replay"

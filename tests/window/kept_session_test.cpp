@@ -55,9 +55,9 @@ TEST_F(Kept, RecipesComeBackToTheBit) {
     if (coin()) recipe.materials = "/nowhere/m.toml";
     if (coin()) recipe.memory_mb = 1000 * share(random);
     {
-      Autosave autosave(state_, *ready, options, false);
+      Autosave autosave(state_, *ready, options, false, {});
       ASSERT_TRUE(autosave.keep()) << autosave.trouble();
-      autosave.finish();
+      ASSERT_TRUE(autosave.finish());
       ASSERT_EQ(autosave.trouble(), "");
     }
     const std::vector<KeptSession> all = kept_sessions(state_);

@@ -58,6 +58,7 @@ TEST_F(SettingsFile, ComesBackAsItWasWrittenWithEveryValueChanged) {
   s.sessions_kept = 3;
   s.sessions_mb = 100;
   s.recent_names = true;
+  s.remember_scans = false;
   const fs::path path = folder_ / "made" / "by itself" / "settings.toml";
   const Status written = write_settings(s, path, false);
   ASSERT_TRUE(written) << written.error().text;
@@ -80,7 +81,7 @@ TEST_F(SettingsFile, IsExplainedLineByLine) {
     }
     before = line;
   }
-  EXPECT_EQ(set, 26);
+  EXPECT_EQ(set, 27);
 }
 
 TEST_F(SettingsFile, WhichIsNotThereMeansTheDefaultsWithoutTrouble) {

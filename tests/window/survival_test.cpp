@@ -187,37 +187,51 @@ TEST_F(Survival, AFullDiskIsSaidInTheWindowAndTheSessionGoesOn) {
   rlimit old{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old), 0);
   const auto was = std::signal(SIGXFSZ, SIG_IGN);
-  std::string said;
+  std::string said, on_start_page;
   Clock::time_point full;
-  pages_by({{"the start page", on(Page::start), [&] { drop(scan()); }},
-            {"the import page", on(Page::import), nullptr},
-            {"a picture of it", looks(3), [] { press(SDLK_RETURN); }},
-            {"milling", on(Page::milling),
-             [] {
-               move_to(640, 360);
-               press(SDLK_SPACE);
-             }},
-            {"a while", looks(30),
-             [&] {
-               // the disk takes no file longer than this any more
-               const rlimit little = {20'000, old.rlim_max};
-               ::setrlimit(RLIMIT_FSIZE, &little);
-             }},
-            {"the sentence",
-             [&] {
-               said = desk_->status_text;
-               return said.find("NOT RECORDED ANY MORE") != std::string::npos;
-             },
-             [&] { full = Clock::now(); }},
-            {"a second more", [&] { return Clock::now() - full > std::chrono::seconds(1); },
-             [&] {
-               ::setrlimit(RLIMIT_FSIZE, &old);
-               press(SDLK_q);
-             }},
-            {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  const Status ended = end_of_pages_by(
+      {{"the start page", on(Page::start), [&] { drop(scan()); }},
+       {"the import page", on(Page::import), nullptr},
+       {"a picture of it", looks(3), [] { press(SDLK_RETURN); }},
+       {"milling", on(Page::milling),
+        [] {
+          move_to(640, 360);
+          press(SDLK_SPACE);
+          press(SDLK_s);  // to be kept, even if nothing is cut
+        }},
+       {"a while", looks(30),
+        [&] {
+          // the disk takes no file longer than this any more
+          const rlimit little = {20'000, old.rlim_max};
+          ::setrlimit(RLIMIT_FSIZE, &little);
+        }},
+       {"the sentence",
+        [&] {
+          said = desk_->status_text;
+          return said.find("NOT RECORDED ANY MORE") != std::string::npos;
+        },
+        [&] { full = Clock::now(); }},
+       {"a second more", [&] { return Clock::now() - full > std::chrono::seconds(1); },
+        [&] {
+          ::setrlimit(RLIMIT_FSIZE, &old);
+          press(SDLK_q);
+        }},
+       {"the start page again", on(Page::start), nullptr},
+       {"its sentence", looks(3), [&] {
+          on_start_page = desk_->message;
+          press(SDLK_ESCAPE);
+        }}});
   ::setrlimit(RLIMIT_FSIZE, &old);
   std::signal(SIGXFSZ, was);
   EXPECT_NE(said.find(".mcap"), std::string::npos) << said;
+  // said once more, and the program ends with the code for it
+  ASSERT_FALSE(ended);
+  EXPECT_EQ(static_cast<int>(ended.error().trouble), 74);
+  EXPECT_NE(ended.error().text.find("its recording is incomplete: it holds the first"),
+            std::string::npos)
+      << ended.error().text;
+  EXPECT_EQ(on_start_page, ended.error().text);
+  EXPECT_FALSE(kept_sessions(folder_ / "state").empty());
   // what was written until then opens
   for (const KeptSession& kept : kept_sessions(folder_ / "state")) {
     const auto player = record::Player::open(kept.file.string());

@@ -67,6 +67,7 @@ const std::vector<Box>& boxes() {
         Word::set_swap_eyes,
         Word::set_headset,
         Word::set_recent_names,
+        Word::set_remember_scans,
         Word::set_pad_pace,
         Word::set_pad_dead,
         Word::set_pedal_mill,

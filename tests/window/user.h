@@ -195,12 +195,17 @@ class Window : public testing::Test {
     EXPECT_TRUE(script.finished());
   }
   void pages_by(std::vector<Script::Step> steps) {
+    const Status done = end_of_pages_by(std::move(steps));
+    ASSERT_TRUE(done) << done.error().text;
+  }
+  // what the program ends with
+  Status end_of_pages_by(std::vector<Script::Step> steps) {
     Script script(std::move(steps), desk_->status_text);
     desk_->after_frame = [&script] { script.look(); };
     const Status done = run_pages(*desk_, {});
     desk_->after_frame = {};
-    ASSERT_TRUE(done) << done.error().text;
     EXPECT_TRUE(script.finished());
+    return done;
   }
   [[nodiscard]] std::function<bool()> on(Page page) const {
     return [this, page] { return desk_->page == page; };

@@ -56,6 +56,7 @@ Status run(const Options& options) {
   sim::Session& session = **made;
   Recording recording;
   if (!options.record.empty()) {
+    recording.remember_scan_in(users_scan_list());
     const Status started = recording.start(
         session, options.record, work->recipe, work->summary, "CRTK " + named.name, false,
         workshop::to_spare(session.bone_tissues(), requested.spare), requested.work_case);

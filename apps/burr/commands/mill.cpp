@@ -272,6 +272,7 @@ Status run(const Options& options) {
 
   Recording recording;
   if (!options.record.empty()) {
+    recording.remember_scan_in(users_scan_list());
     Status started = recording.start(session, options.record, options.volume, opened->summary,
                                      options.path_csv.empty() ? options.motion_name : "hand path",
                                      options.embed);

@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "burr/base/places.h"
 #include "burr/record/rename_and_sync.h"
+#include "burr/record/scan_list.h"
 #include "burr/workshop/recording.h"
 #include "commands/command.h"
 
@@ -18,7 +20,7 @@ Status Recording::start(sim::Session& session, const std::string& file,
                         const std::string& motion, bool embed,
                         const std::optional<workshop::Tissues>& spared,
                         const std::optional<scenario::Case>& work_case) {
-  const workshop::About about{volume, import.format, motion, embed, spared, work_case};
+  const workshop::About about{volume, import.format, motion, embed, spared, work_case, scan_list_};
   file_ = file;
   rate_hz_ = session.settings().servo.rate_hz;
   auto begun =
@@ -94,6 +96,21 @@ nlohmann::json Recording::account() const {
   out["bytes"] = account.bytes;
   if (trouble_) out["trouble"] = trouble_->text;
   return out;
+}
+
+std::string scan_list_by(const Settings& settings, const std::filesystem::path& state) {
+  if (settings.remember_scans) return record::scan_list(state);
+  std::error_code nobody_asks;
+  if (!state.empty())
+    for (const char* name : {"scans.txt", "scans.txt.lock"})
+      std::filesystem::remove(state / name, nobody_asks);
+  return {};
+}
+
+std::string users_scan_list() {
+  const DeskPlaces places = users_places();
+  if (places.config.empty()) return record::scan_list(places.state);
+  return scan_list_by(read_settings(places.config / "settings.toml").settings, places.state);
 }
 
 }  // namespace burr::app

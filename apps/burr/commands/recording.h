@@ -2,11 +2,13 @@
 // reports goes to stderr, into JSON and into the exit code.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "burr/base/result.h"
 #include "burr/importing/import.h"
@@ -15,6 +17,7 @@
 #include "burr/sim/session.h"
 #include "burr/workshop/spared.h"
 #include "commands/command.h"
+#include "window/shell/settings.h"
 
 namespace burr::app {
 
@@ -24,6 +27,8 @@ namespace burr::app {
 // without recording, and finish() returns the error again, for the exit code.
 class Recording {
  public:
+  // Call it before start(): where the place of the scan is remembered; empty: nowhere.
+  void remember_scan_in(std::string list) { scan_list_ = std::move(list); }
   // motion: burr's own name, "pocket" or "hand path". embed: writes the bone into the file. spared:
   // tissues that the case forbids to cut; none: those that the table of tissues marks. work_case:
   // written into the file, so that a score can be computed from it.
@@ -46,12 +51,19 @@ class Recording {
  private:
   void tell(const Error& problem);
 
-  std::string file_;
+  std::string file_, scan_list_;
   bool stopped_ = false;
   std::unique_ptr<record::Recorder> recorder_;
   double rate_hz_ = 0;
   mutable std::mutex mutex_;  // trouble_ is set by the recorder's thread, read by main
   std::optional<Error> trouble_;
 };
+
+// The list for remember_scan_in(), by the user's settings. With `remember_scans = false` there is
+// none, and an older one is deleted.
+[[nodiscard]] std::string scan_list_by(const Settings& settings,
+                                       const std::filesystem::path& state);
+// The same with the user's settings file and state folder.
+[[nodiscard]] std::string users_scan_list();
 
 }  // namespace burr::app

@@ -152,6 +152,7 @@ Status run_headless(const Options& options) {
   Status status = picture("before.png");
   if (!status) return status;
   Recording recording;
+  recording.remember_scan_in(users_scan_list());
   status = recording.start(
       session, (folder / "session.mcap").string(), work.recipe, work.summary, requested.motion,
       false, workshop::to_spare(session.bone_tissues(), requested.spare), requested.work_case);
@@ -222,10 +223,11 @@ Status run_in_window(const Options& options) {
                                 .sound = !options.no_sound};
   if (folder.empty()) {
     const auto left = mill_and_keep(**desk, ready, options.work, false, window);
-    return left ? fine() : Status(left.error());
+    return left ? (*desk)->lost : Status(left.error());
   }
 
   Recording recording;
+  recording.remember_scan_in(scan_list_by((*desk)->settings, (*desk)->places().state));
   Status status =
       recording.start(session, (folder / "session.mcap").string(), ready.volume, ready.import,
                       session.hand().spec().name, false, ready.spared, ready.work_case);

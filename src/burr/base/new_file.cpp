@@ -49,7 +49,7 @@ int write_all(int file, const char* data, std::size_t size) {
 
 }  // namespace
 
-Result<NewFile> NewFile::create(const std::string& path) {
+Result<NewFile> NewFile::create(const std::string& path, unsigned mode) {
   // follow a link, so that it stays a link
   std::error_code ignored;
   std::filesystem::path place = path;
@@ -68,7 +68,7 @@ Result<NewFile> NewFile::create(const std::string& path) {
   int file = -1;
   for (int attempt = 0; attempt < 100 && file < 0; ++attempt) {
     name = place.string() + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(++count);
-    file = ::open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    file = ::open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode);
     if (file < 0 && errno != EEXIST) break;
   }
   if (file < 0) return error(Trouble::io, path + ": cannot be created: " + reason(errno));

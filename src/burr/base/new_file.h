@@ -23,8 +23,8 @@ namespace burr::base {
 
 class NewFile {
  public:
-  // Opens an empty file in the folder of `path`.
-  [[nodiscard]] static Result<NewFile> create(const std::string& path);
+  // Opens an empty file in the folder of `path`. mode: who may read it, 0600 for the user alone.
+  [[nodiscard]] static Result<NewFile> create(const std::string& path, unsigned mode = 0666);
 
   NewFile(NewFile&& other) noexcept;
   NewFile& operator=(NewFile&&) = delete;

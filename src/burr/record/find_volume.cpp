@@ -15,6 +15,7 @@
 
 #include "burr/base/hash.h"
 #include "burr/record/mcap/bytes.h"
+#include "burr/record/scan_list.h"
 
 namespace burr::record {
 namespace {
@@ -91,8 +92,8 @@ std::vector<fs::path> entries(const fs::path& folder) {
 }
 
 bool looks_like_a_volume(const fs::path& path) {
-  static const std::set<std::string> kVolumes = {".nii", ".gz",  ".nrrd", ".nhdr",
-                                                 ".mha", ".mhd", ".dcm",  ""};
+  static const std::set<std::string> kVolumes = {".nii", ".gz",  ".bz2", ".nrrd", ".nhdr",
+                                                 ".mha", ".mhd", ".dcm", ".zip",  ""};
   return kVolumes.contains(path.extension().string());
 }
 
@@ -154,6 +155,10 @@ Result<std::string> find_volume(const VolumeInfo& wanted, const VolumeHints& hin
                   "recording, give the scan with --volume, or give its folder in BURR_VOLUME_PATH",
                   described(wanted)));
   if (wanted.source_fingerprint == 0) return lost;
+  const auto is_it = [&wanted](const std::string& path) {
+    const auto print = fingerprint(path);
+    return print && *print == wanted.source_fingerprint;
+  };
 
   std::vector<fs::path> candidates;
   for (std::size_t at = 0; at < hints.search_path.size();) {
@@ -163,11 +168,18 @@ Result<std::string> find_volume(const VolumeInfo& wanted, const VolumeHints& hin
   }
   const fs::path beside = fs::path(hints.recording).parent_path();
   gather(beside.empty() ? fs::path(".") : beside, kLevels, candidates);
-  gather(".", kLevels, candidates);
-  for (const fs::path& candidate : candidates) {
-    const auto print = fingerprint(candidate.string());
-    if (print && *print == wanted.source_fingerprint) return candidate.string();
+  for (const fs::path& candidate : candidates)
+    if (is_it(candidate.string())) return candidate.string();
+
+  for (const std::string& path : remembered(hints.list, wanted)) {
+    if (is_it(path)) return path;
+    static_cast<void>(forget_scan(hints.list, path));  // it may stay: it is checked each time
   }
+
+  candidates.clear();
+  gather(".", kLevels, candidates);
+  for (const fs::path& candidate : candidates)
+    if (is_it(candidate.string())) return candidate.string();
   return lost;
 }
 

@@ -23,15 +23,17 @@ struct VolumeHints {
   std::string given;        // --volume; empty: search
   std::string search_path;  // folders, separated by :; see volume_search_path()
   std::string recording;    // its folder and the working folder are searched too
+  std::string list = {};    // of the scans of this computer, see scan_list.h; empty: none
 };
 
 // BURR_VOLUME_PATH, or "".
 [[nodiscard]] std::string volume_search_path();
 
-// The file or folder from which the recording's bone was read. Searches each folder itself (as a
-// DICOM series), the volumes in it, and its subfolders, two levels down. Error: not found, and what
-// to do. With hints.given that one is returned even if its fingerprint differs; check_volume() then
-// decides.
+// The file or folder from which the recording's bone was read. Searches the folders of the search
+// path and that of the recording, then the list, then the working folder: each folder itself (as a
+// DICOM series), the volumes in it, and its subfolders, two levels down. An entry of the list that
+// is gone or has another fingerprint is forgotten. Error: not found, and what to do. With
+// hints.given that one is returned even if its fingerprint differs; check_volume() then decides.
 [[nodiscard]] Result<std::string> find_volume(const VolumeInfo& wanted, const VolumeHints& hints);
 
 // Checks that this is exactly the bone at the start of the session. The Error says what differs.

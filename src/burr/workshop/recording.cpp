@@ -9,6 +9,7 @@
 #include "burr/base/inputs.h"
 #include "burr/importing/keep_greys.h"
 #include "burr/record/find_volume.h"
+#include "burr/record/scan_list.h"
 #include "burr/volume/volume_of.h"
 #include "burr/workshop/open_bone.h"
 
@@ -97,6 +98,10 @@ Result<std::unique_ptr<record::Recorder>> record(sim::Session& session, const st
       recorder->start(file, info, about.embed ? &bone : nullptr, std::move(on_trouble));
   if (!started) return started.error();
   session.set_recorder(recorder.get());
+  // a list that cannot be written harms nobody: the scan is then found as without a list
+  static_cast<void>(record::remember_scan(
+      about.scan_list,
+      {info.volume.source_fingerprint, info.volume.content_hash, about.recipe.source}));
   return recorder;
 }
 
@@ -113,15 +118,20 @@ Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,
   if (scenario::is_phantom(recorded.source) && given.source.empty()) {
     recipe->source = recorded.source;
   } else if (!scenario::is_phantom(given.source)) {
-    auto found = record::find_volume(info.volume,
-                                     {given.source, record::volume_search_path(), player.path()});
+    auto found = record::find_volume(info.volume, {given.source, record::volume_search_path(),
+                                                   player.path(), record::scan_list()});
     if (!found) return found.error();
     recipe->source = *found;
   }
   auto made = open_bone(*recipe, progress);
   if (!made) return made.error();
   Status same = record::check_volume(info.volume, *made->bone, recipe->source);
-  if (!same) return same.error();
+  if (!same) {
+    // a file whose two ends are those of the scan, but not the scan
+    if (given.source.empty())
+      static_cast<void>(record::forget_scan(record::scan_list(), recipe->source));
+    return same.error();
+  }
   return std::move(made->bone);
 }
 

@@ -42,6 +42,8 @@ struct About {
   bool embed = false;             // the bone goes into the file
   std::optional<Tissues> spared;  // none: those marked in the table of tissues
   std::optional<scenario::Case> work_case;
+  // where the place of the scan is remembered, for example record::scan_list(); empty: nowhere
+  std::string scan_list = {};
 };
 // For a session that was made from `prepared`, with the tissues that its case spares. bone: that of
 // the session.
@@ -56,7 +58,8 @@ struct About {
 
 // The bone as it was before the first tick: from inside the file, from its formula, or from the
 // user's own scan. given: the source and the tables, which only the user has. If its source is
-// empty, the scan is searched for in BURR_VOLUME_PATH and beside the recording.
+// empty, the scan is searched for in BURR_VOLUME_PATH, beside the recording, and in the list of the
+// scans of this computer (record/scan_list.h).
 [[nodiscard]] Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,
                                                             const scenario::Recipe& given,
                                                             Progress& progress);

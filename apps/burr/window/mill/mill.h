@@ -183,6 +183,7 @@ class Mill {
   WornHeadset headset_;
   Pointer pointer_;
   Press press_;
+  std::optional<std::uint32_t> to_front_;  // when the window came to the front, in SDL's time [ms]
   HandPlane plane_;
   struct Lifts {  // haptic device: stopped by the user; lifted by key or foot, to be moved
     bool stopped = false, by_key = false, by_foot = false;

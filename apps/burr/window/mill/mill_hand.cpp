@@ -21,6 +21,22 @@ using math::Vec3;
 
 constexpr double kPlaneStep = 0.5e-3;  // of the plane, per step of the wheel  [m]
 constexpr double kTurn = 0.006;        // of the view, per pixel of the mouse  [rad]
+constexpr Uint32 kSameClick = 50;      // after the window came to the front [ms]
+constexpr Uint32 kFirstRepeat = 1000;  // a key that is held is repeated before that [ms]
+
+// True: the window came to the front so short a time before that this is the same click.
+bool same_click(const std::optional<std::uint32_t>& to_front, Uint32 now) {
+  return to_front && now - *to_front < kSameClick;
+}
+
+// Space that is held acts once. If it was held already when the window came to the front, it does
+// not act: the keyboard then repeats it. So soon after that, Space acts when it is let go, unless it
+// was repeated.
+bool held_before(std::optional<std::uint32_t>& to_front, const SDL_KeyboardEvent& space) {
+  const bool soon = to_front && space.timestamp - *to_front < kFirstRepeat;
+  if (space.repeat != 0 || !soon) to_front.reset();
+  return space.repeat != 0 || soon;
+}
 
 }  // namespace
 
@@ -31,11 +47,15 @@ void Mill::take_events() {
         open_ = false;
         break;
       case SDL_KEYDOWN:
+        if (event.key.keysym.sym == SDLK_SPACE && held_before(to_front_, event.key)) break;
         if (!desk_.ui().typing() && !aim_key(event.key.keysym, true)) key(event.key.keysym);
         break;
       case SDL_KEYUP:
         aim_key(event.key.keysym, false);
         if (event.key.keysym.sym == SDLK_c) lifts_.by_key = false;
+        if (event.key.keysym.sym == SDLK_SPACE && std::exchange(to_front_, {}) &&
+            !desk_.ui().typing())
+          press_.toggle_hold();
         break;
       case SDL_MOUSEMOTION:
         move(event.motion);
@@ -60,6 +80,10 @@ void Mill::take_events() {
         if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST ||
             event.window.event == SDL_WINDOWEVENT_MINIMIZED)
           lift();
+        if (event.window.event == SDL_WINDOWEVENT_FOCUS_GAINED) {
+          lift();  // a button that went down before needs a fresh press
+          to_front_ = event.window.timestamp;
+        }
         break;
       default:
         break;
@@ -211,8 +235,10 @@ void Mill::button(const SDL_MouseButtonEvent& button) {
     if (!down || page_open() || desk_.ui().over_panel() || pointer_.over_slices()) return;
     return pick_point();
   }
-  // a press that began on a panel does not mill
-  press_.button(button.type == SDL_MOUSEBUTTONDOWN && !desk_.ui().over_panel());
+  // The click that brought the window to the front does not mill, nor a press that began on a
+  // panel. Every later press counts.
+  press_.button(button.type == SDL_MOUSEBUTTONDOWN && !same_click(to_front_, button.timestamp) &&
+                !desk_.ui().over_panel());
 }
 
 void Mill::wheel(const SDL_MouseWheelEvent& wheel) {

@@ -8,6 +8,7 @@
 
 #include "window/mill/mill.h"
 #include "window/mill/see_through.h"
+#include "window/shell/printed_keys.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -113,7 +114,7 @@ Mill::KeyRows Mill::tool_keys() {
        {act(SDLK_1, Action::cut), act(SDLK_2, Action::add), act(SDLK_3, Action::touch),
         act(SDLK_4, Action::back), act(SDLK_5, Action::smooth)}},
       {HelpBlock::tools,
-       "[  ]",
+       bracket_keys(),
        Word::help_sizes,
        {act(SDLK_LEFTBRACKET, Action::smaller), act(SDLK_RIGHTBRACKET, Action::larger),
         act(SDLK_PAGEDOWN, Action::smaller), act(SDLK_PAGEUP, Action::larger)}},

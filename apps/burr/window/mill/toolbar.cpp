@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "window/shell/printed_keys.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -265,7 +266,8 @@ std::optional<Action> draw_toolbar(Ui& ui, tick::ToolMode mode, bool measures, b
   bar.tall({Action::back, Word::back, "4"}, mode == tick::ToolMode::restore);
   bar.tall({Action::smooth, Word::smooth, "5"}, mode == tick::ToolMode::smooth);
   bar.gap(2);
-  bar.pair(Word::burr, {Action::smaller, Word::smaller, "["}, {Action::larger, Word::larger, "]"});
+  bar.pair(Word::burr, {Action::smaller, Word::smaller, smaller_key()},
+           {Action::larger, Word::larger, larger_key()});
   bar.pair(Word::speed, {Action::slower, Word::slower, ","}, {Action::faster, Word::faster, "."});
   bar.gap(2);
   bar.pair(Word::stroke, {Action::undo, Word::undo, "U"}, {Action::redo, Word::redo, "Y"});

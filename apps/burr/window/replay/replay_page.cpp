@@ -349,10 +349,18 @@ void Watch::key(const SDL_Keysym& pressed) {
     case SDLK_b:
       ask_beside();
       break;
+    case '{':  // Shift + [ on many keyboards
+      shift(-kSmallStep);
+      break;
+    case '}':
+      shift(kSmallStep);
+      break;
     case SDLK_LEFTBRACKET:
+    case SDLK_PAGEDOWN:
       shift(shift_held ? -kSmallStep : -kShift);
       break;
     case SDLK_RIGHTBRACKET:
+    case SDLK_PAGEUP:
       shift(shift_held ? kSmallStep : kShift);
       break;
     case SDLK_f:

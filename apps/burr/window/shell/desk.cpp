@@ -57,6 +57,7 @@ bool Desk::next(SDL_Event& event) {
   }
   if (page != Page::milling) as_key(event);
   ui_->event(event);
+  printed_.translate(event);
   if (event.type == SDL_WINDOWEVENT) switch (event.window.event) {
       case SDL_WINDOWEVENT_MINIMIZED:
       case SDL_WINDOWEVENT_HIDDEN:

@@ -17,6 +17,7 @@
 #include "window/hands/gamepad.h"
 #include "window/hands/pedals.h"
 #include "window/hands/spacemouse.h"
+#include "window/shell/printed_keys.h"
 #include "window/shell/settings.h"
 #include "window/shell/ui.h"
 
@@ -39,6 +40,7 @@ class Desk {
   std::vector<std::string> troubles;  // about the settings file and stereo; shown once
   Page page = Page::none;             // the page that is shown now
   std::string message;                // start and import pages: the error that is shown
+  Status lost = fine();               // what could not be recorded; the program ends with it
   std::string status_text;            // milling page: the warning and the last note
   Gamepads pads;                      // input other than the mouse
   Pedals pedals;
@@ -58,7 +60,8 @@ class Desk {
 
   // Takes the next event, after the user interface has seen it; false: there is none. F3 is not
   // returned: it changes to the next way to show two eyes. If the picture is shown twice, side by
-  // side, mouse positions are converted as if there were one picture as large as the window.
+  // side, mouse positions are converted as if there were one picture as large as the window. Keys are
+  // those that are printed (printed_keys.h).
   [[nodiscard]] bool next(SDL_Event& event);
   // Position of the mouse now, converted in the same way.
   void mouse(int& x, int& y) const;
@@ -78,7 +81,8 @@ class Desk {
   [[nodiscard]] bool halves() const { return settings.stereo == render::Stereo::side_by_side; }
   DeskPlaces places_;
   std::unique_ptr<render::Renderer> renderer_;
-  std::unique_ptr<Ui> ui_;      // after renderer_, so that it is destroyed before it
+  std::unique_ptr<Ui> ui_;  // after renderer_, so that it is destroyed before it
+  PrintedKeys printed_;
   bool keep_old_ = false;       // the settings file had an error: keep the old one
   bool minimised_ = false;      // the window is not visible: nothing is drawn
   bool asked_quads_ = false;    // the window was made with a picture for each eye requested

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "window/shell/printed_keys.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -90,7 +91,7 @@ bool draw_replay_help(Ui& ui) {
          {"Home  End", Word::replay_help_ends},
          {",  .", Word::replay_help_pace},
          {"B", Word::replay_help_beside},
-         {"[  ]", Word::replay_help_shift}});
+         {bracket_keys(), Word::replay_help_shift}});
   block(ui, x + 480 * u, right, Word::help_view,
         {{fmt::format("{}, ↑  ↓", word(Word::key_left)), Word::help_turn},
          {word(Word::key_middle), Word::help_shift},

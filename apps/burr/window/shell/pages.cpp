@@ -30,8 +30,10 @@ std::string title_of(const WorkOptions& options, const Settings& settings) {
   return word(file.extension() == ".toml" ? Word::start_case_file : Word::start_scan);
 }
 
+// What the program ends with.
 Status leave_screenshot(Desk& desk, const std::string& file) {
-  return file.empty() ? fine() : render::write_png(desk.renderer().shown(), file);
+  const Status left = file.empty() ? fine() : render::write_png(desk.renderer().shown(), file);
+  return left ? desk.lost : left;
 }
 
 }  // namespace
@@ -65,7 +67,8 @@ Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& option
   std::unique_ptr<Autosave> autosave;
   if (desk.settings.autosave && !desk.places().state.empty()) {
     throw_old_away(desk.places().state, desk.settings);
-    autosave = std::make_unique<Autosave>(desk.places().state, ready, options, embed);
+    autosave =
+        std::make_unique<Autosave>(desk.places().state, ready, options, embed, desk.settings);
   }
   WindowOptions with = window;
   with.keep = [&autosave] { return autosave != nullptr && autosave->keep(); };
@@ -81,7 +84,8 @@ Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& option
     return warning;
   };
   Result<Closed> left = mill_with_sound(desk, ready, with);
-  if (autosave) autosave->finish();
+  if (autosave)
+    if (const Status kept = autosave->finish(); !kept) desk.lost = kept;
   return left;
 }
 
@@ -106,7 +110,7 @@ Result<Closed> watch_file(Desk& desk, const std::string& file, const scenario::R
 
 Status run_pages(Desk& desk, const PagesOptions& options) {
   StartPage start(desk, options.led.hand);
-  std::string trouble;
+  std::string trouble, told;  // told: of a session that was not kept
   for (;;) {
     auto choice = start.ask(trouble, options.seconds);
     if (!choice) return choice.error();
@@ -118,7 +122,7 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
           desk, choice->open->volume.source, {},
           {.seconds = options.seconds, .folder = options.folder, .screenshot = options.screenshot});
       if (!left && left.error().trouble == Trouble::interrupted) continue;
-      if (left && *left == Closed::window) return fine();
+      if (left && *left == Closed::window) return desk.lost;
       if (!left) trouble = left.error().text;
       continue;
     }
@@ -159,7 +163,9 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
                                                .screenshot = options.screenshot,
                                                .sound = options.sound});
     if (!left) return left.error();
-    if (*left == Closed::window) return fine();
+    if (*left == Closed::window) return desk.lost;
+    if (!desk.lost && std::exchange(told, desk.lost.error().text) != desk.lost.error().text)
+      trouble = told;
   }
 }
 

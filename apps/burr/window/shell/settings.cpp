@@ -88,6 +88,10 @@ constexpr std::array kFields = {
     Field{"recent_names",
           "shows the names of your own scans in lists and titles; they may be names of patients",
           nullptr, &Settings::recent_names},
+    Field{"remember_scans",
+          "keeps a list of where the scans of recordings lie, so that a recording finds its scan "
+          "again; false also deletes the list",
+          nullptr, &Settings::remember_scans},
 };
 
 constexpr const char* kStereoNames[] = {"off", "side_by_side", "anaglyph", "line_interleaved",

@@ -37,15 +37,16 @@ struct Settings {
   double pedal_rest = -1;   // value of its axis with no foot on it
   bool effects = true;      // freshly cut bone and wet bone look so for a while
   render::Stereo stereo = render::Stereo::off;
-  double stereo_depth = 1;    // distance between the eyes; 1: as in `burr picture`
-  bool headset = false;       // through OpenXR, if there is one
-  bool swap_eyes = false;     // for screens on which left and right are exchanged
-  bool panels = true;         // shown at the start
-  bool help = false;          // shown at the start
-  bool autosave = true;       // sessions at the window are recorded
-  double sessions_kept = 10;  // most sessions that are kept ...
-  double sessions_mb = 2000;  // ... and their largest size together
-  bool recent_names = false;  // show file names of the user's scans in lists and titles
+  double stereo_depth = 1;     // distance between the eyes; 1: as in `burr picture`
+  bool headset = false;        // through OpenXR, if there is one
+  bool swap_eyes = false;      // for screens on which left and right are exchanged
+  bool panels = true;          // shown at the start
+  bool help = false;           // shown at the start
+  bool autosave = true;        // sessions at the window are recorded
+  double sessions_kept = 10;   // most sessions that are kept ...
+  double sessions_mb = 2000;   // ... and their largest size together
+  bool recent_names = false;   // show file names of the user's scans in lists and titles
+  bool remember_scans = true;  // keep a list of where the scans of recordings lie
 };
 
 struct SettingsRead {

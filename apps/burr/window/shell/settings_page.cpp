@@ -114,6 +114,7 @@ void main_leaf(Lines& left, Lines& right, Settings& settings) {
   left.number(Word::set_mb, "sessions_mb", settings.sessions_mb, "%.0f MB");
   left.heading(Word::set_privacy);
   left.yes(Word::set_recent_names, "recent_names", settings.recent_names);
+  left.yes(Word::set_remember_scans, "remember_scans", settings.remember_scans);
   right.heading(Word::set_hand);
   right.yes(Word::set_left_handed, "left_handed", settings.left_handed);
   right.number(Word::set_force, "force_limit_n", settings.force_limit_n, "%.1f N");

@@ -105,6 +105,9 @@ void Ui::event(const SDL_Event& event) {
     case SDL_KEYUP: {
       SDL_Scancode scancode = event.key.keysym.scancode;
       if (scancode == SDL_SCANCODE_UNKNOWN) scancode = SDL_GetScancodeFromKey(event.key.keysym.sym);
+      // Ctrl + Z is the key on which Z is printed, wherever it lies
+      if (const SDL_Keycode key = event.key.keysym.sym; key >= SDLK_a && key <= SDLK_z)
+        scancode = static_cast<SDL_Scancode>(SDL_SCANCODE_A + (key - SDLK_a));
       if (scancode < std::size(io.KeysDown)) {
         if (event.type == SDL_KEYDOWN) {
           io.KeysDown[scancode] = true;

@@ -210,7 +210,8 @@ Result<Ready> continue_session(const KeptSession& kept, Progress& progress) {
 
 // ---- a session being kept
 
-Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& options, bool embed)
+Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& options, bool embed,
+                   const Settings& settings)
     : session_(*ready.session) {
   if (state.empty()) return;
   const fs::path folder = state / "sessions";
@@ -228,6 +229,7 @@ Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& optio
     kept_.file = folder / (name + ".mcap");
     for (int n = 2; fs::exists(kept_.file, nobody_asks); ++n)  // started in the same second
       kept_.file = folder / fmt::format("{}_{}.mcap", name, n);
+    recording_.remember_scan_in(scan_list_by(settings, state));
     made = recording_.start(session_, kept_.file.string(), ready.volume, ready.import,
                             session_.hand().spec().name, embed, ready.spared, ready.work_case);
     recording_now_ = made.ok();
@@ -255,20 +257,20 @@ Status Autosave::write_account() const {
                     account.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
-void Autosave::finish() {
-  if (!std::exchange(recording_now_, false)) return;
-  const Status done = recording_.finish(session_);
+Status Autosave::finish() {
+  if (!std::exchange(recording_now_, false))
+    return trouble_.empty() ? fine() : error(Trouble::io, trouble_);
+  Status done = recording_.finish(session_);
   const sim::Outcome outcome = session_.outcome();
   kept_.seconds = outcome.seconds;
   kept_.removed_mm3 = 1e9 * outcome.ledger.removed;
   kept_.clean = true;
   const Status written = write_account();
-  if (!done)
-    trouble_ = done.error().text;
-  else if (!written)
-    trouble_ = written.error().text;
-  if (outcome.ledger.removed > 0 || outcome.ledger.added > 0 || kept_.keep) return;
+  if (done) done = written;
+  if (!done) trouble_ = done.error().text;
+  if (outcome.ledger.removed > 0 || outcome.ledger.added > 0 || kept_.keep) return done;
   remove_session(kept_.file);  // nothing was done: there is nothing to continue
+  return fine();
 }
 
 bool Autosave::keep() {

@@ -53,10 +53,10 @@ class Autosave {
  public:
   // options: as the user gave them. embed: the bone is stored in the recording, because no file or
   // formula gives it. After an error the session goes on; trouble() returns the error.
-  Autosave(const std::filesystem::path& state, Ready& ready, const WorkOptions& options,
-           bool embed);
-  // Call it after the servo has stopped.
-  void finish();
+  Autosave(const std::filesystem::path& state, Ready& ready, const WorkOptions& options, bool embed,
+           const Settings& settings);
+  // Call it after the servo has stopped. Error: what was done is not kept, or not all of it.
+  [[nodiscard]] Status finish();
   // The source for a film of the session so far; none: it could not be recorded.
   [[nodiscard]] std::optional<FilmSource> film_source() const;
   [[nodiscard]] bool keep();  // marks it as never to be deleted; false: there is nothing to keep
