@@ -267,12 +267,7 @@ Result<std::vector<std::int32_t>> unpack(const DicomHeader& h, std::vector<std::
 
 }  // namespace
 
-Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& h, std::size_t* beyond) {
-  const std::string file = short_name(h.path);
-  const std::size_t count = static_cast<std::size_t>(h.rows) * static_cast<std::size_t>(h.columns) *
-                            static_cast<std::size_t>(h.frame_count);
-  const auto width = static_cast<std::size_t>(h.bits_allocated / 8);
-
+Result<std::unique_ptr<ByteSource>> open_dicom_pixels(const DicomHeader& h) {
   // the bytes, from the file or from its inflated data set
   auto opened = open_file(h.path, h.deflated ? 0 : h.pixels_at);
   if (!opened) return opened.error();
@@ -292,8 +287,19 @@ Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& h, std::s
     if (!opened) return opened.error();
     source = inflate_raw(std::move(opened->source));
     if (Status status = skip(*source, h.pixels_at); !status)
-      return error(fmt::format("{}: {}", file, status.error().text));
+      return error(fmt::format("{}: {}", short_name(h.path), status.error().text));
   }
+  return source;
+}
+
+Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& h, std::size_t* beyond) {
+  const std::string file = short_name(h.path);
+  const std::size_t count = static_cast<std::size_t>(h.rows) * static_cast<std::size_t>(h.columns) *
+                            static_cast<std::size_t>(h.frame_count);
+  const auto width = static_cast<std::size_t>(h.bits_allocated / 8);
+  auto opened = open_dicom_pixels(h);
+  if (!opened) return opened.error();
+  const std::unique_ptr<ByteSource> source = std::move(*opened);
 
   if (h.encapsulated) {
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(h.pixels_length));
