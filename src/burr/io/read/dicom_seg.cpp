@@ -570,10 +570,11 @@ std::string one_line(const DicomHeader& h, std::size_t place) {
                                         : segments_in_words(h.segments.size()));
 }
 
-Result<std::optional<std::size_t>> choose_segmentation(const Found& found, std::size_t volumes,
+Result<std::optional<std::size_t>> choose_segmentation(const std::vector<DicomHeader>& all,
+                                                       const std::vector<std::string>& series,
+                                                       std::size_t volumes,
                                                        const ReadOptions& options,
                                                        const std::string& file, Scan& scan) {
-  const std::vector<DicomHeader>& all = found.segmentations;
   if (all.empty()) return std::optional<std::size_t>();
   constexpr std::size_t kNamed = 8;
   std::string list;
@@ -593,8 +594,8 @@ Result<std::optional<std::size_t>> choose_segmentation(const Found& found, std::
       if (volumes > 0) return std::optional<std::size_t>();
     }
     const bool scan_fits =
-        !uid.empty() && std::any_of(found.series.begin(), found.series.end(),
-                                    [&](const Series& s) { return s.uid.rfind(uid, 0) == 0; });
+        !uid.empty() && std::any_of(series.begin(), series.end(),
+                                    [&](const std::string& s) { return s.rfind(uid, 0) == 0; });
     if (scan_fits) return std::optional<std::size_t>();
     std::vector<std::size_t> fits;
     std::set<std::string> different;

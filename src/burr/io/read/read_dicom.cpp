@@ -381,7 +381,10 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
     for (std::size_t n = volumes.size(); n < listed; ++n)
       scan.series.push_back(one_line(found->segmentations[n - volumes.size()], n));
   }
-  const auto segmentation = choose_segmentation(*found, volumes.size(), options, file, scan);
+  std::vector<std::string> uids;
+  for (const Series& one : found->series) uids.push_back(one.uid);
+  const auto segmentation =
+      choose_segmentation(found->segmentations, uids, volumes.size(), options, file, scan);
   if (!segmentation) return segmentation.error();
   if (*segmentation) {
     if (!scan.series.empty()) scan.series_taken = static_cast<int>(volumes.size() + **segmentation);
