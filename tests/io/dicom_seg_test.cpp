@@ -219,6 +219,26 @@ std::string rle(const std::string& frame) {
   return out;
 }
 
+std::string even(std::string text) {
+  if (text.size() % 2 != 0) text += '\0';
+  return text;
+}
+
+std::string deflated(const std::string& bytes) {
+  z_stream stream{};
+  EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  std::string packed(bytes.size() + 100, '\0');
+  std::vector<Bytef> in(bytes.begin(), bytes.end());
+  stream.next_in = in.data();
+  stream.avail_in = static_cast<uInt>(in.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
 TEST_F(DicomSeg, PackedFiles) {
   SegFile seg = two();
   seg.sop_class = "1.2.840.10008.5.1.4.1.1.66.7";
@@ -248,28 +268,31 @@ TEST_F(DicomSeg, PackedFiles) {
   EXPECT_EQ(wrong(*unpacked, right), 0);
 
   // the whole data set deflated, with single bits inside
+  const auto truth_bits = [](int i, int j, int k) {
+    return in_box(i, j, k + 1) ? 1 : in_ball(i, j, k + 1) ? 2 : 0;
+  };
   SegFile bits = two();
   bits.syntax = "1.2.840.10008.1.2.1.99";
-  const std::string set = bits.data_set();
-  z_stream stream{};
-  ASSERT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY), Z_OK);
-  std::string packed(set.size() + 100, '\0');
-  std::vector<Bytef> in(set.begin(), set.end());
-  stream.next_in = in.data();
-  stream.avail_in = static_cast<uInt>(in.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  ASSERT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
+  const std::string packed = deflated(bits.data_set());
   std::ofstream(path("deflated.dcm"), std::ios::binary) << bits.meta() << packed;
   const auto inflated = read_path(path("deflated.dcm"));
   ASSERT_TRUE(inflated.ok()) << inflated.error().text;
-  EXPECT_EQ(wrong(*inflated,
-                  [](int i, int j, int k) {
-                    return in_box(i, j, k + 1) ? 1 : in_ball(i, j, k + 1) ? 2 : 0;
-                  }),
-            0);
+  EXPECT_EQ(wrong(*inflated, truth_bits), 0);
+
+  // each frame deflated; 143 bits are padded to 18 bytes
+  SegFile frames = two();
+  frames.pixels_cut = item("");
+  for (const SegFile::Frame& frame : frames.frames) {
+    SegFile one = frames;
+    one.frames = {frame};
+    frames.pixels_cut += item(even(deflated(one.pixels())));
+  }
+  frames.pixels_cut += std::string("\xFE\xFF\xDD\xE0\0\0\0\0", 8);
+  frames.encapsulated = true;
+  frames.syntax = "1.2.840.10008.1.2.8.1";
+  const auto each = read(frames);
+  ASSERT_TRUE(each.ok()) << each.error().text;
+  EXPECT_EQ(wrong(*each, truth_bits), 0);
 }
 
 TEST_F(DicomSeg, ObliqueAndLeaningStacks) {
@@ -403,6 +426,20 @@ TEST_F(DicomSeg, BesideItsScan) {
   const auto none = read_path(folder.string(), options);
   ASSERT_FALSE(none.ok());
   EXPECT_EQ(none.error().trouble, Trouble::usage);
+}
+
+// A liver that dcmqi wrote, and the same cut to 510 x 510 pixels, whose frames begin within a byte,
+// and with deflated frames.
+TEST_F(DicomSeg, OneLiverThreeTimes) {
+  BURR_NEEDS_DATA("corpus/dicom/pydicom_data/liver.dcm");
+  for (const char* name : {"liver", "liver_nonbyte_aligned", "liver_deflate"}) {
+    const auto scan = read_path(
+        (test::data_dir() / "corpus/dicom/pydicom_data" / (std::string(name) + ".dcm")).string());
+    ASSERT_TRUE(scan.ok()) << scan.error().text;
+    EXPECT_EQ(std::count(scan->labels.begin(), scan->labels.end(), 1), 107098) << name;
+    ASSERT_EQ(scan->label_names.size(), 1U);
+    EXPECT_EQ(scan->label_names[0].meaning, "Liver SRT T-62000");
+  }
 }
 
 // The same bone as a CT and as three kinds of segmentation.

@@ -94,6 +94,12 @@ struct DicomHeader {
 [[nodiscard]] Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& header,
                                                                   std::size_t* beyond = nullptr);
 
+// Deflated Image Frame Compression: each frame is deflated on its own.
+inline constexpr const char* kDeflatedFrames = "1.2.840.10008.1.2.8.1";
+// The frames of such a file, one after another; each begins at a byte.
+[[nodiscard]] Result<std::vector<std::uint8_t>> inflate_dicom_frames(const DicomHeader& header,
+                                                                     std::size_t frame_bytes);
+
 // The bytes of Pixel Data as they are stored, from the file or from its inflated data set.
 [[nodiscard]] Result<std::unique_ptr<ByteSource>> open_dicom_pixels(const DicomHeader& header);
 

@@ -219,6 +219,19 @@ Result<Bits> read_bits(const DicomHeader& h, const std::string& file, int thresh
     return error(status.error().trouble, fmt::format("{}: {}", file, status.error().text));
   };
   const std::uint64_t pixels = pixels_of(h);
+  if (h.encapsulated && h.bits_allocated == 1) {  // frames that begin at a byte each
+    const std::uint64_t slice = pixels / static_cast<std::uint64_t>(h.frame_count),
+                        frame_bytes = (slice + 7) / 8;
+    auto bytes = inflate_dicom_frames(h, static_cast<std::size_t>(frame_bytes));
+    if (!bytes) return bytes.error();
+    const Bits frames(std::move(*bytes));
+    if (slice % 8 == 0) return frames;
+    Bits bits(pixels);
+    for (std::uint64_t f = 0; f < static_cast<std::uint64_t>(h.frame_count); ++f)
+      frames.each(8 * f * frame_bytes, 8 * f * frame_bytes + slice,
+                  [&](std::size_t n) { bits.set(f * slice + n); });
+    return bits;
+  }
   if (h.encapsulated) {
     auto values = read_dicom_pixels(h);
     if (!values) return values.error();
@@ -536,7 +549,8 @@ std::string no_segmentation(const DicomHeader& h) {
         "is a DICOM segmentation whose Bits Stored ({}) or High Bit does not fit; "
         "export it again",
         h.bits_stored);
-  if (bits == 1 && (h.encapsulated || h.big_endian))
+  const bool frames = h.transfer_syntax == kDeflatedFrames;
+  if (bits == 1 && ((h.encapsulated && !frames) || h.big_endian))
     return fmt::format(
         "is a DICOM segmentation of single bits that are {}, which burr does not "
         "read; {}",
