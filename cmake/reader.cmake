@@ -3,16 +3,16 @@
 # need, and no codec.
 file(GLOB base CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/base/*.cpp)
 set(BURR_BOTH_SIDES
-  io/read/bytes.cpp io/read/label_lists.cpp io/sandbox/fence_letter.cpp io/sandbox/fence_walls.cpp io/read/samples.cpp io/read/text.cpp io/voxels.cpp)
-set(BURR_READERS io/read/archive.cpp io/read/dicom_header.cpp io/read/dicom_pixels.cpp io/read/dicom_series.cpp io/read/dicom_volumes.cpp io/read/foreign.cpp
-  io/sandbox/fence_child.cpp io/read/geometry.cpp
-  io/read/read_dicom.cpp io/read/read_meta.cpp io/read/read_nifti.cpp io/read/read_nrrd.cpp io/read/read_unfenced.cpp)
+  io/read/adf_folder.cpp io/read/bytes.cpp io/read/label_lists.cpp io/sandbox/fence_letter.cpp io/sandbox/fence_walls.cpp io/read/samples.cpp io/read/text.cpp io/voxels.cpp)
+set(BURR_READERS io/read/archive.cpp io/read/dicom_header.cpp io/read/dicom_pixels.cpp io/read/dicom_seg.cpp io/read/dicom_series.cpp io/read/dicom_volumes.cpp io/read/foreign.cpp
+  io/sandbox/fence_child.cpp io/read/geometry.cpp io/read/png.cpp
+  io/read/read_adf.cpp io/read/read_dicom.cpp io/read/read_meta.cpp io/read/read_nifti.cpp io/read/read_nrrd.cpp io/read/read_unfenced.cpp io/read/yaml.cpp)
 list(TRANSFORM BURR_BOTH_SIDES PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)
 list(TRANSFORM BURR_READERS PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)
 
 add_library(burr_readers STATIC ${BURR_READERS} ${BURR_BOTH_SIDES} ${base})
 target_include_directories(burr_readers PUBLIC ${PROJECT_SOURCE_DIR}/src)
-target_link_libraries(burr_readers PUBLIC Eigen3::Eigen Threads::Threads fmt::fmt ZLIB::ZLIB BZip2::BZip2 burr_gdcm
+target_link_libraries(burr_readers PUBLIC Eigen3::Eigen Threads::Threads fmt::fmt ZLIB::ZLIB BZip2::BZip2 burr_gdcm PNG::PNG PkgConfig::YAML
   PRIVATE burr_options)
 target_compile_definitions(burr_readers PRIVATE BURR_VERSION="${PROJECT_VERSION}")
 burr_common_headers(burr_readers <fmt/format.h>)

@@ -344,6 +344,29 @@ void dicom() {
        "p=0\\0\\0\nx\np=0\\0\\1\nx\np=0\\0\\2\nx\np=0\\0\\90\nx\np=0\\0\\91\nx\np=0\\0\\92\n");
   seed("dicom_series", "oblique",
        "o=0.8\\0.6\\0\\-0.6\\0.8\\0\ns=0.3\\0.4\nx\np=0\\0\\2\nx\np=0\\0\\4\n");
+  const string two = "a=1\nl=Bone\ne=91609006\nd=Mandible\nn\na=2\nl=Nerve\nh=abcdef\nn\n";
+  seed("dicom_seg", "bits", two + "m=1\nf\np=0\\0\\1\nf\nm=2\np=0\\0\\3\nf\nx\n\x5A\xC3\x81\x7E");
+  seed("dicom_seg", "fractions", two + "t=FRACTIONAL\nb=8\nv=200\nm=2\nf\nx\n\x10\x64\xC8\xFF");
+  seed("dicom_seg", "label_map",
+       "w=1.2.840.10008.5.1.4.1.1.66.7\nt=LABELMAP\nb=16\nq=7\n" + two + "f\np=0\\0\\1\nf\nx\n" +
+           string("\1\0\7\0\2\1", 6));
+  seed("dicom_seg", "silent", "f\np=0\\0.2\\1\nf\np=0\\0.4\\2\nf\nx\n\xFF\x0F");
+}
+
+// A description of AMBF, and pictures in the form of adf_fuzz.cpp.
+void adf() {
+  const string text =
+      "# AMBF Version: (0.1)\nvolumes: [VOLUME a]\nVOLUME a:\n  scale: 1.0\n"
+      "  dimensions: {x: 0.1, y: 0.1, z: 0.2}\n  images:\n    path: p/\n    prefix: a\n"
+      "    format: png\n    count: 3\n...\n";
+  const auto picture = [](char kind, char depth, const string& raw) {
+    return string{kind, depth, '\0', '\1', '\1'} + static_cast<char>(raw.size()) + raw;
+  };
+  const string row("\0\xFF\xF9\xDB\xFF\0\0\0\0", 9), sum("\0\xF3\xCF\x0C\xFE\xF4\xD6\x31\xFF", 9);
+  seed("adf", "colours", text + picture(6, 8, row + row) + picture(6, 8, row + sum));
+  seed("adf", "greys", text + picture(0, 8, string("\0\1\2\0\3\4", 6)));
+  seed("adf", "palette", text + picture(3, 8, string("\0\0\1\0\1\0", 6)));
+  seed("adf", "alias", "volumes: &x [VOLUME a]\nVOLUME a: *x\nd: {e: [f, {g: h}]}\n...\n");
 }
 
 // A zip archive of one file.
@@ -612,6 +635,7 @@ int main(int argc, char** argv) {
   nifti();
   meta();
   dicom();
+  adf();
   unpacking();
   texts();
   devices();

@@ -61,7 +61,7 @@ ELSEWHERE = [
     (r"(GL|GLES\d?|EGL|epoxy|GLFW)/|SDL(2/SDL)?_(open|video|render|vulkan)", ["render/gl"], "graphics"),
     (r"openxr/", ["render/gl"], "a headset"),
     (r"SDL", ["render/gl", "sound"], "graphics and sound"),
-    (r"itk|gdcm|assimp/|vtk", ["io"], "a file format's library"),
+    (r"itk|gdcm|assimp/|vtk|png[.]h|yaml[.]h", ["io"], "a file format's library"),
     (r"dds/|crtk_messages", ["device/crtk"], "the bus of ROS 2"),
     (r"HD/hd|HDU|openhaptics|dhdc|drdc|chai3d|haply", None, "a vendor's library"),  # device/<vendor> only
 ]

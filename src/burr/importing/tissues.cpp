@@ -145,12 +145,27 @@ bool understand(const io::Label& label, std::vector<std::string>& notices) {
   return name.known || code.known;
 }
 
+// The label of that colour, of 8 bit each; 0: there is none.
+std::size_t number_of_colour(const std::array<float, 3>& colour,
+                             const std::vector<io::Label>& names) {
+  constexpr float kSame = 0.5F / 255;
+  for (const io::Label& have : names) {
+    bool same = true;
+    for (std::size_t c = 0; c < 3; ++c) same = same && std::abs(have.colour[c] - colour[c]) < kSame;
+    if (same) return static_cast<std::size_t>(have.value);
+  }
+  return 0;
+}
+
 // Names and colours from a list of ITK-SNAP or FreeSurfer; they come before those of the scan.
-Status take_list(const std::vector<io::Label>& list, const std::string& file,
+// by_colour: the scan's own numbers mean nothing, only its colours do.
+Status take_list(const std::vector<io::Label>& list, const std::string& file, bool by_colour,
                  const std::array<bool, 256>& present, std::vector<io::Label>& names) {
   bool any = false;
+  const std::vector<io::Label> own = names;
   for (const io::Label& one : list) {
-    const std::size_t number = number_of(one.value, names);
+    const std::size_t number =
+        by_colour ? number_of_colour(one.colour, own) : number_of(one.value, names);
     if (number == 0 || !present[number]) continue;
     any = true;
     io::Label label = one;
@@ -161,8 +176,8 @@ Status take_list(const std::vector<io::Label>& list, const std::string& file,
     names.push_back(std::move(label));
   }
   if (any) return fine();
-  return error(
-      fmt::format("{}: none of its labels occurs in the scan; check that it belongs to it", file));
+  return error(fmt::format("{}: none of its {} occurs in the scan; check that it belongs to it",
+                           file, by_colour ? "colours" : "labels"));
 }
 
 std::string not_understood(const std::vector<std::string>& labels) {
@@ -217,7 +232,9 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
     const auto list = io::labels_in_lut(*text);
     if (list.empty()) table = std::move(*text);
     if (!list.empty())
-      if (Status status = take_list(list, file, present, names); !status) return status.error();
+      if (Status status = take_list(list, file, scan.format == io::kAdfFormat, present, names);
+          !status)
+        return status.error();
   }
   int different = 0, unnamed = 0;
   for (std::size_t v = 1; v < 256; ++v) different += present[v] ? 1 : 0;

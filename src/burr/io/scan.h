@@ -36,6 +36,9 @@ struct Question {
   std::string text;  // a sentence without its full stop; names the file
 };
 
+// Scan::format of a volume of AMBF, whose labels are known by their colours.
+inline constexpr const char* kAdfFormat = "AMBF volume";
+
 struct Scan {
   math::Ijk size = {0, 0, 0};
   math::Vec3 spacing_mm = {1, 1, 1};          // may differ by axis

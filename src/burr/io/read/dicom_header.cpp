@@ -22,18 +22,20 @@ using Tag = std::uint32_t;  // group << 16 | element
 constexpr std::uint32_t kUndefined = 0xFFFFFFFF;
 constexpr Tag kItem = 0xFFFEE000, kItemEnd = 0xFFFEE00D, kSequenceEnd = 0xFFFEE0DD;
 constexpr Tag kPixelData = 0x7FE00010, kShared = 0x52009229, kPerFrame = 0x52009230;
+constexpr Tag kSegments = 0x00620002, kSegmentType = 0x0062000F;
 constexpr int kDeepest = 24;  // nesting of sequences
 
 using Values = std::map<Tag, std::string>;  // raw bytes of the wanted elements
 
 constexpr Tag kWanted[] = {
-    0x00020010, 0x00080008, 0x00080016, 0x00080018, 0x00080032, 0x00080033, 0x00080060, 0x0008103E,
-    0x00089007, 0x00180050, 0x00180060, 0x00180081, 0x00180088, 0x00181060, 0x00181210, 0x00182005,
-    0x00189074, 0x00189082, 0x0020000D, 0x0020000E, 0x00200011, 0x00200012, 0x00200013, 0x00200032,
-    0x00200037, 0x00200052, 0x00200100, 0x00201041, 0x00209056, 0x00209128, 0x00209153, 0x00209156,
-    0x00209157, 0x00209241, 0x00280002, 0x00280004, 0x00280008, 0x00280010, 0x00280011, 0x00280030,
-    0x00280100, 0x00280101, 0x00280102, 0x00280103, 0x00280120, 0x00280121, 0x00281052, 0x00281053,
-    0x00281054, 0x3004000C};
+    0x00020010, 0x00080005, 0x00080008, 0x00080016, 0x00080018, 0x00080032, 0x00080033, 0x00080060,
+    0x00080100, 0x00080102, 0x00080104, 0x00080119, 0x0008103E, 0x00089007, 0x00180050, 0x00180060,
+    0x00180081, 0x00180088, 0x00181060, 0x00181210, 0x00182005, 0x00189074, 0x00189082, 0x0020000D,
+    0x0020000E, 0x00200011, 0x00200012, 0x00200013, 0x00200032, 0x00200037, 0x00200052, 0x00200100,
+    0x00201041, 0x00209056, 0x00209128, 0x00209153, 0x00209156, 0x00209157, 0x00209241, 0x00280002,
+    0x00280004, 0x00280008, 0x00280010, 0x00280011, 0x00280030, 0x00280100, 0x00280101, 0x00280102,
+    0x00280103, 0x00280120, 0x00280121, 0x00281052, 0x00281053, 0x00281054, 0x00620001, 0x00620004,
+    0x00620005, 0x0062000B, 0x0062000D, 0x0062000E, 0x3004000C};
 
 bool wanted(Tag tag) { return std::binary_search(std::begin(kWanted), std::end(kWanted), tag); }
 
@@ -49,7 +51,7 @@ class Walker {
 
   bool explicit_vr = true, big_endian = false;
   Values top, shared;
-  std::vector<Values> frames;
+  std::vector<Values> frames, segments;
   bool has_pixels = false, float_pixels = false, encapsulated = false, modality_lut = false;
   std::uint64_t pixels_at = 0, pixels_length = 0;
   bool cut = false;     // the data set continues beyond `bytes`
@@ -70,7 +72,8 @@ class Walker {
       std::uint64_t length = 0, head = 8;
       bool sequence = false;
       // inside the groups of frames, and these groups themselves
-      const bool groups = depth > 0 ? into != nullptr : tag == kShared || tag == kPerFrame;
+      const bool groups =
+          depth > 0 ? into != nullptr : tag == kShared || tag == kPerFrame || tag == kSegments;
       if (!meta_part && !explicit_vr) {
         length = u32(at + 4);
         sequence = length == kUndefined && (tag != kPixelData || depth > 0);
@@ -196,7 +199,15 @@ class Walker {
         frames.emplace_back();
         into = &frames.back();
       }
+      if (depth == 0 && sequence == kSegments) {
+        segments.emplace_back();
+        into = &segments.back();
+      }
       if (depth > 0 && !of_others(sequence)) into = inside_;
+      // of the codes of a segment only its type: the others say "tissue", or on which side it lies
+      if (depth > 0 && into != nullptr && !segments.empty() && into == &segments.back() &&
+          sequence != kSegmentType)
+        into = nullptr;
       Values* before = inside_;
       inside_ = into;
       if (item == kUndefined) {
@@ -314,10 +325,37 @@ class Facts {
       if (!intercept.empty()) frame.intercept = intercept[0];
       frame.has_rescale = true;
     }
+    whole_bits(values, 0x0062000B, 2, frame.segment);
     of_phase(values, frame.phase);
   }
 
+  void of_segment(const Values& values, const std::string& letters, DicomSegment& segment) const {
+    whole_bits(values, 0x00620004, 2, segment.number);
+    segment.label = utf8_of(text_of(values, 0x00620005), letters);
+    segment.code = text_of(values, 0x00080100);
+    if (segment.code.empty()) segment.code = text_of(values, 0x00080119);  // a long one
+    segment.scheme = text_of(values, 0x00080102);
+    segment.meaning = utf8_of(text_of(values, 0x00080104), letters);
+    const auto lab = values.find(0x0062000D);
+    segment.has_colour = lab != values.end() && lab->second.size() == 6;
+    for (std::size_t n = 0; n < 3 && segment.has_colour; ++n)
+      segment.lab[n] = static_cast<int>(bits(lab->second, 2 * n, 2));
+  }
+
  private:
+  // Letters of ISO 8859-1 as UTF-8, where Specific Character Set says that they are.
+  static std::string utf8_of(std::string text, const std::string& letters) {
+    if (letters.find("ISO_IR 100") == std::string::npos &&
+        letters.find("ISO 2022 IR 100") == std::string::npos)
+      return text;
+    std::string out;
+    for (const char c : text) {
+      const auto code = static_cast<unsigned char>(c);
+      if (code >= 0x80) out += static_cast<char>(0xC0 | code >> 6);
+      out += static_cast<char>(code >= 0x80 ? 0x80 | (code & 0x3F) : code);
+    }
+    return out;
+  }
   std::vector<double> decimals(const Values& values, Tag tag, std::size_t count, const char* name) {
     const auto found = values.find(tag);
     if (found == values.end()) return {};
@@ -428,6 +466,20 @@ void places_of_frames(const Values& top, DicomHeader& header) {
   }
 }
 
+// What only a segmentation states.
+void take_segments(const Walker& set, const Facts& facts, DicomHeader& header) {
+  header.segmentation_type = text_of(set.top, 0x00620001);
+  const std::string letters = text_of(set.top, 0x00080005);
+  for (const Values& values : set.segments)
+    facts.of_segment(values, letters, header.segments.emplace_back());
+  const auto other = [&](const Values& values) {
+    const std::string own = text_of(values, 0x00200052);
+    return !own.empty() && own != header.frame_of_reference;
+  };
+  header.other_frame_of_reference =
+      other(set.shared) || std::any_of(set.frames.begin(), set.frames.end(), other);
+}
+
 // The maker of a private transfer syntax, by the root of its number.
 const char* maker_of(const std::string& syntax) {
   constexpr std::pair<const char*, const char*> kMakers[] = {{"1.2.840.113619.", "GE"},
@@ -483,6 +535,7 @@ void take_facts(const Walker& set, DicomHeader& header) {
   header.high_bit = number(0x00280102, header.bits_stored - 1);
   header.is_signed = number(0x00280103, 0) == 1;
   header.frame_count = whole(top, 0x00280008, 1);
+  header.most_fractional = number(0x0062000E, 0);
   header.has_padding = top.count(0x00280120) != 0 && top.at(0x00280120).size() >= 2;
   if (header.has_padding) {
     const auto sign = [&](int v) {
@@ -518,6 +571,7 @@ void take_facts(const Walker& set, DicomHeader& header) {
     if (set.frames[f].count(0x00200032) != 0) ++header.own_positions;
   }
   places_of_frames(top, header);
+  take_segments(set, facts, header);
 }
 
 // Inflates a deflated data set. Error: why it cannot be.

@@ -6,12 +6,15 @@
 // Units: mm. Frame: LPS. Thread: any. Errors: one sentence that names the file without its folder.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "burr/base/result.h"
+#include "burr/io/read/bytes.h"
 #include "burr/math/vec3.h"
 
 namespace burr::io {
@@ -39,7 +42,17 @@ struct DicomFrame {
   bool has_rescale = false;
   double thickness_mm = 0;
   double location_mm = 0;  // Slice Location, if has_location
+  int segment = 0;         // of a segmentation: the segment that it shows; 0: not stated
   DicomPhase phase;
+};
+
+// One segment of a segmentation (Segment Sequence).
+struct DicomSegment {
+  int number = 0;
+  std::string label;                  // in UTF-8
+  std::string scheme, code, meaning;  // Segmented Property Type Code Sequence
+  bool has_colour = false;
+  std::array<int, 3> lab{};  // Recommended Display CIELab Value, as stored
 };
 
 struct DicomHeader {
@@ -60,6 +73,12 @@ struct DicomHeader {
   double between_slices_mm = 0;
   std::vector<DicomFrame> frames;  // (frame_count)
 
+  // of a segmentation
+  std::string segmentation_type;  // BINARY, FRACTIONAL, LABELMAP
+  int most_fractional = 0;        // Maximum Fractional Value
+  std::vector<DicomSegment> segments;
+  bool other_frame_of_reference = false;  // a group of a frame states one of its own
+
   bool big_endian = false, deflated = false;  // big_endian: the pixels
   bool has_pixels = false, float_pixels = false, encapsulated = false;
   std::uint64_t pixels_at = 0, pixels_length = 0;  // in the file, or in the inflated data set
@@ -74,5 +93,14 @@ struct DicomHeader {
 // Bits Stored that are no sign.
 [[nodiscard]] Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& header,
                                                                   std::size_t* beyond = nullptr);
+
+// Deflated Image Frame Compression: each frame is deflated on its own.
+inline constexpr const char* kDeflatedFrames = "1.2.840.10008.1.2.8.1";
+// The frames of such a file, one after another; each begins at a byte.
+[[nodiscard]] Result<std::vector<std::uint8_t>> inflate_dicom_frames(const DicomHeader& header,
+                                                                     std::size_t frame_bytes);
+
+// The bytes of Pixel Data as they are stored, from the file or from its inflated data set.
+[[nodiscard]] Result<std::unique_ptr<ByteSource>> open_dicom_pixels(const DicomHeader& header);
 
 }  // namespace burr::io

@@ -267,12 +267,7 @@ Result<std::vector<std::int32_t>> unpack(const DicomHeader& h, std::vector<std::
 
 }  // namespace
 
-Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& h, std::size_t* beyond) {
-  const std::string file = short_name(h.path);
-  const std::size_t count = static_cast<std::size_t>(h.rows) * static_cast<std::size_t>(h.columns) *
-                            static_cast<std::size_t>(h.frame_count);
-  const auto width = static_cast<std::size_t>(h.bits_allocated / 8);
-
+Result<std::unique_ptr<ByteSource>> open_dicom_pixels(const DicomHeader& h) {
   // the bytes, from the file or from its inflated data set
   auto opened = open_file(h.path, h.deflated ? 0 : h.pixels_at);
   if (!opened) return opened.error();
@@ -292,24 +287,77 @@ Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& h, std::s
     if (!opened) return opened.error();
     source = inflate_raw(std::move(opened->source));
     if (Status status = skip(*source, h.pixels_at); !status)
-      return error(fmt::format("{}: {}", file, status.error().text));
+      return error(fmt::format("{}: {}", short_name(h.path), status.error().text));
   }
+  return source;
+}
 
-  if (h.encapsulated) {
+Result<std::vector<std::uint8_t>> inflate_dicom_frames(const DicomHeader& h,
+                                                       std::size_t frame_bytes) {
+  const std::string file = short_name(h.path);
+  auto source = open_dicom_pixels(h);
+  if (!source) return source.error();
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(h.pixels_length));
+  if (Status status = read_exactly(**source, bytes.data(), bytes.size()); !status)
+    return error(fmt::format("{}: {}", file, status.error().text));
+  const auto parts = fragments(bytes);
+  if (!parts) return error(fmt::format("{}: {}", file, parts.error().text));
+  if (parts->size() != static_cast<std::size_t>(h.frame_count))
+    return error(
+        fmt::format("{}: its compressed pixels are in {} parts, but it states {} frames; "
+                    "export it again",
+                    file, parts->size(), h.frame_count));
+  for (const auto& [at, length] : *parts)
+    if (frame_bytes > length * kMostGzip)
+      return error(
+          fmt::format("{}: {} bytes of compressed pixels cannot hold a frame of {} bytes; "
+                      "copy it again",
+                      file, length, frame_bytes));
+  std::vector<std::uint8_t> out(frame_bytes * parts->size());
+  for (std::size_t f = 0; f < parts->size(); ++f) {
+    const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>((*parts)[f].first);
+    const auto inflating = inflate_raw(
+        memory_source({begin, begin + static_cast<std::ptrdiff_t>((*parts)[f].second)}));
+    if (Status status = read_exactly(*inflating, out.data() + f * frame_bytes, frame_bytes);
+        !status)
+      return error(fmt::format("{}: frame {}: {}", file, f + 1, status.error().text));
+  }
+  return out;
+}
+
+Result<std::vector<std::int32_t>> read_dicom_pixels(const DicomHeader& h, std::size_t* beyond) {
+  const std::string file = short_name(h.path);
+  const std::size_t count = static_cast<std::size_t>(h.rows) * static_cast<std::size_t>(h.columns) *
+                            static_cast<std::size_t>(h.frame_count);
+  const auto width = static_cast<std::size_t>(h.bits_allocated / 8);
+  auto opened = open_dicom_pixels(h);
+  if (!opened) return opened.error();
+  const std::unique_ptr<ByteSource> source = std::move(*opened);
+
+  const bool frames = h.transfer_syntax == kDeflatedFrames && h.encapsulated;
+  if (h.encapsulated && !frames) {
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(h.pixels_length));
     if (Status status = read_exactly(*source, bytes.data(), bytes.size()); !status)
       return error(fmt::format("{}: {}", file, status.error().text));
     return unpack(h, std::move(bytes));
   }
 
-  if (h.pixels_length < count * width)
+  if (!frames && h.pixels_length < count * width)
     return error(
         fmt::format("{}: Pixel Data has {} bytes, but {} x {} pixels need {}; the file is cut off, "
                     "copy it again",
                     file, h.pixels_length, h.columns, h.rows, count * width));
-  std::vector<std::uint8_t> bytes(count * width);
-  if (Status status = read_exactly(*source, bytes.data(), bytes.size()); !status)
-    return error(fmt::format("{}: {}", file, status.error().text));
+  std::vector<std::uint8_t> bytes;
+  if (frames) {
+    auto inflated = inflate_dicom_frames(
+        h, width * static_cast<std::size_t>(h.rows) * static_cast<std::size_t>(h.columns));
+    if (!inflated) return inflated.error();
+    bytes = std::move(*inflated);
+  } else {
+    bytes.resize(count * width);
+    if (Status status = read_exactly(*source, bytes.data(), bytes.size()); !status)
+      return error(fmt::format("{}: {}", file, status.error().text));
+  }
   if (h.big_endian && width > 1)
     for (std::size_t i = 0; i < bytes.size(); i += width)
       std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(i),

@@ -15,6 +15,7 @@
 #include "burr/base/printable.h"
 #include "burr/io/read/archive.h"
 #include "burr/io/read/bytes.h"
+#include "burr/io/read/dicom_seg.h"
 #include "burr/io/read/foreign.h"
 #include "burr/io/read/text.h"
 
@@ -46,6 +47,11 @@ Verdict not_a_slice(const DicomHeader& h) {
     return {fmt::format("is a damaged DICOM file: {}; copy it again", h.damage),
             h.has_pixels || slice_class || h.rows > 0};
   if (!h.has_pixels) {
+    if (h.modality == "RTSTRUCT")
+      return {
+          "it holds contours (RTSTRUCT) and no picture; load it in 3D Slicer and save the "
+          "segmentation as .seg.nrrd",
+          false};
     if (slice_class || h.rows > 0)
       return {"it holds no picture though it is a slice; it may be cut off, copy it again", true};
     return {"it holds no picture", false};
@@ -65,7 +71,8 @@ Verdict not_a_slice(const DicomHeader& h) {
   if (h.samples != 1) return {"it is a colour picture; burr reads grey values", false};
   if (has(h.photometric, "palette"))
     return {"it is a colour picture with a palette; burr reads grey values", false};
-  if (h.bits_allocated == 1) return {"it is a DICOM segmentation; convert it to .seg.nrrd", false};
+  if (h.bits_allocated == 1)
+    return {"it is a picture of one bit a pixel; burr reads grey values", false};
   if (h.bits_allocated != 8 && h.bits_allocated != 16 && h.bits_allocated != 32)
     return {fmt::format("Bits Allocated is {}, but burr reads 8, 16 or 32", h.bits_allocated),
             true};
@@ -106,7 +113,16 @@ std::string ending_of(const std::filesystem::path& path) {
 }
 
 void sort_in(Found& found, DicomHeader header) {
-  const Verdict verdict = not_a_slice(header);
+  Verdict verdict;
+  if (is_segmentation(header)) {
+    verdict.reason = no_segmentation(header);
+    if (verdict.reason.empty()) {
+      found.segmentations.push_back(std::move(header));
+      return;
+    }
+  } else {
+    verdict = not_a_slice(header);
+  }
   if (!verdict.reason.empty()) {
     ++found.others;
     // a damaged slice says more than a file that is something else

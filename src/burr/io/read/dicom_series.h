@@ -54,6 +54,7 @@ struct Unread {
 
 struct Found {
   std::vector<Series> series;
+  std::vector<DicomHeader> segmentations;  // dicom_seg.h
   std::vector<Unread> unread;
   std::size_t others = 0;       // files that are not slices
   std::size_t leading_out = 0;  // links to files outside the folder

@@ -12,6 +12,11 @@ namespace {
 constexpr const char* kStack =
     "a stack of pictures does not state its voxel size; load it in 3D Slicer (module ImageStacks) "
     "or Fiji with its voxel size, and save it as .nrrd";
+constexpr const char* kPng =
+    "a stack of pictures does not state its voxel size; put the ADF (.yaml) of AMBF that names it "
+    "into the folder, or load it in 3D Slicer (module ImageStacks) or Fiji with its voxel size, "
+    "and "
+    "save it as .nrrd";
 constexpr const char* kMesh =
     "it is a surface without an inside; give burr the scan or the segmentation that it was made "
     "from, or make a label map of it in 3D Slicer (import it as a segmentation) and save it as "
@@ -42,7 +47,7 @@ Foreign foreign(const std::filesystem::path& path, const std::vector<std::uint8_
   if (begins("II*\0"sv) || begins("MM\0*"sv) || begins("II+\0"sv) || begins("MM\0+"sv))
     return {"a TIFF picture", kStack};
   if (begins("\xFF\xD8\xFF")) return {"a JPEG picture", kStack};
-  if (begins("\x89PNG")) return {"a PNG picture", kStack};
+  if (begins("\x89PNG")) return {"a PNG picture", kPng};
   if (begins("BM") && ending == ".bmp") return {"a BMP picture", kStack};
   if (begins("\0\0\0\x0CjP  "sv)) return {"a JPEG 2000 picture", kStack};
   if (begins("ply\n") || begins("ply\r")) return {"a PLY mesh", kMesh};

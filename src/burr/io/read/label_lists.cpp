@@ -1,5 +1,7 @@
 #include "burr/io/read/label_lists.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -170,6 +172,17 @@ std::vector<Label> labels_in_lut(std::string_view text) {
     if (!add_line(line, labels)) return {};
   }
   return labels;
+}
+
+std::string meaning_of_code(std::string_view scheme, std::string_view code,
+                            std::string_view meaning) {
+  // the default of every new segment, and the two words for "a part of the body"
+  for (const char* nothing : {"85756007", "T-D0050", "123037004", "T-D000A"})
+    if (code == nothing) return {};
+  constexpr std::size_t kLongest = 200;
+  std::string out(meaning);
+  if (!code.empty()) out += fmt::format("{}{} {}", out.empty() ? "" : " ", scheme, code);
+  return out.substr(0, kLongest);
 }
 
 }  // namespace burr::io

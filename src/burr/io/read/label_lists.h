@@ -6,6 +6,7 @@
 // passed over. Thread: any.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,5 +26,10 @@ namespace burr::io {
 // and 3D Slicer (number, name, red, green, blue, alpha): one label a line, # begins a comment. Empty: it is
 // neither.
 [[nodiscard]] std::vector<Label> labels_in_lut(std::string_view text);
+
+// What a code says that a label is: "Mandible SCT 91609006". Empty where it says no more than
+// "tissue".
+[[nodiscard]] std::string meaning_of_code(std::string_view scheme, std::string_view code,
+                                          std::string_view meaning);
 
 }  // namespace burr::io

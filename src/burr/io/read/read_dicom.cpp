@@ -11,6 +11,7 @@
 
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/dicom_header.h"
+#include "burr/io/read/dicom_seg.h"
 #include "burr/io/read/dicom_series.h"
 #include "burr/io/read/geometry.h"
 #include "burr/io/read/readers.h"
@@ -359,7 +360,7 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
   const std::string file = short_name(path);
   auto found = find_series(path, progress);
   if (!found) return found.error();
-  if (found->series.empty()) {
+  if (found->series.empty() && found->segmentations.empty()) {
     if (found->others == 1 && !found->last_reason.empty())
       return error(found->last_trouble, found->last_reason);
     return error(fmt::format("{}: none of its {} files is a slice of a scan (for example {})", file,
@@ -371,15 +372,31 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
     scan.notices.push_back(
         fmt::format("{} links lead out of the folder and were not followed.", found->leading_out));
   std::vector<Volume> volumes = volumes_of(found->series);
-  auto chosen = choose(*found, volumes, options, file, scan);
-  if (!chosen) return chosen.error();
   // more than anyone would look through; beyond this, choose with --series
   constexpr std::size_t kListed = 1000;
-  if (volumes.size() > 1 && volumes.size() <= kListed) {
+  const std::size_t listed = volumes.size() + found->segmentations.size();
+  if (listed > 1 && listed <= kListed) {
     for (std::size_t v = 0; v < volumes.size(); ++v)
       scan.series.push_back(one_line(found->series[volumes[v].series], volumes[v], v));
-    scan.series_taken = static_cast<int>(*chosen);
+    for (std::size_t n = volumes.size(); n < listed; ++n)
+      scan.series.push_back(one_line(found->segmentations[n - volumes.size()], n));
   }
+  std::vector<std::string> uids;
+  for (const Series& one : found->series) uids.push_back(one.uid);
+  const auto segmentation =
+      choose_segmentation(found->segmentations, uids, volumes.size(), options, file, scan);
+  if (!segmentation) return segmentation.error();
+  if (*segmentation) {
+    if (!scan.series.empty()) scan.series_taken = static_cast<int>(volumes.size() + **segmentation);
+    const DicomHeader& header = found->segmentations[**segmentation];
+    if (Status status = read_segmentation(header, options, short_name(header.path), scan, progress);
+        !status)
+      return status.error();
+    return scan;
+  }
+  auto chosen = choose(*found, volumes, options, file, scan);
+  if (!chosen) return chosen.error();
+  if (!scan.series.empty()) scan.series_taken = static_cast<int>(*chosen);
   Volume& volume = volumes[*chosen];
   const Series& series = found->series[volume.series];
   if (series.joined > 0)

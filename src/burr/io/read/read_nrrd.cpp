@@ -12,6 +12,7 @@
 #include "burr/base/printable.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/geometry.h"
+#include "burr/io/read/label_lists.h"
 #include "burr/io/read/readers.h"
 #include "burr/io/read/samples.h"
 #include "burr/io/read/text.h"
@@ -210,13 +211,7 @@ std::string coded_meaning(const std::string& tags) {
   const std::string_view scheme = entry.substr(0, first),
                          code = entry.substr(first + 1, second - first - 1),
                          meaning = entry.substr(second + 1);
-  // the default of every new segment, and the two words for "a part of the body"
-  for (const char* nothing : {"85756007", "T-D0050", "123037004", "T-D000A"})
-    if (code == nothing) return {};
-  constexpr std::size_t kLongest = 200;
-  std::string out(meaning);
-  if (!code.empty()) out += fmt::format("{}{} {}", out.empty() ? "" : " ", scheme, code);
-  return out.substr(0, kLongest);
+  return meaning_of_code(scheme, code, meaning);
 }
 
 struct Segments {

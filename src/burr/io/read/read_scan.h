@@ -1,5 +1,5 @@
-// io/read/read_scan.h - reads a Scan from the usual formats: DICOM (file or folder), NRRD and
-// .seg.nrrd, NIfTI, MetaImage.
+// io/read/read_scan.h - reads a Scan from the usual formats: DICOM (file or folder, scans and
+// segmentations), NRRD and .seg.nrrd, NIfTI, MetaImage, and the volumes of AMBF (PNG and .yaml).
 //
 //     auto scan = io::read_scan("ct_folder", {}, progress);
 //     if (!scan) return scan.error();
@@ -8,7 +8,7 @@
 // evenly spaced; Scan::notices says what was done to get there.
 //
 // Safety: a header is compared with the real size of the file before memory is allocated; a data
-// file named by a header must lie beside it; only regular files are opened, and no link that leads
+// file named by a header must lie beside it (of AMBF: in a folder there, adf_folder.h); only regular files are opened, and no link that leads
 // out of the folder. Reading happens behind a fence (io/sandbox/fence.h): in a separate process
 // with limits. So even a crash or an endless loop of a library that burr uses is an Error (data, or
 // io where the file cannot be read), never an abort.

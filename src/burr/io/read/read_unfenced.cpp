@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "burr/io/read/adf_folder.h"
 #include "burr/io/read/archive.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/foreign.h"
@@ -78,6 +79,7 @@ Result<Scan> read_by_content(const std::filesystem::path& path, const ReadOption
     return error(
         fmt::format("{}: does not begin with \"NRRD\", so it is not an NRRD file; check the name",
                     short_name(path)));
+  if (named_as_adf(path)) return read_adf(path, options, progress);
   // NIfTI under another name: the header begins with its length
   const auto first = (*head)[0] | (*head)[1] << 8 | (*head)[2] << 16;
   if (head->size() > 4 && (first == 348 || first == 540))
@@ -204,6 +206,18 @@ Result<Scan> read_dicom_folder(const std::filesystem::path& folder, const Inside
   return scan;
 }
 
+// The ADF of AMBF that describes the pictures of this folder; empty: there is none.
+Result<std::filesystem::path> adf_in(const std::filesystem::path& folder, const Inside& inside) {
+  std::vector<std::filesystem::path> found;
+  for (const std::filesystem::path& path : inside.others)
+    if (named_as_adf(path))
+      if (const auto is = describes_pictures(path); is && *is) found.push_back(path);
+  if (found.size() > 1)
+    return error(fmt::format("{}: holds {} ADF files ({}); give burr one of them",
+                             short_name(folder), found.size(), names_of(found)));
+  return found.empty() ? std::filesystem::path() : found.front();
+}
+
 // A folder as a person would take it: DICOM files, or the one scan that lies there.
 Result<Scan> read_folder(const std::filesystem::path& folder, const ReadOptions& options,
                          Progress& progress) {
@@ -214,6 +228,12 @@ Result<Scan> read_folder(const std::filesystem::path& folder, const ReadOptions&
     if (head && is_zip(*head) && !files_in_archive(folder))
       return read_zip(only, options, progress);
     return read_by_content(only, options, progress);
+  }
+  if (inside.volumes.empty() &&
+      std::any_of(inside.others.begin(), inside.others.end(), named_as_adf)) {
+    const auto adf = adf_in(folder, inside);
+    if (!adf) return adf.error();
+    if (!adf->empty()) return read_adf(*adf, options, progress);
   }
   if (inside.volumes.empty() || any_dicom(inside.others))
     return read_dicom_folder(folder, inside, options, progress);

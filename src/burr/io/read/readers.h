@@ -26,4 +26,10 @@ namespace burr::io {
 [[nodiscard]] Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& options,
                                       Progress& progress);
 
+// path: the description file (.yaml) of AMBF, which names PNG pictures (adf_folder.h)
+[[nodiscard]] Result<Scan> read_adf(const std::filesystem::path& path, const ReadOptions& options,
+                                    Progress& progress);
+// Whether a .yaml file is such a description. Error: it is no YAML.
+[[nodiscard]] Result<bool> describes_pictures(const std::filesystem::path& path);
+
 }  // namespace burr::io

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "burr/io/read/adf_folder.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/sandbox/fence_letter.h"
 #include "burr/io/sandbox/fence_walls.h"
@@ -179,6 +180,7 @@ int answer_one_request(FencedRead read) {
     (void)say(message);
     return 1;
   }
+  request.path = with_its_adf(request.path);
   const FenceLimits limits = fence_limits(request.path, request.options);
   if (!raise_walls(request.path, limits)) {
     message.kind = FenceMessage::no_walls;

@@ -23,6 +23,7 @@
 #include <system_error>
 #include <vector>
 
+#include "burr/io/read/adf_folder.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/text.h"
 #include "burr/io/sandbox/fence_letter.h"
@@ -88,6 +89,10 @@ std::uint64_t bytes_there(const fs::path& path) {
   if (!fs::is_regular_file(path, trouble)) return 0;
   if (is_dicomdir(path))
     return bytes_in(fs::recursive_directory_iterator(folder_of(path), kSkip, trouble), trouble);
+  if (named_as_adf(path)) {
+    const auto pictures = pictures_folder_in_text(path);
+    return pictures ? bytes_in(fs::directory_iterator(*pictures, kSkip, trouble), trouble) : 0;
+  }
   if (may_have_partner(path))
     return bytes_in(fs::directory_iterator(folder_of(path), kSkip, trouble), trouble);
   const std::uint64_t size = fs::file_size(path, trouble);
@@ -161,7 +166,9 @@ bool raise_landlock(const fs::path& path) {
   };
   std::error_code trouble;
   bool good = open_up(path);
-  if (!fs::is_directory(path, trouble) && (is_dicomdir(path) || may_have_partner(path)))
+  if (!fs::is_directory(path, trouble) && named_as_adf(path)) {
+    if (const auto pictures = pictures_folder_in_text(path)) good = good && open_up(*pictures);
+  } else if (!fs::is_directory(path, trouble) && (is_dicomdir(path) || may_have_partner(path)))
     good = good && open_up(folder_of(path));
   good = good && ::syscall(kRestrictSelf, set, 0) == 0;
   ::close(set);

@@ -30,8 +30,8 @@ inline constexpr bool kMemoryLimit = false;  // false with sanitizers, which map
 inline constexpr bool kMemoryLimit = true;
 #endif
 
-// Limits this process as far as the kernel can. Afterwards only `path`, or for a header its folder,
-// can be opened, and only for reading. Call it with one thread, before anything is read. False: the
+// Limits this process as far as the kernel can. Afterwards only `path`, for a header its folder, for
+// an ADF the folder of its pictures, can be opened, and only for reading. Call it with one thread, before anything is read. False: the
 // kernel supports a limit but could not set it.
 [[nodiscard]] bool raise_walls(const std::filesystem::path& path, const FenceLimits& limits);
 
