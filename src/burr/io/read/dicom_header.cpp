@@ -313,6 +313,9 @@ class Facts {
       frame.slope = slope[0];
       if (!intercept.empty()) frame.intercept = intercept[0];
       frame.has_rescale = true;
+    } else if (slope.empty() && !intercept.empty()) {
+      frame.has_lone_intercept = true;
+      frame.lone_intercept = intercept[0];
     }
     of_phase(values, frame.phase);
   }
