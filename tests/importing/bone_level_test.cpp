@@ -34,8 +34,12 @@ TEST(BoneLevel, IsThatOf300HuWhateverTheScaleOfTheValues) {
     double slope, intercept;
     bool whole;
   };
-  for (const Scale& scale : {Scale{1, 1000, true}, {1, 8192, true}, {0.4, 700, true},
-                             {0.05, 55, true}, {12, -40, true}, {1e-3, 1.5, false},
+  for (const Scale& scale : {Scale{1, 1000, true},
+                             {1, 8192, true},
+                             {0.4, 700, true},
+                             {0.05, 55, true},
+                             {12, -40, true},
+                             {1e-3, 1.5, false},
                              {1, -30000, true}}) {
     Body body;
     body.slope = scale.slope;
@@ -143,14 +147,15 @@ TEST_P(BoneLevelOfRealScans, IsNear300Hu) {
   EXPECT_LT(ratio, GetParam().most) << (level.level - 900) / 0.4 << " HU: " << level.why;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Shared, BoneLevelOfRealScans,
-    testing::Values(Real{"head_ct/ct_example.nii.gz", 0.9, 1.1}, Real{"headsq/headsq_hu.mha", 0.7, 1.3},
-                    Real{"jaw_cbct/jaw_cbct_half_0.4mm.nii.gz", 0.7, 1.3},
-                    Real{"spine_lumbar/example_ct.nii.gz", 0.8, 1.2},
-                    Real{"spine_lumbar/example_ct_dicom", 0.7, 1.2},
-                    Real{"spine_thorax/LIDC-IDRI-0314_spine_crop.nii.gz", 0.8, 1.2},
-                    Real{"skull_phantom/std_5mm_jpegll", 0.7, 1.2}));
+INSTANTIATE_TEST_SUITE_P(Shared, BoneLevelOfRealScans,
+                         testing::Values(Real{"head_ct/ct_example.nii.gz", 0.9, 1.1},
+                                         Real{"headsq/headsq_hu.mha", 0.7, 1.3},
+                                         Real{"jaw_cbct/jaw_cbct_half_0.4mm.nii.gz", 0.7, 1.3},
+                                         Real{"spine_lumbar/example_ct.nii.gz", 0.8, 1.2},
+                                         Real{"spine_lumbar/example_ct_dicom", 0.7, 1.2},
+                                         Real{"spine_thorax/LIDC-IDRI-0314_spine_crop.nii.gz", 0.8,
+                                              1.2},
+                                         Real{"skull_phantom/std_5mm_jpegll", 0.7, 1.2}));
 
 }  // namespace
 }  // namespace burr::importing

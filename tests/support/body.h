@@ -11,13 +11,13 @@
 namespace burr::test {
 
 struct Body {
-  double noise = 20;              // [HU]
-  double ball_mm = 7;             // radius of the bone
+  double noise = 20;   // [HU]
+  double ball_mm = 7;  // radius of the bone
   double bone = 1200, soft = 40, air = -1000;
-  math::Ijk size = {56, 56, 44};  // voxels of 0.5 mm
-  double cylinder_mm = 11;        // radius of the soft tissue; large: no air in the region
+  math::Ijk size = {56, 56, 44};    // voxels of 0.5 mm
+  double cylinder_mm = 11;          // radius of the soft tissue; large: no air in the region
   double slope = 1, intercept = 0;  // stored value = HU * slope + intercept
-  bool whole = true;              // round the stored values
+  bool whole = true;                // round the stored values
 };
 
 // Share of a ball or cylinder in a blurred edge at this depth.

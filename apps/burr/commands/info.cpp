@@ -62,10 +62,10 @@ void print(const importing::ImportSummary& s) {
   if (!s.labels)
     fmt::print("  surface at {:.5g}{}{}; noise smoothed: {:.3g}\n", s.iso,
                s.hounsfield ? " HU" : "",
-               s.iso_by_otsu     ? " (Otsu)"
-               : s.iso_estimated ? fmt::format(" (an estimate; how sure: {})",
-                                               importing::word_of(s.iso_sure))
-                                 : "",
+               s.iso_by_otsu ? " (Otsu)"
+               : s.iso_estimated
+                   ? fmt::format(" (an estimate; how sure: {})", importing::word_of(s.iso_sure))
+                   : "",
                s.smooth);
   for (const importing::TissueFound& t : s.tissues) {
     fmt::print("  {:>3} {:<28} {:<5}{}", t.tissue.label, t.tissue.name, word(t.tissue.kind),

@@ -19,10 +19,9 @@ using io::ValueSample;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// 300 HU = 40 + 0.25 * (40 + 1000)
-constexpr double kAboveSoft = 0.25;
-// What a broad group of soft tissue adds, of its width at half height.
-constexpr double kOfWidth = 0.15;
+// 300 HU = 40 + 0.25 * (40 + 1000); a little less, because a broad group of soft tissue (noise, fat)
+// adds a share of its width at half height.
+constexpr double kAboveSoft = 0.24, kOfWidth = 0.18;
 // Groups within this share of the range above the lowest are air too: the table's foam, lung, what
 // lies outside the body.
 constexpr double kAirReach = 0.15;
@@ -83,8 +82,8 @@ double share_beside_air(const io::Scan& scan, const math::Ijk& from, const math:
     for (int j = 0; j < size.y(); j += step)
       for (int i = 0; i < size.x(); ++i) {
         const std::array<int, 2> at = {i, j};
-        const float* here = scan.values.data() + (from.x() + i) + nx * (from.y() + j) +
-                            slice * (from.z() + k);
+        const float* here =
+            scan.values.data() + (from.x() + i) + nx * (from.y() + j) + slice * (from.z() + k);
         if (!(*here >= bone)) continue;
         for (std::size_t a = 0; a < 2; ++a)
           for (const int way : {-1, 1}) {
@@ -115,8 +114,8 @@ bool is_tooth(const io::Scan& scan, const math::Ijk& from, const math::Ijk& size
     if (group.value > materials.air.value + 0.3 * (materials.soft.value - materials.air.value) &&
         group.value < top.value && group.value != materials.soft.value)
       return false;
-  return share_beside_air(scan, from, size, materials,
-                          0.5 * (materials.soft.value + top.value)) > 0.3;
+  return share_beside_air(scan, from, size, materials, 0.5 * (materials.soft.value + top.value)) >
+         0.3;
 }
 
 constexpr std::size_t kBins = 256;
@@ -212,13 +211,15 @@ BoneLevel estimate_bone_level(const io::Scan& scan, const math::Ijk& from, const
     out.level = 0.5 * (air + soft);
     out.sure = found.hard ? Sure::low : Sure::medium;
     out.why = found.hard
-                  ? fmt::format("two hard materials around {:.4g} and {:.4g} (as dentine and enamel) "
-                                "lie in air or resin around {:.4g}; the level is half-way to the "
-                                "softer one",
-                                soft, groups.all.back().value, air)
-                  : fmt::format("the values show two materials, around {:.4g} and {:.4g}; the level "
-                                "is half-way",
-                                air, soft);
+                  ? fmt::format(
+                        "two hard materials around {:.4g} and {:.4g} (as dentine and enamel) "
+                        "lie in air or resin around {:.4g}; the level is half-way to the "
+                        "softer one",
+                        soft, groups.all.back().value, air)
+                  : fmt::format(
+                        "the values show two materials, around {:.4g} and {:.4g}; the level "
+                        "is half-way",
+                        air, soft);
     return out;
   }
   out.level = soft + kAboveSoft * apart + kOfWidth * found.soft.width;

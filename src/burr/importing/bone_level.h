@@ -1,8 +1,7 @@
 // importing/bone_level.h - where bone begins in a scan that is not in Hounsfield units.
 //
-// Air, soft tissue and bone are looked for in the values (io/value_groups.h). 300 HU lies a quarter
-// of the way from air to soft tissue above soft tissue, so bone begins there; a broad group of soft
-// tissue (noise, fat) shifts the level up a little. Two other methods judge it: the upper threshold
+// Air, soft tissue and bone are looked for in the values (io/value_groups.h). 300 HU lies above soft
+// tissue by a quarter of the distance from air to soft tissue, so bone begins there. Two other methods judge it: the upper threshold
 // of three classes (Otsu 1979), and whether the values at the level lie on edges and not within a
 // material.
 // A scan that is stretched or shifted has the same level, stretched and shifted.

@@ -140,8 +140,8 @@ double measure_noise(const io::Scan& scan, const math::Ijk& from, const math::Ij
       const float* back = row_of(scan, from.x(), from.y() + j, from.z() + k + 1);
       for (int i = 1; i + 1 < size.x(); i += step) {
         const float near[6] = {row[i - 1], row[i + 1], up[i], down[i], front[i], back[i]};
-        if (scan.outside && (row[i] == scan.outside ||
-                             std::find(near, near + 6, *scan.outside) != near + 6))
+        if (scan.outside &&
+            (row[i] == scan.outside || std::find(near, near + 6, *scan.outside) != near + 6))
           continue;
         const auto [least, most] = std::minmax_element(near, near + 6);
         const float mean = (near[0] + near[1] + near[2] + near[3] + near[4] + near[5]) / 6;

@@ -59,8 +59,8 @@ struct ImportSummary {
   bool iso_estimated = false;  // by bone_level.h: the scan is not in HU and nobody gave a level
   Sure iso_sure = Sure::low;   // of an estimate
   std::string iso_why;         // of an estimate: one sentence without its full stop
-  double smooth = 0;     // noise removed, in the scan's unit; 0: none
-  double memory_mb = 0;  // estimate in a plan, real value in an import
+  double smooth = 0;           // noise removed, in the scan's unit; 0: none
+  double memory_mb = 0;        // estimate in a plan, real value in an import
   std::vector<TissueFound> tissues;
   double solid_mm3 = 0;              // volume_of the bone; 0 in a plan
   std::vector<std::string> notices;  // the scan's and the import's own

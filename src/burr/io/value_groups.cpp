@@ -109,8 +109,7 @@ std::vector<Peak> peaks_of(const std::vector<double>& bins) {
     mine.last = std::max(mine.last, b);
   }
   std::erase_if(peaks, [](const Peak& peak) { return peak.merged; });
-  std::sort(peaks.begin(), peaks.end(),
-            [](const Peak& a, const Peak& b) { return a.top < b.top; });
+  std::sort(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return a.top < b.top; });
   return peaks;
 }
 
@@ -131,7 +130,8 @@ ValueSample sample_values(const float* values, const math::Ijk& scan_size, const
     for (int j = 0; j < size.y(); j += steps.y())
       for (int i = 0; i < size.x(); i += steps.x()) {
         const math::Ijk at(i, j, k);
-        const float* here = values + sx * (from.x() + i) + sy * (from.y() + j) + sz * (from.z() + k);
+        const float* here =
+            values + sx * (from.x() + i) + sy * (from.y() + j) + sz * (from.z() + k);
         if (!measured(*here)) {
           ++out.left_out;
           continue;
@@ -201,9 +201,8 @@ double value_at_share(const ValueSample& sample, double share) {
 
 double share_between(const ValueSample& sample, double low, double high) {
   if (sample.values.empty()) return 0;
-  const auto inside = std::count_if(sample.values.begin(), sample.values.end(), [&](float v) {
-    return double{v} >= low && double{v} <= high;
-  });
+  const auto inside = std::count_if(sample.values.begin(), sample.values.end(),
+                                    [&](float v) { return double{v} >= low && double{v} <= high; });
   return static_cast<double>(inside) / static_cast<double>(sample.values.size());
 }
 

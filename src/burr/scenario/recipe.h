@@ -39,12 +39,13 @@ struct Recipe {
   std::optional<Region> region;       // none: the whole scan
   double voxel_mm = 0;                // edge of the cubic voxels; 0: the finest axis of the scan,
                                       // coarser if memory_mb requires it
-  std::optional<double> iso;  // surface level, in HU or the file's unit; none: 300 HU, or an estimate
-  double smooth = -1;         // noise to remove, standard deviation in HU or the file's unit;
-                              // 0: none, below 0: as much as is measured in the scan
-  std::string labels;         // path of a TOML file, docs/labels.md; empty: by name
-  std::string materials;      // path of a TOML file, docs/materials.md; empty: built in
-  double memory_mb = 2048;    // budget of the work and the bone, for voxel_mm = 0
+  std::optional<double>
+      iso;                  // surface level, in HU or the file's unit; none: 300 HU, or an estimate
+  double smooth = -1;       // noise to remove, standard deviation in HU or the file's unit;
+                            // 0: none, below 0: as much as is measured in the scan
+  std::string labels;       // path of a TOML file, docs/labels.md; empty: by name
+  std::string materials;    // path of a TOML file, docs/materials.md; empty: built in
+  double memory_mb = 2048;  // budget of the work and the bone, for voxel_mm = 0
   // Limits of reading a file; 0: by how large the files are.
   double read_seconds = 0, read_memory_mb = 0;
   std::size_t reserve_bricks = 4096;  // room for deposited material

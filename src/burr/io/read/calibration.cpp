@@ -101,8 +101,7 @@ std::optional<float> find_fill(const Scan& scan, const ValueSample& sample) {
 bool zeros_are_outside(const Scan& scan, const ValueSample& sample) {
   if (corners_with(scan, 0.0F) < 4) return false;
   const double zeros = share_between(sample, 0, 0);
-  const double near =
-      0.01 * (value_at_share(sample, 0.995) - value_at_share(sample, 0.005));
+  const double near = 0.01 * (value_at_share(sample, 0.995) - value_at_share(sample, 0.005));
   return zeros > 0.05 && share_between(sample, -kInfinity, -1e-30) > 0.005 &&
          zeros > 2 * (share_between(sample, -near, near) - zeros);
 }
@@ -124,8 +123,8 @@ bool mend_sign(Scan& scan, const Claim& claim, const ValueSample& sample) {
   if (share < 0.005 || share > 0.995) return false;
   const bool was_unsigned = low >= zero && above - below > 0.4 * period &&
                             above >= zero + 0.5 * period && high <= zero + period;
-  const bool was_signed = low >= zero - 0.5 * period && above - below > 0.8 * period &&
-                          below < zero && above > zero;
+  const bool was_signed =
+      low >= zero - 0.5 * period && above - below > 0.8 * period && below < zero && above > zero;
   if (!was_unsigned && !was_signed) return false;
   const double split = 0.5 * (below + above);
   if (was_unsigned) {
@@ -145,11 +144,12 @@ bool mend_sign(Scan& scan, const Claim& claim, const ValueSample& sample) {
     else if (was_signed && double{value} < split)
       value = static_cast<float>(double{value} + period);
   }
-  scan.notices.push_back(fmt::format(
-      "The file calls its numbers {}, but then they lie in two heaps with nothing between, {:.0f} to "
-      "{:.0f} and {:.0f} to {:.0f}: they are read as {} numbers.",
-      was_unsigned ? "unsigned" : "signed", low, below, above, high,
-      was_unsigned ? "signed" : "unsigned"));
+  scan.notices.push_back(
+      fmt::format("The file calls its numbers {}, but then they lie in two heaps with nothing "
+                  "between, {:.0f} to "
+                  "{:.0f} and {:.0f} to {:.0f}: they are read as {} numbers.",
+                  was_unsigned ? "unsigned" : "signed", low, below, above, high,
+                  was_unsigned ? "signed" : "unsigned"));
   return true;
 }
 
@@ -169,8 +169,7 @@ std::string contradiction(const ValueSample& sample, const ValueGroups& groups,
                           const Range& range) {
   std::string why = impossible(sample, groups);
   if (!why.empty() || share_between(sample, -kInfinity, -100) > 1e-4) return why;
-  if (range.low == 0 && range.high == 255)
-    return "they are a picture of 8 bit, from 0 to 255";
+  if (range.low == 0 && range.high == 255) return "they are a picture of 8 bit, from 0 to 255";
   if (range.low >= 0 && range.high <= 2 && range.high > range.low)
     return fmt::format("they range from {:.3g} to {:.3g} only", range.low, range.high);
   if (groups.all.empty() || groups.all.front().value > 200) return "";
@@ -189,24 +188,23 @@ std::string contradiction(const ValueSample& sample, const ValueGroups& groups,
 }
 
 // Whether values of which no header says what they are behave as HU do.
-bool behaves_as_hounsfield(const ValueSample& sample, const ValueGroups& groups,
-                           const Range& range, std::size_t voxels, std::size_t unmeasured) {
+bool behaves_as_hounsfield(const ValueSample& sample, const ValueGroups& groups, const Range& range,
+                           std::size_t voxels, std::size_t unmeasured) {
   if (!impossible(sample, groups).empty() || !(range.high >= 300) ||
       share_between(sample, 4000, kInfinity) > 0.05 ||
       share_between(sample, -kInfinity, -1300) > 0.01)
     return false;
-  const bool air_group =
-      std::any_of(groups.all.begin(), groups.all.end(), [](const ValueGroup& group) {
-        return group.value > kAirLow && group.value < kAirHigh;
-      });
+  const bool air_group = std::any_of(
+      groups.all.begin(), groups.all.end(),
+      [](const ValueGroup& group) { return group.value > kAirLow && group.value < kAirHigh; });
   const double air = share_between(sample, kAirLow, kAirHigh);
   if (air > kAirShare && (air_group || air < 0.05) && range.low <= -900) return true;
   // the air was taken out: soft tissue is where it must be, and its edges go far down
   if (static_cast<double>(unmeasured) < 0.005 * static_cast<double>(voxels) || groups.all.empty())
     return false;
-  const auto most = std::max_element(
-      groups.all.begin(), groups.all.end(),
-      [](const ValueGroup& a, const ValueGroup& b) { return a.share < b.share; });
+  const auto most =
+      std::max_element(groups.all.begin(), groups.all.end(),
+                       [](const ValueGroup& a, const ValueGroup& b) { return a.share < b.share; });
   return most->value > -20 && most->value < 110 && range.low >= -1100 &&
          value_at_share(sample, 0.001) < -80;
 }
@@ -220,20 +218,19 @@ void place_unmeasured(Scan& scan, const Claim& claim, const Range& range, std::s
     const double step = 1e-3 * (double{range.high} - double{range.low});
     const double below = double{range.low} - step;
     air = static_cast<float>(step > 0.1 ? std::floor(below) : below);
-    if (air == range.low)
-      air = std::nextafter(range.low, -std::numeric_limits<float>::infinity());
+    if (air == range.low) air = std::nextafter(range.low, -std::numeric_limits<float>::infinity());
     scan.outside = air;
   }
   for (float& value : scan.values)
     if (std::isnan(value)) value = air;
-  const std::string now = scan.hounsfield ? "are now air (-1024 HU)"
-                                          : fmt::format("count as outside ({:.6g})", air);
+  const std::string now =
+      scan.hounsfield ? "are now air (-1024 HU)" : fmt::format("count as outside ({:.6g})", air);
   if (claim.padded > 0)
     scan.notices.push_back(fmt::format("{} voxels were padding and {}.", claim.padded, now));
   if (filled > 0)
-    scan.notices.push_back(fmt::format(
-        "{} voxels hold {:.6g}, far from all others: they were not measured and {}.", filled, fill,
-        now));
+    scan.notices.push_back(
+        fmt::format("{} voxels hold {:.6g}, far from all others: they were not measured and {}.",
+                    filled, fill, now));
   if (claim.broken > 0)
     scan.notices.push_back(fmt::format(
         "{} voxels hold no finite number, or one beyond 1e+30; they {}.", claim.broken, now));
@@ -291,8 +288,7 @@ Status calibrate(Scan& scan, const Claim& claim) {
         "The values range from {:.0f} to {:.0f}, as in a CT: Hounsfield units are assumed.",
         range.low, range.high));
   }
-  if (filled + claim.padded + claim.broken > 0)
-    place_unmeasured(scan, claim, range, filled, fill);
+  if (filled + claim.padded + claim.broken > 0) place_unmeasured(scan, claim, range, filled, fill);
 
   if (!scan.hounsfield || !claim.clip_below_air) return fine();
   std::size_t below = 0;

@@ -18,11 +18,11 @@ namespace burr::io {
 
 // What the header says.
 struct Claim {
-  bool hounsfield = false;       // the values are HU
+  bool hounsfield = false;        // the values are HU
   bool can_be_hounsfield = true;  // false: another kind of picture (MR), or a table was not applied
-  bool clip_below_air = false;   // HU below -1024 become -1024, as DICOM has always been read here
-  std::size_t padded = 0;        // voxels that the header calls padding; NaN in the scan
-  std::size_t broken = 0;        // values that are not finite; NaN in the scan
+  bool clip_below_air = false;    // HU below -1024 become -1024, as DICOM has always been read here
+  std::size_t padded = 0;         // voxels that the header calls padding; NaN in the scan
+  std::size_t broken = 0;         // values that are not finite; NaN in the scan
   // Stored values are whole numbers of a type that holds `period` of them; 0: not known.
   double period = 0, slope = 1, intercept = 0;
 };

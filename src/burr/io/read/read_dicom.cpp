@@ -32,7 +32,7 @@ struct Reading {
   std::vector<bool> lost;      // (slices)
   std::size_t beyond = 0;      // pixels with bits beyond Bits Stored
   int bits_stored = 0;
-  std::size_t padded = 0;      // voxels that are padding; NaN where the values are checked
+  std::size_t padded = 0;  // voxels that are padding; NaN where the values are checked
 };
 
 // How stored numbers become values.
@@ -161,8 +161,7 @@ Status read_slices(const Series& series, const std::vector<Slice>& slices, bool 
           stored->data() + pixels * static_cast<std::size_t>(slices[k].frame);
       float* to = scan.values.data() + pixels * k;
       const Rescale rescale = rescale_of(frame, check_values);
-      const float padding =
-          check_values ? std::numeric_limits<float>::quiet_NaN() : -1024.0F;
+      const float padding = check_values ? std::numeric_limits<float>::quiet_NaN() : -1024.0F;
       std::size_t holes = 0, low = 0;
       for (std::size_t v = 0; v < pixels; ++v) {
         const std::int64_t value = h.is_signed || h.bits_stored < 32

@@ -249,7 +249,9 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
   if (!format) return format.error();
   auto data = open_data(path, header);
   if (!data) return data.error();
-  if (Status read = read_voxels(header, *format, *count, std::move(*data), options.check_values, scan, progress); !read)
+  if (Status read = read_voxels(header, *format, *count, std::move(*data), options.check_values,
+                                scan, progress);
+      !read)
     return read.error();
   const auto affine = affine_of(header, scan.notices);
   if (!affine) return affine.error();
