@@ -27,20 +27,38 @@ float at_share(std::vector<float> values, double share) {
   return *place;
 }
 
-std::vector<double> blurred(const std::vector<double>& bins) {
-  constexpr int kReach = 5;
+std::vector<double> blurred(const std::vector<double>& bins, double sigma) {
+  const int reach = static_cast<int>(std::ceil(3.3 * sigma));
   std::vector<double> out(bins.size(), 0.0);
   const int n = static_cast<int>(bins.size());
   for (int b = 0; b < n; ++b)
-    for (int d = -kReach; d <= kReach; ++d) {
+    for (int d = -reach; d <= reach; ++d) {
       // mirrored at the ends
       int from = b + d;
       if (from < 0) from = -1 - from;
       if (from >= n) from = 2 * n - 1 - from;
       out[static_cast<std::size_t>(b)] +=
-          bins[static_cast<std::size_t>(from)] * std::exp(-0.5 * d * d / (kBlurBins * kBlurBins));
+          bins[static_cast<std::size_t>(std::clamp(from, 0, n - 1))] *
+          std::exp(-0.5 * d * d / (sigma * sigma));
     }
   return out;
+}
+
+// How many bins lie between two values that can occur: more than one where the values are whole
+// numbers of a small range, and then each of them would be a peak. 1: there are too few values, as
+// in a scan without noise.
+double bins_between_values(const ValueSample& sample, double low, double high) {
+  constexpr std::size_t kMost = 100000, kFewest = 20;
+  std::vector<float> some;
+  const std::size_t step = sample.values.size() / kMost + 1;
+  for (std::size_t v = 0; v < sample.values.size(); v += step)
+    if (double{sample.values[v]} >= low && double{sample.values[v]} <= high)
+      some.push_back(sample.values[v]);
+  std::sort(some.begin(), some.end());
+  const auto different =
+      static_cast<std::size_t>(std::unique(some.begin(), some.end()) - some.begin());
+  if (different < kFewest) return 1;
+  return static_cast<double>(kBins) / static_cast<double>(different - 1);
 }
 
 // The histogram of the even places.
@@ -166,7 +184,8 @@ ValueGroups groups_of(const ValueSample& sample) {
   for (int round = 0; round < 3; ++round) {
     const std::vector<double> bins = even_places(sample, out.low, out.high);
     const double total = std::accumulate(bins.begin(), bins.end(), 0.0);
-    const std::vector<double> smooth = blurred(bins);
+    const double between = bins_between_values(sample, out.low, out.high);
+    const std::vector<double> smooth = blurred(bins, std::max(kBlurBins, 0.6 * between));
     const double width = (out.high - out.low) / static_cast<double>(kBins);
     out.all.clear();
     for (const Peak& peak : peaks_of(smooth)) {

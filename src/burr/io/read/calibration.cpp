@@ -170,7 +170,7 @@ std::string contradiction(const ValueSample& sample, const ValueGroups& groups,
   std::string why = impossible(sample, groups);
   if (!why.empty() || share_between(sample, -kInfinity, -100) > 1e-4) return why;
   if (range.low == 0 && range.high == 255) return "they are a picture of 8 bit, from 0 to 255";
-  if (range.low >= 0 && range.high <= 2 && range.high > range.low)
+  if (range.low >= -2 && range.high <= 2 && range.high > range.low)
     return fmt::format("they range from {:.3g} to {:.3g} only", range.low, range.high);
   if (groups.all.empty() || groups.all.front().value > 200) return "";
   // Air and soft tissue, shifted by about 1000, with something denser above. (Muscle and thin
@@ -253,10 +253,12 @@ Status calibrate(Scan& scan, const Claim& claim) {
   scan.hounsfield = false;
   scan.outside.reset();
   ValueSample sample = sample_of(scan);
-  if (!(range_of(scan).low < std::numeric_limits<float>::infinity()))
-    return error("no voxel holds a number");
-  if (sample.values.empty()) sample.values.push_back(range_of(scan).low);
-  if (sample.steep.empty()) sample.steep.push_back(0);
+  if (sample.values.empty()) {
+    const float only = range_of(scan).low;
+    if (std::isinf(only)) return error("no voxel holds a number");
+    sample.values.push_back(only);
+    sample.steep.push_back(0);
+  }
   const bool has_air = share_between(sample, kAirLow, kAirHigh) > kAirShare;
   if (!has_air && mend_sign(scan, claim, sample)) sample = sample_of(scan);
 
