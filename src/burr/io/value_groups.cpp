@@ -48,7 +48,7 @@ std::vector<double> blurred(const std::vector<double>& bins, double sigma) {
 // numbers of a small range, and then each of them would be a peak. 1: there are too few values, as
 // in a scan without noise.
 double bins_between_values(const ValueSample& sample, double low, double high) {
-  constexpr std::size_t kMost = 100000, kFewest = 20;
+  constexpr std::size_t kMost = 100000, kFewest = 9;
   std::vector<float> some;
   const std::size_t step = sample.values.size() / kMost + 1;
   for (std::size_t v = 0; v < sample.values.size(); v += step)
@@ -185,7 +185,8 @@ ValueGroups groups_of(const ValueSample& sample) {
     const std::vector<double> bins = even_places(sample, out.low, out.high);
     const double total = std::accumulate(bins.begin(), bins.end(), 0.0);
     const double between = bins_between_values(sample, out.low, out.high);
-    const std::vector<double> smooth = blurred(bins, std::max(kBlurBins, 0.6 * between));
+    const double sigma = std::max(kBlurBins, 0.6 * between);
+    const std::vector<double> smooth = blurred(bins, sigma);
     const double width = (out.high - out.low) / static_cast<double>(kBins);
     out.all.clear();
     for (const Peak& peak : peaks_of(smooth)) {
@@ -201,7 +202,9 @@ ValueGroups groups_of(const ValueSample& sample) {
         sum += bins[b] * (static_cast<double>(b) + 0.5);
       }
       if (weight <= 0) continue;
-      const auto bins_wide = static_cast<double>(last - first + 1);
+      // without the blur of this histogram
+      const double wide = static_cast<double>(last - first + 1), blur = 2.355 * sigma;
+      const double bins_wide = std::sqrt(std::max(0.0, wide * wide - blur * blur));
       out.all.push_back({out.low + width * sum / weight, mass / total, width * bins_wide});
     }
     if (out.all.size() < 2) break;
