@@ -244,8 +244,8 @@ bool estimate_iso(const io::Scan& scan, ImportSummary& out) {
   out.iso_sure = estimate.sure;
   out.iso_why = estimate.why;
   out.notices.push_back(fmt::format(
-      "The values are not HU: the surface level {:.4g} is an estimate, and how sure it is "
-      "is {}: {}; give another level with --iso.",
+      "The values are not HU: the surface level {:.4g} is an estimate (how sure: {}): {}; "
+      "give another level with --iso.",
       out.iso, word_of(out.iso_sure), out.iso_why));
   return true;
 }

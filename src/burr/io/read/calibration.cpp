@@ -271,6 +271,10 @@ Status calibrate(Scan& scan, const Claim& claim) {
   }
   if (zeros_are_outside(scan, sample)) {
     scan.outside = 0.0F;
+    scan.notices.emplace_back(
+        "The voxels around the body hold 0, amid the other values: they were not measured and "
+        "count "
+        "nowhere.");
     sample = sample_of(scan);
   }
   const Range range = range_of(scan);
