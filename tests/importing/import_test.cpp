@@ -233,15 +233,22 @@ TEST_F(ImportOwnMaterials, ReachEveryKindOfScan) {
   EXPECT_FALSE(plan_import(ct, options).ok());
 }
 
-TEST(ImportGrey, WithoutHuOtsuFindsTheLevelAndSaysSo) {
+TEST(ImportGrey, WithoutHuTheLevelIsAnEstimateAndSaysSo) {
   io::Scan scan =
       grey_scan({30, 30, 30}, {1, 1, 1}, [](const Vec3& p) { return p.norm() < 9 ? 200.0 : 40.0; });
   scan.hounsfield = false;
   const auto plan = plan_import(scan, {});
   ASSERT_TRUE(plan.ok());
-  EXPECT_TRUE(plan->iso_by_otsu);
-  EXPECT_NEAR(plan->iso, 120, 40);
-  EXPECT_NE(plan->notices.front().find("Otsu"), std::string::npos);
+  EXPECT_TRUE(plan->iso_estimated);
+  EXPECT_NEAR(plan->iso, 120, 5);
+  EXPECT_NE(plan->notices.front().find("estimate"), std::string::npos);
+  scenario::Recipe old;
+  old.check_values = false;
+  const auto before = plan_import(scan, old);
+  ASSERT_TRUE(before.ok());
+  EXPECT_TRUE(before->iso_by_otsu);
+  EXPECT_NEAR(before->iso, 120, 40);
+  EXPECT_NE(before->notices.front().find("Otsu"), std::string::npos);
 }
 
 TEST(ImportGrey, ABoneThatIsTurnedStaysTurned) {

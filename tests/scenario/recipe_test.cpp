@@ -38,6 +38,7 @@ TEST(Recipe, ComesBackToTheBitThroughJson) {
     if (coin()) recipe.read_memory_mb = share(random);
     if (coin()) recipe.reserve_bricks = random() % 100'000;
     if (coin()) recipe.margin = false;
+    if (coin()) recipe.check_values = false;
     const auto back = recipe_from_json(to_json(recipe), "x");
     ASSERT_TRUE(back) << back.error().text;
     ASSERT_TRUE(*back == recipe) << to_json(recipe) << "\n" << to_json(*back);
@@ -54,6 +55,8 @@ TEST(Recipe, WithoutAWordOfTheMarginHasNone) {
   ASSERT_TRUE(old) << old.error().text;
   EXPECT_FALSE(old->margin);
   EXPECT_TRUE(Recipe{}.margin);
+  EXPECT_FALSE(old->check_values);
+  EXPECT_TRUE(Recipe{}.check_values);
 }
 
 TEST(Recipe, WithoutPathsNamesNobody) {

@@ -61,7 +61,12 @@ void print(const importing::ImportSummary& s) {
              s.size.y(), s.size.z(), s.voxel_mm, s.memory_mb);
   if (!s.labels)
     fmt::print("  surface at {:.5g}{}{}; noise smoothed: {:.3g}\n", s.iso,
-               s.hounsfield ? " HU" : "", s.iso_by_otsu ? " (Otsu)" : "", s.smooth);
+               s.hounsfield ? " HU" : "",
+               s.iso_by_otsu ? " (Otsu)"
+               : s.iso_estimated
+                   ? fmt::format(" (an estimate; how sure: {})", importing::word_of(s.iso_sure))
+                   : "",
+               s.smooth);
   for (const importing::TissueFound& t : s.tissues) {
     fmt::print("  {:>3} {:<28} {:<5}{}", t.tissue.label, t.tissue.name, word(t.tissue.kind),
                t.tissue.spare ? " spare" : "");
@@ -94,6 +99,11 @@ nlohmann::json to_json(const importing::ImportSummary& s) {
   if (!s.labels) {
     bone["iso"] = s.iso;
     bone["iso_by_otsu"] = s.iso_by_otsu;
+    bone["iso_estimated"] = s.iso_estimated;
+    if (s.iso_estimated) {
+      bone["iso_sure"] = importing::word_of(s.iso_sure);
+      bone["iso_why"] = s.iso_why;
+    }
     bone["smooth"] = s.smooth;
   }
   for (const importing::TissueFound& t : s.tissues) {

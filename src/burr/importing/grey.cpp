@@ -124,7 +124,8 @@ double measure_noise(const io::Scan& scan, const math::Ijk& from, const math::Ij
   for (int k = 1; k + 1 < size.z(); k += step)
     for (int j = 1; j + 1 < size.y(); j += step) {
       const float* row = row_of(scan, from.x(), from.y() + j, from.z() + k);
-      for (int i = 1; i + 1 < size.x(); i += step) low = std::min(low, row[i]);
+      for (int i = 1; i + 1 < size.x(); i += step)
+        if (row[i] != scan.outside) low = std::min(low, row[i]);
     }
   const float level = static_cast<float>(iso);
   // air itself is often clipped and shows no noise: "around" begins a third of the way up to the
@@ -139,6 +140,9 @@ double measure_noise(const io::Scan& scan, const math::Ijk& from, const math::Ij
       const float* back = row_of(scan, from.x(), from.y() + j, from.z() + k + 1);
       for (int i = 1; i + 1 < size.x(); i += step) {
         const float near[6] = {row[i - 1], row[i + 1], up[i], down[i], front[i], back[i]};
+        if (scan.outside &&
+            (row[i] == scan.outside || std::find(near, near + 6, *scan.outside) != near + 6))
+          continue;
         const auto [least, most] = std::minmax_element(near, near + 6);
         const float mean = (near[0] + near[1] + near[2] + near[3] + near[4] + near[5]) / 6;
         const float differs = std::abs(row[i] - mean);
@@ -167,9 +171,11 @@ double otsu(const io::Scan& scan, const math::Ijk& from, const math::Ijk& size) 
   for (int k = 0; k < size.z(); ++k)
     for (int j = 0; j < size.y(); ++j) {
       const float* row = row_of(scan, from.x(), from.y() + j, from.z() + k);
-      const auto [least, most] = std::minmax_element(row, row + size.x());
-      low = std::min(low, *least);
-      high = std::max(high, *most);
+      for (int i = 0; i < size.x(); ++i) {
+        if (row[i] == scan.outside) continue;
+        low = std::min(low, row[i]);
+        high = std::max(high, row[i]);
+      }
     }
   if (!(high > low)) return double{low};
   std::vector<double> bins(kBins);
@@ -178,7 +184,8 @@ double otsu(const io::Scan& scan, const math::Ijk& from, const math::Ijk& size) 
     for (int j = 0; j < size.y(); ++j) {
       const float* row = row_of(scan, from.x(), from.y() + j, from.z() + k);
       for (int i = 0; i < size.x(); ++i)
-        bins[static_cast<std::size_t>((double{row[i]} - double{low}) * scale + 0.5)] += 1;
+        if (row[i] != scan.outside)
+          bins[static_cast<std::size_t>((double{row[i]} - double{low}) * scale + 0.5)] += 1;
     }
   double total = 0, sum = 0;
   for (std::size_t b = 0; b < kBins; ++b) {

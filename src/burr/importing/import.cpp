@@ -227,23 +227,36 @@ void set_range(const io::Scan& scan, ImportSummary& out) {
                                           (static_cast<std::size_t>(out.roi_from.y() + j) +
                                            static_cast<std::size_t>(scan.size.y()) *
                                                static_cast<std::size_t>(out.roi_from.z() + k)));
-      float low = *row, high = low;
       for (int i = 0; i < out.roi_size.x(); ++i) {
-        low = row[i] < low ? row[i] : low;
-        high = row[i] > high ? row[i] : high;
+        if (row[i] == scan.outside) continue;
+        out.low = std::min(out.low, row[i]);
+        out.high = std::max(out.high, row[i]);
       }
-      out.low = std::min(out.low, low);
-      out.high = std::max(out.high, high);
     }
 }
 
-// Sets the surface level: as requested, or that of bone in HU, or Otsu's threshold.
+// Estimates where bone begins in values that are not HU; false: they show one material only.
+bool estimate_iso(const io::Scan& scan, ImportSummary& out) {
+  const BoneLevel estimate = estimate_bone_level(scan, out.roi_from, out.roi_size);
+  if (!estimate.found) return false;
+  out.iso = estimate.level;
+  out.iso_estimated = true;
+  out.iso_sure = estimate.sure;
+  out.iso_why = estimate.why;
+  out.notices.push_back(fmt::format(
+      "The values are not HU: the surface level {:.4g} is an estimate (how sure: {}): {}; "
+      "give another level with --iso.",
+      out.iso, word_of(out.iso_sure), out.iso_why));
+  return true;
+}
+
+// Sets the surface level: as requested, or that of bone in HU, or an estimate, or Otsu's threshold.
 Status set_iso(const io::Scan& scan, const scenario::Recipe& recipe, ImportSummary& out) {
   if (recipe.iso) {
     out.iso = *recipe.iso;
   } else if (scan.hounsfield && kBoneHu < double{out.high}) {
     out.iso = kBoneHu;
-  } else {
+  } else if (scan.hounsfield || !recipe.check_values || !estimate_iso(scan, out)) {
     out.iso = otsu(scan, out.roi_from, out.roi_size);
     out.iso_by_otsu = true;
     out.notices.push_back(

@@ -24,6 +24,7 @@
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
+#include "burr/importing/bone_level.h"
 #include "burr/io/scan.h"
 #include "burr/scenario/recipe.h"
 #include "burr/volume/bone.h"
@@ -55,8 +56,11 @@ struct ImportSummary {
   double voxel_mm = 0;
   double iso = 0;  // of grey scans
   bool iso_by_otsu = false;
-  double smooth = 0;     // noise removed, in the scan's unit; 0: none
-  double memory_mb = 0;  // estimate in a plan, real value in an import
+  bool iso_estimated = false;  // by bone_level.h: the scan is not in HU and nobody gave a level
+  Sure iso_sure = Sure::low;   // of an estimate
+  std::string iso_why;         // of an estimate: one sentence without its full stop
+  double smooth = 0;           // noise removed, in the scan's unit; 0: none
+  double memory_mb = 0;        // estimate in a plan, real value in an import
   std::vector<TissueFound> tissues;
   double solid_mm3 = 0;              // volume_of the bone; 0 in a plan
   std::vector<std::string> notices;  // the scan's and the import's own

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +50,8 @@ struct Scan {
   Voxels<std::uint8_t> labels;  // (x fastest) value per voxel; empty for a grey scan
   std::vector<Label> label_names;
   bool hounsfield = false;  // values are HU
+  // Voxels of exactly this value were not measured (padding, fill): no histogram counts them.
+  std::optional<float> outside;
   bool k_reversed = false;  // the slices were put in reverse order to make the axes right-handed:
                             // voxel k here is voxel size.z-1-k of the file
   std::string format;       // "DICOM", "NRRD" ...

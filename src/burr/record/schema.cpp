@@ -364,7 +364,8 @@ constexpr const char* kSessionSchema = R"({
       "read_seconds": {"type": "number"},
       "read_memory_mb": {"type": "number"},
       "reserve_bricks": {"type": "integer", "description": "room for deposits"},
-      "margin": {"type": "boolean", "description": "layers of air where the scan's border cuts bone; absent: false"}
+      "margin": {"type": "boolean", "description": "layers of air where the scan's border cuts bone; absent: false"},
+      "check_values": {"type": "boolean", "description": "the header's word on the values is checked, and the level of a scan without HU is estimated; absent: false"}
      }
     }
    }

@@ -156,6 +156,7 @@ bool get_old_recipe(const json& volume, VolumeInfo& info, std::string& missing) 
   if (!get_word_object(part(volume, "words"), words)) return wrong("words");
   scenario::Recipe& recipe = info.recipe;
   recipe.margin = false;
+  recipe.check_values = false;
   info.format = words["format"];
   if (!words["phantom"].empty()) recipe.source = scenario::phantom_source(words["phantom"]);
   if (numbers.contains("voxel_mm")) recipe.voxel_mm = numbers["voxel_mm"];

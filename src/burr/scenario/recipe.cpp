@@ -116,7 +116,8 @@ bool Recipe::operator==(const Recipe& other) const {
          voxel_mm == other.voxel_mm && iso == other.iso && smooth == other.smooth &&
          labels == other.labels && materials == other.materials && memory_mb == other.memory_mb &&
          read_seconds == other.read_seconds && read_memory_mb == other.read_memory_mb &&
-         reserve_bricks == other.reserve_bricks && margin == other.margin;
+         reserve_bricks == other.reserve_bricks && margin == other.margin &&
+         check_values == other.check_values;
 }
 
 bool is_phantom(const std::string& source) { return source.starts_with(kPhantom); }
@@ -139,7 +140,8 @@ std::string to_json(const Recipe& recipe) {
               {"smooth", recipe.smooth},
               {"memory_mb", recipe.memory_mb},
               {"reserve_bricks", recipe.reserve_bricks},
-              {"margin", recipe.margin}};
+              {"margin", recipe.margin},
+              {"check_values", recipe.check_values}};
   const auto text = [&out](const char* name, const std::string& value) {
     if (!value.empty()) out[name] = value;
   };
@@ -182,6 +184,8 @@ Result<Recipe> recipe_from_json(std::string_view text, const std::string& where)
   fields.count("reserve_bricks", out.reserve_bricks);
   out.margin = false;
   fields.yes_or_no("margin", out.margin);
+  out.check_values = false;
+  fields.yes_or_no("check_values", out.check_values);
   if (!fields.wrong().empty())
     return error(
         fmt::format("{}: recipe.{} has the wrong type or is out of range; the file is damaged",

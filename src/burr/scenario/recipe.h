@@ -39,18 +39,22 @@ struct Recipe {
   std::optional<Region> region;       // none: the whole scan
   double voxel_mm = 0;                // edge of the cubic voxels; 0: the finest axis of the scan,
                                       // coarser if memory_mb requires it
-  std::optional<double> iso;  // surface level, in HU or the file's unit; none: 300 HU, or Otsu
-  double smooth = -1;         // noise to remove, standard deviation in HU or the file's unit;
-                              // 0: none, below 0: as much as is measured in the scan
-  std::string labels;         // path of a TOML file, docs/labels.md; empty: by name
-  std::string materials;      // path of a TOML file, docs/materials.md; empty: built in
-  double memory_mb = 2048;    // budget of the work and the bone, for voxel_mm = 0
+  std::optional<double>
+      iso;                  // surface level, in HU or the file's unit; none: 300 HU, or an estimate
+  double smooth = -1;       // noise to remove, standard deviation in HU or the file's unit;
+                            // 0: none, below 0: as much as is measured in the scan
+  std::string labels;       // path of a TOML file, docs/labels.md; empty: by name
+  std::string materials;    // path of a TOML file, docs/materials.md; empty: built in
+  double memory_mb = 2048;  // budget of the work and the bone, for voxel_mm = 0
   // Limits of reading a file; 0: by how large the files are.
   double read_seconds = 0, read_memory_mb = 0;
   std::size_t reserve_bricks = 4096;  // room for deposited material
   // Layers of air behind the faces in which the border of the scan cuts bone. false: as burr built
   // bones before 2026-11-25; a recipe in JSON that does not name it is of that time.
   bool margin = true;
+  // The header's word on the values is checked, and the level of a scan without HU is estimated.
+  // false: as burr did before 2026-11-26; a recipe in JSON that does not name it is of that time.
+  bool check_values = true;
 
   bool operator==(const Recipe& other) const;
 };

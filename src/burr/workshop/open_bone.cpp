@@ -55,7 +55,8 @@ Result<importing::Imported> open_phantom(const scenario::Recipe& recipe, Progres
 }  // namespace
 
 io::ReadOptions read_options(const scenario::Recipe& recipe) {
-  return {recipe.series, recipe.spacing_mm, recipe.read_seconds, recipe.read_memory_mb};
+  return {recipe.series, recipe.spacing_mm, recipe.check_values, recipe.read_seconds,
+          recipe.read_memory_mb};
 }
 
 Result<importing::Imported> open_bone(const scenario::Recipe& recipe, Progress& progress,

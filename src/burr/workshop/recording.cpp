@@ -139,10 +139,11 @@ std::shared_ptr<const volume::Greys> greys_of(const record::Player& player,
                                               const scenario::Recipe& given, Progress& progress) {
   const auto print = record::fingerprint(given.source);
   if (!print || *print != player.info().volume.source_fingerprint) return nullptr;
-  const auto scan = io::read_scan(given.source, read_options(given), progress);
-  if (!scan) return nullptr;
   scenario::Recipe answered = given;  // what was asked when the recording was made
   answered.allow_missing = player.info().volume.recipe.allow_missing;
+  answered.check_values = player.info().volume.recipe.check_values;
+  const auto scan = io::read_scan(given.source, read_options(answered), progress);
+  if (!scan) return nullptr;
   const auto plan = importing::plan_import(*scan, answered);
   return plan ? importing::keep_greys(*scan, plan->iso, progress) : nullptr;
 }

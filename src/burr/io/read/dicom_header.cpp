@@ -324,6 +324,9 @@ class Facts {
       frame.slope = slope[0];
       if (!intercept.empty()) frame.intercept = intercept[0];
       frame.has_rescale = true;
+    } else if (slope.empty() && !intercept.empty()) {
+      frame.has_lone_intercept = true;
+      frame.lone_intercept = intercept[0];
     }
     whole_bits(values, 0x0062000B, 2, frame.segment);
     of_phase(values, frame.phase);

@@ -40,6 +40,8 @@ struct DicomFrame {
   double row_gap_mm = 1, column_gap_mm = 1;  // distance between rows, between columns
   double slope = 1, intercept = 0;
   bool has_rescale = false;
+  bool has_lone_intercept = false;  // a Rescale Intercept without a slope
+  double lone_intercept = 0;
   double thickness_mm = 0;
   double location_mm = 0;  // Slice Location, if has_location
   int segment = 0;         // of a segmentation: the segment that it shows; 0: not stated

@@ -2,14 +2,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <new>
 #include <thread>
 
 #include "burr/io/read/bytes.h"
+#include "burr/io/read/calibration.h"
 #include "burr/io/read/dicom_header.h"
 #include "burr/io/read/dicom_seg.h"
 #include "burr/io/read/dicom_series.h"
@@ -30,7 +33,18 @@ struct Reading {
   std::vector<bool> lost;      // (slices)
   std::size_t beyond = 0;      // pixels with bits beyond Bits Stored
   int bits_stored = 0;
+  std::size_t padded = 0;  // voxels that are padding; NaN where the values are checked
 };
+
+// How stored numbers become values.
+struct Rescale {
+  double slope = 1, intercept = 0;
+};
+Rescale rescale_of(const DicomFrame& frame, bool check_values) {
+  if (check_values && !frame.has_rescale && frame.has_lone_intercept)
+    return {1, frame.lone_intercept};
+  return {frame.slope, frame.intercept};
+}
 
 // Sorts along the normal; says how the order is known, and refuses what has none.
 Status order(const Series& series, Volume& volume, const std::string& file, Scan& scan) {
@@ -115,8 +129,8 @@ Status guarded(const std::filesystem::path& path, Work work) {
 }
 
 // Reads the voxels of all slices, each with its own rescaling.
-Status read_slices(const Series& series, const std::vector<Slice>& slices, Scan& scan,
-                   Reading& reading, Progress& progress) {
+Status read_slices(const Series& series, const std::vector<Slice>& slices, bool check_values,
+                   Scan& scan, Reading& reading, Progress& progress) {
   const std::size_t pixels =
       static_cast<std::size_t>(scan.size.x()) * static_cast<std::size_t>(scan.size.y());
   scan.values.assign(pixels * slices.size(), 0.0F);
@@ -147,17 +161,19 @@ Status read_slices(const Series& series, const std::vector<Slice>& slices, Scan&
       const std::int32_t* from =
           stored->data() + pixels * static_cast<std::size_t>(slices[k].frame);
       float* to = scan.values.data() + pixels * k;
+      const Rescale rescale = rescale_of(frame, check_values);
+      const float padding = check_values ? std::numeric_limits<float>::quiet_NaN() : -1024.0F;
       std::size_t holes = 0, low = 0;
       for (std::size_t v = 0; v < pixels; ++v) {
         const std::int64_t value = h.is_signed || h.bits_stored < 32
                                        ? std::int64_t{from[v]}
                                        : std::int64_t{static_cast<std::uint32_t>(from[v])};
         if (h.has_padding && value >= h.padding && value <= h.padding_end) {
-          to[v] = -1024.0F;
+          to[v] = padding;
           ++holes;
           continue;
         }
-        to[v] = static_cast<float>(static_cast<double>(value) * frame.slope + frame.intercept);
+        to[v] = static_cast<float>(static_cast<double>(value) * rescale.slope + rescale.intercept);
         if (scan.hounsfield && to[v] < -1024.0F) {
           to[v] = -1024.0F;
           ++low;
@@ -198,6 +214,8 @@ Status read_slices(const Series& series, const std::vector<Slice>& slices, Scan&
   if (reading.unread.size() == work.size()) return first_lost;
   reading.beyond = beyond;
   reading.bits_stored = series.files[slices.front().file].bits_stored;
+  reading.padded = padded;
+  if (check_values) return fine();
   if (padded > 0)
     scan.notices.push_back(
         fmt::format("{} voxels were padding and are now air (-1024 HU).", padded.load()));
@@ -332,6 +350,32 @@ void say_unread(const Found& found, const Series& series, const Reading& reading
                                      file, own.size(), all, names));
 }
 
+// What the header says of the values.
+Claim claim_of(const DicomHeader& h, const DicomFrame& first, bool check_values) {
+  const Rescale rescale = rescale_of(first, check_values);
+  const bool rescaled = first.has_rescale || (check_values && first.has_lone_intercept);
+  Claim claim;
+  claim.hounsfield = (h.modality == "CT" || h.modality.empty()) && !h.has_modality_lut &&
+                     (rescaled || h.rescale_type == "HU") &&
+                     (h.rescale_type.empty() || h.rescale_type == "HU");
+  const std::array<const char*, 9> by_rays = {"CT", "", "OT", "XA", "RF", "DX", "PX", "IO", "SC"};
+  claim.can_be_hounsfield =
+      !h.has_modality_lut && std::find(by_rays.begin(), by_rays.end(), h.modality) != by_rays.end();
+  claim.clip_below_air = true;
+  claim.slope = rescale.slope;
+  claim.intercept = rescale.intercept;
+  if (!h.float_pixels && h.bits_stored >= 10 && h.bits_stored <= 16)
+    claim.period = std::exp2(h.bits_stored);
+  return claim;
+}
+
+Status judge(Claim claim, const Reading& reading, const std::string& file, Scan& scan) {
+  claim.padded = reading.padded;
+  if (Status status = calibrate(scan, claim); !status)
+    return error(fmt::format("{}: {}", file, status.error().text));
+  return fine();
+}
+
 // What the numbers of the header leave open.
 void say_header(const Series& series, const std::vector<Slice>& slices, const std::string& file,
                 Scan& scan) {
@@ -411,9 +455,8 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
   auto count = voxel_count(file, h.columns, h.rows, static_cast<std::int64_t>(slices.size()));
   if (!count) return count.error();
   scan.size = {h.columns, h.rows, static_cast<int>(slices.size())};
-  scan.hounsfield = (h.modality == "CT" || h.modality.empty()) && !h.has_modality_lut &&
-                    (frame_of(series, slices.front()).has_rescale || h.rescale_type == "HU") &&
-                    (h.rescale_type.empty() || h.rescale_type == "HU");
+  const Claim claim = claim_of(h, frame_of(series, slices.front()), options.check_values);
+  scan.hounsfield = claim.hounsfield && !options.check_values;
   if (h.has_modality_lut)
     scan.notices.emplace_back(
         "The file has a table of values (Modality LUT); burr does not apply it, so the values are "
@@ -423,9 +466,12 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
     scan.notices.emplace_back("The picture is inverted (MONOCHROME1): dark is dense here.");
 
   Reading reading;
-  if (Status status = read_slices(series, slices, scan, reading, progress); !status)
+  if (Status status = read_slices(series, slices, options.check_values, scan, reading, progress);
+      !status)
     return status.error();
   if (!reading.unread.empty()) drop_lost(reading.lost, slices, scan);
+  if (options.check_values)
+    if (Status status = judge(claim, reading, file, scan); !status) return status.error();
   say_unread(*found, series, reading, file, scan);
   if (reading.beyond > 0)
     scan.notices.push_back(fmt::format(

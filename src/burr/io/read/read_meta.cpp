@@ -172,7 +172,7 @@ Result<OpenFile> open_data(const std::filesystem::path& path, const Header& head
 
 // Reads the voxels of an opened file into the scan.
 Status read_voxels(const Header& header, const SampleFormat& format, std::size_t count,
-                   OpenFile data, Scan& scan, Progress& progress) {
+                   OpenFile data, bool check_values, Scan& scan, Progress& progress) {
   const std::uint64_t needed = count * bytes_of(format.type), there = data.size;
   const bool packed = is_true(header.get({"CompressedData"}));
   std::int64_t header_size = 0;
@@ -193,7 +193,7 @@ Status read_voxels(const Header& header, const SampleFormat& format, std::size_t
   if (read) read = read_samples(*source, format, count, sink, progress);
   if (!read)
     return error(read.error().trouble, fmt::format("{}: {}", header.file, read.error().text));
-  if (Status status = sink.finish(scan, false); !status)
+  if (Status status = sink.finish(scan, false, check_values); !status)
     return error(fmt::format("{}: {}", header.file, status.error().text));
   return fine();
 }
@@ -249,7 +249,9 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
   if (!format) return format.error();
   auto data = open_data(path, header);
   if (!data) return data.error();
-  if (Status read = read_voxels(header, *format, *count, std::move(*data), scan, progress); !read)
+  if (Status read = read_voxels(header, *format, *count, std::move(*data), options.check_values,
+                                scan, progress);
+      !read)
     return read.error();
   const auto affine = affine_of(header, scan.notices);
   if (!affine) return affine.error();

@@ -348,7 +348,7 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
   if (read) read = read_samples(*opened->source, format, *count, sink, progress);
   if (!read) return error(read.error().trouble, fmt::format("{}: {}", file, read.error().text));
   const bool sure = !scan.label_names.empty() && sink.all_are_among(scan.label_names);
-  if (Status status = sink.finish(scan, sure); !status)
+  if (Status status = sink.finish(scan, sure, options.check_values); !status)
     return error(fmt::format("{}: {}", file, status.error().text));
   if (scan.labels.empty()) scan.label_names.clear();
   const Affine affine = affine_of(*header, scan);

@@ -653,7 +653,7 @@ Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& opt
                      : read_samples(**source, format, samples, sink, progress);
   if (!read) return error(read.error().trouble, fmt::format("{}: {}", file, read.error().text));
   Status status = layers > 1 ? sink.finish_layers(scan, layers, shape->layers_first, named.layers)
-                             : sink.finish(scan, segmentation);
+                             : sink.finish(scan, segmentation, options.check_values);
   if (!status) return error(fmt::format("{}: {}", file, status.error().text));
   const Affine affine = affine_of(*header, *shape, file, scan);
   status = place(scan, affine, options.spacing_mm, file, progress);

@@ -13,6 +13,9 @@ struct ReadOptions {
   std::string series;                 // Series Instance UID, or its beginning, or the number shown
                                       // by info ("#2"); empty: the best one
   math::Vec3 spacing_mm = {0, 0, 0};  // all > 0: overrides the file
+  // What the header says of its values is checked against them (calibration.h). false: as burr read
+  // scans before 2026-11-26, for the recordings of that time.
+  bool check_values = true;
   // Limits of the fence; 0: chosen from the size of the files. They are far above what reading
   // needs; only a damaged or hostile file, or a very strongly compressed one, reaches them.
   double seconds = 0;    // of processor time; also the longest time without progress [s]

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "burr/base/printable.h"
+#include "burr/io/read/calibration.h"
 
 namespace burr::io {
 namespace {
@@ -338,7 +339,7 @@ Result<bool> VoxelSink::wide_labels(Scan& scan, bool labels_for_sure) {
   return true;
 }
 
-Status VoxelSink::finish(Scan& scan, bool labels_for_sure) {
+Status VoxelSink::finish(Scan& scan, bool labels_for_sure, bool check_values) {
   if (wide_ && (labels_for_sure || !scan.hounsfield)) {
     const auto labels = wide_labels(scan, labels_for_sure);
     if (!labels) return labels.error();
@@ -351,7 +352,16 @@ Status VoxelSink::finish(Scan& scan, bool labels_for_sure) {
     return fine();
   }
   if (!wide_) widen();
+  if (!check_values) return finish_unchecked(scan);
+  scan.values = std::move(values_);
+  Claim claim;
+  claim.broken = broken_;
+  claim.period = 65536;
+  return calibrate(scan, claim);
+}
 
+// As before 2026-11-26.
+Status VoxelSink::finish_unchecked(Scan& scan) {
   float low = std::numeric_limits<float>::infinity(), high = -low;
   for (const float value : values_) {
     if (std::isnan(value)) continue;

@@ -38,10 +38,11 @@ class VoxelSink {
   // Whether the values are whole numbers from 0 up and each above 0 is the value of one of these.
   [[nodiscard]] bool all_are_among(const std::vector<Label>& labels) const;
   // Moves the voxels into the scan: as values, or as labels if the numbers look like labels or
-  // `labels_for_sure` is set. Labels above 255 get numbers up to 255, in scan.label_names too, and
+  // `labels_for_sure` is set. Values are calibrated (calibration.h), unless check_values is false:
+  // then by the rules of before 2026-11-26. Labels above 255 get numbers up to 255, in scan.label_names too, and
   // whole numbers within 0.001 are rounded; both with a notice. Values that are not finite or beyond
   // 1e30 become air, with a notice.
-  [[nodiscard]] Status finish(Scan& scan, bool labels_for_sure);
+  [[nodiscard]] Status finish(Scan& scan, bool labels_for_sure, bool check_values = true);
 
   // The same for a segmentation whose segments lie in `layers` layers; layer_of_name: the layer of
   // each of scan.label_names. Where segments overlap, the one with fewer voxels stays, of two equal
@@ -51,6 +52,7 @@ class VoxelSink {
 
  private:
   void widen();
+  [[nodiscard]] Status finish_unchecked(Scan& scan);
   [[nodiscard]] Result<bool> wide_labels(Scan& scan, bool labels_for_sure);
 
   std::size_t count_;

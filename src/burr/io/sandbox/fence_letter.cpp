@@ -105,7 +105,7 @@ class Unpacker {
 };
 
 // both sides must agree about this, structs included
-std::string version() { return std::string("fence 3 of burr ") + base::version(); }
+std::string version() { return std::string("fence 4 of burr ") + base::version(); }
 
 Trouble trouble_of(std::int32_t number) {
   switch (static_cast<Trouble>(number)) {
@@ -124,6 +124,8 @@ void pack_scan(Packer& to, const Scan& scan) {
   for (int a = 0; a < 3; ++a) to.put(math::Vec3(scan.axes.col(a)));
   to.put(scan.origin_mm);
   to.put(static_cast<std::uint8_t>(scan.hounsfield));
+  to.put(static_cast<std::uint8_t>(scan.outside.has_value()));
+  to.put(scan.outside.value_or(0.0F));
   to.put(static_cast<std::uint8_t>(scan.k_reversed));
   to.put(scan.format);
   to.put(static_cast<std::uint32_t>(scan.notices.size()));
@@ -158,6 +160,10 @@ void unpack_scan(Unpacker& from, Scan& scan) {
               scan.axes.determinant() > 0);
   scan.origin_mm = from.vec3();
   scan.hounsfield = from.get<std::uint8_t>() != 0;
+  const bool has_outside = from.get<std::uint8_t>() != 0;
+  const float outside = from.get<float>();
+  from.demand(std::isfinite(outside));
+  if (has_outside) scan.outside = outside;
   scan.k_reversed = from.get<std::uint8_t>() != 0;
   scan.format = from.words();
   for (std::size_t n = from.count(kMostNotices); n > 0 && from.good(); --n)
@@ -195,6 +201,7 @@ std::size_t pack(const FenceRequest& request, std::span<std::uint8_t> letter) {
   to.put(request.path);
   to.put(request.options.series);
   to.put(request.options.spacing_mm);
+  to.put(static_cast<std::uint8_t>(request.options.check_values));
   to.put(request.options.seconds);
   to.put(request.options.memory_mb);
   return to.size();
@@ -206,6 +213,7 @@ bool unpack(std::span<const std::uint8_t> bytes, FenceRequest& request) {
   request.path = from.text();
   request.options.series = from.text();
   for (int a = 0; a < 3; ++a) request.options.spacing_mm[a] = from.get<double>();
+  request.options.check_values = from.get<std::uint8_t>() != 0;
   request.options.seconds = from.get<double>();
   request.options.memory_mb = from.get<double>();
   return from.whole();
