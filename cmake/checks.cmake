@@ -11,6 +11,8 @@ if(Python3_FOUND)
   add_test(NAME house.rooms_are_watched COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/house/rooms_test.py)
   add_test(NAME house.long_functions COMMAND ${Python3_EXECUTABLE} ${checks}/long_functions.py)
   add_test(NAME house.long_functions_are_found COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/house/long_functions_test.py)
+  add_test(NAME house.includes COMMAND ${Python3_EXECUTABLE} ${checks}/includes.py)
+  add_test(NAME house.includes_are_found COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/house/includes_test.py)
   add_test(NAME house.same_bits COMMAND ${Python3_EXECUTABLE} ${checks}/same_bits.py $<TARGET_FILE:same_bits>)
   set_tests_properties(house.same_bits PROPERTIES TIMEOUT 600)
   add_test(NAME house.documents COMMAND ${Python3_EXECUTABLE} ${checks}/docs.py ${CMAKE_BINARY_DIR})
@@ -40,7 +42,8 @@ set_tests_properties(house.tidy PROPERTIES PROCESSORS ${BURR_PROCESSORS} TIMEOUT
 set_tests_properties(house.install PROPERTIES LABELS long)
 
 # ---- Each header compiles alone, with the warnings of the library. A header whose own .cpp
-# includes it first has been tested by that; the others are compiled here.
+# includes it first has been tested by that (its headers of the C++ library by house.includes); the
+# others are compiled here.
 foreach(header ${BURR_HEADERS})
   string(REGEX REPLACE "\\.h$" ".cpp" own ${header})
   file(RELATIVE_PATH inside ${PROJECT_SOURCE_DIR}/src ${header})

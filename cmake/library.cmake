@@ -79,7 +79,10 @@ endif()
 set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/burr/base/helper_program.cpp APPEND PROPERTY
   COMPILE_DEFINITIONS BURR_LIBEXEC_FROM_LIB="${BURR_LIBEXEC_FROM_LIB}")
 burr_common_headers(burr_files <fmt/format.h>)
-burr_common_headers(burr_session <fmt/format.h>)
+foreach(part burr_session burr_workshop burr_device_crtk burr_device_haply burr_device_forcedimension burr_device_openhaptics
+    burr_device_polhem)
+  burr_common_headers(${part} REUSE_FROM burr_files)  # the same options, so one set of headers for all
+endforeach()
 burr_common_headers(burr_render_gl <fmt/format.h>)
 
 add_library(burr SHARED)

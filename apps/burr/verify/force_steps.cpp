@@ -1,6 +1,5 @@
 // burr verify steps - what the hand feels from one tick to the next beyond its own move: on
-// formulas, on bone that the border of a scan cuts, and on real bone. The slot as wide as the burr is in
-// tests/workshop/touch_reports_test.cpp.
+// formulas, in a slot as wide as the burr, on bone that the border of a scan cuts, and on real bone.
 #include "burr/haptics/force_steps.h"
 
 #include <fmt/format.h>
@@ -115,6 +114,16 @@ void formulas(Report::Part& part, Table& table) {
       "groove",
       stroke(phantom::bone_from_distance(grid, {}, phantom::groove(45 * M_PI / 180)), r,
              {0, -6 * kMm, r * M_SQRT2}, {0, 6 * kMm, r * M_SQRT2}, -Vec3::UnitZ(), 1 * kMm, kFast),
+      kBar);
+  // 6 mm deep and exactly as wide as the burr, which rests on its two rims
+  const math::Pose in_slot{Vec3(0, 0, -3 * kMm), math::Quat::Identity()};
+  judge(
+      "slot",
+      stroke(phantom::bone_from_distance(
+                 grid, {},
+                 phantom::without(phantom::slab(),
+                                  phantom::placed(phantom::box({20 * kMm, r, 3 * kMm}), in_slot))),
+             r, {-6 * kMm, 0, 0}, {6 * kMm, 0, 0}, -Vec3::UnitZ(), 3 * kMm, kFast),
       kBar);
   for (const bool labels : {true, false}) {
     auto bone = imported(labels, {});

@@ -3,6 +3,7 @@
 
 #include <SDL2/SDL.h>
 
+#include <iterator>
 #include <utility>
 
 #include "window/mill/mill.h"

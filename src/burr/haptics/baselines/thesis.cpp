@@ -1,5 +1,6 @@
 #include "burr/haptics/baselines/thesis.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "burr/math/sums.h"

@@ -1,6 +1,7 @@
 // MetaImage (.mha, .mhd), after https://itk.org/Wiki/ITK/MetaIO/Documentation. World is LPS.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <system_error>

@@ -2,6 +2,7 @@
 // (nifti1.h, nifti2.h). World is RAS there: x and y change sign here.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "burr/io/sandbox/fence_letter.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <type_traits>
