@@ -72,5 +72,22 @@ TEST_F(ExportPart, WhatCannotBeIsSaidBeforeTheWork) {
   EXPECT_EQ(files(), 0);
 }
 
+TEST_F(ExportPart, SaysHowManyPartsThereAreAndWritesTheLargest) {
+  now = test::bone_of(test::askew({49, 48, 32}), [](const Vec3& p) {
+    return std::max({9.1 - (p - Vec3(14.2, 15.7, 16)).norm(), 5 - (p - Vec3(38, 30, 16)).norm(),
+                     0.6 - (p - Vec3(40, 6, 6)).norm()});
+  });
+  const double large = 4.0 / 3 * std::numbers::pi * std::pow(9.1 * 0.5e-3, 3);
+  const auto all = to("all.ply"), largest = to("largest.ply", {.largest = true});
+  ASSERT_TRUE(all && largest);
+  EXPECT_EQ(all->shells.parts, 3U);
+  EXPECT_EQ(all->shells.islands, 1U);
+  EXPECT_EQ(all->shells.cavities, 0U);
+  EXPECT_EQ(largest->shells.parts, 3U) << "what was left out is still told";
+  EXPECT_LT(largest->triangles, all->triangles);
+  EXPECT_NEAR(largest->volume / large, 1, 0.01);
+  EXPECT_FALSE(check_export("a.nrrd", {.largest = true}));
+}
+
 }  // namespace
 }  // namespace burr::io

@@ -39,6 +39,10 @@ TEST(Recipe, ComesBackToTheBitThroughJson) {
     if (coin()) recipe.reserve_bricks = random() % 100'000;
     if (coin()) recipe.margin = false;
     if (coin()) recipe.check_values = false;
+    if (coin()) recipe.keep.largest = 1 + static_cast<int>(random() % 100);
+    while (random() % 3 == 0)
+      recipe.keep.at_mm.emplace_back(1 - 1e3 * share(random), share(random) / 3, 1e-9);
+    if (coin()) recipe.drop_islands_mm3 = share(random);
     const auto back = recipe_from_json(to_json(recipe), "x");
     ASSERT_TRUE(back) << back.error().text;
     ASSERT_TRUE(*back == recipe) << to_json(recipe) << "\n" << to_json(*back);
@@ -90,6 +94,12 @@ TEST(Recipe, OfTheWrongKindIsRefusedByField) {
            {R"({"spacing_mm": [1, 2, 1000]})", "spacing_mm"},
            {R"({"reserve_bricks": 1.5})", "reserve_bricks"},
            {R"({"margin": 1})", "margin"},
+           {R"({"keep": "largest"})", "keep"},
+           {R"({"keep": {"largest": -1}})", "keep"},
+           {R"({"keep": {"at_mm": [[1, 2]]}})", "keep"},
+           {R"({"keep": {"at_mm": [[1, 2, 1e7]]}})", "keep"},
+           {R"({"keep": {"smallest": 1}})", "keep"},
+           {R"({"drop_islands_mm3": -1})", "drop_islands_mm3"},
            {R"({"source": 7})", "source"}}) {
     const auto read = recipe_from_json(text, "f.json");
     ASSERT_FALSE(read) << text;
@@ -111,6 +121,24 @@ TEST(Recipe, IsTypedInVoxelsLevelsAndMillimetres) {
   for (const char* wrong : {"", "high", "1,2"}) EXPECT_FALSE(parse_level(wrong)) << wrong;
   for (const char* wrong : {"", "0.3", "0,1,1", "1,1,101", "-1,1,1"})
     EXPECT_FALSE(parse_spacing(wrong)) << wrong;
+}
+
+TEST(Recipe, PartsToKeepAreTypedAsANumberOrPoints) {
+  EXPECT_EQ(parse_keep("largest")->largest, 1);
+  EXPECT_EQ(parse_keep("3")->largest, 3);
+  EXPECT_EQ(parse_keep("3 largest")->largest, 3);
+  EXPECT_TRUE(parse_keep("all")->all());
+  for (const char* text : {"at 1,-2,3.5; 4,5,6", "1,-2,3.5;4,5,6"}) {
+    const auto keep = parse_keep(text);
+    ASSERT_TRUE(keep) << keep.error().text;
+    EXPECT_EQ(keep->largest, 0);
+    ASSERT_EQ(keep->at_mm.size(), 2U);
+    EXPECT_EQ(keep->at_mm[0], math::Vec3(1, -2, 3.5));
+    EXPECT_EQ(keep->at_mm[1], math::Vec3(4, 5, 6));
+  }
+  for (const char* wrong : {"", "at", "0", "-1", "1.5", "smallest", "1,2", "at 1,2", "1,2,3;",
+                            "at 1,2,nan", "at 1,2,1e9", "1e9", "largest 3x"})
+    EXPECT_FALSE(parse_keep(wrong)) << wrong;
 }
 
 }  // namespace

@@ -92,8 +92,8 @@ TEST(Preview, OutlinesWhatIsTinted) {
   for (int y = 2; y < 7; ++y)
     for (int x = 2; x < 7; ++x) plane.values[static_cast<std::size_t>(8 * y + x)] = 500;
   std::vector<std::uint8_t> with, without;
-  draw_greys(plane, 0, 1000, 300, 1, with);
-  draw_greys(plane, 0, 1000, std::nullopt, 1, without);
+  draw_greys(plane, 0, 1000, 300, 1, {}, with);
+  draw_greys(plane, 0, 1000, std::nullopt, 1, {}, without);
   const auto pixel = [](const std::vector<std::uint8_t>& rgba, int x, int y) {
     const std::size_t at = 4 * static_cast<std::size_t>(8 * y + x);
     return std::array<int, 3>{rgba[at], rgba[at + 1], rgba[at + 2]};
@@ -127,11 +127,17 @@ TEST(LabelTable, SaysOnlyWhatDiffersAndNoNames) {
   found[0].tissue.name = "Svensson";
   found[1].tissue.label = 7;
   using volume::TissueKind;
-  EXPECT_EQ(table_of(found, {TissueKind::solid, TissueKind::solid}), "");
-  const std::string table = table_of(found, {TissueKind::solid, TissueKind::air});
+  EXPECT_EQ(table_of(found, choices_of(found)), "");
+  std::vector<LabelChoice> wanted = choices_of(found);
+  wanted[1].kind = TissueKind::air;
+  const std::string table = table_of(found, wanted);
   EXPECT_NE(table.find("value = 7\nkind = \"air\""), std::string::npos) << table;
   EXPECT_EQ(table.find("value = 3"), std::string::npos);
   EXPECT_EQ(table.find("Svensson"), std::string::npos);
+  EXPECT_EQ(table.find("spare"), std::string::npos);
+  wanted = choices_of(found);
+  wanted[0].spare = true;
+  EXPECT_NE(table_of(found, wanted).find("value = 3\nspare = true"), std::string::npos);
 }
 
 // ---- memory, in a window

@@ -24,6 +24,8 @@ void click_on(const Part& part) {
   click(static_cast<int>(part.x + part.w / 2), static_cast<int>(part.y + part.h / 2));
 }
 
+constexpr float kLabelButtons = 3 * 53 + 64;  // from the first button of a label to the right end
+
 // The bone that the command line makes of the same words.
 std::uint64_t hash_of(const scenario::Recipe& options) {
   NoProgress quiet;
@@ -164,7 +166,7 @@ TEST_F(ImportWindow, MakesLabelsWhatTheyAreClickedToBe) {
   const fs::path file = halves(folder_);
   const ImportLayout at = layout();
   // the row of label 2, the second of its three buttons: soft
-  const int x = static_cast<int>(at.plot.x + at.plot.w - 196 + 66 + 31),
+  const int x = static_cast<int>(at.plot.x + at.plot.w - kLabelButtons + 53 + 25),
             y = static_cast<int>(at.level.y + 34 + 32 + 15);
   by({{"the start page", on(Page::start), [&] { drop(file); }},
       {"the import page", on(Page::import), nullptr},
@@ -191,7 +193,7 @@ TEST_F(ImportWindow, MakesLabelsWhatTheyAreClickedToBe) {
 TEST_F(ImportWindow, LeavesNoTableBehindWhenOneGoesBack) {
   const fs::path file = halves(folder_);
   const ImportLayout at = layout();
-  const int x = static_cast<int>(at.plot.x + at.plot.w - 196 + 66 + 31),
+  const int x = static_cast<int>(at.plot.x + at.plot.w - kLabelButtons + 53 + 25),
             y = static_cast<int>(at.level.y + 34 + 32 + 15);
   bool written = false;
   const auto tables = [&] {
@@ -209,6 +211,184 @@ TEST_F(ImportWindow, LeavesNoTableBehindWhenOneGoesBack) {
             {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
   EXPECT_TRUE(written) << "nothing was chosen: the test shows nothing";
   EXPECT_EQ(tables(), 0);
+}
+
+// ---- what burr assumed, line by line
+
+class ImportDoubts : public ImportWindow {
+ protected:
+  // A ball, a cube and a single voxel, 0.4 mm each way; or the ball alone.
+  [[nodiscard]] fs::path parts(bool all) const {
+    const fs::path path = folder_ / "parts.nrrd";
+    std::ofstream file(path, std::ios::binary);
+    file << "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\n"
+            "sizes: 24 24 24\nspace directions: (0.4,0,0) (0,0.4,0) (0,0,0.4)\n"
+            "space origin: (5,6,7)\nendian: little\nencoding: raw\n\n";
+    for (int k = 0; k < 24; ++k)
+      for (int j = 0; j < 24; ++j)
+        for (int i = 0; i < 24; ++i) {
+          const double r = std::hypot(i - 8, j - 12, k - 12);
+          const bool cube = std::abs(i - 18) < 3 && std::abs(j - 12) < 3 && std::abs(k - 12) < 3,
+                     speck = i == 3 && j == 3 && k == 3;
+          const auto hu = static_cast<std::int16_t>(
+              all && (cube || speck) ? 1000 : std::clamp(300 + 700 * (6 - r), -1000.0, 1500.0));
+          const char bytes[2] = {static_cast<char>(hu & 0xFF), static_cast<char>((hu >> 8) & 0xFF)};
+          file.write(bytes, 2);
+        }
+    return path;
+  }
+  // The recipe after somebody at the page did this, and pressed Enter or Esc.
+  scenario::Recipe after(const fs::path& file, std::vector<Script::Step> steps) {
+    NoProgress quiet;
+    scenario::Recipe recipe;
+    recipe.source = file.string();
+    auto opened = open_scan(recipe, quiet);
+    EXPECT_TRUE(opened) << opened.error().text;
+    if (!opened) return {};
+    ImportPage page(*desk_, std::move(*opened));
+    Script script(std::move(steps), desk_->status_text);
+    desk_->after_frame = [&script] { script.look(); };
+    const auto answer = page.ask("", 0);
+    desk_->after_frame = {};
+    EXPECT_TRUE(answer) << answer.error().text;
+    EXPECT_TRUE(script.finished());
+    return page.volume();
+  }
+  // Presses the n-th button from the right of a line; texts: of the buttons, from the right.
+  void press_button(std::size_t line, std::size_t lines, const std::vector<std::string>& texts) {
+    const Part p = import_layout(1280, 720, 1, lines).doubts[line];
+    float x = p.x + p.w - 4;
+    for (std::size_t n = 0; n < texts.size(); ++n) {
+      const float wide = desk_->ui().width_of(Ui::Letter::body, texts[n]) + 24;
+      if (n + 1 == texts.size())
+        click(static_cast<int>(x - wide / 2), static_cast<int>(p.y + p.h / 2));
+      x -= wide + 8;
+    }
+  }
+  // how many pixels have the ground of a line that warns
+  int warned() {
+    const render::Image image = desk_->renderer().shown();
+    int count = 0;
+    for (std::size_t n = 0; n + 2 < image.rgb.size(); n += 3)
+      count += std::abs(image.rgb[n] - 50) < 3 && std::abs(image.rgb[n + 1] - 38) < 3 &&
+                       std::abs(image.rgb[n + 2] - 22) < 3
+                   ? 1
+                   : 0;
+    return count;
+  }
+};
+
+TEST_F(ImportDoubts, OfAScanThatIsRightThereAreNone) {
+  int seen = -1;
+  const scenario::Recipe recipe = after(parts(false), {{"a count", looks(30), [&] {
+                                                          seen = warned();
+                                                          press(SDLK_RETURN);
+                                                        }}});
+  EXPECT_LT(seen, 50);
+  EXPECT_TRUE(recipe.keep.all());
+}
+
+TEST_F(ImportDoubts, OfSeveralPartsTheButtonsAreTheOptions) {
+  const fs::path file = parts(true);
+  const std::string pick = word(Word::import_pick),
+                    drop = say(Word::import_drop_islands, importing::kIslandMm3),
+                    largest = word(Word::import_keep_largest),
+                    keep_all = word(Word::import_keep_all);
+  int before = -1, decided = -1;
+  scenario::Recipe recipe = after(file, {{"a count", looks(30),
+                                          [&] {
+                                            before = warned();
+                                            press_button(0, 1, {pick, drop, largest});
+                                          }},
+                                         {"the choice", looks(5), [&] {
+                                            decided = warned();
+                                            press(SDLK_RETURN);
+                                          }}});
+  EXPECT_GT(before, 10'000);
+  EXPECT_LT(decided, 50) << "what is decided is no doubt";
+  EXPECT_EQ(recipe.keep.largest, 1);
+  scenario::Recipe typed;
+  typed.source = file.string();
+  const std::uint64_t by_itself = hash_of(typed);
+  typed.keep.largest = 1;
+  EXPECT_EQ(hash_of(recipe), hash_of(typed));
+  EXPECT_NE(hash_of(typed), by_itself);
+
+  recipe = after(file, {{"a count", looks(30),
+                         [&] {
+                           press_button(0, 1, {pick, drop});
+                         }},
+                        {"the choice", looks(5), [] { press(SDLK_RETURN); }}});
+  EXPECT_TRUE(recipe.keep.all());
+  EXPECT_EQ(recipe.drop_islands_mm3, importing::kIslandMm3);
+
+  recipe = after(file, {{"a count", looks(30),
+                         [&] {
+                           press_button(0, 1, {pick, drop});
+                         }},
+                        {"the choice", looks(5), [&] { press_button(0, 1, {keep_all}); }},
+                        {"taken back", looks(5), [] { press(SDLK_RETURN); }}});
+  EXPECT_TRUE(recipe.keep.all());
+  EXPECT_EQ(recipe.drop_islands_mm3, 0);
+}
+
+// A click into the axial view keeps the part there; beside bone it says so and changes nothing.
+TEST_F(ImportDoubts, AClickKeepsThePartThatItHits) {
+  const Part view = import_layout(1280, 720, 1, 1).views[0];
+  const float side = std::floor(std::min(view.w, view.h) - 48);
+  const auto click_voxel = [&](double i, double j) {
+    click(static_cast<int>(view.x + (view.w - side) / 2 + side * (i + 0.5) / 24),
+          static_cast<int>(view.y + (view.h - side) / 2 + side * (j + 0.5) / 24));
+  };
+  std::string told;
+  const std::string pick = word(Word::import_pick);
+  const scenario::Recipe recipe =
+      after(parts(true), {{"a count", looks(30), [&] { press_button(0, 1, {pick}); }},
+                          {"picking", looks(5), [&] { click_voxel(12, 1.2); }},
+                          {"no bone there", looks(5),
+                           [&] {
+                             told = desk_->message;
+                             click_voxel(18, 12);  // the cube
+                           }},
+                          {"the choice", looks(5), [] { press(SDLK_RETURN); }}});
+  EXPECT_EQ(told, word(Word::import_no_bone_here));
+  ASSERT_EQ(recipe.keep.at_mm.size(), 1U);
+  NoProgress quiet;
+  const auto made = workshop::open_bone(recipe, quiet);
+  ASSERT_TRUE(made) << made.error().text;
+  ASSERT_TRUE(made->summary.parts);
+  EXPECT_EQ(made->summary.parts->count, 3U);
+  EXPECT_EQ(made->summary.parts->removed, 2U);
+  EXPECT_NEAR(made->summary.parts->removed_mm3 + 125 * 0.064, made->summary.parts->mm3, 1e-9);
+}
+
+TEST_F(ImportDoubts, OfLabelsWithoutNamesAreAskedUntilTheyAreAnswered) {
+  const fs::path file = halves(folder_);
+  int before = -1, decided = -1;
+  const ImportLayout at = layout();
+  const auto step = [&](int& seen, std::function<void()> then) {
+    return [&seen, this, then = std::move(then)] {
+      seen = warned();
+      then();
+    };
+  };
+  scenario::Recipe recipe =
+      after(file, {{"a count", looks(30),
+                    step(before, [&] { press_button(0, 1, {word(Word::import_labels_right)}); })},
+                   {"the choice", looks(5), step(decided, [] { press(SDLK_RETURN); })}});
+  EXPECT_GT(before, 10'000);
+  EXPECT_LT(decided, 50);
+  EXPECT_EQ(recipe.labels, "");
+  // the last button of the first label: it must not be cut
+  const int x = static_cast<int>(at.plot.x + at.plot.w - 32), y = static_cast<int>(at.level.y + 50);
+  recipe = after(file, {{"a picture", looks(30), [&] { click(x, y); }},
+                        {"the choice", looks(5), [] { press(SDLK_RETURN); }}});
+  NoProgress quiet;
+  const auto made = workshop::open_bone(recipe, quiet);
+  ASSERT_TRUE(made) << made.error().text;
+  ASSERT_EQ(made->summary.tissues.size(), 2U);
+  EXPECT_TRUE(made->summary.tissues[0].tissue.spare);
+  EXPECT_FALSE(made->summary.tissues[1].tissue.spare);
 }
 
 TEST_F(ImportWindow, SaysWhatIsWrongWithANumberAndLosesNothing) {

@@ -24,7 +24,7 @@ struct Options {
   scenario::Recipe volume;  // path: --volume, of a recording
   double at_s = -1;         // moment in a recording; below 0: its end
   std::string part = "bone", frame = "lps";
-  bool scan = false;
+  bool scan = false, largest = false;
   bool json = false, force = false;
 
   [[nodiscard]] io::ExportOptions what() const {
@@ -32,7 +32,7 @@ struct Options {
             frame == "ras"     ? io::Frame::ras
             : frame == "print" ? io::Frame::print
                                : io::Frame::lps,
-            scan};
+            scan, largest};
   }
 };
 
@@ -90,6 +90,23 @@ Result<Bones> open_recording(const Options& options) {
   return bones;
 }
 
+std::string count_text(std::size_t count, const char* one, const char* more) {
+  return count == 1 ? fmt::format("1 {}", one) : fmt::format("{} {}", count, more);
+}
+
+// "  74 separate parts, 49 of them below 0.1 mm^3; 3 cavities inside them"
+std::string parts_text(const surface::Shells& shells, bool largest) {
+  std::string text = "  " + count_text(shells.parts, "part", "separate parts");
+  if (shells.islands > 0)
+    text += fmt::format(", {} of them below {:g} mm^3", shells.islands, surface::kIsland * 1e9);
+  if (shells.cavities > 0)
+    text += fmt::format("; {} inside", count_text(shells.cavities, "cavity", "cavities"));
+  if (shells.parts > 1)
+    text += largest ? "; only the largest part was written"
+                    : "; --largest writes the largest part only";
+  return text;
+}
+
 Status run(const Options& options) {
   const Status possible = io::check_export(options.out, options.what());
   if (!possible) return possible;
@@ -106,15 +123,23 @@ Status run(const Options& options) {
   if (!exported) return exported.error();
 
   const double volume_mm3 = exported.value().volume * 1e9;
+  const surface::Shells& shells = exported.value().shells;
   if (options.json) {
     nlohmann::ordered_json row;
     row["part"] = options.part;
     row["volume_mm3"] = volume_mm3;
     row["triangles"] = exported.value().triangles;
+    if (exported.value().triangles > 0) {
+      row["parts"] = shells.parts;
+      row["islands"] = shells.islands;
+      row["cavities"] = shells.cavities;
+      row["largest_mm3"] = shells.largest * 1e9;
+    }
     fmt::print("{}\n", json_line(row));
   } else if (exported.value().triangles > 0) {
     fmt::print("{}: {:.1f} mm^3 in {} triangles\n", options.out, volume_mm3,
                exported.value().triangles);
+    fmt::print("{}\n", parts_text(shells, options.largest));
   } else {
     fmt::print("{}: {:.1f} mm^3\n", options.out, volume_mm3);
   }
@@ -143,6 +168,8 @@ void add(CLI::App& app, Todo& todo) {
       ->capture_default_str();
   command->add_flag("--scan", options->scan,
                     "with .nrrd: write the scan's grey values with the cut in them, not the field");
+  command->add_flag("--largest", options->largest,
+                    "of a mesh: write only the largest of its separate parts");
   command->add_option("--at", options->at_s, "moment of the recording [s]; default: its end")
       ->check(CLI::NonNegativeNumber);
   command->add_option(

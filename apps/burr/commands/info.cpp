@@ -42,6 +42,19 @@ std::string vector_text(const math::Vec3& v) {
 nlohmann::json array(const math::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 nlohmann::json array(const math::Ijk& v) { return {v.x(), v.y(), v.z()}; }
 
+// "74 parts; the largest 98.2 %; 49 below 0.1 mm3 (--keep largest, --drop-islands-mm3 0.1)"
+std::string parts_text(const importing::PartsFound& parts) {
+  if (parts.count == 0) return "no bone";
+  if (parts.count == 1) return "1 part";
+  std::string text = fmt::format("{} parts; the largest {:.3g} %", parts.count,
+                                 100 * parts.largest_mm3 / parts.mm3);
+  if (parts.islands > 0)
+    text += fmt::format("; {} below {:g} mm3", parts.islands, importing::kIslandMm3);
+  return text + (parts.islands > 0 ? fmt::format(" (--keep largest, --drop-islands-mm3 {:g})",
+                                                 importing::kIslandMm3)
+                                   : " (--keep largest)");
+}
+
 void print(const importing::ImportSummary& s) {
   fmt::print("{}: {} x {} x {} voxels of {:.5g} x {:.5g} x {:.5g} mm, {}\n", s.format,
              s.scan_size.x(), s.scan_size.y(), s.scan_size.z(), s.spacing_mm.x(), s.spacing_mm.y(),
@@ -67,6 +80,7 @@ void print(const importing::ImportSummary& s) {
                    ? fmt::format(" (an estimate; how sure: {})", importing::word_of(s.iso_sure))
                    : "",
                s.smooth);
+  if (s.parts) fmt::print("  {}\n", parts_text(*s.parts));
   for (const importing::TissueFound& t : s.tissues) {
     fmt::print("  {:>3} {:<28} {:<5}{}", t.tissue.label, t.tissue.name, word(t.tissue.kind),
                t.tissue.spare ? " spare" : "");
@@ -106,6 +120,15 @@ nlohmann::json to_json(const importing::ImportSummary& s) {
     }
     bone["smooth"] = s.smooth;
   }
+  if (s.parts)
+    bone["parts"] = {{"count", s.parts->count},
+                     {"mm3", s.parts->mm3},
+                     {"largest_mm3", s.parts->largest_mm3},
+                     {"islands", s.parts->islands},
+                     {"island_mm3", importing::kIslandMm3},
+                     {"removed", s.parts->removed},
+                     {"removed_mm3", s.parts->removed_mm3},
+                     {"largest_removed_mm3", s.parts->largest_removed_mm3}};
   for (const importing::TissueFound& t : s.tissues) {
     nlohmann::json one = {{"label", t.tissue.label},
                           {"name", t.tissue.name},
@@ -139,6 +162,10 @@ Result<importing::ImportSummary> look(const scenario::Recipe& recipe) {
   auto scan = io::read_scan(recipe.source, workshop::read_options(recipe), progress());
   if (!scan) return scan.error();
   auto plan = importing::plan_import(*scan, recipe);
+  if (plan) {
+    const Status counted = importing::count_parts(*scan, recipe, progress(), *plan);
+    if (!counted) return counted.error();
+  }
   if (plan || plan.error().trouble == Trouble::usage) return plan;
   // a file that can be read but not milled is still described
   importing::ImportSummary s;

@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 namespace burr::app {
 namespace {
@@ -58,6 +60,24 @@ void add_volume_options(CLI::App& command, scenario::Recipe& recipe) {
         recipe.region = taken("--roi", scenario::parse_region(text));
       },
       "I0,I1,J0,J1,K0,K1: use only these voxels of the file (first and last, counted from 0)");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--keep",
+          [&recipe](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              const scenario::Keep one = taken("--keep", scenario::parse_keep(text));
+              recipe.keep.largest = std::max(recipe.keep.largest, one.largest);
+              recipe.keep.at_mm.insert(recipe.keep.at_mm.end(), one.at_mm.begin(), one.at_mm.end());
+            }
+          },
+          "which separate parts of the bone to keep: largest, a number of the largest, or \"at "
+          "X,Y,Z\", the part at this point in mm LPS; can be repeated (default: all)")
+      ->type_name("TEXT")
+      ->allow_extra_args(false);
+  command
+      .add_option("--drop-islands-mm3", recipe.drop_islands_mm3,
+                  "remove separate parts of the bone that are smaller than this [mm3]")
+      ->check(least(0, "must be a number of 0 or more"));
   command.add_option("--tissues,--labels", recipe.labels,
                      "which labels are solid, soft or air: a TOML table, or names as ITK-SNAP or "
                      "FreeSurfer list them");

@@ -9,8 +9,8 @@ class App;
 
 namespace burr::app {
 
-// Adds --series --voxel-mm --spacing-mm --iso --roi --tissues --materials --smooth --memory-mb
-// --read-seconds --read-memory-mb; the source itself is a positional argument of each subcommand,
+// Adds --series --voxel-mm --spacing-mm --iso --roi --tissues --materials --smooth --keep
+// --drop-islands-mm3 --memory-mb --read-seconds --read-memory-mb; the source itself is a positional argument of each subcommand,
 // because some accept a CASE or a recording there. An invalid value is an error of the command
 // line.
 void add_volume_options(CLI::App& command, scenario::Recipe& recipe);

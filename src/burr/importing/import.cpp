@@ -6,10 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <optional>
+#include <span>
 
 #include "burr/importing/grey.h"
 #include "burr/importing/keep_greys.h"
 #include "burr/importing/materials.h"
+#include "burr/importing/parts.h"
 #include "burr/importing/surface_field.h"
 #include "burr/importing/tissues.h"
 #include "burr/io/workers.h"
@@ -136,17 +139,25 @@ Status set_voxels(const io::Scan& scan, const scenario::Recipe& recipe, Plan& pl
   return fine();
 }
 
-std::array<std::int64_t, 256> count_labels(const io::Scan& scan, const ImportSummary& out) {
+// The labels of the region: those of the scan, or a copy without the parts that were removed.
+struct LabelRegion {
+  const std::uint8_t* labels = nullptr;  // of a box of `size` voxels (x fastest)
+  Ijk size = {0, 0, 0}, from = {0, 0, 0};
+  std::vector<std::uint8_t> own;  // the copy; empty: there is none
+  [[nodiscard]] const std::uint8_t* row(int j, int k) const {
+    return labels + static_cast<std::size_t>(from.x()) +
+           static_cast<std::size_t>(size.x()) *
+               (static_cast<std::size_t>(from.y() + j) +
+                static_cast<std::size_t>(size.y()) * static_cast<std::size_t>(from.z() + k));
+  }
+};
+
+std::array<std::int64_t, 256> count_labels(const LabelRegion& region, const Ijk& size) {
   std::array<std::int64_t, 256> counts{};
-  for (int k = 0; k < out.roi_size.z(); ++k)
-    for (int j = 0; j < out.roi_size.y(); ++j) {
-      const std::size_t row = static_cast<std::size_t>(out.roi_from.x()) +
-                              static_cast<std::size_t>(scan.size.x()) *
-                                  (static_cast<std::size_t>(out.roi_from.y() + j) +
-                                   static_cast<std::size_t>(scan.size.y()) *
-                                       static_cast<std::size_t>(out.roi_from.z() + k));
-      for (std::size_t i = 0; i < static_cast<std::size_t>(out.roi_size.x()); ++i)
-        ++counts[scan.labels[row + i]];
+  for (int k = 0; k < size.z(); ++k)
+    for (int j = 0; j < size.y(); ++j) {
+      const std::uint8_t* row = region.row(j, k);
+      for (int i = 0; i < size.x(); ++i) ++counts[row[i]];
     }
   return counts;
 }
@@ -192,7 +203,7 @@ ImportSummary summary_of(const io::Scan& scan) {
 Status plan_labels(const io::Scan& scan, const scenario::Recipe& recipe, const Materials& materials,
                    Plan& plan) {
   ImportSummary& out = plan.summary;
-  plan.counts = count_labels(scan, out);
+  plan.counts = count_labels({scan.labels.data(), scan.size, out.roi_from, {}}, out.roi_size);
   std::array<bool, 256> present{};
   for (std::size_t v = 1; v < 256; ++v) present[v] = plan.counts[v] > 0;
   auto labels = label_tissues(scan, present, recipe.labels, materials);
@@ -206,7 +217,8 @@ Status plan_labels(const io::Scan& scan, const scenario::Recipe& recipe, const M
     if (id == 0) continue;
     const volume::Tissue& tissue = plan.labels.table[id];
     any_solid = any_solid || tissue.kind == volume::TissueKind::solid;
-    out.tissues.push_back({id, tissue, plan.counts[v], static_cast<double>(plan.counts[v]) * each});
+    out.tissues.push_back({id, tissue, plan.counts[v], static_cast<double>(plan.counts[v]) * each,
+                           plan.labels.assumed[v]});
   }
   if (!any_solid)
     return error(
@@ -353,8 +365,8 @@ struct CubicLabels {
   std::vector<std::uint8_t> labels, share;
 };
 
-bool resample_labels(const io::Scan& scan, const Plan& plan, const std::array<bool, 256>& solid,
-                     CubicLabels& out, Progress& progress) {
+bool resample_labels(const LabelRegion& region, const Plan& plan,
+                     const std::array<bool, 256>& solid, CubicLabels& out, Progress& progress) {
   const ImportSummary& s = plan.summary;
   const std::size_t nx = static_cast<std::size_t>(s.size.x()),
                     ny = static_cast<std::size_t>(s.size.y());
@@ -395,11 +407,8 @@ bool resample_labels(const io::Scan& scan, const Plan& plan, const std::array<bo
           for (std::size_t b = 0; b < ty.weights.size(); ++b) {
             const float w_row = tz.weights[c] * ty.weights[b];
             const std::uint8_t* row =
-                scan.labels.data() + static_cast<std::size_t>(s.roi_from.x() + tx.first) +
-                static_cast<std::size_t>(scan.size.x()) *
-                    (static_cast<std::size_t>(s.roi_from.y() + ty.first) + b +
-                     static_cast<std::size_t>(scan.size.y()) *
-                         (static_cast<std::size_t>(s.roi_from.z() + tz.first) + c));
+                region.row(ty.first + static_cast<int>(b), tz.first + static_cast<int>(c)) +
+                tx.first;
             for (std::size_t a = 0; a < tx.weights.size(); ++a) {
               const std::uint8_t label = row[a];
               const float w = w_row * tx.weights[a];
@@ -428,31 +437,108 @@ bool resample_labels(const io::Scan& scan, const Plan& plan, const std::array<bo
   });
 }
 
+std::array<bool, 256> solid_labels(const Plan& plan) {
+  std::array<bool, 256> solid{};
+  for (std::size_t v = 1; v < 256; ++v) {
+    const volume::TissueId id = plan.labels.of_label[v];
+    solid[v] = id != 0 && plan.labels.table[id].kind == volume::TissueKind::solid;
+  }
+  return solid;
+}
+
+// Says in the summary what is removed.
+Result<ChosenParts> choose(const FoundParts& found, const scenario::Recipe& recipe,
+                           ImportSummary& out) {
+  auto chosen = choose_parts(found.parts, recipe, found.place);
+  if (!chosen) return chosen.error();
+  out.parts = chosen->found;
+  out.notices.insert(out.notices.end(), chosen->notices.begin(), chosen->notices.end());
+  return chosen;
+}
+
+Result<FoundParts> found_or_stopped(std::optional<Parts> parts, const Place& place) {
+  if (!parts) return error(Trouble::interrupted, "the import was stopped");
+  return FoundParts{std::move(*parts), place};
+}
+
+bool keeps_all(const scenario::Recipe& recipe) {
+  return recipe.keep.all() && recipe.drop_islands_mm3 <= 0;
+}
+
+Result<FoundParts> label_parts(const io::Scan& scan, const LabelRegion& region,
+                               const std::array<bool, 256>& solid, const ImportSummary& out,
+                               Progress& progress) {
+  const auto row = [&](int j, int k, std::span<std::uint8_t> inside) {
+    const std::uint8_t* labels = region.row(j, k);
+    for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = solid[labels[i]] ? 1 : 0;
+  };
+  const Place place{
+      scan.origin_mm + scan.axes * out.roi_from.cast<double>().cwiseProduct(scan.spacing_mm),
+      scan.spacing_mm, scan.axes};
+  return found_or_stopped(find_parts(out.roi_size, row, progress), place);
+}
+
+// Replaces the region by a copy without the parts that the recipe does not keep.
+Status remove_label_parts(const io::Scan& scan, const scenario::Recipe& recipe,
+                          const std::array<bool, 256>& solid, Plan& plan, LabelRegion& region,
+                          Progress& progress) {
+  ImportSummary& out = plan.summary;
+  const auto found = label_parts(scan, region, solid, out, progress);
+  if (!found) return found.error();
+  const auto chosen = choose(*found, recipe, out);
+  if (!chosen) return chosen.error();
+  if (!chosen->removes()) return fine();
+  std::vector<std::uint8_t> own;
+  own.reserve(product(out.roi_size));
+  for (int k = 0; k < out.roi_size.z(); ++k)
+    for (int j = 0; j < out.roi_size.y(); ++j) {
+      const std::uint8_t* row = region.row(j, k);
+      own.insert(own.end(), row, row + out.roi_size.x());
+    }
+  remove_labels(found->parts, chosen->kept, own);
+  region.own = std::move(own);
+  region.labels = region.own.data();
+  region.size = out.roi_size;
+  region.from = {0, 0, 0};
+  // the volumes that are restored are those of what is left
+  plan.counts = count_labels(region, out.roi_size);
+  for (TissueFound& one : out.tissues) {
+    one.voxels = plan.counts[static_cast<std::size_t>(one.tissue.label)];
+    one.volume_mm3 = static_cast<double>(one.voxels) * scan.spacing_mm.prod();
+  }
+  return fine();
+}
+
 Result<Imported> import_labels(const io::Scan& scan, const scenario::Recipe& recipe, Plan plan,
                                Progress& progress) {
   InsideGrid inside;
   inside.size = plan.summary.size;
   inside.tissue = plan.labels.of_label;
+  inside.solid = solid_labels(plan);
+  LabelRegion region{scan.labels.data(), scan.size, plan.summary.roi_from, {}};
+  if (!keeps_all(recipe)) {
+    const Status status = remove_label_parts(scan, recipe, inside.solid, plan, region, progress);
+    if (!status) return status.error();
+  }
   std::vector<double> wanted(plan.labels.table.tissues.size(), -1.0);
   const double old_voxel = scan.spacing_mm.prod(), new_voxel = std::pow(plan.summary.voxel_mm, 3);
-  for (std::size_t v = 1; v < 256; ++v) {
-    const volume::TissueId id = plan.labels.of_label[v];
-    inside.solid[v] = id != 0 && plan.labels.table[id].kind == volume::TissueKind::solid;
-    if (inside.solid[v]) wanted[id] = static_cast<double>(plan.counts[v]) * old_voxel / new_voxel;
-  }
+  for (std::size_t v = 1; v < 256; ++v)
+    if (inside.solid[v])
+      wanted[plan.labels.of_label[v]] = static_cast<double>(plan.counts[v]) * old_voxel / new_voxel;
   // the whole scan on its own grid is read without a copy
   CubicLabels cubic;
-  const bool in_place = plan.scale.isOnes(0) && plan.summary.roi_size == scan.size;
+  const bool in_place = plan.scale.isOnes(0) && plan.summary.roi_size == region.size;
   if (!in_place) {
-    if (!resample_labels(scan, plan, inside.solid, cubic, progress))
+    if (!resample_labels(region, plan, inside.solid, cubic, progress))
       return error(Trouble::interrupted, "the import was stopped");
     inside.labels = cubic.labels.data();
     inside.share = cubic.share.empty() ? nullptr : cubic.share.data();
   } else {
-    inside.labels = scan.labels.data();
-    // a nearly cubic grid is taken as cubic: voxels are counted, rounding is ignored
-    for (double& voxels : wanted) voxels *= new_voxel / old_voxel;
+    inside.labels = region.labels;
   }
+  // a nearly cubic grid is taken as cubic: voxels are counted, rounding is ignored
+  if (in_place && plan.summary.roi_size == scan.size)
+    for (double& voxels : wanted) voxels *= new_voxel / old_voxel;
   Imported made;
   if (recipe.margin) leave_margins(inside);
   made.bone = bone_from_inside(grid_of(scan, plan, inside), std::move(plan.labels.table), inside,
@@ -463,20 +549,53 @@ Result<Imported> import_labels(const io::Scan& scan, const scenario::Recipe& rec
   return made;
 }
 
+// The region of a grey scan, smoothed and on the cubic grid. None: cancelled.
+std::optional<Grey> cubic_grey(const io::Scan& scan, const Plan& plan, Progress& progress) {
+  const ImportSummary& out = plan.summary;
+  Grey grey = take_grey(scan, out.roi_from, out.roi_size);
+  if (out.smooth > 0 &&
+      !smooth_near(grey, grey.stored(out.iso), out.smooth / grey.step, scan.spacing_mm, progress))
+    return std::nullopt;
+  if (!resample(grey, out.size, plan.scale, plan.first, progress)) return std::nullopt;
+  return grey;
+}
+
+Result<FoundParts> grey_parts(const io::Scan& scan, const Grey& grey, const Plan& plan,
+                              Progress& progress) {
+  const ImportSummary& out = plan.summary;
+  const auto iso = static_cast<float>(grey.stored(out.iso));
+  const auto nx = static_cast<std::size_t>(out.size.x()),
+             ny = static_cast<std::size_t>(out.size.y());
+  const auto row = [&](int j, int k, std::span<std::uint8_t> inside) {
+    const std::int16_t* values =
+        grey.voxels.data() + nx * (static_cast<std::size_t>(j) + ny * static_cast<std::size_t>(k));
+    for (std::size_t i = 0; i < nx; ++i) inside[i] = static_cast<float>(values[i]) >= iso ? 1 : 0;
+  };
+  const Vec3 first = out.roi_from.cast<double>() + plan.first;
+  const Place place{scan.origin_mm + scan.axes * first.cwiseProduct(scan.spacing_mm),
+                    plan.scale.cwiseProduct(scan.spacing_mm), scan.axes};
+  return found_or_stopped(find_parts(out.size, row, progress), place);
+}
+
 Result<Imported> import_grey(const io::Scan& scan, const scenario::Recipe& recipe, Plan plan,
                              bool with_greys, Progress& progress) {
   ImportSummary& out = plan.summary;
-  Grey grey = take_grey(scan, out.roi_from, out.roi_size);
-  const double iso = grey.stored(out.iso);
   const auto stopped = [] { return error(Trouble::interrupted, "the import was stopped"); };
-  if (out.smooth > 0 && !smooth_near(grey, iso, out.smooth / grey.step, scan.spacing_mm, progress))
-    return stopped();
-  if (!resample(grey, out.size, plan.scale, plan.first, progress)) return stopped();
+  std::optional<Grey> cubic = cubic_grey(scan, plan, progress);
+  if (!cubic) return stopped();
+  Grey& grey = *cubic;
+  if (!keeps_all(recipe)) {
+    const auto found = grey_parts(scan, grey, plan, progress);
+    if (!found) return found.error();
+    const auto chosen = choose(*found, recipe, out);
+    if (!chosen) return chosen.error();
+    if (chosen->removes()) remove_grey(found->parts, chosen->kept, grey.voxels);
+  }
 
   InsideGrid inside;
   inside.size = out.size;
   inside.grey = grey.voxels.data();
-  inside.iso = static_cast<float>(iso);
+  inside.iso = static_cast<float>(grey.stored(out.iso));
   // noise that the filter leaves is averaged over neighbouring points of the surface
   inside.soft = out.smooth > 0 ? 4.0F : 1.0F;
   const GreyTissue rule{grey.step, grey.zero, scan.hounsfield};
@@ -501,21 +620,46 @@ Result<ImportSummary> plan_import(const io::Scan& scan, const scenario::Recipe& 
   return std::move(plan->summary);
 }
 
+Result<FoundParts> parts_of(const io::Scan& scan, const scenario::Recipe& recipe,
+                            Progress& progress) {
+  try {
+    const auto plan = make_plan(scan, recipe);
+    if (!plan) return plan.error();
+    if (plan->summary.labels)
+      return label_parts(scan, {scan.labels.data(), scan.size, plan->summary.roi_from, {}},
+                         solid_labels(*plan), plan->summary, progress);
+    const std::optional<Grey> grey = cubic_grey(scan, *plan, progress);
+    if (!grey) return error(Trouble::interrupted, "the import was stopped");
+    return grey_parts(scan, *grey, *plan, progress);
+  } catch (const std::bad_alloc&) {
+    return error(
+        "not enough memory to look for the parts of the bone; use a larger --voxel-mm or a "
+        "smaller --roi");
+  }
+}
+
+Status count_parts(const io::Scan& scan, const scenario::Recipe& recipe, Progress& progress,
+                   ImportSummary& summary) {
+  const auto found = parts_of(scan, recipe, progress);
+  if (!found) return found.error();
+  const auto chosen = choose(*found, recipe, summary);
+  return chosen ? fine() : Status(chosen.error());
+}
+
 Result<std::vector<TissueFound>> labels_of(const io::Scan& scan, const scenario::Recipe& recipe) {
   std::vector<TissueFound> all;
   if (scan.labels.empty()) return all;
   const auto materials = materials_of(recipe);
   if (!materials) return materials.error();
-  ImportSummary whole;
-  whole.roi_size = scan.size;
-  const std::array<std::int64_t, 256> counts = count_labels(scan, whole);
+  const std::array<std::int64_t, 256> counts =
+      count_labels({scan.labels.data(), scan.size, {0, 0, 0}, {}}, scan.size);
   std::array<bool, 256> present{};
   for (std::size_t v = 1; v < 256; ++v) present[v] = counts[v] > 0;
   const auto labels = label_tissues(scan, present, recipe.labels, *materials);
   if (!labels) return labels.error();
   for (std::size_t v = 1; v < 256; ++v)
     if (const volume::TissueId id = labels->of_label[v]; id != 0)
-      all.push_back({id, labels->table[id], counts[v], 0});
+      all.push_back({id, labels->table[id], counts[v], 0, labels->assumed[v]});
   for (const volume::Tissue& air : labels->air)
     all.push_back({0, air, counts[static_cast<std::size_t>(air.label)], 0});
   for (TissueFound& one : all)

@@ -19,12 +19,14 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/importing/bone_level.h"
+#include "burr/importing/parts.h"
 #include "burr/io/scan.h"
 #include "burr/scenario/recipe.h"
 #include "burr/volume/bone.h"
@@ -38,6 +40,7 @@ struct TissueFound {
   volume::Tissue tissue;
   std::int64_t voxels = 0;  // label maps: voxels of the file inside the region
   double volume_mm3 = 0;    // of those voxels
+  bool assumed = false;     // solid, because its name does not say what it is, nor does a table
 };
 
 // What an import did, or would do.
@@ -63,6 +66,7 @@ struct ImportSummary {
   double memory_mb = 0;        // estimate in a plan, real value in an import
   std::vector<TissueFound> tissues;
   double solid_mm3 = 0;              // volume_of the bone; 0 in a plan
+  std::optional<PartsFound> parts;   // of an import that removes parts; of a plan: count_parts()
   std::vector<std::string> notices;  // the scan's and the import's own
 };
 
@@ -75,6 +79,19 @@ struct Imported {
 // Makes all decisions of an import without building anything.
 [[nodiscard]] Result<ImportSummary> plan_import(const io::Scan& scan,
                                                 const scenario::Recipe& recipe);
+
+// The separate parts of the bone that an import would make, before any is removed, and where they
+// lie; choose_parts() says what the recipe removes. Takes most of the time of an import: a grey
+// scan is smoothed and made cubic first.
+struct FoundParts {
+  Parts parts;
+  Place place;
+};
+[[nodiscard]] Result<FoundParts> parts_of(const io::Scan& scan, const scenario::Recipe& recipe,
+                                          Progress& progress);
+// The same for a plan: fills `parts` of the summary and adds to its notices.
+[[nodiscard]] Status count_parts(const io::Scan& scan, const scenario::Recipe& recipe,
+                                 Progress& progress, ImportSummary& summary);
 
 // Every label that occurs in a label map, and the tissue it becomes; labels that become air have id
 // 0. Empty for a grey scan.

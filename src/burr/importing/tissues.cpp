@@ -260,6 +260,7 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
     of_value[v] = tissue_by_name(label, named, materials);
     if (!named && different == 1) of_value[v].name = "bone";
     understood[v] = !named || understand(label, out.notices);
+    out.assumed[v] = named ? !understood[v] : different > 1;
   }
   out.table.tissues.resize(1);
   if (!table.empty()) {
@@ -272,6 +273,7 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
                     unnamed, different));
   }
   std::vector<std::string> doubts;
+  for (std::size_t v = 1; v < 256; ++v) out.assumed[v] = out.assumed[v] && !told[v];
   for (std::size_t v = 1; v < 256; ++v)
     if (present[v] && !understood[v] && !told[v])
       doubts.push_back(fmt::format("{} ({})", v, base::printable(of_value[v].name)));

@@ -24,6 +24,8 @@ struct LabelTissues {
   volume::TissueTable table;                     // [0] air
   std::array<volume::TissueId, 256> of_label{};  // by value in the file
   std::vector<volume::Tissue> air;               // labels that are air
+  // by value in the file: solid, because neither a name nor a table says what it is
+  std::array<bool, 256> assumed{};
   std::vector<std::string> notices;
 };
 

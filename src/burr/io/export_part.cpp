@@ -26,18 +26,6 @@ constexpr int kFinest = 6;            // at most so many times finer than the bo
 constexpr double kVolumeFits = 0.02;  // allowed difference between the mesh's volume and the
                                       // ledger's
 
-// the volume a closed mesh encloses  [m^3]
-double enclosed(const surface::Mesh& mesh) {
-  double sum = 0;
-  const auto corner = [&](std::size_t i) {
-    return math::Vec3(mesh.vertices[mesh.triangles[i]].p.cast<double>());
-  };
-  const math::Vec3 about = mesh.vertices.empty() ? math::Vec3(0, 0, 0) : corner(0);
-  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
-    sum += (corner(i) - about).dot((corner(i + 1) - about).cross(corner(i + 2) - about));
-  return sum / 6;
-}
-
 int workers() { return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)); }
 
 }  // namespace
@@ -57,6 +45,12 @@ Status check_export(const std::string& path, const ExportOptions& options) {
   if (options.scan && (!field || options.part != Part::bone))
     return error(Trouble::usage,
                  path + ": grey values can be written only for the bone, and only to a .nrrd file");
+  if (options.largest && !mesh)
+    return error(
+        Trouble::usage,
+        path +
+            ": --largest is for meshes (.stl .ply .obj .3mf .glb); for a volume of a scan, "
+            "use --keep largest");
   return fine();
 }
 
@@ -79,14 +73,14 @@ Result<Exported> export_part(const volume::Bone& before, const volume::Bone& now
   }
 
   Exported exported{
-      removed != nullptr ? volume::removed_volume(before, now) : volume::volume_of(*bone), 0};
+      removed != nullptr ? volume::removed_volume(before, now) : volume::volume_of(*bone), 0, {}};
   Status written = fine();
   if (is_mesh_path(path)) {
     auto mesh = surface::whole_surface(*bone, workers(), progress);
     // a thin layer falls between the voxels: use a finer grid until the mesh holds the removed
     // volume
     for (int finer = 2; removed != nullptr && mesh.ok() && finer <= kFinest; ++finer) {
-      if (std::abs(enclosed(*mesh) / exported.volume - 1) < kVolumeFits) break;
+      if (std::abs(surface::shells_of(*mesh).volume / exported.volume - 1) < kVolumeFits) break;
       auto made = volume::removed_part(before, now, finer);
       if (!made) break;
       removed = std::move(*made);
@@ -94,6 +88,11 @@ Result<Exported> export_part(const volume::Bone& before, const volume::Bone& now
       mesh = surface::whole_surface(*bone, workers(), progress);
     }
     if (!mesh) return mesh.error();
+    exported.shells = surface::shells_of(*mesh);
+    if (options.largest && exported.shells.parts > 0) {
+      *mesh = surface::largest_part(*mesh);
+      exported.volume = surface::shells_of(*mesh).volume;
+    }
     exported.triangles = mesh->triangles.size() / 3;
     written = write_mesh(*mesh, bone->tissues(), path, options.frame, progress);
   } else if (ends_with(path, ".seg.nrrd")) {

@@ -15,6 +15,7 @@
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/io/write/frame.h"
+#include "burr/surface/shells.h"
 #include "burr/volume/bone.h"
 
 namespace burr::io {
@@ -25,12 +26,14 @@ struct ExportOptions {
   Part part = Part::bone;
   Frame frame = Frame::lps;  // for meshes except .glb; volumes are always LPS
   bool scan = false;         // .nrrd of the bone: the scan's grey values instead of the field
+  bool largest = false;      // of a mesh only the largest part, with its cavities
 };
 
 // What was written.
 struct Exported {
-  double volume = 0;          // of the part, volume_of() [m^3]
+  double volume = 0;          // volume_of() what was written; with `largest`, of the mesh  [m^3]
   std::size_t triangles = 0;  // 0 for a volume
+  surface::Shells shells;     // of the mesh, also of what `largest` left out
 };
 
 // Trouble::usage if the ending is unknown or does not fit the options. Does not touch the disk, so

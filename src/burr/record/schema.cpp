@@ -361,6 +361,8 @@ constexpr const char* kSessionSchema = R"({
       "labels": {"type": "string", "description": "own: a table of the user's"},
       "materials": {"type": "string", "description": "own: a table of the user's"},
       "memory_mb": {"type": "number"},
+      "keep": {"type": "object", "description": "which separate parts of the bone were kept; absent: all", "properties": {"largest": {"type": "integer", "description": "so many of the largest"}, "at_mm": {"type": "array", "items": {"type": "array", "items": {"type": "number"}}, "description": "and the parts at these points, LPS"}}},
+      "drop_islands_mm3": {"type": "number", "description": "smaller parts were removed; absent: none"},
       "read_seconds": {"type": "number"},
       "read_memory_mb": {"type": "number"},
       "reserve_bricks": {"type": "integer", "description": "room for deposits"},

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,8 @@ using nlohmann::json;
 
 constexpr std::string_view kPhantom = "phantom:";
 constexpr int kMostVoxels = 1'000'000;  // along an axis
+constexpr int kMostParts = 1'000'000;   // that can be asked for
+constexpr double kFarMm = 1e6;          // no point of a scan lies farther
 
 // "0.3,0.3,0.6"
 bool numbers(std::string_view text, std::vector<double>& out) {
@@ -88,6 +91,27 @@ class Fields {
     if (!found->is_number_unsigned()) return fail(name);
     out = found->get<std::size_t>();
   }
+  void keep(const char* name, Keep& out) {
+    const json* found = find(name);
+    if (found == nullptr) return;
+    if (!found->is_object()) return fail(name);
+    for (const auto& [key, value] : found->items()) {
+      if (key == "largest" && value.is_number_unsigned() &&
+          value.get<std::uint64_t>() <= kMostParts) {
+        out.largest = value.get<int>();
+      } else if (key == "at_mm" && value.is_array() && value.size() <= kMostParts) {
+        for (const json& point : value) {
+          if (!point.is_array() || point.size() != 3) return fail(name);
+          for (const json& one : point)
+            if (!one.is_number() || !(std::abs(one.get<double>()) <= kFarMm)) return fail(name);
+          out.at_mm.emplace_back(point[0].get<double>(), point[1].get<double>(),
+                                 point[2].get<double>());
+        }
+      } else {
+        return fail(name);
+      }
+    }
+  }
   void yes_or_no(const char* name, bool& out) {
     const json* found = find(name);
     if (found == nullptr) return;
@@ -110,6 +134,10 @@ class Fields {
 
 }  // namespace
 
+bool Keep::operator==(const Keep& other) const {
+  return largest == other.largest && at_mm == other.at_mm;
+}
+
 bool Recipe::operator==(const Recipe& other) const {
   return source == other.source && series == other.series && spacing_mm == other.spacing_mm &&
          allow_missing == other.allow_missing && region == other.region &&
@@ -117,7 +145,8 @@ bool Recipe::operator==(const Recipe& other) const {
          labels == other.labels && materials == other.materials && memory_mb == other.memory_mb &&
          read_seconds == other.read_seconds && read_memory_mb == other.read_memory_mb &&
          reserve_bricks == other.reserve_bricks && margin == other.margin &&
-         check_values == other.check_values;
+         check_values == other.check_values && keep == other.keep &&
+         drop_islands_mm3 == other.drop_islands_mm3;
 }
 
 bool is_phantom(const std::string& source) { return source.starts_with(kPhantom); }
@@ -156,6 +185,10 @@ std::string to_json(const Recipe& recipe) {
     out["region"] = {r.i[0], r.i[1], r.j[0], r.j[1], r.k[0], r.k[1]};
   }
   if (recipe.iso) out["iso"] = *recipe.iso;
+  if (recipe.keep.largest > 0) out["keep"]["largest"] = recipe.keep.largest;
+  for (const math::Vec3& mm : recipe.keep.at_mm)
+    out["keep"]["at_mm"].push_back({mm.x(), mm.y(), mm.z()});
+  if (recipe.drop_islands_mm3 != 0) out["drop_islands_mm3"] = recipe.drop_islands_mm3;
   if (recipe.read_seconds != 0) out["read_seconds"] = recipe.read_seconds;
   if (recipe.read_memory_mb != 0) out["read_memory_mb"] = recipe.read_memory_mb;
   // a file may be called what is no UTF-8
@@ -179,6 +212,8 @@ Result<Recipe> recipe_from_json(std::string_view text, const std::string& where)
   fields.text("labels", out.labels);
   fields.text("materials", out.materials);
   fields.number("memory_mb", out.memory_mb, 0);
+  fields.keep("keep", out.keep);
+  fields.number("drop_islands_mm3", out.drop_islands_mm3, 0);
   fields.number("read_seconds", out.read_seconds, 0);
   fields.number("read_memory_mb", out.read_memory_mb, 0);
   fields.count("reserve_bricks", out.reserve_bricks);
@@ -225,6 +260,41 @@ Result<math::Vec3> parse_spacing(std::string_view text) {
                  fmt::format("--spacing-mm: \"{}\" is not three numbers above 0, as in 0.3,0.3,0.6",
                              base::printable(text)));
   return math::Vec3(mm[0], mm[1], mm[2]);
+}
+
+Result<Keep> parse_keep(std::string_view text) {
+  const auto wrong = [text] {
+    return error(Trouble::usage,
+                 fmt::format("--keep: \"{}\" is not known; use largest, a number of parts as in 3, "
+                             "or points in mm as in \"at 10,-20,30; 1,2,3\"",
+                             base::printable(text)));
+  };
+  std::string words(text);
+  std::erase(words, ' ');
+  if (words == "all") return Keep{};
+  if (words == "largest") return Keep{1, {}};
+  std::string_view rest = words;
+  if (rest.ends_with("largest")) rest.remove_suffix(7);
+  std::vector<double> count;
+  if (numbers(rest, count) && count.size() == 1) {
+    if (!(count[0] >= 1 && count[0] <= kMostParts && count[0] == std::floor(count[0])))
+      return error(Trouble::usage,
+                   fmt::format("--keep: {} is not a number of parts; use 1 or more", count[0]));
+    return Keep{static_cast<int>(count[0]), {}};
+  }
+  rest = words;
+  if (rest.starts_with("at")) rest.remove_prefix(2);
+  Keep keep;
+  for (std::size_t at = 0; at <= rest.size();) {
+    const std::size_t end = std::min(rest.find(';', at), rest.size());
+    std::vector<double> mm;
+    if (!numbers(rest.substr(at, end - at), mm) || mm.size() != 3) return wrong();
+    for (const double one : mm)
+      if (!(std::abs(one) <= kFarMm)) return wrong();
+    keep.at_mm.emplace_back(mm[0], mm[1], mm[2]);
+    at = end + 1;
+  }
+  return keep;
 }
 
 std::string region_text(const Region& region) {

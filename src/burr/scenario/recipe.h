@@ -18,6 +18,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "burr/base/result.h"
 #include "burr/math/vec3.h"
@@ -29,6 +30,15 @@ namespace burr::scenario {
 struct Region {
   std::array<int, 2> i{}, j{}, k{};
   bool operator==(const Region&) const = default;
+};
+
+// Which of the separate parts of the bone are kept (importing/parts.h): the `largest` largest ones,
+// and those at the points. Nothing given: all.
+struct Keep {
+  int largest = 0;
+  std::vector<math::Vec3> at_mm;  // LPS
+  [[nodiscard]] bool all() const { return largest <= 0 && at_mm.empty(); }
+  bool operator==(const Keep& other) const;
 };
 
 struct Recipe {
@@ -46,6 +56,8 @@ struct Recipe {
   std::string labels;       // path of a TOML file, docs/labels.md; empty: by name
   std::string materials;    // path of a TOML file, docs/materials.md; empty: built in
   double memory_mb = 2048;  // budget of the work and the bone, for voxel_mm = 0
+  Keep keep;
+  double drop_islands_mm3 = 0;  // parts of the bone below this volume are removed
   // Limits of reading a file; 0: by how large the files are.
   double read_seconds = 0, read_memory_mb = 0;
   std::size_t reserve_bricks = 4096;  // room for deposited material
@@ -78,6 +90,8 @@ inline constexpr const char* kOwn = "own";
 [[nodiscard]] Result<Region> parse_region(std::string_view text);
 [[nodiscard]] Result<double> parse_level(std::string_view text);
 [[nodiscard]] Result<math::Vec3> parse_spacing(std::string_view text);
+// "largest", "3", "3 largest", "at 10,-20,30", "at 10,-20,30; 1,2,3", or the points alone; "all".
+[[nodiscard]] Result<Keep> parse_keep(std::string_view text);
 // To be shown; parse_region() reads it.
 [[nodiscard]] std::string region_text(const Region& region);
 

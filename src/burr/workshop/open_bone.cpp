@@ -16,7 +16,7 @@ Result<importing::Imported> open_phantom(const scenario::Recipe& recipe, Progres
   const std::string name = scenario::phantom_name(recipe.source);
   if (!recipe.series.empty() || !recipe.spacing_mm.isZero(0) || recipe.region || recipe.iso ||
       recipe.allow_missing || !recipe.labels.empty() || recipe.read_seconds != 0 ||
-      recipe.read_memory_mb != 0)
+      recipe.read_memory_mb != 0 || !recipe.keep.all() || recipe.drop_islands_mm3 != 0)
     return error(Trouble::usage,
                  "a phantom is a formula: only --voxel-mm and --materials apply to it");
   std::function<void(volume::TissueTable&)> made_of;

@@ -221,16 +221,26 @@ Result<Box> box_of(const io::Scan& scan, const std::optional<scenario::Region>& 
   return box;
 }
 
+std::vector<LabelChoice> choices_of(const std::vector<importing::TissueFound>& labels) {
+  std::vector<LabelChoice> all;
+  for (const importing::TissueFound& one : labels)
+    all.push_back({one.tissue.kind, one.tissue.spare, one.assumed});
+  return all;
+}
+
 std::string table_of(const std::vector<importing::TissueFound>& taken_for,
-                     const std::vector<volume::TissueKind>& wanted) {
+                     const std::vector<LabelChoice>& wanted) {
   std::string table;
   for (std::size_t n = 0; n < taken_for.size() && n < wanted.size(); ++n) {
-    if (wanted[n] == taken_for[n].tissue.kind) continue;
-    const char* kind = wanted[n] == volume::TissueKind::solid  ? "solid"
-                       : wanted[n] == volume::TissueKind::soft ? "soft"
-                                                               : "air";
-    table +=
-        fmt::format("\n[[label]]\nvalue = {}\nkind = \"{}\"\n", taken_for[n].tissue.label, kind);
+    const volume::Tissue& tissue = taken_for[n].tissue;
+    const bool other_kind = wanted[n].kind != tissue.kind;
+    if (!other_kind && wanted[n].spare == tissue.spare) continue;
+    table += fmt::format("\n[[label]]\nvalue = {}\n", tissue.label);
+    if (other_kind)
+      table += fmt::format("kind = \"{}\"\n", wanted[n].kind == volume::TissueKind::solid  ? "solid"
+                                              : wanted[n].kind == volume::TissueKind::soft ? "soft"
+                                                                                           : "air");
+    if (wanted[n].spare != tissue.spare) table += fmt::format("spare = {}\n", wanted[n].spare);
   }
   return table.empty() ? table
                        : "# Labels as chosen in burr's window; see docs/labels.md.\n" + table;

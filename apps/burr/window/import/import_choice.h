@@ -61,10 +61,19 @@ struct Box {
 [[nodiscard]] Result<Box> box_of(const io::Scan& scan,
                                  const std::optional<scenario::Region>& region);
 
-// A table for --tissues with the kind of each label whose kind differs from the one that burr would
-// assume; "" if none differs. It contains no name of a label.
+// What the user says of a label.
+struct LabelChoice {
+  volume::TissueKind kind = volume::TissueKind::air;
+  bool spare = false;    // must not be cut
+  bool assumed = false;  // solid, because neither a name nor the user says what it is
+  bool operator==(const LabelChoice&) const = default;
+};
+[[nodiscard]] std::vector<LabelChoice> choices_of(
+    const std::vector<importing::TissueFound>& labels);
+// A table for --tissues of the labels that differ from what burr would assume; "" if none differs.
+// It contains no name of a label.
 [[nodiscard]] std::string table_of(const std::vector<importing::TissueFound>& taken_for,
-                                   const std::vector<volume::TissueKind>& wanted);
+                                   const std::vector<LabelChoice>& wanted);
 // Saves the table in `folder` under a name made from its content, so that recordings can find it
 // again.
 struct KeptTable {

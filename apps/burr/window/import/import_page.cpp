@@ -38,7 +38,7 @@ ImportPage::ImportPage(Desk& desk, OpenedScan opened)
   for (std::size_t a = 0; a < 3; ++a) slice_[a] = scan.size[static_cast<int>(a)] / 2;
   const std::array<PlaneView, 3> planes = planes_of(scan.axes);
   for (std::size_t n = 0; n < 3; ++n) views_[n].plane = planes[n];
-  for (const importing::TissueFound& one : opened_.labels) kinds_.push_back(one.tissue.kind);
+  labels_ = choices_of(opened_.labels);
   if (opened_.planned)
     planned_ = *opened_.planned;
   else
@@ -50,6 +50,7 @@ ImportPage::ImportPage(Desk& desk, OpenedScan opened)
 }
 
 ImportPage::~ImportPage() {
+  counting_.reset();
   planning_.reset();
   forget_table();
 }
@@ -69,6 +70,7 @@ std::string ImportPage::unit_of_values() const { return opened_.scan->hounsfield
 
 void ImportPage::changed() {
   stale_ = true;
+  recount_ = true;
   trouble_.clear();
 }
 
@@ -155,10 +157,7 @@ void ImportPage::take_as_it_is() {
   changed();
 }
 
-void ImportPage::set_kind(std::size_t label, TissueKind kind) {
-  if (kinds_[label] == kind) return;
-  std::vector<TissueKind> wanted = kinds_;
-  wanted[label] = kind;
+void ImportPage::take_labels(std::vector<LabelChoice> wanted) {
   const std::string table = table_of(opened_.labels, wanted);
   KeptTable kept{opened_.volume.labels, false};
   if (!table.empty()) {
@@ -174,11 +173,13 @@ void ImportPage::set_kind(std::size_t label, TissueKind kind) {
     }
     kept = std::move(*written);
   }
-  planning_.reset();  // it may still read the table that is removed next
+  // they may still read the table that is removed next
+  planning_.reset();
+  counting_.reset();
   forget_table();
   if (kept.fresh) own_table_ = kept.path;
   volume_.labels = kept.path.string();
-  kinds_ = std::move(wanted);
+  labels_ = std::move(wanted);
   for (View& view : views_) view.coloured = false;
   changed();
 }
@@ -216,6 +217,7 @@ Result<ImportPage::Answer> ImportPage::ask(const std::string& ask, double second
           static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
   }
   SDL_StopTextInput();
+  counting_.reset();  // the processor and the memory are for what comes next
   if (*answer_ == Answer::start) own_table_.clear();  // the session needs the file from now on
   desk_.message.clear();
   return *answer_;
@@ -261,11 +263,14 @@ void ImportPage::work() {
           return plan_session(*scan, options);
         });
   }
+  count();
   if (starting_ && !stale_ && !planning_) {
     starting_ = false;
     if (plan_trouble_.empty()) answer_ = Answer::start;
   }
-  desk_.message = trouble_.empty() ? plan_trouble_ : trouble_;
+  desk_.message = !trouble_.empty()        ? trouble_
+                  : !plan_trouble_.empty() ? plan_trouble_
+                                           : parts_trouble_;
 }
 
 // ---- all steps

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,8 +33,10 @@ struct ImportLayout {
   Part level, plot, facts, bone;        // below: histogram or labels, scan, planned bone
   Part series, iso, roi, voxel, all;    // fields and buttons
   Part message, as_it_is, back, start;  // last line of the page
+  std::vector<Part> doubts;             // lines between the views and the panels
 };
-[[nodiscard]] ImportLayout import_layout(float width, float height, float unit);
+[[nodiscard]] ImportLayout import_layout(float width, float height, float unit,
+                                         std::size_t doubts = 0);
 
 class ImportPage {
  public:
@@ -73,9 +76,27 @@ class ImportPage {
   void take_voxel();
   [[nodiscard]] bool asked() const;  // the scan leaves open what only the user can answer
   void take_as_it_is();
+  // What burr assumed about this scan and cannot know, or what the user chose about it: a sentence,
+  // and what the user can do about it.
+  struct Remedy {
+    std::string text;
+    std::function<void()> act;
+    bool on = false;  // of a choice that holds until it is taken back
+  };
+  struct Doubt {
+    std::string text;
+    bool open = true;  // false: decided, and shown only because it can be taken back
+    std::vector<Remedy> remedies;
+  };
+  [[nodiscard]] std::vector<Doubt> doubts();
+  void add_parts(std::vector<Doubt>& all);
+  void count();  // looks for separate parts, on a thread of its own
+  void choose_parts();
+  void keep(const scenario::Keep& parts, double drop_islands_mm3);
+  void keep_here(const math::Vec3& voxel);
+  void take_labels(std::vector<LabelChoice> wanted);
   void set_box(const Box& box);
   void forget_table();
-  void set_kind(std::size_t label, volume::TissueKind kind);
   [[nodiscard]] std::optional<double> level() const;
   [[nodiscard]] std::string unit_of_values() const;
 
@@ -88,6 +109,7 @@ class ImportPage {
   void facts(const ImportLayout::Part& part);
   void bone(const ImportLayout& at);
   void last_line(const ImportLayout& at);
+  void lines(const ImportLayout& at, const std::vector<Doubt>& all);
 
   Desk& desk_;
   OpenedScan opened_;
@@ -96,7 +118,13 @@ class ImportPage {
   std::optional<double> level_;
   Box box_;
   std::array<int, 3> slice_ = {0, 0, 0};  // for each axis of the scan
-  std::vector<volume::TissueKind> kinds_;
+  std::vector<LabelChoice> labels_;
+  std::optional<importing::FoundParts> parts_;  // of the present choice; none: not counted yet
+  std::optional<importing::ChosenParts> chosen_;
+  std::unique_ptr<Loading<importing::FoundParts>> counting_;
+  bool recount_ = true;   // parts_ is not of the present choice
+  bool picking_ = false;  // a click into a view keeps the part there
+  std::string parts_trouble_;
   std::string iso_text_, roi_text_, voxel_text_;
   std::string trouble_;              // about a field, or about something that failed
   std::string plan_trouble_;         // why this choice cannot be imported

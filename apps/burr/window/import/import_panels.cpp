@@ -19,7 +19,8 @@ using Part = ImportLayout::Part;
 
 constexpr Word kNames[] = {Word::axial, Word::coronal, Word::sagittal};
 constexpr int kMostPixels = 720;  // longest side of a preview; a larger one is stretched
-constexpr int kFree = 16;         // value of `grabbed`: the mouse moves the slices, not the frame
+constexpr float kLabelButtons = 3 * 53 + 64;  // width of the buttons of a label
+constexpr int kFree = 16;  // value of `grabbed`: the mouse moves the slices, not the frame
 
 const char* way(PatientDirection which) {
   constexpr Word kWays[] = {Word::way_left,     Word::way_right, Word::way_backwards,
@@ -58,14 +59,18 @@ void wrapped(const Ui& ui, Letter letter, ImU32 ink, const Part& part, const std
 
 }  // namespace
 
-ImportLayout import_layout(float width, float height, float unit) {
+ImportLayout import_layout(float width, float height, float unit, std::size_t doubts) {
   const float u = unit, margin = 28 * u, gap = 14 * u, wide = width - 2 * margin;
   const float top = 66 * u, low = 262 * u, foot = 60 * u;
   ImportLayout at;
-  const float view_w = (wide - 2 * gap) / 3, view_h = height - top - low - foot - 2 * gap;
+  const float line = 34 * u, lines = line * static_cast<float>(doubts);
+  const float view_w = (wide - 2 * gap) / 3, view_h = height - top - low - foot - 2 * gap - lines;
   for (std::size_t n = 0; n < 3; ++n)
     at.views[n] = {margin + static_cast<float>(n) * (view_w + gap), top, view_w, view_h};
-  const float y = top + view_h + gap;
+  for (std::size_t n = 0; n < doubts; ++n)
+    at.doubts.push_back(
+        {margin, top + view_h + 0.5F * gap + line * static_cast<float>(n), wide, line - 4 * u});
+  const float y = top + view_h + gap + lines;
   at.level = {margin, y, view_w, low};
   at.facts = {margin + view_w + gap, y, view_w, low};
   at.bone = {margin + 2 * (view_w + gap), y, view_w, low};
@@ -86,7 +91,8 @@ ImportLayout import_layout(float width, float height, float unit) {
 void ImportPage::draw() {
   Ui& ui = desk_.ui();
   const float u = ui.unit();
-  const ImportLayout at = import_layout(ui.width(), ui.height(), u);
+  const std::vector<Doubt> all = doubts();
+  const ImportLayout at = import_layout(ui.width(), ui.height(), u, all.size());
   ui.page("##import", 0, 0, ui.width(), ui.height());
   ui.write(at.views[0].x, 14 * u, Letter::large, ink::kText, word(Word::import_title));
   ui.write(at.views[0].x, 42 * u, Letter::small, ink::kDim, word(Word::import_hint));
@@ -118,6 +124,7 @@ void ImportPage::draw() {
     histogram(at);
   facts(at.facts);
   bone(at);
+  lines(at, all);
   last_line(at);
   ImGui::End();
 }
@@ -132,17 +139,20 @@ void ImportPage::picture(View& view, int width, int height) {
   }
   if (view.coloured) return;
   const int line = std::max(1, std::max(width, height) / 300);
+  const LeftOut out = parts_ && chosen_ && !recount_
+                          ? left_out(scan, view.plane, slice, view.values, *parts_, chosen_->kept)
+                          : LeftOut{};
   if (scan.values.empty()) {
     std::array<LabelLook, 256> looks;
-    for (std::size_t n = 0; n < kinds_.size(); ++n) {
+    for (std::size_t n = 0; n < labels_.size(); ++n) {
       const volume::Tissue& tissue = opened_.labels[n].tissue;
-      looks[static_cast<std::size_t>(tissue.label)] = {kinds_[n], tissue.colour};
+      looks[static_cast<std::size_t>(tissue.label)] = {labels_[n].kind, tissue.colour};
     }
-    draw_labels(view.values, looks, line, pixels_);
+    draw_labels(view.values, looks, line, out, pixels_);
   } else {
     const Greys& greys = opened_.greys;
     draw_greys(view.values, greys.from, std::min(greys.to, scan.hounsfield ? 1800 : greys.to),
-               level(), line, pixels_);
+               level(), line, out, pixels_);
   }
   view.texture.put(width, height, 4, pixels_);
   view.coloured = true;
@@ -194,11 +204,19 @@ void ImportPage::draw_view(std::size_t which, const Part& part) {
     const float place = vertical ? (mouse.y - y) / h : (mouse.x - x) / w;
     return voxels_at(scan, view.plane, vertical, std::clamp(static_cast<double>(place), 0.0, 1.0));
   };
+  const auto point = [&] {  // under the mouse, in voxels
+    math::Vec3 at;
+    at[view.plane.across] = voxels(false) - 0.5;
+    at[view.plane.down] = voxels(true) - 0.5;
+    at[view.plane.through] = slice;
+    return at;
+  };
   if (ImGui::IsItemActivated()) view.grabbed = over != 0 ? over : kFree;
   if (ImGui::IsItemActive() && view.grabbed == kFree) {
     slice_[across] =
         std::clamp(static_cast<int>(voxels(false)), 0, scan.size[view.plane.across] - 1);
     slice_[down] = std::clamp(static_cast<int>(voxels(true)), 0, scan.size[view.plane.down] - 1);
+    if (picking_ && ImGui::IsItemActivated()) keep_here(point());
   } else if (ImGui::IsItemActive() && view.grabbed != 0) {
     Box box = box_;
     const auto pull = [&](bool vertical, bool far_side) {
@@ -354,10 +372,11 @@ void ImportPage::labels(const ImportLayout& at) {
   ImGui::BeginChild("##labels", {at.plot.w, at.level.h - 40 * u}, false);
   const ImVec2 from = ImGui::GetCursorScreenPos();
   const float high = 32 * u;
-  const bool bar = high * static_cast<float>(kinds_.size()) > at.level.h - 40 * u;
+  const bool bar = high * static_cast<float>(labels_.size()) > at.level.h - 40 * u;
   const float wide = at.plot.w - (bar ? 14 * u : 0);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  for (std::size_t n = 0; n < kinds_.size(); ++n) {
+  std::optional<std::vector<LabelChoice>> wanted;
+  for (std::size_t n = 0; n < labels_.size(); ++n) {
     const volume::Tissue& tissue = opened_.labels[n].tissue;
     const float y = from.y + high * static_cast<float>(n);
     const std::string name = base::printable(tissue.name, 60);
@@ -367,7 +386,8 @@ void ImportPage::labels(const ImportLayout& at) {
     draw.AddRectFilled(
         {from.x, y + 6 * u}, {from.x + 18 * u, y + 24 * u},
         ink::rgb(part(tissue.colour[0]), part(tissue.colour[1]), part(tissue.colour[2])), 3 * u);
-    const float choices = from.x + wide - 196 * u;
+    const float choices = from.x + wide - kLabelButtons * u;
+    if (labels_[n].assumed) warning_sign(ui, from.x + 2 * u, y + 8 * u);
     draw.PushClipRect({from.x, y}, {choices - 6 * u, y + high}, true);
     ui.write(from.x + 26 * u, y + 6 * u, Letter::body, ink::kText,
              fmt::format("{}  {}", tissue.label, name));
@@ -377,27 +397,35 @@ void ImportPage::labels(const ImportLayout& at) {
         inside({from.x, y, room, high}, ImGui::GetIO().MousePos))
       ImGui::SetTooltip("%s", name.c_str());
     float x = choices;
-    for (const auto& [kind, says] : {std::pair{TissueKind::solid, Word::kind_solid},
-                                     {TissueKind::soft, Word::kind_soft},
-                                     {TissueKind::air, Word::kind_air}}) {
-      const bool on = kinds_[n] == kind;
+    const auto choice = [&](Word says, float button, bool on, const LabelChoice& then) {
       ImGui::SetCursorScreenPos({x, y + 1 * u});
       ImGui::PushStyleColor(ImGuiCol_Button, on ? ink::rgb(30, 96, 138) : ink::kButton);
-      // the selected one also has a dot
+      ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, 4 * u});
       const std::string text =
-          fmt::format("{}##{}{}", word(says), tissue.label, static_cast<int>(kind));
-      if (ImGui::Button(text.c_str(), {62 * u, 28 * u})) set_kind(n, kind);
-      ImGui::PopStyleColor();
-      if (on) {
-        draw.AddRect({x, y + 1 * u}, {x + 62 * u, y + 29 * u}, ink::kText, 6 * u, 0, 1.5F * u);
-        draw.AddCircleFilled({x + 31 * u, y + 26 * u}, 2.2F * u, ink::kText);
+          fmt::format("{}##{}{}", word(says), tissue.label, static_cast<int>(says));
+      if (ImGui::Button(text.c_str(), {button * u, 28 * u}) && then != labels_[n]) {
+        wanted = labels_;
+        (*wanted)[n] = then;
       }
-      x += 66 * u;
-    }
+      ImGui::PopStyleVar();
+      ImGui::PopStyleColor();
+      if (on) {  // the selected one also has a dot
+        draw.AddRect({x, y + 1 * u}, {x + button * u, y + 29 * u}, ink::kText, 6 * u, 0, 1.5F * u);
+        draw.AddCircleFilled({x + 0.5F * button * u, y + 26 * u}, 2.2F * u, ink::kText);
+      }
+      x += (button + 3) * u;
+    };
+    const LabelChoice& now = labels_[n];
+    choice(Word::kind_solid, 50, now.kind == TissueKind::solid,
+           {TissueKind::solid, now.spare, false});
+    choice(Word::kind_soft, 50, now.kind == TissueKind::soft, {TissueKind::soft, now.spare, false});
+    choice(Word::kind_air, 50, now.kind == TissueKind::air, {TissueKind::air, now.spare, false});
+    choice(Word::kind_spare, 64, now.spare, {now.kind, !now.spare, now.assumed});
   }
-  ImGui::SetCursorScreenPos({from.x, from.y + high * static_cast<float>(kinds_.size())});
+  ImGui::SetCursorScreenPos({from.x, from.y + high * static_cast<float>(labels_.size())});
   ImGui::Dummy({1, 1});
   ImGui::EndChild();
+  if (wanted) take_labels(std::move(*wanted));
 }
 
 void ImportPage::facts(const Part& part) {
@@ -476,6 +504,44 @@ void ImportPage::bone(const ImportLayout& at) {
   warning_sign(ui, part.x, y);
   wrapped(ui, Letter::body, ink::kText, {part.x + 24 * u, y, part.w - 24 * u, part.y + part.h - y},
           say(Word::import_too_much, memory_text(free)));
+}
+
+void ImportPage::lines(const ImportLayout& at, const std::vector<Doubt>& all) {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const std::function<void()>* act = nullptr;
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const Part& p = at.doubts[n];
+    const Doubt& doubt = all[n];
+    draw.AddRectFilled({p.x, p.y}, {p.x + p.w, p.y + p.h},
+                       doubt.open ? ink::rgb(50, 38, 22) : ink::rgb(30, 34, 39), 6 * u);
+    if (doubt.open) warning_sign(ui, p.x + 10 * u, p.y + 8 * u);
+    float x = p.x + p.w - 4 * u;
+    for (std::size_t r = doubt.remedies.size(); r-- > 0;) {
+      const Remedy& remedy = doubt.remedies[r];
+      const float wide = ui.width_of(Letter::body, remedy.text) + 24 * u;
+      x -= wide;
+      ImGui::SetCursorScreenPos({x, p.y + 2 * u});
+      ImGui::PushStyleColor(ImGuiCol_Button, remedy.on ? ink::rgb(30, 96, 138) : ink::kButton);
+      if (ImGui::Button(fmt::format("{}##doubt{}_{}", remedy.text, n, r).c_str(),
+                        {wide, p.h - 4 * u}))
+        act = &remedy.act;
+      ImGui::PopStyleColor();
+      if (remedy.on)
+        draw.AddRect({x, p.y + 2 * u}, {x + wide, p.y + p.h - 2 * u}, ink::kText, 6 * u, 0,
+                     1.5F * u);
+      x -= 8 * u;
+    }
+    const float from = p.x + (doubt.open ? 34 : 10) * u, room = x - from;
+    const bool fits = ui.width_of(Letter::body, doubt.text) <= room;
+    if (fits)
+      ui.write(from, p.y + (p.h - ui.height_of(Letter::body)) / 2, Letter::body, ink::kText,
+               doubt.text);
+    else  // in two lines of small letters
+      wrapped(ui, Letter::small, ink::kText, {from, p.y + 1 * u, room, p.h}, doubt.text);
+  }
+  if (act != nullptr) (*act)();
 }
 
 void ImportPage::last_line(const ImportLayout& at) {

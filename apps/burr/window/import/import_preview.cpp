@@ -8,7 +8,7 @@ namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
 
-constexpr Colour kOutline = {226, 88, 16}, kTint = {230, 159, 0};
+constexpr Colour kOutline = {226, 88, 16}, kTint = {230, 159, 0}, kLeftOut = {86, 180, 233};
 
 // Position of one pixel along an axis: two voxels, and the weight of the second.
 struct Tap {
@@ -35,7 +35,14 @@ void put(std::vector<std::uint8_t>& rgba, std::size_t pixel, const Colour& colou
   rgba[4 * pixel + 3] = 255;
 }
 
-// Draws a line along the inner edge of the inside.
+bool is_hatch(const PlaneValues& plane, std::size_t pixel, int line) {
+  constexpr int kHatch = 6;
+  const int x = static_cast<int>(pixel % static_cast<std::size_t>(plane.width)),
+            y = static_cast<int>(pixel / static_cast<std::size_t>(plane.width));
+  return (x + y) % kHatch < std::max(2, line);
+}
+
+// Draws a line along the inner edge of the inside; inside() asks for a pixel.
 template <class Inside>
 void outline(const PlaneValues& plane, int line, std::vector<std::uint8_t>& rgba, Inside inside) {
   const int w = plane.width, h = plane.height;
@@ -44,13 +51,11 @@ void outline(const PlaneValues& plane, int line, std::vector<std::uint8_t>& rgba
   };
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
-      if (!inside(plane.values[at(x, y)])) continue;
+      if (!inside(at(x, y))) continue;
       bool edge = false;
       for (int d = 1; d <= line && !edge; ++d)
-        edge = (x >= d && !inside(plane.values[at(x - d, y)])) ||
-               (x + d < w && !inside(plane.values[at(x + d, y)])) ||
-               (y >= d && !inside(plane.values[at(x, y - d)])) ||
-               (y + d < h && !inside(plane.values[at(x, y + d)]));
+        edge = (x >= d && !inside(at(x - d, y))) || (x + d < w && !inside(at(x + d, y))) ||
+               (y >= d && !inside(at(x, y - d))) || (y + d < h && !inside(at(x, y + d)));
       if (edge) put(rgba, at(x, y), kOutline);
     }
 }
@@ -132,8 +137,43 @@ void sample(const io::Scan& scan, const PlaneView& view, int slice, int width, i
   }
 }
 
+LeftOut left_out(const io::Scan& scan, const PlaneView& view, int slice, const PlaneValues& plane,
+                 const importing::FoundParts& found, const std::vector<bool>& kept) {
+  if (std::find(kept.begin(), kept.end(), false) == kept.end()) return {};
+  LeftOut out(plane.values.size());
+  const importing::Place& place = found.place;
+  const math::Vec3 from = place.axes.transpose() * (place.origin_mm - scan.origin_mm);
+  const auto centres = [&](bool down, int count) {
+    std::vector<int> all;
+    const int axis = down ? view.down : view.across;
+    for (int n = 0; n < count; ++n)
+      all.push_back(static_cast<int>(std::lround(
+          ((voxels_at(scan, view, down, (n + 0.5) / count) - 0.5) * scan.spacing_mm[axis] -
+           from[axis]) /
+          place.voxel_mm[axis])));
+    return all;
+  };
+  const std::vector<int> columns = centres(false, plane.width), rows = centres(true, plane.height);
+  math::Ijk at;
+  at[view.through] = static_cast<int>(std::lround(
+      (slice * scan.spacing_mm[view.through] - from[view.through]) / place.voxel_mm[view.through]));
+  std::size_t pixel = 0;
+  for (const int row : rows) {
+    at[view.down] = row;
+    for (const int column : columns) {
+      at[view.across] = column;
+      // the parts were found in smoothed values: at their rim they differ by a voxel
+      auto part = found.parts.part_at(at);
+      for (int n = 0; n < 6 && !part; ++n)
+        part = found.parts.part_at(at + (n % 2 == 0 ? 1 : -1) * math::Ijk::Unit(n / 2));
+      out[pixel++] = part && !kept[*part] ? 1 : 0;
+    }
+  }
+  return out;
+}
+
 void draw_greys(const PlaneValues& plane, double black, double white, std::optional<double> level,
-                int line, std::vector<std::uint8_t>& rgba) {
+                int line, const LeftOut& out, std::vector<std::uint8_t>& rgba) {
   rgba.resize(4 * plane.values.size());
   const auto from = static_cast<float>(black);
   const float scale = 255.0F / static_cast<float>(std::max(white - black, 1e-30));
@@ -142,36 +182,45 @@ void draw_greys(const PlaneValues& plane, double black, double white, std::optio
   for (std::size_t n = 0; n < plane.values.size(); ++n) {
     const float grey = std::clamp((plane.values[n] - from) * scale, 0.0F, 255.0F);
     Colour colour;
-    const bool bone = any && plane.values[n] >= iso;
+    const bool bone = any && plane.values[n] >= iso, left = bone && !out.empty() && out[n] != 0;
+    const Colour& tint = left ? kLeftOut : kTint;
+    const float share = !bone ? 0 : !left ? 0.38F : is_hatch(plane, n, line) ? 0.75F : 0.25F;
     for (std::size_t c = 0; c < 3; ++c)
-      colour[c] = static_cast<std::uint8_t>(bone ? 0.62F * grey + 0.38F * kTint[c] : grey);
+      colour[c] =
+          static_cast<std::uint8_t>((1 - share) * grey + share * static_cast<float>(tint[c]));
     put(rgba, n, colour);
   }
-  if (any) outline(plane, line, rgba, [iso](float value) { return value >= iso; });
+  if (any)
+    outline(plane, line, rgba,
+            [&](std::size_t n) { return plane.values[n] >= iso && (out.empty() || out[n] == 0); });
 }
 
 void draw_labels(const PlaneValues& plane, const std::array<LabelLook, 256>& looks, int line,
-                 std::vector<std::uint8_t>& rgba) {
+                 const LeftOut& out, std::vector<std::uint8_t>& rgba) {
   rgba.resize(4 * plane.values.size());
   const auto look = [&looks](float value) -> const LabelLook& {
     return looks[static_cast<std::size_t>(value)];
   };
   for (std::size_t n = 0; n < plane.values.size(); ++n) {
     const LabelLook& one = look(plane.values[n]);
-    const int x = static_cast<int>(n % static_cast<std::size_t>(plane.width)),
-              y = static_cast<int>(n / static_cast<std::size_t>(plane.width));
-    constexpr int kHatch = 6;
+    if (one.kind == volume::TissueKind::solid && !out.empty() && out[n] != 0) {
+      Colour left = kLeftOut;
+      if (!is_hatch(plane, n, line))
+        for (std::uint8_t& part : left) part = static_cast<std::uint8_t>(part / 4);
+      put(rgba, n, left);
+      continue;
+    }
     float strength = 0.12F;
     if (one.kind == volume::TissueKind::solid) strength = 1;
-    if (one.kind == volume::TissueKind::soft)
-      strength = (x + y) % kHatch < std::max(2, line) ? 1.0F : 0.35F;
+    if (one.kind == volume::TissueKind::soft) strength = is_hatch(plane, n, line) ? 1.0F : 0.35F;
     Colour colour;
     for (std::size_t c = 0; c < 3; ++c)
       colour[c] = static_cast<std::uint8_t>(12 + strength * 235 * one.colour[c]);
     put(rgba, n, colour);
   }
-  outline(plane, line, rgba,
-          [&look](float value) { return look(value).kind == volume::TissueKind::solid; });
+  outline(plane, line, rgba, [&](std::size_t n) {
+    return look(plane.values[n]).kind == volume::TissueKind::solid && (out.empty() || out[n] == 0);
+  });
 }
 
 }  // namespace burr::app

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "burr/importing/import.h"
 #include "burr/io/scan.h"
 #include "burr/volume/tissue.h"
 
@@ -43,15 +44,23 @@ struct PlaneValues {
 void sample(const io::Scan& scan, const PlaneView& view, int slice, int width, int height,
             PlaneValues& out);
 
-// Writes four bytes per pixel, top row first.
+// Of each pixel 1 where it shows a part of the bone that is left out, else 0. level: as for
+// draw_greys(); solid: of a label map.
+using LeftOut = std::vector<std::uint8_t>;
+[[nodiscard]] LeftOut left_out(const io::Scan& scan, const PlaneView& view, int slice,
+                               const PlaneValues& plane, const importing::FoundParts& found,
+                               const std::vector<bool>& kept);
+
+// Writes four bytes per pixel, top row first. out: parts that are left out are hatched in blue and
+// not outlined; empty: there are none.
 void draw_greys(const PlaneValues& plane, double black, double white, std::optional<double> level,
-                int line, std::vector<std::uint8_t>& rgba);
+                int line, const LeftOut& out, std::vector<std::uint8_t>& rgba);
 // how a label is drawn, by its kind and colour; soft tissue is hatched, solid tissue outlined
 struct LabelLook {
   volume::TissueKind kind = volume::TissueKind::air;
   std::array<float, 3> colour = {0, 0, 0};
 };
 void draw_labels(const PlaneValues& plane, const std::array<LabelLook, 256>& looks, int line,
-                 std::vector<std::uint8_t>& rgba);
+                 const LeftOut& out, std::vector<std::uint8_t>& rgba);
 
 }  // namespace burr::app
