@@ -12,7 +12,8 @@ namespace burr::app {
 std::vector<ImportPage::Doubt> ImportPage::doubts() {
   std::vector<Doubt> all;
   const auto now = level();
-  if (planned_ && planned_->import.iso_by_otsu && !level_ && now)
+  if (planned_ && (planned_->import.iso_by_otsu || planned_->import.iso_estimated) && !level_ &&
+      now)
     all.push_back({say(Word::import_level_estimate, number_text(*now), unit_of_values()),
                    true,
                    {{word(Word::import_level_right), [this, value = *now] { set_level(value); }}}});
