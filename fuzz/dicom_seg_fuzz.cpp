@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "burr/io/read/dicom_seg.h"
-#include "burr/record/mcap/bytes.h"
 #include "support.h"
 
 namespace {

@@ -377,7 +377,7 @@ TEST_F(AdfFile, ALinkThatLeadsOutIsNotFollowed) {
 TEST(YamlText, AliasesAndDepthDoNotGrow) {
   const auto tree = parse_yaml("a: &x {b: 1, c: [2, 'three']}\nd: *x\n", "t.yaml");
   ASSERT_TRUE(tree.ok()) << tree.error().text;
-  EXPECT_EQ(tree->find("a")->find("c")->entries[1].second.text, "three");
+  EXPECT_EQ(tree->find("a")->find("c")->values[1].text, "three");
   EXPECT_EQ(tree->find("d")->kind, Yaml::Kind::alias);
   EXPECT_EQ(tree->find("e"), nullptr);
   EXPECT_FALSE(parse_yaml(std::string(500, '['), "t.yaml").ok());

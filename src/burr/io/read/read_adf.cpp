@@ -50,7 +50,7 @@ std::vector<std::string> volumes_of(const Yaml& root) {
   std::vector<std::string> out;
   const Yaml* list = root.find("volumes");
   if (list != nullptr && list->kind == Yaml::Kind::list)
-    for (const auto& [key, one] : list->entries)
+    for (const Yaml& one : list->values)
       if (one.kind == Yaml::Kind::text) out.push_back(one.text);
   return out;
 }

@@ -95,7 +95,8 @@ class Parser {
       }
       auto value = node(depth + 1);
       if (!value) return value.error();
-      out.entries.emplace_back(std::move(key), std::move(*value));
+      if (map) out.keys.push_back(std::move(key));
+      out.values.push_back(std::move(*value));
     }
   }
 
@@ -110,8 +111,8 @@ class Parser {
 
 const Yaml* Yaml::find(std::string_view key) const {
   if (kind != Kind::map) return nullptr;
-  for (const auto& [name, value] : entries)
-    if (name == key) return &value;
+  for (std::size_t n = 0; n < keys.size(); ++n)
+    if (keys[n] == key) return &values[n];
   return nullptr;
 }
 

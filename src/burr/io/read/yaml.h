@@ -6,7 +6,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "burr/base/result.h"
@@ -16,10 +15,11 @@ namespace burr::io {
 struct Yaml {
   enum class Kind { text, list, map, alias };
   Kind kind = Kind::text;
-  std::string text;                                   // of a text; of an alias its name
-  std::vector<std::pair<std::string, Yaml>> entries;  // of a list (without keys) or a map
+  std::string text;               // of a text; of an alias its name
+  std::vector<std::string> keys;  // of a map, one for each value
+  std::vector<Yaml> values;       // of a list or a map
 
-  // The first entry of that key in a map; nullptr: there is none, or this is no map.
+  // The first value of that key in a map; nullptr: there is none, or this is no map.
   [[nodiscard]] const Yaml* find(std::string_view key) const;
 };
 
