@@ -89,7 +89,8 @@ const std::vector<Box>& boxes() {
         Word::export_replace, Word::export_write, Word::export_stop, Word::cancel}},
       {Letter::body, 664, {Word::film_told}},
       {Letter::strong, 90, {Word::hand_title}},
-      {Letter::body, 60, {Word::kind_solid, Word::kind_soft, Word::kind_air}},
+      {Letter::body, 48, {Word::kind_solid, Word::kind_soft, Word::kind_air}},
+      {Letter::body, 62, {Word::kind_spare}},
   };
   return all;
 }

@@ -160,6 +160,10 @@ std::string point_text(const Vec3& mm) {
   return fmt::format("{:.6g},{:.6g},{:.6g}", mm.x(), mm.y(), mm.z());
 }
 
+std::string mm3_text(double mm3) {
+  return mm3 < 10 ? fmt::format("{:.3g}", mm3) : fmt::format("{:.0f}", mm3);
+}
+
 // Marks the parts at the points of the recipe.
 Status keep_at(const Parts& parts, const std::vector<Vec3>& points, const Place& place,
                ChosenParts& out) {
@@ -267,8 +271,8 @@ Result<ChosenParts> choose_parts(const Parts& parts, const scenario::Recipe& rec
   if (found.removed == count)
     return error(Trouble::usage,
                  fmt::format("--drop-islands-mm3 {:g} leaves nothing: the largest part that was to "
-                             "be kept is smaller; the largest of all has {:.4g} mm3; give less",
-                             recipe.drop_islands_mm3, found.largest_mm3));
+                             "be kept is smaller; the largest of all has {} mm3; give less",
+                             recipe.drop_islands_mm3, mm3_text(found.largest_mm3)));
   if (found.removed == 0) return out;
   found.largest_removed_mm3 = mm3(largest);
   const Vec3 where = place.origin_mm +
@@ -278,12 +282,12 @@ Result<ChosenParts> choose_parts(const Parts& parts, const scenario::Recipe& rec
                                                      : "--keep";
   out.notices.push_back(
       found.removed == 1
-          ? fmt::format("One of {} separate parts was removed ({}): {:.4g} mm3, at {} mm.", count,
-                        option, found.removed_mm3, point_text(where))
-          : fmt::format("{} of {} separate parts were removed ({}): {:.4g} mm3 in all, the largest "
-                        "of {:.4g} mm3 at {} mm.",
-                        found.removed, count, option, found.removed_mm3, found.largest_removed_mm3,
-                        point_text(where)));
+          ? fmt::format("One of {} separate parts was removed ({}): {} mm3, at {} mm.", count,
+                        option, mm3_text(found.removed_mm3), point_text(where))
+          : fmt::format("{} of {} separate parts were removed ({}): {} mm3 in all, the largest "
+                        "of {} mm3 at {} mm.",
+                        found.removed, count, option, mm3_text(found.removed_mm3),
+                        found.largest_removed_mm3, point_text(where)));
   return out;
 }
 

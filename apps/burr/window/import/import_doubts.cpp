@@ -40,15 +40,18 @@ void ImportPage::add_parts(std::vector<Doubt>& all) {
   }
   const importing::PartsFound& found = chosen_->found;
   if (chosen) {
-    std::string text = say(Word::import_parts_left, found.removed, found.count, found.removed_mm3);
+    std::string text = say(Word::import_parts_left, found.removed, found.count,
+                           found.removed_mm3 < 10 ? fmt::format("{:.3g}", found.removed_mm3)
+                                                  : fmt::format("{:.0f}", found.removed_mm3));
     if (picking_) text += std::string(" ") + word(Word::import_pick_hint);
     all.push_back({std::move(text), false, {pick, keep_all}});
     return;
   }
   if (found.count < 2) return;
-  Doubt doubt{picking_ ? std::string(word(Word::import_pick_hint))
-                       : say(Word::import_parts, found.count, 100 * found.largest_mm3 / found.mm3,
-                             importing::kIslandMm3, found.islands),
+  std::string text = say(Word::import_parts, found.count, 100 * found.largest_mm3 / found.mm3);
+  if (found.islands > 0)
+    text += " " + say(Word::import_islands, importing::kIslandMm3, found.islands);
+  Doubt doubt{picking_ ? std::string(word(Word::import_pick_hint)) : std::move(text),
               true,
               {{word(Word::import_keep_largest), [this] {
                   keep({1, {}}, 0);
