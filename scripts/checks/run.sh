@@ -5,7 +5,7 @@ set -euo pipefail
 burr=$(realpath "$1")/burr
 folder=$(mktemp -d)
 screen=
-trap '[ -z "$screen" ] || kill "$screen" 2>/dev/null; rm -rf "$folder"' EXIT
+trap '[ -z "$screen" ] || kill "$screen" 2>/dev/null || true; rm -rf "$folder"' EXIT
 fail() { echo "$*"; exit 1; }
 has() { for file in "${@:2}"; do [ -s "$1/$file" ] || fail "$1: no $file"; done; }
 

@@ -40,6 +40,7 @@ Felt felt(const std::string& scan, const std::string& path, double burr_mm, bool
   EXPECT_TRUE(hand.open());
   tick::ServoSettings settings;
   settings.burr.radius = 0.5e-3 * burr_mm;
+  if (!margin) settings.slip_m_s = 0;  // recordings from before the margin have no such limit
   tick::Servo servo(*opened->bone, surface, hand, settings);
   for (int n = 0; n < 1000 * way->duration(); ++n) {
     const tick::TickRow& row = servo.tick(false);
