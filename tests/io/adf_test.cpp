@@ -382,6 +382,7 @@ TEST(YamlText, AliasesAndDepthDoNotGrow) {
   EXPECT_EQ(tree->find("e"), nullptr);
   EXPECT_FALSE(parse_yaml(std::string(500, '['), "t.yaml").ok());
   EXPECT_FALSE(parse_yaml("", "t.yaml").ok());
+  EXPECT_FALSE(parse_yaml(std::string_view(), "t.yaml").ok());  // as of an empty file
 }
 
 // phantom01 of volumetric_drilling: 252 pictures of 185 x 341; its ADF was made from voxels of 0.35

@@ -201,6 +201,11 @@ TEST_F(DicomSeg, LabelMapOf16Bit) {
   EXPECT_EQ(scan->label_names[1].name, "Nerv");
   EXPECT_EQ(scan->label_names[1].value, 2);
   EXPECT_EQ(scan->label_names[1].in_file, 700);
+  SegFile full = seg;  // nothing but one label above 255
+  full.at = [](int, int, int, int) { return 700; };
+  const auto one = read(full);
+  ASSERT_TRUE(one.ok()) << one.error().text;
+  EXPECT_EQ(wrong(*one, [](int, int, int) { return 1; }), 0);
   seg.frames.push_back({0, 3});
   const auto twice = read(seg);
   ASSERT_FALSE(twice.ok());

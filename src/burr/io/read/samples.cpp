@@ -304,10 +304,9 @@ Result<bool> VoxelSink::wide_labels(Scan& scan, bool labels_for_sure) {
     return error(
         "the values look like more than 255 different labels, and burr reads at most 255; "
         "merge some of them");
-  if (!whole.complete || whole.all.empty() || whole.negative || whole.all.size() < 2 ||
-      whole.all.size() > kMostLabels + 1)
+  if (!whole.complete || whole.all.empty() || whole.negative || whole.all.size() > kMostLabels + 1)
     return false;
-  if (!labels_for_sure && whole.all.front() != 0) return false;
+  if (!labels_for_sure && (whole.all.size() < 2 || whole.all.front() != 0)) return false;
   const std::vector<std::uint8_t> numbers = short_numbers(whole.all);
   Voxels<std::uint8_t> bytes;
   bytes.reserve(values_.size());

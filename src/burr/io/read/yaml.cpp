@@ -16,6 +16,7 @@ constexpr int kMostNodes = 100000;
 class Parser {
  public:
   Parser(std::string_view text, std::string_view file) : file_(file) {
+    if (text.empty()) text = "";  // libyaml stops the program at a null pointer
     ready_ = yaml_parser_initialize(&parser_) == 1;
     if (ready_)
       yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(text.data()),
