@@ -154,20 +154,20 @@ bool mend_sign(Scan& scan, const Claim& claim, const ValueSample& sample) {
 }
 
 // Why the values cannot be HU; empty: they can.
-std::string impossible(const ValueSample& sample, const ValueGroups& groups) {
+std::string impossible(const ValueSample& sample) {
   const double middle = value_at_share(sample, 0.5);
   if (middle > 4000 || value_at_share(sample, 0.01) > 3500)
     return fmt::format("half of the values are above {:.0f}, and no tissue is so dense", middle);
-  for (const ValueGroup& group : groups.all)
-    if (group.value < -1250 && group.share > 0.02)
-      return fmt::format("many values lie near {:.0f}, and nothing is below -1024", group.value);
+  // what lies outside the field of view may be at -2000 or -3024, but not nearly all
+  if (share_between(sample, -1250, kInfinity) < 0.05)
+    return fmt::format("half of the values are below {:.0f}, and nothing is below -1024", middle);
   return "";
 }
 
 // Why values that the header calls HU are not; empty: nothing is wrong with them.
 std::string contradiction(const ValueSample& sample, const ValueGroups& groups,
                           const Range& range) {
-  std::string why = impossible(sample, groups);
+  std::string why = impossible(sample);
   if (!why.empty() || share_between(sample, -kInfinity, -100) > 1e-4) return why;
   if (range.low == 0 && range.high == 255) return "they are a picture of 8 bit, from 0 to 255";
   if (range.low >= -2 && range.high <= 2 && range.high > range.low)
@@ -190,9 +190,9 @@ std::string contradiction(const ValueSample& sample, const ValueGroups& groups,
 // Whether values of which no header says what they are behave as HU do.
 bool behaves_as_hounsfield(const ValueSample& sample, const ValueGroups& groups, const Range& range,
                            std::size_t voxels, std::size_t unmeasured) {
-  if (!impossible(sample, groups).empty() || !(range.high >= 300) ||
+  if (!impossible(sample).empty() || !(range.high >= 300) ||
       share_between(sample, 4000, kInfinity) > 0.05 ||
-      share_between(sample, -kInfinity, -1300) > 0.01)
+      share_between(sample, -kInfinity, -3100) > 0.01)
     return false;
   const bool air_group = std::any_of(
       groups.all.begin(), groups.all.end(),
