@@ -32,7 +32,11 @@ def commands(build):
         if file.is_relative_to(ROOT / "src" / "burr"):
             words = shlex.split(entry["command"])
             at = words.index("-o")
-            found[file] = tuple(word for word in words[:at] + words[at + 2:] if word not in ("-c", entry["file"]))
+            words = words[:at] + words[at + 2:]
+            while "-include" in words:  # g++'s precompiled headers, which clang-tidy cannot read
+                at = words.index("-include")
+                words = words[:at] + words[at + 2:]
+            found[file] = tuple(word for word in words if word not in ("-c", "-Winvalid-pch", entry["file"]))
     return found
 
 
