@@ -123,6 +123,27 @@ TEST(BoneLevel, TheImportSaysThatItIsAnEstimateAndOldRecordingsGetOtsu) {
   EXPECT_FALSE(plan_import(scan, given)->iso_estimated);
 }
 
+TEST(BoneLevel, AFillFarAwayCostsTheBoneNoDetail) {
+  Body body;
+  body.slope = 1 / 2500.0;  // 0..1
+  body.intercept = 0.42;
+  body.whole = false;
+  const io::Scan clean = test::scan_of(body);
+  NoProgress progress;
+  const auto truth = import_bone(clean, {}, progress);
+  ASSERT_TRUE(truth.ok());
+  for (const float fill : {-9999.0F, -1e6F}) {
+    io::Scan scan = clean;
+    test::fill_outside(scan, 12.5, fill);
+    scan.outside = fill;
+    const auto made = import_bone(scan, {}, progress, true);
+    ASSERT_TRUE(made.ok()) << made.error().text;
+    EXPECT_NEAR(made->summary.solid_mm3, truth->summary.solid_mm3, 0.01 * truth->summary.solid_mm3);
+    EXPECT_GT(made->summary.low, -1) << "the range is that of what was measured";
+    EXPECT_GT(made->greys->least, -1);
+  }
+}
+
 struct Real {
   const char* path;
   double least, most;  // volume of the estimate over that of 300 HU

@@ -229,9 +229,21 @@ TEST(Calibration, PaddingWithoutHounsfieldUnitsStaysOutOfEveryCount) {
   for (const float v : scan.values)
     if (!std::isnan(v)) low = std::min(low, v);
   EXPECT_LT(*out.outside, low);
-  EXPECT_GT(*out.outside, low - 20);
+  EXPECT_GE(*out.outside, low - 1);
   EXPECT_EQ(*out.outside, std::floor(*out.outside)) << "whole numbers stay whole";
   EXPECT_EQ(out.values.front(), *out.outside);
+  // a fill that is only guessed stays in the values
+  Scan guessed = test::scan_of(body);
+  test::fill_outside(guessed, 12, -9999.0F);
+  const Scan same = judged(guessed, says_nothing());
+  EXPECT_FALSE(same.hounsfield);
+  EXPECT_EQ(same.outside.value_or(0), -9999) << all_of(same);
+  EXPECT_TRUE(same.values == guessed.values);
+  // but not above all others, where it would be bone
+  test::fill_outside(guessed, 12, 65535.0F);
+  const Scan lower = judged(guessed, says_nothing());
+  EXPECT_LT(lower.values.front(), 1000) << all_of(lower);
+  EXPECT_EQ(lower.values.front(), lower.outside.value_or(0));
 }
 
 TEST(Calibration, LabelsStayLabelsAndOldRecordingsKeepTheirRules) {

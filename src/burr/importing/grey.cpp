@@ -86,17 +86,23 @@ Grey take_grey(const io::Scan& scan, const math::Ijk& from, const math::Ijk& siz
   float low = std::numeric_limits<float>::infinity(), high = -low;
   for_each_row([&](const float* row, std::int16_t*) {
     for (int i = 0; i < size.x(); ++i) {
+      if (row[i] == scan.outside) continue;
       low = row[i] < low ? row[i] : low;
       high = row[i] > high ? row[i] : high;
     }
   });
+  // what was not measured may be far below; it is as dark as the darkest
+  const auto value_of = [&](float value) {
+    return value == scan.outside && value < low ? low : value;
+  };
   bool is_whole = low >= -30000 && high <= 30000;
   if (is_whole)
     for_each_row([&](const float* row, std::int16_t* to) {
       int broken = 0;
       for (int i = 0; i < size.x(); ++i) {
-        const int number = static_cast<int>(row[i]);
-        broken |= static_cast<int>(static_cast<float>(number) != row[i]);
+        const float value = value_of(row[i]);
+        const int number = static_cast<int>(value);
+        broken |= static_cast<int>(static_cast<float>(number) != value);
         to[i] = static_cast<std::int16_t>(number);
       }
       is_whole = is_whole && broken == 0;
@@ -108,7 +114,7 @@ Grey take_grey(const io::Scan& scan, const math::Ijk& from, const math::Ijk& siz
   const double inverse = 1 / grey.step;
   for_each_row([&](const float* row, std::int16_t* to) {
     for (int i = 0; i < size.x(); ++i)
-      to[i] = rounded(static_cast<float>((double{row[i]} - grey.zero) * inverse));
+      to[i] = rounded(static_cast<float>((double{value_of(row[i])} - grey.zero) * inverse));
   });
   return grey;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace burr::importing {
 
@@ -31,9 +32,10 @@ std::shared_ptr<const volume::Greys> keep_greys(const io::Scan& scan, double iso
     greys->origin += 0.5 * greys->spacing[finest] * greys->axes.col(finest);
     greys->spacing[finest] *= 2;
   }
-  float low = scan.values.front(), high = low;
+  float low = std::numeric_limits<float>::infinity(), high = -low;
   bool whole = true;
   for (const float v : scan.values) {
+    if (v == scan.outside) continue;
     low = std::min(low, v);
     high = std::max(high, v);
     whole = whole && v == std::nearbyint(v);
@@ -43,6 +45,10 @@ std::shared_ptr<const volume::Greys> keep_greys(const io::Scan& scan, double iso
   const double span = static_cast<double>(high) - greys->least;
   greys->step = whole && span <= 65535 ? 1 : std::max(span, 1e-12) / 65535;
 
+  // what was not measured is as dark as the darkest
+  const auto shown = [&](float value) {
+    return value == scan.outside && value < low ? low : value;
+  };
   greys->stored.resize(count());
   std::size_t out = 0;
   const auto row = static_cast<std::size_t>(scan.size.x()),
@@ -57,9 +63,9 @@ std::shared_ptr<const volume::Greys> keep_greys(const io::Scan& scan, double iso
         for (int z = from.z(); z < to.z(); ++z)
           for (int y = from.y(); y < to.y(); ++y)
             for (int x = from.x(); x < to.x(); ++x)
-              sum += static_cast<double>(
+              sum += static_cast<double>(shown(
                   scan.values[static_cast<std::size_t>(z) * slab +
-                              static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x)]);
+                              static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x)]));
         const double mean = sum / static_cast<double>((to - from).prod());
         greys->stored[out] = static_cast<std::uint16_t>(
             std::clamp(std::nearbyint((mean - greys->least) / greys->step), 0.0, 65535.0));

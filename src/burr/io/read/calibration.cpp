@@ -209,28 +209,38 @@ bool behaves_as_hounsfield(const ValueSample& sample, const ValueGroups& groups,
          value_at_share(sample, 0.001) < -80;
 }
 
-// Gives voxels without a measurement a value: air, or a little below all others.
+// A value for voxels without a measurement in a scan that is not in HU: a little below all others, and
+// whole where those are.
+float below_all(const Range& range) {
+  const double span = double{range.high} - double{range.low};
+  const bool whole = range.low == std::floor(range.low) && span >= 100;
+  const auto below = static_cast<float>(double{range.low} - (whole ? 1.0 : 1e-6 * span));
+  return below < range.low ? below
+                           : std::nextafter(range.low, -std::numeric_limits<float>::infinity());
+}
+
+// Gives voxels without a measurement a value. In HU it is air. In grey values a fill below
+// all others stays what it is, because it is only a guess; what the file itself calls no value gets the fill's, or one below
+// all others.
 void place_unmeasured(Scan& scan, const Claim& claim, const Range& range, std::size_t filled,
                       float fill) {
   float air = -1024.0F;
+  std::string now = "are now air (-1024 HU)";
   if (!scan.hounsfield) {
-    // whole numbers stay whole
-    const double step = 1e-3 * (double{range.high} - double{range.low});
-    const double below = double{range.low} - step;
-    air = static_cast<float>(step > 0.1 ? std::floor(below) : below);
-    if (air == range.low) air = std::nextafter(range.low, -std::numeric_limits<float>::infinity());
+    // above all others it would be bone
+    const bool stays = filled > 0 && fill < range.low;
+    air = stays ? fill : below_all(range);
     scan.outside = air;
+    now = fmt::format("count nowhere (they hold {:.6g} now)", air);
   }
   for (float& value : scan.values)
     if (std::isnan(value)) value = air;
-  const std::string now =
-      scan.hounsfield ? "are now air (-1024 HU)" : fmt::format("count as outside ({:.6g})", air);
   if (claim.padded > 0)
     scan.notices.push_back(fmt::format("{} voxels were padding and {}.", claim.padded, now));
   if (filled > 0)
     scan.notices.push_back(
         fmt::format("{} voxels hold {:.6g}, far from all others: they were not measured and {}.",
-                    filled, fill, now));
+                    filled, fill, scan.hounsfield || fill > range.low ? now : "count nowhere"));
   if (claim.broken > 0)
     scan.notices.push_back(fmt::format(
         "{} voxels hold no finite number, or one beyond 1e+30; they {}.", claim.broken, now));
