@@ -438,7 +438,6 @@ LeastMove Proxy::settle(const Vec3& target, double guess, int moves, Touch& touc
 // Bounding the change bounds the step of the force:
 //     |F - F before| <= k (|hand - hand before| + slip)
 void Proxy::limit_slip(const Vec3& hand, Touch& touch) BURR_RT {
-  const bool holds = touch.touching || touch.active > 0;
   const Vec3 stretch =
       touch.touching ? Vec3(touch.depth * touch.normal + touch.tangential) : Vec3(Vec3::Zero());
   const Stretch last = last_stretch_;
@@ -449,12 +448,13 @@ void Proxy::limit_slip(const Vec3& hand, Touch& touch) BURR_RT {
   if (length <= most) return;
   const Vec3 limited = last.stretch + change * (most / length);
   last_stretch_.stretch = limited;
-  const double along = holds ? math::dot(limited, touch.normal) : 0;
+  const double along = touch.touching ? math::dot(limited, touch.normal) : 0;
   touch.touching = true;
   if (along > 0) {
     touch.depth = along;
     touch.tangential = limited - along * touch.normal;
   } else {
+    touch.slipping = true;
     touch.depth = math::norm(limited);
     touch.normal = limited / std::max(touch.depth, 1e-12);
     touch.tangential = Vec3::Zero();

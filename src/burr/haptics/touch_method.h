@@ -65,8 +65,11 @@ struct Touch {
   int active = 0;
   int candidates = 0;
   bool touching = false;
-  bool lagging = false;   // did not catch up with the hand within max_moves
-  bool stuck = false;     // friction holds it
+  bool lagging = false;  // did not catch up with the hand within max_moves
+  bool stuck = false;    // friction holds it
+  // The spring still follows a slip (ProxySettings::slip): the hand feels it, but it presses on no
+  // bone, so nothing is cut.
+  bool slipping = false;
   bool overflow = false;  // more candidates than the list holds
 };
 

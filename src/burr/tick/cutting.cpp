@@ -44,7 +44,8 @@ const volume::Tissue& Cutting::touched_tissue() const BURR_RT {
 // Bone rubs as its tissue says while the spindle stands; a turning burr hardly at all.
 double Cutting::friction() const BURR_RT {
   if (spindle_.speed() != 0) return settings_.friction_turning;
-  return hand_.touch().touching ? touched_tissue().friction * settings_.friction_scale : 0;
+  const bool rubs = hand_.touch().touching && !hand_.touch().slipping;
+  return rubs ? touched_tissue().friction * settings_.friction_scale : 0;
 }
 
 // ---- on the hand
@@ -127,7 +128,7 @@ bool Cutting::works(double push) BURR_RT {
 void Cutting::cut(std::uint64_t tick, const Vec3& touched, bool may, std::uint64_t path_mark,
                   std::uint32_t& flags) BURR_RT {
   const haptics::Touch& touch = hand_.touch();
-  const bool pushes = may && touch.touching && settings_.mode != ToolMode::touch;
+  const bool pushes = may && touch.touching && !touch.slipping && settings_.mode != ToolMode::touch;
   const double push = pushes ? std::max(0.0, math::dot(touched, touch.normal)) : 0;
   last_push_ = push;
   now_ = {};

@@ -106,7 +106,7 @@ void Hand::report(const Sent& sent, haptics::Contact& contact) const BURR_RT {
   contact.depth = touch_.depth;
   contact.active = touch_.active;
   contact.candidates = touch_.candidates;
-  contact.touching = touch_.touching;
+  contact.touching = touch_.touching && !touch_.slipping;
   if (touch_.lagging) contact.flags |= rt::kFlagLagging;
   if (touch_.overflow) contact.flags |= rt::kFlagCandidates;
 }

@@ -45,8 +45,10 @@ std::vector<std::int64_t> count(const io::Scan& scan, double from, double to, in
   const auto least = static_cast<float>(from);
   const float scale = static_cast<float>(steps) / static_cast<float>(to - from);
   const auto last = static_cast<float>(steps - 1);
-  for (const float value : scan.values)
+  for (const float value : scan.values) {
+    if (value == scan.outside) continue;
     ++counts[static_cast<std::size_t>(std::clamp((value - least) * scale, 0.0F, last))];
+  }
   return counts;
 }
 
@@ -131,11 +133,13 @@ Extent extent_of(const io::Scan& scan, const importing::ImportSummary& plan) {
 Greys greys_of(const io::Scan& scan, int steps) {
   Greys greys;
   if (scan.values.empty()) return greys;
-  float low = scan.values.front(), high = low;
+  float low = std::numeric_limits<float>::infinity(), high = -low;
   for (const float value : scan.values) {
+    if (value == scan.outside) continue;
     low = std::min(low, value);
     high = std::max(high, value);
   }
+  if (low > high) low = high = scan.values.front();  // nothing was measured
   greys.low = double{low};
   greys.high = double{high};
   greys.from = greys.low;

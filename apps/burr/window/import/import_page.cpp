@@ -59,7 +59,7 @@ std::optional<double> ImportPage::level() const {
   if (opened_.scan->values.empty()) return std::nullopt;
   if (level_) return level_;
   if (planned_) {
-    // Otsu's level has more digits than are useful
+    // an estimated level has more digits than are useful
     const double step = 0.01 * opened_.greys.step();
     return std::round(planned_->import.iso / step) * step;
   }

@@ -29,9 +29,9 @@ bool same_click(const std::optional<std::uint32_t>& to_front, Uint32 now) {
   return to_front && now - *to_front < kSameClick;
 }
 
-// Space that is held acts once. If it was held already when the window came to the front, it does
-// not act: the keyboard then repeats it. So soon after that, Space acts when it is let go, unless it
-// was repeated.
+// False: this press of Space acts now. A key that was already down when the window came to the front
+// is reported as pressed as well, and must not act. Only its repeats show it. So in the first second
+// a press does not act at once: it acts when the key is released, if no repeat came before.
 bool held_before(std::optional<std::uint32_t>& to_front, const SDL_KeyboardEvent& space) {
   const bool soon = to_front && space.timestamp - *to_front < kFirstRepeat;
   if (space.repeat != 0 || !soon) to_front.reset();
