@@ -173,13 +173,13 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   add_test(NAME portable.aarch64_tests COMMAND ${checks}/portable.sh aarch64 ${CMAKE_BINARY_DIR} tests)
   set_tests_properties(portable.aarch64_tests PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long FIXTURES_REQUIRED portable_aarch64)
 
-  # libFuzzer: 10 s for every reader; scripts/fuzz_night.sh runs longer
+  # libFuzzer: 5 s for every reader; scripts/fuzz_night.sh runs longer
   add_test(NAME fuzz.seeds COMMAND ${checks}/fuzz.sh seeds)
   set_tests_properties(fuzz.seeds PROPERTIES FIXTURES_REQUIRED asan_programs FIXTURES_SETUP fuzz_seeds LABELS long)
   file(GLOB fuzz_targets CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/fuzz ${PROJECT_SOURCE_DIR}/fuzz/*_fuzz.cpp)
   foreach(file ${fuzz_targets})
     string(REGEX REPLACE "_fuzz\\.cpp$" "" name ${file})
-    add_test(NAME fuzz.${name} COMMAND ${checks}/fuzz.sh ${name} 10)
+    add_test(NAME fuzz.${name} COMMAND ${checks}/fuzz.sh ${name} 5)
     set_tests_properties(fuzz.${name} PROPERTIES FIXTURES_REQUIRED "asan_programs;fuzz_seeds" TIMEOUT 300 LABELS long)
   endforeach()
 endif()

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "burr/importing/smooth_kernel.h"
 #include "burr/io/workers.h"
+#include "burr/rt/simd.h"
 
 namespace burr::importing {
 namespace {
@@ -217,91 +219,93 @@ double otsu(const io::Scan& scan, const math::Ijk& from, const math::Ijk& size) 
   return double{low} + (0.5 * (first + last) + 0.5) / scale;
 }
 
+namespace {
+
+// Whether a surface lies within two voxels, along an axis, of the voxels of a row.
+class NearRow {
+ public:
+  explicit NearRow(int length) : length_(length), near_(static_cast<std::size_t>(length)) {}
+
+  // row: the row's first voxel; sy, sz: from it to the next along y and z. Values from `level` on are
+  // inside.
+  void look(const std::int16_t* row, std::ptrdiff_t sy, std::ptrdiff_t sz, std::int16_t level) {
+    std::fill(near_.begin(), near_.end(), std::int16_t{0});
+    for (const std::ptrdiff_t s : {std::ptrdiff_t{1}, sy, sz})
+      for (int i = 2; i < length_ - 2; ++i) {
+        const std::int16_t* at = row + i;
+        // 0 or 1 for each voxel; the sum is 0 or 5 where all are on the same side
+        const int in = (at[0] >= level) + (at[s] >= level) + (at[-s] >= level) +
+                       (at[2 * s] >= level) + (at[-2 * s] >= level);
+        near_[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(
+            near_[static_cast<std::size_t>(i)] | static_cast<int>(in != 0 && in != 5));
+      }
+  }
+  [[nodiscard]] bool any(int first, int count) const {
+    const auto from = near_.begin() + first;
+    return std::find(from, from + count, std::int16_t{1}) != from + count;
+  }
+
+ private:
+  int length_;
+  std::vector<std::int16_t> near_;
+};
+
+SmoothEight smooth_kernel() noexcept {
+  if constexpr (rt::kWideKernels)
+    if (rt::simd() != rt::Simd::scalar) return avx2::smooth_eight;
+  return scalar::smooth_eight;
+}
+
+}  // namespace
+
 bool smooth_near(Grey& grey, double iso_stored, double noise_stored, const math::Vec3& spacing_mm,
                  Progress& progress) {
-  constexpr int kReach = 2;
+  constexpr int kReach = 2, kLanes = 8;
   const int nx = grey.size.x(), ny = grey.size.y(), nz = grey.size.z();
   if (grey.size.minCoeff() <= 2 * kReach) return true;
   const double finest = spacing_mm.minCoeff();
 
-  struct Offset {
-    std::ptrdiff_t move;
-    float weight, x, y, z;  // position in finest spacings
-  };
-  std::vector<Offset> offsets;
+  std::vector<SmoothNeighbour> neighbours;
   for (int dz = -kReach; dz <= kReach; ++dz)
     for (int dy = -kReach; dy <= kReach; ++dy)
       for (int dx = -kReach; dx <= kReach; ++dx) {
         const math::Vec3 d = math::Vec3(dx, dy, dz).cwiseProduct(spacing_mm) / finest;
         const double weight = std::exp(-d.squaredNorm() / (2 * 1.3 * 1.3));
         if (weight < 0.01) continue;
-        offsets.push_back({dx + std::ptrdiff_t{nx} * (dy + std::ptrdiff_t{ny} * dz),
-                           static_cast<float>(weight), static_cast<float>(d.x()),
-                           static_cast<float>(d.y()), static_cast<float>(d.z())});
+        neighbours.push_back({dx + std::ptrdiff_t{nx} * (dy + std::ptrdiff_t{ny} * dz),
+                              static_cast<float>(weight), static_cast<float>(d.x()),
+                              static_cast<float>(d.y()), static_cast<float>(d.z())});
       }
   const float iso = static_cast<float>(iso_stored);
-  const float range = static_cast<float>(1.0 / (3.0 * 3.0 * noise_stored * noise_stored));
-  const std::ptrdiff_t sx = 1, sy = nx, sz = std::ptrdiff_t{nx} * ny;
-  const std::vector<std::int16_t> source = grey.voxels;
-  float moment_x = 0, moment_y = 0, moment_z = 0;
-  for (const Offset& o : offsets) {
-    moment_x += o.weight * o.x * o.x;
-    moment_y += o.weight * o.y * o.y;
-    moment_z += o.weight * o.z * o.z;
+  SmoothRule rule;
+  rule.neighbours = neighbours.data();
+  rule.count = static_cast<int>(neighbours.size());
+  rule.range = static_cast<float>(1.0 / (3.0 * 3.0 * noise_stored * noise_stored));
+  for (const SmoothNeighbour& o : neighbours) {
+    rule.moment_x += o.weight * o.x * o.x;
+    rule.moment_y += o.weight * o.y * o.y;
+    rule.moment_z += o.weight * o.z * o.z;
   }
-
+  const std::ptrdiff_t sy = nx, sz = std::ptrdiff_t{nx} * ny;
+  std::vector<std::int16_t> source;
+  source.reserve(grey.voxels.size() + kLanes);
+  source = grey.voxels;
+  source.resize(grey.voxels.size() + kLanes);  // the last lanes of the last row read beyond it
+  const SmoothEight smooth_eight = smooth_kernel();
+  // whole numbers, so they are above the level when they are above the next whole number
+  const auto level = static_cast<std::int16_t>(std::clamp(std::ceil(iso), -32768.0F, 32767.0F));
+  const bool all_below = iso > 32767.0F;
   return io::in_pieces(nz, progress, "smoothing", [&](int k) {
     if (k < kReach || k >= nz - kReach) return;
+    NearRow near_surface(nx);
     for (int j = kReach; j < ny - kReach; ++j) {
       const std::ptrdiff_t row = sy * j + sz * k;
-      for (int i0 = kReach; i0 + 8 <= nx - kReach || i0 < nx - kReach; i0 += 8) {
-        const int lanes = std::min(8, nx - kReach - i0);
-        const std::int16_t* at = source.data() + row + i0;
-        // is a surface within two voxels of any of these?
-        bool near = false;
-        for (int l = 0; l < lanes && !near; ++l) {
-          const bool in = static_cast<float>(at[l]) >= iso;
-          for (const std::ptrdiff_t s : {sx, sy, sz})
-            near = near || (static_cast<float>(at[l + s]) >= iso) != in ||
-                   (static_cast<float>(at[l - s]) >= iso) != in ||
-                   (static_cast<float>(at[l + 2 * s]) >= iso) != in ||
-                   (static_cast<float>(at[l - 2 * s]) >= iso) != in;
-        }
-        if (!near) continue;
-        // the local slope of the values, by least squares over all of them
-        float gx[8] = {}, gy[8] = {}, gz[8] = {}, own[8] = {};
-        for (int l = 0; l < lanes; ++l) own[l] = static_cast<float>(at[l]);
-        for (const Offset& o : offsets)
-          for (int l = 0; l < lanes; ++l) {
-            const float value = o.weight * static_cast<float>(at[l + o.move]);
-            gx[l] += o.x * value;
-            gy[l] += o.y * value;
-            gz[l] += o.z * value;
-          }
-        float slope[8] = {};
-        for (int l = 0; l < lanes; ++l) {
-          gx[l] /= moment_x;
-          gy[l] /= moment_y;
-          gz[l] /= moment_z;
-          slope[l] = std::sqrt(gx[l] * gx[l] + gy[l] * gy[l] + gz[l] * gz[l]) + 1e-12F;
-          gx[l] /= slope[l];
-          gy[l] /= slope[l];
-          gz[l] /= slope[l];
-        }
-        // the mean along the surface, with each value shifted to this depth by the slope
-        float sum[8] = {}, weights[8] = {};
-        for (const Offset& o : offsets)
-          for (int l = 0; l < lanes; ++l) {
-            const float across = gx[l] * o.x + gy[l] * o.y + gz[l] * o.z;
-            const float value = static_cast<float>(at[l + o.move]) - slope[l] * across;
-            const float d = value - own[l];
-            const float falls = (1.0F + d * d * range) * (1.0F + 3.0F * across * across);
-            const float w = o.weight / (falls * falls);
-            sum[l] += w * value;
-            weights[l] += w;
-          }
-        for (int l = 0; l < lanes; ++l)
-          grey.voxels[static_cast<std::size_t>(row + i0 + l)] = rounded(sum[l] / weights[l]);
+      if (all_below) continue;
+      near_surface.look(source.data() + row, sy, sz, level);
+      for (int i0 = kReach; i0 < nx - kReach; i0 += kLanes) {
+        const int lanes = std::min(kLanes, nx - kReach - i0);
+        if (near_surface.any(i0, lanes))
+          smooth_eight(source.data() + row + i0, rule, lanes, grey.voxels.data() + row + i0);
       }
     }
   });

@@ -36,13 +36,14 @@ struct Desk {
   std::array<float, kBlockVoxels> level;   // >= 0 inside; linear interpolation gives the surface
   std::array<float, kBlockVoxels> smooth;  // in label maps, the values whose gradient is taken
   std::array<float, kBlockVoxels> work;
+  std::array<std::int16_t, kBlockVoxels> greys, most, work_greys;  // as stored; in grey scans
   std::array<std::uint8_t, kBlockVoxels> labels;
   // bit x: voxel x of the row is inside; [z][y]
   std::array<std::array<std::uint32_t, kBlock>, kBlock> inside;
   std::vector<SurfacePoint> points;
-  std::vector<std::uint64_t> rows;  // the rows that each point counts for
-  // the points that count for each row of the brick: which[starts[row]] and on
-  std::array<std::uint32_t, kBrickEdge * kBrickEdge + 1> starts;
+  // the points that count for each row of the brick: counts[row] of them, from
+  // which[row * points.size()] on
+  std::array<std::uint32_t, kBrickEdge * kBrickEdge> counts;
   std::vector<std::uint16_t> which;
   PlaneSums sums;
   MaterialDirections directions;
@@ -65,7 +66,6 @@ void fetch(const InsideGrid& grid, const math::Ijk& first, int skip, Desk& desk,
            bool& any_outside) {
   const auto nx = static_cast<std::size_t>(grid.size.x()),
              ny = static_cast<std::size_t>(grid.size.y());
-  std::array<std::int16_t, kBlock> grey{};
   const bool whole = first.x() >= kHalo && first.x() - kHalo + kBlock <= grid.size.x();
   std::array<std::size_t, kBlock> xs{};
   for (int x = 0; x < kBlock; ++x)
@@ -83,12 +83,12 @@ void fetch(const InsideGrid& grid, const math::Ijk& first, int skip, Desk& desk,
       float* level = &desk.level[static_cast<std::size_t>(at(0, y, z))];
       std::uint8_t* label = &desk.labels[static_cast<std::size_t>(at(0, y, z))];
       if (grid.grey != nullptr) {
-        const std::int16_t* from = grey.data();
+        std::int16_t* grey = &desk.greys[static_cast<std::size_t>(at(0, y, z))];
         if (whole)
-          from = grid.grey + row + xs[0];
+          std::memcpy(grey, grid.grey + row + xs[0], kBlock * sizeof *grey);
         else
           for (std::size_t x = 0; x < kBlock; ++x) grey[x] = grid.grey[row + xs[x]];
-        for (int x = 0; x < kBlock; ++x) level[x] = static_cast<float>(from[x]) - grid.iso;
+        for (int x = 0; x < kBlock; ++x) level[x] = static_cast<float>(grey[x]) - grid.iso;
       } else {
         for (std::size_t x = 0; x < kBlock; ++x) {
           const std::size_t v = row + xs[x];
@@ -192,21 +192,25 @@ void face(Desk& desk) {
       }
 }
 
-// The rows of the brick within kReach of a point: bit y + 8 z.
+// The rows of the brick within kReach of a point: bit y + 8 z. The first loop has no branch, so that
+// the compiler takes four layers at once.
 std::uint64_t rows_near(const SurfacePoint& p) {
-  std::uint64_t rows = 0;
-  for (int z = 0; z < kBrickEdge; ++z) {
-    const float dz = static_cast<float>(z) - p.z, left = kReach * kReach - dz * dz;
-    if (left < 0) continue;
-    const float half = std::sqrt(left);
-    const float low = std::max(p.y - half, 0.0F),
-                high = std::min(p.y + half, static_cast<float>(kBrickEdge - 1));
-    if (low > high) continue;
+  std::array<int, kBrickEdge> from, end;  // of y, in each layer
+  for (std::size_t z = 0; z < kBrickEdge; ++z) {
+    const float dz = static_cast<float>(static_cast<int>(z)) - p.z,
+                left = kReach * kReach - dz * dz;
+    const float half = std::sqrt(left < 0 ? 0.0F : left);
+    const float low = p.y - half > 0 ? p.y - half : 0.0F,
+                high = p.y + half < kBrickEdge - 1 ? p.y + half : kBrickEdge - 1;
     const int whole = static_cast<int>(low),
-              from = whole + (static_cast<float>(whole) < low ? 1 : 0);
-    const std::uint32_t row = (2U << static_cast<int>(high)) - (1U << from);  // none if from > high
-    rows |= std::uint64_t{row} << (kBrickEdge * z);
+              first = whole + (static_cast<float>(whole) < low ? 1 : 0);
+    const bool any = (left >= 0) & (low <= high);
+    from[z] = any ? first : 0;
+    end[z] = any ? static_cast<int>(high) + 1 : 0;
   }
+  std::uint64_t rows = 0;
+  for (std::size_t z = 0; z < kBrickEdge; ++z)  // no row where from == end
+    rows |= std::uint64_t{(1U << end[z]) - (1U << from[z])} << (kBrickEdge * z);
   return rows;
 }
 
@@ -216,25 +220,19 @@ std::uint64_t rows_near(const SurfacePoint& p) {
 void measure(float soft, bool by_normal, SumPlanes sum_planes, Desk& desk) {
   if (by_normal) face(desk);
   // put each point into the lists of the rows that it counts for
-  desk.rows.clear();
-  for (const SurfacePoint& p : desk.points) desk.rows.push_back(rows_near(p));
-  desk.starts.fill(0);
-  for (const std::uint64_t rows : desk.rows)
-    for (std::uint64_t left = rows; left != 0; left &= left - 1)
-      ++desk.starts[static_cast<std::size_t>(std::countr_zero(left)) + 1];
-  for (std::size_t row = 1; row < desk.starts.size(); ++row)
-    desk.starts[row] += desk.starts[row - 1];
-  desk.which.resize(desk.starts.back());
-  auto next = desk.starts;
-  for (std::size_t n = 0; n < desk.rows.size(); ++n)
-    for (std::uint64_t left = desk.rows[n]; left != 0; left &= left - 1)
-      desk.which[next[static_cast<std::size_t>(std::countr_zero(left))]++] =
-          static_cast<std::uint16_t>(n);
+  const std::size_t most = desk.points.size();
+  if (desk.which.size() < most * desk.counts.size()) desk.which.resize(most * desk.counts.size());
+  desk.counts.fill(0);
+  for (std::size_t n = 0; n < most; ++n)
+    for (std::uint64_t left = rows_near(desk.points[n]); left != 0; left &= left - 1) {
+      const auto row = static_cast<std::size_t>(std::countr_zero(left));
+      desk.which[row * most + desk.counts[row]++] = static_cast<std::uint16_t>(n);
+    }
   for (int z = 0; z < kBrickEdge; ++z)
     for (int y = 0; y < kBrickEdge; ++y) {
       const auto row = static_cast<std::size_t>(y + kBrickEdge * z);
-      sum_planes(desk.points.data(), desk.which.data() + desk.starts[row],
-                 static_cast<int>(desk.starts[row + 1] - desk.starts[row]), y, z, soft,
+      sum_planes(desk.points.data(), desk.which.data() + row * most,
+                 static_cast<int>(desk.counts[row]), y, z, soft,
                  by_normal ? &desk.directions : nullptr, desk.sums);
     }
 }
@@ -323,59 +321,99 @@ void label_tissue(const InsideGrid& grid, const math::Ijk& first, const Desk& de
       }
 }
 
+// To the nearest whole number, halves away from 0, like std::lround, but without a call.
+std::int16_t nearest(double value) {
+  const double bounded = std::clamp(value, -32768.0, 32767.0);
+  const int whole = static_cast<int>(bounded);
+  const double rest = bounded - whole;
+  return static_cast<std::int16_t>(whole + static_cast<int>(rest >= 0.5) -
+                                   static_cast<int>(rest <= -0.5));
+}
+
+// What a stored grey value means; made once for a scan, because there are fewer values than voxels.
+class GreyTable {
+ public:
+  GreyTable(const InsideGrid& grid, const GreyTissue& rule) : grid_(grid), rule_(rule) {
+    if (grid.grey == nullptr) return;
+    constexpr int kValues = 65536;
+    tissue_.resize(kValues);
+    intensity_.resize(kValues);
+    for (int v = 0; v < kValues; ++v) {
+      const auto grey = static_cast<std::int16_t>(v - 32768);
+      intensity_[static_cast<std::size_t>(v)] = intensity(level(grey));
+      tissue_[static_cast<std::size_t>(v)] =
+          rule.by_hu ? hu_tissue((level(grey) + double{grid.iso}) * rule.step + rule.zero)
+                     : TissueId{1};
+    }
+  }
+  [[nodiscard]] TissueId tissue(std::int16_t grey) const { return tissue_[index(grey)]; }
+  // What the bone keeps of the value. beyond: the voxel lies beyond the scan; its value is as far
+  // below the level as that of the last voxel above it, so that a scan written from this bone ends
+  // in the same face.
+  [[nodiscard]] std::int16_t intensity(std::int16_t grey, bool beyond) const {
+    return beyond ? intensity(-std::abs(level(grey))) : intensity_[index(grey)];
+  }
+
+ private:
+  static std::size_t index(std::int16_t grey) { return static_cast<std::size_t>(grey + 32768); }
+  // the same rounding as in the block of a brick
+  [[nodiscard]] double level(std::int16_t grey) const {
+    return double{static_cast<float>(grey) - grid_.iso};
+  }
+  [[nodiscard]] std::int16_t intensity(double level) const {
+    return nearest((double{grid_.iso} + level) * rule_.step + rule_.zero);
+  }
+
+  const InsideGrid& grid_;
+  const GreyTissue& rule_;
+  std::vector<TissueId> tissue_;
+  std::vector<std::int16_t> intensity_;
+};
+
+// Writes the densest value within two voxels to desk.work_greys, one axis after the other.
+void find_densest(Desk& desk) {
+  const auto densest = [](const std::int16_t* from, int stride, std::int16_t* result) {
+    for (int x = 0; x < kBrickEdge; ++x)
+      result[x] = std::max({from[x], from[x - stride], from[x + stride], from[x - 2 * stride],
+                            from[x + 2 * stride]});
+  };
+  constexpr int kFirst = kHalo, kEnd = kHalo + kBrickEdge;
+  const auto along = [&](const auto& from, int stride, auto& to, int wider_y, int wider_z) {
+    for (int z = kFirst - wider_z; z < kEnd + wider_z; ++z)
+      for (int y = kFirst - wider_y; y < kEnd + wider_y; ++y) {
+        const auto row = static_cast<std::size_t>(at(kFirst, y, z));
+        densest(&from[row], stride, &to[row]);
+      }
+  };
+  along(desk.greys, 1, desk.work_greys, 2, 2);
+  along(desk.work_greys, kBlock, desk.most, 0, 2);
+  along(desk.most, kPlane, desk.work_greys, 0, 0);
+}
+
 // Near the surface a voxel is only partly bone and its HU is too low, so the densest value within
 // two voxels counts there.
-void grey_tissue_of(const InsideGrid& grid, const GreyTissue& rule, const math::Ijk& first,
+void grey_tissue_of(const InsideGrid& grid, const GreyTable& table, const math::Ijk& first,
                     bool ramps, Desk& desk, const math::Ijk& room, const Target& to) {
-  // densest value within two voxels, one axis after the other; only needed on a ramp
-  std::array<float, kBlockVoxels>& most = desk.smooth;
-  if (rule.by_hu && ramps) {
-    const auto densest = [](const float* from, int stride, float* result) {
-      for (int x = 0; x < kBrickEdge; ++x)
-        result[x] = std::max({from[x], from[x - stride], from[x + stride], from[x - 2 * stride],
-                              from[x + 2 * stride]});
-    };
-    constexpr int kFirst = kHalo, kEnd = kHalo + kBrickEdge;
-    for (int z = kFirst - 2; z < kEnd + 2; ++z)
-      for (int y = kFirst - 2; y < kEnd + 2; ++y)
-        densest(&desk.level[static_cast<std::size_t>(at(kFirst, y, z))], 1,
-                &desk.work[static_cast<std::size_t>(at(kFirst, y, z))]);
-    for (int z = kFirst - 2; z < kEnd + 2; ++z)
-      for (int y = kFirst; y < kEnd; ++y)
-        densest(&desk.work[static_cast<std::size_t>(at(kFirst, y, z))], kBlock,
-                &most[static_cast<std::size_t>(at(kFirst, y, z))]);
-    for (int z = kFirst; z < kEnd; ++z)
-      for (int y = kFirst; y < kEnd; ++y)
-        densest(&most[static_cast<std::size_t>(at(kFirst, y, z))], kPlane,
-                &desk.work[static_cast<std::size_t>(at(kFirst, y, z))]);
-  }
+  if (ramps) find_densest(desk);
+  const bool any_beyond =
+      is_beyond(grid, first) || is_beyond(grid, first + room - math::Ijk::Ones());
   for (int z = 0; z < room.z(); ++z)
     for (int y = 0; y < room.y(); ++y)
       for (int x = 0; x < room.x(); ++x) {
         const int v = x + kBrickEdge * (y + kBrickEdge * z);
         const auto a = static_cast<std::size_t>(at(x + kHalo, y + kHalo, z + kHalo));
-        // beyond the scan the value lies as far below the level as that of the last voxel above
-        // it, so that a scan written from this bone ends in the same face
-        const bool beyond = is_beyond(grid, first + math::Ijk(x, y, z));
-        const double level = double{desk.level[a]},
-                     stored = double{grid.iso} + (beyond ? -std::abs(level) : level);
+        const std::int16_t own = desk.greys[a];
         if (to.intensity != nullptr)
-          to.intensity[v] = static_cast<std::int16_t>(
-              std::lround(std::clamp(stored * rule.step + rule.zero, -32768.0, 32767.0)));
-        if (to.field[v] == 0) {
-          to.tissue[v] = 0;
-        } else if (!rule.by_hu) {
-          to.tissue[v] = 1;
-        } else {
-          const bool ramp = to.field[v] < volume::kSolid;
-          const double densest = double{ramp ? desk.work[a] : desk.level[a]} + double{grid.iso};
-          to.tissue[v] = hu_tissue(densest * rule.step + rule.zero);
-        }
+          to.intensity[v] =
+              table.intensity(own, any_beyond && is_beyond(grid, first + math::Ijk(x, y, z)));
+        const bool ramp = to.field[v] < volume::kSolid;
+        to.tissue[v] =
+            to.field[v] == 0 ? TissueId{0} : table.tissue(ramp && ramps ? desk.work_greys[a] : own);
       }
 }
 
 // first: of the brick, counted from the first voxel of the scan.
-void fill_brick(const InsideGrid& grid, const GreyTissue& rule, SumPlanes sum_planes,
+void fill_brick(const InsideGrid& grid, const GreyTable& table, SumPlanes sum_planes,
                 const math::Ijk& first, Desk& desk, const Target& to) {
   bool any_inside = false, any_outside = false;
   const bool labels = grid.grey == nullptr;
@@ -396,8 +434,16 @@ void fill_brick(const InsideGrid& grid, const GreyTissue& rule, SumPlanes sum_pl
         const auto i = static_cast<std::size_t>(v);
         const bool in =
             desk.level[static_cast<std::size_t>(at(x + kHalo, y + kHalo, z + kHalo))] >= 0;
-        double depth = in ? 10 : -10;
-        if (measured && desk.sums.weights[i] > 1e-12F) {
+        constexpr double kFar = 10;
+        static_assert(volume::field_from_depth(kFar) == volume::kSolid &&
+                      volume::field_from_depth(-kFar) == 0);
+        const bool summed = measured && desk.sums.weights[i] > 1e-12F;
+        if (!summed && !cut) {  // most voxels
+          to.field[v] = in ? volume::kSolid : Field{0};
+          continue;
+        }
+        double depth = in ? kFar : -kFar;
+        if (summed) {
           depth = depth_of(desk.sums, i);
           // If averaging would move the surface far beyond a voxel, there is a thin wall or gap:
           // keep it.
@@ -412,7 +458,7 @@ void fill_brick(const InsideGrid& grid, const GreyTissue& rule, SumPlanes sum_pl
   if (labels)
     label_tissue(grid, first, desk, room, to);
   else
-    grey_tissue_of(grid, rule, first, measured || ramps, desk, room, to);
+    grey_tissue_of(grid, table, first, measured || ramps, desk, room, to);
 }
 
 // Bricks with an inside voxel in them or within 3 voxels, or with a label to keep.
@@ -527,6 +573,7 @@ std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueT
     bone->ensure_slot(b);
   }
   const SumPlanes sum_planes = sum_planes_kernel();
+  const GreyTable table(inside, grey_tissue);
   constexpr std::size_t kPortion = 64;
   const int portions = static_cast<int>((list.size() + kPortion - 1) / kPortion);
   const bool done = io::in_pieces(portions, progress, "finding the surface", [&](int portion) {
@@ -537,8 +584,7 @@ std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueT
                            bone->has_intensity() ? bone->build_intensity(list[n]) : nullptr};
       desk->field.fill(0);  // for voxels beyond the grid
       desk->tissue.fill(0);
-      fill_brick(inside, grey_tissue, sum_planes, bone->brick_ijk(list[n]) - inside.margin, *desk,
-                 made);
+      fill_brick(inside, table, sum_planes, bone->brick_ijk(list[n]) - inside.margin, *desk, made);
       // here, so that a uniform brick never touches its reserved memory
       bone->build_brick(list[n], made.field, made.tissue);
     }

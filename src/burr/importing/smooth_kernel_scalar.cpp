@@ -1,0 +1,2 @@
+#define BURR_KERNEL scalar
+#include "burr/importing/smooth_kernel.inc"
