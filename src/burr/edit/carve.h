@@ -41,7 +41,7 @@ struct CarveSettings {
   double advance_m = 50e-6;     // [m]
   double advance_least = 0.25;  // [voxel]
   double margin_m = 10e-6;      // [m]
-  double margin_least = 0.05;   // [voxel]
+  double margin_least = 0.1;    // less, and a stopped burr wedges in its own slot [voxel]
   double margin_most = 0.5;     // while the burr is blocked [voxel]
   double margin_rise = 20;      // while blocked [voxel/s]
   double margin_fall = 2;       // while cutting freely [voxel/s]
