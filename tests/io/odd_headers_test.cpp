@@ -80,6 +80,12 @@ struct Slice {
   }
 };
 
+TEST_F(OddHeader, AFileOfNumbersAloneIsRefusedAndItsHeaderAskedFor) {
+  EXPECT_TRUE(has(refusal(file("a.raw", std::string(4000, '\7'))), "give its header"));
+  EXPECT_TRUE(
+      has(refusal(file("a.txt", std::string(4000, '\7'))), "is not a file that burr reads"));
+}
+
 TEST_F(OddHeader, ARangeOfAllNumbersIsNoListOfFiles) {
   // the difference of these two does not fit into 64 bits; it was once taken as one file
   const std::string all = "data file: a%d 9223372036854775807 -9223372036854775808 ";

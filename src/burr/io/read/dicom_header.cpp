@@ -597,6 +597,18 @@ Result<std::vector<std::uint8_t>> inflated(const std::filesystem::path& path, st
   return bytes;
 }
 
+// Why a file that is none of the formats is refused.
+std::string not_read(const std::filesystem::path& path) {
+  const std::string ending = lower(path.extension().string());
+  if (ending == ".raw" || ending == ".zraw")  // people choose it instead of the header beside it
+    return fmt::format(
+        "{}: holds the numbers of a volume without their size and type; give its header (.nhdr or "
+        ".mhd)",
+        short_name(path));
+  return fmt::format("{}: is not a file that burr reads; give DICOM, NRRD, NIfTI or MetaImage",
+                     short_name(path));
+}
+
 }  // namespace
 
 Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
@@ -620,10 +632,7 @@ Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
     const bool marked = bytes->size() >= 132 && std::memcmp(bytes->data() + 128, "DICM", 4) == 0;
     if (marked) at = 132;
     if (!plausible(*bytes, at))
-      return marked ? broken("it holds nothing behind its mark")
-                    : error(fmt::format(
-                          "{}: is not a file that burr reads; give DICOM, NRRD, NIfTI or MetaImage",
-                          file));
+      return marked ? broken("it holds nothing behind its mark") : error(not_read(path));
 
     Walker meta(*bytes, total);
     if ((*bytes)[at] == 2) {
