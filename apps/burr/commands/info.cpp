@@ -12,6 +12,7 @@
 #include "burr/record/player.h"
 #include "burr/workshop/open_bone.h"
 #include "commands/command.h"
+#include "commands/session_words.h"
 #include "commands/volume_words.h"
 #include "window/replay/playback.h"
 
@@ -190,7 +191,7 @@ Result<importing::ImportSummary> look(const scenario::Recipe& recipe) {
 Status run_recording(const Options& options) {
   auto opened = record::Player::open(options.volume.source);
   if (!opened) return opened.error();
-  const record::Player& player = **opened;
+  record::Player& player = **opened;
   const record::SessionInfo& info = player.info();
   const math::Ijk& size = info.volume.grid.size;
   fmt::print("recording by burr {}: {:.1f} s at {:g} Hz{}\n", base::printable(info.burr_version),
@@ -207,6 +208,7 @@ Status run_recording(const Options& options) {
     work_case = std::move(*read);
     fmt::print("case {}: {}", base::printable(work_case->name), scenario::task_text(*work_case));
   }
+  fmt::print("{}", session_text(player));
   for (const std::string& notice : player.notices()) fmt::print("  note: {}\n", notice);
   if (!options.json) return fine();
   nlohmann::json out = {{"burr_version", info.burr_version},
@@ -216,6 +218,7 @@ Status run_recording(const Options& options) {
                         {"embedded", info.embedded},
                         {"notices", player.notices()},
                         {"case", nullptr}};
+  out.update(session_json(player));
   if (work_case) {
     nlohmann::json targets = nlohmann::json::array();
     for (const scenario::Target& target : work_case->targets)

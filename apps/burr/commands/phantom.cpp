@@ -6,7 +6,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "burr/base/printable.h"
 #include "burr/io/write/write_volume.h"
 #include "burr/phantom/phantoms.h"
 #include "burr/volume/volume_of.h"
@@ -20,7 +22,7 @@ namespace {
 struct Options {
   std::string name, out;
   double voxel_mm = 0;
-  bool json = false, force = false;
+  bool json = false, force = false, landmarks = false;
 };
 
 bool ends_with(const std::string& text, const std::string& end) {
@@ -61,7 +63,54 @@ void say(const volume::Bone& bone, const Options& options) {
                          .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
+std::string point_text(const math::Vec3& p) {
+  return fmt::format("({:.2f}, {:.2f}, {:.2f})", 1e3 * p.x(), 1e3 * p.y(), 1e3 * p.z());
+}
+
+// "sigmoid sinus   curve of 43 points, 58.0 mm, from (27.00, 44.00, 12.00) to (...)"
+std::string text_of(const phantom::Landmark& one) {
+  std::string text = fmt::format("{:<30}", one.name);
+  if (one.normal)
+    return text + fmt::format("plane at {}, normal ({:.3f}, {:.3f}, {:.3f})",
+                              point_text(one.points.front()), one.normal->x(), one.normal->y(),
+                              one.normal->z());
+  if (one.points.size() == 1) return text + "point " + point_text(one.points.front());
+  double length = 0;
+  for (std::size_t n = 1; n < one.points.size(); ++n)
+    length += (one.points[n] - one.points[n - 1]).norm();
+  return text + fmt::format("curve of {} points, {:.1f} mm, from {} to {}", one.points.size(),
+                            1e3 * length, point_text(one.points.front()),
+                            point_text(one.points.back()));
+}
+
+Status print_landmarks(const Options& options) {
+  const auto known = phantom::phantom_names();
+  if (std::find(known.begin(), known.end(), options.name) == known.end())
+    return error(Trouble::usage, fmt::format("unknown phantom '{}'; use one of {}",
+                                             base::printable(options.name), names()));
+  const std::vector<phantom::Landmark> all = phantom::landmarks(options.name);
+  if (options.json) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const phantom::Landmark& one : all) {
+      nlohmann::json points = nlohmann::json::array();
+      for (const math::Vec3& p : one.points)
+        points.push_back({1e3 * p.x(), 1e3 * p.y(), 1e3 * p.z()});
+      nlohmann::json item = {{"name", one.name}, {"points_mm", points}};
+      if (one.normal) item["normal"] = {one.normal->x(), one.normal->y(), one.normal->z()};
+      list.push_back(item);
+    }
+    fmt::print("{}\n", nlohmann::json{{"phantom", options.name}, {"landmarks", list}}.dump());
+    return fine();
+  }
+  fmt::print("{}: {} landmarks, LPS, mm\n", options.name, all.size());
+  for (const phantom::Landmark& one : all) fmt::print("  {}\n", text_of(one));
+  return fine();
+}
+
 Status run(const Options& options) {
+  if (options.landmarks) return print_landmarks(options);
+  if (options.out.empty())
+    return error(Trouble::usage, "nothing to do; give --out FILE, or --landmarks");
   if (!ends_with(options.out, ".nrrd") && !ends_with(options.out, ".bone"))
     return error(
         Trouble::usage,
@@ -87,10 +136,11 @@ void add(CLI::App& app, Todo& todo) {
       ->add_option("--voxel-mm", options->voxel_mm,
                    "edge of a voxel [mm] (default: suited to the phantom)")
       ->check(CLI::PositiveNumber);
-  command
-      ->add_option("--out", options->out,
-                   ".nrrd: the field; .seg.nrrd: the structures; .bone: both, for burr itself")
-      ->required();
+  command->add_option("--out", options->out,
+                      ".nrrd: the field; .seg.nrrd: the structures; .bone: both, for burr itself");
+  command->add_flag("--landmarks", options->landmarks,
+                    "print the named points, curves and planes that the formula knows, and write "
+                    "nothing");
   add_force(*command, options->force);
   command->add_flag("--json", options->json, "print a JSON object as the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });

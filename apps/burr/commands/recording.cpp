@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/base/places.h"
+#include "burr/record/course.h"
 #include "burr/record/rename_and_sync.h"
 #include "burr/record/scan_list.h"
 #include "burr/workshop/recording.h"
@@ -20,13 +21,15 @@ Status Recording::start(sim::Session& session, const std::string& file,
                         const std::string& motion, bool embed,
                         const std::optional<workshop::Tissues>& spared,
                         const std::optional<scenario::Case>& work_case) {
-  const workshop::About about{volume, import.format, motion, embed, spared, work_case, scan_list_};
+  const workshop::About about{volume, import.format, motion,    embed,
+                              spared, work_case,     identity_, scan_list_};
   file_ = file;
   rate_hz_ = session.settings().servo.rate_hz;
   auto begun =
       workshop::record(session, file, about, [this](const Error& problem) { tell(problem); });
   if (begun) {
     recorder_ = std::move(*begun);
+    diary_.emplace(*recorder_, rate_hz_);
     return fine();
   }
   const Status started = begun.error();
@@ -59,14 +62,21 @@ std::string Recording::trouble() const {
 Status Recording::finish(sim::Session& session, bool stopped) {
   stopped_ = stopped;
   session.set_recorder(nullptr);
+  if (diary_) {
+    const std::uint64_t ticks = session.outcome().ticks;
+    diary_->end(ticks > 0 ? ticks - 1 : 0,
+                stopped ? record::Ending::broke_off : record::Ending::time_up);
+  }
   if (recorder_) {
     const auto done = recorder_->finish(stopped);
     if (done && !done->whole())
       return error(
           Trouble::io,
-          fmt::format("{}: {} ticks, {} commands and {} bricks could not be written in time "
-                      "and are missing; record to a faster disk",
-                      file_, done->dropped_ticks, done->dropped_commands, done->dropped_bricks));
+          fmt::format("{}: {} ticks, {} commands, {} bricks and {} notes on the view and the "
+                      "course could not be written in time and are missing; record to a faster "
+                      "disk",
+                      file_, done->dropped_ticks, done->dropped_commands, done->dropped_bricks,
+                      done->dropped_notes));
   }
   const std::lock_guard lock(mutex_);
   if (!trouble_) return fine();

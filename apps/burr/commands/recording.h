@@ -12,6 +12,8 @@
 
 #include "burr/base/result.h"
 #include "burr/importing/import.h"
+#include "burr/record/diary.h"
+#include "burr/record/identity.h"
 #include "burr/record/recorder.h"
 #include "burr/scenario/case.h"
 #include "burr/sim/session.h"
@@ -29,6 +31,8 @@ class Recording {
  public:
   // Call it before start(): where the place of the scan is remembered; empty: nowhere.
   void remember_scan_in(std::string list) { scan_list_ = std::move(list); }
+  // Call it before start(): mode, learner and attempt of this session.
+  void belongs_to(record::Identity identity) { identity_ = std::move(identity); }
   // motion: burr's own name, "pocket" or "hand path". embed: writes the bone into the file. spared:
   // tissues that the case forbids to cut; none: those that the table of tissues marks. work_case:
   // written into the file, so that a score can be computed from it.
@@ -42,6 +46,10 @@ class Recording {
   // stopped: the session was ended before its time; the recording says so.
   [[nodiscard]] Status finish(sim::Session& session, bool stopped = interrupted());
 
+  // Takes what the user sees and does; nullptr before start() and where nothing is recorded. If
+  // nobody ends it, finish() does: the time was up, or the session was stopped.
+  [[nodiscard]] record::Diary* diary() { return diary_ ? &*diary_ : nullptr; }
+
   // "" while there is no error, otherwise the error in a few words, for a window; any thread.
   [[nodiscard]] std::string trouble() const;
   // After finish(): the file, whether it is complete, how much of the session it contains.
@@ -53,7 +61,9 @@ class Recording {
 
   std::string file_, scan_list_;
   bool stopped_ = false;
+  record::Identity identity_;
   std::unique_ptr<record::Recorder> recorder_;
+  std::optional<record::Diary> diary_;
   double rate_hz_ = 0;
   mutable std::mutex mutex_;  // trouble_ is set by the recorder's thread, read by main
   std::optional<Error> trouble_;

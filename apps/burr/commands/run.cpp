@@ -13,16 +13,19 @@
 #include <vector>
 
 #include "burr/device/simulated_hand.h"
+#include "burr/record/diary.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/picture.h"
 #include "burr/render/renderer.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/prepare.h"
+#include "burr/workshop/seen.h"
 #include "burr/workshop/spared.h"
 #include "burr/workshop/work_view.h"
 #include "commands/command.h"
 #include "commands/hand_options.h"
+#include "commands/identity_options.h"
 #include "commands/outputs.h"
 #include "commands/recording.h"
 #include "commands/summary.h"
@@ -113,6 +116,15 @@ void put_tool_of(render::Scene& scene, sim::Session& session) {
   if (session.view(row)) workshop::put_tool(scene, row, true);
 }
 
+// What the pictures show; nobody else looks.
+record::Sight sight_of(const render::Scene& scene) {
+  record::Sight sight;
+  sight.view = workshop::view_of(scene.camera, 0);
+  sight.view.slices = sight.view.panels = false;
+  sight.helps.insert("labels");
+  return sight;
+}
+
 // Before, at half time with the burr in the bone, and after, in the same view.
 Status run_headless(const Options& options) {
   const std::filesystem::path folder = options.out.empty() ? "burr-out" : options.out;
@@ -153,10 +165,12 @@ Status run_headless(const Options& options) {
   if (!status) return status;
   Recording recording;
   recording.remember_scan_in(users_scan_list());
+  recording.belongs_to(requested.identity);
   status = recording.start(
       session, (folder / "session.mcap").string(), work.recipe, work.summary, requested.motion,
       false, workshop::to_spare(session.bone_tissues(), requested.spare), requested.work_case);
   if (!status) return status;
+  if (recording.diary() != nullptr) recording.diary()->look(sight_of(scene));
   session.run(0.5 * seconds, progress());
   put_tool_of(scene, session);
   status = stopped();
@@ -228,6 +242,7 @@ Status run_in_window(const Options& options) {
 
   Recording recording;
   recording.remember_scan_in(scan_list_by((*desk)->settings, (*desk)->places().state));
+  recording.belongs_to(options.work.identity);
   Status status =
       recording.start(session, (folder / "session.mcap").string(), ready.volume, ready.import,
                       session.hand().spec().name, false, ready.spared, ready.work_case);
@@ -235,6 +250,7 @@ Status run_in_window(const Options& options) {
   WindowOptions told = window;
   told.warning = [&recording] { return recording.trouble(); };
   told.keep = [] { return true; };  // this run is recorded already
+  told.diary = recording.diary();
   told.film_of = [&]() -> std::optional<FilmSource> {
     FilmSource source = film_of(session, (folder / "session.mcap").string(), ready.volume);
     source.effects = (*desk)->settings.effects;
@@ -327,6 +343,7 @@ void add(CLI::App& app, Todo& todo) {
                    "/NAME: publish the session as a CRTK arm of this name, so that other programs "
                    "can watch and record it (ROS 2)")
       ->excludes("--headless");
+  add_identity_options(*command, options->work.identity);
   add_volume_options(*command, options->work.volume);
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

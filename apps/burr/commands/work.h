@@ -12,6 +12,7 @@
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/math/vec3.h"
+#include "burr/record/identity.h"
 #include "burr/scenario/case.h"
 #include "burr/sim/session.h"
 #include "burr/workshop/hand_device.h"
@@ -27,6 +28,7 @@ struct WorkOptions {
   workshop::HandRequest hand;   // in the window
   std::string suction;          // in the window: a device for the other hand; empty: none
   std::string told_as;          // in the window: name of the published CRTK arm; empty: none
+  record::Identity identity;    // mode, learner and attempt, for the recording
   // only from a case
   std::string title;                   // one line; empty for a scan
   std::optional<math::Vec3> at, into;  // where and how milling begins

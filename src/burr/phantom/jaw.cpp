@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "burr/phantom/phantoms.h"
 #include "burr/phantom/tooth_model.h"
@@ -78,6 +79,25 @@ class Jaw {
   }
   [[nodiscard]] static double soft(const Parts& s) {
     return std::max({kNerveRadius - s.nerve, s.marrow, s.tooth > 0 ? s.pulp : s.tooth});
+  }
+
+  [[nodiscard]] std::vector<Landmark> landmarks() const {
+    const std::vector<Vec3> nerve = nerve_.points();
+    // the ridge in the gap lies 1.2 mm lower than beside it
+    const Vec3 gap = at_mm(0, 0, -1.2);
+    const auto axis = [](const Tooth& tooth) {
+      return std::vector<Vec3>{tooth.place * at_mm(0, 0, 7), tooth.place * at_mm(0, 0, -13)};
+    };
+    return {{"gap", {gap}, {}},
+            {"implant axis", {gap, gap - at_mm(0, 0, 10)}, {}},
+            {"inferior alveolar nerve", nerve, {}},
+            {"mental foramen", {nerve.back()}, {}},
+            {"lower border", {at_mm(0, 0, -28)}, -Vec3::UnitZ()},
+            {"lingual side", {at_mm(-5.4, 0, -14)}, -Vec3::UnitX()},
+            {"cheek side", {at_mm(5.4, 0, -14)}, Vec3::UnitX()},
+            {"first premolar", axis(teeth_[0]), {}},
+            {"second premolar", axis(teeth_[1]), {}},
+            {"second molar", axis(teeth_[2]), {}}};
   }
 
  private:
@@ -165,6 +185,7 @@ Phantom jaw(double voxel) {
   };
   phantom.lo = at_mm(-14, -23, -29.5);
   phantom.hi = at_mm(14, 23, 10.5);
+  phantom.landmarks = model->landmarks();
   return phantom;
 }
 

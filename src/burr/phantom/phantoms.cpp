@@ -12,6 +12,10 @@ namespace {
 Phantom block(double) {
   Phantom phantom;
   phantom.formula.depth = box({20e-3, 20e-3, 15e-3});
+  phantom.landmarks = {
+      {"centre", {Vec3::Zero()}, {}},
+      {"top", {Vec3(0, 0, 15e-3)}, Vec3::UnitZ()},
+      {"front edge", {Vec3(-20e-3, -20e-3, 15e-3), Vec3(20e-3, -20e-3, 15e-3)}, {}}};
   phantom.lo = {-22e-3, -22e-3, -17e-3};
   phantom.hi = {22e-3, 22e-3, 17e-3};
   return phantom;
@@ -20,6 +24,7 @@ Phantom block(double) {
 Phantom round_ball(double) {
   Phantom phantom;
   phantom.formula.depth = ball(kPeersBall);
+  phantom.landmarks = {{"centre", {Vec3::Zero()}, {}}};
   phantom.lo = Vec3::Constant(-0.5 * kPeersCube);
   phantom.hi = Vec3::Constant(0.5 * kPeersCube);
   return phantom;
@@ -72,6 +77,11 @@ std::vector<std::string_view> phantom_names() {
 double default_voxel_mm(std::string_view name) {
   const Known* known = find(name);
   return known == nullptr ? 0 : known->voxel_mm;
+}
+
+std::vector<Landmark> landmarks(std::string_view name) {
+  const Known* known = find(name);
+  return known == nullptr ? std::vector<Landmark>() : known->make(1e-3 * known->voxel_mm).landmarks;
 }
 
 Result<std::unique_ptr<volume::Bone>> phantom(

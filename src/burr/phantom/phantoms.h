@@ -15,6 +15,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,17 +27,29 @@
 
 namespace burr::phantom {
 
+// A place that the formula knows by name: a point, a curve (two points or more: a nerve, the axis of
+// a canal), or a plane (a point and a normal). World [m].
+struct Landmark {
+  std::string name;
+  std::vector<Vec3> points;
+  std::optional<Vec3> normal;  // unit
+};
+
 // A phantom as a formula, before it becomes voxels.
 struct Phantom {
   volume::TissueTable tissues;
   Formula formula;
   Vec3 lo = Vec3::Zero(), hi = Vec3::Zero();  // box that holds it, world [m]
+  std::vector<Landmark> landmarks;            // names are unique
 };
 
 [[nodiscard]] std::vector<std::string_view> phantom_names();
 
 // A voxel size that shows this phantom well in moderate time [mm]; 0 for an unknown name.
 [[nodiscard]] double default_voxel_mm(std::string_view name);
+
+// The landmarks of a phantom; none for an unknown name. They do not depend on the voxel.
+[[nodiscard]] std::vector<Landmark> landmarks(std::string_view name);
 
 // The phantom with voxels of voxel_mm (0: its default), and room for `reserve_bricks` bricks of
 // added material. made_of: may change the constants of the phantom's tissues. Errors: unknown name

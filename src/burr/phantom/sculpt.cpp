@@ -141,6 +141,13 @@ double Curve::distance(const Vec3& p) const {
   return nearest;
 }
 
+std::vector<Vec3> Curve::points() const {
+  std::vector<Vec3> points;
+  for (const Piece& piece : pieces_) points.push_back(piece.from);
+  if (!pieces_.empty()) points.push_back(pieces_.back().from + pieces_.back().along);
+  return points;
+}
+
 double Circle::distance(const Vec3& p) const {
   const Vec3 q = p - centre;
   const double height = q.dot(axis);

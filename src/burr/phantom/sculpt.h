@@ -75,6 +75,8 @@ class Curve {
 
   // Distance to the curve; beyond exact_within a lower bound.
   [[nodiscard]] double distance(const Vec3& p) const;
+  // The corners of the line that distance() measures to.
+  [[nodiscard]] std::vector<Vec3> points() const;
 
  private:
   // A few pieces in a row and a ball around them, to skip them when they are far away.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "burr/phantom/phantoms.h"
 #include "burr/phantom/sculpt.h"
@@ -16,6 +17,34 @@ using volume::TissueId;
 using volume::TissueKind;
 
 enum Id : TissueId { kAir, kCortex, kTrabecular, kSac, kRoots, kMarrow };
+
+// The ends of the upper and the lower of the two cones of a left pedicle, in front and behind.
+struct Pedicle {
+  static Vec3 upper_front() { return at_mm(13, 8, 7); }
+  static Vec3 upper_back() { return at_mm(15.5, 26, 6.5); }
+  static Vec3 lower_front() { return at_mm(13, 8, 2.5); }
+  static Vec3 lower_back() { return at_mm(15.5, 26, 3); }
+};
+
+// side: 1 left, -1 right. From behind to the front.
+std::vector<Vec3> pedicle_axis(double side) {
+  const auto on_side = [side](const Vec3& p) { return Vec3(side * p.x(), p.y(), p.z()); };
+  return {on_side(0.5 * (Pedicle::upper_back() + Pedicle::lower_back())),
+          on_side(0.5 * (Pedicle::upper_front() + Pedicle::lower_front()))};
+}
+
+std::vector<Landmark> landmarks_of_spine() {
+  return {{"left pedicle", pedicle_axis(1), {}},
+          {"right pedicle", pedicle_axis(-1), {}},
+          {"left entry", {at_mm(17, 34, 5)}, {}},
+          {"right entry", {at_mm(-17, 34, 5)}, {}},
+          {"canal", {at_mm(0, 24, 14), at_mm(0, 24, -14)}, {}},
+          {"front wall", {at_mm(0, -17, 0)}, -Vec3::UnitY()},
+          {"upper end plate", {at_mm(0, 0, 14)}, Vec3::UnitZ()},
+          {"left upper facet", {at_mm(16.5, 30.5, 15)}, Vec3(-0.75, 0.66, 0.05).normalized()},
+          {"left transverse process", {at_mm(16, 28, 4), at_mm(41, 34, 6)}, {}},
+          {"spinous process", {at_mm(0, 39, -3), at_mm(0, 66, -13)}, {}}};
+}
 
 class Vertebra {
  public:
@@ -42,8 +71,8 @@ class Vertebra {
 
     // arch: pedicles, laminae, spine, transverse and joint processes
     hull = blend(hull,
-                 std::max(cone(at_mm(13, 8, 7), 4.6, at_mm(15.5, 26, 6.5), 4.8),
-                          cone(at_mm(13, 8, 2.5), 4.6, at_mm(15.5, 26, 3), 4.8)),
+                 std::max(cone(Pedicle::upper_front(), 4.6, Pedicle::upper_back(), 4.8),
+                          cone(Pedicle::lower_front(), 4.6, Pedicle::lower_back(), 4.8)),
                  4 * mm);
     hull = blend(hull, cone(at_mm(15, 28.5, 3), 4.2, at_mm(3, 39.5, -5), 3.6), 4 * mm);
     hull = blend(hull, cone(at_mm(13, 31, -5), 3.4, at_mm(2, 40.5, -9), 3.4), 4 * mm);
@@ -133,6 +162,7 @@ Phantom spine(double voxel) {
   };
   phantom.lo = at_mm(-46, -19, -26);
   phantom.hi = at_mm(46, 72, 26);
+  phantom.landmarks = landmarks_of_spine();
   return phantom;
 }
 

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "burr/phantom/phantoms.h"
 #include "burr/phantom/sculpt.h"
@@ -166,6 +168,7 @@ class TemporalBone {
 
   static Vec3 lo() { return at_mm(-9, -29, -31); }
   static Vec3 hi() { return at_mm(49, 35, 27); }
+  [[nodiscard]] std::vector<Landmark> landmarks() const;
 
  private:
   [[nodiscard]] Parts parts(const Vec3& p) const;
@@ -189,6 +192,14 @@ class TemporalBone {
   [[nodiscard]] static TissueId air_tissue(const Parts& s, const Vec3& p);
 
   double ramp_;  // [m]
+
+  // ends and middles of parts that landmarks name too
+  static Vec3 henle() { return at_mm(1.1, 4.6, 4.8); }
+  static Vec3 tip_end() { return at_mm(9.0, 7.2, -23); }
+  static Vec3 antrum_centre() { return at_mm(13.6, 9.2, 6.0); }
+  static Vec3 short_process() { return at_mm(17.8, 1.4, 6.4); }
+  static Vec3 drum_centre() { return at_mm(17.4, -4.0, -0.2); }
+  static Vec3 drum_normal() { return Vec3(-0.84, 0.30, -0.45).normalized(); }  // towards the canal
 
   // inside of the skull: a ball, cut off below by the floor of the middle fossa and in front by the
   // back face of the pyramid
@@ -251,7 +262,7 @@ double TemporalBone::outer(const Vec3& p, double canal_axis) const {
 
   // mastoid: broad above, tapering to a blunt tip that points down and slightly forwards
   static const RoundCone body{at_mm(12.5, 15, 2), at_mm(10.5, 12, -12), 14.2 * mm, 11.0 * mm};
-  static const RoundCone tip{at_mm(10.5, 12.5, -10), at_mm(9.0, 7.2, -23), 10.2 * mm, 4.6 * mm};
+  static const RoundCone tip{at_mm(10.5, 12.5, -10), tip_end(), 10.2 * mm, 4.6 * mm};
   depth = blend(depth, body, p, 7 * mm);
   depth = blend(depth, tip, p, 5 * mm);
 
@@ -288,7 +299,7 @@ double TemporalBone::outer(const Vec3& p, double canal_axis) const {
   depth = blend(depth, styloid, p, 2.5 * mm);
 
   // spine of Henle, behind and above the opening
-  static const RoundCone spine{at_mm(2.2, 6.4, 1.6), at_mm(1.1, 4.6, 4.8), 1.1 * mm, 0.8 * mm};
+  static const RoundCone spine{at_mm(2.2, 6.4, 1.6), henle(), 1.1 * mm, 0.8 * mm};
   depth = blend(depth, spine, p, 1.6 * mm);
 
   // groove of the digastric muscle, inside the tip
@@ -337,10 +348,10 @@ Parts TemporalBone::parts(const Vec3& p) const {
   if (s.hull < -kSkin) return s;  // nothing inside matters here
 
   s.canal = (4.1 * mm + 0.035 * (6 * mm - std::clamp(p.x(), -3 * mm, 17 * mm))) - canal_axis;
-  static const Vec3 drum_normal = Vec3(-0.84, 0.30, -0.45).normalized();  // towards the canal
-  const double before_drum = (p - at_mm(17.4, -4.0, -0.2)).dot(drum_normal);
-  s.drum =
-      std::min(0.2 * mm - std::abs(before_drum), 4.6 * mm - (p - at_mm(17.4, -4.0, -0.2)).norm());
+  static const Vec3 drum_normal = TemporalBone::drum_normal(),
+                    drum_centre = TemporalBone::drum_centre();
+  const double before_drum = (p - drum_centre).dot(drum_normal);
+  s.drum = std::min(0.2 * mm - std::abs(before_drum), 4.6 * mm - (p - drum_centre).norm());
 
   s.facial = facial_.distance(p);
   s.chorda = chorda_.distance(p);
@@ -362,8 +373,7 @@ Parts TemporalBone::parts(const Vec3& p) const {
   s.middle = blend(s.middle, aditus, p, 1.5 * mm);
   static const RoundCone tube{at_mm(20.5, -8.5, -1), at_mm(33, -21, -5), 2.4 * mm, 1.3 * mm};
   s.middle = blend(s.middle, tube, p, 1.5 * mm);
-  s.antrum =
-      ellipsoid(p, at_mm(13.6, 9.2, 6.0), at_mm(4.4, 4.6, 4.4)) + 0.3 * mm * noise(p, 3 * mm, 7);
+  s.antrum = ellipsoid(p, antrum_centre(), at_mm(4.4, 4.6, 4.4)) + 0.3 * mm * noise(p, 3 * mm, 7);
 
   // air cells: the inside of the mastoid down to the tip, under a cortex; larger near the antrum
   const double cortex = (2.3 + 0.6 * noise(p, 9 * mm, 8)) * mm;
@@ -409,9 +419,9 @@ void TemporalBone::ossicles(const Vec3& p, Parts& s) const {
   s.malleus = blend(s.malleus, malleus[2].depth(p), 0.4 * mm);
 
   static const Vec3 body = at_mm(19.4, -2.9, 6.2), long_end = at_mm(20.2, -2.2, 2.0);
-  static const RoundCone incus[] = {
-      rod(body, body, 1.3, 1.3), rod(body, at_mm(17.8, 1.4, 6.4), 0.9, 0.4),
-      rod(body, long_end, 0.7, 0.4), rod(long_end, at_mm(20.8, -2.1, 1.9), 0.4, 0.4)};
+  static const RoundCone incus[] = {rod(body, body, 1.3, 1.3), rod(body, short_process(), 0.9, 0.4),
+                                    rod(body, long_end, 0.7, 0.4),
+                                    rod(long_end, at_mm(20.8, -2.1, 1.9), 0.4, 0.4)};
   s.incus = blend(incus[0].depth(p), incus[1].depth(p), 0.5 * mm);
   s.incus = blend(s.incus, incus[2].depth(p), 0.5 * mm);
   s.incus = blend(s.incus, incus[3].depth(p), 0.2 * mm);
@@ -422,6 +432,65 @@ void TemporalBone::ossicles(const Vec3& p, Parts& s) const {
       rod(at_mm(22.8, -3.0, 2.2), at_mm(22.8, -0.8, 2.2), 0.35, 0.35)};
   s.stapes = blend(stapes[0].depth(p), stapes[1].depth(p), 0.1 * mm);
   s.stapes = blend(s.stapes, stapes[2].depth(p), 0.1 * mm);
+}
+
+// A part of a curve, from the corner nearest to one point to the corner nearest to another.
+std::vector<Vec3> between(const std::vector<Vec3>& line, const Vec3& from, const Vec3& to) {
+  const auto nearest = [&](const Vec3& p) {
+    return std::min_element(line.begin(), line.end(), [&](const Vec3& a, const Vec3& b) {
+      return (a - p).squaredNorm() < (b - p).squaredNorm();
+    });
+  };
+  return std::vector<Vec3>(nearest(from), std::next(nearest(to)));
+}
+
+std::vector<Landmark> TemporalBone::landmarks() const {
+  const std::vector<Vec3> nerve = facial_.points(), vein = sinus_.points();
+  // the bends of the nerve, as in the list of its points
+  const Vec3 first_genu = at_mm(25.2, -9.0, 5.2), second_genu = at_mm(17.6, 4.0, 1.0),
+             foramen = at_mm(15.6, 5.4, -18);
+  // where the lateral canal bulges outwards
+  const Vec3 outwards = -Vec3::UnitX();
+  const Vec3 dome =
+      lateral_.centre +
+      lateral_.radius * (outwards - outwards.dot(lateral_.axis) * lateral_.axis).normalized();
+  const std::vector<Vec3> mastoid_part = between(nerve, second_genu, foramen);
+  return {
+      {"spine of Henle", {henle()}, {}},
+      {"temporal line", {at_mm(3.0, -1, 9.8), at_mm(8.6, 27, 16.5)}, {}},
+      {"MacEwen's triangle", {at_mm(-2.0, 11.0, 5.0)}, {}},
+      {"mastoid tip", {tip_end()}, {}},
+      {"antrum", {antrum_centre()}, {}},
+      {"way to the antrum", {at_mm(-2.0, 11.0, 5.0), antrum_centre()}, {}},
+      {"aditus", {at_mm(16.0, 5.5, 6.6), at_mm(18.2, 0.5, 6.6)}, {}},
+      {"tip of the short process", {short_process()}, {}},
+      {"short process of the incus", {at_mm(19.4, -2.9, 6.2), short_process()}, {}},
+      {"facial nerve", nerve, {}},
+      {"facial nerve, tympanic part", between(nerve, first_genu, second_genu), {}},
+      {"facial nerve, mastoid part", mastoid_part, {}},
+      {"second genu", {mastoid_part.front()}, {}},
+      {"stylomastoid foramen", {mastoid_part.back()}, {}},
+      {"chorda tympani", chorda_.points(), {}},
+      {"chorda tympani in the recess",
+       between(chorda_.points(), at_mm(15.9, 3.0, -6), at_mm(18.2, -1.5, 2.6)),
+       {}},
+      {"sigmoid sinus", vein, {}},
+      {"mastoid sinus", between(vein, at_mm(18.5, 33.5, 9.5), at_mm(19.5, 14, -14.5)), {}},
+      {"jugular bulb", {at_mm(24.4, 3.8, -10.6)}, {}},
+      {"tegmen", {at_mm(14, 9.2, 11.6)}, Vec3(0.09, 0, 1).normalized()},
+      // where the roof and the back face meet before the sinus, from outside inwards
+      {"sinodural angle", {at_mm(6, 22.5, 9.5), at_mm(14, 17, 9.5)}, {}},
+      {"back face of the pyramid", {at_mm(26, 10.5, 0)}, back_face_},
+      {"digastric groove", {at_mm(17, 6, -24), at_mm(19, 30, -15)}, {}},
+      {"ear canal", canal_.points(), {}},
+      {"eardrum", {drum_centre()}, drum_normal()},
+      {"lateral canal", {lateral_.centre}, lateral_.axis},
+      {"dome of the lateral canal", {dome}, {}},
+      {"posterior canal", {posterior_.centre}, posterior_.axis},
+      {"superior canal", {superior_.centre}, superior_.axis},
+      {"vestibule", {vestibule_}, {}},
+      {"internal carotid artery", carotid_.points(), {}},
+  };
 }
 
 double TemporalBone::bone(const Parts& s) const {
@@ -530,6 +599,7 @@ Phantom temporal_bone(double voxel) {
   phantom.formula.lipschitz = 2.0;
   phantom.lo = TemporalBone::lo();
   phantom.hi = TemporalBone::hi();
+  phantom.landmarks = model->landmarks();
   return phantom;
 }
 

@@ -13,8 +13,11 @@ using volume::TissueKind;
 
 enum Id : TissueId { kAir, kEnamel, kDentine, kPulp, kCaries };
 
+Vec3 caries_top() { return at_mm(-0.1, 0.6, 6.6); }
+Vec3 caries_floor() { return at_mm(0, 0.2, 4.6); }
+
 double caries(const Vec3& p) {
-  return RoundCone{at_mm(-0.1, 0.6, 6.6), at_mm(0, 0.2, 4.6), 1.0 * kMm, 1.5 * kMm}.depth(p);
+  return RoundCone{caries_top(), caries_floor(), 1.0 * kMm, 1.5 * kMm}.depth(p);
 }
 
 }  // namespace
@@ -49,6 +52,12 @@ Phantom tooth(double voxel) {
   };
   phantom.lo = at_mm(-6.5, -7, -16);
   phantom.hi = at_mm(6.5, 7, 9.5);
+  phantom.landmarks = {{"caries", {caries_top(), caries_floor()}, {}},
+                       {"fissure", {at_mm(0, 0.6, 7.5)}, {}},
+                       {"pulp chamber", {at_mm(0, 0, 0.9)}, {}},
+                       {"roof of the pulp", {at_mm(0, 0, 2.2)}, Vec3::UnitZ()},
+                       {"neck", {Vec3::Zero()}, Vec3::UnitZ()},
+                       {"long axis", {at_mm(0, 0, 7), at_mm(0, 0, -13)}, {}}};
   return phantom;
 }
 

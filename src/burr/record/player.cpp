@@ -44,11 +44,14 @@ Result<std::unique_ptr<Player>> Player::open(const std::string& path) {
   player->event_channel_ = file.channel_of(kEvents.name);
   player->change_channel_ = file.channel_of(kChanges.name);
   player->keyframe_channel_ = file.channel_of(kKeyframes.name);
+  player->view_channel_ = file.channel_of(kViews.name);
+  player->course_channel_ = file.channel_of(kCourse.name);
   if (Status read = player->read_session(); !read.ok()) return read.error();
   player->step_chunks_ = player->chunks_with(player->tick_channel_, player->command_channel_);
   player->change_chunks_ = player->chunks_with(player->change_channel_);
   player->keyframe_chunks_ = player->chunks_with(player->keyframe_channel_);
   player->read_events();
+  player->read_course();
   player->find_ends();
   player->find_holes();
   return player;
@@ -112,9 +115,15 @@ void Player::read_events() {
       count("dropped_ticks", dropped_ticks_);
       count("dropped_wishes", dropped_commands_);
       count("dropped_bricks", dropped_bricks_);
+      count("dropped_notes", dropped_notes_);
     }
   }
   if (stopped_) notice(path_ + ": the session was stopped before its end, by Ctrl-C or a signal");
+  if (dropped_notes_ > 0)
+    notice(
+        fmt::format("{}: the disk was too slow while recording; {} notes on the view and the "
+                    "course are missing",
+                    path_, dropped_notes_));
   if (dropped_ticks_ + dropped_commands_ + dropped_bricks_ > 0)
     notice(
         fmt::format("{}: the disk was too slow while recording; {} ticks, {} commands and {} "

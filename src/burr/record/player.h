@@ -21,9 +21,11 @@
 #include <vector>
 
 #include "burr/base/result.h"
+#include "burr/record/course.h"
 #include "burr/record/mcap/mcap_reader.h"
 #include "burr/record/schema.h"
 #include "burr/record/session_info.h"
+#include "burr/record/view.h"
 #include "burr/tick/rows.h"
 #include "burr/tool/state.h"
 #include "burr/volume/bone.h"
@@ -103,6 +105,17 @@ class Player {
   [[nodiscard]] std::uint64_t dropped_ticks() const { return dropped_ticks_; }
   [[nodiscard]] std::uint64_t dropped_commands() const { return dropped_commands_; }
   [[nodiscard]] std::uint64_t dropped_bricks() const { return dropped_bricks_; }
+  [[nodiscard]] std::uint64_t dropped_notes() const { return dropped_notes_; }
+
+  // ---- what the user saw and did (player_notes.cpp)
+  // In order of time. Empty: an older recording, or damaged; notices() then says so.
+  [[nodiscard]] const std::vector<CourseEvent>& course() const { return course_; }
+  // none: killed, still being recorded, or an older recording
+  [[nodiscard]] std::optional<Ending> ending() const;
+  // Reads the whole file. In order of time.
+  [[nodiscard]] std::vector<View> views();
+  // One sentence about what recordings of today hold and this one does not; empty: nothing.
+  [[nodiscard]] std::string lacks() const;
 
   // ---- in order
   [[nodiscard]] StepCursor steps(std::uint64_t first_tick = 0);
@@ -137,6 +150,7 @@ class Player {
   Player() = default;
   [[nodiscard]] Status read_session();
   void read_events();
+  void read_course();
   void find_holes();
   void find_ends();
   [[nodiscard]] std::vector<std::size_t> chunks_with(std::uint16_t channel,
@@ -158,14 +172,15 @@ class Player {
   SessionInfo info_;
   std::vector<std::string> notices_;
   std::uint16_t tick_channel_ = 0, command_channel_ = 0, event_channel_ = 0, change_channel_ = 0,
-                keyframe_channel_ = 0;
+                keyframe_channel_ = 0, view_channel_ = 0, course_channel_ = 0;
+  std::vector<CourseEvent> course_;
   // which chunks hold what; in the order of the file, and so of time
   std::vector<std::size_t> step_chunks_;  // ticks or commands
   std::vector<std::size_t> change_chunks_, keyframe_chunks_;
   std::uint64_t first_tick_ = 0, end_tick_ = 0;
   bool stopped_ = false;
   std::vector<Hole> holes_;
-  std::uint64_t dropped_ticks_ = 0, dropped_commands_ = 0, dropped_bricks_ = 0;
+  std::uint64_t dropped_ticks_ = 0, dropped_commands_ = 0, dropped_bricks_ = 0, dropped_notes_ = 0;
 
   // Where the ticks do not hold the tool: the first tick of each assumed state, and the state.
   // Filled when first needed.

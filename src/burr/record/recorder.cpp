@@ -25,6 +25,7 @@
 #include "burr/record/mcap/mcap_writer.h"
 #include "burr/record/rename_and_sync.h"
 #include "burr/record/schema.h"
+#include "burr/record/waiting_notes.h"
 #include "burr/rt/thread.h"
 
 namespace burr::record {
@@ -59,7 +60,7 @@ bool half_full(const rt::Ring<T>& ring) {
 class Recorder::WriterThread {
  public:
   WriterThread(Recorder& recorder, std::unique_ptr<McapWriter> writer,
-               const std::array<std::uint16_t, 6>& ids,
+               const std::array<std::uint16_t, kTopics.size()>& ids,
                std::function<void(const Error&)> on_trouble)
       : recorder_(recorder), writer_(std::move(writer)), on_trouble_(std::move(on_trouble)) {
     for (std::size_t i = 0; i < kTopics.size(); ++i) {
@@ -69,6 +70,8 @@ class Recorder::WriterThread {
       if (name == kEvents.name) event_channel_ = ids[i];
       if (name == kChanges.name) change_channel_ = ids[i];
       if (name == kKeyframes.name) keyframe_channel_ = ids[i];
+      if (name == kViews.name) view_channel_ = ids[i];
+      if (name == kCourse.name) course_channel_ = ids[i];
     }
     last_write_ = Clock::now();
     syncer_ = std::thread([this] { sync_run(); });
@@ -116,6 +119,8 @@ class Recorder::WriterThread {
   }
 
   [[nodiscard]] std::uint64_t written_ticks() const { return written_ticks_.load(); }
+
+  [[nodiscard]] WaitingNotes& notes() { return notes_; }
 
   // after stop()
   [[nodiscard]] RecordingStats stats() const {
@@ -179,15 +184,19 @@ class Recorder::WriterThread {
     while (recorder_.ticks_.pop(tick)) ++account_.dropped_ticks;
     while (recorder_.commands_.pop(command)) ++account_.dropped_commands;
     while (recorder_.bricks_.pop(brick)) ++account_.dropped_bricks;
+    notes_.drop_all();
+    account_.dropped_notes = notes_.dropped();
   }
 
   Status drain(bool last) {
     // Ticks first: everything that belongs to a tick was pushed before it, so it is in the rings by
     // now. Rows of a newer tick wait for it, so that chunks are in order of time.
+    const std::uint64_t first = end_tick_;
     take_ticks();
     const std::uint64_t until = last ? std::numeric_limits<std::uint64_t>::max() : end_tick_;
     take_commands(until);
     take_bricks(until);
+    take_notes(first, until);
     note_dropped();
     Status written = write_chunk();
     if (!written.ok()) return written;
@@ -207,9 +216,12 @@ class Recorder::WriterThread {
                                               {"wishes", number(account_.commands)},
                                               {"brick_rows", number(account_.brick_rows)},
                                               {"keyframes", number(account_.keyframes)},
+                                              {"views", number(account_.views)},
+                                              {"events", number(account_.events)},
                                               {"dropped_ticks", number(account_.dropped_ticks)},
                                               {"dropped_wishes", number(account_.dropped_commands)},
-                                              {"dropped_bricks", number(account_.dropped_bricks)}});
+                                              {"dropped_bricks", number(account_.dropped_bricks)},
+                                              {"dropped_notes", number(account_.dropped_notes)}});
         !added.ok())
       return added;
     stop_syncing();
@@ -312,6 +324,15 @@ class Recorder::WriterThread {
     put_changes(bricks);
   }
 
+  // first: of this chunk; an earlier time would put the chunk out of order
+  void take_notes(std::uint64_t first, std::uint64_t until) {
+    for (const WaitingNote& note : notes_.take(until)) {
+      put(note.view ? view_channel_ : course_channel_,
+          std::min(std::max(note.tick, first), last_tick()), as_bytes(note.json));
+      ++(note.view ? account_.views : account_.events);
+    }
+  }
+
   void put_changes(Bricks& bricks) {
     if (bricks.tick.empty()) return;
     bricks.batch = ++batch_;
@@ -368,21 +389,23 @@ class Recorder::WriterThread {
   }
 
   void note_dropped() {
-    const auto before =
-        std::tuple(account_.dropped_ticks, account_.dropped_commands, account_.dropped_bricks);
+    const auto lost = [this] {
+      return std::tuple(account_.dropped_ticks, account_.dropped_commands, account_.dropped_bricks,
+                        account_.dropped_notes);
+    };
+    const auto before = lost();
     account_.dropped_ticks = recorder_.ticks_.dropped();
     account_.dropped_commands = recorder_.commands_.dropped();
     account_.dropped_bricks = recorder_.bricks_.dropped();
-    if (before !=
-        std::tuple(account_.dropped_ticks, account_.dropped_commands, account_.dropped_bricks))
-      put_event("dropped");
+    account_.dropped_notes = notes_.dropped();
+    if (before != lost()) put_event("dropped");
   }
 
   void put_event(const char* event) {
     const std::string text = fmt::format(
-        R"({{"event":"{}","tick":{},"dropped_ticks":{},"dropped_wishes":{},"dropped_bricks":{}}})",
+        R"({{"event":"{}","tick":{},"dropped_ticks":{},"dropped_wishes":{},"dropped_bricks":{},"dropped_notes":{}}})",
         event, last_tick(), account_.dropped_ticks, account_.dropped_commands,
-        account_.dropped_bricks);
+        account_.dropped_bricks, account_.dropped_notes);
     put(event_channel_, last_tick(), as_bytes(text));
   }
 
@@ -413,7 +436,8 @@ class Recorder::WriterThread {
   std::unique_ptr<McapWriter> writer_;
   std::function<void(const Error&)> on_trouble_;
   std::uint16_t tick_channel_ = 0, command_channel_ = 0, event_channel_ = 0, change_channel_ = 0,
-                keyframe_channel_ = 0;
+                keyframe_channel_ = 0, view_channel_ = 0, course_channel_ = 0;
+  WaitingNotes notes_;
   std::map<std::uint16_t, std::uint32_t> sequence_;
 
   // used only by the pen
@@ -520,6 +544,20 @@ Status Recorder::start(const std::string& path, const SessionInfo& asked, const 
 
   writer_thread_ =
       std::make_unique<WriterThread>(*this, std::move(writer), ids, std::move(on_trouble));
+  return fine();
+}
+
+Status Recorder::note(const View& view) {
+  BURR_CHECK(writer_thread_ != nullptr);
+  if (Status good = check(view); !good.ok()) return good;
+  writer_thread_->notes().put({true, view.tick, to_json(view)});
+  return fine();
+}
+
+Status Recorder::note(const CourseEvent& event) {
+  BURR_CHECK(writer_thread_ != nullptr);
+  if (Status good = check(event); !good.ok()) return good;
+  writer_thread_->notes().put({false, event.tick, to_json(event)});
   return fine();
 }
 

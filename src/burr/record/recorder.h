@@ -5,6 +5,7 @@
 //     recorder.start("s.mcap", info, embed ? &bone : nullptr);
 //       servo, each tick:  commands().push, bricks().push ..., then ticks().push     (wait-free)
 //       not paced by a clock: between ticks, wait_for_room()
+//       main, now and then: note(view), note(event)                                  (locks)
 //     recorder.finish();
 //
 //     servo --rings, 4 s deep--> pen: a chunk every 40 ms, keyframe of the bone every 10 s
@@ -18,7 +19,8 @@
 // An error (disk full, file removed) ends the recording, not the session. It is reported once, at
 // once, and again by finish(). What was written until then stays and can be opened.
 //
-// Thread: start, finish, status on one thread; the rings on the servo's; written_ticks any. Memory:
+// Thread: start, finish, status on one thread; the rings on the servo's; written_ticks and note any
+// but the servo's. Memory:
 // rings (about 25 MiB at 1 kHz), a copy of the changed bricks, twice while a keyframe is written.
 #pragma once
 
@@ -28,7 +30,9 @@
 #include <string>
 
 #include "burr/base/result.h"
+#include "burr/record/course.h"
 #include "burr/record/session_info.h"
+#include "burr/record/view.h"
 #include "burr/rt/ring.h"
 #include "burr/tick/rows.h"
 #include "burr/volume/bone.h"
@@ -38,12 +42,13 @@ namespace burr::record {
 // Counts of what was written and what was not.
 struct RecordingStats {
   std::uint64_t ticks = 0, commands = 0, brick_rows = 0, keyframes = 0;
-  std::uint64_t dropped_ticks = 0, dropped_commands = 0, dropped_bricks = 0;
+  std::uint64_t views = 0, events = 0;  // messages of /view and /course
+  std::uint64_t dropped_ticks = 0, dropped_commands = 0, dropped_bricks = 0, dropped_notes = 0;
   std::uint64_t written_ticks = 0;  // of the ticks, those given to the kernel: what the file holds
   std::uint64_t bytes = 0;          // of the file
   double longest_pause_s = 0;  // between two chunks given to the kernel; a kill may lose as much
   [[nodiscard]] bool whole() const {
-    return dropped_ticks == 0 && dropped_commands == 0 && dropped_bricks == 0;
+    return dropped_ticks == 0 && dropped_commands == 0 && dropped_bricks == 0 && dropped_notes == 0;
   }
 };
 
@@ -70,6 +75,12 @@ class Recorder {
   [[nodiscard]] rt::Ring<tick::TickRow>& ticks() BURR_RT { return ticks_; }
   [[nodiscard]] rt::Ring<tick::CommandRow>& commands() BURR_RT { return commands_; }
   [[nodiscard]] rt::Ring<tick::BrickRow>& bricks() BURR_RT { return bricks_; }
+
+  // ---- for everybody but the servo, after start(): what the user saw and did. Waits for a lock; a
+  // disk error does not show here, but in status(). Error: it cannot be recorded (check() of
+  // view.h, course.h). A tick later than the last one counts as the last one.
+  [[nodiscard]] Status note(const View& view);
+  [[nodiscard]] Status note(const CourseEvent& event);
 
   // For a session that runs as fast as possible: call it between ticks on the servo's thread. Waits
   // (not real-time!) until no ring is more than half full. Sessions in real time never call it.

@@ -5,7 +5,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "burr/record/course.h"
 #include "burr/record/mcap/crc32.h"
+#include "burr/record/view.h"
 
 namespace burr::record {
 namespace {
@@ -372,6 +374,24 @@ constexpr const char* kSessionSchema = R"({
     }
    }
   },
+  "identity": {
+   "type": "object",
+   "description": "which session this is; no names",
+   "properties": {
+    "mode": {"enum": ["free", "learn", "practise", "exam"], "description": "what the session was for"},
+    "learner": {"type": "string", "description": "a pseudonym; absent: nobody said who"},
+    "attempt": {"type": "integer", "description": "of this learner at this case, from 1; 0: not counted"},
+    "case_hash": {"type": "string", "description": "hexadecimal, the text_hash of the case; 0: no case"},
+    "rubric_hash": {"type": "string", "description": "hexadecimal, of the rubric that was shown; 0: none"},
+    "labels_hash": {"type": "string", "description": "hexadecimal, of the tissue of every voxel and the tissues' names"},
+    "accepted_labels": {"type": "array", "items": {"type": "string"}, "description": "structures whose labels the user accepted in spite of their faults; absent: none"}
+   }
+  },
+  "shaft": {
+   "type": "object",
+   "description": "of the tool, behind the head",
+   "properties": {"radius_m": {"type": "number"}, "length_m": {"type": "number"}}
+  },
   "case": {
    "type": "object",
    "description": "the case of the session",
@@ -409,7 +429,8 @@ constexpr const char* kEventSchema = R"({
   "tick": {"type": "integer", "description": "last tick written"},
   "dropped_ticks": {"type": "integer", "description": "rows lost so far because the ring was full"},
   "dropped_wishes": {"type": "integer"},
-  "dropped_bricks": {"type": "integer"}
+  "dropped_bricks": {"type": "integer"},
+  "dropped_notes": {"type": "integer", "description": "messages of /view and /course"}
  }
 })";
 
@@ -474,6 +495,8 @@ std::string schema_data(std::string_view schema_name) {
   if (schema_name == kSession.schema_name) return kSessionSchema;
   if (schema_name == kCommands.schema_name) return kCommandSchema;
   if (schema_name == kEvents.schema_name) return kEventSchema;
+  if (schema_name == kViews.schema_name) return view_schema();
+  if (schema_name == kCourse.schema_name) return course_schema();
   if (schema_name == kChanges.schema_name) return descriptor("Bricks", kBrickFields);
   std::vector<FieldText> fields;
   for (const TickColumn& column : kTickColumns) fields.push_back(column.text);

@@ -35,8 +35,11 @@ inline constexpr Topic kCommands = {"/wishes", "json", "burr.Wish", "jsonschema"
 inline constexpr Topic kEvents = {"/events", "json", "burr.Event", "jsonschema"};
 inline constexpr Topic kChanges = {"/bone/changes", "protobuf", "burr.Bricks", "protobuf"};
 inline constexpr Topic kKeyframes = {"/bone/keyframes", "protobuf", "burr.Bricks", "protobuf"};
-inline constexpr std::array<Topic, 6> kTopics = {kSession, kTicks,   kCommands,
-                                                 kEvents,  kChanges, kKeyframes};
+// since 2026-11-26; older recordings have neither
+inline constexpr Topic kViews = {"/view", "json", "burr.View", "jsonschema"};
+inline constexpr Topic kCourse = {"/course", "json", "burr.Course", "jsonschema"};
+inline constexpr std::array<Topic, 8> kTopics = {kSession, kTicks,     kCommands, kEvents,
+                                                 kChanges, kKeyframes, kViews,    kCourse};
 inline constexpr const char* kBoneAttachment = "bone";
 inline constexpr const char* kBoneMediaType = "application/x-burr-bone";
 

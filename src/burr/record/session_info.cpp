@@ -8,19 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/record/grid_json.h"
+#include "burr/record/private_text.h"
 #include "burr/volume/bone.h"
 
 namespace burr::record {
 namespace {
 
 using nlohmann::json;
-
-// A text with a separator is a path; one of digits with three dots or more is a UID.
-bool looks_private(const std::string& text) {
-  if (text.find('/') != std::string::npos || text.find('\\') != std::string::npos) return true;
-  return std::count(text.begin(), text.end(), '.') >= 3 &&
-         text.find_first_not_of("0123456789.") == std::string::npos;
-}
 
 Status check_fields(const Numbers& numbers, const Words& words) {
   for (const auto& [name, value] : numbers)
@@ -142,6 +136,66 @@ json json_from_case(const CaseInfo& info) {
           {"spare", info.spare}};
 }
 
+json json_from_identity(const Identity& identity) {
+  json object = {{"mode", word_of(identity.mode)},
+                 {"attempt", identity.attempt},
+                 {"case_hash", hex(identity.case_hash)},
+                 {"rubric_hash", hex(identity.rubric_hash)},
+                 {"labels_hash", hex(identity.labels_hash)}};
+  if (!identity.learner.empty()) object["learner"] = identity.learner;
+  if (!identity.accepted_labels.empty()) object["accepted_labels"] = identity.accepted_labels;
+  return object;
+}
+
+bool get_identity(const json& object, Identity& identity, std::string& missing) {
+  const auto wrong = [&missing](const char* field) {
+    missing = std::string("identity.") + field;
+    return false;
+  };
+  std::string mode;
+  std::uint64_t attempt = 0;
+  if (!get_text(object, "mode", mode) || !mode_of(mode)) return wrong("mode");
+  identity.mode = *mode_of(mode);
+  if (!get_count(object, "attempt", attempt) || attempt > UINT32_MAX) return wrong("attempt");
+  identity.attempt = static_cast<std::uint32_t>(attempt);
+  if (!get_hash(object, "case_hash", identity.case_hash)) return wrong("case_hash");
+  if (!get_hash(object, "rubric_hash", identity.rubric_hash)) return wrong("rubric_hash");
+  if (!get_hash(object, "labels_hash", identity.labels_hash)) return wrong("labels_hash");
+  if (object.contains("learner") &&
+      (!get_text(object, "learner", identity.learner) || !check_pseudonym(identity.learner)))
+    return wrong("learner");
+  if (const json& accepted = part(object, "accepted_labels"); !accepted.is_null()) {
+    if (!accepted.is_array()) return wrong("accepted_labels");
+    for (const json& name : accepted) {
+      if (!name.is_string()) return wrong("accepted_labels");
+      identity.accepted_labels.push_back(name.get<std::string>());
+    }
+  }
+  return true;
+}
+
+bool get_shaft(const json& object, Shaft& shaft) {
+  const json &radius = part(object, "radius_m"), &length = part(object, "length_m");
+  if (!radius.is_number() || !length.is_number()) return false;
+  shaft = {radius.get<double>(), length.get<double>()};
+  return shaft.radius >= 0 && shaft.radius < 0.1 && shaft.length >= 0 && shaft.length < 1;
+}
+
+Status check_identity(const SessionInfo& info) {
+  if (!info.identity) return fine();
+  if (!info.identity->learner.empty())
+    if (Status good = check_pseudonym(info.identity->learner); !good.ok()) return good;
+  for (const std::string& name : info.identity->accepted_labels)
+    if (!fit_for_a_note(name))
+      return error(Trouble::usage,
+                   "--accept-label: this name is too long or looks like a path, which must not be "
+                   "recorded; give the name of a structure of the case");
+  const std::uint64_t hash = info.work_case ? info.work_case->text_hash : 0;
+  if (info.identity->case_hash != hash)
+    return error(Trouble::internal, "recording: the case's hash is not that of its text");
+  return fine();
+}
+
 // As burr wrote it before 2026-11-25: the options of the command line, numbers and texts.
 bool get_old_recipe(const json& volume, VolumeInfo& info, std::string& missing) {
   Numbers numbers;
@@ -254,6 +308,7 @@ Status check(const SessionInfo& info) {
                                   {"materials", recipe.materials}});
       !good.ok())
     return good;
+  if (Status good = check_identity(info); !good.ok()) return good;
   if (info.work_case) {
     const auto read = case_of(*info.work_case);
     if (!read) return read.error();
@@ -291,6 +346,9 @@ std::string to_json(const SessionInfo& info) {
                   {"volume", std::move(volume)},
                   {"embedded", info.embedded}};
   if (info.work_case) session["case"] = json_from_case(*info.work_case);
+  if (info.identity) session["identity"] = json_from_identity(*info.identity);
+  if (info.shaft)
+    session["shaft"] = {{"radius_m", info.shaft->radius}, {"length_m", info.shaft->length}};
   // names of tissues come from the user's file and may hold anything; broken UTF-8 is replaced
   return session.dump(1, ' ', false, json::error_handler_t::replace);
 }
@@ -321,6 +379,12 @@ Result<SessionInfo> session_from_json(std::string_view text, const std::string& 
     std::string field;
     if (!get_case(work, info.work_case.emplace(), field)) return missing(field.c_str());
   }
+  if (const json& who = part(object, "identity"); !who.is_null()) {
+    std::string field;
+    if (!get_identity(who, info.identity.emplace(), field)) return missing(field.c_str());
+  }
+  if (const json& shaft = part(object, "shaft"); !shaft.is_null())
+    if (!get_shaft(shaft, info.shaft.emplace())) return missing("shaft");
   const json& volume = part(object, "volume");
   if (!volume.is_object()) return missing("volume");
   if (!get_hash(volume, "content_hash", info.volume.content_hash))

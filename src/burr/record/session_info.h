@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "burr/base/result.h"
+#include "burr/record/identity.h"
 #include "burr/scenario/case.h"
 #include "burr/scenario/recipe.h"
 #include "burr/volume/grid.h"
@@ -63,6 +64,8 @@ struct SessionInfo {
   Words words;      // "device": "simulated hand", "motion": "pocket" ...
   VolumeInfo volume;
   std::optional<CaseInfo> work_case;  // none: no case, or recorded before cases were
+  std::optional<Identity> identity;   // none: recorded before 2026-11-26
+  std::optional<Shaft> shaft;         // likewise
   bool embedded = false;              // the file holds the bone; filled in by the Recorder
 };
 
@@ -70,7 +73,8 @@ struct SessionInfo {
 // caller; so is a number of reserve_bricks that is not simply its free slots.
 [[nodiscard]] VolumeInfo volume_info(const volume::Bone& bone);
 
-// Refuses what must not or cannot be written: paths, UIDs, numbers that are not finite.
+// Refuses what must not or cannot be written: paths, UIDs, numbers that are not finite, a learner
+// that is no pseudonym, a hash of another case.
 [[nodiscard]] Status check(const SessionInfo& info);
 
 // One JSON object; every double and hash is read back to the bit.

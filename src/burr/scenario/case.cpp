@@ -3,135 +3,22 @@
 #include <fmt/core.h>
 
 #include <safe_toml.h>
-#include <cmath>
 #include <filesystem>
-#include <initializer_list>
 #include <numbers>
 #include <utility>
 
 #include "burr/base/printable.h"
 #include "burr/base/text_file.h"
 #include "burr/scenario/built_in.h"
+#include "burr/scenario/lesson.h"
+#include "burr/scenario/read_lesson.h"
+#include "burr/scenario/toml_reader.h"
 
 namespace burr::scenario {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 1U << 20;  // a case is about a page of text [byte]
 constexpr double kFastest = 500'000;               // turbines reach this [1/min]
-
-// One table of the file. The first error is kept; nothing after it counts.
-class Reader {
- public:
-  Reader(const toml::table& table, std::string file, std::string place, std::optional<Error>& wrong)
-      : table_(table), file_(std::move(file)), place_(std::move(place)), wrong_(wrong) {}
-
-  void only(std::initializer_list<std::string_view> known) {
-    for (const auto& [key, node] : table_) {
-      bool found = false;
-      std::string list;
-      for (const std::string_view name : known) {
-        found = found || key.str() == name;
-        list += (list.empty() ? "" : ", ") + std::string(name);
-      }
-      if (!found) fail(key.str(), "is not a known field; use " + list);
-    }
-  }
-
-  void text(std::string_view key, std::string& out, bool needed = false) {
-    const toml::node* node = find(key, needed, "a text");
-    if (node == nullptr) return;
-    const auto value = node->value_exact<std::string>();
-    if (!value || value->empty()) return fail(key, "must be text in quotes");
-    out = *value;
-  }
-
-  void number(std::string_view key, double& out, double above, double most, bool needed = false) {
-    const toml::node* node = find(key, needed, "a number");
-    if (node == nullptr) return;
-    const auto value = node->is_number() ? node->value<double>() : std::nullopt;
-    if (!value || !(*value > above) || !(*value <= most))
-      return fail(key, fmt::format("must be a number above {:g} and at most {:g}", above, most));
-    out = *value;
-  }
-
-  void vector(std::string_view key, std::optional<math::Vec3>& out) {
-    const toml::node* node = find(key, false, "");
-    if (node == nullptr) return;
-    const toml::array* array = node->as_array();
-    math::Vec3 v = math::Vec3::Zero();
-    bool good = array != nullptr && array->size() == 3;
-    for (std::size_t a = 0; good && a < 3; ++a) {
-      const auto value = (*array)[a].is_number() ? (*array)[a].value<double>() : std::nullopt;
-      good = value && std::isfinite(*value) && std::abs(*value) < 1e4;
-      if (good) v[static_cast<Eigen::Index>(a)] = *value;
-    }
-    if (!good) return fail(key, "must be three numbers, [x, y, z]");
-    out = v;
-  }
-
-  // the value of the word in the file, one of several
-  template <class Value>
-  void choice(std::string_view key, Value& out,
-              std::initializer_list<std::pair<std::string_view, Value>> words) {
-    std::string word;
-    text(key, word);
-    if (word.empty()) return;
-    std::string list;
-    for (const auto& [name, value] : words) {
-      if (word == name) {
-        out = value;
-        return;
-      }
-      list += (list.empty() ? "" : ", ") + std::string(name);
-    }
-    fail(key, fmt::format("\"{}\" is not known; use one of {}", base::printable(word), list));
-  }
-
-  // reads the table [key], if it is there
-  template <class Do>
-  void table(std::string_view key, Do&& read) {
-    const toml::node* node = find(key, false, "");
-    if (node == nullptr) return;
-    if (const toml::table* inner = node->as_table()) {
-      Reader reader(*inner, file_, place_ + std::string(key) + ".", wrong_);
-      read(reader);
-    } else {
-      fail(key, fmt::format("must be a table, [{}]", key));
-    }
-  }
-
-  // reads every [[key]]
-  template <class Do>
-  void each(std::string_view key, Do&& read) {
-    const toml::node* node = find(key, false, "");
-    if (node == nullptr) return;
-    const toml::array* array = node->as_array();
-    if (array == nullptr) return fail(key, fmt::format("must be a list of tables, [[{}]]", key));
-    std::size_t n = 0;
-    for (const toml::node& entry : *array) {
-      const toml::table* inner = entry.as_table();
-      if (inner == nullptr) return fail(key, fmt::format("must be a list of tables, [[{}]]", key));
-      Reader reader(*inner, file_, fmt::format("{}{}[{}].", place_, key, ++n), wrong_);
-      read(reader);
-    }
-  }
-
-  void fail(std::string_view key, const std::string& what) {
-    if (!wrong_)
-      wrong_ = burr::error(fmt::format("{}: {}{}: {}", file_, place_, base::printable(key), what));
-  }
-
- private:
-  const toml::node* find(std::string_view key, bool needed, std::string_view what) {
-    const toml::node* node = table_.get(key);
-    if (node == nullptr && needed) fail(key, fmt::format("is missing; give {}", what));
-    return node;
-  }
-
-  const toml::table& table_;
-  std::string file_, place_;
-  std::optional<Error>& wrong_;
-};
 
 void read_burr(Reader& reader, Case& out) {
   reader.only({"diameter_mm", "kind", "rpm"});
@@ -159,10 +46,14 @@ void read_work(Reader& reader, Case& out) {
 }
 
 void read_all(Reader& reader, Case& out) {
-  reader.only({"title", "description", "phantom", "volume", "voxel_mm", "work", "burr", "demo",
-               "spare", "target"});
-  reader.text("title", out.title, true);
-  reader.text("description", out.description);
+  reader.only({"format", "title", "description", "phantom", "volume", "voxel_mm", "approach",
+               "work", "burr", "demo", "spare", "target", "landmark", "region", "structure", "step",
+               "complication", "feedback", "reference"});
+  Texts title, description;
+  read_texts(reader, "title", title, true);
+  read_texts(reader, "description", description);
+  out.title = title.in("en");
+  out.description = description.in("en");
   reader.text("phantom", out.phantom);
   reader.text("volume", out.volume);
   if (out.phantom.empty() == out.volume.empty())
@@ -260,6 +151,8 @@ Result<Case> parse_case(std::string_view text, std::string_view file) {
   std::optional<Error> wrong;
   Reader reader(*table, std::string(file), "", wrong);
   read_all(reader, out);
+  Lesson lesson;  // only to find its mistakes now: lesson_of() reads it again from the text
+  read_lesson(reader, lesson);
   if (wrong) return *wrong;
   out.text = without_path(text, *table);
   return out;

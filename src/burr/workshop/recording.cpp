@@ -9,7 +9,9 @@
 #include "burr/base/inputs.h"
 #include "burr/importing/keep_greys.h"
 #include "burr/record/find_volume.h"
+#include "burr/record/identity.h"
 #include "burr/record/scan_list.h"
+#include "burr/render/scene.h"
 #include "burr/volume/volume_of.h"
 #include "burr/workshop/open_bone.h"
 
@@ -82,6 +84,11 @@ Result<std::unique_ptr<record::Recorder>> record(sim::Session& session, const st
   if (about.spared) write_spared(*about.spared, info);
   if (about.work_case) info.work_case = record::case_info(*about.work_case);
   const volume::Bone& bone = session.bone();
+  info.identity = about.identity;
+  info.identity->case_hash = info.work_case ? info.work_case->text_hash : 0;
+  info.identity->labels_hash = record::labels_hash(bone);
+  const render::Burr drawn;  // the session feels no shaft; this one is in the pictures
+  info.shaft = record::Shaft{drawn.shaft_radius, drawn.shaft_length};
   info.volume.content_hash = bone.content_hash();
   if (!scenario::is_phantom(about.recipe.source)) {
     auto print = record::fingerprint(about.recipe.source);

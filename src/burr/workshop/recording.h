@@ -21,6 +21,7 @@
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
+#include "burr/record/identity.h"
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
 #include "burr/record/timeline.h"
@@ -42,6 +43,8 @@ struct About {
   bool embed = false;             // the bone goes into the file
   std::optional<Tissues> spared;  // none: those marked in the table of tissues
   std::optional<scenario::Case> work_case;
+  // Mode, learner and attempt. The hashes are filled in by record().
+  record::Identity identity = {};
   // where the place of the scan is remembered, for example record::scan_list(); empty: nowhere
   std::string scan_list = {};
 };

@@ -3,7 +3,7 @@
 //
 // Its parts: window.cpp (the loop of pictures), mill_hand.cpp (the mouse as a hand, and what each
 // button does), mill_keys.cpp (the table of keys), mill_pads.cpp (gamepad, pedal, SpaceMouse),
-// mill_status.cpp (what the user reads). Parts with a state of their own are classes: Drill, Press,
+// mill_status.cpp (what the user reads), mill_diary.cpp (what the recording keeps). Parts with a state of their own are classes: Drill, Press,
 // Pointer, OverPages, WornHeadset, TickWatch, SuctionTube. Only these files include this header.
 //
 // Thread: main. Frame: world. Units: SI.
@@ -146,6 +146,11 @@ class Mill {
   void pad_button(Uint8 button);
   void pedal_button(const SDL_Event& event);
 
+  // ---- mill_diary.cpp
+  void keep_diary();
+  void declare_done();  // or takes it back
+  void end_diary();     // when the servo has stopped
+
   // ---- mill_status.cpp
   void look_at_session();
   void keep_device_preferences();
@@ -168,6 +173,7 @@ class Mill {
 
   // the page
   bool open_ = true, picture_ = false, panels_;
+  bool time_over_ = false;
   bool leaves_ = false;  // leave, even if a file is still being written
   Closed closed_ = Closed::window;
   std::optional<OverPages> pages_;  // these three: made by begin()
@@ -205,6 +211,7 @@ class Mill {
   tick::TickRow row_;
   TickWatch ticks_;
   std::optional<HudState::Nearest> nearest_;
+  std::string near_;  // the structure that the user is warned of; empty: none
   StatusLine status_;
   std::string note_, warning_;  // as shown
   Clock::time_point said_{};

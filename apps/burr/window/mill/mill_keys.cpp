@@ -157,6 +157,11 @@ Mill::KeyRows Mill::program_keys() {
        {{SDLK_TAB, 0, [](Mill& m) { m.panels_ = !m.panels_; }}}},
       {HelpBlock::program, "", Word::help, {act(SDLK_F1, Action::help), act(SDLK_h, Action::help)}},
       {HelpBlock::program, "O", Word::help_task, {{SDLK_o, 0, [](Mill& m) { m.show_task(); }}}},
+      {HelpBlock::program,
+       word(Word::key_ctrl_enter),
+       Word::help_done,
+       {{SDLK_RETURN, KMOD_CTRL, [](Mill& m) { m.declare_done(); }},
+        {SDLK_KP_ENTER, KMOD_CTRL, [](Mill& m) { m.declare_done(); }}}},
       {HelpBlock::program, "F2", Word::help_settings, {act(SDLK_F2, Action::settings)}},
       {HelpBlock::program, "F3", Word::help_stereo, {}},  // works on every page: desk.cpp
       {HelpBlock::program, "S", Word::key_save, {{SDLK_s, 0, [](Mill& m) { m.keep(); }}}},

@@ -36,8 +36,10 @@ Result<Closed> Mill::run() {
     const bool paced = desk_.headset != nullptr && desk_.headset->running();
     if (wait.count() > 0 && !paced) SDL_Delay(static_cast<Uint32>(wait.count()));
     if (options_.seconds > 0 &&
-        std::chrono::duration<double>(Clock::now() - start).count() >= options_.seconds)
+        std::chrono::duration<double>(Clock::now() - start).count() >= options_.seconds) {
       open_ = false;
+      time_over_ = true;
+    }
   }
   end(live);
   if (!shown) return shown.error();
@@ -83,6 +85,7 @@ Status Mill::frame(workshop::LiveSurface& live) {
   note(headset_.begin(live.governor(), scene_.camera));
   point();
   measure();
+  keep_diary();
   note(pages_->exporting().step());
   update_status();
   slices_->update(scene_, slices_shown_ && panels_, labels_, desk_.renderer().width(),
@@ -108,6 +111,7 @@ void Mill::end(workshop::LiveSurface& live) {
   pointer_.mouse_leads();
   pages_.reset();
   session_.stop();
+  end_diary();
   scene_.insets.clear();
   scene_.tissue_colours = colours_;
   scene_.look.opacity = 1;

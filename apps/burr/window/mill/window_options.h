@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "burr/record/diary.h"
 #include "burr/scenario/case.h"
 #include "burr/volume/greys.h"
 #include "burr/workshop/spared_distance.h"
@@ -31,6 +32,7 @@ struct WindowOptions {
   Loudspeaker* loudspeaker = nullptr;               // nullptr: no sound
   std::shared_ptr<const volume::Greys> greys = {};  // of the scan; nullptr: slices show the bone
   std::optional<scenario::Case> work_case = {};     // the task; none: no case
+  record::Diary* diary = nullptr;                   // of the recording; nullptr: it is not recorded
 };
 
 // How the user left the page.

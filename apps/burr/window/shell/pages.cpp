@@ -71,6 +71,7 @@ Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& option
         std::make_unique<Autosave>(desk.places().state, ready, options, embed, desk.settings);
   }
   WindowOptions with = window;
+  with.diary = autosave ? autosave->diary() : nullptr;
   with.keep = [&autosave] { return autosave != nullptr && autosave->keep(); };
   with.film_of = [&]() -> std::optional<FilmSource> {
     std::optional<FilmSource> source = autosave ? autosave->film_source() : std::nullopt;

@@ -230,6 +230,7 @@ Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& optio
     for (int n = 2; fs::exists(kept_.file, nobody_asks); ++n)  // started in the same second
       kept_.file = folder / fmt::format("{}_{}.mcap", name, n);
     recording_.remember_scan_in(scan_list_by(settings, state));
+    recording_.belongs_to(options.identity);
     made = recording_.start(session_, kept_.file.string(), ready.volume, ready.import,
                             session_.hand().spec().name, embed, ready.spared, ready.work_case);
     recording_now_ = made.ok();

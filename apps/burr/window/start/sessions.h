@@ -59,6 +59,8 @@ class Autosave {
   [[nodiscard]] Status finish();
   // The source for a film of the session so far; none: it could not be recorded.
   [[nodiscard]] std::optional<FilmSource> film_source() const;
+  // Of the recording; nullptr: there is none.
+  [[nodiscard]] record::Diary* diary() { return recording_now_ ? recording_.diary() : nullptr; }
   [[nodiscard]] bool keep();  // marks it as never to be deleted; false: there is nothing to keep
   [[nodiscard]] std::string trouble() const;
   [[nodiscard]] const std::filesystem::path& file() const { return kept_.file; }

@@ -1,0 +1,55 @@
+// What the recording keeps of the page: what the user saw, which help was on, pauses and the end.
+#include "burr/record/diary.h"
+#include "burr/render/stereo.h"
+#include "burr/workshop/seen.h"
+#include "window/mill/mill.h"
+#include "window/shell/words.h"
+
+namespace burr::app {
+namespace {
+
+constexpr double kNear = 1e-3, kFarAgain = 1.3e-3;  // of what must not be cut  [m]
+
+}  // namespace
+
+void Mill::keep_diary() {
+  if (options_.diary == nullptr || !ticks_.begun()) return;
+  record::Sight sight;
+  const render::Camera* worn = headset_.cameras();
+  sight.view = worn != nullptr ? workshop::view_of(worn[0], worn[1], row_.tick)
+                               : workshop::view_of(scene_.camera, row_.tick);
+  sight.view.see_through = 1 - scene_.look.opacity;
+  sight.view.colours = labels_;
+  sight.view.slices = slices_shown_ && panels_;
+  sight.view.panels = panels_;
+  sight.view.two_eyes = worn != nullptr || desk_.settings.stereo != render::Stereo::off;
+
+  if (labels_) sight.helps.insert("labels");
+  if (sight.view.slices) sight.helps.insert("slices");
+  if (scene_.look.opacity < 1) sight.helps.insert("see-through");
+  if (task_ && panels_ && options_.work_case) sight.helps.insert("task");
+  // the colour and the mark at this figure are the only warning of the page
+  if (panels_ && nearest_ && nearest_->distance < (near_.empty() ? kNear : kFarAgain))
+    near_ = nearest_->name;
+  else
+    near_.clear();
+  sight.near = near_;
+  if (page_open()) sight.paused = "page";
+  if (lifts_.stopped) sight.paused = "stopped";
+  options_.diary->look(sight);
+}
+
+void Mill::declare_done() {
+  if (options_.diary == nullptr) return note(word(Word::done_not_recorded));
+  const bool done = !options_.diary->declared_done();
+  options_.diary->declare_done(row_.tick, done);
+  note(word(done ? Word::done_declared : Word::done_taken_back));
+}
+
+void Mill::end_diary() {
+  if (options_.diary == nullptr) return;
+  static_cast<void>(session_.view(row_));
+  options_.diary->end(row_.tick, time_over_ ? record::Ending::time_up : record::Ending::broke_off);
+}
+
+}  // namespace burr::app

@@ -1,0 +1,75 @@
+// What the user saw and did: the channels /view and /course.
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "burr/record/player.h"
+
+namespace burr::record {
+
+void Player::read_course() {
+  std::size_t unknown = 0;
+  for (const std::size_t c : chunks_with(course_channel_)) {
+    const auto chunk = reader_->read_chunk(c);
+    if (!chunk) continue;  // find_holes() says so
+    for (const McapMessage& message : chunk->messages) {
+      if (message.channel != course_channel_) continue;
+      CourseEvent event;
+      if (course_from_json(as_text(message.data), event))
+        course_.push_back(std::move(event));
+      else
+        ++unknown;
+    }
+  }
+  std::stable_sort(course_.begin(), course_.end(),
+                   [](const auto& a, const auto& b) { return a.tick < b.tick; });
+  if (unknown > 0)
+    notice(
+        fmt::format("{}: {} events of the course are unknown and were ignored; they were perhaps "
+                    "recorded by a newer burr",
+                    path_, unknown));
+}
+
+std::optional<Ending> Player::ending() const {
+  const auto end = std::find_if(course_.begin(), course_.end(), [](const CourseEvent& event) {
+    return event.kind == CourseKind::ended;
+  });
+  return end == course_.end() ? std::nullopt : ending_of(end->value);
+}
+
+std::vector<View> Player::views() {
+  std::vector<View> all;
+  std::size_t unknown = 0;
+  for (const std::size_t c : chunks_with(view_channel_)) {
+    const auto chunk = reader_->read_chunk(c);
+    if (!chunk) continue;  // find_holes() has said so
+    for (const McapMessage& message : chunk->messages) {
+      if (message.channel != view_channel_) continue;
+      View view;
+      if (view_from_json(as_text(message.data), view))
+        all.push_back(view);
+      else
+        ++unknown;
+    }
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const View& a, const View& b) { return a.tick < b.tick; });
+  if (unknown > 0)
+    notice(fmt::format("{}: {} views are not valid and were ignored", path_, unknown));
+  return all;
+}
+
+std::string Player::lacks() const {
+  std::string list;
+  const auto add = [&list](bool missing, const char* what) {
+    if (missing) list += (list.empty() ? "" : ", ") + std::string(what);
+  };
+  add(view_channel_ == 0, "what the user saw");
+  add(course_channel_ == 0, "steps, help, warnings and how the session ended");
+  add(!info_.identity, "mode, learner and attempt");
+  add(!info_.shaft, "the size of the shaft");
+  if (list.empty()) return {};
+  return fmt::format("{}: was recorded by an older burr and does not hold: {}", path_, list);
+}
+
+}  // namespace burr::record

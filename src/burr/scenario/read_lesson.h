@@ -1,0 +1,28 @@
+// scenario/read_lesson.h - reads the tables of format 2 of a case. For use of this room only.
+//
+// Thread: any.
+#pragma once
+
+#include <initializer_list>
+#include <string_view>
+
+#include "burr/scenario/lesson.h"
+#include "burr/scenario/toml_reader.h"
+
+namespace burr::scenario {
+
+// A text, or a table of texts by language: say = "...", say.en = "...".
+void read_texts(Reader& reader, std::string_view key, Texts& out, bool needed = false);
+
+// Everything but the fields of format 1, which parse_case() reads. Checks that names that refer to
+// each other are there, but not those of landmarks, which the bone may have.
+void read_lesson(Reader& reader, Lesson& out);
+
+// read_landmarks.cpp: [[landmark]] and [[region]]
+void read_landmarks(Reader& reader, Lesson& out);
+void read_regions(Reader& reader, Lesson& out);
+
+// check_lesson.cpp: names that are given twice, and names that nothing has
+void check_names(Reader& reader, const Lesson& lesson);
+
+}  // namespace burr::scenario

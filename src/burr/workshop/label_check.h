@@ -1,0 +1,58 @@
+// workshop/label_check.h - do the labels of a bone look as the case expects: volume, inscribed
+// radius, connected pieces, length, neighbours.
+//
+// A flooded or broken label would decide a learner's mark. The inscribed radius tells a flooded
+// nerve from a nerve better than its volume does.
+//
+// Units: SI. Thread: any, one at a time. Memory: about 6 bytes for each voxel of the box around a
+// structure.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "burr/scenario/case.h"
+#include "burr/scenario/lesson.h"
+#include "burr/volume/bone.h"
+
+namespace burr::workshop {
+
+// A voxel counts if it is labelled so and, for solid tissue, lies inside the surface.
+struct LabelFigures {
+  std::size_t voxels = 0;
+  double volume = 0;  // [m^3]
+  // the largest distance from a voxel in it to the nearest one outside, centre to centre: up to a
+  // voxel less than the radius of a ball [m]
+  double inscribed = 0;
+  int pieces = 0;     // connected over faces, edges and corners; those below 1 % are left out
+  double length = 0;  // between two voxels that lie far apart; at most a tenth too short [m]
+  std::vector<volume::TissueId> neighbours;  // tissues that touch it, sorted
+};
+[[nodiscard]] LabelFigures label_figures(const volume::Bone& bone,
+                                         std::span<const volume::TissueId> tissues);
+
+// The tissues of a bone that belong to a structure, by its names.
+[[nodiscard]] std::vector<volume::TissueId> tissues_of(const scenario::Structure& structure,
+                                                       const volume::TissueTable& table);
+
+struct LabelFinding {
+  std::string structure;
+  std::vector<std::string> tissues;  // by their names in the bone; empty: the bone lacks it
+  LabelFigures figures;
+  std::vector<std::string> faults;  // sentences without the structure's name; empty: as expected
+  bool accepted = false;            // the user accepts it in spite of its faults
+};
+
+// One finding for each structure of the lesson. accepted: names of structures. Error: interrupted,
+// or a name in `accepted` that no structure has.
+[[nodiscard]] Result<std::vector<LabelFinding>> check_labels(
+    const scenario::Lesson& lesson, const volume::Bone& bone,
+    const std::vector<std::string>& accepted, Progress& progress);
+
+// The landmarks of the bone that a case is about: those of a formula; none for a scan.
+[[nodiscard]] std::vector<scenario::Landmark> landmarks_of(const scenario::Case& work);
+
+}  // namespace burr::workshop

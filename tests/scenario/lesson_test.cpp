@@ -1,0 +1,343 @@
+// Cases of format 2: every field comes back, and every mistake is one sentence with its line.
+#include "burr/scenario/open_lesson.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace burr::scenario {
+namespace {
+
+constexpr const char* kGood = R"(format = 2
+title.en = "A lesson"
+title.sv = "En lektion"
+phantom = "block"
+approach = [[-2, 0, 0], [0, 0, 1]]
+[burr]
+diameter_mm = 4
+rpm = 60000
+[[landmark]]
+name = "entry"
+at_mm = [1, 2, 3]
+[[landmark]]
+name = "vein"
+points_mm = [[0, 0, 0], [0, 0, 10], [0, 5, 10]]
+[[landmark]]
+name = "roof"
+at_mm = [0, 0, 5]
+normal = [0, 0, 3]
+[[structure]]
+name = "nerve"
+names = ["nerve", "Nervus"]
+intact = "soft"
+volume_mm3 = [40, 200]
+inscribed_mm = [0.5, 1.6]
+pieces = [1, 2]
+length_mm = 25
+touches = ["wall"]
+apart = ["drum"]
+[[structure]]
+name = "wall"
+intact = "plate"
+optional = true
+[[structure]]
+name = "drum"
+glass = true
+[[region]]
+name = "way"
+add = [
+  { shape = "ball", at = "entry", radius_mm = 4 },
+  { shape = "capsule", from = [0, 0, 0], to = "entry", radius_mm = 2 },
+  { shape = "box", at = [1, 1, 1], size_mm = [2, 4, 6] },
+  { shape = "tube", along = "vein", radius_mm = 3, from = 0.25, to = 0.5 },
+  { shape = "between", structure = "nerve", other = "wall", radius_mm = 4 },
+]
+take = [
+  { shape = "half-space", at = "roof", normal = [0, 0, 2] },
+  { shape = "within", structure = "nerve", radius_mm = 1 },
+]
+[[step]]
+id = "first"
+title = "Begin"
+say.en = "Open it."
+say.sv = "Öppna den."
+structure = "wall"
+region = "way"
+spare = ["nerve"]
+tool = { kind = "diamond", diameter_mm = [2, 4] }
+show = ["entry", "way", "nerve"]
+must_precede = ["second"]
+[[step]]
+id = "second"
+say = "Close it."
+[[complication]]
+id = "bleeds"
+step = "first"
+structure = "nerve"
+say = "It bleeds."
+[feedback]
+learn = ["step", "target"]
+practise = ["tone"]
+exam = []
+fade = "2,alternate:4,off"
+[reference]
+remove = ["way"]
+leave = [{ structure = "nerve", mm = 1 }]
+)";
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+// of the line that holds the text
+std::string line_of(const std::string& text, const std::string& what) {
+  const auto at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return "line " +
+         std::to_string(
+             1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
+TEST(Lesson, EveryFieldIsReadInMetres) {
+  const auto read = parse_lesson(kGood, "my.toml");
+  ASSERT_TRUE(read) << read.error().text;
+  EXPECT_EQ(read->format, 2);
+  EXPECT_EQ(read->title.in("sv"), "En lektion");
+  EXPECT_EQ(read->title.in("de"), "A lesson") << "English where a language is missing";
+  ASSERT_EQ(read->approach.size(), 2U);
+  EXPECT_EQ(read->approach[0], -math::Vec3::UnitX());
+  ASSERT_EQ(read->landmarks.size(), 3U);
+  EXPECT_LT((read->landmark("entry")->points[0] - math::Vec3(1e-3, 2e-3, 3e-3)).norm(), 1e-15);
+  EXPECT_EQ(read->landmark("vein")->points.size(), 3U);
+  EXPECT_EQ(*read->landmark("roof")->normal, math::Vec3::UnitZ());
+  EXPECT_EQ(read->landmark("Entry"), nullptr);
+
+  const Structure& nerve = *read->structure("nerve");
+  EXPECT_EQ(nerve.names, (std::vector<std::string>{"nerve", "Nervus"}));
+  EXPECT_EQ(nerve.intact, Intact::soft);
+  EXPECT_DOUBLE_EQ(nerve.volume->first, 40e-9);
+  EXPECT_DOUBLE_EQ(nerve.volume->second, 200e-9);
+  EXPECT_DOUBLE_EQ(nerve.inscribed->second, 1.6e-3);
+  EXPECT_EQ(*nerve.pieces, Range(1, 2));
+  EXPECT_DOUBLE_EQ(nerve.length, 25e-3);
+  EXPECT_EQ(nerve.touches, std::vector<std::string>{"wall"});
+  EXPECT_EQ(nerve.apart, std::vector<std::string>{"drum"});
+  EXPECT_EQ(read->structure("wall")->names, std::vector<std::string>{"wall"});
+  EXPECT_TRUE(read->structure("wall")->optional);
+  EXPECT_TRUE(read->structure("drum")->glass);
+
+  const Step& first = *read->step("first");
+  EXPECT_EQ(first.say.in("sv"), "Öppna den.");
+  EXPECT_EQ(first.structure, "wall");
+  EXPECT_EQ(first.region, "way");
+  EXPECT_EQ(first.spare, std::vector<std::string>{"nerve"});
+  EXPECT_EQ(first.kind, tool::BurrKind::diamond);
+  EXPECT_DOUBLE_EQ(first.diameter->first, 2e-3);
+  EXPECT_EQ(first.show.size(), 3U);
+  EXPECT_EQ(first.must_precede, std::vector<std::string>{"second"});
+  EXPECT_FALSE(read->step("second")->kind);
+  EXPECT_EQ(read->complications.at(0).step, "first");
+  EXPECT_EQ(read->feedback.fade, "2,alternate:4,off");
+  EXPECT_EQ(read->feedback.learn.size(), 2U);
+  ASSERT_TRUE(read->reference);
+  EXPECT_DOUBLE_EQ(read->reference->leave.at(0).second, 1e-3);
+}
+
+TEST(Lesson, NamesOfLandmarksBecomePoints) {
+  auto read = parse_lesson(kGood, "my.toml");
+  ASSERT_TRUE(read) << read.error().text;
+  const Landmark of_the_bone[] = {{"entry", {math::Vec3(9, 9, 9)}, {}, 0},
+                                  {"antrum", {math::Vec3(1, 0, 0)}, {}, 0}};
+  const auto placed = place(*read, of_the_bone, "my.toml");
+  ASSERT_TRUE(placed) << placed.error().text;
+  const CaseRegion& way = *placed->region("way");
+  ASSERT_EQ(way.add.size(), 5U);
+  const math::Vec3 entry(1e-3, 2e-3, 3e-3);
+  EXPECT_EQ(way.add[0].kind, ShapeKind::ball);
+  EXPECT_LT((way.add[0].a.at - entry).norm(), 1e-15) << "the case's own landmark comes first";
+  EXPECT_DOUBLE_EQ(way.add[0].radius, 4e-3);
+  EXPECT_EQ(way.add[1].a.at, math::Vec3::Zero());
+  EXPECT_LT((way.add[1].b.at - entry).norm(), 1e-15);
+  EXPECT_LT((way.add[2].size - math::Vec3(2e-3, 4e-3, 6e-3)).norm(), 1e-15);
+  EXPECT_EQ(way.add[3].points.size(), 3U);
+  EXPECT_EQ(way.add[3].from, 0.25);
+  EXPECT_EQ(way.add[4].other, "wall");
+  EXPECT_EQ(way.take[0].normal, math::Vec3::UnitZ());
+  EXPECT_DOUBLE_EQ(way.take[0].a.at.z(), 5e-3);
+  EXPECT_EQ(way.take[1].structure, "nerve");
+  EXPECT_NE(placed->landmark("antrum"), nullptr);
+}
+
+TEST(Lesson, ALandmarkThatNobodyHasIsNamedWithItsLine) {
+  const std::string text = with(kGood, "at = \"entry\"", "at = \"the moon\"");
+  const auto read = parse_lesson(text, "my.toml");
+  ASSERT_TRUE(read) << "the bone may have it: " << read.error().text;
+  const auto placed = place(*read, {}, "my.toml");
+  ASSERT_FALSE(placed);
+  EXPECT_EQ(placed.error().text, "my.toml: " + line_of(text, "the moon") +
+                                     ": ball: there is no landmark \"the moon\"; use one of entry, "
+                                     "vein, roof");
+  const std::string point = with(kGood, "along = \"vein\"", "along = \"entry\"");
+  const auto no_curve = place(*parse_lesson(point, "my.toml"), {}, "my.toml");
+  ASSERT_FALSE(no_curve);
+  EXPECT_NE(no_curve.error().text.find("is a point"), std::string::npos) << no_curve.error().text;
+  const std::string show = with(kGood, "show = [\"entry\"", "show = [\"moon\"");
+  const auto shown = place(*parse_lesson(show, "my.toml"), {}, "my.toml");
+  ASSERT_FALSE(shown);
+  EXPECT_NE(shown.error().text.find("\"moon\""), std::string::npos);
+}
+
+TEST(Lesson, MistakesAreNamedByFileLineFieldAndRemedy) {
+  struct Mistake {
+    std::string from, to, field, says;
+  };
+  const Mistake mistakes[] = {
+      {"format = 2", "format = 3", "format", "newer than this burr"},
+      {"format = 2", "format = 1.5", "format", "1 or 2"},
+      {"format = 2", "format = 1", "approach", "add the line format = 2"},
+      {"title.sv = \"En", "title.swedish = \"En", "title.swedish", "two letters"},
+      {"title.sv = \"En lektion\"", "title.sv = 7", "title.sv", "text"},
+      {"[[-2, 0, 0]", "[[0, 0, 0]", "approach", "[0, 0, 0]"},
+      {"[[-2, 0, 0]", "[[0, 0]", "approach", "list of points"},
+      {"at_mm = [1, 2, 3]", "at = [1, 2, 3]", "landmark[1].at", "not a known field"},
+      {"at_mm = [1, 2, 3]", "", "landmark[1].at_mm", "for a point"},
+      {"points_mm = [[0, 0, 0], [0, 0, 10], [0, 5, 10]]", "points_mm = [[0, 0, 0]]",
+       "landmark[2].points_mm", "two points"},
+      {"normal = [0, 0, 3]", "normal = [0, 0, 0]", "landmark[3].normal", "direction"},
+      {"name = \"vein\"", "name = \"entry\"", "landmark.name", "twice"},
+      {"shape = \"ball\"", "shape = \"egg\"", "region[1].add[1].shape", "use one of ball"},
+      {"at = \"entry\", radius_mm = 4", "at = \"entry\"", "region[1].add[1].radius_mm", "missing"},
+      {"at = \"entry\", radius_mm = 4", "radius_mm = 4", "region[1].add[1].at", "landmark's name"},
+      {"at = \"entry\", radius_mm = 4", "at = \"entry\", r = 4", "region[1].add[1].r",
+       "not a known field"},
+      {"size_mm = [2, 4, 6]", "size_mm = [2, 0, 6]", "region[1].add[3].size_mm", "above 0"},
+      {"from = 0.25, to = 0.5", "from = 0.6, to = 0.5", "region[1].add[4].from", "below"},
+      {"along = \"vein\", ", "", "region[1].add[4].along", "CURVE"},
+      {"other = \"wall\"", "other = \"well\"", "region.other", "use one of nerve, wall, drum"},
+      {"normal = [0, 0, 2]", "normal = [0, 0, 0]", "region[1].take[1].normal", "direction"},
+      {"intact = \"soft\"", "intact = \"whole\"", "structure[1].intact", "solid, soft, plate"},
+      {"volume_mm3 = [40, 200]", "volume_mm3 = [200, 40]", "structure[1].volume_mm3",
+       "the least and the most"},
+      {"inscribed_mm = [0.5, 1.6]", "inscribed_mm = 0.5", "structure[1].inscribed_mm",
+       "the least and the most"},
+      {"touches = [\"wall\"]", "touches = [\"hall\"]", "structure.touches", "\"hall\""},
+      {"glass = true", "glass = 1", "structure[3].glass", "true or false"},
+      {"glass = true", "glass = true\nintact = \"soft\"", "structure[3].glass", "leave out one"},
+      {"id = \"second\"", "id = \"first\"", "step.id", "twice"},
+      {"say = \"Close it.\"", "", "step[2].say", "missing"},
+      {"must_precede = [\"second\"]", "must_precede = [\"third\"]", "step.must_precede",
+       "use one of first, second"},
+      {"say = \"Close it.\"", "say = \"Close it.\"\nmust_precede = [\"first\"]",
+       "step.must_precede", "circle"},
+      {"spare = [\"nerve\"]", "spare = [\"drum\"]", "step.spare", "glass"},
+      {"spare = [\"nerve\"]", "spare = \"nerve\"", "step[1].spare", "list of texts"},
+      {"region = \"way\"", "region = \"path\"", "step.region", "\"path\""},
+      {"kind = \"diamond\", diameter_mm = [2, 4]", "", "step[1].tool.kind", "missing"},
+      {"step = \"first\"", "step = \"last\"", "complication.step", "\"last\""},
+      {"fade = \"2,alternate:4,off\"", "fade = \"slowly\"", "feedback.fade", "2,alternate:4,off"},
+      {"fade = \"2,alternate:4,off\"", "fade = \"2,off,3\"", "feedback.fade", "on or off"},
+      {"learn = [\"step\"", "learn = [\"score\"", "feedback.learn", "\"score\" is not known"},
+      {"remove = [\"way\"]", "remove = [\"wey\"]", "reference.remove", "use one of way"},
+      {"\"nerve\", mm = 1 }", "\"nerve\", mm = -1 }", "reference.leave[1].mm", "above 0"},
+      {"[[step]]\nid = \"second\"", "[[stepp]]\nid = \"second\"", "stepp", "not a known field"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    const std::string text = with(kGood, mistake.from, mistake.to);
+    const auto read = parse_case(text, "my.toml");
+    ASSERT_FALSE(read) << mistake.from << " -> " << mistake.to;
+    const std::string& said = read.error().text;
+    EXPECT_EQ(said.find("my.toml: line "), 0U) << said;
+    EXPECT_NE(said.find(": " + mistake.field + ": "), std::string::npos)
+        << mistake.field << " in " << said;
+    EXPECT_NE(said.find(mistake.says), std::string::npos) << mistake.says << " in " << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos);
+  }
+}
+
+TEST(Lesson, TheLineIsThatOfTheMistake) {
+  for (const auto& [from, to] : {std::pair{"diameter_mm = 4\n", "diameter_mm = 70\n"},
+                                 std::pair{"pieces = [1, 2]", "pieces = [2, 1]"},
+                                 std::pair{"{ shape = \"box\"", "{ shape = \"bax\""},
+                                 std::pair{"fade = \"2,alternate:4,off\"", "fade = \"never\""}}) {
+    const std::string text = with(kGood, from, to);
+    const auto read = parse_case(text, "my.toml");
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().text.find("my.toml: " + line_of(text, to) + ": "), std::string::npos)
+        << read.error().text;
+  }
+}
+
+TEST(Lesson, ACaseOfFormatOneHasAnEmptyLesson) {
+  const auto work = parse_case(
+      "title = \"Old\"\nphantom = \"block\"\n[burr]\ndiameter_mm = 4\nrpm = 60000\n", "old.toml");
+  ASSERT_TRUE(work) << work.error().text;
+  const auto lesson = lesson_of(*work);
+  ASSERT_TRUE(lesson) << lesson.error().text;
+  EXPECT_EQ(lesson->format, 1);
+  EXPECT_TRUE(lesson->steps.empty() && lesson->structures.empty() && lesson->regions.empty());
+  EXPECT_EQ(lesson->title.in("en"), "Old");
+}
+
+TEST(Lesson, ATitleInSeveralLanguagesIsEnglishInTheCase) {
+  const auto work = parse_case(kGood, "my.toml");
+  ASSERT_TRUE(work) << work.error().text;
+  EXPECT_EQ(work->title, "A lesson");
+  EXPECT_EQ(lesson_of(*work)->title.in("sv"), "En lektion") << "the recording's text holds it";
+}
+
+TEST(Lesson, NoTextHoweverBrokenDoesHarm) {
+  const std::uint64_t seed = 26;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  for (int n = 0; n < 3000; ++n) {
+    std::string text = kGood;
+    for (int hits = 1 + static_cast<int>(random() % 4); hits > 0; --hits) {
+      const std::size_t at = random() % text.size();
+      if (random() % 2 == 0)
+        text[at] = static_cast<char>(random() % 256);
+      else
+        text.erase(at, random() % 40);
+    }
+    const auto read = parse_lesson(text, "x.toml");
+    if (read)
+      static_cast<void>(place(*read, {}, "x.toml"));
+    else
+      EXPECT_EQ(read.error().text.find("x.toml: "), 0U) << read.error().text;
+  }
+}
+
+TEST(Lesson, BuiltInCasesOfFormatTwoSpeakThreeLanguages) {
+  int count = 0;
+  for (const std::string& name : built_in_cases()) {
+    SCOPED_TRACE(name);
+    const auto work = read_case(name);
+    ASSERT_TRUE(work) << work.error().text;
+    const auto lesson = lesson_of(*work);
+    ASSERT_TRUE(lesson) << lesson.error().text;
+    if (lesson->format < 2) continue;
+    ++count;
+    EXPECT_FALSE(lesson->steps.empty());
+    const auto complete = [](const Texts& texts) {
+      return texts.by_language.contains("en") && texts.by_language.contains("sv") &&
+             texts.by_language.contains("de");
+    };
+    EXPECT_TRUE(complete(lesson->title));
+    EXPECT_TRUE(complete(lesson->description));
+    for (const Step& step : lesson->steps)
+      EXPECT_TRUE(complete(step.title) && complete(step.say)) << step.id;
+    for (const Complication& one : lesson->complications) EXPECT_TRUE(complete(one.say)) << one.id;
+  }
+  EXPECT_GE(count, 1);
+}
+
+}  // namespace
+}  // namespace burr::scenario
