@@ -66,7 +66,7 @@ endforeach()
 burr_part(burr_render_gl FROM render/ WITH PkgConfig::EPOXY PkgConfig::SDL2 meshoptimizer::meshoptimizer ${CMAKE_DL_LIBS})
 burr_part(burr_sound FROM sound/ WITH PkgConfig::SDL2 ${CMAKE_DL_LIBS})
 burr_part(burr_workshop FROM workshop/)
-burr_part(burr_session FROM device/ people/ fit/ surgeon/ sim/ WITH ${CMAKE_DL_LIBS})
+burr_part(burr_session FROM device/ people/ fit/ metrics/ surgeon/ sim/ WITH ${CMAKE_DL_LIBS})
 burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/
   MORE ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp
     ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp

@@ -38,6 +38,7 @@ ALLOWED = {
     "record": "tick scenario device haptics edit volume tool rt",
     "sim": "tick record device haptics thermal people volume tool rt",
     "fit": "record",
+    "metrics": "record tick volume tool rt",
     "workshop": "sim tick record importing io phantom surgeon scenario surface render sound device volume tool rt",
 }
 BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest rooms, with shorter lists
@@ -54,6 +55,8 @@ ONLY = {
     ("record", "haptics"): {"contact.h"},
     ("record", "edit"): {"ledger.h", "mirror.h"},
     ("record", "tool"): {"burr_tool.h", "state.h"},
+    ("metrics", "tick"): {"rows.h"},
+    ("metrics", "tool"): {"burr_tool.h", "state.h"},
 }
 
 # Third-party headers and the folders that may include them.

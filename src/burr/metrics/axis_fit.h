@@ -1,0 +1,46 @@
+// metrics/axis_fit.h - the axis of a drilled corridor against the planned one.
+//
+// The removed volume is divided into slices across the planned axis, as many whole voxels thick as
+// make 0.5 mm. A robust line through the slices' centres is the axis; slices with less than
+// half of the median volume (the ends) do not count.
+//
+//     entry    where the fitted axis meets the surface as it was; its distance to the plan's entry,
+//              across the planned axis
+//     angle    between the two axes
+//     depth    length of the corridor along the plan, from the surface to its end on the axis
+//     width    median diameter, from the volume of the slices
+//
+// Frame: world. Units: m, rad. Not assessable: nothing was removed there, or a corridor shorter than
+// two of its diameters. Thread: any.
+#pragma once
+
+#include <vector>
+
+#include "burr/math/vec3.h"
+#include "burr/metrics/measured.h"
+#include "burr/metrics/region.h"
+#include "burr/volume/bone.h"
+
+namespace burr::metrics {
+
+struct PlannedAxis {
+  math::Vec3 entry = math::Vec3::Zero();    // on the bone's surface
+  math::Vec3 inward = math::Vec3::UnitZ();  // unit, into the bone
+};
+
+struct AxisFit {
+  double entry_off = 0;                                                // [m]
+  double angle = 0;                                                    // [rad]
+  double depth = 0;                                                    // [m]
+  double width = 0;                                                    // [m]
+  double error = 0;                                                    // of entry_off: 0.25 h [m]
+  math::Vec3 entry = math::Vec3::Zero(), inward = math::Vec3::Zero();  // of the fit
+  math::Vec3 apex = math::Vec3::Zero();                                // its end on the fitted axis
+  std::vector<math::Vec3> centres;                                     // of the slices that count
+};
+
+// region: where the corridor may lie; other cuts are left out.
+[[nodiscard]] Assessed<AxisFit> axis_fit(const volume::Bone& before, const volume::Bone& after,
+                                         const PlannedAxis& plan, const Region& region);
+
+}  // namespace burr::metrics

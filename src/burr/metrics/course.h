@@ -1,0 +1,20 @@
+// metrics/course.h - the way of a tube through the bone: how far along it a point lies.
+//
+// Frame: world. Units: m. Thread: any.
+#pragma once
+
+#include <vector>
+
+#include "burr/math/vec3.h"
+
+namespace burr::metrics {
+
+struct Course {
+  std::vector<math::Vec3> points;  // at least two, in order
+
+  // Length of the way from the first point to the place on it that is nearest to p; 0 where there
+  // are fewer than two points.
+  [[nodiscard]] double along(const math::Vec3& p) const;
+};
+
+}  // namespace burr::metrics

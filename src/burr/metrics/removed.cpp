@@ -1,0 +1,78 @@
+#include "burr/metrics/removed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "burr/base/check.h"
+#include "burr/metrics/solidity.h"
+#include "burr/volume/volume_of.h"
+
+namespace burr::metrics {
+namespace {
+
+using volume::Bone;
+using volume::BrickIndex;
+using volume::Field;
+
+// How much of a voxel lies in a region; depth in voxels. Coarser than volume_units, so that sums of
+// products with those fit into 64 bits.
+constexpr std::int64_t kCoarse = 64;
+std::int64_t units_in(double depth) {
+  const volume::Field field = volume::field_from_depth(std::clamp(depth, -4.0, 4.0));
+  return volume::volume_units(std::int32_t{field}) / kCoarse;
+}
+
+struct Sums {
+  std::int64_t asked = 0, removed = 0, excess = 0;  // products
+  std::int64_t all = 0;
+  std::int64_t border = 0;  // voxels that the region's border crosses
+};
+
+void add_brick(const Bone& before, const Bone& after, BrickIndex brick, const Region& region,
+               double grown, Sums& sums) {
+  const Field *was = before.brick_field(brick), *is = after.brick_field(brick);
+  if (was == nullptr && is == nullptr) return;
+  const volume::Grid& grid = before.grid();
+  const math::Ijk first = before.brick_ijk(brick);
+  for (int v = 0; v < volume::kBrickVoxels; ++v) {
+    const std::int64_t had = volume::volume_units(std::int32_t{was == nullptr ? Field{0} : was[v]});
+    const std::int64_t has = volume::volume_units(std::int32_t{is == nullptr ? Field{0} : is[v]});
+    if (had == 0 && has == 0) continue;
+    const math::Ijk at = first + math::Ijk(v & 7, (v >> 3) & 7, v >> 6);
+    const double depth = depth_in(region, grid.world_from_grid(at.cast<double>())) / grid.voxel;
+    const std::int64_t in = units_in(depth), gone = had - has;
+    sums.asked += in * had;
+    sums.removed += in * gone;
+    sums.excess += (volume::kVoxelUnits / kCoarse - units_in(depth + grown / grid.voxel)) * gone;
+    sums.all += gone;
+    if (std::abs(depth) < 0.5) ++sums.border;
+  }
+}
+
+}  // namespace
+
+Assessed<Removed> removed_of(const Bone& before, const Bone& after, const Region& region,
+                             const RemovedSettings& settings) {
+  BURR_CHECK(same_grid(before, after));
+  Sums sums;
+  for (BrickIndex brick = 0; brick < before.brick_count(); ++brick)
+    add_brick(before, after, brick, region, settings.grown, sums);
+  const double h = before.grid().voxel, voxel = h * h * h;
+  const double unit = voxel / static_cast<double>(volume::kVoxelUnits);
+  const double square = unit / static_cast<double>(volume::kVoxelUnits / kCoarse);
+  Removed out;
+  out.asked = static_cast<double>(sums.asked) * square;
+  if (out.asked < 8 * voxel)
+    return NotAssessable{"there was no bone in this region before the first cut"};
+  out.removed = static_cast<double>(sums.removed) * square;
+  out.missed = out.asked - out.removed;
+  out.excess = static_cast<double>(sums.excess) * square;
+  out.all = static_cast<double>(sums.all) * unit;
+  out.share = out.removed / out.asked;
+  out.dice = 2 * out.removed / (out.asked + out.all);
+  out.error = 0.15 * static_cast<double>(sums.border) * voxel / out.asked;
+  return out;
+}
+
+}  // namespace burr::metrics

@@ -1,0 +1,190 @@
+// Planes, axes and shapes of cavities, fitted to cuts whose numbers are known; and the arithmetic
+// below them against the C library.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "burr/metrics/axis_fit.h"
+#include "burr/metrics/cavity_shape.h"
+#include "burr/metrics/line_and_plane.h"
+#include "burr/metrics/plane_fit.h"
+#include "burr/metrics/same_math.h"
+#include "metrics/bones.h"
+
+namespace burr::metrics {
+namespace {
+
+using math::Vec3;
+using test::kMm;
+using test::kUp;
+
+TEST(SameMath, IsTheCLibrarysToFourteenDigits) {
+  const std::uint64_t seed = 7;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> angle(-50, 50), any(-1, 1), power(-20, 20);
+  for (int n = 0; n < 20000; ++n) {
+    const double a = angle(random);
+    EXPECT_NEAR(sine(a), std::sin(a), 3e-15);
+    EXPECT_NEAR(cosine(a), std::cos(a), 3e-15);
+    const double x = any(random), y = any(random) * std::exp2(power(random));
+    EXPECT_NEAR(arc_tangent(y, x), std::atan2(y, x), 1e-14);
+    const double p = power(random);
+    EXPECT_NEAR(two_to(p), std::exp2(p), 1e-14 * std::exp2(p));
+    EXPECT_NEAR(logarithm(std::exp2(p)), std::log(std::exp2(p)), 2e-14);
+  }
+  EXPECT_EQ(arc_tangent(0, 0), 0);
+  EXPECT_NEAR(arc_tangent(0, -1), std::numbers::pi, 1e-15);
+  EXPECT_EQ(logarithm(1), 0);
+}
+
+TEST(LineAndPlane, ARobustLineIgnoresAFewWildPoints) {
+  std::vector<WeightedPoint> points;
+  for (int n = 0; n < 40; ++n) points.push_back({Vec3(0.1 * n, 0.02 * n + 1, 2), 1});
+  points[5].place.z() = 9;
+  points[30].place.y() = -7;
+  const LineThrough line = robust_line(points, {0, 0, 0}, {1, 0, 0});
+  EXPECT_LT((line.at_zero - Vec3(0, 1, 2)).norm(), 0.01);
+  EXPECT_LT((line.slope - Vec3(1, 0.2, 0)).norm(), 0.01);
+  EXPECT_EQ(weighted_quantile({{3, 1}, {1, 1}, {2, 8}}, 0.5), 2);
+  EXPECT_EQ(weighted_quantile({{3, 1}, {1, 1}, {2, 8}}, 0.95), 3);
+}
+
+// K7: a slot of 2 mm; its lower face lies d above the plan, tilted by b, with waves
+struct Slot {
+  double offset, tilt, wave;  // [m, rad, m]
+};
+test::Cut slot_of(const Slot& slot, double h) {
+  test::Plan plan;
+  plan.bone = phantom::box({7 * kMm, 7 * kMm, 7 * kMm});
+  const Vec3 n = {std::sin(slot.tilt), 0, std::cos(slot.tilt)};
+  const Vec3 point = {0, 0, slot.offset};
+  const phantom::Depth cavity = [=](const Vec3& p) {
+    const double up =
+        (p - point).dot(n) + slot.wave * std::sin(2 * std::numbers::pi * p.y() / (3 * kMm));
+    return std::min(up, 2 * kMm - up);
+  };
+  plan.lipschitz = 1 + slot.wave * 2 * std::numbers::pi / (3 * kMm);
+  return test::cut(plan, cavity, h);
+}
+
+TEST(PlaneFit, FindsOffsetAngleAndWaves) {
+  for (const double h : test::kVoxels)
+    for (const Slot& slot : {Slot{0.3 * kMm, 0, 0}, Slot{-0.5 * kMm, 4 * kDegree, 0},
+                             Slot{0.2 * kMm, 2 * kDegree, 0.2 * kMm}}) {
+      const auto bones = slot_of(slot, h);
+      const auto fit = plane_fit(*bones.before, *bones.after, {{0, 0, 0}, kUp},
+                                 in_box({}, Vec3::Constant(6 * kMm)), {});
+      ASSERT_TRUE(fit) << fit.reason();
+      std::printf("K7 h %.3f: offset %+.4f mm, angle %+.3f deg, rms %.3f\n", h / kMm,
+                  (fit->offset - slot.offset) / kMm, (fit->angle - slot.tilt) / kDegree,
+                  fit->rms / kMm);
+      EXPECT_NEAR(fit->offset, slot.offset / 1.0, 0.02 * kMm + fit->error);
+      EXPECT_NEAR(fit->angle, slot.tilt, 0.2 * kDegree);
+      EXPECT_NEAR(fit->rms, slot.wave / std::sqrt(2.0), 0.03 * kMm);
+      EXPECT_GE(fit->uneven, fit->rms - 1e-9);
+    }
+}
+
+TEST(PlaneFit, NothingCutIsNoAnswer) {
+  test::Plan plan;
+  plan.bone = phantom::box({7 * kMm, 7 * kMm, 7 * kMm});
+  const auto bone = test::build(plan, plan.bone, 0.4 * kMm);
+  EXPECT_FALSE(plane_fit(*bone, *bone, {{0, 0, 0}, kUp}, {}, {}));
+}
+
+// K8: a corridor of 1.5 mm radius and 12 mm length into a block, shifted and tilted
+TEST(AxisFit, FindsShiftAndTilt) {
+  for (const double h : test::kVoxels)
+    for (const double tilt : {0.0, 6.0}) {
+      test::Plan plan;
+      plan.lo = {-6 * kMm, -6 * kMm, -14 * kMm};
+      plan.hi = {6 * kMm, 6 * kMm, 2 * kMm};
+      plan.bone = test::below(0);
+      const double shift = 0.7 * kMm, b = tilt * kDegree;
+      const Vec3 inward = {std::sin(b), 0, -std::cos(b)}, entry = {shift, 0.1 * kMm, 0};
+      const phantom::Depth corridor = [=](const Vec3& p) {
+        const double l = (p - entry).dot(inward);
+        const double across = ((p - entry) - l * inward).norm();
+        return std::min(1.5 * kMm - across, 12 * kMm - l);
+      };
+      const auto bones = test::cut(plan, corridor, h);
+      const auto fit = axis_fit(*bones.before, *bones.after, {{0, 0, 0}, {0, 0, -1}}, {});
+      ASSERT_TRUE(fit) << fit.reason();
+      const double off = std::hypot(shift, 0.1 * kMm);
+      std::printf(
+          "K8 h %.3f tilt %.0f: entry %+.4f mm, angle %+.3f deg, depth %+.3f, width %+.3f\n",
+          h / kMm, tilt, (fit->entry_off - off) / kMm, fit->angle / kDegree - tilt,
+          fit->depth / kMm - 12 * std::cos(b), fit->width / kMm - 3);
+      EXPECT_NEAR(fit->entry_off, off, fit->error);
+      EXPECT_NEAR(fit->angle, b, 0.5 * kDegree);
+      EXPECT_NEAR(fit->depth, 12 * kMm * std::cos(b), 0.5 * h);
+      EXPECT_NEAR(fit->width, 3 * kMm, 0.05 * kMm);
+      EXPECT_LT((fit->apex - (entry + 12 * kMm * inward)).norm(), 0.5 * h + 0.05 * kMm);
+    }
+}
+
+TEST(AxisFit, AShortHoleHasNoAxis) {
+  test::Plan plan;
+  plan.bone = test::below(0);
+  const auto bones = test::cut(
+      plan, phantom::placed(phantom::cylinder(2 * kMm, 3 * kMm), {.p = {0, 0, 0}}), 0.25 * kMm);
+  const auto fit = axis_fit(*bones.before, *bones.after, {{0, 0, 0}, {0, 0, -1}}, {});
+  ASSERT_FALSE(fit);
+  EXPECT_NE(fit.reason().find("shorter than two"), std::string::npos) << fit.reason();
+  EXPECT_FALSE(axis_fit(*bones.before, *bones.before, {{0, 0, 0}, {0, 0, -1}}, {}));
+}
+
+// K9: a cavity with a flat or wavy floor and four walls that lean by `taper`
+phantom::Depth frustum(double depth, double taper, double wave) {
+  return [=](const Vec3& p) {
+    const double floor = p.z() + depth + wave * std::sin(2 * std::numbers::pi * p.x() / (2 * kMm));
+    // the mouth, at z = 0, is 8 x 6 mm; a taper below 0 narrows it downwards
+    const double lean = std::tan(taper), c = std::cos(taper);
+    const double x = c * (4 * kMm - p.z() * lean - std::abs(p.x()));
+    const double y = c * (3 * kMm - p.z() * lean - std::abs(p.y()));
+    return std::min({floor, x, y});
+  };
+}
+
+TEST(CavityShape, FindsDepthTaperAndFloor) {
+  for (const double h : test::kVoxels)
+    for (const double taper : {-8.0, 0.0, 5.0})
+      for (const double wave : {0.0, 0.1}) {
+        test::Plan plan;
+        plan.lo = {-6 * kMm, -5 * kMm, -5 * kMm};
+        plan.hi = {6 * kMm, 5 * kMm, 1.5 * kMm};
+        plan.bone = test::below(0);
+        plan.lipschitz = 1.5;
+        const auto bones = test::cut(plan, frustum(3 * kMm, taper * kDegree, wave * kMm), h);
+        const auto shape = cavity_shape(*bones.before, *bones.after, kUp, {},
+                                        in_box({}, {4 * kMm, 3 * kMm, 9 * kMm}));
+        ASSERT_TRUE(shape) << shape.reason();
+        ASSERT_TRUE(shape->taper && shape->outline);
+        std::printf(
+            "K9 h %.3f taper %+.0f wave %.1f: depth %+.3f, taper %+.2f, rms %.3f, outline %.3f\n",
+            h / kMm, taper, wave, shape->depth / kMm - 3, *shape->taper / kDegree - taper,
+            shape->uneven / kMm, *shape->outline / kMm);
+        EXPECT_NEAR(shape->depth, 3 * kMm, 0.05 * kMm + 0.1 * h + 0.3 * wave * kMm);
+        EXPECT_NEAR(*shape->taper, taper * kDegree, 0.6 * kDegree);
+        EXPECT_NEAR(shape->uneven, wave * kMm / std::sqrt(2.0), 0.03 * kMm + 0.05 * h);
+        EXPECT_LT(*shape->outline, 0.1 * kMm + 0.3 * h);
+      }
+}
+
+TEST(CavityShape, NothingCutIsNoAnswer) {
+  test::Plan plan;
+  plan.bone = test::below(0);
+  const auto bone = test::build(plan, plan.bone, 0.4 * kMm);
+  EXPECT_FALSE(cavity_shape(*bone, *bone, kUp, {}, {}));
+}
+
+}  // namespace
+}  // namespace burr::metrics

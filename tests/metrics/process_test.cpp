@@ -1,0 +1,353 @@
+// Made recordings with known forces, distances, times and burrs.
+#include "burr/metrics/process.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "burr/metrics/order.h"
+#include "burr/record/player.h"
+#include "burr/record/recorder.h"
+#include "metrics/bones.h"
+#include "metrics/ticks.h"
+#include "record/made_up.h"
+
+namespace burr::metrics {
+namespace {
+
+using math::Vec3;
+using test::Happening;
+using test::kMm;
+
+// A soft ball of 2 mm about the origin in a block of bone.
+class ProcessTest : public ::testing::Test {
+ protected:
+  static constexpr double kVoxel = 0.25e-3;
+  ProcessTest() {
+    const phantom::Depth ball = phantom::ball(2 * kMm);
+    plan_.hi.x() = 18 * kMm;
+    plan_.bone = phantom::without(test::below(6 * kMm), ball);
+    plan_.labels = {{ball, test::kNerve}};
+    bone_ = test::build(plan_, plan_.bone, kVoxel);
+    nerve_ = test::distance_to(*bone_, test::kNerve);
+    voxels_ = test::voxels_of(*bone_, test::kNerve);
+    settings_.critical = {{"nerve", nerve_.get()}};
+  }
+  test::Plan plan_;
+  std::unique_ptr<volume::Bone> bone_;
+  std::shared_ptr<const volume::DistanceTo> nerve_;
+  VoxelSet voxels_;
+  ProcessSettings settings_;
+};
+
+// Q1: straight down the z axis towards the ball, 10 mm/s from d = 5 mm to d = 0.4 mm, then still;
+// force 0.5 N and cutting all the time. The burr's radius is 1 mm.
+TEST_F(ProcessTest, NearnessOfAStraightApproach) {
+  const auto story = [](double t) {
+    Happening now;
+    now.place.z() = std::max(8 - 10 * t, 3.4) * kMm;
+    now.touching = true;
+    now.force = 0.5;
+    now.removal = 1e-9;
+    return now;
+  };
+  const Process done = test::process(1.46, story, settings_);
+  ASSERT_EQ(done.nearness.size(), 1U);
+  const NearnessOf& near = done.nearness[0];
+  EXPECT_EQ(near.name, "nerve");
+  EXPECT_NEAR(near.least, 0.4 * kMm, 0.5 * kVoxel);
+  EXPECT_NEAR(near.least_at, 0.46, 0.02);
+  EXPECT_NEAR(near.least_place.z(), 3.4 * kMm, 0.2 * kMm);
+  // d falls below 2 mm at 0.3 s, below 1 mm at 0.4 s, below 0.5 mm at 0.45 s; then 1 s of standing
+  const double slack = 0.5 * kVoxel / 10e-3 + 2e-3;
+  EXPECT_NEAR(near.cutting_within[0], 1.16, slack);
+  EXPECT_NEAR(near.cutting_within[1], 1.06, slack);
+  EXPECT_NEAR(near.cutting_within[2], 1.01, slack);
+  ASSERT_TRUE(near.approach);
+  EXPECT_NEAR(*near.approach, 10e-3, 2e-3);
+  EXPECT_NEAR(done.paths.all, 4.6 * kMm, 0.1 * kMm);
+  EXPECT_EQ(done.paths.free, 0);
+  EXPECT_NEAR(done.times.total, 1.46, 1e-9);
+  EXPECT_NEAR(done.times.cutting, 1.459, 2e-3);
+}
+
+TEST_F(ProcessTest, FarAwayThereIsNoNearness) {
+  const Process done = test::process(
+      0.2,
+      [](double) {
+        return Happening{.place = {0, 0, 60 * kMm}};
+      },
+      settings_);
+  EXPECT_EQ(done.nearness[0].least, kFar);
+  EXPECT_FALSE(done.nearness[0].approach);
+  ASSERT_FALSE(done.force);
+  EXPECT_NE(done.force.reason().find("never touched"), std::string::npos);
+  EXPECT_FALSE(done.choice.diamond);
+  EXPECT_NEAR(done.times.free, 0.2, 1e-9);
+}
+
+// Q5: 1 N for 1 s at d = 6 mm, 0.4 N for 2 s at d = 1.5 mm, 3 N for 10 ms at d = 3 mm
+TEST_F(ProcessTest, ForceByDistance) {
+  const auto story = [](double t) {
+    Happening now;
+    now.touching = true;
+    now.place.x() = (t < 1 ? 9 : t < 3 ? 4.5 : 6) * kMm;
+    now.force = t < 1 ? 1.0 : t < 3 ? 0.4 : 3.0;
+    return now;
+  };
+  const Process done = test::process(3.01, story, settings_);
+  ASSERT_TRUE(done.force) << done.force.reason();
+  const ForceNear& force = *done.force;
+  EXPECT_NEAR(force.mean, (1 + 0.8 + 0.03) / 3.01, 1e-6);
+  EXPECT_NEAR(force.p95, 1.0, 0.011);
+  EXPECT_DOUBLE_EQ(force.peak, 3.0);
+  EXPECT_NEAR(force.peak_at, 3.0, 1e-9);
+  EXPECT_NEAR(force.time[1], 2.0, 1e-6);
+  EXPECT_NEAR(force.time[3], 1.0, 1e-6);
+  EXPECT_EQ(force.time[0], 0);
+  EXPECT_FALSE(force.bin_mean[0]);
+  ASSERT_TRUE(force.bin_mean[1] && force.bin_mean[2] && force.bin_mean[3]);
+  EXPECT_NEAR(*force.bin_mean[1], 0.4, 1e-9);
+  EXPECT_NEAR(*force.bin_mean[3], 1.0, 1e-9);
+  EXPECT_DOUBLE_EQ(force.bin_peak[2], 3.0);
+  ASSERT_TRUE(force.restraint);
+  EXPECT_NEAR(*force.restraint, 0.4, 1e-9);
+  // too little time far away: no ratio
+  const Process brief = test::process(
+      1.2, [&](double t) { return story(t + 0.8); }, settings_);
+  ASSERT_TRUE(brief.force);
+  EXPECT_FALSE(brief.force->restraint);
+}
+
+// Q9: a diamond of 1 mm near, a cutting burr of 3 mm far away, and a cutting one of 3 mm near for a
+// quarter of the volume there
+TEST_F(ProcessTest, ChoiceOfBurr) {
+  const auto story = [](double t) {
+    Happening now;
+    now.removal = 1e-9;
+    if (t < 1) {
+      now.place.x() = 12 * kMm;
+      now.tool.radius = 3 * kMm;
+    } else if (t < 1.75) {
+      now.place.x() = 4 * kMm;
+      now.tool.kind = tool::BurrKind::diamond;
+    } else {
+      now.place.x() = 6 * kMm;
+      now.tool.radius = 3 * kMm;
+    }
+    return now;
+  };
+  const Process done = test::process(2.0, story, settings_);
+  EXPECT_NEAR(done.choice.near_volume, 1e-9, 3e-12);
+  EXPECT_NEAR(done.choice.far_volume, 1e-9, 3e-12);
+  ASSERT_TRUE(done.choice.diamond && done.choice.small && done.choice.large_cutting);
+  EXPECT_NEAR(*done.choice.diamond, 0.75, 0.002);
+  EXPECT_NEAR(*done.choice.small, 0.75, 0.002);
+  EXPECT_NEAR(*done.choice.diamond_or_small, 0.75, 0.002);
+  EXPECT_EQ(*done.choice.large_cutting, 1);
+}
+
+// Q6: the burr goes into the soft ball by p and out again, twice
+struct Pass {
+  double p;
+  double spindle = 5000;
+  tool::BurrKind kind = tool::BurrKind::cutting;
+};
+Happening pass_at(const Pass& pass, double t) {
+  Happening now;
+  const double swing = 0.5 * (1 - std::cos(2 * std::numbers::pi * t));  // 0, 1, 0, 1, 0 in 2 s
+  now.place.z() = 6 * kMm + (3 * kMm - pass.p - 6 * kMm) * swing;
+  now.spindle = pass.spindle;
+  now.tool.kind = pass.kind;
+  now.force = 0.2;
+  return now;
+}
+
+TEST_F(ProcessTest, HowDeepABurrWentIntoSoftTissue) {
+  settings_.soft = {{"nerve", &voxels_, nerve_.get(), {}}};
+  for (const double p : {0.0, 0.3, 0.8, 1.0}) {
+    const Process done = test::process(
+        2, [&](double t) { return pass_at({p * kMm}, t); }, settings_, bone_->grid());
+    ASSERT_TRUE(done.soft[0].intact) << done.soft[0].intact.reason();
+    const IntactSoft& nerve = *done.soft[0].intact;
+    EXPECT_NEAR(nerve.entered.value, p * kMm, 0.5 * kVoxel) << p;
+    EXPECT_EQ(nerve.entered.met, p < 0.5);
+    if (p >= 0.3) {
+      EXPECT_FALSE(nerve.touched.met);
+      EXPECT_EQ(nerve.contact_count, 2U);
+      ASSERT_EQ(nerve.contacts.size(), 2U);
+      EXPECT_NEAR(nerve.contacts[0].depth, p * kMm, 0.5 * kVoxel);
+      EXPECT_NEAR(nerve.contacts[0].begin + nerve.contacts[0].end, 1.0, 0.02);
+      EXPECT_NEAR(nerve.contacts[1].begin + nerve.contacts[1].end, 3.0, 0.02);
+      EXPECT_NEAR(nerve.contacts[0].mean_force, 0.2, 1e-9);
+      EXPECT_NEAR(nerve.deepest_place.z(), (3 - p) * kMm, 0.1 * kMm);
+    }
+    // two balls, 2 and 1 mm, overlap by p
+    const double r1 = 2, r2 = 1, d = 3 - p;
+    const double truth = std::numbers::pi * p * p *
+                         (d * d + 2 * d * (r1 + r2) - 3 * (r1 - r2) * (r1 - r2)) / (12 * d) * 1e-9;
+    EXPECT_NEAR(nerve.volume, truth, 0.15 * truth + 0.05e-9) << p;
+  }
+}
+
+TEST_F(ProcessTest, OnlyATurningBurrHarms) {
+  settings_.soft = {{"nerve", &voxels_, nerve_.get(), {}}};
+  const Process still = test::process(
+      2,
+      [&](double t) {
+        return pass_at({1 * kMm, 100}, t);
+      },
+      settings_, bone_->grid());
+  ASSERT_FALSE(still.soft[0].intact);  // it never turned: nothing is known
+  EXPECT_NE(still.soft[0].intact.reason().find("never turned"), std::string::npos);
+  // in the bone it stands still, outside it turns
+  const Process stopped = test::process(
+      2,
+      [&](double t) {
+        Happening now = pass_at({1 * kMm}, t);
+        if (now.place.z() < 4 * kMm) now.spindle = 200;
+        return now;
+      },
+      settings_, bone_->grid());
+  ASSERT_TRUE(stopped.soft[0].intact);
+  EXPECT_TRUE(stopped.soft[0].intact->touched.met);
+  EXPECT_EQ(stopped.soft[0].intact->contact_count, 0U);
+}
+
+TEST_F(ProcessTest, ADiamondMayTouch) {
+  settings_.soft = {{"nerve", &voxels_, nerve_.get(), {}}};
+  for (const auto kind : {tool::BurrKind::cutting, tool::BurrKind::diamond}) {
+    const Process done = test::process(
+        2,
+        [&](double t) {
+          return pass_at({0.2 * kMm, 5000, kind}, t);
+        },
+        settings_, bone_->grid());
+    ASSERT_TRUE(done.soft[0].intact);
+    EXPECT_EQ(done.soft[0].intact->touched.met, kind == tool::BurrKind::diamond);
+    EXPECT_TRUE(done.soft[0].intact->entered.met);
+  }
+}
+
+TEST_F(ProcessTest, WhoDidNothingHasSparedNothing) {
+  settings_.soft = {{"nerve", &voxels_, nerve_.get(), {.worked = 0.05}}};
+  const Process done = test::process(
+      2,
+      [](double) {
+        return Happening{.place = {0, 0, 7 * kMm}};
+      },
+      settings_, bone_->grid());
+  ASSERT_TRUE(done.soft[0].intact);
+  EXPECT_FALSE(done.soft[0].intact->entered.met);
+  EXPECT_FALSE(done.soft[0].intact->entered.earned);
+}
+
+// Q8: three seconds of standing still near bone, and the same far from it
+TEST_F(ProcessTest, HesitationIsALongPauseNearBone) {
+  const std::array<volume::TissueId, 1> ids = {test::kBone};
+  NoProgress quiet;
+  auto made = volume::DistanceTo::make(*bone_, ids, {}, quiet);
+  ASSERT_TRUE(made);
+  settings_.bone = &*made;
+  const auto story = [](double t) {
+    Happening now;
+    // cuts for 1 s, waits 3 s at 3 mm above the bone, cuts 1 s, waits 1.5 s, cuts, then far away
+    const bool cuts = t < 1 || (t >= 4 && t < 5) || (t >= 6.5 && t < 7);
+    now.removal = cuts ? 1e-9 : 0;
+    now.place.z() = (cuts ? 6 : t < 7 ? 10 : 30) * kMm;
+    now.tool.irrigated = t >= 4;
+    return now;
+  };
+  const Process done = test::process(12, story, settings_);
+  EXPECT_EQ(done.times.hesitations, 1U);
+  EXPECT_NEAR(done.times.hesitating, 3.0, 0.01);
+  EXPECT_NEAR(done.times.cutting, 2.5, 0.01);
+  EXPECT_NEAR(done.times.irrigated, 1.5, 0.01);
+}
+
+TEST_F(ProcessTest, ThePoleHardlyCuts) {
+  const auto story = [](double t) {
+    Happening now;
+    now.touching = true;
+    now.removal = 1e-9;
+    const double theta = t < 1 ? 0.2 : 1.0;  // sine 0.199, 0.84
+    now.normal = {std::sin(theta), 0, std::cos(theta)};
+    return now;
+  };
+  const Process done = test::process(4, story);
+  EXPECT_NEAR(done.times.pole_volume / done.times.volume, 0.25, 0.002);
+}
+
+TEST_F(ProcessTest, NumbersThatAreNotFiniteAreLeftOut) {
+  auto rows = test::rows_of(1, [](double) {
+    return Happening{.place = {0, 0, 5 * kMm}, .force = 1, .touching = true, .removal = 1e-9};
+  });
+  rows[500].contact.proxy.x() = std::numeric_limits<double>::quiet_NaN();
+  rows[501].contact.force.z() = std::numeric_limits<double>::infinity();
+  const Process done = test::process(rows, settings_);
+  EXPECT_NEAR(done.force->mean, 1, 1e-12);
+  EXPECT_NEAR(done.times.total, 0.998, 1e-9);
+  EXPECT_TRUE(std::isfinite(done.paths.all));
+}
+
+// A recording on the disk gives the same as the ticks that were written to it.
+TEST_F(ProcessTest, ARecordingGivesTheSame) {
+  const record::test::Folder folder;
+  const auto rows = test::rows_of(3, [](double t) {
+    Happening now = pass_at({0.7 * kMm}, t / 1.5);
+    now.touching = now.place.z() < 5 * kMm;
+    now.removal = now.touching ? 1e-9 : 0;
+    return now;
+  });
+  record::SessionInfo info;
+  info.volume = record::volume_info(*bone_);
+  info.rate_hz = test::kRate;
+  record::Recorder recorder(test::kRate);
+  ASSERT_TRUE(recorder.start(folder / "s.mcap", info, nullptr).ok());
+  for (const tick::TickRow& row : rows) {
+    recorder.wait_for_room();
+    ASSERT_TRUE(recorder.ticks().push(row));
+  }
+  ASSERT_TRUE(recorder.finish().ok());
+  auto player = record::Player::open(folder / "s.mcap");
+  ASSERT_TRUE(player) << player.error().text;
+  settings_.soft = {{"nerve", &voxels_, nerve_.get(), {}}};
+  NoProgress quiet;
+  const auto read = process_of(**player, settings_, quiet);
+  ASSERT_TRUE(read) << read.error().text;
+  const Process made = test::process(rows, settings_, bone_->grid());
+  EXPECT_EQ(read->paths.all, made.paths.all);
+  EXPECT_EQ(read->times.cutting, made.times.cutting);
+  EXPECT_EQ(read->force->mean, made.force->mean);
+  EXPECT_EQ(read->nearness[0].least, made.nearness[0].least);
+  EXPECT_EQ(read->soft[0].intact->volume, made.soft[0].intact->volume);
+  EXPECT_EQ(read->strokes.size(), made.strokes.size());
+  EXPECT_EQ(read->unusable, 0U);
+}
+
+TEST(Order, CountsInversions) {
+  const std::vector<std::string> wanted = {"a", "b", "c", "d"};
+  const std::vector<StepMark> marks = {{1, "a", StepEvent::done},     {2, "c", StepEvent::begun},
+                                       {3, "c", StepEvent::done},     {4, "b", StepEvent::done},
+                                       {5, "c", StepEvent::reopened}, {6, "c", StepEvent::done},
+                                       {7, "other", StepEvent::done}};
+  const Order order = order_of(marks, wanted);
+  EXPECT_EQ(order.done, 3U);
+  EXPECT_EQ(order.reopened, 1U);
+  EXPECT_EQ(order.skipped, std::vector<std::string>{"d"});
+  ASSERT_EQ(order.inversions.size(), 1U);
+  EXPECT_EQ(order.inversions[0].first, "c");
+  EXPECT_EQ(order.inversions[0].second, "b");
+  ASSERT_TRUE(order.tau);
+  EXPECT_NEAR(*order.tau, 1.0 / 3, 1e-12);
+  EXPECT_FALSE(order_of({}, wanted).tau);
+}
+
+}  // namespace
+}  // namespace burr::metrics
