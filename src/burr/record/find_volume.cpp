@@ -92,8 +92,8 @@ std::vector<fs::path> entries(const fs::path& folder) {
 }
 
 bool looks_like_a_volume(const fs::path& path) {
-  static const std::set<std::string> kVolumes = {".nii", ".gz",  ".bz2", ".nrrd", ".nhdr",
-                                                 ".mha", ".mhd", ".dcm", ".zip",  ""};
+  static const std::set<std::string> kVolumes = {".nii", ".gz",  ".bz2", ".nrrd", ".nhdr", ".mha",
+                                                 ".mhd", ".dcm", ".zip", ".yaml", ""};
   return kVolumes.contains(path.extension().string());
 }
 
