@@ -1,0 +1,157 @@
+// What was in sight, the hand's tremor, strokes along a tube, contacts with solid structures, noise.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "burr/metrics/noise.h"
+#include "burr/metrics/solid_contacts.h"
+#include "burr/metrics/stroke_direction.h"
+#include "burr/metrics/tremor.h"
+#include "burr/metrics/visibility.h"
+#include "metrics/bones.h"
+#include "metrics/ticks.h"
+
+namespace burr::metrics {
+namespace {
+
+using math::Vec3;
+using test::Happening;
+using test::kMm;
+
+// Q7: a cavity under a roof over its half x > 0; the eye is above, at the cavity's axis or aside
+TEST(Visibility, OfAHalfHiddenCut) {
+  test::Plan plan;
+  plan.bone = phantom::common(
+      test::below(6 * kMm),
+      phantom::either(test::below(-2 * kMm),
+                      phantom::common(test::above(2 * kMm), phantom::slab({-1, 0, 0}, {0, 0, 0}))));
+  const auto bone = test::build(plan, plan.bone, 0.25 * kMm);
+  const Vec3 eye = {0, 0, 300 * kMm};
+  EXPECT_EQ(share_in_sight(*bone, {-4 * kMm, 0, 0}, 1 * kMm, eye), 1);
+  EXPECT_EQ(share_in_sight(*bone, {4 * kMm, 0, 0}, 1 * kMm, eye), 0);
+  // at the edge of the roof one of the seven points is under it
+  const double edge = share_in_sight(*bone, {-0.3 * kMm, 0, 0}, 1 * kMm, eye);
+  EXPECT_NEAR(edge, 6.0 / 7, 1e-9);
+
+  const std::vector<EyeSample> eyes = {{.t = 0, .eye = eye}};
+  VisibilityMaker maker(eyes);
+  MomentMaker moments(test::kRate);
+  Moment now;
+  // half of the volume in the open, then half under the roof
+  const auto rows = test::rows_of(2, [](double t) {
+    return Happening{.place = {(t < 1 ? -4 : 4) * kMm, 0, 0}, .removal = 1e-9};
+  });
+  for (const tick::TickRow& row : rows)
+    if (moments.make(row, false, now) && maker.add(now)) maker.look(*bone);
+  const auto seen = maker.finish();
+  ASSERT_TRUE(seen) << seen.reason();
+  EXPECT_NEAR(seen->seen_share, 0.5, 0.06);
+  EXPECT_NEAR(seen->mean, 0.5, 0.06);
+  ASSERT_EQ(seen->worst.size(), 3U);
+  EXPECT_EQ(seen->worst[0].v, 0);
+  EXPECT_GT(seen->worst[0].at.x(), 0);
+}
+
+TEST(Visibility, WithoutAnEyeIsNoAnswer) { EXPECT_FALSE(VisibilityMaker({}).finish()); }
+
+TEST(Visibility, CountsChangesOfTheView) {
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  const std::vector<EyeSample> eyes = {
+      {.t = 0, .forward = {0, 0, -1}, .magnification = 4},
+      {.t = 1, .forward = {0, 0, -1}, .magnification = 4.1},  // too little
+      {.t = 2, .forward = {s, 0, -c}, .magnification = 4.1},
+      {.t = 3, .forward = {s, 0, -c}, .magnification = 8}};
+  const ViewChanges changes = view_changes(eyes, 30);
+  EXPECT_DOUBLE_EQ(changes.magnification, 2);
+  EXPECT_DOUBLE_EQ(changes.direction, 2);
+}
+
+TEST(Tremor, IsTheHandsShakingInContact) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const auto story = [](double t) {
+    Happening now;
+    now.touching = t < 5;
+    // 9 Hz of 0.1 mm along x; slow motion and a drill's line at 300 Hz do not count
+    now.place = {0.1 * kMm * std::sin(kTurn * 9 * t), 5 * kMm * std::sin(kTurn * 0.3 * t),
+                 0.1 * kMm * std::sin(kTurn * 300 * t)};
+    return now;
+  };
+  const auto tremor = tremor_of(test::process(8, story).track);
+  ASSERT_TRUE(tremor) << tremor.reason();
+  // the band from 6 to 12 Hz lets 60 % of 9 Hz pass
+  const double rms = 0.1 * kMm / std::sqrt(2.0) / std::sqrt(3.0);
+  EXPECT_GT(tremor->rms, 0.5 * rms);
+  EXPECT_LT(tremor->rms, 0.8 * rms);
+  EXPECT_NEAR(tremor->seconds, 5, 0.02);
+  EXPECT_FALSE(tremor_of(test::process(1, story).track));
+}
+
+TEST(StrokeDirection, AlongAndAcross) {
+  const Course course = {{{-50 * kMm, 0, 0}, {50 * kMm, 0, 0}}};
+  for (const double angle : {0.0, 60.0, 90.0}) {
+    std::vector<BurrStroke> strokes(6);
+    const double a = angle * std::numbers::pi / 180;
+    for (std::size_t n = 0; n < strokes.size(); ++n) {
+      const double way = n % 2 == 0 ? 1 : -1;
+      strokes[n].to = way * 5 * kMm * Vec3(std::cos(a), std::sin(a), 0);
+      strokes[n].d = (n == 5 ? 3.5 : 2) * kMm;  // the last one is too far away
+    }
+    const auto direction = stroke_direction(strokes, course);
+    ASSERT_TRUE(direction) << direction.reason();
+    EXPECT_EQ(direction->count, 5U);
+    EXPECT_NEAR(direction->mean, std::cos(a), 1e-9);
+    EXPECT_EQ(direction->along_share, angle < 45 ? 1 : 0);
+  }
+  EXPECT_FALSE(stroke_direction({}, course));
+}
+
+TEST(SolidContacts, OfTheNearestTissueOnly) {
+  test::Plan plan;
+  plan.bone = test::below(0);
+  plan.labels = {{phantom::slab({1, 0, 0}, {0, 0, 0}), test::kHard}};  // x < 0 is hard
+  const auto bone = test::build(plan, plan.bone, 0.25 * kMm);
+  const std::array<volume::TissueId, 2> solid = {test::kBone, test::kHard};
+  const std::array<volume::TissueId, 1> hard = {test::kHard};
+  NoProgress quiet;
+  const auto all = volume::DistanceTo::make(*bone, solid, {}, quiet);
+  ASSERT_TRUE(all);
+  SolidContactsMaker maker(*all, hard, 0.25 * kMm);
+  MomentMaker moments(test::kRate);
+  Moment now;
+  const auto rows = test::rows_of(4, [](double t) {
+    Happening one;
+    one.touching = true;
+    one.force = 0.7;
+    one.place = {(t < 1 ? -3 : t < 2 ? 3 : -3) * kMm, 0, 1 * kMm};
+    if (t > 3) one.spindle = 0;  // stands still
+    return one;
+  });
+  for (const tick::TickRow& row : rows)
+    if (moments.make(row, false, now)) maker.add(now);
+  EXPECT_EQ(maker.finish().count(), 2U);
+  EXPECT_NEAR(maker.finish().seconds(), 2, 0.01);
+  EXPECT_NEAR(maker.finish().list()[0].force, 0.7, 1e-9);
+}
+
+TEST(Noise, EightHoursAtTheLimitAreOneHundredPercent) {
+  // 108 dBA at 6.5 mm: 23 dB above 85, so the day's dose after 8 h / 2^(23 / 3)
+  Moment now;
+  now.touching = now.turning = true;
+  now.tool.radius = 3.25e-3;
+  now.dt = 1;
+  NoiseMaker maker;
+  const double seconds = 8 * 3600 / std::exp2(23.0 / 3);
+  for (int n = 0; n < 100; ++n) maker.add(now);
+  EXPECT_NEAR(maker.dose(), 100 * 100 / seconds, 1e-9);
+  NoiseMaker half;  // 6 dB less: a quarter of the dose
+  now.tool.radius = 3.25e-3 / 2;
+  for (int n = 0; n < 100; ++n) half.add(now);
+  EXPECT_NEAR(half.dose(), maker.dose() / 4, 1e-9);
+}
+
+}  // namespace
+}  // namespace burr::metrics
