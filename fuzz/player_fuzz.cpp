@@ -5,13 +5,16 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <string>
 #include <vector>
 
 #include "burr/record/bone_blob.h"
+#include "burr/record/course.h"
 #include "burr/record/mcap/mcap.h"
 #include "burr/record/player.h"
 #include "burr/record/schema.h"
 #include "burr/record/session_info.h"
+#include "burr/record/view.h"
 #include "burr/sim/replay.h"
 #include "burr/sim/session_words.h"
 #include "burr/volume/bone.h"
@@ -206,17 +209,42 @@ class File {
   std::uint64_t start_ = 0, end_ = 0;
 };
 
+record::View view(fuzz::Pieces& in) {
+  record::View view;
+  view.tick = count(in);
+  view.eye = {number(in), number(in), number(in)};
+  view.field_of_view = number(in);
+  view.see_through = number(in);
+  view.two_eyes = (in.byte() & 1U) != 0;
+  return view;
+}
+
+record::CourseEvent course_event(fuzz::Pieces& in) {
+  const auto text = [&in] {
+    const fuzz::Bytes bytes = in.take(in.byte() % 16U);
+    return std::string(bytes.begin(), bytes.end());
+  };
+  record::CourseEvent event;
+  event.tick = count(in);
+  event.kind = static_cast<record::CourseKind>(in.byte() % 15U);
+  event.what = text();
+  event.where = text();
+  event.value = text();
+  return event;
+}
+
 File file_of(fuzz::Pieces& in) {
   File file;
   std::uint64_t tick = 0, time_ns = 0;
   while (!in.empty()) {
     const std::uint8_t what = in.byte();
-    const std::size_t topic = what % 8U;
-    if (topic == 6) {
+    const bool note = (what & 32U) != 0;  // a view or an event of the course
+    const std::size_t kind = what % 8U, topic = note ? 6 + kind % 2 : kind;  // of kTopics
+    if (!note && kind == 6) {
       file.close_chunk();
       continue;
     }
-    if (topic == 7) {
+    if (!note && kind == 7) {
       static const auto blob = record::bone_to_blob(*block());
       file.attach(blob);
       continue;
@@ -231,9 +259,13 @@ File file_of(fuzz::Pieces& in) {
       ticks(in, tick, data);
     } else if (topic == 2) {
       const auto kind = static_cast<tick::CommandKind>(in.byte() % 9);
-      data.raw(record::as_bytes(record::to_json({count(in), {kind, number(in)}})));
+      data.raw(record::as_bytes(record::to_json(tick::CommandRow{count(in), {kind, number(in)}})));
     } else if (topic == 3) {
       data.raw(record::as_bytes("{\"dropped_ticks\":" + std::to_string(count(in)) + "}"));
+    } else if (topic == 6) {
+      data.raw(record::as_bytes(record::to_json(view(in))));
+    } else if (topic == 7) {
+      data.raw(record::as_bytes(record::to_json(course_event(in))));
     } else {
       bricks(in, data);
     }
@@ -261,6 +293,12 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto tick = player.tick_at(t);
     fuzz::look_at_error(tick);
   }
+  for (const record::View& seen : player.views())
+    fuzz::must(record::check(seen).ok(), "a view that is read is a view");
+  for (const record::CourseEvent& event : player.course())
+    fuzz::must(record::check(event).ok(), "an event that is read is an event");
+  static_cast<void>(player.ending());
+  if (const std::string lacks = player.lacks(); !lacks.empty()) fuzz::look_at(error(lacks));
   NoProgress progress;
   auto start = player.info().embedded ? player.embedded_bone(static_cast<std::size_t>(
                                             player.info().volume.recipe.reserve_bricks))
