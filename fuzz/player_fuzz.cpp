@@ -239,12 +239,12 @@ File file_of(fuzz::Pieces& in) {
   while (!in.empty()) {
     const std::uint8_t what = in.byte();
     const bool note = (what & 32U) != 0;  // a view or an event of the course
-    const std::size_t kind = what % 8U, topic = note ? 6 + kind % 2 : kind;  // of kTopics
-    if (!note && kind == 6) {
+    const std::size_t low = what % 8U, topic = note ? 6 + low % 2 : low;  // of kTopics
+    if (!note && low == 6) {
       file.close_chunk();
       continue;
     }
-    if (!note && kind == 7) {
+    if (!note && low == 7) {
       static const auto blob = record::bone_to_blob(*block());
       file.attach(blob);
       continue;
