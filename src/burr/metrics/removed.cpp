@@ -60,7 +60,9 @@ Assessed<Removed> removed_of(const Bone& before, const Bone& after, const Region
     add_brick(before, after, brick, region, settings.grown, sums);
   const double h = before.grid().voxel, voxel = h * h * h;
   const double unit = voxel / static_cast<double>(volume::kVoxelUnits);
-  const double square = unit / static_cast<double>(volume::kVoxelUnits / kCoarse);
+  static_assert(volume::kVoxelUnits % kCoarse == 0);
+  constexpr auto kCoarseVoxel = volume::kVoxelUnits / kCoarse;
+  const double square = unit / static_cast<double>(kCoarseVoxel);
   Removed out;
   out.asked = static_cast<double>(sums.asked) * square;
   if (out.asked < 8 * voxel)
