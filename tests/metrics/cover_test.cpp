@@ -96,6 +96,24 @@ TEST(Cover, KnowsTheBoneAtTheFlank) {
   }
 }
 
+// K15: a flat sheet whose surface lies just above the centre of a voxel. That voxel is the sample and
+// stands in the surface's ramp: a ray that began there would lose a sixth of a voxel.
+TEST(Cover, ARayBeginsBehindTheRampOfItsSample) {
+  for (const double h : {0.4 * kMm, 0.25 * kMm})
+    for (const double t : {4 * h, 5.3 * h}) {
+      test::Plan plan;
+      plan.lo = Vec3::Constant(-4 * kMm);
+      plan.hi = Vec3::Constant(4 * kMm);
+      const volume::Grid grid = phantom::box_grid(plan.lo, plan.hi, h);
+      const double top = grid.world_from_grid({0, 0, 5}).z() + 0.02 * h;
+      plan.bone = phantom::common(test::above(top), test::below(3.5 * kMm));
+      plan.labels = {{test::below(top), test::kNerve}};
+      const auto cover = cover_of_nerve(test::cut(plan, test::above(top + t), h));
+      ASSERT_TRUE(cover) << cover.reason();
+      for (const CoverSample& one : cover->samples) ASSERT_NEAR(one.cover, t, 0.05 * h) << h;
+    }
+}
+
 // K2: a hard ball in a bowl; the layer between is as thick everywhere.
 TEST(Cover, KnowsTheBoneOverABall) {
   for (const double h : test::kVoxels)

@@ -142,6 +142,20 @@ TEST(AxisFit, AShortHoleHasNoAxis) {
   EXPECT_FALSE(axis_fit(*bones.before, *bones.before, {{0, 0, 0}, {0, 0, -1}}, {}));
 }
 
+// A needle's hole that goes on from the floor of a short hole makes no corridor of it.
+TEST(AxisFit, AThinPartDoesNotCount) {
+  test::Plan plan;
+  plan.lo = {-4 * kMm, -4 * kMm, -12 * kMm};
+  plan.hi = {4 * kMm, 4 * kMm, 2 * kMm};
+  plan.bone = test::below(0);
+  const phantom::Depth hole = phantom::cylinder(1.5 * kMm, 5 * kMm);
+  const phantom::Depth needle = phantom::capsule({0, 0, 0}, {0, 0, -9 * kMm}, 0.5 * kMm);
+  const auto bones = test::cut(plan, phantom::either(hole, needle), 0.25 * kMm);
+  const auto fit = axis_fit(*bones.before, *bones.after, {{0, 0, 0}, {0, 0, -1}}, {});
+  ASSERT_FALSE(fit);
+  EXPECT_NE(fit.reason().find("shorter than two"), std::string::npos) << fit.reason();
+}
+
 // K9: a cavity with a flat or wavy floor and four walls that lean by `taper`
 phantom::Depth frustum(double depth, double taper, double wave) {
   return [=](const Vec3& p) {

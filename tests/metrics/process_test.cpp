@@ -296,39 +296,123 @@ TEST_F(ProcessTest, NumbersThatAreNotFiniteAreLeftOut) {
   EXPECT_TRUE(std::isfinite(done.paths.all));
 }
 
+// In 20 ms that nobody saw, the nerve came 7 mm nearer: how fast the burr came is known from what
+// follows.
+TEST_F(ProcessTest, AGapIsNoApproach) {
+  auto rows = test::rows_of(1.2, [](double t) {
+    Happening now;
+    now.place.z() = (t < 1 ? 11 : 4.3 - 10 * (t - 1.02)) * kMm;
+    return now;
+  });
+  test::drop(rows, 1.0, 1.02);
+  const Process done = test::process(rows, settings_);
+  ASSERT_TRUE(done.nearness[0].approach);
+  EXPECT_NEAR(*done.nearness[0].approach, 10e-3, 3e-3);
+}
+
+// Two pauses of 1.5 s are none of 3 s if nobody knows what was done between them.
+TEST_F(ProcessTest, AGapEndsAPause) {
+  const std::array<volume::TissueId, 1> ids = {test::kBone};
+  NoProgress quiet;
+  auto made = volume::DistanceTo::make(*bone_, ids, {}, quiet);
+  ASSERT_TRUE(made);
+  settings_.bone = &*made;
+  auto rows = test::rows_of(3.1, [](double) { return Happening{.place = {0, 0, 8 * kMm}}; });
+  EXPECT_EQ(test::process(rows, settings_).times.hesitations, 1U);
+  test::drop(rows, 1.5, 1.6);
+  EXPECT_EQ(test::process(rows, settings_).times.hesitations, 0U);
+}
+
+// Writes a recording of these ticks and measures it.
+class RecordingTest : public ProcessTest {
+ protected:
+  Process recorded(const std::vector<tick::TickRow>& rows) {
+    const record::test::Folder folder;
+    record::SessionInfo info;
+    info.volume = record::volume_info(*bone_);
+    info.rate_hz = test::kRate;
+    record::Recorder recorder(test::kRate);
+    EXPECT_TRUE(recorder.start(folder / "s.mcap", info, nullptr).ok());
+    for (const tick::TickRow& row : rows) {
+      recorder.wait_for_room();
+      EXPECT_TRUE(recorder.ticks().push(row));
+    }
+    EXPECT_TRUE(recorder.finish().ok());
+    auto player = record::Player::open(folder / "s.mcap");
+    EXPECT_TRUE(player) << player.error().text;
+    NoProgress quiet;
+    auto read = process_of(**player, settings_, quiet);
+    EXPECT_TRUE(read) << read.error().text;
+    return std::move(*read);
+  }
+};
+
+// The burr cuts 1 mm^3/s along x, and the hand jumps 5 mm in a second of which no tick is left.
+TEST_F(RecordingTest, AGapPartsWhatIsBeforeItFromWhatIsAfter) {
+  auto rows = test::rows_of(3, [](double t) {
+    Happening now;
+    now.place = {(t < 2 ? 10 * t - 15 : 10 * t - 20) * kMm, (t < 2 ? 0 : 5) * kMm, 9 * kMm};
+    now.touching = true;
+    now.removal = 1e-9;
+    return now;
+  });
+  test::drop(rows, 1, 2);
+  const Process done = recorded(rows);
+  EXPECT_NEAR(done.lost_removed, 1e-9, 2e-12);
+  EXPECT_NEAR(done.times.volume, 2e-9, 3e-12);
+  EXPECT_NEAR(done.times.total, 2, 1e-9);
+  EXPECT_NEAR(done.times.cutting, 2, 3e-3);
+  EXPECT_NEAR(done.paths.all, 20 * kMm, 0.4 * kMm);  // the ends of two pieces; no jump
+  ASSERT_EQ(done.strokes.size(), 2U);
+  EXPECT_NEAR(done.strokes[0].end, 1, 0.02);
+  EXPECT_NEAR(done.strokes[1].begin, 2, 0.02);
+  for (const BurrStroke& stroke : done.strokes) EXPECT_NEAR(stroke.length, 10 * kMm, 0.2 * kMm);
+  EXPECT_EQ(done.unusable, 0U);
+}
+
+// Of one tick alone that is missing, too.
+TEST_F(RecordingTest, OneMissingTickIsAGap) {
+  auto rows = test::rows_of(1, [](double t) {
+    return Happening{
+        .place = {0, (t < 0.505 ? 0 : 8) * kMm, 9 * kMm}, .touching = true, .removal = 1e-9};
+  });
+  test::drop(rows, 0.505, 0.506);
+  const Process done = recorded(rows);
+  EXPECT_NEAR(done.lost_removed, 2e-12, 1e-18);
+  EXPECT_NEAR(done.paths.all, 0, 1e-9);
+}
+
+// A tick with a number that is not finite is a gap too: nobody knows where its volume was cut.
+TEST_F(RecordingTest, AnUnusableTickIsAGap) {
+  auto rows = test::rows_of(1, [](double t) {
+    return Happening{
+        .place = {0, (t < 0.505 ? 0 : 8) * kMm, 9 * kMm}, .touching = true, .removal = 1e-9};
+  });
+  rows[505].contact.proxy.x() = std::numeric_limits<double>::quiet_NaN();
+  const Process done = recorded(rows);
+  EXPECT_EQ(done.unusable, 1U);
+  EXPECT_NEAR(done.lost_removed, 2e-12, 1e-18);
+  EXPECT_NEAR(done.paths.all, 0, 1e-9);
+}
+
 // A recording on the disk gives the same as the ticks that were written to it.
-TEST_F(ProcessTest, ARecordingGivesTheSame) {
-  const record::test::Folder folder;
+TEST_F(RecordingTest, GivesTheSameAsItsTicks) {
   const auto rows = test::rows_of(3, [](double t) {
     Happening now = pass_at({0.7 * kMm}, t / 1.5);
     now.touching = now.place.z() < 5 * kMm;
     now.removal = now.touching ? 1e-9 : 0;
     return now;
   });
-  record::SessionInfo info;
-  info.volume = record::volume_info(*bone_);
-  info.rate_hz = test::kRate;
-  record::Recorder recorder(test::kRate);
-  ASSERT_TRUE(recorder.start(folder / "s.mcap", info, nullptr).ok());
-  for (const tick::TickRow& row : rows) {
-    recorder.wait_for_room();
-    ASSERT_TRUE(recorder.ticks().push(row));
-  }
-  ASSERT_TRUE(recorder.finish().ok());
-  auto player = record::Player::open(folder / "s.mcap");
-  ASSERT_TRUE(player) << player.error().text;
   settings_.soft = {{"nerve", &voxels_, nerve_.get(), {}}};
-  NoProgress quiet;
-  const auto read = process_of(**player, settings_, quiet);
-  ASSERT_TRUE(read) << read.error().text;
+  const Process read = recorded(rows);
   const Process made = test::process(rows, settings_, bone_->grid());
-  EXPECT_EQ(read->paths.all, made.paths.all);
-  EXPECT_EQ(read->times.cutting, made.times.cutting);
-  EXPECT_EQ(read->force->mean, made.force->mean);
-  EXPECT_EQ(read->nearness[0].least, made.nearness[0].least);
-  EXPECT_EQ(read->soft[0].intact->volume, made.soft[0].intact->volume);
-  EXPECT_EQ(read->strokes.size(), made.strokes.size());
-  EXPECT_EQ(read->unusable, 0U);
+  EXPECT_EQ(read.paths.all, made.paths.all);
+  EXPECT_EQ(read.times.cutting, made.times.cutting);
+  EXPECT_EQ(read.force->mean, made.force->mean);
+  EXPECT_EQ(read.nearness[0].least, made.nearness[0].least);
+  EXPECT_EQ(read.soft[0].intact->volume, made.soft[0].intact->volume);
+  EXPECT_EQ(read.strokes.size(), made.strokes.size());
+  EXPECT_EQ(read.unusable, 0U);
 }
 
 TEST(Order, CountsInversions) {

@@ -49,13 +49,25 @@ inline std::vector<tick::TickRow> rows_of(double seconds, const Story& story) {
   return rows;
 }
 
+// The recording without the ticks of [from, to), seconds.
+inline void drop(std::vector<tick::TickRow>& rows, double from, double to) {
+  std::erase_if(rows, [&](const tick::TickRow& row) {
+    const double t = static_cast<double>(row.tick) / kRate;
+    return t >= from && t < to;
+  });
+}
+
+// Ticks that are missing in `rows` are a gap.
 inline Process process(const std::vector<tick::TickRow>& rows, const ProcessSettings& settings = {},
                        const volume::Grid& grid = {}) {
   ProcessMaker maker(grid, static_cast<double>(rows.size()) / kRate, settings);
   MomentMaker moments(kRate);
   Moment now;
-  for (const tick::TickRow& row : rows)
-    if (moments.make(row, false, now)) maker.add(now);
+  std::uint64_t expected = 0;
+  for (const tick::TickRow& row : rows) {
+    if (moments.make(row, row.tick != expected, now)) maker.add(now);
+    expected = row.tick + 1;
+  }
   return maker.finish();
 }
 
