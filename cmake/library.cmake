@@ -15,6 +15,19 @@ endforeach()
 configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_cases.cpp.in ${CMAKE_BINARY_DIR}/built_in_cases.cpp @ONLY)
 list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_cases.cpp)
 
+# ... so do the built-in rubrics
+file(GLOB BURR_RUBRICS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rubrics/*.toml)
+set(BURR_RUBRIC_TEXTS "")
+foreach(rubric ${BURR_RUBRICS})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${rubric})
+  get_filename_component(name ${rubric} NAME_WE)
+  string(REPLACE "_" "-" name ${name})
+  file(READ ${rubric} text)
+  string(APPEND BURR_RUBRIC_TEXTS "    {\"${name}\", R\"toml(${text})toml\"},\n")
+endforeach()
+configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_rubrics.cpp.in ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp @ONLY)
+list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp)
+
 # ... and so does the table of materials
 set(BURR_MATERIALS ${PROJECT_SOURCE_DIR}/materials/materials.toml)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${BURR_MATERIALS})
@@ -66,12 +79,14 @@ endforeach()
 burr_part(burr_render_gl FROM render/ WITH PkgConfig::EPOXY PkgConfig::SDL2 meshoptimizer::meshoptimizer ${CMAKE_DL_LIBS})
 burr_part(burr_sound FROM sound/ WITH PkgConfig::SDL2 ${CMAKE_DL_LIBS})
 burr_part(burr_workshop FROM workshop/)
-burr_part(burr_session FROM device/ people/ fit/ metrics/ surgeon/ sim/ WITH ${CMAKE_DL_LIBS})
+burr_part(burr_session FROM device/ people/ fit/ metrics/ scoring/ surgeon/ sim/
+  MORE ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp WITH ${CMAKE_DL_LIBS})
 burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/
   MORE ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp
     ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp
   WITH ZLIB::ZLIB BZip2::BZip2 PkgConfig::ZSTD nlohmann_json::nlohmann_json ${CMAKE_DL_LIBS})
-set(known ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp)
+set(known ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp
+  ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp)
 list(REMOVE_ITEM rest ${known})
 if(rest)
   message(FATAL_ERROR "in no part of the library (cmake/library.cmake): ${rest}")
@@ -98,7 +113,7 @@ set_target_properties(burr PROPERTIES OUTPUT_NAME burr VERSION ${PROJECT_VERSION
   LINKER_LANGUAGE CXX INSTALL_RPATH "$ORIGIN")  # it finds libburr_core.so beside itself
 
 set(reading ${BURR_SOURCES} ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp)
-list(FILTER reading INCLUDE REGEX "/(base|io|importing|record|scenario|fit|third_party)/|/workshop/device_book[.]cpp$|/surgeon/motion[.]cpp$|/sim/(replay|session_words)[.]cpp$|/device/(haply/message|polhem/line)[.]cpp$")
+list(FILTER reading INCLUDE REGEX "/(base|io|importing|record|scenario|fit|third_party)/|/workshop/device_book[.]cpp$|/surgeon/motion[.]cpp$|/scoring/rubric[.]cpp$|/sim/(replay|session_words)[.]cpp$|/device/(haply/message|polhem/line)[.]cpp$")
 burr_reads_files(${reading})
 
 # what the built-in bones are shaped by (program.cmake)

@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,6 +47,9 @@ class Reader {
   [[nodiscard]] const std::string& place() const { return place_; }
 
   void only(std::initializer_list<std::string_view> known) {
+    only(std::span<const std::string_view>(known.begin(), known.size()));
+  }
+  void only(std::span<const std::string_view> known) {
     for (const auto& [key, node] : table_) {
       if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
       std::string list;

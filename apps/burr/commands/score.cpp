@@ -1,0 +1,189 @@
+// `burr score`: a recording against a rubric, item by item.
+// `burr rubric check`: reads a rubric and runs it on the untouched bone of its case.
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "burr/base/printable.h"
+#include "burr/record/player.h"
+#include "burr/scenario/case.h"
+#include "burr/scenario/lesson.h"
+#include "burr/scenario/open_lesson.h"
+#include "burr/scoring/rubric.h"
+#include "burr/scoring/score.h"
+#include "burr/workshop/label_check.h"
+#include "burr/workshop/open_bone.h"
+#include "burr/workshop/prepare.h"
+#include "burr/workshop/recording.h"
+#include "commands/command.h"
+#include "commands/json_line.h"
+#include "commands/score_words.h"
+#include "commands/volume_words.h"
+
+namespace burr::app {
+namespace {
+
+constexpr const char* kDefaults =
+    "(default): nobody has compared this threshold with people. burr gives no grade and no pass.";
+
+struct Options {
+  std::string source, rubric, explain, work_case;
+  scenario::Recipe volume;
+  bool json = false;
+};
+
+Result<scenario::Lesson> lesson_of(const scenario::Case& work, const scoring::Rubric& rubric) {
+  auto read = scenario::lesson_of(work);
+  if (!read) return read.error();
+  auto lesson =
+      scenario::place(std::move(*read), workshop::landmarks_of(work), work.name + ".toml");
+  if (!lesson) return lesson.error();
+  if (const Status fits = scoring::check(rubric, *lesson); !fits) return fits.error();
+  return lesson;
+}
+
+void print_items(const scoring::Rubric& rubric, const scoring::Score& score) {
+  for (const scoring::Part part : {scoring::Part::product, scoring::Part::process}) {
+    fmt::print("{}\n", scoring::word_of(part));
+    for (std::size_t n = 0; n < rubric.items.size(); ++n)
+      if (rubric.items[n].part == part)
+        fmt::print("{}\n", item_line(rubric.items[n], score.outcomes[n]));
+  }
+}
+
+std::string ids_of(const scoring::Rubric& rubric) {
+  std::string list;
+  for (const scoring::Item& one : rubric.items)
+    list += (list.empty() ? "" : ", ") + base::printable(one.id);
+  return list;
+}
+
+// The case of the recording, which must be that of the rubric.
+Result<scenario::Case> case_of(const record::Player& player, const Options& options) {
+  const auto& info = player.info().work_case;
+  if (info) return record::case_of(*info);
+  if (options.rubric.empty())
+    return error(Trouble::usage,
+                 "the recording names no case; say with --rubric what it is to be compared with");
+  const auto rubric = scoring::read_rubric(options.rubric);
+  if (!rubric) return rubric.error();
+  return scenario::read_case(rubric->case_name);
+}
+
+// The bone at the start, twice: the second is played to the end.
+Result<std::unique_ptr<volume::Bone>> bone_at_end(record::Player& player, const Options& options) {
+  auto bone = workshop::bone_of(player, options.volume, progress());
+  if (!bone) return bone.error();
+  if (const Status there = player.bone_at(player.seconds(), **bone); !there) return there.error();
+  return bone;
+}
+
+Status run_score(const Options& options) {
+  auto player = record::Player::open(options.source);
+  if (!player) return player.error();
+  const auto work = case_of(**player, options);
+  if (!work) return work.error();
+  const auto rubric = scoring::read_rubric(options.rubric.empty() ? work->name : options.rubric);
+  if (!rubric) return rubric.error();
+  if (rubric->case_name != work->name)
+    return error(
+        Trouble::usage,
+        fmt::format("{} is a rubric for the case \"{}\", but the recording is of \"{}\"",
+                    rubric->file, base::printable(rubric->case_name), base::printable(work->name)));
+  const auto lesson = lesson_of(*work, *rubric);
+  if (!lesson) return lesson.error();
+  const scoring::Item* wanted = rubric->item(options.explain);
+  if (!options.explain.empty() && wanted == nullptr)
+    return error(Trouble::usage, fmt::format("--explain {}: there is no such item; use one of {}",
+                                             base::printable(options.explain), ids_of(*rubric)));
+  const auto before = workshop::bone_of(**player, options.volume, progress());
+  if (!before) return before.error();
+  const auto after = bone_at_end(**player, options);
+  if (!after) return after.error();
+  const auto score = scoring::score(*rubric, *lesson, **before, **after, player->get(), progress());
+  if (!score) return score.error();
+  for (const std::string& notice : (*player)->notices()) fmt::print(stderr, "{}\n", notice);
+  if (wanted != nullptr) {
+    const auto at = static_cast<std::size_t>(wanted - rubric->items.data());
+    fmt::print("{}\n", explanation(*wanted, score->outcomes[at], (*player)->info().rate_hz));
+  } else {
+    fmt::print("{}, version {}\n", base::printable(rubric->name), rubric->version);
+    print_items(*rubric, *score);
+    fmt::print("{}\n{}\n", total_line(scoring::Part::product, score->product),
+               total_line(scoring::Part::process, score->process));
+    if (const std::string gates = gate_line(*rubric, *score); !gates.empty())
+      fmt::print("{}\n", gates);
+    fmt::print("{}: {}; {:.0f} % of the bone that the case wants removed is gone\n",
+               score->unfinished ? "unfinished" : "finished", score->ending, 100 * score->worked);
+  }
+  fmt::print("{}\n", kDefaults);
+  if (options.json) fmt::print("{}\n", json_line(score_json(*rubric, *score)));
+  return fine();
+}
+
+// Nobody may earn a point of the product with an untouched bone.
+Status run_check(const Options& options) {
+  const auto rubric = scoring::read_rubric(options.rubric);
+  if (!rubric) return rubric.error();
+  const auto work =
+      scenario::read_case(options.work_case.empty() ? rubric->case_name : options.work_case);
+  if (!work) return work.error();
+  const auto lesson = lesson_of(*work, *rubric);
+  if (!lesson) return lesson.error();
+  const auto made = workshop::open_bone(workshop::recipe_of(*work, options.volume), progress());
+  if (!made) return made.error();
+  const auto score =
+      scoring::score(*rubric, *lesson, *made->bone, *made->bone, nullptr, progress());
+  if (!score) return score.error();
+  fmt::print("{}: {} items, on the untouched bone of {}\n", rubric->file, rubric->items.size(),
+             base::printable(work->name));
+  print_items(*rubric, *score);
+  std::string met;
+  for (std::size_t n = 0; n < rubric->items.size(); ++n)
+    if (score->outcomes[n].verdict == scoring::Verdict::met)
+      met += (met.empty() ? "" : ", ") + base::printable(rubric->items[n].id);
+  if (!met.empty())
+    return error(Trouble::data,
+                 fmt::format("{}: an untouched bone meets {}; make these items stricter",
+                             rubric->file, met));
+  fmt::print("the untouched bone meets no item\n");
+  return fine();
+}
+
+void add_score(CLI::App& app, Todo& todo) {
+  auto* command = app.add_subcommand("score", "say what a recorded session met of a rubric");
+  auto options = std::make_shared<Options>();
+  command->add_option("recording", options->source, "a recording (.mcap)")->required();
+  command->add_option("--rubric", options->rubric,
+                      "a built-in rubric, or a .toml file (default: that of the recording's case)");
+  command->add_option("--explain", options->explain, "all that is known about this item");
+  command->add_option("--volume", options->volume.source,
+                      "the volume it was made from (default: burr searches for it)");
+  add_volume_options(*command, options->volume);
+  command->add_flag("--json", options->json, "one JSON object as the last line, in SI");
+  command->callback([options, &todo] { todo.work = [options] { return run_score(*options); }; });
+}
+
+void add_rubric(CLI::App& app, Todo& todo) {
+  auto* command = app.add_subcommand("rubric", "check a rubric");
+  command->require_subcommand(1);
+  auto options = std::make_shared<Options>();
+  auto* check = command->add_subcommand(
+      "check",
+      "read a rubric and run it on the untouched bone of its case, which must meet nothing");
+  check->add_option("rubric", options->rubric, "a built-in rubric, or a .toml file")->required();
+  check->add_option("--case", options->work_case,
+                    "the case, built in or a .toml file (default: the one that the rubric names)");
+  add_volume_options(*check, options->volume);
+  check->callback([options, &todo] { todo.work = [options] { return run_check(*options); }; });
+}
+
+const Command score_command{66, add_score};
+const Command rubric_command{67, add_rubric};
+
+}  // namespace
+}  // namespace burr::app

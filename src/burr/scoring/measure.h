@@ -1,0 +1,32 @@
+// scoring/measure.h - the measure of one item becomes its outcome. For use of this room only.
+//
+// `requires` is not applied here. Thread: one at a time.
+#pragma once
+
+#include <vector>
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "burr/metrics/measured.h"
+#include "burr/record/player.h"
+#include "burr/scoring/outcome.h"
+#include "burr/scoring/rubric.h"
+#include "burr/scoring/scene.h"
+
+namespace burr::scoring {
+
+[[nodiscard]] Outcome not_assessable(const Item& item, std::string reason);
+// The number that decided.
+[[nodiscard]] Outcome decided(const Item& item, const metrics::Mark& mark, const char* what,
+                              bool at_least);
+
+// An item that the two bones decide.
+[[nodiscard]] Outcome measure_bone(const Item& item, Scene& scene);
+// True: it needs the recording instead.
+[[nodiscard]] bool needs_recording(const Item& item);
+// Those that the recording decides, in the order of the rubric. Error: interrupted.
+[[nodiscard]] Result<std::vector<Outcome>> measure_recording(const Rubric& rubric, Scene& scene,
+                                                             record::Player& player,
+                                                             Progress& progress);
+
+}  // namespace burr::scoring

@@ -1,0 +1,191 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "burr/base/printable.h"
+#include "burr/metrics/cover.h"
+#include "burr/metrics/identified.h"
+#include "burr/metrics/intact_plate.h"
+#include "burr/metrics/intact_solid.h"
+#include "burr/metrics/no_cells.h"
+#include "burr/metrics/opened.h"
+#include "burr/metrics/overhang.h"
+#include "burr/metrics/removed.h"
+#include "burr/metrics/skeletonised.h"
+#include "burr/scoring/measure.h"
+
+namespace burr::scoring {
+namespace {
+
+constexpr std::size_t kSamples = 600, kSamplesOfArea = 5000;
+
+Outcome identified(const Item& item, Scene& scene) {
+  const auto& cover = scene.cover(item.structure, item.region, kSamples);
+  if (!cover) return not_assessable(item, cover.reason());
+  metrics::IdentifiedSettings settings;
+  settings.x = item.limit("cover_mm");
+  settings.y = item.limit("share");
+  if (!item.along.empty())
+    settings.course = metrics::Course{scene.lesson().landmark(item.along)->points};
+  const auto found = metrics::identified(*cover, settings);
+  if (!found) return not_assessable(item, found.reason());
+  Outcome out = decided(item, found->mark, "share seen through thin bone", true);
+  if (std::isfinite(found->least_cover) || out.verdict == Verdict::unmet)
+    out.place = out.verdict == Verdict::met ? found->least_at : found->worst_at;
+  return out;
+}
+
+Outcome skeletonised(const Item& item, Scene& scene) {
+  const auto& cover = scene.cover(item.structure, item.region, kSamples);
+  if (!cover) return not_assessable(item, cover.reason());
+  const auto thin = metrics::skeletonised(
+      *cover, {item.limit("lo_mm"), item.limit("hi_mm"), item.limit("share"), item.limit("over")});
+  if (!thin) return not_assessable(item, thin.reason());
+  // what failed decides: laid bare, or not thin enough
+  const bool bare = !thin->bare.met;
+  Outcome out = bare ? decided(item, thin->bare, "share laid bare", false)
+                     : decided(item, thin->even, "share thinned evenly", true);
+  out.place = bare ? thin->thinnest_at : thin->thickest_at;
+  return out;
+}
+
+Outcome intact_solid(const Item& item, Scene& scene) {
+  metrics::IntactSolidSettings settings;
+  const double voxel = scene.before().grid().voxel;
+  settings.v = std::max(item.limit("most_mm3"), 3 * voxel * voxel * voxel);
+  settings.worked = scene.worked();
+  const auto lost =
+      metrics::intact_solid(scene.before(), scene.after(), scene.voxels(item.structure), settings);
+  if (!lost) return not_assessable(item, lost.reason());
+  Outcome out = decided(item, lost->mark, "volume cut away", false);
+  if (lost->mark.value > 0) out.place = lost->at;
+  return out;
+}
+
+Outcome intact_plate(const Item& item, Scene& scene) {
+  const auto& cover = scene.cover(item.structure, item.region, kSamplesOfArea);
+  if (!cover) return not_assessable(item, cover.reason());
+  metrics::IntactPlateSettings settings;
+  settings.most_area = item.limit("most_mm2");
+  settings.worked = scene.worked();
+  const auto plate = metrics::intact_plate(*cover, settings);
+  if (!plate) return not_assessable(item, plate.reason());
+  Outcome out = decided(item, plate->mark, "area laid bare", false);
+  if (!plate->holes.empty()) out.place = plate->holes.front().at;
+  return out;
+}
+
+Outcome no_cells(const Item& item, Scene& scene) {
+  metrics::NoCellsSettings settings;
+  settings.towards = scene.towards();
+  settings.glass = scene.glass();
+  settings.hi = item.limit("from_mm");
+  settings.d = item.limit("to_mm");
+  settings.most_left = item.limit("left");
+  settings.most_shut = item.limit("shut");
+  const auto cells =
+      metrics::no_cells(scene.before(), scene.after(), *scene.distance(item.structure),
+                        scene.region(item.region), settings);
+  if (!cells) return not_assessable(item, cells.reason());
+  const bool walls = !cells->left.met || cells->shut.met;
+  Outcome out = walls ? decided(item, cells->left, "share of the walls that stand", false)
+                      : decided(item, cells->shut, "share of the air still shut", false);
+  const auto& shown = walls ? cells->standing : cells->hidden;
+  if (out.verdict == Verdict::unmet && !shown.empty()) out.place = shown[shown.size() / 2];
+  return out;
+}
+
+Outcome opened(const Item& item, Scene& scene) {
+  // the label of a room is that of its air
+  const metrics::VoxelSet air = metrics::VoxelSet::of_air(
+      scene.before(), scene.tissues(item.structure), scene.region(item.region));
+  if (scene.tissues(item.structure).empty() || air.count() == 0)
+    return not_assessable(item, fmt::format("the bone has no air with the label of \"{}\"",
+                                            base::printable(item.structure)));
+  metrics::OpenedSettings settings;
+  settings.towards = scene.towards();
+  settings.glass = scene.glass();
+  settings.rho = item.limit("radius_mm");
+  const auto way = metrics::opened(scene.before(), scene.after(), {.label = &air}, settings);
+  if (!way) return not_assessable(item, way.reason());
+  Outcome out = decided(item, way->mark, "radius of the way", true);
+  if (way->mark.value > 0) out.place = way->touch;
+  return out;
+}
+
+Outcome overhang(const Item& item, Scene& scene) {
+  metrics::OverhangSettings settings;
+  settings.towards = scene.towards();
+  settings.most_share = item.limit("share");
+  const auto under =
+      metrics::overhang(scene.before(), scene.after(), scene.region(item.region), settings);
+  if (!under) return not_assessable(item, under.reason());
+  metrics::Mark mark = under->mark;
+  mark.earned = scene.worked() >= metrics::kLeastWork;
+  mark.met = mark.met && mark.earned;
+  Outcome out = decided(item, mark, "share of the new surface under bone", false);
+  if (!under->under.empty()) out.place = under->under[under->under.size() / 2];
+  return out;
+}
+
+// removed: at least that share is gone; kept: at most
+Outcome removed(const Item& item, Scene& scene, bool at_least) {
+  const auto gone =
+      metrics::removed_of(scene.before(), scene.after(), scene.region(item.region), {});
+  if (!gone) return not_assessable(item, gone.reason());
+  const double share = item.limit("share");
+  metrics::Mark mark =
+      at_least ? metrics::Mark{gone->share >= share, true, gone->share, share, gone->error}
+               : metrics::intact_mark(gone->share, share, gone->error, scene.worked());
+  return decided(item, mark, "share removed", at_least);
+}
+
+}  // namespace
+
+Outcome not_assessable(const Item& item, std::string reason) {
+  Outcome out;
+  out.id = item.id;
+  out.quantity = item.how->quantity;
+  out.reason = std::move(reason);
+  return out;
+}
+
+Outcome decided(const Item& item, const metrics::Mark& mark, const char* what, bool at_least) {
+  Outcome out;
+  out.id = item.id;
+  out.verdict = mark.met ? Verdict::met : Verdict::unmet;
+  // what was hurt is hurt, however little was removed
+  const bool good = at_least ? mark.value >= mark.threshold : mark.value <= mark.threshold;
+  out.earned = mark.earned || !good;
+  out.borderline = mark.earned && mark.borderline();
+  if (!out.earned) out.reason = "too little was removed to earn it";
+  out.what = what;
+  out.quantity = item.how->quantity;
+  out.at_least = at_least;
+  out.value = mark.value;
+  out.threshold = mark.threshold;
+  out.error = mark.error;
+  return out;
+}
+
+Outcome measure_bone(const Item& item, Scene& scene) {
+  const std::string_view how = item.how->name;
+  if (!item.structure.empty() && scene.tissues(item.structure).empty())
+    return not_assessable(
+        item, fmt::format("the bone has no label of \"{}\"", base::printable(item.structure)));
+  if (how == "identified") return identified(item, scene);
+  if (how == "skeletonised") return skeletonised(item, scene);
+  if (how == "intact_solid") return intact_solid(item, scene);
+  if (how == "intact_plate") return intact_plate(item, scene);
+  if (how == "no_cells") return no_cells(item, scene);
+  if (how == "opened") return opened(item, scene);
+  if (how == "overhang") return overhang(item, scene);
+  if (how == "removed") return removed(item, scene, true);
+  if (how == "kept") return removed(item, scene, false);
+  return not_assessable(item, "it needs a recording");
+}
+
+}  // namespace burr::scoring

@@ -1,0 +1,46 @@
+// scoring/measure_list.h - the measures that a rubric may name, with their thresholds.
+//
+//     const Measure* m = measure_named("skeletonised");   m->limits: lo_mm, hi_mm, share, over
+//
+// The presets are those of docs/metrics.md. Nobody has calibrated them. Thread: any.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace burr::scoring {
+
+// Part of a score: the bone at the end, or the way there. They are never added.
+enum class Part { product, process };
+[[nodiscard]] const char* word_of(Part part);
+
+// What the value of a measure is.
+enum class Quantity { share, length, area, volume, ratio, count };
+// "62 %", "0.84 mm", "1.3 mm2", "0.05 mm3", "0.71", "2"
+[[nodiscard]] std::string text_of(Quantity quantity, double value);
+
+// A threshold: a field of an [[item]].
+struct Limit {
+  const char* field;   // "lo_mm"
+  double unit;         // 1e-3: the file's number times this is SI
+  double preset;       // in the file's unit
+  double above, most;  // what the file may give
+};
+
+struct Measure {
+  const char* name;
+  Part part;
+  Quantity quantity;
+  bool structure;  // the item must name one; otherwise it must not
+  bool region;     // the item must name one; otherwise it may if `anywhere`
+  bool anywhere;
+  bool along;  // the item may name a curve
+  std::vector<Limit> limits;
+};
+
+[[nodiscard]] std::span<const Measure> measures();
+[[nodiscard]] const Measure* measure_named(std::string_view name);  // nullptr: there is none
+
+}  // namespace burr::scoring

@@ -1,0 +1,145 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "burr/base/printable.h"
+#include "burr/metrics/order.h"
+#include "burr/metrics/process.h"
+#include "burr/record/course.h"
+#include "burr/scoring/measure.h"
+
+namespace burr::scoring {
+namespace {
+
+constexpr std::string_view kSoft = "intact_soft", kOrder = "order";
+
+// What the steps of the case spare, without plates of bone, which are to be thinned.
+std::vector<std::string> critical(const scenario::Lesson& lesson) {
+  std::vector<std::string> names;
+  for (const scenario::Structure& one : lesson.structures) {
+    const auto spares = [&](const scenario::Step& step) {
+      return std::find(step.spare.begin(), step.spare.end(), one.name) != step.spare.end();
+    };
+    if (one.intact != scenario::Intact::plate &&
+        std::any_of(lesson.steps.begin(), lesson.steps.end(), spares))
+      names.push_back(one.name);
+  }
+  return names;
+}
+
+Outcome soft(const Item& item, const metrics::Process& process, double rate_hz) {
+  for (const metrics::Process::SoftResult& one : process.soft) {
+    if (one.name != item.id) continue;
+    if (!one.intact) return not_assessable(item, one.intact.reason());
+    Outcome out = decided(item, one.intact->entered, "how deep a turning burr went in", false);
+    if (one.intact->entered.value > 0) {
+      out.place = one.intact->deepest_place;
+      out.tick = static_cast<std::uint64_t>(std::llround(one.intact->deepest_at * rate_hz));
+    } else {
+      out.value = 0;  // it stayed outside; by how much is no merit
+    }
+    return out;
+  }
+  return not_assessable(item, "the bone has no label of it");
+}
+
+Outcome burr_choice(const Item& item, const metrics::Process& process) {
+  const auto& share = process.choice.diamond_or_small;
+  if (!share) return not_assessable(item, "nothing was removed near what is to be spared");
+  const double least = item.limit("share");
+  return decided(item, {*share >= least, true, *share, least, 0},
+                 "share removed with a diamond or small burr within 2 mm", true);
+}
+
+Outcome restraint(const Item& item, const metrics::Process& process, double rate_hz) {
+  if (!process.force) return not_assessable(item, process.force.reason());
+  if (!process.force->restraint)
+    return not_assessable(item,
+                          "the burr was in contact for less than half a second near what is to be "
+                          "spared, or far from it");
+  const double value = *process.force->restraint, most = item.limit("most");
+  Outcome out = decided(item, {value <= most, true, value, most, 0},
+                        "force within 2 mm / force beyond 4 mm", false);
+  out.tick = static_cast<std::uint64_t>(std::llround(process.force->peak_at * rate_hz));
+  return out;
+}
+
+std::vector<metrics::StepMark> marks_of(const record::Player& player) {
+  std::vector<metrics::StepMark> marks;
+  for (const record::CourseEvent& event : player.course()) {
+    const double t = static_cast<double>(event.tick) / player.info().rate_hz;
+    if (event.kind == record::CourseKind::step_done)
+      marks.push_back({t, event.what, metrics::StepEvent::done});
+    if (event.kind == record::CourseKind::step_reopened)
+      marks.push_back({t, event.what, metrics::StepEvent::reopened});
+  }
+  return marks;
+}
+
+// Only pairs count of which the case says that one must precede the other.
+Outcome order(const Item& item, const scenario::Lesson& lesson, const record::Player& player) {
+  std::vector<std::string> wanted;
+  for (const scenario::Step& step : lesson.steps) wanted.push_back(step.id);
+  const metrics::Order found = metrics::order_of(marks_of(player), wanted);
+  if (found.done < 2)
+    return not_assessable(item, "the recording names fewer than two steps as done");
+  double wrong = 0;
+  for (const auto& [early, late] : found.inversions) {
+    const std::vector<std::string>& after = lesson.step(late)->must_precede;
+    if (std::find(after.begin(), after.end(), early) != after.end()) ++wrong;
+  }
+  const double most = item.limit("most");
+  return decided(item, {wrong <= most, true, wrong, most, 0}, "pairs of steps in the wrong order",
+                 false);
+}
+
+Result<metrics::Process> process_of(const Rubric& rubric, Scene& scene, record::Player& player,
+                                    Progress& progress) {
+  std::vector<std::shared_ptr<const volume::DistanceTo>> kept;  // until the pass is over
+  const auto distance = [&](const std::string& structure) {
+    return kept.emplace_back(scene.distance(structure)).get();
+  };
+  metrics::ProcessSettings settings;
+  for (const std::string& name : critical(scene.lesson()))
+    if (!scene.tissues(name).empty()) settings.critical.push_back({name, distance(name)});
+  for (const Item& item : rubric.items)
+    if (item.how->name == kSoft && !scene.tissues(item.structure).empty())
+      settings.soft.push_back({item.id,
+                               &scene.voxels(item.structure),
+                               distance(item.structure),
+                               {.p2 = item.limit("deep_mm"), .worked = scene.worked()}});
+  if (scene.stopped()) return error(Trouble::interrupted, "stopped");
+  return metrics::process_of(player, settings, progress);
+}
+
+}  // namespace
+
+bool needs_recording(const Item& item) {
+  return item.part == Part::process || item.how->name == kSoft;
+}
+
+Result<std::vector<Outcome>> measure_recording(const Rubric& rubric, Scene& scene,
+                                               record::Player& player, Progress& progress) {
+  std::vector<Outcome> out;
+  const auto process = process_of(rubric, scene, player, progress);
+  if (!process) return process.error();
+  const double rate_hz = player.info().rate_hz;
+  for (const Item& item : rubric.items) {
+    if (!needs_recording(item)) continue;
+    const std::string_view how = item.how->name;
+    out.push_back(how == kSoft           ? soft(item, *process, rate_hz)
+                  : how == kOrder        ? order(item, scene.lesson(), player)
+                  : how == "burr_choice" ? burr_choice(item, *process)
+                                         : restraint(item, *process, rate_hz));
+  }
+  return out;
+}
+
+}  // namespace burr::scoring

@@ -1,0 +1,61 @@
+// scoring/outcome.h - the answer to one item of a rubric, and the arithmetic on many.
+//
+//     total = 100 * sum(weight of the met) / sum(weight of the assessable)
+//
+// Product and process are never added. There is no total when more than a fifth of the weight is not
+// assessable. A gate that is not met leaves the total as it is and is told apart. Thread: any.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "burr/math/vec3.h"
+#include "burr/scoring/measure_list.h"
+#include "burr/scoring/rubric.h"
+
+namespace burr::scoring {
+
+enum class Verdict { met, unmet, not_assessable };
+[[nodiscard]] const char* word_of(Verdict verdict);  // "met", "unmet", "not assessable"
+
+struct Outcome {
+  std::string id;
+  Verdict verdict = Verdict::not_assessable;
+  // Within the error of its threshold: a person should look. The verdict counts all the same.
+  bool borderline = false;
+  // False: it is as it should be only because little was done; it is unmet then.
+  bool earned = true;
+  // Why it is not assessable; or why it is unmet though its value would do; otherwise empty.
+  std::string reason;
+
+  // The number that decided, if there is one: what it is, in SI.
+  std::string what;  // "share under at most that much bone"
+  Quantity quantity = Quantity::share;
+  bool at_least = true;  // met: value >= threshold; false: value <= threshold
+  std::optional<double> value;
+  double threshold = 0, error = 0;
+
+  // Evidence, where there is one.
+  std::optional<math::Vec3> place;    // world, LPS [m]
+  std::optional<std::uint64_t> tick;  // of the recording
+};
+
+struct Total {
+  std::optional<double> points;  // 0..100; none: too little is assessable
+  std::size_t met = 0, assessable = 0, items = 0;
+  double not_assessable = 0;  // share of the weight
+};
+inline constexpr double kMostUnknown = 0.2;  // share of the weight that may be not assessable
+
+// outcomes: one for each item of the rubric, in its order, here and below.
+[[nodiscard]] Total total_of(const Rubric& rubric, std::span<const Outcome> outcomes, Part part);
+
+// `requires`: an item whose required item is unmet is unmet; if that one is not assessable, nor is
+// it. Follows `requires` of the required item first. The rubric must have no circle.
+void apply_requires(const Rubric& rubric, std::span<Outcome> outcomes);
+
+}  // namespace burr::scoring

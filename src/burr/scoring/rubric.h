@@ -1,0 +1,59 @@
+// scoring/rubric.h - a rubric: what is asked of a piece of work on a case, item by item, as data.
+//
+//     auto rubric = scoring::read_rubric("temporal-bone");       // built in, or a .toml file
+//     Status fits = scoring::check(*rubric, lesson);             // the lesson with its landmarks placed
+//
+// docs/scoring.md is the table of fields. Units in the file: mm; here SI. Thread: any. Errors: one
+// sentence with file, line, field and remedy.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "burr/base/result.h"
+#include "burr/scenario/lesson.h"
+#include "burr/scoring/measure_list.h"
+
+namespace burr::scoring {
+
+struct Item {
+  std::string id;
+  Part part = Part::product;
+  double weight = 1;
+  bool gate = false;             // unmet: not safe, whatever the total
+  const Measure* how = nullptr;  // never nullptr after reading
+  std::string structure, region, along;
+  std::map<std::string, double, std::less<>> limits;  // every threshold of the measure, SI
+  std::string needs;        // `requires` in the file: an item that must be met too; empty: none
+  std::string source;       // where the item and its thresholds come from
+  bool calibrated = false;  // somebody compared the thresholds with people
+  scenario::Texts say;
+  std::map<std::string, std::uint32_t, std::less<>> lines;  // of its fields; "" is the item itself
+
+  [[nodiscard]] double limit(std::string_view field) const;
+};
+
+struct Rubric {
+  std::string file;  // for errors, without its folder
+  std::string name, case_name;
+  int version = 1;
+  std::vector<Item> items;
+
+  [[nodiscard]] const Item* item(std::string_view id) const;  // nullptr: there is none
+};
+
+[[nodiscard]] std::vector<std::string> built_in_rubrics();
+
+// A built-in rubric by name, or the TOML file at a path.
+[[nodiscard]] Result<Rubric> read_rubric(const std::string& name_or_path);
+
+// file: its name for errors.
+[[nodiscard]] Result<Rubric> parse_rubric(std::string_view text, std::string_view file);
+
+// The case must have every structure, region and curve that the rubric names.
+[[nodiscard]] Status check(const Rubric& rubric, const scenario::Lesson& lesson);
+
+}  // namespace burr::scoring

@@ -1,0 +1,65 @@
+// scoring/scene.h - what the items of a rubric look at: the bone before and after, and the names of
+// the case as voxels, distances and regions. For use of this room only.
+//
+// Each is made once. A distance can only fail because somebody stopped the work: stopped() then says
+// so, and nothing that was made afterwards counts. Thread: one at a time.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "burr/base/progress.h"
+#include "burr/metrics/cover.h"
+#include "burr/metrics/measured.h"
+#include "burr/metrics/region.h"
+#include "burr/metrics/voxel_set.h"
+#include "burr/scenario/lesson.h"
+#include "burr/volume/bone.h"
+#include "burr/volume/distance_to.h"
+
+namespace burr::scoring {
+
+class Scene {
+ public:
+  // All are kept by reference. The bones have the same grid.
+  Scene(const volume::Bone& before, const volume::Bone& after, const scenario::Lesson& lesson,
+        Progress& progress)
+      : before_(before), after_(after), lesson_(lesson), progress_(progress) {}
+
+  [[nodiscard]] const volume::Bone& before() const { return before_; }
+  [[nodiscard]] const volume::Bone& after() const { return after_; }
+  [[nodiscard]] const scenario::Lesson& lesson() const { return lesson_; }
+  [[nodiscard]] bool stopped() const { return stopped_; }
+
+  [[nodiscard]] std::vector<volume::TissueId> tissues(const std::string& structure) const;
+  [[nodiscard]] std::vector<volume::TissueId> glass() const;
+  [[nodiscard]] std::vector<math::Vec3> towards() const;  // at least one
+  [[nodiscard]] const metrics::VoxelSet& voxels(const std::string& structure);
+  [[nodiscard]] std::shared_ptr<const volume::DistanceTo> distance(const std::string& structure);
+  // "": everywhere
+  [[nodiscard]] metrics::Region region(const std::string& name);
+  [[nodiscard]] const metrics::Assessed<metrics::Cover>& cover(const std::string& structure,
+                                                               const std::string& region,
+                                                               std::size_t most_samples);
+  // Share that was removed of what the case wants removed: the regions of its reference, or without
+  // one those of its steps. What must stay whole earns nothing below metrics::kLeastWork.
+  [[nodiscard]] double worked();
+
+ private:
+  metrics::Region region_of(const scenario::Shape& shape);
+
+  const volume::Bone &before_, &after_;
+  const scenario::Lesson& lesson_;
+  Progress& progress_;
+  bool stopped_ = false;
+  std::map<std::string, metrics::VoxelSet> voxels_;
+  std::map<std::string, std::shared_ptr<const volume::DistanceTo>> distances_;
+  std::map<std::tuple<std::string, std::string, std::size_t>, metrics::Assessed<metrics::Cover>>
+      covers_;
+  double worked_ = -1;  // below 0: not known yet
+};
+
+}  // namespace burr::scoring

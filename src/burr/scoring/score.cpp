@@ -1,0 +1,53 @@
+#include "burr/scoring/score.h"
+
+#include <cstddef>
+#include <utility>
+
+#include "burr/metrics/solidity.h"
+#include "burr/record/course.h"
+#include "burr/scoring/measure.h"
+#include "burr/scoring/scene.h"
+
+namespace burr::scoring {
+namespace {
+
+void read_ending(const record::Player* player, Score& out) {
+  const auto ending = player != nullptr ? player->ending() : std::nullopt;
+  out.unfinished = ending != record::Ending::declared_done;
+  out.ending = ending ? record::word_of(*ending) : "no end in the recording";
+}
+
+}  // namespace
+
+Result<Score> score(const Rubric& rubric, const scenario::Lesson& lesson,
+                    const volume::Bone& before, const volume::Bone& after, record::Player* player,
+                    Progress& progress) {
+  if (!metrics::same_grid(before, after))
+    return error("the bone before and the bone after are not the same bone: their grids differ");
+  Scene scene(before, after, lesson, progress);
+  std::vector<Outcome> recorded;
+  if (player != nullptr) {
+    auto measured = measure_recording(rubric, scene, *player, progress);
+    if (!measured) return measured.error();
+    recorded = std::move(*measured);
+  }
+  Score out;
+  std::size_t next = 0;
+  for (std::size_t n = 0; n < rubric.items.size(); ++n) {
+    const Item& item = rubric.items[n];
+    progress.report(static_cast<double>(n) / static_cast<double>(rubric.items.size()),
+                    "measuring the bone");
+    if (progress.cancelled() || scene.stopped()) return error(Trouble::interrupted, "stopped");
+    out.outcomes.push_back(player != nullptr && needs_recording(item) ? std::move(recorded[next++])
+                                                                      : measure_bone(item, scene));
+  }
+  apply_requires(rubric, out.outcomes);
+  out.product = total_of(rubric, out.outcomes, Part::product);
+  out.process = total_of(rubric, out.outcomes, Part::process);
+  out.worked = scene.worked();
+  if (scene.stopped()) return error(Trouble::interrupted, "stopped");
+  read_ending(player, out);
+  return out;
+}
+
+}  // namespace burr::scoring

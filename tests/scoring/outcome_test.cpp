@@ -1,0 +1,114 @@
+// The arithmetic of a score, on made-up outcomes.
+#include "burr/scoring/outcome.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "burr/metrics/measured.h"
+#include "burr/scoring/measure.h"
+
+namespace burr::scoring {
+namespace {
+
+struct Made {
+  Rubric rubric;
+  std::vector<Outcome> outcomes;
+
+  Made& add(const std::string& id, Part part, double weight, Verdict verdict,
+            const std::string& needs = "") {
+    Item item;
+    item.id = id;
+    item.part = part;
+    item.weight = weight;
+    item.needs = needs;
+    rubric.items.push_back(item);
+    Outcome outcome;
+    outcome.id = id;
+    outcome.verdict = verdict;
+    outcomes.push_back(outcome);
+    return *this;
+  }
+  [[nodiscard]] Total total(Part part) const { return total_of(rubric, outcomes, part); }
+};
+
+constexpr Part kProduct = Part::product, kProcess = Part::process;
+constexpr Verdict kMet = Verdict::met, kUnmet = Verdict::unmet, kOpen = Verdict::not_assessable;
+
+TEST(Outcome, ATotalIsByWeightAndByPart) {
+  Made made;
+  made.add("a", kProduct, 3, kMet).add("b", kProduct, 1, kUnmet).add("c", kProcess, 5, kMet);
+  ASSERT_TRUE(made.total(kProduct).points);
+  EXPECT_DOUBLE_EQ(*made.total(kProduct).points, 75);
+  EXPECT_EQ(made.total(kProduct).met, 1U);
+  EXPECT_EQ(made.total(kProduct).items, 2U);
+  EXPECT_DOUBLE_EQ(*made.total(kProcess).points, 100);
+}
+
+TEST(Outcome, WhatIsNotAssessableLeavesTheDenominator) {
+  Made made;
+  made.add("a", kProduct, 2, kMet).add("b", kProduct, 2, kUnmet).add("c", kProduct, 1, kOpen);
+  const Total fifth = made.total(kProduct);  // exactly a fifth
+  ASSERT_TRUE(fifth.points);
+  EXPECT_DOUBLE_EQ(*fifth.points, 50);
+  EXPECT_EQ(fifth.assessable, 2U);
+  made.add("d", kProduct, 0.1, kOpen);
+  EXPECT_FALSE(made.total(kProduct).points);
+  EXPECT_EQ(made.total(kProduct).met, 1U);
+  EXPECT_FALSE(made.total(kProcess).points);  // there is no item of it
+}
+
+TEST(Outcome, AGateLeavesTheTotal) {
+  Made made;
+  made.add("a", kProduct, 1, kMet).add("gate", kProduct, 1, kUnmet);
+  made.rubric.items[1].gate = true;
+  EXPECT_DOUBLE_EQ(*made.total(kProduct).points, 50);
+}
+
+TEST(Outcome, RequiresFollowsTheChain) {
+  Made made;  // the last one needs the middle one, which needs the first
+  made.add("c", kProduct, 1, kMet, "b").add("b", kProduct, 1, kMet, "a");
+  made.add("a", kProduct, 1, kUnmet);
+  apply_requires(made.rubric, made.outcomes);
+  EXPECT_EQ(made.outcomes[0].verdict, kUnmet);
+  EXPECT_EQ(made.outcomes[1].verdict, kUnmet);
+  EXPECT_EQ(made.outcomes[1].reason, "it requires \"a\", which is unmet");
+  EXPECT_DOUBLE_EQ(*made.total(kProduct).points, 0);
+}
+
+TEST(Outcome, RequiresOfWhatIsNotAssessable) {
+  Made made;
+  made.add("b", kProduct, 1, kMet, "a").add("a", kProduct, 1, kOpen);
+  made.add("d", kProduct, 1, kUnmet, "a").add("e", kProduct, 1, kMet, "f");
+  made.add("f", kProduct, 1, kMet);
+  apply_requires(made.rubric, made.outcomes);
+  EXPECT_EQ(made.outcomes[0].verdict, kOpen);
+  EXPECT_EQ(made.outcomes[2].verdict, kUnmet);  // it is so without the other
+  EXPECT_EQ(made.outcomes[3].verdict, kMet);
+}
+
+TEST(Outcome, BorderlineIsNearerThanItsError) {
+  Item item;
+  item.how = measure_named("identified");
+  const Outcome near = decided(item, {true, true, 0.31, 0.3, 0.02}, "share", true);
+  EXPECT_EQ(near.verdict, kMet);
+  EXPECT_TRUE(near.borderline);
+  EXPECT_FALSE(decided(item, {true, true, 0.33, 0.3, 0.02}, "share", true).borderline);
+}
+
+TEST(Outcome, WhatIsHurtIsNotMerelyUnearned) {
+  Item item;
+  item.how = measure_named("intact_soft");
+  const Outcome idle = decided(item, metrics::intact_mark(0, 0.5e-3, 1e-4, 0.1), "depth", false);
+  EXPECT_EQ(idle.verdict, kUnmet);
+  EXPECT_FALSE(idle.earned);
+  EXPECT_EQ(idle.reason, "too little was removed to earn it");
+  const Outcome hurt = decided(item, metrics::intact_mark(1e-3, 0.5e-3, 1e-4, 0.1), "depth", false);
+  EXPECT_EQ(hurt.verdict, kUnmet);
+  EXPECT_TRUE(hurt.earned);
+  EXPECT_EQ(hurt.reason, "");
+}
+
+}  // namespace
+}  // namespace burr::scoring

@@ -1,0 +1,139 @@
+// Rubrics: every field comes back, and every mistake is one sentence with its line.
+#include "burr/scoring/rubric.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "burr/scenario/open_lesson.h"
+
+namespace burr::scoring {
+namespace {
+
+constexpr const char* kGood = R"([rubric]
+name = "one"
+version = 2
+case = "block"
+[[item]]
+id = "nerve.seen"
+part = "product"
+weight = 2
+measure = "identified"
+structure = "nerve"
+region = "pit"
+cover_mm = 0.8
+requires = "nerve.whole"
+source = "nobody"
+say.en = "Find it."
+say.sv = "Hitta den."
+[[item]]
+id = "nerve.whole"
+part = "product"
+gate = true
+measure = "intact_soft"
+structure = "nerve"
+calibrated = true
+say = "Leave it."
+)";
+
+// kGood with one text replaced
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = kGood;
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string trouble_of(const std::string& text) {
+  const auto read = parse_rubric(text, "r.toml");
+  return read ? "no error" : read.error().text;
+}
+
+TEST(Rubric, EveryFieldComesBack) {
+  const auto read = parse_rubric(kGood, "r.toml");
+  ASSERT_TRUE(read) << read.error().text;
+  EXPECT_EQ(read->name, "one");
+  EXPECT_EQ(read->version, 2);
+  EXPECT_EQ(read->case_name, "block");
+  ASSERT_EQ(read->items.size(), 2U);
+  const Item& seen = read->items[0];
+  EXPECT_EQ(seen.weight, 2);
+  EXPECT_FALSE(seen.gate);
+  EXPECT_FALSE(seen.calibrated);
+  EXPECT_EQ(seen.structure, "nerve");
+  EXPECT_EQ(seen.region, "pit");
+  EXPECT_DOUBLE_EQ(seen.limit("cover_mm"), 0.8e-3);
+  EXPECT_DOUBLE_EQ(seen.limit("share"), 0.3);  // the preset
+  EXPECT_EQ(seen.needs, "nerve.whole");
+  EXPECT_EQ(seen.say.in("sv"), "Hitta den.");
+  EXPECT_TRUE(read->items[1].gate);
+  EXPECT_TRUE(read->items[1].calibrated);
+}
+
+TEST(Rubric, AMistakeIsASentenceWithItsLine) {
+  EXPECT_EQ(trouble_of(with("cover_mm = 0.8", "cover_mm = -1")),
+            "r.toml: line 12: item[1].cover_mm: must be a number above 0 and at most 5");
+  const std::string unknown = trouble_of(with("cover_mm = 0.8", "cover = 0.8"));
+  EXPECT_TRUE(unknown.starts_with("r.toml: line 12: item[1].cover: is not a known field; use id,"))
+      << unknown;
+  EXPECT_NE(unknown.find("cover_mm"), std::string::npos) << unknown;
+  const std::string measure = trouble_of(with("\"identified\"", "\"found\""));
+  EXPECT_TRUE(
+      measure.starts_with("r.toml: line 9: item[1].measure: \"found\" is not a known "
+                          "measure; use one of identified, skeletonised,"))
+      << measure;
+  EXPECT_EQ(trouble_of(with("requires = \"nerve.whole\"", "requires = \"x\"")),
+            "r.toml: line 13: requires: there is no item \"x\"; use the id of one of these: "
+            "nerve.seen, nerve.whole");
+  EXPECT_EQ(trouble_of(with("gate = true", "requires = \"nerve.seen\"")),
+            "r.toml: line 20: requires: \"nerve.seen\" leads back to itself; take one `requires` "
+            "out of the circle");
+  EXPECT_EQ(trouble_of(with("\"nerve.whole\"\npart", "\"nerve.seen\"\npart")),
+            "r.toml: line 17: id: \"nerve.seen\" is also the item of line 5; give it another id");
+  EXPECT_EQ(trouble_of(with("part = \"product\"\nweight", "part = \"process\"\nweight")),
+            "r.toml: line 7: item[1].part: \"identified\" measures the product; use part = "
+            "\"product\"");
+}
+
+TEST(Rubric, TheCaseMustHaveWhatItNames) {
+  const auto lesson = scenario::parse_lesson(R"(format = 2
+title = "t"
+phantom = "block"
+[burr]
+diameter_mm = 4
+[[structure]]
+name = "nerve"
+[[region]]
+name = "pit"
+add = [{ shape = "ball", at = [0, 0, 0], radius_mm = 4 }]
+)",
+                                             "c.toml");
+  ASSERT_TRUE(lesson) << lesson.error().text;
+  const auto good = parse_rubric(kGood, "r.toml");
+  ASSERT_TRUE(good);
+  EXPECT_TRUE(check(*good, *lesson));
+  const auto region = parse_rubric(with("\"pit\"", "\"pot\""), "r.toml");
+  ASSERT_TRUE(region);
+  EXPECT_EQ(check(*region, *lesson).error().text,
+            "r.toml: line 11: region: the case \"block\" has no region \"pot\"; use one of pit");
+  const auto structure = parse_rubric(with("\"nerve\"\nregion", "\"vein\"\nregion"), "r.toml");
+  ASSERT_TRUE(structure);
+  EXPECT_EQ(check(*structure, *lesson).error().text,
+            "r.toml: line 10: structure: the case \"block\" has no structure \"vein\"; use one of "
+            "nerve");
+}
+
+TEST(Rubric, TheBuiltInOnesAreRead) {
+  for (const std::string& name : built_in_rubrics()) {
+    const auto read = read_rubric(name);
+    ASSERT_TRUE(read) << read.error().text;
+    for (const Item& item : read->items) {
+      EXPECT_FALSE(item.calibrated) << item.id;
+      for (const char* language : {"en", "sv", "de"})
+        EXPECT_TRUE(item.say.by_language.contains(language)) << item.id << " " << language;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace burr::scoring

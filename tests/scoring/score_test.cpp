@@ -1,0 +1,155 @@
+// Whole scores: an untouched bone earns nothing, a good cut earns what it should, a cut that went
+// too far loses it.
+#include "burr/scoring/score.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "burr/base/progress.h"
+#include "burr/phantom/shapes.h"
+#include "burr/scenario/case.h"
+#include "burr/scenario/open_lesson.h"
+#include "burr/workshop/label_check.h"
+#include "burr/workshop/open_bone.h"
+#include "burr/workshop/prepare.h"
+#include "metrics/bones.h"
+
+namespace burr::scoring {
+namespace {
+
+using metrics::test::kMm;
+
+// A hard ball of 3 mm in a block that ends at z = 6 mm; the pit above it is to go.
+constexpr const char* kLesson = R"(format = 2
+title = "t"
+phantom = "block"
+approach = [[0, 0, 1]]
+[burr]
+diameter_mm = 4
+[[structure]]
+name = "ball"
+names = ["hard"]
+intact = "solid"
+[[region]]
+name = "pit"
+add = [{ shape = "box", at = [0, 0, 5.5], size_mm = [30, 30, 4] }]
+[reference]
+remove = ["pit"]
+)";
+
+constexpr const char* kRubric = R"([rubric]
+name = "ball"
+version = 1
+case = "block"
+[[item]]
+id = "ball.seen"
+part = "product"
+measure = "identified"
+structure = "ball"
+share = 0.1
+requires = "ball.whole"
+say = "Find the ball."
+[[item]]
+id = "ball.whole"
+part = "product"
+gate = true
+measure = "intact_solid"
+structure = "ball"
+say = "Leave it whole."
+[[item]]
+id = "pit.gone"
+part = "product"
+measure = "removed"
+region = "pit"
+say = "Clear the pit."
+[[item]]
+id = "burr.choice"
+part = "process"
+measure = "burr_choice"
+say = "Change the burr."
+)";
+
+// Everything above z [mm] is cut away.
+Score score_of_cut(double z) {
+  metrics::test::Plan plan;
+  plan.bone = metrics::test::below(6 * kMm);
+  plan.labels = {{phantom::ball(3 * kMm, {0, 0, 0}), metrics::test::kHard}};
+  const auto bones = metrics::test::cut(plan, metrics::test::above(z * kMm), 0.4 * kMm);
+  const auto lesson = scenario::parse_lesson(kLesson, "c.toml");
+  const auto rubric = parse_rubric(kRubric, "r.toml");
+  EXPECT_TRUE(lesson && rubric);
+  EXPECT_TRUE(check(*rubric, *lesson));
+  NoProgress quiet;
+  auto made = score(*rubric, *lesson, *bones.before, *bones.after, nullptr, quiet);
+  EXPECT_TRUE(made) << made.error().text;
+  return std::move(*made);
+}
+
+TEST(Score, NothingCutEarnsNothing) {
+  const Score idle = score_of_cut(20);
+  EXPECT_EQ(idle.outcomes[0].verdict, Verdict::unmet);
+  EXPECT_EQ(idle.outcomes[1].verdict, Verdict::unmet);
+  EXPECT_FALSE(idle.outcomes[1].earned);
+  EXPECT_EQ(idle.outcomes[2].verdict, Verdict::unmet);
+  EXPECT_EQ(idle.worked, 0);
+  EXPECT_DOUBLE_EQ(idle.product.points.value_or(-1), 0);
+  EXPECT_EQ(idle.outcomes[3].verdict, Verdict::not_assessable);
+  EXPECT_EQ(idle.outcomes[3].reason, "it needs a recording");
+  EXPECT_FALSE(idle.process.points);
+  EXPECT_TRUE(idle.unfinished);
+}
+
+TEST(Score, AGoodCutMeetsItsItems) {
+  const Score good = score_of_cut(3.5);
+  for (const std::size_t n : {0U, 1U, 2U})
+    EXPECT_EQ(good.outcomes[n].verdict, Verdict::met) << good.outcomes[n].id;
+  EXPECT_DOUBLE_EQ(good.product.points.value_or(-1), 100);
+  EXPECT_GT(good.worked, 0.9);
+  ASSERT_TRUE(good.outcomes[0].place);
+  EXPECT_NEAR(good.outcomes[0].place->z(), 3 * kMm, 1 * kMm);  // its top
+}
+
+TEST(Score, WhatWasCutOpenWasNotFound) {
+  const Score deep = score_of_cut(2);
+  EXPECT_EQ(deep.outcomes[1].verdict, Verdict::unmet);
+  EXPECT_TRUE(deep.outcomes[1].earned);
+  EXPECT_GT(deep.outcomes[1].value.value_or(0), 1e-9);
+  EXPECT_EQ(deep.outcomes[0].verdict, Verdict::unmet);
+  EXPECT_EQ(deep.outcomes[0].reason, "it requires \"ball.whole\", which is unmet");
+  EXPECT_NEAR(deep.product.points.value_or(-1), 100.0 / 3, 1e-9);
+}
+
+TEST(Score, TwiceTheSameIsTheSame) {
+  const Score a = score_of_cut(3), b = score_of_cut(3);
+  for (std::size_t n = 0; n < a.outcomes.size(); ++n) {
+    EXPECT_EQ(a.outcomes[n].value, b.outcomes[n].value);
+    EXPECT_EQ(a.outcomes[n].error, b.outcomes[n].error);
+  }
+}
+
+TEST(Score, TheUntouchedTemporalBoneMeetsNothing) {
+  const auto work = scenario::read_case("temporal-bone");
+  const auto rubric = read_rubric("temporal-bone");
+  ASSERT_TRUE(work && rubric);
+  auto read = scenario::lesson_of(*work);
+  ASSERT_TRUE(read);
+  const auto lesson =
+      scenario::place(std::move(*read), workshop::landmarks_of(*work), "temporal-bone.toml");
+  ASSERT_TRUE(lesson) << lesson.error().text;
+  ASSERT_TRUE(check(*rubric, *lesson)) << check(*rubric, *lesson).error().text;
+  scenario::Recipe coarse;
+  coarse.voxel_mm = 0.5;
+  NoProgress quiet;
+  const auto made = workshop::open_bone(workshop::recipe_of(*work, coarse), quiet);
+  ASSERT_TRUE(made) << made.error().text;
+  const auto idle = score(*rubric, *lesson, *made->bone, *made->bone, nullptr, quiet);
+  ASSERT_TRUE(idle) << idle.error().text;
+  EXPECT_EQ(idle->product.met, 0U);
+  EXPECT_GE(idle->product.assessable, 15U);
+  for (const Outcome& one : idle->outcomes) EXPECT_NE(one.verdict, Verdict::met) << one.id;
+}
+
+}  // namespace
+}  // namespace burr::scoring
