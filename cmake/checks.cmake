@@ -63,6 +63,7 @@ foreach(header ${BURR_HEADERS})
 endforeach()
 add_library(headers_alone OBJECT EXCLUDE_FROM_ALL ${header_units})
 target_link_libraries(headers_alone PRIVATE burr burr_options)
+target_include_directories(headers_alone PRIVATE ${PROJECT_SOURCE_DIR}/third_party)  # scenario/toml_reader.h
 target_compile_options(headers_alone PRIVATE -O0)
 add_test(NAME house.headers_compile_alone
   COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR} --target headers_alone)
