@@ -19,7 +19,7 @@ std::string default_word(const Item& item) { return item.calibrated ? "" : " (de
 
 std::string figures(const Item& item, const Outcome& outcome) {
   if (!outcome.value) return {};
-  return fmt::format("{} {}, asked at {} {}{}", outcome.what,
+  return fmt::format("{} {}, required at {} {}{}", outcome.what,
                      scoring::text_of(outcome.quantity, *outcome.value),
                      outcome.at_least ? "least" : "most",
                      scoring::text_of(outcome.quantity, outcome.threshold), default_word(item));

@@ -13,7 +13,7 @@
 
 namespace burr::app {
 
-// "  unmet           sinus.identified   share seen through thin bone 12 %, asked at least 60 % (default)"
+// "  unmet           sinus.identified   share seen through thin bone 12 %, required at least 60 % (default)"
 [[nodiscard]] std::string item_line(const scoring::Item& item, const scoring::Outcome& outcome);
 
 // "product: 7 of 25 items met, 28 of 100 points"; or why there is no total

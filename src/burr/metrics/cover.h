@@ -35,7 +35,7 @@ namespace burr::metrics {
 struct CoverSettings {
   std::vector<math::Vec3> towards = {};  // from the bone to the surgeon: one or several directions
   std::vector<volume::TissueId> glass = {};  // soft tissues that hide nothing (eardrum, marrow)
-  double cap = 3e-3;                         // more bone than this is not told apart       [m]
+  double cap = 3e-3;                         // longer lengths of bone count as this         [m]
   double least_removed = 1e-3;               // w0, but at least two voxels                 [m]
   std::size_t most_samples = 600;            // 0: all; take more where areas are measured
   int threads = 2;

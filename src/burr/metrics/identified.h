@@ -22,7 +22,7 @@ namespace burr::metrics {
 
 struct IdentifiedSettings {
   double x = 1.0e-3;                  // most bone over it       [m]
-  std::optional<double> y = {};       // share asked for; none: 0.3, or 0.6 with a course
+  std::optional<double> y = {};       // share required; not given: 0.3, or 0.6 with a course
   std::optional<Course> course = {};  // of a tube
 };
 

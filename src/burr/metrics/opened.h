@@ -39,8 +39,8 @@ struct Target {
 struct OpenedSettings {
   std::vector<math::Vec3> towards = {};      // from the bone to the surgeon, at least one
   std::vector<volume::TissueId> glass = {};  // soft tissues through which a ball may pass
-  double rho = 1.0e-3;                       // asked for [m]
-  double most = 5e-3;                        // larger radii are not told apart [m]
+  double rho = 1.0e-3;                       // radius that must pass [m]
+  double most = 5e-3;                        // larger radii count as this [m]
   std::optional<math::Aabb> box = {};  // world; what lies outside of it is "outside"; none: all
   int threads = 2;
 };

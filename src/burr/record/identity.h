@@ -18,8 +18,8 @@ class Bone;
 
 namespace burr::record {
 
-// What the session was for. It says what was asked for; what was shown and used is in the recording
-// itself.
+// What the session was for, as given when it began. Views, course and commands of the recording show
+// which help was really used.
 enum class Mode { free, learn, practise, exam };
 [[nodiscard]] const char* word_of(Mode mode);
 [[nodiscard]] std::optional<Mode> mode_of(std::string_view word);

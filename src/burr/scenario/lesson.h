@@ -81,7 +81,7 @@ struct CaseRegion {
 
 // What "intact" means for a structure.
 enum class Intact {
-  unsaid,  // nothing is asked
+  unsaid,  // the structure may be cut
   solid,   // nothing of it was removed
   soft,    // no turning burr was in it: a burr neither feels nor cuts soft tissue
   plate,   // there is no hole in the bone over it

@@ -3,7 +3,7 @@
 //     total = 100 * sum(weight of the met) / sum(weight of the assessable)
 //
 // Product and process are never added. There is no total when more than a fifth of the weight is not
-// assessable. A gate that is not met leaves the total as it is and is told apart. Thread: any.
+// assessable. A gate that is not met does not change the total. Thread: any.
 #pragma once
 
 #include <cstddef>

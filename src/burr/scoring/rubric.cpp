@@ -57,7 +57,7 @@ std::vector<std::string_view> fields_of(const Measure& how) {
 void read_limits(Reader& reader, Item& out) {
   for (const Limit& limit : out.how->limits) {
     double value = limit.preset;
-    // of a tube more is asked: its far side never counts
+    // along a tube the share is one of slices, and each slice has a near side
     if (!out.along.empty() && std::string_view(limit.field) == "share") value = 0.6;
     reader.number(limit.field, value, limit.above, limit.most);
     out.limits[limit.field] = value * limit.unit;

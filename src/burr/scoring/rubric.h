@@ -1,4 +1,4 @@
-// scoring/rubric.h - a rubric: what is asked of a piece of work on a case, item by item, as data.
+// scoring/rubric.h - a rubric, read from a file: the items by which work on a case is judged.
 //
 //     auto rubric = scoring::read_rubric("temporal-bone");       // built in, or a .toml file
 //     Status fits = scoring::check(*rubric, lesson);             // the lesson with its landmarks placed
