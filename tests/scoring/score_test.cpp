@@ -121,14 +121,6 @@ TEST(Score, WhatWasCutOpenWasNotFound) {
   EXPECT_NEAR(deep.product.points.value_or(-1), 100.0 / 3, 1e-9);
 }
 
-TEST(Score, TwiceTheSameIsTheSame) {
-  const Score a = score_of_cut(3), b = score_of_cut(3);
-  for (std::size_t n = 0; n < a.outcomes.size(); ++n) {
-    EXPECT_EQ(a.outcomes[n].value, b.outcomes[n].value);
-    EXPECT_EQ(a.outcomes[n].error, b.outcomes[n].error);
-  }
-}
-
 TEST(Score, TheUntouchedTemporalBoneMeetsNothing) {
   const auto work = scenario::read_case("temporal-bone");
   const auto rubric = read_rubric("temporal-bone");

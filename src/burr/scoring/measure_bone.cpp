@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "burr/base/check.h"
 #include "burr/base/printable.h"
 #include "burr/metrics/cover.h"
 #include "burr/metrics/identified.h"
@@ -185,6 +186,7 @@ Outcome measure_bone(const Item& item, Scene& scene) {
   if (how == "overhang") return overhang(item, scene);
   if (how == "removed") return removed(item, scene, true);
   if (how == "kept") return removed(item, scene, false);
+  BURR_CHECK(needs_recording(item));  // every measure is in one of the two lists
   return not_assessable(item, "it needs a recording");
 }
 

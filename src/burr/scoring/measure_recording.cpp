@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "burr/base/printable.h"
-#include "burr/metrics/order.h"
 #include "burr/metrics/process.h"
 #include "burr/record/course.h"
 #include "burr/scoring/measure.h"
+#include "burr/scoring/step_order.h"
 
 namespace burr::scoring {
 namespace {
@@ -83,19 +83,11 @@ std::vector<metrics::StepMark> marks_of(const record::Player& player) {
   return marks;
 }
 
-// Only pairs count of which the case says that one must precede the other.
 Outcome order(const Item& item, const scenario::Lesson& lesson, const record::Player& player) {
-  std::vector<std::string> wanted;
-  for (const scenario::Step& step : lesson.steps) wanted.push_back(step.id);
-  const metrics::Order found = metrics::order_of(marks_of(player), wanted);
+  const StepOrder found = step_order(lesson, marks_of(player));
   if (found.done < 2)
     return not_assessable(item, "the recording names fewer than two steps as done");
-  double wrong = 0;
-  for (const auto& [early, late] : found.inversions) {
-    const std::vector<std::string>& after = lesson.step(late)->must_precede;
-    if (std::find(after.begin(), after.end(), early) != after.end()) ++wrong;
-  }
-  const double most = item.limit("most");
+  const double most = item.limit("most"), wrong = static_cast<double>(found.wrong);
   return decided(item, {wrong <= most, true, wrong, most, 0}, "pairs of steps in the wrong order",
                  false);
 }
