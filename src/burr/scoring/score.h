@@ -21,6 +21,9 @@
 
 namespace burr::scoring {
 
+// True: the two bones do not decide this item; it needs the recording.
+[[nodiscard]] bool needs_recording(const Item& item);
+
 struct Score {
   std::vector<Outcome> outcomes;  // one for each item of the rubric, in its order
   Total product, process;
