@@ -4,7 +4,8 @@
 //
 // A pure function: the same bones, recording and rubric give the same score, to the bit, on every
 // machine and with any number of threads. It gives no grade and no pass. Thread: uses two of its own.
-// Cost: seconds; memory: that of metrics/cover.h and the distances to the structures.
+// Cost: seconds; memory: that of metrics/cover.h and the distances to the structures, which
+// the regions of `shown` keep.
 #pragma once
 
 #include <string>
@@ -16,6 +17,7 @@
 #include "burr/scenario/lesson.h"
 #include "burr/scoring/outcome.h"
 #include "burr/scoring/rubric.h"
+#include "burr/scoring/shown.h"
 #include "burr/volume/bone.h"
 
 namespace burr::scoring {
@@ -26,6 +28,7 @@ struct Score {
   double worked = 0;       // share removed of what the case wants removed
   bool unfinished = true;  // the work was not declared done
   std::string ending;      // "declared done", "time up", "broke off", "no end in the recording"
+  Shown shown;
 };
 
 // lesson: with its landmarks placed, and check(rubric, lesson) is fine. player: nullptr without a
