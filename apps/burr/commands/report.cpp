@@ -117,13 +117,15 @@ Status run_compare(const Options& options) {
   if (!a) return a.error();
   auto b = scored_file(options.other, options);
   if (!b) return b.error();
+  if (const Status same = comparable(*a, *b); !same) return same;
+  print_comparison(*a, *b);
+  if (options.out.empty()) return fine();
   ReportSettings settings;
-  settings.most_pictures = options.out.empty() ? 0 : options.pictures;
+  settings.most_pictures = options.pictures;
   settings.rubric = options.rubric;
   const auto report = comparison(*a, *b, settings, progress());
   if (!report) return report.error();
-  print_comparison(*a, *b);
-  return options.out.empty() ? fine() : write_page(*report, options);
+  return write_page(*report, options);
 }
 
 void add_common(CLI::App& command, Options& options) {

@@ -106,6 +106,7 @@ std::vector<ReportGate> gates_of(const Scored& scored, const Scored* beside) {
 }
 
 std::string met_of(const scoring::Total& total) {
+  if (total.assessable == 0) return say(Word::report_none_open, total.items);
   std::string text = say(Word::report_met, total.met, total.assessable);
   if (total.items > total.assessable)
     text += ", " + say(Word::report_more_open, total.items - total.assessable);
@@ -258,8 +259,9 @@ std::string with_rubric(const ReportSettings& settings) {
   return settings.rubric.empty() ? "" : " --rubric " + name_of(settings.rubric);
 }
 
-// The two must have been judged by the same items.
-Status check_same_rubric(const Scored& a, const Scored& b) {
+}  // namespace
+
+Status comparable(const Scored& a, const Scored& b) {
   if (a.judged.rubric.text_hash == b.judged.rubric.text_hash) return fine();
   return error(Trouble::usage,
                fmt::format("{} and {} are of different cases, \"{}\" and \"{}\"; give two "
@@ -268,11 +270,9 @@ Status check_same_rubric(const Scored& a, const Scored& b) {
                            a.judged.work.name, b.judged.work.name));
 }
 
-}  // namespace
-
 Result<Report> report_on(Scored& scored, const ReportSettings& settings, Progress& progress) {
   if (settings.beside != nullptr)
-    if (const Status same = check_same_rubric(scored, *settings.beside); !same) return same.error();
+    if (const Status same = comparable(scored, *settings.beside); !same) return same.error();
   Report report = common(scored, settings);
   report.title = word(Word::report_title);
   report.unfinished = unfinished_of(scored.score);
@@ -304,7 +304,7 @@ Result<Report> report_on(Scored& scored, const ReportSettings& settings, Progres
 
 Result<Report> comparison(Scored& a, Scored& b, const ReportSettings& settings,
                           Progress& progress) {
-  if (const Status same = check_same_rubric(a, b); !same) return same.error();
+  if (const Status same = comparable(a, b); !same) return same.error();
   ReportSettings both = settings;
   both.beside = &b;
   Report report = common(a, both);

@@ -26,6 +26,9 @@ struct ReportSettings {
 [[nodiscard]] Result<Report> report_on(Scored& scored, const ReportSettings& settings,
                                        Progress& progress);
 
+// Error, Trouble::usage: they were judged by different rubrics.
+[[nodiscard]] Status comparable(const Scored& a, const Scored& b);
+
 // Two sessions on the same case, neither of them the measure of the other.
 [[nodiscard]] Result<Report> comparison(Scored& a, Scored& b, const ReportSettings& settings,
                                         Progress& progress);

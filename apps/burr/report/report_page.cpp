@@ -18,15 +18,15 @@ constexpr const char* kStyle = R"(
 body { font: 14px/1.4 system-ui, "DejaVu Sans", sans-serif; color: #1c1c1c; background: #fff; max-width: 960px; margin: 1.5em auto; padding: 0 1em }
 h1 { font-size: 1.5em; margin: 0 0 .2em } h2 { font-size: 1.1em; margin: 1.3em 0 .4em; border-bottom: 1px solid #999 }
 p { margin: .3em 0 } .soft { color: #555 } .warn { border-left: 4px solid #b04a00; padding: .3em .8em; background: #fdf3ea }
-.head { display: grid; grid-template-columns: repeat(4, auto 1fr); gap: .1em .6em; margin: .6em 0 } .head dt { color: #555 } .head dd { margin: 0; overflow-wrap: anywhere }
+.head { display: grid; grid-template-columns: repeat(3, 1fr); gap: .15em 1.5em; margin: .6em 0 } .head dt, .head dd { display: inline; margin: 0 } .head dt { color: #555 } .head dt:after { content: ": " } .head dd { overflow-wrap: anywhere }
 table { border-collapse: collapse; width: 100% } td, th { text-align: left; vertical-align: top; padding: .3em .5em; border-top: 1px solid #ddd }
 th { color: #555; font-weight: 600; font-size: .9em } thead { display: table-header-group } tr { break-inside: avoid }
-.mark { white-space: nowrap; font-weight: 600 } .good { color: #00694c } .bad { color: #b04a00 } .open { color: #0060a0 } .none { color: #555 }
+.mark { white-space: nowrap; font-weight: 600 } th.m { width: 6em } .good { color: #00694c } .bad { color: #b04a00 } .open { color: #0060a0 } .none { color: #555 }
 .id { color: #777; font-size: .85em; white-space: nowrap } .small { font-size: .88em } .item { width: 30% }
 .tag { border: 1px solid #b04a00; color: #b04a00; border-radius: .6em; padding: 0 .4em; font-size: .8em; white-space: nowrap }
 .default { color: #777; font-size: .85em; font-style: italic } .note { color: #555 }
 figure { display: inline-block; margin: .2em .4em .2em 0; vertical-align: top } figcaption { font-size: .82em; color: #555 } img { display: block; max-width: 100%; height: auto }
-.sides { display: grid; grid-template-columns: repeat(4, 1fr); gap: .5em } .sides figure { margin: 0 } .proof img { width: 180px }
+.sides { display: grid; grid-template-columns: repeat(4, 1fr); gap: .5em } .sides figure { margin: 0 } .proof { float: right; margin-left: .6em } .proof img { width: 180px }
 .legend span { display: inline-block; margin-right: 1.2em; font-size: .88em } .legend i { display: inline-block; width: .9em; height: .9em; border: 1px solid #777; margin-right: .35em; vertical-align: -.1em }
 svg { max-width: 100%; height: auto; vertical-align: middle } .totals { display: grid; grid-template-columns: 1fr 1fr; gap: .3em 2em } .totals b { font-size: 1.15em }
 ol { margin: .3em 0; padding-left: 1.5em } code { font-family: "DejaVu Sans Mono", monospace; font-size: .9em; overflow-wrap: anywhere }
@@ -116,7 +116,8 @@ std::string head_html(const Report& report) {
         fmt::format("<p class=\"warn\" id=\"unfinished\">{}</p>\n", markup_text(report.unfinished));
   html += "<dl class=\"head\">\n";
   for (const auto& [name, value] : report.head)
-    html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", markup_text(name), markup_text(value));
+    html +=
+        fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", markup_text(name), markup_text(value));
   return html + "</dl>\n";
 }
 
@@ -179,6 +180,9 @@ std::string item_html(const Report& report, const ReportItem& item) {
   html += "<td>" + mark_html(item.machine) + "</td>";
   if (!report.beside.empty()) html += "<td>" + mark_html(item.beside) + "</td>";
   html += "<td class=\"remarks\">";
+  if (!item.pictures.empty()) html += "<div class=\"proof\">\n";
+  for (const ReportPicture& picture : item.pictures) html += figure_html(picture);
+  if (!item.pictures.empty()) html += "</div>";
   if (!item.figures.empty())
     html += fmt::format("<p>{} {} <span class=\"default\">{}</span></p>",
                         item.scale ? scale_html(*item.scale) : "", markup_text(item.figures),
@@ -191,10 +195,12 @@ std::string item_html(const Report& report, const ReportItem& item) {
     for (const std::string& remark : item.remarks) html += markup_text(remark) + " ";
     html += "</p>";
   }
-  if (!item.pictures.empty()) html += "<div class=\"proof\">\n";
-  for (const ReportPicture& picture : item.pictures) html += figure_html(picture);
-  if (!item.pictures.empty()) html += "</div>";
   return html + "</td></tr>\n";
+}
+
+// The head of a column of marks.
+std::string column_html(const std::string& name) {
+  return "<th class=\"m\">" + markup_text(name) + "</th>";
 }
 
 std::string items_html(const Report& report) {
@@ -203,12 +209,14 @@ std::string items_html(const Report& report) {
     return std::any_of(part.items.begin(), part.items.end(),
                        [](const auto& item) { return !item.pictures.empty(); });
   });
-  if (proofs) html += legend_html(report.spots_legend);
+  if (proofs)
+    html += legend_html(report.spots_legend) + "<p class=\"soft small\">" +
+            markup_text(word(Word::report_most_pictures)) + "</p>\n";
   html += fmt::format("<table id=\"items\"><thead><tr><th>{}</th>",
                       markup_text(word(Word::report_item)));
-  if (report.has_self) html += "<th>" + markup_text(report.you) + "</th>";
-  html += "<th>" + markup_text(report.machine) + "</th>";
-  if (!report.beside.empty()) html += "<th>" + markup_text(report.beside) + "</th>";
+  if (report.has_self) html += column_html(report.you);
+  html += column_html(report.machine);
+  if (!report.beside.empty()) html += column_html(report.beside);
   html += "<th>" + markup_text(word(Word::report_value)) + "</th></tr></thead>\n";
   const int columns = 3 + (report.has_self ? 1 : 0) + (report.beside.empty() ? 0 : 1);
   for (const ReportPart& part : report.parts) {
@@ -244,8 +252,14 @@ std::string lines_html(const Report& report) {
       html += fmt::format("<p class=\"small\">{}: {}.</p>\n",
                           markup_text(word(Word::report_nearest)), markup_text(line.nearest));
   }
-  return html + fmt::format("<p class=\"soft small\">{}</p>\n",
-                            markup_text(word(Word::report_line_diamond)));
+  const bool diamond = std::any_of(report.lines.begin(), report.lines.end(), [](const auto& line) {
+    return std::find(line.diamond.begin(), line.diamond.end(), true) != line.diamond.end();
+  });
+  if (diamond)
+    html += fmt::format("<p class=\"soft small\">{}: {}</p>\n",
+                        markup_text(word(Word::report_line_burr)),
+                        markup_text(word(Word::report_line_diamond)));
+  return html;
 }
 
 std::string small_html(const Report& report) {

@@ -27,7 +27,7 @@ constexpr double kMissed = 0.5e-3;      // bone deeper in a region than this is 
 constexpr double kExcess = 0.25e-3;     // a cut deeper in what must stay than this is too much [m]
 
 // Okabe and Ito's, which colour-blind people can tell apart; violet is darker than both others.
-constexpr Colour kGoodColour = {0.00F, 0.62F, 0.45F}, kLeftColour = {0.48F, 0.20F, 0.58F},
+constexpr Colour kGoodColour = {0.00F, 0.62F, 0.45F}, kLeftColour = {0.58F, 0.36F, 0.70F},
                  kBareColour = {0.84F, 0.37F, 0.00F}, kCutColour = {0.97F, 0.93F, 0.80F};
 
 std::string hex_of(const Colour& colour) {
@@ -84,6 +84,9 @@ void draw_ring(render::Image& image, const render::Slice& slice, const Vec3& at,
         pixel[n] = static_cast<std::uint8_t>(255 * kBareColour[n]);
     }
 }
+
+// Behind a caption: how much the picture shows from left to right, at its middle.
+std::string wide_words(double wide) { return fmt::format(", {:.0f} mm ↔", 1e3 * wide); }
 
 Result<ReportPicture> as_picture(const render::Image& image, std::string caption) {
   auto png = render::png_of(image);
@@ -202,16 +205,6 @@ ReportArtist::Paint ReportArtist::all_of_the_case() const {
   };
 }
 
-ReportArtist::Paint ReportArtist::of_region(const metrics::Region& region, bool keep) const {
-  if (cut_ == 0) return {};
-  return [this, &region, keep](const surface::Vertex& vertex) -> volume::TissueId {
-    const bool inside = region(vertex.p.cast<double>()) > (keep ? 0 : kMissed);
-    if (!keep && inside) return missed_;
-    if (!is_new(vertex)) return 0;
-    return keep && inside ? excess_ : cut_;
-  };
-}
-
 render::Camera ReportArtist::camera_at(const Vec3& target, double height) const {
   render::Camera camera;
   camera.target = target;
@@ -241,45 +234,55 @@ Result<ReportPicture> ReportArtist::side(std::size_t which) {
   const double height = std::clamp(1.15 * size + 6e-3, 18e-3, 90e-3);
   scene_.camera = camera_at(middle, height);
   render::orbit(scene_.camera, kTurns[which].first, kTurns[which].second);
-  scene_.scale_bar = true;
   scene_.burr.visible = false;
   scene_.markers.clear();
-  return drawn(kSideWide, kSideHigh, word(kNames[which]));
+  return drawn(kSideWide, kSideHigh,
+               word(kNames[which]) + wide_words(height * kSideWide / kSideHigh));
 }
 
-Result<ReportPicture> ReportArtist::map_of(const scoring::Outcome& outcome) {
+Result<ReportPicture> ReportArtist::map_of(const std::vector<Spot>& spots, std::string caption) {
   math::Aabb box;
-  for (const Spot& spot : outcome.spots) box.extend(spot.at);
-  const Vec3 size = box.extent();
-  scene_.camera = camera_at(box.centre(), std::clamp(1.3 * size.maxCoeff() + 4e-3, 12e-3, 60e-3));
+  for (const Spot& spot : spots) box.extend(spot.at);
+  const double height = std::clamp(1.5 * box.extent().maxCoeff() + 6e-3, 14e-3, 60e-3);
+  scene_.camera = camera_at(box.centre(), height);
   scene_.markers.clear();
-  for (const Spot& spot : outcome.spots) {
+  for (const Spot& spot : spots) {
     const Colour colour = spot.kind == Spot::Kind::good   ? kGoodColour
                           : spot.kind == Spot::Kind::left ? kLeftColour
                                                           : kBareColour;
-    scene_.markers.push_back({spot.at, 0.25e-3, colour, true});
+    scene_.markers.push_back({spot.at, std::max(0.25e-3, height / 90), colour, true});
   }
-  auto made = drawn(kProofWide, kProofHigh, word(Word::report_map));
+  auto made = drawn(kProofWide, kProofHigh,
+                    std::move(caption) + wide_words(height * kProofWide / kProofHigh));
   scene_.markers.clear();
   return made;
 }
 
-Result<ReportPicture> ReportArtist::region_of(const scoring::Item& item) {
-  const metrics::Region& region = scored_.score.shown.regions.at(item.region);
-  const bool keep = std::string_view(item.how->name) == "kept";
-  // around what of the bone's surface lies in the region
-  math::Aabb box;
-  for (std::size_t n = 0; n < plain_.size(); ++n) {
-    if (plain_[n].triangles.empty() || !may_show(n, region)) continue;
-    for (const surface::Vertex& vertex : plain_[n].vertices)
-      if (region(vertex.p.cast<double>()) > 0) box.extend(vertex.p.cast<double>());
+// Voxels of the region: bone that stands where it should go, or is gone where it should stay.
+std::vector<Spot> ReportArtist::faults_in(const metrics::Region& region, bool keep) const {
+  const volume::Bone &before = *scored_.before, &after = *scored_.after;
+  const volume::Grid& grid = before.grid();
+  const double half = 0.5 * std::sqrt(3.0) * volume::kBrickEdge * grid.voxel;
+  std::vector<Spot> all;
+  for (volume::BrickIndex brick = 0; brick < before.brick_count(); ++brick) {
+    const volume::Field *was = before.brick_field(brick), *is = after.brick_field(brick);
+    if (was == nullptr) continue;
+    const math::Ijk first = before.brick_ijk(brick);
+    const Vec3 middle = first.cast<double>() + Vec3::Constant(0.5 * (volume::kBrickEdge - 1));
+    if (region(grid.world_from_grid(middle)) < -half) continue;
+    for (int v = 0; v < volume::kBrickVoxels; ++v) {
+      const bool gone = is == nullptr || is[v] < volume::kIso;
+      if (was[v] < volume::kIso || gone != keep) continue;
+      const math::Ijk ijk = first + math::Ijk(v & 7, (v >> 3) & 7, v >> 6);
+      const Vec3 p = grid.world_from_grid(ijk.cast<double>());
+      if (region(p) > (keep ? 0 : kMissed))
+        all.push_back({p, keep ? Spot::Kind::bare : Spot::Kind::left});
+    }
   }
-  paint(of_region(region, keep), region);
-  const bool nothing = box.empty();
-  const Vec3 middle = nothing ? cavity_.centre() : box.centre();
-  const double size = nothing ? 20e-3 : box.extent().maxCoeff();
-  scene_.camera = camera_at(middle, std::clamp(1.3 * size + 4e-3, 12e-3, 60e-3));
-  return drawn(kProofWide, kProofHigh, word(Word::report_region));
+  std::vector<Spot> some;
+  const std::size_t every = all.size() / scoring::kMostSpots + 1;
+  for (std::size_t n = 0; n < all.size(); n += every) some.push_back(all[n]);
+  return some;
 }
 
 Result<ReportPicture> ReportArtist::section_at(const Vec3& at, double ring, std::string caption) {
@@ -299,7 +302,7 @@ Result<ReportPicture> ReportArtist::section_at(const Vec3& at, double ring, std:
   while (!slicer_->draw(slice, image)) {
   }
   draw_ring(image, slice, at, ring);
-  return as_picture(image, std::move(caption));
+  return as_picture(image, std::move(caption) + wide_words(kSectionHigh * kProofWide / kProofHigh));
 }
 
 // The bone and the burr at the tick of the evidence.
@@ -337,38 +340,47 @@ Status ReportArtist::moment_of(const scoring::Outcome& outcome, std::size_t room
   return fine();
 }
 
+// A picture that needs the bone at the end only; none: there is nothing to see.
+Result<std::optional<ReportPicture>> ReportArtist::still_of(const scoring::Item& item,
+                                                            const scoring::Outcome& outcome) {
+  const std::string_view how = item.how->name;
+  const auto region = scored_.score.shown.regions.find(item.region);
+  const bool of_a_region =
+      (how == "removed" || how == "kept") && region != scored_.score.shown.regions.end();
+  const std::vector<Spot> faults =
+      of_a_region ? faults_in(region->second, how == "kept") : std::vector<Spot>{};
+  std::optional<Result<ReportPicture>> made;
+  if (!faults.empty())
+    made = map_of(faults, word(Word::report_region));
+  else if (!outcome.spots.empty())
+    made = map_of(outcome.spots, word(Word::report_map));
+  else if (outcome.place)
+    made = section_at(*outcome.place, 0.6e-3, word(Word::report_cut_open));
+  if (!made) return std::optional<ReportPicture>{};
+  if (!*made) return made->error();
+  return std::optional<ReportPicture>(std::move(**made));
+}
+
 Result<ReportArtist::Pictures> ReportArtist::evidence(std::span<const std::size_t> items,
                                                       std::size_t most) {
   Pictures made;
   std::size_t room = most;
   std::vector<std::pair<std::size_t, std::size_t>> moments;  // item, room for it
-  scene_.scale_bar = false;
-  bool painted = true;  // in the colours of the four sides
+  paint({}, {});
   for (const std::size_t n : items) {
     if (room == 0) break;
-    const scoring::Item& item = scored_.judged.rubric.items[n];
     const scoring::Outcome& outcome = scored_.score.outcomes[n];
-    const std::string_view how = item.how->name;
     if (outcome.tick) {
       moments.emplace_back(n, std::min<std::size_t>(room, 2));
       room -= moments.back().second;
       continue;
     }
-    const bool of_a_region =
-        (how == "removed" || how == "kept") && scored_.score.shown.regions.contains(item.region);
-    if (!of_a_region && outcome.spots.empty() && !outcome.place) continue;
-    if (!of_a_region && painted && !outcome.spots.empty()) paint({}, {});
-    painted = of_a_region;
-    auto one = of_a_region ? region_of(item)
-               : !outcome.spots.empty()
-                   ? map_of(outcome)
-                   : section_at(*outcome.place, 0.6e-3, word(Word::report_cut_open));
+    auto one = still_of(scored_.judged.rubric.items[n], outcome);
     if (!one) return one.error();
-    made[n].push_back(std::move(*one));
+    if (!*one) continue;
+    made[n].push_back(std::move(**one));
     --room;
   }
-  if (moments.empty()) return made;
-  paint({}, {});
   std::sort(moments.begin(), moments.end(), [&](const auto& a, const auto& b) {
     return *scored_.score.outcomes[a.first].tick < *scored_.score.outcomes[b.first].tick;
   });

@@ -18,6 +18,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -58,12 +59,15 @@ class ReportArtist {
   [[nodiscard]] bool may_show(std::size_t patch, const metrics::Region& region) const;
   void paint(const Paint& colour, const metrics::Region& region);
   [[nodiscard]] Paint all_of_the_case() const;
-  [[nodiscard]] Paint of_region(const metrics::Region& region, bool keep) const;
   [[nodiscard]] bool is_new(const surface::Vertex& vertex) const;
   [[nodiscard]] render::Camera camera_at(const math::Vec3& target, double height) const;
   [[nodiscard]] Result<ReportPicture> drawn(int width, int height, std::string caption);
-  [[nodiscard]] Result<ReportPicture> map_of(const scoring::Outcome& outcome);
-  [[nodiscard]] Result<ReportPicture> region_of(const scoring::Item& item);
+  [[nodiscard]] Result<ReportPicture> map_of(const std::vector<scoring::Spot>& spots, double radius,
+                                             std::string caption);
+  [[nodiscard]] std::vector<scoring::Spot> faults_in(const metrics::Region& region,
+                                                     bool keep) const;
+  [[nodiscard]] Result<std::optional<ReportPicture>> still_of(const scoring::Item& item,
+                                                              const scoring::Outcome& outcome);
   [[nodiscard]] Result<ReportPicture> section_at(const math::Vec3& at, double ring,
                                                  std::string caption);
   [[nodiscard]] Status moment_of(const scoring::Outcome& outcome, std::size_t room,

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "burr/record/course.h"
 #include "window/shell/words.h"
@@ -56,15 +57,21 @@ void add_course(const Scored& scored, ReportLine& line) {
   while (!begun.empty()) end_step(std::string(begun.begin()->first), line.seconds);
 }
 
+// The nearest first; then those that the burr was never near.
 std::string nearest_of(const scoring::Shown& shown) {
-  std::string text;
-  for (const metrics::NearnessOf& one : shown.nearness) {
-    if (!text.empty()) text += "; ";
-    text += std::isfinite(one.least) && 1e3 * one.least < kFarthestMm
-                ? say(Word::report_nearest_one, one.name, 1e3 * one.least, one.least_at)
-                : one.name + ": " + say(Word::report_nearest_never, kFarthestMm);
+  std::vector<metrics::NearnessOf> all = shown.nearness;
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.least < b.least; });
+  std::string text, never;
+  for (const metrics::NearnessOf& one : all) {
+    if (!std::isfinite(one.least) || 1e3 * one.least >= kFarthestMm)
+      never += (never.empty() ? "" : ", ") + one.name;
+    else
+      text += (text.empty() ? "" : "; ") +
+              say(Word::report_nearest_one, one.name, 1e3 * one.least, one.least_at);
   }
-  return text;
+  if (never.empty()) return text;
+  return text + (text.empty() ? "" : "; ") + say(Word::report_nearest_never, kFarthestMm, never);
 }
 
 }  // namespace

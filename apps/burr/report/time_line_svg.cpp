@@ -74,8 +74,9 @@ class Strip {
     const double rough = seconds_ / 8, power = std::pow(10, std::floor(std::log10(rough)));
     const double whole = rough / power;
     const double step = power * (whole < 1.5 ? 1 : whole < 3.5 ? 2 : whole < 7.5 ? 5 : 10);
+    std::string grid;  // below the curves
     for (int n = 0; n * step <= seconds_ * (1 + 1e-9); ++n)
-      out_ += fmt::format(
+      grid += fmt::format(
           "<path d=\"M{0:.1f} 4V{1:.1f}\" stroke=\"#e4e4e4\"/><text x=\"{0:.1f}\" y=\"{2:.1f}\" "
           "text-anchor=\"middle\">{3:g}</text>\n",
           x(n * step), y_, y_ + 12, n * step);
@@ -85,7 +86,7 @@ class Strip {
                "<svg class=\"line\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
                "{1:.0f}\" font-family=\"sans-serif\" font-size=\"11\" fill=\"#222\">\n",
                kWide, y_ + 18) +
-           out_ + "</svg>\n";
+           grid + out_ + "</svg>\n";
   }
 
  private:
