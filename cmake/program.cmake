@@ -25,14 +25,14 @@ if(BURR_APP)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/words.h.in ${CMAKE_BINARY_DIR}/words/word_keys.h @ONLY)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/words.cpp.in ${CMAKE_BINARY_DIR}/words/word_texts.cpp @ONLY)
 
-  # burr_of_program(TARGET): what all that is compiled of it have in common
+  # burr_of_program(TARGET [HEADER...]): what all that is compiled of it have in common; HEADER: parsed once for all
   function(burr_of_program target)
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${CMAKE_BINARY_DIR}/words
       ${PROJECT_SOURCE_DIR}/third_party)
     target_link_libraries(${target} PRIVATE burr burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
       nlohmann_json::nlohmann_json PkgConfig::EPOXY PkgConfig::SDL2 PkgConfig::IMGUI)
     target_compile_definitions(${target} PRIVATE BURR_VERSION="${PROJECT_VERSION}")
-    burr_common_headers(${target} <fmt/format.h> <nlohmann/json.hpp>)
+    burr_common_headers(${target} <fmt/format.h> <nlohmann/json.hpp> ${ARGN})
     burr_glue(${target})
     if(BURR_WARNINGS_ONLY)
       target_compile_options(${target} PRIVATE -O0)
@@ -52,7 +52,7 @@ if(BURR_APP)
 
   add_executable(burr_program ${BURR_APP})
   set_target_properties(burr_program PROPERTIES OUTPUT_NAME burr RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
-  burr_of_program(burr_program)
+  burr_of_program(burr_program <CLI/CLI.hpp>)
   target_link_libraries(burr_program PRIVATE burr_app)
   if(BURR_WARNINGS_ONLY)  # the files that are in no sanitizer's build, which clang++ compiles too
     add_custom_target(warnings_of_program DEPENDS $<TARGET_OBJECTS:burr_program>)

@@ -3,9 +3,9 @@
 
     scripts/checks/tidy.py [BUILD]         BUILD: has compile_commands.json; default build/release
 
-Most of clang-tidy's time goes into the headers of Eigen and of the standard library, once for each file. So the files of a
-room are looked at together, as one source that includes them. Where two of them cannot be compiled together (both have a
-constant of the same name), the group is halved until they are apart.
+Most of clang-tidy's time goes into the headers of Eigen and of the standard library, once for each file. So many files are
+looked at together, as one source that includes them. Files in which the same name is defined are put into different groups;
+where two of a group cannot be compiled together all the same, the group is halved until they are apart.
 
 Left out: what includes ITK or GDCM (a minute a file), and a kernel's copies for other processors.
 """
@@ -20,7 +20,7 @@ import subprocess
 import sys
 import tempfile
 
-MOST = 8  # files in a group
+MOST = 40  # files in a group: about 30 s
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
@@ -40,18 +40,38 @@ def commands(build):
     return found
 
 
-def groups(build):
-    """Lists of files of one room that are compiled alike, and how."""
-    alike = collections.defaultdict(list)
-    for file, command in sorted(commands(build).items()):
-        if file.suffix != ".cpp" or re.search(r"_avx(2|512)\.cpp$", file.name):
+def names(text):
+    """What a source defines at the left margin, in its own namespace: constants, functions, types."""
+    found = set()
+    for line in text.splitlines():
+        if re.match(r"(using namespace|namespace|return|#|//|[^A-Za-z\[])", line):
             continue
-        if not re.search(r"#include <(itk|gdcm)", file.read_text(errors="replace")):
-            alike[file.relative_to(ROOT / "src" / "burr").parts[0], command].append(file)
-    for (_, command), files in alike.items():
-        count = -(-len(files) // MOST)
-        for first in range(count):
-            yield files[first::count], command
+        found.update(re.findall(r"(?:struct|class|enum|union) (\w+)", line))
+        head = re.split(r"[({=;]", re.sub(r"^template *<.*?> *(?=\w)", "", line), maxsplit=1)[0]
+        last = re.search(r"(?<![\w:])(\w+)(?:\[\w*\])? *$", head)
+        if last:
+            found.add(last.group(1))
+    return found
+
+
+def groups(build):
+    """Lists of files that are compiled alike and do not define the same names, and how."""
+    made = []  # [command, files, {(room, name)}]
+    for file, command in sorted(commands(build).items()):
+        text = file.read_text(errors="replace")
+        if file.suffix != ".cpp" or re.search(r"_avx(2|512)\.cpp$", file.name) or re.search(r"#include <(itk|gdcm)", text):
+            continue
+        room, mine = file.relative_to(ROOT / "src" / "burr").parts[0], names(text)
+        for group in made:
+            if group[0] == command and len(group[1]) < MOST and not any((room, name) in group[2] for name in mine):
+                break
+        else:
+            group = [command, [], set()]
+            made.append(group)
+        group[1].append(file)
+        group[2].update((room, name) for name in mine)
+    for command, files, _ in made:
+        yield files, command
 
 
 def look(files, command, folder):

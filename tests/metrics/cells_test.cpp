@@ -50,7 +50,7 @@ TEST(NoCells, LeavesWhatWasNotRemoved) {
       const double truth = std::clamp((6 - edge) / 12, 0.0, 1.0);
       std::printf("K4 h %.3f edge %+.1f: left %.3f of %.3f, shut %.3f, walls %.0f mm^3\n", h / kMm,
                   edge, cells->left.value, truth, cells->shut.value, cells->walls * 1e9);
-      EXPECT_NEAR(cells->left.value, truth, 0.06);
+      EXPECT_NEAR(cells->left.value, truth, cells->left.error);
       EXPECT_LE(cells->left.value, before);
       before = cells->left.value;
       if (edge < -6) {
@@ -64,6 +64,25 @@ TEST(NoCells, LeavesWhatWasNotRemoved) {
       for (const Vec3& p : cells->standing) EXPECT_GT(p.x(), edge * kMm - h);
     }
   }
+}
+
+// A distance that reaches just as far as the zone gives the same zone; a shorter one no answer.
+TEST(NoCells, TheDistanceMustReachTheZonesEnd) {
+  const test::Plan plan = foam_over_dura();
+  const auto bone = test::build(plan, plan.bone, 0.4 * kMm);
+  const auto air_within = [&](double reach) {
+    const std::array<volume::TissueId, 1> ids = {test::kNerve};
+    NoProgress quiet;
+    const auto dura = volume::DistanceTo::make(*bone, ids, {.reach = reach}, quiet);
+    EXPECT_TRUE(dura);
+    return no_cells(*bone, *bone, *dura, {}, {.towards = {kUp}, .d = 3 * kMm});
+  };
+  const auto far = air_within(20 * kMm), just = air_within(3 * kMm), less = air_within(2.5 * kMm);
+  ASSERT_TRUE(far && just);
+  EXPECT_EQ(just->air, far->air);
+  EXPECT_EQ(just->walls, far->walls);
+  ASSERT_FALSE(less);
+  EXPECT_NE(less.reason().find("up to 2.50 mm"), std::string::npos) << less.reason();
 }
 
 TEST(NoCells, ThickBoneIsNoWall) {
@@ -191,7 +210,7 @@ Assessed<Thin> wall_seen(const test::Cut& bones) {
   const std::array<volume::TissueId, 1> label = {test::kCanal};
   const VoxelSet canal = VoxelSet::of_air(*bones.before, label, {});
   return thinned(*bones.before, *bones.after, canal, nullptr,
-                 in_half_space({1.2 * kMm, 0, 0}, {-1, 0, 0}), {.towards = {{1, 0, 0}}});
+                 in_half_space({1.2 * kMm, 0, 0}, {-1, 0, 0}), 1, {.towards = {{1, 0, 0}}});
 }
 
 TEST(Thinned, MeasuresTheWall) {

@@ -158,7 +158,7 @@ TEST(Cover, NothingIsFoundOnAnUntouchedBone) {
   EXPECT_FALSE(found->mark.met);
   EXPECT_EQ(found->mark.value, 0);
   EXPECT_EQ(found->worst_cover, kUnseen);
-  const auto thin = skeletonised(*cover, {});
+  const auto thin = skeletonised(*cover, 0, {});
   ASSERT_TRUE(thin);
   EXPECT_FALSE(thin->even.met);
 }

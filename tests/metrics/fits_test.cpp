@@ -127,8 +127,62 @@ TEST(AxisFit, FindsShiftAndTilt) {
       EXPECT_NEAR(fit->angle, b, 0.5 * kDegree);
       EXPECT_NEAR(fit->depth, 12 * kMm * std::cos(b), 0.5 * h);
       EXPECT_NEAR(fit->width, 3 * kMm, 0.05 * kMm);
+      EXPECT_FALSE(fit->through);
       EXPECT_LT((fit->apex - (entry + 12 * kMm * inward)).norm(), 0.5 * h + 0.05 * kMm);
     }
+}
+
+// A corridor of 1 mm radius through a plate of 8 mm, and on into the air behind it.
+TEST(AxisFit, ACorridorThroughThePlateEndsWhereThePlateEnds) {
+  for (const double h : test::kVoxels)
+    for (const double tilt : {0.0, 6.0}) {
+      test::Plan plan;
+      plan.lo = {-4 * kMm, -4 * kMm, -14 * kMm};
+      plan.hi = {4 * kMm, 4 * kMm, 3 * kMm};
+      plan.bone = phantom::common(test::below(0), test::above(-8 * kMm));
+      const double b = tilt * kDegree;
+      const Vec3 inward = {std::sin(b), 0, -std::cos(b)};
+      const phantom::Depth corridor = [=](const Vec3& p) {
+        return 1 * kMm - (p - math::dot(p, inward) * inward).norm();
+      };
+      const auto bones = test::cut(plan, corridor, h);
+      const auto fit = axis_fit(*bones.before, *bones.after, {{0, 0, 0}, {0, 0, -1}}, {});
+      ASSERT_TRUE(fit) << fit.reason();
+      EXPECT_TRUE(fit->through);
+      EXPECT_NEAR(fit->depth, 8 * kMm, 0.5 * h);
+      EXPECT_NEAR(fit->apex.z(), -8 * kMm, 0.5 * h);
+      EXPECT_LT(fit->entry_off, fit->error);
+    }
+}
+
+// A closed hole deep in the bone, as if somebody had come from the side: its axis leads to no
+// surface near the planned entry.
+TEST(AxisFit, AnAxisThatMeetsNoSurfaceHasNoEntry) {
+  test::Plan plan;
+  plan.lo = {-4 * kMm, -4 * kMm, -30 * kMm};
+  plan.hi = {4 * kMm, 4 * kMm, 2 * kMm};
+  plan.bone = test::below(0);
+  const auto bones =
+      test::cut(plan, phantom::capsule({0, 0, -17 * kMm}, {0, 0, -26 * kMm}, 1 * kMm), 0.4 * kMm);
+  const auto fit = axis_fit(*bones.before, *bones.after, {{0, 0, -16 * kMm}, {0, 0, -1}}, {});
+  ASSERT_FALSE(fit);
+  EXPECT_NE(fit.reason().find("planned entry"), std::string::npos) << fit.reason();
+}
+
+// Another bone lies on the way to the one that was drilled.
+TEST(AxisFit, TheEntryIsThatOfTheBoneThatWasDrilled) {
+  test::Plan plan;
+  plan.lo = {-4 * kMm, -4 * kMm, -14 * kMm};
+  plan.hi = {4 * kMm, 4 * kMm, 9 * kMm};
+  plan.bone = phantom::either(test::below(0), phantom::plate(1 * kMm, kUp, {0, 0, 6 * kMm}));
+  const double h = 0.25 * kMm;
+  const auto bones =
+      test::cut(plan, phantom::capsule({0, 0, 3 * kMm}, {0, 0, -10 * kMm}, 1 * kMm), h);
+  const auto fit = axis_fit(*bones.before, *bones.after, {{0, 0, 0}, {0, 0, -1}}, {});
+  ASSERT_TRUE(fit) << fit.reason();
+  EXPECT_NEAR(fit->entry.z(), 0, 0.25 * h);
+  EXPECT_FALSE(fit->through);
+  EXPECT_NEAR(fit->depth, 11 * kMm, 0.5 * h);
 }
 
 TEST(AxisFit, AShortHoleHasNoAxis) {

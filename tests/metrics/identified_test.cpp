@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <type_traits>
 
+#include "burr/metrics/shares.h"
 #include "burr/metrics/skeletonised.h"
 #include "metrics/bones.h"
 
@@ -84,7 +86,7 @@ TEST(Identified, CoarseVoxelsAreNoAnswer) {
   const auto found = identified(cover, {.x = 0.5 * kMm});
   ASSERT_FALSE(found);
   EXPECT_NE(found.reason().find("0.25 mm or finer"), std::string::npos) << found.reason();
-  EXPECT_FALSE(skeletonised(cover, {.lo = 0.05 * kMm}));
+  EXPECT_FALSE(skeletonised(cover, 1, {.lo = 0.05 * kMm}));
 }
 
 TEST(Identified, SaysWhenItIsNearTheThreshold) {
@@ -100,17 +102,34 @@ TEST(Identified, SaysWhenItIsNearTheThreshold) {
 
 TEST(Skeletonised, NeedsMostOfItThinAndHardlyAnyBare) {
   for (const double h : test::kVoxels) {
-    const auto even = skeletonised(seen(over_a_sheet(4 * kMm, h)), {});
+    const auto even = skeletonised(seen(over_a_sheet(4 * kMm, h)), 1, {});
     ASSERT_TRUE(even) << even.reason();
     EXPECT_GT(even->even.value, 0.88);
     EXPECT_TRUE(even->even.met);
     EXPECT_LT(even->bare.value, 0.02);
     EXPECT_NEAR(even->median, 0.5 * kMm, std::max(0.05 * kMm, 0.2 * h));
 
-    const auto little = skeletonised(seen(over_a_sheet(-3 * kMm, h)), {});
+    const auto little = skeletonised(seen(over_a_sheet(-3 * kMm, h)), 1, {});
     ASSERT_TRUE(little);
     EXPECT_FALSE(little->even.met);
   }
+}
+
+// Nothing is bare because nothing was done.
+TEST(Skeletonised, WhoDidNothingLaidNothingBare) {
+  const Cover cover = seen(over_a_sheet(4 * kMm, 0.4 * kMm));
+  const auto idle = skeletonised(cover, 0.1, {}), worked = skeletonised(cover, 0.3, {});
+  ASSERT_TRUE(idle && worked);
+  EXPECT_FALSE(idle->bare.met);
+  EXPECT_FALSE(idle->bare.earned);
+  EXPECT_TRUE(worked->bare.met && worked->bare.earned);
+  static_assert(!std::is_default_constructible_v<Worked>);
+}
+
+TEST(Shares, TheErrorIsTwoStandardErrors) {
+  EXPECT_DOUBLE_EQ(share_error(0.5, 0.5, 0.5, 100), 0.1);
+  EXPECT_DOUBLE_EQ(share_error(0.5, 0.3, 0.6, 100), 0.2);
+  EXPECT_DOUBLE_EQ(share_error(0.5, 0.4, 0.8, 100), 0.3);
 }
 
 // All of it thin but 30 % laid bare: not skeletonised.
@@ -124,7 +143,7 @@ TEST(Skeletonised, BareIsNotThin) {
     const phantom::Depth bare =
         phantom::common(test::above(-1 * kMm), phantom::slab({1, 0, 0}, {-2 * kMm, 0, 0}));
     const auto bones = test::cut(plan, phantom::either(test::above(0.6 * kMm), bare), h);
-    const auto thin = skeletonised(seen(bones), {});
+    const auto thin = skeletonised(seen(bones), 1, {});
     ASSERT_TRUE(thin);
     EXPECT_NEAR(thin->bare.value, 0.3, 0.03);
     EXPECT_FALSE(thin->bare.met);

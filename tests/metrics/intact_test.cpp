@@ -35,7 +35,7 @@ TEST(IntactSolid, MeasuresTheLostVolume) {
     for (const double cap : {0.5, 1.0, 2.0}) {
       const auto bones = ball_cut_at((3 - cap) * kMm, h);
       const auto lost = intact_solid(*bones.before, *bones.after,
-                                     test::voxels_of(*bones.before, test::kHard), {});
+                                     test::voxels_of(*bones.before, test::kHard), 1, {});
       ASSERT_TRUE(lost) << lost.reason();
       const double truth = std::numbers::pi * cap * cap * (3 - cap / 3) * kMm3;
       // the ball's labels are whole voxels; the cut is the field's
@@ -62,13 +62,13 @@ TEST(IntactSolid, ACutBesideItTakesNothing) {
     plan.bone = test::below(20 * h);
     const auto beside = test::cut(plan, test::above(8.5 * h), h);
     const auto whole = intact_solid(*beside.before, *beside.after,
-                                    test::voxels_of(*beside.before, test::kHard), {});
+                                    test::voxels_of(*beside.before, test::kHard), 1, {});
     ASSERT_TRUE(whole) << whole.reason();
     EXPECT_EQ(whole->mark.value, 0);
     EXPECT_TRUE(whole->mark.met);
     const auto into = test::cut(plan, test::above(7 * h), h);
     const auto cut =
-        intact_solid(*into.before, *into.after, test::voxels_of(*into.before, test::kHard), {});
+        intact_solid(*into.before, *into.after, test::voxels_of(*into.before, test::kHard), 1, {});
     ASSERT_TRUE(cut);
     EXPECT_NEAR(cut->mark.value, 16 * 16 * h * h * h, 0.02 * 256 * h * h * h);
   }
@@ -77,12 +77,12 @@ TEST(IntactSolid, ACutBesideItTakesNothing) {
 TEST(IntactSolid, AnUntouchedBoneEarnsNothing) {
   const auto bones = ball_cut_at(20 * kMm, 0.4 * kMm);
   const VoxelSet ball = test::voxels_of(*bones.before, test::kHard);
-  const auto idle = intact_solid(*bones.before, *bones.after, ball, {.worked = 0});
+  const auto idle = intact_solid(*bones.before, *bones.after, ball, 0, {});
   ASSERT_TRUE(idle);
   EXPECT_EQ(idle->mark.value, 0);
   EXPECT_FALSE(idle->mark.met);
   EXPECT_FALSE(idle->mark.earned);
-  const auto worked = intact_solid(*bones.before, *bones.after, ball, {.worked = 0.3});
+  const auto worked = intact_solid(*bones.before, *bones.after, ball, 0.3, {});
   ASSERT_TRUE(worked);
   EXPECT_TRUE(worked->mark.met && worked->mark.earned);
 }
@@ -94,10 +94,10 @@ TEST(IntactSolid, SoftOrMissingIsNoAnswer) {
   plan.bone = phantom::without(test::below(6 * kMm), nerve);
   plan.labels = {{nerve, test::kNerve}};
   const auto bone = test::build(plan, plan.bone, 0.4 * kMm);
-  const auto soft = intact_solid(*bone, *bone, test::voxels_of(*bone, test::kNerve), {});
+  const auto soft = intact_solid(*bone, *bone, test::voxels_of(*bone, test::kNerve), 1, {});
   ASSERT_FALSE(soft);
   EXPECT_NE(soft.reason().find("soft"), std::string::npos);
-  EXPECT_FALSE(intact_solid(*bone, *bone, test::voxels_of(*bone, test::kHard), {}));
+  EXPECT_FALSE(intact_solid(*bone, *bone, test::voxels_of(*bone, test::kHard), 1, {}));
 }
 
 // K3: dura below z = 0 under bone; a plate of 1 mm is left, with round holes in it.
@@ -129,7 +129,7 @@ TEST(IntactPlate, MeasuresTheAreaOfItsHoles) {
     const auto cover = cover_of_dura(plate_with_holes(
         {{1.5 * kMm, {-2 * kMm, 0.1 * kMm, 0}}, {0.8 * kMm, {2.5 * kMm, 1 * kMm, 0}}}, h));
     ASSERT_TRUE(cover) << cover.reason();
-    const auto plate = intact_plate(*cover, {});
+    const auto plate = intact_plate(*cover, 1, {});
     ASSERT_TRUE(plate) << plate.reason();
     const double large = std::numbers::pi * 2.25 * kMm2, small = std::numbers::pi * 0.64 * kMm2;
     std::printf("K3 h %.3f: %.2f of %.2f mm^2, pieces %.2f %.2f; error %.2f\n", h / kMm,
@@ -150,11 +150,11 @@ TEST(IntactPlate, IsMetWithoutHolesByOneWhoWorked) {
   for (const double h : test::kVoxels) {
     const auto cover = cover_of_dura(plate_with_holes({}, h));
     ASSERT_TRUE(cover) << cover.reason();
-    const auto plate = intact_plate(*cover, {});
+    const auto plate = intact_plate(*cover, 1, {});
     ASSERT_TRUE(plate) << plate.reason();
     EXPECT_EQ(plate->mark.value, 0);
     EXPECT_TRUE(plate->mark.met);
-    const auto idle = intact_plate(*cover, {.worked = 0.1});
+    const auto idle = intact_plate(*cover, 0.1, {});
     ASSERT_TRUE(idle);
     EXPECT_FALSE(idle->mark.met);
   }
@@ -170,7 +170,7 @@ TEST(IntactPlate, AThinPlateIsNoAnswer) {
   plan.labels = {{test::below(0), test::kNerve}};
   const auto cover = cover_of_dura(test::cut(plan, test::above(2 * kMm), 0.25 * kMm));
   ASSERT_TRUE(cover) << cover.reason();
-  const auto plate = intact_plate(*cover, {});
+  const auto plate = intact_plate(*cover, 1, {});
   ASSERT_FALSE(plate);
   EXPECT_NE(plate.reason().find("thinner than two voxels"), std::string::npos);
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "burr/metrics/filters.h"
@@ -42,7 +43,7 @@ TEST(Strokes, OfAZigzag) {
                           Zigzag{1.5, 4 * kMm, 0.2 * kMm}, Zigzag{1.0, 8 * kMm, 0.25 * kMm}}) {
     const Process done = test::process(20, [&](double t) { return zigzag_at(z, t); });
     const double found = static_cast<double>(done.strokes.size()) / 20;
-    const auto figures = figures_of(done.strokes, 0, kFar);
+    const auto figures = figures_of(done.strokes);
     ASSERT_TRUE(figures) << figures.reason();
     std::printf(
         "Q2 %.2f Hz %.0f mm tremor %.2f: %.2f of %.2f strokes/s, %.2f s, %.2f mm, curved %.2f\n",
@@ -66,7 +67,7 @@ TEST(Strokes, OfACircle) {
   ASSERT_EQ(done.strokes.size(), 1U);
   EXPECT_NEAR(done.strokes[0].length, kPi2 * 3 * kMm * 4, 2 * kMm);
   EXPECT_LT(done.strokes[0].straightness(), 0.1);
-  EXPECT_FALSE(figures_of(done.strokes, 0, kFar));  // one is too few for figures
+  EXPECT_FALSE(figures_of(done.strokes));  // one is too few for figures
 }
 
 TEST(Strokes, EndWhereContactOrTheSpindleEnds) {
@@ -110,19 +111,29 @@ TEST(Smoothness, OfMovesOfMinimumJerk) {
   const double exact = -std::log(720 / (1.875 * 1.875));
   for (const double rate : {100.0, 1000.0}) {
     const std::vector<double> one = speed_of_moves(1, 1.0, rate);
-    std::printf("Q4 %.0f Hz: SPARC %.3f %.3f %.3f, LDLJ %.3f of %.3f\n", rate, sparc(one, rate),
-                sparc(speed_of_moves(2, 1, rate), rate), sparc(speed_of_moves(3, 1, rate), rate),
-                ldlj(one, rate), exact);
-    EXPECT_NEAR(sparc(one, rate), -1.40, 0.02);
-    EXPECT_NEAR(sparc(speed_of_moves(2, 1, rate), rate), -2.27, 0.05);
-    EXPECT_NEAR(sparc(speed_of_moves(3, 1, rate), rate), -2.69, 0.08);
-    EXPECT_NEAR(ldlj(one, rate), exact, 0.05);
+    std::printf("Q4 %.0f Hz: SPARC %.3f %.3f %.3f, LDLJ %.3f of %.3f\n", rate, *sparc(one, rate),
+                *sparc(speed_of_moves(2, 1, rate), rate), *sparc(speed_of_moves(3, 1, rate), rate),
+                *ldlj(one, rate), exact);
+    EXPECT_NEAR(*sparc(one, rate), -1.40, 0.02);
+    EXPECT_NEAR(*sparc(speed_of_moves(2, 1, rate), rate), -2.27, 0.05);
+    EXPECT_NEAR(*sparc(speed_of_moves(3, 1, rate), rate), -2.69, 0.08);
+    EXPECT_NEAR(*ldlj(one, rate), exact, 0.05);
   }
   // neither depends on size or, for the same shape, on time
   std::vector<double> larger = speed_of_moves(1, 2.0, 500);
   for (double& v : larger) v *= 7;
-  EXPECT_NEAR(ldlj(larger, 500), exact, 0.02);
-  EXPECT_NEAR(sparc(larger, 500), -1.40, 0.02);
+  EXPECT_NEAR(*ldlj(larger, 500), exact, 0.02);
+  EXPECT_NEAR(*sparc(larger, 500), -1.40, 0.02);
+}
+
+TEST(Smoothness, WithoutMotionThereIsNone) {
+  for (const std::vector<double>& speed :
+       {std::vector<double>{}, std::vector<double>(2, 1), std::vector<double>(100, 0),
+        std::vector<double>{0, 1, NAN, 1, 0}}) {
+    EXPECT_FALSE(sparc(speed, 100));
+    EXPECT_FALSE(ldlj(speed, 100));
+  }
+  EXPECT_FALSE(ldlj(std::vector<double>(100, 1), 100));  // no hand moves so
 }
 
 TEST(Smoothness, FindsFreeMovesOnly) {
@@ -145,6 +156,28 @@ TEST(Smoothness, FindsFreeMovesOnly) {
   }
   ASSERT_TRUE(smoothness_of(done.moves));
   EXPECT_FALSE(smoothness_of(std::span<const Move>(done.moves).first(4)));
+}
+
+TEST(Strokes, WithoutADistanceAreNeitherNearNorFar) {
+  const std::vector<BurrStroke> strokes(6);
+  EXPECT_TRUE(figures_of(strokes));
+  const auto near = figures_of(strokes, 0, 2 * kMm);
+  ASSERT_FALSE(near);
+  EXPECT_EQ(near.reason(), kNoStrokeDistance);
+}
+
+// Gains of the band from 6 to 12 Hz.
+TEST(Filters, TheBandHoldsItsMiddle) {
+  for (const auto& [frequency, gain] :
+       {std::pair{9.0, 0.99}, std::pair{7.0, 0.92}, std::pair{11.0, 0.80}, std::pair{6.0, 0.5},
+        std::pair{3.0, 0.0}, std::pair{25.0, 0.0}}) {
+    std::vector<double> sine;
+    for (int n = 0; n < 2000; ++n) sine.push_back(std::sin(kPi2 * frequency * n / 100));
+    const std::vector<double> out = band(sine, 100, 6, 12);
+    double sum = 0;
+    for (std::size_t n = 500; n < 1500; ++n) sum += out[n] * out[n] / 500;
+    EXPECT_NEAR(std::sqrt(sum), gain, 0.03) << frequency;
+  }
 }
 
 TEST(Filters, PassAndStop) {

@@ -7,11 +7,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "burr/metrics/order.h"
+#include "burr/metrics/visibility.h"
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
 #include "metrics/bones.h"
@@ -59,8 +61,9 @@ TEST_F(ProcessTest, NearnessOfAStraightApproach) {
   };
   const Process done = test::process(1.46, story, settings_);
   ASSERT_EQ(done.nearness.size(), 1U);
-  const NearnessOf& near = done.nearness[0];
-  EXPECT_EQ(near.name, "nerve");
+  EXPECT_EQ(done.nearness[0].name, "nerve");
+  ASSERT_TRUE(done.nearness[0].found) << done.nearness[0].found.reason();
+  const Nearness& near = *done.nearness[0].found;
   EXPECT_NEAR(near.least, 0.4 * kMm, 0.5 * kVoxel);
   EXPECT_NEAR(near.least_at, 0.46, 0.02);
   EXPECT_NEAR(near.least_place.z(), 3.4 * kMm, 0.2 * kMm);
@@ -84,11 +87,13 @@ TEST_F(ProcessTest, FarAwayThereIsNoNearness) {
         return Happening{.place = {0, 0, 60 * kMm}};
       },
       settings_);
-  EXPECT_EQ(done.nearness[0].least, kFar);
-  EXPECT_FALSE(done.nearness[0].approach);
+  ASSERT_TRUE(done.nearness[0].found);
+  EXPECT_EQ(done.nearness[0].found->least, kFar);
+  EXPECT_FALSE(done.nearness[0].found->approach);
   ASSERT_FALSE(done.force);
   EXPECT_NE(done.force.reason().find("never touched"), std::string::npos);
-  EXPECT_FALSE(done.choice.diamond);
+  ASSERT_FALSE(done.choice);
+  EXPECT_NE(done.choice.reason().find("nothing was removed"), std::string::npos);
   EXPECT_NEAR(done.times.free, 0.2, 1e-9);
 }
 
@@ -108,21 +113,23 @@ TEST_F(ProcessTest, ForceByDistance) {
   EXPECT_NEAR(force.p95, 1.0, 0.011);
   EXPECT_DOUBLE_EQ(force.peak, 3.0);
   EXPECT_NEAR(force.peak_at, 3.0, 1e-9);
-  EXPECT_NEAR(force.time[1], 2.0, 1e-6);
-  EXPECT_NEAR(force.time[3], 1.0, 1e-6);
-  EXPECT_EQ(force.time[0], 0);
-  EXPECT_FALSE(force.bin_mean[0]);
-  ASSERT_TRUE(force.bin_mean[1] && force.bin_mean[2] && force.bin_mean[3]);
-  EXPECT_NEAR(*force.bin_mean[1], 0.4, 1e-9);
-  EXPECT_NEAR(*force.bin_mean[3], 1.0, 1e-9);
-  EXPECT_DOUBLE_EQ(force.bin_peak[2], 3.0);
-  ASSERT_TRUE(force.restraint);
-  EXPECT_NEAR(*force.restraint, 0.4, 1e-9);
+  ASSERT_TRUE(done.force->by_distance);
+  const ForceByDistance& by = *done.force->by_distance;
+  EXPECT_NEAR(by.time[1], 2.0, 1e-6);
+  EXPECT_NEAR(by.time[3], 1.0, 1e-6);
+  EXPECT_EQ(by.time[0], 0);
+  EXPECT_FALSE(by.bin_mean[0]);
+  ASSERT_TRUE(by.bin_mean[1] && by.bin_mean[2] && by.bin_mean[3]);
+  EXPECT_NEAR(*by.bin_mean[1], 0.4, 1e-9);
+  EXPECT_NEAR(*by.bin_mean[3], 1.0, 1e-9);
+  EXPECT_DOUBLE_EQ(by.bin_peak[2], 3.0);
+  ASSERT_TRUE(by.restraint);
+  EXPECT_NEAR(*by.restraint, 0.4, 1e-9);
   // too little time far away: no ratio
   const Process brief = test::process(
       1.2, [&](double t) { return story(t + 0.8); }, settings_);
-  ASSERT_TRUE(brief.force);
-  EXPECT_FALSE(brief.force->restraint);
+  ASSERT_TRUE(brief.force && brief.force->by_distance);
+  EXPECT_FALSE(brief.force->by_distance->restraint);
 }
 
 // Q9: a diamond of 1 mm near, a cutting burr of 3 mm far away, and a cutting one of 3 mm near for a
@@ -144,13 +151,14 @@ TEST_F(ProcessTest, ChoiceOfBurr) {
     return now;
   };
   const Process done = test::process(2.0, story, settings_);
-  EXPECT_NEAR(done.choice.near_volume, 1e-9, 3e-12);
-  EXPECT_NEAR(done.choice.far_volume, 1e-9, 3e-12);
-  ASSERT_TRUE(done.choice.diamond && done.choice.small && done.choice.large_cutting);
-  EXPECT_NEAR(*done.choice.diamond, 0.75, 0.002);
-  EXPECT_NEAR(*done.choice.small, 0.75, 0.002);
-  EXPECT_NEAR(*done.choice.diamond_or_small, 0.75, 0.002);
-  EXPECT_EQ(*done.choice.large_cutting, 1);
+  ASSERT_TRUE(done.choice) << done.choice.reason();
+  EXPECT_NEAR(done.choice->near_volume, 1e-9, 3e-12);
+  EXPECT_NEAR(done.choice->far_volume, 1e-9, 3e-12);
+  ASSERT_TRUE(done.choice->diamond && done.choice->small && done.choice->large_cutting);
+  EXPECT_NEAR(*done.choice->diamond, 0.75, 0.002);
+  EXPECT_NEAR(*done.choice->small, 0.75, 0.002);
+  EXPECT_NEAR(*done.choice->diamond_or_small, 0.75, 0.002);
+  EXPECT_EQ(*done.choice->large_cutting, 1);
 }
 
 // a peak of one tick is kept, and the burr changes with its tick
@@ -188,7 +196,7 @@ Happening pass_at(const Pass& pass, double t) {
 }
 
 TEST_F(ProcessTest, HowDeepABurrWentIntoSoftTissue) {
-  settings_.soft = {{"nerve", &voxels_, nerve_.get(), {}}};
+  settings_.soft = {{"nerve", &voxels_, nerve_.get(), 1}};
   for (const double p : {0.0, 0.3, 0.8, 1.0}) {
     const Process done = test::process(
         2, [&](double t) { return pass_at({p * kMm}, t); }, settings_, bone_->grid());
@@ -214,8 +222,28 @@ TEST_F(ProcessTest, HowDeepABurrWentIntoSoftTissue) {
   }
 }
 
+// A burr so fast that it passes the ball between two ticks, deepest in their middle.
+TEST_F(ProcessTest, TheErrorHoldsWhatIsBetweenTwoTicks) {
+  settings_.soft = {{"nerve", &voxels_, nerve_.get(), 1}};
+  for (const double way : {0.2, 1.0, 3.0}) {  // mm in a tick
+    const Process done = test::process(
+        0.02,
+        [&](double t) {
+          return Happening{.place = {(t * test::kRate - 10.5) * way * kMm, 0, 2.2 * kMm}};
+        },
+        settings_, bone_->grid());
+    ASSERT_TRUE(done.soft[0].intact) << done.soft[0].intact.reason();
+    const Mark& entered = done.soft[0].intact->entered;
+    EXPECT_NEAR(entered.value, 0.8 * kMm, entered.error) << way;
+    EXPECT_LT(entered.error, 0.5 * kVoxel + 0.5 * way * kMm + 1e-9);
+    if (way > 2) {
+      EXPECT_LT(entered.value + 0.5 * kVoxel, 0.8 * kMm);
+    }
+  }
+}
+
 TEST_F(ProcessTest, OnlyATurningBurrHarms) {
-  settings_.soft = {{"nerve", &voxels_, nerve_.get(), {}}};
+  settings_.soft = {{"nerve", &voxels_, nerve_.get(), 1}};
   const Process still = test::process(
       2,
       [&](double t) {
@@ -239,7 +267,7 @@ TEST_F(ProcessTest, OnlyATurningBurrHarms) {
 }
 
 TEST_F(ProcessTest, ADiamondMayTouch) {
-  settings_.soft = {{"nerve", &voxels_, nerve_.get(), {}}};
+  settings_.soft = {{"nerve", &voxels_, nerve_.get(), 1}};
   for (const auto kind : {tool::BurrKind::cutting, tool::BurrKind::diamond}) {
     const Process done = test::process(
         2,
@@ -254,7 +282,7 @@ TEST_F(ProcessTest, ADiamondMayTouch) {
 }
 
 TEST_F(ProcessTest, WhoDidNothingHasSparedNothing) {
-  settings_.soft = {{"nerve", &voxels_, nerve_.get(), {.worked = 0.05}}};
+  settings_.soft = {{"nerve", &voxels_, nerve_.get(), 0.05}};
   const Process done = test::process(
       2,
       [](double) {
@@ -283,8 +311,9 @@ TEST_F(ProcessTest, HesitationIsALongPauseNearBone) {
     return now;
   };
   const Process done = test::process(12, story, settings_);
-  EXPECT_EQ(done.times.hesitations, 1U);
-  EXPECT_NEAR(done.times.hesitating, 3.0, 0.01);
+  ASSERT_TRUE(done.times.hesitation) << done.times.hesitation.reason();
+  EXPECT_EQ(done.times.hesitation->count, 1U);
+  EXPECT_NEAR(done.times.hesitation->seconds, 3.0, 0.01);
   EXPECT_NEAR(done.times.cutting, 2.5, 0.01);
   EXPECT_NEAR(done.times.irrigated, 1.5, 0.01);
 }
@@ -324,8 +353,113 @@ TEST_F(ProcessTest, AGapIsNoApproach) {
   });
   test::drop(rows, 1.0, 1.02);
   const Process done = test::process(rows, settings_);
-  ASSERT_TRUE(done.nearness[0].approach);
-  EXPECT_NEAR(*done.nearness[0].approach, 10e-3, 3e-3);
+  ASSERT_TRUE(done.nearness[0].found->approach);
+  EXPECT_NEAR(*done.nearness[0].found->approach, 10e-3, 3e-3);
+}
+
+// In 20 ms that nobody saw, the burr came from 1.3 to 0.7 mm: nobody saw it cross 1 mm.
+TEST_F(ProcessTest, ACrossingThatNobodySawIsNoApproach) {
+  auto rows = test::rows_of(1.2, [](double t) {
+    Happening now;
+    now.place.z() = (t < 1 ? 4.3 : std::max(3.7 - 10 * (t - 1.02), 3.3)) * kMm;
+    return now;
+  });
+  test::drop(rows, 1.0, 1.02);
+  const Process done = test::process(rows, settings_);
+  ASSERT_TRUE(done.nearness[0].found);
+  EXPECT_LT(done.nearness[0].found->least, 0.5 * kMm);
+  EXPECT_FALSE(done.nearness[0].found->approach);
+}
+
+// A burr of 1 mm at d = 1.5 mm becomes one of 2 mm: it is nearer, but it did not come nearer.
+TEST_F(ProcessTest, ALargerBurrIsNoApproach) {
+  const Process done = test::process(
+      1,
+      [](double t) {
+        Happening now;
+        now.place.z() = 4.5 * kMm;
+        now.tool.radius = (t < 0.5 ? 1 : 2) * kMm;
+        return now;
+      },
+      settings_);
+  ASSERT_TRUE(done.nearness[0].found);
+  EXPECT_NEAR(done.nearness[0].found->least, 0.5 * kMm, 0.5 * kVoxel);
+  EXPECT_FALSE(done.nearness[0].found->approach);
+}
+
+// Half of the time the recording does not say how large the burr is; then it is in the nerve.
+TEST_F(ProcessTest, ATickWithoutARadiusHasNoDistance) {
+  const std::array<volume::TissueId, 1> ids = {test::kBone};
+  NoProgress quiet;
+  auto made = volume::DistanceTo::make(*bone_, ids, {}, quiet);
+  ASSERT_TRUE(made);
+  settings_.bone = &*made;
+  settings_.soft = {{"nerve", &voxels_, nerve_.get(), 1}};
+  for (const double radius : {0.0, std::numeric_limits<double>::quiet_NaN(), -1 * kMm}) {
+    const auto story = [radius](double t, double from) {
+      Happening now;
+      now.touching = true;
+      now.force = t < from ? 1 : 3;
+      now.removal = 1e-9;
+      now.place.z() = (t < from ? 5 : 1) * kMm;  // d = 2 mm; then inside
+      if (t >= from) now.tool.radius = radius;
+      return now;
+    };
+    const Process half = test::process(
+        2, [&](double t) { return story(t, 1); }, settings_, bone_->grid());
+    ASSERT_TRUE(half.nearness[0].found);
+    EXPECT_NEAR(half.nearness[0].found->least, 2 * kMm, 0.5 * kVoxel);
+    EXPECT_EQ(half.nearness[0].found->cutting_within[1], 0);
+    ASSERT_TRUE(half.force && half.force->by_distance);
+    EXPECT_NEAR(half.force->mean, 2, 1e-9);  // a force needs no distance
+    EXPECT_EQ(half.force->by_distance->time[0], 0);
+    ASSERT_TRUE(half.soft[0].intact);
+    EXPECT_EQ(half.soft[0].intact->entered.value, 0);
+    for (const BurrStroke& stroke : half.strokes) EXPECT_NEAR(stroke.d, 2 * kMm, 0.5 * kVoxel);
+
+    const Process none = test::process(
+        2, [&](double t) { return story(t, 0); }, settings_, bone_->grid());
+    const std::string why = "the burr's radius is not recorded";
+    ASSERT_FALSE(none.nearness[0].found);
+    EXPECT_EQ(none.nearness[0].found.reason(), why);
+    ASSERT_TRUE(none.force);
+    ASSERT_FALSE(none.force->by_distance);
+    EXPECT_EQ(none.force->by_distance.reason(), why);
+    ASSERT_FALSE(none.choice);
+    EXPECT_EQ(none.choice.reason(), why);
+    ASSERT_FALSE(none.times.hesitation);
+    EXPECT_EQ(none.times.hesitation.reason(), why);
+    ASSERT_FALSE(none.soft[0].intact);
+    EXPECT_EQ(none.soft[0].intact.reason(), why);
+  }
+}
+
+// Near to what? Without a structure there is no answer, and no zero.
+TEST_F(ProcessTest, WithoutAStructureNothingIsNear) {
+  const auto story = [](double) {
+    return Happening{.place = {0, 0, 5 * kMm}, .force = 1, .touching = true, .removal = 1e-9};
+  };
+  const Process none = test::process(1, story);
+  ASSERT_FALSE(none.choice);
+  EXPECT_NE(none.choice.reason().find("no structure"), std::string::npos);
+  ASSERT_TRUE(none.force);
+  ASSERT_FALSE(none.force->by_distance);
+  EXPECT_EQ(none.force->by_distance.reason(), none.choice.reason());
+  ASSERT_FALSE(none.times.hesitation);
+  EXPECT_NE(none.times.hesitation.reason().find("distance to the bone"), std::string::npos);
+  // one that this bone does not have
+  const volume::DistanceTo nowhere;
+  const Process missing = test::process(1, story, {.critical = {{"marrow", &nowhere}}});
+  ASSERT_FALSE(missing.nearness[0].found);
+  EXPECT_NE(missing.nearness[0].found.reason().find("not in this bone"), std::string::npos);
+  EXPECT_FALSE(missing.choice);
+  EXPECT_FALSE(missing.force->by_distance);
+  // beside one that it has, it changes nothing
+  settings_.critical.push_back({"marrow", &nowhere});
+  const Process both = test::process(1, story, settings_);
+  ASSERT_TRUE(both.nearness[0].found && both.choice);
+  EXPECT_NEAR(both.nearness[0].found->least, 2 * kMm, 0.5 * kVoxel);
+  EXPECT_FALSE(both.nearness[1].found);
 }
 
 // Two pauses of 1.5 s are none of 3 s if nobody knows what was done between them.
@@ -336,9 +470,9 @@ TEST_F(ProcessTest, AGapEndsAPause) {
   ASSERT_TRUE(made);
   settings_.bone = &*made;
   auto rows = test::rows_of(3.1, [](double) { return Happening{.place = {0, 0, 8 * kMm}}; });
-  EXPECT_EQ(test::process(rows, settings_).times.hesitations, 1U);
+  EXPECT_EQ(test::process(rows, settings_).times.hesitation->count, 1U);
   test::drop(rows, 1.5, 1.6);
-  EXPECT_EQ(test::process(rows, settings_).times.hesitations, 0U);
+  EXPECT_EQ(test::process(rows, settings_).times.hesitation->count, 0U);
 }
 
 // Writes a recording of these ticks and measures it.
@@ -346,6 +480,14 @@ class RecordingTest : public ProcessTest {
  protected:
   Process recorded(const std::vector<tick::TickRow>& rows) {
     const record::test::Folder folder;
+    const auto player = written(rows, folder);
+    NoProgress quiet;
+    auto read = process_of(*player, settings_, quiet);
+    EXPECT_TRUE(read) << read.error().text;
+    return std::move(*read);
+  }
+  std::unique_ptr<record::Player> written(const std::vector<tick::TickRow>& rows,
+                                          const record::test::Folder& folder) {
     record::SessionInfo info;
     info.volume = record::volume_info(*bone_);
     info.rate_hz = test::kRate;
@@ -358,10 +500,7 @@ class RecordingTest : public ProcessTest {
     EXPECT_TRUE(recorder.finish().ok());
     auto player = record::Player::open(folder / "s.mcap");
     EXPECT_TRUE(player) << player.error().text;
-    NoProgress quiet;
-    auto read = process_of(**player, settings_, quiet);
-    EXPECT_TRUE(read) << read.error().text;
-    return std::move(*read);
+    return std::move(*player);
   }
 };
 
@@ -413,6 +552,25 @@ TEST_F(RecordingTest, AnUnusableTickIsAGap) {
   EXPECT_NEAR(done.paths.all, 0, 1e-9);
 }
 
+// A session of 150 ms: the last 50 are sampled too.
+TEST_F(RecordingTest, TheEndOfARecordingIsInSightToo) {
+  const record::test::Folder folder;
+  const auto player = written(
+      test::rows_of(0.15,
+                    [](double) {
+                      return Happening{.place = {0, 0, 9 * kMm}, .touching = true, .removal = 1e-9};
+                    }),
+      folder);
+  const std::vector<EyeSample> eyes = {{.t = 0, .eye = {0, 0, 300 * kMm}}};
+  NoProgress quiet;
+  const auto seen = visibility_of(*player, *bone_, eyes, quiet);
+  ASSERT_TRUE(seen) << seen.error().text;
+  ASSERT_TRUE(*seen) << seen->reason();
+  EXPECT_NEAR((*seen)->volume, 0.149e-9,
+              1e-15);  // the first tick counts as one that removes nothing
+  EXPECT_NEAR((*seen)->seen_share, 1, 1e-9);
+}
+
 // A recording on the disk gives the same as the ticks that were written to it.
 TEST_F(RecordingTest, GivesTheSameAsItsTicks) {
   const auto rows = test::rows_of(3, [](double t) {
@@ -421,25 +579,25 @@ TEST_F(RecordingTest, GivesTheSameAsItsTicks) {
     now.removal = now.touching ? 1e-9 : 0;
     return now;
   });
-  settings_.soft = {{"nerve", &voxels_, nerve_.get(), {}}};
+  settings_.soft = {{"nerve", &voxels_, nerve_.get(), 1}};
   const Process read = recorded(rows);
   const Process made = test::process(rows, settings_, bone_->grid());
   EXPECT_EQ(read.paths.all, made.paths.all);
   EXPECT_EQ(read.times.cutting, made.times.cutting);
   EXPECT_EQ(read.force->mean, made.force->mean);
-  EXPECT_EQ(read.nearness[0].least, made.nearness[0].least);
+  EXPECT_EQ(read.nearness[0].found->least, made.nearness[0].found->least);
   EXPECT_EQ(read.soft[0].intact->volume, made.soft[0].intact->volume);
   EXPECT_EQ(read.strokes.size(), made.strokes.size());
   EXPECT_EQ(read.unusable, 0U);
 }
 
 TEST(Order, CountsInversions) {
-  const std::vector<std::string> wanted = {"a", "b", "c", "d"};
+  const std::vector<std::string> steps = {"a", "b", "c", "d"};
   const std::vector<StepMark> marks = {{1, "a", StepEvent::done},     {2, "c", StepEvent::begun},
                                        {3, "c", StepEvent::done},     {4, "b", StepEvent::done},
                                        {5, "c", StepEvent::reopened}, {6, "c", StepEvent::done},
                                        {7, "other", StepEvent::done}};
-  const Order order = order_of(marks, wanted);
+  const Order order = order_of(marks, steps);
   EXPECT_EQ(order.done, 3U);
   EXPECT_EQ(order.reopened, 1U);
   EXPECT_EQ(order.skipped, std::vector<std::string>{"d"});
@@ -448,7 +606,7 @@ TEST(Order, CountsInversions) {
   EXPECT_EQ(order.inversions[0].second, "b");
   ASSERT_TRUE(order.tau);
   EXPECT_NEAR(*order.tau, 1.0 / 3, 1e-12);
-  EXPECT_FALSE(order_of({}, wanted).tau);
+  EXPECT_FALSE(order_of({}, steps).tau);
 }
 
 }  // namespace

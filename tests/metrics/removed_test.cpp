@@ -33,18 +33,18 @@ TEST(Removed, SharesOfABall) {
       const auto bones = test::cut(plan, phantom::ball(r * kMm, middle), h);
       const auto gone = removed_of(*bones.before, *bones.after, in_ball(middle, 3 * kMm), {});
       ASSERT_TRUE(gone) << gone.reason();
-      const double asked = ball_volume(3 * kMm), cut = ball_volume(r * kMm);
-      EXPECT_NEAR(gone->asked, asked, 0.01 * asked);
+      const double bone = ball_volume(3 * kMm), cut = ball_volume(r * kMm);
+      EXPECT_NEAR(gone->bone, bone, 0.01 * bone);
       EXPECT_NEAR(gone->all, cut, 0.01 * cut);
-      const double share = std::min(1.0, cut / asked);
+      const double share = std::min(1.0, cut / bone);
       std::printf("Removed h %.3f r %.0f: %.3f of %.3f, error %.3f\n", h / kMm, r, gone->share,
                   share, gone->error);
-      EXPECT_NEAR(gone->share, share, 0.01 + (r == 3.0 ? 1.5 * gone->error : 0)) << h;
-      EXPECT_NEAR(gone->removed + gone->missed, gone->asked, 1e-6 * asked);
-      EXPECT_NEAR(gone->excess, std::max(0.0, cut - asked),
-                  0.01 * cut + (r == 3.0 ? 1.5 * gone->error * asked : 0));
-      const double dice = 2 * share * asked / (asked + cut);
-      EXPECT_NEAR(gone->dice, dice, 0.02 + (r == 3.0 ? 1.5 * gone->error : 0));
+      EXPECT_NEAR(gone->share, share, 0.01 + (r == 3.0 ? gone->error : 0)) << h;
+      EXPECT_NEAR(gone->removed + gone->missed, gone->bone, 1e-6 * bone);
+      EXPECT_NEAR(gone->excess, std::max(0.0, cut - bone),
+                  0.01 * cut + (r == 3.0 ? gone->error * bone : 0));
+      const double dice = 2 * share * bone / (bone + cut);
+      EXPECT_NEAR(gone->dice, dice, 0.02 + (r == 3.0 ? gone->error : 0));
     }
 }
 

@@ -82,10 +82,10 @@ Numbers measured(const volume::Bone& before, const volume::Bone& after) {
     all.add(one.cover);
     all.add(one.thickness);
   }
-  const auto thin = skeletonised(*cover, {});
+  const auto thin = skeletonised(*cover, 1, {});
   EXPECT_TRUE(thin) << thin.reason();
   all.add(thin->even);
-  const auto solid = intact_solid(before, after, test::voxels_of(before, test::kHard), {});
+  const auto solid = intact_solid(before, after, test::voxels_of(before, test::kHard), 1, {});
   EXPECT_TRUE(solid) << solid.reason();
   all.add(solid->mark);
   for (const SurfacePoint& one : new_surface(before, after, {})) {

@@ -88,6 +88,15 @@ TEST(Outcome, RequiresOfWhatIsNotAssessable) {
   EXPECT_EQ(made.outcomes[3].verdict, kMet);
 }
 
+TEST(Outcome, RequiresHandsOnThatItWasNotEarned) {
+  Made made;
+  made.add("b", kProduct, 1, kMet, "a").add("a", kProduct, 1, kUnmet);
+  made.outcomes[1].earned = false;
+  apply_requires(made.rubric, made.outcomes);
+  EXPECT_EQ(made.outcomes[0].verdict, kUnmet);
+  EXPECT_FALSE(made.outcomes[0].earned);
+}
+
 TEST(Outcome, BorderlineIsNearerThanItsError) {
   Item item;
   item.how = measure_named("identified");

@@ -95,6 +95,16 @@ TEST(Rubric, AMistakeIsASentenceWithItsLine) {
             "\"product\"");
 }
 
+TEST(Rubric, RequiresStaysInItsPart) {
+  std::string text = kGood;
+  text +=
+      "[[item]]\nid = \"calm\"\npart = \"process\"\nmeasure = \"restraint\"\n"
+      "requires = \"nerve.whole\"\nsay = \"Press less.\"\n";
+  EXPECT_EQ(trouble_of(text),
+            "r.toml: line 29: requires: \"nerve.whole\" is an item of the product, and this one of "
+            "the process; the two parts are never mixed, so require an item of the same part");
+}
+
 TEST(Rubric, TheCaseMustHaveWhatItNames) {
   const auto lesson = scenario::parse_lesson(R"(format = 2
 title = "t"

@@ -139,7 +139,7 @@ TEST(Score, NamesTheSpotsItLookedAt) {
   }
 }
 
-TEST(Score, ShowsWhatTheCaseWantsRemoved) {
+TEST(Score, ShowsWhatTheCaseSaysToRemove) {
   const Score score = score_of_cut(20);
   ASSERT_TRUE(score.shown.remove);
   EXPECT_NEAR(score.shown.remove({0, 0, 5.5 * kMm}), 2 * kMm, 1e-9);  // the middle of the pit
@@ -147,14 +147,6 @@ TEST(Score, ShowsWhatTheCaseWantsRemoved) {
   EXPECT_FALSE(score.shown.keep);
   EXPECT_EQ(score.shown.regions.count("pit"), 1U);
   EXPECT_TRUE(score.shown.track.samples.empty());  // without a recording
-}
-
-TEST(Score, TwiceTheSameIsTheSame) {
-  const Score a = score_of_cut(3), b = score_of_cut(3);
-  for (std::size_t n = 0; n < a.outcomes.size(); ++n) {
-    EXPECT_EQ(a.outcomes[n].value, b.outcomes[n].value);
-    EXPECT_EQ(a.outcomes[n].error, b.outcomes[n].error);
-  }
 }
 
 TEST(Score, TheUntouchedTemporalBoneMeetsNothing) {

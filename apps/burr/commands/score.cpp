@@ -70,11 +70,11 @@ Status run_score(const Options& options) {
   } else {
     fmt::print("{}, version {}\n", base::printable(rubric.name), rubric.version);
     print_items(rubric, score);
-    fmt::print("{}\n{}\n", total_line(scoring::Part::product, score.product),
-               total_line(scoring::Part::process, score.process));
+    fmt::print("{}\n{}\n", total_line(rubric, scoring::Part::product, score.product),
+               total_line(rubric, scoring::Part::process, score.process));
     if (const std::string gates = gate_line(rubric, score); !gates.empty())
       fmt::print("{}\n", gates);
-    fmt::print("{}: {}; {:.0f} % of the bone that the case wants removed is gone\n",
+    fmt::print("{}: {}; {:.0f} % of the bone that the case says to remove is gone\n",
                score.unfinished ? "unfinished" : "finished", score.ending, 100 * score.worked);
   }
   fmt::print("{}\n", kDefaults);
@@ -107,7 +107,14 @@ Status run_check(const Options& options) {
     return error(Trouble::data,
                  fmt::format("{}: an untouched bone meets {}; make these items stricter",
                              rubric->file, met));
-  fmt::print("the untouched bone meets no item\n");
+  if (score->product.assessable == 0)
+    return error(
+        Trouble::data,
+        fmt::format("{}: no item of the product can be assessed on the bone of the case \"{}\"; "
+                    "the reasons are above",
+                    rubric->file, base::printable(work->name)));
+  fmt::print("the untouched bone meets no item; {} of {} items of the product were assessed\n",
+             score->product.assessable, score->product.items);
   return fine();
 }
 

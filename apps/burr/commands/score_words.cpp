@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
 
@@ -48,9 +49,7 @@ nlohmann::ordered_json json_of(const Item& item, const Outcome& outcome) {
     row["error"] = outcome.error;
     row["at_least"] = outcome.at_least;
   }
-  if (outcome.place)
-    row["place_mm"] = {1e3 * outcome.place->x(), 1e3 * outcome.place->y(),
-                       1e3 * outcome.place->z()};
+  if (outcome.place) row["place_m"] = {outcome.place->x(), outcome.place->y(), outcome.place->z()};
   if (outcome.tick) row["tick"] = *outcome.tick;
   return row;
 }
@@ -74,12 +73,17 @@ std::string item_line(const Item& item, const Outcome& outcome) {
                      base::printable(item.id), text);
 }
 
-std::string total_line(Part part, const scoring::Total& total) {
+std::string total_line(const scoring::Rubric& rubric, Part part, const scoring::Total& total) {
   const std::string items =
       fmt::format("{}: {} of {} items met", scoring::word_of(part), total.met, total.assessable);
   const std::string open = total.items > total.assessable
                                ? fmt::format(", {} not assessable", total.items - total.assessable)
                                : "";
+  const bool calibrated =
+      std::all_of(rubric.items.begin(), rubric.items.end(),
+                  [&](const Item& item) { return item.part != part || item.calibrated; });
+  // points look like a grade, and thresholds that nobody compared with people are none
+  if (!calibrated) return items + open;
   if (total.points) return fmt::format("{}{}; {:.0f} of 100 points", items, open, *total.points);
   return fmt::format(
       "{}{}; no total, because {:.0f} % of the weight is not assessable (most: {:.0f} "

@@ -16,8 +16,10 @@ namespace burr::app {
 // "  unmet           sinus.identified   share seen through thin bone 12 %, required at least 60 % (default)"
 [[nodiscard]] std::string item_line(const scoring::Item& item, const scoring::Outcome& outcome);
 
-// "product: 7 of 25 items met, 28 of 100 points"; or why there is no total
-[[nodiscard]] std::string total_line(scoring::Part part, const scoring::Total& total);
+// "product: 7 of 25 items met". Points follow only where every item of the part is calibrated; or why
+// there are none.
+[[nodiscard]] std::string total_line(const scoring::Rubric& rubric, scoring::Part part,
+                                     const scoring::Total& total);
 
 // The gates that hold and those that do not, in one line; empty: the rubric has none.
 [[nodiscard]] std::string gate_line(const scoring::Rubric& rubric, const scoring::Score& score);

@@ -17,8 +17,7 @@ Result<scenario::Case> case_of(const record::Player& player, const std::string& 
   const auto& info = player.info().work_case;
   if (info) return record::case_of(*info);
   if (rubric.empty())
-    return error(Trouble::usage,
-                 "the recording names no case; say with --rubric what it is to be compared with");
+    return error(Trouble::usage, "the recording names no case; name a rubric with --rubric");
   const auto read = scoring::read_rubric(rubric);
   if (!read) return read.error();
   return scenario::read_case(read->case_name);

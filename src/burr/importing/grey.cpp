@@ -262,7 +262,7 @@ bool smooth_near(Grey& grey, double iso_stored, double noise_stored, const math:
                  Progress& progress) {
   constexpr int kReach = 2, kLanes = 8;
   const int nx = grey.size.x(), ny = grey.size.y(), nz = grey.size.z();
-  if (grey.size.minCoeff() <= 2 * kReach) return true;
+  if (grey.size.minCoeff() <= 2 * kReach || iso_stored > 32767) return true;  // no surface
   const double finest = spacing_mm.minCoeff();
 
   std::vector<SmoothNeighbour> neighbours;
@@ -294,13 +294,11 @@ bool smooth_near(Grey& grey, double iso_stored, double noise_stored, const math:
   const SmoothEight smooth_eight = smooth_kernel();
   // whole numbers, so they are above the level when they are above the next whole number
   const auto level = static_cast<std::int16_t>(std::clamp(std::ceil(iso), -32768.0F, 32767.0F));
-  const bool all_below = iso > 32767.0F;
   return io::in_pieces(nz, progress, "smoothing", [&](int k) {
     if (k < kReach || k >= nz - kReach) return;
     NearRow near_surface(nx);
     for (int j = kReach; j < ny - kReach; ++j) {
       const std::ptrdiff_t row = sy * j + sz * k;
-      if (all_below) continue;
       near_surface.look(source.data() + row, sy, sz, level);
       for (int i0 = kReach; i0 < nx - kReach; i0 += kLanes) {
         const int lanes = std::min(kLanes, nx - kReach - i0);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "burr/base/check.h"
@@ -52,37 +53,57 @@ std::map<int, Slice> slices_of(const Bone& before, const Bone& after, const Plan
   return slices;
 }
 
-// The place where a line leaves air and enters bone, first along w; or `from` if it never does.
-Vec3 first_bone(const Bone& bone, const Vec3& from, const Vec3& w, double reach) {
-  const double step = 0.25 * bone.grid().voxel;
-  double before = -1;
-  for (double l = 0; l <= reach; l += step) {
-    const double depth = volume::depth_at(bone, from + l * w);
-    if (depth >= 0) {
-      const double share = l > 0 && depth > before ? depth / (depth - before) : 0;
-      return from + (l - share * step) * w;
-    }
-    before = depth;
-  }
-  return from;
-}
+// Where a depth that was `before` at one end of a step and is `after` at the other passes 0, as a
+// share of the step.
+double crossing(double before, double after) { return before / (before - after); }
 
-// How far removed material goes on along the axis from the entry.
-double end_of(const Bone& before, const Bone& after, const Vec3& entry, const Vec3& w,
-              double reach) {
-  const double h = before.grid().voxel, step = 0.25 * h;
-  double end = 0;
-  for (double l = h; l <= reach; l += step) {
-    const Vec3 p = entry + l * w;
-    const double depth = volume::depth_at(after, p);
-    if (volume::depth_at(before, p) > 0 && depth >= 0) {
-      const double was = volume::depth_at(after, p - step * w);
-      return l - (depth > was ? depth / (depth - was) * step : 0);
+// Along a line, in steps of a quarter of a voxel.
+struct AlongAxis {
+  const Bone &before, &after;
+  Vec3 from, w;
+  double step;  // [m]
+
+  [[nodiscard]] Vec3 at(double l) const { return from + l * w; }
+  [[nodiscard]] double was(double l) const { return volume::depth_at(before, at(l)); }
+  [[nodiscard]] double is(double l) const { return volume::depth_at(after, at(l)); }
+  [[nodiscard]] bool removed(double l) const { return was(l) >= 0 && is(l) < 0; }
+
+  // The last place before the first removed material where the line came from air into bone.
+  [[nodiscard]] std::optional<double> entry(double reach) const {
+    std::optional<double> found;
+    double last = was(0);
+    for (double l = step; l <= reach; l += step) {
+      const double now = was(l);
+      if (last < 0 && now >= 0) found = l - step + crossing(last, now) * step;
+      if (removed(l)) return found;  // none: this bone goes on to the place where the search begins
+      last = now;
     }
-    end = l;
+    return std::nullopt;
   }
-  return end;
-}
+
+  struct End {
+    double l = 0;
+    bool through = false;
+  };
+  // How far what was removed goes on from the entry.
+  [[nodiscard]] End end(double entry, double reach) const {
+    End found{entry, false};
+    bool any = false;
+    for (double l = entry + step; l <= entry + reach; l += step) {
+      if (removed(l)) {
+        found = {l, false};
+        any = true;
+      } else if (is(l) >= 0 && any) {
+        // a bone that stands; behind an old air space it is not what ended the corridor
+        if (found.through) return found;
+        return {l - step + crossing(is(l - step), is(l)) * step, false};
+      } else if (was(l) < 0 && any && !found.through) {
+        found = {l - step + crossing(was(l - step), was(l)) * step, true};
+      }
+    }
+    return found;
+  }
+};
 
 }  // namespace
 
@@ -115,13 +136,19 @@ Assessed<AxisFit> axis_fit(const Bone& before, const Bone& after, const PlannedA
         "the drilled corridor is shorter than two of its diameters, so it has no "
         "certain direction"};
   const double far = 10e-3;
-  const Vec3 outside = line.at_zero - far * line.slope;
-  out.entry = first_bone(before, outside, out.inward, 3 * far);
+  const AlongAxis axis{before, after, line.at_zero - far * line.slope, out.inward, 0.25 * h};
+  const auto entry = axis.entry(2 * far);
+  if (!entry)
+    return NotAssessable{
+        "the drilled corridor's axis does not lead from outside into the bone within 10 mm of the "
+        "planned entry"};
+  out.entry = axis.at(*entry);
   const Vec3 off = out.entry - plan.entry;
   out.entry_off = math::norm(off - math::dot(off, along) * along);
-  const double deep = end_of(before, after, out.entry, out.inward, length + far);
-  out.apex = out.entry + deep * out.inward;
-  out.depth = deep * math::dot(out.inward, along);
+  const AlongAxis::End end = axis.end(*entry, length + far);
+  out.through = end.through;
+  out.apex = axis.at(end.l);
+  out.depth = (end.l - *entry) * math::dot(out.inward, along);
   out.error = 0.25 * h;
   for (const WeightedPoint& one : centres) out.centres.push_back(one.place);
   return out;

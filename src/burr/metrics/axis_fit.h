@@ -4,14 +4,16 @@
 // make 0.5 mm. A robust line through the slices' centres is the axis; slices with less than
 // half of the median volume (the ends) do not count.
 //
-//     entry    where the fitted axis meets the surface as it was; its distance to the plan's entry,
-//              across the planned axis
+//     entry    where the fitted axis meets the surface as it was, last before what was removed on it;
+//              its distance to the plan's entry, across the planned axis
 //     angle    between the two axes
-//     depth    length of the corridor along the plan, from the surface to its end on the axis
+//     depth    length of the corridor along the plan, from the entry to its end on the axis: the
+//              first bone that stands, or where the bone ended before the cut (`through`)
 //     width    median diameter, from the volume of the slices
 //
-// Frame: world. Units: m, rad. Not assessable: nothing was removed there, or a corridor shorter than
-// two of its diameters. Thread: any.
+// Frame: world. Units: m, rad. Not assessable: nothing was removed there, a corridor shorter than two
+// of its diameters, or an axis that does not lead from the air outside into what was removed within
+// 10 mm of the planned entry. Thread: any.
 #pragma once
 
 #include <vector>
@@ -29,11 +31,13 @@ struct PlannedAxis {
 };
 
 struct AxisFit {
-  double entry_off = 0;                                                // [m]
-  double angle = 0;                                                    // [rad]
-  double depth = 0;                                                    // [m]
-  double width = 0;                                                    // [m]
-  double error = 0;                                                    // of entry_off: 0.25 h [m]
+  double entry_off = 0;  // [m]
+  double angle = 0;      // [rad]
+  double depth = 0;      // [m]
+  double width = 0;      // [m]
+  bool through =
+      false;         // the corridor ends in air that was there before: it passes through the bone
+  double error = 0;  // of entry_off: 0.25 h [m]
   math::Vec3 entry = math::Vec3::Zero(), inward = math::Vec3::Zero();  // of the fit
   math::Vec3 apex = math::Vec3::Zero();                                // its end on the fitted axis
   std::vector<math::Vec3> centres;                                     // of the slices that count

@@ -15,6 +15,8 @@ struct Course {
   // Length of the way from the first point to the place on it that is nearest to p; 0 where there
   // are fewer than two points.
   [[nodiscard]] double along(const math::Vec3& p) const;
+  // Unit, of the piece that is nearest to p; zero where there is no piece of any length.
+  [[nodiscard]] math::Vec3 direction(const math::Vec3& p) const;
 };
 
 }  // namespace burr::metrics

@@ -46,7 +46,8 @@ std::vector<IntactPlate::Hole> holes_of(const std::vector<const CoverSample*>& b
 
 }  // namespace
 
-Assessed<IntactPlate> intact_plate(const Cover& cover, const IntactPlateSettings& settings) {
+Assessed<IntactPlate> intact_plate(const Cover& cover, const Worked& worked,
+                                   const IntactPlateSettings& settings) {
   IntactPlate out;
   std::vector<const CoverSample*> bare;
   double thin = 0, area = 0;
@@ -70,7 +71,7 @@ Assessed<IntactPlate> intact_plate(const Cover& cover, const IntactPlateSettings
       0.77 * settings.bare + 0.6 * cover.voxel * std::sqrt(static_cast<double>(cover.thinned));
   double error = 0;
   for (const IntactPlate::Hole& one : out.holes) error += 2 * rim * std::sqrt(kPi * one.area);
-  out.mark = intact_mark(area, settings.most_area, error, settings.worked);
+  out.mark = intact_mark(area, settings.most_area, error, worked);
   return out;
 }
 

@@ -26,7 +26,6 @@ namespace burr::metrics {
 struct IntactPlateSettings {
   double most_area = 1e-6;  // A [m^2]
   double bare = 0.1e-3;     // tau of a bare sample: at most [m]
-  double worked = 1;        // share of the target that was removed (measured.h)
 };
 
 struct IntactPlate {
@@ -40,7 +39,7 @@ struct IntactPlate {
   double thin_share = 0;    // of the weight, left out: plate thinner than 2 h before the cut
 };
 
-[[nodiscard]] Assessed<IntactPlate> intact_plate(const Cover& cover,
+[[nodiscard]] Assessed<IntactPlate> intact_plate(const Cover& cover, const Worked& worked,
                                                  const IntactPlateSettings& settings);
 
 }  // namespace burr::metrics

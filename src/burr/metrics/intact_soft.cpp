@@ -1,8 +1,10 @@
 #include "burr/metrics/intact_soft.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "burr/math/sums.h"
+#include "burr/metrics/near.h"
 
 namespace burr::metrics {
 
@@ -33,20 +35,32 @@ void Contacts::add(const Moment& now, double depth) {
 }
 
 IntactSoftMaker::IntactSoftMaker(const volume::Grid& grid, const VoxelSet& structure,
-                                 const volume::DistanceTo& distance,
+                                 const volume::DistanceTo& distance, const Worked& worked,
                                  const IntactSoftSettings& settings)
     : grid_(grid),
       structure_(structure),
       distance_(distance),
+      worked_(worked),
       settings_(settings),
       through_(grid, structure) {}
 
 void IntactSoftMaker::add(const Moment& now) {
-  if (!now.turning || now.tool.mode != tool::Mode::cut) return;
-  turned_ = true;
+  if (now.gap) last_.known = false;
+  if (!now.turning || now.tool.mode != tool::Mode::cut || !now.radius_known()) {
+    turned_ = turned_ || (now.turning && now.tool.mode == tool::Mode::cut);
+    last_.known = false;
+    return;
+  }
+  turned_ = radius_ = true;
   const double r = now.tool.radius, depth = r - distance_.at(now.centre).distance;
   const double grit = now.tool.kind == tool::BurrKind::diamond ? settings_.more_diamond : 0;
   deepest_less_ = std::max(deepest_less_, depth - grit);
+  if (last_.known && std::isfinite(depth)) {
+    const double way = math::norm(now.centre - last_.centre);
+    between_ = std::max(between_, 0.5 * (depth + last_.depth + way));
+    between_less_ = std::max(between_less_, 0.5 * (depth - grit + last_.less + way));
+  }
+  last_ = {std::isfinite(depth), now.centre, depth, depth - grit};
   if (depth > deepest_) {
     deepest_ = depth;
     deepest_at_ = now.t;
@@ -66,11 +80,15 @@ Assessed<IntactSoft> IntactSoftMaker::finish() const {
   if (structure_.count() == 0 || distance_.empty())
     return NotAssessable{"the structure is not in this bone: no voxel has its label"};
   if (!turned_) return NotAssessable{"the burr never turned"};
+  if (!radius_) return NotAssessable{kNoRadius};
   const double h = grid_.voxel;
   IntactSoft out;
   const double deepest = std::max(0.0, deepest_), less = std::max(0.0, deepest_less_);
-  out.touched = intact_mark(less, 0.5 * h, 0.5 * h, settings_.worked);
-  out.entered = intact_mark(deepest, settings_.p2, 0.5 * h, settings_.worked);
+  const auto error = [h](double found, double between) {
+    return 0.5 * h + std::max(0.0, between - found);
+  };
+  out.touched = intact_mark(less, 0.5 * h, error(less, between_less_), worked_);
+  out.entered = intact_mark(deepest, settings_.p2, error(deepest, between_), worked_);
   out.volume = static_cast<double>(through_.count()) * h * h * h;
   out.contacts = contacts_.list();
   out.contact_count = contacts_.count();

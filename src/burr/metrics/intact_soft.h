@@ -8,9 +8,12 @@
 //     entered = p > p2,   p2 = 0.5 mm (not calibrated)
 //     volume  = voxels of S inside the union of those balls
 //
-// D_S is up to half a voxel too short and 0.4 too long, which is the error of p. Where the centre of
-// the head itself is in the structure, p is r + h / 2 and not more. Beyond its reach
-// there is no contact. Frame: world. Units: SI. Thread: one. Memory: the marks of the structure's
+// D_S is up to half a voxel too short and 0.4 too long. Between two ticks the burr may have been
+// deeper: with p1 and p2 at the ticks and s the way between them at most (p1 + p2 + s) / 2, since no
+// depth changes faster than the burr moves. The error of p is half a voxel, and what that adds; what
+// happened in a gap is not known. Where the centre of the head itself is in the structure, p is
+// r + h / 2 and not more. Beyond its reach there is no contact. A tick without a radius does not
+// count. Frame: world. Units: SI. Thread: one. Memory: the marks of the structure's
 // voxels; none per tick.
 #pragma once
 
@@ -56,7 +59,6 @@ inline constexpr std::size_t kMostContacts = 256;
 struct IntactSoftSettings {
   double p2 = 0.5e-3;            // [m]
   double more_diamond = 0.2e-3;  // added to p1 for a diamond burr [m]
-  double worked = 1;             // share of the target that was removed (measured.h)
 };
 
 struct IntactSoft {
@@ -73,23 +75,33 @@ class IntactSoftMaker {
  public:
   // structure: its voxels in `grid`; distance: to the same labels. Both outlive this.
   IntactSoftMaker(const volume::Grid& grid, const VoxelSet& structure,
-                  const volume::DistanceTo& distance, const IntactSoftSettings& settings);
+                  const volume::DistanceTo& distance, const Worked& worked,
+                  const IntactSoftSettings& settings);
   void add(const Moment& now);
-  // Not assessable: the structure is not in the bone; or the burr never turned.
+  // Not assessable: the structure is not in the bone; the burr never turned; or no radius was
+  // recorded while it did.
   [[nodiscard]] Assessed<IntactSoft> finish() const;
 
  private:
   volume::Grid grid_;
   const VoxelSet& structure_;
   const volume::DistanceTo& distance_;
+  Worked worked_;
   IntactSoftSettings settings_;
   VoxelMarks through_;
   Contacts contacts_;
-  double deepest_ = -1e9, deepest_less_ = -1e9;  // [m]
+  // the largest at a tick, and at most between two ticks; less what a diamond burr may
+  double deepest_ = -1e9, between_ = -1e9;            // [m]
+  double deepest_less_ = -1e9, between_less_ = -1e9;  // [m]
+  struct {
+    bool known = false;
+    math::Vec3 centre = math::Vec3::Zero();
+    double depth = 0, less = 0;
+  } last_;  // the tick before, if it is near the structure
   double deepest_at_ = 0;
   math::Vec3 deepest_place_ = math::Vec3::Zero(), marked_ = math::Vec3::Constant(1e9);
   double marked_radius_ = 0;
-  bool turned_ = false;
+  bool turned_ = false, radius_ = false;
 };
 
 }  // namespace burr::metrics

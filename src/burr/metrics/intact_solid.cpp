@@ -13,7 +13,7 @@ using volume::Bone;
 using volume::Field;
 
 Assessed<IntactSolid> intact_solid(const Bone& before, const Bone& after, const VoxelSet& structure,
-                                   const IntactSolidSettings& settings) {
+                                   const Worked& worked, const IntactSolidSettings& settings) {
   BURR_CHECK(same_grid(before, after));
   const volume::Grid& grid = before.grid();
   const double voxel = grid.voxel * grid.voxel * grid.voxel;
@@ -44,7 +44,7 @@ Assessed<IntactSolid> intact_solid(const Bone& before, const Bone& after, const 
   out.most_lost = static_cast<double>(most) / static_cast<double>(volume::kVoxelUnits);
   out.mark = intact_mark(static_cast<double>(lost) * unit,
                          settings.v.value_or(std::max(0.05e-9, 3 * voxel)),
-                         static_cast<double>(standing) * unit, settings.worked);
+                         static_cast<double>(standing) * unit, worked);
   return out;
 }
 

@@ -21,7 +21,6 @@ namespace burr::metrics {
 
 struct IntactSolidSettings {
   std::optional<double> v = {};  // most that may be lost [m^3]; none: max(0.05 mm^3, 3 h^3)
-  double worked = 1;             // share of the target that was removed (measured.h)
 };
 
 struct IntactSolid {
@@ -34,7 +33,7 @@ struct IntactSolid {
 // Not assessable: no voxel of the structure, or it is soft.
 [[nodiscard]] Assessed<IntactSolid> intact_solid(const volume::Bone& before,
                                                  const volume::Bone& after,
-                                                 const VoxelSet& structure,
+                                                 const VoxelSet& structure, const Worked& worked,
                                                  const IntactSolidSettings& settings);
 
 }  // namespace burr::metrics

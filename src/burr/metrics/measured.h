@@ -61,10 +61,16 @@ struct Mark {
 // "Intact" is a merit only of somebody who worked: at least this share of the target must be gone.
 inline constexpr double kLeastWork = 0.2;
 
-// value <= threshold, as the measures of what must stay whole need it. worked: share of the target
-// that was removed, 0..1.
-[[nodiscard]] inline Mark intact_mark(double value, double threshold, double error, double worked) {
-  const bool earned = worked >= kLeastWork;
+// Share of the target that was removed, 0..1. It has no default: every caller must say it.
+struct Worked {
+  Worked(double share_) : share(share_) {}  // NOLINT(google-explicit-constructor)
+  double share;
+};
+
+// value <= threshold, as the measures of what must stay whole need it.
+[[nodiscard]] inline Mark intact_mark(double value, double threshold, double error,
+                                      const Worked& worked) {
+  const bool earned = worked.share >= kLeastWork;
   return {value <= threshold && earned, earned, value, threshold, error};
 }
 

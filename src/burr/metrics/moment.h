@@ -8,6 +8,7 @@
 // gap: nobody knows where. Frame: world. Units: SI. Thread: one. Memory: none per tick.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -36,6 +37,8 @@ struct Moment {
   double removed = 0;    // in this tick [m^3]; 0 after a gap
   tool::ToolState tool;
   [[nodiscard]] bool cutting() const { return removed > 0; }
+  // False: the recording does not say how large the burr is; nothing then has a distance to it.
+  [[nodiscard]] bool radius_known() const { return std::isfinite(tool.radius) && tool.radius > 0; }
 };
 
 // Ticks in order become moments.

@@ -2,15 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace burr::metrics {
 
 void Distances::update(const Moment& now) {
-  least_ = kFar;
+  least_ = kNoDistance;
+  const bool known = now.radius_known();
+  radius_ = radius_ || known;
   for (std::size_t n = 0; n < watched_.size(); ++n) {
-    d_[n] = watched_[n].distance->at(now.centre).distance - now.tool.radius;
-    least_ = std::min(least_, d_[n]);
+    const volume::DistanceTo& to = *watched_[n].distance;
+    d_[n] = known && !to.empty() ? to.at(now.centre).distance - now.tool.radius : kNoDistance;
+    if (!std::isnan(d_[n]) && !(least_ <= d_[n])) least_ = d_[n];
   }
+}
+
+std::string Distances::why_none(std::size_t n) const {
+  if (watched_[n].distance->empty()) return kNotInBone;
+  return radius_ ? "" : kNoRadius;
+}
+
+std::string Distances::why_none() const {
+  if (watched_.empty()) return kNoStructure;
+  const bool any = std::any_of(watched_.begin(), watched_.end(),
+                               [](const Watched& one) { return !one.distance->empty(); });
+  if (!any) return "none of the structures is in this bone: no voxel has a label of theirs";
+  return radius_ ? "" : kNoRadius;
 }
 
 std::size_t bin_of(double d) {
@@ -28,12 +45,12 @@ void Histogram::add(double value) {
 
 std::optional<double> Histogram::quantile(double share) const {
   if (all_ == 0) return std::nullopt;
-  const double wanted = share * static_cast<double>(all_);
+  const double below = share * static_cast<double>(all_);
   double seen = 0;
   for (std::size_t n = 0; n + 1 < count_.size(); ++n) {
     const auto here = static_cast<double>(count_[n]);
-    if (seen + here >= wanted && here > 0)
-      return std::min(largest_, step_ * (static_cast<double>(n) + (wanted - seen) / here));
+    if (seen + here >= below && here > 0)
+      return std::min(largest_, step_ * (static_cast<double>(n) + (below - seen) / here));
     seen += here;
   }
   return largest_;
@@ -44,12 +61,13 @@ void ForceNearMaker::add(const Moment& now, double d) {
   if (now.force > forces_.largest()) peak_at_ = now.t;
   forces_.add(now.force);
   all_.add(now.force, now.dt);
+  if (std::isnan(d)) return;
   const std::size_t bin = bin_of(d);
   bins_[bin].add(now.force, now.dt);
   peaks_[bin] = std::max(peaks_[bin], now.force);
 }
 
-Assessed<ForceNear> ForceNearMaker::finish() const {
+Assessed<ForceNear> ForceNearMaker::finish(const Distances& distances) const {
   const auto mean = all_.mean();
   if (!mean) return NotAssessable{"the burr never touched the bone"};
   ForceNear out;
@@ -58,34 +76,47 @@ Assessed<ForceNear> ForceNearMaker::finish() const {
   out.peak = forces_.largest();
   out.peak_at = peak_at_;
   out.seconds = all_.weight;
+  ForceByDistance by;
+  double known = 0;  // [s]
   for (std::size_t n = 0; n < kBins; ++n) {
-    out.time[n] = bins_[n].weight;
-    out.bin_mean[n] = bins_[n].mean();
-    out.bin_peak[n] = peaks_[n];
+    known += bins_[n].weight;
+    by.time[n] = bins_[n].weight;
+    by.bin_mean[n] = bins_[n].mean();
+    by.bin_peak[n] = peaks_[n];
+  }
+  if (!(known > 0)) {
+    const std::string why = distances.why_none();
+    out.by_distance = NotAssessable{why.empty() ? kNoRadius : why};
+    return out;
   }
   Running near = bins_[0];
   near.sum += bins_[1].sum;
   near.weight += bins_[1].weight;
   const Running& far = bins_[kBins - 1];
   constexpr double kLeast = 0.5;  // [s]
-  if (near.weight >= kLeast && far.weight >= kLeast && far.sum > 0)
-    out.restraint = (near.sum / near.weight) / (far.sum / far.weight);
+  if (near.weight < kLeast || far.weight < kLeast)
+    by.restraint = NotAssessable{
+        "the burr was in contact for less than half a second near what is to be spared, or far "
+        "from it"};
+  else if (far.sum > 0)
+    by.restraint = (near.sum / near.weight) / (far.sum / far.weight);
+  else
+    by.restraint = NotAssessable{"no force was recorded far from what is to be spared"};
+  out.by_distance = std::move(by);
   return out;
 }
 
-NearnessMaker::NearnessMaker(const std::vector<Watched>& watched) : past_(watched.size()) {
-  for (const Watched& one : watched) {
-    found_.emplace_back();
-    found_.back().name = one.name;
-  }
-}
+NearnessMaker::NearnessMaker(const std::vector<Watched>& watched)
+    : found_(watched.size()), past_(watched.size()) {}
 
-void NearnessMaker::approach(const Moment& now, double d, Past& past, NearnessOf& found) {
+void NearnessMaker::approach(const Moment& now, double d, Past& past, Nearness& found) {
   constexpr double kNear = 1e-3, kOver = 50e-3;  // [m], [s]
   if (found.approach) return;
-  if (now.gap || std::isinf(d)) past.count = 0;
-  if (std::isinf(d)) return;
-  if (d < kNear && past.count > 0) {
+  // a larger burr is nearer without having moved
+  if (now.gap || !std::isfinite(d) || now.tool.radius != past.radius) past.count = 0;
+  if (!std::isfinite(d)) return;
+  past.radius = now.tool.radius;
+  if (d < kNear && past.count > 0 && past.d[(past.next + kPast - 1) % kPast] >= kNear) {
     // the oldest of the last 50 ms
     std::size_t at = (past.next + kPast - past.count) % kPast;
     while (now.t - past.t[at] > kOver + 0.5 * now.dt && (at + 1) % kPast != past.next)
@@ -101,7 +132,7 @@ void NearnessMaker::approach(const Moment& now, double d, Past& past, NearnessOf
 void NearnessMaker::add(const Moment& now, const Distances& distances) {
   for (std::size_t n = 0; n < found_.size(); ++n) {
     const double d = distances.of(n);
-    NearnessOf& found = found_[n];
+    Nearness& found = found_[n];
     if (d < found.least) {
       found.least = d;
       found.least_at = now.t;
@@ -113,8 +144,20 @@ void NearnessMaker::add(const Moment& now, const Distances& distances) {
   }
 }
 
+std::vector<NearnessOf> NearnessMaker::finish(const Distances& distances) const {
+  std::vector<NearnessOf> out;
+  for (std::size_t n = 0; n < found_.size(); ++n) {
+    NearnessOf one{distances.watched()[n].name};
+    const std::string why = distances.why_none(n);
+    one.found = why.empty() ? Assessed<Nearness>(found_[n]) : NotAssessable{why};
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
 void BurrChoiceMaker::add(const Moment& now, double d) {
-  if (!now.cutting()) return;
+  if (!now.cutting() || std::isnan(d)) return;
+  known_ = true;
   const bool diamond = now.tool.kind == tool::BurrKind::diamond;
   const double r = now.tool.radius;
   constexpr double kSame = 1e-9;  // radii from a file differ in the last bits
@@ -130,7 +173,9 @@ void BurrChoiceMaker::add(const Moment& now, double d) {
   }
 }
 
-BurrChoice BurrChoiceMaker::finish() const {
+Assessed<BurrChoice> BurrChoiceMaker::finish(const Distances& distances) const {
+  if (std::string why = distances.why_none(); !why.empty()) return NotAssessable{std::move(why)};
+  if (!known_) return NotAssessable{"nothing was removed while the burr's radius was known"};
   BurrChoice out;
   out.near_volume = near_;
   out.far_volume = far_;

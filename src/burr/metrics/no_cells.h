@@ -45,8 +45,9 @@ struct NoCells {
 };
 inline constexpr std::size_t kMostShown = 2000;
 
-// x: the distance to the structure, with a reach of at least d. Not assessable: little air in the
-// zone (bone without cells), no walls, or voxels too coarse for the ball.
+// x: the distance to the structure. Not assessable: its reach is less than d, little air in the zone
+// (bone without cells), no walls, or voxels too coarse for the ball. What lies outside the grid is
+// not in the zone.
 [[nodiscard]] Assessed<NoCells> no_cells(const volume::Bone& before, const volume::Bone& after,
                                          const volume::DistanceTo& x, const Region& region,
                                          const NoCellsSettings& settings);

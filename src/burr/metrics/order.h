@@ -33,7 +33,7 @@ struct Order {
   std::optional<double> tau;  // none: fewer than two done
 };
 
-// wanted: the steps of the case in order. Steps that the case does not have are ignored.
-[[nodiscard]] Order order_of(std::span<const StepMark> marks, std::span<const std::string> wanted);
+// steps: those of the case in order. Steps that the case does not have are ignored.
+[[nodiscard]] Order order_of(std::span<const StepMark> marks, std::span<const std::string> steps);
 
 }  // namespace burr::metrics

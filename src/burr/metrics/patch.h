@@ -3,7 +3,7 @@
 // A sample is a voxel of the structure with a neighbour (of six) outside of it, not within one voxel
 // of the grid's border. Its normal n points out of the structure: minus the sum of the offsets to the
 // structure's voxels among the 5 x 5 x 5 around it. In the patch are the samples in the region with
-// n . a >= cos 80 degrees for a direction a to the surgeon. If these are more than the wanted number,
+// n . a >= cos 80 degrees for a direction a to the surgeon. If these are more than `most_samples`,
 // every n-th stays, in the order of bricks, so the same bone gives the same samples.
 //
 // The area of a sample is (free faces) h^2 / (|nx| + |ny| + |nz|): what a plane of that normal has

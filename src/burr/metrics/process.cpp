@@ -15,7 +15,7 @@ ProcessMaker::ProcessMaker(const volume::Grid& grid, double seconds,
   soft_.reserve(settings.soft.size());
   for (const SoftStructure& one : settings.soft) {
     soft_names_.push_back(one.name);
-    soft_.emplace_back(grid, *one.voxels, *one.distance, one.settings);
+    soft_.emplace_back(grid, *one.voxels, *one.distance, one.worked, one.settings);
   }
 }
 
@@ -32,9 +32,9 @@ void ProcessMaker::add(const Moment& now) {
 Process ProcessMaker::finish() {
   Process out;
   out.times = times_.finish();
-  out.force = force_.finish();
-  out.nearness = nearness_.finish();
-  out.choice = choice_.finish();
+  out.force = force_.finish(distances_);
+  out.nearness = nearness_.finish(distances_);
+  out.choice = choice_.finish(distances_);
   for (std::size_t n = 0; n < soft_.size(); ++n)
     out.soft.push_back({soft_names_[n], soft_[n].finish()});
   out.track = track_.finish();

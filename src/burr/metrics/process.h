@@ -32,13 +32,14 @@ struct SoftStructure {
   std::string name;
   const VoxelSet* voxels = nullptr;
   const volume::DistanceTo* distance = nullptr;
+  Worked worked;
   IntactSoftSettings settings = {};
 };
 
 struct ProcessSettings {
   std::vector<Watched> critical = {};        // what "near" means
   std::vector<SoftStructure> soft = {};      // in the grid of the recording
-  const volume::DistanceTo* bone = nullptr;  // for hesitation; nullptr: not looked for
+  const volume::DistanceTo* bone = nullptr;  // for hesitation; nullptr: not measured
   BurrChoiceSettings choice = {};
 };
 
@@ -47,7 +48,7 @@ struct Process {
   Paths paths;
   Assessed<ForceNear> force = NotAssessable{"not measured"};
   std::vector<NearnessOf> nearness;  // one for each critical structure
-  BurrChoice choice;
+  Assessed<BurrChoice> choice = NotAssessable{"not measured"};
   struct SoftResult {
     std::string name;
     Assessed<IntactSoft> intact = NotAssessable{"not measured"};

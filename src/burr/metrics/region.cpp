@@ -6,6 +6,7 @@
 
 #include "burr/base/check.h"
 #include "burr/math/sums.h"
+#include "burr/metrics/segment.h"
 
 namespace burr::metrics {
 namespace {
@@ -13,10 +14,7 @@ namespace {
 using math::Vec3;
 
 double to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 along = b - a;
-  const double square = math::squared_norm(along);
-  const double t = square > 0 ? std::clamp(math::dot(p - a, along) / square, 0.0, 1.0) : 0;
-  return math::norm(p - (a + t * along));
+  return math::norm(p - nearest_on_segment(p, a, b).at);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ std::int64_t units_in(double depth) {
 }
 
 struct Sums {
-  std::int64_t asked = 0, removed = 0, excess = 0;  // products
+  std::int64_t bone = 0, removed = 0, excess = 0;  // products
   std::int64_t all = 0;
   std::int64_t border = 0;  // voxels that the region's border crosses
 };
@@ -42,7 +42,7 @@ void add_brick(const Bone& before, const Bone& after, BrickIndex brick, const Re
     const math::Ijk at = first + math::Ijk(v & 7, (v >> 3) & 7, v >> 6);
     const double depth = depth_in(region, grid.world_from_grid(at.cast<double>())) / grid.voxel;
     const std::int64_t in = units_in(depth), gone = had - has;
-    sums.asked += in * had;
+    sums.bone += in * had;
     sums.removed += in * gone;
     sums.excess += (volume::kVoxelUnits / kCoarse - units_in(depth + grown / grid.voxel)) * gone;
     sums.all += gone;
@@ -64,16 +64,16 @@ Assessed<Removed> removed_of(const Bone& before, const Bone& after, const Region
   constexpr auto kCoarseVoxel = volume::kVoxelUnits / kCoarse;
   const double square = unit / static_cast<double>(kCoarseVoxel);
   Removed out;
-  out.asked = static_cast<double>(sums.asked) * square;
-  if (out.asked < 8 * voxel)
+  out.bone = static_cast<double>(sums.bone) * square;
+  if (out.bone < 8 * voxel)
     return NotAssessable{"there was no bone in this region before the first cut"};
   out.removed = static_cast<double>(sums.removed) * square;
-  out.missed = out.asked - out.removed;
+  out.missed = out.bone - out.removed;
   out.excess = static_cast<double>(sums.excess) * square;
   out.all = static_cast<double>(sums.all) * unit;
-  out.share = out.removed / out.asked;
-  out.dice = 2 * out.removed / (out.asked + out.all);
-  out.error = 0.15 * static_cast<double>(sums.border) * voxel / out.asked;
+  out.share = out.removed / out.bone;
+  out.dice = 2 * out.removed / (out.bone + out.all);
+  out.error = 0.23 * static_cast<double>(sums.border) * voxel / out.bone;
   return out;
 }
 

@@ -18,10 +18,10 @@ template <class Keep>
   return kept / cover.weight;
 }
 
-// Error of a share: that of few samples (one standard error), and what the error of tau makes of it.
+// Error of a share: that of few samples (two standard errors), and what the error of tau makes of it.
 [[nodiscard]] inline double share_error(double share, double low, double high,
                                         std::size_t samples) {
-  const double few = std::sqrt(share * (1 - share) / static_cast<double>(samples));
+  const double few = 2 * std::sqrt(share * (1 - share) / static_cast<double>(samples));
   return std::max({few, std::abs(share - low), std::abs(high - share)});
 }
 

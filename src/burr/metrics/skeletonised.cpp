@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "burr/metrics/identified.h"
+#include "burr/metrics/line_and_plane.h"
 #include "burr/metrics/shares.h"
 
 namespace burr::metrics {
@@ -21,24 +22,14 @@ double share_of_layers(std::span<const Layer> layers, const Keep& keep) {
   return kept / all;
 }
 
-double median_of(std::span<const Layer> layers) {
-  std::vector<std::pair<double, double>> sorted;
-  double all = 0, sum = 0;
-  for (const Layer& one : layers) {
-    sorted.emplace_back(one.thickness, one.weight);
-    all += one.weight;
-  }
-  std::sort(sorted.begin(), sorted.end());
-  for (const auto& [thickness, weight] : sorted) {
-    sum += weight;
-    if (2 * sum >= all) return thickness;
-  }
-  return kUnseen;
-}
-
 }  // namespace
 
-Thin thin_layer(std::span<const Layer> layers, const ThinSettings& settings, double error) {
+std::string too_coarse_for(double voxel, const ThinSettings& settings) {
+  return too_coarse(voxel, std::min(settings.hi / 2, settings.lo > 0 ? 5 * settings.lo : kUnseen));
+}
+
+Thin thin_layer(std::span<const Layer> layers, const Worked& worked, const ThinSettings& settings,
+                double error) {
   Thin out;
   const auto even = [&](double lo, double hi) {
     return share_of_layers(layers, [&](double t) { return t > lo && t <= hi; });
@@ -50,12 +41,12 @@ Thin thin_layer(std::span<const Layer> layers, const ThinSettings& settings, dou
   out.even.threshold = settings.y;
   out.even.error = share_error(out.even.value, even(settings.lo + error, settings.hi - error),
                                even(settings.lo - error, settings.hi + error), layers.size());
-  out.bare.value = bare(settings.lo);
-  out.bare.threshold = settings.z;
-  out.bare.error = share_error(out.bare.value, bare(settings.lo - error), bare(settings.lo + error),
-                               layers.size());
-  out.bare.met = out.bare.value <= settings.z;
-  out.even.met = out.even.value >= settings.y && out.bare.met;
+  const double laid_bare = bare(settings.lo);
+  out.bare = intact_mark(
+      laid_bare, settings.z,
+      share_error(laid_bare, bare(settings.lo - error), bare(settings.lo + error), layers.size()),
+      worked);
+  out.even.met = out.even.value >= settings.y && laid_bare <= settings.z;
   for (const Layer& one : layers) {
     if (one.thickness < out.thinnest) {
       out.thinnest = one.thickness;
@@ -66,18 +57,20 @@ Thin thin_layer(std::span<const Layer> layers, const ThinSettings& settings, dou
       out.thickest_at = one.at;
     }
   }
-  out.median = median_of(layers);
+  std::vector<std::pair<double, double>> thickness;
+  for (const Layer& one : layers) thickness.emplace_back(one.thickness, one.weight);
+  out.median = weighted_quantile(std::move(thickness), 0.5);
   return out;
 }
 
-Assessed<Thin> skeletonised(const Cover& cover, const ThinSettings& settings) {
-  const double needed = std::min(settings.hi / 2, settings.lo > 0 ? 5 * settings.lo : kUnseen);
-  if (std::string reason = too_coarse(cover.voxel, needed); !reason.empty())
+Assessed<Thin> skeletonised(const Cover& cover, const Worked& worked,
+                            const ThinSettings& settings) {
+  if (std::string reason = too_coarse_for(cover.voxel, settings); !reason.empty())
     return NotAssessable{std::move(reason)};
   std::vector<Layer> layers;
   for (const CoverSample& one : cover.samples)
     layers.push_back({one.thickness, static_cast<double>(one.surface.faces), one.surface.place});
-  return thin_layer(layers, settings, cover.error);
+  return thin_layer(layers, worked, settings, cover.error);
 }
 
 }  // namespace burr::metrics

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "burr/math/sums.h"
+#include "burr/metrics/median.h"
 #include "burr/metrics/same_math.h"
 
 namespace burr::metrics {
@@ -29,22 +30,25 @@ double amplitude(std::span<const double> speed, double w) {
   return std::sqrt(re * re + im * im);
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+// At least four finite values, and one above 0.
+bool is_motion(std::span<const double> speed) {
+  const auto finite = [](double v) { return std::isfinite(v); };
+  return speed.size() >= 4 && std::all_of(speed.begin(), speed.end(), finite) &&
+         *std::max_element(speed.begin(), speed.end()) > 0;
 }
 
 using Piece = std::span<const TrackSample>;
 
 void add_move(const Piece& part, std::span<const double> speed, std::vector<Move>& moves) {
   if (part.size() < 4) return;
-  const Move move{part.front().t, part.back().t, math::norm(part.back().p - part.front().p)};
+  Move move{part.front().t, part.back().t, math::norm(part.back().p - part.front().p)};
   const double seconds = move.end - move.begin;
   if (move.chord < kLeastChord || seconds < kLeastTime || seconds > kMostTime) return;
+  const auto by_spectrum = sparc(speed, kTrackRate), by_jerk = ldlj(speed, kTrackRate);
+  if (!by_spectrum || !by_jerk) return;
+  move.sparc = *by_spectrum;
+  move.ldlj = *by_jerk;
   moves.push_back(move);
-  moves.back().sparc = sparc(speed, kTrackRate);
-  moves.back().ldlj = ldlj(speed, kTrackRate);
 }
 
 // Of a stretch in free air: around each peak of the speed down to standstill.
@@ -71,13 +75,14 @@ void find_moves(const Piece& part, std::span<const double> speed, std::vector<Mo
 
 }  // namespace
 
-double sparc(std::span<const double> speed, double rate) {
+std::optional<double> sparc(std::span<const double> speed, double rate) {
+  if (!is_motion(speed)) return std::nullopt;
   std::size_t length = 1;
   while (length < speed.size()) length *= 2;
   length *= kPadding;
   const double step = 2 * kPi / static_cast<double>(length);  // per sample
   const double zero = amplitude(speed, 0);
-  if (!(zero > 0)) return 0;
+  if (!(zero > 0)) return std::nullopt;
   const auto most = static_cast<std::size_t>(
       std::floor(std::min(kHighest, 0.5 * rate) / rate * static_cast<double>(length)));
   std::vector<double> spectrum(most + 1);
@@ -86,7 +91,7 @@ double sparc(std::span<const double> speed, double rate) {
     spectrum[n] = amplitude(speed, step * static_cast<double>(n)) / zero;
     if (spectrum[n] >= kFloor) last = n;
   }
-  if (last == 0) return 0;
+  if (last == 0) return std::nullopt;
   const double share = 1 / static_cast<double>(last);
   double arc = 0;
   for (std::size_t n = 1; n <= last; ++n) {
@@ -96,9 +101,9 @@ double sparc(std::span<const double> speed, double rate) {
   return -arc;
 }
 
-double ldlj(std::span<const double> speed, double rate) {
+std::optional<double> ldlj(std::span<const double> speed, double rate) {
+  if (!is_motion(speed)) return std::nullopt;
   const double peak = *std::max_element(speed.begin(), speed.end());
-  if (!(peak > 0) || speed.size() < 4) return 0;
   const double seconds = static_cast<double>(speed.size() - 1) / rate;
   double jerk = 0;
   for (std::size_t n = 1; n + 1 < speed.size(); ++n) {
@@ -111,6 +116,7 @@ double ldlj(std::span<const double> speed, double rate) {
     return 0.5 * second * second / rate;
   };
   jerk += ends(1) + ends(speed.size() - 2);
+  if (!(jerk > 0)) return std::nullopt;
   return -logarithm(seconds * seconds * seconds / (peak * peak) * jerk);
 }
 

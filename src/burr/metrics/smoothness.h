@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,15 +22,17 @@
 
 namespace burr::metrics {
 
-// speed: at equal steps; at least 4 values, not all zero.
-[[nodiscard]] double sparc(std::span<const double> speed, double rate);
-[[nodiscard]] double ldlj(std::span<const double> speed, double rate);
+// speed: at equal steps. None: fewer than 4 values, one that is not finite, no motion at all; for
+// LDLJ also no change of speed, which no hand can do.
+[[nodiscard]] std::optional<double> sparc(std::span<const double> speed, double rate);
+[[nodiscard]] std::optional<double> ldlj(std::span<const double> speed, double rate);
 
 struct Move {
   double begin = 0, end = 0;  // [s]
   double chord = 0;           // [m]
   double sparc = 0, ldlj = 0;
 };
+// Those for which both measures exist.
 [[nodiscard]] std::vector<Move> moves_of(const Track& track);
 
 struct Smoothness {

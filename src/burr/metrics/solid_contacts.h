@@ -11,6 +11,7 @@
 #include <span>
 
 #include "burr/metrics/intact_soft.h"
+#include "burr/metrics/measured.h"
 #include "burr/metrics/moment.h"
 #include "burr/volume/distance_to.h"
 #include "burr/volume/tissue.h"
@@ -23,12 +24,14 @@ class SolidContactsMaker {
   SolidContactsMaker(const volume::DistanceTo& all, std::span<const volume::TissueId> structure,
                      double voxel);
   void add(const Moment& now);
-  // Depth of a contact is 0: a burr cannot be inside solid bone.
-  [[nodiscard]] const Contacts& finish() const { return contacts_; }
+  // Depth of a contact is 0: a burr cannot be inside solid bone. Not assessable: no solid tissue in
+  // the bone, no tissue named, the burr never turned, or no radius was recorded while it did.
+  [[nodiscard]] Assessed<Contacts> finish() const;
 
  private:
   const volume::DistanceTo& all_;
-  std::array<bool, 256> wanted_ = {};
+  std::array<bool, 256> of_structure_ = {};
+  bool named_, turned_ = false, radius_ = false;
   double voxel_;
   Contacts contacts_;
 };

@@ -1,11 +1,12 @@
 #include "burr/metrics/strokes.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <span>
 #include <utility>
 
 #include "burr/math/sums.h"
+#include "burr/metrics/median.h"
 
 namespace burr::metrics {
 namespace {
@@ -38,10 +39,9 @@ void add(const Piece& part, std::vector<BurrStroke>& strokes) {
   stroke.end = part.back().t;
   stroke.from = part.front().p;
   stroke.to = part.back().p;
-  stroke.d = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < part.size(); ++n) {
     if (n > 0) stroke.length += math::norm(part[n].p - part[n - 1].p);
-    stroke.d = std::min(stroke.d, part[n].d);
+    stroke.d = std::fmin(stroke.d, part[n].d);  // of a number and none it takes the number
   }
   if (stroke.seconds() >= kLeastTime && stroke.length >= kLeastWay) strokes.push_back(stroke);
 }
@@ -61,12 +61,6 @@ void divide(const Piece& stretch, std::vector<BurrStroke>& strokes) {
     now = after;
   }
   add(stretch.subspan(begin), strokes);
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
 }  // namespace
@@ -96,12 +90,11 @@ std::vector<BurrStroke> strokes_of(const Track& track) {
   return strokes;
 }
 
-Assessed<StrokeFigures> figures_of(const std::vector<BurrStroke>& strokes, double from, double to) {
+Assessed<StrokeFigures> figures_of(const std::vector<BurrStroke>& strokes) {
   StrokeFigures out;
   std::vector<double> seconds, lengths;
   double all = 0, brief = 0, curved = 0;
   for (const BurrStroke& one : strokes) {
-    if (!(one.d >= from && one.d <= to)) continue;
     seconds.push_back(one.seconds());
     lengths.push_back(one.length);
     all += one.seconds();
@@ -117,6 +110,17 @@ Assessed<StrokeFigures> figures_of(const std::vector<BurrStroke>& strokes, doubl
   out.median_seconds = median(std::move(seconds));
   out.median_length = median(std::move(lengths));
   return out;
+}
+
+Assessed<StrokeFigures> figures_of(const std::vector<BurrStroke>& strokes, double from, double to) {
+  std::vector<BurrStroke> within;
+  bool known = strokes.empty();
+  for (const BurrStroke& one : strokes) {
+    known = known || !std::isnan(one.d);
+    if (one.d >= from && one.d <= to) within.push_back(one);
+  }
+  if (!known) return NotAssessable{kNoStrokeDistance};
+  return figures_of(within);
 }
 
 }  // namespace burr::metrics

@@ -17,6 +17,7 @@
 
 #include "burr/math/vec3.h"
 #include "burr/metrics/measured.h"
+#include "burr/metrics/near.h"
 #include "burr/metrics/track.h"
 
 namespace burr::metrics {
@@ -27,13 +28,16 @@ inline constexpr double kShortStroke = 0.2;  // [s]
 struct BurrStroke {
   double begin = 0, end = 0;  // [s]
   math::Vec3 from = math::Vec3::Zero(), to = math::Vec3::Zero();
-  double length = 0;  // along the way [m]
-  double d = 0;       // the least distance to the critical structures on it [m]
+  double length = 0;       // along the way [m]
+  double d = kNoDistance;  // the least to the critical structures on it; kNoDistance: not known [m]
   [[nodiscard]] double seconds() const { return end - begin; }
   [[nodiscard]] double straightness() const;  // chord / length, 0 .. 1
 };
 
 [[nodiscard]] std::vector<BurrStroke> strokes_of(const Track& track);
+
+inline constexpr const char* kNoStrokeDistance =
+    "no stroke has a known distance to what is to be spared";
 
 struct StrokeFigures {
   std::size_t count = 0;
@@ -44,8 +48,10 @@ struct StrokeFigures {
   double curved_share = 0;   // straightness below kCurved
 };
 
+// Not assessable: fewer than 5 strokes.
+[[nodiscard]] Assessed<StrokeFigures> figures_of(const std::vector<BurrStroke>& strokes);
 // Those with d from `from` to `to`, both included, for "far from structures" and "near". Not assessable:
-// fewer than 5 strokes.
+// also where no stroke has a known d.
 [[nodiscard]] Assessed<StrokeFigures> figures_of(const std::vector<BurrStroke>& strokes,
                                                  double from, double to);
 

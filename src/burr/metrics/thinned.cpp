@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "burr/metrics/cover.h"
-#include "burr/metrics/identified.h"
 #include "burr/metrics/patch.h"
 #include "burr/metrics/solidity.h"
 
@@ -43,12 +42,10 @@ double wall_along(const Solidity& solidity, const VoxelSet& canal, const VoxelSe
 }  // namespace
 
 Assessed<Thin> thinned(const volume::Bone& before, const volume::Bone& after, const VoxelSet& canal,
-                       const VoxelSet* cavity, const Region& region,
+                       const VoxelSet* cavity, const Region& region, const Worked& worked,
                        const ThinnedSettings& settings) {
   const volume::Grid& grid = before.grid();
-  const double needed =
-      std::min(settings.thin.hi / 2, settings.thin.lo > 0 ? 5 * settings.thin.lo : kUnseen);
-  if (std::string reason = too_coarse(grid.voxel, needed); !reason.empty())
+  if (std::string reason = too_coarse_for(grid.voxel, settings.thin); !reason.empty())
     return NotAssessable{std::move(reason)};
   const auto patch = patch_of(grid, canal, region, {settings.towards, settings.most_samples});
   if (!patch) return NotAssessable{patch.reason()};
@@ -60,7 +57,7 @@ Assessed<Thin> thinned(const volume::Bone& before, const volume::Bone& after, co
         {wall_along(solidity, canal, cavity, one.voxel.cast<double>(), n, settings.cap),
          static_cast<double>(one.faces), one.place});
   }
-  return thin_layer(layers, settings.thin, std::max(0.05e-3, 0.2 * grid.voxel));
+  return thin_layer(layers, worked, settings.thin, std::max(0.05e-3, 0.2 * grid.voxel));
 }
 
 }  // namespace burr::metrics

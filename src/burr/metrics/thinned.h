@@ -32,6 +32,7 @@ struct ThinnedSettings {
 // what was removed. region: the part of the canal's surface that is looked at.
 [[nodiscard]] Assessed<Thin> thinned(const volume::Bone& before, const volume::Bone& after,
                                      const VoxelSet& canal, const VoxelSet* cavity,
-                                     const Region& region, const ThinnedSettings& settings);
+                                     const Region& region, const Worked& worked,
+                                     const ThinnedSettings& settings);
 
 }  // namespace burr::metrics

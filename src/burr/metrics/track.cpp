@@ -1,6 +1,7 @@
 #include "burr/metrics/track.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "burr/math/sums.h"
@@ -34,12 +35,11 @@ void TrackMaker::add(const Moment& now, double d) {
   if (now.gap || slot != slot_) close();
   if (now.gap || slot > slot_ + 1) apart_ = true;
   slot_ = slot;
-  if (ticks_ == 0) sum_.d = d;
   sum_.t += now.t;
   sum_.raw += now.centre;
   sum_.hand += now.hand;
   sum_.removed += now.removed;
-  sum_.d = std::min(sum_.d, d);
+  sum_.d = std::fmin(sum_.d, d);  // of a number and none it takes the number
   sum_.touching = sum_.touching || now.touching;
   sum_.turning = sum_.turning || now.turning;
   sum_.mode = now.tool.mode;

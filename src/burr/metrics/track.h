@@ -15,6 +15,7 @@
 
 #include "burr/math/vec3.h"
 #include "burr/metrics/moment.h"
+#include "burr/metrics/near.h"
 #include "burr/tool/state.h"
 
 namespace burr::metrics {
@@ -28,8 +29,8 @@ struct TrackSample {
   math::Vec3 hand = math::Vec3::Zero();  // mean of the hand
   math::Vec3 p = math::Vec3::Zero();     // raw, smoothed
   double removed = 0;                    // [m^3]
-  double d = 0;                          // the least distance to the critical structures [m]
-  bool touching = false;                 // in any of its ticks, as all below
+  double d = kNoDistance;  // the least to the critical structures; kNoDistance: not known [m]
+  bool touching = false;   // in any of its ticks, as all below
   bool turning = false;
   tool::Mode mode = tool::Mode::cut;
   bool diamond = false;  // the burr of the last of its ticks

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "burr/math/sums.h"
+#include "burr/metrics/near.h"
 #include "burr/metrics/solidity.h"
 #include "burr/volume/sample.h"
 
@@ -20,6 +22,7 @@ bool is_clear(const volume::Bone& bone, const Vec3& from, const Vec3& eye) {
   const volume::Grid& grid = bone.grid();
   const Vec3 p = grid.grid_from_world(from), way = grid.grid_from_world(eye) - p;
   const double length = math::norm(way);
+  if (!std::isfinite(length)) return false;  // no way that ends
   if (!(length > 0)) return true;
   const Vec3 w = way / length;
   for (double l = 0.25; l < length; l += 0.5) {
@@ -34,6 +37,17 @@ bool is_clear(const volume::Bone& bone, const Vec3& from, const Vec3& eye) {
 }
 
 }  // namespace
+
+std::vector<EyeSample> eyes_of(std::span<const record::View> views, double rate_hz) {
+  std::vector<EyeSample> eyes;
+  for (const record::View& view : views) {
+    EyeSample eye{static_cast<double>(view.tick) / rate_hz, view.eye, -view.back,
+                  view.magnification};
+    if (!record::check(view)) eye.eye.setConstant(std::numeric_limits<double>::quiet_NaN());
+    eyes.push_back(eye);
+  }
+  return eyes;
+}
 
 double share_in_sight(const volume::Bone& bone, const Vec3& centre, double radius,
                       const Vec3& eye) {
@@ -57,6 +71,11 @@ void VisibilityMaker::look(const volume::Bone& bone) {
   const double volume = volume_;
   volume_ = 0;
   if (eyes_.empty() || eyes_[eye_].t > last_.t) return;  // nobody had looked yet
+  if (!eyes_[eye_].eye.allFinite()) return;
+  if (!last_.radius_known()) {
+    radius_missing_ = true;
+    return;
+  }
   const double v = share_in_sight(bone, last_.centre, last_.tool.radius, eyes_[eye_].eye);
   all_ += volume;
   sum_ += v * volume;
@@ -72,6 +91,7 @@ void VisibilityMaker::look(const volume::Bone& bone) {
 
 Assessed<Visibility> VisibilityMaker::finish() const {
   if (eyes_.empty()) return NotAssessable{"the recording does not say where the eye was"};
+  if (!(all_ > 0) && radius_missing_) return NotAssessable{kNoRadius};
   if (!(all_ > 0)) return NotAssessable{"nothing was removed while the eye was known"};
   return Visibility{all_, seen_ / all_, sum_ / all_, worst_};
 }
@@ -89,15 +109,26 @@ Result<Assessed<Visibility>> visibility_of(record::Player& player, volume::Bone&
     if (const Status shown = player.bone_at(now.t, bone); !shown) return shown.error();
     maker.look(bone);
   }
+  if (maker.end()) {
+    if (const Status shown = player.bone_at(player.seconds(), bone); !shown) return shown.error();
+    maker.look(bone);
+  }
   return maker.finish();
 }
 
-ViewChanges view_changes(std::span<const EyeSample> eyes, double seconds) {
-  ViewChanges out;
-  if (eyes.empty() || !(seconds > 0)) return out;
+Assessed<ViewChanges> view_changes(std::span<const EyeSample> eyes, double seconds) {
+  if (!(seconds > 0)) return NotAssessable{"the recording is empty"};
   double zoom = 0, turn = 0;
-  EyeSample was = eyes.front();
+  const EyeSample* first = nullptr;
+  EyeSample was;
   for (const EyeSample& now : eyes) {
+    if (!now.eye.allFinite() || !now.forward.allFinite() || !(now.magnification > 0) ||
+        !std::isfinite(now.magnification))
+      continue;
+    if (first == nullptr) {
+      first = &now;
+      was = now;
+    }
     const double ratio = now.magnification / was.magnification;
     if (ratio > kZoomed || ratio < 1 / kZoomed) {
       ++zoom;
@@ -108,9 +139,8 @@ ViewChanges view_changes(std::span<const EyeSample> eyes, double seconds) {
       was.forward = now.forward;
     }
   }
-  out.magnification = 60 * zoom / seconds;
-  out.direction = 60 * turn / seconds;
-  return out;
+  if (first == nullptr) return NotAssessable{"the recording does not say where the eye was"};
+  return ViewChanges{60 * zoom / seconds, 60 * turn / seconds};
 }
 
 }  // namespace burr::metrics

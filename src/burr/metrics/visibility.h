@@ -6,8 +6,11 @@
 // A point is clear if the straight line from it to the eye meets no bone (sigma >= 1/2, see
 // solidity.h). What was removed in a tenth of a second counts with the v of its end.
 //
-// The eye is a plain time series, from whatever knows where the camera was; an eye holds until the
-// next one. Frame: world. Units: SI. Thread: one. Memory: the bone, for visibility_of().
+// The last, shorter stretch of a recording counts like a tenth of a second. Ticks without a radius of
+// the burr do not count, nor do those in which nobody knows where the eye was.
+//
+// The eye is a plain time series, from the views of a recording (eyes_of) or from whatever knows
+// where the camera was; an eye holds until the next one. Frame: world. Units: SI. Thread: one. Memory: the bone, for visibility_of().
 #pragma once
 
 #include <cstddef>
@@ -20,16 +23,21 @@
 #include "burr/metrics/measured.h"
 #include "burr/metrics/moment.h"
 #include "burr/record/player.h"
+#include "burr/record/view.h"
 #include "burr/volume/bone.h"
 
 namespace burr::metrics {
 
 struct EyeSample {
-  double t = 0;                             // from then on [s]; in order
-  math::Vec3 eye = math::Vec3::Zero();      // its place; of two eyes, the middle [m]
+  double t = 0;  // from then on [s]; in order
+  math::Vec3 eye =
+      math::Vec3::Zero();  // its place; of two eyes, the middle [m]. Not finite: not known
   math::Vec3 forward = math::Vec3::Zero();  // unit, where it looks
   double magnification = 1;
 };
+
+// Those of a recording; a view that record::check() refuses leaves the eye unknown until the next one.
+[[nodiscard]] std::vector<EyeSample> eyes_of(std::span<const record::View> views, double rate_hz);
 
 struct Visibility {
   double volume = 0;      // removed while there was an eye [m^3]
@@ -42,7 +50,7 @@ struct Visibility {
   std::vector<Moment> worst;  // at most 3: with v < 0.5 and the most volume, largest first
 };
 
-// v of a head at `centre`.
+// v of a head at `centre`. eye: finite; otherwise 0.
 [[nodiscard]] double share_in_sight(const volume::Bone& bone, const math::Vec3& centre,
                                     double radius, const math::Vec3& eye);
 
@@ -52,15 +60,18 @@ class VisibilityMaker {
   explicit VisibilityMaker(std::span<const EyeSample> eyes) : eyes_(eyes) {}
   // True: a tenth of a second is over; give look() the bone as it is now.
   [[nodiscard]] bool add(const Moment& now);
+  // After the last tick. True: give look() the bone as it is at the end.
+  [[nodiscard]] bool end() const { return volume_ > 0; }
   void look(const volume::Bone& bone);
-  // Not assessable: nothing was removed, or no eye was recorded.
+  // Not assessable: no eye was recorded, or nothing was removed while eye and radius were known.
   [[nodiscard]] Assessed<Visibility> finish() const;
 
  private:
   std::span<const EyeSample> eyes_;
   std::size_t eye_ = 0;
   Moment last_;
-  double volume_ = 0;
+  double volume_ = 0;            // since the last look [m^3]
+  bool radius_missing_ = false;  // something was removed by a burr of unknown size
   double all_ = 0, seen_ = 0, sum_ = 0;
   std::vector<Visibility::Moment> worst_;
 };
@@ -76,6 +87,7 @@ class VisibilityMaker {
 struct ViewChanges {
   double magnification = 0, direction = 0;  // [1/min]
 };
-[[nodiscard]] ViewChanges view_changes(std::span<const EyeSample> eyes, double seconds);
+// seconds: of the recording. Not assessable: it is empty, or holds no view with an eye that is known.
+[[nodiscard]] Assessed<ViewChanges> view_changes(std::span<const EyeSample> eyes, double seconds);
 
 }  // namespace burr::metrics

@@ -51,10 +51,10 @@ void VoxelSet::collect(const Bone& bone, const Belongs& belongs) {
 
 VoxelSet VoxelSet::of_tissues(const Bone& bone, std::span<const TissueId> tissues) {
   VoxelSet set(bone);
-  std::array<bool, 256> wanted = {};
-  for (const TissueId tissue : tissues) wanted[tissue] = true;
+  std::array<bool, 256> listed = {};
+  for (const TissueId tissue : tissues) listed[tissue] = true;
   set.collect(bone, [&](const math::Ijk&, TissueId tissue, Field field) {
-    return wanted[tissue] &&
+    return listed[tissue] &&
            (field >= volume::kIso || bone.tissues()[tissue].kind != TissueKind::solid);
   });
   return set;

@@ -1,6 +1,7 @@
 #include "burr/metrics/way.h"
 
 #include "burr/math/sums.h"
+#include "burr/metrics/near.h"
 
 namespace burr::metrics {
 namespace {
@@ -12,8 +13,8 @@ constexpr double kPole = 0.3;                   // sine
 
 void TimesMaker::end_pause() {
   if (pause_ > kPause) {
-    ++times_.hesitations;
-    times_.hesitating += pause_;
+    ++hesitation_.count;
+    hesitation_.seconds += pause_;
   }
   pause_ = 0;
 }
@@ -30,14 +31,23 @@ void TimesMaker::add(const Moment& now) {
     }
   }
   if (bone_ == nullptr) return;
-  const bool near = bone_->at(now.centre).distance - now.tool.radius <= kNearBone;
+  radius_ = radius_ || now.radius_known();
+  const bool near =
+      now.radius_known() && bone_->at(now.centre).distance - now.tool.radius <= kNearBone;
   if (now.cutting() || !near || now.gap) end_pause();
   if (!now.cutting() && near) pause_ += now.dt;
 }
 
 Times TimesMaker::finish() {
   end_pause();
-  return times_;
+  Times out = times_;
+  if (bone_ == nullptr || bone_->empty())
+    out.hesitation = NotAssessable{"the distance to the bone is not known"};
+  else if (!radius_)
+    out.hesitation = NotAssessable{kNoRadius};
+  else
+    out.hesitation = hesitation_;
+  return out;
 }
 
 Paths paths_of(const Track& track) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "burr/base/check.h"
 #include "burr/base/printable.h"
 #include "burr/metrics/cover.h"
 #include "burr/metrics/identified.h"
@@ -76,10 +77,11 @@ Outcome skeletonised(const Item& item, Scene& scene) {
   const auto& cover = scene.cover(item.structure, item.region, kSamples);
   if (!cover) return not_assessable(item, cover.reason());
   const auto thin = metrics::skeletonised(
-      *cover, {item.limit("lo_mm"), item.limit("hi_mm"), item.limit("share"), item.limit("over")});
+      *cover, scene.worked(),
+      {item.limit("lo_mm"), item.limit("hi_mm"), item.limit("share"), item.limit("over")});
   if (!thin) return not_assessable(item, thin.reason());
   // what failed decides: laid bare, or not thin enough
-  const bool bare = !thin->bare.met;
+  const bool bare = thin->bare.value > thin->bare.threshold;
   Outcome out = bare ? decided(item, thin->bare, "share laid bare", false)
                      : decided(item, thin->even, "share thinned evenly", true);
   out.place = bare ? thin->thinnest_at : thin->thickest_at;
@@ -92,9 +94,8 @@ Outcome intact_solid(const Item& item, Scene& scene) {
   metrics::IntactSolidSettings settings;
   const double voxel = scene.before().grid().voxel;
   settings.v = std::max(item.limit("most_mm3"), 3 * voxel * voxel * voxel);
-  settings.worked = scene.worked();
-  const auto lost =
-      metrics::intact_solid(scene.before(), scene.after(), scene.voxels(item.structure), settings);
+  const auto lost = metrics::intact_solid(scene.before(), scene.after(),
+                                          scene.voxels(item.structure), scene.worked(), settings);
   if (!lost) return not_assessable(item, lost.reason());
   Outcome out = decided(item, lost->mark, "volume cut away", false);
   if (lost->mark.value > 0) out.place = lost->at;
@@ -106,8 +107,7 @@ Outcome intact_plate(const Item& item, Scene& scene) {
   if (!cover) return not_assessable(item, cover.reason());
   metrics::IntactPlateSettings settings;
   settings.most_area = item.limit("most_mm2");
-  settings.worked = scene.worked();
-  const auto plate = metrics::intact_plate(*cover, settings);
+  const auto plate = metrics::intact_plate(*cover, scene.worked(), settings);
   if (!plate) return not_assessable(item, plate.reason());
   Outcome out = decided(item, plate->mark, "area laid bare", false);
   if (!plate->holes.empty()) out.place = plate->holes.front().at;
@@ -225,6 +225,7 @@ Outcome measure_bone(const Item& item, Scene& scene) {
   if (how == "overhang") return overhang(item, scene);
   if (how == "removed") return removed(item, scene, true);
   if (how == "kept") return removed(item, scene, false);
+  BURR_CHECK(needs_recording(item));  // every measure is in one of the two lists
   return not_assessable(item, "it needs a recording");
 }
 

@@ -29,15 +29,18 @@ struct Limit {
   double above, most;  // what the file may give
 };
 
+// The preset of `share` for an item with `along`.
+inline constexpr double kShareAlong = 0.6;
+
 struct Measure {
-  const char* name;
-  Part part;
-  Quantity quantity;
-  bool structure;  // the item must name one; otherwise it must not
-  bool region;     // the item must name one; otherwise it may if `anywhere`
-  bool anywhere;
-  bool along;  // the item may name a curve
-  std::vector<Limit> limits;
+  const char* name = "";
+  Part part = Part::product;
+  Quantity quantity = Quantity::share;
+  bool structure = false;  // the item must name one; otherwise it must not
+  bool region = false;     // the item must name one; otherwise it may if `anywhere`
+  bool anywhere = false;
+  bool along = false;  // the item may name a curve
+  std::vector<Limit> limits = {};
 };
 
 [[nodiscard]] std::span<const Measure> measures();

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "burr/base/printable.h"
-#include "burr/metrics/order.h"
 #include "burr/metrics/process.h"
 #include "burr/record/course.h"
 #include "burr/scoring/measure.h"
+#include "burr/scoring/step_order.h"
 
 namespace burr::scoring {
 namespace {
@@ -51,7 +51,8 @@ Outcome soft(const Item& item, const metrics::Process& process, double rate_hz) 
 }
 
 Outcome burr_choice(const Item& item, const metrics::Process& process) {
-  const auto& share = process.choice.diamond_or_small;
+  if (!process.choice) return not_assessable(item, process.choice.reason());
+  const auto& share = process.choice->diamond_or_small;
   if (!share) return not_assessable(item, "nothing was removed near what is to be spared");
   const double least = item.limit("share");
   return decided(item, {*share >= least, true, *share, least, 0},
@@ -60,11 +61,10 @@ Outcome burr_choice(const Item& item, const metrics::Process& process) {
 
 Outcome restraint(const Item& item, const metrics::Process& process, double rate_hz) {
   if (!process.force) return not_assessable(item, process.force.reason());
-  if (!process.force->restraint)
-    return not_assessable(item,
-                          "the burr was in contact for less than half a second near what is to be "
-                          "spared, or far from it");
-  const double value = *process.force->restraint, most = item.limit("most");
+  if (!process.force->by_distance) return not_assessable(item, process.force->by_distance.reason());
+  const auto& restrained = process.force->by_distance->restraint;
+  if (!restrained) return not_assessable(item, restrained.reason());
+  const double value = *restrained, most = item.limit("most");
   Outcome out = decided(item, {value <= most, true, value, most, 0},
                         "force within 2 mm / force beyond 4 mm", false);
   out.tick = static_cast<std::uint64_t>(std::llround(process.force->peak_at * rate_hz));
@@ -83,19 +83,11 @@ std::vector<metrics::StepMark> marks_of(const record::Player& player) {
   return marks;
 }
 
-// Only pairs count of which the case says that one must precede the other.
 Outcome order(const Item& item, const scenario::Lesson& lesson, const record::Player& player) {
-  std::vector<std::string> wanted;
-  for (const scenario::Step& step : lesson.steps) wanted.push_back(step.id);
-  const metrics::Order found = metrics::order_of(marks_of(player), wanted);
+  const StepOrder found = step_order(lesson, marks_of(player));
   if (found.done < 2)
     return not_assessable(item, "the recording names fewer than two steps as done");
-  double wrong = 0;
-  for (const auto& [early, late] : found.inversions) {
-    const std::vector<std::string>& after = lesson.step(late)->must_precede;
-    if (std::find(after.begin(), after.end(), early) != after.end()) ++wrong;
-  }
-  const double most = item.limit("most");
+  const double most = item.limit("most"), wrong = static_cast<double>(found.wrong);
   return decided(item, {wrong <= most, true, wrong, most, 0}, "pairs of steps in the wrong order",
                  false);
 }
@@ -114,7 +106,8 @@ Result<metrics::Process> process_of(const Rubric& rubric, Scene& scene, record::
       settings.soft.push_back({item.id,
                                &scene.voxels(item.structure),
                                distance(item.structure),
-                               {.p2 = item.limit("deep_mm"), .worked = scene.worked()}});
+                               scene.worked(),
+                               {.p2 = item.limit("deep_mm")}});
   if (scene.stopped()) return error(Trouble::interrupted, "stopped");
   return metrics::process_of(player, settings, progress);
 }

@@ -25,6 +25,7 @@ void require(const Rubric& rubric, std::span<Outcome> outcomes, std::size_t n, s
   if (mine.verdict != Verdict::met || outcomes[other].verdict == Verdict::met) return;
   mine.verdict = outcomes[other].verdict;
   mine.borderline = outcomes[other].borderline;
+  mine.earned = outcomes[other].earned;
   mine.reason =
       fmt::format("it requires \"{}\", which is {}", base::printable(needs), word_of(mine.verdict));
 }

@@ -67,8 +67,8 @@ inline constexpr double kMostUnknown = 0.2;  // share of the weight that may be 
 // outcomes: one for each item of the rubric, in its order, here and below.
 [[nodiscard]] Total total_of(const Rubric& rubric, std::span<const Outcome> outcomes, Part part);
 
-// `requires`: an item whose required item is unmet is unmet; if that one is not assessable, nor is
-// it. Follows `requires` of the required item first. The rubric must have no circle.
+// `requires`: a met item becomes what its required item is: unmet, not earned, or not assessable. Follows
+// `requires` of the required item first. The rubric must have no circle.
 void apply_requires(const Rubric& rubric, std::span<Outcome> outcomes);
 
 }  // namespace burr::scoring

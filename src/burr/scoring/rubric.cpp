@@ -59,7 +59,7 @@ void read_limits(Reader& reader, Item& out) {
   for (const Limit& limit : out.how->limits) {
     double value = limit.preset;
     // along a tube the share is one of slices, and each slice has a near side
-    if (!out.along.empty() && std::string_view(limit.field) == "share") value = 0.6;
+    if (!out.along.empty() && std::string_view(limit.field) == "share") value = kShareAlong;
     reader.number(limit.field, value, limit.above, limit.most);
     out.limits[limit.field] = value * limit.unit;
   }
@@ -104,7 +104,7 @@ void check_ids(Reader& reader, const Rubric& rubric) {
   }
 }
 
-// `requires` names an item, and whoever follows it does not come back.
+// `requires` names an item of the same part, and whoever follows it does not come back.
 void check_needs(Reader& reader, const Rubric& rubric) {
   for (const Item& item : rubric.items) {
     std::set<std::string> way = {item.id};
@@ -120,6 +120,13 @@ void check_needs(Reader& reader, const Rubric& rubric) {
                        fmt::format("\"{}\" leads back to itself; take one `requires` out of the "
                                    "circle",
                                    base::printable(next->id)));
+        next = nullptr;
+      } else if (next->part != at->part) {
+        reader.fail_at(
+            at->lines.at("requires"), "requires",
+            fmt::format("\"{}\" is an item of the {}, and this one of the {}; the two "
+                        "parts are never mixed, so require an item of the same part",
+                        base::printable(next->id), word_of(next->part), word_of(at->part)));
         next = nullptr;
       }
       at = next;

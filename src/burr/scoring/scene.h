@@ -44,7 +44,7 @@ class Scene {
   [[nodiscard]] const metrics::Assessed<metrics::Cover>& cover(const std::string& structure,
                                                                const std::string& region,
                                                                std::size_t most_samples);
-  // Share that was removed of what the case wants removed: the regions of its reference, or without
+  // Share that was removed of what the case says to remove: the regions of its reference, or without
   // one those of its steps. What must stay whole earns nothing below metrics::kLeastWork.
   [[nodiscard]] double worked();
 

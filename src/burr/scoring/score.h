@@ -2,8 +2,9 @@
 //
 //     auto score = scoring::score(rubric, lesson, *before, *after, player.get(), progress);
 //
-// A pure function: the same bones, recording and rubric give the same score, to the bit, on every
-// machine and with any number of threads. It gives no grade and no pass. Thread: uses two of its own.
+// A pure function: the same bones, recording and rubric give the same score, to the bit. That this holds
+// on other instruction sets and with other numbers of threads is tested for the measures (metrics), of
+// which it is made. It gives no grade and no pass. Thread: uses two of its own.
 // Cost: seconds; memory: that of metrics/cover.h and the distances to the structures, which
 // the regions of `shown` keep.
 #pragma once
@@ -25,7 +26,7 @@ namespace burr::scoring {
 struct Score {
   std::vector<Outcome> outcomes;  // one for each item of the rubric, in its order
   Total product, process;
-  double worked = 0;       // share removed of what the case wants removed
+  double worked = 0;       // share removed of what the case says to remove
   bool unfinished = true;  // the work was not declared done
   std::string ending;      // "declared done", "time up", "broke off", "no end in the recording"
   Shown shown;
