@@ -39,12 +39,13 @@ if(BURR_APP)
     endif()
   endfunction()
 
-  # the parts that tests use as well, compiled once: the window, the doctor, and what both need
+  # the parts that tests use as well, compiled once: the window, the report, the doctor, and what they need
   set(BURR_APP_PARTS commands/hand_options commands/html_page commands/outputs commands/picture_size commands/recording commands/work
     devices/trial devices/trial_words doctor/run_in_process doctor/devices_there doctor/finding doctor/fix doctor/nodes)
   list(TRANSFORM BURR_APP_PARTS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/apps/burr/\\1.cpp")
   file(GLOB_RECURSE window CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp)
-  list(APPEND BURR_APP_PARTS ${window})
+  file(GLOB report CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/report/*.cpp)
+  list(APPEND BURR_APP_PARTS ${window} ${report})
   list(REMOVE_ITEM BURR_APP ${BURR_APP_PARTS})
   add_library(burr_app STATIC EXCLUDE_FROM_ALL ${BURR_APP_PARTS} ${CMAKE_BINARY_DIR}/words/word_texts.cpp)
   burr_of_program(burr_app)

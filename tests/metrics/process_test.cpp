@@ -161,6 +161,24 @@ TEST_F(ProcessTest, ChoiceOfBurr) {
   EXPECT_EQ(*done.choice->large_cutting, 1);
 }
 
+// a peak of one tick is kept, and the burr changes with its tick
+TEST_F(ProcessTest, TrackKeepsThePeakForceAndTheBurr) {
+  const auto story = [](double t) {
+    Happening now;
+    now.force = std::abs(t - 0.507) < 1e-6 ? 7 : 2;
+    if (t >= 0.7) now.tool = {.radius = 3e-3, .full_speed = 5000, .kind = tool::BurrKind::diamond};
+    return now;
+  };
+  const Track track = test::process(1.0, story, settings_).track;
+  ASSERT_EQ(track.samples.size(), 100U);
+  EXPECT_EQ(track.samples[50].force, 7);
+  EXPECT_EQ(track.samples[51].force, 2);
+  EXPECT_FALSE(track.samples[69].diamond);
+  EXPECT_EQ(track.samples[69].radius, 1e-3);
+  EXPECT_TRUE(track.samples[70].diamond);
+  EXPECT_EQ(track.samples[70].radius, 3e-3);
+}
+
 // Q6: the burr goes into the soft ball by p and out again, twice
 struct Pass {
   double p;

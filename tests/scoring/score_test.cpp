@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -119,6 +120,33 @@ TEST(Score, WhatWasCutOpenWasNotFound) {
   EXPECT_EQ(deep.outcomes[0].verdict, Verdict::unmet);
   EXPECT_EQ(deep.outcomes[0].reason, "it requires \"ball.whole\", which is unmet");
   EXPECT_NEAR(deep.product.points.value_or(-1), 100.0 / 3, 1e-9);
+}
+
+TEST(Score, NamesTheSpotsItLookedAt) {
+  const auto count = [](const Score& score, Spot::Kind kind) {
+    const auto& spots = score.outcomes[0].spots;
+    return std::count_if(spots.begin(), spots.end(), [&](auto& s) { return s.kind == kind; });
+  };
+  const Score idle = score_of_cut(20), good = score_of_cut(3.5);
+  EXPECT_GT(count(idle, Spot::Kind::left), 50);
+  EXPECT_EQ(count(idle, Spot::Kind::good), 0);
+  ASSERT_GT(count(good, Spot::Kind::good), 10);
+  EXPECT_LE(good.outcomes[0].spots.size(), kMostSpots);
+  for (const Spot& spot : good.outcomes[0].spots) {
+    EXPECT_NEAR(spot.at.norm(), 3 * kMm, 0.5 * kMm);  // on the ball
+    if (spot.kind != Spot::Kind::good) continue;
+    EXPECT_GT(spot.at.z(), 0);
+  }
+}
+
+TEST(Score, ShowsWhatTheCaseSaysToRemove) {
+  const Score score = score_of_cut(20);
+  ASSERT_TRUE(score.shown.remove);
+  EXPECT_NEAR(score.shown.remove({0, 0, 5.5 * kMm}), 2 * kMm, 1e-9);  // the middle of the pit
+  EXPECT_LT(score.shown.remove({0, 0, 0}), 0);
+  EXPECT_FALSE(score.shown.keep);
+  EXPECT_EQ(score.shown.regions.count("pit"), 1U);
+  EXPECT_TRUE(score.shown.track.samples.empty());  // without a recording
 }
 
 TEST(Score, TheUntouchedTemporalBoneMeetsNothing) {

@@ -12,18 +12,16 @@
 #include "burr/record/player.h"
 #include "burr/scenario/case.h"
 #include "burr/scenario/lesson.h"
-#include "burr/scenario/open_lesson.h"
 #include "burr/scoring/reference.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/score.h"
-#include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
-#include "burr/workshop/recording.h"
 #include "commands/command.h"
 #include "commands/json_line.h"
 #include "commands/score_words.h"
 #include "commands/volume_words.h"
+#include "report/scored.h"
 
 namespace burr::app {
 namespace {
@@ -36,16 +34,6 @@ struct Options {
   scenario::Recipe volume;
   bool json = false;
 };
-
-Result<scenario::Lesson> lesson_of(const scenario::Case& work, const scoring::Rubric& rubric) {
-  auto read = scenario::lesson_of(work);
-  if (!read) return read.error();
-  auto lesson =
-      scenario::place(std::move(*read), workshop::landmarks_of(work), work.name + ".toml");
-  if (!lesson) return lesson.error();
-  if (const Status fits = scoring::check(rubric, *lesson); !fits) return fits.error();
-  return lesson;
-}
 
 void print_items(const scoring::Rubric& rubric, const scoring::Score& score) {
   for (const scoring::Part part : {scoring::Part::product, scoring::Part::process}) {
@@ -63,65 +51,36 @@ std::string ids_of(const scoring::Rubric& rubric) {
   return list;
 }
 
-// The case of the recording, which must be that of the rubric.
-Result<scenario::Case> case_of(const record::Player& player, const Options& options) {
-  const auto& info = player.info().work_case;
-  if (info) return record::case_of(*info);
-  if (options.rubric.empty())
-    return error(Trouble::usage, "the recording names no case; name a rubric with --rubric");
-  const auto rubric = scoring::read_rubric(options.rubric);
-  if (!rubric) return rubric.error();
-  return scenario::read_case(rubric->case_name);
-}
-
-// The bone at the start, twice: the second is played to the end.
-Result<std::unique_ptr<volume::Bone>> bone_at_end(record::Player& player, const Options& options) {
-  auto bone = workshop::bone_of(player, options.volume, progress());
-  if (!bone) return bone.error();
-  if (const Status there = player.bone_at(player.seconds(), **bone); !there) return there.error();
-  return bone;
-}
-
 Status run_score(const Options& options) {
-  auto player = record::Player::open(options.source);
-  if (!player) return player.error();
-  const auto work = case_of(**player, options);
-  if (!work) return work.error();
-  const auto rubric = scoring::read_rubric(options.rubric.empty() ? work->name : options.rubric);
-  if (!rubric) return rubric.error();
-  if (rubric->case_name != work->name)
-    return error(
-        Trouble::usage,
-        fmt::format("{} is a rubric for the case \"{}\", but the recording is of \"{}\"",
-                    rubric->file, base::printable(rubric->case_name), base::printable(work->name)));
-  const auto lesson = lesson_of(*work, *rubric);
-  if (!lesson) return lesson.error();
-  const scoring::Item* wanted = rubric->item(options.explain);
+  auto judged = judged_by(options.source, options.rubric);
+  if (!judged) return judged.error();
+  const scoring::Item* wanted = judged->rubric.item(options.explain);
   if (!options.explain.empty() && wanted == nullptr)
-    return error(Trouble::usage, fmt::format("--explain {}: there is no such item; use one of {}",
-                                             base::printable(options.explain), ids_of(*rubric)));
-  const auto before = workshop::bone_of(**player, options.volume, progress());
-  if (!before) return before.error();
-  const auto after = bone_at_end(**player, options);
-  if (!after) return after.error();
-  const auto score = scoring::score(*rubric, *lesson, **before, **after, player->get(), progress());
-  if (!score) return score.error();
-  for (const std::string& notice : (*player)->notices()) fmt::print(stderr, "{}\n", notice);
+    return error(Trouble::usage,
+                 fmt::format("--explain {}: there is no such item; use one of {}",
+                             base::printable(options.explain), ids_of(judged->rubric)));
+  const auto made = scored(std::move(*judged), options.volume, progress());
+  if (!made) return made.error();
+  const record::Player& player = *made->judged.player;
+  const scoring::Rubric& rubric = made->judged.rubric;
+  const scoring::Score& score = made->score;
+  wanted = rubric.item(options.explain);  // of the rubric as it was moved
+  for (const std::string& notice : player.notices()) fmt::print(stderr, "{}\n", notice);
   if (wanted != nullptr) {
-    const auto at = static_cast<std::size_t>(wanted - rubric->items.data());
-    fmt::print("{}\n", explanation(*wanted, score->outcomes[at], (*player)->info().rate_hz));
+    const auto at = static_cast<std::size_t>(wanted - rubric.items.data());
+    fmt::print("{}\n", explanation(*wanted, score.outcomes[at], player.info().rate_hz));
   } else {
-    fmt::print("{}, version {}\n", base::printable(rubric->name), rubric->version);
-    print_items(*rubric, *score);
-    fmt::print("{}\n{}\n", total_line(*rubric, scoring::Part::product, score->product),
-               total_line(*rubric, scoring::Part::process, score->process));
-    if (const std::string gates = gate_line(*rubric, *score); !gates.empty())
+    fmt::print("{}, version {}\n", base::printable(rubric.name), rubric.version);
+    print_items(rubric, score);
+    fmt::print("{}\n{}\n", total_line(rubric, scoring::Part::product, score.product),
+               total_line(rubric, scoring::Part::process, score.process));
+    if (const std::string gates = gate_line(rubric, score); !gates.empty())
       fmt::print("{}\n", gates);
     fmt::print("{}: {}; {:.0f} % of the bone that the case says to remove is gone\n",
-               score->unfinished ? "unfinished" : "finished", score->ending, 100 * score->worked);
+               score.unfinished ? "unfinished" : "finished", score.ending, 100 * score.worked);
   }
   fmt::print("{}\n", kDefaults);
-  if (options.json) fmt::print("{}\n", json_line(score_json(*rubric, *score)));
+  if (options.json) fmt::print("{}\n", json_line(score_json(rubric, score)));
   return fine();
 }
 
@@ -173,7 +132,7 @@ Status run_check(const Options& options) {
   const auto work =
       scenario::read_case(options.work_case.empty() ? rubric->case_name : options.work_case);
   if (!work) return work.error();
-  const auto lesson = lesson_of(*work, *rubric);
+  const auto lesson = lesson_for(*work, *rubric);
   if (!lesson) return lesson.error();
   const auto made = workshop::open_bone(workshop::recipe_of(*work, options.volume), progress());
   if (!made) return made.error();

@@ -4,7 +4,7 @@
 //     process->force->restraint
 //
 // Nothing is allocated per tick beyond what the player needs to decode. What the camera saw comes
-// from elsewhere: metrics/visibility.h. Frame: world. Units: SI. Thread: one. Memory: 136 bytes per
+// from elsewhere: metrics/visibility.h. Frame: world. Units: SI. Thread: one. Memory: 152 bytes per
 // 10 ms of the session, and the marks of the soft structures.
 #pragma once
 

@@ -43,6 +43,9 @@ void TrackMaker::add(const Moment& now, double d) {
   sum_.touching = sum_.touching || now.touching;
   sum_.turning = sum_.turning || now.turning;
   sum_.mode = now.tool.mode;
+  sum_.diamond = now.tool.kind == tool::BurrKind::diamond;
+  sum_.radius = now.tool.radius;
+  sum_.force = std::max(sum_.force, now.force);
   ++ticks_;
 }
 

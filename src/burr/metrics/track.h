@@ -4,7 +4,7 @@
 // Each sample is the mean of the ticks of 10 ms. The way is then smoothed by a low pass of 6 Hz
 // without delay (Butterworth of 2nd order, forwards and back). A gap in the recording, or a pause of
 // the session, begins a new piece; smoothing and all measures stay within a piece.
-// Frame: world. Units: SI. Thread: one. Memory: 136 bytes per 10 ms, reserved at the start: none per
+// Frame: world. Units: SI. Thread: one. Memory: 152 bytes per 10 ms, reserved at the start: none per
 // tick.
 #pragma once
 
@@ -33,6 +33,9 @@ struct TrackSample {
   bool touching = false;   // in any of its ticks, as all below
   bool turning = false;
   tool::Mode mode = tool::Mode::cut;
+  bool diamond = false;  // the burr of the last of its ticks
+  double radius = 0;     // of that burr [m]
+  double force = 0;      // the largest of its ticks [N]
   [[nodiscard]] bool cutting() const { return removed > 0; }
 };
 

@@ -29,17 +29,22 @@ Result<Image> render_image(const Scene& scene, int width, int height) {
   return (*renderer)->image(scene, width, height);
 }
 
-Status write_png(const Image& image, const std::filesystem::path& path) {
+Result<std::string> png_of(const Image& image) {
   BURR_CHECK(image.rgb.size() ==
              static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3);
   std::string bytes;
   if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(),
                              image.width * 3) == 0)
     return error(Trouble::internal, "a picture could not be encoded as PNG; please report it");
+  return bytes;
+}
 
+Status write_png(const Image& image, const std::filesystem::path& path) {
+  const auto bytes = png_of(image);
+  if (!bytes) return bytes.error();
   Result<base::NewFile> file = base::NewFile::create(path.string());
   if (!file) return file.error();
-  file->write(bytes);
+  file->write(*bytes);
   return file->put_in_place();
 }
 

@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "burr/base/result.h"
 #include "burr/render/image.h"
@@ -23,6 +24,9 @@ class Renderer;
 
 // Any size up to 65536 a side: a picture larger than the GPU can hold at once is drawn in tiles.
 [[nodiscard]] Result<Image> render_image(const Scene& scene, int width, int height);
+
+// The bytes of a PNG file.
+[[nodiscard]] Result<std::string> png_of(const Image& image);
 
 [[nodiscard]] Status write_png(const Image& image, const std::filesystem::path& path);
 

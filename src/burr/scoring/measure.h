@@ -16,6 +16,7 @@
 #include "burr/scoring/outcome.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/scene.h"
+#include "burr/scoring/shown.h"
 
 namespace burr::scoring {
 
@@ -32,9 +33,10 @@ namespace burr::scoring {
                                                     const scenario::Lesson& lesson);
 // An item that the two bones decide.
 [[nodiscard]] Outcome measure_bone(const Item& item, Scene& scene);
-// Those that the recording decides, in the order of the rubric. Error: interrupted.
+// Those that the recording decides, in the order of the rubric; `shown` gets the way of the burr.
+// Error: interrupted.
 [[nodiscard]] Result<std::vector<Outcome>> measure_recording(const Rubric& rubric, Scene& scene,
-                                                             record::Player& player,
+                                                             record::Player& player, Shown& shown,
                                                              Progress& progress);
 
 }  // namespace burr::scoring

@@ -24,6 +24,39 @@ namespace {
 
 constexpr std::size_t kSamples = 600, kSamplesOfArea = 5000;
 
+// At most kMostSpots of all, evenly; those that are bare stay, as long as there is room.
+std::vector<Spot> chosen(const std::vector<Spot>& all) {
+  const auto is_bare = [](const Spot& spot) { return spot.kind == Spot::Kind::bare; };
+  const auto bare = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), is_bare));
+  const bool keep_bare = bare < kMostSpots;
+  const std::size_t room = keep_bare ? kMostSpots - bare : kMostSpots;
+  const std::size_t others = keep_bare ? all.size() - bare : all.size();
+  const std::size_t every = std::max<std::size_t>(1, (others + room - 1) / room);
+  std::vector<Spot> some;
+  std::size_t n = 0;
+  for (const Spot& spot : all)
+    if ((keep_bare && is_bare(spot)) || n++ % every == 0) some.push_back(spot);
+  return some;
+}
+
+// lo, hi: of what `length` gives for a sample; at most lo is bare, more than hi is left [m]
+template <class Length>
+std::vector<Spot> spots_of(const metrics::Cover& cover, double lo, double hi,
+                           const Length& length) {
+  std::vector<Spot> all;
+  for (const metrics::CoverSample& one : cover.samples)
+    all.push_back({one.surface.place, length(one) <= lo   ? Spot::Kind::bare
+                                      : length(one) <= hi ? Spot::Kind::good
+                                                          : Spot::Kind::left});
+  return chosen(all);
+}
+
+std::vector<Spot> spots_at(const std::vector<math::Vec3>& places) {
+  std::vector<Spot> all;
+  for (const math::Vec3& at : places) all.push_back({at, Spot::Kind::left});
+  return chosen(all);
+}
+
 Outcome identified(const Item& item, Scene& scene) {
   const auto& cover = scene.cover(item.structure, item.region, kSamples);
   if (!cover) return not_assessable(item, cover.reason());
@@ -37,6 +70,7 @@ Outcome identified(const Item& item, Scene& scene) {
   Outcome out = decided(item, found->mark, "share seen through thin bone", true);
   if (std::isfinite(found->least_cover) || out.verdict == Verdict::unmet)
     out.place = out.verdict == Verdict::met ? found->least_at : found->worst_at;
+  out.spots = spots_of(*cover, -1, settings.x, [](const auto& one) { return one.cover; });
   return out;
 }
 
@@ -52,6 +86,8 @@ Outcome skeletonised(const Item& item, Scene& scene) {
   Outcome out = bare ? decided(item, thin->bare, "share laid bare", false)
                      : decided(item, thin->even, "share thinned evenly", true);
   out.place = bare ? thin->thinnest_at : thin->thickest_at;
+  out.spots = spots_of(*cover, item.limit("lo_mm"), item.limit("hi_mm"),
+                       [](const auto& one) { return one.thickness; });
   return out;
 }
 
@@ -76,6 +112,8 @@ Outcome intact_plate(const Item& item, Scene& scene) {
   if (!plate) return not_assessable(item, plate.reason());
   Outcome out = decided(item, plate->mark, "area laid bare", false);
   if (!plate->holes.empty()) out.place = plate->holes.front().at;
+  out.spots =
+      spots_of(*cover, settings.bare, metrics::kUnseen, [](const auto& one) { return one.cover; });
   return out;
 }
 
@@ -96,6 +134,7 @@ Outcome no_cells(const Item& item, Scene& scene) {
                       : decided(item, cells->shut, "share of the air still shut", false);
   const auto& shown = walls ? cells->standing : cells->hidden;
   if (out.verdict == Verdict::unmet && !shown.empty()) out.place = shown[shown.size() / 2];
+  out.spots = spots_at(shown);
   return out;
 }
 
@@ -129,6 +168,7 @@ Outcome overhang(const Item& item, Scene& scene) {
   mark.met = mark.met && mark.earned;
   Outcome out = decided(item, mark, "share of the new surface under bone", false);
   if (!under->under.empty()) out.place = under->under[under->under.size() / 2];
+  out.spots = spots_at(under->under);
   return out;
 }
 

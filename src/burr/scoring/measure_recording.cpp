@@ -143,9 +143,10 @@ bool needs_recording(const Item& item) {
 }
 
 Result<std::vector<Outcome>> measure_recording(const Rubric& rubric, Scene& scene,
-                                               record::Player& player, Progress& progress) {
+                                               record::Player& player, Shown& shown,
+                                               Progress& progress) {
   std::vector<Outcome> out;
-  const auto process = process_of(rubric, scene, player, progress);
+  auto process = process_of(rubric, scene, player, progress);
   if (!process) return process.error();
   const double rate_hz = player.info().rate_hz;
   for (const Item& item : rubric.items) {
@@ -159,6 +160,8 @@ Result<std::vector<Outcome>> measure_recording(const Rubric& rubric, Scene& scen
                   : how == "burr_choice" ? burr_choice(item, *process)
                                          : restraint(item, *process, rate_hz));
   }
+  shown.track = std::move(process->track);
+  shown.nearness = std::move(process->nearness);
   return out;
 }
 

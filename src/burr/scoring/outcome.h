@@ -22,6 +22,18 @@ namespace burr::scoring {
 enum class Verdict { met, unmet, not_assessable };
 [[nodiscard]] const char* word_of(Verdict verdict);  // "met", "unmet", "not assessable"
 
+// A place that an item looked at, for a picture.
+struct Spot {
+  enum class Kind {
+    good,  // as it should be: thin bone, an even layer
+    left,  // bone that is too much there
+    bare,  // bone that is missing there
+  };
+  math::Vec3 at = math::Vec3::Zero();  // world, LPS [m]
+  Kind kind = Kind::good;
+};
+inline constexpr std::size_t kMostSpots = 1200;  // of one item
+
 struct Outcome {
   std::string id;
   Verdict verdict = Verdict::not_assessable;
@@ -42,6 +54,7 @@ struct Outcome {
   // Evidence, where there is one.
   std::optional<math::Vec3> place;    // world, LPS [m]
   std::optional<std::uint64_t> tick;  // of the recording
+  std::vector<Spot> spots;            // at most kMostSpots; the bare ones are kept first
 };
 
 struct Total {

@@ -13,6 +13,7 @@
 #include "burr/base/check.h"
 #include "burr/base/printable.h"
 #include "burr/base/text_file.h"
+#include "burr/scenario/case.h"
 #include "burr/scenario/read_lesson.h"
 #include "burr/scenario/toml_reader.h"
 #include "burr/scoring/built_in.h"
@@ -190,6 +191,7 @@ Result<Rubric> parse_rubric(std::string_view text, std::string_view file) {
   Reader reader(*table, std::string(file), "", wrong);
   Rubric out;
   out.file = file;
+  out.text_hash = scenario::text_hash(text);
   reader.only({"rubric", "item"});
   if (!reader.has("rubric")) reader.fail("rubric", "is missing; begin with [rubric]");
   reader.table("rubric", [&](Reader& inner) {

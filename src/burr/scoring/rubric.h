@@ -40,6 +40,7 @@ struct Rubric {
   std::string file;  // for errors, without its folder
   std::string name, case_name;
   int version = 1;
+  std::uint64_t text_hash = 0;  // scenario::text_hash() of its text
   std::vector<Item> items;
 
   [[nodiscard]] const Item* item(std::string_view id) const;  // nullptr: there is none

@@ -7,6 +7,7 @@
 #include "burr/record/course.h"
 #include "burr/scoring/measure.h"
 #include "burr/scoring/scene.h"
+#include "burr/scoring/show_regions.h"
 
 namespace burr::scoring {
 namespace {
@@ -25,13 +26,13 @@ Result<Score> score(const Rubric& rubric, const scenario::Lesson& lesson,
   if (!metrics::same_grid(before, after))
     return error("the bone before and the bone after are not the same bone: their grids differ");
   Scene scene(before, after, lesson, progress);
+  Score out;
   std::vector<Outcome> recorded;
   if (player != nullptr) {
-    auto measured = measure_recording(rubric, scene, *player, progress);
+    auto measured = measure_recording(rubric, scene, *player, out.shown, progress);
     if (!measured) return measured.error();
     recorded = std::move(*measured);
   }
-  Score out;
   std::size_t next = 0;
   for (std::size_t n = 0; n < rubric.items.size(); ++n) {
     const Item& item = rubric.items[n];
@@ -45,6 +46,7 @@ Result<Score> score(const Rubric& rubric, const scenario::Lesson& lesson,
   out.product = total_of(rubric, out.outcomes, Part::product);
   out.process = total_of(rubric, out.outcomes, Part::process);
   out.worked = scene.worked();
+  show_regions(rubric, scene, out.shown);
   if (scene.stopped()) return error(Trouble::interrupted, "stopped");
   read_ending(player, out);
   return out;

@@ -5,7 +5,8 @@
 // A pure function: the same bones, recording and rubric give the same score, to the bit. That this holds
 // on other instruction sets and with other numbers of threads is tested for the measures (metrics), of
 // which it is made. It gives no grade and no pass. Thread: uses two of its own.
-// Cost: seconds; memory: that of metrics/cover.h and the distances to the structures.
+// Cost: seconds; memory: that of metrics/cover.h and the distances to the structures, which
+// the regions of `shown` keep.
 #pragma once
 
 #include <string>
@@ -17,6 +18,7 @@
 #include "burr/scenario/lesson.h"
 #include "burr/scoring/outcome.h"
 #include "burr/scoring/rubric.h"
+#include "burr/scoring/shown.h"
 #include "burr/volume/bone.h"
 
 namespace burr::scoring {
@@ -30,6 +32,7 @@ struct Score {
   double worked = 0;       // share removed of what the case says to remove
   bool unfinished = true;  // the work was not declared done
   std::string ending;      // "declared done", "time up", "broke off", "no end in the recording"
+  Shown shown;
 };
 
 // lesson: with its landmarks placed, and check(rubric, lesson) is fine. player: nullptr without a

@@ -1,0 +1,335 @@
+#include "report/make_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "burr/base/version.h"
+#include "burr/scenario/case.h"
+#include "report/advice.h"
+#include "report/report_pictures.h"
+#include "report/report_words.h"
+#include "report/time_line.h"
+#include "window/shell/words.h"
+
+namespace burr::app {
+namespace {
+
+using record::CourseKind;
+using scoring::Part;
+using scoring::Verdict;
+
+std::string name_of(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+std::string title_of(const Scored& scored) {
+  const std::string& title = scored.judged.lesson.title.in(spoken().code);
+  return title.empty() ? scored.judged.work.title : title;
+}
+
+std::string file_hash(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  return record::hex(scenario::text_hash(bytes));
+}
+
+std::string unfinished_of(const scoring::Score& score) {
+  if (!score.unfinished) return {};
+  const Word how = score.ending == record::word_of(record::Ending::time_up) ? Word::report_time_up
+                   : score.ending == record::word_of(record::Ending::broke_off)
+                       ? Word::report_broke_off
+                       : Word::report_no_end;
+  return say(Word::report_unfinished, word(how));
+}
+
+std::vector<TextPair> head_of(const Scored& scored) {
+  const record::Player& player = *scored.judged.player;
+  const record::SessionInfo& info = player.info();
+  const scoring::Rubric& rubric = scored.judged.rubric;
+  std::vector<TextPair> rows;
+  const auto row = [&](Word name, std::string value) {
+    if (value.empty()) value = word(Word::report_not_said);
+    rows.emplace_back(word(name), std::move(value));
+  };
+  const record::Identity identity = info.identity.value_or(record::Identity{});
+  row(Word::report_case, title_of(scored));
+  row(Word::report_learner, identity.learner);
+  row(Word::report_attempt, identity.attempt > 0 ? std::to_string(identity.attempt) : "");
+  row(Word::report_mode, info.identity ? mode_word(identity.mode) : "");
+  const auto device = info.words.find("device");
+  row(Word::report_device, device != info.words.end() ? device->second : "");
+  row(Word::report_voxel, fmt::format("{:.3g} mm", 1e3 * info.volume.grid.voxel));
+  row(Word::report_duration, fmt::format("{}:{:02} min", static_cast<int>(player.seconds()) / 60,
+                                         static_cast<int>(player.seconds()) % 60));
+  row(Word::report_gone, fmt::format("{:.0f} %", 100 * scored.score.worked));
+  const auto helps = std::count_if(player.course().begin(), player.course().end(), [](auto& event) {
+    return event.kind == CourseKind::help_shown;
+  });
+  row(Word::report_help, say(Word::report_help_times, helps));
+  row(Word::report_rubric, say(Word::report_version, rubric.name, rubric.version));
+  const auto calibrated = std::count_if(rubric.items.begin(), rubric.items.end(),
+                                        [](auto& item) { return item.calibrated; });
+  row(Word::report_calibrated, say(Word::report_n_of_m, calibrated, rubric.items.size()));
+  return rows;
+}
+
+ReportMark gate_mark(const scoring::Outcome& outcome) {
+  if (outcome.verdict == Verdict::met) return {word(Word::report_gate_held), Tone::good};
+  if (outcome.verdict == Verdict::not_assessable)
+    return {word(Word::report_verdict_open), Tone::open};
+  if (!outcome.earned) return {word(Word::report_gate_unearned), Tone::open};
+  return {word(Word::report_gate_broken), Tone::bad};
+}
+
+std::vector<ReportGate> gates_of(const Scored& scored, const Scored* beside) {
+  std::vector<ReportGate> gates;
+  const scoring::Rubric& rubric = scored.judged.rubric;
+  for (std::size_t n = 0; n < rubric.items.size(); ++n) {
+    const scoring::Item& item = rubric.items[n];
+    const scoring::Outcome& outcome = scored.score.outcomes[n];
+    if (!item.gate) continue;
+    ReportGate& gate = gates.emplace_back();
+    gate.text = item.say.in(spoken().code);
+    gate.mark = gate_mark(outcome);
+    if (gate.mark.tone == Tone::bad && outcome.tick)
+      gate.when = fmt::format(
+          "{:.1f} s", static_cast<double>(*outcome.tick) / scored.judged.player->info().rate_hz);
+    if (beside != nullptr) gate.beside = gate_mark(beside->score.outcomes[n]);
+  }
+  return gates;
+}
+
+std::string met_of(const scoring::Total& total) {
+  if (total.assessable == 0) return say(Word::report_none_open, total.items);
+  std::string text = say(Word::report_met, total.met, total.assessable);
+  if (total.items > total.assessable)
+    text += ", " + say(Word::report_more_open, total.items - total.assessable);
+  return text;
+}
+
+// Points only where somebody has compared every threshold with people.
+std::string note_of(const scoring::Rubric& rubric, Part part, const scoring::Total& total) {
+  const bool calibrated = std::all_of(rubric.items.begin(), rubric.items.end(), [&](auto& item) {
+    return item.part != part || item.calibrated;
+  });
+  if (!calibrated) return word(Word::report_default);
+  return total.points ? say(Word::report_points, *total.points) : "";
+}
+
+std::optional<ReportScale> scale_of(const scoring::Outcome& outcome) {
+  if (!outcome.value || !std::isfinite(*outcome.value)) return std::nullopt;
+  ReportScale scale{*outcome.value, outcome.error, outcome.threshold, 1, outcome.at_least};
+  if (outcome.quantity != scoring::Quantity::share)
+    scale.end = std::max(2 * scale.threshold, 1.2 * (scale.value + scale.error));
+  if (!(scale.end > 0)) scale.end = 1;
+  return scale;
+}
+
+// When, how hard and how near: of the way of the burr at 100 Hz.
+std::string moment_words(const Scored& scored, std::uint64_t tick) {
+  const double t = static_cast<double>(tick) / scored.judged.player->info().rate_hz;
+  const auto& samples = scored.score.shown.track.samples;
+  const auto at = std::min_element(samples.begin(), samples.end(), [t](auto& a, auto& b) {
+    return std::abs(a.t - t) < std::abs(b.t - t);
+  });
+  if (at == samples.end()) return {};
+  std::string text = say(Word::report_moment, t, at->force);
+  if (std::isfinite(at->d)) text += say(Word::report_moment_near, 1e3 * at->d);
+  return text + ".";
+}
+
+ReportItem item_of(const Scored& scored, std::size_t n, const ReportSettings& settings) {
+  const scoring::Item& item = scored.judged.rubric.items[n];
+  const scoring::Outcome& outcome = scored.score.outcomes[n];
+  ReportItem out;
+  out.id = item.id;
+  out.text = item.say.in(spoken().code);
+  out.gate = item.gate;
+  out.tick = outcome.tick;
+  out.machine = mark_of(outcome);
+  if (const auto self = settings.self.find(item.id); self != settings.self.end())
+    out.self = mark_of(self->second);
+  out.figures = figures_of(outcome);
+  if (!item.calibrated && outcome.value) out.default_word = word(Word::report_default);
+  out.scale = scale_of(outcome);
+  if (settings.beside != nullptr) {
+    out.beside = mark_of(settings.beside->score.outcomes[n]);
+    out.beside_figures = figures_of(settings.beside->score.outcomes[n]);
+  }
+  if (outcome.borderline) out.remarks.emplace_back(word(Word::report_borderline));
+  if (std::string why = reason_of(item, outcome); !why.empty()) out.remarks.push_back(why);
+  if (outcome.verdict == Verdict::unmet && outcome.earned) {
+    if (outcome.tick) out.remarks.push_back(moment_words(scored, *outcome.tick));
+    out.remarks.push_back(measure_word(item.how->name));
+  }
+  return out;
+}
+
+std::vector<ReportPart> parts_of(const Scored& scored, const ReportSettings& settings) {
+  std::vector<ReportPart> parts;
+  const scoring::Rubric& rubric = scored.judged.rubric;
+  for (const Part part : {Part::product, Part::process}) {
+    const auto total_of = [part](const scoring::Score& score) {
+      return part == Part::product ? score.product : score.process;
+    };
+    if (total_of(scored.score).items == 0) continue;
+    ReportPart& out = parts.emplace_back();
+    out.title = word(part == Part::product ? Word::report_product : Word::report_process);
+    out.met = met_of(total_of(scored.score));
+    out.note = note_of(rubric, part, total_of(scored.score));
+    if (settings.beside != nullptr) out.beside_met = met_of(total_of(settings.beside->score));
+    for (std::size_t n = 0; n < rubric.items.size(); ++n)
+      if (rubric.items[n].part == part) out.items.push_back(item_of(scored, n, settings));
+  }
+  return parts;
+}
+
+std::vector<TextPair> hashes_of(const Scored& scored) {
+  const record::SessionInfo& info = scored.judged.player->info();
+  const auto labels = info.identity ? info.identity->labels_hash : 0;
+  return {{word(Word::report_hash_recording), file_hash(scored.judged.player->path())},
+          {word(Word::report_case), record::hex(scenario::text_hash(scored.judged.work.text))},
+          {word(Word::report_rubric), record::hex(scored.judged.rubric.text_hash)},
+          {word(Word::report_hash_labels),
+           record::hex(labels != 0 ? labels : record::labels_hash(*scored.before))},
+          {word(Word::report_hash_bone), record::hex(info.volume.content_hash)},
+          {word(Word::report_engine), fmt::format("burr {} ({})", base::version(), base::build())}};
+}
+
+std::vector<std::string> small_of(const Scored& scored) {
+  std::vector<std::string> small = {word(Word::report_no_grade), word(Word::report_not_valid),
+                                    word(Word::report_one_session)};
+  if (scenario::is_phantom(scored.judged.player->info().volume.recipe.source))
+    small.emplace_back(word(Word::report_formula));
+  if (spoken().code != "en") small.emplace_back(word(Word::report_english));
+  return small;
+}
+
+// The four sides; with room for more, the evidence of the items that need it most.
+Status add_pictures(Scored& scored, const std::string& whose, std::size_t most, Report& report,
+                    bool evidence, const ReportSettings& settings, Progress& progress) {
+  if (most < kSides) return fine();
+  auto artist = ReportArtist::make(scored, progress);
+  if (!artist) return artist.error();
+  ReportSides& sides = report.sides.emplace_back();
+  sides.whose = whose;
+  for (std::size_t n = 0; n < kSides; ++n) {
+    if (progress.cancelled()) return error(Trouble::interrupted, "stopped");
+    progress.report(static_cast<double>(n) / static_cast<double>(most), "drawing the pictures");
+    auto side = (*artist)->side(n);
+    if (!side) return side.error();
+    sides.pictures.push_back(std::move(*side));
+  }
+  if (!evidence) return fine();
+  const auto made = (*artist)->evidence(by_importance(scored, settings.self), most - kSides);
+  if (!made) return made.error();
+  for (ReportPart& part : report.parts)
+    for (ReportItem& item : part.items)
+      for (const auto& [n, pictures] : *made)
+        if (scored.judged.rubric.items[n].id == item.id) item.pictures = pictures;
+  progress.report(1, "drawing the pictures");
+  return fine();
+}
+
+// What both kinds of page have.
+Report common(const Scored& scored, const ReportSettings& settings) {
+  Report report;
+  report.language = spoken().code;
+  report.no_patient = word(Word::report_no_patient);
+  report.head = head_of(scored);
+  report.gates = gates_of(scored, settings.beside);
+  report.parts = parts_of(scored, settings);
+  report.you = word(Word::report_you);
+  report.machine = word(Word::report_machine);
+  report.sides_legend = sides_legend();
+  report.spots_legend = spots_legend();
+  report.lines.push_back(time_line_of(scored));
+  report.small = small_of(scored);
+  report.hashes = hashes_of(scored);
+  return report;
+}
+
+std::string with_rubric(const ReportSettings& settings) {
+  return settings.rubric.empty() ? "" : " --rubric " + name_of(settings.rubric);
+}
+
+}  // namespace
+
+Status comparable(const Scored& a, const Scored& b) {
+  if (a.judged.rubric.text_hash == b.judged.rubric.text_hash) return fine();
+  return error(Trouble::usage,
+               fmt::format("{} and {} are of different cases, \"{}\" and \"{}\"; give two "
+                           "recordings of one case",
+                           name_of(a.judged.player->path()), name_of(b.judged.player->path()),
+                           a.judged.work.name, b.judged.work.name));
+}
+
+Result<Report> report_on(Scored& scored, const ReportSettings& settings, Progress& progress) {
+  if (settings.beside != nullptr)
+    if (const Status same = comparable(scored, *settings.beside); !same) return same.error();
+  Report report = common(scored, settings);
+  report.title = word(Word::report_title);
+  report.unfinished = unfinished_of(scored.score);
+  report.has_self = !settings.self.empty();
+  report.self = agreement(scored, settings.self);
+  report.next = advice(scored, settings.self);
+  if (report.next.empty()) report.nothing_next = word(Word::report_next_none);
+  const std::string file = name_of(scored.judged.player->path());
+  report.commands = {fmt::format("burr score {}{}", file, with_rubric(settings))};
+  std::string mine;
+  if (settings.beside != nullptr) {
+    mine = word(Word::report_you);
+    report.beside = word(Word::report_beside);
+    report.lines.push_back(time_line_of(*settings.beside));
+    report.lines.front().whose = mine;
+    report.lines.back().whose = report.beside;
+  }
+  if (const Status drawn =
+          add_pictures(scored, mine, settings.most_pictures, report, true, settings, progress);
+      !drawn)
+    return drawn.error();
+  if (settings.beside != nullptr)
+    if (const Status drawn = add_pictures(*settings.beside, report.beside, settings.most_pictures,
+                                          report, false, settings, progress);
+        !drawn)
+      return drawn.error();
+  return report;
+}
+
+Result<Report> comparison(Scored& a, Scored& b, const ReportSettings& settings,
+                          Progress& progress) {
+  if (const Status same = comparable(a, b); !same) return same.error();
+  ReportSettings both = settings;
+  both.beside = &b;
+  Report report = common(a, both);
+  report.title = word(Word::compare_title);
+  report.machine = "A";
+  report.beside = "B";
+  const std::string first = name_of(a.judged.player->path());
+  const std::string second = name_of(b.judged.player->path());
+  report.lines.push_back(time_line_of(b));
+  report.lines.front().whose = "A: " + first;
+  report.lines.back().whose = "B: " + second;
+  report.head.insert(report.head.begin(), {{"A", first}, {"B", second}});
+  report.commands = {fmt::format("burr score {}{}", first, with_rubric(settings)),
+                     fmt::format("burr score {}{}", second, with_rubric(settings))};
+  for (const auto& [scored, whose] : {std::pair{&a, "A"}, std::pair{&b, "B"}}) {
+    const std::string unfinished = unfinished_of(scored->score);
+    if (!unfinished.empty())
+      report.unfinished +=
+          fmt::format("{}{}: {}", report.unfinished.empty() ? "" : " ", whose, unfinished);
+    if (const Status drawn =
+            add_pictures(*scored, whose, settings.most_pictures, report, false, settings, progress);
+        !drawn)
+      return drawn.error();
+  }
+  return report;
+}
+
+}  // namespace burr::app

@@ -1,0 +1,127 @@
+#include "report/report_words.h"
+
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "window/shell/words.h"
+
+namespace burr::app {
+namespace {
+
+using scoring::Verdict;
+
+constexpr std::array kValues = {
+    Word::what_seen,  Word::what_bare,   Word::what_even,      Word::what_lost,  Word::what_area,
+    Word::what_walls, Word::what_shut,   Word::what_way,       Word::what_under, Word::what_removed,
+    Word::what_deep,  Word::what_choice, Word::what_restraint, Word::what_order};
+
+constexpr std::array<std::pair<std::string_view, Word>, 13> kMeasures = {
+    {{"identified", Word::explain_identified},
+     {"skeletonised", Word::explain_skeletonised},
+     {"intact_solid", Word::explain_intact_solid},
+     {"intact_soft", Word::explain_intact_soft},
+     {"intact_plate", Word::explain_intact_plate},
+     {"no_cells", Word::explain_no_cells},
+     {"opened", Word::explain_opened},
+     {"overhang", Word::explain_overhang},
+     {"removed", Word::explain_removed},
+     {"kept", Word::explain_kept},
+     {"burr_choice", Word::explain_burr_choice},
+     {"restraint", Word::explain_restraint},
+     {"order", Word::explain_order}}};
+
+const char* verdict_word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::met:
+      return word(Word::report_verdict_met);
+    case Verdict::unmet:
+      return word(Word::report_verdict_unmet);
+    case Verdict::not_assessable:
+      return word(Word::report_verdict_open);
+  }
+  return "";
+}
+
+// "mm2" and "mm3" as people write them.
+std::string amount(scoring::Quantity quantity, double value) {
+  std::string text = scoring::text_of(quantity, value);
+  for (const auto& [plain, raised] : {std::pair{"mm2", "mm²"}, std::pair{"mm3", "mm³"}})
+    if (const auto at = text.find(plain); at != text.npos) text.replace(at, 3, raised);
+  return text;
+}
+
+// A phrase of the library as a sentence.
+std::string sentence(std::string text) {
+  if (text.empty()) return text;
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  if (text.back() != '.') text += '.';
+  return text;
+}
+
+}  // namespace
+
+std::string value_word(std::string_view what) {
+  for (const Word one : kValues)
+    if (what == english(one)) return word(one);
+  return std::string(what);
+}
+
+std::string measure_word(std::string_view measure) {
+  for (const auto& [name, text] : kMeasures)
+    if (name == measure) return word(text);
+  return {};
+}
+
+std::string mode_word(record::Mode mode) {
+  switch (mode) {
+    case record::Mode::free:
+      return word(Word::report_mode_free);
+    case record::Mode::learn:
+      return word(Word::report_mode_learn);
+    case record::Mode::practise:
+      return word(Word::report_mode_practise);
+    case record::Mode::exam:
+      return word(Word::report_mode_exam);
+  }
+  return {};
+}
+
+ReportMark mark_of(const scoring::Outcome& outcome) {
+  const Tone tone = outcome.verdict == Verdict::met     ? Tone::good
+                    : outcome.verdict == Verdict::unmet ? Tone::bad
+                                                        : Tone::open;
+  return {verdict_word(outcome.verdict), tone};
+}
+
+ReportMark mark_of(SelfMark mark) {
+  switch (mark) {
+    case SelfMark::met:
+      return {word(Word::report_verdict_met), Tone::good};
+    case SelfMark::unmet:
+      return {word(Word::report_verdict_unmet), Tone::bad};
+    case SelfMark::unknown:
+      return {word(Word::report_self_unknown), Tone::open};
+  }
+  return {};
+}
+
+std::string figures_of(const scoring::Outcome& outcome) {
+  if (!outcome.value) return {};
+  std::string text = value_word(outcome.what) + " " + amount(outcome.quantity, *outcome.value);
+  if (outcome.error > 0)
+    text += " (" + say(Word::report_error, amount(outcome.quantity, outcome.error)) + ")";
+  return text + ", " +
+         say(outcome.at_least ? Word::report_at_least : Word::report_at_most,
+             amount(outcome.quantity, outcome.threshold));
+}
+
+std::string reason_of(const scoring::Item& item, const scoring::Outcome& outcome) {
+  if (outcome.reason.empty()) return {};
+  if (!outcome.earned) return word(Word::report_unearned);
+  if (!item.needs.empty() && outcome.reason.find('"' + item.needs + '"') != std::string::npos)
+    return say(Word::report_requires, item.needs, verdict_word(outcome.verdict));
+  return sentence(outcome.reason);
+}
+
+}  // namespace burr::app

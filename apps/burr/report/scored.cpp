@@ -1,0 +1,67 @@
+#include "report/scored.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "burr/base/printable.h"
+#include "burr/scenario/open_lesson.h"
+#include "burr/workshop/label_check.h"
+#include "burr/workshop/recording.h"
+
+namespace burr::app {
+namespace {
+
+// The case of the recording; without one, the case of the rubric.
+Result<scenario::Case> case_of(const record::Player& player, const std::string& rubric) {
+  const auto& info = player.info().work_case;
+  if (info) return record::case_of(*info);
+  if (rubric.empty())
+    return error(Trouble::usage, "the recording names no case; name a rubric with --rubric");
+  const auto read = scoring::read_rubric(rubric);
+  if (!read) return read.error();
+  return scenario::read_case(read->case_name);
+}
+
+}  // namespace
+
+Result<scenario::Lesson> lesson_for(const scenario::Case& work, const scoring::Rubric& rubric) {
+  auto read = scenario::lesson_of(work);
+  if (!read) return read.error();
+  auto lesson =
+      scenario::place(std::move(*read), workshop::landmarks_of(work), work.name + ".toml");
+  if (!lesson) return lesson.error();
+  if (const Status fits = scoring::check(rubric, *lesson); !fits) return fits.error();
+  return lesson;
+}
+
+Result<Judged> judged_by(const std::string& recording, const std::string& rubric) {
+  auto player = record::Player::open(recording);
+  if (!player) return player.error();
+  auto work = case_of(**player, rubric);
+  if (!work) return work.error();
+  auto read = scoring::read_rubric(rubric.empty() ? work->name : rubric);
+  if (!read) return read.error();
+  if (read->case_name != work->name)
+    return error(
+        Trouble::usage,
+        fmt::format("{} is a rubric for the case \"{}\", but the recording is of \"{}\"",
+                    read->file, base::printable(read->case_name), base::printable(work->name)));
+  auto lesson = lesson_for(*work, *read);
+  if (!lesson) return lesson.error();
+  return Judged{std::move(*player), std::move(*work), std::move(*read), std::move(*lesson)};
+}
+
+Result<Scored> scored(Judged judged, const scenario::Recipe& volume, Progress& progress) {
+  record::Player& player = *judged.player;
+  auto before = workshop::bone_of(player, volume, progress);
+  if (!before) return before.error();
+  auto after = workshop::bone_of(player, volume, progress);
+  if (!after) return after.error();
+  if (const Status there = player.bone_at(player.seconds(), **after); !there) return there.error();
+  auto score = scoring::score(judged.rubric, judged.lesson, **before, **after, &player, progress);
+  if (!score) return score.error();
+  return Scored{std::move(judged), std::move(*before), std::move(*after), std::move(*score)};
+}
+
+}  // namespace burr::app

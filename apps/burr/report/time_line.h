@@ -1,0 +1,17 @@
+// apps/burr/report/time_line.h - force, nearest distance, burr, steps and events of a session over
+// one axis of time.
+//
+// Thread: main.
+#pragma once
+
+#include "report/report.h"
+#include "report/scored.h"
+
+namespace burr::app {
+
+[[nodiscard]] ReportLine time_line_of(const Scored& scored);
+
+// As SVG, seconds: of the axis, so that two sessions can stand one over the other.
+[[nodiscard]] std::string svg_of(const ReportLine& line, double seconds);
+
+}  // namespace burr::app
