@@ -24,6 +24,7 @@ namespace {
 using scenario::Reader;
 
 constexpr std::size_t kLargestFile = 1 << 20;  // bytes
+constexpr std::size_t kMostItems = 500;
 
 template <class List, class Name>
 std::string list_of(const List& list, const Name& name) {
@@ -110,10 +111,14 @@ void check_ids(Reader& reader, const Rubric& rubric) {
 
 // `requires` names an item of the same part, and whoever follows it does not come back.
 void check_needs(Reader& reader, const Rubric& rubric) {
+  std::map<std::string_view, const Item*> by_id;
+  for (const Item& item : rubric.items) by_id.emplace(item.id, &item);
+  std::set<std::string_view> good;  // nobody goes a way twice
   for (const Item& item : rubric.items) {
-    std::set<std::string> way = {item.id};
-    for (const Item* at = &item; at != nullptr && !at->needs.empty();) {
-      const Item* next = rubric.item(at->needs);
+    std::set<std::string_view> way = {item.id};
+    for (const Item* at = &item; at != nullptr && !at->needs.empty() && !good.contains(at->id);) {
+      const auto found = by_id.find(at->needs);
+      const Item* next = found == by_id.end() ? nullptr : found->second;
       if (next == nullptr) {
         reader.fail_at(at->lines.at("requires"), "requires",
                        fmt::format("there is no item \"{}\"; use the id of one of these: {}",
@@ -135,6 +140,7 @@ void check_needs(Reader& reader, const Rubric& rubric) {
       }
       at = next;
     }
+    good.merge(way);
   }
 }
 
@@ -204,9 +210,12 @@ Result<Rubric> parse_rubric(std::string_view text, std::string_view file) {
     inner.text("case", out.case_name, true);
   });
   if (!reader.has("item")) reader.fail("item", "is missing; give at least one [[item]]");
-  reader.each("item", [&](Reader& inner) {
-    if (!wrong) read_item(inner, out.items.emplace_back());
-  });
+  reader.each(
+      "item",
+      [&](Reader& inner) {
+        if (!wrong) read_item(inner, out.items.emplace_back());
+      },
+      kMostItems);
   if (wrong) return *wrong;
   check_ids(reader, out);
   check_needs(reader, out);

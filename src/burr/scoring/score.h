@@ -31,7 +31,7 @@ struct Score {
   Total product, process;
   double worked = 0;       // share removed of what the case says to remove
   bool unfinished = true;  // the work was not declared done
-  std::string ending;      // "declared done", "time up", "broke off", "no end in the recording"
+  std::string ending;      // "declared done", "time up", "broke off", or why it is not known
   Shown shown;
 };
 
