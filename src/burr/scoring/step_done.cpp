@@ -10,6 +10,7 @@
 #include "burr/scoring/measure_list.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/scene.h"
+#include "burr/scoring/score.h"
 
 namespace burr::scoring {
 namespace {
@@ -26,7 +27,7 @@ Item item_of_step(const scenario::DoneWhen& done) {
   for (const Limit& limit : item.how->limits) {
     const auto given = done.limits.find(limit.field);
     double value = given == done.limits.end() ? limit.preset : given->second;
-    if (given == done.limits.end() && !done.along.empty() &&
+    if (given == done.limits.end() && item.how->along && !done.along.empty() &&
         std::string_view(limit.field) == "share")
       value = kShareAlong;
     item.limits[limit.field] = value * limit.unit;
@@ -51,7 +52,12 @@ std::string fault_of(const scenario::DoneWhen& done, const scenario::Lesson& les
     return fmt::format("structure: is missing; {} needs one", item.how->name);
   if (item.how->region && item.region.empty())
     return fmt::format("region: is missing; {} needs one", item.how->name);
-  if (!done.along.empty() && !item.how->along)
+  if (item.how->on_plane)
+    return fmt::format("measure: {} needs a plane, which a step cannot name; use another one",
+                       item.how->name);
+  if (item.how->on_curve && done.along.empty())
+    return fmt::format("along: is missing; {} needs a curve", item.how->name);
+  if (!done.along.empty() && !item.how->along && !item.how->on_curve)
     return fmt::format("along: {} takes no curve; leave it out", item.how->name);
   if (const scenario::Landmark* curve = lesson.landmark(done.along);
       !done.along.empty() && (curve == nullptr || curve->points.size() < 2))
