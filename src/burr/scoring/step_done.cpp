@@ -14,6 +14,14 @@
 namespace burr::scoring {
 namespace {
 
+// The bone alone decides it, and no plane has to be named.
+bool serves(const Measure& how) {
+  Item item;
+  item.how = &how;
+  item.part = how.part;
+  return !needs_recording(item) && !how.on_plane;
+}
+
 Item item_of_step(const scenario::DoneWhen& done) {
   Item item;
   item.how = measure_named(done.measure);
@@ -26,7 +34,7 @@ Item item_of_step(const scenario::DoneWhen& done) {
   for (const Limit& limit : item.how->limits) {
     const auto given = done.limits.find(limit.field);
     double value = given == done.limits.end() ? limit.preset : given->second;
-    if (given == done.limits.end() && !done.along.empty() &&
+    if (given == done.limits.end() && item.how->along && !done.along.empty() &&
         std::string_view(limit.field) == "share")
       value = kShareAlong;
     item.limits[limit.field] = value * limit.unit;
@@ -37,13 +45,10 @@ Item item_of_step(const scenario::DoneWhen& done) {
 // What is wrong with it, as "FIELD: what and remedy"; "": nothing.
 std::string fault_of(const scenario::DoneWhen& done, const scenario::Lesson& lesson) {
   const Item item = item_of_step(done);
-  if (item.how == nullptr || item.how->part == Part::process || needs_recording(item)) {
+  if (item.how == nullptr || !serves(*item.how)) {
     std::vector<std::string_view> names;
-    for (const Measure& one : measures()) {
-      Item each;
-      each.how = &one;
-      if (one.part == Part::product && !needs_recording(each)) names.emplace_back(one.name);
-    }
+    for (const Measure& one : measures())
+      if (serves(one)) names.emplace_back(one.name);
     return fmt::format("measure: \"{}\" is not a measure of the bone; use one of {}",
                        base::printable(done.measure), base::list_of(names));
   }
@@ -51,7 +56,9 @@ std::string fault_of(const scenario::DoneWhen& done, const scenario::Lesson& les
     return fmt::format("structure: is missing; {} needs one", item.how->name);
   if (item.how->region && item.region.empty())
     return fmt::format("region: is missing; {} needs one", item.how->name);
-  if (!done.along.empty() && !item.how->along)
+  if (item.how->on_curve && done.along.empty())
+    return fmt::format("along: is missing; {} needs a curve", item.how->name);
+  if (!done.along.empty() && !item.how->along && !item.how->on_curve)
     return fmt::format("along: {} takes no curve; leave it out", item.how->name);
   if (const scenario::Landmark* curve = lesson.landmark(done.along);
       !done.along.empty() && (curve == nullptr || curve->points.size() < 2))
