@@ -10,6 +10,7 @@
 #include "burr/scoring/measure_list.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/scene.h"
+#include "burr/scoring/score.h"
 
 namespace burr::scoring {
 namespace {
