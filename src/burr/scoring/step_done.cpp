@@ -15,6 +15,14 @@
 namespace burr::scoring {
 namespace {
 
+// The bone alone decides it, and no plane has to be named.
+bool serves(const Measure& how) {
+  Item item;
+  item.how = &how;
+  item.part = how.part;
+  return !needs_recording(item) && !how.on_plane;
+}
+
 Item item_of_step(const scenario::DoneWhen& done) {
   Item item;
   item.how = measure_named(done.measure);
@@ -38,13 +46,10 @@ Item item_of_step(const scenario::DoneWhen& done) {
 // What is wrong with it, as "FIELD: what and remedy"; "": nothing.
 std::string fault_of(const scenario::DoneWhen& done, const scenario::Lesson& lesson) {
   const Item item = item_of_step(done);
-  if (item.how == nullptr || item.how->part == Part::process || needs_recording(item)) {
+  if (item.how == nullptr || !serves(*item.how)) {
     std::vector<std::string_view> names;
-    for (const Measure& one : measures()) {
-      Item each;
-      each.how = &one;
-      if (one.part == Part::product && !needs_recording(each)) names.emplace_back(one.name);
-    }
+    for (const Measure& one : measures())
+      if (serves(one)) names.emplace_back(one.name);
     return fmt::format("measure: \"{}\" is not a measure of the bone; use one of {}",
                        base::printable(done.measure), base::list_of(names));
   }
@@ -52,9 +57,6 @@ std::string fault_of(const scenario::DoneWhen& done, const scenario::Lesson& les
     return fmt::format("structure: is missing; {} needs one", item.how->name);
   if (item.how->region && item.region.empty())
     return fmt::format("region: is missing; {} needs one", item.how->name);
-  if (item.how->on_plane)
-    return fmt::format("measure: {} needs a plane, which a step cannot name; use another one",
-                       item.how->name);
   if (item.how->on_curve && done.along.empty())
     return fmt::format("along: is missing; {} needs a curve", item.how->name);
   if (!done.along.empty() && !item.how->along && !item.how->on_curve)
