@@ -237,6 +237,14 @@ Status add_pictures(Scored& scored, const std::string& whose, std::size_t most, 
   return fine();
 }
 
+// Rows of two sessions as one: where they differ, both values.
+std::vector<TextPair> joined(std::vector<TextPair> a, const std::vector<TextPair>& b) {
+  for (std::size_t n = 0; n < std::min(a.size(), b.size()); ++n)
+    if (a[n].second != b[n].second)
+      a[n].second = fmt::format("A {}, B {}", a[n].second, b[n].second);
+  return a;
+}
+
 // What both kinds of page have.
 Report common(const Scored& scored, const ReportSettings& settings) {
   Report report;
@@ -316,7 +324,9 @@ Result<Report> comparison(Scored& a, Scored& b, const ReportSettings& settings,
   report.lines.push_back(time_line_of(b));
   report.lines.front().whose = "A: " + first;
   report.lines.back().whose = "B: " + second;
+  report.head = joined(std::move(report.head), head_of(b));
   report.head.insert(report.head.begin(), {{"A", first}, {"B", second}});
+  report.hashes = joined(std::move(report.hashes), hashes_of(b));
   report.commands = {fmt::format("burr score {}{}", first, with_rubric(settings)),
                      fmt::format("burr score {}{}", second, with_rubric(settings))};
   for (const auto& [scored, whose] : {std::pair{&a, "A"}, std::pair{&b, "B"}}) {

@@ -62,7 +62,7 @@ class ReportArtist {
   [[nodiscard]] bool is_new(const surface::Vertex& vertex) const;
   [[nodiscard]] render::Camera camera_at(const math::Vec3& target, double height) const;
   [[nodiscard]] Result<ReportPicture> drawn(int width, int height, std::string caption);
-  [[nodiscard]] Result<ReportPicture> map_of(const std::vector<scoring::Spot>& spots, double radius,
+  [[nodiscard]] Result<ReportPicture> map_of(const std::vector<scoring::Spot>& spots,
                                              std::string caption);
   [[nodiscard]] std::vector<scoring::Spot> faults_in(const metrics::Region& region,
                                                      bool keep) const;
