@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <string>
 
+#include "burr/math/aabb.h"
 #include "burr/metrics/no_cells.h"
 #include "burr/metrics/opened.h"
 #include "burr/metrics/thinned.h"
@@ -144,6 +145,32 @@ TEST(Opened, FindsTheRadiusOfTheWay) {
       EXPECT_EQ(open->mark.met, radius > 1);
       EXPECT_LT(open->touch.z(), 1.5 * kMm);
     }
+}
+
+// The box holds the middle of the way alone: the walls beside it still make it narrow.
+TEST(Opened, BoneBesideTheBoxIsInTheWayToo) {
+  for (const double h : test::kVoxels) {
+    const Way way = way_of(0.8 * kMm, h);
+    math::Aabb box;
+    box.extend({0 * kMm, -0.2 * kMm, -6 * kMm});
+    box.extend({0.6 * kMm, 0.4 * kMm, 5 * kMm});
+    const auto open = opened(*way.bones.before, *way.bones.after, {.label = &way.room},
+                             {.towards = {kUp}, .rho = 0.8 * kMm, .box = box});
+    ASSERT_TRUE(open) << open.reason();
+    EXPECT_NEAR(open->mark.value, 0.8 * kMm, open->mark.error) << h;
+  }
+}
+
+TEST(Opened, IsTheSameForAnyNumberOfThreads) {
+  const Way way = way_of(1.2 * kMm, 0.25 * kMm);
+  const auto open = [&](int threads) {
+    return opened(*way.bones.before, *way.bones.after, {.label = &way.room},
+                  {.towards = {kUp}, .threads = threads});
+  };
+  const auto one = open(1), three = open(3);
+  ASSERT_TRUE(one && three);
+  EXPECT_EQ(one->mark.value, three->mark.value);
+  EXPECT_EQ(one->touch, three->touch);
 }
 
 TEST(Opened, AClosedRoomIsNotOpened) {

@@ -7,12 +7,15 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "burr/metrics/identified.h"
 #include "burr/metrics/skeletonised.h"
+#include "burr/metrics/solidity.h"
 #include "metrics/bones.h"
 
 namespace burr::metrics {
@@ -246,6 +249,48 @@ TEST(Cover, IsTheSameForAnyNumberOfThreads) {
               std::bit_cast<std::uint64_t>(three->samples[n].cover));
     EXPECT_EQ(one->samples[n].look, three->samples[n].look);
   }
+}
+
+// What is known of whole bricks (air, not cut, without the structure) changes no number: at random
+// points it is what the fields and the labels say there.
+TEST(Cover, SolidityIsThatOfFieldsAndLabels) {
+  const std::uint64_t seed = 11;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  test::Plan plan = nerve_in_a_block();
+  plan.labels.emplace_back(phantom::ball(2 * kMm, {3 * kMm, 3 * kMm, 1 * kMm}), test::kHard);
+  const auto bones = test::cut(plan, phantom::ball(3.5 * kMm, {0.5 * kMm, 0, 3 * kMm}), 0.25 * kMm);
+  const VoxelSet hard = test::voxels_of(*bones.before, test::kHard);
+  const Solidity plain = Solidity::of_bone(*bones.before, *bones.after);
+  const Solidity seeing(*bones.before, *bones.after, &hard, {});
+  std::mt19937_64 random(seed);
+  const math::Ijk size = bones.before->grid().size;
+  std::size_t cut = 0, other = 0;
+  for (int n = 0; n < 200000; ++n) {
+    Vec3 p;
+    for (int a = 0; a < 3; ++a)
+      p[a] = std::uniform_real_distribution<double>(-2, size[a] + 1)(random);
+    const Solidity::Pair is = plain.at(p);
+    ASSERT_EQ(is.before, plain.before(p)) << p.transpose();
+    ASSERT_EQ(is.after, plain.after(p)) << p.transpose();
+    cut += is.before == is.after ? 0 : 1;
+    // without a voxel of the structure around it, a point has the same solidity; labels of soft tissue
+    // hide
+    const math::Ijk v = p.array().round().matrix().cast<int>(),
+                    low = p.array().floor().matrix().cast<int>();
+    bool near = false;
+    for (int c = 0; c < 8; ++c)
+      near = near || hard.has(low + math::Ijk(c & 1, (c >> 1) & 1, c >> 2));
+    if (near) {
+      other += seeing.at(p).after == is.after ? 0 : 1;
+    } else if (bones.before->tissue(v.x(), v.y(), v.z()) == test::kNerve) {
+      ASSERT_EQ(seeing.at(p).after, 1);
+    } else {
+      ASSERT_EQ(seeing.at(p).before, is.before) << p.transpose();
+      ASSERT_EQ(seeing.at(p).after, is.after) << p.transpose();
+    }
+  }
+  EXPECT_GT(cut, 1000U);
+  EXPECT_GT(other, 100U);
 }
 
 // K12: a label painted into air has no bone over it: it is not found there

@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "burr/metrics/course.h"
 #include "metrics/bones.h"
@@ -97,7 +100,28 @@ TEST_F(RegionTest, DistancesToTissuesMakeRegions) {
   }
 }
 
+// Where the distance ends, the depth stays: it does not jump to minus infinity.
+TEST_F(RegionTest, BeyondTheReachTheDepthIsCutOff) {
+  test::Plan plan;
+  plan.bone = test::below(0);
+  plan.labels = {{phantom::ball(1 * kMm, {-5 * kMm, 0, -3 * kMm}), test::kNerve}};
+  const auto bone = test::build(plan, plan.bone, 0.4 * kMm);
+  const std::array<volume::TissueId, 1> ids = {test::kNerve};
+  NoProgress quiet;
+  auto made = volume::DistanceTo::make(*bone, ids, {.reach = 4 * kMm}, quiet);
+  ASSERT_TRUE(made);
+  const auto nerve = std::make_shared<const volume::DistanceTo>(std::move(*made));
+  EXPECT_NEAR(depth_in(within(nerve, 1 * kMm), {7 * kMm, 0, 0}), -3 * kMm, 1e-12);
+  EXPECT_FALSE(contains(within(nerve, 5 * kMm), {7 * kMm, 0, 0}));  // not known to be so near
+  EXPECT_FALSE(contains(within(std::make_shared<const volume::DistanceTo>(), 1 * kMm), {0, 0, 0}));
+}
+
 TEST_F(RegionTest, TheCourseMeasuresAlongItself) {
+  EXPECT_NEAR((Course{{{0, 0, 0}, {3 * kMm, 0, 0}, {3 * kMm, 4 * kMm, 0}}}.direction(
+                   {2 * kMm, 3 * kMm, 0}) -
+               Vec3(0, 1, 0))
+                  .norm(),
+              0, 1e-12);
   const Course course = {{{0, 0, 0}, {3 * kMm, 0, 0}, {3 * kMm, 4 * kMm, 0}}};
   EXPECT_DOUBLE_EQ(course.along({1 * kMm, -1 * kMm, 1 * kMm}), 1 * kMm);
   EXPECT_DOUBLE_EQ(course.along({5 * kMm, 3 * kMm, 0}), 6 * kMm);

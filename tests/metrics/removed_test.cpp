@@ -58,6 +58,30 @@ TEST(Removed, ALittleOutsideIsNoExcess) {
   EXPECT_NEAR(gone->excess, ball_volume(4 * kMm) - ball_volume(3.5 * kMm), 2 * kMm3);
 }
 
+// Bricks far from the region's border are summed whole; a region that never ends one by itself says
+// what every voxel says.
+TEST(Removed, BricksFarFromTheBorderCountAsTheirVoxelsDo) {
+  test::Plan plan;
+  plan.bone = phantom::without(test::below(7 * kMm), phantom::gyroid(4 * kMm, 0.35));
+  plan.lipschitz = phantom::kGyroidSteepness;
+  const auto bones = test::cut(plan, phantom::ball(5 * kMm), 0.25 * kMm);
+  for (const double radius : {1.0, 4.0, 5.0, 6.0}) {
+    const Region ball = in_ball({0.3 * kMm, 0, 0}, radius * kMm);
+    // the same, but for a depth of which no brick is far from the border
+    const Region shallow = [ball](const Vec3& p) { return std::clamp(ball(p), -1 * kMm, 1 * kMm); };
+    for (const double grown : {0.0, 0.5 * kMm}) {
+      const auto fast = removed_of(*bones.before, *bones.after, ball, {.grown = grown});
+      const auto slow = removed_of(*bones.before, *bones.after, shallow, {.grown = grown});
+      ASSERT_TRUE(fast && slow);
+      EXPECT_EQ(fast->bone, slow->bone);
+      EXPECT_EQ(fast->removed, slow->removed);
+      EXPECT_EQ(fast->excess, slow->excess);
+      EXPECT_EQ(fast->all, slow->all);
+      EXPECT_EQ(fast->error, slow->error);
+    }
+  }
+}
+
 // K11: a defect that was filled; what was added counts as negative
 TEST(Removed, WhatWasAddedIsNegative) {
   test::Plan plan;

@@ -224,8 +224,10 @@ TEST(Notes, AnOlderRecordingSaysWhatItLacks) {
   EXPECT_FALSE((*player)->info().identity);
   EXPECT_FALSE((*player)->ending());
   EXPECT_EQ((*player)->lacks(), (folder / "s.mcap") +
-                                    ": was recorded by an older burr and does not hold: mode, "
-                                    "learner and attempt, the size of the shaft");
+                                    ": the recording does not hold mode, learner and attempt, "
+                                    "the size of the shaft; an older burr, or another program, "
+                                    "wrote it");
+  EXPECT_TRUE((*player)->has_course()) << "how it ended is known all the same";
 }
 
 // A copy of a file that is still written is what a kill would leave.
@@ -272,7 +274,8 @@ TEST(Notes, APseudonymIsNoName) {
     EXPECT_TRUE(check_pseudonym(good).ok()) << good;
   for (const char* bad :
        {"", "ab", "anna", "Anna Svensson", "anna.svensson@hospital.se", "Anna7", "19800312-1234",
-        "p19800312", "7-kestrel", "a1/b", "../a1", "käthe-1", "kestrel-27-of-the-north-wing"}) {
+        "p19800312", "anna-b1980-03-12", "a1-2-3-4-5-6", "7-kestrel", "a1/b", "../a1", "käthe-1",
+        "kestrel-27-of-the-north-wing"}) {
     const Status said = check_pseudonym(bad);
     ASSERT_FALSE(said.ok()) << bad;
     EXPECT_NE(said.error().text.find("kestrel-27"), std::string::npos);
@@ -392,6 +395,22 @@ TEST(Diary, KeepsTheLastViewOfASessionThatEndsInAMove) {
   diary.look({.view = view});
   diary.end(1960, Ending::time_up);
   EXPECT_EQ(file.read()->views().back(), view);
+}
+
+TEST(Diary, AWarningIsKeptEvenIfTheNameOfTheStructureIsNot) {
+  Written file;
+  Diary diary(file.recorder, 1000);
+  for (const std::string& name :
+       {std::string("1.2.840.113619.2.55"), std::string(200, 'n'), std::string("facial nerve")}) {
+    Sight sight;
+    sight.near = name;
+    diary.look(sight);
+    sight.near = "";
+    diary.look(sight);
+  }
+  const std::vector<std::string> want = {"0 warning neara structure", "0 warning neara structure",
+                                         "0 warning nearfacial nerve"};
+  EXPECT_EQ(words_of(file.read()->course()), want);
 }
 
 TEST(Diary, TellsHelpsWarningsAndPausesOnce) {

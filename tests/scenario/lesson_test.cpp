@@ -74,6 +74,7 @@ spare = ["nerve"]
 tool = { kind = "diamond", diameter_mm = [2, 4] }
 show = ["entry", "way", "nerve"]
 must_precede = ["second"]
+done = { measure = "removed", share = 0.7 }
 [[step]]
 id = "second"
 say = "Close it."
@@ -147,7 +148,13 @@ TEST(Lesson, EveryFieldIsReadInMetres) {
   EXPECT_FALSE(read->step("second")->kind);
   EXPECT_EQ(read->complications.at(0).step, "first");
   EXPECT_EQ(read->feedback.fade, "2,alternate:4,off");
-  EXPECT_EQ(read->feedback.learn.size(), 2U);
+  EXPECT_EQ(read->feedback.learn->size(), 2U);
+  EXPECT_TRUE(read->feedback.exam && read->feedback.exam->empty());
+  ASSERT_TRUE(first.done);
+  EXPECT_EQ(first.done->measure, "removed");
+  EXPECT_EQ(first.done->region, "way") << "the step's own";
+  EXPECT_EQ(first.done->limits.at("share"), 0.7);
+  EXPECT_FALSE(read->step("second")->done);
   ASSERT_TRUE(read->reference);
   EXPECT_DOUBLE_EQ(read->reference->leave.at(0).second, 1e-3);
 }
@@ -231,7 +238,8 @@ TEST(Lesson, MistakesAreNamedByFileLineFieldAndRemedy) {
        "the least and the most"},
       {"touches = [\"wall\"]", "touches = [\"hall\"]", "structure.touches", "\"hall\""},
       {"glass = true", "glass = 1", "structure[3].glass", "true or false"},
-      {"glass = true", "glass = true\nintact = \"soft\"", "structure[3].glass", "leave out one"},
+      {"glass = true", "glass = true\nintact = \"soft\"", "structure[3].glass",
+       "leave out glass or intact"},
       {"id = \"second\"", "id = \"first\"", "step.id", "twice"},
       {"say = \"Close it.\"", "", "step[2].say", "missing"},
       {"must_precede = [\"second\"]", "must_precede = [\"third\"]", "step.must_precede",
@@ -246,6 +254,10 @@ TEST(Lesson, MistakesAreNamedByFileLineFieldAndRemedy) {
       {"fade = \"2,alternate:4,off\"", "fade = \"slowly\"", "feedback.fade", "2,alternate:4,off"},
       {"fade = \"2,alternate:4,off\"", "fade = \"2,off,3\"", "feedback.fade", "on or off"},
       {"learn = [\"step\"", "learn = [\"score\"", "feedback.learn", "\"score\" is not known"},
+      {"exam = []", "exam = [\"distance\"]", "feedback.exam", "never \"distance\""},
+      {"measure = \"removed\", ", "", "step[1].done.measure", "missing"},
+      {"share = 0.7 }", "share = \"most\" }", "step[1].done.share", "number"},
+      {"share = 0.7 }", "region = \"moon\" }", "step.done.region", "\"moon\""},
       {"remove = [\"way\"]", "remove = [\"wey\"]", "reference.remove", "use one of way"},
       {"\"nerve\", mm = 1 }", "\"nerve\", mm = -1 }", "reference.leave[1].mm", "above 0"},
       {"[[step]]\nid = \"second\"", "[[stepp]]\nid = \"second\"", "stepp", "not a known field"},
@@ -261,6 +273,58 @@ TEST(Lesson, MistakesAreNamedByFileLineFieldAndRemedy) {
     EXPECT_NE(said.find(mistake.says), std::string::npos) << mistake.says << " in " << said;
     EXPECT_EQ(said.find('\n'), std::string::npos);
   }
+}
+
+// Above the limits the work of checking grows with the square of a list, or worse.
+TEST(Lesson, ListsAndTextsHaveALimit) {
+  const auto repeated = [](const std::string& text, int times) {
+    std::string all;
+    for (int n = 0; n < times; ++n) all += with(text, "#", std::to_string(n));
+    return all;
+  };
+  const std::string step = "[[step]]\nid = \"s#\"\nsay = \"Go on.\"\n";
+  EXPECT_TRUE(parse_case(kGood + repeated(step, 198), "my.toml"));
+  const auto steps = parse_case(kGood + repeated(step, 199), "my.toml");
+  ASSERT_FALSE(steps);
+  EXPECT_NE(steps.error().text.find("step: has 201 entries; use at most 200"), std::string::npos)
+      << steps.error().text;
+  const std::string place = "[[landmark]]\nname = \"l#\"\nat_mm = [0, 0, 0]\n";
+  EXPECT_TRUE(parse_case(kGood + repeated(place, 997), "my.toml"));
+  EXPECT_FALSE(parse_case(kGood + repeated(place, 998), "my.toml"));
+  const auto names =
+      parse_case(with(kGood, "spare = [\"nerve\"]", "spare = [" + repeated("\"n#\", ", 1001) + "]"),
+                 "my.toml");
+  ASSERT_FALSE(names);
+  EXPECT_NE(names.error().text.find("at most 1000"), std::string::npos) << names.error().text;
+  const auto points = parse_case(
+      with(kGood, "[[0, 0, 0], [0, 0, 10]", "[" + repeated("[0, 0, #], ", 1001) + "[0, 0, 10]"),
+      "my.toml");
+  ASSERT_FALSE(points);
+  EXPECT_NE(points.error().text.find("landmark[2].points_mm: has 1003"), std::string::npos)
+      << points.error().text;
+  const auto text = parse_case(kGood + std::string(1 << 20, '#'), "my.toml");
+  ASSERT_FALSE(text);
+  EXPECT_NE(text.error().text.find("a case at most 1048576"), std::string::npos)
+      << text.error().text;
+}
+
+// As many ways through the steps as there can be: each step comes before all later ones.
+TEST(Lesson, ACircleIsFoundAmongTwoHundredSteps) {
+  std::string text =
+      "format = 2\ntitle = \"Many\"\nphantom = \"block\"\n"
+      "[burr]\ndiameter_mm = 4\nrpm = 60000\n";
+  std::string later;
+  for (int n = 199; n >= 0; --n) {
+    const std::string id = "\"s" + std::to_string(n) + "\"";
+    text += "[[step]]\nid = " + id + "\nsay = \"Go on.\"\nmust_precede = [" + later + "]\n";
+    later += id + ", ";
+  }
+  const auto good = parse_case(text, "my.toml");
+  EXPECT_TRUE(good) << good.error().text;
+  const auto bad =
+      parse_case(with(text, "must_precede = []", "must_precede = [\"s100\"]"), "my.toml");
+  ASSERT_FALSE(bad);
+  EXPECT_NE(bad.error().text.find("circle"), std::string::npos) << bad.error().text;
 }
 
 TEST(Lesson, TheLineIsThatOfTheMistake) {

@@ -77,6 +77,15 @@ TEST(Outcome, RequiresFollowsTheChain) {
   EXPECT_DOUBLE_EQ(*made.total(kProduct).points, 0);
 }
 
+TEST(Outcome, RequiresFollowsAChainOfAllItems) {
+  Made made;
+  made.add("0", kProduct, 1, kUnmet);
+  for (int n = 1; n < 500; ++n)
+    made.add(std::to_string(n), kProduct, 1, kMet, std::to_string(n - 1));
+  apply_requires(made.rubric, made.outcomes);
+  for (const Outcome& one : made.outcomes) EXPECT_EQ(one.verdict, kUnmet) << one.id;
+}
+
 TEST(Outcome, RequiresOfWhatIsNotAssessable) {
   Made made;
   made.add("b", kProduct, 1, kMet, "a").add("a", kProduct, 1, kOpen);

@@ -105,6 +105,23 @@ TEST(Rubric, RequiresStaysInItsPart) {
             "the process; the two parts are never mixed, so require an item of the same part");
 }
 
+TEST(Rubric, HasAtMostFiveHundredItems) {
+  // each requires the one before
+  const auto many = [](int count) {
+    std::string text = kGood;
+    for (int n = 2; n < count; ++n) {
+      const std::string id = "i" + std::to_string(n);
+      text += "[[item]]\nid = \"" + id + "\"\npart = \"product\"\nmeasure = \"intact_soft\"\n" +
+              "structure = \"nerve\"\nsay = \"Leave it.\"\nrequires = \"" +
+              (n == 2 ? "nerve.seen" : "i" + std::to_string(n - 1)) + "\"\n";
+    }
+    return text;
+  };
+  EXPECT_EQ(trouble_of(many(500)), "no error");
+  EXPECT_NE(trouble_of(many(501)).find("item: has 501 entries; use at most 500"),
+            std::string::npos);
+}
+
 TEST(Rubric, TheCaseMustHaveWhatItNames) {
   const auto lesson = scenario::parse_lesson(R"(format = 2
 title = "t"

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <thread>
 
@@ -71,14 +72,16 @@ TEST(Loudspeaker, WarnsFromTheRimOfTheBurrThatIsThereNow) {
                                      ("burr_loudspeaker_" + std::to_string(::getpid()) + ".raw");
   ::setenv("SDL_DISKAUDIOFILE", file.c_str(), 1);
   tick::TickRow row;
-  row.tool.radius = 6e-3;
-  {
-    Loudspeaker loudspeaker({}, [](const math::Vec3&) { return 6.01e-3; });
+  // a session that practises warns below 1 mm only
+  for (const double limit : {std::numeric_limits<double>::infinity(), 1e-3}) {
+    row.tool.radius = 6e-3;
+    Loudspeaker loudspeaker(
+        {}, [](const math::Vec3&) { return 6.01e-3; }, limit);
     ASSERT_EQ(loudspeaker.trouble(), "");
     std::streamoff heard = 0;
     const auto sounds = [&] {
       float most = 0;
-      for (int n = 0; n < 40; ++n) {  // of 10 ms each
+      for (int n = 0; n < 80; ++n) {  // of 10 ms each
         loudspeaker.update(row);
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
         // samples that were under way at the time of the request do not count
@@ -88,6 +91,11 @@ TEST(Loudspeaker, WarnsFromTheRimOfTheBurrThatIsThereNow) {
       return most;
     };
     EXPECT_GT(sounds(), 1e-3F) << "a hundredth of a millimetre from what is to be spared";
+    row.tool.radius = 4.5e-3;
+    if (limit > 1e-3)
+      EXPECT_GT(sounds(), 1e-3F) << "1.5 mm from it";
+    else
+      EXPECT_LT(sounds(), 1e-6F) << "1.5 mm from it";
     row.tool.radius = 0.5e-3;
     EXPECT_LT(sounds(), 1e-6F) << "a smaller burr is 5.5 mm away from it";
   }

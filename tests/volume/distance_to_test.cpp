@@ -288,5 +288,33 @@ TEST(DistanceTo, AskingTakesNoMemoryAndNoLock) {
   EXPECT_TRUE(std::isfinite(sum));
 }
 
+// A small structure in a large grid: the memory goes by the structure and the reach, and far from it
+// there is no answer.
+TEST(DistanceTo, KeepsWhatItsReachNeeds) {
+  const Labelled bone = labelled({120, 90, 100}, 0.5e-3, [](int i, int j, int k) {
+    return static_cast<TissueId>(i == 60 && j == 41 && k == 50 ? 2 : 0);
+  });
+  for (const int step : {1, 2}) {
+    const DistanceTo distance =
+        made(bone, {2}, {.reach = 5e-3, .most_kept = step == 1 ? 2'000'000U : 200'000U});
+    EXPECT_EQ(distance.step(), step);
+    EXPECT_LT(distance.memory_bytes(), 3U * 40 * 40 * 40 / (step == 1 ? 1 : 4));
+    double farthest = 0;
+    for (int i = 0; i < 120; i += step)
+      for (int j = 0; j < 90; j += step)
+        for (int k = 0; k < 100; k += step) {
+          const double far = 0.5e-3 * (Vec3(i, j, k) - Vec3(60, 41, 50)).norm() - 0.25e-3;
+          const Nearest found = distance.at(bone.grid.world_from_grid(Vec3(i, j, k)));
+          if (far > 5e-3 + 1e-9) {
+            ASSERT_TRUE(std::isinf(found.distance)) << i << " " << j << " " << k;
+          } else if (far < 5e-3 - 1e-9 && step == 1) {
+            ASSERT_NEAR(found.distance, far, 1e-9) << i << " " << j << " " << k;
+          }
+          if (!std::isinf(found.distance)) farthest = std::max(farthest, found.distance);
+        }
+    EXPECT_GT(farthest, 4.9e-3);
+  }
+}
+
 }  // namespace
 }  // namespace burr::volume

@@ -1,4 +1,6 @@
 // Texts of the window fit their boxes in every language, at 1280 x 720.
+#include "burr/scenario/case.h"
+#include "burr/scenario/open_lesson.h"
 #include "user.h"
 
 namespace burr::app {
@@ -38,11 +40,11 @@ const std::vector<Box>& boxes() {
         Word::replay_help_shift}},
       {Letter::body,
        262,
-       {Word::help_modes, Word::help_sizes, Word::help_speeds, Word::help_undo, Word::help_reset,
-        Word::help_measure, Word::help_mirror, Word::help_kind, Word::help_coolant, Word::help_hide,
-        Word::help_settings, Word::help_stereo, Word::key_save, Word::help_picture,
-        Word::export_help, Word::film_help, Word::help_sound, Word::help_loudness,
-        Word::help_quit}},
+       {Word::help_modes,   Word::help_sizes,    Word::help_speeds,   Word::help_undo,
+        Word::help_reset,   Word::help_measure,  Word::help_mirror,   Word::help_kind,
+        Word::help_coolant, Word::help_hide,     Word::help_settings, Word::help_stereo,
+        Word::key_save,     Word::help_picture,  Word::export_help,   Word::film_help,
+        Word::help_sound,   Word::help_loudness, Word::help_quit,     Word::help_steps}},
       {Letter::body,
        715,
        {Word::pad_sticks, Word::pad_trigger, Word::pad_slow, Word::pad_lift, Word::pad_cross,
@@ -109,6 +111,16 @@ TEST_F(Window, TextsFitTheirBoxesInEveryLanguage) {
       for (const Word text : box.texts)
         EXPECT_LE(ui.width_of(box.letter, word(text)) / ui.unit(), box.points)
             << language.code << ": " << word(text);
+    // steps_panel.cpp: the list, and its two buttons side by side
+    for (const std::string& name : scenario::built_in_cases()) {
+      const auto lesson = scenario::lesson_of(*scenario::read_case(name));
+      ASSERT_TRUE(lesson) << lesson.error().text;
+      for (const scenario::Step& step : lesson->steps)
+        EXPECT_LE(ui.width_of(Letter::body, step.title.in(language.code)) / ui.unit(), 310)
+            << language.code << ": " << step.title.in(language.code);
+    }
+    const std::string buttons = say(Word::steps_done, "J") + say(Word::steps_unlight, "A");
+    EXPECT_LE(ui.width_of(Letter::body, buttons) / ui.unit(), 284) << language.code;
   }
 }
 

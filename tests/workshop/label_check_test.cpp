@@ -113,6 +113,29 @@ std::vector<LabelFinding> check(const std::string& structures, const volume::Bon
   return found ? *found : std::vector<LabelFinding>();
 }
 
+TEST(LabelFigures, AFigureHasNoExponent) {
+  EXPECT_EQ(figure(11813.4, 4), "11810");
+  EXPECT_EQ(figure(20137, 3), "20100");
+  EXPECT_EQ(figure(998.7, 3), "999");
+  EXPECT_EQ(figure(9996, 3), "10000");
+  EXPECT_EQ(figure(0.85, 3), "0.85");
+  EXPECT_EQ(figure(99.96, 3), "100");
+  EXPECT_EQ(figure(-12.346, 4), "-12.35");
+  EXPECT_EQ(figure(1.2345e-6, 2), "0.0000012");
+  EXPECT_EQ(figure(0, 3), "0");
+  EXPECT_EQ(figure(3, 3), "3");
+}
+
+TEST(CheckLabels, ALargeFigureIsWrittenOut) {
+  const auto bone =
+      bone_of([](const Vec3& p) { return p.norm() < 35 ? TissueId{2} : TissueId{0}; });
+  const auto found =
+      check("[[structure]]\nname = \"nerve\"\nvolume_mm3 = [40, 200000]\npieces = [2, 3]\n", *bone);
+  EXPECT_EQ(found.at(0).faults.at(0), "its pieces are 1, expected 2 to 3");
+  const auto small = check("[[structure]]\nname = \"nerve\"\nvolume_mm3 = [1, 2]\n", *bone);
+  EXPECT_EQ(small.at(0).faults.at(0).find("e+"), std::string::npos) << small.at(0).faults.at(0);
+}
+
 TEST(CheckLabels, SaysTheFigureAndTheExpectedRange) {
   const auto bone = bone_of([](const Vec3& p) {
     if (p.norm() < 12) return TissueId{2};

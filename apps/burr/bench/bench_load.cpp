@@ -18,6 +18,7 @@
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
+#include "commands/json_line.h"
 #include "commands/volume_words.h"
 
 namespace {
@@ -56,12 +57,11 @@ Status load(const Options& options) {
   if (!skinned) return skinned;
   const double wall_s = seconds_since(start);
   if (options.json) {
-    fmt::print("{}\n", nlohmann::json{{"wall_s", wall_s},
-                                      {"bone_s", bone_s},
-                                      {"surface_s", wall_s - bone_s},
-                                      {"triangles", triangles},
-                                      {"voxel_mm", opened->summary.voxel_mm}}
-                           .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", app::json_line(nlohmann::json{{"wall_s", wall_s},
+                                                     {"bone_s", bone_s},
+                                                     {"surface_s", wall_s - bone_s},
+                                                     {"triangles", triangles},
+                                                     {"voxel_mm", opened->summary.voxel_mm}}));
   } else {
     fmt::print(
         "{:.2f} s to the first complete surface: {:.2f} s to the bone, {:.2f} s for {} triangles\n",
@@ -142,16 +142,15 @@ Status memory(const Options& options) {
     for (const Stages::Stage& stage : stages.all())
       table.push_back(
           {{"stage", stage.name}, {"now_MB", stage.now_mb}, {"most_MB", stage.most_mb}});
-    fmt::print(
-        "{}\n",
-        nlohmann::json{{"peak_MB", peak},
-                       {"steady_MB", steady},
-                       {"reader_peak_MB", reader},
-                       {"bone_MB", 1e-6 * static_cast<double>((*session)->bone().memory_bytes())},
-                       {"touch_MB", touch},
-                       {"triangles", triangles},
-                       {"stages", table}}
-            .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n",
+               app::json_line(nlohmann::json{
+                   {"peak_MB", peak},
+                   {"steady_MB", steady},
+                   {"reader_peak_MB", reader},
+                   {"bone_MB", 1e-6 * static_cast<double>((*session)->bone().memory_bytes())},
+                   {"touch_MB", touch},
+                   {"triangles", triangles},
+                   {"stages", table}}));
   } else {
     for (const Stages::Stage& stage : stages.all())
       fmt::print("{:24} {:5.0f} MB, at most {:5.0f} MB so far\n", stage.name, stage.now_mb,

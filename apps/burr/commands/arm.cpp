@@ -12,6 +12,7 @@
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
 #include "commands/command.h"
+#include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "commands/recording.h"
 #include "commands/volume_words.h"
@@ -78,14 +79,14 @@ Status run(const Options& options) {
                              options.seconds > 0 && interrupted());  // Ctrl-C is its usual end
   const sim::Outcome outcome = session.outcome();
   if (options.json)
-    fmt::print("{}\n", nlohmann::json({{"finished", options.seconds <= 0 || !interrupted()},
-                                       {"ticks", outcome.ticks},
-                                       {"seconds", outcome.seconds},
-                                       {"missed", outcome.timing.missed},
-                                       {"removed_mm3", 1e9 * outcome.ledger.removed},
-                                       {"peak_force_N", outcome.peak_force},
-                                       {"left_aside", (*arm)->ignored_goals()}})
-                           .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n",
+               json_line(nlohmann::json({{"finished", options.seconds <= 0 || !interrupted()},
+                                         {"ticks", outcome.ticks},
+                                         {"seconds", outcome.seconds},
+                                         {"missed", outcome.timing.missed},
+                                         {"removed_mm3", 1e9 * outcome.ledger.removed},
+                                         {"peak_force_N", outcome.peak_force},
+                                         {"left_aside", (*arm)->ignored_goals()}})));
   else
     fmt::print("{:.1f} s: removed {:.3f} mm3, peak force {:.2f} N; {} goals or commands ignored\n",
                outcome.seconds, 1e9 * outcome.ledger.removed, outcome.peak_force,

@@ -18,11 +18,14 @@
 #include "burr/scenario/case.h"
 #include "burr/scenario/lesson.h"
 #include "burr/scenario/open_lesson.h"
+#include "burr/scoring/step_done.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
 #include "commands/case_new.h"
 #include "commands/command.h"
+#include "commands/counted.h"
+#include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "commands/volume_words.h"
 
@@ -36,21 +39,16 @@ struct Options {
   bool json = false;
 };
 
-std::string list_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + base::printable(name);
-  return list;
-}
-
 void print(const workshop::LabelFinding& one) {
   const workshop::LabelFigures& f = one.figures;
   fmt::print("  {:<24} ", base::printable(one.structure));
   if (f.voxels == 0)
     fmt::print("not in this bone");
   else
-    fmt::print("{:.4g} mm3, inscribed {:.2f} mm, {} piece{}, {:.1f} mm long ({})", 1e9 * f.volume,
-               1e3 * f.inscribed, f.pieces, f.pieces == 1 ? "" : "s", 1e3 * f.length,
-               list_of(one.tissues));
+    fmt::print("{} mm3, inscribed {:.2f} mm, {}, {:.1f} mm long ({})",
+               workshop::figure(1e9 * f.volume, 4), 1e3 * f.inscribed,
+               counted(static_cast<std::size_t>(f.pieces), "piece"), 1e3 * f.length,
+               base::list_of(one.tissues));
   fmt::print("{}\n", one.faults.empty() ? "" : one.accepted ? "  ACCEPTED in spite of:" : "  BAD:");
   for (const std::string& fault : one.faults) fmt::print("    {}\n", fault);
 }
@@ -75,9 +73,9 @@ Status verdict(const std::vector<workshop::LabelFinding>& findings, const std::s
   if (bad == 0) return fine();
   return error(
       Trouble::data,
-      fmt::format("{}: {} label{} not as the case expects; \"{}\": {}; mend the label, give the "
+      fmt::format("{}: {} not as the case expects; \"{}\": {}; mend the label, give the "
                   "case another range, or accept it with --accept-label \"{}\"",
-                  file, bad, bad == 1 ? " is" : "s are", base::printable(first->structure),
+                  file, counted(bad, "label is", "labels are"), base::printable(first->structure),
                   first->faults.front(), base::printable(first->structure)));
 }
 
@@ -89,26 +87,28 @@ Status run_check(const Options& options) {
   if (!read) return read.error();
   const auto lesson = scenario::place(std::move(*read), workshop::landmarks_of(*work), file);
   if (!lesson) return lesson.error();
+  if (Status fits = scoring::check_done(*lesson, file); !fits) return fits;
   auto made = workshop::open_bone(workshop::recipe_of(*work, options.volume), progress());
   if (!made) return made.error();
   if (Status same = scenario::check_tissues(*work, made->bone->tissues()); !same) return same;
   const auto findings = workshop::check_labels(*lesson, *made->bone, options.accepted, progress());
   if (!findings) return findings.error();
   fmt::print("{}: {}\n", file, base::printable(work->title));
-  fmt::print("  format {}: {} structures, {} regions, {} landmarks, {} steps, {} complications\n",
-             lesson->format, lesson->structures.size(), lesson->regions.size(),
-             lesson->landmarks.size(), lesson->steps.size(), lesson->complications.size());
+  fmt::print("  format {}: {}, {}, {}, {}, {}\n", lesson->format,
+             counted(lesson->structures.size(), "structure"),
+             counted(lesson->regions.size(), "region"),
+             counted(lesson->landmarks.size(), "landmark"), counted(lesson->steps.size(), "step"),
+             counted(lesson->complications.size(), "complication"));
   if (lesson->structures.empty())
     fmt::print("  note: it names no [[structure]], so no label was judged\n");
   for (const workshop::LabelFinding& one : *findings) print(one);
   if (options.json) {
     nlohmann::json labels = nlohmann::json::array();
     for (const workshop::LabelFinding& one : *findings) labels.push_back(json_of(one));
-    fmt::print("{}\n", nlohmann::json{{"case", work->name},
-                                      {"format", lesson->format},
-                                      {"steps", lesson->steps.size()},
-                                      {"labels", labels}}
-                           .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", json_line(nlohmann::json{{"case", work->name},
+                                                {"format", lesson->format},
+                                                {"steps", lesson->steps.size()},
+                                                {"labels", labels}}));
   }
   return verdict(*findings, file);
 }
@@ -169,6 +169,7 @@ Status run_new(const NewOptions& options) {
   if (!possible) return possible;
   auto made = workshop::open_bone(options.volume, progress());
   if (!made) return made.error();
+  if (Status named = check_label_names(made->bone->tissues()); !named) return named;
   const bool asks = isatty(STDIN_FILENO) != 0;
   const CaseAnswers answers = asks ? ask_all(made->bone->tissues()) : CaseAnswers{};
   const NewCase written =
@@ -179,8 +180,8 @@ Status run_new(const NewOptions& options) {
   if (!file) return file.error();
   file->write(written.text);
   if (Status placed = file->put_in_place(); !placed) return placed;
-  fmt::print("{}: a case with {} structures\n", options.out,
-             made->bone->tissues().tissues.size() - 1);
+  fmt::print("{}: a case with {}\n", options.out,
+             counted(made->bone->tissues().tissues.size() - 1, "structure"));
   for (const std::string& missing : written.missing) fmt::print("  missing: {}\n", missing);
   return fine();
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -12,31 +13,27 @@
 
 #include "burr/base/printable.h"
 #include "burr/base/toml_text.h"
+#include "burr/base/trimmed.h"
 #include "burr/math/vec3.h"
 #include "burr/scenario/recipe.h"
 #include "burr/workshop/label_check.h"
+#include "commands/counted.h"
 
 namespace burr::app {
 namespace {
 
 constexpr double kSpread = 1.5;  // ranges that are proposed: measured value divided and multiplied
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
-}
-
 std::optional<std::pair<std::string, math::Vec3>> landmark_of(std::string_view answer) {
   const std::size_t equals = answer.find('=');
   if (equals == std::string_view::npos) return std::nullopt;
-  const std::string_view name = trimmed(answer.substr(0, equals));
+  const std::string_view name = base::trimmed(answer.substr(0, equals));
   std::string_view rest = answer.substr(equals + 1);
   math::Vec3 at;
   for (Eigen::Index n = 0; n < 3; ++n) {
     const std::size_t comma = rest.find(',');
     if ((comma == std::string_view::npos) != (n == 2)) return std::nullopt;
-    const std::string_view number = trimmed(rest.substr(0, comma));
+    const std::string_view number = base::trimmed(rest.substr(0, comma));
     const auto done = std::from_chars(number.data(), number.data() + number.size(), at[n]);
     if (done.ec != std::errc() || done.ptr != number.data() + number.size() ||
         !std::isfinite(at[n]) || std::abs(at[n]) >= 1e4)
@@ -76,13 +73,14 @@ std::string structure_of(const volume::Bone& bone, volume::TissueId id, bool spa
                         tissue.kind == volume::TissueKind::solid ? "solid" : "soft");
   if (f.voxels == 0) return text + "# its label is empty in this volume\noptional = true\n";
   const double mm3 = 1e9 * f.volume, mm = 1e3 * f.inscribed;
-  return text +
-         fmt::format(
-             "# measured here: {:.4g} mm3, inscribed radius {:.2f} mm, {} piece{}, {:.1f} mm long. "
-             "Give the range that is sound:\n"
-             "# volume_mm3 = [{:.3g}, {:.3g}]\n# inscribed_mm = [{:.2f}, {:.2f}]\n",
-             mm3, mm, f.pieces, f.pieces == 1 ? "" : "s", 1e3 * f.length, mm3 / kSpread,
-             mm3 * kSpread, mm / kSpread, mm * kSpread);
+  return text + fmt::format(
+                    "# measured here: {} mm3, inscribed radius {:.2f} mm, {}, {:.1f} mm long. "
+                    "Give the range that is sound:\n"
+                    "# volume_mm3 = [{}, {}]\n# inscribed_mm = [{:.2f}, {:.2f}]\n",
+                    workshop::figure(mm3, 4), mm,
+                    counted(static_cast<std::size_t>(f.pieces), "piece"), 1e3 * f.length,
+                    workshop::figure(mm3 / kSpread, 3), workshop::figure(mm3 * kSpread, 3),
+                    mm / kSpread, mm * kSpread);
 }
 
 std::string landmarks_of(const CaseAnswers& answers) {
@@ -115,6 +113,25 @@ std::string steps_of(const CaseAnswers& answers) {
 }
 
 }  // namespace
+
+Status check_label_names(const volume::TissueTable& table) {
+  std::map<std::string_view, std::size_t> seen;
+  for (std::size_t id = 1; id < table.tissues.size(); ++id) {
+    const std::string& name = table.tissues[id].name;
+    std::string fault;
+    if (name.empty())
+      fault = fmt::format("label {} has no name", id);
+    else if (const auto [first, fresh] = seen.emplace(name, id); !fresh)
+      fault = fmt::format("labels {} and {} are both called \"{}\"", first->second, id,
+                          base::printable(name));
+    if (!fault.empty())
+      return error(Trouble::data,
+                   fmt::format("{}, and a case tells labels apart by their names; rename it in the "
+                               "program that drew it, or give names with --tissues",
+                               fault));
+  }
+  return fine();
+}
 
 bool is_landmark(const std::string& answer) { return landmark_of(answer).has_value(); }
 

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "burr/base/result.h"
 #include "burr/volume/bone.h"
+#include "burr/volume/tissue.h"
 
 namespace burr::app {
 
@@ -23,6 +25,9 @@ struct NewCase {
   std::string text;                  // TOML; parse_case() accepts it
   std::vector<std::string> missing;  // one phrase each
 };
+
+// A case tells labels apart by their names. Error: a label has no name, or the name of another.
+[[nodiscard]] Status check_label_names(const volume::TissueTable& table);
 
 // source: as the case shall name it, a file or phantom:NAME.
 [[nodiscard]] NewCase new_case(const volume::Bone& bone, const std::string& source,

@@ -18,6 +18,7 @@
 #include "burr/fit/recorded_log.h"
 #include "burr/importing/materials.h"
 #include "commands/command.h"
+#include "commands/json_line.h"
 #include "commands/outputs.h"
 
 namespace burr::app {
@@ -178,9 +179,7 @@ Status run(const Options& options) {
   bool any = false;
   for (const fit::MaterialFit& fit : fits) any = any || !fit.constants.empty();
   if (options.json)
-    fmt::print(
-        "{}\n",
-        to_json(options, log, fits).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", json_line(to_json(options, log, fits)));
   else
     print(fits);
   if (!any) {

@@ -12,6 +12,7 @@
 #include "burr/record/player.h"
 #include "burr/workshop/open_bone.h"
 #include "commands/command.h"
+#include "commands/json_line.h"
 #include "commands/session_words.h"
 #include "commands/volume_words.h"
 #include "window/replay/playback.h"
@@ -232,7 +233,7 @@ Status run_recording(const Options& options) {
                    {"targets", targets},
                    {"spare", work_case->spare}};
   }
-  fmt::print("{}\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  fmt::print("{}\n", json_line(out));
   return fine();
 }
 
@@ -242,10 +243,7 @@ Status run(const Options& options) {
   if (!found) return found.error();
   print(*found);
   for (const std::string& notice : found->notices) fmt::print("  note: {}\n", notice);
-  if (options.json)
-    fmt::print(
-        "{}\n",
-        with_fence(to_json(*found)).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (options.json) fmt::print("{}\n", json_line(with_fence(to_json(*found))));
   return fine();
 }
 

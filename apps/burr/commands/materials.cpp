@@ -10,6 +10,7 @@
 
 #include "burr/base/printable.h"
 #include "commands/command.h"
+#include "commands/json_line.h"
 
 namespace burr::app {
 namespace {
@@ -63,8 +64,7 @@ Status run(const Options& options) {
     materials = std::move(*read);
   }
   if (options.json)
-    fmt::print("{}\n",
-               to_json(materials).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", json_line(to_json(materials)));
   else
     print(materials);
   return fine();

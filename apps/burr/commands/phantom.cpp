@@ -14,6 +14,7 @@
 #include "burr/volume/volume_of.h"
 #include "burr/workshop/prebuilt_phantom.h"
 #include "commands/command.h"
+#include "commands/json_line.h"
 #include "commands/outputs.h"
 
 namespace burr::app {
@@ -54,13 +55,13 @@ void say(const volume::Bone& bone, const Options& options) {
   nlohmann::json tissues = nlohmann::json::array();
   for (const volume::Tissue& tissue : bone.tissues().tissues)
     if (&tissue != &bone.tissues().tissues.front()) tissues.push_back(tissue.name);
-  fmt::print("{}\n", nlohmann::json{{"phantom", options.name},
-                                    {"size", {size.x(), size.y(), size.z()}},
-                                    {"voxel_mm", 1e3 * bone.grid().voxel},
-                                    {"volume_mm3", volume_mm3},
-                                    {"tissues", tissues},
-                                    {"bone_hash", fmt::format("{:016x}", bone.content_hash())}}
-                         .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  fmt::print("{}\n",
+             json_line(nlohmann::json{{"phantom", options.name},
+                                      {"size", {size.x(), size.y(), size.z()}},
+                                      {"voxel_mm", 1e3 * bone.grid().voxel},
+                                      {"volume_mm3", volume_mm3},
+                                      {"tissues", tissues},
+                                      {"bone_hash", fmt::format("{:016x}", bone.content_hash())}}));
 }
 
 std::string point_text(const math::Vec3& p) {

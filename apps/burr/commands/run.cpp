@@ -116,12 +116,11 @@ void put_tool_of(render::Scene& scene, sim::Session& session) {
   if (session.view(row)) workshop::put_tool(scene, row, true);
 }
 
-// What the pictures show; nobody else looks.
+// What the pictures show. Nobody is there whom help could be shown.
 record::Sight sight_of(const render::Scene& scene) {
   record::Sight sight;
   sight.view = workshop::view_of(scene.camera, 0);
   sight.view.slices = sight.view.panels = false;
-  sight.helps.insert("labels");
   return sight;
 }
 

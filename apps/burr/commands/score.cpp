@@ -11,6 +11,8 @@
 #include "burr/base/printable.h"
 #include "burr/record/player.h"
 #include "burr/scenario/case.h"
+#include "burr/scenario/lesson.h"
+#include "burr/scoring/reference.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/score.h"
 #include "burr/workshop/open_bone.h"
@@ -82,6 +84,47 @@ Status run_score(const Options& options) {
   return fine();
 }
 
+// Work that follows the plan of the case exactly must meet the product. Items that need a recording count
+// as met here, so that those which require them are looked at.
+Status check_reference(const Options& options, const scoring::Rubric& rubric,
+                       const scenario::Case& work, const scenario::Lesson& lesson,
+                       const volume::Bone& before) {
+  if (!lesson.reference || lesson.reference->remove.empty()) {
+    fmt::print(
+        "the case \"{}\" has no [reference] with regions to remove, so it was not checked that "
+        "good work meets the rubric\n",
+        base::printable(work.name));
+    return fine();
+  }
+  const auto made = workshop::open_bone(workshop::recipe_of(work, options.volume), progress());
+  if (!made) return made.error();
+  if (const Status cut = scoring::cut_to_reference(*made->bone, before, lesson, progress()); !cut)
+    return cut;
+  scoring::Rubric alone = rubric;
+  for (scoring::Item& item : alone.items)
+    if (const scoring::Item* other = rubric.item(item.needs);
+        other != nullptr && scoring::needs_recording(*other))
+      item.needs.clear();
+  const auto score = scoring::score(alone, lesson, before, *made->bone, nullptr, progress());
+  if (!score) return score.error();
+  fmt::print("on the reference result of {}\n", base::printable(work.name));
+  print_items(alone, *score);
+  std::string unmet;
+  for (std::size_t n = 0; n < rubric.items.size(); ++n)
+    if (rubric.items[n].part == scoring::Part::product &&
+        score->outcomes[n].verdict == scoring::Verdict::unmet)
+      unmet += (unmet.empty() ? "" : ", ") + base::printable(rubric.items[n].id);
+  if (!unmet.empty())
+    return error(Trouble::data,
+                 fmt::format("{}: the reference result of the case does not meet {}; change these "
+                             "items, or [reference] in the case",
+                             rubric.file, unmet));
+  fmt::print(
+      "the reference result meets {} of {} items of the product; the others need a recording\n",
+      score->product.met, score->product.items);
+  return fine();
+}
+
 // Nobody may earn a point of the product with an untouched bone.
 Status run_check(const Options& options) {
   const auto rubric = scoring::read_rubric(options.rubric);
@@ -113,9 +156,9 @@ Status run_check(const Options& options) {
         fmt::format("{}: no item of the product can be assessed on the bone of the case \"{}\"; "
                     "the reasons are above",
                     rubric->file, base::printable(work->name)));
-  fmt::print("the untouched bone meets no item; {} of {} items of the product were assessed\n",
+  fmt::print("the untouched bone meets no item of the product; {} of {} were assessed\n",
              score->product.assessable, score->product.items);
-  return fine();
+  return check_reference(options, *rubric, *work, *lesson, *made->bone);
 }
 
 void add_score(CLI::App& app, Todo& todo) {

@@ -7,16 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/base/printable.h"
+#include "commands/counted.h"
 
 namespace burr::app {
 namespace {
 
 using record::CourseKind;
-
-// "2 steps begun", "1 warning"
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
 
 std::string course_text(const std::vector<record::CourseEvent>& course) {
   std::map<CourseKind, std::size_t> count;
@@ -26,23 +22,24 @@ std::string course_text(const std::vector<record::CourseEvent>& course) {
     const char *one, *many;
   };
   std::string text;
-  for (const Line& line : {Line{CourseKind::step_begun, "step begun", "steps begun"},
-                           Line{CourseKind::step_done, "step done", "steps done"},
-                           Line{CourseKind::step_reopened, "step reopened", "steps reopened"},
-                           Line{CourseKind::help_shown, "help shown", "helps shown"},
-                           Line{CourseKind::warning, "warning", "warnings"},
-                           Line{CourseKind::question, "question", "questions"},
-                           Line{CourseKind::pause, "pause", "pauses"},
-                           Line{CourseKind::complication, "complication", "complications"},
-                           Line{CourseKind::self_mark, "self-mark", "self-marks"}})
+  for (const Line& line :
+       {Line{CourseKind::step_begun, "step begun", "steps begun"},
+        Line{CourseKind::step_done, "step done", "steps done"},
+        Line{CourseKind::step_reopened, "step reopened", "steps reopened"},
+        Line{CourseKind::help_shown, "time help was shown", "times help was shown"},
+        Line{CourseKind::warning, "warning", "warnings"},
+        Line{CourseKind::question, "question", "questions"},
+        Line{CourseKind::pause, "pause", "pauses"},
+        Line{CourseKind::complication, "complication", "complications"},
+        Line{CourseKind::self_mark, "self-mark", "self-marks"}})
     if (const std::size_t n = count[line.kind]; n > 0)
       text += (text.empty() ? "" : ", ") + counted(n, line.one, line.many);
-  return text.empty() ? "nothing of a course" : text;
+  return text.empty() ? "no steps, help or warnings" : text;
 }
 
 std::string ending_text(const record::Player& player) {
   if (const auto ending = player.ending()) return record::word_of(*ending);
-  return player.finished() ? "nothing says how" : "cut off, so nothing says how";
+  return player.finished() ? "the recording does not say how" : "cut off";
 }
 
 }  // namespace
@@ -58,11 +55,11 @@ std::string session_text(record::Player& player) {
       text += fmt::format("  the label \"{}\" was accepted in spite of its faults\n",
                           base::printable(name));
   }
-  if (const std::string lacks = player.lacks(); !lacks.empty())
-    return text + "  note: " + lacks + "\n";
-  const std::vector<record::View> views = player.views();
-  return text + fmt::format("  ended: {}; {}, {}\n", ending_text(player),
-                            counted(views.size(), "view", "views"), course_text(player.course()));
+  if (player.has_course())
+    text += fmt::format("  ended: {}; {}, {}\n", ending_text(player),
+                        counted(player.views().size(), "view"), course_text(player.course()));
+  if (const std::string lacks = player.lacks(); !lacks.empty()) text += "  note: " + lacks + "\n";
+  return text;
 }
 
 nlohmann::json session_json(record::Player& player) {

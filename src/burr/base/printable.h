@@ -3,6 +3,8 @@
 //
 //     error(fmt::format("{}: type: burr does not read \"{}\"", file, base::printable(type)))
 //
+//     "use one of " + base::list_of(names)
+//
 // Thread: any.
 #pragma once
 
@@ -15,5 +17,13 @@ namespace burr::base {
 // The first `most` bytes. Control characters and invalid UTF-8 become '?'; "..." marks where the
 // text was cut.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t most = 60);
+
+// "nerve, vein": the texts of a list, each made safe, in its order. None: "".
+template <class Texts>
+[[nodiscard]] std::string list_of(const Texts& texts) {
+  std::string list;
+  for (const auto& text : texts) list += (list.empty() ? "" : ", ") + printable(text);
+  return list;
+}
 
 }  // namespace burr::base

@@ -11,6 +11,7 @@
 
 #include "burr/base/printable.h"
 #include "burr/base/text_file.h"
+#include "burr/base/trimmed.h"
 
 namespace burr::fit {
 namespace {
@@ -33,13 +34,6 @@ constexpr std::array<Known, 9> kKnown = {{{"time_s", true},
                                           {"edge_mm", false},
                                           {"material", false}}};
 
-std::string_view trimmed(std::string_view text) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 // Removes the next piece, up to `end`, from the text; false at the end of the text.
 bool next(std::string_view& text, char end, std::string_view& piece) {
   if (text.data() == nullptr) return false;
@@ -52,7 +46,7 @@ bool next(std::string_view& text, char end, std::string_view& piece) {
 void split(std::string_view line, std::vector<std::string_view>& cells) {
   cells.clear();
   std::string_view piece;
-  while (next(line, ',', piece)) cells.push_back(trimmed(piece));
+  while (next(line, ',', piece)) cells.push_back(base::trimmed(piece));
 }
 
 std::string list_of_columns() {
@@ -123,7 +117,7 @@ Result<ForceLog> parse_force_log(std::string_view text, std::string_view file) {
   std::vector<std::string_view> cells;
   while (next(text, '\n', line)) {
     ++number;
-    line = trimmed(line);
+    line = base::trimmed(line);
     if (line.empty() || line.front() == '#') continue;
     split(line, cells);
     if (columns == 0) {

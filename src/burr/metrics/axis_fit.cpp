@@ -1,7 +1,9 @@
 #include "burr/metrics/axis_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -25,6 +27,26 @@ using volume::Field;
 struct Slice {
   Vec3 sum = Vec3::Zero();  // place times volume
   double volume = 0;        // [voxel]
+  // squares of the place about the plan's entry times volume: xx, yy, zz, xy, xz, yz  [m^2 voxel]
+  std::array<double, 6> squares = {};
+
+  void add(const Vec3& place, const Vec3& from_entry, double share) {
+    const double x = from_entry.x(), y = from_entry.y(), z = from_entry.z();
+    sum += share * place;
+    volume += share;
+    const std::array<double, 6> now = {x * x, y * y, z * z, x * y, x * z, y * z};
+    for (std::size_t n = 0; n < now.size(); ++n) squares[n] += share * now[n];
+  }
+  // Mean square of the distance to the line through the slice's centre along w (unit) [m^2].
+  [[nodiscard]] double square_about(const Vec3& entry, const Vec3& w) const {
+    const Vec3 c = sum / volume - entry;
+    const double xx = squares[0] / volume - c.x() * c.x(), yy = squares[1] / volume - c.y() * c.y(),
+                 zz = squares[2] / volume - c.z() * c.z(), xy = squares[3] / volume - c.x() * c.y(),
+                 xz = squares[4] / volume - c.x() * c.z(), yz = squares[5] / volume - c.y() * c.z();
+    const double along = w.x() * w.x() * xx + w.y() * w.y() * yy + w.z() * w.z() * zz +
+                         2 * (w.x() * w.y() * xy + w.x() * w.z() * xz + w.y() * w.z() * yz);
+    return xx + yy + zz - along;
+  }
 };
 
 std::map<int, Slice> slices_of(const Bone& before, const Bone& after, const PlannedAxis& plan,
@@ -46,8 +68,7 @@ std::map<int, Slice> slices_of(const Bone& before, const Bone& after, const Plan
       const double t = math::dot(place - plan.entry, along);
       Slice& slice = slices[static_cast<int>(std::floor(t / thick))];
       const double share = static_cast<double>(gone) / static_cast<double>(volume::kVoxelUnits);
-      slice.sum += share * place;
-      slice.volume += share;
+      slice.add(place, place - plan.entry, share);
     }
   }
   return slices;
@@ -105,6 +126,17 @@ struct AlongAxis {
   }
 };
 
+// Eight directions round a circle.
+constexpr double kHalfRoot = 0.70710678118654752;
+constexpr double kRound[8][2] = {
+    {1, 0},  {kHalfRoot, kHalfRoot},   {0, 1},  {-kHalfRoot, kHalfRoot},
+    {-1, 0}, {-kHalfRoot, -kHalfRoot}, {0, -1}, {kHalfRoot, -kHalfRoot}};
+
+// Square to w, not unit.
+Vec3 any_across(const Vec3& w) {
+  return std::abs(w.x()) < 0.6 ? w.cross(Vec3::UnitX()) : w.cross(Vec3::UnitY());
+}
+
 }  // namespace
 
 Assessed<AxisFit> axis_fit(const Bone& before, const Bone& after, const PlannedAxis& plan,
@@ -127,9 +159,12 @@ Assessed<AxisFit> axis_fit(const Bone& before, const Bone& after, const PlannedA
   AxisFit out;
   out.inward = math::normalized(line.slope);
   out.angle = angle_between(out.inward, along);
-  // a slice across the plan is wider than one across the axis
-  const double area = median * h * h * h / thick * math::dot(out.inward, along);
-  out.width = 2 * std::sqrt(area / kPi);
+  // of a disc the mean square of the distance to its axis is r^2 / 2
+  std::vector<std::pair<double, double>> widths;
+  for (const auto& [number, slice] : slices)
+    if (slice.volume >= 0.5 * median)
+      widths.emplace_back(2 * std::sqrt(2 * slice.square_about(plan.entry, out.inward)), 1);
+  out.width = weighted_quantile(std::move(widths), 0.5);
   const double length = static_cast<double>(centres.size()) * thick;
   if (length < 2 * out.width)
     return NotAssessable{
@@ -145,7 +180,15 @@ Assessed<AxisFit> axis_fit(const Bone& before, const Bone& after, const PlannedA
   out.entry = axis.at(*entry);
   const Vec3 off = out.entry - plan.entry;
   out.entry_off = math::norm(off - math::dot(off, along) * along);
-  const AlongAxis::End end = axis.end(*entry, length + far);
+  AlongAxis::End end = axis.end(*entry, length + far);
+  // a pore of spongy bone at the end looks like the far side; lines beside the axis meet other pores
+  const Vec3 u = math::normalized(any_across(out.inward)), v = out.inward.cross(u);
+  for (int n = 0; n < 8 && end.through; ++n) {
+    AlongAxis beside = axis;
+    beside.from += 0.25 * out.width * (kRound[n][0] * u + kRound[n][1] * v);
+    const AlongAxis::End other = beside.end(*entry, length + far);
+    if (!other.through && other.l > end.l) end = other;
+  }
   out.through = end.through;
   out.apex = axis.at(end.l);
   out.depth = (end.l - *entry) * math::dot(out.inward, along);

@@ -8,8 +8,10 @@
 //              its distance to the plan's entry, across the planned axis
 //     angle    between the two axes
 //     depth    length of the corridor along the plan, from the entry to its end on the axis: the
-//              first bone that stands, or where the bone ended before the cut (`through`)
-//     width    median diameter, from the volume of the slices
+//              first bone that stands, or where the bone ended before the cut (`through`). Where the axis
+//              ends in an old pore, the deepest of eight lines beside it that end in bone counts
+//     width    median diameter of the slices: 2 sqrt(2) times the root mean square of the distance of what
+//              was removed to the axis, so spongy bone and the air in it do not make it smaller
 //
 // Frame: world. Units: m, rad. Not assessable: nothing was removed there, a corridor shorter than two
 // of its diameters, or an axis that does not lead from the air outside into what was removed within

@@ -1,7 +1,7 @@
 // metrics/opened.h - is there a way from the cavity to a place, and how wide is it: the largest ball
 // that goes through.
 //
-//     clearance(p) = distance from p to the nearest bone or opaque soft tissue
+//     clearance(p) = distance from p to the nearest bone or opaque soft tissue, also outside the box
 //     Old(rho)     = voxels that the centre of a ball of rho reached from outside before the cut
 //
 // A flood starts at the removed voxels that a look of the cone reaches, and goes on through removed
@@ -9,13 +9,15 @@
 // voxel touches the target. Old(rho) is needed because in a real bone a ball of 1 mm reaches the
 // incus through the ear canal before the first cut.
 //
-// met: the ball of the asked radius passes (1.0 mm for an antrum, 0.75 mm for a recess: not
-// calibrated). value: the largest radius found to pass, by bisection above the asked radius if that
-// passes, below it otherwise. Its error is three quarters of
-// a voxel, since the ball's centre is a voxel's.
+// met: a ball of rho passes (1.0 mm for an antrum, 0.75 mm for a recess: not calibrated). value: the
+// largest radius found to pass, by bisection above rho if that passes, below it otherwise. Its error
+// is three quarters of a voxel, since the ball's centre is a voxel's.
 //
-// Frame: world. Thread: uses `threads` of its own for the distances. Memory: some 13 bytes per voxel
-// of the box.
+// Old(rho) is found once for all radii: for each voxel the width of the widest way from outside to
+// it, by the method of the shortest path (Dijkstra 1959) with the narrowest place in the place of a
+// sum (Pollack 1960).
+// Frame: world. Thread: uses `threads` of its own for the distances; the result does not depend on
+// their number. Memory: some 12 bytes per voxel of the box.
 #pragma once
 
 #include <optional>

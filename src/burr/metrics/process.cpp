@@ -17,6 +17,11 @@ ProcessMaker::ProcessMaker(const volume::Grid& grid, double seconds,
     soft_names_.push_back(one.name);
     soft_.emplace_back(grid, *one.voxels, *one.distance, one.worked, one.settings);
   }
+  solid_.reserve(settings.solid.size());
+  for (const SolidStructure& one : settings.solid) {
+    solid_names_.push_back(one.name);
+    solid_.emplace_back(*one.all, one.tissues, one.voxel);
+  }
 }
 
 void ProcessMaker::add(const Moment& now) {
@@ -27,6 +32,7 @@ void ProcessMaker::add(const Moment& now) {
   choice_.add(now, distances_.least());
   track_.add(now, distances_.least());
   for (IntactSoftMaker& one : soft_) one.add(now);
+  for (SolidContactsMaker& one : solid_) one.add(now);
 }
 
 Process ProcessMaker::finish() {
@@ -37,6 +43,8 @@ Process ProcessMaker::finish() {
   out.choice = choice_.finish(distances_);
   for (std::size_t n = 0; n < soft_.size(); ++n)
     out.soft.push_back({soft_names_[n], soft_[n].finish()});
+  for (std::size_t n = 0; n < solid_.size(); ++n)
+    out.solid.push_back({solid_names_[n], solid_[n].finish()});
   out.track = track_.finish();
   out.paths = paths_of(out.track);
   out.strokes = strokes_of(out.track);

@@ -18,12 +18,14 @@
 #include "burr/metrics/measured.h"
 #include "burr/metrics/near.h"
 #include "burr/metrics/smoothness.h"
+#include "burr/metrics/solid_contacts.h"
 #include "burr/metrics/strokes.h"
 #include "burr/metrics/track.h"
 #include "burr/metrics/way.h"
 #include "burr/record/player.h"
 #include "burr/volume/distance_to.h"
 #include "burr/volume/grid.h"
+#include "burr/volume/tissue.h"
 
 namespace burr::metrics {
 
@@ -36,9 +38,18 @@ struct SoftStructure {
   IntactSoftSettings settings = {};
 };
 
+// A structure of solid tissue that a turning burr must not touch. The distance outlives the pass.
+struct SolidStructure {
+  std::string name;
+  std::vector<volume::TissueId> tissues = {};
+  const volume::DistanceTo* all = nullptr;  // to all solid tissues of the bone
+  double voxel = 0;                         // of the bone [m]
+};
+
 struct ProcessSettings {
-  std::vector<Watched> critical = {};        // what "near" means
-  std::vector<SoftStructure> soft = {};      // in the grid of the recording
+  std::vector<Watched> critical = {};    // what "near" means
+  std::vector<SoftStructure> soft = {};  // in the grid of the recording
+  std::vector<SolidStructure> solid = {};
   const volume::DistanceTo* bone = nullptr;  // for hesitation; nullptr: not measured
   BurrChoiceSettings choice = {};
 };
@@ -54,6 +65,11 @@ struct Process {
     Assessed<IntactSoft> intact = NotAssessable{"not measured"};
   };
   std::vector<SoftResult> soft;  // one for each soft structure
+  struct SolidResult {
+    std::string name;
+    Assessed<Contacts> contacts = NotAssessable{"not measured"};
+  };
+  std::vector<SolidResult> solid;  // one for each solid structure
   Track track;
   std::vector<BurrStroke> strokes;
   std::vector<Move> moves;
@@ -81,6 +97,8 @@ class ProcessMaker {
   TrackMaker track_;
   std::vector<std::string> soft_names_;
   std::vector<IntactSoftMaker> soft_;
+  std::vector<std::string> solid_names_;
+  std::vector<SolidContactsMaker> solid_;
 };
 
 }  // namespace burr::metrics

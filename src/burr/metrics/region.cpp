@@ -17,6 +17,13 @@ double to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return math::norm(p - nearest_on_segment(p, a, b).at);
 }
 
+// Beyond the reach the least that it can be, so that depths do not jump there; infinite if that is not
+// beyond `least`, or where there is no such tissue.
+double far_from(const volume::DistanceTo& tissue, const Vec3& p, double least) {
+  const double far = tissue.at(p).distance;
+  return tissue.empty() || tissue.reach() <= least ? far : std::min(far, tissue.reach());
+}
+
 }  // namespace
 
 double depth_in(const Region& region, const Vec3& p) {
@@ -57,7 +64,7 @@ Region in_half_space(const Vec3& point, const Vec3& outward) {
 
 Region within(std::shared_ptr<const volume::DistanceTo> tissue, double d) {
   BURR_CHECK(tissue != nullptr);
-  return [tissue = std::move(tissue), d](const Vec3& p) { return d - tissue->at(p).distance; };
+  return [tissue = std::move(tissue), d](const Vec3& p) { return d - far_from(*tissue, p, d); };
 }
 
 Region between(std::shared_ptr<const volume::DistanceTo> a,
@@ -65,7 +72,7 @@ Region between(std::shared_ptr<const volume::DistanceTo> a,
   BURR_CHECK(a != nullptr && b != nullptr);
   // halved: the sum of two distances changes twice as fast as a distance
   return [a = std::move(a), b = std::move(b), most](const Vec3& p) {
-    return 0.5 * (most - a->at(p).distance - b->at(p).distance);
+    return 0.5 * (most - far_from(*a, p, most) - far_from(*b, p, most));
   };
 }
 

@@ -34,9 +34,10 @@ using Region = std::function<double(const math::Vec3& p)>;
 [[nodiscard]] Region in_box(const math::Pose& world_from_box, const math::Vec3& half_extent);
 // outward . (p - point) <= 0. outward need not be unit, but not zero.
 [[nodiscard]] Region in_half_space(const math::Vec3& point, const math::Vec3& outward);
-// Not farther than d from a tissue; its reach must be at least d. D: volume/distance_to.h.
+// Not farther than d from a tissue; its reach must be more than d. D: volume/distance_to.h. Depths
+// are cut off where D ends: not below d - reach.
 [[nodiscard]] Region within(std::shared_ptr<const volume::DistanceTo> tissue, double d);
-// Between two tissues: D_a + D_b <= most.
+// Between two tissues: D_a + D_b <= most; each reach must be more than `most`.
 [[nodiscard]] Region between(std::shared_ptr<const volume::DistanceTo> a,
                              std::shared_ptr<const volume::DistanceTo> b, double most);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "burr/base/check.h"
@@ -74,7 +75,7 @@ Solidity::Solidity(const Bone& before, const Bone& after, const VoxelSet* seen,
   for (std::size_t id = 1; id < before.tissues().tissues.size() && id < hides_.size(); ++id)
     hides_[id] = before.tissues().tissues[id].kind == volume::TissueKind::soft;
   for (const volume::TissueId id : glass) hides_[id] = false;
-  find_clear();
+  find_flags();
 }
 
 Solidity Solidity::of_bone(const Bone& before, const Bone& after) {
@@ -83,32 +84,41 @@ Solidity Solidity::of_bone(const Bone& before, const Bone& after) {
   return {before, after, nullptr, all};
 }
 
-void Solidity::find_clear() {
+std::uint8_t Solidity::flags_of(BrickIndex b) const {
+  const Field *was = before_.brick_field(b), *is = after_.brick_field(b);
+  const volume::TissueId* tissue = before_.brick_tissue(b);
+  const bool hidden =
+      tissue != nullptr && std::any_of(tissue, tissue + volume::kBrickVoxels,
+                                       [&](volume::TissueId t) { return hides_[t]; });
+  const bool air = is_air(was) && is_air(is);
+  const bool uncut = air || (was != nullptr && is != nullptr &&
+                             std::memcmp(was, is, volume::kBrickVoxels * sizeof(Field)) == 0);
+  const bool seen = seen_ != nullptr && seen_->count() > 0 && seen_->has_any_in(b);
+  return static_cast<std::uint8_t>((air && !hidden ? kClear : 0) | (uncut ? kUncut : 0) |
+                                   (seen ? 0 : kWithoutSeen));
+}
+
+void Solidity::find_flags() {
   const math::Ijk& bricks = before_.bricks();
   const auto count = static_cast<std::size_t>(before_.brick_count());
-  std::vector<std::uint8_t> empty(count, 0);
-  for (BrickIndex b = 0; b < before_.brick_count(); ++b) {
-    if (!is_air(before_.brick_field(b)) || !is_air(after_.brick_field(b))) continue;
-    const volume::TissueId* tissue = before_.brick_tissue(b);
-    empty[static_cast<std::size_t>(b)] =
-        tissue == nullptr || std::none_of(tissue, tissue + volume::kBrickVoxels,
-                                          [&](volume::TissueId t) { return hides_[t]; });
-  }
-  // a point between voxels reads one voxel on either side, so the neighbours must be empty too
-  clear_.assign(count, 1);
+  std::vector<std::uint8_t> own(count);
+  for (BrickIndex b = 0; b < before_.brick_count(); ++b)
+    own[static_cast<std::size_t>(b)] = flags_of(b);
+  // a point between voxels reads one voxel on either side
+  flags_ = own;
   for (BrickIndex b = 0; b < before_.brick_count(); ++b) {
     const math::Ijk at = before_.brick_ijk(b) / volume::kBrickEdge;
     for (int k = std::max(0, at.z() - 1); k <= std::min(at.z() + 1, bricks.z() - 1); ++k)
       for (int j = std::max(0, at.y() - 1); j <= std::min(at.y() + 1, bricks.y() - 1); ++j)
         for (int i = std::max(0, at.x() - 1); i <= std::min(at.x() + 1, bricks.x() - 1); ++i)
-          if (empty[static_cast<std::size_t>(before_.brick_at(i, j, k))] == 0)
-            clear_[static_cast<std::size_t>(b)] = 0;
+          flags_[static_cast<std::size_t>(b)] &=
+              own[static_cast<std::size_t>(before_.brick_at(i, j, k))];
   }
 }
 
 bool Solidity::is_clear(int i, int j, int k) const {
   if (!before_.grid().contains({i, j, k})) return false;
-  return clear_[static_cast<std::size_t>(before_.brick_at(i >> 3, j >> 3, k >> 3))] != 0;
+  return (flags_[static_cast<std::size_t>(before_.brick_at(i >> 3, j >> 3, k >> 3))] & kClear) != 0;
 }
 
 double Solidity::before(const Vec3& p_grid) const {
@@ -121,12 +131,15 @@ double Solidity::after(const Vec3& p_grid) const {
 
 Solidity::Pair Solidity::at(const Vec3& p_grid) const {
   const int i = nearest(p_grid.x()), j = nearest(p_grid.y()), k = nearest(p_grid.z());
+  std::uint8_t flags = 0;
   if (before_.grid().contains({i, j, k})) {
-    const bool own = seen_ != nullptr && seen_->has(i, j, k);
+    flags = flags_[static_cast<std::size_t>(before_.brick_at(i >> 3, j >> 3, k >> 3))];
+    const bool own = (flags & kWithoutSeen) == 0 && seen_->has(i, j, k);
     if (!own && hides_[before_.tissue(i, j, k)]) return {1, 1};
   }
-  const double other = 1 - share_of_seen(p_grid);
-  return {other * before(p_grid), other * after(p_grid)};
+  const double other = (flags & kWithoutSeen) != 0 ? 1 : 1 - share_of_seen(p_grid);
+  const double was = other * before(p_grid);
+  return {was, (flags & kUncut) != 0 ? was : other * after(p_grid)};
 }
 
 // 1 inside the structure, 0 outside, between the voxels of its border a steep ramp through 1/2 in

@@ -56,13 +56,16 @@ class Solidity {
   [[nodiscard]] const volume::Grid& grid() const { return before_.grid(); }
 
  private:
-  void find_clear();
+  enum : std::uint8_t { kClear = 1, kUncut = 2, kWithoutSeen = 4 };
+  void find_flags();
+  [[nodiscard]] std::uint8_t flags_of(volume::BrickIndex brick) const;
   [[nodiscard]] double share_of_seen(const math::Vec3& p_grid) const;
 
   const volume::Bone &before_, &after_;
   const VoxelSet* seen_;
   std::array<bool, 256> hides_ = {};  // tissues that are opaque though no bone
-  std::vector<std::uint8_t> clear_;   // (bricks)
+  // (bricks) what holds for a brick and all its neighbours, so for all that a point in it reads
+  std::vector<std::uint8_t> flags_;
 };
 
 // What a ray meets from a point, in world lengths [m].

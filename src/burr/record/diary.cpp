@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+
+#include "burr/record/private_text.h"
 
 namespace burr::record {
 namespace {
 
 constexpr double kViewsPerSecond = 10;
+constexpr std::string_view kUnnamed = "a structure";
 
 }  // namespace
 
@@ -42,7 +46,9 @@ void Diary::look(const Sight& sight) {
     if (!sight.helps.contains(help)) tell(tick, CourseKind::help_hidden, help);
   helps_ = sight.helps;
   if (sight.near != near_ && !sight.near.empty())
-    tell(tick, CourseKind::warning, "near", sight.near);
+    // the warning counts even if the bone's own name for the structure may not be recorded
+    tell(tick, CourseKind::warning, "near",
+         fit_for_a_note(sight.near) ? sight.near : std::string(kUnnamed));
   near_ = sight.near;
   if (sight.paused != paused_) {
     if (!paused_.empty()) tell(tick, CourseKind::resume, paused_);

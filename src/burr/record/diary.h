@@ -24,8 +24,10 @@ namespace burr::record {
 struct Sight {
   View view = {};
   std::set<std::string> helps = {};  // shown now: "task", "labels", "slices", "see-through"
-  std::string near = {};             // the structure that the user is warned of; empty: none
-  std::string paused = {};           // why the work pauses: "page", "stopped"; empty: it does not
+  // the structure that the user is warned of; empty: none. A name that does not fit a note is
+  // written as "a structure"
+  std::string near = {};
+  std::string paused = {};  // why the work pauses: "page", "stopped"; empty: it does not
 };
 
 class Diary {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstring>
 #include <span>
 #include <utility>
@@ -16,7 +17,7 @@ constexpr std::array kModes = {std::pair{Mode::free, "free"}, std::pair{Mode::le
                                std::pair{Mode::practise, "practise"},
                                std::pair{Mode::exam, "exam"}};
 constexpr std::size_t kShortest = 3, kLongest = 24;
-constexpr int kMostDigits = 5;  // in a row: six may be a date of birth
+constexpr std::ptrdiff_t kMostDigits = 5;  // six may be a date of birth, with hyphens or without
 
 bool small_letter(char c) { return c >= 'a' && c <= 'z'; }
 bool digit(char c) { return c >= '0' && c <= '9'; }
@@ -36,20 +37,16 @@ std::optional<Mode> mode_of(std::string_view word) {
 }
 
 Status check_pseudonym(std::string_view text) {
-  bool good = text.size() >= kShortest && text.size() <= kLongest && small_letter(text.front()) &&
-              std::any_of(text.begin(), text.end(), digit) &&
-              std::all_of(text.begin(), text.end(),
-                          [](char c) { return small_letter(c) || digit(c) || c == '-'; });
-  int row = 0;
-  for (const char c : text) {
-    row = digit(c) ? row + 1 : 0;
-    good = good && row <= kMostDigits;
-  }
-  if (good) return fine();
+  const std::ptrdiff_t digits = std::count_if(text.begin(), text.end(), digit);
+  if (text.size() >= kShortest && text.size() <= kLongest && small_letter(text.front()) &&
+      digits > 0 && digits <= kMostDigits && std::all_of(text.begin(), text.end(), [](char c) {
+        return small_letter(c) || digit(c) || c == '-';
+      }))
+    return fine();
   // the text itself is not repeated: it may be a name
   return error(Trouble::usage,
                "this is not a pseudonym; give 3 to 24 small letters, digits and hyphens, a letter "
-               "first, at least one digit and at most five in a row, for example kestrel-27");
+               "first, and one to five digits in all, for example kestrel-27; never a name");
 }
 
 std::uint64_t labels_hash(const volume::Bone& bone) {

@@ -34,9 +34,9 @@ struct Identity {
   bool operator==(const Identity& other) const = default;
 };
 
-// 3 to 24 small letters, digits and hyphens; a letter first, a digit somewhere, at most five digits
-// in a row: "kestrel-27". So a name alone is refused, and so are a mail address and a number that
-// may be a date of birth.
+// 3 to 24 small letters, digits and hyphens; a letter first, one to five digits in all:
+// "kestrel-27". So a name alone is refused, and so are a mail address and a date of birth, however it
+// is divided. A name with a few digits behind it ("anna7") cannot be told from a pseudonym.
 [[nodiscard]] Status check_pseudonym(std::string_view text);
 
 // The size of the tool's shaft, which the session itself does not feel.

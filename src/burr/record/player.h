@@ -108,7 +108,9 @@ class Player {
   [[nodiscard]] std::uint64_t dropped_notes() const { return dropped_notes_; }
 
   // ---- what the user saw and did (player_notes.cpp)
-  // In order of time. Empty: an older recording, or damaged; notices() then says so.
+  // False: an older recording, which cannot say how the session ended.
+  [[nodiscard]] bool has_course() const { return course_channel_ != 0; }
+  // In order of time. Empty: nothing happened, an older recording, or damaged; notices() then says so.
   [[nodiscard]] const std::vector<CourseEvent>& course() const { return course_; }
   // none: killed, still being recorded, or an older recording
   [[nodiscard]] std::optional<Ending> ending() const;

@@ -65,11 +65,13 @@ std::string Player::lacks() const {
     if (missing) list += (list.empty() ? "" : ", ") + std::string(what);
   };
   add(view_channel_ == 0, "what the user saw");
-  add(course_channel_ == 0, "steps, help, warnings and how the session ended");
+  add(!has_course(), "steps, help, warnings and how the session ended");
   add(!info_.identity, "mode, learner and attempt");
   add(!info_.shaft, "the size of the shaft");
   if (list.empty()) return {};
-  return fmt::format("{}: was recorded by an older burr and does not hold: {}", path_, list);
+  return fmt::format(
+      "{}: the recording does not hold {}; an older burr, or another program, wrote it", path_,
+      list);
 }
 
 }  // namespace burr::record

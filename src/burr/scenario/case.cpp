@@ -106,12 +106,6 @@ std::string without_path(std::string_view text, const toml::table& table) {
   return out;
 }
 
-std::string list_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
 }  // namespace
 
 std::vector<std::string> built_in_cases() {
@@ -131,7 +125,7 @@ Result<Case> read_case(const std::string& name_or_path) {
     return error(
         Trouble::usage,
         fmt::format("there is no built-in case \"{}\"; use one of {}, or give a .toml file", file,
-                    list_of(built_in_cases())));
+                    base::list_of(built_in_cases())));
   const auto text =
       base::text_of_file(path.string(), kLargestFile, "a case; check that this is the right file");
   if (!text) return text.error();
@@ -144,6 +138,11 @@ Result<Case> read_case(const std::string& name_or_path) {
 }
 
 Result<Case> parse_case(std::string_view text, std::string_view file) {
+  if (text.size() > kLargestFile)
+    return error(
+        fmt::format("{}: has {} bytes, and a case at most {}; check that this is the right "
+                    "file",
+                    file, text.size(), kLargestFile));
   Case out;
   out.name = std::filesystem::path(file).stem().string();
   const auto table = parse_toml(text, file);
@@ -190,8 +189,7 @@ std::string task_text(const Case& work) {
             ? fmt::format("to do: remove {:.0f} % of {}\n", 100 * target.share,
                           base::printable(target.tissue))
             : fmt::format("to do: {} {}\n", word_of(target.goal), base::printable(target.tissue));
-  if (!work.spare.empty())
-    text += fmt::format("do not cut: {}\n", base::printable(list_of(work.spare), 400));
+  if (!work.spare.empty()) text += fmt::format("do not cut: {}\n", base::list_of(work.spare));
   return text;
 }
 
@@ -206,7 +204,7 @@ Status check_tissues(const Case& work, const volume::TissueTable& tissues) {
   };
   const auto problem = [&](const char* field, const std::string& name) {
     return error(fmt::format("{}.toml: {}: the bone has no tissue \"{}\"; it has {}", work.name,
-                             field, base::printable(name), list_of(names)));
+                             field, base::printable(name), base::list_of(names)));
   };
   for (const std::string& name : work.spare)
     if (missing(name)) return problem("spare", name);

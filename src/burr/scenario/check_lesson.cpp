@@ -1,8 +1,11 @@
 // Names in a lesson: each given once, and each that is used is there.
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <set>
+#include <cstddef>
+#include <map>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "burr/scenario/read_lesson.h"
 
@@ -11,7 +14,12 @@ namespace {
 
 class Checker {
  public:
-  Checker(Reader& reader, const Lesson& lesson) : reader_(reader), lesson_(lesson) {}
+  Checker(Reader& reader, const Lesson& lesson)
+      : reader_(reader),
+        lesson_(lesson),
+        structures_(places_of(lesson.structures, &Structure::name)),
+        regions_(places_of(lesson.regions, &CaseRegion::name)),
+        steps_(places_of(lesson.steps, &Step::id)) {}
 
   void all() {
     once(lesson_.landmarks, &Landmark::name, "landmark.name");
@@ -38,36 +46,44 @@ class Checker {
   }
 
  private:
+  using Places = std::map<std::string_view, std::size_t>;  // of names in a list
+
   template <class Item>
-  void once(const std::vector<Item>& all, std::string Item::*name, const char* field) {
-    std::set<std::string> seen;
-    for (const Item& one : all)
-      if (!(one.*name).empty() && !seen.insert(one.*name).second)
-        reader_.fail_at(
-            one.line, field,
-            fmt::format("\"{}\" is given twice; rename one", base::printable(one.*name)));
+  static Places places_of(const std::vector<Item>& all, std::string Item::*name) {
+    Places places;
+    for (std::size_t n = 0; n < all.size(); ++n) places.emplace(all[n].*name, n);
+    return places;
   }
 
   template <class Item>
-  void find(const std::vector<Item>& all, std::string Item::*field, std::uint32_t line,
-            const char* place, const std::string& name, const char* what) {
-    std::string list;
-    for (const Item& one : all) {
-      if (one.*field == name) return;
-      list += (list.empty() ? "" : ", ") + base::printable(one.*field);
-    }
+  void once(const std::vector<Item>& all, std::string Item::*name, const char* field) {
+    const Places first = places_of(all, name);
+    for (std::size_t n = 0; n < all.size(); ++n)
+      if (!(all[n].*name).empty() && first.at(all[n].*name) != n)
+        reader_.fail_at(
+            all[n].line, field,
+            fmt::format("\"{}\" is given twice; rename one", base::printable(all[n].*name)));
+  }
+
+  void find(const Places& all, std::uint32_t line, const char* place, const std::string& name,
+            const char* what) {
+    if (all.contains(name) || reader_.failed()) return;  // the first mistake counts
+    std::map<std::size_t, std::string_view> by_place;
+    for (const auto& [each, at] : all) by_place.emplace(at, each);
+    std::vector<std::string_view> names;
+    for (const auto& [at, each] : by_place) names.push_back(each);
     reader_.fail_at(line, place,
                     fmt::format("there is no [[{}]] \"{}\"; {}", what, base::printable(name),
-                                list.empty() ? std::string("add it") : "use one of " + list));
+                                all.empty() ? "add it" : "use one of " + base::list_of(names)));
   }
   void structure(std::uint32_t line, const char* place, const std::string& name) {
-    find(lesson_.structures, &Structure::name, line, place, name, "structure");
+    find(structures_, line, place, name, "structure");
   }
   void region(std::uint32_t line, const char* place, const std::string& name) {
-    find(lesson_.regions, &CaseRegion::name, line, place, name, "region");
+    find(regions_, line, place, name, "region");
   }
   void step(std::uint32_t line, const char* place, const std::string& id) {
-    find(lesson_.steps, &Step::id, line, place, id, "step");
+    find(steps_, line, place, id, "step");
   }
 
   void regions() {
@@ -85,35 +101,52 @@ class Checker {
       if (!one.region.empty()) region(one.line, "step.region", one.region);
       for (const std::string& name : one.spare) {
         structure(one.line, "step.spare", name);
-        if (const Structure* spared = lesson_.structure(name); spared != nullptr && spared->glass)
+        if (const auto at = structures_.find(name);
+            at != structures_.end() && lesson_.structures[at->second].glass)
           reader_.fail_at(one.line, "step.spare",
                           fmt::format("\"{}\" is glass, which is never spared; leave it out",
                                       base::printable(name)));
       }
+      if (one.done && !one.done->structure.empty())
+        structure(one.done->line, "step.done.structure", one.done->structure);
+      if (one.done && !one.done->region.empty())
+        region(one.done->line, "step.done.region", one.done->region);
       for (const std::string& id : one.must_precede) step(one.line, "step.must_precede", id);
     }
-    for (const Step& one : lesson_.steps) {
-      std::set<std::string> seen;
-      if (reaches(one.id, one, seen))
-        reader_.fail_at(one.line, "step.must_precede",
-                        fmt::format("\"{}\" would have to come before itself; break the circle",
-                                    base::printable(one.id)));
-    }
+    if (const Step* one = in_a_circle())
+      reader_.fail_at(one->line, "step.must_precede",
+                      fmt::format("\"{}\" would have to come before itself; break the circle",
+                                  base::printable(one->id)));
   }
 
-  // True: `id` comes after `from`, by whatever way.
-  [[nodiscard]] bool reaches(const std::string& id, const Step& from,
-                             std::set<std::string>& seen) const {
-    return std::any_of(
-        from.must_precede.begin(), from.must_precede.end(), [&](const std::string& next) {
-          if (next == id) return true;
-          const Step* step = lesson_.step(next);
-          return step != nullptr && seen.insert(next).second && reaches(id, *step, seen);
-        });
+  // A step that comes after itself; nullptr: none does. Each step is left once, whoever leads to it.
+  [[nodiscard]] const Step* in_a_circle() const {
+    enum class Walk { fresh, on_the_way, left };
+    std::vector<Walk> walked(lesson_.steps.size(), Walk::fresh);
+    std::vector<std::pair<std::size_t, std::size_t>> way;  // a step, and how many were followed
+    for (std::size_t start = 0; start < walked.size(); ++start) {
+      if (walked[start] == Walk::fresh) way.emplace_back(start, 0);
+      while (!way.empty()) {
+        auto& [at, followed] = way.back();
+        walked[at] = Walk::on_the_way;
+        const std::vector<std::string>& after = lesson_.steps[at].must_precede;
+        if (followed == after.size()) {
+          walked[at] = Walk::left;
+          way.pop_back();
+          continue;
+        }
+        const auto next = steps_.find(after[followed++]);
+        if (next == steps_.end()) continue;  // steps() has said so
+        if (walked[next->second] == Walk::on_the_way) return &lesson_.steps[next->second];
+        if (walked[next->second] == Walk::fresh) way.emplace_back(next->second, 0);
+      }
+    }
+    return nullptr;
   }
 
   Reader& reader_;
   const Lesson& lesson_;
+  const Places structures_, regions_, steps_;
 };
 
 }  // namespace

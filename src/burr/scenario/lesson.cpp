@@ -56,13 +56,12 @@ class Placer {
     shape.points = found->points;
   }
   void unknown(const Shape& shape, const std::string& name) {
-    std::string list;
-    for (const Landmark& one : lesson_.landmarks)
-      list += (list.empty() ? "" : ", ") + base::printable(one.name);
-    fail(shape.line,
-         fmt::format(
-             "{}: there is no landmark \"{}\"; {}", word_of(shape.kind), base::printable(name),
-             list.empty() ? "give [[landmark]] with name and at_mm" : "use one of " + list));
+    std::vector<std::string_view> names;
+    for (const Landmark& one : lesson_.landmarks) names.push_back(one.name);
+    fail(shape.line, fmt::format("{}: there is no landmark \"{}\"; {}", word_of(shape.kind),
+                                 base::printable(name),
+                                 names.empty() ? "give [[landmark]] with name and at_mm"
+                                               : "use one of " + base::list_of(names)));
   }
   void fail(std::uint32_t line, const std::string& what) {
     if (!wrong_) wrong_ = error(fmt::format("{}: line {}: {}", file_, line, what));

@@ -105,6 +105,14 @@ struct Structure {
   std::uint32_t line = 0;
 };
 
+// When a step is done, by a measure of docs/metrics.md. This room does not know the measures;
+// scoring/step_done.h does.
+struct DoneWhen {
+  std::string measure, structure, region, along;  // structure, region: the step's own if not given
+  std::map<std::string, double, std::less<>> limits;  // by their names in the file, in its units
+  std::uint32_t line = 0;
+};
+
 struct Step {
   std::string id;
   Texts title, say;
@@ -114,6 +122,7 @@ struct Step {
   std::optional<Range> diameter;          // [m]
   std::vector<std::string> show;          // structures, regions or landmarks to be lit on demand
   std::vector<std::string> must_precede;  // ids of steps
+  std::optional<DoneWhen> done;           // none: only the user says so
   std::uint32_t line = 0;
 };
 
@@ -125,10 +134,11 @@ struct Complication {
   std::uint32_t line = 0;
 };
 
-// Which help a mode offers, as words of the file, and the rule by which guidance fades.
+// Which help a mode offers, as words of the file, and the rule by which guidance fades. A mode that
+// is not given offers what it may (workshop/allowed.h).
 struct Feedback {
-  std::vector<std::string> learn, practise, exam;
-  std::string fade;  // "2,alternate:4,off": full in 2 attempts, every second one of 4, then off
+  std::optional<std::vector<std::string>> learn, practise, exam;
+  std::string fade;  // fade.h; empty: guidance does not fade
 };
 
 // A result that is known to be good: these regions are gone, and this much is left over structures.

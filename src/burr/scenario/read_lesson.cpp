@@ -4,35 +4,16 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <initializer_list>
+
+#include "burr/scenario/fade.h"
 
 namespace burr::scenario {
 namespace {
 
 constexpr double kMm = 1e-3, kMm3 = 1e-9;
 constexpr double kNewest = 2;  // format
-
-// "2,alternate:4,off": so many attempts with full guidance, so many with every second one, then off
-bool is_fade(std::string_view text) {
-  const auto number = [](std::string_view digits) {
-    int value = 0;
-    const auto done = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    return done.ec == std::errc() && done.ptr == digits.data() + digits.size() && value >= 0 &&
-           value <= 1000;
-  };
-  constexpr std::string_view kAlternate = "alternate:";
-  bool last = false;  // on or off must be the end
-  while (!text.empty()) {
-    const std::size_t comma = text.find(',');
-    const std::string_view part = text.substr(0, comma);
-    if (last) return false;
-    last = part == "on" || part == "off";
-    const bool alternates = part.starts_with(kAlternate) && number(part.substr(kAlternate.size()));
-    if (!last && !alternates && !number(part)) return false;
-    text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
-  }
-  return last;
-}
+constexpr std::size_t kMostSteps = 200;
 
 void scale(std::optional<Range>& range, double unit) {
   if (range) *range = {range->first * unit, range->second * unit};
@@ -52,7 +33,7 @@ void read_structure(Reader& reader, Structure& out) {
   reader.flag("optional", out.optional);
   if (out.glass && out.intact != Intact::unsaid)
     reader.fail("glass",
-                "one looks through it, so it cannot be asked to stay intact; leave out one");
+                "burr draws a glass structure clear and lets it be cut; leave out glass or intact");
   reader.range("volume_mm3", out.volume);
   scale(out.volume, kMm3);
   reader.range("inscribed_mm", out.inscribed);
@@ -77,9 +58,22 @@ void read_tool(Reader& reader, Step& out) {
   scale(out.diameter, kMm);
 }
 
+void read_done(Reader& reader, Step& out) {
+  DoneWhen& done = out.done.emplace();
+  done.line = reader.line();
+  done.structure = out.structure;
+  done.region = out.region;
+  reader.text("measure", done.measure, true);
+  reader.text("structure", done.structure);
+  reader.text("region", done.region);
+  reader.text("along", done.along);
+  reader.each_number({"measure", "structure", "region", "along"},
+                     [&](std::string_view key, double value) { done.limits.emplace(key, value); });
+}
+
 void read_step(Reader& reader, Step& out) {
-  reader.only(
-      {"id", "title", "say", "structure", "region", "spare", "tool", "show", "must_precede"});
+  reader.only({"id", "title", "say", "structure", "region", "spare", "tool", "show", "must_precede",
+               "done"});
   out.line = reader.line();
   reader.text("id", out.id, true);
   read_texts(reader, "title", out.title);
@@ -90,17 +84,19 @@ void read_step(Reader& reader, Step& out) {
   reader.table("tool", [&](Reader& inner) { read_tool(inner, out); });
   reader.texts("show", out.show);
   reader.texts("must_precede", out.must_precede);
+  reader.table("done", [&](Reader& inner) { read_done(inner, out); });
 }
 
-// The words that [feedback] knows; what the program does with them is its own matter.
+// The words that [feedback] knows, docs/cases.md.
 constexpr std::array<std::string_view, 8> kWords = {
     "step", "target", "distance", "tone", "technique", "undo", "colours", "see-through"};
 
 void read_feedback(Reader& reader, Feedback& out) {
   reader.only({"learn", "practise", "exam", "fade"});
-  const auto words = [&](std::string_view mode, std::vector<std::string>& to) {
-    reader.texts(mode, to);
-    for (const std::string& word : to) {
+  const auto words = [&](std::string_view mode, std::optional<std::vector<std::string>>& to) {
+    if (!reader.has(mode)) return;
+    reader.texts(mode, to.emplace());
+    for (const std::string& word : *to) {
       std::string list;
       bool known = false;
       for (const std::string_view each : kWords) {
@@ -115,8 +111,13 @@ void read_feedback(Reader& reader, Feedback& out) {
   words("learn", out.learn);
   words("practise", out.practise);
   words("exam", out.exam);
+  if (out.exam)
+    for (const std::string& word : *out.exam)
+      if (word != "colours" && word != "see-through")
+        reader.fail("exam", fmt::format("an exam may offer colours and see-through, never \"{}\"",
+                                        base::printable(word)));
   reader.text("fade", out.fade);
-  if (!out.fade.empty() && !is_fade(out.fade))
+  if (!out.fade.empty() && !fade_of(out.fade))
     reader.fail("fade",
                 "must be numbers of attempts, then on or off, for example \"2,alternate:4,off\"");
 }
@@ -181,7 +182,8 @@ void read_lesson(Reader& reader, Lesson& out) {
   read_regions(reader, out);
   reader.each("structure",
               [&](Reader& inner) { read_structure(inner, out.structures.emplace_back()); });
-  reader.each("step", [&](Reader& inner) { read_step(inner, out.steps.emplace_back()); });
+  reader.each(
+      "step", [&](Reader& inner) { read_step(inner, out.steps.emplace_back()); }, kMostSteps);
   reader.each("complication", [&](Reader& inner) {
     Complication& one = out.complications.emplace_back();
     inner.only({"id", "step", "structure", "say"});

@@ -31,6 +31,9 @@
 
 namespace burr::scenario {
 
+// No list of a case is longer, so that a file which is no case cannot keep burr busy.
+inline constexpr std::size_t kMostEntries = 1000;
+
 class Reader {
  public:
   // place: of the table in the file, "burr."; empty: the whole file.
@@ -105,6 +108,7 @@ class Reader {
     const toml::node* node = find(key, false, "");
     if (node == nullptr) return;
     const toml::array* array = node->as_array();
+    if (array != nullptr && too_long(key, *array, kMostEntries)) return;
     bool good = array != nullptr && !array->empty();
     for (std::size_t n = 0; good && n < array->size(); ++n) {
       const auto one = vector_of((*array)[n]);
@@ -119,6 +123,7 @@ class Reader {
     const toml::node* node = find(key, false, "");
     if (node == nullptr) return;
     const toml::array* array = node->as_array();
+    if (array != nullptr && too_long(key, *array, kMostEntries)) return;
     bool good = array != nullptr;
     for (std::size_t n = 0; good && n < array->size(); ++n) {
       const auto one = (*array)[n].value_exact<std::string>();
@@ -160,13 +165,14 @@ class Reader {
     }
   }
 
-  // reads every [[key]], or every { } of a list
+  // reads every [[key]], or every { } of a list, of which there may be `most`
   template <class Do>
-  void each(std::string_view key, Do&& read) {
+  void each(std::string_view key, Do&& read, std::size_t most = kMostEntries) {
     const toml::node* node = find(key, false, "");
     if (node == nullptr) return;
     const toml::array* array = node->as_array();
     if (array == nullptr) return fail(key, fmt::format("must be a list of tables, [[{}]]", key));
+    if (too_long(key, *array, most)) return;
     std::size_t n = 0;
     for (const toml::node& entry : *array) {
       const toml::table* inner = entry.as_table();
@@ -188,6 +194,19 @@ class Reader {
     }
   }
 
+  // calls read(key, number) for every entry of the table but these, which must be numbers
+  template <class Do>
+  void each_number(std::initializer_list<std::string_view> but, Do&& read) {
+    for (const auto& [key, node] : table_) {
+      if (std::find(but.begin(), but.end(), key.str()) != but.end()) continue;
+      const auto value = node.is_number() ? node.template value<double>() : std::nullopt;
+      if (!value || !std::isfinite(*value))
+        fail(key.str(), "must be a number");
+      else
+        read(key.str(), *value);
+    }
+  }
+
   [[nodiscard]] bool is_table(std::string_view key) const {
     const toml::node* node = table_.get(key);
     return node != nullptr && node->is_table();
@@ -198,6 +217,8 @@ class Reader {
     return node != nullptr && node->is_string();
   }
 
+  [[nodiscard]] bool failed() const { return wrong_.has_value(); }
+
   void fail(std::string_view key, const std::string& what) {
     fail_at(line(key), place_ + base::printable(key), what);
   }
@@ -206,6 +227,11 @@ class Reader {
   }
 
  private:
+  bool too_long(std::string_view key, const toml::array& array, std::size_t most) {
+    if (array.size() <= most) return false;
+    fail(key, fmt::format("has {} entries; use at most {}", array.size(), most));
+    return true;
+  }
   static std::uint32_t line_of(const toml::node& node) {
     return std::max<std::uint32_t>(1, node.source().begin.line);
   }

@@ -17,6 +17,7 @@
 #include "burr/metrics/removed.h"
 #include "burr/metrics/skeletonised.h"
 #include "burr/scoring/measure.h"
+#include "burr/scoring/score.h"
 
 namespace burr::scoring {
 namespace {
@@ -225,6 +226,7 @@ Outcome measure_bone(const Item& item, Scene& scene) {
   if (how == "overhang") return overhang(item, scene);
   if (how == "removed") return removed(item, scene, true);
   if (how == "kept") return removed(item, scene, false);
+  if (auto shape = measure_shape(item, scene)) return *std::move(shape);
   BURR_CHECK(needs_recording(item));  // every measure is in one of the two lists
   return not_assessable(item, "it needs a recording");
 }

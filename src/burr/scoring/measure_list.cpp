@@ -2,10 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <numbers>
+
 namespace burr::scoring {
 namespace {
 
-constexpr double kMm = 1e-3, kMm2 = 1e-6, kMm3 = 1e-9;
+constexpr double kMm = 1e-3, kMm2 = 1e-6, kMm3 = 1e-9, kDegree = std::numbers::pi / 180;
 
 std::vector<Measure> all_measures() {
   using enum Quantity;
@@ -73,6 +75,90 @@ std::vector<Measure> all_measures() {
        .quantity = share,
        .region = true,
        .limits = {{"share", 1, 0.1, 0, 1}}},
+      {.name = "untouched",
+       .part = kProduct,
+       .quantity = time,
+       .structure = true,
+       .limits = {{"most_s", 1, 0.02, -1, 60}}},
+      {.name = "clearance",
+       .part = kProduct,
+       .quantity = length,
+       .structure = true,
+       .region = true,
+       .limits = {{"least_mm", kMm, 2, 0, 10}}},
+      {.name = "axis_entry",
+       .part = kProduct,
+       .quantity = length,
+       .region = true,
+       .on_curve = true,
+       .limits = {{"most_mm", kMm, 2, 0, 20}}},
+      {.name = "axis_apex",
+       .part = kProduct,
+       .quantity = length,
+       .region = true,
+       .on_curve = true,
+       .limits = {{"most_mm", kMm, 1.5, 0, 20}}},
+      {.name = "axis_angle",
+       .part = kProduct,
+       .quantity = angle,
+       .region = true,
+       .on_curve = true,
+       .limits = {{"most_deg", kDegree, 5, 0, 90}}},
+      {.name = "axis_depth",
+       .part = kProduct,
+       .quantity = length,
+       .region = true,
+       .on_curve = true,
+       .limits = {{"off_mm", kMm, 0.5, 0, 20}}},
+      {.name = "axis_width",
+       .part = kProduct,
+       .quantity = length,
+       .region = true,
+       .on_curve = true,
+       .limits = {{"width_mm", kMm, 4, 0, 20}, {"off_mm", kMm, 0.5, 0, 10}}},
+      {.name = "plane_offset",
+       .part = kProduct,
+       .quantity = length,
+       .region = true,
+       .on_plane = true,
+       .limits = {{"most_mm", kMm, 1.5, 0, 10}}},
+      {.name = "plane_angle",
+       .part = kProduct,
+       .quantity = angle,
+       .region = true,
+       .on_plane = true,
+       .limits = {{"most_deg", kDegree, 5, 0, 90}}},
+      {.name = "plane_even",
+       .part = kProduct,
+       .quantity = length,
+       .region = true,
+       .on_plane = true,
+       .limits = {{"most_mm", kMm, 1.5, 0, 10}}},
+      {.name = "cavity_depth",
+       .part = kProduct,
+       .quantity = length,
+       .region = true,
+       .limits = {{"depth_mm", kMm, 2, 0, 50}, {"off_mm", kMm, 0.3, 0, 10}}},
+      {.name = "cavity_floor",
+       .part = kProduct,
+       .quantity = length,
+       .region = true,
+       .limits = {{"most_mm", kMm, 0.2, 0, 10}}},
+      {.name = "cavity_outline",
+       .part = kProduct,
+       .quantity = length,
+       .region = true,
+       .limits = {{"most_mm", kMm, 0.3, 0, 10}}},
+      {.name = "strokes",
+       .part = kProcess,
+       .quantity = length,
+       .limits = {{"least_mm", kMm, 4, 0, 50}, {"from_mm", kMm, 4, -1, 50}}},
+      {.name = "stroke_direction",
+       .part = kProcess,
+       .quantity = share,
+       .on_curve = true,
+       .limits = {{"share", 1, 0.7, 0, 1}}},
+      {.name = "coolant", .part = kProcess, .quantity = share, .limits = {{"share", 1, 0.8, 0, 1}}},
       {.name = "burr_choice",
        .part = kProcess,
        .quantity = share,
@@ -103,6 +189,10 @@ std::string text_of(Quantity quantity, double value) {
       return fmt::format("{:.2f}", value);
     case Quantity::count:
       return fmt::format("{:.0f}", value);
+    case Quantity::angle:
+      return fmt::format("{:.1f} degrees", value / kDegree);
+    case Quantity::time:
+      return fmt::format("{:.2f} s", value);
   }
   return {};
 }

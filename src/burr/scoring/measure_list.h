@@ -17,8 +17,8 @@ enum class Part { product, process };
 [[nodiscard]] const char* word_of(Part part);
 
 // What the value of a measure is.
-enum class Quantity { share, length, area, volume, ratio, count };
-// "62 %", "0.84 mm", "1.3 mm2", "0.05 mm3", "0.71", "2"
+enum class Quantity { share, length, area, volume, ratio, count, angle, time };
+// "62 %", "0.84 mm", "1.3 mm2", "0.05 mm3", "0.71", "2", "4.5 degrees", "0.02 s"
 [[nodiscard]] std::string text_of(Quantity quantity, double value);
 
 // A threshold: a field of an [[item]].
@@ -39,7 +39,9 @@ struct Measure {
   bool structure = false;  // the item must name one; otherwise it must not
   bool region = false;     // the item must name one; otherwise it may if `anywhere`
   bool anywhere = false;
-  bool along = false;  // the item may name a curve
+  bool along = false;     // the item may name a curve among the landmarks
+  bool on_curve = false;  // it must
+  bool on_plane = false;  // it must name a plane among the landmarks
   std::vector<Limit> limits = {};
 };
 

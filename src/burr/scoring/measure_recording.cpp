@@ -13,12 +13,13 @@
 #include "burr/metrics/process.h"
 #include "burr/record/course.h"
 #include "burr/scoring/measure.h"
+#include "burr/scoring/score.h"
 #include "burr/scoring/step_order.h"
 
 namespace burr::scoring {
 namespace {
 
-constexpr std::string_view kSoft = "intact_soft", kOrder = "order";
+constexpr std::string_view kSoft = "intact_soft", kSolid = "untouched", kOrder = "order";
 
 // What the steps of the case spare, without plates of bone, which are to be thinned.
 std::vector<std::string> critical(const scenario::Lesson& lesson) {
@@ -45,6 +46,24 @@ Outcome soft(const Item& item, const metrics::Process& process, double rate_hz) 
     } else {
       out.value = 0;  // it stayed outside; by how much is no merit
     }
+    return out;
+  }
+  return not_assessable(item, "the bone has no label of it");
+}
+
+// How long a turning burr touched a structure of solid tissue.
+Outcome untouched(const Item& item, const metrics::Process& process, Scene& scene, double rate_hz) {
+  for (const metrics::Process::SolidResult& one : process.solid) {
+    if (one.name != item.id) continue;
+    if (!one.contacts) return not_assessable(item, one.contacts.reason());
+    const metrics::Contacts& contacts = *one.contacts;
+    Outcome out = decided(
+        item,
+        metrics::intact_mark(contacts.seconds(), item.limit("most_s"), 1 / rate_hz, scene.worked()),
+        "time that a turning burr touched it", false);
+    if (contacts.list().empty()) return out;
+    out.place = contacts.list().front().at;
+    out.tick = static_cast<std::uint64_t>(std::llround(contacts.list().front().begin * rate_hz));
     return out;
   }
   return not_assessable(item, "the bone has no label of it");
@@ -108,6 +127,11 @@ Result<metrics::Process> process_of(const Rubric& rubric, Scene& scene, record::
                                distance(item.structure),
                                scene.worked(),
                                {.p2 = item.limit("deep_mm")}});
+  for (const Item& item : rubric.items)
+    if (item.how->name == kSolid && !scene.tissues(item.structure).empty())
+      settings.solid.push_back({item.id, scene.tissues(item.structure),
+                                kept.emplace_back(scene.distance_to_solid()).get(),
+                                scene.before().grid().voxel});
   if (scene.stopped()) return error(Trouble::interrupted, "stopped");
   return metrics::process_of(player, settings, progress);
 }
@@ -115,7 +139,7 @@ Result<metrics::Process> process_of(const Rubric& rubric, Scene& scene, record::
 }  // namespace
 
 bool needs_recording(const Item& item) {
-  return item.part == Part::process || item.how->name == kSoft;
+  return item.part == Part::process || item.how->name == kSoft || item.how->name == kSolid;
 }
 
 Result<std::vector<Outcome>> measure_recording(const Rubric& rubric, Scene& scene,
@@ -128,7 +152,10 @@ Result<std::vector<Outcome>> measure_recording(const Rubric& rubric, Scene& scen
   for (const Item& item : rubric.items) {
     if (!needs_recording(item)) continue;
     const std::string_view how = item.how->name;
-    out.push_back(how == kSoft           ? soft(item, *process, rate_hz)
+    auto manner = measure_manner(item, *process, scene.lesson());
+    out.push_back(manner                 ? *std::move(manner)
+                  : how == kSoft         ? soft(item, *process, rate_hz)
+                  : how == kSolid        ? untouched(item, *process, scene, rate_hz)
                   : how == kOrder        ? order(item, scene.lesson(), player)
                   : how == "burr_choice" ? burr_choice(item, *process)
                                          : restraint(item, *process, rate_hz));

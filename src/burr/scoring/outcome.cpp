@@ -2,32 +2,22 @@
 
 #include <fmt/core.h>
 
+#include <map>
+#include <string_view>
+
 #include "burr/base/check.h"
 #include "burr/base/printable.h"
 
 namespace burr::scoring {
 namespace {
 
-std::size_t place_of(const Rubric& rubric, const std::string& id) {
-  std::size_t n = 0;
-  while (n < rubric.items.size() && rubric.items[n].id != id) ++n;
-  BURR_CHECK(n < rubric.items.size());
-  return n;
-}
-
-// depth: ends a circle, which reading refuses
-void require(const Rubric& rubric, std::span<Outcome> outcomes, std::size_t n, std::size_t depth) {
-  const std::string& needs = rubric.items[n].needs;
-  Outcome& mine = outcomes[n];
-  if (needs.empty() || depth == 0) return;
-  const std::size_t other = place_of(rubric, needs);
-  require(rubric, outcomes, other, depth - 1);
-  if (mine.verdict != Verdict::met || outcomes[other].verdict == Verdict::met) return;
-  mine.verdict = outcomes[other].verdict;
-  mine.borderline = outcomes[other].borderline;
-  mine.earned = outcomes[other].earned;
-  mine.reason =
-      fmt::format("it requires \"{}\", which is {}", base::printable(needs), word_of(mine.verdict));
+void require(const Rubric& rubric, Outcome& mine, const Outcome& other, std::size_t n) {
+  if (mine.verdict != Verdict::met || other.verdict == Verdict::met) return;
+  mine.verdict = other.verdict;
+  mine.borderline = other.borderline;
+  mine.earned = other.earned;
+  mine.reason = fmt::format("it requires \"{}\", which is {}",
+                            base::printable(rubric.items[n].needs), word_of(mine.verdict));
 }
 
 }  // namespace
@@ -68,8 +58,21 @@ Total total_of(const Rubric& rubric, std::span<const Outcome> outcomes, Part par
 
 void apply_requires(const Rubric& rubric, std::span<Outcome> outcomes) {
   BURR_CHECK(outcomes.size() == rubric.items.size());
-  for (std::size_t n = 0; n < outcomes.size(); ++n)
-    require(rubric, outcomes, n, rubric.items.size());
+  std::map<std::string_view, std::size_t> places;
+  for (std::size_t n = 0; n < outcomes.size(); ++n) places.emplace(rubric.items[n].id, n);
+  std::vector<bool> done(outcomes.size());
+  for (std::size_t n = 0; n < outcomes.size(); ++n) {
+    std::vector<std::size_t> way;  // to an item that requires nothing, or that is done
+    for (std::size_t at = n; !done[at];) {
+      done[at] = true;  // ends a circle, which reading refuses
+      way.push_back(at);
+      if (rubric.items[at].needs.empty()) break;
+      at = places.at(rubric.items[at].needs);
+    }
+    for (; !way.empty(); way.pop_back())
+      if (const std::string& needs = rubric.items[way.back()].needs; !needs.empty())
+        require(rubric, outcomes[way.back()], outcomes[places.at(needs)], way.back());
+  }
 }
 
 }  // namespace burr::scoring

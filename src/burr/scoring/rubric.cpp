@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <safe_toml.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -23,6 +24,7 @@ namespace {
 using scenario::Reader;
 
 constexpr std::size_t kLargestFile = 1 << 20;  // bytes
+constexpr std::size_t kMostItems = 500;
 
 template <class List, class Name>
 std::string list_of(const List& list, const Name& name) {
@@ -50,7 +52,8 @@ std::vector<std::string_view> fields_of(const Measure& how) {
                                           "requires", "source", "calibrated", "say"};
   if (how.structure) fields.emplace_back("structure");
   if (how.region || how.anywhere) fields.emplace_back("region");
-  if (how.along) fields.emplace_back("along");
+  if (how.along || how.on_curve) fields.emplace_back("along");
+  if (how.on_plane) fields.emplace_back("plane");
   for (const Limit& limit : how.limits) fields.emplace_back(limit.field);
   return fields;
 }
@@ -59,12 +62,13 @@ void read_limits(Reader& reader, Item& out) {
   for (const Limit& limit : out.how->limits) {
     double value = limit.preset;
     // along a tube the share is one of slices, and each slice has a near side
-    if (!out.along.empty() && std::string_view(limit.field) == "share") value = kShareAlong;
+    if (out.how->along && !out.along.empty() && std::string_view(limit.field) == "share")
+      value = kShareAlong;
     reader.number(limit.field, value, limit.above, limit.most);
     out.limits[limit.field] = value * limit.unit;
   }
   for (const auto& [low, high] : {std::pair{"lo_mm", "hi_mm"}, std::pair{"from_mm", "to_mm"}})
-    if (out.limits.contains(low) && out.limit(low) >= out.limit(high))
+    if (out.limits.contains(low) && out.limits.contains(high) && out.limit(low) >= out.limit(high))
       reader.fail(high, fmt::format("must be above {} ({:g} mm)", low, 1e3 * out.limit(low)));
 }
 
@@ -82,14 +86,15 @@ void read_item(Reader& reader, Item& out) {
   reader.flag("gate", out.gate);
   reader.text("structure", out.structure, out.how->structure);
   reader.text("region", out.region, out.how->region);
-  reader.text("along", out.along);
+  reader.text("along", out.along, out.how->on_curve);
+  reader.text("plane", out.plane, out.how->on_plane);
   reader.text("requires", out.needs);
   reader.text("source", out.source);
   reader.flag("calibrated", out.calibrated);
   scenario::read_texts(reader, "say", out.say, true);
   read_limits(reader, out);
   out.lines[""] = reader.line();
-  for (const char* field : {"structure", "region", "along", "requires"})
+  for (const char* field : {"structure", "region", "along", "plane", "requires"})
     out.lines[field] = reader.line(field);
 }
 
@@ -106,10 +111,14 @@ void check_ids(Reader& reader, const Rubric& rubric) {
 
 // `requires` names an item of the same part, and whoever follows it does not come back.
 void check_needs(Reader& reader, const Rubric& rubric) {
+  std::map<std::string_view, const Item*> by_id;
+  for (const Item& item : rubric.items) by_id.emplace(item.id, &item);
+  std::set<std::string_view> good;  // nobody goes a way twice
   for (const Item& item : rubric.items) {
-    std::set<std::string> way = {item.id};
-    for (const Item* at = &item; at != nullptr && !at->needs.empty();) {
-      const Item* next = rubric.item(at->needs);
+    std::set<std::string_view> way = {item.id};
+    for (const Item* at = &item; at != nullptr && !at->needs.empty() && !good.contains(at->id);) {
+      const auto found = by_id.find(at->needs);
+      const Item* next = found == by_id.end() ? nullptr : found->second;
       if (next == nullptr) {
         reader.fail_at(at->lines.at("requires"), "requires",
                        fmt::format("there is no item \"{}\"; use the id of one of these: {}",
@@ -131,15 +140,17 @@ void check_needs(Reader& reader, const Rubric& rubric) {
       }
       at = next;
     }
+    good.merge(way);
   }
 }
 
 Error missing(const Rubric& rubric, const Item& item, const char* field, const std::string& name,
               const std::string& known) {
-  return error(fmt::format(
-      "{}: line {}: {}: the case \"{}\" has no {} \"{}\"; use one of {}", rubric.file,
-      item.lines.at(field), field, base::printable(rubric.case_name),
-      std::string_view(field) == "along" ? "curve" : field, base::printable(name), known));
+  return error(fmt::format("{}: line {}: {}: the case \"{}\" has no {} \"{}\"; use one of {}",
+                           rubric.file, item.lines.at(field), field,
+                           base::printable(rubric.case_name),
+                           std::string_view(field) == "along" ? "curve among its landmarks" : field,
+                           base::printable(name), known));
 }
 
 }  // namespace
@@ -199,9 +210,12 @@ Result<Rubric> parse_rubric(std::string_view text, std::string_view file) {
     inner.text("case", out.case_name, true);
   });
   if (!reader.has("item")) reader.fail("item", "is missing; give at least one [[item]]");
-  reader.each("item", [&](Reader& inner) {
-    if (!wrong) read_item(inner, out.items.emplace_back());
-  });
+  reader.each(
+      "item",
+      [&](Reader& inner) {
+        if (!wrong) read_item(inner, out.items.emplace_back());
+      },
+      kMostItems);
   if (wrong) return *wrong;
   check_ids(reader, out);
   check_needs(reader, out);
@@ -216,13 +230,23 @@ Status check(const Rubric& rubric, const scenario::Lesson& lesson) {
       return missing(rubric, item, "structure", item.structure, list_of(lesson.structures, name));
     if (!item.region.empty() && lesson.region(item.region) == nullptr)
       return missing(rubric, item, "region", item.region, list_of(lesson.regions, name));
-    if (item.along.empty()) continue;
-    const scenario::Landmark* curve = lesson.landmark(item.along);
-    if (curve != nullptr && curve->points.size() > 1) continue;
-    std::vector<scenario::Landmark> curves;
-    for (const scenario::Landmark& one : lesson.landmarks)
-      if (one.points.size() > 1) curves.push_back(one);
-    return missing(rubric, item, "along", item.along, list_of(curves, name));
+    const auto landmark = [&](const char* field, const std::string& wanted, auto is) {
+      std::vector<scenario::Landmark> of_kind;
+      for (const scenario::Landmark& one : lesson.landmarks)
+        if (is(one)) of_kind.push_back(one);
+      const bool found =
+          wanted.empty() || std::any_of(of_kind.begin(), of_kind.end(),
+                                        [&](const auto& l) { return l.name == wanted; });
+      return found ? fine() : Status(missing(rubric, item, field, wanted, list_of(of_kind, name)));
+    };
+    if (const Status there =
+            landmark("along", item.along, [](const auto& l) { return l.points.size() > 1; });
+        !there)
+      return there;
+    if (const Status there =
+            landmark("plane", item.plane, [](const auto& l) { return l.normal.has_value(); });
+        !there)
+      return there;
   }
   return fine();
 }

@@ -23,9 +23,9 @@ struct Item {
   std::string id;
   Part part = Part::product;
   double weight = 1;
-  bool gate = false;             // unmet: not safe, whatever the total
-  const Measure* how = nullptr;  // never nullptr after reading
-  std::string structure, region, along;
+  bool gate = false;                                  // unmet: not safe, whatever the total
+  const Measure* how = nullptr;                       // never nullptr after reading
+  std::string structure, region, along, plane;        // names of the case; empty: none
   std::map<std::string, double, std::less<>> limits;  // every threshold of the measure, SI
   std::string needs;        // `requires` in the file: an item that must be met too; empty: none
   std::string source;       // where the item and its thresholds come from

@@ -67,15 +67,30 @@ const metrics::VoxelSet& Scene::voxels(const std::string& structure) {
 
 std::shared_ptr<const volume::DistanceTo> Scene::distance(const std::string& structure) {
   auto& kept = distances_[structure];
-  if (kept) return kept;
-  volume::DistanceSettings settings;
-  settings.reach = kReach;
-  settings.threads = kThreads;
-  auto made = volume::DistanceTo::make(before_, tissues(structure), settings, progress_);
-  stopped_ = stopped_ || !made.ok();
-  kept = std::make_shared<const volume::DistanceTo>(made.ok() ? std::move(*made)
-                                                              : volume::DistanceTo());
+  if (!kept) kept = made_distance(tissues(structure), kReach);
   return kept;
+}
+
+std::shared_ptr<const volume::DistanceTo> Scene::distance_to_solid() {
+  if (to_solid_) return to_solid_;
+  std::vector<volume::TissueId> solid;
+  const auto& all = before_.tissues().tissues;
+  for (std::size_t id = 0; id < all.size(); ++id)
+    if (all[id].kind == volume::TissueKind::solid)
+      solid.push_back(static_cast<volume::TissueId>(id));
+  to_solid_ = made_distance(solid, 4 * before_.grid().voxel);
+  return to_solid_;
+}
+
+std::shared_ptr<const volume::DistanceTo> Scene::made_distance(
+    const std::vector<volume::TissueId>& tissues, double reach) {
+  volume::DistanceSettings settings;
+  settings.reach = reach;
+  settings.threads = kThreads;
+  auto made = volume::DistanceTo::make(before_, tissues, settings, progress_);
+  stopped_ = stopped_ || !made.ok();
+  return std::make_shared<const volume::DistanceTo>(made.ok() ? std::move(*made)
+                                                              : volume::DistanceTo());
 }
 
 Region Scene::region_of(const scenario::Shape& shape) {

@@ -39,6 +39,8 @@ class Scene {
   [[nodiscard]] std::vector<math::Vec3> towards() const;  // at least one
   [[nodiscard]] const metrics::VoxelSet& voxels(const std::string& structure);
   [[nodiscard]] std::shared_ptr<const volume::DistanceTo> distance(const std::string& structure);
+  // To all solid tissues, a few voxels far: what a burr touches.
+  [[nodiscard]] std::shared_ptr<const volume::DistanceTo> distance_to_solid();
   // "": everywhere
   [[nodiscard]] metrics::Region region(const std::string& name);
   [[nodiscard]] const metrics::Assessed<metrics::Cover>& cover(const std::string& structure,
@@ -50,6 +52,8 @@ class Scene {
 
  private:
   metrics::Region region_of(const scenario::Shape& shape);
+  std::shared_ptr<const volume::DistanceTo> made_distance(
+      const std::vector<volume::TissueId>& tissues, double reach);
 
   const volume::Bone &before_, &after_;
   const scenario::Lesson& lesson_;
@@ -59,6 +63,7 @@ class Scene {
   std::map<std::string, std::shared_ptr<const volume::DistanceTo>> distances_;
   std::map<std::tuple<std::string, std::string, std::size_t>, metrics::Assessed<metrics::Cover>>
       covers_;
+  std::shared_ptr<const volume::DistanceTo> to_solid_;
   double worked_ = -1;  // below 0: not known yet
 };
 

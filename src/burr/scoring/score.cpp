@@ -15,7 +15,10 @@ namespace {
 void read_ending(const record::Player* player, Score& out) {
   const auto ending = player != nullptr ? player->ending() : std::nullopt;
   out.unfinished = ending != record::Ending::declared_done;
-  out.ending = ending ? record::word_of(*ending) : "no end in the recording";
+  const bool cut_off = player != nullptr && !player->finished();
+  out.ending = ending    ? record::word_of(*ending)
+               : cut_off ? "cut off"
+                         : "the recording does not say how it ended";
 }
 
 }  // namespace

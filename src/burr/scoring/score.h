@@ -23,12 +23,15 @@
 
 namespace burr::scoring {
 
+// True: the two bones do not decide this item; it needs the recording.
+[[nodiscard]] bool needs_recording(const Item& item);
+
 struct Score {
   std::vector<Outcome> outcomes;  // one for each item of the rubric, in its order
   Total product, process;
   double worked = 0;       // share removed of what the case says to remove
   bool unfinished = true;  // the work was not declared done
-  std::string ending;      // "declared done", "time up", "broke off", "no end in the recording"
+  std::string ending;      // "declared done", "time up", "broke off", or why it is not known
   Shown shown;
 };
 

@@ -118,6 +118,7 @@ void Session::loop(std::uint64_t ticks) {
 
   for (std::uint64_t n = 0;
        n < ticks && !stop_.load(std::memory_order_relaxed) && !device_->finished(); ++n) {
+    if (between_ && !settings_.realtime && done_.load() % between_every_ == 0) between_();
     const rt::TickTime time = clock.wait();
     bool lost = false;
     if (settings_.realtime) {

@@ -13,9 +13,11 @@
 
 #include <array>
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "burr/base/progress.h"
@@ -92,6 +94,14 @@ class Session {
   // `watch` must outlive the session's last tick. nullptr: none.
   void set_watch(rt::Latest<tick::TickRow>* watch) { servo_->set_watch(watch); }
 
+  // Calls `what` before the first tick and then before every `every`-th one, on the thread of the
+  // ticks, where it may read the bone and send commands. For scripted hands: it may take its time,
+  // so a session in real time never calls it. Call it before run(); {}: nothing.
+  void set_between_ticks(std::function<void()> what, std::uint64_t every) {
+    between_ = std::move(what);
+    between_every_ = every;
+  }
+
   // Runs until the hand has finished, `seconds` of its time are over, or progress is cancelled;
   // returns when the servo has stopped.
   void run(double seconds, Progress& progress);
@@ -110,6 +120,8 @@ class Session {
   // The temperature, ten times a second of the session's time; false: nothing new, or not
   // requested.
   [[nodiscard]] bool heat(thermal::HeatSummary& newest) { return heat_ && heat_->take(newest); }
+  // ticks so far; any thread
+  [[nodiscard]] std::uint64_t ticks() const { return done_.load(std::memory_order_relaxed); }
   // present radius of the burr's head [m]; any thread
   [[nodiscard]] double burr_radius() const { return servo_->burr_radius(); }
   // What this machine is too slow for at present: from Shed::picture and Shed::mesh on, the caller
@@ -147,6 +159,8 @@ class Session {
   std::unique_ptr<tick::SecondHand> second_;
   std::unique_ptr<haptics::Watchdog> watchdog_;
   record::Recorder* recorder_ = nullptr;
+  std::function<void()> between_;
+  std::uint64_t between_every_ = 1;
 
   std::unique_ptr<rt::Thread> thread_, guard_, ahead_;
   std::atomic<bool> running_ = false, stop_ = false;

@@ -115,20 +115,19 @@ class DistanceTo::Maker {
   }
 
   [[nodiscard]] Result<DistanceTo> make(const DistanceSettings& settings, Progress& progress) {
-    if (!any()) return DistanceTo();
-    const math::Ijk size = bone_.grid().size;
+    if (!find_voxels()) return DistanceTo();
     choose(settings);
     // the result of the first two passes: few columns and rows, all slices
-    squares_.assign(in_slice_ * sized(size.z()), kBeyond);
+    squares_.assign(in_slice_ * sized(size_.z()), kBeyond);
     whose_.assign(squares_.size(), 0);
     made_.square_.assign(in_slice_ * sized(kept_.z()), kBeyond);
     made_.tissue_.assign(made_.square_.size(), 0);
     const char* stage = "measuring the distance to structures to spare";
     progress.report(0, stage);
-    const bool flat = in_parallel(size.z(), settings.threads, progress, Room(*this),
+    const bool flat = in_parallel(size_.z(), settings.threads, progress, Room(*this),
                                   [this](int k, Room& room) { along_rows_and_columns(k, room); });
     progress.report(0.8, stage);
-    if (!flat || !in_parallel(kept_.y(), settings.threads, progress, Line(sized(size.z())),
+    if (!flat || !in_parallel(kept_.y(), settings.threads, progress, Line(sized(size_.z())),
                               [this](int m, Line& line) { through_slices(m, line); }))
       return error(Trouble::interrupted, "stopped");
     progress.report(1, stage);
@@ -140,7 +139,7 @@ class DistanceTo::Maker {
   struct Room {
     explicit Room(const Maker& maker)
         : row(sized((maker.kept_.x() - 1) * maker.made_.step_ + 1)),
-          column(sized(maker.bone_.grid().size.y())),
+          column(sized(maker.size_.y())),
           labels(row.square.size()),
           squares(sized(maker.kept_.x()) * column.square.size()),
           whose(squares.size()) {}
@@ -156,34 +155,53 @@ class DistanceTo::Maker {
     return !solid_[tissue[v]] || (field != nullptr && field[v] >= kIso) ? tissue[v] : TissueId{0};
   }
 
-  [[nodiscard]] bool any() const {
+  // The box of bricks that hold such voxels. False: there are none.
+  [[nodiscard]] bool find_voxels() {
+    bool found = false;
     for (BrickIndex brick = 0; brick < bone_.brick_count(); ++brick) {
       const TissueId* tissue = bone_.brick_tissue(brick);
       const Field* field = bone_.brick_field(brick);
-      for (int v = 0; tissue != nullptr && v < kBrickVoxels; ++v)
-        if (counted(tissue, field, v) != 0) return true;
+      bool here = false;
+      for (int v = 0; tissue != nullptr && v < kBrickVoxels && !here; ++v)
+        here = counted(tissue, field, v) != 0;
+      if (!here) continue;
+      const math::Ijk first = bone_.brick_ijk(brick);
+      lo_ = found ? math::Ijk(lo_.cwiseMin(first)) : first;
+      hi_ = found ? math::Ijk(hi_.cwiseMax(first)) : first;
+      found = true;
     }
-    return false;
+    return found;
   }
 
-  // Decides which voxels are kept: every step-th, and one at the far border or beyond it.
+  // Decides which voxels of the grid are kept: every step-th, and one at the far border or beyond it;
+  // of those, the ones from which anything within the reach is interpolated.
   void choose(const DistanceSettings& settings) {
     const Grid& grid = bone_.grid();
     made_.grid_ = grid;
     made_.reach_ = std::min(settings.reach, kFarthest * grid.voxel);
     for (made_.step_ = 1;; ++made_.step_) {
-      kept_ = ((grid.size.array() + (made_.step_ - 2)) / made_.step_ + 1).matrix();
+      const int step = made_.step_;
+      made_.all_ = ((grid.size.array() + (step - 2)) / step + 1).matrix();
+      // farther than the reach by the diagonal of a cell
+      const int margin = static_cast<int>(std::ceil(made_.reach_ / grid.voxel)) + 2 * step + 2;
+      made_.first_ = ((lo_.array() - margin).max(0) / step).matrix();
+      const math::Ijk end =
+          ((hi_.array() + (kBrickEdge + margin)) / step + 2).min(made_.all_.array()).matrix();
+      kept_ = end - made_.first_;
       in_slice_ = sized(kept_.x()) * sized(kept_.y());
-      if (in_slice_ * sized(kept_.z()) <= std::max<std::size_t>(settings.most_kept, 8)) break;
+      const std::size_t whole =
+          sized(made_.all_.x()) * sized(made_.all_.y()) * sized(made_.all_.z());
+      if (whole <= std::max<std::size_t>(settings.most_kept, 8)) break;
     }
     made_.kept_ = kept_;
+    start_ = made_.first_ * made_.step_;
+    size_ = ((kept_.array() - 1) * made_.step_ + 1).min((grid.size - start_).array()).matrix();
   }
 
   void along_rows_and_columns(int k, Room& room) {
-    const math::Ijk size = bone_.grid().size;
     const std::size_t columns = sized(kept_.x()), step = sized(made_.step_);
-    for (int j = 0; j < size.y(); ++j) {
-      read_row(j, k, room.labels);
+    for (int j = 0; j < size_.y(); ++j) {
+      read_row(start_.y() + j, start_.z() + k, room.labels);
       nearest_in_row(room.labels, room.row);
       for (std::size_t n = 0; n < columns; ++n) {
         room.squares[sized(j) * columns + n] = room.row.square[n * step];
@@ -196,7 +214,7 @@ class DistanceTo::Maker {
         room.column.tissue[j] = room.whose[j * columns + n];
       }
       const std::size_t to = sized(k) * in_slice_ + n;
-      envelope(room.column, size.y(), kept_.y(), made_.step_,
+      envelope(room.column, size_.y(), kept_.y(), made_.step_,
                [&](int m, std::uint16_t square, TissueId tissue) {
                  squares_[to + sized(m) * columns] = square;
                  whose_[to + sized(m) * columns] = tissue;
@@ -204,15 +222,17 @@ class DistanceTo::Maker {
     }
   }
 
+  // j, k: of the grid; labels: from the first voxel of the box on
   void read_row(int j, int k, std::vector<TissueId>& labels) const {
-    const int first = (k % kBrickEdge * kBrickEdge + j % kBrickEdge) * kBrickEdge;
-    for (int bi = 0; bi < bone_.bricks().x(); ++bi) {
-      const BrickIndex brick = bone_.brick_at(bi, j / kBrickEdge, k / kBrickEdge);
+    const int row = (k % kBrickEdge * kBrickEdge + j % kBrickEdge) * kBrickEdge;
+    const int begin = start_.x(), end = begin + size_.x();
+    for (int i = begin; i < end;) {
+      const BrickIndex brick = bone_.brick_at(i / kBrickEdge, j / kBrickEdge, k / kBrickEdge);
       const TissueId* tissue = bone_.brick_tissue(brick);
       const Field* field = bone_.brick_field(brick);
-      const int i = bi * kBrickEdge, several = std::min(kBrickEdge, bone_.grid().size.x() - i);
-      for (int n = 0; n < several; ++n)
-        labels[sized(i + n)] = tissue == nullptr ? TissueId{0} : counted(tissue, field, first + n);
+      for (const int last = std::min(end, (i / kBrickEdge + 1) * kBrickEdge); i < last; ++i)
+        labels[sized(i - begin)] =
+            tissue == nullptr ? TissueId{0} : counted(tissue, field, row + i % kBrickEdge);
     }
   }
 
@@ -235,6 +255,8 @@ class DistanceTo::Maker {
   const Bone& bone_;
   std::array<bool, 256> wanted_ = {}, solid_ = {};
   DistanceTo made_;
+  math::Ijk lo_ = {0, 0, 0}, hi_ = {0, 0, 0};       // first voxels of the outermost bricks
+  math::Ijk start_ = {0, 0, 0}, size_ = {0, 0, 0};  // voxels of the grid that are read
   math::Ijk kept_ = {0, 0, 0};
   std::size_t in_slice_ = 0;            // kept voxels per slice
   std::vector<std::uint16_t> squares_;  // (columns kept x rows kept x slices)
@@ -249,13 +271,13 @@ Result<DistanceTo> DistanceTo::make(const Bone& bone, std::span<const TissueId> 
 Nearest DistanceTo::at(const math::Vec3& p) const BURR_RT {
   if (empty() || !p.allFinite()) return {};
   const math::Vec3 wanted = grid_.grid_from_world(p) / step_;  // in kept voxels
-  const math::Vec3 last = (kept_ - math::Ijk::Ones()).cast<double>();
+  const math::Vec3 last = (all_ - math::Ijk::Ones()).cast<double>();
   const math::Vec3 inside = wanted.cwiseMax(0).cwiseMin(last);
   const math::Ijk low = inside.array()
                             .floor()
                             .matrix()
                             .cast<int>()
-                            .cwiseMin(kept_ - 2 * math::Ijk::Ones())
+                            .cwiseMin(all_ - 2 * math::Ijk::Ones())
                             .cwiseMax(0);
   const math::Vec3 part = inside - low.cast<double>();
 
@@ -263,10 +285,11 @@ Nearest DistanceTo::at(const math::Vec3& p) const BURR_RT {
   Nearest found;
   for (int corner = 0; corner < 8; ++corner) {
     const math::Ijk bit(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
-    const math::Ijk ijk = (low + bit).cwiseMin(kept_ - math::Ijk::Ones());
+    const math::Ijk ijk = (low + bit).cwiseMin(all_ - math::Ijk::Ones()) - first_;
     const double weight = (bit.x() ? part.x() : 1 - part.x()) *
                           (bit.y() ? part.y() : 1 - part.y()) * (bit.z() ? part.z() : 1 - part.z());
     if (weight <= 0) continue;
+    if ((ijk.array() < 0).any() || (ijk.array() >= kept_.array()).any()) return {};  // too far
     const std::size_t place =
         (static_cast<std::size_t>(ijk.z()) * static_cast<std::size_t>(kept_.y()) +
          static_cast<std::size_t>(ijk.y())) *

@@ -15,8 +15,9 @@
 // voxel in each row, then the lower envelope of parabolas (Felzenszwalb & Huttenlocher 2012; in
 // integers as Meijster et al. 2000). Values are kept at every `step`-th voxel and interpolated
 // trilinearly: the error is at most sqrt(3)/2 step voxels, since D has slope 1, and about 0.02
-// voxel around that ball. There is no answer where a kept neighbour is beyond the reach. The reach
-// is at most 255 voxels, since a square must fit into 16 bits.
+// voxel around that ball. There is no answer where a kept neighbour is beyond the reach, and none is
+// kept that is farther than the reach from the box of these tissues. The reach is at most 255 voxels,
+// since a square must fit into 16 bits.
 //
 // Frame: world. Thread: make() uses several; at() from any, wait-free. Memory: 3 bytes per kept
 // voxel; while it is made, 3 more bytes for each kept voxel of a slice, for every slice; none if
@@ -71,7 +72,9 @@ class DistanceTo {
   Grid grid_;
   int step_ = 1;
   double reach_ = 0;
-  math::Ijk kept_ = {0, 0, 0};         // number along each axis
+  math::Ijk all_ = {0, 0, 0};          // number along each axis of the grid
+  math::Ijk first_ = {0, 0, 0};        // of them the first that is kept
+  math::Ijk kept_ = {0, 0, 0};         // number that is kept
   std::vector<std::uint16_t> square_;  // (kept) squared distance, or kBeyond        [voxel^2]
   std::vector<TissueId> tissue_;       // (kept) the nearest tissue
 };

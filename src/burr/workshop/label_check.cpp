@@ -209,8 +209,9 @@ std::vector<TissueId> neighbours_of(const Part& part, const volume::Bone& bone,
 void judge(const char* what, double value, const std::optional<scenario::Range>& range, double unit,
            const char* name, std::vector<std::string>& faults) {
   if (!range || (value >= range->first && value <= range->second)) return;
-  faults.push_back(fmt::format("{} {:.3g}{}, expected {:.3g} to {:.3g}{}", what, value / unit, name,
-                               range->first / unit, range->second / unit, name));
+  faults.push_back(fmt::format("{} {}{}, expected {} to {}{}", what, figure(value / unit, 3), name,
+                               figure(range->first / unit, 3), figure(range->second / unit, 3),
+                               name));
 }
 
 bool meet(const std::vector<TissueId>& neighbours, const std::vector<TissueId>& others) {
@@ -227,8 +228,8 @@ void judge_all(const scenario::Structure& one, const scenario::Lesson& lesson,
   judge("its inscribed radius is", f.inscribed, one.inscribed, 1e-3, " mm", faults);
   judge("its pieces are", f.pieces, one.pieces, 1, "", faults);
   if (f.length < one.length)
-    faults.push_back(fmt::format("it is {:.3g} mm long, expected at least {:.3g} mm",
-                                 1e3 * f.length, 1e3 * one.length));
+    faults.push_back(fmt::format("it is {} mm long, expected at least {} mm",
+                                 figure(1e3 * f.length, 3), figure(1e3 * one.length, 3)));
   for (const std::string& name : one.touches)
     if (const auto others = tissues_of(*lesson.structure(name), table);
         !others.empty() && !meet(f.neighbours, others))
@@ -239,6 +240,18 @@ void judge_all(const scenario::Structure& one, const scenario::Lesson& lesson,
 }
 
 }  // namespace
+
+std::string figure(double value, int digits) {
+  if (value == 0 || !std::isfinite(value)) return fmt::format("{:g}", value);
+  const int before = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+  if (const double unit = std::pow(10, before - digits); unit > 1)
+    value = std::round(value / unit) * unit;
+  std::string text = fmt::format("{:.{}f}", value, std::max(0, digits - before));
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
 
 LabelFigures label_figures(const volume::Bone& bone, std::span<const TissueId> tissues) {
   std::array<bool, 256> wanted{};

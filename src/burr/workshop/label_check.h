@@ -34,6 +34,10 @@ struct LabelFigures {
 [[nodiscard]] LabelFigures label_figures(const volume::Bone& bone,
                                          std::span<const volume::TissueId> tissues);
 
+// "11810", "0.85": a number rounded to so many digits, without an exponent and without zeros at its
+// end. digits: 1 to 15.
+[[nodiscard]] std::string figure(double value, int digits);
+
 // The tissues of a bone that belong to a structure, by its names.
 [[nodiscard]] std::vector<volume::TissueId> tissues_of(const scenario::Structure& structure,
                                                        const volume::TissueTable& table);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace burr::app {
@@ -13,8 +14,8 @@ constexpr double kStep = 3;     // [dB]
 }  // namespace
 
 Loudspeaker::Loudspeaker(const tick::ServoSettings& settings,
-                         workshop::SoundTracker::ToSpare to_spare)
-    : hearing_(settings, std::move(to_spare)) {
+                         workshop::SoundTracker::ToSpare to_spare, double warn_below)
+    : hearing_(settings, std::move(to_spare)), warn_below_(warn_below) {
   open();
 }
 
@@ -30,7 +31,8 @@ void Loudspeaker::open() {
 double Loudspeaker::loudness() const { return std::pow(10, kStep * steps_ / 20); }
 
 void Loudspeaker::update(const tick::TickRow& newest) {
-  const sound::SoundState& now = hearing_.update(newest);
+  sound::SoundState now = hearing_.update(newest);
+  if (!(now.to_spare < warn_below_)) now.to_spare = std::numeric_limits<double>::infinity();
   if (speaker_) speaker_->voice().update(now);
 }
 

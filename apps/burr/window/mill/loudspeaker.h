@@ -5,6 +5,7 @@
 // device again, because one may have been plugged in or out. Thread: main.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -15,7 +16,9 @@ namespace burr::app {
 
 class Loudspeaker {
  public:
-  Loudspeaker(const tick::ServoSettings& settings, workshop::SoundTracker::ToSpare to_spare);
+  // warn_below: the warning sounds only below this distance to what must not be cut [m]
+  Loudspeaker(const tick::ServoSettings& settings, workshop::SoundTracker::ToSpare to_spare,
+              double warn_below = std::numeric_limits<double>::infinity());
 
   void update(const tick::TickRow& newest);
   void toggle();
@@ -30,6 +33,7 @@ class Loudspeaker {
   [[nodiscard]] double loudness() const;
 
   workshop::SoundTracker hearing_;
+  double warn_below_;
   std::unique_ptr<sound::Speaker> speaker_;
   std::string trouble_;
   int steps_ = 0;  // steps below the loudest, 0 or less

@@ -4,7 +4,10 @@
 #include <utility>
 
 #include "burr/math/rotation.h"
+#include "burr/scenario/open_lesson.h"
+#include "burr/scoring/step_done.h"
 #include "burr/workshop/hand_device.h"
+#include "burr/workshop/label_check.h"
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
@@ -16,6 +19,19 @@ using math::Vec3;
 
 // height of the view: the pocket is large, and the anatomy around it is still visible
 double view_height(double burr_radius) { return std::clamp(20 * burr_radius, 20e-3, 70e-3); }
+
+// What the case teaches; nothing without a case.
+Result<std::optional<scenario::Lesson>> lesson_of(const std::optional<scenario::Case>& work) {
+  if (!work) return std::optional<scenario::Lesson>();
+  auto read = scenario::lesson_of(*work);
+  if (!read) return read.error();
+  auto placed =
+      scenario::place(std::move(*read), workshop::landmarks_of(*work), work->name + ".toml");
+  if (!placed) return placed.error();
+  if (const Status fits = scoring::check_done(*placed, work->name + ".toml"); !fits)
+    return fits.error();
+  return std::optional<scenario::Lesson>(std::move(*placed));
+}
 
 }  // namespace
 
@@ -57,6 +73,13 @@ Result<Ready> make_ready(const WorkOptions& options, workshop::Prepared prepared
   ready.title = options.title.empty() ? prepared.what : options.title;
   ready.what = prepared.what;
   ready.work_case = options.work_case;
+  auto lesson = lesson_of(options.work_case);
+  if (!lesson) return lesson.error();
+  ready.lesson = std::move(*lesson);
+  const scenario::Feedback feedback = ready.lesson ? ready.lesson->feedback : scenario::Feedback();
+  ready.mode = options.identity.mode;
+  ready.allowed =
+      workshop::allowed_in(ready.mode, feedback, workshop::guided_in(options.identity, feedback));
   ready.volume = prepared.recipe;
   ready.import = prepared.summary;
   ready.greys = std::move(prepared.greys);

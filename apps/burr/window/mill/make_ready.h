@@ -9,7 +9,9 @@
 #include <string>
 
 #include "burr/render/scene.h"
+#include "burr/scenario/lesson.h"
 #include "burr/surface/worker.h"
+#include "burr/workshop/allowed.h"
 #include "burr/workshop/arm_publisher.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
@@ -36,6 +38,9 @@ struct Ready {
   std::shared_ptr<const volume::Greys> greys;  // of the scan
   workshop::Tissues spared;                    // that must not be cut
   std::optional<scenario::Case> work_case;     // the task
+  std::optional<scenario::Lesson> lesson;      // of it, with its landmarks placed
+  record::Mode mode = record::Mode::free;
+  workshop::Allowed allowed;
   std::unique_ptr<const workshop::SparedDistance> spared_distance;  // distances to `spared`
 };
 // Axes of a hand as the user sees the bone: x right, y up, z towards the user. Returns

@@ -3,8 +3,10 @@
 //
 // Its parts: window.cpp (the loop of pictures), mill_hand.cpp (the mouse as a hand, and what each
 // button does), mill_keys.cpp (the table of keys), mill_pads.cpp (gamepad, pedal, SpaceMouse),
-// mill_status.cpp (what the user reads), mill_diary.cpp (what the recording keeps). Parts with a state of their own are classes: Drill, Press,
-// Pointer, OverPages, WornHeadset, TickWatch, SuctionTube. Only these files include this header.
+// mill_status.cpp (what the user reads), mill_diary.cpp (what the recording keeps), mill_steps.cpp
+// (the steps of the case, and what the mode of the session allows). Parts with a state of their own
+// are classes: Drill, Press, Pointer, OverPages, WornHeadset, TickWatch, SuctionTube, Steps,
+// Technique, StepLight. Only these files include this header.
 //
 // Thread: main. Frame: world. Units: SI.
 #pragma once
@@ -34,7 +36,11 @@
 #include "window/mill/press.h"
 #include "window/mill/saved_views.h"
 #include "window/mill/slices.h"
+#include "window/mill/step_light.h"
+#include "window/mill/step_watch.h"
+#include "window/mill/steps.h"
 #include "window/mill/suction_tube.h"
+#include "window/mill/technique.h"
 #include "window/mill/tick_watch.h"
 #include "window/mill/toolbar.h"
 #include "window/mill/window_options.h"
@@ -62,7 +68,9 @@ class Mill {
         headset_(desk),
         pointer_(desk, scene),
         mirror_(session.bone().grid()),
-        drill_(session, scene.burr) {}
+        drill_(session, scene.burr) {
+    if (options_.lesson) steps_ = Steps(options_.lesson->steps);
+  }
 
   Result<Closed> run();
 
@@ -119,6 +127,8 @@ class Mill {
   void next_measure();
   void measure();
   void show_labels(bool shown);
+  void toggle_labels();
+  void step_opacity(bool back);
   void toggle_sound();
   void change_loudness(int by);
   void mirror_at_tip();
@@ -151,6 +161,22 @@ class Mill {
   void declare_done();  // or takes it back
   void end_diary();     // when the servo has stopped
 
+  // ---- mill_steps.cpp
+  // What the mode of the session refuses is refused here, whatever key, button or pad it came from.
+  [[nodiscard]] bool allows(Action action) const;
+  void say_refused();
+  void begin_steps();
+  void look_at_measure();
+  void tell(const Steps::Events& events);
+  void step_done();
+  void light_target();
+  void look_at_technique();
+  [[nodiscard]] std::string cue_text() const;
+  void draw_steps_panel();
+  [[nodiscard]] bool steps_offered() const {
+    return !steps_.empty() && options_.allowed.steps != workshop::Offer::never;
+  }
+
   // ---- mill_status.cpp
   void look_at_session();
   void keep_device_preferences();
@@ -180,6 +206,15 @@ class Mill {
   std::optional<Slices> slices_;
   std::optional<SavedViews> saved_views_;
   bool task_ = true, task_read_ = false;  // task_read_: bone has been removed
+  Steps steps_;
+  std::optional<StepWatch> watch_;  // made by begin(), before the session starts
+  bool steps_begun_ = false;
+  std::string lit_step_;       // whose target is lit, or was lit last
+  double removed_before_ = 0;  // up to the picture before [m^3]
+  bool steps_shown_ = false;   // the panel of the steps, where the task is not
+  StepLight light_;
+  Technique technique_;
+  Technique::Cue cue_ = Technique::Cue::none;
   bool slices_shown_ = true, labels_ = true, pulls_window_ = false;
   std::vector<render::Colour> colours_;  // of the tissues, while labels are shown
   int picture_step_ = 0;

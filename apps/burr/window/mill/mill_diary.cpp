@@ -28,8 +28,12 @@ void Mill::keep_diary() {
   if (sight.view.slices) sight.helps.insert("slices");
   if (scene_.look.opacity < 1) sight.helps.insert("see-through");
   if (task_ && panels_ && options_.work_case) sight.helps.insert("task");
-  // the colour and the mark at this figure are the only warning of the page
-  if (panels_ && nearest_ && nearest_->distance < (near_.empty() ? kNear : kFarAgain))
+  if (!task_ && steps_shown_ && panels_ && steps_offered()) sight.helps.insert("steps");
+  // the user is warned by the colour and the mark at the figure, or by the tone
+  const bool seen = panels_ && options_.allowed.distance;
+  const bool heard = options_.allowed.tone_below >= kNear && options_.loudspeaker != nullptr &&
+                     options_.loudspeaker->is_on();
+  if ((seen || heard) && nearest_ && nearest_->distance < (near_.empty() ? kNear : kFarAgain))
     near_ = nearest_->name;
   else
     near_.clear();

@@ -107,8 +107,11 @@ bool Mill::aim_key(const SDL_Keysym& pressed, bool down) {
 }
 
 void Mill::show_task() {
-  task_ = options_.work_case && !task_;
-  if (!options_.work_case) note(word(Word::task_none));
+  if (!options_.work_case) return note(word(Word::task_none));
+  // the task, the steps, nothing
+  const bool to_steps = task_ && steps_offered();
+  task_ = !task_ && !steps_shown_;
+  steps_shown_ = to_steps;
 }
 
 // Closes what is open on the page; if nothing is, the page itself.
@@ -128,6 +131,7 @@ void Mill::keep() {
 }
 
 void Mill::act(Action action) {
+  if (!allows(action)) return say_refused();
   const auto command = [this](tick::CommandKind kind, Word says) {
     session_.command({kind, 0});
     note(word(says));
@@ -368,6 +372,8 @@ void Mill::measure() {
 
 // Shows each tissue in its own colour, or all as bone.
 void Mill::show_labels(bool shown) {
+  shown = shown && options_.allowed.colours;
+  if (light_.is_on()) light_target();  // it has changed these colours
   labels_ = shown;
   scene_.tissue_colours = shown ? colours_ : render::as_bone(colours_);
 }
@@ -382,7 +388,7 @@ void Mill::saved_view(int slot, bool keep) {
   const auto view = saved_views_->at(slot);
   if (!view) return note(say(Word::view_none, slot, slot + 4));
   scene_.camera = view->camera;
-  scene_.look.opacity = view->opacity;
+  scene_.look.opacity = options_.allowed.see_through ? view->opacity : 1;
   show_labels(view->labels);
   slices_shown_ = view->slices;
   note(say(Word::view_shown, slot));
@@ -401,11 +407,13 @@ void Mill::change_loudness(int by) {
 }
 
 void Mill::mirror_at_tip() {
+  if (!allows(Action::mirror)) return say_refused();
   mirror_.place_at(scene_.burr.world_from_tool.p);
   note_mirror();
 }
 
 void Mill::mirror_next_plane() {
+  if (!allows(Action::mirror)) return say_refused();
   mirror_.next_plane();
   note_mirror();
 }

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "window/mill/mill.h"
-#include "window/mill/see_through.h"
 #include "window/shell/printed_keys.h"
 #include "window/shell/words.h"
 
@@ -91,15 +90,12 @@ Mill::KeyRows Mill::view_keys(bool left_handed) {
        "W",
        Word::help_window,
        {{SDLK_w, 0, [](Mill& m) { m.note(m.slices_->next_window()); }}}},
-      {HelpBlock::view,
-       "L",
-       Word::help_labels,
-       {{SDLK_l, 0, [](Mill& m) { m.show_labels(!m.labels_); }}}},
+      {HelpBlock::view, "L", Word::help_labels, {{SDLK_l, 0, [](Mill& m) { m.toggle_labels(); }}}},
       {HelpBlock::view,
        "T",
        Word::help_see_through,
-       {{SDLK_t, KMOD_SHIFT, [](Mill& m) { m.note(step_see_through(m.scene_, true)); }},
-        {SDLK_t, 0, [](Mill& m) { m.note(step_see_through(m.scene_, false)); }}}},
+       {{SDLK_t, KMOD_SHIFT, [](Mill& m) { m.step_opacity(true); }},
+        {SDLK_t, 0, [](Mill& m) { m.step_opacity(false); }}}},
   };
 }
 
@@ -156,7 +152,12 @@ Mill::KeyRows Mill::program_keys() {
        Word::help_hide,
        {{SDLK_TAB, 0, [](Mill& m) { m.panels_ = !m.panels_; }}}},
       {HelpBlock::program, "", Word::help, {act(SDLK_F1, Action::help), act(SDLK_h, Action::help)}},
-      {HelpBlock::program, "O", Word::help_task, {{SDLK_o, 0, [](Mill& m) { m.show_task(); }}}},
+      {HelpBlock::program,
+       "O  J  A",
+       Word::help_steps,
+       {{SDLK_o, 0, [](Mill& m) { m.show_task(); }},
+        {SDLK_j, 0, [](Mill& m) { m.step_done(); }},
+        {SDLK_a, 0, [](Mill& m) { m.light_target(); }}}},
       {HelpBlock::program,
        word(Word::key_ctrl_enter),
        Word::help_done,

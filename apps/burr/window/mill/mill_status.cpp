@@ -150,8 +150,9 @@ HudState Mill::hud() const {
   s.diamond = scene_.burr.diamond;
   s.removed = row_.ledger.removed;
   s.seconds = static_cast<double>(row_.tick) / settings.servo.rate_hz;
-  s.nearest = nearest_;
-  s.spares = options_.spared_distance != nullptr && !options_.spared_distance->empty();
+  s.spares = options_.allowed.distance && options_.spared_distance != nullptr &&
+             !options_.spared_distance->empty();
+  if (s.spares) s.nearest = nearest_;
   s.ticks = ticks_.health(session_.shed() != tick::Shed::none, Clock::now());
   const rt::TickSummary summary = ticks_.stats().summary();
   s.p99_us = summary.p99_us;
@@ -164,6 +165,7 @@ HudState Mill::hud() const {
   if (const edit::Mirror mirror = mirror_.now(); mirror.on())
     s.mirror = mirror_words(session_.bone().grid(), mirror);
   s.note = note_;
+  if (s.note.empty() && cue_ != Technique::Cue::none) s.note = cue_text();
   s.warning = warning_;
   return s;
 }
@@ -176,8 +178,15 @@ void Mill::panels() {
     draw_hud(ui, hud());
     slices_->write_names(scene_, ui);
     // the text disappears when the first bone is removed; a key shows it again
-    if (row_.ledger.removed > 0 && !std::exchange(task_read_, true)) task_ = false;
-    if (task_ && options_.work_case) draw_task(ui, *options_.work_case);
+    if (row_.ledger.removed > 0 && !std::exchange(task_read_, true)) {
+      steps_shown_ = steps_shown_ || (task_ && options_.allowed.steps == workshop::Offer::always);
+      task_ = false;
+    }
+    light_.draw(ui, scene_.camera);
+    if (task_ && options_.work_case)
+      draw_task(ui, *options_.work_case);
+    else if (steps_shown_ && steps_offered())
+      draw_steps_panel();
     if (const auto pressed = draw_toolbar(ui, drill_.mode(), measuring_.on(), mirror_.now().on()))
       act(*pressed);
   }

@@ -58,13 +58,17 @@ void Mill::begin() {
   if (user_limit() != session_.settings().servo.limit.user_force)
     session_.command({tick::CommandKind::user_force, user_limit()});
   note_troubles();
+  colours_ = scene_.tissue_colours;
   slices_.emplace(session_.bone(), options_.greys);
   const std::filesystem::path& state = desk_.places().state;
   saved_views_.emplace(state.empty() ? state : state / "views.toml",
                        key_of(session_.bone().grid()));
   note(saved_views_->trouble());
+  show_labels(labels_);  // an exam begins without the colours of the tissues
+  if (options_.mode == record::Mode::exam) note(word(Word::exam_begins));
   pages_.emplace(desk_, session_, scene_, options_, &Mill::help_rows);
-  colours_ = scene_.tissue_colours;
+  if (steps_offered() && options_.mode != record::Mode::free)
+    watch_.emplace(session_.bone(), *options_.lesson);
   pointer_.begin();
   desk_.cap.open();
   lift();
@@ -85,6 +89,9 @@ Status Mill::frame(workshop::LiveSurface& live) {
   note(headset_.begin(live.governor(), scene_.camera));
   point();
   measure();
+  if (ticks_.begun()) begin_steps();
+  look_at_measure();
+  look_at_technique();
   keep_diary();
   note(pages_->exporting().step());
   update_status();
@@ -112,6 +119,8 @@ void Mill::end(workshop::LiveSurface& live) {
   pages_.reset();
   session_.stop();
   end_diary();
+  light_.off(scene_);
+  watch_.reset();
   scene_.insets.clear();
   scene_.tissue_colours = colours_;
   scene_.look.opacity = 1;

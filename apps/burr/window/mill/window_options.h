@@ -9,7 +9,9 @@
 
 #include "burr/record/diary.h"
 #include "burr/scenario/case.h"
+#include "burr/scenario/lesson.h"
 #include "burr/volume/greys.h"
+#include "burr/workshop/allowed.h"
 #include "burr/workshop/spared_distance.h"
 #include "window/mill/loudspeaker.h"
 #include "window/replay/film_job.h"
@@ -32,7 +34,11 @@ struct WindowOptions {
   Loudspeaker* loudspeaker = nullptr;               // nullptr: no sound
   std::shared_ptr<const volume::Greys> greys = {};  // of the scan; nullptr: slices show the bone
   std::optional<scenario::Case> work_case = {};     // the task; none: no case
-  record::Diary* diary = nullptr;                   // of the recording; nullptr: it is not recorded
+  std::optional<scenario::Lesson> lesson = {};      // of the case, its landmarks placed
+  record::Mode mode = record::Mode::free;           // what the session is for
+  workshop::Allowed allowed =                       // and what it offers
+      workshop::allowed_in(record::Mode::free, {}, true);
+  record::Diary* diary = nullptr;  // of the recording; nullptr: it is not recorded
 };
 
 // How the user left the page.

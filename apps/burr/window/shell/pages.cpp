@@ -52,10 +52,14 @@ Result<Closed> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& wi
   with.spared_distance = ready.spared_distance.get();
   with.greys = ready.greys;
   with.work_case = ready.work_case;
+  with.lesson = ready.lesson;
+  with.mode = ready.mode;
+  with.allowed = ready.allowed;
   std::unique_ptr<Loudspeaker> loudspeaker;
   if (window.sound) {
-    loudspeaker = std::make_unique<Loudspeaker>(ready.session->settings().servo,
-                                                ready.spared_distance->distances());
+    loudspeaker =
+        std::make_unique<Loudspeaker>(ready.session->settings().servo,
+                                      ready.spared_distance->distances(), ready.allowed.tone_below);
     if (!loudspeaker->trouble().empty()) fmt::print(stderr, "{}\n", loudspeaker->trouble());
     with.loudspeaker = loudspeaker.get();
   }
@@ -110,7 +114,7 @@ Result<Closed> watch_file(Desk& desk, const std::string& file, const scenario::R
 }
 
 Status run_pages(Desk& desk, const PagesOptions& options) {
-  StartPage start(desk, options.led.hand);
+  StartPage start(desk, options.led.hand, options.led.identity);
   std::string trouble, told;  // told: of a session that was not kept
   for (;;) {
     auto choice = start.ask(trouble, options.seconds);

@@ -54,12 +54,16 @@ std::string name_of_case(const std::string& name) {
   return name;
 }
 
-StartPage::StartPage(Desk& desk, const workshop::HandRequest& hand)
-    : desk_(desk), thumbnails_(desk.places().cache, cases()), renewed_(desk.renewed()), hand_([&] {
+StartPage::StartPage(Desk& desk, const workshop::HandRequest& hand, record::Identity identity)
+    : desk_(desk),
+      thumbnails_(desk.places().cache, cases()),
+      renewed_(desk.renewed()),
+      hand_([&] {
         workshop::HandRequest request = hand;
         if (request.device.empty()) request.device = desk.settings.device;
         return request;
-      }()) {}
+      }()),
+      identity_(std::move(identity)) {}
 
 Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seconds) {
   using Clock = std::chrono::steady_clock;
@@ -133,6 +137,7 @@ void StartPage::take_events() {
 void StartPage::open(std::string path) {
   WorkOptions options;
   options.volume.source = cleaned_path(std::move(path));
+  options.identity = identity_;
   if (!options.volume.source.empty())
     choice_ = Choice{.open = std::move(options), .go_on = {}, .quit = false};
 }
@@ -161,6 +166,7 @@ void StartPage::draw() {
   ui.write(x, top + 30 * u, Letter::title, ink::kText, "burr");
   ui.write(x + 86 * u, top + 45 * u, Letter::body, ink::kDim, word(Word::start_hello));
   ui.write(x, top + 96 * u, Letter::strong, ink::kAccent, word(Word::start_cases));
+  modes(x + 256 * u, top + 88 * u);
   cards(x, top + 124 * u);
   draw_message(x, top + 528 * u, 752 * u);
 
@@ -208,6 +214,28 @@ void StartPage::cards(float x, float y) {
     if (at) draw.AddRect(p, q, ink::kAccent, 8 * u, 0, 2 * u);
     ui.write(p.x + 14 * u, p.y + pictured + 15 * u, Letter::strong, ink::kText,
              name_of_case(names[n]));
+  }
+}
+
+// What the next session is for, and a line that says what this mode offers.
+void StartPage::modes(float x, float y) {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit();
+  struct One {
+    record::Mode mode;
+    Word name, told;
+  };
+  ui.write(x, y + 8 * u, Letter::strong, ink::kAccent, word(Word::mode_title));
+  float at = x + 90 * u;
+  for (const One& one : {One{record::Mode::free, Word::mode_free, Word::mode_told_free},
+                         One{record::Mode::learn, Word::mode_learn, Word::mode_told_learn},
+                         One{record::Mode::practise, Word::mode_practise, Word::mode_told_practise},
+                         One{record::Mode::exam, Word::mode_exam, Word::mode_told_exam}}) {
+    ImGui::SetCursorScreenPos({at, y});
+    if (ImGui::RadioButton(word(one.name), identity_.mode == one.mode)) identity_.mode = one.mode;
+    at += ImGui::GetItemRectSize().x + 14 * u;
+    if (identity_.mode == one.mode)
+      ui.write(x + 90 * u, y - 16 * u, Letter::small, ink::kDim, word(one.told));
   }
 }
 

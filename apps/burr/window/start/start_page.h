@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "burr/record/identity.h"
 #include "burr/workshop/hand_device.h"
 #include "commands/work.h"
 #include "window/shell/desk.h"
@@ -20,8 +21,9 @@ namespace burr::app {
 
 class StartPage {
  public:
-  // hand: from the command line; if it names no device, that of the settings is taken
-  StartPage(Desk& desk, const workshop::HandRequest& hand);
+  // hand: from the command line; if it names no device, that of the settings is taken. identity:
+  // mode, learner and attempt from the command line; the user may choose another mode
+  StartPage(Desk& desk, const workshop::HandRequest& hand, record::Identity identity = {});
 
   // What the user chose; exactly one is set.
   struct Choice {
@@ -42,6 +44,7 @@ class StartPage {
   void own_scan(float x, float y, float w);
   void sessions(float x, float& y, float w);
   void recents(float x, float& y, float w);
+  void modes(float x, float y);
   void draw_message(float x, float y, float w);
   [[nodiscard]] bool row(const char* id, float x, float& y, float w, const std::string& left,
                          const std::string& right, bool mark);
@@ -52,6 +55,7 @@ class StartPage {
   int renewed_ = 0;  // desk_.renewed() when thumbnails_ was last made
   FileDialog dialog_;
   HandChoice hand_;
+  record::Identity identity_;
   std::vector<KeptSession> kept_;
   std::vector<Recent> recent_;
   std::vector<std::string> dropped_;

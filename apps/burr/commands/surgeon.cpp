@@ -1,0 +1,244 @@
+// `burr surgeon`: a scripted surgeon does a case, and the session is recorded like anybody's.
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "burr/base/printable.h"
+#include "burr/record/course.h"
+#include "burr/record/view.h"
+#include "burr/scenario/case.h"
+#include "burr/scenario/open_lesson.h"
+#include "burr/sim/session.h"
+#include "burr/surgeon/surgeon.h"
+#include "burr/tick/flag_words.h"
+#include "burr/workshop/label_check.h"
+#include "burr/workshop/prepare.h"
+#include "burr/workshop/spared.h"
+#include "commands/command.h"
+#include "commands/json_line.h"
+#include "commands/outputs.h"
+#include "commands/recording.h"
+#include "commands/volume_words.h"
+
+namespace burr::app {
+namespace {
+
+using math::Vec3;
+
+constexpr double kLongest = 1800;     // if nobody says how long; the same for all levels [s]
+constexpr double kFieldOfView = 0.2;  // of the recorded view, as through a microscope [rad]
+
+struct Options {
+  std::string work_case, level = "expert", record;
+  std::vector<std::string> vices;
+  scenario::Recipe volume;
+  std::uint64_t seed = 1;
+  double seconds = kLongest;
+  bool embed = false, force = false, json = false;
+};
+
+Result<surgeon::Skill> skill_of(const Options& options) {
+  const auto level = surgeon::level_of(options.level);
+  if (!level)
+    return error(Trouble::usage, fmt::format("--level {}: is not known; use one of {}",
+                                             base::printable(options.level),
+                                             fmt::join(surgeon::level_words(), ", ")));
+  surgeon::Skill skill = surgeon::drawn(surgeon::skill_of(*level), options.seed);
+  for (const std::string& vice : options.vices) {
+    const std::size_t equals = vice.find('=');
+    double value = 0;
+    std::size_t read = 0;
+    try {
+      if (equals != std::string::npos) value = std::stod(vice.substr(equals + 1), &read);
+    } catch (const std::exception&) {
+      read = 0;
+    }
+    if (read == 0 || equals + 1 + read != vice.size())
+      return error(Trouble::usage,
+                   fmt::format("--vice {}: write NAME=VALUE, for example perception_mm=1.5",
+                               base::printable(vice)));
+    if (const Status set = surgeon::set_vice(skill, vice.substr(0, equals), value); !set)
+      return set.error();
+  }
+  return skill;
+}
+
+// What the surgeon does beside the hand's movements: other burrs, notes for the recording.
+class Assistant {
+ public:
+  Assistant(surgeon::Surgeon& surgeon, sim::Session& session, record::Diary* diary)
+      : surgeon_(surgeon), session_(session), diary_(diary) {}
+
+  // Before a tick.
+  void work() {
+    const std::uint64_t tick = session_.ticks();
+    if (tick == 0) session_.command({tick::CommandKind::irrigation, 1});
+    const surgeon::Consulted consulted = surgeon_.consult(session_.bone());
+    if (consulted.burr) {
+      session_.command({tick::CommandKind::burr_kind,
+                        consulted.burr->kind == tool::BurrKind::diamond ? 1.0 : 0.0});
+      session_.command({tick::CommandKind::burr_radius, consulted.burr->radius});
+    }
+    for (const surgeon::SurgeonNote& note : consulted.notes) tell(note, tick);
+    if (consulted.eye && diary_ != nullptr) diary_->look({.view = view(*consulted.eye, tick)});
+  }
+
+  [[nodiscard]] bool done() const { return done_; }
+  [[nodiscard]] const nlohmann::json& steps() const { return steps_; }
+
+ private:
+  void tell(const surgeon::SurgeonNote& note, std::uint64_t tick) {
+    if (note.kind == surgeon::NoteKind::done) {
+      done_ = true;
+      if (diary_ != nullptr) diary_->declare_done(tick, true);
+      return;
+    }
+    const bool begins = note.kind == surgeon::NoteKind::step_begun;
+    const double seconds = static_cast<double>(tick) / session_.settings().servo.rate_hz;
+    if (begins) {
+      steps_.push_back({{"step", note.step}, {"from_s", seconds}});
+    } else {
+      steps_.back()["to_s"] = seconds;
+      steps_.back()["left"] = note.left;
+    }
+    if (diary_ != nullptr)
+      static_cast<void>(diary_->note(
+          {tick, begins ? record::CourseKind::step_begun : record::CourseKind::step_done,
+           note.step}));
+  }
+
+  static record::View view(const surgeon::Eye& eye, std::uint64_t tick) {
+    record::View view;
+    view.tick = tick;
+    view.eye = eye.at;
+    view.back = eye.back;
+    // upright as far as the look allows
+    const Vec3 up = std::abs(eye.back.z()) < 0.9 ? Vec3(Vec3::UnitZ()) : Vec3(-Vec3::UnitY());
+    view.right = up.cross(eye.back).normalized();
+    view.up = view.back.cross(view.right).normalized();
+    view.field_of_view = kFieldOfView;
+    view.magnification = record::magnification_of(2 * kEye * std::tan(0.5 * kFieldOfView));
+    view.slices = view.panels = view.colours = false;
+    return view;
+  }
+
+  static constexpr double kEye = 0.3;  // from the eye to the bone [m]
+  surgeon::Surgeon& surgeon_;
+  sim::Session& session_;
+  record::Diary* diary_;
+  bool done_ = false;
+  nlohmann::json steps_ = nlohmann::json::array();
+};
+
+void print(const Options& options, sim::Session& session, const Assistant& assistant,
+           const Recording& recording) {
+  const sim::Outcome outcome = session.outcome();
+  const char* ending = assistant.done() ? "declared done" : "time up";
+  if (!options.json) {
+    fmt::print("{}, seed {}: {:.1f} s, {:.1f} mm3 removed, {:.2f} N mean in contact; {}\n",
+               options.level, options.seed, outcome.seconds, 1e9 * outcome.ledger.removed,
+               outcome.mean_force, ending);
+    for (const auto& step : assistant.steps())
+      fmt::print("  {}: from {:.1f} s{}\n", base::printable(step["step"].get<std::string>()),
+                 step["from_s"].get<double>(),
+                 step.contains("to_s")
+                     ? fmt::format(" to {:.1f} s, {:.1f} % of its plan left",
+                                   step["to_s"].get<double>(), 100 * step["left"].get<double>())
+                     : "");
+    for (const std::string& sentence : tick::words(tick::worth_telling(outcome.flags)))
+      fmt::print("noted: {}\n", sentence);
+    return;
+  }
+  nlohmann::json out;
+  out["level"] = options.level;
+  out["seed"] = options.seed;
+  out["seconds"] = outcome.seconds;
+  out["removed_mm3"] = 1e9 * outcome.ledger.removed;
+  out["mean_force_N"] = outcome.mean_force;
+  out["ending"] = ending;
+  out["steps"] = assistant.steps();
+  out["noted"] = tick::words(tick::worth_telling(outcome.flags));
+  out["bone_hash"] = record::hex(session.bone().content_hash());
+  if (!options.record.empty()) out["recording"] = recording.account();
+  fmt::print("{}\n", json_line(out));
+}
+
+Status run(const Options& options) {
+  const Status possible = check_outputs({options.volume.materials},
+                                        {{"--record", options.record, {".mcap"}}}, options.force);
+  if (!possible) return possible;
+  const auto skill = skill_of(options);
+  if (!skill) return skill.error();
+  const auto work = scenario::read_case(options.work_case);
+  if (!work) return work.error();
+  auto read = scenario::lesson_of(*work);
+  if (!read) return read.error();
+  const auto lesson =
+      scenario::place(std::move(*read), workshop::landmarks_of(*work), work->name + ".toml");
+  if (!lesson) return lesson.error();
+  auto prepared = workshop::prepare(*work, progress(), {}, options.volume);
+  if (!prepared) return prepared.error();
+  const sim::SessionSettings settings = workshop::settings_of(*prepared);
+  auto surgeon =
+      surgeon::Surgeon::make(*prepared->bone, *lesson, prepared->burr, prepared->place.at, *skill,
+                             options.seed, settings.servo.rate_hz, progress());
+  if (!surgeon) return surgeon.error();
+  auto begun = workshop::begin(*prepared, (*surgeon)->take_hand(), settings, progress());
+  if (!begun) return begun.error();
+  sim::Session& session = **begun;
+
+  Recording recording;
+  if (!options.record.empty()) {
+    const Status started = recording.start(
+        session, options.record, prepared->recipe, prepared->summary, "scripted surgeon",
+        options.embed, workshop::to_spare(session.bone_tissues(), work->spare), *work);
+    if (!started) return started;
+  }
+  Assistant assistant(**surgeon, session, recording.diary());
+  session.set_between_ticks([&assistant] { assistant.work(); }, surgeon::kConsultTicks);
+  session.run(options.seconds, progress());
+  const Status recorded = options.record.empty() ? fine() : recording.finish(session);
+  print(options, session, assistant, recording);
+  if (!recorded) return recorded;
+  if (interrupted()) return error(Trouble::interrupted, "stopped; the results so far are kept");
+  return fine();
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("surgeon", "a scripted surgeon does a case, to test scores");
+  command->add_option("case", options->work_case, "a built-in case, or a .toml file")->required();
+  command
+      ->add_option("--level", options->level,
+                   fmt::format("how well: {}", fmt::join(surgeon::level_words(), ", ")))
+      ->capture_default_str();
+  command
+      ->add_option("--seed", options->seed,
+                   "the same seed gives the same session; 1 to 99 to try out, from 1000 to compare")
+      ->capture_default_str();
+  command->add_option("--vice", options->vices,
+                      fmt::format("NAME=VALUE, several times: sets one number of the level: {}",
+                                  fmt::join(surgeon::vice_names(), ", ")));
+  command->add_option("--seconds", options->seconds, "the longest time, of the session's clock")
+      ->check(CLI::Range(1.0, 36'000.0))
+      ->capture_default_str();
+  command->add_option("--record", options->record, "F.mcap: record the session");
+  command->add_flag("--embed", options->embed, "with --record: store the bone in the file");
+  add_force(*command, options->force);
+  command->add_flag("--json", options->json, "one JSON object on the last line");
+  add_volume_options(*command, options->volume);
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{65, add};
+
+}  // namespace
+}  // namespace burr::app

@@ -1,0 +1,50 @@
+// apps/burr/window/mill/step_light.h - lights what a step of the case is about: rings around places
+// and regions, and tissues in a bright colour.
+//
+//     light.on(step, lesson, bone.tissues(), scene);
+//     light.draw(ui, camera);                          // the rings, in each picture
+//     light.off(scene);
+//
+// Thread: main. Units: SI. Frame: world.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "burr/math/vec3.h"
+#include "burr/render/scene.h"
+#include "burr/scenario/lesson.h"
+#include "burr/volume/tissue.h"
+#include "window/shell/ui.h"
+
+namespace burr::app {
+
+// A ring of the picture: around a ball at `at`.
+struct Ring {
+  math::Vec3 at = math::Vec3::Zero();
+  double radius = 0;  // [m]
+  std::string name;
+  bool operator==(const Ring& other) const = default;
+};
+
+// The landmarks and regions among `show` of a step, its region if it shows nothing. Parts of a region
+// that are defined by structures have no ring.
+[[nodiscard]] std::vector<Ring> rings_of(const scenario::Step& step,
+                                         const scenario::Lesson& lesson);
+
+class StepLight {
+ public:
+  [[nodiscard]] bool is_on() const { return on_; }
+  void on(const scenario::Step& step, const scenario::Lesson& lesson,
+          const volume::TissueTable& tissues, render::Scene& scene);
+  void off(render::Scene& scene);
+  void draw(const Ui& ui, const render::Camera& camera) const;
+
+ private:
+  bool on_ = false;
+  std::vector<Ring> rings_;
+  std::vector<std::pair<std::size_t, render::Colour>> colours_;  // of tissues, before
+};
+
+}  // namespace burr::app

@@ -1,0 +1,142 @@
+#include "window/mill/steps_panel.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <string>
+#include <vector>
+
+#include "burr/base/printable.h"
+#include "window/mill/hud.h"
+#include "window/shell/words.h"
+
+namespace burr::app {
+namespace {
+
+using Letter = Ui::Letter;
+
+constexpr float kWide = 360, kPadding = 14, kRow = 22, kButtons = 34;  // [points]
+
+struct Paragraph {
+  Letter letter;
+  ImU32 colour;
+  std::string text;
+};
+
+// The title of a step, or its id if the case gives none.
+const std::string& title_of(const scenario::Step& step) {
+  const std::string& title = step.title.in(spoken().code);
+  return title.empty() ? step.id : title;
+}
+
+std::vector<Paragraph> paragraphs(const Steps& steps) {
+  const scenario::Step* now = steps.now();
+  if (now == nullptr) return {{Letter::strong, ink::kGood, word(Word::steps_all_done)}};
+  std::vector<Paragraph> all = {
+      {Letter::small, ink::kDim, say(Word::steps_count, *steps.current() + 1, steps.size())},
+      {Letter::strong, ink::kAccent, title_of(*now)},
+      {Letter::body, ink::kText, now->say.in(spoken().code)}};
+  if (const std::string tool = suits(*now); !tool.empty())
+    all.push_back({Letter::body, ink::kDim, say(Word::steps_tool, tool)});
+  if (!now->spare.empty())
+    all.push_back({Letter::body, ink::kWarn, say(Word::task_spare, base::list_of(now->spare))});
+  return all;
+}
+
+// Which rows are shown where not all fit: the current one in their middle.
+std::size_t first_row(const Steps& steps, std::size_t shown) {
+  const std::size_t current = steps.current().value_or(0);
+  const std::size_t half = shown / 2;
+  return std::min(current > half ? current - half : 0, steps.size() - shown);
+}
+
+// A mark before a step: done is a tick, the current one a filled arrow, any other a ring.
+void mark(ImDrawList& draw, ImVec2 at, float u, bool done, bool current) {
+  if (done) {
+    draw.AddLine({at.x - 5 * u, at.y}, {at.x - 1 * u, at.y + 4 * u}, ink::kGood, 2 * u);
+    draw.AddLine({at.x - 1 * u, at.y + 4 * u}, {at.x + 6 * u, at.y - 5 * u}, ink::kGood, 2 * u);
+  } else if (current) {
+    draw.AddTriangleFilled({at.x - 4 * u, at.y - 5 * u}, {at.x - 4 * u, at.y + 5 * u},
+                           {at.x + 6 * u, at.y}, ink::kAccent);
+  } else {
+    draw.AddCircle(at, 4 * u, ink::kDim, 16, 1.4F * u);
+  }
+}
+
+// The rows of the list; the one that was pressed.
+std::optional<std::size_t> rows(Ui& ui, const Steps& steps, float x, float y, std::size_t shown) {
+  const float u = ui.unit(), wide = (kWide - 2 * kPadding) * u;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  std::optional<std::size_t> pressed;
+  const std::size_t first = first_row(steps, shown);
+  for (std::size_t n = first; n < first + shown; ++n, y += kRow * u) {
+    const bool current = steps.current() == n;
+    ImGui::PushID(static_cast<int>(n));
+    ImGui::SetCursorScreenPos({x, y});
+    if (ImGui::InvisibleButton("##step", {wide, kRow * u}) && !current) pressed = n;
+    if (ImGui::IsItemHovered() && !current) {
+      draw.AddRectFilled({x, y}, {x + wide, y + kRow * u}, ink::kOver, 4 * u);
+      ImGui::SetTooltip("%s", word(steps.is_done(n) ? Word::steps_reopen : Word::steps_choose));
+    }
+    ImGui::PopID();
+    mark(draw, {x + 8 * u, y + kRow * u / 2}, u, steps.is_done(n), current);
+    draw.PushClipRect({x, y}, {x + wide, y + kRow * u}, true);
+    ui.write(x + 22 * u, y + 3 * u, Letter::body, current ? ink::kText : ink::kDim,
+             title_of(steps[n]));
+    draw.PopClipRect();
+  }
+  return pressed;
+}
+
+}  // namespace
+
+std::string suits(const scenario::Step& step) {
+  std::string text;
+  if (step.kind)
+    text = word(*step.kind == tool::BurrKind::diamond ? Word::steps_diamond : Word::steps_cutting);
+  if (step.diameter) {
+    if (!text.empty()) text += ", ";
+    text += say(Word::steps_sizes, 1e3 * step.diameter->first, 1e3 * step.diameter->second);
+  }
+  return text;
+}
+
+StepsPressed draw_steps(Ui& ui, const Steps& steps, bool offers_light, bool lit) {
+  StepsPressed pressed;
+  const float u = ui.unit(), inside = (kWide - 2 * kPadding) * u, gap = 6 * u;
+  const float x = 104 * u, y = 10 * u, room = ui.height() - hud_height(ui) - 2 * y;
+  const std::vector<Paragraph> texts = paragraphs(steps);
+  const auto height_of = [&](const Paragraph& one) {
+    const ImFont* font = ui.font(one.letter);
+    return font->CalcTextSizeA(font->FontSize, FLT_MAX, inside, one.text.c_str()).y;
+  };
+  const bool works = steps.now() != nullptr;
+  float high = 2 * kPadding * u + (works ? kButtons * u : 0);
+  for (const Paragraph& one : texts) high += height_of(one) + gap;
+  const auto fit = static_cast<std::size_t>(std::max(1.0F, (room - high) / (kRow * u)));
+  const std::size_t shown = std::min(fit, steps.size());
+  high = std::min(room, high + static_cast<float>(shown) * kRow * u);
+
+  ui.panel("##steps", x, y, kWide * u, high);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  float at = y + kPadding * u;
+  for (const Paragraph& one : texts) {
+    const ImFont* font = ui.font(one.letter);
+    draw.AddText(font, font->FontSize, {x + kPadding * u, at}, one.colour, one.text.c_str(),
+                 nullptr, inside);
+    at += height_of(one) + gap;
+  }
+  if (works) {
+    ImGui::SetCursorScreenPos({x + kPadding * u, at});
+    pressed.done = ImGui::Button(say(Word::steps_done, "J").c_str());
+    ImGui::SameLine(0, 8 * u);
+    if (offers_light)
+      pressed.light =
+          ImGui::Button(say(lit ? Word::steps_unlight : Word::steps_light, "A").c_str());
+    at += kButtons * u;
+  }
+  pressed.row = rows(ui, steps, x + kPadding * u, at, shown);
+  ImGui::End();
+  return pressed;
+}
+
+}  // namespace burr::app

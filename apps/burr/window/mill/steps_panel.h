@@ -1,0 +1,28 @@
+// apps/burr/window/mill/steps_panel.h - the steps of the case, beside the tools: the current one with
+// its text and the tool that suits it, and the list of all.
+//
+// Thread: main, between Ui::begin() and draw().
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "burr/scenario/lesson.h"
+#include "window/mill/steps.h"
+#include "window/shell/ui.h"
+
+namespace burr::app {
+
+struct StepsPressed {
+  bool done = false;               // the current step is done
+  bool light = false;              // its target shall be lit, or no longer
+  std::optional<std::size_t> row;  // this step shall be the current one, or be opened again
+};
+
+// offers_light: there is a button for it. lit: it is lit now.
+[[nodiscard]] StepsPressed draw_steps(Ui& ui, const Steps& steps, bool offers_light, bool lit);
+
+// The tool that suits a step, "diamond burr, 2 to 4 mm", in the user's language; "": none is named.
+[[nodiscard]] std::string suits(const scenario::Step& step);
+
+}  // namespace burr::app

@@ -1,0 +1,157 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "burr/metrics/axis_fit.h"
+#include "burr/metrics/cavity_shape.h"
+#include "burr/metrics/new_surface.h"
+#include "burr/metrics/plane_fit.h"
+#include "burr/metrics/removed.h"
+#include "burr/scoring/measure.h"
+
+namespace burr::scoring {
+namespace {
+
+// A region round a planned corridor is several times as wide as the corridor.
+constexpr double kLeastShape = 0.02;  // share of the region
+
+// Where next to nothing was removed there is no shape to measure; that is unmet, so that idle work does
+// not lose items from the denominator.
+std::optional<Outcome> idle(const Item& item, Scene& scene) {
+  const auto gone =
+      metrics::removed_of(scene.before(), scene.after(), scene.region(item.region), {});
+  if (!gone) return not_assessable(item, gone.reason());
+  if (gone->share >= kLeastShape) return {};
+  Outcome out;
+  out.id = item.id;
+  out.verdict = Verdict::unmet;
+  out.quantity = item.how->quantity;
+  out.earned = false;
+  out.reason = fmt::format(
+      "only {:.1f} % of the bone in its region was removed, so there is no shape to measure",
+      100 * gone->share);
+  return out;
+}
+
+Outcome at_most(const Item& item, double value, double most, double error, const char* what) {
+  return decided(item, {value <= most, true, value, most, error}, what, false);
+}
+
+Outcome axis(const Item& item, Scene& scene) {
+  const std::vector<math::Vec3>& course = scene.lesson().landmark(item.along)->points;
+  const math::Vec3 whole = course.back() - course.front();
+  const metrics::PlannedAxis plan = {course.front(), whole.normalized()};
+  const auto fit =
+      metrics::axis_fit(scene.before(), scene.after(), plan, scene.region(item.region));
+  if (!fit) return not_assessable(item, fit.reason());
+  const std::string_view how = item.how->name;
+  const double h = scene.before().grid().voxel;
+  Outcome out;
+  if (how == "axis_entry") {
+    out = at_most(item, fit->entry_off, item.limit("most_mm"), fit->error,
+                  "distance of the entry from the planned one");
+    out.place = fit->entry;
+  } else if (how == "axis_apex") {
+    // across the planned axis; how deep it goes is another item
+    const math::Vec3 off = fit->apex - plan.entry;
+    out = at_most(item, (off - off.dot(plan.inward) * plan.inward).norm(), item.limit("most_mm"),
+                  0.5 * h, "distance of the end from the planned axis");
+    out.place = fit->apex;
+  } else if (how == "axis_angle") {
+    // each end of the axis is known to the error of the entry
+    out = at_most(item, fit->angle, item.limit("most_deg"), 2 * fit->error / fit->depth,
+                  "angle to the planned axis");
+    out.place = fit->apex;
+  } else if (how == "axis_depth") {
+    out = at_most(item, std::abs(fit->depth - whole.norm()), item.limit("off_mm"), 0.5 * h,
+                  fit->depth > whole.norm() ? "too deep by" : "not deep enough by");
+    out.place = fit->apex;
+  } else {
+    out = at_most(item, std::abs(fit->width - item.limit("width_mm")), item.limit("off_mm"),
+                  0.5 * h, fit->width > item.limit("width_mm") ? "too wide by" : "too narrow by");
+    out.place = fit->centres.empty() ? fit->entry : fit->centres[fit->centres.size() / 2];
+  }
+  return out;
+}
+
+Outcome plane(const Item& item, Scene& scene) {
+  const scenario::Landmark& planned = *scene.lesson().landmark(item.plane);
+  const auto fit =
+      metrics::plane_fit(scene.before(), scene.after(), {planned.points.front(), *planned.normal},
+                         scene.region(item.region), {});
+  if (!fit) return not_assessable(item, fit.reason());
+  const std::string_view how = item.how->name;
+  Outcome out;
+  if (how == "plane_offset")
+    out = at_most(item, std::abs(fit->offset), item.limit("most_mm"), fit->error,
+                  "distance from the planned plane");
+  else if (how == "plane_angle")
+    out = at_most(item, fit->angle, item.limit("most_deg"), 2 * fit->error / std::sqrt(fit->area),
+                  "angle to the planned plane");
+  else
+    out = at_most(item, fit->uneven, item.limit("most_mm"), fit->error,
+                  "95 % of the face lie this near to its own plane");
+  out.place = fit->worst_at;
+  return out;
+}
+
+Outcome cavity(const Item& item, Scene& scene) {
+  const metrics::Region region = scene.region(item.region);
+  const auto shape =
+      metrics::cavity_shape(scene.before(), scene.after(), scene.towards().front(), {}, region);
+  if (!shape) return not_assessable(item, shape.reason());
+  const std::string_view how = item.how->name;
+  Outcome out;
+  if (how == "cavity_depth") {
+    const double off = shape->depth - item.limit("depth_mm");
+    out = at_most(item, std::abs(off), item.limit("off_mm"), shape->error,
+                  off > 0 ? "too deep by" : "not deep enough by");
+  } else if (how == "cavity_floor") {
+    out = at_most(item, shape->uneven, item.limit("most_mm"), shape->error,
+                  "unevenness of the floor (rms)");
+  } else {
+    if (!shape->outline) return not_assessable(item, "the cavity has no rim");
+    out = at_most(item, *shape->outline, item.limit("most_mm"), shape->error,
+                  "95 % of the rim lie this near to the planned one");
+  }
+  out.place = shape->deepest;
+  return out;
+}
+
+// The least distance of what was cut to a structure.
+Outcome clearance(const Item& item, Scene& scene) {
+  const auto points =
+      metrics::new_surface(scene.before(), scene.after(), scene.region(item.region));
+  const auto distance = scene.distance(item.structure);
+  double least = distance->reach();
+  std::optional<math::Vec3> nearest;
+  for (const metrics::SurfacePoint& point : points) {
+    const double d = distance->at(point.place).distance;
+    if (d >= least) continue;
+    least = d;
+    nearest = point.place;
+  }
+  const double enough = item.limit("least_mm");
+  Outcome out =
+      decided(item, {least >= enough, true, least, enough, 0.5 * scene.before().grid().voxel},
+              "least distance of what was cut", true);
+  out.place = nearest;
+  return out;
+}
+
+}  // namespace
+
+std::optional<Outcome> measure_shape(const Item& item, Scene& scene) {
+  const std::string_view how = item.how->name;
+  Outcome (*const measure)(const Item&, Scene&) = how.starts_with("axis_")     ? axis
+                                                  : how.starts_with("plane_")  ? plane
+                                                  : how.starts_with("cavity_") ? cavity
+                                                  : how == "clearance"         ? clearance
+                                                                               : nullptr;
+  if (measure == nullptr) return {};
+  if (auto nothing = idle(item, scene)) return nothing;
+  return measure(item, scene);
+}
+
+}  // namespace burr::scoring

@@ -1,0 +1,62 @@
+#include "burr/scoring/reference.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "burr/base/check.h"
+#include "burr/metrics/region.h"
+#include "burr/scoring/scene.h"
+
+namespace burr::scoring {
+namespace {
+
+metrics::Region plan_of(const scenario::Reference& reference, Scene& scene) {
+  metrics::Region all = scene.region(reference.remove.front());
+  for (std::size_t n = 1; n < reference.remove.size(); ++n)
+    all = metrics::either(std::move(all), scene.region(reference.remove[n]));
+  for (const auto& [structure, thickness] : reference.leave)
+    if (!scene.tissues(structure).empty())
+      all = metrics::without(std::move(all), metrics::within(scene.distance(structure), thickness));
+  return all;
+}
+
+}  // namespace
+
+Status cut_to_reference(volume::Bone& bone, const volume::Bone& before,
+                        const scenario::Lesson& lesson, Progress& progress) {
+  BURR_CHECK(lesson.reference && !lesson.reference->remove.empty());
+  Scene scene(before, before, lesson, progress);
+  const metrics::Region plan = plan_of(*lesson.reference, scene);
+  if (scene.stopped()) return error(Trouble::interrupted, "stopped");
+  const volume::Grid& grid = before.grid();
+  constexpr int kEdge = volume::kBrickEdge;
+  for (volume::BrickIndex brick = 0; brick < before.brick_count(); ++brick) {
+    if (progress.cancelled()) return error(Trouble::interrupted, "stopped");
+    const volume::Field* old = before.brick_field(brick);
+    if (old == nullptr) continue;
+    const math::Ijk first = before.brick_ijk(brick);
+    // no region reaches farther than its depth at the middle says; the corners are this far away
+    const math::Vec3 middle =
+        grid.world_from_grid(first.cast<double>() + math::Vec3::Constant(3.5));
+    if (plan(middle) < -(3.5 * 1.74 + volume::kRamp) * grid.voxel) continue;
+    volume::BrickField now;
+    std::memcpy(now.voxel, old, sizeof now.voxel);
+    bool cut = false;
+    for (int n = 0; n < volume::kBrickVoxels; ++n) {
+      if (now.voxel[n] == 0) continue;
+      const math::Ijk voxel = first + math::Ijk(n % kEdge, n / kEdge % kEdge, n / (kEdge * kEdge));
+      const double depth = plan(grid.world_from_grid(voxel.cast<double>()));
+      const volume::Field left = volume::field_from_depth(-depth / grid.voxel);
+      cut = cut || left < now.voxel[n];
+      now.voxel[n] = std::min(now.voxel[n], left);
+    }
+    if (cut) bone.write_brick(brick, now);
+  }
+  return fine();
+}
+
+}  // namespace burr::scoring

@@ -1,0 +1,150 @@
+#include "burr/surgeon/surgeon_hand.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "burr/math/rotation.h"
+#include "burr/math/sums.h"
+
+namespace burr::surgeon {
+namespace {
+
+using math::Vec3;
+
+constexpr double kSpring = 1000;    // between hand and burr, as the session has it [N/m]
+constexpr double kYield = 60;       // pressing: newtons short of the force per speed [N s/m]
+constexpr double kGoing = 150e-3;   // on the way [m/s]
+constexpr double kLanding = 30e-3;  // on its last piece [m/s]
+constexpr double kTouched = 0.25;   // the way has met the bone [N]
+constexpr double kFastestPress = 20e-3, kSlowestPress = 1e-3;  // [m/s]
+constexpr double kBrake = 0.2;     // it slows down this long before the goal ends [s]
+constexpr double kLift = 2e-3;     // [m/s]
+constexpr double kAhead = 0.5e-3;  // a stroke turns this far before the goal ends [m]
+constexpr double kFarAway = 4e-3;  // beyond it the force is the whole one [m]
+constexpr double kTurning = 4.0;   // of the shaft [1/s]
+
+}  // namespace
+
+SurgeonHand::SurgeonHand(const Skill& skill, double dt, std::uint64_t seed, const Vec3& at,
+                         const Vec3& shaft)
+    : skill_(skill),
+      tremor_(skill.tremor, dt, seed),
+      drift_(skill.drift, dt, seed),
+      uneven_(skill.force_noise, dt, seed),
+      at_(at),
+      last_(at),
+      shaft_(shaft) {
+  spec_.name = "scripted surgeon";
+  spec_.workspace_radius = 0.2;
+  // an arm that never tires: what the surgeon presses is what the bone gets
+  spec_.peak_force = spec_.continuous_force = 8;
+  spec_.thermal_budget = 1e6;
+  spec_.max_stiffness = kSpring;
+  delay_ = std::min(kMemory - 1, static_cast<std::size_t>(std::lround(skill.stop_delay / dt)));
+  rooms_.fill(1);
+}
+
+void SurgeonHand::look_at(const FieldGrid* goal, const FieldGrid* near) {
+  goal_ = goal;
+  near_ = near;
+}
+
+void SurgeonHand::begin(const Stroke& stroke, double burr_radius) {
+  stroke_ = stroke;
+  radius_ = burr_radius;
+  phase_ = Phase::going;
+  next_ = 0;
+  stroked_ = 0;
+  leaving_ = false;
+}
+
+void SurgeonHand::retreat(const Vec3& out, double distance) {
+  stroke_.points = 0;
+  stroke_.start = at_ + distance * out;
+  stroke_.idle_way = true;
+  phase_ = Phase::going;
+  next_ = 0;
+  stroked_ = 0;
+  leaving_ = true;
+}
+
+double SurgeonHand::room(const Vec3& p) const BURR_RT {
+  return goal_ != nullptr ? goal_->at(p) - radius_ : 1;
+}
+
+void SurgeonHand::reach_bone() BURR_RT {
+  phase_ = Phase::stroking;
+  done_ = 0;
+  sense_ = 1;
+  rooms_.fill(1);
+}
+
+void SurgeonHand::go(double dt) BURR_RT {
+  const bool last = next_ >= stroke_.points;
+  const Vec3 aim = last ? stroke_.start : stroke_.way[static_cast<std::size_t>(next_)];
+  const Vec3 left = aim - at_;
+  const double far = math::norm(left);
+  const double step = (last && !leaving_ ? kLanding : kGoing) * dt;
+  if (!leaving_ && last && math::dot(force_, left) < -kTouched * far) return reach_bone();
+  if (far > step) {
+    at_ += left * (step / far);
+    return;
+  }
+  at_ = aim;
+  if (!last) {
+    ++next_;
+  } else if (leaving_) {
+    phase_ = Phase::waiting;
+  } else {
+    reach_bone();
+  }
+}
+
+void SurgeonHand::stroke(double dt) BURR_RT {
+  const Vec3 burr = at_ + force_ / kSpring;  // the burr lags behind the hand that presses it
+  const double here = room(burr);
+  rooms_[tick_ % kMemory] = static_cast<float>(here);
+  const double seen =
+      static_cast<double>(rooms_[(tick_ + kMemory - delay_) % kMemory]);  // T_stop ago
+  ++tick_;
+  stroked_ += dt;
+  const double near = near_ != nullptr ? std::max(0.0, near_->at(burr) - radius_) : kFarAway;
+  const double share = skill_.restraint + (1 - skill_.restraint) * std::min(1.0, near / kFarAway);
+  const double wanted = skill_.force * share * uneven_.next();
+  const double felt = std::max(0.0, -math::dot(force_, stroke_.into));
+  double press = (wanted - felt) / kYield;
+  press = std::min(press, std::clamp(here / kBrake, kSlowestPress, kFastestPress));
+  if (seen < 0) press = -kLift;
+  at_ += stroke_.into * (press * dt);
+
+  // what stands in the way is cut away before the hand goes on
+  const double against = std::max(0.0, -sense_ * math::dot(force_, stroke_.along));
+  const double pace = skill_.speed * std::max(0.0, 1 - against / std::max(wanted, 0.1));
+  const Vec3 onwards = stroke_.along * (sense_ * pace * dt);
+  const bool over = done_ + sense_ * pace * dt > stroke_.length || done_ + sense_ * pace * dt < 0;
+  const bool leaves = here >= 0 && room(burr + stroke_.along * (sense_ * kAhead)) < 0;
+  if (over || leaves) {
+    sense_ = -sense_;
+    return;
+  }
+  at_ += onwards;
+  done_ += sense_ * pace * dt;
+}
+
+device::HandState SurgeonHand::state(double dt) BURR_RT {
+  if (phase_ == Phase::going) {
+    go(dt);
+  } else if (phase_ == Phase::stroking) {
+    stroke(dt);
+  }
+  shaft_ = math::normalized(shaft_ + (stroke_.shaft - shaft_) * std::min(1.0, kTurning * dt));
+  const Vec3 p = at_ + tremor_.next() + drift_.next();
+  device::HandState hand;
+  hand.world_from_tool = {p, math::shortest_rotation(Vec3::UnitZ(), shaft_)};
+  hand.velocity = (p - last_) / dt;
+  hand.pedal = phase_ == Phase::stroking || (phase_ == Phase::going && !stroke_.idle_way) ? 1 : 0;
+  last_ = p;
+  return hand;
+}
+
+}  // namespace burr::surgeon

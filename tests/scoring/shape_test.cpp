@@ -1,0 +1,163 @@
+// The built-in rubrics about the shape of the cut: an untouched bone meets nothing, work that follows the
+// plan meets all that the bone decides, and work that misses the plan in one way loses the items for it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "burr/base/progress.h"
+#include "burr/scenario/case.h"
+#include "burr/scenario/open_lesson.h"
+#include "burr/scoring/reference.h"
+#include "burr/scoring/score.h"
+#include "burr/volume/bone.h"
+#include "burr/workshop/label_check.h"
+#include "burr/workshop/open_bone.h"
+#include "burr/workshop/prepare.h"
+
+namespace burr::scoring {
+namespace {
+
+using math::Vec3;
+using scenario::Lesson;
+
+constexpr double kMm = 1e-3;
+
+// A built-in rubric with its case, and a coarser bone.
+class Shape : public ::testing::TestWithParam<std::pair<const char*, double>> {
+ protected:
+  void open(const std::string& name, double voxel_mm) {
+    auto rubric = read_rubric(name);
+    const auto work = scenario::read_case(name);
+    ASSERT_TRUE(rubric && work);
+    rubric_ = std::move(*rubric);
+    auto read = scenario::lesson_of(*work);
+    ASSERT_TRUE(read);
+    auto placed = scenario::place(std::move(*read), workshop::landmarks_of(*work), name);
+    ASSERT_TRUE(placed) << placed.error().text;
+    lesson_ = std::move(*placed);
+    ASSERT_TRUE(check(rubric_, lesson_)) << check(rubric_, lesson_).error().text;
+    for (std::unique_ptr<volume::Bone>* bone : {&before_, &after_}) {
+      scenario::Recipe coarse;
+      coarse.voxel_mm = voxel_mm;
+      auto made = workshop::open_bone(workshop::recipe_of(*work, coarse), quiet_);
+      ASSERT_TRUE(made) << made.error().text;
+      *bone = std::move(made->bone);
+    }
+  }
+
+  // wrong: changes the plan that is cut, not the one that is scored
+  void cut(const std::function<void(Lesson&)>& wrong = {}) {
+    Lesson plan = lesson_;
+    if (wrong) wrong(plan);
+    ASSERT_TRUE(cut_to_reference(*after_, *before_, plan, quiet_));
+  }
+
+  // The items that the bone decides and that are not met.
+  std::set<std::string> unmet() {
+    const auto made = score(rubric_, lesson_, *before_, *after_, nullptr, quiet_);
+    EXPECT_TRUE(made) << made.error().text;
+    std::set<std::string> ids;
+    for (std::size_t n = 0; n < rubric_.items.size(); ++n) {
+      const Outcome& one = made->outcomes[n];
+      if (needs_recording(rubric_.items[n])) continue;
+      if (one.verdict != Verdict::met) ids.insert(one.id);
+    }
+    return ids;
+  }
+
+  NoProgress quiet_;
+  Rubric rubric_;
+  Lesson lesson_;
+  std::unique_ptr<volume::Bone> before_, after_;
+};
+
+scenario::CaseRegion& region_of(Lesson& lesson, const std::string& name) {
+  for (scenario::CaseRegion& one : lesson.regions)
+    if (one.name == name) return one;
+  throw std::out_of_range(name);
+}
+
+TEST_P(Shape, UntouchedMeetsNothingAndThePlanMeetsAll) {
+  open(GetParam().first, GetParam().second);
+  if (HasFatalFailure()) return;
+  std::size_t of_bone = 0;
+  for (const Item& item : rubric_.items)
+    if (!needs_recording(item)) ++of_bone;
+  EXPECT_GE(of_bone, 4U);
+  EXPECT_EQ(unmet().size(), of_bone);
+  cut();
+  EXPECT_EQ(unmet(), std::set<std::string>{});
+}
+
+INSTANTIATE_TEST_SUITE_P(BuiltIn, Shape,
+                         ::testing::Values(std::pair{"block", 0.4}, std::pair{"spine", 0.4},
+                                           std::pair{"jaw", 0.4}, std::pair{"tooth", 0.1}),
+                         [](const auto& one) { return std::string(one.param.first); });
+
+class WrongShape : public Shape {};
+
+TEST_F(WrongShape, AGrooveThatIsTooWideAndDeepLosesDepthAndEdges) {
+  open("block", 0.4);
+  cut([](Lesson& plan) { region_of(plan, "groove").add.front().radius = 2.9 * kMm; });
+  EXPECT_EQ(unmet(),
+            (std::set<std::string>{"groove.kept-narrow", "groove.depth", "groove.outline"}));
+}
+
+TEST_F(WrongShape, AShortGrooveIsNotCleared) {
+  open("block", 0.4);
+  cut([](Lesson& plan) { region_of(plan, "groove").add.front().b.at.x() = 8 * kMm; });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"groove.cleared", "groove.outline"}));
+}
+
+// Turned about the entry by 8 degrees, outwards
+TEST_F(WrongShape, ACorridorInTheWrongDirectionLosesAngleAndEnd) {
+  open("spine", 0.4);
+  cut([](Lesson& plan) {
+    std::vector<Vec3>& axis = region_of(plan, "corridor").add.front().points;
+    const Vec3 entry = axis.front(), whole = axis.back() - entry;
+    const double a = 8 * M_PI / 180;
+    axis.back() = entry + Vec3(whole.x() * std::cos(a) - whole.y() * std::sin(a),
+                               whole.x() * std::sin(a) + whole.y() * std::cos(a), whole.z());
+  });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"corridor.angle", "corridor.end"}));
+}
+
+TEST_F(WrongShape, ABedThatIsTooDeepLosesItsDepthAndTheDistanceToTheNerve) {
+  open("jaw", 0.4);
+  cut([](Lesson& plan) {
+    scenario::Shape& bed = region_of(plan, "implant bed").add.front();
+    bed.points.back().z() -= 5 * kMm;
+    plan.reference->leave.clear();
+  });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"bed.depth", "nerve.clear"}));
+}
+
+TEST_F(WrongShape, ABedBesideTheGapLosesEntryAndEnd) {
+  open("jaw", 0.4);
+  cut([](Lesson& plan) {
+    for (Vec3& point : region_of(plan, "implant bed").add.front().points) point.x() += 1.8 * kMm;
+  });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"bed.entry", "bed.end"}));
+}
+
+TEST_F(WrongShape, AWideOpeningDownToThePulpLosesTheToothAndThePulpsRoof) {
+  open("tooth", 0.15);
+  cut([](Lesson& plan) {
+    scenario::Shape& way = region_of(plan, "way in").add.front();
+    way.radius = 2.6 * kMm;
+    way.points.back().z() -= 1 * kMm;
+    plan.reference->leave.clear();
+  });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"dentine.spared", "pulp.covered", "outline.kept"}));
+}
+
+}  // namespace
+}  // namespace burr::scoring

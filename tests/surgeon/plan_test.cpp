@@ -1,0 +1,113 @@
+// What a surgeon believes and means to remove, on a block whose answer is known.
+#include "burr/surgeon/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "surgeon/surgeon_bone.h"
+
+namespace burr::surgeon {
+namespace {
+
+using math::Vec3;
+
+Believed believed(const volume::Bone& bone, const scenario::Lesson& lesson, double rms,
+                  std::uint64_t seed) {
+  NoProgress quiet;
+  auto made = Believed::make(bone, lesson, rms, seed, quiet);
+  EXPECT_TRUE(made.ok());
+  return std::move(*made);
+}
+
+TEST(Believed, WithoutErrorDistancesAreTrue) {
+  const auto bone = block_with_vein(0.25);
+  const scenario::Lesson lesson = block_lesson();
+  const Believed seen = believed(*bone, lesson, 0, 1);
+  EXPECT_EQ(seen.error_of("vein"), Vec3(Vec3::Zero()));
+  for (const Vec3& p : {Vec3(0, 0, -1 * kMm), Vec3(2 * kMm, 3 * kMm, -4 * kMm)})
+    EXPECT_NEAR(seen.distance("vein", p), -kVein(p), 0.15 * kMm);
+  EXPECT_TRUE(std::isinf(seen.distance("nerve", Vec3::Zero())));
+}
+
+TEST(Believed, AStructureIsMovedAsAWholeByItsError) {
+  const auto bone = block_with_vein(0.25);
+  const scenario::Lesson lesson = block_lesson();
+  const Believed truth = believed(*bone, lesson, 0, 1);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SCOPED_TRACE(seed);
+    const Believed seen = believed(*bone, lesson, 1.5 * kMm, seed);
+    const Vec3 e = seen.error_of("vein");
+    EXPECT_GT(e.norm(), 0);
+    EXPECT_NE(e, seen.error_of("stone"));
+    for (const Vec3& p : {Vec3(0, 0, -1 * kMm), Vec3(2 * kMm, 3 * kMm, -2 * kMm)})
+      EXPECT_DOUBLE_EQ(seen.distance("vein", p), truth.distance("vein", p - e));
+  }
+}
+
+TEST(Believed, ErrorsHaveTheRmsPerAxis) {
+  const auto bone = block_with_vein(0.5);
+  const scenario::Lesson lesson = block_lesson();
+  double square = 0;
+  constexpr int kSeeds = 200;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed)
+    square += believed(*bone, lesson, 0.5 * kMm, seed).error_of("vein").squaredNorm();
+  EXPECT_NEAR(std::sqrt(square / (3 * kSeeds)), 0.5 * kMm, 0.05 * kMm);
+}
+
+TEST(Goal, IsTheDepthInTheRegionAndTheRoomToWhatIsSpared) {
+  const auto bone = block_with_vein(0.25);
+  const scenario::Lesson lesson = block_lesson();
+  const Believed seen = believed(*bone, lesson, 0, 1);
+  const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
+  const FieldGrid goal = goal_of(lesson.regions.front(), lesson, seen, spare);
+  // the floor of the trough is at z = -4, the vein's margin ends at -2.5
+  EXPECT_NEAR(goal.at(Vec3(0, 0, -2 * kMm)), 0.5 * kMm, 0.15 * kMm);
+  EXPECT_NEAR(goal.at(Vec3(0, 0, -3 * kMm)), -0.5 * kMm, 0.15 * kMm);
+  // beside the vein the floor counts
+  EXPECT_NEAR(goal.at(Vec3(-2 * kMm, 4.2 * kMm, -3.5 * kMm)), 0.5 * kMm, 0.15 * kMm);
+  // out of the trough, and in the stone
+  EXPECT_LT(goal.at(Vec3(0, -5 * kMm, -2 * kMm)), -1 * kMm);
+  EXPECT_LT(goal.at(Vec3(3 * kMm, 5 * kMm, -1.5 * kMm)), -0.5 * kMm);
+  // above the bone the way is free
+  EXPECT_GT(goal.at(Vec3(0, 0, 1 * kMm)), 2 * kMm);
+}
+
+TEST(Goal, LessMarginReachesNearerByAsMuch) {
+  const auto bone = block_with_vein(0.25);
+  const scenario::Lesson lesson = block_lesson();
+  const Believed seen = believed(*bone, lesson, 0, 1);
+  const Spare plan = spare_of(bone->grid(), lesson, seen, 0);
+  const Spare less = spare_of(bone->grid(), lesson, seen, 0.5 * kMm);
+  const Vec3 p(0, 0, -2 * kMm);
+  EXPECT_NEAR(less.free.at(p) - plan.free.at(p), 0.5 * kMm, 1e-6);
+  EXPECT_EQ(less.near.at(p), plan.near.at(p));
+}
+
+TEST(Goal, WhatLiesBehindASparedStructureIsNoGoal) {
+  const auto bone = block_with_vein(0.25);
+  scenario::Lesson lesson = block_lesson();
+  lesson.regions.front().add.front().size = Vec3(10, 8, 16) * kMm;  // down below the vein
+  const Believed seen = believed(*bone, lesson, 0, 1);
+  const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
+  const FieldGrid goal = goal_of(lesson.regions.front(), lesson, seen, spare);
+  EXPECT_LT(goal.at(Vec3(0, 0, -8.5 * kMm)), 0);                // in the shadow of the vein
+  EXPECT_GT(goal.at(Vec3(-3 * kMm, 4 * kMm, -8 * kMm)), 0);     // beside it
+  EXPECT_GT(spare.free.at(Vec3(0, 0, -8.5 * kMm)), 0.5 * kMm);  // though it is far enough away
+}
+
+TEST(Goal, ChangesByAtMostOneMetrePerMetre) {
+  const auto bone = block_with_vein(0.5);
+  const scenario::Lesson lesson = block_lesson();
+  const Believed seen = believed(*bone, lesson, 0.5 * kMm, 4);
+  const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
+  const FieldGrid goal = goal_of(lesson.regions.front(), lesson, seen, spare);
+  const auto x = static_cast<std::size_t>(goal.size().x());
+  for (std::size_t n = 1; n < goal.nodes(); ++n) {
+    if (n % x == 0) continue;
+    ASSERT_LE(std::abs(goal.value[n] - goal.value[n - 1]), 1.02 * goal.spacing()) << n;
+  }
+}
+
+}  // namespace
+}  // namespace burr::surgeon
