@@ -163,7 +163,8 @@ TEST(SelfMarks, NameFileLineFieldAndRemedyOfAMistake) {
 // The table of translations is by the English text, so that text must be the library's.
 TEST(ReportWords, KnowWhatTheLibraryCallsItsValues) {
   std::string library;
-  for (const char* file : {"measure_bone.cpp", "measure_recording.cpp"}) {
+  for (const char* file :
+       {"measure_bone.cpp", "measure_manner.cpp", "measure_recording.cpp", "measure_shape.cpp"}) {
     std::ifstream in(std::string(BURR_SOURCE_DIR "/src/burr/scoring/") + file);
     library.append(std::istreambuf_iterator<char>(in), {});
   }

@@ -22,17 +22,17 @@ p { margin: .3em 0 } .soft { color: #555 } .warn { border-left: 4px solid #b04a0
 table { border-collapse: collapse; width: 100% } td, th { text-align: left; vertical-align: top; padding: .3em .5em; border-top: 1px solid #ddd }
 th { color: #555; font-weight: 600; font-size: .9em } thead { display: table-header-group } tr { break-inside: avoid }
 .mark { white-space: nowrap; font-weight: 600 } th.m { width: 6em } .good { color: #00694c } .bad { color: #b04a00 } .open { color: #0060a0 } .none { color: #555 }
-.id { color: #777; font-size: .85em; white-space: nowrap } .small { font-size: .88em } .item { width: 30% }
+.id { color: #777; font-size: .85em; white-space: nowrap } .small { font-size: .88em } .item { width: 27% } th.v { width: 54% }
 .tag { border: 1px solid #b04a00; color: #b04a00; border-radius: .6em; padding: 0 .4em; font-size: .8em; white-space: nowrap }
 .default { color: #777; font-size: .85em; font-style: italic } .note { color: #555 }
 figure { display: inline-block; margin: .2em .4em .2em 0; vertical-align: top } figcaption { font-size: .82em; color: #555 } img { display: block; max-width: 100%; height: auto }
-.sides { display: grid; grid-template-columns: repeat(4, 1fr); gap: .5em } .sides figure { margin: 0 } .proof { float: right; margin-left: .6em } .proof img { width: 180px }
+.sides { display: grid; grid-template-columns: repeat(4, 1fr); gap: .5em } .sides figure { margin: 0 } .proof { float: right; margin-left: .6em } .proof figure { width: 180px }
 .legend span { display: inline-block; margin-right: 1.2em; font-size: .88em } .legend i { display: inline-block; width: .9em; height: .9em; border: 1px solid #777; margin-right: .35em; vertical-align: -.1em }
 svg { max-width: 100%; height: auto; vertical-align: middle } .totals { display: grid; grid-template-columns: 1fr 1fr; gap: .3em 2em } .totals b { font-size: 1.15em }
 ol { margin: .3em 0; padding-left: 1.5em } code { font-family: "DejaVu Sans Mono", monospace; font-size: .9em; overflow-wrap: anywhere }
 @page { size: A4; margin: 12mm }
 @media print { body { font-size: 8.4pt; line-height: 1.28; margin: 0; padding: 0; max-width: none } h2 { margin: .8em 0 .25em; break-after: avoid }
- td, th { padding: .16em .35em } .proof img { width: 30mm } figure, svg, .warn { break-inside: avoid } .remarks p { margin: .1em 0 }
+ td, th { padding: .16em .35em } .proof figure { width: 30mm } figure, svg, .warn, .whole { break-inside: avoid } .remarks p { margin: .1em 0 }
  * { -webkit-print-color-adjust: exact; print-color-adjust: exact } }
 )";
 
@@ -217,7 +217,7 @@ std::string items_html(const Report& report) {
   if (report.has_self) html += column_html(report.you);
   html += column_html(report.machine);
   if (!report.beside.empty()) html += column_html(report.beside);
-  html += "<th>" + markup_text(word(Word::report_value)) + "</th></tr></thead>\n";
+  html += "<th class=\"v\">" + markup_text(word(Word::report_value)) + "</th></tr></thead>\n";
   const int columns = 3 + (report.has_self ? 1 : 0) + (report.beside.empty() ? 0 : 1);
   for (const ReportPart& part : report.parts) {
     html += fmt::format("<tbody><tr><th colspan=\"{}\">{}</th></tr>\n", columns,
@@ -230,15 +230,16 @@ std::string items_html(const Report& report) {
 
 std::string sides_html(const Report& report) {
   if (report.sides.empty()) return {};
-  std::string html = fmt::format("<h2>{}</h2>\n{}", markup_text(word(Word::report_sides)),
-                                 legend_html(report.sides_legend));
+  std::string html =
+      fmt::format("<div class=\"whole\"><h2>{}</h2>\n{}", markup_text(word(Word::report_sides)),
+                  legend_html(report.sides_legend));
   for (const ReportSides& side : report.sides) {
     if (!side.whose.empty()) html += "<p><b>" + markup_text(side.whose) + "</b></p>\n";
     html += "<div class=\"sides\">\n";
     for (const ReportPicture& picture : side.pictures) html += figure_html(picture);
     html += "</div>\n";
   }
-  return html;
+  return html + "</div>\n";
 }
 
 std::string lines_html(const Report& report) {

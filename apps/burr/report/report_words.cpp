@@ -16,7 +16,7 @@ constexpr std::array kValues = {
     Word::what_walls, Word::what_shut,   Word::what_way,       Word::what_under, Word::what_removed,
     Word::what_deep,  Word::what_choice, Word::what_restraint, Word::what_order};
 
-constexpr std::array<std::pair<std::string_view, Word>, 13> kMeasures = {
+constexpr std::array<std::pair<std::string_view, Word>, 29> kMeasures = {
     {{"identified", Word::explain_identified},
      {"skeletonised", Word::explain_skeletonised},
      {"intact_solid", Word::explain_intact_solid},
@@ -29,7 +29,23 @@ constexpr std::array<std::pair<std::string_view, Word>, 13> kMeasures = {
      {"kept", Word::explain_kept},
      {"burr_choice", Word::explain_burr_choice},
      {"restraint", Word::explain_restraint},
-     {"order", Word::explain_order}}};
+     {"order", Word::explain_order},
+     {"untouched", Word::explain_untouched},
+     {"clearance", Word::explain_clearance},
+     {"axis_entry", Word::explain_axis_entry},
+     {"axis_apex", Word::explain_axis_apex},
+     {"axis_angle", Word::explain_axis_angle},
+     {"axis_depth", Word::explain_axis_depth},
+     {"axis_width", Word::explain_axis_width},
+     {"plane_offset", Word::explain_plane_offset},
+     {"plane_angle", Word::explain_plane_angle},
+     {"plane_even", Word::explain_plane_even},
+     {"cavity_depth", Word::explain_cavity_depth},
+     {"cavity_floor", Word::explain_cavity_floor},
+     {"cavity_outline", Word::explain_cavity_outline},
+     {"strokes", Word::explain_strokes},
+     {"stroke_direction", Word::explain_stroke_direction},
+     {"coolant", Word::explain_coolant}}};
 
 const char* verdict_word(Verdict verdict) {
   switch (verdict) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "burr/record/course.h"
@@ -57,18 +58,20 @@ void add_course(const Scored& scored, ReportLine& line) {
   while (!begun.empty()) end_step(std::string(begun.begin()->first), line.seconds);
 }
 
-// The nearest first; then those that the burr was never near.
+// The nearest first; then those that the burr was never near. What is not known is left out.
 std::string nearest_of(const scoring::Shown& shown) {
-  std::vector<metrics::NearnessOf> all = shown.nearness;
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.least < b.least; });
+  std::vector<std::pair<std::string, metrics::Nearness>> known;
+  for (const metrics::NearnessOf& one : shown.nearness)
+    if (one.found) known.emplace_back(one.name, *one.found);
+  std::stable_sort(known.begin(), known.end(),
+                   [](const auto& a, const auto& b) { return a.second.least < b.second.least; });
   std::string text, never;
-  for (const metrics::NearnessOf& one : all) {
-    if (!std::isfinite(one.least) || 1e3 * one.least >= kFarthestMm)
-      never += (never.empty() ? "" : ", ") + one.name;
+  for (const auto& [name, near] : known) {
+    if (1e3 * near.least >= kFarthestMm)
+      never += (never.empty() ? "" : ", ") + name;
     else
       text += (text.empty() ? "" : "; ") +
-              say(Word::report_nearest_one, one.name, 1e3 * one.least, one.least_at);
+              say(Word::report_nearest_one, name, 1e3 * near.least, near.least_at);
   }
   if (never.empty()) return text;
   return text + (text.empty() ? "" : "; ") + say(Word::report_nearest_never, kFarthestMm, never);
