@@ -35,6 +35,11 @@ add_test(NAME house.finds_scans COMMAND ${checks}/finds_scans.sh ${CMAKE_BINARY_
 if(Python3_FOUND)
   add_test(NAME house.psychophysics COMMAND ${checks}/psychophysics.sh ${CMAKE_BINARY_DIR})
   set_tests_properties(house.psychophysics PROPERTIES TIMEOUT 300)
+  if(NOT BURR_SANITIZE AND TARGET burr_program)
+    add_test(NAME surgeon.tells_apart COMMAND ${Python3_EXECUTABLE} ${checks}/surgeons.py $<TARGET_FILE:burr_program>
+      ${CMAKE_BINARY_DIR}/surgeons)
+    set_tests_properties(surgeon.tells_apart PROPERTIES TIMEOUT 900)
+  endif()
 endif()
 if(Python3_FOUND)
   add_test(NAME house.report COMMAND ${checks}/report.sh ${CMAKE_BINARY_DIR})

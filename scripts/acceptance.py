@@ -105,6 +105,7 @@ def run(options, name, level, seed, vice=None):
     recording = options.out / "runs" / f"{name}.mcap"
     voxel = ["--voxel-mm", str(options.voxel_mm)] if options.voxel_mm else []
     command = [options.burr, "surgeon", options.case, "--level", level, "--seed", str(seed), "--seconds", str(options.seconds),
+               "--least-seconds", str(options.least_seconds),
                "--record", str(recording), "--force", "--json", *voxel]
     if vice:
         command += ["--vice", f"{vice[0]}={vice[1]}"]
@@ -243,6 +244,8 @@ def main():
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--first", type=int, default=FIRST_SEED, help="first seed; below 1000 only to tune")
     parser.add_argument("--seconds", type=float, default=5400, help="longest session, of its own clock")
+    parser.add_argument("--least-seconds", type=float, default=0,
+                        help="nobody declares the work done earlier; near --seconds, time tells nothing")
     parser.add_argument("--voxel-mm", type=float, default=0, help="default: that of the case")
     parser.add_argument("--rubric", default="", help="default: that of the case")
     parser.add_argument("--jobs", type=int, default=1, help="sessions at the same time")

@@ -136,6 +136,26 @@ TEST(Surgeon, WhoStopsEarlyLeavesMore) {
   EXPECT_GT(early.left, whole.left + 0.1);
 }
 
+// What calls a surgeon: before the first tick and every n-th, not in real time.
+TEST(Surgeon, IsCalledBetweenTicksButNeverInRealTime) {
+  for (const bool realtime : {false, true}) {
+    NoProgress quiet;
+    sim::SessionSettings settings;
+    settings.servo.burr.radius = 1.5 * kMm;
+    settings.realtime = realtime;
+    auto made = sim::Session::make(
+        block_with_vein(0.5),
+        std::make_unique<SurgeonHand>(Skill{}, 1e-3, 1, Vec3(0, 0, 20 * kMm), Vec3::UnitZ()),
+        settings, quiet);
+    ASSERT_TRUE(made.ok());
+    std::vector<std::uint64_t> called;
+    (*made)->set_between_ticks([&] { called.push_back((*made)->ticks()); }, 10);
+    (*made)->run(0.025, quiet);
+    EXPECT_EQ(called,
+              realtime ? std::vector<std::uint64_t>{} : (std::vector<std::uint64_t>{0, 10, 20}));
+  }
+}
+
 TEST(Surgeon, RefusesACaseWithNothingToDo) {
   NoProgress quiet;
   const auto bone = block_with_vein(0.5);

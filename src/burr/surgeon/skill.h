@@ -23,7 +23,7 @@ enum class Level { expert, average, careless };
 
 // Diameters are shares of the case's own burr, so that one table serves a tooth and a mastoid.
 struct BurrPolicy {
-  double far = 1.2, middle = 1.0, near = 0.6;  // beyond 6, 2.5 and below 2.5 mm of what is spared
+  double far = 1.2, middle = 1.0, near = 0.6;  // beyond 6, 3.5 and below 3.5 mm of what is spared
   double smallest = 0.2;                       // taken where a larger one does not fit
   double diamond_below = 1.5e-3;               // this near a diamond burr is taken; 0: never [m]
   bool heeds_step = true;                      // takes the tool that the step of the case names

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "burr/volume/sample.h"
 
@@ -15,7 +14,7 @@ using math::Vec3;
 
 constexpr double kCell = 2e-3;                           // over which the goal is averaged [m]
 constexpr double kMost = 3e-3;                           // a goal above it counts as this [m]
-constexpr double kFarTool = 6e-3, kMiddleTool = 2.5e-3;  // borders of BurrPolicy [m]
+constexpr double kFarTool = 6e-3, kMiddleTool = 3.5e-3;  // borders of BurrPolicy [m]
 constexpr double kSmaller = 0.8;                         // the next burr if one does not fit
 constexpr double kTight = 0.02e-3;  // a burr fits if this much more goal would do [m]
 constexpr double kInside = 0.1e-3;  // of the burr: bone there is cut [m]
@@ -41,30 +40,30 @@ bool in_air(const volume::Bone& bone, const Vec3& p) { return volume::depth_at(b
 }  // namespace
 
 StepWork::StepWork(const volume::Bone& bone, const scenario::Step& step,
-                   const scenario::Lesson& lesson, FieldGrid goal, const Spare& spare,
-                   const Skill& skill, double case_diameter)
+                   const scenario::Lesson& lesson, const FieldGrid& goal, const FieldGrid& allowed,
+                   const Spare& spare, const Skill& skill, double case_diameter)
     : step_(step),
       lesson_(lesson),
-      goal_(std::move(goal)),
+      allowed_(allowed),
       spare_(spare),
       skill_(skill),
       case_diameter_(case_diameter),
       voxel_(bone.grid().voxel),
       approach_(approach_of(lesson)) {
   top_ = -std::numeric_limits<double>::infinity();
-  const int in_cell = std::max(1, static_cast<int>(std::lround(kCell / goal_.spacing())));
-  const Ijk cells = goal_.size() / in_cell + Ijk::Ones();
-  const auto x = static_cast<std::size_t>(goal_.size().x());
-  const auto y = static_cast<std::size_t>(goal_.size().y());
+  const int in_cell = std::max(1, static_cast<int>(std::lround(kCell / goal.spacing())));
+  const Ijk cells = goal.size() / in_cell + Ijk::Ones();
+  const auto x = static_cast<std::size_t>(goal.size().x());
+  const auto y = static_cast<std::size_t>(goal.size().y());
   const double smallest = [&] {
     fit_ = 0;
     return burr_for(0).radius;
   }();
   fit_ = 1;
-  for (std::size_t n = 0; n < goal_.nodes(); ++n) {
-    const auto goal_here = static_cast<double>(goal_.value[n]);
+  for (std::size_t n = 0; n < goal.nodes(); ++n) {
+    const auto goal_here = static_cast<double>(goal.value[n]);
     if (goal_here < kSkin) continue;
-    const Vec3 p = goal_.node(n);
+    const Vec3 p = goal.node(n);
     Node node{};
     node.at = p.cast<float>();
     node.voxel = (bone.grid().grid_from_world(p).array() + 0.5).floor().cast<int>();
@@ -77,7 +76,7 @@ StepWork::StepWork(const volume::Bone& bone, const scenario::Step& step,
     const Ijk cell = ijk / in_cell;
     node.cell =
         static_cast<std::uint32_t>(cell.x() + cells.x() * (cell.y() + cells.y() * cell.z()));
-    node.goal = goal_.value[n];
+    node.goal = allowed_.value[n];
     node.near = spare_.near.value[n];
     look(bone, node);
     top_ = std::max(top_, p.dot(approach_.front()));
@@ -99,7 +98,7 @@ void StepWork::look(const volume::Bone& bone, Node& node) const {
   node.there = is_bone(bone, node.voxel);
   node.surface = false;
   if (!node.there) return;
-  const int step = std::max(1, static_cast<int>(std::lround(goal_.spacing() / voxel_)));
+  const int step = std::max(1, static_cast<int>(std::lround(allowed_.spacing() / voxel_)));
   for (int side = 0; side < 6 && !node.surface; ++side) {
     Ijk beside = node.voxel;
     beside[side / 2] += side % 2 == 0 ? step : -step;
@@ -147,14 +146,14 @@ HeldBurr StepWork::burr_for(double near) const {
 std::optional<Vec3> StepWork::place_for(const Vec3& q, const Vec3& out, double radius) const {
   Vec3 centre = q + (radius - kSkin) * out;
   for (int n = 0; n < 5; ++n) {
-    const double short_of = radius - goal_.at(centre);
+    const double short_of = radius - allowed_.at(centre);
     if (short_of <= kTight) break;
-    const Vec3 up = goal_.slope(centre);
+    const Vec3 up = allowed_.slope(centre);
     const double steep = up.norm();
     if (steep < 0.2) return std::nullopt;
     centre += up * (short_of / steep);
   }
-  if (goal_.at(centre) < radius - kTight) return std::nullopt;
+  if (allowed_.at(centre) < radius - kTight) return std::nullopt;
   if ((centre - q).norm() > radius - kInside) return std::nullopt;
   return centre;
 }
@@ -235,7 +234,7 @@ std::optional<NextStroke> StepWork::stroke_at(const volume::Bone& bone, const No
     double ahead = 0, behind = 0;
     constexpr double kPiece = 0.5e-3;
     const auto fits = [&](double s) {
-      return goal_.at(*deepest + s * stroke.along) >= radius - kTight;
+      return allowed_.at(*deepest + s * stroke.along) >= radius - kTight;
     };
     while (ahead < length && fits(ahead + kPiece)) ahead += kPiece;
     while (behind < 0.5 * length && fits(-behind - kPiece) &&

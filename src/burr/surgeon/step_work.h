@@ -44,11 +44,12 @@ struct NextStroke {
 
 class StepWork {
  public:
-  // Everything but the bone is copied or must outlive this. case_diameter: of the case's burr [m].
+  // goal: of this step. allowed: of this step and those before it, where the burr may go. Everything
+  // but bone and goal must outlive this. case_diameter: of the case's burr [m].
   StepWork(const volume::Bone& bone, const scenario::Step& step, const scenario::Lesson& lesson,
-           FieldGrid goal, const Spare& spare, const Skill& skill, double case_diameter);
+           const FieldGrid& goal, const FieldGrid& allowed, const Spare& spare, const Skill& skill,
+           double case_diameter);
 
-  [[nodiscard]] const FieldGrid& goal() const { return goal_; }
   // Share of the plan that is still there; 0 for an empty plan.
   [[nodiscard]] double left() const;
   // Looks at the bone again around the hand.
@@ -86,7 +87,7 @@ class StepWork {
 
   const scenario::Step& step_;
   const scenario::Lesson& lesson_;
-  FieldGrid goal_;
+  const FieldGrid& allowed_;
   const Spare& spare_;
   Skill skill_;
   double case_diameter_, voxel_;

@@ -68,10 +68,13 @@ void Surgeon::begin_step(const volume::Bone& bone, Consulted& out) {
   if (step_ >= lesson_.steps.size()) return;
   const scenario::Step& step = lesson_.steps[step_];
   out.notes.push_back({NoteKind::step_begun, step.id, 1});
-  work_ = std::make_unique<StepWork>(
-      bone, step, lesson_, goal_of(*lesson_.region(step.region), lesson_, believed_, spare_),
-      spare_, skill_, case_diameter_);
-  working_->look_at(&work_->goal(), &spare_.near);
+  const FieldGrid goal = goal_of(*lesson_.region(step.region), lesson_, believed_, spare_);
+  if (allowed_.nodes() == 0) allowed_ = goal;
+  for (std::size_t n = 0; n < goal.nodes(); ++n)
+    allowed_.value[n] = std::max(allowed_.value[n], goal.value[n]);
+  work_ = std::make_unique<StepWork>(bone, step, lesson_, goal, allowed_, spare_, skill_,
+                                     case_diameter_);
+  working_->look_at(&allowed_, &spare_.near);
 }
 
 void Surgeon::end_step(Consulted& out) {
@@ -98,9 +101,11 @@ void Surgeon::look_from(const volume::Bone& bone, const NextStroke& next, Consul
 
 Consulted Surgeon::consult(const volume::Bone& bone) {
   Consulted out;
+  ++consultations_;
   if (!work_) {
     begin_step(bone, out);
     if (!work_) {
+      if (consultations_ < earliest_end_) return out;
       out.notes.push_back({NoteKind::done, {}, 0});
       working_->finish();
       return out;

@@ -65,6 +65,10 @@ class Surgeon {
   // The hand, for a session; once. It lives at most as long as the surgeon.
   [[nodiscard]] std::unique_ptr<SurgeonHand> take_hand();
 
+  // The work is declared done at this consultation at the earliest: who is ready before looks on, so
+  // that time need not tell who stopped early.
+  void stay_until(std::uint64_t consultation) { earliest_end_ = consultation; }
+
   [[nodiscard]] Consulted consult(const volume::Bone& bone);
 
   [[nodiscard]] const Believed& believed() const { return believed_; }
@@ -86,11 +90,13 @@ class Surgeon {
   people::RandomStream random_;
   Believed believed_;
   Spare spare_;
+  FieldGrid allowed_;  // the goals of this step and of those before it
   std::unique_ptr<SurgeonHand> hand_;
   SurgeonHand* working_ = nullptr;
   std::unique_ptr<StepWork> work_;
   std::size_t step_ = 0;  // of the lesson
   std::optional<HeldBurr> wanted_;
+  std::uint64_t consultations_ = 0, earliest_end_ = 0;
   int pause_ = 0;  // consultations until the other burr turns
   math::Vec3 out_;
   Eye eye_;

@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""Scripted surgeons on the built-in jaw: the careless one does worse than the expert, a recording replays to the bit, and the same seed
+gives the same score to the byte.
+
+    scripts/checks/surgeons.py BURR FOLDER      FOLDER: for the recordings; made if it is not there
+"""
+import json
+import pathlib
+import subprocess
+import sys
+
+SEEDS = (1, 2)
+RUBRIC = pathlib.Path(__file__).resolve().parents[2] / "tests" / "surgeon" / "jaw_rubric.toml"
+
+
+def run(*command):
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
+    if done.returncode:
+        sys.exit(f"{' '.join(map(str, command))}: exit code {done.returncode}: {done.stderr.strip()}")
+    return done.stdout
+
+
+def session(burr, folder, level, seed, name=""):
+    """The surgeon's account, its score as text, and the recording."""
+    file = folder / f"{level}-{seed}{name}.mcap"
+    account = json.loads(run(burr, "surgeon", "jaw", "--level", level, "--seed", seed, "--seconds", 300, "--record", file, "--force", "--json")
+                         .splitlines()[-1])
+    return account, run(burr, "score", file, "--rubric", RUBRIC, "--json").splitlines()[-1], file
+
+
+def met(score):
+    return sum(item["verdict"] == "met" for item in json.loads(score)["items"])
+
+
+def main():
+    if len(sys.argv) != 3:
+        print(__doc__, file=sys.stderr)
+        return 2
+    burr, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    folder.mkdir(parents=True, exist_ok=True)
+    wrong, marks, first = [], {}, None
+    for level in ("expert", "careless"):
+        for seed in SEEDS:
+            account, score, file = session(burr, folder, level, seed)
+            marks.setdefault(level, []).append(met(score))
+            print(f"{level}, seed {seed}: {met(score)} items met, {account['seconds']:.0f} s, {account['removed_mm3']:.0f} mm3, {account['ending']}")
+            if account["ending"] != "declared done":
+                wrong.append(f"{level}, seed {seed}: the work was not finished in 300 s")
+            first = first or (account, score, file)
+    if min(marks["expert"]) <= max(marks["careless"]):
+        wrong.append(f"items met by the expert {marks['expert']}, by the careless one {marks['careless']}")
+    run(burr, "replay", first[2], "--check")
+    account, score, _ = session(burr, folder, "expert", SEEDS[0], "-again")
+    if score != first[1] or account["bone_hash"] != first[0]["bone_hash"]:
+        wrong.append("the same seed gave another bone or another score")
+    for sentence in wrong:
+        print("not as it must be: " + sentence)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
