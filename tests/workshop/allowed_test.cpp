@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -90,14 +91,21 @@ TEST(Allowed, LearningHasEverythingThatTheCaseDoesNotLeaveOut) {
   }
 }
 
+record::Identity learning(std::uint32_t attempt) {
+  record::Identity identity;
+  identity.mode = Mode::learn;
+  identity.attempt = attempt;
+  return identity;
+}
+
 TEST(Allowed, GuidanceFadesByTheRuleOfTheCase) {
   scenario::Feedback feedback;
   feedback.fade = "2,alternate:4,off";
   std::string guided;
   for (std::uint32_t attempt = 1; attempt <= 8; ++attempt)
-    guided += guided_in({.mode = Mode::learn, .attempt = attempt}, feedback) ? 'g' : '-';
+    guided += guided_in(learning(attempt), feedback) ? 'g' : '-';
   EXPECT_EQ(guided, "gg-g-g--") << "a target is not lit in every attempt";
-  EXPECT_TRUE(guided_in({.mode = Mode::learn, .attempt = 9}, {})) << "no rule";
+  EXPECT_TRUE(guided_in(learning(9), {})) << "no rule";
   for (const Mode mode : {Mode::learn, Mode::practise}) {
     const Allowed one = allowed_in(mode, {}, false);
     EXPECT_FALSE(one.target || one.distance || one.technique);

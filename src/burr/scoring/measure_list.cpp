@@ -3,15 +3,17 @@
 #include <fmt/core.h>
 
 #include <numbers>
+#include <utility>
 
 namespace burr::scoring {
 namespace {
 
 constexpr double kMm = 1e-3, kMm2 = 1e-6, kMm3 = 1e-9, kDegree = std::numbers::pi / 180;
 
-std::vector<Measure> all_measures() {
+// What became of structures and regions.
+std::vector<Measure> measures_of_anatomy() {
   using enum Quantity;
-  constexpr Part kProduct = Part::product, kProcess = Part::process;
+  constexpr Part kProduct = Part::product;
   return {
       {.name = "identified",
        .part = kProduct,
@@ -75,6 +77,14 @@ std::vector<Measure> all_measures() {
        .quantity = share,
        .region = true,
        .limits = {{"share", 1, 0.1, 0, 1}}},
+  };
+}
+
+// Contact, distance, and the shape of the cut against a plan.
+std::vector<Measure> measures_of_shape() {
+  using enum Quantity;
+  constexpr Part kProduct = Part::product;
+  return {
       {.name = "untouched",
        .part = kProduct,
        .quantity = time,
@@ -149,6 +159,13 @@ std::vector<Measure> all_measures() {
        .quantity = length,
        .region = true,
        .limits = {{"most_mm", kMm, 0.3, 0, 10}}},
+  };
+}
+
+std::vector<Measure> measures_of_manner() {
+  using enum Quantity;
+  constexpr Part kProcess = Part::process;
+  return {
       {.name = "strokes",
        .part = kProcess,
        .quantity = length,
@@ -169,6 +186,13 @@ std::vector<Measure> all_measures() {
        .limits = {{"most", 1, 0.7, 0, 10}}},
       {.name = "order", .part = kProcess, .quantity = count, .limits = {{"most", 1, 0, -1, 1000}}},
   };
+}
+
+std::vector<Measure> all_measures() {
+  std::vector<Measure> all = measures_of_anatomy();
+  for (auto* const more : {measures_of_shape, measures_of_manner})
+    for (Measure& one : more()) all.push_back(std::move(one));
+  return all;
 }
 
 }  // namespace
