@@ -103,9 +103,9 @@ void print_comparison(const Scored& a, const Scored& b) {
                base::printable(rubric.items[n].id), cell(first), cell(second));
   }
   for (const auto& [name, one] : {std::pair{"A", &a}, std::pair{"B", &b}})
-    fmt::print("{}: {}\n   {}\n", name,
-               total_line(rubric, scoring::Part::product, one->score.product),
-               total_line(rubric, scoring::Part::process, one->score.process));
+    for (const std::string& line : {total_line(rubric, scoring::Part::product, one->score.product),
+                                    total_line(rubric, scoring::Part::process, one->score.process)})
+      if (!line.empty()) fmt::print("{}: {}\n", name, line);
   fmt::print("*: the two differ. No threshold was compared with people; there is no grade.\n");
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -37,6 +38,9 @@ struct Options {
 
 void print_items(const scoring::Rubric& rubric, const scoring::Score& score) {
   for (const scoring::Part part : {scoring::Part::product, scoring::Part::process}) {
+    if (std::none_of(rubric.items.begin(), rubric.items.end(),
+                     [&](const auto& item) { return item.part == part; }))
+      continue;
     fmt::print("{}\n", scoring::word_of(part));
     for (std::size_t n = 0; n < rubric.items.size(); ++n)
       if (rubric.items[n].part == part)
@@ -72,8 +76,9 @@ Status run_score(const Options& options) {
   } else {
     fmt::print("{}, version {}\n", base::printable(rubric.name), rubric.version);
     print_items(rubric, score);
-    fmt::print("{}\n{}\n", total_line(rubric, scoring::Part::product, score.product),
-               total_line(rubric, scoring::Part::process, score.process));
+    for (const std::string& line : {total_line(rubric, scoring::Part::product, score.product),
+                                    total_line(rubric, scoring::Part::process, score.process)})
+      if (!line.empty()) fmt::print("{}\n", line);
     if (const std::string gates = gate_line(rubric, score); !gates.empty())
       fmt::print("{}\n", gates);
     fmt::print("{}: {}; {:.0f} % of the bone that the case says to remove is gone\n",

@@ -79,6 +79,7 @@ std::string total_line(const scoring::Rubric& rubric, Part part, const scoring::
   const std::string open = total.items > total.assessable
                                ? fmt::format(", {} not assessable", total.items - total.assessable)
                                : "";
+  if (total.items == 0) return {};
   const bool calibrated =
       std::all_of(rubric.items.begin(), rubric.items.end(),
                   [&](const Item& item) { return item.part != part || item.calibrated; });

@@ -17,7 +17,7 @@ namespace burr::app {
 [[nodiscard]] std::string item_line(const scoring::Item& item, const scoring::Outcome& outcome);
 
 // "product: 7 of 25 items met". Points follow only where every item of the part is calibrated; or why
-// there are none.
+// there are none. Empty: the rubric has no item of this part.
 [[nodiscard]] std::string total_line(const scoring::Rubric& rubric, scoring::Part part,
                                      const scoring::Total& total);
 
