@@ -91,7 +91,7 @@ say = "Keep the order."
 
 // How the session differs from good work.
 struct Fault {
-  double near_height = 3.2 * kMm;  // of the burr's centre over the nerve's axis
+  double near_height = 2.6 * kMm;  // of the burr's centre over the nerve's axis
   double near_radius = 1 * kMm;
   tool::BurrKind near_kind = tool::BurrKind::diamond;
   double near_force = 0.4;
@@ -187,7 +187,7 @@ TEST_F(Recorded, ADeepBurrLosesTheNerveAndTheForceIsAsItWas) {
 TEST_F(Recorded, ALargeCuttingBurrNearLosesTheChoice) {
   expect_lost(
       score_of(
-          {.near_height = 5.2 * kMm, .near_radius = 3 * kMm, .near_kind = tool::BurrKind::cutting}),
+          {.near_height = 4.6 * kMm, .near_radius = 3 * kMm, .near_kind = tool::BurrKind::cutting}),
       "burr.choice");
 }
 

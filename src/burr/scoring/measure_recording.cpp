@@ -19,6 +19,9 @@
 namespace burr::scoring {
 namespace {
 
+// Nearer than this a cutting burr is to be small: a rating-scale item, the numbers are defaults.
+constexpr double kNear = 1e-3, kSmallBurr = 1.5e-3;  // distance, radius [m]
+
 constexpr std::string_view kSoft = "intact_soft", kSolid = "untouched", kOrder = "order";
 
 // What the steps of the case spare, without plates of bone, which are to be thinned.
@@ -75,7 +78,7 @@ Outcome burr_choice(const Item& item, const metrics::Process& process) {
   if (!share) return not_assessable(item, "nothing was removed near what is to be spared");
   const double least = item.limit("share");
   return decided(item, {*share >= least, true, *share, least, 0},
-                 "share removed with a diamond or small burr within 2 mm", true);
+                 "share removed with a diamond or small burr within 1 mm", true);
 }
 
 Outcome restraint(const Item& item, const metrics::Process& process, double rate_hz) {
@@ -118,6 +121,8 @@ Result<metrics::Process> process_of(const Rubric& rubric, Scene& scene, record::
     return kept.emplace_back(scene.distance(structure)).get();
   };
   metrics::ProcessSettings settings;
+  settings.choice.near = kNear;
+  settings.choice.small = kSmallBurr;
   for (const std::string& name : critical(scene.lesson()))
     if (!scene.tissues(name).empty()) settings.critical.push_back({name, distance(name)});
   for (const Item& item : rubric.items)
