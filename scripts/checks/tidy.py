@@ -47,6 +47,7 @@ def names(text):
         if re.match(r"(using namespace|namespace|return|#|//|[^A-Za-z\[])", line):
             continue
         found.update(re.findall(r"(?:struct|class|enum|union) (\w+)", line))
+        found.update(re.findall(r"\b(k[A-Z]\w*) *(?:\[[^\]]*\])? *=", line))
         head = re.split(r"[({=;]", re.sub(r"^template *<.*?> *(?=\w)", "", line), maxsplit=1)[0]
         last = re.search(r"(?<![\w:])(\w+)(?:\[\w*\])? *$", head)
         if last:

@@ -28,14 +28,14 @@ constexpr double kAirReach = 0.15;
 // Fat and muscle: (40 + 1000) / (-100 + 1000) = 1.16.
 constexpr double kSameTissue = 1.2;
 
-struct Materials {
+struct GroupsOfMaterial {
   ValueGroup air, soft;
   bool alone = false;  // soft is the only material beside air
   bool hard = false;   // and is hard, as dentine below enamel
 };
 
 // Which of the groups is air and which is soft tissue; false: there is one material only.
-bool name_groups(const ValueSample& sample, const ValueGroups& groups, Materials& out) {
+bool name_groups(const ValueSample& sample, const ValueGroups& groups, GroupsOfMaterial& out) {
   const std::vector<ValueGroup>& all = groups.all;
   if (all.empty()) return false;
   const double top = std::max(groups.high, all.back().value);
@@ -71,7 +71,7 @@ bool name_groups(const ValueSample& sample, const ValueGroups& groups, Materials
 
 // Share of the surface at `level` that meets air within four voxels, and not soft tissue.
 double share_beside_air(const io::Scan& scan, const math::Ijk& from, const math::Ijk& size,
-                        const Materials& materials, double level) {
+                        const GroupsOfMaterial& materials, double level) {
   const auto bone = static_cast<float>(level);
   const auto half = static_cast<float>(0.5 * (materials.air.value + materials.soft.value));
   const std::ptrdiff_t nx = scan.size.x(), slice = nx * scan.size.y();
@@ -105,7 +105,7 @@ double share_beside_air(const io::Scan& scan, const math::Ijk& from, const math:
 // Enamel on dentine, and nothing soft around them: two hard materials, of which the denser one is in
 // air for a good part.
 bool is_tooth(const io::Scan& scan, const math::Ijk& from, const math::Ijk& size,
-              const ValueGroups& groups, const Materials& materials) {
+              const ValueGroups& groups, const GroupsOfMaterial& materials) {
   const ValueGroup& top = groups.all.back();
   const double ratio =
       (top.value - materials.air.value) / (materials.soft.value - materials.air.value);
@@ -199,7 +199,7 @@ BoneLevel estimate_bone_level(const io::Scan& scan, const math::Ijk& from, const
   const ValueSample sample =
       io::sample_values(scan.values.data(), scan.size, from, size, scan.outside);
   const ValueGroups groups = io::groups_of(sample);
-  Materials found;
+  GroupsOfMaterial found;
   if (!name_groups(sample, groups, found)) {
     out.why = "the values show one material only";
     return out;

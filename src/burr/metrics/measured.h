@@ -63,7 +63,7 @@ inline constexpr double kLeastWork = 0.2;
 
 // Share of the target that was removed, 0..1. It has no default: every caller must say it.
 struct Worked {
-  Worked(double share_) : share(share_) {}  // NOLINT(google-explicit-constructor)
+  Worked(double of_target) : share(of_target) {}  // NOLINT(google-explicit-constructor)
   double share;
 };
 
