@@ -99,8 +99,8 @@ Vec3 FieldGrid::slope(const Vec3& p) const BURR_RT {
 
 Vec3 FieldGrid::node(std::size_t n) const {
   const auto x = static_cast<std::size_t>(size_.x()), y = static_cast<std::size_t>(size_.y());
-  const Vec3 ijk(static_cast<double>(n % x), static_cast<double>(n / x % y),
-                 static_cast<double>(n / (x * y)));
+  const std::size_t i = n % x, j = n / x % y, k = n / (x * y);
+  const Vec3 ijk(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
   return frame_ * (spacing_ * ijk);
 }
 
