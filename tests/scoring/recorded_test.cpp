@@ -1,6 +1,7 @@
 // Scores of made recordings: good work meets every item, and each fault loses its own item alone.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -36,6 +37,10 @@ diameter_mm = 2
 name = "nerve"
 names = ["nerve"]
 intact = "soft"
+[[structure]]
+name = "stone"
+names = ["hard"]
+intact = "solid"
 [[region]]
 name = "pit"
 add = [{ shape = "box", at = [0, 0, 5.5], size_mm = [30, 30, 4] }]
@@ -73,6 +78,12 @@ measure = "intact_soft"
 structure = "nerve"
 say = "Stay out of the nerve."
 [[item]]
+id = "stone.untouched"
+part = "product"
+measure = "untouched"
+structure = "stone"
+say = "Do not touch the stone."
+[[item]]
 id = "burr.choice"
 part = "process"
 measure = "burr_choice"
@@ -87,6 +98,16 @@ id = "order"
 part = "process"
 measure = "order"
 say = "Keep the order."
+[[item]]
+id = "strokes"
+part = "process"
+measure = "strokes"
+say = "Work with long strokes."
+[[item]]
+id = "coolant"
+part = "process"
+measure = "coolant"
+say = "Cut with coolant."
 )";
 
 // How the session differs from good work.
@@ -97,13 +118,22 @@ struct Fault {
   double near_force = 0.4;
   std::vector<std::string> order = {"first", "middle", "last"};
   bool declared = true;
+  double stroke = 6 * kMm;  // far from the nerve, along y
+  bool irrigated = true;
+  bool on_stone = false;  // in place of the first 2 s
 };
 
 // 2 s far from the nerve with 1 N, then 2 s near it.
 Happening at(double t, const Fault& fault) {
   Happening now;
   const bool near = t >= 2;
-  now.place = near ? math::Vec3(6 * kMm, 0, fault.near_height) : math::Vec3(-6 * kMm, 0, 5 * kMm);
+  const double to_and_fro =
+      std::abs(std::remainder(2 * t, 1.0)) - 0.25;  // -0.25 to 0.25, twice a second
+  now.place = near             ? math::Vec3(6 * kMm, 0, fault.near_height)
+              : fault.on_stone ? math::Vec3(-2 * kMm, 6 * kMm, 5 * kMm)
+                               : math::Vec3(-6 * kMm, 0, 5 * kMm);
+  if (!near) now.place.y() += 2 * fault.stroke * to_and_fro;
+  now.tool.irrigated = fault.irrigated;
   now.touching = true;
   now.force = near ? fault.near_force : 1;
   now.removal = 1e-9;
@@ -117,7 +147,8 @@ class Recorded : public ::testing::Test {
   void SetUp() override {
     metrics::test::Plan plan;
     plan.bone = metrics::test::below(6 * kMm);
-    plan.labels = {{phantom::ball(1 * kMm, {6 * kMm, 0, 0}), metrics::test::kNerve}};
+    plan.labels = {{phantom::ball(1 * kMm, {6 * kMm, 0, 0}), metrics::test::kNerve},
+                   {phantom::ball(1 * kMm, {-2 * kMm, 6 * kMm, 3.5 * kMm}), metrics::test::kHard}};
     bones_ = metrics::test::cut(plan, metrics::test::above(3.5 * kMm), 0.4 * kMm);
   }
 
@@ -195,10 +226,27 @@ TEST_F(Recorded, FullForceNearLosesTheForce) {
   expect_lost(score_of({.near_force = 0.9}), "force");
 }
 
+TEST_F(Recorded, ShortStrokesLoseTheStrokes) {
+  const Score brief = score_of({.stroke = 2.5 * kMm});
+  expect_lost(brief, "strokes");
+  EXPECT_NEAR(brief.outcomes[6].value.value_or(0), 2.5 * kMm, 0.5 * kMm);
+}
+
+TEST_F(Recorded, ADryBurrLosesTheCoolant) {
+  expect_lost(score_of({.irrigated = false}), "coolant");
+}
+
+TEST_F(Recorded, ATurningBurrOnTheStoneLosesIt) {
+  const Score touched = score_of({.on_stone = true});
+  expect_lost(touched, "stone.untouched");
+  ASSERT_TRUE(touched.outcomes[2].tick);
+  EXPECT_LT(*touched.outcomes[2].tick, 2000U);
+}
+
 TEST_F(Recorded, AWrongOrderLosesTheOrder) {
   const Score wrong = score_of({.order = {"last", "first", "middle"}});
   expect_lost(wrong, "order");
-  EXPECT_EQ(wrong.outcomes[4].value.value_or(0), 2);  // both others had to precede it
+  EXPECT_EQ(wrong.outcomes[5].value.value_or(0), 2);  // both others had to precede it
 }
 
 TEST_F(Recorded, WorkThatIsNotDeclaredDoneIsUnfinished) {

@@ -150,6 +150,48 @@ add = [{ shape = "ball", at = [0, 0, 0], radius_mm = 4 }]
             "nerve");
 }
 
+TEST(Rubric, AnAxisNeedsACurveWithADirectionAndAPlaneItemAPlane) {
+  const auto lesson = scenario::parse_lesson(R"(format = 2
+title = "t"
+phantom = "block"
+[burr]
+diameter_mm = 4
+[[landmark]]
+name = "round"
+points_mm = [[0, 0, 0], [5, 0, 0], [0, 0, 0]]
+[[landmark]]
+name = "cut"
+at_mm = [0, 0, 0]
+normal = [0, 0, 1]
+[[region]]
+name = "pit"
+add = [{ shape = "ball", at = [0, 0, 0], radius_mm = 4 }]
+)",
+                                             "c.toml");
+  ASSERT_TRUE(lesson) << lesson.error().text;
+  const auto trouble = [&](const std::string& item) {
+    const auto read = parse_rubric(
+        "[rubric]\nname = \"r\"\nversion = 1\ncase = \"block\"\n[[item]]\nid = \"a\"\n"
+        "part = \"product\"\nregion = \"pit\"\nsay = \"s\"\n" +
+            item,
+        "r.toml");
+    if (!read) return read.error().text;
+    const Status fits = check(*read, *lesson);
+    return fits ? std::string("no error") : fits.error().text;
+  };
+  EXPECT_EQ(
+      trouble("measure = \"axis_angle\"\nalong = \"round\"\n"),
+      "r.toml: line 11: along: the curve \"round\" begins and ends at the same point, so it is no "
+      "axis; use another one");
+  EXPECT_EQ(
+      trouble("measure = \"axis_angle\"\nalong = \"cut\"\n"),
+      "r.toml: line 11: along: the case \"block\" has no curve among its landmarks \"cut\"; use "
+      "one of round");
+  EXPECT_EQ(trouble("measure = \"plane_angle\"\nplane = \"round\"\n"),
+            "r.toml: line 11: plane: the case \"block\" has no plane \"round\"; use one of cut");
+  EXPECT_EQ(trouble("measure = \"plane_angle\"\nplane = \"cut\"\n"), "no error");
+}
+
 TEST(Rubric, TheBuiltInOnesAreRead) {
   for (const std::string& name : built_in_rubrics()) {
     const auto read = read_rubric(name);

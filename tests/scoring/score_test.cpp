@@ -2,9 +2,12 @@
 // too far loses it.
 #include "burr/scoring/score.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -147,6 +150,46 @@ TEST(Score, ShowsWhatTheCaseSaysToRemove) {
   EXPECT_FALSE(score.shown.keep);
   EXPECT_EQ(score.shown.regions.count("pit"), 1U);
   EXPECT_TRUE(score.shown.track.samples.empty());  // without a recording
+}
+
+// A face cut at z [mm] with that tilt, planned at 3 mm and level.
+std::set<std::string> unmet_of_face(double z, double tilt_deg) {
+  metrics::test::Plan plan;
+  plan.bone = metrics::test::below(6 * kMm);
+  const double a = tilt_deg * M_PI / 180;
+  const math::Vec3 normal = {std::sin(a), 0, std::cos(a)};
+  const auto bones = metrics::test::cut(
+      plan, [=](const math::Vec3& p) { return normal.dot(p) - z * kMm * normal.z(); }, 0.4 * kMm);
+  auto lesson = scenario::parse_lesson(std::string(kLesson) + R"(
+[[landmark]]
+name = "face"
+at_mm = [0, 0, 3]
+normal = [0, 0, 1]
+)",
+                                       "c.toml");
+  std::string text = "[rubric]\nname = \"face\"\nversion = 1\ncase = \"block\"\n";
+  for (const char* what : {"offset", "angle", "even"})
+    text += fmt::format(
+        "[[item]]\nid = \"{0}\"\npart = \"product\"\nmeasure = \"plane_{0}\"\nregion = "
+        "\"pit\"\nplane = "
+        "\"face\"\nsay = \"s\"\n",
+        what);
+  const auto rubric = parse_rubric(text, "r.toml");
+  EXPECT_TRUE(rubric && lesson && check(*rubric, *lesson));
+  NoProgress quiet;
+  const auto made = score(*rubric, *lesson, *bones.before, *bones.after, nullptr, quiet);
+  std::set<std::string> ids;
+  for (const Outcome& one : made->outcomes)
+    if (one.verdict != Verdict::met) ids.insert(one.id);
+  return ids;
+}
+
+TEST(Score, AFaceBesideItsPlanLosesTheOffsetAndATiltedOneTheAngle) {
+  EXPECT_EQ(unmet_of_face(3.6, 0), std::set<std::string>{});
+  EXPECT_EQ(unmet_of_face(4.9, 0), std::set<std::string>{"offset"});
+  EXPECT_EQ(unmet_of_face(4.2, 8), std::set<std::string>{"angle"});
+  EXPECT_EQ(unmet_of_face(20, 0),
+            (std::set<std::string>{"angle", "even", "offset"}));  // nothing cut
 }
 
 TEST(Score, TheUntouchedTemporalBoneMeetsNothing) {

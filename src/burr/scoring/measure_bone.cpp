@@ -174,8 +174,7 @@ Outcome overhang(const Item& item, Scene& scene) {
 
 // removed: at least that share is gone; kept: at most
 Outcome removed(const Item& item, Scene& scene, bool at_least) {
-  const auto gone =
-      metrics::removed_of(scene.before(), scene.after(), scene.region(item.region), {});
+  const auto& gone = scene.removed(item.region);
   if (!gone) return not_assessable(item, gone.reason());
   const double share = item.limit("share");
   metrics::Mark mark =

@@ -3,11 +3,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "burr/metrics/axis_fit.h"
-#include "burr/metrics/cavity_shape.h"
+#include "burr/math/sums.h"
 #include "burr/metrics/new_surface.h"
-#include "burr/metrics/plane_fit.h"
-#include "burr/metrics/removed.h"
 #include "burr/scoring/measure.h"
 
 namespace burr::scoring {
@@ -19,8 +16,7 @@ constexpr double kLeastShape = 0.02;  // share of the region
 // Where next to nothing was removed there is no shape to measure; that is unmet, so that idle work does
 // not lose items from the denominator.
 std::optional<Outcome> idle(const Item& item, Scene& scene) {
-  const auto gone =
-      metrics::removed_of(scene.before(), scene.after(), scene.region(item.region), {});
+  const auto& gone = scene.removed(item.region);
   if (!gone) return not_assessable(item, gone.reason());
   if (gone->share >= kLeastShape) return {};
   Outcome out;
@@ -41,9 +37,8 @@ Outcome at_most(const Item& item, double value, double most, double error, const
 Outcome axis(const Item& item, Scene& scene) {
   const std::vector<math::Vec3>& course = scene.lesson().landmark(item.along)->points;
   const math::Vec3 whole = course.back() - course.front();
-  const metrics::PlannedAxis plan = {course.front(), whole.normalized()};
-  const auto fit =
-      metrics::axis_fit(scene.before(), scene.after(), plan, scene.region(item.region));
+  const math::Vec3 inward = math::normalized(whole);
+  const auto& fit = scene.axis(item.along, item.region);
   if (!fit) return not_assessable(item, fit.reason());
   const std::string_view how = item.how->name;
   const double h = scene.before().grid().voxel;
@@ -54,9 +49,9 @@ Outcome axis(const Item& item, Scene& scene) {
     out.place = fit->entry;
   } else if (how == "axis_apex") {
     // across the planned axis; how deep it goes is another item
-    const math::Vec3 off = fit->apex - plan.entry;
-    out = at_most(item, (off - off.dot(plan.inward) * plan.inward).norm(), item.limit("most_mm"),
-                  0.5 * h, "distance of the end from the planned axis");
+    const math::Vec3 off = fit->apex - course.front();
+    out = at_most(item, (off - off.dot(inward) * inward).norm(), item.limit("most_mm"), 0.5 * h,
+                  "distance of the end from the planned axis");
     out.place = fit->apex;
   } else if (how == "axis_angle") {
     // each end of the axis is known to the error of the entry
@@ -76,10 +71,7 @@ Outcome axis(const Item& item, Scene& scene) {
 }
 
 Outcome plane(const Item& item, Scene& scene) {
-  const scenario::Landmark& planned = *scene.lesson().landmark(item.plane);
-  const auto fit =
-      metrics::plane_fit(scene.before(), scene.after(), {planned.points.front(), *planned.normal},
-                         scene.region(item.region), {});
+  const auto& fit = scene.cut_at(item.plane, item.region);
   if (!fit) return not_assessable(item, fit.reason());
   const std::string_view how = item.how->name;
   Outcome out;
@@ -97,9 +89,7 @@ Outcome plane(const Item& item, Scene& scene) {
 }
 
 Outcome cavity(const Item& item, Scene& scene) {
-  const metrics::Region region = scene.region(item.region);
-  const auto shape =
-      metrics::cavity_shape(scene.before(), scene.after(), scene.towards().front(), {}, region);
+  const auto& shape = scene.cavity(item.region);
   if (!shape) return not_assessable(item, shape.reason());
   const std::string_view how = item.how->name;
   Outcome out;

@@ -15,9 +15,7 @@ namespace burr::scoring {
 namespace {
 
 metrics::Region plan_of(const scenario::Reference& reference, Scene& scene) {
-  metrics::Region all = scene.region(reference.remove.front());
-  for (std::size_t n = 1; n < reference.remove.size(); ++n)
-    all = metrics::either(std::move(all), scene.region(reference.remove[n]));
+  metrics::Region all = scene.regions(reference.remove);
   for (const auto& [structure, thickness] : reference.leave)
     if (!scene.tissues(structure).empty())
       all = metrics::without(std::move(all), metrics::within(scene.distance(structure), thickness));

@@ -28,9 +28,9 @@ constexpr std::size_t kMostItems = 500;
 
 template <class List, class Name>
 std::string list_of(const List& list, const Name& name) {
-  std::string text;
-  for (const auto& one : list) text += (text.empty() ? "" : ", ") + base::printable(name(one));
-  return text.empty() ? "none" : text;
+  std::vector<std::string> names;
+  for (const auto& one : list) names.emplace_back(name(one));
+  return names.empty() ? "none" : base::list_of(names);
 }
 
 // The measure; nullptr after an error.
@@ -144,6 +144,10 @@ void check_needs(Reader& reader, const Rubric& rubric) {
   }
 }
 
+bool has_direction(const scenario::Landmark& curve) {
+  return (curve.points.back() - curve.points.front()).norm() > 1e-6;
+}
+
 Error missing(const Rubric& rubric, const Item& item, const char* field, const std::string& name,
               const std::string& known) {
   return error(fmt::format("{}: line {}: {}: the case \"{}\" has no {} \"{}\"; use one of {}",
@@ -243,6 +247,12 @@ Status check(const Rubric& rubric, const scenario::Lesson& lesson) {
             landmark("along", item.along, [](const auto& l) { return l.points.size() > 1; });
         !there)
       return there;
+    if (item.how->on_curve && item.how->region && !has_direction(*lesson.landmark(item.along)))
+      return error(
+          fmt::format("{}: line {}: along: the curve \"{}\" begins and ends at the same point, so "
+                      "it is no axis; "
+                      "use another one",
+                      rubric.file, item.lines.at("along"), base::printable(item.along)));
     if (const Status there =
             landmark("plane", item.plane, [](const auto& l) { return l.normal.has_value(); });
         !there)

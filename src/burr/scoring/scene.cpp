@@ -7,7 +7,7 @@
 
 #include "burr/base/check.h"
 #include "burr/math/pose.h"
-#include "burr/metrics/removed.h"
+#include "burr/math/sums.h"
 
 namespace burr::scoring {
 namespace {
@@ -129,6 +129,13 @@ Region Scene::region(const std::string& name) {
   return all;
 }
 
+Region Scene::regions(const std::vector<std::string>& names) {
+  Region all = region(names.front());
+  for (std::size_t n = 1; n < names.size(); ++n)
+    all = metrics::either(std::move(all), region(names[n]));
+  return all;
+}
+
 const metrics::Assessed<metrics::Cover>& Scene::cover(const std::string& structure,
                                                       const std::string& region,
                                                       std::size_t most_samples) {
@@ -146,6 +153,46 @@ const metrics::Assessed<metrics::Cover>& Scene::cover(const std::string& structu
       .first->second;
 }
 
+const metrics::Assessed<metrics::Removed>& Scene::removed(const std::string& region) {
+  const auto found = removed_.find(region);
+  if (found != removed_.end()) return found->second;
+  return removed_.emplace(region, metrics::removed_of(before_, after_, this->region(region), {}))
+      .first->second;
+}
+
+const metrics::Assessed<metrics::AxisFit>& Scene::axis(const std::string& curve,
+                                                       const std::string& region) {
+  const auto key = std::pair(curve, region);
+  const auto found = axes_.find(key);
+  if (found != axes_.end()) return found->second;
+  const std::vector<math::Vec3>& points = lesson_.landmark(curve)->points;
+  const metrics::PlannedAxis plan = {points.front(),
+                                     math::normalized(points.back() - points.front())};
+  return axes_.emplace(key, metrics::axis_fit(before_, after_, plan, this->region(region)))
+      .first->second;
+}
+
+const metrics::Assessed<metrics::PlaneFit>& Scene::cut_at(const std::string& plane,
+                                                          const std::string& region) {
+  const auto key = std::pair(plane, region);
+  const auto found = planes_.find(key);
+  if (found != planes_.end()) return found->second;
+  const scenario::Landmark& planned = *lesson_.landmark(plane);
+  return planes_
+      .emplace(key, metrics::plane_fit(before_, after_, {planned.points.front(), *planned.normal},
+                                       this->region(region), {}))
+      .first->second;
+}
+
+const metrics::Assessed<metrics::CavityShape>& Scene::cavity(const std::string& region) {
+  const auto found = cavities_.find(region);
+  if (found != cavities_.end()) return found->second;
+  return cavities_
+      .emplace(region,
+               metrics::cavity_shape(before_, after_, towards().front(), {}, this->region(region)))
+      .first->second;
+}
+
 double Scene::worked() {
   if (worked_ >= 0) return worked_;
   std::vector<std::string> names;
@@ -155,10 +202,7 @@ double Scene::worked() {
       if (!step.region.empty()) names.push_back(step.region);
   worked_ = 0;
   if (names.empty()) return worked_;
-  Region all = region(names.front());
-  for (std::size_t n = 1; n < names.size(); ++n)
-    all = metrics::either(std::move(all), region(names[n]));
-  const auto gone = metrics::removed_of(before_, after_, all, {});
+  const auto gone = metrics::removed_of(before_, after_, regions(names), {});
   if (gone) worked_ = std::max(0.0, gone->share);
   return worked_;
 }

@@ -9,12 +9,17 @@
 #include <memory>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "burr/base/progress.h"
+#include "burr/metrics/axis_fit.h"
+#include "burr/metrics/cavity_shape.h"
 #include "burr/metrics/cover.h"
 #include "burr/metrics/measured.h"
+#include "burr/metrics/plane_fit.h"
 #include "burr/metrics/region.h"
+#include "burr/metrics/removed.h"
 #include "burr/metrics/voxel_set.h"
 #include "burr/scenario/lesson.h"
 #include "burr/volume/bone.h"
@@ -46,6 +51,15 @@ class Scene {
   [[nodiscard]] const metrics::Assessed<metrics::Cover>& cover(const std::string& structure,
                                                                const std::string& region,
                                                                std::size_t most_samples);
+  [[nodiscard]] metrics::Region regions(const std::vector<std::string>& names);  // all in one; some
+  // Of that region, by name; the corridor along a curve in it; the cut at a plane in it; the cavity in it,
+  // with the region as its plan.
+  [[nodiscard]] const metrics::Assessed<metrics::Removed>& removed(const std::string& region);
+  [[nodiscard]] const metrics::Assessed<metrics::AxisFit>& axis(const std::string& curve,
+                                                                const std::string& region);
+  [[nodiscard]] const metrics::Assessed<metrics::PlaneFit>& cut_at(const std::string& plane,
+                                                                   const std::string& region);
+  [[nodiscard]] const metrics::Assessed<metrics::CavityShape>& cavity(const std::string& region);
   // Share that was removed of what the case says to remove: the regions of its reference, or without
   // one those of its steps. What must stay whole earns nothing below metrics::kLeastWork.
   [[nodiscard]] double worked();
@@ -63,6 +77,10 @@ class Scene {
   std::map<std::string, std::shared_ptr<const volume::DistanceTo>> distances_;
   std::map<std::tuple<std::string, std::string, std::size_t>, metrics::Assessed<metrics::Cover>>
       covers_;
+  std::map<std::string, metrics::Assessed<metrics::Removed>> removed_;
+  std::map<std::pair<std::string, std::string>, metrics::Assessed<metrics::AxisFit>> axes_;
+  std::map<std::pair<std::string, std::string>, metrics::Assessed<metrics::PlaneFit>> planes_;
+  std::map<std::string, metrics::Assessed<metrics::CavityShape>> cavities_;
   std::shared_ptr<const volume::DistanceTo> to_solid_;
   double worked_ = -1;  // below 0: not known yet
 };

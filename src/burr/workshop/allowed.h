@@ -20,7 +20,7 @@ struct Allowed {
   Offer steps = Offer::never;  // the steps of the case, and the text of the current one
   bool target = false;         // what the current step is about may be lit, on demand
   bool distance = false;       // to the nearest structure to spare, as a figure and a colour
-  double tone_below = 0;       // beeps are heard below this distance to it; 0: never [m]
+  double tone_below = 0;       // a tone sounds when that distance is below this; 0: never [m]
   bool technique = false;      // one sentence where the technique stays out of its band
   bool back = false;     // undo, redo, everything back, the original back, smoothing, the mirror
   bool measure = false;  // distances, angles, the thickness under the burr

@@ -1,8 +1,8 @@
 // apps/burr/window/mill/technique.h - when to say one sentence about the technique, and which.
 //
-// It is said only if the technique was out of its band for 2 s of cutting, at most once in 20 s, and
-// never while the burr is nearer than 1 mm to a structure to spare: nobody is startled there. The
-// bands are the tool of the step, as the case gives it, and a force that nobody has calibrated.
+// The sentence appears after 2 s of cutting with a tool that does not suit the step, or with too much
+// force. It appears at most once in 20 s, and never while the burr is nearer than 1 mm to a structure to
+// spare, where it could startle. The case gives the tool of the step; nobody has calibrated the force.
 // Thread: any, one at a time. Units: SI; times are those of the session.
 #pragma once
 
