@@ -15,6 +15,8 @@
 #include "burr/phantom/shapes.h"
 #include "burr/scenario/case.h"
 #include "burr/scenario/open_lesson.h"
+#include "burr/scoring/reference.h"
+#include "burr/volume/sample.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
@@ -150,6 +152,24 @@ TEST(Score, ShowsWhatTheCaseSaysToRemove) {
   EXPECT_FALSE(score.shown.keep);
   EXPECT_EQ(score.shown.regions.count("pit"), 1U);
   EXPECT_TRUE(score.shown.track.samples.empty());  // without a recording
+}
+
+// The pit reaches down to 0.5 mm from the ball; the reference leaves 1 mm of bone over it.
+TEST(Score, TheReferenceLeavesBoneOverAStructure) {
+  metrics::test::Plan plan;
+  plan.bone = metrics::test::below(6 * kMm);
+  plan.labels = {{phantom::ball(3 * kMm, {0, 0, 0}), metrics::test::kHard}};
+  auto bones = metrics::test::cut(plan, metrics::test::above(20 * kMm), 0.25 * kMm);
+  const auto lesson = scenario::parse_lesson(
+      std::string(kLesson) + "leave = [{ structure = \"ball\", mm = 1 }]\n", "c.toml");
+  ASSERT_TRUE(lesson) << lesson.error().text;
+  NoProgress quiet;
+  ASSERT_TRUE(cut_to_reference(*bones.after, *bones.before, *lesson, quiet));
+  const auto depth = [&](const math::Vec3& p) { return volume::depth_at(*bones.after, p); };
+  EXPECT_GT(depth({0, 0, 3.7 * kMm}), 0);
+  EXPECT_LT(depth({0, 0, 4.3 * kMm}), 0);
+  EXPECT_LT(depth({6 * kMm, 0, 3.8 * kMm}), 0);  // beside the ball the whole pit is gone
+  EXPECT_GT(depth({6 * kMm, 0, 3.2 * kMm}), 0);
 }
 
 // A face cut at z [mm] with that tilt, planned at 3 mm and level.
