@@ -132,6 +132,31 @@ TEST(AxisFit, FindsShiftAndTilt) {
     }
 }
 
+// Under 5 mm of dense bone only plates of 0.5 mm stand, every 1.2 mm: the slices there hold less than half
+// as much bone, and count all the same.
+TEST(AxisFit, SpongyBoneIsAsLongAndAsWide) {
+  for (const double h : {0.25 * kMm, 0.125 * kMm}) {
+    test::Plan plan;
+    plan.lo = {-6 * kMm, -6 * kMm, -14 * kMm};
+    plan.hi = {6 * kMm, 6 * kMm, 2 * kMm};
+    plan.bone = [](const Vec3& p) {
+      const double plate = 0.25 * kMm - std::abs(std::remainder(p.x(), 1.2 * kMm));
+      return std::min(-p.z(), std::max(p.z() + 5 * kMm, plate));
+    };
+    const phantom::Depth corridor = [](const Vec3& p) {
+      return std::min(1.5 * kMm - std::hypot(p.x(), p.y()), p.z() + 12 * kMm);
+    };
+    const auto bones = test::cut(plan, corridor, h);
+    const auto fit = axis_fit(*bones.before, *bones.after, {{0, 0, 0}, {0, 0, -1}}, {});
+    ASSERT_TRUE(fit) << fit.reason();
+    EXPECT_GE(fit->centres.size(), 23U);  // of 24 slices of 0.5 mm
+    // 2 sqrt(2 S / A), with the area A and the second moment S of what the plates hold of the disc
+    EXPECT_NEAR(fit->width, 3.160 * kMm, 0.05 * kMm);
+    EXPECT_LT(fit->angle, 1 * kDegree);
+    EXPECT_NEAR(fit->depth, 12 * kMm, 0.5 * h);  // a plate stands on the axis
+  }
+}
+
 // A corridor of 1 mm radius through a plate of 8 mm, and on into the air behind it.
 TEST(AxisFit, ACorridorThroughThePlateEndsWhereThePlateEnds) {
   for (const double h : test::kVoxels)

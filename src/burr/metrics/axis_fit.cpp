@@ -47,6 +47,10 @@ struct Slice {
                          2 * (w.x() * w.y() * xy + w.x() * w.z() * xz + w.y() * w.z() * yz);
     return xx + yy + zz - along;
   }
+  // Diameter of a disc with that mean square, which is r^2 / 2 [m].
+  [[nodiscard]] double width(const Vec3& entry, const Vec3& w) const {
+    return 2 * std::sqrt(std::max(0.0, 2 * square_about(entry, w)));
+  }
 };
 
 std::map<int, Slice> slices_of(const Bone& before, const Bone& after, const PlannedAxis& plan,
@@ -126,6 +130,25 @@ struct AlongAxis {
   }
 };
 
+// Those with at least half of the median width, and a tenth of the median volume: the bone that was
+// removed from a slice may be dense or spongy, but the ends of a corridor are narrow.
+std::vector<const Slice*> slices_that_count(const std::map<int, Slice>& slices, const Vec3& entry,
+                                            const Vec3& along) {
+  std::vector<std::pair<double, double>> volumes, widths;  // weighted by volume
+  for (const auto& [number, slice] : slices) {
+    volumes.emplace_back(slice.volume, slice.volume);
+    widths.emplace_back(slice.width(entry, along), slice.volume);
+  }
+  std::vector<const Slice*> counted;
+  if (volumes.empty()) return counted;
+  const double volume = weighted_quantile(std::move(volumes), 0.5),
+               width = weighted_quantile(std::move(widths), 0.5);
+  for (const auto& [number, slice] : slices)
+    if (slice.volume >= 0.1 * volume && slice.width(entry, along) >= 0.5 * width)
+      counted.push_back(&slice);
+  return counted;
+}
+
 // Eight directions round a circle.
 constexpr double kHalfRoot = 0.70710678118654752;
 constexpr double kRound[8][2] = {
@@ -146,24 +169,17 @@ Assessed<AxisFit> axis_fit(const Bone& before, const Bone& after, const PlannedA
   const double thick = h * std::ceil(0.5e-3 / h - 1e-6);  // whole voxels, so that none counts twice
   const Vec3 along = math::normalized(plan.inward);
   const std::map<int, Slice> slices = slices_of(before, after, plan, along, region, thick);
-  std::vector<std::pair<double, double>> volumes;
-  for (const auto& [number, slice] : slices) volumes.emplace_back(slice.volume, slice.volume);
-  if (volumes.size() < 3) return NotAssessable{"nothing was drilled along the planned axis"};
-  const double median = weighted_quantile(std::move(volumes), 0.5);
+  const std::vector<const Slice*> counted = slices_that_count(slices, plan.entry, along);
+  if (counted.size() < 3) return NotAssessable{"nothing was drilled along the planned axis"};
   std::vector<WeightedPoint> centres;
-  for (const auto& [number, slice] : slices)
-    if (slice.volume >= 0.5 * median) centres.push_back({slice.sum / slice.volume, 1});
-  if (centres.size() < 3) return NotAssessable{"nothing was drilled along the planned axis"};
+  for (const Slice* slice : counted) centres.push_back({slice->sum / slice->volume, 1});
 
   const LineThrough line = robust_line(centres, plan.entry, along);
   AxisFit out;
   out.inward = math::normalized(line.slope);
   out.angle = angle_between(out.inward, along);
-  // of a disc the mean square of the distance to its axis is r^2 / 2
   std::vector<std::pair<double, double>> widths;
-  for (const auto& [number, slice] : slices)
-    if (slice.volume >= 0.5 * median)
-      widths.emplace_back(2 * std::sqrt(2 * slice.square_about(plan.entry, out.inward)), 1);
+  for (const Slice* slice : counted) widths.emplace_back(slice->width(plan.entry, out.inward), 1);
   out.width = weighted_quantile(std::move(widths), 0.5);
   const double length = static_cast<double>(centres.size()) * thick;
   if (length < 2 * out.width)

@@ -2,7 +2,7 @@
 //
 // The removed volume is divided into slices across the planned axis, as many whole voxels thick as
 // make 0.5 mm. A robust line through the slices' centres is the axis; slices with less than
-// half of the median volume (the ends) do not count.
+// half of the median width (the ends) or a tenth of the median volume do not count.
 //
 //     entry    where the fitted axis meets the surface as it was, last before what was removed on it;
 //              its distance to the plan's entry, across the planned axis
