@@ -38,6 +38,7 @@ function(burr_kernels)
   endforeach()
 endfunction()
 burr_kernels(${BURR_CORE_SOURCES})
+set_source_files_properties(${PROJECT_SOURCE_DIR}/src/burr/rt/thread.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # core_is_light.sh
 set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/burr/base/version.cpp APPEND PROPERTY
   COMPILE_DEFINITIONS BURR_VERSION="${PROJECT_VERSION}")
 

@@ -5,6 +5,7 @@ pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)  # reads back what bur
 
 file(GLOB BURR_TEST_SUPPORT CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/support/*.cpp)
 add_library(burr_test_support STATIC ${BURR_TEST_SUPPORT})
+set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/support/rt_guard.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # it defines malloc
 target_include_directories(burr_test_support PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(burr_test_support PUBLIC burr burr_scenes GTest::gtest fmt::fmt ${CMAKE_DL_LIBS} PRIVATE burr_options)
 

@@ -30,17 +30,6 @@ std::vector<std::pair<int, Command::Add>>& commands() {
   return all;
 }
 
-volatile std::sig_atomic_t asked_to_stop = 0;
-
-// first signal: stop cleanly; second signal: stop at once
-void on_signal(int number) {
-  if (asked_to_stop != 0) {
-    std::signal(number, SIG_DFL);
-    std::raise(number);
-  }
-  asked_to_stop = 1;
-}
-
 // A message to stderr that cannot be written must not end a session. fmt throws if a stream fails,
 // on any thread, so stderr becomes a stream that never fails. Descriptors 0, 1 and 2 that are
 // closed at the start are opened: otherwise the next file, perhaps a recording, would get the
@@ -101,8 +90,6 @@ examples:
 
 Command::Command(int place, Add add) { commands().emplace_back(place, add); }
 
-bool interrupted() noexcept { return asked_to_stop != 0; }
-
 }  // namespace burr::app
 
 int main(int argc, char** argv) {
@@ -111,10 +98,7 @@ int main(int argc, char** argv) {
   // picture, and each arena would keep its own peak until the end (memory of a session is locked).
   mallopt(M_ARENA_MAX, 1);
   const Status limits = app::raise_limits();
-  struct sigaction action = {};
-  action.sa_handler = app::on_signal;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  app::catch_interrupts();
   std::signal(SIGPIPE, SIG_IGN);
   app::secure_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is reported as an error, like a full disk

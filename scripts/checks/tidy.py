@@ -28,15 +28,19 @@ def commands(build):
     """{file: how it is compiled, without its own name and what is written}"""
     found = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
-        file = pathlib.Path(entry["file"])
-        if file.is_relative_to(ROOT / "src" / "burr"):
+        files = [pathlib.Path(entry["file"])]
+        if files[0].parent.name == "together":  # several sources compiled as one (cmake/together.cmake)
+            files = [pathlib.Path(name) for name in re.findall(r'#include "(.*)"', files[0].read_text())]
+        files = [file for file in files if file.is_relative_to(ROOT / "src" / "burr")]
+        if files:
             words = shlex.split(entry["command"])
             at = words.index("-o")
             words = words[:at] + words[at + 2:]
             while "-include" in words:  # g++'s precompiled headers, which clang-tidy cannot read
                 at = words.index("-include")
                 words = words[:at] + words[at + 2:]
-            found[file] = tuple(word for word in words if word not in ("-c", "-Winvalid-pch", entry["file"]))
+            how = tuple(word for word in words if word not in ("-c", "-Winvalid-pch", entry["file"]))
+            found.update((file, how) for file in files)
     return found
 
 

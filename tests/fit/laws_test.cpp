@@ -44,7 +44,7 @@ TEST(LeastSquares, IntervalOfAMeanIsThatOfTheTextbook) {
 }
 
 TEST(LeastSquares, TwoColumnsAgainstTheNormalEquations) {
-  BURR_SEEDED(random, 5);
+  BURR_FIT_SEEDED(random, 5);
   std::normal_distribution<double> noise;
   std::vector<std::vector<double>> x(2);
   std::vector<double> y;
@@ -75,7 +75,7 @@ TEST(LeastSquares, TwoColumnsAgainstTheNormalEquations) {
 TEST(Laws, ExactLogsGiveTheirConstantsBack) {
   const Truth truth;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    BURR_SEEDED(random, seed);
+    BURR_FIT_SEEDED(random, seed);
     const auto one = fit_laws(test::level_1(truth, 50, 0, 0, random)).at(0);
     EXPECT_EQ(one.rows, 50U);
     ASSERT_EQ(one.constants.size(), 2U);
@@ -93,7 +93,7 @@ TEST(Laws, ExactLogsGiveTheirConstantsBack) {
 }
 
 TEST(Laws, WithoutPowerTheTangentialForceTimesSpeedServes) {
-  BURR_SEEDED(random, 3);
+  BURR_FIT_SEEDED(random, 3);
   const Truth truth;
   ForceLog log = test::level_1(truth, 50, 0, 0, random);
   for (ForceRow& row : log.rows) row.power.reset();
@@ -105,7 +105,7 @@ TEST(Laws, WithoutPowerTheTangentialForceTimesSpeedServes) {
 }
 
 TEST(Laws, RowsInWhichNothingIsCutAreLeftOutAndCounted) {
-  BURR_SEEDED(random, 4);
+  BURR_FIT_SEEDED(random, 4);
   const Truth truth;
   ForceLog log = test::level_1(truth, 40, 0, 0, random);
   for (std::size_t n = 0; n < 4; ++n) *log.rows[n].tangential += 100;  // would spoil it all
@@ -120,7 +120,7 @@ TEST(Laws, RowsInWhichNothingIsCutAreLeftOutAndCounted) {
 }
 
 TEST(Laws, EachMaterialHasItsOwn) {
-  BURR_SEEDED(random, 6);
+  BURR_FIT_SEEDED(random, 6);
   Truth soft, hard;
   hard.energy = 5e9;
   ForceLog log = test::level_1(soft, 30, 0, 0, random);
@@ -142,7 +142,7 @@ TEST(Laws, TheErrorShrinksWithTheRootOfTheRows) {
   for (const std::size_t rows : {50U, 200U, 800U, 3200U}) {
     constexpr int kLogs = 100;
     for (int n = 0; n < kLogs; ++n) {
-      BURR_SEEDED(random, 1000 * rows + static_cast<std::size_t>(n));
+      BURR_FIT_SEEDED(random, 1000 * rows + static_cast<std::size_t>(n));
       const auto one = fit_laws(test::level_1(truth, rows, 0.3, 2, random)).at(0);
       const auto two = fit_laws(test::level_2(truth, rows, 0.3, random)).at(0);
       error_1[rows] +=
@@ -170,7 +170,7 @@ TEST(Laws, TheIntervalHoldsTheTruthNineteenTimesOfTwenty) {
   for (const std::size_t rows : {6U, 60U}) {  // few rows: here Student's factor matters
     std::map<std::string, int> held;
     for (std::uint64_t n = 0; n < 1000; ++n) {
-      BURR_SEEDED(random, 77'000 + 1'000'000 * rows + n);
+      BURR_FIT_SEEDED(random, 77'000 + 1'000'000 * rows + n);
       const auto one = fit_laws(test::level_1(truth, rows, 0.2, 1.5, random)).at(0);
       auto all = one.constants;
       const auto two = fit_laws(test::level_2(truth, rows, 0.1, random)).at(0);
@@ -190,7 +190,7 @@ TEST(Laws, TheIntervalHoldsTheTruthNineteenTimesOfTwenty) {
 // ---- logs without enough information
 
 TEST(Laws, ALogThatCannotTellTwoConstantsApartSaysSo) {
-  BURR_SEEDED(random, 8);
+  BURR_FIT_SEEDED(random, 8);
   const Truth truth;
   ForceLog log = test::level_2(truth, 100, 0.05, random);
   // the engaged edge grows with the chip, as with one feed and one depth
@@ -216,7 +216,7 @@ TEST(Laws, ALogThatCannotTellTwoConstantsApartSaysSo) {
 }
 
 TEST(Laws, TooFewRowsTellNothing) {
-  BURR_SEEDED(random, 9);
+  BURR_FIT_SEEDED(random, 9);
   const Truth truth;
   for (const std::size_t rows : {0U, 1U, 2U}) {
     const auto fit = fit_laws(test::level_1(truth, rows, 0, 0, random)).at(0);
@@ -230,7 +230,7 @@ TEST(Laws, TooFewRowsTellNothing) {
 }
 
 TEST(Laws, ALogWithoutTangentialForceStillTellsTheEnergy) {
-  BURR_SEEDED(random, 10);
+  BURR_FIT_SEEDED(random, 10);
   const Truth truth;
   ForceLog log = test::level_1(truth, 30, 0, 0, random);
   for (ForceRow& row : log.rows) row.tangential.reset();

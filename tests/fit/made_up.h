@@ -68,6 +68,6 @@ inline ForceLog level_2(const Truth& truth, std::size_t rows, double noise_n, Ra
 }  // namespace burr::fit::test
 
 // A random test prints its seed when it fails.
-#define BURR_SEEDED(name, seed)                 \
+#define BURR_FIT_SEEDED(name, seed)             \
   SCOPED_TRACE("seed " + std::to_string(seed)); \
   ::burr::fit::test::Random name(seed)

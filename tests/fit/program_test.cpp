@@ -44,7 +44,7 @@ class FitProgram : public burr::test::FolderTest {
 };
 
 TEST_F(FitProgram, WhatItWritesIsReadAsMaterials) {
-  BURR_SEEDED(random, 21);
+  BURR_FIT_SEEDED(random, 21);
   const test::Truth truth;
   write_log("bench.csv", test::level_2(truth, 400, 0.05, random), true);
   const std::string said = burr("fit bench.csv --material dentine --date 2026-11-22 --out d.toml");
@@ -74,7 +74,7 @@ TEST_F(FitProgram, WhatItWritesIsReadAsMaterials) {
 }
 
 TEST_F(FitProgram, SaysItAsJsonToo) {
-  BURR_SEEDED(random, 22);
+  BURR_FIT_SEEDED(random, 22);
   const test::Truth truth;
   write_log("a.csv", test::level_1(truth, 300, 0, 0, random), false);
   const std::string said = burr("fit a.csv --json");
@@ -88,7 +88,7 @@ TEST_F(FitProgram, SaysItAsJsonToo) {
 }
 
 TEST_F(FitProgram, RefusesInOneSentence) {
-  BURR_SEEDED(random, 23);
+  BURR_FIT_SEEDED(random, 23);
   const test::Truth truth;
   write_log("a.csv", test::level_1(truth, 30, 0, 0, random), false);
   write_log("two.csv", test::level_1(truth, 2, 0, 0, random), false);

@@ -19,9 +19,9 @@ using math::Vec3;
 using test::kMm;
 using test::kUp;
 
-constexpr double kMm3 = 1e-9, kPi = std::numbers::pi;
+constexpr double kMm3 = 1e-9;
 
-double ball_volume(double r) { return 4.0 / 3 * kPi * r * r * r; }
+double ball_volume(double r) { return 4.0 / 3 * std::numbers::pi * r * r * r; }
 
 TEST(Removed, SharesOfABall) {
   test::Plan plan;
@@ -118,10 +118,10 @@ TEST(NewSurface, HasTheAreaOfTheCutAlone) {
       EXPECT_NEAR((one.place - Vec3(0.1 * kMm, 0, 0)).norm(), 4 * kMm, 0.4 * h + 0.02 * kMm);
       EXPECT_LT(one.place.z(), 3 * kMm);
     }
-    const double truth = 2 * kPi * 4 * (4 + 3) * 1e-6;
+    const double truth = 2 * std::numbers::pi * 4 * (4 + 3) * 1e-6;
     std::printf("NewSurface h %.3f: %.1f of %.1f mm^2\n", h / kMm, area * 1e6, truth * 1e6);
     // half a voxel below the old surface is left out
-    EXPECT_NEAR(area, truth, 0.02 * truth + 2 * kPi * 4 * kMm * 0.6 * h);
+    EXPECT_NEAR(area, truth, 0.02 * truth + 2 * std::numbers::pi * 4 * kMm * 0.6 * h);
   }
 }
 
@@ -138,8 +138,9 @@ TEST(Overhang, IsTheShareUnderTheLip) {
       const auto bones = test::cut(plan, phantom::either(room, mouth), h);
       const auto under = overhang(*bones.before, *bones.after, {}, {.towards = {kUp}});
       ASSERT_TRUE(under) << under.reason();
-      const double ring = kPi * (16 - opening * opening), wall = 2 * kPi * 4 * 3;
-      const double open = kPi * opening * opening + 2 * kPi * opening * 2;
+      const double ring = std::numbers::pi * (16 - opening * opening),
+                   wall = 2 * std::numbers::pi * 4 * 3;
+      const double open = std::numbers::pi * opening * opening + 2 * std::numbers::pi * opening * 2;
       const double share = (2 * ring + wall) / (2 * ring + wall + open);
       std::printf("K10 h %.3f opening %.1f: %.3f of %.3f\n", h / kMm, opening, under->mark.value,
                   share);

@@ -10,7 +10,7 @@
 namespace burr::record {
 namespace {
 
-SessionInfo info_of(const scenario::Case& work) {
+SessionInfo info_with(const scenario::Case& work) {
   SessionInfo info;
   info.volume.grid.size = {8, 8, 8};
   info.volume.grid.voxel = 1e-3;
@@ -29,7 +29,7 @@ TEST(RecordedCase, HoldsTextHashTargetsAndSpareOfEveryBuiltInCase) {
     SCOPED_TRACE(name);
     const auto work = scenario::read_case(name);
     ASSERT_TRUE(work) << work.error().text;
-    const SessionInfo info = info_of(*work);
+    const SessionInfo info = info_with(*work);
     ASSERT_TRUE(check(info).ok()) << check(info).error().text;
     const auto read = session_from_json(to_json(info), "x.mcap");
     ASSERT_TRUE(read) << read.error().text;
@@ -74,20 +74,20 @@ TEST(RecordedCase, AChangeIsNoticedWhereTheFileIsOpened) {
       for (const std::string& one : (*player)->notices()) all += one;
     return all;
   };
-  SessionInfo info = info_of(*work);
+  SessionInfo info = info_with(*work);
   EXPECT_EQ(notices(info).find("was changed"), std::string::npos);
   info.work_case->text = with(info.work_case->text, "share = 0.6", "share = 0.1");
   EXPECT_NE(notices(info).find("was changed"), std::string::npos) << "the text has another hash";
-  info = info_of(*work);
+  info = info_with(*work);
   info.work_case->spare.pop_back();
   EXPECT_NE(notices(info).find("was changed"), std::string::npos) << "the text spares more";
-  info = info_of(*work);
+  info = info_with(*work);
   info.work_case->targets[0].share = 0.5;
   EXPECT_NE(notices(info).find("was changed"), std::string::npos) << "the text asks for more";
 }
 
 TEST(RecordedCase, AnOlderRecordingHasNone) {
-  SessionInfo info = info_of(*scenario::read_case("jaw"));
+  SessionInfo info = info_with(*scenario::read_case("jaw"));
   info.work_case.reset();
   const std::string text = to_json(info);
   EXPECT_EQ(text.find("\"case\""), std::string::npos);
@@ -97,7 +97,7 @@ TEST(RecordedCase, AnOlderRecordingHasNone) {
 }
 
 TEST(RecordedCase, WhatIsBrokenIsNamed) {
-  const SessionInfo info = info_of(*scenario::read_case("jaw"));
+  const SessionInfo info = info_with(*scenario::read_case("jaw"));
   for (const char* field : {"text_hash", "text", "targets", "spare", "name"}) {
     const std::string text =
         with(to_json(info), "\"" + std::string(field) + "\":", "\"not_there\":");
@@ -119,7 +119,7 @@ TEST(RecordedCase, ThePathOfAnOwnVolumeStaysAtHome) {
   EXPECT_EQ(work->text,
             "title = \"Own\"\n# above\nvolume = \"own file\"\n"
             "[burr]\ndiameter_mm = 4\nrpm = 60000\n[[spare]]\ntissue = \"nerve\"");
-  SessionInfo info = info_of(*work);
+  SessionInfo info = info_with(*work);
   EXPECT_TRUE(check(info).ok());
   EXPECT_EQ(to_json(info).find("svensson"), std::string::npos);
   EXPECT_TRUE(info.work_case->unchanged());

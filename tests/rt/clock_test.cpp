@@ -93,7 +93,7 @@ TEST(WallClock, NeverBeginsATickBeforeItIsDueAndKeepsTheGrid) {
 TEST(WallClock, WaitTakesNoMemoryAndNoLock) {
   WallClock clock(10'000);
   (void)clock.wait();
-  const test::RtGuard guard;
+  const burr::test::RtGuard guard;
   for (int tick = 0; tick < 20; ++tick) (void)clock.wait();
   EXPECT_EQ(guard.allocations(), 0);
   EXPECT_EQ(guard.locks(), 0);

@@ -181,7 +181,7 @@ TEST(Doors, TakeNoMemoryAndNoLock) {
   Version version = 0;
   std::uint64_t shared[4] = {}, block[4] = {1, 2, 3, 4};
   Wide out;
-  const test::RtGuard guard;
+  const burr::test::RtGuard guard;
   latest.publish(Wide(1));
   (void)latest.take(out);
   for (int i = 0; i < 20; ++i) (void)ring.push(Wide(2));  // fills up, and refuses

@@ -115,7 +115,7 @@ TEST(TickStats, CountsTicksOverOneMillisecondAndTheMean) {
 
 TEST(TickStats, AddTakesNoMemoryAndNoLock) {
   TickStats stats;
-  const test::RtGuard guard;
+  const burr::test::RtGuard guard;
   for (std::int64_t i = 0; i < 10'000; ++i) {
     stats.add(i * 37);
     stats.add_lateness(i, 1'000'000, 0);

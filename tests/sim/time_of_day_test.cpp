@@ -27,7 +27,7 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(TimeOfDay, MayJumpWhileASessionIsRecordedAndNobodyAsksForIt) {
-  if (!test::WallClock::watching()) GTEST_SKIP() << "sanitizers have clocks of their own";
+  if (!burr::test::WallClock::watching()) GTEST_SKIP() << "sanitizers have clocks of their own";
   std::mt19937_64 random(11);
   const std::string file =
       (std::filesystem::temp_directory_path() / ("burr_clock_" + std::to_string(getpid())))
@@ -47,13 +47,13 @@ TEST(TimeOfDay, MayJumpWhileASessionIsRecordedAndNobodyAsksForIt) {
   NoProgress quiet;
 
   // the time of day is set meanwhile: back by hours, forward by years
-  const test::WallClock wall;
+  const burr::test::WallClock wall;
   std::atomic<bool> done = false;
   std::jthread somebody([&] {
     while (!done) {
-      test::WallClock::set_back(3600.0 * static_cast<double>(random() % 24));
+      burr::test::WallClock::set_back(3600.0 * static_cast<double>(random() % 24));
       std::this_thread::sleep_for(7ms);
-      test::WallClock::set_back(-86400.0 * static_cast<double>(random() % 1000));
+      burr::test::WallClock::set_back(-86400.0 * static_cast<double>(random() % 1000));
       std::this_thread::sleep_for(7ms);
     }
   });
@@ -88,10 +88,10 @@ TEST(TimeOfDay, MayJumpWhileASessionIsRecordedAndNobodyAsksForIt) {
   EXPECT_FALSE(outcome->first_different_tick.has_value()) << outcome->difference;
   EXPECT_GT(outcome->ticks, 100U);
   done = true;
-  EXPECT_EQ(test::WallClock::asked(), 0) << "somebody wants to know the time of day";
+  EXPECT_EQ(burr::test::WallClock::asked(), 0) << "somebody wants to know the time of day";
   // and the replacement of the clock works
   const auto before = std::chrono::system_clock::now();
-  test::WallClock::set_back(7200);
+  burr::test::WallClock::set_back(7200);
   EXPECT_LT(std::chrono::system_clock::now(), before - 1h);
   std::filesystem::remove(file);
 }

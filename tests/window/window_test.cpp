@@ -36,12 +36,9 @@
 #include "burr/surface/worker.h"
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/live_surface.h"
-#include "commands/command.h"
 #include "support/data.h"
 
 namespace burr::app {
-
-bool interrupted() noexcept { return false; }  // of apps/burr/main.cpp: nobody presses Ctrl-C here
 
 namespace {
 

@@ -16,6 +16,7 @@
 #include "burr/sim/session.h"
 #include "burr/workshop/hand_device.h"
 #include "commands/hand_options.h"
+#include "commands/interrupt.h"
 #include "commands/json_line.h"
 #include "commands/volume_words.h"
 #include "commands/work.h"

@@ -22,6 +22,7 @@
 #include "burr/tick/flag_words.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
+#include "commands/interrupt.h"
 #include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "commands/picture_size.h"

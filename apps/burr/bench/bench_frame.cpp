@@ -38,6 +38,7 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/work_view.h"
+#include "commands/interrupt.h"
 #include "commands/json_line.h"
 #include "commands/picture_size.h"
 #include "commands/volume_words.h"

@@ -20,6 +20,7 @@
 #include "burr/edit/undo.h"
 #include "burr/surface/mesher.h"
 #include "burr/volume/iso_vertices.h"
+#include "commands/interrupt.h"
 #include "commands/json_line.h"
 
 namespace burr::app {

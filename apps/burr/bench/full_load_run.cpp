@@ -15,6 +15,7 @@
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/work_view.h"
 #include "commands/command.h"
+#include "commands/interrupt.h"
 #include "commands/recording.h"
 
 namespace burr::app {

@@ -16,6 +16,7 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
 #include "commands/command.h"
+#include "commands/interrupt.h"
 
 namespace burr::app {
 namespace {

@@ -38,7 +38,4 @@ struct Command {
 // --quiet. Ctrl-C cancels it.
 [[nodiscard]] Progress& progress();
 
-// True after Ctrl-C or SIGTERM; long work then ends cleanly and saves what it has.
-[[nodiscard]] bool interrupted() noexcept;
-
 }  // namespace burr::app

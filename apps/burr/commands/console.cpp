@@ -7,6 +7,7 @@
 #include <string>
 
 #include "commands/command.h"
+#include "commands/interrupt.h"
 
 namespace burr::app {
 namespace {

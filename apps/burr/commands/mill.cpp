@@ -21,6 +21,7 @@
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/work_view.h"
 #include "commands/command.h"
+#include "commands/interrupt.h"
 #include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "commands/picture_size.h"

@@ -19,6 +19,7 @@
 #include "burr/sim/session.h"
 #include "burr/workshop/spared.h"
 #include "commands/command.h"
+#include "commands/interrupt.h"
 #include "window/shell/settings.h"
 
 namespace burr::app {

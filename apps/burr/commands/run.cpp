@@ -26,6 +26,7 @@
 #include "commands/command.h"
 #include "commands/hand_options.h"
 #include "commands/identity_options.h"
+#include "commands/interrupt.h"
 #include "commands/outputs.h"
 #include "commands/recording.h"
 #include "commands/summary.h"

@@ -23,6 +23,7 @@
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
 #include "commands/command.h"
+#include "commands/interrupt.h"
 #include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "commands/recording.h"

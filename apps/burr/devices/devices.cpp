@@ -10,6 +10,7 @@
 #include "burr/workshop/hand_device.h"
 #include "commands/command.h"
 #include "commands/hand_options.h"
+#include "commands/interrupt.h"
 #include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "devices/trial.h"

@@ -19,6 +19,7 @@
 #include "burr/workshop/hand_device.h"
 #include "commands/command.h"
 #include "commands/hand_options.h"
+#include "commands/interrupt.h"
 #include "commands/json_line.h"
 #include "people/run.h"
 #include "scenes/wall.h"

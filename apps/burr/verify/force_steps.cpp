@@ -13,6 +13,7 @@
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/open_bone.h"
 #include "commands/command.h"
+#include "commands/interrupt.h"
 #include "verify.h"
 #include "workbench.h"
 

@@ -9,6 +9,7 @@
 #include "burr/phantom/build.h"
 #include "burr/tick/touch_methods.h"
 #include "commands/command.h"
+#include "commands/interrupt.h"
 #include "scenes/strokes.h"
 #include "verify.h"
 

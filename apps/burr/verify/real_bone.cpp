@@ -11,6 +11,7 @@
 #include "burr/volume/sample.h"
 #include "burr/workshop/open_bone.h"
 #include "commands/command.h"
+#include "commands/interrupt.h"
 #include "verify.h"
 #include "workbench.h"
 

@@ -14,6 +14,7 @@
 #include <tuple>
 
 #include "commands/command.h"
+#include "commands/interrupt.h"
 #include "page.h"
 
 namespace burr::app {

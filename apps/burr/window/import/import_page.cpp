@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "commands/command.h"
+#include "commands/interrupt.h"
 #include "commands/work.h"
 #include "window/shell/words.h"
 

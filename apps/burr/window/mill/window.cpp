@@ -10,7 +10,7 @@
 #include "burr/render/picture.h"
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/work_view.h"
-#include "commands/command.h"
+#include "commands/interrupt.h"
 #include "window/mill/mill.h"
 #include "window/shell/words.h"
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "burr/render/picture.h"
-#include "commands/command.h"
+#include "commands/interrupt.h"
 #include "window/mill/export_page.h"
 #include "window/mill/hud.h"
 #include "window/mill/mirror_mode.h"

@@ -6,7 +6,6 @@
 #include "burr/sim/session_words.h"
 #include "burr/tick/mirror_plane.h"
 #include "burr/workshop/work_view.h"
-#include "commands/command.h"
 #include "window/mill/mirror_mode.h"
 
 namespace burr::app {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "commands/command.h"
+#include "commands/interrupt.h"
 #include "window/shell/words.h"
 
 namespace burr::app {

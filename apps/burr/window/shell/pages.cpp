@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "burr/render/picture.h"
-#include "commands/command.h"
+#include "commands/interrupt.h"
 #include "commands/work.h"
 #include "window/import/import_page.h"
 #include "window/mill/window.h"

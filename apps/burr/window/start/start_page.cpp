@@ -12,7 +12,7 @@
 
 #include "burr/scenario/case.h"
 #include "burr/workshop/hand_device.h"
-#include "commands/command.h"
+#include "commands/interrupt.h"
 #include "commands/work.h"
 #include "window/mill/hud.h"
 #include "window/mill/mill_keys.h"
