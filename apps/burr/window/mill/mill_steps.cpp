@@ -123,6 +123,29 @@ void Mill::look_at_technique() {
         {row_.tick, record::CourseKind::help_shown, "technique", Technique::name(cue_)}));
 }
 
+// A turning burr in what must not be cut. Told once, until the burr is out of it again. No flash: it
+// would startle a hand that is in the wrong place already.
+void Mill::look_at_injury() {
+  constexpr double kTurning = 0.05;  // of full speed
+  const bool turning = row_.spindle_rad_s > kTurning * drill_.full_speed();
+  // the distance is known to half a voxel
+  const bool is_in =
+      nearest_ && turning && nearest_->distance < -0.5 * session_.bone().grid().voxel;
+  const bool told = options_.allowed.injury != workshop::Injury::untold;
+  if (options_.loudspeaker != nullptr) options_.loudspeaker->injury(is_in && told);
+  if (nearest_ && nearest_->distance > 0) injured_.clear();
+  if (!is_in || injured_ == nearest_->name) return;
+  injured_ = nearest_->name;
+  if (options_.allowed.injury != workshop::Injury::stop) return;
+  lift();
+  if (hands_.real != nullptr && !lifts_.stopped) stop_or_go_on();
+  note(say(Word::injury_stop, injured_));
+  if (options_.diary != nullptr)
+    static_cast<void>(options_.diary->note(
+        {row_.tick, record::CourseKind::warning, "injury",
+         record::fit_for_a_note(injured_) ? injured_ : std::string("a structure")}));
+}
+
 std::string Mill::cue_text() const {
   switch (cue_) {
     case Technique::Cue::none:
