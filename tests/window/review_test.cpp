@@ -3,6 +3,9 @@
 #include "window/review/review.h"
 
 #include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <csignal>
@@ -15,7 +18,6 @@
 #include "report/questions.h"
 #include "user.h"
 #include "window/review/self_marks_page.h"
-#include "window/shell/helper_process.h"
 #include "window/start/sessions.h"
 
 namespace burr::app {
@@ -47,7 +49,7 @@ class ReviewWindow : public Window {
              [] { drop(fs::path(BURR_SOURCE_DIR) / "cases" / "block.toml"); }},
             {"milling", on(Page::milling), [] { move_to(640, 340); }},
             {"the burr over the bone", looks(10), [] { button(SDL_BUTTON_LEFT, true); }},
-            {"bone to be cut", pressing_until(looks(60)), [] { button(SDL_BUTTON_LEFT, false); }}};
+            {"bone to be cut", pressing_until(looks(40)), [] { button(SDL_BUTTON_LEFT, false); }}};
   }
   // Declares the work done, and answers the question.
   static std::vector<Script::Step> done() {
@@ -98,7 +100,7 @@ TEST_F(ReviewWindow, AnExamEndsWithoutMarks) {
       {{"own marks", on(Page::self_marks), [] { press(SDLK_ESCAPE); }},
        {"the end", on(Page::review), nullptr},
        // longer than the marks of the block take
-       {"a while", looks(150),
+       {"a while", looks(60),
         [&] {
           marked = told("items");
           click(1190, 354);
@@ -118,18 +120,22 @@ TEST_F(ReviewWindow, AnExamEndsWithoutMarks) {
 TEST_F(ReviewWindow, Victim) {
   if (std::getenv(kState) == nullptr) GTEST_SKIP() << "only as a child";
   auto steps = cut();
-  steps.push_back({"a while", looks(60), [] { std::raise(SIGKILL); }});
+  steps.push_back({"a while", looks(20), [] { std::raise(SIGKILL); }});
   work_by(record::Mode::learn, std::move(steps));
 }
 
 TEST_F(ReviewWindow, AKilledSessionIsOfferedAgainAndMarkedAsUnfinished) {
   {
     ::setenv(kState, folder_.c_str(), 1);
-    HelperProcess victim({"/proc/self/exe", "--gtest_filter=ReviewWindow.Victim"});
+    std::string program = "/proc/self/exe", filter = "--gtest_filter=ReviewWindow.Victim";
+    std::array<char*, 3> words = {program.data(), filter.data(), nullptr};
+    pid_t victim = 0;
+    int status = 0;
+    ASSERT_EQ(::posix_spawn(&victim, program.c_str(), nullptr, nullptr, words.data(), environ), 0);
     ::unsetenv(kState);
-    ASSERT_TRUE(victim.began());
-    while (!victim.ended()) SDL_Delay(50);
-    EXPECT_FALSE(victim.fine());
+    ASSERT_EQ(::waitpid(victim, &status, 0), victim);
+    ASSERT_TRUE(WIFSIGNALED(status)) << "it ended by itself";
+    EXPECT_EQ(WTERMSIG(status), SIGKILL);
   }
   ASSERT_EQ(kept().size(), 1U);
   EXPECT_FALSE(kept()[0].clean);

@@ -192,9 +192,9 @@ void show_evidence(const Scored& scored, const scoring::Item& item, const scorin
   if (outcome.tick) {
     out.at_s = static_cast<double>(*outcome.tick) / scored.judged.player->info().rate_hz;
   } else if (out.place || region) {
-    out.at_s = scored.judged.player->seconds();
-    if (out.place)
-      if (const auto cut = cut_there(scored, *out.place)) out.at_s = *cut;
+    const auto cut = out.place ? cut_there(scored, *out.place) : std::nullopt;
+    out.at_s = cut.value_or(scored.judged.player->seconds());
+    out.at_end = !cut;
   }
 }
 
@@ -312,6 +312,8 @@ Report common(const Scored& scored, const ReportSettings& settings) {
   report.sides_legend = sides_legend();
   report.spots_legend = spots_legend();
   report.lines.push_back(time_line_of(scored));
+  if (!scored.judged.lesson.approach.empty())
+    report.towards = scored.judged.lesson.approach.front();
   report.small = small_of(scored);
   report.hashes = hashes_of(scored);
   return report;

@@ -73,7 +73,9 @@ void Mill::begin_steps() {
 void Mill::look_at_measure() {
   if (!watch_ || !steps_begun_) return;
   const auto now = steps_.current();
-  watch_->look(now && !steps_.was_reopened(*now) ? now : std::nullopt);
+  // who is asked whether the work is done should not have to wait for a measurement that begins now
+  const bool looks = now && !steps_.was_reopened(*now) && !pages_->asks_done();
+  watch_->look(looks ? now : std::nullopt);
   const auto done = watch_->take();
   if (!done || done != steps_.current()) return;
   const std::string& title = steps_[*done].title.in(spoken().code);

@@ -110,8 +110,6 @@ Result<Closed> Watch::run() {
   now_.t = std::max(0.0, options_.from);
   now_.playing = options_.from < 0 || options_.until > options_.from;
   stop_at_ = options_.until > options_.from ? options_.until : seconds();
-  if (options_.place) scene_.camera.target = *options_.place;
-  note(options_.note);
 
   const Clock::time_point start = Clock::now();
   Clock::time_point frame = start, last = start;
@@ -508,6 +506,7 @@ void Watch::panels() {
     if (const edit::Mirror now = tick::mirror_of(first_->tool()); now.on() && !second_)
       draw_mirror_sign(ui, mirror_words(recorded_.bone->grid(), now), 0);
     s.note = note_.empty() ? export_->progress() : note_;
+    if (s.note.empty()) s.note = options_.note;
     s.warning = !trouble_.empty()                      ? trouble_
                 : first_->trouble().empty() && second_ ? second_->trouble()
                                                        : first_->trouble();

@@ -38,8 +38,8 @@ struct WatchOptions {
   std::string screenshot = {};  // PNG of the last picture; empty: none
   double from = -1;             // first moment shown; below 0: plays from the start  [s]
   double until = -1;            // plays from `from` to this moment; below 0: does not play [s]
-  std::optional<math::Vec3> place = {};  // is looked at, and has a ring; world
-  std::string note = {};                 // shown at first
+  std::optional<math::Vec3> place = {};  // has a ring; world
+  std::string note = {};                 // shown while there is no other message
   std::string beside = {};               // a second recording for the right half; empty: none
   // opens a recording while a loading page is shown; closed: set if the user closed the window
   std::function<Result<Recorded>(const std::string& file, bool& closed)> open = {};

@@ -22,7 +22,7 @@ void FullReport::ask() {
   add("--series", volume_.series);
   add("--tissues", volume_.labels);
   add("--materials", volume_.materials);
-  child_ = std::make_unique<HelperProcess>(words);
+  child_ = std::make_unique<HelperProcess>(words, 0);  // no session runs beside it
   note_ = word(Word::review_writes);
   if (!child_->began()) {
     child_.reset();

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "burr/render/camera.h"
 #include "burr/render/picture.h"
 #include "commands/command.h"
 #include "report/marked.h"
@@ -165,6 +166,11 @@ class Review {
         return Closed::page;
       }
       recorded_ = std::make_unique<Recorded>(std::move(*opened));
+    }
+    if (item.place) {                    // as the surgeon looks at it
+      constexpr double kHeight = 45e-3;  // of the picture [m]
+      recorded_->scene.camera = render::view_of_work(*item.place, report_->towards, kHeight);
+      render::pan(recorded_->scene.camera, 0, -0.1);  // the lower fifth is covered by the strip
     }
     WatchOptions watching;
     watching.folder = options_.folder;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "window/mill/hud.h"
 #include "window/shell/words.h"
@@ -78,35 +79,36 @@ class Column {
   float u_;
 };
 
+// Each gate that was not held; of the others only how many.
+void draw_gates(Column& column, const Report& report) {
+  if (report.gates.empty()) return;
+  column.heading(word(Word::report_safety));
+  std::size_t held = 0;
+  std::map<std::string, std::size_t> open;  // by the word for it
+  for (const ReportGate& gate : report.gates) {
+    if (gate.mark.tone == Tone::bad)
+      column.marked(gate.mark.tone, gate.text,
+                    gate.mark.word + (gate.when.empty() ? "" : ", " + gate.when));
+    held += gate.mark.tone == Tone::good ? 1 : 0;
+    if (gate.mark.tone == Tone::open) ++open[gate.mark.word];
+  }
+  column.marked(held == report.gates.size() ? Tone::good : Tone::none,
+                say(Word::review_gates, held, report.gates.size()), "");
+  for (const auto& [text, count] : open)
+    column.marked(Tone::open, fmt::format("{} {}", count, text), "");
+}
+
 // What matters most, at the left: gates, totals, own marks, what to do next.
 void draw_left(const Ui& ui, const Report& report) {
   Column column(ui);
   column.write(Letter::body, ink::kWarn, report.unfinished);
-  if (!report.gates.empty()) {
-    column.heading(word(Word::report_safety));
-    // what was not held first; what was held in one line
-    std::size_t held = 0;
-    for (const ReportGate& gate : report.gates) {
-      held += gate.mark.tone == Tone::good ? 1 : 0;
-      if (gate.mark.tone == Tone::bad)
-        column.marked(gate.mark.tone, gate.text,
-                      gate.mark.word + (gate.when.empty() ? "" : ", " + gate.when));
-    }
-    for (const ReportGate& gate : report.gates)
-      if (gate.mark.tone == Tone::open) column.marked(gate.mark.tone, gate.text, gate.mark.word);
-    column.marked(held == report.gates.size() ? Tone::good : Tone::none,
-                  say(Word::review_gates, held, report.gates.size()), "");
-  }
+  draw_gates(column, report);
   column.heading(word(Word::report_totals));
   for (const ReportPart& part : report.parts) {
     column.write(Letter::small, ink::kDim, part.title);
     column.write(Letter::strong, ink::kText, part.met);
     column.write(Letter::small, ink::kWarn, part.note);
     column.gap(2);
-  }
-  if (report.has_self) {
-    column.heading(word(Word::report_self));
-    column.write(Letter::body, ink::kText, report.self);
   }
   column.heading(word(Word::report_next));
   int n = 0;
@@ -116,6 +118,10 @@ void draw_left(const Ui& ui, const Report& report) {
     column.gap(2);
   }
   if (report.next.empty()) column.write(Letter::body, ink::kText, report.nothing_next);
+  if (report.has_self) {
+    column.heading(word(Word::report_self));
+    column.write(Letter::body, ink::kText, report.self);
+  }
   column.gap(8);
   column.write(Letter::small, ink::kDim, word(Word::report_no_grade));
   column.gap(2);
@@ -152,8 +158,10 @@ bool item_row(const Ui& ui, const Report& report, const ReportItem& item) {
   for (const std::string& remark : item.remarks) column.write(Letter::small, ink::kDim, remark);
   ImGui::TableNextColumn();
   if (item.at_s) {
-    pressed = ImGui::Button(say(Word::review_show, minutes(*item.at_s)).c_str(),
-                            {ImGui::GetContentRegionAvail().x, 0});
+    pressed = ImGui::Button(
+        (item.at_end ? word(Word::review_show_end) : say(Word::review_show, minutes(*item.at_s)))
+            .c_str(),
+        {ImGui::GetContentRegionAvail().x, 0});
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", word(Word::review_show_told));
   }
   ImGui::PopID();
@@ -230,10 +238,12 @@ ReviewPressed draw_review(Ui& ui, const ReviewState& state) {
     ImGui::PopStyleVar();
   }
   ImGui::SetCursorScreenPos({x, ui.height() - 50 * u});
-  if (state.report != nullptr) {
-    pressed.full = ImGui::Button(word(Word::review_full)) && !state.writes;
-    ImGui::SameLine();
-  }
+  // always there, so that no other button lies under a mouse that clicks twice on the page before
+  const bool ready = state.report != nullptr && !state.writes;
+  ImGui::BeginDisabled(!ready);
+  pressed.full = ImGui::Button(word(Word::review_full), {170 * u, 0});
+  ImGui::EndDisabled();
+  ImGui::SameLine();
   if (state.repeats) {
     pressed.again = ImGui::Button(word(Word::review_again));
     ImGui::SameLine();

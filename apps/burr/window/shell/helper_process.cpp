@@ -17,8 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kNice = 10;  // a lower priority than the running session
-
 std::vector<char*> arguments_of(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -58,7 +56,7 @@ bool start_apart(const std::vector<std::string>& words) {
   return ::waitpid(pid, &status, 0) == pid && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-HelperProcess::HelperProcess(const std::vector<std::string>& words) {
+HelperProcess::HelperProcess(const std::vector<std::string>& words, int nice) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return;
   posix_spawn_file_actions_t actions;
@@ -74,7 +72,7 @@ HelperProcess::HelperProcess(const std::vector<std::string>& words) {
   ::close(ends[1]);
   said_at_ = ends[0];
   ::fcntl(said_at_, F_SETFL, O_NONBLOCK);
-  if (pid_ > 0) ::setpriority(PRIO_PROCESS, static_cast<id_t>(pid_), kNice);
+  if (pid_ > 0 && nice > 0) ::setpriority(PRIO_PROCESS, static_cast<id_t>(pid_), nice);
 }
 
 HelperProcess::~HelperProcess() {

@@ -1,5 +1,5 @@
-// apps/burr/window/shell/helper_process.h - another program beside the window, at lower priority: its
-// error messages are read, and it ends with this object.
+// apps/burr/window/shell/helper_process.h - another program beside the window: its error messages are
+// read, and it ends with this object.
 //
 //     HelperProcess child({burr_itself(), "--quiet", "report", ...});
 //     if (!child.began()) ...
@@ -26,7 +26,9 @@ namespace burr::app {
 
 class HelperProcess {
  public:
-  explicit HelperProcess(const std::vector<std::string>& words);
+  static constexpr int kBeside = 10;  // for work beside a running session
+  // nice: its priority, 0 to 19; the higher, the less it gets.
+  explicit HelperProcess(const std::vector<std::string>& words, int nice = kBeside);
   ~HelperProcess();  // kills it if it has not ended
   HelperProcess(const HelperProcess&) = delete;
   HelperProcess& operator=(const HelperProcess&) = delete;
