@@ -64,11 +64,13 @@ const char* verdict_word(Verdict verdict) {
   return "";
 }
 
-// "mm2" and "mm3" as people write them.
+// "mm2", "mm3" and degrees as people of all languages write them.
 std::string amount(scoring::Quantity quantity, double value) {
   std::string text = scoring::text_of(quantity, value);
-  for (const auto& [plain, raised] : {std::pair{"mm2", "mm²"}, std::pair{"mm3", "mm³"}})
-    if (const auto at = text.find(plain); at != text.npos) text.replace(at, 3, raised);
+  for (const auto& [plain, raised] :
+       {std::pair{std::string_view("mm2"), "mm²"}, std::pair{std::string_view("mm3"), "mm³"},
+        std::pair{std::string_view(" degrees"), "°"}})
+    if (const auto at = text.find(plain); at != text.npos) text.replace(at, plain.size(), raised);
   return text;
 }
 

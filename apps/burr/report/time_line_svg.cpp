@@ -11,7 +11,7 @@
 namespace burr::app {
 namespace {
 
-constexpr double kWide = 760, kNames = 92, kRight = 12;  // of the whole, names at the left [px]
+constexpr double kWide = 780, kNames = 112, kRight = 12;  // of the whole, names at the left [px]
 constexpr double kPlot = kWide - kNames - kRight;
 
 class Strip {

@@ -29,6 +29,7 @@
 #include "window/mill/drill.h"
 #include "window/mill/hand_plane.h"
 #include "window/mill/hud.h"
+#include "window/mill/injury.h"
 #include "window/mill/measuring.h"
 #include "window/mill/mirror_mode.h"
 #include "window/mill/over_pages.h"
@@ -254,8 +255,8 @@ class Mill {
   tick::TickRow row_;
   TickWatch ticks_;
   std::optional<HudState::Nearest> nearest_;
-  std::string near_;     // the structure that the user is warned of; empty: none
-  std::string injured_;  // the structure that a turning burr is in; empty: none
+  std::string near_;  // the structure that the user is warned of; empty: none
+  InjuryWatch injury_;
   StatusLine status_;
   std::string note_, warning_;  // as shown
   Clock::time_point said_{};

@@ -130,22 +130,22 @@ void Mill::look_at_technique() {
 void Mill::look_at_injury() {
   constexpr double kTurning = 0.05;  // of full speed
   const bool turning = row_.spindle_rad_s > kTurning * drill_.full_speed();
-  // the distance is known to half a voxel
-  const bool is_in =
-      nearest_ && turning && nearest_->distance < -0.5 * session_.bone().grid().voxel;
+  bool begins = false;
+  if (nearest_)
+    begins =
+        injury_.look(nearest_->name, nearest_->distance, turning, session_.bone().grid().voxel);
+  else
+    injury_.nothing_near();
   const bool told = options_.allowed.injury != workshop::Injury::untold;
-  if (options_.loudspeaker != nullptr) options_.loudspeaker->injury(is_in && told);
-  if (nearest_ && nearest_->distance > 0) injured_.clear();
-  if (!is_in || injured_ == nearest_->name) return;
-  injured_ = nearest_->name;
-  if (options_.allowed.injury != workshop::Injury::stop) return;
+  if (options_.loudspeaker != nullptr) options_.loudspeaker->injury(injury_.is_in() && told);
+  if (!begins || options_.allowed.injury != workshop::Injury::stop) return;
   lift();
   if (hands_.real != nullptr && !lifts_.stopped) stop_or_go_on();
-  note(say(Word::injury_stop, injured_));
+  note(say(Word::injury_stop, nearest_->name));
   if (options_.diary != nullptr)
     static_cast<void>(options_.diary->note(
         {row_.tick, record::CourseKind::warning, "injury",
-         record::fit_for_a_note(injured_) ? injured_ : std::string("a structure")}));
+         record::fit_for_a_note(nearest_->name) ? nearest_->name : std::string("a structure")}));
 }
 
 std::string Mill::cue_text() const {
