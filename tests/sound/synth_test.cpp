@@ -204,6 +204,11 @@ TEST(Synth, TheNearerTheFasterTheWarning) {
     EXPECT_NEAR(test::peak_hz(samples), usual.warn_hz, 2) << to_spare;
     EXPECT_NEAR(test::rms(samples), usual.warning * std::sqrt(0.5), 1e-3) << to_spare;
   }
+  // in the structure: an octave lower, as loud
+  heard.injured = true;
+  const std::vector<float> samples = steady(heard);
+  EXPECT_NEAR(test::peak_hz(samples), 0.5 * usual.warn_hz, 2);
+  EXPECT_NEAR(test::rms(samples), usual.warning * std::sqrt(0.5), 1e-3);
 }
 
 TEST(Synth, WhoTremblesAtTheBorderIsNotWarnedInAHurry) {
@@ -277,6 +282,10 @@ TEST(Synth, NothingClicksWhateverLeaps) {
   leap("load", [](SoundState& h) { h.cutting_nm = 30e-3; });
   leap("contact", [](SoundState& h) { h.touching = true; });
   leap("warning", [](SoundState& h) { h.to_spare = 0; });
+  leap("injury", [](SoundState& h) {
+    h.to_spare = -1e-3;
+    h.injured = true;
+  });
   leap("beeps", [](SoundState& h) { h.to_spare = 2e-3; });
   leaps.push_back({"contact", quiet, {.touching = true}});
   leaps.push_back({"first beep", quiet, {.to_spare = 2e-3}});

@@ -145,10 +145,11 @@ TEST_F(Modes, LearningHasStepsAndALitTargetAndTheRecordingCountsBoth) {
   }
 }
 
-// Nobody sees a score while he works: the window cannot compute one.
+// Nobody sees a score while he works: the page for milling cannot compute one. Marks come from the
+// page at the end of a case, which only the order of pages knows.
 TEST(Scores, TheWindowKnowsNothingOfThemButWhetherAStepIsDone) {
   const fs::path window = fs::path(BURR_SOURCE_DIR) / "apps/burr/window";
-  int files = 0;
+  int files = 0, reviews = 0;
   for (const auto& entry : fs::recursive_directory_iterator(window)) {
     if (!entry.is_regular_file()) continue;
     std::ifstream file(entry.path());
@@ -158,8 +159,21 @@ TEST(Scores, TheWindowKnowsNothingOfThemButWhetherAStepIsDone) {
     for (std::size_t at = text.find(allowed); at != text.npos; at = text.find(allowed))
       text.erase(at, allowed.size());
     EXPECT_EQ(text.find("burr/scoring/"), text.npos) << entry.path();
+    const std::string folder = entry.path().parent_path().filename().string();
+    if (folder == "review") {
+      ++reviews;
+      continue;
+    }
+    // sessions.cpp asks whether there is a rubric
+    if (entry.path().filename() != "sessions.cpp") {
+      EXPECT_EQ(text.find("\"report/"), text.npos) << entry.path();
+    }
+    if (entry.path().filename() != "pages.cpp") {
+      EXPECT_EQ(text.find("window/review/"), text.npos) << entry.path();
+    }
   }
   EXPECT_GT(files, 50);
+  EXPECT_GE(reviews, 8);
 }
 
 }  // namespace

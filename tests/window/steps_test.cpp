@@ -13,6 +13,7 @@
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "burr/scenario/open_lesson.h"
+#include "window/mill/injury.h"
 #include "window/mill/step_light.h"
 #include "window/mill/step_watch.h"
 #include "window/mill/technique.h"
@@ -175,6 +176,27 @@ TEST(Steps, TheWatchFindsThatAMeasureIsReached) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   EXPECT_EQ(done, 0U);
+}
+
+// ---- a turning burr in what must not be cut
+
+TEST(Steps, AnInjuryIsToldOnceUntilTheBurrIsOutAgain) {
+  constexpr double kVoxel = 0.4e-3;
+  InjuryWatch watch;
+  EXPECT_FALSE(watch.look("dura", 1e-3, true, kVoxel));
+  EXPECT_FALSE(watch.look("dura", -0.1e-3, true, kVoxel)) << "within the error of the distance";
+  EXPECT_FALSE(watch.look("dura", -1e-3, false, kVoxel)) << "the burr stands still";
+  EXPECT_TRUE(watch.look("dura", -0.3e-3, true, kVoxel));
+  EXPECT_TRUE(watch.is_in());
+  EXPECT_FALSE(watch.look("dura", -0.5e-3, true, kVoxel)) << "it was told";
+  EXPECT_FALSE(watch.look("dura", -0.1e-3, true, kVoxel));
+  EXPECT_FALSE(watch.look("dura", -0.5e-3, true, kVoxel)) << "it was not out yet";
+  EXPECT_TRUE(watch.look("sigmoid sinus", -0.5e-3, true, kVoxel)) << "another one";
+  EXPECT_FALSE(watch.look("dura", 0.1e-3, true, kVoxel));
+  EXPECT_TRUE(watch.look("dura", -0.5e-3, true, kVoxel));
+  watch.nothing_near();
+  EXPECT_FALSE(watch.is_in());
+  EXPECT_TRUE(watch.look("dura", -0.5e-3, true, kVoxel));
 }
 
 // ---- the sentence about technique

@@ -93,6 +93,12 @@ const std::vector<Box>& boxes() {
       {Letter::strong, 90, {Word::hand_title}},
       {Letter::body, 48, {Word::kind_solid, Word::kind_soft, Word::kind_air}},
       {Letter::body, 62, {Word::kind_spare}},
+      // steps_panel.cpp, self_marks_page.cpp, start_page.cpp
+      {Letter::body, 120, {Word::done_button}},
+      {Letter::body,
+       98,
+       {Word::report_verdict_met, Word::report_verdict_unmet, Word::report_self_unknown}},
+      {Letter::body, 72, {Word::start_marks}},
   };
   return all;
 }

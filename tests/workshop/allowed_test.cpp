@@ -42,6 +42,8 @@ TEST(Allowed, AnExamHasNoHelpWhateverTheCaseSays) {
       EXPECT_FALSE(one.technique);
       EXPECT_FALSE(one.back) << "no undo, no original";
       EXPECT_FALSE(one.measure);
+      EXPECT_FALSE(one.marks) << "the examiner releases them";
+      EXPECT_EQ(one.injury, Injury::untold);
       one.colours = one.see_through = false;  // as the case says
       EXPECT_EQ(one, Allowed());
     }

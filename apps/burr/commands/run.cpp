@@ -34,6 +34,7 @@
 #include "commands/work.h"
 #include "window/mill/make_ready.h"
 #include "window/mill/window.h"
+#include "window/review/review.h"
 #include "window/shell/loading.h"
 #include "window/shell/pages.h"
 #include "window/shell/words.h"
@@ -201,8 +202,101 @@ Status run_headless(const Options& options) {
   return fine();
 }
 
-// A session of a person: the window, and the files it writes if a folder was named.
-Status run_in_window(const Options& options) {
+// What a session in the window leaves in the folder that the user named.
+Status write_session(const Options& options, const Ready& ready, const render::Scene& before,
+                     const Status& recorded) {
+  const std::filesystem::path folder = options.out;
+  sim::Session& session = *ready.session;
+  Summary summary = summary_of(session, ready.what, session.hand().spec().name);
+  if (ready.work_case) summary.task = scenario::task_text(*ready.work_case);
+  if (!recorded) fmt::print("{}", summary_text(summary));  // the page may not fit on the disk
+  render::Scene after = ready.scene;
+  after.burr.visible = false;
+  after.markers.clear();
+  after.rods.clear();
+  for (const auto& [name, one] : {std::pair{"before", &before}, {"after", &std::as_const(after)}}) {
+    render::Scene picture = *one;
+    picture.look = render::still_look();
+    picture.camera = before.camera;
+    picture.scale_bar = true;
+    const std::string file = std::string(name) + ".png";
+    const Status drawn = render::render_png(picture, kWidth, kHeight, folder / file);
+    if (!drawn) return recorded ? drawn : recorded;
+    summary.pictures.emplace_back(file, name);
+  }
+  if (recorded) summary.recording = "session.mcap";
+  const Status written = write_summary(summary, folder);
+  if (!recorded) return recorded;
+  if (!written) return written;
+  fmt::print("{}{}: before.png after.png session.mcap summary.html\n", summary_text(summary),
+             folder.string());
+  return fine();
+}
+
+// A session whose recording, pictures and figures go into the folder that the user named.
+Result<Closed> mill_into_folder(Desk& desk, Ready& ready, const Options& options,
+                                const WindowOptions& window) {
+  const std::string file = (std::filesystem::path(options.out) / "session.mcap").string();
+  sim::Session& session = *ready.session;
+  const render::Scene before = ready.scene;
+  Recording recording;
+  recording.remember_scan_in(scan_list_by(desk.settings, desk.places().state));
+  recording.belongs_to(options.work.identity);
+  const Status begun =
+      recording.start(session, file, ready.volume, ready.import, session.hand().spec().name, false,
+                      ready.spared, ready.work_case);
+  if (!begun) return begun.error();
+  WindowOptions told = window;
+  told.warning = [&recording] { return recording.trouble(); };
+  told.keep = [] { return true; };  // this run is recorded already
+  told.diary = recording.diary();
+  told.done_ends = ready.work_case && has_marks(*ready.work_case);
+  told.film_of = [&]() -> std::optional<FilmSource> {
+    FilmSource source = film_of(session, file, ready.volume);
+    source.effects = desk.settings.effects;
+    return source;
+  };
+  const auto left = mill_with_sound(desk, ready, told);
+  const bool done = left && *left == Closed::done;
+  Result<bool> stays = true;
+  if (done) stays = ask_own_marks(desk, ready, *told.diary, window);
+  const Status recorded = recording.finish(session);
+  if (!left) return left.error();
+  const Status written = write_session(options, ready, before, recorded);
+  if (!written) return written.error();
+  if (!stays) return stays.error();
+  if (!done || !*stays) return *left;
+  return review(desk, {.file = file,
+                       .title = title_of(ready),
+                       .volume = ready.volume,
+                       .marks = ready.allowed.marks,
+                       .seconds = window.seconds,
+                       .folder = window.folder,
+                       .screenshot = window.screenshot});
+}
+
+// One session of a person on the case or scan that was named. Closed::again: and one more.
+Result<Closed> session_in_window(Desk& desk, const Options& options) {
+  WorkOptions work = options.work;
+  if (const Status taken = take_case(work); !taken) return taken.error();
+  if (work.work_case) fmt::print(stderr, "{}", scenario::task_text(*work.work_case));
+  bool closed = false;
+  auto loaded = load<Ready>(
+      desk, say(Word::loading, work.title.empty() ? word(Word::start_scan) : work.title),
+      [work](Progress& seen) { return open_ready(work, seen); }, closed);
+  if (closed) return Closed::window;
+  if (!loaded) return loaded.error();
+  for (const std::string& notice : loaded->import.notices) fmt::print(stderr, "{}\n", notice);
+  const WindowOptions window = {.seconds = options.seconds,
+                                .folder = options.out,
+                                .screenshot = options.screenshot,
+                                .sound = !options.no_sound};
+  return options.out.empty() ? mill_and_keep(desk, *loaded, options.work, false, window)
+                             : mill_into_folder(desk, *loaded, options, window);
+}
+
+// The start page, or sessions on what was named.
+Status run_in_window(Options options) {
   const std::filesystem::path folder = options.out;
   if (!folder.empty()) {
     Status made = make_folder(folder);
@@ -215,75 +309,12 @@ Status run_in_window(const Options& options) {
   if (options.work.volume.source.empty())
     return run_pages(**desk, {options.seconds, options.out, options.screenshot, !options.no_sound,
                               options.work});
-
-  WorkOptions work = options.work;
-  if (const Status taken = take_case(work); !taken) return taken;
-  if (work.work_case) fmt::print(stderr, "{}", scenario::task_text(*work.work_case));
-  bool closed = false;
-  auto loaded = load<Ready>(
-      **desk, say(Word::loading, work.title.empty() ? word(Word::start_scan) : work.title),
-      [work](Progress& seen) { return open_ready(work, seen); }, closed);
-  if (closed) return fine();
-  if (!loaded) return loaded.error();
-  Ready& ready = *loaded;
-  for (const std::string& notice : ready.import.notices) fmt::print(stderr, "{}\n", notice);
-  sim::Session& session = *ready.session;
-  render::Scene& scene = ready.scene;
-  const render::Camera first_view = scene.camera;
-  const render::Scene before = scene;
-  const WindowOptions window = {.seconds = options.seconds,
-                                .folder = options.out,
-                                .screenshot = options.screenshot,
-                                .sound = !options.no_sound};
-  if (folder.empty()) {
-    const auto left = mill_and_keep(**desk, ready, options.work, false, window);
-    return left ? (*desk)->lost : Status(left.error());
+  for (;;) {
+    const auto left = session_in_window(**desk, options);
+    if (!left) return left.error();
+    if (*left != Closed::again) return (*desk)->lost;
+    next_attempt(options.work.identity);
   }
-
-  Recording recording;
-  recording.remember_scan_in(scan_list_by((*desk)->settings, (*desk)->places().state));
-  recording.belongs_to(options.work.identity);
-  Status status =
-      recording.start(session, (folder / "session.mcap").string(), ready.volume, ready.import,
-                      session.hand().spec().name, false, ready.spared, ready.work_case);
-  if (!status) return status;
-  WindowOptions told = window;
-  told.warning = [&recording] { return recording.trouble(); };
-  told.keep = [] { return true; };  // this run is recorded already
-  told.diary = recording.diary();
-  told.film_of = [&]() -> std::optional<FilmSource> {
-    FilmSource source = film_of(session, (folder / "session.mcap").string(), ready.volume);
-    source.effects = (*desk)->settings.effects;
-    return source;
-  };
-  const auto left = mill_with_sound(**desk, ready, told);
-  status = left ? fine() : Status(left.error());
-  const Status recorded = recording.finish(session);
-  if (!status) return status;
-
-  Summary summary = summary_of(session, ready.what, session.hand().spec().name);
-  if (ready.work_case) summary.task = scenario::task_text(*ready.work_case);
-  if (!recorded) fmt::print("{}", summary_text(summary));  // the page may not fit on the disk
-  scene.burr.visible = false;
-  scene.markers.clear();
-  scene.rods.clear();
-  for (const auto& [name, one] : {std::pair{"before", &before}, {"after", &std::as_const(scene)}}) {
-    render::Scene picture = *one;
-    picture.look = render::still_look();
-    picture.camera = first_view;
-    picture.scale_bar = true;
-    const std::string file = std::string(name) + ".png";
-    status = render::render_png(picture, kWidth, kHeight, folder / file);
-    if (!status) return recorded ? status : recorded;
-    summary.pictures.emplace_back(file, name);
-  }
-  if (recorded) summary.recording = "session.mcap";
-  status = write_summary(summary, folder);
-  if (!recorded) return recorded;
-  if (!status) return status;
-  fmt::print("{}{}: before.png after.png session.mcap summary.html\n", summary_text(summary),
-             folder.string());
-  return fine();
 }
 
 Status run(Options options) {
@@ -291,7 +322,7 @@ Status run(Options options) {
       check_outputs({options.work.volume.source}, {{"--screenshot", options.screenshot, {".png"}}});
   if (!possible) return possible;
   const bool windowless = options.headless || !display_there();
-  if (!windowless) return run_in_window(options);
+  if (!windowless) return run_in_window(std::move(options));
   for (const auto& [option, given] : {std::pair{"--device", &options.work.hand.device},
                                       {"--suction", &options.work.suction},
                                       {"--publish-as", &options.work.told_as}})

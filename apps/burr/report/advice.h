@@ -1,7 +1,7 @@
 // apps/burr/report/advice.h - what to do next, which items deserve a picture, and how the learner's
 // own marks agree with the machine's.
 //
-// Thread: main.
+// Thread: any.
 #pragma once
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 //     Report report = report_on(mine, {.self = marks, .beside = &expert}, progress());
 //
 // The same score gives the same report, byte for byte. A report holds no date, no path and no name.
-// Thread: main. Cost: that of the pictures. Errors: of the pictures; Trouble::interrupted.
+// Thread: main; without pictures any. Cost: that of the pictures. Errors: of the pictures; Trouble::interrupted.
 #pragma once
 
 #include <cstddef>

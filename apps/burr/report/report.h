@@ -6,11 +6,12 @@
 // the texts, beside the number. Thread: any.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "burr/math/vec3.h"
 
 namespace burr::app {
 
@@ -39,7 +40,9 @@ struct ReportScale {
 struct ReportItem {
   std::string id, text;  // text: what is to be done
   bool gate = false;
-  std::optional<std::uint64_t> tick;  // of the evidence, for a click that plays it
+  std::optional<double> at_s;       // when the evidence is seen best; none: it cannot be seen
+  bool at_end = false;              // that is the end of the session
+  std::optional<math::Vec3> place;  // of it: world, LPS [m]
   ReportMark self, machine, beside;
   std::string figures;               // "share removed 12 % (error 3 %), at least 80 %"
   std::string default_word;          // beside the threshold; empty: it was compared with people
@@ -114,7 +117,8 @@ struct Report {
   Legend sides_legend, spots_legend;
   std::vector<ReportSides> sides;
   std::vector<ReportLine> lines;
-  std::vector<std::string> small;  // sentences
+  std::vector<std::string> small;            // sentences
+  math::Vec3 towards = math::Vec3::UnitZ();  // from the bone to the surgeon; unit
   std::vector<TextPair> hashes;
   std::vector<std::string> commands;  // that compute it again
 };

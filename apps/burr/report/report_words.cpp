@@ -12,9 +12,14 @@ namespace {
 using scoring::Verdict;
 
 constexpr std::array kValues = {
-    Word::what_seen,  Word::what_bare,   Word::what_even,      Word::what_lost,  Word::what_area,
-    Word::what_walls, Word::what_shut,   Word::what_way,       Word::what_under, Word::what_removed,
-    Word::what_deep,  Word::what_choice, Word::what_restraint, Word::what_order};
+    Word::what_seen,      Word::what_bare,        Word::what_even,       Word::what_lost,
+    Word::what_area,      Word::what_walls,       Word::what_shut,       Word::what_way,
+    Word::what_under,     Word::what_removed,     Word::what_deep,       Word::what_choice,
+    Word::what_restraint, Word::what_entry,       Word::what_end,        Word::what_axis_angle,
+    Word::what_too_deep,  Word::what_too_shallow, Word::what_too_wide,   Word::what_too_narrow,
+    Word::what_plane_off, Word::what_plane_angle, Word::what_face,       Word::what_floor,
+    Word::what_rim,       Word::what_clear,       Word::what_stroke_far, Word::what_stroke,
+    Word::what_along,     Word::what_coolant,     Word::what_touched,    Word::what_order};
 
 constexpr std::array<std::pair<std::string_view, Word>, 29> kMeasures = {
     {{"identified", Word::explain_identified},
@@ -59,11 +64,13 @@ const char* verdict_word(Verdict verdict) {
   return "";
 }
 
-// "mm2" and "mm3" as people write them.
+// "mm2", "mm3" and degrees as people of all languages write them.
 std::string amount(scoring::Quantity quantity, double value) {
   std::string text = scoring::text_of(quantity, value);
-  for (const auto& [plain, raised] : {std::pair{"mm2", "mm²"}, std::pair{"mm3", "mm³"}})
-    if (const auto at = text.find(plain); at != text.npos) text.replace(at, 3, raised);
+  for (const auto& [plain, raised] :
+       {std::pair{std::string_view("mm2"), "mm²"}, std::pair{std::string_view("mm3"), "mm³"},
+        std::pair{std::string_view(" degrees"), "°"}})
+    if (const auto at = text.find(plain); at != text.npos) text.replace(at, plain.size(), raised);
   return text;
 }
 

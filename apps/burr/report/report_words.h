@@ -1,7 +1,7 @@
 // apps/burr/report/report_words.h - what the library calls measures, values and verdicts, in the
 // user's language.
 //
-// Thread: main.
+// Thread: any.
 #pragma once
 
 #include <string>

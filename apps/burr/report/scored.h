@@ -1,7 +1,7 @@
 // apps/burr/report/scored.h - a recording with its bone and its score: what `burr score`, `burr
 // report` and `burr compare` begin with.
 //
-// Thread: main. Cost: seconds. Errors: one sentence that names the file, the option or the field.
+// Thread: any, one at a time for each recording. Cost: seconds. Errors: one sentence that names the file, the option or the field.
 #pragma once
 
 #include <memory>

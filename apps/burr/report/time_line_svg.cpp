@@ -11,7 +11,7 @@
 namespace burr::app {
 namespace {
 
-constexpr double kWide = 760, kNames = 92, kRight = 12;  // of the whole, names at the left [px]
+constexpr double kWide = 780, kNames = 112, kRight = 12;  // of the whole, names at the left [px]
 constexpr double kPlot = kWide - kNames - kRight;
 
 class Strip {
@@ -136,8 +136,12 @@ std::string svg_of(const ReportLine& line, double seconds) {
   const double most = top_of(line.force_n);
   strip.name(Word::report_line_force, 56);
   strip.curve(line, line.force_n, most, 56, "#b04a00", {0, most});
-  strip.name(Word::report_line_nearest, 56);
-  strip.curve(line, line.nearest_mm, kFarthestMm, 56, "#0060a0", {0, 2, kFarthestMm});
+  // a case without anything to spare has no distances
+  if (std::any_of(line.nearest_mm.begin(), line.nearest_mm.end(),
+                  [](float mm) { return !std::isnan(mm); })) {
+    strip.name(Word::report_line_nearest, 56);
+    strip.curve(line, line.nearest_mm, kFarthestMm, 56, "#0060a0", {0, 2, kFarthestMm});
+  }
 
   strip.name(Word::report_line_burr, 12);
   const auto burr = [&](std::size_t n) {

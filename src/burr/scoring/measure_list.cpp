@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -201,8 +202,10 @@ const char* word_of(Part part) { return part == Part::product ? "product" : "pro
 
 std::string text_of(Quantity quantity, double value) {
   switch (quantity) {
-    case Quantity::share:
-      return fmt::format("{:.0f} %", 100 * value);
+    case Quantity::share: {
+      const double percent = std::round(100 * value);
+      return fmt::format("{:.0f} %", percent == 0 ? 0.0 : percent);  // never "-0 %"
+    }
     case Quantity::length:
       return fmt::format("{:.2f} mm", value / kMm);
     case Quantity::area:

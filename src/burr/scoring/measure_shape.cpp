@@ -83,7 +83,7 @@ Outcome plane(const Item& item, Scene& scene) {
                   "angle to the planned plane");
   else
     out = at_most(item, fit->uneven, item.limit("most_mm"), fit->error,
-                  "95 % of the face lie this near to its own plane");
+                  "distance of the face from its own plane (95 %)");
   out.place = fit->worst_at;
   return out;
 }
@@ -103,7 +103,7 @@ Outcome cavity(const Item& item, Scene& scene) {
   } else {
     if (!shape->outline) return not_assessable(item, "the cavity has no rim");
     out = at_most(item, *shape->outline, item.limit("most_mm"), shape->error,
-                  "95 % of the rim lie this near to the planned one");
+                  "distance of the rim from the planned one (95 %)");
   }
   out.place = shape->deepest;
   return out;

@@ -18,6 +18,7 @@ struct SoundState {
   bool irrigated = false;    // coolant runs
   // from the burr's surface to the nearest structure to spare; infinity: there is none [m]
   double to_spare = std::numeric_limits<double>::infinity();
+  bool injured = false;  // the burr is in that structure and turns: its tone is an octave lower
 };
 
 }  // namespace burr::sound

@@ -94,6 +94,7 @@ Synth::Synth(const SynthSettings& settings) : settings_(settings) {
   untouched_ = kUntouched;
   tissue_hz_.request = tissue_hz_.between = tissue_hz_.now = cutting_hz(kUsualBone);
   loudness_.request = loudness_.between = loudness_.now = 1;
+  warn_pitch_.request = warn_pitch_.between = warn_pitch_.now = 1;
   request({});
 }
 
@@ -125,6 +126,7 @@ void Synth::request(const SoundState& now) BURR_RT {
   const double every = beep_every(settings_, now.to_spare);
   warned_ = std::isfinite(every);
   if (warned_) beep_every_ = every;
+  warn_pitch_.request = now.injured ? 0.5 : 1;
 }
 
 // ---- samples
@@ -223,7 +225,7 @@ double Synth::warning() BURR_RT {
   // a swell of half a cosine: smooth at both ends
   beep_swell_ = std::clamp(beep_swell_ + (on ? dt_ : -dt_) / kSwell, 0.0, 1.0);
   if (beep_swell_ == 0) return 0;
-  advance(warn_turn_, settings_.warn_hz * dt_);
+  advance(warn_turn_, warn_pitch_.step(quick_) * settings_.warn_hz * dt_);
   const double loud = 0.5 - 0.5 * std::cos(kPi * beep_swell_);
   return settings_.warning * loud * std::sin(2 * kPi * warn_turn_);
 }

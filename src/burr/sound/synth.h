@@ -4,7 +4,8 @@
 //     cutting   white noise --[ band at f_c, Q ]-- times sqrt(q / (q + q_half))
 //     knock     a line at f_c / 3 when the burr comes onto the bone: exp(-t/d) - exp(-t/a)
 //     coolant   white noise --[ band at 6 kHz ]
-//     warning   beeps that come faster the nearer a structure to spare is; a steady tone at the end
+//     warning   beeps that come faster the nearer a structure to spare is; a steady tone at the end,
+//               an octave lower while the burr cuts into it
 //
 // The lines of the spindle are those of a rotor: once a turn from run-out, its multiples from a
 // shape that is not round, once a tooth (Altintas 2012, ch. 3). A line fades where it would come
@@ -102,7 +103,7 @@ class Synth {
   std::uint64_t count_ = 0;      // random numbers used so far
 
   // requested values, smoothed
-  Smooth turns_hz_, loaded_, removal_, tissue_hz_, coolant_, loudness_, tooth_;
+  Smooth turns_hz_, loaded_, removal_, tissue_hz_, coolant_, loudness_, tooth_, warn_pitch_;
   int teeth_ = 0, teeth_requested_ = 8;
   bool touching_ = false;
   double untouched_;  // since the last contact [s]

@@ -19,29 +19,35 @@ constexpr Allowed kFree = {.steps = Offer::on_demand,
                            .target = true,
                            .distance = true,
                            .tone_below = kEverywhere,
+                           .injury = Injury::sound,
                            .technique = false,
                            .back = true,
                            .measure = true,
                            .colours = true,
-                           .see_through = true};
+                           .see_through = true,
+                           .marks = true};
 constexpr Allowed kLearn = {.steps = Offer::always,
                             .target = true,
                             .distance = true,
                             .tone_below = kEverywhere,
+                            .injury = Injury::stop,
                             .technique = true,
                             .back = true,
                             .measure = true,
                             .colours = true,
-                            .see_through = true};
+                            .see_through = true,
+                            .marks = true};
 constexpr Allowed kPractise = {.steps = Offer::on_demand,
                                .target = true,
                                .distance = false,
                                .tone_below = kClose,
+                               .injury = Injury::sound,
                                .technique = false,
                                .back = true,
                                .measure = true,
                                .colours = true,
-                               .see_through = true};
+                               .see_through = true,
+                               .marks = true};
 constexpr Allowed kExam = {};
 
 bool names(const std::vector<std::string>& list, std::string_view word) {

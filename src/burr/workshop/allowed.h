@@ -16,15 +16,24 @@ namespace burr::workshop {
 
 enum class Offer { never, on_demand, always };
 
+// What happens when a turning burr is in a structure that must be spared.
+enum class Injury {
+  untold,  // the user sees what he sees
+  sound,   // a tone at once
+  stop,    // also a sentence, and the burr is lifted: stop and look
+};
+
 struct Allowed {
   Offer steps = Offer::never;  // the steps of the case, and the text of the current one
   bool target = false;         // what the current step is about may be lit, on demand
   bool distance = false;       // to the nearest structure to spare, as a figure and a colour
   double tone_below = 0;       // a tone sounds when that distance is below this; 0: never [m]
-  bool technique = false;      // one sentence where the technique stays out of its band
-  bool back = false;     // undo, redo, everything back, the original back, smoothing, the mirror
-  bool measure = false;  // distances, angles, the thickness under the burr
+  Injury injury = Injury::untold;
+  bool technique = false;  // one sentence where the technique stays out of its band
+  bool back = false;       // undo, redo, everything back, the original back, smoothing, the mirror
+  bool measure = false;    // distances, angles, the thickness under the burr
   bool colours = false, see_through = false;  // of the tissues
+  bool marks = false;  // what the rubric says, after the work; in an exam an examiner releases it
   bool operator==(const Allowed& other) const = default;
 };
 

@@ -32,7 +32,9 @@ double Loudspeaker::loudness() const { return std::pow(10, kStep * steps_ / 20);
 
 void Loudspeaker::update(const tick::TickRow& newest) {
   sound::SoundState now = hearing_.update(newest);
-  if (!(now.to_spare < warn_below_)) now.to_spare = std::numeric_limits<double>::infinity();
+  now.injured = injured_;
+  if (!injured_ && !(now.to_spare < warn_below_))
+    now.to_spare = std::numeric_limits<double>::infinity();
   if (speaker_) speaker_->voice().update(now);
 }
 

@@ -21,6 +21,8 @@ class Loudspeaker {
               double warn_below = std::numeric_limits<double>::infinity());
 
   void update(const tick::TickRow& newest);
+  // The burr is in a structure to spare; sounds however near the warning begins.
+  void injury(bool is_in) { injured_ = is_in; }
   void toggle();
   double louder(int steps);  // steps of 3 dB, below 0: quieter; the new level [dB], 0: loudest
   [[nodiscard]] bool is_on() const { return speaker_ && speaker_->voice().is_on(); }
@@ -34,6 +36,7 @@ class Loudspeaker {
 
   workshop::SoundTracker hearing_;
   double warn_below_;
+  bool injured_ = false;
   std::unique_ptr<sound::Speaker> speaker_;
   std::string trouble_;
   int steps_ = 0;  // steps below the loudest, 0 or less

@@ -29,6 +29,7 @@
 #include "window/mill/drill.h"
 #include "window/mill/hand_plane.h"
 #include "window/mill/hud.h"
+#include "window/mill/injury.h"
 #include "window/mill/measuring.h"
 #include "window/mill/mirror_mode.h"
 #include "window/mill/over_pages.h"
@@ -158,8 +159,13 @@ class Mill {
 
   // ---- mill_diary.cpp
   void keep_diary();
-  void declare_done();  // or takes it back
-  void end_diary();     // when the servo has stopped
+  void declare_done();  // asks, if that ends the session; otherwise declares it or takes it back
+  void answer_done() {
+    if (pages_->asks_done()) end_as_done();
+  }
+  void end_as_done();
+  [[nodiscard]] std::size_t open_steps() const;
+  void end_diary();  // when the servo has stopped
 
   // ---- mill_steps.cpp
   // What the mode of the session refuses is refused here, whatever key, button or pad it came from.
@@ -171,6 +177,7 @@ class Mill {
   void step_done();
   void light_target();
   void look_at_technique();
+  void look_at_injury();
   [[nodiscard]] std::string cue_text() const;
   void draw_steps_panel();
   [[nodiscard]] bool steps_offered() const {
@@ -182,12 +189,14 @@ class Mill {
   void keep_device_preferences();
   void keep_fault_of(const device::Device& hand, const tick::FaultReport& fault);
   void update_status();
-  void note(std::string text);  // "": no message
+  void note(std::string text);             // "": no message
+  [[nodiscard]] std::string hint() const;  // how the mouse mills
   void note_troubles();
   void panels();
   void pages();
   void leave_picture();
   [[nodiscard]] HudState hud() const;
+  [[nodiscard]] float column() const;  // width at the right that slices cover [pixel]
 
   Desk& desk_;
   sim::Session& session_;
@@ -247,6 +256,7 @@ class Mill {
   TickWatch ticks_;
   std::optional<HudState::Nearest> nearest_;
   std::string near_;  // the structure that the user is warned of; empty: none
+  InjuryWatch injury_;
   StatusLine status_;
   std::string note_, warning_;  // as shown
   Clock::time_point said_{};

@@ -45,9 +45,29 @@ void Mill::keep_diary() {
 
 void Mill::declare_done() {
   if (options_.diary == nullptr) return note(word(Word::done_not_recorded));
+  if (options_.done_ends) {
+    if (pages_->asks_done()) return end_as_done();
+    // where nothing was done there is nothing to mark
+    if (row_.ledger.removed <= 0 && row_.ledger.added <= 0) return note(word(Word::done_nothing));
+    lift();
+    return pages_->ask_done();
+  }
   const bool done = !options_.diary->declared_done();
   options_.diary->declare_done(row_.tick, done);
   note(word(done ? Word::done_declared : Word::done_taken_back));
+}
+
+void Mill::end_as_done() {
+  options_.diary->declare_done(row_.tick, true);
+  closed_ = Closed::done;
+  open_ = false;
+}
+
+// An exam shows no steps, so nobody is reminded of them.
+std::size_t Mill::open_steps() const {
+  return steps_offered() && options_.mode != record::Mode::free
+             ? steps_.size() - steps_.done_count()
+             : 0;
 }
 
 void Mill::end_diary() {

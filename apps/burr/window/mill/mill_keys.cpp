@@ -162,7 +162,10 @@ Mill::KeyRows Mill::program_keys() {
        word(Word::key_ctrl_enter),
        Word::help_done,
        {{SDLK_RETURN, KMOD_CTRL, [](Mill& m) { m.declare_done(); }},
-        {SDLK_KP_ENTER, KMOD_CTRL, [](Mill& m) { m.declare_done(); }}}},
+        {SDLK_KP_ENTER, KMOD_CTRL, [](Mill& m) { m.declare_done(); }},
+        // the answer to the question
+        {SDLK_RETURN, 0, [](Mill& m) { m.answer_done(); }},
+        {SDLK_KP_ENTER, 0, [](Mill& m) { m.answer_done(); }}}},
       {HelpBlock::program, "F2", Word::help_settings, {act(SDLK_F2, Action::settings)}},
       {HelpBlock::program, "F3", Word::help_stereo, {}},  // works on every page: desk.cpp
       {HelpBlock::program, "S", Word::key_save, {{SDLK_s, 0, [](Mill& m) { m.keep(); }}}},

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "burr/workshop/device_book.h"
 #include "burr/workshop/fault_file.h"
 #include "window/mill/mill.h"
+#include "window/mill/steps_panel.h"
 #include "window/mill/task_panel.h"
 #include "window/shell/words.h"
 
@@ -95,6 +97,16 @@ void Mill::note(std::string text) {
   if (!text.empty()) status_.note(std::move(text), Clock::now());
 }
 
+std::string Mill::hint() const {
+  const bool left = desk_.settings.left_handed;
+  const auto begins = [](std::string text) {
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    return text;
+  };
+  return say(Word::mill_hint, begins(word(left ? Word::key_right : Word::key_left)),
+             begins(word(left ? Word::key_left : Word::key_right)));
+}
+
 void Mill::note_troubles() {
   for (const std::string& trouble : std::exchange(desk_.troubles, {})) note(trouble);
 }
@@ -113,17 +125,26 @@ void Mill::update_status() {
   if (lasting.empty() && lifts_.stopped) lasting = word(Word::stopped);
   if (lasting.empty()) lasting = session_.hand().trouble();
   if (lasting.empty() && hands_.suction != nullptr) lasting = hands_.suction->hand().trouble();
-  if (lasting.empty()) lasting = flag_texts(row_.contact.flags);
+  // a mouse has no motors that could get warm
+  const std::uint32_t hidden = hands_.real == nullptr ? std::uint32_t{rt::kFlagThermal} : 0U;
+  if (lasting.empty()) lasting = flag_texts(row_.contact.flags & ~hidden);
   warning_ = status_.warning(now, lasting);
   // after the reason of the release: what the user should do
   if (lasting.empty() && session_.servo().released() && (row_.hand.buttons & device::kLifted) == 0)
     warning_ += (warning_.empty() ? "" : ". ") + std::string(word(Word::begins_free));
   note_ = status_.note(now, pages_->exporting().progress());
   if (note_.empty()) note_ = measuring_.words();
+  if (note_.empty() && hands_.real == nullptr && row_.ledger.removed <= 0) note_ = hint();
   const std::string& trouble = pages_->exporting().trouble();
   desk_.status_text = !trouble.empty()                    ? trouble
                       : warning_.empty() || note_.empty() ? warning_ + note_
                                                           : warning_ + "; " + note_;
+}
+
+float Mill::column() const {
+  return scene_.insets.empty()
+             ? 0
+             : static_cast<float>(desk_.renderer().width() - scene_.insets.front().x);
 }
 
 HudState Mill::hud() const {
@@ -159,8 +180,7 @@ HudState Mill::hud() const {
   s.max_us = summary.max_us;
   s.missed = ticks_.missed();
   s.picture_step = picture_step_;
-  if (!scene_.insets.empty())
-    s.column = static_cast<float>(desk_.renderer().width() - scene_.insets.front().x);
+  s.column = column();
   s.pixel = scene_.camera.view_height() / std::max(1, desk_.renderer().height());
   if (const edit::Mirror mirror = mirror_.now(); mirror.on())
     s.mirror = mirror_words(session_.bone().grid(), mirror);
@@ -187,6 +207,7 @@ void Mill::panels() {
       draw_task(ui, *options_.work_case);
     else if (steps_shown_ && steps_offered())
       draw_steps_panel();
+    if (options_.done_ends && !page_open() && draw_done_button(ui, column())) declare_done();
     if (const auto pressed = draw_toolbar(ui, drill_.mode(), measuring_.on(), mirror_.now().on()))
       act(*pressed);
   }
@@ -197,7 +218,9 @@ void Mill::pages() {
   const device::DeviceSpec spec =
       hands_.real != nullptr ? hands_.real->spec() : device::DeviceSpec();
   DeviceLeaf device{hands_.id, spec.peak_force, spec.peak_torque > 0, hands_.preferences};
-  const OverPages::Changed changed = pages_->draw(hands_.real != nullptr ? &device : nullptr);
+  const OverPages::Changed changed =
+      pages_->draw(hands_.real != nullptr ? &device : nullptr, open_steps());
+  if (changed.done) end_as_done();
   if (changed.device) keep_device_preferences();
   if (changed.force_limit) session_.command({tick::CommandKind::user_force, user_limit()});
   if (!changed.settings) return;

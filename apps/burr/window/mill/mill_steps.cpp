@@ -73,7 +73,9 @@ void Mill::begin_steps() {
 void Mill::look_at_measure() {
   if (!watch_ || !steps_begun_) return;
   const auto now = steps_.current();
-  watch_->look(now && !steps_.was_reopened(*now) ? now : std::nullopt);
+  // who is asked whether the work is done should not have to wait for a measurement that begins now
+  const bool looks = now && !steps_.was_reopened(*now) && !pages_->asks_done();
+  watch_->look(looks ? now : std::nullopt);
   const auto done = watch_->take();
   if (!done || done != steps_.current()) return;
   const std::string& title = steps_[*done].title.in(spoken().code);
@@ -121,6 +123,29 @@ void Mill::look_at_technique() {
   if (technique_.fresh() && options_.diary != nullptr)
     static_cast<void>(options_.diary->note(
         {row_.tick, record::CourseKind::help_shown, "technique", Technique::name(cue_)}));
+}
+
+// A turning burr in what must not be cut. Told once, until the burr is out of it again. No flash: it
+// would startle a hand that is in the wrong place already.
+void Mill::look_at_injury() {
+  constexpr double kTurning = 0.05;  // of full speed
+  const bool turning = row_.spindle_rad_s > kTurning * drill_.full_speed();
+  bool begins = false;
+  if (nearest_)
+    begins =
+        injury_.look(nearest_->name, nearest_->distance, turning, session_.bone().grid().voxel);
+  else
+    injury_.nothing_near();
+  const bool told = options_.allowed.injury != workshop::Injury::untold;
+  if (options_.loudspeaker != nullptr) options_.loudspeaker->injury(injury_.is_in() && told);
+  if (!begins || options_.allowed.injury != workshop::Injury::stop) return;
+  lift();
+  if (hands_.real != nullptr && !lifts_.stopped) stop_or_go_on();
+  note(say(Word::injury_stop, nearest_->name));
+  if (options_.diary != nullptr)
+    static_cast<void>(options_.diary->note(
+        {row_.tick, record::CourseKind::warning, "injury",
+         record::fit_for_a_note(nearest_->name) ? nearest_->name : std::string("a structure")}));
 }
 
 std::string Mill::cue_text() const {

@@ -1,5 +1,7 @@
 #include "window/mill/over_pages.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <utility>
 
@@ -15,7 +17,7 @@ OverPages::OverPages(Desk& desk, sim::Session& session, const render::Scene& sce
       export_(desk, &session, scene, options.folder, options.film_of) {}
 
 void OverPages::close() {
-  help_ = settings_ = false;
+  help_ = settings_ = asks_done_ = false;
   export_.show(false);
 }
 
@@ -38,10 +40,37 @@ void OverPages::toggle_export() {
   export_.show(shown);
 }
 
-OverPages::Changed OverPages::draw(DeviceLeaf* device) {
+bool OverPages::draw_question(std::size_t open_steps) {
+  Ui& ui = desk_.ui();
+  const float u = ui.unit(), w = 520 * u, h = 190 * u;
+  const float x = (ui.width() - w) / 2, y = (ui.height() - h) / 2;
+  ui.page("##done", x, y, w, h);
+  ui.write(x + 28 * u, y + 20 * u, Ui::Letter::large, ink::kText, word(Word::done_title));
+  ImGui::SetCursorScreenPos({x + 28 * u, y + 58 * u});
+  ImGui::PushTextWrapPos(w - 28 * u);
+  ImGui::TextUnformatted(word(Word::done_told));
+  if (open_steps > 0) {
+    ImGui::SetCursorPosX(28 * u);
+    ImGui::PushStyleColor(ImGuiCol_Text, ink::kWarn);
+    ImGui::TextUnformatted(say(Word::done_open_steps, open_steps).c_str());
+    ImGui::PopStyleColor();
+  }
+  ImGui::PopTextWrapPos();
+  ImGui::SetCursorScreenPos({x + 28 * u, y + h - 50 * u});
+  const bool yes =
+      ImGui::Button(fmt::format("{}  [{}]", word(Word::done_yes), word(Word::key_enter)).c_str());
+  ImGui::SameLine();
+  if (ImGui::Button(fmt::format("{}  [Esc]", word(Word::done_no)).c_str())) asks_done_ = false;
+  ImGui::End();
+  return yes;
+}
+
+OverPages::Changed OverPages::draw(DeviceLeaf* device, std::size_t open_steps) {
   if (help_) help_ = draw_help(desk_.ui(), help_rows_(desk_.settings.left_handed), help_pads_);
   if (export_.shown()) export_.draw();
-  return settings_ ? draw_settings_page(device) : Changed();
+  Changed changed;
+  if (asks_done_) changed.done = draw_question(open_steps);
+  return settings_ ? draw_settings_page(device) : changed;
 }
 
 OverPages::Changed OverPages::draw_settings_page(DeviceLeaf* device) {
@@ -54,8 +83,9 @@ OverPages::Changed OverPages::draw_settings_page(DeviceLeaf* device) {
   if (page.changed) desk_.settings_changed();
   if (desk_.settings.headset != worn) desk_.headset_wanted = desk_.settings.headset;
   if (page.done) settings_ = false;
-  return {page.changed, desk_.settings.force_limit_n != limit,
-          device != nullptr && device->changed};
+  return {.settings = page.changed,
+          .force_limit = desk_.settings.force_limit_n != limit,
+          .device = device != nullptr && device->changed};
 }
 
 }  // namespace burr::app

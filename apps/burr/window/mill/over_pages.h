@@ -1,9 +1,10 @@
 // apps/burr/window/mill/over_pages.h - the pages that open over the bone, one at a time: help,
-// settings, export.
+// settings, export, and the question whether the work is done.
 //
 // Thread: main; draw() between Ui::begin() and Ui::draw().
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -24,11 +25,13 @@ class OverPages {
   OverPages(Desk& desk, sim::Session& session, const render::Scene& scene,
             const WindowOptions& options, HelpRows help_rows);
 
-  [[nodiscard]] bool open() const { return help_ || settings_ || export_.shown(); }
+  [[nodiscard]] bool open() const { return help_ || settings_ || asks_done_ || export_.shown(); }
   void close();
   void toggle_help(bool pads);  // pads: the page about gamepad, pedal and SpaceMouse first
   void toggle_settings();
   void toggle_export();
+  void ask_done() { close(), asks_done_ = true; }
+  [[nodiscard]] bool asks_done() const { return asks_done_; }
 
   [[nodiscard]] ExportPage& exporting() { return export_; }
   [[nodiscard]] const ExportPage& exporting() const { return export_; }
@@ -37,16 +40,18 @@ class OverPages {
   // device->preferences.
   struct Changed {
     bool settings = false, force_limit = false, device = false;
+    bool done = false;  // the user is done
   };
-  // device: the haptic device that moves the burr; nullptr: none
-  [[nodiscard]] Changed draw(DeviceLeaf* device);
+  // device: the haptic device that moves the burr; nullptr: none. open_steps: of the case.
+  [[nodiscard]] Changed draw(DeviceLeaf* device, std::size_t open_steps);
 
  private:
   Changed draw_settings_page(DeviceLeaf* device);
 
   Desk& desk_;
   HelpRows help_rows_;
-  bool help_, help_pads_ = false, settings_ = false, settings_pads_ = false;
+  bool draw_question(std::size_t open_steps);  // true: yes
+  bool help_, help_pads_ = false, settings_ = false, settings_pads_ = false, asks_done_ = false;
   ExportPage export_;
 };
 

@@ -139,4 +139,16 @@ StepsPressed draw_steps(Ui& ui, const Steps& steps, bool offers_light, bool lit)
   return pressed;
 }
 
+bool draw_done_button(Ui& ui, float column) {
+  const float u = ui.unit(), wide = 150 * u, high = 46 * u;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * u, 8 * u});
+  ui.panel("##iamdone", ui.width() - column - wide - 10 * u, 10 * u, wide, high);
+  const bool pressed = ImGui::Button(word(Word::done_button), {wide - 16 * u, high - 16 * u});
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s  [%s]", word(Word::done_button), word(Word::key_ctrl_enter));
+  ImGui::End();
+  ImGui::PopStyleVar();
+  return pressed;
+}
+
 }  // namespace burr::app

@@ -25,4 +25,8 @@ struct StepsPressed {
 // The tool that suits a step, "diamond burr, 2 to 4 mm", in the user's language; "": none is named.
 [[nodiscard]] std::string suits(const scenario::Step& step);
 
+// The button with which the user declares the work done, at the top right. column: width at the right
+// that slices cover [pixel]. True: it was pressed.
+[[nodiscard]] bool draw_done_button(Ui& ui, float column);
+
 }  // namespace burr::app

@@ -87,6 +87,7 @@ Status Mill::frame(workshop::LiveSurface& live) {
     live.see(workshop::wound_tick(row_, session_.settings().servo.rate_hz));
   tube_.lead(hands_.suction, scene_, live, desk_.settings.effects);
   note(headset_.begin(live.governor(), scene_.camera));
+  look_at_injury();
   point();
   measure();
   if (ticks_.begun()) begin_steps();

@@ -38,12 +38,15 @@ struct WindowOptions {
   record::Mode mode = record::Mode::free;           // what the session is for
   workshop::Allowed allowed =                       // and what it offers
       workshop::allowed_in(record::Mode::free, {}, true);
+  bool done_ends = false;          // to declare the work done ends the session; marks follow
   record::Diary* diary = nullptr;  // of the recording; nullptr: it is not recorded
 };
 
 // How the user left the page.
 enum class Closed {
   page,    // the user left this bone
+  done,    // the user declared the work done, and this ended it
+  again,   // the user wants to do the case again
   window,  // the user left burr, or the time is over
 };
 

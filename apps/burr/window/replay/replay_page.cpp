@@ -14,6 +14,7 @@
 #include "commands/interrupt.h"
 #include "window/mill/export_page.h"
 #include "window/mill/hud.h"
+#include "window/mill/measuring.h"
 #include "window/mill/mirror_mode.h"
 #include "window/mill/see_through.h"
 #include "window/replay/replay_view.h"
@@ -56,6 +57,7 @@ class Watch {
   void follow();
   void panels();
   void titles() const;
+  void ring() const;
   void show_labels(bool shown);
   void note(std::string text) {
     note_ = std::move(text);
@@ -89,6 +91,7 @@ class Watch {
   Closed closed_ = Closed::window;
   std::string note_, trouble_;  // trouble_: of the second recording, until a key
   Clock::time_point noted_{};
+  double stop_at_ = 0;  // playing ends there [s]
 };
 
 Result<Closed> Watch::run() {
@@ -105,7 +108,8 @@ Result<Closed> Watch::run() {
     if (!opened && opened.error().trouble != Trouble::interrupted) return opened.error();
   }
   now_.t = std::max(0.0, options_.from);
-  now_.playing = options_.from < 0;
+  now_.playing = options_.from < 0 || options_.until > options_.from;
+  stop_at_ = options_.until > options_.from ? options_.until : seconds();
 
   const Clock::time_point start = Clock::now();
   Clock::time_point frame = start, last = start;
@@ -117,6 +121,10 @@ Result<Closed> Watch::run() {
     const double passed = std::chrono::duration<double>(began - last).count();
     last = began;
     if (now_.playing && !scrubbing_) now_.t += now_.pace * std::min(passed, 0.25);
+    if (now_.playing && !scrubbing_ && now_.t >= std::min(stop_at_, seconds())) {
+      now_.t = std::min(stop_at_, seconds());
+      now_.playing = false;
+    }
     if (now_.t >= seconds()) {
       now_.t = seconds();
       if (!scrubbing_) now_.playing = false;
@@ -397,6 +405,7 @@ void Watch::go(double t) { now_.t = std::clamp(t, 0.0, seconds()); }
 void Watch::play(bool playing) {
   // at the end, playing starts from the beginning
   if (playing && now_.t >= seconds()) now_.t = 0;
+  stop_at_ = seconds();  // only the first playing ends at a moment
   now_.playing = playing;
 }
 
@@ -465,8 +474,26 @@ void Watch::titles() const {
   title(*second_, middle);
 }
 
+// Draws a ring round the place that is looked at.
+void Watch::ring() const {
+  if (!options_.place || second_) return;
+  constexpr double kRadius = 1.5e-3;  // [m]
+  const Ui& ui = desk_.ui();
+  const render::Camera& camera = scene_.camera;
+  const auto middle = on_picture(camera, *options_.place, ui.width(), ui.height());
+  const auto edge =
+      on_picture(camera, *options_.place + kRadius * camera.right(), ui.width(), ui.height());
+  if (!middle || !edge) return;  // behind the eye
+  const float u = ui.unit();
+  const float r = std::max(std::hypot(edge->x - middle->x, edge->y - middle->y), 8 * u);
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.AddCircle({middle->x + u, middle->y + u}, r, ink::rgb(0, 0, 0, 150), 48, 2 * u);
+  draw.AddCircle(*middle, r, ink::kWarn, 48, 2 * u);
+}
+
 void Watch::panels() {
   Ui& ui = desk_.ui();
+  ring();
   if (panels_) {
     TimelineState s;
     s.first = moment_of(*first_, 0);
@@ -479,6 +506,7 @@ void Watch::panels() {
     if (const edit::Mirror now = tick::mirror_of(first_->tool()); now.on() && !second_)
       draw_mirror_sign(ui, mirror_words(recorded_.bone->grid(), now), 0);
     s.note = note_.empty() ? export_->progress() : note_;
+    if (s.note.empty()) s.note = options_.note;
     s.warning = !trouble_.empty()                      ? trouble_
                 : first_->trouble().empty() && second_ ? second_->trouble()
                                                        : first_->trouble();

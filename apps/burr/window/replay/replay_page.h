@@ -6,8 +6,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
+#include "burr/math/vec3.h"
 #include "window/mill/window_options.h"
 #include "window/replay/playback.h"
 #include "window/shell/desk.h"
@@ -35,7 +37,10 @@ struct WatchOptions {
   std::string folder = {};      // for pictures of the key P; empty: the start folder
   std::string screenshot = {};  // PNG of the last picture; empty: none
   double from = -1;             // first moment shown; below 0: plays from the start  [s]
-  std::string beside = {};      // a second recording for the right half; empty: none
+  double until = -1;            // plays from `from` to this moment; below 0: does not play [s]
+  std::optional<math::Vec3> place = {};  // has a ring; world
+  std::string note = {};                 // shown while there is no other message
+  std::string beside = {};               // a second recording for the right half; empty: none
   // opens a recording while a loading page is shown; closed: set if the user closed the window
   std::function<Result<Recorded>(const std::string& file, bool& closed)> open = {};
   Watched* seen = nullptr;  // updated in each picture

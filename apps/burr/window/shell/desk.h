@@ -23,7 +23,7 @@
 
 namespace burr::app {
 
-enum class Page { none, start, loading, import, milling, replay };
+enum class Page { none, start, loading, import, milling, replay, self_marks, review };
 
 class Desk {
  public:
@@ -41,7 +41,7 @@ class Desk {
   Page page = Page::none;             // the page that is shown now
   std::string message;                // start and import pages: the error that is shown
   Status lost = fine();               // what could not be recorded; the program ends with it
-  std::string status_text;            // milling page: the warning and the last note
+  std::string status_text;            // milling page: warning, last note; review: what was met
   Gamepads pads;                      // input other than the mouse
   Pedals pedals;
   SpaceMouse cap;

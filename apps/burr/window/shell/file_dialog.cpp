@@ -8,44 +8,31 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <vector>
+
+#include "window/shell/helper_process.h"
 
 extern char** environ;
 
 namespace burr::app {
 namespace {
 
-// full path of a program that is in PATH; "" if it is not
-std::string program(const std::string& name) {
-  const char* path = std::getenv("PATH");
-  std::string folders = path != nullptr ? path : "";
-  for (std::size_t at = 0; at <= folders.size();) {
-    std::size_t end = folders.find(':', at);
-    if (end == std::string::npos) end = folders.size();
-    const std::string file = folders.substr(at, end - at) + "/" + name;
-    if (file.front() == '/' && ::access(file.c_str(), X_OK) == 0) return file;
-    at = end + 1;
-  }
-  return {};
-}
-
 std::vector<std::string> command(bool folder) {
-  if (std::string zenity = program("zenity"); !zenity.empty()) {
+  if (std::string zenity = program_in_path("zenity"); !zenity.empty()) {
     std::vector<std::string> words = {zenity, "--file-selection"};
     if (folder) words.emplace_back("--directory");
     return words;
   }
-  if (std::string kdialog = program("kdialog"); !kdialog.empty())
+  if (std::string kdialog = program_in_path("kdialog"); !kdialog.empty())
     return {kdialog, folder ? "--getexistingdirectory" : "--getopenfilename"};
   return {};
 }
 
 std::vector<std::string> command_to_save(const std::string& suggested) {
-  if (std::string zenity = program("zenity"); !zenity.empty())
+  if (std::string zenity = program_in_path("zenity"); !zenity.empty())
     return {zenity, "--file-selection", "--save", "--filename=" + suggested};
-  if (std::string kdialog = program("kdialog"); !kdialog.empty())
+  if (std::string kdialog = program_in_path("kdialog"); !kdialog.empty())
     return {kdialog, "--getsavefilename", suggested};
   return {};
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "window/import/import_page.h"
 #include "window/mill/window.h"
 #include "window/replay/playback.h"
+#include "window/review/review.h"
 #include "window/shell/loading.h"
 #include "window/shell/words.h"
 #include "window/start/sessions.h"
@@ -37,6 +39,11 @@ Status leave_screenshot(Desk& desk, const std::string& file) {
 }
 
 }  // namespace
+
+std::string title_of(const Ready& ready) {
+  const std::string title = ready.lesson ? ready.lesson->title.in(spoken().code) : std::string();
+  return title.empty() ? ready.title : title;
+}
 
 Result<Ready> open_ready(WorkOptions options, Progress& progress) {
   const Status taken = take_case(options);
@@ -76,6 +83,7 @@ Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& option
   }
   WindowOptions with = window;
   with.diary = autosave ? autosave->diary() : nullptr;
+  with.done_ends = !embed && ready.work_case && has_marks(*ready.work_case);
   with.keep = [&autosave] { return autosave != nullptr && autosave->keep(); };
   with.film_of = [&]() -> std::optional<FilmSource> {
     std::optional<FilmSource> source = autosave ? autosave->film_source() : std::nullopt;
@@ -89,9 +97,29 @@ Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& option
     return warning;
   };
   Result<Closed> left = mill_with_sound(desk, ready, with);
+  const bool done = left && *left == Closed::done;
+  Result<bool> stays = true;
+  if (done) stays = ask_own_marks(desk, ready, *with.diary, window);
   if (autosave)
     if (const Status kept = autosave->finish(); !kept) desk.lost = kept;
-  return left;
+  if (!done) return left;
+  if (!stays) return stays.error();
+  if (!*stays) return Closed::window;
+  if (!desk.lost || autosave->kept_file().empty()) return Closed::page;
+  return review(desk, {.file = autosave->kept_file(),
+                       .title = title_of(ready),
+                       .volume = options.volume,
+                       .marks = ready.allowed.marks,
+                       .repeats = true,
+                       .seconds = window.seconds,
+                       .folder = window.folder,
+                       .screenshot = window.screenshot});
+}
+
+Result<bool> ask_own_marks(Desk& desk, const Ready& ready, record::Diary& diary,
+                           const WindowOptions& window) {
+  const std::uint64_t ticks = ready.session->outcome().ticks;
+  return ask_self_marks(desk, *ready.work_case, diary, ticks > 0 ? ticks - 1 : 0, window.seconds);
 }
 
 Result<Closed> watch_file(Desk& desk, const std::string& file, const scenario::Recipe& given,
@@ -113,6 +141,69 @@ Result<Closed> watch_file(Desk& desk, const std::string& file, const scenario::R
   return watch(desk, *recorded, with);
 }
 
+namespace {
+
+// Opens what the user chose on the start page and lets him work on it. Closed::page also where it could
+// not be opened; `trouble` then says why.
+Result<Closed> work_on(Desk& desk, StartPage::Choice& choice, const PagesOptions& options,
+                       std::string& trouble) {
+  const bool goes_on = choice.go_on.has_value();
+  WorkOptions& chosen = *choice.open;
+  const std::string title =
+      say(Word::loading, goes_on ? choice.go_on->title : title_of(chosen, desk.settings));
+  bool closed = false;
+  Result<Ready> ready =
+      goes_on ? load<Ready>(
+                    desk, title,
+                    [kept = *choice.go_on](Progress& progress) {
+                      return continue_session(kept, progress);
+                    },
+                    closed)
+      : names_a_scan(chosen)
+          ? open_by_page(desk, chosen, title, options.seconds, closed)
+          : load<Ready>(
+                desk, title, [chosen](Progress& progress) { return open_ready(chosen, progress); },
+                closed);
+  if (closed || interrupted()) {
+    if (const Status left = leave_screenshot(desk, options.screenshot); !left) return left.error();
+    return Closed::window;
+  }
+  if (!ready) {
+    if (ready.error().trouble != Trouble::interrupted) trouble = ready.error().text;
+    return Closed::page;
+  }
+  std::error_code nobody_asks;
+  if (!goes_on && std::filesystem::exists(chosen.volume.source, nobody_asks))
+    remember(desk.places().state, chosen.volume.source, ready->title);
+  for (const std::string& notice : ready->import.notices) desk.troubles.push_back(notice);
+  return mill_and_keep(desk, *ready, chosen, goes_on,
+                       {.seconds = options.seconds,
+                        .folder = options.folder,
+                        .screenshot = options.screenshot,
+                        .sound = options.sound});
+}
+
+// A recording is played; of a kept session the marks are shown. As work_on().
+Result<Closed> look_at(Desk& desk, const StartPage::Choice& choice, const PagesOptions& options,
+                       std::string& trouble) {
+  const Result<Closed> left = choice.marks_of
+                                  ? review(desk, {.file = choice.marks_of->file.string(),
+                                                  .title = choice.marks_of->title,
+                                                  .volume = choice.marks_of->options.volume,
+                                                  .seconds = options.seconds,
+                                                  .folder = options.folder,
+                                                  .screenshot = options.screenshot})
+                                  : watch_file(desk, choice.open->volume.source, {},
+                                               {.seconds = options.seconds,
+                                                .folder = options.folder,
+                                                .screenshot = options.screenshot});
+  if (left) return left;
+  if (left.error().trouble != Trouble::interrupted) trouble = left.error().text;
+  return Closed::page;
+}
+
+}  // namespace
+
 Status run_pages(Desk& desk, const PagesOptions& options) {
   StartPage start(desk, options.led.hand, options.led.identity);
   std::string trouble, told;  // told: of a session that was not kept
@@ -121,52 +212,20 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
     if (!choice) return choice.error();
     trouble.clear();
     if (choice->quit) return leave_screenshot(desk, options.screenshot);
-
-    if (choice->open && is_recording(choice->open->volume.source)) {
-      const Result<Closed> left = watch_file(
-          desk, choice->open->volume.source, {},
-          {.seconds = options.seconds, .folder = options.folder, .screenshot = options.screenshot});
-      if (!left && left.error().trouble == Trouble::interrupted) continue;
-      if (left && *left == Closed::window) return desk.lost;
-      if (!left) trouble = left.error().text;
-      continue;
+    Result<Closed> left = Closed::page;
+    if (choice->marks_of || (choice->open && is_recording(choice->open->volume.source))) {
+      left = look_at(desk, *choice, options, trouble);
+    } else {
+      if (choice->go_on) choice->open = choice->go_on->options;
+      choice->open->hand = start.hand();
+      choice->open->suction = options.led.suction;
+      choice->open->told_as = options.led.told_as;
+      if (choice->go_on) choice->go_on->options = *choice->open;
+      do {
+        left = work_on(desk, *choice, options, trouble);
+        next_attempt(choice->open->identity);
+      } while (left && *left == Closed::again);
     }
-    const bool goes_on = choice->go_on.has_value();
-    if (goes_on) choice->open = choice->go_on->options;
-    WorkOptions& chosen = *choice->open;
-    chosen.hand = start.hand();
-    chosen.suction = options.led.suction;
-    chosen.told_as = options.led.told_as;
-    if (goes_on) choice->go_on->options = chosen;
-    const std::string title =
-        say(Word::loading, goes_on ? choice->go_on->title : title_of(chosen, desk.settings));
-    bool closed = false;
-    Result<Ready> ready =
-        goes_on ? load<Ready>(
-                      desk, title,
-                      [kept = *choice->go_on](Progress& progress) {
-                        return continue_session(kept, progress);
-                      },
-                      closed)
-        : names_a_scan(chosen)
-            ? open_by_page(desk, chosen, title, options.seconds, closed)
-            : load<Ready>(
-                  desk, title,
-                  [chosen](Progress& progress) { return open_ready(chosen, progress); }, closed);
-    if (closed || interrupted()) return leave_screenshot(desk, options.screenshot);
-    if (!ready) {
-      if (ready.error().trouble != Trouble::interrupted) trouble = ready.error().text;
-      continue;
-    }
-    std::error_code nobody_asks;
-    if (!goes_on && std::filesystem::exists(chosen.volume.source, nobody_asks))
-      remember(desk.places().state, chosen.volume.source, ready->title);
-    for (const std::string& notice : ready->import.notices) desk.troubles.push_back(notice);
-    const Result<Closed> left = mill_and_keep(desk, *ready, chosen, goes_on,
-                                              {.seconds = options.seconds,
-                                               .folder = options.folder,
-                                               .screenshot = options.screenshot,
-                                               .sound = options.sound});
     if (!left) return left.error();
     if (*left == Closed::window) return desk.lost;
     if (!desk.lost && std::exchange(told, desk.lost.error().text) != desk.lost.error().text)

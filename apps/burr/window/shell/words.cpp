@@ -2,6 +2,7 @@
 
 #include <safe_toml.h>
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <iterator>
 
@@ -15,7 +16,7 @@ constexpr const char* kKeys[] = {
 };
 static_assert(std::size(kKeys) == static_cast<std::size_t>(Word::count_));
 
-const Language* now = nullptr;  // nullptr: English
+std::atomic<const Language*> now = nullptr;  // nullptr: English
 
 std::vector<Language> read_all() {
   std::vector<Language> all;
@@ -116,7 +117,10 @@ const Language* language_of(std::string_view code) {
 }
 
 void speak(std::string_view code) { now = language_of(code); }
-const Language& spoken() { return now == nullptr ? languages().front() : *now; }
+const Language& spoken() {
+  const Language* one = now;
+  return one == nullptr ? languages().front() : *one;
+}
 
 const char* word(Word which) { return spoken().texts[static_cast<std::size_t>(which)].c_str(); }
 const char* english(Word which) {

@@ -6,7 +6,7 @@
 //
 // The texts are in words/*.toml, one file per language, and are compiled in. The enumerators of
 // Word are the keys of words/en.toml. Sentences of the library about files and options stay
-// English, because they name fields of files. Thread: main. Text is UTF-8.
+// English, because they name fields of files. Thread: speak() main; the rest any. Text is UTF-8.
 #pragma once
 
 #include <fmt/format.h>

@@ -18,6 +18,7 @@
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/recording.h"
 #include "commands/work.h"
+#include "report/questions.h"
 
 namespace burr::app {
 namespace {
@@ -65,7 +66,8 @@ fs::path beside(const fs::path& recording, const char* ending) {
 
 void remove_session(const fs::path& recording) {
   std::error_code nobody_asks;
-  for (const fs::path& one : {recording, beside(recording, ".json"), beside(recording, ".toml")})
+  for (const fs::path& one : {recording, beside(recording, ".json"), beside(recording, ".toml"),
+                              beside(recording, ".html")})
     fs::remove(one, nobody_asks);
 }
 
@@ -95,6 +97,7 @@ bool read_account(const fs::path& account, KeptSession& kept) {
   kept.removed_mm3 = number("removed_mm3");
   kept.clean = flag("clean");
   kept.keep = flag("keep");
+  kept.marks = flag("marks");
   kept.options.volume = *recipe;
   kept.options.burr_mm = number("burr_mm");
   kept.options.rpm = number("rpm");
@@ -219,6 +222,7 @@ Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& optio
   if (made) {
     kept_.title = ready.title;
     kept_.options = options;
+    kept_.marks = ready.work_case && ready.allowed.marks && !questions_on(*ready.work_case).empty();
     std::error_code nobody_asks;
     if (const fs::path there = fs::absolute(options.volume.source, nobody_asks);
         fs::exists(options.volume.source, nobody_asks))
@@ -253,7 +257,8 @@ Status Autosave::write_account() const {
                         {"seconds", kept_.seconds},
                         {"removed_mm3", kept_.removed_mm3},
                         {"clean", kept_.clean},
-                        {"keep", kept_.keep}};
+                        {"keep", kept_.keep},
+                        {"marks", kept_.marks}};
   return write_text(beside(kept_.file, ".json"),
                     account.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
 }
@@ -269,7 +274,8 @@ Status Autosave::finish() {
   const Status written = write_account();
   if (done) done = written;
   if (!done) trouble_ = done.error().text;
-  if (outcome.ledger.removed > 0 || outcome.ledger.added > 0 || kept_.keep) return done;
+  is_kept_ = outcome.ledger.removed > 0 || outcome.ledger.added > 0 || kept_.keep;
+  if (is_kept_) return done;
   remove_session(kept_.file);  // nothing was done: there is nothing to continue
   return fine();
 }

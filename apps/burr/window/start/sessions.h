@@ -3,6 +3,7 @@
 //
 //     state/sessions/session_20261122_193145.mcap  the recording, docs/recording.md
 //     state/sessions/session_20261122_193145.json  its recipe, and whether it ended well
+//     state/sessions/session_20261122_193145.html  its full report, if the user asked for it
 //     state/recent.toml                            scans opened lately
 //
 // The .json contains the path of the user's own file, because the bone comes from there. It lies in
@@ -34,6 +35,7 @@ struct KeptSession {
   double seconds = 0, removed_mm3 = 0;
   bool clean = false;  // it ended because the user ended it
   bool keep = false;   // never deleted automatically
+  bool marks = false;  // its case has a rubric, and its mode lets the user see the marks
   std::uintmax_t bytes = 0;
 };
 
@@ -57,6 +59,10 @@ class Autosave {
            const Settings& settings);
   // Call it after the servo has stopped. Error: what was done is not kept, or not all of it.
   [[nodiscard]] Status finish();
+  // Of the recording that is kept; empty: there is none.
+  [[nodiscard]] std::string kept_file() const {
+    return trouble_.empty() && is_kept_ ? kept_.file.string() : std::string();
+  }
   // The source for a film of the session so far; none: it could not be recorded.
   [[nodiscard]] std::optional<FilmSource> film_source() const;
   // Of the recording; nullptr: there is none.
@@ -70,7 +76,7 @@ class Autosave {
   sim::Session& session_;
   KeptSession kept_;
   Recording recording_;
-  bool recording_now_ = false;
+  bool recording_now_ = false, is_kept_ = false;
   std::string trouble_;
 };
 

@@ -89,7 +89,8 @@ Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seco
     if (std::exchange(renewed_, desk_.renewed()) != desk_.renewed()) thumbnails_.forget();
     if (const auto chosen = dialog_.answer(); chosen && !chosen->empty()) open(*chosen);
     const bool over = seconds > 0 && Clock::now() - start >= std::chrono::duration<double>(seconds);
-    if (interrupted() || over) choice_ = Choice{.open = {}, .go_on = {}, .quit = true};
+    if (interrupted() || over)
+      choice_ = Choice{.open = {}, .go_on = {}, .marks_of = {}, .quit = true};
     // nothing moves by itself on this page: thirty pictures a second are enough
     const auto left = std::chrono::milliseconds(33) - (Clock::now() - frame);
     if (left.count() > 0)
@@ -102,7 +103,9 @@ Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seco
 }
 
 void StartPage::take_events() {
-  const auto quit = [this] { choice_ = Choice{.open = {}, .go_on = {}, .quit = true}; };
+  const auto quit = [this] {
+    choice_ = Choice{.open = {}, .go_on = {}, .marks_of = {}, .quit = true};
+  };
   SDL_Event event;
   while (desk_.next(event)) switch (event.type) {
       case SDL_QUIT:
@@ -139,7 +142,7 @@ void StartPage::open(std::string path) {
   options.volume.source = cleaned_path(std::move(path));
   options.identity = identity_;
   if (!options.volume.source.empty())
-    choice_ = Choice{.open = std::move(options), .go_on = {}, .quit = false};
+    choice_ = Choice{.open = std::move(options), .go_on = {}, .marks_of = {}, .quit = false};
 }
 
 // ---- what is drawn
@@ -187,7 +190,7 @@ void StartPage::draw() {
   if (ImGui::Button(fmt::format("{}  [F1]", word(Word::help)).c_str())) help_ = true;
   ImGui::SameLine();
   if (ImGui::Button(fmt::format("{}  [Esc]", word(Word::start_quit)).c_str()))
-    choice_ = Choice{.open = {}, .go_on = {}, .quit = true};
+    choice_ = Choice{.open = {}, .go_on = {}, .marks_of = {}, .quit = true};
   ImGui::End();
 }
 
@@ -315,8 +318,16 @@ void StartPage::sessions(float x, float& y, float w) {
       right = fmt::format("{}{} - {:.0f} mm³ - {}",
                           kept.keep ? fmt::format("{} - ", word(Word::start_kept)) : "",
                           minutes(kept.seconds), kept.removed_mm3, kept.when);
-    if (row(fmt::format("##kept{}", n).c_str(), x, y, w, kept.title, right, !kept.clean))
-      choice_ = Choice{.open = {}, .go_on = kept, .quit = false};
+    // the marks of a session on a case, also of one that did not come to its end
+    const float beside = kept.marks ? 84 * u : 0, top = y;
+    if (row(fmt::format("##kept{}", n).c_str(), x, y, w - beside, kept.title, right, !kept.clean))
+      choice_ = Choice{.open = {}, .go_on = kept, .marks_of = {}, .quit = false};
+    if (!kept.marks) continue;
+    ImGui::SetCursorScreenPos({x + w - beside + 4 * u, top});
+    if (ImGui::Button(fmt::format("{}##marks{}", word(Word::start_marks), n).c_str(),
+                      {beside - 4 * u, 28 * u}))
+      choice_ = Choice{.open = {}, .go_on = {}, .marks_of = kept, .quit = false};
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", word(Word::start_marks_told));
   }
 }
 

@@ -29,6 +29,7 @@ class StartPage {
   struct Choice {
     std::optional<WorkOptions> open;
     std::optional<KeptSession> go_on;
+    std::optional<KeptSession> marks_of = {};
     bool quit = false;
   };
   // Returns when the user has chosen, the program is interrupted, or `seconds` have passed (0: no

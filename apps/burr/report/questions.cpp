@@ -1,0 +1,27 @@
+#include "report/questions.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "burr/scoring/rubric.h"
+#include "window/shell/words.h"
+
+namespace burr::app {
+
+std::vector<QuestionPart> questions_on(const scenario::Case& work) {
+  const std::vector<std::string> names = scoring::built_in_rubrics();
+  if (std::find(names.begin(), names.end(), work.name) == names.end()) return {};
+  const auto rubric = scoring::read_rubric(work.name);
+  if (!rubric) return {};
+  std::vector<QuestionPart> parts;
+  for (const auto& [part, title] : {std::pair{scoring::Part::product, Word::report_product},
+                                    std::pair{scoring::Part::process, Word::report_process}}) {
+    QuestionPart one = {word(title), {}};
+    for (const scoring::Item& item : rubric->items)
+      if (item.part == part) one.items.push_back({item.id, item.say.in(spoken().code), item.gate});
+    if (!one.items.empty()) parts.push_back(std::move(one));
+  }
+  return parts;
+}
+
+}  // namespace burr::app

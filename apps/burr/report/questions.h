@@ -1,0 +1,28 @@
+// apps/burr/report/questions.h - what the learner is asked about his own work before he sees the marks:
+// the items of the rubric of his case.
+//
+// Thread: any. Cost: the rubric is read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "burr/scenario/case.h"
+
+namespace burr::app {
+
+struct Question {
+  std::string id, text;  // of the item; text: what was to be done
+  bool gate = false;
+};
+
+// The items of one part: product or process.
+struct QuestionPart {
+  std::string title;
+  std::vector<Question> items;
+};
+
+// Empty: there is no built-in rubric for this case.
+[[nodiscard]] std::vector<QuestionPart> questions_on(const scenario::Case& work);
+
+}  // namespace burr::app

@@ -1,0 +1,37 @@
+// apps/burr/window/review/full_report.h - writes the full report of a recording as a second process
+// does it, `burr report`, and shows it with the program that the desktop has for pages.
+//
+// Thread: main. Nothing waits for the process.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "burr/scenario/recipe.h"
+#include "window/shell/helper_process.h"
+
+namespace burr::app {
+
+class FullReport {
+ public:
+  // file: the recording; volume: if the recording does not find its bone; page: the .html to be
+  // written, replaced if it is there.
+  FullReport(std::string file, scenario::Recipe volume, std::string page)
+      : file_(std::move(file)), volume_(std::move(volume)), page_(std::move(page)) {}
+  // Begins to write the page; shows it at once if that was done already.
+  void ask();
+  void step();  // once a picture
+  [[nodiscard]] bool writes() const { return child_ != nullptr; }
+  [[nodiscard]] bool written() const { return written_; }
+  [[nodiscard]] const std::string& note() const { return note_; }  // for the user; empty: nothing
+
+ private:
+  void show();
+  std::string file_;
+  scenario::Recipe volume_;
+  std::string page_, note_, language_;
+  std::unique_ptr<HelperProcess> child_;
+  bool written_ = false;
+};
+
+}  // namespace burr::app

@@ -1,0 +1,226 @@
+#include "window/review/review.h"
+
+#include <SDL2/SDL.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "burr/render/camera.h"
+#include "burr/render/picture.h"
+#include "commands/command.h"
+#include "report/marked.h"
+#include "report/questions.h"
+#include "window/replay/playback.h"
+#include "window/replay/replay_page.h"
+#include "window/review/full_report.h"
+#include "window/review/review_page.h"
+#include "window/review/self_marks_page.h"
+#include "window/shell/loading.h"
+#include "window/shell/words.h"
+
+namespace burr::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kBefore = 3, kAfter = 1;  // of a moment, are played [s]
+
+// Draws a page until it has an answer; nothing moves on it, so thirty pictures a second are enough.
+// closed: the user closed the window, or burr was interrupted.
+Status show_until(Desk& desk, const std::function<bool()>& draw,
+                  const std::function<void()>& escape, double seconds, bool& closed) {
+  const render::Scene empty;
+  const Clock::time_point start = Clock::now();
+  bool answered = false;
+  closed = false;
+  while (!answered && !closed) {
+    const Clock::time_point frame = Clock::now();
+    SDL_Event event;
+    while (desk.next(event)) {
+      if (event.type == SDL_QUIT) closed = true;
+      if (event.type == SDL_KEYDOWN && event.key.keysym.sym == SDLK_ESCAPE) escape();
+    }
+    const Status shown = desk.show(
+        empty, [&] { answered = draw() || answered; }, true);
+    if (!shown) return shown;
+    const bool over = seconds > 0 && Clock::now() - start >= std::chrono::duration<double>(seconds);
+    closed = closed || interrupted() || over;
+    const auto left = std::chrono::milliseconds(33) - (Clock::now() - frame);
+    if (left.count() > 0)
+      SDL_Delay(
+          static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
+  }
+  return fine();
+}
+
+// What only the user knows about the bone: a scan of his own. The recording finds a formula, a case and
+// an embedded bone by itself.
+scenario::Recipe own_scan(const scenario::Recipe& volume) {
+  std::error_code nobody_asks;
+  const std::filesystem::path source = volume.source;
+  return std::filesystem::exists(source, nobody_asks) && source.extension() != ".toml"
+             ? volume
+             : scenario::Recipe();
+}
+
+class Review {
+ public:
+  Review(Desk& desk, const ReviewOptions& options)
+      : desk_(desk),
+        options_(options),
+        volume_(own_scan(options.volume)),
+        full_(options.file, volume_,
+              std::filesystem::path(options.file).replace_extension(".html").string()) {
+    if (!options.marks) return;
+    marking_ = std::make_unique<Loading<Report>>(
+        [file = options.file, volume = volume_](Progress& progress) {
+          return marked(file, volume, progress);
+        });
+  }
+
+  Result<Closed> run() {
+    for (;;) {
+      desk_.page = Page::review;
+      desk_.renderer().title("burr");
+      const ReportItem* seen = nullptr;
+      bool closed = false, leaves = false;
+      pressed_ = {};
+      const Status shown = show_until(
+          desk_,
+          [&] {
+            draw();
+            seen = pressed_.item;
+            return leaves || seen != nullptr || pressed_.close || pressed_.again;
+          },
+          [&] { leaves = true; }, options_.seconds, closed);
+      if (!shown) return shown.error();
+      if (closed) return leave_with(Closed::window);
+      if (pressed_.again) return Closed::again;
+      if (seen == nullptr) return leave_with(Closed::page);
+      auto played = play(*seen);
+      if (!played) return played.error();
+      if (*played == Closed::window) return Closed::window;
+    }
+  }
+
+ private:
+  Result<Closed> leave_with(Closed how) {
+    if (options_.screenshot.empty()) return how;
+    const Status kept = render::write_png(desk_.renderer().shown(), options_.screenshot);
+    if (!kept) return kept.error();
+    return how;
+  }
+
+  void draw() {
+    if (marking_ && marking_->finished()) {
+      auto made = marking_->take();
+      marking_.reset();
+      if (made)
+        report_ = std::move(*made);
+      else
+        trouble_ = made.error().text;
+    }
+    full_.step();
+    ReviewState state;
+    state.title = options_.title;
+    state.report = report_ ? &*report_ : nullptr;
+    state.progress = marking_ ? marking_->progress().now().fraction : 0;
+    state.trouble = trouble_;
+    state.exam = !options_.marks;
+    state.repeats = options_.repeats;
+    state.writes = full_.writes();
+    state.note = note_.empty() ? full_.note() : note_;
+    desk_.status_text = state.note;
+    if (report_) {
+      desk_.status_text += " " + report_->unfinished;
+      for (const ReportPart& part : report_->parts) desk_.status_text += " " + part.met;
+    }
+    pressed_ = draw_review(desk_.ui(), state);
+    if (pressed_.full) {
+      note_.clear();
+      full_.ask();
+    }
+  }
+
+  // Plays the recording around the moment of an item's evidence. The recording stays open for the
+  // next one.
+  Result<Closed> play(const ReportItem& item) {
+    note_.clear();
+    if (!recorded_) {
+      bool closed = false;
+      auto opened = load<Recorded>(
+          desk_, say(Word::loading, word(Word::start_recording)),
+          [this](Progress& progress) {
+            return open_recorded(options_.file, desk_.places().state, volume_, progress);
+          },
+          closed);
+      if (closed) return Closed::window;
+      if (!opened) {
+        if (opened.error().trouble != Trouble::interrupted) note_ = opened.error().text;
+        return Closed::page;
+      }
+      recorded_ = std::make_unique<Recorded>(std::move(*opened));
+    }
+    if (item.place) {                    // as the surgeon looks at it
+      constexpr double kHeight = 45e-3;  // of the picture [m]
+      recorded_->scene.camera = render::view_of_work(*item.place, report_->towards, kHeight);
+      render::pan(recorded_->scene.camera, 0, -0.1);  // the lower fifth is covered by the strip
+    }
+    WatchOptions watching;
+    watching.folder = options_.folder;
+    watching.from = std::max(0.0, *item.at_s - kBefore);
+    watching.until = *item.at_s + kAfter;
+    watching.place = item.place;
+    watching.note = item.text + "   " + word(Word::review_back);
+    return watch(desk_, *recorded_, watching);
+  }
+
+  Desk& desk_;
+  const ReviewOptions& options_;
+  scenario::Recipe volume_;
+  ReviewPressed pressed_;
+  std::optional<Report> report_;
+  std::string trouble_, note_;
+  std::unique_ptr<Recorded> recorded_;
+  FullReport full_;
+  std::unique_ptr<Loading<Report>> marking_;  // last: its thread ends first
+};
+
+}  // namespace
+
+bool has_marks(const scenario::Case& work) { return !questions_on(work).empty(); }
+
+Result<bool> ask_self_marks(Desk& desk, const scenario::Case& work, record::Diary& diary,
+                            std::uint64_t tick, double seconds) {
+  SelfMarksPage page(questions_on(work));
+  desk.page = Page::self_marks;
+  desk.renderer().title("burr");
+  using Pressed = SelfMarksPage::Pressed;
+  Pressed pressed = Pressed::nothing;
+  bool closed = false;
+  const Status shown = show_until(
+      desk,
+      [&] {
+        if (pressed == Pressed::nothing) pressed = page.draw(desk.ui());
+        return pressed != Pressed::nothing;
+      },
+      [&] { pressed = Pressed::skipped; }, seconds, closed);
+  if (!shown) return shown.error();
+  // also when the window was closed: what was marked is marked
+  if (pressed != Pressed::skipped)
+    for (const auto& [id, mark] : page.marks())
+      static_cast<void>(diary.note({tick, record::CourseKind::self_mark, id, {}, mark}));
+  return !closed;
+}
+
+Result<Closed> review(Desk& desk, const ReviewOptions& options) {
+  return Review(desk, options).run();
+}
+
+}  // namespace burr::app

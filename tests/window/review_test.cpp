@@ -1,0 +1,184 @@
+// The end of a case at the window: the learner's own marks, then those of the machine; what an exam does
+// not show; a session that was killed.
+#include "window/review/review.h"
+
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "burr/record/player.h"
+#include "report/questions.h"
+#include "user.h"
+#include "window/review/self_marks_page.h"
+#include "window/start/sessions.h"
+
+namespace burr::app {
+namespace {
+
+constexpr const char* kState = "BURR_TEST_KILLED_STATE";  // of the child that is killed
+
+class ReviewWindow : public Window {
+ protected:
+  void SetUp() override {
+    if (const char* state = std::getenv(kState)) folder_ = state;
+    Window::SetUp();
+  }
+  // The pages of burr, with the practice block chosen in this mode; the script plays the user.
+  void work_by(record::Mode mode, std::vector<Script::Step> steps) {
+    Script script(std::move(steps), desk_->status_text);
+    desk_->after_frame = [&script] { script.look(); };
+    PagesOptions options;
+    options.sound = false;
+    options.led.identity.mode = mode;
+    const Status done = run_pages(*desk_, options);
+    desk_->after_frame = {};
+    EXPECT_TRUE(done) << done.error().text;
+    EXPECT_TRUE(script.finished());
+  }
+  // Opens the block and cuts into it.
+  std::vector<Script::Step> cut() {
+    return {{"the start page", on(Page::start),
+             [] { drop(fs::path(BURR_SOURCE_DIR) / "cases" / "block.toml"); }},
+            {"milling", on(Page::milling), [] { move_to(640, 340); }},
+            {"the burr over the bone", looks(10), [] { button(SDL_BUTTON_LEFT, true); }},
+            {"bone to be cut", pressing_until(looks(40)), [] { button(SDL_BUTTON_LEFT, false); }}};
+  }
+  // Declares the work done, and answers the question.
+  static std::vector<Script::Step> done() {
+    return {{"a picture", looks(5), [] { press(SDLK_RETURN, KMOD_LCTRL); }},
+            {"the question", looks(5), [] { press(SDLK_RETURN); }}};
+  }
+  [[nodiscard]] bool told(const std::string& text) const {
+    return desk_->status_text.find(text) != std::string::npos;
+  }
+  static void add(std::vector<Script::Step>& steps, std::vector<Script::Step> more) {
+    for (Script::Step& one : more) steps.push_back(std::move(one));
+  }
+  [[nodiscard]] std::vector<KeptSession> kept() const { return kept_sessions(folder_ / "state"); }
+};
+
+TEST_F(ReviewWindow, TheLearnerMarksHimselfThenSeesTheMarksAndTheEvidence) {
+  auto steps = cut();
+  add(steps, done());
+  int y = 100;
+  add(steps,
+      {{"own marks", on(Page::self_marks), nullptr},
+       {"a picture", looks(5), [] { click(100, 162); }},  // the first item: met
+       {"a picture", looks(5), [] { click(110, 683); }},  // show what burr found
+       {"the marks", [&] { return desk_->page == Page::review && told("items met"); }, nullptr},
+       {"evidence that plays",
+        asking_until(on(Page::replay), [&y] { click(1180, y = y < 620 ? y + 14 : 100); }), nullptr},
+       {"a while", looks(20), [] { press(SDLK_ESCAPE); }},
+       {"the marks again", on(Page::review), nullptr},
+       {"a picture", looks(5), [] { press(SDLK_ESCAPE); }},
+       {"the start page", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  work_by(record::Mode::learn, std::move(steps));
+  ASSERT_EQ(kept().size(), 1U) << "nothing was cut: the test shows nothing";
+  EXPECT_TRUE(kept()[0].marks);
+  const auto player = record::Player::open(kept()[0].file.string());
+  ASSERT_TRUE(player) << player.error().text;
+  EXPECT_EQ((*player)->ending(), record::Ending::declared_done);
+  std::vector<std::string> own;
+  for (const record::CourseEvent& event : (*player)->course())
+    if (event.kind == record::CourseKind::self_mark) own.push_back(event.what + " " + event.value);
+  EXPECT_EQ(own, std::vector<std::string>{"groove.cleared met"});
+}
+
+TEST_F(ReviewWindow, AnExamEndsWithoutMarks) {
+  auto steps = cut();
+  add(steps, done());
+  bool marked = false;
+  add(steps,
+      {{"own marks", on(Page::self_marks), [] { press(SDLK_ESCAPE); }},
+       {"the end", on(Page::review), nullptr},
+       // longer than the marks of the block take
+       {"a while", looks(60),
+        [&] {
+          marked = told("items");
+          click(1190, 354);
+        }},
+       {"still there", [&] { return desk_->page == Page::review; }, [] { press(SDLK_ESCAPE); }},
+       {"the start page", on(Page::start), nullptr},
+       {"a picture", looks(5), [] { click(1190, 354); }},  // where "Marks" would be
+       {"a while", [&] { return desk_->page == Page::start || desk_->page == Page::milling; },
+        [] { press(SDLK_ESCAPE); }}});
+  work_by(record::Mode::exam, std::move(steps));
+  EXPECT_FALSE(marked);
+  ASSERT_EQ(kept().size(), 1U);
+  EXPECT_FALSE(kept()[0].marks) << "the start page must not show them either";
+}
+
+// The test runs itself once more as the process that is killed while it mills.
+TEST_F(ReviewWindow, AKilledSessionIsOfferedAgainAndMarkedAsUnfinished) {
+  if (std::getenv(kState) != nullptr) {
+    auto steps = cut();
+    steps.push_back({"a while", looks(20), [] { std::raise(SIGKILL); }});
+    return work_by(record::Mode::learn, std::move(steps));
+  }
+  {
+    ::setenv(kState, folder_.c_str(), 1);
+    std::string program = "/proc/self/exe", filter = "--gtest_filter=ReviewWindow.AKilledSession*";
+    std::array<char*, 3> words = {program.data(), filter.data(), nullptr};
+    pid_t victim = 0;
+    int status = 0;
+    ASSERT_EQ(::posix_spawn(&victim, program.c_str(), nullptr, nullptr, words.data(), environ), 0);
+    ::unsetenv(kState);
+    ASSERT_EQ(::waitpid(victim, &status, 0), victim);
+    ASSERT_TRUE(WIFSIGNALED(status)) << "it ended by itself";
+    EXPECT_EQ(WTERMSIG(status), SIGKILL);
+  }
+  ASSERT_EQ(kept().size(), 1U);
+  EXPECT_FALSE(kept()[0].clean);
+  EXPECT_TRUE(kept()[0].marks);
+
+  const std::string command =
+      std::string(BURR_BUILD_DIR) + "/burr --quiet score '" + kept()[0].file.string() + "' 2>&1";
+  std::string said;
+  FILE* out = ::popen(command.c_str(), "r");
+  ASSERT_NE(out, nullptr);
+  std::array<char, 4096> some{};
+  while (std::fgets(some.data(), some.size(), out) != nullptr) said += some.data();
+  EXPECT_EQ(::pclose(out), 0) << said;
+  EXPECT_NE(said.find("unfinished"), std::string::npos) << said;
+
+  bool told_unfinished = false;
+  work_by(record::Mode::learn,
+          {{"the start page", on(Page::start), nullptr},
+           {"a picture", looks(5), [] { click(1190, 354); }},
+           {"the marks", [&] { return desk_->page == Page::review && told("items met"); },
+            [&] {
+              told_unfinished = told("Unfinished");
+              press(SDLK_ESCAPE);
+            }},
+           {"the start page", on(Page::start), nullptr},
+           {"a picture", looks(5), [] { click(900, 354); }},  // goes on with it
+           {"milling", on(Page::milling), nullptr},
+           {"a picture", looks(5), [] { press(SDLK_q); }},
+           {"the start page", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  EXPECT_TRUE(told_unfinished);
+}
+
+TEST(Questions, EveryBuiltInCaseHasSomeAndOtherCasesNone) {
+  for (const std::string& name : scenario::built_in_cases()) {
+    const auto work = scenario::read_case(name);
+    ASSERT_TRUE(work) << work.error().text;
+    const auto parts = questions_on(*work);
+    ASSERT_FALSE(parts.empty()) << name;
+    for (const QuestionPart& part : parts)
+      for (const Question& one : part.items) EXPECT_FALSE(one.text.empty()) << one.id;
+  }
+  scenario::Case other;
+  other.name = "no-such-case";
+  EXPECT_TRUE(questions_on(other).empty());
+}
+
+}  // namespace
+}  // namespace burr::app
