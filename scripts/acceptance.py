@@ -8,12 +8,17 @@ For each level and each seed (from 1000 on; tune with seeds 1 to 99 only) a surg
 scored. What it prints, and writes to OUT/CASE.json and OUT/CASE.md:
 
     AUC of the product's points between neighbouring levels, with a bootstrap interval: to be >= 0.9, lower end >= 0.8
-    AUC by time alone: to be within 0.3 .. 0.7; by volume alone: at least 0.1 below that of the points
-    how often a gate breaks: careless >= 80 %, expert <= 5 %
+    AUC by time alone: to be within 0.3 .. 0.7; by volume alone: at least 0.1 below that of the points, and the mean
+    volumes of the three levels in no order; beside them, told only, the AUC by the time at which the surgeon was ready
+    how often a gate breaks: careless >= 80 %, expert <= 5 %; a rubric without gates has no such bar
+    with --blind: an expert who errs by 4 mm about where things are loses against the expert (AUC >= 0.9)
+
+Time: nobody leaves the table early, and nobody stays longer (slot_s() below). So time alone tells nothing, by the make
+of the sessions, not by the surgeons; who is ready looks on.
 
 With --vices all numbers are the expert's but one, in five steps; the items named beforehand for that vice (VICES below)
-must fall (Jonckheere-Terpstra, one-sided, p < 0.01) and all others stay within 0.1. Exit code 1 if something misses its
-bar, 2 if a run fails. Needs only Python. A run that is already in OUT is not repeated.
+must fall in what they earn (Jonckheere-Terpstra, one-sided, p < 0.01) and all others stay within 0.1. Exit code 1 if
+something misses its bar, 2 if a run fails. Needs only Python. A run that is already in OUT is not repeated.
 """
 import argparse
 import concurrent.futures
@@ -27,20 +32,60 @@ import time
 
 LEVELS = ["expert", "average", "careless"]
 FIRST_SEED = 1000
-# vice: values in five steps, and the items that must fall; a name that ends in "*" stands for all with that beginning
-VICES = {
-    "perception_mm": ([0.25, 0.5, 1.0, 2.0, 4.0],
-                      ["labyrinth.intact", "sinus.intact", "dura.intact", "facial.intact", "tegmen.no-holes", "facial.not-bare",
-                       "chorda.intact"]),
-    "unfinished": ([0.03, 0.1, 0.25, 0.4, 0.6],
-                   ["sinus.no-cells", "tegmen.no-cells", "sinus.identified", "facial.mastoid-identified", "recess.complete"]),
-    "stop_s": ([0.1, 0.2, 0.4, 0.7, 1.0], ["sinus.skeletonised", "tegmen.no-holes"]),
-    "drift_mm": ([0.1, 0.25, 0.5, 1.0, 1.5], ["sinus.skeletonised", "tegmen.no-holes"]),
-    "restraint": ([0.35, 0.5, 0.7, 0.85, 1.0], ["force.restraint"]),
-    "burr_near": ([0.6, 0.8, 1.0, 1.2, 1.4], ["burr.choice", "sinus.skeletonised", "facial.not-bare"]),
-    "saucer": ([1, 0.5, 0, -0.5, -1], ["cavity.no-overhang", "sinus.no-overhang"]),
-    "tremor_mm": ([0.05, 0.1, 0.2, 0.4, 0.8], []),
+# vice: its values in five steps
+STEPS = {
+    "perception_mm": [0.25, 0.5, 1.0, 2.0, 4.0],
+    "unfinished": [0.03, 0.1, 0.25, 0.4, 0.6],
+    "stop_s": [0.1, 0.2, 0.4, 0.7, 1.0],
+    "drift_mm": [0.1, 0.25, 0.5, 1.0, 1.5],
+    "restraint": [0.35, 0.5, 0.7, 0.85, 1.0],
+    "burr_near": [0.6, 0.8, 1.0, 1.2, 1.4],
+    "saucer": [1, 0.5, 0, -0.5, -1],
+    "stroke_mm": [7, 5, 3.5, 2, 1],
+    "tremor_mm": [0.05, 0.1, 0.2, 0.4, 0.8],
 }
+# case: vice: the items that must fall, named before the first run; a name that ends in "*" stands for all with that beginning.
+# Tremor alone has none anywhere: marks that fall with it would measure the device.
+VICES = {
+    "temporal-bone": {
+        "perception_mm": ["labyrinth.intact", "sinus.intact", "dura.intact", "facial.intact", "tegmen.no-holes", "facial.not-bare",
+                          "chorda.intact"],
+        "unfinished": ["sinus.no-cells", "tegmen.no-cells", "sinus.identified", "facial.mastoid-identified", "recess.complete"],
+        "stop_s": ["sinus.skeletonised", "tegmen.no-holes"],
+        "drift_mm": ["sinus.skeletonised", "tegmen.no-holes"],
+        "restraint": ["force.restraint"],
+        "burr_near": ["burr.choice", "sinus.skeletonised", "facial.not-bare"],
+        "saucer": ["cavity.no-overhang", "sinus.no-overhang"],
+        "tremor_mm": [],
+    },
+    "jaw": {
+        "perception_mm": ["bed.entry", "bed.end", "bed.angle", "bed.cleared", "bed.one-way"],
+        "unfinished": ["bed.depth", "bed.cleared"],
+        "drift_mm": ["bed.width", "bed.one-way"],
+        "tremor_mm": [],
+    },
+    "spine": {
+        "perception_mm": ["corridor.entry", "corridor.end", "corridor.angle", "corridor.cleared", "corridor.one-way"],
+        "unfinished": ["corridor.depth", "corridor.cleared"],
+        "drift_mm": ["corridor.width", "corridor.one-way"],
+        "tremor_mm": [],
+    },
+    "tooth": {
+        "perception_mm": ["caries.side", "dentine.spared", "pulp.intact", "pulp.covered", "outline.kept"],
+        "unfinished": ["caries.side"],
+        "drift_mm": ["outline.kept", "dentine.spared"],
+        "restraint": ["force.restraint"],
+        "tremor_mm": [],
+    },
+    "block": {
+        "perception_mm": ["groove.cleared", "groove.kept-narrow", "groove.depth", "groove.outline"],
+        "unfinished": ["groove.cleared"],
+        "drift_mm": ["groove.kept-narrow", "groove.outline"],
+        "stroke_mm": ["strokes.long"],
+        "tremor_mm": [],
+    },
+}
+BLIND = ("perception_mm", 4.0)  # all else as the expert
 
 
 def auc(high, low):
@@ -97,6 +142,20 @@ def last_json(text):
     return json.loads(text.strip().splitlines()[-1])
 
 
+def slot_s(options, seed):
+    """How long the table is booked for [s]: lognormal about --seconds by 20 %, by the seed and for every level alike.
+
+    Nobody leaves before, and nobody stays longer.
+    """
+    return round(options.seconds * math.exp(0.2 * random.Random(f"slot {options.case} {seed}").gauss(0, 1)))
+
+
+def worked_s(result):
+    """When the surgeon was ready, whether or not the work was declared done then [s]."""
+    steps = result["surgeon"]["steps"]
+    return max((step.get("to_s", result["surgeon"]["seconds"]) for step in steps), default=0.0)
+
+
 def run(options, name, level, seed, vice=None):
     """One surgeon, one score; kept as OUT/runs/NAME.json."""
     kept = options.out / "runs" / f"{name}.json"
@@ -104,9 +163,9 @@ def run(options, name, level, seed, vice=None):
         return json.loads(kept.read_text())
     recording = options.out / "runs" / f"{name}.mcap"
     voxel = ["--voxel-mm", str(options.voxel_mm)] if options.voxel_mm else []
-    command = [options.burr, "surgeon", options.case, "--level", level, "--seed", str(seed), "--seconds", str(options.seconds),
-               "--least-seconds", str(options.least_seconds),
-               "--record", str(recording), "--force", "--json", *voxel]
+    seconds = slot_s(options, seed)
+    command = [options.burr, "surgeon", options.case, "--level", level, "--seed", str(seed), "--seconds", str(seconds),
+               "--least-seconds", str(seconds - 1), "--record", str(recording), "--embed", "--force", "--json", *voxel]
     if vice:
         command += ["--vice", f"{vice[0]}={vice[1]}"]
     begun = time.monotonic()
@@ -147,9 +206,18 @@ def points(result, part="product"):
     return 100.0 * total["met"] / total["assessable"] if total.get("assessable") else math.nan
 
 
+def credits(result):
+    """{item: what it earned, 0 to 1}; what cannot be assessed is left out."""
+    return {item["id"]: item["credit"] for item in result["score"]["items"] if "credit" in item}
+
+
 def verdicts(result):
     """{item: 1 met, 0 unmet}; what cannot be assessed is left out."""
     return {item["id"]: int(item["verdict"] == "met") for item in result["score"]["items"] if item["verdict"] in ("met", "unmet")}
+
+
+def has_gate(results):
+    return any(item.get("gate") for result in results for item in result["score"]["items"])
 
 
 def gate_broken(result):
@@ -163,33 +231,46 @@ def mean(values):
 
 def levels(options):
     jobs = [(f"{options.case}-{level}-{seed}", level, seed) for seed in range(options.first, options.first + options.seeds) for level in LEVELS]
+    if options.blind:
+        jobs += [(f"{options.case}-blind-{seed}", "expert", seed, BLIND) for seed in range(options.first, options.first + options.seeds)]
     results = run_all(options, jobs)
-    by_level = {level: [r for r in results if r["level"] == level] for level in LEVELS}
+    by_level = {level: [r for r in results if r["level"] == level and not r["vice"]] for level in LEVELS}
+    blind = [r for r in results if r["vice"]]
     out = {"case": options.case, "seeds": options.seeds, "levels": {}, "pairs": {}, "items": {}, "missed": []}
     lines = [f"## {options.case}: {options.seeds} seeds from {options.first}, voxels of {options.voxel_mm or 'the case'}", "",
-             "| level | points of the product | process | a gate broken | declared done | minutes | mm3 removed |", "|---|---|---|---|---|---|---|"]
-    for level, runs in by_level.items():
+             "| level | points of the product | process | a gate broken | steps all done | ready after minutes | mm3 removed |", "|---|---|---|---|---|---|---|"]
+    for level, runs in (by_level | ({"blind robot": blind} if blind else {})).items():
         row = {"points": mean(map(points, runs)), "process": mean(points(r, "process") for r in runs),
-               "gates": mean(map(gate_broken, runs)), "done": mean(r["surgeon"]["ending"] == "declared done" for r in runs),
-               "minutes": mean(r["surgeon"]["seconds"] / 60 for r in runs), "removed_mm3": mean(r["surgeon"]["removed_mm3"] for r in runs)}
+               "gates": mean(map(gate_broken, runs)), "done": mean(all("to_s" in step for step in r["surgeon"]["steps"]) for r in runs),
+               "minutes": mean(worked_s(r) / 60 for r in runs), "removed_mm3": mean(r["surgeon"]["removed_mm3"] for r in runs)}
         out["levels"][level] = row
         lines.append(f"| {level} | {row['points']:.1f} | {row['process']:.1f} | {100 * row['gates']:.0f} % | {100 * row['done']:.0f} % "
                      f"| {row['minutes']:.1f} | {row['removed_mm3']:.0f} |")
-    lines += ["", "| pair | AUC by points (95 %) | by time alone | by volume alone |", "|---|---|---|---|"]
+    lines += ["", "| pair | AUC by points (95 %) | by time alone | by volume alone | by the time when ready |", "|---|---|---|---|---|"]
     for high, low in zip(LEVELS, LEVELS[1:]):
         a, b = by_level[high], by_level[low]
         mark = auc(list(map(points, a)), list(map(points, b)))
         low_end, high_end = bootstrap(list(map(points, a)), list(map(points, b)))
-        by_time = auc([r["surgeon"]["seconds"] for r in a], [r["surgeon"]["seconds"] for r in b])
+        by_time = auc(*([math.ceil(r["surgeon"]["seconds"]) for r in runs] for runs in (a, b)))  # done or cut off: the same second
         by_volume = auc([r["surgeon"]["removed_mm3"] for r in a], [r["surgeon"]["removed_mm3"] for r in b])
         out["pairs"][f"{high} : {low}"] = {"auc": mark, "low": low_end, "high": high_end, "time": by_time, "volume": by_volume}
-        lines.append(f"| {high} : {low} | {mark:.2f} ({low_end:.2f} to {high_end:.2f}) | {by_time:.2f} | {by_volume:.2f} |")
+        ready = auc(list(map(worked_s, a)), list(map(worked_s, b)))
+        lines.append(f"| {high} : {low} | {mark:.2f} ({low_end:.2f} to {high_end:.2f}) | {by_time:.2f} | {by_volume:.2f} | {ready:.2f} |")
         check(out, mark >= 0.9 and low_end >= 0.8, f"{high} : {low}: AUC {mark:.2f}, lower end {low_end:.2f}, required 0.90 and 0.80")
         check(out, 0.3 <= by_time <= 0.7, f"{high} : {low}: AUC by time alone is {by_time:.2f}, required 0.30 to 0.70")
         check(out, by_volume <= mark - 0.1, f"{high} : {low}: AUC by volume alone is {by_volume:.2f}, required at most {mark - 0.1:.2f}")
     careless, expert = out["levels"]["careless"]["gates"], out["levels"]["expert"]["gates"]
-    check(out, careless >= 0.8, f"careless: a gate broken in {100 * careless:.0f} % of the runs, required at least 80 %")
-    check(out, expert <= 0.05, f"expert: a gate broken in {100 * expert:.0f} % of the runs, required at most 5 %")
+    if blind:
+        mark = auc(list(map(points, by_level["expert"])), list(map(points, blind)))
+        lines.append(f"| expert : blind robot | {mark:.2f} | | | |")
+        check(out, mark >= 0.9, f"expert : blind robot: AUC {mark:.2f}, required 0.90")
+    volumes = [out["levels"][level]["removed_mm3"] for level in LEVELS]
+    check(out, volumes not in (sorted(volumes), sorted(volumes, reverse=True)), "the mean volumes of the three levels are in order")
+    gates = has_gate(results)
+    check(out, not gates or careless >= 0.8, f"careless: a gate broken in {100 * careless:.0f} % of the runs, required at least 80 %")
+    check(out, not gates or expert <= 0.05, f"expert: a gate broken in {100 * expert:.0f} % of the runs, required at most 5 %")
+    if not gates:
+        lines += ["", "The rubric has no gate, so there is no bar for gates."]
     lines += ["", "| item, share met | " + " | ".join(LEVELS) + " |", "|---|" + "---|" * len(LEVELS)]
     for item in [entry["id"] for entry in results[0]["score"]["items"]]:
         shares = [mean(v[item] for v in map(verdicts, by_level[level]) if item in v) for level in LEVELS]
@@ -203,26 +284,27 @@ def named(item, patterns):
 
 
 def vices(options):
-    chosen = options.only or list(VICES)
+    items_of = VICES[options.case]
+    chosen = options.only or list(items_of)
     jobs = [(f"{options.case}-{vice}-{value}-{seed}", "expert", seed, (vice, value))
-            for vice in chosen for value in VICES[vice][0] for seed in range(options.first, options.first + options.seeds)]
+            for vice in chosen for value in STEPS[vice] for seed in range(options.first, options.first + options.seeds)]
     results = run_all(options, jobs)
     out = {"case": options.case, "seeds": options.seeds, "vices": {}, "missed": []}
     lines = [f"## {options.case}: one vice at a time, {options.seeds} seeds from {options.first}", "",
-             "| vice | points at the five steps | items that must fall | share met, first and last step | p |", "|---|---|---|---|---|"]
+             "| vice | points at the five steps | items that must fall | earned, first and last step | p |", "|---|---|---|---|---|"]
     for vice in chosen:
-        steps = [[r for r in results if list(r["vice"]) == [vice, value]] for value in VICES[vice][0]]
+        steps = [[r for r in results if list(r["vice"]) == [vice, value]] for value in STEPS[vice]]
         marks = [mean(map(points, step)) for step in steps]
-        entry = {"values": VICES[vice][0], "points": marks, "items": {}}
+        entry = {"values": STEPS[vice], "points": marks, "items": {}}
         out["vices"][vice] = entry
-        known = sorted(set().union(*(verdicts(r) for step in steps for r in step)))
+        known = sorted(set().union(*(credits(r) for step in steps for r in step)))
         for item in known:
-            groups = [[v[item] for v in map(verdicts, step) if item in v] for step in steps]
+            groups = [[v[item] for v in map(credits, step) if item in v] for step in steps]
             if not all(groups):
                 continue
             _, p = jonckheere(groups)
             first, last = mean(groups[0]), mean(groups[-1])
-            must = named(item, VICES[vice][1])
+            must = named(item, items_of.get(vice, []))
             entry["items"][item] = {"first": first, "last": last, "p": p, "must_fall": must}
             if must:
                 lines.append(f"| {vice} | {', '.join(f'{m:.0f}' for m in marks)} | {item} | {first:.2f}, {last:.2f} | {p:.4f} |")
@@ -243,20 +325,21 @@ def main():
     parser.add_argument("--burr", default="burr", help="the program")
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--first", type=int, default=FIRST_SEED, help="first seed; below 1000 only to tune")
-    parser.add_argument("--seconds", type=float, default=5400, help="longest session, of its own clock")
-    parser.add_argument("--least-seconds", type=float, default=0,
-                        help="nobody declares the work done earlier; near --seconds, time tells nothing")
+    parser.add_argument("--seconds", type=float, default=600, help="how long the table is booked for, median; see slot_s()")
     parser.add_argument("--voxel-mm", type=float, default=0, help="default: that of the case")
     parser.add_argument("--rubric", default="", help="default: that of the case")
     parser.add_argument("--jobs", type=int, default=1, help="sessions at the same time")
     parser.add_argument("--vices", action="store_true", help="one vice at a time instead of the levels")
+    parser.add_argument("--blind", action="store_true", help="a blind robot beside the three levels")
     parser.add_argument("--only", nargs="*", help="with --vices: these")
     parser.add_argument("--keep", action="store_true", help="keep the recordings")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("acceptance"))
     options = parser.parse_args()
     for vice in options.only or []:
-        if vice not in VICES:
-            parser.error(f"--only {vice}: use one of {', '.join(VICES)}")
+        if vice not in STEPS:
+            parser.error(f"--only {vice}: use one of {', '.join(STEPS)}")
+    if options.vices and options.case not in VICES:
+        parser.error(f"--vices: no items are named beforehand for {options.case}; there are some for {', '.join(VICES)}")
     try:
         out, lines = vices(options) if options.vices else levels(options)
     except RuntimeError as trouble:

@@ -217,7 +217,7 @@ TEST(AxisFit, AShortHoleHasNoAxis) {
       plan, phantom::placed(phantom::cylinder(2 * kMm, 3 * kMm), {.p = {0, 0, 0}}), 0.25 * kMm);
   const auto fit = axis_fit(*bones.before, *bones.after, {{0, 0, 0}, {0, 0, -1}}, {});
   ASSERT_FALSE(fit);
-  EXPECT_NE(fit.reason().find("shorter than two"), std::string::npos) << fit.reason();
+  EXPECT_NE(fit.reason().find("shorter than one and a half"), std::string::npos) << fit.reason();
   EXPECT_FALSE(axis_fit(*bones.before, *bones.before, {{0, 0, 0}, {0, 0, -1}}, {}));
 }
 
@@ -227,12 +227,12 @@ TEST(AxisFit, AThinPartDoesNotCount) {
   plan.lo = {-4 * kMm, -4 * kMm, -12 * kMm};
   plan.hi = {4 * kMm, 4 * kMm, 2 * kMm};
   plan.bone = test::below(0);
-  const phantom::Depth hole = phantom::cylinder(1.5 * kMm, 5 * kMm);
+  const phantom::Depth hole = phantom::cylinder(1.5 * kMm, 4 * kMm);
   const phantom::Depth needle = phantom::capsule({0, 0, 0}, {0, 0, -9 * kMm}, 0.5 * kMm);
   const auto bones = test::cut(plan, phantom::either(hole, needle), 0.25 * kMm);
   const auto fit = axis_fit(*bones.before, *bones.after, {{0, 0, 0}, {0, 0, -1}}, {});
   ASSERT_FALSE(fit);
-  EXPECT_NE(fit.reason().find("shorter than two"), std::string::npos) << fit.reason();
+  EXPECT_NE(fit.reason().find("shorter than one and a half"), std::string::npos) << fit.reason();
 }
 
 // K9: a cavity with a flat or wavy floor and four walls that lean by `taper`

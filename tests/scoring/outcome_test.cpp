@@ -46,6 +46,45 @@ TEST(Outcome, ATotalIsByWeightAndByPart) {
   EXPECT_DOUBLE_EQ(*made.total(kProcess).points, 100);
 }
 
+TEST(Outcome, AGradedItemEarnsAPartByItsValue) {
+  Item item;
+  item.grade = {2e-3, 0};  // at most
+  Outcome outcome;
+  const auto credit = [&](double value, Verdict verdict) {
+    outcome.value = value;
+    outcome.verdict = verdict;
+    return credit_of(item, outcome);
+  };
+  EXPECT_DOUBLE_EQ(credit(0, kMet), 1);
+  EXPECT_DOUBLE_EQ(credit(0.5e-3, kMet), 0.75);
+  EXPECT_DOUBLE_EQ(credit(1.5e-3, kUnmet), 0.25);
+  EXPECT_DOUBLE_EQ(credit(3e-3, kUnmet), 0);
+  item.grade = {0.6, 1};  // at least
+  EXPECT_DOUBLE_EQ(credit(0.5, kUnmet), 0);
+  EXPECT_DOUBLE_EQ(credit(0.9, kMet), 0.75);
+  EXPECT_DOUBLE_EQ(credit(1.5, kMet), 1);
+  // unmet because of what it requires, or for want of work
+  outcome.reason = "it requires \"a\", which is unmet";
+  EXPECT_DOUBLE_EQ(credit(0.9, kUnmet), 0);
+  outcome.reason.clear();
+  outcome.earned = false;
+  EXPECT_DOUBLE_EQ(credit(0.9, kUnmet), 0);
+  // without a grade, the verdict
+  item.grade.reset();
+  outcome.earned = true;
+  EXPECT_DOUBLE_EQ(credit(0.9, kUnmet), 0);
+  EXPECT_DOUBLE_EQ(credit(0.1, kMet), 1);
+}
+
+TEST(Outcome, ATotalCountsGradesByWeight) {
+  Made made;
+  made.add("a", kProduct, 3, kMet).add("b", kProduct, 1, kUnmet);
+  made.rubric.items[0].grade = {1, 0};
+  made.outcomes[0].value = 0.4;
+  EXPECT_DOUBLE_EQ(*made.total(kProduct).points, 45);
+  EXPECT_EQ(made.total(kProduct).met, 1U);
+}
+
 TEST(Outcome, WhatIsNotAssessableLeavesTheDenominator) {
   Made made;
   made.add("a", kProduct, 2, kMet).add("b", kProduct, 2, kUnmet).add("c", kProduct, 1, kOpen);

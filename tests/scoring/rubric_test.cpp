@@ -49,6 +49,30 @@ std::string trouble_of(const std::string& text) {
   return read ? "no error" : read.error().text;
 }
 
+TEST(Rubric, AGradeIsInTheUnitOfItsMeasure) {
+  const auto whole = parse_rubric(with("gate = true", "grade = [1, 0]"), "r.toml");
+  ASSERT_TRUE(whole) << whole.error().text;
+  ASSERT_TRUE(whole->items[1].grade);
+  EXPECT_DOUBLE_EQ(whole->items[1].grade->first, 1e-3);
+  EXPECT_EQ(whole->items[1].grade->second, 0);
+  const auto share = parse_rubric(with("weight = 2", "grade = [0.2, 0.4]"), "r.toml");
+  ASSERT_TRUE(share) << share.error().text;
+  EXPECT_DOUBLE_EQ(share->items[0].grade->first, 0.2);
+  EXPECT_FALSE(share->items[1].grade);
+  EXPECT_EQ(trouble_of(with("weight = 2", "grade = [0.2, 0.2]")),
+            "r.toml: line 8: item[1].grade: the value that earns nothing and the one that earns "
+            "everything "
+            "must differ");
+  EXPECT_EQ(trouble_of(with("weight = 2", "grade = [0.2]")),
+            "r.toml: line 8: item[1].grade: must be two numbers from 0 to 1000, [0, 1]");
+  const std::string two =
+      with("weight = 2\nmeasure = \"identified\"", "grade = [0.2, 1]\nmeasure = \"skeletonised\"");
+  EXPECT_EQ(
+      trouble_of(std::string(two).replace(two.find("cover_mm"), 8, "hi_mm")),
+      "r.toml: line 8: item[1].grade: \"skeletonised\" is decided by two numbers, so it cannot be "
+      "graded; leave `grade` out");
+}
+
 TEST(Rubric, EveryFieldComesBack) {
   const auto read = parse_rubric(kGood, "r.toml");
   ASSERT_TRUE(read) << read.error().text;

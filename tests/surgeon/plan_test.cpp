@@ -55,6 +55,68 @@ TEST(Believed, ErrorsHaveTheRmsPerAxis) {
   EXPECT_NEAR(std::sqrt(square / (3 * kSeeds)), 0.5 * kMm, 0.05 * kMm);
 }
 
+TEST(Believed, APlanIsMovedByItsErrorAndItsCurvesAreTilted) {
+  const auto bone = block_with_vein(0.5);
+  scenario::Lesson lesson = block_lesson();
+  scenario::CaseRegion bore;
+  bore.name = "bore";
+  scenario::Shape tube;
+  tube.kind = scenario::ShapeKind::tube;
+  tube.points = {Vec3(0, 0, 0), Vec3(0, 0, -8) * kMm};
+  tube.radius = 1 * kMm;
+  bore.add = {tube};
+  lesson.regions.push_back(bore);
+  double square = 0;
+  constexpr int kSeeds = 100;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Believed seen = believed(*bone, lesson, 0.5 * kMm, seed);
+    const Believed::PlanError error = seen.plan_error_of("bore");
+    EXPECT_NE(error.first, error.last);
+    EXPECT_NE(error.first, seen.plan_error_of("trough").first);
+    square += error.first.squaredNorm() + error.last.squaredNorm();
+    const auto depth = seen.region(lesson.regions.back());
+    EXPECT_NEAR(depth(error.first), 1 * kMm, 1e-9);
+    EXPECT_NEAR(depth(Vec3(0, 0, -8 * kMm) + error.last), 1 * kMm, 1e-9);
+    EXPECT_NEAR(depth(Vec3(0, 0, -4 * kMm) + 0.5 * (error.first + error.last)), 1 * kMm, 1e-9);
+  }
+  EXPECT_NEAR(std::sqrt(square / (6 * kSeeds)), 0.5 * kMm, 0.05 * kMm);
+  const Believed truth = believed(*bone, lesson, 0, 1);
+  EXPECT_NEAR(truth.region(lesson.regions.back())(Vec3(0, 0, -3 * kMm)), 1 * kMm, 1e-12);
+}
+
+// How many of 30 surgeons believe that the middle of the vein is free, with its margin.
+int who_miss_the_vein(double perception) {
+  const auto bone = block_with_vein(0.5);
+  const scenario::Lesson lesson = block_lesson();
+  int missed = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const Believed seen = believed(*bone, lesson, perception, seed);
+    missed += seen.distance("vein", Vec3(0, 0, -5 * kMm)) > 1 * kMm ? 1 : 0;
+  }
+  return missed;
+}
+
+TEST(Believed, ALargeErrorOfPerceptionMissesWhatIsToBeSpared) {
+  EXPECT_EQ(who_miss_the_vein(0.25 * kMm), 0);
+  EXPECT_GE(who_miss_the_vein(4 * kMm), 15);
+}
+
+TEST(Goal, ACorridorThatReachesTheSurfaceHasStraightWalls) {
+  const auto bone = block_with_vein(0.25);
+  scenario::Lesson lesson = block_lesson();
+  scenario::Shape& box = lesson.regions.front().add.front();
+  const Believed seen = believed(*bone, lesson, 0, 1);
+  const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
+  // the trough's wall is at y = -3
+  EXPECT_LT(goal_of(lesson.regions.front(), lesson, seen, spare).at(Vec3(-4, -3.3, -0.3) * kMm), 0);
+  // below the surface, the way in to it may open outwards
+  box.a.at = Vec3(0, 1, -4) * kMm;
+  box.size = Vec3(10, 8, 1) * kMm;
+  const FieldGrid buried = goal_of(lesson.regions.front(), lesson, seen, spare);
+  EXPECT_GT(buried.at(Vec3(-4, 5.2, -0.3) * kMm), 0);
+  EXPECT_LT(buried.at(Vec3(-4, 5.2, -3.6) * kMm), 0);
+}
+
 TEST(Goal, IsTheDepthInTheRegionAndTheRoomToWhatIsSpared) {
   const auto bone = block_with_vein(0.25);
   const scenario::Lesson lesson = block_lesson();

@@ -116,17 +116,6 @@ TEST(Surgeon, TheSameSeedGivesTheSameSessionAndAnotherSeedAnother) {
   EXPECT_NE(one.hash, other.hash);
 }
 
-TEST(Surgeon, ALargeErrorOfPerceptionHurtsWhatIsSpared) {
-  Skill blind = faultless();
-  blind.perception = 4 * kMm;
-  int hurt = 0;
-  for (const std::uint64_t seed : {1, 2, 3}) {
-    const Done done = operate(blind, seed, 2 * kPart);
-    hurt += done.of_the_stone > 20 || done.into_the_vein > 0.5 * kMm ? 1 : 0;
-  }
-  EXPECT_GE(hurt, 2);
-}
-
 TEST(Surgeon, WhoStopsEarlyLeavesMore) {
   Skill hasty = faultless();
   hasty.unfinished = 0.4;

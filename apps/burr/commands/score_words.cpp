@@ -37,6 +37,8 @@ nlohmann::ordered_json json_of(const Item& item, const Outcome& outcome) {
   row["weight"] = item.weight;
   row["gate"] = item.gate;
   row["verdict"] = scoring::word_of(outcome.verdict);
+  if (outcome.verdict != scoring::Verdict::not_assessable)
+    row["credit"] = scoring::credit_of(item, outcome);
   row["borderline"] = outcome.borderline;
   row["earned"] = outcome.earned;
   if (!outcome.reason.empty()) row["reason"] = outcome.reason;
@@ -129,6 +131,10 @@ std::string explanation(const Item& item, const Outcome& outcome, double rate_hz
   for (const scoring::Limit& limit : item.how->limits)
     text += fmt::format("\n  {} = {:g}{}", limit.field, item.limit(limit.field) / limit.unit,
                         default_word(item));
+  if (item.grade)
+    text += fmt::format("\n  graded: {} earns nothing, {} everything, linear between",
+                        scoring::text_of(item.how->quantity, item.grade->first),
+                        scoring::text_of(item.how->quantity, item.grade->second));
   if (outcome.value) {
     text += fmt::format("\n  {}", figures(item, outcome));
     text += fmt::format("\n  error of that value: {}",

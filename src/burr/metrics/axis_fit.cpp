@@ -20,6 +20,8 @@
 namespace burr::metrics {
 namespace {
 
+constexpr double kShortest = 1.5;  // corridor that has a direction, in its diameters
+
 using math::Vec3;
 using volume::Bone;
 using volume::Field;
@@ -182,10 +184,7 @@ Assessed<AxisFit> axis_fit(const Bone& before, const Bone& after, const PlannedA
   for (const Slice* slice : counted) widths.emplace_back(slice->width(plan.entry, out.inward), 1);
   out.width = weighted_quantile(std::move(widths), 0.5);
   const double length = static_cast<double>(centres.size()) * thick;
-  if (length < 2 * out.width)
-    return NotAssessable{
-        "the drilled corridor is shorter than two of its diameters, so it has no "
-        "certain direction"};
+  if (length < kShortest * out.width) return NotAssessable{kShortCorridor};
   const double far = 10e-3;
   const AlongAxis axis{before, after, line.at_zero - far * line.slope, out.inward, 0.25 * h};
   const auto entry = axis.entry(2 * far);

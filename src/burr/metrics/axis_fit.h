@@ -13,8 +13,8 @@
 //     width    median diameter of the slices: 2 sqrt(2) times the root mean square of the distance of what
 //              was removed to the axis, so spongy bone and the air in it do not make it smaller
 //
-// Frame: world. Units: m, rad. Not assessable: nothing was removed there, a corridor shorter than two
-// of its diameters, or an axis that does not lead from the air outside into what was removed within
+// Frame: world. Units: m, rad. Not assessable: nothing was removed there, a corridor shorter than one and
+// a half of its diameters (kShortCorridor), or an axis that does not lead from the air outside into what was removed within
 // 10 mm of the planned entry. Thread: any.
 #pragma once
 
@@ -26,6 +26,11 @@
 #include "burr/volume/bone.h"
 
 namespace burr::metrics {
+
+// Why a corridor that is too short has no axis.
+inline constexpr const char* kShortCorridor =
+    "the drilled corridor is shorter than one and a half of its diameters, so it has no certain "
+    "direction";
 
 struct PlannedAxis {
   math::Vec3 entry = math::Vec3::Zero();    // on the bone's surface

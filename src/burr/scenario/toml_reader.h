@@ -97,6 +97,17 @@ class Reader {
     out = {values[0], values[1]};
   }
 
+  // [first, second], in any order, each from 0 to 1000
+  void pair(std::string_view key, std::optional<std::pair<double, double>>& out) {
+    const toml::node* node = find(key, false, "");
+    if (node == nullptr) return;
+    const std::vector<double> values = numbers_of(node);
+    const auto good = [](double value) { return value >= 0 && value <= 1000; };
+    if (values.size() != 2 || !good(values[0]) || !good(values[1]))
+      return fail(key, "must be two numbers from 0 to 1000, [0, 1]");
+    out = {values[0], values[1]};
+  }
+
   void vector(std::string_view key, std::optional<math::Vec3>& out) {
     const toml::node* node = find(key, false, "");
     if (node == nullptr) return;

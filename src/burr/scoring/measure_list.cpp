@@ -224,6 +224,26 @@ std::string text_of(Quantity quantity, double value) {
   return {};
 }
 
+double unit_of(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::length:
+      return kMm;
+    case Quantity::area:
+      return kMm2;
+    case Quantity::volume:
+      return kMm3;
+    case Quantity::angle:
+      return kDegree;
+    default:
+      return 1;
+  }
+}
+
+bool may_be_graded(const Measure& measure) {
+  const std::string_view name = measure.name;
+  return name != "skeletonised" && name != "no_cells";  // two numbers each
+}
+
 std::span<const Measure> measures() {
   static const std::vector<Measure> all = all_measures();
   return all;

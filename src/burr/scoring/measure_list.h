@@ -21,6 +21,9 @@ enum class Quantity { share, length, area, volume, ratio, count, angle, time };
 // "62 %", "0.84 mm", "1.3 mm2", "0.05 mm3", "0.71", "2", "4.5 degrees", "0.02 s"
 [[nodiscard]] std::string text_of(Quantity quantity, double value);
 
+// SI per unit of a rubric's file: 1e-3 for a length, given in mm.
+[[nodiscard]] double unit_of(Quantity quantity);
+
 // A threshold: a field of an [[item]].
 struct Limit {
   const char* field;   // "lo_mm"
@@ -44,6 +47,9 @@ struct Measure {
   bool on_plane = false;  // it must name a plane among the landmarks
   std::vector<Limit> limits = {};
 };
+
+// True: one number decides it, and it may be graded.
+[[nodiscard]] bool may_be_graded(const Measure& measure);
 
 [[nodiscard]] std::span<const Measure> measures();
 [[nodiscard]] const Measure* measure_named(std::string_view name);  // nullptr: there is none

@@ -39,7 +39,15 @@ Outcome axis(const Item& item, Scene& scene) {
   const math::Vec3 whole = course.back() - course.front();
   const math::Vec3 inward = math::normalized(whole);
   const auto& fit = scene.axis(item.along, item.region);
-  if (!fit) return not_assessable(item, fit.reason());
+  if (!fit) {
+    Outcome none = not_assessable(item, fit.reason());
+    // who stops half-way must not lose the items from the denominator: see idle()
+    if (fit.reason() == metrics::kShortCorridor) {
+      none.verdict = Verdict::unmet;
+      none.earned = false;
+    }
+    return none;
+  }
   const std::string_view how = item.how->name;
   const double h = scene.before().grid().voxel;
   Outcome out;

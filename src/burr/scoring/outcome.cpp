@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <map>
 #include <string_view>
 
@@ -34,6 +35,14 @@ const char* word_of(Verdict verdict) {
   return "";
 }
 
+double credit_of(const Item& item, const Outcome& outcome) {
+  const bool whole = outcome.verdict == Verdict::met;
+  if (!item.grade || !outcome.value || !outcome.earned || !outcome.reason.empty())
+    return whole ? 1 : 0;
+  const auto [none, full] = *item.grade;
+  return std::clamp((*outcome.value - none) / (full - none), 0.0, 1.0);
+}
+
 Total total_of(const Rubric& rubric, std::span<const Outcome> outcomes, Part part) {
   BURR_CHECK(outcomes.size() == rubric.items.size());
   Total out;
@@ -46,9 +55,8 @@ Total total_of(const Rubric& rubric, std::span<const Outcome> outcomes, Part par
     if (outcomes[n].verdict == Verdict::not_assessable) continue;
     ++out.assessable;
     known += item.weight;
-    if (outcomes[n].verdict != Verdict::met) continue;
-    ++out.met;
-    met += item.weight;
+    out.met += outcomes[n].verdict == Verdict::met ? 1 : 0;
+    met += item.weight * credit_of(item, outcomes[n]);
   }
   if (all > 0) out.not_assessable = (all - known) / all;
   // the sums of weights such as 0.1 are not exact

@@ -1,6 +1,8 @@
 // scoring/outcome.h - the answer to one item of a rubric, and the arithmetic on many.
 //
-//     total = 100 * sum(weight of the met) / sum(weight of the assessable)
+//     total = 100 * sum(weight * credit) / sum(weight of the assessable)
+//
+// credit: 1 for a met item, 0 for an unmet one; of a graded item what credit_of() says.
 //
 // Product and process are never added. There is no total when more than a fifth of the weight is not
 // assessable. A gate that is not met does not change the total. Thread: any.
@@ -63,6 +65,10 @@ struct Total {
   double not_assessable = 0;  // share of the weight
 };
 inline constexpr double kMostUnknown = 0.2;  // share of the weight that may be not assessable
+
+// 0..1: what an assessable item earns. A graded item that is not earned, or unmet because of what it
+// requires, earns nothing.
+[[nodiscard]] double credit_of(const Item& item, const Outcome& outcome);
 
 // outcomes: one for each item of the rubric, in its order, here and below.
 [[nodiscard]] Total total_of(const Rubric& rubric, std::span<const Outcome> outcomes, Part part);

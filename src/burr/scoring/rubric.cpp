@@ -49,7 +49,7 @@ const Measure* read_measure(Reader& reader) {
 
 std::vector<std::string_view> fields_of(const Measure& how) {
   std::vector<std::string_view> fields = {"id",       "part",   "weight",     "gate", "measure",
-                                          "requires", "source", "calibrated", "say"};
+                                          "requires", "source", "calibrated", "say",  "grade"};
   if (how.structure) fields.emplace_back("structure");
   if (how.region || how.anywhere) fields.emplace_back("region");
   if (how.along || how.on_curve) fields.emplace_back("along");
@@ -70,6 +70,21 @@ void read_limits(Reader& reader, Item& out) {
   for (const auto& [low, high] : {std::pair{"lo_mm", "hi_mm"}, std::pair{"from_mm", "to_mm"}})
     if (out.limits.contains(low) && out.limits.contains(high) && out.limit(low) >= out.limit(high))
       reader.fail(high, fmt::format("must be above {} ({:g} mm)", low, 1e3 * out.limit(low)));
+}
+
+void read_grade(Reader& reader, Item& out) {
+  reader.pair("grade", out.grade);
+  if (!out.grade) return;
+  if (!may_be_graded(*out.how)) {
+    reader.fail("grade", fmt::format("\"{}\" is decided by two numbers, so it cannot be graded; "
+                                     "leave `grade` out",
+                                     out.how->name));
+  } else if (out.grade->first == out.grade->second) {
+    reader.fail("grade",
+                "the value that earns nothing and the one that earns everything must differ");
+  }
+  for (double* value : {&out.grade->first, &out.grade->second})
+    *value *= unit_of(out.how->quantity);
 }
 
 void read_item(Reader& reader, Item& out) {
@@ -93,6 +108,7 @@ void read_item(Reader& reader, Item& out) {
   reader.flag("calibrated", out.calibrated);
   scenario::read_texts(reader, "say", out.say, true);
   read_limits(reader, out);
+  read_grade(reader, out);
   out.lines[""] = reader.line();
   for (const char* field : {"structure", "region", "along", "plane", "requires"})
     out.lines[field] = reader.line(field);

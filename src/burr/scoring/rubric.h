@@ -9,8 +9,10 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "burr/base/result.h"
@@ -27,6 +29,9 @@ struct Item {
   const Measure* how = nullptr;                       // never nullptr after reading
   std::string structure, region, along, plane;        // names of the case; empty: none
   std::map<std::string, double, std::less<>> limits;  // every threshold of the measure, SI
+  // The values that earn nothing and everything, linear between; SI, in the quantity of the measure.
+  // None: met earns everything, unmet nothing. The verdict is by the threshold alone.
+  std::optional<std::pair<double, double>> grade;
   std::string needs;        // `requires` in the file: an item that must be met too; empty: none
   std::string source;       // where the item and its thresholds come from
   bool calibrated = false;  // somebody compared the thresholds with people

@@ -17,7 +17,8 @@ using scenario::ShapeKind;
 
 constexpr double kReach = 12e-3;              // of distances [m]
 constexpr std::size_t kMostKept = 2'500'000;  // of a distance's voxels; the rest is interpolated
-constexpr std::uint64_t kErrorStream = 2;     // of random numbers
+constexpr std::uint64_t kErrorStream = 2;     // of random numbers, for structures
+constexpr std::uint64_t kPlanStream = 4;      // and for regions
 
 double to_line(const std::vector<Vec3>& line, double from, double to, const Vec3& p) {
   double all = 0;
@@ -87,6 +88,12 @@ Result<Believed> Believed::make(const volume::Bone& bone, const scenario::Lesson
     if (!made) return made.error();
     out.seen_[one.name] = {std::move(*made), rms * Vec3(x, y, z)};
   }
+  people::RandomStream plan(seed, kPlanStream);
+  for (const scenario::CaseRegion& region : lesson.regions) {
+    PlanError& error = out.plan_[region.name];
+    for (Vec3* end : {&error.first, &error.last})
+      for (int axis = 0; axis < 3; ++axis) (*end)[axis] = rms * plan.normal();
+  }
   return out;
 }
 
@@ -102,6 +109,26 @@ Vec3 Believed::error_of(const std::string& structure) const {
 }
 
 bool Believed::known(const std::string& structure) const { return seen_.count(structure) > 0; }
+
+Believed::PlanError Believed::plan_error_of(const std::string& region) const {
+  const auto found = plan_.find(region);
+  return found == plan_.end() ? PlanError{} : found->second;
+}
+
+Shape Believed::moved(Shape shape, const PlanError& error) {
+  shape.a.at += error.first;
+  shape.b.at += error.last;
+  double all = 0, at = 0;
+  for (std::size_t n = 1; n < shape.points.size(); ++n)
+    all += (shape.points[n] - shape.points[n - 1]).norm();
+  Vec3 before = shape.points.empty() ? Vec3(Vec3::Zero()) : shape.points.front();
+  for (Vec3& point : shape.points) {
+    at += (point - before).norm();
+    before = point;
+    point += error.first + (all > 0 ? at / all : 0) * (error.last - error.first);
+  }
+  return shape;
+}
 
 double Believed::depth_in(const Shape& shape, const Vec3& p) const {
   switch (shape.kind) {
@@ -126,10 +153,14 @@ double Believed::depth_in(const Shape& shape, const Vec3& p) const {
 }
 
 Believed::Depth Believed::region(const scenario::CaseRegion& region) const {
-  return [this, &region](const Vec3& p) {
+  const PlanError error = plan_error_of(region.name);
+  scenario::CaseRegion seen = region;
+  for (auto* shapes : {&seen.add, &seen.take})
+    for (Shape& shape : *shapes) shape = moved(std::move(shape), error);
+  return [this, seen = std::move(seen)](const Vec3& p) {
     double depth = -std::numeric_limits<double>::infinity();
-    for (const Shape& shape : region.add) depth = std::max(depth, depth_in(shape, p));
-    for (const Shape& shape : region.take) depth = std::min(depth, -depth_in(shape, p));
+    for (const Shape& shape : seen.add) depth = std::max(depth, depth_in(shape, p));
+    for (const Shape& shape : seen.take) depth = std::min(depth, -depth_in(shape, p));
     return depth;
   };
 }

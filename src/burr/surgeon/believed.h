@@ -3,7 +3,9 @@
 //
 // Each structure is moved as a whole by an error of perception e: the believed distance of a point
 // p is the true distance of p - e (volume/distance_to.h). A region that leans on a structure moves
-// with it; landmarks stay.
+// with it. What a region takes from the plan instead (axes, points, planes) is seen no better: nobody
+// finds a planned axis drawn in the bone. It is moved by an error of the same size, drawn for each
+// region, and for the two ends of a curve apart, so that an axis is also tilted.
 // Frame: world (LPS). Units: m. Thread: depth() and distance() any number at once. Memory: a tenth of
 // the bone's for each structure.
 #pragma once
@@ -36,6 +38,12 @@ class Believed {
   // By how much it is believed to lie elsewhere.
   [[nodiscard]] math::Vec3 error_of(const std::string& structure) const;
   [[nodiscard]] bool known(const std::string& structure) const;
+  // By how much the plan of a region is believed to lie elsewhere, at the first point of its curves
+  // and at their last. A ball, box or half-space moves as the first.
+  struct PlanError {
+    math::Vec3 first = math::Vec3::Zero(), last = math::Vec3::Zero();
+  };
+  [[nodiscard]] PlanError plan_error_of(const std::string& region) const;
 
   // Depth below the border of a region, positive inside: exact for one shape, a bound for several.
   // The lesson must be placed (scenario::place) and outlive the function.
@@ -48,8 +56,10 @@ class Believed {
     math::Vec3 error = math::Vec3::Zero();
   };
   [[nodiscard]] double depth_in(const scenario::Shape& shape, const math::Vec3& p) const;
+  [[nodiscard]] static scenario::Shape moved(scenario::Shape shape, const PlanError& error);
 
   std::map<std::string, Seen> seen_;
+  std::map<std::string, PlanError> plan_;  // by region
 };
 
 // The structures that must stay whole: all that the lesson calls intact but plates of bone (which

@@ -14,8 +14,9 @@ using math::Ijk;
 using math::Vec3;
 
 constexpr double kCoarsest = 0.5e-3;  // between two nodes [m]
-constexpr double kOpening = 0.1;      // the way in gets wider by this much per length, per side [-]
-constexpr float kNowhere = -1;        // [m]
+// the way in gets wider by this much per length, per side, outside the region [-]
+constexpr double kOpening = 0.1;
+constexpr float kNowhere = -1;  // [m]
 
 std::size_t index_of(const Ijk& size, const Ijk& at) {
   return static_cast<std::size_t>(at.x()) +
@@ -25,7 +26,7 @@ std::size_t index_of(const Ijk& size, const Ijk& at) {
 }
 
 // Visits the planes of a grid one after the other in the direction `to` (grid axes, unit); at each
-// node, put(node's value, value one plane back along `to`, distance between the two).
+// node, put(index of the node, its value, value one plane back along `to`, distance between the two).
 template <class Put>
 void sweep(FieldGrid& field, const Vec3& to, const Put& put) {
   const Ijk& size = field.size();
@@ -37,8 +38,8 @@ void sweep(FieldGrid& field, const Vec3& to, const Put& put) {
   const double step = field.spacing() / steep;
   const bool up = to[main] > 0;
   Ijk at, from;
-  for (int n = 1; n < size[main]; ++n) {
-    at[main] = up ? n : size[main] - 1 - n;
+  for (int plane = 1; plane < size[main]; ++plane) {
+    at[main] = up ? plane : size[main] - 1 - plane;
     from[main] = up ? at[main] - 1 : at[main] + 1;
     for (at[b] = 0; at[b] < size[b]; ++at[b])
       for (at[a] = 0; at[a] < size[a]; ++at[a]) {
@@ -54,8 +55,9 @@ void sweep(FieldGrid& field, const Vec3& to, const Put& put) {
         };
         const double back = (1 - dv) * ((1 - du) * value(0, 0) + du * value(1, 0)) +
                             dv * ((1 - du) * value(0, 1) + du * value(1, 1));
-        float& here = field.value[index_of(size, at)];
-        here = static_cast<float>(put(static_cast<double>(here), back, step));
+        const std::size_t n = index_of(size, at);
+        float& here = field.value[n];
+        here = static_cast<float>(put(n, static_cast<double>(here), back, step));
       }
   }
 }
@@ -145,14 +147,19 @@ FieldGrid goal_of(const scenario::CaseRegion& region, const scenario::Lesson& le
   for (const Vec3& towards : approach_of(lesson)) {
     const Vec3 to = start.axes().conjugate() * towards;
     FieldGrid one = start;
-    // all that lies between the region and the surgeon, a little wider outside
-    sweep(one, to, [](double here, double back, double step) {
-      return std::max(here, back + kOpening * step);
+    // All that lies between the region and the surgeon. Above the region's top it may be a little
+    // wider; a corridor that reaches the surface has straight walls.
+    double top = -std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < start.nodes(); ++n)
+      if (start.value[n] > 0) top = std::max(top, start.node(n).dot(towards));
+    sweep(one, to, [&](std::size_t n, double here, double back, double step) {
+      return std::max(here, back + (start.node(n).dot(towards) > top ? kOpening * step : 0));
     });
     for (std::size_t n = 0; n < one.nodes(); ++n)
       one.value[n] = std::min(one.value[n], spare.free.value[n]);
     // and what is reached straight from outside
-    sweep(one, -to, [](double here, double back, double) { return std::min(here, back); });
+    sweep(one, -to,
+          [](std::size_t, double here, double back, double) { return std::min(here, back); });
     for (std::size_t n = 0; n < one.nodes(); ++n)
       goal.value[n] = std::max(goal.value[n], one.value[n]);
   }

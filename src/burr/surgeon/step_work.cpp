@@ -16,6 +16,7 @@ constexpr double kCell = 2e-3;                           // over which the goal 
 constexpr double kMost = 3e-3;                           // a goal above it counts as this [m]
 constexpr double kFarTool = 6e-3, kMiddleTool = 3.5e-3;  // borders of BurrPolicy [m]
 constexpr double kSmaller = 0.8;                         // the next burr if one does not fit
+constexpr double kWorth = 0.1;      // a burr that reaches less of the plan is too wide [-]
 constexpr double kTight = 0.02e-3;  // a burr fits if this much more goal would do [m]
 constexpr double kInside = 0.1e-3;  // of the burr: bone there is cut [m]
 constexpr double kClear = 0.3e-3;   // above the bone before a stroke [m]
@@ -49,45 +50,61 @@ StepWork::StepWork(const volume::Bone& bone, const scenario::Step& step,
       skill_(skill),
       case_diameter_(case_diameter),
       voxel_(bone.grid().voxel),
+      smallest_(skill.burrs.smallest),
       approach_(approach_of(lesson)) {
   top_ = -std::numeric_limits<double>::infinity();
+  take_nodes(bone, goal);
+  all_ = left_ = left_then_ = nodes_.size();
+}
+
+void StepWork::take_nodes(const volume::Bone& bone, const FieldGrid& goal) {
   const int in_cell = std::max(1, static_cast<int>(std::lround(kCell / goal.spacing())));
   const Ijk cells = goal.size() / in_cell + Ijk::Ones();
   const auto x = static_cast<std::size_t>(goal.size().x());
   const auto y = static_cast<std::size_t>(goal.size().y());
-  const double smallest = [&] {
-    fit_ = 0;
-    return burr_for(0).radius;
-  }();
-  fit_ = 1;
-  for (std::size_t n = 0; n < goal.nodes(); ++n) {
-    const auto goal_here = static_cast<double>(goal.value[n]);
-    if (goal_here < kSkin) continue;
-    const Vec3 p = goal.node(n);
-    Node node{};
-    node.at = p.cast<float>();
-    node.voxel = (bone.grid().grid_from_world(p).array() + 0.5).floor().cast<int>();
-    if (!is_bone(bone, node.voxel)) continue;
-    bool reached = false;
-    for (const Vec3& out : approach_) reached = reached || place_for(p, out, smallest).has_value();
-    if (!reached) continue;
-    const Ijk ijk(static_cast<int>(n % x), static_cast<int>(n / x % y),
-                  static_cast<int>(n / (x * y)));
-    const Ijk cell = ijk / in_cell;
-    node.cell =
-        static_cast<std::uint32_t>(cell.x() + cells.x() * (cell.y() + cells.y() * cell.z()));
-    node.goal = allowed_.value[n];
-    node.near = spare_.near.value[n];
-    look(bone, node);
-    top_ = std::max(top_, p.dot(approach_.front()));
-    nodes_.push_back(node);
-  }
   const std::size_t count = static_cast<std::size_t>(cells.x()) *
                             static_cast<std::size_t>(cells.y()) *
                             static_cast<std::size_t>(cells.z());
   sum_.assign(count, 0);
   many_.assign(count, 0);
-  all_ = left_ = left_then_ = nodes_.size();
+  for (;;) {
+    fit_ = 0;
+    const double smallest = burr_for(0).radius;
+    fit_ = 1;
+    nodes_.clear();
+    std::size_t wanted = 0;
+    for (std::size_t n = 0; n < goal.nodes(); ++n) {
+      if (static_cast<double>(goal.value[n]) < kSkin) continue;
+      const Vec3 p = goal.node(n);
+      Node node{};
+      node.at = p.cast<float>();
+      node.voxel = (bone.grid().grid_from_world(p).array() + 0.5).floor().cast<int>();
+      if (!is_bone(bone, node.voxel)) continue;
+      ++wanted;
+      if (std::none_of(approach_.begin(), approach_.end(),
+                       [&](const Vec3& out) { return place_for(p, out, smallest).has_value(); }))
+        continue;
+      const Ijk ijk(static_cast<int>(n % x), static_cast<int>(n / x % y),
+                    static_cast<int>(n / (x * y)));
+      const Ijk cell = ijk / in_cell;
+      node.cell =
+          static_cast<std::uint32_t>(cell.x() + cells.x() * (cell.y() + cells.y() * cell.z()));
+      node.goal = allowed_.value[n];
+      node.near = spare_.near.value[n];
+      look(bone, node);
+      top_ = std::max(top_, p.dot(approach_.front()));
+      nodes_.push_back(node);
+    }
+    const double before = smallest_;
+    smallest_ *= kSmaller;
+    fit_ = 0;
+    const bool least = burr_for(0).radius >= smallest;
+    fit_ = 1;
+    if (least || static_cast<double>(nodes_.size()) >= kWorth * static_cast<double>(wanted)) {
+      smallest_ = before;
+      return;
+    }
+  }
 }
 
 double StepWork::left() const {
@@ -125,7 +142,7 @@ HeldBurr StepWork::burr_for(double near) const {
                        : near > kMiddleTool ? policy.middle
                                             : policy.near;
   double diameter = case_diameter_ * share;
-  double smallest = case_diameter_ * policy.smallest;
+  double smallest = case_diameter_ * smallest_;
   if (near < policy.diamond_below) {
     burr.kind = tool::BurrKind::diamond;
     diameter = case_diameter_ * policy.middle;

@@ -2,7 +2,9 @@
 // the next stroke begins, and with which burr.
 //
 // A node of the goal counts as long as its voxel is bone, its goal is at least kSkin, and the
-// smallest burr of this surgeon gets there. The next stroke begins where
+// smallest burr of this surgeon gets there. Where that burr is too wide for nearly all of the plan,
+// the surgeon takes a smaller one: nobody calls a groove done that no burr has touched. The next
+// stroke begins where
 //
 //     goal, mean over 2 mm  +  saucer x height / 2  -  0.3 way  +  a bonus for the burr in the hand
 //
@@ -84,6 +86,7 @@ class StepWork {
   [[nodiscard]] std::size_t best(const math::Vec3& hand, const HeldBurr& held,
                                  people::RandomStream& random);
   void smooth();
+  void take_nodes(const volume::Bone& bone, const FieldGrid& goal);
 
   const scenario::Step& step_;
   const scenario::Lesson& lesson_;
@@ -91,6 +94,7 @@ class StepWork {
   const Spare& spare_;
   Skill skill_;
   double case_diameter_, voxel_;
+  double smallest_;  // the least burr of this surgeon over that of the case
   std::vector<math::Vec3> approach_;
   std::vector<Node> nodes_;
   std::vector<float> sum_;  // (cells) of the goal at the surface [m]
