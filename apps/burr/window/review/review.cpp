@@ -13,7 +13,7 @@
 
 #include "burr/render/camera.h"
 #include "burr/render/picture.h"
-#include "commands/command.h"
+#include "commands/interrupt.h"
 #include "report/marked.h"
 #include "report/questions.h"
 #include "window/replay/playback.h"
