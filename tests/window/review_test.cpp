@@ -11,6 +11,8 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,14 @@ class ReviewWindow : public Window {
   void SetUp() override {
     if (const char* state = std::getenv(kState)) folder_ = state;
     Window::SetUp();
+    // the practice block in coarse voxels, which open and are marked faster
+    std::ifstream in(fs::path(BURR_SOURCE_DIR) / "cases" / "block.toml");
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    const std::string fine = "voxel_mm = 0.25";
+    const std::size_t at = text.find(fine);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, fine.size(), "voxel_mm = 0.5");
+    std::ofstream(folder_ / "block.toml") << text;
   }
   // The pages of burr, with the practice block chosen in this mode; the script plays the user.
   void work_by(record::Mode mode, std::vector<Script::Step> steps) {
@@ -45,8 +55,7 @@ class ReviewWindow : public Window {
   }
   // Opens the block and cuts into it.
   std::vector<Script::Step> cut() {
-    return {{"the start page", on(Page::start),
-             [] { drop(fs::path(BURR_SOURCE_DIR) / "cases" / "block.toml"); }},
+    return {{"the start page", on(Page::start), [this] { drop(folder_ / "block.toml"); }},
             {"milling", on(Page::milling), [] { move_to(640, 340); }},
             {"the burr over the bone", looks(10), [] { button(SDL_BUTTON_LEFT, true); }},
             {"bone to be cut", pressing_until(looks(40)), [] { button(SDL_BUTTON_LEFT, false); }}};
