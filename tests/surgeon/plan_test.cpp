@@ -143,6 +143,32 @@ TEST(StepWork, ABurrThatIsTooWideForThePlanIsChanged) {
   EXPECT_LE(next->burr.radius, 1 * kMm);
 }
 
+TEST(StepWork, AGrooveIsCutAlong) {
+  const auto bone = block_with_vein(0.25);
+  scenario::Lesson lesson = block_lesson();
+  scenario::Shape groove;
+  groove.kind = scenario::ShapeKind::capsule;
+  groove.a.at = Vec3(-7, 0, 0) * kMm;
+  groove.b.at = Vec3(7, 0, 0) * kMm;
+  groove.radius = 2 * kMm;
+  lesson.regions.front().add = {groove};
+  const Believed seen = believed(*bone, lesson, 0, 1);
+  const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
+  const FieldGrid goal = goal_of(lesson.regions.front(), lesson, seen, spare);
+  Skill skill;
+  skill.along = 1;
+  StepWork work(*bone, lesson.steps.front(), lesson, goal, goal, spare, skill, 2 * kMm);
+  people::RandomStream random(1, 3);
+  int strokes = 0;
+  for (int n = 0; n < 30; ++n) {
+    const auto next = work.next(*bone, Vec3(0, 0, 20 * kMm), {1 * kMm}, random);
+    if (!next) continue;
+    ++strokes;
+    EXPECT_GT(std::abs(next->stroke.along.x()), 0.8);
+  }
+  EXPECT_GT(strokes, 5);
+}
+
 TEST(Goal, IsTheDepthInTheRegionAndTheRoomToWhatIsSpared) {
   const auto bone = block_with_vein(0.25);
   const scenario::Lesson lesson = block_lesson();
