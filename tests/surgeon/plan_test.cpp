@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
+#include "burr/surgeon/step_work.h"
 #include "surgeon/surgeon_bone.h"
 
 namespace burr::surgeon {
@@ -115,6 +117,56 @@ TEST(Goal, ACorridorThatReachesTheSurfaceHasStraightWalls) {
   const FieldGrid buried = goal_of(lesson.regions.front(), lesson, seen, spare);
   EXPECT_GT(buried.at(Vec3(-4, 5.2, -0.3) * kMm), 0);
   EXPECT_LT(buried.at(Vec3(-4, 5.2, -3.6) * kMm), 0);
+}
+
+TEST(StepWork, ABurrThatIsTooWideForThePlanIsChanged) {
+  const auto bone = block_with_vein(0.25);
+  scenario::Lesson lesson = block_lesson();
+  scenario::Shape groove;
+  groove.kind = scenario::ShapeKind::capsule;
+  groove.a.at = Vec3(-4, 0, 0) * kMm;
+  groove.b.at = Vec3(4, 0, 0) * kMm;
+  groove.radius = 1 * kMm;
+  lesson.regions.front().add = {groove};
+  const Believed seen = believed(*bone, lesson, 0, 1);
+  const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
+  const FieldGrid goal = goal_of(lesson.regions.front(), lesson, seen, spare);
+  // the only burr of a careless one is 2.4 mm wide
+  StepWork work(*bone, lesson.steps.front(), lesson, goal, goal, spare, skill_of(Level::careless),
+                3 * kMm);
+  EXPECT_GT(work.count(), 10U);
+  people::RandomStream random(1, 3);
+  std::optional<NextStroke> next;
+  for (int n = 0; n < 20 && !next && !work.exhausted(); ++n)
+    next = work.next(*bone, Vec3(0, 0, 20 * kMm), {1.2 * kMm}, random);
+  ASSERT_TRUE(next);
+  EXPECT_LE(next->burr.radius, 1 * kMm);
+}
+
+TEST(StepWork, AGrooveIsCutAlong) {
+  const auto bone = block_with_vein(0.25);
+  scenario::Lesson lesson = block_lesson();
+  scenario::Shape groove;
+  groove.kind = scenario::ShapeKind::capsule;
+  groove.a.at = Vec3(-7, 0, 0) * kMm;
+  groove.b.at = Vec3(7, 0, 0) * kMm;
+  groove.radius = 2 * kMm;
+  lesson.regions.front().add = {groove};
+  const Believed seen = believed(*bone, lesson, 0, 1);
+  const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
+  const FieldGrid goal = goal_of(lesson.regions.front(), lesson, seen, spare);
+  Skill skill;
+  skill.along = 1;
+  StepWork work(*bone, lesson.steps.front(), lesson, goal, goal, spare, skill, 2 * kMm);
+  people::RandomStream random(1, 3);
+  int strokes = 0;
+  for (int n = 0; n < 30; ++n) {
+    const auto next = work.next(*bone, Vec3(0, 0, 20 * kMm), {1 * kMm}, random);
+    if (!next) continue;
+    ++strokes;
+    EXPECT_GT(std::abs(next->stroke.along.x()), 0.8);
+  }
+  EXPECT_GT(strokes, 5);
 }
 
 TEST(Goal, IsTheDepthInTheRegionAndTheRoomToWhatIsSpared) {

@@ -182,17 +182,21 @@ Vec3 StepWork::direction(const Vec3& q, const Vec3& into, people::RandomStream& 
   Vec3 along = std::cos(angle) * u + std::sin(angle) * v;
   if (!follows) return along;
   double nearest = kTube;
+  const auto follow = [&](const Vec3& from, const Vec3& to) {
+    const Vec3 piece = to - from;
+    const double t = std::clamp((q - from).dot(piece) / piece.squaredNorm(), 0.0, 1.0);
+    const double far = (q - from - t * piece).norm();
+    const Vec3 across = piece.normalized() - piece.normalized().dot(into) * into;
+    if (far >= nearest || across.norm() < 0.5) return;
+    nearest = far;
+    along = across.normalized();
+  };
   for (const scenario::Landmark& one : lesson_.landmarks)
-    for (std::size_t n = 1; n < one.points.size(); ++n) {
-      const Vec3 piece = one.points[n] - one.points[n - 1];
-      const double t =
-          std::clamp((q - one.points[n - 1]).dot(piece) / piece.squaredNorm(), 0.0, 1.0);
-      const double far = (q - one.points[n - 1] - t * piece).norm();
-      const Vec3 across = piece.normalized() - piece.normalized().dot(into) * into;
-      if (far >= nearest || across.norm() < 0.5) continue;
-      nearest = far;
-      along = across.normalized();
-    }
+    for (std::size_t n = 1; n < one.points.size(); ++n) follow(one.points[n - 1], one.points[n]);
+  // a groove that is given by two points is followed like a curve
+  if (const scenario::CaseRegion* region = lesson_.region(step_.region))
+    for (const scenario::Shape& one : region->add)
+      if (one.kind == scenario::ShapeKind::capsule) follow(one.a.at, one.b.at);
   return along;
 }
 
