@@ -251,7 +251,8 @@ def levels(options):
         a, b = by_level[high], by_level[low]
         mark = auc(list(map(points, a)), list(map(points, b)))
         low_end, high_end = bootstrap(list(map(points, a)), list(map(points, b)))
-        by_time = auc(*([math.ceil(r["surgeon"]["seconds"]) for r in runs] for runs in (a, b)))  # done or cut off: the same second
+        # that of the table: the recording of who declares it done is a second shorter than that of who is cut off
+        by_time = auc(*([slot_s(options, r["seed"]) for r in runs] for runs in (a, b)))
         by_volume = auc([r["surgeon"]["removed_mm3"] for r in a], [r["surgeon"]["removed_mm3"] for r in b])
         out["pairs"][f"{high} : {low}"] = {"auc": mark, "low": low_end, "high": high_end, "time": by_time, "volume": by_volume}
         ready = auc(list(map(worked_s, a)), list(map(worked_s, b)))
