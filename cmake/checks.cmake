@@ -3,6 +3,7 @@
 find_package(Python3 COMPONENTS Interpreter)
 include(ProcessorCount)
 ProcessorCount(BURR_PROCESSORS)
+set(BURR_CORES_FOR_CLOCK ${BURR_PROCESSORS})
 math(EXPR BURR_PROCESSORS "${BURR_PROCESSORS} + 1")  # ./test runs one test more than there are cores
 set(checks ${PROJECT_SOURCE_DIR}/scripts/checks)
 
@@ -172,8 +173,8 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   set(tsan_options "TSAN_OPTIONS=halt_on_error=1 second_deadlock_stack=1 suppressions=${PROJECT_SOURCE_DIR}/scripts/checks/tsan_suppressions.txt")
   set_property(TEST tsan.window PROPERTY ENVIRONMENT "${tsan_options};BURR_WINDOW_SECONDS=15")
   set_property(TEST tsan.device PROPERTY ENVIRONMENT "${tsan_options}")
-  # in real time, and mostly waiting: may run beside anything but each other
-  set_tests_properties(asan.device tsan.device tsan.window PROPERTIES RESOURCE_LOCK clock)
+  # in real time, and mostly waiting: may run beside one other test, but not beside each other
+  set_tests_properties(asan.device tsan.device tsan.window PROPERTIES RESOURCE_LOCK clock PROCESSORS ${BURR_CORES_FOR_CLOCK})
 
   # other processors: the core alone, and the same bits as here
   foreach(processor aarch64 web)
