@@ -4,7 +4,7 @@
     scripts/checks/tidy.py [BUILD]         BUILD: has compile_commands.json; default build/release
 
 Most of clang-tidy's time goes into the headers of Eigen and of the standard library, once for each file. So many files are
-looked at together, as one source that includes them. Files in which the same name is defined are put into different groups;
+looked at together, as one source that includes them. Files whose names clash are put into different groups (together.py);
 where two of a group cannot be compiled together all the same, the group is halved until they are apart.
 
 Left out: what includes ITK or GDCM (a minute a file), and a kernel's copies for other processors.
@@ -22,6 +22,8 @@ import tempfile
 
 MOST = 40  # files in a group: about 30 s
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+import together  # noqa: E402  (which sources can be compiled as one)
 
 
 def commands(build):
@@ -44,37 +46,22 @@ def commands(build):
     return found
 
 
-def names(text):
-    """What a source defines at the left margin, in its own namespace: constants, functions, types."""
-    found = set()
-    for line in text.splitlines():
-        if re.match(r"(using namespace|namespace|return|#|//|[^A-Za-z\[])", line):
-            continue
-        found.update(re.findall(r"(?:struct|class|enum|union) (\w+)", line))
-        found.update(re.findall(r"\b(k[A-Z]\w*) *(?:\[[^\]]*\])? *=", line))
-        head = re.split(r"[({=;]", re.sub(r"^template *<.*?> *(?=\w)", "", line), maxsplit=1)[0]
-        last = re.search(r"(?<![\w:])(\w+)(?:\[\w*\])? *$", head)
-        if last:
-            found.add(last.group(1))
-    return found
-
-
 def groups(build):
     """Lists of files that are compiled alike and do not define the same names, and how."""
-    made = []  # [command, files, {(room, name)}]
+    made = []  # [command, files, {room: its names}]; each room is a namespace
     for file, command in sorted(commands(build).items()):
         text = file.read_text(errors="replace")
         if file.suffix != ".cpp" or re.search(r"_avx(2|512)\.cpp$", file.name) or re.search(r"#include <(itk|gdcm)", text):
             continue
-        room, mine = file.relative_to(ROOT / "src" / "burr").parts[0], names(text)
+        room, mine = file.relative_to(ROOT / "src" / "burr").parts[0], together.names(text)
         for group in made:
-            if group[0] == command and len(group[1]) < MOST and not any((room, name) in group[2] for name in mine):
+            if group[0] == command and len(group[1]) < MOST and not group[2].setdefault(room, together.Names()).clash(mine):
                 break
         else:
-            group = [command, [], set()]
+            group = [command, [], {room: together.Names()}]
             made.append(group)
         group[1].append(file)
-        group[2].update((room, name) for name in mine)
+        group[2][room].take(mine)
     for command, files, _ in made:
         yield files, command
 

@@ -76,6 +76,24 @@ TEST(Outcome, AGradedItemEarnsAPartByItsValue) {
   EXPECT_DOUBLE_EQ(credit(0.1, kMet), 1);
 }
 
+TEST(Outcome, AGradeThatContradictsItsThresholdIsNotAssessable) {
+  Item item;
+  item.how = measure_named("removed");
+  ASSERT_NE(item.how, nullptr);
+  const auto verdict = [&](double none, double full, bool at_least) {
+    item.grade = {none, full};
+    return decided(item, {.met = true, .value = 0.9, .threshold = 0.8}, "share removed", at_least)
+        .verdict;
+  };
+  EXPECT_EQ(verdict(0.6, 1, true), kMet);
+  EXPECT_EQ(verdict(0.6, 0.8, true), kMet);
+  EXPECT_EQ(verdict(1, 0, true), kOpen) << "rises where it should fall";
+  EXPECT_EQ(verdict(0.85, 1, true), kOpen) << "what meets the threshold earns nothing";
+  EXPECT_EQ(verdict(0.2, 0.7, true), kOpen) << "what misses the threshold earns everything";
+  EXPECT_EQ(verdict(1, 0, false), kMet);
+  EXPECT_EQ(verdict(0, 1, false), kOpen);
+}
+
 TEST(Outcome, ATotalCountsGradesByWeight) {
   Made made;
   made.add("a", kProduct, 3, kMet).add("b", kProduct, 1, kUnmet);

@@ -119,49 +119,52 @@ TEST(Goal, ACorridorThatReachesTheSurfaceHasStraightWalls) {
   EXPECT_LT(buried.at(Vec3(-4, 5.2, -3.6) * kMm), 0);
 }
 
+// A surgeon's work where the plan is one groove along x, through the middle of the block's top. [m]
+struct GrooveWork {
+  GrooveWork(double half_length, double radius, const Skill& skill, double case_diameter)
+      : lesson([&] {
+          scenario::Lesson made = block_lesson();
+          scenario::Shape groove;
+          groove.kind = scenario::ShapeKind::capsule;
+          groove.a.at = Vec3(-half_length, 0, 0);
+          groove.b.at = Vec3(half_length, 0, 0);
+          groove.radius = radius;
+          made.regions.front().add = {groove};
+          return made;
+        }()),
+        seen(believed(*bone, lesson, 0, 1)),
+        spare(spare_of(bone->grid(), lesson, seen, 0)),
+        goal(goal_of(lesson.regions.front(), lesson, seen, spare)),
+        work(*bone, lesson.steps.front(), lesson, goal, goal, spare, skill, case_diameter) {}
+
+  decltype(block_with_vein(0.25)) bone = block_with_vein(0.25);
+  scenario::Lesson lesson;
+  Believed seen;
+  Spare spare;
+  FieldGrid goal;
+  StepWork work;
+};
+
 TEST(StepWork, ABurrThatIsTooWideForThePlanIsChanged) {
-  const auto bone = block_with_vein(0.25);
-  scenario::Lesson lesson = block_lesson();
-  scenario::Shape groove;
-  groove.kind = scenario::ShapeKind::capsule;
-  groove.a.at = Vec3(-4, 0, 0) * kMm;
-  groove.b.at = Vec3(4, 0, 0) * kMm;
-  groove.radius = 1 * kMm;
-  lesson.regions.front().add = {groove};
-  const Believed seen = believed(*bone, lesson, 0, 1);
-  const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
-  const FieldGrid goal = goal_of(lesson.regions.front(), lesson, seen, spare);
   // the only burr of a careless one is 2.4 mm wide
-  StepWork work(*bone, lesson.steps.front(), lesson, goal, goal, spare, skill_of(Level::careless),
-                3 * kMm);
-  EXPECT_GT(work.count(), 10U);
+  GrooveWork on(4 * kMm, 1 * kMm, skill_of(Level::careless), 3 * kMm);
+  EXPECT_GT(on.work.count(), 10U);
   people::RandomStream random(1, 3);
   std::optional<NextStroke> next;
-  for (int n = 0; n < 20 && !next && !work.exhausted(); ++n)
-    next = work.next(*bone, Vec3(0, 0, 20 * kMm), {1.2 * kMm}, random);
+  for (int n = 0; n < 20 && !next && !on.work.exhausted(); ++n)
+    next = on.work.next(*on.bone, Vec3(0, 0, 20 * kMm), {1.2 * kMm}, random);
   ASSERT_TRUE(next);
   EXPECT_LE(next->burr.radius, 1 * kMm);
 }
 
 TEST(StepWork, AGrooveIsCutAlong) {
-  const auto bone = block_with_vein(0.25);
-  scenario::Lesson lesson = block_lesson();
-  scenario::Shape groove;
-  groove.kind = scenario::ShapeKind::capsule;
-  groove.a.at = Vec3(-7, 0, 0) * kMm;
-  groove.b.at = Vec3(7, 0, 0) * kMm;
-  groove.radius = 2 * kMm;
-  lesson.regions.front().add = {groove};
-  const Believed seen = believed(*bone, lesson, 0, 1);
-  const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
-  const FieldGrid goal = goal_of(lesson.regions.front(), lesson, seen, spare);
   Skill skill;
   skill.along = 1;
-  StepWork work(*bone, lesson.steps.front(), lesson, goal, goal, spare, skill, 2 * kMm);
+  GrooveWork on(7 * kMm, 2 * kMm, skill, 2 * kMm);
   people::RandomStream random(1, 3);
   int strokes = 0;
   for (int n = 0; n < 30; ++n) {
-    const auto next = work.next(*bone, Vec3(0, 0, 20 * kMm), {1 * kMm}, random);
+    const auto next = on.work.next(*on.bone, Vec3(0, 0, 20 * kMm), {1 * kMm}, random);
     if (!next) continue;
     ++strokes;
     EXPECT_GT(std::abs(next->stroke.along.x()), 0.8);

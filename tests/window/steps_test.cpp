@@ -188,7 +188,8 @@ TEST(Steps, AnInjuryIsToldOnceUntilTheBurrIsOutAgain) {
   EXPECT_FALSE(watch.look("dura", -1e-3, false, kVoxel)) << "the burr stands still";
   EXPECT_TRUE(watch.look("dura", -0.3e-3, true, kVoxel));
   EXPECT_TRUE(watch.is_in());
-  EXPECT_FALSE(watch.look("dura", -0.5e-3, true, kVoxel)) << "it was told";
+  EXPECT_FALSE(watch.look("dura", -0.5e-3, true, kVoxel))
+      << "no second message for the same injury";
   EXPECT_FALSE(watch.look("dura", -0.1e-3, true, kVoxel));
   EXPECT_FALSE(watch.look("dura", -0.5e-3, true, kVoxel)) << "it was not out yet";
   EXPECT_TRUE(watch.look("sigmoid sinus", -0.5e-3, true, kVoxel)) << "another one";

@@ -43,7 +43,7 @@ TEST(Allowed, AnExamHasNoHelpWhateverTheCaseSays) {
       EXPECT_FALSE(one.back) << "no undo, no original";
       EXPECT_FALSE(one.measure);
       EXPECT_FALSE(one.marks) << "the examiner releases them";
-      EXPECT_EQ(one.injury, Injury::untold);
+      EXPECT_EQ(one.injury, Injury::silent);
       one.colours = one.see_through = false;  // as the case says
       EXPECT_EQ(one, Allowed());
     }

@@ -1,5 +1,5 @@
-// apps/burr/report/questions.h - what the learner is asked about his own work before he sees the marks:
-// the items of the rubric of his case.
+// apps/burr/report/questions.h - the questions of the page where the learner marks his own work: the
+// items of the rubric of his case.
 //
 // Thread: any. Cost: the rubric is read.
 #pragma once

@@ -127,8 +127,7 @@ std::string Report::markdown() const {
       "simulator works. It is not for judging people, and it is no medical device.\n\n"
       "The marks of a session are compared with scripted surgeons of known faults: "
       "[acceptance.md](acceptance.md) has the figures. That proves that items of a rubric respond "
-      "to "
-      "those faults. It does not prove that a surgeon would agree with a mark.\n\n"
+      "to those faults. It does not prove that a surgeon would agree with a mark.\n\n"
       "| part | checks | failed |\n|---|---|---|\n";
   for (const Part& part : parts_)
     text += row_of({part.title, std::to_string(part.checks.size()), std::to_string(part.failed())});

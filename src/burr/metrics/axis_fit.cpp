@@ -184,7 +184,11 @@ Assessed<AxisFit> axis_fit(const Bone& before, const Bone& after, const PlannedA
   for (const Slice* slice : counted) widths.emplace_back(slice->width(plan.entry, out.inward), 1);
   out.width = weighted_quantile(std::move(widths), 0.5);
   const double length = static_cast<double>(centres.size()) * thick;
-  if (length < kShortest * out.width) return NotAssessable{kShortCorridor};
+  if (length < kShortest * out.width)
+    return NotAssessable{
+        "the drilled corridor is shorter than one and a half of its diameters, so it has no "
+        "certain direction",
+        true};
   const double far = 10e-3;
   const AlongAxis axis{before, after, line.at_zero - far * line.slope, out.inward, 0.25 * h};
   const auto entry = axis.entry(2 * far);

@@ -14,7 +14,7 @@
 //              was removed to the axis, so spongy bone and the air in it do not make it smaller
 //
 // Frame: world. Units: m, rad. Not assessable: nothing was removed there, a corridor shorter than one and
-// a half of its diameters (kShortCorridor), or an axis that does not lead from the air outside into what was removed within
+// a half of its diameters (too_little_done), or an axis that does not lead from the air outside into what was removed within
 // 10 mm of the planned entry. Thread: any.
 #pragma once
 
@@ -26,11 +26,6 @@
 #include "burr/volume/bone.h"
 
 namespace burr::metrics {
-
-// Why a corridor that is too short has no axis.
-inline constexpr const char* kShortCorridor =
-    "the drilled corridor is shorter than one and a half of its diameters, so it has no certain "
-    "direction";
 
 struct PlannedAxis {
   math::Vec3 entry = math::Vec3::Zero();    // on the bone's surface

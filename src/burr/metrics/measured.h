@@ -21,6 +21,8 @@ namespace burr::metrics {
 // what would help.
 struct NotAssessable {
   std::string reason;
+  bool too_little_done =
+      false;  // the reason is the work, not the bone: more of it would be measured
 };
 
 template <class T>
@@ -34,6 +36,9 @@ class [[nodiscard]] Assessed {
   [[nodiscard]] const std::string& reason() const {
     BURR_CHECK(!ok());
     return std::get<NotAssessable>(state_).reason;
+  }
+  [[nodiscard]] bool too_little_done() const {
+    return !ok() && std::get<NotAssessable>(state_).too_little_done;
   }
   [[nodiscard]] const T& operator*() const {
     BURR_CHECK(ok());

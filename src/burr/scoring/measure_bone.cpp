@@ -194,6 +194,16 @@ Outcome not_assessable(const Item& item, std::string reason) {
 }
 
 Outcome decided(const Item& item, const metrics::Mark& mark, const char* what, bool at_least) {
+  if (item.grade) {
+    const auto [none, full] = *item.grade;
+    const bool agrees = at_least ? none < mark.threshold && mark.threshold <= full
+                                 : full <= mark.threshold && mark.threshold < none;
+    if (!agrees)
+      return not_assessable(
+          item,
+          "its grade contradicts its threshold: the value that earns nothing must "
+          "miss the threshold, and the one that earns everything must meet it");
+  }
   Outcome out;
   out.id = item.id;
   out.verdict = mark.met ? Verdict::met : Verdict::unmet;

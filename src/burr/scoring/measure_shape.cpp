@@ -42,7 +42,7 @@ Outcome axis(const Item& item, Scene& scene) {
   if (!fit) {
     Outcome none = not_assessable(item, fit.reason());
     // who stops half-way must not lose the items from the denominator: see idle()
-    if (fit.reason() == metrics::kShortCorridor) {
+    if (fit.too_little_done()) {
       none.verdict = Verdict::unmet;
       none.earned = false;
     }

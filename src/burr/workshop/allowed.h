@@ -18,7 +18,7 @@ enum class Offer { never, on_demand, always };
 
 // What happens when a turning burr is in a structure that must be spared.
 enum class Injury {
-  untold,  // the user sees what he sees
+  silent,  // no signal
   sound,   // a tone at once
   stop,    // also a sentence, and the burr is lifted: stop and look
 };
@@ -28,7 +28,7 @@ struct Allowed {
   bool target = false;         // what the current step is about may be lit, on demand
   bool distance = false;       // to the nearest structure to spare, as a figure and a colour
   double tone_below = 0;       // a tone sounds when that distance is below this; 0: never [m]
-  Injury injury = Injury::untold;
+  Injury injury = Injury::silent;
   bool technique = false;  // one sentence where the technique stays out of its band
   bool back = false;       // undo, redo, everything back, the original back, smoothing, the mirror
   bool measure = false;    // distances, angles, the thickness under the burr

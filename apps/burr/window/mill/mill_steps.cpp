@@ -73,7 +73,7 @@ void Mill::begin_steps() {
 void Mill::look_at_measure() {
   if (!watch_ || !steps_begun_) return;
   const auto now = steps_.current();
-  // who is asked whether the work is done should not have to wait for a measurement that begins now
+  // while the question "is the work done?" is open no measurement begins: the user would wait for its end
   const bool looks = now && !steps_.was_reopened(*now) && !pages_->asks_done();
   watch_->look(looks ? now : std::nullopt);
   const auto done = watch_->take();
@@ -125,7 +125,7 @@ void Mill::look_at_technique() {
         {row_.tick, record::CourseKind::help_shown, "technique", Technique::name(cue_)}));
 }
 
-// A turning burr in what must not be cut. Told once, until the burr is out of it again. No flash: it
+// A turning burr in what must not be cut. The message comes once, and again only after the burr was out of it. No flash: it
 // would startle a hand that is in the wrong place already.
 void Mill::look_at_injury() {
   constexpr double kTurning = 0.05;  // of full speed
@@ -136,8 +136,8 @@ void Mill::look_at_injury() {
         injury_.look(nearest_->name, nearest_->distance, turning, session_.bone().grid().voxel);
   else
     injury_.nothing_near();
-  const bool told = options_.allowed.injury != workshop::Injury::untold;
-  if (options_.loudspeaker != nullptr) options_.loudspeaker->injury(injury_.is_in() && told);
+  const bool heard = options_.allowed.injury != workshop::Injury::silent;
+  if (options_.loudspeaker != nullptr) options_.loudspeaker->injury(injury_.is_in() && heard);
   if (!begins || options_.allowed.injury != workshop::Injury::stop) return;
   lift();
   if (hands_.real != nullptr && !lifts_.stopped) stop_or_go_on();

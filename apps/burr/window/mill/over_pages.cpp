@@ -68,9 +68,8 @@ bool OverPages::draw_question(std::size_t open_steps) {
 OverPages::Changed OverPages::draw(DeviceLeaf* device, std::size_t open_steps) {
   if (help_) help_ = draw_help(desk_.ui(), help_rows_(desk_.settings.left_handed), help_pads_);
   if (export_.shown()) export_.draw();
-  Changed changed;
-  if (asks_done_) changed.done = draw_question(open_steps);
-  return settings_ ? draw_settings_page(device) : changed;
+  if (settings_) return draw_settings_page(device);
+  return {.done = asks_done_ && draw_question(open_steps)};
 }
 
 OverPages::Changed OverPages::draw_settings_page(DeviceLeaf* device) {

@@ -47,10 +47,10 @@ class OverPages {
 
  private:
   Changed draw_settings_page(DeviceLeaf* device);
+  bool draw_question(std::size_t open_steps);  // true: yes
 
   Desk& desk_;
   HelpRows help_rows_;
-  bool draw_question(std::size_t open_steps);  // true: yes
   bool help_, help_pads_ = false, settings_ = false, settings_pads_ = false, asks_done_ = false;
   ExportPage export_;
 };

@@ -40,7 +40,7 @@ void FullReport::step() {
   child_.reset();
 }
 
-// The path is told in any case: there may be no browser.
+// The note names the file even if a browser opens: there may be none.
 void FullReport::show() {
   note_ = say(Word::review_written, page_);
   if (const std::string opener = program_in_path("xdg-open"); !opener.empty())
