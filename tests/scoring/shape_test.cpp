@@ -141,6 +141,26 @@ TEST_F(WrongShape, ABedThatIsTooDeepLosesItsDepthAndTheDistanceToTheNerve) {
   EXPECT_EQ(unmet(), (std::set<std::string>{"bed.depth", "nerve.clear"}));
 }
 
+// Who stops early must not have a better mark than who goes on: what a short bed cannot show stays in
+// the denominator.
+TEST_F(WrongShape, HalfABedIsUnmetAndNotLeftOut) {
+  open("jaw", 0.4);
+  cut([](Lesson& plan) {
+    std::vector<Vec3>& axis = region_of(plan, "implant bed").add.front().points;
+    axis.back() = axis.front() + 0.4 * (axis.back() - axis.front());
+  });
+  const auto made = score(rubric_, lesson_, *before_, *after_, nullptr, quiet_);
+  ASSERT_TRUE(made) << made.error().text;
+  std::size_t of_axis = 0;
+  for (std::size_t n = 0; n < rubric_.items.size(); ++n) {
+    if (std::string(rubric_.items[n].how->name).rfind("axis_", 0) != 0) continue;
+    ++of_axis;
+    EXPECT_EQ(made->outcomes[n].verdict, Verdict::unmet) << made->outcomes[n].id;
+    EXPECT_NE(made->outcomes[n].reason, "") << made->outcomes[n].id;
+  }
+  EXPECT_EQ(of_axis, 5U);
+}
+
 TEST_F(WrongShape, ABedBesideTheGapLosesEntryAndEnd) {
   open("jaw", 0.4);
   cut([](Lesson& plan) {

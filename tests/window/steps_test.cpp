@@ -180,7 +180,7 @@ TEST(Steps, TheWatchFindsThatAMeasureIsReached) {
 
 // ---- a turning burr in what must not be cut
 
-TEST(Steps, AnInjuryIsToldOnceUntilTheBurrIsOutAgain) {
+TEST(Steps, AnInjuryHasOneMessageUntilTheBurrIsOutAgain) {
   constexpr double kVoxel = 0.4e-3;
   InjuryWatch watch;
   EXPECT_FALSE(watch.look("dura", 1e-3, true, kVoxel));
