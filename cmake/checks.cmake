@@ -96,7 +96,7 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # burr_other_build(PRESET TARGET...): configures and builds a preset, as a test on which others
   # may depend
   function(burr_other_build preset)
-    add_test(NAME ${preset}.configure COMMAND ${CMAKE_COMMAND} --preset ${preset}
+    add_test(NAME ${preset}.configure COMMAND ${CMAKE_COMMAND} --preset ${preset} ${${preset}_options}
       WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     add_test(NAME ${preset}.build COMMAND ${CMAKE_COMMAND} --build ${PROJECT_SOURCE_DIR}/build/${preset} --target ${ARGN})
     set_tests_properties(${preset}.configure PROPERTIES FIXTURES_SETUP ${preset}_tree LABELS long)
@@ -140,6 +140,7 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   set(asan_filter_haptics "-*Million*:*Random*")
   set(asan_filter_io "-Corpus.*")  # needs the program, which is not built here; CorpusAgainst reads
                                    # the same files
+  set(asan_filter_record "-Player.OpensAnyMomentOfTenMinutesAtOnce")  # long, and shorter tests take the same way
   set(asan_targets)
   foreach(room ${asan_rooms})
     if(TARGET test_${room})
@@ -157,8 +158,10 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
     burr_other_test(asan ${room} "${filter}")
   endforeach()
 
+  set(tsan_options -DBURR_READER=OFF)
   # ThreadSanitizer: the doors; bone, mesh and recording while other threads read; a whole session;
   # the whole program, for minutes with scripts/tsan_long.sh
+  # The reader of scans is a process of its own with one thread, so the one of the release build will do.
   burr_other_build(tsan test_rt test_volume test_surface test_sound test_record test_sim test_device test_window)
   burr_other_test(tsan rt "*")
   burr_other_test(tsan volume "Bone.*:SharedCopy.*")
@@ -170,11 +173,13 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # The program's threads. A press that lasts long loses ticks in this build, and then the hand does
   # not get its force back; WholeProgram tests undo as well.
   burr_other_test(tsan window "WholeProgram.*:Window.*-Window.UndoByKey*")
-  set(tsan_options "TSAN_OPTIONS=halt_on_error=1 second_deadlock_stack=1 suppressions=${PROJECT_SOURCE_DIR}/scripts/checks/tsan_suppressions.txt")
-  set_property(TEST tsan.window PROPERTY ENVIRONMENT "${tsan_options};BURR_WINDOW_SECONDS=15")
-  set_property(TEST tsan.device PROPERTY ENVIRONMENT "${tsan_options}")
-  # in real time, and mostly waiting: may run beside one other test, but not beside each other
-  set_tests_properties(asan.device tsan.device tsan.window PROPERTIES RESOURCE_LOCK clock PROCESSORS ${BURR_CORES_FOR_CLOCK})
+  set(tsan_runs "TSAN_OPTIONS=halt_on_error=1 second_deadlock_stack=1 suppressions=${PROJECT_SOURCE_DIR}/scripts/checks/tsan_suppressions.txt")
+  set_property(TEST tsan.window PROPERTY ENVIRONMENT ${tsan_runs} BURR_WINDOW_SECONDS=15)
+  set_property(TEST tsan.device PROPERTY ENVIRONMENT ${tsan_runs})
+  set_property(TEST tsan.window tsan.device tsan.record tsan.sim APPEND PROPERTY ENVIRONMENT BURR_READ=$<TARGET_FILE:burr_read>)
+  # in real time, and mostly waiting: may run beside other tests, but not beside each other
+  set_tests_properties(asan.device tsan.device PROPERTIES RESOURCE_LOCK clock)
+  set_tests_properties(tsan.window PROPERTIES RESOURCE_LOCK clock PROCESSORS ${BURR_CORES_FOR_CLOCK})
 
   # other processors: the core alone, and the same bits as here
   foreach(processor aarch64 web)
@@ -186,13 +191,13 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   add_test(NAME portable.aarch64_tests COMMAND ${checks}/portable.sh aarch64 ${CMAKE_BINARY_DIR} tests)
   set_tests_properties(portable.aarch64_tests PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long FIXTURES_REQUIRED portable_aarch64)
 
-  # libFuzzer: 5 s for every reader; scripts/fuzz_night.sh runs longer
+  # libFuzzer: 3 s for every reader; scripts/fuzz_night.sh runs longer
   add_test(NAME fuzz.seeds COMMAND ${checks}/fuzz.sh seeds)
   set_tests_properties(fuzz.seeds PROPERTIES FIXTURES_REQUIRED asan_programs FIXTURES_SETUP fuzz_seeds LABELS long)
   file(GLOB fuzz_targets CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/fuzz ${PROJECT_SOURCE_DIR}/fuzz/*_fuzz.cpp)
   foreach(file ${fuzz_targets})
     string(REGEX REPLACE "_fuzz\\.cpp$" "" name ${file})
-    add_test(NAME fuzz.${name} COMMAND ${checks}/fuzz.sh ${name} 5)
+    add_test(NAME fuzz.${name} COMMAND ${checks}/fuzz.sh ${name} 3)
     set_tests_properties(fuzz.${name} PROPERTIES FIXTURES_REQUIRED "asan_programs;fuzz_seeds" TIMEOUT 300 LABELS long)
   endforeach()
 endif()
@@ -209,19 +214,16 @@ set_tests_properties(house.verify PROPERTIES TIMEOUT 900)
 set(costs house.same_bits 50 house.measures 30 house.recording_trouble 25 house.run 20 house.install 20 house.verify 40
   haptics.Proxy.AMillionTicksAtUpToTenMillimetresNeverCrossAThinPlate 70 io.Corpus.EveryFileIsReadOrRefusedWithASentence 40
   io.CorpusAgainst.ASecondReaderSeesTheSame 30
-  asan.device 170 asan.io 160 tsan.device 130 tsan.window 120 asan.haptics 60 asan.volume 40 asan.edit 40 asan.record 40 asan.same_bits 40 tsan.sim 60 tsan.rt 40
-  clang.same_bits 30 portable.aarch64_tests 175
+  asan.device 170 asan.io 160 tsan.device 130 tsan.window 120 asan.haptics 60 asan.volume 40 asan.edit 40 asan.record 90 asan.same_bits 40 asan.importing 40 tsan.sim 60 tsan.rt 40
+  clang.same_bits 30 portable.aarch64_tests 90
   window.ImportWindow.SaysWhatIsWrongWithANumberAndLosesNothing 20)
 set(orders "")
 while(costs)
   list(POP_FRONT costs test seconds)
   string(APPEND orders "set_tests_properties(${test} PROPERTIES COST ${seconds})\n")
 endwhile()
-# tests that do not depend on the clock, in the rooms whose tests run alone (tests.cmake)
-foreach(test InverseTest.AMillionForcesAndNonePassesTheLimit PolhemTest.AMillionForcesAndNonePassesTheLimit
-    LeaderTest.AThousandTimesOpenedAndClosedNothingIsLeft InverseTest.AThousandTimesOpenedAndClosedNothingIsLeft
-    TouchTest.AThousandTimesOpenedAndClosedNothingIsLeft PolhemTest.AThousandTimesOpenedAndClosedNothingIsLeft)
-  string(APPEND orders "set_tests_properties(device.${test} PROPERTIES RUN_SERIAL FALSE COST 40)\n")
+foreach(test OfManyRandomForcesNonePassesTheLimit AThousandTimesOpenedAndClosedNothingIsLeft)
+  string(APPEND orders "set_tests_properties(device.InverseTest.${test} device.PolhemTest.${test} PROPERTIES COST 40)\n")
 endforeach()
 string(APPEND orders "set_tests_properties(device.LeaderTest.AThousandTimesOpenedAndClosedNothingIsLeft PROPERTIES COST 130)\n")
 # the loss by a kill is judged in milliseconds of a clock, so no other test may disturb it

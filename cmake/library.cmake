@@ -106,7 +106,10 @@ foreach(part ${BURR_PARTS})
   target_link_libraries(burr PRIVATE $<BUILD_INTERFACE:${part}>)
 endforeach()
 if(NOT BURR_WARNINGS_ONLY)  # nothing runs with that build's library
-  add_dependencies(burr burr_read burr_guard)  # without them no scan can be read, no arm be guarded
+  add_dependencies(burr burr_guard)  # without it no arm is guarded
+  if(BURR_READER)
+    add_dependencies(burr burr_read)  # without it no scan can be read
+  endif()
 endif()
 add_library(burr::burr ALIAS burr)
 set_target_properties(burr PROPERTIES OUTPUT_NAME burr VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}

@@ -9,7 +9,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-300}
 [[ $seconds =~ ^[0-9]+$ ]] || { echo "usage: scripts/tsan_long.sh [SECONDS]" >&2; exit 2; }
-cmake --preset tsan >/dev/null
+cmake --preset tsan -DBURR_READER=ON >/dev/null
 cmake --build build/tsan --target test_window
 export TSAN_OPTIONS="halt_on_error=1 second_deadlock_stack=1 suppressions=$PWD/scripts/checks/tsan_suppressions.txt"
 BURR_WINDOW_SECONDS=$seconds exec build/tsan/test_window

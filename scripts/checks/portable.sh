@@ -35,7 +35,8 @@ case $where in
   web) there() { node --no-experimental-fetch "build/web/$1.js" "${@:2}"; } ;;
 esac
 if [ "$tests" = tests ]; then
-  there test_core --gtest_brief=1
+  # not the longest: a hundred thousand ticks under qemu take minutes, and the bits of 9000 are compared
+  there test_core --gtest_brief=1 --gtest_filter='-*OverAHundredThousandTicks/125um:*OverAHundredThousandTicks/500um:Smooth.*Ball*'
   exit
 fi
 

@@ -347,7 +347,7 @@ TEST_F(LeaderTest, TwoAtOnceEachHasItsOwnForce) {
   EXPECT_EQ(right.force().x(), 0);
 }
 
-TEST_F(LeaderTest, AMillionForcesAndNonePassesTheLimit) {
+TEST_F(LeaderTest, OfManyRandomForcesNonePassesTheLimit) {
   FakeCrtkArm arm(domain_);
   Leader wire(here());
   ASSERT_TRUE(wire.connect().ok());

@@ -676,12 +676,12 @@ TEST_F(InverseEventsTest, WithoutTheChannelItGoesOn) {
   ::unsetenv("HAPLY_EVENTS_PORT");
 }
 
-TEST_F(InverseTest, AMillionForcesAndNonePassesTheLimit) {
+TEST_F(InverseTest, OfManyRandomForcesNonePassesTheLimit) {
   Inverse wire(here());
   ASSERT_TRUE(wire.connect().ok());
   const unsigned seed = std::random_device{}();
   test::WildForces forces(seed);
-  test::push_wildly(wire, test::kForcesOnAWire, forces);
+  test::push_wildly(wire, test::forces_on_a_wire(), forces);
   const double largest = service_.with([](Commands& w) { return w.arms[0].largest; });
   EXPECT_GT(largest, 7.9) << "seed " << seed;
   EXPECT_LE(largest, 8 + 1e-4) << "seed " << seed;

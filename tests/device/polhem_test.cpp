@@ -267,12 +267,12 @@ TEST_F(PolhemTest, PiecesAndNonsenseAreBorneALotOfItIsNot) {
   }));
 }
 
-TEST_F(PolhemTest, AMillionForcesAndNonePassesTheLimit) {
+TEST_F(PolhemTest, OfManyRandomForcesNonePassesTheLimit) {
   Polhem wire(here());
   ASSERT_TRUE(wire.connect().ok());
   const unsigned seed = std::random_device{}();
   test::WildForces forces(seed);
-  test::push_wildly(wire, test::kForcesOnAWire, forces);
+  test::push_wildly(wire, test::forces_on_a_wire(), forces);
   const double largest = arm_.with([](Commands& w) { return w.largest; });
   EXPECT_GT(largest, 4.9) << "seed " << seed;
   EXPECT_LE(largest, 5 + 1e-3) << "rounded to millinewtons; seed " << seed;

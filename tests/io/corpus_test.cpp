@@ -304,6 +304,9 @@ TEST_F(CorpusAgainst, ASecondReaderSeesTheSame) {
     }
   }
   EXPECT_GT(loaded.size(), 150U);
+#if defined(BURR_SANITIZED)
+  return;  // that it is read without a fault is all that this build adds
+#endif
   for (const char* program : {"teem-unu --version", "nifti_tool -ver", "gdcminfo --version",
                               "dcm2niix -h", "python3 --version"})
     if (output_of(program).find("not found") != std::string::npos)

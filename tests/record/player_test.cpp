@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "burr/record/bone_blob.h"
@@ -116,6 +117,15 @@ TEST(Player, NeverShowsABoneThatDamageMadeWrong) {
     if (chunk.index_offsets.contains(changes)) offsets.push_back(chunk.offset + chunk.length / 2);
   ASSERT_GE(offsets.size(), 4U);
 
+  std::map<std::uint64_t, std::uint64_t> right;  // the hash of the bone after a tick
+  const auto right_hash = [&](std::uint64_t tick) {
+    const auto [at, is_new] = right.try_emplace(tick);
+    if (is_new) {
+      Random same = seeded(seed);
+      at->second = hash_after(truth, tick, *any_bone(same, 500));
+    }
+    return at->second;
+  };
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     auto bytes = bytes_of_file(folder / "s.mcap");
     bytes[offsets[i]] ^= 0x10;
@@ -124,9 +134,8 @@ TEST(Player, NeverShowsABoneThatDamageMadeWrong) {
     ASSERT_TRUE(player.ok()) << player.error().text;
     int shown_right = 0, refused = 0;
     for (std::uint64_t tick = 0; tick < 15'500; tick += 1500) {
-      Random same = seeded(seed), same_again = seeded(seed);
+      Random same = seeded(seed);
       const auto shown = any_bone(same, 500);
-      const auto want = any_bone(same_again, 500);
       auto fresh = Player::open(folder / "damaged.mcap");
       const Status done = (*fresh)->bone_at(static_cast<double>(tick) / 500, *shown);
       if (!done.ok()) {
@@ -141,7 +150,7 @@ TEST(Player, NeverShowsABoneThatDamageMadeWrong) {
       if (end < 15'500) {
         EXPECT_FALSE((*fresh)->notices().empty());
       }
-      EXPECT_EQ(shown->content_hash(), hash_after(truth, std::min(tick, end - 1), *want)) << tick;
+      EXPECT_EQ(shown->content_hash(), right_hash(std::min(tick, end - 1))) << tick;
     }
     EXPECT_GT(shown_right, 0);
     if (i + 1 < offsets.size()) {
