@@ -3,6 +3,8 @@
 // `requires` is not applied here. Thread: one at a time.
 #pragma once
 
+#include <atomic>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "burr/metrics/measured.h"
 #include "burr/metrics/process.h"
 #include "burr/record/player.h"
+#include "burr/rt/thread.h"
 #include "burr/scenario/lesson.h"
 #include "burr/scoring/outcome.h"
 #include "burr/scoring/rubric.h"
@@ -33,10 +36,30 @@ namespace burr::scoring {
                                                     const scenario::Lesson& lesson);
 // An item that the two bones decide.
 [[nodiscard]] Outcome measure_bone(const Item& item, Scene& scene);
-// Those that the recording decides, in the order of the rubric; `shown` gets the way of the burr.
-// Error: interrupted.
-[[nodiscard]] Result<std::vector<Outcome>> measure_recording(const Rubric& rubric, Scene& scene,
-                                                             record::Player& player, Shown& shown,
-                                                             Progress& progress);
+
+// The pass over the ticks of a recording, on a thread of its own: meanwhile the caller measures the bone. The scene is used by
+// the constructor only, and it says when that was stopped.
+class RecordingPass {
+ public:
+  // The player is kept by reference, and is the pass's alone from start() to finish(). So are, as long as the pass lives, the
+  // voxels of structures that the scene has.
+  RecordingPass(const Rubric& rubric, Scene& scene, record::Player& player);
+  // progress: kept until finish(), which alone reports to it; cancelled() is called from the other thread.
+  void start(Progress& progress);
+  [[nodiscard]] Result<metrics::Process> finish(Progress& progress);  // error: as of metrics::process_of()
+
+ private:
+  record::Player& player_;
+  std::vector<std::shared_ptr<const volume::DistanceTo>> kept_;  // of settings_
+  metrics::ProcessSettings settings_;
+  std::atomic<double> fraction_ = 0;
+  std::atomic<bool> ended_ = false;
+  Result<metrics::Process> process_ = error("not measured yet");
+  std::optional<rt::Thread> thread_;  // last: joins before the rest goes
+};
+// The items that the recording decides, in the order of the rubric; `shown` gets the way of the burr.
+[[nodiscard]] std::vector<Outcome> measure_recording(const Rubric& rubric, Scene& scene,
+                                                     const record::Player& player,
+                                                     metrics::Process process, Shown& shown);
 
 }  // namespace burr::scoring

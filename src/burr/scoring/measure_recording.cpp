@@ -1,12 +1,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include "burr/base/printable.h"
@@ -114,59 +116,80 @@ Outcome order(const Item& item, const scenario::Lesson& lesson, const record::Pl
                  false);
 }
 
-Result<metrics::Process> process_of(const Rubric& rubric, Scene& scene, record::Player& player,
-                                    Progress& progress) {
-  std::vector<std::shared_ptr<const volume::DistanceTo>> kept;  // until the pass is over
+}  // namespace
+
+RecordingPass::RecordingPass(const Rubric& rubric, Scene& scene, record::Player& player)
+    : player_(player) {
   const auto distance = [&](const std::string& structure) {
-    return kept.emplace_back(scene.distance(structure)).get();
+    return kept_.emplace_back(scene.distance(structure)).get();
   };
-  metrics::ProcessSettings settings;
-  settings.choice.near = kNear;
-  settings.choice.small = kSmallBurr;
+  settings_.choice.near = kNear;
+  settings_.choice.small = kSmallBurr;
   for (const std::string& name : critical(scene.lesson()))
-    if (!scene.tissues(name).empty()) settings.critical.push_back({name, distance(name)});
+    if (!scene.tissues(name).empty()) settings_.critical.push_back({name, distance(name)});
   for (const Item& item : rubric.items)
     if (item.how->name == kSoft && !scene.tissues(item.structure).empty())
-      settings.soft.push_back({item.id,
-                               &scene.voxels(item.structure),
-                               distance(item.structure),
-                               scene.worked(),
-                               {.p2 = item.limit("deep_mm")}});
+      settings_.soft.push_back({item.id,
+                                &scene.voxels(item.structure),
+                                distance(item.structure),
+                                scene.worked(),
+                                {.p2 = item.limit("deep_mm")}});
   for (const Item& item : rubric.items)
     if (item.how->name == kSolid && !scene.tissues(item.structure).empty())
-      settings.solid.push_back({item.id, scene.tissues(item.structure),
-                                kept.emplace_back(scene.distance_to_solid()).get(),
-                                scene.before().grid().voxel});
-  if (scene.stopped()) return error(Trouble::interrupted, "stopped");
-  return metrics::process_of(player, settings, progress);
+      settings_.solid.push_back({item.id, scene.tissues(item.structure),
+                                 kept_.emplace_back(scene.distance_to_solid()).get(),
+                                 scene.before().grid().voxel});
 }
 
-}  // namespace
+void RecordingPass::start(Progress& progress) {
+  thread_.emplace(rt::ThreadRequest{.name = "score"}, [this, &progress] {
+    class Quiet final : public Progress {  // the caller's reports are about the bone meanwhile
+     public:
+      Quiet(const Progress& caller, std::atomic<double>& fraction)
+          : caller_(caller), fraction_(fraction) {}
+      void report(double fraction, std::string_view) override { fraction_ = fraction; }
+      [[nodiscard]] bool cancelled() const override { return caller_.cancelled(); }
+
+     private:
+      const Progress& caller_;
+      std::atomic<double>& fraction_;
+    } quiet(progress, fraction_);
+    process_ = metrics::process_of(player_, settings_, quiet);
+    ended_ = true;
+  });
+}
+
+Result<metrics::Process> RecordingPass::finish(Progress& progress) {
+  while (!ended_) {
+    progress.report(fraction_, "measuring what was done");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  thread_.reset();  // joins
+  return std::move(process_);
+}
 
 bool needs_recording(const Item& item) {
   return item.part == Part::process || item.how->name == kSoft || item.how->name == kSolid;
 }
 
-Result<std::vector<Outcome>> measure_recording(const Rubric& rubric, Scene& scene,
-                                               record::Player& player, Shown& shown,
-                                               Progress& progress) {
+std::vector<Outcome> measure_recording(const Rubric& rubric, Scene& scene,
+                                       const record::Player& player, metrics::Process process,
+                                       Shown& shown) {
   std::vector<Outcome> out;
-  auto process = process_of(rubric, scene, player, progress);
-  if (!process) return process.error();
   const double rate_hz = player.info().rate_hz;
   for (const Item& item : rubric.items) {
     if (!needs_recording(item)) continue;
     const std::string_view how = item.how->name;
-    auto manner = measure_manner(item, *process, scene.lesson());
+    auto manner = measure_manner(item, process, scene.lesson());
     out.push_back(manner                 ? *std::move(manner)
-                  : how == kSoft         ? soft(item, *process, rate_hz)
-                  : how == kSolid        ? untouched(item, *process, scene, rate_hz)
+                  : how == kSoft         ? soft(item, process, rate_hz)
+                  : how == kSolid        ? untouched(item, process, scene, rate_hz)
                   : how == kOrder        ? order(item, scene.lesson(), player)
-                  : how == "burr_choice" ? burr_choice(item, *process)
-                                         : restraint(item, *process, rate_hz));
+                  : how == "burr_choice" ? burr_choice(item, process)
+                                         : restraint(item, process, rate_hz));
   }
-  shown.track = std::move(process->track);
-  shown.nearness = std::move(process->nearness);
+  shown.track = std::move(process.track);
+  shown.nearness = std::move(process.nearness);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "burr/scoring/score.h"
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "burr/metrics/solidity.h"
@@ -30,20 +31,26 @@ Result<Score> score(const Rubric& rubric, const scenario::Lesson& lesson,
     return error("the bone before and the bone after are not the same bone: their grids differ");
   Scene scene(before, after, lesson, progress);
   Score out;
-  std::vector<Outcome> recorded;
+  std::optional<RecordingPass> pass;
   if (player != nullptr) {
-    auto measured = measure_recording(rubric, scene, *player, out.shown, progress);
-    if (!measured) return measured.error();
-    recorded = std::move(*measured);
+    pass.emplace(rubric, scene, *player);
+    if (scene.stopped()) return error(Trouble::interrupted, "stopped");
+    pass->start(progress);
   }
-  std::size_t next = 0;
   for (std::size_t n = 0; n < rubric.items.size(); ++n) {
     const Item& item = rubric.items[n];
     progress.report(static_cast<double>(n) / static_cast<double>(rubric.items.size()),
                     "measuring the bone");
     if (progress.cancelled() || scene.stopped()) return error(Trouble::interrupted, "stopped");
-    out.outcomes.push_back(player != nullptr && needs_recording(item) ? std::move(recorded[next++])
-                                                                      : measure_bone(item, scene));
+    out.outcomes.push_back(pass && needs_recording(item) ? Outcome() : measure_bone(item, scene));
+  }
+  if (pass) {
+    auto process = pass->finish(progress);
+    if (!process) return process.error();
+    auto recorded = measure_recording(rubric, scene, *player, *std::move(process), out.shown);
+    std::size_t next = 0;
+    for (std::size_t n = 0; n < rubric.items.size(); ++n)
+      if (needs_recording(rubric.items[n])) out.outcomes[n] = std::move(recorded[next++]);
   }
   apply_requires(rubric, out.outcomes);
   out.product = total_of(rubric, out.outcomes, Part::product);
