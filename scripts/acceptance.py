@@ -18,7 +18,9 @@ of the sessions, not by the surgeons; who is ready looks on.
 
 With --vices all numbers are the expert's but one, in five steps; the items named beforehand for that vice (VICES below)
 must fall in what they earn (Jonckheere-Terpstra, one-sided, p < 0.01) and all others stay within 0.1. Exit code 1 if
-something misses its bar, 2 if a run fails. Needs only Python. A run that is already in OUT is not repeated.
+something misses its bar, 2 if a run fails. Needs only Python. A run that is already in OUT is not repeated, so a broken-off
+night goes on where it was. --keep leaves the recordings there, --rescore scores them again, and --only-existing makes the table
+of the seeds that are there.
 """
 import argparse
 import concurrent.futures
@@ -50,7 +52,8 @@ VICES = {
     "temporal-bone": {
         "perception_mm": ["labyrinth.intact", "sinus.intact", "dura.intact", "facial.intact", "tegmen.no-holes", "facial.not-bare",
                           "chorda.intact"],
-        "unfinished": ["sinus.no-cells", "tegmen.no-cells", "sinus.identified", "facial.mastoid-identified", "recess.complete"],
+        "unfinished": ["sinus.no-cells", "tegmen.no-cells", "sinus.identified", "facial.mastoid-identified", "recess.complete",
+                       "canal-wall.no-cells", "tip.no-cells"],
         "stop_s": ["sinus.skeletonised", "tegmen.no-holes"],
         "drift_mm": ["sinus.skeletonised", "tegmen.no-holes"],
         "restraint": ["force.restraint"],
@@ -65,7 +68,8 @@ VICES = {
         "tremor_mm": [],
     },
     "spine": {
-        "perception_mm": ["corridor.entry", "corridor.end", "corridor.angle", "corridor.cleared", "corridor.one-way"],
+        "perception_mm": ["corridor.entry", "corridor.end", "corridor.angle-axial", "corridor.angle-sagittal", "corridor.in-bone",
+                          "corridor.cleared", "corridor.one-way"],
         "unfinished": ["corridor.depth", "corridor.cleared"],
         "drift_mm": ["corridor.width", "corridor.one-way"],
         "tremor_mm": [],
@@ -80,7 +84,7 @@ VICES = {
     "block": {
         "perception_mm": ["groove.cleared", "groove.kept-narrow", "groove.depth", "groove.outline"],
         "unfinished": ["groove.cleared"],
-        "drift_mm": ["groove.kept-narrow", "groove.outline"],
+        "drift_mm": ["groove.kept-narrow", "groove.outline", "groove.floor"],
         "stroke_mm": ["strokes.long"],
         "tremor_mm": [],
     },
