@@ -16,9 +16,10 @@ constexpr double kCell = 2e-3;                           // over which the goal 
 constexpr double kMost = 3e-3;                           // a goal above it counts as this [m]
 constexpr double kFarTool = 6e-3, kMiddleTool = 3.5e-3;  // borders of BurrPolicy [m]
 constexpr double kSmaller = 0.8;                         // the next burr if one does not fit
-constexpr double kWorth = 0.1;      // a burr that reaches less of the plan is too wide [-]
-constexpr double kTight = 0.02e-3;  // a burr fits if this much more goal would do [m]
-constexpr double kInside = 0.1e-3;  // of the burr: bone there is cut [m]
+constexpr double kLeastOfStep = 0.4;  // a smaller share of the step's smallest burr is not taken
+constexpr double kWorth = 0.1;        // a burr that reaches less of the plan is too wide [-]
+constexpr double kTight = 0.02e-3;    // a burr fits if this much more goal would do [m]
+constexpr double kInside = 0.1e-3;    // of the burr: bone there is cut [m]
 // A stroke goes on where the plan is too narrow by less than this, and the hand lifts there: the
 // plan is known on a grid and curves, and a stroke is straight [m].
 constexpr double kSlack = 0.1e-3;
@@ -156,7 +157,7 @@ HeldBurr StepWork::burr_for(double near) const {
   if (policy.heeds_step && step_.diameter) {
     // smaller than the step says only where that does not fit
     diameter = std::clamp(diameter, step_.diameter->first, step_.diameter->second);
-    smallest = std::min(smallest, step_.diameter->first);
+    smallest = std::clamp(smallest, kLeastOfStep * step_.diameter->first, step_.diameter->first);
   }
   diameter = std::max(diameter * fit_, std::min(smallest, diameter));
   diameter =
