@@ -160,6 +160,23 @@ TEST(StepWork, ABurrThatIsTooWideForThePlanIsChanged) {
   EXPECT_LE(next->burr.radius, 1 * kMm);
 }
 
+// Nobody strokes for a minute with a burr that removes nothing.
+TEST(StepWork, ABurrThatRemovesNothingIsChangedSoon) {
+  Skill skill;
+  GrooveWork on(7 * kMm, 3 * kMm, skill, 3 * kMm);
+  people::RandomStream random(1, 3);
+  std::optional<double> first;
+  double last = 0;
+  for (int n = 0; n < 20; ++n) {
+    const auto next = on.work.next(*on.bone, Vec3(0, 0, 20 * kMm), {1 * kMm}, random);
+    if (!next) continue;
+    if (!first) first = next->burr.radius;
+    last = next->burr.radius;
+  }
+  ASSERT_TRUE(first);
+  EXPECT_LT(last, *first);
+}
+
 // The step names burrs of 2 to 3 mm; the level's own for this place is 1.2 mm wide.
 TEST(StepWork, TheBurrIsThatOfTheStepWhereItFits) {
   Skill skill;
