@@ -18,7 +18,9 @@ of the sessions, not by the surgeons; who is ready looks on.
 
 With --vices all numbers are the expert's but one, in five steps; the items named beforehand for that vice (VICES below)
 must fall in what they earn (Jonckheere-Terpstra, one-sided, p < 0.01) and all others stay within 0.1. Exit code 1 if
-something misses its bar, 2 if a run fails. Needs only Python. A run that is already in OUT is not repeated.
+something misses its bar, 2 if a run fails. Needs only Python. A run that is already in OUT is not repeated, so a broken-off
+night goes on where it was. --keep leaves the recordings there, --rescore scores them again, and --only-existing makes the table
+of the seeds that are there.
 """
 import argparse
 import concurrent.futures
@@ -50,7 +52,8 @@ VICES = {
     "temporal-bone": {
         "perception_mm": ["labyrinth.intact", "sinus.intact", "dura.intact", "facial.intact", "tegmen.no-holes", "facial.not-bare",
                           "chorda.intact"],
-        "unfinished": ["sinus.no-cells", "tegmen.no-cells", "sinus.identified", "facial.mastoid-identified", "recess.complete"],
+        "unfinished": ["sinus.no-cells", "tegmen.no-cells", "sinus.identified", "facial.mastoid-identified", "recess.complete",
+                       "canal-wall.no-cells", "tip.no-cells"],
         "stop_s": ["sinus.skeletonised", "tegmen.no-holes"],
         "drift_mm": ["sinus.skeletonised", "tegmen.no-holes"],
         "restraint": ["force.restraint"],
@@ -65,7 +68,8 @@ VICES = {
         "tremor_mm": [],
     },
     "spine": {
-        "perception_mm": ["corridor.entry", "corridor.end", "corridor.angle", "corridor.cleared", "corridor.one-way"],
+        "perception_mm": ["corridor.entry", "corridor.end", "corridor.angle-axial", "corridor.angle-sagittal", "corridor.in-bone",
+                          "corridor.cleared", "corridor.one-way"],
         "unfinished": ["corridor.depth", "corridor.cleared"],
         "drift_mm": ["corridor.width", "corridor.one-way"],
         "tremor_mm": [],
@@ -80,7 +84,7 @@ VICES = {
     "block": {
         "perception_mm": ["groove.cleared", "groove.kept-narrow", "groove.depth", "groove.outline"],
         "unfinished": ["groove.cleared"],
-        "drift_mm": ["groove.kept-narrow", "groove.outline"],
+        "drift_mm": ["groove.kept-narrow", "groove.outline", "groove.floor"],
         "stroke_mm": ["strokes.long"],
         "tremor_mm": [],
     },
@@ -156,41 +160,64 @@ def worked_s(result):
     return max((step.get("to_s", result["surgeon"]["seconds"]) for step in steps), default=0.0)
 
 
-def run(options, name, level, seed, vice=None):
-    """One surgeon, one score; kept as OUT/runs/NAME.json."""
-    kept = options.out / "runs" / f"{name}.json"
-    if kept.exists():
-        return json.loads(kept.read_text())
-    recording = options.out / "runs" / f"{name}.mcap"
-    voxel = ["--voxel-mm", str(options.voxel_mm)] if options.voxel_mm else []
+def session(options, name, level, seed, vice):
+    """One surgeon's session: OUT/runs/NAME.mcap, and what the surgeon said as NAME.surgeon.json. Made once."""
+    recording, said = options.out / "runs" / f"{name}.mcap", options.out / "runs" / f"{name}.surgeon.json"
+    if recording.exists() and said.exists():
+        return json.loads(said.read_text())
     seconds = slot_s(options, seed)
     command = [options.burr, "surgeon", options.case, "--level", level, "--seed", str(seed), "--seconds", str(seconds),
-               "--least-seconds", str(seconds - 1), "--record", str(recording), "--embed", "--force", "--json", *voxel]
+               "--least-seconds", str(seconds - 1), "--record", str(recording), "--embed", "--force", "--json", *voxel(options)]
     if vice:
         command += ["--vice", f"{vice[0]}={vice[1]}"]
     begun = time.monotonic()
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         raise RuntimeError(f"{' '.join(command)}: {done.stderr.strip()}")
-    took = time.monotonic() - begun
+    out = last_json(done.stdout) | {"took_s": time.monotonic() - begun}
+    said.write_text(json.dumps(out))
+    return out
+
+
+def voxel(options):
+    return ["--voxel-mm", str(options.voxel_mm)] if options.voxel_mm else []
+
+
+def run(options, name, level, seed, vice=None):
+    """One surgeon, one score; kept as OUT/runs/NAME.json."""
+    kept, recording = options.out / "runs" / f"{name}.json", options.out / "runs" / f"{name}.mcap"
+    if kept.exists() and not (options.rescore and recording.exists()):
+        return json.loads(kept.read_text())
+    said = session(options, name, level, seed, vice)
+    begun = time.monotonic()
     rubric = ["--rubric", options.rubric] if options.rubric else []
-    scored = subprocess.run([options.burr, "score", str(recording), "--json", *rubric, *voxel], capture_output=True, text=True, check=False)
+    scored = subprocess.run([options.burr, "score", str(recording), "--json", *rubric, *voxel(options)], capture_output=True, text=True,
+                            check=False)
     if scored.returncode:
         raise RuntimeError(f"burr score {recording}: {scored.stderr.strip()}")
-    out = {"name": name, "level": level, "seed": seed, "vice": vice, "surgeon": last_json(done.stdout), "score": last_json(scored.stdout),
-           "took_s": took, "scored_s": time.monotonic() - begun - took}
-    if not options.keep:
-        recording.unlink(missing_ok=True)
+    out = {"name": name, "level": level, "seed": seed, "vice": vice, "surgeon": said, "score": last_json(scored.stdout),
+           "took_s": said["took_s"], "scored_s": time.monotonic() - begun}
     kept.write_text(json.dumps(out))
+    if not options.keep:
+        recording.unlink()
+        recording.with_suffix(".surgeon.json").unlink()
     return out
+
+
+def is_there(options, name):
+    return any((options.out / "runs" / f"{name}{end}").exists() for end in (".json", ".surgeon.json"))
 
 
 def run_all(options, jobs):
     (options.out / "runs").mkdir(parents=True, exist_ok=True)
+    if options.only_existing:
+        jobs = [job for job in jobs if is_there(options, job[0])]
     results = []
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         waiting = [pool.submit(run, options, *job) for job in jobs]
         for n, one in enumerate(concurrent.futures.as_completed(waiting), 1):
+            if one.exception():
+                pool.shutdown(wait=False, cancel_futures=True)  # those that run are finished
             result = one.result()
             results.append(result)
             print(f"{n} of {len(waiting)}: {result['name']}, {points(result):.0f} points, {result['took_s']:.0f} + {result['scored_s']:.0f} s",
@@ -334,6 +361,8 @@ def main():
     parser.add_argument("--blind", action="store_true", help="a blind robot beside the three levels")
     parser.add_argument("--only", nargs="*", help="with --vices: these")
     parser.add_argument("--keep", action="store_true", help="keep the recordings")
+    parser.add_argument("--rescore", action="store_true", help="score again what was recorded and kept in OUT/runs")
+    parser.add_argument("--only-existing", action="store_true", help="no new session: the table of those that are in OUT/runs")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("acceptance"))
     options = parser.parse_args()
     for vice in options.only or []:

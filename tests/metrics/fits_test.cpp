@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "burr/metrics/axis_fit.h"
+#include "burr/metrics/breach.h"
 #include "burr/metrics/cavity_shape.h"
 #include "burr/metrics/line_and_plane.h"
 #include "burr/metrics/plane_fit.h"
@@ -233,6 +235,46 @@ TEST(AxisFit, AThinPartDoesNotCount) {
   const auto fit = axis_fit(*bones.before, *bones.after, {{0, 0, 0}, {0, 0, -1}}, {});
   ASSERT_FALSE(fit);
   EXPECT_NE(fit.reason().find("shorter than one and a half"), std::string::npos) << fit.reason();
+}
+
+// K8: a round pedicle of 5 mm radius along z, with a core of marrow. A screw of 6 mm on an axis that lies
+// s beside the pedicle's has 2 mm - s of bone; beyond s = 2 mm it sticks out. A pore in the wall does not count.
+TEST(Breach, IsTheScrewsRadiusLessTheNearestWall) {
+  for (const double h : test::kVoxels)
+    for (const double s : {0.0, 1.0, 3.5}) {
+      test::Plan plan;
+      plan.lo = {-7 * kMm, -7 * kMm, -6 * kMm};
+      plan.hi = {7 * kMm, 7 * kMm, 6 * kMm};
+      const phantom::Depth core = phantom::cylinder(2 * kMm, 20 * kMm);
+      const phantom::Depth pore = phantom::ball(0.3 * kMm, {0, 4 * kMm, 0});
+      plan.bone =
+          phantom::without(phantom::without(phantom::cylinder(5 * kMm, 20 * kMm), core), pore);
+      plan.labels = {{core, test::kMarrow}};
+      const auto bone = test::build(plan, plan.bone, h);
+      const std::array<volume::TissueId, 1> glass = {test::kMarrow};
+      const Vec3 beside = {s * kMm, 0, 0};
+      const Breach found =
+          breach(*bone, glass, beside - 4 * kMm * kUp, beside + 4 * kMm * kUp, 6 * kMm);
+      EXPECT_NEAR(found.out, (3 - (5 - s)) * kMm, 0.5 * h);
+      if (s > 0) {
+        EXPECT_GT(found.way.x(), 0.95);
+      }
+    }
+}
+
+// An axis that is tilted leaves the bone at one of its ends.
+TEST(Breach, IsThatOfTheWorstPlaceOnTheAxis) {
+  test::Plan plan;
+  plan.lo = {-7 * kMm, -7 * kMm, -6 * kMm};
+  plan.hi = {7 * kMm, 7 * kMm, 6 * kMm};
+  plan.bone = phantom::cylinder(5 * kMm, 20 * kMm);
+  const double h = 0.25 * kMm;
+  const auto bone = test::build(plan, plan.bone, h);
+  const Vec3 from = {0, 0, 4 * kMm}, to = {0, 2 * kMm, -4 * kMm};
+  const Breach found = breach(*bone, {}, from, to, 6 * kMm);
+  const double slant = std::cos(std::atan2(2, 8));  // square to the axis the wall is farther
+  EXPECT_NEAR(found.out, 3 * kMm - 3 * kMm / slant, 0.15 * kMm + 0.5 * h);
+  EXPECT_LT((found.at - to).norm(), h);
 }
 
 // K9: a cavity with a flat or wavy floor and four walls that lean by `taper`

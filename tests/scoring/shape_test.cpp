@@ -113,22 +113,49 @@ TEST_F(WrongShape, AGrooveThatIsTooWideAndDeepLosesDepthAndEdges) {
 
 TEST_F(WrongShape, AShortGrooveIsNotCleared) {
   open("block", 0.4);
-  cut([](Lesson& plan) { region_of(plan, "groove").add.front().b.at.x() = 8 * kMm; });
+  cut([](Lesson& plan) { region_of(plan, "groove").add.front().b.at.x() = 4 * kMm; });
   EXPECT_EQ(unmet(), (std::set<std::string>{"groove.cleared", "groove.outline"}));
 }
 
-// Turned about the entry by 8 degrees, outwards
-TEST_F(WrongShape, ACorridorInTheWrongDirectionLosesAngleAndEnd) {
+// The corridor turned about its entry by 8 degrees, in the plane of the axes a and b.
+void turn_corridor(Lesson& plan, int a, int b) {
+  std::vector<Vec3>& axis = region_of(plan, "corridor").add.front().points;
+  const Vec3 entry = axis.front(), whole = axis.back() - entry;
+  const double by = 8 * M_PI / 180;
+  Vec3 turned = whole;
+  turned[a] = whole[a] * std::cos(by) - whole[b] * std::sin(by);
+  turned[b] = whole[a] * std::sin(by) + whole[b] * std::cos(by);
+  axis.back() = entry + turned;
+}
+
+TEST_F(WrongShape, ACorridorTurnedOutwardsLosesTheAngleFromAboveAndTheEnd) {
+  open("spine", 0.4);
+  cut([](Lesson& plan) { turn_corridor(plan, 0, 1); });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"corridor.angle-axial", "corridor.end",
+                                            "corridor.cleared", "corridor.one-way"}));
+}
+
+TEST_F(WrongShape, ACorridorTurnedUpwardsLosesTheAngleFromTheSideAndTheEnd) {
+  open("spine", 0.4);
+  cut([](Lesson& plan) { turn_corridor(plan, 1, 2); });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"corridor.angle-sagittal", "corridor.end",
+                                            "corridor.cleared", "corridor.one-way"}));
+}
+
+TEST_F(WrongShape, ACorridorAtTheSideOfThePedicleLosesTheBoneRoundTheScrew) {
   open("spine", 0.4);
   cut([](Lesson& plan) {
-    std::vector<Vec3>& axis = region_of(plan, "corridor").add.front().points;
-    const Vec3 entry = axis.front(), whole = axis.back() - entry;
-    const double a = 8 * M_PI / 180;
-    axis.back() = entry + Vec3(whole.x() * std::cos(a) - whole.y() * std::sin(a),
-                               whole.x() * std::sin(a) + whole.y() * std::cos(a), whole.z());
+    for (Vec3& point : region_of(plan, "corridor").add.front().points) point.x() += 4 * kMm;
   });
-  EXPECT_EQ(unmet(), (std::set<std::string>{"corridor.angle", "corridor.end", "corridor.cleared",
-                                            "corridor.one-way"}));
+  EXPECT_EQ(unmet(), (std::set<std::string>{"corridor.entry", "corridor.end", "corridor.in-bone",
+                                            "corridor.cleared", "corridor.one-way"}));
+}
+
+// as wide as the screw and half as much again
+TEST_F(WrongShape, ACorridorThatIsTooWideLosesItsWidthAndTheBoneBeside) {
+  open("spine", 0.4);
+  cut([](Lesson& plan) { region_of(plan, "corridor").add.front().radius = 3.6 * kMm; });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"corridor.width", "corridor.one-way"}));
 }
 
 TEST_F(WrongShape, ABedThatIsTooDeepLosesItsDepthAndTheDistanceToTheNerve) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "burr/surgeon/step_work.h"
 #include "surgeon/surgeon_bone.h"
@@ -121,7 +122,8 @@ TEST(Goal, ACorridorThatReachesTheSurfaceHasStraightWalls) {
 
 // A surgeon's work where the plan is one groove along x, through the middle of the block's top. [m]
 struct GrooveWork {
-  GrooveWork(double half_length, double radius, const Skill& skill, double case_diameter)
+  GrooveWork(double half_length, double radius, const Skill& skill, double case_diameter,
+             std::optional<std::pair<double, double>> tool = {})
       : lesson([&] {
           scenario::Lesson made = block_lesson();
           scenario::Shape groove;
@@ -130,6 +132,7 @@ struct GrooveWork {
           groove.b.at = Vec3(half_length, 0, 0);
           groove.radius = radius;
           made.regions.front().add = {groove};
+          if (tool) made.steps.front().diameter = tool;
           return made;
         }()),
         seen(believed(*bone, lesson, 0, 1)),
@@ -155,6 +158,55 @@ TEST(StepWork, ABurrThatIsTooWideForThePlanIsChanged) {
     next = on.work.next(*on.bone, Vec3(0, 0, 20 * kMm), {1.2 * kMm}, random);
   ASSERT_TRUE(next);
   EXPECT_LE(next->burr.radius, 1 * kMm);
+}
+
+// Nobody strokes for a minute with a burr that removes nothing.
+TEST(StepWork, ABurrThatRemovesNothingIsChangedSoon) {
+  Skill skill;
+  GrooveWork on(7 * kMm, 3 * kMm, skill, 3 * kMm);
+  people::RandomStream random(1, 3);
+  std::optional<double> first;
+  double last = 0;
+  for (int n = 0; n < 20; ++n) {
+    const auto next = on.work.next(*on.bone, Vec3(0, 0, 20 * kMm), {1 * kMm}, random);
+    if (!next) continue;
+    if (!first) first = next->burr.radius;
+    last = next->burr.radius;
+  }
+  ASSERT_TRUE(first);
+  EXPECT_LT(last, *first);
+}
+
+// The step names burrs of 2 to 3 mm; the level's own for this place is 1.2 mm wide.
+TEST(StepWork, TheBurrIsThatOfTheStepWhereItFits) {
+  Skill skill;
+  skill.burrs.far = 0.4;
+  GrooveWork on(7 * kMm, 3 * kMm, skill, 3 * kMm, std::pair{2 * kMm, 3 * kMm});
+  people::RandomStream random(1, 3);
+  std::optional<NextStroke> next;
+  for (int n = 0; n < 20 && !next; ++n)
+    next = on.work.next(*on.bone, Vec3(0, 0, 20 * kMm), {1 * kMm}, random);
+  ASSERT_TRUE(next);
+  EXPECT_DOUBLE_EQ(next->burr.radius, 1 * kMm);
+}
+
+// Across a narrow groove there is no room for a stroke, so most strokes of a surgeon who follows nothing
+// run along it all the same.
+TEST(StepWork, ADirectionWithoutRoomIsTriedAgain) {
+  Skill skill;
+  skill.along = 0;
+  skill.burrs = {1, 1, 1, 1, 0, false};
+  GrooveWork on(7 * kMm, 2 * kMm, skill, 3.2 * kMm);
+  people::RandomStream random(1, 3);
+  int strokes = 0, along = 0;
+  for (int n = 0; n < 60; ++n) {
+    const auto next = on.work.next(*on.bone, Vec3(0, 0, 20 * kMm), {1 * kMm}, random);
+    if (!next) continue;
+    ++strokes;
+    if (std::abs(next->stroke.along.x()) > 0.8) ++along;
+  }
+  EXPECT_GT(strokes, 10);
+  EXPECT_GT(2 * along, strokes);  // of one try each: 41 %
 }
 
 TEST(StepWork, AGrooveIsCutAlong) {

@@ -115,6 +115,22 @@ std::vector<Measure> measures_of_shape() {
        .region = true,
        .on_curve = true,
        .limits = {{"most_deg", kDegree, 5, 0, 90}}},
+      {.name = "axis_tilt",
+       .part = kProduct,
+       .quantity = angle,
+       .region = true,
+       .on_curve = true,
+       .on_plane = true,
+       .limits = {{"most_deg", kDegree, 5, 0, 90}}},
+      {.name = "axis_breach",
+       .part = kProduct,
+       .quantity = length,
+       .region = true,
+       .on_curve = true,
+       .limits = {{"screw_mm", kMm, 6, 0, 20},
+                  {"most_mm", kMm, 2, -10, 20},
+                  {"from_share", 1, 0.3, 0, 1},
+                  {"to_share", 1, 1, 0, 1}}},
       {.name = "axis_depth",
        .part = kProduct,
        .quantity = length,
@@ -240,8 +256,8 @@ double unit_of(Quantity quantity) {
 }
 
 bool may_be_graded(const Measure& measure) {
-  const std::string_view name = measure.name;
-  return name != "skeletonised" && name != "no_cells";  // two numbers each
+  // two numbers with thresholds to two sides; those of "no_cells" are both shares that must be small
+  return std::string_view(measure.name) != "skeletonised";
 }
 
 std::span<const Measure> measures() {

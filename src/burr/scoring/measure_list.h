@@ -48,7 +48,7 @@ struct Measure {
   std::vector<Limit> limits = {};
 };
 
-// True: one number decides it, and it may be graded.
+// True: it may be graded, by the number that decides it.
 [[nodiscard]] bool may_be_graded(const Measure& measure);
 
 [[nodiscard]] std::span<const Measure> measures();

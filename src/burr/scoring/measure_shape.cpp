@@ -4,7 +4,9 @@
 #include <string_view>
 
 #include "burr/math/sums.h"
+#include "burr/metrics/breach.h"
 #include "burr/metrics/new_surface.h"
+#include "burr/metrics/same_math.h"
 #include "burr/scoring/measure.h"
 
 namespace burr::scoring {
@@ -66,6 +68,28 @@ Outcome axis(const Item& item, Scene& scene) {
     out = at_most(item, fit->angle, item.limit("most_deg"), 2 * fit->error / fit->depth,
                   "angle to the planned axis");
     out.place = fit->apex;
+  } else if (how == "axis_tilt") {
+    // both as they are seen along the plane's normal
+    const math::Vec3 normal = *scene.lesson().landmark(item.plane)->normal;
+    const auto seen = [&normal](const math::Vec3& w) {
+      return math::Vec3(w - math::dot(w, normal) * normal);
+    };
+    constexpr double kShortest = 0.2;  // of what is seen of an axis of length 1
+    if (math::norm(seen(inward)) < kShortest || math::norm(seen(fit->inward)) < kShortest)
+      return not_assessable(item, "the axis is nearly square to the plane");
+    out = at_most(item, metrics::angle_between(seen(fit->inward), seen(inward)),
+                  item.limit("most_deg"), 2 * fit->error / fit->depth,
+                  "angle to the planned axis, seen across the plane");
+    out.place = fit->apex;
+  } else if (how == "axis_breach") {
+    // the screw goes as far as planned, whether or not the corridor does
+    const double length = whole.norm();
+    const metrics::Breach worst = metrics::breach(
+        scene.before(), scene.glass(), fit->entry + item.limit("from_share") * length * fit->inward,
+        fit->entry + item.limit("to_share") * length * fit->inward, item.limit("screw_mm"));
+    out = at_most(item, worst.out, item.limit("most_mm"), 0.5 * h,
+                  worst.out > 0 ? "a screw would stick out by" : "bone beside a screw (below 0)");
+    out.place = worst.at;
   } else if (how == "axis_depth") {
     out = at_most(item, std::abs(fit->depth - whole.norm()), item.limit("off_mm"), 0.5 * h,
                   fit->depth > whole.norm() ? "too deep by" : "not deep enough by");

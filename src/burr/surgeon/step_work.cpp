@@ -16,20 +16,27 @@ constexpr double kCell = 2e-3;                           // over which the goal 
 constexpr double kMost = 3e-3;                           // a goal above it counts as this [m]
 constexpr double kFarTool = 6e-3, kMiddleTool = 3.5e-3;  // borders of BurrPolicy [m]
 constexpr double kSmaller = 0.8;                         // the next burr if one does not fit
-constexpr double kWorth = 0.1;      // a burr that reaches less of the plan is too wide [-]
-constexpr double kTight = 0.02e-3;  // a burr fits if this much more goal would do [m]
-constexpr double kInside = 0.1e-3;  // of the burr: bone there is cut [m]
-constexpr double kClear = 0.3e-3;   // above the bone before a stroke [m]
-constexpr double kAway = 60e-3;     // a way out is looked at this far [m]
-constexpr double kHop = 5e-3;       // shorter ways are made close over the bone [m]
-constexpr double kAbove = 5e-3;     // of the plan, for longer ways [m]
-constexpr double kReread = 15e-3;   // around the hand [m]
-constexpr double kTube = 8e-3;      // strokes follow a curve that lies this near [m]
-constexpr double kSameTool = 3;     // bonus [mm]
-constexpr double kLean = 1.5;       // of the shaft: a burr cuts with its side, not its pole [-]
-constexpr std::uint32_t kBan = 8;   // calls in which a node is left out after a try
+constexpr double kLeastOfStep = 0.4;  // a smaller share of the step's smallest burr is not taken
+constexpr double kWorth = 0.1;        // a burr that reaches less of the plan is too wide [-]
+constexpr double kTight = 0.02e-3;    // a burr fits if this much more goal would do [m]
+constexpr double kInside = 0.1e-3;    // of the burr: bone there is cut [m]
+// A stroke goes on where the plan is too narrow by less than this, and the hand lifts there: the
+// plan is known on a grid and curves, and a stroke is straight [m].
+constexpr double kSlack = 0.1e-3;
+constexpr double kClear = 0.3e-3;  // above the bone before a stroke [m]
+constexpr double kAway = 60e-3;    // a way out is looked at this far [m]
+constexpr int kDirections = 4;     // of a stroke that are tried
+constexpr double kShort = 2e-3;    // a shorter stroke is worth another try [m]
+constexpr double kHop = 5e-3;      // shorter ways are made close over the bone [m]
+constexpr double kAbove = 5e-3;    // of the plan, for longer ways [m]
+constexpr double kReread = 15e-3;  // around the hand [m]
+constexpr double kTube = 8e-3;     // strokes follow a curve that lies this near [m]
+constexpr double kSameTool = 3;    // bonus [mm]
+constexpr double kLean = 1.5;      // of the shaft: a burr cuts with its side, not its pole [-]
+constexpr std::uint32_t kBan = 8;  // calls in which a node is left out after a try
 constexpr int kTries = 40;
-constexpr std::uint32_t kPatience = 60;  // calls without progress before a smaller burr is taken
+constexpr std::uint32_t kPatience = 15;  // calls without progress before a smaller burr is taken
+constexpr std::uint32_t kMostWaits = 5;  // a ban doubles with every try, so many times
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 bool is_bone(const volume::Bone& bone, const Ijk& at) {
@@ -148,8 +155,9 @@ HeldBurr StepWork::burr_for(double near) const {
     diameter = case_diameter_ * policy.middle;
   }
   if (policy.heeds_step && step_.diameter) {
-    diameter = std::min(diameter, step_.diameter->second);
-    smallest = std::min(smallest, step_.diameter->first);
+    // smaller than the step says only where that does not fit
+    diameter = std::clamp(diameter, step_.diameter->first, step_.diameter->second);
+    smallest = std::clamp(smallest, kLeastOfStep * step_.diameter->first, step_.diameter->first);
   }
   diameter = std::max(diameter * fit_, std::min(smallest, diameter));
   diameter =
@@ -250,17 +258,25 @@ std::optional<NextStroke> StepWork::stroke_at(const volume::Bone& bone, const No
     Stroke& stroke = next.stroke;
     next.out = out;
     stroke.into = -from;
-    stroke.along = direction(q, stroke.into, random);
     const double length = skill_.stroke * std::exp(0.3 * random.normal());
-    double ahead = 0, behind = 0;
     constexpr double kPiece = 0.5e-3;
-    const auto fits = [&](double s) {
-      return allowed_.at(*deepest + s * stroke.along) >= radius - kTight;
+    const auto fits = [&](const Vec3& way, double s) {
+      return allowed_.at(*deepest + s * way) >= radius - kSlack;
     };
-    while (ahead < length && fits(ahead + kPiece)) ahead += kPiece;
-    while (behind < 0.5 * length && fits(-behind - kPiece) &&
-           in_air(bone, start - (behind + kPiece) * stroke.along))
-      behind += kPiece;
+    double ahead = 0, behind = 0;
+    // another direction is taken where the burr has no room for a stroke
+    for (int n = 0; n < kDirections && ahead + behind < std::min(kShort, length); ++n) {
+      const Vec3 way = direction(q, stroke.into, random);
+      double onwards = 0, back = 0;
+      while (onwards < length && fits(way, onwards + kPiece)) onwards += kPiece;
+      while (back < 0.5 * length && fits(way, -back - kPiece) &&
+             in_air(bone, start - (back + kPiece) * way))
+        back += kPiece;
+      if (n > 0 && onwards + back <= ahead + behind) continue;
+      stroke.along = way;
+      ahead = onwards;
+      behind = back;
+    }
     stroke.start = start - behind * stroke.along;
     stroke.length = std::max(kPiece, std::min(length, ahead + behind));
     stroke.shaft = (out + kLean * std::abs(out.dot(from)) * stroke.along).normalized();
@@ -315,10 +331,12 @@ std::optional<NextStroke> StepWork::next(const volume::Bone& bone, const Vec3& h
     for (int n = 0; !smaller && n < kTries; ++n) {
       const std::size_t found = best(hand, held, random);
       if (found == kNone) break;
-      nodes_[found].banned = calls_ + kBan;
+      Node& tried = nodes_[found];
+      tried.banned = calls_ + (kBan << std::min(tried.tries, kMostWaits));
+      ++tried.tries;
       auto next = stroke_at(bone, nodes_[found], hand, held, random);
       if (next) return next;
-      nodes_[found].banned = calls_ + 10 * kBan;
+      tried.banned = calls_ + 10 * kBan;
       if (n + 1 == kTries) return std::nullopt;  // others are tried in the next call
     }
     // no place for this burr: the next smaller one, until there is none
@@ -331,7 +349,7 @@ std::optional<NextStroke> StepWork::next(const volume::Bone& bone, const Vec3& h
       exhausted_ = true;
       return std::nullopt;
     }
-    for (Node& node : nodes_) node.banned = 0;
+    for (Node& node : nodes_) node.banned = node.tries = 0;
   }
 }
 

@@ -54,6 +54,8 @@ class StepWork {
 
   // Share of the plan that is still there; 0 for an empty plan.
   [[nodiscard]] double left() const;
+  // Nodes that are still there.
+  [[nodiscard]] std::size_t remaining() const { return left_; }
   // Looks at the bone again around the hand.
   void look(const volume::Bone& bone, const math::Vec3& hand);
   // True: no burr of this surgeon reaches what is left.
@@ -71,6 +73,7 @@ class StepWork {
     float goal, near;      // [m]
     std::uint32_t cell;    // of 2 mm
     std::uint32_t banned;  // until this call of next()
+    std::uint32_t tries;   // strokes that began here with this burr
     bool there, surface;
   };
   void look(const volume::Bone& bone, Node& node) const;

@@ -20,6 +20,9 @@ constexpr double kEyeSide = 0.6;            // tangent of the largest tilt of a 
 constexpr int kLooks = 12;                  // that are tried for a clear one
 constexpr double kSeenFar = 60e-3;          // bone beyond hides nothing [m]
 constexpr int kChange = 4;                  // consultations that a change of burr takes
+// A bout that has removed nothing of the plan for so long is given up.
+constexpr double kIdle = 1;              // [s]
+constexpr std::uint64_t kIdleLooks = 3;  // consultations
 
 bool works(const scenario::Step& step) { return !step.region.empty(); }
 
@@ -113,6 +116,10 @@ Consulted Surgeon::consult(const volume::Bone& bone) {
     out.eye = eye_;
   }
   work_->look(bone, working_->intended());
+  if (work_->remaining() != remaining_) {
+    remaining_ = work_->remaining();
+    changed_ = consultations_;
+  }
   if (pause_ > 0 && --pause_ > 0) return out;
   if (wanted_) {  // the burr is changed outside the bone
     if (!working_->waiting()) return out;
@@ -122,7 +129,8 @@ Consulted Surgeon::consult(const volume::Bone& bone) {
     pause_ = kChange;
     return out;
   }
-  if (!working_->free()) return out;
+  const bool idle = working_->stroked() > kIdle && consultations_ - changed_ > kIdleLooks;
+  if (!working_->free() && !idle) return out;
   if (work_->left() < skill_.unfinished) {
     end_step(out);
     return out;

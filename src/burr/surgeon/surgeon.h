@@ -97,7 +97,9 @@ class Surgeon {
   std::size_t step_ = 0;  // of the lesson
   std::optional<HeldBurr> wanted_;
   std::uint64_t consultations_ = 0, earliest_end_ = 0;
-  int pause_ = 0;  // consultations until the other burr turns
+  std::size_t remaining_ = 0;  // of the plan, when looked at last
+  std::uint64_t changed_ = 0;  // and the consultation in which it changed last
+  int pause_ = 0;              // consultations until the other burr turns
   math::Vec3 out_;
   Eye eye_;
 };

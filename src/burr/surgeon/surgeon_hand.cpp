@@ -20,6 +20,7 @@ constexpr double kFastestPress = 20e-3, kSlowestPress = 1e-3;  // [m/s]
 constexpr double kBrake = 0.2;     // it slows down this long before the goal ends [s]
 constexpr double kLift = 2e-3;     // [m/s]
 constexpr double kAhead = 0.5e-3;  // a stroke turns this far before the goal ends [m]
+constexpr double kSlack = 0.1e-3;  // by more than this; it lifts where less is missing [m]
 constexpr double kFarAway = 4e-3;  // beyond it the force is the whole one [m]
 constexpr double kTurning = 4.0;   // of the shaft [1/s]
 
@@ -122,7 +123,7 @@ void SurgeonHand::stroke(double dt) BURR_RT {
   const double pace = skill_.speed * std::max(0.0, 1 - against / std::max(wanted, 0.1));
   const Vec3 onwards = stroke_.along * (sense_ * pace * dt);
   const bool over = done_ + sense_ * pace * dt > stroke_.length || done_ + sense_ * pace * dt < 0;
-  const bool leaves = here >= 0 && room(burr + stroke_.along * (sense_ * kAhead)) < 0;
+  const bool leaves = here >= 0 && room(burr + stroke_.along * (sense_ * kAhead)) < -kSlack;
   if (over || leaves) {
     sense_ = -sense_;
     return;

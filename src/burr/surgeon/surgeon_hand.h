@@ -49,6 +49,8 @@ class SurgeonHand final : public device::Device {
   void finish() { finished_ = true; }
   // True: it waits, or has gone to and fro for kBout.
   [[nodiscard]] bool free() const { return phase_ == Phase::waiting || stroked_ > kBout; }
+  // Time since this bout met the bone [s].
+  [[nodiscard]] double stroked() const { return phase_ == Phase::stroking ? stroked_ : 0; }
   [[nodiscard]] bool waiting() const { return phase_ == Phase::waiting; }
   [[nodiscard]] const math::Vec3& intended() const { return at_; }
 
