@@ -34,7 +34,7 @@ enum Id : TissueId {
 constexpr double kCanalRadius = 1.5 * kMm, kNerveRadius = 1.1 * kMm, kWall = 0.7 * kMm;
 
 // Of the long jaw. The osteotomy in front of the mental foramen is a slab of kKerf that leans 8
-// degrees, its top towards the nerve; its back face is 5 mm in front of where the nerve leaves the bone.
+// degrees, its top towards the nerve.
 constexpr double kFront = -39 * kMm, kBack = 22 * kMm;       // ends of the piece, along y
 constexpr double kMouthNear = 1 * kMm, kMouthFar = 4 * kMm;  // its floor, from the bone
 constexpr double kKerf = 3 * kMm;
@@ -97,7 +97,7 @@ class Jaw {
     const double keep = std::min({inside, s.nerve - kCanalRadius - kWall, -s.tooth - 0.5 * mm});
     if (long_)
       s.mouth = std::min({-kMouthNear - s.hull, s.hull + kMouthFar, -24 * mm - p.y(),
-                          p.y() - kFront, inner_side(p)});
+                          p.y() - kFront, inner_side(p), -17.5 * mm - p.z(), p.z() + 27 * mm});
     s.marrow = keep > -1.5 * mm ? std::min(keep, foam(p, 2.3 * mm, 0.35, 23) - 0.22 * mm) : keep;
     return s;
   }
