@@ -139,6 +139,77 @@ TEST(Landmarks, AHighNerveLiesHigherAndItsLandmarkWithIt) {
     EXPECT_LT((b[n] - a[n] - Vec3(0, 0, 2.5e-3)).norm(), 1e-9);
 }
 
+TEST(Landmarks, AForwardSinusAndALowDuraMoveWithTheirLandmarks) {
+  NoProgress nobody;
+  const auto usual = phantom("temporal-bone", 0.6, nobody, 0);
+  const auto sinus = phantom("temporal-bone?forward-sinus", 0.6, nobody, 0);
+  const auto dura = phantom("temporal-bone?low-dura", 0.6, nobody, 0);
+  ASSERT_TRUE(usual && sinus && dura);
+  // the descending part, at one height
+  const Vec3 lo(4, 5, -8), hi(24, 35, 2);
+  EXPECT_NEAR(middle_of(**sinus, "sigmoid sinus", lo, hi).y() -
+                  middle_of(**usual, "sigmoid sinus", lo, hi).y(),
+              -4, 0.4);
+  const auto of_usual = landmarks("temporal-bone");
+  const auto of_sinus = landmarks("temporal-bone?forward-sinus");
+  const auto& a = landmark(of_usual, "mastoid sinus").points;
+  const auto& b = landmark(of_sinus, "mastoid sinus").points;
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_NEAR(b[a.size() / 2].y() - a[a.size() / 2].y(), -4e-3, 0.3e-3);
+  // the plate over the mastoid, behind the antrum
+  const Vec3 from(8, 11, 0), to(14, 17, 20);
+  EXPECT_NEAR(middle_of(**dura, "bony dura plate (tegmen)", from, to).z() -
+                  middle_of(**usual, "bony dura plate (tegmen)", from, to).z(),
+              -4, 0.6);
+  const auto of_dura = landmarks("temporal-bone?low-dura");
+  EXPECT_NEAR(
+      landmark(of_dura, "tegmen").points[0].z() - landmark(of_usual, "tegmen").points[0].z(),
+      -3.9e-3, 0.2e-3);
+}
+
+// At the tympanic part of the nerve no bone is left over 3 mm, and none is missing elsewhere.
+TEST(Landmarks, ADehiscentCanalIsBareWhereItsLandmarkSays) {
+  const auto at = landmark(landmarks("temporal-bone?dehiscent"), "dehiscence of the facial canal");
+  const Phantom usual = temporal_bone(0.25e-3),
+                bare = temporal_bone(0.25e-3, Variant({"dehiscent"}));
+  int opened = 0, elsewhere = 0;
+  for (double x = -6; x <= 6; x += 0.25)
+    for (double y = -6; y <= 6; y += 0.25)
+      for (double z = -6; z <= 6; z += 0.25) {
+        const Vec3 p = at.points[0] + 1e-3 * Vec3(x, y, z);
+        if (usual.formula.depth(p) <= 0 || bare.formula.depth(p) > 0) continue;
+        (1e-3 * Vec3(x, y, z).norm() <= 2.5e-3 ? opened : elsewhere) += 1;
+      }
+  EXPECT_GT(opened, 20);
+  EXPECT_EQ(elsewhere, 0);
+}
+
+TEST(Landmarks, ASclerosisHasNoCellsAndAThinPedicleIsThinner) {
+  NoProgress nobody;
+  const auto bone = phantom("temporal-bone?sclerotic", 0.6, nobody, 0);
+  ASSERT_TRUE(bone);
+  const auto& tissues = (*bone)->tissues().tissues;
+  for (int k = 0; k < (*bone)->grid().size.z(); ++k)
+    for (int j = 0; j < (*bone)->grid().size.y(); ++j)
+      for (int i = 0; i < (*bone)->grid().size.x(); ++i)
+        ASSERT_NE(tissues[(*bone)->tissue(i, j, k)].name, "mastoid air cells");
+  // half-way along the left pedicle, across
+  const auto width = [](const Phantom& made) {
+    const std::vector<Vec3>& axis = landmark(made.landmarks, "left pedicle").points;
+    const Vec3 middle = 0.5 * (axis[0] + axis[1]);
+    const Vec3 across = Vec3::UnitX();
+    double left = 0, right = 0;
+    // spongy inside: the outermost bone counts
+    for (double d = 0; d < 8e-3; d += 0.05e-3) {
+      if (made.formula.depth(middle + d * across) > 0) left = d;
+      if (made.formula.depth(middle - d * across) > 0) right = d;
+    }
+    return left + right;
+  };
+  const double thin = width(spine(0.4e-3, Variant({"thin-pedicle"}))), usual = width(spine(0.4e-3));
+  EXPECT_NEAR(1e3 * (usual - thin), 2.4, 0.8);
+}
+
 // The lowest caries in the middle of the tooth [mm]
 double floor_of_caries(const std::string& name, const std::string& tissue) {
   NoProgress nobody;

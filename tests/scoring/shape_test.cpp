@@ -253,9 +253,16 @@ TEST_F(WrongShape, WhoClearsCariesDownToThePulpLosesItsRoof) {
   EXPECT_EQ(unmet(), (std::set<std::string>{"roof.kept", "pulp.covered"}));
 }
 
-TEST_F(WrongShape, WhoLeavesCariesAtTheSidesLosesBothItemsAboutIt) {
+TEST_F(WrongShape, WhoLeavesCariesAtOneSideLosesBothItemsAboutIt) {
   open("tooth", 0.1);
-  cut([](Lesson& plan) { region_of(plan, "deep caries").add.front().radius = 1.1 * kMm; });
+  cut([](Lesson& plan) {
+    scenario::Shape side;
+    side.kind = scenario::ShapeKind::half_space;
+    side.a.at = Vec3(-0.5, 0, 0) * kMm;
+    side.normal = -Vec3::UnitX();
+    region_of(plan, "deep caries").take.push_back(side);
+    region_of(plan, "way in").add.front().b.at.z() += 1 * kMm;  // which would take it away too
+  });
   EXPECT_EQ(unmet(), (std::set<std::string>{"caries.soft", "caries.firm"}));
 }
 

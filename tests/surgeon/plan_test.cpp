@@ -103,6 +103,28 @@ TEST(Believed, ALargeErrorOfPerceptionMissesWhatIsToBeSpared) {
   EXPECT_GE(who_miss_the_vein(4 * kMm), 15);
 }
 
+// A step may be done from another side than the rest of the case.
+TEST(Goal, GoesInFromWhereTheStepSays) {
+  const auto bone = block_with_vein(0.25);
+  scenario::Lesson lesson = block_lesson();
+  scenario::Step step;
+  EXPECT_EQ(approach_of(lesson, step), approach_of(lesson));
+  step.approach = {Vec3::UnitX()};
+  EXPECT_EQ(approach_of(lesson, step), step.approach);
+  scenario::Shape& box = lesson.regions.front().add.front();
+  box.a.at = Vec3(0, 1, -4) * kMm;
+  box.size = Vec3(2, 2, 1) * kMm;
+  const Believed seen = believed(*bone, lesson, 0, 1);
+  const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
+  const Vec3 above = Vec3(0, 1, -2) * kMm, beside = Vec3(3, 1, -4) * kMm;
+  const FieldGrid down = goal_of(lesson.regions.front(), approach_of(lesson), seen, spare);
+  EXPECT_GT(down.at(above), 0);
+  EXPECT_LT(down.at(beside), 0);
+  const FieldGrid across = goal_of(lesson.regions.front(), approach_of(lesson, step), seen, spare);
+  EXPECT_LT(across.at(above), 0);
+  EXPECT_GT(across.at(beside), 0);
+}
+
 TEST(Goal, ACorridorThatReachesTheSurfaceHasStraightWalls) {
   const auto bone = block_with_vein(0.25);
   scenario::Lesson lesson = block_lesson();
