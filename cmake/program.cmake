@@ -68,11 +68,12 @@ endif()
 # (src/burr/workshop/prebuilt_phantom.h). Not in sanitizer builds, where this takes minutes; there
 # the program uses the formula.
 if(BURR_APP AND NOT BURR_SANITIZE AND NOT BURR_WARNINGS_ONLY)
-  foreach(phantom temporal-bone jaw tooth spine)
-    set(bone ${CMAKE_BINARY_DIR}/bones/${phantom}.bone)
+  foreach(phantom temporal-bone jaw jaw?long tooth tooth?graded spine)
+    string(REPLACE "?" "-" file ${phantom})
+    set(bone ${CMAKE_BINARY_DIR}/bones/${file}.bone)
     add_custom_command(OUTPUT ${bone}
       COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_BINARY_DIR}/bones
-      COMMAND burr_program phantom ${phantom} --out ${bone} > ${CMAKE_BINARY_DIR}/bones/${phantom}.txt 2>&1
+      COMMAND burr_program phantom ${phantom} --out ${bone} > ${CMAKE_BINARY_DIR}/bones/${file}.txt 2>&1
       DEPENDS ${BURR_PHANTOMS} COMMENT "Shaping ${phantom}" VERBATIM)
     list(APPEND BURR_BONES ${bone})
   endforeach()

@@ -62,9 +62,10 @@ VICES = {
         "tremor_mm": [],
     },
     "jaw": {
-        "perception_mm": ["bed.entry", "bed.end", "bed.angle", "bed.cleared", "bed.one-way"],
-        "unfinished": ["bed.depth", "bed.cleared"],
-        "drift_mm": ["bed.width", "bed.one-way"],
+        "perception_mm": ["cut.place", "bed.entry", "bed.end", "bed.angle", "bed.cleared", "bed.one-way"],
+        "unfinished": ["cut.cleared", "bed.depth", "bed.cleared"],
+        "stop_s": ["mouth.intact"],
+        "drift_mm": ["cut.even-behind", "cut.even-front", "bed.width", "bed.one-way"],
         "tremor_mm": [],
     },
     "spine": {
@@ -75,9 +76,10 @@ VICES = {
         "tremor_mm": [],
     },
     "tooth": {
-        "perception_mm": ["caries.side", "dentine.spared", "pulp.intact", "pulp.covered", "outline.kept"],
-        "unfinished": ["caries.side"],
-        "drift_mm": ["outline.kept", "dentine.spared"],
+        "perception_mm": ["caries.soft", "caries.firm", "dentine.spared", "pulp.intact", "pulp.covered", "outline.kept", "pit.cleared",
+                          "pit.outline", "pit.depth"],
+        "unfinished": ["caries.firm", "pit.cleared"],
+        "drift_mm": ["outline.kept", "pit.outline", "pit.floor", "dentine.spared"],
         "restraint": ["force.restraint"],
         "tremor_mm": [],
     },

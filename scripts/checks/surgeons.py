@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Scripted surgeons on the built-in jaw: the careless one does worse than the expert, a recording replays to the bit, and the same seed
+"""Scripted surgeons on the plain jaw: the careless one does worse than the expert, a recording replays to the bit, and the same seed
 gives the same score to the byte.
 
     scripts/checks/surgeons.py BURR FOLDER      FOLDER: for the recordings; made if it is not there
@@ -10,6 +10,7 @@ import subprocess
 import sys
 
 SEEDS = (1, 2)
+CASE = pathlib.Path(__file__).resolve().parents[2] / "tests" / "surgeon" / "implant_bed.toml"
 RUBRIC = pathlib.Path(__file__).resolve().parents[2] / "tests" / "surgeon" / "jaw_rubric.toml"
 
 
@@ -23,7 +24,7 @@ def run(*command):
 def session(burr, folder, level, seed, name=""):
     """The surgeon's account, its score as text, and the recording."""
     file = folder / f"{level}-{seed}{name}.mcap"
-    account = json.loads(run(burr, "surgeon", "jaw", "--level", level, "--seed", seed, "--seconds", 600, "--record", file, "--force", "--json")
+    account = json.loads(run(burr, "surgeon", CASE, "--level", level, "--seed", seed, "--seconds", 600, "--record", file, "--force", "--json")
                          .splitlines()[-1])
     return account, run(burr, "score", file, "--rubric", RUBRIC, "--json").splitlines()[-1], file
 

@@ -15,6 +15,7 @@
 #include "burr/metrics/axis_fit.h"
 #include "burr/metrics/breach.h"
 #include "burr/metrics/cavity_shape.h"
+#include "burr/metrics/divided.h"
 #include "burr/metrics/line_and_plane.h"
 #include "burr/metrics/plane_fit.h"
 #include "burr/metrics/same_math.h"
@@ -75,6 +76,40 @@ test::Cut slot_of(const Slot& slot, double h) {
   };
   plan.lipschitz = 1 + slot.wave * 2 * std::numbers::pi / (3 * kMm);
   return test::cut(plan, cavity, h);
+}
+
+// A slot through a box, with a bridge of bone left in it: `bridge` wide across, all the way along y.
+test::Cut divided_box(double bridge, double above, double h) {
+  test::Plan plan;
+  plan.bone = phantom::box({7 * kMm, 7 * kMm, 7 * kMm});
+  const phantom::Depth cavity = [=](const Vec3& p) {
+    const double slot = std::min(p.z() - above, above + 2 * kMm - p.z());
+    return bridge > 0 ? std::min(slot, std::abs(p.x()) - 0.5 * bridge) : slot;
+  };
+  return test::cut(plan, cavity, h);
+}
+
+TEST(Divided, FindsTheSmallerPieceAndABridge) {
+  for (const double h : test::kVoxels) {
+    SCOPED_TRACE(h);
+    // the piece above the slot is 4 of 12 mm high
+    const auto two = divided_box(0, 1 * kMm, h);
+    const auto found = divided(*two.before, *two.after, {}, 0.05);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->share, 4.0 / 12, 0.02);
+    EXPECT_NEAR(found->first, 8.0 / 12, 0.02);
+    const auto bridged = divided_box(5 * h, 1 * kMm, h);
+    EXPECT_EQ(divided(*bridged.before, *bridged.after, {}, 0.05)->share, 0);
+    // what is at most two voxels wide breaks
+    const auto thin = divided_box(1.5 * h, 1 * kMm, h);
+    EXPECT_GT(divided(*thin.before, *thin.after, {}, 0.05)->share, 0.3);
+    // only what lies in the region counts
+    const auto low = [](const Vec3& p) { return -p.z(); };
+    EXPECT_EQ(divided(*two.before, *two.after, low, 0.05)->share, 0);
+    const auto was = divided(*two.after, *two.after, {}, 0.05);
+    ASSERT_FALSE(was);
+    EXPECT_NE(was.reason().find("two pieces"), std::string::npos);
+  }
 }
 
 TEST(PlaneFit, FindsOffsetAngleAndWaves) {

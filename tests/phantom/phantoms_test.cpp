@@ -240,6 +240,71 @@ TEST(Phantoms, TheFacialNerveIsOneWholeAndHasBoneOrAirAboutIt) {
   EXPECT_TRUE(left.empty()) << left.size() << " voxels of the nerve are cut off";
 }
 
+// The bits that recordings of earlier versions replay on.
+TEST(Phantoms, WithoutAVariantTheBitsStay) {
+  EXPECT_EQ(of("jaw").content_hash(), 0xb8e662d4826f298bULL);
+  EXPECT_EQ(of("tooth").content_hash(), 0x6086fcd78a90a554ULL);
+  EXPECT_EQ(of("temporal-bone").content_hash(), 0x8fc36a0aea74c2d4ULL);
+  EXPECT_EQ(of("spine").content_hash(), 0xe9068ff718f5483dULL);
+}
+
+// Of every variant alone: other bits than without, closed inside its grid, each tissue there, names that
+// say what is solid, and no brick left out by the bound on the formula's slope.
+TEST(Phantoms, EveryVariantIsAWholeBone) {
+  for (const std::string_view name : phantom_names())
+    for (const VariantWord& variant : variants_of(name)) {
+      const std::string full = std::string(name) + "?" + std::string(variant.word);
+      SCOPED_TRACE(full);
+      EXPECT_TRUE(known(full));
+      EXPECT_FALSE(variant.what.empty());
+      const double voxel_mm = (name == "tooth" ? 1.0 : 1.6) * kTestVoxelMm.at(name);
+      const auto bone = make(full, voxel_mm);
+      EXPECT_NE(bone->content_hash(), make(name, voxel_mm)->content_hash());
+      const Variant words({std::string(variant.word)});
+      const double voxel = 1e-3 * voxel_mm;
+      const Phantom made = name == "temporal-bone" ? temporal_bone(voxel, words)
+                           : name == "jaw"         ? jaw(voxel, words)
+                           : name == "tooth"       ? tooth(voxel, words)
+                                                   : spine(voxel, words);
+      std::vector<std::size_t> count(made.tissues.tissues.size());
+      int open = 0, wrong = 0;
+      const math::Ijk last = bone->grid().size - math::Ijk::Ones();
+      each_voxel(*bone, [&](const math::Ijk& v) {
+        const volume::Field field = bone->field(v.x(), v.y(), v.z());
+        const bool border = (v.array() == 0).any() || (v.array() == last.array()).any();
+        open += border && field >= volume::kIso ? 1 : 0;
+        ++count.at(bone->tissue(v.x(), v.y(), v.z()));
+        if ((v.x() + 3 * v.y() + 7 * v.z()) % 23 != 0) return;
+        const double depth = made.formula.depth(bone->grid().world_from_grid(v.cast<double>()));
+        wrong += volume::field_from_depth(depth / bone->grid().voxel) != field ? 1 : 0;
+      });
+      EXPECT_EQ(open, 0);
+      EXPECT_EQ(wrong, 0);
+      for (std::size_t id = 1; id < count.size(); ++id) {
+        const volume::Tissue& tissue = made.tissues.tissues[id];
+        EXPECT_GT(count[id], 0U) << tissue.name;
+        EXPECT_EQ(importing::tissue_by_name({tissue.label, tissue.name, tissue.colour}, true).kind,
+                  tissue.kind)
+            << tissue.name;
+      }
+    }
+}
+
+TEST(Phantoms, AVariantThatIsNotThereIsTurnedDownWithWhatThereIs) {
+  NoProgress nobody;
+  const auto bad = phantom("jaw?long,tall", 0.4, nobody);
+  ASSERT_FALSE(bad.ok());
+  EXPECT_EQ(bad.error().trouble, Trouble::usage);
+  EXPECT_NE(bad.error().text.find("no variant 'tall'; use one or more of long, high-nerve"),
+            std::string::npos)
+      << bad.error().text;
+  EXPECT_FALSE(known("block?long"));
+  EXPECT_FALSE(known("jaw?"));
+  EXPECT_FALSE(known("elbow?long"));
+  EXPECT_EQ(default_voxel_mm("jaw?tall"), 0);
+  EXPECT_EQ(default_voxel_mm("jaw?long"), default_voxel_mm("jaw"));
+}
+
 TEST(Phantoms, BadNamesAndVoxelsAreTurnedDownWithWhatThereIs) {
   NoProgress nobody;
   const auto unknown = phantom("elbow", 0.3, nobody);

@@ -72,6 +72,7 @@ structure = "wall"
 region = "way"
 spare = ["nerve"]
 tool = { kind = "diamond", diameter_mm = [2, 4] }
+approach = [[0, 3, 0]]
 show = ["entry", "way", "nerve"]
 must_precede = ["second"]
 done = { measure = "removed", share = 0.7 }
@@ -144,6 +145,8 @@ TEST(Lesson, EveryFieldIsReadInMetres) {
   EXPECT_EQ(first.kind, tool::BurrKind::diamond);
   EXPECT_DOUBLE_EQ(first.diameter->first, 2e-3);
   EXPECT_EQ(first.show.size(), 3U);
+  EXPECT_EQ(first.approach, std::vector<math::Vec3>{math::Vec3::UnitY()});
+  EXPECT_TRUE(read->step("second")->approach.empty());
   EXPECT_EQ(first.must_precede, std::vector<std::string>{"second"});
   EXPECT_FALSE(read->step("second")->kind);
   EXPECT_EQ(read->complications.at(0).step, "first");
@@ -215,6 +218,7 @@ TEST(Lesson, MistakesAreNamedByFileLineFieldAndRemedy) {
       {"title.sv = \"En lektion\"", "title.sv = 7", "title.sv", "text"},
       {"[[-2, 0, 0]", "[[0, 0, 0]", "approach", "[0, 0, 0]"},
       {"[[-2, 0, 0]", "[[0, 0]", "approach", "list of points"},
+      {"[[0, 3, 0]]", "[[0, 0, 0]]", "step[1].approach", "[0, 0, 0]"},
       {"at_mm = [1, 2, 3]", "at = [1, 2, 3]", "landmark[1].at", "not a known field"},
       {"at_mm = [1, 2, 3]", "", "landmark[1].at_mm", "for a point"},
       {"points_mm = [[0, 0, 0], [0, 0, 10], [0, 5, 10]]", "points_mm = [[0, 0, 0]]",

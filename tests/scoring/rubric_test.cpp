@@ -172,6 +172,18 @@ add = [{ shape = "ball", at = [0, 0, 0], radius_mm = 4 }]
   EXPECT_EQ(check(*structure, *lesson).error().text,
             "r.toml: line 10: structure: the case \"block\" has no structure \"vein\"; use one of "
             "nerve");
+  // the other cavities of an item about one cavity
+  const char* const cavity =
+      "[rubric]\nname = \"r\"\nversion = 1\ncase = \"block\"\n[[item]]\nid = \"a\"\n"
+      "part = \"product\"\nmeasure = \"cavity_depth\"\nregion = \"pit\"\nwithin = \"half\"\nsay = "
+      "\"s\"\n";
+  const auto within = parse_rubric(cavity, "r.toml");
+  ASSERT_TRUE(within) << within.error().text;
+  EXPECT_EQ(check(*within, *lesson).error().text,
+            "r.toml: line 10: within: the case \"block\" has no region \"half\"; use one of pit");
+  const auto elsewhere = parse_rubric(with("region = \"pit\"", "within = \"pit\""), "r.toml");
+  ASSERT_FALSE(elsewhere);
+  EXPECT_NE(elsewhere.error().text.find("within"), std::string::npos);
 }
 
 TEST(Rubric, AnAxisNeedsACurveWithADirectionAndAPlaneItemAPlane) {

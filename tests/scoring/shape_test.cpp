@@ -196,15 +196,130 @@ TEST_F(WrongShape, ABedBesideTheGapLosesEntryAndEnd) {
   EXPECT_EQ(unmet(), (std::set<std::string>{"bed.entry", "bed.end", "bed.cleared", "bed.one-way"}));
 }
 
-TEST_F(WrongShape, AWideOpeningDownToThePulpLosesTheToothAndThePulpsRoof) {
-  open("tooth", 0.15);
+// The slab between the two faces of the osteotomy, changed
+void move_osteotomy(Lesson& plan, const std::function<void(scenario::Shape&)>& change) {
+  scenario::CaseRegion& slab = region_of(plan, "osteotomy");
+  change(slab.add.front());
+  change(slab.take.front());
+}
+
+TEST_F(WrongShape, AnOsteotomyTooFarInFrontLosesItsPlace) {
+  open("jaw", 0.4);
   cut([](Lesson& plan) {
-    scenario::Shape& way = region_of(plan, "way in").add.front();
-    way.radius = 2.6 * kMm;
-    way.points.back().z() -= 1 * kMm;
-    plan.reference->leave.clear();
+    move_osteotomy(plan, [](scenario::Shape& face) { face.a.at.y() -= 2 * kMm; });
   });
-  EXPECT_EQ(unmet(), (std::set<std::string>{"dentine.spared", "pulp.covered", "outline.kept"}));
+  EXPECT_EQ(unmet(), (std::set<std::string>{"cut.place", "cut.cleared", "cut.front-spared"}));
+}
+
+TEST_F(WrongShape, AnOsteotomyThatLeansTooMuchLosesItsAngle) {
+  open("jaw", 0.4);
+  cut([](Lesson& plan) {
+    const double a = 16 * M_PI / 180;
+    move_osteotomy(plan, [a](scenario::Shape& face) {
+      // about the middle of the slab, which is as high as the middle of the bone there
+      const Vec3 middle(-5.7 * kMm, -29.45 * kMm, -21 * kMm);
+      const Vec3 across = Vec3(0, -std::cos(a), std::sin(a));
+      const double off = (face.a.at - Vec3(-5.7, -29.45, -18) * kMm).dot(face.normal);
+      face.a.at = middle + off * across;
+      face.normal = across;
+    });
+  });
+  const auto lost = unmet();
+  EXPECT_TRUE(lost.contains("cut.angle"));
+  EXPECT_FALSE(lost.contains("cut.divided"));
+  EXPECT_FALSE(lost.contains("cut.even-behind"));
+  EXPECT_FALSE(lost.contains("cut.even-front"));
+}
+
+TEST_F(WrongShape, ABridgeLosesTheDivisionAlone) {
+  open("jaw", 0.4);
+  cut([](Lesson& plan) {
+    scenario::Shape bridge;
+    bridge.kind = scenario::ShapeKind::box;
+    bridge.a.at = Vec3(-5.7, -30.5, -27) * kMm;  // at the lower border
+    bridge.size = Vec3(3, 8, 2.4) * kMm;
+    region_of(plan, "osteotomy").take.push_back(bridge);
+  });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"cut.divided"}));
+}
+
+TEST_F(WrongShape, AnUnevenFaceLosesEvennessAlone) {
+  open("jaw", 0.4);
+  cut([](Lesson& plan) {
+    for (int n = 0; n < 4; ++n) {
+      scenario::Shape dent;
+      dent.kind = scenario::ShapeKind::ball;
+      dent.a.at = Vec3(-10.5 + 3.2 * n, -26.9, -19 - 1.5 * (n % 2)) * kMm;
+      dent.radius = 2.1 * kMm;
+      region_of(plan, "osteotomy").add.push_back(dent);
+    }
+  });
+  const auto lost = unmet();
+  EXPECT_TRUE(lost.contains("cut.even-behind"));
+  EXPECT_FALSE(lost.contains("cut.even-front"));
+  EXPECT_FALSE(lost.contains("cut.divided"));
+}
+
+TEST_F(WrongShape, AWideOpeningLosesTheToothAndTheOutline) {
+  open("tooth", 0.1);
+  cut([](Lesson& plan) {
+    region_of(plan, "way in").add.front().radius = 2.6 * kMm;
+    region_of(plan, "deep caries").add.front().radius = 2.6 * kMm;
+  });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"dentine.spared", "outline.kept"}));
+}
+
+TEST_F(WrongShape, WhoClearsCariesDownToThePulpLosesItsRoof) {
+  open("tooth", 0.1);
+  cut([](Lesson& plan) {
+    scenario::CaseRegion& caries = region_of(plan, "deep caries");
+    caries.take.erase(caries.take.begin());  // what keeps away from the pulp
+    caries.add.front().points.back().z() -= 0.3 * kMm;
+    plan.reference->leave.front().second = 0.2 * kMm;
+  });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"roof.kept", "pulp.covered"}));
+}
+
+TEST_F(WrongShape, WhoLeavesCariesAtOneSideLosesBothItemsAboutIt) {
+  open("tooth", 0.1);
+  cut([](Lesson& plan) {
+    scenario::Shape side;
+    side.kind = scenario::ShapeKind::half_space;
+    side.a.at = Vec3(-0.5, 0, 0) * kMm;
+    side.normal = -Vec3::UnitX();
+    region_of(plan, "deep caries").take.push_back(side);
+    region_of(plan, "way in").add.front().b.at.z() += 1 * kMm;  // which would take it away too
+  });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"caries.soft", "caries.firm"}));
+}
+
+TEST_F(WrongShape, AFrontCavityTooDeepLosesItsDepthAlone) {
+  open("tooth", 0.1);
+  cut([](Lesson& plan) {
+    scenario::Shape& box = region_of(plan, "pit cavity").add.front();
+    box.a.at.z() -= 0.35 * kMm;
+    box.size.z() += 0.7 * kMm;
+  });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"pit.depth"}));
+}
+
+TEST_F(WrongShape, AFrontCavityBesideThePitLosesPlaceAndCaries) {
+  open("tooth", 0.1);
+  cut([](Lesson& plan) { region_of(plan, "pit cavity").add.front().a.at.x() += 0.9 * kMm; });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"pit.cleared", "pit.outline", "pit.spared"}));
+}
+
+TEST_F(WrongShape, AGrooveInTheFloorInFrontLosesFlatnessAlone) {
+  open("tooth", 0.1);
+  cut([](Lesson& plan) {
+    scenario::CaseRegion& pit = region_of(plan, "pit cavity");
+    scenario::Shape dent;
+    dent.kind = scenario::ShapeKind::box;
+    dent.a.at = Vec3(-0.1, -2.7, 4.6) * kMm;
+    dent.size = Vec3(0.8, 2.2, 1.4) * kMm;
+    pit.add.push_back(dent);
+  });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"pit.floor"}));
 }
 
 }  // namespace

@@ -104,6 +104,28 @@ TEST(Believed, ALargeErrorOfPerceptionMissesWhatIsToBeSpared) {
   EXPECT_GE(who_miss_the_vein(4 * kMm), 15);
 }
 
+// A step may be done from another side than the rest of the case.
+TEST(Goal, GoesInFromWhereTheStepSays) {
+  const auto bone = block_with_vein(0.25);
+  scenario::Lesson lesson = block_lesson();
+  scenario::Step step;
+  EXPECT_EQ(approach_of(lesson, step), approach_of(lesson));
+  step.approach = {Vec3::UnitX()};
+  EXPECT_EQ(approach_of(lesson, step), step.approach);
+  scenario::Shape& box = lesson.regions.front().add.front();
+  box.a.at = Vec3(0, 1, -4) * kMm;
+  box.size = Vec3(2, 2, 1) * kMm;
+  const Believed seen = believed(*bone, lesson, 0, 1);
+  const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
+  const Vec3 above = Vec3(0, 1, -2) * kMm, beside = Vec3(3, 1, -4) * kMm;
+  const FieldGrid down = goal_of(lesson.regions.front(), approach_of(lesson), seen, spare);
+  EXPECT_GT(down.at(above), 0);
+  EXPECT_LT(down.at(beside), 0);
+  const FieldGrid across = goal_of(lesson.regions.front(), approach_of(lesson, step), seen, spare);
+  EXPECT_LT(across.at(above), 0);
+  EXPECT_GT(across.at(beside), 0);
+}
+
 TEST(Goal, ACorridorThatReachesTheSurfaceHasStraightWalls) {
   const auto bone = block_with_vein(0.25);
   scenario::Lesson lesson = block_lesson();
@@ -111,11 +133,13 @@ TEST(Goal, ACorridorThatReachesTheSurfaceHasStraightWalls) {
   const Believed seen = believed(*bone, lesson, 0, 1);
   const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
   // the trough's wall is at y = -3
-  EXPECT_LT(goal_of(lesson.regions.front(), lesson, seen, spare).at(Vec3(-4, -3.3, -0.3) * kMm), 0);
+  EXPECT_LT(goal_of(lesson.regions.front(), approach_of(lesson), seen, spare)
+                .at(Vec3(-4, -3.3, -0.3) * kMm),
+            0);
   // below the surface, the way in to it may open outwards
   box.a.at = Vec3(0, 1, -4) * kMm;
   box.size = Vec3(10, 8, 1) * kMm;
-  const FieldGrid buried = goal_of(lesson.regions.front(), lesson, seen, spare);
+  const FieldGrid buried = goal_of(lesson.regions.front(), approach_of(lesson), seen, spare);
   EXPECT_GT(buried.at(Vec3(-4, 5.2, -0.3) * kMm), 0);
   EXPECT_LT(buried.at(Vec3(-4, 5.2, -3.6) * kMm), 0);
 }
@@ -137,7 +161,7 @@ struct GrooveWork {
         }()),
         seen(believed(*bone, lesson, 0, 1)),
         spare(spare_of(bone->grid(), lesson, seen, 0)),
-        goal(goal_of(lesson.regions.front(), lesson, seen, spare)),
+        goal(goal_of(lesson.regions.front(), approach_of(lesson), seen, spare)),
         work(*bone, lesson.steps.front(), lesson, goal, goal, spare, skill, case_diameter) {}
 
   decltype(block_with_vein(0.25)) bone = block_with_vein(0.25);
@@ -229,7 +253,7 @@ TEST(Goal, IsTheDepthInTheRegionAndTheRoomToWhatIsSpared) {
   const scenario::Lesson lesson = block_lesson();
   const Believed seen = believed(*bone, lesson, 0, 1);
   const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
-  const FieldGrid goal = goal_of(lesson.regions.front(), lesson, seen, spare);
+  const FieldGrid goal = goal_of(lesson.regions.front(), approach_of(lesson), seen, spare);
   // the floor of the trough is at z = -4, the vein's margin ends at -2.5
   EXPECT_NEAR(goal.at(Vec3(0, 0, -2 * kMm)), 0.5 * kMm, 0.15 * kMm);
   EXPECT_NEAR(goal.at(Vec3(0, 0, -3 * kMm)), -0.5 * kMm, 0.15 * kMm);
@@ -259,7 +283,7 @@ TEST(Goal, WhatLiesBehindASparedStructureIsNoGoal) {
   lesson.regions.front().add.front().size = Vec3(10, 8, 16) * kMm;  // down below the vein
   const Believed seen = believed(*bone, lesson, 0, 1);
   const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
-  const FieldGrid goal = goal_of(lesson.regions.front(), lesson, seen, spare);
+  const FieldGrid goal = goal_of(lesson.regions.front(), approach_of(lesson), seen, spare);
   EXPECT_LT(goal.at(Vec3(0, 0, -8.5 * kMm)), 0);                // in the shadow of the vein
   EXPECT_GT(goal.at(Vec3(-3 * kMm, 4 * kMm, -8 * kMm)), 0);     // beside it
   EXPECT_GT(spare.free.at(Vec3(0, 0, -8.5 * kMm)), 0.5 * kMm);  // though it is far enough away
@@ -270,7 +294,7 @@ TEST(Goal, ChangesByAtMostOneMetrePerMetre) {
   const scenario::Lesson lesson = block_lesson();
   const Believed seen = believed(*bone, lesson, 0.5 * kMm, 4);
   const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
-  const FieldGrid goal = goal_of(lesson.regions.front(), lesson, seen, spare);
+  const FieldGrid goal = goal_of(lesson.regions.front(), approach_of(lesson), seen, spare);
   const auto x = static_cast<std::size_t>(goal.size().x());
   for (std::size_t n = 1; n < goal.nodes(); ++n) {
     if (n % x == 0) continue;

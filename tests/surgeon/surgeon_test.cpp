@@ -72,7 +72,7 @@ Done operate(const Skill& skill, std::uint64_t seed, double seconds) {
 
   const auto believed = Believed::make(*before, lesson, 0, 1, quiet);
   const Spare spare = spare_of(before->grid(), lesson, *believed, 0);
-  const FieldGrid goal = goal_of(lesson.regions.front(), lesson, *believed, spare);
+  const FieldGrid goal = goal_of(lesson.regions.front(), approach_of(lesson), *believed, spare);
   std::size_t planned = 0, there = 0;
   const math::Ijk size = before->grid().size;
   for (int k = 0; k < size.z(); ++k)

@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -85,10 +84,7 @@ std::string text_of(const phantom::Landmark& one) {
 }
 
 Status print_landmarks(const Options& options) {
-  const auto known = phantom::phantom_names();
-  if (std::find(known.begin(), known.end(), options.name) == known.end())
-    return error(Trouble::usage, fmt::format("unknown phantom '{}'; use one of {}",
-                                             base::printable(options.name), names()));
+  if (const Status known = phantom::known(options.name); !known) return known;
   const std::vector<phantom::Landmark> all = phantom::landmarks(options.name);
   if (options.json) {
     nlohmann::json list = nlohmann::json::array();
@@ -132,7 +128,10 @@ Status run(const Options& options) {
 void add(CLI::App& app, Todo& todo) {
   auto* command = app.add_subcommand("phantom", "write a bone defined by a formula to a file");
   auto options = std::make_shared<Options>();
-  command->add_option("name", options->name, "one of: " + names())->required();
+  command
+      ->add_option("name", options->name,
+                   "one of: " + names() + "; variants follow a question mark: \"jaw?long\"")
+      ->required();
   command
       ->add_option("--voxel-mm", options->voxel_mm,
                    "edge of a voxel [mm] (default: suited to the phantom)")

@@ -19,9 +19,10 @@ constexpr std::array kValues = {
     Word::what_too_deep,  Word::what_too_shallow, Word::what_too_wide,   Word::what_too_narrow,
     Word::what_plane_off, Word::what_plane_angle, Word::what_face,       Word::what_floor,
     Word::what_rim,       Word::what_clear,       Word::what_stroke_far, Word::what_stroke,
-    Word::what_along,     Word::what_coolant,     Word::what_touched,    Word::what_order};
+    Word::what_along,     Word::what_coolant,     Word::what_touched,    Word::what_order,
+    Word::what_divided};
 
-constexpr std::array<std::pair<std::string_view, Word>, 29> kMeasures = {
+constexpr std::array<std::pair<std::string_view, Word>, 30> kMeasures = {
     {{"identified", Word::explain_identified},
      {"skeletonised", Word::explain_skeletonised},
      {"intact_solid", Word::explain_intact_solid},
@@ -37,6 +38,7 @@ constexpr std::array<std::pair<std::string_view, Word>, 29> kMeasures = {
      {"order", Word::explain_order},
      {"untouched", Word::explain_untouched},
      {"clearance", Word::explain_clearance},
+     {"divided", Word::explain_divided},
      {"axis_entry", Word::explain_axis_entry},
      {"axis_apex", Word::explain_axis_apex},
      {"axis_angle", Word::explain_axis_angle},

@@ -59,7 +59,8 @@ Assessed<CavityShape> cavity_shape(const Bone& before, const Bone& after, const 
       walls.push_back(one);
     }
   }
-  if (floor.size() < kFewestPoints) return NotAssessable{"the cavity has no floor to measure"};
+  if (floor.size() < kFewestPoints)
+    return NotAssessable{"the cavity has no floor to measure", true};
 
   CavityShape out;
   std::vector<WeightedPoint> points;

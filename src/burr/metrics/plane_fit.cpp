@@ -24,7 +24,7 @@ Assessed<PlaneFit> plane_fit(const volume::Bone& before, const volume::Bone& aft
     points.push_back({one.place, one.area});
   }
   if (points.size() < kFewestPoints)
-    return NotAssessable{"too little surface was cut near the planned plane"};
+    return NotAssessable{"too little surface was cut near the planned plane", true};
   const PlaneThrough plane = plane_through(points);
   PlaneFit out;
   out.normal = math::dot(plane.normal, n) < 0 ? Vec3(-plane.normal) : plane.normal;

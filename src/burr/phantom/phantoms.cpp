@@ -1,5 +1,6 @@
 #include "burr/phantom/phantoms.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -9,7 +10,7 @@ namespace burr::phantom {
 namespace {
 
 // A block of bone to sculpt, edges along the world's axes.
-Phantom block(double) {
+Phantom block(double, const Variant&) {
   Phantom phantom;
   phantom.formula.depth = box({20e-3, 20e-3, 15e-3});
   phantom.landmarks = {
@@ -21,7 +22,7 @@ Phantom block(double) {
   return phantom;
 }
 
-Phantom round_ball(double) {
+Phantom round_ball(double, const Variant&) {
   Phantom phantom;
   phantom.formula.depth = ball(kPeersBall);
   phantom.landmarks = {{"centre", {Vec3::Zero()}, {}}};
@@ -30,19 +31,36 @@ Phantom round_ball(double) {
   return phantom;
 }
 
+constexpr std::array<VariantWord, 4> kTemporalBoneVariants = {
+    {{"forward-sinus", "the descending sigmoid sinus lies 4 mm farther forward"},
+     {"low-dura", "the dura over the mastoid lies 4 mm lower"},
+     {"dehiscent", "no bone over 3 mm of the facial nerve's tympanic part"},
+     {"sclerotic", "dense bone in place of the mastoid cells"}}};
+constexpr std::array<VariantWord, 1> kSpineVariants = {
+    {{"thin-pedicle", "the pedicles are 2.4 mm narrower and lower"}}};
+constexpr std::array<VariantWord, 2> kJawVariants = {
+    {{"long", "longer in front, for an osteotomy: toothless to the front, floor of the mouth"},
+     {"high-nerve", "the nerve lies 2.5 mm nearer to the ridge"}}};
+constexpr std::array<VariantWord, 3> kToothVariants = {
+    {{"graded", "caries in three grades, and a second, smaller one in front of it"},
+     {"shallow", "the caries ends 0.8 mm higher"},
+     {"deep", "the caries ends 0.4 mm lower"}}};
+
 struct Known {
   std::string_view name;
   double voxel_mm;
-  Phantom (*make)(double voxel);
+  Phantom (*make)(double voxel, const Variant& variant);
+  std::span<const VariantWord> variants = {};
 };
 
-constexpr std::array<Known, 7> kKnown = {{{"temporal-bone", 0.25, temporal_bone},
-                                          {"jaw", 0.25, jaw},
-                                          {"tooth", 0.1, tooth},
-                                          {"spine", 0.4, spine},
-                                          {"skull", 0.5, skull},
-                                          {"block", 0.25, block},
-                                          {"ball", 0.25, round_ball}}};
+constexpr std::array<Known, 7> kKnown = {
+    {{"temporal-bone", 0.25, temporal_bone, kTemporalBoneVariants},
+     {"jaw", 0.25, jaw, kJawVariants},
+     {"tooth", 0.1, tooth, kToothVariants},
+     {"spine", 0.4, spine, kSpineVariants},
+     {"skull", 0.5, skull},
+     {"block", 0.25, block},
+     {"ball", 0.25, round_ball}}};
 
 const Known* find(std::string_view name) {
   for (const Known& known : kKnown)
@@ -54,6 +72,40 @@ std::string list_of_names() {
   std::string list;
   for (const Known& known : kKnown) list += (list.empty() ? "" : ", ") + std::string(known.name);
   return list;
+}
+
+// "jaw?long,high-nerve"
+struct Wanted {
+  const Known* known = nullptr;
+  Variant variant;
+};
+Result<Wanted> wanted(std::string_view text) {
+  const std::size_t mark = text.find('?');
+  const std::string_view name = text.substr(0, mark);
+  Wanted out{find(name), {}};
+  if (out.known == nullptr)
+    return error(Trouble::usage,
+                 "unknown phantom '" + std::string(name) + "'; use one of " + list_of_names());
+  if (mark == std::string_view::npos) return out;
+  std::vector<std::string> words;
+  for (std::string_view rest = text.substr(mark + 1);;) {
+    const std::size_t comma = rest.find(',');
+    words.emplace_back(rest.substr(0, comma));
+    if (comma == std::string_view::npos) break;
+    rest.remove_prefix(comma + 1);
+  }
+  std::string list;
+  for (const VariantWord& one : out.known->variants)
+    list += (list.empty() ? "" : ", ") + std::string(one.word);
+  for (const std::string& word : words)
+    if (std::none_of(out.known->variants.begin(), out.known->variants.end(),
+                     [&](const VariantWord& one) { return one.word == word; }))
+      return error(Trouble::usage,
+                   "the phantom " + std::string(name) + " has no variant '" + word + "'; " +
+                       (list.empty() ? "it has none, so leave out what follows the ?"
+                                     : "use one or more of " + list));
+  out.variant = Variant(std::move(words));
+  return out;
 }
 
 // more would not fit into the memory of a common computer; fewer show nothing
@@ -74,30 +126,40 @@ std::vector<std::string_view> phantom_names() {
   return names;
 }
 
-double default_voxel_mm(std::string_view name) {
+std::span<const VariantWord> variants_of(std::string_view name) {
   const Known* known = find(name);
-  return known == nullptr ? 0 : known->voxel_mm;
+  return known == nullptr ? std::span<const VariantWord>() : known->variants;
+}
+
+Status known(std::string_view name) {
+  const auto found = wanted(name);
+  return found ? fine() : Status(found.error());
+}
+
+double default_voxel_mm(std::string_view name) {
+  const auto found = wanted(name);
+  return found ? found->known->voxel_mm : 0;
 }
 
 std::vector<Landmark> landmarks(std::string_view name) {
-  const Known* known = find(name);
-  return known == nullptr ? std::vector<Landmark>() : known->make(1e-3 * known->voxel_mm).landmarks;
+  const auto found = wanted(name);
+  return found ? found->known->make(1e-3 * found->known->voxel_mm, found->variant).landmarks
+               : std::vector<Landmark>();
 }
 
 Result<std::unique_ptr<volume::Bone>> phantom(
     std::string_view name, double voxel_mm, Progress& progress, std::size_t reserve_bricks,
     int threads, const std::function<void(volume::TissueTable&)>& made_of) {
-  const Known* known = find(name);
-  if (known == nullptr)
-    return error(Trouble::usage,
-                 "unknown phantom '" + std::string(name) + "'; use one of " + list_of_names());
+  const auto found = wanted(name);
+  if (!found) return found.error();
+  const Known* known = found->known;
   if (voxel_mm == 0) voxel_mm = known->voxel_mm;
   if (!(voxel_mm > 0) || !std::isfinite(voxel_mm))
     return error(Trouble::usage,
                  "the voxel size must be a positive number of millimetres, for example " +
                      in_mm(known->voxel_mm) + " for the phantom " + std::string(name));
   const double voxel = 1e-3 * voxel_mm;
-  Phantom made = known->make(voxel);
+  Phantom made = known->make(voxel, found->variant);
   if (made_of) made_of(made.tissues);
   const Vec3 along = (made.hi - made.lo) / voxel;
   if (along.minCoeff() < kFewestAlong)

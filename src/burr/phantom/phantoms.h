@@ -3,21 +3,27 @@
 //     temporal-bone  right temporal bone, 58 x 64 x 58 mm, every structure of a mastoidectomy
 //                    labelled
 //     jaw            left half of a lower jaw from premolar to second molar, with its nerve canal
-//     tooth          lower molar: enamel, dentine, pulp
+//     tooth          lower molar: enamel, dentine, pulp, caries
 //     spine          third lumbar vertebra with canal and cord
 //     skull          vault and face, 190 mm long
 //     block          a block to sculpt
 //     ball           a ball
 //
+// A name may be followed by variants, in any order: "jaw?long,high-nerve" (variants_of()). Landmarks
+// follow the variant. Without one the bits stay as they are: recordings replay on them.
+//
 // Frame: LPS (x left, y back, z up), metres. Shapes and sizes follow textbooks, not a person. The
 // same name and voxel give the same bits for any number of threads.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "burr/base/progress.h"
@@ -43,7 +49,31 @@ struct Phantom {
   std::vector<Landmark> landmarks;            // names are unique
 };
 
+// How a phantom differs from its usual shape.
+class Variant {
+ public:
+  Variant() = default;
+  explicit Variant(std::vector<std::string> words) : words_(std::move(words)) {}
+  [[nodiscard]] bool has(std::string_view word) const {
+    return std::find(words_.begin(), words_.end(), word) != words_.end();
+  }
+
+ private:
+  std::vector<std::string> words_;
+};
+
+struct VariantWord {
+  std::string_view word, what;
+};
+
 [[nodiscard]] std::vector<std::string_view> phantom_names();
+
+// The variants of a phantom, by its name alone; none for an unknown name.
+[[nodiscard]] std::span<const VariantWord> variants_of(std::string_view name);
+
+// Fine if there is a phantom of this name and all its variants; otherwise the Error (usage) says what
+// there is.
+[[nodiscard]] Status known(std::string_view name);
 
 // A voxel size that shows this phantom well in moderate time [mm]; 0 for an unknown name.
 [[nodiscard]] double default_voxel_mm(std::string_view name);
@@ -59,10 +89,10 @@ struct Phantom {
     int threads = 2, const std::function<void(volume::TissueTable&)>& made_of = {});
 
 // The phantoms, one file each. voxel [m]: sets how far labels reach into the ramp.
-[[nodiscard]] Phantom temporal_bone(double voxel);
-[[nodiscard]] Phantom jaw(double voxel);
-[[nodiscard]] Phantom tooth(double voxel);
-[[nodiscard]] Phantom spine(double voxel);
-[[nodiscard]] Phantom skull(double voxel);
+[[nodiscard]] Phantom temporal_bone(double voxel, const Variant& variant = {});
+[[nodiscard]] Phantom jaw(double voxel, const Variant& variant = {});
+[[nodiscard]] Phantom tooth(double voxel, const Variant& variant = {});
+[[nodiscard]] Phantom spine(double voxel, const Variant& variant = {});
+[[nodiscard]] Phantom skull(double voxel, const Variant& variant = {});
 
 }  // namespace burr::phantom

@@ -103,7 +103,7 @@ const Skull& remembered(const Vec3& p) {
 
 }  // namespace
 
-Phantom skull(double voxel) {
+Phantom skull(double voxel, const Variant&) {
   Phantom phantom;
   phantom.tissues.tissues = {
       {.name = "air", .kind = TissueKind::air},

@@ -48,6 +48,8 @@ std::vector<Landmark> landmarks_of_spine() {
 
 class Vertebra {
  public:
+  explicit Vertebra(const Variant& variant) : thinner_(variant.has("thin-pedicle") ? 1.2 : 0.0) {}
+
   struct Parts {
     double hull = 0, marrow = 0, sac = 0, roots = 0;
   };
@@ -70,10 +72,12 @@ class Vertebra {
     double hull = carve_soft(round, 14 * mm - 1.3 * mm * middle - std::abs(q.z()), 3 * mm);
 
     // arch: pedicles, laminae, spine, transverse and joint processes
-    hull = blend(hull,
-                 std::max(cone(Pedicle::upper_front(), 4.6, Pedicle::upper_back(), 4.8),
-                          cone(Pedicle::lower_front(), 4.6, Pedicle::lower_back(), 4.8)),
-                 4 * mm);
+    hull = blend(
+        hull,
+        std::max(
+            cone(Pedicle::upper_front(), 4.6 - thinner_, Pedicle::upper_back(), 4.8 - thinner_),
+            cone(Pedicle::lower_front(), 4.6 - thinner_, Pedicle::lower_back(), 4.8 - thinner_)),
+        4 * mm);
     hull = blend(hull, cone(at_mm(15, 28.5, 3), 4.2, at_mm(3, 39.5, -5), 3.6), 4 * mm);
     hull = blend(hull, cone(at_mm(13, 31, -5), 3.4, at_mm(2, 40.5, -9), 3.4), 4 * mm);
     hull = blend(hull,
@@ -111,13 +115,16 @@ class Vertebra {
         inside > -1.5 * mm ? std::min(inside, foam(p, 3.0 * mm, 0.35, 33) - 0.27 * mm) : inside;
     return s;
   }
+
+ private:
+  double thinner_;  // the pedicle's half width and half height, than usual [mm]
 };
 
 double solid(const Vertebra::Parts& s) { return std::min(s.hull, -s.marrow); }
 
 }  // namespace
 
-Phantom spine(double voxel) {
+Phantom spine(double voxel, const Variant& variant) {
   Phantom phantom;
   phantom.tissues.tissues = {
       {.name = "air", .kind = TissueKind::air},
@@ -142,7 +149,7 @@ Phantom spine(double voxel) {
   for (std::size_t id = 0; id < phantom.tissues.tissues.size(); ++id)
     phantom.tissues.tissues[id].label = static_cast<int>(id);
 
-  const auto model = std::make_shared<const Vertebra>();
+  const auto model = std::make_shared<const Vertebra>(variant);
   phantom.formula.lipschitz = 2.0;
   phantom.formula.depth = [model](const Vec3& p) { return solid(model->parts(p)); };
   phantom.formula.soft = [model](const Vec3& p) {

@@ -5,7 +5,9 @@
 // the Temporal Bone, 3rd ed., to a millimetre or two; the outer shape is modelled by eye.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <memory>
@@ -142,10 +144,12 @@ struct Parts {
   double canal = 0;   // ear canal
   double middle = 0;  // tympanic cavity
   double antrum = 0;
-  double cells = 0;   // air of the mastoid cells
-  double facial = 0;  // distance to the nerve's centre line
-  double chorda = 0;  // the same for the chorda tympani
-  double sinus = 0;   // distance to its centre line, jugular bulb included
+  double cells = 0;               // air of the mastoid cells
+  double field = 0;               // where the cells may be
+  double facial = 0;              // distance to the nerve's centre line
+  double canal_bone = 0.8 * kMm;  // thickness of the facial canal's wall
+  double chorda = 0;              // the same for the chorda tympani
+  double sinus = 0;               // distance to its centre line, jugular bulb included
   double carotid = 0;
   double meatus = 0;
   double semicircular = 0;  // distance to the nearest canal's circle
@@ -160,7 +164,12 @@ constexpr double kSkin = 6e-3;
 
 class TemporalBone {
  public:
-  explicit TemporalBone(double voxel) : ramp_(volume::kRamp * voxel) {}
+  TemporalBone(double voxel, const Variant& variant)
+      : ramp_(volume::kRamp * voxel),
+        forward_(variant.has("forward-sinus") ? 4 * kMm : 0.0),
+        lower_(variant.has("low-dura") ? 4 * kMm : 0.0),
+        dehiscent_(variant.has("dehiscent")),
+        sclerotic_(variant.has("sclerotic")) {}
 
   [[nodiscard]] double depth(const Vec3& p) const { return bone(remembered(p)); }
   [[nodiscard]] double soft(const Vec3& p) const { return labelled(remembered(p)); }
@@ -176,11 +185,14 @@ class TemporalBone {
   [[nodiscard]] const Parts& remembered(const Vec3& p) const {
     struct Memory {
       Vec3 p = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+      std::uint64_t of = 0;
       double ramp = 0;
       Parts parts;
     };
     thread_local Memory last;
-    if (last.p != p || last.ramp != ramp_) last = {p, ramp_, parts(p)};
+    // a model may lie where another one lay; its number does not come again
+    if (last.p != p || last.of != number_ || last.ramp != ramp_)
+      last = {p, number_, ramp_, parts(p)};
     return last.parts;
   }
   [[nodiscard]] double outer(const Vec3& p, double canal_axis) const;
@@ -191,7 +203,35 @@ class TemporalBone {
   [[nodiscard]] static TissueId soft_tissue(const Parts& s);
   [[nodiscard]] static TissueId air_tissue(const Parts& s, const Vec3& p);
 
-  double ramp_;  // [m]
+  double ramp_;             // [m]
+  double forward_, lower_;  // of the sinus and of the dura, from their usual places [m]
+  bool dehiscent_, sclerotic_;
+  std::uint64_t number_ = next_number();
+  static std::uint64_t next_number() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+  }
+
+  // How much lower the roof is here: over the mastoid alone, for the attic has no room to spare.
+  [[nodiscard]] double lowered(const Vec3& p) const {
+    const auto rise = [](double t) {
+      const double c = std::clamp(t, 0.0, 1.0);
+      return c * c * (3 - 2 * c);
+    };
+    return lower_ > 0
+               ? lower_ * rise((p.y() - 3 * kMm) / (7 * kMm)) * rise((24 * kMm - p.x()) / (8 * kMm))
+               : 0.0;
+  }
+  // Middle of a dehiscence, on the tympanic part of the nerve
+  static Vec3 dehiscence() { return at_mm(21.8, -2.4, 4.4); }
+  // The descending part lies farther forward; the bulb stays.
+  static std::vector<Vec3> sinus_curve(double forward) {
+    const Vec3 by = -forward * Vec3::UnitY();
+    return {at_mm(27, 44, 12) + by,        at_mm(18.5, 33.5, 9.5) + by,
+            at_mm(13.6, 26.5, 3.5) + by,   at_mm(12.2, 22.5, -4.5) + by,
+            at_mm(14.5, 19.5, -11.5) + by, at_mm(19.5, 14, -14.5) + 0.5 * by,
+            at_mm(23.6, 7.5, -13),         at_mm(24.6, 3.6, -11)};
+  }
 
   // ends and middles of parts that landmarks name too
   static Vec3 henle() { return at_mm(1.1, 4.6, 4.8); }
@@ -217,10 +257,7 @@ class TemporalBone {
                  at_mm(18.2, -1.5, 2.6), at_mm(18.8, -4.6, 3.0), at_mm(18.6, -8.2, 1.6),
                  at_mm(19.2, -11.5, -1.0)},
                 3 * kMm};
-  Curve sinus_{{at_mm(27, 44, 12), at_mm(18.5, 33.5, 9.5), at_mm(13.6, 26.5, 3.5),
-                at_mm(12.2, 22.5, -4.5), at_mm(14.5, 19.5, -11.5), at_mm(19.5, 14, -14.5),
-                at_mm(23.6, 7.5, -13), at_mm(24.6, 3.6, -11)},
-               8 * kMm};
+  Curve sinus_{sinus_curve(forward_), 8 * kMm};
   Curve carotid_{
       {at_mm(29, -6, -34), at_mm(28.5, -8.6, -17), at_mm(28.4, -11.2, -9), at_mm(31, -13.4, -6),
        at_mm(38, -16.6, -3.6), at_mm(46, -21, -3.2), at_mm(56, -27, -3)},
@@ -334,6 +371,7 @@ Parts TemporalBone::parts(const Vec3& p) const {
       2.4 * mm * std::exp(-(p - superior_.centre).head<2>().squaredNorm() / (36e-6));
   s.tegmen =
       p.z() - (11.6 * mm - 0.09 * (p.x() - 14 * mm) + eminence + 0.5 * mm * noise(p, 8 * mm, 5));
+  if (lower_ > 0) s.tegmen += lowered(p);
   const double within_skull = 66.6 * mm - (p - skull_).norm();
   const double behind = (p - at_mm(26, 10.5, 0)).dot(back_face_) + 0.4 * mm * noise(p, 9 * mm, 6);
   // the sinus lies in the corner and keeps a layer of bone in front of it
@@ -354,6 +392,8 @@ Parts TemporalBone::parts(const Vec3& p) const {
   s.drum = std::min(0.2 * mm - std::abs(before_drum), 4.6 * mm - (p - drum_centre).norm());
 
   s.facial = facial_.distance(p);
+  if (dehiscent_)  // no bone over 3 mm
+    s.canal_bone *= std::clamp(((p - dehiscence()).norm() - 1.5 * mm) / mm, 0.0, 1.0);
   s.chorda = chorda_.distance(p);
   s.carotid = carotid_.distance(p);
   s.meatus = meatus_.distance(p);
@@ -380,7 +420,10 @@ Parts TemporalBone::parts(const Vec3& p) const {
   const double field = std::min(
       s.hull - cortex, blend(ellipsoid(p, at_mm(10, 13, -1), at_mm(13, 15, 14)),
                              ellipsoid(p, at_mm(10, 11.5, -15), at_mm(8.5, 8.5, 11)), 4 * mm));
-  if (field > -ramp_ - 1 * mm) {
+  s.field = field;
+  if (sclerotic_) {
+    s.cells = std::min(-2 * mm, field);
+  } else if (field > -ramp_ - 1 * mm) {
     const double wall = 0.5 * (0.5 + 0.15 * noise(p, 5 * mm, 9)) * mm;
     // towards the edge of the field the cells are small
     const double deep = std::clamp((field - 2.5 * mm) / (3 * mm), 0.0, 1.0);
@@ -455,7 +498,9 @@ std::vector<Landmark> TemporalBone::landmarks() const {
       lateral_.centre +
       lateral_.radius * (outwards - outwards.dot(lateral_.axis) * lateral_.axis).normalized();
   const std::vector<Vec3> mastoid_part = between(nerve, second_genu, foramen);
-  return {
+  const Vec3 forward = -forward_ * Vec3::UnitY();
+  const auto lower = [this](const Vec3& p) { return Vec3(p - lowered(p) * Vec3::UnitZ()); };
+  std::vector<Landmark> all = {
       {"spine of Henle", {henle()}, {}},
       {"temporal line", {at_mm(3.0, -1, 9.8), at_mm(8.6, 27, 16.5)}, {}},
       {"MacEwen's triangle", {at_mm(-2.0, 11.0, 5.0)}, {}},
@@ -475,11 +520,15 @@ std::vector<Landmark> TemporalBone::landmarks() const {
        between(chorda_.points(), at_mm(15.9, 3.0, -6), at_mm(18.2, -1.5, 2.6)),
        {}},
       {"sigmoid sinus", vein, {}},
-      {"mastoid sinus", between(vein, at_mm(18.5, 33.5, 9.5), at_mm(19.5, 14, -14.5)), {}},
+      {"mastoid sinus",
+       between(vein, at_mm(18.5, 33.5, 9.5) + forward, at_mm(19.5, 14, -14.5) + 0.5 * forward),
+       {}},
       {"jugular bulb", {at_mm(24.4, 3.8, -10.6)}, {}},
-      {"tegmen", {at_mm(14, 9.2, 11.6)}, Vec3(0.09, 0, 1).normalized()},
+      {"tegmen", {lower(at_mm(14, 9.2, 11.6))}, Vec3(0.09, 0, 1).normalized()},
       // where the roof and the back face meet before the sinus, from outside inwards
-      {"sinodural angle", {at_mm(6, 22.5, 9.5), at_mm(14, 17, 9.5)}, {}},
+      {"sinodural angle",
+       {lower(at_mm(6, 22.5, 9.5) + forward), lower(at_mm(14, 17, 9.5) + forward)},
+       {}},
       {"back face of the pyramid", {at_mm(26, 10.5, 0)}, back_face_},
       {"digastric groove", {at_mm(17, 6, -24), at_mm(19, 30, -15)}, {}},
       {"ear canal", canal_.points(), {}},
@@ -491,6 +540,8 @@ std::vector<Landmark> TemporalBone::landmarks() const {
       {"vestibule", {vestibule_}, {}},
       {"internal carotid artery", carotid_.points(), {}},
   };
+  if (dehiscent_) all.push_back({"dehiscence of the facial canal", {dehiscence()}, {}});
+  return all;
 }
 
 double TemporalBone::bone(const Parts& s) const {
@@ -503,8 +554,8 @@ double TemporalBone::bone(const Parts& s) const {
   depth = carve_soft(depth, -s.middle, 0.6 * mm);
 
   // walls that remain between the cells and the structures they protect
-  const double facial =
-      std::max(kFacialCanalRadius + 0.8 * mm - s.facial, kChordaCanalRadius + 0.5 * mm - s.chorda);
+  const double facial = std::max(kFacialCanalRadius + s.canal_bone - s.facial,
+                                 kChordaCanalRadius + 0.5 * mm - s.chorda);
   double shells = std::max(s.capsule, facial);
   shells = std::max(shells, kSinusRadius + 1.0 * mm - s.sinus);
   shells = std::max(shells, kCarotidRadius + 1.0 * mm - s.carotid);
@@ -560,7 +611,7 @@ TissueId TemporalBone::solid_tissue(const Parts& s, const Vec3& p) const {
   if (s.sinus < kSinusRadius + 1.0 * mm) return kSinusPlate;
   if (s.canal > -1.5 * mm && p.x() > 1 * mm) return kCanalWall;
   if (std::abs(s.tegmen) < 1.4 * mm && s.fossa > -2.4 * mm) return kDuraPlate;
-  if (s.cells > -0.9 * mm && s.hull > 1.6 * mm) return kCellWalls;
+  if ((sclerotic_ ? s.field : s.cells) > -0.9 * mm && s.hull > 1.6 * mm) return kCellWalls;
   return kCortex;
 }
 
@@ -589,8 +640,8 @@ TissueId TemporalBone::air_tissue(const Parts& s, const Vec3& p) {
 
 }  // namespace
 
-Phantom temporal_bone(double voxel) {
-  const auto model = std::make_shared<const TemporalBone>(voxel);
+Phantom temporal_bone(double voxel, const Variant& variant) {
+  const auto model = std::make_shared<const TemporalBone>(voxel, variant);
   Phantom phantom;
   phantom.tissues = table();
   phantom.formula.depth = [model](const Vec3& p) { return model->depth(p); };

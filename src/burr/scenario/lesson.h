@@ -120,6 +120,7 @@ struct Step {
   std::vector<std::string> spare;         // names of structures
   std::optional<tool::BurrKind> kind;     // the tool that suits
   std::optional<Range> diameter;          // [m]
+  std::vector<math::Vec3> approach;       // unit, to the surgeon; empty: that of the lesson
   std::vector<std::string> show;          // structures, regions or landmarks to be lit on demand
   std::vector<std::string> must_precede;  // ids of steps
   std::optional<DoneWhen> done;           // none: only the user says so

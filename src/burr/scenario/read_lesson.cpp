@@ -71,9 +71,17 @@ void read_done(Reader& reader, Step& out) {
                      [&](std::string_view key, double value) { done.limits.emplace(key, value); });
 }
 
+void read_approach(Reader& reader, std::vector<math::Vec3>& out) {
+  reader.vectors("approach", out);
+  for (math::Vec3& direction : out) {
+    if (direction.norm() < 1e-6) return reader.fail("approach", "a direction is [0, 0, 0]");
+    direction.normalize();
+  }
+}
+
 void read_step(Reader& reader, Step& out) {
-  reader.only({"id", "title", "say", "structure", "region", "spare", "tool", "show", "must_precede",
-               "done"});
+  reader.only({"id", "title", "say", "structure", "region", "spare", "tool", "approach", "show",
+               "must_precede", "done"});
   out.line = reader.line();
   reader.text("id", out.id, true);
   read_texts(reader, "title", out.title);
@@ -82,6 +90,7 @@ void read_step(Reader& reader, Step& out) {
   reader.text("region", out.region);
   reader.texts("spare", out.spare);
   reader.table("tool", [&](Reader& inner) { read_tool(inner, out); });
+  read_approach(reader, out.approach);
   reader.texts("show", out.show);
   reader.texts("must_precede", out.must_precede);
   reader.table("done", [&](Reader& inner) { read_done(inner, out); });
@@ -173,11 +182,7 @@ void read_lesson(Reader& reader, Lesson& out) {
   read_format(reader, out);
   read_texts(reader, "title", out.title);
   read_texts(reader, "description", out.description);
-  reader.vectors("approach", out.approach);
-  for (math::Vec3& direction : out.approach) {
-    if (direction.norm() < 1e-6) return reader.fail("approach", "a direction is [0, 0, 0]");
-    direction.normalize();
-  }
+  read_approach(reader, out.approach);
   read_landmarks(reader, out);
   read_regions(reader, out);
   reader.each("structure",

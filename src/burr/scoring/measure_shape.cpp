@@ -5,6 +5,7 @@
 
 #include "burr/math/sums.h"
 #include "burr/metrics/breach.h"
+#include "burr/metrics/divided.h"
 #include "burr/metrics/new_surface.h"
 #include "burr/metrics/same_math.h"
 #include "burr/scoring/measure.h"
@@ -36,20 +37,23 @@ Outcome at_most(const Item& item, double value, double most, double error, const
   return decided(item, {value <= most, true, value, most, error}, what, false);
 }
 
+// There is no shape. Who stops half-way must not lose the items from the denominator: see idle().
+template <class Shape>
+Outcome without(const Item& item, const metrics::Assessed<Shape>& shape) {
+  Outcome none = not_assessable(item, shape.reason());
+  if (shape.too_little_done()) {
+    none.verdict = Verdict::unmet;
+    none.earned = false;
+  }
+  return none;
+}
+
 Outcome axis(const Item& item, Scene& scene) {
   const std::vector<math::Vec3>& course = scene.lesson().landmark(item.along)->points;
   const math::Vec3 whole = course.back() - course.front();
   const math::Vec3 inward = math::normalized(whole);
   const auto& fit = scene.axis(item.along, item.region);
-  if (!fit) {
-    Outcome none = not_assessable(item, fit.reason());
-    // who stops half-way must not lose the items from the denominator: see idle()
-    if (fit.too_little_done()) {
-      none.verdict = Verdict::unmet;
-      none.earned = false;
-    }
-    return none;
-  }
+  if (!fit) return without(item, fit);
   const std::string_view how = item.how->name;
   const double h = scene.before().grid().voxel;
   Outcome out;
@@ -104,7 +108,7 @@ Outcome axis(const Item& item, Scene& scene) {
 
 Outcome plane(const Item& item, Scene& scene) {
   const auto& fit = scene.cut_at(item.plane, item.region);
-  if (!fit) return not_assessable(item, fit.reason());
+  if (!fit) return without(item, fit);
   const std::string_view how = item.how->name;
   Outcome out;
   if (how == "plane_offset")
@@ -121,8 +125,8 @@ Outcome plane(const Item& item, Scene& scene) {
 }
 
 Outcome cavity(const Item& item, Scene& scene) {
-  const auto& shape = scene.cavity(item.region);
-  if (!shape) return not_assessable(item, shape.reason());
+  const auto& shape = scene.cavity(item.region, item.within);
+  if (!shape) return without(item, shape);
   const std::string_view how = item.how->name;
   Outcome out;
   if (how == "cavity_depth") {
@@ -162,6 +166,15 @@ Outcome clearance(const Item& item, Scene& scene) {
   return out;
 }
 
+Outcome divided(const Item& item, Scene& scene) {
+  const double enough = item.limit("share");
+  const auto pieces =
+      metrics::divided(scene.before(), scene.after(), scene.region(item.region), enough);
+  if (!pieces) return not_assessable(item, pieces.reason());
+  return decided(item, {pieces->share >= enough, true, pieces->share, enough, 0},
+                 "share of the smaller piece", true);
+}
+
 }  // namespace
 
 std::optional<Outcome> measure_shape(const Item& item, Scene& scene) {
@@ -170,6 +183,7 @@ std::optional<Outcome> measure_shape(const Item& item, Scene& scene) {
                                                   : how.starts_with("plane_")  ? plane
                                                   : how.starts_with("cavity_") ? cavity
                                                   : how == "clearance"         ? clearance
+                                                  : how == "divided"           ? divided
                                                                                : nullptr;
   if (measure == nullptr) return {};
   if (auto nothing = idle(item, scene)) return nothing;

@@ -47,6 +47,8 @@ const Measure* read_measure(Reader& reader) {
   return how;
 }
 
+bool is_of_cavity(const Measure& how) { return std::string_view(how.name).starts_with("cavity_"); }
+
 std::vector<std::string_view> fields_of(const Measure& how) {
   std::vector<std::string_view> fields = {"id",       "part",   "weight",     "gate", "measure",
                                           "requires", "source", "calibrated", "say",  "grade"};
@@ -54,6 +56,7 @@ std::vector<std::string_view> fields_of(const Measure& how) {
   if (how.region || how.anywhere) fields.emplace_back("region");
   if (how.along || how.on_curve) fields.emplace_back("along");
   if (how.on_plane) fields.emplace_back("plane");
+  if (is_of_cavity(how)) fields.emplace_back("within");
   for (const Limit& limit : how.limits) fields.emplace_back(limit.field);
   return fields;
 }
@@ -103,6 +106,7 @@ void read_item(Reader& reader, Item& out) {
   reader.text("region", out.region, out.how->region);
   reader.text("along", out.along, out.how->on_curve);
   reader.text("plane", out.plane, out.how->on_plane);
+  reader.text("within", out.within);
   reader.text("requires", out.needs);
   reader.text("source", out.source);
   reader.flag("calibrated", out.calibrated);
@@ -110,7 +114,7 @@ void read_item(Reader& reader, Item& out) {
   read_limits(reader, out);
   read_grade(reader, out);
   out.lines[""] = reader.line();
-  for (const char* field : {"structure", "region", "along", "plane", "requires"})
+  for (const char* field : {"structure", "region", "along", "plane", "within", "requires"})
     out.lines[field] = reader.line(field);
 }
 
@@ -250,6 +254,8 @@ Status check(const Rubric& rubric, const scenario::Lesson& lesson) {
       return missing(rubric, item, "structure", item.structure, list_of(lesson.structures, name));
     if (!item.region.empty() && lesson.region(item.region) == nullptr)
       return missing(rubric, item, "region", item.region, list_of(lesson.regions, name));
+    if (!item.within.empty() && lesson.region(item.within) == nullptr)
+      return missing(rubric, item, "within", item.within, list_of(lesson.regions, name));
     const auto landmark = [&](const char* field, const std::string& wanted, auto is) {
       std::vector<scenario::Landmark> of_kind;
       for (const scenario::Landmark& one : lesson.landmarks)

@@ -25,9 +25,10 @@ struct Item {
   std::string id;
   Part part = Part::product;
   double weight = 1;
-  bool gate = false;                                  // unmet: not safe, whatever the total
-  const Measure* how = nullptr;                       // never nullptr after reading
-  std::string structure, region, along, plane;        // names of the case; empty: none
+  bool gate = false;                            // unmet: not safe, whatever the total
+  const Measure* how = nullptr;                 // never nullptr after reading
+  std::string structure, region, along, plane;  // names of the case; empty: none
+  std::string within;  // of a cavity: a region; what was cut outside of it is another cavity
   std::map<std::string, double, std::less<>> limits;  // every threshold of the measure, SI
   // The values that earn nothing and everything, linear between; SI, in the quantity of the measure.
   // None: met earns everything, unmet nothing. The verdict is by the threshold alone.

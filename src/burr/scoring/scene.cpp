@@ -184,12 +184,14 @@ const metrics::Assessed<metrics::PlaneFit>& Scene::cut_at(const std::string& pla
       .first->second;
 }
 
-const metrics::Assessed<metrics::CavityShape>& Scene::cavity(const std::string& region) {
-  const auto found = cavities_.find(region);
+const metrics::Assessed<metrics::CavityShape>& Scene::cavity(const std::string& region,
+                                                             const std::string& within) {
+  const auto key = std::pair(region, within);
+  const auto found = cavities_.find(key);
   if (found != cavities_.end()) return found->second;
   return cavities_
-      .emplace(region,
-               metrics::cavity_shape(before_, after_, towards().front(), {}, this->region(region)))
+      .emplace(key, metrics::cavity_shape(before_, after_, towards().front(), this->region(within),
+                                          this->region(region)))
       .first->second;
 }
 

@@ -52,14 +52,15 @@ class Scene {
                                                                const std::string& region,
                                                                std::size_t most_samples);
   [[nodiscard]] metrics::Region regions(const std::vector<std::string>& names);  // all in one; some
-  // Of that region, by name; the corridor along a curve in it; the cut at a plane in it; the cavity in it,
-  // with the region as its plan.
+  // Of that region, by name; the corridor along a curve in it; the cut at a plane in it; the cavity whose
+  // plan it is, of all that was cut `within` a region (empty: anywhere).
   [[nodiscard]] const metrics::Assessed<metrics::Removed>& removed(const std::string& region);
   [[nodiscard]] const metrics::Assessed<metrics::AxisFit>& axis(const std::string& curve,
                                                                 const std::string& region);
   [[nodiscard]] const metrics::Assessed<metrics::PlaneFit>& cut_at(const std::string& plane,
                                                                    const std::string& region);
-  [[nodiscard]] const metrics::Assessed<metrics::CavityShape>& cavity(const std::string& region);
+  [[nodiscard]] const metrics::Assessed<metrics::CavityShape>& cavity(const std::string& region,
+                                                                      const std::string& within);
   // Share that was removed of what the case says to remove: the regions of its reference, or without
   // one those of its steps. What must stay whole earns nothing below metrics::kLeastWork.
   [[nodiscard]] double worked();
@@ -80,7 +81,7 @@ class Scene {
   std::map<std::string, metrics::Assessed<metrics::Removed>> removed_;
   std::map<std::pair<std::string, std::string>, metrics::Assessed<metrics::AxisFit>> axes_;
   std::map<std::pair<std::string, std::string>, metrics::Assessed<metrics::PlaneFit>> planes_;
-  std::map<std::string, metrics::Assessed<metrics::CavityShape>> cavities_;
+  std::map<std::pair<std::string, std::string>, metrics::Assessed<metrics::CavityShape>> cavities_;
   std::shared_ptr<const volume::DistanceTo> to_solid_;
   double worked_ = -1;  // below 0: not known yet
 };

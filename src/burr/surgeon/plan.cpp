@@ -136,7 +136,11 @@ Spare spare_of(const volume::Grid& bone, const scenario::Lesson& lesson, const B
   return out;
 }
 
-FieldGrid goal_of(const scenario::CaseRegion& region, const scenario::Lesson& lesson,
+std::vector<Vec3> approach_of(const scenario::Lesson& lesson, const scenario::Step& step) {
+  return step.approach.empty() ? approach_of(lesson) : step.approach;
+}
+
+FieldGrid goal_of(const scenario::CaseRegion& region, const std::vector<Vec3>& approach,
                   const Believed& believed, const Spare& spare) {
   FieldGrid start = spare.free;
   const Believed::Depth depth = believed.region(region);
@@ -144,7 +148,7 @@ FieldGrid goal_of(const scenario::CaseRegion& region, const scenario::Lesson& le
     start.value[n] = static_cast<float>(std::max(-1.0, depth(start.node(n))));
   FieldGrid goal = start;
   std::fill(goal.value.begin(), goal.value.end(), kNowhere);
-  for (const Vec3& towards : approach_of(lesson)) {
+  for (const Vec3& towards : approach) {
     const Vec3 to = start.axes().conjugate() * towards;
     FieldGrid one = start;
     // All that lies between the region and the surgeon. Above the region's top it may be a little

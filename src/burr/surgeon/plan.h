@@ -56,11 +56,14 @@ struct Spare {
 [[nodiscard]] Spare spare_of(const volume::Grid& bone, const scenario::Lesson& lesson,
                              const Believed& believed, double margin_less);
 
-// The goal of a step in `region`; the approach of the lesson says where the surgeon is.
-[[nodiscard]] FieldGrid goal_of(const scenario::CaseRegion& region, const scenario::Lesson& lesson,
-                                const Believed& believed, const Spare& spare);
+// The goal of a step in `region`, for a surgeon who is in these directions (approach_of).
+[[nodiscard]] FieldGrid goal_of(const scenario::CaseRegion& region,
+                                const std::vector<math::Vec3>& approach, const Believed& believed,
+                                const Spare& spare);
 
-// Unit, from the bone to the surgeon; at least one.
+// Unit, from the bone to the surgeon; at least one. Of a step, or of the lesson where it has none.
 [[nodiscard]] std::vector<math::Vec3> approach_of(const scenario::Lesson& lesson);
+[[nodiscard]] std::vector<math::Vec3> approach_of(const scenario::Lesson& lesson,
+                                                  const scenario::Step& step);
 
 }  // namespace burr::surgeon

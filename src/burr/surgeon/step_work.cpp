@@ -58,7 +58,7 @@ StepWork::StepWork(const volume::Bone& bone, const scenario::Step& step,
       case_diameter_(case_diameter),
       voxel_(bone.grid().voxel),
       smallest_(skill.burrs.smallest),
-      approach_(approach_of(lesson)) {
+      approach_(approach_of(lesson, step)) {
   top_ = -std::numeric_limits<double>::infinity();
   take_nodes(bone, goal);
   all_ = left_ = left_then_ = nodes_.size();

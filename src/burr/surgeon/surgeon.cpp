@@ -71,7 +71,8 @@ void Surgeon::begin_step(const volume::Bone& bone, Consulted& out) {
   if (step_ >= lesson_.steps.size()) return;
   const scenario::Step& step = lesson_.steps[step_];
   out.notes.push_back({NoteKind::step_begun, step.id, 1});
-  const FieldGrid goal = goal_of(*lesson_.region(step.region), lesson_, believed_, spare_);
+  const std::vector<Vec3> approach = approach_of(lesson_, step);
+  const FieldGrid goal = goal_of(*lesson_.region(step.region), approach, believed_, spare_);
   if (allowed_.nodes() == 0) allowed_ = goal;
   for (std::size_t n = 0; n < goal.nodes(); ++n)
     allowed_.value[n] = std::max(allowed_.value[n], goal.value[n]);

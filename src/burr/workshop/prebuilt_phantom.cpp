@@ -12,10 +12,14 @@ namespace burr::workshop {
 
 std::unique_ptr<volume::Bone> prebuilt_phantom(const std::string& phantom,
                                                std::size_t reserve_bricks) {
+  // "jaw?long" lies in jaw-long.bone
+  std::string name = phantom;
+  for (char& one : name)
+    if (one == '?' || one == ',') one = '-';
   std::error_code none;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
   for (const auto& folder : {program / "bones", program / "../share/burr/bones"}) {
-    const std::filesystem::path path = folder / (phantom + ".bone");
+    const std::filesystem::path path = folder / (name + ".bone");
     std::ifstream in(path, std::ios::binary);
     if (!in) continue;
     const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
