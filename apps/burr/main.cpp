@@ -20,6 +20,7 @@
 #include "burr/base/version.h"
 #include "commands/command.h"
 #include "commands/console.h"
+#include "commands/interrupt.h"
 #include "commands/limits.h"
 
 namespace burr::app {
