@@ -102,7 +102,8 @@ inline tick::TickRow any_tick(std::uint64_t tick, Random& random) {
   row.contact.candidates = static_cast<int>(random() % 1000) - 1;
   row.contact.touching = random() % 2 == 0;
   row.contact.flags = static_cast<std::uint32_t>(random());
-  row.ledger = {any(random), any(random), any(random), any(random), any(random), any(random)};
+  row.ledger = {any(random), any(random), any(random), any(random),
+                any(random), any(random), any(random)};
   row.spindle_rad_s = any(random);
   row.cutting_nm = any(random);
   row.cutting_w = any(random);
@@ -148,7 +149,8 @@ inline void expect_same(const tick::TickRow& a, const tick::TickRow& b) {
   EXPECT_EQ(a.contact.flags, b.contact.flags);
   EXPECT_TRUE(same(a.ledger.asked, b.ledger.asked) && same(a.ledger.removed, b.ledger.removed) &&
               same(a.ledger.debt, b.ledger.debt) && same(a.ledger.not_cut, b.ledger.not_cut) &&
-              same(a.ledger.added, b.ledger.added) && same(a.ledger.energy, b.ledger.energy))
+              same(a.ledger.added, b.ledger.added) && same(a.ledger.energy, b.ledger.energy) &&
+              same(a.ledger.undone, b.ledger.undone))
       << a.tick;
   EXPECT_TRUE(same(a.spindle_rad_s, b.spindle_rad_s)) << a.tick;
   EXPECT_TRUE(same(a.cutting_nm, b.cutting_nm) && same(a.cutting_w, b.cutting_w)) << a.tick;

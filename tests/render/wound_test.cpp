@@ -36,6 +36,11 @@ class Milling {
       wound_.see(tick_);
     }
   }
+  void undo(double volume) {
+    tick_.t += 0.02;
+    tick_.undone += volume;
+    wound_.see(tick_);
+  }
   [[nodiscard]] const Wound::Tick& last() const { return tick_; }
 
  private:
@@ -288,6 +293,48 @@ TEST(Wound, DustHangsInTheAirAndSettlesAroundTheToolInAConeOfItsVolume) {
   ASSERT_GT(wound.at(beside).dust, 0.1F);
   milling.on(beside, 0.1, 1e-12, false);
   EXPECT_NEAR(wound.at(beside).dust, 0, 1e-3) << "... and what lay there before";
+}
+
+TEST(Wound, WhatAStrokeLeftGoesWithIt) {
+  Wound wound(kVoxel);
+  Milling milling(wound);
+  const Vec3 first(0.03, -0.02, 0.011), second = first + Vec3(6e-3, 0, 0);
+  const auto face = [](const Vec3& tip) { return Vec3(tip - Vec3(0, 0, kRadius)); };
+  const auto beside = [](const Vec3& tip) { return Vec3(tip + Vec3(0, kRadius + 1.5e-3, 0)); };
+  const Vec3 away = first + Vec3(0, 0, 0.01);
+  milling.on(first, 0.5, 2e-9, false);
+  milling.on(away, 1.5, 0, false);
+  const auto before = wound.at(beside(first));
+  const float fresh = wound.at(face(first)).fresh;
+  const float there = wound.at(beside(second)).dust;  // a little of the first stroke's
+  ASSERT_GT(before.dust, 0.05F);
+  milling.on(second, 0.5, 3e-9, false);
+  milling.on(away, 1.5, 0, false);
+  ASSERT_GT(wound.at(beside(second)).dust, there + 0.05F);
+  ASSERT_GT(wound.at(face(second)).fresh, 0.5F);
+
+  milling.undo(3e-9);
+  EXPECT_EQ(wound.at(face(second)).fresh, 0);
+  EXPECT_NEAR(wound.at(beside(second)).dust, there, 1e-6);
+  EXPECT_NEAR(wound.at(beside(first)).dust, before.dust, 1e-6) << "the first stroke is still there";
+  EXPECT_LT(wound.at(face(first)).fresh, fresh) << "but it dulled meanwhile";
+  EXPECT_GT(wound.at(face(first)).fresh, 0.5F);
+  milling.undo(2e-9);
+  EXPECT_EQ(wound.at(beside(first)).dust, 0);
+  EXPECT_EQ(wound.at(face(first)).fresh, 0);
+  EXPECT_EQ(wound.in_the_air(), 0);
+
+  // strokes longer ago than are kept take all dust with them; the next stroke leaves its own
+  for (std::size_t n = 0; n < Wound::kStrokes + 2; ++n) {
+    milling.on(first, 0.1, 1e-9, false);
+    milling.on(away, 0.3, 0, false);
+  }
+  ASSERT_GT(wound.at(beside(first)).dust, 0);
+  milling.undo(1e-9 * static_cast<double>(Wound::kStrokes + 1));
+  EXPECT_EQ(wound.at(beside(first)).dust, 0);
+  milling.on(first, 0.5, 2e-9, false);
+  milling.on(away, 1.5, 0, false);
+  EXPECT_GT(wound.at(beside(first)).dust, 0);
 }
 
 TEST(Wound, CoolantWashesDustAwayAndLetsNoneSettle) {

@@ -68,6 +68,54 @@ TEST_F(Kept, RecipesComeBackToTheBit) {
   }
 }
 
+// Time, volume, burr, speed and coolant are those of the end, also over several sessions.
+TEST_F(Kept, ASessionThatIsContinuedGoesOnWhereItEnded) {
+  WorkOptions ball;
+  ball.volume.source = "phantom:ball";
+  ball.volume.voxel_mm = 1;
+  NoProgress quiet;
+  ASSERT_TRUE(take_case(ball).ok());
+  auto work = open_work(ball, quiet);
+  ASSERT_TRUE(work) << work.error().text;
+  auto ready = make_ready(ball, std::move(*work), quiet);
+  ASSERT_TRUE(ready) << ready.error().text;
+  double seconds = 0, removed = 0;
+  for (int n = 0; n < 2; ++n) {
+    Autosave autosave(state_, *ready, ball, n > 0, {});
+    ASSERT_EQ(autosave.trouble(), "");
+    sim::Session& session = *ready->session;
+    session.run(0.02, quiet);  // a larger burr is refused until the hand was in the air
+    session.command({tick::CommandKind::burr_radius, 3e-3});
+    session.command({tick::CommandKind::burr_kind, 1});
+    session.command({tick::CommandKind::spindle_speed, 3000});
+    session.command({tick::CommandKind::irrigation, 1});
+    MouseHand::Aim aim;
+    aim.world_from_tool = ready->scene.burr.world_from_tool;
+    aim.world_from_tool.p = ready->scene.camera.target;  // on the surface: pressed in by a radius
+    aim.pedal = 1;
+    ready->hands.mouse->aim(aim);
+    session.run(0.4, quiet);
+    ASSERT_TRUE(autosave.finish()) << autosave.trouble();
+    seconds += session.outcome().seconds;
+    removed += session.outcome().ledger.removed;
+    const auto kept = kept_sessions(state_);
+    ASSERT_EQ(kept.size(), static_cast<std::size_t>(n + 1));
+    EXPECT_NEAR(kept.front().seconds, seconds, 1e-9);
+    EXPECT_NEAR(kept.front().removed_mm3, 1e9 * removed, 1e-6);
+    auto next = continue_session(kept.front(), quiet);
+    ASSERT_TRUE(next) << next.error().text;
+    EXPECT_NEAR(next->earlier.seconds, seconds, 1e-9);
+    EXPECT_NEAR(next->earlier.removed, removed, 1e-15);
+    const tick::ServoSettings& servo = next->session->settings().servo;
+    EXPECT_NEAR(servo.burr.radius, 3e-3, 1e-12);
+    EXPECT_EQ(servo.burr.kind, tool::BurrKind::diamond);
+    EXPECT_NEAR(servo.spindle_rad_s, 3000, 1e-9);
+    EXPECT_TRUE(servo.irrigated);
+    ready = std::move(next);
+  }
+  EXPECT_GT(removed, 0);
+}
+
 TEST_F(Kept, AnOlderAccountIsStillRead) {
   const fs::path folder = state_ / "sessions";
   std::ofstream(folder / "session_20261122_193145.mcap") << "x";

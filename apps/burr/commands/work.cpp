@@ -80,6 +80,8 @@ sim::SessionSettings settings_of(const WorkOptions& options, bool realtime) {
   settings.servo.burr.radius = 0.5e-3 * options.burr_mm;
   settings.servo.burr.kind = options.kind;
   settings.servo.spindle_rad_s = options.rpm * 2 * std::numbers::pi / 60;
+  settings.servo.mode = options.mode;
+  settings.servo.irrigated = options.irrigated;
   settings.realtime = realtime;
   return settings;
 }

@@ -20,6 +20,12 @@
 
 namespace burr::app {
 
+// What the sessions that this one continues did.
+struct Earlier {
+  double seconds = 0;
+  double removed = 0;  // and not undone [m^3]
+};
+
 struct WorkOptions {
   scenario::Recipe volume;      // source: also a case or a .toml file, until take_case()
   bool keep_greys = false;      // keep the values of a grey scan, for slices
@@ -36,6 +42,10 @@ struct WorkOptions {
   tool::BurrKind kind = tool::BurrKind::cutting;
   std::vector<std::string> spare;  // tissues that must not be cut
   std::optional<scenario::Case> work_case;
+  // only from a session that is continued
+  tick::ToolMode mode = tick::ToolMode::cut;
+  bool irrigated = false;
+  Earlier earlier;
 };
 
 // If the source is a built-in case or a .toml file, fills the options from it: what is milled,

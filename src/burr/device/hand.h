@@ -15,6 +15,12 @@ namespace burr::device {
 // Bit of HandState::buttons: the hand is lifted off, to be moved without the tool (a clutch). No
 // force, no contact and no cutting until it is released in free air.
 inline constexpr std::uint32_t kLifted = 1U << 31;
+// Another one: the hand hovers. It feels and cuts nothing, and its tool is wherever the hand is set
+// down in free air, however far from the place before. Where the hand is in bone, the tool follows
+// it as far as the bone allows. For a hand that only points, such as a mouse without its button.
+inline constexpr std::uint32_t kHovers = 1U << 30;
+// Bits that burr sets itself; not buttons of a device.
+inline constexpr std::uint32_t kOwnBits = kLifted | kHovers;
 
 // One reading of the hand. The tool's tip (centre of the burr head) is the origin of the tool
 // frame; the handle lies along +z.

@@ -45,6 +45,7 @@ Status MappedHand::set(const MappingSettings& settings) {
 
 HandState MappedHand::state(double dt) BURR_RT {
   HandState hand = device_->state(dt);
+  hand.buttons &= ~kHovers;  // only a hand that burr makes itself hovers
   if (!hand.valid || !hand.world_from_tool.finite()) {
     anchored_ = false;  // the tip stays where it is, wherever the hand comes back
     hand.world_from_tool.q = held_;
@@ -53,7 +54,7 @@ HandState MappedHand::state(double dt) BURR_RT {
   }
   const Vec3 raw = hand.world_from_tool.p;
   const auto down = [&hand](int button) {
-    return button >= 0 && button < 31 && (hand.buttons >> button & 1U) != 0;
+    return button >= 0 && button < 30 && (hand.buttons >> button & 1U) != 0;
   };
   const double foot = pedal_.load(std::memory_order_relaxed);
   const bool asleep =

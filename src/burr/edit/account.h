@@ -16,6 +16,7 @@ namespace burr::edit {
 struct Account {
   double asked = 0, debt = 0, not_cut = 0;          // [units]
   std::int64_t removed = 0, added = 0;              // [units]
+  std::int64_t undone = 0;                          // [units]
   std::int64_t image_removed = 0, image_added = 0;  // of these, at the mirror's image
   double energy = 0;                                // [J]
 
@@ -39,6 +40,7 @@ struct Account {
     ledger.debt = debt * unit_m3;
     ledger.not_cut = not_cut * unit_m3;
     ledger.added = static_cast<double>(added) * unit_m3;
+    ledger.undone = static_cast<double>(undone) * unit_m3;
     ledger.energy = energy;
     return ledger;
   }

@@ -75,6 +75,8 @@ class Carver {
   void idle(double dt) BURR_RT;
 
   [[nodiscard]] Ledger ledger() const BURR_RT { return writer_.ledger(); }
+  // Units removed since the start.
+  [[nodiscard]] std::int64_t removed_units() const BURR_RT { return writer_.account().removed; }
   [[nodiscard]] double margin() const BURR_RT { return margin_; }  // [voxel]
   // The image's part of the removed and added volume in the ledger.  [m^3]
   [[nodiscard]] double removed_by_image() const BURR_RT {

@@ -1,6 +1,7 @@
 // edit/ledger.h - the account of removed volume: what was asked for, removed and still owed.
 //
 //     asked = removed + debt + not_cut          at every tick, up to rounding of a double
+//     removed - undone                          what is missing from the bone now, apart from `added`
 //
 // Volumes are those of volume/volume_of.h.  [m^3]
 #pragma once
@@ -14,6 +15,7 @@ struct Ledger {
   double not_cut = 0;  // asked, but written off: blocked longer than a debt may wait
   double added = 0;    // deposited
   double energy = 0;   // spent on cutting  [J]
+  double undone = 0;   // of `removed`: brought back by undo and reset, and not redone
 };
 
 }  // namespace burr::edit

@@ -46,15 +46,23 @@ void UndoStore::copy(const volume::Bone& bone, BrickIndex brick, KeptBrick& to) 
   std::memcpy(to.tissue, bone.brick_tissue(brick), sizeof to.tissue);
 }
 
-void UndoStore::begin_stroke(std::uint64_t path_mark) BURR_RT {
+void UndoStore::begin_stroke(std::uint64_t path_mark, std::int64_t removed) BURR_RT {
   if (newest_ > done_) next_entry_ = stroke(done_).first;  // what could have been redone is gone
   newest_ = done_ + 1;
   if (newest_ - oldest_ > strokes_.size()) ++oldest_;
-  stroke(done_) = {next_entry_, 0, path_mark};
+  stroke(done_) = {next_entry_, 0, path_mark, removed, 0};
   ++done_;
   ++serial_;
   open_ = true;
   overflowed_ = false;
+}
+
+void UndoStore::end_stroke(std::int64_t removed) BURR_RT {
+  if (open_) {
+    Stroke& now = stroke(done_ - 1);
+    now.removed = removed - now.removed_before;
+  }
+  open_ = false;
 }
 
 bool UndoStore::keep(BrickIndex brick) BURR_RT {
@@ -90,13 +98,13 @@ bool UndoStore::keep(BrickIndex brick) BURR_RT {
 UndoStore::Range UndoStore::undo() BURR_RT {
   BURR_CHECK(can_undo());
   const Stroke& s = stroke(--done_);
-  return {s.first, s.count, s.path_mark};
+  return {s.first, s.count, s.path_mark, s.removed};
 }
 
 UndoStore::Range UndoStore::redo() BURR_RT {
   BURR_CHECK(can_redo());
   const Stroke& s = stroke(done_++);
-  return {s.first, s.count, s.path_mark};
+  return {s.first, s.count, s.path_mark, s.removed};
 }
 
 const KeptBrick* UndoStore::original_of(BrickIndex brick) const BURR_RT {

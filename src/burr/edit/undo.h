@@ -36,8 +36,9 @@ class UndoStore {
   void commit_ahead();
 
   // ---- while cutting
-  void begin_stroke(std::uint64_t path_mark) BURR_RT;  // drops the strokes that could be redone
-  void end_stroke() BURR_RT { open_ = false; }
+  // Drops the strokes that could be redone. removed: of the account, now [units]
+  void begin_stroke(std::uint64_t path_mark, std::int64_t removed = 0) BURR_RT;
+  void end_stroke(std::int64_t removed = 0) BURR_RT;
   [[nodiscard]] bool stroke_open() const BURR_RT { return open_; }
   // Call before a brick is written. True: an older stroke was dropped, or this stroke itself is too
   // large.
@@ -47,6 +48,7 @@ class UndoStore {
   struct Range {
     std::uint64_t first = 0, count = 0;  // entry numbers; entry(i) for i in [first, first + count)
     std::uint64_t path_mark = 0;
+    std::int64_t removed = 0;  // by the stroke [units]
   };
   [[nodiscard]] bool can_undo() const BURR_RT { return !open_ && done_ > oldest_; }
   [[nodiscard]] bool can_redo() const BURR_RT { return !open_ && done_ < newest_; }
@@ -73,6 +75,7 @@ class UndoStore {
  private:
   struct Stroke {
     std::uint64_t first = 0, count = 0, path_mark = 0;
+    std::int64_t removed_before = 0, removed = 0;  // [units]
   };
   static void copy(const volume::Bone& bone, volume::BrickIndex brick, KeptBrick& to) BURR_RT;
   [[nodiscard]] Stroke& stroke(std::uint64_t number) BURR_RT {

@@ -2,24 +2,13 @@
 
 #include <limits>
 
+#include "burr/render/ray_box.h"
+
 namespace burr::render {
 
 using math::Vec3;
 
 namespace {
-
-// The distance at which the ray enters the box, or infinity; slabs (Kay & Kajiya 1986).
-double entry(const math::Aabb& box, const Ray& ray, const Vec3& inverse) {
-  double in = 0, out = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis) {
-    const double a = (box.lo[axis] - ray.origin[axis]) * inverse[axis];
-    const double b = (box.hi[axis] - ray.origin[axis]) * inverse[axis];
-    // written so that 0 * inf on a face of the box changes neither in nor out
-    in = std::max(in, std::min(a, b));
-    out = std::min(out, std::max(a, b));
-  }
-  return in <= out ? in : std::numeric_limits<double>::infinity();
-}
 
 void pick_in(const SkinMesh& mesh, const Ray& ray, const std::optional<ClipPlane>& clip,
              Hit& nearest) {

@@ -48,6 +48,8 @@ void Wound::forget() {
   cells_.clear();
   low_ = high_ = Ijk::Zero();
   last_.reset();
+  cut_at_ = -1e9;
+  before_.clear();
   up_.reset();
   airborne_ = flowed_ = 0;
   bleeds_ = false;
@@ -132,6 +134,11 @@ void Wound::see(const Tick& tick) {
   const double removed = last_ ? tick.removed - last_->removed : 0;
   const bool added = last_ && tick.added > last_->added;
   if (!cells_.empty()) dull(seconds);
+  if (last_ && tick.undone > last_->undone) undo(tick);
+  if (removed > 0) {
+    if (tick.t - cut_at_ > kStrokePause) begin_stroke();
+    cut_at_ = tick.t;
+  }
   if (removed > 0 || added || tick.irrigated) {
     centre(tick.tip);
     const Vec3 from = last_ && seconds <= kKnown ? last_->tip : tick.tip;
@@ -142,6 +149,56 @@ void Wound::see(const Tick& tick) {
   if (airborne_ > 0) settle(tick, seconds);
   if (bleeds_) bleed(seconds);
   last_ = tick;
+}
+
+// Keeps what there is, as it was at the tick before.
+void Wound::begin_stroke() {
+  if (before_.size() == kStrokes) before_.erase(before_.begin());
+  Before& now = before_.emplace_back();
+  now.net = last_->removed - last_->undone;
+  now.t = last_->t;
+  now.low = first_ + low_;
+  now.high = first_ + high_.cwiseMax(low_);
+  if (cells_.empty()) return;
+  for (int k = low_.z(); k < high_.z(); ++k)
+    for (int j = low_.y(); j < high_.y(); ++j)
+      for (int i = low_.x(); i < high_.x(); ++i) now.cells.push_back(cells_[index(i, j, k)]);
+}
+
+// Takes away what the undone strokes left.
+void Wound::undo(const Tick& tick) {
+  constexpr double kSame = 1e-15;  // rounding of sums [m^3]
+  const double net = tick.removed - tick.undone;
+  while (!before_.empty() && before_.back().net > net + kSame) before_.pop_back();
+  airborne_ = 0;
+  cut_at_ = -1e9;  // what is cut next is another stroke
+  for (Cell& cell : cells_) {
+    Cell bare;
+    bare.look.wet = cell.look.wet;
+    bare.skin = cell.skin;
+    cell = bare;
+  }
+  if (cells_.empty() || before_.empty() || before_.back().net < net - kSame) return;
+  const Before was = std::move(before_.back());
+  before_.pop_back();
+  auto from = was.cells.begin();
+  for (int k = was.low.z(); k < was.high.z(); ++k)
+    for (int j = was.low.y(); j < was.high.y(); ++j)
+      for (int i = was.low.x(); i < was.high.x(); ++i) {
+        if (from == was.cells.end()) break;  // there was nothing yet
+        const Cell& old = *from++;
+        const Ijk at = Ijk(i, j, k) - first_;
+        if (at.minCoeff() < 0 || at.maxCoeff() >= kEdge) continue;
+        Cell& cell = cells_[index(at.x(), at.y(), at.z())];
+        const bool skin = cell.skin;
+        const float wet = cell.look.wet;
+        cell = old;
+        cell.skin = skin;
+        cell.look.wet = wet + static_cast<float>((tick.t - was.t) / kDryTime);  // for dull()
+        low_ = low_.cwiseMin(at);
+        high_ = high_.cwiseMax(at + Ijk::Ones());
+      }
+  dull(tick.t - was.t);
 }
 
 void Wound::cut(const Tick& tick, const Vec3& from, double removed) {

@@ -17,7 +17,9 @@
 // These are for the eye, not for measurement: the rates are choices, and nothing in the bone is
 // changed. Where blood runs depends on the patches it is shown on; all else is the same for the
 // same ticks. Going back in time clears everything.
-// Thread: one at a time. Frame: world. Units: SI. Memory: 7 MiB.
+// When a stroke is undone, all this is as it was before that stroke, for the last kStrokes of them;
+// older ones take everything with them but the water. A redo does not bring it again.
+// Thread: one at a time. Frame: world. Units: SI. Memory: 7 MiB, and as much at most for strokes.
 #pragma once
 
 #include <optional>
@@ -51,6 +53,8 @@ class Wound {
   static constexpr double kFillTime = 0.4;       // time to fill a cell that contains an open
                                                  // vessel [s]
   static constexpr double kClotTime = 60;        // until the flow is 1/e [s]
+  static constexpr std::size_t kStrokes = 32;    // whose traces an undo can take away
+  static constexpr double kStrokePause = 0.25;   // a longer pause in the cut begins another [s]
   static constexpr double kClearTime = 90;       // until 1/e of the blood is left [s]
 
   explicit Wound(double voxel, std::vector<float> bleeding = {});
@@ -63,6 +67,7 @@ class Wound {
     double radius = 0;                    // of the head
     double removed = 0, added = 0;        // since the start [m^3]
     bool irrigated = false;
+    double undone = 0;  // of `removed`, brought back since the start [m^3]
   };
   void see(const Tick& tick);
   // A suction tube's mouth was at this place for so long: water, dust and blood near it are
@@ -100,7 +105,17 @@ class Wound {
   static constexpr float kFar = 4;
   static constexpr int kEdge = 64;  // cells along a side
 
+  // What there was before a stroke.
+  struct Before {
+    double net = 0;           // removed and not undone at that time [m^3]
+    double t = 0;             // [s]
+    math::Ijk low, high;      // cells of the world, [low, high)
+    std::vector<Cell> cells;  // of that box
+  };
+
   void centre(const math::Vec3& p);
+  void begin_stroke();
+  void undo(const Tick& tick);
   void dull(double seconds);
   void cut(const Tick& tick, const math::Vec3& from, double removed);
   void cover(const Tick& tick, const math::Vec3& from);
@@ -123,6 +138,8 @@ class Wound {
   math::Ijk low_ = math::Ijk::Zero(), high_ = math::Ijk::Zero();  // only [low, high) may hold
                                                                   // something
   std::optional<Tick> last_;
+  double cut_at_ = -1e9;        // when something was removed last [s]
+  std::vector<Before> before_;  // strokes, the oldest first
   std::optional<math::Vec3> up_;
   double airborne_ = 0;               // [m^3]
   bool bleeds_ = false;               // some cell is open

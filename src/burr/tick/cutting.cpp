@@ -121,7 +121,8 @@ bool Cutting::works(double push) BURR_RT {
   }
   carver_.idle(dt_);
   untouched_ += dt_;
-  if (undo_.stroke_open() && untouched_ > settings_.stroke_pause) undo_.end_stroke();
+  if (undo_.stroke_open() && untouched_ > settings_.stroke_pause)
+    undo_.end_stroke(carver_.removed_units());
   return false;
 }
 
@@ -137,7 +138,7 @@ void Cutting::cut(std::uint64_t tick, const Vec3& touched, bool may, std::uint64
       hand_.state().pedal > 0 && settings_.removal.law != edit::RemovalLaw::thesis)
     now_.torque = by_law(push, std::copysign(1.0, spindle_.full_speed)).torque;
   if (!works(push)) return;
-  if (!undo_.stroke_open()) undo_.begin_stroke(path_mark);
+  if (!undo_.stroke_open()) undo_.begin_stroke(path_mark, carver_.removed_units());
 
   const volume::Grid& grid = bone_.grid();
   edit::Cut cut;

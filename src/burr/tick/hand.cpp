@@ -30,6 +30,7 @@ bool Hand::read(bool lost, std::uint32_t& flags) BURR_RT {
     flags |= rt::kFlagWatchdog;
     faults_.raise();
   }
+  if (hovers()) limit_.forget_reading();
   const bool usable = limit_.accept_reading(state_, flags);
   if ((state_.buttons & device::kLifted) != 0) lift();
   if (!usable) faults_.raise();
@@ -46,12 +47,24 @@ bool Hand::engage() BURR_RT {
   return true;
 }
 
+void Hand::set_down() BURR_RT {
+  const Vec3& hand = state_.world_from_tool.p;
+  if (constraint_.is_free(hand)) begin_at(hand);
+}
+
+void Hand::feel() BURR_RT {
+  touch_ = method_->step(state_.world_from_tool.p);
+  if (!hovers()) return;
+  touch_ = {};  // no contact, no force
+  touch_.proxy = method_->position();
+}
+
 void Hand::feel_held_tool() BURR_RT {
   touch_ = {};
   touch_.proxy = method_->position();
   const Vec3 stretch = touch_.proxy - state_.world_from_tool.p;
   touch_.depth = math::norm(stretch);
-  if (engaged_ && touch_.depth > 1e-9) {
+  if (engaged_ && !hovers() && touch_.depth > 1e-9) {
     touch_.normal = stretch / touch_.depth;
     touch_.touching = true;
   }

@@ -9,7 +9,7 @@
 //     hand.report(contact, flags)
 //
 // The hand is engaged from the first tick in which its tool is in free air, until it is lifted, or
-// lost, or released. Before that it feels nothing.
+// lost, or released. Before that it feels nothing. A hand that hovers feels nothing either.
 //
 // Thread: servo; reports of faults() one reader, any. Frame: world. Units: SI. Memory: taken at
 // construction.
@@ -54,7 +54,7 @@ class Hand {
   void filter_velocity() BURR_RT { velocity_ += blend_ * (state_.velocity - velocity_); }
   // False: not engaged, and the tool is not in free air.
   [[nodiscard]] bool engage() BURR_RT;
-  void feel() BURR_RT { touch_ = method_->step(state_.world_from_tool.p); }
+  void feel() BURR_RT;
   // Instead of feel(): the hand feels a spring to the tool, which others hold.
   void feel_held_tool() BURR_RT;
   // Instead of all these: no usable reading.
@@ -77,6 +77,11 @@ class Hand {
   math::Vec3 touch_part(const math::Vec3& sent, const math::Vec3& spindle) BURR_RT;
   // What touch found, for the row; adds its flags.
   void report(const Sent& sent, haptics::Contact& contact) const BURR_RT;
+
+  // ---- a hand that hovers (device/hand.h)
+  [[nodiscard]] bool hovers() const BURR_RT { return (state_.buttons & device::kHovers) != 0; }
+  // Before engage(): the tool goes to where the hand is, if it is free there.
+  void set_down() BURR_RT;
 
   // ---- between the steps
   // The hand was lifted on purpose, or bone may come back where the tool is: the force fades.

@@ -29,7 +29,7 @@ Restore::Restore(const volume::Bone& bone, const volume::IsoVertices& surface,
 
 bool Restore::begin(CommandKind kind) BURR_RT {
   if (active()) return false;
-  if (undo_.stroke_open()) undo_.end_stroke();
+  if (undo_.stroke_open()) undo_.end_stroke(writer_.account().removed);
   if (kind == CommandKind::undo) {
     if (!undo_.can_undo()) return false;
     range_ = undo_.undo();
@@ -38,7 +38,7 @@ bool Restore::begin(CommandKind kind) BURR_RT {
     range_ = undo_.redo();
   } else {
     if (undo_.touched() == 0) return false;
-    range_ = {0, undo_.touched(), 0};
+    range_ = {0, undo_.touched(), 0, 0};
     undo_.forget_strokes();
   }
   kind_ = kind;
@@ -92,7 +92,8 @@ void Restore::lift(std::uint32_t& flags) BURR_RT {
   while (!arrived && left > 0 && path_at_ > oldest) {
     const Vec3& goal = path_[(path_at_ - 1) % kPath];
     const double far = math::norm(goal - at);
-    const double go = std::min(far, left);
+    // a hand that hovers was set down from place to place, with bone between them: so is its tool
+    const double go = hand_.hovers() ? far : std::min(far, left);
     if (far > 0) at += (goal - at) * (go / far);
     left -= go;
     lift_since_check_ += go;
@@ -116,7 +117,13 @@ void Restore::put_back() BURR_RT {
       writer_.swap(undo_.entry(range_.first + restored_));
     }
   }
-  if (restored_ == range_.count) state_ = State::settling;
+  if (restored_ < range_.count) return;
+  state_ = State::settling;
+  edit::Account& account = writer_.account();
+  if (kind_ == CommandKind::reset)
+    account.undone = account.removed;
+  else
+    account.undone += kind_ == CommandKind::undo ? range_.removed : -range_.removed;
 }
 
 void Restore::settle() BURR_RT {

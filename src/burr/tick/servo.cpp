@@ -92,6 +92,7 @@ void Servo::feel(bool usable) BURR_RT {
     row_.contact.flags |= rt::kFlagRestoring;
     return;
   }
+  if (hand_.hovers()) hand_.set_down();
   if (!hand_.engage()) return;
   const double mu = cutting_.friction();
   touch_by_.now().set_friction(mu, controls_.settings.kinetic_share * mu);

@@ -2,7 +2,8 @@
 //
 // Chained: `before` is the hash of the previous tick, so the last hash covers the whole session.
 // The times (took_us, late_us) are left out, because they differ from run to run. A torque of zero
-// is left out too, so that recordings from before torque existed keep their hashes. No allocation.
+// is left out too, and so is an undone volume of zero: recordings from before they existed keep
+// their hashes where nothing was undone. No allocation.
 #pragma once
 
 #include <bit>
@@ -46,6 +47,7 @@ namespace burr::tick {
   add(row.ledger.not_cut);
   add(row.ledger.added);
   add(row.ledger.energy);
+  if (row.ledger.undone != 0) add(row.ledger.undone);
   add(row.spindle_rad_s);
   add(row.cutting_nm);
   add(row.cutting_w);

@@ -25,7 +25,8 @@ render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz) {
           row.tool.radius,
           row.ledger.removed,
           row.ledger.added,
-          row.tool.irrigated};
+          row.tool.irrigated,
+          row.ledger.undone};
 }
 
 void put_tool(render::Scene& scene, const tick::TickRow& row, bool contact) {

@@ -6,6 +6,8 @@ namespace burr::app {
 MouseHand::MouseHand(const math::Pose& start) : gliding_(start.p), q_(start.q), p_(start.p) {
   aim_.world_from_tool = start;
   spec_.name = "mouse";
+  // nobody feels a mouse's ticks: a machine that is busy for a moment need not stop the work
+  spec_.loss_timeout = 0.5;
 }
 
 device::HandState MouseHand::state(double dt) BURR_RT {
@@ -18,6 +20,14 @@ device::HandState MouseHand::state(double dt) BURR_RT {
     return hand;
   }
   q_ = aim_.world_from_tool.q;
+  if (aim_.hovers) {
+    p_ = gliding_ = aim_.world_from_tool.p;
+    velocity_.setZero();
+    device::HandState hand;
+    hand.world_from_tool = aim_.world_from_tool;
+    hand.buttons = device::kHovers;
+    return hand;
+  }
   const math::Vec3 way = aim_.world_from_tool.p - gliding_;
   const double far = way.norm(), most = aim_.pace * dt;
   gliding_ += far > most ? math::Vec3(way * (most / far)) : way;

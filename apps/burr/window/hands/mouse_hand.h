@@ -1,7 +1,8 @@
 // apps/burr/window/hands/mouse_hand.h - the simulated hand of the window: an arm that follows the
 // mouse, or the wand that the wearer of a headset holds.
 //
-//     main --aim(target)--> Latest --> servo: state() moves a mass on a spring and a damper
+//     main --aim(target)--> Latest --> servo: state() moves a mass on a spring and a damper,
+//                                      or sets it down at the target while it hovers
 //
 // The arm is that of device/simulated_hand.h. Its target moves no faster than a hand, so that a
 // mouse that jumps across the picture does not throw the burr. A pose that is not finite, or that
@@ -30,6 +31,8 @@ class MouseHand final : public device::Device {
     double pedal = 0;  // 0..1
     double pace = kMousePace;
     bool valid = true;  // false: the position of the hand is not known
+    // The hand is set down there at once and feels nothing (device/hand.h, kHovers).
+    bool hovers = false;
   };
 
   // start: position of the hand when the session begins; it must be in the air

@@ -251,7 +251,8 @@ std::string minutes(double seconds) {
 void draw_hud(Ui& ui, const HudState& s) {
   const float u = ui.unit();
   const bool near = s.spares;
-  const float w = (298 + 138 + 176 + 132 + 124 + 76 + 112 + (near ? 160 : 0)) * u;
+  const float w =
+      (298 + 138 + 176 + 132 + 124 + 76 + (s.device ? 112.0F : 0.0F) + (near ? 160.0F : 0.0F)) * u;
   const float x = std::max(kMargin * u, (ui.width() - w) / 2), y = ui.height() - hud_height(ui);
   ui.panel("##strip", x, y, w, kStrip * u);
   Strip strip(ui, x, y);
@@ -280,7 +281,7 @@ void draw_hud(Ui& ui, const HudState& s) {
     strip.next(160);
   }
   strip.cell(76, Word::time, minutes(s.seconds));
-  tick_cell(ui, strip, s);
+  if (s.device) tick_cell(ui, strip, s);
   ImGui::End();
 
   scale_bar(ui, s);

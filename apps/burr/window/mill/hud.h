@@ -42,6 +42,7 @@ struct HudState {
   };
   std::optional<Nearest> nearest;  // of the structures to spare; none: too far away
   bool spares = false;             // there is a structure to spare
+  bool device = false;             // a haptic device is in use: show how the ticks are kept
   TickHealth ticks = TickHealth::good;
   double p99_us = 0, max_us = 0;
   std::uint64_t missed = 0;

@@ -72,6 +72,7 @@ Result<Ready> make_ready(const WorkOptions& options, workshop::Prepared prepared
   }
   ready.title = options.title.empty() ? prepared.what : options.title;
   ready.what = prepared.what;
+  ready.earlier = options.earlier;
   ready.work_case = options.work_case;
   auto lesson = lesson_of(options.work_case);
   if (!lesson) return lesson.error();

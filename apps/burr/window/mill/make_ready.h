@@ -41,6 +41,7 @@ struct Ready {
   std::optional<scenario::Lesson> lesson;      // of it, with its landmarks placed
   record::Mode mode = record::Mode::free;
   workshop::Allowed allowed;
+  Earlier earlier;
   std::unique_ptr<const workshop::SparedDistance> spared_distance;  // distances to `spared`
 };
 // Axes of a hand as the user sees the bone: x right, y up, z towards the user. Returns

@@ -25,6 +25,7 @@
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
 #include "burr/workshop/live_surface.h"
+#include "window/hands/mouse_aim.h"
 #include "window/hands/mouse_hand.h"
 #include "window/mill/drill.h"
 #include "window/mill/hand_plane.h"
@@ -52,8 +53,6 @@
 
 namespace burr::app {
 
-inline constexpr double kHover = 3e-3;  // height over the bone while not pressing  [m]
-
 class Mill {
  public:
   Mill(Desk& desk, sim::Session& session, const Hands& hands, surface::Worker& worker,
@@ -68,6 +67,7 @@ class Mill {
         panels_(desk.settings.panels),
         headset_(desk),
         pointer_(desk, scene),
+        aim_(session.bone().grid().voxel),
         mirror_(session.bone().grid()),
         drill_(session, scene.burr) {
     if (options_.lesson) steps_ = Steps(options_.lesson->steps);
@@ -121,7 +121,6 @@ class Mill {
   void lift();
   void point();
   void point_in_plane(const render::Ray& ray);
-  void aim_at(const math::Vec3& tip, double pedal);
   void align_real_hand();
   void lift_real_hand();
   void stop_or_go_on();
@@ -242,8 +241,7 @@ class Mill {
   bool pad_lifts_ = false;
   int hands_there_ = -1;
   Clock::time_point hands_taken_{};
-  math::Vec3 normal_ = math::Vec3::Zero();  // of the surface under the mouse, smoothed
-  std::optional<math::Vec3> point_;         // on that surface
+  MouseAim aim_;
   SuctionTube tube_;
 
   // the work

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "burr/math/rotation.h"
 #include "burr/render/pick.h"
 #include "window/mill/make_ready.h"
 #include "window/mill/mill.h"
@@ -20,6 +19,7 @@ namespace {
 using math::Vec3;
 
 constexpr double kPlaneStep = 0.5e-3;  // of the plane, per step of the wheel  [m]
+constexpr double kProbe = 6e-3;        // of the thickness, beyond the burr [m]
 constexpr double kTurn = 0.006;        // of the view, per pixel of the mouse  [rad]
 constexpr Uint32 kSameClick = 50;      // after the window came to the front [ms]
 constexpr Uint32 kFirstRepeat = 1000;  // a key that is held is repeated before that [ms]
@@ -295,46 +295,18 @@ void Mill::point() {
   pointer_.measure_window();
   const render::Ray ray = pointer_.aim();
   if (plane_.on()) return point_in_plane(ray);
-  const auto hit = render::pick(scene_, ray);
-  Vec3 surface;
-  if (hit) {
-    // smooth the normal: a rough bone must not shake the hand
-    normal_ = (0.8 * normal_ + 0.2 * hit->n).normalized();
-    surface = hit->p;
-    point_ = hit->p;
-  } else {
-    // the mouse is over the background: stay at the depth of the last work
-    const Vec3 near = point_.value_or(scene_.camera.target);
-    const double depth = (near - ray.origin).dot(-scene_.camera.backward()) /
-                         ray.direction.dot(-scene_.camera.backward());
-    surface = ray.origin + depth * ray.direction;
-    normal_ = (0.8 * normal_ + 0.2 * scene_.camera.backward()).normalized();
-  }
-  const bool press = pressing() && hit.has_value();
-  const double height = scene_.burr.radius + (press ? -press_.depth() : kHover);
-
-  aim_at(surface + height * normal_, press ? press_.spindle() : 0);
+  std::optional<MouseAim::Push> push;
+  if (pressing()) push = {press_.depth(), press_.spindle()};
+  hands_.mouse->aim(aim_.at(scene_, ray, push, desk_.settings.left_handed));
 }
 
 // Aims at the point of the plane under the mouse. The hand may be inside the bone; the bone stops
 // the burr.
 void Mill::point_in_plane(const render::Ray& ray) {
   const Vec3 out = row_.contact.touching ? row_.contact.normal : scene_.camera.backward();
-  normal_ = (0.8 * normal_ + 0.2 * out).normalized();
-  point_ = plane_.meet(ray, scene_.camera);
-  aim_at(*point_, pressing() ? press_.spindle() : 0);
-}
-
-// Aims with the handle leaning away from the view, to the side of the user's hand.
-void Mill::aim_at(const Vec3& tip, double pedal) {
-  const double side = desk_.settings.left_handed ? -0.7 : 0.7;
-  const Vec3 handle =
-      (normal_ + side * scene_.camera.right() + 0.2 * scene_.camera.above()).normalized();
-  MouseHand::Aim aim;
-  aim.world_from_tool.p = tip;
-  aim.world_from_tool.q = math::shortest_rotation(Vec3::UnitZ(), handle);
-  aim.pedal = pedal;
-  hands_.mouse->aim(aim);
+  hands_.mouse->aim(aim_.held_at(plane_.meet(ray, scene_.camera), out,
+                                 pressing() ? press_.spindle() : 0, scene_.camera,
+                                 desk_.settings.left_handed));
 }
 
 // A haptic device has a position of its own. The view defines its right and up; keys and pedals add
@@ -345,8 +317,8 @@ void Mill::align_real_hand() {
   const bool rests = page_open() || measuring_.picks();
   hand.press(rests ? 0 : press_.spindle_of_device());
   lift_real_hand();
-  point_ = row_.contact.proxy;
-  if (row_.contact.touching) normal_ = row_.contact.normal;
+  aim_.touches(row_.contact.proxy,
+               row_.contact.touching ? std::optional(row_.contact.normal) : std::nullopt);
 }
 
 void Mill::lift_real_hand() {
@@ -364,10 +336,10 @@ void Mill::stop_or_go_on() {
 
 // Measures the thickness at the burr: along the contact normal, or below the burr where it hovers.
 void Mill::measure() {
-  const Vec3 inward = row_.contact.touching ? Vec3(-row_.contact.normal) : Vec3(-normal_);
+  const Vec3 inward = row_.contact.touching ? Vec3(-row_.contact.normal) : Vec3(-aim_.normal());
   if (measuring_.what() == Measure::thickness)
     measuring_.probe(session_.bone(), scene_.burr.world_from_tool.p, inward,
-                     scene_.burr.radius + 2 * kHover);
+                     scene_.burr.radius + kProbe);
 }
 
 // Shows each tissue in its own colour, or all as bone.

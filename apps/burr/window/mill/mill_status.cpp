@@ -73,10 +73,10 @@ void Mill::look_at_session() {
     if (auto near = options_.spared_distance->nearest(scene_.burr.world_from_tool.p))
       nearest_ = {std::move(near->name), near->distance - scene_.burr.radius};
   tick::FaultReport fault;
-  if (session_.fault(fault)) {
+  // the force of a haptic device was released. A late mouse is no news: it pushes nobody
+  if (session_.fault(fault) && hands_.real != nullptr) {
     status_.warn_released(say(Word::let_go, flag_texts(fault.flags)), Clock::now());
-    // the force of a haptic device was released: write a fault file. A late mouse needs none
-    if (hands_.real != nullptr) keep_fault_of(session_.hand(), fault);
+    keep_fault_of(session_.hand(), fault);
   }
   if (hands_.suction != nullptr && session_.second_hand()->faults().take(fault)) {
     status_.warn_released(say(Word::let_go, flag_texts(fault.flags)), Clock::now());
@@ -116,17 +116,12 @@ void Mill::update_status() {
   if (now - said_ < std::chrono::milliseconds(200)) return;
   said_ = now;
   note_troubles();
-  const std::string flags = flag_words(row_.contact.flags);
-  desk_.renderer().title(
-      fmt::format("burr - removed {:.1f} mm^3 - force {:.2f} N - tick p99 {:.0f} us{}{}",
-                  1e9 * row_.ledger.removed, row_.contact.force.norm(),
-                  ticks_.stats().quantile_us(0.99), flags.empty() ? "" : " - ", flags));
   std::string lasting = options_.warning ? options_.warning() : std::string();
   if (lasting.empty() && lifts_.stopped) lasting = word(Word::stopped);
   if (lasting.empty()) lasting = session_.hand().trouble();
   if (lasting.empty() && hands_.suction != nullptr) lasting = hands_.suction->hand().trouble();
-  // a mouse has no motors that could get warm
-  const std::uint32_t hidden = hands_.real == nullptr ? std::uint32_t{rt::kFlagThermal} : 0U;
+  // a mouse has no motors that could get warm, and nobody feels its ticks
+  const std::uint32_t hidden = hands_.real == nullptr ? rt::kFlagThermal | rt::kFlagWatchdog : 0U;
   if (lasting.empty()) lasting = flag_texts(row_.contact.flags & ~hidden);
   warning_ = status_.warning(now, lasting);
   // after the reason of the release: what the user should do
@@ -169,11 +164,12 @@ HudState Mill::hud() const {
   s.burr_diameter = 2 * scene_.burr.radius;
   s.mode = drill_.mode();
   s.diamond = scene_.burr.diamond;
-  s.removed = row_.ledger.removed;
-  s.seconds = static_cast<double>(row_.tick) / settings.servo.rate_hz;
+  s.removed = options_.earlier.removed + row_.ledger.removed - row_.ledger.undone;
+  s.seconds = options_.earlier.seconds + static_cast<double>(row_.tick) / settings.servo.rate_hz;
   s.spares = options_.allowed.distance && options_.spared_distance != nullptr &&
              !options_.spared_distance->empty();
   if (s.spares) s.nearest = nearest_;
+  s.device = hands_.real != nullptr || hands_.suction != nullptr;
   s.ticks = ticks_.health(session_.shed() != tick::Shed::none, Clock::now());
   const rt::TickSummary summary = ticks_.stats().summary();
   s.p99_us = summary.p99_us;

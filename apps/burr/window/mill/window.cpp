@@ -52,6 +52,7 @@ Result<Closed> Mill::run() {
 
 void Mill::begin() {
   desk_.page = Page::milling;
+  desk_.renderer().title(options_.title.empty() ? "burr" : options_.title + " - burr");
   scene_.scale_bar = false;  // the page has its own
   scene_.burr.visible = true;
   press_.begin_at(1e-3 * desk_.settings.press_mm);

@@ -13,12 +13,15 @@
 #include "burr/volume/greys.h"
 #include "burr/workshop/allowed.h"
 #include "burr/workshop/spared_distance.h"
+#include "commands/work.h"
 #include "window/mill/loudspeaker.h"
 #include "window/replay/film_job.h"
 
 namespace burr::app {
 
 struct WindowOptions {
+  std::string title = {};       // of the work, on the window's frame; empty: burr
+  Earlier earlier = {};         // counted with this session's time and volume
   double seconds = 0;           // closes after this time; 0: when the user closes it
   std::string folder = {};      // for pictures of the key P; empty: the start folder
   std::string screenshot = {};  // PNG of the last picture with panels; empty: none

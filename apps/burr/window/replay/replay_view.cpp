@@ -46,7 +46,7 @@ void ReplayView::look(bool effects, bool playing) {
       if (playing && shown_.row.spindle_rad_s > 0)
         scene().burr.turn = std::remainder(scene().burr.turn + 0.7, 6.2832);
       force_ = shown_.row.contact.force.norm();
-      removed_ = shown_.row.ledger.removed;
+      removed_ = shown_.row.ledger.removed - shown_.row.ledger.undone;
     }
   }
   trouble_ = !shown_.trouble.empty()      ? shown_.trouble

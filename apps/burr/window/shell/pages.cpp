@@ -57,6 +57,8 @@ Result<Ready> open_ready(WorkOptions options, Progress& progress) {
 Result<Closed> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& window) {
   WindowOptions with = window;
   with.spared_distance = ready.spared_distance.get();
+  with.title = title_of(ready);
+  with.earlier = ready.earlier;
   with.greys = ready.greys;
   with.work_case = ready.work_case;
   with.lesson = ready.lesson;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <system_error>
 #include <utility>
 
@@ -95,6 +96,7 @@ bool read_account(const fs::path& account, KeptSession& kept) {
   kept.when = word("when");
   kept.seconds = number("seconds");
   kept.removed_mm3 = number("removed_mm3");
+  kept.earlier = {number("seconds_before"), 1e-9 * number("removed_before_mm3")};
   kept.clean = flag("clean");
   kept.keep = flag("keep");
   kept.marks = flag("marks");
@@ -171,6 +173,27 @@ void throw_old_away(const fs::path& state, const Settings& settings) {
   }
 }
 
+namespace {
+
+// Time, volume and tool go on as they were at the end of the recording.
+void go_on(record::Player& player, const KeptSession& kept, WorkOptions& options) {
+  const auto last = player.tick_at(1e9);
+  if (!last) return;  // it ended before its first tick
+  options.earlier.seconds =
+      kept.earlier.seconds +
+      static_cast<double>(last->tick + 1 - player.first_tick()) / player.info().rate_hz;
+  options.earlier.removed = kept.earlier.removed + last->ledger.removed - last->ledger.undone;
+  const tool::ToolState& tool = last->tool;
+  if (tool.radius <= 0) return;  // not known
+  options.burr_mm = 2e3 * tool.radius;
+  options.rpm = tool.full_speed * 60 / (2 * std::numbers::pi);
+  options.kind = tool.kind;
+  options.mode = tool.mode;
+  options.irrigated = tool.irrigated;
+}
+
+}  // namespace
+
 Result<Ready> continue_session(const KeptSession& kept, Progress& progress) {
   WorkOptions options = kept.options;
   auto player = record::Player::open(kept.file.string());
@@ -201,6 +224,7 @@ Result<Ready> continue_session(const KeptSession& kept, Progress& progress) {
   const Status there = (*player)->bone_at(1e9, **bone);
   if (!there) return there.error();
   work.bone = std::move(*bone);
+  go_on(**player, kept, options);
   if (scan) work.greys = workshop::greys_of(**player, options.volume, progress);
   const std::string& format = (*player)->info().volume.format;
   work.summary.format = format.empty() ? "recording" : format;
@@ -222,6 +246,7 @@ Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& optio
   if (made) {
     kept_.title = ready.title;
     kept_.options = options;
+    kept_.earlier = ready.earlier;
     kept_.marks = ready.work_case && ready.allowed.marks && !questions_on(*ready.work_case).empty();
     std::error_code nobody_asks;
     if (const fs::path there = fs::absolute(options.volume.source, nobody_asks);
@@ -255,6 +280,8 @@ Status Autosave::write_account() const {
                         {"burr_mm", kept_.options.burr_mm},
                         {"rpm", kept_.options.rpm},
                         {"seconds", kept_.seconds},
+                        {"seconds_before", kept_.earlier.seconds},
+                        {"removed_before_mm3", 1e9 * kept_.earlier.removed},
                         {"removed_mm3", kept_.removed_mm3},
                         {"clean", kept_.clean},
                         {"keep", kept_.keep},
@@ -268,8 +295,9 @@ Status Autosave::finish() {
     return trouble_.empty() ? fine() : error(Trouble::io, trouble_);
   Status done = recording_.finish(session_);
   const sim::Outcome outcome = session_.outcome();
-  kept_.seconds = outcome.seconds;
-  kept_.removed_mm3 = 1e9 * outcome.ledger.removed;
+  kept_.seconds = kept_.earlier.seconds + outcome.seconds;
+  kept_.removed_mm3 =
+      1e9 * (kept_.earlier.removed + outcome.ledger.removed - outcome.ledger.undone);
   kept_.clean = true;
   const Status written = write_account();
   if (done) done = written;

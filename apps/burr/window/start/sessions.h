@@ -28,13 +28,14 @@
 namespace burr::app {
 
 struct KeptSession {
-  std::filesystem::path file;  // the recording
-  std::string title;           // one line that names no patient
-  std::string when;            // "2026-11-22 19:31"
-  WorkOptions options;         // as given at its start; volume.source as the user typed it
-  double seconds = 0, removed_mm3 = 0;
-  bool clean = false;  // it ended because the user ended it
-  bool keep = false;   // never deleted automatically
+  std::filesystem::path file;           // the recording
+  std::string title;                    // one line that names no patient
+  std::string when;                     // "2026-11-22 19:31"
+  WorkOptions options;                  // as given at its start; volume.source as the user typed it
+  double seconds = 0, removed_mm3 = 0;  // with those of the sessions that it continued
+  Earlier earlier;                      // of these alone
+  bool clean = false;                   // it ended because the user ended it
+  bool keep = false;                    // never deleted automatically
   bool marks = false;  // its case has a rubric, and its mode lets the user see the marks
   std::uintmax_t bytes = 0;
 };

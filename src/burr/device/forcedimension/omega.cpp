@@ -397,7 +397,7 @@ Wire::Read Omega::read(HandState& hand) BURR_RT {
   // the function fails until it has read the hand twice; the velocity is zero until then
   const bool knows_speed = !failed(dhd_->GetLinearVelocity(&vx, &vy, &vz, to_));
   hand.velocity = knows_speed ? ours(vx, vy, vz) : Vec3(Vec3::Zero());
-  hand.buttons = dhd_->GetButtonMask(to_) & ~kLifted;
+  hand.buttons = dhd_->GetButtonMask(to_) & ~kOwnBits;
   read_gripper(hand);
 
   const bool sound = turn.allFinite() && place.allFinite() && hand.velocity.allFinite() &&

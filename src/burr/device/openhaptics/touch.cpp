@@ -265,7 +265,7 @@ bool Touch::read(HandState& hand) BURR_RT {
   const math::Mat3 turn = world_from_stylus.topLeftCorner<3, 3>();
   hand.world_from_tool.p = 1e-3 * world_from_stylus.topRightCorner<3, 1>();
   hand.velocity = 1e-3 * Eigen::Map<const Vec3>(velocity);
-  hand.buttons = static_cast<unsigned>(buttons) & ~kLifted;
+  hand.buttons = static_cast<unsigned>(buttons) & ~kOwnBits;
   if (!turn.allFinite() || !hand.world_from_tool.p.allFinite() || !hand.velocity.allFinite())
     return false;
   if (std::abs(turn.determinant() - 1) > 0.1 || hand.world_from_tool.p.norm() > kFarthest)

@@ -53,6 +53,9 @@ class ForceLimit {
   // as a jump.
   [[nodiscard]] bool accept_reading(const device::HandState& hand, std::uint32_t& flags) BURR_RT;
 
+  // The hand is set down somewhere else on purpose: the next reading does not count as a jump.
+  void forget_reading() BURR_RT { has_last_hand_ = false; }
+
   // Ticks or the device were lost: fades the force, then waits for a small force and ramps up.
   void fault(std::uint32_t flag, std::uint32_t& flags) BURR_RT;
 

@@ -1,0 +1,88 @@
+#include "window/hands/mouse_aim.h"
+
+#include "burr/math/rotation.h"
+#include "burr/render/room.h"
+
+namespace burr::app {
+namespace {
+
+using math::Vec3;
+
+constexpr double kFollow = 0.2;   // share of a new normal: a rough bone must not shake the hand
+constexpr double kInHole = 3e-3;  // from the burr to the bone under the point, at most  [m]
+
+// Whether nothing lies between the eye and the middle of the burr.
+bool is_seen(const render::Scene& scene, const Vec3& burr) {
+  const Vec3 way = burr - scene.camera.eye();
+  const double far = way.norm();
+  const auto hit = render::pick(scene, {scene.camera.eye(), way / far});
+  return !hit || hit->distance >= far;
+}
+
+}  // namespace
+
+MouseHand::Aim MouseAim::at(const render::Scene& scene, const render::Ray& eye,
+                            const std::optional<Push>& push, bool left_handed) {
+  const auto hit = render::pick(scene, eye);
+  double surface = 0;
+  if (hit) {
+    normal_ = ((1 - kFollow) * normal_ + kFollow * hit->n).normalized();
+    point_ = hit->p;
+    surface = hit->distance;
+  } else {  // over the background: as deep in the picture as the last work
+    const Vec3 ahead = -scene.camera.backward();
+    const Vec3 near = point_.value_or(scene.camera.target);
+    surface = (near - eye.origin).dot(ahead) / eye.direction.dot(ahead);
+    normal_ = ((1 - kFollow) * normal_ - kFollow * ahead).normalized();
+  }
+  if (hit && push) {
+    in_work_ = true;
+    MouseHand::Aim aim =
+        lean(hit->p + (scene.burr.radius - push->depth) * normal_, scene.camera, left_handed);
+    aim.pedal = push->spindle;
+    return aim;
+  }
+  MouseHand::Aim aim = lean(hover(scene, eye, hit, surface), scene.camera, left_handed);
+  aim.hovers = true;
+  return aim;
+}
+
+// surface: along the ray [m]
+Vec3 MouseAim::hover(const render::Scene& scene, const render::Ray& eye,
+                     const std::optional<render::Hit>& hit, double surface) {
+  const double radius = scene.burr.radius;
+  const Vec3& burr = scene.burr.world_from_tool.p;
+  const auto room = render::room_before(scene, eye, surface, radius + air_);
+  const bool roomy = room && surface - *room < 2 * (radius + air_);
+  in_work_ = in_work_ && hit && !roomy && (burr - hit->p).norm() < radius + kInHole &&
+             is_seen(scene, burr);
+  if (in_work_) return burr;
+  return room ? Vec3(eye.origin + *room * eye.direction) : burr;
+}
+
+MouseHand::Aim MouseAim::held_at(const Vec3& tip, const Vec3& out, double spindle,
+                                 const render::Camera& camera, bool left_handed) {
+  normal_ = ((1 - kFollow) * normal_ + kFollow * out).normalized();
+  point_ = tip;
+  MouseHand::Aim aim = lean(tip, camera, left_handed);
+  aim.pedal = spindle;
+  return aim;
+}
+
+void MouseAim::touches(const Vec3& p, const std::optional<Vec3>& normal) {
+  point_ = p;
+  if (normal) normal_ = *normal;
+}
+
+// The handle leans away from the view, to the side of the user's hand.
+MouseHand::Aim MouseAim::lean(const Vec3& tip, const render::Camera& camera,
+                              bool left_handed) const {
+  const double side = left_handed ? -0.7 : 0.7;
+  const Vec3 handle = (normal_ + side * camera.right() + 0.2 * camera.above()).normalized();
+  MouseHand::Aim aim;
+  aim.world_from_tool.p = tip;
+  aim.world_from_tool.q = math::shortest_rotation(Vec3::UnitZ(), handle);
+  return aim;
+}
+
+}  // namespace burr::app
