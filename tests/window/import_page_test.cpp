@@ -437,6 +437,22 @@ TEST_F(ImportWindow, SaysWhatIsWrongWithANumberAndLosesNothing) {
   EXPECT_EQ(*info.recipe.iso, 200);
 }
 
+// Ctrl + A within one picture, one number for cubes; the region stays that of the voxels.
+TEST_F(ImportWindow, ReadsTheScanAgainWithTheVoxelSizeThatIsTyped) {
+  const fs::path file = scan();
+  const Part& facts = layout().facts;
+  const Part field = {facts.x + 110, facts.y + 54, 40, 28};
+  by({{"the start page", on(Page::start), [&] { drop(file); }},
+      {"the import page", on(Page::import), nullptr},
+      {"a picture", looks(5), [field] { click_on(field); }},
+      {"the field", looks(5), [] { press(SDLK_a, KMOD_CTRL); }},
+      {"all of it", looks(3), [] { type("0.4"); }},
+      {"typed", looks(5), [] { press(SDLK_RETURN); }},
+      {"read again", looks(90), [] { press(SDLK_RETURN); }}},
+     then_mills());
+  EXPECT_EQ(begun().recipe.spacing_mm, math::Vec3(0.4, 0.4, 0.4));
+}
+
 TEST_F(ImportWindow, ReadsAnotherSeriesThatIsChosen) {
   BURR_NEEDS_DATA("skull_phantom");
   const fs::path folder = test::data_dir() / "skull_phantom";

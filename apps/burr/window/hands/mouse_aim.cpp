@@ -35,6 +35,8 @@ MouseHand::Aim MouseAim::at(const render::Scene& scene, const render::Ray& eye,
     surface = (near - eye.origin).dot(ahead) / eye.direction.dot(ahead);
     normal_ = ((1 - kFollow) * normal_ - kFollow * ahead).normalized();
   }
+  below_.reset();
+  if (hit && !push) below_ = hit->p - 0.5 * scene.burr.radius * normal_;
   if (hit && push) {
     in_work_ = true;
     MouseHand::Aim aim =
@@ -62,6 +64,7 @@ Vec3 MouseAim::hover(const render::Scene& scene, const render::Ray& eye,
 
 MouseHand::Aim MouseAim::held_at(const Vec3& tip, const Vec3& out, double spindle,
                                  const render::Camera& camera, bool left_handed) {
+  below_.reset();
   normal_ = ((1 - kFollow) * normal_ + kFollow * out).normalized();
   point_ = tip;
   MouseHand::Aim aim = lean(tip, camera, left_handed);
@@ -71,6 +74,7 @@ MouseHand::Aim MouseAim::held_at(const Vec3& tip, const Vec3& out, double spindl
 
 void MouseAim::touches(const Vec3& p, const std::optional<Vec3>& normal) {
   point_ = p;
+  below_.reset();
   if (normal) normal_ = *normal;
 }
 

@@ -40,6 +40,8 @@ class MouseAim {
 
   // of the surface under the point, smoothed; zero before the first picture
   [[nodiscard]] const math::Vec3& normal() const { return normal_; }
+  // While it hovers: in the bone under the point, half a burr deep. Nothing: there is no bone.
+  [[nodiscard]] const std::optional<math::Vec3>& bone_below() const { return below_; }
   // For another hand than this: where it touches.
   void touches(const math::Vec3& p, const std::optional<math::Vec3>& normal);
 
@@ -52,7 +54,8 @@ class MouseAim {
   double air_;
   math::Vec3 normal_ = math::Vec3::Zero();
   std::optional<math::Vec3> point_;  // of the last work
-  bool in_work_ = false;             // pressed, or lifted and not set down elsewhere yet
+  std::optional<math::Vec3> below_;
+  bool in_work_ = false;  // pressed, or lifted and not set down elsewhere yet
 };
 
 }  // namespace burr::app

@@ -45,6 +45,7 @@ ImportPage::ImportPage(Desk& desk, OpenedScan opened)
     plan_trouble_ = opened_.planned.error().text;
   level_ = volume_.iso;
   show_region();
+  show_spacing();
   if (volume_.voxel_mm > 0) voxel_text_ = number_text(volume_.voxel_mm);
   if (const auto now = level()) iso_text_ = number_text(*now);
 }
@@ -138,6 +139,33 @@ void ImportPage::take_voxel() {
     changed();
   }
   voxel_text_ = volume_.voxel_mm > 0 ? number_text(volume_.voxel_mm) : "";
+}
+
+void ImportPage::show_spacing() {
+  const math::Vec3& mm = opened_.scan->spacing_mm;
+  spacing_text_ = fmt::format("{:.4g}, {:.4g}, {:.4g}", mm.x(), mm.y(), mm.z());
+}
+
+// The scan is read again with the edges that the user typed: three numbers, or one for cubes.
+void ImportPage::take_spacing() {
+  std::string text = spacing_text_;
+  for (std::size_t at; (at = text.find("×")) != std::string::npos;)
+    text.replace(at, std::string("×").size(), ",");
+  std::replace(text.begin(), text.end(), 'x', ',');
+  double edge = 0;
+  if (text.find_first_of(",;") == std::string::npos && number_of(text, edge))
+    text = fmt::format("{0},{0},{0}", edge);
+  std::replace(text.begin(), text.end(), ';', ',');
+  const auto wanted = scenario::parse_spacing(text);
+  if (!wanted) {
+    trouble_ = say(Word::import_no_number, spacing_text_);
+    return show_spacing();
+  }
+  const std::string before = spacing_text_;
+  show_spacing();
+  if (before == spacing_text_ || *wanted == opened_.scan->spacing_mm) return;
+  volume_.spacing_mm = *wanted;
+  decide(Answer::other_spacing);
 }
 
 bool ImportPage::asked() const {
@@ -310,9 +338,11 @@ Result<Ready> open_by_page(Desk& desk, WorkOptions& options, const std::string& 
       return gone;
     }
     if (*answer == ImportPage::Answer::back) return gone;
-    if (*answer == ImportPage::Answer::other_series) {
-      scenario::Recipe other = options.volume;
-      other.series = page->series();
+    if (*answer == ImportPage::Answer::other_series ||
+        *answer == ImportPage::Answer::other_spacing) {
+      const bool series = *answer == ImportPage::Answer::other_series;
+      scenario::Recipe other = series ? options.volume : page->volume();
+      if (series) other.series = page->series();
       auto reopened = read_by_page(desk, other, title, closed);
       if (closed) return gone;
       if (reopened)

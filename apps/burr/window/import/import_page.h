@@ -45,7 +45,7 @@ class ImportPage {
   ImportPage(const ImportPage&) = delete;
   ImportPage& operator=(const ImportPage&) = delete;
 
-  enum class Answer { start, back, other_series, closed };
+  enum class Answer { start, back, other_series, other_spacing, closed };
   // Returns when the user has decided. told: a sentence about an earlier error; "" for none.
   // seconds: as in StartPage::ask.
   [[nodiscard]] Result<Answer> ask(const std::string& ask, double seconds);
@@ -74,6 +74,8 @@ class ImportPage {
   void take_roi();
   void show_region();
   void take_voxel();
+  void take_spacing();
+  void show_spacing();
   [[nodiscard]] bool asked() const;  // the scan leaves open what only the user can answer
   void take_as_it_is();
   // What burr assumed about this scan and cannot know, or what the user chose about it: a sentence,
@@ -125,7 +127,7 @@ class ImportPage {
   bool recount_ = true;   // parts_ is not of the present choice
   bool picking_ = false;  // a click into a view keeps the part there
   std::string parts_trouble_;
-  std::string iso_text_, roi_text_, voxel_text_;
+  std::string iso_text_, roi_text_, voxel_text_, spacing_text_;
   std::string trouble_;              // about a field, or about something that failed
   std::string plan_trouble_;         // why this choice cannot be imported
   std::filesystem::path own_table_;  // written by this page; removed unless used at start

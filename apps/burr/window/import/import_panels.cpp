@@ -439,7 +439,16 @@ void ImportPage::facts(const Part& part) {
     y += 23 * u;
   };
   line(say(Word::import_voxels, scan.format, scan.size.x(), scan.size.y(), scan.size.z()));
-  line(say(Word::import_spacing, scan.spacing_mm.x(), scan.spacing_mm.y(), scan.spacing_mm.z()));
+  const float label = ui.width_of(Letter::body, word(Word::import_voxel)) + 10 * u;
+  ui.write(part.x, y + 3 * u, Letter::body, ink::kText, word(Word::import_voxel));
+  ImGui::SetCursorScreenPos({part.x + label, y - 3 * u});
+  if (changed_field("##spacing", "", spacing_text_, 176 * u)) take_spacing();
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s", say(Word::import_spacing, scan.spacing_mm.x(), scan.spacing_mm.y(),
+                                scan.spacing_mm.z())
+                                .c_str());
+  ui.write(part.x + label + 184 * u, y + 3 * u, Letter::body, ink::kText, "mm");
+  y += 32 * u;
   const math::Vec3 cm = 0.1 * scan.size.cast<double>().cwiseProduct(scan.spacing_mm);
   line(say(Word::import_extent, cm.x(), cm.y(), cm.z()));
   const auto ways = directions(scan.axes);

@@ -34,6 +34,7 @@ class Drill {
   [[nodiscard]] std::string look();
 
   [[nodiscard]] tick::ToolMode mode() const { return mode_; }
+  [[nodiscard]] bool irrigated() const { return irrigated_; }
   [[nodiscard]] double full_speed() const { return full_speed_; }  // requested  [rad/s]
 
  private:

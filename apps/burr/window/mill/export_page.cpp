@@ -177,8 +177,8 @@ void ExportPage::draw() {
     ui.write(x + 28 * u, y + 118 * u, Letter::body, ink::kDim, word(Word::film_told));
   const float other = FileDialog::there() ? 132 * u : 0;
   const std::string was = request_.path;
-  const bool entered =
-      text_field("##where", word(Word::start_path), request_.path, w - 56 * u - other);
+  const bool entered = text_field("##where", word(Word::start_path), request_.path,
+                                  w - 56 * u - other, completed_path);
   if (request_.path != was) replaces_ = false;
   if (other > 0) {
     ImGui::SetCursorScreenPos({x + w - 28 * u - 120 * u, y + 160 * u});

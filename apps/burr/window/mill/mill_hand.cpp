@@ -174,6 +174,17 @@ void Mill::act(Action action) {
       return pages_->toggle_help(false);
     case Action::leave:
       return leave();
+    case Action::kind:
+      return note(drill_.toggle_kind());
+    case Action::coolant:
+      return note(drill_.toggle_coolant());
+    case Action::slices:
+      slices_shown_ = !slices_shown_;
+      return;
+    case Action::see_through:
+      return step_opacity(false);
+    case Action::keep:
+      return keep();
   }
 }
 

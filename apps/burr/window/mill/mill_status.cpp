@@ -204,8 +204,10 @@ void Mill::panels() {
     else if (steps_shown_ && steps_offered())
       draw_steps_panel();
     if (options_.done_ends && !page_open() && draw_done_button(ui, column())) declare_done();
-    if (const auto pressed = draw_toolbar(ui, drill_.mode(), measuring_.on(), mirror_.now().on()))
-      act(*pressed);
+    const ToolbarState tools = {drill_.mode(),          measuring_.on(),    mirror_.now().on(),
+                                scene_.burr.diamond,    drill_.irrigated(), slices_shown_,
+                                scene_.look.opacity < 1};
+    if (const auto pressed = draw_toolbar(ui, tools)) act(*pressed);
   }
   pages();
 }

@@ -34,7 +34,13 @@ bool Mill::allows(Action action) const {
     case Action::settings:
     case Action::help:
     case Action::leave:
+    case Action::kind:
+    case Action::coolant:
+    case Action::slices:
+    case Action::keep:
       return true;
+    case Action::see_through:
+      return options_.allowed.see_through;
   }
   return true;
 }

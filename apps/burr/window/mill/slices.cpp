@@ -18,6 +18,8 @@ using render::Slice;
 
 constexpr Plane kPlanes[] = {Plane::axial, Plane::coronal, Plane::sagittal};
 constexpr Word kNames[] = {Word::axial, Word::coronal, Word::sagittal};
+// the patient's directions in these planes: left, right, top, bottom of the picture
+constexpr const char* kSides[] = {"RLAP", "RLSI", "APSI"};
 constexpr auto kPace = std::chrono::milliseconds(100);
 constexpr int kMost = 256;  // longest side in pixels; a larger slice is stretched
 
@@ -83,21 +85,40 @@ void Slices::zoom(int steps) {
 
 void Slices::write_names(const render::Scene& scene, const Ui& ui) const {
   const float u = ui.unit();
-  const ImFont* font = ui.font(Ui::Letter::strong);
+  // light on a dark plate, readable on bone and on air
+  const auto write = [&](Ui::Letter size, float x, float y, const std::string& text) {
+    const ImFont* font = ui.font(size);
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    x = std::round(x);
+    y = std::round(y);
+    draw.AddRectFilled({x - 3 * u, y - u},
+                       {x + ui.width_of(size, text) + 3 * u, y + ui.height_of(size) + u},
+                       ink::rgb(0, 0, 0, 150), 3 * u);
+    draw.AddText(font, font->FontSize, {x, y}, ink::kText, text.c_str());
+  };
+  constexpr auto kSmall = Ui::Letter::small;
+  const float high = ui.height_of(kSmall);
   for (std::size_t n = 0; n < scene.insets.size(); ++n) {
-    const float x = static_cast<float>(scene.insets[n].x) + 10 * u,
-                y = static_cast<float>(scene.insets[n].y) + 8 * u;
-    for (const auto& [by, ink] : {std::pair{u, ink::rgb(0, 0, 0, 200)}, {0.0F, ink::kText}})
-      ImGui::GetBackgroundDrawList()->AddText(
-          font, font->FontSize, {std::round(x + by), std::round(y + by)}, ink,
-          (n == 0 && chosen_ != 0 ? fmt::format("{}  {}", word(kNames[n]), window_words())
-                                  : std::string(word(kNames[n])))
-              .c_str());
+    const float left = static_cast<float>(scene.insets[n].x),
+                top = static_cast<float>(scene.insets[n].y),
+                edge = static_cast<float>(scene.insets[n].width);
+    write(Ui::Letter::strong, left + 10 * u, top + 8 * u,
+          n == 0 && chosen_ != 0 ? fmt::format("{}  {}", word(kNames[n]), window_words())
+                                 : word(kNames[n]));
+    const float middle = top + (edge - high) / 2;
+    const ImVec2 places[] = {{left + 10 * u, middle},
+                             {left + edge - 10 * u, middle},
+                             {left + edge / 2, top + 5 * u},
+                             {left + edge / 2, top + edge - high - 5 * u}};
+    for (std::size_t side = 0; side < 4; ++side) {
+      const std::string letter(1, kSides[n][side]);
+      write(kSmall, places[side].x - ui.width_of(kSmall, letter) / 2, places[side].y, letter);
+    }
   }
 }
 
-void Slices::update(render::Scene& scene, bool shown, bool labels, int width, int height,
-                    int bottom) {
+void Slices::update(render::Scene& scene, const math::Vec3& through, bool shown, bool labels,
+                    int width, int height, int bottom) {
   scene.insets.clear();
   if (!shown) return;
   const int gap = std::max(6, height / 90);
@@ -113,7 +134,7 @@ void Slices::update(render::Scene& scene, bool shown, bool labels, int width, in
     auto image = std::make_shared<Image>(Image{pixels, pixels, {}});
     Slice slice;
     slice.plane = kPlanes[at];
-    slice.through = scene.burr.world_from_tool.p;
+    slice.through = through;
     slice.height = height_;
     slice.labels = labels;
     if (chosen_ != 0) {

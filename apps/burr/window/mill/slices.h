@@ -22,11 +22,12 @@ class Slices {
   // nullptr: there are none.
   explicit Slices(volume::Bone& bone, std::shared_ptr<const volume::Greys> greys = nullptr);
 
-  // Replaces the insets of the scene; removes them if not `shown`. width, height: of the window's
+  // through: the point that the slices go through. Replaces the insets of the scene; removes them if not `shown`. width, height: of the window's
   // drawing area; bottom: height at its lower edge that stays free [pixel].
-  void update(render::Scene& scene, bool shown, bool labels, int width, int height, int bottom);
+  void update(render::Scene& scene, const math::Vec3& through, bool shown, bool labels, int width,
+              int height, int bottom);
 
-  // Writes the names over the slices; call it within a frame of ImGui.
+  // Writes the names over the slices, and the patient's directions at their sides; call it within a frame of ImGui.
   void write_names(const render::Scene& scene, const Ui& ui) const;
 
   // Zooms by steps of a quarter; above 0: in.

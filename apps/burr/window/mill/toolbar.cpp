@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "window/shell/printed_keys.h"
 #include "window/shell/words.h"
@@ -178,12 +179,54 @@ void page_icon(const Pen& pen, Action action) {
   }
 }
 
+// icons for burr, water and view
+void operation_icon(const Pen& pen, Action action) {
+  const float r = pen.r;
+  const ImVec2 c = pen.c;
+  switch (action) {
+    case Action::kind: {  // a diamond
+      const ImVec2 corners[] = {
+          {c.x, c.y - r}, {c.x + 0.8F * r, c.y}, {c.x, c.y + r}, {c.x - 0.8F * r, c.y}};
+      pen.draw.AddConvexPolyFilled(corners, 4, pen.shade);
+      break;
+    }
+    case Action::coolant:  // a drop
+      pen.draw.AddCircleFilled({c.x, c.y + 0.35F * r}, 0.6F * r, pen.shade, 20);
+      pen.draw.AddTriangleFilled({c.x, c.y - r}, {c.x + 0.55F * r, c.y + 0.15F * r},
+                                 {c.x - 0.55F * r, c.y + 0.15F * r}, pen.shade);
+      break;
+    case Action::slices:  // three pictures, one above the other
+      for (int n = -1; n <= 1; ++n) {
+        const float y = c.y + 0.75F * static_cast<float>(n) * r;
+        pen.draw.AddRect({c.x - 0.9F * r, y - 0.3F * r}, {c.x + 0.9F * r, y + 0.3F * r}, pen.shade,
+                         0, 0, 0.6F * pen.thick);
+      }
+      break;
+    case Action::see_through:  // a ball behind a pane
+      pen.draw.AddCircleFilled({c.x + 0.25F * r, c.y + 0.25F * r}, 0.45F * r, pen.shade, 16);
+      pen.draw.AddRect({c.x - 0.95F * r, c.y - 0.95F * r}, {c.x + 0.95F * r, c.y + 0.95F * r},
+                       pen.shade, 0.3F * r, 0, 0.8F * pen.thick);
+      break;
+    case Action::keep:  // a box with a mark
+      pen.draw.AddRect({c.x - 0.9F * r, c.y - 0.9F * r}, {c.x + 0.9F * r, c.y + 0.9F * r},
+                       pen.shade, 0.2F * r, 0, 0.8F * pen.thick);
+      pen.draw.AddLine({c.x - 0.5F * r, c.y}, {c.x - 0.1F * r, c.y + 0.4F * r}, pen.shade,
+                       pen.thick);
+      pen.draw.AddLine({c.x - 0.1F * r, c.y + 0.4F * r}, {c.x + 0.55F * r, c.y - 0.45F * r},
+                       pen.shade, pen.thick);
+      break;
+    default:
+      break;
+  }
+}
+
 // Icons are drawn, so that no font with icons is needed. c: middle, r: half the size.
 void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
   const Pen pen = {draw, c, r, shade};
   burr_icon(pen, action);
   work_icon(pen, action);
   page_icon(pen, action);
+  operation_icon(pen, action);
 }
 
 struct Button {
@@ -211,20 +254,30 @@ class Bar {
             bool more_chosen = false) {
     const ImVec2 p = ImGui::GetCursorScreenPos();
     ui_.write(p.x + 33 * u_, p.y + 1 * u_, Ui::Letter::small, ink::kDim, word(name), 0.5F);
+    two({p.x, p.y + 18 * u_}, less, more, less_chosen, more_chosen);
+  }
+
+  // the same without a name
+  void row(const Button& left, const Button& right, bool left_chosen = false,
+           bool right_chosen = false) {
+    two(ImGui::GetCursorScreenPos(), left, right, left_chosen, right_chosen);
+  }
+
+  void gap(float points) { ImGui::Dummy({1, points * u_}); }
+
+ private:
+  void two(ImVec2 p, const Button& left, const Button& right, bool left_chosen, bool right_chosen) {
     int n = 0;
-    for (const Button* b : {&less, &more}) {
-      const ImVec2 at = {p.x + static_cast<float>(n++) * 35 * u_, p.y + 18 * u_};
+    for (const Button* b : {&left, &right}) {
+      const ImVec2 at = {p.x + static_cast<float>(n++) * 35 * u_, p.y};
       ImGui::SetCursorScreenPos(at);
-      const bool chosen = b == &less ? less_chosen : more_chosen;
+      const bool chosen = b == &left ? left_chosen : right_chosen;
       body(*b, at, {31 * u_, 26 * u_}, chosen);
       icon(*ImGui::GetWindowDrawList(), b->action, {at.x + 15.5F * u_, at.y + 13 * u_}, 7 * u_,
            chosen ? ink::kAccent : ink::kText);
     }
   }
 
-  void gap(float points) { ImGui::Dummy({1, points * u_}); }
-
- private:
   void body(const Button& b, ImVec2 p, ImVec2 size, bool chosen) {
     ImGui::PushID(static_cast<int>(b.action));
     if (ImGui::InvisibleButton("##b", size)) pressed_ = b.action;
@@ -232,7 +285,9 @@ class Bar {
     const ImVec2 q = {p.x + size.x, p.y + size.y};
     if (ImGui::IsItemHovered()) {
       draw.AddRectFilled(p, q, ink::kOver, 6 * u_);
-      ImGui::SetTooltip("%s  [%s]", word(b.name), b.key);
+      std::string name = word(b.name);
+      if (name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 'a' + 'A');
+      ImGui::SetTooltip("%s  ( %s )", name.c_str(), b.key);
     } else if (size.x < 40 * u_) {
       draw.AddRectFilled(p, q, ink::kButton, 6 * u_);
     }
@@ -250,34 +305,39 @@ class Bar {
 
 }  // namespace
 
-std::optional<Action> draw_toolbar(Ui& ui, tick::ToolMode mode, bool measures, bool mirrors) {
+std::optional<Action> draw_toolbar(Ui& ui, const ToolbarState& state) {
   std::optional<Action> pressed;
   const float u = ui.unit();
-  const float h = 624 * u, w = 82 * u;
+  const float h = 552 * u, w = 82 * u;
   const float free = ui.height() - 78 * u;
   const float y = std::max(6 * u, (free - h) / 2);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * u, 8 * u});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {4 * u, 3 * u});
   ui.panel("##tools", 10 * u, y, w, h);
   Bar bar(ui, pressed);
+  const tick::ToolMode mode = state.mode;
   bar.tall({Action::cut, Word::cut, "1"}, mode == tick::ToolMode::cut);
-  bar.tall({Action::add, Word::add, "2"}, mode == tick::ToolMode::add);
-  bar.tall({Action::touch, Word::touch, "3"}, mode == tick::ToolMode::touch);
-  bar.tall({Action::back, Word::back, "4"}, mode == tick::ToolMode::restore);
-  bar.tall({Action::smooth, Word::smooth, "5"}, mode == tick::ToolMode::smooth);
-  bar.gap(2);
   bar.pair(Word::burr, {Action::smaller, Word::smaller, smaller_key()},
            {Action::larger, Word::larger, larger_key()});
+  bar.row({Action::kind, Word::help_kind, "K"}, {Action::coolant, Word::help_coolant, "I"},
+          state.diamond, state.coolant);
   bar.pair(Word::speed, {Action::slower, Word::slower, ","}, {Action::faster, Word::faster, "."});
   bar.gap(2);
   bar.pair(Word::stroke, {Action::undo, Word::undo, "U"}, {Action::redo, Word::redo, "Y"});
-  bar.tall({Action::reset, Word::reset, "R"});
+  bar.pair(Word::help_view, {Action::slices, Word::help_slices, "V"},
+           {Action::see_through, Word::help_see_through, "T"}, state.slices, state.see_through);
   bar.gap(2);
   bar.pair(Word::help_tools, {Action::measure, Word::measure, "D"},
-           {Action::mirror, Word::mirror, "X"}, measures, mirrors);
-  bar.tall({Action::export_, Word::export_word, "E"});
-  bar.pair(Word::help_program, {Action::settings, Word::settings, "F2"},
-           {Action::help, Word::help, "F1"});
+           {Action::mirror, Word::mirror, "X"}, state.measures, state.mirrors);
+  bar.row({Action::add, Word::add, "2"}, {Action::touch, Word::touch, "3"},
+          mode == tick::ToolMode::add, mode == tick::ToolMode::touch);
+  bar.row({Action::back, Word::back, "4"}, {Action::smooth, Word::smooth, "5"},
+          mode == tick::ToolMode::restore, mode == tick::ToolMode::smooth);
+  bar.tall({Action::reset, Word::reset, "R"});
+  bar.gap(2);
+  bar.pair(Word::help_program, {Action::keep, Word::key_save, "S"},
+           {Action::export_, Word::export_word, "E"});
+  bar.row({Action::settings, Word::settings, "F2"}, {Action::help, Word::help, "F1"});
   bar.tall({Action::leave, Word::leave, "Q"});
   ImGui::End();
   ImGui::PopStyleVar(2);

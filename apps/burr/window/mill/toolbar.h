@@ -30,10 +30,22 @@ enum class Action {
   settings,
   help,
   leave,
+  kind,     // cutting burr, diamond burr
+  coolant,  // on, off
+  slices,
+  see_through,
+  keep,
 };
 
-// Returns the button that was pressed, if any.
-[[nodiscard]] std::optional<Action> draw_toolbar(Ui& ui, tick::ToolMode mode, bool measures,
-                                                 bool mirrors);
+// What is on: its button has a frame.
+struct ToolbarState {
+  tick::ToolMode mode = tick::ToolMode::cut;
+  bool measures = false, mirrors = false, diamond = false, coolant = false, slices = false,
+       see_through = false;
+};
+
+// What an operation needs stands above what changes bone in other ways. Returns the button that was
+// pressed, if any.
+[[nodiscard]] std::optional<Action> draw_toolbar(Ui& ui, const ToolbarState& state);
 
 }  // namespace burr::app

@@ -97,7 +97,8 @@ Status Mill::frame(workshop::LiveSurface& live) {
   keep_diary();
   note(pages_->exporting().step());
   update_status();
-  slices_->update(scene_, slices_shown_ && panels_, labels_, desk_.renderer().width(),
+  slices_->update(scene_, aim_.bone_below().value_or(scene_.burr.world_from_tool.p),
+                  slices_shown_ && panels_, labels_, desk_.renderer().width(),
                   desk_.renderer().height(), static_cast<int>(hud_height(desk_.ui())));
   live.update(headset_.cameras());
   const Clock::time_point drawing = Clock::now();

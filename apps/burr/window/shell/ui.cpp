@@ -118,6 +118,9 @@ void Ui::event(const SDL_Event& event) {
           io.KeysDown[scancode] = false;
         }
       }
+      // of keys that went down since the last frame, those held with the last of them count: all
+      // of Ctrl + A may happen within one frame
+      if (event.type == SDL_KEYUP && !fresh_.empty()) break;
       const unsigned held = event.key.keysym.mod;
       io.KeyShift = (held & KMOD_SHIFT) != 0;
       io.KeyCtrl = (held & KMOD_CTRL) != 0;
@@ -165,6 +168,12 @@ void Ui::begin(int window_width, int window_height, int width, int height, doubl
   }
   for (const SDL_Scancode scancode : up_) io.KeysDown[scancode] = false;
   up_ = std::exchange(let_go_, {});
+  if (fresh_.empty() && up_.empty()) {  // keys that were let go within a frame
+    const SDL_Keymod held = SDL_GetModState();
+    io.KeyShift = io.KeyShift && (held & KMOD_SHIFT) != 0;
+    io.KeyCtrl = io.KeyCtrl && (held & KMOD_CTRL) != 0;
+    io.KeyAlt = io.KeyAlt && (held & KMOD_ALT) != 0;
+  }
   fresh_.clear();
   io.ConfigFlags = keys ? ImGuiConfigFlags_NavEnableKeyboard : ImGuiConfigFlags_None;
   const Uint64 now = SDL_GetPerformanceCounter();
@@ -328,12 +337,24 @@ float Ui::width_of(Letter letter, const std::string& text) const {
 }
 float Ui::height_of(Letter letter) const { return font(letter)->FontSize; }
 
-bool text_field(const char* id, const char* hint, std::string& text, float width) {
+bool text_field(const char* id, const char* hint, std::string& text, float width,
+                std::string (*complete)(const std::string&)) {
   std::vector<char> buffer(4096, '\0');
   std::copy_n(text.c_str(), std::min(text.size(), buffer.size() - 1), buffer.begin());
   ImGui::SetNextItemWidth(width);
-  const bool entered = ImGui::InputTextWithHint(id, hint, buffer.data(), buffer.size(),
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  const ImGuiInputTextCallback completing = [](ImGuiInputTextCallbackData* field) {
+    using Complete = std::string (*)(const std::string&);
+    const std::string whole = (*static_cast<Complete*>(field->UserData))(field->Buf);
+    if (whole == field->Buf || whole.size() >= static_cast<std::size_t>(field->BufSize)) return 0;
+    field->DeleteChars(0, field->BufTextLen);
+    field->InsertChars(0, whole.c_str());
+    return 0;
+  };
+  const bool entered = ImGui::InputTextWithHint(
+      id, hint, buffer.data(), buffer.size(),
+      ImGuiInputTextFlags_EnterReturnsTrue |
+          (complete != nullptr ? ImGuiInputTextFlags_CallbackCompletion : 0),
+      complete != nullptr ? completing : nullptr, static_cast<void*>(&complete));
   text = buffer.data();
   return entered;
 }

@@ -100,6 +100,8 @@ class Ui {
 };
 
 // ImGui's field for a std::string; true when Enter was pressed in it.
-[[nodiscard]] bool text_field(const char* id, const char* hint, std::string& text, float width);
+// complete: Tab replaces the text by what this makes of it; nullptr: Tab goes to the next field.
+[[nodiscard]] bool text_field(const char* id, const char* hint, std::string& text, float width,
+                              std::string (*complete)(const std::string&) = nullptr);
 
 }  // namespace burr::app

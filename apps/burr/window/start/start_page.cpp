@@ -262,7 +262,8 @@ void StartPage::own_scan(float x, float y, float w) {
     ui.write(x + w / 2, y + 46 * u, Letter::body, ink::kDim, drop.substr(cut + 1), 0.5F);
   y += high + 12 * u;
   ImGui::SetCursorScreenPos({x, y});
-  const bool entered = text_field("##path", word(Word::start_path), typed_, w - 96 * u);
+  const bool entered =
+      text_field("##path", word(Word::start_path), typed_, w - 96 * u, completed_path);
   ImGui::SetCursorScreenPos({x + w - 86 * u, y});
   if (ImGui::Button(word(Word::start_open), {86 * u, 0}) || entered) open(typed_);
   if (!FileDialog::there()) return;
