@@ -25,7 +25,7 @@ set(with_threads "tests/(rt|device)/|(window/window|window/pages|sound/voice|sou
 # of 16. ImportWindow begins sessions, but looks only at what they began with; two copies of it at once
 # passed with the same load.
 set(alone_but_window Cap Directions ExportRequest Film Greys HandPlane Hands ImportDoubts ImportWindow LabelTable Measuring Memory MirrorWords Planes Steps Technique
-  PrebuiltPhantom Preview PrintedKeys Questions Region Scores StatusLine Words Work SavedViewsFile SettingsFile)
+  Bones/Hover HoverHand TypedPath PrebuiltPhantom Preview PrintedKeys Questions Region Scores StatusLine Words Work SavedViewsFile SettingsFile)
 set(alone_but_device OmegaTest MappedHand HaplyMessage CrtkNames CrtkReading PolhemLine PolhemPorts ListingTest TouchTest)
 foreach(room ${rooms})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${room}/*_test.cpp)
