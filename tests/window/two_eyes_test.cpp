@@ -100,33 +100,36 @@ TEST_F(TwoEyes, MouseFindsTheBoneInEitherHalf) {
     at = now;
     return n > 15;
   };
-  mill_by(*ready,
-          {{"the start", looks(3), [] { move_to(320 + 15, 400); }},
-           {"the burr over the left half's place", rests,
-            [&] {
-              left = scene.burr.world_from_tool.p;
-              // the one eye in the middle sees the bone there
-              const auto hit = render::pick(
-                  scene, render::ray_through(scene.camera, 640 + 30 + 0.5, 400.5, 1280, 720));
-              ASSERT_TRUE(hit);
-              EXPECT_LT((hit->p + (scene.burr.radius + 3e-3) * hit->n - *left).norm(), 1e-3);
-              move_to(200, 100);
-            }},
-           {"elsewhere", rests, [] { move_to(640 + 320 + 15, 400); }},
-           {"the burr over the right half's place", rests, [&] {
-              EXPECT_LT((scene.burr.world_from_tool.p - *left).norm(), 2e-4);
-              // what is pulled stays in its half
-              SDL_Event event = {};
-              event.type = SDL_MOUSEMOTION;
-              event.motion.x = 630;
-              event.motion.y = 400;
-              event.motion.state = SDL_BUTTON_LMASK;
-              SDL_PushEvent(&event);
-              SDL_Event mapped = {};
-              ASSERT_TRUE(desk_->next(mapped));
-              EXPECT_EQ(mapped.motion.x, 0);
-              close_window();
-            }}});
+  mill_by(*ready, {{"the start", looks(3), [] { move_to(320 + 15, 400); }},
+                   {"the burr over the left half's place", rests,
+                    [&] {
+                      left = scene.burr.world_from_tool.p;
+                      // the one eye in the middle sees the bone there
+                      const render::Ray eye =
+                          render::ray_through(scene.camera, 640 + 30 + 0.5, 400.5, 1280, 720);
+                      const auto hit = render::pick(scene, eye);
+                      ASSERT_TRUE(hit);
+                      EXPECT_LT((*left - eye.origin).cross(eye.direction).norm(), 1e-6);
+                      const double off = (hit->p - *left).norm();
+                      EXPECT_GT(off, scene.burr.radius);
+                      EXPECT_LT(off, 2 * scene.burr.radius + 2e-3);
+                      move_to(200, 100);
+                    }},
+                   {"elsewhere", rests, [] { move_to(640 + 320 + 15, 400); }},
+                   {"the burr over the right half's place", rests, [&] {
+                      EXPECT_LT((scene.burr.world_from_tool.p - *left).norm(), 2e-4);
+                      // what is pulled stays in its half
+                      SDL_Event event = {};
+                      event.type = SDL_MOUSEMOTION;
+                      event.motion.x = 630;
+                      event.motion.y = 400;
+                      event.motion.state = SDL_BUTTON_LMASK;
+                      SDL_PushEvent(&event);
+                      SDL_Event mapped = {};
+                      ASSERT_TRUE(desk_->next(mapped));
+                      EXPECT_EQ(mapped.motion.x, 0);
+                      close_window();
+                    }}});
 }
 
 TEST_F(TwoEyes, KindMayChangeWhileOneMills) {

@@ -308,7 +308,7 @@ class Bar {
 std::optional<Action> draw_toolbar(Ui& ui, const ToolbarState& state) {
   std::optional<Action> pressed;
   const float u = ui.unit();
-  const float h = 552 * u, w = 82 * u;
+  const float h = 560 * u, w = 82 * u;
   const float free = ui.height() - 78 * u;
   const float y = std::max(6 * u, (free - h) / 2);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * u, 8 * u});
