@@ -39,7 +39,7 @@ ALLOWED = {
     "sim": "tick record device haptics thermal people volume tool rt",
     "fit": "record",
     "metrics": "record tick volume tool rt",
-    "scoring": "metrics record scenario volume",
+    "scoring": "metrics record rt scenario volume",
     "workshop": "sim tick record importing io phantom surgeon scenario surface render sound device volume tool rt",
 }
 BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest rooms, with shorter lists

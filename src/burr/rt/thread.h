@@ -47,12 +47,12 @@ class Thread {
   std::unique_ptr<Work> work_;
 };
 
-// While this object lives, the calling thread and the threads that it starts have ordinary
-// priority. Its destructor restores the real-time priority if the thread had one.
+// Calls work(0) .. work(count - 1), each once, on as many threads at the same time; work(0) on the calling one. Returns when
+// all have returned.
 void on_threads(int count, const std::function<void(int)>& work);
 
-// The calling thread, and those it begins, run as ordinary ones while this lives; then it goes
-// first again if it did.
+// While this object lives, the calling thread and the threads that it starts have ordinary
+// priority. Its destructor restores the real-time priority if the thread had one.
 class NormalPriority {
  public:
   NormalPriority();

@@ -44,9 +44,10 @@ class RecordingPass {
   // The player is kept by reference, and is the pass's alone from start() to finish(). So are, as long as the pass lives, the
   // voxels of structures that the scene has.
   RecordingPass(const Rubric& rubric, Scene& scene, record::Player& player);
-  // progress: kept until finish(), which alone reports to it; cancelled() is called from the other thread.
+  // progress: kept until finish(); the other thread calls only its cancelled().
   void start(Progress& progress);
-  [[nodiscard]] Result<metrics::Process> finish(Progress& progress);  // error: as of metrics::process_of()
+  // Waits for the end of the pass. Error: as of metrics::process_of().
+  [[nodiscard]] Result<metrics::Process> finish(Progress& progress);
 
  private:
   record::Player& player_;

@@ -81,8 +81,8 @@ std::vector<Measure> measures_of_anatomy() {
   };
 }
 
-// Contact, distance, and the shape of the cut against a plan.
-std::vector<Measure> measures_of_shape() {
+// Contact, distance, and a corridor against its plan.
+std::vector<Measure> measures_of_corridor() {
   using enum Quantity;
   constexpr Part kProduct = Part::product;
   return {
@@ -148,6 +148,13 @@ std::vector<Measure> measures_of_shape() {
        .region = true,
        .on_curve = true,
        .limits = {{"width_mm", kMm, 4, 0, 20}, {"off_mm", kMm, 0.5, 0, 10}}},
+  };
+}
+
+std::vector<Measure> measures_of_plane_and_cavity() {
+  using enum Quantity;
+  constexpr Part kProduct = Part::product;
+  return {
       {.name = "plane_offset",
        .part = kProduct,
        .quantity = length,
@@ -212,7 +219,7 @@ std::vector<Measure> measures_of_manner() {
 
 std::vector<Measure> all_measures() {
   std::vector<Measure> all = measures_of_anatomy();
-  for (auto* const more : {measures_of_shape, measures_of_manner})
+  for (auto* const more : {measures_of_corridor, measures_of_plane_and_cavity, measures_of_manner})
     for (Measure& one : more()) all.push_back(std::move(one));
   return all;
 }
