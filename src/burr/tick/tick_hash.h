@@ -2,8 +2,8 @@
 //
 // Chained: `before` is the hash of the previous tick, so the last hash covers the whole session.
 // The times (took_us, late_us) are left out, because they differ from run to run. A torque of zero
-// is left out too, and so is an undone volume of zero: recordings from before they existed keep
-// their hashes where nothing was undone. No allocation.
+// is left out too, so that recordings from before torque existed keep their hashes. For the same reason the undone volume
+// is left out: it follows from the removed volume and the commands. No allocation.
 #pragma once
 
 #include <bit>
@@ -47,7 +47,6 @@ namespace burr::tick {
   add(row.ledger.not_cut);
   add(row.ledger.added);
   add(row.ledger.energy);
-  if (row.ledger.undone != 0) add(row.ledger.undone);
   add(row.spindle_rad_s);
   add(row.cutting_nm);
   add(row.cutting_w);
