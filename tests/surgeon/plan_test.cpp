@@ -113,11 +113,11 @@ TEST(Goal, GoesInFromWhereTheStepSays) {
   step.approach = {Vec3::UnitX()};
   EXPECT_EQ(approach_of(lesson, step), step.approach);
   scenario::Shape& box = lesson.regions.front().add.front();
-  box.a.at = Vec3(0, 1, -4) * kMm;
+  box.a.at = Vec3(0, 1, -2) * kMm;  // beside the vein's margin, and below the surface
   box.size = Vec3(2, 2, 1) * kMm;
   const Believed seen = believed(*bone, lesson, 0, 1);
   const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
-  const Vec3 above = Vec3(0, 1, -2) * kMm, beside = Vec3(3, 1, -4) * kMm;
+  const Vec3 above = Vec3(0, 1, -0.5) * kMm, beside = Vec3(3, 1, -2) * kMm;
   const FieldGrid down = goal_of(lesson.regions.front(), approach_of(lesson), seen, spare);
   EXPECT_GT(down.at(above), 0);
   EXPECT_LT(down.at(beside), 0);

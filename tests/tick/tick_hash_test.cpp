@@ -13,9 +13,9 @@ namespace {
 using namespace record::test;
 
 // Every byte of every column, through the file's own list of columns: a field forgotten in the hash
-// shows here. The tool is not in the hash, so that recordings from before it was written down keep
+// shows here. Tool and undone volume are not in the hash, so that recordings from before they were written down keep
 // theirs.
-TEST(TickHash, SeesEveryFieldButTheToolTimesAndItself) {
+TEST(TickHash, SeesEveryFieldButToolUndoneTimesAndItself) {
   constexpr std::size_t kTool = 8 + 8 + 4 * 4 + 1;
   BURR_SEEDED(random, 71);
   TickRow row = any_tick(5, random);
@@ -45,8 +45,8 @@ TEST(TickHash, SeesEveryFieldButTheToolTimesAndItself) {
     if (tick_hash(back[0], 0) == hash) unseen.insert(at);
   }
   EXPECT_GE(changed, record::tick_columns_size() - kTool - 8);
-  // the times are two floats, the hash is eight bytes
-  EXPECT_EQ(unseen.size(), 4U + 4U + 8U);
+  // the times are two floats, the hash and the undone volume are eight bytes each
+  EXPECT_EQ(unseen.size(), 4U + 4U + 8U + 8U);
 }
 
 }  // namespace

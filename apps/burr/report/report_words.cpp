@@ -20,9 +20,9 @@ constexpr std::array kValues = {
     Word::what_plane_off, Word::what_plane_angle, Word::what_face,       Word::what_floor,
     Word::what_rim,       Word::what_clear,       Word::what_stroke_far, Word::what_stroke,
     Word::what_along,     Word::what_coolant,     Word::what_touched,    Word::what_order,
-    Word::what_divided};
+    Word::what_divided,   Word::what_axis_tilt,   Word::what_screw_out,  Word::what_screw_in};
 
-constexpr std::array<std::pair<std::string_view, Word>, 30> kMeasures = {
+constexpr std::array<std::pair<std::string_view, Word>, 32> kMeasures = {
     {{"identified", Word::explain_identified},
      {"skeletonised", Word::explain_skeletonised},
      {"intact_solid", Word::explain_intact_solid},
@@ -42,6 +42,8 @@ constexpr std::array<std::pair<std::string_view, Word>, 30> kMeasures = {
      {"axis_entry", Word::explain_axis_entry},
      {"axis_apex", Word::explain_axis_apex},
      {"axis_angle", Word::explain_axis_angle},
+     {"axis_tilt", Word::explain_axis_tilt},
+     {"axis_breach", Word::explain_axis_breach},
      {"axis_depth", Word::explain_axis_depth},
      {"axis_width", Word::explain_axis_width},
      {"plane_offset", Word::explain_plane_offset},

@@ -170,11 +170,13 @@ bool has_direction(const scenario::Landmark& curve) {
 
 Error missing(const Rubric& rubric, const Item& item, const char* field, const std::string& name,
               const std::string& known) {
+  const std::string_view named = field;
+  const std::string_view kind = named == "along"    ? "curve among its landmarks"
+                                : named == "within" ? "region"
+                                                    : named;
   return error(fmt::format("{}: line {}: {}: the case \"{}\" has no {} \"{}\"; use one of {}",
                            rubric.file, item.lines.at(field), field,
-                           base::printable(rubric.case_name),
-                           std::string_view(field) == "along" ? "curve among its landmarks" : field,
-                           base::printable(name), known));
+                           base::printable(rubric.case_name), kind, base::printable(name), known));
 }
 
 }  // namespace
