@@ -202,6 +202,17 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   endforeach()
 endif()
 
+# The other builds come first. Each takes all processors, so it would wait until the last of the other tests has begun, and
+# at the end tests in real time, which run one after the other, would leave a core idle. Without these builds (./test --quick)
+# this is left out, and the tests begin at once.
+add_test(NAME other_builds COMMAND ${CMAKE_COMMAND} -E true)
+set_tests_properties(other_builds PROPERTIES LABELS long)
+foreach(build asan.build tsan.build clang.build portable.aarch64 portable.web)
+  if(TEST ${build})
+    set_property(TEST other_builds APPEND PROPERTY DEPENDS ${build})
+  endif()
+endforeach()
+
 # every claim about touch, within a minute; real bones where they are available
 set(verify_data "")
 if(EXISTS ${PROJECT_SOURCE_DIR}/../shared/data)

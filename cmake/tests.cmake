@@ -65,7 +65,7 @@ foreach(room ${rooms})
       set(first_room ${room})
       burr_common_headers(test_${room} <gtest/gtest.h>)
     endif()
-    set(discovering TEST_PREFIX ${room}. DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 900)
+    set(discovering TEST_PREFIX ${room}. DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 900 DEPENDS other_builds)
     if(alone_but_${room})  # twice: what runs beside others, and what runs alone
       list(TRANSFORM alone_but_${room} APPEND ".*" REGEX "^[^.]+$")  # a whole group
       list(JOIN alone_but_${room} ":" free)
