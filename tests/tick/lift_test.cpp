@@ -2,14 +2,10 @@
 // it comes back in free air only.
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <vector>
 
-#include "burr/device/replayed_hand.h"
 #include "burr/haptics/contact.h"
-#include "burr/phantom/build.h"
-#include "burr/phantom/shapes.h"
-#include "burr/sim/session.h"
+#include "tick/slab_bench.h"
 
 namespace burr::tick {
 namespace {
@@ -17,27 +13,8 @@ namespace {
 using math::Vec3;
 constexpr double kMm = 1e-3;
 
-struct Bench {
-  std::unique_ptr<sim::Session> session;
-  device::ReplayedHand* hand = nullptr;
-  TickRow row;
-
-  Bench() {
-    NoProgress quiet;
-    auto owned = std::make_unique<device::ReplayedHand>(device::DeviceSpec{});
-    hand = owned.get();
-    sim::SessionSettings settings;
-    settings.servo.burr.radius = 2 * kMm;
-    settings.servo.undo_bricks = 512;
-    settings.surface.reserve_blocks = 1 << 12;
-    auto made = sim::Session::make(
-        phantom::bone_from_distance(
-            phantom::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), 0.25 * kMm), {},
-            phantom::slab(), 64),
-        std::move(owned), settings, quiet);
-    EXPECT_TRUE(made.ok());
-    session = std::move(*made);
-  }
+struct Bench : test::SlabBench {
+  Bench() : SlabBench(0.25 * kMm) {}
   // One tick with the tip's centre so high over the slab.
   double tick(double z_mm, bool lifted, double pedal = 1) {
     device::HandState now;

@@ -2,13 +2,8 @@
 // reset.
 #include <gtest/gtest.h>
 
-#include <memory>
-
-#include "burr/device/replayed_hand.h"
-#include "burr/phantom/build.h"
-#include "burr/phantom/shapes.h"
-#include "burr/sim/session.h"
 #include "burr/volume/volume_of.h"
+#include "tick/slab_bench.h"
 
 namespace burr::tick {
 namespace {
@@ -16,29 +11,10 @@ namespace {
 using math::Vec3;
 constexpr double kMm = 1e-3, kMm3 = 1e-9;
 
-struct Bench {
-  std::unique_ptr<sim::Session> session;
-  device::ReplayedHand* hand = nullptr;
-  TickRow row;
-  double whole = 0;  // volume of the bone before the first cut [m^3]
+struct Bench : test::SlabBench {
+  double whole;  // volume of the bone before the first cut [m^3]
 
-  Bench() {
-    NoProgress quiet;
-    auto owned = std::make_unique<device::ReplayedHand>(device::DeviceSpec{});
-    hand = owned.get();
-    sim::SessionSettings settings;
-    settings.servo.burr.radius = 2 * kMm;
-    settings.servo.undo_bricks = 512;
-    settings.surface.reserve_blocks = 1 << 12;
-    auto made = sim::Session::make(
-        phantom::bone_from_distance(
-            phantom::box_grid(Vec3::Constant(-8 * kMm), Vec3::Constant(8 * kMm), 0.5 * kMm), {},
-            phantom::slab(), 64),
-        std::move(owned), settings, quiet);
-    EXPECT_TRUE(made.ok());
-    session = std::move(*made);
-    whole = volume::volume_of(session->bone());
-  }
+  Bench() : SlabBench(0.5 * kMm), whole(volume::volume_of(session->bone())) {}
   void ticks(int count, double x_mm, double z_mm, double pedal) {
     device::HandState now;
     now.world_from_tool.p = {x_mm * kMm, 0, z_mm * kMm};

@@ -22,6 +22,15 @@ class Kept : public testing::Test {
  protected:
   void SetUp() override { fs::create_directories(state_ / "sessions"); }
   void TearDown() override { fs::remove_all(state_); }
+  static Result<Ready> ready_ball(WorkOptions& ball) {
+    ball.volume.source = "phantom:ball";
+    ball.volume.voxel_mm = 1;
+    NoProgress quiet;
+    if (const Status taken = take_case(ball); !taken) return taken.error();
+    auto work = open_work(ball, quiet);
+    if (!work) return work.error();
+    return make_ready(ball, std::move(*work), quiet);
+  }
   const fs::path state_ = fs::temp_directory_path() / "burr_kept_test";
 };
 
@@ -32,13 +41,7 @@ TEST_F(Kept, RecipesComeBackToTheBit) {
   std::uniform_real_distribution<double> share(0, 1);
   const auto coin = [&] { return random() % 2 == 0; };
   WorkOptions ball;
-  ball.volume.source = "phantom:ball";
-  ball.volume.voxel_mm = 1;
-  NoProgress quiet;
-  ASSERT_TRUE(take_case(ball).ok());
-  auto work = open_work(ball, quiet);
-  ASSERT_TRUE(work) << work.error().text;
-  auto ready = make_ready(ball, std::move(*work), quiet);
+  auto ready = ready_ball(ball);
   ASSERT_TRUE(ready) << ready.error().text;
   for (int n = 0; n < 12; ++n) {
     WorkOptions options = ball;
@@ -71,13 +74,8 @@ TEST_F(Kept, RecipesComeBackToTheBit) {
 // Time, volume, burr, speed and coolant are those of the end, also over several sessions.
 TEST_F(Kept, ASessionThatIsContinuedGoesOnWhereItEnded) {
   WorkOptions ball;
-  ball.volume.source = "phantom:ball";
-  ball.volume.voxel_mm = 1;
   NoProgress quiet;
-  ASSERT_TRUE(take_case(ball).ok());
-  auto work = open_work(ball, quiet);
-  ASSERT_TRUE(work) << work.error().text;
-  auto ready = make_ready(ball, std::move(*work), quiet);
+  auto ready = ready_ball(ball);
   ASSERT_TRUE(ready) << ready.error().text;
   double seconds = 0, removed = 0;
   for (int n = 0; n < 2; ++n) {

@@ -168,7 +168,8 @@ void Ui::begin(int window_width, int window_height, int width, int height, doubl
   }
   for (const SDL_Scancode scancode : up_) io.KeysDown[scancode] = false;
   up_ = std::exchange(let_go_, {});
-  if (fresh_.empty() && up_.empty()) {  // keys that were let go within a frame
+  // a modifier that was pressed and released within one frame counts in that frame, and ends in the next
+  if (fresh_.empty() && up_.empty()) {
     const SDL_Keymod held = SDL_GetModState();
     io.KeyShift = io.KeyShift && (held & KMOD_SHIFT) != 0;
     io.KeyCtrl = io.KeyCtrl && (held & KMOD_CTRL) != 0;
