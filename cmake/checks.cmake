@@ -90,6 +90,8 @@ foreach(sample ${BURR_SAMPLES})
 endforeach()
 set_tests_properties(samples.s05_record_a_session PROPERTIES FIXTURES_SETUP a_recording)  # which these read
 set_tests_properties(samples.s06_read_a_recording samples.s07_score_a_recording PROPERTIES FIXTURES_REQUIRED a_recording)
+add_test(NAME samples.own_case COMMAND burr --quiet case check ${PROJECT_SOURCE_DIR}/samples/cases/plate_holes.toml)
+add_test(NAME samples.own_rubric COMMAND burr --quiet rubric check ${PROJECT_SOURCE_DIR}/samples/cases/plate_holes_rubric.toml)
 
 # ---- Other builds; only from the release build, which is the one that ./test makes.
 if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")

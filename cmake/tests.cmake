@@ -81,7 +81,7 @@ endforeach()
 add_executable(same_bits ${PROJECT_SOURCE_DIR}/tests/bits/same_bits.cpp)
 if(BURR_WARNINGS_ONLY)  # of the library only what the numbers depend on
   target_sources(same_bits PRIVATE ${BURR_SCENES})
-  target_include_directories(same_bits PRIVATE ${PROJECT_SOURCE_DIR})
+  target_include_directories(same_bits PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(same_bits PRIVATE burr_core burr_files burr_session burr_options fmt::fmt)
 else()
   target_link_libraries(same_bits PRIVATE burr burr_scenes burr_options fmt::fmt)

@@ -18,6 +18,8 @@ complain "a path of somebody's own machine" "(^|[^A-Za-z0-9_.\${}/-])/(home|root
 complain "a path of somebody's own machine" "(^|[^A-Za-z0-9_.\${}/-])/(root|Users|work|mnt|media|srv|opt)/" tests
 complain "unfinished work" "\b(TO""DO|FIX""ME|XX""X|HA""CK)\b" .
 complain "a host that scripts would fetch from" "https?://" 'scripts/*' run test '.ci/*' 'cmake/*' CMakeLists.txt
+complain "a temporary name that another test may share; tests/support/folder.h makes folders of their own" \
+  "temp_directory_path|TempDir\(|mkdtemp" 'tests/*.cpp' 'tests/*.h' ':!tests/support/folder.h'
 complain "a name of a patient in the tests' own data" "Patient(Name|ID)[^A-Za-z]{1,4}[A-Z][a-z]+\^[A-Z][a-z]+" 'docs/*' '*.md'
 
 while IFS= read -r -d '' file; do

@@ -1,4 +1,5 @@
 #include "burr/base/new_file.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -17,12 +18,6 @@ namespace fs = std::filesystem;
 
 class NewFileTest : public testing::Test {
  protected:
-  NewFileTest() {
-    std::string name = (fs::temp_directory_path() / "burr-new-file-XXXXXX").string();
-    folder = mkdtemp(name.data());
-  }
-  ~NewFileTest() override { fs::remove_all(folder); }
-
   [[nodiscard]] std::string path(const char* name) const { return (folder / name).string(); }
   static std::string content(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
@@ -31,7 +26,8 @@ class NewFileTest : public testing::Test {
   [[nodiscard]] std::ptrdiff_t files() const {
     return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
   }
-  fs::path folder;
+  const test::Folder own_;
+  const fs::path folder = own_.path();
 };
 
 TEST_F(NewFileTest, IsThereWholeOnceItIsPutInPlace) {

@@ -33,6 +33,7 @@
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
 #include "burr/surgeon/motion.h"
+#include "support/folder.h"
 
 namespace {
 
@@ -99,9 +100,8 @@ struct Plan {
 
 void mill(const char* name, const Plan& plan, const std::function<Bone()>& make,
           const Options& options) {
-  const std::string file =
-      (std::filesystem::temp_directory_path() / fmt::format("same_bits_{}.mcap", ::getpid()))
-          .string();
+  const test::Folder folder;
+  const std::string file = folder / "s.mcap";
   sim::SessionSettings settings;
   settings.servo.burr.radius = 0.5e-3 * plan.burr_mm;
   settings.servo.burr.kind = plan.kind;
@@ -133,7 +133,6 @@ void mill(const char* name, const Plan& plan, const std::function<Bone()>& make,
   // whatever happened, it happens again
   auto player = take(record::Player::open(file));
   const auto again = take(sim::replay(*player, make(), quiet));
-  std::filesystem::remove(file);
   if (again.first_different_tick || again.gaps > 0 || again.ticks != row.tick + 1 ||
       again.bone->content_hash() != session->bone().content_hash())
     give_up(fmt::format("{}: does not replay: {}", name, again.difference));

@@ -14,6 +14,7 @@
 
 #include "device/players/every.h"
 #include "device/stand_in.h"
+#include "support/folder.h"
 
 namespace burr::device {
 namespace {
@@ -136,8 +137,8 @@ TEST(PolhemDoubt, WithoutAnAnswerItIsToldNoForce) {
 // Its guardian has the port open too: if opening fails, both must close it.
 TEST(PolhemDoubt, UnpluggedWhileItIsOpenedNothingIsLeftOpen) {
   const int before = test::open_files();
-  const auto slow = std::filesystem::temp_directory_path() /
-                    ("burr_slow_guard_" + std::to_string(::getpid()) + ".sh");
+  const test::Folder folder;
+  const std::filesystem::path slow = folder / "slow_guard.sh";
   std::ofstream(slow) << "#!/bin/sh\nsleep 0.3\nprintf +\ncat >&2\n";
   std::filesystem::permissions(slow, std::filesystem::perms::owner_all);
   ::setenv("BURR_GUARD", slow.c_str(), 1);
@@ -152,7 +153,6 @@ TEST(PolhemDoubt, UnpluggedWhileItIsOpenedNothingIsLeftOpen) {
   const auto connected = wire.connect();
   user.join();
   ::unsetenv("BURR_GUARD");
-  std::filesystem::remove(slow);
   EXPECT_FALSE(connected.ok());
   EXPECT_EQ(test::open_files(), before);
 }

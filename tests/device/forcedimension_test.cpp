@@ -19,6 +19,7 @@
 #include "burr/rt/flags.h"
 #include "device/fake/fake_dhd.h"
 #include "device/stand_in.h"
+#include "support/folder.h"
 #include "support/rt_guard.h"
 
 namespace burr::device::forcedimension {
@@ -379,9 +380,8 @@ TEST_F(OmegaTest, WithoutDrdTheUserMustSayThatItIsHomed) {
 }
 
 TEST_F(OmegaTest, LibrariesAreLookedForWhereTheMakerPutsThemTheNewestFirst) {
-  const std::filesystem::path home =
-      std::filesystem::path(::testing::TempDir()) / ("burr_fd_home_" + std::to_string(getpid()));
-  std::filesystem::remove_all(home);
+  const test::Folder folder;
+  const std::filesystem::path& home = folder.path();
   const auto touch = [&](const std::string& name) {
     std::filesystem::create_directories((home / name).parent_path());
     std::ofstream(home / name) << "no library";
@@ -398,7 +398,6 @@ TEST_F(OmegaTest, LibrariesAreLookedForWhereTheMakerPutsThemTheNewestFirst) {
   std::vector<std::string> found = candidates();
   setenv("HOME", before.c_str(), 1);
   unsetenv("FDSDK");
-  std::filesystem::remove_all(home);
   std::erase_if(found, [](const std::string& one) { return one.starts_with("/usr/local"); });
   std::vector<std::string> names;
   for (const std::string& one : found)

@@ -11,6 +11,7 @@
 #include "device/fake/fake_crtk.h"
 #include "device/fake/fake_haply.h"
 #include "device/stand_in.h"
+#include "support/folder.h"
 
 namespace burr {
 namespace {
@@ -126,7 +127,8 @@ TEST_F(ListingTest, TheGripIsPartOfTheName) {
   service.with([](test::FakeHaply::Commands& w) { w.more_grips = {{.id = "LEFT"}}; });
   const Variable port("HAPLY_WS_PORT", std::to_string(service.port));
   const Variable events("HAPLY_EVENTS_PORT", std::to_string(service.events_port));
-  const Variable config("XDG_CONFIG_HOME", ::testing::TempDir() + "listing_test");
+  const test::Folder folder;
+  const Variable config("XDG_CONFIG_HOME", folder.str());
   EXPECT_NE(said_by("devices set haply:049D+LEFT scale=0.5").find("inverse3 049D: saved in"),
             std::string::npos);
   std::FILE* pipe =

@@ -17,6 +17,7 @@
 #include "device/fake/fake_polhem.h"
 #include "device/stand_in.h"
 #include "device/wild_forces.h"
+#include "support/folder.h"
 #include "support/rt_guard.h"
 
 namespace burr::device::polhem {
@@ -303,7 +304,8 @@ TEST_F(PolhemTest, TwoAtOnceEachHasItsOwnForce) {
 
 TEST(PolhemPorts, AreFoundByWhatTheirUsbSays) {
   namespace fs = std::filesystem;
-  const fs::path root = fs::temp_directory_path() / ("burr_polhem_" + std::to_string(::getpid()));
+  const test::Folder folder;
+  const fs::path root = folder / "root";
   const auto put = [&](const char* name, const char* vendor, const char* product) {
     const fs::path device = root / "sys/devices/usb1" / name, face = device / "1-1:1.0";
     fs::create_directories(face / "tty" / name);

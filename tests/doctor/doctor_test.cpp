@@ -16,6 +16,7 @@
 #include "doctor/fix.h"
 #include "doctor/look.h"
 #include "doctor/run_in_process.h"
+#include "support/folder.h"
 
 namespace burr::app {
 namespace {
@@ -66,14 +67,14 @@ TEST(ProcessResult, WordsWithoutEndAreCut) {
 class DoctorNodes : public ::testing::Test {
  protected:
   void SetUp() override {
-    system_.root = fs::temp_directory_path() / ("burr_doctor_" + std::to_string(getpid()));
+    system_.root = folder_.path();
     fs::create_directories(system_.root / "sys/bus/usb/devices");
     system_.may_use = [this](const fs::path& node) {
       asked_.push_back(node);
       return allowed_;
     };
   }
-  void TearDown() override { fs::remove_all(system_.root); }
+  const burr::test::Folder folder_;
 
   void plug(const std::string& place, const std::string& vendor, const std::string& product,
             int number) {
@@ -244,10 +245,10 @@ TEST(Findings, ReadAsLinesAndAsJson) {
 class Rules : public ::testing::Test {
  protected:
   void SetUp() override {
-    system_.root = fs::temp_directory_path() / ("burr_rules_" + std::to_string(getpid()));
+    system_.root = folder_.path();
     fs::create_directories(udev_file(system_).parent_path());
   }
-  void TearDown() override { fs::remove_all(system_.root); }
+  const burr::test::Folder folder_;
   [[nodiscard]] static std::string held(const fs::path& file) {
     std::ifstream in(file);
     return {std::istreambuf_iterator<char>(in), {}};

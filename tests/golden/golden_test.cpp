@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "render/gpu.h"
+#include "support/folder.h"
 
 namespace burr {
 namespace {
@@ -141,7 +142,8 @@ constexpr Shot kShots[] = {
 class Golden : public testing::TestWithParam<Shot> {
  protected:
   static fs::path folder() {
-    return fs::temp_directory_path() / ("burr_golden_" + std::to_string(::getpid()));
+    static const test::Folder one;
+    return one.path();
   }
   static int run(const std::string& words) {
     const int left = std::system((std::string(BURR_BUILD_DIR "/burr --quiet ") + words +
@@ -151,14 +153,12 @@ class Golden : public testing::TestWithParam<Shot> {
   }
   static fs::path recording(const std::string& of) { return folder() / (of + ".mcap"); }
   static void record(const std::string& of) {
-    fs::create_directories(folder());
     if (fs::exists(recording(of))) return;
     for (const Session& session : kSessions)
       if (session.name == of) {
         ASSERT_EQ(run("mill " + (session.words + (" --record " + recording(of).string()))), 0);
       }
   }
-  static void TearDownTestSuite() { fs::remove_all(folder()); }
 };
 
 TEST_P(Golden, LooksAsItDid) {

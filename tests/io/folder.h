@@ -9,17 +9,12 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include "support/folder.h"
 
 namespace burr::test {
 
 class FolderTest : public testing::Test {
  protected:
-  FolderTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "burr-io-XXXXXX").string();
-    folder = mkdtemp(name.data());
-  }
-  ~FolderTest() override { std::filesystem::remove_all(folder); }
-
   [[nodiscard]] std::string path(const std::string& name) const { return (folder / name).string(); }
   [[nodiscard]] std::ptrdiff_t files() const {
     return std::distance(std::filesystem::directory_iterator(folder),
@@ -39,7 +34,12 @@ class FolderTest : public testing::Test {
     if (pipe != nullptr) ::pclose(pipe);
     return text;
   }
-  std::filesystem::path folder;
+
+ private:
+  Folder own_;
+
+ protected:
+  const std::filesystem::path folder = own_.path();
 };
 
 }  // namespace burr::test

@@ -1,5 +1,4 @@
-// tests/record/made_up.h - random rows, bones and sessions, and a folder that is removed
-// afterwards.
+// tests/record/made_up.h - random rows, bones and sessions.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,39 +17,12 @@
 #include "burr/record/recorder.h"
 #include "burr/record/session_info.h"
 #include "burr/tick/rows.h"
+#include "support/folder.h"
 
 namespace burr::record::test {
 
 using Random = std::mt19937_64;
-
-// A folder for each test, removed afterwards.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "burr_record_XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] std::string operator/(const std::string& name) const {
-    return (path_ / name).string();
-  }
-  [[nodiscard]] std::string str() const { return path_.string(); }
-  [[nodiscard]] std::vector<std::string> names() const {
-    std::vector<std::string> found;
-    for (const auto& entry : std::filesystem::directory_iterator(path_))
-      found.push_back(entry.path().filename().string());
-    std::sort(found.begin(), found.end());
-    return found;
-  }
-
- private:
-  std::filesystem::path path_;
-};
+using burr::test::Folder;
 
 inline std::vector<std::uint8_t> bytes_of_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

@@ -22,6 +22,7 @@
 #include "burr/render/pick.h"
 #include "render/gpu.h"
 #include "render/shapes.h"
+#include "support/folder.h"
 
 namespace burr::render {
 namespace {
@@ -87,14 +88,6 @@ Difference difference(const Image& a, const Image& b) {
   d.mean /= static_cast<double>(a.rgb.size());
   return d;
 }
-
-// a folder that is removed afterwards
-struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() /
-                               ("burr_render_" + std::to_string(std::random_device{}()));
-  Folder() { std::filesystem::create_directory(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-};
 
 TEST(Picture, NeedsNoDisplay) {
   const char* display = std::getenv("DISPLAY");
@@ -414,11 +407,11 @@ TEST(Picture, PatchesOutOfSightOrTurnedAwayAreNotDrawn) {
 // ---- files
 
 TEST(Picture, APngHoldsThePixelsAndNothingElse) {
-  const Folder folder;
+  const test::Folder folder;
   std::mt19937 random(5);
   Image image{37, 23, {}};
   for (int i = 0; i < 37 * 23 * 3; ++i) image.rgb.push_back(static_cast<std::uint8_t>(random()));
-  const auto path = folder.path / "noise.png";
+  const auto path = folder.path() / "noise.png";
   const Status written = write_png(image, path);
   ASSERT_TRUE(written.ok()) << written.error().text;
 
@@ -446,19 +439,19 @@ TEST(Picture, APngHoldsThePixelsAndNothingElse) {
 }
 
 TEST(Picture, AFileThatCannotBeWrittenIsToldAndNothingIsLeft) {
-  const Folder folder;
+  const test::Folder folder;
   const Image image{1, 1, {0, 0, 0}};
-  const Status written = write_png(image, folder.path / "missing" / "a.png");
+  const Status written = write_png(image, folder.path() / "missing" / "a.png");
   ASSERT_FALSE(written.ok());
   EXPECT_EQ(written.error().trouble, Trouble::io);
   EXPECT_NE(written.error().text.find("a.png"), std::string::npos);
-  EXPECT_TRUE(std::filesystem::is_empty(folder.path));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(Picture, AFilmIsNumberedPictures) {
   BURR_NEEDS_GPU(gpu);  // and a film at the same time
-  const Folder folder;
-  auto film = Film::in(folder.path / "film", 64, 48);
+  const test::Folder folder;
+  auto film = Film::in(folder.path() / "film", 64, 48);
   ASSERT_TRUE(film.ok()) << film.error().text;
   Scene scene = ball_scene(Vec3::Zero(), 0.03, 30);
   for (int i = 0; i < 3; ++i) {
@@ -468,7 +461,7 @@ TEST(Picture, AFilmIsNumberedPictures) {
   EXPECT_EQ(film->frames(), 3);
   for (const char* name : {"frame_000001.png", "frame_000002.png", "frame_000003.png"}) {
     int width = 0, height = 0, channels = 0;
-    EXPECT_EQ(stbi_info((folder.path / "film" / name).c_str(), &width, &height, &channels), 1);
+    EXPECT_EQ(stbi_info((folder.path() / "film" / name).c_str(), &width, &height, &channels), 1);
     EXPECT_EQ(width, 64);
   }
 }

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "burr/rt/idle_loop.h"
+#include "support/folder.h"
 
 namespace burr::rt {
 namespace {
@@ -19,9 +20,8 @@ namespace fs = std::filesystem;
 
 class MadeUpMachine : public testing::Test {
  protected:
-  fs::path root = fs::temp_directory_path() / ("burr_machine_" + std::to_string(getpid()));
-  void SetUp() override { fs::create_directories(root); }
-  void TearDown() override { fs::remove_all(root); }
+  const test::Folder folder;
+  const fs::path root = folder.path();
   void say(const std::string& file, const std::string& text) const {
     fs::create_directories((root / file).parent_path());
     std::ofstream(root / file) << text;

@@ -11,6 +11,7 @@
 
 #include "burr/phantom/phantoms.h"
 #include "burr/volume/pyramid.h"
+#include "support/folder.h"
 
 namespace burr::scenario {
 namespace {
@@ -131,14 +132,24 @@ TEST(Case, NoTextHoweverBrokenDoesHarm) {
 }
 
 TEST(Case, AFileIsFoundByPathAndItsVolumeLiesBesideIt) {
-  const auto folder = std::filesystem::temp_directory_path() / "burr_case_test";
+  const test::Folder own;
+  const std::filesystem::path folder = own / "cases";
   std::filesystem::create_directories(folder);
   const auto path = folder / "own.toml";
-  std::ofstream(path) << with(kGood, "phantom = \"block\"", "volume = \"scan.nrrd\"");
+  std::ofstream(path) << with(kGood, "phantom = \"block\"",
+                              "rubric = \"marks.toml\"\nvolume = \"\"\"\\\n  scan.nrrd\"\"\"");
   const auto read = read_case(path.string());
   ASSERT_TRUE(read.ok()) << read.error().text;
   EXPECT_EQ(read->name, "own");
   EXPECT_EQ(read->volume, (folder / "scan.nrrd").string());
+  EXPECT_EQ(read->rubric, (folder / "marks.toml").string());
+  EXPECT_FALSE(names_no_file(*read));
+  // a recording keeps the text, and no name of a file
+  const auto kept = parse_case(read->text, "own.toml");
+  ASSERT_TRUE(kept.ok()) << kept.error().text;
+  EXPECT_EQ(kept->volume, kOwnFile);
+  EXPECT_EQ(kept->rubric, kOwnFile);
+  EXPECT_TRUE(names_no_file(*kept));
   std::filesystem::remove_all(folder);
 
   const auto gone = read_case(path.string());

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 
 #include "burr/scenario/open_lesson.h"
+#include "support/folder.h"
 
 namespace burr::scoring {
 namespace {
@@ -71,6 +73,20 @@ TEST(Rubric, AGradeIsInTheUnitOfItsMeasure) {
       trouble_of(std::string(two).replace(two.find("cover_mm"), 8, "hi_mm")),
       "r.toml: line 8: item[1].grade: \"skeletonised\" is decided by two numbers, so it cannot be "
       "graded; leave `grade` out");
+}
+
+TEST(Rubric, ACaseOfItsOwnIsSoughtFromTheFolderOfTheRubric) {
+  const burr::test::Folder folder;
+  const std::string file = folder / "r.toml";
+  std::ofstream(file) << with("\"block\"", "\"../cases/mine.toml\"");
+  const auto read = read_rubric(file);
+  ASSERT_TRUE(read) << read.error().text;
+  EXPECT_EQ(read->case_name, "mine");
+  EXPECT_EQ(read->case_source, folder / "../cases/mine.toml");
+  const auto built_in = read_rubric("block");
+  ASSERT_TRUE(built_in) << built_in.error().text;
+  EXPECT_EQ(built_in->case_name, "block");
+  EXPECT_EQ(built_in->case_source, "block");
 }
 
 TEST(Rubric, EveryFieldComesBack) {

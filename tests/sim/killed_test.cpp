@@ -48,6 +48,7 @@
 #include "burr/sim/session_words.h"
 #include "burr/surgeon/motion.h"
 #include "burr/tick/tick_hash.h"
+#include "support/folder.h"
 
 namespace burr::sim {
 namespace {
@@ -260,10 +261,9 @@ TEST(Killed, AtAnyMomentItOpensLacksATenthOfASecondAtMostAndReplaysToTheBit) {
       ::mmap(nullptr, sizeof(Told), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(memory, MAP_FAILED);
 
-  std::string pattern = (std::filesystem::temp_directory_path() / "burr_killed_XXXXXX").string();
-  const std::filesystem::path folder = ::mkdtemp(pattern.data());
-  std::filesystem::permissions(folder, std::filesystem::perms::all);
-  const std::string file = (folder / "s.mcap").string();
+  test::Folder folder;
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
+  const std::string file = folder / "s.mcap";
   Tally paced, fast;
   int unborn = 0;
   for (int n = 0; n < kills && !HasFailure(); ++n) {
@@ -311,9 +311,8 @@ TEST(Killed, AtAnyMomentItOpensLacksATenthOfASecondAtMostAndReplaysToTheBit) {
     judge(file, told, realtime, stolen, n % 10 == 0, tally);
   }
   if (HasFailure()) {
+    folder.keep();
     std::printf("the last one is kept: %s\n", file.c_str());
-  } else {
-    std::filesystem::remove_all(folder);
   }
   ::munmap(memory, sizeof(Told));
 

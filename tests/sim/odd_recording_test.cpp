@@ -16,6 +16,7 @@
 #include "burr/sim/replay.h"
 #include "burr/sim/session_words.h"
 #include "burr/surgeon/motion.h"
+#include "support/folder.h"
 
 namespace burr::sim {
 namespace {
@@ -24,12 +25,8 @@ using math::Vec3;
 
 class Odd : public testing::Test {
  protected:
-  Odd() {
-    std::string name = (std::filesystem::temp_directory_path() / "burr-odd-XXXXXX").string();
-    folder = mkdtemp(name.data());
-  }
-  ~Odd() override { std::filesystem::remove_all(folder); }
-  std::filesystem::path folder;
+  const test::Folder own_;
+  const std::filesystem::path folder = own_.path();
 };
 
 std::unique_ptr<volume::Bone> slab() {

@@ -25,6 +25,7 @@
 #include "burr/surgeon/motion.h"
 #include "burr/volume/sample.h"
 #include "burr/volume/volume_of.h"
+#include "support/folder.h"
 #include "support/rt_guard.h"
 
 namespace burr::sim {
@@ -310,10 +311,8 @@ TEST(Session, RefusesABurrSmallerThanTheVoxelsCanCarryWithTheCure) {
 
 class Replay : public testing::Test {
  protected:
-  std::string file = (std::filesystem::temp_directory_path() /
-                      ("burr_replay_" + std::to_string(getpid()) + ".mcap"))
-                         .string();
-  void TearDown() override { std::filesystem::remove(file); }
+  const test::Folder folder_;
+  const std::string file = folder_ / "s.mcap";
 
   void record(Session& session, double seconds, const std::function<void()>& between = {}) {
     NoProgress quiet;

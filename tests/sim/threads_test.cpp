@@ -20,6 +20,7 @@
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
 #include "burr/surgeon/motion.h"
+#include "support/folder.h"
 
 namespace burr::sim {
 namespace {
@@ -27,10 +28,8 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(WholeSession, EveryThreadAtOnceEndsWithOneTruth) {
-  const std::string file =
-      (std::filesystem::temp_directory_path() / ("burr_threads_" + std::to_string(getpid())))
-          .string() +
-      ".mcap";
+  const test::Folder folder;
+  const std::string file = folder / "s.mcap";
   auto bone = phantom::bone_from_distance(phantom::cube_grid(24e-3, 60), {}, phantom::slab(), 64);
   SessionSettings settings;
   settings.servo.burr.radius = 2e-3;
@@ -110,7 +109,6 @@ TEST(WholeSession, EveryThreadAtOnceEndsWithOneTruth) {
   const Status shown_at_end = (*player)->bone_at(1e9, **again);
   ASSERT_TRUE(shown_at_end) << shown_at_end.error().text;
   EXPECT_EQ((*again)->content_hash(), session.bone().content_hash());
-  std::filesystem::remove(file);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
 #include "burr/surgeon/motion.h"
+#include "support/folder.h"
 #include "support/wall_clock.h"
 
 namespace burr::sim {
@@ -29,10 +30,8 @@ using namespace std::chrono_literals;
 TEST(TimeOfDay, MayJumpWhileASessionIsRecordedAndNobodyAsksForIt) {
   if (!burr::test::WallClock::watching()) GTEST_SKIP() << "sanitizers have clocks of their own";
   std::mt19937_64 random(11);
-  const std::string file =
-      (std::filesystem::temp_directory_path() / ("burr_clock_" + std::to_string(getpid())))
-          .string() +
-      ".mcap";
+  const burr::test::Folder folder;
+  const std::string file = folder / "s.mcap";
   const auto slab = [] {
     return phantom::bone_from_distance(phantom::cube_grid(16e-3, 48), {}, phantom::slab(), 64, 1);
   };
@@ -93,7 +92,6 @@ TEST(TimeOfDay, MayJumpWhileASessionIsRecordedAndNobodyAsksForIt) {
   const auto before = std::chrono::system_clock::now();
   burr::test::WallClock::set_back(7200);
   EXPECT_LT(std::chrono::system_clock::now(), before - 1h);
-  std::filesystem::remove(file);
 }
 
 }  // namespace

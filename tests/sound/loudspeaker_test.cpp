@@ -1,5 +1,6 @@
 // The key and the loudness of the window's sound, and that the window works without a sound device.
 #include "window/mill/loudspeaker.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -68,8 +69,8 @@ float loudest_since(const std::filesystem::path& file, std::streamoff& from) {
 
 TEST(Loudspeaker, WarnsFromTheRimOfTheBurrThatIsThereNow) {
   const Driver driver("disk");
-  const std::filesystem::path file = std::filesystem::temp_directory_path() /
-                                     ("burr_loudspeaker_" + std::to_string(::getpid()) + ".raw");
+  const test::Folder folder;
+  const std::filesystem::path file = folder / "s.raw";
   ::setenv("SDL_DISKAUDIOFILE", file.c_str(), 1);
   tick::TickRow row;
   // a session that practises warns below 1 mm only
@@ -100,7 +101,6 @@ TEST(Loudspeaker, WarnsFromTheRimOfTheBurrThatIsThereNow) {
     EXPECT_LT(sounds(), 1e-6F) << "a smaller burr is 5.5 mm away from it";
   }
   ::unsetenv("SDL_DISKAUDIOFILE");
-  std::filesystem::remove(file);
 }
 
 }  // namespace

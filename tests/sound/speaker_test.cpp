@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "sound/ear.h"
+#include "support/folder.h"
 
 namespace burr::sound {
 namespace {
@@ -61,10 +62,8 @@ TEST(Speaker, PlaysToNobody) {
 }
 
 TEST(Speaker, WhatComesOutIsWhatWasSaid) {
-  const std::string file =
-      (std::filesystem::temp_directory_path() / ("burr_speaker_" + std::to_string(getpid())))
-          .string() +
-      ".raw";
+  const burr::test::Folder folder;
+  const std::string file = folder / "s.raw";
   {
     const Variable driver("SDL_AUDIODRIVER", "disk"), where("SDL_DISKAUDIOFILE", file);
     auto speaker = Speaker::open();
@@ -74,7 +73,6 @@ TEST(Speaker, WhatComesOutIsWhatWasSaid) {
   }
   std::ifstream in(file, std::ios::binary);
   const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), {});
-  std::filesystem::remove(file);
   std::vector<float> samples(bytes.size() / sizeof(float));
   std::memcpy(samples.data(), bytes.data(), samples.size() * sizeof(float));
   ASSERT_GE(samples.size(), 65'536U + 24'000U);

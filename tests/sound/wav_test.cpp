@@ -1,5 +1,6 @@
 // A .wav file read back byte by byte, without a library.
 #include "burr/sound/wav.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -16,12 +17,6 @@
 namespace burr::sound {
 namespace {
 
-std::string place() {
-  return (std::filesystem::temp_directory_path() / ("burr_wav_" + std::to_string(getpid())))
-             .string() +
-         ".wav";
-}
-
 std::vector<unsigned char> bytes_of(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -34,7 +29,8 @@ unsigned number(const std::vector<unsigned char>& bytes, std::size_t at, std::si
 }
 
 TEST(Wav, SaysWhatItHolds) {
-  const std::string file = place();
+  const burr::test::Folder folder;
+  const std::string file = folder / "s.wav";
   {
     auto wav = WavFile::create(file, 48'000);
     ASSERT_TRUE(wav) << wav.error().text;
@@ -68,7 +64,8 @@ TEST(Wav, SaysWhatItHolds) {
 }
 
 TEST(Wav, WhatIsNotPutInPlaceLeavesNothing) {
-  const std::string file = place();
+  const burr::test::Folder folder;
+  const std::string file = folder / "s.wav";
   {
     auto wav = WavFile::create(file, 48'000);
     ASSERT_TRUE(wav);

@@ -18,6 +18,7 @@
 #include "burr/sim/session_words.h"
 #include "burr/surgeon/motion.h"
 #include "burr/volume/volume_of.h"
+#include "support/folder.h"
 #include "support/rt_guard.h"
 
 namespace burr::tick {
@@ -108,10 +109,8 @@ TEST(BackToTheOriginal, APressedBurrIsLiftedOutOfItsHoleAndLeavesTheOriginalByte
 
 class Recorded : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(file); }
-  std::string file = (std::filesystem::temp_directory_path() /
-                      ("burr_brush_" + std::to_string(getpid()) + ".mcap"))
-                         .string();
+  const test::Folder folder_;
+  const std::string file = folder_ / "s.mcap";
   // Mills a pocket, then works on with these commands; recorded, replayed, compared.
   void expect_same(const std::vector<Command>& commands, const std::vector<Command>& later = {}) {
     NoProgress quiet;

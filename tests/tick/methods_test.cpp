@@ -17,6 +17,7 @@
 #include "burr/surgeon/motion.h"
 #include "burr/tick/touch_methods.h"
 #include "burr/volume/volume_of.h"
+#include "support/folder.h"
 #include "support/rt_guard.h"
 
 namespace burr::tick {
@@ -105,9 +106,8 @@ TEST(MethodsInASession, AreChangedInItsMiddleAndTheForceGrowsNoFasterThanEver) {
 
 TEST(MethodsInASession, TheRecordingKnowsAndSimulatesToTheSameBits) {
   NoProgress quiet;
-  const std::string file = (std::filesystem::temp_directory_path() /
-                            ("burr_methods_" + std::to_string(getpid()) + ".mcap"))
-                               .string();
+  const test::Folder folder;
+  const std::string file = folder / "s.mcap";
   sim::SessionSettings settings;
   settings.servo.touch = Method::thesis;
   settings.servo.vibration_gain = 1;
@@ -139,7 +139,6 @@ TEST(MethodsInASession, TheRecordingKnowsAndSimulatesToTheSameBits) {
       << "tick " << *again->first_different_tick << ": " << again->difference;
   EXPECT_EQ(again->ticks, 2800U);
   EXPECT_EQ(again->bone->content_hash(), run->bone().content_hash());
-  std::filesystem::remove(file);
 }
 
 // Removal by the thesis: density falls with time wherever the mill is, at any speed of the spindle;

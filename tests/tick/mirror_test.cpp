@@ -21,6 +21,7 @@
 #include "burr/sim/session_words.h"
 #include "burr/surgeon/motion.h"
 #include "burr/volume/volume_of.h"
+#include "support/folder.h"
 #include "support/rt_guard.h"
 
 namespace burr::tick {
@@ -172,9 +173,8 @@ TEST(MirrorMode, TheTickTakesNeitherMemoryNorLock) {
 }
 
 TEST(MirrorMode, ARecordingReplaysToTheBitAndHoldsEveryMoment) {
-  const std::string file = (std::filesystem::temp_directory_path() /
-                            ("burr_mirror_" + std::to_string(getpid()) + ".mcap"))
-                               .string();
+  const test::Folder folder;
+  const std::string file = folder / "s.mcap";
   NoProgress quiet;
   sim::SessionSettings settings;
   settings.servo.burr.radius = kRadius;
@@ -221,7 +221,6 @@ TEST(MirrorMode, ARecordingReplaysToTheBitAndHoldsEveryMoment) {
   EXPECT_FALSE(again->first_different_tick.has_value())
       << *again->first_different_tick << ": " << again->difference;
   EXPECT_EQ(again->bone->content_hash(), session.bone().content_hash());
-  std::filesystem::remove(file);
 }
 
 // ---- planes by name

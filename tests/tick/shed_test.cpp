@@ -27,6 +27,7 @@
 #include "burr/surgeon/motion.h"
 #include "burr/volume/sample.h"
 #include "burr/volume/volume_of.h"
+#include "support/folder.h"
 
 namespace burr::tick {
 namespace {
@@ -346,9 +347,8 @@ class HeavyHand final : public device::Device {
 };
 
 TEST(Overload, ASessionThatWasTooSlowForAWhileReplaysToTheBit) {
-  const std::string file = (std::filesystem::temp_directory_path() /
-                            ("burr_overload_" + std::to_string(getpid()) + ".mcap"))
-                               .string();
+  const test::Folder folder;
+  const std::string file = folder / "s.mcap";
   NoProgress quiet;
   sim::SessionSettings settings;
   settings.servo.burr.radius = 2 * kMm;
@@ -395,7 +395,6 @@ TEST(Overload, ASessionThatWasTooSlowForAWhileReplaysToTheBit) {
       << *again->first_different_tick << ": " << again->difference;
   EXPECT_EQ(again->ticks, 1500U);
   EXPECT_EQ(again->bone->content_hash(), session.bone().content_hash());
-  std::filesystem::remove(file);
 }
 
 }  // namespace

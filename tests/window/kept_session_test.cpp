@@ -8,6 +8,7 @@
 
 #include "burr/base/progress.h"
 #include "commands/work.h"
+#include "support/folder.h"
 #include "window/mill/make_ready.h"
 #include "window/start/sessions.h"
 
@@ -21,7 +22,6 @@ using scenario::Region;
 class Kept : public testing::Test {
  protected:
   void SetUp() override { fs::create_directories(state_ / "sessions"); }
-  void TearDown() override { fs::remove_all(state_); }
   static Result<Ready> ready_ball(WorkOptions& ball) {
     ball.volume.source = "phantom:ball";
     ball.volume.voxel_mm = 1;
@@ -31,7 +31,8 @@ class Kept : public testing::Test {
     if (!work) return work.error();
     return make_ready(ball, std::move(*work), quiet);
   }
-  const fs::path state_ = fs::temp_directory_path() / "burr_kept_test";
+  const test::Folder folder_;
+  const fs::path state_ = folder_.path();
 };
 
 TEST_F(Kept, RecipesComeBackToTheBit) {

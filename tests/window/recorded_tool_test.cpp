@@ -17,6 +17,7 @@
 #include "burr/workshop/sound_tracker.h"
 #include "burr/workshop/traces.h"
 #include "sim/commanded.h"
+#include "support/folder.h"
 #include "window/replay/playback.h"
 #include "window/replay/replay_page.h"
 #include "window/replay/timeline_panel.h"
@@ -30,10 +31,8 @@ constexpr double kLate = 2.5;  // after the command  [s]
 class RecordedTool : public testing::Test {
  protected:
   RecordedTool() {
-    fs::create_directories(folder_);
     EXPECT_EQ(sim::test::record_commanded(file("asked"), sim::test::in_its_own_hole()), 2e-3);
   }
-  ~RecordedTool() override { fs::remove_all(folder_); }
   [[nodiscard]] std::string file(const std::string& name) const {
     return (folder_ / (name + ".mcap")).string();
   }
@@ -85,8 +84,8 @@ class RecordedTool : public testing::Test {
     return count;
   }
 
-  fs::path folder_ =
-      fs::temp_directory_path() / ("burr_recorded_tool_" + std::to_string(::getpid()));
+  const test::Folder own_;
+  const fs::path folder_ = own_.path();
 };
 
 TEST_F(RecordedTool, IsHeard) {

@@ -74,7 +74,27 @@ class ReviewWindow : public Window {
   [[nodiscard]] std::vector<KeptSession> kept() const { return kept_sessions(folder_ / "state"); }
 };
 
+// By the rubric that the case names, which lies beside it.
 TEST_F(ReviewWindow, TheLearnerMarksHimselfThenSeesTheMarksAndTheEvidence) {
+  {
+    std::ifstream in(folder_ / "block.toml");
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    in.close();
+    std::ofstream(folder_ / "block.toml") << "rubric = \"mine.toml\"\n" << text;
+    std::ofstream(folder_ / "mine.toml") << R"([rubric]
+name = "mine"
+version = 1
+case = "block.toml"
+[[item]]
+id = "groove.mine"
+part = "product"
+measure = "removed"
+region = "groove"
+share = 0.9
+source = "this test"
+say = "Clear the groove."
+)";
+  }
   auto steps = cut();
   add(steps, done());
   int y = 100;
@@ -98,7 +118,7 @@ TEST_F(ReviewWindow, TheLearnerMarksHimselfThenSeesTheMarksAndTheEvidence) {
   std::vector<std::string> own;
   for (const record::CourseEvent& event : (*player)->course())
     if (event.kind == record::CourseKind::self_mark) own.push_back(event.what + " " + event.value);
-  EXPECT_EQ(own, std::vector<std::string>{"groove.cleared met"});
+  EXPECT_EQ(own, std::vector<std::string>{"groove.mine met"});
 }
 
 TEST_F(ReviewWindow, AnExamEndsWithoutMarks) {
@@ -134,12 +154,14 @@ TEST_F(ReviewWindow, AKilledSessionIsOfferedAgainAndMarkedAsUnfinished) {
   }
   {
     ::setenv(kState, folder_.c_str(), 1);
+    ::setenv("TMPDIR", folder_.c_str(), 1);  // what it leaves is removed with this folder
     std::string program = "/proc/self/exe", filter = "--gtest_filter=ReviewWindow.AKilledSession*";
     std::array<char*, 3> words = {program.data(), filter.data(), nullptr};
     pid_t victim = 0;
     int status = 0;
     ASSERT_EQ(::posix_spawn(&victim, program.c_str(), nullptr, nullptr, words.data(), environ), 0);
     ::unsetenv(kState);
+    ::unsetenv("TMPDIR");
     ASSERT_EQ(::waitpid(victim, &status, 0), victim);
     ASSERT_TRUE(WIFSIGNALED(status)) << "it ended by itself";
     EXPECT_EQ(WTERMSIG(status), SIGKILL);

@@ -1,5 +1,6 @@
 // Views come back as they were kept, each with its bone, and nothing of a file is lost.
 #include "window/mill/saved_views.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -34,8 +35,8 @@ void expect_same(const std::optional<SavedView>& seen, const SavedView& kept) {
 
 class SavedViewsFile : public testing::Test {
  protected:
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path folder_ = fs::temp_directory_path() / ("burr_views_" + std::to_string(::getpid()));
+  const test::Folder own_;
+  fs::path folder_ = own_.path();
   fs::path file_ = folder_ / "deep" / "views.toml";
   const std::string one_ = "0123456789abcdef", other_ = "ffffffffffffffff";
 };

@@ -1,5 +1,6 @@
 // Settings come back as they were written; what cannot be is named, and never lost.
 #include "window/shell/settings.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -17,16 +18,13 @@ namespace fs = std::filesystem;
 
 class SettingsFile : public testing::Test {
  protected:
-  void TearDown() override { fs::remove_all(folder_); }
-  void put(const std::string& text) const {
-    fs::create_directories(folder_);
-    std::ofstream(path_) << text;
-  }
+  void put(const std::string& text) const { std::ofstream(path_) << text; }
   [[nodiscard]] static std::string text_of(const fs::path& path) {
     std::ifstream file(path);
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   }
-  fs::path folder_ = fs::temp_directory_path() / ("burr_settings_" + std::to_string(::getpid()));
+  const test::Folder own_;
+  fs::path folder_ = own_.path();
   fs::path path_ = folder_ / "deep" / ".." / "settings.toml";
 };
 

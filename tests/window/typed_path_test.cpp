@@ -1,5 +1,6 @@
 // Tab completes a path as in a shell.
 #include "window/shell/typed_path.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -13,7 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(TypedPath, TabAddsWhatAllThatBeginSoHaveInCommon) {
-  const fs::path folder = fs::temp_directory_path() / ("burr_tab_" + std::to_string(::getpid()));
+  const test::Folder own;
+  const fs::path& folder = own.path();
   fs::create_directories(folder / "scans of ears");
   fs::create_directories(folder / ".hidden");
   for (const char* name :
@@ -34,7 +36,6 @@ TEST(TypedPath, TabAddsWhatAllThatBeginSoHaveInCommon) {
   EXPECT_EQ(tab(".h"), ".hidden/");
   EXPECT_EQ(tab("scans of ears/"), "scans of ears/") << "half a letter is never added";
   EXPECT_EQ(completed_path("/nowhere/at/all/x"), "/nowhere/at/all/x");
-  fs::remove_all(folder);
 }
 
 }  // namespace

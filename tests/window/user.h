@@ -22,6 +22,7 @@
 
 #include "commands/work.h"
 #include "support/data.h"
+#include "support/folder.h"
 #include "window/mill/make_ready.h"
 #include "window/mill/window.h"
 #include "window/shell/pages.h"
@@ -163,7 +164,6 @@ class Window : public testing::Test {
  protected:
   void SetUp() override {
     ::setenv("SDL_VIDEODRIVER", "offscreen", 1);
-    fs::create_directories(folder_);
     auto made = Desk::open({folder_ / "config", folder_ / "state", {}});
     if (!made) {
       ASSERT_FALSE(test::data_required()) << made.error().text;
@@ -174,7 +174,6 @@ class Window : public testing::Test {
   }
   void TearDown() override {
     desk_.reset();
-    fs::remove_all(folder_);
     speak("en");
   }
 
@@ -246,7 +245,8 @@ class Window : public testing::Test {
     return path;
   }
 
-  fs::path folder_ = fs::temp_directory_path() / ("burr_pages_" + std::to_string(::getpid()));
+  const test::Folder own_;
+  fs::path folder_ = own_.path();
   std::unique_ptr<Desk> desk_;
 };
 

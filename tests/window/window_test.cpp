@@ -3,6 +3,7 @@
 // redoes and resets. Run under ThreadSanitizer too, where silence is the test (scripts/tsan_long.sh
 // for minutes).
 #include "window/mill/window.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -153,10 +154,8 @@ TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
   const std::uint64_t seed =
       given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
   std::printf("%.0f s, BURR_SEED=%llu\n", seconds, static_cast<unsigned long long>(seed));
-  const std::string file =
-      (std::filesystem::temp_directory_path() / ("burr_window_" + std::to_string(getpid())))
-          .string() +
-      ".mcap";
+  test::Folder folder;
+  const std::string file = folder / "s.mcap";
   const auto make = [] {
     return phantom::bone_from_distance(phantom::cube_grid(20e-3, 64), {}, phantom::ball(8e-3), 512);
   };
@@ -223,7 +222,6 @@ TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
               static_cast<unsigned long long>(outcome.timing.missed),
               static_cast<unsigned long long>(account->commands),
               static_cast<unsigned long long>(account->brick_rows), 1e9 * outcome.ledger.removed);
-  std::filesystem::remove(file + ".raw");
   EXPECT_GT(sounded, 0) << "nothing was to be heard of it";
   EXPECT_TRUE(account->whole());
   EXPECT_EQ(account->ticks, outcome.ticks);
@@ -245,10 +243,10 @@ TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
         << *replayed->first_different_tick << ": " << replayed->difference;
     EXPECT_EQ(replayed->ticks, outcome.ticks);
   }
-  if (HasFailure())
+  if (HasFailure()) {
+    folder.keep();
     std::printf("kept for a look: %s\n", file.c_str());
-  else
-    std::filesystem::remove(file);
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "burr/workshop/device_book.h"
 
 #include "burr/device/axes.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -61,10 +62,9 @@ TEST(DeviceBook, TwoOfAKindHaveAPageEach) {
 }
 
 TEST(DeviceBook, AFileWithTroubleLosesNothing) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("burr_book_" + std::to_string(getpid()));
+  const test::Folder own;
+  const std::filesystem::path& folder = own.path();
   const auto file = folder / "devices.toml";
-  std::filesystem::create_directories(folder);
   std::ofstream(file) << "[\"Touch T-1\"]\nscale = 40\nmax_force_n = 2\nfoo = 1\n[";
   DeviceBook book = DeviceBook::read(file);
   ASSERT_EQ(book.troubles().size(), 1U);  // the text itself ends too early
@@ -79,7 +79,6 @@ TEST(DeviceBook, AFileWithTroubleLosesNothing) {
   EXPECT_TRUE(std::filesystem::exists(folder / "devices.toml.old"));
   EXPECT_TRUE(DeviceBook::read(file).troubles().empty());
   EXPECT_TRUE(DeviceBook::read(folder / "none.toml").troubles().empty());
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "burr/haptics/contact.h"
 #include "burr/rt/flags.h"
+#include "support/folder.h"
 
 namespace burr::workshop {
 namespace {
@@ -85,8 +86,8 @@ TEST(FaultFile, ColumnsHoldWhatTheirNamesSay) {
 }
 
 TEST(FaultFile, KeepsTheNewestTwenty) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("burr_faults_" + std::to_string(getpid()));
+  const test::Folder own;
+  const std::filesystem::path folder = own / "faults";
   std::filesystem::create_directories(folder);
   for (int n = 10; n < 35; ++n)
     std::ofstream(folder / ("fault-20200101-0000" + std::to_string(n) + ".csv")) << "x";
@@ -105,7 +106,6 @@ TEST(FaultFile, KeepsTheNewestTwenty) {
   EXPECT_NE(*next, *kept) << "however soon it comes";
   EXPECT_TRUE(std::filesystem::exists(*next));
   EXPECT_TRUE(std::filesystem::exists(*kept));
-  std::filesystem::remove_all(folder);
   const auto nowhere = keep_fault("/proc/no/such", "x");
   ASSERT_FALSE(nowhere.ok());
   EXPECT_NE(nowhere.error().text.find("/proc/no/such"), std::string::npos);

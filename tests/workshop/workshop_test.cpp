@@ -8,16 +8,14 @@
 
 #include "burr/record/player.h"
 #include "burr/workshop/recording.h"
+#include "support/folder.h"
 
 namespace burr::workshop {
 namespace {
 
 class Workshop : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / "burr_workshop_test";
+  const test::Folder folder_;
   NoProgress quiet_;
 };
 

@@ -28,6 +28,7 @@
 #include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "commands/volume_words.h"
+#include "report/scored.h"
 
 namespace burr::app {
 namespace {
@@ -88,6 +89,7 @@ Status run_check(const Options& options) {
   const auto lesson = scenario::place(std::move(*read), workshop::landmarks_of(*work), file);
   if (!lesson) return lesson.error();
   if (Status fits = scoring::check_done(*lesson, file); !fits) return fits;
+  if (Status fits = rubric_fits(*work); !fits) return fits;
   auto made = workshop::open_bone(workshop::recipe_of(*work, options.volume), progress());
   if (!made) return made.error();
   if (Status same = scenario::check_tissues(*work, made->bone->tissues()); !same) return same;

@@ -135,7 +135,7 @@ Status run_check(const Options& options) {
   const auto rubric = scoring::read_rubric(options.rubric);
   if (!rubric) return rubric.error();
   const auto work =
-      scenario::read_case(options.work_case.empty() ? rubric->case_name : options.work_case);
+      scenario::read_case(options.work_case.empty() ? rubric->case_source : options.work_case);
   if (!work) return work.error();
   const auto lesson = lesson_for(*work, *rubric);
   if (!lesson) return lesson.error();

@@ -1,4 +1,5 @@
 #include "commands/work.h"
+#include "report/scored.h"
 
 #include <fmt/core.h>
 
@@ -40,6 +41,8 @@ Status take_case(WorkOptions& options) {
   if (names_a_case(volume.source)) {
     const auto read = scenario::read_case(volume.source);
     if (!read) return read.error();
+    if (!read->rubric.empty())
+      if (const Status fits = rubric_fits(*read); !fits) return fits;
     take_case(options, *read);
   }
   if (options.burr_mm == 0) options.burr_mm = 5;

@@ -8,9 +8,9 @@
 
 namespace burr::app {
 
-Result<Report> marked(const std::string& recording, const scenario::Recipe& volume,
-                      Progress& progress) {
-  auto judged = judged_by(recording, "");
+Result<Report> marked(const std::string& recording, const std::string& rubric,
+                      const scenario::Recipe& volume, Progress& progress) {
+  auto judged = judged_by(recording, rubric);
   if (!judged) return judged.error();
   ReportSettings settings;
   settings.most_pictures = 0;

@@ -8,10 +8,16 @@
 
 namespace burr::app {
 
-std::vector<QuestionPart> questions_on(const scenario::Case& work) {
+std::string rubric_of(const scenario::Case& work) {
+  if (!work.rubric.empty()) return work.rubric == scenario::kOwnFile ? "" : work.rubric;
   const std::vector<std::string> names = scoring::built_in_rubrics();
-  if (std::find(names.begin(), names.end(), work.name) == names.end()) return {};
-  const auto rubric = scoring::read_rubric(work.name);
+  return std::find(names.begin(), names.end(), work.name) != names.end() ? work.name : "";
+}
+
+std::vector<QuestionPart> questions_on(const scenario::Case& work) {
+  const std::string name = rubric_of(work);
+  if (name.empty()) return {};
+  const auto rubric = scoring::read_rubric(name);
   if (!rubric) return {};
   std::vector<QuestionPart> parts;
   for (const auto& [part, title] : {std::pair{scoring::Part::product, Word::report_product},

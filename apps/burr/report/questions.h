@@ -22,7 +22,11 @@ struct QuestionPart {
   std::vector<Question> items;
 };
 
-// Empty: there is no built-in rubric for this case.
+// What scoring::read_rubric() reads for this case: its own file, or the built-in rubric of its name.
+// Empty: there is none, or the case is from a recording, which does not hold the place of a file.
+[[nodiscard]] std::string rubric_of(const scenario::Case& work);
+
+// Empty: there is no rubric for this case.
 [[nodiscard]] std::vector<QuestionPart> questions_on(const scenario::Case& work);
 
 }  // namespace burr::app

@@ -20,10 +20,26 @@ Result<scenario::Case> case_of(const record::Player& player, const std::string& 
     return error(Trouble::usage, "the recording names no case; name a rubric with --rubric");
   const auto read = scoring::read_rubric(rubric);
   if (!read) return read.error();
-  return scenario::read_case(read->case_name);
+  return scenario::read_case(read->case_source);
+}
+
+Status is_for(const scoring::Rubric& rubric, const scenario::Case& work, const char* whose) {
+  if (rubric.case_name == work.name) return fine();
+  return error(Trouble::usage,
+               fmt::format("{} is a rubric for the case \"{}\", but {} \"{}\"", rubric.file,
+                           base::printable(rubric.case_name), whose, base::printable(work.name)));
 }
 
 }  // namespace
+
+Status rubric_fits(const scenario::Case& work) {
+  if (work.rubric.empty() || work.rubric == scenario::kOwnFile) return fine();
+  const auto rubric = scoring::read_rubric(work.rubric);
+  if (!rubric) return rubric.error();
+  if (const Status same = is_for(*rubric, work, "the case that names it is"); !same) return same;
+  const auto lesson = lesson_for(work, *rubric);
+  return lesson ? fine() : lesson.error();
+}
 
 Result<scenario::Lesson> lesson_for(const scenario::Case& work, const scoring::Rubric& rubric) {
   auto read = scenario::lesson_of(work);
@@ -42,11 +58,7 @@ Result<Judged> judged_by(const std::string& recording, const std::string& rubric
   if (!work) return work.error();
   auto read = scoring::read_rubric(rubric.empty() ? work->name : rubric);
   if (!read) return read.error();
-  if (read->case_name != work->name)
-    return error(
-        Trouble::usage,
-        fmt::format("{} is a rubric for the case \"{}\", but the recording is of \"{}\"",
-                    read->file, base::printable(read->case_name), base::printable(work->name)));
+  if (const Status same = is_for(*read, *work, "the recording is of"); !same) return same.error();
   auto lesson = lesson_for(*work, *read);
   if (!lesson) return lesson.error();
   return Judged{std::move(*player), std::move(*work), std::move(*read), std::move(*lesson)};

@@ -30,6 +30,10 @@ struct Judged {
   scoring::Rubric rubric;
   scenario::Lesson lesson;
 };
+// Error: the rubric that the case names cannot be read, is for another case, or asks for what the case
+// does not have. Fine without such a rubric.
+[[nodiscard]] Status rubric_fits(const scenario::Case& work);
+
 // rubric: a name or a file; empty: the built-in one of the recording's case.
 [[nodiscard]] Result<Judged> judged_by(const std::string& recording, const std::string& rubric);
 

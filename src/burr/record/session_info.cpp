@@ -312,8 +312,7 @@ Status check(const SessionInfo& info) {
   if (info.work_case) {
     const auto read = case_of(*info.work_case);
     if (!read) return read.error();
-    if (looks_private(info.work_case->name) ||
-        (!read->volume.empty() && read->volume != scenario::kOwnFile))
+    if (looks_private(info.work_case->name) || !scenario::names_no_file(*read))
       return error(Trouble::internal,
                    "recording: the case holds a path, which must not be recorded");
   }

@@ -46,9 +46,10 @@ void read_work(Reader& reader, Case& out) {
 }
 
 void read_all(Reader& reader, Case& out) {
-  reader.only({"format", "title", "description", "phantom", "volume", "voxel_mm", "approach",
-               "work", "burr", "demo", "spare", "target", "landmark", "region", "structure", "step",
-               "complication", "feedback", "reference"});
+  reader.only({"format",    "title",  "description",  "phantom",  "volume",
+               "voxel_mm",  "rubric", "approach",     "work",     "burr",
+               "demo",      "spare",  "target",       "landmark", "region",
+               "structure", "step",   "complication", "feedback", "reference"});
   Texts title, description;
   read_texts(reader, "title", title, true);
   read_texts(reader, "description", description);
@@ -58,6 +59,7 @@ void read_all(Reader& reader, Case& out) {
   reader.text("volume", out.volume);
   if (out.phantom.empty() == out.volume.empty())
     reader.fail("phantom", "give either phantom = \"NAME\" or volume = \"FILE\"");
+  reader.text("rubric", out.rubric);
   double voxel_mm = 0;
   reader.number("voxel_mm", voxel_mm, 0, 10);
   out.voxel = 1e-3 * voxel_mm;
@@ -87,20 +89,22 @@ void read_all(Reader& reader, Case& out) {
   });
 }
 
-// The text with the lines of `volume` replaced: where a file lies on somebody's disk, and what it
-// is called, must not be recorded.
-std::string without_path(std::string_view text, const toml::table& table) {
-  const toml::node* node = table.get("volume");
-  if (node == nullptr) return std::string(text);
-  const toml::source_region& at = node->source();
+// The text with the lines of `volume` and `rubric` replaced: where a file lies on somebody's disk, and
+// what it is called, must not be recorded.
+std::string without_paths(std::string_view text, const toml::table& table) {
   std::string out;
   for (std::uint32_t line = 1; !text.empty(); ++line) {
     const std::size_t end = text.find('\n');
     const std::string_view piece = text.substr(0, end == std::string_view::npos ? end : end + 1);
-    if (line < at.begin.line || line > at.end.line)
-      out += piece;
-    else if (line == at.begin.line)
-      out += fmt::format("volume = \"{}\"\n", kOwnFile);
+    std::string instead(piece);
+    for (const char* const field : {"volume", "rubric"}) {
+      const toml::node* node = table.get(field);
+      if (node == nullptr) continue;
+      const toml::source_region& at = node->source();
+      if (line < at.begin.line || line > at.end.line) continue;
+      instead = line == at.begin.line ? fmt::format("{} = \"{}\"\n", field, kOwnFile) : "";
+    }
+    out += instead;
     text.remove_prefix(piece.size());
   }
   return out;
@@ -131,9 +135,11 @@ Result<Case> read_case(const std::string& name_or_path) {
   if (!text) return text.error();
 
   Result<Case> read = parse_case(*text, file);
-  // a volume's path is relative to the folder of the case
-  if (read && !read->volume.empty() && std::filesystem::path(read->volume).is_relative())
-    read->volume = (path.parent_path() / read->volume).string();
+  // their paths are relative to the folder of the case
+  if (read)
+    for (std::string* const other : {&read->volume, &read->rubric})
+      if (!other->empty() && std::filesystem::path(*other).is_relative())
+        *other = (path.parent_path() / *other).string();
   return read;
 }
 
@@ -153,8 +159,13 @@ Result<Case> parse_case(std::string_view text, std::string_view file) {
   Lesson lesson;  // only to find its mistakes now: lesson_of() reads it again from the text
   read_lesson(reader, lesson);
   if (wrong) return *wrong;
-  out.text = without_path(text, *table);
+  out.text = without_paths(text, *table);
   return out;
+}
+
+bool names_no_file(const Case& work) {
+  const auto fine = [](const std::string& file) { return file.empty() || file == kOwnFile; };
+  return fine(work.volume) && fine(work.rubric);
 }
 
 std::uint64_t text_hash(std::string_view text) {

@@ -49,6 +49,10 @@ struct Case {
   tool::Burr burr;
   double full_speed = 0;  // of the spindle [rad/s]
 
+  // A .toml file (relative to the folder of the case file): the rubric by which work on this case is
+  // judged. Empty: the built-in one of the case's name, if there is one.
+  std::string rubric;
+
   std::vector<std::string> spare;  // tissues that must not be cut, by name
   std::vector<Target> targets;
 
@@ -56,12 +60,15 @@ struct Case {
   std::string motion = "pocket";
   double seconds = 20;
 
-  // The file's text, as a recording keeps it: where it names a volume, kOwnFile stands in place of
-  // the path. parse_case() reads it again.
+  // The file's text, as a recording keeps it: where it names a volume or a rubric, kOwnFile stands in
+  // place of the path. parse_case() reads it again.
   std::string text;
 };
 
 inline constexpr const char* kOwnFile = "own file";
+
+// True: nothing in the case names a place on somebody's disk.
+[[nodiscard]] bool names_no_file(const Case& work);
 
 // FNV-1a of 64 bits, so that other programs can work it out too. Shows a changed text; no secret.
 [[nodiscard]] std::uint64_t text_hash(std::string_view text);

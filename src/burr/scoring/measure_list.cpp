@@ -231,8 +231,11 @@ const char* word_of(Part part) { return part == Part::product ? "product" : "pro
 std::string text_of(Quantity quantity, double value) {
   switch (quantity) {
     case Quantity::share: {
-      const double percent = std::round(100 * value);
-      return fmt::format("{:.0f} %", percent == 0 ? 0.0 : percent);  // never "-0 %"
+      // a small share keeps one digit more, so that a tenth of a percent is not "0 %"; never "-0 %"
+      const double tenths = std::round(1000 * value), percent = std::round(100 * value);
+      if (std::abs(tenths) < 100 && std::fmod(tenths, 10) != 0)
+        return fmt::format("{:.1f} %", tenths / 10);
+      return fmt::format("{:.0f} %", percent == 0 ? 0.0 : percent);
     }
     case Quantity::length:
       return fmt::format("{:.2f} mm", value / kMm);

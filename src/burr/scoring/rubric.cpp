@@ -213,7 +213,11 @@ Result<Rubric> read_rubric(const std::string& name_or_path) {
   const auto text = base::text_of_file(path.string(), kLargestFile,
                                        "a rubric; check that this is the right file");
   if (!text) return text.error();
-  return parse_rubric(*text, file);
+  auto rubric = parse_rubric(*text, file);
+  if (rubric && rubric->case_source != rubric->case_name &&
+      std::filesystem::path(rubric->case_source).is_relative())
+    rubric->case_source = (path.parent_path() / rubric->case_source).string();
+  return rubric;
 }
 
 Result<Rubric> parse_rubric(std::string_view text, std::string_view file) {
@@ -233,7 +237,9 @@ Result<Rubric> parse_rubric(std::string_view text, std::string_view file) {
     inner.number("version", version, 0, 1e6, true);
     out.version = static_cast<int>(version);
     if (out.version != version) inner.fail("version", "must be a whole number, 1 or more");
-    inner.text("case", out.case_name, true);
+    inner.text("case", out.case_source, true);
+    const std::filesystem::path source = out.case_source;
+    out.case_name = source.extension() == ".toml" ? source.stem().string() : out.case_source;
   });
   if (!reader.has("item")) reader.fail("item", "is missing; give at least one [[item]]");
   reader.each(

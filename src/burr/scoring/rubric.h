@@ -44,7 +44,11 @@ struct Item {
 
 struct Rubric {
   std::string file;  // for errors, without its folder
-  std::string name, case_name;
+  std::string name;
+  std::string case_name;  // of the case that it judges: scenario::Case::name
+  // what scenario::read_case() reads: a built-in case, or a .toml file. The rubric's file says where
+  // it is from its own folder.
+  std::string case_source;
   int version = 1;
   std::uint64_t text_hash = 0;  // scenario::text_hash() of its text
   std::vector<Item> items;

@@ -18,6 +18,7 @@ void FullReport::ask() {
     words.emplace_back(option);
     words.push_back(value);
   };
+  add("--rubric", rubric_);
   add("--volume", volume_.source);
   add("--series", volume_.series);
   add("--tissues", volume_.labels);

@@ -14,10 +14,13 @@ namespace burr::app {
 
 class FullReport {
  public:
-  // file: the recording; volume: if the recording does not find its bone; page: the .html to be
+  // file: the recording; rubric: empty for the built-in one of its case; volume: if the recording does not find its bone; page: the .html to be
   // written, replaced if it is there.
-  FullReport(std::string file, scenario::Recipe volume, std::string page)
-      : file_(std::move(file)), volume_(std::move(volume)), page_(std::move(page)) {}
+  FullReport(std::string file, std::string rubric, scenario::Recipe volume, std::string page)
+      : file_(std::move(file)),
+        rubric_(std::move(rubric)),
+        volume_(std::move(volume)),
+        page_(std::move(page)) {}
   // Begins to write the page; shows it at once if that was done already.
   void ask();
   void step();  // once a picture
@@ -27,7 +30,7 @@ class FullReport {
 
  private:
   void show();
-  std::string file_;
+  std::string file_, rubric_;
   scenario::Recipe volume_;
   std::string page_, note_, language_;
   std::unique_ptr<HelperProcess> child_;

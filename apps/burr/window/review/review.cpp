@@ -75,12 +75,12 @@ class Review {
       : desk_(desk),
         options_(options),
         volume_(own_scan(options.volume)),
-        full_(options.file, volume_,
+        full_(options.file, options.rubric, volume_,
               std::filesystem::path(options.file).replace_extension(".html").string()) {
     if (!options.marks) return;
     marking_ = std::make_unique<Loading<Report>>(
-        [file = options.file, volume = volume_](Progress& progress) {
-          return marked(file, volume, progress);
+        [file = options.file, rubric = options.rubric, volume = volume_](Progress& progress) {
+          return marked(file, rubric, volume, progress);
         });
   }
 

@@ -29,6 +29,7 @@ namespace burr::app {
 struct ReviewOptions {
   std::string file;  // the recording, complete
   std::string title;
+  std::string rubric = {};       // built in, or a .toml file; empty: the built-in one of the case
   scenario::Recipe volume = {};  // where the bone is, if the recording does not find it
   bool marks = true;             // may be shown (workshop/allowed.h)
   bool repeats = false;          // offers to do the case again

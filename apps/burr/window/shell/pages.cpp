@@ -10,6 +10,7 @@
 #include "burr/render/picture.h"
 #include "commands/interrupt.h"
 #include "commands/work.h"
+#include "report/questions.h"
 #include "window/import/import_page.h"
 #include "window/mill/window.h"
 #include "window/replay/playback.h"
@@ -110,6 +111,7 @@ Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& option
   if (!desk.lost || autosave->kept_file().empty()) return Closed::page;
   return review(desk, {.file = autosave->kept_file(),
                        .title = title_of(ready),
+                       .rubric = rubric_of(*ready.work_case),
                        .volume = options.volume,
                        .marks = ready.allowed.marks,
                        .repeats = true,
@@ -191,6 +193,7 @@ Result<Closed> look_at(Desk& desk, const StartPage::Choice& choice, const PagesO
   const Result<Closed> left = choice.marks_of
                                   ? review(desk, {.file = choice.marks_of->file.string(),
                                                   .title = choice.marks_of->title,
+                                                  .rubric = choice.marks_of->rubric,
                                                   .volume = choice.marks_of->options.volume,
                                                   .seconds = options.seconds,
                                                   .folder = options.folder,

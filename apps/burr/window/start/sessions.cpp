@@ -100,6 +100,7 @@ bool read_account(const fs::path& account, KeptSession& kept) {
   kept.clean = flag("clean");
   kept.keep = flag("keep");
   kept.marks = flag("marks");
+  kept.rubric = word("rubric");
   kept.options.volume = *recipe;
   kept.options.burr_mm = number("burr_mm");
   kept.options.rpm = number("rpm");
@@ -249,6 +250,10 @@ Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& optio
     kept_.earlier = ready.earlier;
     kept_.marks = ready.work_case && ready.allowed.marks && !questions_on(*ready.work_case).empty();
     std::error_code nobody_asks;
+    if (ready.work_case) kept_.rubric = rubric_of(*ready.work_case);
+    if (const fs::path there = fs::absolute(kept_.rubric, nobody_asks);
+        fs::exists(kept_.rubric, nobody_asks))
+      kept_.rubric = there.string();
     if (const fs::path there = fs::absolute(options.volume.source, nobody_asks);
         fs::exists(options.volume.source, nobody_asks))
       kept_.options.volume.source = there.string();
@@ -285,6 +290,7 @@ Status Autosave::write_account() const {
                         {"removed_mm3", kept_.removed_mm3},
                         {"clean", kept_.clean},
                         {"keep", kept_.keep},
+                        {"rubric", kept_.rubric},
                         {"marks", kept_.marks}};
   return write_text(beside(kept_.file, ".json"),
                     account.dump(1, ' ', false, json::error_handler_t::replace) + "\n");

@@ -36,6 +36,7 @@ struct KeptSession {
   Earlier earlier;                      // of these alone
   bool clean = false;                   // it ended because the user ended it
   bool keep = false;                    // never deleted automatically
+  std::string rubric;                   // of its case, as rubric_of() gives it
   bool marks = false;  // its case has a rubric, and its mode lets the user see the marks
   std::uintmax_t bytes = 0;
 };
