@@ -46,6 +46,18 @@ STEPS = {
     "stroke_mm": [7, 5, 3.5, 2, 1],
     "tremor_mm": [0.05, 0.1, 0.2, 0.4, 0.8],
 }
+
+
+def both(*names):
+    """These items of the left and of the right pedicle."""
+    return [f"{side}.{name}" for side in ("left", "right") for name in names]
+
+
+def two(*names):
+    """These items of both grooves."""
+    return [f"{groove}.{name}" for groove in ("groove", "second-groove") for name in names]
+
+
 # case: vice: the items that must fall, named before the first run; a name that ends in "*" stands for all with that beginning.
 # Tremor alone has none anywhere: marks that fall with it would measure the device.
 VICES = {
@@ -69,10 +81,9 @@ VICES = {
         "tremor_mm": [],
     },
     "spine": {
-        "perception_mm": ["corridor.entry", "corridor.end", "corridor.angle-axial", "corridor.angle-sagittal", "corridor.in-bone",
-                          "corridor.cleared", "corridor.one-way"],
-        "unfinished": ["corridor.depth", "corridor.cleared"],
-        "drift_mm": ["corridor.width", "corridor.one-way"],
+        "perception_mm": both("entry", "end", "angle-axial", "angle-sagittal", "in-bone", "cleared", "one-way"),
+        "unfinished": both("depth", "cleared"),
+        "drift_mm": both("width", "one-way"),
         "tremor_mm": [],
     },
     "tooth": {
@@ -84,9 +95,9 @@ VICES = {
         "tremor_mm": [],
     },
     "block": {
-        "perception_mm": ["groove.cleared", "groove.kept-narrow", "groove.depth", "groove.outline"],
-        "unfinished": ["groove.cleared"],
-        "drift_mm": ["groove.kept-narrow", "groove.outline", "groove.floor"],
+        "perception_mm": two("cleared", "kept-narrow", "depth", "outline"),
+        "unfinished": two("cleared"),
+        "drift_mm": two("kept-narrow", "outline", "floor"),
         "stroke_mm": ["strokes.long"],
         "tremor_mm": [],
     },

@@ -194,6 +194,30 @@ TEST(AxisFit, SpongyBoneIsAsLongAndAsWide) {
   }
 }
 
+// Dense bone on one side, plates of 0.5 mm every 1.2 mm on the other. What was removed has its centre 0.4 mm in
+// the dense half, but the corridor is where it is.
+TEST(AxisFit, PoresOnOneSideDoNotMoveTheAxis) {
+  for (const double h : {0.4 * kMm, 0.25 * kMm}) {
+    test::Plan plan;
+    plan.lo = {-6 * kMm, -6 * kMm, -20 * kMm};
+    plan.hi = {6 * kMm, 6 * kMm, 2 * kMm};
+    plan.bone = [](const Vec3& p) {
+      const double plate = 0.25 * kMm - std::abs(std::remainder(p.x(), 1.2 * kMm));
+      return std::min(-p.z(), std::max(-p.x(), plate));
+    };
+    const phantom::Depth corridor = [](const Vec3& p) {
+      return std::min(2.5 * kMm - std::hypot(p.x(), p.y()), p.z() + 18 * kMm);
+    };
+    const auto bones = test::cut(plan, corridor, h);
+    const auto fit = axis_fit(*bones.before, *bones.after, {{0, 0, 0}, {0, 0, -1}}, {});
+    ASSERT_TRUE(fit) << fit.reason();
+    std::printf("K8 pores, h %.3f: entry %.4f mm, angle %.3f deg\n", h / kMm, fit->entry_off / kMm,
+                fit->angle / kDegree);
+    EXPECT_LT(fit->entry_off, 0.15 * kMm);
+    EXPECT_LT(fit->angle, 0.2 * kDegree);
+  }
+}
+
 // A corridor of 1 mm radius through a plate of 8 mm, and on into the air behind it.
 TEST(AxisFit, ACorridorThroughThePlateEndsWhereThePlateEnds) {
   for (const double h : test::kVoxels)

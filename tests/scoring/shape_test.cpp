@@ -119,7 +119,7 @@ TEST_F(WrongShape, AShortGrooveIsNotCleared) {
 
 // The corridor turned about its entry by 8 degrees, in the plane of the axes a and b.
 void turn_corridor(Lesson& plan, int a, int b) {
-  std::vector<Vec3>& axis = region_of(plan, "corridor").add.front().points;
+  std::vector<Vec3>& axis = region_of(plan, "left corridor").add.front().points;
   const Vec3 entry = axis.front(), whole = axis.back() - entry;
   const double by = 8 * M_PI / 180;
   Vec3 turned = whole;
@@ -131,31 +131,31 @@ void turn_corridor(Lesson& plan, int a, int b) {
 TEST_F(WrongShape, ACorridorTurnedOutwardsLosesTheAngleFromAboveAndTheEnd) {
   open("spine", 0.4);
   cut([](Lesson& plan) { turn_corridor(plan, 0, 1); });
-  EXPECT_EQ(unmet(), (std::set<std::string>{"corridor.angle-axial", "corridor.end",
-                                            "corridor.cleared", "corridor.one-way"}));
+  EXPECT_EQ(unmet(), (std::set<std::string>{"left.angle-axial", "left.end",
+                                            "left.cleared", "left.one-way"}));
 }
 
 TEST_F(WrongShape, ACorridorTurnedUpwardsLosesTheAngleFromTheSideAndTheEnd) {
   open("spine", 0.4);
   cut([](Lesson& plan) { turn_corridor(plan, 1, 2); });
-  EXPECT_EQ(unmet(), (std::set<std::string>{"corridor.angle-sagittal", "corridor.end",
-                                            "corridor.cleared", "corridor.one-way"}));
+  EXPECT_EQ(unmet(), (std::set<std::string>{"left.angle-sagittal", "left.end",
+                                            "left.cleared", "left.one-way"}));
 }
 
 TEST_F(WrongShape, ACorridorAtTheSideOfThePedicleLosesTheBoneRoundTheScrew) {
   open("spine", 0.4);
   cut([](Lesson& plan) {
-    for (Vec3& point : region_of(plan, "corridor").add.front().points) point.x() += 4 * kMm;
+    for (Vec3& point : region_of(plan, "left corridor").add.front().points) point.x() += 4 * kMm;
   });
-  EXPECT_EQ(unmet(), (std::set<std::string>{"corridor.entry", "corridor.end", "corridor.in-bone",
-                                            "corridor.cleared", "corridor.one-way"}));
+  EXPECT_EQ(unmet(), (std::set<std::string>{"left.entry", "left.end", "left.in-bone",
+                                            "left.cleared", "left.one-way"}));
 }
 
 // as wide as the screw and half as much again
 TEST_F(WrongShape, ACorridorThatIsTooWideLosesItsWidthAndTheBoneBeside) {
   open("spine", 0.4);
-  cut([](Lesson& plan) { region_of(plan, "corridor").add.front().radius = 3.6 * kMm; });
-  EXPECT_EQ(unmet(), (std::set<std::string>{"corridor.width", "corridor.one-way"}));
+  cut([](Lesson& plan) { region_of(plan, "left corridor").add.front().radius = 3.6 * kMm; });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"left.width", "left.one-way"}));
 }
 
 TEST_F(WrongShape, ABedThatIsTooDeepLosesItsDepthAndTheDistanceToTheNerve) {

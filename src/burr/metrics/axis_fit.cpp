@@ -21,23 +21,50 @@ namespace burr::metrics {
 namespace {
 
 constexpr double kShortest = 1.5;  // corridor that has a direction, in its diameters
+constexpr double kNothing = -1e9;  // of a reach [m]
+constexpr double kSliver = 0.1;    // a smaller part of a voxel has no border
 
 using math::Vec3;
 using volume::Bone;
 using volume::Field;
 
+// Directions across the axis in which a slice is measured.
+constexpr std::size_t kAround = 16;
+using Around = std::array<Vec3, kAround>;
+
+// The middle of a slice is that of its outline: how far it reaches in each direction, times the direction,
+// is averaged (the Steiner point of its hull). The centre of what was removed would lean away from
+// the pores of spongy bone, by half a millimetre in a corridor of 5 mm.
 struct Slice {
   Vec3 sum = Vec3::Zero();  // place times volume
   double volume = 0;        // [voxel]
   // squares of the place about the plan's entry times volume: xx, yy, zz, xy, xz, yz  [m^2 voxel]
   std::array<double, 6> squares = {};
+  // how far it goes in each direction from the plan's entry [m]
+  std::array<double, kAround> reach;
 
-  void add(const Vec3& place, const Vec3& from_entry, double share) {
+  Slice() { reach.fill(kNothing); }
+
+  // h: a voxel's edge; of one that is partly gone, the border lies inside [m]
+  void add(const Vec3& place, const Vec3& from_entry, double share, double h,
+           const Around& around) {
     const double x = from_entry.x(), y = from_entry.y(), z = from_entry.z();
     sum += share * place;
     volume += share;
     const std::array<double, 6> now = {x * x, y * y, z * z, x * y, x * z, y * z};
     for (std::size_t n = 0; n < now.size(); ++n) squares[n] += share * now[n];
+    if (share < kSliver) return;
+    for (std::size_t n = 0; n < kAround; ++n)
+      reach[n] = std::max(reach[n], math::dot(from_entry, around[n]) + (share - 0.5) * h);
+  }
+  // along: unit, the planned axis
+  [[nodiscard]] Vec3 middle(const Vec3& entry, const Vec3& along, const Around& around) const {
+    const Vec3 centre = sum / volume;
+    if (reach.front() == kNothing) return centre;
+    Vec3 out = entry + math::dot(centre - entry, along) * along;
+    for (std::size_t n = 0; n < kAround; ++n)
+      out += 2.0 / static_cast<double>(kAround) * reach[n] * around[n];
+    return out;
   }
   // Mean square of the distance to the line through the slice's centre along w (unit) [m^2].
   [[nodiscard]] double square_about(const Vec3& entry, const Vec3& w) const {
@@ -56,7 +83,8 @@ struct Slice {
 };
 
 std::map<int, Slice> slices_of(const Bone& before, const Bone& after, const PlannedAxis& plan,
-                               const Vec3& along, const Region& region, double thick) {
+                               const Vec3& along, const Around& around, const Region& region,
+                               double thick) {
   std::map<int, Slice> slices;
   const volume::Grid& grid = before.grid();
   for (volume::BrickIndex brick = 0; brick < before.brick_count(); ++brick) {
@@ -74,7 +102,7 @@ std::map<int, Slice> slices_of(const Bone& before, const Bone& after, const Plan
       const double t = math::dot(place - plan.entry, along);
       Slice& slice = slices[static_cast<int>(std::floor(t / thick))];
       const double share = static_cast<double>(gone) / static_cast<double>(volume::kVoxelUnits);
-      slice.add(place, place - plan.entry, share);
+      slice.add(place, place - plan.entry, share, grid.voxel, around);
     }
   }
   return slices;
@@ -151,7 +179,7 @@ std::vector<const Slice*> slices_that_count(const std::map<int, Slice>& slices, 
   return counted;
 }
 
-// Eight directions round a circle.
+// Directions round a circle.
 constexpr double kHalfRoot = 0.70710678118654752;
 constexpr double kRound[8][2] = {
     {1, 0},  {kHalfRoot, kHalfRoot},   {0, 1},  {-kHalfRoot, kHalfRoot},
@@ -162,6 +190,19 @@ Vec3 any_across(const Vec3& w) {
   return std::abs(w.x()) < 0.6 ? w.cross(Vec3::UnitX()) : w.cross(Vec3::UnitY());
 }
 
+// Unit, square to w (unit): those of kRound and those half-way between.
+Around around(const Vec3& w) {
+  constexpr double kSmall = 0.38268343236508977, kLarge = 0.92387953251128674;  // of 22.5 degrees
+  const Vec3 u = math::normalized(any_across(w)), v = w.cross(u);
+  Around out;
+  for (std::size_t n = 0; n < 8; ++n) {
+    const double x = kRound[n][0], y = kRound[n][1];
+    out[2 * n] = x * u + y * v;
+    out[2 * n + 1] = (kLarge * x - kSmall * y) * u + (kSmall * x + kLarge * y) * v;
+  }
+  return out;
+}
+
 }  // namespace
 
 Assessed<AxisFit> axis_fit(const Bone& before, const Bone& after, const PlannedAxis& plan,
@@ -170,11 +211,14 @@ Assessed<AxisFit> axis_fit(const Bone& before, const Bone& after, const PlannedA
   const double h = before.grid().voxel;
   const double thick = h * std::ceil(0.5e-3 / h - 1e-6);  // whole voxels, so that none counts twice
   const Vec3 along = math::normalized(plan.inward);
-  const std::map<int, Slice> slices = slices_of(before, after, plan, along, region, thick);
+  const Around directions = around(along);
+  const std::map<int, Slice> slices =
+      slices_of(before, after, plan, along, directions, region, thick);
   const std::vector<const Slice*> counted = slices_that_count(slices, plan.entry, along);
   if (counted.size() < 3) return NotAssessable{"nothing was drilled along the planned axis"};
   std::vector<WeightedPoint> centres;
-  for (const Slice* slice : counted) centres.push_back({slice->sum / slice->volume, 1});
+  for (const Slice* slice : counted)
+    centres.push_back({slice->middle(plan.entry, along, directions), 1});
 
   const LineThrough line = robust_line(centres, plan.entry, along);
   AxisFit out;
