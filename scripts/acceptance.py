@@ -261,7 +261,9 @@ def has_gate(results):
 
 
 def gate_broken(result):
-    return any(item.get("gate") and item["verdict"] == "unmet" for item in result["score"]["items"])
+    """Something that must not happen was done. A gate that is unmet because too little was done to earn or to measure it harmed nobody."""
+    return any(item.get("gate") and item["verdict"] == "unmet" and item.get("earned", True) and item.get("value") is not None
+               for item in result["score"]["items"])
 
 
 def mean(values):

@@ -131,15 +131,15 @@ void turn_corridor(Lesson& plan, int a, int b) {
 TEST_F(WrongShape, ACorridorTurnedOutwardsLosesTheAngleFromAboveAndTheEnd) {
   open("spine", 0.4);
   cut([](Lesson& plan) { turn_corridor(plan, 0, 1); });
-  EXPECT_EQ(unmet(), (std::set<std::string>{"left.angle-axial", "left.end",
-                                            "left.cleared", "left.one-way"}));
+  EXPECT_EQ(unmet(), (std::set<std::string>{"left.angle-axial", "left.end", "left.cleared",
+                                            "left.one-way"}));
 }
 
 TEST_F(WrongShape, ACorridorTurnedUpwardsLosesTheAngleFromTheSideAndTheEnd) {
   open("spine", 0.4);
   cut([](Lesson& plan) { turn_corridor(plan, 1, 2); });
-  EXPECT_EQ(unmet(), (std::set<std::string>{"left.angle-sagittal", "left.end",
-                                            "left.cleared", "left.one-way"}));
+  EXPECT_EQ(unmet(), (std::set<std::string>{"left.angle-sagittal", "left.end", "left.cleared",
+                                            "left.one-way"}));
 }
 
 TEST_F(WrongShape, ACorridorAtTheSideOfThePedicleLosesTheBoneRoundTheScrew) {

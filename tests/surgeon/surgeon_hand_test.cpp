@@ -112,6 +112,41 @@ TEST(SurgeonHand, StartsItsStrokeWhereTheWayMeetsBone) {
   EXPECT_GT(lowest, -1.5 * kMm);  // pressed with 1.2 N, not driven to the point behind
 }
 
+// The plan ends at a wall across the stroke. A hand that is past it by 0.05 mm goes no farther.
+TEST(SurgeonHand, AStrokeThatHasLeftThePlanTurnsBack) {
+  FieldGrid goal = goal_above(0);
+  for (std::size_t n = 0; n < goal.nodes(); ++n)
+    goal.value[n] = static_cast<float>(-goal.node(n).x());
+  SurgeonHand hand(steady(0.1), kTick, 1, Vec3(-0.95 * kMm, 0, 3 * kMm), Vec3::UnitZ());
+  hand.look_at(&goal, nullptr);
+  hand.begin(downwards(Vec3(-0.95 * kMm, 0, 2 * kMm)), kRadius);
+  double farthest = -1;
+  for (int n = 0; n < 3000; ++n)
+    farthest = std::max(farthest, hand.state(kTick).world_from_tool.p.x());
+  EXPECT_LT(farthest, -0.9 * kMm);
+}
+
+// It presses on a ledge below a roof that must stay: where the plan ends it lifts along the way out, not up.
+TEST(SurgeonHand, LiftsAlongTheWayOut) {
+  FieldGrid goal = goal_above(0);
+  for (std::size_t n = 0; n < goal.nodes(); ++n)
+    goal.value[n] = static_cast<float>(-goal.node(n).z());
+  SurgeonHand hand(steady(0.1), kTick, 1, Vec3(0, 0, -0.9 * kMm), Vec3::UnitZ());
+  hand.look_at(&goal, nullptr);
+  Stroke stroke = downwards(Vec3(0, 0, -0.9 * kMm));
+  stroke.out = -Vec3::UnitY();
+  hand.begin(stroke, kRadius);
+  double highest = -1, away = 0;
+  for (int n = 0; n < 1000; ++n) {
+    const Vec3 p = hand.state(kTick).world_from_tool.p;
+    hand.write_force(Vec3(0, 0, 0.1));
+    highest = std::max(highest, p.z());
+    away = std::min(away, p.y());
+  }
+  EXPECT_LT(highest, -0.85 * kMm);
+  EXPECT_LT(away, -1 * kMm);
+}
+
 TEST(SurgeonHand, RetreatsWithThePedalUpAndWaits) {
   SurgeonHand hand(steady(0.1), kTick, 1, Vec3::Zero(), Vec3::UnitZ());
   EXPECT_TRUE(hand.waiting());

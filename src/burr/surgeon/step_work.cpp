@@ -214,7 +214,11 @@ void StepWork::set_way(const volume::Bone& bone, const Vec3& hand, NextStroke& n
   const double far = way.norm();
   bool near = far < kHop;
   const Vec3 up = 1e-3 * next.out;
-  for (double s = 0; near && s < far; s += 0.5e-3) near = in_air(bone, hand + up + way * (s / far));
+  for (double s = 0; near && s < far; s += 0.5e-3) {
+    const Vec3 p = hand + up + way * (s / far);
+    // soft tissue is no bone: only this keeps a turning burr out of it
+    near = in_air(bone, p) && spare_.free.at(p) >= next.burr.radius - kSlack;
+  }
   const auto above = [&](const Vec3& p) {
     return Vec3(p + next.out * std::max(2e-3, top_ + kAbove - p.dot(next.out)));
   };
@@ -258,6 +262,7 @@ std::optional<NextStroke> StepWork::stroke_at(const volume::Bone& bone, const No
     Stroke& stroke = next.stroke;
     next.out = out;
     stroke.into = -from;
+    stroke.out = out;
     const double length = skill_.stroke * std::exp(0.3 * random.normal());
     constexpr double kPiece = 0.5e-3;
     const auto fits = [&](const Vec3& way, double s) {

@@ -115,15 +115,16 @@ void SurgeonHand::stroke(double dt) BURR_RT {
   const double felt = std::max(0.0, -math::dot(force_, stroke_.into));
   double press = (wanted - felt) / kYield;
   press = std::min(press, std::clamp(here / kBrake, kSlowestPress, kFastestPress));
-  if (seen < 0) press = -kLift;
-  at_ += stroke_.into * (press * dt);
+  at_ += seen < 0 ? Vec3(stroke_.out * (kLift * dt)) : Vec3(stroke_.into * (press * dt));
 
   // what stands in the way is cut away before the hand goes on
   const double against = std::max(0.0, -sense_ * math::dot(force_, stroke_.along));
   const double pace = skill_.speed * std::max(0.0, 1 - against / std::max(wanted, 0.1));
   const Vec3 onwards = stroke_.along * (sense_ * pace * dt);
   const bool over = done_ + sense_ * pace * dt > stroke_.length || done_ + sense_ * pace * dt < 0;
-  const bool leaves = here >= 0 && room(burr + stroke_.along * (sense_ * kAhead)) < -kSlack;
+  // out of the plan: back. Who is out already may go where it is no worse, and lifts.
+  const double ahead = room(burr + stroke_.along * (sense_ * kAhead));
+  const bool leaves = ahead < -kSlack && ahead < here;
   if (over || leaves) {
     sense_ = -sense_;
     return;

@@ -5,7 +5,8 @@
 //
 // A stroke runs to and fro along a line while the hand presses across it: the pressing speed is
 // (wanted force - felt force) / kYield, never faster than the goal ahead allows. Where the goal has
-// ended, the hand lifts, the surgeon's stop delay later. What pushes against the way slows it down.
+// ended, the hand lifts along the way out, the surgeon's stop delay later: away from the bone that it
+// presses on could be into what must stay. What pushes against the way slows it down.
 // Nothing here knows the bone; the goal (plan.h) is what the surgeon believes.
 //
 // Frame: world. Units: SI. Thread: state(), write_force() servo, without allocation; all else on the
@@ -30,6 +31,8 @@ struct Stroke {
   math::Vec3 start = math::Vec3::Zero();
   math::Vec3 along = math::Vec3::UnitX();  // unit, across `into`
   math::Vec3 into = -math::Vec3::UnitZ();  // unit, into the bone
+  math::Vec3 out =
+      math::Vec3::UnitZ();  // unit, the way out of the plan on which it gets no narrower
   double length = 5e-3;
   math::Vec3 shaft = math::Vec3::UnitZ();  // unit, from the burr's head to the hand
 };
